@@ -1,0 +1,90 @@
+// What the kernel is given: operands in plane form and the Boolean expression over them.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <csgrun/engine/csg_tree.h>
+
+namespace csgrun {
+
+/// Integer grid coordinates, in steps.
+using IVec3 = std::array<int64_t, 3>;
+
+/// A leaf on the integer grid of its frame: planar convex polygons over integer vertices.
+///
+/// Invariants: |coordinate| < 2^27 (2^40 for a leaf that reaches far outside the region of
+/// interest); each face is one loop, counter-clockwise from outside, exactly planar and convex, with
+/// at least three corners that are not collinear (180 degree corners are allowed); closed: each
+/// directed edge is balanced by its reverse; free of self-intersections.
+struct LeafGeometry {
+  std::vector<IVec3> vertices;
+  std::vector<uint32_t> corners;
+  std::vector<uint32_t> face_starts{0};
+  /// Per face. Coplanar faces of one leaf with equal facet, surface and appearance are parts of one
+  /// face. 0 for primitives; the number of the original face, from 1, for meshes whose facets are kept.
+  std::vector<uint32_t> facet;
+  std::vector<uint32_t> surface;     ///< per face: PolygonMesh::surface
+  std::vector<uint32_t> appearance;  ///< per face: kernel-wide appearance id
+  bool convex = false;
+
+  [[nodiscard]] size_t face_count() const { return face_starts.size() - 1; }
+};
+
+/// The frame of a leaf: world -> frame is B = matrix / 2^40 (Numbers: docs/numerics.md). A point q of
+/// the frame is the world point 2^40 adj(matrix) q / det(matrix); a plane (n, d) of the frame is the
+/// world plane (matrix^T n, 2^40 d). A negative determinant mirrors. Identity: `is_identity`.
+struct Frame {
+  static constexpr int kShift = 40;
+  std::array<std::array<int64_t, 3>, 3> matrix{};
+  bool is_identity = true;
+  bool operator==(const Frame&) const = default;
+};
+
+struct BoundaryMesh;  // boundary_mesh.h: a materialised result in plane form
+
+/// One operand: a leaf or a materialised result, moved by whole steps within its frame, then mapped
+/// to the world by its frame.
+struct Operand {
+  std::shared_ptr<const LeafGeometry> leaf;
+  std::shared_ptr<const BoundaryMesh> boundary;
+  IVec3 translation{0, 0, 0};
+  Frame frame;
+  uint32_t first_source = 0;  ///< source of a leaf; added to the sources of a boundary's labels
+  std::optional<uint32_t> appearance;  ///< overrides the appearance of every face
+};
+
+/// A Boolean expression over operands, as a flat tree; children stand before their parents and the
+/// root is the last node.
+struct Expression {
+  struct Node {
+    bool is_operand = true;
+    BooleanOp op = BooleanOp::kUnion;
+    uint32_t operand = 0;             ///< when is_operand
+    uint32_t first_child = 0, child_count = 0;  ///< into `children`, when not
+  };
+  std::vector<Node> nodes;
+  std::vector<uint32_t> children;  ///< node indices
+};
+
+struct KernelOptions {
+  unsigned threads = 1;
+  uint32_t cell_limit = 17;
+  std::array<uint32_t, 3> octree_shift{0, 0, 0};
+  bool literal_cells = false;
+  const std::atomic<bool>* cancel = nullptr;
+  std::function<void(uint64_t, uint64_t)> progress;
+};
+
+/// Axis-aligned box in grid steps, closed.
+struct GridBox {
+  IVec3 lo{0, 0, 0}, hi{-1, -1, -1};
+  [[nodiscard]] bool empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
+};
+
+}  // namespace csgrun

@@ -1,0 +1,75 @@
+// Evaluation of CSG trees: bottom-up over the normal form, exact, cached, deterministic.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <csgrun/engine/csg_tree.h>
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/solid.h>
+
+namespace csgrun {
+
+/// A grid step in millimetres as an exact number: numerator * 2^exponent / denominator.
+struct GridStep {
+  int64_t numerator = 0;  ///< 0: chosen from the scene's extent
+  int64_t denominator = 1;
+  int exponent = 0;
+
+  [[nodiscard]] bool automatic() const { return numerator == 0; }
+  [[nodiscard]] double millimetres() const;
+  /// Parses "0.001", "1e-3mm", "2^-20mm".
+  static Result<GridStep> parse(const std::string& text);
+};
+
+struct EvaluateOptions {
+  unsigned threads = 0;  ///< 0: as many as the process may use
+  GridStep grid;
+  uint64_t cache_bytes = 512ull << 20;  ///< bound of the in-memory cache of intermediate meshes
+  /// The kernel's tuning; no value changes any result (tests vary them).
+  uint32_t cell_limit = 17;             ///< m of Campen & Kobbelt 2010, section 4.1
+  std::array<uint32_t, 3> octree_shift{0, 0, 0};
+  bool literal_cells = false;  ///< labelled BSPs merged and extracted, as the paper has it
+  bool flatten = true;         ///< false: every Boolean node is materialised on its own
+  /// Polled now and then from any thread; non-zero stops the evaluation with kCancelled.
+  const std::atomic<bool>* cancel = nullptr;
+  /// Called from the evaluating thread with (done, total) units of work.
+  std::function<void(uint64_t, uint64_t)> progress;
+};
+
+struct EvaluateStats {
+  double leaf_seconds = 0, boolean_seconds = 0;
+  double grid_mm = 0;
+  uint64_t nodes_evaluated = 0, nodes_from_memory = 0, nodes_from_disk = 0;
+  uint64_t cells = 0, surface_cells = 0, critical_cells = 0;
+  uint64_t sign_filter = 0, sign_symbolic = 0;
+  std::array<uint64_t, 8> sign_exact{};  ///< by tier: 64 128 192 256 384 512 more, unused
+};
+
+/// Evaluates trees. One object serves one run: its cache spans all calls. Not thread-safe.
+class Evaluator {
+ public:
+  explicit Evaluator(EvaluateOptions options);
+  ~Evaluator();
+
+  /// The solids of several parts, on one common grid. Parts of equal geometry share one Solid.
+  [[nodiscard]] Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts);
+  /// The solid of one tree, on the grid that its own extent asks for.
+  [[nodiscard]] Result<SolidPtr> evaluate(const NodePtr& root);
+  /// Whether `point` (mm) is inside (1), on the boundary (0) or outside (-1), exactly.
+  [[nodiscard]] Result<int> contains(const NodePtr& root, const glm::dvec3& point);
+
+  [[nodiscard]] const EvaluateStats& stats() const;
+  /// Notes for the user, in a deterministic order, each at most once.
+  [[nodiscard]] const std::vector<std::string>& warnings() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace csgrun

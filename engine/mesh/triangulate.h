@@ -1,0 +1,33 @@
+// Exact triangulation of a planar face with holes. Knows no coordinates: it asks an oracle.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <csgrun/engine/error.h>
+
+namespace csgrun {
+
+/// Exact answers about points of one plane, named by numbers. All answers must be consistent with
+/// one affine image of the plane, seen from the face's front.
+class PlanarOracle {
+ public:
+  virtual ~PlanarOracle() = default;
+  /// +1 when a, b, c turn left (counter-clockwise seen from the front), -1 right, 0 collinear.
+  virtual int orient(uint32_t a, uint32_t b, uint32_t c) const = 0;
+  /// A strict total order of distinct points along a sweep direction of the plane, ties broken
+  /// along another direction: -1, 0 (same point), +1.
+  virtual int compare(uint32_t a, uint32_t b) const = 0;
+};
+
+/// Triangulates one face: an outer loop (counter-clockwise) and holes (clockwise). Loops are simple
+/// and do not cross; they may touch one another, or themselves, in vertices; 180 degree corners are
+/// allowed. Every triangle has positive area, every loop edge is an edge of exactly one triangle, and
+/// the result depends only on the oracle's answers and the order of the points along the sweep, not
+/// on where a loop starts. O(n log n). Errors: kInternal when the loops are not such a face.
+Result<std::vector<std::array<uint32_t, 3>>> triangulate_face(
+    std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle);
+
+}  // namespace csgrun

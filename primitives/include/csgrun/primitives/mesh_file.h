@@ -1,0 +1,29 @@
+// Meshes from files: STL (ASCII, binary), OFF, OBJ, PLY.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/polygon_mesh.h>
+
+namespace csgrun {
+
+/// A mesh as the file has it: not yet checked for closedness. Polygons stay polygons; STL triangles
+/// are welded by equal coordinates. keep_facets is set.
+/// `name` is used in messages and its ending chooses the format. Errors: kMalformedFile with the
+/// line or byte where reading stopped, kLimit when a count field promises more than the file holds.
+Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes);
+
+/// Reads a regular file (a FIFO, a directory or a device is refused) and parses it.
+Result<PolygonMesh> read_mesh_file(const std::string& path);
+
+/// Makes a leaf of a mesh from outside: welds, checks closedness and orientation; a closed mesh that
+/// is inside out is turned over, with a note. What is wrong is an error with counts and first places.
+Result<PolygonMesh> make_solid_mesh(PolygonMesh mesh, std::string* note);
+
+/// "stl", "off", "obj", "ply" or empty: the lower-case ending of a path when it is readable here.
+std::string mesh_format_of(const std::string& path);
+
+}  // namespace csgrun

@@ -1,0 +1,34 @@
+// Leaf solids, with OpenSCAD's meaning to the vertex (names, defaults, vertex positions).
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/polygon_mesh.h>
+
+namespace csgrun {
+
+/// How round things become polygons: OpenSCAD's $fn, $fa, $fs.
+struct Facets {
+  double fn = 0, fa = 12, fs = 2;
+  /// Number of fragments of a full (or partial) turn of radius r.
+  [[nodiscard]] int fragments(double r, double angle_deg = 360) const;
+};
+
+using MeshResult = Result<PolygonMesh>;
+
+/// Box of the given size, a corner in the origin, or centred along the axes asked for.
+MeshResult make_cube(const glm::dvec3& size, std::array<bool, 3> center = {false, false, false});
+MeshResult make_sphere(double r, const Facets& facets);
+/// Cylinder, cone (a radius may be 0) or frustum along +Z.
+MeshResult make_cylinder(double h, double r1, double r2, bool center, const Facets& facets);
+/// Faces are loops of 0-based indices, clockwise seen from outside (as OpenSCAD has it). Equal points
+/// are welded. A solid that is inside out is turned over and `note` says so. Errors name the first
+/// bad face, edge or index.
+MeshResult make_polyhedron(const std::vector<glm::dvec3>& points,
+                           const std::vector<std::vector<uint32_t>>& faces, std::string* note);
+
+}  // namespace csgrun
