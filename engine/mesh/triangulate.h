@@ -1,12 +1,12 @@
 // Exact triangulation of a planar face with holes. Knows no coordinates: it asks an oracle.
 #pragma once
 
+#include <csgrun/engine/error.h>
+
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <csgrun/engine/error.h>
 
 namespace csgrun {
 
@@ -24,9 +24,11 @@ class PlanarOracle {
 
 /// Triangulates one face: an outer loop (counter-clockwise) and holes (clockwise). Loops are simple
 /// and do not cross; they may touch one another, or themselves, in vertices; 180 degree corners are
-/// allowed. Every triangle has positive area, every loop edge is an edge of exactly one triangle, and
-/// the result depends only on the oracle's answers and the order of the points along the sweep, not
-/// on where a loop starts. O(n log n). Errors: kInternal when the loops are not such a face.
+/// allowed; an edge may occur in both directions (a slit, a hole without width). Different numbers
+/// are different points. Every triangle has positive area, every directed loop edge is an edge of
+/// exactly one triangle, every other edge occurs once in each direction, and the result depends
+/// only on the oracle's answers and the order of the points along the sweep, not on where a loop
+/// starts. O(n log n). Errors: kInternal when the loops are not such a face.
 Result<std::vector<std::array<uint32_t, 3>>> triangulate_face(
     std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle);
 
