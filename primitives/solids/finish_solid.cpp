@@ -1,0 +1,66 @@
+#include "primitives/solids/finish_solid.h"
+
+#include <csgrun/engine/validate.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace csgrun {
+namespace {
+
+std::string headline(const MeshReport& report) {
+  if (report.bad_indices > 0) return "indices out of range";
+  if (report.non_finite_points > 0) return "coordinates that are not finite";
+  if (report.degenerate_faces > 0) return "degenerate faces";
+  if (report.open_edges > 0) return "not closed";
+  return "not consistently oriented";
+}
+
+/// Welding can make neighbours in a loop equal; a corner that repeats its predecessor is no corner.
+void drop_repeated_corners(PolygonMesh& mesh) {
+  std::vector<uint32_t> corners;
+  corners.reserve(mesh.corners.size());
+  for (size_t loop = 0; loop < mesh.loop_count(); ++loop) {
+    const size_t begin = mesh.loop_starts[loop], end = mesh.loop_starts[loop + 1];
+    const size_t first = corners.size();
+    for (size_t i = begin; i < end; ++i) {
+      if (corners.size() == first || corners.back() != mesh.corners[i]) {
+        corners.push_back(mesh.corners[i]);
+      }
+    }
+    while (corners.size() > first + 1 && corners.back() == corners[first]) corners.pop_back();
+    mesh.loop_starts[loop] = static_cast<uint32_t>(first);
+  }
+  mesh.loop_starts.back() = static_cast<uint32_t>(corners.size());
+  mesh.corners = std::move(corners);
+}
+
+bool all_indices_valid(const PolygonMesh& mesh) {
+  return std::all_of(mesh.corners.begin(), mesh.corners.end(),
+                     [&](uint32_t corner) { return corner < mesh.points.size(); });
+}
+
+}  // namespace
+
+Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std::string* note) {
+  if (mesh.face_count() == 0) {
+    return Error{ErrorCode::kInvalidMesh, name + ": has no faces", {}};
+  }
+  if (all_indices_valid(mesh)) {
+    weld_points(mesh);
+    drop_repeated_corners(mesh);
+  }
+  const MeshReport report = check_mesh(mesh);
+  if (!report.ok()) {
+    return Error{
+        ErrorCode::kInvalidMesh, name + ": " + headline(report) + ": " + report.text(), {}};
+  }
+  if (signed_volume(mesh) < 0) {
+    reverse_faces(mesh);
+    if (note != nullptr) *note = name + ": inside out, its faces were turned over";
+  }
+  return mesh;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,16 @@
+// The last step for meshes that were not built by construction: weld, check, orient.
+#pragma once
+
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/polygon_mesh.h>
+
+#include <string>
+
+namespace csgrun {
+
+/// Welds points of equal coordinates, drops corners that repeat their predecessor, checks that the
+/// surface is closed and consistently oriented, and turns it over when it is inside out (then
+/// `note` says so). `name` starts every message. Errors: kInvalidMesh.
+Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std::string* note);
+
+}  // namespace csgrun
