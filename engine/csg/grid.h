@@ -1,0 +1,49 @@
+// The integer grid: its step, and the rounding of millimetres to it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <csgrun/engine/evaluate.h>
+
+namespace csgrun {
+
+/// Coordinates of what can reach a result, in steps, are below this.
+constexpr int kGridBits = 27;
+constexpr int64_t kGridLimit = int64_t{1} << kGridBits;
+/// Coordinates of leaves that reach far outside it are below this.
+constexpr int64_t kFarLimit = int64_t{1} << 40;
+/// What the choice of a step leaves free at the limits, for bounds that are rounded outwards.
+constexpr int64_t kGridMargin = 16;
+
+/// Rounds millimetres to a grid.
+class Quantiser {
+ public:
+  /// `step` must not be automatic.
+  explicit Quantiser(const GridStep& step);
+
+  /// floor(x / step + 1/2 + 2^-12), a function of the exact value of `x`: no rounding happens on the
+  /// way. The 2^-12 makes ties (multiples of half a step) safe from the noise of the doubles that
+  /// lead to `x`, and the rule is invariant under translation by whole steps. std::nullopt when
+  /// |x / step| is 2^41 or more, or x is not finite.
+  [[nodiscard]] std::optional<int64_t> operator()(double x) const;
+
+  [[nodiscard]] const GridStep& step() const { return step_; }
+  [[nodiscard]] double step_mm() const { return step_mm_; }
+
+ private:
+  GridStep step_;
+  double step_mm_, limit_mm_;
+};
+
+/// The step 2^g nm, in lowest terms.
+GridStep nanometre_step(int g);
+
+/// The smallest step 2^g nm, g in {..., -6, -3, 0, 3, 4, 5, 6, 9, 12, ...}, on whose grid
+/// coordinates of `reach` mm stay below 2^27 and those of `far` mm below 2^40 steps.
+GridStep choose_step(double reach, double far);
+
+/// Whether `choose_step`'s conditions hold for a given step.
+bool step_fits(const GridStep& step, double reach, double far);
+
+}  // namespace csgrun

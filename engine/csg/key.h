@@ -1,0 +1,59 @@
+// 128-bit content keys (XXH3) of leaves and nodes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace csgrun {
+
+using Key = std::array<uint64_t, 2>;
+
+struct KeyHash {
+  size_t operator()(const Key& key) const { return static_cast<size_t>(key[0]); }
+};
+
+/// Gathers bytes and hashes them at once. Everything is put with its length where it varies, so that
+/// different sequences give different bytes. Numbers are hashed as this machine holds them: keys do
+/// not leave the process.
+class KeyBuilder {
+ public:
+  explicit KeyBuilder(std::string_view domain) { text(domain); }
+
+  template <class T>
+  KeyBuilder& number(T value) {
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
+    append(&value, sizeof(value));
+    return *this;
+  }
+  template <class T, size_t N>
+  KeyBuilder& numbers(const std::array<T, N>& values) {
+    for (const T& value : values) number(value);
+    return *this;
+  }
+  template <class T>
+  KeyBuilder& list(const std::vector<T>& values) {
+    static_assert(std::has_unique_object_representations_v<T>);
+    number(static_cast<uint64_t>(values.size()));
+    append(values.data(), values.size() * sizeof(T));
+    return *this;
+  }
+  KeyBuilder& text(std::string_view value) {
+    number(static_cast<uint64_t>(value.size()));
+    append(value.data(), value.size());
+    return *this;
+  }
+  [[nodiscard]] Key key() const;
+
+ private:
+  void append(const void* data, size_t size) {
+    if (size > 0) bytes_.append(static_cast<const char*>(data), size);
+  }
+  std::string bytes_;
+};
+
+}  // namespace csgrun

@@ -1,0 +1,246 @@
+// Frames: rows are shared where normals are, whatever the noise and the order.
+#include "engine/csg/frames.h"
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace csgrun {
+namespace {
+
+constexpr int64_t kOne = int64_t{1} << Frame::kShift;
+
+Affine rotation(double degrees, std::array<double, 3> axis) {
+  const double length = std::hypot(axis[0], axis[1], axis[2]);
+  for (double& a : axis) a /= length;
+  const double t = degrees * 3.14159265358979323846 / 180, c = std::cos(t), s = std::sin(t);
+  Affine r;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) r.m[i][j] = axis[i] * axis[j] * (1 - c) + (i == j ? c : 0);
+  }
+  r.m[0][1] -= axis[2] * s;
+  r.m[1][0] += axis[2] * s;
+  r.m[0][2] += axis[1] * s;
+  r.m[2][0] -= axis[1] * s;
+  r.m[1][2] -= axis[0] * s;
+  r.m[2][1] += axis[0] * s;
+  return r;
+}
+
+Affine diagonal(double x, double y, double z) {
+  Affine r;
+  r.m[0][0] = x;
+  r.m[1][1] = y;
+  r.m[2][2] = z;
+  return r;
+}
+
+Affine signed_axes(const SignedPermutation& p) {
+  Affine r;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) r.m[i][j] = p.axis[i] == j ? p.sign[i] : 0;
+  }
+  return r;
+}
+
+std::vector<SignedPermutation> all_signed_permutations() {
+  std::vector<SignedPermutation> all;
+  std::array<int8_t, 3> order{0, 1, 2};
+  do {
+    for (int s = 0; s < 8; ++s) {
+      SignedPermutation p;
+      p.axis = order;
+      for (int i = 0; i < 3; ++i) p.sign[i] = (s >> i) & 1 ? -1 : 1;
+      all.push_back(p);
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+  return all;
+}
+
+/// The frames of a scene of transforms, as the evaluator makes them.
+std::vector<CanonicalFrame> frames_of(const std::vector<Affine>& maps) {
+  RowTable table;
+  std::vector<std::array<uint32_t, 3>> handles;
+  for (const Affine& map : maps) {
+    const LinearSplit split = split_linear(map);
+    EXPECT_TRUE(split.framed);
+    handles.push_back({table.add(split.rows[0]), table.add(split.rows[1]), table.add(split.rows[2])});
+  }
+  std::vector<CanonicalFrame> frames;
+  for (const auto& h : handles) {
+    std::array<std::array<int64_t, 3>, 3> rows;
+    for (int i = 0; i < 3; ++i) rows[i] = integer_row(table.representative(h[i]));
+    frames.push_back(canonical_frame(rows));
+  }
+  return frames;
+}
+
+std::array<int64_t, 3> up_to_sign(std::array<int64_t, 3> row) {
+  const std::array<int64_t, 3> negative{-row[0], -row[1], -row[2]};
+  return std::max(row, negative);
+}
+
+/// The row of the world normal of the leaf's local axis.
+std::array<int64_t, 3> normal_of_axis(const CanonicalFrame& frame, int axis) {
+  for (int i = 0; i < 3; ++i) {
+    if (frame.placement.permutation.axis[i] == axis) {
+      return up_to_sign(frame.placement.frame.matrix[i]);
+    }
+  }
+  ADD_FAILURE();
+  return {};
+}
+
+TEST(Frames, TeethTurnedAboutAnAxisKeepTheirTopPlaneUnderAnyRotation) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> angle(-180, 180), unit(-1, 1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Affine outer = rotation(angle(random), {unit(random), unit(random), unit(random)});
+    std::vector<Affine> scene{outer};
+    for (int tooth = 0; tooth < 24; ++tooth) {
+      scene.push_back(Affine::compose(outer, rotation(tooth * 15 + 0.37 * trial, {0, 0, 1})));
+    }
+    std::set<std::array<int64_t, 3>> tops;
+    for (const auto& frame : frames_of(scene)) {
+      ASSERT_TRUE(frame.framed);
+      tops.insert(normal_of_axis(frame, 2));
+    }
+    EXPECT_EQ(tops.size(), 1u) << "trial " << trial;
+  }
+}
+
+TEST(Frames, SharedNormalsStaySharedUnderMildShearsAndScales) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> angle(-180, 180), unit(-1, 1), size(0.5, 2);
+  for (int trial = 0; trial < 100; ++trial) {
+    Affine outer = rotation(angle(random), {unit(random), unit(random), unit(random)});
+    Affine shear = diagonal(size(random), size(random), size(random));
+    shear.m[0][1] = unit(random) * 0.5;
+    outer = Affine::compose(outer, shear);
+    std::vector<Affine> scene;
+    for (int tooth = 0; tooth < 12; ++tooth) {
+      scene.push_back(Affine::compose(outer, rotation(tooth * 17.3, {0, 0, 1})));
+    }
+    std::set<std::array<int64_t, 3>> tops;
+    for (const auto& frame : frames_of(scene)) tops.insert(normal_of_axis(frame, 2));
+    EXPECT_EQ(tops.size(), 1u) << "trial " << trial;
+  }
+}
+
+TEST(Frames, AboutZTheThirdRowIsExactlyTheUnitRow) {
+  std::vector<Affine> scene;
+  for (int i = 0; i < 100; ++i) scene.push_back(rotation(3.7 * i + 0.1, {0, 0, 1}));
+  for (const auto& frame : frames_of(scene)) {
+    EXPECT_EQ(normal_of_axis(frame, 2), (std::array<int64_t, 3>{0, 0, kOne}));
+  }
+}
+
+TEST(Frames, SignedPermutationsOfThePartShareItsFrame) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> angle(-180, 180), unit(-1, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    // Also at 45 degrees, where the order of the axes is a tie that noise must not decide.
+    const Affine outer = trial < 8 ? rotation(45 + 90 * trial, {0, 0, 1})
+                                   : rotation(angle(random), {unit(random), unit(random), unit(random)});
+    std::vector<Affine> scene;
+    const auto all = all_signed_permutations();
+    ASSERT_EQ(all.size(), 48u);
+    for (const auto& p : all) scene.push_back(Affine::compose(outer, signed_axes(p)));
+    const auto frames = frames_of(scene);
+    for (size_t i = 0; i < frames.size(); ++i) {
+      EXPECT_EQ(frames[i].placement.frame, frames[0].placement.frame) << trial << " " << i;
+      // The permutations must differ by the turn itself.
+      const auto relative = SignedPermutation::compose(
+          frames[0].placement.permutation.inverse(), frames[i].placement.permutation);
+      const auto expected = SignedPermutation::compose(all[0].inverse(), all[i]);
+      EXPECT_EQ(relative, expected);
+    }
+  }
+}
+
+TEST(Frames, TurnedBySignedPermutationsOnlyIsTheWorld) {
+  for (const auto& p : all_signed_permutations()) {
+    const auto frames = frames_of({Affine::compose(signed_axes(p), diagonal(1.1, 2, 0.3))});
+    EXPECT_TRUE(frames[0].placement.frame.is_identity);
+    EXPECT_EQ(frames[0].placement.permutation, p);
+  }
+}
+
+TEST(Frames, NoiseLevelRoutesGiveOneFrame) {
+  const Affine twice = Affine::compose(rotation(10, {0, 0, 1}), rotation(10, {0, 0, 1}));
+  Affine many;
+  for (int i = 0; i < 40; ++i) many = Affine::compose(rotation(0.5, {0, 0, 1}), many);
+  const Affine full = Affine::compose(rotation(380, {0, 0, 1}), diagonal(1, 1, 1));
+  const auto frames = frames_of({rotation(20, {0, 0, 1}), twice, many, full});
+  for (const auto& frame : frames) {
+    EXPECT_EQ(frame.placement.frame, frames[0].placement.frame);
+    EXPECT_EQ(frame.placement.permutation, frames[0].placement.permutation);
+  }
+}
+
+TEST(Frames, ClustersAreTransitiveAndLedByTheFirst) {
+  RowTable table;
+  const double h = 0x1p-46;
+  const Row a{0.5, 0.25, 0.7}, b{0.5 + 0.9 * h, 0.25, 0.7}, c{0.5 + 1.8 * h, 0.25, 0.7},
+      far{0.5 + 4 * h, 0.25, 0.7}, minus_b{-b[0], -b[1], -b[2]};
+  const auto ha = table.add(a), hc = table.add(c), hf = table.add(far);
+  EXPECT_NE(table.representative(hc), a);
+  const auto hm = table.add(minus_b);
+  EXPECT_EQ(table.representative(ha), a);
+  EXPECT_EQ(table.representative(hc), a) << "joined by the row between them";
+  EXPECT_EQ(table.representative(hm), (Row{-a[0], -a[1], -a[2]}));
+  EXPECT_EQ(table.representative(hf), far);
+}
+
+TEST(Frames, ScaleIsTakenOutOfTheColumns) {
+  const Affine map = Affine::compose(rotation(33, {1, 2, 3}), diagonal(1.1, 2.5, 0.01));
+  const LinearSplit split = split_linear(map);
+  EXPECT_NEAR(split.scale[0], 1.1, 1e-15);
+  EXPECT_NEAR(split.scale[1], 2.5, 1e-15);
+  EXPECT_NEAR(split.scale[2], 0.01, 1e-17);
+  EXPECT_EQ(split_linear(rotation(33, {1, 2, 3})).scale, (std::array<double, 3>{1, 1, 1}));
+  EXPECT_EQ(split_linear(diagonal(1.1, 0.3, 7)).scale, (std::array<double, 3>{1.1, 0.3, 7}));
+}
+
+TEST(Frames, MirrorsHaveFramesAndNearlySingularMapsHaveNone) {
+  const auto frames = frames_of({rotation(20, {1, 1, 0}),
+                                 Affine::compose(rotation(20, {1, 1, 0}), diagonal(-1, 1, 1))});
+  EXPECT_EQ(frames[0].placement.frame, frames[1].placement.frame);
+  EXPECT_EQ(frames[0].placement.permutation.determinant(),
+            -frames[1].placement.permutation.determinant());
+
+  Affine shear;
+  shear.m[0][1] = 1e6;
+  EXPECT_FALSE(split_linear(shear).framed);
+  shear.m[0][1] = 100;
+  EXPECT_TRUE(split_linear(shear).framed);
+  EXPECT_FALSE(split_linear(diagonal(1, 1, 0)).framed);
+}
+
+TEST(Frames, RowsAreTheInverse) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    Affine map;
+    for (auto& row : map.m) {
+      for (double& entry : row) entry = unit(random);
+    }
+    const LinearSplit split = split_linear(map);
+    if (std::fabs(split.determinant) < 0.05) continue;
+    ASSERT_TRUE(split.framed);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        double sum = 0;
+        for (int k = 0; k < 3; ++k) sum += split.rows[i][k] * map.m[k][j] / split.scale[j];
+        EXPECT_NEAR(sum, i == j ? 1 : 0, 1e-13);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace csgrun
