@@ -12,14 +12,16 @@ namespace csgrun {
 struct SelfIntersection {
   uint32_t face_a = 0, face_b = 0;
   std::array<double, 3> place{};
-  uint64_t count = 0;  ///< how many pairs in all
+  /// How many pairs in all; the search ends with the first face that brings it to this bound.
+  uint64_t count = 0;
+  static constexpr uint64_t kMaxCount = 1'000'000;
 };
 
-/// Exact test of all pairs that are near each other (spatial hashing with exact triangle tests,
+/// Exact test of all pairs that are near each other (a tree of boxes, then exact tests;
 /// Campen & Kobbelt 2010, section 6.2). Touching counts: overlapping coplanar faces, an edge that
 /// pierces or rests on a face, vertices of one face inside another. Faces that meet only where they
-/// share vertices or edges by coordinates do not count. Nothing found: std::nullopt. O(n log n) for
-/// meshes of even resolution.
+/// share vertices or edges by coordinates do not count. Nothing found: std::nullopt. The cost is
+/// O(n log n) and that of the pairs whose bounding boxes meet.
 std::optional<SelfIntersection> find_self_intersection(const LeafGeometry& leaf);
 
 }  // namespace csgrun

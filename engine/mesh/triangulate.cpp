@@ -9,9 +9,9 @@
 // without meaning, and so is where they start.
 #include "engine/mesh/triangulate.h"
 
-#include "engine/mesh/sweep_status.h"
-
 #include <algorithm>
+
+#include "engine/mesh/sweep_status.h"
 
 namespace csgrun {
 namespace {

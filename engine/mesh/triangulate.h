@@ -1,12 +1,12 @@
 // Exact triangulation of a planar face with holes. Knows no coordinates: it asks an oracle.
 #pragma once
 
-#include <csgrun/engine/error.h>
-
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include <csgrun/engine/error.h>
 
 namespace csgrun {
 

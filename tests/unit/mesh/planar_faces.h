@@ -1,8 +1,6 @@
 // Random faces on small integer grids for the triangulation's tests, and the checks of its results.
 #pragma once
 
-#include "engine/mesh/triangulate.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -11,6 +9,8 @@
 #include <set>
 #include <utility>
 #include <vector>
+
+#include "engine/mesh/triangulate.h"
 
 namespace csgrun::test {
 

@@ -1,10 +1,10 @@
 #include "engine/mesh/triangulate.h"
 
-#include "tests/unit/mesh/planar_faces.h"
+#include <cmath>
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include "tests/unit/mesh/planar_faces.h"
 
 namespace csgrun::test {
 namespace {
