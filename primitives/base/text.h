@@ -1,9 +1,9 @@
 // Words for messages: numbers in their shortest form, errors in one line.
 #pragma once
 
-#include <csgrun/engine/error.h>
-
 #include <string>
+
+#include <csgrun/engine/error.h>
 
 namespace csgrun {
 

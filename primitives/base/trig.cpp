@@ -10,13 +10,13 @@
 // (3) The result is rounded once. The value is an algebraic number that is rational only for 0, 1/2
 //     and 1 (Niven), so it is never half way between two doubles. With N = 2 the rounding is
 //     certain unless the tail lies within 2^-57 of half way; then the sum is repeated with N = 4.
-#include <csgrun/primitives/trig.h>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+
+#include <csgrun/primitives/trig.h>
 
 namespace csgrun {
 namespace {

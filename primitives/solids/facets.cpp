@@ -1,8 +1,8 @@
 // OpenSCAD's rule for the number of fragments of a circle.
-#include <csgrun/primitives/solids.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <csgrun/primitives/solids.h>
 
 namespace csgrun {
 

@@ -1,10 +1,10 @@
 #include "primitives/solids/finish_solid.h"
 
-#include <csgrun/engine/validate.h>
-
 #include <algorithm>
 #include <utility>
 #include <vector>
+
+#include <csgrun/engine/validate.h>
 
 namespace csgrun {
 namespace {

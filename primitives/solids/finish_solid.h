@@ -1,10 +1,10 @@
 // The last step for meshes that were not built by construction: weld, check, orient.
 #pragma once
 
+#include <string>
+
 #include <csgrun/engine/error.h>
 #include <csgrun/engine/polygon_mesh.h>
-
-#include <string>
 
 namespace csgrun {
 

@@ -1,11 +1,11 @@
 // Faces with holes, appended to a PolygonMesh.
 #pragma once
 
-#include <csgrun/engine/error.h>
-#include <csgrun/engine/polygon_mesh.h>
-
 #include <span>
 #include <vector>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/polygon_mesh.h>
 
 namespace csgrun {
 

@@ -1,12 +1,12 @@
 // A solid from points and faces, as OpenSCAD's polyhedron: faces are clockwise from outside.
-#include "primitives/base/text.h"
-#include "primitives/solids/finish_solid.h"
-
-#include <csgrun/primitives/solids.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include <csgrun/primitives/solids.h>
+
+#include "primitives/base/text.h"
+#include "primitives/solids/finish_solid.h"
 
 namespace csgrun {
 namespace {

@@ -1,13 +1,13 @@
 // Cube, sphere and cylinder. Vertex positions and counts are OpenSCAD's; all are convex, and their
 // facets are inscribed.
-#include "primitives/base/text.h"
-#include "primitives/solids/mesh_builder.h"
+#include <algorithm>
+#include <cmath>
 
 #include <csgrun/primitives/solids.h>
 #include <csgrun/primitives/trig.h>
 
-#include <algorithm>
-#include <cmath>
+#include "primitives/base/text.h"
+#include "primitives/solids/mesh_builder.h"
 
 namespace csgrun {
 namespace {

@@ -1,16 +1,16 @@
 // Measures of meshes, written for the tests alone: volume, area, closedness, Euler number.
 #pragma once
 
-#include <csgrun/engine/polygon_mesh.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <csgrun/engine/polygon_mesh.h>
 
 namespace csgrun::testing {
 

@@ -1,12 +1,12 @@
-#include "tests/unit/primitives/mesh_measures.h"
-
-#include <csgrun/primitives/solids.h>
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <gtest/gtest.h>
+
+#include <csgrun/primitives/solids.h>
+
+#include "tests/unit/primitives/mesh_measures.h"
 
 namespace csgrun {
 namespace {

@@ -1,13 +1,13 @@
 // The oracle is Boost.Multiprecision with 100 decimal digits, and its own conversion to double.
-#include <csgrun/primitives/trig.h>
+#include <cmath>
+#include <limits>
+#include <random>
 
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <random>
+#include <csgrun/primitives/trig.h>
 
 namespace csgrun {
 namespace {

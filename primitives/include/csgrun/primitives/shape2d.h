@@ -3,12 +3,13 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <csgrun/engine/csg_tree.h>
 #include <csgrun/primitives/solids.h>
@@ -16,53 +17,90 @@
 namespace csgrun {
 
 /// A 2D region: loops in millimetres, outer ones counter-clockwise, holes clockwise, free of
-/// crossings (loops may touch in points). Canonical order. Immutable; copies share the data.
+/// crossings (loops may touch, one another only in vertices that both have). Each loop starts at
+/// its smallest point (by x, then y) and visits a vertex once; loops are sorted. Immutable; copies
+/// share the data.
+///
+/// Results of Booleans and polygons lie on a decimal grid: the step is 2^-6 nm (1.5625e-8 mm) up to
+/// coordinates of 17 m, then 2^-3 nm, 2^0 nm and so on by eights. On that grid everything is exact
+/// but the points where edges cross, which are rounded to it. A lone square or circle, and
+/// transforms of any shape, keep their doubles.
 class Shape2D {
  public:
   using Loop = std::vector<glm::dvec2>;
+  /// A connected piece: one outer loop and the holes in it, as indices into loops().
+  struct Region {
+    uint32_t outer = 0;
+    std::vector<uint32_t> holes;
+  };
+
   Shape2D() = default;  ///< the empty region
-  /// Any outlines, under the even-odd rule; snapped to the 2D grid, cleaned.
+  /// Any outlines, under the even-odd rule; snapped to the 2D grid, cleaned. Outlines that enclose
+  /// nothing give the empty shape. Errors: kInvalidArgument for coordinates that are not finite,
+  /// kOutOfRange beyond 1e12 mm.
   static Result<Shape2D> from_outlines(const std::vector<Loop>& outlines);
 
   [[nodiscard]] const std::vector<Loop>& loops() const;
+  /// In the order of their outer loops; each loop is in exactly one region.
+  [[nodiscard]] const std::vector<Region>& regions() const;
   [[nodiscard]] bool empty() const { return loops().empty(); }
+  /// In mm^2.
   [[nodiscard]] double area() const;
+  /// The smallest and largest coordinates; both 0 when empty.
   [[nodiscard]] std::array<glm::dvec2, 2> bounds() const;
+  /// Whether p, rounded to the 2D grid, is inside or on the boundary.
   [[nodiscard]] bool contains(const glm::dvec2& p) const;
 
+  /// A difference is the first operand less all others. One operand comes back as it is.
   static Result<Shape2D> boolean(BooleanOp op, const std::vector<Shape2D>& operands);
   /// Uses the entries (0,0) (0,1) (0,3) (1,0) (1,1) (1,3) of the map. A map of determinant 0 gives
-  /// the empty shape.
+  /// the empty shape. Errors: kInvalidArgument when the result is not finite.
   [[nodiscard]] Result<Shape2D> transformed(const Affine& map) const;
 
  private:
-  std::shared_ptr<const std::vector<Loop>> loops_;
+  struct Data {
+    std::vector<Loop> loops;
+    std::vector<Region> regions;
+  };
+  friend class Shape2DFactory;
+  std::shared_ptr<const Data> data_;
 };
 
+/// Errors: kInvalidArgument for sizes that are not positive and finite.
 Result<Shape2D> make_square(const glm::dvec2& size, std::array<bool, 2> center = {false, false});
 Result<Shape2D> make_circle(double r, const Facets& facets);
-/// No paths: one outline of all points. With paths: all outlines together, even-odd.
+/// No paths: one outline of all points. With paths: all outlines together, even-odd; winding and
+/// order do not matter. Errors: kInvalidArgument for fewer than 3 points in an outline, indices out
+/// of range, or outlines that enclose no area.
 Result<Shape2D> make_polygon(const std::vector<glm::dvec2>& points,
                              const std::vector<std::vector<uint32_t>>& paths);
 
 struct LinearExtrudeOptions {
-  double height = 100;
+  double height = 100;                  ///< mm; not used when only `direction` is given
   std::optional<glm::dvec3> direction;  ///< OpenSCAD's `v`; normalised when `height_given`
   bool height_given = false;
-  bool center = false;
-  glm::dvec2 scale{1, 1};
-  double twist = 0;
-  std::optional<int> slices, segments;
+  bool center = false;          ///< moves the solid by half its height vector
+  glm::dvec2 scale{1, 1};       ///< of the top; 0 makes a point or an edge there
+  double twist = 0;             ///< degrees over the whole height, clockwise seen from above
+  std::optional<int> slices;    ///< at least 1
+  std::optional<int> segments;  ///< target number of vertices a loop; 0: edges are never split
   Facets facets;
 };
+/// The bottom is at z = 0 (or -height/2). Faces: caps (flat), sides as quads where they are planar,
+/// else two triangles, cut along the shorter diagonal. A loop of 12 vertices or more that turns by
+/// less than 40 degrees everywhere is one curved surface; with a twist every chain of such turns
+/// is. Errors: kInvalidArgument, kLimit.
 MeshResult linear_extrude(const Shape2D& shape, const LinearExtrudeOptions& options);
 
 struct RotateExtrudeOptions {
-  double angle = 360;
-  double start = 0;  ///< the caller decides OpenSCAD's 180 for a full turn without `angle`
+  double angle = 360;  ///< degrees; -360 or less, or more than 360, is a full turn
+  double start = 0;    ///< the caller decides OpenSCAD's 180 for a full turn without `angle`
   Facets facets;
 };
-/// The shape's Y becomes Z. Points on the axis collapse.
+/// The shape's Y becomes Z, positive angles turn counter-clockwise seen from above. Points on the
+/// axis collapse. Chains of profile edges that turn by less than 40 degrees are one curved surface;
+/// horizontal ones are flat. Errors: kInvalidArgument when the shape crosses the axis or the angle
+/// is 0, kLimit.
 MeshResult rotate_extrude(const Shape2D& shape, const RotateExtrudeOptions& options);
 
 }  // namespace csgrun

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
+#include <vector>
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <vector>
 
 #include <csgrun/engine/error.h>
 #include <csgrun/engine/polygon_mesh.h>
@@ -25,9 +26,9 @@ MeshResult make_cube(const glm::dvec3& size, std::array<bool, 3> center = {false
 MeshResult make_sphere(double r, const Facets& facets);
 /// Cylinder, cone (a radius may be 0) or frustum along +Z.
 MeshResult make_cylinder(double h, double r1, double r2, bool center, const Facets& facets);
-/// Faces are loops of 0-based indices, clockwise seen from outside (as OpenSCAD has it). Equal points
-/// are welded. A solid that is inside out is turned over and `note` says so. Errors name the first
-/// bad face, edge or index.
+/// Faces are loops of 0-based indices, clockwise seen from outside (as OpenSCAD has it). Equal
+/// points are welded. A solid that is inside out is turned over and `note` says so. Errors name the
+/// first bad face, edge or index.
 MeshResult make_polyhedron(const std::vector<glm::dvec3>& points,
                            const std::vector<std::vector<uint32_t>>& faces, std::string* note);
 

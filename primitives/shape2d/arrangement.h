@@ -1,0 +1,31 @@
+// Segments of several outlines, cut until they meet in end points only.
+//
+// Segments that cross are both cut at the grid point nearest to their crossing; a segment is cut at
+// every end point that lies on it. Moving a crossing to the grid can make new crossings, so this is
+// repeated until nothing crosses: the result is exact on the grid, with no epsilon.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "primitives/shape2d/grid2d.h"
+
+namespace csgrun {
+
+/// A segment with a < b (by x, then y). Crossing it from its right to its left side, seen from a to
+/// b, adds `first` to the winding number of the first operand and `rest` to the sum of all others.
+struct Segment2D {
+  Point2D a, b;
+  int32_t first = 0, rest = 0;
+};
+
+/// Appends the segments of a closed outline.
+void add_outline(const GridLoop& loop, bool is_first, std::vector<Segment2D>& segments);
+
+/// Cuts segments as described above and merges equal ones; those that cancel are dropped. The
+/// result is sorted by (a, b). Nothing if it does not settle (no such input is known).
+/// O(n log n) when few segments share a vertical line.
+std::optional<std::vector<Segment2D>> arrange(std::vector<Segment2D> segments);
+
+}  // namespace csgrun

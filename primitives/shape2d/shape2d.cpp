@@ -1,0 +1,310 @@
+// 2D shapes as values. Booleans, polygons and clean-up go through one exact arrangement of
+// segments.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <csgrun/primitives/shape2d.h>
+#include <csgrun/primitives/trig.h>
+
+#include "primitives/base/text.h"
+#include "primitives/shape2d/regions.h"
+#include "primitives/solids/mesh_builder.h"
+
+namespace csgrun {
+namespace {
+
+bool lexicographic_less(const glm::dvec2& p, const glm::dvec2& q) {
+  return std::tie(p.x, p.y) < std::tie(q.x, q.y);
+}
+
+double extent_of(const std::vector<Shape2D::Loop>& loops) {
+  double extent = 0;
+  for (const Shape2D::Loop& loop : loops) {
+    for (const glm::dvec2& p : loop) {
+      extent = std::max({extent, std::fabs(p.x), std::fabs(p.y)});
+    }
+  }
+  return extent;
+}
+
+bool all_finite(const std::vector<Shape2D::Loop>& loops) {
+  for (const Shape2D::Loop& loop : loops) {
+    for (const glm::dvec2& p : loop) {
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) return false;
+    }
+  }
+  return true;
+}
+
+Result<Grid2D> grid_for(double extent) {
+  if (const auto grid = Grid2D::for_extent(extent)) return *grid;
+  return Error{ErrorCode::kOutOfRange,
+               "2D shape: coordinates up to " + number_text(extent) + " mm, the limit is 1e+12",
+               {}};
+}
+
+GridLoop snap_loop(const Grid2D& grid, const Shape2D::Loop& loop) {
+  GridLoop snapped(loop.size());
+  std::transform(loop.begin(), loop.end(), snapped.begin(),
+                 [&](const glm::dvec2& p) { return grid.snap(p); });
+  return snapped;
+}
+
+}  // namespace
+
+/// Makes shapes from loops that are known to be clean.
+class Shape2DFactory {
+ public:
+  using Loop = Shape2D::Loop;
+
+  static Shape2D from_grid(const Grid2D& grid, const GridRegions& regions) {
+    std::vector<Loop> loops;
+    for (const GridLoop& grid_loop : regions.loops) {
+      Loop& loop = loops.emplace_back();
+      for (const Point2D& p : grid_loop) loop.push_back(grid.unsnap(p));
+    }
+    return canonical(std::move(loops), regions.outer_of);
+  }
+
+  /// Loops with the right directions, in any order and from any start; outer_of as in GridRegions.
+  static Shape2D canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of) {
+    if (loops.empty()) return {};
+    for (Loop& loop : loops) {
+      for (glm::dvec2& p : loop) p += 0.0;  // no negative zeros
+      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), lexicographic_less),
+                  loop.end());
+    }
+    std::vector<uint32_t> order(loops.size()), rank(loops.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
+      return std::lexicographical_compare(loops[i].begin(), loops[i].end(), loops[j].begin(),
+                                          loops[j].end(), lexicographic_less);
+    });
+    auto data = std::make_shared<Shape2D::Data>();
+    for (uint32_t k = 0; k < order.size(); ++k) {
+      rank[order[k]] = k;
+      data->loops.push_back(std::move(loops[order[k]]));
+    }
+    std::vector<std::vector<uint32_t>> holes(loops.size());
+    for (uint32_t k = 0; k < order.size(); ++k) {
+      const uint32_t outer = rank[outer_of[order[k]]];
+      if (outer != k) holes[outer].push_back(k);
+    }
+    for (uint32_t k = 0; k < order.size(); ++k) {
+      if (outer_of[order[k]] == order[k]) data->regions.push_back({k, std::move(holes[k])});
+    }
+    Shape2D shape;
+    shape.data_ = std::move(data);
+    return shape;
+  }
+
+  static Result<Shape2D> arranged(const Grid2D& grid, std::vector<Segment2D> segments,
+                                  const std::function<bool(int32_t, int32_t)>& inside) {
+    const auto arrangement = arrange(std::move(segments));
+    if (!arrangement) {
+      return Error{ErrorCode::kInternal, "2D Boolean: crossings do not settle on the grid", {}};
+    }
+    return from_grid(grid, extract_regions(*arrangement, inside));
+  }
+};
+
+const std::vector<Shape2D::Loop>& Shape2D::loops() const {
+  static const std::vector<Loop> kNone;
+  return data_ ? data_->loops : kNone;
+}
+
+const std::vector<Shape2D::Region>& Shape2D::regions() const {
+  static const std::vector<Region> kNone;
+  return data_ ? data_->regions : kNone;
+}
+
+Result<Shape2D> Shape2D::from_outlines(const std::vector<Loop>& outlines) {
+  if (!all_finite(outlines)) return invalid_argument("2D shape: a coordinate is not finite");
+  const Result<Grid2D> grid = grid_for(extent_of(outlines));
+  if (!grid) return grid.error();
+  std::vector<Segment2D> segments;
+  for (const Loop& loop : outlines) add_outline(snap_loop(*grid, loop), false, segments);
+  return Shape2DFactory::arranged(*grid, std::move(segments),
+                                  [](int32_t, int32_t rest) { return rest % 2 != 0; });
+}
+
+Result<Shape2D> Shape2D::boolean(BooleanOp op, const std::vector<Shape2D>& operands) {
+  if (operands.empty()) return Shape2D();
+  const auto some = [](const Shape2D& s) { return !s.empty(); };
+  const bool first_empty = operands[0].empty();
+  if (op == BooleanOp::kDifference && first_empty) return Shape2D();
+  if (op == BooleanOp::kIntersection && !std::all_of(operands.begin(), operands.end(), some)) {
+    return Shape2D();
+  }
+  const auto count = std::count_if(operands.begin(), operands.end(), some);
+  if (count == 0) return Shape2D();
+  if (count == 1) return *std::find_if(operands.begin(), operands.end(), some);
+
+  double extent = 0;
+  for (const Shape2D& s : operands) extent = std::max(extent, extent_of(s.loops()));
+  const Result<Grid2D> grid = grid_for(extent);
+  if (!grid) return grid.error();
+  std::vector<Segment2D> segments;
+  for (size_t i = 0; i < operands.size(); ++i) {
+    for (const Loop& loop : operands[i].loops()) {
+      add_outline(snap_loop(*grid, loop), i == 0, segments);
+    }
+  }
+  // Each operand winds around a point once or not at all, so sums tell how many of them hold it.
+  // (Snapping may turn a sliver over, hence "greater than" and never "not 0".)
+  const auto all = static_cast<int32_t>(operands.size());
+  std::function<bool(int32_t, int32_t)> inside;
+  switch (op) {
+    case BooleanOp::kUnion:
+      inside = [](int32_t first, int32_t rest) { return first + rest > 0; };
+      break;
+    case BooleanOp::kIntersection:
+      inside = [all](int32_t first, int32_t rest) { return first + rest >= all; };
+      break;
+    case BooleanOp::kDifference:
+      inside = [](int32_t first, int32_t rest) { return first > 0 && rest <= 0; };
+      break;
+    case BooleanOp::kSymmetricDifference:
+      inside = [](int32_t first, int32_t rest) { return (first + rest) % 2 != 0; };
+      break;
+  }
+  return Shape2DFactory::arranged(*grid, std::move(segments), inside);
+}
+
+Result<Shape2D> Shape2D::transformed(const Affine& map) const {
+  const auto& m = map.m;
+  const double determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  if (empty() || determinant == 0) return Shape2D();
+  std::vector<Loop> result = loops();
+  for (Loop& loop : result) {
+    for (glm::dvec2& p : loop) {
+      p = {m[0][0] * p.x + m[0][1] * p.y + m[0][3], m[1][0] * p.x + m[1][1] * p.y + m[1][3]};
+    }
+    if (determinant < 0) std::reverse(loop.begin(), loop.end());
+  }
+  if (!all_finite(result)) return invalid_argument("2D transform: a coordinate is not finite");
+  std::vector<uint32_t> outer_of(result.size());
+  for (const Region& region : regions()) {
+    outer_of[region.outer] = region.outer;
+    for (const uint32_t hole : region.holes) outer_of[hole] = region.outer;
+  }
+  return Shape2DFactory::canonical(std::move(result), outer_of);
+}
+
+double Shape2D::area() const {
+  double sum = 0;
+  for (const Loop& loop : loops()) {
+    double twice = 0;
+    for (size_t i = 1; i + 1 < loop.size(); ++i) {
+      const glm::dvec2 a = loop[i] - loop[0], b = loop[i + 1] - loop[0];
+      twice += a.x * b.y - a.y * b.x;
+    }
+    sum += twice / 2;
+  }
+  return sum;
+}
+
+std::array<glm::dvec2, 2> Shape2D::bounds() const {
+  if (empty()) return {glm::dvec2(0), glm::dvec2(0)};
+  std::array<glm::dvec2, 2> box{loops()[0][0], loops()[0][0]};
+  for (const Loop& loop : loops()) {
+    for (const glm::dvec2& p : loop) {
+      box[0] = {std::min(box[0].x, p.x), std::min(box[0].y, p.y)};
+      box[1] = {std::max(box[1].x, p.x), std::max(box[1].y, p.y)};
+    }
+  }
+  return box;
+}
+
+bool Shape2D::contains(const glm::dvec2& p) const {
+  const auto [low, high] = bounds();
+  if (empty() || !(p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y)) return false;
+  const auto grid = Grid2D::for_extent(extent_of(loops()));
+  if (!grid) return false;
+  const Point2D q = grid->snap(p);
+  bool inside = false;
+  for (const Loop& loop : loops()) {
+    const GridLoop snapped = snap_loop(*grid, loop);
+    for (size_t i = 0; i < snapped.size(); ++i) {
+      Point2D a = snapped[i], b = snapped[(i + 1) % snapped.size()];
+      if (b < a) std::swap(a, b);
+      const int side = orient(a, b, q);
+      if (side == 0 && a <= q && q <= b) return true;
+      // Does the ray from q downwards cross the edge? Edges own their left end.
+      if (a.x <= q.x && q.x < b.x && side > 0) inside = !inside;
+    }
+  }
+  return inside;
+}
+
+Result<Shape2D> make_square(const glm::dvec2& size, std::array<bool, 2> center) {
+  constexpr std::array<const char*, 2> kNames{"size.x", "size.y"};
+  std::array<std::array<double, 2>, 2> range{};
+  for (int i = 0; i < 2; ++i) {
+    if (!std::isfinite(size[i])) return not_finite("square", kNames[i], size[i]);
+    if (!(size[i] > 0)) return not_positive("square", kNames[i], size[i]);
+    range[i] = center[i] ? std::array<double, 2>{-size[i] / 2, size[i] / 2}
+                         : std::array<double, 2>{0, size[i]};
+  }
+  const auto& [x, y] = range;
+  return Shape2DFactory::canonical({{{x[0], y[0]}, {x[1], y[0]}, {x[1], y[1]}, {x[0], y[1]}}}, {0});
+}
+
+Result<Shape2D> make_circle(double r, const Facets& facets) {
+  if (!std::isfinite(r)) return not_finite("circle", "r", r);
+  if (!(r > 0)) return not_positive("circle", "r", r);
+  if (!std::isfinite(facets.fn)) return not_finite("circle", "fn", facets.fn);
+  if (!std::isfinite(facets.fa)) return not_finite("circle", "fa", facets.fa);
+  if (!std::isfinite(facets.fs)) return not_finite("circle", "fs", facets.fs);
+  const int n = facets.fragments(r);
+  if (n > kMostPoints) return too_many_points("circle", n, n);
+  Shape2D::Loop loop(n);
+  for (int k = 0; k < n; ++k) {
+    const double angle = 360.0 * k / n;
+    loop[k] = {r * cos_deg(angle), r * sin_deg(angle)};
+  }
+  return Shape2DFactory::canonical({std::move(loop)}, {0});
+}
+
+Result<Shape2D> make_polygon(const std::vector<glm::dvec2>& points,
+                             const std::vector<std::vector<uint32_t>>& paths) {
+  for (size_t i = 0; i < points.size(); ++i) {
+    for (const double c : {points[i].x, points[i].y}) {
+      if (std::isfinite(c)) continue;
+      return invalid_argument("polygon: point " + std::to_string(i) + " must be finite, got " +
+                              number_text(c));
+    }
+  }
+  std::vector<Shape2D::Loop> outlines;
+  if (paths.empty()) {
+    if (points.size() < 3) {
+      return invalid_argument("polygon: needs at least 3 points, got " +
+                              std::to_string(points.size()));
+    }
+    outlines.push_back(points);
+  }
+  for (size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i].size() < 3) {
+      return invalid_argument("polygon: path " + std::to_string(i) +
+                              " needs at least 3 points, got " + std::to_string(paths[i].size()));
+    }
+    Shape2D::Loop& outline = outlines.emplace_back();
+    for (const uint32_t index : paths[i]) {
+      if (index >= points.size()) {
+        return invalid_argument("polygon: path " + std::to_string(i) + ": index " +
+                                std::to_string(index) + " is out of range, there are " +
+                                std::to_string(points.size()) + " points");
+      }
+      outline.push_back(points[index]);
+    }
+  }
+  Result<Shape2D> shape = Shape2D::from_outlines(outlines);
+  if (shape && shape->empty()) return invalid_argument("polygon: encloses no area");
+  return shape;
+}
+
+}  // namespace csgrun
