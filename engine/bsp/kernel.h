@@ -21,20 +21,6 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
                                                              const KernelOptions& options,
                                                              EvaluateStats& stats);
 
-/// What the labels of a boundary mean, and the length of a step.
-struct PresentContext {
-  GridStep step;                             ///< never automatic here
-  std::vector<Appearance> appearances;       ///< by kernel-wide appearance id
-  std::vector<Solid::Source> sources;        ///< by source index
-  /// Per source: how many faces meet in each vertex of the leaf's original mesh is needed to keep
-  /// untouched facets; empty for leaves whose coplanar facets are merged.
-  std::vector<std::shared_ptr<const LeafGeometry>> source_leaves;
-};
-
-/// The arrays of a boundary: merged faces, true corners, exact triangulation, one fan per vertex,
-/// correctly rounded coordinates, measures and hash.
-Result<SolidPtr> present(const BoundaryMesh& boundary, const PresentContext& context);
-
 /// Bytes held by a boundary, for the cache's bound.
 size_t memory_bytes(const BoundaryMesh& boundary);
 /// Bounding box in grid steps, rounded outwards; empty for an empty boundary.

@@ -1,0 +1,27 @@
+// From fragments to the canonical boundary of a result.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <csgrun/engine/error.h>
+
+#include "engine/bsp/boundary_mesh.h"
+#include "engine/bsp/fragment_set.h"
+
+namespace csgrun {
+
+/// A polygon that belongs to the result as a whole, as it is or turned over.
+struct WholePolygon {
+  uint32_t polygon;
+  bool flip;
+};
+
+/// Merges the fragments of each (plane, side, label) into maximal regions, names equal points once,
+/// and brings everything into canonical order. `job` must have planes for all polygons concerned;
+/// they are made here for whole ones. O(k log k).
+/// Error kInternal when the fragments do not close up: an invariant of ours is broken.
+Result<std::shared_ptr<const BoundaryMesh>> assemble(Job& job, const std::vector<FragmentSet>& sets,
+                                                     const std::vector<WholePolygon>& whole);
+
+}  // namespace csgrun

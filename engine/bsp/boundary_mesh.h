@@ -1,0 +1,53 @@
+// A materialised result in plane form: the labelled boundary of a solid.
+//
+// The value of a node is a labelled point set: which points are boundary, which side is outside, and
+// from which facet of which leaf each boundary point comes. Faces are maximal regions of one (plane,
+// side, label); they carry only their true corners. Nothing here depends on the order of evaluation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/exact/plane.h"
+#include "engine/exact/point.h"
+
+namespace csgrun {
+
+/// Where a piece of boundary comes from. `source` counts the leaves of the evaluated tree in
+/// depth-first order.
+struct FaceLabel {
+  uint32_t source = 0, facet = 0, surface = 0, appearance = 0;
+  bool operator==(const FaceLabel&) const = default;
+  auto operator<=>(const FaceLabel&) const = default;
+};
+
+struct BoundaryMesh {
+  /// A corner of a loop: the point, and a plane (index, any orientation) that holds the edge to the
+  /// next corner and is not the face's own.
+  struct Corner {
+    uint32_t point, edge_plane;
+  };
+  /// A region of one plane: loops with the interior on their left, seen from outside. Outer loops and
+  /// holes are not told apart here.
+  struct Face {
+    PlaneId plane;  ///< into `planes`; oriented outwards
+    FaceLabel label;
+    bool whole = false;  ///< exactly one facet of a leaf whose facets are kept, uncut
+    uint32_t first_loop = 0, loop_count = 0;
+  };
+
+  std::vector<Plane> planes;
+  std::vector<std::array<uint32_t, 3>> point_planes;  ///< each point: three planes that meet in it
+  std::vector<std::array<double, 3>> point_rounded;   ///< and its coordinates, correctly rounded
+  std::vector<Face> faces;
+  std::vector<uint32_t> loop_starts{0};
+  std::vector<Corner> corners;
+
+  [[nodiscard]] Point exact_point(uint32_t p) const {
+    const auto& t = point_planes[p];
+    return intersect(planes[t[0]], planes[t[1]], planes[t[2]]);
+  }
+};
+
+}  // namespace csgrun

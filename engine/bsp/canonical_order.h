@@ -1,0 +1,27 @@
+// The canonical order of a boundary: points by exact coordinates, loops from their lowest corner,
+// faces by their lowest loop. Nothing that depends on the way of evaluation is left.
+#pragma once
+
+#include <vector>
+
+#include "engine/bsp/boundary_mesh.h"
+#include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/regions.h"
+
+namespace csgrun {
+
+/// Faces over the points and planes of an evaluation, in any order.
+struct DraftBoundary {
+  struct Face {
+    PlaneId plane;
+    FaceLabel label;
+    bool whole;
+    RegionLoops loops;
+  };
+  std::vector<Face> faces;
+};
+
+/// The same faces with numbers of their own, in canonical order. O(n log n).
+BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBoundary draft);
+
+}  // namespace csgrun

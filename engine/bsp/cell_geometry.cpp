@@ -1,0 +1,185 @@
+#include "engine/bsp/cell_geometry.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace csgrun {
+
+CellGeometry::CellGeometry(const PlaneTable& planes, const Job* job) : planes_(&planes), job_(job) {
+  if (job) {
+    vertex_stamp_.assign(job->vertex_count(), 0);
+    vertex_point_.resize(job->vertex_count());
+  }
+}
+
+void CellGeometry::clear() {
+  points_.clear();
+  exact_.clear();
+  corners_.clear();
+  edges_.clear();
+  ++stamp_;
+}
+
+uint32_t CellGeometry::vertex_point(uint32_t vertex) {
+  if (vertex_stamp_[vertex] == stamp_) return vertex_point_[vertex];
+  vertex_stamp_[vertex] = stamp_;
+  const auto p = static_cast<uint32_t>(points_.size());
+  points_.push_back({job_->rounded(vertex), job_->vertex_planes(vertex), vertex, kNone});
+  return vertex_point_[vertex] = p;
+}
+
+uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes) {
+  const auto p = static_cast<uint32_t>(points_.size());
+  exact_.push_back(intersect(planes_->plane(planes[0]), planes_->plane(planes[1]),
+                             planes_->plane(planes[2])));
+  points_.push_back({csgrun::rounded(exact_.back()), planes, kNone,
+                     static_cast<uint32_t>(exact_.size() - 1)});
+  return p;
+}
+
+uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes,
+                                 const std::array<double, 3>& rounded) {
+  points_.push_back({rounded, planes, kNone, kNone});
+  return static_cast<uint32_t>(points_.size() - 1);
+}
+
+const Point& CellGeometry::exact(uint32_t p) {
+  StoredPoint& s = points_[p];
+  if (s.exact == kNone) {
+    s.exact = static_cast<uint32_t>(exact_.size());
+    exact_.push_back(s.vertex != kNone ? job_->exact(s.vertex)
+                                       : intersect(planes_->plane(s.planes[0]),
+                                                   planes_->plane(s.planes[1]),
+                                                   planes_->plane(s.planes[2])));
+  }
+  return exact_[s.exact];
+}
+
+Fragment CellGeometry::load(uint32_t polygon) {
+  const JobPolygon& p = job_->polygons()[polygon];
+  Fragment f{p.support, polygon, static_cast<uint32_t>(corners_.size()), p.count};
+  for (const uint32_t v : job_->corners(p)) corners_.push_back(vertex_point(v));
+  for (const uint32_t e : job_->edge_planes(p)) edges_.push_back(e);
+  return f;
+}
+
+Fragment CellGeometry::make_fragment(PlaneId support, const std::vector<uint32_t>& points,
+                                     const std::vector<uint32_t>& edges) {
+  Fragment f{support, kNone, static_cast<uint32_t>(corners_.size()),
+             static_cast<uint32_t>(points.size())};
+  corners_.insert(corners_.end(), points.begin(), points.end());
+  edges_.insert(edges_.end(), edges.begin(), edges.end());
+  return f;
+}
+
+int CellGeometry::side(uint32_t plane, uint32_t p) {
+  const StoredPoint& s = points_[p];
+  if (s.planes[0] == plane || s.planes[1] == plane || s.planes[2] == plane) {
+    ++counters.symbolic;
+    return 0;
+  }
+  if (const int sign = filter_side(planes_->approximate(plane), s.rounded)) {
+    ++counters.filter;
+    return sign;
+  }
+  const Point& x = exact(p);
+  const int bits = widths::side(x.xyz_bits, x.w_bits, planes_->normal_bits(plane),
+                                planes_->offset_bits(plane)) + 1;
+  int tier = 0;
+  while (bits > kTierBits[tier]) ++tier;
+  ++counters.exact[tier];
+  return exact_side(planes_->plane(plane), x, tier);
+}
+
+Side CellGeometry::classify(const Fragment& f, uint32_t plane) {
+  if (f.support.index() == plane) return Side::kOn;
+  bool front = false, back = false;
+  for (uint32_t i = 0; i < f.count; ++i) {
+    const int s = side(plane, corners_[f.first + i]);
+    front |= s > 0;
+    back |= s < 0;
+    if (front && back) return Side::kSplit;
+  }
+  assert(front || back);
+  return front ? Side::kFront : Side::kBack;
+}
+
+Side CellGeometry::split(const Fragment& f, uint32_t plane, Fragment& front, Fragment& back) {
+  if (f.support.index() == plane) return Side::kOn;
+  signs_.resize(f.count);
+  bool any_front = false, any_back = false;
+  for (uint32_t i = 0; i < f.count; ++i) {
+    signs_[i] = static_cast<int8_t>(side(plane, corners_[f.first + i]));
+    any_front |= signs_[i] > 0;
+    any_back |= signs_[i] < 0;
+  }
+  if (!any_back) return Side::kFront;
+  if (!any_front) return Side::kBack;
+
+  // Walk the loop once for each piece. A crossed edge gives a new corner; both pieces get the cutting
+  // plane as the plane of their new edge.
+  uint32_t cut_of_edge[2] = {kNone, kNone}, cut_point[2] = {kNone, kNone};
+  const auto crossing = [&](uint32_t i) {
+    const int k = cut_of_edge[0] == i ? 0 : cut_of_edge[1] == i ? 1 : -1;
+    if (k >= 0) return cut_point[k];
+    const int slot = cut_of_edge[0] == kNone ? 0 : 1;
+    cut_of_edge[slot] = i;
+    return cut_point[slot] = add_point({f.support.index(), edges_[f.first + i], plane});
+  };
+  const auto piece = [&](int keep) {
+    Fragment r{f.support, f.polygon, static_cast<uint32_t>(corners_.size()), 0};
+    for (uint32_t i = 0; i < f.count; ++i) {
+      const uint32_t next = i + 1 < f.count ? i + 1 : 0;
+      const int s = signs_[i] * keep, t = signs_[next] * keep;
+      const uint32_t corner = corners_[f.first + i], edge = edges_[f.first + i];
+      if (s >= 0) {
+        // A corner on the plane starts the new edge when the loop leaves the piece here.
+        corners_.push_back(corner);
+        edges_.push_back(s == 0 && t < 0 ? plane : edge);
+        if (s > 0 && t < 0) {
+          const uint32_t x = crossing(i);
+          corners_.push_back(x);
+          edges_.push_back(plane);
+        }
+      } else if (t > 0) {
+        const uint32_t x = crossing(i);
+        corners_.push_back(x);
+        edges_.push_back(edge);
+      }
+    }
+    r.count = static_cast<uint32_t>(corners_.size()) - r.first;
+    return r;
+  };
+  front = piece(1);
+  back = piece(-1);
+  return Side::kSplit;
+}
+
+int CellGeometry::compare_along(uint32_t p, uint32_t q, int axis) {
+  const double a = points_[p].rounded[axis], b = points_[q].rounded[axis];
+  if (a != b) return a < b ? -1 : 1;
+  if (p == q) return 0;
+  exact(p);  // both first: the reference to one must survive the other's construction
+  exact(q);
+  return csgrun::compare_along(exact(p), exact(q), axis);
+}
+
+LineAxis line_axis(const Plane& a, const Plane& b) {
+  using N = Int<2>;
+  const auto minor = [](Int128 p, Int128 q, Int128 r, Int128 s) {
+    return multiply<4>(N::from_int128(p), N::from_int128(s)) -
+           multiply<4>(N::from_int128(q), N::from_int128(r));
+  };
+  const std::array<Int<4>, 3> d{minor(a.b, a.c, b.b, b.c), minor(a.c, a.a, b.c, b.a),
+                                minor(a.a, a.b, b.a, b.b)};
+  LineAxis best;
+  double largest = -1;
+  for (int k = 0; k < 3; ++k) {
+    const double size = std::fabs(to_double(d[k]));
+    if (size > largest) largest = size, best = {k, d[k].sign()};
+  }
+  assert(best.sign != 0);
+  return best;
+}
+
+}  // namespace csgrun

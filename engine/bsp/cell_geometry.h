@@ -1,0 +1,95 @@
+// The working memory of one cell: points named by planes, convex polygons over them, and the splitting
+// of a polygon by a plane (Bernstein & Fussell 2009; Campen & Kobbelt 2010, section 4.2).
+//
+// Points are constructed once and never rounded: a cut is the meeting point of the polygon's plane, an
+// edge's plane and the cutting plane, and all decisions are signs of planes at points.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/bsp/job.h"
+#include "engine/exact/predicates.h"
+
+namespace csgrun {
+
+constexpr uint32_t kNone = ~0u;
+
+/// A convex polygon: corners and edge planes in the arena of a CellGeometry. Edge i runs from corner
+/// i to corner i + 1 and lies in edge plane i. Counter-clockwise seen from the side the support's
+/// normal points to.
+struct Fragment {
+  PlaneId support;
+  uint32_t polygon = kNone;  ///< the job's polygon that this is a piece of
+  uint32_t first = 0, count = 0;
+};
+
+enum class Side : uint8_t { kFront, kBack, kOn, kSplit };
+
+class CellGeometry {
+ public:
+  /// `job` may be null when only add_point is used.
+  CellGeometry(const PlaneTable& planes, const Job* job);
+
+  /// Forgets all points and fragments.
+  void clear();
+
+  struct StoredPoint {
+    std::array<double, 3> rounded;
+    std::array<uint32_t, 3> planes;  ///< kNone thrice for a vertex of the job
+    uint32_t vertex;                 ///< of the job, or kNone
+    uint32_t exact;                  ///< index into exact_, or kNone until asked for
+  };
+
+  /// The point of a vertex of the job.
+  uint32_t vertex_point(uint32_t vertex);
+  /// The point where three planes meet.
+  uint32_t add_point(const std::array<uint32_t, 3>& planes);
+  uint32_t add_point(const std::array<uint32_t, 3>& planes, const std::array<double, 3>& rounded);
+  [[nodiscard]] const StoredPoint& point(uint32_t p) const { return points_[p]; }
+  [[nodiscard]] size_t point_count() const { return points_.size(); }
+  const Point& exact(uint32_t p);
+
+  /// The whole polygon of the job.
+  Fragment load(uint32_t polygon);
+  Fragment make_fragment(PlaneId support, const std::vector<uint32_t>& points,
+                         const std::vector<uint32_t>& edges);
+  [[nodiscard]] const uint32_t* corners(const Fragment& f) const { return corners_.data() + f.first; }
+  [[nodiscard]] const uint32_t* edges(const Fragment& f) const { return edges_.data() + f.first; }
+
+  /// Sign of the stored plane `plane` at a point: symbolic, by filter, else exact.
+  int side(uint32_t plane, uint32_t p);
+
+  /// Where a fragment lies relative to a plane; kSplit: `front` and `back` are the two pieces, which
+  /// inherit support and polygon. Front is the positive side of the stored plane. kOn only when the
+  /// plane is the support. REQUIRES: weakly convex fragment.
+  Side split(const Fragment& f, uint32_t plane, Fragment& front, Fragment& back);
+  /// As split, without constructing the pieces.
+  Side classify(const Fragment& f, uint32_t plane);
+
+  /// -1, 0, +1: the order of two points along an axis. Exact.
+  int compare_along(uint32_t p, uint32_t q, int axis);
+
+  SignCounters counters;
+
+ private:
+  const PlaneTable* planes_;
+  const Job* job_;
+  std::vector<StoredPoint> points_;
+  std::vector<Point> exact_;
+  std::vector<uint32_t> corners_, edges_;
+  std::vector<uint32_t> vertex_stamp_, vertex_point_;
+  uint32_t stamp_ = 1;
+  std::vector<int8_t> signs_;
+};
+
+/// The direction of the line where two planes meet, as far as ordering points needs it: the axis on
+/// which the cross product of the normals is largest, and its sign there.
+struct LineAxis {
+  int axis = 0;
+  int sign = 1;
+};
+LineAxis line_axis(const Plane& a, const Plane& b);
+
+}  // namespace csgrun

@@ -1,0 +1,148 @@
+#include "engine/bsp/convexify.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace csgrun {
+namespace {
+
+/// Up to this many edges a region is cut along its own edges; above, walls halve it first, so that the
+/// lines of edges stay short.
+constexpr size_t kFewEdges = 12;
+constexpr int64_t kFarWall = int64_t{1} << 29;
+
+class Convexifier {
+ public:
+  Convexifier(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
+              const std::function<uint32_t(int, int64_t)>& wall, std::vector<Fragment>& pieces)
+      : geometry_(geometry), planes_(planes), support_(support), wall_(wall), pieces_(pieces) {
+    const auto& n = planes.approximate(support.index());
+    const double x = std::fabs(n[0]), y = std::fabs(n[1]), z = std::fabs(n[2]);
+    const int normal_axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    axes_ = {(normal_axis + 1) % 3, (normal_axis + 2) % 3};
+    positive_ = (n[normal_axis] > 0) != support.flipped();
+  }
+
+  void run(std::vector<BoundaryEdge> edges) {
+    if (!edges.empty()) cut(far_square(), std::move(edges));
+  }
+
+ private:
+  /// The part of the plane between far walls: contains the whole face.
+  Fragment far_square() {
+    const uint32_t u0 = wall_(axes_[0], -kFarWall), u1 = wall_(axes_[0], kFarWall);
+    const uint32_t v0 = wall_(axes_[1], -kFarWall), v1 = wall_(axes_[1], kFarWall);
+    const uint32_t s = support_.index();
+    std::vector<uint32_t> points{geometry_.add_point({s, u0, v0}), geometry_.add_point({s, u1, v0}),
+                                 geometry_.add_point({s, u1, v1}), geometry_.add_point({s, u0, v1})};
+    std::vector<uint32_t> edges{v0, u1, v1, u0};
+    if (!positive_) {
+      std::reverse(points.begin(), points.end());
+      edges = {v1, u1, v0, u0};
+    }
+    return geometry_.make_fragment(support_, points, edges);
+  }
+
+  void cut(const Fragment& cell, std::vector<BoundaryEdge> edges) {
+    if (edges.size() > kFewEdges && cut_by_wall(cell, edges)) return;
+    // The edge in the middle of the list: loops are listed in order, so neighbours go either way.
+    cut_by_edge(cell, edges, edges[edges.size() / 2]);
+  }
+
+  struct Halves {
+    std::vector<BoundaryEdge> front, back;
+  };
+
+  Halves distribute(const std::vector<BoundaryEdge>& edges, uint32_t plane) {
+    Halves halves;
+    for (const BoundaryEdge& e : edges) {
+      const int s = geometry_.side(plane, e.from), t = geometry_.side(plane, e.to);
+      if (s >= 0 && t >= 0) {
+        if (s || t) halves.front.push_back(e);
+      } else if (s <= 0 && t <= 0) {
+        halves.back.push_back(e);
+      } else {
+        const uint32_t x = geometry_.add_point({support_.index(), e.plane, plane});
+        (s > 0 ? halves.front : halves.back).push_back({e.from, x, e.plane});
+        (s > 0 ? halves.back : halves.front).push_back({x, e.to, e.plane});
+      }
+    }
+    return halves;
+  }
+
+  bool cut_by_wall(const Fragment& cell, const std::vector<BoundaryEdge>& edges) {
+    double lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (const BoundaryEdge& e : edges) {
+      for (int k = 0; k < 2; ++k) {
+        const double c = geometry_.point(e.from).rounded[axes_[k]];
+        lo[k] = std::min(lo[k], c);
+        hi[k] = std::max(hi[k], c);
+      }
+    }
+    const int k = hi[0] - lo[0] >= hi[1] - lo[1] ? 0 : 1;
+    std::vector<double> at;
+    at.reserve(edges.size());
+    for (const BoundaryEdge& e : edges) at.push_back(geometry_.point(e.from).rounded[axes_[k]]);
+    std::nth_element(at.begin(), at.begin() + at.size() / 2, at.end());
+    const auto m = static_cast<int64_t>(std::floor(at[at.size() / 2]));
+    const uint32_t plane = wall_(axes_[k], m);
+    Fragment front, back;
+    if (geometry_.split(cell, plane, front, back) != Side::kSplit) return false;
+    Halves halves = distribute(edges, plane);
+    // A side without edges would have no label; and a cut must make progress.
+    const size_t most = std::max(halves.front.size(), halves.back.size());
+    if (halves.front.empty() || halves.back.empty() || most + 3 > edges.size()) return false;
+    cut(front, std::move(halves.front));
+    cut(back, std::move(halves.back));
+    return true;
+  }
+
+  void cut_by_edge(const Fragment& cell, const std::vector<BoundaryEdge>& edges,
+                   const BoundaryEdge& chosen) {
+    Fragment front, back;
+    const Side side = geometry_.split(cell, chosen.plane, front, back);
+    // The edge lies inside the cell or on its rim; on the rim all other edges are on one side.
+    if (side == Side::kFront) front = cell;
+    if (side == Side::kBack) back = cell;
+    Halves halves = distribute(edges, chosen.plane);
+    const bool left_is_front = left_side(chosen) > 0;
+    if (side != Side::kBack) finish(front, std::move(halves.front), left_is_front);
+    if (side != Side::kFront) finish(back, std::move(halves.back), !left_is_front);
+  }
+
+  void finish(const Fragment& cell, std::vector<BoundaryEdge> edges, bool inside) {
+    if (!edges.empty()) {
+      cut(cell, std::move(edges));
+    } else if (inside) {
+      pieces_.push_back(cell);
+    }
+  }
+
+  /// The sign of the edge's plane on the left of the edge. With D = n x t (n the outward normal of the
+  /// support, t the normal of the edge's plane), an edge along D has -t on its left.
+  int left_side(const BoundaryEdge& e) {
+    const LineAxis line = line_axis(planes_.oriented(support_), planes_.plane(e.plane));
+    const int along = geometry_.compare_along(e.to, e.from, line.axis) * line.sign;
+    assert(along != 0);
+    return -along;
+  }
+
+  CellGeometry& geometry_;
+  const PlaneTable& planes_;
+  PlaneId support_;
+  const std::function<uint32_t(int, int64_t)>& wall_;
+  std::vector<Fragment>& pieces_;
+  std::array<int, 2> axes_{};
+  bool positive_ = true;
+};
+
+}  // namespace
+
+void convexify(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
+               std::vector<BoundaryEdge> edges, const std::function<uint32_t(int, int64_t)>& wall,
+               std::vector<Fragment>& pieces) {
+  Convexifier(geometry, planes, support, wall, pieces).run(std::move(edges));
+}
+
+}  // namespace csgrun

@@ -1,0 +1,28 @@
+// Convex pieces of a face that may have holes and many corners, without new planes through
+// constructed points: cuts extend edges that are there, or stand in walls of the grid.
+//
+// A labelled BSP in two dimensions (Thibault & Naylor 1987 in the plane of the face): the cells that
+// end up inside are the pieces. Planes through constructed points would make widths grow from
+// operation to operation (EMBER, section 3.2); extensions of edges never do.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "engine/bsp/cell_geometry.h"
+
+namespace csgrun {
+
+/// A directed boundary edge with the interior on its left, seen from outside.
+struct BoundaryEdge {
+  uint32_t from, to;  ///< points of the geometry
+  uint32_t plane;     ///< holds the edge, not the support
+};
+
+/// Appends the convex pieces of the region bounded by `edges` in the plane `support` to `pieces`.
+/// `wall(axis, m)` gives the plane of a wall; walls lie beyond the region at +-2^29.
+void convexify(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
+               std::vector<BoundaryEdge> edges, const std::function<uint32_t(int, int64_t)>& wall,
+               std::vector<Fragment>& pieces);
+
+}  // namespace csgrun

@@ -1,0 +1,53 @@
+// Pieces of result boundary on their way from the cells to the assembled mesh.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/bsp/cell_geometry.h"
+
+namespace csgrun {
+
+struct FragmentSet {
+  struct NamedPoint {
+    std::array<double, 3> rounded;
+    std::array<uint32_t, 3> planes;  ///< kNone thrice for a vertex of a leaf
+    uint32_t vertex;                 ///< of the job, or kNone
+  };
+  /// A convex piece; `plane` is oriented to the outside of the result.
+  struct Piece {
+    PlaneId plane;
+    uint32_t polygon;
+    uint32_t first, count;  ///< into corner_point and corner_plane
+  };
+
+  std::vector<NamedPoint> points;
+  std::vector<Piece> pieces;
+  std::vector<uint32_t> corner_point, corner_plane;
+
+  /// Adds a fragment; `flip`: the outside of the result is behind it. `numbers` maps the geometry's
+  /// points to this set's and grows as needed; it belongs to one geometry between two clear() calls.
+  void add(const CellGeometry& geometry, const Fragment& f, bool flip,
+           std::vector<uint32_t>& numbers) {
+    Piece piece{flip ? f.support.flip() : f.support, f.polygon,
+                static_cast<uint32_t>(corner_point.size()), f.count};
+    numbers.resize(geometry.point_count(), kNone);
+    for (uint32_t i = 0; i < f.count; ++i) {
+      // Reversed, the edge that follows corner n - 1 - i is the one that came before it.
+      const uint32_t at = flip ? f.count - 1 - i : i;
+      const uint32_t edge = flip ? (2 * f.count - 2 - i) % f.count : i;
+      const uint32_t p = geometry.corners(f)[at];
+      if (numbers[p] == kNone) {
+        numbers[p] = static_cast<uint32_t>(points.size());
+        const auto& s = geometry.point(p);
+        points.push_back({s.rounded, s.planes, s.vertex});
+      }
+      corner_point.push_back(numbers[p]);
+      corner_plane.push_back(geometry.edges(f)[edge]);
+    }
+    pieces.push_back(piece);
+  }
+};
+
+}  // namespace csgrun

@@ -1,0 +1,334 @@
+#include "engine/bsp/job.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/convexify.h"
+
+namespace csgrun {
+namespace {
+
+constexpr double kBoxLimit = 0x1p30;
+constexpr uint32_t kNoVertexPlanes = ~0u;
+
+int32_t clamp_to_box(double v) {
+  return static_cast<int32_t>(std::clamp(v, -kBoxLimit, kBoxLimit));
+}
+
+/// C^T n and 2^k d: the plane of a frame in the world.
+Plane map_plane(const Frame& frame, const Plane& p) {
+  if (frame.is_identity) return p;
+  const auto& m = frame.matrix;
+  const auto row = [&](int j) {
+    return p.a * m[0][j] + p.b * m[1][j] + p.c * m[2][j];
+  };
+  return {row(0), row(1), row(2), p.d << Frame::kShift};
+}
+
+Plane translate_plane(const Plane& p, const IVec3& t) {
+  return {p.a, p.b, p.c, p.d - (p.a * t[0] + p.b * t[1] + p.c * t[2])};
+}
+
+std::array<std::array<Int<2>, 3>, 3> adjugate_of(const std::array<std::array<int64_t, 3>, 3>& m) {
+  std::array<std::array<Int<2>, 3>, 3> r;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const int a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+      r[i][j] = Int<2>::from_int128(static_cast<Int128>(m[a][c]) * m[b][d] -
+                                    static_cast<Int128>(m[a][d]) * m[b][c]);
+    }
+  }
+  return r;
+}
+
+/// Remainder of a signed wide integer by a small number, in [0, p).
+int64_t remainder_of(const Int<4>& v, int64_t p) {
+  const Int<4> m = v.magnitude();
+  UInt128 r = 0;
+  for (int i = 3; i >= 0; --i) r = ((r << 64) | m.limb[i]) % static_cast<uint64_t>(p);
+  return static_cast<int64_t>(r);
+}
+
+bool is_prime(int64_t p) {
+  for (int64_t d = 3; d * d <= p; d += 2) {
+    if (p % d == 0) return false;
+  }
+  return true;
+}
+
+/// Plane through three grid points; the normal follows the right-hand rule.
+Plane plane_through(const IVec3& p, const IVec3& q, const IVec3& r) {
+  const Int128 ux = q[0] - p[0], uy = q[1] - p[1], uz = q[2] - p[2];
+  const Int128 vx = r[0] - p[0], vy = r[1] - p[1], vz = r[2] - p[2];
+  Plane s{uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx, 0};
+  s.d = -(s.a * p[0] + s.b * p[1] + s.c * p[2]);
+  return s;
+}
+
+bool has_normal(const Plane& p) { return p.a != 0 || p.b != 0 || p.c != 0; }
+
+/// The axis along which a normal is longest.
+int dominant_axis(const Plane& p) {
+  const Int128 a = p.a < 0 ? -p.a : p.a, b = p.b < 0 ? -p.b : p.b, c = p.c < 0 ? -p.c : p.c;
+  return a >= b && a >= c ? 0 : b >= c ? 1 : 2;
+}
+
+/// The plane through the edge p q and the direction of an axis: coefficients as small as the edge.
+Plane edge_plane(const IVec3& p, const IVec3& q, int axis) {
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  std::array<Int128, 3> n{};
+  n[i] = q[j] - p[j];
+  n[j] = -(q[i] - p[i]);
+  return {n[0], n[1], n[2], -(n[0] * p[0] + n[1] * p[1] + n[2] * p[2])};
+}
+
+}  // namespace
+
+Job::Job(const std::vector<Operand>& operands) : operands_(&operands) {
+  sources_.resize(operands.size());
+  boundary_vertices_.resize(operands.size());
+  for (size_t o = 0; o < operands.size(); ++o) {
+    const Frame& frame = operands[o].frame;
+    if (frame.is_identity) continue;
+    Source& s = sources_[o];
+    s.adjugate = adjugate_of(frame.matrix);
+    s.determinant = Int<4>();
+    for (int j = 0; j < 3; ++j) {
+      s.determinant += multiply<4>(Int<2>(frame.matrix[0][j]), s.adjugate[j][0]);
+    }
+    s.mirrored = s.determinant.negative();
+  }
+  choose_prime();
+  for (uint32_t o = 0; o < operands.size(); ++o) {
+    sources_[o].first_vertex = static_cast<uint32_t>(rounded_.size());
+    if (operands[o].leaf) {
+      add_leaf(o, operands[o]);
+    } else {
+      add_boundary(o, operands[o]);
+    }
+    polygon_starts_.push_back(static_cast<uint32_t>(polygons_.size()));
+    vertex_operand_starts_.push_back(static_cast<uint32_t>(rounded_.size()));
+  }
+}
+
+void Job::choose_prime() {
+  const auto divides_some = [this](int64_t p) {
+    return std::any_of(sources_.begin(), sources_.end(), [p](const Source& s) {
+      return remainder_of(s.determinant, p) == 0;
+    });
+  };
+  while (!is_prime(prime_) || divides_some(prime_)) prime_ += 2;
+}
+
+void Job::add_leaf(uint32_t o, const Operand& operand) {
+  const LeafGeometry& leaf = *operand.leaf;
+  const auto first_vertex = static_cast<uint32_t>(rounded_.size());
+  rounded_.reserve(rounded_.size() + leaf.vertices.size());
+  for (uint32_t v = 0; v < leaf.vertices.size(); ++v) {
+    if (operand.frame.is_identity) {
+      const IVec3& q = leaf.vertices[v];
+      rounded_.push_back({static_cast<double>(q[0] + operand.translation[0]),
+                          static_cast<double>(q[1] + operand.translation[1]),
+                          static_cast<double>(q[2] + operand.translation[2])});
+    } else {
+      rounded_.push_back(csgrun::rounded(exact_of(o, v)));
+    }
+  }
+  polygons_.reserve(polygons_.size() + leaf.face_count());
+  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+    const auto first = static_cast<uint32_t>(corners_.size());
+    for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) {
+      corners_.push_back(first_vertex + leaf.corners[c]);
+    }
+    if (sources_[o].mirrored) std::reverse(corners_.begin() + first, corners_.end());
+    finish_polygon(o, f, first, PlaneId());
+  }
+}
+
+void Job::add_boundary(uint32_t o, const Operand& operand) {
+  const BoundaryMesh& mesh = *operand.boundary;
+  std::vector<PlaneId> plane_of(mesh.planes.size());
+  for (size_t i = 0; i < mesh.planes.size(); ++i) {
+    plane_of[i] =
+        planes_.intern(map_plane(operand.frame, translate_plane(mesh.planes[i], operand.translation)));
+  }
+  CellGeometry geometry(planes_, nullptr);
+  const bool moved = !operand.frame.is_identity || operand.translation != IVec3{0, 0, 0};
+  for (size_t p = 0; p < mesh.point_planes.size(); ++p) {
+    const auto& t = mesh.point_planes[p];
+    const std::array<uint32_t, 3> planes{plane_of[t[0]].index(), plane_of[t[1]].index(),
+                                         plane_of[t[2]].index()};
+    if (moved) {
+      geometry.add_point(planes);
+    } else {
+      geometry.add_point(planes, mesh.point_rounded[p]);
+    }
+  }
+  const std::function<uint32_t(int, int64_t)> wall_of = [this](int axis, int64_t m) {
+    return wall(axis, m);
+  };
+  const bool mirrored = sources_[o].mirrored;
+  std::vector<Fragment> pieces;
+  std::vector<BoundaryEdge> edges;
+  const auto first_vertex = static_cast<uint32_t>(rounded_.size());
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const BoundaryMesh::Face& face = mesh.faces[f];
+    edges.clear();
+    for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
+      const uint32_t begin = mesh.loop_starts[l], end = mesh.loop_starts[l + 1];
+      for (uint32_t c = begin; c < end; ++c) {
+        const BoundaryMesh::Corner& next = mesh.corners[c + 1 < end ? c + 1 : begin];
+        BoundaryEdge e{mesh.corners[c].point, next.point,
+                       plane_of[mesh.corners[c].edge_plane].index()};
+        if (mirrored) std::swap(e.from, e.to);
+        edges.push_back(e);
+      }
+    }
+    const PlaneId mapped = plane_of[face.plane.index()];
+    const PlaneId support = face.plane.flipped() ? mapped.flip() : mapped;
+    pieces.clear();
+    convexify(geometry, planes_, support, edges, wall_of, pieces);
+    for (const Fragment& piece : pieces) {
+      const auto first = static_cast<uint32_t>(corners_.size());
+      for (uint32_t i = 0; i < piece.count; ++i) {
+        corners_.push_back(first_vertex + geometry.corners(piece)[i]);
+      }
+      edge_planes_.resize(corners_.size(), kNone);
+      std::copy_n(geometry.edges(piece), piece.count, edge_planes_.begin() + first);
+      polygons_.push_back({o, f, first, piece.count, support});
+    }
+  }
+  for (uint32_t p = 0; p < geometry.point_count(); ++p) {
+    rounded_.push_back(geometry.point(p).rounded);
+    boundary_vertices_[o].push_back(geometry.point(p).planes);
+  }
+  for (uint32_t p = polygon_starts_.back(); p < polygons_.size(); ++p) {
+    boxes_.push_back(box_of(polygons_[p]));
+  }
+}
+
+PolygonBox Job::box_of(const JobPolygon& polygon) const {
+  PolygonBox box{{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
+  const Operand& operand = (*operands_)[polygon.operand];
+  const bool grid_vertices = operand.leaf && operand.frame.is_identity;
+  for (const uint32_t v : corners(polygon)) {
+    for (int k = 0; k < 3; ++k) {
+      const double c = rounded_[v][k];
+      // A rounded coordinate may stand on either side of the true one.
+      const double lo = grid_vertices ? c : std::floor(std::nextafter(c, -HUGE_VAL));
+      const double hi = grid_vertices ? c : std::ceil(std::nextafter(c, HUGE_VAL));
+      box.lo[k] = std::min(box.lo[k], clamp_to_box(lo));
+      box.hi[k] = std::max(box.hi[k], clamp_to_box(hi));
+    }
+  }
+  return box;
+}
+
+void Job::finish_polygon(uint32_t operand, uint32_t face, uint32_t first, PlaneId support) {
+  polygons_.push_back(
+      {operand, face, first, static_cast<uint32_t>(corners_.size()) - first, support});
+  edge_planes_.resize(corners_.size(), kNone);
+  boxes_.push_back(box_of(polygons_.back()));
+}
+
+uint32_t Job::operand_of_vertex(uint32_t vertex) const {
+  const auto it =
+      std::upper_bound(vertex_operand_starts_.begin(), vertex_operand_starts_.end(), vertex);
+  return static_cast<uint32_t>(it - vertex_operand_starts_.begin()) - 1;
+}
+
+Point Job::exact(uint32_t vertex) const {
+  const uint32_t o = operand_of_vertex(vertex);
+  return exact_of(o, vertex - sources_[o].first_vertex);
+}
+
+Point Job::exact_of(uint32_t o, uint32_t local) const {
+  const Operand& operand = (*operands_)[o];
+  const Source& source = sources_[o];
+  if (!operand.leaf) {
+    const auto& t = boundary_vertices_[o][local];
+    return intersect(planes_.plane(t[0]), planes_.plane(t[1]), planes_.plane(t[2]));
+  }
+  const IVec3& q = operand.leaf->vertices[local];
+  const IVec3 moved{q[0] + operand.translation[0], q[1] + operand.translation[1],
+                    q[2] + operand.translation[2]};
+  if (operand.frame.is_identity) return grid_point(moved[0], moved[1], moved[2]);
+  Point p;
+  const auto coordinate = [&](int i) {
+    Int<kPointLimbs> sum;
+    for (int j = 0; j < 3; ++j) {
+      sum += multiply<kPointLimbs>(source.adjugate[i][j], Int<1>(moved[j]));
+    }
+    return sum.shifted_left(Frame::kShift);
+  };
+  p.x = coordinate(0), p.y = coordinate(1), p.z = coordinate(2);
+  p.w = Int<kPointLimbs>::from(source.determinant);
+  normalise(p);
+  return p;
+}
+
+std::array<uint32_t, 3> Job::vertex_planes(uint32_t vertex) const {
+  const uint32_t o = operand_of_vertex(vertex);
+  if ((*operands_)[o].leaf) return {kNoVertexPlanes, kNoVertexPlanes, kNoVertexPlanes};
+  return boundary_vertices_[o][vertex - sources_[o].first_vertex];
+}
+
+FaceLabel Job::label(const JobPolygon& p) const {
+  const Operand& operand = (*operands_)[p.operand];
+  FaceLabel label;
+  if (operand.leaf) {
+    const LeafGeometry& leaf = *operand.leaf;
+    label = {operand.first_source, leaf.facet[p.face], leaf.surface[p.face],
+             leaf.appearance[p.face]};
+  } else {
+    label = operand.boundary->faces[p.face].label;
+    label.source += operand.first_source;
+  }
+  if (operand.appearance) label.appearance = *operand.appearance;
+  return label;
+}
+
+bool Job::is_whole_facet(const JobPolygon& p) const {
+  const Operand& operand = (*operands_)[p.operand];
+  if (operand.leaf) return operand.leaf->facet[p.face] != 0;
+  return operand.boundary->faces[p.face].whole;
+}
+
+void Job::ensure_planes(uint32_t polygon) {
+  JobPolygon& p = polygons_[polygon];
+  if (p.support.valid()) return;
+  const Operand& operand = (*operands_)[p.operand];
+  const LeafGeometry& leaf = *operand.leaf;
+  const uint32_t begin = leaf.face_starts[p.face];
+  const auto vertex = [&](uint32_t i) -> const IVec3& {
+    return leaf.vertices[leaf.corners[begin + i % p.count]];
+  };
+  // The first corner that is not a 180 degree one; a convex polygon turns left there.
+  Plane support;
+  for (uint32_t i = 0; i < p.count && !has_normal(support); ++i) {
+    support = plane_through(vertex(i), vertex(i + 1), vertex(i + 2));
+  }
+  assert(has_normal(support));
+  const auto intern = [&](const Plane& plane) {
+    return planes_.intern(map_plane(operand.frame, translate_plane(plane, operand.translation)));
+  };
+  p.support = intern(support);
+  const int axis = dominant_axis(support);
+  for (uint32_t i = 0; i < p.count; ++i) {
+    const uint32_t edge = intern(edge_plane(vertex(i), vertex(i + 1), axis)).index();
+    // A mirrored loop runs backwards: its edge from corner j to j + 1 is the leaf's edge n - 2 - j.
+    const uint32_t at = sources_[p.operand].mirrored ? (2 * p.count - 2 - i) % p.count : i;
+    edge_planes_[p.first + at] = edge;
+  }
+}
+
+uint32_t Job::wall(int axis, int64_t m) {
+  Plane plane;
+  (axis == 0 ? plane.a : axis == 1 ? plane.b : plane.c) = prime_;
+  plane.d = -(static_cast<Int128>(prime_) * m + 1);
+  return planes_.intern(plane).index();
+}
+
+}  // namespace csgrun

@@ -1,0 +1,99 @@
+// The operands of one evaluation as one set of convex polygons over common vertices and planes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/bsp/boundary_mesh.h"
+#include "engine/bsp/operand.h"
+#include "engine/exact/plane.h"
+#include "engine/exact/point.h"
+
+namespace csgrun {
+
+/// Small box for culling: outward rounded grid coordinates, clamped to +-2^30.
+struct PolygonBox {
+  std::array<int32_t, 3> lo, hi;
+};
+
+/// One convex polygon of an operand. Its planes are made when somebody asks: most polygons are near
+/// no intersection and never need them.
+struct JobPolygon {
+  uint32_t operand;
+  uint32_t face;           ///< face of the leaf or of the boundary
+  uint32_t first, count;   ///< corners in Job::corners; also edge planes in Job::edge_planes
+  PlaneId support;         ///< oriented outwards; invalid until planes were made
+};
+
+class Job {
+ public:
+  explicit Job(const std::vector<Operand>& operands);
+
+  [[nodiscard]] size_t operand_count() const { return operands_->size(); }
+  [[nodiscard]] const std::vector<JobPolygon>& polygons() const { return polygons_; }
+  [[nodiscard]] const std::vector<PolygonBox>& boxes() const { return boxes_; }
+  /// Polygons of operand o are [polygon_start(o), polygon_start(o + 1)).
+  [[nodiscard]] uint32_t polygon_start(size_t o) const { return polygon_starts_[o]; }
+  [[nodiscard]] std::span<const uint32_t> corners(const JobPolygon& p) const {
+    return {corners_.data() + p.first, p.count};
+  }
+  /// Plane indices of the edges: edge i runs from corner i to the next. Valid after ensure_planes.
+  [[nodiscard]] std::span<const uint32_t> edge_planes(const JobPolygon& p) const {
+    return {edge_planes_.data() + p.first, p.count};
+  }
+  [[nodiscard]] const std::array<double, 3>& rounded(uint32_t vertex) const {
+    return rounded_[vertex];
+  }
+  [[nodiscard]] size_t vertex_count() const { return rounded_.size(); }
+  [[nodiscard]] Point exact(uint32_t vertex) const;
+  /// Three planes of this job that meet in the vertex, or ~0 thrice for a vertex of a leaf.
+  [[nodiscard]] std::array<uint32_t, 3> vertex_planes(uint32_t vertex) const;
+  [[nodiscard]] FaceLabel label(const JobPolygon& p) const;
+  /// Whether the polygon is a whole facet of a leaf whose facets are kept.
+  [[nodiscard]] bool is_whole_facet(const JobPolygon& p) const;
+
+  /// Makes the support and edge planes of a polygon. Not thread-safe; everything else is.
+  void ensure_planes(uint32_t polygon);
+  /// The wall x_axis = m + 1/prime as a plane index.
+  uint32_t wall(int axis, int64_t m);
+  /// Smallest odd prime that divides no frame's determinant: walls at m + 1/prime hold no leaf vertex.
+  [[nodiscard]] int64_t prime() const { return prime_; }
+  [[nodiscard]] const PlaneTable& planes() const { return planes_; }
+  PlaneTable& planes() { return planes_; }
+
+ private:
+  struct Source {  ///< how the vertices of one operand are computed exactly
+    uint32_t first_vertex;
+    std::array<std::array<Int<2>, 3>, 3> adjugate{};
+    Int<4> determinant{1};
+    bool mirrored = false;  ///< the frame's determinant is negative: loops run the other way
+  };
+
+  void add_leaf(uint32_t o, const Operand& operand);
+  void add_boundary(uint32_t o, const Operand& operand);
+  [[nodiscard]] uint32_t operand_of_vertex(uint32_t vertex) const;
+  [[nodiscard]] PolygonBox box_of(const JobPolygon& polygon) const;
+  /// The exact position of vertex `local` of operand `o`.
+  [[nodiscard]] Point exact_of(uint32_t o, uint32_t local) const;
+  void choose_prime();
+  /// Closes the polygon whose corners were appended from `first` on, and boxes it.
+  void finish_polygon(uint32_t operand, uint32_t face, uint32_t first, PlaneId support);
+
+  const std::vector<Operand>* operands_;
+  PlaneTable planes_;
+  std::vector<Source> sources_;
+  std::vector<JobPolygon> polygons_;
+  std::vector<PolygonBox> boxes_;
+  std::vector<uint32_t> polygon_starts_{0};
+  std::vector<uint32_t> corners_;
+  std::vector<uint32_t> edge_planes_;
+  std::vector<std::array<double, 3>> rounded_;
+  std::vector<uint32_t> vertex_operand_starts_{0};
+  /// Vertices of boundary operands: three planes of this job, by vertex - first vertex.
+  std::vector<std::vector<std::array<uint32_t, 3>>> boundary_vertices_;
+  int64_t prime_ = 3;
+};
+
+}  // namespace csgrun

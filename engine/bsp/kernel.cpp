@@ -1,0 +1,148 @@
+#include "engine/bsp/kernel.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+
+#include "engine/bsp/assemble.h"
+#include "engine/bsp/cell_solver.h"
+#include "engine/bsp/octree.h"
+
+namespace csgrun {
+namespace {
+
+/// Cells are handed out in fixed runs, so that what a run gives does not depend on the threads.
+constexpr size_t kCellsPerRun = 64;
+
+struct Work {
+  std::vector<std::array<uint32_t, 6>> critical_walls, copied_walls;
+  std::vector<uint32_t> walls_of_copied_cell;   ///< index into copied_walls, or kNone: not needed
+  std::vector<Octree::CopiedPiece> cut_copies;  ///< of polygons that are not copied as a whole
+  std::vector<WholePolygon> whole;
+};
+
+bool copied_whole(uint8_t fate) {
+  return fate == static_cast<uint8_t>(Copy::kKeep) || fate == static_cast<uint8_t>(Copy::kFlip);
+}
+
+/// Makes every plane that the cells will need, so that they can be solved in parallel.
+Work prepare(Job& job, const Octree& tree) {
+  Work work;
+  for (uint32_t p = 0; p < tree.fate.size(); ++p) {
+    if (copied_whole(tree.fate[p])) {
+      work.whole.push_back({p, tree.fate[p] == static_cast<uint8_t>(Copy::kFlip)});
+    }
+  }
+  for (const uint32_t p : tree.cell_polygons) job.ensure_planes(p);
+  for (const CriticalCell& c : tree.critical) {
+    work.critical_walls.push_back(CellSolver::walls(job, c.box));
+  }
+  work.walls_of_copied_cell.assign(tree.copied_cells.size(), kNone);
+  for (const Octree::CopiedPiece& piece : tree.copied) {
+    if (copied_whole(tree.fate[piece.polygon])) continue;
+    job.ensure_planes(piece.polygon);
+    uint32_t& wall = work.walls_of_copied_cell[piece.cell];
+    if (wall == kNone) {
+      wall = static_cast<uint32_t>(work.copied_walls.size());
+      work.copied_walls.push_back(CellSolver::walls(job, tree.copied_cells[piece.cell]));
+    }
+    work.cut_copies.push_back(piece);
+  }
+  return work;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<Operand>& operands,
+                                                             const Expression& expression,
+                                                             const GridBox& region,
+                                                             const KernelOptions& options,
+                                                             EvaluateStats& stats) {
+  Job job(operands);
+  const Octree tree = build_octree(job, expression, region, options);
+  const auto cancelled = [&] {
+    return options.cancel && options.cancel->load(std::memory_order_relaxed);
+  };
+  if (cancelled()) return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
+  const Work work = prepare(job, tree);
+
+  const size_t critical_runs = (tree.critical.size() + kCellsPerRun - 1) / kCellsPerRun;
+  const size_t copy_runs = (work.cut_copies.size() + kCellsPerRun - 1) / kCellsPerRun;
+  std::vector<FragmentSet> sets(critical_runs + copy_runs);
+  std::vector<SignCounters> counters(sets.size());
+  const auto solve_run = [&](CellSolver& solver, size_t run) {
+    if (cancelled()) return;
+    const SignCounters before = solver.counters();
+    if (run < critical_runs) {
+      const size_t end = std::min(tree.critical.size(), (run + 1) * kCellsPerRun);
+      for (size_t c = run * kCellsPerRun; c < end; ++c) {
+        solver.solve(tree, tree.critical[c], work.critical_walls[c], sets[run]);
+      }
+    } else {
+      const size_t first = (run - critical_runs) * kCellsPerRun;
+      const size_t end = std::min(work.cut_copies.size(), first + kCellsPerRun);
+      for (size_t i = first; i < end; ++i) {
+        const auto& piece = work.cut_copies[i];
+        solver.copy(piece.polygon, tree.copied_cells[piece.cell], 
+                    work.copied_walls[work.walls_of_copied_cell[piece.cell]], piece.flip, sets[run]);
+      }
+    }
+    counters[run] = solver.counters();
+    counters[run].subtract(before);
+  };
+  if (options.threads <= 1 || sets.size() <= 1) {
+    CellSolver solver(job);
+    for (size_t run = 0; run < sets.size(); ++run) {
+      solve_run(solver, run);
+      if (options.progress) options.progress(run + 1, sets.size());
+    }
+  } else {
+    tbb::task_arena arena(static_cast<int>(options.threads));
+    arena.execute([&] {
+      tbb::enumerable_thread_specific<CellSolver> solvers([&] { return CellSolver(job); });
+      tbb::parallel_for(size_t{0}, sets.size(),
+                        [&](size_t run) { solve_run(solvers.local(), run); });
+    });
+  }
+  if (cancelled()) return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
+
+  SignCounters total;
+  for (const SignCounters& c : counters) total.add(c);
+  stats.cells += tree.cells;
+  stats.surface_cells += tree.surface_cells;
+  stats.critical_cells += tree.critical.size();
+  stats.sign_filter += total.filter;
+  stats.sign_symbolic += total.symbolic;
+  for (size_t t = 0; t < total.exact.size(); ++t) stats.sign_exact[t] += total.exact[t];
+  return assemble(job, sets, work.whole);
+}
+
+size_t memory_bytes(const BoundaryMesh& b) {
+  return sizeof b + b.planes.size() * sizeof(Plane) +
+         b.point_planes.size() * (sizeof(std::array<uint32_t, 3>) + sizeof(std::array<double, 3>)) +
+         b.faces.size() * sizeof(BoundaryMesh::Face) + b.loop_starts.size() * sizeof(uint32_t) +
+         b.corners.size() * sizeof(BoundaryMesh::Corner);
+}
+
+GridBox bounding_box(const BoundaryMesh& b) {
+  GridBox box;
+  if (b.point_rounded.empty()) return box;
+  box.lo = {INT64_MAX, INT64_MAX, INT64_MAX};
+  box.hi = {INT64_MIN, INT64_MIN, INT64_MIN};
+  for (const auto& p : b.point_rounded) {
+    for (int k = 0; k < 3; ++k) {
+      // The true coordinate is within half a unit in the last place of the rounded one.
+      const bool whole = p[k] == std::floor(p[k]);
+      const double lo = whole ? p[k] - 1 : std::floor(p[k]), hi = whole ? p[k] + 1 : std::ceil(p[k]);
+      box.lo[k] = std::min(box.lo[k], static_cast<int64_t>(lo));
+      box.hi[k] = std::max(box.hi[k], static_cast<int64_t>(hi));
+    }
+  }
+  return box;
+}
+
+bool is_empty(const BoundaryMesh& b) { return b.faces.empty(); }
+
+}  // namespace csgrun

@@ -1,0 +1,69 @@
+#include "engine/bsp/line_key.h"
+
+namespace csgrun {
+namespace {
+
+constexpr uint64_t kPrime = (uint64_t{1} << 61) - 1;
+
+uint64_t reduce(UInt128 v) {
+  uint64_t r = static_cast<uint64_t>(v & kPrime) + static_cast<uint64_t>(v >> 61);
+  r = (r & kPrime) + (r >> 61);
+  return r >= kPrime ? r - kPrime : r;
+}
+
+uint64_t times(uint64_t a, uint64_t b) { return reduce(static_cast<UInt128>(a) * b); }
+uint64_t minus(uint64_t a, uint64_t b) { return a >= b ? a - b : a + kPrime - b; }
+
+uint64_t residue(Int128 v) {
+  const UInt128 m = v < 0 ? -static_cast<UInt128>(v) : static_cast<UInt128>(v);
+  const uint64_t r = static_cast<uint64_t>(m % kPrime);
+  return v < 0 ? minus(0, r) : r;
+}
+
+/// a^(p - 2): the inverse.
+uint64_t inverse(uint64_t a) {
+  uint64_t r = 1;
+  for (uint64_t e = kPrime - 2; e; e >>= 1) {
+    if (e & 1) r = times(r, a);
+    a = times(a, a);
+  }
+  return r;
+}
+
+uint64_t scramble(uint64_t h, uint64_t v) {
+  h = (h ^ v) * 0x9fb21c651e98df25ull;
+  return h ^ (h >> 29);
+}
+
+}  // namespace
+
+const LineNamer::Residues& LineNamer::residues(uint32_t plane) {
+  if (plane >= residues_.size()) residues_.resize(planes_->size());
+  Residues& r = residues_[plane];
+  if (!r.known) {
+    const Plane& p = planes_->plane(plane);
+    r = {{residue(p.a), residue(p.b), residue(p.c), residue(p.d)}, true};
+  }
+  return r;
+}
+
+LineKey LineNamer::key(uint32_t p, uint32_t q) {
+  residues(p), residues(q);
+  const uint64_t* a = residues(p).v;
+  const uint64_t* b = residues(q).v;
+  const auto minor = [&](int i, int j) { return minus(times(a[i], b[j]), times(a[j], b[i])); };
+  const uint64_t plucker[6] = {minor(0, 1), minor(0, 2), minor(1, 2),
+                               minor(0, 3), minor(1, 3), minor(2, 3)};
+  int first = 0;
+  while (first < 5 && plucker[first] == 0) ++first;
+  const uint64_t scale = inverse(plucker[first]);
+  LineKey key{static_cast<uint64_t>(first), static_cast<uint64_t>(first) + 7};
+  for (const uint64_t c : plucker) {
+    const uint64_t v = times(c, scale);
+    key.a = scramble(key.a, v);
+    key.b = scramble(key.b, v * 0xd6e8feb86659fd93ull + 1);
+  }
+  return key;
+}
+
+}  // namespace csgrun

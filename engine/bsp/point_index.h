@@ -1,0 +1,67 @@
+// Equal points get one number. Coordinates are correctly rounded, so equal points have equal doubles:
+// a hash of these finds the candidates, exact signs confirm.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "engine/bsp/cell_geometry.h"
+
+namespace csgrun {
+
+class PointIndex {
+ public:
+  explicit PointIndex(CellGeometry& geometry) : geometry_(geometry), slots_(1024, kNone) {}
+
+  /// The first point that equals `p`; `p` itself when it is new. `p` must be in the geometry.
+  uint32_t unique(uint32_t p) {
+    size_t s = hash(p) & (slots_.size() - 1);
+    for (; slots_[s] != kNone; s = (s + 1) & (slots_.size() - 1)) {
+      if (equal(slots_[s], p)) return slots_[s];
+    }
+    slots_[s] = p;
+    if (++count_ * 2 > slots_.size()) grow();
+    return p;
+  }
+
+ private:
+  [[nodiscard]] uint64_t hash(uint32_t p) const {
+    uint64_t h = 0;
+    for (const double c : geometry_.point(p).rounded) {
+      h = (h ^ std::bit_cast<uint64_t>(c + 0.0)) * 0x9fb21c651e98df25ull;  // -0 + 0 = 0
+      h ^= h >> 32;
+    }
+    return h;
+  }
+  bool equal(uint32_t p, uint32_t q) {
+    const auto a = geometry_.point(p), b = geometry_.point(q);
+    if (a.rounded != b.rounded) return false;
+    if (a.vertex != kNone && a.vertex == b.vertex) return true;
+    // p is q when it lies on three planes that meet in q only.
+    if (b.planes[0] != kNone) return on_planes(p, b.planes);
+    if (a.planes[0] != kNone) return on_planes(q, a.planes);
+    geometry_.exact(p), geometry_.exact(q);
+    return compare(geometry_.exact(p), geometry_.exact(q)) == 0;
+  }
+  bool on_planes(uint32_t p, const std::array<uint32_t, 3>& planes) {
+    return geometry_.side(planes[0], p) == 0 && geometry_.side(planes[1], p) == 0 &&
+           geometry_.side(planes[2], p) == 0;
+  }
+  void grow() {
+    std::vector<uint32_t> old(slots_.size() * 2, kNone);
+    std::swap(old, slots_);
+    for (const uint32_t p : old) {
+      if (p == kNone) continue;
+      size_t s = hash(p) & (slots_.size() - 1);
+      while (slots_[s] != kNone) s = (s + 1) & (slots_.size() - 1);
+      slots_[s] = p;
+    }
+  }
+
+  CellGeometry& geometry_;
+  std::vector<uint32_t> slots_;
+  size_t count_ = 0;
+};
+
+}  // namespace csgrun

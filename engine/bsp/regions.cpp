@@ -1,0 +1,212 @@
+#include "engine/bsp/regions.h"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+
+namespace csgrun {
+
+bool RegionBuilder::build(PlaneId support, const std::vector<DirectedEdge>& edges,
+                          RegionLoops& loops) {
+  loops.clear();
+  // Most cuts meet their counterpart end to end: cancel these first.
+  open_ = edges;
+  std::sort(open_.begin(), open_.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
+    const auto [a0, a1] = std::minmax(a.from, a.to);
+    const auto [b0, b1] = std::minmax(b.from, b.to);
+    return std::tie(a0, a1, a.from, a.plane) < std::tie(b0, b1, b.from, b.plane);
+  });
+  size_t kept = 0;
+  for (size_t i = 0; i < open_.size();) {
+    size_t j = i;
+    const auto [lo, hi] = std::minmax(open_[i].from, open_[i].to);
+    size_t forward = 0;
+    while (j < open_.size() && std::min(open_[j].from, open_[j].to) == lo &&
+           std::max(open_[j].from, open_[j].to) == hi) {
+      forward += open_[j++].from == lo;
+    }
+    const size_t backward = j - i - forward;
+    for (size_t k = 0; k < (forward > backward ? forward - backward : 0); ++k) {
+      open_[kept++] = open_[i];
+    }
+    for (size_t k = 0; k < (backward > forward ? backward - forward : 0); ++k) {
+      open_[kept++] = open_[j - 1];
+    }
+    i = j;
+  }
+  open_.resize(kept);
+  boundary_.clear();
+  return cancel_on_lines(support) && trace(support, loops);
+}
+
+bool RegionBuilder::cancel_on_lines(PlaneId support) {
+  struct Keyed {
+    LineKey key;
+    uint32_t edge;
+  };
+  std::vector<Keyed> keyed;
+  keyed.reserve(open_.size());
+  for (uint32_t i = 0; i < open_.size(); ++i) {
+    keyed.push_back({namer_.key(support.index(), open_[i].plane), i});
+  }
+  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
+    return std::tie(a.key, a.edge) < std::tie(b.key, b.edge);
+  });
+  std::vector<DirectedEdge> line;
+  for (size_t i = 0; i < keyed.size();) {
+    size_t j = i;
+    line.clear();
+    while (j < keyed.size() && keyed[j].key == keyed[i].key) line.push_back(open_[keyed[j++].edge]);
+    if (line.size() == 1) {
+      boundary_.push_back(line[0]);
+    } else if (!sweep_line(support.index(), line.data(), line.data() + line.size())) {
+      return false;
+    }
+    i = j;
+  }
+  return true;
+}
+
+bool RegionBuilder::sweep_line(uint32_t support, const DirectedEdge* begin,
+                               const DirectedEdge* end) {
+  const uint32_t plane = begin->plane;
+  const LineAxis axis = line_axis(planes_.plane(support), planes_.plane(plane));
+  std::vector<uint32_t> points;
+  for (const DirectedEdge* e = begin; e != end; ++e) {
+    points.push_back(e->from);
+    points.push_back(e->to);
+    // The key is a hash: confirm that this edge lies on the first one's line.
+    if (e->plane != plane && (geometry_.side(plane, e->from) || geometry_.side(plane, e->to))) {
+      return false;
+    }
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::sort(points.begin(), points.end(), [&](uint32_t p, uint32_t q) {
+    return geometry_.compare_along(p, q, axis.axis) < 0;
+  });
+  std::map<uint32_t, size_t> place;
+  for (size_t i = 0; i < points.size(); ++i) place[points[i]] = i;
+  std::vector<int> change(points.size() + 1, 0);
+  for (const DirectedEdge* e = begin; e != end; ++e) {
+    ++change[place[e->from]];
+    --change[place[e->to]];
+  }
+  int net = 0;
+  for (size_t i = 0; i + 1 < points.size(); ++i) {
+    net += change[i];
+    if (net > 1 || net < -1) return false;
+    if (net == 1) boundary_.push_back({points[i], points[i + 1], plane});
+    if (net == -1) boundary_.push_back({points[i + 1], points[i], plane});
+  }
+  return net + change[points.size() - 1] == 0;
+}
+
+bool RegionBuilder::straight(const DirectedEdge& in, const DirectedEdge& out) {
+  return in.plane == out.plane || geometry_.side(in.plane, out.to) == 0;
+}
+
+bool RegionBuilder::trace(PlaneId support, RegionLoops& loops) {
+  // Incident edges by point: edge 2 i leaves boundary edge i's start, 2 i + 1 arrives at its end.
+  std::vector<std::pair<uint32_t, uint32_t>> ends;
+  ends.reserve(boundary_.size() * 2);
+  for (uint32_t i = 0; i < boundary_.size(); ++i) {
+    ends.emplace_back(boundary_[i].from, 2 * i);
+    ends.emplace_back(boundary_[i].to, 2 * i + 1);
+  }
+  std::sort(ends.begin(), ends.end());
+  next_.assign(boundary_.size(), kNone);
+  std::vector<uint8_t> corner(boundary_.size(), 1);  ///< whether the edge starts in a true corner
+  std::vector<uint32_t> incident;
+  for (size_t i = 0; i < ends.size();) {
+    size_t j = i;
+    incident.clear();
+    int balance = 0;
+    while (j < ends.size() && ends[j].first == ends[i].first) {
+      balance += ends[j].second & 1 ? 1 : -1;
+      incident.push_back(ends[j++].second);
+    }
+    if (balance != 0) return false;
+    if (incident.size() == 2) {
+      const uint32_t in = incident[0] & 1 ? incident[0] / 2 : incident[1] / 2;
+      const uint32_t out = incident[0] & 1 ? incident[1] / 2 : incident[0] / 2;
+      next_[in] = out;
+      corner[out] = !straight(boundary_[in], boundary_[out]);
+    } else {
+      pair_wedges(support, incident);
+    }
+    i = j;
+  }
+  std::vector<uint8_t> done(boundary_.size(), 0);
+  for (uint32_t i = 0; i < boundary_.size(); ++i) {
+    if (done[i] || !corner[i]) continue;
+    for (uint32_t e = i; !done[e];) {
+      DirectedEdge edge = boundary_[e];
+      done[e] = 1;
+      e = next_[e];
+      while (e != kNone && !corner[e] && !done[e]) {
+        edge.to = boundary_[e].to;
+        done[e] = 1;
+        e = next_[e];
+      }
+      if (e == kNone) return false;
+      loops.edges.push_back(edge);
+    }
+    loops.starts.push_back(static_cast<uint32_t>(loops.edges.size()));
+  }
+  return std::all_of(done.begin(), done.end(), [](uint8_t d) { return d; });
+}
+
+int RegionBuilder::turn(PlaneId support, const DirectedEdge& a, int sign_a, const DirectedEdge& b,
+                        int sign_b) {
+  // Directions n x t_a and n x t_b (t the normals of the edges' planes) turn as det(n, t_a, t_b) does.
+  const Plane n = planes_.oriented(support);
+  const Plane &p = planes_.plane(a.plane), &q = planes_.plane(b.plane);
+  using N = Int<2>;
+  const auto minor = [](Int128 u, Int128 v, Int128 x, Int128 y) {
+    return multiply<4>(N::from_int128(u), N::from_int128(y)) -
+           multiply<4>(N::from_int128(v), N::from_int128(x));
+  };
+  const auto determinant = multiply<6>(minor(p.b, p.c, q.b, q.c), N::from_int128(n.a)) +
+                           multiply<6>(minor(p.c, p.a, q.c, q.a), N::from_int128(n.b)) +
+                           multiply<6>(minor(p.a, p.b, q.a, q.b), N::from_int128(n.c));
+  return determinant.sign() * sign_a * sign_b;
+}
+
+void RegionBuilder::pair_wedges(PlaneId support, std::vector<uint32_t>& incident) {
+  // Directions away from the point, as multiples of n x t; sorted counter-clockwise from the first.
+  struct Spoke {
+    uint32_t end;
+    const DirectedEdge* edge;
+    int sign;
+    int half;  ///< 0: turned by less than 180 degrees from the first spoke, or equal; 1: the rest
+  };
+  std::vector<Spoke> spokes;
+  for (const uint32_t end : incident) {
+    const DirectedEdge& e = boundary_[end / 2];
+    const LineAxis line = line_axis(planes_.oriented(support), planes_.plane(e.plane));
+    const int along = geometry_.compare_along(e.to, e.from, line.axis) * line.sign;
+    spokes.push_back({end, &e, end & 1 ? -along : along, 0});
+  }
+  const Spoke first = spokes[0];
+  for (Spoke& s : spokes) {
+    const int t = turn(support, *first.edge, first.sign, *s.edge, s.sign);
+    // Collinear with the first: the same direction, or the opposite. Two different spokes of equal
+    // direction cannot be (their intervals would overlap), so "same" is the first itself.
+    s.half = t > 0 || (t == 0 && s.end == first.end) ? 0 : 1;
+  }
+  std::sort(spokes.begin(), spokes.end(), [&](const Spoke& a, const Spoke& b) {
+    if (a.half != b.half) return a.half < b.half;
+    if (a.end == b.end) return false;
+    return turn(support, *a.edge, a.sign, *b.edge, b.sign) > 0;
+  });
+  // Interior lies just counter-clockwise of an outgoing edge and just clockwise of an incoming one: an
+  // incoming edge goes on with the outgoing one next to it clockwise.
+  for (size_t i = 0; i < spokes.size(); ++i) {
+    if (!(spokes[i].end & 1)) continue;
+    const Spoke& before = spokes[(i + spokes.size() - 1) % spokes.size()];
+    if (!(before.end & 1)) next_[spokes[i].end / 2] = before.end / 2;
+  }
+}
+
+}  // namespace csgrun

@@ -1,0 +1,64 @@
+// From pieces of one plane to the maximal regions that they form.
+//
+// Every piece contributes its directed edges. On each line the edges are intervals; where as many run
+// one way as the other they cancel, and what is left is the boundary of the union: cuts by cell walls
+// and by extended planes vanish, whatever points they were broken at. Then corners where the boundary
+// runs straight through are dropped, and loops are traced with the interior on their left.
+#pragma once
+
+#include <vector>
+
+#include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/line_key.h"
+
+namespace csgrun {
+
+/// A directed edge of a piece, over points of a CellGeometry; `plane` holds it and is not the
+/// support.
+struct DirectedEdge {
+  uint32_t from, to, plane;
+};
+
+/// Closed loops of true corners; corner i has the edge to corner i + 1 in its plane.
+struct RegionLoops {
+  std::vector<uint32_t> starts{0};
+  std::vector<DirectedEdge> edges;  ///< edge i of a loop starts at corner i
+
+  void clear() {
+    starts.assign(1, 0);
+    edges.clear();
+  }
+  [[nodiscard]] size_t loop_count() const { return starts.size() - 1; }
+};
+
+class RegionBuilder {
+ public:
+  /// Points that are equal must have equal numbers in `geometry`.
+  RegionBuilder(CellGeometry& geometry, const PlaneTable& planes)
+      : geometry_(geometry), planes_(planes), namer_(planes) {}
+
+  /// The boundary of the union of pieces that do not overlap, given by all their edges. Loops touch
+  /// but do not cross; a loop passes a point at most once for each wedge of interior there.
+  /// False when the edges do not bound a region (some net multiplicity is not 0 or 1): the input was
+  /// not a set of disjoint pieces.
+  bool build(PlaneId support, const std::vector<DirectedEdge>& edges, RegionLoops& loops);
+
+  LineNamer& namer() { return namer_; }
+
+ private:
+  bool cancel_on_lines(PlaneId support);
+  bool sweep_line(uint32_t support, const DirectedEdge* begin, const DirectedEdge* end);
+  bool trace(PlaneId support, RegionLoops& loops);
+  [[nodiscard]] bool straight(const DirectedEdge& in, const DirectedEdge& out);
+  void pair_wedges(PlaneId support, std::vector<uint32_t>& incident);
+  int turn(PlaneId support, const DirectedEdge& a, int sign_a, const DirectedEdge& b, int sign_b);
+
+  CellGeometry& geometry_;
+  const PlaneTable& planes_;
+  LineNamer namer_;
+  std::vector<DirectedEdge> open_;       ///< edges whose exact reverse is not there
+  std::vector<DirectedEdge> boundary_;   ///< elementary boundary edges
+  std::vector<uint32_t> next_;           ///< per boundary edge: the one that follows
+};
+
+}  // namespace csgrun

@@ -1,0 +1,86 @@
+// Planes: exact integer coefficients, interned, so that coplanarity is equality of ids.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/exact/fixed_int.h"
+#include "engine/exact/widths.h"
+
+namespace csgrun {
+
+/// The plane a x + b y + c z + d = 0 over grid coordinates. Its positive side is where the value is
+/// positive: the normal points there.
+struct Plane {
+  Int128 a = 0, b = 0, c = 0, d = 0;
+
+  bool operator==(const Plane&) const = default;
+  [[nodiscard]] Plane reversed() const { return {-a, -b, -c, -d}; }
+};
+
+static_assert(widths::limbs(widths::kMaxNormal) <= 2 && widths::limbs(widths::kMaxOffset) <= 2,
+              "plane coefficients must fit 128 bits");
+
+/// Number of bits of the magnitude.
+int bit_width(Int128 v);
+
+/// A plane's number in its table, with a bit that says on which side the normal points: flip() is
+/// the same plane seen from behind.
+class PlaneId {
+ public:
+  PlaneId() = default;
+  PlaneId(uint32_t index, bool flipped) : value_(index << 1 | (flipped ? 1u : 0u)) {}
+
+  [[nodiscard]] uint32_t index() const { return value_ >> 1; }
+  [[nodiscard]] bool flipped() const { return value_ & 1; }
+  [[nodiscard]] PlaneId flip() const { return from_value(value_ ^ 1); }
+  [[nodiscard]] uint32_t value() const { return value_; }
+  static PlaneId from_value(uint32_t v) {
+    PlaneId r;
+    r.value_ = v;
+    return r;
+  }
+  [[nodiscard]] bool valid() const { return value_ != ~0u; }
+  bool operator==(const PlaneId&) const = default;
+  auto operator<=>(const PlaneId&) const = default;
+
+ private:
+  uint32_t value_ = ~0u;
+};
+
+/// All planes of one evaluation. Each is stored once: reduced by the greatest common divisor of its
+/// four coefficients, with the first non-zero normal component positive.
+class PlaneTable {
+ public:
+  PlaneTable();
+
+  /// The id of a plane; its flipped() bit is set when the stored orientation is the reverse.
+  /// REQUIRES: the normal is not zero, widths as in widths.h.
+  PlaneId intern(const Plane& plane);
+
+  [[nodiscard]] const Plane& plane(uint32_t index) const { return planes_[index]; }
+  /// The plane with the orientation of the id.
+  [[nodiscard]] Plane oriented(PlaneId id) const {
+    return id.flipped() ? planes_[id.index()].reversed() : planes_[id.index()];
+  }
+  /// Coefficients rounded to double (relative error 2^-52), for filters.
+  [[nodiscard]] const std::array<double, 4>& approximate(uint32_t index) const {
+    return approximate_[index];
+  }
+  [[nodiscard]] int normal_bits(uint32_t index) const { return bits_[index][0]; }
+  [[nodiscard]] int offset_bits(uint32_t index) const { return bits_[index][1]; }
+  [[nodiscard]] size_t size() const { return planes_.size(); }
+
+ private:
+  void grow();
+
+  std::vector<Plane> planes_;
+  std::vector<std::array<double, 4>> approximate_;
+  std::vector<std::array<uint8_t, 2>> bits_;
+  std::vector<uint32_t> slots_;  ///< open addressing: index + 1, or 0
+  size_t mask_ = 0;
+};
+
+}  // namespace csgrun

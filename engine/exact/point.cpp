@@ -1,0 +1,107 @@
+#include "engine/exact/point.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "engine/exact/rounding.h"
+
+namespace csgrun {
+namespace {
+
+using Coordinate = Int<kPointLimbs>;
+
+/// Cramer's rule with R limbs for the results and C for the 2x2 minors of the normals.
+template <int NormalLimbs, int C, int R>
+Point cramer(const Plane& p, const Plane& q, const Plane& r) {
+  using Normal = Int<NormalLimbs>;
+  const auto normal = [](Int128 v) { return Normal::from_int128(v); };
+  const auto minor = [](const Normal& a, const Normal& b, const Normal& c, const Normal& d) {
+    return multiply<C>(a, d) - multiply<C>(b, c);
+  };
+  const Normal pa = normal(p.a), pb = normal(p.b), pc = normal(p.c);
+  const Normal qa = normal(q.a), qb = normal(q.b), qc = normal(q.c);
+  const Normal ra = normal(r.a), rb = normal(r.b), rc = normal(r.c);
+  // qr = q.n x r.n, and cyclic.
+  const Int<C> qr_x = minor(qb, qc, rb, rc), qr_y = minor(qc, qa, rc, ra), qr_z = minor(qa, qb, ra, rb);
+  const Int<C> rp_x = minor(rb, rc, pb, pc), rp_y = minor(rc, ra, pc, pa), rp_z = minor(ra, rb, pa, pb);
+  const Int<C> pq_x = minor(pb, pc, qb, qc), pq_y = minor(pc, pa, qc, qa), pq_z = minor(pa, pb, qa, qb);
+  const Int<2> pd = Int<2>::from_int128(p.d), qd = Int<2>::from_int128(q.d),
+               rd = Int<2>::from_int128(r.d);
+  const auto combine = [&](const Int<C>& qr, const Int<C>& rp, const Int<C>& pq) {
+    return -(multiply<R>(qr, pd) + multiply<R>(rp, qd) + multiply<R>(pq, rd));
+  };
+  Point result;
+  const Int<R> w = multiply<R>(qr_x, pa) + multiply<R>(qr_y, pb) + multiply<R>(qr_z, pc);
+  assert(!w.is_zero());
+  const bool turn = w.negative();
+  const auto store = [turn](const Int<R>& v) { return Coordinate::from(turn ? -v : v); };
+  result.x = store(combine(qr_x, rp_x, pq_x));
+  result.y = store(combine(qr_y, rp_y, pq_y));
+  result.z = store(combine(qr_z, rp_z, pq_z));
+  result.w = store(w);
+  return result;
+}
+
+void measure(Point& p) {
+  p.xyz_bits = std::max({p.x.bit_width(), p.y.bit_width(), p.z.bit_width()});
+  p.w_bits = p.w.bit_width();
+}
+
+constexpr int kWideLimbs = 2 * kPointLimbs;
+
+}  // namespace
+
+Point grid_point(int64_t x, int64_t y, int64_t z) {
+  Point p;
+  p.x = x, p.y = y, p.z = z, p.w = 1;
+  measure(p);
+  return p;
+}
+
+void normalise(Point& p) {
+  if (p.w.negative()) p.x = -p.x, p.y = -p.y, p.z = -p.z, p.w = -p.w;
+  measure(p);
+}
+
+Point intersect(const Plane& p, const Plane& q, const Plane& r) {
+  const auto normal_bits = [](const Plane& s) {
+    return std::max({bit_width(s.a), bit_width(s.b), bit_width(s.c)});
+  };
+  const int n = std::max({normal_bits(p), normal_bits(q), normal_bits(r)});
+  const int d = std::max({bit_width(p.d), bit_width(q.d), bit_width(r.d)});
+  const int needed = std::max(widths::point_xyz(n, d), widths::point_w(n));
+  Point result;
+  // 63 bits of normal: minors of 127 bits fit two limbs.
+  if (n <= 62 && needed < 128) {
+    result = cramer<1, 2, 2>(p, q, r);
+  } else if (n <= 62 && needed < 256) {
+    result = cramer<1, 2, 4>(p, q, r);
+  } else {
+    static_assert(widths::kMaxPointXyz < 64 * kPointLimbs);
+    result = cramer<2, 4, kPointLimbs>(p, q, r);
+  }
+  measure(result);
+  return result;
+}
+
+std::array<double, 3> rounded(const Point& p) {
+  using Q = Int<kQuotientLimbs>;
+  const Q w = Q::from(p.w);
+  return {round_to_double(Q::from(p.x), w), round_to_double(Q::from(p.y), w),
+          round_to_double(Q::from(p.z), w)};
+}
+
+int compare_along(const Point& p, const Point& q, int axis) {
+  const Coordinate& a = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+  const Coordinate& b = axis == 0 ? q.x : axis == 1 ? q.y : q.z;
+  return compare(multiply<kWideLimbs>(a, q.w), multiply<kWideLimbs>(b, p.w));
+}
+
+int compare(const Point& p, const Point& q) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (const int order = compare_along(p, q, axis)) return order;
+  }
+  return 0;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,46 @@
+#include "engine/exact/predicates.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace csgrun {
+namespace {
+
+/// Low limbs of the coordinates suffice: the sum is taken modulo 2^(64 R), and the tier was chosen so
+/// that the true value fits R limbs.
+template <int R>
+int side(const Plane& plane, const Point& p) {
+  constexpr int kLow = R < kPointLimbs ? R : kPointLimbs;
+  using Low = Int<kLow>;
+  const auto coefficient = [](Int128 v) { return Int<2>::from_int128(v); };
+  const Int<R> value = multiply<R>(Low::from(p.x), coefficient(plane.a)) +
+                       multiply<R>(Low::from(p.y), coefficient(plane.b)) +
+                       multiply<R>(Low::from(p.z), coefficient(plane.c)) +
+                       multiply<R>(Low::from(p.w), coefficient(plane.d));
+  return value.sign();
+}
+
+}  // namespace
+
+int exact_tier(const Plane& plane, const Point& p) {
+  const int normal = std::max({bit_width(plane.a), bit_width(plane.b), bit_width(plane.c)});
+  const int bits = widths::side(p.xyz_bits, p.w_bits, normal, bit_width(plane.d)) + 1;
+  for (int t = 0; t < static_cast<int>(kTierBits.size()); ++t) {
+    if (bits <= kTierBits[t]) return t;
+  }
+  assert(false && "a plane or a point is wider than widths.h allows");
+  return static_cast<int>(kTierBits.size()) - 1;
+}
+
+int exact_side(const Plane& plane, const Point& p, int tier) {
+  switch (tier) {
+    case 0: return side<1>(plane, p);
+    case 1: return side<2>(plane, p);
+    case 2: return side<3>(plane, p);
+    case 3: return side<4>(plane, p);
+    case 4: return side<6>(plane, p);
+    default: return side<8>(plane, p);
+  }
+}
+
+}  // namespace csgrun

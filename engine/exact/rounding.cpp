@@ -1,0 +1,85 @@
+#include "engine/exact/rounding.h"
+
+#include <cmath>
+
+namespace csgrun {
+namespace {
+
+using Quotient = Int<kQuotientLimbs>;
+
+struct Leading {
+  uint64_t bits;  ///< the 64 leading bits, the first of them set
+  int exponent;   ///< value is in [bits, bits + 1) * 2^exponent
+};
+
+Leading leading(const Quotient& v) {
+  const int width = v.bit_width();
+  if (width <= 64) return {v.limb[0] << (64 - width), width - 64};
+  const int low = width - 64, whole = low / 64, part = low % 64;
+  uint64_t bits = v.limb[whole] >> part;
+  if (part) bits |= v.limb[whole + 1] << (64 - part);
+  return {bits, low};
+}
+
+/// A mantissa of at most `precision` bits and its exponent, rounded to nearest even.
+struct Rounded {
+  uint64_t mantissa;
+  int exponent;
+};
+
+Rounded round_quotient(const Quotient& numerator, const Quotient& denominator, int exponent,
+                       int precision, int lowest_exponent) {
+  const Leading n = leading(numerator), d = leading(denominator);
+  // numerator / denominator = quotient * 2^scale up to 8 units of quotient: each truncation is off by
+  // less than 2^-63 relatively, and quotient < 2^65.
+  const UInt128 quotient = (static_cast<UInt128>(n.bits) << 64) / d.bits;
+  const int scale = n.exponent - d.exponent - 64;
+  const int width = quotient >> 64 ? 65 : 64;
+  int drop = width - precision;
+  if (scale + exponent + drop < lowest_exponent) drop = lowest_exponent - scale - exponent;
+  if (drop > 66) return {0, 0};
+  const UInt128 half = static_cast<UInt128>(1) << (drop - 1);
+  const UInt128 low = quotient & ((half << 1) - 1);
+  uint64_t mantissa = static_cast<uint64_t>(quotient >> drop);
+  const UInt128 distance = low > half ? low - half : half - low;
+  bool up;
+  if (distance > 16) {
+    up = low > half;
+  } else {
+    // Near the midpoint between two results: compare exactly with it.
+    constexpr int kWide = kQuotientLimbs + 3;
+    const UInt128 midpoint = (static_cast<UInt128>(mantissa) << drop) + half;
+    Int<3> middle;
+    middle.limb[0] = static_cast<uint64_t>(midpoint);
+    middle.limb[1] = static_cast<uint64_t>(midpoint >> 64);
+    Int<kWide> left = Int<kWide>::from(numerator);
+    Int<kWide> right = multiply<kWide>(denominator, middle);
+    if (scale < 0) {
+      left = left.shifted_left(-scale);
+    } else {
+      right = right.shifted_left(scale);
+    }
+    const int order = compare(left, right);
+    up = order > 0 || (order == 0 && (mantissa & 1));
+  }
+  return {mantissa + (up ? 1 : 0), scale + exponent + drop};
+}
+
+}  // namespace
+
+double round_to_double(const Quotient& numerator, const Quotient& denominator, int exponent) {
+  if (numerator.is_zero()) return 0;
+  const Rounded r = round_quotient(numerator.magnitude(), denominator, exponent, 53, -1074);
+  const double value = std::ldexp(static_cast<double>(r.mantissa), r.exponent);
+  return numerator.negative() ? -value : value;
+}
+
+float round_to_float(const Quotient& numerator, const Quotient& denominator, int exponent) {
+  if (numerator.is_zero()) return 0;
+  const Rounded r = round_quotient(numerator.magnitude(), denominator, exponent, 24, -149);
+  // At most 24 bits and an exponent that a float has: both conversions are exact.
+  const auto value = static_cast<float>(std::ldexp(static_cast<double>(r.mantissa), r.exponent));
+  return numerator.negative() ? -value : value;
+}
+
+}  // namespace csgrun

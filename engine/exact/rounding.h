@@ -1,0 +1,21 @@
+// Correct rounding of exact quotients to double and float: equal values give equal bits, whatever
+// numerator and denominator they came from.
+#pragma once
+
+#include "engine/exact/fixed_int.h"
+
+namespace csgrun {
+
+/// Widest numerator and denominator that can be rounded.
+constexpr int kQuotientLimbs = 8;
+
+/// numerator / denominator * 2^exponent, rounded to nearest, ties to even. denominator > 0.
+/// Fast: one 128-bit division; an exact comparison decides when the quotient is within 2^-60 of a
+/// rounding boundary.
+double round_to_double(const Int<kQuotientLimbs>& numerator, const Int<kQuotientLimbs>& denominator,
+                       int exponent = 0);
+/// The same for float, subnormal results included.
+float round_to_float(const Int<kQuotientLimbs>& numerator, const Int<kQuotientLimbs>& denominator,
+                     int exponent = 0);
+
+}  // namespace csgrun

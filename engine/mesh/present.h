@@ -1,0 +1,28 @@
+// The arrays of a result: what is measured and written.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/evaluate.h>
+#include <csgrun/engine/solid.h>
+
+#include "engine/bsp/boundary_mesh.h"
+
+namespace csgrun {
+
+/// What the labels of a boundary mean, and the length of a step.
+struct PresentContext {
+  GridStep step;                        ///< never automatic here
+  std::vector<Appearance> appearances;  ///< by appearance id of the labels
+  std::vector<Solid::Source> sources;   ///< by source index of the labels
+};
+
+/// The arrays of a boundary: coplanar faces of equal appearance and surface merged wherever they were
+/// touched, true corners only, T-junctions resolved, exact triangulation, one fan per vertex,
+/// correctly rounded coordinates, measures and hash. O(n log n).
+/// Error kInternal when the boundary is not closed: an invariant of ours is broken.
+Result<SolidPtr> present(const BoundaryMesh& boundary, const PresentContext& context);
+
+}  // namespace csgrun
