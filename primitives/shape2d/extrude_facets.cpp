@@ -1,0 +1,181 @@
+#include "primitives/shape2d/extrude_facets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include <csgrun/primitives/trig.h>
+
+#include "primitives/solids/mesh_builder.h"
+
+namespace csgrun {
+namespace {
+
+constexpr double kRadian = 3.14159265358979323846 / 180;
+
+/// ln(x) for x > 0 from plain arithmetic: the numbers of slices must not depend on a libm.
+double natural_log(double x) {
+  int exponent = 0;
+  const double m = std::frexp(x, &exponent);      // in [1/2, 1)
+  const double t = (m - 1) / (m + 1), u = t * t;  // ln m = 2 (t + t^3/3 + ...), |t| <= 1/3
+  double sum = 0;
+  for (int k = 39; k >= 1; k -= 2) sum = sum * u + 1.0 / k;
+  return 2 * t * sum + exponent * 0.69314718055994530942;
+}
+
+/// Length of the Archimedean spiral r = a t from 0 to t.
+double spiral_length(double a, double t) {
+  const double root = std::sqrt(1 + t * t);
+  return a / 2 * (t * root + natural_log(t + root));
+}
+
+double farthest_radius(const Shape2D& shape) {
+  double squared = 0;
+  for (const Shape2D::Loop& loop : shape.loops()) {
+    for (const glm::dvec2& p : loop) squared = std::max(squared, glm::dot(p, p));
+  }
+  return std::sqrt(squared);
+}
+
+double fs_of(const LinearExtrudeOptions& o) { return std::max(o.facets.fs, 0.01); }
+double fa_of(const LinearExtrudeOptions& o) { return std::max(o.facets.fa, 0.01); }
+
+/// Slices for an uneven scale: by the longest way from the bottom to the top.
+double diagonal_slices(const Shape2D& shape, const LinearExtrudeOptions& o, double height) {
+  if (o.facets.fn > 0) return std::max(std::floor(o.facets.fn), 1.0);
+  double squared = 0;
+  for (const Shape2D::Loop& loop : shape.loops()) {
+    for (const glm::dvec2& p : loop) {
+      const glm::dvec2 move = p - p * o.scale;
+      squared = std::max(squared, glm::dot(move, move));
+    }
+  }
+  return std::max(std::ceil(std::sqrt(squared + height * height) / fs_of(o)), 1.0);
+}
+
+/// Slices for a twist, along a helix of the given length.
+double helix_slices(const LinearExtrudeOptions& o, double length) {
+  const double twist = std::fabs(o.twist);
+  const double least = std::max(std::ceil(twist / 120), 1.0);
+  if (o.facets.fn > 0) return std::max(std::ceil(twist / 360 * o.facets.fn), least);
+  return std::max(std::min(std::ceil(twist / fa_of(o)), std::ceil(length / fs_of(o))), least);
+}
+
+double helix_length(double radius, const LinearExtrudeOptions& o, double height) {
+  const double turn = std::fabs(o.twist) * kRadian;
+  return std::sqrt(turn * radius * turn * radius + height * height);
+}
+
+double conical_helix_length(double radius, const LinearExtrudeOptions& o, double height) {
+  const double turn = std::fabs(o.twist) * kRadian, s = o.scale.x;
+  const double end = s > 1 ? turn * s / (s - 1) : turn / (1 - s);
+  const double a = radius / end;
+  const double arc = spiral_length(a, end) - spiral_length(a, end - turn);
+  return std::sqrt(arc * arc + height * height);
+}
+
+/// The longest that an edge gets at any slice.
+double longest_length(const LinearExtrudeOptions& o, const glm::dvec2& edge, int slices) {
+  double squared = 0;
+  for (int i = 0; i <= slices; ++i) {
+    const glm::dvec2 moved = slice_point(o, edge, i, slices);
+    squared = std::max(squared, glm::dot(moved, moved));
+  }
+  return std::sqrt(squared);
+}
+
+/// Pieces for each edge, so that there are `count` in all: again and again one more for the edge
+/// whose pieces are longest.
+std::vector<int> pieces_by_count(const std::vector<double>& lengths, double count) {
+  std::vector<int> pieces(lengths.size(), 1);
+  using Entry =
+      std::tuple<double, size_t>;  // length of a piece; the first of equal edges is on top
+  auto lower = [](const Entry& e, const Entry& f) {
+    return std::get<0>(e) < std::get<0>(f) ||
+           (std::get<0>(e) == std::get<0>(f) && std::get<1>(e) > std::get<1>(f));
+  };
+  std::priority_queue<Entry, std::vector<Entry>, decltype(lower)> longest(lower);
+  for (size_t i = 0; i < lengths.size(); ++i) longest.push({lengths[i], i});
+  for (double total = static_cast<double>(lengths.size()); total < count; ++total) {
+    const size_t i = std::get<1>(longest.top());
+    longest.pop();
+    ++pieces[i];
+    longest.push({lengths[i] / pieces[i], i});
+  }
+  return pieces;
+}
+
+std::vector<int> pieces_of(const std::vector<double>& lengths, const LinearExtrudeOptions& o) {
+  if (o.segments) return pieces_by_count(lengths, *o.segments);
+  if (o.facets.fn > 0) return pieces_by_count(lengths, std::min(o.facets.fn, kMostPoints));
+  const double most = std::ceil(360 / fa_of(o));
+  std::vector<int> pieces(lengths.size());
+  double total = 0;
+  for (size_t i = 0; i < lengths.size(); ++i) {
+    const double wanted = std::max(std::ceil(lengths[i] / fs_of(o)), 1.0);
+    total += wanted;
+    pieces[i] = static_cast<int>(std::min(wanted, kMostPoints));
+  }
+  return total > most ? pieces_by_count(lengths, most) : pieces;
+}
+
+}  // namespace
+
+glm::dvec2 slice_point(const LinearExtrudeOptions& options, const glm::dvec2& p, int i, int n) {
+  glm::dvec2 q = p;
+  if (options.twist != 0) {
+    const double angle = -options.twist * i / n;
+    const double c = cos_deg(angle), s = sin_deg(angle);
+    q = {c * p.x - s * p.y, s * p.x + c * p.y};
+  }
+  // Exact at both ends.
+  auto scaled = [&](double scale, double v) {
+    return v * (i == n ? scale : 1 - (1 - scale) * i / n) + 0.0;
+  };
+  return {scaled(options.scale.x, q.x), scaled(options.scale.y, q.y)};
+}
+
+double slices_of(const Shape2D& shape, const LinearExtrudeOptions& options, double height) {
+  if (options.slices) return *options.slices;
+  const bool even = options.scale.x == options.scale.y;
+  if (options.twist == 0) return even ? 1 : diagonal_slices(shape, options, height);
+  const double radius = farthest_radius(shape);
+  if (!even) {
+    return std::max(diagonal_slices(shape, options, height),
+                    helix_slices(options, helix_length(radius, options, height)));
+  }
+  return helix_slices(options, options.scale.x == 1
+                                   ? helix_length(radius, options, height)
+                                   : conical_helix_length(radius, options, height));
+}
+
+std::vector<Shape2D::Loop> split_outlines(const Shape2D& shape, const LinearExtrudeOptions& options,
+                                          int slices) {
+  const bool bends = options.twist != 0 || options.scale.x != options.scale.y;
+  const bool split = options.segments ? *options.segments > 0 : bends;
+  if (!split) return shape.loops();
+  std::vector<Shape2D::Loop> result;
+  for (const Shape2D::Loop& loop : shape.loops()) {
+    const size_t n = loop.size();
+    std::vector<double> lengths(n);
+    for (size_t i = 0; i < n; ++i) {
+      lengths[i] = longest_length(options, loop[(i + 1) % n] - loop[i], slices);
+    }
+    const std::vector<int> pieces = pieces_of(lengths, options);
+    Shape2D::Loop& fine = result.emplace_back();
+    for (size_t i = 0; i < n; ++i) {
+      const glm::dvec2 a = loop[i], b = loop[(i + 1) % n];
+      for (int k = 0; k < pieces[i]; ++k) {
+        const glm::dvec2 p = a + (b - a) * (static_cast<double>(k) / pieces[i]);
+        if (k == 0 || p != fine.back()) fine.push_back(p);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace csgrun

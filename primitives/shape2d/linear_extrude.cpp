@@ -1,0 +1,230 @@
+// linear_extrude: slices of the shape, turned and scaled, with bands between them.
+//
+// All bands share points by index, so the result is closed by construction, also where loops touch
+// and where the top collapses: to a point, where bands end in triangles, or to an edge, where the
+// points of all loops lie on one line and every triangle takes in those that lie on its top edge.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include <csgrun/primitives/shape2d.h>
+
+#include "primitives/base/text.h"
+#include "primitives/shape2d/extrude_facets.h"
+#include "primitives/shape2d/profile.h"
+#include "primitives/solids/mesh_builder.h"
+
+namespace csgrun {
+namespace {
+
+constexpr const char* kName = "linear_extrude";
+
+Result<glm::dvec3> height_vector(const LinearExtrudeOptions& o) {
+  if (!o.direction || o.height_given) {
+    if (!std::isfinite(o.height)) return not_finite(kName, "height", o.height);
+    if (!(o.height > 0)) return not_positive(kName, "height", o.height);
+  }
+  if (!o.direction) return glm::dvec3(0, 0, o.height);
+  const glm::dvec3 v = *o.direction;
+  const double length = std::sqrt(glm::dot(v, v));
+  if (!std::isfinite(length)) return invalid_argument("linear_extrude: v must be finite");
+  if (!(v.z > 0)) return not_positive(kName, "v.z", v.z);
+  return o.height_given ? v * (o.height / length) : v;
+}
+
+std::optional<Error> check(const LinearExtrudeOptions& o) {
+  for (const auto& [name, value] :
+       {std::pair{"scale.x", o.scale.x}, std::pair{"scale.y", o.scale.y}}) {
+    if (!std::isfinite(value)) return not_finite(kName, name, value);
+    if (value < 0) {
+      return invalid_argument(std::string(kName) + ": " + name + " must not be negative, got " +
+                              number_text(value));
+    }
+  }
+  if (!std::isfinite(o.twist)) return not_finite(kName, "twist", o.twist);
+  if (o.slices && *o.slices < 1) return not_positive(kName, "slices", *o.slices);
+  if (o.segments && *o.segments < 0) {
+    return invalid_argument("linear_extrude: segments must not be negative, got " +
+                            std::to_string(*o.segments));
+  }
+  for (const auto& [name, value] :
+       {std::pair{"fn", o.facets.fn}, std::pair{"fa", o.facets.fa}, std::pair{"fs", o.facets.fs}}) {
+    if (!std::isfinite(value)) return not_finite(kName, name, value);
+  }
+  return std::nullopt;
+}
+
+class LinearExtruder {
+ public:
+  LinearExtruder(const Shape2D& shape, const LinearExtrudeOptions& options, glm::dvec3 height,
+                 int slices)
+      : options_(options), slices_(slices), loops_(split_outlines(shape, options, slices)) {
+    profile_ = make_profile(shape, loops_);
+    bottom_ = options.center ? height * -0.5 : glm::dvec3(0);
+    top_ = options.center ? height * 0.5 : height;
+  }
+
+  [[nodiscard]] double point_count() const {
+    return static_cast<double>(profile_.points.size()) * (slices_ + 1.0);
+  }
+
+  PolygonMesh build() {
+    mesh_.kind = kName;
+    for (int i = 0; i <= slices_; ++i) add_ring(i);
+    if (top_collapses()) collapse_top();
+    add_cap(0, true);
+    uint32_t surface = 0;
+    for (size_t l = 0; l < profile_.loops.size(); ++l) add_sides(l, surface);
+    if (!top_collapses()) add_cap(slices_, false);
+    return std::move(mesh_);
+  }
+
+ private:
+  [[nodiscard]] bool top_collapses() const {
+    return options_.scale.x == 0 || options_.scale.y == 0;
+  }
+  /// Sides are planar: parallelograms and trapezoids.
+  [[nodiscard]] bool planar_sides() const {
+    return options_.twist == 0 && options_.scale.x == options_.scale.y;
+  }
+
+  void add_ring(int i) {
+    const glm::dvec3 at = i == slices_ ? top_ : bottom_ + (top_ - bottom_) * (double(i) / slices_);
+    std::vector<uint32_t>& ring = rings_.emplace_back();
+    for (const glm::dvec2& p : profile_.points) {
+      const glm::dvec2 q = slice_point(options_, p, i, slices_);
+      ring.push_back(static_cast<uint32_t>(mesh_.points.size()));
+      mesh_.points.emplace_back(q.x + at.x, q.y + at.y, at.z);
+    }
+  }
+
+  /// Gives top points of equal coordinates one index, and sorts them along the edge that they form.
+  void collapse_top() {
+    std::vector<uint32_t>& ring = rings_.back();
+    const uint32_t first = ring.front();
+    std::vector<glm::dvec3> points(mesh_.points.begin() + first, mesh_.points.end());
+    auto less = [](const glm::dvec3& p, const glm::dvec3& q) {
+      return std::tie(p.x, p.y) < std::tie(q.x, q.y);
+    };
+    std::sort(points.begin(), points.end(), less);
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    for (uint32_t& index : ring) {
+      const auto at = std::lower_bound(points.begin(), points.end(), mesh_.points[index], less);
+      index = first + static_cast<uint32_t>(at - points.begin());
+    }
+    mesh_.points.resize(first);
+    mesh_.points.insert(mesh_.points.end(), points.begin(), points.end());
+  }
+
+  void add_cap(int slice, bool downwards) {
+    const std::vector<uint32_t>& ring = rings_[slice];
+    for (const Shape2D::Region& region : profile_.regions) {
+      std::vector<std::vector<uint32_t>> loops;
+      auto add = [&](uint32_t l) {
+        std::vector<uint32_t>& loop = loops.emplace_back();
+        for (const uint32_t p : profile_.loops[l]) loop.push_back(ring[p]);
+        if (downwards) std::reverse(loop.begin(), loop.end());
+      };
+      add(region.outer);
+      for (const uint32_t hole : region.holes) add(hole);
+      add_face_with_holes(mesh_, loops);
+    }
+  }
+
+  /// `surface` is the last number given to a curved surface.
+  void add_sides(size_t l, uint32_t& surface) {
+    constexpr size_t kLeastRound = 12;  // vertices: a dodecagon is round, an octagon is not
+    const std::vector<uint32_t>& loop = profile_.loops[l];
+    const size_t n = loop.size();
+    uint32_t chains = 0;
+    std::vector<uint32_t> chain = smooth_chains(loops_[l], chains);
+    const bool round = !planar_sides() || (chains == 1 && n >= kLeastRound);
+    for (int i = 0; i < slices_; ++i) {
+      for (size_t k = 0; k < n; ++k) {
+        add_side(i, loop[k], loop[(k + 1) % n], profile_.is_hole[l],
+                 round ? surface + 1 + chain[k] : 0);
+      }
+    }
+    if (round) surface += chains;
+  }
+
+  /// The piece of wall over the edge from p to q between slices i and i + 1.
+  void add_side(int i, uint32_t p, uint32_t q, bool hole, uint32_t surface) {
+    const uint32_t a = rings_[i][p], b = rings_[i][q];
+    const uint32_t c = rings_[i + 1][q], d = rings_[i + 1][p];
+    if (c == d) {
+      mesh_.add_face(std::array<uint32_t, 3>{a, b, c}, surface);
+      return;
+    }
+    if (planar_sides()) {
+      mesh_.add_face(std::array<uint32_t, 4>{a, b, c, d}, surface);
+      return;
+    }
+    std::vector<uint32_t> upper{c};
+    if (i + 1 == slices_ && top_collapses()) append_between(c, d, upper);
+    upper.push_back(d);
+    if (cut_from_a(a, b, c, d, hole)) {
+      mesh_.add_face(std::array<uint32_t, 3>{a, b, c}, surface);
+      upper.push_back(a);
+    } else {
+      mesh_.add_face(std::array<uint32_t, 3>{a, b, d}, surface);
+      upper.push_back(b);
+    }
+    mesh_.add_face(upper, surface);
+  }
+
+  /// The points of the collapsed top strictly between two of them: neighbours have neighbouring
+  /// indices.
+  static void append_between(uint32_t from, uint32_t to, std::vector<uint32_t>& out) {
+    for (uint32_t i = from; i + 1 < to; ++i) out.push_back(i + 1);
+    for (uint32_t i = from; i > to + 1; --i) out.push_back(i - 1);
+  }
+
+  /// Whether the quadrilateral a b c d is cut from a to c: along the shorter diagonal; of two equal
+  /// ones the one that the twist leans to.
+  [[nodiscard]] bool cut_from_a(uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool hole) const {
+    const auto& points = mesh_.points;
+    const glm::dvec3 ac = points[c] - points[a], bd = points[d] - points[b];
+    const double to_c = glm::dot(ac, ac), to_d = glm::dot(bd, bd);
+    if (std::fabs(to_c - to_d) > 1e-5 * std::max(to_c, to_d)) return to_c < to_d;
+    return ((options_.twist > 0) != hole) != top_collapses();
+  }
+
+  const LinearExtrudeOptions& options_;
+  int slices_;
+  std::vector<Shape2D::Loop> loops_;
+  Profile profile_;
+  glm::dvec3 bottom_{}, top_{};
+  std::vector<std::vector<uint32_t>> rings_;  // per slice and point of the profile: a mesh point
+  PolygonMesh mesh_;
+};
+
+}  // namespace
+
+MeshResult linear_extrude(const Shape2D& shape, const LinearExtrudeOptions& options) {
+  if (shape.empty()) return invalid_argument("linear_extrude: the shape is empty");
+  if (auto error = check(options)) return *error;
+  const Result<glm::dvec3> height = height_vector(options);
+  if (!height) return height.error();
+  const bool straight = options.twist == 0 && options.scale.x == options.scale.y;
+  // Slices of planar sides would be pieces of the same faces.
+  const double slices =
+      straight ? 1 : slices_of(shape, options, std::sqrt(glm::dot(*height, *height)));
+  if (slices > kMostPoints) return too_many_points(kName, slices, slices);
+  if (options.segments && *options.segments > kMostPoints) {
+    return too_many_points(kName, *options.segments, *options.segments);
+  }
+  LinearExtruder extruder(shape, options, *height, static_cast<int>(slices));
+  if (extruder.point_count() > kMostPoints) {
+    return too_many_points(kName, slices, extruder.point_count());
+  }
+  PolygonMesh mesh = extruder.build();
+  mesh.known_simple = straight && options.scale.x == 1 && has_clearance(shape, kSafeClearance);
+  return mesh;
+}
+
+}  // namespace csgrun
