@@ -1,0 +1,57 @@
+// The mesh of one file: a part in its place, with coordinates as the file can hold them.
+//
+// The engine's solid is a closed manifold of exact points, each correctly rounded once. Rounding may
+// make points equal; then triangles vanish (see collapse.h). What is returned is a closed, oriented
+// manifold by index in any case, and says what happened to get there.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/export/write.h>
+
+#include "export/half_edges.h"
+
+namespace csgrun {
+
+enum class Precision { kFloat, kDouble };
+
+/// A solid under an affine map, not rounded yet to a file's precision.
+struct PlacedSolid {
+  std::vector<glm::dvec3> positions;  ///< per vertex of the solid
+  bool mirrored = false;              ///< the map turned the surface inside out: reverse every loop
+  std::vector<glm::dvec3> face_normals;  ///< per face of the solid: unit length, outwards
+};
+
+struct RoundedMesh {
+  std::vector<glm::dvec3> positions;    ///< mm; exactly representable in the file; never -0
+  std::vector<Triangle> triangles;      ///< counter-clockwise from outside
+  std::vector<uint32_t> triangle_face;  ///< per triangle: its face of the solid
+  std::vector<uint32_t> twins;          ///< see half_edges.h
+  std::vector<glm::dvec3> face_normals;  ///< per face of the solid: unit length, outwards
+  /// Per face of the solid: its outline as one loop of vertices, counter-clockwise from outside.
+  /// Empty where the face cannot stand for its triangles: it has holes, or rounding changed it. Faces
+  /// without triangles have none either.
+  std::vector<std::vector<uint32_t>> outlines;
+
+  uint64_t dropped = 0;    ///< triangles with two equal corners, left out
+  uint64_t cancelled = 0;  ///< triangles that lay on their own reverse, left out
+  uint64_t flipped = 0;    ///< triangles that look to the other side than their exact face
+};
+
+/// The part's solid under `placement`. Exact when that is the identity.
+PlacedSolid place_solid(const Solid& solid, const Affine& placement);
+
+/// Rounds a part. `with_outlines`: fill `outlines`. Errors: kInternal when the solid is not what
+/// solid.h promises, or the result is not a closed manifold. O(n log d), O(n log n) if points met.
+Result<RoundedMesh> round_part(const Solid& solid, const Affine& placement, Precision precision,
+                               bool with_outlines);
+
+/// Appends what happened to `mesh`, if anything did, as warnings that name the part.
+void report_rounding(const RoundedMesh& mesh, const Part& part, WriteReport& report);
+
+}  // namespace csgrun

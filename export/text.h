@@ -1,0 +1,33 @@
+// Text of files: numbers without a locale, names that cannot break a format.
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace csgrun {
+
+/// Appends the shortest decimal that reads back as the same double.
+inline void append_number(std::string& text, double value) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  text.append(buffer, end);
+}
+
+inline void append_number(std::string& text, uint64_t value) {
+  char buffer[24];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  text.append(buffer, end);
+}
+
+/// The name with every byte that is not part of valid UTF-8 replaced by U+FFFD.
+std::string valid_utf8(std::string_view name);
+
+/// The name as one word of a line: white space and control characters become '_'.
+std::string one_word(std::string_view name);
+
+/// The text on one line: control characters become spaces.
+std::string one_line(std::string_view text);
+
+}  // namespace csgrun

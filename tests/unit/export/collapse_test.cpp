@@ -1,0 +1,147 @@
+// The collapse of closed surfaces whose points meet, against invariants that know nothing of it: the
+// result is a manifold by index, and the volume of the merged surface does not change (what is left
+// out has none).
+#include "export/collapse.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace csgrun {
+namespace {
+
+using Place = std::array<int64_t, 3>;
+
+int64_t six_volumes(const std::vector<Triangle>& triangles, const std::vector<Place>& at) {
+  int64_t sum = 0;
+  for (const Triangle& t : triangles) {
+    const Place &a = at[t[0]], &b = at[t[1]], &c = at[t[2]];
+    sum += a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+  }
+  return sum;
+}
+
+/// A torus of n x m vertices.
+std::vector<Triangle> torus(uint32_t n, uint32_t m) {
+  std::vector<Triangle> triangles;
+  for (uint32_t i = 0; i < n; ++i) {
+    for (uint32_t j = 0; j < m; ++j) {
+      const uint32_t a = i * m + j, b = (i + 1) % n * m + j, c = (i + 1) % n * m + (j + 1) % m,
+                     d = i * m + (j + 1) % m;
+      triangles.push_back({a, b, c});
+      triangles.push_back({a, c, d});
+    }
+  }
+  return triangles;
+}
+
+/// A sphere: poles and n rings of m vertices.
+std::vector<Triangle> sphere(uint32_t n, uint32_t m) {
+  std::vector<Triangle> triangles;
+  const uint32_t south = n * m, north = n * m + 1;
+  for (uint32_t j = 0; j < m; ++j) {
+    const uint32_t k = (j + 1) % m;
+    triangles.push_back({south, k, j});
+    for (uint32_t i = 0; i + 1 < n; ++i) {
+      triangles.push_back({i * m + j, i * m + k, (i + 1) * m + k});
+      triangles.push_back({i * m + j, (i + 1) * m + k, (i + 1) * m + j});
+    }
+    triangles.push_back({(n - 1) * m + j, (n - 1) * m + k, north});
+  }
+  return triangles;
+}
+
+struct Totals {
+  uint64_t dropped = 0, cancelled = 0, survivors = 0, split = 0;
+};
+
+void check_collapse(const std::vector<Triangle>& triangles, const std::vector<Place>& at, int range,
+                    Totals& totals) {
+  std::vector<uint32_t> place;
+  for (const Place& p : at) {
+    place.push_back(static_cast<uint32_t>((p[0] * range + p[1]) * range + p[2]));
+  }
+  const auto twins = manifold_twins(triangles, at.size());
+  ASSERT_TRUE(twins) << twins.error().message;
+  const CollapsedSurface s = collapse(triangles, *twins, place);
+
+  const auto new_twins = manifold_twins(s.vertices, s.origin.size());
+  ASSERT_TRUE(new_twins) << new_twins.error().message;
+  EXPECT_EQ(*new_twins, s.twins);
+  EXPECT_EQ(s.triangles.size() + s.dropped + s.cancelled, triangles.size());
+  std::vector<Place> new_at;
+  for (const uint32_t v : s.origin) new_at.push_back(at[v]);
+  EXPECT_EQ(six_volumes(s.vertices, new_at), six_volumes(triangles, at));
+  std::vector<bool> seen(at.size(), false);
+  for (size_t t = 0; t < s.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(new_at[s.vertices[t][i]], at[triangles[s.triangles[t]][i]]);
+    }
+    EXPECT_NE(place[triangles[s.triangles[t]][0]], place[triangles[s.triangles[t]][1]]);
+  }
+  for (const uint32_t v : s.origin) {
+    if (seen[v]) ++totals.split;
+    seen[v] = true;
+  }
+  totals.dropped += s.dropped;
+  totals.cancelled += s.cancelled;
+  totals.survivors += s.triangles.size();
+}
+
+TEST(Collapse, RandomMergesStayClosedAndKeepTheirVolume) {
+  std::mt19937 random(20240607);
+  Totals totals;
+  for (int round = 0; round < 3000; ++round) {
+    const uint32_t n = 3 + random() % 5, m = 3 + random() % 5;
+    const std::vector<Triangle> mesh = random() % 2 ? torus(n, m) : sphere(n, m);
+    const int range = 2 + static_cast<int>(random() % 3);
+    std::vector<Place> at(n * m + 2);
+    for (Place& p : at) {
+      for (int64_t& c : p) c = static_cast<int64_t>(random() % range);
+    }
+    check_collapse(mesh, at, range, totals);
+    if (HasFailure()) FAIL() << "round " << round;
+  }
+  // Not vacuous: every kind of event happened often.
+  EXPECT_GT(totals.dropped, 10000u);
+  EXPECT_GT(totals.cancelled, 1000u);
+  EXPECT_GT(totals.survivors, 10000u);
+  EXPECT_GT(totals.split, 100u);
+}
+
+TEST(Collapse, NothingMetNothingChanges) {
+  const std::vector<Triangle> mesh = torus(4, 5);
+  std::vector<uint32_t> place(20);
+  for (uint32_t v = 0; v < 20; ++v) place[v] = 19 - v;
+  const auto twins = manifold_twins(mesh, 20);
+  ASSERT_TRUE(twins);
+  const CollapsedSurface s = collapse(mesh, *twins, place);
+  EXPECT_EQ(s.vertices, mesh);
+  EXPECT_EQ(s.twins, *twins);
+  EXPECT_EQ(s.dropped + s.cancelled, 0u);
+}
+
+TEST(ManifoldTwins, NamesWhatIsWrong) {
+  const std::vector<Triangle> tetrahedron = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  EXPECT_TRUE(manifold_twins(tetrahedron, 4));
+  const auto message = [](std::vector<Triangle> mesh, size_t vertices) {
+    const auto twins = manifold_twins(mesh, vertices);
+    return twins ? std::string("manifold") : twins.error().message;
+  };
+  EXPECT_NE(message({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}}, 4).find("no reverse"), std::string::npos);
+  EXPECT_NE(message({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}}, 4).find("occurs twice"),
+            std::string::npos);
+  EXPECT_NE(message(tetrahedron, 3).find("does not exist"), std::string::npos);
+  EXPECT_NE(message({{0, 0, 1}}, 2).find("twice"), std::string::npos);
+  // Two tetrahedra joined in vertex 0.
+  std::vector<Triangle> pinched = tetrahedron;
+  for (Triangle t : tetrahedron) {
+    for (uint32_t& v : t) v = v == 0 ? 0 : v + 3;
+    pinched.push_back(t);
+  }
+  EXPECT_NE(message(pinched, 7).find("several fans"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace csgrun
