@@ -1,0 +1,358 @@
+#include "engine/csg/leaf_faces.h"
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "engine/mesh/triangulate.h"
+
+namespace csgrun {
+namespace {
+
+using Int128 = __int128;
+using Loop = std::vector<uint32_t>;
+using Vec128 = std::array<Int128, 3>;
+
+Vec128 cross(const IVec3& a, const IVec3& b, const IVec3& c) {
+  std::array<Int128, 3> u, v;
+  for (int i = 0; i < 3; ++i) {
+    u[i] = b[i] - a[i];
+    v[i] = c[i] - a[i];
+  }
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+bool is_zero(const Vec128& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+
+int sign(Int128 x) { return (x > 0) - (x < 0); }
+
+/// Twice the vector area, by Newell's formula.
+Vec128 loop_normal(const std::vector<IVec3>& vertices, const Loop& loop) {
+  Vec128 sum{};
+  for (size_t i = 1; i + 1 < loop.size(); ++i) {
+    const Vec128 n = cross(vertices[loop[0]], vertices[loop[i]], vertices[loop[i + 1]]);
+    for (int k = 0; k < 3; ++k) sum[k] += n[k];
+  }
+  return sum;
+}
+
+int dominant_axis(const Vec128& n) {
+  const auto magnitude = [&](int i) { return n[i] < 0 ? -n[i] : n[i]; };
+  int axis = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (magnitude(i) > magnitude(axis)) axis = i;
+  }
+  return axis;
+}
+
+/// Points of a face as seen along an axis, from the side where its front is.
+class ProjectedOracle final : public PlanarOracle {
+ public:
+  ProjectedOracle(const std::vector<IVec3>& vertices, int axis, bool front_is_positive)
+      : vertices_(vertices), u_((axis + 1) % 3), v_((axis + 2) % 3) {
+    if (!front_is_positive) std::swap(u_, v_);
+  }
+  int orient(uint32_t a, uint32_t b, uint32_t c) const override {
+    const IVec3 &p = vertices_[a], &q = vertices_[b], &r = vertices_[c];
+    return sign(static_cast<Int128>(q[u_] - p[u_]) * (r[v_] - p[v_]) -
+                static_cast<Int128>(q[v_] - p[v_]) * (r[u_] - p[u_]));
+  }
+  int compare(uint32_t a, uint32_t b) const override {
+    const IVec3 &p = vertices_[a], &q = vertices_[b];
+    if (p[u_] != q[u_]) return p[u_] < q[u_] ? -1 : 1;
+    if (p[v_] != q[v_]) return p[v_] < q[v_] ? -1 : 1;
+    return 0;
+  }
+  /// Whether a loop turns left (or goes straight) everywhere, and around once.
+  [[nodiscard]] bool is_convex(const Loop& loop) const {
+    const size_t n = loop.size();
+    int changes = 0;
+    for (size_t i = 0; i < n; ++i) {
+      const uint32_t a = loop[i], b = loop[(i + 1) % n], c = loop[(i + 2) % n];
+      const int turn = orient(a, b, c);
+      // Forwards or backwards along the sweep; a convex loop changes twice.
+      const int in = compare(a, b), out = compare(b, c);
+      if (turn < 0 || (turn == 0 && in != out) || in == 0) return false;
+      changes += in != out;
+    }
+    return changes == 2;
+  }
+
+ private:
+  const std::vector<IVec3>& vertices_;
+  int u_, v_;
+};
+
+bool is_planar(const std::vector<IVec3>& vertices, const LoopFace& face) {
+  CornerPlane plane;
+  if (!corner_plane(vertices, face.loops[0].data(), face.loops[0].size(), plane)) return false;
+  for (const Loop& loop : face.loops) {
+    for (uint32_t v : loop) {
+      if (plane.side(vertices[v]) != 0) return false;
+    }
+  }
+  return true;
+}
+
+/// Removes repeated neighbours and spikes (a, b, a). Their edges cancel.
+void clean_loop(Loop& loop) {
+  bool changed = true;
+  while (changed && !loop.empty()) {
+    changed = false;
+    Loop kept;
+    for (uint32_t v : loop) {
+      if (!kept.empty() && kept.back() == v) continue;
+      if (kept.size() >= 2 && kept[kept.size() - 2] == v) {
+        kept.pop_back();
+        continue;
+      }
+      kept.push_back(v);
+    }
+    while (kept.size() >= 2) {
+      if (kept.front() == kept.back()) {
+        kept.pop_back();
+      } else if (kept.size() >= 3 && kept[kept.size() - 2] == kept.front()) {
+        kept.pop_back();
+      } else if (kept.size() >= 3 && kept.back() == kept[1]) {
+        kept.erase(kept.begin());
+      } else {
+        break;
+      }
+    }
+    changed = kept.size() != loop.size();
+    loop = std::move(kept);
+  }
+  if (loop.size() < 3) loop.clear();
+}
+
+bool is_collinear(const std::vector<IVec3>& vertices, const Loop& loop) {
+  CornerPlane plane;
+  return !corner_plane(vertices, loop.data(), loop.size(), plane);
+}
+
+void drop_empty_loops(std::vector<LoopFace>& faces) {
+  for (LoopFace& face : faces) {
+    std::erase_if(face.loops, [](const Loop& loop) { return loop.empty(); });
+  }
+  std::erase_if(faces, [](const LoopFace& face) { return face.loops.empty(); });
+}
+
+using EdgeSplits = std::map<std::pair<uint32_t, uint32_t>, Loop>;
+
+/// The edges of a collinear loop that run over other vertices of it, with these in order from the
+/// lower to the higher vertex number.
+void find_splits(const std::vector<IVec3>& vertices, const Loop& loop, EdgeSplits& splits) {
+  int axis = 0;
+  for (int i = 0; i < 3; ++i) {
+    const auto [lo, hi] = std::minmax_element(loop.begin(), loop.end(), [&](uint32_t a, uint32_t b) {
+      return vertices[a][i] < vertices[b][i];
+    });
+    if (vertices[*lo][i] != vertices[*hi][i]) axis = i;
+  }
+  Loop line = loop;
+  const auto before = [&](uint32_t a, uint32_t b) { return vertices[a][axis] < vertices[b][axis]; };
+  std::sort(line.begin(), line.end(), before);
+  line.erase(std::unique(line.begin(), line.end()), line.end());
+  for (size_t i = 0; i < loop.size(); ++i) {
+    uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
+    if (a > b) std::swap(a, b);
+    const bool forward = before(a, b);
+    const auto from = std::upper_bound(line.begin(), line.end(), forward ? a : b, before);
+    const auto to = std::lower_bound(line.begin(), line.end(), forward ? b : a, before);
+    if (from >= to) continue;
+    Loop inner(from, to);
+    if (!forward) std::reverse(inner.begin(), inner.end());
+    splits[{a, b}] = std::move(inner);
+  }
+}
+
+void apply_splits(const EdgeSplits& splits, Loop& loop) {
+  Loop result;
+  for (size_t i = 0; i < loop.size(); ++i) {
+    const uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
+    result.push_back(a);
+    const auto found = splits.find({std::min(a, b), std::max(a, b)});
+    if (found == splits.end()) continue;
+    if (a < b) {
+      result.insert(result.end(), found->second.begin(), found->second.end());
+    } else {
+      result.insert(result.end(), found->second.rbegin(), found->second.rend());
+    }
+  }
+  loop = std::move(result);
+}
+
+/// Drops loops that lie on a line. With every edge split at the loop's vertices on it, the loop is
+/// a cycle of elementary segments of a line, each run through as often one way as the other.
+bool drop_collinear_loops(const std::vector<IVec3>& vertices, std::vector<LoopFace>& faces) {
+  bool any = false;
+  while (true) {
+    EdgeSplits splits;
+    std::vector<std::pair<size_t, size_t>> collinear;
+    for (size_t f = 0; f < faces.size(); ++f) {
+      for (size_t l = 0; l < faces[f].loops.size(); ++l) {
+        if (!is_collinear(vertices, faces[f].loops[l])) continue;
+        collinear.emplace_back(f, l);
+        find_splits(vertices, faces[f].loops[l], splits);
+      }
+    }
+    any |= !collinear.empty();
+    if (splits.empty()) {
+      for (const auto& [f, l] : collinear) faces[f].loops[l].clear();
+      drop_empty_loops(faces);
+      return any;
+    }
+    for (LoopFace& face : faces) {
+      for (Loop& loop : face.loops) apply_splits(splits, loop);
+    }
+  }
+}
+
+using Triangle = std::array<uint32_t, 3>;
+
+/// Whether the boundary of the triangles is the loops.
+bool covers(const std::vector<Triangle>& triangles, const std::vector<Loop>& loops) {
+  std::vector<std::pair<uint32_t, uint32_t>> plus, minus;
+  for (const Triangle& t : triangles) {
+    for (int i = 0; i < 3; ++i) plus.emplace_back(t[i], t[(i + 1) % 3]);
+  }
+  for (const Loop& loop : loops) {
+    for (size_t i = 0; i < loop.size(); ++i) {
+      plus.emplace_back(loop[(i + 1) % loop.size()], loop[i]);
+    }
+  }
+  for (const auto& [a, b] : plus) minus.emplace_back(b, a);
+  std::sort(plus.begin(), plus.end());
+  std::sort(minus.begin(), minus.end());
+  return plus == minus;
+}
+
+/// A quadrilateral that is bent over one diagonal: split at the other one, which lies outside.
+std::vector<Triangle> bulging_triangles(const std::vector<IVec3>& vertices, const Loop& quad) {
+  CornerPlane plane;
+  const std::array<uint32_t, 3> corners{quad[0], quad[1], quad[2]};
+  if (!corner_plane(vertices, corners.data(), 3, plane)) return {};
+  if (plane.side(vertices[quad[3]]) < 0) {
+    return {{quad[0], quad[1], quad[2]}, {quad[0], quad[2], quad[3]}};
+  }
+  return {{quad[1], quad[2], quad[3]}, {quad[1], quad[3], quad[0]}};
+}
+
+std::vector<Triangle> triangulate(const std::vector<IVec3>& vertices, const LoopFace& face,
+                                  bool prefer_convex) {
+  Vec128 normal{};
+  for (const Loop& loop : face.loops) {
+    const Vec128 n = loop_normal(vertices, loop);
+    for (int k = 0; k < 3; ++k) normal[k] += n[k];
+  }
+  if (!is_zero(normal)) {
+    const int best = dominant_axis(normal);
+    for (int turn = 0; turn < 3; ++turn) {
+      const int axis = (best + turn) % 3;
+      if (normal[axis] == 0) continue;
+      const ProjectedOracle oracle(vertices, axis, normal[axis] > 0);
+      if (prefer_convex && face.loops.size() == 1 && face.loops[0].size() == 4 &&
+          oracle.is_convex(face.loops[0])) {
+        auto triangles = bulging_triangles(vertices, face.loops[0]);
+        if (!triangles.empty()) return triangles;
+      }
+      const auto result = triangulate_face(face.loops, oracle);
+      if (result && covers(*result, face.loops)) return *result;
+    }
+  }
+  // No projection shows simple loops: fans keep the surface closed, and the test for
+  // self-intersections tells whether it is still a solid.
+  std::vector<Triangle> fans;
+  for (const Loop& loop : face.loops) {
+    for (size_t i = 1; i + 1 < loop.size(); ++i) fans.push_back({loop[0], loop[i], loop[i + 1]});
+  }
+  return fans;
+}
+
+/// A loop's vertices from its lowest one on.
+Loop from_lowest(Loop loop) {
+  std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  return loop;
+}
+
+/// Pairs of faces that are each other's reverse enclose nothing.
+void cancel_opposite_faces(std::vector<LoopFace>& faces) {
+  std::map<Loop, std::vector<size_t>> open;
+  for (size_t f = 0; f < faces.size(); ++f) {
+    Loop reverse = faces[f].loops[0];
+    std::reverse(reverse.begin(), reverse.end());
+    const auto found = open.find(from_lowest(std::move(reverse)));
+    if (found != open.end() && !found->second.empty()) {
+      faces[found->second.back()].loops.clear();
+      found->second.pop_back();
+      faces[f].loops.clear();
+    } else {
+      open[from_lowest(faces[f].loops[0])].push_back(f);
+    }
+  }
+  drop_empty_loops(faces);
+}
+
+}  // namespace
+
+int CornerPlane::side(const IVec3& p) const {
+  Int128 sum = 0;
+  for (int i = 0; i < 3; ++i) sum += normal[i] * (p[i] - point[i]);
+  return sign(sum);
+}
+
+bool corner_plane(const std::vector<IVec3>& vertices, const uint32_t* corners, size_t count,
+                  CornerPlane& plane) {
+  for (size_t i = 2; i < count; ++i) {
+    plane.normal = cross(vertices[corners[0]], vertices[corners[1]], vertices[corners[i]]);
+    if (is_zero(plane.normal)) continue;
+    plane.point = vertices[corners[0]];
+    return true;
+  }
+  return false;
+}
+
+bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex,
+                       std::vector<LoopFace>& faces) {
+  bool collapsed = false, bent = false;
+  for (LoopFace& face : faces) {
+    for (Loop& loop : face.loops) {
+      const size_t before = loop.size();
+      clean_loop(loop);
+      collapsed |= loop.size() != before;
+    }
+  }
+  drop_empty_loops(faces);
+  collapsed |= drop_collinear_loops(vertices, faces);
+
+  std::vector<LoopFace> result;
+  result.reserve(faces.size());
+  for (LoopFace& face : faces) {
+    const bool planar = is_planar(vertices, face);
+    if (planar && face.loops.size() == 1) {
+      const Vec128 normal = loop_normal(vertices, face.loops[0]);
+      const int axis = dominant_axis(normal);
+      if (normal[axis] != 0 &&
+          ProjectedOracle(vertices, axis, normal[axis] > 0).is_convex(face.loops[0])) {
+        result.push_back(std::move(face));
+        continue;
+      }
+    }
+    bent |= !planar;
+    for (const Triangle& t : triangulate(vertices, face, prefer_convex && !planar)) {
+      LoopFace piece{{{t[0], t[1], t[2]}}, face.facet, face.surface, face.appearance};
+      result.push_back(std::move(piece));
+    }
+  }
+  faces = std::move(result);
+  if (collapsed || bent) {
+    for (LoopFace& face : faces) clean_loop(face.loops[0]);
+    drop_empty_loops(faces);
+    collapsed |= drop_collinear_loops(vertices, faces);
+    cancel_opposite_faces(faces);
+  }
+  return collapsed;
+}
+
+}  // namespace csgrun

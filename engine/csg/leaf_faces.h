@@ -1,0 +1,38 @@
+// The faces of a leaf on integer points: what collapses is dropped, what is not planar and convex is
+// triangulated, so that the surface stays closed and every face has one exact plane.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/bsp/operand.h"
+
+namespace csgrun {
+
+/// A face while it is worked on: an outer loop and holes, by vertex, and its labels.
+struct LoopFace {
+  std::vector<std::vector<uint32_t>> loops;
+  uint32_t facet = 0, surface = 0, appearance = 0;
+};
+
+/// Turns faces over integer vertices (distinct, |coordinate| <= 2^40) into planar convex polygons.
+/// Directed edges stay balanced: a face that collapses to a segment goes by splitting the edges
+/// of its neighbours at its inner vertices. Diagonals lie inside faces. `prefer_convex` chooses the
+/// diagonal of a bent quadrilateral that bulges outwards. Returns whether a face collapsed, so that
+/// promises about the original surface may no longer hold.
+bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex,
+                       std::vector<LoopFace>& faces);
+
+/// The normal (b - a) x (c - a) of the first three corners that are not collinear, and the corners;
+/// false when there are none. |component| < 2^83.
+struct CornerPlane {
+  std::array<__int128, 3> normal{};
+  IVec3 point{};
+  /// Sign of a point against the plane: +1 in front.
+  [[nodiscard]] int side(const IVec3& p) const;
+};
+bool corner_plane(const std::vector<IVec3>& vertices, const uint32_t* corners, size_t count,
+                  CornerPlane& plane);
+
+}  // namespace csgrun

@@ -1,0 +1,197 @@
+#include "engine/csg/leaf_store.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace csgrun {
+namespace {
+
+std::optional<Error> find_fault(const PolygonMesh& mesh) {
+  const auto fault = [&](const char* what) {
+    return Error{ErrorCode::kInvalidMesh, "the mesh of '" + mesh.kind + "' " + what, {}};
+  };
+  for (uint32_t corner : mesh.corners) {
+    if (corner >= mesh.points.size()) return fault("has a point index out of range");
+    const glm::dvec3& p = mesh.points[corner];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      return fault("has a point that is not finite");
+    }
+  }
+  const size_t faces = mesh.face_count();
+  if ((!mesh.surface.empty() && mesh.surface.size() != faces) ||
+      (!mesh.appearance_of.empty() && mesh.appearance_of.size() != faces)) {
+    return fault("has labels for another number of faces");
+  }
+  for (uint32_t a : mesh.appearance_of) {
+    if (a >= mesh.appearances.size()) return fault("has an appearance index out of range");
+  }
+  return std::nullopt;
+}
+
+size_t memory_of(const LeafGeometry& leaf) {
+  return leaf.vertices.size() * sizeof(IVec3) + leaf.corners.size() * 4 + leaf.face_count() * 16 +
+         256;
+}
+
+bool same_rounding(const LeafRounding& a, const LeafRounding& b) {
+  return a.in_world == b.in_world && a.scale == b.scale && a.offset == b.offset &&
+         a.permutation == b.permutation && (!a.in_world || a.map == b.map);
+}
+
+bool same_step(const GridStep& a, const GridStep& b) {
+  return a.numerator == b.numerator && a.denominator == b.denominator && a.exponent == b.exponent;
+}
+
+}  // namespace
+
+const MeshFacts& LeafStore::facts(const std::shared_ptr<const PolygonMesh>& mesh) {
+  const auto [found, is_new] = facts_.try_emplace(mesh.get());
+  MeshFacts& facts = found->second;
+  if (!is_new) return facts;
+  facts.mesh = mesh;
+  facts.error = find_fault(*mesh);
+  if (facts.error) return facts;
+  KeyBuilder builder("mesh");
+  builder.list(mesh->corners).list(mesh->loop_starts).list(mesh->face_starts).list(mesh->surface);
+  builder.number(mesh->keep_facets).number(mesh->known_simple).number(mesh->convex);
+  facts.topology = builder.key();
+  facts.lo.fill(std::numeric_limits<double>::infinity());
+  facts.hi.fill(-std::numeric_limits<double>::infinity());
+  for (uint32_t corner : mesh->corners) {
+    for (int i = 0; i < 3; ++i) {
+      facts.lo[i] = std::min(facts.lo[i], mesh->points[corner][i]);
+      facts.hi[i] = std::max(facts.hi[i], mesh->points[corner][i]);
+    }
+  }
+  facts.appearance.resize(mesh->face_count());
+  if (mesh->appearance_of.empty()) {
+    std::fill(facts.appearance.begin(), facts.appearance.end(),
+              appearances_.intern(Appearance{}));
+  } else {
+    for (size_t f = 0; f < facts.appearance.size(); ++f) {
+      facts.appearance[f] = appearances_.intern(mesh->appearances[mesh->appearance_of[f]]);
+    }
+  }
+  if (std::adjacent_find(facts.appearance.begin(), facts.appearance.end(),
+                         std::not_equal_to<>()) == facts.appearance.end() &&
+      !facts.appearance.empty()) {
+    facts.paint = facts.appearance[0];
+  }
+  return facts;
+}
+
+LeafState& LeafStore::state(uint32_t index, const NormalNode& leaf) {
+  const auto [found, is_new] = states_.try_emplace(index);
+  LeafState& state = found->second;
+  if (!is_new) return state;
+  state.split = split_linear(leaf.map);
+  state.world_lo.fill(std::numeric_limits<double>::infinity());
+  state.world_hi.fill(-std::numeric_limits<double>::infinity());
+  const PolygonMesh& mesh = *leaf.leaf->mesh();
+  const MeshFacts& known = facts(leaf.leaf->mesh());
+  // A map of axes onto axes maps the box; any other maps the points.
+  int entries = 0;
+  for (const auto& row : leaf.map.m) entries += (row[0] != 0) + (row[1] != 0) + (row[2] != 0);
+  const auto extend = [&](const glm::dvec3& p) {
+    const glm::dvec3 x = leaf.map.apply(p);
+    for (int i = 0; i < 3; ++i) {
+      state.world_lo[i] = std::min(state.world_lo[i], x[i]);
+      state.world_hi[i] = std::max(state.world_hi[i], x[i]);
+    }
+  };
+  if (mesh.corners.empty()) return state;
+  if (entries <= 3) {
+    extend({known.lo[0], known.lo[1], known.lo[2]});
+    extend({known.hi[0], known.hi[1], known.hi[2]});
+    if (state.split.framed) return state;
+  }
+  for (uint32_t corner : mesh.corners) extend(mesh.points[corner]);
+  return state;
+}
+
+std::optional<QuantisedLeaf> LeafStore::quantise(uint32_t index, const NormalNode& leaf,
+                                                 const LeafRounding& rounding,
+                                                 const Quantiser& quantiser) {
+  LeafState& known = state(index, leaf);
+  if (known.quantised && same_step(known.step, quantiser.step()) &&
+      same_rounding(known.rounding, rounding)) {
+    return known.quantised;
+  }
+  const PolygonMesh& mesh = *leaf.leaf->mesh();
+  const MeshFacts& mesh_facts = facts(leaf.leaf->mesh());
+  auto points = round_points(mesh, rounding, quantiser);
+  if (!points) return std::nullopt;
+
+  QuantisedLeaf result;
+  result.paint = leaf.paint != kUnpainted ? leaf.paint : mesh_facts.paint;
+  // Points relative to the middle of their box: equal for all instances that are whole steps apart.
+  IVec3 lo{INT64_MAX, INT64_MAX, INT64_MAX}, hi{INT64_MIN, INT64_MIN, INT64_MIN};
+  for (uint32_t corner : mesh.corners) {
+    for (int i = 0; i < 3; ++i) {
+      lo[i] = std::min(lo[i], (*points)[corner][i]);
+      hi[i] = std::max(hi[i], (*points)[corner][i]);
+    }
+  }
+  if (!mesh.corners.empty()) {
+    for (int i = 0; i < 3; ++i) result.origin[i] = (lo[i] + hi[i]) >> 1;
+  }
+  for (IVec3& p : *points) {
+    for (int i = 0; i < 3; ++i) p[i] -= result.origin[i];
+  }
+  const bool turn = rounding.in_world && known.split.determinant < 0;
+  KeyBuilder builder("leaf");
+  builder.number(kKernelVersion).numbers(mesh_facts.topology).number(turn).number(rounding.in_world);
+  builder.number(result.paint != kUnpainted);
+  if (result.paint == kUnpainted) {
+    for (uint32_t id : mesh_facts.appearance) builder.numbers(appearances_.key(id));
+  }
+  builder.number(static_cast<uint64_t>(mesh.corners.size()));
+  // Points that no face uses do not count; they all stand at minus the origin.
+  std::vector<uint8_t> is_used(points->size(), 0);
+  for (uint32_t corner : mesh.corners) is_used[corner] = 1;
+  for (size_t p = 0; p < points->size(); ++p) {
+    if (is_used[p]) {
+      builder.numbers((*points)[p]);
+    } else {
+      builder.number('-');
+    }
+  }
+  result.key = builder.key();
+
+  auto& prepared = prepared_[result.key];
+  if (!prepared) {
+    const std::vector<uint32_t> plain(result.paint == kUnpainted ? 0 : mesh.face_count(), 0);
+    auto made = std::make_shared<PreparedLeaf>(
+        prepare_leaf(mesh, *points, turn, rounding.in_world,
+                     result.paint == kUnpainted ? mesh_facts.appearance : plain));
+    if (made->geometry) bytes_ += memory_of(*made->geometry);
+    prepared = std::move(made);
+  }
+  result.prepared = prepared;
+  known.quantised = result;
+  known.step = quantiser.step();
+  known.rounding = rounding;
+  return result;
+}
+
+std::shared_ptr<const LeafGeometry> LeafStore::geometry(const QuantisedLeaf& leaf,
+                                                        const SignedPermutation& permutation) {
+  if (permutation.is_identity()) return leaf.prepared->geometry;
+  auto& made = permuted_[{leaf.key, permutation}];
+  if (!made) {
+    made = std::make_shared<LeafGeometry>(permuted(*leaf.prepared->geometry, permutation));
+    bytes_ += memory_of(*made);
+  }
+  return made;
+}
+
+void LeafStore::clear() {
+  facts_.clear();
+  states_.clear();
+  prepared_.clear();
+  permuted_.clear();
+  bytes_ = 0;
+}
+
+}  // namespace csgrun

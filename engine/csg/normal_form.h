@@ -1,0 +1,83 @@
+// The normal form of a CSG tree: transforms and appearances folded into leaves, nested unions,
+// intersections and differences flattened, no-ops removed, equal subtrees shared.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include <csgrun/engine/csg_tree.h>
+
+#include "engine/csg/appearance_table.h"
+
+namespace csgrun {
+
+constexpr uint32_t kUnpainted = UINT32_MAX;
+
+/// A node of the normal form. Nodes stand in one array, children before their parents.
+struct NormalNode {
+  enum class Kind : uint8_t { kEmpty, kLeaf, kOperator };
+  Kind kind = Kind::kEmpty;
+
+  NodePtr leaf;                 ///< its mesh and where it was made
+  Affine map;                   ///< total transform of the leaf
+  uint32_t paint = kUnpainted;  ///< appearance id that covers the leaf's own
+  SourceRef bent_by;            ///< the most nearly singular transform above the leaf
+
+  /// The operands are those of `first`, when that is an operator of the same kind, else `first`
+  /// itself, then `rest`: so a chain that grows by one operand shares all it had. Every operator is
+  /// a left fold of binary ones.
+  BooleanOp op = BooleanOp::kUnion;
+  uint32_t first = 0;
+  std::vector<uint32_t> rest;
+};
+
+/// Builds normal forms. It remembers what it has built, so that a tree that grew by a few nodes since
+/// the last call costs those nodes. Uses constant stack for trees of any depth. Operands of symmetric
+/// differences keep their nesting on the right, as the attribute of a coplanar overlap is that of the
+/// lowest operand.
+class NormalForm {
+ public:
+  explicit NormalForm(AppearanceTable& appearances);
+
+  /// The index of the root's normal form. Errors: kInvalidArgument for a transform that is not
+  /// finite, kInternal for a null child.
+  Result<uint32_t> add(const NodePtr& root);
+
+  [[nodiscard]] const std::vector<NormalNode>& nodes() const { return nodes_; }
+  /// The operands of an operator, with those of its prefix.
+  [[nodiscard]] std::vector<uint32_t> operands(uint32_t index) const;
+  /// Every node that `roots` reach, each once, in tree order (parents after children, operands left
+  /// to right).
+  [[nodiscard]] std::vector<uint32_t> reachable(std::span<const uint32_t> roots) const;
+  /// Forgets everything.
+  void clear();
+
+ private:
+  struct Item;
+  struct Cluster;
+  struct Memo {
+    const Node* node = nullptr;
+    Affine map;
+    uint32_t paint = kUnpainted;
+    bool operator==(const Memo&) const = default;
+  };
+  struct MemoHash {
+    size_t operator()(const Memo& memo) const;
+  };
+
+  Status unwrap(Item& item) const;
+  uint32_t leaf(const Item& item);
+  void collect(Cluster& cluster, uint32_t value) const;
+  uint32_t finish(Cluster& cluster);
+  bool absorbs(Cluster& cluster, const Item& item) const;
+
+  AppearanceTable& appearances_;
+  std::vector<NormalNode> nodes_;  // the first is the empty one
+  std::unordered_map<Memo, uint32_t, MemoHash> memo_;
+  std::vector<NodePtr> alive_;  // keys of memo_ stay valid
+};
+
+}  // namespace csgrun

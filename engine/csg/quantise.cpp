@@ -1,0 +1,273 @@
+#include "engine/csg/quantise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "engine/csg/leaf_faces.h"
+
+namespace csgrun {
+namespace {
+
+using Int128 = __int128;
+
+// Rounding moves a point by half a step; features this many steps long cannot be turned over by it.
+constexpr int64_t kSafeEdge = 64;
+
+struct PointHash {
+  size_t operator()(const IVec3& p) const {
+    uint64_t h = 0;
+    for (int64_t c : p) {
+      h = (h ^ static_cast<uint64_t>(c)) * 0xff51afd7ed558ccdULL;
+      h ^= h >> 32;
+    }
+    return static_cast<size_t>(h);
+  }
+};
+
+/// Vertices without repetition, and the faces over them.
+struct Merged {
+  std::vector<IVec3> vertices;
+  std::vector<LoopFace> faces;
+  bool merged = false;
+};
+
+Merged merge_points(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
+                    const std::vector<uint32_t>& appearance) {
+  constexpr uint32_t kNone = UINT32_MAX;
+  Merged result;
+  std::unordered_map<IVec3, uint32_t, PointHash> vertex_at;
+  vertex_at.reserve(points.size());
+  std::vector<uint32_t> vertex_of(points.size(), kNone);
+  result.faces.reserve(mesh.face_count());
+  for (size_t f = 0; f < mesh.face_count(); ++f) {
+    LoopFace face;
+    face.facet = mesh.keep_facets ? static_cast<uint32_t>(f) + 1 : 0;
+    face.surface = mesh.surface.empty() ? 0 : mesh.surface[f];
+    face.appearance = appearance[f];
+    for (uint32_t l = mesh.face_starts[f]; l < mesh.face_starts[f + 1]; ++l) {
+      std::vector<uint32_t> loop;
+      for (uint32_t c = mesh.loop_starts[l]; c < mesh.loop_starts[l + 1]; ++c) {
+        const uint32_t point = mesh.corners[c];
+        if (vertex_of[point] == kNone) {
+          const auto [found, is_new] = vertex_at.try_emplace(
+              points[point], static_cast<uint32_t>(result.vertices.size()));
+          if (is_new) result.vertices.push_back(points[point]);
+          result.merged |= !is_new;
+          vertex_of[point] = found->second;
+        }
+        loop.push_back(vertex_of[point]);
+      }
+      if (turn) std::reverse(loop.begin(), loop.end());
+      face.loops.push_back(std::move(loop));
+    }
+    result.faces.push_back(std::move(face));
+  }
+  return result;
+}
+
+/// Faces as arrays, over the vertices that they use, in order of first use.
+LeafGeometry pack(const std::vector<IVec3>& vertices, const std::vector<LoopFace>& faces) {
+  constexpr uint32_t kNone = UINT32_MAX;
+  LeafGeometry leaf;
+  std::vector<uint32_t> number(vertices.size(), kNone);
+  for (const LoopFace& face : faces) {
+    for (uint32_t v : face.loops[0]) {
+      if (number[v] == kNone) {
+        number[v] = static_cast<uint32_t>(leaf.vertices.size());
+        leaf.vertices.push_back(vertices[v]);
+      }
+      leaf.corners.push_back(number[v]);
+    }
+    leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()));
+    leaf.facet.push_back(face.facet);
+    leaf.surface.push_back(face.surface);
+    leaf.appearance.push_back(face.appearance);
+  }
+  return leaf;
+}
+
+struct DirectedEdge {
+  uint32_t from, to, face;
+};
+
+std::vector<DirectedEdge> directed_edges(const LeafGeometry& leaf) {
+  std::vector<DirectedEdge> edges;
+  edges.reserve(leaf.corners.size());
+  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    for (uint32_t c = begin; c < end; ++c) {
+      edges.push_back({leaf.corners[c], leaf.corners[c + 1 < end ? c + 1 : begin], f});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
+    return std::tie(a.from, a.to, a.face) < std::tie(b.from, b.to, b.face);
+  });
+  return edges;
+}
+
+bool is_balanced(const std::vector<DirectedEdge>& edges) {
+  std::vector<std::pair<uint32_t, uint32_t>> reversed;
+  reversed.reserve(edges.size());
+  for (const DirectedEdge& e : edges) reversed.emplace_back(e.to, e.from);
+  std::sort(reversed.begin(), reversed.end());
+  for (size_t i = 0; i < edges.size(); ++i) {
+    if (reversed[i] != std::pair(edges[i].from, edges[i].to)) return false;
+  }
+  return true;
+}
+
+bool has_short_edge(const LeafGeometry& leaf, const std::vector<DirectedEdge>& edges) {
+  return std::any_of(edges.begin(), edges.end(), [&](const DirectedEdge& e) {
+    double squares = 0;
+    for (int i = 0; i < 3; ++i) {
+      const auto d = static_cast<double>(leaf.vertices[e.from][i] - leaf.vertices[e.to][i]);
+      squares += d * d;
+    }
+    return squares < static_cast<double>(kSafeEdge * kSafeEdge);
+  });
+}
+
+/// Six times the volume, its sign exact while coordinates are below 2^30 (and there are fewer than
+/// 2^33 corners); far leaves are huge, so that doubles decide.
+double signed_volume(const LeafGeometry& leaf, const GridBox& box) {
+  bool is_far = false;
+  for (int i = 0; i < 3; ++i) {
+    is_far |= box.lo[i] <= -(int64_t{1} << 30) || box.hi[i] >= int64_t{1} << 30;
+  }
+  Int128 exact = 0;
+  double rounded = 0;
+  for (size_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    for (uint32_t c = begin + 1; c + 1 < end; ++c) {
+      const IVec3& p = leaf.vertices[leaf.corners[begin]];
+      const IVec3& q = leaf.vertices[leaf.corners[c]];
+      const IVec3& r = leaf.vertices[leaf.corners[c + 1]];
+      const auto minor = [&](int i, int j) {
+        return static_cast<Int128>(q[i]) * r[j] - static_cast<Int128>(q[j]) * r[i];
+      };
+      for (int i = 0; i < 3; ++i) {
+        const Int128 m = minor((i + 1) % 3, (i + 2) % 3);
+        if (is_far) {
+          rounded += static_cast<double>(p[i]) * static_cast<double>(m);
+        } else {
+          exact += p[i] * m;
+        }
+      }
+    }
+  }
+  return is_far ? rounded : static_cast<double>(exact);
+}
+
+/// Whether no face has a neighbour in front of it. For the surface of one body of genus 0, which a
+/// mesh that promises to be convex is, this is convexity.
+bool is_locally_convex(const LeafGeometry& leaf, const std::vector<DirectedEdge>& edges) {
+  std::vector<CornerPlane> planes(leaf.face_count());
+  for (size_t f = 0; f < planes.size(); ++f) {
+    const uint32_t begin = leaf.face_starts[f];
+    if (!corner_plane(leaf.vertices, &leaf.corners[begin], leaf.face_starts[f + 1] - begin,
+                      planes[f])) {
+      return false;
+    }
+  }
+  for (const DirectedEdge& e : edges) {
+    const auto reverse = std::pair(e.to, e.from);
+    const auto found = std::lower_bound(
+        edges.begin(), edges.end(), reverse, [](const DirectedEdge& a, const auto& key) {
+          return std::pair(a.from, a.to) < key;
+        });
+    if (std::next(found) != edges.end() && std::next(found)->from == e.to &&
+        std::next(found)->to == e.from) {
+      return false;
+    }
+    for (uint32_t c = leaf.face_starts[found->face]; c < leaf.face_starts[found->face + 1]; ++c) {
+      if (planes[e.face].side(leaf.vertices[leaf.corners[c]]) > 0) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh, const LeafRounding& rounding,
+                                               const Quantiser& quantiser) {
+  std::vector<IVec3> points(mesh.points.size(), IVec3{0, 0, 0});
+  std::vector<uint8_t> is_used(mesh.points.size(), 0);
+  for (uint32_t corner : mesh.corners) is_used[corner] = 1;
+  std::array<int, 3> sign;
+  for (int i = 0; i < 3; ++i) {
+    sign[rounding.permutation.axis[i]] = rounding.permutation.sign[i];
+  }
+  for (size_t p = 0; p < points.size(); ++p) {
+    if (!is_used[p]) continue;
+    glm::dvec3 x;
+    if (rounding.in_world) {
+      x = rounding.map.apply(mesh.points[p]);
+    } else {
+      for (int j = 0; j < 3; ++j) x[j] = rounding.scale[j] * mesh.points[p][j] + rounding.offset[j];
+    }
+    for (int j = 0; j < 3; ++j) {
+      const auto rounded = quantiser(sign[j] < 0 ? -x[j] : x[j]);
+      if (!rounded || *rounded >= kFarLimit || *rounded <= -kFarLimit) return std::nullopt;
+      points[p][j] = sign[j] < 0 ? -*rounded : *rounded;
+    }
+  }
+  return points;
+}
+
+PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
+                          bool in_world, const std::vector<uint32_t>& appearance) {
+  PreparedLeaf result;
+  Merged merged = merge_points(mesh, points, turn, appearance);
+  const bool collapsed = make_convex_faces(merged.vertices, mesh.convex, merged.faces);
+  auto leaf = std::make_shared<LeafGeometry>(pack(merged.vertices, merged.faces));
+  if (leaf->face_count() == 0) return result;
+  result.box.lo = result.box.hi = leaf->vertices[0];
+  for (const IVec3& v : leaf->vertices) {
+    for (int i = 0; i < 3; ++i) {
+      result.box.lo[i] = std::min(result.box.lo[i], v[i]);
+      result.box.hi[i] = std::max(result.box.hi[i], v[i]);
+    }
+  }
+  const auto edges = directed_edges(*leaf);
+  if (!is_balanced(edges)) {
+    result.status = PreparedLeaf::Status::kOpen;
+    return result;
+  }
+  // A promise that the mesh is simple holds for its own proportions, and while faces moved little
+  // against their size.
+  const bool is_spoilt =
+      in_world || merged.merged || collapsed || has_short_edge(*leaf, edges);
+  if (!mesh.known_simple || is_spoilt) {
+    if (const auto found = find_self_intersection(*leaf)) {
+      result.status = PreparedLeaf::Status::kSelfIntersecting;
+      result.intersection = *found;
+      return result;
+    }
+  }
+  const double volume = signed_volume(*leaf, result.box);
+  if (volume == 0) return result;
+  if (volume < 0) {
+    result.status = PreparedLeaf::Status::kInsideOut;
+    return result;
+  }
+  leaf->convex = mesh.convex && is_locally_convex(*leaf, edges);
+  result.status = PreparedLeaf::Status::kGood;
+  result.geometry = std::move(leaf);
+  return result;
+}
+
+LeafGeometry permuted(const LeafGeometry& leaf, const SignedPermutation& permutation) {
+  LeafGeometry result = leaf;
+  for (IVec3& v : result.vertices) v = permutation.apply(v);
+  if (permutation.determinant() < 0) {
+    for (size_t f = 0; f < leaf.face_count(); ++f) {
+      std::reverse(result.corners.begin() + result.face_starts[f],
+                   result.corners.begin() + result.face_starts[f + 1]);
+    }
+  }
+  return result;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,58 @@
+// From the polygons of a user to a leaf on the integer grid.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <csgrun/engine/polygon_mesh.h>
+
+#include "engine/bsp/operand.h"
+#include "engine/csg/frames.h"
+#include "engine/csg/grid.h"
+#include "engine/mesh/leaf_check.h"
+
+namespace csgrun {
+
+/// How the points of a leaf become integers. In a frame: X = scale v + offset in the local axes,
+/// rounded as the frame's axes have it (permutation X), so that leaves that share a frame agree on
+/// ties. In the world: X = map(v).
+struct LeafRounding {
+  bool in_world = false;
+  Affine map;                          ///< when in_world
+  std::array<double, 3> scale{1, 1, 1};
+  std::array<double, 3> offset{0, 0, 0};
+  SignedPermutation permutation;
+};
+
+/// The points that the mesh's faces use (others are 0), rounded, in local axes. std::nullopt when a
+/// coordinate is 2^40 steps or more.
+std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh, const LeafRounding& rounding,
+                                               const Quantiser& quantiser);
+
+/// A leaf on the grid, in its local axes, or why it is none.
+struct PreparedLeaf {
+  enum class Status {
+    kGood,
+    kFlat,              ///< encloses no volume on the grid
+    kOpen,              ///< a directed edge without its reverse
+    kInsideOut,         ///< negative volume
+    kSelfIntersecting,  ///< see `intersection`
+  };
+  Status status = Status::kFlat;
+  std::shared_ptr<const LeafGeometry> geometry;  ///< when kGood
+  GridBox box;                                   ///< of the geometry
+  SelfIntersection intersection;
+};
+
+/// Makes the faces of `mesh` over integer `points` planar and convex, and checks that they enclose a
+/// solid (see LeafGeometry). `turn` reverses every loop. `appearance` has an id per face.
+/// `in_world`: the promises of the mesh (known_simple) were made for other proportions.
+PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
+                          bool in_world, const std::vector<uint32_t>& appearance);
+
+/// The geometry in other axes. A mirroring permutation reverses every loop.
+LeafGeometry permuted(const LeafGeometry& leaf, const SignedPermutation& permutation);
+
+}  // namespace csgrun

@@ -1,0 +1,86 @@
+// The normal form on one grid: every leaf quantised in its frame, every subtree with a key that says
+// what it is and a placement that says where.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/csg/frames.h"
+#include "engine/csg/key.h"
+#include "engine/csg/leaf_store.h"
+#include "engine/csg/normal_form.h"
+#include "engine/csg/warnings.h"
+
+namespace csgrun {
+
+/// What a subtree is (`key`) and where it stands: x in the axes of its reference, its first leaf, is
+/// permutation x + origin in the frame. Subtrees of one frame have keys free of their placement, so
+/// that copies moved by whole steps, or turned or mirrored as a whole, have one key. A subtree that
+/// mixes frames has the world as its reference.
+struct Identity {
+  Key key{};
+  uint32_t frame = 0;  ///< into Scene::frames
+  SignedPermutation permutation;
+  IVec3 origin{0, 0, 0};
+  /// The appearance of all faces; it is not part of the key. kUnpainted: faces differ, and the key
+  /// tells how.
+  uint32_t paint = kUnpainted;
+};
+
+/// A subtree as far as others see it. Boxes enclose the point set, in steps.
+struct Subtree {
+  Identity id;
+  GridBox box;    ///< in the axes of its frame
+  GridBox world;  ///< in the world
+  uint64_t slots = 0;  ///< leaves, counted with repetition
+};
+
+struct SceneNode {
+  enum class Kind : uint8_t { kEmpty, kLeaf, kOperator };
+  Kind kind = Kind::kEmpty;
+  Subtree subtree;
+
+  std::shared_ptr<const LeafGeometry> geometry;  ///< leaf: in the axes of its frame, less the origin
+  NodePtr leaf;
+
+  BooleanOp op = BooleanOp::kUnion;  ///< as in NormalNode
+  uint32_t first = 0;
+  std::vector<uint32_t> rest;
+  std::vector<Subtree> prefixes;  ///< the value after each of `rest`
+};
+
+/// The operands of an operator with those of its prefix, and the value after each of them.
+struct OperandList {
+  std::vector<uint32_t> operands;
+  std::vector<const Subtree*> values;
+};
+
+struct Scene {
+  GridStep step;
+  std::vector<Frame> frames;  ///< the first is the world
+  std::vector<SceneNode> nodes;  ///< children before parents
+  std::vector<uint32_t> roots;
+
+  [[nodiscard]] OperandList operands(uint32_t index) const;
+  /// The leaves below a node, with repetition, in tree order: source i is leaf i.
+  [[nodiscard]] std::vector<uint32_t> leaves(uint32_t index) const;
+};
+
+struct SceneContext {
+  NormalForm& form;
+  LeafStore& store;
+  AppearanceTable& appearances;
+  Warnings& warnings;
+  std::function<bool()> cancelled;
+};
+
+/// Chooses the step (unless `step` is given) and puts the subtrees of the normal form on the grid.
+/// Errors: kInvalidMesh, kSelfIntersecting (with the leaf's line), kOutOfRange when the scene does
+/// not fit the grid, kLimit, kCancelled.
+Result<Scene> build_scene(SceneContext& context, std::span<const uint32_t> roots,
+                          const GridStep& step);
+
+}  // namespace csgrun

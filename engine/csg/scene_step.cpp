@@ -1,0 +1,104 @@
+#include "engine/csg/scene_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace csgrun {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr MmBox kEmptyBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+
+bool is_empty(const MmBox& box) {
+  return box.lo[0] > box.hi[0] || box.lo[1] > box.hi[1] || box.lo[2] > box.hi[2];
+}
+
+MmBox hull(const MmBox& a, const MmBox& b) {
+  if (is_empty(a)) return b;
+  if (is_empty(b)) return a;
+  MmBox r;
+  for (int i = 0; i < 3; ++i) {
+    r.lo[i] = std::min(a.lo[i], b.lo[i]);
+    r.hi[i] = std::max(a.hi[i], b.hi[i]);
+  }
+  return r;
+}
+
+MmBox meet(const MmBox& a, const MmBox& b) {
+  MmBox r;
+  for (int i = 0; i < 3; ++i) {
+    r.lo[i] = std::max(a.lo[i], b.lo[i]);
+    r.hi[i] = std::min(a.hi[i], b.hi[i]);
+  }
+  return is_empty(r) ? kEmptyBox : r;
+}
+
+double largest(const MmBox& box) {
+  double result = 0;
+  if (is_empty(box)) return result;
+  for (int i = 0; i < 3; ++i) {
+    result = std::max({result, std::fabs(box.lo[i]), std::fabs(box.hi[i])});
+  }
+  return result;
+}
+
+/// The image of a world box in local axes, widened for the rounding of doubles.
+MmBox to_local(const MmBox& world, const std::array<Row, 3>& rows) {
+  MmBox r;
+  for (int i = 0; i < 3; ++i) {
+    double middle = 0, radius = 0;
+    for (int j = 0; j < 3; ++j) {
+      middle += rows[i][j] * (world.lo[j] / 2 + world.hi[j] / 2);
+      radius += std::fabs(rows[i][j]) * (world.hi[j] / 2 - world.lo[j] / 2);
+    }
+    radius += 1e-12 * (radius + std::fabs(middle));
+    r.lo[i] = middle - radius;
+    r.hi[i] = middle + radius;
+  }
+  return r;
+}
+
+}  // namespace
+
+SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
+                       std::span<const uint32_t> roots, std::span<const StepLeaf> leaves) {
+  const auto& nodes = form.nodes();
+  std::vector<MmBox> box(nodes.size(), kEmptyBox), reach(nodes.size(), kEmptyBox);
+  for (uint32_t index : order) {
+    const NormalNode& node = nodes[index];
+    if (node.kind == NormalNode::Kind::kLeaf) box[index] = leaves[index].world;
+    if (node.kind != NormalNode::Kind::kOperator) continue;
+    MmBox value = box[node.first];
+    if (node.op != BooleanOp::kDifference) {
+      for (uint32_t operand : node.rest) {
+        value = node.op == BooleanOp::kIntersection ? meet(value, box[operand])
+                                                    : hull(value, box[operand]);
+      }
+    }
+    box[index] = value;
+  }
+  SceneReach result;
+  for (uint32_t root : roots) reach[root] = box[root];
+  for (size_t i = order.size(); i-- > 0;) {
+    const uint32_t index = order[i];
+    const NormalNode& node = nodes[index];
+    if (node.kind == NormalNode::Kind::kLeaf) {
+      const StepLeaf& leaf = leaves[index];
+      result.far = std::max(result.far, largest(leaf.local));
+      const MmBox visible = meet(leaf.world, reach[index]);
+      if (is_empty(visible)) continue;
+      result.reach = std::max(
+          {result.reach, largest(visible), largest(meet(leaf.local, to_local(visible, leaf.rows)))});
+    } else if (node.kind == NormalNode::Kind::kOperator) {
+      const auto pass = [&](uint32_t operand) {
+        reach[operand] = hull(reach[operand], meet(reach[index], box[operand]));
+      };
+      pass(node.first);
+      for (uint32_t operand : node.rest) pass(operand);
+    }
+  }
+  return result;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,37 @@
+// How far the part of a scene reaches that can reach its results.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/csg/frames.h"
+#include "engine/csg/normal_form.h"
+
+namespace csgrun {
+
+/// An axis-aligned box in mm, closed; empty when lo > hi.
+struct MmBox {
+  std::array<double, 3> lo{}, hi{};
+};
+
+/// A leaf: its box in the world, its box in its local axes, and the rows that lead there.
+struct StepLeaf {
+  MmBox world, local;
+  std::array<Row, 3> rows{};
+};
+
+/// In mm: the largest coordinate, in the world or in a frame, of what can reach a result, and the
+/// largest of any leaf in its frame.
+struct SceneReach {
+  double reach = 0, far = 0;
+};
+
+/// Interval bounds over the normal form: the box of a union is the hull of the boxes, of a difference
+/// the first, of an intersection the common box; a leaf counts where a result can be above it.
+/// `order` has children before parents; `leaves` is indexed like the normal form.
+SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
+                       std::span<const uint32_t> roots, std::span<const StepLeaf> leaves);
+
+}  // namespace csgrun
