@@ -5,6 +5,40 @@
 #include <map>
 
 namespace csgrun {
+namespace {
+
+/// The direction of an edge as a multiple of n x t, n the outward normal of the support and t the
+/// normal of the edge's plane: its sign.
+int direction_sign(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
+                   const DirectedEdge& e) {
+  const LineAxis line = line_axis(planes.oriented(support), planes.plane(e.plane));
+  return geometry.compare_along(e.to, e.from, line.axis) * line.sign;
+}
+
+/// The turn between the directions sign_a n x t_a and sign_b n x t_b: the sign of det(n, t_a, t_b).
+int turn(const PlaneTable& planes, PlaneId support, uint32_t plane_a, int sign_a, uint32_t plane_b,
+         int sign_b) {
+  const Plane n = planes.oriented(support);
+  const Plane &p = planes.plane(plane_a), &q = planes.plane(plane_b);
+  using N = Int<2>;
+  const auto minor = [](Int128 u, Int128 v, Int128 x, Int128 y) {
+    return multiply<4>(N::from_int128(u), N::from_int128(y)) -
+           multiply<4>(N::from_int128(v), N::from_int128(x));
+  };
+  static_assert(widths::point_w(widths::kMaxNormal) < 64 * 6);
+  const auto determinant = multiply<6>(minor(p.b, p.c, q.b, q.c), N::from_int128(n.a)) +
+                           multiply<6>(minor(p.c, p.a, q.c, q.a), N::from_int128(n.b)) +
+                           multiply<6>(minor(p.a, p.b, q.a, q.b), N::from_int128(n.c));
+  return determinant.sign() * sign_a * sign_b;
+}
+
+}  // namespace
+
+int turn_between(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
+                 const DirectedEdge& a, const DirectedEdge& b) {
+  return turn(planes, support, a.plane, direction_sign(geometry, planes, support, a), b.plane,
+              direction_sign(geometry, planes, support, b));
+}
 
 bool RegionBuilder::build(PlaneId support, const std::vector<DirectedEdge>& edges,
                           RegionLoops& loops) {
@@ -157,22 +191,6 @@ bool RegionBuilder::trace(PlaneId support, RegionLoops& loops) {
   return std::all_of(done.begin(), done.end(), [](uint8_t d) { return d; });
 }
 
-int RegionBuilder::turn(PlaneId support, const DirectedEdge& a, int sign_a, const DirectedEdge& b,
-                        int sign_b) {
-  // Directions n x t_a and n x t_b (t the normals of the edges' planes) turn as det(n, t_a, t_b) does.
-  const Plane n = planes_.oriented(support);
-  const Plane &p = planes_.plane(a.plane), &q = planes_.plane(b.plane);
-  using N = Int<2>;
-  const auto minor = [](Int128 u, Int128 v, Int128 x, Int128 y) {
-    return multiply<4>(N::from_int128(u), N::from_int128(y)) -
-           multiply<4>(N::from_int128(v), N::from_int128(x));
-  };
-  const auto determinant = multiply<6>(minor(p.b, p.c, q.b, q.c), N::from_int128(n.a)) +
-                           multiply<6>(minor(p.c, p.a, q.c, q.a), N::from_int128(n.b)) +
-                           multiply<6>(minor(p.a, p.b, q.a, q.b), N::from_int128(n.c));
-  return determinant.sign() * sign_a * sign_b;
-}
-
 void RegionBuilder::pair_wedges(PlaneId support, std::vector<uint32_t>& incident) {
   // Directions away from the point, as multiples of n x t; sorted counter-clockwise from the first.
   struct Spoke {
@@ -184,13 +202,12 @@ void RegionBuilder::pair_wedges(PlaneId support, std::vector<uint32_t>& incident
   std::vector<Spoke> spokes;
   for (const uint32_t end : incident) {
     const DirectedEdge& e = boundary_[end / 2];
-    const LineAxis line = line_axis(planes_.oriented(support), planes_.plane(e.plane));
-    const int along = geometry_.compare_along(e.to, e.from, line.axis) * line.sign;
+    const int along = direction_sign(geometry_, planes_, support, e);
     spokes.push_back({end, &e, end & 1 ? -along : along, 0});
   }
   const Spoke first = spokes[0];
   for (Spoke& s : spokes) {
-    const int t = turn(support, *first.edge, first.sign, *s.edge, s.sign);
+    const int t = turn(planes_, support, first.edge->plane, first.sign, s.edge->plane, s.sign);
     // Collinear with the first: the same direction, or the opposite. Two different spokes of equal
     // direction cannot be (their intervals would overlap), so "same" is the first itself.
     s.half = t > 0 || (t == 0 && s.end == first.end) ? 0 : 1;
@@ -198,7 +215,7 @@ void RegionBuilder::pair_wedges(PlaneId support, std::vector<uint32_t>& incident
   std::sort(spokes.begin(), spokes.end(), [&](const Spoke& a, const Spoke& b) {
     if (a.half != b.half) return a.half < b.half;
     if (a.end == b.end) return false;
-    return turn(support, *a.edge, a.sign, *b.edge, b.sign) > 0;
+    return turn(planes_, support, a.edge->plane, a.sign, b.edge->plane, b.sign) > 0;
   });
   // Interior lies just counter-clockwise of an outgoing edge and just clockwise of an incoming one: an
   // incoming edge goes on with the outgoing one next to it clockwise.

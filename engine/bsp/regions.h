@@ -31,6 +31,11 @@ struct RegionLoops {
   [[nodiscard]] size_t loop_count() const { return starts.size() - 1; }
 };
 
+/// Exact sign of the turn from the direction of edge `a` to that of edge `b` in the plane `support`,
+/// seen from outside: +1 left, -1 right, 0 straight on or straight back.
+int turn_between(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
+                 const DirectedEdge& a, const DirectedEdge& b);
+
 class RegionBuilder {
  public:
   /// Points that are equal must have equal numbers in `geometry`.
@@ -51,7 +56,6 @@ class RegionBuilder {
   bool trace(PlaneId support, RegionLoops& loops);
   [[nodiscard]] bool straight(const DirectedEdge& in, const DirectedEdge& out);
   void pair_wedges(PlaneId support, std::vector<uint32_t>& incident);
-  int turn(PlaneId support, const DirectedEdge& a, int sign_a, const DirectedEdge& b, int sign_b);
 
   CellGeometry& geometry_;
   const PlaneTable& planes_;

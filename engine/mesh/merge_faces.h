@@ -1,0 +1,26 @@
+// The faces of a result as users see them: pieces of one plane, side and appearance are one face
+// wherever an operation touched them; facets of imports that nothing touched stay as they were.
+#pragma once
+
+#include <vector>
+
+#include "engine/bsp/boundary_mesh.h"
+#include "engine/bsp/regions.h"
+
+namespace csgrun {
+
+/// One connected face: the outer loop first, then its holes.
+struct MergedFace {
+  PlaneId plane;
+  uint32_t appearance, surface, source;
+  std::vector<std::vector<DirectedEdge>> loops;
+};
+
+/// Regroups the faces of a boundary. `geometry` holds the boundary's points under their own numbers,
+/// `plane_of` maps its planes to the geometry's. A facet counts as touched when some face at one of
+/// its corners is not a whole facet of the same leaf. Canonical order. False when a region does not
+/// close.
+bool merge_faces(const BoundaryMesh& boundary, CellGeometry& geometry, const PlaneTable& planes,
+                 const std::vector<PlaneId>& plane_of, std::vector<MergedFace>& faces);
+
+}  // namespace csgrun

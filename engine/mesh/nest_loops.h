@@ -1,0 +1,17 @@
+// Which holes belong to which outer loop.
+#pragma once
+
+#include <vector>
+
+#include "engine/bsp/regions.h"
+
+namespace csgrun {
+
+/// Parts the loops of a region into connected faces: an outer loop first, then its holes. Exact.
+/// O(outer loops x holes) box tests, and a ray for each that passes.
+std::vector<std::vector<std::vector<DirectedEdge>>> nest_loops(PlaneId support,
+                                                               const RegionLoops& loops,
+                                                               CellGeometry& geometry,
+                                                               const PlaneTable& planes);
+
+}  // namespace csgrun

@@ -1,0 +1,194 @@
+#include "engine/mesh/present.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "engine/exact/rounding.h"
+#include "engine/mesh/merge_faces.h"
+#include "engine/mesh/plane_oracle.h"
+#include "engine/mesh/stitch.h"
+#include "engine/mesh/triangulate.h"
+
+namespace csgrun {
+namespace {
+
+Error not_closed(const char* where) {
+  return {ErrorCode::kInternal, std::string("the boundary of a result is not closed (") + where + ")",
+          {}};
+}
+
+/// Millimetres from grid coordinates: coordinate * numerator / denominator * 2^exponent.
+class ToMillimetres {
+ public:
+  explicit ToMillimetres(const GridStep& step) : step_(step) {}
+
+  void position(const Point& p, glm::dvec3& mm, std::array<float, 3>& single) const {
+    using Q = Int<kQuotientLimbs>;
+    static_assert(widths::kMaxPointXyz + 63 < 64 * kQuotientLimbs);
+    const Q denominator = multiply<kQuotientLimbs>(p.w, Int<1>(step_.denominator));
+    const Int<kPointLimbs>* coordinate[3] = {&p.x, &p.y, &p.z};
+    for (int k = 0; k < 3; ++k) {
+      const Q numerator = multiply<kQuotientLimbs>(*coordinate[k], Int<1>(step_.numerator));
+      mm[k] = round_to_double(numerator, denominator, step_.exponent);
+      single[k] = round_to_float(numerator, denominator, step_.exponent);
+    }
+  }
+
+ private:
+  GridStep step_;
+};
+
+/// Connected surfaces and the sum of their genera, from V - E + F = 2 (components - genus).
+void count_topology(Solid& solid) {
+  std::vector<uint32_t> parent(solid.positions.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  int64_t components = static_cast<int64_t>(parent.size());
+  for (const auto& t : solid.triangles) {
+    for (int k = 1; k < 3; ++k) {
+      const uint32_t a = root(t[0]), b = root(t[k]);
+      if (a != b) parent[std::max(a, b)] = std::min(a, b), --components;
+    }
+  }
+  const auto triangles = static_cast<int64_t>(solid.triangles.size());
+  const auto euler = static_cast<int64_t>(parent.size()) - triangles * 3 / 2 + triangles;
+  solid.measures.components = components;
+  solid.measures.genus = components - euler / 2;
+}
+
+class Presenter {
+ public:
+  Presenter(const BoundaryMesh& boundary, const PresentContext& context)
+      : boundary_(boundary), context_(context), geometry_(planes_, nullptr) {}
+
+  Result<SolidPtr> run() {
+    std::vector<PlaneId> plane_of;
+    plane_of.reserve(boundary_.planes.size());
+    for (const Plane& p : boundary_.planes) plane_of.push_back(planes_.intern(p));
+    for (size_t p = 0; p < boundary_.point_planes.size(); ++p) {
+      const auto& t = boundary_.point_planes[p];
+      geometry_.add_point({plane_of[t[0]].index(), plane_of[t[1]].index(), plane_of[t[2]].index()},
+                          boundary_.point_rounded[p]);
+    }
+    if (!merge_faces(boundary_, geometry_, planes_, plane_of, faces_)) return not_closed("faces");
+    if (!resolve_t_junctions(faces_, geometry_, planes_)) return not_closed("edges");
+    if (auto status = triangulate_all(); !status) return status.error();
+    if (!split_fans(set_, faces_, geometry_, planes_, fans_)) return not_closed("vertices");
+    auto solid = std::make_shared<Solid>();
+    fill(*solid);
+    return SolidPtr(std::move(solid));
+  }
+
+ private:
+  Status triangulate_all() {
+    std::vector<std::vector<uint32_t>> loops;
+    for (uint32_t f = 0; f < faces_.size(); ++f) {
+      loops.clear();
+      for (const auto& loop : faces_[f].loops) {
+        loops.emplace_back();
+        for (const DirectedEdge& e : loop) loops.back().push_back(e.from);
+      }
+      if (loops.size() == 1 && loops[0].size() == 3) {
+        add_triangle({loops[0][0], loops[0][1], loops[0][2]}, f);
+        continue;
+      }
+      auto triangles = triangulate_face(loops, PlaneOracle(geometry_, planes_, faces_[f].plane));
+      if (!triangles) return triangles.error();
+      for (const auto& t : *triangles) add_triangle(t, f);
+    }
+    return std::monostate();
+  }
+
+  void add_triangle(std::array<uint32_t, 3> t, uint32_t face) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    set_.triangles.push_back(t);
+    set_.face.push_back(face);
+  }
+
+  void fill(Solid& solid) {
+    const ToMillimetres to_mm(context_.step);
+    solid.positions.resize(fans_.point_of_vertex.size());
+    solid.positions_f32.resize(fans_.point_of_vertex.size());
+    solid.point_of = fans_.point_of_vertex;
+    for (size_t v = 0; v < solid.positions.size(); ++v) {
+      const uint32_t p = fans_.point_of_vertex[v];
+      if (v > 0 && fans_.point_of_vertex[v - 1] == p) {
+        solid.positions[v] = solid.positions[v - 1];
+        solid.positions_f32[v] = solid.positions_f32[v - 1];
+      } else {
+        to_mm.position(geometry_.exact(p), solid.positions[v], solid.positions_f32[v]);
+      }
+    }
+    for (size_t t = 0; t < set_.triangles.size(); ++t) {
+      solid.triangles.push_back({fans_.vertex_of_corner[3 * t], fans_.vertex_of_corner[3 * t + 1],
+                                 fans_.vertex_of_corner[3 * t + 2]});
+    }
+    solid.triangle_face = set_.face;
+    fill_faces(solid);
+    solid.appearances = context_.appearances;
+    solid.sources = context_.sources;
+    count_topology(solid);
+  }
+
+  void fill_faces(Solid& solid) {
+    // Vertices of loops: those of the triangle that has the loop's edge.
+    std::vector<std::array<uint32_t, 3>> edges;  // (from, to, corner), sorted for each face
+    size_t t = 0;
+    for (uint32_t f = 0; f < faces_.size(); ++f) {
+      edges.clear();
+      for (; t < set_.triangles.size() && set_.face[t] == f; ++t) {
+        for (uint32_t k = 0; k < 3; ++k) {
+          edges.push_back({set_.triangles[t][k], set_.triangles[t][(k + 1) % 3],
+                           static_cast<uint32_t>(3 * t + k)});
+        }
+      }
+      std::sort(edges.begin(), edges.end());
+      const MergedFace& face = faces_[f];
+      solid.faces.push_back({static_cast<uint32_t>(solid.loop_starts.size() - 1),
+                             static_cast<uint32_t>(face.loops.size()), face.appearance,
+                             surface_number(face), face.source});
+      for (const auto& loop : face.loops) {
+        for (const DirectedEdge& e : loop) {
+          const auto at = std::lower_bound(edges.begin(), edges.end(),
+                                           std::array<uint32_t, 3>{e.from, e.to, 0});
+          solid.loop_vertices.push_back(fans_.vertex_of_corner[(*at)[2]]);
+        }
+        solid.loop_starts.push_back(static_cast<uint32_t>(solid.loop_vertices.size()));
+      }
+    }
+  }
+
+  /// Curved surfaces are numbered from 1 in the order of their first faces.
+  uint32_t surface_number(const MergedFace& face) {
+    if (face.surface == 0) return 0;
+    const std::pair<uint32_t, uint32_t> key{face.source, face.surface};
+    const auto at = std::find(surfaces_.begin(), surfaces_.end(), key);
+    if (at != surfaces_.end()) return static_cast<uint32_t>(at - surfaces_.begin()) + 1;
+    surfaces_.push_back(key);
+    return static_cast<uint32_t>(surfaces_.size());
+  }
+
+  const BoundaryMesh& boundary_;
+  const PresentContext& context_;
+  PlaneTable planes_;
+  CellGeometry geometry_;
+  std::vector<MergedFace> faces_;
+  TriangleSet set_;
+  VertexFans fans_;
+  std::vector<std::pair<uint32_t, uint32_t>> surfaces_;
+};
+
+}  // namespace
+
+Result<SolidPtr> present(const BoundaryMesh& boundary, const PresentContext& context) {
+  return Presenter(boundary, context).run();
+}
+
+}  // namespace csgrun

@@ -1,0 +1,277 @@
+#include "engine/mesh/stitch.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+namespace csgrun {
+namespace {
+
+struct EdgeRef {
+  uint32_t lo, hi;  ///< its points, the lower first
+  bool forward;     ///< runs from lo to hi
+  uint32_t index;
+};
+
+bool same_ends(const EdgeRef& a, const EdgeRef& b) { return a.lo == b.lo && a.hi == b.hi; }
+
+void sort_refs(std::vector<EdgeRef>& refs) {
+  std::sort(refs.begin(), refs.end(), [](const EdgeRef& a, const EdgeRef& b) {
+    return std::tie(a.lo, a.hi, a.index) < std::tie(b.lo, b.hi, b.index);
+  });
+}
+
+EdgeRef make_ref(uint32_t from, uint32_t to, uint32_t index) {
+  return {std::min(from, to), std::max(from, to), from < to, index};
+}
+
+struct LooseEdge {
+  LineKey line;
+  PlaneId support;
+  DirectedEdge* edge;
+  std::vector<uint32_t>* inserted;
+};
+
+/// Breaks the loose edges of one line at all their ends; false when they do not balance.
+bool break_line(LooseEdge* begin, LooseEdge* end, CellGeometry& geometry, const PlaneTable& planes) {
+  const uint32_t p = begin->support.index(), q = begin->edge->plane;
+  const LineAxis axis = line_axis(planes.plane(p), planes.plane(q));
+  std::vector<uint32_t> points;
+  for (LooseEdge* e = begin; e != end; ++e) {
+    for (const uint32_t x : {e->edge->from, e->edge->to}) {
+      // Keys are hashes: confirm that the point lies on the first edge's line.
+      if (geometry.side(p, x) != 0 || geometry.side(q, x) != 0) return false;
+      points.push_back(x);
+    }
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  const auto before = [&](uint32_t x, uint32_t y) {
+    return geometry.compare_along(x, y, axis.axis) < 0;
+  };
+  std::sort(points.begin(), points.end(), before);
+  std::vector<int> change(points.size(), 0);
+  for (LooseEdge* e = begin; e != end; ++e) {
+    auto from = std::lower_bound(points.begin(), points.end(), e->edge->from, before);
+    auto to = std::lower_bound(points.begin(), points.end(), e->edge->to, before);
+    ++change[from - points.begin()];
+    --change[to - points.begin()];
+    if (from < to) {
+      e->inserted->assign(from + 1, to);
+    } else {
+      e->inserted->assign(to + 1, from);
+      std::reverse(e->inserted->begin(), e->inserted->end());
+    }
+  }
+  return std::all_of(change.begin(), change.end(), [](int c) { return c == 0; });
+}
+
+}  // namespace
+
+bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
+                         const PlaneTable& planes) {
+  std::vector<DirectedEdge*> edges;
+  std::vector<PlaneId> support;
+  for (MergedFace& f : faces) {
+    for (auto& loop : f.loops) {
+      for (DirectedEdge& e : loop) {
+        edges.push_back(&e);
+        support.push_back(f.plane);
+      }
+    }
+  }
+  std::vector<EdgeRef> refs;
+  refs.reserve(edges.size());
+  for (uint32_t i = 0; i < edges.size(); ++i) refs.push_back(make_ref(edges[i]->from, edges[i]->to, i));
+  sort_refs(refs);
+  LineNamer namer(planes);
+  std::vector<LooseEdge> loose;
+  std::vector<std::vector<uint32_t>> inserted;
+  std::vector<uint32_t> loose_edges;
+  for (size_t i = 0; i < refs.size();) {
+    size_t j = i;
+    int balance = 0;
+    for (; j < refs.size() && same_ends(refs[i], refs[j]); ++j) balance += refs[j].forward ? 1 : -1;
+    if (balance != 0) {
+      for (size_t k = i; k < j; ++k) loose_edges.push_back(refs[k].index);
+    }
+    i = j;
+  }
+  if (loose_edges.empty()) return true;
+  inserted.resize(loose_edges.size());
+  for (size_t k = 0; k < loose_edges.size(); ++k) {
+    const uint32_t e = loose_edges[k];
+    loose.push_back({namer.key(support[e].index(), edges[e]->plane), support[e], edges[e], &inserted[k]});
+  }
+  std::stable_sort(loose.begin(), loose.end(),
+                   [](const LooseEdge& a, const LooseEdge& b) { return a.line < b.line; });
+  for (size_t i = 0; i < loose.size();) {
+    size_t j = i;
+    while (j < loose.size() && loose[j].line == loose[i].line) ++j;
+    if (!break_line(loose.data() + i, loose.data() + j, geometry, planes)) return false;
+    i = j;
+  }
+  // Rebuild the loops; edges are numbered in the order of the walk above.
+  std::vector<uint32_t> slot(edges.size(), kNone);
+  for (uint32_t k = 0; k < loose_edges.size(); ++k) slot[loose_edges[k]] = k;
+  uint32_t number = 0;
+  std::vector<DirectedEdge> broken;
+  for (MergedFace& f : faces) {
+    for (auto& loop : f.loops) {
+      broken.clear();
+      for (const DirectedEdge& e : loop) {
+        const uint32_t k = slot[number++];
+        uint32_t from = e.from;
+        if (k != kNone) {
+          for (const uint32_t x : inserted[k]) {
+            broken.push_back({from, x, e.plane});
+            from = x;
+          }
+        }
+        broken.push_back({from, e.to, e.plane});
+      }
+      loop = broken;
+    }
+  }
+  return true;
+}
+
+namespace {
+
+/// The sheets around one edge, as half-planes named by their outward normals.
+struct Sheet {
+  uint32_t half_edge;
+  bool forward;   ///< runs along the edge from its lower to its higher point
+  Plane normal;   ///< turned by 180 degrees for backward half-edges, so that its direction is the
+                  ///< sheet's own turned by 90 degrees about the edge
+  int half = 0;
+};
+
+class RadialOrder {
+ public:
+  /// `along`: an axis on which the edge's direction is not zero, and its sign there.
+  explicit RadialOrder(LineAxis along) : along_(along) {}
+
+  /// Sign of (a x b) . direction: +1 when b is less than 180 degrees counter-clockwise of a.
+  [[nodiscard]] int turn(const Plane& a, const Plane& b) const {
+    using N = Int<2>;
+    const auto minor = [](Int128 p, Int128 q, Int128 r, Int128 s) {
+      return (multiply<4>(N::from_int128(p), N::from_int128(s)) -
+              multiply<4>(N::from_int128(q), N::from_int128(r)))
+          .sign();
+    };
+    const int cross = along_.axis == 0   ? minor(a.b, a.c, b.b, b.c)
+                      : along_.axis == 1 ? minor(a.c, a.a, b.c, b.a)
+                                         : minor(a.a, a.b, b.a, b.b);
+    return cross * along_.sign;
+  }
+
+ private:
+  LineAxis along_;
+};
+
+int dot_sign(const Plane& a, const Plane& b) {
+  using N = Int<2>;
+  const auto product = [](Int128 p, Int128 q) {
+    return multiply<4>(N::from_int128(p), N::from_int128(q));
+  };
+  return (product(a.a, b.a) + product(a.b, b.b) + product(a.c, b.c)).sign();
+}
+
+/// Pairs the sheets around an edge: material lies clockwise of a forward sheet (seen with the edge
+/// pointing at the viewer) and counter-clockwise of a backward one, so each backward sheet's partner
+/// is the next forward one counter-clockwise.
+bool pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order,
+                 std::vector<uint32_t>& twin) {
+  const Sheet first = sheets[0];
+  for (Sheet& s : sheets) {
+    const int t = order.turn(first.normal, s.normal);
+    s.half = t > 0 || (t == 0 && dot_sign(first.normal, s.normal) > 0) ? 0 : 1;
+  }
+  std::stable_sort(sheets.begin(), sheets.end(), [&](const Sheet& a, const Sheet& b) {
+    if (a.half != b.half) return a.half < b.half;
+    return order.turn(a.normal, b.normal) > 0;
+  });
+  for (size_t i = 0; i < sheets.size(); ++i) {
+    if (sheets[i].forward) continue;
+    const Sheet& next = sheets[(i + 1) % sheets.size()];
+    if (!next.forward) return false;
+    twin[sheets[i].half_edge] = next.half_edge;
+    twin[next.half_edge] = sheets[i].half_edge;
+  }
+  return true;
+}
+
+bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
+                CellGeometry& geometry, const PlaneTable& planes, std::vector<uint32_t>& twin) {
+  std::vector<EdgeRef> refs;
+  refs.reserve(set.triangles.size() * 3);
+  for (uint32_t t = 0; t < set.triangles.size(); ++t) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      refs.push_back(make_ref(set.triangles[t][k], set.triangles[t][(k + 1) % 3], 3 * t + k));
+    }
+  }
+  sort_refs(refs);
+  twin.assign(refs.size(), kNone);
+  std::vector<Sheet> sheets;
+  for (size_t i = 0; i < refs.size();) {
+    size_t j = i;
+    size_t forward = 0;
+    for (; j < refs.size() && same_ends(refs[i], refs[j]); ++j) forward += refs[j].forward;
+    if (2 * forward != j - i) return false;
+    if (j - i == 2) {
+      twin[refs[i].index] = refs[i + 1].index;
+      twin[refs[i + 1].index] = refs[i].index;
+    } else {
+      // A diagonal of one face may run along other faces' edge: both its sides lie in one plane, and
+      // the order below treats it like any other pair of sheets.
+      sheets.clear();
+      LineAxis along;
+      for (size_t k = i; k < j; ++k) {
+        const Plane normal = planes.oriented(faces[set.face[refs[k].index / 3]].plane);
+        sheets.push_back({refs[k].index, refs[k].forward, refs[k].forward ? normal : normal.reversed()});
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        if (const int s = geometry.compare_along(refs[i].hi, refs[i].lo, axis)) {
+          along = {axis, s};
+          break;
+        }
+      }
+      if (!pair_sheets(sheets, RadialOrder(along), twin)) return false;
+    }
+    i = j;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
+                CellGeometry& geometry, const PlaneTable& planes, VertexFans& fans) {
+  std::vector<uint32_t> twin;
+  if (!find_twins(set, faces, geometry, planes, twin)) return false;
+  const auto corners = static_cast<uint32_t>(twin.size());
+  fans.vertex_of_corner.assign(corners, kNone);
+  fans.point_of_vertex.clear();
+  std::vector<uint32_t> order(corners);
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return set.triangles[a / 3][a % 3] < set.triangles[b / 3][b % 3];
+  });
+  for (const uint32_t start : order) {
+    if (fans.vertex_of_corner[start] != kNone) continue;
+    const auto vertex = static_cast<uint32_t>(fans.point_of_vertex.size());
+    fans.point_of_vertex.push_back(set.triangles[start / 3][start % 3]);
+    // Walk around the vertex: the twin of the edge that leaves corner c arrives at it in the next
+    // triangle; the corner there is the one after that edge.
+    uint32_t c = start;
+    do {
+      fans.vertex_of_corner[c] = vertex;
+      const uint32_t across = twin[c];
+      c = across / 3 * 3 + (across % 3 + 1) % 3;
+    } while (c != start);
+  }
+  return true;
+}
+
+}  // namespace csgrun
