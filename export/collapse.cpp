@@ -10,30 +10,6 @@ namespace {
 
 constexpr uint32_t kNone = UINT32_MAX;
 
-/// Connected surfaces: a number for each triangle.
-std::vector<uint32_t> shells_of(size_t triangle_count, std::span<const uint32_t> twins) {
-  std::vector<uint32_t> shell(triangle_count, kNone);
-  std::vector<uint32_t> stack;
-  uint32_t shells = 0;
-  for (uint32_t seed = 0; seed < triangle_count; ++seed) {
-    if (shell[seed] != kNone) continue;
-    shell[seed] = shells;
-    stack.push_back(seed);
-    while (!stack.empty()) {
-      const uint32_t t = stack.back();
-      stack.pop_back();
-      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        const uint32_t neighbour = twins[h] / 3;
-        if (shell[neighbour] != kNone) continue;
-        shell[neighbour] = shells;
-        stack.push_back(neighbour);
-      }
-    }
-    ++shells;
-  }
-  return shell;
-}
-
 class Collapser {
  public:
   Collapser(std::span<const Triangle> triangles, std::span<const uint32_t> twins,
@@ -85,7 +61,7 @@ class Collapser {
   };
 
   void cancel_reverses() {
-    const std::vector<uint32_t> shell = shells_of(triangles_.size(), twins_);
+    const std::vector<uint32_t> shell = shells_of(twins_);
     std::vector<Placed> placed;
     for (uint32_t t = 0; t < triangles_.size(); ++t) {
       if (gone_[t]) continue;

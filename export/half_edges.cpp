@@ -82,4 +82,29 @@ Result<std::vector<uint32_t>> manifold_twins(std::span<const Triangle> triangles
   return twins;
 }
 
+std::vector<uint32_t> shells_of(std::span<const uint32_t> twins) {
+  constexpr uint32_t kNone = UINT32_MAX;
+  const size_t triangle_count = twins.size() / 3;
+  std::vector<uint32_t> shell(triangle_count, kNone);
+  std::vector<uint32_t> stack;
+  uint32_t shells = 0;
+  for (uint32_t seed = 0; seed < triangle_count; ++seed) {
+    if (shell[seed] != kNone) continue;
+    shell[seed] = shells;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const uint32_t t = stack.back();
+      stack.pop_back();
+      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const uint32_t neighbour = twins[h] / 3;
+        if (shell[neighbour] != kNone) continue;
+        shell[neighbour] = shells;
+        stack.push_back(neighbour);
+      }
+    }
+    ++shells;
+  }
+  return shell;
+}
+
 }  // namespace csgrun

@@ -28,4 +28,7 @@ constexpr uint32_t previous_in_triangle(uint32_t h) { return h % 3 == 0 ? h + 2 
 Result<std::vector<uint32_t>> manifold_twins(std::span<const Triangle> triangles,
                                              size_t vertex_count);
 
+/// The connected surface that each triangle belongs to, numbered in the order of their first ones.
+std::vector<uint32_t> shells_of(std::span<const uint32_t> twins);
+
 }  // namespace csgrun

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <span>
 
 #include "export/collapse.h"
@@ -106,6 +108,52 @@ bool is_consistent(const Solid& solid) {
     if (loop_of(solid, face.first_loop).size() < 3) return false;
   }
   return true;
+}
+
+/// Takes out connected surfaces that rounding pressed into one axis-parallel plane: thin plates, whose
+/// two sides need not have the same triangles and so did not cancel.
+void remove_flat_shells(CollapsedSurface& surface, std::span<const glm::dvec3> positions) {
+  const std::vector<uint32_t> shell = shells_of(surface.twins);
+  const size_t count = shell.empty() ? 0 : 1 + *std::max_element(shell.begin(), shell.end());
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<glm::dvec3> low(count, glm::dvec3(kInfinity)), high(count, glm::dvec3(-kInfinity));
+  for (size_t t = 0; t < shell.size(); ++t) {
+    for (const uint32_t v : surface.vertices[t]) {
+      low[shell[t]] = glm::min(low[shell[t]], positions[surface.origin[v]]);
+      high[shell[t]] = glm::max(high[shell[t]], positions[surface.origin[v]]);
+    }
+  }
+  const auto is_flat = [&](uint32_t s) {
+    return low[s].x == high[s].x || low[s].y == high[s].y || low[s].z == high[s].z;
+  };
+  CollapsedSurface kept;
+  kept.dropped = surface.dropped;
+  kept.cancelled = surface.cancelled;
+  std::vector<uint32_t> new_triangle(shell.size(), kNone), new_vertex(surface.origin.size(), kNone);
+  for (uint32_t t = 0; t < shell.size(); ++t) {
+    if (is_flat(shell[t])) {
+      ++kept.cancelled;
+      continue;
+    }
+    new_triangle[t] = static_cast<uint32_t>(kept.triangles.size());
+    kept.triangles.push_back(surface.triangles[t]);
+    for (const uint32_t v : surface.vertices[t]) new_vertex[v] = 0;
+  }
+  if (kept.triangles.size() == surface.triangles.size()) return;
+  for (size_t v = 0; v < new_vertex.size(); ++v) {
+    if (new_vertex[v] == kNone) continue;
+    new_vertex[v] = static_cast<uint32_t>(kept.origin.size());
+    kept.origin.push_back(surface.origin[v]);
+  }
+  for (uint32_t t = 0; t < shell.size(); ++t) {
+    if (new_triangle[t] == kNone) continue;
+    const Triangle& old = surface.vertices[t];
+    kept.vertices.push_back({new_vertex[old[0]], new_vertex[old[1]], new_vertex[old[2]]});
+    for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      kept.twins.push_back(3 * new_triangle[surface.twins[h] / 3] + surface.twins[h] % 3);
+    }
+  }
+  surface = std::move(kept);
 }
 
 /// The outline of each face, if its triangles are a disc without inner vertices, all there and glued
@@ -236,6 +284,7 @@ Result<RoundedMesh> round_part(const Solid& solid, const Affine& placement, Prec
   CollapsedSurface surface;
   if (points_met(place, solid.point_of)) {
     surface = collapse(solid.triangles, *solid_twins, place);
+    remove_flat_shells(surface, rounded);
   } else {
     surface.triangles.resize(solid.triangles.size());
     surface.origin.resize(rounded.size());
