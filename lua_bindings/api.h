@@ -1,0 +1,62 @@
+// The functions of the language: each is a table of its arguments and one to three C functions.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lua.hpp>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/polygon_mesh.h>
+#include <csgrun/primitives/shape2d.h>
+
+#include "lua_bindings/arguments.h"
+#include "lua_bindings/values.h"
+
+namespace csgrun {
+
+/// One name of the language. Null where it does not exist in that form.
+struct Binding {
+  const FunctionSpec* spec;
+  lua_CFunction function;      ///< as a global and in `csg`
+  lua_CFunction solid_method;  ///< as solid:name(...)
+  lua_CFunction shape_method;  ///< as shape:name(...)
+};
+
+std::span<const Binding> solid_bindings();
+std::span<const Binding> shape_bindings();
+std::span<const Binding> transform_bindings();
+std::span<const Binding> boolean_bindings();
+std::span<const Binding> measure_bindings();
+std::span<const Binding> math_bindings();
+std::span<const Binding> model_bindings();
+
+/// All of them, by name within each group.
+std::vector<Binding> all_bindings();
+
+/// Sets globals, `csg`, methods and operators.
+void open_api(lua_State* L);
+
+/// The text of `csgrun --help-api`.
+std::string api_help();
+
+// For the bindings.
+
+/// "cube: message" as a ScriptError.
+[[noreturn]] void fail_in(const FunctionSpec& spec, const std::string& message);
+/// The value, or a ScriptError that names the function.
+template <class V>
+V value_or_fail(const FunctionSpec& spec, Result<V> result) {
+  if (!result) fail_in(spec, result.error().message);
+  return *std::move(result);
+}
+/// The shape at stack index 1, or an error that says what is wanted.
+ShapeValue& shape_argument(lua_State* L, const FunctionSpec& spec);
+SolidValue& solid_argument(lua_State* L, const FunctionSpec& spec);
+/// Pushes a mesh as a solid, with the shape's colour if it has one.
+void push_leaf(lua_State* L, PolygonMesh mesh, const std::optional<Appearance>& appearance = {});
+/// Sets the operators of solids, shapes and matrices.
+void open_operators(lua_State* L);
+
+}  // namespace csgrun

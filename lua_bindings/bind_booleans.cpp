@@ -1,0 +1,199 @@
+// union, difference, intersection, symmetric_difference; the operators.
+#include <fmt/format.h>
+
+#include "lua_bindings/api.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/session.h"
+
+namespace csgrun {
+namespace {
+
+/// The operands of a Boolean: all solids, or all shapes.
+struct Operands {
+  std::vector<NodePtr> solids;
+  std::vector<Shape2D> shapes;
+  std::optional<Appearance> appearance;  // of the first shape
+
+  void add(lua_State* L, int index, const std::string& function) {
+    if (const SolidValue* solid = to_solid(L, index)) {
+      solids.push_back(solid->node);
+    } else if (const ShapeValue* shape = to_shape(L, index)) {
+      if (shapes.empty()) appearance = shape->appearance;
+      shapes.push_back(shape->shape);
+    } else {
+      throw ScriptError(fmt::format("{}: an operand must be a solid or a shape, got {}", function,
+                                    describe_value(L, index)));
+    }
+    if (!solids.empty() && !shapes.empty()) {
+      throw ScriptError(
+          function +
+          ": a solid and a 2D shape cannot be combined; make a solid of the shape first, "
+          "with linear_extrude or rotate_extrude");
+    }
+  }
+
+  void push_result(lua_State* L, BooleanOp op, const std::string& function) const {
+    if (shapes.empty()) {
+      push_solid(L, Node::boolean(op, solids, session_of(L).source_ref(L)));
+      return;
+    }
+    auto shape = Shape2D::boolean(op, shapes);
+    if (!shape) throw ScriptError(function + ": " + shape.error().message);
+    push_shape(L, *std::move(shape), appearance);
+  }
+};
+
+constexpr Option kOperandOptions[] = {
+    {"operands", ArgumentType::kValue, "", "solids, or shapes, one after another or as lists",
+     true},
+};
+constexpr FunctionSpec kUnion{"union", "What is in any of them.", kOperandOptions, false,
+                              "union{a, b, c}"};
+constexpr FunctionSpec kDifference{"difference", "What is in the first and in none of the others.",
+                                   kOperandOptions, false, "plate:difference(hole, slot)"};
+constexpr FunctionSpec kIntersection{"intersection", "What is in all of them.", kOperandOptions,
+                                     false, "a:intersection(b)"};
+constexpr FunctionSpec kSymmetricDifference{"symmetric_difference",
+                                            "What is in an odd number of them.", kOperandOptions,
+                                            false, "a:symmetric_difference(b)"};
+
+template <const FunctionSpec& Spec, BooleanOp Op>
+int boolean_function(lua_State* L) {
+  Operands operands;
+  const int count = lua_gettop(L);
+  for (int index = 1; index <= count; ++index) {
+    if (!lua_istable(L, index)) {
+      operands.add(L, index, Spec.name);
+      continue;
+    }
+    const lua_Integer length = list_length(L, index);
+    if (length < 0)
+      fail_in(Spec, "takes lists of solids or shapes without holes and names in them");
+    for (lua_Integer i = 1; i <= length; ++i) {
+      lua_rawgeti(L, index, i);
+      operands.add(L, lua_gettop(L), Spec.name);
+      lua_pop(L, 1);
+    }
+  }
+  operands.push_result(L, Op, Spec.name);
+  return 1;
+}
+
+/// "a solid and a number": both sides of an operator that does not fit.
+[[noreturn]] void fail_operator(lua_State* L, const char* symbol) {
+  throw ScriptError(fmt::format("'{}' needs two solids, or two shapes, got {} and {}", symbol,
+                                kind_name(L, 1), kind_name(L, 2)));
+}
+
+constexpr char kPlus[] = "+", kOr[] = "|", kMinus[] = "-", kTimes[] = "*", kAnd[] = "&",
+               kTilde[] = "~";
+
+template <const char* Symbol, BooleanOp Op>
+int boolean_operator(lua_State* L) {
+  const auto is_geometry = [L](int index) {
+    return to_solid(L, index) != nullptr || to_shape(L, index) != nullptr;
+  };
+  if (!is_geometry(1) || !is_geometry(2)) fail_operator(L, Symbol);
+  Operands operands;
+  operands.add(L, 1, fmt::format("'{}'", Symbol));
+  operands.add(L, 2, fmt::format("'{}'", Symbol));
+  operands.push_result(L, Op, fmt::format("'{}'", Symbol));
+  return 1;
+}
+
+/// M * solid, M * shape, M * M, M * {x, y, z}; else the intersection.
+int times(lua_State* L) {
+  Affine map;
+  const bool geometry_left = to_solid(L, 1) != nullptr || to_shape(L, 1) != nullptr;
+  if (geometry_left || !to_affine(L, 1, map)) {
+    if (geometry_left && to_matrix(L, 2) != nullptr)
+      throw ScriptError("a matrix stands on the left: M * solid");
+    return boolean_operator<kTimes, BooleanOp::kIntersection>(L);
+  }
+  if (const SolidValue* solid = to_solid(L, 2)) {
+    push_solid(L, Node::transformed(map, solid->node, session_of(L).source_ref(L)));
+  } else if (const ShapeValue* shape = to_shape(L, 2)) {
+    auto moved = shape->shape.transformed(map);
+    if (!moved) throw ScriptError("'*': " + moved.error().message);
+    push_shape(L, *std::move(moved), shape->appearance);
+  } else if (const MatrixValue* matrix = to_matrix(L, 2)) {
+    push_matrix(L, Affine::compose(map, matrix->map));
+  } else if (lua_istable(L, 2) && (list_length(L, 2) == 3 || list_length(L, 2) == 2)) {
+    glm::dvec3 p(0, 0, 0);
+    for (int i = 0; i < static_cast<int>(lua_rawlen(L, 2)); ++i) {
+      if (lua_rawgeti(L, 2, i + 1) != LUA_TNUMBER)
+        throw ScriptError("'*': a point is a list of two or three numbers");
+      p[i] = lua_tonumber(L, -1);
+    }
+    const glm::dvec3 q = map.apply(p);
+    push_list(L, {q.x, q.y, q.z});
+  } else {
+    throw ScriptError("'*': a matrix moves a solid, a shape, a matrix or a point {x, y, z}, got " +
+                      describe_value(L, 2));
+  }
+  return 1;
+}
+
+/// Equal geometry, exactly, whatever it was made from; colours count.
+int equal(lua_State* L) {
+  bool same = false;
+  if (SolidValue* a = to_solid(L, 1), *b = to_solid(L, 2); a != nullptr && b != nullptr) {
+    same = a->node == b->node;
+    if (!same) {
+      for (SolidValue* value : {a, b}) {
+        if (!value->evaluated) value->evaluated = session_of(L).evaluate(value->node);
+      }
+      same = a->evaluated->canonical_hash == b->evaluated->canonical_hash;
+    }
+  } else if (const ShapeValue* s = to_shape(L, 1), *t = to_shape(L, 2);
+             s != nullptr && t != nullptr) {
+    same = s->shape.loops() == t->shape.loops() && s->appearance == t->appearance;
+  } else if (const MatrixValue* m = to_matrix(L, 1), *n = to_matrix(L, 2);
+             m != nullptr && n != nullptr) {
+    same = m->map == n->map;
+  }
+  lua_pushboolean(L, same ? 1 : 0);
+  return 1;
+}
+
+constexpr Binding kBindings[] = {
+    {&kUnion, guarded<boolean_function<kUnion, BooleanOp::kUnion>>,
+     guarded<boolean_function<kUnion, BooleanOp::kUnion>>,
+     guarded<boolean_function<kUnion, BooleanOp::kUnion>>},
+    {&kDifference, guarded<boolean_function<kDifference, BooleanOp::kDifference>>,
+     guarded<boolean_function<kDifference, BooleanOp::kDifference>>,
+     guarded<boolean_function<kDifference, BooleanOp::kDifference>>},
+    {&kIntersection, guarded<boolean_function<kIntersection, BooleanOp::kIntersection>>,
+     guarded<boolean_function<kIntersection, BooleanOp::kIntersection>>,
+     guarded<boolean_function<kIntersection, BooleanOp::kIntersection>>},
+    {&kSymmetricDifference,
+     guarded<boolean_function<kSymmetricDifference, BooleanOp::kSymmetricDifference>>,
+     guarded<boolean_function<kSymmetricDifference, BooleanOp::kSymmetricDifference>>,
+     guarded<boolean_function<kSymmetricDifference, BooleanOp::kSymmetricDifference>>},
+};
+
+}  // namespace
+
+std::span<const Binding> boolean_bindings() { return kBindings; }
+
+void open_operators(lua_State* L) {
+  constexpr luaL_Reg kGeometryOperators[] = {
+      {"__add", guarded<boolean_operator<kPlus, BooleanOp::kUnion>>},
+      {"__bor", guarded<boolean_operator<kOr, BooleanOp::kUnion>>},
+      {"__sub", guarded<boolean_operator<kMinus, BooleanOp::kDifference>>},
+      {"__band", guarded<boolean_operator<kAnd, BooleanOp::kIntersection>>},
+      {"__bxor", guarded<boolean_operator<kTilde, BooleanOp::kSymmetricDifference>>},
+      {nullptr, nullptr},
+  };
+  for (const char* kind : {SolidValue::kName, ShapeValue::kName, MatrixValue::kName}) {
+    luaL_getmetatable(L, kind);
+    if (kind != MatrixValue::kName) luaL_setfuncs(L, kGeometryOperators, 0);
+    lua_pushcfunction(L, guarded<times>);
+    lua_setfield(L, -2, "__mul");
+    lua_pushcfunction(L, guarded<equal>);
+    lua_setfield(L, -2, "__eq");
+    lua_pop(L, 1);
+  }
+}
+
+}  // namespace csgrun

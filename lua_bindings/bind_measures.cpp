@@ -1,0 +1,205 @@
+// Measuring: methods that evaluate the solid, once.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "lua_bindings/api.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/session.h"
+
+namespace csgrun {
+namespace {
+
+/// The evaluated solid of the value at index 1; kept with the value, which never changes.
+const Solid& evaluated(lua_State* L, const FunctionSpec& spec) {
+  SolidValue& value = solid_argument(L, spec);
+  if (lua_gettop(L) > 1) fail_in(spec, "takes no arguments");
+  if (!value.evaluated) value.evaluated = session_of(L).evaluate(value.node);
+  return *value.evaluated;
+}
+
+const Shape2D& bare_shape(lua_State* L, const FunctionSpec& spec) {
+  const ShapeValue& value = shape_argument(L, spec);
+  if (lua_gettop(L) > 1) fail_in(spec, "takes no arguments");
+  return value.shape;
+}
+
+constexpr FunctionSpec kBbox{
+    "bbox",
+    "The bounding box: {min = {x, y, z}, max = {x, y, z}}; two numbers each for a shape.",
+    {}};
+constexpr FunctionSpec kSize{"size", "The lengths of the bounding box.", {}};
+constexpr FunctionSpec kVolume{
+    "volume", "The volume in mm^3, rounded once from the exact value.", {}};
+constexpr FunctionSpec kArea{
+    "area", "The area of the surface in mm^2; of a shape its own area.", {}};
+constexpr FunctionSpec kCentroid{
+    "centroid", "The centre of mass, {x, y, z}; of a shape {x, y}.", {}};
+constexpr FunctionSpec kComponents{"components", "The number of connected surfaces.", {}};
+constexpr FunctionSpec kGenus{"genus", "The number of handles, over all surfaces.", {}};
+constexpr FunctionSpec kIsEmpty{"is_empty", "Whether there is nothing in it.", {}};
+constexpr Option kContainsOptions[] = {
+    {"p", ArgumentType::kVector2Or3, "", "the point", true},
+};
+constexpr FunctionSpec kContains{"contains",
+                                 "Whether the point is inside or on the boundary, exactly.",
+                                 kContainsOptions, false, "part:contains(0, 0, 5)"};
+
+void fail_if_empty(bool empty, const FunctionSpec& spec) {
+  if (empty) fail_in(spec, "there is nothing in it, so it has no place");
+}
+
+void push_box(lua_State* L, void (*push)(lua_State*, const void*, int), const void* box) {
+  lua_createtable(L, 0, 2);
+  push(L, box, 0);
+  lua_setfield(L, -2, "min");
+  push(L, box, 1);
+  lua_setfield(L, -2, "max");
+}
+
+int solid_bbox(lua_State* L) {
+  const Solid& solid = evaluated(L, kBbox);
+  fail_if_empty(solid.empty(), kBbox);
+  push_box(
+      L,
+      [](lua_State* state, const void* box, int i) {
+        const glm::dvec3& p =
+            (*static_cast<const std::array<glm::dvec3, 2>*>(box))[static_cast<size_t>(i)];
+        push_list(state, {p.x, p.y, p.z});
+      },
+      &solid.measures.bbox);
+  return 1;
+}
+
+int shape_bbox(lua_State* L) {
+  const Shape2D& shape = bare_shape(L, kBbox);
+  fail_if_empty(shape.empty(), kBbox);
+  const auto bounds = shape.bounds();
+  push_box(
+      L,
+      [](lua_State* state, const void* box, int i) {
+        const glm::dvec2& p =
+            (*static_cast<const std::array<glm::dvec2, 2>*>(box))[static_cast<size_t>(i)];
+        push_list(state, {p.x, p.y});
+      },
+      &bounds);
+  return 1;
+}
+
+int solid_size(lua_State* L) {
+  const Solid& solid = evaluated(L, kSize);
+  fail_if_empty(solid.empty(), kSize);
+  const glm::dvec3 size = solid.measures.bbox[1] - solid.measures.bbox[0];
+  push_list(L, {size.x, size.y, size.z});
+  return 1;
+}
+
+int shape_size(lua_State* L) {
+  const Shape2D& shape = bare_shape(L, kSize);
+  fail_if_empty(shape.empty(), kSize);
+  const auto bounds = shape.bounds();
+  push_list(L, {bounds[1].x - bounds[0].x, bounds[1].y - bounds[0].y});
+  return 1;
+}
+
+int solid_volume(lua_State* L) {
+  lua_pushnumber(L, evaluated(L, kVolume).measures.volume);
+  return 1;
+}
+
+int solid_area(lua_State* L) {
+  lua_pushnumber(L, evaluated(L, kArea).measures.area);
+  return 1;
+}
+
+int shape_area(lua_State* L) {
+  lua_pushnumber(L, bare_shape(L, kArea).area());
+  return 1;
+}
+
+int solid_centroid(lua_State* L) {
+  const Solid& solid = evaluated(L, kCentroid);
+  fail_if_empty(solid.empty(), kCentroid);
+  const glm::dvec3& c = solid.measures.centroid;
+  push_list(L, {c.x, c.y, c.z});
+  return 1;
+}
+
+int shape_centroid(lua_State* L) {
+  const Shape2D& shape = bare_shape(L, kCentroid);
+  fail_if_empty(shape.empty(), kCentroid);
+  // Relative to a corner of the bounding box, where the products stay small.
+  const glm::dvec2 origin = shape.bounds()[0];
+  double twice_area = 0;
+  glm::dvec2 moment(0, 0);
+  for (const auto& loop : shape.loops()) {
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const glm::dvec2 a = loop[i] - origin, b = loop[(i + 1) % loop.size()] - origin;
+      const double cross = a.x * b.y - a.y * b.x;
+      twice_area += cross;
+      moment += cross * (a + b);
+    }
+  }
+  push_list(L, {origin.x + moment.x / (3 * twice_area), origin.y + moment.y / (3 * twice_area)});
+  return 1;
+}
+
+int solid_components(lua_State* L) {
+  lua_pushinteger(L, evaluated(L, kComponents).measures.components);
+  return 1;
+}
+
+int solid_genus(lua_State* L) {
+  lua_pushinteger(L, evaluated(L, kGenus).measures.genus);
+  return 1;
+}
+
+int solid_is_empty(lua_State* L) {
+  lua_pushboolean(L, evaluated(L, kIsEmpty).empty() ? 1 : 0);
+  return 1;
+}
+
+int shape_is_empty(lua_State* L) {
+  lua_pushboolean(L, bare_shape(L, kIsEmpty).empty() ? 1 : 0);
+  return 1;
+}
+
+int solid_contains(lua_State* L) {
+  const SolidValue& value = solid_argument(L, kContains);
+  const Arguments arguments(L, kContains, 2);
+  const auto p = arguments.vector("p");
+  if (!p || p->count != 3) fail_in(kContains, "needs a point of three numbers");
+  Session& session = session_of(L);
+  const EvaluationScope scope(session.budget());
+  const auto side = session.evaluator().contains(value.node, p->v);
+  if (!side) session.fail_evaluation(side.error());
+  lua_pushboolean(L, *side >= 0 ? 1 : 0);
+  return 1;
+}
+
+int shape_contains(lua_State* L) {
+  const ShapeValue& value = shape_argument(L, kContains);
+  const Arguments arguments(L, kContains, 2);
+  const auto p = arguments.vector("p");
+  if (!p || p->count != 2) fail_in(kContains, "needs a point of two numbers");
+  lua_pushboolean(L, value.shape.contains(glm::dvec2(p->v.x, p->v.y)) ? 1 : 0);
+  return 1;
+}
+
+constexpr Binding kBindings[] = {
+    {&kBbox, nullptr, guarded<solid_bbox>, guarded<shape_bbox>},
+    {&kSize, nullptr, guarded<solid_size>, guarded<shape_size>},
+    {&kVolume, nullptr, guarded<solid_volume>, nullptr},
+    {&kArea, nullptr, guarded<solid_area>, guarded<shape_area>},
+    {&kCentroid, nullptr, guarded<solid_centroid>, guarded<shape_centroid>},
+    {&kComponents, nullptr, guarded<solid_components>, nullptr},
+    {&kGenus, nullptr, guarded<solid_genus>, nullptr},
+    {&kIsEmpty, nullptr, guarded<solid_is_empty>, guarded<shape_is_empty>},
+    {&kContains, nullptr, guarded<solid_contains>, guarded<shape_contains>},
+};
+
+}  // namespace
+
+std::span<const Binding> measure_bindings() { return kBindings; }
+
+}  // namespace csgrun

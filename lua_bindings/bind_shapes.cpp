@@ -1,0 +1,155 @@
+// square, circle, polygon, linear_extrude, rotate_extrude.
+#include <algorithm>
+
+#include <csgrun/primitives/shape2d.h>
+
+#include "lua_bindings/api.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/session.h"
+
+namespace csgrun {
+namespace {
+
+using T = ArgumentType;
+
+constexpr Option kSquareOptions[] = {
+    {"size", T::kSize2, "1", "edge length, or lengths along X and Y", true, Range::kPositive},
+    {"center", T::kBooleans2, "false", "centred in the origin, or along these axes", true},
+};
+constexpr FunctionSpec kSquare{"square",
+                               "A rectangle; a corner lies in the origin unless it is centred.",
+                               kSquareOptions, false, "square{20, 10, center = true}"};
+
+int square(lua_State* L) {
+  const Arguments arguments(L, kSquare, 1);
+  glm::dvec2 size(1, 1);
+  if (const auto given = arguments.vector("size")) {
+    size = given->count == 1 ? glm::dvec2(given->v.x) : glm::dvec2(given->v.x, given->v.y);
+  }
+  const auto center = arguments.booleans("center");
+  push_shape(L, value_or_fail(kSquare, make_square(size, {center[0], center[1]})), {});
+  return 1;
+}
+
+constexpr Option kCircleOptions[] = {
+    {"r", T::kNumber, "1", "radius", true, Range::kPositive},
+    {"d", T::kNumber, "", "diameter, instead of r", false, Range::kPositive},
+};
+constexpr FunctionSpec kCircle{"circle", "A disc about the origin.", kCircleOptions, true,
+                               "circle(5, {fn = 48})"};
+
+int circle(lua_State* L) {
+  const Arguments arguments(L, kCircle, 1);
+  if (arguments.has("r") && arguments.has("d"))
+    fail_in(kCircle, "give either 'r' or 'd', not both");
+  const double r = arguments.has("d") ? arguments.number("d", 0) / 2 : arguments.number("r", 1);
+  push_shape(L, value_or_fail(kCircle, make_circle(r, arguments.facets())), {});
+  return 1;
+}
+
+constexpr Option kPolygonOptions[] = {
+    {"points", T::kPoints2, "", "the corners", true},
+    {"paths", T::kIndexLists, "one outline of all points",
+     "outlines and holes, as indices of points from 0", true},
+};
+constexpr FunctionSpec kPolygon{"polygon",
+                                "A shape of its own outlines, filled by the even-odd rule.",
+                                kPolygonOptions, false, "polygon{{0, 0}, {20, 0}, {0, 10}}"};
+
+int polygon(lua_State* L) {
+  const Arguments arguments(L, kPolygon, 1);
+  if (!arguments.has("points")) fail_in(kPolygon, "needs points");
+  push_shape(L,
+             value_or_fail(kPolygon, make_polygon(arguments.points2("points"),
+                                                  arguments.index_lists("paths"))),
+             {});
+  return 1;
+}
+
+constexpr Option kLinearExtrudeOptions[] = {
+    {"height", T::kNumber, "100, or the length of v", "height", true, Range::kPositive, "h"},
+    {"v", T::kVector3, "{0, 0, 1}", "direction", false},
+    {"center", T::kBoolean, "false", "centred along the direction", false},
+    {"twist", T::kNumber, "0", "turn over the whole height, clockwise seen from above, degrees",
+     false},
+    {"scale", T::kSize2, "1",
+     "factor at the top, or factors along X and Y; 0 gives a point or an edge", false,
+     Range::kNotNegative},
+    {"slices", T::kInteger, "from the facets", "number of layers", false, Range::kPositive},
+    {"segments", T::kInteger, "from the facets", "number of pieces of the outline; 0: never split",
+     false, Range::kNotNegative},
+};
+constexpr FunctionSpec kLinearExtrude{"linear_extrude", "A solid: the shape moved along Z (or v).",
+                                      kLinearExtrudeOptions, true,
+                                      "circle(5):linear_extrude(20, {twist = 90})"};
+
+int linear_extrude_shape(lua_State* L) {
+  const ShapeValue& shape = shape_argument(L, kLinearExtrude);
+  const Arguments arguments(L, kLinearExtrude, 2);
+  LinearExtrudeOptions options;
+  options.height_given = arguments.has("height");
+  if (const auto v = arguments.vector("v")) {
+    if (!(v->v.z > 0)) fail_in(kLinearExtrude, "option 'v' must point upwards (z positive)");
+    options.direction = v->v;
+    options.height = 1;
+  }
+  options.height = arguments.number("height", options.height);
+  options.center = arguments.boolean("center", false);
+  options.twist = arguments.number("twist", 0);
+  if (const auto scale = arguments.vector("scale")) {
+    options.scale = scale->count == 1 ? glm::dvec2(scale->v.x) : glm::dvec2(scale->v.x, scale->v.y);
+  }
+  if (arguments.has("slices")) options.slices = static_cast<int>(arguments.number("slices", 1));
+  if (arguments.has("segments"))
+    options.segments = static_cast<int>(arguments.number("segments", 0));
+  options.facets = arguments.facets();
+  if (shape.shape.empty()) {
+    push_solid(L, Node::empty(session_of(L).source_ref(L)));
+  } else {
+    push_leaf(L, value_or_fail(kLinearExtrude, linear_extrude(shape.shape, options)),
+              shape.appearance);
+  }
+  return 1;
+}
+
+constexpr Option kRotateExtrudeOptions[] = {
+    {"angle", T::kNumber, "360", "how far to turn, counter-clockwise seen from above, degrees",
+     true, Range::kAny, "a"},
+    {"start", T::kNumber, "0; 180 when no angle is given", "where to start, degrees from X", false},
+};
+constexpr FunctionSpec kRotateExtrude{
+    "rotate_extrude",
+    "A solid: the shape turned about Z, its Y upwards. It must lie on one side of Y.",
+    kRotateExtrudeOptions, true, "circle(2):translate(10, 0):rotate_extrude()"};
+
+int rotate_extrude_shape(lua_State* L) {
+  const ShapeValue& shape = shape_argument(L, kRotateExtrude);
+  const Arguments arguments(L, kRotateExtrude, 2);
+  RotateExtrudeOptions options;
+  options.angle = arguments.number("angle", 360);
+  if (options.angle == 0) fail_in(kRotateExtrude, "option 'angle' must not be 0");
+  if (options.angle > 360 || options.angle <= -360) options.angle = 360;
+  options.start = arguments.number("start", arguments.has("angle") ? 0 : 180);
+  options.facets = arguments.facets();
+  if (shape.shape.empty()) {
+    push_solid(L, Node::empty(session_of(L).source_ref(L)));
+  } else {
+    push_leaf(L, value_or_fail(kRotateExtrude, rotate_extrude(shape.shape, options)),
+              shape.appearance);
+  }
+  return 1;
+}
+
+constexpr Binding kBindings[] = {
+    {&kSquare, guarded<square>, nullptr, nullptr},
+    {&kCircle, guarded<circle>, nullptr, nullptr},
+    {&kPolygon, guarded<polygon>, nullptr, nullptr},
+    {&kLinearExtrude, guarded<linear_extrude_shape>, nullptr, guarded<linear_extrude_shape>},
+    {&kRotateExtrude, guarded<rotate_extrude_shape>, nullptr, guarded<rotate_extrude_shape>},
+};
+
+}  // namespace
+
+std::span<const Binding> shape_bindings() { return kBindings; }
+
+}  // namespace csgrun

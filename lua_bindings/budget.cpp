@@ -1,0 +1,276 @@
+#include "lua_bindings/budget.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csgrun/export/write.h>
+
+#include "lua_bindings/call_site.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/session.h"
+
+namespace csgrun {
+namespace {
+
+/// Instructions between two looks at the flag: a few microseconds, at a cost that cannot be
+/// measured.
+constexpr int kHookInterval = 1000;
+/// How long a script may go on after its time: long enough to unwind, also on a busy machine.
+constexpr auto kScriptGrace = std::chrono::milliseconds(500);
+/// How long the engine, which polls between cells, may go on.
+constexpr auto kEvaluationGrace = std::chrono::seconds(3);
+/// How long the signal handler may take.
+constexpr auto kHandlerGrace = std::chrono::milliseconds(500);
+constexpr int kTimeoutExit = 124;
+constexpr size_t kMegabyte = size_t{1} << 20;
+
+// For the signal handler, which has no other way to get at them.
+std::atomic<lua_State*> interrupted_state{nullptr};
+char interrupted_message[256];
+char interrupted_model[1024];
+
+void write_all(const char* text) {
+  size_t left = std::strlen(text);
+  while (left > 0) {
+    const ssize_t done = ::write(STDERR_FILENO, text, left);
+    if (done <= 0) return;
+    text += done;
+    left -= static_cast<size_t>(done);
+  }
+}
+
+}  // namespace
+
+Budget::Budget(BudgetLimits limits, std::string model)
+    : limits_(limits), model_(std::move(model)), start_(Clock::now()) {
+  std::snprintf(interrupted_model, sizeof interrupted_model, "%s", model_.c_str());
+  watchdog_ = std::thread([this] { watch(); });
+}
+
+Budget::~Budget() { stop(); }
+
+void* Budget::allocate(void* user_data, void* block, size_t old_size, size_t new_size) {
+  Budget& self = *static_cast<Budget*>(user_data);
+  if (block == nullptr) old_size = 0;  // then it is a type tag, not a size
+  if (new_size == 0) {
+    self.used_ -= old_size;
+    std::free(block);
+    return nullptr;
+  }
+  const size_t held = self.held_->load(std::memory_order_relaxed);
+  void* grown = nullptr;
+  if (new_size <= old_size || self.used_ - old_size + new_size + held <= self.limits_.heap_bytes) {
+    grown = std::realloc(block, new_size);
+  }
+  if (grown == nullptr) {
+    // Lua reports this without a place. The stack is whole while it allocates, so look now.
+    if (self.main_state_ != nullptr) self.memory_place_ = place_of_call(self.main_state_);
+    return nullptr;
+  }
+  self.used_ += new_size - old_size;
+  return grown;
+}
+
+void Budget::hook(lua_State* L, lua_Debug*) {
+  Budget& self = session_of(L).budget();
+  if (!self.out_of_time()) return;
+  lua_sethook(L, &Budget::hook, LUA_MASKCOUNT, 1);
+  {
+    const std::string message = self.time_message();
+    push_error(L, message.c_str());
+  }
+  raise_pushed_error(L);
+}
+
+void Budget::start_script(lua_State* main_state) {
+  main_state_ = main_state;
+  lua_sethook(main_state, &Budget::hook, LUA_MASKCOUNT, kHookInterval);
+  const std::lock_guard lock(mutex_);
+  script_thread_ = pthread_self();
+  phase_ = Phase::kScript;
+  script_running_ = true;
+  phase_start_ = Clock::now();
+  wake_.notify_all();
+}
+
+void Budget::stop_script() {
+  const std::lock_guard lock(mutex_);
+  script_used_ += Clock::now() - phase_start_;
+  phase_ = Phase::kIdle;
+  script_running_ = false;
+  main_state_ = nullptr;
+  wake_.notify_all();
+}
+
+void Budget::enter_evaluation() {
+  const std::lock_guard lock(mutex_);
+  if (evaluation_depth_++ > 0) return;
+  if (phase_ == Phase::kScript) script_used_ += Clock::now() - phase_start_;
+  phase_ = Phase::kEvaluation;
+  evaluation_start_ = Clock::now();
+  wake_.notify_all();
+}
+
+void Budget::leave_evaluation() {
+  const std::lock_guard lock(mutex_);
+  if (--evaluation_depth_ > 0) return;
+  evaluation_used_ += Clock::now() - evaluation_start_;
+  phase_ = script_running_ ? Phase::kScript : Phase::kIdle;
+  phase_start_ = Clock::now();
+  wake_.notify_all();
+}
+
+double Budget::evaluation_seconds() const {
+  const std::lock_guard lock(mutex_);
+  return std::chrono::duration<double>(evaluation_used_).count();
+}
+
+void Budget::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    wake_.notify_all();
+  }
+  if (watchdog_.joinable()) watchdog_.join();
+}
+
+std::string Budget::time_message() const {
+  return fmt::format("out of time ({} {:g} s)",
+                     limits_.total_seconds ? "limit" : "limit for the script",
+                     limits_.total_seconds.value_or(limits_.script_seconds));
+}
+
+std::string Budget::memory_message() const {
+  return fmt::format("not enough memory (script limit {} MB)", limits_.heap_bytes / kMegabyte);
+}
+
+std::optional<Budget::Clock::time_point> Budget::deadline() const {
+  const auto seconds = [](double s) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+  };
+  if (limits_.total_seconds) return start_ + seconds(*limits_.total_seconds);
+  if (phase_ != Phase::kScript) return std::nullopt;
+  return phase_start_ + seconds(limits_.script_seconds) - script_used_;
+}
+
+void Budget::watch() {
+  std::unique_lock lock(mutex_);
+  while (true) {  // until the time is over
+    if (stopping_) return;
+    const auto until = deadline();
+    if (!until) {
+      wake_.wait(lock);
+    } else if (Clock::now() >= *until) {
+      break;
+    } else {
+      wake_.wait_until(lock, *until);
+    }
+  }
+  expired_ = true;
+  auto over = Clock::now();
+  Phase last = phase_;
+  while (true) {  // until it has stopped, or the grace is over
+    if (stopping_) return;
+    if (phase_ != last) {
+      last = phase_;
+      over = Clock::now();
+    }
+    const auto until = over + (last == Phase::kScript ? Clock::duration(kScriptGrace)
+                                                      : Clock::duration(kEvaluationGrace));
+    if (Clock::now() >= until) break;
+    wake_.wait_until(lock, until);
+  }
+  if (phase_ == Phase::kScript) {
+    std::snprintf(interrupted_message, sizeof interrupted_message, "%s", time_message().c_str());
+    interrupted_state = main_state_;
+    struct sigaction action {};
+    action.sa_handler = &Budget::interrupt;
+    sigaction(SIGUSR1, &action, nullptr);
+    pthread_kill(script_thread_, SIGUSR1);
+    wake_.wait_for(lock, kHandlerGrace, [this] { return stopping_; });
+    if (stopping_) return;
+  }
+  end_process(interrupted_model);
+}
+
+// Runs on the script's thread, inside of whatever it was doing. Half a second without a hook means
+// that this is one long C call, so the call stack stands still and may be read.
+void Budget::interrupt(int) {
+  lua_Debug frame{};
+  lua_State* const L = interrupted_state.load();
+  if (L != nullptr && innermost_lua_frame(L, frame)) {
+    char digits[16];
+    char* digit = digits + sizeof digits - 1;
+    *digit = '\0';
+    for (int line = frame.currentline; line > 0; line /= 10)
+      *--digit = static_cast<char>('0' + line % 10);
+    write_all(chunk_file(frame));
+    write_all(":");
+    write_all(digit);
+  } else {
+    write_all(interrupted_model);
+  }
+  write_all(": ");
+  write_all(interrupted_message);
+  write_all("\n");
+  remove_temporary_files();
+  _exit(kTimeoutExit);
+}
+
+void Budget::end_process(const char* place) {
+  write_all(place);
+  write_all(": ");
+  write_all(time_message().c_str());
+  write_all("\n");
+  remove_temporary_files();
+  _exit(kTimeoutExit);
+}
+
+namespace {
+
+/// A number from a file of one line ("max" and what is missing count as no limit).
+size_t read_number(const char* path) {
+  std::ifstream file(path);
+  unsigned long long value = 0;
+  return file >> value ? static_cast<size_t>(value) : std::numeric_limits<size_t>::max();
+}
+
+}  // namespace
+
+size_t default_process_memory() {
+  size_t available = std::numeric_limits<size_t>::max();
+  std::ifstream info("/proc/meminfo");
+  std::string key, unit;
+  for (unsigned long long kilobytes = 0; info >> key >> kilobytes; std::getline(info, unit)) {
+    if (key == "MemAvailable:") available = static_cast<size_t>(kilobytes) * 1024;
+  }
+  for (const char* path :
+       {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+    available = std::min(available, read_number(path));
+  }
+  return available == std::numeric_limits<size_t>::max() ? available : available / 4 * 3;
+}
+
+void limit_process_memory(size_t bytes) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  // RLIMIT_DATA counts private writable memory: what is used, not what is merely reserved.
+  rlimit limit{};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  limit.rlim_cur =
+      limit.rlim_max == RLIM_INFINITY ? bytes : std::min<rlim_t>(bytes, limit.rlim_max);
+  setrlimit(RLIMIT_DATA, &limit);
+#else
+  (void)bytes;
+#endif
+}
+
+}  // namespace csgrun

@@ -1,0 +1,130 @@
+#include "lua_bindings/call_site.h"
+
+#include <cstring>
+
+#include "lua_bindings/budget.h"
+#include "lua_bindings/session.h"
+#include "lua_bindings/text.h"
+
+namespace csgrun {
+namespace {
+
+/// How many frames of a deep stack are shown at its top and at its bottom.
+constexpr int kTopFrames = 12;
+constexpr int kBottomFrames = 10;
+
+/// How far from the top of the stack the function is looked for that a message names.
+constexpr int kMessageFrames = 50;
+
+std::string with_whole_path_of_stack(lua_State* L, const std::string& message) {
+  lua_Debug frame{};
+  for (int level = 0; level < kMessageFrames && lua_getstack(L, level, &frame) != 0; ++level) {
+    lua_getinfo(L, "S", &frame);
+    if (frame.source[0] != '@') continue;
+    std::string whole = with_whole_path(message, frame.source + 1);
+    if (whole != message) return whole;
+  }
+  return message;
+}
+
+/// Number of frames: by bisection, as asking for level n takes n steps.
+int stack_depth(lua_State* L) {
+  lua_Debug frame{};
+  int low = 0, high = 1;
+  while (lua_getstack(L, high, &frame) != 0) {
+    low = high;
+    high *= 2;
+  }
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    if (lua_getstack(L, middle, &frame) != 0) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return high;
+}
+
+std::string describe_frame(const lua_Debug& frame) {
+  std::string text = "\n\t";
+  if (frame.currentline > 0) {
+    text += std::string(chunk_file(frame)) + ":" + std::to_string(frame.currentline) + ": ";
+  } else {
+    text += "[C]: ";
+  }
+  if (std::strcmp(frame.what, "main") == 0) {
+    text += "in main chunk";
+  } else if (frame.name != nullptr) {
+    text += std::string("in ") + (frame.namewhat[0] != '\0' ? frame.namewhat : "function") + " '" +
+            frame.name + "'";
+  } else if (frame.currentline > 0) {
+    text += "in the function at line " + std::to_string(frame.linedefined);
+  } else {
+    text += "in a built-in function";
+  }
+  if (frame.istailcall != 0) text += "\n\t(...tail calls...)";
+  return text;
+}
+
+std::string traceback(lua_State* L) {
+  const int depth = stack_depth(L);
+  lua_Debug frame{};
+  std::string text = "\nstack traceback:";
+  // Level 0 is the message handler itself; the last one is the C function or pcall that runs us.
+  for (int level = 1; level < depth; ++level) {
+    if (depth > kTopFrames + kBottomFrames + 1 && level == kTopFrames + 1) {
+      text += "\n\t... (" + std::to_string(depth - kTopFrames - kBottomFrames - 1) + " levels)";
+      level = depth - kBottomFrames;
+    }
+    lua_getstack(L, level, &frame);
+    lua_getinfo(L, "Slnt", &frame);
+    text += describe_frame(frame);
+  }
+  return text;
+}
+
+}  // namespace
+
+bool innermost_lua_frame(lua_State* L, lua_Debug& frame) {
+  for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
+    lua_getinfo(L, "Sl", &frame);
+    if (frame.currentline > 0) return true;
+  }
+  return false;
+}
+
+const char* chunk_file(const lua_Debug& frame) {
+  return frame.source[0] == '@' ? frame.source + 1 : frame.short_src;
+}
+
+std::string place_of_call(lua_State* L) {
+  lua_Debug frame{};
+  if (!innermost_lua_frame(L, frame)) return {};
+  return std::string(chunk_file(frame)) + ":" + std::to_string(frame.currentline);
+}
+
+std::string with_whole_path(const std::string& message, const std::string& path) {
+  constexpr size_t kShown = LUA_IDSIZE - 1;
+  if (path.size() <= kShown) return message;
+  const std::string cut = "..." + path.substr(path.size() - (kShown - 3));
+  return message.rfind(cut + ":", 0) == 0 ? path + message.substr(cut.size()) : message;
+}
+
+int add_traceback(lua_State* L) {
+  std::string message;
+  if (lua_type(L, 1) == LUA_TSTRING || lua_type(L, 1) == LUA_TNUMBER) {
+    message = with_whole_path_of_stack(L, lua_tostring(L, 1));
+  } else if (!session_of(L).budget().out_of_time() &&
+             luaL_getmetafield(L, 1, "__tostring") != LUA_TNIL) {
+    lua_pop(L, 1);
+    message = place_of_call(L) + ": " + display_text(L, 1);
+  } else {
+    message = place_of_call(L) + ": error value of type " + luaL_typename(L, 1);
+  }
+  message += traceback(L);
+  lua_pushlstring(L, message.data(), message.size());
+  return 1;
+}
+
+}  // namespace csgrun

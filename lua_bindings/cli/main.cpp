@@ -1,0 +1,47 @@
+// csgrun: from a model to a mesh.
+#include <cstdio>
+
+#include "lua_bindings/api.h"
+#include "lua_bindings/cli/exit_codes.h"
+#include "lua_bindings/cli/options.h"
+#include "lua_bindings/cli/report.h"
+#include "lua_bindings/cli/run_model.h"
+
+namespace {
+
+void print(std::FILE* stream, const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+}
+
+int run(const csgrun::CommandLine& line) {
+  csgrun::RunReport report;
+  const csgrun::Failure failure = csgrun::run_model(line, report);
+  if (!line.quiet && line.stats != csgrun::StatsForm::kJson) {
+    for (const std::string& warning : report.warnings) print(stderr, "warning: " + warning + "\n");
+  }
+  if (failure.failed()) {
+    print(stderr, failure.message + "\n");
+    return failure.code;
+  }
+  if (line.stats == csgrun::StatsForm::kJson) print(stdout, csgrun::stats_json(report));
+  if (line.stats == csgrun::StatsForm::kText) print(stderr, csgrun::stats_text(report));
+  return csgrun::kExitGood;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const csgrun::CommandLine line = csgrun::parse_command_line(argc, argv);
+  switch (line.command) {
+    case csgrun::Command::kRun:
+      return run(line);
+    case csgrun::Command::kInfo:
+      return csgrun::kExitUsage;
+    case csgrun::Command::kHelpApi:
+      print(stdout, csgrun::api_help());
+      return csgrun::kExitGood;
+    case csgrun::Command::kDone:
+      return line.exit_code;
+  }
+  return csgrun::kExitGood;
+}

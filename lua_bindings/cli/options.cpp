@@ -1,0 +1,241 @@
+// The only file that sees CLI11.
+#include "lua_bindings/cli/options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <csgrun/export/write.h>
+#include <csgrun/primitives/mesh_file.h>
+
+#include "lua_bindings/arguments.h"
+#include "lua_bindings/cli/exit_codes.h"
+
+namespace csgrun {
+namespace {
+
+constexpr unsigned kMostThreads = 1024;
+constexpr double kLeastMegabytes = 16;
+
+/// A usage error: what is wrong, in one sentence.
+struct UsageError {
+  std::string message;
+};
+
+/// The ending of a path with its dot, in lower case; empty if it has none.
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return ending;
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return std::filesystem::equivalent(a, b, error) && !error;
+}
+
+void check_output(const std::string& path, const CommandLine& line) {
+  const size_t first = path.find("%s");
+  if (first != std::string::npos && path.find("%s", first + 1) != std::string::npos) {
+    throw UsageError{
+        fmt::format("'{}': %s, the place of the part's name, can stand there only once", path)};
+  }
+  if (model_format_of(path).empty()) {
+    const std::string ending = ending_of(path);
+    for (const char* later : {".3mf", ".ply", ".svg", ".dxf"}) {
+      if (ending == later)
+        throw UsageError{fmt::format("'{}': writing {} is not built yet", path, later)};
+    }
+    throw UsageError{
+        fmt::format("'{}': the ending must be one of .glb, .gltf, .stl, .obj, .off", path)};
+  }
+  if (std::count(line.outputs.begin(), line.outputs.end(), path) > 1) {
+    throw UsageError{fmt::format("'{}' is given twice with -o", path)};
+  }
+  if (is_same_file(path, line.model)) {
+    throw UsageError{fmt::format("'{}' is the model itself and would be overwritten", path)};
+  }
+}
+
+void check_model(const std::string& model) {
+  if (model == "-" || !mesh_format_of(model).empty()) return;
+  const std::string ending = ending_of(model);
+  if (ending != ".lua" && ending != ".csg") {
+    throw UsageError{
+        fmt::format("'{}': the model must end in .lua, .csg, .stl, .off, .obj or .ply, or be - for "
+                    "Lua from standard input",
+                    model)};
+  }
+}
+
+std::pair<std::string, std::string> split_definition(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw UsageError{fmt::format("-D {}: write it as -D name=value", text)};
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+/// What the options are read into before they are checked.
+struct RawOptions {
+  std::vector<std::string> definitions;
+  std::string grid, stats, cache_folder;
+  double timeout = 0, megabytes = 0;
+  bool check = false, no_cache = false, help_api = false;
+};
+
+void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
+  if (raw.check) throw UsageError{"--check is not built yet"};
+  check_model(line.model);
+  for (const std::string& path : line.outputs) check_output(path, line);
+  for (const std::string& text : raw.definitions)
+    line.definitions.push_back(split_definition(text));
+  for (const std::string& folder : line.library_folders) {
+    if (!std::filesystem::is_directory(folder))
+      throw UsageError{fmt::format("-L {}: there is no such folder", folder)};
+  }
+  if (const char* path = std::getenv("CSGRUN_PATH")) {
+    for (const char* start = path; *start != '\0';) {
+      const char* end = std::strchr(start, ':');
+      if (end == nullptr) end = start + std::strlen(start);
+      if (end != start) line.library_folders.emplace_back(start, end);
+      start = *end == ':' ? end + 1 : end;
+    }
+  }
+  if (const std::string problem = check_facets(line.facets); !problem.empty())
+    throw UsageError{"--" + problem};
+  if (app.count("--threads") > 0 && (line.threads < 1 || line.threads > kMostThreads)) {
+    throw UsageError{fmt::format("--threads must be from 1 to {}", kMostThreads)};
+  }
+  if (!raw.grid.empty()) {
+    const auto step = GridStep::parse(raw.grid);
+    if (!step) throw UsageError{"--grid " + raw.grid + ": " + step.error().message};
+    line.grid = *step;
+  }
+  if (!raw.stats.empty()) {
+    if (raw.stats != "text" && raw.stats != "json")
+      throw UsageError{"--stats can be =json or nothing"};
+    line.stats = raw.stats == "json" ? StatsForm::kJson : StatsForm::kText;
+  }
+  if (app.count("--timeout") > 0) {
+    if (!(raw.timeout > 0) || !std::isfinite(raw.timeout))
+      throw UsageError{"--timeout must be a positive number of seconds"};
+    line.timeout_seconds = raw.timeout;
+  }
+  if (app.count("--max-memory") > 0) {
+    if (!(raw.megabytes >= kLeastMegabytes) || raw.megabytes > 1e9) {
+      throw UsageError{fmt::format("--max-memory must be at least {:g} (MB)", kLeastMegabytes)};
+    }
+    line.memory_bytes = static_cast<size_t>(raw.megabytes * 1048576.0);
+  }
+  if (line.outputs.empty() && line.stats == StatsForm::kNone) {
+    throw UsageError{"nothing to do: give an output with -o, or --stats"};
+  }
+}
+
+CommandLine finished(int code) {
+  CommandLine line;
+  line.command = Command::kDone;
+  line.exit_code = code;
+  return line;
+}
+
+/// Prints help or a usage error as CLI11 has it.
+CommandLine finish_parse(const CLI::App& app, const CLI::ParseError& error) {
+  return finished(app.exit(error) == 0 ? kExitGood : kExitUsage);
+}
+
+CommandLine parse_info(int argc, char** argv) {
+  CommandLine line;
+  line.command = Command::kInfo;
+  CLI::App app("Measures a mesh file exactly, on its own coordinates.", "csgrun info");
+  app.add_option("FILE", line.model, "STL, OFF, OBJ or PLY")->required();
+  app.add_flag("--json", line.info_json, "as one JSON object");
+  try {
+    app.parse(argc - 1, argv + 1);
+  } catch (const CLI::ParseError& error) {
+    return finish_parse(app, error);
+  }
+  if (mesh_format_of(line.model).empty()) {
+    std::fputs(fmt::format("csgrun info: '{}': the ending must be one of .stl, .off, .obj, .ply\n",
+                           line.model)
+                   .c_str(),
+               stderr);
+    return finished(kExitUsage);
+  }
+  return line;
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, char** argv) {
+  if (argc > 1 && std::strcmp(argv[1], "info") == 0) return parse_info(argc, argv);
+
+  CommandLine line;
+  RawOptions raw;
+  CLI::App app("Evaluates a Lua script that builds a CSG tree, exactly, and writes a mesh.",
+               "csgrun");
+  app.footer(
+      "`csgrun info FILE [--json]` measures a mesh file.\n"
+      "Exit codes: 0 good, 1 script, 2 usage, 3 geometry, 4 files, 124 out of time.");
+  app.set_version_flag("--version", "csgrun " CSGRUN_VERSION);
+  auto* model = app.add_option(
+      "MODEL", line.model,
+      "a script (.lua), an OpenSCAD tree (.csg), a mesh, or - for Lua from standard input");
+  app.add_option("-o", line.outputs,
+                 "output: .glb .gltf .stl .obj .off; 'dir/%s.stl' writes one file a part")
+      ->allow_extra_args(false)
+      ->type_name("OUT");
+  app.add_option("-D", raw.definitions, "sets a parameter of the model")
+      ->allow_extra_args(false)
+      ->type_name("name=value");
+  app.add_option("-L", line.library_folders, "a folder of modules and meshes")
+      ->allow_extra_args(false)
+      ->type_name("DIR");
+  app.add_option("--fn", line.facets.fn, "number of facets of a full turn (0: from --fa and --fs)")
+      ->type_name("N");
+  app.add_option("--fa", line.facets.fa, "smallest angle of a facet, degrees (12)")->type_name("A");
+  app.add_option("--fs", line.facets.fs, "smallest length of a facet, mm (2)")->type_name("S");
+  app.add_option("--threads", line.threads, "number of threads (as many as the process may use)")
+      ->type_name("N");
+  app.add_option("--grid", raw.grid, "step of the grid: 0.001, 2^-20mm (from the model's extent)")
+      ->type_name("MM");
+  app.add_flag("--check", raw.check, "proves that the result does not cross itself");
+  app.add_flag("--stats{text}", raw.stats,
+               "measures: as text on standard error, or --stats=json on standard output");
+  app.add_flag("--no-cache", raw.no_cache, "uses no cache on disk");
+  app.add_option("--cache-dir", raw.cache_folder, "folder of the cache on disk")->type_name("DIR");
+  app.add_option("--timeout", raw.timeout, "seconds for everything (60 for the script alone)")
+      ->type_name("S");
+  app.add_option("--max-memory", raw.megabytes,
+                 "MB for the process (three quarters of what is there)")
+      ->type_name("MB");
+  app.add_flag("-q,--quiet", line.quiet, "no progress, no warnings");
+  app.add_flag("--help-api", raw.help_api, "prints the functions that a script has");
+  try {
+    app.parse(argc, argv);
+    if (raw.help_api) {
+      line.command = Command::kHelpApi;
+      return line;
+    }
+    if (model->count() == 0)
+      throw UsageError{"which model? (csgrun MODEL -o OUT; --help tells more)"};
+    check_all(line, raw, app);
+  } catch (const CLI::ParseError& error) {
+    return finish_parse(app, error);
+  } catch (const UsageError& error) {
+    std::fputs(("csgrun: " + error.message + "\n").c_str(), stderr);
+    return finished(kExitUsage);
+  }
+  return line;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,38 @@
+// The command line as data.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <csgrun/engine/evaluate.h>
+#include <csgrun/primitives/solids.h>
+
+namespace csgrun {
+
+enum class Command : uint8_t { kRun, kInfo, kHelpApi, kDone };
+enum class StatsForm : uint8_t { kNone, kText, kJson };
+
+struct CommandLine {
+  Command command = Command::kRun;
+  int exit_code = 0;  ///< for kDone: help, version, or a usage error that was told already
+  std::string model;
+  std::vector<std::string> outputs;
+  std::vector<std::pair<std::string, std::string>> definitions;
+  std::vector<std::string> library_folders;  ///< -L, then CSGRUN_PATH
+  Facets facets;
+  unsigned threads = 0;
+  GridStep grid;
+  StatsForm stats = StatsForm::kNone;
+  std::optional<double> timeout_seconds;
+  std::optional<size_t> memory_bytes;
+  bool quiet = false;
+  bool info_json = false;
+};
+
+/// Reads the command line; usage errors are told on standard error.
+CommandLine parse_command_line(int argc, char** argv);
+
+}  // namespace csgrun

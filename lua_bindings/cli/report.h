@@ -1,0 +1,35 @@
+// What a run or a file measures, as JSON on standard output or as text on standard error.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "lua_bindings/cli/run_model.h"
+
+namespace csgrun {
+
+/// The measures of one part as they are printed.
+struct PartMeasures {
+  std::string name;
+  size_t triangles = 0, vertices = 0;
+  double volume = 0, area = 0;
+  std::array<glm::dvec3, 2> bbox{};
+  int64_t components = 0, genus = 0;
+  bool closed = true;
+};
+
+/// The object of --stats=json, on one line.
+std::string stats_json(const RunReport& report);
+/// The same for people.
+std::string stats_text(const RunReport& report);
+
+/// The object of `csgrun info --json`, or text.
+std::string info_json(const std::string& file, const std::vector<PartMeasures>& parts,
+                      uint64_t self_intersections, const std::vector<std::string>& warnings);
+std::string info_text(const std::string& file, const std::vector<PartMeasures>& parts,
+                      uint64_t self_intersections, const std::vector<std::string>& warnings);
+
+}  // namespace csgrun

@@ -1,0 +1,276 @@
+#include "lua_bindings/cli/run_model.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <new>
+#include <thread>
+
+#include <fmt/format.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <csgrun/primitives/mesh_file.h>
+
+#include "lua_bindings/cli/progress.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/script.h"
+
+namespace csgrun {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// As many threads as the process may use (affinity counts, not only the machine).
+unsigned usable_threads() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) == 0)
+    return static_cast<unsigned>(std::max(1, CPU_COUNT(&set)));
+  return std::max(1u, std::thread::hardware_concurrency());
+}
+
+std::string read_standard_input() {
+  std::string text;
+  char block[65536];
+  for (ssize_t got = 0; (got = ::read(STDIN_FILENO, block, sizeof block)) > 0;)
+    text.append(block, static_cast<size_t>(got));
+  return text;
+}
+
+class Run {
+ public:
+  Run(const CommandLine& line, RunReport& report)
+      : line_(line), report_(report), session_(session_options(line)) {}
+
+  Failure execute() {
+    const auto start = Clock::now();
+    Failure failure = load();
+    report_.script_seconds = seconds_since(start) - session_.budget().evaluation_seconds();
+    if (!failure.failed()) failure = evaluate();
+    if (!failure.failed()) failure = write_all();
+    session_.budget().stop();
+    report_.stats = session_.evaluator().stats();
+    const auto& own = session_.warnings();
+    const auto& evaluation = session_.evaluator().warnings();
+    report_.warnings.insert(report_.warnings.begin(), evaluation.begin(), evaluation.end());
+    report_.warnings.insert(report_.warnings.begin(), own.begin(), own.end());
+    report_.threads = session_.options().evaluate.threads;
+    report_.total_seconds = seconds_since(start);
+    return failure;
+  }
+
+ private:
+  static SessionOptions session_options(const CommandLine& line) {
+    SessionOptions options;
+    options.model = line.model == "-" ? "stdin" : line.model;
+    options.model_folder = folder_of(line.model);
+    options.library_folders = line.library_folders;
+    options.definitions = line.definitions;
+    options.facets = line.facets;
+    options.evaluate.threads = line.threads != 0 ? line.threads : usable_threads();
+    options.evaluate.grid = line.grid;
+    options.evaluate.progress = make_progress(line.quiet);
+    options.limits.total_seconds = line.timeout_seconds;
+    if (line.memory_bytes)
+      options.limits.heap_bytes = std::min(options.limits.heap_bytes, *line.memory_bytes);
+    return options;
+  }
+
+  /// MODEL to the parts of the session.
+  Failure load() {
+    FileText text;
+    if (line_.model == "-") {
+      text.bytes = read_standard_input();
+    } else {
+      text = read_regular_file(line_.model);
+      if (!text.error.empty())
+        return {kExitFiles, fmt::format("csgrun: cannot read '{}': {}", line_.model, text.error)};
+    }
+    if (!mesh_format_of(line_.model).empty()) return load_mesh(text.bytes);
+    return load_script(text.bytes);
+  }
+
+  Failure load_script(const std::string& text) {
+    const ScriptOutcome outcome = run_script(session_, session_.options().model, text);
+    switch (outcome.status) {
+      case ScriptStatus::kGood:
+        return {};
+      case ScriptStatus::kFailed:
+        return {kExitScript, outcome.message};
+      case ScriptStatus::kGeometry:
+        return {kExitGeometry, outcome.message};
+      case ScriptStatus::kUsage:
+        return {kExitUsage, "csgrun: " + outcome.message};
+      case ScriptStatus::kOutOfTime:
+        return {kExitTime, outcome.message};
+    }
+    return {};
+  }
+
+  Failure load_mesh(const std::string& bytes) {
+    if (Failure failure = refuse_definitions(); failure.failed()) return failure;
+    auto mesh = parse_mesh(line_.model, bytes);
+    std::string note;
+    if (mesh) mesh = make_solid_mesh(*std::move(mesh), &note);
+    if (!mesh) {
+      const std::string& message = mesh.error().message;
+      return {kExitScript,
+              message.rfind(line_.model, 0) == 0 ? message : line_.model + ": " + message};
+    }
+    if (!note.empty()) report_.warnings.push_back(line_.model + ": " + note);
+    const SourceRef where{std::make_shared<const std::string>(line_.model), 1};
+    session_.add_part(
+        {"", Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where), {}, where},
+        "");
+    return {};
+  }
+
+  /// Meshes have no parameters.
+  Failure refuse_definitions() const {
+    if (line_.definitions.empty()) return {};
+    return {kExitUsage,
+            fmt::format("csgrun: -D {}: only a script has parameters", line_.definitions[0].first)};
+  }
+
+  Failure evaluation_failure(const Error& error) {
+    if (error.code == ErrorCode::kCancelled) {
+      return {kExitTime, fmt::format("{}: {} in evaluation", session_.options().model,
+                                     session_.budget().time_message())};
+    }
+    std::string place = error.where.text();
+    if (place.empty()) place = session_.options().model;
+    return {kExitGeometry, place + ": " + error.message};
+  }
+
+  Failure evaluate() {
+    std::vector<NodePtr> nodes;
+    for (const ScriptPart& part : session_.parts()) {
+      if (part.solid == nullptr) {
+        std::string place = part.where.text();
+        if (place.empty()) place = session_.options().model;
+        return {kExitScript,
+                fmt::format(
+                    "{}: part '{}' is a 2D shape, and the outputs hold solids; make a solid of it "
+                    "with linear_extrude or rotate_extrude",
+                    place, part.name)};
+      }
+      nodes.push_back(part.solid);
+    }
+    const EvaluationScope scope(session_.budget());
+    auto solids = session_.evaluator().evaluate(nodes);
+    clear_progress();
+    if (!solids) return evaluation_failure(solids.error());
+    bool anything = false;
+    for (size_t i = 0; i < nodes.size(); ++i) {
+      const ScriptPart& part = session_.parts()[i];
+      report_.parts.push_back({part.name, (*solids)[i], {}});
+      anything |= !(*solids)[i]->empty();
+      if ((*solids)[i]->empty()) {
+        const std::string place = part.where.text();
+        report_.warnings.push_back((place.empty() ? "" : place + ": ") + "part '" + part.name +
+                                   "' is empty");
+      }
+    }
+    if (anything) return {};
+    const std::string place = session_.parts()[0].where.text();
+    return {kExitGeometry,
+            (place.empty() ? session_.options().model : place) + ": the result is empty"};
+  }
+
+  /// The parts that have something in them; what is empty was warned of.
+  [[nodiscard]] std::vector<Part> parts_with_content() const {
+    std::vector<Part> parts;
+    for (const Part& part : report_.parts) {
+      if (!part.solid->empty()) parts.push_back(part);
+    }
+    return parts;
+  }
+
+  /// The exact union of all parts, as one part; made once.
+  Failure join(std::vector<Part>& joined) {
+    if (joined_.empty()) {
+      std::vector<NodePtr> nodes;
+      for (const ScriptPart& part : session_.parts()) nodes.push_back(part.solid);
+      const EvaluationScope scope(session_.budget());
+      auto solid = session_.evaluator().evaluate(Node::boolean(BooleanOp::kUnion, nodes));
+      clear_progress();
+      if (!solid) return evaluation_failure(solid.error());
+      joined_.push_back({"model", *solid, {}});
+    }
+    joined = joined_;
+    return {};
+  }
+
+  Failure write_all() {
+    const auto start = Clock::now();
+    const EvaluationScope scope(session_.budget());
+    for (const std::string& output : line_.outputs) {
+      Failure failure =
+          output.find("%s") != std::string::npos ? write_each(output) : write_one(output);
+      if (failure.failed()) return failure;
+    }
+    report_.export_seconds = seconds_since(start);
+    return {};
+  }
+
+  Failure write_one(const std::string& output) {
+    std::vector<Part> parts = parts_with_content();
+    if (!keeps_parts(model_format_of(output)) && session_.parts().size() > 1) {
+      if (Failure failure = join(parts); failure.failed()) return failure;
+    }
+    return write(output, parts);
+  }
+
+  Failure write_each(const std::string& pattern) {
+    std::map<std::string, std::string> taken;  // file -> part
+    std::vector<std::pair<std::string, Part>> files;
+    for (const Part& part : parts_with_content()) {
+      std::string name = part.name;
+      std::replace(name.begin(), name.end(), '/', '-');
+      std::string path = pattern;
+      path.replace(path.find("%s"), 2, name);
+      if (const auto [other, fresh] = taken.emplace(path, part.name); !fresh) {
+        return {kExitFiles, fmt::format("csgrun: parts '{}' and '{}' would both be written to '{}'",
+                                        other->second, part.name, path)};
+      }
+      files.emplace_back(path, part);
+    }
+    for (const auto& [path, part] : files) {
+      if (Failure failure = write(path, {part}); failure.failed()) return failure;
+    }
+    return {};
+  }
+
+  Failure write(const std::string& path, const std::vector<Part>& parts) {
+    auto written = write_model(path, parts);
+    if (!written) return {kExitFiles, "csgrun: " + written.error().message};
+    for (const std::string& warning : written->warnings)
+      report_.warnings.push_back(path + ": " + warning);
+    return {};
+  }
+
+  const CommandLine& line_;
+  RunReport& report_;
+  Session session_;
+  std::vector<Part> joined_;
+};
+
+}  // namespace
+
+Failure run_model(const CommandLine& line, RunReport& report) {
+  const size_t memory = line.memory_bytes.value_or(default_process_memory());
+  limit_process_memory(memory);
+  try {
+    return Run(line, report).execute();
+  } catch (const std::bad_alloc&) {
+    return {kExitGeometry, fmt::format("{}: not enough memory in evaluation (limit {} MB)",
+                                       line.model, memory >> 20)};
+  }
+}
+
+}  // namespace csgrun

@@ -1,0 +1,27 @@
+// One run: MODEL to parts, parts to solids, solids to files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <csgrun/engine/evaluate.h>
+#include <csgrun/export/write.h>
+
+#include "lua_bindings/cli/exit_codes.h"
+#include "lua_bindings/cli/options.h"
+
+namespace csgrun {
+
+/// What a run has to tell.
+struct RunReport {
+  std::vector<Part> parts;
+  EvaluateStats stats;
+  std::vector<std::string> warnings;
+  unsigned threads = 0;
+  double script_seconds = 0, export_seconds = 0, total_seconds = 0;
+};
+
+/// Runs everything. Files are written whole or not at all.
+Failure run_model(const CommandLine& line, RunReport& report);
+
+}  // namespace csgrun

@@ -1,0 +1,149 @@
+#include "lua_bindings/files.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "lua_bindings/guard.h"
+
+namespace csgrun {
+namespace {
+
+/// The path after symlinks, or empty with errno set.
+std::string real_path(const std::string& path) {
+  char* resolved = ::realpath(path.empty() ? "." : path.c_str(), nullptr);
+  if (resolved == nullptr) return {};
+  std::string text = resolved;
+  std::free(resolved);
+  return text;
+}
+
+std::string system_reason() { return std::strerror(errno); }  // messages in English: no setlocale
+
+/// The path with "." and ".." taken out by name alone, seen from the working folder.
+std::string plain_path(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::absolute(path, ignored).lexically_normal().string();
+}
+
+}  // namespace
+
+FileText read_regular_file(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return {{}, system_reason()};
+  if (S_ISDIR(status.st_mode)) return {{}, "it is a directory"};
+  if (!S_ISREG(status.st_mode)) return {{}, "it is not a regular file"};
+  const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+  if (file < 0) return {{}, system_reason()};
+  FileText text;
+  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
+    text.error = "it is not a regular file";
+  } else {
+    text.bytes.resize(static_cast<size_t>(status.st_size));
+    size_t filled = 0;
+    while (filled < text.bytes.size()) {
+      const ssize_t got = ::read(file, text.bytes.data() + filled, text.bytes.size() - filled);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) text.error = system_reason();
+      if (got <= 0) break;
+      filled += static_cast<size_t>(got);
+    }
+    text.bytes.resize(filled);
+  }
+  ::close(file);
+  return text;
+}
+
+std::string folder_of(const std::string& path) {
+  const size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return {};
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+std::string join_path(const std::string& folder, const std::string& name) {
+  if (folder.empty() || (!name.empty() && name[0] == '/')) return name;
+  return folder.back() == '/' ? folder + name : folder + "/" + name;
+}
+
+Files::Files(const std::string& model_folder, const std::vector<std::string>& library_folders) {
+  search_folders_ = {model_folder, join_path(model_folder, "csgrun_modules")};
+  search_folders_.insert(search_folders_.end(), library_folders.begin(), library_folders.end());
+  // Where the modules folder beside the model is a symlink, its target is a library by intent of
+  // whoever put the link there; but a link may come with a downloaded model, so it does not count.
+  roots_.push_back(real_path(model_folder));
+  for (const std::string& folder : library_folders) roots_.push_back(real_path(folder));
+  std::erase(roots_, std::string());
+}
+
+bool Files::is_allowed(const std::string& real) const {
+  return std::any_of(roots_.begin(), roots_.end(), [&](const std::string& root) {
+    return root == "/" || (real.size() > root.size() && real.compare(0, root.size(), root) == 0 &&
+                           real[root.size()] == '/');
+  });
+}
+
+Files::Opened Files::open(const std::string& caller, const std::string& path) const {
+  const std::string refusal =
+      "'" + path + "' lies outside of the model's folder and the library folders (-L)";
+  if (path.find('\0') != std::string::npos)
+    throw ScriptError("a path must not contain a zero byte");
+  Opened opened;
+  opened.display = join_path(folder_of(caller), path);
+  opened.real = real_path(opened.display);
+  if (opened.real.empty()) {
+    const std::string reason = system_reason();
+    // Whether a file outside exists is nothing that a script may find out.
+    std::string parent = folder_of(plain_path(opened.display)), real_parent;
+    while ((real_parent = real_path(parent)).empty() && parent != "/") parent = folder_of(parent);
+    if (!is_allowed(join_path(real_parent, "x"))) throw ScriptError(refusal);
+    throw ScriptError("cannot read '" + path + "': " + reason);
+  }
+  if (!is_allowed(opened.real)) throw ScriptError(refusal);
+  FileText text = read_regular_file(opened.real);
+  if (!text.error.empty()) throw ScriptError("cannot read '" + path + "': " + text.error);
+  opened.bytes = std::move(text.bytes);
+  return opened;
+}
+
+Files::Opened Files::open_module(const std::string& name) const {
+  const auto is_name_character = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  const bool plain = !name.empty() && name.front() != '.' && name.back() != '.' &&
+                     name.find("..") == std::string::npos &&
+                     std::all_of(name.begin(), name.end(), is_name_character);
+  if (!plain) {
+    throw ScriptError("'" + name +
+                      "' is not a module's name: write it as in require \"parts.wheel\"");
+  }
+  std::string relative = name;
+  std::replace(relative.begin(), relative.end(), '.', '/');
+  std::string tried;
+  for (const std::string& folder : search_folders_) {
+    for (const char* ending : {".lua", "/init.lua"}) {
+      const std::string path = join_path(folder, relative + ending);
+      const std::string real = real_path(path);
+      if (real.empty()) {
+        tried += "\n\tno file '" + path + "'";
+      } else if (!is_allowed(real)) {
+        tried +=
+            "\n\t'" + path + "' leads outside of the model's folder and the library folders (-L)";
+      } else {
+        FileText text = read_regular_file(real);
+        if (text.error.empty()) return {path, real, std::move(text.bytes)};
+        tried += "\n\tcannot read '" + path + "': " + text.error;
+      }
+    }
+  }
+  throw ScriptError("module '" + name + "' not found:" + tried);
+}
+
+}  // namespace csgrun

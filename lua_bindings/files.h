@@ -1,0 +1,44 @@
+// The files that a script may read: below the model's folder and the library folders, nothing else.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace csgrun {
+
+/// The text of a regular file, or why not. Pipes, devices and directories are refused before they
+/// are opened, so that nothing blocks.
+struct FileText {
+  std::string bytes;
+  std::string error;  ///< empty: it was read
+};
+FileText read_regular_file(const std::string& path);
+
+/// The folder of a path: "a/b.lua" -> "a", "b.lua" -> "" (the working folder).
+std::string folder_of(const std::string& path);
+/// `name` seen from `folder`.
+std::string join_path(const std::string& folder, const std::string& name);
+
+class Files {
+ public:
+  Files(const std::string& model_folder, const std::vector<std::string>& library_folders);
+
+  struct Opened {
+    std::string display;  ///< as it is named in messages
+    std::string real;     ///< after symlinks
+    std::string bytes;
+  };
+  /// Reads what `path` means to the file `caller` (a path as in messages). Throws ScriptError: not
+  /// below an allowed folder after symlinks, missing, or not a regular file.
+  Opened open(const std::string& caller, const std::string& path) const;
+  /// Reads the module `name` ("parts.wheel"). Throws ScriptError that lists the tried paths.
+  Opened open_module(const std::string& name) const;
+
+ private:
+  [[nodiscard]] bool is_allowed(const std::string& real) const;
+
+  std::vector<std::string> search_folders_;  // for modules, in order, as shown in messages
+  std::vector<std::string> roots_;           // real paths below which files may be read
+};
+
+}  // namespace csgrun

@@ -1,0 +1,54 @@
+#include "lua_bindings/nearest.h"
+
+#include <algorithm>
+
+namespace csgrun {
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// Twice the edit distance (so that a difference in case can cost a half).
+int distance(std::string_view a, std::string_view b) {
+  const size_t width = b.size() + 1;
+  std::vector<int> before(width), above(width), row(width);
+  for (size_t j = 0; j < width; ++j) above[j] = static_cast<int>(2 * j);
+  for (size_t i = 1; i <= a.size(); ++i) {
+    row[0] = static_cast<int>(2 * i);
+    for (size_t j = 1; j < width; ++j) {
+      const char x = a[i - 1], y = b[j - 1];
+      const int change = x == y ? 0 : lower(x) == lower(y) ? 1 : 2;
+      row[j] = std::min({above[j] + 2, row[j - 1] + 2, above[j - 1] + change});
+      if (i > 1 && j > 1 && x == b[j - 2] && a[i - 2] == y)
+        row[j] = std::min(row[j], before[j - 2] + 2);
+    }
+    std::swap(before, above);
+    std::swap(above, row);
+  }
+  return above[b.size()];
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
+  constexpr size_t kLongestWord = 64;  // nobody means a name that is longer than this
+  if (word.empty() || word.size() > kLongestWord) return {};
+  // One edit in three letters, at least one: "cub" is cube, "box" is not "rx".
+  const int limit = 2 * std::max<int>(1, static_cast<int>(word.size() + 1) / 3);
+  std::string best;
+  int best_distance = limit + 1;
+  for (const std::string& name : names) {
+    const int d = distance(word, name);
+    if (d < best_distance || (d == best_distance && !best.empty() && name < best)) {
+      best = name;
+      best_distance = d;
+    }
+  }
+  return best;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
+  const std::string name = nearest_name(word, names);
+  return name.empty() ? std::string() : " (did you mean '" + name + "'?)";
+}
+
+}  // namespace csgrun

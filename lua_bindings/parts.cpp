@@ -1,0 +1,76 @@
+#include "lua_bindings/parts.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "lua_bindings/arguments.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/session.h"
+#include "lua_bindings/values.h"
+
+namespace csgrun {
+namespace {
+
+/// Groups in groups deeper than this are a table that contains itself.
+constexpr int kDeepestGroup = 64;
+
+void add(lua_State* L, int index, const std::string& group, const std::string& name, int depth);
+
+void add_table(lua_State* L, int table, const std::string& group, int depth) {
+  if (depth > kDeepestGroup)
+    throw ScriptError("groups of parts are nested too deep (does a table contain itself?)");
+  luaL_checkstack(L, 8, "groups of parts");
+  const auto length = static_cast<lua_Integer>(lua_rawlen(L, table));
+  std::vector<std::string> names;
+  lua_Integer entries = 0;
+  lua_pushnil(L);
+  while (lua_next(L, table) != 0) {
+    lua_pop(L, 1);
+    if (lua_type(L, -1) == LUA_TSTRING) {
+      names.emplace_back(lua_tostring(L, -1));
+    } else if (lua_isinteger(L, -1) != 0 && lua_tointeger(L, -1) >= 1 &&
+               lua_tointeger(L, -1) <= length) {
+      ++entries;
+    } else {
+      throw ScriptError("a table of parts has names and a list from 1 on as keys, got the key " +
+                        describe_value(L, -1));
+    }
+  }
+  if (entries != length) throw ScriptError("a list of parts has a hole: one of its entries is nil");
+  for (lua_Integer i = 1; i <= length; ++i) {
+    lua_rawgeti(L, table, i);
+    add(L, lua_gettop(L), group, "", depth);
+    lua_pop(L, 1);
+  }
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names) {
+    lua_pushlstring(L, name.data(), name.size());
+    lua_rawget(L, table);
+    add(L, lua_gettop(L), group, name, depth);
+    lua_pop(L, 1);
+  }
+}
+
+void add(lua_State* L, int index, const std::string& group, const std::string& name, int depth) {
+  Session& session = session_of(L);
+  if (const SolidValue* solid = to_solid(L, index)) {
+    session.add_part({name, solid->node, {}, solid->node->where()}, group);
+  } else if (const ShapeValue* shape = to_shape(L, index)) {
+    session.add_part({name, nullptr, shape->shape, shape->where}, group);
+  } else if (lua_istable(L, index)) {
+    // A list without a name of its own is no group.
+    const std::string inner = name.empty() ? group : group.empty() ? name : group + "/" + name;
+    add_table(L, index, inner, depth + 1);
+  } else {
+    throw ScriptError("a part must be a solid, a shape or a table of them, got " +
+                      describe_value(L, index) + (name.empty() ? "" : " for '" + name + "'"));
+  }
+}
+
+}  // namespace
+
+void add_parts(lua_State* L, int index, const std::string& name) {
+  add(L, lua_absindex(L, index), "", name, 0);
+}
+
+}  // namespace csgrun

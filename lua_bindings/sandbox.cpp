@@ -1,0 +1,174 @@
+#include "lua_bindings/sandbox.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "lua_bindings/call_site.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/nearest.h"
+#include "lua_bindings/ordered.h"
+#include "lua_bindings/text.h"
+
+namespace csgrun {
+namespace {
+
+/// The same random numbers on every run, unless the script asks for others.
+constexpr lua_Integer kRandomSeed = 20100501;
+constexpr char kBytecodeMark = '\x1b';
+
+/// Names of Lua that models cannot have, and why.
+const char* missing_name_reason(const std::string& name) {
+  if (name == "io" || name == "os" || name == "dofile" || name == "loadfile") {
+    return "models cannot reach files or the system; import() and require() read below the model's "
+           "folder";
+  }
+  if (name == "debug" || name == "package")
+    return "it is not part of the language that models have";
+  return nullptr;
+}
+
+int undefined_global(lua_State* L) {
+  if (lua_type(L, 2) != LUA_TSTRING) throw ScriptError("undefined global variable");
+  const std::string name = lua_tostring(L, 2);
+  if (const char* reason = missing_name_reason(name)) {
+    throw ScriptError("'" + name + "' is not available: " + reason);
+  }
+  std::vector<std::string> names;
+  lua_pushnil(L);
+  while (lua_next(L, 1) != 0) {
+    lua_pop(L, 1);
+    if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
+  }
+  throw ScriptError("undefined variable '" + name + "'" + did_you_mean(name, names));
+}
+
+/// Upvalue 1: the original. The collector of the host language would run script code at times that
+/// depend on the machine.
+int set_metatable(lua_State* L) {
+  luaL_checktype(L, 1, LUA_TTABLE);
+  if (lua_istable(L, 2)) {
+    lua_pushliteral(L, "__gc");
+    if (lua_rawget(L, 2) != LUA_TNIL)
+      throw ScriptError("setmetatable: '__gc' is not available to models");
+    lua_pop(L, 1);
+  }
+  note_creation(L, 1);
+  const int count = lua_gettop(L);
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_call(L, count, 1);
+  return 1;
+}
+
+/// Upvalue 1: the original. Text only, whatever mode is asked for.
+int load_text(lua_State* L) {
+  if (lua_gettop(L) < 3) lua_settop(L, 3);
+  lua_pushliteral(L, "t");
+  lua_replace(L, 3);
+  const int count = lua_gettop(L);
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_call(L, count, LUA_MULTRET);
+  return lua_gettop(L);
+}
+
+/// How much memory is in use depends on the machine, so that is not told either.
+int collect_garbage(lua_State* L) {
+  luaL_optstring(L, 1, "collect");
+  lua_pushinteger(L, 0);
+  return 1;
+}
+
+/// Upvalue 1: the original, which without a number would take the clock and an address.
+int random_seed(lua_State* L) {
+  luaL_checknumber(L, 1);
+  const int count = lua_gettop(L);
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_call(L, count, 0);
+  return 0;
+}
+
+int add_warning(lua_State* L) {
+  std::string text;
+  for (int i = 1; i <= lua_gettop(L); ++i) text += luaL_checkstring(L, i);
+  session_of(L).warn(L, text);
+  return 0;
+}
+
+/// `table.name = function(table.name)`: the table is on the top of the stack.
+void wrap_field(lua_State* L, const char* name, lua_CFunction function) {
+  lua_getfield(L, -1, name);
+  lua_pushcclosure(L, function, 1);
+  lua_setfield(L, -2, name);
+}
+
+void set_field(lua_State* L, const char* name, lua_CFunction function) {
+  if (function != nullptr) {
+    lua_pushcfunction(L, function);
+  } else {
+    lua_pushnil(L);
+  }
+  lua_setfield(L, -2, name);
+}
+
+}  // namespace
+
+void open_sandbox(lua_State* L, Session& session) {
+  attach_session(L, session);
+  constexpr luaL_Reg kLibraries[] = {
+      {LUA_GNAME, luaopen_base},        {LUA_TABLIBNAME, luaopen_table},
+      {LUA_STRLIBNAME, luaopen_string}, {LUA_MATHLIBNAME, luaopen_math},
+      {LUA_UTF8LIBNAME, luaopen_utf8},  {LUA_COLIBNAME, luaopen_coroutine},
+  };
+  for (const luaL_Reg& library : kLibraries) {
+    luaL_requiref(L, library.name, library.func, 1);
+    lua_pop(L, 1);
+  }
+
+  lua_pushglobaltable(L);
+  set_field(L, "dofile", nullptr);
+  set_field(L, "loadfile", nullptr);
+  set_field(L, "print", guarded<lua_print_to_stderr>);
+  set_field(L, "tostring", guarded<lua_tostring_without_addresses>);
+  set_field(L, "pairs", guarded<ordered_pairs>);
+  set_field(L, "next", guarded<ordered_next>);
+  set_field(L, "collectgarbage", guarded<collect_garbage>);
+  set_field(L, "warn", guarded<add_warning>);
+  wrap_field(L, "setmetatable", guarded<set_metatable>);
+  wrap_field(L, "load", guarded<load_text>);
+  lua_getfield(L, -1, LUA_STRLIBNAME);
+  set_field(L, "dump", nullptr);
+  wrap_field(L, "format", guarded<lua_format_without_addresses>);
+  lua_pop(L, 1);
+  lua_getfield(L, -1, LUA_MATHLIBNAME);
+  wrap_field(L, "randomseed", guarded<random_seed>);
+  lua_getfield(L, -1, "randomseed");
+  lua_pushinteger(L, kRandomSeed);
+  lua_call(L, 1, 0);
+  lua_pop(L, 1);
+
+  lua_createtable(L, 0, 2);
+  set_field(L, "__index", guarded<undefined_global>);
+  lua_pushboolean(L, 0);
+  lua_setfield(L, -2, "__metatable");
+  lua_setmetatable(L, -2);
+  lua_pop(L, 1);
+}
+
+void load_chunk(lua_State* L, const std::string& path, const std::string& text) {
+  size_t start = text.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0;
+  if (start < text.size() && text[start] == kBytecodeMark) {
+    throw PlacedScriptError(path + ":1: this is Lua bytecode; only text is accepted");
+  }
+  if (start < text.size() && text[start] == '#')
+    start = std::min(text.find('\n', start), text.size());
+  const std::string name = "@" + path;
+  const int status =
+      luaL_loadbufferx(L, text.data() + start, text.size() - start, name.c_str(), "t");
+  if (status == LUA_ERRMEM) throw std::bad_alloc();
+  if (status != LUA_OK) throw PlacedScriptError(with_whole_path(lua_tostring(L, -1), path));
+}
+
+}  // namespace csgrun

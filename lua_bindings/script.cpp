@@ -1,0 +1,118 @@
+#include "lua_bindings/script.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "lua_bindings/api.h"
+#include "lua_bindings/call_site.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/nearest.h"
+#include "lua_bindings/parts.h"
+#include "lua_bindings/sandbox.h"
+
+namespace csgrun {
+namespace {
+
+struct StateCloser {
+  void operator()(lua_State* L) const { lua_close(L); }
+};
+
+struct Program {
+  Session* session;
+  const std::string* name;
+  const std::string* text;
+};
+
+/// The last line that has code, for complaints about what the whole script returned.
+int last_line(lua_State* L, int function) {
+  lua_Debug info{};
+  lua_pushvalue(L, function);
+  lua_getinfo(L, ">L", &info);
+  int last = 1;
+  if (lua_istable(L, -1)) {
+    lua_pushnil(L);
+    while (lua_next(L, -2) != 0) {
+      lua_pop(L, 1);
+      last = std::max(last, static_cast<int>(lua_tointeger(L, -1)));
+    }
+  }
+  lua_pop(L, 1);
+  return last;
+}
+
+/// Everything that needs protection: opening the libraries, loading, running, taking the result.
+int run_program(lua_State* L) {
+  const Program& program = *static_cast<Program*>(lua_touserdata(L, 1));
+  open_sandbox(L, *program.session);
+  open_api(L);
+  load_chunk(L, *program.name, *program.text);
+  const int function = lua_gettop(L);
+  lua_pushvalue(L, function);
+  lua_call(L, 0, LUA_MULTRET);
+  try {
+    const int top = lua_gettop(L);
+    for (int index = function + 1; index <= top; ++index) {
+      if (!lua_isnil(L, index)) add_parts(L, index, "");
+    }
+    if (program.session->parts().empty()) {
+      throw ScriptError("the script makes no part: return a solid, or call emit(solid)");
+    }
+  } catch (const ScriptError& error) {
+    throw PlacedScriptError(*program.name + ":" + std::to_string(last_line(L, function)) + ": " +
+                            error.what());
+  }
+  return 0;
+}
+
+/// Definitions that no param() asked for.
+std::string unknown_definition(const Session& session) {
+  for (const Definition& definition : session.definitions) {
+    if (definition.used) continue;
+    return "-D " + definition.name + ": the model has no such parameter" +
+           did_you_mean(definition.name, session.parameter_names);
+  }
+  return {};
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
+
+ScriptOutcome run_script(Session& session, const std::string& name, const std::string& text) {
+  Budget& budget = session.budget();
+  const std::unique_ptr<lua_State, StateCloser> state(lua_newstate(&Budget::allocate, &budget));
+  if (!state) return {ScriptStatus::kFailed, name + ": " + budget.memory_message()};
+  lua_State* L = state.get();
+  attach_session(L, session);
+  Program program{&session, &name, &text};
+
+  lua_pushcfunction(L, guarded<add_traceback>);
+  lua_pushcfunction(L, guarded<run_program>);
+  lua_pushlightuserdata(L, &program);
+  budget.start_script(L);
+  const int status = lua_pcall(L, 1, 0, 1);
+  budget.stop_script();
+
+  if (status == LUA_ERRMEM) {
+    const std::string& place = budget.memory_place();
+    return {ScriptStatus::kFailed, (place.empty() ? name : place) + ": " + budget.memory_message()};
+  }
+  std::string message = status == LUA_OK                 ? ""
+                        : lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1)
+                                                         : name + ": failed";
+  if (budget.out_of_time()) {
+    return {ScriptStatus::kOutOfTime,
+            message.empty() ? name + ": " + budget.time_message() : message};
+  }
+  if (session.definition_error) return {ScriptStatus::kUsage, *session.definition_error};
+  if (status != LUA_OK) {
+    const bool geometry = session.is_geometry_failure(first_line(message));
+    return {geometry ? ScriptStatus::kGeometry : ScriptStatus::kFailed, message};
+  }
+  if (std::string problem = unknown_definition(session); !problem.empty()) {
+    return {ScriptStatus::kUsage, std::move(problem)};
+  }
+  return {};
+}
+
+}  // namespace csgrun

@@ -1,0 +1,121 @@
+#include "lua_bindings/session.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "lua_bindings/call_site.h"
+#include "lua_bindings/guard.h"
+
+namespace csgrun {
+namespace {
+
+constexpr size_t kLongestPartName = 200;
+
+/// Names become file names ('dir/%s.stl') and node names: nothing in them may leave the folder.
+void check_part_name(const std::string& name) {
+  if (name.size() > kLongestPartName) throw ScriptError("a part's name is longer than 200 bytes");
+  size_t start = 0;
+  while (true) {
+    const size_t end = std::min(name.find('/', start), name.size());
+    const std::string piece = name.substr(start, end - start);
+    const bool bad = piece.empty() || piece == "." || piece == ".." ||
+                     std::any_of(piece.begin(), piece.end(), [](char c) {
+                       return static_cast<unsigned char>(c) < 32 || c == 127 || c == '\\';
+                     });
+    if (bad) {
+      throw ScriptError(
+          "'" + name +
+          "' cannot be a part's name: it must not be empty, nor have '..', backslashes "
+          "or control characters in it");
+    }
+    if (end == name.size()) return;
+    start = end + 1;
+  }
+}
+
+}  // namespace
+
+Session::Session(SessionOptions options)
+    : facets(options.facets),
+      options_(std::move(options)),
+      budget_(options_.limits, options_.model),
+      files_(options_.model_folder, options_.library_folders) {
+  for (const auto& [name, text] : options_.definitions) definitions.push_back({name, text});
+  options_.evaluate.cancel = &budget_.cancel();
+}
+
+void Session::set_grid(const GridStep& grid) {
+  options_.evaluate.grid = grid;
+  evaluator_.reset();
+}
+
+Evaluator& Session::evaluator() {
+  if (!evaluator_) evaluator_ = std::make_unique<Evaluator>(options_.evaluate);
+  return *evaluator_;
+}
+
+SolidPtr Session::evaluate(const NodePtr& node) {
+  const EvaluationScope scope(budget_);
+  auto solid = evaluator().evaluate(node);
+  if (!solid) fail_evaluation(solid.error());
+  return *solid;
+}
+
+void Session::fail_evaluation(const Error& error) {
+  std::string message = error.message;
+  if (const std::string place = error.where.text(); !place.empty())
+    message += " (made at " + place + ")";
+  geometry_failures_.push_back(message);
+  throw ScriptError(message);
+}
+
+bool Session::is_geometry_failure(const std::string& message) const {
+  return std::any_of(
+      geometry_failures_.begin(), geometry_failures_.end(),
+      [&](const std::string& failure) { return message.find(failure) != std::string::npos; });
+}
+
+void Session::warn(lua_State* L, const std::string& text) {
+  const std::string place = place_of_call(L);
+  const std::string line = place.empty() ? text : place + ": " + text;
+  if (warned_.insert(line).second) warnings_.push_back(line);
+}
+
+SourceRef Session::source_ref(lua_State* L) {
+  lua_Debug frame{};
+  if (!innermost_lua_frame(L, frame)) return {};
+  const char* file = chunk_file(frame);
+  if (!last_file_name_ || *last_file_name_ != file) {
+    auto& shared = file_names_[file];
+    if (!shared) shared = std::make_shared<const std::string>(file);
+    last_file_name_ = shared;
+  }
+  return {last_file_name_, frame.currentline};
+}
+
+void Session::add_part(ScriptPart part, const std::string& group) {
+  const std::string prefix = group.empty() ? "" : group + "/";
+  if (part.name.empty()) {
+    part.name = prefix + "part" + std::to_string(++unnamed_in_group_[group]);
+  } else {
+    part.name = prefix + part.name;
+  }
+  check_part_name(part.name);
+  if (!part_names_.insert(part.name).second) {
+    throw ScriptError("there are two parts named '" + part.name + "'");
+  }
+  parts_.push_back(std::move(part));
+}
+
+Session& session_of(lua_State* L) {
+  Session* session = nullptr;
+  std::memcpy(&session, lua_getextraspace(L), sizeof session);
+  return *session;
+}
+
+void attach_session(lua_State* L, Session& session) {
+  Session* pointer = &session;
+  std::memcpy(lua_getextraspace(L), &pointer, sizeof pointer);
+}
+
+}  // namespace csgrun

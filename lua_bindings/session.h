@@ -1,0 +1,115 @@
+// What one run of a script has beside the Lua state: settings, parameters, parts, warnings, files,
+// and the evaluator that measures.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lua.hpp>
+
+#include <csgrun/engine/csg_tree.h>
+#include <csgrun/engine/evaluate.h>
+#include <csgrun/primitives/shape2d.h>
+#include <csgrun/primitives/solids.h>
+
+#include "lua_bindings/budget.h"
+#include "lua_bindings/files.h"
+
+namespace csgrun {
+
+/// Something that a script gave as its result: a solid, or a 2D shape.
+struct ScriptPart {
+  std::string name;  ///< unique; groups are separated by '/'
+  NodePtr solid;     ///< null for a shape
+  Shape2D shape;
+  SourceRef where;  ///< where it was emitted or made
+};
+
+/// A `-D name=value`, and whether a param() asked for it.
+struct Definition {
+  std::string name, text;
+  bool used = false;
+};
+
+struct SessionOptions {
+  std::string model;         ///< as the user gave it: for messages and relative paths
+  std::string model_folder;  ///< where the model's own files are
+  std::vector<std::string> library_folders;  ///< -L and CSGRUN_PATH, in order
+  std::vector<std::pair<std::string, std::string>> definitions;
+  Facets facets;
+  EvaluateOptions evaluate;
+  BudgetLimits limits;
+};
+
+class Session {
+ public:
+  explicit Session(SessionOptions options);
+
+  [[nodiscard]] const SessionOptions& options() const { return options_; }
+  [[nodiscard]] Budget& budget() { return budget_; }
+  [[nodiscard]] Files& files() { return files_; }
+
+  /// csg.fn, csg.fa, csg.fs; csg.grid.
+  Facets facets;
+  [[nodiscard]] const GridStep& grid() const { return options_.evaluate.grid; }
+  /// Another grid means another evaluator; what was cached so far is dropped.
+  void set_grid(const GridStep& grid);
+
+  /// Lives as long as the grid stays the same.
+  Evaluator& evaluator();
+  /// The solid of a tree, on the script's clock. Throws ScriptError, with the place of the node.
+  SolidPtr evaluate(const NodePtr& node);
+  /// Whether the message is that of an evaluation that failed in a script: exit 3 rather than 1.
+  [[nodiscard]] bool is_geometry_failure(const std::string& message) const;
+  /// Throws ScriptError for an engine error.
+  [[noreturn]] void fail_evaluation(const Error& error);
+
+  /// Adds "FILE:line: text" once.
+  void warn(lua_State* L, const std::string& text);
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /// The place of the running Lua code, sharing one copy of each file name.
+  SourceRef source_ref(lua_State* L);
+
+  /// Takes a part; gives it a name when it has none. Throws ScriptError for a bad or taken name.
+  void add_part(ScriptPart part, const std::string& group);
+  [[nodiscard]] const std::vector<ScriptPart>& parts() const { return parts_; }
+
+  std::vector<Definition> definitions;
+  std::vector<std::string> parameter_names;     ///< that the script asked for
+  std::optional<std::string> definition_error;  ///< a -D whose value does not fit: a usage error
+
+  /// Numbers values in the order of their making.
+  uint64_t next_serial() { return ++last_serial_; }
+  size_t collector_debt =
+      0;  ///< bytes outside of the Lua heap that the collector was not told of yet
+
+  /// Meshes of files by their real path: read once.
+  std::map<std::string, NodePtr> imported;
+
+ private:
+  SessionOptions options_;
+  Budget budget_;
+  Files files_;
+  std::unique_ptr<Evaluator> evaluator_;
+  std::vector<std::string> warnings_;
+  std::set<std::string> warned_;
+  std::vector<ScriptPart> parts_;
+  std::set<std::string> part_names_;
+  std::map<std::string, int> unnamed_in_group_;
+  std::map<std::string, std::shared_ptr<const std::string>> file_names_;
+  std::shared_ptr<const std::string> last_file_name_;
+  std::vector<std::string> geometry_failures_;
+  uint64_t last_serial_ = 0;
+};
+
+/// The session of a Lua state and of all its coroutines.
+Session& session_of(lua_State* L);
+void attach_session(lua_State* L, Session& session);
+
+}  // namespace csgrun

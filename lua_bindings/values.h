@@ -1,0 +1,68 @@
+// The values of the language: solids, 2D shapes, matrices. Immutable; scripts hold references.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <lua.hpp>
+
+#include <csgrun/engine/csg_tree.h>
+#include <csgrun/engine/solid.h>
+#include <csgrun/primitives/shape2d.h>
+
+namespace csgrun {
+
+/// What all values have.
+struct Value {
+  uint64_t serial = 0;  ///< position in the order of making
+};
+
+struct SolidValue : Value {
+  static constexpr const char* kName = "solid";
+  explicit SolidValue(NodePtr n) : node(std::move(n)) {}
+  NodePtr node;
+  SolidPtr evaluated;  ///< after the first measurement
+};
+
+struct ShapeValue : Value {
+  static constexpr const char* kName = "shape";
+  Shape2D shape;
+  std::optional<Appearance> appearance;  ///< painted on what is extruded from it
+  SourceRef where;
+};
+
+struct MatrixValue : Value {
+  static constexpr const char* kName = "matrix";
+  Affine map;
+};
+
+void push_solid(lua_State* L, NodePtr node);
+void push_shape(lua_State* L, Shape2D shape, std::optional<Appearance> appearance);
+void push_matrix(lua_State* L, const Affine& map);
+
+/// The value at `index`, or null when it is something else.
+SolidValue* to_solid(lua_State* L, int index);
+ShapeValue* to_shape(lua_State* L, int index);
+MatrixValue* to_matrix(lua_State* L, int index);
+/// A matrix value, or a list of rows (missing entries from the identity, divided by [4][4]).
+/// False when it is neither; throws ScriptError when an entry is no finite number.
+bool to_affine(lua_State* L, int index, Affine& map);
+
+/// The serial of a value, or 0 when it is something else.
+uint64_t value_serial(lua_State* L, int index);
+
+/// Type name for messages: "solid", "shape", "matrix", "string" ...
+std::string kind_name(lua_State* L, int index);
+
+/// Registers the metatables; methods and operators are added by open_api.
+void open_values(lua_State* L);
+
+/// A leaf whose mesh counts against the script's memory until it is freed.
+NodePtr counted_leaf(lua_State* L, PolygonMesh mesh);
+
+/// A list of numbers {a, b, c}.
+void push_list(lua_State* L, std::initializer_list<double> numbers);
+
+}  // namespace csgrun
