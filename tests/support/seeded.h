@@ -1,0 +1,34 @@
+// Random numbers for tests: fixed by default, another seed with CSGRUN_SEED, always printed.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+
+namespace csgrun::test {
+
+class Random {
+ public:
+  explicit Random(uint64_t default_seed) : state_(default_seed) {
+    if (const char* given = std::getenv("CSGRUN_SEED")) state_ = std::strtoull(given, nullptr, 10);
+    std::printf("seed %llu (replay with CSGRUN_SEED)\n", static_cast<unsigned long long>(state_));
+  }
+
+  uint64_t bits() {  // splitmix64
+    uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    return z ^ (z >> 31);
+  }
+  /// Uniform in [lo, hi].
+  int64_t integer(int64_t lo, int64_t hi) {
+    return lo + static_cast<int64_t>(bits() % static_cast<uint64_t>(hi - lo + 1));
+  }
+  /// Uniform in [0, 1).
+  double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+
+ private:
+  uint64_t state_;
+};
+
+}  // namespace csgrun::test

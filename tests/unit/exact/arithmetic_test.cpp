@@ -1,0 +1,208 @@
+// The exact arithmetic against GMP: signs in every tier, zeros among them, and correct rounding.
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "engine/exact/predicates.h"
+#include "engine/exact/rounding.h"
+#include "tests/support/gmp_bridge.h"
+#include "tests/support/seeded.h"
+
+namespace csgrun {
+namespace {
+
+using test::gmp_side;
+using test::Random;
+using test::to_gmp;
+
+Int128 random_bits(Random& random, int bits) {
+  if (bits <= 0) return 0;
+  UInt128 v = static_cast<UInt128>(random.bits()) << 64 | random.bits();
+  v >>= 128 - bits;
+  return random.bits() & 1 ? -static_cast<Int128>(v) : static_cast<Int128>(v);
+}
+
+Plane random_plane(Random& random, int normal, int offset) {
+  Plane p;
+  while (p.a == 0 && p.b == 0 && p.c == 0) {
+    p = {random_bits(random, normal), random_bits(random, normal), random_bits(random, normal), 0};
+  }
+  p.d = random_bits(random, offset);
+  return p;
+}
+
+bool meet_in_a_point(const Plane& p, const Plane& q, const Plane& r) {
+  const mpz_class det = to_gmp(p.a) * (to_gmp(q.b) * to_gmp(r.c) - to_gmp(q.c) * to_gmp(r.b)) -
+                        to_gmp(p.b) * (to_gmp(q.a) * to_gmp(r.c) - to_gmp(q.c) * to_gmp(r.a)) +
+                        to_gmp(p.c) * (to_gmp(q.a) * to_gmp(r.b) - to_gmp(q.b) * to_gmp(r.a));
+  return det != 0;
+}
+
+// Planes of all widths that occur, from boxes to sheared frames; a third of the planes pass through
+// the point by construction (combinations of planes through it), so that their sign is zero.
+TEST(ExactSide, AgreesWithGmpOnAMillionSignsInEveryTier) {
+  Random random(20260101);
+  constexpr std::array<std::array<int, 2>, 9> kWidths{{{1, 8},   {4, 14},  {8, 30},
+                                                       {12, 40}, {20, 50}, {28, 60},
+                                                       {40, 72}, {57, 84}, {widths::kMaxNormal - 4,
+                                                                            widths::kMaxOffset - 6}}};
+  std::array<uint64_t, 6> tiers{};
+  uint64_t zeros = 0, total = 0;
+  constexpr int kPlanesPerPoint = 6;
+  while (total < 1'020'000) {
+    const auto& width = kWidths[random.bits() % kWidths.size()];
+    const Plane p = random_plane(random, width[0], width[1]);
+    const Plane q = random_plane(random, width[0], width[1]);
+    const Plane r = random_plane(random, width[0], width[1]);
+    if (!meet_in_a_point(p, q, r)) continue;
+    const Point point = intersect(p, q, r);
+    const auto exact = to_gmp(point);
+    for (int k = 0; k < kPlanesPerPoint; ++k) {
+      Plane s;
+      if (k % 2 == 0) {
+        // Through the point: a small combination of the three, within the allowed widths.
+        const int64_t u = random.integer(-3, 3), v = random.integer(-3, 3), w = random.integer(-3, 3);
+        s = {p.a * u + q.a * v + r.a * w, p.b * u + q.b * v + r.b * w, p.c * u + q.c * v + r.c * w,
+             p.d * u + q.d * v + r.d * w};
+        if (s.a == 0 && s.b == 0 && s.c == 0) s = p;
+      } else {
+        const auto& other = kWidths[random.bits() % kWidths.size()];
+        s = random_plane(random, other[0], other[1]);
+      }
+      const int expected = gmp_side(s, exact);
+      const int tier = exact_tier(s, point);
+      ASSERT_EQ(exact_side(s, point), expected);
+      for (int wider = tier + 1; wider < 6; ++wider) ASSERT_EQ(exact_side(s, point, wider), expected);
+      const std::array<double, 4> approximate{
+          static_cast<double>(s.a), static_cast<double>(s.b), static_cast<double>(s.c),
+          static_cast<double>(s.d)};
+      const int filtered = filter_side(approximate, rounded(point));
+      ASSERT_TRUE(filtered == 0 || filtered == expected);
+      ++tiers[tier];
+      ++total;
+      zeros += expected == 0;
+    }
+  }
+  std::printf("%llu signs, %llu of them zero; by tier:", static_cast<unsigned long long>(total),
+              static_cast<unsigned long long>(zeros));
+  for (const uint64_t t : tiers) std::printf(" %llu", static_cast<unsigned long long>(t));
+  std::printf("\n");
+  EXPECT_GE(total, 1'000'000u);
+  EXPECT_GE(zeros * 3, total);
+  for (const uint64_t t : tiers) EXPECT_GT(t, 1000u);
+}
+
+TEST(Intersect, IsWhereThreePlanesMeet) {
+  Random random(7);
+  for (int i = 0; i < 20'000; ++i) {
+    const int normal = static_cast<int>(random.integer(1, widths::kMaxNormal));
+    const int offset = static_cast<int>(random.integer(1, widths::kMaxOffset));
+    const Plane p = random_plane(random, normal, offset), q = random_plane(random, normal, offset),
+                r = random_plane(random, normal, offset);
+    if (!meet_in_a_point(p, q, r)) continue;
+    const Point point = intersect(p, q, r);
+    const auto exact = to_gmp(point);
+    ASSERT_GT(exact.w, 0);
+    for (const Plane& s : {p, q, r}) ASSERT_EQ(gmp_side(s, exact), 0);
+    ASSERT_EQ(point.w_bits, static_cast<int>(mpz_sizeinbase(exact.w.get_mpz_t(), 2)));
+  }
+}
+
+TEST(Rounding, IsToTheNearestDouble) {
+  Random random(11);
+  for (int i = 0; i < 60'000; ++i) {
+    mpz_class numerator, denominator;
+    if (i % 3 == 0) {
+      // A tie, or a tie missed by one part in 2^200.
+      const mpz_class odd = 2 * mpz_class(static_cast<unsigned long>(random.bits() >> 12)) + 1;
+      denominator = mpz_class(static_cast<unsigned long>(random.bits() | 1)) << 140;
+      numerator = ((odd | (mpz_class(1) << 53)) * denominator) + random.integer(-1, 1);
+      numerator = numerator % (mpz_class(1) << 500);
+    } else {
+      numerator = to_gmp(random_bits(random, static_cast<int>(random.integer(1, 127))));
+      numerator *= to_gmp(random_bits(random, static_cast<int>(random.integer(1, 127))));
+      numerator *= to_gmp(random_bits(random, static_cast<int>(random.integer(1, 127))));
+      denominator = abs(to_gmp(random_bits(random, static_cast<int>(random.integer(1, 127)))));
+      denominator *= abs(to_gmp(random_bits(random, static_cast<int>(random.integer(1, 127)))));
+    }
+    if (denominator == 0) continue;
+    if (random.bits() & 1) numerator = -numerator;
+    mpq_class value(numerator, denominator);
+    value.canonicalize();
+    const double got = round_to_double(test::from_gmp<kQuotientLimbs>(numerator),
+                                       test::from_gmp<kQuotientLimbs>(denominator));
+    // No other double is nearer; in a tie the last bit is even.
+    const mpq_class error = abs(mpq_class(got) - value);
+    for (const double other : {std::nextafter(got, -HUGE_VAL), std::nextafter(got, HUGE_VAL)}) {
+      const mpq_class distance = abs(mpq_class(other) - value);
+      ASSERT_LE(error, distance);
+      if (error == distance && error != 0) {
+        int exponent;
+        const double mantissa = std::ldexp(std::fabs(std::frexp(got, &exponent)), 53);
+        ASSERT_EQ(std::fmod(mantissa, 2), 0);
+      }
+    }
+    const float single = round_to_float(test::from_gmp<kQuotientLimbs>(numerator),
+                                        test::from_gmp<kQuotientLimbs>(denominator), -300);
+    const mpq_class scaled = value / mpq_class(mpz_class(1) << 300);
+    if (std::isfinite(single)) {
+      const mpq_class off = abs(mpq_class(single) - scaled);
+      for (const float other : {std::nextafterf(single, -HUGE_VALF), std::nextafterf(single, HUGE_VALF)}) {
+        if (std::isfinite(other)) ASSERT_LE(off, abs(mpq_class(other) - scaled));
+      }
+    }
+  }
+}
+
+TEST(FixedInt, MultipliesAddsAndShiftsAsGmpDoes) {
+  Random random(13);
+  const mpz_class modulus = mpz_class(1) << 256;
+  const auto wrap = [&](mpz_class v) {
+    v %= modulus;
+    if (v < 0) v += modulus;
+    if (v >= modulus / 2) v -= modulus;
+    return v;
+  };
+  for (int i = 0; i < 50'000; ++i) {
+    Int<3> a;
+    Int<2> b;
+    for (auto& l : a.limb) l = random.bits() >> (random.bits() % 64);
+    for (auto& l : b.limb) l = random.bits() >> (random.bits() % 64);
+    if (random.bits() & 1) a = -a;
+    if (random.bits() & 1) b = -b;
+    const mpz_class x = to_gmp(a), y = to_gmp(b);
+    ASSERT_EQ(to_gmp(multiply<5>(a, b)), x * y);
+    ASSERT_EQ(to_gmp(multiply<4>(a, b)), wrap(x * y));
+    ASSERT_EQ(to_gmp(multiply<7>(a, b)), x * y);
+    const Int<4> u = Int<4>::from(a), v = Int<4>::from(b);
+    ASSERT_EQ(to_gmp(u + v), x + y);
+    ASSERT_EQ(to_gmp(u - v), x - y);
+    ASSERT_EQ(compare(u, v), x < y ? -1 : x > y ? 1 : 0);
+    const int shift = static_cast<int>(random.bits() % 256);
+    ASSERT_EQ(to_gmp(u.shifted_left(shift)), wrap(x << shift));
+    ASSERT_EQ(u.bit_width(), x == 0 ? 0 : static_cast<int>(mpz_sizeinbase(x.get_mpz_t(), 2)));
+  }
+}
+
+TEST(PlaneTable, NamesAPlaneOnceWhateverItsScaleAndSide) {
+  Random random(17);
+  PlaneTable table;
+  for (int i = 0; i < 5'000; ++i) {
+    const Plane p = random_plane(random, 50, 70);
+    const Int128 factor = random.integer(1, 1 << 20);
+    const Plane scaled{p.a * factor, p.b * factor, p.c * factor, p.d * factor};
+    const PlaneId id = table.intern(p), same = table.intern(scaled), back = table.intern(p.reversed());
+    ASSERT_EQ(id, same);
+    ASSERT_EQ(id.flip(), back);
+    const Plane stored = table.oriented(id);
+    // The stored coefficients are a positive multiple of the given ones.
+    ASSERT_EQ(to_gmp(stored.a) * to_gmp(p.b), to_gmp(stored.b) * to_gmp(p.a));
+    ASSERT_EQ(to_gmp(stored.c) * to_gmp(p.d), to_gmp(stored.d) * to_gmp(p.c));
+    ASSERT_EQ(stored.a > 0, p.a > 0);
+  }
+}
+
+}  // namespace
+}  // namespace csgrun
