@@ -55,8 +55,8 @@ class OctreeBuilder {
  private:
   using Presence = CriticalCell::Presence;
 
-  /// Whether the polygon may meet the cell: its box does and, for a polygon that is large beside the
-  /// cell, its plane does. Conservative.
+  /// Whether the polygon may meet the cell: its box does and, for a polygon that reaches beyond the
+  /// cell, so do its plane and its outline. Conservative.
   [[nodiscard]] bool meets(uint32_t polygon, const CellBox& cell) const {
     const PolygonBox& b = job_.boxes()[polygon];
     int larger = 0;
@@ -64,32 +64,62 @@ class OctreeBuilder {
       if (b.hi[k] <= cell.lo[k] || b.lo[k] > cell.hi[k]) return false;
       larger += b.lo[k] < cell.lo[k] || b.hi[k] > cell.hi[k];
     }
-    return larger < 2 || !plane_misses(polygon, cell);
+    return larger == 0 || !separated(polygon, cell);
   }
 
-  [[nodiscard]] bool plane_misses(uint32_t polygon, const CellBox& cell) const {
+  /// Separating axes in doubles: the polygon's normal, and in the projection along its longest
+  /// component the normals of its edges. Margins cover the rounding: coordinates are off by 2^-23 at
+  /// most (rounded vertices below 2^30), products by 2^-52 of their size.
+  [[nodiscard]] bool separated(uint32_t polygon, const CellBox& cell) const {
     const auto corners = job_.corners(job_.polygons()[polygon]);
+    double center[3], half[3], reach_of_cell = 0;
+    for (int k = 0; k < 3; ++k) {
+      half[k] = static_cast<double>(cell.hi[k] - cell.lo[k]) * 0.5 + 1;
+      center[k] = static_cast<double>(cell.lo[k]) + half[k];
+      reach_of_cell = std::max(reach_of_cell, half[k]);
+    }
     const auto &a = job_.rounded(corners[0]), &b = job_.rounded(corners[1]),
                &c = job_.rounded(corners[2]);
-    double u[3], v[3], to_center[3], half[3], length = 0, distance = 0;
+    double u[3], v[3], n[3], length = 0, distance = 0;
     for (int k = 0; k < 3; ++k) {
       u[k] = b[k] - a[k];
       v[k] = c[k] - a[k];
-      half[k] = static_cast<double>(cell.hi[k] - cell.lo[k]) * 0.5 + 1;
-      to_center[k] = static_cast<double>(cell.lo[k]) + half[k] - a[k];
       length = std::max({length, std::fabs(u[k]), std::fabs(v[k])});
-      distance = std::max(distance, std::fabs(to_center[k]));
+      distance = std::max(distance, std::fabs(center[k] - a[k]));
     }
     double value = 0, reach = 0;
-    // Normal: products of differences that are off by 2^-23 at most (rounded vertices), two roundings.
     const double normal_error = 0x1p-50 * length * length + 0x1p-21 * length;
     for (int k = 0; k < 3; ++k) {
       const int i = (k + 1) % 3, j = (k + 2) % 3;
-      const double n = u[i] * v[j] - u[j] * v[i];
-      value += n * to_center[k];
-      reach += std::fabs(n) * (half[k] + 1);
+      n[k] = u[i] * v[j] - u[j] * v[i];
+      value += n[k] * (center[k] - a[k]);
+      reach += std::fabs(n[k]) * (half[k] + 1);
     }
-    return std::fabs(value) > reach * (1 + 0x1p-40) + 4 * normal_error * (distance + half[0] + half[1]);
+    if (std::fabs(value) >
+        reach * (1 + 0x1p-40) + 4 * normal_error * (distance + reach_of_cell)) {
+      return true;
+    }
+    const int axis = std::fabs(n[0]) >= std::fabs(n[1]) && std::fabs(n[0]) >= std::fabs(n[2]) ? 0
+                     : std::fabs(n[1]) >= std::fabs(n[2])                                     ? 1
+                                                                                              : 2;
+    if (std::fabs(n[axis]) <= 4 * normal_error) return false;  // too thin to have a sure orientation
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const double sign = n[axis] > 0 ? 1 : -1;
+    for (size_t k = 0; k < corners.size(); ++k) {
+      const auto &p = job_.rounded(corners[k]), &q = job_.rounded(corners[k + 1 < corners.size() ? k + 1 : 0]);
+      const double du = q[i] - p[i], dv = q[j] - p[j];
+      // Left of the edge is inside: the cell is outside when its leftmost corner is right of it.
+      const double left = sign * (du * (center[j] - p[j]) - dv * (center[i] - p[i]));
+      const double spread = std::fabs(du) * (half[j] + 1) + std::fabs(dv) * (half[i] + 1);
+      const double margin = (std::fabs(du) + std::fabs(dv)) * 0x1p-20 + 0x1p-20 * distance_to(center, p);
+      if (left < -spread * (1 + 0x1p-40) - margin) return true;
+    }
+    return false;
+  }
+
+  static double distance_to(const double* center, const std::array<double, 3>& p) {
+    return std::max({std::fabs(center[0] - p[0]), std::fabs(center[1] - p[1]),
+                     std::fabs(center[2] - p[2])});
   }
 
   /// Handles a cell whose presences are presences_[first..] and may have lost their polygons or their
