@@ -9,8 +9,8 @@
 namespace csgrun {
 
 /// A file under way. Whatever happens before commit() leaves the target as it was; the destructor
-/// removes the temporary file. Targets that are no regular files (a terminal, /dev/null, a pipe) are
-/// written in place.
+/// removes the temporary file. Targets that are no regular files (a terminal, /dev/null, a pipe)
+/// are written in place.
 class AtomicFile {
  public:
   AtomicFile() = default;

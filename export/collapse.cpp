@@ -88,7 +88,8 @@ class Collapser {
     }
   }
 
-  /// `f` starts at the smallest place of one triangle, `r` of its reverse: f = ab bc ca, r = ac cb ba.
+  /// `f` starts at the smallest place of one triangle, `r` of its reverse: f = ab bc ca, r = ac cb
+  /// ba.
   void cancel(uint32_t f, uint32_t r) {
     gone_[f / 3] = gone_[r / 3] = true;
     result_.cancelled += 2;
@@ -185,8 +186,8 @@ class Collapser {
       result_.origin.push_back(old_vertex[fan]);
     }
     for (const uint32_t t : result_.triangles) {
-      result_.vertices.push_back({new_vertex[fan_[3 * t]], new_vertex[fan_[3 * t + 1]],
-                                  new_vertex[fan_[3 * t + 2]]});
+      result_.vertices.push_back(
+          {new_vertex[fan_[3 * t]], new_vertex[fan_[3 * t + 1]], new_vertex[fan_[3 * t + 2]]});
       for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
         result_.twins.push_back(3 * new_triangle[glued_[h] / 3] + glued_[h] % 3);
       }
@@ -199,8 +200,8 @@ class Collapser {
   std::span<const uint32_t> place_;
   std::vector<uint32_t> across_;  // see drop_degenerate
   std::vector<bool> gone_;
-  std::vector<uint32_t> glued_;   // twins among the survivors
-  std::vector<uint32_t> fan_;     // per surviving half-edge: the fan of its first vertex
+  std::vector<uint32_t> glued_;  // twins among the survivors
+  std::vector<uint32_t> fan_;    // per surviving half-edge: the fan of its first vertex
   uint32_t fans_ = 0;
   CollapsedSurface result_;
 };

@@ -1,7 +1,8 @@
 // One function for each format: parts in, the bytes of a file out.
 //
 // Each rounds every part to what its format can hold, fails with kInternal rather than write a mesh
-// that is not closed, and appends to `report` what rounding did. The same parts give the same bytes.
+// that is not closed, and appends to `report` what rounding did. The same parts give the same
+// bytes.
 #pragma once
 
 #include <string>

@@ -1,18 +1,18 @@
 // glTF 2.0, binary or text with its buffer embedded.
 //
 // glTF means metres and Y up. Mesh data stay in millimetres and Z up, bit for bit what an STL would
-// hold; a node above all parts turns and scales them. Vertices are duplicated where normals differ, so
-// each mesh carries EXT_mesh_manifold: one more primitive over the whole index buffer, whose sparse
-// accessor replaces every duplicate by the first vertex of its kind. What it describes is the manifold
-// that round_part() checked.
-#include <tiny_gltf.h>
-
+// hold; a node above all parts turns and scales them. Vertices are duplicated where normals differ,
+// so each mesh carries EXT_mesh_manifold: one more primitive over the whole index buffer, whose
+// sparse accessor replaces every duplicate by the first vertex of its kind. What it describes is
+// the manifold that round_part() checked.
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <map>
 #include <sstream>
+
+#include <glm/geometric.hpp>
+#include <tiny_gltf.h>
 
 #include "export/encoders.h"
 #include "export/palette.h"
@@ -37,7 +37,8 @@ tinygltf::Material material_of(const Appearance& appearance, const std::string& 
   auto& pbr = material.pbrMetallicRoughness;
   pbr.baseColorFactor.clear();
   for (const float c : {appearance.red, appearance.green, appearance.blue}) {
-    pbr.baseColorFactor.push_back(rounded_to_millionths(linear_from_srgb(std::clamp(c, 0.0f, 1.0f))));
+    pbr.baseColorFactor.push_back(
+        rounded_to_millionths(linear_from_srgb(std::clamp(c, 0.0f, 1.0f))));
   }
   const float alpha = std::clamp(appearance.alpha, 0.0f, 1.0f);
   pbr.baseColorFactor.push_back(rounded_to_millionths(alpha));
@@ -153,7 +154,8 @@ class GltfWriter {
     report_rounding(*rounded, part, report_);
     if (rounded->triangles.empty()) return -1;
     const ShadedMesh shaded = shade(solid, *rounded);
-    if (buffer_.size() + 24 * shaded.vertex_of.size() + 36 * shaded.triangles.size() > kLargestBuffer) {
+    if (buffer_.size() + 24 * shaded.vertex_of.size() + 36 * shaded.triangles.size() >
+        kLargestBuffer) {
       return Error{ErrorCode::kOutOfRange, "the model is too large for a glTF file (2 GiB)", {}};
     }
 
@@ -201,7 +203,8 @@ class GltfWriter {
     positions.reserve(shaded.vertex_of.size());
     for (const uint32_t v : shaded.vertex_of) {
       const glm::dvec3& p = rounded.positions[v];
-      positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+      positions.push_back(
+          {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
     }
     std::array<float, 3> low = positions[0], high = positions[0];
     for (const auto& p : positions) {
@@ -211,15 +214,15 @@ class GltfWriter {
       }
     }
     const int view = add_view(TINYGLTF_TARGET_ARRAY_BUFFER, std::span(positions));
-    const int accessor = add_accessor(view, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                                      positions.size());
+    const int accessor =
+        add_accessor(view, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, positions.size());
     model_.accessors[accessor].minValues.assign(low.begin(), low.end());
     model_.accessors[accessor].maxValues.assign(high.begin(), high.end());
     return accessor;
   }
 
-  void add_manifold(tinygltf::Mesh& mesh, const ShadedMesh& shaded, std::span<const uint32_t> indices,
-                    int positions, int index_view) {
+  void add_manifold(tinygltf::Mesh& mesh, const ShadedMesh& shaded,
+                    std::span<const uint32_t> indices, int positions, int index_view) {
     std::vector<uint32_t> first_of(shaded.vertex_of.size());  // duplicates stand side by side
     for (uint32_t s = 0; s < first_of.size(); ++s) {
       first_of[s] = s > 0 && shaded.vertex_of[s] == shaded.vertex_of[s - 1] ? first_of[s - 1] : s;
@@ -239,7 +242,8 @@ class GltfWriter {
     primitive["mode"] = tinygltf::Value(TINYGLTF_MODE_TRIANGLES);
     extension["manifoldPrimitive"] = tinygltf::Value(primitive);
     if (!merge_at.empty()) {
-      const int at_view = add_view(0, std::span(merge_at)), to_view = add_view(0, std::span(merge_to));
+      const int at_view = add_view(0, std::span(merge_at)),
+                to_view = add_view(0, std::span(merge_to));
       auto& sparse = model_.accessors[manifold].sparse;
       sparse.isSparse = true;
       sparse.count = static_cast<int>(merge_at.size());
@@ -248,12 +252,10 @@ class GltfWriter {
       sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
       sparse.values.bufferView = to_view;
       sparse.values.byteOffset = 0;
-      extension["mergeIndices"] = tinygltf::Value(
-          add_accessor(at_view, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
-                       merge_at.size()));
-      extension["mergeValues"] = tinygltf::Value(
-          add_accessor(to_view, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
-                       merge_to.size()));
+      extension["mergeIndices"] = tinygltf::Value(add_accessor(
+          at_view, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, merge_at.size()));
+      extension["mergeValues"] = tinygltf::Value(add_accessor(
+          to_view, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, merge_to.size()));
     }
     mesh.extensions[kManifoldExtension] = tinygltf::Value(extension);
     if (model_.extensionsUsed.empty()) model_.extensionsUsed.emplace_back(kManifoldExtension);

@@ -39,7 +39,8 @@ Result<std::vector<uint32_t>> manifold_twins(std::span<const Triangle> triangles
   for (uint32_t t = 0; t < triangles.size(); ++t) {
     for (uint32_t i = 0; i < 3; ++i) {
       const uint32_t from = triangles[t][i], to = triangles[t][(i + 1) % 3];
-      if (from == to) return not_manifold("a triangle uses vertex " + std::to_string(to) + " twice");
+      if (from == to)
+        return not_manifold("a triangle uses vertex " + std::to_string(to) + " twice");
       spokes[fill[from]++] = {to, 3 * t + i};
     }
   }

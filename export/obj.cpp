@@ -40,7 +40,8 @@ void append_vertices(std::string& text, const RoundedMesh& mesh) {
 
 /// Faces in runs of one material and one source, each run under a comment that names the source.
 void append_faces(std::string& text, const Solid& solid, const RoundedMesh& mesh,
-                  std::span<const uint32_t> materials, const Palette* palette, uint64_t first_vertex) {
+                  std::span<const uint32_t> materials, const Palette* palette,
+                  uint64_t first_vertex) {
   std::vector<Polygon> polygons = polygons_of(mesh);
   const auto run = [&](const Polygon& p) {
     const Solid::Face& face = solid.faces[p.face];

@@ -18,8 +18,8 @@ uint8_t colour_byte(float component);
 
 class Palette {
  public:
-  /// Adds the appearances that faces of `solid` have, in the order of its faces. Returns the material
-  /// of each of the solid's appearances; those of no face are left at 0.
+  /// Adds the appearances that faces of `solid` have, in the order of its faces. Returns the
+  /// material of each of the solid's appearances; those of no face are left at 0.
   std::vector<uint32_t> add(const Solid& solid);
 
   [[nodiscard]] const std::vector<Appearance>& appearances() const { return appearances_; }

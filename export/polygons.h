@@ -16,8 +16,8 @@ struct Polygon {
   std::span<const uint32_t> loop;  ///< vertices of the mesh, counter-clockwise from outside
 };
 
-/// The polygons of a mesh that was rounded with outlines, in the order of faces, triangles of one face
-/// in theirs. Valid as long as the mesh is.
+/// The polygons of a mesh that was rounded with outlines, in the order of faces, triangles of one
+/// face in theirs. Valid as long as the mesh is.
 inline std::vector<Polygon> polygons_of(const RoundedMesh& mesh) {
   std::vector<std::vector<uint32_t>> loose(mesh.outlines.size());
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {

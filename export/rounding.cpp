@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <span>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "export/collapse.h"
 
@@ -81,11 +82,12 @@ std::span<const uint32_t> loop_of(const Solid& solid, uint32_t loop) {
       .subspan(solid.loop_starts[loop], solid.loop_starts[loop + 1] - solid.loop_starts[loop]);
 }
 
-std::vector<glm::dvec3> normals_of_faces(const Solid& solid,
-                                         std::span<const glm::dvec3> positions, bool mirrored) {
+std::vector<glm::dvec3> normals_of_faces(const Solid& solid, std::span<const glm::dvec3> positions,
+                                         bool mirrored) {
   std::vector<glm::dvec3> normals(solid.faces.size());
   for (size_t f = 0; f < normals.size(); ++f) {
-    const glm::dvec3 n = unit_or_zero(area_vector(loop_of(solid, solid.faces[f].first_loop), positions));
+    const glm::dvec3 n =
+        unit_or_zero(area_vector(loop_of(solid, solid.faces[f].first_loop), positions));
     normals[f] = n == glm::dvec3(0) ? glm::dvec3(0, 0, 1) : mirrored ? -n : n;
   }
   return normals;
@@ -95,7 +97,8 @@ bool is_consistent(const Solid& solid) {
   const size_t vertices = solid.positions.size();
   if (solid.positions_f32.size() != vertices || solid.point_of.size() != vertices) return false;
   if (solid.triangle_face.size() != solid.triangles.size()) return false;
-  if (solid.loop_starts.empty() || solid.loop_starts.back() != solid.loop_vertices.size()) return false;
+  if (solid.loop_starts.empty() || solid.loop_starts.back() != solid.loop_vertices.size())
+    return false;
   for (const uint32_t face : solid.triangle_face) {
     if (face >= solid.faces.size()) return false;
   }
@@ -110,8 +113,8 @@ bool is_consistent(const Solid& solid) {
   return true;
 }
 
-/// Takes out connected surfaces that rounding pressed into one axis-parallel plane: thin plates, whose
-/// two sides need not have the same triangles and so did not cancel.
+/// Takes out connected surfaces that rounding pressed into one axis-parallel plane: thin plates,
+/// whose two sides need not have the same triangles and so did not cancel.
 void remove_flat_shells(CollapsedSurface& surface, std::span<const glm::dvec3> positions) {
   const std::vector<uint32_t> shell = shells_of(surface.twins);
   const size_t count = shell.empty() ? 0 : 1 + *std::max_element(shell.begin(), shell.end());
@@ -156,8 +159,8 @@ void remove_flat_shells(CollapsedSurface& surface, std::span<const glm::dvec3> p
   surface = std::move(kept);
 }
 
-/// The outline of each face, if its triangles are a disc without inner vertices, all there and glued
-/// to one another as they were. `old_twins` belong to the solid's triangles.
+/// The outline of each face, if its triangles are a disc without inner vertices, all there and
+/// glued to one another as they were. `old_twins` belong to the solid's triangles.
 void trace_outlines(const Solid& solid, std::span<const uint32_t> survivors,
                     std::span<const uint32_t> old_twins, RoundedMesh& mesh) {
   std::vector<uint32_t> new_triangle(solid.triangles.size(), kNone);
@@ -180,7 +183,8 @@ void trace_outlines(const Solid& solid, std::span<const uint32_t> survivors,
       for (uint32_t h = 3 * t; intact && h < 3 * t + 3; ++h) {
         if (solid.triangle_face[old_twins[h] / 3] == f) {
           const uint32_t other = old_twins[h] / 3;
-          if (new_triangle[other] == kNone || mesh.twins[renumbered(h)] != renumbered(old_twins[h])) {
+          if (new_triangle[other] == kNone ||
+              mesh.twins[renumbered(h)] != renumbered(old_twins[h])) {
             intact = false;
           }
         } else {
@@ -257,7 +261,8 @@ PlacedSolid place_solid(const Solid& solid, const Affine& placement) {
 Result<RoundedMesh> round_part(const Solid& solid, const Affine& placement, Precision precision,
                                bool with_outlines) {
   if (!is_consistent(solid)) {
-    return Error{ErrorCode::kInternal, "the arrays of a solid to be written do not fit together", {}};
+    return Error{
+        ErrorCode::kInternal, "the arrays of a solid to be written do not fit together", {}};
   }
   PlacedSolid placed = place_solid(solid, placement);
   std::vector<glm::dvec3> rounded = std::move(placed.positions);
@@ -322,8 +327,9 @@ void report_rounding(const RoundedMesh& mesh, const Part& part, WriteReport& rep
     return std::to_string(n) + (n == 1 ? " triangle" : " triangles");
   };
   if (mesh.triangles.empty() && mesh.dropped + mesh.cancelled > 0) {
-    report.warnings.push_back((part.name.empty() ? "the solid" : "part '" + part.name + "'") +
-                              std::string(" is smaller than the file's precision and was written empty"));
+    report.warnings.push_back(
+        (part.name.empty() ? "the solid" : "part '" + part.name + "'") +
+        std::string(" is smaller than the file's precision and was written empty"));
     return;
   }
   if (mesh.dropped > 0) {

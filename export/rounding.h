@@ -1,15 +1,16 @@
 // The mesh of one file: a part in its place, with coordinates as the file can hold them.
 //
-// The engine's solid is a closed manifold of exact points, each correctly rounded once. Rounding may
-// make points equal; then triangles vanish (see collapse.h). What is returned is a closed, oriented
-// manifold by index in any case, and says what happened to get there.
+// The engine's solid is a closed manifold of exact points, each correctly rounded once. Rounding
+// may make points equal; then triangles vanish (see collapse.h). What is returned is a closed,
+// oriented manifold by index in any case, and says what happened to get there.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include <csgrun/engine/error.h>
 #include <csgrun/export/write.h>
@@ -28,14 +29,14 @@ struct PlacedSolid {
 };
 
 struct RoundedMesh {
-  std::vector<glm::dvec3> positions;    ///< mm; exactly representable in the file; never -0
-  std::vector<Triangle> triangles;      ///< counter-clockwise from outside
-  std::vector<uint32_t> triangle_face;  ///< per triangle: its face of the solid
-  std::vector<uint32_t> twins;          ///< see half_edges.h
+  std::vector<glm::dvec3> positions;     ///< mm; exactly representable in the file; never -0
+  std::vector<Triangle> triangles;       ///< counter-clockwise from outside
+  std::vector<uint32_t> triangle_face;   ///< per triangle: its face of the solid
+  std::vector<uint32_t> twins;           ///< see half_edges.h
   std::vector<glm::dvec3> face_normals;  ///< per face of the solid: unit length, outwards
   /// Per face of the solid: its outline as one loop of vertices, counter-clockwise from outside.
-  /// Empty where the face cannot stand for its triangles: it has holes, or rounding changed it. Faces
-  /// without triangles have none either.
+  /// Empty where the face cannot stand for its triangles: it has holes, or rounding changed it.
+  /// Faces without triangles have none either.
   std::vector<std::vector<uint32_t>> outlines;
 
   uint64_t dropped = 0;    ///< triangles with two equal corners, left out

@@ -1,6 +1,7 @@
 // Binary STL: an 80 byte header, a count, and for each triangle a normal and three corners.
 #include <bit>
 #include <cmath>
+
 #include <glm/geometric.hpp>
 
 #include "export/encoders.h"
@@ -11,10 +12,12 @@ namespace {
 
 constexpr size_t kHeaderBytes = 80;
 constexpr size_t kTriangleBytes = 50;
-static_assert(std::endian::native == std::endian::little, "STL and GLB are written as memory has them");
+static_assert(std::endian::native == std::endian::little,
+              "STL and GLB are written as memory has them");
 
 void append_vector(std::string& bytes, const glm::dvec3& v) {
-  const float floats[3] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+  const float floats[3] = {static_cast<float>(v.x), static_cast<float>(v.y),
+                           static_cast<float>(v.z)};
   bytes.append(reinterpret_cast<const char*>(floats), sizeof floats);
 }
 

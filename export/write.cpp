@@ -1,7 +1,7 @@
-#include <csgrun/export/write.h>
-
 #include <exception>
 #include <new>
+
+#include <csgrun/export/write.h>
 
 #include "export/atomic_file.h"
 #include "export/encoders.h"
@@ -21,11 +21,14 @@ Status check_parts(const std::string& format, const std::vector<Part>& parts) {
     return Error{ErrorCode::kInvalidArgument, "there is no model format '" + format + "'", {}};
   }
   for (const Part& part : parts) {
-    if (!part.solid) return Error{ErrorCode::kInternal, "part '" + part.name + "' has no solid", {}};
+    if (!part.solid)
+      return Error{ErrorCode::kInternal, "part '" + part.name + "' has no solid", {}};
   }
   if (!keeps_parts(format) && parts.size() != 1) {
-    return Error{ErrorCode::kInvalidArgument, "a ." + format + " file holds one solid, not " +
-                                                  std::to_string(parts.size()) + " parts", {}};
+    return Error{
+        ErrorCode::kInvalidArgument,
+        "a ." + format + " file holds one solid, not " + std::to_string(parts.size()) + " parts",
+        {}};
   }
   return std::monostate{};
 }
@@ -86,7 +89,8 @@ Result<WriteReport> write_model(const std::string& path, const std::vector<Part>
   const std::string format = model_format_of(path);
   if (format.empty()) {
     return Error{ErrorCode::kInvalidArgument,
-                 "'" + path + "' does not end in .glb, .gltf, .stl, .obj or .off", {}};
+                 "'" + path + "' does not end in .glb, .gltf, .stl, .obj or .off",
+                 {}};
   }
   if (Status status = check_parts(format, parts); !status) return status.error();
   WriteReport report;

@@ -1,4 +1,5 @@
-// Writes models for the validators: what the writers find hard, and in `faulty` files that are wrong.
+// Writes models for the validators: what the writers find hard, and in `faulty` files that are
+// wrong.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -79,7 +80,8 @@ int main(int argc, char** argv) {
   good &= write(folder / "colours.glb", {{"colours", coloured_boxes(), {}}});
   good &= write(folder / "wheel.glb", {{"wheel", wheel(64), {}}});
   good &= write(folder / "large.glb", {{"large", wheel(40000), {}}});
-  good &= write(folder / "touching.glb", {{"touching", csgrun::testing::edge_touching_cubes(), {}}});
+  good &=
+      write(folder / "touching.glb", {{"touching", csgrun::testing::edge_touching_cubes(), {}}});
   good &= write(folder / "dumbbell.glb", {{"dumbbell", csgrun::testing::dumbbell(0.25), {}}});
   good &= write(folder / "collapsed.glb", {{"collapsed", csgrun::testing::dumbbell(1e-9), {}}});
   good &= write(folder / "parts.glb", {{"case/lid", cube, {}},

@@ -1,16 +1,16 @@
 // A file is complete or not there; what stood there before stays until then.
 #include "export/atomic_file.h"
 
-#include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <csgrun/export/write.h>
 
@@ -33,7 +33,9 @@ class AtomicFileTest : public ::testing::Test {
     fs::remove_all(folder_);
   }
 
-  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return (folder_ / name).string();
+  }
   [[nodiscard]] std::string content(const std::string& name) const {
     std::ifstream file(path(name), std::ios::binary);
     std::ostringstream text;
@@ -125,12 +127,39 @@ TEST_F(AtomicFileTest, TargetIsAFolder) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(AtomicFileTest, NoPermission) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
-  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+/// Root may write anywhere: such tests run as nobody.
+class AsNobody {
+ public:
+  AsNobody() : root_(::geteuid() == 0) {
+    if (root_) EXPECT_EQ(::seteuid(65534), 0);
+  }
+  ~AsNobody() {
+    if (root_) EXPECT_EQ(::seteuid(0), 0);
+  }
+  AsNobody(const AsNobody&) = delete;
+  AsNobody& operator=(const AsNobody&) = delete;
+
+ private:
+  bool root_;
+};
+
+TEST_F(AtomicFileTest, NoPermissionForTheFolder) {
+  fs::permissions(folder_, static_cast<fs::perms>(0555));
+  const AsNobody nobody;
   const auto result = write_model(path("a.glb"), parts_);
   ASSERT_FALSE(result);
   expect_cannot_write(result.error(), EACCES);
+}
+
+TEST_F(AtomicFileTest, NoPermissionForTheFile) {
+  put("a.glb", "old");
+  ::chmod(path("a.glb").c_str(), 0444);
+  fs::permissions(folder_, static_cast<fs::perms>(0777));  // a rename would be possible
+  const AsNobody nobody;
+  const auto result = write_model(path("a.glb"), parts_);
+  ASSERT_FALSE(result);
+  expect_cannot_write(result.error(), EACCES);
+  EXPECT_EQ(content("a.glb"), "old");
 }
 
 TEST_F(AtomicFileTest, FullDevice) {

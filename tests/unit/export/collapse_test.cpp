@@ -1,11 +1,11 @@
-// The collapse of closed surfaces whose points meet, against invariants that know nothing of it: the
-// result is a manifold by index, and the volume of the merged surface does not change (what is left
-// out has none).
+// The collapse of closed surfaces whose points meet, against invariants that know nothing of it:
+// the result is a manifold by index, and the volume of the merged surface does not change (what is
+// left out has none).
 #include "export/collapse.h"
 
-#include <gtest/gtest.h>
-
 #include <random>
+
+#include <gtest/gtest.h>
 
 namespace csgrun {
 namespace {

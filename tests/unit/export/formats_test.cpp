@@ -1,6 +1,4 @@
 // Bytes of written files, read back by small readers that share nothing with the writers.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -8,9 +6,11 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <csgrun/export/write.h>
 
@@ -31,8 +31,10 @@ double volume(const Polygons& mesh) {
   double six = 0;
   for (const Loop& loop : mesh.loops) {
     for (size_t i = 1; i + 1 < loop.size(); ++i) {
-      const glm::dvec3 &a = mesh.points[loop[0]], &b = mesh.points[loop[i]], &c = mesh.points[loop[i + 1]];
-      six += a.x * (b.y * c.z - b.z * c.y) - a.y * (b.x * c.z - b.z * c.x) + a.z * (b.x * c.y - b.y * c.x);
+      const glm::dvec3 &a = mesh.points[loop[0]], &b = mesh.points[loop[i]],
+                       &c = mesh.points[loop[i + 1]];
+      six += a.x * (b.y * c.z - b.z * c.y) - a.y * (b.x * c.z - b.z * c.x) +
+             a.z * (b.x * c.y - b.y * c.x);
     }
   }
   return six / 6;
@@ -118,7 +120,8 @@ std::vector<std::array<T, n>> accessor(const Glb& glb, size_t index) {
   const auto& a = glb.json["accessors"][index];
   const auto& view = glb.json["bufferViews"][a["bufferView"].get<size_t>()];
   std::vector<std::array<T, n>> values(a["count"].get<size_t>());
-  std::memcpy(values.data(), glb.bin.data() + view.value("byteOffset", 0) + a.value("byteOffset", 0),
+  std::memcpy(values.data(),
+              glb.bin.data() + view.value("byteOffset", 0) + a.value("byteOffset", 0),
               values.size() * sizeof values[0]);
   if (a.contains("sparse")) {
     const auto& s = a["sparse"];
@@ -196,7 +199,8 @@ TEST(Stl, NormalsPointOutwards) {
 
 TEST(Stl, RefusesSeveralParts) {
   WriteReport report;
-  const auto result = encode_model("stl", {{"a", testing::cube(1), {}}, {"b", testing::cube(1), {}}}, report);
+  const auto result =
+      encode_model("stl", {{"a", testing::cube(1), {}}, {"b", testing::cube(1), {}}}, report);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kInvalidArgument);
 }
@@ -219,9 +223,9 @@ TEST(Stl, AdmeshFindsNothingToRepair) {
     EXPECT_EQ(::pclose(pipe), 0);
     std::filesystem::remove(path);
     // The report is a table of counts "Label : n" and "Label : before after".
-    for (const char* label : {"Total disconnected facets", "Edges fixed", "Degenerate facets",
-                              "Facets removed", "Facets added", "Facets reversed",
-                              "Backwards edges", "Normals fixed"}) {
+    for (const char* label :
+         {"Total disconnected facets", "Edges fixed", "Degenerate facets", "Facets removed",
+          "Facets added", "Facets reversed", "Backwards edges", "Normals fixed"}) {
       const size_t at = said.find(label);
       ASSERT_NE(at, std::string::npos) << said;
       const std::string rest = said.substr(at, said.find_first_of("\n", at) - at);
@@ -249,7 +253,8 @@ TEST(Rounding, SliverWallIsDroppedAndTheRestStaysClosed) {
   // 8 triangles of the tube and the 4 of each ring that stood on its mouth.
   EXPECT_EQ(solid->triangles.size() - mesh.loops.size(), 16u);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_EQ(report.warnings[0], "16 triangles of part 'd' thinner than the file's precision were dropped");
+  EXPECT_EQ(report.warnings[0],
+            "16 triangles of part 'd' thinner than the file's precision were dropped");
 
   WriteReport in_doubles;
   const Polygons kept = read_obj(encode("obj", {{"d", solid, {}}}, &in_doubles));
@@ -261,7 +266,8 @@ TEST(Rounding, SheetThatVanishesIsAWarningAndAnEmptyPart) {
   HandMade sheet;
   sheet.box({100, 0, 0}, {100 + 1e-9, 1, 1});
   WriteReport report;
-  const Glb glb = read_glb(encode("glb", {{"sheet", sheet.share(), {}}, {"cube", testing::cube(1), {}}}, &report));
+  const Glb glb = read_glb(
+      encode("glb", {{"sheet", sheet.share(), {}}, {"cube", testing::cube(1), {}}}, &report));
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_EQ(report.warnings[0],
             "part 'sheet' is smaller than the file's precision and was written empty");
@@ -289,8 +295,8 @@ TEST(Rounding, BrokenSolidIsNotWritten) {
 }
 
 TEST(Rounding, FlippedTrianglesAreCounted) {
-  // A tetrahedron whose apex lies 1e-9 above its base's plane, under a roof: rounding to float lays the
-  // apex on the plane; nothing meets, one face has no area, none is turned over.
+  // A tetrahedron whose apex lies 1e-9 above its base's plane, under a roof: rounding to float lays
+  // the apex on the plane; nothing meets, one face has no area, none is turned over.
   HandMade flat;
   const auto a = flat.vertex(0, 0, 8), b = flat.vertex(1, 0, 8), c = flat.vertex(0, 1, 8),
              d = flat.vertex(0.25, 0.25, 8 + 1e-9);
@@ -350,7 +356,8 @@ TEST(Gltf, CurvedSurfaceIsSmoothAndItsRimSharp) {
 
 TEST(Gltf, OnePrimitivePerMaterialOverSharedAccessors) {
   HandMade made;
-  const auto red = made.appearance(colour(1, 0, 0)), glass = made.appearance(colour(0.5f, 0.5f, 0.5f, 0.25f));
+  const auto red = made.appearance(colour(1, 0, 0)),
+             glass = made.appearance(colour(0.5f, 0.5f, 0.5f, 0.25f));
   made.box({0, 0, 0}, {1, 1, 1}, red);
   made.box({2, 0, 0}, {3, 1, 1}, glass);
   made.box({4, 0, 0}, {5, 1, 1}, red);
@@ -364,7 +371,8 @@ TEST(Gltf, OnePrimitivePerMaterialOverSharedAccessors) {
   EXPECT_EQ(view(0), view(1));
   const auto& materials = glb.json["materials"];
   ASSERT_EQ(materials.size(), 2u);
-  EXPECT_EQ(materials[0]["pbrMetallicRoughness"]["baseColorFactor"], (std::vector<double>{1, 0, 0, 1}));
+  EXPECT_EQ(materials[0]["pbrMetallicRoughness"]["baseColorFactor"],
+            (std::vector<double>{1, 0, 0, 1}));
   // sRGB 0.5 is linear 0.214041 (IEC 61966-2-1).
   EXPECT_EQ(materials[1]["pbrMetallicRoughness"]["baseColorFactor"],
             (std::vector<double>{0.214041, 0.214041, 0.214041, 0.25}));
@@ -396,7 +404,8 @@ TEST(Gltf, InstancesShareAMeshAndGroupsNest) {
             (std::vector<double>{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1}));
   const auto child_names = [&](const std::string& name) {
     std::vector<std::string> names;
-    for (const auto& child : by_name[name]["children"]) names.push_back(nodes[child.get<size_t>()]["name"]);
+    for (const auto& child : by_name[name]["children"])
+      names.push_back(nodes[child.get<size_t>()]["name"]);
     return names;
   };
   EXPECT_EQ(child_names("model"), (std::vector<std::string>{"case", "plate", "slant"}));
@@ -435,7 +444,8 @@ TEST(Gltf, TextHoldsTheSameModel) {
   const std::vector<Part> parts = {{"box", testing::cube(3), {}}};
   const Glb glb = read_glb(encode("glb", parts));
   auto text = nlohmann::json::parse(encode("gltf", parts));
-  EXPECT_EQ(text["buffers"][0]["uri"].get<std::string>().substr(0, 37), "data:application/octet-stream;base64,");
+  EXPECT_EQ(text["buffers"][0]["uri"].get<std::string>().substr(0, 37),
+            "data:application/octet-stream;base64,");
   auto binary = glb.json;
   text.erase("buffers");
   binary.erase("buffers");
@@ -454,7 +464,8 @@ TEST(Gltf, NormalsOfDegenerateTrianglesAreThoseOfTheExactFace) {
   flat.face({b, c, e});
   flat.face({c, a, e});
   const Glb glb = read_glb(encode("glb", {{"f", flat.share(), {}}}));
-  const auto normals = accessor<float, 3>(glb, glb.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"]);
+  const auto normals =
+      accessor<float, 3>(glb, glb.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"]);
   for (const auto& n : normals) {
     EXPECT_NEAR(std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), 1, 1e-6);
   }
@@ -489,7 +500,8 @@ TEST(Obj, FacesWithHolesBecomeTriangles) {
 }
 
 TEST(Obj, PolygonsThatRoundingBrokeBecomeTriangles) {
-  // A tube of the last bits of a double, whose mouth vanishes: the quads of the tube go, all is closed.
+  // A tube of the last bits of a double, whose mouth vanishes: the quads of the tube go, all is
+  // closed.
   const SolidPtr solid = testing::dumbbell(1e-17);
   WriteReport report;
   HandMade distinct;  // as the engine has it: the points differ, their doubles do not

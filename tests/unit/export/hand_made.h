@@ -3,11 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <map>
 #include <memory>
 #include <utility>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include <csgrun/engine/solid.h>
 
@@ -57,7 +58,8 @@ class HandMade {
     }
     solid.triangles.insert(solid.triangles.end(), triangles.begin(), triangles.end());
     solid.triangle_face.resize(solid.triangles.size(), static_cast<uint32_t>(solid.faces.size()));
-    solid.faces.push_back({first_loop, static_cast<uint32_t>(loops.size()), appearance, surface, source});
+    solid.faces.push_back(
+        {first_loop, static_cast<uint32_t>(loops.size()), appearance, surface, source});
   }
 
   /// An axis-parallel box with vertices of its own; bottom, top, then the sides.
@@ -66,14 +68,19 @@ class HandMade {
     for (uint32_t i = 0; i < 8; ++i) {
       v[i] = vertex(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
     }
-    for (const std::array<int, 4>& f : {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                        {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}) {
+    for (const std::array<int, 4>& f : {std::array{0, 2, 3, 1},
+                                        {4, 5, 7, 6},
+                                        {0, 1, 5, 4},
+                                        {1, 3, 7, 5},
+                                        {3, 2, 6, 7},
+                                        {2, 0, 4, 6}}) {
       face({v[f[0]], v[f[1]], v[f[2]], v[f[3]]}, appearance);
     }
   }
 
   /// A prism over a regular polygon given by its corners, z from 0 to h; the side is surface 1.
-  void prism(const std::vector<std::pair<double, double>>& corners, double h, uint32_t side_surface) {
+  void prism(const std::vector<std::pair<double, double>>& corners, double h,
+             uint32_t side_surface) {
     std::vector<uint32_t> bottom, top;
     for (const auto& [x, y] : corners) bottom.push_back(vertex(x, y, 0));
     for (const auto& [x, y] : corners) top.push_back(vertex(x, y, h));
@@ -117,7 +124,8 @@ inline SolidPtr dumbbell(double width) {
     return std::array{made.vertex(x, a, a), made.vertex(x, b, a), made.vertex(x, b, b),
                       made.vertex(x, a, b)};
   };
-  const auto ring_triangles = [](const std::array<uint32_t, 4>& out, const std::array<uint32_t, 4>& in) {
+  const auto ring_triangles = [](const std::array<uint32_t, 4>& out,
+                                 const std::array<uint32_t, 4>& in) {
     std::vector<std::array<uint32_t, 3>> t;
     for (size_t i = 0; i < 4; ++i) {
       const size_t j = (i + 1) % 4;
