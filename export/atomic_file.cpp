@@ -93,7 +93,8 @@ Status AtomicFile::write(const std::string& target, std::string_view bytes) {
     return std::monostate{};
   }
   // A rename would replace a file that one may not write to, if only the folder allows it.
-  if (exists && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) return cannot_write(target, errno);
+  if (exists && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
+    return cannot_write(target, errno);
 
   target_ = exists ? followed(target) : target;
   const mode_t mode = exists ? info.st_mode & 07777 : 0666;
