@@ -1,0 +1,31 @@
+// One parser a format. All fill a PolygonMesh whose kind is the file's name.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/polygon_mesh.h>
+
+namespace csgrun {
+
+Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes);
+Result<PolygonMesh> parse_off(const std::string& name, std::string_view bytes);
+Result<PolygonMesh> parse_obj(const std::string& name, std::string_view bytes);
+Result<PolygonMesh> parse_ply(const std::string& name, std::string_view bytes);
+
+/// "part.obj: line 12: face index 9 is out of range, there are 8 points".
+Error malformed(const std::string& name, const std::string& place, const std::string& what);
+
+/// An error if `count` records of at least `bytes_each` cannot be in the `present` bytes that are
+/// left: asked before any memory is set aside for them.
+std::optional<Error> check_count(const std::string& name, const std::string& place,
+                                 const std::string& what, uint64_t count, uint64_t bytes_each,
+                                 uint64_t present);
+
+/// A word for a message: short, printable.
+std::string quoted(std::string_view word);
+
+}  // namespace csgrun

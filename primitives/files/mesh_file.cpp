@@ -1,0 +1,93 @@
+// Which format, reading the bytes, and what to say when something is wrong. OpenMesh's readers are
+// not used: they go through float and abort on bad faces.
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csgrun/primitives/mesh_file.h>
+
+#include "primitives/files/formats.h"
+#include "primitives/files/read_file.h"
+#include "primitives/solids/finish_solid.h"
+
+namespace csgrun {
+
+std::string mesh_format_of(const std::string& path) {
+  const size_t slash = path.find_last_of('/');
+  const std::string file = slash == std::string::npos ? path : path.substr(slash + 1);
+  const size_t dot = file.find_last_of('.');
+  if (dot == std::string::npos) return {};
+  std::string ending = file.substr(dot + 1);
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  for (const char* known : {"stl", "off", "obj", "ply"}) {
+    if (ending == known) return ending;
+  }
+  return {};
+}
+
+Error malformed(const std::string& name, const std::string& place, const std::string& what) {
+  std::string message = name;
+  message += ": ";
+  if (!place.empty()) message += place + ": ";
+  message += what;
+  return Error{ErrorCode::kMalformedFile, std::move(message), {}};
+}
+
+std::optional<Error> check_count(const std::string& name, const std::string& place,
+                                 const std::string& what, uint64_t count, uint64_t bytes_each,
+                                 uint64_t present) {
+  if (count <= present / std::max<uint64_t>(bytes_each, 1)) return std::nullopt;
+  Error error = malformed(name, place,
+                          std::to_string(count) + " " + what + " promised, but only " +
+                              std::to_string(present) + " bytes follow");
+  error.code = ErrorCode::kLimit;
+  return error;
+}
+
+std::string quoted(std::string_view word) {
+  constexpr size_t kMost = 24;
+  std::string text = "\"";
+  for (const char c : word.substr(0, kMost)) text += c >= ' ' && c <= '~' ? c : '?';
+  text += word.size() > kMost ? "...\"" : "\"";
+  return text;
+}
+
+Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes) {
+  const std::string format = mesh_format_of(name);
+  if (format.empty()) {
+    return Error{ErrorCode::kCannotRead,
+                 name + ": not a mesh file: its name must end in .stl, .off, .obj or .ply",
+                 {}};
+  }
+  if (bytes.empty()) return malformed(name, "", "the file is empty");
+  Result<PolygonMesh> mesh = format == "stl"   ? parse_stl(name, bytes)
+                             : format == "off" ? parse_off(name, bytes)
+                             : format == "obj" ? parse_obj(name, bytes)
+                                               : parse_ply(name, bytes);
+  if (!mesh) return mesh;
+  if (mesh->face_count() == 0) return malformed(name, "", "has no faces");
+  mesh->kind = name;
+  mesh->keep_facets = true;
+  return mesh;
+}
+
+Result<PolygonMesh> read_mesh_file(const std::string& path) {
+  const Result<std::string> bytes = read_regular_file(path);
+  if (!bytes) return bytes.error();
+  return parse_mesh(path, *bytes);
+}
+
+Result<PolygonMesh> make_solid_mesh(PolygonMesh mesh, std::string* note) {
+  const std::string name = mesh.kind.empty() ? "mesh" : mesh.kind;
+  return finish_solid(std::move(mesh), name, note);
+}
+
+}  // namespace csgrun

@@ -1,0 +1,117 @@
+// Wavefront OBJ: points and polygons. Texture coordinates, normals, groups, materials, lines and
+// the like are passed over; a statement that OBJ does not know is an error.
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "primitives/files/formats.h"
+#include "primitives/files/text_scanner.h"
+
+namespace csgrun {
+namespace {
+
+/// Everything that may start a line, but v and f. Sorted.
+constexpr std::array<std::string_view, 37> kPassedOver{
+    "bevel",  "bmat",       "c_interp", "call",   "con",  "csh",  "cstype",    "ctech",
+    "curv",   "curv2",      "d_interp", "deg",    "end",  "g",    "hole",      "l",
+    "lod",    "maplib",     "mg",       "mtllib", "o",    "p",    "parm",      "s",
+    "scrv",   "shadow_obj", "sp",       "stech",  "step", "surf", "trace_obj", "trim",
+    "usemap", "usemtl",     "vn",       "vp",     "vt"};
+
+bool is_passed_over(std::string_view word) {
+  return std::binary_search(kPassedOver.begin(), kPassedOver.end(), word);
+}
+
+class ObjReader {
+ public:
+  ObjReader(const std::string& name, std::string_view text) : name_(name), scanner_(text, '#') {}
+
+  Result<PolygonMesh> read() {
+    do {
+      const std::string_view word = scanner_.word();
+      std::optional<Error> error;
+      if (word == "v") {
+        error = read_point();
+      } else if (word == "f" || word == "fo") {
+        error = read_face();
+      } else if (!word.empty() && !is_passed_over(word)) {
+        error = here("not an OBJ statement: " + quoted(word));
+      }
+      if (error) return *error;
+    } while (scanner_.next_line());
+    for (const Forward& f : forward_) {
+      if (f.index >= mesh_.points.size()) return out_of_range(f.line, f.index + 1);
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  /// An index of a point that had not been read yet.
+  struct Forward {
+    uint32_t index;
+    size_t line;
+  };
+
+  Error here(const std::string& what) { return malformed(name_, scanner_.place(), what); }
+
+  Error out_of_range(size_t line, int64_t index) {
+    return malformed(name_, "line " + std::to_string(line),
+                     "face index " + std::to_string(index) + " is out of range, there are " +
+                         std::to_string(mesh_.points.size()) + " points");
+  }
+
+  /// The next word of a statement, which goes on after a backslash at the end of a line.
+  std::string_view next() {
+    std::string_view word = scanner_.word();
+    while (word == "\\" && scanner_.next_line()) word = scanner_.word();
+    return word;
+  }
+
+  std::optional<Error> read_point() {
+    glm::dvec3 p;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string_view word = next();
+      const auto value = parse_finite(word);
+      if (!value) return here("expected a finite coordinate, got " + quoted(word));
+      p[axis] = *value;
+    }
+    mesh_.points.push_back(p);  // a weight or a colour may follow
+    return std::nullopt;
+  }
+
+  std::optional<Error> read_face() {
+    loop_.clear();
+    for (std::string_view word = next(); !word.empty(); word = next()) {
+      const auto index = parse_integer<int64_t>(word.substr(0, word.find('/')));
+      if (!index || *index == 0) return here("expected a face index, got " + quoted(word));
+      const auto count = static_cast<int64_t>(mesh_.points.size());
+      constexpr int64_t kMostPoints = 0xffffffff;
+      const int64_t zero_based = *index > 0 ? *index - 1 : count + *index;
+      if (zero_based < 0 || zero_based >= kMostPoints) return out_of_range(scanner_.line(), *index);
+      if (zero_based >= count) {
+        forward_.push_back({static_cast<uint32_t>(zero_based), scanner_.line()});
+      }
+      loop_.push_back(static_cast<uint32_t>(zero_based));
+    }
+    if (loop_.size() < 3) {
+      return here("a face has " + std::to_string(loop_.size()) + " corners");
+    }
+    mesh_.add_face(loop_);
+    return std::nullopt;
+  }
+
+  const std::string& name_;
+  TextScanner scanner_;
+  PolygonMesh mesh_;
+  std::vector<uint32_t> loop_;
+  std::vector<Forward> forward_;
+};
+
+}  // namespace
+
+Result<PolygonMesh> parse_obj(const std::string& name, std::string_view bytes) {
+  return ObjReader(name, bytes).read();
+}
+
+}  // namespace csgrun

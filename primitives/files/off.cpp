@@ -1,0 +1,133 @@
+// OFF in ASCII: [ST][C][N]OFF, three counts, a point a line, a face a line. Normals, texture
+// coordinates and colours are passed over.
+#include <utility>
+#include <vector>
+
+#include "primitives/files/formats.h"
+#include "primitives/files/text_scanner.h"
+
+namespace csgrun {
+namespace {
+
+/// Whether a first word is one of OFF's names for three-dimensional meshes.
+bool is_magic(std::string_view word) {
+  for (const std::string_view part : {"ST", "C", "N"}) {
+    if (word.substr(0, part.size()) == part) word.remove_prefix(part.size());
+  }
+  return word == "OFF";
+}
+
+class OffReader {
+ public:
+  OffReader(const std::string& name, std::string_view text) : name_(name), scanner_(text, '#') {}
+
+  Result<PolygonMesh> read() {
+    const std::string_view magic = scanner_.word_anywhere();
+    if (!is_magic(magic)) return here("not an OFF file: it starts with " + quoted(magic));
+    uint64_t points = 0, faces = 0;
+    if (auto error = read_count("the number of points", points)) return *error;
+    if (auto error = read_count("the number of faces", faces)) return *error;
+    scanner_.next_line();  // the number of edges is not used, and not always there
+    // A point takes "0 0 0\n" at least, a face "3 0 1 2\n", without the line end of the last.
+    if (auto error =
+            check_count(name_, scanner_.place(), "points", points, 5, scanner_.remaining())) {
+      return *error;
+    }
+    if (auto error =
+            check_count(name_, scanner_.place(), "faces", faces, 7, scanner_.remaining() + 1)) {
+      return *error;
+    }
+    mesh_.points.reserve(points);
+    for (uint64_t i = 0; i < points; ++i) {
+      if (auto error = read_point(i)) return *error;
+    }
+    mesh_.face_starts.reserve(faces + 1);
+    mesh_.loop_starts.reserve(faces + 1);
+    for (uint64_t i = 0; i < faces; ++i) {
+      if (auto error = read_face(i)) return *error;
+    }
+    const std::string_view rest = scanner_.word_anywhere();
+    if (!rest.empty()) return here("more data after the last face: " + quoted(rest));
+    return std::move(mesh_);
+  }
+
+ private:
+  Error here(const std::string& what) { return malformed(name_, scanner_.place(), what); }
+
+  std::optional<Error> read_count(const std::string& what, uint64_t& count) {
+    const std::string_view word = scanner_.word_anywhere();
+    const auto value = parse_integer<uint64_t>(word);
+    if (!value) {
+      if (word == "BINARY") return here("binary OFF is not supported");
+      return here("expected " + what + ", got " + quoted(word));
+    }
+    count = *value;
+    return std::nullopt;
+  }
+
+  std::optional<Error> read_point(uint64_t i) {
+    glm::dvec3 p;
+    std::string_view word = scanner_.word_anywhere();
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto value = parse_finite(word);
+      if (!value) {
+        return here(word.empty() ? "the line ends in point " + std::to_string(i)
+                                 : "expected a finite number in point " + std::to_string(i) +
+                                       ", got " + quoted(word));
+      }
+      p[axis] = *value;
+      if (axis < 2) word = scanner_.word();
+    }
+    mesh_.points.push_back(p);
+    scanner_.next_line();
+    return std::nullopt;
+  }
+
+  std::optional<Error> read_face(uint64_t i) {
+    const std::string which = "face " + std::to_string(i);
+    const std::string_view word = scanner_.word_anywhere();
+    const auto count = parse_integer<uint64_t>(word);
+    if (!count) {
+      return here(word.empty()
+                      ? "the file ends before " + which
+                      : "expected the number of corners of " + which + ", got " + quoted(word));
+    }
+    if (*count < 3) return here(which + " has " + std::to_string(*count) + " corners");
+    if (auto error =
+            check_count(name_, scanner_.place(), "corners", *count, 2, scanner_.remaining())) {
+      return error;
+    }
+    loop_.clear();
+    for (uint64_t k = 0; k < *count; ++k) {
+      const std::string_view index_word = scanner_.word();
+      const auto index = parse_integer<int64_t>(index_word);
+      if (!index) {
+        return here(index_word.empty()
+                        ? "the line ends in " + which
+                        : "expected an index in " + which + ", got " + quoted(index_word));
+      }
+      if (*index < 0 || static_cast<uint64_t>(*index) >= mesh_.points.size()) {
+        return here("index " + std::to_string(*index) + " of " + which +
+                    " is out of range, there are " + std::to_string(mesh_.points.size()) +
+                    " points");
+      }
+      loop_.push_back(static_cast<uint32_t>(*index));
+    }
+    mesh_.add_face(loop_);
+    scanner_.next_line();
+    return std::nullopt;
+  }
+
+  const std::string& name_;
+  TextScanner scanner_;
+  PolygonMesh mesh_;
+  std::vector<uint32_t> loop_;
+};
+
+}  // namespace
+
+Result<PolygonMesh> parse_off(const std::string& name, std::string_view bytes) {
+  return OffReader(name, bytes).read();
+}
+
+}  // namespace csgrun

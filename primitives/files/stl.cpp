@@ -1,0 +1,154 @@
+// STL. Binary when the size is that of its count field (some binary files start with "solid"), else
+// ASCII. Triangles are welded by equal coordinates; normals are ignored, the order of corners
+// counts.
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <csgrun/engine/validate.h>
+
+#include "primitives/files/byte_order.h"
+#include "primitives/files/formats.h"
+#include "primitives/files/text_scanner.h"
+
+namespace csgrun {
+namespace {
+
+constexpr size_t kHeaderBytes = 84, kTriangleBytes = 50;
+
+bool equals_ignoring_case(std::string_view word, std::string_view lower) {
+  if (word.size() != lower.size()) return false;
+  for (size_t i = 0; i < word.size(); ++i) {
+    const char c = word[i] >= 'A' && word[i] <= 'Z' ? static_cast<char>(word[i] + 32) : word[i];
+    if (c != lower[i]) return false;
+  }
+  return true;
+}
+
+void add_triangle(PolygonMesh& mesh) {
+  const auto next = static_cast<uint32_t>(mesh.points.size());
+  mesh.add_face(std::array<uint32_t, 3>{next - 3, next - 2, next - 1});
+}
+
+Result<PolygonMesh> parse_binary(const std::string& name, std::string_view bytes, uint64_t count) {
+  PolygonMesh mesh;
+  mesh.points.reserve(3 * count);
+  for (uint64_t t = 0; t < count; ++t) {
+    const size_t at = kHeaderBytes + kTriangleBytes * t;
+    for (size_t corner = 0; corner < 3; ++corner) {
+      glm::dvec3 p;
+      for (int axis = 0; axis < 3; ++axis) {
+        const size_t offset = at + 12 + 12 * corner + 4 * axis;
+        p[axis] = read_float(bytes, offset, false);
+        if (!std::isfinite(p[axis])) {
+          return malformed(
+              name, "byte " + std::to_string(offset),
+              "triangle " + std::to_string(t) + " has a coordinate that is not finite");
+        }
+      }
+      mesh.points.push_back(p);
+    }
+    add_triangle(mesh);
+  }
+  return mesh;
+}
+
+class AsciiReader {
+ public:
+  AsciiReader(const std::string& name, std::string_view text) : name_(name), scanner_(text) {}
+
+  Result<PolygonMesh> read() {
+    for (std::string_view word = scanner_.word_anywhere(); !word.empty();
+         word = scanner_.word_anywhere()) {
+      if (!equals_ignoring_case(word, "solid")) return unexpected("\"solid\"", word);
+      scanner_.next_line();  // the rest of the line is a name
+      if (auto error = read_solid()) return *error;
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  Error unexpected(const std::string& wanted, std::string_view got) {
+    if (got.empty()) {
+      return malformed(name_, scanner_.place(), "the file ends where " + wanted + " should be");
+    }
+    return malformed(name_, scanner_.place(), "expected " + wanted + ", got " + quoted(got));
+  }
+
+  std::optional<Error> expect(std::string_view keyword) {
+    const std::string_view word = scanner_.word_anywhere();
+    if (equals_ignoring_case(word, keyword)) return std::nullopt;
+    return unexpected(quoted(keyword), word);
+  }
+
+  /// Facets up to and with "endsolid".
+  std::optional<Error> read_solid() {
+    for (;;) {
+      const std::string_view word = scanner_.word_anywhere();
+      if (equals_ignoring_case(word, "endsolid")) {
+        scanner_.next_line();
+        return std::nullopt;
+      }
+      if (!equals_ignoring_case(word, "facet"))
+        return unexpected("\"facet\" or \"endsolid\"", word);
+      if (auto error = read_facet()) return error;
+    }
+  }
+
+  std::optional<Error> read_facet() {
+    if (auto error = expect("normal")) return error;
+    for (int i = 0; i < 3; ++i) {  // often 0 or nan: not used
+      if (scanner_.word_anywhere().empty()) return unexpected("a number", {});
+    }
+    if (auto error = expect("outer")) return error;
+    if (auto error = expect("loop")) return error;
+    for (int corner = 0; corner < 3; ++corner) {
+      if (auto error = expect("vertex")) return error;
+      glm::dvec3 p;
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::string_view word = scanner_.word_anywhere();
+        const auto value = parse_finite(word);
+        if (!value) return unexpected("a finite number", word);
+        p[axis] = *value;
+      }
+      mesh_.points.push_back(p);
+    }
+    if (auto error = expect("endloop")) return error;
+    if (auto error = expect("endfacet")) return error;
+    add_triangle(mesh_);
+    return std::nullopt;
+  }
+
+  const std::string& name_;
+  TextScanner scanner_;
+  PolygonMesh mesh_;
+};
+
+}  // namespace
+
+Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes) {
+  const bool has_header = bytes.size() >= kHeaderBytes;
+  const uint64_t count = has_header ? read_unsigned<4>(bytes, 80, false) : 0;
+  const bool binary = has_header && bytes.size() == kHeaderBytes + kTriangleBytes * count;
+  const bool ascii = !binary && equals_ignoring_case(TextScanner(bytes).word_anywhere(), "solid") &&
+                     bytes.substr(0, kHeaderBytes).find('\0') == std::string_view::npos;
+  if (!binary && !ascii) {
+    if (!has_header) {
+      return malformed(name, "byte 0",
+                       "not an STL file: neither \"solid\" nor a header of 84 bytes");
+    }
+    Error error =
+        malformed(name, "byte 80",
+                  "not an STL file, or truncated: " + std::to_string(count) + " triangles take " +
+                      std::to_string(kHeaderBytes + kTriangleBytes * count) +
+                      " bytes, the file has " + std::to_string(bytes.size()));
+    if (bytes.size() < kHeaderBytes + kTriangleBytes * count) error.code = ErrorCode::kLimit;
+    return error;
+  }
+  Result<PolygonMesh> mesh =
+      binary ? parse_binary(name, bytes, count) : AsciiReader(name, bytes).read();
+  if (mesh) weld_points(*mesh);
+  return mesh;
+}
+
+}  // namespace csgrun

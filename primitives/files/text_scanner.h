@@ -1,0 +1,93 @@
+// Words and numbers of a text file, line by line, without copies and without the locale.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace csgrun {
+
+/// Reads words separated by blanks. A comment character hides the rest of its line.
+class TextScanner {
+ public:
+  explicit TextScanner(std::string_view text, char comment = '\0')
+      : at_(text.data()), end_(text.data() + text.size()), comment_(comment) {}
+
+  /// The next word of this line; empty at the end of the line.
+  std::string_view word() {
+    while (at_ != end_ && is_blank(*at_)) ++at_;
+    const char* begin = at_;
+    if (at_ != end_ && *at_ == comment_ && comment_ != '\0') {
+      while (at_ != end_ && *at_ != '\n') ++at_;
+      return {};
+    }
+    while (at_ != end_ && !is_blank(*at_) && *at_ != '\n') ++at_;
+    return {begin, static_cast<size_t>(at_ - begin)};
+  }
+
+  /// Goes to the start of the next line; false at the end of the text.
+  bool next_line() {
+    while (at_ != end_ && *at_ != '\n') ++at_;
+    if (at_ == end_) return false;
+    ++at_;
+    ++line_;
+    return at_ != end_;
+  }
+
+  /// The next word on this line or on one of those that follow; empty at the end of the text.
+  std::string_view word_anywhere() {
+    for (;;) {
+      const std::string_view w = word();
+      if (!w.empty() || !next_line()) return w;
+    }
+  }
+
+  /// 1-based.
+  [[nodiscard]] size_t line() const { return line_; }
+  [[nodiscard]] std::string place() const { return "line " + std::to_string(line_); }
+  /// How many bytes are left.
+  [[nodiscard]] size_t remaining() const { return static_cast<size_t>(end_ - at_); }
+
+ private:
+  static bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+  }
+
+  const char* at_;
+  const char* end_;
+  size_t line_ = 1;
+  char comment_;
+};
+
+/// A whole word as a finite number; numbers too small for a double are 0.
+inline std::optional<double> parse_finite(std::string_view word) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  double value = 0;
+  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (rest != word.data() + word.size() || word.empty()) return std::nullopt;
+  if (error == std::errc::result_out_of_range) {
+    const size_t exponent = word.find_first_of("eE");
+    const bool tiny = exponent != std::string_view::npos ? word.substr(exponent + 1, 1) == "-"
+                                                         : word.find('.') != std::string_view::npos;
+    if (!tiny) return std::nullopt;
+    return 0.0;
+  }
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// A whole word as an integer of the type asked for.
+template <class Integer>
+std::optional<Integer> parse_integer(std::string_view word) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  Integer value = 0;
+  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || rest != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace csgrun
