@@ -50,6 +50,17 @@ GridBox permuted_box(const SignedPermutation& permutation, const GridBox& box, c
   return r;
 }
 
+}  // namespace
+
+bool fits_grid(const GridBox& box) {
+  for (int i = 0; i < 3; ++i) {
+    if (box.lo[i] <= -kGridLimit || box.hi[i] >= kGridLimit) return false;
+  }
+  return true;
+}
+
+namespace {
+
 class Builder {
  public:
   Builder(SceneContext& context, std::span<const uint32_t> roots)
@@ -130,6 +141,7 @@ Status Builder::place_leaves() {
       framed = canonical.framed;
       if (framed) {
         frame_of_[index] = intern(canonical.placement.frame);
+        leaf.framed = frame_of_[index] != 0;
         rounding.permutation = canonical.placement.permutation;
         rounding.scale = state.split.scale;
         for (int i = 0; i < 3; ++i) {
@@ -223,6 +235,7 @@ Result<SceneNode> Builder::make_leaf(uint32_t index) {
   subtree.id.origin = permutation.apply(leaf->origin);
   subtree.id.paint = leaf->paint;
   subtree.box = permuted_box(permutation, leaf->prepared->box, subtree.id.origin);
+  subtree.is_far = !fits_grid(subtree.box);
   if (subtree.id.frame == 0) {
     subtree.world = subtree.box;
   } else {
@@ -286,6 +299,7 @@ Subtree Builder::fold(BooleanOp op, const Subtree& prefix, const Subtree& operan
   }
   result.world = combine(op, prefix.world, operand.world);
   result.slots = prefix.slots + operand.slots;
+  result.is_far = prefix.is_far || operand.is_far;
   return result;
 }
 

@@ -36,6 +36,7 @@ struct Subtree {
   GridBox box;    ///< in the axes of its frame
   GridBox world;  ///< in the world
   uint64_t slots = 0;  ///< leaves, counted with repetition
+  bool is_far = false;  ///< a leaf has coordinates beyond 2^27 steps
 };
 
 struct SceneNode {
@@ -68,6 +69,9 @@ struct Scene {
   /// The leaves below a node, with repetition, in tree order: source i is leaf i.
   [[nodiscard]] std::vector<uint32_t> leaves(uint32_t index) const;
 };
+
+/// Whether all coordinates are below 2^27 steps.
+bool fits_grid(const GridBox& box);
 
 struct SceneContext {
   NormalForm& form;

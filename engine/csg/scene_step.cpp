@@ -88,6 +88,7 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
       result.far = std::max(result.far, largest(leaf.local));
       const MmBox visible = meet(leaf.world, reach[index]);
       if (is_empty(visible)) continue;
+      if (leaf.framed) result.reach = std::max(result.reach, largest(leaf.local));
       result.reach = std::max(
           {result.reach, largest(visible), largest(meet(leaf.local, to_local(visible, leaf.rows)))});
     } else if (node.kind == NormalNode::Kind::kOperator) {

@@ -20,10 +20,12 @@ struct MmBox {
 struct StepLeaf {
   MmBox world, local;
   std::array<Row, 3> rows{};
+  bool framed = false;  ///< its frame is not the world
 };
 
 /// In mm: the largest coordinate, in the world or in a frame, of what can reach a result, and the
-/// largest of any leaf in its frame.
+/// largest of any leaf. Leaves in frames of their own count as a whole to the former: the planes of
+/// far leaves have no room for a frame (engine/exact/widths.h).
 struct SceneReach {
   double reach = 0, far = 0;
 };

@@ -1,0 +1,178 @@
+#include <chrono>
+#include <optional>
+#include <thread>
+#include <unordered_map>
+#include <utility>
+
+#include <csgrun/engine/evaluate.h>
+
+#include "engine/csg/result_cache.h"
+#include "engine/csg/scene.h"
+#include "engine/csg/scene_jobs.h"
+#include "engine/mesh/present.h"
+
+namespace csgrun {
+namespace {
+
+/// Adds the seconds of its lifetime to a counter.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+uint64_t bytes_of(const Solid& s) {
+  return sizeof(Solid) + s.positions.size() * 40 + s.triangles.size() * 16 +
+         s.faces.size() * sizeof(Solid::Face) + s.loop_vertices.size() * 4 + s.sources.size() * 96;
+}
+
+}  // namespace
+
+struct Evaluator::Impl {
+  explicit Impl(EvaluateOptions given)
+      : options(std::move(given)),
+        form(appearances),
+        store(appearances),
+        boundaries(options.cache_bytes),
+        // Solids are a fraction of what led to them.
+        solids(options.cache_bytes / 4) {
+    threads = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
+    if (threads == 0) threads = 1;
+  }
+
+  [[nodiscard]] bool cancelled() const {
+    return options.cancel && options.cancel->load(std::memory_order_relaxed);
+  }
+  Result<Scene> scene_of(const std::vector<NodePtr>& parts);
+  Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts);
+  [[nodiscard]] Key solid_key(const Scene& scene, const Subtree& subtree) const;
+  Result<SolidPtr> present_root(const Scene& scene, uint32_t root, const BoundaryMesh& boundary);
+
+  EvaluateOptions options;
+  unsigned threads;
+  AppearanceTable appearances;
+  NormalForm form;
+  LeafStore store;
+  ResultCache<StoredBoundary> boundaries;
+  ResultCache<SolidPtr> solids;
+  Warnings warnings;
+  EvaluateStats stats;
+};
+
+Result<Scene> Evaluator::Impl::scene_of(const std::vector<NodePtr>& parts) {
+  const Stopwatch watch(stats.leaf_seconds);
+  // What is remembered of trees and leaves is bounded too; forgetting costs time only.
+  constexpr size_t kMostNodes = 4u << 20;
+  if (form.nodes().size() > kMostNodes || store.bytes() > options.cache_bytes) {
+    form.clear();
+    store.clear();
+  }
+  std::vector<uint32_t> roots;
+  for (const NodePtr& part : parts) {
+    auto root = form.add(part);
+    if (!root) return root.error();
+    roots.push_back(*root);
+  }
+  SceneContext context{form, store, appearances, warnings, [this] { return cancelled(); }};
+  return build_scene(context, roots, options.grid);
+}
+
+/// What the arrays of a root depend on: what it is, where it is in the world, and the step.
+Key Evaluator::Impl::solid_key(const Scene& scene, const Subtree& subtree) const {
+  const Identity& id = subtree.id;
+  const SignedPermutation back = id.permutation.inverse();
+  KeyBuilder builder("solid");
+  builder.numbers(id.key).numbers(back.apply(id.origin));
+  for (const auto& row : back.apply_to_frame(scene.frames[id.frame]).matrix) builder.numbers(row);
+  if (id.paint != kUnpainted) builder.numbers(appearances.key(id.paint));
+  builder.number(scene.step.numerator).number(scene.step.denominator).number(scene.step.exponent);
+  return builder.key();
+}
+
+Result<SolidPtr> Evaluator::Impl::present_root(const Scene& scene, uint32_t root,
+                                               const BoundaryMesh& boundary) {
+  PresentContext context;
+  context.step = scene.step;
+  context.appearances = appearances.values();
+  for (uint32_t leaf : scene.leaves(root)) {
+    const Node& node = *scene.nodes[leaf].leaf;
+    context.sources.push_back({node.mesh()->kind, node.where().text()});
+  }
+  return present(boundary, context);
+}
+
+Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const std::vector<NodePtr>& parts) {
+  auto scene = scene_of(parts);
+  if (!scene) return scene.error();
+  stats.grid_mm = scene->step.millimetres();
+  const Stopwatch watch(stats.boolean_seconds);
+
+  std::vector<SolidPtr> result(parts.size());
+  std::vector<Key> keys(parts.size());
+  std::unordered_map<Key, SolidPtr, KeyHash> made;  // of this call: they outlive the cache's bound
+  std::vector<uint32_t> wanted;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const SceneNode& node = scene->nodes[scene->roots[i]];
+    if (node.kind == SceneNode::Kind::kEmpty) {
+      result[i] = std::make_shared<Solid>();
+      continue;
+    }
+    keys[i] = solid_key(*scene, node.subtree);
+    const auto [entry, is_new] = made.try_emplace(keys[i]);
+    if (const SolidPtr* known = is_new ? solids.find(keys[i]) : nullptr) {
+      entry->second = *known;
+      ++stats.nodes_from_memory;
+    } else if (is_new) {
+      wanted.push_back(scene->roots[i]);
+    } else {
+      ++stats.nodes_from_memory;
+    }
+  }
+  SceneJobs jobs(*scene, boundaries, options, threads, stats);
+  if (Status status = jobs.run(wanted); !status) return status.error();
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (result[i]) continue;
+    SolidPtr& solid = made[keys[i]];
+    if (!solid) {
+      const uint32_t root = scene->roots[i];
+      auto boundary = jobs.world_boundary(root);
+      if (!boundary) return boundary.error();
+      if (is_empty(**boundary)) {
+        solid = std::make_shared<Solid>();
+      } else {
+        auto presented = present_root(*scene, root, **boundary);
+        if (!presented) return presented.error();
+        solid = *presented;
+      }
+      solids.put(keys[i], solid, bytes_of(*solid));
+    }
+    result[i] = solid;
+  }
+  return result;
+}
+
+Evaluator::Evaluator(EvaluateOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+Evaluator::~Evaluator() = default;
+
+Result<std::vector<SolidPtr>> Evaluator::evaluate(const std::vector<NodePtr>& parts) {
+  return impl_->evaluate(parts);
+}
+
+Result<SolidPtr> Evaluator::evaluate(const NodePtr& root) {
+  auto solids = impl_->evaluate({root});
+  if (!solids) return solids.error();
+  return solids->front();
+}
+
+const EvaluateStats& Evaluator::stats() const { return impl_->stats; }
+const std::vector<std::string>& Evaluator::warnings() const { return impl_->warnings.lines(); }
+
+}  // namespace csgrun

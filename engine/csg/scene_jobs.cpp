@@ -1,0 +1,274 @@
+#include "engine/csg/scene_jobs.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace csgrun {
+
+/// An operator whose operands are being put into a job.
+struct SceneJobs::OpenOperator {
+  BooleanOp op;
+  OperandList list;
+  size_t next = 0, count = 0;
+  std::vector<uint32_t> children;  // expression nodes
+};
+
+/// Results that would have far planes stay in their parent's job, which clips them.
+bool SceneJobs::may_keep(const Subtree& subtree) {
+  return !subtree.is_far && fits_grid(subtree.box);
+}
+
+bool SceneJobs::is_known(const Key& key) const {
+  return results_.contains(key) || cache_.contains(key);
+}
+
+void SceneJobs::find_operators(const std::vector<uint32_t>& roots) {
+  std::vector<uint32_t> stack(roots);
+  while (!stack.empty()) {
+    const uint32_t node = stack.back();
+    stack.pop_back();
+    if (!is_operator(node) || !operators_.insert(scene_.nodes[node].subtree.id.key).second) continue;
+    if (is_known(scene_.nodes[node].subtree.id.key)) continue;
+    for (uint32_t operand : scene_.operands(node).operands) {
+      if (is_operator(operand)) stack.push_back(operand);
+    }
+  }
+}
+
+/// How many operands of a list, less than all, are a subtree that is known or stands elsewhere; 0
+/// when none are.
+size_t SceneJobs::shared_prefix(const OperandList& list) const {
+  for (size_t count = list.operands.size() - 1; count >= 2; --count) {
+    const Subtree& value = *list.values[count - 1];
+    if (!may_keep(value)) continue;
+    if (is_known(value.id.key) || operators_.contains(value.id.key)) return count;
+  }
+  return 0;
+}
+
+/// Counts how often each operator is used in the jobs, if each becomes a result of its own. Returns
+/// one node of each, in an order in which they can be evaluated.
+std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) {
+  // Nodes of a key are interchangeable; a prefix has a node of its own only by its key.
+  std::unordered_map<Key, uint32_t, KeyHash> node_of;
+  for (uint32_t i = 0; i < scene_.nodes.size(); ++i) {
+    if (is_operator(i)) node_of.try_emplace(scene_.nodes[i].subtree.id.key, i);
+  }
+  std::vector<uint32_t> order;
+  struct Visit {
+    uint32_t node;
+    bool is_done;
+  };
+  std::vector<Visit> stack;
+  const auto want = [&](const Key& key) {
+    if (uses_[key]++ == 0 && !is_known(key)) stack.push_back({node_of.at(key), false});
+  };
+  for (uint32_t root : roots) {
+    if (!is_operator(root)) continue;
+    want(scene_.nodes[root].subtree.id.key);
+    while (!stack.empty()) {
+      Visit& top = stack.back();
+      if (top.is_done) {
+        order.push_back(top.node);
+        stack.pop_back();
+        continue;
+      }
+      top.is_done = true;
+      const OperandList list = scene_.operands(top.node);
+      const size_t prefix = shared_prefix(list);
+      for (size_t i = list.operands.size(); i-- > prefix;) {
+        if (is_operator(list.operands[i])) want(scene_.nodes[list.operands[i]].subtree.id.key);
+      }
+      if (prefix > 0) {
+        const Key& key = list.values[prefix - 1]->id.key;
+        if (node_of.contains(key)) want(key);
+      }
+    }
+  }
+  return order;
+}
+
+Status SceneJobs::run(const std::vector<uint32_t>& roots) {
+  find_operators(roots);
+  const std::vector<uint32_t> order = count_uses(roots);
+  std::unordered_set<Key, KeyHash> root_keys;
+  for (uint32_t root : roots) root_keys.insert(scene_.nodes[root].subtree.id.key);
+  std::vector<uint32_t> kept;
+  for (uint32_t node : order) {
+    const Subtree& subtree = scene_.nodes[node].subtree;
+    if (!may_keep(subtree)) {
+      // With flatten off its prefixes are still results of their own.
+      if (!options_.flatten) kept.push_back(node);
+      continue;
+    }
+    if (!options_.flatten || uses_[subtree.id.key] > 1 || root_keys.contains(subtree.id.key)) {
+      kept.push_back(node);
+    }
+  }
+  jobs_total_ = kept.size() + roots.size();
+  for (uint32_t node : kept) {
+    if (Status status = evaluate(node); !status) return status;
+  }
+  return std::monostate{};
+}
+
+/// Evaluates an operator and keeps its value. With flatten off, one operand after another.
+Status SceneJobs::evaluate(uint32_t node) {
+  const OperandList list = scene_.operands(node);
+  const size_t all = list.operands.size();
+  for (size_t count = options_.flatten ? all : 2; count <= all; ++count) {
+    const Subtree& subtree = *list.values[count - 1];
+    if (!may_keep(subtree) || is_known(subtree.id.key)) continue;
+    const Parts parts = build(node, count, subtree.id.frame);
+    auto boundary = run_job(parts, subtree.box);
+    if (!boundary) return boundary.error();
+    stats_.nodes_evaluated += parts.operators;
+    const StoredBoundary stored{*boundary, subtree.id};
+    cache_.put(subtree.id.key, stored, memory_bytes(**boundary));
+    results_[subtree.id.key] = {stored, true};
+  }
+  ++jobs_done_;
+  return std::monostate{};
+}
+
+Result<BoundaryPtr> SceneJobs::run_job(const Parts& parts, const GridBox& region) {
+  KernelOptions options;
+  options.threads = threads_;
+  options.cell_limit = options_.cell_limit;
+  options.octree_shift = options_.octree_shift;
+  options.literal_cells = options_.literal_cells;
+  options.cancel = options_.cancel;
+  if (options_.progress) {
+    // Each job is a thousand units of work, as their sizes are not known beforehand.
+    options.progress = [this](uint64_t done, uint64_t total) {
+      const uint64_t part = total > 0 ? 1000 * std::min(done, total) / total : 0;
+      options_.progress(1000 * jobs_done_ + part, 1000 * std::max(jobs_total_, jobs_done_ + 1));
+    };
+  }
+  return evaluate_boolean(parts.operands, parts.expression, region, options, stats_);
+}
+
+Result<BoundaryPtr> SceneJobs::world_boundary(uint32_t root) {
+  const SceneNode& node = scene_.nodes[root];
+  const Subtree& subtree = node.subtree;
+  Parts parts;
+  if (node.kind == SceneNode::Kind::kLeaf) {
+    put(parts, place_leaf(node, 0), subtree);
+  } else if (!may_keep(subtree)) {
+    parts = build(root, scene_.operands(root).operands.size(), 0);
+    stats_.nodes_evaluated += parts.operators;
+  } else {
+    const StoredBoundary& stored = use(subtree.id.key);
+    const Identity& id = subtree.id;
+    if (id.frame == 0 && stored.id.permutation == id.permutation && stored.id.origin == id.origin &&
+        stored.id.frame == 0 && stored.id.paint == id.paint) {
+      ++jobs_done_;
+      return stored.boundary;
+    }
+    results_.at(id.key).is_fresh = true;  // place() below is the same use
+    put(parts, place(subtree, 0), subtree);
+  }
+  auto boundary = run_job(parts, subtree.world);
+  ++jobs_done_;
+  return boundary;
+}
+
+uint32_t SceneJobs::put(Parts& parts, Operand operand, const Subtree& subtree) const {
+  operand.first_source = static_cast<uint32_t>(parts.sources);
+  parts.sources += subtree.slots;
+  Expression::Node node;
+  node.operand = static_cast<uint32_t>(parts.operands.size());
+  parts.operands.push_back(std::move(operand));
+  parts.expression.nodes.push_back(node);
+  return static_cast<uint32_t>(parts.expression.nodes.size() - 1);
+}
+
+Operand SceneJobs::place_leaf(const SceneNode& node, uint32_t job_frame) const {
+  const Identity& id = node.subtree.id;
+  Operand operand;
+  operand.leaf = node.geometry;
+  operand.translation = id.origin;
+  if (id.frame != job_frame) operand.frame = scene_.frames[id.frame];
+  if (id.paint != kUnpainted) operand.appearance = id.paint;
+  return operand;
+}
+
+/// The stored axes x and the subtree's axes y are both images of the reference: x = P1 r + o1,
+/// y = P2 r + o2. So Q y = x + t with Q = P1 P2^-1 and t = Q o2 - o1.
+Operand SceneJobs::place(const Subtree& subtree, uint32_t job_frame) {
+  const StoredBoundary& stored = use(subtree.id.key);
+  const SignedPermutation turn =
+      SignedPermutation::compose(stored.id.permutation, subtree.id.permutation.inverse());
+  const IVec3 turned = turn.apply(subtree.id.origin);
+  Operand operand;
+  operand.boundary = stored.boundary;
+  for (int i = 0; i < 3; ++i) operand.translation[i] = turned[i] - stored.id.origin[i];
+  const Frame base = subtree.id.frame == job_frame ? Frame{} : scene_.frames[subtree.id.frame];
+  operand.frame = turn.apply_to_frame(base);
+  if (subtree.id.paint != stored.id.paint) operand.appearance = subtree.id.paint;
+  return operand;
+}
+
+const StoredBoundary& SceneJobs::use(const Key& key) {
+  auto found = results_.find(key);
+  if (found == results_.end()) {
+    // Held until the end of the run, whatever the cache drops meanwhile.
+    found = results_.emplace(key, Kept{*cache_.find(key), false}).first;
+  }
+  if (!found->second.is_fresh) ++stats_.nodes_from_memory;
+  found->second.is_fresh = false;
+  return found->second.stored;
+}
+
+/// Starts on the first `count` operands of a node, from the longest prefix that is known.
+SceneJobs::OpenOperator SceneJobs::open(uint32_t node, size_t count, bool is_target,
+                                        uint32_t job_frame, Parts& parts) {
+  OpenOperator result{scene_.nodes[node].op, scene_.operands(node), 0, count, {}};
+  for (size_t prefix = is_target ? count - 1 : count; prefix >= 2; --prefix) {
+    const Subtree& value = *result.list.values[prefix - 1];
+    if (!may_keep(value) || !is_known(value.id.key)) continue;
+    result.children.push_back(put(parts, place(value, job_frame), value));
+    result.next = prefix;
+    break;
+  }
+  return result;
+}
+
+SceneJobs::Parts SceneJobs::build(uint32_t node, size_t count, uint32_t job_frame) {
+  Parts parts;
+  std::vector<OpenOperator> stack;
+  stack.push_back(open(node, count, true, job_frame, parts));
+  while (true) {
+    OpenOperator& top = stack.back();
+    if (top.next < top.count) {
+      const uint32_t operand = top.list.operands[top.next++];
+      const SceneNode& child = scene_.nodes[operand];
+      if (child.kind == SceneNode::Kind::kLeaf) {
+        top.children.push_back(put(parts, place_leaf(child, job_frame), child.subtree));
+      } else {
+        const size_t all = scene_.operands(operand).operands.size();
+        stack.push_back(open(operand, all, false, job_frame, parts));
+      }
+      continue;
+    }
+    uint32_t value = top.children[0];
+    if (top.children.size() > 1) {
+      Expression& expression = parts.expression;
+      Expression::Node made;
+      made.is_operand = false;
+      made.op = top.op;
+      made.first_child = static_cast<uint32_t>(expression.children.size());
+      made.child_count = static_cast<uint32_t>(top.children.size());
+      expression.children.insert(expression.children.end(), top.children.begin(),
+                                 top.children.end());
+      value = static_cast<uint32_t>(expression.nodes.size());
+      expression.nodes.push_back(made);
+      ++parts.operators;
+    }
+    stack.pop_back();
+    if (stack.empty()) return parts;
+    stack.back().children.push_back(value);
+  }
+}
+
+}  // namespace csgrun

@@ -1,0 +1,75 @@
+// The evaluation of a scene: which subtrees are kept as results of their own, and the kernel's jobs
+// in the order in which they depend on one another.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include <csgrun/engine/evaluate.h>
+
+#include "engine/bsp/kernel.h"
+#include "engine/csg/result_cache.h"
+#include "engine/csg/scene.h"
+
+namespace csgrun {
+
+using BoundaryPtr = std::shared_ptr<const BoundaryMesh>;
+
+/// One call's evaluation. A subtree that occurs more than once (by key) is evaluated once, in the
+/// axes of its frame, and stands in other jobs as one operand; so does what the cache knows, also
+/// when it is only a prefix of an operator's operands. All else becomes part of its parent's job.
+class SceneJobs {
+ public:
+  SceneJobs(const Scene& scene, ResultCache<StoredBoundary>& cache, const EvaluateOptions& options,
+            unsigned threads, EvaluateStats& stats)
+      : scene_(scene), cache_(cache), options_(options), threads_(threads), stats_(stats) {}
+
+  /// Evaluates what the roots (scene nodes, not empty) need. Errors: those of evaluate_boolean.
+  Status run(const std::vector<uint32_t>& roots);
+  /// The boundary of a root in the world. REQUIRES: run() was called with it.
+  Result<BoundaryPtr> world_boundary(uint32_t root);
+
+ private:
+  struct Kept {
+    StoredBoundary stored;
+    bool is_fresh = false;  // evaluated for a use that has not come yet
+  };
+  struct Parts {  // of one job
+    std::vector<Operand> operands;
+    Expression expression;
+    uint64_t operators = 0, sources = 0;
+  };
+  struct OpenOperator;  // an operator whose operands are being put into a job
+
+  [[nodiscard]] bool is_operator(uint32_t node) const {
+    return scene_.nodes[node].kind == SceneNode::Kind::kOperator;
+  }
+  [[nodiscard]] static bool may_keep(const Subtree& subtree);
+  [[nodiscard]] bool is_known(const Key& key) const;
+  void find_operators(const std::vector<uint32_t>& roots);
+  std::vector<uint32_t> count_uses(const std::vector<uint32_t>& roots);
+  [[nodiscard]] size_t shared_prefix(const OperandList& list) const;
+  Status evaluate(uint32_t node);
+  Result<BoundaryPtr> run_job(const Parts& parts, const GridBox& region);
+  Parts build(uint32_t node, size_t count, uint32_t job_frame);
+  OpenOperator open(uint32_t node, size_t count, bool is_target, uint32_t job_frame, Parts& parts);
+  uint32_t put(Parts& parts, Operand operand, const Subtree& subtree) const;
+  Operand place(const Subtree& subtree, uint32_t job_frame);
+  [[nodiscard]] Operand place_leaf(const SceneNode& node, uint32_t job_frame) const;
+  const StoredBoundary& use(const Key& key);
+
+  const Scene& scene_;
+  ResultCache<StoredBoundary>& cache_;
+  const EvaluateOptions& options_;
+  unsigned threads_;
+  EvaluateStats& stats_;
+  std::unordered_set<Key, KeyHash> operators_;  // keys of operators that stand in some operand list
+  std::unordered_map<Key, uint32_t, KeyHash> uses_;
+  std::unordered_map<Key, Kept, KeyHash> results_;  // of this run: they outlive the cache's bound
+  uint64_t jobs_done_ = 0, jobs_total_ = 0;
+};
+
+}  // namespace csgrun

@@ -1,0 +1,206 @@
+// Whole evaluations: results against known volumes, and what is reused.
+#include <csgrun/engine/evaluate.h>
+
+#include <gtest/gtest.h>
+
+#include "test_meshes.h"
+
+namespace csgrun {
+namespace {
+
+using namespace testing;
+
+SolidPtr solid_of(const NodePtr& root, EvaluateOptions options = {}) {
+  options.threads = 1;
+  Evaluator evaluator(options);
+  auto result = evaluator.evaluate(root);
+  EXPECT_TRUE(result.has_value()) << result.error().message;
+  return result ? *result : std::make_shared<Solid>();
+}
+
+TEST(Evaluate, BooleansOfCubes) {
+  const NodePtr a = cube(2), b = moved(1, 1, 1, cube(2));
+  EXPECT_EQ(solid_of(a)->measures.volume, 8);
+  EXPECT_EQ(solid_of(unite({a, b}))->measures.volume, 15);
+  EXPECT_EQ(solid_of(intersect({a, b}))->measures.volume, 1);
+  EXPECT_EQ(solid_of(subtract({a, b}))->measures.volume, 7);
+  EXPECT_EQ(solid_of(symmetric({a, b}))->measures.volume, 14);
+  EXPECT_TRUE(solid_of(subtract({a, a}))->empty());
+  EXPECT_TRUE(solid_of(intersect({a, moved(2, 0, 0, a)}))->empty());
+}
+
+TEST(Evaluate, DecimalsMeet) {
+  const auto joined = solid_of(unite({cube(0.3), moved(0.1 + 0.2, 0, 0, cube(0.3))}));
+  EXPECT_EQ(joined->triangles.size(), 12u);
+  std::vector<NodePtr> row;
+  for (int i = 0; i < 10; ++i) row.push_back(moved(i * 0.1, 0, 0, cube(0.1)));
+  EXPECT_EQ(solid_of(unite(row))->triangles.size(), 12u);
+  const auto scaled = solid_of(
+      unite({Node::transformed(scaling(1.1, 1.1, 1.1), cube(10)), moved(11, 0, 0, cube(11))}));
+  EXPECT_EQ(scaled->triangles.size(), 12u);
+}
+
+TEST(Evaluate, FlushStaysFlushUnderOddRotations) {
+  const NodePtr part = subtract({box({-5, -5, 0}, {5, 5, 4}), prism(32, 2, 4)});
+  const NodePtr odd =
+      turned(40, {0, 0, 1}, turned(30, {0, 1, 0}, turned(20, {1, 0, 0}, part)));
+  const auto straight = solid_of(part), turned_part = solid_of(odd);
+  EXPECT_EQ(turned_part->measures.genus, 1);
+  EXPECT_EQ(turned_part->triangles.size(), straight->triangles.size());
+  EXPECT_NEAR(turned_part->measures.volume / straight->measures.volume, 1, 1e-10);
+}
+
+NodePtr gear(int teeth) {
+  std::vector<NodePtr> parts{prism(48, 10, 3)};
+  for (int i = 0; i < teeth; ++i) {
+    parts.push_back(turned(i * 360.0 / teeth, {0, 0, 1}, box({8, -0.6, 0}, {12, 0.6, 3})));
+  }
+  return unite(parts);
+}
+
+TEST(Evaluate, AGearKeepsOneTop) {
+  const auto straight = solid_of(gear(17));
+  EXPECT_EQ(straight->measures.genus, 0);
+  EXPECT_EQ(straight->measures.components, 1);
+  for (const auto& p : straight->positions) EXPECT_TRUE(p.z == 0 || p.z == 3) << p.z;
+  const auto odd = solid_of(turned(37, {1, 2, 3}, gear(17)));
+  EXPECT_EQ(odd->faces.size(), straight->faces.size());
+  EXPECT_EQ(odd->measures.genus, 0);
+  EXPECT_NEAR(odd->measures.volume / straight->measures.volume, 1, 1e-10);
+}
+
+TEST(Evaluate, APolarArrayIsEvaluatedOnce) {
+  const NodePtr part = subtract({box({20, -1, 0}, {25, 1, 3}), box({21, -0.5, -1}, {24, 0.5, 4})});
+  std::vector<NodePtr> array;
+  for (int i = 0; i < 36; ++i) array.push_back(turned(10 * i, {0, 0, 1}, part));
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options);
+  const auto result = evaluator.evaluate(unite(array));
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  EXPECT_NEAR((*result)->measures.volume, 36 * (30 - 9), 1e-6);
+  EXPECT_EQ(evaluator.stats().nodes_evaluated, 2u);
+  EXPECT_EQ(evaluator.stats().nodes_from_memory, 35u);
+}
+
+TEST(Evaluate, MovedPaintedAndMirroredCopiesAreReused) {
+  const NodePtr part = subtract({cube(4), box({1, 1, -1}, {2, 3, 5})});
+  Appearance red;
+  red.red = 1;
+  red.is_default = false;
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options);
+  const auto result = evaluator.evaluate(std::vector<NodePtr>{
+      part, moved(10, 0.001, 0, part), Node::painted(red, part),
+      Node::transformed(scaling(-1, 1, 1), part), turned(33, {1, 1, 1}, part)});
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  EXPECT_EQ(evaluator.stats().nodes_evaluated, 1u);
+  EXPECT_EQ(evaluator.stats().nodes_from_memory, 4u);
+  for (const auto& solid : *result) EXPECT_NEAR(solid->measures.volume, 64 - 8, 1e-9);
+  EXPECT_EQ((*result)[2]->appearances.size(), 1u);
+  EXPECT_EQ((*result)[2]->appearances[0], red);
+  EXPECT_EQ((*result)[3]->measures.bbox[0].x, -4);
+}
+
+TEST(Evaluate, AGrowingChainReusesItsPrefix) {
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options), fresh(options);
+  NodePtr part = cube(10);
+  for (int i = 0; i < 20; ++i) {
+    part = subtract({part, moved(i * 0.5 - 1, i * 0.3, 8, cube(2.7))});
+    const auto result = evaluator.evaluate(part);
+    ASSERT_TRUE(result.has_value()) << result.error().message;
+  }
+  EXPECT_EQ(evaluator.stats().nodes_evaluated, 20u);
+  EXPECT_EQ(evaluator.stats().nodes_from_memory, 19u);
+  const auto again = evaluator.evaluate(part), once = fresh.evaluate(part);
+  EXPECT_EQ(evaluator.stats().nodes_evaluated, 20u);
+  EXPECT_EQ(fresh.stats().nodes_evaluated, 1u);
+  EXPECT_EQ((*again)->canonical_hash, (*once)->canonical_hash);
+  EXPECT_EQ((*again)->positions, (*once)->positions);
+  EXPECT_EQ((*again)->triangles, (*once)->triangles);
+}
+
+TEST(Evaluate, FlatAndNestedAgree) {
+  const NodePtr hole = prism(12, 1, 6);
+  std::vector<NodePtr> holes;
+  for (int i = 0; i < 5; ++i) holes.push_back(moved(2 * i, 0.3 * i, -1, hole));
+  const NodePtr model =
+      unite({subtract({box({-2, -2, 0}, {10, 4, 3}), unite(holes)}), turned(25, {0, 0, 1}, cube(3)),
+             symmetric({moved(0, 5, 0, cube(2)), moved(1, 5, 1, cube(2)), moved(0, 6, 0, cube(2))}),
+             intersect({gear(7), box({-20, -20, 1}, {20, 20, 2})})});
+  const auto flat = solid_of(model);
+  EvaluateOptions nested;
+  nested.flatten = false;
+  const auto other = solid_of(model, nested);
+  EXPECT_EQ(flat->canonical_hash, other->canonical_hash);
+  EXPECT_EQ(flat->positions, other->positions);
+  EXPECT_EQ(flat->triangles, other->triangles);
+}
+
+TEST(Evaluate, HugeCuttersDoNotCoarsenTheGrid) {
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options);
+  const auto result = evaluator.evaluate(subtract({cube(1), box({0.5, -9000, -9000}, {9000, 9000, 9000})}));
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  EXPECT_EQ((*result)->measures.volume, 0.5);
+  EXPECT_EQ(evaluator.stats().grid_mm, 1.5625e-08);
+}
+
+TEST(Evaluate, PartsShareOneGridAndEqualPartsOneSolid) {
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options);
+  const auto result =
+      evaluator.evaluate(std::vector<NodePtr>{cube(1), cube(1), moved(1, 0, 0, cube(1)), cube(1000)});
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  EXPECT_EQ((*result)[0], (*result)[1]);
+  EXPECT_NE((*result)[0], (*result)[2]);
+  EXPECT_EQ(evaluator.stats().grid_mm, 8e-6);
+}
+
+TEST(Evaluate, ErrorsAndWarningsNameTheirLine) {
+  const auto file = std::make_shared<const std::string>("m.lua");
+  EvaluateOptions options;
+  options.threads = 1;
+  {
+    Evaluator evaluator(options);
+    Affine flat = scaling(1, 1, 0);
+    const auto result = evaluator.evaluate(
+        unite({cube(1), Node::transformed(flat, box({5, 0, 0}, {6, 1, 1}, {file, 7}))}));
+    ASSERT_TRUE(result.has_value());
+    EXPECT_EQ((*result)->measures.volume, 1);
+    ASSERT_EQ(evaluator.warnings().size(), 1u);
+    EXPECT_EQ(evaluator.warnings()[0].substr(0, 8), "m.lua:7:");
+  }
+  {
+    Evaluator evaluator(options);
+    Affine skew;
+    skew.m[0][2] = 1e6;
+    const auto result = evaluator.evaluate(Node::transformed(skew, cube(1), {file, 9}));
+    ASSERT_TRUE(result.has_value()) << result.error().message;
+    EXPECT_NEAR((*result)->measures.volume, 1, 1e-3);
+    ASSERT_EQ(evaluator.warnings().size(), 1u);
+    EXPECT_EQ(evaluator.warnings()[0].substr(0, 8), "m.lua:9:");
+  }
+  {
+    options.grid = *GridStep::parse("2^-30");
+    Evaluator evaluator(options);
+    const auto result = evaluator.evaluate(cube(100));
+    ASSERT_FALSE(result.has_value());
+    EXPECT_EQ(result.error().code, ErrorCode::kOutOfRange);
+  }
+}
+
+TEST(Evaluate, EmptyTrees) {
+  EXPECT_TRUE(solid_of(Node::empty())->empty());
+  EXPECT_TRUE(solid_of(subtract({Node::empty(), cube(1)}))->empty());
+  EXPECT_TRUE(solid_of(intersect({cube(1), Node::empty()}))->empty());
+  EXPECT_EQ(solid_of(unite({Node::empty(), cube(1)}))->measures.volume, 1);
+}
+
+}  // namespace
+}  // namespace csgrun
