@@ -1,13 +1,13 @@
 #include "engine/mesh/present.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
 
 #include "engine/exact/rounding.h"
+#include "engine/mesh/canonical_hash.h"
+#include "engine/mesh/measure.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/plane_oracle.h"
 #include "engine/mesh/stitch.h"
@@ -83,6 +83,8 @@ class Presenter {
     if (!split_fans(set_, faces_, geometry_, planes_, fans_)) return not_closed("vertices");
     auto solid = std::make_shared<Solid>();
     fill(*solid);
+    if (auto status = measure(*solid); !status) return status.error();
+    solid->canonical_hash = canonical_hash(faces_, geometry_, context_);
     return SolidPtr(std::move(solid));
   }
 
@@ -134,7 +136,28 @@ class Presenter {
     fill_faces(solid);
     solid.appearances = context_.appearances;
     solid.sources = context_.sources;
+  }
+
+  Status measure(Solid& solid) {
     count_topology(solid);
+    if (solid.empty()) return std::monostate();
+    auto mass = measure_mesh(
+        geometry_.point_count(), [this](uint32_t p) { return geometry_.exact(p); }, set_.triangles,
+        context_.step);
+    if (!mass) return mass.error();
+    Measures& m = solid.measures;
+    m.volume = mass->volume;
+    m.area = mass->area;
+    m.centroid = mass->centroid;
+    // Rounding is monotone: the box of the rounded positions is the rounded box.
+    m.bbox = {solid.positions[0], solid.positions[0]};
+    for (const glm::dvec3& p : solid.positions) {
+      for (int k = 0; k < 3; ++k) {
+        m.bbox[0][k] = std::min(m.bbox[0][k], p[k]);
+        m.bbox[1][k] = std::max(m.bbox[1][k], p[k]);
+      }
+    }
+    return std::monostate();
   }
 
   void fill_faces(Solid& solid) {
