@@ -80,6 +80,9 @@ double conical_helix_length(double radius, const LinearExtrudeOptions& o, double
 
 /// The longest that an edge gets at any slice.
 double longest_length(const LinearExtrudeOptions& o, const glm::dvec2& edge, int slices) {
+  if (o.scale.x == o.scale.y) {  // turning changes no length, but for the noise of doubles
+    return std::sqrt(glm::dot(edge, edge)) * std::max(1.0, o.scale.x);
+  }
   double squared = 0;
   for (int i = 0; i <= slices; ++i) {
     const glm::dvec2 moved = slice_point(o, edge, i, slices);
@@ -116,7 +119,9 @@ std::vector<int> pieces_of(const std::vector<double>& lengths, const LinearExtru
   std::vector<int> pieces(lengths.size());
   double total = 0;
   for (size_t i = 0; i < lengths.size(); ++i) {
-    const double wanted = std::max(std::ceil(lengths[i] / fs_of(o)), 1.0);
+    // An edge of 10 mm makes 5 pieces of 2 mm, also when it is a hair longer by rounding.
+    constexpr double kNoise = 1e-12;
+    const double wanted = std::max(std::ceil(lengths[i] / fs_of(o) * (1 - kNoise)), 1.0);
     total += wanted;
     pieces[i] = static_cast<int>(std::min(wanted, kMostPoints));
   }

@@ -1,0 +1,298 @@
+// Builds the tree from the bottom up: each call is built when its block closes, from what its
+// children came to. The open calls stand on a stack of our own.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <csgrun/primitives/csg_file.h>
+
+#include "primitives/files/csg_parser.h"
+#include "primitives/files/csg_shapes.h"
+#include "primitives/files/read_file.h"
+
+namespace csgrun {
+namespace {
+
+/// What a node came to. Empty ones have no dimension.
+struct Item {
+  enum class Kind { kEmpty, kFlat, kSolid };
+  Kind kind = Kind::kEmpty;
+  Shape2D shape;
+  NodePtr solid;
+
+  static Item of(Shape2D shape) {
+    Item item;
+    if (shape.empty()) return item;
+    item.kind = Kind::kFlat;
+    item.shape = std::move(shape);
+    return item;
+  }
+  static Item of(NodePtr solid) {
+    Item item;
+    if (solid->kind() == NodeKind::kEmpty) return item;
+    item.kind = Kind::kSolid;
+    item.solid = std::move(solid);
+    return item;
+  }
+};
+
+struct Frame {
+  CsgCall call;
+  bool background = false;  ///< it, or a node around it, is marked with %
+  std::vector<Item> children;
+};
+
+constexpr std::array<std::string_view, 10> kNotBuilt{"text",      "import", "surface", "hull",
+                                                     "minkowski", "resize", "offset",  "projection",
+                                                     "fill",      "roof"};
+
+bool is_not_built(std::string_view name) {
+  return std::find(kNotBuilt.begin(), kNotBuilt.end(), name) != kNotBuilt.end();
+}
+
+class CsgBuilder {
+ public:
+  CsgBuilder(const std::string& name, std::string_view text)
+      : file_(std::make_shared<const std::string>(name)), parser_(file_, text) {}
+
+  Result<CsgModel> build() {
+    stack_.emplace_back();  // the file itself: a union
+    stack_.back().call.name = "union";
+    stack_.back().call.line = 1;
+    for (;;) {
+      const Result<CsgParser::Event> event = parser_.next();
+      if (!event) return event.error();
+      if (*event == CsgParser::Event::kEnd) break;
+      if (*event == CsgParser::Event::kClose) {
+        if (stack_.size() == 1) return parser_.error("\"}\" without \"{\"");
+        if (auto status = close(); !status) return status.error();
+        continue;
+      }
+      const bool background = stack_.back().background || parser_.call().background;
+      Frame& frame = stack_.emplace_back();
+      frame.call = std::move(parser_.call());
+      frame.background = background;
+      if (*event == CsgParser::Event::kOpen) continue;
+      if (auto status = close(); !status) return status.error();
+    }
+    if (stack_.size() > 1) {
+      Error error = parser_.error("the file ends within " + stack_.back().call.name +
+                                  "() of line " + std::to_string(stack_.back().call.line));
+      return error;
+    }
+    Result<Item> all = combine(BooleanOp::kUnion, stack_.back());
+    if (!all) return all.error();
+    CsgModel model;
+    model.is_2d = all->kind == Item::Kind::kFlat;
+    model.shape = all->shape;
+    model.solid = all->kind == Item::Kind::kSolid ? all->solid : Node::empty(SourceRef{file_, 1});
+    model.warnings = std::move(warnings_);
+    return model;
+  }
+
+ private:
+  [[nodiscard]] SourceRef where(const Frame& frame) const {
+    return SourceRef{file_, frame.call.line};
+  }
+
+  void warn(const Frame& frame, const std::string& what) {
+    warnings_.push_back(where(frame).text() + ": " + what);
+  }
+
+  /// Builds the innermost open call and hands it to the one around it.
+  Status close() {
+    Frame frame = std::move(stack_.back());
+    stack_.pop_back();
+    if (frame.background) return std::monostate();
+    Result<Item> item = build(frame);
+    if (!item) {
+      Error error = item.error();
+      error.where = where(frame);
+      return error;
+    }
+    stack_.back().children.push_back(*std::move(item));
+    return std::monostate();
+  }
+
+  Result<Item> build(Frame& frame) {
+    const std::string& name = frame.call.name;
+    if (name == "union" || name == "group" || name == "render") {
+      return combine(BooleanOp::kUnion, frame);
+    }
+    if (name == "difference") return combine(BooleanOp::kDifference, frame);
+    if (name == "intersection") return combine(BooleanOp::kIntersection, frame);
+    if (name == "multmatrix") return transform(frame);
+    if (name == "color") return paint(frame);
+    if (name == "linear_extrude" || name == "rotate_extrude") return extrude(frame);
+    if (is_solid_primitive(name)) {
+      std::vector<std::string> notes;
+      MeshResult mesh = make_csg_solid(frame.call, notes);
+      return leaf(frame, std::move(mesh), notes);
+    }
+    if (is_flat_primitive(name)) return flat_primitive(frame);
+    if (is_not_built(name)) {
+      if (!takes_children(name) || !frame.children.empty()) {
+        return Error{ErrorCode::kInvalidArgument, name + "() is not supported in .csg files", {}};
+      }
+      return Item();
+    }
+    return Error{ErrorCode::kMalformedFile, "unknown node " + name + "()", {}};
+  }
+
+  static bool takes_children(std::string_view name) {
+    return name != "text" && name != "import" && name != "surface";
+  }
+
+  /// A leaf of the mesh; impossible arguments make it empty.
+  Result<Item> leaf(const Frame& frame, MeshResult mesh, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) warn(frame, note);
+    if (mesh) {
+      return Item::of(
+          Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where(frame)));
+    }
+    if (mesh.error().code != ErrorCode::kInvalidArgument) return mesh.error();
+    warn(frame, mesh.error().message);
+    return Item();
+  }
+
+  Result<Item> flat_primitive(const Frame& frame) {
+    std::vector<std::string> notes;
+    Result<Shape2D> shape = make_csg_shape(frame.call, notes);
+    for (const std::string& note : notes) warn(frame, note);
+    if (shape) return Item::of(*std::move(shape));
+    if (shape.error().code != ErrorCode::kInvalidArgument) return shape.error();
+    warn(frame, shape.error().message);
+    return Item();
+  }
+
+  /// The children under a Boolean. The first that is not empty decides between 2D and 3D.
+  Result<Item> combine(BooleanOp op, Frame& frame) {
+    const auto first = std::find_if(frame.children.begin(), frame.children.end(),
+                                    [](const Item& i) { return i.kind != Item::Kind::kEmpty; });
+    if (first == frame.children.end()) return Item();
+    const Item::Kind kind = first->kind;
+    for (Item& child : frame.children) {
+      if (child.kind == kind || child.kind == Item::Kind::kEmpty) continue;
+      warn(frame, kind == Item::Kind::kSolid ? "a 2D child among 3D ones was left out"
+                                             : "a 3D child among 2D ones was left out");
+      child = Item();
+    }
+    if (kind == Item::Kind::kFlat) {
+      std::vector<Shape2D> shapes;
+      for (Item& child : frame.children) shapes.push_back(std::move(child.shape));
+      Result<Shape2D> result = Shape2D::boolean(op, shapes);
+      if (!result) return result.error();
+      return Item::of(*std::move(result));
+    }
+    return Item::of(combine_solids(op, frame));
+  }
+
+  NodePtr combine_solids(BooleanOp op, Frame& frame) {
+    std::vector<NodePtr> operands;
+    bool first = true;
+    for (Item& child : frame.children) {
+      const bool empty = child.kind == Item::Kind::kEmpty;
+      if (empty && (op == BooleanOp::kIntersection || (op == BooleanOp::kDifference && first))) {
+        return Node::empty(where(frame));
+      }
+      if (!empty) operands.push_back(std::move(child.solid));
+      first = false;
+    }
+    if (operands.size() == 1) return operands[0];
+    return Node::boolean(op, std::move(operands), where(frame));
+  }
+
+  Result<Item> transform(Frame& frame) {
+    CsgArguments arguments(frame.call);
+    const std::optional<Affine> map = arguments.matrix();
+    if (arguments.error()) return *arguments.error();
+    Result<Item> child = combine(BooleanOp::kUnion, frame);
+    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    for (const auto& row : map->m) {
+      if (std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); })) continue;
+      warn(frame, "multmatrix: the matrix is not finite, its children were left out");
+      return Item();
+    }
+    if (child->kind == Item::Kind::kFlat) {
+      Result<Shape2D> shape = child->shape.transformed(*map);
+      if (!shape) return shape.error();
+      if (shape->empty()) warn_flattened(frame);
+      return Item::of(*std::move(shape));
+    }
+    const auto& m = map->m;
+    const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                               m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    if (determinant == 0) {
+      warn_flattened(frame);
+      return Item();
+    }
+    return Item::of(Node::transformed(*map, std::move(child->solid), where(frame)));
+  }
+
+  void warn_flattened(const Frame& frame) {
+    warn(frame, "multmatrix: the matrix flattens its children, they were left out");
+  }
+
+  Result<Item> paint(Frame& frame) {
+    const CsgValue* value =
+        frame.call.arguments.empty() ? nullptr : &frame.call.arguments[0].second;
+    if (value == nullptr || value->kind != CsgValue::Kind::kList || value->list.size() != 4) {
+      return Error{ErrorCode::kMalformedFile, "color: expected a list of 4 numbers", {}};
+    }
+    std::array<double, 4> rgba{};
+    for (int i = 0; i < 4; ++i) {
+      if (value->list[i].kind != CsgValue::Kind::kNumber) {
+        return Error{ErrorCode::kMalformedFile, "color: expected a list of 4 numbers", {}};
+      }
+      rgba[i] = value->list[i].number;
+    }
+    Result<Item> child = combine(BooleanOp::kUnion, frame);
+    const bool unset = rgba[0] < 0;  // -1 in all four: color() without a colour
+    if (!child || child->kind == Item::Kind::kEmpty || unset) return child;
+    if (child->kind == Item::Kind::kFlat) {
+      warn(frame, "color: 2D shapes have no colour");
+      return child;
+    }
+    auto component = [](double v) { return static_cast<float>(v > 0 ? std::min(v, 1.0) : 0.0); };
+    Appearance appearance;
+    appearance.red = component(rgba[0]);
+    appearance.green = component(rgba[1]);
+    appearance.blue = component(rgba[2]);
+    appearance.alpha = rgba[3] < 0 ? 1.0f : component(rgba[3]);
+    appearance.is_default = false;
+    return Item::of(Node::painted(appearance, std::move(child->solid), where(frame)));
+  }
+
+  Result<Item> extrude(Frame& frame) {
+    for (Item& child : frame.children) {
+      if (child.kind != Item::Kind::kSolid) continue;
+      warn(frame, frame.call.name + ": a 3D child was left out");
+      child = Item();
+    }
+    Result<Item> profile = combine(BooleanOp::kUnion, frame);
+    if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
+    return leaf(frame, extrude_csg(frame.call, profile->shape), {});
+  }
+
+  std::shared_ptr<const std::string> file_;
+  CsgParser parser_;
+  std::vector<Frame> stack_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+Result<CsgModel> parse_csg(const std::string& name, std::string_view text) {
+  return CsgBuilder(name, text).build();
+}
+
+Result<CsgModel> read_csg_file(const std::string& path) {
+  const Result<std::string> bytes = read_regular_file(path);
+  if (!bytes) return bytes.error();
+  return parse_csg(path, *bytes);
+}
+
+}  // namespace csgrun

@@ -1,0 +1,70 @@
+// The grammar of .csg files: calls with named arguments, blocks, modifiers. No meaning yet.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <csgrun/engine/error.h>
+
+namespace csgrun {
+
+struct CsgValue {
+  enum class Kind { kUndef, kNumber, kBool, kString, kList };
+  Kind kind = Kind::kUndef;
+  double number = 0;  ///< may be infinite or NaN
+  bool boolean = false;
+  std::string string;
+  std::vector<CsgValue> list;
+};
+
+struct CsgCall {
+  std::string name;
+  std::vector<std::pair<std::string, CsgValue>> arguments;  ///< an empty name: positional
+  int line = 0;
+  bool background = false;  ///< marked with %
+
+  /// The argument of that name; null when there is none or it is undef.
+  [[nodiscard]] const CsgValue* find(std::string_view key) const;
+};
+
+/// Reads a file piece by piece. Blocks are not matched here: the caller keeps the stack, so nesting
+/// costs no stack of the machine.
+class CsgParser {
+ public:
+  enum class Event {
+    kOpen,   ///< call() with a block that follows
+    kLeaf,   ///< call() without children
+    kClose,  ///< the end of a block
+    kEnd     ///< the end of the file
+  };
+
+  CsgParser(std::shared_ptr<const std::string> file, std::string_view text)
+      : file_(std::move(file)), text_(text) {}
+
+  Result<Event> next();
+  [[nodiscard]] CsgCall& call() { return call_; }
+  [[nodiscard]] int line() const { return line_; }
+  /// An error at the current line.
+  [[nodiscard]] Error error(const std::string& what) const;
+
+ private:
+  [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  void skip_blanks();
+  bool accept(char c);
+  Error unexpected(const std::string& wanted) const;
+  std::string_view word();
+  Status read_arguments();
+  Result<CsgValue> read_value(int depth);
+  Result<CsgValue> read_string(bool raw);
+
+  std::shared_ptr<const std::string> file_;
+  std::string_view text_;
+  size_t at_ = 0;
+  int line_ = 1;
+  CsgCall call_;
+};
+
+}  // namespace csgrun

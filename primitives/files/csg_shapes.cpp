@@ -1,0 +1,246 @@
+#include "primitives/files/csg_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "primitives/base/text.h"
+
+namespace csgrun {
+namespace {
+
+using Kind = CsgValue::Kind;
+
+bool is_number_list(const CsgValue& value, size_t size) {
+  return value.kind == Kind::kList && value.list.size() == size &&
+         std::all_of(value.list.begin(), value.list.end(),
+                     [](const CsgValue& v) { return v.kind == Kind::kNumber; });
+}
+
+std::vector<double> number_list(const CsgValue& value) {
+  std::vector<double> numbers;
+  for (const CsgValue& v : value.list) numbers.push_back(v.number);
+  return numbers;
+}
+
+}  // namespace
+
+void CsgArguments::wrong_type(std::string_view name, const std::string& wanted) {
+  if (error_) return;
+  error_ = Error{
+      ErrorCode::kMalformedFile, call_.name + ": " + std::string(name) + " must be " + wanted, {}};
+}
+
+double CsgArguments::number(std::string_view name, double otherwise) {
+  const CsgValue* value = call_.find(name);
+  if (value == nullptr) return otherwise;
+  if (value->kind != Kind::kNumber) wrong_type(name, "a number");
+  return value->number;
+}
+
+bool CsgArguments::boolean(std::string_view name, bool otherwise) {
+  const CsgValue* value = call_.find(name);
+  if (value == nullptr) return otherwise;
+  if (value->kind != Kind::kBool) wrong_type(name, "true or false");
+  return value->boolean;
+}
+
+std::vector<double> CsgArguments::numbers(std::string_view name, size_t size,
+                                          std::vector<double> otherwise) {
+  const CsgValue* value = call_.find(name);
+  if (value == nullptr) return otherwise;
+  if (is_number_list(*value, size)) return number_list(*value);
+  wrong_type(name, "a list of " + std::to_string(size) + " numbers");
+  return otherwise;
+}
+
+std::vector<std::vector<double>> CsgArguments::rows(std::string_view name, size_t row_size) {
+  std::vector<std::vector<double>> result;
+  const CsgValue* value = call_.find(name);
+  if (value == nullptr) return result;
+  if (value->kind != Kind::kList) wrong_type(name, "a list");
+  for (const CsgValue& row : value->list) {
+    if (!is_number_list(row, row_size)) {
+      wrong_type(name, "a list of lists of " + std::to_string(row_size) + " numbers");
+      return {};
+    }
+    result.push_back(number_list(row));
+  }
+  return result;
+}
+
+std::vector<std::vector<uint32_t>> CsgArguments::index_lists(std::string_view name, size_t limit,
+                                                             std::vector<std::string>& warnings) {
+  std::vector<std::vector<uint32_t>> result;
+  const CsgValue* value = call_.find(name);
+  if (value == nullptr) return result;
+  if (value->kind != Kind::kList) wrong_type(name, "a list");
+  for (const CsgValue& entry : value->list) {
+    if (!is_number_list(entry, entry.list.size())) {
+      wrong_type(name, "a list of lists of numbers");
+      return {};
+    }
+    std::vector<uint32_t>& indices = result.emplace_back();
+    for (const CsgValue& index : entry.list) {
+      if (index.number >= 0 && index.number < static_cast<double>(limit)) {
+        indices.push_back(static_cast<uint32_t>(index.number));
+      } else {
+        warnings.push_back(call_.name + ": index " + number_text(index.number) + " in " +
+                           std::string(name) + " is out of range, it was left out");
+      }
+    }
+  }
+  return result;
+}
+
+Facets CsgArguments::facets() {
+  Facets facets{number("$fn", 0), number("$fa", 12), number("$fs", 2)};
+  if (!std::isfinite(facets.fn)) facets.fn = 3;  // as OpenSCAD has it
+  return facets;
+}
+
+std::optional<Affine> CsgArguments::matrix() {
+  const CsgValue* value = call_.arguments.empty() ? nullptr : &call_.arguments[0].second;
+  const bool good = value != nullptr && value->kind == Kind::kList && value->list.size() == 4 &&
+                    std::all_of(value->list.begin(), value->list.end(),
+                                [](const CsgValue& row) { return is_number_list(row, 4); });
+  if (!good) {
+    wrong_type("its argument", "a matrix of 4 x 4 numbers");
+    return std::nullopt;
+  }
+  const double divisor = value->list[3].list[3].number;
+  Affine map;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 4; ++j) map.m[i][j] = value->list[i].list[j].number / divisor;
+  }
+  return map;
+}
+
+bool is_solid_primitive(std::string_view name) {
+  return name == "cube" || name == "sphere" || name == "cylinder" || name == "polyhedron";
+}
+
+bool is_flat_primitive(std::string_view name) {
+  return name == "square" || name == "circle" || name == "polygon";
+}
+
+namespace {
+
+MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>& warnings) {
+  std::vector<glm::dvec3> points;
+  for (const std::vector<double>& row : arguments.rows("points", 3)) {
+    points.emplace_back(row[0], row[1], row[2]);
+  }
+  std::vector<std::vector<uint32_t>> faces =
+      arguments.index_lists("faces", points.size(), warnings);
+  if (arguments.error()) return *arguments.error();
+  // Six digits make short edges vanish; a face of fewer than three different points is then
+  // nothing.
+  std::erase_if(faces, [&](const std::vector<uint32_t>& face) {
+    std::set<std::tuple<double, double, double>> different;
+    for (const uint32_t i : face) different.insert({points[i].x, points[i].y, points[i].z});
+    if (different.size() >= 3) return false;
+    warnings.push_back("polyhedron: a face of fewer than three different points was left out");
+    return true;
+  });
+  std::string note;
+  MeshResult mesh = make_polyhedron(points, faces, &note);
+  if (!note.empty()) warnings.push_back(note);
+  return mesh;
+}
+
+}  // namespace
+
+MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings) {
+  CsgArguments arguments(call);
+  if (call.name == "polyhedron") return make_csg_polyhedron(arguments, warnings);
+  const bool center = arguments.boolean("center", false);
+  if (call.name == "cube") {
+    const std::vector<double> size = arguments.numbers("size", 3, {1, 1, 1});
+    if (arguments.error()) return *arguments.error();
+    return make_cube({size[0], size[1], size[2]}, {center, center, center});
+  }
+  const Facets facets = arguments.facets();
+  if (call.name == "sphere") {
+    const double r = arguments.number("r", 1);
+    if (arguments.error()) return *arguments.error();
+    return make_sphere(r, facets);
+  }
+  const double h = arguments.number("h", 1), r1 = arguments.number("r1", 1),
+               r2 = arguments.number("r2", 1);
+  if (arguments.error()) return *arguments.error();
+  return make_cylinder(h, r1, r2, center, facets);
+}
+
+Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& warnings) {
+  CsgArguments arguments(call);
+  if (call.name == "square") {
+    const std::vector<double> size = arguments.numbers("size", 2, {1, 1});
+    const bool center = arguments.boolean("center", false);
+    if (arguments.error()) return *arguments.error();
+    return make_square({size[0], size[1]}, {center, center});
+  }
+  if (call.name == "circle") {
+    const double r = arguments.number("r", 1);
+    const Facets facets = arguments.facets();
+    if (arguments.error()) return *arguments.error();
+    return make_circle(r, facets);
+  }
+  std::vector<glm::dvec2> points;
+  for (const std::vector<double>& row : arguments.rows("points", 2)) {
+    points.emplace_back(row[0], row[1]);
+  }
+  std::vector<std::vector<uint32_t>> paths =
+      arguments.index_lists("paths", points.size(), warnings);
+  if (arguments.error()) return *arguments.error();
+  if (paths.empty()) return make_polygon(points, paths);
+  // A path of two points encloses nothing, and the others stand.
+  std::erase_if(paths, [](const std::vector<uint32_t>& path) { return path.size() < 3; });
+  if (paths.empty()) return invalid_argument("polygon: encloses no area");
+  return make_polygon(points, paths);
+}
+
+MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape) {
+  CsgArguments arguments(call);
+  if (call.name == "rotate_extrude") {
+    RotateExtrudeOptions options;
+    options.angle = arguments.number("angle", 360);
+    const bool full = options.angle <= -360 || options.angle >= 360;
+    // Files of OpenSCAD 2021 have no start: a full turn begins on the negative side.
+    options.start = arguments.number("start", full ? 180 : 0);
+    options.facets = arguments.facets();
+    if (arguments.error()) return *arguments.error();
+    return rotate_extrude(shape, options);
+  }
+  LinearExtrudeOptions options;
+  options.height = arguments.number("height", 100);
+  options.height_given = true;
+  if (arguments.has("v")) {
+    const std::vector<double> v = arguments.numbers("v", 3, {0, 0, 1});
+    options.direction = glm::dvec3(v[0], v[1], v[2]);
+  }
+  options.center = arguments.boolean("center", false);
+  options.twist = arguments.number("twist", 0);
+  const CsgValue* scale = call.find("scale");
+  if (scale != nullptr && scale->kind == Kind::kNumber) {
+    options.scale = glm::dvec2(scale->number);
+  } else if (scale != nullptr) {
+    const std::vector<double> both = arguments.numbers("scale", 2, {1, 1});
+    options.scale = {both[0], both[1]};
+  }
+  // OpenSCAD takes a negative scale of the top as 0.
+  if (options.scale.x < 0) options.scale.x = 0;
+  if (options.scale.y < 0) options.scale.y = 0;
+  auto whole = [&](const char* name, double least) {
+    return static_cast<int>(std::clamp(arguments.number(name, 0), least, 1e9));
+  };
+  if (arguments.has("slices")) options.slices = whole("slices", 1);
+  if (arguments.has("segments")) options.segments = whole("segments", 0);
+  options.facets = arguments.facets();
+  if (arguments.error()) return *arguments.error();
+  return linear_extrude(shape, options);
+}
+
+}  // namespace csgrun

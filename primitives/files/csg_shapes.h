@@ -1,0 +1,54 @@
+// Arguments of .csg calls, and the primitives and extrusions made from them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <csgrun/engine/csg_tree.h>
+#include <csgrun/primitives/shape2d.h>
+#include <csgrun/primitives/solids.h>
+
+#include "primitives/files/csg_parser.h"
+
+namespace csgrun {
+
+/// Typed access to the arguments of one call. A missing argument gives the default; one of the
+/// wrong type is remembered as an error.
+class CsgArguments {
+ public:
+  explicit CsgArguments(const CsgCall& call) : call_(call) {}
+
+  double number(std::string_view name, double otherwise);
+  bool boolean(std::string_view name, bool otherwise);
+  /// Exactly `size` numbers.
+  std::vector<double> numbers(std::string_view name, size_t size, std::vector<double> otherwise);
+  std::vector<std::vector<double>> rows(std::string_view name, size_t row_size);
+  /// Lists of indices; those that are not below `limit` are left out, with a warning.
+  std::vector<std::vector<uint32_t>> index_lists(std::string_view name, size_t limit,
+                                                 std::vector<std::string>& warnings);
+  Facets facets();
+  /// The first argument, by position, as a 4x4 matrix.
+  std::optional<Affine> matrix();
+  [[nodiscard]] bool has(std::string_view name) const { return call_.find(name) != nullptr; }
+
+  /// What was wrong with the arguments asked for so far.
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+ private:
+  void wrong_type(std::string_view name, const std::string& wanted);
+
+  const CsgCall& call_;
+  std::optional<Error> error_;
+};
+
+bool is_solid_primitive(std::string_view name);
+bool is_flat_primitive(std::string_view name);
+
+/// `warnings` gets what was left out. An impossible size is a kInvalidArgument.
+MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings);
+Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& warnings);
+/// linear_extrude and rotate_extrude.
+MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape);
+
+}  // namespace csgrun

@@ -1,0 +1,296 @@
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include <csgrun/primitives/csg_file.h>
+
+#include "tests/unit/primitives/mesh_measures.h"
+
+namespace csgrun {
+namespace {
+
+CsgModel parse(const std::string& text) {
+  auto model = parse_csg("m.csg", text);
+  EXPECT_TRUE(model) << (model ? "" : model.error().where.text() + model.error().message);
+  return model ? *model : CsgModel{Node::empty(), {}, false, {}};
+}
+
+std::string error(const std::string& text) {
+  const auto model = parse_csg("m.csg", text);
+  return model ? "no error" : model.error().where.text() + ": " + model.error().message;
+}
+
+/// The tree in one line.
+std::string sketch(const NodePtr& node) {
+  auto children = [&] {
+    std::string out;
+    for (const NodePtr& c : node->children()) out += (out.empty() ? "" : " ") + sketch(c);
+    return out;
+  };
+  switch (node->kind()) {
+    case NodeKind::kEmpty:
+      return "empty";
+    case NodeKind::kLeaf:
+      return node->mesh()->kind;
+    case NodeKind::kTransform:
+      return "T(" + children() + ")";
+    case NodeKind::kAppearance:
+      return "C(" + children() + ")";
+    case NodeKind::kBoolean:
+      break;
+  }
+  constexpr const char* kOps[] = {"U(", "I(", "D(", "X("};
+  return kOps[static_cast<int>(node->op())] + children() + ")";
+}
+
+const std::string kCube = "cube(size = [1, 2, 3], center = false);\n";
+const std::string kSphere = "sphere($fn = 8, $fa = 12, $fs = 2, r = 1);\n";
+const std::string kSquare = "square(size = [2, 1], center = true);\n";
+const std::string kNothing = "group();\n";
+const std::string kMove = "multmatrix([[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, -0], [0, 0, 0, 1]])";
+
+TEST(CsgFile, TreesAreImplicitUnions) {
+  EXPECT_EQ(sketch(parse("\n").solid), "empty");
+  EXPECT_EQ(sketch(parse(kCube).solid), "cube");
+  EXPECT_EQ(sketch(parse(kCube + kSphere).solid), "U(cube sphere)");
+  EXPECT_EQ(sketch(parse("group() {\n" + kCube + kSphere + "}\n" + kCube).solid),
+            "U(U(cube sphere) cube)");
+  EXPECT_EQ(sketch(parse("render(convexity = 1){" + kMove + "{" + kCube + kSphere + "}}").solid),
+            "T(U(cube sphere))");
+  EXPECT_EQ(sketch(parse("color([1, 0, 0, 1]) { " + kCube + "}").solid), "C(cube)");
+  EXPECT_EQ(sketch(parse("color([-1, -1, -1, -1]) { " + kCube + "}").solid), "cube");
+  EXPECT_EQ(parse(kCube + kSphere).solid->children()[1]->where().text(), "m.csg:2");
+}
+
+TEST(CsgFile, EmptyNodesAreOperands) {
+  EXPECT_EQ(sketch(parse("difference() {" + kNothing + kCube + "}").solid), "empty");
+  EXPECT_EQ(sketch(parse("difference() {" + kCube + kNothing + kSphere + "}").solid),
+            "D(cube sphere)");
+  EXPECT_EQ(sketch(parse("difference() {" + kCube + kNothing + "}").solid), "cube");
+  EXPECT_EQ(sketch(parse("intersection() {" + kCube + kNothing + "}").solid), "empty");
+  EXPECT_EQ(sketch(parse("intersection() {" + kCube + kSphere + "}").solid), "I(cube sphere)");
+  EXPECT_EQ(sketch(parse("union() {" + kNothing + kCube + "}").solid), "cube");
+}
+
+TEST(CsgFile, BackgroundIsNoOperandAndHighlightIsNothing) {
+  EXPECT_EQ(sketch(parse("difference() {\n%\t" + kSphere + kCube + kSphere + "}").solid),
+            "D(cube sphere)");
+  EXPECT_EQ(sketch(parse("#\t" + kCube + "%#\t" + kSphere).solid), "cube");
+  EXPECT_EQ(sketch(parse("intersection() {%group() {" + kSphere + "}" + kCube + "}").solid),
+            "cube");
+  // Nodes that are not built do no harm in the background, nor does an unescaped text.
+  EXPECT_EQ(sketch(parse("%hull() {" + kCube + "}" + kCube).solid), "cube");
+  EXPECT_EQ(sketch(parse("%group(){text(text = \"a\"b) {\", size = 10);}" + kCube).solid), "cube");
+}
+
+TEST(CsgFile, FirstChildThatIsNotEmptyDecidesTheDimension) {
+  CsgModel model = parse(kNothing + kCube + kSquare);
+  EXPECT_EQ(sketch(model.solid), "cube");
+  EXPECT_EQ(model.warnings,
+            std::vector<std::string>{"m.csg:1: a 2D child among 3D ones was left out"});
+  model = parse("\n" + kMove + "{" + kSquare + kCube + "}");
+  EXPECT_TRUE(model.is_2d);
+  EXPECT_EQ(model.shape.bounds()[0], glm::dvec2(4, -0.5));
+  EXPECT_EQ(sketch(parse("intersection() {" + kCube + kSquare + "}").solid), "empty");
+  EXPECT_EQ(sketch(parse("linear_extrude(height = 2) {" + kCube + kSquare + "}").solid),
+            "linear_extrude");
+}
+
+TEST(CsgFile, ImpossiblePrimitivesAreEmptyWithAWarning) {
+  const CsgModel model = parse(
+      "cube(size = [inf, 1, 1], center = false);\n"
+      "sphere($fn = 0, $fa = 12, $fs = 2, r = -nan);\n"
+      "cylinder($fn = 0, $fa = 12, $fs = 2, h = 0, r1 = 1, r2 = 1, center = false);\n"
+      "polygon(points = [[0, 0], [1, 1], [2, 2]], paths = undef, convexity = 1);\n"
+      "multmatrix([[nan, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {\n" +
+      kCube +
+      "}\n"
+      "multmatrix([[0, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {\n" +
+      kCube +
+      "}\n"
+      "linear_extrude(height = -1) {\n" +
+      kSquare +
+      "}\n"
+      "rotate_extrude(angle = 90) {\n" +
+      kSquare + "}\n");
+  EXPECT_EQ(sketch(model.solid), "empty");
+  const std::vector<std::string> expected{
+      "m.csg:1: cube: size.x must be finite, got inf",
+      "m.csg:2: sphere: r must be finite, got nan",
+      "m.csg:3: cylinder: h must be positive, got 0",
+      "m.csg:4: polygon: encloses no area",
+      "m.csg:5: multmatrix: the matrix is not finite, its children were left out",
+      "m.csg:8: multmatrix: the matrix flattens its children, they were left out",
+      "m.csg:11: linear_extrude: height must be positive, got -1",
+      "m.csg:14: rotate_extrude: the shape must lie on one side of the Y axis, its x runs from -1 "
+      "to 1"};
+  EXPECT_EQ(model.warnings, expected);
+}
+
+TEST(CsgFile, ArgumentsGoByNameAndHaveDefaults) {
+  const CsgModel model =
+      parse("cylinder(r2 = 0, center = true, h = 4, timestamp = -12, r1 = 2, $fn = inf);");
+  ASSERT_EQ(sketch(model.solid), "cone");
+  EXPECT_EQ(model.solid->mesh()->points.size(), 4u);
+  EXPECT_NEAR(testing::volume(*model.solid->mesh()), 4.0 / 3 * 3 * std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(testing::volume(*parse("cube();").solid->mesh()), 1, 1e-15);
+  // Old files: no start, other order. A full turn starts on the negative side.
+  const std::string profile =
+      "{multmatrix([[1, 0, 0, 3], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]){" + kSquare + "}}";
+  auto lowest_x = [&](const std::string& call) {
+    double x = 0;
+    for (const glm::dvec3& p : parse(call + profile).solid->mesh()->points) x = std::min(x, p.x);
+    return x;
+  };
+  EXPECT_EQ(lowest_x("rotate_extrude(convexity = 2, $fn = 5)"), -4);
+  EXPECT_GT(lowest_x("rotate_extrude(convexity = 2, start = 0, $fn = 5)"), -4);
+  EXPECT_EQ(lowest_x("rotate_extrude(angle = 90, convexity = 2, $fn = 4)"), 0);
+  EXPECT_EQ(lowest_x("rotate_extrude(angle = 90, start = 90, $fn = 4)"), -4);
+  // The whole matrix is divided by its last entry.
+  const CsgModel scaled =
+      parse("multmatrix([[1,0,0,4],[0,1,0,0],[0,0,1,0],[0,0,0,2]]) {" + kCube + "}");
+  EXPECT_EQ(scaled.solid->transform().m[0][0], 0.5);
+  EXPECT_EQ(scaled.solid->transform().m[0][3], 2);
+}
+
+TEST(CsgFile, ExtrusionsAndPolygons) {
+  const CsgModel wedge = parse(
+      "linear_extrude(height = 3, v = [ 0, 0.6, 0.8 ], center = true, scale = [1, -2], slices = 1, "
+      "segments = 0) {" +
+      kSquare + "}");
+  ASSERT_EQ(sketch(wedge.solid), "linear_extrude");
+  EXPECT_NEAR(testing::volume(*wedge.solid->mesh()), 2 * 2.4 / 2, 1e-12);
+  const CsgModel holed = parse(
+      "polygon(points = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 1], [2, 1], [2, 2]], paths = [[0, 1, "
+      "2, 3], "
+      "[4, 5, 6], [5, 6, 99]], convexity = 1);");
+  EXPECT_TRUE(holed.is_2d);
+  EXPECT_EQ(holed.shape.area(), 15.5);
+  EXPECT_EQ(holed.warnings.size(), 1u);
+}
+
+TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
+  const std::string tetra =
+      "polyhedron(points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]], ";
+  EXPECT_EQ(
+      sketch(
+          parse(tetra +
+                "faces = [[0, 1, 2], [0, 3, 4], [0, 2, 3], [1, 3, 2], [1, 4, 2]], convexity = 1);")
+              .solid),
+      "polyhedron");
+  EXPECT_EQ(error("\n" + tetra + "faces = [[0, 1, 2], [0, 3, 4], [0, 2, 3]]);").substr(0, 45),
+            "m.csg:2: polyhedron: not closed: 3 open edges");
+  EXPECT_EQ(parse("polyhedron(points = [], faces = []);").warnings,
+            std::vector<std::string>{"m.csg:1: polyhedron: has no faces"});
+  const CsgModel inside_out =
+      parse(tetra + "faces = [[2, 1, 0], [1, 3, 0], [3, 2, 0], [2, 3, 1]]);");
+  EXPECT_EQ(
+      inside_out.warnings,
+      std::vector<std::string>{"m.csg:1: polyhedron: inside out, its faces were turned over"});
+}
+
+TEST(CsgFile, ErrorsHaveTheirLine) {
+  EXPECT_EQ(error("group() {\n" + kCube + "\thull() {\n" + kCube + "}\n}"),
+            "m.csg:3: hull() is not supported in .csg files");
+  EXPECT_EQ(error("\ntext(text = \"a\"\", size = 10, font = \"x\");"),
+            "m.csg:2: text() is not supported in .csg files");
+  EXPECT_EQ(sketch(parse("hull();\nminkowski(convexity = 0);\n").solid), "empty");
+  EXPECT_EQ(error("cuboid(size = 1);"), "m.csg:1: unknown node cuboid()");
+  EXPECT_EQ(error("cube(size = [1, 2], center = false);"),
+            "m.csg:1: cube: size must be a list of 3 numbers");
+  EXPECT_EQ(error("sphere(r = \"big\");"), "m.csg:1: sphere: r must be a number");
+  EXPECT_EQ(error("multmatrix() {}"),
+            "m.csg:1: multmatrix: its argument must be a matrix of 4 x 4 numbers");
+  EXPECT_EQ(error("group() {\n" + kCube), "m.csg:3: the file ends within group() of line 1");
+  EXPECT_EQ(error(kCube + "}"), "m.csg:2: \"}\" without \"{\"");
+  EXPECT_EQ(error("cube(size = [1, 2"), "m.csg:1: the file ends where \",\" or \"]\" should be");
+  EXPECT_EQ(error("cube(size = wide);"), "m.csg:1: expected a value, got \"wide\"");
+  EXPECT_EQ(error("cube() + 1"), "m.csg:1: expected \";\" or \"{\", got \"+\"");
+  EXPECT_EQ(error("!cube();"), "m.csg:1: expected a node, got \"!\"");
+  EXPECT_EQ(error("cube(size = " + std::string(10000, '[')),
+            "m.csg:1: lists are nested too deeply");
+  EXPECT_EQ(error("difference"),
+            "m.csg:1: the file ends where \"(\" after \"difference\" should be");
+}
+
+TEST(CsgFile, DepthCostsNoStack) {
+  constexpr int kDepth = 200000;
+  std::string text;
+  for (int i = 0; i < kDepth; ++i) text += kMove + " {\n";
+  text += kCube;
+  for (int i = 0; i < kDepth; ++i) text += "}";
+  EXPECT_EQ(parse(text).solid->kind(), NodeKind::kTransform);
+}
+
+std::filesystem::path shared_folder() {
+  if (const char* given = std::getenv("CSGRUN_SHARED")) return given;
+  return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path().parent_path() /
+         ".." / "shared";
+}
+
+/// The volume of a tree of leaves that do not overlap; NaN where another Boolean occurs.
+double sum_of_leaves(const NodePtr& node) {
+  if (node->kind() == NodeKind::kEmpty) return 0;
+  if (node->kind() == NodeKind::kLeaf) return testing::volume(*node->mesh());
+  if (node->kind() == NodeKind::kBoolean && node->op() != BooleanOp::kUnion) return std::nan("");
+  double sum = 0;
+  for (const NodePtr& child : node->children()) sum += sum_of_leaves(child);
+  if (node->kind() != NodeKind::kTransform) return sum;
+  const auto& m = node->transform().m;
+  const glm::dvec3 x(m[0][0], m[1][0], m[2][0]), y(m[0][1], m[1][1], m[2][1]),
+      z(m[0][2], m[1][2], m[2][2]);
+  return sum * std::fabs(glm::dot(glm::cross(x, y), z));
+}
+
+/// Scenes of the corpus whose leaves stand apart: their volumes are those that OpenSCAD gave.
+TEST(CsgFile, CorpusVolumesOfSeparateLeaves) {
+  const auto folder = shared_folder() / "csg_corpus";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder " << folder;
+  std::map<std::string, double> expected;
+  std::ifstream table(folder / "expected.csv");
+  for (std::string line; std::getline(table, line);) {
+    std::istringstream fields(line);
+    std::string file, volume;
+    std::getline(fields, file, ',');
+    std::getline(fields, volume, ',');
+    if (file != "file") expected[file] = std::stod(volume);
+  }
+  ASSERT_GT(expected.size(), 40u);
+  for (const char* file : {"2d-3d.csg",
+                           "assign-tests.csg",
+                           "child-background.csg",
+                           "child-child-test.csg",
+                           "color-tests.csg",
+                           "cube-tests.csg",
+                           "cylinder-diameter-tests.csg",
+                           "cylinder-tests.csg",
+                           "disable-modifier.csg",
+                           "ifelse-tests.csg",
+                           "linear_extrude-tests.csg",
+                           "mirror-tests.csg",
+                           "modulevariables.csg",
+                           "polyhedron-concave-test.csg",
+                           "polyhedron-cube.csg",
+                           "polyhedron-nonplanar-tests.csg",
+                           "polyhedron-soup.csg",
+                           "root-modifier.csg",
+                           "rotate_extrude-angle.csg",
+                           "rotate_extrude-touch-edge.csg",
+                           "rotate_extrude-touch-vertex.csg",
+                           "scale-mirror2D-3D-tests.csg",
+                           "scale3D-tests.csg",
+                           "sphere-tests.csg",
+                           "transform-tests.csg"}) {
+    const auto model = read_csg_file(folder / file);
+    ASSERT_TRUE(model) << file << ": " << model.error().message;
+    EXPECT_NEAR(sum_of_leaves(model->solid) / expected[file], 1, 1e-6) << file;
+  }
+}
+
+}  // namespace
+}  // namespace csgrun
