@@ -28,6 +28,8 @@ class CellSolver {
             FragmentSet& out);
 
   [[nodiscard]] const SignCounters& counters() const { return geometry_.counters; }
+  /// The solver's working memory, for others that solve a cell in its place.
+  CellGeometry& geometry() { return geometry_; }
 
  private:
   struct Operand {

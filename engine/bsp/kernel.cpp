@@ -8,6 +8,7 @@
 
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/cell_solver.h"
+#include "engine/bsp/literal_cell.h"
 #include "engine/bsp/octree.h"
 
 namespace csgrun {
@@ -78,7 +79,12 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     if (run < critical_runs) {
       const size_t end = std::min(tree.critical.size(), (run + 1) * kCellsPerRun);
       for (size_t c = run * kCellsPerRun; c < end; ++c) {
-        solver.solve(tree, tree.critical[c], work.critical_walls[c], sets[run]);
+        const auto& walls = work.critical_walls[c];
+        if (options.literal_cells) {
+          solve_literal_cell(solver.geometry(), tree, tree.critical[c], walls, sets[run]);
+        } else {
+          solver.solve(tree, tree.critical[c], walls, sets[run]);
+        }
       }
     } else {
       const size_t first = (run - critical_runs) * kCellsPerRun;
