@@ -29,6 +29,23 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Renumbers appearances in the order in which faces use them: which others the run has seen is not
+/// the solid's affair.
+void keep_used_appearances(Solid& solid) {
+  constexpr uint32_t kUnused = UINT32_MAX;
+  std::vector<uint32_t> number(solid.appearances.size(), kUnused);
+  std::vector<Appearance> used;
+  for (Solid::Face& face : solid.faces) {
+    uint32_t& id = number[face.appearance];
+    if (id == kUnused) {
+      id = static_cast<uint32_t>(used.size());
+      used.push_back(solid.appearances[face.appearance]);
+    }
+    face.appearance = id;
+  }
+  solid.appearances = std::move(used);
+}
+
 uint64_t bytes_of(const Solid& s) {
   return sizeof(Solid) + s.positions.size() * 40 + s.triangles.size() * 16 +
          s.faces.size() * sizeof(Solid::Face) + s.loop_vertices.size() * 4 + s.sources.size() * 96;
@@ -106,7 +123,11 @@ Result<SolidPtr> Evaluator::Impl::present_root(const Scene& scene, uint32_t root
     const Node& node = *scene.nodes[leaf].leaf;
     context.sources.push_back({node.mesh()->kind, node.where().text()});
   }
-  return present(boundary, context);
+  auto presented = present(boundary, context);
+  if (!presented) return presented.error();
+  auto solid = std::const_pointer_cast<Solid>(*presented);  // nobody else has it yet
+  keep_used_appearances(*solid);
+  return SolidPtr(std::move(solid));
 }
 
 Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const std::vector<NodePtr>& parts) {

@@ -1,0 +1,275 @@
+// Leaves on the grid: closed, planar, convex faces, whatever rounding did to them.
+#include "engine/csg/quantise.h"
+
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "engine/csg/leaf_faces.h"
+#include "test_meshes.h"
+
+namespace csgrun {
+namespace {
+
+using namespace testing;
+using Status = PreparedLeaf::Status;
+
+std::vector<uint32_t> plain(const PolygonMesh& mesh) {
+  return std::vector<uint32_t>(mesh.face_count(), 0);
+}
+
+/// Points as given, which are integers already.
+std::vector<IVec3> whole_points(const PolygonMesh& mesh) {
+  std::vector<IVec3> points;
+  for (const auto& p : mesh.points) {
+    points.push_back({static_cast<int64_t>(p.x), static_cast<int64_t>(p.y), static_cast<int64_t>(p.z)});
+  }
+  return points;
+}
+
+PreparedLeaf prepare(const PolygonMesh& mesh) {
+  return prepare_leaf(mesh, whole_points(mesh), false, false, plain(mesh));
+}
+
+/// The invariants of LeafGeometry, checked directly.
+void expect_valid(const LeafGeometry& leaf) {
+  std::map<std::pair<uint32_t, uint32_t>, int> balance;
+  for (size_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t begin = leaf.face_starts[f], count = leaf.face_starts[f + 1] - begin;
+    ASSERT_GE(count, 3u);
+    CornerPlane plane;
+    ASSERT_TRUE(corner_plane(leaf.vertices, &leaf.corners[begin], count, plane));
+    for (uint32_t i = 0; i < count; ++i) {
+      const uint32_t a = leaf.corners[begin + i], b = leaf.corners[begin + (i + 1) % count];
+      EXPECT_EQ(plane.side(leaf.vertices[a]), 0) << "face " << f << " is not planar";
+      ++balance[{a, b}];
+      --balance[{b, a}];
+    }
+  }
+  for (const auto& [edge, sum] : balance) EXPECT_EQ(sum, 0) << edge.first << "-" << edge.second;
+}
+
+double volume6(const LeafGeometry& leaf) {
+  double sum = 0;
+  for (size_t f = 0; f < leaf.face_count(); ++f) {
+    for (uint32_t c = leaf.face_starts[f] + 1; c + 1 < leaf.face_starts[f + 1]; ++c) {
+      const IVec3 &p = leaf.vertices[leaf.corners[leaf.face_starts[f]]],
+                  &q = leaf.vertices[leaf.corners[c]], &r = leaf.vertices[leaf.corners[c + 1]];
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        sum += static_cast<double>(p[i]) *
+               static_cast<double>(q[j] * r[k] - q[k] * r[j]);
+      }
+    }
+  }
+  return sum;
+}
+
+PolygonMesh mesh_of(std::vector<glm::dvec3> points, const std::vector<std::vector<uint32_t>>& faces) {
+  PolygonMesh mesh;
+  mesh.points = std::move(points);
+  for (const auto& face : faces) mesh.add_face(face);
+  mesh.kind = "test";
+  return mesh;
+}
+
+TEST(PrepareLeaf, ABoxStaysSixPolygons) {
+  const auto leaf = prepare(box_mesh({0, 0, 0}, {100, 200, 300}));
+  ASSERT_EQ(leaf.status, Status::kGood);
+  EXPECT_EQ(leaf.geometry->face_count(), 6u);
+  EXPECT_EQ(leaf.geometry->vertices.size(), 8u);
+  EXPECT_TRUE(leaf.geometry->convex);
+  expect_valid(*leaf.geometry);
+  EXPECT_EQ(volume6(*leaf.geometry), 6.0 * 100 * 200 * 300);
+  EXPECT_EQ(leaf.box.hi, (IVec3{100, 200, 300}));
+}
+
+TEST(PrepareLeaf, PermutedLeavesKeepTheirOrientation) {
+  const auto leaf = prepare(box_mesh({0, 0, 0}, {100, 200, 300}));
+  SignedPermutation mirror;
+  mirror.sign = {-1, 1, 1};
+  SignedPermutation turn;
+  turn.axis = {1, 0, 2};
+  turn.sign = {-1, 1, 1};
+  for (const auto& p : {mirror, turn}) {
+    const LeafGeometry other = permuted(*leaf.geometry, p);
+    expect_valid(other);
+    EXPECT_EQ(volume6(other), 6.0 * 100 * 200 * 300);
+  }
+}
+
+TEST(PrepareLeaf, BentQuadrilateralsOfAConvexMeshBulgeOutwards) {
+  auto mesh = box_mesh({0, 0, 0}, {1000, 1000, 1000});
+  mesh.points[7].z = 1001;  // the top and two sides stay quadrilaterals, the top is bent
+  const auto leaf = prepare(mesh);
+  ASSERT_EQ(leaf.status, Status::kGood);
+  expect_valid(*leaf.geometry);
+  EXPECT_EQ(leaf.geometry->face_count(), 7u);
+  EXPECT_TRUE(leaf.geometry->convex);
+
+  mesh.points[7].z = 999;
+  const auto dented = prepare(mesh);
+  ASSERT_EQ(dented.status, Status::kGood);
+  expect_valid(*dented.geometry);
+  EXPECT_TRUE(dented.geometry->convex);
+}
+
+TEST(PrepareLeaf, AFalsePromiseOfConvexityIsNotBelieved) {
+  // A prism over an L.
+  auto mesh = mesh_of({{0, 0, 0}, {200, 0, 0}, {200, 100, 0}, {100, 100, 0}, {100, 200, 0}, {0, 200, 0},
+                       {0, 0, 100}, {200, 0, 100}, {200, 100, 100}, {100, 100, 100}, {100, 200, 100}, {0, 200, 100}},
+                      {{5, 4, 3, 2, 1, 0}, {6, 7, 8, 9, 10, 11}, {0, 1, 7, 6}, {1, 2, 8, 7}, {2, 3, 9, 8},
+                       {3, 4, 10, 9}, {4, 5, 11, 10}, {5, 0, 6, 11}});
+  mesh.convex = true;
+  const auto leaf = prepare(mesh);
+  ASSERT_EQ(leaf.status, Status::kGood);
+  EXPECT_FALSE(leaf.geometry->convex);
+  expect_valid(*leaf.geometry);
+  EXPECT_EQ(leaf.geometry->face_count(), 6u + 2 * 4) << "the two L faces are triangles";
+  EXPECT_EQ(volume6(*leaf.geometry), 6.0 * 30000 * 100);
+}
+
+TEST(PrepareLeaf, FacesWithHoles) {
+  // A square frame: outer 0..3, inner 4..7 at the bottom, 8..15 at the top.
+  PolygonMesh mesh;
+  for (double z : {0.0, 100.0}) {
+    for (auto [lo, hi] : {std::pair{0.0, 300.0}, std::pair{100.0, 200.0}}) {
+      mesh.points.insert(mesh.points.end(), {{lo, lo, z}, {hi, lo, z}, {hi, hi, z}, {lo, hi, z}});
+    }
+  }
+  const auto ring = [&](std::vector<uint32_t> outer, std::vector<uint32_t> hole) {
+    for (const auto& loop : {outer, hole}) {
+      mesh.corners.insert(mesh.corners.end(), loop.begin(), loop.end());
+      mesh.loop_starts.push_back(static_cast<uint32_t>(mesh.corners.size()));
+    }
+    mesh.face_starts.push_back(static_cast<uint32_t>(mesh.loop_count()));
+    mesh.surface.push_back(0);
+  };
+  ring({8, 9, 10, 11}, {15, 14, 13, 12});
+  ring({3, 2, 1, 0}, {4, 5, 6, 7});
+  for (uint32_t i = 0; i < 4; ++i) {
+    const uint32_t j = (i + 1) % 4;
+    mesh.add_face(std::array<uint32_t, 4>{i, j, 8 + j, 8 + i});
+    mesh.add_face(std::array<uint32_t, 4>{4 + j, 4 + i, 12 + i, 12 + j});
+  }
+  const auto leaf = prepare(mesh);
+  ASSERT_EQ(leaf.status, Status::kGood);
+  expect_valid(*leaf.geometry);
+  EXPECT_EQ(volume6(*leaf.geometry), 6.0 * (90000 - 10000) * 100);
+}
+
+TEST(PrepareLeaf, CollapsedEdgesAndFacesGo) {
+  // The top of the box shrinks to an edge: a wedge.
+  auto mesh = box_mesh({0, 0, 0}, {100, 100, 100});
+  mesh.points[6] = mesh.points[4];
+  mesh.points[7] = mesh.points[5];
+  const auto leaf = prepare(mesh);
+  ASSERT_EQ(leaf.status, Status::kGood);
+  expect_valid(*leaf.geometry);
+  EXPECT_EQ(leaf.geometry->face_count(), 5u);
+  EXPECT_EQ(volume6(*leaf.geometry), 3e6);
+}
+
+TEST(PrepareLeaf, AFaceThatBecameASegmentSplitsItsNeighbour) {
+  // A tetrahedron with the sliver (0, 1, 4) on one edge: 4 is in the middle of edge 0-1.
+  const auto mesh = mesh_of({{0, 0, 0}, {100, 0, 0}, {0, 100, 0}, {0, 0, 100}, {50, 0, 0}},
+                            {{0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {4, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+  const auto leaf = prepare(mesh);
+  ASSERT_EQ(leaf.status, Status::kGood);
+  expect_valid(*leaf.geometry);
+  EXPECT_EQ(volume6(*leaf.geometry), 1e6);
+}
+
+TEST(PrepareLeaf, WhatIsThinnerThanTheGridIsFlat) {
+  EXPECT_EQ(prepare(box_mesh({0, 0, 0}, {100, 100, 0})).status, Status::kFlat);
+  EXPECT_EQ(prepare(box_mesh({0, 0, 0}, {0, 0, 0})).status, Status::kFlat);
+  EXPECT_EQ(prepare(PolygonMesh{}).status, Status::kFlat);
+}
+
+TEST(PrepareLeaf, FaultsAreFound) {
+  auto open = mesh_of(box_mesh({0, 0, 0}, {100, 100, 100}).points,
+                      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}});
+  EXPECT_EQ(prepare(open).status, Status::kOpen);
+
+  auto inside_out = box_mesh({0, 0, 0}, {100, 100, 100});
+  EXPECT_EQ(prepare_leaf(inside_out, whole_points(inside_out), true, false, plain(inside_out)).status,
+            Status::kInsideOut);
+
+  auto crossing = box_mesh({0, 0, 0}, {100, 100, 100});
+  crossing.points[7] = {-50, -50, 50};
+  crossing.known_simple = false;
+  const auto leaf = prepare(crossing);
+  EXPECT_EQ(leaf.status, Status::kSelfIntersecting);
+  EXPECT_GT(leaf.intersection.count, 0u);
+}
+
+TEST(PrepareLeaf, FacetsOfImportsAreKeptApart) {
+  auto mesh = box_mesh({0, 0, 0}, {100, 100, 100});
+  EXPECT_EQ(prepare(mesh).geometry->facet, std::vector<uint32_t>(6, 0));
+  mesh.keep_facets = true;
+  EXPECT_EQ(prepare(mesh).geometry->facet, (std::vector<uint32_t>{1, 2, 3, 4, 5, 6}));
+}
+
+TEST(PrepareLeaf, RandomPointsOnCoarseGridsStayClosed) {
+  // A finely tessellated ball on ever coarser grids: edges and faces collapse in all ways.
+  const int rings = 24, sides = 40;
+  for (double radius : {200.0, 20.0, 8.0, 3.0, 1.5, 0.7}) {
+    PolygonMesh mesh;
+    for (int r = 0; r < rings; ++r) {
+      const double phi = 3.14159265358979 * (r + 0.5) / rings;
+      for (int s = 0; s < sides; ++s) {
+        const double t = 2 * 3.14159265358979 * s / sides;
+        mesh.points.push_back({radius * std::sin(phi) * std::cos(t), radius * std::sin(phi) * std::sin(t),
+                               radius * std::cos(phi)});
+      }
+    }
+    std::vector<uint32_t> top, bottom;
+    for (uint32_t s = 0; s < sides; ++s) {
+      top.push_back(s);
+      bottom.insert(bottom.begin(), (rings - 1) * sides + s);
+    }
+    mesh.add_face(top);
+    mesh.add_face(bottom);
+    for (uint32_t r = 0; r + 1 < rings; ++r) {
+      for (uint32_t s = 0; s < sides; ++s) {
+        const uint32_t n = (s + 1) % sides;
+        mesh.add_face(std::array<uint32_t, 4>{r * sides + s, (r + 1) * sides + s, (r + 1) * sides + n,
+                                              r * sides + n});
+      }
+    }
+    LeafRounding rounding;
+    const auto points = round_points(mesh, rounding, Quantiser(*GridStep::parse("1")));
+    ASSERT_TRUE(points.has_value());
+    const auto leaf = prepare_leaf(mesh, *points, false, false, plain(mesh));
+    EXPECT_NE(leaf.status, Status::kOpen) << radius;
+    if (leaf.status == Status::kGood) expect_valid(*leaf.geometry);
+    if (radius > 50) {
+      ASSERT_EQ(leaf.status, Status::kGood);
+      EXPECT_NEAR(volume6(*leaf.geometry) / 6 / (4.18879 * radius * radius * radius), 1, 0.02);
+    }
+  }
+}
+
+TEST(RoundPoints, FramesAgreeOnTies) {
+  // A half-step coordinate is rounded in the frame's direction, also for leaves that look backwards.
+  const auto mesh = box_mesh({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  const Quantiser one(*GridStep::parse("1"));
+  LeafRounding straight, turned_back;
+  turned_back.permutation.sign = {-1, -1, 1};
+  const auto a = round_points(mesh, straight, one), b = round_points(mesh, turned_back, one);
+  EXPECT_EQ((*a)[0], (IVec3{0, 0, 0}));
+  EXPECT_EQ((*a)[7], (IVec3{1, 1, 1}));
+  for (size_t i = 0; i < a->size(); ++i) {
+    // The vertex that stands at a's place i in the frame is the opposite one of the turned leaf.
+    EXPECT_EQ(turned_back.permutation.apply((*b)[i ^ 3]), (*a)[i]);
+  }
+}
+
+TEST(RoundPoints, TooFarIsSaid) {
+  const auto mesh = box_mesh({0, 0, 0}, {2e12, 1, 1});
+  EXPECT_FALSE(round_points(mesh, LeafRounding{}, Quantiser(*GridStep::parse("1"))).has_value());
+}
+
+}  // namespace
+}  // namespace csgrun

@@ -1,0 +1,142 @@
+// Keys and placements: what is the same subtree, and where it stands.
+#include "engine/csg/scene.h"
+
+#include <gtest/gtest.h>
+
+#include "test_meshes.h"
+
+namespace csgrun {
+namespace {
+
+using namespace testing;
+
+class SceneTest : public ::testing::Test {
+ protected:
+  Scene scene(const std::vector<NodePtr>& parts, GridStep step = {}) {
+    std::vector<uint32_t> roots;
+    for (const auto& part : parts) roots.push_back(*form.add(part));
+    SceneContext context{form, store, appearances, warnings, [] { return false; }};
+    auto result = build_scene(context, roots, step);
+    EXPECT_TRUE(result.has_value()) << result.error().message;
+    return std::move(*result);
+  }
+  static const Subtree& root(const Scene& s, size_t i) { return s.nodes[s.roots[i]].subtree; }
+
+  AppearanceTable appearances;
+  NormalForm form{appearances};
+  LeafStore store{appearances};
+  Warnings warnings;
+  NodePtr part = subtract({box({0, 0, 0}, {4, 3, 2}), box({1, 1, -1}, {2, 2, 3}), prism(5, 0.5, 9)});
+};
+
+TEST_F(SceneTest, MovedByWholeStepsTurnedMirroredAndPaintedCopiesHaveOneKey) {
+  Appearance red;
+  red.red = 1;
+  std::vector<NodePtr> copies{part,
+                              moved(0.3, 1.7, -2.001, part),
+                              moved(0.1 + 0.2, 1.7, -2.001, part),
+                              turned(90, {0, 0, 1}, part),
+                              turned(31, {3, 2, 1}, moved(5, 0, 0, part)),
+                              Node::transformed(scaling(1, -1, 1), part),
+                              Node::painted(red, part),
+                              Node::transformed(scaling(-1, 1, 1), turned(77, {1, 0, 1}, part))};
+  const Scene s = scene(copies);
+  for (size_t i = 1; i < copies.size(); ++i) {
+    EXPECT_EQ(root(s, i).id.key, root(s, 0).id.key) << i;
+  }
+  EXPECT_EQ(root(s, 1).id.origin, root(s, 2).id.origin) << "0.1 + 0.2 is 0.3";
+  EXPECT_NE(root(s, 6).id.paint, root(s, 0).id.paint);
+  EXPECT_EQ(root(s, 3).id.frame, 0u) << "a 90-degree turn needs no frame";
+  EXPECT_NE(root(s, 4).id.frame, 0u);
+}
+
+TEST_F(SceneTest, DifferentThingsHaveDifferentKeys) {
+  const NodePtr a = cube(1), b = moved(0.5, 0.5, 0.5, cube(1));
+  Appearance red;
+  red.red = 1;
+  const Scene s = scene({unite({a, b}), intersect({a, b}), subtract({a, b}), symmetric({a, b}),
+                         subtract({b, a}), unite({a, moved(0.5, 0.5, 0.501, cube(1))}),
+                         unite({a, Node::painted(red, b)}), unite({Node::painted(red, a), b}),
+                         unite({a, turned(1, {0, 0, 1}, b)}), cube(1), cube(1.001), a});
+  for (size_t i = 0; i < s.roots.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      if (i == 11 && j == 9) {
+        EXPECT_EQ(root(s, i).id.key, root(s, j).id.key);
+      } else {
+        EXPECT_NE(root(s, i).id.key, root(s, j).id.key) << i << " " << j;
+      }
+    }
+  }
+}
+
+TEST_F(SceneTest, CopiesMovedByPartOfAStepDiffer) {
+  const GridStep step = *GridStep::parse("0.001");
+  const NodePtr leaf = prism(11, 1, 1);
+  const Scene s = scene({leaf, moved(0.0003, 0, 0, leaf), moved(0.001, 0, 0, leaf)}, step);
+  EXPECT_NE(root(s, 0).id.key, root(s, 1).id.key);
+  EXPECT_EQ(root(s, 0).id.key, root(s, 2).id.key);
+}
+
+TEST_F(SceneTest, PrefixKeysAreTheKeysOfShorterLists) {
+  const NodePtr a = cube(3), b = moved(1, 1, 1, cube(1)), c = turned(20, {0, 0, 1}, cube(1)),
+                d = moved(0, 0, 2, cube(1));
+  const Scene s = scene({subtract({a, b, c, d}), subtract({a, b}), subtract({subtract({a, b}), c})});
+  const auto list = s.operands(s.roots[0]);
+  ASSERT_EQ(list.operands.size(), 4u);
+  EXPECT_EQ(list.values[1]->id.key, root(s, 1).id.key);
+  EXPECT_EQ(list.values[2]->id.key, root(s, 2).id.key);
+  EXPECT_EQ(list.values[3]->id.key, root(s, 0).id.key);
+}
+
+TEST_F(SceneTest, MixedFramesAreKeyedInTheWorld) {
+  const NodePtr mixed = unite({cube(2), turned(20, {0, 0, 1}, cube(2))});
+  const Scene s = scene({mixed, moved(1, 0, 0, mixed), unite({cube(2), turned(20, {0, 0, 1}, cube(2))})});
+  EXPECT_NE(root(s, 0).id.key, root(s, 1).id.key);
+  EXPECT_EQ(root(s, 0).id.key, root(s, 2).id.key);
+  EXPECT_EQ(root(s, 0).id.frame, 0u);
+  EXPECT_EQ(root(s, 0).id.origin, (IVec3{0, 0, 0}));
+}
+
+TEST_F(SceneTest, BoxesEncloseTheResult) {
+  const Scene s = scene({subtract({cube(1), moved(0.5, 0, 0, cube(1))}), intersect({cube(1), moved(0.5, 0, 0, cube(1))}),
+                         turned(45, {0, 0, 1}, cube(1))},
+                        *GridStep::parse("0.001"));
+  EXPECT_EQ(root(s, 0).world.hi, (IVec3{1000, 1000, 1000}));
+  EXPECT_EQ(root(s, 1).world.lo, (IVec3{500, 0, 0}));
+  const GridBox& turned_box = root(s, 2).world;
+  EXPECT_LE(turned_box.lo[0], -708);
+  EXPECT_GE(turned_box.lo[0], -720);
+  EXPECT_GE(turned_box.hi[1], 1415);
+  EXPECT_LE(turned_box.hi[1], 1425);
+}
+
+TEST_F(SceneTest, WhatCannotReachTheResultDoesNotSetTheStep) {
+  EXPECT_EQ(scene({cube(1)}).step.millimetres(), 1.5625e-08);
+  EXPECT_EQ(scene({subtract({cube(1), moved(-100, -100, -1, cube(300))})}).step.millimetres(), 1.5625e-08);
+  EXPECT_EQ(scene({intersect({cube(1), moved(-100, -100, -1, cube(300))})}).step.millimetres(), 1.5625e-08);
+  EXPECT_EQ(scene({unite({cube(1), cube(300)})}).step.millimetres(), 8e-06);
+  EXPECT_EQ(scene({cube(1), cube(300)}).step.millimetres(), 8e-06);
+  EXPECT_EQ(scene({unite({cube(1), intersect({cube(300), cube(2)})})}).step.millimetres(), 1.5625e-08);
+  // In a frame of its own a leaf counts as a whole: its planes have no room for far coordinates.
+  EXPECT_EQ(scene({subtract({cube(1), turned(20, {0, 0, 1}, moved(-100, -100, -1, cube(300)))})})
+                .step.millimetres(),
+            8e-06);
+}
+
+TEST_F(SceneTest, DisjointIntersectionsAreEmpty) {
+  const Scene s = scene({intersect({cube(1), moved(1, 0, 0, cube(1))}), unite({cube(1), intersect({cube(1), moved(5, 0, 0, cube(1))})}),
+                         subtract({intersect({cube(1), moved(0, 3, 0, cube(1))}), cube(1)})});
+  EXPECT_EQ(s.nodes[s.roots[0]].kind, SceneNode::Kind::kEmpty);
+  EXPECT_EQ(s.nodes[s.roots[1]].kind, SceneNode::Kind::kLeaf);
+  EXPECT_EQ(s.nodes[s.roots[2]].kind, SceneNode::Kind::kEmpty);
+}
+
+TEST_F(SceneTest, SourcesAreLeavesInTreeOrder) {
+  const NodePtr x = subtract({cube(3), moved(1, 1, -1, cube(1))});
+  const Scene s = scene({unite({x, moved(10, 0, 0, x), cube(2)})});
+  EXPECT_EQ(s.leaves(s.roots[0]).size(), 5u);
+  EXPECT_EQ(root(s, 0).slots, 5u);
+}
+
+}  // namespace
+}  // namespace csgrun
