@@ -83,8 +83,10 @@ class Presenter {
     if (!split_fans(set_, faces_, geometry_, planes_, fans_)) return not_closed("vertices");
     auto solid = std::make_shared<Solid>();
     fill(*solid);
-    if (auto status = measure(*solid); !status) return status.error();
-    solid->canonical_hash = canonical_hash(faces_, geometry_, context_);
+    if (context_.measure) {
+      if (auto status = measure(*solid); !status) return status.error();
+      solid->canonical_hash = canonical_hash(faces_, geometry_, context_);
+    }
     return SolidPtr(std::move(solid));
   }
 

@@ -17,6 +17,7 @@ struct PresentContext {
   GridStep step;                        ///< never automatic here
   std::vector<Appearance> appearances;  ///< by appearance id of the labels
   std::vector<Solid::Source> sources;   ///< by source index of the labels
+  bool measure = true;  ///< whether to fill in the measures and the hash
 };
 
 /// The arrays of a boundary: coplanar faces of equal appearance and surface merged wherever they were
