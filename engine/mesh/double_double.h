@@ -1,7 +1,9 @@
 // Sums of two doubles: 106 bits, on plain IEEE operations.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "engine/exact/fixed_int.h"
 
@@ -47,24 +49,24 @@ struct DoubleDouble {
   }
 };
 
-/// value * 2^exponent to 106 leading bits.
+/// value * 2^(64 limbs) to 106 leading bits; what lies below 2^-1000 is dropped. REQUIRES: less
+/// than 2^1000.
 template <int N>
-DoubleDouble double_double(const Int<N>& value, int exponent) {
+DoubleDouble double_double(const Int<N>& value, int limbs = 0) {
   const Int<N> m = value.magnitude();
-  const int width = m.bit_width();
-  // The leading 106 bits as two halves, each exact in a double.
-  const auto bits_at = [&](int from) -> uint64_t {  // 53 bits whose lowest is bit `from`
-    uint64_t r = 0;
-    const int low = from < 0 ? 0 : from;
-    const int whole = low / 64, part = low % 64;
-    if (whole < N) r = m.limb[whole] >> part;
-    if (part && whole + 1 < N) r |= m.limb[whole + 1] << (64 - part);
-    if (from < 0) r = from <= -64 ? 0 : r << -from;
-    return r & ((uint64_t{1} << 53) - 1);
-  };
-  const double high = std::ldexp(static_cast<double>(bits_at(width - 53)), width - 53 + exponent);
-  const double low = std::ldexp(static_cast<double>(bits_at(width - 106)), width - 106 + exponent);
-  return value.negative() ? DoubleDouble::sum(-high, -low) : DoubleDouble::sum(high, low);
+  int top = N - 1;
+  while (top > 0 && m.limb[top] == 0) --top;
+  // Three limbs hold at least 129 significant bits; halves of limbs are exact in a double.
+  DoubleDouble r;
+  for (int i = top; i >= 0 && i > top - 3; --i) {
+    const int exponent = 1023 + 64 * (i + limbs);
+    if (exponent < 1) break;
+    const double unit = std::bit_cast<double>(static_cast<uint64_t>(exponent) << 52);
+    const double high = static_cast<double>(m.limb[i] >> 32) * 0x1p32 * unit;
+    const double low = static_cast<double>(m.limb[i] & 0xffffffff) * unit;
+    r = r + DoubleDouble::sum(high, low);
+  }
+  return value.negative() ? DoubleDouble{-r.hi, -r.lo} : r;
 }
 
 }  // namespace csgrun

@@ -1,10 +1,12 @@
-// Sums over a triangle mesh in fixed point, with a bound of what the cut digits may amount to.
+// Sums over a closed triangle mesh in fixed point, with a bound of what the cut digits may amount
+// to.
 //
-// With coordinates cut to F = 64 K fractional bits, the error of each is in [0, 2^-F), and that of
-// the determinant of three points whose coordinates are at most M in magnitude is below
-// 24 M^2 2^-F, that of its product with a sum of three coordinates below 128 M^3 2^-F. Only
-// triangles with a corner that was really cut count. Points are taken relative to one grid point
-// nearby, so that M is the extent of the mesh.
+// Coordinates are cut to F = 64 K fractional bits: each point moves by less than e = 2^-F along
+// each axis, as one, so the surface stays closed. To first order the volume then changes by the
+// integral of that motion over the surface, at most sqrt(3) e times its area A, and the integral of
+// x over the volume by at most M as much again, where |x| <= M. What is of second order in e is
+// bounded for each triangle by itself. Points are taken relative to one grid point nearby, so that
+// M is the extent of the mesh.
 #pragma once
 
 #include <algorithm>
@@ -57,6 +59,34 @@ bool fixed_point(const Int<kPointLimbs>& x, const Int<kPointLimbs>& w, Int<K + 1
   return true;
 }
 
+/// a * b, all of it. Without branches: the signs of coordinates are as good as random.
+template <int A, int B>
+Int<A + B> full_product(const Int<A>& a, const Int<B>& b) {
+  Int<A + B> r;
+  for (int i = 0; i < A; ++i) {
+    uint64_t carry = 0;
+    for (int j = 0; j < B; ++j) {
+      const UInt128 t = static_cast<UInt128>(a.limb[i]) * b.limb[j] + r.limb[i + j] + carry;
+      r.limb[i + j] = static_cast<uint64_t>(t);
+      carry = static_cast<uint64_t>(t >> 64);
+    }
+    r.limb[i + B] = carry;
+  }
+  // As unsigned limbs a negative number reads 2^(64 size) too large: the excess is taken off again.
+  const auto take_off = [&r](const auto& factor, int from, bool negative) {
+    const uint64_t mask = negative ? ~0ull : 0;
+    uint64_t borrow = 0;
+    for (int i = from; i < A + B; ++i) {
+      const UInt128 t = static_cast<UInt128>(r.limb[i]) - (factor.limb[i - from] & mask) - borrow;
+      r.limb[i] = static_cast<uint64_t>(t);
+      borrow = static_cast<uint64_t>(t >> 64) & 1;
+    }
+  };
+  take_off(b, A, a.negative());
+  take_off(a, B, b.negative());
+  return r;
+}
+
 /// An exact sum and how far the true value may be from it: value and error * 2^exponent.
 struct Sum {
   Signed value;
@@ -83,7 +113,7 @@ class FixedRound {
     points_.resize(used.size());
     cut_.resize(used.size());
     for (uint32_t v = 0; v < used.size(); ++v) {
-      if (used[v]) in_range_ = in_range_ && add(v, point(v), origin);
+      if (used[v]) in_range_ = in_range_ && take(v, point(v), origin);
     }
   }
 
@@ -97,33 +127,27 @@ class FixedRound {
     uint64_t cut_triangles = 0;
     for (const auto& t : triangles_) {
       const Coordinates &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
-      cut_triangles += cut_[t[0]] || cut_[t[1]] || cut_[t[2]] ? 1 : 0;
+      cut_triangles += cut_[t[0]] | cut_[t[1]] | cut_[t[2]];
+      // det(a, b, c) is a . n, and |n| twice the area.
       Volume determinant;
+      DoubleDouble squares;
       for (int k = 0; k < 3; ++k) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        determinant += multiply<3 * K + 3>(
-            multiply<2 * K + 2>(b[i], c[j]) - multiply<2 * K + 2>(b[j], c[i]), a[k]);
+        const Int<2 * K + 2> n =
+            full_product(b[i] - a[i], c[j] - a[j]) - full_product(b[j] - a[j], c[i] - a[i]);
+        determinant += full_product(n, a[k]);
+        const DoubleDouble component = double_double(n, -2 * K);
+        squares = squares + component * component;
       }
       six_volumes += determinant;
       for (int k = 0; k < 3; ++k) {
-        moments[k] += multiply<4 * K + 4>(determinant, a[k] + b[k] + c[k]);
+        moments[k] += full_product(determinant, a[k] + b[k] + c[k]);
       }
-      result.twice_area = result.twice_area + twice_area(a, b, c);
+      result.twice_area = result.twice_area + squares.square_root();
     }
-    // Errors in units of the sums: a cut is one unit of 2^-F, M stands in the same units.
-    const Natural count = natural(static_cast<UInt128>(cut_triangles));
-    const Natural extent = natural(extent_ + Int<K + 1>(1));
-    const Natural square = multiply(extent, extent);
-    result.six_volumes = {signed_value(six_volumes),
-                          multiply(multiply(square, count), natural(24))};
-    for (int k = 0; k < 3; ++k) {
-      result.moments[k] = {signed_value(moments[k]),
-                           multiply(multiply(multiply(square, extent), count), natural(128))};
-    }
-    // An edge vector is wrong by less than 2 units, so twice the area by less than 16 M units.
-    const double largest = std::ldexp(to_double(extent_), -64 * K);
-    result.twice_area_error =
-        std::ldexp(16 * largest * static_cast<double>(cut_triangles), -64 * K);
+    result.six_volumes.value = signed_value(six_volumes);
+    for (int k = 0; k < 3; ++k) result.moments[k].value = signed_value(moments[k]);
+    if (cut_triangles > 0) bound_errors(cut_triangles, result);
     return result;
   }
 
@@ -136,7 +160,7 @@ class FixedRound {
   static_assert(3 * (kCoordinateBits + 64 * K) + 3 + kTriangleBits < 64 * (3 * K + 3));
   static_assert(4 * (kCoordinateBits + 64 * K) + 5 + kTriangleBits < 64 * (4 * K + 4));
 
-  bool add(uint32_t v, const Point& p, const std::array<int64_t, 3>& origin) {
+  bool take(uint32_t v, const Point& p, const std::array<int64_t, 3>& origin) {
     bool cut = false;
     for (int k = 0; k < 3; ++k) {
       Fixed x;
@@ -150,21 +174,36 @@ class FixedRound {
     return true;
   }
 
-  static DoubleDouble twice_area(const Coordinates& a, const Coordinates& b, const Coordinates& c) {
-    DoubleDouble squares;
-    for (int k = 0; k < 3; ++k) {
-      const int i = (k + 1) % 3, j = (k + 2) % 3;
-      const Int<2 * K + 2> cross = multiply<2 * K + 2>(b[i] - a[i], c[j] - a[j]) -
-                                   multiply<2 * K + 2>(b[j] - a[j], c[i] - a[i]);
-      const DoubleDouble component = double_double(cross, -128 * K);
-      squares = squares + component * component;
+  /// Errors in units of the sums; one unit of 2^-F is the cut, M and the area stand in such units.
+  void bound_errors(uint64_t cut_triangles, Sums& sums) const {
+    const Natural extent = natural(extent_ + Fixed(1));
+    const Natural twice_area = in_units(sums.twice_area.hi);
+    const Natural count = natural(static_cast<UInt128>(cut_triangles));
+    // 6 sqrt(3) A < 6 (2 A). Two corners of a determinant moved: three pairs, six products each.
+    sums.six_volumes.error =
+        add(multiply(natural(6), twice_area), multiply(multiply(natural(24), count), extent));
+    // 24 M sqrt(3) A < 24 M (2 A); two of four factors moved, or more: less than 256 M^2.
+    for (Sum& moment : sums.moments) {
+      moment.error = add(multiply(multiply(natural(24), extent), twice_area),
+                         multiply(multiply(natural(256), count), multiply(extent, extent)));
     }
-    return squares.square_root();
+    // The area itself: an edge is wrong by less than 2 units, twice an area by less than 16 M.
+    const double largest = std::ldexp(to_double(extent_ + Fixed(1)), -64 * K);
+    sums.twice_area_error = std::ldexp(16 * largest * static_cast<double>(cut_triangles), -64 * K);
+  }
+
+  /// An area of x steps^2 in units of 2^-2F, a little enlarged.
+  static Natural in_units(double x) {
+    int exponent = 0;
+    const double m = std::frexp(x, &exponent);
+    const Natural leading = natural(static_cast<UInt128>(std::ldexp(m, 53)) + 2);
+    const int shift = exponent - 53 + 128 * K;
+    return shift >= 0 ? shift_left(leading, shift) : leading;
   }
 
   TriangleSpan triangles_;
   std::vector<Coordinates> points_;
-  std::vector<bool> cut_;
+  std::vector<uint8_t> cut_;
   Fixed extent_;  ///< the largest magnitude
   bool in_range_ = true;
 };

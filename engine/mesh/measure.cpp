@@ -165,7 +165,7 @@ class Rounder {
   void take_area(const Sums& sums) {
     if (area_ || sums.twice_area_error > 0x1p-60 * sums.twice_area.hi) return;
     const DoubleDouble step =
-        double_double(Int<1>(step_.numerator), 0) / double_double(Int<1>(step_.denominator), 0);
+        double_double(Int<1>(step_.numerator)) / double_double(Int<1>(step_.denominator));
     area_ = (sums.twice_area * step * step).scaled(2 * step_.exponent - 1).hi;
   }
 
