@@ -167,7 +167,12 @@ bool RegionBuilder::trace(PlaneId support, RegionLoops& loops) {
       next_[in] = out;
       corner[out] = !straight(boundary_[in], boundary_[out]);
     } else {
+      // Where wedges touch, one of them may be a straight angle: no corner of its loop.
       pair_wedges(support, incident);
+      for (const uint32_t end : incident) {
+        const uint32_t in = end / 2, out = next_[in];
+        if ((end & 1) && out != kNone) corner[out] = !straight(boundary_[in], boundary_[out]);
+      }
     }
     i = j;
   }
