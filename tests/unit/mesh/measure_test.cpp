@@ -177,6 +177,29 @@ TEST(Measure, RandomRationalPoints) {
   }
 }
 
+TEST(Measure, ManyTriangles) {
+  // A dented torus off the grid.
+  gmp_randclass random(gmp_randinit_default);
+  random.seed(23);
+  const uint32_t n = 24, m = 18;
+  std::vector<Point> points;
+  Triangles triangles;
+  for (uint32_t i = 0; i < n; ++i) {
+    for (uint32_t j = 0; j < m; ++j) {
+      const double u = 2 * M_PI * i / n, v = 2 * M_PI * j / m, r = 3e6 + 1e6 * std::cos(v);
+      std::array<mpq_class, 3> p{std::floor(r * std::cos(u)), std::floor(r * std::sin(u)),
+                                 std::floor(1e6 * std::sin(v))};
+      for (auto& c : p) c += mpq_class(random.get_z_bits(60), random.get_z_bits(40) + 1);
+      for (auto& c : p) c.canonicalize();
+      points.push_back(rational_point(p));
+      const auto at = [&](uint32_t a, uint32_t b) { return (a % n) * m + b % m; };
+      triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  check(points, triangles, {1, 1000000, 3});
+}
+
 TEST(Measure, InsideOutIsNegative) {
   std::vector<Point> points;
   Triangles triangles;
