@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <thread>
 #include <unordered_map>
@@ -6,6 +7,7 @@
 
 #include <csgrun/engine/evaluate.h>
 
+#include "engine/csg/locate.h"
 #include "engine/csg/result_cache.h"
 #include "engine/csg/scene.h"
 #include "engine/csg/scene_jobs.h"
@@ -60,7 +62,8 @@ struct Evaluator::Impl {
         store(appearances),
         boundaries(options.cache_bytes),
         // Solids are a fraction of what led to them.
-        solids(options.cache_bytes / 4) {
+        solids(options.cache_bytes / 4),
+        worlds(options.cache_bytes / 4) {
     threads = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
     if (threads == 0) threads = 1;
   }
@@ -70,6 +73,7 @@ struct Evaluator::Impl {
   }
   Result<Scene> scene_of(const std::vector<NodePtr>& parts);
   Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts);
+  Result<int> contains(const NodePtr& root, const glm::dvec3& point);
   [[nodiscard]] Key solid_key(const Scene& scene, const Subtree& subtree) const;
   Result<SolidPtr> present_root(const Scene& scene, uint32_t root, const BoundaryMesh& boundary);
 
@@ -80,6 +84,7 @@ struct Evaluator::Impl {
   LeafStore store;
   ResultCache<StoredBoundary> boundaries;
   ResultCache<SolidPtr> solids;
+  ResultCache<BoundaryPtr> worlds;  // of roots that points were compared with
   Warnings warnings;
   EvaluateStats stats;
 };
@@ -180,6 +185,34 @@ Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const std::vector<NodePt
   return result;
 }
 
+Result<int> Evaluator::Impl::contains(const NodePtr& root, const glm::dvec3& point) {
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(point[i])) {
+      return Error{ErrorCode::kInvalidArgument, "the point is not finite", {}};
+    }
+  }
+  auto scene = scene_of({root});
+  if (!scene) return scene.error();
+  const SceneNode& node = scene->nodes[scene->roots[0]];
+  if (node.kind == SceneNode::Kind::kEmpty) return -1;
+  const Quantiser quantiser(scene->step);
+  IVec3 p;
+  for (int i = 0; i < 3; ++i) {
+    const auto rounded = quantiser(point[i]);
+    if (!rounded) return -1;  // far beyond anything on the grid
+    p[i] = *rounded;
+  }
+  const Stopwatch watch(stats.boolean_seconds);
+  const Key key = solid_key(*scene, node.subtree);
+  if (const BoundaryPtr* known = worlds.find(key)) return locate(**known, p);
+  SceneJobs jobs(*scene, boundaries, options, threads, stats);
+  if (Status status = jobs.run(scene->roots); !status) return status.error();
+  auto boundary = jobs.world_boundary(scene->roots[0]);
+  if (!boundary) return boundary.error();
+  worlds.put(key, *boundary, memory_bytes(**boundary));
+  return locate(**boundary, p);
+}
+
 Evaluator::Evaluator(EvaluateOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
 Evaluator::~Evaluator() = default;
 
@@ -191,6 +224,10 @@ Result<SolidPtr> Evaluator::evaluate(const NodePtr& root) {
   auto solids = impl_->evaluate({root});
   if (!solids) return solids.error();
   return solids->front();
+}
+
+Result<int> Evaluator::contains(const NodePtr& root, const glm::dvec3& point) {
+  return impl_->contains(root, point);
 }
 
 const EvaluateStats& Evaluator::stats() const { return impl_->stats; }

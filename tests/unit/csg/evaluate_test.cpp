@@ -195,6 +195,64 @@ TEST(Evaluate, ErrorsAndWarningsNameTheirLine) {
   }
 }
 
+TEST(Evaluate, ContainsAgreesWithTheLeaves) {
+  // The truth is the Boolean expression over boxes, in decimals of 0.5; on a boundary the eight
+  // points around decide.
+  const NodePtr model = subtract({unite({cube(4), box({4, 1, 1}, {6, 3, 3})}),
+                                  box({1, 1, 0}, {3, 3, 5}), box({4, 0, 3}, {7, 4, 4})});
+  const auto in_box = [](glm::dvec3 p, glm::dvec3 lo, glm::dvec3 hi) {
+    return p.x > lo.x && p.y > lo.y && p.z > lo.z && p.x < hi.x && p.y < hi.y && p.z < hi.z;
+  };
+  const auto inside = [&](glm::dvec3 p) {
+    return (in_box(p, {0, 0, 0}, {4, 4, 4}) || in_box(p, {4, 1, 1}, {6, 3, 3}) ||
+            // between the two boxes there is no wall
+            (p.x == 4 && in_box({4.1, p.y, p.z}, {4, 1, 1}, {6, 3, 3}))) &&
+           !in_box(p, {1, 1, 0}, {3, 3, 5});
+  };
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options);
+  const Affine map = Affine::compose(translation(3, 1, 2), rotation(90, {0, 0, 1}));
+  for (double x = -0.5; x <= 6.5; x += 0.5) {
+    for (double y = -0.5; y <= 4.5; y += 0.5) {
+      for (double z = -0.5; z <= 5.5; z += 0.5) {
+        int around = 0;
+        for (int i = 0; i < 8; ++i) {
+          around += inside({x + (i & 1 ? 0.1 : -0.1), y + (i & 2 ? 0.1 : -0.1),
+                            z + (i & 4 ? 0.1 : -0.1)});
+        }
+        const int truth = around == 8 ? 1 : around == 0 ? -1 : 0;
+        const auto found = evaluator.contains(model, {x, y, z});
+        ASSERT_TRUE(found.has_value());
+        EXPECT_EQ(*found, truth) << x << " " << y << " " << z;
+        const auto moved_point =
+            evaluator.contains(Node::transformed(map, model), map.apply({x, y, z}));
+        EXPECT_EQ(*moved_point, truth) << x << " " << y << " " << z;
+      }
+    }
+  }
+  EXPECT_EQ(evaluator.stats().nodes_evaluated, 2u) << "a union within a difference, once";
+  EXPECT_EQ(*evaluator.contains(model, {1e30, 0, 0}), -1);
+  EXPECT_FALSE(evaluator.contains(model, {NAN, 0, 0}).has_value());
+  EXPECT_EQ(*evaluator.contains(cube(0.3), {0.1 + 0.2, 0.1, 0.1}), 0);
+}
+
+TEST(Evaluate, ContainsInATurnedPart) {
+  const NodePtr ring = subtract({prism(24, 10, 4), prism(24, 5, 4)});
+  const Affine map = Affine::compose(translation(1, 2, 3), rotation(37, {1, 2, 3}));
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options);
+  for (int i = 0; i < 24; ++i) {
+    const double t = 0.2618 * i + 0.1;
+    for (auto [r, z, truth] : {std::tuple{7.0, 2.0, 1}, {4.5, 2.0, -1}, {11.0, 2.0, -1},
+                               {7.0, 4.5, -1}, {7.0, -0.5, -1}, {7.0, 3.99, 1}}) {
+      const auto p = map.apply({r * std::cos(t), r * std::sin(t), z});
+      EXPECT_EQ(*evaluator.contains(Node::transformed(map, ring), p), truth) << i << " " << r;
+    }
+  }
+}
+
 TEST(Evaluate, EmptyTrees) {
   EXPECT_TRUE(solid_of(Node::empty())->empty());
   EXPECT_TRUE(solid_of(subtract({Node::empty(), cube(1)}))->empty());

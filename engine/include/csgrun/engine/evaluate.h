@@ -60,7 +60,8 @@ class Evaluator {
   [[nodiscard]] Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts);
   /// The solid of one tree, on the grid that its own extent asks for.
   [[nodiscard]] Result<SolidPtr> evaluate(const NodePtr& root);
-  /// Whether `point` (mm) is inside (1), on the boundary (0) or outside (-1), exactly.
+  /// Whether `point` (mm) is inside (1), on the boundary (0) or outside (-1), exactly; the point is
+  /// rounded to the grid as the vertices of leaves are, so that equal decimals meet.
   [[nodiscard]] Result<int> contains(const NodePtr& root, const glm::dvec3& point);
 
   [[nodiscard]] const EvaluateStats& stats() const;
