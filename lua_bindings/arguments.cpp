@@ -229,7 +229,9 @@ void Arguments::read_table(int table) {
       fail("values without a name must stand before the table of options, or in it, not both");
     }
     lua_rawgeti(L_, table, 1);
-    if (length > 1 || !lua_istable(L_, -1)) {
+    // One table, or one string, is the argument itself: color{"red", alpha = 0.5}. One number is
+    // not: cube{10} could as well be the beginning of a list.
+    if (length > 1 || (!lua_istable(L_, -1) && lua_type(L_, -1) != LUA_TSTRING)) {
       lua_pop(L_, 1);
       lua_createtable(L_, static_cast<int>(length), 0);
       for (lua_Integer i = 1; i <= length; ++i) {

@@ -73,7 +73,11 @@ void* Budget::allocate(void* user_data, void* block, size_t old_size, size_t new
   }
   if (grown == nullptr) {
     // Lua reports this without a place. The stack is whole while it allocates, so look now.
-    if (self.main_state_ != nullptr) self.memory_place_ = place_of_call(self.main_state_);
+    lua_Debug frame{};
+    if (self.main_state_ != nullptr && innermost_lua_frame(self.main_state_, frame)) {
+      std::snprintf(self.memory_place_.data(), self.memory_place_.size(), "%s:%d",
+                    chunk_file(frame), frame.currentline);
+    }
     return nullptr;
   }
   self.used_ += new_size - old_size;
@@ -148,6 +152,8 @@ std::string Budget::time_message() const {
                      limits_.total_seconds ? "limit" : "limit for the script",
                      limits_.total_seconds.value_or(limits_.script_seconds));
 }
+
+std::string Budget::memory_place() const { return memory_place_.data(); }
 
 std::string Budget::memory_message() const {
   return fmt::format("not enough memory (script limit {} MB)", limits_.heap_bytes / kMegabyte);

@@ -8,6 +8,7 @@
 // the message with the line, removes temporary files and ends the process with 124.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -61,7 +62,7 @@ class Budget {
   /// "not enough memory (script limit 1024 MB)".
   [[nodiscard]] std::string memory_message() const;
   /// "FILE:line" of the allocation that was refused last; empty if none was.
-  [[nodiscard]] const std::string& memory_place() const { return memory_place_; }
+  [[nodiscard]] std::string memory_place() const;
 
   /// Counts bytes outside of the Lua heap that values of the script hold; may outlive the Budget.
   [[nodiscard]] const std::shared_ptr<std::atomic<size_t>>& held_bytes() const { return held_; }
@@ -81,7 +82,7 @@ class Budget {
   // The heap. `used_` is touched by the script's thread only, `held_` by any that frees a mesh.
   size_t used_ = 0;
   std::shared_ptr<std::atomic<size_t>> held_ = std::make_shared<std::atomic<size_t>>(0);
-  std::string memory_place_;
+  std::array<char, 1024> memory_place_{};  // no allocation when there is no memory
   lua_State* main_state_ = nullptr;
 
   std::atomic<bool> expired_{false};

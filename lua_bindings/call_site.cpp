@@ -70,12 +70,14 @@ std::string describe_frame(const lua_Debug& frame) {
 std::string traceback(lua_State* L) {
   const int depth = stack_depth(L);
   lua_Debug frame{};
+  // Level 0 is the message handler itself, the last one our own function that runs the script.
+  const int last = depth - 1;
+  if (last <= 1) return {};
   std::string text = "\nstack traceback:";
-  // Level 0 is the message handler itself; the last one is the C function or pcall that runs us.
-  for (int level = 1; level < depth; ++level) {
-    if (depth > kTopFrames + kBottomFrames + 1 && level == kTopFrames + 1) {
-      text += "\n\t... (" + std::to_string(depth - kTopFrames - kBottomFrames - 1) + " levels)";
-      level = depth - kBottomFrames;
+  for (int level = 1; level < last; ++level) {
+    if (last > kTopFrames + kBottomFrames + 1 && level == kTopFrames + 1) {
+      text += "\n\t... (" + std::to_string(last - kTopFrames - kBottomFrames - 1) + " levels)";
+      level = last - kBottomFrames;
     }
     lua_getstack(L, level, &frame);
     lua_getinfo(L, "Slnt", &frame);

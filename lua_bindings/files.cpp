@@ -35,7 +35,7 @@ std::string plain_path(const std::string& path) {
 
 }  // namespace
 
-FileText read_regular_file(const std::string& path) {
+FileText read_whole_file(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return {{}, system_reason()};
   if (S_ISDIR(status.st_mode)) return {{}, "it is a directory"};
@@ -106,7 +106,7 @@ Files::Opened Files::open(const std::string& caller, const std::string& path) co
     throw ScriptError("cannot read '" + path + "': " + reason);
   }
   if (!is_allowed(opened.real)) throw ScriptError(refusal);
-  FileText text = read_regular_file(opened.real);
+  FileText text = read_whole_file(opened.real);
   if (!text.error.empty()) throw ScriptError("cannot read '" + path + "': " + text.error);
   opened.bytes = std::move(text.bytes);
   return opened;
@@ -137,7 +137,7 @@ Files::Opened Files::open_module(const std::string& name) const {
         tried +=
             "\n\t'" + path + "' leads outside of the model's folder and the library folders (-L)";
       } else {
-        FileText text = read_regular_file(real);
+        FileText text = read_whole_file(real);
         if (text.error.empty()) return {path, real, std::move(text.bytes)};
         tried += "\n\tcannot read '" + path + "': " + text.error;
       }

@@ -12,7 +12,7 @@ struct FileText {
   std::string bytes;
   std::string error;  ///< empty: it was read
 };
-FileText read_regular_file(const std::string& path);
+FileText read_whole_file(const std::string& path);
 
 /// The folder of a path: "a/b.lua" -> "a", "b.lua" -> "" (the working folder).
 std::string folder_of(const std::string& path);

@@ -5,11 +5,12 @@
 namespace csgrun {
 
 void push_error(lua_State* L, const char* message) {
-  const std::string place = place_of_call(L);
-  if (place.empty()) {
-    lua_pushstring(L, message);
+  // Nothing here but Lua allocates: memory may be what has just run out.
+  lua_Debug frame{};
+  if (innermost_lua_frame(L, frame)) {
+    lua_pushfstring(L, "%s:%d: %s", chunk_file(frame), frame.currentline, message);
   } else {
-    lua_pushfstring(L, "%s: %s", place.c_str(), message);
+    lua_pushstring(L, message);
   }
 }
 

@@ -94,7 +94,7 @@ ScriptOutcome run_script(Session& session, const std::string& name, const std::s
   budget.stop_script();
 
   if (status == LUA_ERRMEM) {
-    const std::string& place = budget.memory_place();
+    const std::string place = budget.memory_place();
     return {ScriptStatus::kFailed, (place.empty() ? name : place) + ": " + budget.memory_message()};
   }
   std::string message = status == LUA_OK                 ? ""

@@ -176,6 +176,8 @@ CommandLine parse_info(int argc, char** argv) {
 
 }  // namespace
 
+bool is_csg_path(const std::string& path) { return ending_of(path) == ".csg"; }
+
 CommandLine parse_command_line(int argc, char** argv) {
   if (argc > 1 && std::strcmp(argv[1], "info") == 0) return parse_info(argc, argv);
 

@@ -32,6 +32,9 @@ struct CommandLine {
   bool info_json = false;
 };
 
+/// Whether the path names an OpenSCAD tree.
+bool is_csg_path(const std::string& path);
+
 /// Reads the command line; usage errors are told on standard error.
 CommandLine parse_command_line(int argc, char** argv);
 

@@ -10,6 +10,7 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <csgrun/primitives/csg_file.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/cli/progress.h"
@@ -87,12 +88,31 @@ class Run {
     if (line_.model == "-") {
       text.bytes = read_standard_input();
     } else {
-      text = read_regular_file(line_.model);
+      text = read_whole_file(line_.model);
       if (!text.error.empty())
         return {kExitFiles, fmt::format("csgrun: cannot read '{}': {}", line_.model, text.error)};
     }
     if (!mesh_format_of(line_.model).empty()) return load_mesh(text.bytes);
+    if (is_csg_path(line_.model)) return load_csg(text.bytes);
     return load_script(text.bytes);
+  }
+
+  Failure load_csg(const std::string& text) {
+    if (Failure failure = refuse_definitions(); failure.failed()) return failure;
+    auto model = parse_csg(line_.model, text);
+    if (!model) {
+      std::string place = model.error().where.text();
+      if (place.empty()) place = line_.model;
+      return {kExitScript, place + ": " + model.error().message};
+    }
+    report_.warnings = model->warnings;
+    const SourceRef where{std::make_shared<const std::string>(line_.model), 1};
+    if (model->is_2d) {
+      session_.add_part({"", nullptr, model->shape, where}, "");
+    } else {
+      session_.add_part({"", model->solid, {}, where}, "");
+    }
+    return {};
   }
 
   Failure load_script(const std::string& text) {
@@ -130,7 +150,7 @@ class Run {
     return {};
   }
 
-  /// Meshes have no parameters.
+  /// Meshes and trees have no parameters.
   Failure refuse_definitions() const {
     if (line_.definitions.empty()) return {};
     return {kExitUsage,
