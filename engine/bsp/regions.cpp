@@ -53,7 +53,8 @@ bool RegionBuilder::build(PlaneId support, const std::vector<DirectedEdge>& edge
   size_t kept = 0;
   for (size_t i = 0; i < open_.size();) {
     size_t j = i;
-    const auto [lo, hi] = std::minmax(open_[i].from, open_[i].to);
+    const uint32_t lo = std::min(open_[i].from, open_[i].to);
+    const uint32_t hi = std::max(open_[i].from, open_[i].to);
     size_t forward = 0;
     while (j < open_.size() && std::min(open_[j].from, open_[j].to) == lo &&
            std::max(open_[j].from, open_[j].to) == hi) {

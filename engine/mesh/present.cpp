@@ -10,6 +10,7 @@
 #include "engine/mesh/measure.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/plane_oracle.h"
+#include "engine/mesh/self_contact.h"
 #include "engine/mesh/stitch.h"
 #include "engine/mesh/triangulate.h"
 
@@ -78,6 +79,7 @@ class Presenter {
                           boundary_.point_rounded[p]);
     }
     if (!merge_faces(boundary_, geometry_, planes_, plane_of, faces_)) return not_closed("faces");
+    break_at_own_corners(faces_, geometry_, planes_);
     if (!resolve_t_junctions(faces_, geometry_, planes_)) return not_closed("edges");
     if (auto status = triangulate_all(); !status) return status.error();
     if (!split_fans(set_, faces_, geometry_, planes_, fans_)) return not_closed("vertices");

@@ -1,0 +1,106 @@
+#include "engine/mesh/self_contact.h"
+
+#include <algorithm>
+#include <array>
+
+namespace csgrun {
+namespace {
+
+/// A convex face of so few corners cannot touch itself, and no other face of so few can either.
+constexpr size_t kTooFew = 5;
+
+class Breaker {
+ public:
+  Breaker(CellGeometry& geometry, const PlaneTable& planes) : geometry_(geometry), planes_(planes) {}
+
+  void run(MergedFace& face) {
+    corners_.clear();
+    for (const auto& loop : face.loops) {
+      for (const DirectedEdge& e : loop) corners_.push_back(e.from);
+    }
+    if (corners_.size() < kTooFew) return;
+    // Along the axis on which the face is longest.
+    axis_ = longest_axis();
+    std::sort(corners_.begin(), corners_.end(), [&](uint32_t p, uint32_t q) {
+      return at(p, axis_) < at(q, axis_) || (at(p, axis_) == at(q, axis_) && p < q);
+    });
+    corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+    for (auto& loop : face.loops) break_loop(face.plane, loop);
+  }
+
+ private:
+  [[nodiscard]] double at(uint32_t p, int axis) const { return geometry_.point(p).rounded[axis]; }
+
+  [[nodiscard]] int longest_axis() const {
+    std::array<double, 3> lo = geometry_.point(corners_[0]).rounded, hi = lo;
+    for (const uint32_t c : corners_) {
+      for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], at(c, k)), hi[k] = std::max(hi[k], at(c, k));
+    }
+    int axis = 0;
+    for (int k = 1; k < 3; ++k) {
+      if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
+    }
+    return axis;
+  }
+
+  void break_loop(PlaneId support, std::vector<DirectedEdge>& loop) {
+    broken_.clear();
+    for (const DirectedEdge& e : loop) {
+      inside_.clear();
+      const double lo = std::min(at(e.from, axis_), at(e.to, axis_));
+      const double hi = std::max(at(e.from, axis_), at(e.to, axis_));
+      auto c = std::lower_bound(corners_.begin(), corners_.end(), lo,
+                                [&](uint32_t p, double v) { return at(p, axis_) < v; });
+      for (; c != corners_.end() && at(*c, axis_) <= hi; ++c) {
+        if (lies_inside(e, *c)) inside_.push_back(*c);
+      }
+      uint32_t from = e.from;
+      if (!inside_.empty()) {
+        const LineAxis line =
+            line_axis(planes_.plane(support.index()), planes_.plane(e.plane));
+        const int along = geometry_.compare_along(e.to, e.from, line.axis);
+        std::sort(inside_.begin(), inside_.end(), [&](uint32_t p, uint32_t q) {
+          return geometry_.compare_along(p, q, line.axis) * along < 0;
+        });
+        for (const uint32_t p : inside_) {
+          broken_.push_back({from, p, e.plane});
+          from = p;
+        }
+      }
+      broken_.push_back({from, e.to, e.plane});
+    }
+    if (broken_.size() != loop.size()) loop = broken_;
+  }
+
+  [[nodiscard]] bool lies_inside(const DirectedEdge& e, uint32_t p) {
+    if (p == e.from || p == e.to) return false;
+    for (int k = 0; k < 3; ++k) {
+      if (at(p, k) < std::min(at(e.from, k), at(e.to, k))) return false;
+      if (at(p, k) > std::max(at(e.from, k), at(e.to, k))) return false;
+    }
+    if (geometry_.side(e.plane, p) != 0) return false;
+    // On the line: rounding is monotone, so only a tie with an end needs the exact order.
+    for (int k = 0; k < 3; ++k) {
+      const int from = geometry_.compare_along(p, e.from, k), to = geometry_.compare_along(p, e.to, k);
+      if (from * to > 0) return false;
+      if (from * to < 0) return true;
+    }
+    return false;
+  }
+
+  CellGeometry& geometry_;
+  const PlaneTable& planes_;
+  int axis_ = 0;
+  std::vector<uint32_t> corners_, inside_;
+  std::vector<DirectedEdge> broken_;
+};
+
+}  // namespace
+
+void break_at_own_corners(std::vector<MergedFace>& faces, CellGeometry& geometry,
+                          const PlaneTable& planes) {
+  Breaker breaker(geometry, planes);
+  for (MergedFace& face : faces) breaker.run(face);
+}
+
+}  // namespace csgrun

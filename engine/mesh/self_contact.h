@@ -1,0 +1,16 @@
+// Where a face touches itself: a corner of one of its wedges in the middle of one of its own edges.
+#pragma once
+
+#include <vector>
+
+#include "engine/mesh/merge_faces.h"
+
+namespace csgrun {
+
+/// Breaks the edges of each face at those of its own corners that lie inside them, so that its loops
+/// touch in vertices only, as triangulation wants. (A corner that is straight on is none, so the loop
+/// that runs past has no vertex there.) Exact; box tests for nearly all pairs.
+void break_at_own_corners(std::vector<MergedFace>& faces, CellGeometry& geometry,
+                          const PlaneTable& planes);
+
+}  // namespace csgrun
