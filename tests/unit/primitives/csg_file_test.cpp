@@ -29,7 +29,10 @@ std::string error(const std::string& text) {
 std::string sketch(const NodePtr& node) {
   auto children = [&] {
     std::string out;
-    for (const NodePtr& c : node->children()) out += (out.empty() ? "" : " ") + sketch(c);
+    for (const NodePtr& c : node->children()) {
+      if (!out.empty()) out += ' ';
+      out += sketch(c);
+    }
     return out;
   };
   switch (node->kind()) {
@@ -144,7 +147,8 @@ TEST(CsgFile, ArgumentsGoByNameAndHaveDefaults) {
       "{multmatrix([[1, 0, 0, 3], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]){" + kSquare + "}}";
   auto lowest_x = [&](const std::string& call) {
     double x = 0;
-    for (const glm::dvec3& p : parse(call + profile).solid->mesh()->points) x = std::min(x, p.x);
+    const CsgModel turned = parse(call + profile);
+    for (const glm::dvec3& p : turned.solid->mesh()->points) x = std::min(x, p.x);
     return x;
   };
   EXPECT_EQ(lowest_x("rotate_extrude(convexity = 2, $fn = 5)"), -4);
