@@ -313,8 +313,8 @@ bool corner_plane(const std::vector<IVec3>& vertices, const uint32_t* corners, s
   return false;
 }
 
-bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex,
-                       std::vector<LoopFace>& faces) {
+void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex,
+                       bool merged, std::vector<LoopFace>& faces) {
   bool collapsed = false, bent = false;
   for (LoopFace& face : faces) {
     for (Loop& loop : face.loops) {
@@ -350,9 +350,8 @@ bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex,
     for (LoopFace& face : faces) clean_loop(face.loops[0]);
     drop_empty_loops(faces);
     collapsed |= drop_collinear_loops(vertices, faces);
-    cancel_opposite_faces(faces);
   }
-  return collapsed;
+  if (merged || collapsed) cancel_opposite_faces(faces);
 }
 
 }  // namespace csgrun

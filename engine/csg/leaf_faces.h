@@ -19,10 +19,10 @@ struct LoopFace {
 /// Turns faces over integer vertices (distinct, |coordinate| <= 2^40) into planar convex polygons.
 /// Directed edges stay balanced: a face that collapses to a segment goes by splitting the edges
 /// of its neighbours at its inner vertices. Diagonals lie inside faces. `prefer_convex` chooses the
-/// diagonal of a bent quadrilateral that bulges outwards. Returns whether a face collapsed, so that
-/// promises about the original surface may no longer hold.
-bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex,
-                       std::vector<LoopFace>& faces);
+/// diagonal of a bent quadrilateral that bulges outwards; `merged` says that points became one
+/// vertex, so that faces may lie on each other's back.
+void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex,
+                       bool merged, std::vector<LoopFace>& faces);
 
 /// The normal (b - a) x (c - a) of the first three corners that are not collinear, and the corners;
 /// false when there are none. |component| < 2^83.

@@ -54,7 +54,7 @@ const MeshFacts& LeafStore::facts(const std::shared_ptr<const PolygonMesh>& mesh
   if (facts.error) return facts;
   KeyBuilder builder("mesh");
   builder.list(mesh->corners).list(mesh->loop_starts).list(mesh->face_starts).list(mesh->surface);
-  builder.number(mesh->keep_facets).number(mesh->known_simple).number(mesh->convex);
+  builder.number(mesh->keep_facets).number(mesh->convex);
   facts.topology = builder.key();
   facts.lo.fill(std::numeric_limits<double>::infinity());
   facts.hi.fill(-std::numeric_limits<double>::infinity());
@@ -141,7 +141,7 @@ std::optional<QuantisedLeaf> LeafStore::quantise(uint32_t index, const NormalNod
   }
   const bool turn = rounding.in_world && known.split.determinant < 0;
   KeyBuilder builder("leaf");
-  builder.number(kKernelVersion).numbers(mesh_facts.topology).number(turn).number(rounding.in_world);
+  builder.number(kKernelVersion).numbers(mesh_facts.topology).number(turn);
   builder.number(result.paint != kUnpainted);
   if (result.paint == kUnpainted) {
     for (uint32_t id : mesh_facts.appearance) builder.numbers(appearances_.key(id));
@@ -163,7 +163,7 @@ std::optional<QuantisedLeaf> LeafStore::quantise(uint32_t index, const NormalNod
   if (!prepared) {
     const std::vector<uint32_t> plain(result.paint == kUnpainted ? 0 : mesh.face_count(), 0);
     auto made = std::make_shared<PreparedLeaf>(
-        prepare_leaf(mesh, *points, turn, rounding.in_world,
+        prepare_leaf(mesh, *points, turn,
                      result.paint == kUnpainted ? mesh_facts.appearance : plain));
     if (made->geometry) bytes_ += memory_of(*made->geometry);
     prepared = std::move(made);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -11,9 +12,6 @@ namespace csgrun {
 namespace {
 
 using Int128 = __int128;
-
-// Rounding moves a point by half a step; features this many steps long cannot be turned over by it.
-constexpr int64_t kSafeEdge = 64;
 
 struct PointHash {
   size_t operator()(const IVec3& p) const {
@@ -30,7 +28,7 @@ struct PointHash {
 struct Merged {
   std::vector<IVec3> vertices;
   std::vector<LoopFace> faces;
-  bool merged = false;
+  bool any = false;  // points became one
 };
 
 Merged merge_points(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
@@ -54,7 +52,7 @@ Merged merge_points(const PolygonMesh& mesh, const std::vector<IVec3>& points, b
           const auto [found, is_new] = vertex_at.try_emplace(
               points[point], static_cast<uint32_t>(result.vertices.size()));
           if (is_new) result.vertices.push_back(points[point]);
-          result.merged |= !is_new;
+          result.any |= !is_new;
           vertex_of[point] = found->second;
         }
         loop.push_back(vertex_of[point]);
@@ -88,46 +86,61 @@ LeafGeometry pack(const std::vector<IVec3>& vertices, const std::vector<LoopFace
   return leaf;
 }
 
-struct DirectedEdge {
-  uint32_t from, to, face;
+/// The directed edges of a leaf by the vertex that they leave, then by the one that they reach.
+class EdgeTable {
+ public:
+  struct Edge {
+    uint32_t to, face;
+    bool operator<(const Edge& o) const { return std::pair(to, face) < std::pair(o.to, o.face); }
+  };
+
+  explicit EdgeTable(const LeafGeometry& leaf) : starts_(leaf.vertices.size() + 1, 0) {
+    for (uint32_t v : leaf.corners) ++starts_[v + 1];
+    for (size_t v = 1; v < starts_.size(); ++v) starts_[v] += starts_[v - 1];
+    edges_.resize(leaf.corners.size());
+    std::vector<uint32_t> next(starts_.begin(), starts_.end() - 1);
+    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+      const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+      for (uint32_t c = begin; c < end; ++c) {
+        const uint32_t to = leaf.corners[c + 1 < end ? c + 1 : begin];
+        edges_[next[leaf.corners[c]]++] = {to, f};
+      }
+    }
+    for (uint32_t v = 0; v + 1 < starts_.size(); ++v) {
+      std::sort(edges_.begin() + starts_[v], edges_.begin() + starts_[v + 1]);
+    }
+  }
+
+  [[nodiscard]] size_t vertex_count() const { return starts_.size() - 1; }
+  [[nodiscard]] std::span<const Edge> leaving(uint32_t v) const {
+    return {edges_.data() + starts_[v], starts_[v + 1] - starts_[v]};
+  }
+  /// The edges from one vertex to another.
+  [[nodiscard]] std::span<const Edge> between(uint32_t from, uint32_t to) const {
+    const auto all = leaving(from);
+    const auto first = std::partition_point(all.begin(), all.end(),
+                                            [to](const Edge& e) { return e.to < to; });
+    auto last = first;
+    while (last != all.end() && last->to == to) ++last;
+    return {first, last};
+  }
+  /// Whether every directed edge occurs as often as its reverse.
+  [[nodiscard]] bool is_balanced() const {
+    for (uint32_t v = 0; v < vertex_count(); ++v) {
+      const auto all = leaving(v);
+      for (size_t i = 0; i < all.size();) {
+        const auto same = between(v, all[i].to);
+        if (between(all[i].to, v).size() != same.size()) return false;
+        i += same.size();
+      }
+    }
+    return true;
+  }
+
+ private:
+  std::vector<uint32_t> starts_;
+  std::vector<Edge> edges_;
 };
-
-std::vector<DirectedEdge> directed_edges(const LeafGeometry& leaf) {
-  std::vector<DirectedEdge> edges;
-  edges.reserve(leaf.corners.size());
-  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
-    for (uint32_t c = begin; c < end; ++c) {
-      edges.push_back({leaf.corners[c], leaf.corners[c + 1 < end ? c + 1 : begin], f});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
-    return std::tie(a.from, a.to, a.face) < std::tie(b.from, b.to, b.face);
-  });
-  return edges;
-}
-
-bool is_balanced(const std::vector<DirectedEdge>& edges) {
-  std::vector<std::pair<uint32_t, uint32_t>> reversed;
-  reversed.reserve(edges.size());
-  for (const DirectedEdge& e : edges) reversed.emplace_back(e.to, e.from);
-  std::sort(reversed.begin(), reversed.end());
-  for (size_t i = 0; i < edges.size(); ++i) {
-    if (reversed[i] != std::pair(edges[i].from, edges[i].to)) return false;
-  }
-  return true;
-}
-
-bool has_short_edge(const LeafGeometry& leaf, const std::vector<DirectedEdge>& edges) {
-  return std::any_of(edges.begin(), edges.end(), [&](const DirectedEdge& e) {
-    double squares = 0;
-    for (int i = 0; i < 3; ++i) {
-      const auto d = static_cast<double>(leaf.vertices[e.from][i] - leaf.vertices[e.to][i]);
-      squares += d * d;
-    }
-    return squares < static_cast<double>(kSafeEdge * kSafeEdge);
-  });
-}
 
 /// Six times the volume, its sign exact while coordinates are below 2^30 (and there are fewer than
 /// 2^33 corners); far leaves are huge, so that doubles decide.
@@ -162,7 +175,7 @@ double signed_volume(const LeafGeometry& leaf, const GridBox& box) {
 
 /// Whether no face has a neighbour in front of it. For the surface of one body of genus 0, which a
 /// mesh that promises to be convex is, this is convexity.
-bool is_locally_convex(const LeafGeometry& leaf, const std::vector<DirectedEdge>& edges) {
+bool is_locally_convex(const LeafGeometry& leaf, const EdgeTable& edges) {
   std::vector<CornerPlane> planes(leaf.face_count());
   for (size_t f = 0; f < planes.size(); ++f) {
     const uint32_t begin = leaf.face_starts[f];
@@ -171,18 +184,14 @@ bool is_locally_convex(const LeafGeometry& leaf, const std::vector<DirectedEdge>
       return false;
     }
   }
-  for (const DirectedEdge& e : edges) {
-    const auto reverse = std::pair(e.to, e.from);
-    const auto found = std::lower_bound(
-        edges.begin(), edges.end(), reverse, [](const DirectedEdge& a, const auto& key) {
-          return std::pair(a.from, a.to) < key;
-        });
-    if (std::next(found) != edges.end() && std::next(found)->from == e.to &&
-        std::next(found)->to == e.from) {
-      return false;
-    }
-    for (uint32_t c = leaf.face_starts[found->face]; c < leaf.face_starts[found->face + 1]; ++c) {
-      if (planes[e.face].side(leaf.vertices[leaf.corners[c]]) > 0) return false;
+  for (uint32_t v = 0; v < edges.vertex_count(); ++v) {
+    for (const EdgeTable::Edge& edge : edges.leaving(v)) {
+      const auto reverse = edges.between(edge.to, v);
+      if (reverse.size() != 1) return false;
+      const uint32_t other = reverse[0].face;
+      for (uint32_t c = leaf.face_starts[other]; c < leaf.face_starts[other + 1]; ++c) {
+        if (planes[edge.face].side(leaf.vertices[leaf.corners[c]]) > 0) return false;
+      }
     }
   }
   return true;
@@ -217,10 +226,10 @@ std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh, const Le
 }
 
 PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
-                          bool in_world, const std::vector<uint32_t>& appearance) {
+                          const std::vector<uint32_t>& appearance) {
   PreparedLeaf result;
   Merged merged = merge_points(mesh, points, turn, appearance);
-  const bool collapsed = make_convex_faces(merged.vertices, mesh.convex, merged.faces);
+  make_convex_faces(merged.vertices, mesh.convex, merged.any, merged.faces);
   auto leaf = std::make_shared<LeafGeometry>(pack(merged.vertices, merged.faces));
   if (leaf->face_count() == 0) return result;
   result.box.lo = result.box.hi = leaf->vertices[0];
@@ -230,16 +239,15 @@ PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& poi
       result.box.hi[i] = std::max(result.box.hi[i], v[i]);
     }
   }
-  const auto edges = directed_edges(*leaf);
-  if (!is_balanced(edges)) {
+  const EdgeTable edges(*leaf);
+  if (!edges.is_balanced()) {
     result.status = PreparedLeaf::Status::kOpen;
     return result;
   }
-  // A promise that the mesh is simple holds for its own proportions, and while faces moved little
-  // against their size.
-  const bool is_spoilt =
-      in_world || merged.merged || collapsed || has_short_edge(*leaf, edges);
-  if (!mesh.known_simple || is_spoilt) {
+  // Rounding can close a gap that is narrower than a step, whatever was promised of the original
+  // mesh; convexity is seen from the faces themselves.
+  leaf->convex = mesh.convex && is_locally_convex(*leaf, edges);
+  if (!leaf->convex) {
     if (const auto found = find_self_intersection(*leaf)) {
       result.status = PreparedLeaf::Status::kSelfIntersecting;
       result.intersection = *found;
@@ -252,7 +260,6 @@ PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& poi
     result.status = PreparedLeaf::Status::kInsideOut;
     return result;
   }
-  leaf->convex = mesh.convex && is_locally_convex(*leaf, edges);
   result.status = PreparedLeaf::Status::kGood;
   result.geometry = std::move(leaf);
   return result;

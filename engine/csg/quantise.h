@@ -47,10 +47,10 @@ struct PreparedLeaf {
 };
 
 /// Makes the faces of `mesh` over integer `points` planar and convex, and checks that they enclose a
-/// solid (see LeafGeometry). `turn` reverses every loop. `appearance` has an id per face.
-/// `in_world`: the promises of the mesh (known_simple) were made for other proportions.
+/// solid (see LeafGeometry). `turn` reverses every loop. `appearance` has an id per face. The mesh's
+/// promise to be convex is verified, that it is simple is not relied on.
 PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
-                          bool in_world, const std::vector<uint32_t>& appearance);
+                          const std::vector<uint32_t>& appearance);
 
 /// The geometry in other axes. A mirroring permutation reverses every loop.
 LeafGeometry permuted(const LeafGeometry& leaf, const SignedPermutation& permutation);

@@ -29,7 +29,7 @@ std::vector<IVec3> whole_points(const PolygonMesh& mesh) {
 }
 
 PreparedLeaf prepare(const PolygonMesh& mesh) {
-  return prepare_leaf(mesh, whole_points(mesh), false, false, plain(mesh));
+  return prepare_leaf(mesh, whole_points(mesh), false, plain(mesh));
 }
 
 /// The invariants of LeafGeometry, checked directly.
@@ -193,12 +193,11 @@ TEST(PrepareLeaf, FaultsAreFound) {
   EXPECT_EQ(prepare(open).status, Status::kOpen);
 
   auto inside_out = box_mesh({0, 0, 0}, {100, 100, 100});
-  EXPECT_EQ(prepare_leaf(inside_out, whole_points(inside_out), true, false, plain(inside_out)).status,
+  EXPECT_EQ(prepare_leaf(inside_out, whole_points(inside_out), true, plain(inside_out)).status,
             Status::kInsideOut);
 
   auto crossing = box_mesh({0, 0, 0}, {100, 100, 100});
   crossing.points[7] = {-50, -50, 50};
-  crossing.known_simple = false;
   const auto leaf = prepare(crossing);
   EXPECT_EQ(leaf.status, Status::kSelfIntersecting);
   EXPECT_GT(leaf.intersection.count, 0u);
@@ -241,7 +240,7 @@ TEST(PrepareLeaf, RandomPointsOnCoarseGridsStayClosed) {
     LeafRounding rounding;
     const auto points = round_points(mesh, rounding, Quantiser(*GridStep::parse("1")));
     ASSERT_TRUE(points.has_value());
-    const auto leaf = prepare_leaf(mesh, *points, false, false, plain(mesh));
+    const auto leaf = prepare_leaf(mesh, *points, false, plain(mesh));
     EXPECT_NE(leaf.status, Status::kOpen) << radius;
     if (leaf.status == Status::kGood) expect_valid(*leaf.geometry);
     if (radius > 50) {

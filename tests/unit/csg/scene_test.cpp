@@ -14,7 +14,7 @@ class SceneTest : public ::testing::Test {
  protected:
   Scene scene(const std::vector<NodePtr>& parts, GridStep step = {}) {
     std::vector<uint32_t> roots;
-    for (const auto& part : parts) roots.push_back(*form.add(part));
+    for (const auto& root_node : parts) roots.push_back(*form.add(root_node));
     SceneContext context{form, store, appearances, warnings, [] { return false; }};
     auto result = build_scene(context, roots, step);
     EXPECT_TRUE(result.has_value()) << result.error().message;
