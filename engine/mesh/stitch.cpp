@@ -179,9 +179,11 @@ int dot_sign(const Plane& a, const Plane& b) {
 }
 
 /// Pairs the sheets around an edge: material lies clockwise of a forward sheet (seen with the edge
-/// pointing at the viewer) and counter-clockwise of a backward one, so each backward sheet's partner
-/// is the next forward one counter-clockwise.
-bool pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order,
+/// pointing at the viewer) and counter-clockwise of a backward one, so a backward sheet's partner is
+/// the next forward one counter-clockwise. A face that the edge only touches has no sheets here, and
+/// two backward ones may follow each other: then they pair as brackets do. REQUIRES: as many forward
+/// as backward ones.
+void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order,
                  std::vector<uint32_t>& twin) {
   const Sheet first = sheets[0];
   for (Sheet& s : sheets) {
@@ -192,18 +194,25 @@ bool pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order,
     if (a.half != b.half) return a.half < b.half;
     return order.turn(a.normal, b.normal) > 0;
   });
-  for (size_t i = 0; i < sheets.size(); ++i) {
-    if (sheets[i].forward) continue;
-    const Sheet& next = sheets[(i + 1) % sheets.size()];
-    if (!next.forward) return false;
-    twin[sheets[i].half_edge] = next.half_edge;
-    twin[next.half_edge] = sheets[i].half_edge;
+  // Twice around: the first time closes what was opened before the start.
+  std::vector<uint32_t> open;
+  for (size_t i = 0; i < 2 * sheets.size(); ++i) {
+    const Sheet& s = sheets[i % sheets.size()];
+    if (twin[s.half_edge] != kNone) continue;
+    if (!s.forward) {
+      if (i < sheets.size()) open.push_back(s.half_edge);
+    } else if (!open.empty()) {
+      twin[s.half_edge] = open.back();
+      twin[open.back()] = s.half_edge;
+      open.pop_back();
+    }
   }
-  return true;
 }
 
+/// `crowded`: the forward half-edges of each edge where more than two triangles meet.
 bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
-                CellGeometry& geometry, const PlaneTable& planes, std::vector<uint32_t>& twin) {
+                CellGeometry& geometry, const PlaneTable& planes, std::vector<uint32_t>& twin,
+                std::vector<std::vector<uint32_t>>& crowded) {
   std::vector<EdgeRef> refs;
   refs.reserve(set.triangles.size() * 3);
   for (uint32_t t = 0; t < set.triangles.size(); ++t) {
@@ -237,27 +246,22 @@ bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
           break;
         }
       }
-      if (!pair_sheets(sheets, RadialOrder(along), twin)) return false;
+      pair_sheets(sheets, RadialOrder(along), twin);
+      crowded.emplace_back();
+      for (const Sheet& s : sheets) {
+        if (s.forward) crowded.back().push_back(s.half_edge);
+      }
     }
     i = j;
   }
   return true;
 }
 
-}  // namespace
-
-bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
-                CellGeometry& geometry, const PlaneTable& planes, VertexFans& fans) {
-  std::vector<uint32_t> twin;
-  if (!find_twins(set, faces, geometry, planes, twin)) return false;
-  const auto corners = static_cast<uint32_t>(twin.size());
-  fans.vertex_of_corner.assign(corners, kNone);
+/// One vertex for each fan of triangles that are joined across edges.
+void walk_fans(const TriangleSet& set, const std::vector<uint32_t>& order,
+               const std::vector<uint32_t>& twin, VertexFans& fans) {
+  fans.vertex_of_corner.assign(twin.size(), kNone);
   fans.point_of_vertex.clear();
-  std::vector<uint32_t> order(corners);
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    return set.triangles[a / 3][a % 3] < set.triangles[b / 3][b % 3];
-  });
   for (const uint32_t start : order) {
     if (fans.vertex_of_corner[start] != kNone) continue;
     const auto vertex = static_cast<uint32_t>(fans.point_of_vertex.size());
@@ -271,6 +275,50 @@ bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
       c = across / 3 * 3 + (across % 3 + 1) % 3;
     } while (c != start);
   }
+}
+
+/// Two wedges that touch along an edge and are one fan at both of its ends would be two edges between
+/// the same two vertices. Exchanging the partners of their sheets parts both fans (a closed walk that
+/// passes a place twice falls in two there), and the edges with them. False when all is well.
+bool part_double_edges(const std::vector<std::vector<uint32_t>>& crowded, const VertexFans& fans,
+                       std::vector<uint32_t>& twin) {
+  std::vector<uint8_t> parted(fans.point_of_vertex.size(), 0);
+  bool any = false;
+  const auto ends = [&](uint32_t h) {
+    return std::pair(fans.vertex_of_corner[h], fans.vertex_of_corner[h / 3 * 3 + (h % 3 + 1) % 3]);
+  };
+  for (const auto& halves : crowded) {
+    for (size_t i = 0; i < halves.size(); ++i) {
+      for (size_t j = i + 1; j < halves.size(); ++j) {
+        const auto [a, b] = ends(halves[i]);
+        // A fan that was parted already has other vertices: next time.
+        if (ends(halves[j]) != std::pair(a, b) || parted[a] || parted[b]) continue;
+        std::swap(twin[halves[i]], twin[halves[j]]);
+        twin[twin[halves[i]]] = halves[i];
+        twin[twin[halves[j]]] = halves[j];
+        parted[a] = parted[b] = 1;
+        any = true;
+      }
+    }
+  }
+  return any;
+}
+
+}  // namespace
+
+bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
+                CellGeometry& geometry, const PlaneTable& planes, VertexFans& fans) {
+  std::vector<uint32_t> twin;
+  std::vector<std::vector<uint32_t>> crowded;
+  if (!find_twins(set, faces, geometry, planes, twin, crowded)) return false;
+  std::vector<uint32_t> order(twin.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return set.triangles[a / 3][a % 3] < set.triangles[b / 3][b % 3];
+  });
+  do {
+    walk_fans(set, order, twin, fans);
+  } while (part_double_edges(crowded, fans, twin));
   return true;
 }
 

@@ -23,8 +23,9 @@ struct TriangleSet {
 
 /// Per corner of a triangle (3 t + k) the vertex it belongs to, and per vertex its point. Around an
 /// edge where more than two triangles meet, each pair that bounds the same wedge of material is
-/// joined, found by the exact radial order: solids that touch along an edge are apart. Vertices are in
-/// order of points, then of triangles.
+/// joined, found by the exact radial order: solids that touch along an edge are apart, unless they are
+/// connected around both ends of it (then they are joined along it, so that no two edges have the same
+/// vertices). Vertices are in order of points, then of triangles.
 struct VertexFans {
   std::vector<uint32_t> vertex_of_corner;
   std::vector<uint32_t> point_of_vertex;
