@@ -1,82 +1,32 @@
-// Identities of Booleans on random pairs of small solids, exactly.
-#include <cstdlib>
-
+// Identities of Booleans on random solids with vertices in {0..5}^3, exactly.
 #include <gtest/gtest.h>
 
-#include "tests/support/exact_measures.h"
-#include "tests/support/kernel_case.h"
-#include "tests/support/oracle.h"
+#include "tests/support/kernel_checks.h"
 
 namespace csgrun {
 namespace {
 
 using namespace test;  // NOLINT: a test
 
-int cases(int in_ci) {
-  const char* given = std::getenv("CSGRUN_CASES");
-  return given ? std::atoi(given) : in_ci;
+std::vector<Operand> random_leaves(Random& random, int64_t n) {
+  std::vector<Operand> leaves;
+  for (; n > 0; --n) leaves.push_back(operand_of(random_leaf(random)));
+  return leaves;
 }
 
-/// A point near something: a vertex, or between two of them, moved a little or a lot.
-Query random_query(Random& random, const ExactSolid& a, const ExactSolid& b) {
-  const ExactSolid& s = (random.bits() & 1) && !b.points.empty() ? b : a;
-  Query q{};
-  const auto pick = [&] {
-    return s
-        .points[static_cast<size_t>(random.integer(0, static_cast<int64_t>(s.points.size()) - 1))];
-  };
-  const auto p = pick(), r = pick();
-  const double t = random.unit(), reach = std::ldexp(1.0, -static_cast<int>(random.integer(0, 10)));
-  for (int k = 0; k < 3; ++k) {
-    q[k] = p[k].get_d() + t * (r[k].get_d() - p[k].get_d()) + (random.unit() - 0.5) * reach;
-  }
-  return q;
+std::vector<Oracle> oracles_of(const std::vector<Operand>& leaves) {
+  std::vector<Oracle> oracles;
+  for (const Operand& o : leaves) oracles.emplace_back(exact_solid(o));
+  return oracles;
 }
 
-/// Compares a result with the expression at points; the count of disagreements.
-std::string disagreement(Random& random, const Tree& tree, const std::vector<Oracle>& leaves,
-                         const BoundaryMesh& result, int points) {
-  const Oracle oracle(exact_solid(result));
-  for (int i = 0; i < points; ++i) {
-    const auto& some =
-        leaves[static_cast<size_t>(random.integer(0, static_cast<int64_t>(leaves.size()) - 1))];
-    const Query q = random_query(random, some.solid(), oracle.solid());
-    std::vector<bool> inside;
-    bool known = true;
-    for (const Oracle& o : leaves) {
-      const auto w = o.winding(q);
-      known = known && w.has_value();
-      if (!known) break;
-      if (*w != 0 && *w != 1) return "a leaf is not sound";
-      inside.push_back(*w == 1);
-    }
-    const auto w = oracle.winding(q);
-    if (!known || !w) continue;
-    if (*w != (tree.inside(inside) ? 1 : 0)) {
-      return "winding number " + std::to_string(*w) + " of " + tree.text() + " at " +
-             std::to_string(q[0]) + " " + std::to_string(q[1]) + " " + std::to_string(q[2]);
-    }
-  }
-  return "";
-}
-
-KernelOptions random_options(Random& random) {
-  KernelOptions o;
-  constexpr uint32_t kLimits[] = {1, 3, 9, 17, 33};
-  o.cell_limit = kLimits[random.integer(0, 4)];
-  for (auto& s : o.octree_shift) s = static_cast<uint32_t>(random.integer(0, 3));
-  return o;
-}
-
-TEST(Identities, HoldOnRandomPairs) {
+TEST(Identities, VolumesOfRandomPairs) {
   Random random(1);
   const int n = cases(600);
   for (int i = 0; i < n; ++i) {
-    const std::vector<Operand> leaves{operand_of(random_leaf(random)),
-                                      operand_of(random_leaf(random))};
-    const std::vector<Oracle> oracles{Oracle(exact_solid(leaves[0])),
-                                      Oracle(exact_solid(leaves[1]))};
     SCOPED_TRACE("case " + std::to_string(i));
+    const auto leaves = random_leaves(random, 2);
+    const auto oracles = oracles_of(leaves);
     mpq_class v[5];
     const Tree trees[5] = {join({leaf(0), leaf(1)}), meet({leaf(0), leaf(1)}),
                            less({leaf(0), leaf(1)}), less({leaf(1), leaf(0)}),
@@ -93,6 +43,150 @@ TEST(Identities, HoldOnRandomPairs) {
     ASSERT_EQ(v[2], a - v[1]);
     ASSERT_EQ(v[3], b - v[1]);
     ASSERT_EQ(v[4], v[0] - v[1]);
+  }
+}
+
+TEST(Identities, PresentedResultsAreManifold) {
+  Random random(2);
+  const int n = cases(300);
+  const PresentContext context = test_context();
+  for (int i = 0; i < n; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const auto leaves = random_leaves(random, random.integer(1, 3));
+    const Tree tree = random_tree(random, 0, static_cast<int>(leaves.size()) - 1);
+    const auto r = evaluate(tree, leaves, random_options(random));
+    ASSERT_TRUE(r) << tree.text() << ": " << text(r.error());
+    const auto solid = present(**r, context);
+    ASSERT_TRUE(solid) << tree.text() << ": " << text(solid.error());
+    ASSERT_EQ(fault_in(**solid, **r), "") << tree.text();
+  }
+}
+
+// The value of an expression does not depend on the way of evaluation: flat, with any subtrees
+// materialised on the way, in cells of any size, from any origin.
+TEST(Identities, OneValueForEveryWayOfEvaluation) {
+  Random random(3);
+  const int n = cases(300);
+  const PresentContext context = test_context();
+  for (int i = 0; i < n; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const auto leaves = random_leaves(random, random.integer(2, 6));
+    const auto oracles = oracles_of(leaves);
+    const Tree tree = random_tree(random, 0, static_cast<int>(leaves.size()) - 1);
+    const auto flat = evaluate(tree, leaves);
+    ASSERT_TRUE(flat) << tree.text() << ": " << text(flat.error());
+    ASSERT_EQ(fault_in(**flat), "") << tree.text();
+    ASSERT_EQ(disagreement(random, tree, oracles, **flat, 60), "");
+    const auto flat_solid = present(**flat, context);
+    ASSERT_TRUE(flat_solid) << text(flat_solid.error());
+    for (int way = 0; way < 3; ++way) {
+      const bool all = way == 0;
+      const auto r = evaluate(tree, leaves, random_options(random),
+                              [&](const Tree&) { return all || (random.bits() & 1); });
+      ASSERT_TRUE(r) << tree.text() << ": " << text(r.error());
+      ASSERT_EQ(difference_between(**flat, **r), "") << tree.text();
+      const auto solid = present(**r, context);
+      ASSERT_TRUE(solid) << text(solid.error());
+      ASSERT_EQ(difference_between(**flat_solid, **solid), "") << tree.text();
+    }
+  }
+}
+
+TEST(Identities, OneValueForAllCellsOriginsAndThreads) {
+  Random random(4);
+  const int n = cases(12);
+  for (int i = 0; i < n; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    // Grown, so that there are many cells and a shift does something.
+    std::vector<Operand> leaves;
+    for (int64_t k = random.integer(2, 5); k > 0; --k) {
+      GridMap map;
+      for (int a = 0; a < 3; ++a) map.rows[a][a] = 7, map.move[a] = 7 * random.integer(-1, 1);
+      leaves.push_back(operand_of(make_leaf(mapped(random_loops(random), map))));
+    }
+    const Tree tree = random_tree(random, 0, static_cast<int>(leaves.size()) - 1);
+    const auto first = evaluate(tree, leaves);
+    ASSERT_TRUE(first) << text(first.error());
+    for (const uint32_t limit : {1u, 3u, 9u, 17u, 33u}) {
+      for (const std::array<uint32_t, 3> shift :
+           {std::array<uint32_t, 3>{0, 0, 0}, {1, 0, 5}, {13, 6, 2}}) {
+        for (const unsigned threads : {1u, 2u, 7u}) {
+          KernelOptions options;
+          options.cell_limit = limit;
+          options.octree_shift = shift;
+          options.threads = threads;
+          const auto r = evaluate(tree, leaves, options);
+          ASSERT_TRUE(r) << text(r.error());
+          ASSERT_EQ(difference_between(**first, **r), "")
+              << tree.text() << " m " << limit << " threads " << threads;
+        }
+      }
+    }
+  }
+}
+
+/// A presented solid without the labels that only say where faces come from.
+struct Shape {
+  std::vector<glm::dvec3> positions;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<uint32_t> loop_starts, loop_vertices;
+  bool operator==(const Shape&) const = default;
+};
+
+class ShapeOf {
+ public:
+  explicit ShapeOf(const std::vector<Operand>& leaves, Random& random)
+      : leaves_(leaves), random_(random) {}
+  Shape operator()(const Tree& tree) {
+    const auto r = evaluate(tree, leaves_, random_options(random_),
+                            [&](const Tree&) { return random_.bits() & 1; });
+    EXPECT_TRUE(r) << tree.text() << ": " << text(r.error());
+    if (!r) return {};
+    const auto solid = present(**r, test_context());
+    EXPECT_TRUE(solid) << tree.text() << ": " << text(solid.error());
+    if (!solid) return {};
+    return {(*solid)->positions, (*solid)->triangles, (*solid)->loop_starts,
+            (*solid)->loop_vertices};
+  }
+
+ private:
+  const std::vector<Operand>& leaves_;
+  Random& random_;
+};
+
+TEST(Identities, LawsOfSetAlgebra) {
+  Random random(5);
+  const int n = cases(100);
+  for (int i = 0; i < n; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    std::vector<Operand> leaves;
+    for (int k = 0; k < 3; ++k) leaves.push_back(operand_of(make_leaf(random_loops(random))));
+    leaves.push_back(operand_of(box_leaf({-1, -1, -1}, {6, 6, 6})));
+    leaves.push_back(operand_of(box_leaf({0, 0, 0}, {5, 5, 5})));
+    ShapeOf shape(leaves, random);
+    const Tree a = leaf(0), b = leaf(1), c = leaf(2);
+    ASSERT_TRUE(shape(less({a, a})).triangles.empty());
+    ASSERT_TRUE(shape(differ({a, a})).triangles.empty());
+    const Shape alone = shape(a);
+    ASSERT_FALSE(alone.triangles.empty());
+    ASSERT_EQ(shape(join({a, a})), alone);
+    ASSERT_EQ(shape(meet({a, a})), alone);
+    ASSERT_EQ(shape(differ({a, b, b})), alone);
+    ASSERT_EQ(shape(join({a, meet({a, b})})), alone);
+    ASSERT_EQ(shape(meet({a, join({a, b})})), alone);
+    ASSERT_EQ(shape(join({meet({a, b}), less({a, b})})), alone);
+    for (const Tree& box : {leaf(3), leaf(4)}) {
+      ASSERT_EQ(shape(less({box, less({box, a})})), alone);
+      ASSERT_EQ(shape(less({box, join({a, b})})), shape(meet({less({box, a}), less({box, b})})));
+      ASSERT_EQ(shape(less({box, meet({a, b})})), shape(join({less({box, a}), less({box, b})})));
+      ASSERT_EQ(shape(less({box, differ({a, b})})), shape(differ({less({box, a}), b})));
+    }
+    ASSERT_EQ(shape(join({a, b, c})), shape(join({join({c, b}), a})));
+    ASSERT_EQ(shape(meet({a, b, c})), shape(meet({c, meet({b, a})})));
+    ASSERT_EQ(shape(differ({a, b, c})), shape(differ({b, differ({c, a})})));
+    ASSERT_EQ(shape(less({a, b, c})), shape(less({a, join({c, b})})));
+    ASSERT_EQ(shape(meet({a, join({b, c})})), shape(join({meet({a, b}), meet({a, c})})));
+    ASSERT_EQ(shape(differ({a, b})), shape(join({less({a, b}), less({b, a})})));
   }
 }
 
