@@ -62,9 +62,11 @@ void CellSolver::solve(const Octree& tree, const CriticalCell& cell,
     operand.bsp.build(geometry_, operand.polygons, presence.corner_inside);
     slot_of_operand_[presence.operand] = i;
   }
+  contact_ = false;
   for (uint32_t i = 0; i < operand_count_; ++i) {
     for (const Fragment& f : operands_[i].polygons) solve_polygon(cell.expression, i, f, out);
   }
+  cells_with_contact_ += contact_;
 }
 
 void CellSolver::solve_polygon(const PrunedExpression& expression, uint32_t own, const Fragment& f,
@@ -84,6 +86,7 @@ void CellSolver::solve_polygon(const PrunedExpression& expression, uint32_t own,
     for (Labelled& l : current_) {
       pieces_.clear();
       operands_[other].bsp.classify(geometry_, l.fragment, pieces_);
+      contact_ |= pieces_.size() > 1 || pieces_[0].front_inside != pieces_[0].back_inside;
       for (const LocalBsp::Piece& p : pieces_) {
         Labelled r{p.fragment, l.front, l.back};
         r.front[other] = p.front_inside ? Inside::kYes : Inside::kNo;

@@ -28,6 +28,8 @@ class CellSolver {
             FragmentSet& out);
 
   [[nodiscard]] const SignCounters& counters() const { return geometry_.counters; }
+  /// In how many of the solved cells surfaces of different operands were found to meet.
+  [[nodiscard]] uint64_t cells_with_contact() const { return cells_with_contact_; }
   /// The solver's working memory, for others that solve a cell in its place.
   CellGeometry& geometry() { return geometry_; }
 
@@ -51,6 +53,8 @@ class CellSolver {
   CellGeometry geometry_;
   std::vector<Operand> operands_;
   uint32_t operand_count_ = 0;
+  uint64_t cells_with_contact_ = 0;
+  bool contact_ = false;
   std::vector<uint32_t> slot_of_operand_;
   std::vector<uint32_t> numbers_;
   std::vector<Inside> scratch_;

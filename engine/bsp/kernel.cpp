@@ -73,9 +73,11 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   const size_t copy_runs = (work.cut_copies.size() + kCellsPerRun - 1) / kCellsPerRun;
   std::vector<FragmentSet> sets(critical_runs + copy_runs);
   std::vector<SignCounters> counters(sets.size());
+  std::vector<uint64_t> contacts(sets.size(), 0);
   const auto solve_run = [&](CellSolver& solver, size_t run) {
     if (cancelled()) return;
     const SignCounters before = solver.counters();
+    const uint64_t contacts_before = solver.cells_with_contact();
     if (run < critical_runs) {
       const size_t end = std::min(tree.critical.size(), (run + 1) * kCellsPerRun);
       for (size_t c = run * kCellsPerRun; c < end; ++c) {
@@ -95,6 +97,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
                     work.copied_walls[work.walls_of_copied_cell[piece.cell]], piece.flip, sets[run]);
       }
     }
+    contacts[run] = solver.cells_with_contact() - contacts_before;
     counters[run] = solver.counters();
     counters[run].subtract(before);
   };
@@ -118,7 +121,8 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   for (const SignCounters& c : counters) total.add(c);
   stats.cells += tree.cells;
   stats.surface_cells += tree.surface_cells;
-  stats.critical_cells += tree.critical.size();
+  stats.solved_cells += tree.critical.size();
+  for (const uint64_t c : contacts) stats.critical_cells += c;
   stats.sign_filter += total.filter;
   stats.sign_symbolic += total.symbolic;
   for (size_t t = 0; t < total.exact.size(); ++t) stats.sign_exact[t] += total.exact[t];

@@ -218,7 +218,9 @@ class OctreeBuilder {
     const bool flip = expression.form() == PrunedExpression::Form::kComplement;
     const auto cell = static_cast<uint32_t>(tree_.copied_cells.size());
     tree_.copied_cells.push_back(box);
-    ++tree_.surface_cells;
+    uint32_t polygons = 0;
+    for (size_t i = first; i < presences_.size(); ++i) polygons += presences_[i].count;
+    tree_.surface_cells += std::max<uint32_t>(1, (polygons + limit_ - 1) / limit_);
     for (size_t i = first; i < presences_.size(); ++i) {
       const Presence& p = presences_[i];
       if (p.operand != expression.single()) {

@@ -51,7 +51,10 @@ struct Octree {
   };
   std::vector<CopiedPiece> copied;
   std::vector<CellBox> copied_cells;
-  uint64_t cells = 0, surface_cells = 0;
+  uint64_t cells = 0;
+  /// Cells that hold surface. A cell that is copied is never divided, however many polygons it holds;
+  /// it counts as the cells of m polygons that it would make.
+  uint64_t surface_cells = 0;
 };
 
 /// Builds the octree over `region`; makes planes where corners are traced. `options.cell_limit` is m.

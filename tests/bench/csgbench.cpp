@@ -113,11 +113,10 @@ class Run {
         mesh.face_starts.push_back(static_cast<uint32_t>(t));
       }
       mesh.keep_facets = keep_facets;
-      mesh.known_simple = !keep_facets;
       const auto points = round_points(mesh, LeafRounding{}, quantiser_);
       if (!points) fail("the mesh does not fit the grid");
       const std::vector<uint32_t> appearance(mesh.face_count(), 0);
-      PreparedLeaf leaf = prepare_leaf(mesh, *points, false, false, appearance);
+      PreparedLeaf leaf = prepare_leaf(mesh, *points, false, appearance);
       if (leaf.status != PreparedLeaf::Status::kGood) fail("not a clean solid after quantisation");
       Operand operand;
       operand.leaf = leaf.geometry;
@@ -167,12 +166,13 @@ class Run {
     fmt::print(
         R"({{"name":"{}","threads":{},"n_in_tris":{},"n_out_tris":{},"import_s":{:.6f},"op_s":{:.6f},)"
         R"("export_s":{:.6f},"cpu_s":{:.6f},"rss_mb":{:.1f},"volume":{},"area":{},"closed":{},)"
-        R"("counters":{{"cells":{},"surface_cells":{},"critical_cells":{},"filter":{},"symbolic":{},)"
+        R"("counters":{{"cells":{},"surface_cells":{},"solved_cells":{},"critical_cells":{},"filter":{},"symbolic":{},)"
         R"("exact64":{},"exact128":{},"exact192":{},"exact256":{},"exact384":{},"exact512":{}{}}}}})"
         "\n",
         name_, settings_.threads, input_triangles_, solid.triangles.size(), clock.import, clock.op,
         clock.exporting, clock.cpu, rss, solid.measures.volume, solid.measures.area,
-        solid.measures.closed, s.cells, s.surface_cells, s.critical_cells, s.sign_filter,
+        solid.measures.closed, s.cells, s.surface_cells,
+        s.solved_cells, s.critical_cells, s.sign_filter,
         s.sign_symbolic, s.sign_exact[0], s.sign_exact[1], s.sign_exact[2], s.sign_exact[3],
         s.sign_exact[4], s.sign_exact[5], extra);
     std::fflush(stdout);

@@ -45,7 +45,10 @@ struct EvaluateStats {
   double leaf_seconds = 0, boolean_seconds = 0;
   double grid_mm = 0;
   uint64_t nodes_evaluated = 0, nodes_from_memory = 0, nodes_from_disk = 0;
-  uint64_t cells = 0, surface_cells = 0, critical_cells = 0;
+  uint64_t cells = 0;           ///< of the octrees, inner ones too
+  uint64_t surface_cells = 0;   ///< that hold surface, in cells of at most m polygons
+  uint64_t solved_cells = 0;    ///< in which several operands have surface
+  uint64_t critical_cells = 0;  ///< in which surfaces of different operands meet
   uint64_t sign_filter = 0, sign_symbolic = 0;
   std::array<uint64_t, 8> sign_exact{};  ///< by tier: 64 128 192 256 384 512 more, unused
 };
