@@ -67,6 +67,24 @@ bool has_string_keys(lua_State* L, int table) {
   return false;
 }
 
+/// Whether the table at `index` is a list of one list where the first option takes a list of
+/// numbers, or a list of one list of lists where it takes a list of lists.
+bool is_wrapped_list(lua_State* L, int index, const FunctionSpec& spec) {
+  if (spec.options.empty() || !lua_istable(L, index) || list_length(L, index) != 1) return false;
+  const T type = spec.options[0].type;
+  const bool of_lists =
+      type == T::kPoints2 || type == T::kPoints3 || type == T::kIndexLists || type == T::kMatrix;
+  if (!of_lists && vector_rule(type).most == 0) return false;
+  lua_rawgeti(L, index, 1);
+  bool wrapped = lua_istable(L, -1);
+  if (wrapped && of_lists) {
+    wrapped = lua_rawgeti(L, -1, 1) == LUA_TTABLE;
+    lua_pop(L, 1);
+  }
+  lua_pop(L, 1);
+  return wrapped;
+}
+
 }  // namespace
 
 std::span<const Option> facet_options() { return kFacetOptions; }
@@ -161,8 +179,13 @@ Arguments::Arguments(lua_State* L, const FunctionSpec& spec, int first) : L_(L),
     if (last > first) read_positional(first, last - 1);
     read_table(last);
   } else if (last >= first) {
-    // An empty table at the end is an empty table of options.
-    if (last > first && lua_istable(L, last) && lua_rawlen(L, last) == 0) --last;
+    // An empty table is an empty table of options.
+    if (lua_istable(L, last) && lua_rawlen(L, last) == 0) --last;
+    // f{value}: the list in a list is the value, as it would be with options beside it.
+    if (last == first && is_wrapped_list(L, last, spec)) {
+      lua_rawgeti(L, last, 1);
+      lua_replace(L, last);
+    }
     read_positional(first, last);
   }
 }

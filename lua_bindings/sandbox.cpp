@@ -43,6 +43,10 @@ int undefined_global(lua_State* L) {
   throw ScriptError("undefined variable '" + name + "'" + did_you_mean(name, names));
 }
 
+/// Runs upvalue 1, a function of Lua's own without upvalues, in our place: so its errors name the
+/// caller.
+int original(lua_State* L) { return lua_tocfunction(L, lua_upvalueindex(1))(L); }
+
 /// Upvalue 1: the original. The collector of the host language would run script code at times that
 /// depend on the machine.
 int set_metatable(lua_State* L) {
@@ -54,11 +58,7 @@ int set_metatable(lua_State* L) {
     lua_pop(L, 1);
   }
   note_creation(L, 1);
-  const int count = lua_gettop(L);
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, count, 1);
-  return 1;
+  return original(L);
 }
 
 /// Upvalue 1: the original. Text only, whatever mode is asked for.
@@ -66,11 +66,7 @@ int load_text(lua_State* L) {
   if (lua_gettop(L) < 3) lua_settop(L, 3);
   lua_pushliteral(L, "t");
   lua_replace(L, 3);
-  const int count = lua_gettop(L);
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, count, LUA_MULTRET);
-  return lua_gettop(L);
+  return original(L);
 }
 
 /// How much memory is in use depends on the machine, so that is not told either.

@@ -79,10 +79,8 @@ int lua_format_without_addresses(lua_State* L) {
       lua_replace(L, argument);
     }
   }
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, count, 1);
-  return 1;
+  return lua_tocfunction(
+      L, lua_upvalueindex(1))(L);  // in our place, so that its errors name the caller
 }
 
 }  // namespace csgrun

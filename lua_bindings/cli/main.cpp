@@ -1,4 +1,5 @@
 // csgrun: from a model to a mesh.
+#include <csignal>
 #include <cstdio>
 
 #include "lua_bindings/api.h"
@@ -31,6 +32,8 @@ int run(const csgrun::CommandLine& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that grows over a limit is an error of that file, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   const csgrun::CommandLine line = csgrun::parse_command_line(argc, argv);
   switch (line.command) {
     case csgrun::Command::kRun:

@@ -150,7 +150,13 @@ CommandLine finished(int code) {
 
 /// Prints help or a usage error as CLI11 has it.
 CommandLine finish_parse(const CLI::App& app, const CLI::ParseError& error) {
-  return finished(app.exit(error) == 0 ? kExitGood : kExitUsage);
+  if (error.get_exit_code() == 0) {
+    app.exit(error);
+    return finished(kExitGood);
+  }
+  std::fputs(fmt::format("{}: {} (--help tells more)\n", app.get_name(), error.what()).c_str(),
+             stderr);
+  return finished(kExitUsage);
 }
 
 CommandLine parse_info(int argc, char** argv) {

@@ -185,18 +185,18 @@ class Run {
     auto solids = session_.evaluator().evaluate(nodes);
     clear_progress();
     if (!solids) return evaluation_failure(solids.error());
-    bool anything = false;
+    std::vector<std::string> empty;
     for (size_t i = 0; i < nodes.size(); ++i) {
       const ScriptPart& part = session_.parts()[i];
       report_.parts.push_back({part.name, (*solids)[i], {}});
-      anything |= !(*solids)[i]->empty();
-      if ((*solids)[i]->empty()) {
-        const std::string place = part.where.text();
-        report_.warnings.push_back((place.empty() ? "" : place + ": ") + "part '" + part.name +
-                                   "' is empty");
-      }
+      if (!(*solids)[i]->empty()) continue;
+      const std::string place = part.where.text();
+      empty.push_back((place.empty() ? "" : place + ": ") + "part '" + part.name + "' is empty");
     }
-    if (anything) return {};
+    if (empty.size() < nodes.size()) {
+      report_.warnings.insert(report_.warnings.end(), empty.begin(), empty.end());
+      return {};
+    }
     const std::string place = session_.parts()[0].where.text();
     return {kExitGeometry,
             (place.empty() ? session_.options().model : place) + ": the result is empty"};

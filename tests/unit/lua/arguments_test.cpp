@@ -1,0 +1,150 @@
+// Call forms and the errors of arguments.
+#include "lua_bindings/api.h"
+#include "lua_support.h"
+
+namespace csgrun::testing {
+namespace {
+
+TEST(CallForms, AllMeanTheSameCube) {
+  for (const char* call :
+       {"cube(10, 20, 30)", "cube{10, 20, 30}", "cube({10, 20, 30})", "cube{size = {10, 20, 30}}",
+        "cube{{10, 20, 30}}", "cube({10, 20, 30}, {center = false})", "cube(10, 20, 30, false)",
+        "cube{{10, 20, 30}, center = false}", "cube{10, 20, 30, center = false}",
+        "cube({10, 20, 30}, false)", "cube(10, 20, 30, {})", "csg.cube(10, 20, 30)"}) {
+    EXPECT_EQ(box_of(call), "0 0 0 .. 10 20 30") << call;
+  }
+  EXPECT_EQ(box_of("cube(10)"), "0 0 0 .. 10 10 10");
+  EXPECT_EQ(box_of("cube()"), "0 0 0 .. 1 1 1");
+  EXPECT_EQ(box_of("cube{}"), "0 0 0 .. 1 1 1");
+  EXPECT_EQ(box_of("cube(10, true)"), "-5 -5 -5 .. 5 5 5");
+  EXPECT_EQ(box_of("cube{10, 20, 30, center = {true, false, true}}"), "-5 0 -15 .. 5 20 15");
+}
+
+TEST(CallForms, Cylinders) {
+  EXPECT_EQ(box_of("cylinder(10, 2, {fn = 4})"), "-2 -2 0 .. 2 2 10");
+  EXPECT_EQ(box_of("cylinder{h = 10, d = 4, center = true, fn = 4}"), "-2 -2 -5 .. 2 2 5");
+  EXPECT_EQ(box_of("cylinder{height = 10, r = 2, fn = 4}"), "-2 -2 0 .. 2 2 10");
+  EXPECT_EQ(box_of("cylinder(10, 1, 3, true, {fn = 4})"), "-3 -3 -5 .. 3 3 5");
+  EXPECT_EQ(box_of("cylinder{h = 1, r1 = 0.5, fn = 4}"), "-1 -1 0 .. 1 1 1");
+}
+
+TEST(CallForms, Transforms) {
+  for (const char* call :
+       {"cube(1):translate(1, 2, 3)", "cube(1):translate{1, 2, 3}", "translate(cube(1), 1, 2, 3)",
+        "translate(cube(1), {1, 2, 3})", "translate(1, 2, 3) * cube(1)",
+        "{{1, 0, 0, 1}, {0, 1, 0, 2}, {0, 0, 1, 3}} * cube(1)", "cube(1):move{x = 1, y = 2, z = 3}",
+        "cube(1):up(3):right(1):back(2)",
+        "multmatrix{{1, 0, 0, 1}, {0, 1, 0, 2}, {0, 0, 1, 3}} * cube(1)",
+        "translate(1, 0, 0) * translate(0, 2, 3) * cube(1)", "cube(1):translate(1, 2):up(3)"}) {
+    EXPECT_EQ(box_of(call), "1 2 3 .. 2 3 4") << call;
+  }
+  EXPECT_EQ(box_of("cube(1):left(1):forward(2):down(3)"), "-1 -2 -3 .. 0 -1 -2");
+  EXPECT_EQ(box_of("cube(1):rotate(90)"), "-1 0 0 .. 0 1 1");
+  EXPECT_EQ(box_of("cube(1, 2, 3):rotate(90, 0, 90)"), "0 0 0 .. 3 1 2");  // X first, then Z
+  EXPECT_EQ(box_of("cube(1, 2, 3):rotate{90, 0, 90}"), "0 0 0 .. 3 1 2");
+  EXPECT_EQ(box_of("cube(1, 2, 3):rotate{x = 90, z = 90}"), "0 0 0 .. 3 1 2");
+  EXPECT_EQ(box_of("cube(1, 2, 3):rotate(90, {1, 0, 0})"), "0 -3 0 .. 1 0 2");
+  EXPECT_EQ(box_of("cube(1, 2, 3):rotate(90, {0, 0, -2})"), "0 -1 0 .. 2 0 3");
+  EXPECT_EQ(box_of("cube(1):mirror(1, 0, 0)"), "-1 0 0 .. 0 1 1");
+  EXPECT_EQ(box_of("cube(1):scale(2)"), "0 0 0 .. 2 2 2");
+  EXPECT_EQ(box_of("cube(1):scale{z = 2}"), "0 0 0 .. 1 1 2");
+  EXPECT_EQ(box_of("square(2, 3):translate(1, 1):linear_extrude(4)"), "1 1 0 .. 3 4 4");
+}
+
+TEST(Matrices, MovePointsAndCompareByValue) {
+  expect_good(
+      "local p = translate(1, 2, 3) * {1, 1, 1} assert(p[1] == 2 and p[2] == 3 and p[3] == 4)");
+  expect_good("assert(rotate(90) * rotate(-90) == translate(0, 0, 0))");
+  expect_good("assert(rotate(90) ~= rotate(80))");
+  expect_good("assert(translate(rotate(90), 1, 0, 0) == translate(1, 0, 0) * rotate(90))");
+}
+
+struct BadCall {
+  const char* text;
+  const char* message;
+};
+
+TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
+  constexpr BadCall kCalls[] = {
+      {"cube{10}",
+       "cube: option 'size' must be a number or a list of three numbers, got a list of one value; "
+       "write "
+       "cube(10) without the list"},
+      {"cube{size = 'x'}",
+       "cube: option 'size' must be a number or a list of three numbers, got string"},
+      {"cube('10')", "cube: option 'size' must be a number or a list of three numbers, got string"},
+      {"cube(10, 20)",
+       "cube: option 'size' must be a number or a list of three numbers, got 2 numbers"},
+      {"cube(0)", "cube: option 'size' must be positive, got 0"},
+      {"cube{1, -2, 3}", "cube: option 'size' must be positive, got -2"},
+      {"cube(0/0)", "cube: option 'size' must be finite, got nan"},
+      {"cube(-1/0)", "cube: option 'size' must be finite, got -inf"},
+      {"cube{1, 2, 'a'}",
+       "cube: option 'size' must be a number or a list of three numbers, but entry 3 is string"},
+      {"cube{centre = true}", "cube: unknown option 'centre' (did you mean 'center'?)"},
+      {"sphere{['$fn'] = 5}", "sphere: unknown option '$fn' (did you mean 'fn'?)"},
+      {"sphere{q = 5}", "sphere: unknown option 'q' (did you mean 'd'?)"},
+      {"cube{10, 20, 30, size = 5}", "cube: option 'size' is given twice"},
+      {"cylinder{h = 1, height = 2}", "cylinder: option 'h' (or 'height') is given twice"},
+      {"cube(1, 2, 3, 4)",
+       "cube: option 'size' must be a number or a list of three numbers, got 4 numbers"},
+      {"cube(1, true, 5)",
+       "cube: too many arguments: after 'center' only {name = value} may follow, got 5"},
+      {"cube(nil)", "cube: option 'size' must be a number or a list of three numbers, got nil"},
+      {"sphere{10}",
+       "sphere: option 'r' must be a number, got a list of one value; write sphere(10) without the "
+       "list"},
+      {"sphere{r = 1, d = 2}", "sphere: give either 'r' or 'd', not both"},
+      {"cylinder(1, 0, 0)", "cylinder: one of the radii must be positive"},
+      {"sphere(1, {fn = 1e9})", "sphere: fn must be from 0 to 100000, got 1e+09"},
+      {"cube(1):translate()", "translate: needs how far to move: (x, y, z) or {z = 10}"},
+      {"cube(1):scale(0)", "scale: a factor must not be 0"},
+      {"cube(1):rotate({1, 2}, {0, 0, 1})",
+       "rotate: an axis 'v' goes with one angle, not with a list"},
+      {"cube(1).translate(1, 2, 3)", "translate: is called with a colon: part:translate(...)"},
+      {"cube(1):tranlate(1)", "a solid has no method 'tranlate' (did you mean 'translate'?)"},
+      {"cube(1) + 5", "'+' needs two solids, or two shapes, got solid and number"},
+      {"5 * cube(1)", "'*' needs two solids, or two shapes, got number and solid"},
+      {"cube(1) - nil", "'-' needs two solids, or two shapes, got solid and nil"},
+      {"union{cube(1), nil, cube(2)}",
+       "union: takes lists of solids or shapes without holes and names in them"},
+      {"union(cube(1), 'x')", "union: an operand must be a solid or a shape, got string"},
+      {"cube(1):color('rod')", "color: there is no colour 'rod' (did you mean 'red'?)"},
+      {"cube(1):color{1, 2, 0}", "color: 'c' must be from 0 to 1, got 2"},
+      {"linear_extrude(5, 5)",
+       "linear_extrude: the first argument must be a 2D shape, got 5; as a method it is called "
+       "with a colon, shape:linear_extrude(...)"},
+      {"asin(2)", "asin: the ratio must be from -1 to 1, got 2"},
+      {"csg.fn == nil and 1 or csg.fm", "csg has no 'fm' (did you mean 'fa'?)"},
+      {"polyhedron{points = {{0, 0}}, faces = {}}",
+       "polyhedron: option 'points' must be a list of three numbers, got a "
+       "list of 2 values"},
+      {"polyhedron{points = {{0, 0, 0}}, faces = {{-1}}}",
+       "polyhedron: option 'faces': entry 1 of list 1 must be an index from 0 on, got -1"},
+  };
+  for (const BadCall& call : kCalls) {
+    EXPECT_EQ(message_of(std::string("\nreturn ") + call.text),
+              std::string("model.lua:2: ") + call.message)
+        << call.text;
+  }
+}
+
+TEST(ArgumentErrors, MixingDimensionsNamesTheExtrusions) {
+  const std::string message = message_of("return cube(1) + square(1)");
+  EXPECT_NE(message.find("linear_extrude"), std::string::npos) << message;
+}
+
+TEST(Help, ListsEveryFunctionAndOption) {
+  const std::string help = api_help();
+  for (const Binding& binding : all_bindings()) {
+    EXPECT_NE(help.find(std::string("\n") + binding.spec->name + "("), std::string::npos)
+        << binding.spec->name;
+    for (const Option& option : binding.spec->options) {
+      EXPECT_NE(help.find(std::string("    ") + option.name), std::string::npos) << option.name;
+    }
+    EXPECT_NE(std::string(binding.spec->doc), "") << binding.spec->name;
+  }
+}
+
+}  // namespace
+}  // namespace csgrun::testing
