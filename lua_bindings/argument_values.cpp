@@ -1,0 +1,271 @@
+// One argument from Lua to C++: what its type takes, and what is said when it does not fit.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "lua_bindings/arguments.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/values.h"
+#include "lua_bindings/vector_rule.h"
+
+namespace csgrun {
+
+using T = ArgumentType;
+
+VectorRule vector_rule(ArgumentType type) {
+  switch (type) {
+    case T::kVector2:
+      return {2, 2, false};
+    case T::kVector3:
+      return {3, 3, false};
+    case T::kVector2Or3:
+      return {2, 3, false};
+    case T::kSize2:
+      return {2, 2, true};
+    case T::kSize3:
+      return {3, 3, true};
+    case T::kSize2Or3:
+      return {2, 3, true};
+    case T::kAngles:
+      return {1, 3, true};
+    default:
+      return {0, 0, false};
+  }
+}
+
+std::string describe_type(ArgumentType type) {
+  switch (type) {
+    case T::kNumber:
+      return "a number";
+    case T::kInteger:
+      return "a whole number";
+    case T::kBoolean:
+      return "true or false";
+    case T::kBooleans2:
+      return "true, false or a list of two of them";
+    case T::kBooleans3:
+      return "true, false or a list of three of them";
+    case T::kString:
+      return "a string";
+    case T::kVector2:
+      return "a list of two numbers";
+    case T::kVector3:
+      return "a list of three numbers";
+    case T::kVector2Or3:
+      return "a list of two or three numbers";
+    case T::kSize2:
+      return "a number or a list of two numbers";
+    case T::kSize3:
+      return "a number or a list of three numbers";
+    case T::kSize2Or3:
+      return "a number or a list of two or three numbers";
+    case T::kAngles:
+      return "a number or a list of up to three numbers";
+    case T::kPoints2:
+      return "a list of points {x, y}";
+    case T::kPoints3:
+      return "a list of points {x, y, z}";
+    case T::kIndexLists:
+      return "a list of lists of indices (from 0)";
+    case T::kMatrix:
+      return "a matrix or a list of rows of numbers";
+    case T::kColor:
+      return "a colour's name, '#rrggbb' or a list of three or four numbers from 0 to 1";
+    case T::kValue:
+      return "a value";
+  }
+  return {};
+}
+
+lua_Integer list_length(lua_State* L, int index) {
+  index = lua_absindex(L, index);
+  const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
+  lua_Integer entries = 0;
+  lua_pushnil(L);
+  while (lua_next(L, index) != 0) {
+    lua_pop(L, 1);
+    const bool inside =
+        lua_isinteger(L, -1) != 0 && lua_tointeger(L, -1) >= 1 && lua_tointeger(L, -1) <= length;
+    if (!inside) {
+      lua_pop(L, 1);
+      return -1;
+    }
+    ++entries;
+  }
+  return entries == length ? length : -1;
+}
+
+std::string describe_value(lua_State* L, int index) {
+  switch (lua_type(L, index)) {
+    case LUA_TNUMBER: {
+      const double x = lua_tonumber(L, index);
+      return std::isnan(x)   ? "nan"
+             : std::isinf(x) ? (x > 0 ? "inf" : "-inf")
+                             : fmt::format("{:.14g}", x);
+    }
+    case LUA_TTABLE: {
+      const lua_Integer length = list_length(L, index);
+      if (length < 0) return "table";
+      return length == 1 ? "a list of one value" : fmt::format("a list of {} values", length);
+    }
+    case LUA_TNONE:
+      return "nothing";
+    default:
+      return kind_name(L, index);
+  }
+}
+
+double Arguments::check_number(const Option& option, int index) const {
+  const double x = lua_tonumber(L_, index);
+  if (!std::isfinite(x)) {
+    fail(fmt::format("option '{}' must be finite, got {}", option.name, describe_value(L_, index)));
+  }
+  if (option.range == Range::kPositive && !(x > 0)) {
+    fail(fmt::format("option '{}' must be positive, got {:.14g}", option.name, x));
+  }
+  if (option.range == Range::kNotNegative && !(x >= 0)) {
+    fail(fmt::format("option '{}' must not be negative, got {:.14g}", option.name, x));
+  }
+  return x;
+}
+
+void Arguments::wrong_type(const Option& option, int index) const {
+  std::string hint;
+  if (lua_istable(L_, index) && list_length(L_, index) >= 1) {
+    lua_rawgeti(L_, index, 1);
+    const bool takes_number = option.type == T::kNumber || vector_rule(option.type).number_too;
+    if (takes_number && option.positional && lua_type(L_, -1) == LUA_TNUMBER &&
+        list_length(L_, index) == 1) {
+      hint = fmt::format("; write {}({}) without the list", spec_.name, describe_value(L_, -1));
+    }
+    lua_pop(L_, 1);
+  }
+  fail(fmt::format("option '{}' must be {}, got {}{}", option.name, describe_type(option.type),
+                   lua_type(L_, index) == LUA_TNUMBER ? "the number " + describe_value(L_, index)
+                                                      : describe_value(L_, index),
+                   hint));
+}
+
+VectorArgument Arguments::convert_vector(const Option& option, int index) const {
+  const VectorRule rule = vector_rule(option.type);
+  if (lua_type(L_, index) == LUA_TNUMBER && rule.number_too) {
+    return {1, {check_number(option, index), 0, 0}};
+  }
+  if (!lua_istable(L_, index)) wrong_type(option, index);
+  const lua_Integer length = list_length(L_, index);
+  if (length < rule.least || length > rule.most) wrong_type(option, index);
+  VectorArgument vector{static_cast<int>(length), {0, 0, 0}};
+  // A list of one number is still a list of angles, not a bare number.
+  if (option.type == T::kAngles && length == 1) vector.count = 3;
+  for (lua_Integer i = 1; i <= length; ++i) {
+    lua_rawgeti(L_, index, i);
+    if (lua_type(L_, -1) != LUA_TNUMBER) {
+      fail(fmt::format("option '{}' must be {}, but entry {} is {}", option.name,
+                       describe_type(option.type), i, describe_value(L_, -1)));
+    }
+    vector.v[static_cast<int>(i - 1)] = check_number(option, lua_gettop(L_));
+    lua_pop(L_, 1);
+  }
+  return vector;
+}
+
+Arguments::Value Arguments::convert(const Option& option, int index) const {
+  const int type = lua_type(L_, index);
+  switch (option.type) {
+    case T::kNumber:
+      if (type != LUA_TNUMBER) wrong_type(option, index);
+      return check_number(option, index);
+    case T::kInteger: {
+      if (type != LUA_TNUMBER) wrong_type(option, index);
+      const double x = check_number(option, index);
+      if (x != std::floor(x) || std::abs(x) > 1e9) wrong_type(option, index);
+      return x;
+    }
+    case T::kBoolean:
+      if (type != LUA_TBOOLEAN) wrong_type(option, index);
+      return lua_toboolean(L_, index) != 0;
+    case T::kBooleans2:
+    case T::kBooleans3: {
+      std::array<bool, 3> flags{};
+      if (type == LUA_TBOOLEAN) {
+        flags.fill(lua_toboolean(L_, index) != 0);
+        return flags;
+      }
+      const int count = option.type == T::kBooleans2 ? 2 : 3;
+      if (type != LUA_TTABLE || list_length(L_, index) != count) wrong_type(option, index);
+      for (int i = 0; i < count; ++i) {
+        if (lua_rawgeti(L_, index, i + 1) != LUA_TBOOLEAN) wrong_type(option, index);
+        flags[static_cast<size_t>(i)] = lua_toboolean(L_, -1) != 0;
+        lua_pop(L_, 1);
+      }
+      return flags;
+    }
+    case T::kString: {
+      if (type != LUA_TSTRING) wrong_type(option, index);
+      size_t length = 0;
+      const char* bytes = lua_tolstring(L_, index, &length);
+      return std::string(bytes, length);
+    }
+    case T::kVector2:
+    case T::kVector3:
+    case T::kVector2Or3:
+    case T::kSize2:
+    case T::kSize3:
+    case T::kSize2Or3:
+    case T::kAngles:
+      return convert_vector(option, index);
+    case T::kPoints2:
+    case T::kPoints3: {
+      const lua_Integer length = type == LUA_TTABLE ? list_length(L_, index) : -1;
+      if (length < 0) wrong_type(option, index);
+      Points points;
+      for (lua_Integer i = 1; i <= length; ++i) {
+        lua_rawgeti(L_, index, i);
+        const Option point{option.name, option.type == T::kPoints2 ? T::kVector2 : T::kVector3, "",
+                           ""};
+        if (!lua_istable(L_, -1)) {
+          fail(fmt::format("option '{}' must be {}, but entry {} is {}", option.name,
+                           describe_type(option.type), i, describe_value(L_, -1)));
+        }
+        points.push_back(convert_vector(point, lua_gettop(L_)).v);
+        lua_pop(L_, 1);
+      }
+      return points;
+    }
+    case T::kIndexLists: {
+      const lua_Integer length = type == LUA_TTABLE ? list_length(L_, index) : -1;
+      if (length < 0) wrong_type(option, index);
+      IndexLists lists(static_cast<size_t>(length));
+      for (lua_Integer i = 1; i <= length; ++i) {
+        lua_rawgeti(L_, index, i);
+        const lua_Integer count = lua_istable(L_, -1) ? list_length(L_, -1) : -1;
+        if (count < 0) wrong_type(option, index);
+        for (lua_Integer k = 1; k <= count; ++k) {
+          lua_rawgeti(L_, -1, k);
+          int whole = 0;
+          const lua_Integer value =
+              lua_type(L_, -1) == LUA_TNUMBER ? lua_tointegerx(L_, -1, &whole) : 0;
+          if (whole == 0 || value < 0 || value > UINT32_MAX) {
+            fail(fmt::format("option '{}': entry {} of list {} must be an index from 0 on, got {}",
+                             option.name, k, i, describe_value(L_, -1)));
+          }
+          lists[static_cast<size_t>(i - 1)].push_back(static_cast<uint32_t>(value));
+          lua_pop(L_, 1);
+        }
+        lua_pop(L_, 1);
+      }
+      return lists;
+    }
+    case T::kMatrix: {
+      Affine map;
+      if (!to_affine(L_, index, map)) wrong_type(option, index);
+      return map;
+    }
+    case T::kColor:
+    case T::kValue:
+      return index;
+  }
+  return index;
+}
+
+}  // namespace csgrun
