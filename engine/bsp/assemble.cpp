@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
 #include <numeric>
 
 #include "engine/bsp/canonical_order.h"
@@ -105,50 +106,92 @@ class Assembler {
     edges_.clear();
     for (size_t i = begin; i < end; ++i) edges_of(pieces_[i], edges_);
     const Piece first = pieces_[begin];
-    if (!builder_.build(first.plane, edges_, loops_)) return false;
+    const bool built = end - begin == 1 ? builder_.build_single(first.plane, edges_, loops_)
+                                        : builder_.build(first.plane, edges_, loops_);
+    if (!built) return false;
     if (loops_.loop_count() == 0) return true;
-    draft_.faces.push_back({first.plane, first.label, false, loops_});
-    if (job_.is_whole_facet(job_.polygons()[first.polygon])) {
-      draft_.faces.back().whole = is_whole(begin, end);
-    }
+    draft_.faces.push_back({first.plane, first.label, false, false, loops_});
+    if (job_.is_of_complete_facet(job_.polygons()[first.polygon])) find_completeness(begin, end);
     return true;
   }
 
-  /// Whether the face just made is the whole facet that its pieces come from.
-  bool is_whole(size_t begin, size_t end) {
+  /// Whether the face just made is the whole facet that its pieces come from, alone or together with
+  /// the pieces on the other side of the plane.
+  void find_completeness(size_t begin, size_t end) {
     const Piece first = pieces_[begin];
-    // The polygons of a facet stand together in the job.
-    const auto same = [&](uint32_t q) {
-      const JobPolygon& a = job_.polygons()[first.polygon];
-      const JobPolygon& b = job_.polygons()[q];
-      return a.operand == b.operand && job_.label(b) == first.label;
-    };
-    uint32_t lo = first.polygon, hi = first.polygon + 1;
-    while (lo > 0 && same(lo - 1)) --lo;
-    while (hi < job_.polygons().size() && same(hi)) ++hi;
+    // The pieces of a plane stand together: mostly there is no other side, or no other label.
+    auto other_begin = pieces_.begin() + end, other_end = other_begin;
+    const auto in_plane = [&](size_t i) { return pieces_[i].plane.index() == first.plane.index(); };
+    if ((begin > 0 && in_plane(begin - 1)) || (end < pieces_.size() && in_plane(end))) {
+      const Piece other{first.plane.flip(), first.label, 0, 0, 0, false};
+      std::tie(other_begin, other_end) = std::equal_range(
+          pieces_.begin(), pieces_.end(), other, [](const Piece& a, const Piece& b) {
+            return std::tie(a.plane, a.label) < std::tie(b.plane, b.label);
+          });
+    }
     facet_.clear();
     uint32_t polygons = 0;
     const size_t mark = corners_.size();
-    for (uint32_t q = lo; q < hi; ++q) {
-      job_.ensure_planes(q);
+    for (const uint32_t q : facet_of(first)) {
       const JobPolygon& p = job_.polygons()[q];
-      if (p.support.index() != first.plane.index()) continue;
       ++polygons;
-      const bool flip = p.support != first.plane;
       const Piece piece{first.plane, first.label, q, static_cast<uint32_t>(corners_.size()), p.count,
                         true};
-      add_polygon(p, flip);
+      add_polygon(p, p.support != first.plane);
       edges_of(piece, facet_);
     }
     corners_.resize(mark);
     planes_.resize(mark);
-    if (polygons == end - begin &&
-        std::all_of(pieces_.begin() + begin, pieces_.begin() + end,
-                    [](const Piece& p) { return p.whole; })) {
-      return true;
+    const bool alone = other_begin == other_end;
+    bool complete = alone && polygons == end - begin &&
+                    std::all_of(pieces_.begin() + begin, pieces_.begin() + end,
+                                [](const Piece& p) { return p.whole; });
+    if (!complete) {
+      for (auto p = other_begin; p != other_end; ++p) {
+        const size_t at = edges_.size();
+        edges_of(*p, edges_);
+        for (size_t i = at; i < edges_.size(); ++i) std::swap(edges_[i].from, edges_[i].to);
+      }
+      complete = builder_.build(first.plane, facet_, facet_loops_) &&
+                 builder_.build(first.plane, edges_, both_sides_) &&
+                 same_loops(facet_loops_, both_sides_);
     }
-    if (!builder_.build(first.plane, facet_, facet_loops_)) return false;
-    return same_loops(facet_loops_, loops_);
+    draft_.faces.back().complete = complete;
+    draft_.faces.back().whole = complete && alone;
+  }
+
+  /// The polygons of the facet that a piece comes from, which lie in its plane.
+  std::vector<uint32_t> facet_of(const Piece& piece) {
+    const auto& all = job_.polygons();
+    const JobPolygon& own = all[piece.polygon];
+    std::vector<uint32_t> polygons;
+    if (job_.is_of_whole_facet(own)) {
+      const auto same = [&](uint32_t q) {
+        return all[q].operand == own.operand && job_.label(all[q]) == piece.label;
+      };
+      uint32_t lo = piece.polygon, hi = piece.polygon + 1;
+      while (lo > 0 && same(lo - 1)) --lo;
+      while (hi < all.size() && same(hi)) ++hi;
+      for (uint32_t q = lo; q < hi; ++q) {
+        job_.ensure_planes(q);
+        if (all[q].support.index() == piece.plane.index()) polygons.push_back(q);
+      }
+      return polygons;
+    }
+    // The two sides of a facet stand anywhere in the operand, which is a materialised result and has
+    // its planes.
+    auto& sorted = by_label_[own.operand];
+    const auto key = [&](uint32_t q) { return std::pair(job_.label(all[q]), all[q].support.index()); };
+    if (sorted.empty()) {
+      sorted.resize(job_.polygon_start(own.operand + 1) - job_.polygon_start(own.operand));
+      std::iota(sorted.begin(), sorted.end(), job_.polygon_start(own.operand));
+      std::stable_sort(sorted.begin(), sorted.end(),
+                       [&](uint32_t p, uint32_t q) { return key(p) < key(q); });
+    }
+    auto at = std::lower_bound(sorted.begin(), sorted.end(), piece.polygon,
+                               [&](uint32_t p, uint32_t q) { return key(p) < key(q); });
+    for (; at != sorted.end() && key(*at) == key(piece.polygon); ++at) polygons.push_back(*at);
+    return polygons;
   }
 
   static bool same_loops(const RegionLoops& a, const RegionLoops& b) {
@@ -170,7 +213,8 @@ class Assembler {
   std::vector<Piece> pieces_;
   std::vector<uint32_t> corners_, planes_;
   std::vector<DirectedEdge> edges_, facet_;
-  RegionLoops loops_, facet_loops_;
+  RegionLoops loops_, facet_loops_, both_sides_;
+  std::map<uint32_t, std::vector<uint32_t>> by_label_;  ///< per operand
   DraftBoundary draft_;
 };
 

@@ -74,6 +74,13 @@ bool RegionBuilder::build(PlaneId support, const std::vector<DirectedEdge>& edge
   return cancel_on_lines(support) && trace(support, loops);
 }
 
+bool RegionBuilder::build_single(PlaneId support, const std::vector<DirectedEdge>& edges,
+                                 RegionLoops& loops) {
+  loops.clear();
+  boundary_ = edges;
+  return trace(support, loops);
+}
+
 bool RegionBuilder::cancel_on_lines(PlaneId support) {
   struct Keyed {
     LineKey key;

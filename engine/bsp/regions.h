@@ -47,6 +47,8 @@ class RegionBuilder {
   /// False when the edges do not bound a region (some net multiplicity is not 0 or 1): the input was
   /// not a set of disjoint pieces.
   bool build(PlaneId support, const std::vector<DirectedEdge>& edges, RegionLoops& loops);
+  /// The same for edges of which none overlaps another: one piece, or one region of before.
+  bool build_single(PlaneId support, const std::vector<DirectedEdge>& edges, RegionLoops& loops);
 
   LineNamer& namer() { return namer_; }
 

@@ -81,7 +81,9 @@ bool merge_faces(const BoundaryMesh& b, CellGeometry& geometry, const PlaneTable
         }
       }
     }
-    if (!builder.build(groups[i].plane, edges, loops)) return false;
+    const bool built = j - i == 1 ? builder.build_single(groups[i].plane, edges, loops)
+                                  : builder.build(groups[i].plane, edges, loops);
+    if (!built) return false;
     for (auto& nested : nest_loops(groups[i].plane, loops, geometry, planes)) {
       faces.push_back({groups[i].plane, lowest.appearance, lowest.surface, lowest.source,
                        std::move(nested)});
