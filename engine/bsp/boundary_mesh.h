@@ -35,6 +35,9 @@ struct BoundaryMesh {
     FaceLabel label;
     bool whole = false;  ///< exactly one facet of a leaf whose facets are kept, uncut
     uint32_t first_loop = 0, loop_count = 0;
+    /// Together with the face of the same label on the other side of the plane, if there is one, exactly
+    /// such a facet: what is cut by a symmetric difference may be made whole by another one.
+    bool complete = false;
   };
 
   std::vector<Plane> planes;

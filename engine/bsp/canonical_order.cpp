@@ -91,7 +91,7 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
     const uint32_t support = local_plane(face.plane.index());
     BoundaryMesh::Face out{PlaneId(support, face.plane.flipped()), face.label, face.whole,
                            static_cast<uint32_t>(mesh.loop_starts.size() - 1),
-                           static_cast<uint32_t>(face.loops.loop_count())};
+                           static_cast<uint32_t>(face.loops.loop_count()), face.complete};
     for (size_t l = 0; l < face.loops.loop_count(); ++l) {
       const uint32_t begin = face.loops.starts[l], end = face.loops.starts[l + 1];
       for (uint32_t c = begin; c < end; ++c) {

@@ -15,7 +15,7 @@ struct DraftBoundary {
   struct Face {
     PlaneId plane;
     FaceLabel label;
-    bool whole;
+    bool whole, complete;
     RegionLoops loops;
   };
   std::vector<Face> faces;

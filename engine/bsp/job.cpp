@@ -290,7 +290,13 @@ FaceLabel Job::label(const JobPolygon& p) const {
   return label;
 }
 
-bool Job::is_whole_facet(const JobPolygon& p) const {
+bool Job::is_of_complete_facet(const JobPolygon& p) const {
+  const Operand& operand = (*operands_)[p.operand];
+  if (operand.leaf) return operand.leaf->facet[p.face] != 0;
+  return operand.boundary->faces[p.face].complete;
+}
+
+bool Job::is_of_whole_facet(const JobPolygon& p) const {
   const Operand& operand = (*operands_)[p.operand];
   if (operand.leaf) return operand.leaf->facet[p.face] != 0;
   return operand.boundary->faces[p.face].whole;

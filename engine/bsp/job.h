@@ -51,8 +51,11 @@ class Job {
   /// Three planes of this job that meet in the vertex, or ~0 thrice for a vertex of a leaf.
   [[nodiscard]] std::array<uint32_t, 3> vertex_planes(uint32_t vertex) const;
   [[nodiscard]] FaceLabel label(const JobPolygon& p) const;
-  /// Whether the polygon is a whole facet of a leaf whose facets are kept.
-  [[nodiscard]] bool is_whole_facet(const JobPolygon& p) const;
+  /// Whether the polygon is a part of a facet of a leaf whose facets are kept, and all of that facet is
+  /// there, on either side of its plane; and whether all of it is there on the polygon's side, in which
+  /// case the polygons of the facet stand together.
+  [[nodiscard]] bool is_of_complete_facet(const JobPolygon& p) const;
+  [[nodiscard]] bool is_of_whole_facet(const JobPolygon& p) const;
 
   /// Makes the support and edge planes of a polygon. Not thread-safe; everything else is.
   void ensure_planes(uint32_t polygon);
