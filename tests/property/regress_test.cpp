@@ -72,5 +72,20 @@ TEST(Regress, FacesThatPassThroughALineWhereWedgesTouch) {
   } while (std::next_permutation(axes.begin(), axes.end()));
 }
 
+// A symmetric difference turns a part of a facet over, another one turns it back: the facet is
+// whole again, also when the first was materialised.
+TEST(Regress, AFacetCutByASymmetricDifferenceIsMadeWholeByAnother) {
+  const std::vector<Operand> leaves{operand_of(make_leaf(box_loops({0, 0, 0}, {4, 4, 4}), true)),
+                                    operand_of(box_leaf({2, 1, 1}, {6, 3, 3})),
+                                    operand_of(box_leaf({2, 1, 1}, {6, 3, 3}))};
+  const Tree tree = differ({differ({leaf(0), leaf(1)}), leaf(2)});
+  const auto flat = evaluate(tree, leaves);
+  const auto nested = evaluate(tree, leaves, {}, [](const Tree&) { return true; });
+  ASSERT_TRUE(flat && nested);
+  EXPECT_EQ((*flat)->faces.size(), 6u);
+  for (const auto& f : (*flat)->faces) EXPECT_TRUE(f.whole);
+  EXPECT_EQ(difference_between(**flat, **nested), "");
+}
+
 }  // namespace
 }  // namespace csgrun

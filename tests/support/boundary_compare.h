@@ -8,8 +8,8 @@
 
 namespace csgrun::test {
 
-/// The first difference between two boundaries as text, or an empty string. Which plane names an edge
-/// or a point is not compared: that is a matter of how, not of what.
+/// The first difference between two boundaries as text, or an empty string. Which plane names an
+/// edge or a point is not compared: that is a matter of how, not of what.
 inline std::string first_difference(const BoundaryMesh& a, const BoundaryMesh& b) {
   std::ostringstream out;
   out.precision(17);

@@ -187,7 +187,9 @@ inline std::string difference_between(const BoundaryMesh& a, const BoundaryMesh&
     if (!(p == q)) return "different planes" + at;
     if (x.first_loop != y.first_loop || x.loop_count != y.loop_count) return "different loops" + at;
     if (compare_labels && !(x.label == y.label)) return "different labels" + at;
-    if (compare_labels && x.whole != y.whole) return "a face is whole in one only" + at;
+    if (compare_labels && (x.whole != y.whole || x.complete != y.complete)) {
+      return "a face is whole in one only" + at;
+    }
   }
   for (size_t c = 0; c < a.corners.size(); ++c) {
     if (a.corners[c].point != b.corners[c].point) return "different corners";

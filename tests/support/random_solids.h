@@ -77,7 +77,16 @@ struct GridMap {
   IVec3 move{0, 0, 0};
 };
 inline std::vector<Loop> mapped(std::vector<Loop> loops, const GridMap& map) {
-  const bool mirror = dot_of(map.rows[0], cross_of(map.rows[1], map.rows[2])) < 0;
+  // The determinant of a large map needs more than 64 bits.
+  const auto& m = map.rows;
+  __int128 determinant = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    determinant +=
+        (static_cast<__int128>(m[1][j]) * m[2][k] - static_cast<__int128>(m[1][k]) * m[2][j]) *
+        m[0][i];
+  }
+  const bool mirror = determinant < 0;
   for (Loop& loop : loops) {
     for (IVec3& p : loop) {
       const IVec3 q = p;

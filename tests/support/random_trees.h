@@ -1,5 +1,5 @@
-// Random Boolean expressions over random small leaves, for tests of the kernel. Vertices come from few
-// values, so that touching, coplanar and equal faces are the normal case.
+// Random Boolean expressions over random small leaves, for tests of the kernel. Vertices come from
+// few values, so that touching, coplanar and equal faces are the normal case.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace csgrun::test {
 
 /// What the leaves and expressions look like.
 struct TreeShape {
-  int64_t size = 5;    ///< vertices have coordinates k * unit, 0 <= k <= size
+  int64_t size = 5;  ///< vertices have coordinates k * unit, 0 <= k <= size
   int64_t unit = 1;
   int operands = 3;
   int depth = 2;
-  bool frames = false; ///< some operands are turned, mirrored or sheared
+  bool frames = false;  ///< some operands are turned, mirrored or sheared
 };
 
 struct RandomTree {
@@ -38,10 +38,13 @@ class TreeMaker {
     for (int o = 0; o < shape.operands; ++o) {
       Operand operand;
       // Now and then the same leaf again: equal or merely moved.
-      if (o > 0 && one_in(6)) operand = tree.operands[random_.integer(0, o - 1)];
-      else operand.leaf = leaf();
+      if (o > 0 && one_in(6))
+        operand = tree.operands[random_.integer(0, o - 1)];
+      else
+        operand.leaf = leaf();
       operand.first_source = static_cast<uint32_t>(o);
-      for (int64_t& t : operand.translation) t = one_in(4) ? random_.integer(-1, 1) * shape.unit : 0;
+      for (int64_t& t : operand.translation)
+        t = one_in(4) ? random_.integer(-1, 1) * shape.unit : 0;
       if (shape.frames && !one_in(3)) operand.frame = frame();
       tree.operands.push_back(operand);
     }
@@ -115,8 +118,8 @@ class TreeMaker {
 
   /// A prism over a base of convex pieces in the coordinates of u and v, moved along w.
   void add_prism(LeafGeometry& leaf, const IVec3& origin, const IVec3& u, const IVec3& v,
-                 const IVec3& w, const std::vector<std::array<int64_t, 2>>& base, const Loops& pieces,
-                 bool reverse) {
+                 const IVec3& w, const std::vector<std::array<int64_t, 2>>& base,
+                 const Loops& pieces, bool reverse) {
     std::vector<IVec3> points;
     const auto n = static_cast<uint32_t>(base.size());
     for (int top = 0; top < 2; ++top) {
@@ -169,7 +172,8 @@ class TreeMaker {
         const int64_t d = det(minus(p[1], p[0]), minus(p[2], p[0]), minus(p[3], p[0]));
         const int64_t e = det(minus(p[1], p[0]), minus(p[2], p[0]), minus(p[4], p[0]));
         if (d == 0 || e == 0 || (d < 0) == (e < 0)) return;
-        add_faces(leaf, p, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}}, d < 0);
+        add_faces(leaf, p, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}},
+                  d < 0);
         return;
       }
       case 4: {  // box with a cavity
@@ -188,9 +192,12 @@ class TreeMaker {
         const IVec3 w{random_.integer(-4, 4), random_.integer(-4, 4), random_.integer(-4, 4)};
         if (det(u, v, w) == 0) return;
         switch (random_.integer(0, 3)) {
-          case 0: add_prism(leaf, origin, u, v, w, {{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}, false); break;
+          case 0:
+            add_prism(leaf, origin, u, v, w, {{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}, false);
+            break;
           case 1:
-            add_prism(leaf, origin, u, v, w, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2, 3}}, false);
+            add_prism(leaf, origin, u, v, w, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2, 3}},
+                      false);
             break;
           case 2:
             add_prism(leaf, origin, u, v, w, {{0, 0}, {1, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 1}},
@@ -226,11 +233,11 @@ class TreeMaker {
 
   Frame frame() {
     static constexpr double kMaps[][3][3] = {
-        {{0.8, 0.6, 0}, {-0.6, 0.8, 0}, {0, 0, 1}},                 // about z
-        {{1, 0, 0}, {0, 0.8, -0.6}, {0, 0.6, 0.8}},                 // about x
-        {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},                         // mirrored
+        {{0.8, 0.6, 0}, {-0.6, 0.8, 0}, {0, 0, 1}},  // about z
+        {{1, 0, 0}, {0, 0.8, -0.6}, {0, 0.6, 0.8}},  // about x
+        {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},          // mirrored
         {{1. / 3, 2. / 3, 2. / 3}, {2. / 3, 1. / 3, -2. / 3}, {-2. / 3, 2. / 3, -1. / 3}},
-        {{1, 0.5, 0}, {0, 1, 0}, {0, 0, 1}},                        // sheared
+        {{1, 0.5, 0}, {0, 1, 0}, {0, 0, 1}},  // sheared
     };
     const auto& m = kMaps[random_.integer(0, 4)];
     Frame f;
