@@ -150,7 +150,9 @@ TEST(Rounding, IsToTheNearestDouble) {
     if (std::isfinite(single)) {
       const mpq_class off = abs(mpq_class(single) - scaled);
       for (const float other : {std::nextafterf(single, -HUGE_VALF), std::nextafterf(single, HUGE_VALF)}) {
-        if (std::isfinite(other)) ASSERT_LE(off, abs(mpq_class(other) - scaled));
+        if (std::isfinite(other)) {
+          ASSERT_LE(off, abs(mpq_class(other) - scaled));
+        }
       }
     }
   }
