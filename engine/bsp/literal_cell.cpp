@@ -12,7 +12,11 @@ class LiteralCell {
  public:
   LiteralCell(CellGeometry& geometry, const CriticalCell& cell,
               const std::array<uint32_t, 6>& walls, FragmentSet& out)
-      : geometry_(geometry), cell_(cell), walls_(walls), out_(out), points_(geometry),
+      : geometry_(geometry),
+        cell_(cell),
+        walls_(walls),
+        out_(out),
+        points_(geometry),
         merged_(points_, walls) {}
 
   void run(const Octree& tree) {
@@ -86,13 +90,19 @@ class LiteralCell {
     const MergedBsp::Node n = merged_.node(node);
     Fragment front, back;
     switch (geometry_.split(f, n.plane, front, back)) {
-      case Side::kFront: push(n.front, f, pieces); break;
-      case Side::kBack: push(n.back, f, pieces); break;
+      case Side::kFront:
+        push(n.front, f, pieces);
+        break;
+      case Side::kBack:
+        push(n.back, f, pieces);
+        break;
       case Side::kSplit:
         push(n.front, front, pieces);
         push(n.back, back, pieces);
         break;
-      case Side::kOn: assert(false); break;  // f bounds this node's region, whose interior is cut
+      case Side::kOn:
+        assert(false);
+        break;  // f bounds this node's region, whose interior is cut
     }
   }
 
@@ -101,8 +111,8 @@ class LiteralCell {
     const auto is_inside = [this](const MergedBsp::Labels& labels) {
       return [&](uint32_t operand) { return static_cast<bool>(labels[slot(operand)]); };
     };
-    const auto boundary = cell_.expression.boundary(
-        is_inside(merged_.labels(front)), is_inside(merged_.labels(back)), scratch_);
+    const auto boundary = cell_.expression.boundary(is_inside(merged_.labels(front)),
+                                                    is_inside(merged_.labels(back)), scratch_);
     if (boundary.operand == PrunedExpression::kNoOperand) return;
     for (const Fragment& polygon : operands_[slot(boundary.operand)].polygons) {
       if (polygon.support.index() != f.support.index()) continue;

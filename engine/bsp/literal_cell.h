@@ -1,7 +1,7 @@
-// A critical cell solved as the paper has it (Campen & Kobbelt 2010, chapters 4.2 and 5): a labelled
-// BSP per operand, merged into one tree (Naylor et al. 1990), and the boundary extracted from its
-// nodes (Thibault 1987). Slower than CellSolver and built on other decisions: the oracle in the
-// process that CellSolver is compared with.
+// A critical cell solved as the paper has it (Campen & Kobbelt 2010, chapters 4.2 and 5): a
+// labelled BSP per operand, merged into one tree (Naylor et al. 1990), and the boundary extracted
+// from its nodes (Thibault 1987). Slower than CellSolver and built on other decisions: the oracle
+// in the process that CellSolver is compared with.
 #pragma once
 
 #include <array>

@@ -68,8 +68,8 @@ MergedBsp::Halves MergedBsp::partition(int32_t t, const ConvexRegion& region, ui
   // half gets the one child that reaches into it.
   const Side side_of_front = front.classify(points_, plane);
   const Side side_of_back = back.classify(points_, plane);
-  const Halves f = side_of_front == Side::kSplit ? partition(n.front, front, plane)
-                                                 : Halves{n.front, n.front};
+  const Halves f =
+      side_of_front == Side::kSplit ? partition(n.front, front, plane) : Halves{n.front, n.front};
   const Halves b =
       side_of_back == Side::kSplit ? partition(n.back, back, plane) : Halves{n.back, n.back};
   const auto half = [&](Side beyond, int32_t from_front, int32_t from_back) {

@@ -1,5 +1,5 @@
-// The merge of labelled BSPs (Naylor, Amanatides, Thibault 1990: "Merging BSP Trees Yields Polyhedral
-// Set Operations"): one tree whose leaves carry the labels of all operands.
+// The merge of labelled BSPs (Naylor, Amanatides, Thibault 1990: "Merging BSP Trees Yields
+// Polyhedral Set Operations"): one tree whose leaves carry the labels of all operands.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace csgrun {
 
-/// Trees are immutable and share subtrees. In each node the plane passes through the interior of the
-/// node's region, which is the cell cut by the planes on the way down.
+/// Trees are immutable and share subtrees. In each node the plane passes through the interior of
+/// the node's region, which is the cell cut by the planes on the way down.
 class MergedBsp {
  public:
   struct Node {

@@ -18,7 +18,8 @@ ConvexRegion::ConvexRegion(NamedPoints& points, const std::array<uint32_t, 6>& w
     const int i = (k + 1) % 3, j = (k + 2) % 3;
     for (int upper = 0; upper < 2; ++upper) {
       // The sides of the square in the plane of axes i and j, counter-clockwise seen from +k.
-      std::array<uint32_t, 4> around{walls[2 * j], walls[2 * i + 1], walls[2 * j + 1], walls[2 * i]};
+      std::array<uint32_t, 4> around{walls[2 * j], walls[2 * i + 1], walls[2 * j + 1],
+                                     walls[2 * i]};
       if (!upper) std::reverse(around.begin(), around.end());
       Face face;
       face.plane = walls[2 * k + upper];
@@ -97,7 +98,8 @@ ConvexRegion ConvexRegion::half(NamedPoints& points, uint32_t plane, int keep,
     const auto [from, to] = edge;
     if (directed.contains({to, from})) continue;
     cap_edges[to] = {from, face->plane};
-    const auto at = std::find(face->points.begin(), face->points.end(), from) - face->points.begin();
+    const auto at =
+        std::find(face->points.begin(), face->points.end(), from) - face->points.begin();
     face->neighbours[at] = plane;
   }
   assert(cap_edges.size() >= 3);

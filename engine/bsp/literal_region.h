@@ -1,8 +1,8 @@
 // A convex polyhedron inside a cell, in plane form: the region of a node in the literal path.
 //
-// Its faces share corners by number, so cutting is combinatorial once the sign of each corner is known:
-// whether a plane cuts the region, and where, is decided exactly, and the cap that closes a half is
-// what its other faces leave open.
+// Its faces share corners by number, so cutting is combinatorial once the sign of each corner is
+// known: whether a plane cuts the region, and where, is decided exactly, and the cap that closes a
+// half is what its other faces leave open.
 #pragma once
 
 #include <array>
@@ -28,8 +28,8 @@ class NamedPoints {
 
 class ConvexRegion {
  public:
-  /// One side of the region: a strictly convex loop, counter-clockwise from outside. Edge i runs from
-  /// point i to the next; neighbour i is the plane of the face behind it.
+  /// One side of the region: a strictly convex loop, counter-clockwise from outside. Edge i runs
+  /// from point i to the next; neighbour i is the plane of the face behind it.
   struct Face {
     uint32_t plane = kNone;
     std::vector<uint32_t> points, neighbours;
@@ -39,7 +39,8 @@ class ConvexRegion {
   /// The box between the walls x_lo, x_hi, y_lo, y_hi, z_lo, z_hi.
   ConvexRegion(NamedPoints& points, const std::array<uint32_t, 6>& walls);
 
-  /// Where the region lies: kSplit when the plane passes through its interior, else kFront or kBack.
+  /// Where the region lies: kSplit when the plane passes through its interior, else kFront or
+  /// kBack.
   [[nodiscard]] Side classify(NamedPoints& points, uint32_t plane) const;
   /// The two parts of a region that the plane cuts. REQUIRES: classify gives kSplit.
   void split(NamedPoints& points, uint32_t plane, ConvexRegion& front, ConvexRegion& back) const;
