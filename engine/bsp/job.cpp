@@ -100,6 +100,14 @@ Job::Job(const std::vector<Operand>& operands) : operands_(&operands) {
     }
     s.mirrored = s.determinant.negative();
   }
+  boundary_planes_.resize(operands.size());
+  for (size_t o = 0; o < operands.size(); ++o) {
+    if (operands[o].leaf) continue;
+    for (const Plane& plane : operands[o].boundary->planes) {
+      boundary_planes_[o].push_back(planes_.intern(
+          map_plane(operands[o].frame, translate_plane(plane, operands[o].translation))));
+    }
+  }
   choose_prime();
   for (uint32_t o = 0; o < operands.size(); ++o) {
     sources_[o].first_vertex = static_cast<uint32_t>(rounded_.size());
@@ -119,7 +127,15 @@ void Job::choose_prime() {
       return remainder_of(s.determinant, p) == 0;
     });
   };
-  while (!is_prime(prime_) || divides_some(prime_)) prime_ += 2;
+  // A materialised result does not know the frames of its leaves: its planes are looked at themselves.
+  const auto is_some_wall = [this](int64_t p) {
+    for (uint32_t i = 0; i < planes_.size(); ++i) {
+      const Plane& s = planes_.plane(i);
+      if (((s.a != 0) + (s.b != 0) + (s.c != 0)) == 1 && s.a + s.b + s.c == p) return true;
+    }
+    return false;
+  };
+  while (!is_prime(prime_) || divides_some(prime_) || is_some_wall(prime_)) prime_ += 2;
 }
 
 void Job::add_leaf(uint32_t o, const Operand& operand) {
@@ -149,11 +165,7 @@ void Job::add_leaf(uint32_t o, const Operand& operand) {
 
 void Job::add_boundary(uint32_t o, const Operand& operand) {
   const BoundaryMesh& mesh = *operand.boundary;
-  std::vector<PlaneId> plane_of(mesh.planes.size());
-  for (size_t i = 0; i < mesh.planes.size(); ++i) {
-    plane_of[i] =
-        planes_.intern(map_plane(operand.frame, translate_plane(mesh.planes[i], operand.translation)));
-  }
+  const std::vector<PlaneId>& plane_of = boundary_planes_[o];
   CellGeometry geometry(planes_, nullptr);
   const bool moved = !operand.frame.is_identity || operand.translation != IVec3{0, 0, 0};
   for (size_t p = 0; p < mesh.point_planes.size(); ++p) {

@@ -61,7 +61,8 @@ class Job {
   void ensure_planes(uint32_t polygon);
   /// The wall x_axis = m + 1/prime as a plane index.
   uint32_t wall(int axis, int64_t m);
-  /// Smallest odd prime that divides no frame's determinant: walls at m + 1/prime hold no leaf vertex.
+  /// Smallest odd prime that divides no frame's determinant, and such that no plane of a boundary
+  /// operand is a wall: walls at m + 1/prime hold no leaf vertex and no face.
   [[nodiscard]] int64_t prime() const { return prime_; }
   [[nodiscard]] const PlaneTable& planes() const { return planes_; }
   PlaneTable& planes() { return planes_; }
@@ -96,6 +97,8 @@ class Job {
   std::vector<uint32_t> vertex_operand_starts_{0};
   /// Vertices of boundary operands: three planes of this job, by vertex - first vertex.
   std::vector<std::vector<std::array<uint32_t, 3>>> boundary_vertices_;
+  /// Planes of boundary operands, by their number in the boundary.
+  std::vector<std::vector<PlaneId>> boundary_planes_;
   int64_t prime_ = 3;
 };
 
