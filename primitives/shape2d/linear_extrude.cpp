@@ -1,8 +1,7 @@
 // linear_extrude: slices of the shape, turned and scaled, with bands between them.
 //
 // All bands share points by index, so the result is closed by construction, also where loops touch
-// and where the top collapses: to a point, where bands end in triangles, or to an edge, where the
-// points of all loops lie on one line and every triangle takes in those that lie on its top edge.
+// and where the top collapses to a point or an edge: bands end in triangles there.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,6 +13,7 @@
 #include <csgrun/primitives/shape2d.h>
 
 #include "primitives/base/text.h"
+#include "primitives/shape2d/edge_top.h"
 #include "primitives/shape2d/extrude_facets.h"
 #include "primitives/shape2d/profile.h"
 #include "primitives/solids/mesh_builder.h"
@@ -63,6 +63,8 @@ class LinearExtruder {
   LinearExtruder(const Shape2D& shape, const LinearExtrudeOptions& options, glm::dvec3 height,
                  int slices)
       : options_(options), slices_(slices), loops_(split_outlines(shape, options, slices)) {
+    if (top_collapses() && options.scale != glm::dvec2(0))
+      edge_top_.emplace(loops_, options, slices);
     profile_ = make_profile(shape, loops_);
     bottom_ = options.center ? height * -0.5 : glm::dvec3(0);
     top_ = options.center ? height * 0.5 : height;
@@ -74,8 +76,12 @@ class LinearExtruder {
 
   PolygonMesh build() {
     mesh_.kind = kName;
-    for (int i = 0; i <= slices_; ++i) add_ring(i);
-    if (top_collapses()) collapse_top();
+    for (int i = 0; i < slices_; ++i) add_ring(i);
+    if (top_collapses()) {
+      add_collapsed_ring();
+    } else {
+      add_ring(slices_);
+    }
     add_cap(0, true);
     uint32_t surface = 0;
     for (size_t l = 0; l < profile_.loops.size(); ++l) add_sides(l, surface);
@@ -102,22 +108,17 @@ class LinearExtruder {
     }
   }
 
-  /// Gives top points of equal coordinates one index, and sorts them along the edge that they form.
-  void collapse_top() {
-    std::vector<uint32_t>& ring = rings_.back();
-    const uint32_t first = ring.front();
-    std::vector<glm::dvec3> points(mesh_.points.begin() + first, mesh_.points.end());
-    auto less = [](const glm::dvec3& p, const glm::dvec3& q) {
-      return std::tie(p.x, p.y) < std::tie(q.x, q.y);
-    };
-    std::sort(points.begin(), points.end(), less);
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    for (uint32_t& index : ring) {
-      const auto at = std::lower_bound(points.begin(), points.end(), mesh_.points[index], less);
-      index = first + static_cast<uint32_t>(at - points.begin());
+  /// The top as one point, or as the places along an edge.
+  void add_collapsed_ring() {
+    top_first_ = static_cast<uint32_t>(mesh_.points.size());
+    std::vector<uint32_t>& ring = rings_.emplace_back();
+    for (const glm::dvec2& p : profile_.points) {
+      ring.push_back(top_first_ + (edge_top_ ? edge_top_->place_of(p) : 0));
     }
-    mesh_.points.resize(first);
-    mesh_.points.insert(mesh_.points.end(), points.begin(), points.end());
+    for (uint32_t i = 0; i < (edge_top_ ? edge_top_->size() : 1); ++i) {
+      const glm::dvec2 p = edge_top_ ? edge_top_->point(i) : glm::dvec2(0);
+      mesh_.points.emplace_back(p.x + top_.x, p.y + top_.y, top_.z);
+    }
   }
 
   void add_cap(int slice, bool downwards) {
@@ -164,24 +165,11 @@ class LinearExtruder {
       mesh_.add_face(std::array<uint32_t, 4>{a, b, c, d}, surface);
       return;
     }
-    std::vector<uint32_t> upper{c};
-    if (i + 1 == slices_ && top_collapses()) append_between(c, d, upper);
-    upper.push_back(d);
-    if (cut_from_a(a, b, c, d, hole)) {
-      mesh_.add_face(std::array<uint32_t, 3>{a, b, c}, surface);
-      upper.push_back(a);
-    } else {
-      mesh_.add_face(std::array<uint32_t, 3>{a, b, d}, surface);
-      upper.push_back(b);
-    }
-    mesh_.add_face(upper, surface);
-  }
-
-  /// The points of the collapsed top strictly between two of them: neighbours have neighbouring
-  /// indices.
-  static void append_between(uint32_t from, uint32_t to, std::vector<uint32_t>& out) {
-    for (uint32_t i = from; i + 1 < to; ++i) out.push_back(i + 1);
-    for (uint32_t i = from; i > to + 1; --i) out.push_back(i - 1);
+    const bool at_edge = edge_top_ && i + 1 == slices_;
+    const bool from_a = at_edge ? edge_top_->cut_at_from(d - top_first_, c - top_first_)
+                                : cut_from_a(a, b, c, d, hole);
+    mesh_.add_face(std::array<uint32_t, 3>{a, b, from_a ? c : d}, surface);
+    mesh_.add_face(std::array<uint32_t, 3>{c, d, from_a ? a : b}, surface);
   }
 
   /// Whether the quadrilateral a b c d is cut from a to c: along the shorter diagonal; of two equal
@@ -197,8 +185,10 @@ class LinearExtruder {
   const LinearExtrudeOptions& options_;
   int slices_;
   std::vector<Shape2D::Loop> loops_;
+  std::optional<EdgeTop> edge_top_;  // when exactly one scale is 0
   Profile profile_;
   glm::dvec3 bottom_{}, top_{};
+  uint32_t top_first_ = 0;                    // the first mesh point of a collapsed top
   std::vector<std::vector<uint32_t>> rings_;  // per slice and point of the profile: a mesh point
   PolygonMesh mesh_;
 };

@@ -87,9 +87,9 @@ struct LinearExtrudeOptions {
   Facets facets;
 };
 /// The bottom is at z = 0 (or -height/2). Faces: caps (flat), sides as quads where they are planar,
-/// else two triangles, cut along the shorter diagonal. A loop of 12 vertices or more that turns by
-/// less than 40 degrees everywhere is one curved surface; with a twist every chain of such turns
-/// is. Errors: kInvalidArgument, kLimit.
+/// else two triangles, cut along the shorter diagonal (below a top that is an edge: cut alike). A
+/// loop of 12 vertices or more that turns by less than 40 degrees everywhere is one curved surface;
+/// with a twist every chain of such turns is. Errors: kInvalidArgument, kLimit.
 MeshResult linear_extrude(const Shape2D& shape, const LinearExtrudeOptions& options);
 
 struct RotateExtrudeOptions {
