@@ -73,11 +73,7 @@ void* Budget::allocate(void* user_data, void* block, size_t old_size, size_t new
   }
   if (grown == nullptr) {
     // Lua reports this without a place. The stack is whole while it allocates, so look now.
-    lua_Debug frame{};
-    if (self.main_state_ != nullptr && innermost_lua_frame(self.main_state_, frame)) {
-      std::snprintf(self.memory_place_.data(), self.memory_place_.size(), "%s:%d",
-                    chunk_file(frame), frame.currentline);
-    }
+    self.note_out_of_memory();
     return nullptr;
   }
   self.used_ += new_size - old_size;
@@ -151,6 +147,13 @@ std::string Budget::time_message() const {
   return fmt::format("out of time ({} {:g} s)",
                      limits_.total_seconds ? "limit" : "limit for the script",
                      limits_.total_seconds.value_or(limits_.script_seconds));
+}
+
+void Budget::note_out_of_memory() {
+  lua_Debug frame{};
+  if (main_state_ == nullptr || !innermost_lua_frame(main_state_, frame)) return;
+  std::snprintf(memory_place_.data(), memory_place_.size(), "%s:%d", chunk_file(frame),
+                frame.currentline);
 }
 
 std::string Budget::memory_place() const { return memory_place_.data(); }

@@ -61,6 +61,8 @@ class Budget {
   [[nodiscard]] std::string time_message() const;
   /// "not enough memory (script limit 1024 MB)".
   [[nodiscard]] std::string memory_message() const;
+  /// Notes the running line as the one where memory ran out. Allocates nothing.
+  void note_out_of_memory();
   /// "FILE:line" of the allocation that was refused last; empty if none was.
   [[nodiscard]] std::string memory_place() const;
 

@@ -82,6 +82,15 @@ Files::Files(const std::string& model_folder, const std::vector<std::string>& li
   std::erase(roots_, std::string());
 }
 
+std::string Files::name_from_folder(const std::string& display) const {
+  size_t longest = 0;
+  for (const std::string& folder : search_folders_) {
+    const std::string start = join_path(folder, "");
+    if (display.rfind(start, 0) == 0) longest = std::max(longest, start.size());
+  }
+  return display.substr(longest);
+}
+
 bool Files::is_allowed(const std::string& real) const {
   return std::any_of(roots_.begin(), roots_.end(), [&](const std::string& root) {
     return root == "/" || (real.size() > root.size() && real.compare(0, root.size(), root) == 0 &&

@@ -33,6 +33,8 @@ class Files {
   Opened open(const std::string& caller, const std::string& path) const;
   /// Reads the module `name` ("parts.wheel"). Throws ScriptError that lists the tried paths.
   Opened open_module(const std::string& name) const;
+  /// The part of a path behind the longest of the searched folders that it starts with.
+  [[nodiscard]] std::string name_from_folder(const std::string& display) const;
 
  private:
   [[nodiscard]] bool is_allowed(const std::string& real) const;

@@ -1,6 +1,7 @@
 #include "lua_bindings/guard.h"
 
 #include "lua_bindings/call_site.h"
+#include "lua_bindings/session.h"
 
 namespace csgrun {
 
@@ -12,6 +13,11 @@ void push_error(lua_State* L, const char* message) {
   } else {
     lua_pushstring(L, message);
   }
+}
+
+void push_memory_error(lua_State* L) {
+  session_of(L).budget().note_out_of_memory();
+  push_error(L, "not enough memory");
 }
 
 int raise_pushed_error(lua_State* L) { return lua_error(L); }

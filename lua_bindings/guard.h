@@ -33,6 +33,9 @@ class PlacedScriptError : public ScriptError {
 /// Pushes "FILE:line: message" for the innermost Lua function of the call stack.
 void push_error(lua_State* L, const char* message);
 
+/// Notes the place and pushes the error for memory that C++ code could not get.
+void push_memory_error(lua_State* L);
+
 /// Raises the error value on the top of the stack. The only caller of lua_error.
 int raise_pushed_error(lua_State* L);
 
@@ -44,7 +47,7 @@ int guarded(lua_State* L) {
   } catch (const PlacedScriptError& error) {
     lua_pushstring(L, error.what());
   } catch (const std::bad_alloc&) {
-    push_error(L, "not enough memory");
+    push_memory_error(L);
   } catch (const std::exception& error) {
     push_error(L, error.what());
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/call_site.h"
@@ -76,12 +77,11 @@ std::string unknown_definition(const Session& session) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-}  // namespace
-
-ScriptOutcome run_script(Session& session, const std::string& name, const std::string& text) {
+/// Runs the program in a state of its own, which is gone afterwards.
+ScriptOutcome run_in_state(Session& session, const std::string& name, const std::string& text) {
   Budget& budget = session.budget();
   const std::unique_ptr<lua_State, StateCloser> state(lua_newstate(&Budget::allocate, &budget));
-  if (!state) return {ScriptStatus::kFailed, name + ": " + budget.memory_message()};
+  if (!state) throw std::bad_alloc();
   lua_State* L = state.get();
   attach_session(L, session);
   Program program{&session, &name, &text};
@@ -93,10 +93,7 @@ ScriptOutcome run_script(Session& session, const std::string& name, const std::s
   const int status = lua_pcall(L, 1, 0, 1);
   budget.stop_script();
 
-  if (status == LUA_ERRMEM) {
-    const std::string place = budget.memory_place();
-    return {ScriptStatus::kFailed, (place.empty() ? name : place) + ": " + budget.memory_message()};
-  }
+  if (status == LUA_ERRMEM) throw std::bad_alloc();
   std::string message = status == LUA_OK                 ? ""
                         : lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1)
                                                          : name + ": failed";
@@ -113,6 +110,20 @@ ScriptOutcome run_script(Session& session, const std::string& name, const std::s
     return {ScriptStatus::kUsage, std::move(problem)};
   }
   return {};
+}
+
+}  // namespace
+
+ScriptOutcome run_script(Session& session, const std::string& name, const std::string& text) {
+  try {
+    return run_in_state(session, name, text);
+  } catch (const std::bad_alloc&) {
+    // The state and what it held are gone, so there is memory again for the message.
+    session.budget().stop_script();
+    const std::string place = session.budget().memory_place();
+    return {ScriptStatus::kFailed,
+            (place.empty() ? name : place) + ": " + session.budget().memory_message()};
+  }
 }
 
 }  // namespace csgrun

@@ -63,7 +63,7 @@ SolidPtr Session::evaluate(const NodePtr& node) {
 
 void Session::fail_evaluation(const Error& error) {
   std::string message = error.message;
-  if (const std::string place = error.where.text(); !place.empty())
+  if (const std::string place = place_text(error.where); !place.empty())
     message += " (made at " + place + ")";
   geometry_failures_.push_back(message);
   throw ScriptError(message);
@@ -85,12 +85,26 @@ SourceRef Session::source_ref(lua_State* L) {
   lua_Debug frame{};
   if (!innermost_lua_frame(L, frame)) return {};
   const char* file = chunk_file(frame);
-  if (!last_file_name_ || *last_file_name_ != file) {
-    auto& shared = file_names_[file];
-    if (!shared) shared = std::make_shared<const std::string>(file);
-    last_file_name_ = shared;
+  if (last_file_ != file_names_.end() && last_file_->first == file) {
+    return {last_file_->second, frame.currentline};
   }
-  return {last_file_name_, frame.currentline};
+  return source_ref(std::string(file), frame.currentline);
+}
+
+SourceRef Session::source_ref(const std::string& display, int line) {
+  const auto [entry, fresh] = file_names_.try_emplace(display);
+  if (fresh) {
+    entry->second = std::make_shared<const std::string>(files_.name_from_folder(display));
+    display_names_.emplace(entry->second, display);
+  }
+  last_file_ = entry;
+  return {entry->second, line};
+}
+
+std::string Session::place_text(const SourceRef& where) const {
+  const auto entry = display_names_.find(where.file);
+  if (entry == display_names_.end() || where.line <= 0) return where.text();
+  return entry->second + ":" + std::to_string(where.line);
 }
 
 void Session::add_part(ScriptPart part, const std::string& group) {

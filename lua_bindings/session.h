@@ -73,8 +73,14 @@ class Session {
   void warn(lua_State* L, const std::string& text);
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// The place of the running Lua code, sharing one copy of each file name.
+  /// The place of the running Lua code, sharing one copy of each file name. The name is seen from
+  /// the model's folder (or the library's): it goes into written files, and these must not depend
+  /// on where the program was started.
   SourceRef source_ref(lua_State* L);
+  /// The same for a file that is not Lua.
+  SourceRef source_ref(const std::string& display, int line);
+  /// "FILE:line" with FILE as messages have it; empty when the place is unknown.
+  [[nodiscard]] std::string place_text(const SourceRef& where) const;
 
   /// Takes a part; gives it a name when it has none. Throws ScriptError for a bad or taken name.
   void add_part(ScriptPart part, const std::string& group);
@@ -102,8 +108,10 @@ class Session {
   std::vector<ScriptPart> parts_;
   std::set<std::string> part_names_;
   std::map<std::string, int> unnamed_in_group_;
-  std::map<std::string, std::shared_ptr<const std::string>> file_names_;
-  std::shared_ptr<const std::string> last_file_name_;
+  /// By name in messages: the name from the model's folder. And back.
+  std::map<std::string, std::shared_ptr<const std::string>, std::less<>> file_names_;
+  std::map<std::shared_ptr<const std::string>, std::string> display_names_;
+  decltype(file_names_)::const_iterator last_file_ = file_names_.end();
   std::vector<std::string> geometry_failures_;
   uint64_t last_serial_ = 0;
 };

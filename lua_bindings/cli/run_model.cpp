@@ -99,14 +99,17 @@ class Run {
 
   Failure load_csg(const std::string& text) {
     if (Failure failure = refuse_definitions(); failure.failed()) return failure;
-    auto model = parse_csg(line_.model, text);
+    // Places go into written files, so they are seen from the tree's own folder; messages are not.
+    const SourceRef where = session_.source_ref(line_.model, 1);
+    const std::string folder = folder_of(line_.model);
+    auto model = parse_csg(*where.file, text);
     if (!model) {
-      std::string place = model.error().where.text();
-      if (place.empty()) place = line_.model;
-      return {kExitScript, place + ": " + model.error().message};
+      const std::string place = model.error().where.text();
+      return {kExitScript, (place.empty() ? line_.model : join_path(folder, place)) + ": " +
+                               model.error().message};
     }
-    report_.warnings = model->warnings;
-    const SourceRef where{std::make_shared<const std::string>(line_.model), 1};
+    for (const std::string& warning : model->warnings)
+      report_.warnings.push_back(join_path(folder, warning));
     if (model->is_2d) {
       session_.add_part({"", nullptr, model->shape, where}, "");
     } else {
@@ -143,7 +146,7 @@ class Run {
               message.rfind(line_.model, 0) == 0 ? message : line_.model + ": " + message};
     }
     if (!note.empty()) report_.warnings.push_back(line_.model + ": " + note);
-    const SourceRef where{std::make_shared<const std::string>(line_.model), 1};
+    const SourceRef where = session_.source_ref(line_.model, 1);
     session_.add_part(
         {"", Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where), {}, where},
         "");
@@ -162,7 +165,7 @@ class Run {
       return {kExitTime, fmt::format("{}: {} in evaluation", session_.options().model,
                                      session_.budget().time_message())};
     }
-    std::string place = error.where.text();
+    std::string place = session_.place_text(error.where);
     if (place.empty()) place = session_.options().model;
     return {kExitGeometry, place + ": " + error.message};
   }
@@ -171,7 +174,7 @@ class Run {
     std::vector<NodePtr> nodes;
     for (const ScriptPart& part : session_.parts()) {
       if (part.solid == nullptr) {
-        std::string place = part.where.text();
+        std::string place = session_.place_text(part.where);
         if (place.empty()) place = session_.options().model;
         return {kExitScript,
                 fmt::format(
@@ -190,14 +193,14 @@ class Run {
       const ScriptPart& part = session_.parts()[i];
       report_.parts.push_back({part.name, (*solids)[i], {}});
       if (!(*solids)[i]->empty()) continue;
-      const std::string place = part.where.text();
+      const std::string place = session_.place_text(part.where);
       empty.push_back((place.empty() ? "" : place + ": ") + "part '" + part.name + "' is empty");
     }
     if (empty.size() < nodes.size()) {
       report_.warnings.insert(report_.warnings.end(), empty.begin(), empty.end());
       return {};
     }
-    const std::string place = session_.parts()[0].where.text();
+    const std::string place = session_.place_text(session_.parts()[0].where);
     return {kExitGeometry,
             (place.empty() ? session_.options().model : place) + ": the result is empty"};
   }

@@ -1,0 +1,68 @@
+"""Scripts that do not want to stop: --timeout and --max-memory."""
+from support import SANITIZED, Case, main
+
+ENDLESS = {
+    "loop": "while true do end",
+    "loop in pcall": "while true do pcall(function() while true do end end) end",
+    "loop in a coroutine": "coroutine.wrap(function() while true do pcall(error) end end)()",
+    "string.find": "\nreturn ('a'):rep(40):find(('a?'):rep(40) .. ('a'):rep(40))",
+    "table.move": "\ntable.move({}, 1, 1e15, 2)",
+    "table.insert": "\ntable.insert(setmetatable({}, {__len = function() return 2^53 end}), 1, 5)",
+    "string.rep": "\nreturn (''):rep(1e18)",
+}
+
+
+class Time(Case):
+    def test_timeout(self):
+        for name, text in ENDLESS.items():
+            if name == "string.rep":
+                continue  # Lua is quick here
+            with self.subTest(name):
+                outcome = self.run_script(text, "-o", "a.stl", "--timeout", "0.5")
+                line = 2 if text[0] == "\n" else 1
+                self.expect(outcome, 124, f"model.lua:{line}: ")
+                self.assertIn("out of time (limit 0.5 s)", outcome.err)
+                self.assertLess(outcome.seconds, 20 if SANITIZED else 4)
+                self.assertEqual(self.left_over(), [])
+
+    def test_timeout_in_evaluation(self):
+        text = ("local s = sphere(10, {fn = 300})\nlocal t = s\n"
+                "for i = 1, 100 do t = t - s:translate(i * 0.013, i * 0.017, i * 0.019) end\nreturn t")
+        outcome = self.run_script(text, "-o", "a.stl", "--timeout", "1")
+        self.expect(outcome, 124, "model.lua")
+        self.assertIn("out of time (limit 1 s)", outcome.err)
+        self.assertLess(outcome.seconds, 60 if SANITIZED else 8)
+
+    def test_bad_values(self):
+        for value in ("0", "-1", "nan", "inf", "x"):
+            self.expect(self.run_script("return cube(1)", "--stats", "--timeout", value), 2)
+
+
+class Memory(Case):
+    def test_bomb(self):
+        for text in ("\nlocal t = {} for i = 1, 1e9 do t[i] = {i} end",
+                     "\nlocal s = 'x' while true do s = s .. s end",
+                     "\nlocal t = {} for i = 1, 1e9 do t[i] = sphere(1, {fn = 100}) end"):
+            outcome = self.run_script(text, "--stats", "--max-memory", "100")
+            self.expect(outcome, 1, "model.lua:2: not enough memory")
+            self.assertLess(outcome.peak_mb, 1000 if SANITIZED else 180)
+
+    def test_nodes_without_end(self):
+        if SANITIZED:
+            self.skipTest("the shadow memory of sanitizers does not fit under a limit")
+        outcome = self.run_script("\nlocal s = cube(1) while true do s = s + s end", "--stats", "--max-memory", "200")
+        self.expect(outcome, 1, "model.lua:2: not enough memory")
+        self.assertLess(outcome.peak_mb, 300)
+
+    def test_evaluation(self):
+        if SANITIZED:
+            self.skipTest("the shadow memory of sanitizers does not fit under a limit")
+        text = ("local s, t = sphere(10, {fn = 100}), {}\n"
+                "for i = 1, 2000 do t[i] = s:rotate(i, i * 7, i * 13):translate(i % 50, i % 31, 0) end\nreturn union(t)")
+        outcome = self.run_script(text, "--stats", "--max-memory", "150")
+        self.expect(outcome, 3)
+        self.assertIn("memory", outcome.err)
+
+
+if __name__ == "__main__":
+    main()

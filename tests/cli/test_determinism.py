@@ -1,0 +1,49 @@
+"""The same bytes for any number of threads, in any folder, time zone and locale, on every run."""
+import hashlib
+import os
+
+from support import Case, SOURCE, main
+
+MODEL = """
+local parts = {}
+for name, h in pairs({zeta = 3, alpha = 5, mid = 4, [1] = 2, [2.5] = 6}) do
+  parts[#parts + 1] = (cylinder(h, 2, {fn = 12}) - sphere(1.5, {fn = 10})):rotate(20, 30, 40):translate(math.random(50), h * 3, 0)
+end
+print(tostring({}), os == nil)
+return {all = union(parts), ball = sphere(3.3):color("tomato")}
+"""
+
+
+class Bytes(Case):
+    def digest(self, model, *arguments, env=None, cwd=None):
+        outputs = [self.path(f"a.{ending}") for ending in ("glb", "stl", "obj", "off")]
+        outcome = self.run_csgrun(model, *[x for o in outputs for x in ("-o", o)], *arguments, env=env, cwd=cwd)
+        self.expect(outcome, 0)
+        digest = hashlib.sha256()
+        for output in outputs:
+            with open(output, "rb") as file:
+                digest.update(file.read())
+            os.remove(output)
+        return digest.hexdigest()
+
+    def check(self, model):
+        first = self.digest(model)
+        for threads in ("1", "2", "7"):
+            self.assertEqual(self.digest(model, "--threads", threads), first, threads)
+        for _ in range(10):
+            self.assertEqual(self.digest(model), first)
+        os.makedirs(self.path("else/where"), exist_ok=True)
+        self.assertEqual(self.digest(os.path.relpath(model, self.path("else/where")), cwd=self.path("else/where")), first)
+        for env in ({"TZ": "Asia/Kathmandu"}, {"LC_ALL": "de_DE.UTF-8"}, {"LANG": "tr_TR.UTF-8", "LC_NUMERIC": "de_DE"}):
+            self.assertEqual(self.digest(model, env=env), first, env)
+
+    def test_a_script_that_tries(self):
+        self.check(self.write("model.lua", MODEL.replace("os == nil", "rawget(_G, 'os') == nil")))
+
+    def test_examples(self):
+        for name in ("bracket", "flush_assembly"):
+            self.check(os.path.join(SOURCE, "examples", name + ".lua"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,183 @@
+"""Files that come in: meshes that are wrong, things that are no files, places that are out of bounds."""
+import os
+import struct
+
+from support import Case, SANITIZED, TETRAHEDRON, main, off, stl
+
+A, B, C, D = (0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)
+POINTS = [A, B, C, D]
+FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+
+
+class Meshes(Case):
+    def test_good_ones(self):
+        self.write("t.stl", stl(TETRAHEDRON))
+        self.write("t.off", off(POINTS, FACES))
+        self.write("t.obj", "".join(f"v {x} {y} {z}\n" for x, y, z in POINTS) +
+                   "".join("f " + " ".join(str(i + 1) for i in f) + "\n" for f in FACES))
+        self.write("t.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                   "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n" +
+                   "".join(f"{x} {y} {z}\n" for x, y, z in POINTS) +
+                   "".join("3 " + " ".join(map(str, f)) + "\n" for f in FACES))
+        for name in ("t.stl", "t.off", "t.obj", "t.ply"):
+            for outcome in (self.run_csgrun(name, "--stats=json"), self.run_script(f"return import('{name}')")):
+                self.expect(outcome, 0)
+                part = outcome.json()["parts"][0]
+                self.assertEqual((part["triangles"], part["vertices"], part["genus"]), (4, 4, 0))
+                self.assertEqual(part["volume"], 1 / 6)
+
+    def check(self, name, *said):
+        """The mesh is refused, as a model and by import(), and the message says this."""
+        for outcome, start in ((self.run_csgrun(name, "-o", "out.stl"), name + ":"),
+                               (self.run_script(f"\nreturn import('{name}')"), "model.lua:2: import: ")):
+            self.expect(outcome, 1, start)
+            for text in said:
+                self.assertIn(text, outcome.err)
+            self.assertFalse(os.path.exists(self.path("out.stl")))
+
+    def test_open(self):
+        self.write("open.off", off(POINTS, FACES[:3]))
+        self.check("open.off", "3 open edges")
+
+    def test_flipped_face(self):
+        self.write("flipped.off", off(POINTS, FACES[:3] + [(1, 3, 2)]))
+        self.check("flipped.off", "3 ", "edges")
+
+    def test_degenerate_face(self):
+        self.write("degenerate.off", off(POINTS, FACES + [(0, 0, 1)]))
+        self.check("degenerate.off", "degenerate face")
+
+    def test_index_out_of_range(self):
+        self.write("index.off", off(POINTS, FACES[:3] + [(1, 2, 9)]))
+        self.check("index.off", "9")
+        self.write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n")
+        self.check("index.obj", "7")
+
+    def test_not_a_number(self):
+        self.write("nan.stl", stl(TETRAHEDRON[:3] + [((float("nan"), 0, 0), C, D)]))
+        self.check("nan.stl")
+
+    def test_self_intersecting(self):
+        # Two tetrahedra through one another in one mesh.
+        shifted = [(x + 0.1, y + 0.1, z + 0.1) for x, y, z in POINTS]
+        self.write("crossing.off", off(POINTS + shifted, FACES + [tuple(i + 4 for i in f) for f in FACES]))
+        outcome = self.run_csgrun("crossing.off", "-o", "out.stl")
+        self.expect(outcome, 3, "crossing.off")
+        self.assertIn("(", outcome.err)  # where
+
+    def test_truncated(self):
+        self.write("cut.stl", stl(TETRAHEDRON)[:-20])
+        self.check("cut.stl")
+        self.write("cut.off", off(POINTS, FACES)[:-10])
+        self.check("cut.off")
+        self.write("empty.stl", b"")
+        self.check("empty.stl")
+
+    def test_not_what_its_name_says(self):
+        self.write("png.stl", b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 4)
+        self.check("png.stl")
+        self.write("text.off", "This is a letter, not a mesh.\n")
+        self.check("text.off")
+        self.write("stl.ply", stl(TETRAHEDRON))
+        self.check("stl.ply")
+
+    def test_count_that_lies(self):
+        self.write("count.stl", stl(TETRAHEDRON, count=4_000_000_000))
+        self.write("count.off", "OFF\n4000000000 4000000000 0\n0 0 0\n")
+        self.write("count.ply", b"ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
+                   b"property float y\nproperty float z\nelement face 4000000000\n"
+                   b"property list uint int vertex_indices\nend_header\n" + struct.pack("<3fI", 0, 0, 0, 4_000_000_000))
+        for name in ("count.stl", "count.off", "count.ply"):
+            self.check(name)
+            outcome = self.run_csgrun(name, "-o", "out.stl")
+            self.assertLess(outcome.seconds, 10 if SANITIZED else 1)
+            self.assertLess(outcome.peak_mb, 1000 if SANITIZED else 200)
+
+
+class NoFiles(Case):
+    def test_as_the_model(self):
+        os.mkfifo(self.path("fifo.lua"))
+        os.mkdir(self.path("folder.lua"))
+        os.symlink("/dev/zero", self.path("zero.lua"))
+        os.symlink("/dev/zero", self.path("zero.stl"))
+        for name, said in (("fifo.lua", "it is not a regular file"), ("folder.lua", "it is a directory"),
+                           ("zero.lua", "it is not a regular file"), ("zero.stl", "it is not a regular file"),
+                           ("none.lua", "No such file or directory")):
+            outcome = self.run_csgrun(name, "-o", "out.stl", wall=20)
+            self.expect(outcome, 4, f"csgrun: cannot read '{name}': {said}")
+            self.assertLess(outcome.seconds, 5)
+
+    def test_by_import(self):
+        os.mkfifo(self.path("fifo.stl"))
+        os.mkdir(self.path("folder.stl"))
+        os.symlink("/dev/zero", self.path("zero.stl"))
+        for name, said in (("fifo.stl", "cannot read 'fifo.stl': it is not a regular file"),
+                           ("folder.stl", "cannot read 'folder.stl': it is a directory"),
+                           ("none.stl", "cannot read 'none.stl': No such file or directory"),
+                           ("zero.stl", "'zero.stl' lies outside of the model's folder")):
+            self.expect(self.run_script(f"return import('{name}')", wall=20), 1, f"model.lua:1: import: {said}")
+
+
+class Bounds(Case):
+    def setUp(self):
+        super().setUp()
+        self.write("secret.stl", stl(TETRAHEDRON))
+        self.write("secret.lua", "return cube(1)")
+        self.write("library/shared.stl", stl(TETRAHEDRON))
+        self.write("library/shared.lua", "return cube(7)")
+        os.mkdir(self.path("model"))
+
+    def run_inside(self, text, *arguments, env=None):
+        self.write("model/model.lua", text)
+        return self.run_csgrun("model/model.lua", *(arguments or ("--stats=json",)), env=env)
+
+    def test_out_of_the_folder(self):
+        os.symlink("../secret.stl", self.path("model/link.stl"))
+        os.symlink("..", self.path("model/up"))
+        for name in ("../secret.stl", "link.stl", "up/secret.stl", self.path("secret.stl"), "../none.stl"):
+            self.expect(self.run_inside(f"return import('{name}')"), 1,
+                        f"model/model.lua:1: import: '{name}' lies outside of the model's folder")
+        os.symlink("../secret.lua", self.path("model/link.lua"))
+        self.expect(self.run_inside("return require 'link'"), 1, "model/model.lua:1: require: module 'link' not found:")
+        self.expect(self.run_inside("return require '../secret'"), 1,
+                    "model/model.lua:1: require: '../secret' is not a module's name")
+
+    def test_library_folders(self):
+        self.expect(self.run_inside("return require 'shared'"), 1, "model/model.lua:1: require: module 'shared' not found:")
+        self.expect(self.run_inside("return require 'shared'", "--stats=json", "-L", "library"), 0)
+        self.expect(self.run_inside("return import('../library/shared.stl')", "--stats=json", "-L", "library"), 0)
+        outcome = self.run_inside("return require 'shared'", env={"CSGRUN_PATH": "/nowhere:" + self.path("library")})
+        self.expect(outcome, 0)
+        self.assertEqual(outcome.json()["parts"][0]["volume"], 343)
+        self.write("model/csgrun_modules/beside.lua", "return cube(2)")
+        self.expect(self.run_inside("return require 'beside'"), 0)
+
+    def test_a_module_that_is_bytecode(self):
+        self.write("model/code.lua", b"\x1bLuaT\0")
+        self.expect(self.run_inside("return require 'code'"), 1, "model/code.lua:1: this is Lua bytecode")
+
+
+class Trees(Case):
+    def test_csg(self):
+        self.write("m.csg", "difference() {\n\tcube(size = [10, 10, 10], center = false);\n"
+                   "\tmultmatrix([[1, 0, 0, 5], [0, 1, 0, 5], [0, 0, 1, 5], [0, 0, 0, 1]]) {\n"
+                   "\t\tcube(size = [10, 10, 10], center = false);\n\t}\n}\n")
+        outcome = self.run_csgrun("m.csg", "--stats=json")
+        self.expect(outcome, 0)
+        self.assertEqual(outcome.json()["parts"][0]["volume"], 875)
+
+    def test_a_node_that_is_not_there_yet(self):
+        self.write("m.csg", "group() {\n\thull() {\n\t\tcube(size = [1, 1, 1], center = false);\n\t}\n}\n")
+        self.expect(self.run_csgrun("m.csg", "--stats=json"), 1, "m.csg:2: ")
+
+    def test_what_is_no_tree(self):
+        self.write("m.csg", "group() {\n\tcube(size = \n")
+        self.expect(self.run_csgrun("m.csg", "--stats=json"), 1, "m.csg:")
+
+    def test_parameters_do_not_exist(self):
+        self.write("m.csg", "cube(size = [1, 1, 1], center = false);\n")
+        self.expect(self.run_csgrun("m.csg", "--stats", "-D", "a=1"), 2, "csgrun: -D a: only a script has parameters")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,107 @@
+"""The command line: usage errors are exit code 2 and say what to do."""
+import re
+
+from support import Case, main
+
+SCRIPT = "local r = param('hole_radius', 4, {min = 1, max = 10})\nreturn cube(r)"
+
+
+class Usage(Case):
+    def check(self, message, *arguments):
+        self.write("model.lua", SCRIPT)
+        outcome = self.run_csgrun(*arguments)
+        self.expect(outcome, 2, message)
+        self.assertEqual(outcome.out, "")
+
+    def test_what_is_missing(self):
+        self.check("csgrun: which model?")
+        self.check("csgrun: nothing to do: give an output with -o, or --stats", "model.lua")
+
+    def test_endings(self):
+        for ending in ("3mf", "ply", "svg", "dxf"):
+            self.check(f"csgrun: 'a.{ending}': writing .{ending} is not built yet", "model.lua", "-o", f"a.{ending}")
+        self.check("csgrun: 'a.step': the ending must be one of", "model.lua", "-o", "a.step")
+        self.check("csgrun: 'model.txt': the model must end in", "model.txt", "-o", "a.stl")
+        self.check("csgrun: '/dev/zero': the model must end in", "/dev/zero", "-o", "a.stl")
+
+    def test_outputs(self):
+        self.check("csgrun: 'a.stl' is given twice with -o", "model.lua", "-o", "a.stl", "-o", "a.stl")
+        self.check("csgrun: '%s%s.stl': %s", "model.lua", "-o", "%s%s.stl")
+        self.write("mesh.stl", "solid x\nendsolid x\n")
+        self.check("csgrun: 'mesh.stl' is the model itself and would be overwritten", "mesh.stl", "-o", "mesh.stl")
+
+    def test_options(self):
+        self.check("csgrun: --check is not built yet", "model.lua", "--stats", "--check")
+        self.check("csgrun: The following argument was not expected: --bogus", "model.lua", "--stats", "--bogus")
+        self.check("csgrun: --stats can be =json or nothing", "model.lua", "--stats=xml")
+        self.check("csgrun: --threads must be from 1 to", "model.lua", "--stats", "--threads", "0")
+        self.check("csgrun: --grid x: ", "model.lua", "--stats", "--grid", "x")
+        self.check("csgrun: --grid 0: ", "model.lua", "--stats", "--grid", "0")
+        self.check("csgrun: --fn must be from 0 to", "model.lua", "--stats", "--fn", "-1")
+        self.check("csgrun: --max-memory must be at least", "model.lua", "--stats", "--max-memory", "1")
+        self.check("csgrun: -L none: there is no such folder", "model.lua", "--stats", "-L", "none")
+
+    def test_definitions(self):
+        self.check("csgrun: -D hole_radis: the model has no such parameter (did you mean 'hole_radius'?)",
+                   "model.lua", "--stats", "-D", "hole_radis=5")
+        self.check("csgrun: -D hole_radius=x: 'hole_radius' must be a number", "model.lua", "--stats", "-D", "hole_radius=x")
+        self.check("csgrun: -D hole_radius=11: 'hole_radius' must be at most 10, got 11",
+                   "model.lua", "--stats", "-D", "hole_radius=11")
+        self.check("csgrun: -D hole_radius: write it as -D name=value", "model.lua", "--stats", "-D", "hole_radius")
+
+
+class Good(Case):
+    def volume(self, *arguments, text=SCRIPT, **options):
+        outcome = self.run_script(text, "--stats=json", *arguments, **options)
+        self.expect(outcome, 0)
+        return outcome.json()["parts"][0]["volume"]
+
+    def test_definitions(self):
+        self.assertEqual(self.volume(), 64)
+        self.assertEqual(self.volume("-D", "hole_radius=5"), 125)
+        self.assertEqual(self.volume("-Dhole_radius=5"), 125)
+        self.assertEqual(self.volume("-D", "hole_radius=5", "-D", "hole_radius=6"), 216)
+
+    def test_facets(self):
+        text = "return cylinder(1, 1)"
+        self.assertEqual(self.volume("--fn", "4", text=text), 2)
+        self.assertEqual(self.volume("--fa", "90", "--fs", "0.01", text="return cylinder{h = 1, r = 1, fn = 4}"), 2)
+
+    def test_grid(self):
+        outcome = self.run_script("return cube(1)", "--stats=json", "--grid", "0.001")
+        self.assertEqual(outcome.json()["grid_mm"], 0.001)
+        outcome = self.run_script("return cube(1)", "--stats=json", "--grid", "2^-20mm")
+        self.assertEqual(outcome.json()["grid_mm"], 2.0**-20)
+        outcome = self.run_script("csg.grid = 0.25 return cube(1.1)", "--stats=json")
+        self.assertEqual((outcome.json()["grid_mm"], outcome.json()["parts"][0]["volume"]), (0.25, 1))
+
+    def test_standard_input(self):
+        outcome = self.run_csgrun("-", "--stats=json", stdin=b"return cube(2)")
+        self.expect(outcome, 0)
+        self.assertEqual(outcome.json()["parts"][0]["volume"], 8)
+        self.expect(self.run_csgrun("-", "--stats=json", stdin=b"\nreturn cub(2)"), 1, "stdin:2: undefined variable 'cub'")
+
+    def test_caches_are_accepted(self):
+        self.assertEqual(self.volume("--no-cache", "--cache-dir", "x"), 64)
+
+    def test_version_and_help(self):
+        self.assertRegex(self.run_csgrun("--version").out, r"^csgrun \d+\.\d+\.\d+\n$")
+        self.assertIn("--timeout", self.run_csgrun("--help").out)
+        api = self.run_csgrun("--help-api")
+        self.expect(api, 0)
+        functions = re.findall(r"^(\w+)\(", api.out, re.MULTILINE)
+        self.assertGreater(len(functions), 50)
+        self.assertEqual(len(functions), len(set(functions)))
+
+    def test_quiet(self):
+        outcome = self.run_script("return {cube(1), cube(1) - cube(2)}", "-o", "a.stl")
+        self.assertIn("warning: model.lua:1: part 'part2' is empty", outcome.err)
+        self.assertEqual(self.run_script("return {cube(1), cube(1) - cube(2)}", "-o", "a.stl", "-q").err, "")
+
+    def test_a_cube_is_quick(self):
+        times = sorted(self.run_script("return cube(10)", "-o", "a.glb").seconds for _ in range(5))
+        self.assertLess(times[0], 1.0)  # a guard against the absurd; timings belong to benchmarks
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,109 @@
+"""Files that go out: whole or not at all; parts; what stands on standard output."""
+import json
+import os
+import subprocess
+
+from support import Case, main
+
+
+class Outputs(Case):
+    def test_all_formats_at_once(self):
+        names = ["a.glb", "a.gltf", "a.stl", "a.obj", "a.off"]
+        arguments = [x for name in names for x in ("-o", name)]
+        outcome = self.run_script("return cube(10) - cylinder(10, 3)", *arguments)
+        self.expect(outcome, 0)
+        self.assertEqual(outcome.out, "")
+        for name in names:
+            self.assertGreater(os.path.getsize(self.path(name)), 100)
+        self.assertEqual(self.left_over(), [])
+
+    def test_one_mesh_formats_get_the_exact_union(self):
+        self.expect(self.run_script("return {a = cube(10), b = cube(10):translate(5, 0, 0)}", "-o", "a.stl"), 0)
+        outcome = self.run_csgrun("a.stl", "--stats=json")
+        part = outcome.json()["parts"][0]
+        self.assertEqual((part["volume"], part["components"], part["triangles"]), (1500, 1, 12))
+
+    def test_parts_stay_apart_in_gltf(self):
+        outcome = self.run_script("return {lid = cube(10), case = {cube(10):up(20)}}", "-o", "a.gltf", "--stats=json")
+        self.expect(outcome, 0)
+        self.assertEqual([p["name"] for p in outcome.json()["parts"]], ["case/part1", "lid"])
+        with open(self.path("a.gltf")) as file:
+            nodes = {n.get("name") for n in json.load(file)["nodes"]}
+        self.assertTrue({"lid"} <= nodes, nodes)
+
+    def test_one_file_a_part(self):
+        os.mkdir(self.path("out"))
+        self.expect(self.run_script("return {lid = cube(1), case = {side = cube(2)}}", "-o", "out/%s.stl"), 0)
+        self.assertEqual(sorted(os.listdir(self.path("out"))), ["case-side.stl", "lid.stl"])
+        outcome = self.run_script("return {['a-b'] = cube(1), a = {b = cube(2)}}", "-o", "out/%s.stl")
+        self.expect(outcome, 4, "csgrun: parts 'a/b' and 'a-b' would both be written to 'out/a-b.stl'")
+
+    def test_the_object_of_stats(self):
+        outcome = self.run_script("return cube(1)", "--stats=json", "--threads", "2")
+        self.expect(outcome, 0)
+        self.assertEqual(outcome.err, "")
+        stats = outcome.json()
+        self.assertEqual(outcome.out.count("\n"), 1)
+        self.assertEqual(list(stats)[:7], ["version", "threads", "grid_mm", "seconds", "nodes", "parts", "warnings"])
+        self.assertEqual(list(stats["seconds"]), ["script", "leaves", "boolean", "export", "total"])
+        self.assertEqual(list(stats["nodes"]), ["evaluated", "memory", "disk"])
+        self.assertEqual(stats["threads"], 2)
+        self.assertEqual(stats["grid_mm"], 1.5625e-08)
+        self.assertEqual(stats["parts"], [{"name": "part1", "triangles": 12, "vertices": 8, "volume": 1, "area": 6,
+                                           "bbox": [[0, 0, 0], [1, 1, 1]], "components": 1, "genus": 0, "closed": True}])
+        self.assertEqual(stats["warnings"], [])
+
+    def test_stats_for_people_go_to_standard_error(self):
+        outcome = self.run_script("return cube(1)", "--stats")
+        self.expect(outcome, 0, "part1: 12 triangles, 8 vertices, volume 1 mm^3")
+        self.assertEqual(outcome.out, "")
+
+
+class Unwritable(Case):
+    def check(self, output, **options):
+        outcome = self.run_script("return cube(10) - sphere(6, {fn = 100})", "-o", output, **options)
+        self.expect(outcome, 4, "csgrun: ")
+        self.assertIn(output, outcome.err)
+        self.assertEqual(self.left_over(), [])
+        return outcome
+
+    def test_no_such_folder(self):
+        self.assertIn("No such file or directory", self.check("none/a.stl").err)
+
+    def test_a_folder_of_that_name(self):
+        os.mkdir(self.path("a.stl"))
+        self.check("a.stl")
+
+    def test_no_permission(self):
+        if os.geteuid() == 0:
+            self.skipTest("root may write everywhere")
+        os.mkdir(self.path("closed"), 0o500)
+        self.check("closed/a.stl")
+
+    def test_file_limit(self):
+        for name in ("a.stl", "a.glb", "a.obj", "a.off", "a.gltf"):
+            self.check(name, file_limit=8192)
+            self.assertFalse(os.path.exists(self.path(name)))
+
+    def test_full_disk(self):
+        os.mkdir(self.path("small"))
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16k", "tmpfs", self.path("small")],
+                                 capture_output=True)
+        if mounted.returncode != 0:
+            self.skipTest("cannot mount a small file system here")
+        try:
+            outcome = self.check("small/a.stl")
+            self.assertIn("No space left on device", outcome.err)
+            self.assertEqual(os.listdir(self.path("small")), [])
+        finally:
+            subprocess.run(["umount", self.path("small")], check=True)
+
+    def test_what_was_there_stays(self):
+        self.write("a.stl", "precious")
+        self.check("a.stl", file_limit=8192)
+        with open(self.path("a.stl")) as file:
+            self.assertEqual(file.read(), "precious")
+
+
+if __name__ == "__main__":
+    main()

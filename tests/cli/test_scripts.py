@@ -1,0 +1,99 @@
+"""Mistakes in scripts: the message starts with FILE:line:, the exit code is 1."""
+from support import Case, main
+
+
+class Mistakes(Case):
+    def check(self, text, message, code=1):
+        outcome = self.run_script(text)
+        self.expect(outcome, code, message)
+        self.assertEqual(outcome.out, "")
+
+    def test_syntax(self):
+        self.check("local a = 1\nlocal b = = 2\n", "model.lua:2: unexpected symbol near '='")
+        self.check("return cube(", "model.lua:1: unexpected symbol near <eof>")
+
+    def test_runtime_error_deep_in_a_required_file(self):
+        self.write("parts/wheel.lua", "local M = {}\nfunction M.spokes(n)\n  if n == 0 then\n    error('no spokes')\n"
+                                      "  end\n  local r = M.spokes(n - 1)\n  return r\nend\nreturn M\n")
+        outcome = self.run_script("local wheel = require 'parts.wheel'\n\nlocal r = wheel.spokes(2)\nreturn r\n")
+        self.expect(outcome, 1, "parts/wheel.lua:4: no spokes\nstack traceback:\n")
+        for frame in ("parts/wheel.lua:4: in ", "parts/wheel.lua:6: in ", "model.lua:3: in main chunk"):
+            self.assertIn(frame, outcome.err)
+
+    def test_unknown_option(self):
+        self.check("return cube{centre = true}", "model.lua:1: cube: unknown option 'centre' (did you mean 'center'?)")
+
+    def test_undefined_global(self):
+        self.check("\nreturn cub(10)", "model.lua:2: undefined variable 'cub' (did you mean 'cube'?)")
+
+    def test_sizes(self):
+        for size, said in (("0/0", "finite, got nan"), ("1/0", "finite, got inf"), ("-1/0", "finite, got -inf"),
+                           ("0", "positive, got 0"), ("-3", "positive, got -3")):
+            self.check(f"return cube({size})", f"model.lua:1: cube: option 'size' must be {said}")
+            self.check(f"return sphere({size})", f"model.lua:1: sphere: option 'r' must be {said}")
+            self.check(f"return cylinder{{h = {size}}}", f"model.lua:1: cylinder: option 'h' must be {said}")
+            self.check(f"return circle({size})", f"model.lua:1: circle: option 'r' must be {said}")
+            self.check(f"return square(1):linear_extrude({size})",
+                       f"model.lua:1: linear_extrude: option 'height' must be {said}")
+        self.check("return cube(1):translate(0/0, 0, 0)", "model.lua:1: translate: option 'v' must be finite, got nan")
+        self.check("return cube(1):rotate(1/0)", "model.lua:1: rotate: option 'a' must be finite, got inf")
+        self.check("return multmatrix{{0/0}} * cube(1)", "model.lua:1: entry [1][1] of a matrix must be a finite number")
+
+    def test_sandbox(self):
+        for text in ("io.open('x')", "os.execute('ls')", "debug.sethook()", "dofile('x')", "loadfile('x')",
+                     "package.loadlib('x', 'y')"):
+            name = text.split(".")[0].split("(")[0]
+            self.check(text, f"model.lua:1: '{name}' is not available: ")
+        self.check("setmetatable({}, {__gc = function() end})", "model.lua:1: setmetatable: '__gc' is not available")
+        self.check(b"\x1bLuaR\0".decode("latin1"), "model.lua:1: this is Lua bytecode; only text is accepted")
+        self.check("assert(load('\\27Lua'))", "model.lua:1: attempt to load a binary chunk (mode is 't')")
+        self.check("string.dump(print)", "model.lua:1: attempt to call a nil value (field 'dump')")
+
+    def test_no_result(self):
+        self.check("local a = cube(1)", "model.lua:1: the script makes no part")
+        self.check("return 5", "model.lua:1: a part must be a solid, a shape or a table of them, got 5")
+
+    def test_2d_result(self):
+        outcome = self.run_script("\nreturn square(10)", "-o", "a.stl")
+        self.expect(outcome, 1, "model.lua:2: part 'part1' is a 2D shape")
+        self.assertIn("linear_extrude", outcome.err)
+
+    def test_long_paths_are_whole(self):
+        folder = "/".join(["a" * 40, "b" * 40, "c" * 40])
+        model = self.write(folder + "/model.lua", "local x\nreturn x.y")
+        self.expect(self.run_csgrun(model, "--stats=json"), 1, model + ":2: attempt to index a nil value")
+        model = self.write(folder + "/model.lua", "\nx = = 1")
+        self.expect(self.run_csgrun(model, "--stats=json"), 1, model + ":2: unexpected symbol")
+
+    def test_print_goes_to_standard_error(self):
+        outcome = self.run_script("print('hello', {}, cube(1)) return cube(1)")
+        self.expect(outcome, 0, "hello\ttable\tsolid\n")
+        outcome.json()
+
+
+class Geometry(Case):
+    def test_empty_result(self):
+        outcome = self.run_script("return cube(1) -\n cube(1)", "-o", "a.stl")
+        self.expect(outcome, 3, "model.lua:1: the result is empty")
+        self.assertFalse(__import__("os").path.exists(self.path("a.stl")))
+
+    def test_an_empty_part_is_a_warning(self):
+        outcome = self.run_script("return {a = cube(1), b = cube(1) - cube(2)}")
+        self.expect(outcome, 0)
+        self.assertEqual([p["name"] for p in outcome.json()["parts"]], ["a", "b"])
+        self.assertEqual(outcome.json()["warnings"], ["model.lua:1: part 'b' is empty"])
+
+    def test_polyhedra(self):
+        points = "{{0,0,0},{1,0,0},{0,1,0},{0,0,1}}"
+        good = "{{0,1,2},{0,3,1},{0,2,3},{1,3,2}}"
+        self.expect(self.run_script(f"return polyhedron{{points = {points}, faces = {good}}}"), 0)
+        inverted = self.run_script(f"return polyhedron{{points = {points}, faces = {{{{2,1,0}},{{1,3,0}},{{3,2,0}},{{2,3,1}}}}}}")
+        self.expect(inverted, 0)
+        self.assertEqual(len(inverted.json()["warnings"]), 1)
+        for faces in ("{{0,1,2},{0,3,1},{0,2,3}}", "{{2,1,0},{0,3,1},{0,2,3},{1,3,2}}", "{{0,1,2},{0,3,1},{0,2,3},{1,3,9}}"):
+            self.expect(self.run_script(f"\nreturn polyhedron{{points = {points}, faces = {faces}}}"), 1,
+                        "model.lua:2: polyhedron: ")
+
+
+if __name__ == "__main__":
+    main()
