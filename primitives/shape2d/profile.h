@@ -29,7 +29,4 @@ std::vector<uint32_t> smooth_chains(const Shape2D::Loop& loop, uint32_t& chain_c
 /// rounding to any step well below that cannot make the outline cross itself.
 bool has_clearance(const Shape2D& shape, double clearance);
 
-/// The clearance that counts as safe for every scene that fits a grid of 27 bits and 60 m.
-constexpr double kSafeClearance = 1e-3;
-
 }  // namespace csgrun

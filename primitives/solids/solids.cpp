@@ -78,7 +78,8 @@ MeshResult make_cube(const glm::dvec3& size, std::array<bool, 3> center) {
   }
   PolygonMesh mesh;
   mesh.kind = "cube";
-  mesh.known_simple = mesh.convex = true;
+  mesh.convex = true;
+  mesh.known_simple = std::min({size.x, size.y, size.z}) >= kSafeClearance;
   for (int i = 0; i < 8; ++i) {
     mesh.points.emplace_back(range[0][i & 1], range[1][(i >> 1) & 1], range[2][i >> 2]);
   }
@@ -98,7 +99,9 @@ MeshResult make_sphere(double r, const Facets& facets) {
   }
   PolygonMesh mesh;
   mesh.kind = "sphere";
-  mesh.known_simple = mesh.convex = true;
+  mesh.convex = true;
+  // The shortest edges are those of the caps.
+  mesh.known_simple = 2 * r * sin_deg(90.0 / rings) * sin_deg(180.0 / n) >= kSafeClearance;
   // The first ring is the top one. No vertex lies at a pole.
   for (int i = 0; i < rings; ++i) {
     const double polar = 180.0 * (i + 0.5) / rings;
@@ -129,7 +132,9 @@ MeshResult make_cylinder(double h, double r1, double r2, bool center, const Face
   if (2.0 * n > kMostPoints) return too_many_points("cylinder", n, 2.0 * n);
   PolygonMesh mesh;
   mesh.kind = r1 == r2 ? "cylinder" : "cone";
-  mesh.known_simple = mesh.convex = true;
+  mesh.convex = true;
+  const double smaller = std::min(r1, r2) > 0 ? std::min(r1, r2) : std::max(r1, r2);
+  mesh.known_simple = std::min(h, 2 * smaller * sin_deg(180.0 / n)) >= kSafeClearance;
   const uint32_t lower = add_ring(mesh, r1, center ? -h / 2 : 0, n);
   const uint32_t upper = add_ring(mesh, r2, center ? h / 2 : h, n);
   if (r1 > 0) add_cap(mesh, lower, n, false);
