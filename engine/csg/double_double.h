@@ -1,6 +1,6 @@
-// Arithmetic with about 106 bits as unevaluated sums of two doubles (Dekker 1971, Knuth TAOCP 4.2.2).
-// It gives the frames of transforms free of rounding noise of our own, with the same bits on every
-// IEEE machine; long double would not.
+// Arithmetic with about 106 bits as unevaluated sums of two doubles (Dekker 1971, Knuth
+// TAOCP 4.2.2). It gives the frames of transforms free of rounding noise of our own, with the same
+// bits on every IEEE machine; long double would not.
 #pragma once
 
 #include <cmath>

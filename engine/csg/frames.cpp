@@ -113,8 +113,8 @@ uint32_t RowTable::insert(const Row& row) {
   const auto handle = static_cast<uint32_t>(rows_.size());
   rows_.push_back(row);
   parent_.push_back(handle);
-  // Rows of one cell are within the tolerance by themselves, so one close row in a neighbouring cell
-  // joins that whole cell.
+  // Rows of one cell are within the tolerance by themselves, so one close row in a neighbouring
+  // cell joins that whole cell.
   if (!here.empty()) join(here.front(), handle);
   here.push_back(handle);
   for (int64_t dx = -1; dx <= 1; ++dx) {
@@ -172,8 +172,8 @@ CanonicalFrame canonical_frame(const std::array<std::array<int64_t, 3>, 3>& rows
     sign[i] = -1;
     for (int j = 0; j < 3; ++j) positive[i][j] = -rows[i][j];
   }
-  // Then the order with the heaviest diagonal, which is the identity's for unit rows; ties go to the
-  // largest matrix. Exact comparisons of integers: noise has no say.
+  // Then the order with the heaviest diagonal, which is the identity's for unit rows; ties go to
+  // the largest matrix. Exact comparisons of integers: noise has no say.
   std::array<int8_t, 3> order{0, 1, 2}, best = order;
   Int128 best_weight = -1;
   std::array<std::array<int64_t, 3>, 3> best_matrix{};

@@ -1,5 +1,5 @@
-// Frames: where the leaves of turned, mirrored and sheared parts are quantised, so that what is flush
-// before a common transform is flush after it (docs/numerics.md, "Frames").
+// Frames: where the leaves of turned, mirrored and sheared parts are quantised, so that what is
+// flush before a common transform is flush after it (docs/numerics.md, "Frames").
 #pragma once
 
 #include <array>
@@ -27,13 +27,13 @@ struct LinearSplit {
   double determinant = 0;                ///< of Rn
 };
 
-/// Splits a finite transform. Computed with about 100 bits, so that the noise in the rows is that of
-/// the transform's own entries.
+/// Splits a finite transform. Computed with about 100 bits, so that the noise in the rows is that
+/// of the transform's own entries.
 LinearSplit split_linear(const Affine& map);
 
 /// Makes one row of rows that differ by noise. Rows within 2^-46 of one another (largest difference
-/// of an entry), transitively, up to sign, are one row, represented by the first that was added; unit
-/// rows come before all others.
+/// of an entry), transitively, up to sign, are one row, represented by the first that was added;
+/// unit rows come before all others.
 class RowTable {
  public:
   RowTable();
@@ -65,9 +65,9 @@ struct Placement {
   SignedPermutation permutation;  ///< local axes -> axes of the frame
 };
 
-/// The frame of three integer rows (local axes). It is a function of the set of the rows up to sign:
-/// parts that differ by 90-degree turns and mirrors share it, and it is the identity when the rows
-/// are the unit rows. `framed` is false when the rows do not span space.
+/// The frame of three integer rows (local axes). It is a function of the set of the rows up to
+/// sign: parts that differ by 90-degree turns and mirrors share it, and it is the identity when the
+/// rows are the unit rows. `framed` is false when the rows do not span space.
 struct CanonicalFrame {
   bool framed = false;
   Placement placement;

@@ -25,7 +25,8 @@ GridStep reduced(int64_t numerator, int64_t denominator, int exponent) {
 
 Error bad_step(const std::string& text, const std::string& why) {
   return {ErrorCode::kInvalidArgument,
-          "grid step '" + text + "' " + why + " (expected millimetres such as 0.001 or 2^-20mm)", {}};
+          "grid step '" + text + "' " + why + " (expected millimetres such as 0.001 or 2^-20mm)",
+          {}};
 }
 
 /// Digits as a number of at most 18 places; std::nullopt when there are none or too many.

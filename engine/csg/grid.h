@@ -22,10 +22,10 @@ class Quantiser {
   /// `step` must not be automatic.
   explicit Quantiser(const GridStep& step);
 
-  /// floor(x / step + 1/2 + 2^-12), a function of the exact value of `x`: no rounding happens on the
-  /// way. The 2^-12 makes ties (multiples of half a step) safe from the noise of the doubles that
-  /// lead to `x`, and the rule is invariant under translation by whole steps. std::nullopt when
-  /// |x / step| is 2^41 or more, or x is not finite.
+  /// floor(x / step + 1/2 + 2^-12), a function of the exact value of `x`: no rounding happens on
+  /// the way. The 2^-12 makes ties (multiples of half a step) safe from the noise of the doubles
+  /// that lead to `x`, and the rule is invariant under translation by whole steps. std::nullopt
+  /// when |x / step| is 2^41 or more, or x is not finite.
   [[nodiscard]] std::optional<int64_t> operator()(double x) const;
 
   [[nodiscard]] const GridStep& step() const { return step_; }

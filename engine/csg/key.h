@@ -17,9 +17,9 @@ struct KeyHash {
   size_t operator()(const Key& key) const { return static_cast<size_t>(key[0]); }
 };
 
-/// Gathers bytes and hashes them at once. Everything is put with its length where it varies, so that
-/// different sequences give different bytes. Numbers are hashed as this machine holds them: keys do
-/// not leave the process.
+/// Gathers bytes and hashes them at once. Everything is put with its length where it varies, so
+/// that different sequences give different bytes. Numbers are hashed as this machine holds them:
+/// keys do not leave the process.
 class KeyBuilder {
  public:
   explicit KeyBuilder(std::string_view domain) { text(domain); }

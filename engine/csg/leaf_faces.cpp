@@ -145,9 +145,9 @@ using EdgeSplits = std::map<std::pair<uint32_t, uint32_t>, Loop>;
 void find_splits(const std::vector<IVec3>& vertices, const Loop& loop, EdgeSplits& splits) {
   int axis = 0;
   for (int i = 0; i < 3; ++i) {
-    const auto [lo, hi] = std::minmax_element(loop.begin(), loop.end(), [&](uint32_t a, uint32_t b) {
-      return vertices[a][i] < vertices[b][i];
-    });
+    const auto [lo, hi] = std::minmax_element(
+        loop.begin(), loop.end(),
+        [&](uint32_t a, uint32_t b) { return vertices[a][i] < vertices[b][i]; });
     if (vertices[*lo][i] != vertices[*hi][i]) axis = i;
   }
   Loop line = loop;
@@ -313,8 +313,8 @@ bool corner_plane(const std::vector<IVec3>& vertices, const uint32_t* corners, s
   return false;
 }
 
-void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex,
-                       bool merged, std::vector<LoopFace>& faces) {
+void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, bool merged,
+                       std::vector<LoopFace>& faces) {
   bool collapsed = false, bent = false;
   for (LoopFace& face : faces) {
     for (Loop& loop : face.loops) {

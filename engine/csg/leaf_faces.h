@@ -1,5 +1,5 @@
-// The faces of a leaf on integer points: what collapses is dropped, what is not planar and convex is
-// triangulated, so that the surface stays closed and every face has one exact plane.
+// The faces of a leaf on integer points: what collapses is dropped, what is not planar and convex
+// is triangulated, so that the surface stays closed and every face has one exact plane.
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@ struct LoopFace {
 /// of its neighbours at its inner vertices. Diagonals lie inside faces. `prefer_convex` chooses the
 /// diagonal of a bent quadrilateral that bulges outwards; `merged` says that points became one
 /// vertex, so that faces may lie on each other's back.
-void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex,
-                       bool merged, std::vector<LoopFace>& faces);
+void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, bool merged,
+                       std::vector<LoopFace>& faces);
 
 /// The normal (b - a) x (c - a) of the first three corners that are not collinear, and the corners;
 /// false when there are none. |component| < 2^83.

@@ -66,15 +66,14 @@ const MeshFacts& LeafStore::facts(const std::shared_ptr<const PolygonMesh>& mesh
   }
   facts.appearance.resize(mesh->face_count());
   if (mesh->appearance_of.empty()) {
-    std::fill(facts.appearance.begin(), facts.appearance.end(),
-              appearances_.intern(Appearance{}));
+    std::fill(facts.appearance.begin(), facts.appearance.end(), appearances_.intern(Appearance{}));
   } else {
     for (size_t f = 0; f < facts.appearance.size(); ++f) {
       facts.appearance[f] = appearances_.intern(mesh->appearances[mesh->appearance_of[f]]);
     }
   }
-  if (std::adjacent_find(facts.appearance.begin(), facts.appearance.end(),
-                         std::not_equal_to<>()) == facts.appearance.end() &&
+  if (std::adjacent_find(facts.appearance.begin(), facts.appearance.end(), std::not_equal_to<>()) ==
+          facts.appearance.end() &&
       !facts.appearance.empty()) {
     facts.paint = facts.appearance[0];
   }
@@ -162,9 +161,8 @@ std::optional<QuantisedLeaf> LeafStore::quantise(uint32_t index, const NormalNod
   auto& prepared = prepared_[result.key];
   if (!prepared) {
     const std::vector<uint32_t> plain(result.paint == kUnpainted ? 0 : mesh.face_count(), 0);
-    auto made = std::make_shared<PreparedLeaf>(
-        prepare_leaf(mesh, *points, turn,
-                     result.paint == kUnpainted ? mesh_facts.appearance : plain));
+    auto made = std::make_shared<PreparedLeaf>(prepare_leaf(
+        mesh, *points, turn, result.paint == kUnpainted ? mesh_facts.appearance : plain));
     if (made->geometry) bytes_ += memory_of(*made->geometry);
     prepared = std::move(made);
   }

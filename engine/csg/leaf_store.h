@@ -22,8 +22,8 @@ constexpr uint32_t kKernelVersion = 1;
 /// What is asked of a mesh again and again.
 struct MeshFacts {
   std::shared_ptr<const PolygonMesh> mesh;
-  std::optional<Error> error;  ///< indices out of range, points that are not finite
-  Key topology{};              ///< everything but points and appearances
+  std::optional<Error> error;        ///< indices out of range, points that are not finite
+  Key topology{};                    ///< everything but points and appearances
   std::array<double, 3> lo{}, hi{};  ///< of the points that faces use
   std::vector<uint32_t> appearance;  ///< id per face
   uint32_t paint = kUnpainted;       ///< the only appearance of the mesh, if there is one
@@ -71,7 +71,8 @@ class LeafStore {
   struct KeyAndAxesHash {
     size_t operator()(const KeyAndAxes& k) const {
       size_t h = k.key[0];
-      for (int i = 0; i < 3; ++i) h = h * 31 + static_cast<size_t>(k.permutation.axis[i] * 2 + k.permutation.sign[i]);
+      for (int i = 0; i < 3; ++i)
+        h = h * 31 + static_cast<size_t>(k.permutation.axis[i] * 2 + k.permutation.sign[i]);
       return h;
     }
   };

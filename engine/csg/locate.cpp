@@ -10,7 +10,8 @@ namespace {
 
 // Widths of the values below, for points below 2^28.
 constexpr int kValueBits =
-    (widths::kMaxNormal + 28 > widths::kMaxOffset ? widths::kMaxNormal + 28 : widths::kMaxOffset) + 2;
+    (widths::kMaxNormal + 28 > widths::kMaxOffset ? widths::kMaxNormal + 28 : widths::kMaxOffset) +
+    2;
 static_assert(widths::limbs(kValueBits) <= 3);
 static_assert(widths::limbs(kValueBits + widths::kMaxNormal + 1) <= 5);
 static_assert(widths::limbs(2 * widths::kMaxNormal + 1) <= 4);
@@ -32,8 +33,7 @@ class Locator {
   /// Sign of a vertex less the point along an axis.
   [[nodiscard]] int compare_vertex(uint32_t vertex, int axis) const {
     // The rounded coordinate is within 2^-26 of the true one, as coordinates are below 2^28.
-    const double difference =
-        boundary_.point_rounded[vertex][axis] - static_cast<double>(p_[axis]);
+    const double difference = boundary_.point_rounded[vertex][axis] - static_cast<double>(p_[axis]);
     if (std::fabs(difference) > 0x1p-20) return difference > 0 ? 1 : -1;
     return compare_along(boundary_.exact_point(vertex), point_, axis);
   }
@@ -63,8 +63,8 @@ class Locator {
     return on_edge;
   }
 
-  /// Whether the point, moved infinitesimally along v and, much more, along u, is within the face as
-  /// seen along `axis` (u and v are the axes that follow it). All signs are taken where the line
+  /// Whether the point, moved infinitesimally along v and, much more, along u, is within the face
+  /// as seen along `axis` (u and v are the axes that follow it). All signs are taken where the line
   /// through the point along `axis` meets the face's plane.
   [[nodiscard]] bool is_within(const BoundaryMesh::Face& face, const Plane& plane, int axis) const {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -78,8 +78,8 @@ class Locator {
       // times n_axis. The crossing lies ahead when the value grows towards zero.
       const Int<2> e_axis = Int<2>::from_int128(component(edge, axis));
       const Int<5> here = multiply<5>(value(edge), n_axis) - multiply<5>(offset, e_axis);
-      const Int<4> growth = multiply<4>(Int<2>::from_int128(component(edge, u)), n_axis) -
-                            multiply<4>(e_axis, n_u);
+      const Int<4> growth =
+          multiply<4>(Int<2>::from_int128(component(edge, u)), n_axis) - multiply<4>(e_axis, n_u);
       // A value of zero: the crossing is at the point, so before the moved one.
       if (here.sign() * growth.sign() < 0) inside = !inside;
     });

@@ -6,8 +6,8 @@
 
 namespace csgrun {
 
-/// +1 when the grid point is inside the solid, 0 on its boundary, -1 outside. O(edges), most of them
-/// decided by doubles.
+/// +1 when the grid point is inside the solid, 0 on its boundary, -1 outside. O(edges), most of
+/// them decided by doubles.
 int locate(const BoundaryMesh& boundary, const IVec3& point);
 
 }  // namespace csgrun

@@ -11,7 +11,8 @@ namespace {
 
 constexpr uint32_t kEmptyIndex = 0;
 
-/// |det| of the linear part with its columns scaled to unit length: 1 for rotations, 0 for flat maps.
+/// |det| of the linear part with its columns scaled to unit length: 1 for rotations, 0 for flat
+/// maps.
 double squareness(const Affine& a) {
   const auto& m = a.m;
   double product = 1;
@@ -122,8 +123,7 @@ Status NormalForm::unwrap(Item& item) const {
 }
 
 uint32_t NormalForm::leaf(const Item& item) {
-  const auto [found, is_new] =
-      memo_.try_emplace(item.memo(), static_cast<uint32_t>(nodes_.size()));
+  const auto [found, is_new] = memo_.try_emplace(item.memo(), static_cast<uint32_t>(nodes_.size()));
   if (is_new) {
     NormalNode node;
     node.kind = NormalNode::Kind::kLeaf;

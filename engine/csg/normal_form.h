@@ -34,10 +34,10 @@ struct NormalNode {
   std::vector<uint32_t> rest;
 };
 
-/// Builds normal forms. It remembers what it has built, so that a tree that grew by a few nodes since
-/// the last call costs those nodes. Uses constant stack for trees of any depth. Operands of symmetric
-/// differences keep their nesting on the right, as the attribute of a coplanar overlap is that of the
-/// lowest operand.
+/// Builds normal forms. It remembers what it has built, so that a tree that grew by a few nodes
+/// since the last call costs those nodes. Uses constant stack for trees of any depth. Operands of
+/// symmetric differences keep their nesting on the right, as the attribute of a coplanar overlap is
+/// that of the lowest operand.
 class NormalForm {
  public:
   explicit NormalForm(AppearanceTable& appearances);

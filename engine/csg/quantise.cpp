@@ -49,8 +49,8 @@ Merged merge_points(const PolygonMesh& mesh, const std::vector<IVec3>& points, b
       for (uint32_t c = mesh.loop_starts[l]; c < mesh.loop_starts[l + 1]; ++c) {
         const uint32_t point = mesh.corners[c];
         if (vertex_of[point] == kNone) {
-          const auto [found, is_new] = vertex_at.try_emplace(
-              points[point], static_cast<uint32_t>(result.vertices.size()));
+          const auto [found, is_new] =
+              vertex_at.try_emplace(points[point], static_cast<uint32_t>(result.vertices.size()));
           if (is_new) result.vertices.push_back(points[point]);
           result.any |= !is_new;
           vertex_of[point] = found->second;
@@ -118,8 +118,8 @@ class EdgeTable {
   /// The edges from one vertex to another.
   [[nodiscard]] std::span<const Edge> between(uint32_t from, uint32_t to) const {
     const auto all = leaving(from);
-    const auto first = std::partition_point(all.begin(), all.end(),
-                                            [to](const Edge& e) { return e.to < to; });
+    const auto first =
+        std::partition_point(all.begin(), all.end(), [to](const Edge& e) { return e.to < to; });
     auto last = first;
     while (last != all.end() && last->to == to) ++last;
     return {first, last};
@@ -199,7 +199,8 @@ bool is_locally_convex(const LeafGeometry& leaf, const EdgeTable& edges) {
 
 }  // namespace
 
-std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh, const LeafRounding& rounding,
+std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh,
+                                               const LeafRounding& rounding,
                                                const Quantiser& quantiser) {
   std::vector<IVec3> points(mesh.points.size(), IVec3{0, 0, 0});
   std::vector<uint8_t> is_used(mesh.points.size(), 0);

@@ -20,7 +20,7 @@ namespace csgrun {
 /// ties. In the world: X = map(v).
 struct LeafRounding {
   bool in_world = false;
-  Affine map;                          ///< when in_world
+  Affine map;  ///< when in_world
   std::array<double, 3> scale{1, 1, 1};
   std::array<double, 3> offset{0, 0, 0};
   SignedPermutation permutation;
@@ -28,7 +28,8 @@ struct LeafRounding {
 
 /// The points that the mesh's faces use (others are 0), rounded, in local axes. std::nullopt when a
 /// coordinate is 2^40 steps or more.
-std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh, const LeafRounding& rounding,
+std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh,
+                                               const LeafRounding& rounding,
                                                const Quantiser& quantiser);
 
 /// A leaf on the grid, in its local axes, or why it is none.
@@ -46,9 +47,9 @@ struct PreparedLeaf {
   SelfIntersection intersection;
 };
 
-/// Makes the faces of `mesh` over integer `points` planar and convex, and checks that they enclose a
-/// solid (see LeafGeometry). `turn` reverses every loop. `appearance` has an id per face. The mesh's
-/// promise to be convex is verified, that it is simple is not relied on.
+/// Makes the faces of `mesh` over integer `points` planar and convex, and checks that they enclose
+/// a solid (see LeafGeometry). `turn` reverses every loop. `appearance` has an id per face. The
+/// mesh's promise to be convex is verified, that it is simple is not relied on.
 PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
                           const std::vector<uint32_t>& appearance);
 

@@ -11,9 +11,10 @@
 namespace csgrun {
 namespace {
 
-/// A box from doubles in mm, widened so that it holds the quantised leaf in the world: rounding moves
-/// a point by 1.51 steps at most along an axis (half a step along each of three unit vectors), and
-/// the rounding of the frame's matrix by 9 2^-41 of the coordinate (docs/numerics.md).
+/// A box from doubles in mm, widened so that it holds the quantised leaf in the world: rounding
+/// moves a point by 1.51 steps at most along an axis (half a step along each of three unit
+/// vectors), and the rounding of the frame's matrix by 9 2^-41 of the coordinate
+/// (docs/numerics.md).
 GridBox enclose(const LeafState& state, double step_mm, int64_t largest) {
   GridBox box;
   const double slack = 4 + 0x1p-37 * static_cast<double>(largest);
@@ -40,7 +41,8 @@ GridBox combine(BooleanOp op, const GridBox& a, const GridBox& b) {
   return r;
 }
 
-GridBox permuted_box(const SignedPermutation& permutation, const GridBox& box, const IVec3& origin) {
+GridBox permuted_box(const SignedPermutation& permutation, const GridBox& box,
+                     const IVec3& origin) {
   const IVec3 a = permutation.apply(box.lo), b = permutation.apply(box.hi);
   GridBox r;
   for (int i = 0; i < 3; ++i) {
@@ -74,7 +76,8 @@ class Builder {
   Result<SceneNode> make_leaf(uint32_t index);
   SceneNode make_operator(const NormalNode& node);
   Subtree fold(BooleanOp op, const Subtree& prefix, const Subtree& operand) const;
-  void put_paints(KeyBuilder& builder, const Identity& a, const Identity& b, Identity& result) const;
+  void put_paints(KeyBuilder& builder, const Identity& a, const Identity& b,
+                  Identity& result) const;
   void put_placed(KeyBuilder& builder, const Identity& id) const;
   uint32_t intern(const Frame& frame);
   const NormalNode& normal(uint32_t index) const { return context_.form.nodes()[index]; }
@@ -84,7 +87,7 @@ class Builder {
   std::vector<uint32_t> order_;  // of normal nodes, children first
   Scene scene_;
   std::map<std::array<std::array<int64_t, 3>, 3>, uint32_t> frame_ids_;
-  std::vector<uint32_t> scene_index_;  // by normal index
+  std::vector<uint32_t> scene_index_;   // by normal index
   std::vector<LeafRounding> rounding_;  // by normal index
   std::vector<uint32_t> frame_of_;      // by normal index
   std::vector<StepLeaf> step_leaves_;   // by normal index
@@ -306,9 +309,7 @@ Subtree Builder::fold(BooleanOp op, const Subtree& prefix, const Subtree& operan
 SceneNode Builder::make_operator(const NormalNode& node) {
   SceneNode result;
   result.op = node.op;
-  const auto is_empty = [&](uint32_t i) {
-    return scene_.nodes[i].kind == SceneNode::Kind::kEmpty;
-  };
+  const auto is_empty = [&](uint32_t i) { return scene_.nodes[i].kind == SceneNode::Kind::kEmpty; };
   bool has_first = false;
   uint32_t first = scene_index_[node.first];
   if (!is_empty(first)) {

@@ -1,5 +1,5 @@
-// The normal form on one grid: every leaf quantised in its frame, every subtree with a key that says
-// what it is and a placement that says where.
+// The normal form on one grid: every leaf quantised in its frame, every subtree with a key that
+// says what it is and a placement that says where.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@
 
 namespace csgrun {
 
-/// What a subtree is (`key`) and where it stands: x in the axes of its reference, its first leaf, is
-/// permutation x + origin in the frame. Subtrees of one frame have keys free of their placement, so
-/// that copies moved by whole steps, or turned or mirrored as a whole, have one key. A subtree that
-/// mixes frames has the world as its reference.
+/// What a subtree is (`key`) and where it stands: x in the axes of its reference, its first leaf,
+/// is permutation x + origin in the frame. Subtrees of one frame have keys free of their placement,
+/// so that copies moved by whole steps, or turned or mirrored as a whole, have one key. A subtree
+/// that mixes frames has the world as its reference.
 struct Identity {
   Key key{};
   uint32_t frame = 0;  ///< into Scene::frames
@@ -33,9 +33,9 @@ struct Identity {
 /// A subtree as far as others see it. Boxes enclose the point set, in steps.
 struct Subtree {
   Identity id;
-  GridBox box;    ///< in the axes of its frame
-  GridBox world;  ///< in the world
-  uint64_t slots = 0;  ///< leaves, counted with repetition
+  GridBox box;          ///< in the axes of its frame
+  GridBox world;        ///< in the world
+  uint64_t slots = 0;   ///< leaves, counted with repetition
   bool is_far = false;  ///< a leaf has coordinates beyond 2^27 steps
 };
 
@@ -44,7 +44,8 @@ struct SceneNode {
   Kind kind = Kind::kEmpty;
   Subtree subtree;
 
-  std::shared_ptr<const LeafGeometry> geometry;  ///< leaf: in the axes of its frame, less the origin
+  std::shared_ptr<const LeafGeometry>
+      geometry;  ///< leaf: in the axes of its frame, less the origin
   NodePtr leaf;
 
   BooleanOp op = BooleanOp::kUnion;  ///< as in NormalNode
@@ -61,7 +62,7 @@ struct OperandList {
 
 struct Scene {
   GridStep step;
-  std::vector<Frame> frames;  ///< the first is the world
+  std::vector<Frame> frames;     ///< the first is the world
   std::vector<SceneNode> nodes;  ///< children before parents
   std::vector<uint32_t> roots;
 

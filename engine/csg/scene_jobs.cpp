@@ -27,7 +27,8 @@ void SceneJobs::find_operators(const std::vector<uint32_t>& roots) {
   while (!stack.empty()) {
     const uint32_t node = stack.back();
     stack.pop_back();
-    if (!is_operator(node) || !operators_.insert(scene_.nodes[node].subtree.id.key).second) continue;
+    if (!is_operator(node) || !operators_.insert(scene_.nodes[node].subtree.id.key).second)
+      continue;
     if (is_known(scene_.nodes[node].subtree.id.key)) continue;
     for (uint32_t operand : scene_.operands(node).operands) {
       if (is_operator(operand)) stack.push_back(operand);

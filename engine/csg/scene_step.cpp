@@ -89,8 +89,8 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
       const MmBox visible = meet(leaf.world, reach[index]);
       if (is_empty(visible)) continue;
       if (leaf.framed) result.reach = std::max(result.reach, largest(leaf.local));
-      result.reach = std::max(
-          {result.reach, largest(visible), largest(meet(leaf.local, to_local(visible, leaf.rows)))});
+      result.reach = std::max({result.reach, largest(visible),
+                               largest(meet(leaf.local, to_local(visible, leaf.rows)))});
     } else if (node.kind == NormalNode::Kind::kOperator) {
       const auto pass = [&](uint32_t operand) {
         reach[operand] = hull(reach[operand], meet(reach[index], box[operand]));

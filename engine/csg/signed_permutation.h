@@ -1,4 +1,5 @@
-// The 48 signed permutations of the axes: the part of a transform that the integer grid itself bears.
+// The 48 signed permutations of the axes: the part of a transform that the integer grid itself
+// bears.
 #pragma once
 
 #include <array>

@@ -1,7 +1,9 @@
 // Whole evaluations: results against known volumes, and what is reused.
-#include <csgrun/engine/evaluate.h>
+#include <random>
 
 #include <gtest/gtest.h>
+
+#include <csgrun/engine/evaluate.h>
 
 #include "test_meshes.h"
 
@@ -42,8 +44,7 @@ TEST(Evaluate, DecimalsMeet) {
 
 TEST(Evaluate, FlushStaysFlushUnderOddRotations) {
   const NodePtr part = subtract({box({-5, -5, 0}, {5, 5, 4}), prism(32, 2, 4)});
-  const NodePtr odd =
-      turned(40, {0, 0, 1}, turned(30, {0, 1, 0}, turned(20, {1, 0, 0}, part)));
+  const NodePtr odd = turned(40, {0, 0, 1}, turned(30, {0, 1, 0}, turned(20, {1, 0, 0}, part)));
   const auto straight = solid_of(part), turned_part = solid_of(odd);
   EXPECT_EQ(turned_part->measures.genus, 1);
   EXPECT_EQ(turned_part->triangles.size(), straight->triangles.size());
@@ -144,7 +145,8 @@ TEST(Evaluate, HugeCuttersDoNotCoarsenTheGrid) {
   EvaluateOptions options;
   options.threads = 1;
   Evaluator evaluator(options);
-  const auto result = evaluator.evaluate(subtract({cube(1), box({0.5, -9000, -9000}, {9000, 9000, 9000})}));
+  const auto result =
+      evaluator.evaluate(subtract({cube(1), box({0.5, -9000, -9000}, {9000, 9000, 9000})}));
   ASSERT_TRUE(result.has_value()) << result.error().message;
   EXPECT_EQ((*result)->measures.volume, 0.5);
   EXPECT_EQ(evaluator.stats().grid_mm, 1.5625e-08);
@@ -154,8 +156,8 @@ TEST(Evaluate, PartsShareOneGridAndEqualPartsOneSolid) {
   EvaluateOptions options;
   options.threads = 1;
   Evaluator evaluator(options);
-  const auto result =
-      evaluator.evaluate(std::vector<NodePtr>{cube(1), cube(1), moved(1, 0, 0, cube(1)), cube(1000)});
+  const auto result = evaluator.evaluate(
+      std::vector<NodePtr>{cube(1), cube(1), moved(1, 0, 0, cube(1)), cube(1000)});
   ASSERT_TRUE(result.has_value()) << result.error().message;
   EXPECT_EQ((*result)[0], (*result)[1]);
   EXPECT_NE((*result)[0], (*result)[2]);
@@ -218,8 +220,8 @@ TEST(Evaluate, ContainsAgreesWithTheLeaves) {
       for (double z = -0.5; z <= 5.5; z += 0.5) {
         int around = 0;
         for (int i = 0; i < 8; ++i) {
-          around += inside({x + (i & 1 ? 0.1 : -0.1), y + (i & 2 ? 0.1 : -0.1),
-                            z + (i & 4 ? 0.1 : -0.1)});
+          around += inside(
+              {x + (i & 1 ? 0.1 : -0.1), y + (i & 2 ? 0.1 : -0.1), z + (i & 4 ? 0.1 : -0.1)});
         }
         const int truth = around == 8 ? 1 : around == 0 ? -1 : 0;
         const auto found = evaluator.contains(model, {x, y, z});
@@ -245,10 +247,63 @@ TEST(Evaluate, ContainsInATurnedPart) {
   Evaluator evaluator(options);
   for (int i = 0; i < 24; ++i) {
     const double t = 0.2618 * i + 0.1;
-    for (auto [r, z, truth] : {std::tuple{7.0, 2.0, 1}, {4.5, 2.0, -1}, {11.0, 2.0, -1},
-                               {7.0, 4.5, -1}, {7.0, -0.5, -1}, {7.0, 3.99, 1}}) {
+    for (auto [r, z, truth] : {std::tuple{7.0, 2.0, 1},
+                               {4.5, 2.0, -1},
+                               {11.0, 2.0, -1},
+                               {7.0, 4.5, -1},
+                               {7.0, -0.5, -1},
+                               {7.0, 3.99, 1}}) {
       const auto p = map.apply({r * std::cos(t), r * std::sin(t), z});
       EXPECT_EQ(*evaluator.contains(Node::transformed(map, ring), p), truth) << i << " " << r;
+    }
+  }
+}
+
+TEST(Evaluate, RandomTreesKeepTheirCombinatoricsWhenTurned) {
+  std::mt19937_64 random(20);
+  const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<uint64_t>(n)); };
+  for (int tree = 0; tree < 200; ++tree) {
+    // Decimals on a coarse lattice, so that much is flush, touching or equal.
+    // Turned leaves have frames of their own, where the outer turn is not a move by whole steps:
+    // their axis-aligned contacts must survive, contacts of slanted faces need not.
+    const bool mixes_frames = tree % 2 == 1;
+    std::vector<NodePtr> pool;
+    for (int i = 0; i < 5; ++i) {
+      NodePtr leaf = mixes_frames || pick(3)
+                         ? box({0, 0, 0}, {0.5 + pick(4), 0.5 + pick(4), 0.5 + pick(4)})
+                         : prism(3 + pick(5), 1 + 0.5 * pick(4), 0.5 + pick(4));
+      if (pick(3) == 0) leaf = turned(90 * pick(4), {0, 0, 1}, leaf);
+      const bool is_turned = mixes_frames && pick(3) == 0;
+      if (is_turned) leaf = turned(17.3, {0, 0, 1}, leaf);
+      // Off the lattice: edges of one frame that rest on faces of another by chance may not stay
+      // so.
+      const double off = is_turned ? 0.137 : 0;
+      pool.push_back(moved(0.5 * pick(8) + off, 0.5 * pick(8) + off / 3, 0.5 * pick(8), leaf));
+    }
+    while (pool.size() > 1) {
+      const NodePtr a = pool.back();
+      pool.pop_back();
+      const size_t other = static_cast<size_t>(pick(static_cast<int>(pool.size())));
+      pool[other] = Node::boolean(pick(4) ? BooleanOp::kUnion : static_cast<BooleanOp>(pick(4)),
+                                  {pool[other], a});
+    }
+    EvaluateOptions options;
+    options.grid = *GridStep::parse("0.00001");
+    const auto straight = solid_of(pool[0], options);
+    if (straight->empty()) continue;
+    for (int turn = 0; turn < 3; ++turn) {
+      Affine map = rotation(pick(3600) * 0.1, {1.0 + pick(9), pick(9) - 4.0, pick(9) - 4.0});
+      if (turn == 2) map = Affine::compose(map, scaling(-1, 1, 1));
+      map = Affine::compose(map, translation(0.5 * pick(9), 0.25, 0.125));
+      const auto other = solid_of(Node::transformed(map, pool[0]), options);
+      EXPECT_EQ(other->faces.size(), straight->faces.size()) << tree << " " << turn;
+      EXPECT_EQ(other->positions.size(), straight->positions.size()) << tree << " " << turn;
+      EXPECT_EQ(other->triangles.size(), straight->triangles.size()) << tree << " " << turn;
+      EXPECT_EQ(other->measures.genus, straight->measures.genus) << tree << " " << turn;
+      EXPECT_EQ(other->measures.components, straight->measures.components) << tree << " " << turn;
+      EXPECT_NEAR(other->measures.volume / straight->measures.volume, 1,
+                  mixes_frames ? 1e-3 : 1e-10)
+          << tree << " " << turn;
     }
   }
 }

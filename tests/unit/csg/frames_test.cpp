@@ -68,7 +68,8 @@ std::vector<CanonicalFrame> frames_of(const std::vector<Affine>& maps) {
   for (const Affine& map : maps) {
     const LinearSplit split = split_linear(map);
     EXPECT_TRUE(split.framed);
-    handles.push_back({table.add(split.rows[0]), table.add(split.rows[1]), table.add(split.rows[2])});
+    handles.push_back(
+        {table.add(split.rows[0]), table.add(split.rows[1]), table.add(split.rows[2])});
   }
   std::vector<CanonicalFrame> frames;
   for (const auto& h : handles) {
@@ -144,8 +145,9 @@ TEST(Frames, SignedPermutationsOfThePartShareItsFrame) {
   std::uniform_real_distribution<double> angle(-180, 180), unit(-1, 1);
   for (int trial = 0; trial < 50; ++trial) {
     // Also at 45 degrees, where the order of the axes is a tie that noise must not decide.
-    const Affine outer = trial < 8 ? rotation(45 + 90 * trial, {0, 0, 1})
-                                   : rotation(angle(random), {unit(random), unit(random), unit(random)});
+    const Affine outer = trial < 8
+                             ? rotation(45 + 90 * trial, {0, 0, 1})
+                             : rotation(angle(random), {unit(random), unit(random), unit(random)});
     std::vector<Affine> scene;
     const auto all = all_signed_permutations();
     ASSERT_EQ(all.size(), 48u);
@@ -154,8 +156,8 @@ TEST(Frames, SignedPermutationsOfThePartShareItsFrame) {
     for (size_t i = 0; i < frames.size(); ++i) {
       EXPECT_EQ(frames[i].placement.frame, frames[0].placement.frame) << trial << " " << i;
       // The permutations must differ by the turn itself.
-      const auto relative = SignedPermutation::compose(
-          frames[0].placement.permutation.inverse(), frames[i].placement.permutation);
+      const auto relative = SignedPermutation::compose(frames[0].placement.permutation.inverse(),
+                                                       frames[i].placement.permutation);
       const auto expected = SignedPermutation::compose(all[0].inverse(), all[i]);
       EXPECT_EQ(relative, expected);
     }
@@ -207,8 +209,8 @@ TEST(Frames, ScaleIsTakenOutOfTheColumns) {
 }
 
 TEST(Frames, MirrorsHaveFramesAndNearlySingularMapsHaveNone) {
-  const auto frames = frames_of({rotation(20, {1, 1, 0}),
-                                 Affine::compose(rotation(20, {1, 1, 0}), diagonal(-1, 1, 1))});
+  const auto frames = frames_of(
+      {rotation(20, {1, 1, 0}), Affine::compose(rotation(20, {1, 1, 0}), diagonal(-1, 1, 1))});
   EXPECT_EQ(frames[0].placement.frame, frames[1].placement.frame);
   EXPECT_EQ(frames[0].placement.permutation.determinant(),
             -frames[1].placement.permutation.determinant());

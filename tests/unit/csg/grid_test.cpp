@@ -44,8 +44,9 @@ TEST(Grid, ParsesExactNumbers) {
     EXPECT_EQ(step->millimetres(), c.mm) << c.text;
     EXPECT_FALSE(step->automatic());
   }
-  for (const char* text : {"", "mm", "0", "-1", "0.0", "abc", "1e", "1.2.3", "2^", "2^-2000", "nan",
-                           "inf", "1e400", "1e-400", "1,5", "123456789012345678901", "0x10", " 1"}) {
+  for (const char* text :
+       {"", "mm", "0", "-1", "0.0", "abc", "1e", "1.2.3", "2^", "2^-2000", "nan", "inf", "1e400",
+        "1e-400", "1,5", "123456789012345678901", "0x10", " 1"}) {
     const auto step = GridStep::parse(text);
     ASSERT_FALSE(step.has_value()) << text;
     EXPECT_EQ(step.error().code, ErrorCode::kInvalidArgument);
@@ -105,15 +106,15 @@ TEST(Quantise, AgreesWithExtendedPrecision) {
   std::uniform_real_distribution<double> mantissa(-1, 1);
   std::uniform_int_distribution<int> exponent(-60, 9);
   int decided = 0;
-  for (const GridStep& step : {nanometre_step(-6), nanometre_step(0), nanometre_step(4),
-                               *GridStep::parse("0.0254"), *GridStep::parse("2^-20"),
-                               *GridStep::parse("0.003"), *GridStep::parse("7e-5")}) {
+  for (const GridStep& step :
+       {nanometre_step(-6), nanometre_step(0), nanometre_step(4), *GridStep::parse("0.0254"),
+        *GridStep::parse("2^-20"), *GridStep::parse("0.003"), *GridStep::parse("7e-5")}) {
     const Quantiser q(step);
     for (int i = 0; i < 20000; ++i) {
       const double x = std::ldexp(mantissa(random), exponent(random));
-      const long double scaled = ldexpl(static_cast<long double>(x) * step.denominator / step.numerator,
-                                        -step.exponent) +
-                                 0.5L + 0x1p-12L;
+      const long double scaled =
+          ldexpl(static_cast<long double>(x) * step.denominator / step.numerator, -step.exponent) +
+          0.5L + 0x1p-12L;
       const long double whole = floorl(scaled);
       if (fabsl(scaled) > 0x1p40L || scaled - whole < 1e-6L || scaled - whole > 1 - 1e-6L) continue;
       ++decided;

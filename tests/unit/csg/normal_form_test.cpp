@@ -102,7 +102,8 @@ TEST_F(NormalFormTest, DifferenceOfItselfIsLeftToTheKernel) {
 
 TEST_F(NormalFormTest, EqualSubtreesAreShared) {
   const NodePtr part = subtract({a, b});
-  const auto operands = form.operands(add(unite({moved(7, 0, 0, part), symmetric({moved(7, 0, 0, part), d})})));
+  const auto operands =
+      form.operands(add(unite({moved(7, 0, 0, part), symmetric({moved(7, 0, 0, part), d})})));
   EXPECT_EQ(operands[0], form.nodes()[operands[1]].first);
 }
 
@@ -112,7 +113,9 @@ TEST_F(NormalFormTest, AGrowingChainKeepsItsPrefix) {
   for (int i = 0; i < 100; ++i) {
     chain = subtract({chain, moved(i + 1, 0, 0, unit)});
     add(chain);
-    if (i > 0) EXPECT_EQ(form.nodes().size(), before + 2);
+    if (i > 0) {
+      EXPECT_EQ(form.nodes().size(), before + 2);
+    }
     before = form.nodes().size();
   }
   EXPECT_EQ(operand_count(chain), 101u);

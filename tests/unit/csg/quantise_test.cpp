@@ -23,7 +23,8 @@ std::vector<uint32_t> plain(const PolygonMesh& mesh) {
 std::vector<IVec3> whole_points(const PolygonMesh& mesh) {
   std::vector<IVec3> points;
   for (const auto& p : mesh.points) {
-    points.push_back({static_cast<int64_t>(p.x), static_cast<int64_t>(p.y), static_cast<int64_t>(p.z)});
+    points.push_back(
+        {static_cast<int64_t>(p.x), static_cast<int64_t>(p.y), static_cast<int64_t>(p.z)});
   }
   return points;
 }
@@ -58,15 +59,15 @@ double volume6(const LeafGeometry& leaf) {
                   &q = leaf.vertices[leaf.corners[c]], &r = leaf.vertices[leaf.corners[c + 1]];
       for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
-        sum += static_cast<double>(p[i]) *
-               static_cast<double>(q[j] * r[k] - q[k] * r[j]);
+        sum += static_cast<double>(p[i]) * static_cast<double>(q[j] * r[k] - q[k] * r[j]);
       }
     }
   }
   return sum;
 }
 
-PolygonMesh mesh_of(std::vector<glm::dvec3> points, const std::vector<std::vector<uint32_t>>& faces) {
+PolygonMesh mesh_of(std::vector<glm::dvec3> points,
+                    const std::vector<std::vector<uint32_t>>& faces) {
   PolygonMesh mesh;
   mesh.points = std::move(points);
   for (const auto& face : faces) mesh.add_face(face);
@@ -117,10 +118,26 @@ TEST(PrepareLeaf, BentQuadrilateralsOfAConvexMeshBulgeOutwards) {
 
 TEST(PrepareLeaf, AFalsePromiseOfConvexityIsNotBelieved) {
   // A prism over an L.
-  auto mesh = mesh_of({{0, 0, 0}, {200, 0, 0}, {200, 100, 0}, {100, 100, 0}, {100, 200, 0}, {0, 200, 0},
-                       {0, 0, 100}, {200, 0, 100}, {200, 100, 100}, {100, 100, 100}, {100, 200, 100}, {0, 200, 100}},
-                      {{5, 4, 3, 2, 1, 0}, {6, 7, 8, 9, 10, 11}, {0, 1, 7, 6}, {1, 2, 8, 7}, {2, 3, 9, 8},
-                       {3, 4, 10, 9}, {4, 5, 11, 10}, {5, 0, 6, 11}});
+  auto mesh = mesh_of({{0, 0, 0},
+                       {200, 0, 0},
+                       {200, 100, 0},
+                       {100, 100, 0},
+                       {100, 200, 0},
+                       {0, 200, 0},
+                       {0, 0, 100},
+                       {200, 0, 100},
+                       {200, 100, 100},
+                       {100, 100, 100},
+                       {100, 200, 100},
+                       {0, 200, 100}},
+                      {{5, 4, 3, 2, 1, 0},
+                       {6, 7, 8, 9, 10, 11},
+                       {0, 1, 7, 6},
+                       {1, 2, 8, 7},
+                       {2, 3, 9, 8},
+                       {3, 4, 10, 9},
+                       {4, 5, 11, 10},
+                       {5, 0, 6, 11}});
   mesh.convex = true;
   const auto leaf = prepare(mesh);
   ASSERT_EQ(leaf.status, Status::kGood);
@@ -219,8 +236,8 @@ TEST(PrepareLeaf, RandomPointsOnCoarseGridsStayClosed) {
       const double phi = 3.14159265358979 * (r + 0.5) / rings;
       for (int s = 0; s < sides; ++s) {
         const double t = 2 * 3.14159265358979 * s / sides;
-        mesh.points.push_back({radius * std::sin(phi) * std::cos(t), radius * std::sin(phi) * std::sin(t),
-                               radius * std::cos(phi)});
+        mesh.points.push_back({radius * std::sin(phi) * std::cos(t),
+                               radius * std::sin(phi) * std::sin(t), radius * std::cos(phi)});
       }
     }
     std::vector<uint32_t> top, bottom;
@@ -233,8 +250,8 @@ TEST(PrepareLeaf, RandomPointsOnCoarseGridsStayClosed) {
     for (uint32_t r = 0; r + 1 < rings; ++r) {
       for (uint32_t s = 0; s < sides; ++s) {
         const uint32_t n = (s + 1) % sides;
-        mesh.add_face(std::array<uint32_t, 4>{r * sides + s, (r + 1) * sides + s, (r + 1) * sides + n,
-                                              r * sides + n});
+        mesh.add_face(std::array<uint32_t, 4>{r * sides + s, (r + 1) * sides + s,
+                                              (r + 1) * sides + n, r * sides + n});
       }
     }
     LeafRounding rounding;
@@ -251,7 +268,8 @@ TEST(PrepareLeaf, RandomPointsOnCoarseGridsStayClosed) {
 }
 
 TEST(RoundPoints, FramesAgreeOnTies) {
-  // A half-step coordinate is rounded in the frame's direction, also for leaves that look backwards.
+  // A half-step coordinate is rounded in the frame's direction, also for leaves that look
+  // backwards.
   const auto mesh = box_mesh({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
   const Quantiser one(*GridStep::parse("1"));
   LeafRounding straight, turned_back;

@@ -26,7 +26,8 @@ class SceneTest : public ::testing::Test {
   NormalForm form{appearances};
   LeafStore store{appearances};
   Warnings warnings;
-  NodePtr part = subtract({box({0, 0, 0}, {4, 3, 2}), box({1, 1, -1}, {2, 2, 3}), prism(5, 0.5, 9)});
+  NodePtr part =
+      subtract({box({0, 0, 0}, {4, 3, 2}), box({1, 1, -1}, {2, 2, 3}), prism(5, 0.5, 9)});
 };
 
 TEST_F(SceneTest, MovedByWholeStepsTurnedMirroredAndPaintedCopiesHaveOneKey) {
@@ -80,7 +81,8 @@ TEST_F(SceneTest, CopiesMovedByPartOfAStepDiffer) {
 TEST_F(SceneTest, PrefixKeysAreTheKeysOfShorterLists) {
   const NodePtr a = cube(3), b = moved(1, 1, 1, cube(1)), c = turned(20, {0, 0, 1}, cube(1)),
                 d = moved(0, 0, 2, cube(1));
-  const Scene s = scene({subtract({a, b, c, d}), subtract({a, b}), subtract({subtract({a, b}), c})});
+  const Scene s =
+      scene({subtract({a, b, c, d}), subtract({a, b}), subtract({subtract({a, b}), c})});
   const auto list = s.operands(s.roots[0]);
   ASSERT_EQ(list.operands.size(), 4u);
   EXPECT_EQ(list.values[1]->id.key, root(s, 1).id.key);
@@ -90,7 +92,8 @@ TEST_F(SceneTest, PrefixKeysAreTheKeysOfShorterLists) {
 
 TEST_F(SceneTest, MixedFramesAreKeyedInTheWorld) {
   const NodePtr mixed = unite({cube(2), turned(20, {0, 0, 1}, cube(2))});
-  const Scene s = scene({mixed, moved(1, 0, 0, mixed), unite({cube(2), turned(20, {0, 0, 1}, cube(2))})});
+  const Scene s =
+      scene({mixed, moved(1, 0, 0, mixed), unite({cube(2), turned(20, {0, 0, 1}, cube(2))})});
   EXPECT_NE(root(s, 0).id.key, root(s, 1).id.key);
   EXPECT_EQ(root(s, 0).id.key, root(s, 2).id.key);
   EXPECT_EQ(root(s, 0).id.frame, 0u);
@@ -98,9 +101,10 @@ TEST_F(SceneTest, MixedFramesAreKeyedInTheWorld) {
 }
 
 TEST_F(SceneTest, BoxesEncloseTheResult) {
-  const Scene s = scene({subtract({cube(1), moved(0.5, 0, 0, cube(1))}), intersect({cube(1), moved(0.5, 0, 0, cube(1))}),
-                         turned(45, {0, 0, 1}, cube(1))},
-                        *GridStep::parse("0.001"));
+  const Scene s =
+      scene({subtract({cube(1), moved(0.5, 0, 0, cube(1))}),
+             intersect({cube(1), moved(0.5, 0, 0, cube(1))}), turned(45, {0, 0, 1}, cube(1))},
+            *GridStep::parse("0.001"));
   EXPECT_EQ(root(s, 0).world.hi, (IVec3{1000, 1000, 1000}));
   EXPECT_EQ(root(s, 1).world.lo, (IVec3{500, 0, 0}));
   const GridBox& turned_box = root(s, 2).world;
@@ -112,11 +116,14 @@ TEST_F(SceneTest, BoxesEncloseTheResult) {
 
 TEST_F(SceneTest, WhatCannotReachTheResultDoesNotSetTheStep) {
   EXPECT_EQ(scene({cube(1)}).step.millimetres(), 1.5625e-08);
-  EXPECT_EQ(scene({subtract({cube(1), moved(-100, -100, -1, cube(300))})}).step.millimetres(), 1.5625e-08);
-  EXPECT_EQ(scene({intersect({cube(1), moved(-100, -100, -1, cube(300))})}).step.millimetres(), 1.5625e-08);
+  EXPECT_EQ(scene({subtract({cube(1), moved(-100, -100, -1, cube(300))})}).step.millimetres(),
+            1.5625e-08);
+  EXPECT_EQ(scene({intersect({cube(1), moved(-100, -100, -1, cube(300))})}).step.millimetres(),
+            1.5625e-08);
   EXPECT_EQ(scene({unite({cube(1), cube(300)})}).step.millimetres(), 8e-06);
   EXPECT_EQ(scene({cube(1), cube(300)}).step.millimetres(), 8e-06);
-  EXPECT_EQ(scene({unite({cube(1), intersect({cube(300), cube(2)})})}).step.millimetres(), 1.5625e-08);
+  EXPECT_EQ(scene({unite({cube(1), intersect({cube(300), cube(2)})})}).step.millimetres(),
+            1.5625e-08);
   // In a frame of its own a leaf counts as a whole: its planes have no room for far coordinates.
   EXPECT_EQ(scene({subtract({cube(1), turned(20, {0, 0, 1}, moved(-100, -100, -1, cube(300)))})})
                 .step.millimetres(),
@@ -124,7 +131,8 @@ TEST_F(SceneTest, WhatCannotReachTheResultDoesNotSetTheStep) {
 }
 
 TEST_F(SceneTest, DisjointIntersectionsAreEmpty) {
-  const Scene s = scene({intersect({cube(1), moved(1, 0, 0, cube(1))}), unite({cube(1), intersect({cube(1), moved(5, 0, 0, cube(1))})}),
+  const Scene s = scene({intersect({cube(1), moved(1, 0, 0, cube(1))}),
+                         unite({cube(1), intersect({cube(1), moved(5, 0, 0, cube(1))})}),
                          subtract({intersect({cube(1), moved(0, 3, 0, cube(1))}), cube(1)})});
   EXPECT_EQ(s.nodes[s.roots[0]].kind, SceneNode::Kind::kEmpty);
   EXPECT_EQ(s.nodes[s.roots[1]].kind, SceneNode::Kind::kLeaf);
