@@ -1,8 +1,9 @@
 // Binary STL: an 80 byte header, a count, and for each triangle a normal and three corners.
+#include <array>
 #include <bit>
 #include <cmath>
 
-#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include "export/encoders.h"
 #include "export/rounding.h"
@@ -15,17 +16,34 @@ constexpr size_t kTriangleBytes = 50;
 static_assert(std::endian::native == std::endian::little,
               "STL and GLB are written as memory has them");
 
-void append_vector(std::string& bytes, const glm::dvec3& v) {
-  const float floats[3] = {static_cast<float>(v.x), static_cast<float>(v.y),
-                           static_cast<float>(v.z)};
-  bytes.append(reinterpret_cast<const char*>(floats), sizeof floats);
+using Floats = std::array<float, 3>;
+
+Floats to_floats(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// The normal of the triangle as it is written, as readers compute it; zero where it has no area.
-glm::dvec3 written_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 n = glm::cross(b - a, c - a);
-  const double length = std::sqrt(glm::dot(n, n));
-  return length > 1e-12 ? n / length + 0.0 : glm::dvec3(0);
+void append_vector(std::string& bytes, const Floats& v) {
+  bytes.append(reinterpret_cast<const char*>(v.data()), sizeof v);
+}
+
+/// The normal of the triangle as admesh and the slicers that took its code compute it, step by
+/// step: a better one would count as a fault to repair where cancellation spoils theirs, on
+/// triangles so thin that no normal means anything. Zero where there is no area.
+Floats written_normal(const Floats& a, const Floats& b, const Floats& c) {
+  const Floats u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  const Floats v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+  Floats n;
+  double square = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const auto first = static_cast<float>(static_cast<double>(u[i]) * v[j]);
+    n[k] = static_cast<float>(first - static_cast<double>(u[j]) * v[i]);
+    square += static_cast<double>(n[k]) * n[k];
+  }
+  const double length = std::sqrt(square);
+  if (length < 1e-12) return {0, 0, 0};
+  for (float& x : n) x = static_cast<float>(x * (1.0 / length)) + 0.0F;
+  return n;
 }
 
 }  // namespace
@@ -45,7 +63,8 @@ Result<std::string> encode_stl(const Part& part, WriteReport& report) {
   bytes.reserve(kHeaderBytes + sizeof count + kTriangleBytes * count);
   bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
   for (const auto& [a, b, c] : mesh->triangles) {
-    const glm::dvec3 &p = mesh->positions[a], &q = mesh->positions[b], &r = mesh->positions[c];
+    const Floats p = to_floats(mesh->positions[a]), q = to_floats(mesh->positions[b]),
+                 r = to_floats(mesh->positions[c]);
     append_vector(bytes, written_normal(p, q, r));
     append_vector(bytes, p);
     append_vector(bytes, q);
