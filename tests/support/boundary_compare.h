@@ -42,6 +42,7 @@ inline std::string first_difference(const BoundaryMesh& a, const BoundaryMesh& b
       return out.str();
     }
     if (s.whole != t.whole) return out.str() + "whole";
+    if (s.complete != t.complete) return out.str() + "complete";
     if (s.loop_count != t.loop_count) return out.str() + "number of loops";
     for (uint32_t l = 0; l < s.loop_count; ++l) {
       const uint32_t i = a.loop_starts[s.first_loop + l], j = b.loop_starts[t.first_loop + l];
