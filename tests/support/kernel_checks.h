@@ -118,6 +118,42 @@ inline std::string fault_in(const Solid& solid) {
   return "";
 }
 
+/// Empty when the measures are those of the exact triangles: volume, centroid and box correctly
+/// rounded, area within one unit in the last place. `at` gives a vertex' exact point.
+template <class At>
+std::string fault_in_measures(const Solid& solid, At&& at) {
+  if (solid.empty()) return solid.measures.volume == 0 ? "" : "an empty solid has a volume";
+  mpq_class six = 0;
+  Rational3 moment{0, 0, 0};  // 24 times the volume, times the centroid
+  mpf_class twice_area(0, 512);
+  Rational3 lo = at(0), hi = at(0);
+  for (const auto& [i, j, k] : solid.triangles) {
+    const Rational3 &a = at(i), &b = at(j), &c = at(k);
+    const mpq_class v = dot(a, cross(b, c));
+    six += v;
+    for (int x = 0; x < 3; ++x) {
+      moment[x] += v * (a[x] + b[x] + c[x]);
+      for (const Rational3* p : {&a, &b, &c}) {
+        lo[x] = std::min(lo[x], (*p)[x]);
+        hi[x] = std::max(hi[x], (*p)[x]);
+      }
+    }
+    const Rational3 n = cross(minus(b, a), minus(c, a));
+    twice_area += sqrt(mpf_class(dot(n, n), 512));
+  }
+  const Measures& m = solid.measures;
+  if (!is_correctly_rounded(six / 6, m.volume)) return "the volume is not correctly rounded";
+  const mpf_class error = abs(twice_area / 2 - mpf_class(m.area, 512));
+  if (error > std::nextafter(m.area, HUGE_VAL) - m.area) return "the area is wrong";
+  for (int x = 0; x < 3; ++x) {
+    if (!is_correctly_rounded(moment[x] / (4 * six), m.centroid[x])) return "the centroid is wrong";
+    if (!is_correctly_rounded(lo[x], m.bbox[0][x]) || !is_correctly_rounded(hi[x], m.bbox[1][x])) {
+      return "the box is wrong";
+    }
+  }
+  return "";
+}
+
 /// Empty when `solid` presents `mesh`: closed by index, and its triangles, at the exact points, all
 /// turn the same way as their face and add up to its area.
 inline std::string fault_in(const Solid& solid, const BoundaryMesh& mesh) {
@@ -157,7 +193,7 @@ inline std::string fault_in(const Solid& solid, const BoundaryMesh& mesh) {
       }
     }
   }
-  return "";
+  return fault_in_measures(solid, at);
 }
 
 }  // namespace csgrun::test
