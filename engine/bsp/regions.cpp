@@ -219,16 +219,23 @@ void RegionBuilder::pair_wedges(PlaneId support, std::vector<uint32_t>& incident
     spokes.push_back({end, &e, end & 1 ? -along : along, 0});
   }
   const Spoke first = spokes[0];
+  const auto away = [](const Spoke& s) { return s.end & 1 ? s.edge->from : s.edge->to; };
+  const LineAxis line = line_axis(planes_.plane(support.index()), planes_.plane(first.edge->plane));
+  const uint32_t center = first.end & 1 ? first.edge->to : first.edge->from;
+  const int along_first = geometry_.compare_along(away(first), center, line.axis);
   for (Spoke& s : spokes) {
     const int t = turn(planes_, support, first.edge->plane, first.sign, s.edge->plane, s.sign);
-    // Collinear with the first: the same direction, or the opposite. Two different spokes of equal
-    // direction cannot be (their intervals would overlap), so "same" is the first itself.
-    s.half = t > 0 || (t == 0 && s.end == first.end) ? 0 : 1;
+    // Collinear with the first: the same direction, or the opposite.
+    const bool same = t == 0 && geometry_.compare_along(away(s), center, line.axis) == along_first;
+    s.half = t > 0 || same ? 0 : 1;
   }
+  // Both sides of a slit point the same way: the interior is clockwise of the one that arrives and
+  // counter-clockwise of the one that leaves, so the one that arrives comes first.
   std::sort(spokes.begin(), spokes.end(), [&](const Spoke& a, const Spoke& b) {
     if (a.half != b.half) return a.half < b.half;
     if (a.end == b.end) return false;
-    return turn(planes_, support, a.edge->plane, a.sign, b.edge->plane, b.sign) > 0;
+    const int t = turn(planes_, support, a.edge->plane, a.sign, b.edge->plane, b.sign);
+    return t > 0 || (t == 0 && (a.end & 1) > (b.end & 1));
   });
   // Interior lies just counter-clockwise of an outgoing edge and just clockwise of an incoming one: an
   // incoming edge goes on with the outgoing one next to it clockwise.

@@ -86,12 +86,15 @@ bool merge_faces(const BoundaryMesh& b, CellGeometry& geometry, const PlaneTable
     if (!built) return false;
     for (auto& nested : nest_loops(groups[i].plane, loops, geometry, planes)) {
       faces.push_back({groups[i].plane, lowest.appearance, lowest.surface, lowest.source,
-                       std::move(nested)});
+                       groups[i].keep != 0, std::move(nested)});
     }
     i = j;
   }
-  // Points are in canonical order already: so are loops by their lowest corner, faces by their lowest
-  // loop.
+  sort_faces(faces, planes);
+  return true;
+}
+
+void sort_faces(std::vector<MergedFace>& faces, const PlaneTable& planes) {
   for (MergedFace& f : faces) {
     for (auto& loop : f.loops) {
       std::rotate(loop.begin(),
@@ -113,7 +116,6 @@ bool merge_faces(const BoundaryMesh& b, CellGeometry& geometry, const PlaneTable
     return std::tie(p.a, p.b, p.c, p.d, x.appearance, x.surface) <
            std::tie(q.a, q.b, q.c, q.d, y.appearance, y.surface);
   });
-  return true;
 }
 
 }  // namespace csgrun

@@ -13,6 +13,7 @@ namespace csgrun {
 struct MergedFace {
   PlaneId plane;
   uint32_t appearance, surface, source;
+  bool untouched;  ///< a facet that nothing touched: it shares no line with anything but its leaf
   std::vector<std::vector<DirectedEdge>> loops;
 };
 
@@ -22,5 +23,9 @@ struct MergedFace {
 /// close.
 bool merge_faces(const BoundaryMesh& boundary, CellGeometry& geometry, const PlaneTable& planes,
                  const std::vector<PlaneId>& plane_of, std::vector<MergedFace>& faces);
+
+/// Brings faces into canonical order: loops from their lowest edge, faces by their lowest loop. Points
+/// must be numbered in canonical order.
+void sort_faces(std::vector<MergedFace>& faces, const PlaneTable& planes);
 
 }  // namespace csgrun

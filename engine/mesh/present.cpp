@@ -8,6 +8,7 @@
 #include "engine/exact/rounding.h"
 #include "engine/mesh/canonical_hash.h"
 #include "engine/mesh/measure.h"
+#include "engine/mesh/cut_contacts.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/plane_oracle.h"
 #include "engine/mesh/self_contact.h"
@@ -81,6 +82,10 @@ class Presenter {
     if (!merge_faces(boundary_, geometry_, planes_, plane_of, faces_)) return not_closed("faces");
     break_at_own_corners(faces_, geometry_, planes_);
     if (!resolve_t_junctions(faces_, geometry_, planes_)) return not_closed("edges");
+    if (cut_at_contacts(faces_, geometry_, planes_)) {
+      break_at_own_corners(faces_, geometry_, planes_);
+      if (!resolve_t_junctions(faces_, geometry_, planes_)) return not_closed("cut edges");
+    }
     if (auto status = triangulate_all(); !status) return status.error();
     if (!split_fans(set_, faces_, geometry_, planes_, fans_)) return not_closed("vertices");
     auto solid = std::make_shared<Solid>();

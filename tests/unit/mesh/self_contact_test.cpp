@@ -33,17 +33,16 @@ std::shared_ptr<LeafGeometry> prism(const std::vector<std::array<int, 2>>& outli
   return leaf;
 }
 
-TEST(SelfContact, NoVertexLiesInsideATrianglesEdge) {
-  std::vector<Operand> operands(3);
-  operands[0].leaf = prism({{0, 0}, {20, 0}, {20, 20}, {0, 20}}, 0, 5);
-  operands[1].leaf = prism({{5, 5}, {10, 5}, {5, 12}}, -1, 6);
-  operands[2].leaf = prism({{10, 5}, {15, 5}, {15, 12}}, -1, 6);
+/// The first leaf less all others, presented.
+SolidPtr difference(const std::vector<std::shared_ptr<LeafGeometry>>& leaves) {
+  std::vector<Operand> operands(leaves.size());
   Expression expression;
   Expression::Node root;
   root.is_operand = false;
   root.op = BooleanOp::kDifference;
-  root.child_count = 3;
-  for (uint32_t i = 0; i < 3; ++i) {
+  root.child_count = static_cast<uint32_t>(leaves.size());
+  for (uint32_t i = 0; i < leaves.size(); ++i) {
+    operands[i].leaf = leaves[i];
     operands[i].first_source = i;
     Expression::Node leaf;
     leaf.operand = i;
@@ -53,15 +52,22 @@ TEST(SelfContact, NoVertexLiesInsideATrianglesEdge) {
   expression.nodes.push_back(root);
   EvaluateStats stats;
   const auto boundary =
-      evaluate_boolean(operands, expression, {{-1, -1, -1}, {21, 21, 7}}, {}, stats);
-  ASSERT_TRUE(boundary) << boundary.error().message;
+      evaluate_boolean(operands, expression, {{-1, -1, -1}, {31, 31, 31}}, {}, stats);
+  EXPECT_TRUE(boundary);
   PresentContext context;
   context.step = {1, 1, 0};
   context.appearances.resize(1);
-  context.sources.resize(3);
+  context.sources.resize(leaves.size());
   const auto result = present(**boundary, context);
-  ASSERT_TRUE(result) << result.error().message;
-  const Solid& s = **result;
+  EXPECT_TRUE(result) << result.error().message;
+  return *result;
+}
+
+TEST(SelfContact, NoVertexLiesInsideATrianglesEdge) {
+  const SolidPtr result = difference({prism({{0, 0}, {20, 0}, {20, 20}, {0, 20}}, 0, 5),
+                                      prism({{5, 5}, {10, 5}, {5, 12}}, -1, 6),
+                                      prism({{10, 5}, {15, 5}, {15, 12}}, -1, 6)});
+  const Solid& s = *result;
   EXPECT_EQ(s.measures.volume, 20 * 20 * 5 - 2 * 17.5 * 5);
   EXPECT_EQ(s.measures.genus, 1);
   int collinear_on_line = 0;
@@ -77,6 +83,25 @@ TEST(SelfContact, NoVertexLiesInsideATrianglesEdge) {
     }
   }
   EXPECT_EQ(collinear_on_line, 0);
+}
+
+// A diamond taken out of a plate leaves four corners, which touch in the middles of the walls.
+TEST(SelfContact, WedgesThatTouchBehindAFaceAreApart) {
+  const SolidPtr corners = difference({prism({{0, 0}, {20, 0}, {20, 20}, {0, 20}}, 0, 5),
+                                       prism({{10, 0}, {20, 10}, {10, 20}, {0, 10}}, -1, 6)});
+  EXPECT_EQ(corners->measures.components, 4);
+  EXPECT_EQ(corners->measures.genus, 0);
+  EXPECT_EQ(corners->measures.volume, 1000);
+  EXPECT_EQ(corners->triangles.size(), 4u * 8);
+}
+
+// The same, less a part of the height: below, all is one piece, and nothing is cut.
+TEST(SelfContact, ALineThatEndsInsideAFaceLeavesItWhole) {
+  const SolidPtr plate = difference({prism({{0, 0}, {20, 0}, {20, 20}, {0, 20}}, 0, 5),
+                                     prism({{10, 0}, {20, 10}, {10, 20}, {0, 10}}, 2, 6)});
+  EXPECT_EQ(plate->measures.components, 1);
+  EXPECT_EQ(plate->measures.genus, 0);
+  EXPECT_EQ(plate->measures.volume, 20 * 20 * 2 + 200 * 3);
 }
 
 }  // namespace

@@ -1,0 +1,213 @@
+#include "engine/mesh/cut_contacts.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "engine/mesh/nest_loops.h"
+
+namespace csgrun {
+namespace {
+
+/// An edge of some face, by its lower and higher point.
+struct FaceEdge {
+  uint32_t lo, hi;
+  uint32_t face;
+  uint32_t plane;
+};
+
+class ContactCutter {
+ public:
+  ContactCutter(std::vector<MergedFace>& faces, CellGeometry& geometry, const PlaneTable& planes)
+      : faces_(faces), geometry_(geometry), planes_(planes) {
+    index_edges();
+  }
+
+  bool run() {
+    bool any = false;
+    const size_t count = faces_.size();
+    for (uint32_t f = 0; f < count; ++f) {
+      if (!faces_[f].untouched && find_contacts(f)) any |= cut(f);
+    }
+    if (any) sort_faces(faces_, planes_);
+    return any;
+  }
+
+ private:
+  using Edge = std::pair<uint32_t, uint32_t>;
+
+  /// Per point, the edges of touched faces that start or end there.
+  void index_edges() {
+    std::vector<uint32_t> count(geometry_.point_count() + 1, 0);
+    const auto each = [&](auto&& visit) {
+      for (uint32_t f = 0; f < faces_.size(); ++f) {
+        if (faces_[f].untouched) continue;
+        for (const auto& loop : faces_[f].loops) {
+          for (const DirectedEdge& e : loop) {
+            visit(FaceEdge{std::min(e.from, e.to), std::max(e.from, e.to), f, e.plane});
+          }
+        }
+      }
+    };
+    each([&](const FaceEdge& e) { ++count[e.lo], ++count[e.hi]; });
+    starts_.assign(count.size() + 1, 0);
+    for (size_t p = 0; p < count.size(); ++p) starts_[p + 1] = starts_[p] + count[p];
+    edges_.resize(starts_.back());
+    std::vector<uint32_t> next(starts_.begin(), starts_.end() - 1);
+    each([&](const FaceEdge& e) { edges_[next[e.lo]++] = e, edges_[next[e.hi]++] = e; });
+  }
+
+  /// Whether some edge leaves the rim within the face's plane: hardly ever.
+  [[nodiscard]] bool may_have_contacts(uint32_t f) {
+    const uint32_t support = faces_[f].plane.index();
+    for (const auto& loop : faces_[f].loops) {
+      for (size_t k = 0; k < loop.size(); ++k) {
+        const uint32_t p = loop[k].from, before = loop[k > 0 ? k - 1 : loop.size() - 1].from;
+        for (uint32_t i = starts_[p]; i < starts_[p + 1]; ++i) {
+          const uint32_t q = edges_[i].lo == p ? edges_[i].hi : edges_[i].lo;
+          if (edges_[i].face != f && q != loop[k].to && q != before &&
+              geometry_.side(support, q) == 0) {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Collects the edges in the plane of face f that lie inside it and are touched by faces behind it,
+  /// from the rim inwards. False when there is no way from rim to rim.
+  bool find_contacts(uint32_t f) {
+    if (!may_have_contacts(f)) return false;
+    const PlaneId support = faces_[f].plane;
+    rim_.clear();
+    rim_edges_.clear();
+    contacts_.clear();
+    std::vector<uint32_t> frontier;
+    for (const auto& loop : faces_[f].loops) {
+      for (const DirectedEdge& e : loop) {
+        if (rim_.insert(e.from).second) frontier.push_back(e.from);
+        rim_edges_.insert(std::minmax(e.from, e.to));
+      }
+    }
+    std::set<uint32_t> reached = rim_;
+    while (!frontier.empty()) {
+      const uint32_t p = frontier.back();
+      frontier.pop_back();
+      for (uint32_t i = starts_[p]; i < starts_[p + 1]; ++i) {
+        const FaceEdge& e = edges_[i];
+        const uint32_t q = e.lo == p ? e.hi : e.lo;
+        if (e.face == f || geometry_.side(support.index(), q) != 0) continue;
+        const Edge key{e.lo, e.hi};
+        if (rim_edges_.count(key) || !behind(support, e)) continue;
+        if (!inside(f, p, q, e)) continue;
+        contacts_.try_emplace(key, e.plane == support.index() ? other_plane(e) : e.plane);
+        if (reached.insert(q).second) frontier.push_back(q);
+      }
+    }
+    drop_dead_ends();
+    return !contacts_.empty();
+  }
+
+  /// A plane through the edge that is not the support: the edge's own, or that of its face.
+  [[nodiscard]] uint32_t other_plane(const FaceEdge& e) const {
+    return faces_[e.face].plane.index();
+  }
+
+  /// Whether the face of edge e, which lies in the plane `support`, is behind that plane.
+  [[nodiscard]] bool behind(PlaneId support, const FaceEdge& e) {
+    const MergedFace& g = faces_[e.face];
+    if (g.plane.index() == support.index()) return false;
+    for (const auto& loop : g.loops) {
+      for (const DirectedEdge& d : loop) {
+        if (std::min(d.from, d.to) != e.lo || std::max(d.from, d.to) != e.hi) continue;
+        // g runs to the left of the edge, along n_g x D: behind the support when n_f . (n_g x D) =
+        // D . (n_f x n_g) is negative.
+        const LineAxis line = line_axis(planes_.oriented(support), planes_.oriented(g.plane));
+        return geometry_.compare_along(d.to, d.from, line.axis) * line.sign < 0;
+      }
+    }
+    return false;
+  }
+
+  /// Whether the edge from p, on the rim or inside of face f, goes on inside it.
+  [[nodiscard]] bool inside(uint32_t f, uint32_t p, uint32_t q, const FaceEdge& e) {
+    if (!rim_.count(p)) return true;
+    const PlaneId support = faces_[f].plane;
+    const uint32_t plane = e.plane == support.index() ? other_plane(e) : e.plane;
+    const DirectedEdge outwards{p, q, plane};
+    for (const auto& loop : faces_[f].loops) {
+      for (size_t i = 0; i < loop.size(); ++i) {
+        if (loop[i].from != p) continue;
+        const DirectedEdge& leaving = loop[i];
+        const DirectedEdge& arriving = loop[(i + loop.size() - 1) % loop.size()];
+        // The wedge of the interior runs counter-clockwise from the edge that leaves to the one that
+        // arrives (seen from p).
+        const int from_leaving = turn_between(geometry_, planes_, support, leaving, outwards);
+        const int to_arriving = turn_between(geometry_, planes_, support, arriving, outwards);
+        const int corner = turn_between(geometry_, planes_, support, arriving, leaving);
+        // Left of both at a convex corner, left of one of them at a reflex one.
+        if (corner > 0 ? from_leaving > 0 && to_arriving > 0
+                       : from_leaving > 0 || to_arriving > 0) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  void drop_dead_ends() {
+    for (bool again = true; again;) {
+      again = false;
+      std::map<uint32_t, int> degree;
+      for (const auto& [key, plane] : contacts_) ++degree[key.first], ++degree[key.second];
+      for (auto it = contacts_.begin(); it != contacts_.end();) {
+        const auto dead = [&](uint32_t p) { return degree[p] == 1 && !rim_.count(p); };
+        if (dead(it->first.first) || dead(it->first.second)) {
+          it = contacts_.erase(it);
+          again = true;
+        } else {
+          ++it;
+        }
+      }
+    }
+  }
+
+  bool cut(uint32_t f) {
+    std::vector<DirectedEdge> edges;
+    for (const auto& loop : faces_[f].loops) edges.insert(edges.end(), loop.begin(), loop.end());
+    for (const auto& [key, plane] : contacts_) {
+      edges.push_back({key.first, key.second, plane});
+      edges.push_back({key.second, key.first, plane});
+    }
+    RegionBuilder builder(geometry_, planes_);
+    RegionLoops loops;
+    if (!builder.build_single(faces_[f].plane, edges, loops)) return false;
+    auto parts = nest_loops(faces_[f].plane, loops, geometry_, planes_);
+    for (size_t i = 1; i < parts.size(); ++i) {
+      MergedFace part = faces_[f];
+      part.loops = std::move(parts[i]);
+      faces_.push_back(std::move(part));
+    }
+    faces_[f].loops = std::move(parts[0]);
+    return true;
+  }
+
+  std::vector<MergedFace>& faces_;
+  CellGeometry& geometry_;
+  const PlaneTable& planes_;
+  std::vector<uint32_t> starts_;
+  std::vector<FaceEdge> edges_;
+  std::set<uint32_t> rim_;
+  std::set<Edge> rim_edges_;
+  std::map<Edge, uint32_t> contacts_;
+};
+
+}  // namespace
+
+bool cut_at_contacts(std::vector<MergedFace>& faces, CellGeometry& geometry,
+                     const PlaneTable& planes) {
+  return ContactCutter(faces, geometry, planes).run();
+}
+
+}  // namespace csgrun
