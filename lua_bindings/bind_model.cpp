@@ -58,6 +58,7 @@ int import_mesh(lua_State* L) {
     std::string note;
     mesh = value_or_fail(kImport, make_solid_mesh(std::move(mesh), &note));
     if (!note.empty()) session.warn(L, "import: " + note);
+    mesh.kind = session.files().name_from_folder(file.display);  // what is written names it so
     node = counted_leaf(L, std::move(mesh));
   }
   push_solid(L, node);

@@ -146,6 +146,7 @@ class Run {
               message.rfind(line_.model, 0) == 0 ? message : line_.model + ": " + message};
     }
     if (!note.empty()) report_.warnings.push_back(line_.model + ": " + note);
+    mesh->kind = session_.files().name_from_folder(line_.model);
     const SourceRef where = session_.source_ref(line_.model, 1);
     session_.add_part(
         {"", Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where), {}, where},
