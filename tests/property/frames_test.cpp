@@ -59,7 +59,7 @@ std::vector<Operand> framed_leaves(Random& random, int64_t n) {
 
 TEST(Frames, IdentitiesOfMixedFrames) {
   Random random(11);
-  const int n = cases(120);
+  const int n = cases(60);
   for (int i = 0; i < n; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     const auto leaves = framed_leaves(random, 2);
