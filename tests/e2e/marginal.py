@@ -97,6 +97,29 @@ class Marginal(support.Case):
                 self.assertEqual(mesh.unpaired_edges(), set())
                 self.assertEqual(len(mesh.points), 16)
 
+    def test_what_touches_along_a_line_in_a_wall_stays_apart_however_it_is_turned(self):
+        """The walls are coplanar on both sides of the line; where they are cut must not depend on
+        the order of coordinates."""
+        stats = self.script("""
+            local corners = cube(6, 6, 1) - cylinder{h = 1, r = 3, fn = 4}:translate(3, 3, 0)
+            local half = polygon{{0, 0}, {3, 0}, {3, 3}}:linear_extrude(4)
+            local wedges = half + half:mirror(1, 0, 0)
+            local parts = {}
+            for i, turn in ipairs{{0, 0, 0}, {0, 0, 90}, {0, 90, 0}, {90, 0, 0}, {180, 0, 0},
+                                  {20, 30, 40}, {10, 50, 70}, {0, 0, 45}} do
+              parts["corners" .. i] = corners:rotate(turn)
+              parts["wedges" .. i] = wedges:rotate(turn)
+              parts["mirrored" .. i] = wedges:mirror(1, 2, 3):rotate(turn)
+            end
+            return parts""")
+        self.assertEqual(len(stats["parts"]), 24)
+        for part in stats["parts"]:
+            with self.subTest(part["name"]):
+                corners = part["name"].startswith("corners")
+                shape = (part["components"], part["genus"], part["triangles"], part["vertices"])
+                self.assertEqual(shape, (4, 0, 32, 24) if corners else (2, 0, 16, 12))
+                self.assert_relative(part["volume"], 18 if corners else 36, 1e-10)
+
     def test_nothing_is_left_of_a_box_minus_itself(self):
         model = self.folder / "model.lua"
         model.write_text("local box = cube(1)\nreturn box - box\n", encoding="utf-8")
