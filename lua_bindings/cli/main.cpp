@@ -4,6 +4,7 @@
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/cli/exit_codes.h"
+#include "lua_bindings/cli/info.h"
 #include "lua_bindings/cli/options.h"
 #include "lua_bindings/cli/report.h"
 #include "lua_bindings/cli/run_model.h"
@@ -29,6 +30,17 @@ int run(const csgrun::CommandLine& line) {
   return csgrun::kExitGood;
 }
 
+int info(const csgrun::CommandLine& line) {
+  std::string output;
+  const csgrun::Failure failure = csgrun::run_info(line.model, line.info_json, output);
+  if (failure.failed()) {
+    print(stderr, failure.message + "\n");
+    return failure.code;
+  }
+  print(stdout, output);
+  return csgrun::kExitGood;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -39,7 +51,7 @@ int main(int argc, char** argv) {
     case csgrun::Command::kRun:
       return run(line);
     case csgrun::Command::kInfo:
-      return csgrun::kExitUsage;
+      return info(line);
     case csgrun::Command::kHelpApi:
       print(stdout, csgrun::api_help());
       return csgrun::kExitGood;

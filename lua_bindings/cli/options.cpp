@@ -16,6 +16,7 @@
 
 #include "lua_bindings/arguments.h"
 #include "lua_bindings/cli/exit_codes.h"
+#include "lua_bindings/cli/info.h"
 
 namespace csgrun {
 namespace {
@@ -163,18 +164,19 @@ CommandLine parse_info(int argc, char** argv) {
   CommandLine line;
   line.command = Command::kInfo;
   CLI::App app("Measures a mesh file exactly, on its own coordinates.", "csgrun info");
-  app.add_option("FILE", line.model, "STL, OFF, OBJ or PLY")->required();
+  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY or GLB")->required();
   app.add_flag("--json", line.info_json, "as one JSON object");
   try {
     app.parse(argc - 1, argv + 1);
   } catch (const CLI::ParseError& error) {
     return finish_parse(app, error);
   }
-  if (mesh_format_of(line.model).empty()) {
-    std::fputs(fmt::format("csgrun info: '{}': the ending must be one of .stl, .off, .obj, .ply\n",
-                           line.model)
-                   .c_str(),
-               stderr);
+  if (!is_info_path(line.model)) {
+    std::fputs(
+        fmt::format("csgrun info: '{}': the ending must be one of .stl, .off, .obj, .ply, .glb\n",
+                    line.model)
+            .c_str(),
+        stderr);
     return finished(kExitUsage);
   }
   return line;

@@ -58,7 +58,13 @@ std::string to_text(const PartMeasures& part) {
 std::string stats_json(const RunReport& report) {
   const EvaluateStats& s = report.stats;
   Json parts = Json::array();
-  for (const Part& part : report.parts) parts.push_back(to_json(measures_of(part)));
+  for (const Part& part : report.parts) {
+    Json json = to_json(measures_of(part));
+    const auto& hash = part.solid->canonical_hash;
+    json["faces"] = part.solid->faces.size();
+    json["hash"] = fmt::format("{:016x}{:016x}", hash[0], hash[1]);
+    parts.push_back(json);
+  }
   const Json json = {{"version", CSGRUN_VERSION},
                      {"threads", report.threads},
                      {"grid_mm", s.grid_mm},

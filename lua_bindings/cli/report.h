@@ -8,18 +8,9 @@
 #include <glm/vec3.hpp>
 
 #include "lua_bindings/cli/run_model.h"
+#include "lua_bindings/measure/part_measures.h"
 
 namespace csgrun {
-
-/// The measures of one part as they are printed.
-struct PartMeasures {
-  std::string name;
-  size_t triangles = 0, vertices = 0;
-  double volume = 0, area = 0;
-  std::array<glm::dvec3, 2> bbox{};
-  int64_t components = 0, genus = 0;
-  bool closed = true;
-};
 
 /// The object of --stats=json, on one line.
 std::string stats_json(const RunReport& report);

@@ -49,8 +49,10 @@ class Outputs(Case):
         self.assertEqual(list(stats["nodes"]), ["evaluated", "memory", "disk"])
         self.assertEqual(stats["threads"], 2)
         self.assertEqual(stats["grid_mm"], 1.5625e-08)
+        self.assertRegex(stats["parts"][0].pop("hash"), "^[0-9a-f]{32}$")
         self.assertEqual(stats["parts"], [{"name": "part1", "triangles": 12, "vertices": 8, "volume": 1, "area": 6,
-                                           "bbox": [[0, 0, 0], [1, 1, 1]], "components": 1, "genus": 0, "closed": True}])
+                                           "bbox": [[0, 0, 0], [1, 1, 1]], "components": 1, "genus": 0, "closed": True,
+                                           "faces": 6}])
         self.assertEqual(stats["warnings"], [])
 
     def test_stats_for_people_go_to_standard_error(self):

@@ -1,0 +1,154 @@
+#include "lua_bindings/measure/read_glb.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+
+namespace csgrun {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "GLB is read as it lies in memory");
+
+using Json = nlohmann::json;
+
+// Khronos glTF 2.0, section 4.4 (GLB) and 3.6 (accessors).
+constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;
+constexpr int kTriangles = 4;
+
+/// Not a GLB, or one that is made wrongly.
+struct Malformed {
+  std::string what;
+};
+
+uint32_t read_word(std::string_view bytes, size_t at) {
+  if (at + 4 > bytes.size()) throw Malformed{"the file is truncated"};
+  uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + at, sizeof word);
+  return word;
+}
+
+class Reader {
+ public:
+  Reader(Json json, std::string_view binary) : json_(std::move(json)), binary_(binary) {}
+
+  std::vector<TriangleMesh> meshes() const {
+    std::vector<TriangleMesh> result;
+    if (!json_.contains("nodes")) return result;
+    for (const Json& node : json_.at("nodes")) {
+      if (!node.contains("mesh")) continue;
+      const Json& mesh = json_.at("meshes").at(node.at("mesh").get<size_t>());
+      TriangleMesh triangles;
+      triangles.name = node.value("name", mesh.value("name", "mesh"));
+      for (const Json& primitive : mesh.at("primitives")) add_primitive(primitive, triangles);
+      weld(triangles);
+      result.push_back(std::move(triangles));
+    }
+    return result;
+  }
+
+ private:
+  /// The bytes of an accessor's elements, each of `size`, `stride` apart.
+  struct Elements {
+    const char* data;
+    size_t count, stride;
+  };
+
+  Elements elements(const Json& accessor, size_t size) const {
+    if (accessor.contains("sparse")) throw Malformed{"sparse accessors are not read"};
+    const size_t count = accessor.at("count").get<size_t>();
+    const Json& view = json_.at("bufferViews").at(accessor.at("bufferView").get<size_t>());
+    if (view.at("buffer").get<size_t>() != 0) throw Malformed{"there is data outside of the file"};
+    const size_t stride = view.value("byteStride", size);
+    const size_t start =
+        view.value("byteOffset", size_t{0}) + accessor.value("byteOffset", size_t{0});
+    if (stride < size || start > binary_.size() ||
+        (count > 0 && (size > binary_.size() - start ||
+                       (count - 1) > (binary_.size() - start - size) / stride))) {
+      throw Malformed{"an accessor reaches beyond the end of the data"};
+    }
+    return {binary_.data() + start, count, stride};
+  }
+
+  void add_primitive(const Json& primitive, TriangleMesh& mesh) const {
+    if (primitive.value("mode", kTriangles) != kTriangles)
+      throw Malformed{"only triangles are read, no strips, fans, lines or points"};
+    const Json& accessors = json_.at("accessors");
+    const Json& positions = accessors.at(primitive.at("attributes").at("POSITION").get<size_t>());
+    if (positions.at("componentType").get<int>() != kFloat ||
+        positions.at("type").get<std::string>() != "VEC3") {
+      throw Malformed{"positions must be three floats"};
+    }
+    const auto first = static_cast<uint32_t>(mesh.points.size());
+    const Elements points = elements(positions, 12);
+    for (size_t i = 0; i < points.count; ++i) {
+      float p[3];
+      std::memcpy(p, points.data + i * points.stride, sizeof p);
+      if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+        throw Malformed{"a position is not finite"};
+      mesh.points.emplace_back(p[0] + 0.0, p[1] + 0.0, p[2] + 0.0);
+    }
+    std::vector<uint32_t> indices;
+    if (primitive.contains("indices")) {
+      indices = read_indices(accessors.at(primitive.at("indices").get<size_t>()));
+    } else {
+      for (uint32_t i = 0; i < points.count; ++i) indices.push_back(i);
+    }
+    if (indices.size() % 3 != 0) throw Malformed{"the number of indices is no multiple of three"};
+    for (size_t i = 0; i < indices.size(); i += 3) {
+      for (size_t k = i; k < i + 3; ++k) {
+        if (indices[k] >= points.count) throw Malformed{"an index is out of range"};
+      }
+      mesh.triangles.push_back(
+          {first + indices[i], first + indices[i + 1], first + indices[i + 2]});
+    }
+  }
+
+  std::vector<uint32_t> read_indices(const Json& accessor) const {
+    const int type = accessor.at("componentType").get<int>();
+    const size_t size = type == kByte ? 1 : type == kShort ? 2 : type == kInt ? 4 : 0;
+    if (size == 0) throw Malformed{"indices must be unsigned integers"};
+    const Elements values = elements(accessor, size);
+    std::vector<uint32_t> indices(values.count);
+    for (size_t i = 0; i < values.count; ++i)
+      std::memcpy(&indices[i], values.data + i * values.stride, size);
+    return indices;
+  }
+
+  Json json_;
+  std::string_view binary_;
+};
+
+std::vector<TriangleMesh> read(std::string_view bytes) {
+  if (read_word(bytes, 0) != kMagic) throw Malformed{"this is not a GLB file"};
+  if (read_word(bytes, 4) != 2) throw Malformed{"only version 2 of GLB is read"};
+  if (read_word(bytes, 8) != bytes.size()) throw Malformed{"the file is not as long as it says"};
+  const size_t json_size = read_word(bytes, 12);
+  if (read_word(bytes, 16) != kJsonChunk || json_size > bytes.size() - 20)
+    throw Malformed{"the first chunk must be JSON"};
+  const std::string_view text = bytes.substr(20, json_size);
+  std::string_view binary;
+  if (const size_t at = 20 + json_size; at < bytes.size()) {
+    const size_t size = read_word(bytes, at);
+    if (read_word(bytes, at + 4) != kBinaryChunk || size > bytes.size() - at - 8)
+      throw Malformed{"the second chunk must be binary"};
+    binary = bytes.substr(at + 8, size);
+  }
+  return Reader(Json::parse(text), binary).meshes();
+}
+
+}  // namespace
+
+Result<std::vector<TriangleMesh>> parse_glb(const std::string& name, std::string_view bytes) {
+  try {
+    return read(bytes);
+  } catch (const Malformed& problem) {
+    return Error{ErrorCode::kMalformedFile, name + ": " + problem.what, {}};
+  } catch (const Json::exception& problem) {
+    return Error{ErrorCode::kMalformedFile, name + ": " + problem.what(), {}};
+  }
+}
+
+}  // namespace csgrun

@@ -1,0 +1,72 @@
+"""`csgrun info`: the measures of files, those that csgrun wrote among them."""
+import os
+
+from support import Case, SANITIZED, TETRAHEDRON, main, off, stl
+
+
+class Info(Case):
+    def info(self, name):
+        outcome = self.run_csgrun("info", name, "--json")
+        self.expect(outcome, 0)
+        self.assertEqual(outcome.err, "")
+        return outcome.json()
+
+    def test_the_object(self):
+        self.write("t.stl", stl(TETRAHEDRON))
+        found = self.info("t.stl")
+        self.assertAlmostEqual(found["parts"][0].pop("area"), 1.5 + 0.75**0.5, places=14)
+        self.assertEqual(found, {
+            "file": "t.stl",
+            "parts": [{"name": "t", "triangles": 4, "vertices": 4, "volume": 1 / 6, "bbox": [[0, 0, 0], [1, 1, 1]],
+                       "components": 1, "genus": 0, "closed": True}],
+            "self_intersections": 0, "warnings": []})
+
+    def test_agrees_with_the_run_that_wrote_it(self):
+        names = ["a.glb", "a.stl", "a.obj", "a.off"]
+        text = ("local torus = circle(1, {fn = 8}):translate(3, 0):rotate_extrude{fn = 12}\n"
+                "return cube(8, 8, 1) - torus:translate(4, 4, -0.5) + cube(1):translate(8, 8, 1)")
+        stats = self.run_script(text, "--stats=json", *[x for n in names for x in ("-o", n)]).json()
+        expected = stats["parts"][0]
+        for name in names:
+            found = self.info(name)
+            if name in ("a.obj", "a.off"):  # in doubles; rounding to floats may turn slivers over
+                self.assertEqual(found["self_intersections"], 0, name)
+            self.assertEqual(found["warnings"], [], name)
+            part = found["parts"][0]
+            for key in ("vertices", "components", "genus", "closed", "triangles"):
+                self.assertEqual(part[key], expected[key], (name, key))
+            for key in ("volume", "area"):
+                self.assertAlmostEqual(part[key] / expected[key], 1, delta=1e-6)
+
+    def test_parts_of_a_glb(self):
+        self.expect(self.run_script("return {lid = cube(1), case = cube(2):up(5)}", "-o", "a.glb"), 0)
+        parts = {p["name"]: p["volume"] for p in self.info("a.glb")["parts"]}
+        self.assertEqual(parts, {"lid": 1, "case": 8})
+
+    def test_crossings_are_counted(self):
+        points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+        faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        moved = [(x + 0.1, y + 0.1, z + 0.1) for x, y, z in points]
+        self.write("x.off", off(points + moved, faces + [tuple(i + 4 for i in f) for f in faces]))
+        self.assertGreater(self.info("x.off")["self_intersections"], 0)
+        self.write("open.off", off(points, faces[:3]))
+        found = self.info("open.off")
+        self.assertFalse(found["parts"][0]["closed"])
+        self.assertEqual(found["warnings"], ["part 'open' is not closed"])
+
+    def test_mistakes(self):
+        self.expect(self.run_csgrun("info", "none.stl", "--json"), 4, "csgrun: cannot read 'none.stl': No such file")
+        self.expect(self.run_csgrun("info", "model.lua", "--json"), 2, "csgrun info: 'model.lua': the ending must be")
+        self.expect(self.run_csgrun("info"), 2, "csgrun info: ")
+        self.write("bad.glb", b"glTF\2\0\0\0\xff\xff\xff\x7f\xff\xff\xff\x7fJSON")
+        self.write("bad.stl", stl(TETRAHEDRON, count=4_000_000_000))
+        for name in ("bad.glb", "bad.stl"):
+            outcome = self.run_csgrun("info", name, "--json")
+            self.expect(outcome, 1, name + ": ")
+            self.assertLess(outcome.peak_mb, 1000 if SANITIZED else 200)
+        os.mkfifo(self.path("fifo.glb"))
+        self.expect(self.run_csgrun("info", "fifo.glb", "--json", wall=20), 4, "csgrun: cannot read 'fifo.glb'")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,258 @@
+// Measuring mesh files: exact sums against rationals, topology and crossings against known cases.
+#include <random>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include "lua_bindings/measure/exact_sum.h"
+#include "lua_bindings/measure/mesh_measures.h"
+#include "lua_bindings/measure/read_glb.h"
+#include "lua_support.h"
+
+namespace csgrun::testing {
+namespace {
+
+using boost::multiprecision::cpp_int;
+using boost::multiprecision::cpp_rational;
+
+/// x as a rational, exactly.
+cpp_rational rational(double x) {
+  int exponent = 0;
+  const auto mantissa = static_cast<int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
+  exponent -= 53;
+  const cpp_int power = cpp_int(1) << std::abs(exponent);
+  return exponent >= 0 ? cpp_rational(cpp_int(mantissa) * power)
+                       : cpp_rational(cpp_int(mantissa), power);
+}
+
+/// Whether no double is nearer to the rational than x is, and of two equally near ones x is even.
+bool is_nearest(const cpp_rational& exact, double x) {
+  const cpp_rational error = abs(rational(x) - exact);
+  for (const double other : {std::nextafter(x, -1e308), std::nextafter(x, 1e308)}) {
+    const cpp_rational its = abs(rational(other) - exact);
+    if (its < error) return false;
+    int unused = 0;
+    if (its == error && (static_cast<int64_t>(std::ldexp(std::frexp(x, &unused), 53)) & 1) != 0)
+      return false;
+  }
+  return true;
+}
+
+double random_double(std::mt19937_64& random, int spread) {
+  const auto mantissa = static_cast<double>(static_cast<int64_t>(random() >> (random() % 60))) *
+                        (random() % 2 ? 1 : -1);
+  return std::ldexp(mantissa,
+                    static_cast<int>(random() % static_cast<uint64_t>(2 * spread + 1)) - spread);
+}
+
+TEST(ExactSum, AgreesWithRationals) {
+  std::mt19937_64 random(1);
+  int zeros = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    ExactSum sum;
+    cpp_rational expected = 0;
+    const int spread = trial % 3 == 0 ? 0 : trial % 3 == 1 ? 30 : 250;
+    std::vector<std::array<double, 3>> terms;
+    for (int i = 0; i < 1 + trial % 7; ++i) {
+      terms.push_back({random_double(random, spread), random_double(random, spread),
+                       random_double(random, spread)});
+    }
+    for (const auto& [x, y, z] : terms) {
+      sum.add(x, y, z);
+      expected += rational(x) * rational(y) * rational(z);
+    }
+    if (trial % 5 == 0) {  // takes everything back, in another order
+      for (const auto& [x, y, z] : terms) sum.add(z, x, y, true);
+      expected = 0;
+      ++zeros;
+    }
+    EXPECT_EQ(sum.sign(), expected.sign());
+    EXPECT_TRUE(is_nearest(expected / 6, sum.divided(6)));
+  }
+  EXPECT_EQ(zeros, 600);
+}
+
+TEST(ExactSum, TiesGoToEven) {
+  for (const double above : {1.0, 1.0 + 0x1p-52}) {
+    ExactSum sum;
+    sum.add(above, 1, 1);
+    sum.add(0x1p-53, 1, 1);
+    const cpp_rational exact = rational(above) + rational(0x1p-53);
+    EXPECT_TRUE(is_nearest(exact, sum.divided(1)));
+    sum.add(0x1p-300, 1, 1);
+    EXPECT_EQ(sum.divided(1), above + 0x1p-52);
+  }
+}
+
+TEST(Orient, AgreesWithRationalsAlsoNearAndAtZero) {
+  std::mt19937_64 random(2);
+  int zeros = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const auto coordinate = [&] {
+      return trial % 2 == 0 ? static_cast<double>(random() % 4)
+                            : 12.0 + std::ldexp(static_cast<double>(random() % 5), -50);
+    };
+    std::array<glm::dvec3, 4> p;
+    for (auto& point : p) point = {coordinate(), coordinate(), coordinate()};
+    std::array<std::array<cpp_rational, 3>, 3> m;
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) m[i][k] = rational(p[i + 1][k]) - rational(p[0][k]);
+    }
+    const cpp_rational determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                                     m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                                     m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    zeros += determinant.sign() == 0 ? 1 : 0;
+    EXPECT_EQ(orient(p[0], p[1], p[2], p[3]), determinant.sign());
+    const cpp_rational area = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    EXPECT_EQ(orient_along(2, p[0], p[1], p[2]), area.sign());
+  }
+  EXPECT_GT(zeros, 400);
+}
+
+/// A box as twelve triangles, appended with points of its own.
+void add_box(TriangleMesh& mesh, const glm::dvec3& low, const glm::dvec3& high) {
+  const auto first = static_cast<uint32_t>(mesh.points.size());
+  for (int i = 0; i < 8; ++i) {
+    mesh.points.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y,
+                             i & 4 ? high.z : low.z);
+  }
+  constexpr uint32_t kFaces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                      {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                      {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (const auto& face : kFaces)
+    mesh.triangles.push_back({first + face[0], first + face[1], first + face[2]});
+}
+
+TriangleMesh boxes(const std::vector<std::array<glm::dvec3, 2>>& corners) {
+  TriangleMesh mesh;
+  for (const auto& [low, high] : corners) add_box(mesh, low, high);
+  weld(mesh);
+  return mesh;
+}
+
+TEST(Measure, ABox) {
+  const TriangleMesh mesh = boxes({{glm::dvec3(0.1, 0.2, 0.3), glm::dvec3(1.1, 2.2, 3.3)}});
+  const PartMeasures m = measure(mesh);
+  EXPECT_TRUE(m.closed);
+  EXPECT_EQ(m.triangles, 12u);
+  EXPECT_EQ(m.vertices, 8u);
+  EXPECT_EQ(m.components, 1);
+  EXPECT_EQ(m.genus, 0);
+  const cpp_rational volume = (rational(1.1) - rational(0.1)) * (rational(2.2) - rational(0.2)) *
+                              (rational(3.3) - rational(0.3));
+  EXPECT_TRUE(is_nearest(volume, m.volume));
+  EXPECT_DOUBLE_EQ(m.area, 2 * (1.0 * 2 + 2.0 * 3 + 1.0 * 3));
+  EXPECT_EQ(m.bbox[1], glm::dvec3(1.1, 2.2, 3.3));
+}
+
+TEST(Measure, BoxesThatTouchInAnEdgeOrAVertexAreTwo) {
+  for (const glm::dvec3& shift :
+       {glm::dvec3(1, 1, 0), glm::dvec3(0, 1, 1), glm::dvec3(1, 1, 1), glm::dvec3(1, -1, 0)}) {
+    const PartMeasures m =
+        measure(boxes({{glm::dvec3(0), glm::dvec3(1)}, {shift, shift + glm::dvec3(1)}}));
+    EXPECT_TRUE(m.closed);
+    EXPECT_EQ(m.components, 2);
+    EXPECT_EQ(m.vertices, 16u);
+    EXPECT_EQ(m.genus, 0);
+    EXPECT_EQ(m.volume, 2);
+  }
+}
+
+TEST(Measure, OpenAndInsideOut) {
+  TriangleMesh mesh = boxes({{glm::dvec3(0), glm::dvec3(1)}});
+  for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
+  EXPECT_EQ(measure(mesh).volume, -1);
+  mesh.triangles.pop_back();
+  EXPECT_FALSE(measure(mesh).closed);
+}
+
+TEST(Crossings, OfBoxes) {
+  const glm::dvec3 o(0), e(1);
+  EXPECT_EQ(count_crossings(boxes({{o, e}})), 0u);
+  EXPECT_EQ(count_crossings(boxes({{o, e}, {glm::dvec3(2), glm::dvec3(3)}})), 0u);
+  EXPECT_EQ(count_crossings(boxes({{o, e}, {glm::dvec3(0.25), glm::dvec3(0.75)}})), 0u)
+      << "one inside the other";
+  EXPECT_EQ(count_crossings(boxes({{o, e}, {glm::dvec3(1, 1, 0), glm::dvec3(2, 2, 1)}})), 0u)
+      << "an edge that both have";
+  EXPECT_EQ(count_crossings(boxes({{o, e}, {glm::dvec3(1), glm::dvec3(2)}})), 0u)
+      << "a vertex that both have";
+  EXPECT_GT(count_crossings(boxes({{o, e}, {glm::dvec3(0.5), glm::dvec3(1.5)}})), 0u)
+      << "through one another";
+  EXPECT_GT(
+      count_crossings(boxes({{o, e}, {glm::dvec3(1, 0.25, 0.25), glm::dvec3(2, 0.75, 0.75)}})), 0u)
+      << "face on face";
+  EXPECT_GT(count_crossings(boxes({{o, e}, {glm::dvec3(1, 0, 0), glm::dvec3(2, 1, 1)}})), 0u)
+      << "a whole face in common";
+  EXPECT_GT(count_crossings(boxes({{o, e}, {glm::dvec3(1, 1, 0.5), glm::dvec3(2, 2, 1.5)}})), 0u)
+      << "part of an edge";
+  EXPECT_EQ(count_crossings(
+                boxes({{o, e}, {glm::dvec3(std::nextafter(1.0, 2), 0, 0), glm::dvec3(2, 1, 1)}})),
+            0u)
+      << "one bit apart";
+}
+
+/// Two triangles with points of their own, welded.
+uint64_t crossings_of(const std::array<glm::dvec3, 6>& points) {
+  TriangleMesh mesh;
+  mesh.points.assign(points.begin(), points.end());
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  weld(mesh);
+  return count_crossings(mesh);
+}
+
+TEST(Crossings, OfTwoTriangles) {
+  const glm::dvec3 a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
+  EXPECT_EQ(
+      crossings_of({a, b, c, glm::dvec3(1, 1, -1), glm::dvec3(1, 1, 1), glm::dvec3(9, 9, 0.5)}), 1u)
+      << "pierced";
+  EXPECT_EQ(crossings_of({a, b, c, glm::dvec3(1, 1, 0), glm::dvec3(1, 1, 1), glm::dvec3(2, 2, 1)}),
+            1u)
+      << "touched by a corner";
+  EXPECT_EQ(crossings_of({a, b, c, glm::dvec3(3, 3, 0), glm::dvec3(3, 3, 1), glm::dvec3(4, 4, 1)}),
+            0u)
+      << "beside it";
+  EXPECT_EQ(crossings_of({a, b, c, a, b, glm::dvec3(1, 1, 1)}), 0u) << "an edge in common";
+  EXPECT_EQ(crossings_of({a, b, c, b, a, glm::dvec3(1, -1, 0)}), 0u) << "the same, flat";
+  EXPECT_EQ(crossings_of({a, b, c, a, b, glm::dvec3(1, 1, 0)}), 1u) << "folded upon it";
+  EXPECT_EQ(crossings_of({a, b, c, a, glm::dvec3(-1, 0, 0), glm::dvec3(0, -1, 0)}), 0u)
+      << "a corner in common, flat";
+  EXPECT_EQ(crossings_of({a, b, c, a, glm::dvec3(1, 1, 0), glm::dvec3(2, 1, 0)}), 1u)
+      << "a corner in common, inside";
+  EXPECT_EQ(crossings_of({a, b, c, a, glm::dvec3(1, 1, 1), glm::dvec3(1, 2, -1)}), 1u)
+      << "a corner in common, through";
+  EXPECT_EQ(crossings_of({a, b, c, a, glm::dvec3(1, 1, 1), glm::dvec3(1, 2, 1)}), 0u)
+      << "a corner in common, above";
+  EXPECT_EQ(crossings_of({a, b, c, a, glm::dvec3(2, 0, 0), glm::dvec3(1, 0, 1)}), 1u)
+      << "half an edge in common";
+  EXPECT_EQ(crossings_of({a, b, c, c, b, a}), 1u) << "back to back";
+  EXPECT_EQ(crossings_of({a, b, c, glm::dvec3(9, 0, 0), glm::dvec3(9, 4, 0), glm::dvec3(5, 0, 0)}),
+            0u)
+      << "one plane, apart";
+  EXPECT_EQ(
+      crossings_of({a, b, c, glm::dvec3(1, 1, 0), glm::dvec3(1.5, 1, 0), glm::dvec3(1, 1.5, 0)}),
+      1u)
+      << "one plane, inside";
+}
+
+TEST(Triangulation, OfConcavePolygons) {
+  PolygonMesh mesh;
+  mesh.points = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {3, 1, 0}, {1, 1, 0}, {0, 4, 0}};
+  mesh.add_face(std::vector<uint32_t>{0, 1, 2, 3, 4, 5});
+  const TriangleMesh triangles = triangulated(mesh, false);
+  EXPECT_EQ(triangles.triangles.size(), 4u);
+  EXPECT_EQ(count_crossings(triangles), 0u);
+  EXPECT_DOUBLE_EQ(measure(triangles).area, 16 - (4 + 2) / 2.0 * 3);
+  mesh = PolygonMesh();
+  mesh.points = {{0, 0, 0}, {0, 4, 0}, {0, 4, 4}, {0, 0, 4}};  // seen along X
+  mesh.add_face(std::vector<uint32_t>{0, 1, 2, 3});
+  EXPECT_DOUBLE_EQ(measure(triangulated(mesh, false)).area, 16);
+}
+
+TEST(Glb, DamageIsAnError) {
+  for (const std::string& bytes : {std::string(), std::string("glTF"), std::string(100, 'x'),
+                                   std::string("glTF\2\0\0\0\24\0\0\0\377\377\377\177JSON", 20)}) {
+    EXPECT_FALSE(parse_glb("x.glb", bytes)) << bytes.size();
+  }
+}
+
+}  // namespace
+}  // namespace csgrun::testing
