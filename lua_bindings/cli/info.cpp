@@ -8,10 +8,10 @@
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/budget.h"
-#include "lua_bindings/measure/mesh_measures.h"
-#include "lua_bindings/measure/read_glb.h"
 #include "lua_bindings/cli/report.h"
 #include "lua_bindings/files.h"
+#include "lua_bindings/measure/mesh_measures.h"
+#include "lua_bindings/measure/read_glb.h"
 
 namespace csgrun {
 namespace {

@@ -13,6 +13,7 @@
 #include <csgrun/primitives/csg_file.h>
 #include <csgrun/primitives/mesh_file.h>
 
+#include "lua_bindings/cli/instances.h"
 #include "lua_bindings/cli/progress.h"
 #include "lua_bindings/guard.h"
 #include "lua_bindings/script.h"
@@ -185,19 +186,27 @@ class Run {
       }
       nodes.push_back(part.solid);
     }
+    const Instances instances = wants_instances() ? find_instances(nodes) : Instances{};
+    const size_t part_count = nodes.size();
+    nodes.insert(nodes.end(), instances.bases.begin(), instances.bases.end());
     const EvaluationScope scope(session_.budget());
     auto solids = session_.evaluator().evaluate(nodes);
     clear_progress();
     if (!solids) return evaluation_failure(solids.error());
     std::vector<std::string> empty;
-    for (size_t i = 0; i < nodes.size(); ++i) {
+    for (size_t i = 0; i < part_count; ++i) {
       const ScriptPart& part = session_.parts()[i];
       report_.parts.push_back({part.name, (*solids)[i], {}});
+      placed_parts_.push_back(report_.parts.back());
+      if (!instances.bases.empty() && instances.of_part[i]) {
+        placed_parts_.back().solid = (*solids)[part_count + instances.of_part[i]->base];
+        placed_parts_.back().placement = instances.of_part[i]->placement;
+      }
       if (!(*solids)[i]->empty()) continue;
       const std::string place = session_.place_text(part.where);
       empty.push_back((place.empty() ? "" : place + ": ") + "part '" + part.name + "' is empty");
     }
-    if (empty.size() < nodes.size()) {
+    if (empty.size() < part_count) {
       report_.warnings.insert(report_.warnings.end(), empty.begin(), empty.end());
       return {};
     }
@@ -206,10 +215,19 @@ class Run {
             (place.empty() ? session_.options().model : place) + ": the result is empty"};
   }
 
-  /// The parts that have something in them; what is empty was warned of.
-  [[nodiscard]] std::vector<Part> parts_with_content() const {
+  /// glTF knows meshes that stand in several places.
+  static bool knows_instances(const std::string& output) {
+    const std::string format = model_format_of(output);
+    return format == "glb" || format == "gltf";
+  }
+  [[nodiscard]] bool wants_instances() const {
+    return std::any_of(line_.outputs.begin(), line_.outputs.end(), knows_instances);
+  }
+
+  /// Those of the parts that have something in them; what is empty was warned of.
+  static std::vector<Part> with_content(const std::vector<Part>& all) {
     std::vector<Part> parts;
-    for (const Part& part : report_.parts) {
+    for (const Part& part : all) {
       if (!part.solid->empty()) parts.push_back(part);
     }
     return parts;
@@ -243,7 +261,7 @@ class Run {
   }
 
   Failure write_one(const std::string& output) {
-    std::vector<Part> parts = parts_with_content();
+    std::vector<Part> parts = with_content(knows_instances(output) ? placed_parts_ : report_.parts);
     if (!keeps_parts(model_format_of(output)) && session_.parts().size() > 1) {
       if (Failure failure = join(parts); failure.failed()) return failure;
     }
@@ -253,7 +271,7 @@ class Run {
   Failure write_each(const std::string& pattern) {
     std::map<std::string, std::string> taken;  // file -> part
     std::vector<std::pair<std::string, Part>> files;
-    for (const Part& part : parts_with_content()) {
+    for (const Part& part : with_content(report_.parts)) {
       std::string name = part.name;
       std::replace(name.begin(), name.end(), '/', '-');
       std::string path = pattern;
@@ -281,6 +299,7 @@ class Run {
   const CommandLine& line_;
   RunReport& report_;
   Session session_;
+  std::vector<Part> placed_parts_;  // the parts of the report, as bases and placements
   std::vector<Part> joined_;
 };
 

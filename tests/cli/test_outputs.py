@@ -31,6 +31,19 @@ class Outputs(Case):
             nodes = {n.get("name") for n in json.load(file)["nodes"]}
         self.assertTrue({"lid"} <= nodes, nodes)
 
+    def test_instances_share_a_mesh(self):
+        text = ("local leaf = cube(10) - cylinder(10, 3)\nlocal parts = {}\n"
+                "for i = 1, 12 do parts[i] = leaf:translate(30, 0, 0):rotate(i * 30):color('red') end\n"
+                "parts[13] = leaf:mirror(1, 0, 0):color('red')\nparts[14] = leaf:color('blue')\nreturn parts")
+        outcome = self.run_script(text, "-o", "a.gltf", "-o", "a.obj", "--stats=json")
+        self.expect(outcome, 0)
+        with open(self.path("a.gltf")) as file:
+            model = json.load(file)
+        self.assertEqual(len(model["meshes"]), 2)
+        self.assertEqual(sum("mesh" in node for node in model["nodes"]), 14)
+        for part in outcome.json()["parts"]:  # turned parts are right to about eleven digits
+            self.assertAlmostEqual(part["volume"] / outcome.json()["parts"][13]["volume"], 1, delta=1e-10)
+
     def test_one_file_a_part(self):
         os.mkdir(self.path("out"))
         self.expect(self.run_script("return {lid = cube(1), case = {side = cube(2)}}", "-o", "out/%s.stl"), 0)
