@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/mesh/nest_loops.h"
+#include "engine/mesh/self_contact.h"
 
 namespace csgrun {
 namespace {
@@ -80,14 +81,16 @@ class ContactCutter {
   bool find_contacts(uint32_t f) {
     if (!may_have_contacts(f)) return false;
     const PlaneId support = faces_[f].plane;
-    rim_.clear();
     rim_edges_.clear();
+    rim_.clear();
     contacts_.clear();
+    std::set<Edge> known;
     std::vector<uint32_t> frontier;
     for (const auto& loop : faces_[f].loops) {
       for (const DirectedEdge& e : loop) {
+        rim_edges_.push_back(e);
+        known.insert(std::minmax(e.from, e.to));
         if (rim_.insert(e.from).second) frontier.push_back(e.from);
-        rim_edges_.insert(std::minmax(e.from, e.to));
       }
     }
     std::set<uint32_t> reached = rim_;
@@ -98,15 +101,68 @@ class ContactCutter {
         const FaceEdge& e = edges_[i];
         const uint32_t q = e.lo == p ? e.hi : e.lo;
         if (e.face == f || geometry_.side(support.index(), q) != 0) continue;
-        const Edge key{e.lo, e.hi};
-        if (rim_edges_.count(key) || !behind(support, e)) continue;
-        if (!inside(f, p, q, e)) continue;
-        contacts_.try_emplace(key, e.plane == support.index() ? other_plane(e) : e.plane);
-        if (reached.insert(q).second) frontier.push_back(q);
+        if (known.count({e.lo, e.hi}) || !behind(support, e)) continue;
+        const DirectedEdge line{p, q, e.plane == support.index() ? other_plane(e) : e.plane};
+        if (!starts_inside(f, line) || leaves(line)) continue;
+        known.insert({e.lo, e.hi});
+        contacts_.push_back(line);
+        if (!reached.insert(q).second) continue;
+        if (on_rim(q)) {
+          rim_.insert(q);
+        } else {
+          frontier.push_back(q);
+        }
       }
     }
+    drop_crossings();
+    // From here on all lines meet in points that they have.
+    std::set<uint32_t> points = rim_;
+    for (const DirectedEdge& c : contacts_) points.insert({c.from, c.to});
+    break_at(points, contacts_);
+    break_at(points, rim_edges_);
     drop_dead_ends();
     return !contacts_.empty();
+  }
+
+  /// Whether a point lies on a rim edge, between its ends.
+  [[nodiscard]] bool on_rim(uint32_t p) {
+    return std::any_of(rim_edges_.begin(), rim_edges_.end(),
+                       [&](const DirectedEdge& e) { return lies_inside(geometry_, e, p); });
+  }
+
+  /// Lines that cross where neither has a point (edges of different solids can) part nothing.
+  void drop_crossings() {
+    std::vector<uint8_t> crossed(contacts_.size(), 0);
+    for (size_t i = 0; i < contacts_.size(); ++i) {
+      for (size_t j = i + 1; j < contacts_.size(); ++j) {
+        if (cross(contacts_[i], contacts_[j])) crossed[i] = crossed[j] = 1;
+      }
+    }
+    size_t kept = 0;
+    for (size_t i = 0; i < contacts_.size(); ++i) {
+      if (!crossed[i]) contacts_[kept++] = contacts_[i];
+    }
+    contacts_.resize(kept);
+  }
+
+  void break_at(const std::set<uint32_t>& points, std::vector<DirectedEdge>& edges) {
+    std::vector<DirectedEdge> broken;
+    for (DirectedEdge e : edges) {
+      std::vector<uint32_t> inside;
+      for (const uint32_t p : points) {
+        if (lies_inside(geometry_, e, p)) inside.push_back(p);
+      }
+      // From the near end on: a point that lies between the start and another comes first.
+      std::sort(inside.begin(), inside.end(), [&](uint32_t p, uint32_t q) {
+        return p != q && lies_inside(geometry_, {e.from, q, e.plane}, p);
+      });
+      for (const uint32_t p : inside) {
+        broken.push_back({e.from, p, e.plane});
+        e.from = p;
+      }
+      broken.push_back(e);
+    }
+    edges = std::move(broken);
   }
 
   /// A plane through the edge that is not the support: the edge's own, or that of its face.
@@ -130,12 +186,11 @@ class ContactCutter {
     return false;
   }
 
-  /// Whether the edge from p, on the rim or inside of face f, goes on inside it.
-  [[nodiscard]] bool inside(uint32_t f, uint32_t p, uint32_t q, const FaceEdge& e) {
+  /// Whether the line, from a point on the rim or inside of face f, goes on inside it.
+  [[nodiscard]] bool starts_inside(uint32_t f, const DirectedEdge& line) {
+    const uint32_t p = line.from;
     if (!rim_.count(p)) return true;
     const PlaneId support = faces_[f].plane;
-    const uint32_t plane = e.plane == support.index() ? other_plane(e) : e.plane;
-    const DirectedEdge outwards{p, q, plane};
     for (const auto& loop : faces_[f].loops) {
       for (size_t i = 0; i < loop.size(); ++i) {
         if (loop[i].from != p) continue;
@@ -143,8 +198,8 @@ class ContactCutter {
         const DirectedEdge& arriving = loop[(i + loop.size() - 1) % loop.size()];
         // The wedge of the interior runs counter-clockwise from the edge that leaves to the one that
         // arrives (seen from p).
-        const int from_leaving = turn_between(geometry_, planes_, support, leaving, outwards);
-        const int to_arriving = turn_between(geometry_, planes_, support, arriving, outwards);
+        const int from_leaving = turn_between(geometry_, planes_, support, leaving, line);
+        const int to_arriving = turn_between(geometry_, planes_, support, arriving, line);
         const int corner = turn_between(geometry_, planes_, support, arriving, leaving);
         // Left of both at a convex corner, left of one of them at a reflex one.
         if (corner > 0 ? from_leaving > 0 && to_arriving > 0
@@ -156,29 +211,37 @@ class ContactCutter {
     return false;
   }
 
+  /// Whether two edges cross between their ends.
+  [[nodiscard]] bool cross(const DirectedEdge& a, const DirectedEdge& b) {
+    const auto apart = [&](uint32_t plane, uint32_t p, uint32_t q) {
+      return geometry_.side(plane, p) * geometry_.side(plane, q) < 0;
+    };
+    return apart(b.plane, a.from, a.to) && apart(a.plane, b.from, b.to);
+  }
+
+  /// Whether the line crosses the rim between its ends. What starts inside and does not cross the rim
+  /// ends inside or on it.
+  [[nodiscard]] bool leaves(const DirectedEdge& line) {
+    return std::any_of(rim_edges_.begin(), rim_edges_.end(),
+                       [&](const DirectedEdge& e) { return cross(e, line); });
+  }
+
   void drop_dead_ends() {
     for (bool again = true; again;) {
-      again = false;
       std::map<uint32_t, int> degree;
-      for (const auto& [key, plane] : contacts_) ++degree[key.first], ++degree[key.second];
-      for (auto it = contacts_.begin(); it != contacts_.end();) {
-        const auto dead = [&](uint32_t p) { return degree[p] == 1 && !rim_.count(p); };
-        if (dead(it->first.first) || dead(it->first.second)) {
-          it = contacts_.erase(it);
-          again = true;
-        } else {
-          ++it;
-        }
-      }
+      for (const DirectedEdge& c : contacts_) ++degree[c.from], ++degree[c.to];
+      const auto dead = [&](uint32_t p) { return degree[p] == 1 && !rim_.count(p); };
+      again = std::erase_if(contacts_, [&](const DirectedEdge& c) {
+                return dead(c.from) || dead(c.to);
+              }) > 0;
     }
   }
 
   bool cut(uint32_t f) {
-    std::vector<DirectedEdge> edges;
-    for (const auto& loop : faces_[f].loops) edges.insert(edges.end(), loop.begin(), loop.end());
-    for (const auto& [key, plane] : contacts_) {
-      edges.push_back({key.first, key.second, plane});
-      edges.push_back({key.second, key.first, plane});
+    std::vector<DirectedEdge> edges = rim_edges_;
+    for (const DirectedEdge& c : contacts_) {
+      edges.push_back(c);
+      edges.push_back({c.to, c.from, c.plane});
     }
     RegionBuilder builder(geometry_, planes_);
     RegionLoops loops;
@@ -198,9 +261,8 @@ class ContactCutter {
   const PlaneTable& planes_;
   std::vector<uint32_t> starts_;
   std::vector<FaceEdge> edges_;
-  std::set<uint32_t> rim_;
-  std::set<Edge> rim_edges_;
-  std::map<Edge, uint32_t> contacts_;
+  std::vector<DirectedEdge> rim_edges_, contacts_;
+  std::set<uint32_t> rim_;  ///< points of the rim, also where a contact ends on it
 };
 
 }  // namespace

@@ -52,7 +52,7 @@ class Breaker {
       auto c = std::lower_bound(corners_.begin(), corners_.end(), lo,
                                 [&](uint32_t p, double v) { return at(p, axis_) < v; });
       for (; c != corners_.end() && at(*c, axis_) <= hi; ++c) {
-        if (lies_inside(e, *c)) inside_.push_back(*c);
+        if (lies_inside(geometry_, e, *c)) inside_.push_back(*c);
       }
       uint32_t from = e.from;
       if (!inside_.empty()) {
@@ -72,22 +72,6 @@ class Breaker {
     if (broken_.size() != loop.size()) loop = broken_;
   }
 
-  [[nodiscard]] bool lies_inside(const DirectedEdge& e, uint32_t p) {
-    if (p == e.from || p == e.to) return false;
-    for (int k = 0; k < 3; ++k) {
-      if (at(p, k) < std::min(at(e.from, k), at(e.to, k))) return false;
-      if (at(p, k) > std::max(at(e.from, k), at(e.to, k))) return false;
-    }
-    if (geometry_.side(e.plane, p) != 0) return false;
-    // On the line: rounding is monotone, so only a tie with an end needs the exact order.
-    for (int k = 0; k < 3; ++k) {
-      const int from = geometry_.compare_along(p, e.from, k), to = geometry_.compare_along(p, e.to, k);
-      if (from * to > 0) return false;
-      if (from * to < 0) return true;
-    }
-    return false;
-  }
-
   CellGeometry& geometry_;
   const PlaneTable& planes_;
   int axis_ = 0;
@@ -96,6 +80,23 @@ class Breaker {
 };
 
 }  // namespace
+
+bool lies_inside(CellGeometry& geometry, const DirectedEdge& e, uint32_t p) {
+  const auto at = [&](uint32_t x, int axis) { return geometry.point(x).rounded[axis]; };
+  if (p == e.from || p == e.to) return false;
+  for (int k = 0; k < 3; ++k) {
+    if (at(p, k) < std::min(at(e.from, k), at(e.to, k))) return false;
+    if (at(p, k) > std::max(at(e.from, k), at(e.to, k))) return false;
+  }
+  if (geometry.side(e.plane, p) != 0) return false;
+  // On the line: rounding is monotone, so only a tie with an end needs the exact order.
+  for (int k = 0; k < 3; ++k) {
+    const int from = geometry.compare_along(p, e.from, k), to = geometry.compare_along(p, e.to, k);
+    if (from * to > 0) return false;
+    if (from * to < 0) return true;
+  }
+  return false;
+}
 
 void break_at_own_corners(std::vector<MergedFace>& faces, CellGeometry& geometry,
                           const PlaneTable& planes) {

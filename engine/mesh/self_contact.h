@@ -7,6 +7,9 @@
 
 namespace csgrun {
 
+/// Whether a point of the edge's support lies on the edge, between its ends. Exact.
+bool lies_inside(CellGeometry& geometry, const DirectedEdge& edge, uint32_t point);
+
 /// Breaks the edges of each face at those of its own corners that lie inside them, so that its loops
 /// touch in vertices only, as triangulation wants. (A corner that is straight on is none, so the loop
 /// that runs past has no vertex there.) Exact; box tests for nearly all pairs.
