@@ -92,9 +92,9 @@ void Budget::hook(lua_State* L, lua_Debug*) {
 }
 
 void Budget::start_script(lua_State* main_state) {
-  main_state_ = main_state;
   lua_sethook(main_state, &Budget::hook, LUA_MASKCOUNT, kHookInterval);
   const std::lock_guard lock(mutex_);
+  main_state_ = main_state;
   script_thread_ = pthread_self();
   phase_ = Phase::kScript;
   script_running_ = true;
