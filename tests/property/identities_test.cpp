@@ -94,6 +94,33 @@ TEST(Identities, OneValueForEveryWayOfEvaluation) {
   }
 }
 
+// One tool after another, each result materialised: nothing degrades, and the value is that of one
+// node.
+TEST(Identities, ChainsOfTools) {
+  Random random(6);
+  const int n = cases(6);
+  for (int i = 0; i < n; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const auto leaves = random_leaves(random, 24);
+    Tree chain = leaf(0);
+    for (int k = 1; k < 24; ++k) {
+      // Mostly differences, so that something is always left and always being cut.
+      const bool add = random.integer(0, 2) == 0;
+      chain = add ? join({chain, leaf(k)}) : less({chain, leaf(k)});
+    }
+    const auto flat = evaluate(chain, leaves);
+    ASSERT_TRUE(flat) << text(flat.error());
+    ASSERT_EQ(fault_in(**flat), "");
+    const auto nested =
+        evaluate(chain, leaves, random_options(random), [](const Tree&) { return true; });
+    ASSERT_TRUE(nested) << text(nested.error());
+    ASSERT_EQ(difference_between(**flat, **nested), "") << chain.text();
+    const auto solid = present(**nested, test_context());
+    ASSERT_TRUE(solid) << text(solid.error());
+    ASSERT_EQ(fault_in(**solid, **nested), "");
+  }
+}
+
 TEST(Identities, OneValueForAllCellsOriginsAndThreads) {
   Random random(4);
   const int n = cases(12);
