@@ -141,7 +141,6 @@ void Job::choose_prime() {
 void Job::add_leaf(uint32_t o, const Operand& operand) {
   const LeafGeometry& leaf = *operand.leaf;
   const auto first_vertex = static_cast<uint32_t>(rounded_.size());
-  rounded_.reserve(rounded_.size() + leaf.vertices.size());
   for (uint32_t v = 0; v < leaf.vertices.size(); ++v) {
     if (operand.frame.is_identity) {
       const IVec3& q = leaf.vertices[v];
@@ -152,7 +151,6 @@ void Job::add_leaf(uint32_t o, const Operand& operand) {
       rounded_.push_back(csgrun::rounded(exact_of(o, v)));
     }
   }
-  polygons_.reserve(polygons_.size() + leaf.face_count());
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
     const auto first = static_cast<uint32_t>(corners_.size());
     for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) {

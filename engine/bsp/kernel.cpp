@@ -1,6 +1,7 @@
 #include "engine/bsp/kernel.h"
 
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -108,6 +109,8 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
       if (options.progress) options.progress(run + 1, sets.size());
     }
   } else {
+    // Without the control, more threads than cores would be cut down, with a message.
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, options.threads);
     tbb::task_arena arena(static_cast<int>(options.threads));
     arena.execute([&] {
       tbb::enumerable_thread_specific<CellSolver> solvers([&] { return CellSolver(job); });
