@@ -62,6 +62,22 @@ TEST(Identities, PresentedResultsAreManifold) {
   }
 }
 
+TEST(Identities, PresentedComplexesAreManifold) {
+  Random random(7);
+  const int n = cases(200);
+  const PresentContext context = test_context();
+  for (int i = 0; i < n; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const auto loops = complex_loops(random);
+    if (loops.empty()) continue;
+    const auto r = evaluate(leaf(0), {operand_of(make_leaf(loops))}, random_options(random));
+    ASSERT_TRUE(r) << text(r.error());
+    const auto solid = present(**r, context);
+    ASSERT_TRUE(solid) << text(solid.error());
+    ASSERT_EQ(fault_in(**solid, **r), "");
+  }
+}
+
 // The value of an expression does not depend on the way of evaluation: flat, with any subtrees
 // materialised on the way, in cells of any size, from any origin.
 TEST(Identities, OneValueForEveryWayOfEvaluation) {

@@ -87,5 +87,31 @@ TEST(Regress, AFacetCutByASymmetricDifferenceIsMadeWholeByAnother) {
   EXPECT_EQ(difference_between(**flat, **nested), "");
 }
 
+// Wedges touch a face from behind along lines that go on beyond it, past a place where its rim has
+// no vertex: the face is cut along the parts inside only.
+TEST(Regress, ContactsThatGoOnBeyondAFace) {
+  std::vector<Loop> all;
+  for (const auto& t : {std::array<IVec3, 4>{{{0, 1, 1}, {1, 1, 1}, {1, 2, 1}, {1, 2, 2}}},
+                        {{{0, 1, 1}, {0, 1, 2}, {1, 1, 2}, {1, 2, 2}}},
+                        {{{1, 1, 1}, {1, 1, 2}, {2, 2, 2}, {1, 2, 2}}},
+                        {{{0, 2, 1}, {0, 2, 2}, {1, 2, 2}, {1, 3, 2}}},
+                        {{{1, 2, 1}, {1, 2, 2}, {2, 2, 2}, {2, 3, 2}}}}) {
+    for (const Loop& l : hull_loops({t.begin(), t.end()})) all.push_back(l);
+  }
+  // Faces that two tetrahedra share are inside.
+  std::map<std::set<IVec3>, std::vector<Loop>> by_corners;
+  for (const Loop& l : all) by_corners[{l.begin(), l.end()}].push_back(l);
+  std::vector<Loop> outer;
+  for (const auto& [corners, loops] : by_corners) {
+    if (loops.size() == 1) outer.push_back(loops[0]);
+  }
+  const auto r = evaluate(leaf(0), {operand_of(make_leaf(outer))});
+  ASSERT_TRUE(r) << text(r.error());
+  ASSERT_EQ(fault_in(**r), "");
+  const auto solid = present(**r, test_context());
+  ASSERT_TRUE(solid) << text(solid.error());
+  EXPECT_EQ(fault_in(**solid, **r), "");
+}
+
 }  // namespace
 }  // namespace csgrun
