@@ -212,5 +212,60 @@ TEST(Marginal, OperandsThatReachBeyondTheRegion) {
   }
 }
 
+// A huge tool keeps the planes of its own vertices, with coordinates of up to 40 bits.
+TEST(Marginal, ToolsThatReachVeryFar) {
+  Random random(34);
+  const int n = cases(80);
+  for (int i = 0; i < n; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    GridMap map = random_map(random, static_cast<int>(random.integer(20, 36)));
+    if (random.bits() & 1) {
+      const int64_t scale = int64_t{1} << random.integer(20, 36);
+      for (int k = 0; k < 3; ++k) {
+        map.rows[k] = {0, 0, 0};
+        map.rows[k][k] = scale;
+      }
+    }
+    // Some lattice point of the tool lies within the other solid.
+    const IVec3 at{random.integer(0, 5), random.integer(0, 5), random.integer(0, 5)};
+    for (int k = 0; k < 3; ++k) map.move[k] = random.integer(0, 5) - dot_of(map.rows[k], at);
+    std::vector<Loop> far = mapped(random_loops(random), map);
+    bool fits = true;
+    for (const Loop& l : far) {
+      for (const IVec3& p : l) {
+        for (const int64_t v : p) fits = fits && std::abs(v) < (int64_t{1} << 40);
+      }
+    }
+    if (!fits) continue;
+    std::vector<Operand> operands{operand_of(random_leaf(random)), operand_of(make_leaf(far))};
+    operands[1].first_source = 1;
+    const std::vector<Oracle> oracles{Oracle(exact_solid(operands[0])),
+                                      Oracle(exact_solid(operands[1]))};
+    mpq_class v[2];
+    for (const BooleanOp op : {BooleanOp::kIntersection, BooleanOp::kDifference}) {
+      Expression e;
+      e.nodes = {{true, op, 0, 0, 0}, {true, op, 1, 0, 0}, {false, op, 0, 0, 2}};
+      e.children = {0, 1};
+      EvaluateStats stats;
+      const auto r =
+          evaluate_boolean(operands, e, {{0, 0, 0}, {5, 5, 5}}, random_options(random), stats);
+      ASSERT_TRUE(r) << text(r.error());
+      ASSERT_EQ(fault_in(**r), "");
+      const Oracle result(exact_solid(**r));
+      for (int k = 0; k < 40; ++k) {
+        const Query q = random_query(random, oracles[0].solid());
+        const auto a = oracles[0].winding(q), b = oracles[1].winding(q), c = result.winding(q);
+        if (!a || !b || !c) continue;
+        ASSERT_EQ(*c, *a && (*b != 0) == (op == BooleanOp::kIntersection) ? 1 : 0);
+      }
+      v[op == BooleanOp::kIntersection ? 0 : 1] = volume(result.solid());
+      const auto solid = present(**r, test_context());
+      ASSERT_TRUE(solid) << text(solid.error());
+      ASSERT_EQ(fault_in(**solid, **r), "");
+    }
+    ASSERT_EQ(v[0] + v[1], volume(oracles[0].solid()));
+  }
+}
+
 }  // namespace
 }  // namespace csgrun
