@@ -3,7 +3,12 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
+#include <utility>
 
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 
 namespace csgrun {
@@ -34,15 +39,20 @@ class Reader {
  public:
   Reader(Json json, std::string_view binary) : json_(std::move(json)), binary_(binary) {}
 
+  /// The meshes of all nodes where the nodes put them, in the order of the nodes. A node's name is
+  /// that of its groups and its own, as in "legs/left".
   std::vector<TriangleMesh> meshes() const {
     std::vector<TriangleMesh> result;
     if (!json_.contains("nodes")) return result;
-    for (const Json& node : json_.at("nodes")) {
-      if (!node.contains("mesh")) continue;
-      const Json& mesh = json_.at("meshes").at(node.at("mesh").get<size_t>());
+    const Json& nodes = json_.at("nodes");
+    const std::vector<Place> places = places_of(nodes);
+    for (size_t n = 0; n < nodes.size(); ++n) {
+      if (!places[n].is_reached || !nodes[n].contains("mesh")) continue;
+      const Json& mesh = json_.at("meshes").at(nodes[n].at("mesh").get<size_t>());
       TriangleMesh triangles;
-      triangles.name = node.value("name", mesh.value("name", "mesh"));
+      triangles.name = places[n].name.empty() ? mesh.value("name", "mesh") : places[n].name;
       for (const Json& primitive : mesh.at("primitives")) add_primitive(primitive, triangles);
+      put(triangles, places[n].map);
       weld(triangles);
       result.push_back(std::move(triangles));
     }
@@ -50,6 +60,86 @@ class Reader {
   }
 
  private:
+  /// Where a node stands and what it is called there.
+  struct Place {
+    bool is_reached = false;
+    glm::dmat4 map{1};
+    std::string name;
+  };
+
+  /// From the roots down. The only root, if it is no part itself, is the file's frame around its
+  /// parts, which turns and scales to glTF's axes and units: lengths stay those of the meshes.
+  std::vector<Place> places_of(const Json& nodes) const {
+    std::vector<Place> places(nodes.size());
+    std::vector<size_t> stack = roots_of(nodes);
+    for (const size_t root : stack) {
+      Place& place = places.at(root);
+      place.is_reached = true;
+      if (stack.size() == 1 && !nodes[root].contains("mesh")) continue;
+      place.map = map_of(nodes[root]);
+      place.name = nodes[root].value("name", "");
+    }
+    while (!stack.empty()) {
+      const size_t parent = stack.back();
+      stack.pop_back();
+      for (const size_t child : nodes[parent].value("children", std::vector<size_t>())) {
+        Place& place = places.at(child);
+        if (place.is_reached) throw Malformed{"a node has two parents"};
+        place.is_reached = true;
+        place.map = places[parent].map * map_of(nodes[child]);
+        place.name = places[parent].name;
+        const std::string own = nodes[child].value("name", "");
+        if (!place.name.empty() && !own.empty()) place.name += '/';
+        place.name += own;
+        stack.push_back(child);
+      }
+    }
+    return places;
+  }
+
+  std::vector<size_t> roots_of(const Json& nodes) const {
+    if (json_.contains("scenes")) {
+      const Json& scene = json_.at("scenes").at(json_.value("scene", size_t{0}));
+      return scene.value("nodes", std::vector<size_t>());
+    }
+    std::vector<bool> is_child(nodes.size(), false);
+    for (const Json& node : nodes) {
+      for (const size_t c : node.value("children", std::vector<size_t>())) is_child.at(c) = true;
+    }
+    std::vector<size_t> roots;
+    for (size_t n = 0; n < nodes.size(); ++n) {
+      if (!is_child[n]) roots.push_back(n);
+    }
+    return roots;
+  }
+
+  static glm::dmat4 map_of(const Json& node) {
+    using Numbers = std::vector<double>;
+    const auto numbers = [&](const char* key, size_t count, Numbers otherwise) {
+      Numbers found = node.value(key, std::move(otherwise));
+      if (found.size() != count) throw Malformed{std::string("a node's ") + key + " is malformed"};
+      return found;
+    };
+    if (node.contains("matrix")) return glm::make_mat4(numbers("matrix", 16, {}).data());
+    const Numbers t = numbers("translation", 3, {0, 0, 0});
+    const Numbers r = numbers("rotation", 4, {0, 0, 0, 1});
+    const Numbers s = numbers("scale", 3, {1, 1, 1});
+    const glm::dmat4 moved = glm::translate(glm::dmat4(1), {t[0], t[1], t[2]});
+    return glm::scale(moved * glm::mat4_cast(glm::dquat(r[3], r[0], r[1], r[2])),
+                      {s[0], s[1], s[2]});
+  }
+
+  static void put(TriangleMesh& mesh, const glm::dmat4& map) {
+    if (map == glm::dmat4(1)) return;
+    for (glm::dvec3& p : mesh.points) {
+      p = glm::dvec3(map * glm::dvec4(p, 1)) + 0.0;
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        throw Malformed{"a node puts its mesh at no finite place"};
+    }
+    if (glm::determinant(glm::dmat3(map)) >= 0) return;
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+
   /// The bytes of an accessor's elements, each of `size`, `stride` apart.
   struct Elements {
     const char* data;
@@ -146,6 +236,8 @@ Result<std::vector<TriangleMesh>> parse_glb(const std::string& name, std::string
     return read(bytes);
   } catch (const Malformed& problem) {
     return Error{ErrorCode::kMalformedFile, name + ": " + problem.what, {}};
+  } catch (const std::out_of_range&) {
+    return Error{ErrorCode::kMalformedFile, name + ": it names a node that is not there", {}};
   } catch (const Json::exception& problem) {
     return Error{ErrorCode::kMalformedFile, name + ": " + problem.what(), {}};
   }

@@ -1,7 +1,15 @@
 """`csgrun info`: the measures of files, those that csgrun wrote among them."""
+import json
 import os
+import struct
 
 from support import Case, SANITIZED, TETRAHEDRON, main, off, stl
+
+
+def glb(document):
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A) + text
 
 
 class Info(Case):
@@ -42,6 +50,20 @@ class Info(Case):
         self.expect(self.run_script("return {lid = cube(1), case = cube(2):up(5)}", "-o", "a.glb"), 0)
         parts = {p["name"]: p["volume"] for p in self.info("a.glb")["parts"]}
         self.assertEqual(parts, {"lid": 1, "case": 8})
+
+    def test_parts_stand_where_their_nodes_put_them(self):
+        text = "local c = cube(2)\nreturn {a = c, g = {b = c:translate(10, 0, 0), c = c:mirror(1, 0, 0):up(7)}}"
+        self.expect(self.run_script(text, "-o", "a.glb"), 0)
+        parts = {p["name"]: (p["bbox"], p["volume"]) for p in self.info("a.glb")["parts"]}
+        self.assertEqual(parts, {"a": ([[0, 0, 0], [2, 2, 2]], 8), "g/b": ([[10, 0, 0], [12, 2, 2]], 8),
+                                 "g/c": ([[-2, 0, 7], [0, 2, 9]], 8)})
+
+    def test_nodes_that_are_no_tree(self):
+        for nodes in ([{"children": [0]}], [{"children": [1]}, {"children": [0]}], [{"children": [7]}],
+                      [{"children": [1, 1]}, {}], [{"children": [-1]}], [{"children": "x"}], [[]],
+                      [{}, {"children": [2]}, {"matrix": [1, 2]}], {"a": 1}):
+            self.write("bad.glb", glb({"scenes": [{"nodes": [0, 1][:len(nodes)]}], "nodes": nodes}))
+            self.expect(self.run_csgrun("info", "bad.glb", "--json"), 1, "bad.glb: ")
 
     def test_crossings_are_counted(self):
         points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]

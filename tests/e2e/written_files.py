@@ -4,7 +4,9 @@ own `info`, and the readers of these tests.
 """
 import base64
 import json
+import math
 import os
+import pathlib
 import re
 import struct
 
@@ -108,6 +110,39 @@ class WrittenFiles(support.Case):
                     self.assertIn("mesh", nodes[name])
                 for mesh in document["meshes"]:
                     self.assertIn("EXT_mesh_manifold", mesh["extensions"])
+
+    def test_gltf_has_one_mesh_for_parts_that_are_one_solid(self):
+        document = support.read_gltf(self.files / "assembly.glb")
+        legs, = [node for node in document["nodes"] if node["name"] == "legs"]
+        meshes = {document["nodes"][child]["mesh"] for child in legs["children"]}
+        self.assertEqual((len(legs["children"]), len(meshes)), (4, 1))
+
+    def test_info_measures_what_was_written(self):
+        for model in MODELS:
+            with self.subTest(model.stem):
+                solids = sum(part["volume"] for part in self.parts(model))
+                meshes = {}
+                for ending in ENDINGS:
+                    if ending == "gltf":
+                        continue  # info does not read it
+                    report = self.info(self.path(model, ending))
+                    self.assertEqual(pathlib.Path(report["file"]), self.path(model, ending))
+                    self.assertTrue(all(part["closed"] for part in report["parts"]), ending)
+                    meshes[ending] = report["parts"]
+                volume = {ending: sum(part["volume"] for part in parts)
+                          for ending, parts in meshes.items()}
+                self.assert_relative(volume["obj"], solids, 1e-9, "obj")
+                read = support.read_off(self.path(model, "off"))
+                self.assert_relative(volume["off"], read.volume(), 1e-12, "off")
+                read = support.read_stl(self.path(model, "stl"))
+                self.assert_relative(volume["stl"], read.volume(), 1e-12, "stl")
+                self.assert_relative(volume["glb"], glb_volume(self.path(model, "glb")), 1e-12, "glb")
+                self.assertEqual([part["name"] for part in meshes["glb"]],
+                                 [part["name"] for part in self.parts(model)])
+                for mesh, part in zip(meshes["glb"], self.parts(model)):
+                    for found, corner in zip(mesh["bbox"], part["bbox"]):
+                        size = max(abs(c) for c in corner + part["bbox"][0])
+                        self.assertLessEqual(math.dist(found, corner), 1e-6 * size, part["name"])
 
     def test_colours_are_linear_and_complete(self):
         document = support.read_gltf(self.files / "assembly.glb")
