@@ -18,13 +18,12 @@ void print(std::FILE* stream, const std::string& text) {
 int run(const csgrun::CommandLine& line) {
   csgrun::RunReport report;
   const csgrun::Failure failure = csgrun::run_model(line, report);
-  if (!line.quiet && line.stats != csgrun::StatsForm::kJson) {
+  // The error first: it says where. Warnings often say why, and no JSON object will have them.
+  if (failure.failed()) print(stderr, failure.message + "\n");
+  if (!line.quiet && (line.stats != csgrun::StatsForm::kJson || failure.failed())) {
     for (const std::string& warning : report.warnings) print(stderr, "warning: " + warning + "\n");
   }
-  if (failure.failed()) {
-    print(stderr, failure.message + "\n");
-    return failure.code;
-  }
+  if (failure.failed()) return failure.code;
   if (line.stats == csgrun::StatsForm::kJson) print(stdout, csgrun::stats_json(report));
   if (line.stats == csgrun::StatsForm::kText) print(stderr, csgrun::stats_text(report));
   return csgrun::kExitGood;

@@ -77,6 +77,12 @@ class Geometry(Case):
         self.expect(outcome, 3, "model.lua:1: the result is empty")
         self.assertFalse(__import__("os").path.exists(self.path("a.stl")))
 
+    def test_why_it_is_empty(self):
+        for stats in ("--stats", "--stats=json"):
+            outcome = self.run_script("\nreturn cube(1) + cube(1):translate(1e10, 0, 0)", stats)
+            self.expect(outcome, 3, "model.lua:2: the result is empty\nwarning: model.lua:2: 'cube' encloses no volume")
+            self.assertEqual(outcome.out, "")
+
     def test_an_empty_part_is_a_warning(self):
         outcome = self.run_script("return {a = cube(1), b = cube(1) - cube(2)}")
         self.expect(outcome, 0)
