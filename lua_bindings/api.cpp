@@ -172,8 +172,11 @@ void open_api(lua_State* L) {
 std::string api_help() {
   std::string text =
       "Every function is a global and stands in the table csg. Calls: f(values...), f{name = "
-      "value, ...}\n"
-      "or f(values..., {name = value, ...}). Lengths are millimetres, angles degrees, Z is up.\n"
+      "value, ...},\n"
+      "f(values..., {name = value, ...}) or f{values..., name = value}; a list {x, y, z} wherever "
+      "a "
+      "vector is meant.\n"
+      "Lengths are millimetres, angles degrees, Z is up.\n"
       "Operators: a + b, a | b union; a - b difference; a * b, a & b intersection; a ~ b "
       "symmetric\n"
       "difference; M * a transforms by a matrix. Settings: csg.fn, csg.fa, csg.fs, csg.grid.\n";
@@ -196,9 +199,7 @@ std::string api_help() {
   return text;
 }
 
-void fail_in(const FunctionSpec& spec, const std::string& message) {
-  throw ScriptError(std::string(spec.name) + ": " + message);
-}
+void fail_in(const FunctionSpec& spec, const std::string& message) { fail_as(spec.name, message); }
 
 ShapeValue& shape_argument(lua_State* L, const FunctionSpec& spec) {
   if (ShapeValue* shape = to_shape(L, 1)) return *shape;

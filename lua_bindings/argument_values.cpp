@@ -1,4 +1,5 @@
 // One argument from Lua to C++: what its type takes, and what is said when it does not fit.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -115,6 +116,11 @@ std::string describe_value(lua_State* L, int index) {
   }
 }
 
+void fail_as(const std::string& function, const std::string& message) {
+  const std::string prefix = function + ": ";
+  throw ScriptError(message.rfind(prefix, 0) == 0 ? message : prefix + message);
+}
+
 double Arguments::check_number(const Option& option, int index) const {
   const double x = lua_tonumber(L_, index);
   if (!std::isfinite(x)) {
@@ -129,16 +135,56 @@ double Arguments::check_number(const Option& option, int index) const {
   return x;
 }
 
+/// How the list at `list` is written as arguments: "cube(10, {center = true})"; empty when that
+/// would be no help.
+std::string Arguments::as_call(int list) const {
+  const auto text_of = [&](int index) -> std::string {
+    switch (lua_type(L_, index)) {
+      case LUA_TNUMBER:
+        return describe_value(L_, index);
+      case LUA_TBOOLEAN:
+        return lua_toboolean(L_, index) != 0 ? "true" : "false";
+      case LUA_TSTRING:
+        return lua_rawlen(L_, index) > 40 ? "..." : fmt::format("\"{}\"", lua_tostring(L_, index));
+      default:
+        return "...";
+    }
+  };
+  std::string text;
+  const lua_Integer length = list_length(L_, list);
+  for (lua_Integer i = 1; i <= length; ++i) {
+    lua_rawgeti(L_, list, i);
+    text += (i > 1 ? ", " : "") + text_of(lua_gettop(L_));
+    lua_pop(L_, 1);
+  }
+  if (options_table_ == 0) return fmt::format("{}({})", spec_.name, text);
+  std::vector<std::string> named;
+  lua_pushnil(L_);
+  while (lua_next(L_, options_table_) != 0) {
+    if (lua_type(L_, -2) == LUA_TSTRING)
+      named.push_back(fmt::format("{} = {}", lua_tostring(L_, -2), text_of(lua_gettop(L_))));
+    lua_pop(L_, 1);
+  }
+  std::sort(named.begin(), named.end());
+  return fmt::format("{}({}, {{{}}})", spec_.name, text, fmt::join(named, ", "));
+}
+
 void Arguments::wrong_type(const Option& option, int index) const {
   std::string hint;
-  if (lua_istable(L_, index) && list_length(L_, index) >= 1) {
-    lua_rawgeti(L_, index, 1);
+  // cube{10}, cylinder{20, 5}: the values are good, only the braces are not.
+  const lua_Integer length = lua_istable(L_, index) ? list_length(L_, index) : 0;
+  if (option.positional && length >= 1) {
     const bool takes_number = option.type == T::kNumber || vector_rule(option.type).number_too;
-    if (takes_number && option.positional && lua_type(L_, -1) == LUA_TNUMBER &&
-        list_length(L_, index) == 1) {
-      hint = fmt::format("; write {}({}) without the list", spec_.name, describe_value(L_, -1));
-    }
+    lua_rawgeti(L_, index, 1);
+    const bool fits = (takes_number && lua_type(L_, -1) == LUA_TNUMBER) ||
+                      (option.type == T::kString && lua_type(L_, -1) == LUA_TSTRING);
     lua_pop(L_, 1);
+    const auto room = std::count_if(spec_.options.begin(), spec_.options.end(),
+                                    [](const Option& each) { return each.positional; });
+    if (fits && length <= (vector_rule(option.type).most > 0 ? 1 : room) &&
+        &option == &spec_.options[0]) {
+      hint = "; write " + as_call(index) + (options_table_ == 0 ? " without the list" : "");
+    }
   }
   fail(fmt::format("option '{}' must be {}, got {}{}", option.name, describe_type(option.type),
                    lua_type(L_, index) == LUA_TNUMBER ? "the number " + describe_value(L_, index)

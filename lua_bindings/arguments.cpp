@@ -40,13 +40,17 @@ bool has_string_keys(lua_State* L, int table) {
   return false;
 }
 
+/// The types whose value is a list of lists.
+bool takes_lists(T type) {
+  return type == T::kPoints2 || type == T::kPoints3 || type == T::kIndexLists || type == T::kMatrix;
+}
+
 /// Whether the table at `index` is a list of one list where the first option takes a list of
 /// numbers, or a list of one list of lists where it takes a list of lists.
 bool is_wrapped_list(lua_State* L, int index, const FunctionSpec& spec) {
   if (spec.options.empty() || !lua_istable(L, index) || list_length(L, index) != 1) return false;
   const T type = spec.options[0].type;
-  const bool of_lists =
-      type == T::kPoints2 || type == T::kPoints3 || type == T::kIndexLists || type == T::kMatrix;
+  const bool of_lists = takes_lists(type);
   if (!of_lists && vector_rule(type).most == 0) return false;
   lua_rawgeti(L, index, 1);
   bool wrapped = lua_istable(L, -1);
@@ -81,9 +85,7 @@ Arguments::Arguments(lua_State* L, const FunctionSpec& spec, int first) : L_(L),
   }
 }
 
-void Arguments::fail(const std::string& message) const {
-  throw ScriptError(std::string(spec_.name) + ": " + message);
-}
+void Arguments::fail(const std::string& message) const { fail_as(spec_.name, message); }
 
 std::vector<const Option*> Arguments::positional_options() const {
   std::vector<const Option*> options;
@@ -133,28 +135,42 @@ void Arguments::read_positional(int first, int last) {
   }
 }
 
+/// cube{10, 20, 30, center = true}: the list is the vector. cylinder{20, 5, fn = 8}: its entries
+/// are what would stand before the options.
+void Arguments::read_list_part(int table, lua_Integer length) {
+  const auto options = positional_options();
+  if (options.empty()) fail("takes no list of values");
+  if (positional_count_ > 0) {
+    fail("values without a name must stand before the table of options, or in it, not both");
+  }
+  const T type = options[0]->type;
+  const int first_type = lua_rawgeti(L_, table, 1);
+  lua_pop(L_, 1);
+  const bool is_list = takes_lists(type)
+                           ? length > 1 || first_type != LUA_TTABLE
+                           : (vector_rule(type).most > 0 || type == T::kColor) &&
+                                 first_type != LUA_TTABLE && first_type != LUA_TSTRING;
+  if (!is_list) {
+    // One more than there is room for is enough for the message.
+    const auto count = std::min(length, static_cast<lua_Integer>(options.size()) + 1);
+    const int base = lua_gettop(L_) + 1;
+    for (lua_Integer i = 1; i <= count; ++i) lua_rawgeti(L_, table, i);
+    read_positional(base, lua_gettop(L_));
+    return;
+  }
+  lua_createtable(L_, static_cast<int>(std::min<lua_Integer>(length, 1 << 16)), 0);
+  for (lua_Integer i = 1; i <= length; ++i) {
+    lua_rawgeti(L_, table, i);
+    lua_rawseti(L_, -2, i);
+  }
+  options_table_ = table;
+  set(*options[0], lua_gettop(L_));
+  options_table_ = 0;
+}
+
 void Arguments::read_table(int table) {
   const auto length = static_cast<lua_Integer>(lua_rawlen(L_, table));
-  if (length > 0) {
-    // The list part is the main argument: cube{10, 20, 30, center = true}.
-    const auto options = positional_options();
-    if (options.empty()) fail("takes no list of values");
-    if (positional_count_ > 0) {
-      fail("values without a name must stand before the table of options, or in it, not both");
-    }
-    lua_rawgeti(L_, table, 1);
-    // One table, or one string, is the argument itself: color{"red", alpha = 0.5}. One number is
-    // not: cube{10} could as well be the beginning of a list.
-    if (length > 1 || (!lua_istable(L_, -1) && lua_type(L_, -1) != LUA_TSTRING)) {
-      lua_pop(L_, 1);
-      lua_createtable(L_, static_cast<int>(length), 0);
-      for (lua_Integer i = 1; i <= length; ++i) {
-        lua_rawgeti(L_, table, i);
-        lua_rawseti(L_, -2, i);
-      }
-    }
-    set(*options[0], lua_gettop(L_));
-  }
+  if (length > 0) read_list_part(table, length);
   // In the order of the table of options, so that of two mistakes always the same one is told.
   lua_pushnil(L_);
   std::string unknown;
@@ -322,8 +338,8 @@ std::string check_facets(const Facets& facets) {
 }
 
 std::string help_text(const FunctionSpec& spec) {
-  std::string signature;
-  size_t widest = 0;
+  std::string signature = spec.subject;
+  size_t widest = signature.size();
   const auto names = [](const Option& option) {
     return option.alias != nullptr ? fmt::format("{}, {}", option.name, option.alias)
                                    : std::string(option.name);
@@ -339,6 +355,8 @@ std::string help_text(const FunctionSpec& spec) {
     widest = std::max(widest, names(*option).size());
   }
   std::string text = fmt::format("{}({})\n  {}\n", spec.name, signature, spec.doc);
+  if (spec.subject[0] != '\0')
+    text += fmt::format("    {:<{}}  {}\n", spec.subject, widest, spec.subject_doc);
   for (const Option* option : options) {
     const std::string fallback =
         option->fallback[0] != '\0' ? fmt::format(" [{}]", option->fallback) : "";

@@ -4,6 +4,8 @@
 // Call forms: f(positional...), f{options}, f(main, {options}); a list {x, y, z} anywhere a vector
 // is meant, and numbers one after another for the first vector: cube(10), cube(10, 20, 30),
 // cube{10, 20, 30, center = true}, cube{{10, 20, 30}, center = true}, cube{size = {10, 20, 30}}.
+// Where the first argument is no vector, the list in a table of options holds the first arguments:
+// cylinder{20, 5, fn = 8} is cylinder(20, 5, {fn = 8}).
 #pragma once
 
 #include <array>
@@ -64,6 +66,8 @@ struct FunctionSpec {
   std::span<const Option> options;
   bool facets = false;  ///< takes fn, fa and fs as well
   const char* example = "";
+  const char* subject = "";  ///< what stands before the options: "part", "shape"; else ""
+  const char* subject_doc = "";
 };
 
 /// A vector as given: how many numbers (1: a bare number), the rest is 0.
@@ -110,11 +114,13 @@ class Arguments {
   [[nodiscard]] std::string unknown_option(std::string_view name) const;
   void read_positional(int first, int last);
   void read_table(int table);
+  void read_list_part(int table, lua_Integer length);
   void set(const Option& option, int index);
   void set_spread(const Option& option, int first, int count);
   Value convert(const Option& option, int index) const;
   VectorArgument convert_vector(const Option& option, int index) const;
   double check_number(const Option& option, int index) const;
+  [[nodiscard]] std::string as_call(int list) const;
   [[noreturn]] void wrong_type(const Option& option, int index) const;
   void check_new(const Option& option) const;
   [[noreturn]] void fail(const std::string& message) const;
@@ -124,7 +130,11 @@ class Arguments {
   const FunctionSpec& spec_;
   std::vector<Given> given_;
   int positional_count_ = 0;
+  int options_table_ = 0;  ///< where the list part of a table of options is read: that table
 };
+
+/// "cube: message" as a ScriptError; a message that begins so already stays as it is.
+[[noreturn]] void fail_as(const std::string& function, const std::string& message);
 
 /// "a number or a list of three numbers".
 std::string describe_type(ArgumentType type);

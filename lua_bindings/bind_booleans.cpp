@@ -44,8 +44,7 @@ struct Operands {
 };
 
 constexpr Option kOperandOptions[] = {
-    {"operands", ArgumentType::kValue, "", "solids, or shapes, one after another or as lists",
-     true},
+    {"operands", ArgumentType::kValue, "", "solids or shapes, one after another or as lists", true},
 };
 constexpr FunctionSpec kUnion{"union", "What is in any of them.", kOperandOptions, false,
                               "union{a, b, c}"};

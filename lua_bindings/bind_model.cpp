@@ -66,14 +66,13 @@ int import_mesh(lua_State* L) {
 }
 
 constexpr Option kRequireOptions[] = {
-    {"name", T::kString, "", "name of the module, with dots for folders", true},
+    {"name", T::kString, "",
+     "the file name.lua or name/init.lua in the model's folder, in csgrun_modules beside it, in\n"
+     "          the folders of -L and in those of CSGRUN_PATH; a dot in the name opens a folder",
+     true},
 };
-constexpr FunctionSpec kRequire{
-    "require",
-    "Runs a module once and gives what it returns. It is looked for in the model's folder, in "
-    "csgrun_modules beside\n"
-    "  it, in the folders of -L, and in those of CSGRUN_PATH, as name.lua and name/init.lua.",
-    kRequireOptions, false, "local wheel = require \"parts.wheel\""};
+constexpr FunctionSpec kRequire{"require", "Runs a module once and gives what it returns.",
+                                kRequireOptions, false, "local wheel = require \"parts.wheel\""};
 
 const char kLoadedModules = 0;  // registry: real path -> value
 const char kLoadingMark = 0;    // value while a module runs
@@ -225,10 +224,22 @@ int param(lua_State* L) {
 constexpr Option kEmitOptions[] = {
     {"name", T::kString, "part1, part2, ...", "name of the part, or of the group", false},
 };
+constexpr const char* kPartDoc = "a solid, a shape, or a table of them";
 constexpr FunctionSpec kEmit{
-    "emit", "Adds a part, or a table of parts, to the result, beside what the script returns.",
-    kEmitOptions, false, "emit(lid, {name = \"lid\"})"};
-constexpr FunctionSpec kRender{"render", "The same as emit.", kEmitOptions};
+    "emit",
+    "Adds a part, or a table of parts, to the result, beside what the script returns.",
+    kEmitOptions,
+    false,
+    "emit(lid, {name = \"lid\"})",
+    "part",
+    kPartDoc};
+constexpr FunctionSpec kRender{"render",
+                               "Adds a part to the result: another name of emit.",
+                               kEmitOptions,
+                               false,
+                               "render(lid, {name = \"lid\"})",
+                               "part",
+                               kPartDoc};
 
 template <const FunctionSpec& Spec>
 int emit(lua_State* L) {

@@ -66,6 +66,8 @@ int polygon(lua_State* L) {
   return 1;
 }
 
+constexpr const char* kShapeDoc = "the 2D shape; as a method, shape:f(...), it is left out";
+
 constexpr Option kLinearExtrudeOptions[] = {
     {"height", T::kNumber, "100, or the length of v", "height", true, Range::kPositive, "h"},
     {"v", T::kVector3, "{0, 0, 1}", "direction", false},
@@ -79,11 +81,44 @@ constexpr Option kLinearExtrudeOptions[] = {
     {"segments", T::kInteger, "from the facets", "number of pieces of the outline; 0: never split",
      false, Range::kNotNegative},
 };
-constexpr FunctionSpec kLinearExtrude{"linear_extrude", "A solid: the shape moved along Z (or v).",
-                                      kLinearExtrudeOptions, true,
-                                      "circle(5):linear_extrude(20, {twist = 90})"};
+constexpr FunctionSpec kLinearExtrude{"linear_extrude",
+                                      "A solid: the shape moved along Z (or v).",
+                                      kLinearExtrudeOptions,
+                                      true,
+                                      "circle(5):linear_extrude(20, {twist = 90})",
+                                      "shape",
+                                      kShapeDoc};
+
+/// linear_extrude{shape, 16, twist = 90}: the shape comes out of the list, the rest stays options.
+void take_shape_out_of_list(lua_State* L) {
+  if (lua_gettop(L) != 1 || !lua_istable(L, 1)) return;
+  lua_rawgeti(L, 1, 1);
+  if (to_shape(L, -1) == nullptr) {
+    lua_pop(L, 1);
+    return;
+  }
+  lua_insert(L, 1);  // shape, table
+  lua_newtable(L);
+  lua_pushnil(L);
+  while (lua_next(L, 2) != 0) {
+    lua_pushvalue(L, -2);
+    if (lua_isinteger(L, -1) != 0) {
+      const lua_Integer place = lua_tointeger(L, -1);
+      lua_pop(L, 1);
+      if (place == 1) {
+        lua_pop(L, 1);
+        continue;
+      }
+      lua_pushinteger(L, place - 1);
+    }
+    lua_insert(L, -2);
+    lua_rawset(L, 3);
+  }
+  lua_replace(L, 2);
+}
 
 int linear_extrude_shape(lua_State* L) {
+  take_shape_out_of_list(L);
   const ShapeValue& shape = shape_argument(L, kLinearExtrude);
   const Arguments arguments(L, kLinearExtrude, 2);
   LinearExtrudeOptions options;
@@ -104,7 +139,7 @@ int linear_extrude_shape(lua_State* L) {
     options.segments = static_cast<int>(arguments.number("segments", 0));
   options.facets = arguments.facets();
   if (shape.shape.empty()) {
-    push_solid(L, Node::empty(session_of(L).source_ref(L)));
+    push_solid(L, Node::empty(session_of(L).source_ref(L)));  // what a Boolean may well give
   } else {
     push_leaf(L, value_or_fail(kLinearExtrude, linear_extrude(shape.shape, options)),
               shape.appearance);
@@ -120,9 +155,14 @@ constexpr Option kRotateExtrudeOptions[] = {
 constexpr FunctionSpec kRotateExtrude{
     "rotate_extrude",
     "A solid: the shape turned about Z, its Y upwards. It must lie on one side of Y.",
-    kRotateExtrudeOptions, true, "circle(2):translate(10, 0):rotate_extrude()"};
+    kRotateExtrudeOptions,
+    true,
+    "circle(2):translate(10, 0):rotate_extrude()",
+    "shape",
+    kShapeDoc};
 
 int rotate_extrude_shape(lua_State* L) {
+  take_shape_out_of_list(L);
   const ShapeValue& shape = shape_argument(L, kRotateExtrude);
   const Arguments arguments(L, kRotateExtrude, 2);
   RotateExtrudeOptions options;

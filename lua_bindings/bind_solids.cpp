@@ -98,7 +98,7 @@ int polyhedron(lua_State* L) {
   PolygonMesh mesh = value_or_fail(
       kPolyhedron,
       make_polyhedron(arguments.points3("points"), arguments.index_lists("faces"), &note));
-  if (!note.empty()) session_of(L).warn(L, "polyhedron: " + note);
+  if (!note.empty()) session_of(L).warn(L, note);
   push_leaf(L, std::move(mesh));
   return 1;
 }

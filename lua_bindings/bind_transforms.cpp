@@ -224,7 +224,11 @@ constexpr Option kColorOptions[] = {
 };
 constexpr FunctionSpec kColor{"color",
                               "Paints every face; of several colours the outermost counts.",
-                              kColorOptions, false, "part:color('steelblue', 0.5)"};
+                              kColorOptions,
+                              false,
+                              "part:color('steelblue', 0.5)",
+                              "part",
+                              "a solid or a shape; part:color(...) leaves it out"};
 
 /// A fraction from 0 to 1.
 float fraction(const FunctionSpec& spec, const char* name, double x) {

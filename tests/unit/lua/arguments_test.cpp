@@ -28,6 +28,38 @@ TEST(CallForms, Cylinders) {
   EXPECT_EQ(box_of("cylinder{h = 1, r1 = 0.5, fn = 4}"), "-1 -1 0 .. 1 1 1");
 }
 
+TEST(CallForms, ListPartOfATableOfOptionsIsPositional) {
+  EXPECT_EQ(box_of("cylinder{10, 2, fn = 4}"), "-2 -2 0 .. 2 2 10");
+  EXPECT_EQ(box_of("cylinder{10, 1, 3, true, fn = 4}"), "-3 -3 -5 .. 3 3 5");
+  EXPECT_EQ(box_of("sphere{5, fn = 4}"), box_of("sphere(5, {fn = 4})"));
+  for (const char* call : {"circle{5, fn = 4}:linear_extrude(16, {scale = 2})",
+                           "linear_extrude(circle{5, fn = 4}, {16, scale = 2})",
+                           "linear_extrude{circle{5, fn = 4}, 16, scale = 2}",
+                           "circle{5, fn = 4}:linear_extrude{16, scale = 2}"}) {
+    EXPECT_EQ(box_of(call), "-10 -10 0 .. 10 10 16") << call;
+  }
+  for (const char* call :
+       {"square(2):rotate_extrude{90, fn = 4}", "rotate_extrude{square(2), 90, fn = 4}",
+        "rotate_extrude(square(2), {90, fn = 4})"}) {
+    EXPECT_EQ(box_of(call), "0 0 0 .. 2 2 2") << call;
+  }
+  // The list is the vector where a vector comes first, and a list in it is that vector.
+  EXPECT_EQ(box_of("cube{10, 20, 30, center = true}"), "-5 -10 -15 .. 5 10 15");
+  EXPECT_EQ(box_of("square{10, 20, center = true}:linear_extrude(1)"), "-5 -10 0 .. 5 10 1");
+  EXPECT_EQ(box_of("square{10, 20}:linear_extrude(1)"), "0 0 0 .. 10 20 1");
+}
+
+TEST(EmptyShapes, ExtrudeToEmptySolids) {
+  for (const char* solid : {"nothing:linear_extrude(5)", "nothing:rotate_extrude()",
+                            "nothing:translate(5, 0):rotate_extrude(90)"}) {
+    const ScriptRun run(std::string("local nothing = circle(1) - circle(1)\nreturn ") + solid);
+    ASSERT_EQ(run.outcome.status, ScriptStatus::kGood) << run.outcome.message;
+    EXPECT_EQ(run.session.parts().at(0).solid->kind(), NodeKind::kEmpty) << solid;
+  }
+  EXPECT_EQ(message_of("return (circle(1) - circle(1)):linear_extrude(0)"),
+            "model.lua:1: linear_extrude: option 'height' must be positive, got 0");
+}
+
 TEST(CallForms, Transforms) {
   for (const char* call :
        {"cube(1):translate(1, 2, 3)", "cube(1):translate{1, 2, 3}", "translate(cube(1), 1, 2, 3)",
@@ -70,6 +102,21 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
        "cube: option 'size' must be a number or a list of three numbers, got a list of one value; "
        "write "
        "cube(10) without the list"},
+      {"cube{10, name = 'a', center = true}",
+       "cube: option 'size' must be a number or a list of three numbers, got a list of one value; "
+       "write cube(10, {center = true, name = \"a\"})"},
+      {"cylinder{20, 5}",
+       "cylinder: option 'h' must be a number, got a list of 2 values; write cylinder(20, 5) "
+       "without "
+       "the list"},
+      {"cylinder{20, 5, 5, true, 7, fn = 8}",
+       "cylinder: too many arguments: after 'center' only {name = value} may follow, got 7"},
+      {"cylinder{20, h = 5}", "cylinder: option 'h' (or 'height') is given twice"},
+      {"polyhedron{points = {{0,0,0}}, faces = {{0, 1, 2}}}",
+       "polyhedron: face 0: index 1 is out of range, there are 1 points"},
+      {"circle(5):rotate_extrude()",
+       "rotate_extrude: the shape must lie on one side of the Y axis, its x runs from -5 to 5"},
+      {"polygon{{0, 0}, {1, 0}}", "polygon: needs at least 3 points, got 2"},
       {"cube{size = 'x'}",
        "cube: option 'size' must be a number or a list of three numbers, got string"},
       {"cube('10')", "cube: option 'size' must be a number or a list of three numbers, got string"},
@@ -142,8 +189,23 @@ TEST(Help, ListsEveryFunctionAndOption) {
     for (const Option& option : binding.spec->options) {
       EXPECT_NE(help.find(std::string("    ") + option.name), std::string::npos) << option.name;
     }
-    EXPECT_NE(std::string(binding.spec->doc), "") << binding.spec->name;
+    const std::string doc = binding.spec->doc;
+    EXPECT_NE(doc, "") << binding.spec->name;
+    EXPECT_EQ(doc.find('\n'), std::string::npos) << binding.spec->name;
   }
+  for (const char* text : {"emit(part)", "render(part)", "linear_extrude(shape, height)",
+                           "Example: render(lid", "solids or shapes, one after another"}) {
+    EXPECT_NE(help.find(text), std::string::npos) << text;
+  }
+}
+
+TEST(Warnings, NameTheFunctionOnce) {
+  const ScriptRun run(
+      "return polyhedron{points = {{0,0,0},{1,0,0},{0,1,0},{0,0,1}},"
+      "faces = {{2,1,0},{1,3,0},{3,2,0},{2,3,1}}}");
+  ASSERT_EQ(run.session.warnings().size(), 1u);
+  EXPECT_EQ(run.session.warnings()[0],
+            "model.lua:1: polyhedron: inside out, its faces were turned over");
 }
 
 }  // namespace
