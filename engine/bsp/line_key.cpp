@@ -47,23 +47,39 @@ const LineNamer::Residues& LineNamer::residues(uint32_t plane) {
   return r;
 }
 
-LineKey LineNamer::key(uint32_t p, uint32_t q) {
-  residues(p), residues(q);
-  const uint64_t* a = residues(p).v;
-  const uint64_t* b = residues(q).v;
+LineNamer::Coordinates LineNamer::coordinates(PlanePair line) {
+  residues(line.p), residues(line.q);  // both first: the table may move
+  const uint64_t* a = residues(line.p).v;
+  const uint64_t* b = residues(line.q).v;
   const auto minor = [&](int i, int j) { return minus(times(a[i], b[j]), times(a[j], b[i])); };
-  const uint64_t plucker[6] = {minor(0, 1), minor(0, 2), minor(1, 2),
-                               minor(0, 3), minor(1, 3), minor(2, 3)};
-  int first = 0;
-  while (first < 5 && plucker[first] == 0) ++first;
-  const uint64_t scale = inverse(plucker[first]);
-  LineKey key{static_cast<uint64_t>(first), static_cast<uint64_t>(first) + 7};
-  for (const uint64_t c : plucker) {
-    const uint64_t v = times(c, scale);
-    key.a = scramble(key.a, v);
-    key.b = scramble(key.b, v * 0xd6e8feb86659fd93ull + 1);
+  Coordinates c{{minor(0, 1), minor(0, 2), minor(1, 2), minor(0, 3), minor(1, 3), minor(2, 3)}, 0};
+  while (c.first < 5 && c.v[c.first] == 0) ++c.first;
+  return c;
+}
+
+void LineNamer::keys(const std::vector<PlanePair>& lines, std::vector<LineKey>& keys) {
+  lines_.clear();
+  products_.clear();
+  uint64_t product = 1;
+  for (const PlanePair& line : lines) {
+    lines_.push_back(coordinates(line));
+    products_.push_back(product);
+    product = times(product, lines_.back().v[lines_.back().first]);
   }
-  return key;
+  uint64_t rest = inverse(product);
+  keys.resize(lines.size());
+  for (size_t i = lines.size(); i-- > 0;) {
+    const Coordinates& c = lines_[i];
+    const uint64_t scale = times(rest, products_[i]);
+    rest = times(rest, c.v[c.first]);
+    LineKey key{static_cast<uint64_t>(c.first), static_cast<uint64_t>(c.first) + 7};
+    for (const uint64_t coordinate : c.v) {
+      const uint64_t v = times(coordinate, scale);
+      key.a = scramble(key.a, v);
+      key.b = scramble(key.b, v * 0xd6e8feb86659fd93ull + 1);
+    }
+    keys[i] = key;
+  }
 }
 
 }  // namespace csgrun

@@ -20,9 +20,13 @@ struct LineKey {
 /// Computes keys; remembers the residues of planes.
 class LineNamer {
  public:
+  /// Two planes (indices) that meet in a line: not parallel.
+  struct PlanePair {
+    uint32_t p, q;
+  };
   explicit LineNamer(const PlaneTable& planes) : planes_(&planes) {}
-  /// REQUIRES: the planes (indices) are not parallel.
-  LineKey key(uint32_t p, uint32_t q);
+  /// The keys of many lines: one modular inverse serves them all (Montgomery's trick).
+  void keys(const std::vector<PlanePair>& lines, std::vector<LineKey>& keys);
 
  private:
   struct Residues {
@@ -31,8 +35,17 @@ class LineNamer {
   };
   const Residues& residues(uint32_t plane);
 
+  /// Plücker coordinates modulo the prime.
+  struct Coordinates {
+    uint64_t v[6];
+    int first;  ///< the first that is not zero
+  };
+  Coordinates coordinates(PlanePair line);
+
   const PlaneTable* planes_;
   std::vector<Residues> residues_;
+  std::vector<Coordinates> lines_;
+  std::vector<uint64_t> products_;
 };
 
 }  // namespace csgrun

@@ -86,11 +86,12 @@ bool RegionBuilder::cancel_on_lines(PlaneId support) {
     LineKey key;
     uint32_t edge;
   };
+  lines_.clear();
+  for (const DirectedEdge& e : open_) lines_.push_back({support.index(), e.plane});
+  namer_.keys(lines_, keys_);
   std::vector<Keyed> keyed;
   keyed.reserve(open_.size());
-  for (uint32_t i = 0; i < open_.size(); ++i) {
-    keyed.push_back({namer_.key(support.index(), open_[i].plane), i});
-  }
+  for (uint32_t i = 0; i < open_.size(); ++i) keyed.push_back({keys_[i], i});
   std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
     return std::tie(a.key, a.edge) < std::tie(b.key, b.edge);
   });

@@ -51,8 +51,6 @@ class RegionBuilder {
   /// may be there in both directions: a slit.
   bool build_single(PlaneId support, const std::vector<DirectedEdge>& edges, RegionLoops& loops);
 
-  LineNamer& namer() { return namer_; }
-
  private:
   bool cancel_on_lines(PlaneId support);
   bool sweep_line(uint32_t support, const DirectedEdge* begin, const DirectedEdge* end);
@@ -63,6 +61,8 @@ class RegionBuilder {
   CellGeometry& geometry_;
   const PlaneTable& planes_;
   LineNamer namer_;
+  std::vector<LineNamer::PlanePair> lines_;
+  std::vector<LineKey> keys_;
   std::vector<DirectedEdge> open_;       ///< edges whose exact reverse is not there
   std::vector<DirectedEdge> boundary_;   ///< elementary boundary edges
   std::vector<uint32_t> next_;           ///< per boundary edge: the one that follows

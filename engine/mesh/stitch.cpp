@@ -99,9 +99,13 @@ bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
   }
   if (loose_edges.empty()) return true;
   inserted.resize(loose_edges.size());
+  std::vector<LineNamer::PlanePair> lines;
+  for (const uint32_t e : loose_edges) lines.push_back({support[e].index(), edges[e]->plane});
+  std::vector<LineKey> keys;
+  namer.keys(lines, keys);
   for (size_t k = 0; k < loose_edges.size(); ++k) {
     const uint32_t e = loose_edges[k];
-    loose.push_back({namer.key(support[e].index(), edges[e]->plane), support[e], edges[e], &inserted[k]});
+    loose.push_back({keys[k], support[e], edges[e], &inserted[k]});
   }
   std::stable_sort(loose.begin(), loose.end(),
                    [](const LooseEdge& a, const LooseEdge& b) { return a.line < b.line; });
