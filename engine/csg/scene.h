@@ -28,6 +28,17 @@ struct Identity {
   /// The appearance of all faces; it is not part of the key. kUnpainted: faces differ, and the key
   /// tells how.
   uint32_t paint = kUnpainted;
+
+  /// The same point set with the same appearance.
+  bool operator==(const Identity&) const = default;
+};
+
+struct IdentityHash {
+  size_t operator()(const Identity& id) const {
+    size_t h = KeyHash()(id.key);
+    for (const int64_t x : id.origin) h = (h ^ static_cast<size_t>(x)) * 0x9E3779B97F4A7C15ULL;
+    return h;
+  }
 };
 
 /// A subtree as far as others see it. Boxes enclose the point set, in steps.

@@ -11,6 +11,15 @@ struct SceneJobs::OpenOperator {
   OperandList list;
   size_t next = 0, count = 0;
   std::vector<uint32_t> children;  // expression nodes
+  std::unordered_set<Identity, IdentityHash> met;
+
+  /// Whether a solid was an operand before. A second time it changes nothing, except in a symmetric
+  /// difference, and coincident surfaces are what dividing cells tells apart least of all.
+  bool repeats(const Subtree& operand, size_t index) {
+    if (op == BooleanOp::kSymmetricDifference) return false;
+    if (op == BooleanOp::kDifference && index == 0) return false;
+    return !met.insert(operand.id).second;
+  }
 };
 
 /// Results that would have far planes stay in their parent's job, which clips them.
@@ -224,12 +233,15 @@ const StoredBoundary& SceneJobs::use(const Key& key) {
 /// Starts on the first `count` operands of a node, from the longest prefix that is known.
 SceneJobs::OpenOperator SceneJobs::open(uint32_t node, size_t count, bool is_target,
                                         uint32_t job_frame, Parts& parts) {
-  OpenOperator result{scene_.nodes[node].op, scene_.operands(node), 0, count, {}};
+  OpenOperator result{scene_.nodes[node].op, scene_.operands(node), 0, count, {}, {}};
   for (size_t prefix = is_target ? count - 1 : count; prefix >= 2; --prefix) {
     const Subtree& value = *result.list.values[prefix - 1];
     if (!may_keep(value) || !is_known(value.id.key)) continue;
     result.children.push_back(put(parts, place(value, job_frame), value));
     result.next = prefix;
+    for (size_t i = 0; i < prefix; ++i) {
+      result.repeats(scene_.nodes[result.list.operands[i]].subtree, i);
+    }
     break;
   }
   return result;
@@ -242,8 +254,13 @@ SceneJobs::Parts SceneJobs::build(uint32_t node, size_t count, uint32_t job_fram
   while (true) {
     OpenOperator& top = stack.back();
     if (top.next < top.count) {
-      const uint32_t operand = top.list.operands[top.next++];
+      const size_t index = top.next++;
+      const uint32_t operand = top.list.operands[index];
       const SceneNode& child = scene_.nodes[operand];
+      if (top.repeats(child.subtree, index)) {
+        parts.sources += child.subtree.slots;
+        continue;
+      }
       if (child.kind == SceneNode::Kind::kLeaf) {
         top.children.push_back(put(parts, place_leaf(child, job_frame), child.subtree));
       } else {

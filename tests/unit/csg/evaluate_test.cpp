@@ -31,6 +31,38 @@ TEST(Evaluate, BooleansOfCubes) {
   EXPECT_TRUE(solid_of(intersect({a, moved(2, 0, 0, a)}))->empty());
 }
 
+/// Solids of their own that are equal only when they are on the grid.
+std::vector<NodePtr> equal_cubes(int count) {
+  std::vector<NodePtr> cubes;
+  for (int i = 0; i < count; ++i)
+    cubes.push_back(moved(i * 0.25, 0, 0, moved(-i * 0.25, 1, 1, cube(2))));
+  return cubes;
+}
+
+TEST(Evaluate, EqualOperandsCountOnce) {
+  EvaluateOptions options;
+  options.threads = 1;
+  const auto work_of = [&](const NodePtr& root, double volume) {
+    Evaluator evaluator(options);
+    const auto result = evaluator.evaluate(root);
+    EXPECT_TRUE(result.has_value()) << result.error().message;
+    if (result) EXPECT_EQ((*result)->measures.volume, volume);
+    return evaluator.stats().cells;
+  };
+  std::vector<NodePtr> many = equal_cubes(50);
+  for (const bool flatten : {true, false}) {
+    options.flatten = flatten;
+    const uint64_t limit = flatten ? 1 : many.size();
+    EXPECT_LE(work_of(unite(many), 8), limit);
+    EXPECT_LE(work_of(intersect(many), 8), limit);
+    work_of(symmetric(equal_cubes(3)), 8);
+    work_of(subtract(equal_cubes(2)), 0);
+  }
+  options.flatten = true;
+  many.insert(many.begin(), cube(4));
+  EXPECT_EQ(work_of(subtract(many), 56), work_of(subtract({cube(4), many[1]}), 56));
+}
+
 TEST(Evaluate, DecimalsMeet) {
   const auto joined = solid_of(unite({cube(0.3), moved(0.1 + 0.2, 0, 0, cube(0.3))}));
   EXPECT_EQ(joined->triangles.size(), 12u);
