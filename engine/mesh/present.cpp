@@ -9,6 +9,7 @@
 #include "engine/mesh/canonical_hash.h"
 #include "engine/mesh/measure.h"
 #include "engine/mesh/cut_contacts.h"
+#include "engine/mesh/improve_triangles.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/plane_oracle.h"
 #include "engine/mesh/self_contact.h"
@@ -99,6 +100,9 @@ class Presenter {
 
  private:
   Status triangulate_all() {
+    const RoundedPosition position = [this](uint32_t p) -> const std::array<double, 3>& {
+      return geometry_.point(p).rounded;
+    };
     std::vector<std::vector<uint32_t>> loops;
     for (uint32_t f = 0; f < faces_.size(); ++f) {
       loops.clear();
@@ -110,8 +114,10 @@ class Presenter {
         add_triangle({loops[0][0], loops[0][1], loops[0][2]}, f);
         continue;
       }
-      auto triangles = triangulate_face(loops, PlaneOracle(geometry_, planes_, faces_[f].plane));
+      const PlaneOracle oracle(geometry_, planes_, faces_[f].plane);
+      auto triangles = triangulate_face(loops, oracle);
       if (!triangles) return triangles.error();
+      improve_triangles(loops, oracle, position, *triangles);
       for (const auto& t : *triangles) add_triangle(t, f);
     }
     return std::monostate();
