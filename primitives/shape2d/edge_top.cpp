@@ -4,7 +4,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "primitives/shape2d/extrude_facets.h"
 #include "primitives/solids/mesh_builder.h"
 
 namespace csgrun {
@@ -28,7 +27,7 @@ std::vector<glm::dvec2> repeated_points(const std::vector<Shape2D::Loop>& loops)
 }  // namespace
 
 EdgeTop::EdgeTop(std::vector<Shape2D::Loop>& loops, const LinearExtrudeOptions& options, int slices)
-    : options_(options), slices_(slices), axis_(options.scale.x == 0 ? 1 : 0) {
+    : top_(options, slices, slices), axis_(options.scale.x == 0 ? 1 : 0) {
   find_places(loops);
   split_loops(loops);
 }
@@ -39,9 +38,7 @@ glm::dvec2 EdgeTop::point(uint32_t place) const {
   return p;
 }
 
-double EdgeTop::along(const glm::dvec2& p) const {
-  return slice_point(options_, p, slices_, slices_)[axis_];
-}
+double EdgeTop::along(const glm::dvec2& p) const { return top_.point(p)[axis_]; }
 
 uint32_t EdgeTop::place_of(const glm::dvec2& p) const {
   const double u = along(p);

@@ -13,6 +13,8 @@
 
 #include <csgrun/primitives/shape2d.h>
 
+#include "primitives/shape2d/extrude_facets.h"
+
 namespace csgrun {
 
 class EdgeTop {
@@ -36,8 +38,7 @@ class EdgeTop {
   void find_places(const std::vector<Shape2D::Loop>& loops);
   void split_loops(std::vector<Shape2D::Loop>& loops) const;
 
-  const LinearExtrudeOptions& options_;
-  int slices_;
+  Slice top_;
   int axis_;                     // the coordinate that stays
   std::vector<double> places_;   // ascending
   std::vector<bool> from_high_;  // per slab: cut from its upper end

@@ -78,17 +78,27 @@ double conical_helix_length(double radius, const LinearExtrudeOptions& o, double
   return std::sqrt(arc * arc + height * height);
 }
 
-/// The longest that an edge gets at any slice.
-double longest_length(const LinearExtrudeOptions& o, const glm::dvec2& edge, int slices) {
+/// For each edge of a loop the longest that it gets at any slice.
+std::vector<double> longest_lengths(const LinearExtrudeOptions& o, const Shape2D::Loop& loop,
+                                    int slices) {
+  const size_t n = loop.size();
+  std::vector<double> lengths(n, 0.0);
+  const auto edge = [&](size_t i) { return loop[(i + 1) % n] - loop[i]; };
   if (o.scale.x == o.scale.y) {  // turning changes no length, but for the noise of doubles
-    return std::sqrt(glm::dot(edge, edge)) * std::max(1.0, o.scale.x);
+    for (size_t i = 0; i < n; ++i) {
+      lengths[i] = std::sqrt(glm::dot(edge(i), edge(i))) * std::max(1.0, o.scale.x);
+    }
+    return lengths;
   }
-  double squared = 0;
-  for (int i = 0; i <= slices; ++i) {
-    const glm::dvec2 moved = slice_point(o, edge, i, slices);
-    squared = std::max(squared, glm::dot(moved, moved));
+  for (int s = 0; s <= slices; ++s) {
+    const Slice slice(o, s, slices);
+    for (size_t i = 0; i < n; ++i) {
+      const glm::dvec2 moved = slice.point(edge(i));
+      lengths[i] = std::max(lengths[i], glm::dot(moved, moved));
+    }
   }
-  return std::sqrt(squared);
+  for (double& length : lengths) length = std::sqrt(length);
+  return lengths;
 }
 
 /// Pieces for each edge, so that there are `count` in all: again and again one more for the edge
@@ -130,18 +140,20 @@ std::vector<int> pieces_of(const std::vector<double>& lengths, const LinearExtru
 
 }  // namespace
 
-glm::dvec2 slice_point(const LinearExtrudeOptions& options, const glm::dvec2& p, int i, int n) {
-  glm::dvec2 q = p;
-  if (options.twist != 0) {
+Slice::Slice(const LinearExtrudeOptions& options, int i, int n) : turned_(options.twist != 0) {
+  if (turned_) {
     const double angle = -options.twist * i / n;
-    const double c = cos_deg(angle), s = sin_deg(angle);
-    q = {c * p.x - s * p.y, s * p.x + c * p.y};
+    cos_ = cos_deg(angle);
+    sin_ = sin_deg(angle);
   }
   // Exact at both ends.
-  auto scaled = [&](double scale, double v) {
-    return v * (i == n ? scale : 1 - (1 - scale) * i / n) + 0.0;
-  };
-  return {scaled(options.scale.x, q.x), scaled(options.scale.y, q.y)};
+  const auto factor = [&](double scale) { return i == n ? scale : 1 - (1 - scale) * i / n; };
+  scale_ = {factor(options.scale.x), factor(options.scale.y)};
+}
+
+glm::dvec2 Slice::point(const glm::dvec2& p) const {
+  const glm::dvec2 q = turned_ ? glm::dvec2(cos_ * p.x - sin_ * p.y, sin_ * p.x + cos_ * p.y) : p;
+  return {q.x * scale_.x + 0.0, q.y * scale_.y + 0.0};
 }
 
 double slices_of(const Shape2D& shape, const LinearExtrudeOptions& options, double height) {
@@ -166,11 +178,7 @@ std::vector<Shape2D::Loop> split_outlines(const Shape2D& shape, const LinearExtr
   std::vector<Shape2D::Loop> result;
   for (const Shape2D::Loop& loop : shape.loops()) {
     const size_t n = loop.size();
-    std::vector<double> lengths(n);
-    for (size_t i = 0; i < n; ++i) {
-      lengths[i] = longest_length(options, loop[(i + 1) % n] - loop[i], slices);
-    }
-    const std::vector<int> pieces = pieces_of(lengths, options);
+    const std::vector<int> pieces = pieces_of(longest_lengths(options, loop, slices), options);
     Shape2D::Loop& fine = result.emplace_back();
     for (size_t i = 0; i < n; ++i) {
       const glm::dvec2 a = loop[i], b = loop[(i + 1) % n];

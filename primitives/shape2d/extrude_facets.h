@@ -13,7 +13,17 @@ double slices_of(const Shape2D& shape, const LinearExtrudeOptions& options, doub
 std::vector<Shape2D::Loop> split_outlines(const Shape2D& shape, const LinearExtrudeOptions& options,
                                           int slices);
 
-/// The point of slice i of n: turned first, then scaled.
-glm::dvec2 slice_point(const LinearExtrudeOptions& options, const glm::dvec2& p, int i, int n);
+/// Where the points of slice i of n go: turned first, then scaled. The sines are those of the
+/// slice, not of each of its points.
+class Slice {
+ public:
+  Slice(const LinearExtrudeOptions& options, int i, int n);
+  [[nodiscard]] glm::dvec2 point(const glm::dvec2& p) const;
+
+ private:
+  bool turned_;
+  double cos_ = 1, sin_ = 0;
+  glm::dvec2 scale_;
+};
 
 }  // namespace csgrun

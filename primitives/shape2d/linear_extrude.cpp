@@ -100,9 +100,10 @@ class LinearExtruder {
 
   void add_ring(int i) {
     const glm::dvec3 at = i == slices_ ? top_ : bottom_ + (top_ - bottom_) * (double(i) / slices_);
+    const Slice slice(options_, i, slices_);
     std::vector<uint32_t>& ring = rings_.emplace_back();
     for (const glm::dvec2& p : profile_.points) {
-      const glm::dvec2 q = slice_point(options_, p, i, slices_);
+      const glm::dvec2 q = slice.point(p);
       ring.push_back(static_cast<uint32_t>(mesh_.points.size()));
       mesh_.points.emplace_back(q.x + at.x, q.y + at.y, at.z);
     }

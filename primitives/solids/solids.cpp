@@ -28,18 +28,27 @@ std::optional<Error> check_facets(const char* function, const Facets& facets) {
 
 uint32_t surface_of(int fragments) { return 360.0 / fragments < kSmoothTurnDegrees ? 1 : 0; }
 
-/// One horizontal ring of n points, the first on +X; a radius of 0 makes one point.
-/// Returns the index of the first point.
-uint32_t add_ring(PolygonMesh& mesh, double r, double z, int n) {
+/// The directions of n points on a circle, the first on +X. Exact sines cost more than all else
+/// that a sphere does, so a solid asks for them once.
+std::vector<glm::dvec2> ring_directions(int n) {
+  std::vector<glm::dvec2> directions;
+  directions.reserve(static_cast<size_t>(n));
+  for (int k = 0; k < n; ++k) {
+    const double angle = 360.0 * k / n;
+    directions.emplace_back(cos_deg(angle), sin_deg(angle));
+  }
+  return directions;
+}
+
+/// One horizontal ring of points; a radius of 0 makes one point. Returns the index of the first.
+uint32_t add_ring(PolygonMesh& mesh, double r, double z,
+                  const std::vector<glm::dvec2>& directions) {
   const auto first = static_cast<uint32_t>(mesh.points.size());
   if (r == 0) {
     mesh.points.emplace_back(0.0, 0.0, z);
     return first;
   }
-  for (int k = 0; k < n; ++k) {
-    const double angle = 360.0 * k / n;
-    mesh.points.emplace_back(r * cos_deg(angle), r * sin_deg(angle), z);
-  }
+  for (const glm::dvec2& d : directions) mesh.points.emplace_back(r * d.x, r * d.y, z);
   return first;
 }
 
@@ -103,9 +112,10 @@ MeshResult make_sphere(double r, const Facets& facets) {
   // The shortest edges are those of the caps.
   mesh.known_simple = 2 * r * sin_deg(90.0 / rings) * sin_deg(180.0 / n) >= kSafeClearance;
   // The first ring is the top one. No vertex lies at a pole.
+  const std::vector<glm::dvec2> directions = ring_directions(n);
   for (int i = 0; i < rings; ++i) {
     const double polar = 180.0 * (i + 0.5) / rings;
-    add_ring(mesh, r * sin_deg(polar), r * cos_deg(polar), n);
+    add_ring(mesh, r * sin_deg(polar), r * cos_deg(polar), directions);
   }
   add_cap(mesh, 0, n, true);
   const uint32_t surface_id = surface_of(n);
@@ -135,8 +145,9 @@ MeshResult make_cylinder(double h, double r1, double r2, bool center, const Face
   mesh.convex = true;
   const double smaller = std::min(r1, r2) > 0 ? std::min(r1, r2) : std::max(r1, r2);
   mesh.known_simple = std::min(h, 2 * smaller * sin_deg(180.0 / n)) >= kSafeClearance;
-  const uint32_t lower = add_ring(mesh, r1, center ? -h / 2 : 0, n);
-  const uint32_t upper = add_ring(mesh, r2, center ? h / 2 : h, n);
+  const std::vector<glm::dvec2> directions = ring_directions(n);
+  const uint32_t lower = add_ring(mesh, r1, center ? -h / 2 : 0, directions);
+  const uint32_t upper = add_ring(mesh, r2, center ? h / 2 : h, directions);
   if (r1 > 0) add_cap(mesh, lower, n, false);
   add_band(mesh, lower, r1 == 0, upper, r2 == 0, n, surface_of(n));
   if (r2 > 0) add_cap(mesh, upper, n, true);
