@@ -74,6 +74,7 @@ class GltfWriter {
     for (const Part& part : parts) {
       if (Status status = add_part(part, root); !status) return status.error();
     }
+    totals_.report(report_);
     for (size_t m = 0; m < palette_.names().size(); ++m) {
       model_.materials.push_back(material_of(palette_.appearances()[m], palette_.names()[m]));
     }
@@ -151,7 +152,7 @@ class GltfWriter {
     const Solid& solid = *part.solid;
     Result<RoundedMesh> rounded = round_part(solid, placement, Precision::kFloat, false);
     if (!rounded) return rounded.error();
-    report_rounding(*rounded, part, report_);
+    totals_.add(*rounded, part.name);
     if (rounded->triangles.empty()) return -1;
     const ShadedMesh shaded = shade(solid, *rounded);
     if (buffer_.size() + 24 * shaded.vertex_of.size() + 36 * shaded.triangles.size() >
@@ -286,6 +287,7 @@ class GltfWriter {
   }
 
   WriteReport& report_;
+  RoundingTotals totals_;
   tinygltf::Model model_;
   std::vector<unsigned char> buffer_;
   Palette palette_;

@@ -24,7 +24,9 @@ void append_colour(std::string& text, const Appearance& appearance) {
 Result<std::string> encode_off(const Part& part, WriteReport& report) {
   Result<RoundedMesh> mesh = round_part(*part.solid, part.placement, Precision::kDouble, true);
   if (!mesh) return mesh.error();
-  report_rounding(*mesh, part, report);
+  RoundingTotals totals;
+  totals.add(*mesh, part.name);
+  totals.report(report);
   const std::vector<Polygon> polygons = polygons_of(*mesh);
 
   std::string text = "OFF\n";

@@ -321,28 +321,52 @@ Result<RoundedMesh> round_part(const Solid& solid, const Affine& placement, Prec
   return mesh;
 }
 
-void report_rounding(const RoundedMesh& mesh, const Part& part, WriteReport& report) {
-  const std::string of = part.name.empty() ? std::string() : " of part '" + part.name + "'";
-  const auto counted = [](uint64_t n) {
-    return std::to_string(n) + (n == 1 ? " triangle" : " triangles");
-  };
+void RoundingTotals::add(const RoundedMesh& mesh, const std::string& part) {
   if (mesh.triangles.empty() && mesh.dropped + mesh.cancelled > 0) {
-    report.warnings.push_back(
-        (part.name.empty() ? "the solid" : "part '" + part.name + "'") +
-        std::string(" is smaller than the file's precision and was written empty"));
+    vanished_.add(1, part);
     return;
   }
-  if (mesh.dropped > 0) {
-    report.warnings.push_back(counted(mesh.dropped) + of +
-                              " thinner than the file's precision were dropped");
+  dropped_.add(mesh.dropped, part);
+  cancelled_.add(mesh.cancelled, part);
+  flipped_.add(mesh.flipped, part);
+}
+
+void RoundingTotals::Kind::add(uint64_t more, const std::string& part) {
+  if (more == 0) return;
+  if (count == 0) first_part = part;
+  count += more;
+  ++parts;
+}
+
+void RoundingTotals::report(WriteReport& report) const {
+  const auto quoted = [](const Kind& kind) { return "'" + kind.first_part + "'"; };
+  if (vanished_.count == 1) {
+    report.warnings.push_back(
+        (vanished_.first_part.empty() ? "the solid" : "part " + quoted(vanished_)) +
+        " is smaller than the file's precision and was written empty");
+  } else if (vanished_.count > 1) {
+    report.warnings.push_back(std::to_string(vanished_.count) +
+                              " parts are smaller than the file's precision and were written "
+                              "empty, the first is " +
+                              quoted(vanished_));
   }
-  if (mesh.cancelled > 0) {
-    report.warnings.push_back(counted(mesh.cancelled) + of +
-                              " that rounding laid on one another were cancelled");
-  }
-  if (mesh.flipped > 0) {
-    report.warnings.push_back(counted(mesh.flipped) + of + " turned over by rounding");
-  }
+  const auto triangles = [&](const Kind& kind, const char* one, const char* many) {
+    if (kind.count == 0) return;
+    std::string of;
+    if (kind.parts > 1) {
+      of = " of " + std::to_string(kind.parts) + " parts";
+    } else if (!kind.first_part.empty()) {
+      of = " of part " + quoted(kind);
+    }
+    report.warnings.push_back(std::to_string(kind.count) + (kind.count == 1
+                                                                ? " triangle" + of + one
+                                                                : " triangles" + of + many));
+  };
+  triangles(dropped_, " thinner than the file's precision was dropped",
+            " thinner than the file's precision were dropped");
+  triangles(cancelled_, " that rounding laid on another was cancelled",
+            " that rounding laid on one another were cancelled");
+  triangles(flipped_, " turned over by rounding", " turned over by rounding");
 }
 
 }  // namespace csgrun

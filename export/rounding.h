@@ -52,7 +52,21 @@ PlacedSolid place_solid(const Solid& solid, const Affine& placement);
 Result<RoundedMesh> round_part(const Solid& solid, const Affine& placement, Precision precision,
                                bool with_outlines);
 
-/// Appends what happened to `mesh`, if anything did, as warnings that name the part.
-void report_rounding(const RoundedMesh& mesh, const Part& part, WriteReport& report);
+/// What rounding did to the parts of one file: a line for each kind, however many parts there are.
+class RoundingTotals {
+ public:
+  void add(const RoundedMesh& mesh, const std::string& part);
+  /// Appends the warnings, if anything happened.
+  void report(WriteReport& report) const;
+
+ private:
+  struct Kind {
+    uint64_t count = 0;
+    uint64_t parts = 0;
+    std::string first_part;
+    void add(uint64_t more, const std::string& part);
+  };
+  Kind vanished_, dropped_, cancelled_, flipped_;
+};
 
 }  // namespace csgrun

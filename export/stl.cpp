@@ -51,7 +51,9 @@ Floats written_normal(const Floats& a, const Floats& b, const Floats& c) {
 Result<std::string> encode_stl(const Part& part, WriteReport& report) {
   Result<RoundedMesh> mesh = round_part(*part.solid, part.placement, Precision::kFloat, false);
   if (!mesh) return mesh.error();
-  report_rounding(*mesh, part, report);
+  RoundingTotals totals;
+  totals.add(*mesh, part.name);
+  totals.report(report);
 
   // Readers tell text from binary by the word "solid" at the start.
   std::string bytes = "csgrun " CSGRUN_VERSION " binary STL, millimetres";

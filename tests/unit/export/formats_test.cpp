@@ -14,6 +14,7 @@
 
 #include <csgrun/export/write.h>
 
+#include "export/rounding.h"
 #include "tests/unit/export/hand_made.h"
 
 namespace csgrun {
@@ -313,6 +314,26 @@ TEST(Rounding, FlippedTrianglesAreCounted) {
   encode("stl", {{"", flat.share(), {}}}, &report);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_EQ(report.warnings[0], "1 triangle turned over by rounding");
+}
+
+TEST(Rounding, OfManyPartsIsOneLineForEachKind) {
+  RoundedMesh turned, gone;
+  turned.triangles.resize(4);
+  turned.flipped = 2;
+  turned.dropped = 1;
+  gone.dropped = 4;
+  RoundingTotals totals;
+  for (const char* part : {"a", "b", "c"}) totals.add(turned, part);
+  totals.add(gone, "d");
+  totals.add(gone, "e");
+  WriteReport report;
+  totals.report(report);
+  EXPECT_EQ(report.warnings,
+            (std::vector<std::string>{
+                "2 parts are smaller than the file's precision and were written empty, the first "
+                "is 'd'",
+                "3 triangles of 3 parts thinner than the file's precision were dropped",
+                "6 triangles of 3 parts turned over by rounding"}));
 }
 
 // ---- glTF
