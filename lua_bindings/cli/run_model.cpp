@@ -146,7 +146,7 @@ class Run {
       return {kExitScript,
               message.rfind(line_.model, 0) == 0 ? message : line_.model + ": " + message};
     }
-    if (!note.empty()) report_.warnings.push_back(line_.model + ": " + note);
+    if (!note.empty()) report_.warnings.push_back(note);  // it begins with the file's name
     mesh->kind = session_.files().name_from_folder(line_.model);
     const SourceRef where = session_.source_ref(line_.model, 1);
     session_.add_part(
@@ -168,7 +168,8 @@ class Run {
                                      session_.budget().time_message())};
     }
     std::string place = session_.place_text(error.where);
-    if (place.empty()) place = session_.options().model;
+    // A mesh has no lines to speak of.
+    if (place.empty() || !mesh_format_of(line_.model).empty()) place = session_.options().model;
     return {kExitGeometry, place + ": " + error.message};
   }
 

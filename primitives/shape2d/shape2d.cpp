@@ -186,7 +186,7 @@ Result<Shape2D> Shape2D::transformed(const Affine& map) const {
     }
     if (determinant < 0) std::reverse(loop.begin(), loop.end());
   }
-  if (!all_finite(result)) return invalid_argument("2D transform: a coordinate is not finite");
+  if (!all_finite(result)) return invalid_argument("a coordinate of the shape would not be finite");
   std::vector<uint32_t> outer_of(result.size());
   for (const Region& region : regions()) {
     outer_of[region.outer] = region.outer;

@@ -12,7 +12,7 @@ namespace {
 std::string headline(const MeshReport& report) {
   if (report.bad_indices > 0) return "indices out of range";
   if (report.non_finite_points > 0) return "coordinates that are not finite";
-  if (report.degenerate_faces > 0) return "degenerate faces";
+  if (report.degenerate_faces > 0) return "faces without area";
   if (report.open_edges > 0) return "not closed";
   return "not consistently oriented";
 }

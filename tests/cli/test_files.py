@@ -45,7 +45,14 @@ class Meshes(Case):
 
     def test_degenerate_face(self):
         self.write("degenerate.off", off(POINTS, FACES + [(0, 0, 1)]))
-        self.check("degenerate.off", "degenerate face")
+        self.check("degenerate.off", "degenerate.off: faces without area: 1 degenerate face")
+
+    def test_inside_out_is_turned_and_named_once(self):
+        self.write("inside.off", off(POINTS, [f[::-1] for f in FACES]))
+        outcome = self.run_csgrun("inside.off", "--stats=json")
+        self.expect(outcome, 0)
+        self.assertEqual(outcome.json()["warnings"], ["inside.off: inside out, its faces were turned over"])
+        self.assertEqual(outcome.json()["parts"][0]["volume"], 1 / 6)
 
     def test_index_out_of_range(self):
         self.write("index.off", off(POINTS, FACES[:3] + [(1, 2, 9)]))
@@ -62,7 +69,7 @@ class Meshes(Case):
         shifted = [(x + 0.1, y + 0.1, z + 0.1) for x, y, z in POINTS]
         self.write("crossing.off", off(POINTS + shifted, FACES + [tuple(i + 4 for i in f) for f in FACES]))
         outcome = self.run_csgrun("crossing.off", "-o", "out.stl")
-        self.expect(outcome, 3, "crossing.off")
+        self.expect(outcome, 3, "crossing.off: 'crossing.off' crosses itself: ")
         self.assertIn("(", outcome.err)  # where
 
     def test_truncated(self):

@@ -314,8 +314,8 @@ TEST(MakeSolidMesh, ReportsTurnsAndWelds) {
   EXPECT_EQ(make_solid_mesh(mesh, &note).error().message.substr(0, 37),
             "part.obj: not consistently oriented: ");
   mesh = *parse_mesh("part.obj", kObj + "v 1 0 0\nf 2 5 3\n");
-  EXPECT_EQ(make_solid_mesh(mesh, &note).error().message.substr(0, 45),
-            "part.obj: degenerate faces: 1 degenerate face");
+  EXPECT_EQ(make_solid_mesh(mesh, &note).error().message.substr(0, 47),
+            "part.obj: faces without area: 1 degenerate face");
 }
 
 std::filesystem::path shared_folder() {
