@@ -166,7 +166,7 @@ std::string MeshReport::text() const {
   };
   part(bad_indices, "bad index", "bad indices", kBadIndex);
   part(non_finite_points, "point that is not finite", "points that are not finite", kNonFinite);
-  part(degenerate_faces, "degenerate face", "degenerate faces", kDegenerate);
+  part(degenerate_faces, "degenerate face", "degenerate faces", "degenerate ");
   part(open_edges, "open edge", "open edges", kOpen);
   part(misoriented_edges, "edge with faces of opposite orientation",
        "edges with faces of opposite orientation", kMisoriented);
