@@ -46,7 +46,9 @@ TEST(Evaluate, EqualOperandsCountOnce) {
     Evaluator evaluator(options);
     const auto result = evaluator.evaluate(root);
     EXPECT_TRUE(result.has_value()) << result.error().message;
-    if (result) EXPECT_EQ((*result)->measures.volume, volume);
+    if (result) {
+      EXPECT_EQ((*result)->measures.volume, volume);
+    }
     return evaluator.stats().cells;
   };
   std::vector<NodePtr> many = equal_cubes(50);
