@@ -12,6 +12,9 @@ namespace {
 /// Many polygons through one point cannot be told apart by dividing.
 constexpr int kPatience = 6;
 
+/// Up to this many polygons the halves along all axes are counted before a cell is divided.
+constexpr uint32_t kCountAtMost = 1024;
+
 class OctreeBuilder {
  public:
   OctreeBuilder(Job& job, const KernelOptions& options)
@@ -174,16 +177,39 @@ class OctreeBuilder {
     }
     uint32_t total = 0;
     for (size_t i = first; i < presences_.size(); ++i) total += presences_[i].count;
-    int axis = 0;
-    for (int k = 1; k < 3; ++k) {
-      if (box.hi[k] - box.lo[k] > box.hi[axis] - box.lo[axis]) axis = k;
-    }
+    const int axis = choose_axis(box, first, total);
     const bool cancelled = cancel_ && cancel_->load(std::memory_order_relaxed);
     if (total <= limit_ || stalled >= kPatience || box.hi[axis] - box.lo[axis] < 2 || cancelled) {
       add_critical(box, first, expression);
       return;
     }
     divide(box, first, expression, stalled, axis, total);
+  }
+
+  /// The longest axis, as an octree has it, unless dividing another leaves clearly fewer polygons in
+  /// the halves: faces that overlap in one plane thin out only across their edges.
+  [[nodiscard]] int choose_axis(const CellBox& box, size_t first, uint32_t total) const {
+    int longest = 0;
+    for (int k = 1; k < 3; ++k) {
+      if (box.hi[k] - box.lo[k] > box.hi[longest] - box.lo[longest]) longest = k;
+    }
+    if (total > kCountAtMost) return longest;
+    std::array<uint32_t, 3> sum{};
+    for (size_t i = first; i < presences_.size(); ++i) {
+      const Presence& p = presences_[i];
+      for (uint32_t k = p.first_polygon; k < p.first_polygon + p.count; ++k) {
+        const PolygonBox& b = job_.boxes()[polygons_[k]];
+        for (int a = 0; a < 3; ++a) {
+          const int64_t middle = box.lo[a] + (box.hi[a] - box.lo[a]) / 2;
+          sum[a] += (b.lo[a] <= middle) + (b.hi[a] > middle);
+        }
+      }
+    }
+    int best = longest;
+    for (int a = 0; a < 3; ++a) {
+      if (box.hi[a] - box.lo[a] >= 2 && sum[a] * 10 < sum[best] * 9) best = a;
+    }
+    return best;
   }
 
   void divide(const CellBox& box, size_t first, const PrunedExpression& expression, int stalled,
