@@ -37,9 +37,10 @@ struct PolygonMesh {
   /// Facets of imported meshes are kept apart where nothing touches them; coplanar facets of
   /// primitives are one face.
   bool keep_facets = false;
-  /// Known by construction to be free of self-intersections, also after quantisation.
+  /// Known by construction to be free of self-intersections. A hint: rounding can close narrow gaps, so
+  /// the engine examines every leaf that is not seen to be convex.
   bool known_simple = false;
-  /// Known to be convex.
+  /// Known to be convex; verified after rounding.
   bool convex = false;
   std::string kind;  ///< "cube", "sphere", a file's name ...: for messages and source maps
 
