@@ -66,6 +66,15 @@ NodePtr Node::boolean(BooleanOp op, std::vector<NodePtr> operands, SourceRef whe
   return node;
 }
 
+NodePtr Node::outer_hull(const OuterHull& options, NodePtr child, SourceRef where) {
+  auto node = std::shared_ptr<Node>(new Node());
+  node->kind_ = NodeKind::kOuterHull;
+  node->outer_hull_ = options;
+  node->children_.push_back(std::move(child));
+  node->where_ = std::move(where);
+  return node;
+}
+
 Node::~Node() {
   // Children that only this node holds are taken apart here, one after another, so that the stack
   // does not grow with the depth of the tree.

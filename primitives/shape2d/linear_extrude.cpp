@@ -213,9 +213,7 @@ MeshResult linear_extrude(const Shape2D& shape, const LinearExtrudeOptions& opti
   if (extruder.point_count() > kMostPoints) {
     return too_many_points(kName, slices, extruder.point_count());
   }
-  PolygonMesh mesh = extruder.build();
-  mesh.known_simple = straight && options.scale.x == 1 && has_clearance(shape, kSafeClearance);
-  return mesh;
+  return extruder.build();
 }
 
 }  // namespace csgrun

@@ -19,24 +19,6 @@ bool less(const glm::dvec2& p, const glm::dvec2& q) {
 
 double squared(const glm::dvec2& v) { return glm::dot(v, v); }
 
-double squared_distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
-  const glm::dvec2 d = b - a;
-  const double t = std::clamp(glm::dot(p - a, d) / glm::dot(d, d), 0.0, 1.0);
-  return squared(p - (a + t * d));
-}
-
-struct Edge {
-  glm::dvec2 a, b;  // a < b
-};
-
-/// The smallest distance from an end of one edge to the other, unless the end is common.
-bool clear(const Edge& s, const Edge& t, double limit) {
-  auto far = [&](const glm::dvec2& p, const Edge& e) {
-    return p == e.a || p == e.b || squared_distance(p, e.a, e.b) >= limit;
-  };
-  return far(s.a, t) && far(s.b, t) && far(t.a, s) && far(t.b, s);
-}
-
 }  // namespace
 
 Profile make_profile(const Shape2D& shape, const std::vector<Shape2D::Loop>& loops) {
@@ -80,37 +62,6 @@ std::vector<uint32_t> smooth_chains(const Shape2D::Loop& loop, uint32_t& chain_c
     chain[i] = chain_count - 1;
   }
   return chain;
-}
-
-bool has_clearance(const Shape2D& shape, double clearance) {
-  std::vector<Edge> edges;
-  for (const Shape2D::Loop& loop : shape.loops()) {
-    for (size_t i = 0; i < loop.size(); ++i) {
-      const glm::dvec2 &p = loop[i], &q = loop[(i + 1) % loop.size()];
-      edges.push_back(less(p, q) ? Edge{p, q} : Edge{q, p});
-      if (squared(q - p) < clearance * clearance) return false;
-    }
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& s, const Edge& t) { return less(s.a, t.a); });
-  std::vector<uint32_t> active;
-  for (uint32_t i = 0; i < edges.size(); ++i) {
-    const Edge& s = edges[i];
-    const auto [low, high] = std::minmax(s.a.y, s.b.y);
-    size_t kept = 0;
-    for (const uint32_t j : active) {
-      const Edge& t = edges[j];
-      if (t.b.x + clearance < s.a.x) continue;
-      active[kept++] = j;
-      if (std::max(t.a.y, t.b.y) + clearance < low || std::min(t.a.y, t.b.y) - clearance > high) {
-        continue;
-      }
-      if (!clear(s, t, clearance * clearance)) return false;
-    }
-    active.resize(kept);
-    active.push_back(i);
-  }
-  return true;
 }
 
 }  // namespace csgrun

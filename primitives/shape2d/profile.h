@@ -25,8 +25,4 @@ Profile make_profile(const Shape2D& shape, const std::vector<Shape2D::Loop>& loo
 /// degrees. `chain_count` gets the number of chains.
 std::vector<uint32_t> smooth_chains(const Shape2D::Loop& loop, uint32_t& chain_count);
 
-/// Whether no vertex comes nearer than `clearance` mm to an edge that it does not end: then
-/// rounding to any step well below that cannot make the outline cross itself.
-bool has_clearance(const Shape2D& shape, double clearance);
-
 }  // namespace csgrun

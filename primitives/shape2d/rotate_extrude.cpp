@@ -138,17 +138,7 @@ MeshResult rotate_extrude(const Shape2D& shape, const RotateExtrudeOptions& opti
   const double points = static_cast<double>(steps) *
                         static_cast<double>(make_profile(shape, shape.loops()).points.size());
   if (points > kMostPoints) return too_many_points(kName, steps, points);
-  PolygonMesh mesh = RotateExtruder(shape, angle, options.start, steps, low.x < 0).build();
-  const double chord = 2 * sin_deg(std::fabs(angle) / steps / 2);
-  // The innermost points that are not on the axis move by the shortest chords.
-  double innermost = std::max(-low.x, high.x);
-  for (const Shape2D::Loop& loop : shape.loops()) {
-    for (const glm::dvec2& p : loop) {
-      if (p.x != 0) innermost = std::min(innermost, std::fabs(p.x));
-    }
-  }
-  mesh.known_simple = chord * innermost >= kSafeClearance && has_clearance(shape, kSafeClearance);
-  return mesh;
+  return RotateExtruder(shape, angle, options.start, steps, low.x < 0).build();
 }
 
 }  // namespace csgrun

@@ -13,10 +13,6 @@ namespace csgrun {
 /// the arrays would take gigabytes.
 constexpr double kMostPoints = 1 << 24;
 
-/// Features of at least this size (mm) survive quantisation without crossing, in every scene of up
-/// to 60 m: the grid of 27 bits then has steps of half of it.
-constexpr double kSafeClearance = 1e-3;
-
 /// Facets that turn by less than this are shaded as one curved surface; a hexagonal nut is not.
 constexpr double kSmoothTurnDegrees = 40;
 

@@ -88,7 +88,6 @@ MeshResult make_cube(const glm::dvec3& size, std::array<bool, 3> center) {
   PolygonMesh mesh;
   mesh.kind = "cube";
   mesh.convex = true;
-  mesh.known_simple = std::min({size.x, size.y, size.z}) >= kSafeClearance;
   for (int i = 0; i < 8; ++i) {
     mesh.points.emplace_back(range[0][i & 1], range[1][(i >> 1) & 1], range[2][i >> 2]);
   }
@@ -109,8 +108,6 @@ MeshResult make_sphere(double r, const Facets& facets) {
   PolygonMesh mesh;
   mesh.kind = "sphere";
   mesh.convex = true;
-  // The shortest edges are those of the caps.
-  mesh.known_simple = 2 * r * sin_deg(90.0 / rings) * sin_deg(180.0 / n) >= kSafeClearance;
   // The first ring is the top one. No vertex lies at a pole.
   const std::vector<glm::dvec2> directions = ring_directions(n);
   for (int i = 0; i < rings; ++i) {
@@ -143,8 +140,6 @@ MeshResult make_cylinder(double h, double r1, double r2, bool center, const Face
   PolygonMesh mesh;
   mesh.kind = r1 == r2 ? "cylinder" : "cone";
   mesh.convex = true;
-  const double smaller = std::min(r1, r2) > 0 ? std::min(r1, r2) : std::max(r1, r2);
-  mesh.known_simple = std::min(h, 2 * smaller * sin_deg(180.0 / n)) >= kSafeClearance;
   const std::vector<glm::dvec2> directions = ring_directions(n);
   const uint32_t lower = add_ring(mesh, r1, center ? -h / 2 : 0, directions);
   const uint32_t upper = add_ring(mesh, r2, center ? h / 2 : h, directions);

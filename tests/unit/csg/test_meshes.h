@@ -22,7 +22,7 @@ inline PolygonMesh box_mesh(glm::dvec3 lo, glm::dvec3 hi) {
            {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
     mesh.add_face(face);
   }
-  mesh.known_simple = mesh.convex = true;
+  mesh.convex = true;
   mesh.kind = "cube";
   return mesh;
 }
@@ -49,7 +49,7 @@ inline NodePtr prism(int sides, double radius, double height) {
     const uint32_t a = 2 * i, b = 2 * ((i + 1) % sides);
     mesh->add_face(std::array<uint32_t, 4>{a, b, b + 1, a + 1}, 1);
   }
-  mesh->known_simple = mesh->convex = true;
+  mesh->convex = true;
   mesh->kind = "cylinder";
   return Node::leaf(mesh);
 }

@@ -79,7 +79,6 @@ TEST(LinearExtrude, StraightPrismsHaveQuadsAndCaps) {
   EXPECT_NEAR(volume(mesh), 11 * 2.5, 1e-12);
   EXPECT_EQ(mesh.face_count(), 10u);
   EXPECT_EQ(euler_number(mesh), 0);
-  EXPECT_TRUE(mesh.known_simple);
   EXPECT_EQ(std::count(mesh.surface.begin(), mesh.surface.end(), 0u), 10);
   for (const glm::dvec3& p : mesh.points) EXPECT_TRUE(p.z == 0 || p.z == 2.5);
   LinearExtrudeOptions centred = height(2);
@@ -172,7 +171,6 @@ TEST(LinearExtrude, TwistTurnsClockwiseSeenFromAbove) {
     found = found || (p.z == 10 && std::fabs(p.x - 0.1) < 1e-12 && std::fabs(p.y + 2) < 1e-12);
   }
   EXPECT_TRUE(found);
-  EXPECT_FALSE(mesh.known_simple);
   // Finer slices come nearer to the volume of the true helicoid, area times height.
   o.facets.fn = 400;
   const Shape2D square = box(-1, -1, 1, 1);
@@ -262,12 +260,6 @@ TEST(LinearExtrude, RoundOutlinesAreOneSurface) {
   const PolygonMesh twisted = extruded(box(-1, -1, 1, 1), o);
   EXPECT_EQ(std::set<uint32_t>(twisted.surface.begin(), twisted.surface.end()),
             (std::set<uint32_t>{0, 1, 2, 3, 4}));
-}
-
-TEST(LinearExtrude, NarrowGapsAreNotPromisedToBeSimple) {
-  const Shape2D gap =
-      *Shape2D::boolean(BooleanOp::kUnion, {box(0, 0, 1, 1), box(1 + 1e-5, 0, 2, 1)});
-  EXPECT_FALSE(extruded(gap, height(1)).known_simple);
 }
 
 TEST(LinearExtrude, BadOptionsAreErrors) {

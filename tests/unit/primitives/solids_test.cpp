@@ -111,15 +111,6 @@ TEST(Cylinder, OnlyManyFacetsAreShadedRound) {
   EXPECT_EQ(std::count(rod->surface.begin(), rod->surface.end(), 1u), 32);
 }
 
-TEST(Solids, OnlyCoarseOnesAreKnownToStaySimple) {
-  EXPECT_TRUE(make_cube({1, 1, 1})->known_simple);
-  EXPECT_FALSE(make_cube({1, 1, 1e-4})->known_simple);
-  EXPECT_TRUE(make_sphere(10, fn(100))->known_simple);
-  EXPECT_FALSE(make_sphere(1, fn(1000))->known_simple);
-  EXPECT_TRUE(make_cylinder(1, 0, 5, false, fn(100))->known_simple);
-  EXPECT_FALSE(make_cylinder(1, 1e-4, 5, false, fn(100))->known_simple);
-}
-
 TEST(Solids, BadSizesAreErrorsThatNameTheArgument) {
   const double nan = std::nan("");
   auto message = [](const MeshResult& r) {

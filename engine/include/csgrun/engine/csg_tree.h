@@ -22,7 +22,19 @@ struct Affine {
 };
 
 enum class BooleanOp : uint8_t { kUnion, kIntersection, kDifference, kSymmetricDifference };
-enum class NodeKind : uint8_t { kEmpty, kLeaf, kTransform, kAppearance, kBoolean };
+
+/// The outer hull of a surface (Campen & Kobbelt 2010, section 6.2): all that cannot be reached from
+/// infinity without crossing the surface.
+struct OuterHull {
+  /// Crossings from the back of the surface to its front are free: a body splits where it is thinner
+  /// than nothing.
+  bool orientation_sensitive = false;
+  /// Enclosed places whose winding number says that they are outside stay empty; else they are filled.
+  bool keep_voids = false;
+  bool operator==(const OuterHull&) const = default;
+};
+
+enum class NodeKind : uint8_t { kEmpty, kLeaf, kTransform, kAppearance, kBoolean, kOuterHull };
 
 class Node;
 using NodePtr = std::shared_ptr<const Node>;
@@ -36,6 +48,8 @@ class Node {
   [[nodiscard]] const std::vector<NodePtr>& children() const { return children_; }
   [[nodiscard]] const Affine& transform() const { return *transform_; }
   [[nodiscard]] const Appearance& appearance() const { return *appearance_; }
+  /// Of a kOuterHull.
+  [[nodiscard]] const OuterHull& outer_hull() const { return outer_hull_; }
   [[nodiscard]] const std::shared_ptr<const PolygonMesh>& mesh() const { return mesh_; }
   [[nodiscard]] const SourceRef& where() const { return where_; }
 
@@ -49,6 +63,9 @@ class Node {
   /// Union, intersection or symmetric difference of any number of operands; the difference is the
   /// first less all others. No operand: empty.
   static NodePtr boolean(BooleanOp op, std::vector<NodePtr> operands, SourceRef where = {});
+  /// The outer hull of a surface: of the mesh itself, as it crosses itself, when the child is a leaf
+  /// under transforms and appearances; else of the boundary of the child's solid.
+  static NodePtr outer_hull(const OuterHull& options, NodePtr child, SourceRef where = {});
 
   ~Node();
   Node(const Node&) = delete;
@@ -58,6 +75,7 @@ class Node {
   Node() = default;
   NodeKind kind_ = NodeKind::kEmpty;
   BooleanOp op_ = BooleanOp::kUnion;
+  OuterHull outer_hull_;
   std::vector<NodePtr> children_;
   std::unique_ptr<Affine> transform_;
   std::unique_ptr<Appearance> appearance_;

@@ -18,6 +18,14 @@ struct Appearance {
   bool operator==(const Appearance&) const = default;
 };
 
+/// What is inside a surface that crosses itself, by its winding number w: how often it wraps around a
+/// point, counter-clockwise surface counted up, inverted surface down.
+enum class FillRule : uint8_t {
+  kNonZero,   ///< w != 0: whatever is enclosed, inverted parts too
+  kPositive,  ///< w > 0: inverted parts are cut away
+  kEvenOdd,   ///< w odd: overlaps cancel
+};
+
 /// A closed, oriented polygon mesh. A face is one outer loop, counter-clockwise seen from outside,
 /// followed by its holes (clockwise). Neighbouring faces share points by index.
 ///
@@ -37,9 +45,8 @@ struct PolygonMesh {
   /// Facets of imported meshes are kept apart where nothing touches them; coplanar facets of
   /// primitives are one face.
   bool keep_facets = false;
-  /// Known by construction to be free of self-intersections. A hint: rounding can close narrow gaps, so
-  /// the engine examines every leaf that is not seen to be convex.
-  bool known_simple = false;
+  /// What is inside where the surface crosses itself. No matter for a surface that does not.
+  FillRule fill = FillRule::kNonZero;
   /// Known to be convex; verified after rounding.
   bool convex = false;
   std::string kind;  ///< "cube", "sphere", a file's name ...: for messages and source maps
