@@ -84,7 +84,8 @@ RawMesh octahedron_sphere(double radius, int segments) {
   RawMesh mesh;
   std::map<std::array<int, 3>, uint32_t> known;
   const auto vertex = [&](int a, int b, int c) {
-    const auto [at, fresh] = known.try_emplace({a, b, c}, static_cast<uint32_t>(mesh.point_count()));
+    const auto [at, fresh] =
+        known.try_emplace({a, b, c}, static_cast<uint32_t>(mesh.point_count()));
     if (fresh) {
       const std::array<double, 3> p{std::sin(M_PI / 2 * a / n), std::sin(M_PI / 2 * b / n),
                                     std::sin(M_PI / 2 * c / n)};
@@ -202,6 +203,34 @@ std::vector<RawMesh> cube_grid(int n) {
     }
   }
   return all;
+}
+
+void scale_to_box(PolygonMesh& mesh) {
+  glm::dvec3 lo(HUGE_VAL), hi(-HUGE_VAL);
+  for (const glm::dvec3& p : mesh.points) {
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], p[k]);
+      hi[k] = std::max(hi[k], p[k]);
+    }
+  }
+  const glm::dvec3 size = hi - lo, middle = (lo + hi) / 2.0;
+  const double scale = 100 / std::max({size.x, size.y, size.z});
+  for (glm::dvec3& p : mesh.points) p = (p - middle) * scale;
+}
+
+void rotate_at_random(PolygonMesh& mesh, uint64_t seed) {
+  Generator random(seed);
+  // A unit quaternion of uniform direction (Shoemake, Graphics Gems III, 1992).
+  const double u = random.next(), v = 2 * M_PI * random.next(), w = 2 * M_PI * random.next();
+  const double a = std::sqrt(1 - u), b = std::sqrt(u);
+  const double x = a * std::sin(v), y = a * std::cos(v), z = b * std::sin(w), s = b * std::cos(w);
+  const glm::dvec3 rows[3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - s * z), 2 * (x * z + s * y)},
+                              {2 * (x * y + s * z), 1 - 2 * (x * x + z * z), 2 * (y * z - s * x)},
+                              {2 * (x * z - s * y), 2 * (y * z + s * x), 1 - 2 * (x * x + y * y)}};
+  for (glm::dvec3& p : mesh.points) {
+    const glm::dvec3 q = p;
+    for (int k = 0; k < 3; ++k) p[k] = rows[k].x * q.x + rows[k].y * q.y + rows[k].z * q.z;
+  }
 }
 
 }  // namespace csgrun::bench

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <csgrun/engine/polygon_mesh.h>
+
 namespace csgrun::bench {
 
 /// Indexed triangles in doubles.
@@ -17,7 +19,8 @@ struct RawMesh {
 };
 
 RawMesh box(double x0, double y0, double z0, double x1, double y1, double z1);
-/// A sphere made of an octahedron whose faces are divided; `segments` at the equator, a multiple of 4.
+/// A sphere made of an octahedron whose faces are divided; `segments` at the equator, a multiple
+/// of 4.
 RawMesh octahedron_sphere(double radius, int segments);
 /// From z = 0 to `height`; caps are fans without a centre.
 RawMesh cylinder(double radius, double height, int segments);
@@ -37,5 +40,10 @@ RawMesh menger_cube(int k);
 std::vector<RawMesh> cylinder_grid(int n);
 /// n^3 touching unit cubes in raster order, x running fastest.
 std::vector<RawMesh> cube_grid(int n);
+
+/// Moves the middle of the bounding box to the origin, and scales its longest side to 100.
+void scale_to_box(PolygonMesh& mesh);
+/// Turns the points about the origin by a rotation that is drawn uniformly from all of them.
+void rotate_at_random(PolygonMesh& mesh, uint64_t seed);
 
 }  // namespace csgrun::bench

@@ -1,0 +1,208 @@
+#include "tests/bench/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <csgrun/primitives/mesh_file.h>
+
+#include "engine/csg/quantise.h"
+
+namespace csgrun::bench {
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
+}
+
+double resident_mb() {
+  std::FILE* f = std::fopen("/proc/self/statm", "r");
+  unsigned long pages = 0, ignored = 0;
+  if (f) {
+    if (std::fscanf(f, "%lu %lu", &ignored, &pages) != 2) pages = 0;
+    std::fclose(f);
+  }
+  return static_cast<double>(pages) * static_cast<double>(sysconf(_SC_PAGESIZE)) * 1e-6;
+}
+
+double peak_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024e-6;
+}
+
+void fail(const std::string& message) {
+  std::fprintf(stderr, "csgbench: %s\n", message.c_str());
+  std::exit(1);
+}
+
+std::string name_of(const std::vector<std::string>& words) {
+  std::string name = words[0];
+  for (size_t i = 1; i < words.size(); ++i) {
+    const size_t slash = words[i].rfind('/');
+    name += " " + (slash == std::string::npos ? words[i] : words[i].substr(slash + 1));
+  }
+  return name;
+}
+
+Run::Run(std::string name, const Settings& settings, const GridStep& step)
+    : name_(std::move(name)), settings_(settings), step_(step), before_mb_(resident_mb()) {
+  options.threads = settings.threads;
+  options.cell_limit = settings.cell_limit;
+}
+
+std::vector<IVec3> Run::on_grid(const PolygonMesh& mesh) const {
+  auto points = round_points(mesh, LeafRounding{}, Quantiser(step_));
+  if (!points) fail("the mesh does not fit the grid");
+  return *std::move(points);
+}
+
+Operand Run::import(const PolygonMesh& mesh, const std::vector<IVec3>& points) {
+  for (size_t l = 0; l < mesh.loop_count(); ++l) {
+    input_triangles_ += mesh.loop_starts[l + 1] - mesh.loop_starts[l] - 2;
+  }
+  return clock.timed(clock.import, [&] {
+    const std::vector<uint32_t> appearance(mesh.face_count(), 0);
+    PreparedLeaf leaf = prepare_leaf(mesh, points, false, appearance);
+    if (leaf.status != PreparedLeaf::Status::kGood) fail("not a clean solid after quantisation");
+    Operand operand;
+    operand.leaf = leaf.geometry;
+    operand.first_source = sources_++;
+    for (int k = 0; k < 3; ++k) {
+      region_.lo[k] = std::min(region_.lo[k], leaf.box.lo[k]);
+      region_.hi[k] = std::max(region_.hi[k], leaf.box.hi[k]);
+    }
+    return operand;
+  });
+}
+
+Operand Run::import(const PolygonMesh& mesh) {
+  return import(mesh, clock.timed(clock.import, [&] { return on_grid(mesh); }));
+}
+
+Operand Run::import(const RawMesh& raw, bool keep_facets) {
+  return import(clock.timed(clock.import, [&] { return polygon_mesh(raw, keep_facets); }));
+}
+
+std::shared_ptr<const BoundaryMesh> Run::evaluate(const std::vector<Operand>& operands,
+                                                  BooleanOp op) {
+  Expression expression;
+  Expression::Node root;
+  root.is_operand = false;
+  root.op = op;
+  root.child_count = static_cast<uint32_t>(operands.size());
+  for (uint32_t i = 0; i < operands.size(); ++i) {
+    Expression::Node leaf;
+    leaf.operand = i;
+    expression.nodes.push_back(leaf);
+    expression.children.push_back(i);
+  }
+  expression.nodes.push_back(root);
+  return clock.timed(clock.op, [&] {
+    return take(evaluate_boolean(operands, expression, region_, options, stats_));
+  });
+}
+
+PresentContext Run::context(bool measure) const {
+  PresentContext context;
+  context.step = step_;
+  context.appearances.resize(1);
+  context.sources.resize(sources_);
+  context.measure = measure;
+  return context;
+}
+
+SolidPtr Run::arrays(const BoundaryMesh& boundary) {
+  return clock.timed(clock.exporting, [&] { return take(present(boundary, context(false))); });
+}
+
+SolidPtr Run::measured(const BoundaryMesh& boundary) const {
+  return take(present(boundary, context(true)));
+}
+
+void Run::finish(const BoundaryMesh& boundary, const std::string& extra) {
+  arrays(boundary);
+  const double rss = rss_mb();
+  print(*measured(boundary), rss, stats_, extra);
+}
+
+void Run::print(const Solid& solid, double rss, const EvaluateStats& s,
+                const std::string& extra) const {
+  fmt::print(
+      R"({{"name":"{}","threads":{},"n_in_tris":{},"n_out_tris":{},"import_s":{:.6f},"op_s":{:.6f},)"
+      R"("export_s":{:.6f},"cpu_s":{:.6f},"rss_mb":{:.1f},"volume":{},"area":{},"closed":{},)"
+      R"("counters":{{"cells":{},"surface_cells":{},"solved_cells":{},"critical_cells":{},)"
+      R"("filter":{},"symbolic":{},"exact64":{},"exact128":{},"exact192":{},"exact256":{},)"
+      R"("exact384":{},"exact512":{}{}}}}})"
+      "\n",
+      name_, settings_.threads, input_triangles_, solid.triangles.size(), clock.import, clock.op,
+      clock.exporting, clock.cpu, rss, solid.measures.volume, solid.measures.area,
+      solid.measures.closed, s.cells, s.surface_cells, s.solved_cells, s.critical_cells,
+      s.sign_filter, s.sign_symbolic, s.sign_exact[0], s.sign_exact[1], s.sign_exact[2],
+      s.sign_exact[3], s.sign_exact[4], s.sign_exact[5], extra);
+  std::fflush(stdout);
+}
+
+double reach_of(const std::vector<RawMesh>& meshes) {
+  double reach = 0;
+  for (const RawMesh& m : meshes) {
+    for (const double c : m.points) reach = std::max(reach, std::abs(c));
+  }
+  return reach;
+}
+
+double reach_of(const PolygonMesh& mesh) {
+  double reach = 0;
+  for (const glm::dvec3& p : mesh.points) {
+    reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return reach;
+}
+
+PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets) {
+  PolygonMesh mesh;
+  mesh.points.resize(raw.point_count());
+  for (size_t i = 0; i < raw.point_count(); ++i) {
+    mesh.points[i] = {raw.points[3 * i], raw.points[3 * i + 1], raw.points[3 * i + 2]};
+  }
+  mesh.corners = raw.triangles;
+  for (size_t t = 1; t <= raw.triangle_count(); ++t) {
+    mesh.loop_starts.push_back(static_cast<uint32_t>(3 * t));
+    mesh.face_starts.push_back(static_cast<uint32_t>(t));
+  }
+  mesh.keep_facets = keep_facets;
+  return mesh;
+}
+
+RawMesh read_raw(const std::string& path) {
+  const PolygonMesh mesh = take(read_mesh_file(path));
+  RawMesh raw;
+  for (const glm::dvec3& p : mesh.points) raw.points.insert(raw.points.end(), {p.x, p.y, p.z});
+  for (size_t l = 0; l < mesh.loop_count(); ++l) {
+    const uint32_t first = mesh.loop_starts[l];
+    for (uint32_t c = first + 1; c + 1 < mesh.loop_starts[l + 1]; ++c) {
+      raw.triangles.insert(raw.triangles.end(),
+                           {mesh.corners[first], mesh.corners[c], mesh.corners[c + 1]});
+    }
+  }
+  return raw;
+}
+
+PolygonMesh read_solid(const std::string& path) {
+  std::string note;
+  return take(make_solid_mesh(take(read_mesh_file(path)), &note));
+}
+
+}  // namespace csgrun::bench

@@ -1,0 +1,116 @@
+// One run of a benchmark: clocks, the grid, operands, the kernel, and the line of JSON that says
+// what came out.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <csgrun/engine/solid.h>
+
+#include "engine/bsp/boundary_mesh.h"
+#include "engine/bsp/kernel.h"
+#include "engine/csg/grid.h"
+#include "engine/mesh/present.h"
+#include "tests/bench/workloads.h"
+
+namespace csgrun::bench {
+
+double wall_seconds();
+/// CPU seconds of all threads of the process.
+double cpu_seconds();
+/// What the process holds now, and the most that it held, in MB.
+double resident_mb();
+double peak_mb();
+
+/// Says what went wrong and ends the process with 1.
+[[noreturn]] void fail(const std::string& message);
+
+template <class T>
+T take(Result<T> r) {
+  if (!r) fail(r.error().message);
+  return std::move(*r);
+}
+
+/// The three clocks of a run.
+struct Clock {
+  double import = 0, op = 0, exporting = 0, cpu = 0;
+
+  template <class F>
+  auto timed(double& seconds, F&& f) {
+    const double w = wall_seconds(), c = cpu_seconds();
+    auto result = f();
+    seconds += wall_seconds() - w;
+    cpu += cpu_seconds() - c;
+    return result;
+  }
+};
+
+struct Settings {
+  unsigned threads = 1;
+  int repeat = 1;
+  uint32_t cell_limit = 17;  ///< m of Campen & Kobbelt 2010, section 4.1
+};
+
+/// "rot statue.off 30": the words of a command without the folders of its files.
+std::string name_of(const std::vector<std::string>& words);
+
+/// A run under way: the grid, the counters and what it has measured so far.
+class Run {
+ public:
+  Run(std::string name, const Settings& settings, const GridStep& step);
+  /// On the grid that coordinates of `reach` mm ask for.
+  Run(std::string name, const Settings& settings, double reach)
+      : Run(std::move(name), settings, choose_step(reach, reach)) {}
+
+  /// A leaf of a mesh that is a clean solid on the grid.
+  Operand import(const PolygonMesh& mesh);
+  /// The same for points that are on the grid already.
+  Operand import(const PolygonMesh& mesh, const std::vector<IVec3>& points);
+  Operand import(const RawMesh& raw, bool keep_facets);
+  /// The points of a mesh on the run's grid.
+  [[nodiscard]] std::vector<IVec3> on_grid(const PolygonMesh& mesh) const;
+
+  /// One n-ary operation: union of all, or the first less the rest.
+  std::shared_ptr<const BoundaryMesh> evaluate(const std::vector<Operand>& operands, BooleanOp op);
+  /// The arrays of a result, on the clock; `measured` asks for volume, area and the rest, off it.
+  SolidPtr arrays(const BoundaryMesh& boundary);
+  [[nodiscard]] SolidPtr measured(const BoundaryMesh& boundary) const;
+
+  /// Arrays, measures and the line.
+  void finish(const BoundaryMesh& boundary, const std::string& extra = "");
+  /// The line of the run; `extra` is added to its counters.
+  void print(const Solid& solid, double rss, const EvaluateStats& s,
+             const std::string& extra) const;
+
+  [[nodiscard]] const GridStep& step() const { return step_; }
+  [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
+  [[nodiscard]] double rss_mb() const { return peak_mb() - before_mb_; }
+  void count_input(size_t triangles) { input_triangles_ += triangles; }
+
+  Clock clock;
+  KernelOptions options;
+
+ private:
+  [[nodiscard]] PresentContext context(bool measure) const;
+
+  std::string name_;
+  Settings settings_;
+  GridStep step_;
+  double before_mb_;
+  EvaluateStats stats_;
+  size_t input_triangles_ = 0;
+  uint32_t sources_ = 0;
+  GridBox region_{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
+};
+
+double reach_of(const std::vector<RawMesh>& meshes);
+double reach_of(const PolygonMesh& mesh);
+PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets);
+/// The triangles of a file, as they are.
+RawMesh read_raw(const std::string& path);
+/// The mesh of a file, which must be a closed solid.
+PolygonMesh read_solid(const std::string& path);
+
+}  // namespace csgrun::bench
