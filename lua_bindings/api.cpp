@@ -218,6 +218,16 @@ SolidValue& solid_argument(lua_State* L, const FunctionSpec& spec) {
                       describe_value(L, 1), spec.name));
 }
 
+FillRule fill_argument(const Arguments& arguments, const FunctionSpec& spec) {
+  const std::string name = arguments.string("fill", "nonzero");
+  if (name == "nonzero") return FillRule::kNonZero;
+  if (name == "positive") return FillRule::kPositive;
+  if (name == "evenodd") return FillRule::kEvenOdd;
+  fail_in(spec, fmt::format("option 'fill' must be \"nonzero\", \"positive\" or \"evenodd\", got "
+                            "\"{}\"{}",
+                            name, did_you_mean(name, {"nonzero", "positive", "evenodd"})));
+}
+
 void push_leaf(lua_State* L, PolygonMesh mesh, const std::optional<Appearance>& appearance) {
   NodePtr node = counted_leaf(L, std::move(mesh));
   if (appearance) node = Node::painted(*appearance, node, session_of(L).source_ref(L));

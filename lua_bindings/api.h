@@ -54,6 +54,13 @@ V value_or_fail(const FunctionSpec& spec, Result<V> result) {
 /// The shape at stack index 1, or an error that says what is wanted.
 ShapeValue& shape_argument(lua_State* L, const FunctionSpec& spec);
 SolidValue& solid_argument(lua_State* L, const FunctionSpec& spec);
+/// What option "fill" says (nonzero when it was not given), or an error that lists the rules.
+FillRule fill_argument(const Arguments& arguments, const FunctionSpec& spec);
+/// The meaning of option "fill", for tables of options.
+constexpr char kFillDoc[] =
+    "what is inside where the surface crosses itself, by how often it wraps around a point:\n"
+    "          \"nonzero\" (all that is enclosed), \"positive\" (inverted parts are cut away),\n"
+    "          \"evenodd\" (overlaps cancel)";
 /// Pushes a mesh as a solid, with the shape's colour if it has one.
 void push_leaf(lua_State* L, PolygonMesh mesh, const std::optional<Appearance>& appearance = {});
 /// Sets the operators of solids, shapes and matrices.

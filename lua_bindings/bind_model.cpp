@@ -21,10 +21,12 @@ using T = ArgumentType;
 
 constexpr Option kImportOptions[] = {
     {"file", T::kString, "", "STL, OFF, OBJ or PLY, relative to the file that calls", true},
+    {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
 };
-constexpr FunctionSpec kImport{
-    "import", "A solid from a mesh file; the mesh must be closed and must not cross itself.",
-    kImportOptions, false, "import(\"part.stl\")"};
+constexpr FunctionSpec kImport{"import",
+                               "A solid from a mesh file; the mesh must be closed. Where it crosses "
+                               "itself, fill says what is inside.",
+                               kImportOptions, false, "import(\"part.stl\", {fill = \"positive\"})"};
 
 /// The file whose code is running, as messages name it: chunks made by load() do not count.
 std::string calling_file(lua_State* L) {
@@ -50,11 +52,13 @@ int import_mesh(lua_State* L) {
   } catch (const ScriptError& error) {
     fail_in(kImport, error.what());
   }
-  NodePtr& node = session.imported[file.real];
+  const FillRule fill = fill_argument(arguments, kImport);
+  NodePtr& node = session.imported[{file.real, fill}];
   if (!node) {
     const EvaluationScope scope(
         session.budget());  // reading a large mesh is no fault of the script
     PolygonMesh mesh = value_or_fail(kImport, parse_mesh(file.display, file.bytes));
+    mesh.fill = fill;
     std::string note;
     mesh = value_or_fail(kImport, make_solid_mesh(std::move(mesh), &note));
     if (!note.empty()) session.warn(L, "import: " + note);

@@ -83,6 +83,7 @@ int cylinder(lua_State* L) {
 constexpr Option kPolyhedronOptions[] = {
     {"points", T::kPoints3, "", "the corners", true},
     {"faces", T::kIndexLists, "", "corners of each face, clockwise seen from outside", true},
+    {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
 };
 constexpr FunctionSpec kPolyhedron{"polyhedron",
                                    "A solid of its own corners and faces; it must be closed.",
@@ -97,7 +98,8 @@ int polyhedron(lua_State* L) {
   std::string note;
   PolygonMesh mesh = value_or_fail(
       kPolyhedron,
-      make_polyhedron(arguments.points3("points"), arguments.index_lists("faces"), &note));
+      make_polyhedron(arguments.points3("points"), arguments.index_lists("faces"),
+                      &note, fill_argument(arguments, kPolyhedron)));
   if (!note.empty()) session_of(L).warn(L, note);
   push_leaf(L, std::move(mesh));
   return 1;

@@ -95,8 +95,8 @@ class Session {
   size_t collector_debt =
       0;  ///< bytes outside of the Lua heap that the collector was not told of yet
 
-  /// Meshes of files by their real path: read once.
-  std::map<std::string, NodePtr> imported;
+  /// Meshes of files by their real path and how they were asked for: read once.
+  std::map<std::pair<std::string, FillRule>, NodePtr> imported;
 
  private:
   SessionOptions options_;

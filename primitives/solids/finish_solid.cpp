@@ -56,7 +56,8 @@ Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std:
     return Error{
         ErrorCode::kInvalidMesh, name + ": " + headline(report) + ": " + report.text(), {}};
   }
-  if (signed_volume(mesh) < 0) {
+  // With the rule `positive` what is inverted is meant to be nothing.
+  if (mesh.fill != FillRule::kPositive && signed_volume(mesh) < 0) {
     reverse_faces(mesh);
     if (note != nullptr) *note = name + ": inside out, its faces were turned over";
   }

@@ -10,7 +10,7 @@ namespace csgrun {
 
 /// Welds points of equal coordinates, drops corners that repeat their predecessor, checks that the
 /// surface is closed and consistently oriented, and turns it over when it is inside out (then
-/// `note` says so). `name` starts every message. Errors: kInvalidMesh.
+/// `note` says so), unless its fill rule is kPositive. `name` starts every message. Errors: kInvalidMesh.
 Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std::string* note);
 
 }  // namespace csgrun

@@ -28,7 +28,8 @@ size_t distinct_points(const std::vector<glm::dvec3>& points, const std::vector<
 }  // namespace
 
 MeshResult make_polyhedron(const std::vector<glm::dvec3>& points,
-                           const std::vector<std::vector<uint32_t>>& faces, std::string* note) {
+                           const std::vector<std::vector<uint32_t>>& faces, std::string* note,
+                           FillRule fill) {
   if (faces.empty()) return invalid_argument("polyhedron: has no faces");
   for (size_t i = 0; i < points.size(); ++i) {
     for (const double c : {points[i].x, points[i].y, points[i].z}) {
@@ -40,6 +41,7 @@ MeshResult make_polyhedron(const std::vector<glm::dvec3>& points,
   }
   PolygonMesh mesh;
   mesh.kind = "polyhedron";
+  mesh.fill = fill;
   mesh.points = points;
   for (size_t f = 0; f < faces.size(); ++f) {
     const std::vector<uint32_t>& face = faces[f];

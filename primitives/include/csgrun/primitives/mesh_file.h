@@ -20,8 +20,8 @@ Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes);
 Result<PolygonMesh> read_mesh_file(const std::string& path);
 
 /// Makes a leaf of a mesh from outside: welds, checks closedness and orientation; a closed mesh
-/// that is inside out is turned over, with a note. What is wrong is an error with counts and first
-/// places.
+/// that is inside out is turned over, with a note, unless its fill rule is kPositive. What is wrong
+/// is an error with counts and first places.
 Result<PolygonMesh> make_solid_mesh(PolygonMesh mesh, std::string* note);
 
 /// "stl", "off", "obj", "ply" or empty: the lower-case ending of a path when it is readable here.

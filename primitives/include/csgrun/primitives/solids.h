@@ -27,9 +27,11 @@ MeshResult make_sphere(double r, const Facets& facets);
 /// Cylinder, cone (a radius may be 0) or frustum along +Z.
 MeshResult make_cylinder(double h, double r1, double r2, bool center, const Facets& facets);
 /// Faces are loops of 0-based indices, clockwise seen from outside (as OpenSCAD has it). Equal
-/// points are welded. A solid that is inside out is turned over and `note` says so. Errors name the
-/// first bad face, edge or index.
+/// points are welded. A solid that is inside out is turned over and `note` says so, unless `fill`,
+/// which says what is inside where the faces cross, is kPositive: then orientation has a meaning.
+/// Errors name the first bad face, edge or index.
 MeshResult make_polyhedron(const std::vector<glm::dvec3>& points,
-                           const std::vector<std::vector<uint32_t>>& faces, std::string* note);
+                           const std::vector<std::vector<uint32_t>>& faces, std::string* note,
+                           FillRule fill = FillRule::kNonZero);
 
 }  // namespace csgrun
