@@ -95,118 +95,14 @@ bool is_planar(const std::vector<IVec3>& vertices, const LoopFace& face) {
   return true;
 }
 
-/// Removes repeated neighbours and spikes (a, b, a). Their edges cancel.
-void clean_loop(Loop& loop) {
-  bool changed = true;
-  while (changed && !loop.empty()) {
-    changed = false;
-    Loop kept;
-    for (uint32_t v : loop) {
-      if (!kept.empty() && kept.back() == v) continue;
-      if (kept.size() >= 2 && kept[kept.size() - 2] == v) {
-        kept.pop_back();
-        continue;
-      }
-      kept.push_back(v);
-    }
-    while (kept.size() >= 2) {
-      if (kept.front() == kept.back()) {
-        kept.pop_back();
-      } else if (kept.size() >= 3 && kept[kept.size() - 2] == kept.front()) {
-        kept.pop_back();
-      } else if (kept.size() >= 3 && kept.back() == kept[1]) {
-        kept.erase(kept.begin());
-      } else {
-        break;
-      }
-    }
-    changed = kept.size() != loop.size();
-    loop = std::move(kept);
-  }
-  if (loop.size() < 3) loop.clear();
-}
-
 bool is_collinear(const std::vector<IVec3>& vertices, const Loop& loop) {
   CornerPlane plane;
   return !corner_plane(vertices, loop.data(), loop.size(), plane);
 }
 
-void drop_empty_loops(std::vector<LoopFace>& faces) {
-  for (LoopFace& face : faces) {
-    std::erase_if(face.loops, [](const Loop& loop) { return loop.empty(); });
-  }
-  std::erase_if(faces, [](const LoopFace& face) { return face.loops.empty(); });
-}
-
-using EdgeSplits = std::map<std::pair<uint32_t, uint32_t>, Loop>;
-
-/// The edges of a collinear loop that run over other vertices of it, with these in order from the
-/// lower to the higher vertex number.
-void find_splits(const std::vector<IVec3>& vertices, const Loop& loop, EdgeSplits& splits) {
-  int axis = 0;
-  for (int i = 0; i < 3; ++i) {
-    const auto [lo, hi] = std::minmax_element(
-        loop.begin(), loop.end(),
-        [&](uint32_t a, uint32_t b) { return vertices[a][i] < vertices[b][i]; });
-    if (vertices[*lo][i] != vertices[*hi][i]) axis = i;
-  }
-  Loop line = loop;
-  const auto before = [&](uint32_t a, uint32_t b) { return vertices[a][axis] < vertices[b][axis]; };
-  std::sort(line.begin(), line.end(), before);
-  line.erase(std::unique(line.begin(), line.end()), line.end());
-  for (size_t i = 0; i < loop.size(); ++i) {
-    uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
-    if (a > b) std::swap(a, b);
-    const bool forward = before(a, b);
-    const auto from = std::upper_bound(line.begin(), line.end(), forward ? a : b, before);
-    const auto to = std::lower_bound(line.begin(), line.end(), forward ? b : a, before);
-    if (from >= to) continue;
-    Loop inner(from, to);
-    if (!forward) std::reverse(inner.begin(), inner.end());
-    splits[{a, b}] = std::move(inner);
-  }
-}
-
-void apply_splits(const EdgeSplits& splits, Loop& loop) {
-  Loop result;
-  for (size_t i = 0; i < loop.size(); ++i) {
-    const uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
-    result.push_back(a);
-    const auto found = splits.find({std::min(a, b), std::max(a, b)});
-    if (found == splits.end()) continue;
-    if (a < b) {
-      result.insert(result.end(), found->second.begin(), found->second.end());
-    } else {
-      result.insert(result.end(), found->second.rbegin(), found->second.rend());
-    }
-  }
-  loop = std::move(result);
-}
-
-/// Drops loops that lie on a line. With every edge split at the loop's vertices on it, the loop is
-/// a cycle of elementary segments of a line, each run through as often one way as the other.
 bool drop_collinear_loops(const std::vector<IVec3>& vertices, std::vector<LoopFace>& faces) {
-  bool any = false;
-  while (true) {
-    EdgeSplits splits;
-    std::vector<std::pair<size_t, size_t>> collinear;
-    for (size_t f = 0; f < faces.size(); ++f) {
-      for (size_t l = 0; l < faces[f].loops.size(); ++l) {
-        if (!is_collinear(vertices, faces[f].loops[l])) continue;
-        collinear.emplace_back(f, l);
-        find_splits(vertices, faces[f].loops[l], splits);
-      }
-    }
-    any |= !collinear.empty();
-    if (splits.empty()) {
-      for (const auto& [f, l] : collinear) faces[f].loops[l].clear();
-      drop_empty_loops(faces);
-      return any;
-    }
-    for (LoopFace& face : faces) {
-      for (Loop& loop : face.loops) apply_splits(splits, loop);
-    }
-  }
+  return drop_collinear_loops(vertices, faces,
+                              [&](const Loop& loop) { return is_collinear(vertices, loop); });
 }
 
 using Triangle = std::array<uint32_t, 3>;

@@ -7,14 +7,9 @@
 #include <vector>
 
 #include "engine/bsp/operand.h"
+#include "engine/mesh/loop_faces.h"
 
 namespace csgrun {
-
-/// A face while it is worked on: an outer loop and holes, by vertex, and its labels.
-struct LoopFace {
-  std::vector<std::vector<uint32_t>> loops;
-  uint32_t facet = 0, surface = 0, appearance = 0;
-};
 
 /// Turns faces over integer vertices (distinct, |coordinate| <= 2^40) into planar convex polygons.
 /// Directed edges stay balanced: a face that collapses to a segment goes by splitting the edges
