@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "lua_bindings/measure/exact_sum.h"
+#include <csgrun/engine/exact_triangles.h>
 
 namespace csgrun {
 namespace {
@@ -161,20 +161,6 @@ class Topology {
   bool closed_ = true;
 };
 
-double exact_volume(const TriangleMesh& mesh) {
-  ExactSum sum;
-  for (const auto& t : mesh.triangles) {
-    const glm::dvec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
-    sum.add(a.x, b.y, c.z);
-    sum.add(a.y, b.z, c.x);
-    sum.add(a.z, b.x, c.y);
-    sum.add(a.z, b.y, c.x, true);
-    sum.add(a.y, b.x, c.z, true);
-    sum.add(a.x, b.z, c.y, true);
-  }
-  return sum.divided(6);
-}
-
 /// In 64 bits with a running compensation (Neumaier 1974).
 double surface_area(const TriangleMesh& mesh) {
   Real sum = 0, lost = 0;
@@ -199,7 +185,7 @@ PartMeasures measure(const TriangleMesh& mesh) {
   const Topology topology(mesh);
   result.closed = topology.closed();
   result.vertices = topology.fans();
-  result.volume = exact_volume(mesh);
+  result.volume = exact_volume(mesh.view());
   result.area = surface_area(mesh);
   result.bbox = {mesh.points[mesh.triangles[0][0]], mesh.points[mesh.triangles[0][0]]};
   for (const auto& triangle : mesh.triangles) {
@@ -218,6 +204,18 @@ PartMeasures measure(const TriangleMesh& mesh) {
     result.genus = result.components - (v - f / 2) / 2;
   }
   return result;
+}
+
+uint64_t count_degenerate(const TriangleMesh& mesh) {
+  uint64_t count = 0;
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    count += is_degenerate(mesh.view(), t) ? 1 : 0;
+  return count;
+}
+
+uint64_t count_crossings(const TriangleMesh& mesh) {
+  constexpr uint64_t kMostCrossings = 1000000;  // more is "a lot" to everybody who reads it
+  return find_crossings(mesh.view(), kMostCrossings).size();
 }
 
 }  // namespace csgrun

@@ -5,8 +5,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "lua_bindings/measure/exact_sum.h"
-
 namespace csgrun {
 namespace {
 

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <csgrun/engine/exact_triangles.h>
 #include <csgrun/engine/polygon_mesh.h>
 
 namespace csgrun {
@@ -16,6 +17,8 @@ struct TriangleMesh {
   std::string name;
   std::vector<glm::dvec3> points;
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise from outside
+
+  [[nodiscard]] TriangleView view() const { return {points, triangles}; }
 };
 
 /// Cuts polygons into triangles along their plane (ears, exactly). Points with equal coordinates

@@ -1,112 +1,13 @@
-// Measuring mesh files: exact sums against rationals, topology and crossings against known cases.
-#include <random>
-
-#include <boost/multiprecision/cpp_int.hpp>
-
-#include "lua_bindings/measure/exact_sum.h"
+// Measuring mesh files: volumes against rationals, topology and crossings against known cases.
 #include "lua_bindings/measure/mesh_measures.h"
 #include "lua_bindings/measure/read_glb.h"
 #include "lua_support.h"
+#include "tests/support/rationals.h"
 
 namespace csgrun::testing {
 namespace {
 
-using boost::multiprecision::cpp_int;
 using boost::multiprecision::cpp_rational;
-
-/// x as a rational, exactly.
-cpp_rational rational(double x) {
-  int exponent = 0;
-  const auto mantissa = static_cast<int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
-  exponent -= 53;
-  const cpp_int power = cpp_int(1) << std::abs(exponent);
-  return exponent >= 0 ? cpp_rational(cpp_int(mantissa) * power)
-                       : cpp_rational(cpp_int(mantissa), power);
-}
-
-/// Whether no double is nearer to the rational than x is, and of two equally near ones x is even.
-bool is_nearest(const cpp_rational& exact, double x) {
-  const cpp_rational error = abs(rational(x) - exact);
-  for (const double other : {std::nextafter(x, -1e308), std::nextafter(x, 1e308)}) {
-    const cpp_rational its = abs(rational(other) - exact);
-    if (its < error) return false;
-    int unused = 0;
-    if (its == error && (static_cast<int64_t>(std::ldexp(std::frexp(x, &unused), 53)) & 1) != 0)
-      return false;
-  }
-  return true;
-}
-
-double random_double(std::mt19937_64& random, int spread) {
-  const auto mantissa = static_cast<double>(static_cast<int64_t>(random() >> (random() % 60))) *
-                        (random() % 2 ? 1 : -1);
-  return std::ldexp(mantissa,
-                    static_cast<int>(random() % static_cast<uint64_t>(2 * spread + 1)) - spread);
-}
-
-TEST(ExactSum, AgreesWithRationals) {
-  std::mt19937_64 random(1);
-  int zeros = 0;
-  for (int trial = 0; trial < 3000; ++trial) {
-    ExactSum sum;
-    cpp_rational expected = 0;
-    const int spread = trial % 3 == 0 ? 0 : trial % 3 == 1 ? 30 : 250;
-    std::vector<std::array<double, 3>> terms;
-    for (int i = 0; i < 1 + trial % 7; ++i) {
-      terms.push_back({random_double(random, spread), random_double(random, spread),
-                       random_double(random, spread)});
-    }
-    for (const auto& [x, y, z] : terms) {
-      sum.add(x, y, z);
-      expected += rational(x) * rational(y) * rational(z);
-    }
-    if (trial % 5 == 0) {  // takes everything back, in another order
-      for (const auto& [x, y, z] : terms) sum.add(z, x, y, true);
-      expected = 0;
-      ++zeros;
-    }
-    EXPECT_EQ(sum.sign(), expected.sign());
-    EXPECT_TRUE(is_nearest(expected / 6, sum.divided(6)));
-  }
-  EXPECT_EQ(zeros, 600);
-}
-
-TEST(ExactSum, TiesGoToEven) {
-  for (const double above : {1.0, 1.0 + 0x1p-52}) {
-    ExactSum sum;
-    sum.add(above, 1, 1);
-    sum.add(0x1p-53, 1, 1);
-    const cpp_rational exact = rational(above) + rational(0x1p-53);
-    EXPECT_TRUE(is_nearest(exact, sum.divided(1)));
-    sum.add(0x1p-300, 1, 1);
-    EXPECT_EQ(sum.divided(1), above + 0x1p-52);
-  }
-}
-
-TEST(Orient, AgreesWithRationalsAlsoNearAndAtZero) {
-  std::mt19937_64 random(2);
-  int zeros = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
-    const auto coordinate = [&] {
-      return trial % 2 == 0 ? static_cast<double>(random() % 4)
-                            : 12.0 + std::ldexp(static_cast<double>(random() % 5), -50);
-    };
-    std::array<glm::dvec3, 4> p;
-    for (auto& point : p) point = {coordinate(), coordinate(), coordinate()};
-    std::array<std::array<cpp_rational, 3>, 3> m;
-    for (int i = 0; i < 3; ++i) {
-      for (int k = 0; k < 3; ++k) m[i][k] = rational(p[i + 1][k]) - rational(p[0][k]);
-    }
-    const cpp_rational determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-                                     m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                                     m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    zeros += determinant.sign() == 0 ? 1 : 0;
-    EXPECT_EQ(orient(p[0], p[1], p[2], p[3]), determinant.sign());
-    const cpp_rational area = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    EXPECT_EQ(orient_along(2, p[0], p[1], p[2]), area.sign());
-  }
-  EXPECT_GT(zeros, 400);
-}
 
 /// A box as twelve triangles, appended with points of its own.
 void add_box(TriangleMesh& mesh, const glm::dvec3& low, const glm::dvec3& high) {

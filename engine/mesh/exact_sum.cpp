@@ -1,4 +1,4 @@
-#include "lua_bindings/measure/exact_sum.h"
+#include "engine/mesh/exact_sum.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,16 +18,6 @@ uint64_t split(double x, int& exponent) {
   const uint64_t fraction = bits & ((uint64_t{1} << 52) - 1);
   exponent = std::max(field, 1) - 1075;
   return field == 0 ? fraction : fraction | (uint64_t{1} << 52);
-}
-
-void add_determinant(ExactSum& sum, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
-                     bool negative) {
-  sum.add(a.x, b.y, c.z, negative);
-  sum.add(a.y, b.z, c.x, negative);
-  sum.add(a.z, b.x, c.y, negative);
-  sum.add(a.z, b.y, c.x, !negative);
-  sum.add(a.y, b.x, c.z, !negative);
-  sum.add(a.x, b.z, c.y, !negative);
 }
 
 }  // namespace
@@ -131,47 +121,6 @@ double ExactSum::divided(uint32_t divisor) {
   auto mantissa = static_cast<uint64_t>(top >> extra);
   if (below > half || (below == half && (sticky || (mantissa & 1) != 0))) ++mantissa;
   return s * std::ldexp(static_cast<double>(mantissa), exponent + extra);
-}
-
-int orient(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
-  const double adx = a.x - d.x, ady = a.y - d.y, adz = a.z - d.z;
-  const double bdx = b.x - d.x, bdy = b.y - d.y, bdz = b.z - d.z;
-  const double cdx = c.x - d.x, cdy = c.y - d.y, cdz = c.z - d.z;
-  const double bc = bdx * cdy, cb = cdx * bdy, ca = cdx * ady, ac = adx * cdy, ab = adx * bdy,
-               ba = bdx * ady;
-  const double determinant = adz * (bc - cb) + bdz * (ca - ac) + cdz * (ab - ba);
-  const double permanent = (std::abs(bc) + std::abs(cb)) * std::abs(adz) +
-                           (std::abs(ca) + std::abs(ac)) * std::abs(bdz) +
-                           (std::abs(ab) + std::abs(ba)) * std::abs(cdz);
-  // Shewchuk 1997, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
-  // Predicates", section 4.3: the error is at most (7 + 56 u) u times the permanent, u = 2^-53;
-  // 8 u covers it. Products below 2^-900 may have lost bits to underflow and are asked exactly.
-  constexpr double kBound = 8 * 0x1p-53;
-  if (permanent > 0x1p-900 && std::abs(determinant) > kBound * permanent)
-    return determinant > 0 ? -1 : 1;
-  ExactSum sum;
-  add_determinant(sum, a, b, c, true);
-  add_determinant(sum, a, b, d, false);
-  add_determinant(sum, a, c, d, true);
-  add_determinant(sum, b, c, d, false);
-  return sum.sign();
-}
-
-int orient_along(int axis, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const double left = (a[u] - c[u]) * (b[v] - c[v]), right = (a[v] - c[v]) * (b[u] - c[u]);
-  // As above, section 4.2: (3 + 16 u) u.
-  constexpr double kBound = 4 * 0x1p-53;
-  const double size = std::abs(left) + std::abs(right);
-  if (size > 0x1p-900 && std::abs(left - right) > kBound * size) return left > right ? 1 : -1;
-  ExactSum sum;
-  sum.add(a[u], b[v], 1);
-  sum.add(a[v], b[u], 1, true);
-  sum.add(b[u], c[v], 1);
-  sum.add(b[v], c[u], 1, true);
-  sum.add(c[u], a[v], 1);
-  sum.add(c[v], a[u], 1, true);
-  return sum.sign();
 }
 
 }  // namespace csgrun

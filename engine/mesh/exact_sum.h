@@ -1,4 +1,4 @@
-// Exact sums of products of doubles, and what follows from their signs.
+// Exact sums of products of doubles.
 //
 // A product of three doubles is an integer of up to 159 bits times a power of two, so a fixed-point
 // number that is wide enough for all exponents adds them without rounding.
@@ -6,8 +6,6 @@
 
 #include <array>
 #include <cstdint>
-
-#include <glm/vec3.hpp>
 
 namespace csgrun {
 
@@ -34,12 +32,5 @@ class ExactSum {
   int lowest_ = kDigits, highest_ = -1;
   uint32_t pending_ = 0;  // terms since the last carry
 };
-
-/// The sign of the determinant of b - a, c - a, d - a: positive when d lies on the side from which
-/// a, b, c run counter-clockwise. Exact; a filter in doubles answers first.
-int orient(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
-
-/// The sign of the area of a, b, c seen along `axis` (0, 1, 2), the other two axes in cyclic order.
-int orient_along(int axis, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
 }  // namespace csgrun

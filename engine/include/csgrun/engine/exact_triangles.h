@@ -1,0 +1,52 @@
+// Exact questions about a triangle mesh over doubles, as it stands in a file: no grid, no rounding.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace csgrun {
+
+/// Somebody's arrays. Coordinates are finite.
+struct TriangleView {
+  std::span<const glm::dvec3> points;
+  std::span<const std::array<uint32_t, 3>> triangles;
+};
+
+/// Two triangles that meet in anything but corners and edges which both have.
+struct TriangleCrossing {
+  std::array<uint32_t, 2> triangles{};  ///< the smaller number first
+  glm::dvec3 place{};                   ///< near a point that both have: correct to a few roundings
+};
+
+/// Crossings of a mesh in ascending order of their triangles; at most `most` of them, then the
+/// search ends. Corners are the same when they have the same number: weld points of equal
+/// coordinates first where surfaces may touch. Touching counts: a corner in the middle of another's
+/// edge or face, overlapping edges, overlapping triangles of one plane. Triangles without area are
+/// left out. Exact. O(n log n) and the pairs whose boxes overlap: about 1 us a triangle on a clean
+/// mesh.
+std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most);
+
+/// Whether the triangle's corners lie on one line, or coincide. Exact.
+bool is_degenerate(const TriangleView& mesh, uint32_t triangle);
+
+/// The sign of normal . direction, where the normal is that from which the triangle's corners run
+/// counter-clockwise. Exact for the doubles given.
+int facing(const TriangleView& mesh, uint32_t triangle, const glm::dvec3& direction);
+
+/// The volume that a closed mesh encloses, negative when it is inside out: the exact sum, rounded
+/// once.
+double exact_volume(const TriangleView& mesh);
+
+/// The sign of the determinant of b - a, c - a, d - a: positive when d lies on the side from which
+/// a, b, c run counter-clockwise. Exact; a filter in doubles answers first.
+int orient(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
+
+/// The sign of the area of a, b, c seen along `axis` (0, 1, 2), the other two axes in cyclic order.
+/// Exact, with a filter.
+int orient_along(int axis, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
+}  // namespace csgrun

@@ -1,0 +1,265 @@
+// Where a triangle mesh over doubles crosses itself: a tree of boxes finds the pairs that may, and
+// signs of determinants decide.
+#include <algorithm>
+#include <optional>
+
+#include <csgrun/engine/exact_triangles.h>
+
+#include "engine/mesh/box_tree.h"
+
+namespace csgrun {
+namespace {
+
+using Triangle = std::array<uint32_t, 3>;
+
+/// A point that two triangles have, as doubles tell it; none when they do not meet.
+using Meeting = std::optional<glm::dvec3>;
+
+/// From where a triangle is seen with area: the axis, and the sign of its area from there.
+struct View {
+  int axis = 0;
+  int sign = 0;  ///< 0: a triangle without area
+};
+
+class CrossingTest {
+ public:
+  explicit CrossingTest(const TriangleView& mesh) : p_(mesh.points), triangles_(mesh.triangles) {
+    views_.reserve(triangles_.size());
+    for (const Triangle& t : triangles_) views_.push_back(view_of(t));
+  }
+
+  [[nodiscard]] bool has_area(uint32_t triangle) const { return views_[triangle].sign != 0; }
+
+  /// A point of both triangles beyond the corners and edges which both have.
+  [[nodiscard]] Meeting crossing(uint32_t first, uint32_t second) const {
+    const Triangle &s = triangles_[first], &t = triangles_[second];
+    size_t shared = 0;
+    std::array<bool, 3> in_s{}, in_t{};
+    for (size_t i = 0; i < 3; ++i) {
+      for (size_t k = 0; k < 3; ++k) {
+        if (s[i] != t[k]) continue;
+        in_s[i] = in_t[k] = true;
+        ++shared;
+      }
+    }
+    switch (shared) {
+      case 0:
+        return without_common_corner(first, second);
+      case 1:
+        return beyond_corner(first, index_of(in_s, true), second, index_of(in_t, true));
+      case 2:
+        return beyond_edge(first, index_of(in_s, false), second, index_of(in_t, false));
+      default:
+        return middle(s);  // one upon the other
+    }
+  }
+
+ private:
+  static size_t index_of(const std::array<bool, 3>& flags, bool value) {
+    return static_cast<size_t>(std::find(flags.begin(), flags.end(), value) - flags.begin());
+  }
+
+  [[nodiscard]] View view_of(const Triangle& t) const {
+    // The largest component of the normal, as doubles have it, is the least work for the filters.
+    const glm::dvec3 u = p_[t[1]] - p_[t[0]], v = p_[t[2]] - p_[t[0]];
+    glm::dvec3 size;
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      size[k] = std::abs(u[i] * v[j] - u[j] * v[i]);
+    }
+    const int best = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+    for (int k = 0; k < 3; ++k) {
+      const int axis = (best + k) % 3;
+      if (const int sign = orient_along(axis, p_[t[0]], p_[t[1]], p_[t[2]]); sign != 0)
+        return {axis, sign};
+    }
+    return {};
+  }
+
+  [[nodiscard]] glm::dvec3 middle(const Triangle& t) const {
+    return p_[t[0]] / 3.0 + p_[t[1]] / 3.0 + p_[t[2]] / 3.0;
+  }
+
+  [[nodiscard]] int side(const Triangle& t, uint32_t point) const {
+    return orient(p_[t[0]], p_[t[1]], p_[t[2]], p_[point]);
+  }
+
+  /// Whether a point of the triangle's plane lies in it, boundary included.
+  [[nodiscard]] bool contains(uint32_t triangle, uint32_t point) const {
+    const Triangle& t = triangles_[triangle];
+    const View& view = views_[triangle];
+    for (size_t i = 0; i < 3; ++i) {
+      if (orient_along(view.axis, p_[t[i]], p_[t[(i + 1) % 3]], p_[point]) == -view.sign)
+        return false;
+    }
+    return true;
+  }
+
+  /// Where two segments of one plane, seen along `axis`, meet.
+  [[nodiscard]] Meeting segments_meet(int axis, uint32_t a, uint32_t b, uint32_t c,
+                                      uint32_t d) const {
+    const auto turn = [&](uint32_t i, uint32_t j, uint32_t k) {
+      return orient_along(axis, p_[i], p_[j], p_[k]);
+    };
+    const int abc = turn(a, b, c), abd = turn(a, b, d);
+    if (abc == 0 && abd == 0) return collinear_meet(a, b, c, d);
+    if (abc * abd > 0 || turn(c, d, a) * turn(c, d, b) > 0) return {};
+    // Where d and c lie on different sides of the line a b, in proportion to their distances.
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const auto distance = [&](uint32_t k) {
+      return (p_[b][u] - p_[a][u]) * (p_[k][v] - p_[a][v]) -
+             (p_[b][v] - p_[a][v]) * (p_[k][u] - p_[a][u]);
+    };
+    return between(c, distance(c), d, distance(d));
+  }
+
+  /// Segments of one line meet when an end of one lies in the other, which is in its box.
+  [[nodiscard]] Meeting collinear_meet(uint32_t a, uint32_t b, uint32_t c, uint32_t d) const {
+    const auto in_box = [&](uint32_t end, uint32_t from, uint32_t to) {
+      bool inside = true;
+      for (int k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(p_[from][k], p_[to][k]);
+        inside = inside && low <= p_[end][k] && p_[end][k] <= high;
+      }
+      return inside;
+    };
+    for (const uint32_t end : {a, b}) {
+      if (in_box(end, c, d)) return p_[end];
+    }
+    for (const uint32_t end : {c, d}) {
+      if (in_box(end, a, b)) return p_[end];
+    }
+    return {};
+  }
+
+  /// The point of the segment whose distances at its ends are these, of different signs or zero.
+  [[nodiscard]] glm::dvec3 between(uint32_t a, double at_a, uint32_t b, double at_b) const {
+    const double sum = std::abs(at_a) + std::abs(at_b);
+    const double part = sum > 0 ? std::abs(at_a) / sum : 0.5;
+    return p_[a] * (1 - part) + p_[b] * part;
+  }
+
+  /// Where the segment a b meets the triangle, boundaries included.
+  [[nodiscard]] Meeting segment_meets(uint32_t a, uint32_t b, uint32_t triangle) const {
+    const Triangle& t = triangles_[triangle];
+    const int side_a = side(t, a), side_b = side(t, b);
+    if (side_a * side_b > 0) return {};
+    if (side_a == 0 && side_b == 0) return segment_meets_in_plane(a, b, triangle);
+    if (side_a == 0 || side_b == 0) {
+      const uint32_t end = side_a == 0 ? a : b;
+      return contains(triangle, end) ? Meeting(p_[end]) : Meeting();
+    }
+    int least = 0, most = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      const int turn = orient(p_[a], p_[b], p_[t[i]], p_[t[(i + 1) % 3]]);
+      least = std::min(least, turn);
+      most = std::max(most, turn);
+    }
+    if (least * most != 0) return {};
+    const glm::dvec3 u = p_[t[1]] - p_[t[0]], v = p_[t[2]] - p_[t[0]];
+    const auto distance = [&](uint32_t k) {
+      const glm::dvec3 w = p_[k] - p_[t[0]];
+      return u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) +
+             u.z * (v.x * w.y - v.y * w.x);
+    };
+    return between(a, distance(a), b, distance(b));
+  }
+
+  [[nodiscard]] Meeting segment_meets_in_plane(uint32_t a, uint32_t b, uint32_t triangle) const {
+    for (const uint32_t end : {a, b}) {
+      if (contains(triangle, end)) return p_[end];
+    }
+    const Triangle& t = triangles_[triangle];
+    for (size_t i = 0; i < 3; ++i) {
+      if (const Meeting meeting =
+              segments_meet(views_[triangle].axis, a, b, t[i], t[(i + 1) % 3])) {
+        return meeting;
+      }
+    }
+    return {};
+  }
+
+  [[nodiscard]] Meeting without_common_corner(uint32_t first, uint32_t second) const {
+    const Triangle &s = triangles_[first], &t = triangles_[second];
+    if (is_apart(s, t) || is_apart(t, s)) return {};
+    // What two triangles have in common ends on a side of one of them.
+    for (size_t i = 0; i < 3; ++i) {
+      if (const Meeting meeting = segment_meets(s[i], s[(i + 1) % 3], second)) return meeting;
+      if (const Meeting meeting = segment_meets(t[i], t[(i + 1) % 3], first)) return meeting;
+    }
+    return {};
+  }
+
+  /// Whether all corners of s lie strictly on one side of t's plane.
+  [[nodiscard]] bool is_apart(const Triangle& s, const Triangle& t) const {
+    const int side_0 = side(t, s[0]);
+    return side_0 != 0 && side(t, s[1]) == side_0 && side(t, s[2]) == side_0;
+  }
+
+  /// What they have in common beyond one corner ends on a side opposite to it.
+  [[nodiscard]] Meeting beyond_corner(uint32_t first, size_t s_at, uint32_t second,
+                                      size_t t_at) const {
+    const Triangle &s = triangles_[first], &t = triangles_[second];
+    const Meeting meeting = segment_meets(s[(s_at + 1) % 3], s[(s_at + 2) % 3], second);
+    return meeting ? meeting : segment_meets(t[(t_at + 1) % 3], t[(t_at + 2) % 3], first);
+  }
+
+  /// Two that share an edge overlap when they lie in one plane and on one side of the edge.
+  [[nodiscard]] Meeting beyond_edge(uint32_t first, size_t s_at, uint32_t second,
+                                    size_t t_at) const {
+    const Triangle &s = triangles_[first], &t = triangles_[second];
+    if (side(s, t[t_at]) != 0) return {};
+    const int axis = views_[first].axis;
+    const uint32_t a = s[(s_at + 1) % 3], b = s[(s_at + 2) % 3];
+    if (orient_along(axis, p_[a], p_[b], p_[s[s_at]]) !=
+        orient_along(axis, p_[a], p_[b], p_[t[t_at]])) {
+      return {};
+    }
+    return p_[a] / 2.0 + p_[b] / 2.0;
+  }
+
+  std::span<const glm::dvec3> p_;
+  std::span<const Triangle> triangles_;
+  std::vector<View> views_;
+};
+
+Box box_of(const TriangleView& mesh, const Triangle& t) {
+  Box box{};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<glm::length_t>(axis);
+    const double a = mesh.points[t[0]][k], b = mesh.points[t[1]][k], c = mesh.points[t[2]][k];
+    box.lo[axis] = std::min({a, b, c});
+    box.hi[axis] = std::max({a, b, c});
+  }
+  return box;
+}
+
+}  // namespace
+
+std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most) {
+  const CrossingTest test(mesh);
+  std::vector<uint32_t> with_area;
+  std::vector<Box> boxes;
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!test.has_area(t)) continue;
+    with_area.push_back(t);
+    boxes.push_back(box_of(mesh, mesh.triangles[t]));
+  }
+  const BoxTree tree(boxes);
+  std::vector<TriangleCrossing> found;
+  std::vector<uint32_t> near;
+  for (uint32_t i = 0; i < boxes.size() && found.size() < most; ++i) {
+    near.clear();
+    tree.visit_later(i, [&](uint32_t j) { near.push_back(j); });
+    std::sort(near.begin(), near.end());
+    for (const uint32_t j : near) {
+      const Meeting meeting = test.crossing(with_area[i], with_area[j]);
+      if (!meeting) continue;
+      found.push_back({{with_area[i], with_area[j]}, *meeting});
+      if (found.size() == most) break;
+    }
+  }
+  return found;
+}
+
+}  // namespace csgrun

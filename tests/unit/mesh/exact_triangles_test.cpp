@@ -1,0 +1,249 @@
+// Exact questions about triangles over doubles, against rationals: sums, signs, and crossings by
+// clipping one triangle with the other.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <csgrun/engine/exact_triangles.h>
+
+#include "engine/mesh/exact_sum.h"
+#include "tests/support/rationals.h"
+
+namespace csgrun::testing {
+namespace {
+
+using boost::multiprecision::cpp_rational;
+
+double random_double(std::mt19937_64& random, int spread) {
+  const auto mantissa = static_cast<double>(static_cast<int64_t>(random() >> (random() % 60))) *
+                        (random() % 2 ? 1 : -1);
+  return std::ldexp(mantissa,
+                    static_cast<int>(random() % static_cast<uint64_t>(2 * spread + 1)) - spread);
+}
+
+TEST(ExactSum, AgreesWithRationals) {
+  std::mt19937_64 random(1);
+  int zeros = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    ExactSum sum;
+    cpp_rational expected = 0;
+    const int spread = trial % 3 == 0 ? 0 : trial % 3 == 1 ? 30 : 250;
+    std::vector<std::array<double, 3>> terms;
+    for (int i = 0; i < 1 + trial % 7; ++i) {
+      terms.push_back({random_double(random, spread), random_double(random, spread),
+                       random_double(random, spread)});
+    }
+    for (const auto& [x, y, z] : terms) {
+      sum.add(x, y, z);
+      expected += rational(x) * rational(y) * rational(z);
+    }
+    if (trial % 5 == 0) {  // takes everything back, in another order
+      for (const auto& [x, y, z] : terms) sum.add(z, x, y, true);
+      expected = 0;
+      ++zeros;
+    }
+    EXPECT_EQ(sum.sign(), expected.sign());
+    EXPECT_TRUE(is_nearest(expected / 6, sum.divided(6)));
+  }
+  EXPECT_EQ(zeros, 600);
+}
+
+TEST(ExactSum, TiesGoToEven) {
+  for (const double above : {1.0, 1.0 + 0x1p-52}) {
+    ExactSum sum;
+    sum.add(above, 1, 1);
+    sum.add(0x1p-53, 1, 1);
+    const cpp_rational exact = rational(above) + rational(0x1p-53);
+    EXPECT_TRUE(is_nearest(exact, sum.divided(1)));
+    sum.add(0x1p-300, 1, 1);
+    EXPECT_EQ(sum.divided(1), above + 0x1p-52);
+  }
+}
+
+TEST(Orient, AgreesWithRationalsAlsoNearAndAtZero) {
+  std::mt19937_64 random(2);
+  int zeros = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const auto coordinate = [&] {
+      return trial % 2 == 0 ? static_cast<double>(random() % 4)
+                            : 12.0 + std::ldexp(static_cast<double>(random() % 5), -50);
+    };
+    std::array<glm::dvec3, 4> p;
+    for (auto& point : p) point = {coordinate(), coordinate(), coordinate()};
+    std::array<std::array<cpp_rational, 3>, 3> m;
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) m[i][k] = rational(p[i + 1][k]) - rational(p[0][k]);
+    }
+    const cpp_rational determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                                     m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                                     m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    zeros += determinant.sign() == 0 ? 1 : 0;
+    EXPECT_EQ(orient(p[0], p[1], p[2], p[3]), determinant.sign());
+    const cpp_rational area = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    EXPECT_EQ(orient_along(2, p[0], p[1], p[2]), area.sign());
+  }
+  EXPECT_GT(zeros, 400);
+}
+
+using Rational3 = std::array<cpp_rational, 3>;
+using Triangle = std::array<uint32_t, 3>;
+
+Rational3 minus(const Rational3& a, const Rational3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Rational3 cross(const Rational3& a, const Rational3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+cpp_rational dot(const Rational3& a, const Rational3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// What of a convex polygon (or segment, or point) lies where normal . (p - origin) >= 0.
+std::vector<Rational3> clipped(const std::vector<Rational3>& polygon, const Rational3& origin,
+                               const Rational3& normal) {
+  std::vector<Rational3> kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Rational3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const cpp_rational at_p = dot(normal, minus(p, origin)), at_q = dot(normal, minus(q, origin));
+    if (at_p >= 0) kept.push_back(p);
+    if (at_p.sign() * at_q.sign() < 0) {
+      const cpp_rational part = at_p / (at_p - at_q);
+      Rational3 cut;
+      for (int k = 0; k < 3; ++k) cut[k] = p[k] + part * (q[k] - p[k]);
+      kept.push_back(cut);
+    }
+  }
+  return kept;
+}
+
+/// The corners of the intersection of two triangles with area.
+std::vector<Rational3> intersection(const std::array<Rational3, 3>& s,
+                                    const std::array<Rational3, 3>& t) {
+  std::vector<Rational3> polygon(t.begin(), t.end());
+  const Rational3 normal = cross(minus(s[1], s[0]), minus(s[2], s[0]));
+  const Rational3 reverse = minus({0, 0, 0}, normal);
+  polygon = clipped(clipped(polygon, s[0], normal), s[0], reverse);
+  for (int i = 0; i < 3; ++i)
+    polygon = clipped(polygon, s[i], cross(normal, minus(s[(i + 1) % 3], s[i])));
+  return polygon;
+}
+
+/// The crossings as the definition has them: every pair, and points beyond what both have by
+/// number.
+std::vector<std::array<uint32_t, 2>> all_crossings(const std::vector<glm::dvec3>& points,
+                                                   const std::vector<Triangle>& triangles) {
+  std::vector<std::array<Rational3, 3>> exact;
+  for (const Triangle& t : triangles) {
+    exact.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) exact.back()[i][k] = rational(points[t[i]][k]);
+    }
+  }
+  const auto has_area = [&](uint32_t i) {
+    return cross(minus(exact[i][1], exact[i][0]), minus(exact[i][2], exact[i][0])) !=
+           Rational3{0, 0, 0};
+  };
+  std::vector<std::array<uint32_t, 2>> found;
+  for (uint32_t i = 0; i < triangles.size(); ++i) {
+    for (uint32_t j = i + 1; j < triangles.size(); ++j) {
+      if (!has_area(i) || !has_area(j)) continue;
+      std::vector<Rational3> shared;
+      for (int k = 0; k < 3; ++k) {
+        for (const uint32_t other : triangles[j]) {
+          if (triangles[i][k] == other) shared.push_back(exact[i][k]);
+        }
+      }
+      bool crosses = shared.size() == 3;
+      for (const Rational3& p : intersection(exact[i], exact[j])) {
+        if (shared.size() == 1) {
+          crosses = crosses || p != shared[0];
+        } else if (shared.size() == 2) {
+          crosses = crosses ||
+                    cross(minus(p, shared[0]), minus(shared[1], shared[0])) != Rational3{0, 0, 0};
+        } else {
+          crosses = true;
+        }
+      }
+      if (crosses) found.push_back({i, j});
+    }
+  }
+  return found;
+}
+
+TEST(Crossings, OfRandomSoupsAgreeWithRationalClipping) {
+  std::mt19937_64 random(3);
+  size_t crossings = 0, pairs = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    // On a tiny lattice nearly everything touches; far out, floats are coarse and differences
+    // inexact.
+    const double step = trial % 3 == 0 ? 1 : trial % 3 == 1 ? 0x1p-14 : 0.1;
+    const double base = trial % 3 == 0 ? 0 : 1000.0 / 3;
+    const uint64_t extent = 2 + random() % 4;
+    std::vector<glm::dvec3> points;
+    while (points.size() < 9) {
+      glm::dvec3 p;
+      for (int k = 0; k < 3; ++k) p[k] = base + step * static_cast<double>(random() % extent);
+      if (std::find(points.begin(), points.end(), p) == points.end()) points.push_back(p);
+      if (extent == 2 && points.size() == 8) break;
+    }
+    std::vector<Triangle> triangles;
+    while (triangles.size() < 8) {
+      Triangle t;
+      for (uint32_t& corner : t) corner = static_cast<uint32_t>(random() % points.size());
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
+    }
+    std::vector<std::array<uint32_t, 2>> found;
+    const TriangleView mesh{points, triangles};
+    for (const TriangleCrossing& crossing : find_crossings(mesh, 1000)) {
+      found.push_back(crossing.triangles);
+      // The place lies on both, but for roundings.
+      for (const uint32_t t : crossing.triangles) {
+        for (int k = 0; k < 3; ++k) {
+          double low = 1e308, high = -1e308;
+          for (const uint32_t corner : triangles[t]) {
+            low = std::min(low, points[corner][k]);
+            high = std::max(high, points[corner][k]);
+          }
+          EXPECT_GE(crossing.place[k], low - 1e-9);
+          EXPECT_LE(crossing.place[k], high + 1e-9);
+        }
+      }
+    }
+    EXPECT_EQ(found, all_crossings(points, triangles)) << "trial " << trial;
+    EXPECT_EQ(find_crossings(mesh, 3).size(), std::min<size_t>(3, found.size()));
+    crossings += found.size();
+    pairs += 28;
+  }
+  EXPECT_GT(crossings, pairs / 5);
+  EXPECT_LT(crossings, pairs * 4 / 5);
+}
+
+TEST(Facing, AgreesWithRationals) {
+  std::mt19937_64 random(4);
+  int zeros = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const auto coordinate = [&] {
+      return trial % 2 == 0 ? static_cast<double>(random() % 4)
+                            : 12.0 + std::ldexp(static_cast<double>(random() % 5), -50);
+    };
+    std::vector<glm::dvec3> p(3);
+    std::array<Rational3, 3> exact;
+    for (int i = 0; i < 3; ++i) {
+      p[i] = {coordinate(), coordinate(), coordinate()};
+      for (int k = 0; k < 3; ++k) exact[i][k] = rational(p[i][k]);
+    }
+    const glm::dvec3 direction(random_double(random, 0), random() % 3 == 0 ? 0 : 1, trial % 3 - 1);
+    const Rational3 normal = cross(minus(exact[1], exact[0]), minus(exact[2], exact[0]));
+    const cpp_rational expected =
+        dot(normal, {rational(direction.x), rational(direction.y), rational(direction.z)});
+    const std::vector<Triangle> triangle{{0, 1, 2}};
+    EXPECT_EQ(facing({p, triangle}, 0, direction), expected.sign());
+    EXPECT_EQ(is_degenerate({p, triangle}, 0), normal == (Rational3{0, 0, 0}));
+    zeros += expected.sign() == 0 ? 1 : 0;
+  }
+  EXPECT_GT(zeros, 100);
+}
+
+}  // namespace
+}  // namespace csgrun::testing
