@@ -35,6 +35,8 @@ class CellGeometry {
   /// Forgets all points and fragments.
   void clear();
 
+  [[nodiscard]] const PlaneTable& planes() const { return *planes_; }
+
   struct StoredPoint {
     std::array<double, 3> rounded;
     std::array<uint32_t, 3> planes;  ///< kNone thrice for a vertex of the job

@@ -6,46 +6,16 @@ CellSolver::CellSolver(const Job& job) : job_(job), geometry_(job.planes(), &job
   slot_of_operand_.assign(job.operand_count(), kNone);
 }
 
-std::array<uint32_t, 6> CellSolver::walls(Job& job, const CellBox& box) {
-  std::array<uint32_t, 6> w{};
-  for (int k = 0; k < 3; ++k) {
-    w[2 * k] = job.wall(k, box.lo[k]);
-    w[2 * k + 1] = job.wall(k, box.hi[k]);
-  }
-  return w;
-}
-
-bool CellSolver::clip(Fragment& f, const CellBox& box, const std::array<uint32_t, 6>& walls) {
-  const PolygonBox& b = job_.boxes()[f.polygon];
-  for (int k = 0; k < 3; ++k) {
-    for (int upper = 0; upper < 2; ++upper) {
-      if (upper ? b.hi[k] <= box.hi[k] : b.lo[k] > box.lo[k]) continue;
-      Fragment front, back;
-      switch (geometry_.split(f, walls[2 * k + upper], front, back)) {
-        case Side::kFront:
-          if (upper) return false;
-          break;
-        case Side::kBack:
-          if (!upper) return false;
-          break;
-        case Side::kSplit: f = upper ? back : front; break;
-        case Side::kOn: return false;  // unreachable: no leaf vertex lies in a wall
-      }
-    }
-  }
-  return true;
-}
-
-void CellSolver::copy(uint32_t polygon, const CellBox& box, const std::array<uint32_t, 6>& walls,
+void CellSolver::copy(uint32_t polygon, const CellBox& box, const CellWalls& walls,
                       bool flip, FragmentSet& out) {
   geometry_.clear();
   numbers_.clear();
   Fragment f = geometry_.load(polygon);
-  if (clip(f, box, walls)) out.add(geometry_, f, flip, numbers_);
+  if (clip_to_cell(geometry_, job_, box, walls, f)) out.add(geometry_, f, flip, numbers_);
 }
 
 void CellSolver::solve(const Octree& tree, const CriticalCell& cell,
-                       const std::array<uint32_t, 6>& walls, FragmentSet& out) {
+                       const CellWalls& walls, FragmentSet& out) {
   geometry_.clear();
   numbers_.clear();
   operand_count_ = cell.presence_count;
@@ -57,7 +27,7 @@ void CellSolver::solve(const Octree& tree, const CriticalCell& cell,
     operand.polygons.clear();
     for (uint32_t k = 0; k < presence.count; ++k) {
       Fragment f = geometry_.load(tree.cell_polygons[presence.first_polygon + k]);
-      if (clip(f, cell.box, walls)) operand.polygons.push_back(f);
+      if (clip_to_cell(geometry_, job_, cell.box, walls, f)) operand.polygons.push_back(f);
     }
     operand.bsp.build(geometry_, operand.polygons, presence.corner_inside);
     slot_of_operand_[presence.operand] = i;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "engine/bsp/cell_walls.h"
 #include "engine/bsp/fragment_set.h"
 #include "engine/bsp/local_bsp.h"
 #include "engine/bsp/octree.h"
@@ -18,13 +19,10 @@ class CellSolver {
  public:
   explicit CellSolver(const Job& job);
 
-  /// Makes the walls of a cell known; called before solving, not thread-safe.
-  static std::array<uint32_t, 6> walls(Job& job, const CellBox& box);
-
-  void solve(const Octree& tree, const CriticalCell& cell, const std::array<uint32_t, 6>& walls,
+  void solve(const Octree& tree, const CriticalCell& cell, const CellWalls& walls,
              FragmentSet& out);
   /// The part of a polygon inside a cell, copied as it is or turned over.
-  void copy(uint32_t polygon, const CellBox& box, const std::array<uint32_t, 6>& walls, bool flip,
+  void copy(uint32_t polygon, const CellBox& box, const CellWalls& walls, bool flip,
             FragmentSet& out);
 
   [[nodiscard]] const SignCounters& counters() const { return geometry_.counters; }
@@ -44,8 +42,6 @@ class CellSolver {
     std::vector<Inside> front, back;  ///< by presence in the cell
   };
 
-  /// Clips a fragment to the cell; false when nothing is left.
-  bool clip(Fragment& f, const CellBox& box, const std::array<uint32_t, 6>& walls);
   void solve_polygon(const PrunedExpression& expression, uint32_t own, const Fragment& f,
                      FragmentSet& out);
 

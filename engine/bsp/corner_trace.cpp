@@ -65,13 +65,13 @@ bool line_hits(const Job& job, const JobPolygon& polygon, const IVec3& corner, i
   return true;
 }
 
-bool segment_crosses(Job& job, uint32_t polygon, const IVec3& corner, int axis, int64_t to) {
+int winding_step(Job& job, uint32_t polygon, const IVec3& corner, int axis, int64_t to) {
   const PolygonBox& box = job.boxes()[polygon];
   for (int k = 0; k < 3; ++k) {
     if (k == axis) {
-      if (box.hi[k] <= corner[k] || box.lo[k] > to) return false;
+      if (box.hi[k] <= corner[k] || box.lo[k] > to) return 0;
     } else if (box.lo[k] > corner[k] || box.hi[k] <= corner[k]) {
-      return false;
+      return 0;
     }
   }
   job.ensure_planes(polygon);
@@ -79,8 +79,15 @@ bool segment_crosses(Job& job, uint32_t polygon, const IVec3& corner, int axis, 
   IVec3 end = corner;
   end[axis] = to;
   const Plane support = job.planes().plane(p.support.index());
-  return side_of_corner(support, corner, job.prime()) != side_of_corner(support, end, job.prime()) &&
-         line_hits(job, p, corner, axis);
+  const int before = side_of_corner(support, corner, job.prime());
+  if (before == side_of_corner(support, end, job.prime()) || !line_hits(job, p, corner, axis)) {
+    return 0;
+  }
+  return (before > 0) != p.support.flipped() ? 1 : -1;
+}
+
+bool segment_crosses(Job& job, uint32_t polygon, const IVec3& corner, int axis, int64_t to) {
+  return winding_step(job, polygon, corner, axis, to) != 0;
 }
 
 bool ray_crosses(Job& job, uint32_t polygon, const IVec3& corner) {

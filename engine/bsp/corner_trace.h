@@ -20,6 +20,10 @@ bool line_hits(const Job& job, const JobPolygon& polygon, const IVec3& corner, i
 /// polygon; makes its planes if its box allows it.
 bool segment_crosses(Job& job, uint32_t polygon, const IVec3& corner, int axis, int64_t to);
 
+/// By how much a surface's winding number changes along the same segment where it crosses the polygon:
+/// +1 from the polygon's front to its back, -1 the other way, 0 where it does not cross.
+int winding_step(Job& job, uint32_t polygon, const IVec3& corner, int axis, int64_t to);
+
 /// Whether the ray from the moved corner to minus infinity along x crosses the polygon.
 bool ray_crosses(Job& job, uint32_t polygon, const IVec3& corner);
 

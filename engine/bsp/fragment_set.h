@@ -1,6 +1,7 @@
 // Pieces of result boundary on their way from the cells to the assembled mesh.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -47,6 +48,15 @@ struct FragmentSet {
       corner_plane.push_back(geometry.edges(f)[edge]);
     }
     pieces.push_back(piece);
+  }
+
+  /// Turns a piece over.
+  void flip(Piece& piece) {
+    const auto corner = corner_point.begin() + piece.first, edge = corner_plane.begin() + piece.first;
+    std::reverse(corner, corner + piece.count);
+    // The last edge, which closes the loop, stays the last.
+    std::reverse(edge, edge + piece.count - 1);
+    piece.plane = piece.plane.flip();
   }
 };
 

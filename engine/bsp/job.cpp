@@ -44,10 +44,11 @@ std::array<std::array<Int<2>, 3>, 3> adjugate_of(const std::array<std::array<int
 }
 
 /// Remainder of a signed wide integer by a small number, in [0, p).
-int64_t remainder_of(const Int<4>& v, int64_t p) {
-  const Int<4> m = v.magnitude();
+template <int N>
+int64_t remainder_of(const Int<N>& v, int64_t p) {
+  const Int<N> m = v.magnitude();
   UInt128 r = 0;
-  for (int i = 3; i >= 0; --i) r = ((r << 64) | m.limb[i]) % static_cast<uint64_t>(p);
+  for (int i = N - 1; i >= 0; --i) r = ((r << 64) | m.limb[i]) % static_cast<uint64_t>(p);
   return static_cast<int64_t>(r);
 }
 
@@ -108,7 +109,7 @@ Job::Job(const std::vector<Operand>& operands) : operands_(&operands) {
           map_plane(operands[o].frame, translate_plane(plane, operands[o].translation))));
     }
   }
-  choose_prime();
+  while (!is_good_prime(prime_)) prime_ += 2;
   for (uint32_t o = 0; o < operands.size(); ++o) {
     sources_[o].first_vertex = static_cast<uint32_t>(rounded_.size());
     if (operands[o].leaf) {
@@ -121,21 +122,31 @@ Job::Job(const std::vector<Operand>& operands) : operands_(&operands) {
   }
 }
 
-void Job::choose_prime() {
-  const auto divides_some = [this](int64_t p) {
-    return std::any_of(sources_.begin(), sources_.end(), [p](const Source& s) {
-      return remainder_of(s.determinant, p) == 0;
-    });
-  };
+bool Job::is_good_prime(int64_t p) const {
+  if (!is_prime(p)) return false;
+  for (const Source& s : sources_) {
+    if (remainder_of(s.determinant, p) == 0) return false;
+  }
   // A materialised result does not know the frames of its leaves: its planes are looked at themselves.
-  const auto is_some_wall = [this](int64_t p) {
-    for (uint32_t i = 0; i < planes_.size(); ++i) {
-      const Plane& s = planes_.plane(i);
-      if (((s.a != 0) + (s.b != 0) + (s.c != 0)) == 1 && s.a + s.b + s.c == p) return true;
-    }
-    return false;
+  for (uint32_t i = 0; i < planes_.size(); ++i) {
+    const Plane& s = planes_.plane(i);
+    if (((s.a != 0) + (s.b != 0) + (s.c != 0)) == 1 && s.a + s.b + s.c == p) return false;
+  }
+  return true;
+}
+
+void Job::keep_walls_off(std::span<const uint32_t> vertices) {
+  // A coordinate m + 1/p has p in its denominator.
+  const auto keeps_off = [&](int64_t p) {
+    return std::none_of(vertices.begin(), vertices.end(),
+                        [&](uint32_t v) { return remainder_of(exact(v).w, p) == 0; });
   };
-  while (!is_prime(prime_) || divides_some(prime_) || is_some_wall(prime_)) prime_ += 2;
+  while (!keeps_off(prime_)) move_walls();
+}
+
+void Job::move_walls() {
+  do prime_ += 2;
+  while (!is_good_prime(prime_));
 }
 
 void Job::add_leaf(uint32_t o, const Operand& operand) {

@@ -31,6 +31,7 @@ class Job {
  public:
   explicit Job(const std::vector<Operand>& operands);
 
+  [[nodiscard]] bool is_leaf(size_t o) const { return (*operands_)[o].leaf != nullptr; }
   [[nodiscard]] size_t operand_count() const { return operands_->size(); }
   [[nodiscard]] const std::vector<JobPolygon>& polygons() const { return polygons_; }
   [[nodiscard]] const std::vector<PolygonBox>& boxes() const { return boxes_; }
@@ -64,6 +65,11 @@ class Job {
   /// Smallest odd prime that divides no frame's determinant, and such that no plane of a boundary
   /// operand is a wall: walls at m + 1/prime hold no leaf vertex and no face.
   [[nodiscard]] int64_t prime() const { return prime_; }
+  /// Chooses the prime anew so that none of these vertices lies in a wall made from now on. (Vertices of
+  /// leaves never do.)
+  void keep_walls_off(std::span<const uint32_t> vertices);
+  /// Chooses a greater prime for walls made from now on.
+  void move_walls();
   [[nodiscard]] const PlaneTable& planes() const { return planes_; }
   PlaneTable& planes() { return planes_; }
 
@@ -81,7 +87,7 @@ class Job {
   [[nodiscard]] PolygonBox box_of(const JobPolygon& polygon) const;
   /// The exact position of vertex `local` of operand `o`.
   [[nodiscard]] Point exact_of(uint32_t o, uint32_t local) const;
-  void choose_prime();
+  [[nodiscard]] bool is_good_prime(int64_t p) const;
   /// Closes the polygon whose corners were appended from `first` on, and boxes it.
   void finish_polygon(uint32_t operand, uint32_t face, uint32_t first, PlaneId support);
 

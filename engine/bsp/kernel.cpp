@@ -1,25 +1,18 @@
 #include "engine/bsp/kernel.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <cmath>
 
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/cell_solver.h"
 #include "engine/bsp/literal_cell.h"
 #include "engine/bsp/octree.h"
+#include "engine/bsp/parallel_runs.h"
 
 namespace csgrun {
 namespace {
 
-/// Cells are handed out in fixed runs, so that what a run gives does not depend on the threads.
-constexpr size_t kCellsPerRun = 64;
-
 struct Work {
-  std::vector<std::array<uint32_t, 6>> critical_walls, copied_walls;
+  std::vector<CellWalls> critical_walls, copied_walls;
   std::vector<uint32_t> walls_of_copied_cell;   ///< index into copied_walls, or kNone: not needed
   std::vector<Octree::CopiedPiece> cut_copies;  ///< of polygons that are not copied as a whole
   std::vector<WholePolygon> whole;
@@ -39,7 +32,7 @@ Work prepare(Job& job, const Octree& tree) {
   }
   for (const uint32_t p : tree.cell_polygons) job.ensure_planes(p);
   for (const CriticalCell& c : tree.critical) {
-    work.critical_walls.push_back(CellSolver::walls(job, c.box));
+    work.critical_walls.push_back(walls_of(job, c.box));
   }
   work.walls_of_copied_cell.assign(tree.copied_cells.size(), kNone);
   for (const Octree::CopiedPiece& piece : tree.copied) {
@@ -48,7 +41,7 @@ Work prepare(Job& job, const Octree& tree) {
     uint32_t& wall = work.walls_of_copied_cell[piece.cell];
     if (wall == kNone) {
       wall = static_cast<uint32_t>(work.copied_walls.size());
-      work.copied_walls.push_back(CellSolver::walls(job, tree.copied_cells[piece.cell]));
+      work.copied_walls.push_back(walls_of(job, tree.copied_cells[piece.cell]));
     }
     work.cut_copies.push_back(piece);
   }
@@ -70,13 +63,12 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   if (cancelled()) return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
   const Work work = prepare(job, tree);
 
-  const size_t critical_runs = (tree.critical.size() + kCellsPerRun - 1) / kCellsPerRun;
-  const size_t copy_runs = (work.cut_copies.size() + kCellsPerRun - 1) / kCellsPerRun;
+  const size_t critical_runs = run_count(tree.critical.size());
+  const size_t copy_runs = run_count(work.cut_copies.size());
   std::vector<FragmentSet> sets(critical_runs + copy_runs);
   std::vector<SignCounters> counters(sets.size());
   std::vector<uint64_t> contacts(sets.size(), 0);
   const auto solve_run = [&](CellSolver& solver, size_t run) {
-    if (cancelled()) return;
     const SignCounters before = solver.counters();
     const uint64_t contacts_before = solver.cells_with_contact();
     if (run < critical_runs) {
@@ -102,22 +94,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     counters[run] = solver.counters();
     counters[run].subtract(before);
   };
-  if (options.threads <= 1 || sets.size() <= 1) {
-    CellSolver solver(job);
-    for (size_t run = 0; run < sets.size(); ++run) {
-      solve_run(solver, run);
-      if (options.progress) options.progress(run + 1, sets.size());
-    }
-  } else {
-    // Without the control, more threads than cores would be cut down, with a message.
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, options.threads);
-    tbb::task_arena arena(static_cast<int>(options.threads));
-    arena.execute([&] {
-      tbb::enumerable_thread_specific<CellSolver> solvers([&] { return CellSolver(job); });
-      tbb::parallel_for(size_t{0}, sets.size(),
-                        [&](size_t run) { solve_run(solvers.local(), run); });
-    });
-  }
+  for_each_run(sets.size(), options, [&] { return CellSolver(job); }, solve_run);
   if (cancelled()) return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
 
   SignCounters total;

@@ -10,13 +10,7 @@ constexpr size_t kCandidates = 3;
 
 }  // namespace
 
-void LocalBsp::build(CellGeometry& geometry, const std::vector<Fragment>& polygons,
-                     bool corner_inside) {
-  nodes_.clear();
-  root_ = polygons.empty() ? (corner_inside ? kInside : kOutside) : build_node(geometry, polygons);
-}
-
-size_t LocalBsp::choose(CellGeometry& geometry, const std::vector<Fragment>& polygons) const {
+size_t choose_splitter(CellGeometry& geometry, const std::vector<Fragment>& polygons) {
   const size_t n = polygons.size();
   if (n < 4) return 0;
   size_t best = 0, best_cost = ~size_t{0};
@@ -37,8 +31,14 @@ size_t LocalBsp::choose(CellGeometry& geometry, const std::vector<Fragment>& pol
   return best;
 }
 
+void LocalBsp::build(CellGeometry& geometry, const std::vector<Fragment>& polygons,
+                     bool corner_inside) {
+  nodes_.clear();
+  root_ = polygons.empty() ? (corner_inside ? kInside : kOutside) : build_node(geometry, polygons);
+}
+
 int32_t LocalBsp::build_node(CellGeometry& geometry, std::vector<Fragment> polygons) {
-  const PlaneId chosen = polygons[choose(geometry, polygons)].support;
+  const PlaneId chosen = polygons[choose_splitter(geometry, polygons)].support;
   std::vector<Fragment> front, back;
   for (const Fragment& f : polygons) {
     Fragment a, b;

@@ -10,6 +10,10 @@
 
 namespace csgrun {
 
+/// Which of the polygons' supports to split a cell by: of a few tried, the one that splits fewest others
+/// and halves the rest best.
+size_t choose_splitter(CellGeometry& geometry, const std::vector<Fragment>& polygons);
+
 class LocalBsp {
  public:
   static constexpr int32_t kOutside = -1, kInside = -2;
@@ -37,7 +41,6 @@ class LocalBsp {
 
  private:
   int32_t build_node(CellGeometry& geometry, std::vector<Fragment> polygons);
-  [[nodiscard]] size_t choose(CellGeometry& geometry, const std::vector<Fragment>& polygons) const;
   void push(CellGeometry& geometry, int32_t node, const Fragment& f,
             std::vector<Piece>& pieces) const;
 

@@ -14,14 +14,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/bsp/cell_box.h"
 #include "engine/bsp/job.h"
 #include "engine/bsp/pruned_expression.h"
 
 namespace csgrun {
-
-struct CellBox {
-  IVec3 lo, hi;
-};
 
 /// A cell in which several operands meet.
 struct CriticalCell {

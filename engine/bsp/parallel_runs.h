@@ -1,0 +1,48 @@
+// Cells in parallel: handed out in fixed runs, so that what a run gives does not depend on the threads.
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <cstddef>
+
+#include "engine/bsp/operand.h"
+
+namespace csgrun {
+
+constexpr size_t kCellsPerRun = 64;
+
+/// The number of runs for so many cells.
+constexpr size_t run_count(size_t cells) { return (cells + kCellsPerRun - 1) / kCellsPerRun; }
+
+/// Calls `work(solver, run)` for each run, in any order, with solvers made by `make`, one a thread.
+/// Runs that have not begun when the evaluation is cancelled are left out.
+template <class Make, class Work>
+void for_each_run(size_t runs, const KernelOptions& options, Make&& make, Work&& work) {
+  const auto cancelled = [&] {
+    return options.cancel && options.cancel->load(std::memory_order_relaxed);
+  };
+  if (options.threads <= 1 || runs <= 1) {
+    auto solver = make();
+    for (size_t run = 0; run < runs && !cancelled(); ++run) {
+      work(solver, run);
+      if (options.progress) options.progress(run + 1, runs);
+    }
+    return;
+  }
+  // Without the control, more threads than cores would be cut down, with a message.
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, options.threads);
+  tbb::task_arena arena(static_cast<int>(options.threads));
+  arena.execute([&] {
+    using Solver = decltype(make());
+    tbb::enumerable_thread_specific<Solver> solvers([&] { return make(); });
+    tbb::parallel_for(size_t{0}, runs, [&](size_t run) {
+      if (!cancelled()) work(solvers.local(), run);
+    });
+  });
+}
+
+}  // namespace csgrun

@@ -1,0 +1,162 @@
+#include "engine/bsp/self_resolution.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "engine/bsp/assemble.h"
+#include "engine/bsp/surface_cells.h"
+#include "engine/bsp/surface_octree.h"
+#include "engine/bsp/surface_patches.h"
+#include "engine/bsp/surface_volumes.h"
+
+namespace csgrun {
+namespace {
+
+using BoundaryPtr = std::shared_ptr<const BoundaryMesh>;
+
+class Resolution {
+ public:
+  Resolution(const std::vector<Operand>& surface, std::span<const std::array<uint32_t, 2>> crossings,
+             InsideRule rule, const KernelOptions& options, EvaluateStats& stats)
+      : job_(surface),
+        crosses_(job_.polygons().size(), 0),
+        rule_(rule),
+        options_(options),
+        stats_(stats) {
+    for (const auto& [f, g] : crossings) crosses_[f] = crosses_[g] = 1;
+    patches_ = find_patches(job_, crossings, crosses_);
+  }
+
+  [[nodiscard]] bool is_hull() const {
+    return rule_ == InsideRule::kOuterHull || rule_ == InsideRule::kOrientedHull;
+  }
+  [[nodiscard]] uint32_t class_count() const { return patches_.class_count; }
+
+  Result<BoundaryPtr> run() {
+    if (is_hull()) {
+      if (Status status = solve_classes(); !status) return status.error();
+    } else {
+      std::vector<uint32_t> all(job_.polygons().size());
+      std::iota(all.begin(), all.end(), 0u);
+      if (Status status = solve(all, patches_.witness, kNone); !status) return status.error();
+    }
+    return assemble(job_, sets_, whole_);
+  }
+
+ private:
+  /// Each class by itself: its surface hangs together.
+  Status solve_classes() {
+    std::vector<std::vector<uint32_t>> polygons(patches_.class_count);
+    for (uint32_t p = 0; p < patches_.class_of.size(); ++p) {
+      polygons[patches_.class_of[p]].push_back(p);
+    }
+    for (size_t c = 0; c < polygons.size(); ++c) {
+      const uint32_t lowest = lowest_vertex(polygons[c]);
+      job_.keep_walls_off({&lowest, 1});
+      std::vector<uint32_t> witnesses{lowest}, seen;
+      for (const uint32_t p : polygons[c]) {
+        if (patches_.patch_of[p] != kNone) seen.push_back(patches_.patch_of[p]);
+      }
+      std::sort(seen.begin(), seen.end());
+      seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+      for (const uint32_t patch : seen) witnesses.push_back(patches_.witness[patch]);
+      if (Status status = solve(polygons[c], witnesses, lowest); !status) return status;
+    }
+    return std::monostate{};
+  }
+
+  [[nodiscard]] uint32_t lowest_vertex(const std::vector<uint32_t>& polygons) const {
+    uint32_t lowest = kNone;
+    for (const uint32_t p : polygons) {
+      for (const uint32_t v : job_.corners(job_.polygons()[p])) {
+        if (lowest == kNone || is_below(v, lowest)) lowest = v;
+      }
+    }
+    return lowest;
+  }
+  /// Lexicographically; rounding keeps the order along each axis.
+  [[nodiscard]] bool is_below(uint32_t v, uint32_t w) const {
+    const double x = job_.rounded(v)[0], y = job_.rounded(w)[0];
+    return x != y ? x < y : v != w && compare(job_.exact(v), job_.exact(w)) < 0;
+  }
+
+  /// Finds what is inside for some of the polygons and keeps the boundary.
+  Status solve(const std::vector<uint32_t>& polygons, const std::vector<uint32_t>& witnesses,
+               uint32_t lowest) {
+    auto runs = solve_cells(polygons, witnesses, lowest);
+    while (runs && is_hull() && crosses_in_wall(job_, *runs)) {
+      job_.move_walls();
+      job_.keep_walls_off({&lowest, 1});
+      runs = solve_cells(polygons, witnesses, lowest);
+    }
+    if (!runs) return runs.error();
+    const auto labels =
+        is_hull() ? label_by_reach(job_, *runs, patches_.patch_count, lowest, rule_)
+                  : label_by_winding(*runs, patches_.patch_count, rule_);
+    if (!labels) return contradiction();
+    for (size_t r = 0; r < runs->size(); ++r) keep_boundary((*runs)[r], labels->volumes[r]);
+    for (const uint32_t p : polygons) {
+      const uint32_t patch = patches_.patch_of[p];
+      if (patch == kNone) continue;
+      const InsideLabels::Patch& label = labels->patches[patch];
+      if (!label.known) return contradiction();
+      if (label.front != label.back) whole_.push_back({p, label.front});
+    }
+    return std::monostate{};
+  }
+
+  Result<std::vector<SurfaceCells>> solve_cells(const std::vector<uint32_t>& polygons,
+                                                const std::vector<uint32_t>& witnesses,
+                                                uint32_t lowest) {
+    const SurfaceOctree tree = build_surface_octree(job_, polygons, crosses_, witnesses, options_);
+    const SurfaceCellsRequest request{is_hull(), lowest};
+    return solve_surface_cells(job_, tree, patches_, request, options_, stats_);
+  }
+
+  static Error contradiction() {
+    return {ErrorCode::kInternal, "the parts of a surface contradict each other", {}};
+  }
+
+  void keep_boundary(SurfaceCells& run, const std::vector<uint8_t>& inside) {
+    FragmentSet& set = run.set;
+    size_t kept = 0;
+    for (size_t i = 0; i < set.pieces.size(); ++i) {
+      const bool front = inside[run.sides[i].front] != 0, back = inside[run.sides[i].back] != 0;
+      if (front == back) continue;
+      set.pieces[kept] = set.pieces[i];
+      if (front) set.flip(set.pieces[kept]);
+      ++kept;
+    }
+    set.pieces.resize(kept);
+    sets_.push_back(std::move(set));
+  }
+
+  Job job_;
+  std::vector<uint8_t> crosses_;
+  const InsideRule rule_;
+  const KernelOptions& options_;
+  EvaluateStats& stats_;
+  SurfacePatches patches_;
+  std::vector<FragmentSet> sets_;
+  std::vector<WholePolygon> whole_;
+};
+
+}  // namespace
+
+Result<BoundaryPtr> resolve_surface(const Operand& surface,
+                                    std::span<const std::array<uint32_t, 2>> crossings,
+                                    InsideRule rule, const KernelOptions& options,
+                                    EvaluateStats& stats) {
+  const std::vector<Operand> operands{surface};
+  Resolution resolution(operands, crossings, rule, options, stats);
+  auto result = resolution.run();
+  if (!result || !resolution.is_hull() || resolution.class_count() < 2) return result;
+  // The hulls of several classes are apart or one inside another: what is inside goes.
+  Operand hulls;
+  hulls.boundary = *result;
+  return resolve_surface(hulls, {}, InsideRule::kNonZero, options, stats);
+}
+
+}  // namespace csgrun

@@ -1,0 +1,217 @@
+#include "engine/bsp/surface_volumes.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "engine/bsp/line_key.h"
+#include "engine/bsp/union_find.h"
+
+namespace csgrun {
+namespace {
+
+bool is_inside(int32_t winding, InsideRule rule) {
+  switch (rule) {
+    case InsideRule::kNonZero: return winding != 0;
+    case InsideRule::kPositive: return winding > 0;
+    default: return winding % 2 != 0;
+  }
+}
+
+/// Sees to it that all that is said of a patch agrees.
+bool label_patches(const std::vector<SurfaceCells>& runs, InsideLabels& labels) {
+  for (size_t r = 0; r < runs.size(); ++r) {
+    for (const SurfaceCells::PatchSides& s : runs[r].patches) {
+      const bool front = labels.volumes[r][s.front] != 0, back = labels.volumes[r][s.back] != 0;
+      InsideLabels::Patch& patch = labels.patches[s.patch];
+      if (patch.known && (patch.front != front || patch.back != back)) return false;
+      patch = {true, front, back};
+    }
+  }
+  return true;
+}
+
+/// Joins the volumes of neighbouring cells along the edges in which pieces of a plane meet a wall.
+class WallJoiner {
+ public:
+  WallJoiner(const Job& job, const std::vector<SurfaceCells>& runs,
+             const std::vector<uint32_t>& first_volume, UnionFind& volumes)
+      : job_(job), geometry_(job.planes(), &job), volumes_(volumes) {
+    for (size_t r = 0; r < runs.size(); ++r) {
+      const auto& points = runs[r].set.points;
+      std::vector<uint32_t> number(points.size(), kNone);
+      const auto point = [&](uint32_t p) {
+        if (number[p] == kNone) {
+          number[p] = points[p].vertex != kNone
+                          ? geometry_.vertex_point(points[p].vertex)
+                          : geometry_.add_point(points[p].planes, points[p].rounded);
+        }
+        return number[p];
+      };
+      for (const SurfaceCells::WallEdge& e : runs[r].wall_edges) {
+        edges_.push_back({e.support, e.wall, e.is_below, point(e.from), point(e.to),
+                          first_volume[r] + e.front, first_volume[r] + e.back});
+      }
+    }
+  }
+
+  void join() {
+    std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
+      return std::tie(a.support, a.wall, a.is_below) < std::tie(b.support, b.wall, b.is_below);
+    });
+    for (auto begin = edges_.begin(); begin != edges_.end();) {
+      auto middle = begin, end = begin;
+      const auto on_line = [&](const Edge& e) {
+        return e.support == begin->support && e.wall == begin->wall;
+      };
+      while (end != edges_.end() && on_line(*end)) ++end;
+      while (middle != end && !middle->is_below) ++middle;
+      join_line(begin, middle, end);
+      begin = end;
+    }
+  }
+
+ private:
+  struct Edge {
+    uint32_t support, wall;
+    bool is_below;
+    uint32_t from, to;  ///< points of the geometry, in the order along the axis once joined
+    uint32_t front, back;
+  };
+  using Iterator = std::vector<Edge>::iterator;
+
+  /// The edges of either side do not overlap among themselves; where one of each do, the surface runs
+  /// on from one to the other.
+  void join_line(Iterator begin, Iterator middle, Iterator end) {
+    const int axis =
+        line_axis(job_.planes().plane(begin->support), job_.planes().plane(begin->wall)).axis;
+    const auto before = [&](uint32_t p, uint32_t q) {
+      return geometry_.compare_along(p, q, axis) < 0;
+    };
+    for (auto e = begin; e != end; ++e) {
+      if (before(e->to, e->from)) std::swap(e->from, e->to);
+    }
+    const auto by_start = [&](const Edge& a, const Edge& b) { return before(a.from, b.from); };
+    std::sort(begin, middle, by_start);
+    std::sort(middle, end, by_start);
+    for (auto a = begin, b = middle; a != middle && b != end;) {
+      if (before(a->from, b->to) && before(b->from, a->to)) {
+        volumes_.join(a->front, b->front);
+        volumes_.join(a->back, b->back);
+      }
+      if (before(a->to, b->to)) {
+        ++a;
+      } else {
+        ++b;
+      }
+    }
+  }
+
+  const Job& job_;
+  CellGeometry geometry_;
+  UnionFind& volumes_;
+  std::vector<Edge> edges_;
+};
+
+}  // namespace
+
+std::optional<InsideLabels> label_by_winding(const std::vector<SurfaceCells>& runs,
+                                             size_t patch_count, InsideRule rule) {
+  InsideLabels labels;
+  labels.patches.resize(patch_count);
+  for (const SurfaceCells& run : runs) {
+    std::vector<uint8_t>& inside = labels.volumes.emplace_back();
+    for (const int32_t w : run.windings) inside.push_back(is_inside(w, rule));
+  }
+  if (!label_patches(runs, labels)) return std::nullopt;
+  return labels;
+}
+
+bool crosses_in_wall(const Job& job, const std::vector<SurfaceCells>& runs) {
+  std::vector<std::array<uint32_t, 2>> lines;  // wall and support
+  for (const SurfaceCells& run : runs) {
+    for (const SurfaceCells::WallEdge& e : run.wall_edges) lines.push_back({e.wall, e.support});
+  }
+  std::sort(lines.begin(), lines.end());
+  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+  std::vector<LineNamer::PlanePair> pairs;
+  for (const auto& [wall, support] : lines) pairs.push_back({wall, support});
+  std::vector<LineKey> keys;
+  LineNamer(job.planes()).keys(pairs, keys);
+  std::vector<std::pair<uint32_t, LineKey>> named;
+  for (size_t i = 0; i < lines.size(); ++i) named.emplace_back(lines[i][0], keys[i]);
+  std::sort(named.begin(), named.end());
+  return std::adjacent_find(named.begin(), named.end()) != named.end();
+}
+
+std::optional<InsideLabels> label_by_reach(const Job& job, const std::vector<SurfaceCells>& runs,
+                                           size_t patch_count, uint32_t lowest, InsideRule rule) {
+  std::vector<uint32_t> first_volume{0};
+  for (const SurfaceCells& run : runs) {
+    first_volume.push_back(first_volume.back() + static_cast<uint32_t>(run.windings.size()));
+  }
+  const uint32_t count = first_volume.back();
+  UnionFind volumes(count);
+  WallJoiner(job, runs, first_volume, volumes).join();
+  // The volumes on the two sides of each patch, where it was first seen.
+  std::vector<std::array<uint32_t, 2>> sides_of_patch(patch_count, {kNone, kNone});
+  uint32_t start = kNone;
+  for (size_t r = 0; r < runs.size(); ++r) {
+    for (const SurfaceCells::PatchSides& s : runs[r].patches) {
+      auto& sides = sides_of_patch[s.patch];
+      const uint32_t front = first_volume[r] + s.front, back = first_volume[r] + s.back;
+      if (sides[0] == kNone) sides = {front, back};
+      volumes.join(sides[0], front);
+      volumes.join(sides[1], back);
+    }
+    for (const SurfaceCells::VertexVolume& v : runs[r].vertex_volumes) {
+      if (v.vertex == lowest) start = first_volume[r] + v.volume;
+    }
+  }
+  if (start == kNone) return std::nullopt;
+
+  // What lets one through: pieces that face nobody who comes from that side.
+  std::vector<uint8_t> reached(count, 0);
+  reached[volumes.find(start)] = 1;
+  if (rule == InsideRule::kOrientedHull) {
+    std::vector<std::array<uint32_t, 2>> free;  ///< from one volume to another
+    const auto add = [&](uint32_t from, uint32_t to) {
+      free.push_back({volumes.find(from), volumes.find(to)});
+    };
+    for (size_t r = 0; r < runs.size(); ++r) {
+      for (const SurfaceCells::Sides& s : runs[r].sides) {
+        const uint32_t front = first_volume[r] + s.front, back = first_volume[r] + s.back;
+        if (!s.has_up) add(front, back);
+        if (!s.has_down) add(back, front);
+      }
+    }
+    for (const auto& [front, back] : sides_of_patch) {
+      if (front != kNone) add(back, front);
+    }
+    std::sort(free.begin(), free.end());
+    free.erase(std::unique(free.begin(), free.end()), free.end());
+    std::vector<uint32_t> open{volumes.find(start)};
+    while (!open.empty()) {
+      const uint32_t from = open.back();
+      open.pop_back();
+      auto at = std::lower_bound(free.begin(), free.end(), std::array<uint32_t, 2>{from, 0});
+      for (; at != free.end() && (*at)[0] == from; ++at) {
+        if (reached[(*at)[1]]) continue;
+        reached[(*at)[1]] = 1;
+        open.push_back((*at)[1]);
+      }
+    }
+  }
+  InsideLabels labels;
+  labels.patches.resize(patch_count);
+  for (size_t r = 0; r < runs.size(); ++r) {
+    std::vector<uint8_t>& inside = labels.volumes.emplace_back();
+    for (uint32_t v = first_volume[r]; v < first_volume[r + 1]; ++v) {
+      inside.push_back(!reached[volumes.find(v)]);
+    }
+  }
+  if (!label_patches(runs, labels)) return std::nullopt;
+  return labels;
+}
+
+}  // namespace csgrun
