@@ -1,4 +1,4 @@
-// csgbench WORKLOAD ARGS [--threads N] [--repeat R] [--cell-limit M]: one JSON line for each run.
+// csgbench WORKLOAD ARGS [--threads N] [--repeat R] [options]: one JSON line for each run.
 //
 // `import` is raw arrays to kernel meshes, `op` the Boolean, `export` kernel mesh to indexed
 // triangles in memory (without measuring them); cpu_s is the CPU time of all threads for the three.
@@ -17,6 +17,7 @@
 #include "engine/bsp/kernel.h"
 #include "engine/mesh/boundary_volume.h"
 #include "tests/bench/exact_workloads.h"
+#include "tests/bench/models.h"
 #include "tests/bench/run.h"
 #include "tests/bench/workloads.h"
 
@@ -105,7 +106,8 @@ void run_boxes(const std::string& name, const Settings& settings) {
 }
 
 constexpr const char* kUsage =
-    "usage: csgbench WORKLOAD ARGS [--threads N] [--repeat R] [--cell-limit M]\n"
+    "usage: csgbench WORKLOAD ARGS [--threads N] [--repeat R] [--cell-limit M] [--write OUT.off]\n"
+    "                [--write-cells OUT]\n"
     "  rot FILE ANGLE       union with a copy turned about z (vertices turned)\n"
     "  rotframe FILE ANGLE  the same turn as a transform\n"
     "  chain N              block minus N spheres, one after another\n"
@@ -116,7 +118,20 @@ constexpr const char* kUsage =
     "  boxes                two boxes, repeated\n"
     "  ulp FILE             less a copy shifted by one float32 unit in the last place\n"
     "  roundtrip FILE       through planes and BSPs, and back to the same vertices\n"
-    "  pair A B SEED        all four operations of two files, B turned at random\n";
+    "  pair A B SEED        all four operations of two files, B turned at random\n"
+    "  model NAME FACES OUT.off\n"
+    "                       writes a model: statue, beads, twins, ring, contortionist\n";
+
+void write_model(const std::string& name, const std::string& faces, const std::string& path) {
+  const PolygonMesh mesh =
+      polygon_mesh(model(name, std::strtoull(faces.c_str(), nullptr, 10)), true);
+  if (mesh.face_count() == 0) fail("there is no model '" + name + "'");
+  std::vector<std::array<uint32_t, 3>> triangles(mesh.face_count());
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    for (size_t k = 0; k < 3; ++k) triangles[t][k] = mesh.corners[3 * t + k];
+  }
+  write_off(path, mesh.points, triangles);
+}
 
 void run_once(const std::vector<std::string>& words, const Settings& settings) {
   const std::string& workload = words[0];
@@ -152,6 +167,8 @@ void run_once(const std::vector<std::string>& words, const Settings& settings) {
     run_round_trip(name, settings, words[1]);
   } else if (workload == "pair" && words.size() == 4) {
     run_pair(name, settings, words[1], words[2], std::strtoull(words[3].c_str(), nullptr, 10));
+  } else if (workload == "model" && words.size() == 4) {
+    write_model(words[1], words[2], words[3]);
   } else {
     std::fprintf(stderr, "%s", kUsage);
     std::exit(2);
@@ -171,6 +188,10 @@ int main(int argc, char** argv) {
       settings.threads = static_cast<unsigned>(std::atoi(argv[++i]));
     } else if (word == "--repeat" && has_value) {
       settings.repeat = std::atoi(argv[++i]);
+    } else if (word == "--write" && has_value) {
+      settings.write = argv[++i];
+    } else if (word == "--write-cells" && has_value) {
+      settings.write_cells = argv[++i];
     } else if (word == "--cell-limit" && has_value) {
       settings.cell_limit = static_cast<uint32_t>(std::atoi(argv[++i]));
     } else {

@@ -13,6 +13,8 @@
 
 #include <csgrun/primitives/mesh_file.h>
 
+#include "engine/bsp/job.h"
+#include "engine/bsp/octree.h"
 #include "engine/csg/quantise.h"
 
 namespace csgrun::bench {
@@ -110,9 +112,26 @@ std::shared_ptr<const BoundaryMesh> Run::evaluate(const std::vector<Operand>& op
     expression.children.push_back(i);
   }
   expression.nodes.push_back(root);
+  if (!settings_.write_cells.empty()) write_cells(operands, expression);
   return clock.timed(clock.op, [&] {
     return take(evaluate_boolean(operands, expression, region_, options, stats_));
   });
+}
+
+void Run::write_cells(const std::vector<Operand>& operands, const Expression& expression) const {
+  Job job(operands);
+  const Octree octree = build_octree(job, expression, region_, options);
+  std::FILE* file = std::fopen(settings_.write_cells.c_str(), "w");
+  if (!file) fail("cannot write " + settings_.write_cells);
+  const double step = step_.millimetres();
+  for (const CriticalCell& cell : octree.critical) {
+    const auto corner = [&](const IVec3& c) {
+      return fmt::format("{} {} {}", static_cast<double>(c[0]) * step,
+                         static_cast<double>(c[1]) * step, static_cast<double>(c[2]) * step);
+    };
+    std::fprintf(file, "%s %s\n", corner(cell.box.lo).c_str(), corner(cell.box.hi).c_str());
+  }
+  if (std::fclose(file) != 0) fail("cannot write " + settings_.write_cells);
 }
 
 PresentContext Run::context(bool measure) const {
@@ -140,6 +159,7 @@ void Run::finish(const BoundaryMesh& boundary, const std::string& extra) {
 
 void Run::print(const Solid& solid, double rss, const EvaluateStats& s,
                 const std::string& extra) const {
+  if (!settings_.write.empty()) write_off(settings_.write, solid.positions, solid.triangles);
   fmt::print(
       R"({{"name":"{}","threads":{},"n_in_tris":{},"n_out_tris":{},"import_s":{:.6f},"op_s":{:.6f},)"
       R"("export_s":{:.6f},"cpu_s":{:.6f},"rss_mb":{:.1f},"volume":{},"area":{},"closed":{},)"
@@ -184,6 +204,16 @@ PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets) {
   }
   mesh.keep_facets = keep_facets;
   return mesh;
+}
+
+void write_off(const std::string& path, const std::vector<glm::dvec3>& points,
+               const std::vector<std::array<uint32_t, 3>>& triangles) {
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  if (!file) fail("cannot write " + path);
+  std::fprintf(file, "OFF\n%zu %zu 0\n", points.size(), triangles.size());
+  for (const glm::dvec3& p : points) std::fprintf(file, "%.17g %.17g %.17g\n", p.x, p.y, p.z);
+  for (const auto& t : triangles) std::fprintf(file, "3 %u %u %u\n", t[0], t[1], t[2]);
+  if (std::fclose(file) != 0) fail("cannot write " + path);
 }
 
 RawMesh read_raw(const std::string& path) {

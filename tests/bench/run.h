@@ -2,6 +2,8 @@
 // what came out.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -51,6 +53,8 @@ struct Settings {
   unsigned threads = 1;
   int repeat = 1;
   uint32_t cell_limit = 17;  ///< m of Campen & Kobbelt 2010, section 4.1
+  std::string write;         ///< an OFF file for the result, in doubles
+  std::string write_cells;   ///< a file for the critical cells: lo and hi in mm, one a line
 };
 
 /// "rot statue.off 30": the words of a command without the folders of its files.
@@ -94,6 +98,7 @@ class Run {
 
  private:
   [[nodiscard]] PresentContext context(bool measure) const;
+  void write_cells(const std::vector<Operand>& operands, const Expression& expression) const;
 
   std::string name_;
   Settings settings_;
@@ -108,6 +113,9 @@ class Run {
 double reach_of(const std::vector<RawMesh>& meshes);
 double reach_of(const PolygonMesh& mesh);
 PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets);
+/// OFF with 17 digits: the doubles can be read back.
+void write_off(const std::string& path, const std::vector<glm::dvec3>& points,
+               const std::vector<std::array<uint32_t, 3>>& triangles);
 /// The triangles of a file, as they are.
 RawMesh read_raw(const std::string& path);
 /// The mesh of a file, which must be a closed solid.
