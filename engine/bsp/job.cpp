@@ -265,6 +265,12 @@ Point Job::exact(uint32_t vertex) const {
   return exact_of(o, vertex - sources_[o].first_vertex);
 }
 
+bool Job::is_below(uint32_t vertex, uint32_t other) const {
+  // Rounding keeps the order along each axis.
+  const double x = rounded_[vertex][0], y = rounded_[other][0];
+  return x != y ? x < y : vertex != other && compare(exact(vertex), exact(other)) < 0;
+}
+
 Point Job::exact_of(uint32_t o, uint32_t local) const {
   const Operand& operand = (*operands_)[o];
   const Source& source = sources_[o];

@@ -49,6 +49,8 @@ class Job {
   }
   [[nodiscard]] size_t vertex_count() const { return rounded_.size(); }
   [[nodiscard]] Point exact(uint32_t vertex) const;
+  /// Whether one vertex comes before another in the exact lexicographic order of their points.
+  [[nodiscard]] bool is_below(uint32_t vertex, uint32_t other) const;
   /// Three planes of this job that meet in the vertex, or ~0 thrice for a vertex of a leaf.
   [[nodiscard]] std::array<uint32_t, 3> vertex_planes(uint32_t vertex) const;
   [[nodiscard]] FaceLabel label(const JobPolygon& p) const;

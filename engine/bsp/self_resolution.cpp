@@ -25,6 +25,12 @@ class Resolution {
         rule_(rule),
         options_(options),
         stats_(stats) {
+    if (is_hull() && !job_.is_leaf(0)) {
+      // It may touch itself anywhere, and what touches parts volumes: every cell is solved.
+      std::fill(crosses_.begin(), crosses_.end(), 1);
+      patches_.patch_of.assign(crosses_.size(), kNone);
+      return;
+    }
     for (const auto& [f, g] : crossings) crosses_[f] = crosses_[g] = 1;
     patches_ = find_patches(job_, crossings, crosses_);
   }
@@ -32,20 +38,41 @@ class Resolution {
   [[nodiscard]] bool is_hull() const {
     return rule_ == InsideRule::kOuterHull || rule_ == InsideRule::kOrientedHull;
   }
-  [[nodiscard]] uint32_t class_count() const { return patches_.class_count; }
+  /// Whether the result of a hull may still be nested: one part in the filled void of another.
+  [[nodiscard]] bool may_be_nested() const { return is_hull() && patches_.class_count != 1; }
 
   Result<BoundaryPtr> run() {
-    if (is_hull()) {
-      if (Status status = solve_classes(); !status) return status.error();
-    } else {
-      std::vector<uint32_t> all(job_.polygons().size());
-      std::iota(all.begin(), all.end(), 0u);
-      if (Status status = solve(all, patches_.witness, kNone); !status) return status.error();
-    }
+    const Status status = !is_hull()          ? solve(all_polygons(), patches_.witness, kNone)
+                          : job_.is_leaf(0)   ? solve_classes()
+                                              : fill_voids();
+    if (!status) return status.error();
     return assemble(job_, sets_, whole_);
   }
 
  private:
+  [[nodiscard]] std::vector<uint32_t> all_polygons() const {
+    std::vector<uint32_t> all(job_.polygons().size());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+  }
+
+  Status fill_voids() {
+    const std::vector<uint32_t> all = all_polygons();
+    SurfaceCellsRequest request;
+    request.wall_edges = request.below_points = true;
+    for (;;) {
+      auto runs = solve_cells(all, {}, request);
+      if (!runs) return runs.error();
+      if (!crosses_in_wall(job_, *runs)) {
+        if (const auto labels = label_by_filling(job_, *runs)) {
+          for (size_t r = 0; r < runs->size(); ++r) keep_boundary((*runs)[r], labels->volumes[r]);
+          return std::monostate{};
+        }
+      }
+      job_.move_walls();
+    }
+  }
+
   /// Each class by itself: its surface hangs together.
   Status solve_classes() {
     std::vector<std::vector<uint32_t>> polygons(patches_.class_count);
@@ -71,25 +98,22 @@ class Resolution {
     uint32_t lowest = kNone;
     for (const uint32_t p : polygons) {
       for (const uint32_t v : job_.corners(job_.polygons()[p])) {
-        if (lowest == kNone || is_below(v, lowest)) lowest = v;
+        if (lowest == kNone || job_.is_below(v, lowest)) lowest = v;
       }
     }
     return lowest;
   }
-  /// Lexicographically; rounding keeps the order along each axis.
-  [[nodiscard]] bool is_below(uint32_t v, uint32_t w) const {
-    const double x = job_.rounded(v)[0], y = job_.rounded(w)[0];
-    return x != y ? x < y : v != w && compare(job_.exact(v), job_.exact(w)) < 0;
-  }
-
   /// Finds what is inside for some of the polygons and keeps the boundary.
   Status solve(const std::vector<uint32_t>& polygons, const std::vector<uint32_t>& witnesses,
                uint32_t lowest) {
-    auto runs = solve_cells(polygons, witnesses, lowest);
+    SurfaceCellsRequest request;
+    request.wall_edges = is_hull();
+    request.below_vertex = lowest;
+    auto runs = solve_cells(polygons, witnesses, request);
     while (runs && is_hull() && crosses_in_wall(job_, *runs)) {
       job_.move_walls();
       job_.keep_walls_off({&lowest, 1});
-      runs = solve_cells(polygons, witnesses, lowest);
+      runs = solve_cells(polygons, witnesses, request);
     }
     if (!runs) return runs.error();
     const auto labels =
@@ -109,9 +133,8 @@ class Resolution {
 
   Result<std::vector<SurfaceCells>> solve_cells(const std::vector<uint32_t>& polygons,
                                                 const std::vector<uint32_t>& witnesses,
-                                                uint32_t lowest) {
+                                                const SurfaceCellsRequest& request) {
     const SurfaceOctree tree = build_surface_octree(job_, polygons, crosses_, witnesses, options_);
-    const SurfaceCellsRequest request{is_hull(), lowest};
     return solve_surface_cells(job_, tree, patches_, request, options_, stats_);
   }
 
@@ -152,7 +175,7 @@ Result<BoundaryPtr> resolve_surface(const Operand& surface,
   const std::vector<Operand> operands{surface};
   Resolution resolution(operands, crossings, rule, options, stats);
   auto result = resolution.run();
-  if (!result || !resolution.is_hull() || resolution.class_count() < 2) return result;
+  if (!result || !resolution.may_be_nested()) return result;
   // The hulls of several classes are apart or one inside another: what is inside goes.
   Operand hulls;
   hulls.boundary = *result;

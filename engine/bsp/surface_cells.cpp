@@ -32,7 +32,16 @@ class SurfaceCellSolver {
     const auto& windings = arrangement_.windings();
     out.windings.insert(out.windings.end(), windings.begin(), windings.end());
     for (const CellArrangement::Part& part : arrangement_.parts()) add(part, base, walls, out);
-    if (request_.below_vertex != kNone) find_volume(walls, base, out);
+    if (request_.below_vertex != kNone) {
+      const uint32_t volume = volume_below(geometry_.vertex_point(request_.below_vertex), walls, base);
+      if (volume != kNone) out.vertex_volumes.push_back({request_.below_vertex, volume});
+    }
+    if (request_.below_points) {
+      out.below_point.resize(out.set.points.size(), kNone);
+      for (uint32_t p = 0; p < numbers_.size(); ++p) {
+        if (numbers_[p] != kNone) out.below_point[numbers_[p]] = volume_below(p, walls, base);
+      }
+    }
     return true;
   }
 
@@ -63,15 +72,12 @@ class SurfaceCellSolver {
     }
   }
 
-  /// The cell that holds the vertex knows the volume below it. No vertex that is asked for lies in a
-  /// wall.
-  void find_volume(const CellWalls& walls, uint32_t base, SurfaceCells& out) {
-    const uint32_t point = geometry_.vertex_point(request_.below_vertex);
+  /// The volume just below a point, or kNone for a point that the cell does not hold inside.
+  uint32_t volume_below(uint32_t point, const CellWalls& walls, uint32_t base) {
     for (size_t w = 0; w < walls.size(); ++w) {
-      if ((geometry_.side(walls[w], point) > 0) != (w % 2 == 0)) return;
+      if (geometry_.side(walls[w], point) != (w % 2 == 0 ? 1 : -1)) return kNone;
     }
-    out.vertex_volumes.push_back(
-        {request_.below_vertex, base + arrangement_.volume_below(geometry_, point)});
+    return base + arrangement_.volume_below(geometry_, point);
   }
 
   const Job& job_;

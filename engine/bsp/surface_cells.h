@@ -33,7 +33,7 @@ struct SurfaceCells {
     uint32_t from, to;  ///< FragmentSet::points
     uint32_t front, back;
   };
-  /// The volume just below (lexicographically) a vertex that was asked for.
+  /// The volume just below (lexicographically) a vertex.
   struct VertexVolume {
     uint32_t vertex, volume;
   };
@@ -43,12 +43,15 @@ struct SurfaceCells {
   std::vector<int32_t> windings;  ///< per volume
   std::vector<PatchSides> patches;
   std::vector<WallEdge> wall_edges;           ///< when asked for
-  std::vector<VertexVolume> vertex_volumes;   ///< when asked for
+  std::vector<VertexVolume> vertex_volumes;   ///< of a vertex that was asked for
+  /// When asked for, per point of the set: the volume just below it; kNone for a point in a wall.
+  std::vector<uint32_t> below_point;
 };
 
 struct SurfaceCellsRequest {
   bool wall_edges = false;
-  uint32_t below_vertex = kNone;  ///< a vertex of the job whose VertexVolume is wanted
+  uint32_t below_vertex = kNone;  ///< a vertex of the job whose volume is wanted
+  bool below_points = false;
 };
 
 /// Solves all cells of the octree; runs of cells in order, whatever number of threads.

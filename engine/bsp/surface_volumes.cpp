@@ -1,7 +1,6 @@
 #include "engine/bsp/surface_volumes.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 #include "engine/bsp/line_key.h"
@@ -113,6 +112,38 @@ class WallJoiner {
   std::vector<Edge> edges_;
 };
 
+/// All volumes of all runs, in sets of those that are one volume.
+class VolumeSets {
+ public:
+  /// Joined from cell to cell.
+  VolumeSets(const Job& job, const std::vector<SurfaceCells>& runs) : first_{0} {
+    for (const SurfaceCells& run : runs) {
+      first_.push_back(first_.back() + static_cast<uint32_t>(run.windings.size()));
+    }
+    sets_.reset(first_.back());
+    WallJoiner(job, runs, first_, sets_).join();
+  }
+
+  UnionFind& sets() { return sets_; }
+  [[nodiscard]] uint32_t count() const { return first_.back(); }
+  [[nodiscard]] uint32_t number(size_t run, uint32_t volume) const { return first_[run] + volume; }
+  uint32_t find(size_t run, uint32_t volume) { return sets_.find(number(run, volume)); }
+
+  template <class IsInside>
+  InsideLabels labels(IsInside&& is_inside) {
+    InsideLabels labels;
+    for (size_t r = 0; r + 1 < first_.size(); ++r) {
+      std::vector<uint8_t>& inside = labels.volumes.emplace_back();
+      for (uint32_t v = first_[r]; v < first_[r + 1]; ++v) inside.push_back(is_inside(sets_.find(v)));
+    }
+    return labels;
+  }
+
+ private:
+  std::vector<uint32_t> first_;  ///< per run: the number of its first volume
+  UnionFind sets_;
+};
+
 }  // namespace
 
 std::optional<InsideLabels> label_by_winding(const std::vector<SurfaceCells>& runs,
@@ -144,43 +175,82 @@ bool crosses_in_wall(const Job& job, const std::vector<SurfaceCells>& runs) {
   return std::adjacent_find(named.begin(), named.end()) != named.end();
 }
 
+std::optional<InsideLabels> label_by_filling(const Job& job,
+                                             const std::vector<SurfaceCells>& runs) {
+  VolumeSets volumes(job, runs);
+  // Of each set of volumes outside: the lowest point of its surface, which is no crossing of a wall, and
+  // the set below it.
+  struct Lowest {
+    const FragmentSet::NamedPoint* point = nullptr;
+    uint32_t below = kNone;
+  };
+  std::vector<Lowest> lowest(volumes.count());
+  const auto exact = [&](const FragmentSet::NamedPoint& p) {
+    const auto plane = [&](int i) -> const Plane& { return job.planes().plane(p.planes[i]); };
+    return intersect(plane(0), plane(1), plane(2));
+  };
+  for (size_t r = 0; r < runs.size(); ++r) {
+    const SurfaceCells& run = runs[r];
+    for (size_t i = 0; i < run.sides.size(); ++i) {
+      const FragmentSet::Piece& piece = run.set.pieces[i];
+      for (const uint32_t volume : {run.sides[i].front, run.sides[i].back}) {
+        if (run.windings[volume] != 0) continue;
+        Lowest& least = lowest[volumes.find(r, volume)];
+        for (uint32_t c = piece.first; c < piece.first + piece.count; ++c) {
+          const uint32_t number = run.set.corner_point[c];
+          const FragmentSet::NamedPoint& point = run.set.points[number];
+          if (least.point) {
+            // Rounding keeps the order along each axis.
+            const double step = point.rounded[0] - least.point->rounded[0];
+            if (step > 0 || (step == 0 && compare(exact(point), exact(*least.point)) >= 0)) continue;
+          }
+          const uint32_t below = run.below_point[number];
+          least = {&point, below == kNone ? kNone : volumes.find(r, below)};
+        }
+      }
+    }
+  }
+  std::vector<uint8_t> outside(volumes.count(), 0);
+  for (uint32_t set = 0; set < lowest.size(); ++set) {
+    if (!lowest[set].point) continue;
+    if (lowest[set].below == kNone) return std::nullopt;
+    outside[set] = lowest[set].below == set;
+  }
+  return volumes.labels([&](uint32_t set) { return !outside[set]; });
+}
+
 std::optional<InsideLabels> label_by_reach(const Job& job, const std::vector<SurfaceCells>& runs,
                                            size_t patch_count, uint32_t lowest, InsideRule rule) {
-  std::vector<uint32_t> first_volume{0};
-  for (const SurfaceCells& run : runs) {
-    first_volume.push_back(first_volume.back() + static_cast<uint32_t>(run.windings.size()));
-  }
-  const uint32_t count = first_volume.back();
-  UnionFind volumes(count);
-  WallJoiner(job, runs, first_volume, volumes).join();
+  VolumeSets volumes(job, runs);
   // The volumes on the two sides of each patch, where it was first seen.
   std::vector<std::array<uint32_t, 2>> sides_of_patch(patch_count, {kNone, kNone});
   uint32_t start = kNone;
   for (size_t r = 0; r < runs.size(); ++r) {
     for (const SurfaceCells::PatchSides& s : runs[r].patches) {
       auto& sides = sides_of_patch[s.patch];
-      const uint32_t front = first_volume[r] + s.front, back = first_volume[r] + s.back;
+      const uint32_t front = volumes.number(r, s.front), back = volumes.number(r, s.back);
       if (sides[0] == kNone) sides = {front, back};
-      volumes.join(sides[0], front);
-      volumes.join(sides[1], back);
+      volumes.sets().join(sides[0], front);
+      volumes.sets().join(sides[1], back);
     }
     for (const SurfaceCells::VertexVolume& v : runs[r].vertex_volumes) {
-      if (v.vertex == lowest) start = first_volume[r] + v.volume;
+      if (v.vertex == lowest) start = volumes.number(r, v.volume);
     }
   }
   if (start == kNone) return std::nullopt;
 
   // What lets one through: pieces that face nobody who comes from that side.
-  std::vector<uint8_t> reached(count, 0);
-  reached[volumes.find(start)] = 1;
+  std::vector<uint8_t> reached(volumes.count(), 0);
+  start = volumes.sets().find(start);
+  reached[start] = 1;
   if (rule == InsideRule::kOrientedHull) {
     std::vector<std::array<uint32_t, 2>> free;  ///< from one volume to another
     const auto add = [&](uint32_t from, uint32_t to) {
-      free.push_back({volumes.find(from), volumes.find(to)});
+      free.push_back({volumes.sets().find(from), volumes.sets().find(to)});
     };
     for (size_t r = 0; r < runs.size(); ++r) {
       for (const SurfaceCells::Sides& s : runs[r].sides) {
-        const uint32_t front = first_volume[r] + s.front, back = first_volume[r] + s.back;
+        const uint32_t front = volumes.number(r, s.front), back = volumes.number(r, s.back);
         if (!s.has_up) add(front, back);
         if (!s.has_down) add(back, front);
       }
@@ -190,7 +260,7 @@ std::optional<InsideLabels> label_by_reach(const Job& job, const std::vector<Sur
     }
     std::sort(free.begin(), free.end());
     free.erase(std::unique(free.begin(), free.end()), free.end());
-    std::vector<uint32_t> open{volumes.find(start)};
+    std::vector<uint32_t> open{start};
     while (!open.empty()) {
       const uint32_t from = open.back();
       open.pop_back();
@@ -202,14 +272,8 @@ std::optional<InsideLabels> label_by_reach(const Job& job, const std::vector<Sur
       }
     }
   }
-  InsideLabels labels;
+  InsideLabels labels = volumes.labels([&](uint32_t set) { return !reached[set]; });
   labels.patches.resize(patch_count);
-  for (size_t r = 0; r < runs.size(); ++r) {
-    std::vector<uint8_t>& inside = labels.volumes.emplace_back();
-    for (uint32_t v = first_volume[r]; v < first_volume[r + 1]; ++v) {
-      inside.push_back(!reached[volumes.find(v)]);
-    }
-  }
   if (!label_patches(runs, labels)) return std::nullopt;
   return labels;
 }

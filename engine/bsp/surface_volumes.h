@@ -38,4 +38,11 @@ bool crosses_in_wall(const Job& job, const std::vector<SurfaceCells>& runs);
 std::optional<InsideLabels> label_by_reach(const Job& job, const std::vector<SurfaceCells>& runs,
                                            size_t patch_count, uint32_t lowest, InsideRule rule);
 
+/// By kOuterHull, for a surface that may touch itself but nowhere crosses, and may hang together or
+/// not: what a boundary component of the outside encloses is filled if it is the outer one. What stands
+/// in a void that was filled keeps its own boundary. std::nullopt when the lowest vertex of a component
+/// lies in a wall. REQUIRES: no patches; all volumes below vertices were asked for;
+/// !crosses_in_wall(job, runs).
+std::optional<InsideLabels> label_by_filling(const Job& job, const std::vector<SurfaceCells>& runs);
+
 }  // namespace csgrun

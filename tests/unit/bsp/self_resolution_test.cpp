@@ -1,0 +1,193 @@
+// A mesh that is several solids at once, resolved, is a Boolean of these solids.
+#include "engine/bsp/self_resolution.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/mesh/face_pair.h"
+#include "tests/support/kernel_case.h"
+#include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
+
+namespace csgrun::test {
+namespace {
+
+std::vector<std::array<uint32_t, 2>> crossings_of(const LeafGeometry& leaf) {
+  FacePairs pairs(leaf);
+  std::vector<std::array<uint32_t, 2>> found;
+  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+    for (uint32_t g = f + 1; g < leaf.face_count(); ++g) {
+      if (pairs.boxes()[f].overlaps(pairs.boxes()[g]) && pairs.conflict(f, g)) {
+        found.push_back({f, g});
+      }
+    }
+  }
+  return found;
+}
+
+BoundaryResult resolved(const Operand& operand, InsideRule rule, const KernelOptions& options = {}) {
+  EvaluateStats stats;
+  std::vector<std::array<uint32_t, 2>> crossings;
+  if (operand.leaf) crossings = crossings_of(*operand.leaf);
+  return resolve_surface(operand, crossings, rule, options, stats);
+}
+
+/// The solids' Boolean, all faces labelled as from one source, as in one mesh.
+BoundaryResult combined(const std::vector<Operand>& solids, BooleanOp op) {
+  Expression expression;
+  for (uint32_t i = 0; i < solids.size(); ++i) {
+    Expression::Node node;
+    node.operand = i;
+    expression.nodes.push_back(node);
+    expression.children.push_back(i);
+  }
+  Expression::Node root;
+  root.is_operand = false;
+  root.op = op;
+  root.child_count = static_cast<uint32_t>(solids.size());
+  expression.nodes.push_back(root);
+  EvaluateStats stats;
+  return evaluate_boolean(solids, expression, region_of(solids), {}, stats);
+}
+
+std::string difference_of(const BoundaryResult& a, const BoundaryResult& b) {
+  if (!a) return "no result: " + a.error().message;
+  if (!b) return "no other result: " + b.error().message;
+  return difference_between(**a, **b, false);
+}
+
+struct Merged {
+  std::vector<Operand> solids;
+  Operand all;  ///< one leaf with the faces of all solids
+};
+
+Merged random_case(Random& random, bool turn_second) {
+  Merged m;
+  std::vector<Loop> loops;
+  const int64_t count = turn_second ? 2 : random.integer(2, 4);
+  const Frame frame = random.integer(0, 2) ? Frame{} : random_frame(random);
+  for (int64_t i = 0; i < count; ++i) {
+    auto own = random_loops(random, 4);
+    m.solids.push_back(operand_of(make_leaf(own)));
+    m.solids.back().frame = frame;
+    if (turn_second && i == 1) turn_over(own);
+    loops.insert(loops.end(), own.begin(), own.end());
+  }
+  m.all = operand_of(make_leaf(loops));
+  m.all.frame = frame;
+  return m;
+}
+
+KernelOptions random_options(Random& random) {
+  KernelOptions options;
+  options.cell_limit = static_cast<uint32_t>(random.integer(1, 40));
+  for (auto& s : options.octree_shift) s = static_cast<uint32_t>(random.integer(0, 5));
+  return options;
+}
+
+TEST(SelfResolution, SeveralSolidsInOneMeshAreTheirUnion) {
+  for (int i = 0; i < 300; ++i) {
+    Random random(1000 + i);
+    const Merged m = random_case(random, false);
+    const auto expected = combined(m.solids, BooleanOp::kUnion);
+    EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kNonZero, random_options(random)), expected),
+              "")
+        << "case " << i;
+    EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kPositive), expected), "") << "case " << i;
+  }
+}
+
+TEST(SelfResolution, EvenOddIsTheSymmetricDifference) {
+  for (int i = 0; i < 300; ++i) {
+    Random random(2000 + i);
+    const Merged m = random_case(random, false);
+    EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kEvenOdd, random_options(random)),
+                            combined(m.solids, BooleanOp::kSymmetricDifference)),
+              "")
+        << "case " << i;
+  }
+}
+
+TEST(SelfResolution, AnInvertedSolidIsTakenAway) {
+  for (int i = 0; i < 300; ++i) {
+    Random random(3000 + i);
+    const Merged m = random_case(random, true);
+    EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kPositive, random_options(random)),
+                            combined(m.solids, BooleanOp::kDifference)),
+              "")
+        << "case " << i;
+    EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kNonZero),
+                            combined(m.solids, BooleanOp::kSymmetricDifference)),
+              "")
+        << "case " << i;
+  }
+}
+
+// The hull of several solids in one mesh is that of their union, which has no more than voids to fill.
+TEST(SelfResolution, OuterHullFillsTheVoidsOfTheUnion) {
+  for (int i = 0; i < 300; ++i) {
+    Random random(4000 + i);
+    const Merged m = random_case(random, false);
+    auto united = combined(m.solids, BooleanOp::kUnion);
+    ASSERT_TRUE(united);
+    Operand simple;
+    simple.boundary = *united;
+    const auto expected = resolved(simple, InsideRule::kOuterHull, random_options(random));
+    EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kOuterHull, random_options(random)), expected),
+              "")
+        << "case " << i;
+    EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kOrientedHull, random_options(random)),
+                            expected),
+              "")
+        << "case " << i;
+  }
+}
+
+std::vector<Loop> boxes(const std::vector<std::array<IVec3, 2>>& list, std::vector<bool> turned) {
+  std::vector<Loop> loops;
+  for (size_t i = 0; i < list.size(); ++i) {
+    auto own = box_loops(list[i][0], list[i][1]);
+    if (turned[i]) turn_over(own);
+    loops.insert(loops.end(), own.begin(), own.end());
+  }
+  return loops;
+}
+
+TEST(SelfResolution, HullsOfNestedAndInvertedBoxes) {
+  const std::array<IVec3, 2> outer{IVec3{0, 0, 0}, {12, 12, 12}}, room{IVec3{2, 2, 2}, {10, 10, 10}},
+      ball{IVec3{4, 4, 4}, {6, 6, 6}}, corner{IVec3{8, 8, 8}, {16, 16, 16}};
+  const auto one = [](const std::array<IVec3, 2>& b) { return operand_of(box_leaf(b[0], b[1])); };
+  const auto mesh = [](const std::vector<std::array<IVec3, 2>>& list, std::vector<bool> turned) {
+    return operand_of(make_leaf(boxes(list, std::move(turned))));
+  };
+  const auto is = [](const Operand& surface, InsideRule rule, BooleanOp op,
+                     const std::vector<Operand>& solids) {
+    return difference_of(resolved(surface, rule), combined(solids, op));
+  };
+  const Operand o = one(outer), r = one(room), c = one(corner);
+  constexpr auto kUnion = BooleanOp::kUnion, kDifference = BooleanOp::kDifference;
+  // A room with a ball in it: filled, or kept by winding number.
+  const Operand house = mesh({outer, room, ball}, {false, true, false});
+  EXPECT_EQ(is(house, InsideRule::kOuterHull, kUnion, {o}), "");
+  EXPECT_EQ(is(house, InsideRule::kOrientedHull, kUnion, {o}), "");
+  EXPECT_EQ(is(house, InsideRule::kNonZero, BooleanOp::kSymmetricDifference, {o, r, one(ball)}), "");
+  // A box inside out that reaches out of another: the plain hull has both. What sticks out is free to
+  // enter from behind, but what both cover can be entered from neither side: it is a void.
+  const Operand notched = mesh({outer, corner}, {false, true});
+  EXPECT_EQ(is(notched, InsideRule::kOuterHull, kUnion, {o, c}), "");
+  EXPECT_EQ(is(notched, InsideRule::kOrientedHull, kUnion, {o}), "");
+  EXPECT_EQ(is(notched, InsideRule::kPositive, kDifference, {o, c}), "");
+  // Alone and inside out: nothing is left but for the plain hull.
+  const Operand turned = mesh({corner}, {true});
+  EXPECT_EQ(is(turned, InsideRule::kOuterHull, kUnion, {c}), "");
+  EXPECT_TRUE((*resolved(turned, InsideRule::kOrientedHull))->faces.empty());
+  EXPECT_TRUE((*resolved(turned, InsideRule::kPositive))->faces.empty());
+  EXPECT_EQ(is(turned, InsideRule::kNonZero, kUnion, {c}), "");
+  // Twice the same box: once, or nothing.
+  const Operand twice = mesh({outer, outer}, {false, false});
+  EXPECT_EQ(is(twice, InsideRule::kNonZero, kUnion, {o}), "");
+  EXPECT_EQ(is(twice, InsideRule::kOuterHull, kUnion, {o}), "");
+  EXPECT_TRUE((*resolved(twice, InsideRule::kEvenOdd))->faces.empty());
+}
+
+}  // namespace
+}  // namespace csgrun::test
