@@ -17,6 +17,7 @@
 #include "engine/bsp/kernel.h"
 #include "engine/mesh/boundary_volume.h"
 #include "tests/bench/exact_workloads.h"
+#include "tests/bench/hull_workloads.h"
 #include "tests/bench/models.h"
 #include "tests/bench/run.h"
 #include "tests/bench/workloads.h"
@@ -107,7 +108,7 @@ void run_boxes(const std::string& name, const Settings& settings) {
 
 constexpr const char* kUsage =
     "usage: csgbench WORKLOAD ARGS [--threads N] [--repeat R] [--cell-limit M] [--write OUT.off]\n"
-    "                [--write-cells OUT]\n"
+    "                [--write-inputs PREFIX] [--write-cells OUT]\n"
     "  rot FILE ANGLE       union with a copy turned about z (vertices turned)\n"
     "  rotframe FILE ANGLE  the same turn as a transform\n"
     "  chain N              block minus N spheres, one after another\n"
@@ -119,6 +120,8 @@ constexpr const char* kUsage =
     "  ulp FILE             less a copy shifted by one float32 unit in the last place\n"
     "  roundtrip FILE       through planes and BSPs, and back to the same vertices\n"
     "  pair A B SEED        all four operations of two files, B turned at random\n"
+    "  hull FILE            the outer hull of a surface that crosses itself\n"
+    "  front FILE STEPS     a surface moves along its normals, and splits and merges\n"
     "  model NAME FACES OUT.off\n"
     "                       writes a model: statue, beads, twins, ring, contortionist\n";
 
@@ -126,11 +129,7 @@ void write_model(const std::string& name, const std::string& faces, const std::s
   const PolygonMesh mesh =
       polygon_mesh(model(name, std::strtoull(faces.c_str(), nullptr, 10)), true);
   if (mesh.face_count() == 0) fail("there is no model '" + name + "'");
-  std::vector<std::array<uint32_t, 3>> triangles(mesh.face_count());
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    for (size_t k = 0; k < 3; ++k) triangles[t][k] = mesh.corners[3 * t + k];
-  }
-  write_off(path, mesh.points, triangles);
+  write_off(path, mesh.points, triangles_of(mesh));
 }
 
 void run_once(const std::vector<std::string>& words, const Settings& settings) {
@@ -167,6 +166,10 @@ void run_once(const std::vector<std::string>& words, const Settings& settings) {
     run_round_trip(name, settings, words[1]);
   } else if (workload == "pair" && words.size() == 4) {
     run_pair(name, settings, words[1], words[2], std::strtoull(words[3].c_str(), nullptr, 10));
+  } else if (workload == "hull" && words.size() == 2) {
+    run_hull(name, settings, words[1]);
+  } else if (workload == "front" && words.size() == 3) {
+    run_front(name, settings, words[1], number(2));
   } else if (workload == "model" && words.size() == 4) {
     write_model(words[1], words[2], words[3]);
   } else {
@@ -190,6 +193,8 @@ int main(int argc, char** argv) {
       settings.repeat = std::atoi(argv[++i]);
     } else if (word == "--write" && has_value) {
       settings.write = argv[++i];
+    } else if (word == "--write-inputs" && has_value) {
+      settings.write_inputs = argv[++i];
     } else if (word == "--write-cells" && has_value) {
       settings.write_cells = argv[++i];
     } else if (word == "--cell-limit" && has_value) {

@@ -97,15 +97,8 @@ std::vector<glm::dvec3> used_points(const PolygonMesh& mesh) {
 bool holds(const GridStep& step, const PolygonMesh& mesh) {
   if (!step_fits(step, reach_of(mesh), reach_of(mesh))) return false;
   const Quantiser quantise(step);
-  const auto on_grid = [&](double x) {
-    const auto n = quantise(x);
-    // Both factors are whole and below 2^53, so the quotient is rounded once.
-    return n && std::ldexp(static_cast<double>(*n * step.numerator) /
-                               static_cast<double>(step.denominator),
-                           step.exponent) == x;
-  };
   return std::all_of(mesh.points.begin(), mesh.points.end(), [&](const glm::dvec3& p) {
-    return on_grid(p.x) && on_grid(p.y) && on_grid(p.z);
+    return to_millimetres({*quantise(p.x), *quantise(p.y), *quantise(p.z)}, step) == p;
   });
 }
 
@@ -126,9 +119,7 @@ GridStep exact_grid(PolygonMesh& mesh, bool& snapped) {
   snapped = true;
   const Quantiser quantise(step);
   for (glm::dvec3& p : mesh.points) {
-    for (int k = 0; k < 3; ++k) {
-      p[k] = std::ldexp(static_cast<double>(*quantise(p[k])), kSnapExponent);
-    }
+    p = to_millimetres({*quantise(p.x), *quantise(p.y), *quantise(p.z)}, step);
   }
   return step;
 }

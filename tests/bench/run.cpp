@@ -75,6 +75,12 @@ Operand Run::import(const PolygonMesh& mesh, const std::vector<IVec3>& points) {
   for (size_t l = 0; l < mesh.loop_count(); ++l) {
     input_triangles_ += mesh.loop_starts[l + 1] - mesh.loop_starts[l] - 2;
   }
+  if (!settings_.write_inputs.empty()) {
+    std::vector<glm::dvec3> rounded;
+    for (const IVec3& p : points) rounded.push_back(to_millimetres(p, step_));
+    write_off(fmt::format("{}{}.off", settings_.write_inputs, sources_), rounded,
+              triangles_of(mesh));
+  }
   return clock.timed(clock.import, [&] {
     const std::vector<uint32_t> appearance(mesh.face_count(), 0);
     PreparedLeaf leaf = prepare_leaf(mesh, points, false, appearance);
@@ -175,6 +181,16 @@ void Run::print(const Solid& solid, double rss, const EvaluateStats& s,
   std::fflush(stdout);
 }
 
+glm::dvec3 to_millimetres(const IVec3& point, const GridStep& step) {
+  glm::dvec3 p;
+  for (size_t k = 0; k < 3; ++k) {
+    // Both are whole and below 2^53, so the quotient is rounded once.
+    const auto n = static_cast<double>(point[k] * step.numerator);
+    p[static_cast<int>(k)] = std::ldexp(n / static_cast<double>(step.denominator), step.exponent);
+  }
+  return p;
+}
+
 double reach_of(const std::vector<RawMesh>& meshes) {
   double reach = 0;
   for (const RawMesh& m : meshes) {
@@ -206,6 +222,17 @@ PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets) {
   return mesh;
 }
 
+std::vector<std::array<uint32_t, 3>> triangles_of(const PolygonMesh& mesh) {
+  std::vector<std::array<uint32_t, 3>> triangles;
+  for (size_t l = 0; l < mesh.loop_count(); ++l) {
+    const uint32_t first = mesh.loop_starts[l];
+    for (uint32_t c = first + 1; c + 1 < mesh.loop_starts[l + 1]; ++c) {
+      triangles.push_back({mesh.corners[first], mesh.corners[c], mesh.corners[c + 1]});
+    }
+  }
+  return triangles;
+}
+
 void write_off(const std::string& path, const std::vector<glm::dvec3>& points,
                const std::vector<std::array<uint32_t, 3>>& triangles) {
   std::FILE* file = std::fopen(path.c_str(), "w");
@@ -220,12 +247,8 @@ RawMesh read_raw(const std::string& path) {
   const PolygonMesh mesh = take(read_mesh_file(path));
   RawMesh raw;
   for (const glm::dvec3& p : mesh.points) raw.points.insert(raw.points.end(), {p.x, p.y, p.z});
-  for (size_t l = 0; l < mesh.loop_count(); ++l) {
-    const uint32_t first = mesh.loop_starts[l];
-    for (uint32_t c = first + 1; c + 1 < mesh.loop_starts[l + 1]; ++c) {
-      raw.triangles.insert(raw.triangles.end(),
-                           {mesh.corners[first], mesh.corners[c], mesh.corners[c + 1]});
-    }
+  for (const auto& t : triangles_of(mesh)) {
+    raw.triangles.insert(raw.triangles.end(), t.begin(), t.end());
   }
   return raw;
 }

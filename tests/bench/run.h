@@ -54,6 +54,7 @@ struct Settings {
   int repeat = 1;
   uint32_t cell_limit = 17;  ///< m of Campen & Kobbelt 2010, section 4.1
   std::string write;         ///< an OFF file for the result, in doubles
+  std::string write_inputs;  ///< what the names of OFF files for the operands begin with
   std::string write_cells;   ///< a file for the critical cells: lo and hi in mm, one a line
 };
 
@@ -110,9 +111,13 @@ class Run {
   GridBox region_{{INT64_MAX, INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN, INT64_MIN}};
 };
 
+/// Whole steps in millimetres, rounded once: what the engine gives back for them.
+glm::dvec3 to_millimetres(const IVec3& point, const GridStep& step);
 double reach_of(const std::vector<RawMesh>& meshes);
 double reach_of(const PolygonMesh& mesh);
 PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets);
+/// Polygons as fans.
+std::vector<std::array<uint32_t, 3>> triangles_of(const PolygonMesh& mesh);
 /// OFF with 17 digits: the doubles can be read back.
 void write_off(const std::string& path, const std::vector<glm::dvec3>& points,
                const std::vector<std::array<uint32_t, 3>>& triangles);

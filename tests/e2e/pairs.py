@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Pairs of meshes from the wild, scaled to one box and turned at random: csgbench proves that all four
+operations are closed and that their volumes are exactly those of the identities.
+
+CSGRUN_PAIRS=500 asks for so many of all models; an ordinary run takes a few of the small ones.
+CSGRUN_FIRST_PAIR=n starts with the n-th, and each pair can be run alone: csgbench pair A B SEED.
+"""
+import json
+import os
+
+import support
+
+MODELS = ("c3_nefertiti.obj", "lg_armadillo.obj", "lg_bunny.off", "lg_decimated-knight.off",
+          "lg_elephant.obj", "lg_fandisk.off", "lg_fertility.off", "th_112932.stl",
+          "th_1514499.stl", "th_472042.stl", "th_65004.stl")
+SMALL = ("lg_bunny.off", "lg_decimated-knight.off", "lg_fandisk.off", "th_472042.stl",
+         "th_65004.stl")
+FEW = 5
+
+
+def pairs():
+    """(A, B, seed): every model meets every other and itself before a pair comes again, turned
+    otherwise."""
+    asked = os.environ.get("CSGRUN_PAIRS")
+    models = MODELS if asked else SMALL
+    first = int(os.environ.get("CSGRUN_FIRST_PAIR", "0"))
+    for k in range(first, first + int(asked or FEW)):
+        offset = k // len(models)
+        yield models[k % len(models)], models[(k + 1 + offset) % len(models)], k + 1
+
+
+class Pairs(support.Case):
+
+    @support.needs_shared("meshes")
+    def test_identities_of_turned_pairs(self):
+        folder = support.SHARED / "meshes"
+        for a, b, seed in pairs():
+            with self.subTest(a=a, b=b, seed=seed):
+                done = support.run(support.BENCHMARK, "pair", folder / a, folder / b, seed)
+                print(done.stdout or f"pair {a} {b} {seed}: {done.stderr}", end="", flush=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                result = json.loads(done.stdout)
+                self.assertTrue(result["closed"])
+                self.assertTrue(result["counters"]["identities_exact"])
+
+
+class Shifts(support.Case):
+    """The smallest shift there is, and the way through planes and back."""
+
+    @support.needs_shared("meshes")
+    def test_a_mesh_less_a_copy_that_is_shifted_by_one_unit_in_the_last_place(self):
+        for name in SMALL:
+            with self.subTest(name):
+                done = support.run(support.BENCHMARK, "ulp", support.SHARED / "meshes" / name)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                result = json.loads(done.stdout)
+                self.assertTrue(result["closed"])
+                self.assertGreater(result["volume"], 0)
+                self.assertTrue(result["counters"]["volume_exact"])
+
+    @support.needs_shared("meshes")
+    def test_no_vertex_moves_on_the_way_through_planes_and_back(self):
+        for name in SMALL[:2]:
+            with self.subTest(name):
+                done = support.run(support.BENCHMARK, "roundtrip", support.SHARED / "meshes" / name)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(json.loads(done.stdout)["counters"]["hausdorff_mm"], 0)
+
+
+if __name__ == "__main__":
+    support.main()
