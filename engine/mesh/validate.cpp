@@ -1,13 +1,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include <csgrun/engine/validate.h>
+
+#include "engine/mesh/area_sum.h"
+#include "engine/mesh/mesh_text.h"
 
 namespace csgrun {
 namespace {
@@ -18,17 +20,6 @@ constexpr const char* kMisoriented = "edge with faces of opposite orientation ";
 constexpr const char* kDegenerate = "degenerate face ";
 constexpr const char* kBadIndex = "bad index ";
 constexpr const char* kNonFinite = "point that is not finite ";
-
-/// The shortest text that reads back as the same number.
-std::string number(double x) {
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x).ptr;
-  return {buffer.data(), end};
-}
-
-std::string place(const glm::dvec3& p) {
-  return "(" + number(p.x) + ", " + number(p.y) + ", " + number(p.z) + ")";
-}
 
 class Places {
  public:
@@ -64,26 +55,12 @@ bool loop_is_degenerate(const PolygonMesh& mesh, uint32_t begin, uint32_t end) {
 
 /// Whether the vector area of a face is nothing but rounding.
 bool has_no_area(const PolygonMesh& mesh, uint32_t face) {
-  const glm::dvec3 origin = mesh.points[mesh.corners[mesh.loop_starts[mesh.face_starts[face]]]];
-  glm::dvec3 area(0), magnitude(0);
+  AreaSum area(mesh.points, mesh.corners[mesh.loop_starts[mesh.face_starts[face]]]);
   for (uint32_t l = mesh.face_starts[face]; l < mesh.face_starts[face + 1]; ++l) {
-    const uint32_t begin = mesh.loop_starts[l], end = mesh.loop_starts[l + 1];
-    for (uint32_t i = begin; i < end; ++i) {
-      const glm::dvec3 p = mesh.points[mesh.corners[i]] - origin;
-      const glm::dvec3 q = mesh.points[mesh.corners[i + 1 < end ? i + 1 : begin]] - origin;
-      for (int k = 0; k < 3; ++k) {
-        const int u = (k + 1) % 3, v = (k + 2) % 3;
-        area[k] += p[u] * q[v] - p[v] * q[u];
-        magnitude[k] += std::fabs(p[u] * q[v]) + std::fabs(p[v] * q[u]);
-      }
-    }
+    area.add_loop({mesh.corners.data() + mesh.loop_starts[l],
+                   mesh.corners.data() + mesh.loop_starts[l + 1]});
   }
-  for (int k = 0; k < 3; ++k) {
-    // Differences and products are rounded: 4 half units each; the sum's rounding is left out, it
-    // matters for faces of thousands of corners only, whose area is never that small.
-    if (std::fabs(area[k]) > 0x1p-51 * magnitude[k]) return false;
-  }
-  return true;
+  return area.is_rounding();
 }
 
 std::string face_text(const PolygonMesh& mesh, uint32_t face) {
@@ -91,7 +68,7 @@ std::string face_text(const PolygonMesh& mesh, uint32_t face) {
   const uint32_t begin = mesh.loop_starts[mesh.face_starts[face]];
   const uint32_t end = mesh.loop_starts[mesh.face_starts[face + 1]];
   if (begin == end) return std::to_string(face) + " without corners";
-  return text + place(mesh.points[mesh.corners[begin]]);
+  return text + place_text(mesh.points[mesh.corners[begin]]);
 }
 
 struct DirectedEdge {
@@ -194,7 +171,7 @@ MeshReport check_mesh(const PolygonMesh& mesh) {
     const glm::dvec3& p = mesh.points[i];
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
     ++report.non_finite_points;
-    if (infinite.wanted()) infinite.add(kNonFinite + std::to_string(i) + " " + place(p));
+    if (infinite.wanted()) infinite.add(kNonFinite + std::to_string(i) + " " + place_text(p));
   }
   for (uint32_t f = 0; f < mesh.face_count(); ++f) {
     const uint32_t first = mesh.face_starts[f], last = mesh.face_starts[f + 1];
@@ -220,7 +197,7 @@ MeshReport check_mesh(const PolygonMesh& mesh) {
   // left over has no partner at all.
   const std::vector<UnbalancedEdge> edges = unbalanced_edges(mesh);
   const auto edge_text = [&](const UnbalancedEdge& e) {
-    return place(mesh.points[e.from]) + " - " + place(mesh.points[e.to]);
+    return place_text(mesh.points[e.from]) + " - " + place_text(mesh.points[e.to]);
   };
   for (const UnbalancedEdge& e : edges) {
     if (e.excess % 2 == 0) continue;

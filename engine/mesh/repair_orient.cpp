@@ -1,0 +1,195 @@
+// Repair of orientation: faces agree with their neighbours, surfaces face outwards.
+#include <algorithm>
+#include <span>
+
+#include "engine/mesh/box_tree.h"
+#include "engine/mesh/mesh_text.h"
+#include "engine/mesh/repair_patches.h"
+#include "engine/mesh/repair_steps.h"
+
+namespace csgrun {
+namespace {
+
+constexpr uint32_t kNone = UINT32_MAX;
+
+void turn(LoopFace& face) {
+  for (auto& loop : face.loops) std::reverse(loop.begin(), loop.end());
+}
+
+std::string edge_text(const RepairMesh& mesh, uint32_t low, uint32_t high) {
+  return place_text(mesh.points[low]) + " - " + place_text(mesh.points[high]);
+}
+
+/// Surfaces that are balanced each on its own: patches, joined where they balance each other.
+struct Surfaces {
+  std::vector<uint32_t> of_face;
+  uint32_t count = 0;
+};
+
+Surfaces find_surfaces(const RepairMesh& mesh) {
+  const EdgeUses edges(mesh.faces, mesh.points.size());
+  const Patches patches = find_patches(mesh.faces, edges);
+  std::vector<uint32_t> parent(patches.count);
+  for (uint32_t p = 0; p < patches.count; ++p) parent[p] = p;
+  const auto root = [&](uint32_t p) {
+    while (parent[p] != p) p = parent[p] = parent[parent[p]];
+    return p;
+  };
+  for (const Junction& junction : find_junctions(patches, edges)) {
+    const uint32_t first = root(junction.left[0].first);
+    for (const auto& [patch, left] : junction.left) parent[root(patch)] = first;
+  }
+  Surfaces surfaces;
+  std::vector<uint32_t> number(patches.count, kNone);
+  for (const uint32_t patch : patches.of_face) {
+    uint32_t& n = number[root(patch)];
+    if (n == kNone) n = surfaces.count++;
+    surfaces.of_face.push_back(n);
+  }
+  return surfaces;
+}
+
+/// The side of a point on the line through two others, all seen along Z: which one it is must not
+/// depend on the direction of the edge, and is never 0.
+int side_seen_along_z(const std::vector<glm::dvec3>& points, uint32_t a, uint32_t b,
+                      const glm::dvec3& p) {
+  if (a > b) return -side_seen_along_z(points, b, a, p);
+  const glm::dvec3 &q = points[a], &r = points[b];
+  const double area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+  if (area != 0) return area > 0 ? 1 : -1;
+  // The point a little to the right, and much less upwards.
+  if (q.y != r.y) return q.y < r.y ? -1 : 1;
+  return q.x <= r.x ? 1 : -1;
+}
+
+class Nesting {
+ public:
+  Nesting(const RepairMesh& mesh, const Surfaces& surfaces)
+      : mesh_(mesh), faces_(surfaces.count), boxes_(surfaces.count), volume_(surfaces.count, 0) {
+    for (uint32_t f = 0; f < mesh.faces.size(); ++f) faces_[surfaces.of_face[f]].push_back(f);
+    for (uint32_t s = 0; s < surfaces.count; ++s) measure(s);
+  }
+
+  [[nodiscard]] double volume(uint32_t s) const { return volume_[s]; }
+
+  /// Whether surface `outer` winds around a point of surface `inner`.
+  [[nodiscard]] bool encloses(uint32_t outer, uint32_t inner) const {
+    for (int i = 0; i < 3; ++i) {
+      if (!(boxes_[outer].lo[i] < boxes_[inner].lo[i] && boxes_[inner].hi[i] < boxes_[outer].hi[i]))
+        return false;
+    }
+    return winding(outer, mesh_.points[mesh_.faces[faces_[inner][0]].loops[0][0]]) != 0;
+  }
+
+  [[nodiscard]] const std::vector<uint32_t>& faces(uint32_t s) const { return faces_[s]; }
+
+ private:
+  template <class Visit>
+  void for_each_triangle(uint32_t s, Visit visit) const {
+    for (const uint32_t f : faces_[s]) {
+      for (const auto& loop : mesh_.faces[f].loops) {
+        for (size_t i = 1; i + 1 < loop.size(); ++i) visit(loop[0], loop[i], loop[i + 1]);
+      }
+    }
+  }
+
+  void measure(uint32_t s) {
+    const glm::dvec3 origin = mesh_.points[mesh_.faces[faces_[s][0]].loops[0][0]];
+    boxes_[s] = {{origin.x, origin.y, origin.z}, {origin.x, origin.y, origin.z}};
+    for_each_triangle(s, [&](uint32_t i, uint32_t j, uint32_t k) {
+      for (const uint32_t v : {i, j, k}) {
+        const glm::dvec3& p = mesh_.points[v];
+        boxes_[s].include({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
+      }
+      const glm::dvec3 a = mesh_.points[i] - origin, b = mesh_.points[j] - origin,
+                       c = mesh_.points[k] - origin;
+      volume_[s] += a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
+                    a.z * (b.x * c.y - b.y * c.x);
+    });
+  }
+
+  /// How often the surface is met above a point, upwards less downwards: its winding number. Points
+  /// on it and within rounding of it may count either way.
+  [[nodiscard]] int64_t winding(uint32_t s, const glm::dvec3& p) const {
+    int64_t sum = 0;
+    for_each_triangle(s, [&](uint32_t i, uint32_t j, uint32_t k) {
+      const int side = side_seen_along_z(mesh_.points, i, j, p);
+      if (side_seen_along_z(mesh_.points, j, k, p) != side ||
+          side_seen_along_z(mesh_.points, k, i, p) != side) {
+        return;
+      }
+      const glm::dvec3 a = mesh_.points[i] - p, b = mesh_.points[j] - p, c = mesh_.points[k] - p;
+      const double above = a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
+                           a.z * (b.x * c.y - b.y * c.x);
+      if (above * side > 0) sum += side;
+    });
+    return sum;
+  }
+
+  const RepairMesh& mesh_;
+  std::vector<std::vector<uint32_t>> faces_;
+  std::vector<Box> boxes_;
+  std::vector<double> volume_;
+};
+
+}  // namespace
+
+Status orient_faces(RepairMesh& mesh, StepNote& note) {
+  const EdgeUses edges(mesh.faces, mesh.points.size());
+  const Patches patches = find_patches(mesh.faces, edges);
+  if (patches.twisted) {
+    return Error{ErrorCode::kInvalidMesh,
+                 "the surface has one side only, like a Moebius strip, and no orientation: around "
+                 "it faces disagree at the edge " +
+                     edge_text(mesh, patches.twisted->first, patches.twisted->second),
+                 {}};
+  }
+  const std::vector<Junction> junctions = find_junctions(patches, edges);
+  const Junction* failed = nullptr;
+  const auto turned = balance_junctions(patches.count, junctions, &failed);
+  if (!turned) {
+    return Error{ErrorCode::kInvalidMesh,
+                 "no orientation of the surfaces that meet in edges of more than two faces makes "
+                 "them agree: tried in vain at the edge " +
+                     edge_text(mesh, failed->low, failed->high),
+                 {}};
+  }
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    if (patches.turned[f] == (*turned)[patches.of_face[f]]) continue;
+    note.add_at(mesh.points[mesh.faces[f].loops[0][0]]);
+    turn(mesh.faces[f]);
+  }
+  return std::monostate{};
+}
+
+void orient_outwards(RepairMesh& mesh, StepNote& note) {
+  const Surfaces surfaces = find_surfaces(mesh);
+  const Nesting nesting(mesh, surfaces);
+  std::vector<uint32_t> inverted;
+  for (uint32_t s = 0; s < surfaces.count; ++s) {
+    if (nesting.volume(s) < 0) inverted.push_back(s);
+  }
+  if (inverted.empty()) return;
+  std::vector<bool> turned(surfaces.count, false);
+  for (const uint32_t s : inverted) {
+    bool is_outermost = true;
+    for (uint32_t o = 0; o < surfaces.count && is_outermost; ++o) {
+      is_outermost = o == s || !nesting.encloses(o, s);
+    }
+    turned[s] = is_outermost;
+  }
+  const std::vector<bool> outermost = turned;
+  for (const uint32_t s : inverted) {
+    if (!outermost[s]) continue;
+    for (uint32_t inner = 0; inner < surfaces.count; ++inner) {
+      if (inner != s && !turned[inner] && nesting.encloses(s, inner)) turned[inner] = true;
+    }
+  }
+  for (uint32_t s = 0; s < surfaces.count; ++s) {
+    if (!turned[s]) continue;
+    note.add_at(mesh.points[mesh.faces[nesting.faces(s)[0]].loops[0][0]]);
+    for (const uint32_t f : nesting.faces(s)) turn(mesh.faces[f]);
+  }
+}
+
+}  // namespace csgrun

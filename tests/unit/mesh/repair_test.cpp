@@ -1,0 +1,528 @@
+// Repair against independent truths: meshes damaged in known ways come back with their volume.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <csgrun/engine/repair.h>
+#include <csgrun/engine/validate.h>
+
+#include "tests/support/seeded.h"
+
+namespace csgrun::test {
+namespace {
+
+using Face = std::vector<uint32_t>;
+
+/// Points and faces of one loop, as a file has them.
+struct Soup {
+  std::vector<glm::dvec3> points;
+  std::vector<Face> faces;
+
+  [[nodiscard]] PolygonMesh mesh() const {
+    PolygonMesh result;
+    result.points = points;
+    for (const Face& face : faces) result.add_face(face);
+    return result;
+  }
+  void add(const Soup& other) {
+    const auto base = static_cast<uint32_t>(points.size());
+    points.insert(points.end(), other.points.begin(), other.points.end());
+    for (Face face : other.faces) {
+      for (uint32_t& v : face) v += base;
+      faces.push_back(face);
+    }
+  }
+  void turn() {
+    for (Face& face : faces) std::reverse(face.begin(), face.end());
+  }
+};
+
+Soup box(const glm::dvec3& lo, const glm::dvec3& hi) {
+  Soup soup;
+  for (int i = 0; i < 8; ++i) {
+    soup.points.push_back({i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z});
+  }
+  soup.faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
+  return soup;
+}
+
+Soup cube() { return box({0, 0, 0}, {1, 1, 1}); }
+
+/// Every face with points of its own.
+Soup unwelded(const Soup& soup) {
+  Soup result;
+  for (const Face& face : soup.faces) {
+    Face own;
+    for (const uint32_t v : face) {
+      own.push_back(static_cast<uint32_t>(result.points.size()));
+      result.points.push_back(soup.points[v]);
+    }
+    result.faces.push_back(own);
+  }
+  return result;
+}
+
+/// A surface of boxes of a grid, triangulated: the cells are those of a random connected walk, so
+/// that there are handles, edges in contact and voids. Its volume is the number of cells.
+Soup random_cells(Random& random, int size, int count, int64_t& volume) {
+  std::set<std::array<int, 3>> cells{{size / 2, size / 2, size / 2}};
+  std::array<int, 3> at = *cells.begin();
+  for (int i = 0; i < count; ++i) {
+    std::array<int, 3> next = at;
+    next[random.integer(0, 2)] += random.integer(0, 1) == 0 ? 1 : -1;
+    const bool inside =
+        std::all_of(next.begin(), next.end(), [&](int c) { return c >= 0 && c < size; });
+    if (inside) at = next;
+    cells.insert(at);
+  }
+  volume = static_cast<int64_t>(cells.size());
+  Soup soup;
+  std::map<std::array<int, 3>, uint32_t> number;
+  const auto point = [&](const std::array<int, 3>& p) {
+    const auto [found, is_new] = number.emplace(p, static_cast<uint32_t>(soup.points.size()));
+    if (is_new) soup.points.emplace_back(p[0], p[1], p[2]);
+    return found->second;
+  };
+  for (const auto& cell : cells) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int side : {0, 1}) {
+        std::array<int, 3> beyond = cell;
+        beyond[axis] += side == 1 ? 1 : -1;
+        if (cells.count(beyond) > 0) continue;
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        std::array<std::array<int, 3>, 4> q;
+        for (int k = 0; k < 4; ++k) {
+          q[k] = cell;
+          q[k][axis] += side;
+          q[k][u] += k == 1 || k == 2;
+          q[k][v] += k >= 2;
+        }
+        Face face{point(q[0]), point(q[1]), point(q[2]), point(q[3])};
+        if (side == 0) std::reverse(face.begin(), face.end());
+        std::rotate(face.begin(), face.begin() + random.integer(0, 3), face.end());
+        soup.faces.push_back({face[0], face[1], face[2]});
+        soup.faces.push_back({face[0], face[2], face[3]});
+      }
+    }
+  }
+  return soup;
+}
+
+/// Whether every directed edge occurs as often as its reverse; written anew here.
+bool is_balanced(const PolygonMesh& mesh) {
+  std::map<std::pair<uint32_t, uint32_t>, int> balance;
+  for (size_t l = 0; l < mesh.loop_count(); ++l) {
+    const uint32_t begin = mesh.loop_starts[l], end = mesh.loop_starts[l + 1];
+    for (uint32_t i = begin; i < end; ++i) {
+      const uint32_t a = mesh.corners[i], b = mesh.corners[i + 1 < end ? i + 1 : begin];
+      if (a == b) return false;
+      balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+  }
+  return std::all_of(balance.begin(), balance.end(), [](const auto& e) { return e.second == 0; });
+}
+
+std::vector<std::string> lines(const RepairReport& report) {
+  std::vector<std::string> result;
+  for (const RepairStep& step : report.steps) result.push_back(step.text());
+  return result;
+}
+
+using Lines = std::vector<std::string>;
+
+/// Repairs; the result must be closed. Its volume.
+double repaired_volume(const Soup& soup, const RepairOptions& options, Lines* said = nullptr) {
+  RepairReport report;
+  const Result<PolygonMesh> mesh = repair_mesh(soup.mesh(), options, &report);
+  EXPECT_TRUE(mesh) << mesh.error().message;
+  if (!mesh) return 0;
+  EXPECT_TRUE(is_balanced(*mesh));
+  if (said != nullptr) *said = lines(report);
+  return signed_volume(*mesh);
+}
+
+std::string refusal(const Soup& soup, const RepairOptions& options) {
+  const Result<PolygonMesh> mesh = repair_mesh(soup.mesh(), options, nullptr);
+  EXPECT_FALSE(mesh);
+  if (mesh) return {};
+  EXPECT_EQ(mesh.error().code, ErrorCode::kInvalidMesh);
+  return mesh.error().message;
+}
+
+RepairOptions filling() {
+  RepairOptions options;
+  options.fill_holes = true;
+  return options;
+}
+
+TEST(Repair, SoundMeshStaysAsItIs) {
+  const Soup soup = cube();
+  RepairReport report;
+  const Result<PolygonMesh> mesh = repair_mesh(soup.mesh(), {}, &report);
+  ASSERT_TRUE(mesh);
+  EXPECT_EQ(lines(report), Lines{});
+  EXPECT_EQ(mesh->corners, soup.mesh().corners);
+  EXPECT_EQ(mesh->points, soup.points);
+}
+
+TEST(Repair, PointsOfEqualCoordinates) {
+  Lines said;
+  EXPECT_EQ(repaired_volume(unwelded(cube()), {}, &said), 1);
+  EXPECT_EQ(said,
+            (Lines{"16 points were welded to another of equal coordinates (first: at (0, 0, 0), "
+                   "at (1, 0, 0), at (1, 0, 1))"}));
+}
+
+TEST(Repair, PointsThatAreNear) {
+  Soup soup = unwelded(cube());
+  Random random(1);
+  for (glm::dvec3& p : soup.points) {
+    for (int i = 0; i < 3; ++i) p[i] += 1e-4 * (random.unit() - 0.5);
+  }
+  EXPECT_EQ(refusal(soup, {}).substr(0, 25), "not closed: 24 open edges");
+  RepairOptions options;
+  options.weld = 1e-3;
+  Lines said;
+  EXPECT_NEAR(repaired_volume(soup, options, &said), 1, 1e-3);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].substr(0, 51), "16 points were welded to another within 0.001 mm (f");
+}
+
+TEST(Repair, FacesTurned) {
+  Soup soup = cube();
+  std::reverse(soup.faces[4].begin(), soup.faces[4].end());
+  Lines said;
+  EXPECT_EQ(repaired_volume(soup, {}, &said), 1);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].substr(0, 46), "1 face was turned to agree with its neighbours");
+  RepairOptions options;
+  options.orient = false;
+  EXPECT_EQ(refusal(soup, options),
+            "faces disagree at the edge (0, 1, 0) - (1, 1, 0); orient would turn them");
+}
+
+TEST(Repair, HoleOfACube) {
+  for (size_t missing = 0; missing < 6; ++missing) {
+    Soup soup = cube();
+    soup.faces.erase(soup.faces.begin() + static_cast<std::ptrdiff_t>(missing));
+    EXPECT_EQ(refusal(soup, {}).substr(0, 41), "not closed: 4 open edges in 1 hole of 4 e");
+    Lines said;
+    EXPECT_EQ(repaired_volume(soup, filling(), &said), 1);
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_EQ(said[0].substr(0, 42), "1 hole was filled with 2 faces (4 edges at");
+  }
+  Soup soup = cube();
+  soup.faces.pop_back();
+  EXPECT_EQ(
+      refusal(soup, {}),
+      "not closed: 4 open edges in 1 hole of 4 edges at (0, 0.5, 0.5); fill_holes would close it");
+}
+
+TEST(Repair, OppositeHolesAndDuplicates) {
+  Soup soup = cube();
+  soup.faces.erase(soup.faces.begin(), soup.faces.begin() + 2);  // bottom and top
+  soup.faces.push_back(soup.faces[0]);
+  soup.faces.push_back({soup.faces[1].rbegin(), soup.faces[1].rend()});
+  Lines said;
+  EXPECT_EQ(repaired_volume(soup, filling(), &said), 1);
+  ASSERT_EQ(said.size(), 2u);
+  EXPECT_EQ(said[0].substr(0, 40), "2 holes were filled with 4 faces (4 edge");
+  EXPECT_EQ(said[1].substr(0, 50), "2 faces on the same points as others were dropped ");
+}
+
+TEST(Repair, DegenerateFaces) {
+  Soup soup = cube();
+  soup.faces.push_back({0, 1, 0});
+  soup.faces.push_back({2, 2, 3});
+  Lines said;
+  EXPECT_EQ(repaired_volume(soup, {}, &said), 1);
+  EXPECT_EQ(said, Lines{"2 faces without area were dropped (at (0, 0, 0), at (0, 1, 0))"});
+}
+
+TEST(Repair, FaceOnALineHoldsNeighboursTogether) {
+  // The edge from 0 to 1 of the bottom meets two edges of the front, across a triangle on a line.
+  Soup soup = cube();
+  soup.points.push_back({0.5, 0, 0});
+  soup.faces[2] = {0, 8, 1, 5, 4};
+  soup.faces.push_back({0, 1, 8});
+  EXPECT_TRUE(is_balanced(soup.mesh()));
+  Lines said;
+  EXPECT_EQ(repaired_volume(soup, {}, &said), 1);
+  EXPECT_EQ(said, Lines{"1 face without area was dropped (at (0, 0, 0))"});
+}
+
+TEST(Repair, TJunction) {
+  Soup soup = cube();
+  soup.points.push_back({0.25, 0, 0});
+  soup.points.push_back({0.75, 0, 0});
+  soup.faces[2] = {0, 8, 9, 1, 5, 4};
+  Lines said;
+  EXPECT_EQ(repaired_volume(soup, {}, &said), 1);
+  EXPECT_EQ(said, Lines{"1 open edge was split at points on it ((0, 0, 0) - (1, 0, 0))"});
+}
+
+TEST(Repair, FinAndInnerWall) {
+  Soup soup = cube();
+  soup.points.push_back({2, 0, 0.5});
+  soup.faces.push_back({1, 5, 8});  // a fin on the edge from 1 to 5
+  EXPECT_EQ(repaired_volume(soup, filling()), 1);
+
+  // Two rooms with a wall between them: edges of three faces.
+  Soup rooms = cube();
+  rooms.points.insert(rooms.points.end(), {{2, 0, 0}, {2, 1, 0}, {2, 0, 1}, {2, 1, 1}});
+  rooms.faces.insert(rooms.faces.end(),
+                     {{1, 3, 9, 8}, {5, 10, 11, 7}, {1, 8, 10, 5}, {9, 3, 7, 11}, {8, 9, 11, 10}});
+  EXPECT_EQ(refusal(rooms, {}).substr(0, 11), "not closed:");
+  EXPECT_EQ(repaired_volume(rooms, filling()), 2);
+}
+
+TEST(Repair, SurfacesInsideOut) {
+  Soup soup = box({0, 0, 0}, {4, 4, 4});
+  Soup inner = box({1, 1, 1}, {2, 2, 2});
+  inner.turn();
+  soup.add(inner);                        // a void
+  soup.add(box({10, 0, 0}, {11, 1, 1}));  // a body beside it
+  Lines said;
+  EXPECT_EQ(repaired_volume(soup, {}, &said), 64);
+  EXPECT_EQ(said, Lines{});
+
+  Soup all = soup;
+  all.turn();
+  EXPECT_EQ(repaired_volume(all, {}, &said), 64);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(
+      said[0],
+      "3 surfaces that were inside out were turned over (at (0, 0, 4), at (1, 1, 1), at (10, 0, "
+      "1))")
+      << "places may be any of the surfaces' corners";
+
+  Soup beside = box({0, 0, 0}, {4, 4, 4});
+  Soup inverted = box({5, 0, 0}, {6, 1, 1});
+  inverted.turn();
+  beside.add(inverted);
+  EXPECT_EQ(repaired_volume(beside, {}, &said), 65);
+}
+
+TEST(Repair, MoebiusStripIsRefused) {
+  Soup soup;
+  for (int i = 0; i < 6; ++i) {
+    const double angle = i * 1.0471975511965976, half = angle / 2;
+    for (const double side : {-0.3, 0.3}) {
+      const double r = 1 + side * std::cos(half);
+      soup.points.push_back({r * std::cos(angle), r * std::sin(angle), side * std::sin(half)});
+    }
+  }
+  for (uint32_t i = 0; i < 5; ++i) soup.faces.push_back({2 * i, 2 * i + 1, 2 * i + 3, 2 * i + 2});
+  soup.faces.push_back({10, 11, 0, 1});
+  EXPECT_EQ(refusal(soup, filling()).substr(0, 77),
+            "the surface has one side only, like a Moebius strip, and no orientation: arou");
+}
+
+TEST(Repair, NothingToWorkOn) {
+  EXPECT_EQ(refusal({}, filling()), "nothing is left: no face bounds a solid");
+  Soup flat;
+  flat.points = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
+  flat.faces = {{0, 1, 2}, {0, 0, 0}};
+  EXPECT_EQ(refusal(flat, filling()), "nothing is left: no face bounds a solid");
+  Soup one = cube();
+  one.faces.resize(1);  // a sheet, closed by its own back
+  RepairOptions options = filling();
+  options.drop_duplicates = false;
+  EXPECT_EQ(repaired_volume(one, options), 0);
+}
+
+TEST(Repair, HostileNumbers) {
+  Soup soup = cube();
+  soup.faces[0][0] = 77;
+  EXPECT_EQ(refusal(soup, filling()), "cannot be repaired: 1 bad index (77 of 8 points)");
+  soup = cube();
+  soup.points[3].y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refusal(soup, filling()),
+            "cannot be repaired: 1 point that is not finite (3 (1, nan, 0))");
+  soup = cube();
+  soup.points[3].y = 1e200;
+  EXPECT_EQ(refusal(soup, filling()),
+            "cannot be repaired: coordinates beyond 1e100 mm at (1, 1e+200, 0)");
+  RepairOptions options;
+  options.weld = -1;
+  EXPECT_FALSE(repair_mesh(cube().mesh(), options, nullptr));
+  options.weld = 1e9;  // all points become one
+  EXPECT_EQ(repaired_volume(cube(), options), 1) << "nothing is open, so nothing is welded";
+}
+
+TEST(Repair, HolesThatMeetInAVertex) {
+  // Two corners of a cube's top are cut off as triangles that share a point: two loops of three.
+  Soup soup = cube();
+  soup.points.push_back({0.5, 0.5, 1});
+  soup.faces[1] = {4, 5, 8};
+  soup.faces.push_back({7, 6, 8});  // left open: 5 7 8 and 6 4 8
+  Lines said;
+  EXPECT_EQ(repaired_volume(soup, filling(), &said), 1);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(
+      said[0],
+      "2 holes were filled with 2 faces (3 edges at (0.25, 0.5, 1), 3 edges at (0.75, 0.5, 1))");
+}
+
+TEST(Repair, LongHolesArePlanarPolygons) {
+  // A drum of 600 sides without its top and bottom.
+  Soup soup;
+  const uint32_t n = 600;
+  double area = 0;
+  for (uint32_t i = 0; i < n; ++i) {
+    const double angle = i * (6.283185307179586 / n);
+    for (const double z : {0.0, 1.0}) soup.points.push_back({std::cos(angle), std::sin(angle), z});
+    const uint32_t j = (i + 1) % n;
+    soup.faces.push_back({2 * i, 2 * j, 2 * j + 1, 2 * i + 1});
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    const glm::dvec3 &p = soup.points[2 * i], &q = soup.points[2 * ((i + 1) % n)];
+    area += (p.x * q.y - p.y * q.x) / 2;
+  }
+  Lines said;
+  EXPECT_NEAR(repaired_volume(soup, filling(), &said), area, 1e-12);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].substr(0, 33), "2 holes were filled with 2 faces ");
+}
+
+/// Damages that repair undoes exactly: faces turned, doubled, doubled on their back, taken apart,
+/// spikes, and unused points.
+TEST(Repair, RandomDamageThatLosesNothing) {
+  Random random(7);
+  for (int round = 0; round < 300; ++round) {
+    int64_t volume = 0;
+    Soup soup = random_cells(random, 5, 40, volume);
+    ASSERT_EQ(signed_volume(soup.mesh()), static_cast<double>(volume));
+    const size_t count = soup.faces.size();
+    const auto any = [&] { return soup.faces[random.integer(0, static_cast<int64_t>(count) - 1)]; };
+    for (int i = 0; i < 3; ++i) {
+      Face again = any();
+      if (random.integer(0, 1) == 0) std::reverse(again.begin(), again.end());
+      std::rotate(again.begin(), again.begin() + 1, again.end());
+      soup.faces.push_back(again);
+      again = any();
+      again[1] = again[0];
+      soup.faces.push_back(again);
+    }
+    const bool turned = random.integer(0, 1) == 1;
+    if (turned) soup.turn();
+    soup = unwelded(soup);
+    soup.points.push_back({1e6, 1e6, 1e6});
+    Lines said;
+    EXPECT_EQ(repaired_volume(soup, {}, &said), static_cast<double>(volume)) << "round " << round;
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(Repair, RandomFacesTurned) {
+  Random random(8);
+  for (int round = 0; round < 300; ++round) {
+    int64_t volume = 0;
+    Soup soup = random_cells(random, 6, 25, volume);
+    for (Face& face : soup.faces) {
+      if (random.integer(0, 2) == 0) std::reverse(face.begin(), face.end());
+    }
+    EXPECT_EQ(repaired_volume(soup, {}), static_cast<double>(volume)) << "round " << round;
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(Repair, RandomFacesMissing) {
+  Random random(9);
+  for (int round = 0; round < 300; ++round) {
+    int64_t volume = 0;
+    Soup soup = random_cells(random, 6, 25, volume);
+    // Single triangles that do not touch: what is missing is known.
+    std::set<uint32_t> touched;
+    std::vector<Face> kept;
+    int missing = 0;
+    for (const Face& face : soup.faces) {
+      const bool apart =
+          std::none_of(face.begin(), face.end(), [&](uint32_t v) { return touched.count(v) > 0; });
+      if (apart && random.integer(0, 3) == 0) {
+        touched.insert(face.begin(), face.end());
+        ++missing;
+      } else {
+        kept.push_back(face);
+      }
+    }
+    soup.faces = kept;
+    Lines said;
+    EXPECT_EQ(repaired_volume(soup, filling(), &said), static_cast<double>(volume))
+        << "round " << round;
+    EXPECT_EQ(said.size(), missing > 0 ? 1u : 0u);
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+/// A point in the middle of one face's edge, or a corner moved a little in one face only.
+TEST(Repair, RandomCracks) {
+  Random random(10);
+  for (int round = 0; round < 200; ++round) {
+    int64_t volume = 0;
+    Soup soup = unwelded(random_cells(random, 6, 25, volume));
+    for (Face& face : soup.faces) {
+      if (random.integer(0, 4) == 0) {
+        const glm::dvec3 middle = 0.5 * (soup.points[face[0]] + soup.points[face[1]]);
+        face.insert(face.begin() + 1, static_cast<uint32_t>(soup.points.size()));
+        soup.points.push_back(middle);
+      }
+    }
+    EXPECT_EQ(repaired_volume(soup, {}), static_cast<double>(volume)) << "round " << round;
+    for (glm::dvec3& p : soup.points) {
+      for (int i = 0; i < 3; ++i) p[i] += 1e-5 * (random.unit() - 0.5);
+    }
+    RepairOptions options;
+    options.weld = 1e-4;
+    EXPECT_NEAR(repaired_volume(soup, options), static_cast<double>(volume), 0.05);
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+/// Whatever is thrown at it: an answer that is closed, or an error, and the same one twice.
+TEST(Repair, RandomGarbage) {
+  Random random(11);
+  int good = 0;
+  for (int round = 0; round < 2000; ++round) {
+    Soup soup;
+    const int64_t points = random.integer(1, 9), faces = random.integer(1, 14);
+    for (int64_t i = 0; i < points; ++i) {
+      soup.points.emplace_back(random.integer(0, 2), random.integer(0, 2), random.integer(0, 2));
+    }
+    for (int64_t f = 0; f < faces; ++f) {
+      Face face;
+      for (int64_t k = random.integer(3, 5); k > 0; --k) {
+        face.push_back(static_cast<uint32_t>(random.integer(0, points - 1)));
+      }
+      soup.faces.push_back(face);
+    }
+    RepairOptions options;
+    options.fill_holes = random.integer(0, 3) > 0;
+    options.orient = random.integer(0, 7) > 0;
+    options.drop_duplicates = random.integer(0, 3) > 0;
+    options.drop_degenerate = random.integer(0, 3) > 0;
+    options.weld = random.integer(0, 3) == 0 ? 1.2 : 0;
+    const Result<PolygonMesh> once = repair_mesh(soup.mesh(), options, nullptr);
+    const Result<PolygonMesh> twice = repair_mesh(soup.mesh(), options, nullptr);
+    ASSERT_EQ(once.has_value(), twice.has_value());
+    if (!once) {
+      EXPECT_EQ(once.error().code, ErrorCode::kInvalidMesh) << once.error().message;
+      EXPECT_EQ(once.error().message, twice.error().message);
+      continue;
+    }
+    ++good;
+    EXPECT_EQ(once->corners, twice->corners);
+    EXPECT_TRUE(is_balanced(*once)) << "round " << round;
+  }
+  EXPECT_GT(good, 500);
+}
+
+}  // namespace
+}  // namespace csgrun::test
