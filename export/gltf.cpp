@@ -4,7 +4,7 @@
 // hold; a node above all parts turns and scales them. Vertices are duplicated where normals differ,
 // so each mesh carries EXT_mesh_manifold: one more primitive over the whole index buffer, whose
 // sparse accessor replaces every duplicate by the first vertex of its kind. What it describes is
-// the manifold that round_part() checked.
+// the manifold that rounding checked.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -63,7 +63,7 @@ bool is_node_transform(const Affine& map) {
 
 class GltfWriter {
  public:
-  explicit GltfWriter(WriteReport& report) : report_(report) {}
+  explicit GltfWriter(MeshMaker& maker) : maker_(maker) {}
 
   Result<std::string> run(const Parts& parts, GltfContainer container) {
     model_.asset.version = "2.0";
@@ -74,7 +74,7 @@ class GltfWriter {
     for (const Part& part : parts) {
       if (Status status = add_part(part, root); !status) return status.error();
     }
-    totals_.report(report_);
+    maker_.report_rounding();
     for (size_t m = 0; m < palette_.names().size(); ++m) {
       model_.materials.push_back(material_of(palette_.appearances()[m], palette_.names()[m]));
     }
@@ -150,9 +150,8 @@ class GltfWriter {
   /// Adds the mesh of a part; -1 when nothing is left of it: glTF knows no empty mesh.
   Result<int> new_mesh(const Part& part, const Affine& placement) {
     const Solid& solid = *part.solid;
-    Result<RoundedMesh> rounded = round_part(solid, placement, Precision::kFloat, false);
+    Result<RoundedMesh> rounded = maker_.make(part, placement, Precision::kFloat, false);
     if (!rounded) return rounded.error();
-    totals_.add(*rounded, part.name);
     if (rounded->triangles.empty()) return -1;
     const ShadedMesh shaded = shade(solid, *rounded);
     if (buffer_.size() + 24 * shaded.vertex_of.size() + 36 * shaded.triangles.size() >
@@ -286,8 +285,7 @@ class GltfWriter {
     return static_cast<int>(model_.accessors.size()) - 1;
   }
 
-  WriteReport& report_;
-  RoundingTotals totals_;
+  MeshMaker& maker_;
   tinygltf::Model model_;
   std::vector<unsigned char> buffer_;
   Palette palette_;
@@ -297,8 +295,8 @@ class GltfWriter {
 
 }  // namespace
 
-Result<std::string> encode_gltf(const Parts& parts, GltfContainer container, WriteReport& report) {
-  return GltfWriter(report).run(parts, container);
+Result<std::string> encode_gltf(const Parts& parts, GltfContainer container, MeshMaker& maker) {
+  return GltfWriter(maker).run(parts, container);
 }
 
 }  // namespace csgrun

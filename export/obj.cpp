@@ -89,25 +89,23 @@ std::string material_file(const Palette& palette) {
 
 }  // namespace
 
-Result<ObjFiles> encode_obj(const Parts& parts, const std::string& mtl_name, WriteReport& report) {
+Result<ObjFiles> encode_obj(const Parts& parts, const std::string& mtl_name, MeshMaker& maker) {
   Palette palette;
   ObjFiles files;
   files.obj = "# csgrun " CSGRUN_VERSION ", millimetres, Z up\n";
   if (!mtl_name.empty()) files.obj += "mtllib " + one_line(mtl_name) + '\n';
   uint64_t first_vertex = 1;
-  RoundingTotals totals;
   for (const Part& part : parts) {
     const Solid& solid = *part.solid;
-    Result<RoundedMesh> mesh = round_part(solid, part.placement, Precision::kDouble, true);
+    Result<RoundedMesh> mesh = maker.make(part, part.placement, Precision::kDouble, true);
     if (!mesh) return mesh.error();
-    totals.add(*mesh, part.name);
     append_names(files.obj, part.name);
     append_vertices(files.obj, *mesh);
     append_faces(files.obj, solid, *mesh, palette.add(solid), mtl_name.empty() ? nullptr : &palette,
                  first_vertex);
     first_vertex += mesh->positions.size();
   }
-  totals.report(report);
+  maker.report_rounding();
   files.mtl = material_file(palette);
   return files;
 }

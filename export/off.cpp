@@ -21,12 +21,10 @@ void append_colour(std::string& text, const Appearance& appearance) {
 
 }  // namespace
 
-Result<std::string> encode_off(const Part& part, WriteReport& report) {
-  Result<RoundedMesh> mesh = round_part(*part.solid, part.placement, Precision::kDouble, true);
+Result<std::string> encode_off(const Part& part, MeshMaker& maker) {
+  Result<RoundedMesh> mesh = maker.make(part, part.placement, Precision::kDouble, true);
   if (!mesh) return mesh.error();
-  RoundingTotals totals;
-  totals.add(*mesh, part.name);
-  totals.report(report);
+  maker.report_rounding();
   const std::vector<Polygon> polygons = polygons_of(*mesh);
 
   std::string text = "OFF\n";

@@ -24,30 +24,6 @@ uint64_t mixed(uint64_t x) {  // the finaliser of MurmurHash3, by Austin Appleby
   return x ^ (x >> 33);
 }
 
-/// A number for each distinct position, in the order of first occurrence. Open addressing: only the
-/// numbers leave, so the order of the table does not show.
-std::vector<uint32_t> number_places(std::span<const glm::dvec3> positions) {
-  std::vector<uint32_t> table(std::bit_ceil(2 * positions.size() + 1), kNone);
-  std::vector<uint32_t> place(positions.size());
-  std::vector<uint32_t> first_at;  // per place: the first vertex there
-  for (uint32_t v = 0; v < positions.size(); ++v) {
-    const glm::dvec3& p = positions[v];
-    uint64_t hash = mixed(std::bit_cast<uint64_t>(p.x));
-    hash = mixed(hash + std::bit_cast<uint64_t>(p.y));
-    hash = mixed(hash + std::bit_cast<uint64_t>(p.z));
-    size_t slot = hash & (table.size() - 1);
-    while (table[slot] != kNone && positions[first_at[table[slot]]] != p) {
-      slot = (slot + 1) & (table.size() - 1);
-    }
-    if (table[slot] == kNone) {
-      table[slot] = static_cast<uint32_t>(first_at.size());
-      first_at.push_back(v);
-    }
-    place[v] = table[slot];
-  }
-  return place;
-}
-
 /// Whether two vertices of different exact points have one rounded place.
 bool points_met(std::span<const uint32_t> place, std::span<const uint32_t> point_of) {
   std::vector<uint32_t> point_at(place.size(), kNone);
@@ -242,6 +218,29 @@ uint64_t count_flipped(const RoundedMesh& mesh) {
 }
 
 }  // namespace
+
+std::vector<uint32_t> number_places(std::span<const glm::dvec3> positions) {
+  // Open addressing: only the numbers leave, so the order of the table does not show.
+  std::vector<uint32_t> table(std::bit_ceil(2 * positions.size() + 1), kNone);
+  std::vector<uint32_t> place(positions.size());
+  std::vector<uint32_t> first_at;  // per place: the first vertex there
+  for (uint32_t v = 0; v < positions.size(); ++v) {
+    const glm::dvec3& p = positions[v];
+    uint64_t hash = mixed(std::bit_cast<uint64_t>(p.x));
+    hash = mixed(hash + std::bit_cast<uint64_t>(p.y));
+    hash = mixed(hash + std::bit_cast<uint64_t>(p.z));
+    size_t slot = hash & (table.size() - 1);
+    while (table[slot] != kNone && positions[first_at[table[slot]]] != p) {
+      slot = (slot + 1) & (table.size() - 1);
+    }
+    if (table[slot] == kNone) {
+      table[slot] = static_cast<uint32_t>(first_at.size());
+      first_at.push_back(v);
+    }
+    place[v] = table[slot];
+  }
+  return place;
+}
 
 PlacedSolid place_solid(const Solid& solid, const Affine& placement) {
   PlacedSolid placed;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct RoundedMesh {
   uint64_t cancelled = 0;  ///< triangles that lay on their own reverse, left out
   uint64_t flipped = 0;    ///< triangles that look to the other side than their exact face
 };
+
+/// A number for each distinct position, in the order of first occurrence.
+std::vector<uint32_t> number_places(std::span<const glm::dvec3> positions);
 
 /// The part's solid under `placement`. Exact when that is the identity.
 PlacedSolid place_solid(const Solid& solid, const Affine& placement);

@@ -48,12 +48,10 @@ Floats written_normal(const Floats& a, const Floats& b, const Floats& c) {
 
 }  // namespace
 
-Result<std::string> encode_stl(const Part& part, WriteReport& report) {
-  Result<RoundedMesh> mesh = round_part(*part.solid, part.placement, Precision::kFloat, false);
+Result<std::string> encode_stl(const Part& part, MeshMaker& maker) {
+  Result<RoundedMesh> mesh = maker.make(part, part.placement, Precision::kFloat, false);
   if (!mesh) return mesh.error();
-  RoundingTotals totals;
-  totals.add(*mesh, part.name);
-  totals.report(report);
+  maker.report_rounding();
 
   // Readers tell text from binary by the word "solid" at the start.
   std::string bytes = "csgrun " CSGRUN_VERSION " binary STL, millimetres";

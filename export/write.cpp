@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <new>
 
@@ -5,19 +7,15 @@
 
 #include "export/atomic_file.h"
 #include "export/encoders.h"
+#include "export/mesh_maker.h"
 
 namespace csgrun {
 namespace {
 
-bool is_known(const std::string& format) {
-  for (const char* known : {"glb", "gltf", "stl", "obj", "off"}) {
-    if (format == known) return true;
-  }
-  return false;
-}
+constexpr std::array kFormats{"glb", "gltf", "stl", "obj", "off", "exact.json"};
 
 Status check_parts(const std::string& format, const std::vector<Part>& parts) {
-  if (!is_known(format)) {
+  if (std::find(kFormats.begin(), kFormats.end(), format) == kFormats.end()) {
     return Error{ErrorCode::kInvalidArgument, "there is no model format '" + format + "'", {}};
   }
   for (const Part& part : parts) {
@@ -45,71 +43,89 @@ auto guarded(const Function& function) -> decltype(function()) {
   }
 }
 
-Result<std::string> encode_checked(const std::string& format, const std::vector<Part>& parts,
-                                   WriteReport& report) {
-  if (format == "glb") return encode_gltf(parts, GltfContainer::kBinary, report);
-  if (format == "gltf") return encode_gltf(parts, GltfContainer::kText, report);
-  if (format == "stl") return encode_stl(parts[0], report);
-  if (format == "off") return encode_off(parts[0], report);
-  Result<ObjFiles> files = encode_obj(parts, "", report);
-  if (!files) return files.error();
-  return std::move(files->obj);
-}
-
-/// An .obj and the .mtl beside it. The materials are there before anything names them.
-Status write_obj(const std::string& path, const std::vector<Part>& parts, WriteReport& report) {
-  const std::string mtl_path = path.substr(0, path.size() - 4) + ".mtl";
-  const std::string mtl_name = mtl_path.substr(mtl_path.rfind('/') + 1);
-  Result<ObjFiles> files = encode_obj(parts, mtl_name, report);
-  if (!files) return files.error();
-  AtomicFile mtl, obj;
-  if (Status status = mtl.write(mtl_path, files->mtl); !status) return status;
-  if (Status status = obj.write(path, files->obj); !status) return status;
-  if (Status status = mtl.commit(); !status) return status;
-  return obj.commit();
+/// The files of a model whose parts were checked against the format.
+Result<std::vector<ModelFile>> encode(const std::string& path, const std::string& format,
+                                      const std::vector<Part>& parts, MeshMaker& maker) {
+  if (format == "obj") {
+    const std::string mtl_path = path.empty() ? "" : path.substr(0, path.size() - 4) + ".mtl";
+    Result<ObjFiles> files = encode_obj(parts, mtl_path.substr(mtl_path.rfind('/') + 1), maker);
+    if (!files) return files.error();
+    // The materials are there before anything names them.
+    std::vector<ModelFile> both;
+    if (!path.empty()) both.push_back({mtl_path, std::move(files->mtl)});
+    both.push_back({path, std::move(files->obj)});
+    return both;
+  }
+  Result<std::string> bytes = [&] {
+    if (format == "glb") return encode_gltf(parts, GltfContainer::kBinary, maker);
+    if (format == "gltf") return encode_gltf(parts, GltfContainer::kText, maker);
+    if (format == "stl") return encode_stl(parts[0], maker);
+    if (format == "off") return encode_off(parts[0], maker);
+    return encode_exact(parts);
+  }();
+  if (!bytes) return bytes.error();
+  return std::vector<ModelFile>{{path, *std::move(bytes)}};
 }
 
 }  // namespace
 
 std::string model_format_of(const std::string& path) {
-  const size_t dot = path.find_last_of("./");
-  if (dot == std::string::npos || path[dot] != '.') return {};
-  std::string ending = path.substr(dot + 1);
-  for (char& c : ending) {
+  std::string lower = path;
+  for (char& c : lower) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
-  return is_known(ending) ? ending : std::string();
+  for (const char* known : kFormats) {
+    const std::string ending = std::string(".") + known;
+    if (lower.ends_with(ending)) return known;
+  }
+  return {};
 }
 
 bool keeps_parts(const std::string& format) {
-  return format == "glb" || format == "gltf" || format == "obj";
+  return format == "glb" || format == "gltf" || format == "obj" || format == "exact.json";
 }
 
-Result<WriteReport> write_model(const std::string& path, const std::vector<Part>& parts) {
+Result<std::vector<ModelFile>> encode_files(const std::string& path, const std::vector<Part>& parts,
+                                            const WriteOptions& options, WriteReport& report) {
   const std::string format = model_format_of(path);
   if (format.empty()) {
     return Error{ErrorCode::kInvalidArgument,
-                 "'" + path + "' does not end in .glb, .gltf, .stl, .obj or .off",
+                 "'" + path + "' does not end in .glb, .gltf, .stl, .obj, .off or .exact.json",
                  {}};
   }
   if (Status status = check_parts(format, parts); !status) return status.error();
+  MeshMaker maker(options, report);
+  return guarded([&] { return encode(path, format, parts, maker); });
+}
+
+Status write_files(const std::vector<ModelFile>& files) {
+  return guarded([&]() -> Status {
+    std::vector<AtomicFile> under_way(files.size());
+    for (size_t i = 0; i < files.size(); ++i) {
+      if (Status status = under_way[i].write(files[i].path, files[i].bytes); !status) return status;
+    }
+    for (AtomicFile& file : under_way) {
+      if (Status status = file.commit(); !status) return status;
+    }
+    return std::monostate{};
+  });
+}
+
+Result<WriteReport> write_model(const std::string& path, const std::vector<Part>& parts) {
   WriteReport report;
-  const auto write = [&]() -> Status {
-    if (format == "obj") return write_obj(path, parts, report);
-    Result<std::string> bytes = encode_checked(format, parts, report);
-    if (!bytes) return bytes.error();
-    AtomicFile file;
-    if (Status status = file.write(path, *bytes); !status) return status;
-    return file.commit();
-  };
-  if (Status status = guarded(write); !status) return status.error();
+  const auto files = encode_files(path, parts, {}, report);
+  if (!files) return files.error();
+  if (Status status = write_files(*files); !status) return status.error();
   return report;
 }
 
 Result<std::string> encode_model(const std::string& format, const std::vector<Part>& parts,
                                  WriteReport& report) {
   if (Status status = check_parts(format, parts); !status) return status.error();
-  return guarded([&] { return encode_checked(format, parts, report); });
+  MeshMaker maker({}, report);
+  auto files = guarded([&] { return encode("", format, parts, maker); });
+  if (!files) return files.error();
+  return std::move(files->back().bytes);
 }
 
 }  // namespace csgrun

@@ -50,7 +50,8 @@ void keep_used_appearances(Solid& solid) {
 
 uint64_t bytes_of(const Solid& s) {
   return sizeof(Solid) + s.positions.size() * 40 + s.triangles.size() * 16 +
-         s.faces.size() * sizeof(Solid::Face) + s.loop_vertices.size() * 4 + s.sources.size() * 96;
+         s.faces.size() * (sizeof(Solid::Face) + sizeof(glm::dvec3)) +
+         s.loop_vertices.size() * 4 + s.sources.size() * 96 + s.exact_points.size() * 256;
 }
 
 }  // namespace
@@ -124,6 +125,7 @@ Result<SolidPtr> Evaluator::Impl::present_root(const Scene& scene, uint32_t root
   PresentContext context;
   context.step = scene.step;
   context.appearances = appearances.values();
+  context.exact_points = options.exact_points;
   for (uint32_t leaf : scene.leaves(root)) {
     const Node& node = *scene.nodes[leaf].leaf;
     context.sources.push_back({node.mesh()->kind, node.where().text()});

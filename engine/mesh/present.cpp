@@ -12,6 +12,7 @@
 #include "engine/mesh/improve_triangles.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/plane_oracle.h"
+#include "engine/mesh/rational_text.h"
 #include "engine/mesh/self_contact.h"
 #include "engine/mesh/stitch.h"
 #include "engine/mesh/triangulate.h"
@@ -39,6 +40,16 @@ class ToMillimetres {
       mm[k] = round_to_double(numerator, denominator, step_.exponent);
       single[k] = round_to_float(numerator, denominator, step_.exponent);
     }
+  }
+
+  [[nodiscard]] std::array<std::string, 3> text(const Point& p) const {
+    const Natural denominator = multiply(natural(p.w), natural(Int<1>(step_.denominator)));
+    const Natural numerator = natural(Int<1>(step_.numerator));
+    const auto of = [&](const Int<kPointLimbs>& coordinate) {
+      return rational_text(multiply(signed_value(coordinate), numerator), denominator,
+                           step_.exponent);
+    };
+    return {of(p.x), of(p.y), of(p.z)};
   }
 
  private:
@@ -149,6 +160,12 @@ class Presenter {
     }
     solid.triangle_face = set_.face;
     fill_faces(solid);
+    if (context_.exact_points) {
+      solid.exact_points.resize(geometry_.point_count());
+      for (const uint32_t p : solid.point_of) {
+        if (solid.exact_points[p][0].empty()) solid.exact_points[p] = to_mm.text(geometry_.exact(p));
+      }
+    }
     solid.appearances = context_.appearances;
     solid.sources = context_.sources;
   }
@@ -192,6 +209,9 @@ class Presenter {
       solid.faces.push_back({static_cast<uint32_t>(solid.loop_starts.size() - 1),
                              static_cast<uint32_t>(face.loops.size()), face.appearance,
                              surface_number(face), face.source});
+      const auto& plane = planes_.approximate(face.plane.index());
+      const glm::dvec3 normal(plane[0], plane[1], plane[2]);
+      solid.face_normals.push_back(face.plane.flipped() ? -normal : normal);
       for (const auto& loop : face.loops) {
         for (const DirectedEdge& e : loop) {
           const auto at = std::lower_bound(edges.begin(), edges.end(),

@@ -18,6 +18,7 @@ struct PresentContext {
   std::vector<Appearance> appearances;  ///< by appearance id of the labels
   std::vector<Solid::Source> sources;   ///< by source index of the labels
   bool measure = true;  ///< whether to fill in the measures and the hash
+  bool exact_points = false;  ///< whether to fill in the exact points
 };
 
 /// The arrays of a boundary: coplanar faces of equal appearance and surface merged wherever they were

@@ -23,10 +23,11 @@ int run(const csgrun::CommandLine& line) {
   if (!line.quiet && (line.stats != csgrun::StatsForm::kJson || failure.failed())) {
     for (const std::string& warning : report.warnings) print(stderr, "warning: " + warning + "\n");
   }
-  if (failure.failed()) return failure.code;
+  // A failed check is a finding: the measures and the verdict are told all the same.
+  if (failure.failed() && !report.check_failed) return failure.code;
   if (line.stats == csgrun::StatsForm::kJson) print(stdout, csgrun::stats_json(report));
   if (line.stats == csgrun::StatsForm::kText) print(stderr, csgrun::stats_text(report));
-  return csgrun::kExitGood;
+  return failure.code;
 }
 
 int info(const csgrun::CommandLine& line) {

@@ -55,8 +55,8 @@ void check_output(const std::string& path, const CommandLine& line) {
       if (ending == later)
         throw UsageError{fmt::format("'{}': writing {} is not built yet", path, later)};
     }
-    throw UsageError{
-        fmt::format("'{}': the ending must be one of .glb, .gltf, .stl, .obj, .off", path)};
+    throw UsageError{fmt::format(
+        "'{}': the ending must be one of .glb, .gltf, .stl, .obj, .off, .exact.json", path)};
   }
   if (std::count(line.outputs.begin(), line.outputs.end(), path) > 1) {
     throw UsageError{fmt::format("'{}' is given twice with -o", path)};
@@ -90,11 +90,10 @@ struct RawOptions {
   std::vector<std::string> definitions;
   std::string grid, stats, cache_folder;
   double timeout = 0, megabytes = 0;
-  bool check = false, no_cache = false, help_api = false;
+  bool no_cache = false, help_api = false;
 };
 
 void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
-  if (raw.check) throw UsageError{"--check is not built yet"};
   check_model(line.model);
   for (const std::string& path : line.outputs) check_output(path, line);
   for (const std::string& text : raw.definitions)
@@ -140,6 +139,8 @@ void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
   if (line.outputs.empty() && line.stats == StatsForm::kNone) {
     throw UsageError{"nothing to do: give an output with -o, or --stats"};
   }
+  if (line.check && line.outputs.empty())
+    throw UsageError{"--check proves what is written: give an output with -o"};
 }
 
 CommandLine finished(int code) {
@@ -201,7 +202,8 @@ CommandLine parse_command_line(int argc, char** argv) {
       "MODEL", line.model,
       "a script (.lua), an OpenSCAD tree (.csg), a mesh, or - for Lua from standard input");
   app.add_option("-o", line.outputs,
-                 "output: .glb .gltf .stl .obj .off; 'dir/%s.stl' writes one file a part")
+                 "output: .glb .gltf .stl .obj .off, or .exact.json (coordinates as fractions); "
+                 "'dir/%s.stl' writes one file a part")
       ->allow_extra_args(false)
       ->type_name("OUT");
   app.add_option("-D", raw.definitions, "sets a parameter of the model")
@@ -218,7 +220,10 @@ CommandLine parse_command_line(int argc, char** argv) {
       ->type_name("N");
   app.add_option("--grid", raw.grid, "step of the grid: 0.001, 2^-20mm (from the model's extent)")
       ->type_name("MM");
-  app.add_flag("--check", raw.check, "proves that the result does not cross itself");
+  app.add_flag(
+      "--check", line.check,
+      "proves that the written meshes do not cross themselves, at their file's precision, and "
+      "repairs them if they do");
   app.add_flag("--stats{text}", raw.stats,
                "measures: as text on standard error, or --stats=json on standard output");
   app.add_flag("--no-cache", raw.no_cache, "uses no cache on disk");

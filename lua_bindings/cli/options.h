@@ -28,6 +28,7 @@ struct CommandLine {
   StatsForm stats = StatsForm::kNone;
   std::optional<double> timeout_seconds;
   std::optional<size_t> memory_bytes;
+  bool check = false;  ///< prove every written mesh free of defects, or repair it
   bool quiet = false;
   bool info_json = false;
 };

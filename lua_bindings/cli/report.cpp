@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "lua_bindings/cli/check_text.h"
+
 namespace csgrun {
 namespace {
 
@@ -65,28 +67,29 @@ std::string stats_json(const RunReport& report) {
     json["hash"] = fmt::format("{:016x}{:016x}", hash[0], hash[1]);
     parts.push_back(json);
   }
-  const Json json = {{"version", CSGRUN_VERSION},
-                     {"threads", report.threads},
-                     {"grid_mm", s.grid_mm},
-                     {"seconds",
-                      {{"script", report.script_seconds},
-                       {"leaves", s.leaf_seconds},
-                       {"boolean", s.boolean_seconds},
-                       {"export", report.export_seconds},
-                       {"total", report.total_seconds}}},
-                     {"nodes",
-                      {{"evaluated", s.nodes_evaluated},
-                       {"memory", s.nodes_from_memory},
-                       {"disk", s.nodes_from_disk}}},
-                     {"parts", parts},
-                     {"warnings", report.warnings},
-                     {"counters",
-                      {{"cells", s.cells},
-                       {"surface_cells", s.surface_cells},
-                       {"critical_cells", s.critical_cells},
-                       {"sign_filter", s.sign_filter},
-                       {"sign_symbolic", s.sign_symbolic},
-                       {"sign_exact", s.sign_exact}}}};
+  Json json = {{"version", CSGRUN_VERSION},
+               {"threads", report.threads},
+               {"grid_mm", s.grid_mm},
+               {"seconds",
+                {{"script", report.script_seconds},
+                 {"leaves", s.leaf_seconds},
+                 {"boolean", s.boolean_seconds},
+                 {"export", report.export_seconds},
+                 {"total", report.total_seconds}}},
+               {"nodes",
+                {{"evaluated", s.nodes_evaluated},
+                 {"memory", s.nodes_from_memory},
+                 {"disk", s.nodes_from_disk}}},
+               {"parts", parts},
+               {"warnings", report.warnings},
+               {"counters",
+                {{"cells", s.cells},
+                 {"surface_cells", s.surface_cells},
+                 {"critical_cells", s.critical_cells},
+                 {"sign_filter", s.sign_filter},
+                 {"sign_symbolic", s.sign_symbolic},
+                 {"sign_exact", s.sign_exact}}}};
+  if (!report.checks.empty()) json["check"] = check_json(report.checks);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -94,6 +97,8 @@ std::string stats_text(const RunReport& report) {
   const EvaluateStats& s = report.stats;
   std::string text;
   for (const Part& part : report.parts) text += to_text(measures_of(part));
+  for (const FileCheck& check : report.checks)
+    text += fmt::format("{}: check: {}\n", check.file, verdict_text(check));
   text += fmt::format(
       "seconds: script {:.3f}, leaves {:.3f}, boolean {:.3f}, export {:.3f}, total {:.3f}\n",
       report.script_seconds, s.leaf_seconds, s.boolean_seconds, report.export_seconds,

@@ -13,6 +13,7 @@
 #include <csgrun/primitives/csg_file.h>
 #include <csgrun/primitives/mesh_file.h>
 
+#include "lua_bindings/cli/check_text.h"
 #include "lua_bindings/cli/instances.h"
 #include "lua_bindings/cli/progress.h"
 #include "lua_bindings/guard.h"
@@ -77,6 +78,9 @@ class Run {
     options.evaluate.threads = line.threads != 0 ? line.threads : usable_threads();
     options.evaluate.grid = line.grid;
     options.evaluate.progress = make_progress(line.quiet);
+    options.evaluate.exact_points = std::any_of(
+        line.outputs.begin(), line.outputs.end(),
+        [](const std::string& output) { return model_format_of(output) == "exact.json"; });
     options.limits.total_seconds = line.timeout_seconds;
     if (line.memory_bytes)
       options.limits.heap_bytes = std::min(options.limits.heap_bytes, *line.memory_bytes);
@@ -252,12 +256,29 @@ class Run {
   Failure write_all() {
     const auto start = Clock::now();
     const EvaluationScope scope(session_.budget());
+    Failure failure;
     for (const std::string& output : line_.outputs) {
-      Failure failure =
-          output.find("%s") != std::string::npos ? write_each(output) : write_one(output);
-      if (failure.failed()) return failure;
+      failure = output.find("%s") != std::string::npos ? write_each(output) : write_one(output);
+      if (failure.failed()) break;
+    }
+    // With a check nothing was written yet: one bad mesh, and there is no file.
+    if (!failure.failed()) failure = failure_of_checks();
+    for (const auto& model : checked_models_) {
+      if (!failure.failed()) failure = put(model);
     }
     report_.export_seconds = seconds_since(start);
+    return failure;
+  }
+
+  Failure failure_of_checks() {
+    for (const FileCheck& check : report_.checks) {
+      for (const MeshCheck& mesh : check.meshes) {
+        if (mesh.verdict != CheckVerdict::kFailed) continue;
+        report_.check_failed = true;
+        return {kExitGeometry, fmt::format("{}: --check: {}: {}; nothing was written",
+                                           session_.options().model, check.file, check_text(mesh))};
+      }
+    }
     return {};
   }
 
@@ -290,10 +311,31 @@ class Run {
   }
 
   Failure write(const std::string& path, const std::vector<Part>& parts) {
-    auto written = write_model(path, parts);
-    if (!written) return {kExitFiles, "csgrun: " + written.error().message};
-    for (const std::string& warning : written->warnings)
+    WriteOptions options;
+    options.check = line_.check;
+    options.threads = session_.options().evaluate.threads;
+    options.cancel = &session_.budget().cancel();
+    WriteReport report;
+    auto files = encode_files(path, parts, options, report);
+    if (!files) {
+      if (files.error().code == ErrorCode::kCancelled) return evaluation_failure(files.error());
+      return {kExitFiles, "csgrun: " + files.error().message};
+    }
+    for (const std::string& warning : report.warnings)
       report_.warnings.push_back(path + ": " + warning);
+    if (!line_.check) return put(*files);
+    for (const MeshCheck& check : report.checks) {
+      if (check.verdict == CheckVerdict::kRepaired)
+        report_.warnings.push_back(path + ": " + check_text(check));
+    }
+    report_.checks.push_back({path, std::move(report.checks)});
+    checked_models_.push_back(*std::move(files));
+    return {};
+  }
+
+  static Failure put(const std::vector<ModelFile>& files) {
+    if (const Status written = write_files(files); !written)
+      return {kExitFiles, "csgrun: " + written.error().message};
     return {};
   }
 
@@ -302,6 +344,7 @@ class Run {
   Session session_;
   std::vector<Part> placed_parts_;  // the parts of the report, as bases and placements
   std::vector<Part> joined_;
+  std::vector<std::vector<ModelFile>> checked_models_;  // that wait for the verdict on all of them
 };
 
 }  // namespace

@@ -12,11 +12,19 @@
 
 namespace csgrun {
 
+/// What --check found in one file.
+struct FileCheck {
+  std::string file;
+  std::vector<MeshCheck> meshes;
+};
+
 /// What a run has to tell.
 struct RunReport {
   std::vector<Part> parts;
   EvaluateStats stats;
   std::vector<std::string> warnings;
+  std::vector<FileCheck> checks;  ///< one for each file when --check was given
+  bool check_failed = false;      ///< why the run failed: a mesh that could not be repaired
   unsigned threads = 0;
   double script_seconds = 0, export_seconds = 0, total_seconds = 0;
 };

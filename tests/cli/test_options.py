@@ -31,7 +31,7 @@ class Usage(Case):
         self.check("csgrun: 'mesh.stl' is the model itself and would be overwritten", "mesh.stl", "-o", "mesh.stl")
 
     def test_options(self):
-        self.check("csgrun: --check is not built yet", "model.lua", "--stats", "--check")
+        self.check("csgrun: --check proves what is written: give an output with -o", "model.lua", "--stats", "--check")
         self.check("csgrun: The following argument was not expected: --bogus", "model.lua", "--stats", "--bogus")
         self.check("csgrun: --stats can be =json or nothing", "model.lua", "--stats=xml")
         self.check("csgrun: --threads must be from 1 to", "model.lua", "--stats", "--threads", "0")

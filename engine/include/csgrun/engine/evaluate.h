@@ -37,6 +37,7 @@ struct EvaluateOptions {
   /// Solids that touch in an edge: false keeps them apart, true joins them through the edge. Either
   /// way the result is a manifold by index (Campen & Kobbelt 2010, chapter 7).
   bool join_contacts = false;
+  bool exact_points = false;   ///< whether to fill Solid::exact_points
   bool flatten = true;         ///< false: every Boolean node is materialised on its own
   /// Polled now and then from any thread; non-zero stops the evaluation with kCancelled.
   const std::atomic<bool>* cancel = nullptr;

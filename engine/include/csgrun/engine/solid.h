@@ -48,8 +48,14 @@ struct Solid {
   std::vector<Face> faces;
   std::vector<uint32_t> loop_starts{0};            ///< loops index `loop_vertices`
   std::vector<uint32_t> loop_vertices;
+  /// Per face: a vector along its outward normal, of no certain length; each coordinate is within one
+  /// unit in the last place of the exact plane's.
+  std::vector<glm::dvec3> face_normals;
   std::vector<Appearance> appearances;
   std::vector<Source> sources;
+  /// By `point_of`: x, y, z in mm as fractions in lowest terms, "p/q" or "p". Empty unless
+  /// EvaluateOptions::exact_points asks for them; no points, no text.
+  std::vector<std::array<std::string, 3>> exact_points;
   Measures measures;
   std::array<uint64_t, 2> canonical_hash{};  ///< of the exact geometry, faces and appearances
 

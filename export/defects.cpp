@@ -1,0 +1,98 @@
+#include "export/defects.h"
+
+#include <algorithm>
+
+namespace csgrun {
+namespace {
+
+constexpr size_t kMostPlaces = 8;  // of each kind
+
+std::string source_of(const Solid& solid, uint32_t face) {
+  const uint32_t source = solid.faces[face].source;
+  if (source >= solid.sources.size()) return {};
+  const Solid::Source& s = solid.sources[source];
+  if (s.kind.empty() || s.where.empty()) return s.kind + s.where;
+  return s.kind + ", " + s.where;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> face_directions(const Solid& solid, const Affine& placement) {
+  if (solid.face_normals.size() != solid.faces.size())
+    return place_solid(solid, placement).face_normals;
+  std::vector<glm::dvec3> directions = solid.face_normals;
+  if (placement == Affine{}) return directions;
+  // Normals go with the matrix of cofactors, which also knows when the map turns a surface over.
+  const auto& m = placement.m;
+  double cofactor[3][3], determinant = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+    for (size_t j = 0; j < 3; ++j) {
+      const size_t j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      cofactor[i][j] = m[i1][j1] * m[i2][j2] - m[i1][j2] * m[i2][j1];
+    }
+  }
+  for (size_t j = 0; j < 3; ++j) determinant += m[0][j] * cofactor[0][j];
+  const double sign = determinant < 0 ? -1 : 1;  // the writer reverses the loops of such a surface
+  for (glm::dvec3& n : directions) {
+    const glm::dvec3 old = n * sign;
+    for (int i = 0; i < 3; ++i)
+      n[i] = cofactor[i][0] * old.x + cofactor[i][1] * old.y + cofactor[i][2] * old.z;
+  }
+  return directions;
+}
+
+Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> directions) {
+  // Surfaces that were split where they touch do not cross there: equal coordinates are one corner.
+  const std::vector<uint32_t> place = number_places(mesh.positions);
+  std::vector<glm::dvec3> points;
+  for (size_t v = 0; v < place.size(); ++v) {
+    if (place[v] == points.size()) points.push_back(mesh.positions[v]);
+  }
+  std::vector<Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) triangles.push_back({place[a], place[b], place[c]});
+  const TriangleView view{points, triangles};
+
+  Defects defects;
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    if (is_degenerate(view, t)) {
+      defects.degenerate.push_back(t);
+    } else if (facing(view, t, directions[mesh.triangle_face[t]]) < 0) {
+      defects.flipped.push_back(t);
+    }
+  }
+  defects.crossings = find_crossings(view, kMostCrossings);
+  return defects;
+}
+
+std::vector<DefectPlace> places_of(const Defects& defects, const RoundedMesh& mesh,
+                                   const Solid& solid) {
+  std::vector<DefectPlace> places;
+  const auto sources = [&](std::span<const uint32_t> triangles) {
+    std::vector<std::string> made_by;
+    for (const uint32_t t : triangles) {
+      std::string source = source_of(solid, mesh.triangle_face[t]);
+      if (!source.empty()) made_by.push_back(std::move(source));
+    }
+    return made_by;
+  };
+  const auto first_of = [](const auto& list) {
+    return std::span(list).first(std::min(list.size(), kMostPlaces));
+  };
+  for (const TriangleCrossing& crossing : first_of(defects.crossings))
+    places.push_back({DefectKind::kCrossing, crossing.place, sources(crossing.triangles)});
+  const auto add = [&](DefectKind kind, std::span<const uint32_t> triangles) {
+    for (const uint32_t t : triangles) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      const glm::dvec3 middle =
+          mesh.positions[a] / 3.0 + mesh.positions[b] / 3.0 + mesh.positions[c] / 3.0;
+      places.push_back({kind, middle, sources(std::span(&t, 1))});
+    }
+  };
+  add(DefectKind::kDegenerate, first_of(defects.degenerate));
+  add(DefectKind::kFlipped, first_of(defects.flipped));
+  return places;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,44 @@
+// What is wrong with a rounded mesh, exactly.
+//
+// A crossing is a pair of triangles that have a point in common beyond the corners and edges which
+// both have by coordinates. A triangle is degenerate when its corners lie on one line, and flipped
+// when its normal makes more than 90 degrees with that of the exact face that it belongs to. A mesh
+// without these is the boundary of a solid, at the coordinates that are in the file.
+#pragma once
+
+#include <vector>
+
+#include <csgrun/engine/exact_triangles.h>
+#include <csgrun/export/write.h>
+
+#include "export/rounding.h"
+
+namespace csgrun {
+
+struct Defects {
+  std::vector<TriangleCrossing> crossings;
+  std::vector<uint32_t> degenerate, flipped;  ///< triangles, ascending
+
+  [[nodiscard]] bool none() const {
+    return crossings.empty() && degenerate.empty() && flipped.empty();
+  }
+  [[nodiscard]] MeshDefects counts() const {
+    return {crossings.size(), degenerate.size(), flipped.size()};
+  }
+};
+
+/// More crossings than this are not looked for.
+constexpr uint64_t kMostCrossings = 1'000'000;
+
+/// Directions of the exact faces of a solid under an affine map, outwards as the map leaves them:
+/// from their exact planes where the solid has them, else from their corners.
+std::vector<glm::dvec3> face_directions(const Solid& solid, const Affine& placement);
+
+/// The defects of a mesh rounded from a solid with these face directions. O(n log n).
+Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> directions);
+
+/// Where the first few defects of each kind are, and what made the triangles.
+std::vector<DefectPlace> places_of(const Defects& defects, const RoundedMesh& mesh,
+                                   const Solid& solid);
+
+}  // namespace csgrun

@@ -1,0 +1,56 @@
+#include "export/mesh_maker.h"
+
+#include <algorithm>
+
+#include "export/defects.h"
+
+namespace csgrun {
+namespace {
+
+/// Leaves out the outlines of faces that rounding bent: everybody cuts those into other triangles.
+void drop_bent_outlines(RoundedMesh& mesh) {
+  for (auto& outline : mesh.outlines) {
+    if (outline.size() <= 3) continue;
+    const auto& p = mesh.positions;
+    const auto has_area = [&](size_t k) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (orient_along(axis, p[outline[0]], p[outline[1]], p[outline[k]]) != 0) return true;
+      }
+      return false;
+    };
+    size_t third = 2;
+    while (third < outline.size() && !has_area(third)) ++third;
+    const bool flat =
+        third < outline.size() && std::all_of(outline.begin(), outline.end(), [&](uint32_t v) {
+          return orient(p[outline[0]], p[outline[1]], p[outline[third]], p[v]) == 0;
+        });
+    if (!flat) outline.clear();
+  }
+}
+
+double volume_of(const RoundedMesh& mesh) { return exact_volume({mesh.positions, mesh.triangles}); }
+
+}  // namespace
+
+Result<RoundedMesh> MeshMaker::make(const Part& part, const Affine& placement, Precision precision,
+                                    bool with_outlines) {
+  Result<RoundedMesh> mesh = round_part(*part.solid, placement, precision, with_outlines);
+  if (!mesh) return mesh.error();
+  if (options_.check) {
+    const std::vector<glm::dvec3> directions = face_directions(*part.solid, placement);
+    Defects defects = find_defects(*mesh, directions);
+    MeshCheck check;
+    check.part = part.name;
+    check.found = check.left = defects.counts();
+    check.verdict = defects.none() ? CheckVerdict::kClean : CheckVerdict::kFailed;
+    check.triangles = {mesh->triangles.size(), mesh->triangles.size()};
+    check.volume = {volume_of(*mesh), volume_of(*mesh)};
+    check.places = places_of(defects, *mesh, *part.solid);
+    drop_bent_outlines(*mesh);
+    report_.checks.push_back(std::move(check));
+  }
+  totals_.add(*mesh, part.name);
+  return mesh;
+}
+
+}  // namespace csgrun
