@@ -120,7 +120,8 @@ void drop_bad_faces(RepairMesh& mesh, const RepairOptions& options, StepNote& de
 }
 
 /// Everything between welding by value and the result.
-Status run_steps(RepairMesh& mesh, const RepairOptions& options, RepairReport& report) {
+Status run_steps(RepairMesh& mesh, const RepairOptions& options, bool outwards,
+                 RepairReport& report) {
   StepNote degenerate(RepairAction::kDropDegenerate), repeated(RepairAction::kDropDuplicates),
       near(RepairAction::kWeldNear), split(RepairAction::kSplitEdges),
       turned(RepairAction::kTurnFaces), filled(RepairAction::kFillHoles),
@@ -159,7 +160,7 @@ Status run_steps(RepairMesh& mesh, const RepairOptions& options, RepairReport& r
   if (options.drop_duplicates && !holes.empty()) drop_repeated_faces(mesh, true, repeated);
   repeated.file(report);
   if (mesh.faces.empty()) return refuse("nothing is left: no face bounds a solid");
-  if (options.orient) orient_outwards(mesh, inverted);
+  if (outwards) orient_outwards(mesh, inverted);
   inverted.file(report);
   if (!find_holes(mesh).empty()) {
     return Error{ErrorCode::kInternal, "the repair left open edges", {}};
@@ -222,7 +223,11 @@ Result<PolygonMesh> repair_mesh(PolygonMesh mesh, const RepairOptions& options,
   weld_equal(mesh, equal);
   equal.file(*report);
   RepairMesh faces = to_loops(mesh);
-  if (const Status status = run_steps(faces, options, *report); !status) return status.error();
+  // With the rule `positive` what is inverted is meant to be nothing.
+  const bool outwards = options.orient && mesh.fill != FillRule::kPositive;
+  if (const Status status = run_steps(faces, options, outwards, *report); !status) {
+    return status.error();
+  }
   from_loops(faces, mesh);
   return mesh;
 }

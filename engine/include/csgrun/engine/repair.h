@@ -55,6 +55,8 @@ struct RepairReport {
 /// turned to agree with their neighbours; holes are filled; surfaces that are inside out are turned
 /// over.
 ///
+/// With the fill rule kPositive surfaces that are inside out stay as they are.
+///
 /// A hole is a loop of open edges, closed by the triangles of least area between its points (a loop
 /// of more than a few hundred edges by one polygon). A surface that others enclose keeps its
 /// orientation relative to them: voids stay voids.
