@@ -297,7 +297,6 @@ TEST(Repair, SurfacesInsideOut) {
   all.turn();
   EXPECT_EQ(repaired_volume(all, {}, &said), 64);
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(
   EXPECT_EQ(said[0],
             "3 surfaces that were inside out were turned over (at (4, 0, 0), at (1, 1, 1), "
             "at (11, 0, 0))");
