@@ -108,7 +108,7 @@ void run_boxes(const std::string& name, const Settings& settings) {
 
 constexpr const char* kUsage =
     "usage: csgbench WORKLOAD ARGS [--threads N] [--repeat R] [--cell-limit M] [--write OUT.off]\n"
-    "                [--write-inputs PREFIX] [--write-cells OUT]\n"
+    "                [--check] [--write-inputs PREFIX] [--write-cells OUT]\n"
     "  rot FILE ANGLE       union with a copy turned about z (vertices turned)\n"
     "  rotframe FILE ANGLE  the same turn as a transform\n"
     "  chain N              block minus N spheres, one after another\n"
@@ -119,7 +119,8 @@ constexpr const char* kUsage =
     "  boxes                two boxes, repeated\n"
     "  ulp FILE             less a copy shifted by one float32 unit in the last place\n"
     "  roundtrip FILE       through planes and BSPs, and back to the same vertices\n"
-    "  pair A B SEED        all four operations of two files, B turned at random\n"
+    "  pair A B SEED        all four operations of two files, B turned at random; --check proves\n"
+    "                       the results as GLB free of self-intersections\n"
     "  hull FILE            the outer hull of a surface that crosses itself\n"
     "  front FILE STEPS     a surface moves along its normals, and splits and merges\n"
     "  model NAME FACES OUT.off\n"
@@ -191,6 +192,8 @@ int main(int argc, char** argv) {
       settings.threads = static_cast<unsigned>(std::atoi(argv[++i]));
     } else if (word == "--repeat" && has_value) {
       settings.repeat = std::atoi(argv[++i]);
+    } else if (word == "--check") {
+      settings.check = true;
     } else if (word == "--write" && has_value) {
       settings.write = argv[++i];
     } else if (word == "--write-inputs" && has_value) {

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <csgrun/export/write.h>
+
 #include "engine/csg/quantise.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/kernel_checks.h"
@@ -54,6 +56,41 @@ Volume sum(const Volume& a, const Volume& b) {
   return {test::Residues(test::kPrimes[0]).add(a[0], b[0]),
           test::Residues(test::kPrimes[1]).add(a[1], b[1])};
 }
+
+/// What a check of written files said: verdicts, and the rounds of repair that it took.
+class Verdicts {
+ public:
+  /// Encodes the solid as GLB, with a check; must not fail.
+  void add(const std::string& name, const SolidPtr& solid, unsigned threads) {
+    WriteOptions options;
+    options.check = true;
+    options.threads = threads;
+    WriteReport report;
+    take(encode_files(name + ".glb", {Part{name, solid, {}}}, options, report));
+    for (const MeshCheck& check : report.checks) {
+      if (check.verdict == CheckVerdict::kFailed) {
+        fail(fmt::format(
+            "the check of {} failed: {} crossings, {} degenerate, {} flipped are left; {}", name,
+            check.left.crossings, check.left.degenerate, check.left.flipped, check.problem));
+      }
+      (check.verdict == CheckVerdict::kClean ? clean_ : repaired_) += 1;
+      crossings_ += check.found.crossings;
+      flat_ += check.found.degenerate + check.found.flipped;
+      rounds_ = std::max(rounds_, check.rounds);
+    }
+  }
+  [[nodiscard]] std::string text() const {
+    return fmt::format(
+        R"(,"checks":{{"clean":{},"repaired":{},"crossings":{},"degenerate_or_flipped":{},)"
+        R"("rounds":{}}})",
+        clean_, repaired_, crossings_, flat_, rounds_);
+  }
+
+ private:
+  int clean_ = 0, repaired_ = 0;
+  uint64_t crossings_ = 0, flat_ = 0;
+  unsigned rounds_ = 0;
+};
 
 /// The largest distance from a point of `from` to the nearest of `to`; `to` is sorted.
 double one_sided_distance(const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>& to) {
@@ -197,6 +234,7 @@ void run_pair(const std::string& name, const Settings& settings, const std::stri
        {"symmetric_difference", BooleanOp::kSymmetricDifference}}};
   std::array<Volume, 4> volumes{};
   std::string extra;
+  std::array<SolidPtr, 4> solids;
   std::shared_ptr<const BoundaryMesh> joined;
   for (size_t i = 0; i < kOperations.size(); ++i) {
     const auto boundary = run.evaluate(operands, kOperations[i].op);
@@ -204,9 +242,17 @@ void run_pair(const std::string& name, const Settings& settings, const std::stri
     must_be_manifold(*solid, kOperations[i].name);
     volumes[i] = exact_volume(*boundary);
     extra += fmt::format(R"(,"{}_tris":{})", kOperations[i].name, solid->triangles.size());
+    solids[i] = solid;
     if (i == 0) joined = boundary;
   }
   const double rss = run.rss_mb();
+  if (settings.check) {
+    Verdicts verdicts;
+    for (size_t i = 0; i < solids.size(); ++i) {
+      if (!solids[i]->empty()) verdicts.add(kOperations[i].name, solids[i], settings.threads);
+    }
+    extra += verdicts.text();
+  }
   const Volume va = exact_volume(operands[0]), vb = exact_volume(operands[1]);
   if (sum(volumes[0], volumes[1]) != sum(va, vb)) fail("vol(A + B) + vol(A * B) is wrong");
   if (sum(volumes[2], volumes[1]) != va) fail("vol(A - B) is wrong");

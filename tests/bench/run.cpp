@@ -160,7 +160,10 @@ SolidPtr Run::measured(const BoundaryMesh& boundary) const {
 void Run::finish(const BoundaryMesh& boundary, const std::string& extra) {
   arrays(boundary);
   const double rss = rss_mb();
-  print(*measured(boundary), rss, stats_, extra);
+  print(*measured(boundary), rss, stats_,
+        fmt::format(R"(,"import_cpu_s":{:.6f},"op_cpu_s":{:.6f},"export_cpu_s":{:.6f}{})",
+                    clock.import_cpu, clock.op_cpu, clock.cpu - clock.import_cpu - clock.op_cpu,
+                    extra));
 }
 
 void Run::print(const Solid& solid, double rss, const EvaluateStats& s,

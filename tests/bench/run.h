@@ -35,16 +35,20 @@ T take(Result<T> r) {
   return std::move(*r);
 }
 
-/// The three clocks of a run.
+/// The three clocks of a run: wall seconds, and the CPU seconds of all threads.
 struct Clock {
   double import = 0, op = 0, exporting = 0, cpu = 0;
+  double import_cpu = 0, op_cpu = 0;  ///< shares of `cpu`
 
   template <class F>
   auto timed(double& seconds, F&& f) {
     const double w = wall_seconds(), c = cpu_seconds();
     auto result = f();
     seconds += wall_seconds() - w;
-    cpu += cpu_seconds() - c;
+    const double used = cpu_seconds() - c;
+    cpu += used;
+    if (&seconds == &import) import_cpu += used;
+    if (&seconds == &op) op_cpu += used;
     return result;
   }
 };
@@ -53,6 +57,7 @@ struct Settings {
   unsigned threads = 1;
   int repeat = 1;
   uint32_t cell_limit = 17;  ///< m of Campen & Kobbelt 2010, section 4.1
+  bool check = false;        ///< of `pair`: the results as GLB are proved free of defects
   std::string write;         ///< an OFF file for the result, in doubles
   std::string write_inputs;  ///< what the names of OFF files for the operands begin with
   std::string write_cells;   ///< a file for the critical cells: lo and hi in mm, one a line
