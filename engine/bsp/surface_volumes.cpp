@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "engine/bsp/line_key.h"
 #include "engine/bsp/union_find.h"
@@ -30,12 +31,39 @@ bool label_patches(const std::vector<SurfaceCells>& runs, InsideLabels& labels) 
   return true;
 }
 
+/// A line in which a polygon's plane meets a wall.
+struct WallLine {
+  uint32_t support, wall;
+  LineKey key;
+
+  [[nodiscard]] auto planes() const { return std::tie(support, wall); }
+};
+
+/// All lines of wall edges, sorted by planes.
+std::vector<WallLine> wall_lines(const Job& job, const std::vector<SurfaceCells>& runs) {
+  std::vector<WallLine> lines;
+  for (const SurfaceCells& run : runs) {
+    for (const SurfaceCells::WallEdge& e : run.wall_edges) lines.push_back({e.support, e.wall, {}});
+  }
+  const auto by_planes = [](const WallLine& a, const WallLine& b) { return a.planes() < b.planes(); };
+  const auto same = [](const WallLine& a, const WallLine& b) { return a.planes() == b.planes(); };
+  std::sort(lines.begin(), lines.end(), by_planes);
+  lines.erase(std::unique(lines.begin(), lines.end(), same), lines.end());
+  std::vector<LineNamer::PlanePair> pairs;
+  for (const WallLine& line : lines) pairs.push_back({line.wall, line.support});
+  std::vector<LineKey> keys;
+  LineNamer(job.planes()).keys(pairs, keys);
+  for (size_t i = 0; i < lines.size(); ++i) lines[i].key = keys[i];
+  return lines;
+}
+
 /// Joins the volumes of neighbouring cells along the edges in which pieces of a plane meet a wall.
 class WallJoiner {
  public:
   WallJoiner(const Job& job, const std::vector<SurfaceCells>& runs,
              const std::vector<uint32_t>& first_volume, UnionFind& volumes)
       : job_(job), geometry_(job.planes(), &job), volumes_(volumes) {
+    const std::vector<WallLine> lines = wall_lines(job, runs);
     for (size_t r = 0; r < runs.size(); ++r) {
       const auto& points = runs[r].set.points;
       std::vector<uint32_t> number(points.size(), kNone);
@@ -48,7 +76,11 @@ class WallJoiner {
         return number[p];
       };
       for (const SurfaceCells::WallEdge& e : runs[r].wall_edges) {
-        edges_.push_back({e.support, e.wall, e.is_below, point(e.from), point(e.to),
+        const auto line = std::lower_bound(lines.begin(), lines.end(), std::tie(e.support, e.wall),
+                                           [](const WallLine& a, const auto& planes) {
+                                             return a.planes() < planes;
+                                           });
+        edges_.push_back({e.support, e.wall, line->key, is_first_side(e), point(e.from), point(e.to),
                           first_volume[r] + e.front, first_volume[r] + e.back});
       }
     }
@@ -56,15 +88,15 @@ class WallJoiner {
 
   void join() {
     std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
-      return std::tie(a.support, a.wall, a.is_below) < std::tie(b.support, b.wall, b.is_below);
+      return std::tie(a.support, a.key, b.is_first_side) < std::tie(b.support, b.key, a.is_first_side);
     });
     for (auto begin = edges_.begin(); begin != edges_.end();) {
       auto middle = begin, end = begin;
       const auto on_line = [&](const Edge& e) {
-        return e.support == begin->support && e.wall == begin->wall;
+        return e.support == begin->support && e.key == begin->key;
       };
       while (end != edges_.end() && on_line(*end)) ++end;
-      while (middle != end && !middle->is_below) ++middle;
+      while (middle != end && middle->is_first_side) ++middle;
       join_line(begin, middle, end);
       begin = end;
     }
@@ -73,11 +105,29 @@ class WallJoiner {
  private:
   struct Edge {
     uint32_t support, wall;
-    bool is_below;
-    uint32_t from, to;  ///< points of the geometry, in the order along the axis once joined
+    LineKey key;
+    bool is_first_side;  ///< of the line, in the plane
+    uint32_t from, to;   ///< points of the geometry, in the order along the axis once joined
     uint32_t front, back;
   };
   using Iterator = std::vector<Edge>::iterator;
+
+  /// On which side of its line a piece lies: below the wall, or, where two walls meet in the plane and
+  /// an edge may be in either, so that both agree.
+  [[nodiscard]] bool is_first_side(const SurfaceCells::WallEdge& e) const {
+    const Plane plane = job_.planes().plane(e.support), wall = job_.planes().plane(e.wall);
+    const std::array<Int128, 3> n{plane.a, plane.b, plane.c};
+    const int k = wall.a != 0 ? 0 : wall.b != 0 ? 1 : 2;
+    // The line runs along an axis if the plane does. Across it, in the plane, one goes up the axis k
+    // where the product of the normal and that axis does.
+    for (int along = 0; along < 3; ++along) {
+      if (along == k || n[along] != 0) continue;
+      const int other = 3 - k - along;
+      const bool rises = ((along + 1) % 3 == k) == (n[other] > 0);
+      return e.is_below == rises;
+    }
+    return e.is_below;
+  }
 
   /// The edges of either side do not overlap among themselves; where one of each do, the surface runs
   /// on from one to the other.
@@ -159,20 +209,13 @@ std::optional<InsideLabels> label_by_winding(const std::vector<SurfaceCells>& ru
 }
 
 bool crosses_in_wall(const Job& job, const std::vector<SurfaceCells>& runs) {
-  std::vector<std::array<uint32_t, 2>> lines;  // wall and support
-  for (const SurfaceCells& run : runs) {
-    for (const SurfaceCells::WallEdge& e : run.wall_edges) lines.push_back({e.wall, e.support});
-  }
+  std::vector<std::pair<LineKey, uint32_t>> lines;  // with the support
+  for (const WallLine& line : wall_lines(job, runs)) lines.emplace_back(line.key, line.support);
   std::sort(lines.begin(), lines.end());
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
-  std::vector<LineNamer::PlanePair> pairs;
-  for (const auto& [wall, support] : lines) pairs.push_back({wall, support});
-  std::vector<LineKey> keys;
-  LineNamer(job.planes()).keys(pairs, keys);
-  std::vector<std::pair<uint32_t, LineKey>> named;
-  for (size_t i = 0; i < lines.size(); ++i) named.emplace_back(lines[i][0], keys[i]);
-  std::sort(named.begin(), named.end());
-  return std::adjacent_find(named.begin(), named.end()) != named.end();
+  return std::adjacent_find(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
+           return a.first == b.first;
+         }) != lines.end();
 }
 
 std::optional<InsideLabels> label_by_filling(const Job& job,

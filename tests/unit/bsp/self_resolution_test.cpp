@@ -11,6 +11,8 @@
 namespace csgrun::test {
 namespace {
 
+constexpr int kCases = 100;
+
 std::vector<std::array<uint32_t, 2>> crossings_of(const LeafGeometry& leaf) {
   FacePairs pairs(leaf);
   std::vector<std::array<uint32_t, 2>> found;
@@ -85,7 +87,7 @@ KernelOptions random_options(Random& random) {
 }
 
 TEST(SelfResolution, SeveralSolidsInOneMeshAreTheirUnion) {
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < kCases; ++i) {
     Random random(1000 + i);
     const Merged m = random_case(random, false);
     const auto expected = combined(m.solids, BooleanOp::kUnion);
@@ -97,7 +99,7 @@ TEST(SelfResolution, SeveralSolidsInOneMeshAreTheirUnion) {
 }
 
 TEST(SelfResolution, EvenOddIsTheSymmetricDifference) {
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < kCases; ++i) {
     Random random(2000 + i);
     const Merged m = random_case(random, false);
     EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kEvenOdd, random_options(random)),
@@ -108,7 +110,7 @@ TEST(SelfResolution, EvenOddIsTheSymmetricDifference) {
 }
 
 TEST(SelfResolution, AnInvertedSolidIsTakenAway) {
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < kCases; ++i) {
     Random random(3000 + i);
     const Merged m = random_case(random, true);
     EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kPositive, random_options(random)),
@@ -124,7 +126,7 @@ TEST(SelfResolution, AnInvertedSolidIsTakenAway) {
 
 // The hull of several solids in one mesh is that of their union, which has no more than voids to fill.
 TEST(SelfResolution, OuterHullFillsTheVoidsOfTheUnion) {
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < kCases; ++i) {
     Random random(4000 + i);
     const Merged m = random_case(random, false);
     auto united = combined(m.solids, BooleanOp::kUnion);
