@@ -185,6 +185,7 @@ void Budget::watch() {
     }
   }
   expired_ = true;
+  if (!limits_.end_process) return;
   auto over = Clock::now();
   Phase last = phase_;
   while (true) {  // until it has stopped, or the grace is over

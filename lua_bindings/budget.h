@@ -28,6 +28,8 @@ struct BudgetLimits {
   double script_seconds = 60;           ///< the script alone; evaluation does not count
   std::optional<double> total_seconds;  ///< --timeout: everything, and instead of the above
   size_t heap_bytes = size_t{1} << 30;  ///< the Lua heap, with the meshes that its values hold
+  /// False: what does not stop by itself runs on, for callers whose process has more to do.
+  bool end_process = true;
 };
 
 class Budget {

@@ -1,0 +1,2 @@
+﻿#!/usr/bin/env csgrun
+return cube(1)

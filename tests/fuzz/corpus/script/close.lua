@@ -1,0 +1,3 @@
+local c <close> = setmetatable({}, {__close = function() error("closing") end})
+local k <const> = 5
+return cube(k)

@@ -1,0 +1,2 @@
+print(pcall(setmetatable, {}, {__gc = print}), collectgarbage(), collectgarbage("count"))
+return cube(1)

@@ -1,0 +1,1 @@
+return {base = cube(1), lid = {cube(2), top = sphere(1, {fn = 4})}}

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""Runs the libFuzzer targets for a while each; ./dev fuzz calls it.
+
+usage: run.py BUILD MINUTES [TARGET...]    BUILD: the folder of the preset "fuzz"
+
+Targets run two at a time. What a target learns is kept in BUILD/corpus/TARGET and used the next
+time. A finding is made small and kept as tests/fuzz/regress/TARGET/..., which every later test run
+replays; its report is in BUILD/logs. Exit status: 0 without findings, 1 with, 2 for wrong usage.
+"""
+import concurrent.futures
+import hashlib
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+AT_A_TIME = 2
+SECONDS_PER_INPUT = 60
+MEMORY_MB = 4096
+LONGEST_INPUT = 4096
+SECONDS_TO_SHRINK = 60
+# A script that does not stop by itself ends the process with this code, as it must.
+OUT_OF_TIME = 124
+ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="detect_leaks=1:allocator_may_return_null=1",
+                   UBSAN_OPTIONS="print_stacktrace=1")
+
+
+class Target:
+    def __init__(self, build, name):
+        self.name = name
+        self.program = build / f"fuzz_{name}"
+        self.learned = build / "corpus" / name
+        self.found = build / "found" / name
+        self.log = build / "logs" / f"{name}.log"
+        for folder in (self.learned, self.found, self.log.parent):
+            folder.mkdir(parents=True, exist_ok=True)
+        self.executions = self.coverage = self.features = 0
+        self.kept = []
+
+    def options(self):
+        options = [f"-timeout={SECONDS_PER_INPUT}", f"-rss_limit_mb={MEMORY_MB}", f"-max_len={LONGEST_INPUT}",
+                   f"-artifact_prefix={self.found}/", "-print_final_stats=1"]
+        words = HERE / "dict" / f"{self.name}.dict"
+        return options + ([f"-dict={words}"] if words.exists() else [])
+
+    def run(self, minutes):
+        """Fuzzes until the time is over, also after findings."""
+        end = time.monotonic() + 60 * minutes
+        seeds = [str(f) for f in (HERE / "corpus" / self.name, HERE / "regress" / self.name) if f.is_dir()]
+        self.log.write_text("")
+        while (left := int(end - time.monotonic())) > 0:
+            for old in self.found.iterdir():
+                old.unlink()
+            command = [self.program, *self.options(), f"-max_total_time={left}", self.learned, *seeds]
+            with open(self.log, "a", encoding="utf-8") as log:
+                begin = log.tell()
+                status = subprocess.run(command, stdout=log, stderr=log, env=ENVIRONMENT, check=False).returncode
+            self.read_statistics(begin)
+            if status in (0, OUT_OF_TIME):
+                continue
+            findings = sorted(f for f in self.found.iterdir() if not f.name.startswith("slow-unit"))
+            if not findings:
+                raise RuntimeError(f"{self.name}: ended with status {status}, see {self.log}")
+            self.keep(findings[0])
+            if len(self.kept) >= 5:  # the same again and again: somebody has to look at it first
+                break
+        return self
+
+    def read_statistics(self, begin):
+        last = 0
+        with open(self.log, encoding="utf-8", errors="replace") as log:
+            log.seek(begin)
+            for line in log:
+                if match := re.match(r"#(\d+)\s.*cov: (\d+) ft: (\d+)", line):
+                    last, self.coverage, self.features = map(int, match.groups())
+                if match := re.match(r"stat::number_of_executed_units:\s*(\d+)", line):
+                    last = int(match[1])
+        self.executions += last
+
+    def keep(self, finding):
+        """Makes the input small and stores it with the sources."""
+        small = self.found / "small"
+        kind = finding.name.split("-")[0]
+        if kind in ("crash", "leak"):
+            # Every smaller one is written anew; the last that still fails is the result.
+            command = [self.program, *self.options(), "-minimize_crash=1", f"-max_total_time={SECONDS_TO_SHRINK}",
+                       f"-exact_artifact_path={small}", finding]
+            with open(self.log, "a", encoding="utf-8") as log:
+                subprocess.run(command, stdout=log, stderr=log, env=ENVIRONMENT, check=False)
+        data = (small if small.exists() else finding).read_bytes()
+        name = f"{kind}-{hashlib.sha1(data).hexdigest()[:10]}"
+        folder = HERE / "regress" / self.name
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(data)
+        self.kept.append(folder / name)
+        print(f"FINDING in {self.name}: {len(data)} bytes, kept as tests/fuzz/regress/{self.name}/{name}\n"
+              f"  replay: {self.program} {folder / name}\n  report: {self.log}", flush=True)
+
+
+def main():
+    if len(sys.argv) < 3:
+        print(__doc__, file=sys.stderr)
+        return 2
+    build = pathlib.Path(sys.argv[1]).resolve()
+    minutes = float(sys.argv[2])
+    known = sorted(p.stem for p in (HERE / "targets").glob("*.cpp"))
+    names = sys.argv[3:] or known
+    for name in names:
+        if name not in known:
+            print(f"fuzz: there is no target '{name}'; there are {', '.join(known)}", file=sys.stderr)
+            return 2
+    print(f"{len(names)} targets, {minutes:g} minutes each, {AT_A_TIME} at a time", flush=True)
+    targets = []
+    with concurrent.futures.ThreadPoolExecutor(AT_A_TIME) as pool:
+        running = [pool.submit(Target(build, name).run, minutes) for name in names]
+        for done in concurrent.futures.as_completed(running):
+            target = done.result()
+            targets.append(target)
+            print(f"{target.name}: {target.executions} executions, coverage {target.coverage}, "
+                  f"features {target.features}, findings {len(target.kept)}", flush=True)
+    return 1 if any(target.kept for target in targets) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
