@@ -1,0 +1,273 @@
+"""Breaks the kernel in every place that instrument.py finds, one at a time, and asks the tests whether
+they notice.
+
+One build holds all mutants, switched by an environment variable. Each test runs alone first, without
+a mutant, to learn its time and the places that it passes; a mutant is then tried on the tests that pass
+its place, short ones first, until one fails, crashes, or takes far longer than it should.
+
+A mutant that no test notices must stand in explained.txt with the reason; otherwise the exit status is
+1. Explained mutants are not tried unless asked for.
+"""
+import argparse
+import concurrent.futures
+import json
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import instrument
+
+ROOT = Path(__file__).resolve().parents[2]
+WORK = ROOT / "build" / "mutate"
+SOURCE, BUILD = WORK / "source", WORK / "build"
+EXPLAINED = Path(__file__).with_name("explained.txt")
+MUTATED = ("engine/exact", "engine/bsp")
+PARTS = ("CMakeLists.txt", "engine", "primitives", "tests/CMakeLists.txt", "tests/unit", "tests/property",
+         "tests/support")  # what the tests below are built from
+# Executables with environment and filter, strong ones for their time first. CSGRUN_CASES thins out
+# random cases: most mutants need few of them.
+QUICK = (("unit_exact", {}), ("unit_bsp", {}), ("property", {"CSGRUN_CASES": "4"}),
+         ("unit_mesh", {}), ("unit_csg", {}))
+THOROUGH = (("property", {}),)
+TOGETHER_SECONDS = 0.25  # short tests of one executable run in one process, up to this time
+QUICK_SECONDS = 2  # --quick leaves out what takes longer
+MEMORY_BYTES = 6 << 30
+
+
+class Stage:
+    """Tests of one executable that run in one process."""
+
+    def __init__(self, executable, environment, tests, seconds, passed):
+        self.executable, self.environment = executable, environment
+        self.tests, self.seconds, self.passed = tests, seconds, passed
+
+    @property
+    def name(self):
+        cases = "".join(f" ({v} cases)" for v in self.environment.values())
+        others = f" and {len(self.tests) - 1} more" if len(self.tests) > 1 else ""
+        return f"{self.executable} {self.tests[0]}{others}{cases}"
+
+    def run(self, mutant):
+        """None, or how the mutant was noticed."""
+        cpu = int(3 + 8 * self.seconds)
+        code = run_tests(self.executable, self.tests, self.environment, cpu, CSGRUN_MUTANT=str(mutant))[0]
+        if code == 0:
+            return None
+        if code in (-signal.SIGXCPU, -signal.SIGKILL):
+            return "too long"
+        return "crash" if code < 0 else "failure"
+
+
+def run_tests(executable, tests, environment, cpu_seconds, **more):
+    """Exit status (negative: signal) and CPU seconds."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (cpu_seconds, cpu_seconds + 1))
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    command = [BUILD / executable, "--gtest_brief=1", "--gtest_fail_fast",
+               "--gtest_filter=" + ":".join(tests)]
+    process = subprocess.Popen(command, env={**os.environ, **environment, **more}, preexec_fn=limit,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=WORK)
+    # A deadlock uses no CPU time. The machine may be busy with other things: be patient.
+    alarm = time.monotonic() + 60 + 20 * cpu_seconds
+    while True:
+        pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+        if pid:
+            break
+        if time.monotonic() > alarm:
+            process.kill()
+        time.sleep(0.002)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return process.returncode, usage.ru_utime + usage.ru_stime
+
+
+def write_sources(names):
+    """Copies the sources to build/mutate/source with all mutants in them; returns the mutants."""
+    fresh = {}
+    for part in PARTS:
+        path = ROOT / part
+        for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
+            if file.is_file() and "node_modules" not in file.parts and "__pycache__" not in file.parts:
+                fresh[file.relative_to(ROOT)] = file.read_bytes()
+    mutants = []
+    for name, content in fresh.items():
+        if name.suffix in (".h", ".cpp") and str(name.parent) in names:
+            file = instrument.Instrumenter(str(name), content.decode(), len(mutants))
+            fresh[name] = file.run().encode()
+            instrument.number_keys(file.mutants)
+            mutants += file.mutants
+    fresh[Path("mutant.h")] = Path(__file__).with_name("mutant.h").read_bytes()
+    for old in sorted(SOURCE.rglob("*")) if SOURCE.exists() else ():
+        if old.is_file() and old.relative_to(SOURCE) not in fresh:
+            old.unlink()
+    for name, content in fresh.items():
+        file = SOURCE / name
+        if not file.exists() or file.read_bytes() != content:
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_bytes(content)
+    return mutants
+
+
+def build():
+    executables = sorted({name for name, _ in QUICK + THOROUGH})
+    # Assertions off: the tests themselves must notice. Those of the standard library make a step
+    # outside an array a crash instead of a matter of luck.
+    flags = "-O2 -DNDEBUG -D_GLIBCXX_ASSERTIONS -w"
+    subprocess.run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+                    f"-DCMAKE_CXX_FLAGS={flags}", "-DCSGRUN_TESTS=ON"],
+                   check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", BUILD, "--target", *executables], check=True)
+
+
+def list_tests(executable):
+    text = subprocess.run([BUILD / executable, "--gtest_list_tests"], check=True, text=True,
+                          stdout=subprocess.PIPE, env={**os.environ, "CSGRUN_MUTANT": "16383"}).stdout
+    tests, suite = [], ""
+    for line in text.splitlines():
+        if re.match(r"\S+\.(\s|$)", line):
+            suite = line.split()[0]
+        elif line.startswith("  "):
+            tests.append(suite + line.split()[0])
+    return [t for t in tests if "DISABLED" not in t]
+
+
+def make_stages(configurations, pool, arguments):
+    """Runs every test once without a mutant."""
+    def measure(job):
+        number, executable, environment, test = job
+        trace = WORK / f"trace{number}"
+        code, seconds = run_tests(executable, [test], environment, 3600,
+                                     CSGRUN_MUTANT_TRACE=str(trace))
+        if code:
+            sys.exit(f"mutate: {executable} {test} fails without a mutant")
+        passed = {int(n) for n in trace.read_text().split()}
+        trace.unlink()
+        return Stage(executable, environment, [test], seconds, passed)
+
+    jobs = [(e, env, t) for e, env in configurations for t in list_tests(e)]
+    built = [[e, (BUILD / e).stat().st_mtime_ns] for e, _ in configurations]
+    saved = WORK / "stages.json"
+    known = json.loads(saved.read_text()) if saved.exists() else None
+    if known and known["built"] == built:
+        single = [Stage(*s[:4], set(s[4])) for s in known["stages"]]
+    else:
+        single = list(pool.map(measure, [(i, *job) for i, job in enumerate(jobs)]))
+        lists = [[s.executable, s.environment, s.tests, s.seconds, sorted(s.passed)] for s in single]
+        saved.write_text(json.dumps({"built": built, "stages": lists}))
+    stages = []
+    for s in single:
+        last = stages[-1] if stages else None
+        if last and last.executable == s.executable and last.environment == s.environment and \
+                s.seconds < TOGETHER_SECONDS / 4 and last.seconds + s.seconds < TOGETHER_SECONDS:
+            last.tests += s.tests
+            last.seconds += s.seconds
+            last.passed |= s.passed
+        else:
+            stages.append(s)
+    stages = [s for s in stages if s.passed and not (arguments.quick and s.seconds > QUICK_SECONDS)]
+    stages.sort(key=lambda s: s.seconds)
+    if arguments.verbose:
+        for s in stages:
+            print(f"{s.seconds:6.2f} s {len(s.passed):5} passed by {s.name}")
+    return stages
+
+
+def read_explained():
+    """Reason by key. The file's paragraphs: `== reason` in one or more lines, then one key a line."""
+    explained, reason, in_reason = {}, "", False
+    for line in EXPLAINED.read_text().splitlines():
+        line = line.strip()
+        if line.startswith("=="):
+            text = line[2:].strip()
+            reason = f"{reason} {text}" if in_reason else text
+            in_reason = True
+        elif line and not line.startswith("#!"):
+            in_reason = False
+            explained[line] = reason
+    return explained
+
+
+def choose(mutants, arguments, explained):
+    chosen = [m for m in mutants if arguments.only in m.key]
+    if arguments.again:
+        survived = set(json.loads((WORK / "survivors.json").read_text()))
+        chosen = [m for m in chosen if m.key in survived]
+    if not arguments.explained:
+        chosen = [m for m in chosen if m.key not in explained]
+    if arguments.count and arguments.count < len(chosen):
+        chosen = [chosen[i * len(chosen) // arguments.count] for i in range(arguments.count)]
+    return chosen
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(prog="./dev mutate", description=__doc__.split("\n\n")[0])
+    parser.add_argument("count", type=int, nargs="?", help="try so many, evenly spread (default: all)")
+    parser.add_argument("--only", default="", metavar="TEXT", help="those whose `file: line` has TEXT")
+    parser.add_argument("--again", action="store_true", help="those that survived the last run")
+    parser.add_argument("--quick", action="store_true", help="leave out the long tests")
+    parser.add_argument("--explained", action="store_true", help="try the explained ones too")
+    parser.add_argument("--list", action="store_true", help="print the mutants and stop")
+    parser.add_argument("--verbose", action="store_true", help="say what the tests cost")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N")
+    return parser.parse_args()
+
+
+def main():
+    arguments = parse_arguments()
+    start = time.monotonic()
+    mutants = write_sources(MUTATED)
+    explained = read_explained()
+    stale = sorted(set(explained) - {m.key for m in mutants})
+    chosen = choose(mutants, arguments, explained)
+    if arguments.list:
+        for m in mutants:
+            print(f"{m.number:5} {m.file}:{m.line}: {m.text}")
+        return 0
+    os.nice(19)
+    build()
+    pool = concurrent.futures.ThreadPoolExecutor(arguments.jobs)
+    stages = make_stages(QUICK if arguments.quick else QUICK + THOROUGH, pool, arguments)
+    print(f"{len(mutants)} mutants, {len(explained) - len(stale)} of them explained; trying {len(chosen)} "
+          f"on {sum(len(s.tests) for s in stages)} tests "
+          f"({sum(s.seconds for s in stages):.0f} s of CPU without a mutant)", flush=True)
+
+    def try_one(mutant):
+        for stage in stages:
+            if mutant.number in stage.passed:
+                how = stage.run(mutant.number)
+                if how:
+                    return mutant, how, stage
+        return mutant, None, None
+
+    noticed, survivors = {}, []
+    for done, (mutant, how, stage) in enumerate(pool.map(try_one, chosen), 1):
+        if how:
+            noticed.setdefault((stage.executable, how), []).append(mutant)
+            if mutant.key in explained:
+                print(f"explained, but noticed by {stage.name}: {mutant.key}")
+        elif mutant.key not in explained:
+            survivors.append(mutant)
+            passed = any(mutant.number in s.passed for s in stages)
+            print(f"{mutant.file}:{mutant.line}: {'survived' if passed else 'in no test'}: {mutant.text}",
+                  flush=True)
+        if done % 200 == 0:
+            print(f"... {done} of {len(chosen)}, {time.monotonic() - start:.0f} s", flush=True)
+    (WORK / "survivors.json").write_text(json.dumps([m.key for m in survivors], indent=1))
+
+    for (executable, how), list_of in sorted(noticed.items()):
+        print(f"{len(list_of):5} noticed by {executable} ({how})")
+    for key in stale:
+        print(f"explained.txt names what is no mutant: {key}")
+    print(f"{len(mutants)} mutants: {len(chosen)} tried, {sum(map(len, noticed.values()))} noticed, "
+          f"{len(survivors)} survived; {len(explained) - len(stale)} explained "
+          f"({time.monotonic() - start:.0f} s)")
+    return 1 if survivors or stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
