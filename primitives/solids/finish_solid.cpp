@@ -36,8 +36,12 @@ void drop_repeated_corners(PolygonMesh& mesh) {
   mesh.corners = std::move(corners);
 }
 
+/// Whether the loops are consecutive ranges of the corners, and the corners are points.
 bool all_indices_valid(const PolygonMesh& mesh) {
-  return std::all_of(mesh.corners.begin(), mesh.corners.end(),
+  return !mesh.loop_starts.empty() && mesh.loop_starts.front() == 0 &&
+         mesh.loop_starts.back() == mesh.corners.size() &&
+         std::is_sorted(mesh.loop_starts.begin(), mesh.loop_starts.end()) &&
+         std::all_of(mesh.corners.begin(), mesh.corners.end(),
                      [&](uint32_t corner) { return corner < mesh.points.size(); });
 }
 

@@ -318,6 +318,13 @@ TEST(MakeSolidMesh, ReportsTurnsAndWelds) {
             "part.obj: faces without area: 1 degenerate face");
 }
 
+TEST(MakeSolidMesh, RefusesListsThatDoNotFit) {
+  auto mesh = *parse_mesh("part.obj", kObj);
+  mesh.corners.resize(3);  // the loops go on
+  EXPECT_EQ(make_solid_mesh(mesh, nullptr).error().message.substr(0, 33),
+            "part.obj: indices out of range: 1");
+}
+
 std::filesystem::path shared_folder() {
   if (const char* given = std::getenv("CSGRUN_SHARED")) return given;
   return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path().parent_path() /
