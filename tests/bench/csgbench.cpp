@@ -108,7 +108,7 @@ void run_boxes(const std::string& name, const Settings& settings) {
 
 constexpr const char* kUsage =
     "usage: csgbench WORKLOAD ARGS [--threads N] [--repeat R] [--cell-limit M] [--write OUT.off]\n"
-    "                [--check] [--write-inputs PREFIX] [--write-cells OUT]\n"
+    "                [--check] [--write-inputs PREFIX] [--write-steps PREFIX] [--write-cells OUT]\n"
     "  rot FILE ANGLE       union with a copy turned about z (vertices turned)\n"
     "  rotframe FILE ANGLE  the same turn as a transform\n"
     "  chain N              block minus N spheres, one after another\n"
@@ -196,6 +196,8 @@ int main(int argc, char** argv) {
       settings.check = true;
     } else if (word == "--write" && has_value) {
       settings.write = argv[++i];
+    } else if (word == "--write-steps" && has_value) {
+      settings.write_steps = argv[++i];
     } else if (word == "--write-inputs" && has_value) {
       settings.write_inputs = argv[++i];
     } else if (word == "--write-cells" && has_value) {

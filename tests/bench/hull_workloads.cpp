@@ -188,6 +188,10 @@ void run_front(const std::string& name, const Settings& settings, const std::str
                           R"("components":{},"genus":{}}})",
                           i ? "," : "", ms, cpu_ms, events, solid->triangles.size(),
                           solid->measures.components, solid->measures.genus);
+    if (!settings.write_steps.empty()) {
+      write_off(fmt::format("{}{}.off", settings.write_steps, i + 1), solid->positions,
+                solid->triangles);
+    }
     surface.points = solid->positions;
     surface.triangles = solid->triangles;
   }

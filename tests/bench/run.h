@@ -59,6 +59,7 @@ struct Settings {
   uint32_t cell_limit = 17;  ///< m of Campen & Kobbelt 2010, section 4.1
   bool check = false;        ///< of `pair`: the results as GLB are proved free of defects
   std::string write;         ///< an OFF file for the result, in doubles
+  std::string write_steps;   ///< of `front`: what the names of OFF files for the steps begin with
   std::string write_inputs;  ///< what the names of OFF files for the operands begin with
   std::string write_cells;   ///< a file for the critical cells: lo and hi in mm, one a line
 };

@@ -1,9 +1,11 @@
 // cgal_boolean union|difference A.off B.off OUT.off: the same by CGAL's Nef polyhedra, which the
 // paper compares itself with. One JSON line with the seconds from arrays to arrays and the peak of
 // memory. Built only where CGAL is installed; nothing else needs it.
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <type_traits>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Nef_polyhedron_3.h>
@@ -29,6 +31,20 @@ double peak_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) * 1024e-6;
+}
+
+/// The double nearest to an exact number: CGAL's own conversion may be off by a unit in the last place,
+/// which would turn over every tie when it is rounded further.
+double nearest(const Kernel::FT& number) {
+  const auto& exact = CGAL::exact(number);
+  using Exact = std::decay_t<decltype(exact)>;
+  const auto distance = [&](double d) { return CGAL::abs(Exact(exact - Exact(d))); };
+  const double guess = CGAL::to_double(exact);
+  double best = guess;
+  for (const double d : {std::nextafter(guess, -HUGE_VAL), std::nextafter(guess, HUGE_VAL)}) {
+    if (distance(d) < distance(best)) best = d;
+  }
+  return best;
 }
 
 bool read(const char* path, Mesh& mesh) {
@@ -60,8 +76,7 @@ int main(int argc, char** argv) {
   file << "OFF\n" << result.number_of_vertices() << " " << result.number_of_faces() << " 0\n";
   for (const auto v : result.vertices()) {
     const auto& point = result.point(v);
-    file << CGAL::to_double(point.x()) << " " << CGAL::to_double(point.y()) << " "
-         << CGAL::to_double(point.z()) << "\n";
+    file << nearest(point.x()) << " " << nearest(point.y()) << " " << nearest(point.z()) << "\n";
   }
   for (const auto f : result.faces()) {
     file << result.degree(f);
