@@ -11,6 +11,7 @@ A mutant that no test notices must stand in explained.txt with the reason; other
 import argparse
 import concurrent.futures
 import json
+import math
 import os
 import re
 import resource
@@ -35,7 +36,6 @@ QUICK = (("unit_exact", {}), ("unit_bsp", {}), ("property", {"CSGRUN_CASES": "4"
          ("unit_mesh", {}), ("unit_csg", {}))
 THOROUGH = (("property", {}),)
 TOGETHER_SECONDS = 0.25  # short tests of one executable run in one process, up to this time
-QUICK_SECONDS = 2  # --quick leaves out what takes longer
 MEMORY_BYTES = 6 << 30
 
 
@@ -54,7 +54,7 @@ class Stage:
 
     def run(self, mutant):
         """None, or how the mutant was noticed."""
-        cpu = int(3 + 8 * self.seconds)
+        cpu = int(2 + 6 * self.seconds)
         code = run_tests(self.executable, self.tests, self.environment, cpu, CSGRUN_MUTANT=str(mutant))[0]
         if code == 0:
             return None
@@ -169,7 +169,7 @@ def make_stages(configurations, pool, arguments):
             last.passed |= s.passed
         else:
             stages.append(s)
-    stages = [s for s in stages if s.passed and not (arguments.quick and s.seconds > QUICK_SECONDS)]
+    stages = [s for s in stages if s.passed and s.seconds <= arguments.quick]
     stages.sort(key=lambda s: s.seconds)
     if arguments.verbose:
         for s in stages:
@@ -209,7 +209,8 @@ def parse_arguments():
     parser.add_argument("count", type=int, nargs="?", help="try so many, evenly spread (default: all)")
     parser.add_argument("--only", default="", metavar="TEXT", help="those whose `file: line` has TEXT")
     parser.add_argument("--again", action="store_true", help="those that survived the last run")
-    parser.add_argument("--quick", action="store_true", help="leave out the long tests")
+    parser.add_argument("--quick", type=float, default=math.inf, metavar="SECONDS",
+                        help="leave out tests that take longer, and the thorough ones")
     parser.add_argument("--explained", action="store_true", help="try the explained ones too")
     parser.add_argument("--list", action="store_true", help="print the mutants and stop")
     parser.add_argument("--verbose", action="store_true", help="say what the tests cost")
@@ -231,7 +232,7 @@ def main():
     os.nice(19)
     build()
     pool = concurrent.futures.ThreadPoolExecutor(arguments.jobs)
-    stages = make_stages(QUICK if arguments.quick else QUICK + THOROUGH, pool, arguments)
+    stages = make_stages(QUICK + (THOROUGH if arguments.quick == math.inf else ()), pool, arguments)
     print(f"{len(mutants)} mutants, {len(explained) - len(stale)} of them explained; trying {len(chosen)} "
           f"on {sum(len(s.tests) for s in stages)} tests "
           f"({sum(s.seconds for s in stages):.0f} s of CPU without a mutant)", flush=True)
