@@ -129,12 +129,12 @@ inline bool is_simple(const std::vector<Point2>& p) {
   return true;
 }
 
-/// Counter-clockwise, 3 to 8 corners in {0..5}^2; 180 degree corners occur.
-inline std::vector<Point2> random_polygon(Random& random) {
+/// Counter-clockwise, 3 to 8 corners in {0..size}^2; 180 degree corners occur.
+inline std::vector<Point2> random_polygon(Random& random, int64_t size = 5) {
   for (;;) {
     const auto n = static_cast<size_t>(random.integer(3, 8));
     std::set<Point2> chosen;
-    while (chosen.size() < n) chosen.insert({random.integer(0, 5), random.integer(0, 5)});
+    while (chosen.size() < n) chosen.insert({random.integer(0, size), random.integer(0, size)});
     std::vector<Point2> p(chosen.begin(), chosen.end());
     for (int attempt = 0; attempt < 60; ++attempt) {
       for (size_t i = n - 1; i > 0; --i)
@@ -259,12 +259,12 @@ inline void turn_over(std::vector<Loop>& loops) {
 
 /// The boundary of a random set of tetrahedra of a triangulated grid: any genus, cavities, parts
 /// that touch in edges and vertices.
-inline std::vector<Loop> complex_loops(Random& random) {
+inline std::vector<Loop> complex_loops(Random& random, int64_t size = 5) {
   constexpr int64_t kCells = 3;
   std::array<std::array<int64_t, kCells + 1>, 3> lines{};
   for (auto& l : lines) {
     std::set<int64_t> chosen;
-    while (chosen.size() < kCells + 1) chosen.insert(random.integer(0, 5));
+    while (chosen.size() < kCells + 1) chosen.insert(random.integer(0, size));
     std::copy(chosen.begin(), chosen.end(), l.begin());
   }
   const int64_t percent = random.integer(10, 70);
@@ -302,10 +302,10 @@ inline std::vector<Loop> complex_loops(Random& random) {
   return loops;
 }
 
-/// Loops of a random solid with vertices in {0..5}^3.
-inline std::vector<Loop> random_loops(Random& random) {
+/// Loops of a random solid with vertices in {0..size}^3, size at least 3.
+inline std::vector<Loop> random_loops(Random& random, int64_t size = 5) {
   const auto point = [&] {
-    return IVec3{random.integer(0, 5), random.integer(0, 5), random.integer(0, 5)};
+    return IVec3{random.integer(0, size), random.integer(0, size), random.integer(0, size)};
   };
   std::vector<Loop> loops;
   while (loops.empty()) {
@@ -324,8 +324,8 @@ inline std::vector<Loop> random_loops(Random& random) {
         break;
       case 2:
       case 3: {
-        const int64_t z0 = random.integer(0, 4);
-        loops = prism_loops(random_polygon(random), z0, random.integer(z0 + 1, 5));
+        const int64_t z0 = random.integer(0, size - 1);
+        loops = prism_loops(random_polygon(random, size), z0, random.integer(z0 + 1, size));
         break;
       }
       case 4: {
@@ -335,22 +335,22 @@ inline std::vector<Loop> random_loops(Random& random) {
         break;
       }
       case 5: {
-        const int64_t z = random.integer(0, 4);
+        const int64_t z = random.integer(0, size - 1);
         IVec3 apex = point();
-        apex[2] = random.integer(z + 1, 5);
-        loops = cone_loops(random_polygon(random), z, apex, std::nullopt);
+        apex[2] = random.integer(z + 1, size);
+        loops = cone_loops(random_polygon(random, size), z, apex, std::nullopt);
         break;
       }
       case 6: {
-        const int64_t z = random.integer(1, 4);
+        const int64_t z = random.integer(1, size - 1);
         IVec3 apex = point(), below = point();
-        apex[2] = random.integer(z + 1, 5);
+        apex[2] = random.integer(z + 1, size);
         below[2] = random.integer(0, z - 1);
-        loops = cone_loops(random_polygon(random), z, apex, below);
+        loops = cone_loops(random_polygon(random, size), z, apex, below);
         break;
       }
       default:
-        loops = complex_loops(random);
+        loops = complex_loops(random, size);
         break;
     }
   }
@@ -362,7 +362,7 @@ inline std::vector<Loop> random_loops(Random& random) {
     const bool reflect = random.bits() & 1;
     map.rows[k] = {0, 0, 0};
     map.rows[k][axes[k]] = reflect ? -1 : 1;
-    map.move[k] = reflect ? 5 : 0;
+    map.move[k] = reflect ? size : 0;
   }
   return mapped(std::move(loops), map);
 }

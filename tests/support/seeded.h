@@ -14,6 +14,14 @@ class Random {
     std::printf("seed %llu (replay with CSGRUN_SEED)\n", static_cast<unsigned long long>(state_));
   }
 
+  /// A sequence of its own for one of many cases: nothing is printed, CSGRUN_SEED has no say.
+  static Random of_case(uint64_t seed, uint64_t number) {
+    Random r;
+    r.state_ = seed ^ (number * 0xd1342543de82ef95ull);
+    r.state_ = r.bits();
+    return r;
+  }
+
   uint64_t bits() {  // splitmix64
     uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -28,7 +36,8 @@ class Random {
   double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
  private:
-  uint64_t state_;
+  Random() = default;
+  uint64_t state_ = 0;
 };
 
 }  // namespace csgrun::test

@@ -1,0 +1,147 @@
+// Runs one case through the kernel and compares everything with the reference.
+#pragma once
+
+#include <string>
+
+#include "engine/mesh/face_pair.h"
+#include "tests/support/exact_measures.h"
+#include "tests/support/fuzz/truth.h"
+#include "tests/support/kernel_checks.h"
+
+namespace csgrun::test {
+
+/// Evaluates the tree of a case by the kernel.
+class FuzzEvaluator {
+ public:
+  explicit FuzzEvaluator(const FuzzCase& c) : case_(c) {}
+
+  BoundaryResult run() {
+    source_ = 0;
+    inner_ = 0;
+    return evaluate(case_.tree);
+  }
+  [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
+
+ private:
+  struct Parts {
+    std::vector<Operand> operands;
+    Expression expression;
+  };
+
+  BoundaryResult evaluate(const FuzzNode& n) {
+    Parts parts;
+    if (auto root = put(n, parts, true); !root) return root.error();
+    return evaluate_boolean(parts.operands, parts.expression, region_of(parts.operands),
+                            case_.options, stats_);
+  }
+
+  static uint32_t add_operand(Parts& parts, Operand operand) {
+    Expression::Node node;
+    node.operand = static_cast<uint32_t>(parts.operands.size());
+    parts.operands.push_back(std::move(operand));
+    parts.expression.nodes.push_back(node);
+    return static_cast<uint32_t>(parts.expression.nodes.size() - 1);
+  }
+
+  /// All pairs of faces that meet elsewhere than in what they share.
+  static std::vector<std::array<uint32_t, 2>> crossings(const LeafGeometry& leaf) {
+    FacePairs pairs(leaf);
+    std::vector<std::array<uint32_t, 2>> found;
+    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+      for (uint32_t g = f + 1; g < leaf.face_count(); ++g) {
+        if (pairs.conflict(f, g)) found.push_back({f, g});
+      }
+    }
+    return found;
+  }
+
+  static InsideRule inside_rule(FillRule fill) {
+    switch (fill) {
+      case FillRule::kPositive:
+        return InsideRule::kPositive;
+      case FillRule::kEvenOdd:
+        return InsideRule::kEvenOdd;
+      default:
+        return InsideRule::kNonZero;
+    }
+  }
+
+  Result<uint32_t> leaf(uint32_t index, Parts& parts) {
+    const FuzzLeaf& l = case_.leaves[index];
+    Operand o = operand_of(std::make_shared<LeafGeometry>(geometry_of(l)));
+    o.translation = l.move;
+    o.frame = case_.frames[l.frame];
+    o.first_source = source_++;
+    if (l.may_cross) {
+      auto resolved =
+          resolve_surface(o, crossings(*o.leaf), inside_rule(l.fill), case_.options, stats_);
+      if (!resolved) return resolved.error();
+      o = Operand();  // frame, translation and labels are the boundary's own
+      o.boundary = *resolved;
+    }
+    return add_operand(parts, std::move(o));
+  }
+
+  /// The number of the node that stands for `n`. A root is never made on its own.
+  Result<uint32_t> put(const FuzzNode& n, Parts& parts, bool root) {
+    if (n.leaf >= 0) return leaf(static_cast<uint32_t>(n.leaf), parts);
+    if (!root && (case_.nest >> (inner_++ % 64) & 1)) {
+      auto inner = evaluate(n);  // its labels are those of the whole tree
+      if (!inner) return inner.error();
+      Operand o;
+      o.boundary = *inner;
+      return add_operand(parts, std::move(o));
+    }
+    std::vector<uint32_t> children;
+    for (const FuzzNode& c : n.children) {
+      auto child = put(c, parts, false);
+      if (!child) return child.error();
+      children.push_back(*child);
+    }
+    Expression& e = parts.expression;
+    e.nodes.push_back({false, n.op, 0, static_cast<uint32_t>(e.children.size()),
+                       static_cast<uint32_t>(children.size())});
+    e.children.insert(e.children.end(), children.begin(), children.end());
+    return static_cast<uint32_t>(e.nodes.size() - 1);
+  }
+
+  const FuzzCase& case_;
+  uint32_t source_ = 0;
+  int inner_ = 0;
+  EvaluateStats stats_;
+};
+
+struct FuzzOutcome {
+  std::string failure;      ///< empty: kernel and reference agree
+  bool meets_zero = false;  ///< a sign was zero that no plane's name tells
+  bool empty = false;       ///< the result has no points
+};
+
+/// Everything about one case: the kernel's boundary against the reference, its form, and the arrays
+/// made from it.
+inline FuzzOutcome check_case(const FuzzCase& c) {
+  FuzzOutcome outcome;
+  FuzzEvaluator evaluator(c);
+  const auto result = evaluator.run();
+  // What the filter leaves to integers is zero but for a few in a million.
+  for (const uint64_t count : evaluator.stats().sign_exact) outcome.meets_zero |= count > 0;
+  if (!result) {
+    outcome.failure = "error: " + result.error().message;
+    return outcome;
+  }
+  outcome.empty = (*result)->faces.empty();
+  const Truth truth = truth_of(c);
+  outcome.failure = reference::difference(truth.leaves, truth.tree, claim_of(**result));
+  if (!outcome.failure.empty()) return outcome;
+  outcome.failure = fault_in(**result);
+  if (!outcome.failure.empty()) return outcome;
+  const auto solid = present(**result, test_context());
+  if (!solid) {
+    outcome.failure = "presentation: " + solid.error().message;
+    return outcome;
+  }
+  outcome.failure = fault_in(**solid, **result);
+  return outcome;
+}
+
+}  // namespace csgrun::test
