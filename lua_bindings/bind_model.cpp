@@ -1,6 +1,9 @@
 // What connects a script with the world: import, require, param, emit, render.
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,11 +25,50 @@ using T = ArgumentType;
 constexpr Option kImportOptions[] = {
     {"file", T::kString, "", "STL, OFF, OBJ or PLY, relative to the file that calls", true},
     {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
+    {"repair", T::kValue, "false",
+     "makes a broken mesh a closed one and warns of all it does: true, or a table of\n"
+     "          weld = MM (0: how far apart points of open edges may be that become one),\n"
+     "          fill_holes (false: closes what is open), orient (true: turns faces to agree, "
+     "surfaces\n"
+     "          outwards), drop_degenerate and drop_duplicates (true)",
+     false},
 };
-constexpr FunctionSpec kImport{"import",
-                               "A solid from a mesh file; the mesh must be closed. Where it crosses "
-                               "itself, fill says what is inside.",
-                               kImportOptions, false, "import(\"part.stl\", {fill = \"positive\"})"};
+constexpr FunctionSpec kImport{
+    "import",
+    "A solid from a mesh file; the mesh must be closed, or is repaired on request. Where it "
+    "crosses itself, fill says what is inside.",
+    kImportOptions, false, "import(\"scan.stl\", {repair = {weld = 0.01, fill_holes = true}})"};
+
+constexpr Option kRepairOptions[] = {
+    {"weld", T::kNumber, "0", "mm", false, Range::kNotNegative},
+    {"fill_holes", T::kBoolean, "false", "closes what is open", false},
+    {"orient", T::kBoolean, "true", "turns faces to agree, surfaces outwards", false},
+    {"drop_degenerate", T::kBoolean, "true", "drops faces without area", false},
+    {"drop_duplicates", T::kBoolean, "true", "drops faces on the same points as others", false},
+};
+constexpr FunctionSpec kRepair{"import: option 'repair'", "", kRepairOptions, false, ""};
+
+/// What option "repair" says; nothing when it was not given or is false.
+std::optional<RepairOptions> repair_argument(lua_State* L, const Arguments& arguments) {
+  const int index = arguments.stack_index("repair");
+  if (index == 0) return std::nullopt;
+  RepairOptions options;
+  if (lua_isboolean(L, index)) {
+    return lua_toboolean(L, index) != 0 ? std::optional(options) : std::nullopt;
+  }
+  if (!lua_istable(L, index)) {
+    fail_in(kImport, "option 'repair' must be true, false or a table of options, got " +
+                         describe_value(L, index));
+  }
+  lua_pushvalue(L, index);
+  const Arguments given(L, kRepair, lua_gettop(L));
+  options.weld = given.number("weld", options.weld);
+  options.fill_holes = given.boolean("fill_holes", options.fill_holes);
+  options.orient = given.boolean("orient", options.orient);
+  options.drop_degenerate = given.boolean("drop_degenerate", options.drop_degenerate);
+  options.drop_duplicates = given.boolean("drop_duplicates", options.drop_duplicates);
+  return options;
+}
 
 /// The file whose code is running, as messages name it: chunks made by load() do not count.
 std::string calling_file(lua_State* L) {
@@ -53,15 +95,22 @@ int import_mesh(lua_State* L) {
     fail_in(kImport, error.what());
   }
   const FillRule fill = fill_argument(arguments, kImport);
-  NodePtr& node = session.imported[{file.real, fill}];
+  const std::optional<RepairOptions> repair = repair_argument(L, arguments);
+  NodePtr& node = session.imported[{file.real, fill, repair}];
   if (!node) {
     const EvaluationScope scope(
         session.budget());  // reading a large mesh is no fault of the script
     PolygonMesh mesh = value_or_fail(kImport, parse_mesh(file.display, file.bytes));
     mesh.fill = fill;
-    std::string note;
-    mesh = value_or_fail(kImport, make_solid_mesh(std::move(mesh), &note));
-    if (!note.empty()) session.warn(L, "import: " + note);
+    std::vector<std::string> notes;
+    if (repair) {
+      mesh = value_or_fail(kImport, repair_solid_mesh(std::move(mesh), *repair, &notes));
+    } else {
+      std::string note;
+      mesh = value_or_fail(kImport, make_solid_mesh(std::move(mesh), &note));
+      if (!note.empty()) notes.push_back(note);
+    }
+    for (const std::string& note : notes) session.warn(L, "import: " + note);
     mesh.kind = session.files().name_from_folder(file.display);  // what is written names it so
     node = counted_leaf(L, std::move(mesh));
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 
 #include <csgrun/engine/csg_tree.h>
 #include <csgrun/engine/evaluate.h>
+#include <csgrun/engine/repair.h>
 #include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/solids.h>
 
@@ -96,7 +98,7 @@ class Session {
       0;  ///< bytes outside of the Lua heap that the collector was not told of yet
 
   /// Meshes of files by their real path and how they were asked for: read once.
-  std::map<std::pair<std::string, FillRule>, NodePtr> imported;
+  std::map<std::tuple<std::string, FillRule, std::optional<RepairOptions>>, NodePtr> imported;
 
  private:
   SessionOptions options_;

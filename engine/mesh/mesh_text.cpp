@@ -16,4 +16,15 @@ std::string place_text(const glm::dvec3& p) {
          ")";
 }
 
+std::string rough_place_text(const glm::dvec3& p) {
+  const auto rough = [](double x) {
+    std::array<char, 32> buffer;
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x,
+                                   std::chars_format::general, 6)
+                         .ptr;
+    return std::string(buffer.data(), end);
+  };
+  return "(" + rough(p.x) + ", " + rough(p.y) + ", " + rough(p.z) + ")";
+}
+
 }  // namespace csgrun

@@ -241,4 +241,23 @@ std::string describe_holes(const PolygonMesh& mesh) {
   return holes.empty() ? std::string() : open_text(faces, holes);
 }
 
+Result<RepairOptions> suggest_repair(const PolygonMesh& mesh) {
+  RepairOptions options;
+  if (repair_mesh(mesh, options, nullptr)) return options;
+  double size = 0;
+  for (const glm::dvec3& p : mesh.points) {
+    for (int i = 0; i < 3; ++i) size = std::max(size, std::fabs(p[i] - mesh.points[0][i]));
+  }
+  for (const double weld : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0}) {
+    if (!(weld >= 1e-7 * size && weld <= 1e-4 * size)) continue;
+    options.weld = weld;
+    if (repair_mesh(mesh, options, nullptr)) return options;
+  }
+  options = {};
+  options.fill_holes = true;
+  const Result<PolygonMesh> filled = repair_mesh(mesh, options, nullptr);
+  if (!filled) return filled.error();
+  return options;
+}
+
 }  // namespace csgrun

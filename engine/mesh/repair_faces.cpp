@@ -49,7 +49,7 @@ std::vector<int64_t> need_of_faces(const std::vector<LoopFace>& faces, size_t po
 
 void StepNote::add_at(const glm::dvec3& point) {
   if (step_.places.size() < RepairStep::kMostPlaces) {
-    step_.places.push_back("at " + place_text(point));
+    step_.places.push_back("at " + rough_place_text(point));
   }
   ++step_.count;
 }

@@ -152,7 +152,7 @@ std::string hole_text(const RepairMesh& mesh, const HoleLoop& hole) {
       hi[i] = std::max(hi[i], mesh.points[v][i]);
     }
   }
-  return std::to_string(hole.size()) + " edges at " + place_text(lo + (hi - lo) * 0.5);
+  return std::to_string(hole.size()) + " edges at " + rough_place_text(lo + (hi - lo) * 0.5);
 }
 
 void fill_holes(RepairMesh& mesh, const std::vector<HoleLoop>& holes, StepNote& note) {

@@ -129,7 +129,8 @@ void split_open_edges(RepairMesh& mesh, double tolerance, StepNote& note) {
     std::sort(inside.begin(), inside.end());
     std::vector<uint32_t>& inner = splits[{edge.low, edge.high}];
     for (const auto& [t, v] : inside) inner.push_back(v);
-    note.add(place_text(mesh.points[edge.low]) + " - " + place_text(mesh.points[edge.high]));
+    note.add(rough_place_text(mesh.points[edge.low]) + " - " +
+             rough_place_text(mesh.points[edge.high]));
   }
   note.step().tolerance = tolerance;
   if (splits.empty()) return;

@@ -87,7 +87,17 @@ Result<PolygonMesh> read_mesh_file(const std::string& path) {
 
 Result<PolygonMesh> make_solid_mesh(PolygonMesh mesh, std::string* note) {
   const std::string name = mesh.kind.empty() ? "mesh" : mesh.kind;
-  return finish_solid(std::move(mesh), name, note);
+  return finish_solid(std::move(mesh), name, note, true);
+}
+
+Result<PolygonMesh> repair_solid_mesh(PolygonMesh mesh, const RepairOptions& options,
+                                      std::vector<std::string>* notes) {
+  const std::string name = mesh.kind.empty() ? "mesh" : mesh.kind;
+  RepairReport report;
+  Result<PolygonMesh> repaired = repair_mesh(std::move(mesh), options, &report);
+  if (!repaired) return Error{repaired.error().code, name + ": " + repaired.error().message, {}};
+  for (const RepairStep& step : report.steps) notes->push_back(name + ": repair: " + step.text());
+  return repaired;
 }
 
 }  // namespace csgrun

@@ -4,7 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include <csgrun/engine/repair.h>
 #include <csgrun/engine/validate.h>
+
+#include "primitives/base/text.h"
 
 namespace csgrun {
 namespace {
@@ -45,9 +48,20 @@ bool all_indices_valid(const PolygonMesh& mesh) {
                      [&](uint32_t corner) { return corner < mesh.points.size(); });
 }
 
+/// How a script asks for the repair of a file, or why there is none.
+std::string repair_text(const PolygonMesh& mesh, const std::string& name) {
+  const Result<RepairOptions> options = suggest_repair(mesh);
+  if (!options) return "; " + options.error().message;
+  const std::string table = options->fill_holes ? "{fill_holes = true}"
+                            : options->weld > 0 ? "{weld = " + number_text(options->weld) + "}"
+                                                : "true";
+  return "; a script repairs it by import(\"" + name + "\", {repair = " + table + "})";
+}
+
 }  // namespace
 
-Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std::string* note) {
+Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std::string* note,
+                                 bool hint) {
   if (mesh.face_count() == 0) {
     return Error{ErrorCode::kInvalidMesh, name + ": has no faces", {}};
   }
@@ -57,8 +71,15 @@ Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std:
   }
   const MeshReport report = check_mesh(mesh);
   if (!report.ok()) {
-    return Error{
-        ErrorCode::kInvalidMesh, name + ": " + headline(report) + ": " + report.text(), {}};
+    std::string message = name + ": " + headline(report) + ": " + report.text();
+    if (report.bad_indices == 0 && report.non_finite_points == 0) {
+      if (report.open_edges > 0) {
+        const std::string holes = describe_holes(mesh);
+        if (!holes.empty()) message += " " + holes;
+      }
+      if (hint) message += repair_text(mesh, name);
+    }
+    return Error{ErrorCode::kInvalidMesh, std::move(message), {}};
   }
   // With the rule `positive` what is inverted is meant to be nothing.
   if (mesh.fill != FillRule::kPositive && signed_volume(mesh) < 0) {

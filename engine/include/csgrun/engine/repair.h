@@ -1,6 +1,7 @@
 // Repair of meshes that are open or broken: a named step, which says what it did and where.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct RepairOptions {
   bool drop_duplicates = true;  ///< faces that repeat another one, or lie on its back
   bool orient = true;           ///< turns faces to agree with their neighbours, surfaces outwards
   bool fill_holes = false;      ///< closes what is open by new faces
+
+  auto operator<=>(const RepairOptions&) const = default;
 };
 
 enum class RepairAction : uint8_t {
@@ -72,5 +75,10 @@ struct RepairReport {
 /// The open boundary of a mesh whose points are welded: "in 2 holes, the largest of 28 edges at
 /// (1, 2, 3)", or empty when it is closed or has no consistent orientation.
 [[nodiscard]] std::string describe_holes(const PolygonMesh& mesh);
+
+/// The least repair that makes a mesh a closed one: nothing special, a small tolerance of welding (a
+/// power of ten, at most a ten-thousandth of the mesh's size), or filling of its holes; else the error
+/// of the last. Repairs copies, so it costs some times what repair_mesh does.
+[[nodiscard]] Result<RepairOptions> suggest_repair(const PolygonMesh& mesh);
 
 }  // namespace csgrun

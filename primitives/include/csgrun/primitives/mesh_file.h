@@ -7,6 +7,7 @@
 
 #include <csgrun/engine/error.h>
 #include <csgrun/engine/polygon_mesh.h>
+#include <csgrun/engine/repair.h>
 
 namespace csgrun {
 
@@ -21,8 +22,13 @@ Result<PolygonMesh> read_mesh_file(const std::string& path);
 
 /// Makes a leaf of a mesh from outside: welds, checks closedness and orientation; a closed mesh
 /// that is inside out is turned over, with a note, unless its fill rule is kPositive. What is wrong
-/// is an error with counts and first places.
+/// is an error with counts and first places, and with the repair that would help.
 Result<PolygonMesh> make_solid_mesh(PolygonMesh mesh, std::string* note);
+
+/// Makes a leaf of a mesh from outside by repair_mesh; each thing that was done is one of the notes.
+/// Notes and errors start with the mesh's kind.
+Result<PolygonMesh> repair_solid_mesh(PolygonMesh mesh, const RepairOptions& options,
+                                      std::vector<std::string>* notes);
 
 /// "stl", "off", "obj", "ply" or empty: the lower-case ending of a path when it is readable here.
 std::string mesh_format_of(const std::string& path);
