@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "export/defects.h"
+#include "export/repair.h"
 
 namespace csgrun {
 namespace {
@@ -41,11 +42,22 @@ Result<RoundedMesh> MeshMaker::make(const Part& part, const Affine& placement, P
     Defects defects = find_defects(*mesh, directions);
     MeshCheck check;
     check.part = part.name;
-    check.found = check.left = defects.counts();
-    check.verdict = defects.none() ? CheckVerdict::kClean : CheckVerdict::kFailed;
-    check.triangles = {mesh->triangles.size(), mesh->triangles.size()};
-    check.volume = {volume_of(*mesh), volume_of(*mesh)};
+    check.found = defects.counts();
+    check.triangles[0] = mesh->triangles.size();
+    check.volume[0] = volume_of(*mesh);
     check.places = places_of(defects, *mesh, *part.solid);
+    if (!defects.none()) {
+      if (const Status status = repair(*mesh, directions, precision, options_, defects, check);
+          !status) {
+        return status.error();
+      }
+      check.verdict = defects.none() ? CheckVerdict::kRepaired : CheckVerdict::kFailed;
+      if (!defects.none()) check.places = places_of(defects, *mesh, *part.solid);
+    }
+    check.left = defects.counts();
+    check.triangles[1] = mesh->triangles.size();
+    check.volume[1] = volume_of(*mesh);
+    mesh->flipped = defects.flipped.size();
     drop_bent_outlines(*mesh);
     report_.checks.push_back(std::move(check));
   }

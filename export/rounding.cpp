@@ -320,6 +320,24 @@ Result<RoundedMesh> round_part(const Solid& solid, const Affine& placement, Prec
   return mesh;
 }
 
+Status move_vertices(RoundedMesh& mesh, std::vector<glm::dvec3> positions) {
+  CollapsedSurface surface = collapse(mesh.triangles, mesh.twins, number_places(positions));
+  remove_flat_shells(surface, positions);
+  mesh.dropped += surface.dropped;
+  mesh.cancelled += surface.cancelled;
+  mesh.positions.clear();
+  for (const uint32_t v : surface.origin) mesh.positions.push_back(positions[v]);
+  std::vector<uint32_t> faces;
+  for (const uint32_t t : surface.triangles) faces.push_back(mesh.triangle_face[t]);
+  mesh.triangle_face = std::move(faces);
+  mesh.triangles = std::move(surface.vertices);
+  mesh.twins = std::move(surface.twins);
+  for (auto& outline : mesh.outlines) outline.clear();
+  Result<std::vector<uint32_t>> twins = manifold_twins(mesh.triangles, mesh.positions.size());
+  if (!twins) return twins.error();
+  return std::monostate{};
+}
+
 void RoundingTotals::add(const RoundedMesh& mesh, const std::string& part) {
   if (mesh.triangles.empty() && mesh.dropped + mesh.cancelled > 0) {
     vanished_.add(1, part);

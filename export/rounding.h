@@ -56,6 +56,11 @@ PlacedSolid place_solid(const Solid& solid, const Affine& placement);
 Result<RoundedMesh> round_part(const Solid& solid, const Affine& placement, Precision precision,
                                bool with_outlines);
 
+/// Moves the vertices of a mesh, which may bring some together: what vanishes then is taken out as
+/// rounding does it, and counted. Outlines are lost. Errors: kInternal when the result is not a
+/// closed manifold.
+Status move_vertices(RoundedMesh& mesh, std::vector<glm::dvec3> positions);
+
 /// What rounding did to the parts of one file: a line for each kind, however many parts there are.
 class RoundingTotals {
  public:

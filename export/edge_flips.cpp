@@ -1,0 +1,96 @@
+#include "export/edge_flips.h"
+
+#include <csgrun/engine/exact_triangles.h>
+
+#include "export/half_edges.h"
+
+namespace csgrun {
+namespace {
+
+class EdgeTurner {
+ public:
+  EdgeTurner(RoundedMesh& mesh, std::span<const glm::dvec3> directions)
+      : mesh_(mesh), directions_(directions) {}
+
+  bool turn_longest_edge(uint32_t triangle) {
+    uint32_t longest = 3 * triangle;
+    for (uint32_t h = longest + 1; h < 3 * triangle + 3; ++h) {
+      if (squared_length(h) > squared_length(longest)) longest = h;
+    }
+    return turn(longest);
+  }
+
+ private:
+  [[nodiscard]] uint32_t from(uint32_t h) const { return mesh_.triangles[h / 3][h % 3]; }
+
+  [[nodiscard]] double squared_length(uint32_t h) const {
+    const glm::dvec3 d = mesh_.positions[from(next_in_triangle(h))] - mesh_.positions[from(h)];
+    return d.x * d.x + d.y * d.y + d.z * d.z;
+  }
+
+  /// Whether the triangle would have area and look to the side that its face does.
+  [[nodiscard]] bool is_good(const Triangle& triangle, uint32_t face) const {
+    const TriangleView view{mesh_.positions, std::span(&triangle, 1)};
+    return facing(view, 0, directions_[face]) > 0;
+  }
+
+  /// Whether some edge joins the first vertex of h to `other`.
+  [[nodiscard]] bool are_joined(uint32_t h, uint32_t other) const {
+    uint32_t k = h;
+    do {
+      if (from(next_in_triangle(k)) == other) return true;
+      k = mesh_.twins[previous_in_triangle(k)];
+    } while (k != h);
+    return false;
+  }
+
+  void glue(uint32_t g, uint32_t h) {
+    mesh_.twins[g] = h;
+    mesh_.twins[h] = g;
+  }
+
+  /// a b c and b a d become c a d and d b c.
+  bool turn(uint32_t h) {
+    const uint32_t g = mesh_.twins[h], t = h / 3, u = g / 3;
+    const uint32_t bc = next_in_triangle(h), ca = previous_in_triangle(h);
+    const uint32_t ad = next_in_triangle(g), db = previous_in_triangle(g);
+    const uint32_t a = from(h), b = from(bc), c = from(ca), d = from(db);
+    const uint32_t face = mesh_.triangle_face[u];
+    const Triangle first{c, a, d}, second{d, b, c};
+    if (c == d || !is_good(first, face) || !is_good(second, face) || are_joined(ca, d))
+      return false;
+    const uint32_t outer[4] = {mesh_.twins[ca], mesh_.twins[ad], mesh_.twins[db], mesh_.twins[bc]};
+    for (const uint32_t o : outer) {
+      if (o / 3 == t || o / 3 == u) return false;
+    }
+    mesh_.triangles[t] = first;
+    mesh_.triangles[u] = second;
+    mesh_.triangle_face[t] = face;
+    glue(3 * t, outer[0]);
+    glue(3 * t + 1, outer[1]);
+    glue(3 * u, outer[2]);
+    glue(3 * u + 1, outer[3]);
+    glue(3 * t + 2, 3 * u + 2);
+    return true;
+  }
+
+  RoundedMesh& mesh_;
+  std::span<const glm::dvec3> directions_;
+};
+
+}  // namespace
+
+uint64_t turn_longest_edges(RoundedMesh& mesh, std::span<const uint32_t> triangles,
+                            std::span<const glm::dvec3> directions) {
+  EdgeTurner turner(mesh, directions);
+  uint64_t turned = 0;
+  for (const uint32_t t : triangles) {
+    // An earlier turn may have mended it.
+    const TriangleView view{mesh.positions, mesh.triangles};
+    if (facing(view, t, directions[mesh.triangle_face[t]]) > 0) continue;
+    if (turner.turn_longest_edge(t)) ++turned;
+  }
+  return turned;
+}
+
+}  // namespace csgrun

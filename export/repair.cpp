@@ -1,0 +1,136 @@
+#include "export/repair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "export/edge_flips.h"
+#include "export/self_union.h"
+
+namespace csgrun {
+namespace {
+
+/// A cell of the lattice, as the point that all in it are snapped to.
+glm::dvec3 snapped(const glm::dvec3& p, double step) {
+  glm::dvec3 result;
+  for (int k = 0; k < 3; ++k) result[k] = std::nearbyint(p[k] / step) * step + 0.0;
+  return result;
+}
+
+bool precedes(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
+}
+
+std::vector<uint32_t> bad_triangles(const Defects& defects) {
+  std::vector<uint32_t> bad;
+  std::merge(defects.degenerate.begin(), defects.degenerate.end(), defects.flipped.begin(),
+             defects.flipped.end(), std::back_inserter(bad));
+  return bad;
+}
+
+class Repair {
+ public:
+  Repair(RoundedMesh& mesh, std::span<const glm::dvec3> directions, Precision precision,
+         const WriteOptions& options, Defects& left, MeshCheck& check)
+      : mesh_(mesh),
+        directions_(directions),
+        precision_(precision),
+        options_(options),
+        left_(left),
+        check_(check) {}
+
+  Status run() {
+    while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty()) {
+      ++check_.rounds;
+      if (Status status = run_round(); !status) return status;
+    }
+    return std::monostate{};
+  }
+
+ private:
+  Status run_round() {
+    turn_edges();
+    if (left_.none()) return std::monostate{};
+    if (Status status = snap(); !status) return status;
+    examine();
+    turn_edges();
+    if (left_.crossings.empty()) return std::monostate{};
+    ++check_.unions;
+    if (const Status status = unite_with_itself(mesh_, precision_, options_); !status) {
+      const ErrorCode code = status.error().code;
+      if (code == ErrorCode::kCancelled || code == ErrorCode::kLimit ||
+          code == ErrorCode::kInternal)
+        return status.error();
+      check_.problem = status.error().message;
+    }
+    examine();
+    turn_edges();
+    return std::monostate{};
+  }
+
+  void examine() { left_ = find_defects(mesh_, directions_); }
+
+  void turn_edges() {
+    // Each turn takes one bad triangle away and makes no other.
+    while (true) {
+      const std::vector<uint32_t> bad = bad_triangles(left_);
+      if (bad.empty() || turn_longest_edges(mesh_, bad, directions_) == 0) return;
+      for (auto& outline : mesh_.outlines) outline.clear();
+      examine();
+    }
+  }
+
+  /// The lattice of a round: steps of the file's numbers where the mesh is farthest from the
+  /// origin, and coarser from round to round.
+  [[nodiscard]] double lattice_step() const {
+    const int finest = lattice_of(mesh_.positions).exponent;
+    const int round = static_cast<int>(check_.rounds);
+    // A float's step is eight steps of the engine's lattice; doubles approach that from below.
+    if (precision_ == Precision::kFloat) return std::ldexp(1.0, finest + 3 + round);
+    return std::ldexp(1.0, finest - 5 * static_cast<int>(kMostRounds) + 5 * round);
+  }
+
+  Status snap() {
+    const double step = lattice_step();
+    std::vector<bool> offends(mesh_.positions.size(), false);
+    const auto mark = [&](uint32_t triangle) {
+      for (const uint32_t v : mesh_.triangles[triangle]) offends[v] = true;
+    };
+    for (const TriangleCrossing& crossing : left_.crossings) {
+      mark(crossing.triangles[0]);
+      mark(crossing.triangles[1]);
+    }
+    for (const uint32_t t : bad_triangles(left_)) mark(t);
+
+    std::vector<glm::dvec3> cells;
+    for (size_t v = 0; v < offends.size(); ++v) {
+      if (offends[v]) cells.push_back(snapped(mesh_.positions[v], step));
+    }
+    std::sort(cells.begin(), cells.end(), precedes);
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    std::vector<glm::dvec3> positions = mesh_.positions;
+    for (glm::dvec3& p : positions) {
+      const glm::dvec3 cell = snapped(p, step);
+      if (cell == p || !std::binary_search(cells.begin(), cells.end(), cell, precedes)) continue;
+      p = cell;
+      ++check_.moved;
+    }
+    return move_vertices(mesh_, std::move(positions));
+  }
+
+  RoundedMesh& mesh_;
+  std::span<const glm::dvec3> directions_;
+  Precision precision_;
+  const WriteOptions& options_;
+  Defects& left_;
+  MeshCheck& check_;
+};
+
+}  // namespace
+
+Status repair(RoundedMesh& mesh, std::span<const glm::dvec3> directions, Precision precision,
+              const WriteOptions& options, Defects& left, MeshCheck& check) {
+  return Repair(mesh, directions, precision, options, left, check).run();
+}
+
+}  // namespace csgrun

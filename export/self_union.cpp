@@ -1,0 +1,90 @@
+#include "export/self_union.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+namespace csgrun {
+namespace {
+
+constexpr uint32_t kNone = UINT32_MAX;
+/// Coordinates of the engine's leaves are less than 2^27 steps.
+constexpr int kGridBits = 27;
+
+/// The mesh as a leaf. Each face of the original solid is an appearance of its own, which the
+/// engine keeps apart and hands on to what is left of it.
+PolygonMesh leaf_of(const RoundedMesh& mesh) {
+  PolygonMesh leaf;
+  leaf.kind = "rounded mesh";
+  leaf.fill = FillRule::kPositive;
+  const std::vector<uint32_t> place = number_places(mesh.positions);
+  for (size_t v = 0; v < place.size(); ++v) {
+    if (place[v] == leaf.points.size()) leaf.points.push_back(mesh.positions[v]);
+  }
+  std::vector<uint32_t> tag(mesh.face_normals.size(), kNone);
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    leaf.add_face(Triangle{place[a], place[b], place[c]});
+    uint32_t& number = tag[mesh.triangle_face[t]];
+    if (number == kNone) {
+      number = static_cast<uint32_t>(leaf.appearances.size());
+      Appearance appearance;
+      appearance.is_default = false;
+      appearance.name = std::to_string(mesh.triangle_face[t]);
+      leaf.appearances.push_back(std::move(appearance));
+    }
+    leaf.appearance_of.push_back(number);
+  }
+  return leaf;
+}
+
+/// The face of the original solid that an appearance of leaf_of() stands for.
+uint32_t face_of(const Appearance& appearance) {
+  uint32_t face = kNone;
+  const std::string& name = appearance.name;
+  std::from_chars(name.data(), name.data() + name.size(), face);
+  return face;
+}
+
+}  // namespace
+
+GridStep lattice_of(std::span<const glm::dvec3> points) {
+  double largest = 0;
+  for (const glm::dvec3& p : points)
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  int exponent = 0;  // largest < 2^exponent
+  std::frexp(largest, &exponent);
+  int step = exponent - kGridBits;
+  // A double just below a power of two is rounded up to it, which is one step too many.
+  if (std::nearbyint(std::ldexp(largest, -step)) >= std::ldexp(1.0, kGridBits)) ++step;
+  return {1, 1, step};
+}
+
+Status unite_with_itself(RoundedMesh& mesh, Precision precision, const WriteOptions& options) {
+  EvaluateOptions evaluate;
+  evaluate.threads = options.threads;
+  evaluate.cancel = options.cancel;
+  evaluate.grid = lattice_of(mesh.positions);
+  Evaluator evaluator(std::move(evaluate));
+  auto solid = evaluator.evaluate(Node::leaf(std::make_shared<const PolygonMesh>(leaf_of(mesh))));
+  if (!solid) return solid.error();
+  Result<RoundedMesh> rounded = round_part(**solid, {}, precision, false);
+  if (!rounded) return rounded.error();
+  mesh.positions = std::move(rounded->positions);
+  mesh.triangles = std::move(rounded->triangles);
+  mesh.twins = std::move(rounded->twins);
+  mesh.dropped += rounded->dropped;
+  mesh.cancelled += rounded->cancelled;
+  mesh.triangle_face.clear();
+  for (const uint32_t f : rounded->triangle_face) {
+    const uint32_t face = face_of((*solid)->appearances[(*solid)->faces[f].appearance]);
+    if (face >= mesh.face_normals.size())
+      return Error{ErrorCode::kInternal, "a face of a self-union comes from nowhere", {}};
+    mesh.triangle_face.push_back(face);
+  }
+  for (auto& outline : mesh.outlines) outline.clear();
+  return std::monostate{};
+}
+
+}  // namespace csgrun
