@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,29 +10,12 @@
 #include <csgrun/export/write.h>
 
 #include "engine/csg/quantise.h"
+#include "tests/bench/shift.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/kernel_checks.h"
 
 namespace csgrun::bench {
 namespace {
-
-constexpr int kSnapExponent = -20;  ///< the shift's grid is 2^-20 mm
-
-/// The mesh scaled by a power of two so that its largest coordinate lies in [64, 128).
-PolygonMesh scaled_to_128(PolygonMesh mesh) {
-  const double reach = reach_of(mesh);
-  if (!(reach > 0)) fail("the mesh has no extent");
-  const double scale = std::ldexp(1.0, 6 - std::ilogb(reach));
-  for (glm::dvec3& p : mesh.points) p *= scale;
-  return mesh;
-}
-
-/// One unit in the last place of x as a float32, in steps of 2^-20 mm, at least one; x in steps.
-int64_t float_ulp_in_steps(int64_t x) {
-  constexpr int kFloatDigits = 24;
-  const int digits = std::bit_width(static_cast<uint64_t>(std::llabs(x)));
-  return int64_t{1} << std::max(0, digits - kFloatDigits);
-}
 
 void must_be_manifold(const Solid& solid, const std::string& what) {
   const std::string fault = test::fault_in(solid);
@@ -148,9 +129,7 @@ GridStep exact_grid(PolygonMesh& mesh, bool& snapped) {
     const GridStep step = take(GridStep::parse(decimal));
     if (holds(step, mesh)) return step;
   }
-  GridStep step;
-  step.numerator = 1;
-  step.exponent = kSnapExponent;
+  const GridStep step = shift_step();
   mesh = scaled_to_128(std::move(mesh));
   if (holds(step, mesh)) return step;
   snapped = true;
@@ -165,10 +144,8 @@ GridStep exact_grid(PolygonMesh& mesh, bool& snapped) {
 
 void run_ulp(const std::string& name, const Settings& settings, const std::string& path) {
   const PolygonMesh mesh = scaled_to_128(read_solid(path));
-  GridStep step;
-  step.numerator = 1;
-  step.exponent = kSnapExponent;
-  Run run(name, settings, step);
+  if (!(reach_of(mesh) > 0)) fail("the mesh has no extent");
+  Run run(name, settings, shift_step());
   const std::vector<IVec3> points = run.on_grid(mesh);
   std::vector<IVec3> shifted = points;
   int64_t least = INT64_MAX, most = 0;

@@ -210,21 +210,6 @@ double reach_of(const PolygonMesh& mesh) {
   return reach;
 }
 
-PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets) {
-  PolygonMesh mesh;
-  mesh.points.resize(raw.point_count());
-  for (size_t i = 0; i < raw.point_count(); ++i) {
-    mesh.points[i] = {raw.points[3 * i], raw.points[3 * i + 1], raw.points[3 * i + 2]};
-  }
-  mesh.corners = raw.triangles;
-  for (size_t t = 1; t <= raw.triangle_count(); ++t) {
-    mesh.loop_starts.push_back(static_cast<uint32_t>(3 * t));
-    mesh.face_starts.push_back(static_cast<uint32_t>(t));
-  }
-  mesh.keep_facets = keep_facets;
-  return mesh;
-}
-
 std::vector<std::array<uint32_t, 3>> triangles_of(const PolygonMesh& mesh) {
   std::vector<std::array<uint32_t, 3>> triangles;
   for (size_t l = 0; l < mesh.loop_count(); ++l) {

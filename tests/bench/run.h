@@ -121,7 +121,6 @@ class Run {
 glm::dvec3 to_millimetres(const IVec3& point, const GridStep& step);
 double reach_of(const std::vector<RawMesh>& meshes);
 double reach_of(const PolygonMesh& mesh);
-PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets);
 /// Polygons as fans.
 std::vector<std::array<uint32_t, 3>> triangles_of(const PolygonMesh& mesh);
 /// OFF with 17 digits: the doubles can be read back.

@@ -69,6 +69,21 @@ void add_bars(std::vector<RawMesh>& bars, int axis, double side, double a, doubl
 
 }  // namespace
 
+PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets) {
+  PolygonMesh mesh;
+  mesh.points.resize(raw.point_count());
+  for (size_t i = 0; i < raw.point_count(); ++i) {
+    mesh.points[i] = {raw.points[3 * i], raw.points[3 * i + 1], raw.points[3 * i + 2]};
+  }
+  mesh.corners = raw.triangles;
+  for (size_t t = 1; t <= raw.triangle_count(); ++t) {
+    mesh.loop_starts.push_back(static_cast<uint32_t>(3 * t));
+    mesh.face_starts.push_back(static_cast<uint32_t>(t));
+  }
+  mesh.keep_facets = keep_facets;
+  return mesh;
+}
+
 RawMesh box(double x0, double y0, double z0, double x1, double y1, double z1) {
   RawMesh mesh;
   for (int corner = 0; corner < 8; ++corner) {

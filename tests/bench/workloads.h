@@ -18,6 +18,9 @@ struct RawMesh {
   [[nodiscard]] size_t triangle_count() const { return triangles.size() / 3; }
 };
 
+/// The same for the engine.
+PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets);
+
 RawMesh box(double x0, double y0, double z0, double x1, double y1, double z1);
 /// A sphere made of an octahedron whose faces are divided; `segments` at the equator, a multiple
 /// of 4.
