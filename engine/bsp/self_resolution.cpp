@@ -89,6 +89,9 @@ class Resolution {
       std::sort(seen.begin(), seen.end());
       seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
       for (const uint32_t patch : seen) witnesses.push_back(patches_.witness[patch]);
+      // Where patches touch, the volumes beside them may be one.
+      const auto& junctions = patches_.junctions[c];
+      witnesses.insert(witnesses.end(), junctions.begin(), junctions.end());
       if (Status status = solve(polygons[c], witnesses, lowest); !status) return status;
     }
     return std::monostate{};

@@ -166,6 +166,17 @@ SurfacePatches find_patches(const Job& job, std::span<const std::array<uint32_t,
       result.witness[patch] = v;
     }
   }
+  result.junctions.resize(result.class_count);
+  std::vector<uint32_t> seen(point.size(), kNone);
+  for (uint32_t p = 0; p < polygons.size(); ++p) {
+    const uint32_t patch = result.patch_of[p];
+    if (patch == kNone) continue;
+    for (const uint32_t v : job.corners(polygons[p])) {
+      uint32_t& first = seen[point[v]];
+      if (first == kNone) first = patch;
+      if (first != patch) result.junctions[result.class_of[p]].push_back(v);
+    }
+  }
   return result;
 }
 

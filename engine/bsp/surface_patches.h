@@ -18,6 +18,8 @@ struct SurfacePatches {
   uint32_t patch_count = 0;
   /// Per patch: a vertex of one of its polygons, if possible of one that touches a polygon that crosses.
   std::vector<uint32_t> witness;
+  /// Per class: vertices in which several patches meet.
+  std::vector<std::vector<uint32_t>> junctions;
   /// Per polygon: its class. Polygons of one class hang together by common vertices or by crossings
   /// (the equivalence classes of Campen & Kobbelt 2010, section 6.2). Numbered by first polygons.
   std::vector<uint32_t> class_of;
