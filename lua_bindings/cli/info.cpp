@@ -1,7 +1,10 @@
 #include "lua_bindings/cli/info.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <new>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -21,14 +24,52 @@ bool is_glb(const std::string& path) {
   return ending == ".glb" || ending == ".GLB";
 }
 
+/// The faces of a mesh from one on to before another, over the points that they use.
+PolygonMesh faces_of(const PolygonMesh& mesh, uint32_t begin, uint32_t end) {
+  const auto first = mesh.corners.begin() + mesh.loop_starts[mesh.face_starts[begin]];
+  const auto last = mesh.corners.begin() + mesh.loop_starts[mesh.face_starts[end]];
+  std::vector<uint32_t> used(first, last);
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  PolygonMesh part;
+  for (const uint32_t v : used) part.points.push_back(mesh.points[v]);
+  std::vector<uint32_t> loop;
+  for (uint32_t l = mesh.face_starts[begin]; l < mesh.face_starts[end]; ++l) {
+    loop.clear();
+    for (uint32_t i = mesh.loop_starts[l]; i < mesh.loop_starts[l + 1]; ++i) {
+      const auto found = std::lower_bound(used.begin(), used.end(), mesh.corners[i]);
+      loop.push_back(static_cast<uint32_t>(found - used.begin()));
+    }
+    part.add_face(loop);
+  }
+  return part;
+}
+
+/// The objects of a file as parts; what stands before the first, or has no name, is called as the
+/// file. A file of one object is one part of the file's name.
+std::vector<TriangleMesh> parts_of(const PolygonMesh& mesh, std::vector<MeshObject> objects,
+                                   const std::string& stem, bool weld_points) {
+  if (objects.size() == 1 && objects[0].first_face == 0) objects.clear();
+  if (objects.empty() || objects[0].first_face > 0) objects.insert(objects.begin(), {"", 0});
+  std::vector<TriangleMesh> parts;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    const auto end = i + 1 < objects.size() ? objects[i + 1].first_face
+                                            : static_cast<uint32_t>(mesh.face_count());
+    parts.push_back(triangulated(
+        objects.size() == 1 ? mesh : faces_of(mesh, objects[i].first_face, end), weld_points));
+    parts.back().name = objects[i].name.empty() ? stem : objects[i].name;
+  }
+  return parts;
+}
+
 Result<std::vector<TriangleMesh>> read_meshes(const std::string& path, const std::string& bytes) {
   if (is_glb(path)) return parse_glb(path, bytes);
-  auto mesh = parse_mesh(path, bytes);
+  std::vector<MeshObject> objects;
+  auto mesh = parse_mesh(path, bytes, &objects);
   if (!mesh) return mesh.error();
   // STL has no indices: equal coordinates are one point. The others say themselves what is one.
-  TriangleMesh triangles = triangulated(*mesh, mesh_format_of(path) == "stl");
-  triangles.name = std::filesystem::path(path).stem().string();
-  return std::vector<TriangleMesh>{std::move(triangles)};
+  return parts_of(*mesh, std::move(objects), std::filesystem::path(path).stem().string(),
+                  mesh_format_of(path) == "stl");
 }
 
 Failure measure_file(const std::string& path, bool json, std::string& output) {

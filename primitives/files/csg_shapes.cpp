@@ -88,7 +88,8 @@ std::vector<std::vector<uint32_t>> CsgArguments::index_lists(std::string_view na
         indices.push_back(static_cast<uint32_t>(index.number));
       } else {
         warnings.push_back(call_.name + ": index " + number_text(index.number) + " in " +
-                           std::string(name) + " is out of range, it was left out");
+                           std::string(name) + " is out of range, there are " +
+                           std::to_string(limit) + " points; it was left out");
       }
     }
   }
@@ -133,9 +134,11 @@ MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>
   for (const std::vector<double>& row : arguments.rows("points", 3)) {
     points.emplace_back(row[0], row[1], row[2]);
   }
+  const size_t before = warnings.size();
   std::vector<std::vector<uint32_t>> faces =
       arguments.index_lists("faces", points.size(), warnings);
   if (arguments.error()) return *arguments.error();
+  const std::string bad_index = warnings.size() > before ? warnings[before] : "";
   // Six digits make short edges vanish; a face of fewer than three different points is then
   // nothing.
   std::erase_if(faces, [&](const std::vector<uint32_t>& face) {
@@ -148,6 +151,10 @@ MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>
   std::string note;
   MeshResult mesh = make_polyhedron(points, faces, &note);
   if (!note.empty()) warnings.push_back(note);
+  // Without the index the rest is hardly a solid: what is to be said is the index.
+  if (!mesh && !bad_index.empty()) {
+    return Error{mesh.error().code, bad_index + ", and then " + mesh.error().message, {}};
+  }
   return mesh;
 }
 

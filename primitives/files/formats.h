@@ -5,15 +5,18 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <csgrun/engine/error.h>
 #include <csgrun/engine/polygon_mesh.h>
+#include <csgrun/primitives/mesh_file.h>
 
 namespace csgrun {
 
 Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes);
 Result<PolygonMesh> parse_off(const std::string& name, std::string_view bytes);
-Result<PolygonMesh> parse_obj(const std::string& name, std::string_view bytes);
+Result<PolygonMesh> parse_obj(const std::string& name, std::string_view bytes,
+                              std::vector<MeshObject>* objects);
 Result<PolygonMesh> parse_ply(const std::string& name, std::string_view bytes);
 
 /// "part.obj: line 12: face index 9 is out of range, there are 8 points".

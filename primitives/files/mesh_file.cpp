@@ -60,7 +60,8 @@ std::string quoted(std::string_view word) {
   return text;
 }
 
-Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes) {
+Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
+                               std::vector<MeshObject>* objects) {
   const std::string format = mesh_format_of(name);
   if (format.empty()) {
     return Error{ErrorCode::kCannotRead,
@@ -70,7 +71,7 @@ Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes) 
   if (bytes.empty()) return malformed(name, "", "the file is empty");
   Result<PolygonMesh> mesh = format == "stl"   ? parse_stl(name, bytes)
                              : format == "off" ? parse_off(name, bytes)
-                             : format == "obj" ? parse_obj(name, bytes)
+                             : format == "obj" ? parse_obj(name, bytes, objects)
                                                : parse_ply(name, bytes);
   if (!mesh) return mesh;
   if (mesh->face_count() == 0) return malformed(name, "", "has no faces");

@@ -1,5 +1,6 @@
-// Wavefront OBJ: points and polygons. Texture coordinates, normals, groups, materials, lines and
-// the like are passed over; a statement that OBJ does not know is an error.
+// Wavefront OBJ: points and polygons, and where objects begin. Texture coordinates, normals,
+// groups, materials, lines and the like are passed over; a statement that OBJ does not know is an
+// error.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -12,12 +13,11 @@ namespace csgrun {
 namespace {
 
 /// Everything that may start a line, but v and f. Sorted.
-constexpr std::array<std::string_view, 37> kPassedOver{
-    "bevel",  "bmat",       "c_interp", "call",   "con",  "csh",  "cstype",    "ctech",
-    "curv",   "curv2",      "d_interp", "deg",    "end",  "g",    "hole",      "l",
-    "lod",    "maplib",     "mg",       "mtllib", "o",    "p",    "parm",      "s",
-    "scrv",   "shadow_obj", "sp",       "stech",  "step", "surf", "trace_obj", "trim",
-    "usemap", "usemtl",     "vn",       "vp",     "vt"};
+constexpr std::array<std::string_view, 36> kPassedOver{
+    "bevel", "bmat",     "c_interp",  "call", "con",    "csh",    "cstype",     "ctech", "curv",
+    "curv2", "d_interp", "deg",       "end",  "g",      "hole",   "l",          "lod",   "maplib",
+    "mg",    "mtllib",   "p",         "parm", "s",      "scrv",   "shadow_obj", "sp",    "stech",
+    "step",  "surf",     "trace_obj", "trim", "usemap", "usemtl", "vn",         "vp",    "vt"};
 
 bool is_passed_over(std::string_view word) {
   return std::binary_search(kPassedOver.begin(), kPassedOver.end(), word);
@@ -35,6 +35,8 @@ class ObjReader {
         error = read_point();
       } else if (word == "f" || word == "fo") {
         error = read_face();
+      } else if (word == "o") {
+        begin_object();
       } else if (!word.empty() && !is_passed_over(word)) {
         error = here("not an OBJ statement: " + quoted(word));
       }
@@ -43,10 +45,24 @@ class ObjReader {
     for (const Forward& f : forward_) {
       if (f.index >= mesh_.points.size()) return out_of_range(f.line, f.index + 1);
     }
+    if (!objects_.empty() && objects_.back().first_face == mesh_.face_count()) objects_.pop_back();
     return std::move(mesh_);
   }
 
+  std::vector<MeshObject> take_objects() { return std::move(objects_); }
+
  private:
+  /// An object that had no faces gives way to the next one.
+  void begin_object() {
+    const auto first = static_cast<uint32_t>(mesh_.face_count());
+    if (objects_.empty() || objects_.back().first_face != first) objects_.emplace_back();
+    std::string name;
+    for (std::string_view word = next(); !word.empty(); word = next()) {
+      name += (name.empty() ? "" : " ") + std::string(word);
+    }
+    objects_.back() = {std::move(name), first};
+  }
+
   /// An index of a point that had not been read yet.
   struct Forward {
     uint32_t index;
@@ -106,12 +122,17 @@ class ObjReader {
   PolygonMesh mesh_;
   std::vector<uint32_t> loop_;
   std::vector<Forward> forward_;
+  std::vector<MeshObject> objects_;
 };
 
 }  // namespace
 
-Result<PolygonMesh> parse_obj(const std::string& name, std::string_view bytes) {
-  return ObjReader(name, bytes).read();
+Result<PolygonMesh> parse_obj(const std::string& name, std::string_view bytes,
+                              std::vector<MeshObject>* objects) {
+  ObjReader reader(name, bytes);
+  Result<PolygonMesh> mesh = reader.read();
+  if (objects != nullptr) *objects = reader.take_objects();
+  return mesh;
 }
 
 }  // namespace csgrun

@@ -58,6 +58,16 @@ class Info(Case):
         self.assertEqual(parts, {"a": ([[0, 0, 0], [2, 2, 2]], 8), "g/b": ([[10, 0, 0], [12, 2, 2]], 8),
                                  "g/c": ([[-2, 0, 7], [0, 2, 9]], 8)})
 
+    def test_objects_of_an_obj_are_parts(self):
+        self.expect(self.run_script("return {lid = cube(1), case = cube(2):up(5)}", "-o", "a.obj"), 0)
+        parts = {p["name"]: (p["volume"], p["vertices"]) for p in self.info("a.obj")["parts"]}
+        self.assertEqual(parts, {"lid": (1, 8), "case": (8, 8)})
+        # Faces before the first object are a part of the file's name; objects without faces are none.
+        with open(self.path("a.obj")) as file:
+            text = file.read()
+        self.write("b.obj", text.replace("o case\n", "", 1) + "o end\n")
+        self.assertEqual([p["name"] for p in self.info("b.obj")["parts"]], ["b", "lid"])
+
     def test_nodes_that_are_no_tree(self):
         for nodes in ([{"children": [0]}], [{"children": [1]}, {"children": [0]}], [{"children": [7]}],
                       [{"children": [1, 1]}, {}], [{"children": [-1]}], [{"children": "x"}], [[]],

@@ -189,6 +189,9 @@ TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
       "polyhedron");
   EXPECT_EQ(error("\n" + tetra + "faces = [[0, 1, 2], [0, 3, 4], [0, 2, 3]]);").substr(0, 45),
             "m.csg:2: polyhedron: not closed: 3 open edges");
+  EXPECT_EQ(error(tetra + "faces = [[0, 1, 2], [0, 3, 7], [0, 2, 3], [1, 3, 2]]);").substr(0, 119),
+            "m.csg:1: polyhedron: index 7 in faces is out of range, there are 5 points; it was left "
+            "out, and then polyhedron: not cl");
   EXPECT_EQ(parse("polyhedron(points = [], faces = []);").warnings,
             std::vector<std::string>{"m.csg:1: polyhedron: has no faces"});
   const CsgModel inside_out =

@@ -11,11 +11,19 @@
 
 namespace csgrun {
 
+/// A named run of the faces of a file, up to the next one's first face.
+struct MeshObject {
+  std::string name;
+  uint32_t first_face = 0;
+};
+
 /// A mesh as the file has it: not yet checked for closedness. Polygons stay polygons; STL triangles
 /// are welded by equal coordinates. keep_facets is set.
 /// `name` is used in messages and its ending chooses the format. Errors: kMalformedFile with the
 /// line or byte where reading stopped, kLimit when a count field promises more than the file holds.
-Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes);
+/// `objects`, if given, gets the objects of an OBJ that have faces, in the order of the file.
+Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
+                               std::vector<MeshObject>* objects = nullptr);
 
 /// Reads a regular file (a FIFO, a directory or a device is refused) and parses it.
 Result<PolygonMesh> read_mesh_file(const std::string& path);
@@ -25,8 +33,8 @@ Result<PolygonMesh> read_mesh_file(const std::string& path);
 /// is an error with counts and first places, and with the repair that would help.
 Result<PolygonMesh> make_solid_mesh(PolygonMesh mesh, std::string* note);
 
-/// Makes a leaf of a mesh from outside by repair_mesh; each thing that was done is one of the notes.
-/// Notes and errors start with the mesh's kind.
+/// Makes a leaf of a mesh from outside by repair_mesh; each thing that was done is one of the
+/// notes. Notes and errors start with the mesh's kind.
 Result<PolygonMesh> repair_solid_mesh(PolygonMesh mesh, const RepairOptions& options,
                                       std::vector<std::string>* notes);
 
