@@ -78,15 +78,17 @@ void from_loops(const RepairMesh& faces, PolygonMesh& mesh) {
   weld_points(mesh);  // drops points that no face uses any more
 }
 
-/// What is out of the range in which steps can compute.
-std::optional<Error> find_bad_point(const PolygonMesh& mesh) {
-  constexpr double kMost = 1e100;  // squares and products of three are finite
-  const MeshReport report = check_mesh(mesh);
-  if (report.bad_indices > 0 || report.non_finite_points > 0) {
-    MeshReport said = report;
-    said.degenerate_faces = said.open_edges = said.misoriented_edges = 0;
-    return refuse("cannot be repaired: " + said.text());
-  }
+/// Indices out of range, and numbers that are none.
+std::optional<Error> find_bad_number(const PolygonMesh& mesh) {
+  MeshReport report = check_mesh(mesh);
+  if (report.bad_indices == 0 && report.non_finite_points == 0) return std::nullopt;
+  report.degenerate_faces = report.open_edges = report.misoriented_edges = 0;
+  return refuse("cannot be repaired: " + report.text());
+}
+
+/// Points beyond the range in which the steps can compute: products of three must be finite.
+std::optional<Error> find_far_point(const PolygonMesh& mesh) {
+  constexpr double kMost = 1e100;
   for (const glm::dvec3& p : mesh.points) {
     if (std::fabs(p.x) <= kMost && std::fabs(p.y) <= kMost && std::fabs(p.z) <= kMost) continue;
     return refuse("cannot be repaired: coordinates beyond 1e100 mm at " + place_text(p));
@@ -152,8 +154,7 @@ Status run_steps(RepairMesh& mesh, const RepairOptions& options, bool outwards,
     size_t edges = 0;
     for (const HoleLoop& hole : holes) edges += hole.size();
     return refuse("not closed: " + counted(edges, "open edge ", "open edges ") +
-                  open_text(mesh, holes) + "; fill_holes would close " +
-                  (holes.size() == 1 ? "it" : "them"));
+                  open_text(mesh, holes) + "; fill_holes closes holes, weld closes cracks");
   }
   fill_holes(mesh, holes, filled);
   filled.file(report);
@@ -218,9 +219,10 @@ Result<PolygonMesh> repair_mesh(PolygonMesh mesh, const RepairOptions& options,
   if (!(options.weld >= 0) || !std::isfinite(options.weld)) {
     return Error{ErrorCode::kInvalidArgument, "the tolerance of welding must be 0 or more", {}};
   }
-  if (const auto error = find_bad_point(mesh)) return *error;
+  if (const auto error = find_bad_number(mesh)) return *error;
   StepNote equal(RepairAction::kWeldEqual);
-  weld_equal(mesh, equal);
+  weld_equal(mesh, equal);  // and points without faces are gone
+  if (const auto error = find_far_point(mesh)) return *error;
   equal.file(*report);
   RepairMesh faces = to_loops(mesh);
   // With the rule `positive` what is inverted is meant to be nothing.

@@ -220,9 +220,9 @@ TEST(Repair, HoleOfACube) {
   }
   Soup soup = cube();
   soup.faces.pop_back();
-  EXPECT_EQ(
-      refusal(soup, {}),
-      "not closed: 4 open edges in 1 hole of 4 edges at (0, 0.5, 0.5); fill_holes would close it");
+  EXPECT_EQ(refusal(soup, {}),
+            "not closed: 4 open edges in 1 hole of 4 edges at (0, 0.5, 0.5); fill_holes closes "
+            "holes, weld closes cracks");
 }
 
 TEST(Repair, OppositeHolesAndDuplicates) {
