@@ -40,8 +40,23 @@ std::shared_ptr<const PolygonMesh> leaf_mesh(const Surface& s) {
   return mesh;
 }
 
-size_t crossings(const std::vector<glm::dvec3>& points, const std::vector<Triangle>& triangles) {
-  return find_crossings({points, triangles}, UINT64_MAX).size();
+/// Pairs of triangles that meet in anything but common corners and edges, by place.
+size_t crossings(const Surface& s) {
+  return find_crossings({s.points, s.triangles}, UINT64_MAX).size();
+}
+
+/// The surface of a solid; what touches has the same points.
+Surface surface_of(const Solid& solid) {
+  Surface s{solid.positions, solid.triangles};
+  std::vector<uint32_t> first(solid.positions.size(), UINT32_MAX);
+  for (Triangle& t : s.triangles) {
+    for (uint32_t& v : t) {
+      uint32_t& copy = first[solid.point_of[v]];
+      if (copy == UINT32_MAX) copy = v;
+      v = copy;
+    }
+  }
+  return s;
 }
 
 glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
@@ -138,9 +153,8 @@ void run_hull(const std::string& name, const Settings& settings, const std::stri
   run.clock.exporting = wall_seconds() - wall - run.clock.import - run.clock.op;
   const double rss = run.rss_mb();
   run.print(*solid, rss, evaluator.stats(),
-            fmt::format(R"(,"crossings_in":{},"crossings_out":{})",
-                        crossings(before.points, before.triangles),
-                        crossings(solid->positions, solid->triangles)));
+            fmt::format(R"(,"crossings_in":{},"crossings_out":{})", crossings(before),
+                        crossings(surface_of(*solid))));
 }
 
 void run_front(const std::string& name, const Settings& settings, const std::string& path,

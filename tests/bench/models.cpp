@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace csgrun::bench {
 namespace {
@@ -24,6 +26,11 @@ double bumps(const Vector& d, double strength, int octaves) {
     amplitude *= 0.5;
   }
   return sum;
+}
+
+/// Coordinates are single precision, as those of most files are.
+void add_point(RawMesh& mesh, const Vector& p) {
+  for (const double c : p) mesh.points.push_back(static_cast<float>(c));
 }
 
 Vector unit(const RawMesh& sphere, size_t i) {
@@ -66,19 +73,71 @@ RawMesh statue(size_t faces) {
   });
 }
 
+/// A surface of revolution about z, closed by its two poles: rings of equally many points, where
+/// the profile (radius over height in [0, length]) says, as far apart as the points of an average
+/// ring.
+template <class Profile>
+RawMesh turned(size_t faces, double length, Profile&& profile) {
+  // Places along the profile by arc length, by a fine polygon of it.
+  constexpr int kFine = 20000;
+  std::vector<double> arc{0};
+  double area = 0;
+  for (int i = 1; i <= kFine; ++i) {
+    const double z0 = length * (i - 1) / kFine, z1 = length * i / kFine;
+    const double step = std::hypot(z1 - z0, profile(z1) - profile(z0));
+    area += step * (profile(z0) + profile(z1)) / 2;
+    arc.push_back(arc.back() + step);
+  }
+  const double circumference = 2 * M_PI * area / arc.back();
+  const auto around = static_cast<uint32_t>(std::max(
+      3.0, std::round(std::sqrt(static_cast<double>(faces) / 2 * circumference / arc.back()))));
+  const auto rings = static_cast<uint32_t>(std::max<size_t>(2, faces / 2 / around));
+  RawMesh mesh;
+  add_point(mesh, {0, 0, 0});
+  size_t at = 0;
+  for (uint32_t r = 0; r < rings; ++r) {
+    const double wanted = arc.back() * (r + 1) / (rings + 1);
+    while (arc[at + 1] < wanted) ++at;
+    const double part = (wanted - arc[at]) / (arc[at + 1] - arc[at]);
+    const double z = length * (static_cast<double>(at) + part) / kFine, radius = profile(z);
+    for (uint32_t k = 0; k < around; ++k) {
+      const double turn = 2 * M_PI * (k + 0.5 * (r % 2)) / around;
+      add_point(mesh, {radius * std::cos(turn), radius * std::sin(turn), z});
+    }
+  }
+  add_point(mesh, {0, 0, length});
+  const uint32_t top = 1 + rings * around;
+  const auto point = [&](uint32_t r, uint32_t k) { return 1 + r * around + k % around; };
+  for (uint32_t k = 0; k < around; ++k) {
+    mesh.triangles.insert(mesh.triangles.end(), {0, point(0, k + 1), point(0, k)});
+    mesh.triangles.insert(mesh.triangles.end(),
+                          {top, point(rings - 1, k), point(rings - 1, k + 1)});
+  }
+  for (uint32_t r = 0; r + 1 < rings; ++r) {
+    for (uint32_t k = 0; k < around; ++k) {
+      // Every other ring is turned by half a step, so that triangles are nearly regular.
+      const uint32_t a = point(r, k), b = point(r, k + 1), c = point(r + 1, k),
+                     d = point(r + 1, k + 1);
+      if (r % 2 == 0) {
+        mesh.triangles.insert(mesh.triangles.end(), {a, b, c, b, d, c});
+      } else {
+        mesh.triangles.insert(mesh.triangles.end(), {a, b, d, a, d, c});
+      }
+    }
+  }
+  return mesh;
+}
+
 RawMesh beads(size_t faces) {
   constexpr int kBeads = 10;
-  constexpr double kNeck = 0.07;
-  return mapped_sphere(faces, [](const Vector& d) {
-    const OnRod at = on_rod(d);
-    // Balls of radius 1, two apart; the profile follows the ball except near the necks.
-    const double x = 2 * kBeads * at.along - kBeads;
-    const double in_ball = std::remainder(x + kBeads - 1, 2.0);
-    const double ball = std::sqrt(std::max(0.0, 1 - in_ball * in_ball));
-    const bool tip = at.along < 0.5 / kBeads || at.along > 1 - 0.5 / kBeads;
-    const bool outside = (in_ball < 0) == (x < 0);
-    const double r = tip && outside ? ball : std::sqrt(ball * ball + kNeck * kNeck);
-    return Vector{r * std::cos(at.around), r * std::sin(at.around), x};
+  constexpr double kBall = 1, kNeck = 0.16;
+  return turned(faces, 2 * kBeads, [](double z) {
+    const double middle = (kBall + kNeck) / 2, swing = (kBall - kNeck) / 2;
+    if (z < 1 || z > 2 * kBeads - 1) {  // the ends are round
+      const double from = z < 1 ? 1 - z : z - (2 * kBeads - 1);
+      return std::sqrt(std::max(0.0, 1 - from * from));
+    }
+    return middle - swing * std::cos(M_PI * z);
   });
 }
 
