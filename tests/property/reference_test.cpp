@@ -135,6 +135,16 @@ std::vector<Known> known_volumes() {
   const auto add = [&](FuzzCase c, const mpq_class& volume) {
     all.push_back({std::move(c), volume});
   };
+  /// Plain and orientation-sensitive, without and with voids kept.
+  const auto add_hulls = [&](FuzzCase c, const std::array<mpq_class, 4>& volumes) {
+    const FuzzNode child = c.tree;
+    for (int i = 0; i < 4; ++i) {
+      c.tree = FuzzNode();
+      c.tree.hull = OuterHull{(i & 1) != 0, (i & 2) != 0};
+      c.tree.children = {child};
+      add(c, volumes[static_cast<size_t>(i)]);
+    }
+  };
   {  // the two tetrahedra of a cube of side 4: the star, and the octahedron that both have
     const auto one = hull_loops({{0, 0, 0}, {4, 4, 0}, {4, 0, 4}, {0, 4, 4}});
     const auto other = hull_loops({{4, 4, 4}, {0, 0, 4}, {0, 4, 0}, {4, 0, 0}});
@@ -164,6 +174,27 @@ std::vector<Known> known_volumes() {
       both.leaves[0].fill = rule;
       add(both, rule == FillRule::kPositive ? volumes[2] : volumes[3]);
     }
+    // From behind one comes into the points that are inside out, and from there no further.
+    add_hulls(both, {volumes[0], mpq_class(64, 3), volumes[3], volumes[2]});
+  }
+  {  // a box with a void
+    FuzzCase c;
+    auto loops = box_loops({0, 0, 0}, {4, 4, 4}), inner = box_loops({1, 1, 1}, {3, 3, 3});
+    turn_over(inner);
+    loops.insert(loops.end(), inner.begin(), inner.end());
+    c.leaves = {plain(loops)};
+    c.tree = mention(0);
+    add_hulls(c, {64, 64, 56, 56});
+    // The same by a difference, and with something in the void.
+    c.leaves = {plain(box_loops({0, 0, 0}, {4, 4, 4})), plain(box_loops({1, 1, 1}, {3, 3, 3})),
+                plain(box_loops({1, 2, 1}, {2, 3, 2}))};
+    c.tree = apply(BooleanOp::kUnion,
+                   {apply(BooleanOp::kDifference, {mention(0), mention(1)}), mention(2)});
+    add_hulls(c, {64, 64, 57, 57});
+    c.tree = apply(BooleanOp::kDifference, {mention(0), mention(1)});
+    c.leaves.pop_back();
+    c.leaves[1] = plain(box_loops({1, 1, 1}, {3, 3, 4}));
+    add_hulls(c, {52, 52, 52, 52});
   }
   {  // an octahedron whose corners a cube cuts off
     FuzzCase c;
@@ -172,7 +203,8 @@ std::vector<Known> known_volumes() {
         plain(box_loops({-2, -2, -2}, {2, 2, 2}))};
     c.tree = apply(BooleanOp::kIntersection, {mention(0), mention(1)});
     add(c, 36 - 6 * mpq_class(2, 3));
-    c.tree = apply(BooleanOp::kDifference, {mention(1), mention(0)});
+    std::swap(c.leaves[0], c.leaves[1]);
+    c.tree = apply(BooleanOp::kDifference, {mention(0), mention(1)});
     add(c, 64 - 32);
     // Squeezed to half its width, mirrored, sheared: by the determinant of the way to the world.
     Frame f;
@@ -198,9 +230,11 @@ TEST(Reference, BoxesByCounting) {
 TEST(Reference, VolumesOfTextbooks) {
   for (const Known& k : known_volumes()) {
     const Truth truth = truth_of(k.c);
+    EXPECT_EQ(truth.fault, "") << text(k.c);
     const Measured m = reference::measure(truth.leaves, truth.tree);
     EXPECT_EQ(m.fault, "") << text(k.c);
     EXPECT_EQ(m.volume, k.volume) << text(k.c);
+    EXPECT_EQ(check_case(k.c).failure, "") << text(k.c);
   }
 }
 

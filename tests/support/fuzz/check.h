@@ -66,15 +66,22 @@ class FuzzEvaluator {
     }
   }
 
-  Result<uint32_t> leaf(uint32_t index, Parts& parts) {
+  static InsideRule inside_rule(const OuterHull& hull) {
+    if (hull.keep_voids) {
+      return hull.orientation_sensitive ? InsideRule::kPositive : InsideRule::kNonZero;
+    }
+    return hull.orientation_sensitive ? InsideRule::kOrientedHull : InsideRule::kOuterHull;
+  }
+
+  Result<uint32_t> leaf(uint32_t index, const std::optional<OuterHull>& hull, Parts& parts) {
     const FuzzLeaf& l = case_.leaves[index];
     Operand o = operand_of(std::make_shared<LeafGeometry>(geometry_of(l)));
     o.translation = l.move;
     o.frame = case_.frames[l.frame];
     o.first_source = source_++;
-    if (l.may_cross) {
-      auto resolved =
-          resolve_surface(o, crossings(*o.leaf), inside_rule(l.fill), case_.options, stats_);
+    if (l.may_cross || hull) {
+      const InsideRule rule = hull ? inside_rule(*hull) : inside_rule(l.fill);
+      auto resolved = resolve_surface(o, crossings(*o.leaf), rule, case_.options, stats_);
       if (!resolved) return resolved.error();
       o = Operand();  // frame, translation and labels are the boundary's own
       o.boundary = *resolved;
@@ -82,9 +89,25 @@ class FuzzEvaluator {
     return add_operand(parts, std::move(o));
   }
 
+  Result<uint32_t> hull(const FuzzNode& n, Parts& parts) {
+    const FuzzNode& child = n.children[0];
+    if (child.leaf >= 0) return leaf(static_cast<uint32_t>(child.leaf), n.hull, parts);
+    auto inner = evaluate(child);
+    if (!inner) return inner.error();
+    Operand o;
+    o.boundary = *inner;
+    if (!n.hull->keep_voids) {
+      auto filled = resolve_surface(o, {}, inside_rule(*n.hull), case_.options, stats_);
+      if (!filled) return filled.error();
+      o.boundary = *filled;
+    }
+    return add_operand(parts, std::move(o));
+  }
+
   /// The number of the node that stands for `n`. A root is never made on its own.
   Result<uint32_t> put(const FuzzNode& n, Parts& parts, bool root) {
-    if (n.leaf >= 0) return leaf(static_cast<uint32_t>(n.leaf), parts);
+    if (n.leaf >= 0) return leaf(static_cast<uint32_t>(n.leaf), std::nullopt, parts);
+    if (n.hull) return hull(n, parts);
     if (!root && (case_.nest >> (inner_++ % 64) & 1)) {
       auto inner = evaluate(n);  // its labels are those of the whole tree
       if (!inner) return inner.error();
@@ -131,6 +154,8 @@ inline FuzzOutcome check_case(const FuzzCase& c) {
   }
   outcome.empty = (*result)->faces.empty();
   const Truth truth = truth_of(c);
+  outcome.failure = truth.fault;
+  if (!outcome.failure.empty()) return outcome;
   outcome.failure = reference::difference(truth.leaves, truth.tree, claim_of(**result));
   if (!outcome.failure.empty()) return outcome;
   outcome.failure = fault_in(**result);

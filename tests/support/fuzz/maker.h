@@ -14,7 +14,7 @@ namespace csgrun::test {
 struct FuzzKinds {
   bool frames = true;
   bool crossing = true;  ///< leaves that cross themselves, under all fill rules
-  bool hulls = false;    ///< nodes that are outer hulls
+  bool hulls = true;
 };
 
 class FuzzMaker {
@@ -33,7 +33,7 @@ class FuzzMaker {
     make_frames(c);
     centred_ = c.frames.size() > 1;
     for (int64_t i = 0; i < n; ++i) c.leaves.push_back(leaf(c, n));
-    c.tree = node(0, static_cast<int>(n) - 1);
+    c.tree = node(c, 0, static_cast<int>(n) - 1);
     constexpr uint32_t kLimits[] = {1, 3, 9, 17, 33};
     c.options.cell_limit = kLimits[random_.integer(0, 4)];
     for (auto& s : c.options.octree_shift) s = static_cast<uint32_t>(random_.integer(0, 5));
@@ -182,7 +182,7 @@ class FuzzMaker {
     return loops;
   }
 
-  FuzzNode node(int first, int last) {
+  FuzzNode node(const FuzzCase& c, int first, int last) {
     FuzzNode n;
     if (first == last) {
       n.leaf = first;
@@ -191,11 +191,14 @@ class FuzzMaker {
       for (int at = first; at <= last;) {
         // At least two children: the first never takes everything.
         const int end = static_cast<int>(random_.integer(at, at == first ? last - 1 : last));
-        n.children.push_back(node(at, end));
+        n.children.push_back(node(c, at, end));
         at = end + 1;
       }
     }
-    if (!kinds_.hulls || !one_in(12)) return n;
+    // The reference cuts space by all planes below a hull.
+    size_t faces = 0;
+    for (int i = first; i <= last; ++i) faces += c.leaves[static_cast<size_t>(i)].faces.size();
+    if (!kinds_.hulls || faces > 20 || !one_in(6)) return n;
     FuzzNode hull;
     hull.hull = OuterHull{one_in(2), one_in(2)};
     hull.children.push_back(std::move(n));

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "tests/support/fuzz/case.h"
+#include "tests/support/reference/cells.h"
 #include "tests/support/reference/reference.h"
 
 namespace csgrun::test {
@@ -62,7 +63,7 @@ inline reference::Leaf reference_leaf(const FuzzCase& c, uint32_t index) {
   const ExactMap map(c.frames[l.frame]);
   reference::Leaf leaf;
   leaf.rule = l.fill;
-  leaf.labelled = !l.may_cross;
+  if (l.may_cross) leaf.sources = {index};
   std::map<IVec3, uint32_t> numbers;
   for (size_t f = 0; f < l.faces.size(); ++f) {
     reference::Face& face = leaf.faces.emplace_back();
@@ -120,25 +121,75 @@ inline reference::Claim claim_of(const BoundaryMesh& mesh) {
 
 /// The expression of a case for the reference.
 struct Truth {
+  std::string fault;  ///< the reference is at a loss
   std::vector<reference::Leaf> leaves;
   reference::Tree tree;
 };
 
 class TruthMaker {
  public:
-  explicit TruthMaker(const FuzzCase& c) : case_(c) {
-    for (uint32_t l = 0; l < c.leaves.size(); ++l) truth_.leaves.push_back(reference_leaf(c, l));
-    truth_.tree = tree(c.tree);
-  }
+  explicit TruthMaker(const FuzzCase& c) : case_(c) { truth_.tree = tree(c.tree); }
   [[nodiscard]] Truth take() { return std::move(truth_); }
 
  private:
-  reference::Tree tree(const FuzzNode& n) {
+  static reference::Tree mention(size_t leaf) {
     reference::Tree t;
-    t.leaf = n.leaf;
+    t.leaf = static_cast<int>(leaf);
+    return t;
+  }
+  reference::Tree add(reference::Leaf leaf) {
+    truth_.leaves.push_back(std::move(leaf));
+    return mention(truth_.leaves.size() - 1);
+  }
+
+  reference::Tree tree(const FuzzNode& n) {
+    if (n.leaf >= 0) return add(reference_leaf(case_, static_cast<uint32_t>(n.leaf)));
+    if (n.hull) return hull(*n.hull, n.children[0]);
+    reference::Tree t;
     t.op = n.op;
     for (const FuzzNode& c : n.children) t.children.push_back(tree(c));
     return t;
+  }
+
+  /// Of a leaf: of its surface as it is, whatever its fill rule; with voids kept it is a fill rule.
+  /// Of anything else: its solid with voids filled, or as it is.
+  reference::Tree hull(const OuterHull& options, const FuzzNode& child) {
+    if (child.leaf >= 0) {
+      const auto index = static_cast<uint32_t>(child.leaf);
+      reference::Leaf leaf = reference_leaf(case_, index);
+      leaf.rule = options.orientation_sensitive ? FillRule::kPositive : FillRule::kNonZero;
+      leaf.sources = {index};
+      if (options.keep_voids) return add(std::move(leaf));
+      return flooded(
+          {std::move(leaf)}, mention(0),
+          options.orientation_sensitive ? reference::Reach::kFronts : reference::Reach::kSurface,
+          {index});
+    }
+    if (options.keep_voids) return tree(child);
+    // Its leaves are numbered apart.
+    std::vector<reference::Leaf> outer;
+    std::swap(outer, truth_.leaves);
+    const reference::Tree inner = tree(child);
+    std::swap(outer, truth_.leaves);
+    std::vector<uint32_t> sources;
+    collect(child, sources);
+    return flooded(std::move(outer), inner, reference::Reach::kSolid, std::move(sources));
+  }
+
+  reference::Tree flooded(const std::vector<reference::Leaf>& leaves, const reference::Tree& tree,
+                          reference::Reach reach, std::vector<uint32_t> sources) {
+    auto leaf = reference::hull(leaves, tree, reach);
+    if (!leaf) {
+      truth_.fault = "windings of cells contradict each other";
+      leaf.emplace();
+    }
+    leaf->sources = std::move(sources);
+    return add(*std::move(leaf));
+  }
+
+  static void collect(const FuzzNode& n, std::vector<uint32_t>& leaves) {
+    if (n.leaf >= 0) leaves.push_back(static_cast<uint32_t>(n.leaf));
+    for (const FuzzNode& c : n.children) collect(c, leaves);
   }
 
   const FuzzCase& case_;

@@ -392,9 +392,9 @@ class Sections {
 
   /// Whether leaf l has a face with this label here.
   [[nodiscard]] bool has_label(uint32_t l, const Label& label) const {
-    if (!leaves_[l].labelled) {
-      return std::any_of(leaves_[l].faces.begin(), leaves_[l].faces.end(),
-                         [&](const Face& f) { return f.label[0] == label[0]; });
+    const auto& sources = leaves_[l].sources;
+    if (!sources.empty()) {
+      return std::find(sources.begin(), sources.end(), label[0]) != sources.end();
     }
     const auto at = labels_.find({l, label});
     return at != labels_.end() && winding_[at->second] != 0;

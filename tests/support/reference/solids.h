@@ -30,8 +30,9 @@ struct Leaf {
   std::vector<Point> points;
   std::vector<Face> faces;
   FillRule rule = FillRule::kNonZero;
-  /// Which facet a point of the result comes from is checked; else only which leaf.
-  bool labelled = true;
+  /// When not empty: where faces of the result may come from, if from this leaf. Else their label
+  /// is that of the leaf's face.
+  std::vector<uint32_t> sources;
 };
 
 /// A Boolean expression over leaves. Folded from the left, two at a time.
