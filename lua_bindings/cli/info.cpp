@@ -19,9 +19,12 @@
 namespace csgrun {
 namespace {
 
-bool is_glb(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  return ending == ".glb" || ending == ".GLB";
+bool is_gltf(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return ending == ".glb" || ending == ".gltf";
 }
 
 /// The faces of a mesh from one on to before another, over the points that they use.
@@ -63,7 +66,7 @@ std::vector<TriangleMesh> parts_of(const PolygonMesh& mesh, std::vector<MeshObje
 }
 
 Result<std::vector<TriangleMesh>> read_meshes(const std::string& path, const std::string& bytes) {
-  if (is_glb(path)) return parse_glb(path, bytes);
+  if (is_gltf(path)) return parse_glb(path, bytes);
   std::vector<MeshObject> objects;
   auto mesh = parse_mesh(path, bytes, &objects);
   if (!mesh) return mesh.error();
@@ -103,7 +106,9 @@ Failure measure_file(const std::string& path, bool json, std::string& output) {
 
 }  // namespace
 
-bool is_info_path(const std::string& path) { return is_glb(path) || !mesh_format_of(path).empty(); }
+bool is_info_path(const std::string& path) {
+  return is_gltf(path) || !mesh_format_of(path).empty();
+}
 
 Failure run_info(const std::string& path, bool json, std::string& output) {
   limit_process_memory(default_process_memory());

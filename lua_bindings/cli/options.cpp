@@ -174,7 +174,8 @@ CommandLine parse_info(int argc, char** argv) {
   }
   if (!is_info_path(line.model)) {
     std::fputs(
-        fmt::format("csgrun info: '{}': the ending must be one of .stl, .off, .obj, .ply, .glb\n",
+        fmt::format("csgrun info: '{}': the ending must be one of .stl, .off, .obj, .ply, .glb, "
+                    ".gltf\n",
                     line.model)
             .c_str(),
         stderr);

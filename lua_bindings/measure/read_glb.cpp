@@ -11,6 +11,8 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 
+#include "lua_bindings/measure/embedded_buffer.h"
+
 namespace csgrun {
 namespace {
 
@@ -211,7 +213,25 @@ class Reader {
   std::string_view binary_;
 };
 
+/// A file of JSON alone, whose only buffer is in it.
+std::vector<TriangleMesh> read_text(std::string_view text) {
+  Json json = Json::parse(text);
+  std::string binary;
+  if (json.contains("buffers")) {
+    const Json& buffers = json.at("buffers");
+    if (buffers.size() > 1) throw Malformed{"only one buffer is read"};
+    if (!buffers.empty()) {
+      auto data = decode_data_address(buffers.at(0).value("uri", ""));
+      if (!data) throw Malformed{"its buffer is not in the file itself, as base64"};
+      binary = *std::move(data);
+    }
+  }
+  return Reader(std::move(json), binary).meshes();
+}
+
 std::vector<TriangleMesh> read(std::string_view bytes) {
+  const size_t start = bytes.find_first_not_of(" \t\r\n");
+  if (start != std::string_view::npos && bytes[start] == '{') return read_text(bytes);
   if (read_word(bytes, 0) != kMagic) throw Malformed{"this is not a GLB file"};
   if (read_word(bytes, 4) != 2) throw Malformed{"only version 2 of GLB is read"};
   if (read_word(bytes, 8) != bytes.size()) throw Malformed{"the file is not as long as it says"};

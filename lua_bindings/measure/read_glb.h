@@ -1,4 +1,4 @@
-// Reading the triangles of a GLB file, for measuring it.
+// Reading the triangles of a GLB or glTF file, for measuring it.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ namespace csgrun {
 
 /// One mesh for each node that shows one, with all its primitives, where the nodes below the file's
 /// root put it: the root's own turn and scale, which make glTF's axes and units, are left out.
-/// Points of equal coordinates are one. `name` stands in messages. Errors: kMalformedFile.
+/// Points of equal coordinates are one. A file that starts with a brace is glTF, whose buffer must
+/// be in it. `name` stands in messages. Errors: kMalformedFile.
 Result<std::vector<TriangleMesh>> parse_glb(const std::string& name, std::string_view bytes);
 
 }  // namespace csgrun

@@ -51,6 +51,22 @@ class Info(Case):
         parts = {p["name"]: p["volume"] for p in self.info("a.glb")["parts"]}
         self.assertEqual(parts, {"lid": 1, "case": 8})
 
+    def test_gltf(self):
+        script = "return {lid = cube(1), case = cube(2):up(5)}"
+        self.expect(self.run_script(script, "-o", "a.glb", "-o", "a.gltf"), 0)
+        self.assertEqual(self.info("a.gltf")["parts"], self.info("a.glb")["parts"])
+        with open(self.path("a.gltf")) as file:
+            document = json.load(file)
+        for uri in ("a.bin", "data:application/octet-stream;base64,AAA", "data:;base64,A?==", "data:,AAAA", None):
+            document["buffers"][0]["uri"] = uri
+            if uri is None:
+                del document["buffers"][0]["uri"]
+            self.write("bad.gltf", json.dumps(document))
+            self.expect(self.run_csgrun("info", "bad.gltf", "--json"), 1, "bad.gltf: its buffer is not in the file")
+        document["buffers"][0]["uri"] = "data:;base64,AAAA"
+        self.write("bad.gltf", json.dumps(document))
+        self.expect(self.run_csgrun("info", "bad.gltf"), 1, "bad.gltf: an accessor reaches beyond the end of the data")
+
     def test_parts_stand_where_their_nodes_put_them(self):
         text = "local c = cube(2)\nreturn {a = c, g = {b = c:translate(10, 0, 0), c = c:mirror(1, 0, 0):up(7)}}"
         self.expect(self.run_script(text, "-o", "a.glb"), 0)
