@@ -26,16 +26,34 @@ class FuzzEvaluator {
   struct Parts {
     std::vector<Operand> operands;
     Expression expression;
+    GridBox region{{0, 0, 0}, {0, 0, 0}};
   };
 
   BoundaryResult evaluate(const FuzzNode& n) {
     Parts parts;
     if (auto root = put(n, parts, true); !root) return root.error();
-    return evaluate_boolean(parts.operands, parts.expression, region_of(parts.operands),
-                            case_.options, stats_);
+    return evaluate_boolean(parts.operands, parts.expression, parts.region, case_.options, stats_);
+  }
+
+  static void hold(GridBox& box, const std::array<double, 3>& p) {
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] = std::min(box.lo[k], static_cast<int64_t>(std::floor(p[k])) - 1);
+      box.hi[k] = std::max(box.hi[k], static_cast<int64_t>(std::ceil(p[k])) + 1);
+    }
   }
 
   static uint32_t add_operand(Parts& parts, Operand operand) {
+    if (operand.boundary) {
+      for (const auto& p : operand.boundary->point_rounded) hold(parts.region, p);
+    } else {
+      const ExactMap map(operand.frame);
+      for (IVec3 q : operand.leaf->vertices) {
+        for (int k = 0; k < 3; ++k) q[k] += operand.translation[k];
+        const reference::Point x = map(q);
+        const double w = x[3].get_d();
+        hold(parts.region, {x[0].get_d() / w, x[1].get_d() / w, x[2].get_d() / w});
+      }
+    }
     Expression::Node node;
     node.operand = static_cast<uint32_t>(parts.operands.size());
     parts.operands.push_back(std::move(operand));
@@ -140,9 +158,9 @@ struct FuzzOutcome {
   bool empty = false;       ///< the result has no points
 };
 
-/// Everything about one case: the kernel's boundary against the reference, its form, and the arrays
-/// made from it.
-inline FuzzOutcome check_case(const FuzzCase& c) {
+/// The kernel's boundary against the reference; and when `forms`, whether the boundary is in its
+/// canonical form, and the arrays made from it are a closed manifold that fills its faces.
+inline FuzzOutcome check_case(const FuzzCase& c, bool forms = true) {
   FuzzOutcome outcome;
   FuzzEvaluator evaluator(c);
   const auto result = evaluator.run();
@@ -157,7 +175,7 @@ inline FuzzOutcome check_case(const FuzzCase& c) {
   outcome.failure = truth.fault;
   if (!outcome.failure.empty()) return outcome;
   outcome.failure = reference::difference(truth.leaves, truth.tree, claim_of(**result));
-  if (!outcome.failure.empty()) return outcome;
+  if (!outcome.failure.empty() || !forms) return outcome;
   outcome.failure = fault_in(**result);
   if (!outcome.failure.empty()) return outcome;
   const auto solid = present(**result, test_context());

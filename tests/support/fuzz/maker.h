@@ -198,7 +198,7 @@ class FuzzMaker {
     // The reference cuts space by all planes below a hull.
     size_t faces = 0;
     for (int i = first; i <= last; ++i) faces += c.leaves[static_cast<size_t>(i)].faces.size();
-    if (!kinds_.hulls || faces > 20 || !one_in(6)) return n;
+    if (!kinds_.hulls || faces > 20 || !one_in(14)) return n;
     FuzzNode hull;
     hull.hull = OuterHull{one_in(2), one_in(2)};
     hull.children.push_back(std::move(n));
