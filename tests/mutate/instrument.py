@@ -8,7 +8,7 @@ Mutants, for the text of a function's body (not: preprocessor, static_assert, as
 variables, case labels):
   a < b       a <= b and a > b; likewise for > <= >=
   a == b      a != b, and the reverse
-  a + b       a - b, and the reverse; ++a and --a, a += b and a -= b likewise
+  a + b       a - b, and the reverse (not for texts); ++a and --a, a += b and a -= b likewise
   -a  !a      a
   a |= b      nothing; likewise for &= and ^=
   a && b      each operand left out; likewise for ||
@@ -208,7 +208,7 @@ class Instrumenter:
             n = self.add_mutant(token.start, len(text), border)
             self.add_mutant(token.start, len(text), turned)
             self.replace(token, f"{text}csgrun_mutant::{name}<{n}>{{}}{text}")
-        elif binary and text in PAIRS:
+        elif binary and text in PAIRS and "text" not in (before.kind, self.tokens[i + 1].kind):
             name, other = PAIRS[text]
             n = self.add_mutant(token.start, len(text), other)
             self.replace(token, f"{text} csgrun_mutant::{name}<{n}>{{}} {text}")

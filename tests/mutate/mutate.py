@@ -29,7 +29,7 @@ SOURCE, BUILD = WORK / "source", WORK / "build"
 EXPLAINED = Path(__file__).with_name("explained.txt")
 MUTATED = ("engine/exact", "engine/bsp")
 PARTS = ("CMakeLists.txt", "engine", "primitives", "tests/CMakeLists.txt", "tests/unit", "tests/property",
-         "tests/support")  # what the tests below are built from
+         "tests/support", "docs/numerics.md")  # what the tests below are built from
 # Executables with environment and filter, strong ones for their time first. CSGRUN_CASES thins out
 # random cases: most mutants need few of them.
 QUICK = (("unit_exact", {}), ("unit_bsp", {}), ("property", {"CSGRUN_CASES": "4"}),

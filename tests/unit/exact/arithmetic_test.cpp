@@ -1,9 +1,9 @@
 // The exact arithmetic against GMP: signs in every tier, zeros among them, and correct rounding.
-#include <gmpxx.h>
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
+
+#include <gmpxx.h>
+#include <gtest/gtest.h>
 
 #include "engine/exact/predicates.h"
 #include "engine/exact/rounding.h"
@@ -44,10 +44,16 @@ bool meet_in_a_point(const Plane& p, const Plane& q, const Plane& r) {
 // the point by construction (combinations of planes through it), so that their sign is zero.
 TEST(ExactSide, AgreesWithGmpOnAMillionSignsInEveryTier) {
   Random random(20260101);
-  constexpr std::array<std::array<int, 2>, 9> kWidths{{{1, 8},   {4, 14},  {8, 30},
-                                                       {12, 40}, {20, 50}, {28, 60},
-                                                       {40, 72}, {57, 84}, {widths::kMaxNormal - 4,
-                                                                            widths::kMaxOffset - 6}}};
+  constexpr std::array<std::array<int, 2>, 9> kWidths{
+      {{1, 8},
+       {4, 14},
+       {8, 30},
+       {12, 40},
+       {20, 50},
+       {28, 60},
+       {40, 72},
+       {57, 84},
+       {widths::kMaxNormal - 4, widths::kMaxOffset - 6}}};
   std::array<uint64_t, 6> tiers{};
   uint64_t zeros = 0, total = 0;
   constexpr int kPlanesPerPoint = 6;
@@ -63,7 +69,8 @@ TEST(ExactSide, AgreesWithGmpOnAMillionSignsInEveryTier) {
       Plane s;
       if (k % 2 == 0) {
         // Through the point: a small combination of the three, within the allowed widths.
-        const int64_t u = random.integer(-3, 3), v = random.integer(-3, 3), w = random.integer(-3, 3);
+        const int64_t u = random.integer(-3, 3), v = random.integer(-3, 3),
+                      w = random.integer(-3, 3);
         s = {p.a * u + q.a * v + r.a * w, p.b * u + q.b * v + r.b * w, p.c * u + q.c * v + r.c * w,
              p.d * u + q.d * v + r.d * w};
         if (s.a == 0 && s.b == 0 && s.c == 0) s = p;
@@ -74,10 +81,10 @@ TEST(ExactSide, AgreesWithGmpOnAMillionSignsInEveryTier) {
       const int expected = gmp_side(s, exact);
       const int tier = exact_tier(s, point);
       ASSERT_EQ(exact_side(s, point), expected);
-      for (int wider = tier + 1; wider < 6; ++wider) ASSERT_EQ(exact_side(s, point, wider), expected);
-      const std::array<double, 4> approximate{
-          static_cast<double>(s.a), static_cast<double>(s.b), static_cast<double>(s.c),
-          static_cast<double>(s.d)};
+      for (int wider = tier + 1; wider < 6; ++wider)
+        ASSERT_EQ(exact_side(s, point, wider), expected);
+      const std::array<double, 4> approximate{static_cast<double>(s.a), static_cast<double>(s.b),
+                                              static_cast<double>(s.c), static_cast<double>(s.d)};
       const int filtered = filter_side(approximate, rounded(point));
       ASSERT_TRUE(filtered == 0 || filtered == expected);
       ++tiers[tier];
@@ -149,7 +156,8 @@ TEST(Rounding, IsToTheNearestDouble) {
     const mpq_class scaled = value / mpq_class(mpz_class(1) << 300);
     if (std::isfinite(single)) {
       const mpq_class off = abs(mpq_class(single) - scaled);
-      for (const float other : {std::nextafterf(single, -HUGE_VALF), std::nextafterf(single, HUGE_VALF)}) {
+      for (const float other :
+           {std::nextafterf(single, -HUGE_VALF), std::nextafterf(single, HUGE_VALF)}) {
         if (std::isfinite(other)) {
           ASSERT_LE(off, abs(mpq_class(other) - scaled));
         }
@@ -188,22 +196,41 @@ TEST(FixedInt, MultipliesAddsAndShiftsAsGmpDoes) {
   }
 }
 
-TEST(PlaneTable, NamesAPlaneOnceWhateverItsScaleAndSide) {
-  Random random(17);
-  PlaneTable table;
+// Coordinates -1, 0 and 1 as fractions of all sizes, so that equal ones have different digits.
+TEST(PointOrder, IsByExactCoordinates) {
+  Random random(19);
+  std::array<int, 3> decided{};
+  int equal = 0;
+  const auto make = [&](int64_t scale) {
+    Point p = grid_point(random.integer(-1, 1) * scale, random.integer(-1, 1) * scale,
+                         random.integer(-1, 1) * scale);
+    p.w = Int<kPointLimbs>(scale * (random.bits() & 1 ? 1 : -1));
+    normalise(p);
+    return p;
+  };
   for (int i = 0; i < 5'000; ++i) {
-    const Plane p = random_plane(random, 50, 70);
-    const Int128 factor = random.integer(1, 1 << 20);
-    const Plane scaled{p.a * factor, p.b * factor, p.c * factor, p.d * factor};
-    const PlaneId id = table.intern(p), same = table.intern(scaled), back = table.intern(p.reversed());
-    ASSERT_EQ(id, same);
-    ASSERT_EQ(id.flip(), back);
-    const Plane stored = table.oriented(id);
-    // The stored coefficients are a positive multiple of the given ones.
-    ASSERT_EQ(to_gmp(stored.a) * to_gmp(p.b), to_gmp(stored.b) * to_gmp(p.a));
-    ASSERT_EQ(to_gmp(stored.c) * to_gmp(p.d), to_gmp(stored.d) * to_gmp(p.c));
-    ASSERT_EQ(stored.a > 0, p.a > 0);
+    const int64_t big = random.integer(1, int64_t{1} << 60);
+    const Point p = make(big), q = make(random.bits() & 1 ? big - 1 + 2 * (big == 1) : 7);
+    const auto a = to_gmp(p), b = to_gmp(q);
+    ASSERT_GT(a.w, 0);
+    const std::array<mpz_class, 3> difference{a.x * b.w - b.x * a.w, a.y * b.w - b.y * a.w,
+                                              a.z * b.w - b.z * a.w};
+    int expected = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int order = sgn(difference[k]);
+      ASSERT_EQ(compare_along(p, q, k), order);
+      if (expected == 0 && order != 0) expected = order, ++decided[k];
+    }
+    equal += expected == 0;
+    ASSERT_EQ(compare(p, q), expected);
+    const auto bits = [](const mpz_class& v) {
+      return v == 0 ? 0 : static_cast<int>(mpz_sizeinbase(v.get_mpz_t(), 2));
+    };
+    ASSERT_EQ(p.xyz_bits, std::max({bits(a.x), bits(a.y), bits(a.z)}));
+    ASSERT_EQ(p.w_bits, bits(a.w));
   }
+  for (const int n : decided) EXPECT_GT(n, 100);
+  EXPECT_GT(equal, 50);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // The table of widths in docs/numerics.md is what widths.h computes.
 #include "engine/exact/widths.h"
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+
+#include <gtest/gtest.h>
 
 #include "engine/exact/predicates.h"
 
@@ -43,6 +43,31 @@ TEST(Widths, AreThoseOfTheDocument) {
     EXPECT_NE(text.str().find(line), std::string::npos) << "missing: " << line;
   }
   EXPECT_LT(std::max({plain.side(), far.side(), framed.side()}), kTierBits.back());
+}
+
+// The bounds, in numbers: what a compiler may not have folded.
+TEST(Widths, AreBounds) {
+  volatile int grid = 27;
+  EXPECT_EQ(widths::normal(grid), 56);
+  EXPECT_EQ(widths::offset(grid), 83);
+  volatile int normal = 56, offset = 83, frame = 40;
+  EXPECT_EQ(widths::framed_normal(normal, frame), 98);
+  EXPECT_EQ(widths::framed_offset(offset), 123);
+  EXPECT_EQ(widths::point_w(normal), 171);
+  EXPECT_EQ(widths::point_xyz(normal, offset), 198);
+  // The wider of three products n . xyz and one d w, and the sum of four.
+  volatile int wide = 100, narrow = 10;
+  EXPECT_EQ(widths::side(wide, narrow, 20, 30), 122);
+  EXPECT_EQ(widths::side(narrow, wide, 20, 30), 132);
+  EXPECT_EQ(widths::side(narrow, wide, 200, 30), 212);
+  EXPECT_EQ(widths::side(wide, narrow, 20, 115), 127);
+  EXPECT_EQ(widths::max_of(wide, narrow), 100);
+  EXPECT_EQ(widths::max_of(narrow, wide), 100);
+  // A magnitude and a sign.
+  for (const auto& [bits, limbs] :
+       {std::pair{1, 1}, {63, 1}, {64, 2}, {127, 2}, {128, 3}, {383, 6}}) {
+    EXPECT_EQ(widths::limbs(bits), limbs);
+  }
 }
 
 }  // namespace

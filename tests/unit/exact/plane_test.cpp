@@ -1,0 +1,142 @@
+// The table of planes: one number for each plane, whatever scale and side it was given in.
+#include <numeric>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "engine/exact/predicates.h"
+#include "tests/support/gmp_bridge.h"
+#include "tests/support/seeded.h"
+
+namespace csgrun {
+namespace {
+
+using test::to_gmp;
+
+TEST(BitWidth, OfEveryPowerOfTwoAndItsNeighbours) {
+  EXPECT_EQ(bit_width(0), 0);
+  for (int k = 0; k < 126; ++k) {
+    const Int128 power = Int128{1} << k;
+    for (const Int128 sign : {Int128{1}, Int128{-1}}) {
+      EXPECT_EQ(bit_width(sign * power), k + 1);
+      EXPECT_EQ(bit_width(sign * (power - 1)), k);
+      EXPECT_EQ(bit_width(sign * (power + (power - 1))), k + 1);
+    }
+  }
+}
+
+mpz_class gcd_of(const Plane& p) {
+  return gcd(gcd(to_gmp(p.a), to_gmp(p.b)), gcd(to_gmp(p.c), to_gmp(p.d)));
+}
+
+Int128 random_bits(test::Random& random, int bits) {
+  if (bits == 0) return 0;
+  const UInt128 v = (static_cast<UInt128>(random.bits()) << 64 | random.bits()) >> (128 - bits);
+  return random.bits() & 1 ? -static_cast<Int128>(v) : static_cast<Int128>(v);
+}
+
+TEST(PlaneTable, NamesEachPlaneOnce) {
+  test::Random random(71);
+  PlaneTable table;
+  std::vector<Plane> known;
+  for (int i = 0; i < 3000; ++i) {
+    const int bits = static_cast<int>(random.integer(1, 100));
+    Plane p;
+    while (p.a == 0 && p.b == 0 && p.c == 0) {
+      // Zeros are common.
+      const auto component = [&] { return random.integer(0, 2) ? random_bits(random, bits) : 0; };
+      p = {component(), component(), component(), component()};
+    }
+    const PlaneId id = table.intern(p);
+    ASSERT_TRUE(id.valid());
+    // Reduced, the first component of the normal positive, and the same plane on the same side.
+    const Plane stored = table.plane(id.index()), oriented = table.oriented(id);
+    ASSERT_EQ(gcd_of(stored), 1);
+    ASSERT_GT(stored.a != 0 ? stored.a : stored.b != 0 ? stored.b : stored.c, 0);
+    const mpz_class scale = gcd_of(p);
+    ASSERT_EQ(to_gmp(oriented.a) * scale, to_gmp(p.a));
+    ASSERT_EQ(to_gmp(oriented.b) * scale, to_gmp(p.b));
+    ASSERT_EQ(to_gmp(oriented.c) * scale, to_gmp(p.c));
+    ASSERT_EQ(to_gmp(oriented.d) * scale, to_gmp(p.d));
+    ASSERT_EQ(table.oriented(id.flip()), oriented.reversed());
+    // What is remembered of it.
+    const auto width = [](const Int128 v) {
+      return static_cast<int>(mpz_sizeinbase(to_gmp(v).get_mpz_t(), 2)) * (v != 0);
+    };
+    ASSERT_EQ(table.normal_bits(id.index()),
+              std::max({width(stored.a), width(stored.b), width(stored.c)}));
+    ASSERT_EQ(table.offset_bits(id.index()), width(stored.d));
+    const auto& approximate = table.approximate(id.index());
+    const Int128 exact[4] = {stored.a, stored.b, stored.c, stored.d};
+    for (int k = 0; k < 4; ++k) ASSERT_EQ(approximate[k], static_cast<double>(exact[k]));
+    // Any multiple of it, of either sign, has its number.
+    const Int128 factor = random.integer(1, 1000);
+    const Plane multiple{p.a * factor, p.b * factor, p.c * factor, p.d * factor};
+    const size_t size = table.size();
+    ASSERT_EQ(table.intern(multiple), id);
+    ASSERT_EQ(table.intern(multiple.reversed()), id.flip());
+    ASSERT_EQ(table.size(), size);
+    if (id.index() == known.size()) known.push_back(stored);
+    ASSERT_EQ(known[id.index()], stored);
+  }
+  // After the table grew, all are where they were.
+  ASSERT_EQ(table.size(), known.size());
+  EXPECT_GT(known.size(), 2000u);
+  for (uint32_t i = 0; i < known.size(); ++i) {
+    ASSERT_EQ(table.intern(known[i]), PlaneId(i, false));
+    ASSERT_EQ(table.plane(i), known[i]);
+  }
+}
+
+TEST(PlaneId, IsANumberAndASide) {
+  std::set<PlaneId> all;
+  for (uint32_t i = 0; i < 50; ++i) {
+    for (const bool flipped : {false, true}) {
+      const PlaneId id(i, flipped);
+      EXPECT_EQ(id.index(), i);
+      EXPECT_EQ(id.flipped(), flipped);
+      EXPECT_EQ(id.flip().index(), i);
+      EXPECT_EQ(id.flip().flipped(), !flipped);
+      EXPECT_EQ(id.flip().flip(), id);
+      EXPECT_NE(id.flip(), id);
+      EXPECT_EQ(PlaneId::from_value(id.value()), id);
+      EXPECT_TRUE(id.valid());
+      all.insert(id);
+    }
+  }
+  EXPECT_EQ(all.size(), 100u);
+  EXPECT_FALSE(PlaneId().valid());
+}
+
+// The lowest tier whose bits hold the bound of widths.h and a sign; and it does hold the value.
+TEST(ExactTier, IsTheLowestThatHoldsTheBound) {
+  test::Random random(72);
+  std::array<int, 6> seen{};
+  for (int i = 0; i < 20000; ++i) {
+    Point p = grid_point(1, 1, 1);
+    const auto wide = [&](int bits) { return Int<kPointLimbs>(1).shifted_left(bits - 1); };
+    const int xyz = static_cast<int>(random.integer(1, widths::kMaxPointXyz));
+    const int w = static_cast<int>(random.integer(1, std::min(xyz + 4, widths::kMaxPointW)));
+    p.x = wide(static_cast<int>(random.integer(1, xyz)));
+    p.y = wide(static_cast<int>(random.integer(1, xyz)));
+    p.z = wide(static_cast<int>(random.integer(1, xyz)));
+    p.w = wide(w);
+    normalise(p);
+    const Plane s{random_bits(random, static_cast<int>(random.integer(1, widths::kMaxNormal))),
+                  random_bits(random, static_cast<int>(random.integer(1, widths::kMaxNormal))),
+                  random_bits(random, static_cast<int>(random.integer(1, widths::kMaxNormal))),
+                  random_bits(random, static_cast<int>(random.integer(0, widths::kMaxOffset)))};
+    const int widest = std::max({p.x.bit_width(), p.y.bit_width(), p.z.bit_width()});
+    const int normal = std::max({bit_width(s.a), bit_width(s.b), bit_width(s.c)});
+    const int needed = std::max(widest + normal, w + bit_width(s.d)) + 2 + 1;
+    const int tier = exact_tier(s, p);
+    ASSERT_GE(kTierBits[tier], needed);
+    if (tier > 0) ASSERT_LT(kTierBits[tier - 1], needed);
+    ASSERT_EQ(exact_side(s, p), test::gmp_side(s, to_gmp(p)));
+    ++seen[tier];
+  }
+  for (const int n : seen) EXPECT_GT(n, 10);
+}
+
+}  // namespace
+}  // namespace csgrun
