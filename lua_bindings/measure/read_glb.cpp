@@ -22,8 +22,9 @@ using Json = nlohmann::json;
 
 // Khronos glTF 2.0, section 4.4 (GLB) and 3.6 (accessors).
 constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;
-constexpr int kTriangles = 4;
+constexpr size_t kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;
+constexpr size_t kTriangles = 4;
+constexpr size_t kLongestName = 4096;
 
 /// Not a GLB, or one that is made wrongly.
 struct Malformed {
@@ -35,6 +36,25 @@ uint32_t read_word(std::string_view bytes, size_t at) {
   uint32_t word = 0;
   std::memcpy(&word, bytes.data() + at, sizeof word);
   return word;
+}
+
+/// An index or a count. The library would cast anything.
+size_t whole(const Json& value) {
+  if (!value.is_number_unsigned()) throw Malformed{"an index or a count is no whole number"};
+  return value.get<size_t>();
+}
+
+size_t whole(const Json& object, const char* key, size_t otherwise) {
+  const auto found = object.find(key);
+  return found == object.end() ? otherwise : whole(*found);
+}
+
+std::vector<size_t> indices_in(const Json& object, const char* key) {
+  std::vector<size_t> indices;
+  if (const auto found = object.find(key); found != object.end()) {
+    for (const Json& index : *found) indices.push_back(whole(index));
+  }
+  return indices;
 }
 
 class Reader {
@@ -50,7 +70,7 @@ class Reader {
     const std::vector<Place> places = places_of(nodes);
     for (size_t n = 0; n < nodes.size(); ++n) {
       if (!places[n].is_reached || !nodes[n].contains("mesh")) continue;
-      const Json& mesh = json_.at("meshes").at(nodes[n].at("mesh").get<size_t>());
+      const Json& mesh = json_.at("meshes").at(whole(nodes[n].at("mesh")));
       TriangleMesh triangles;
       triangles.name = places[n].name.empty() ? mesh.value("name", "mesh") : places[n].name;
       for (const Json& primitive : mesh.at("primitives")) add_primitive(primitive, triangles);
@@ -84,7 +104,7 @@ class Reader {
     while (!stack.empty()) {
       const size_t parent = stack.back();
       stack.pop_back();
-      for (const size_t child : nodes[parent].value("children", std::vector<size_t>())) {
+      for (const size_t child : indices_in(nodes[parent], "children")) {
         Place& place = places.at(child);
         if (place.is_reached) throw Malformed{"a node has two parents"};
         place.is_reached = true;
@@ -93,6 +113,9 @@ class Reader {
         const std::string own = nodes[child].value("name", "");
         if (!place.name.empty() && !own.empty()) place.name += '/';
         place.name += own;
+        // In a chain of nodes, the names together take the square of what the file does.
+        if (place.name.size() > kLongestName)
+          throw Malformed{"the name of a node and its groups is longer than 4096 bytes"};
         stack.push_back(child);
       }
     }
@@ -101,12 +124,12 @@ class Reader {
 
   std::vector<size_t> roots_of(const Json& nodes) const {
     if (json_.contains("scenes")) {
-      const Json& scene = json_.at("scenes").at(json_.value("scene", size_t{0}));
-      return scene.value("nodes", std::vector<size_t>());
+      const Json& scene = json_.at("scenes").at(whole(json_, "scene", 0));
+      return indices_in(scene, "nodes");
     }
     std::vector<bool> is_child(nodes.size(), false);
     for (const Json& node : nodes) {
-      for (const size_t c : node.value("children", std::vector<size_t>())) is_child.at(c) = true;
+      for (const size_t c : indices_in(node, "children")) is_child.at(c) = true;
     }
     std::vector<size_t> roots;
     for (size_t n = 0; n < nodes.size(); ++n) {
@@ -150,12 +173,11 @@ class Reader {
 
   Elements elements(const Json& accessor, size_t size) const {
     if (accessor.contains("sparse")) throw Malformed{"sparse accessors are not read"};
-    const size_t count = accessor.at("count").get<size_t>();
-    const Json& view = json_.at("bufferViews").at(accessor.at("bufferView").get<size_t>());
-    if (view.at("buffer").get<size_t>() != 0) throw Malformed{"there is data outside of the file"};
-    const size_t stride = view.value("byteStride", size);
-    const size_t start =
-        view.value("byteOffset", size_t{0}) + accessor.value("byteOffset", size_t{0});
+    const size_t count = whole(accessor.at("count"));
+    const Json& view = json_.at("bufferViews").at(whole(accessor.at("bufferView")));
+    if (whole(view.at("buffer")) != 0) throw Malformed{"there is data outside of the file"};
+    const size_t stride = whole(view, "byteStride", size);
+    const size_t start = whole(view, "byteOffset", 0) + whole(accessor, "byteOffset", 0);
     if (stride < size || start > binary_.size() ||
         (count > 0 && (size > binary_.size() - start ||
                        (count - 1) > (binary_.size() - start - size) / stride))) {
@@ -165,11 +187,11 @@ class Reader {
   }
 
   void add_primitive(const Json& primitive, TriangleMesh& mesh) const {
-    if (primitive.value("mode", kTriangles) != kTriangles)
+    if (whole(primitive, "mode", kTriangles) != kTriangles)
       throw Malformed{"only triangles are read, no strips, fans, lines or points"};
     const Json& accessors = json_.at("accessors");
-    const Json& positions = accessors.at(primitive.at("attributes").at("POSITION").get<size_t>());
-    if (positions.at("componentType").get<int>() != kFloat ||
+    const Json& positions = accessors.at(whole(primitive.at("attributes").at("POSITION")));
+    if (whole(positions.at("componentType")) != kFloat ||
         positions.at("type").get<std::string>() != "VEC3") {
       throw Malformed{"positions must be three floats"};
     }
@@ -184,7 +206,7 @@ class Reader {
     }
     std::vector<uint32_t> indices;
     if (primitive.contains("indices")) {
-      indices = read_indices(accessors.at(primitive.at("indices").get<size_t>()));
+      indices = read_indices(accessors.at(whole(primitive.at("indices"))));
     } else {
       for (uint32_t i = 0; i < points.count; ++i) indices.push_back(i);
     }
@@ -199,7 +221,7 @@ class Reader {
   }
 
   std::vector<uint32_t> read_indices(const Json& accessor) const {
-    const int type = accessor.at("componentType").get<int>();
+    const size_t type = whole(accessor.at("componentType"));
     const size_t size = type == kByte ? 1 : type == kShort ? 2 : type == kInt ? 4 : 0;
     if (size == 0) throw Malformed{"indices must be unsigned integers"};
     const Elements values = elements(accessor, size);

@@ -240,6 +240,11 @@ MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape) {
   // OpenSCAD takes a negative scale of the top as 0.
   if (options.scale.x < 0) options.scale.x = 0;
   if (options.scale.y < 0) options.scale.y = 0;
+  // NaN compares with nothing, and is no number of anything.
+  for (const char* name : {"slices", "segments"}) {
+    const double value = arguments.number(name, 0);
+    if (std::isnan(value)) return not_finite("linear_extrude", name, value);
+  }
   auto whole = [&](const char* name, double least) {
     return static_cast<int>(std::clamp(arguments.number(name, 0), least, 1e9));
   };

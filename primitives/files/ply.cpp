@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "primitives/base/text.h"
 #include "primitives/files/byte_order.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/text_scanner.h"
@@ -309,8 +310,9 @@ class BodyReader {
   std::optional<Error> read_list(const Element& element, uint64_t i, const Property& property) {
     const std::optional<double> length = source_.number(property.count_type);
     if (!length) return bad_number(element, i);
-    if (*length < 0 || *length != std::floor(*length)) {
-      return here("a list has the length " + std::to_string(*length));
+    constexpr double kMostEntries = 0x1p53;  // larger ones are no exact numbers
+    if (!(*length >= 0 && *length <= kMostEntries) || *length != std::floor(*length)) {
+      return here("a list has the length " + number_text(*length));
     }
     const auto count = static_cast<uint64_t>(*length);
     if (auto error = check_count(name_, source_.place(), "entries of a list", count,

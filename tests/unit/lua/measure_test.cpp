@@ -155,5 +155,39 @@ TEST(Glb, DamageIsAnError) {
   }
 }
 
+/// What reading a GLB of this JSON, without data, says; empty when it is read.
+std::string message_of_glb(std::string json) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto word = [](size_t value) {
+    std::string bytes(4, '\0');
+    for (size_t i = 0; i < 4; ++i) bytes[i] = static_cast<char>(value >> (8 * i));
+    return bytes;
+  };
+  const auto meshes = parse_glb(
+      "x.glb", "glTF" + word(2) + word(20 + json.size()) + word(json.size()) + "JSON" + json);
+  return meshes ? "" : meshes.error().message;
+}
+
+TEST(Glb, NamesOfNodesDoNotPileUp) {
+  // A chain of nodes: the names from the root down together are far longer than the file.
+  const auto chain = [](int count) {
+    std::string nodes;
+    for (int i = 1; i <= count; ++i)
+      nodes += R"({"name":"abcdefghi","children":[)" + std::to_string(i) + "]},";
+    return R"({"nodes":[)" + nodes + R"({"name":"last"}]})";
+  };
+  EXPECT_EQ(message_of_glb(chain(400)), "");
+  EXPECT_EQ(message_of_glb(chain(30000)),
+            "x.glb: the name of a node and its groups is longer than 4096 bytes");
+}
+
+TEST(Glb, TakesWholeNumbersOnly) {
+  for (const char* index : {"-1", "1e300", "0.5", "\"0\"", "null"}) {
+    EXPECT_EQ(message_of_glb(R"({"nodes":[{}],"scenes":[{"nodes":[)" + std::string(index) + "]}]}"),
+              "x.glb: an index or a count is no whole number")
+        << index;
+  }
+}
+
 }  // namespace
 }  // namespace csgrun::testing

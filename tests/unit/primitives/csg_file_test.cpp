@@ -120,6 +120,12 @@ TEST(CsgFile, ImpossiblePrimitivesAreEmptyWithAWarning) {
       kSquare +
       "}\n"
       "rotate_extrude(angle = 90) {\n" +
+      kSquare +
+      "}\n"
+      "linear_extrude(height = 1, slices = nan) {\n" +
+      kSquare +
+      "}\n"
+      "linear_extrude(height = 1, segments = -nan) {\n" +
       kSquare + "}\n");
   EXPECT_EQ(sketch(model.solid), "empty");
   const std::vector<std::string> expected{
@@ -131,7 +137,9 @@ TEST(CsgFile, ImpossiblePrimitivesAreEmptyWithAWarning) {
       "m.csg:8: multmatrix: the matrix flattens its children, they were left out",
       "m.csg:11: linear_extrude: height must be positive, got -1",
       "m.csg:14: rotate_extrude: the shape must lie on one side of the Y axis, its x runs from -1 "
-      "to 1"};
+      "to 1",
+      "m.csg:17: linear_extrude: slices must be finite, got nan",
+      "m.csg:20: linear_extrude: segments must be finite, got nan"};
   EXPECT_EQ(model.warnings, expected);
 }
 
@@ -189,9 +197,10 @@ TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
       "polyhedron");
   EXPECT_EQ(error("\n" + tetra + "faces = [[0, 1, 2], [0, 3, 4], [0, 2, 3]]);").substr(0, 45),
             "m.csg:2: polyhedron: not closed: 3 open edges");
-  EXPECT_EQ(error(tetra + "faces = [[0, 1, 2], [0, 3, 7], [0, 2, 3], [1, 3, 2]]);").substr(0, 119),
-            "m.csg:1: polyhedron: index 7 in faces is out of range, there are 5 points; it was left "
-            "out, and then polyhedron: not cl");
+  EXPECT_EQ(
+      error(tetra + "faces = [[0, 1, 2], [0, 3, 7], [0, 2, 3], [1, 3, 2]]);").substr(0, 119),
+      "m.csg:1: polyhedron: index 7 in faces is out of range, there are 5 points; it was left "
+      "out, and then polyhedron: not cl");
   EXPECT_EQ(parse("polyhedron(points = [], faces = []);").warnings,
             std::vector<std::string>{"m.csg:1: polyhedron: has no faces"});
   const CsgModel inside_out =

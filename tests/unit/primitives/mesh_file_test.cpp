@@ -199,6 +199,10 @@ TEST(MeshFile, WhatIsWrongIsSaidWithItsPlace) {
       message("a.ply",
               kPlyHeader + "0 0 0\n1 0 x\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"),
       "a.ply: line 11: vertex 1: not a finite number");
+  for (const std::string length : {"1e+300", "-1", "2.5"}) {
+    EXPECT_EQ(message("a.ply", kPlyHeader + "0 0 0\n1 0 0\n0 1 0\n0 0 1\n" + length + " 0 2 1\n"),
+              "a.ply: line 14: a list has the length " + length);
+  }
   EXPECT_EQ(message("a.txt", kOff),
             "a.txt: not a mesh file: its name must end in .stl, .off, .obj or .ply");
 }
