@@ -13,6 +13,7 @@
 
 #include <csgrun/engine/error.h>
 #include <csgrun/engine/solid.h>
+#include <csgrun/engine/validate.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
@@ -37,6 +38,15 @@ inline std::string_view text_of(const uint8_t* data, size_t size) {
 inline void expect_users_fault(const Error& error) {
   expect(error.code != ErrorCode::kInternal, "an internal error: " + error.message);
   expect(!error.message.empty(), "an error without a message");
+}
+
+/// A mesh that was accepted as a leaf. Whether a face has area is not asked again: that is judged
+/// in doubles from one of its corners, which turning faces over changes.
+inline void expect_leaf(const PolygonMesh& mesh) {
+  const MeshReport report = check_mesh(mesh);
+  expect(report.open_edges == 0 && report.misoriented_edges == 0 && report.bad_indices == 0 &&
+             report.non_finite_points == 0,
+         "a leaf was accepted that is no good: " + report.text());
 }
 
 /// A solid is closed and oriented by index: each directed edge once, and its reverse once.

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include <csgrun/engine/validate.h>
+#include <csgrun/engine/repair.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/measure/mesh_measures.h"
@@ -40,12 +40,15 @@ inline int read_mesh(const std::string& name, const uint8_t* data, size_t size) 
   measure_as_info_does(triangulated(*mesh, mesh_format_of(name) == "stl"));
 
   std::string note;
-  auto solid = make_solid_mesh(*std::move(mesh), &note);
-  if (!solid) {
+  auto solid = make_solid_mesh(*mesh, &note);
+  if (!solid) {  // as the message suggests, if it does
     expect_users_fault(solid.error());
-    return 0;
+    const auto options = suggest_repair(*mesh);
+    if (!options) return 0;
+    solid = repair_mesh(*std::move(mesh), *options, nullptr);
+    expect(solid.has_value(), "a repair that was suggested fails");
   }
-  expect(check_mesh(*solid).ok(), "a leaf was accepted that is no good");
+  expect_leaf(*solid);
   evaluate_small({Node::leaf(std::make_shared<const PolygonMesh>(*std::move(solid)))});
   return 0;
 }

@@ -14,6 +14,7 @@ import os
 import pathlib
 import re
 import secrets
+import signal
 import subprocess
 import sys
 import time
@@ -23,7 +24,8 @@ AT_A_TIME = 2
 SECONDS_PER_INPUT = 60
 MEMORY_MB = 4096
 LONGEST_INPUT = 4096
-SECONDS_TO_SHRINK = 60
+SECONDS_TO_SHRINK = 120
+SECONDS_PER_STEP = 15
 # A script that does not stop by itself ends the process with this code, as it must.
 OUT_OF_TIME = 124
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="detect_leaks=1:allocator_may_return_null=1",
@@ -96,10 +98,15 @@ class Target:
         kind = finding.name.split("-")[0]
         if kind in ("crash", "leak"):
             # Every smaller one is written anew; the last that still fails is the result.
-            command = [self.program, *self.options(), "-minimize_crash=1", f"-max_total_time={SECONDS_TO_SHRINK}",
+            command = [self.program, *self.options(), "-minimize_crash=1", f"-max_total_time={SECONDS_PER_STEP}",
                        f"-exact_artifact_path={small}", finding]
             with open(self.log, "a", encoding="utf-8") as log:
-                subprocess.run(command, stdout=log, stderr=log, env=ENVIRONMENT, check=False)
+                shrinking = subprocess.Popen(command, stdout=log, stderr=log, env=ENVIRONMENT, start_new_session=True)
+                try:
+                    shrinking.wait(SECONDS_TO_SHRINK)
+                except subprocess.TimeoutExpired:
+                    os.killpg(shrinking.pid, signal.SIGKILL)  # it runs each step in a process of its own
+                    shrinking.wait()
         data = (small if small.exists() else finding).read_bytes()
         name = f"{kind}-{hashlib.sha1(data).hexdigest()[:10]}"
         folder = HERE / "regress" / self.name

@@ -1,8 +1,10 @@
-// Meshes of any kind, also such as no file can describe: the checks of leaves, and what follows.
+// Meshes of any kind, also such as no file can describe: the checks of leaves, their repair, and
+// what follows.
 #include <array>
 #include <limits>
 #include <memory>
 
+#include <csgrun/engine/repair.h>
 #include <csgrun/engine/validate.h>
 #include <csgrun/primitives/mesh_file.h>
 
@@ -57,21 +59,49 @@ csgrun::PolygonMesh decode(Decoder& in) {
   return mesh;
 }
 
+csgrun::RepairOptions repair_options(uint8_t byte) {
+  csgrun::RepairOptions options;
+  constexpr std::array<double, 4> kDistances{0, 1e-6, 0.5, 2};
+  options.weld = kDistances[byte % 4];
+  options.drop_degenerate = (byte & 4) == 0;
+  options.drop_duplicates = (byte & 8) == 0;
+  options.orient = (byte & 16) == 0;
+  options.fill_holes = (byte & 32) != 0;
+  return options;
+}
+
+void use(csgrun::PolygonMesh mesh) {
+  using namespace csgrun;
+  std::string note;
+  auto solid = make_solid_mesh(std::move(mesh), &note);
+  if (!solid) {
+    fuzz::expect_users_fault(solid.error());
+    return;
+  }
+  fuzz::expect_leaf(*solid);
+  fuzz::evaluate_small({Node::leaf(std::make_shared<const PolygonMesh>(*std::move(solid)))});
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace csgrun;
   Decoder in(data, size);
+  const RepairOptions options = repair_options(in.byte());
   PolygonMesh mesh = decode(in);
+  mesh.fill = static_cast<FillRule>(size % 3);
   const MeshReport report = check_mesh(mesh);
   fuzz::expect(report.ok() == report.text().empty(), "a report without words");
-  std::string note;
-  auto solid = make_solid_mesh(std::move(mesh), &note);
-  if (!solid) {
-    fuzz::expect_users_fault(solid.error());
-    return 0;
+  RepairReport repairs;
+  auto repaired = repair_mesh(mesh, options, &repairs);
+  if (repaired) {
+    fuzz::expect_leaf(*repaired);
+    for (const RepairStep& step : repairs.steps)
+      fuzz::expect(step.count > 0 && !step.text().empty(), "a step that did nothing");
+    use(*std::move(repaired));
+  } else {
+    fuzz::expect_users_fault(repaired.error());
   }
-  fuzz::expect(check_mesh(*solid).ok(), "a leaf was accepted that is no good");
-  fuzz::evaluate_small({Node::leaf(std::make_shared<const PolygonMesh>(*std::move(solid)))});
+  use(std::move(mesh));
   return 0;
 }
