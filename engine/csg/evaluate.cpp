@@ -1,3 +1,6 @@
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -104,8 +107,16 @@ Result<Scene> Evaluator::Impl::scene_of(const std::vector<NodePtr>& parts) {
     if (!root) return root.error();
     roots.push_back(*root);
   }
-  SceneContext context{form, store, appearances, warnings, [this] { return cancelled(); }};
-  return build_scene(context, roots, options.grid);
+  const Resolver resolve = [this](const Operand& surface,
+                                  std::span<const std::array<uint32_t, 2>> crossings,
+                                  InsideRule rule) {
+    return resolve_surface(surface, crossings, rule, kernel_options(options, threads), stats);
+  };
+  SceneContext context{form, store, appearances, warnings, [this] { return cancelled(); }, resolve};
+  // Leaves are examined on the threads of the arena.
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, threads);
+  tbb::task_arena arena(static_cast<int>(threads));
+  return arena.execute([&] { return build_scene(context, roots, options.grid); });
 }
 
 /// What the arrays of a root depend on: what it is, where it is in the world, and the step.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/bsp/kernel.h"
+
 namespace csgrun {
 namespace {
 
@@ -184,11 +186,38 @@ std::shared_ptr<const LeafGeometry> LeafStore::geometry(const QuantisedLeaf& lea
   return made;
 }
 
+Key resolved_key(const QuantisedLeaf& leaf, InsideRule rule) {
+  return KeyBuilder("resolved").number(rule).numbers(leaf.key).key();
+}
+
+Result<BoundaryPtr> LeafStore::resolved(const QuantisedLeaf& leaf, InsideRule rule,
+                                        const Resolver& resolve) {
+  BoundaryPtr& made = resolved_[resolved_key(leaf, rule)];
+  if (!made) {
+    Operand surface;
+    surface.leaf = leaf.prepared->geometry;
+    auto boundary = resolve(surface, leaf.prepared->crossings, rule);
+    if (!boundary) return boundary.error();
+    made = *boundary;
+    bytes_ += memory_bytes(*made);
+  }
+  return made;
+}
+
+bool LeafStore::is_news(const PolygonMesh& mesh, InsideRule rule) {
+  uint32_t& told = facts_.at(&mesh).told;
+  const uint32_t bit = 1u << static_cast<uint32_t>(rule);
+  const bool news = (told & bit) == 0;
+  told |= bit;
+  return news;
+}
+
 void LeafStore::clear() {
   facts_.clear();
   states_.clear();
   prepared_.clear();
   permuted_.clear();
+  resolved_.clear();
   bytes_ = 0;
 }
 

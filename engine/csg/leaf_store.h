@@ -3,11 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "engine/bsp/self_resolution.h"
 #include "engine/csg/appearance_table.h"
 #include "engine/csg/frames.h"
 #include "engine/csg/key.h"
@@ -27,6 +30,7 @@ struct MeshFacts {
   std::array<double, 3> lo{}, hi{};  ///< of the points that faces use
   std::vector<uint32_t> appearance;  ///< id per face
   uint32_t paint = kUnpainted;       ///< the only appearance of the mesh, if there is one
+  uint32_t told = 0;                 ///< bits by InsideRule: see LeafStore::is_news
 };
 
 /// A leaf instance on the grid: the geometry of `prepared` moved by `origin` in local axes.
@@ -36,6 +40,13 @@ struct QuantisedLeaf {
   std::shared_ptr<const PreparedLeaf> prepared;
   uint32_t paint = kUnpainted;  ///< of all faces; else the geometry has ids of its own
 };
+
+using BoundaryPtr = std::shared_ptr<const BoundaryMesh>;
+
+/// Makes the boundary of what a leaf's surface encloses, in its local axes (see resolve_surface).
+using Resolver =
+    std::function<Result<BoundaryPtr>(const Operand&, std::span<const std::array<uint32_t, 2>>,
+                                      InsideRule)>;
 
 /// What is remembered of one leaf of the normal form.
 struct LeafState {
@@ -59,6 +70,11 @@ class LeafStore {
   /// The geometry of a good leaf in the axes of its frame.
   std::shared_ptr<const LeafGeometry> geometry(const QuantisedLeaf& leaf,
                                                const SignedPermutation& permutation);
+  /// What the surface of a leaf encloses by a rule, in local axes, less the origin; made once for all
+  /// instances. Errors: those of the resolver.
+  Result<BoundaryPtr> resolved(const QuantisedLeaf& leaf, InsideRule rule, const Resolver& resolve);
+  /// True the first time that something is to be said of a mesh and a rule, for all its instances.
+  bool is_news(const PolygonMesh& mesh, InsideRule rule);
   [[nodiscard]] size_t bytes() const { return bytes_; }
   void clear();
 
@@ -82,7 +98,11 @@ class LeafStore {
   std::unordered_map<uint32_t, LeafState> states_;
   std::unordered_map<Key, std::shared_ptr<const PreparedLeaf>, KeyHash> prepared_;
   std::unordered_map<KeyAndAxes, std::shared_ptr<const LeafGeometry>, KeyAndAxesHash> permuted_;
+  std::unordered_map<Key, BoundaryPtr, KeyHash> resolved_;  // by resolved_key
   size_t bytes_ = 0;
 };
+
+/// What a leaf is once it is resolved.
+Key resolved_key(const QuantisedLeaf& leaf, InsideRule rule);
 
 }  // namespace csgrun

@@ -32,6 +32,15 @@ bool is_finite(const Affine& a) {
   return true;
 }
 
+/// Whether a node is a leaf under nothing but transforms and appearances.
+bool is_mesh(const Node* node) {
+  while (node != nullptr &&
+         (node->kind() == NodeKind::kTransform || node->kind() == NodeKind::kAppearance)) {
+    node = node->children()[0].get();
+  }
+  return node != nullptr && node->kind() == NodeKind::kLeaf;
+}
+
 }  // namespace
 
 /// A node of the tree under all that was met above it.
@@ -50,9 +59,10 @@ struct NormalForm::Item {
   }
 };
 
-/// One operator of the normal form while its operands are gathered.
+/// One operator of the normal form, or a hull, while its operands are gathered.
 struct NormalForm::Cluster {
   BooleanOp op;
+  bool is_hull;
   Item item;
   std::vector<Item> pending;  // last is next
   bool has_first = false, is_empty = false;
@@ -61,7 +71,12 @@ struct NormalForm::Cluster {
   std::unordered_set<uint32_t> members;
   std::unordered_set<Memo, MemoHash> absorbed;
 
-  Cluster(const Item& start) : op((*start.node)->op()), item(start) { open(start); }
+  explicit Cluster(const Item& start)
+      : op((*start.node)->op()),
+        is_hull((*start.node)->kind() == NodeKind::kOuterHull),
+        item(start) {
+    open(start);
+  }
   void open(const Item& boolean) {
     for (size_t i = (*boolean.node)->children().size(); i-- > 0;) {
       pending.push_back(boolean.child(i));
@@ -115,6 +130,12 @@ Status NormalForm::unwrap(Item& item) const {
       case NodeKind::kBoolean:
         if (node.children().size() != 1) return std::monostate{};
         break;
+      case NodeKind::kOuterHull:
+        // A solid has no voids but those that it has; only a mesh can be wound otherwise.
+        if (!node.outer_hull().keep_voids || is_mesh(node.children()[0].get())) {
+          return std::monostate{};
+        }
+        break;
       default:
         return std::monostate{};
     }
@@ -136,10 +157,27 @@ uint32_t NormalForm::leaf(const Item& item) {
   return found->second;
 }
 
+Result<uint32_t> NormalForm::hulled_leaf(const Item& item) {
+  const auto [found, is_new] = memo_.try_emplace(item.memo(), static_cast<uint32_t>(nodes_.size()));
+  if (!is_new) return found->second;
+  Item inner = item.child(0);
+  if (Status status = unwrap(inner); !status) return status.error();
+  NormalNode node;
+  node.kind = NormalNode::Kind::kLeaf;
+  node.hull = (*item.node)->outer_hull();
+  node.leaf = *inner.node;
+  node.map = inner.map;
+  node.paint = inner.paint;
+  if (inner.bent_by) node.bent_by = *inner.bent_by;
+  nodes_.push_back(std::move(node));
+  alive_.push_back(*item.node);
+  return static_cast<uint32_t>(nodes_.size() - 1);
+}
+
 /// Whether the operands of `item`, an operator, may stand in the place of it.
 bool NormalForm::absorbs(Cluster& cluster, const Item& item) const {
   const Node& node = **item.node;
-  if (node.op() != cluster.op) return false;
+  if (cluster.is_hull || node.kind() != NodeKind::kBoolean || node.op() != cluster.op) return false;
   const bool is_associative =
       cluster.op == BooleanOp::kUnion || cluster.op == BooleanOp::kIntersection;
   return is_associative || !cluster.has_first;
@@ -147,6 +185,11 @@ bool NormalForm::absorbs(Cluster& cluster, const Item& item) const {
 
 void NormalForm::collect(Cluster& cluster, uint32_t value) const {
   const bool is_empty = value == kEmptyIndex;
+  if (cluster.is_hull) {
+    cluster.has_first = !is_empty;
+    cluster.first = value;
+    return;
+  }
   switch (cluster.op) {
     case BooleanOp::kIntersection:
       cluster.is_empty |= is_empty;
@@ -185,7 +228,13 @@ uint32_t NormalForm::finish(Cluster& cluster) {
   uint32_t value = kEmptyIndex;
   if (cluster.has_first && !cluster.is_empty) {
     value = cluster.first;
-    if (!cluster.rest.empty()) {
+    if (cluster.is_hull && nodes_[value].kind != NormalNode::Kind::kHull) {
+      value = static_cast<uint32_t>(nodes_.size());
+      NormalNode node;
+      node.kind = NormalNode::Kind::kHull;
+      node.first = cluster.first;
+      nodes_.push_back(std::move(node));
+    } else if (!cluster.rest.empty()) {
       value = static_cast<uint32_t>(nodes_.size());
       NormalNode node;
       node.kind = NormalNode::Kind::kOperator;
@@ -212,6 +261,10 @@ Result<uint32_t> NormalForm::add(const NodePtr& root) {
       value = kEmptyIndex;
     } else if (node.kind() == NodeKind::kLeaf) {
       value = leaf(item);
+    } else if (node.kind() == NodeKind::kOuterHull && is_mesh(node.children()[0].get())) {
+      auto hulled = hulled_leaf(item);
+      if (!hulled) return hulled.error();
+      value = *hulled;
     } else if (const auto found = memo_.find(item.memo()); found != memo_.end()) {
       value = found->second;
     } else if (!clusters.empty() && absorbs(clusters.back(), item)) {
@@ -266,7 +319,8 @@ std::vector<uint32_t> NormalForm::reachable(std::span<const uint32_t> roots) con
   while (!stack.empty()) {
     const uint32_t index = stack.back();
     const NormalNode& node = nodes_[index];
-    if (state[index] == 0 && node.kind == NormalNode::Kind::kOperator) {
+    if (state[index] == 0 &&
+        (node.kind == NormalNode::Kind::kOperator || node.kind == NormalNode::Kind::kHull)) {
       state[index] = 1;
       for (size_t i = node.rest.size(); i-- > 0;) {
         if (state[node.rest[i]] == 0) stack.push_back(node.rest[i]);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -18,9 +19,11 @@ constexpr uint32_t kUnpainted = UINT32_MAX;
 
 /// A node of the normal form. Nodes stand in one array, children before their parents.
 struct NormalNode {
-  enum class Kind : uint8_t { kEmpty, kLeaf, kOperator };
+  enum class Kind : uint8_t { kEmpty, kLeaf, kOperator, kHull };
   Kind kind = Kind::kEmpty;
 
+  /// Of a leaf: it stands for the hull of its surface, which may cross itself.
+  std::optional<OuterHull> hull;
   NodePtr leaf;                 ///< its mesh and where it was made
   Affine map;                   ///< total transform of the leaf
   uint32_t paint = kUnpainted;  ///< appearance id that covers the leaf's own
@@ -28,7 +31,8 @@ struct NormalNode {
 
   /// The operands are those of `first`, when that is an operator of the same kind, else `first`
   /// itself, then `rest`: so a chain that grows by one operand shares all it had. Every operator is
-  /// a left fold of binary ones.
+  /// a left fold of binary ones. A hull has `first` only: all places are filled that cannot be reached
+  /// from outside of that solid. It is a barrier: no flattening goes through it.
   BooleanOp op = BooleanOp::kUnion;
   uint32_t first = 0;
   std::vector<uint32_t> rest;
@@ -70,6 +74,7 @@ class NormalForm {
 
   Status unwrap(Item& item) const;
   uint32_t leaf(const Item& item);
+  Result<uint32_t> hulled_leaf(const Item& item);
   void collect(Cluster& cluster, uint32_t value) const;
   uint32_t finish(Cluster& cluster);
   bool absorbs(Cluster& cluster, const Item& item) const;

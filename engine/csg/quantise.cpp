@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <unordered_map>
 #include <utility>
 
 #include "engine/csg/leaf_faces.h"
+#include "engine/mesh/edge_table.h"
+#include "engine/mesh/leaf_check.h"
 
 namespace csgrun {
 namespace {
-
-using Int128 = __int128;
 
 struct PointHash {
   size_t operator()(const IVec3& p) const {
@@ -84,93 +83,6 @@ LeafGeometry pack(const std::vector<IVec3>& vertices, const std::vector<LoopFace
     leaf.appearance.push_back(face.appearance);
   }
   return leaf;
-}
-
-/// The directed edges of a leaf by the vertex that they leave, then by the one that they reach.
-class EdgeTable {
- public:
-  struct Edge {
-    uint32_t to, face;
-    bool operator<(const Edge& o) const { return std::pair(to, face) < std::pair(o.to, o.face); }
-  };
-
-  explicit EdgeTable(const LeafGeometry& leaf) : starts_(leaf.vertices.size() + 1, 0) {
-    for (uint32_t v : leaf.corners) ++starts_[v + 1];
-    for (size_t v = 1; v < starts_.size(); ++v) starts_[v] += starts_[v - 1];
-    edges_.resize(leaf.corners.size());
-    std::vector<uint32_t> next(starts_.begin(), starts_.end() - 1);
-    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-      const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
-      for (uint32_t c = begin; c < end; ++c) {
-        const uint32_t to = leaf.corners[c + 1 < end ? c + 1 : begin];
-        edges_[next[leaf.corners[c]]++] = {to, f};
-      }
-    }
-    for (uint32_t v = 0; v + 1 < starts_.size(); ++v) {
-      std::sort(edges_.begin() + starts_[v], edges_.begin() + starts_[v + 1]);
-    }
-  }
-
-  [[nodiscard]] size_t vertex_count() const { return starts_.size() - 1; }
-  [[nodiscard]] std::span<const Edge> leaving(uint32_t v) const {
-    return {edges_.data() + starts_[v], starts_[v + 1] - starts_[v]};
-  }
-  /// The edges from one vertex to another.
-  [[nodiscard]] std::span<const Edge> between(uint32_t from, uint32_t to) const {
-    const auto all = leaving(from);
-    const auto first =
-        std::partition_point(all.begin(), all.end(), [to](const Edge& e) { return e.to < to; });
-    auto last = first;
-    while (last != all.end() && last->to == to) ++last;
-    return {first, last};
-  }
-  /// Whether every directed edge occurs as often as its reverse.
-  [[nodiscard]] bool is_balanced() const {
-    for (uint32_t v = 0; v < vertex_count(); ++v) {
-      const auto all = leaving(v);
-      for (size_t i = 0; i < all.size();) {
-        const auto same = between(v, all[i].to);
-        if (between(all[i].to, v).size() != same.size()) return false;
-        i += same.size();
-      }
-    }
-    return true;
-  }
-
- private:
-  std::vector<uint32_t> starts_;
-  std::vector<Edge> edges_;
-};
-
-/// Six times the volume, its sign exact while coordinates are below 2^30 (and there are fewer than
-/// 2^33 corners); far leaves are huge, so that doubles decide.
-double signed_volume(const LeafGeometry& leaf, const GridBox& box) {
-  bool is_far = false;
-  for (int i = 0; i < 3; ++i) {
-    is_far |= box.lo[i] <= -(int64_t{1} << 30) || box.hi[i] >= int64_t{1} << 30;
-  }
-  Int128 exact = 0;
-  double rounded = 0;
-  for (size_t f = 0; f < leaf.face_count(); ++f) {
-    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
-    for (uint32_t c = begin + 1; c + 1 < end; ++c) {
-      const IVec3& p = leaf.vertices[leaf.corners[begin]];
-      const IVec3& q = leaf.vertices[leaf.corners[c]];
-      const IVec3& r = leaf.vertices[leaf.corners[c + 1]];
-      const auto minor = [&](int i, int j) {
-        return static_cast<Int128>(q[i]) * r[j] - static_cast<Int128>(q[j]) * r[i];
-      };
-      for (int i = 0; i < 3; ++i) {
-        const Int128 m = minor((i + 1) % 3, (i + 2) % 3);
-        if (is_far) {
-          rounded += static_cast<double>(p[i]) * static_cast<double>(m);
-        } else {
-          exact += p[i] * m;
-        }
-      }
-    }
-  }
-  return is_far ? rounded : static_cast<double>(exact);
 }
 
 /// Whether no face has a neighbour in front of it. For the surface of one body of genus 0, which a
@@ -248,20 +160,15 @@ PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& poi
   // Rounding can close a gap that is narrower than a step, whatever was promised of the original
   // mesh; convexity is seen from the faces themselves.
   leaf->convex = mesh.convex && is_locally_convex(*leaf, edges);
-  if (!leaf->convex) {
-    if (const auto found = find_self_intersection(*leaf)) {
-      result.status = PreparedLeaf::Status::kSelfIntersecting;
-      result.intersection = *found;
-      return result;
-    }
-  }
-  const double volume = signed_volume(*leaf, result.box);
-  if (volume == 0) return result;
-  if (volume < 0) {
-    result.status = PreparedLeaf::Status::kInsideOut;
-    return result;
-  }
   result.status = PreparedLeaf::Status::kGood;
+  if (!leaf->convex) {
+    SurfaceCheck check = check_surface(*leaf, edges);
+    if (!check.crossings.empty() || !check.bounds_solid) {
+      result.status = PreparedLeaf::Status::kTangled;
+    }
+    result.crossings = std::move(check.crossings);
+    result.connected = check.connected;
+  }
   result.geometry = std::move(leaf);
   return result;
 }

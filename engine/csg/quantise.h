@@ -1,6 +1,7 @@
 // From the polygons of a user to a leaf on the integer grid.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,7 +12,6 @@
 #include "engine/bsp/operand.h"
 #include "engine/csg/frames.h"
 #include "engine/csg/grid.h"
-#include "engine/mesh/leaf_check.h"
 
 namespace csgrun {
 
@@ -35,21 +35,21 @@ std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh,
 /// A leaf on the grid, in its local axes, or why it is none.
 struct PreparedLeaf {
   enum class Status {
-    kGood,
-    kFlat,              ///< encloses no volume on the grid
-    kOpen,              ///< a directed edge without its reverse
-    kInsideOut,         ///< negative volume
-    kSelfIntersecting,  ///< see `intersection`
+    kGood,     ///< the boundary of a solid
+    kTangled,  ///< crosses itself, or its shells do not fit together: a fill rule says what is inside
+    kFlat,     ///< no face is left on the grid
+    kOpen,     ///< a directed edge without its reverse
   };
   Status status = Status::kFlat;
-  std::shared_ptr<const LeafGeometry> geometry;  ///< when kGood
+  std::shared_ptr<const LeafGeometry> geometry;  ///< when kGood or kTangled
   GridBox box;                                   ///< of the geometry
-  SelfIntersection intersection;
+  std::vector<std::array<uint32_t, 2>> crossings;  ///< see find_self_intersections
+  bool connected = true;  ///< one shell, without edges of more than two faces
 };
 
-/// Makes the faces of `mesh` over integer `points` planar and convex, and checks that they enclose
-/// a solid (see LeafGeometry). `turn` reverses every loop. `appearance` has an id per face. The
-/// mesh's promise to be convex is verified, that it is simple is not relied on.
+/// Makes the faces of `mesh` over integer `points` planar and convex, and checks what they enclose
+/// (see LeafGeometry). `turn` reverses every loop. `appearance` has an id per face. The mesh's promise
+/// to be convex is verified.
 PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
                           const std::vector<uint32_t>& appearance);
 

@@ -6,6 +6,8 @@
 #include <map>
 #include <string>
 
+#include "engine/bsp/kernel.h"
+#include "engine/csg/leaf_rule.h"
 #include "engine/csg/scene_step.h"
 
 namespace csgrun {
@@ -74,6 +76,9 @@ class Builder {
   Status place_leaves();
   Status choose(const GridStep& step);
   Result<SceneNode> make_leaf(uint32_t index);
+  Status resolve_leaf(uint32_t index, const QuantisedLeaf& leaf, SceneNode& result);
+  Status make_nodes();
+  SceneNode make_hull(const NormalNode& node) const;
   SceneNode make_operator(const NormalNode& node);
   Subtree fold(BooleanOp op, const Subtree& prefix, const Subtree& operand) const;
   void put_paints(KeyBuilder& builder, const Identity& a, const Identity& b,
@@ -91,6 +96,8 @@ class Builder {
   std::vector<LeafRounding> rounding_;  // by normal index
   std::vector<uint32_t> frame_of_;      // by normal index
   std::vector<StepLeaf> step_leaves_;   // by normal index
+  /// Set when a leaf that must be resolved reaches too far: it is needed as a whole.
+  bool is_step_too_small_ = false;
 };
 
 uint32_t Builder::intern(const Frame& frame) {
@@ -189,6 +196,40 @@ Status Builder::choose(const GridStep& step) {
                {}};
 }
 
+/// Makes the node of a leaf whose surface is not that of the solid it means.
+Status Builder::resolve_leaf(uint32_t index, const QuantisedLeaf& leaf, SceneNode& result) {
+  const NormalNode& node = normal(index);
+  const PolygonMesh& mesh = *node.leaf->mesh();
+  const InsideRule rule = rule_of(node);
+  const SignedPermutation& permutation = rounding_[index].permutation;
+  if (!fits_grid(permuted_box(permutation, leaf.prepared->box, permutation.apply(leaf.origin)))) {
+    step_leaves_[index].whole = true;
+    is_step_too_small_ = true;
+    return std::monostate{};
+  }
+  auto boundary = context_.store.resolved(leaf, rule, context_.resolve);
+  if (!boundary) {
+    Error error = boundary.error();
+    if (error.where.line == 0) error.where = node.leaf->where();
+    return error;
+  }
+  if (!node.hull && context_.store.is_news(mesh, rule)) {
+    context_.warnings.add(node.leaf->where(), "'" + mesh.kind + "' " +
+                              describe_tangle(leaf, rounding_[index], scene_.step) +
+                              "; what is inside follows " + rule_text(rule));
+  }
+  if (is_empty(**boundary)) {
+    context_.warnings.add(node.leaf->where(), "'" + mesh.kind + "' encloses nothing by " +
+                                                  rule_text(rule) + " and is left out");
+    return std::monostate{};
+  }
+  result.kind = SceneNode::Kind::kLeaf;
+  result.boundary = *boundary;
+  result.subtree.id.key = resolved_key(leaf, rule);
+  result.subtree.box = bounding_box(**boundary);
+  return std::monostate{};
+}
+
 Result<SceneNode> Builder::make_leaf(uint32_t index) {
   const NormalNode& node = normal(index);
   const PolygonMesh& mesh = *node.leaf->mesh();
@@ -201,43 +242,38 @@ Result<SceneNode> Builder::make_leaf(uint32_t index) {
   const Quantiser quantiser(scene_.step);
   const auto leaf = context_.store.quantise(index, node, rounding, quantiser);
   if (!leaf) return fault(ErrorCode::kOutOfRange, "reaches too far from the origin for the grid");
+  const SignedPermutation& permutation = rounding.permutation;
+  Subtree& subtree = result.subtree;
   switch (leaf->prepared->status) {
-    case PreparedLeaf::Status::kGood:
-      break;
+    case PreparedLeaf::Status::kOpen:
+      return fault(ErrorCode::kInvalidMesh, "is not closed: an edge lacks its neighbour");
     case PreparedLeaf::Status::kFlat:
       context_.warnings.add(node.leaf->where(),
                             "'" + mesh.kind + "' encloses no volume on the grid and is left out");
       return result;
-    case PreparedLeaf::Status::kOpen:
-      return fault(ErrorCode::kInvalidMesh, "is not closed: an edge lacks its neighbour");
-    case PreparedLeaf::Status::kInsideOut:
-      return fault(ErrorCode::kInvalidMesh, "is inside out: its faces look inwards");
-    case PreparedLeaf::Status::kSelfIntersecting: {
-      const SelfIntersection& hit = leaf->prepared->intersection;
-      std::string place;
-      for (int i = 0; i < 3; ++i) {
-        double x = (hit.place[i] + static_cast<double>(leaf->origin[i])) * quantiser.step_mm();
-        if (!rounding.in_world) x = (x - rounding.offset[i]) / rounding.scale[i];
-        place += (i ? ", " : "") + std::to_string(x);
+    case PreparedLeaf::Status::kTangled:
+      if (Status status = resolve_leaf(index, *leaf, result); !status) return status.error();
+      break;
+    case PreparedLeaf::Status::kGood:
+      // The hull of one shell is that shell.
+      if (node.hull && !node.hull->keep_voids && !leaf->prepared->connected) {
+        if (Status status = resolve_leaf(index, *leaf, result); !status) return status.error();
+        break;
       }
-      return fault(ErrorCode::kSelfIntersecting,
-                   "crosses itself: " + std::to_string(hit.count) +
-                       (hit.count == 1 ? " pair" : " pairs") + " of faces, the first near (" +
-                       place + ") mm" + (rounding.in_world ? "" : " of its own coordinates"));
-    }
+      result.kind = SceneNode::Kind::kLeaf;
+      result.geometry = context_.store.geometry(*leaf, permutation);
+      subtree.id.key = leaf->key;
+      subtree.box = leaf->prepared->box;
+      break;
   }
-  const SignedPermutation& permutation = rounding.permutation;
-  result.kind = SceneNode::Kind::kLeaf;
+  if (result.kind == SceneNode::Kind::kEmpty) return result;
   result.leaf = node.leaf;
-  result.geometry = context_.store.geometry(*leaf, permutation);
-  Subtree& subtree = result.subtree;
   subtree.slots = 1;
-  subtree.id.key = leaf->key;
   subtree.id.frame = frame_of_[index];
   subtree.id.permutation = permutation;
   subtree.id.origin = permutation.apply(leaf->origin);
   subtree.id.paint = leaf->paint;
-  subtree.box = permuted_box(permutation, leaf->prepared->box, subtree.id.origin);
+  subtree.box = permuted_box(permutation, subtree.box, subtree.id.origin);
   subtree.is_far = !fits_grid(subtree.box);
   if (subtree.id.frame == 0) {
     subtree.world = subtree.box;
@@ -343,11 +379,34 @@ SceneNode Builder::make_operator(const NormalNode& node) {
   return result;
 }
 
+/// The hull stands where its solid stands, and no further out.
+SceneNode Builder::make_hull(const NormalNode& node) const {
+  SceneNode result;
+  const uint32_t first = scene_index_[node.first];
+  if (scene_.nodes[first].kind == SceneNode::Kind::kEmpty) return result;
+  result.kind = SceneNode::Kind::kHull;
+  result.first = first;
+  result.subtree = scene_.nodes[first].subtree;
+  result.subtree.id.key = KeyBuilder("hull").numbers(result.subtree.id.key).key();
+  return result;
+}
+
 Result<Scene> Builder::build(const GridStep& step) {
   scene_.frames.push_back(world_frame());
   frame_ids_.emplace(world_frame().matrix, 0);
   if (Status status = place_leaves(); !status) return status.error();
-  if (Status status = choose(step); !status) return status.error();
+  do {
+    is_step_too_small_ = false;
+    if (Status status = choose(step); !status) return status.error();
+    if (Status status = make_nodes(); !status) return status.error();
+    // Each time some more leaves count as a whole.
+  } while (is_step_too_small_);
+  for (uint32_t root : roots_) scene_.roots.push_back(scene_index_[root]);
+  return std::move(scene_);
+}
+
+Status Builder::make_nodes() {
+  scene_.nodes.clear();
   scene_index_.assign(context_.form.nodes().size(), 0);
   scene_.nodes.push_back(SceneNode{});
   size_t polled = 0;
@@ -362,6 +421,8 @@ Result<Scene> Builder::build(const GridStep& step) {
       auto leaf = make_leaf(index);
       if (!leaf) return leaf.error();
       made = std::move(*leaf);
+    } else if (node.kind == NormalNode::Kind::kHull) {
+      made = make_hull(node);
     } else {
       made = make_operator(node);
       if (made.kind == SceneNode::Kind::kOperator && made.rest.empty()) {
@@ -376,8 +437,7 @@ Result<Scene> Builder::build(const GridStep& step) {
     scene_index_[index] = static_cast<uint32_t>(scene_.nodes.size());
     scene_.nodes.push_back(std::move(made));
   }
-  for (uint32_t root : roots_) scene_.roots.push_back(scene_index_[root]);
-  return std::move(scene_);
+  return std::monostate{};
 }
 
 }  // namespace
@@ -386,7 +446,8 @@ OperandList Scene::operands(uint32_t index) const {
   std::vector<uint32_t> chain{index};
   const BooleanOp op = nodes[index].op;
   uint32_t first = nodes[index].first;
-  while (nodes[first].kind == SceneNode::Kind::kOperator && nodes[first].op == op) {
+  const bool is_hull = nodes[index].kind == SceneNode::Kind::kHull;
+  while (!is_hull && nodes[first].kind == SceneNode::Kind::kOperator && nodes[first].op == op) {
     chain.push_back(first);
     first = nodes[first].first;
   }
@@ -410,7 +471,7 @@ std::vector<uint32_t> Scene::leaves(uint32_t index) const {
     stack.pop_back();
     const SceneNode& node = nodes[top];
     if (node.kind == SceneNode::Kind::kLeaf) result.push_back(top);
-    if (node.kind != SceneNode::Kind::kOperator) continue;
+    if (node.kind == SceneNode::Kind::kEmpty || node.kind == SceneNode::Kind::kLeaf) continue;
     stack.insert(stack.end(), node.rest.rbegin(), node.rest.rend());
     stack.push_back(node.first);
   }

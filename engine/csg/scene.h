@@ -51,21 +51,24 @@ struct Subtree {
 };
 
 struct SceneNode {
-  enum class Kind : uint8_t { kEmpty, kLeaf, kOperator };
+  enum class Kind : uint8_t { kEmpty, kLeaf, kOperator, kHull };
   Kind kind = Kind::kEmpty;
   Subtree subtree;
 
-  std::shared_ptr<const LeafGeometry>
-      geometry;  ///< leaf: in the axes of its frame, less the origin
+  /// Leaf: in the axes of its frame, less the origin; or, where its surface had to be resolved, what
+  /// it encloses, in its local axes, less the origin.
+  std::shared_ptr<const LeafGeometry> geometry;
+  BoundaryPtr boundary;
   NodePtr leaf;
 
-  BooleanOp op = BooleanOp::kUnion;  ///< as in NormalNode
+  BooleanOp op = BooleanOp::kUnion;  ///< as in NormalNode; a hull has `first` only
   uint32_t first = 0;
   std::vector<uint32_t> rest;
   std::vector<Subtree> prefixes;  ///< the value after each of `rest`
 };
 
-/// The operands of an operator with those of its prefix, and the value after each of them.
+/// The operands of an operator with those of its prefix, and the value after each of them; of a hull
+/// its only operand.
 struct OperandList {
   std::vector<uint32_t> operands;
   std::vector<const Subtree*> values;
@@ -91,11 +94,12 @@ struct SceneContext {
   AppearanceTable& appearances;
   Warnings& warnings;
   std::function<bool()> cancelled;
+  Resolver resolve;
 };
 
 /// Chooses the step (unless `step` is given) and puts the subtrees of the normal form on the grid.
-/// Errors: kInvalidMesh, kSelfIntersecting (with the leaf's line), kOutOfRange when the scene does
-/// not fit the grid, kLimit, kCancelled.
+/// Leaves that cross themselves are resolved, with a warning. Errors: kInvalidMesh (with the leaf's
+/// line), kOutOfRange when the scene does not fit the grid, kLimit, kCancelled, those of `resolve`.
 Result<Scene> build_scene(SceneContext& context, std::span<const uint32_t> roots,
                           const GridStep& step);
 

@@ -70,8 +70,11 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
     bool is_done;
   };
   std::vector<Visit> stack;
+  std::unordered_set<Key, KeyHash> opened;
+  // What waits on the stack may be wanted again above it, and then comes first.
   const auto want = [&](const Key& key) {
-    if (uses_[key]++ == 0 && !is_known(key)) stack.push_back({node_of.at(key), false});
+    ++uses_[key];
+    if (!opened.contains(key) && !is_known(key)) stack.push_back({node_of.at(key), false});
   };
   for (uint32_t root : roots) {
     if (!is_operator(root)) continue;
@@ -80,6 +83,10 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
       Visit& top = stack.back();
       if (top.is_done) {
         order.push_back(top.node);
+        stack.pop_back();
+        continue;
+      }
+      if (!opened.insert(scene_.nodes[top.node].subtree.id.key).second) {
         stack.pop_back();
         continue;
       }
@@ -101,8 +108,13 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
 Status SceneJobs::run(const std::vector<uint32_t>& roots) {
   find_operators(roots);
   const std::vector<uint32_t> order = count_uses(roots);
-  std::unordered_set<Key, KeyHash> root_keys;
-  for (uint32_t root : roots) root_keys.insert(scene_.nodes[root].subtree.id.key);
+  std::unordered_set<Key, KeyHash> own_keys;
+  for (uint32_t root : roots) own_keys.insert(scene_.nodes[root].subtree.id.key);
+  for (uint32_t node : order) {
+    if (!is_hull(node)) continue;
+    own_keys.insert(scene_.nodes[node].subtree.id.key);
+    own_keys.insert(scene_.nodes[scene_.nodes[node].first].subtree.id.key);
+  }
   std::vector<uint32_t> kept;
   for (uint32_t node : order) {
     const Subtree& subtree = scene_.nodes[node].subtree;
@@ -111,7 +123,7 @@ Status SceneJobs::run(const std::vector<uint32_t>& roots) {
       if (!options_.flatten) kept.push_back(node);
       continue;
     }
-    if (!options_.flatten || uses_[subtree.id.key] > 1 || root_keys.contains(subtree.id.key)) {
+    if (!options_.flatten || uses_[subtree.id.key] > 1 || own_keys.contains(subtree.id.key)) {
       kept.push_back(node);
     }
   }
@@ -124,6 +136,7 @@ Status SceneJobs::run(const std::vector<uint32_t>& roots) {
 
 /// Evaluates an operator and keeps its value. With flatten off, one operand after another.
 Status SceneJobs::evaluate(uint32_t node) {
+  if (is_hull(node)) return evaluate_hull(node);
   const OperandList list = scene_.operands(node);
   const size_t all = list.operands.size();
   for (size_t count = options_.flatten ? all : 2; count <= all; ++count) {
@@ -133,21 +146,48 @@ Status SceneJobs::evaluate(uint32_t node) {
     auto boundary = run_job(parts, subtree.box);
     if (!boundary) return boundary.error();
     stats_.nodes_evaluated += parts.operators;
-    const StoredBoundary stored{*boundary, subtree.id};
-    cache_.put(subtree.id.key, stored, memory_bytes(**boundary));
-    results_[subtree.id.key] = {stored, true};
+    keep(subtree, *boundary);
   }
   ++jobs_done_;
   return std::monostate{};
 }
 
+/// The hull in the axes of its solid's frame. All that a hull stands on fits the grid and is kept.
+Status SceneJobs::evaluate_hull(uint32_t node) {
+  const Subtree& subtree = scene_.nodes[node].subtree;
+  if (is_known(subtree.id.key)) return std::monostate{};
+  const SceneNode& solid = scene_.nodes[scene_.nodes[node].first];
+  const Operand surface = solid.kind == SceneNode::Kind::kLeaf
+                              ? place_leaf(solid, subtree.id.frame)
+                              : place(solid.subtree, subtree.id.frame);
+  auto boundary = resolve_surface(surface, {}, InsideRule::kOuterHull,
+                                  kernel_options(options_, threads_), stats_);
+  if (!boundary) return boundary.error();
+  ++stats_.nodes_evaluated;
+  keep(subtree, *boundary);
+  ++jobs_done_;
+  return std::monostate{};
+}
+
+void SceneJobs::keep(const Subtree& subtree, BoundaryPtr boundary) {
+  const size_t bytes = memory_bytes(*boundary);
+  const StoredBoundary stored{std::move(boundary), subtree.id};
+  cache_.put(subtree.id.key, stored, bytes);
+  results_[subtree.id.key] = {stored, true};
+}
+
+KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
+  KernelOptions result;
+  result.threads = threads;
+  result.cell_limit = options.cell_limit;
+  result.octree_shift = options.octree_shift;
+  result.literal_cells = options.literal_cells;
+  result.cancel = options.cancel;
+  return result;
+}
+
 Result<BoundaryPtr> SceneJobs::run_job(const Parts& parts, const GridBox& region) {
-  KernelOptions options;
-  options.threads = threads_;
-  options.cell_limit = options_.cell_limit;
-  options.octree_shift = options_.octree_shift;
-  options.literal_cells = options_.literal_cells;
-  options.cancel = options_.cancel;
+  KernelOptions options = kernel_options(options_, threads_);
   if (options_.progress) {
     // Each job is a thousand units of work, as their sizes are not known beforehand.
     options.progress = [this](uint64_t done, uint64_t total) {
@@ -193,12 +233,20 @@ uint32_t SceneJobs::put(Parts& parts, Operand operand, const Subtree& subtree) c
   return static_cast<uint32_t>(parts.expression.nodes.size() - 1);
 }
 
+/// The local axes x of what was resolved and the frame's axes y: y = P x + o, so P^-1 y = x + P^-1 o.
 Operand SceneJobs::place_leaf(const SceneNode& node, uint32_t job_frame) const {
   const Identity& id = node.subtree.id;
   Operand operand;
-  operand.leaf = node.geometry;
-  operand.translation = id.origin;
   if (id.frame != job_frame) operand.frame = scene_.frames[id.frame];
+  if (node.boundary) {
+    const SignedPermutation back = id.permutation.inverse();
+    operand.boundary = node.boundary;
+    operand.translation = back.apply(id.origin);
+    operand.frame = back.apply_to_frame(operand.frame);
+  } else {
+    operand.leaf = node.geometry;
+    operand.translation = id.origin;
+  }
   if (id.paint != kUnpainted) operand.appearance = id.paint;
   return operand;
 }
@@ -263,6 +311,8 @@ SceneJobs::Parts SceneJobs::build(uint32_t node, size_t count, uint32_t job_fram
       }
       if (child.kind == SceneNode::Kind::kLeaf) {
         top.children.push_back(put(parts, place_leaf(child, job_frame), child.subtree));
+      } else if (is_hull(operand)) {
+        top.children.push_back(put(parts, place(child.subtree, job_frame), child.subtree));
       } else {
         const size_t all = scene_.operands(operand).operands.size();
         stack.push_back(open(operand, all, false, job_frame, parts));

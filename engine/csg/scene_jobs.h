@@ -16,11 +16,13 @@
 
 namespace csgrun {
 
-using BoundaryPtr = std::shared_ptr<const BoundaryMesh>;
+/// The kernel's part of the options.
+KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads);
 
 /// One call's evaluation. A subtree that occurs more than once (by key) is evaluated once, in the
-/// axes of its frame, and stands in other jobs as one operand; so does what the cache knows, also
-/// when it is only a prefix of an operator's operands. All else becomes part of its parent's job.
+/// axes of its frame, and stands in other jobs as one operand; so do a hull and the solid that it is
+/// the hull of, and what the cache knows, also when it is only a prefix of an operator's operands. All
+/// else becomes part of its parent's job.
 class SceneJobs {
  public:
   SceneJobs(const Scene& scene, ResultCache<StoredBoundary>& cache, const EvaluateOptions& options,
@@ -44,8 +46,12 @@ class SceneJobs {
   };
   struct OpenOperator;  // an operator whose operands are being put into a job
 
+  /// Whether a node must be evaluated: an operator or a hull.
   [[nodiscard]] bool is_operator(uint32_t node) const {
-    return scene_.nodes[node].kind == SceneNode::Kind::kOperator;
+    return scene_.nodes[node].kind == SceneNode::Kind::kOperator || is_hull(node);
+  }
+  [[nodiscard]] bool is_hull(uint32_t node) const {
+    return scene_.nodes[node].kind == SceneNode::Kind::kHull;
   }
   [[nodiscard]] static bool may_keep(const Subtree& subtree);
   [[nodiscard]] bool is_known(const Key& key) const;
@@ -53,6 +59,8 @@ class SceneJobs {
   std::vector<uint32_t> count_uses(const std::vector<uint32_t>& roots);
   [[nodiscard]] size_t shared_prefix(const OperandList& list) const;
   Status evaluate(uint32_t node);
+  Status evaluate_hull(uint32_t node);
+  void keep(const Subtree& subtree, BoundaryPtr boundary);
   Result<BoundaryPtr> run_job(const Parts& parts, const GridBox& region);
   Parts build(uint32_t node, size_t count, uint32_t job_frame);
   OpenOperator open(uint32_t node, size_t count, bool is_target, uint32_t job_frame, Parts& parts);

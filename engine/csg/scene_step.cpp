@@ -68,6 +68,7 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
   for (uint32_t index : order) {
     const NormalNode& node = nodes[index];
     if (node.kind == NormalNode::Kind::kLeaf) box[index] = leaves[index].world;
+    if (node.kind == NormalNode::Kind::kHull) box[index] = box[node.first];
     if (node.kind != NormalNode::Kind::kOperator) continue;
     MmBox value = box[node.first];
     if (node.op != BooleanOp::kDifference) {
@@ -79,6 +80,7 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
     box[index] = value;
   }
   SceneReach result;
+  std::vector<uint8_t> whole(nodes.size(), 0);
   for (uint32_t root : roots) reach[root] = box[root];
   for (size_t i = order.size(); i-- > 0;) {
     const uint32_t index = order[i];
@@ -86,13 +88,17 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
     if (node.kind == NormalNode::Kind::kLeaf) {
       const StepLeaf& leaf = leaves[index];
       result.far = std::max(result.far, largest(leaf.local));
-      const MmBox visible = meet(leaf.world, reach[index]);
+      const MmBox visible =
+          whole[index] || leaf.whole ? leaf.world : meet(leaf.world, reach[index]);
       if (is_empty(visible)) continue;
       if (leaf.framed) result.reach = std::max(result.reach, largest(leaf.local));
       result.reach = std::max({result.reach, largest(visible),
                                largest(meet(leaf.local, to_local(visible, leaf.rows)))});
+    } else if (node.kind == NormalNode::Kind::kHull) {
+      whole[node.first] = 1;
     } else if (node.kind == NormalNode::Kind::kOperator) {
       const auto pass = [&](uint32_t operand) {
+        whole[operand] |= whole[index];
         reach[operand] = hull(reach[operand], meet(reach[index], box[operand]));
       };
       pass(node.first);

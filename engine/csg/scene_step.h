@@ -21,6 +21,7 @@ struct StepLeaf {
   MmBox world, local;
   std::array<Row, 3> rows{};
   bool framed = false;  ///< its frame is not the world
+  bool whole = false;   ///< it is needed as a whole, wherever results can be
 };
 
 /// In mm: the largest coordinate, in the world or in a frame, of what can reach a result, and the
@@ -32,7 +33,7 @@ struct SceneReach {
 
 /// Interval bounds over the normal form: the box of a union is the hull of the boxes, of a
 /// difference the first, of an intersection the common box; a leaf counts where a result can be
-/// above it. `order` has children before parents; `leaves` is indexed like the normal form.
+/// above it. A leaf that is resolved by itself, and all below a hull, count as a whole. `order` has children before parents; `leaves` is indexed like the normal form.
 SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
                        std::span<const uint32_t> roots, std::span<const StepLeaf> leaves);
 

@@ -49,7 +49,11 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) : boxes_(boxes) {
   }
   std::sort(keys.begin(), keys.end());
   order_.resize(boxes.size());
-  for (size_t k = 0; k < keys.size(); ++k) order_[k] = keys[k].second;
+  sorted_.resize(boxes.size());
+  for (size_t k = 0; k < keys.size(); ++k) {
+    order_[k] = keys[k].second;
+    sorted_[k] = boxes[order_[k]];
+  }
 
   const size_t groups = (boxes.size() + kGroup - 1) / kGroup;
   group_base_ = static_cast<uint32_t>(std::bit_ceil(groups));
@@ -64,6 +68,23 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) : boxes_(boxes) {
     nodes_[at].box.include(nodes_[2 * at + 1].box);
     nodes_[at].last = std::max(nodes_[at].last, nodes_[2 * at + 1].last);
   }
+}
+
+std::vector<BoxTree::Task> BoxTree::pair_tasks(size_t wanted) const {
+  std::vector<Task> tasks;
+  if (nodes_.empty()) return tasks;
+  tasks.push_back({1, 1});
+  std::vector<Task> divided;
+  // All nodes of all tasks are of one level.
+  while (tasks.size() < wanted && !tasks.empty() && tasks[0][0] < group_base_) {
+    divided.clear();
+    for (const auto& [a, b] : tasks) divide(a, b, divided);
+    std::erase_if(divided, [this](const Task& t) {
+      return t[0] != t[1] && !nodes_[t[0]].box.overlaps(nodes_[t[1]].box);
+    });
+    tasks.swap(divided);
+  }
+  return tasks;
 }
 
 }  // namespace csgrun

@@ -18,27 +18,20 @@ constexpr double kUlp = 0x1p-53;
 
 int sign(__int128 x) { return (x > 0) - (x < 0); }
 
-IVec3 operator-(const IVec3& a, const IVec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-/// The lexicographic rank of each vertex among the distinct ones, which `points` receives.
-std::vector<uint32_t> weld(const std::vector<IVec3>& vertices, std::vector<IVec3>& points) {
-  std::vector<uint32_t> order(vertices.size()), rank(vertices.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](uint32_t a, uint32_t b) { return vertices[a] < vertices[b]; });
-  for (uint32_t v : order) {
-    if (points.empty() || points.back() != vertices[v]) points.push_back(vertices[v]);
-    rank[v] = static_cast<uint32_t>(points.size() - 1);
-  }
-  return rank;
+/// A difference of points as integers: both are exact in double.
+IVec3 difference(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return {static_cast<int64_t>(a[0] - b[0]), static_cast<int64_t>(a[1] - b[1]),
+          static_cast<int64_t>(a[2] - b[2])};
 }
 
 }  // namespace
 
-FacePairs::FacePairs(const LeafGeometry& leaf) : starts_(leaf.face_starts) {
-  const std::vector<uint32_t> rank = weld(leaf.vertices, points_);
-  corners_.resize(leaf.corners.size());
-  for (size_t i = 0; i < corners_.size(); ++i) corners_[i] = rank[leaf.corners[i]];
+FacePairs::FacePairs(const LeafGeometry& leaf) : corners_(leaf.corners), starts_(leaf.face_starts) {
+  points_.reserve(leaf.vertices.size());
+  for (const IVec3& v : leaf.vertices) {
+    points_.push_back(
+        {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])});
+  }
 
   const size_t faces = leaf.face_count();
   planes_.resize(faces);
@@ -50,8 +43,8 @@ FacePairs::FacePairs(const LeafGeometry& leaf) : starts_(leaf.face_starts) {
     for (int k = 0; k < 3; ++k) box.lo[k] = INFINITY, box.hi[k] = -INFINITY;
     for (uint32_t v : loop) {
       for (int k = 0; k < 3; ++k) {
-        box.lo[k] = std::min(box.lo[k], static_cast<double>(points_[v][k]));
-        box.hi[k] = std::max(box.hi[k], static_cast<double>(points_[v][k]));
+        box.lo[k] = std::min(box.lo[k], points_[v][k]);
+        box.hi[k] = std::max(box.hi[k], points_[v][k]);
       }
     }
     // Corners a third of the way round give a normal of good relative accuracy. A long run of 180
@@ -64,6 +57,7 @@ FacePairs::FacePairs(const LeafGeometry& leaf) : starts_(leaf.face_starts) {
       normal = exact_normal(planes_[f].base);
     }
     for (int k = 0; k < 3; ++k) planes_[f].normal[k] = static_cast<double>(normal[k]);
+    planes_[f].origin = points_[planes_[f].base[0]];
 
     if (n > kManyCorners) {
       const auto first = static_cast<std::ptrdiff_t>(sorted_.size());
@@ -75,7 +69,8 @@ FacePairs::FacePairs(const LeafGeometry& leaf) : starts_(leaf.face_starts) {
 }
 
 FacePairs::Normal FacePairs::exact_normal(const std::array<uint32_t, 3>& base) const {
-  const IVec3 u = points_[base[1]] - points_[base[0]], v = points_[base[2]] - points_[base[0]];
+  const IVec3 u = difference(points_[base[1]], points_[base[0]]),
+              v = difference(points_[base[2]], points_[base[0]]);
   const auto minor = [&](int i, int j) {
     return static_cast<__int128>(u[i]) * v[j] - static_cast<__int128>(u[j]) * v[i];
   };
@@ -85,10 +80,10 @@ FacePairs::Normal FacePairs::exact_normal(const std::array<uint32_t, 3>& base) c
 /// The sign of a point against a face's plane: +1 in front.
 int FacePairs::side(uint32_t f, uint32_t point) const {
   const Plane& plane = planes_[f];
-  const IVec3 d = points_[point] - points_[plane.base[0]];
+  const Point& p = points_[point];
   double sum = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {
-    const double term = plane.normal[k] * static_cast<double>(d[k]);
+    const double term = plane.normal[k] * (p[k] - plane.origin[k]);
     sum += term;
     magnitude += std::fabs(term);
   }
@@ -97,12 +92,14 @@ int FacePairs::side(uint32_t f, uint32_t point) const {
   if (sum > bound) return 1;
   if (sum < -bound) return -1;
   const Normal n = exact_normal(plane.base);
+  const IVec3 d = difference(p, plane.origin);
   return sign(n[0] * d[0] + n[1] * d[1] + n[2] * d[2]);
 }
 
 /// The sign of det(b - a, c - a, d - a).
 int FacePairs::orient(uint32_t a, uint32_t b, uint32_t c, uint32_t d) const {
-  const IVec3 u = points_[b] - points_[a], v = points_[c] - points_[a], w = points_[d] - points_[a];
+  const IVec3 u = difference(points_[b], points_[a]), v = difference(points_[c], points_[a]),
+              w = difference(points_[d], points_[a]);
   double sum = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -158,44 +155,65 @@ void FacePairs::signs_against(uint32_t f, uint32_t g, std::vector<int>& signs) c
   }
 }
 
-bool FacePairs::conflict(uint32_t f, uint32_t g) {
+/// Whether two triangles certainly meet in common corners and edges only: nearly all pairs do.
+bool FacePairs::triangles_apart(const uint32_t* f, const uint32_t* g, uint32_t plane_of_f) const {
+  std::array<uint32_t, 3> own{};  // corners of g that f does not have
+  size_t count = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (g[i] != f[0] && g[i] != f[1] && g[i] != f[2]) own[count++] = g[i];
+  }
+  if (count == 0) return false;
+  const int first = side(plane_of_f, own[0]);
+  // With an edge in common all that is left is one plane, folded.
+  if (first == 0) return false;
+  for (size_t i = 1; i < count; ++i) {
+    if (side(plane_of_f, own[i]) != first) return false;
+  }
+  return true;
+}
+
+bool FacePairs::conflict(uint32_t f, uint32_t g, Scratch& scratch) const {
+  if (corners(f).size() == 3 && corners(g).size() == 3) {
+    const uint32_t *p = corners(f).data(), *q = corners(g).data();
+    if (triangles_apart(p, q, f) || triangles_apart(q, p, g)) return false;
+  }
   // The face with fewer corners is held against the plane of the other: mostly that decides.
   if (corners(f).size() < corners(g).size()) std::swap(f, g);
   const Corners loop = corners(g);
-  signs_against(g, f, signs_g_);
+  signs_against(g, f, scratch.signs_g);
   const auto count = [](const std::vector<int>& signs, int s) {
     return std::count(signs.begin(), signs.end(), s);
   };
-  const auto zeros = count(signs_g_, 0);
-  const bool g_crosses = count(signs_g_, 1) > 0 && count(signs_g_, -1) > 0;
+  const auto zeros = count(scratch.signs_g, 0);
+  const bool g_crosses = count(scratch.signs_g, 1) > 0 && count(scratch.signs_g, -1) > 0;
   if (zeros == 0 && !g_crosses) return false;
-  if (static_cast<size_t>(zeros) == loop.size()) return coplanar_conflict(f, g);
+  if (static_cast<size_t>(zeros) == loop.size()) return coplanar_conflict(f, g, scratch);
   if (!g_crosses) {
     // g stands on f's plane on a corner or on a run of edges.
     bool shared = true;
     for (size_t i = 0; i < loop.size() && shared; ++i) {
       const size_t j = (i + 1) % loop.size();
-      if (signs_g_[i] != 0) continue;
-      shared = signs_g_[j] == 0 ? has_edge(f, loop[i], loop[j]) : has_corner(f, loop[i]);
+      if (scratch.signs_g[i] != 0) continue;
+      shared = scratch.signs_g[j] == 0 ? has_edge(f, loop[i], loop[j]) : has_corner(f, loop[i]);
     }
     if (shared) return false;
   }
-  signs_against(f, g, signs_f_);
-  const bool f_crosses = count(signs_f_, 1) > 0 && count(signs_f_, -1) > 0;
+  signs_against(f, g, scratch.signs_f);
+  const bool f_crosses = count(scratch.signs_f, 1) > 0 && count(scratch.signs_f, -1) > 0;
   if (!f_crosses) {
-    if (count(signs_f_, 0) == 0) return false;
+    if (count(scratch.signs_f, 0) == 0) return false;
     if (!g_crosses) {
-      run_f_.clear(), run_g_.clear();
-      for (size_t i = 0; i < signs_f_.size(); ++i) {
-        if (signs_f_[i] == 0) run_f_.push_back(corners(f)[i]);
+      scratch.run_f.clear(), scratch.run_g.clear();
+      for (size_t i = 0; i < scratch.signs_f.size(); ++i) {
+        if (scratch.signs_f[i] == 0) scratch.run_f.push_back(corners(f)[i]);
       }
-      for (size_t i = 0; i < signs_g_.size(); ++i) {
-        if (signs_g_[i] == 0) run_g_.push_back(loop[i]);
+      for (size_t i = 0; i < scratch.signs_g.size(); ++i) {
+        if (scratch.signs_g[i] == 0) scratch.run_g.push_back(loop[i]);
       }
-      return runs_conflict();
+      return runs_conflict(scratch);
     }
   }
-  return crossing_conflict(f, g);
+  return crossing_conflict(f, g, scratch);
 }
 
 /// The last (or first) point of f on the line of two planes, along the direction normal(f) x
@@ -227,10 +245,10 @@ FacePairs::LineEnd FacePairs::line_end(uint32_t f, const std::vector<int>& signs
 
 /// For faces of different planes that both meet the line of the planes, at least one of them in its
 /// inside: a segment in common is a conflict then, a point is one unless it is a corner of both.
-bool FacePairs::crossing_conflict(uint32_t f, uint32_t g) const {
+bool FacePairs::crossing_conflict(uint32_t f, uint32_t g, const Scratch& scratch) const {
   // Along normal(f) x normal(g); for g the direction is the opposite one, so are its ends.
-  const LineEnd f_first = line_end(f, signs_f_, false), f_last = line_end(f, signs_f_, true);
-  const LineEnd g_first = line_end(g, signs_g_, true), g_last = line_end(g, signs_g_, false);
+  const LineEnd f_first = line_end(f, scratch.signs_f, false), f_last = line_end(f, scratch.signs_f, true);
+  const LineEnd g_first = line_end(g, scratch.signs_g, true), g_last = line_end(g, scratch.signs_g, false);
   // +1 when y comes after x. Both span lines run from the front of the other plane to its back, and
   // the volume between them has the sign of the way from x to y.
   const auto order = [&](const LineEnd& x, const LineEnd& y) {
@@ -249,7 +267,7 @@ bool FacePairs::crossing_conflict(uint32_t f, uint32_t g) const {
   return true;
 }
 
-bool FacePairs::coplanar_conflict(uint32_t f, uint32_t g) {
+bool FacePairs::coplanar_conflict(uint32_t f, uint32_t g, Scratch& scratch) const {
   const std::array<double, 3>& normal = planes_[f].normal;
   int axis = 0;
   for (int k = 1; k < 3; ++k) {
@@ -257,7 +275,7 @@ bool FacePairs::coplanar_conflict(uint32_t f, uint32_t g) {
   }
   const int x = (axis + 1) % 3, y = (axis + 2) % 3;
   const auto turn = [&](uint32_t a, uint32_t b, uint32_t c) {
-    const IVec3 u = points_[b] - points_[a], v = points_[c] - points_[a];
+    const IVec3 u = difference(points_[b], points_[a]), v = difference(points_[c], points_[a]);
     return sign(static_cast<__int128>(u[x]) * v[y] - static_cast<__int128>(u[y]) * v[x]);
   };
   // Convex polygons with disjoint insides are separated by the line of an edge of one of them, and
@@ -270,49 +288,48 @@ bool FacePairs::coplanar_conflict(uint32_t f, uint32_t g) {
       const bool outside = std::all_of(points.begin(), points.end(),
                                        [&](uint32_t p) { return turn(a, b, p) * front <= 0; });
       if (!outside) continue;
-      run_f_.clear(), run_g_.clear();
+      scratch.run_f.clear(), scratch.run_g.clear();
       for (uint32_t p : loop) {
-        if (turn(a, b, p) == 0) run_f_.push_back(p);
+        if (turn(a, b, p) == 0) scratch.run_f.push_back(p);
       }
       for (uint32_t p : points) {
-        if (turn(a, b, p) == 0) run_g_.push_back(p);
+        if (turn(a, b, p) == 0) scratch.run_g.push_back(p);
       }
       return true;
     }
     return false;
   };
   if (!separated(f, g) && !separated(g, f)) return true;
-  return !run_g_.empty() && runs_conflict();
+  return !scratch.run_g.empty() && runs_conflict(scratch);
 }
 
 /// For corners of two faces along a common line, each a run of edges or one corner: what the runs
 /// have in common must consist of the same corners.
-bool FacePairs::runs_conflict() {
-  std::sort(run_f_.begin(), run_f_.end());
-  std::sort(run_g_.begin(), run_g_.end());
-  const uint32_t first = std::max(run_f_.front(), run_g_.front());
-  const uint32_t last = std::min(run_f_.back(), run_g_.back());
-  if (first > last) return false;
+bool FacePairs::runs_conflict(Scratch& scratch) const {
+  // On a line the lexicographic order is the order along it.
+  const auto before = [&](uint32_t a, uint32_t b) { return points_[a] < points_[b]; };
+  std::vector<uint32_t>&f = scratch.run_f, &g = scratch.run_g;
+  std::sort(f.begin(), f.end(), before);
+  std::sort(g.begin(), g.end(), before);
+  const uint32_t first = before(f.front(), g.front()) ? g.front() : f.front();
+  const uint32_t last = before(f.back(), g.back()) ? f.back() : g.back();
+  if (before(last, first)) return false;
   const auto common = [&](const std::vector<uint32_t>& run) {
-    return std::span(std::lower_bound(run.begin(), run.end(), first),
-                     std::upper_bound(run.begin(), run.end(), last));
+    return std::span(std::lower_bound(run.begin(), run.end(), first, before),
+                     std::upper_bound(run.begin(), run.end(), last, before));
   };
-  const auto a = common(run_f_), b = common(run_g_);
+  const auto a = common(f), b = common(g);
   return !std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
 /// Clips f by the sides of g (planes through g's edges along its normal), and, if the planes
 /// differ, takes the part nearest to g's plane.
 std::array<double, 3> FacePairs::place(uint32_t f, uint32_t g) const {
-  using Point = std::array<double, 3>;
-  const auto at = [&](uint32_t v) {
-    return Point{static_cast<double>(points_[v][0]), static_cast<double>(points_[v][1]),
-                 static_cast<double>(points_[v][2])};
-  };
+  const auto at = [&](uint32_t v) { return points_[v]; };
   const auto dot = [](const Point& a, const Point& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };
-  const Point normal = planes_[g].normal;
+  const Point& normal = planes_[g].normal;
   std::vector<Point> polygon;
   for (uint32_t v : corners(f)) polygon.push_back(at(v));
   const auto clip = [&](const Point& n, double offset, bool keep_line_only) {

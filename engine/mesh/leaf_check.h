@@ -1,27 +1,40 @@
-// Checks of quantised leaves: self-intersections, exactly.
+// Checks of quantised leaves: where the surface crosses itself, and whether it bounds a solid.
 #pragma once
 
-#include <optional>
+#include <array>
+#include <cstdint>
+#include <vector>
 
 #include "engine/bsp/operand.h"
+#include "engine/mesh/edge_table.h"
 
 namespace csgrun {
 
-/// The first place (in face order) where two faces of a leaf meet other than in a shared edge or
-/// vertex: the faces, and a point near the place in grid steps.
-struct SelfIntersection {
-  uint32_t face_a = 0, face_b = 0;
-  std::array<double, 3> place{};
-  /// How many pairs in all; the search ends with the first face that brings it to this bound.
-  uint64_t count = 0;
-  static constexpr uint64_t kMaxCount = 1'000'000;
+/// All pairs (f, g), f < g, of faces that meet other than in edges and vertices that both have, in
+/// order. Touching counts: duplicates of faces and coplanar faces that overlap, also when folded
+/// over a common edge; an edge that pierces a face or rests on it; a vertex of one face inside
+/// another.
+///
+/// REQUIRES: planar convex faces over distinct vertices. Exact: a tree of boxes finds the pairs
+/// that may meet, double filters and then exact signs decide (Campen & Kobbelt 2010, section 6.2).
+/// O(n log n) and the pairs whose boxes meet, on as many threads as the calling arena has, with the
+/// same result for any number.
+std::vector<std::array<uint32_t, 2>> find_self_intersections(const LeafGeometry& leaf);
+
+struct SurfaceCheck {
+  std::vector<std::array<uint32_t, 2>> crossings;  ///< as find_self_intersections has them
+  /// Without crossings: whether the winding number is 1 behind each face and 0 in front. Not so for
+  /// shells in shells that face the same way, nor for inverted ones.
+  bool bounds_solid = false;
+  /// Without crossings: all faces are connected by edges of two faces each.
+  bool connected = false;
 };
 
-/// Exact test of all pairs that are near each other (a tree of boxes, then exact tests;
-/// Campen & Kobbelt 2010, section 6.2). Touching counts: overlapping coplanar faces, an edge that
-/// pierces or rests on a face, vertices of one face inside another. Faces that meet only where they
-/// share vertices or edges by coordinates do not count. Nothing found: std::nullopt. The cost is
-/// O(n log n) and that of the pairs whose bounding boxes meet.
-std::optional<SelfIntersection> find_self_intersection(const LeafGeometry& leaf);
+/// Examines a surface exactly; one ray for each connected part finds its winding number. REQUIRES:
+/// as above, and directed edges balanced.
+SurfaceCheck check_surface(const LeafGeometry& leaf, const EdgeTable& edges);
+
+/// A point near the place where two faces of a leaf meet, in grid steps: for messages.
+std::array<double, 3> intersection_place(const LeafGeometry& leaf, uint32_t f, uint32_t g);
 
 }  // namespace csgrun

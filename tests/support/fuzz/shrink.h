@@ -38,7 +38,7 @@ inline bool is_valid(const FuzzLeaf& leaf) {
     if (count != 0) return false;
   }
   if (leaf.may_cross) return true;
-  return six_volumes(leaf.faces) > 0 && !find_self_intersection(geometry_of(leaf));
+  return six_volumes(leaf.faces) > 0 && find_self_intersections(geometry_of(leaf)).empty();
 }
 
 class Shrinker {

@@ -1,6 +1,7 @@
 // Small leaves and transforms for the tests of this folder.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <initializer_list>
@@ -25,6 +26,36 @@ inline PolygonMesh box_mesh(glm::dvec3 lo, glm::dvec3 hi) {
   mesh.convex = true;
   mesh.kind = "cube";
   return mesh;
+}
+
+/// The faces of both meshes in one, whatever they do to one another.
+inline PolygonMesh in_one(PolygonMesh a, const PolygonMesh& b) {
+  const auto first = static_cast<uint32_t>(a.points.size());
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  for (size_t loop = 0; loop < b.loop_count(); ++loop) {
+    std::vector<uint32_t> corners(b.corners.begin() + b.loop_starts[loop],
+                                  b.corners.begin() + b.loop_starts[loop + 1]);
+    for (uint32_t& corner : corners) corner += first;
+    a.add_face(corners);
+  }
+  a.convex = false;
+  a.kind = "tangle";
+  return a;
+}
+
+/// The mesh with its faces turned over.
+inline PolygonMesh inverted(PolygonMesh mesh) {
+  for (size_t loop = 0; loop < mesh.loop_count(); ++loop) {
+    std::reverse(mesh.corners.begin() + mesh.loop_starts[loop],
+                 mesh.corners.begin() + mesh.loop_starts[loop + 1]);
+  }
+  mesh.convex = false;
+  return mesh;
+}
+
+inline NodePtr leaf(PolygonMesh mesh, FillRule fill, SourceRef where = {}) {
+  mesh.fill = fill;
+  return Node::leaf(std::make_shared<PolygonMesh>(std::move(mesh)), std::move(where));
 }
 
 inline NodePtr box(glm::dvec3 lo, glm::dvec3 hi, SourceRef where = {}) {
@@ -91,6 +122,9 @@ inline NodePtr moved(double x, double y, double z, NodePtr child) {
 }
 inline NodePtr turned(double degrees, std::array<double, 3> axis, NodePtr child) {
   return Node::transformed(rotation(degrees, axis), std::move(child));
+}
+inline NodePtr hull(NodePtr child, OuterHull options = {}) {
+  return Node::outer_hull(options, std::move(child));
 }
 inline NodePtr unite(std::vector<NodePtr> parts) {
   return Node::boolean(BooleanOp::kUnion, std::move(parts));

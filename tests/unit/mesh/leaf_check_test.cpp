@@ -1,9 +1,12 @@
 #include "engine/mesh/leaf_check.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <random>
 #include <set>
+
+#include <tbb/task_arena.h>
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -116,18 +119,27 @@ bool true_conflict(const Polygon& f, const Polygon& g) {
 
 LeafGeometry leaf_of(const std::vector<Polygon>& faces) {
   LeafGeometry leaf;
+  std::map<IVec3, uint32_t> number;
   for (const Polygon& face : faces) {
     for (const IVec3& p : face) {
-      leaf.corners.push_back(static_cast<uint32_t>(leaf.vertices.size()));
-      leaf.vertices.push_back(p);
+      const auto [at, is_new] = number.try_emplace(p, static_cast<uint32_t>(leaf.vertices.size()));
+      if (is_new) leaf.vertices.push_back(p);
+      leaf.corners.push_back(at->second);
     }
     leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()));
   }
   return leaf;
 }
 
+SurfaceCheck check(const std::vector<Polygon>& faces) {
+  const LeafGeometry leaf = leaf_of(faces);
+  return check_surface(leaf, EdgeTable(leaf));
+}
+std::vector<std::array<uint32_t, 2>> crossings(const std::vector<Polygon>& faces) {
+  return check(faces).crossings;
+}
 bool found(const std::vector<Polygon>& faces) {
-  return find_self_intersection(leaf_of(faces)).has_value();
+  return !crossings(faces).empty();
 }
 
 IVec3 map_point(const std::array<IVec3, 3>& m, const IVec3& t, const IVec3& p) {
@@ -256,37 +268,37 @@ TEST(LeafCheck, NeighboursOfOneMesh) {
   EXPECT_GT(conflicts, 1000u);
 }
 
-TEST(LeafCheck, CountsAllPairsAndNamesTheFirst) {
+TEST(LeafCheck, FindsAllPairsOnAnyThreads) {
   std::mt19937 random(21);
-  for (int round = 0; round < 10; ++round) {
+  for (const size_t count : {60, 60, 60, 60, 60, 3000}) {
     std::vector<Polygon> faces;
-    for (int i = 0; i < 60; ++i) {
+    for (size_t i = 0; i < count; ++i) {
       Polygon f = random_face(random);
-      const IVec3 by = random_vector(12, random);
+      const IVec3 by = random_vector(count > 1000 ? 60 : 12, random);
       for (IVec3& p : f) {
         for (int k = 0; k < 3; ++k) p[k] += by[k];
       }
       faces.push_back(f);
     }
-    uint64_t count = 0;
-    std::pair<uint32_t, uint32_t> first{};
+    std::vector<std::array<uint32_t, 2>> expected;
     for (uint32_t i = 0; i < faces.size(); ++i) {
       for (uint32_t j = i + 1; j < faces.size(); ++j) {
-        if (true_conflict(faces[i], faces[j]) && ++count == 1) first = {i, j};
+        if (true_conflict(faces[i], faces[j])) expected.push_back({i, j});
       }
     }
-    const auto result = find_self_intersection(leaf_of(faces));
-    ASSERT_EQ(result.has_value(), count > 0);
-    if (!result) continue;
-    EXPECT_EQ(result->count, count);
-    EXPECT_EQ(result->face_a, first.first);
-    EXPECT_EQ(result->face_b, first.second);
+    EXPECT_FALSE(expected.empty());
+    for (const int threads : {1, 3}) {
+      tbb::task_arena arena(threads);
+      arena.execute([&] { EXPECT_EQ(crossings(faces), expected) << threads << " threads"; });
+    }
+    const auto [f, g] = expected[0];
+    const auto place = intersection_place(leaf_of(faces), f, g);
     for (int k = 0; k < 3; ++k) {
-      for (uint32_t f : {first.first, first.second}) {
+      for (uint32_t face : {f, g}) {
         int64_t lo = INT64_MAX, hi = INT64_MIN;
-        for (const IVec3& p : faces[f]) lo = std::min(lo, p[k]), hi = std::max(hi, p[k]);
-        EXPECT_GE(result->place[k], static_cast<double>(lo) - 1e-6);
-        EXPECT_LE(result->place[k], static_cast<double>(hi) + 1e-6);
+        for (const IVec3& p : faces[face]) lo = std::min(lo, p[k]), hi = std::max(hi, p[k]);
+        EXPECT_GE(place[k], static_cast<double>(lo) - 1e-6);
+        EXPECT_LE(place[k], static_cast<double>(hi) + 1e-6);
       }
     }
   }
@@ -319,6 +331,68 @@ TEST(LeafCheck, Boxes) {
   EXPECT_TRUE(boxes_meet({0, 0, 0}, {2, 2, 2}, {2, 0, 0}, {4, 2, 2}));   // share a face
   EXPECT_TRUE(boxes_meet({0, 0, 0}, {2, 2, 2}, {1, 1, 1}, {3, 3, 3}));
   EXPECT_TRUE(boxes_meet({0, 0, 0}, {9, 9, 9}, {2, 2, 0}, {4, 4, 4}));  // touches from inside
+}
+
+std::vector<Polygon> inverted(std::vector<Polygon> faces) {
+  for (Polygon& face : faces) std::reverse(face.begin(), face.end());
+  return faces;
+}
+std::vector<Polygon> joined(std::vector<Polygon> a, const std::vector<Polygon>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+TEST(LeafCheck, ShellsThatBoundASolid) {
+  const auto outer = box({0, 0, 0}, {9, 9, 9}), inner = box({2, 2, 2}, {7, 7, 7}),
+             core = box({3, 3, 3}, {4, 4, 4}), beside = box({20, 0, 0}, {21, 1, 1}),
+             at_edge = box({9, 9, 0}, {12, 12, 9}), at_corner = box({9, 9, 9}, {11, 11, 11});
+  const auto bounds = [](const std::vector<Polygon>& faces) {
+    const SurfaceCheck result = check(faces);
+    EXPECT_TRUE(result.crossings.empty());
+    return result.bounds_solid;
+  };
+  EXPECT_TRUE(bounds(outer));
+  EXPECT_TRUE(check(outer).connected);
+  EXPECT_FALSE(bounds(inverted(outer)));
+  EXPECT_TRUE(bounds(joined(outer, inverted(inner))));
+  EXPECT_FALSE(check(joined(outer, inverted(inner))).connected);
+  EXPECT_FALSE(bounds(joined(outer, inner)));
+  EXPECT_TRUE(bounds(joined(joined(outer, inverted(inner)), core)));
+  EXPECT_FALSE(bounds(joined(joined(outer, inverted(inner)), inverted(core))));
+  EXPECT_TRUE(bounds(joined(outer, beside)));
+  EXPECT_FALSE(bounds(joined(outer, inverted(beside))));
+  for (const auto& touching : {at_edge, at_corner}) {
+    EXPECT_TRUE(bounds(joined(outer, touching)));
+    EXPECT_FALSE(bounds(joined(outer, inverted(touching))));
+    EXPECT_FALSE(bounds(joined(inverted(outer), touching)));
+  }
+}
+
+TEST(LeafCheck, NestedShellsFarOutAndTurned) {
+  // The same in any axes and for coordinates of 40 bits; rays meet edges and vertices of other shells.
+  const auto outer = box({0, 0, 0}, {9, 9, 9}), inner = box({3, 3, 3}, {6, 6, 6});
+  const int64_t s = int64_t{1} << 35;
+  for (const auto& m : {std::array<IVec3, 3>{{{s, 1, 0}, {0, s, 3}, {5, 0, s}}},
+                        std::array<IVec3, 3>{{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}},
+                        std::array<IVec3, 3>{{{1, 1, 0}, {-1, 1, 0}, {0, 0, 1}}}}) {
+    for (const bool good : {true, false}) {
+      auto faces = joined(outer, good ? inverted(inner) : inner);
+      for (Polygon& face : faces) {
+        for (IVec3& p : face) p = map_point(m, {-4, 7, 0}, p);
+      }
+      EXPECT_EQ(check(faces).bounds_solid, good);
+    }
+  }
+}
+
+TEST(LeafCheck, FoldsAndDuplicates) {
+  // Folded over a common edge into its own plane.
+  EXPECT_TRUE(found({{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 0, 0}, {4, 0, 0}, {1, 2, 0}}}));
+  EXPECT_TRUE(found({{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{4, 0, 0}, {0, 0, 0}, {1, 2, 0}}}));
+  EXPECT_FALSE(found({{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{4, 0, 0}, {0, 0, 0}, {1, -2, 0}}}));
+  // The same face twice, and on its own back.
+  EXPECT_TRUE(found({{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{4, 0, 0}, {0, 4, 0}, {0, 0, 0}}}));
+  EXPECT_TRUE(found({{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 4, 0}, {4, 0, 0}, {0, 0, 0}}}));
 }
 
 TEST(LeafCheck, ManyCorners) {

@@ -1,0 +1,17 @@
+// Winding numbers of a surface that does not cross itself.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "engine/bsp/operand.h"
+#include "engine/mesh/box_tree.h"
+
+namespace csgrun {
+
+/// How often the surface of a leaf wraps around a point just in front of `face`, near the middle of
+/// the face. Exact: a ray to infinity, moved off every edge by infinitesimals. `tree` holds the
+/// boxes of the faces. REQUIRES: closed, no other face meets the inside of this one.
+int winding_in_front(const LeafGeometry& leaf, const BoxTree& tree, uint32_t face);
+
+}  // namespace csgrun
