@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/mesh/face_pair.h"
+#include "engine/mesh/leaf_check.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/fuzz/truth.h"
 #include "tests/support/kernel_checks.h"
@@ -61,18 +61,6 @@ class FuzzEvaluator {
     return static_cast<uint32_t>(parts.expression.nodes.size() - 1);
   }
 
-  /// All pairs of faces that meet elsewhere than in what they share.
-  static std::vector<std::array<uint32_t, 2>> crossings(const LeafGeometry& leaf) {
-    FacePairs pairs(leaf);
-    std::vector<std::array<uint32_t, 2>> found;
-    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-      for (uint32_t g = f + 1; g < leaf.face_count(); ++g) {
-        if (pairs.conflict(f, g)) found.push_back({f, g});
-      }
-    }
-    return found;
-  }
-
   static InsideRule inside_rule(FillRule fill) {
     switch (fill) {
       case FillRule::kPositive:
@@ -99,7 +87,7 @@ class FuzzEvaluator {
     o.first_source = source_++;
     if (l.may_cross || hull) {
       const InsideRule rule = hull ? inside_rule(*hull) : inside_rule(l.fill);
-      auto resolved = resolve_surface(o, crossings(*o.leaf), rule, case_.options, stats_);
+      auto resolved = resolve_surface(o, find_self_intersections(*o.leaf), rule, case_.options, stats_);
       if (!resolved) return resolved.error();
       o = Operand();  // frame, translation and labels are the boundary's own
       o.boundary = *resolved;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/mesh/face_pair.h"
+#include "engine/mesh/leaf_check.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
@@ -13,23 +13,10 @@ namespace {
 
 constexpr int kCases = 100;
 
-std::vector<std::array<uint32_t, 2>> crossings_of(const LeafGeometry& leaf) {
-  FacePairs pairs(leaf);
-  std::vector<std::array<uint32_t, 2>> found;
-  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    for (uint32_t g = f + 1; g < leaf.face_count(); ++g) {
-      if (pairs.boxes()[f].overlaps(pairs.boxes()[g]) && pairs.conflict(f, g)) {
-        found.push_back({f, g});
-      }
-    }
-  }
-  return found;
-}
-
 BoundaryResult resolved(const Operand& operand, InsideRule rule, const KernelOptions& options = {}) {
   EvaluateStats stats;
   std::vector<std::array<uint32_t, 2>> crossings;
-  if (operand.leaf) crossings = crossings_of(*operand.leaf);
+  if (operand.leaf) crossings = find_self_intersections(*operand.leaf);
   return resolve_surface(operand, crossings, rule, options, stats);
 }
 
