@@ -346,6 +346,9 @@ class Instrumenter:
         """`if (...)`: never, and its reverse if nothing in it is an operator."""
         closing = self.tokens[opening].partner
         first, last = opening + 1, closing - 1
+        for k in range(first, closing):  # after `if (int a = f();`
+            if self.tokens[k].text == ";" and self.tokens[k].parent == opening:
+                first = k + 1
         inner = range(first, closing)
         declared = [k for k in inner if self.tokens[k].text == "=" and self.tokens[k].parent == opening]
         start = self.tokens[first].start

@@ -29,7 +29,8 @@ SOURCE, BUILD = WORK / "source", WORK / "build"
 EXPLAINED = Path(__file__).with_name("explained.txt")
 MUTATED = ("engine/exact", "engine/bsp")
 PARTS = ("CMakeLists.txt", "engine", "primitives", "tests/CMakeLists.txt", "tests/unit", "tests/property",
-         "tests/support", "docs/numerics.md")  # what the tests below are built from
+         "tests/support", "tests/bench", "docs/numerics.md")  # what the tests below are built from
+LEFT_OUT = ("tests/bench/CMakeLists.txt",)
 # Executables with environment and filter, strong ones for their time first. CSGRUN_CASES thins out
 # random cases: most mutants need few of them.
 QUICK = (("unit_exact", {}), ("unit_bsp", {}), ("property", {"CSGRUN_CASES": "4"}),
@@ -92,8 +93,9 @@ def write_sources(names):
     for part in PARTS:
         path = ROOT / part
         for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
-            if file.is_file() and "node_modules" not in file.parts and "__pycache__" not in file.parts:
-                fresh[file.relative_to(ROOT)] = file.read_bytes()
+            name = file.relative_to(ROOT)
+            if file.is_file() and str(name) not in LEFT_OUT and "__pycache__" not in file.parts:
+                fresh[name] = file.read_bytes()
     mutants = []
     for name, content in fresh.items():
         if name.suffix in (".h", ".cpp") and str(name.parent) in names:

@@ -39,6 +39,7 @@ int number(Side s) {
 
 bool known(int v) {
   if (const int left = v / 3) return left != 2 || v == 7;
+  if (const int rest = v % 3; rest == 1) return v > 4;
   return true;
 }
 
@@ -79,6 +80,7 @@ if (const int left = v / 3) return left == 2 || v == 7;
 if (const int left = v / 3) return left != 2 || v != 7;
 if (const int left = v / 3) return false || v == 7;
 if (const int left = v / 3) return left != 2 || false;
+if (const int rest = v % 3; false) return v > 4;
 if (false) return left != 2 || v == 7;
 return false;
 for (size_t i = 0; i <[last round left out] list.size(); ++i) sum += list[i] * static_cast<int>(i + 1);
@@ -87,7 +89,7 @@ for (auto it = list.begin(); it !=[last round left out] list.end(); ++it) {
 if (*it == 4) ;
 if (false) continue;
 odd ^=[left out] v % 2 != 0;
-any |= v > 5;
+any |= v > 4;
 const bool turned = odd && any;
 const bool turned = true && any;
 while (down > 1 && turned) ++down;

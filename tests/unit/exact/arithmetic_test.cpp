@@ -196,6 +196,35 @@ TEST(FixedInt, MultipliesAddsAndShiftsAsGmpDoes) {
   }
 }
 
+TEST(FixedInt, SingleBitsAndTheirSums) {
+  for (int bit = 0; bit < 4 * 64 - 1; ++bit) {
+    const Int<4> one = Int<4>(1).shifted_left(bit);
+    for (const Int<4>& v : {one, -one, one - Int<4>(1), one + one}) {
+      const mpz_class exact = to_gmp(v);
+      ASSERT_EQ(v.is_zero(), exact == 0);
+      ASSERT_EQ(v.sign(), sgn(exact));
+      ASSERT_EQ(v.negative(), exact < 0);
+      ASSERT_EQ(compare(v, one), sgn(mpz_class(exact - to_gmp(one))));
+      ASSERT_EQ(v == one, exact == to_gmp(one));
+    }
+    ASSERT_EQ(to_double(one), std::ldexp(1, bit));
+    ASSERT_EQ(to_double(-one), -std::ldexp(1, bit));
+  }
+}
+
+TEST(FixedInt, IsADoubleWithinAUnitInTheLastPlace) {
+  Random random(23);
+  for (int i = 0; i < 20'000; ++i) {
+    Int<6> v;
+    const int limbs = static_cast<int>(random.integer(1, 6));
+    for (int k = 0; k < limbs; ++k) v.limb[k] = random.bits() >> (random.bits() % 64);
+    if (random.bits() & 1) v = -v;
+    const mpq_class exact(to_gmp(v));
+    const double got = to_double(v);
+    ASSERT_LE(abs(mpq_class(got) - exact), abs(exact) / mpq_class(mpz_class(1) << 52));
+  }
+}
+
 // Coordinates -1, 0 and 1 as fractions of all sizes, so that equal ones have different digits.
 TEST(PointOrder, IsByExactCoordinates) {
   Random random(19);
