@@ -89,7 +89,7 @@ for (auto it = list.begin(); it !=[last round left out] list.end(); ++it) {
 if (*it == 4) ;
 if (false) continue;
 odd ^=[left out] v % 2 != 0;
-any |= v > 4;
+any |= v > 5;
 const bool turned = odd && any;
 const bool turned = true && any;
 while (down > 1 && turned) ++down;
