@@ -38,7 +38,7 @@ int number(Side s) {
 }
 
 bool known(int v) {
-  if (const int left = v / 3) return left != 2 || v == 7;
+  if (const int left = v / 6) return left != 1 || v == 7;
   if (const int rest = v % 3; rest == 1) return v > 4;
   return true;
 }
@@ -60,7 +60,7 @@ int main() {
     any |= v >= 5;
   }
   int places = 0;
-  for (int v = 0; v < 12; ++v) places = places * 2 + (known(v) ? 1 : 0);
+  for (int v = 0; v < 24; ++v) places = places * 2 + (known(v) ? 1 : 0);
   const bool turned = !odd && any;
   int down = 3;
   while (down > 1 && turned) --down;
@@ -76,12 +76,12 @@ int main() {
 EXPECTED = """
 constexpr int twice(int a) { return a - a; }
 Few operator-() const { return {value}; }
-if (const int left = v / 3) return left == 2 || v == 7;
-if (const int left = v / 3) return left != 2 || v != 7;
-if (const int left = v / 3) return false || v == 7;
-if (const int left = v / 3) return left != 2 || false;
+if (const int left = v / 6) return left == 1 || v == 7;
+if (const int left = v / 6) return left != 1 || v != 7;
+if (const int left = v / 6) return false || v == 7;
+if (const int left = v / 6) return left != 1 || false;
 if (const int rest = v % 3; false) return v > 4;
-if (false) return left != 2 || v == 7;
+if (false) return left != 1 || v == 7;
 return false;
 for (size_t i = 0; i <[last round left out] list.size(); ++i) sum += list[i] * static_cast<int>(i + 1);
 for (size_t i = 0; i < list.size(); ++i) sum -= list[i] * static_cast<int>(i + 1);
