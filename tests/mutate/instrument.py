@@ -353,7 +353,7 @@ class Instrumenter:
         declared = [k for k in inner if self.tokens[k].text == "=" and self.tokens[k].parent == opening]
         start = self.tokens[first].start
         length = self.tokens[closing].start - start
-        n = self.add_mutant(start, length, "false")
+        n = self.add_mutant(start, length, f"false && ({self.source[start:start + length]})")
         if declared:
             self.wrap(declared[0] + 1, last, f"csgrun_mutant::or_zero<{n}>(", ")")
             return

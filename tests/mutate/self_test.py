@@ -80,14 +80,14 @@ if (const int left = v / 6) return left == 1 || v == 7;
 if (const int left = v / 6) return left != 1 || v != 7;
 if (const int left = v / 6) return false || v == 7;
 if (const int left = v / 6) return left != 1 || false;
-if (const int rest = v % 3; false) return v > 4;
-if (false) return left != 1 || v == 7;
+if (const int rest = v % 3; false && (rest == 1)) return v > 4;
+if (false && (const int left = v / 6)) return left != 1 || v == 7;
 return false;
 for (size_t i = 0; i <[last round left out] list.size(); ++i) sum += list[i] * static_cast<int>(i + 1);
 for (size_t i = 0; i < list.size(); ++i) sum -= list[i] * static_cast<int>(i + 1);
 for (auto it = list.begin(); it !=[last round left out] list.end(); ++it) {
 if (*it == 4) ;
-if (false) continue;
+if (false && (*it == 4)) continue;
 odd ^=[left out] v % 2 != 0;
 any |= v > 5;
 const bool turned = odd && any;
