@@ -118,7 +118,7 @@ std::optional<Error> find_disagreement(const RepairMesh& mesh) {
 void drop_bad_faces(RepairMesh& mesh, const RepairOptions& options, StepNote& degenerate,
                     StepNote& repeated) {
   clean_faces(mesh, degenerate);
-  if (options.drop_duplicates) drop_repeated_faces(mesh, false, repeated);
+  if (options.drop_duplicates) drop_repeated_faces(mesh, true, repeated);
 }
 
 /// Everything between welding by value and the result.
@@ -158,7 +158,7 @@ Status run_steps(RepairMesh& mesh, const RepairOptions& options, bool outwards,
   }
   fill_holes(mesh, holes, filled);
   filled.file(report);
-  if (options.drop_duplicates && !holes.empty()) drop_repeated_faces(mesh, true, repeated);
+  if (options.drop_duplicates && !holes.empty()) drop_repeated_faces(mesh, false, repeated);
   repeated.file(report);
   if (mesh.faces.empty()) return refuse("nothing is left: no face bounds a solid");
   if (outwards) orient_outwards(mesh, inverted);

@@ -36,13 +36,101 @@ Outline outline_of(const LoopFace& face, uint32_t number) {
   return outline;
 }
 
-/// For each face, on how many of its edges an odd number of other faces ends, less the others.
-std::vector<int64_t> need_of_faces(const std::vector<LoopFace>& faces, size_t point_count) {
+/// The faces of one outline.
+struct Group {
+  size_t begin, end;  // of outlines
+  bool majority;      // the direction of most
+  size_t rest;        // how many more there are that way than the other
+  size_t stay = 0;    // how many stay
+
+  [[nodiscard]] size_t size() const { return end - begin; }
+};
+
+/// Groups of faces of one loop; outlines of one group are in the order of the faces.
+std::vector<Group> find_groups(const RepairMesh& mesh, std::vector<Outline>& outlines) {
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    if (mesh.faces[f].loops.size() == 1) outlines.push_back(outline_of(mesh.faces[f], f));
+  }
+  std::stable_sort(outlines.begin(), outlines.end(),
+                   [](const Outline& a, const Outline& b) { return a.loop < b.loop; });
+  std::vector<Group> groups;
+  for (size_t begin = 0, end = 0; begin < outlines.size(); begin = end) {
+    size_t turned = 0;
+    for (; end < outlines.size() && outlines[end].loop == outlines[begin].loop; ++end) {
+      turned += outlines[end].turned;
+    }
+    if (end - begin == 1) continue;
+    const size_t straight = end - begin - turned;
+    const bool majority = turned == straight ? outlines[begin].turned : turned > straight;
+    groups.push_back(
+        {begin, end, majority, std::max(turned, straight) - std::min(turned, straight)});
+  }
+  return groups;
+}
+
+/// One face of each group alone, and which group it stands for.
+struct Singles {
+  std::vector<LoopFace> faces;
+  std::vector<uint32_t> group_of;  ///< of the faces in groups; else kNone
+};
+constexpr uint32_t kNone = UINT32_MAX;
+
+Singles single_faces(const RepairMesh& mesh, const std::vector<Outline>& outlines,
+                     const std::vector<Group>& groups) {
+  Singles singles{mesh.faces, std::vector<uint32_t>(mesh.faces.size(), kNone)};
+  for (uint32_t g = 0; g < groups.size(); ++g) {
+    for (size_t i = groups[g].begin; i < groups[g].end; ++i) {
+      if (i > groups[g].begin) singles.faces[outlines[i].face].loops.clear();
+      singles.group_of[outlines[i].face] = g;
+    }
+  }
+  return singles;
+}
+
+/// For each face, on how many of its edges an odd number of others ends, less the rest.
+std::vector<int64_t> need_of_faces(const std::vector<LoopFace>& faces, const EdgeUses& edges) {
   std::vector<int64_t> need(faces.size(), 0);
-  EdgeUses(faces, point_count).for_each_edge([&](std::span<const EdgeUse> uses) {
+  edges.for_each_edge([&](std::span<const EdgeUse> uses) {
     for (const EdgeUse& use : uses) need[use.face] += uses.size() % 2 == 0 ? 1 : -1;
   });
   return need;
+}
+
+/// For each face, whether all its edges are balanced.
+std::vector<bool> balanced_faces(const RepairMesh& mesh) {
+  std::vector<bool> balanced(mesh.faces.size(), true);
+  EdgeUses(mesh.faces, mesh.points.size()).for_each_edge([&](std::span<const EdgeUse> uses) {
+    if (excess(uses) == 0) return;
+    for (const EdgeUse& use : uses) balanced[use.face] = false;
+  });
+  return balanced;
+}
+
+/// A surface that is there twice, back to back, all of it: one of each group stays where it is
+/// needed.
+void keep_two_sided_surfaces(const Singles& singles, const EdgeUses& edges,
+                             const std::vector<int64_t>& need, std::vector<Group>& groups) {
+  std::vector<uint32_t> parent(singles.faces.size());
+  for (uint32_t f = 0; f < parent.size(); ++f) parent[f] = f;
+  const auto root = [&](uint32_t f) {
+    while (parent[f] != f) f = parent[f] = parent[parent[f]];
+    return f;
+  };
+  edges.for_each_edge([&](std::span<const EdgeUse> uses) {
+    for (const EdgeUse& use : uses) parent[root(use.face)] = root(uses[0].face);
+  });
+  std::vector<bool> something_stays(parent.size(), false);
+  const auto group_of = [&](uint32_t f) {
+    return singles.group_of[f] == kNone ? nullptr : &groups[singles.group_of[f]];
+  };
+  for (uint32_t f = 0; f < parent.size(); ++f) {
+    if (singles.faces[f].loops.empty()) continue;
+    if (group_of(f) == nullptr || group_of(f)->stay > 0) something_stays[root(f)] = true;
+  }
+  for (uint32_t f = 0; f < parent.size(); ++f) {
+    if (singles.faces[f].loops.empty() || group_of(f) == nullptr) continue;
+    if (!something_stays[root(f)] && need[f] >= 0) group_of(f)->stay = 1;
+  }
 }
 
 }  // namespace
@@ -76,58 +164,25 @@ void drop_flat_faces(RepairMesh& mesh, StepNote& note) {
                        [&](const Loop& loop) { return is_flat(mesh, loop); });
 }
 
-void drop_repeated_faces(RepairMesh& mesh, bool is_balanced, StepNote& note) {
+void drop_repeated_faces(RepairMesh& mesh, bool keep_two_sided, StepNote& note) {
   std::vector<Outline> outlines;
-  outlines.reserve(mesh.faces.size());
-  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    if (mesh.faces[f].loops.size() == 1) outlines.push_back(outline_of(mesh.faces[f], f));
-  }
-  std::stable_sort(outlines.begin(), outlines.end(),
-                   [](const Outline& a, const Outline& b) { return a.loop < b.loop; });
-
-  // Groups of the same outline, and one face of each: the first of the majority.
-  struct Group {
-    size_t begin, end;  // of outlines
-    bool majority;      // its direction
-    size_t rest;        // how many more there are that way than the other
-    uint32_t kept;
-  };
-  std::vector<Group> groups;
-  std::vector<bool> dropped(mesh.faces.size(), false);
-  for (size_t begin = 0, end = 0; begin < outlines.size(); begin = end) {
-    size_t turned = 0;
-    for (; end < outlines.size() && outlines[end].loop == outlines[begin].loop; ++end) {
-      turned += outlines[end].turned;
-    }
-    if (end - begin == 1) continue;
-    const size_t straight = end - begin - turned;
-    Group group{begin, end, turned > straight, std::max(turned, straight), 0};
-    if (turned == straight) group.majority = outlines[begin].turned;
-    group.rest -= std::min(turned, straight);
-    size_t first = begin;
-    while (outlines[first].turned != group.majority) ++first;
-    group.kept = outlines[first].face;
-    for (size_t i = begin; i < end; ++i) dropped[outlines[i].face] = i != first;
-    groups.push_back(group);
-  }
+  std::vector<Group> groups = find_groups(mesh, outlines);
   if (groups.empty()) return;
-
-  std::vector<LoopFace> single = mesh.faces;
-  for (size_t f = 0; f < single.size(); ++f) {
-    if (dropped[f]) single[f].loops.clear();
+  const Singles singles = single_faces(mesh, outlines, groups);
+  const EdgeUses edges(singles.faces, mesh.points.size());
+  const std::vector<int64_t> need = need_of_faces(singles.faces, edges);
+  const std::vector<bool> balanced = balanced_faces(mesh);
+  for (Group& group : groups) {
+    const uint32_t face = outlines[group.begin].face;
+    group.stay = balanced[face] || need[face] < 0 ? group.rest : 1;
   }
-  const std::vector<int64_t> need = need_of_faces(single, mesh.points.size());
+  if (keep_two_sided) keep_two_sided_surfaces(singles, edges, need, groups);
+  std::vector<bool> dropped(mesh.faces.size(), false);
   for (const Group& group : groups) {
-    if (need[group.kept] >= 0 && !is_balanced) continue;
-    if (need[group.kept] >= 0) {
-      for (size_t i = group.begin; i < group.end; ++i) dropped[outlines[i].face] = false;
-      continue;
-    }
-    // An even number must stay: what is left when pairs back to back are taken away.
-    size_t rest = group.rest;
+    size_t stay = group.stay;
     for (size_t i = group.begin; i < group.end; ++i) {
-      const bool stays = outlines[i].turned == group.majority && rest > 0;
-      rest -= stays;
+      const bool stays = stay > 0 && outlines[i].turned == group.majority;
+      stay -= stays;
       dropped[outlines[i].face] = !stays;
     }
   }

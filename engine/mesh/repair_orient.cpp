@@ -72,13 +72,24 @@ class Nesting {
 
   [[nodiscard]] double volume(uint32_t s) const { return volume_[s]; }
 
-  /// Whether surface `outer` winds around a point of surface `inner`.
+  /// Whether surface `outer` winds around most of some points of surface `inner`. Surfaces may
+  /// touch in corners and edges, so these are the middles of faces.
   [[nodiscard]] bool encloses(uint32_t outer, uint32_t inner) const {
+    if (outer == inner) return false;
     for (int i = 0; i < 3; ++i) {
-      if (!(boxes_[outer].lo[i] < boxes_[inner].lo[i] && boxes_[inner].hi[i] < boxes_[outer].hi[i]))
+      if (boxes_[inner].lo[i] < boxes_[outer].lo[i] || boxes_[outer].hi[i] < boxes_[inner].hi[i])
         return false;
     }
-    return winding(outer, mesh_.points[mesh_.faces[faces_[inner][0]].loops[0][0]]) != 0;
+    constexpr size_t kPoints = 5;
+    const std::vector<uint32_t>& faces = faces_[inner];
+    int inside = 0;
+    for (size_t k = 0; k < kPoints; ++k) {
+      const auto& loop = mesh_.faces[faces[k * faces.size() / kPoints]].loops[0];
+      glm::dvec3 middle(0);
+      for (int i = 0; i < 3; ++i) middle += mesh_.points[loop[static_cast<size_t>(i)]] / 3.0;
+      inside += winding(outer, middle) != 0 ? 1 : -1;
+    }
+    return inside > 0;
   }
 
   [[nodiscard]] const std::vector<uint32_t>& faces(uint32_t s) const { return faces_[s]; }
@@ -174,7 +185,7 @@ void orient_outwards(RepairMesh& mesh, StepNote& note) {
   for (const uint32_t s : inverted) {
     bool is_outermost = true;
     for (uint32_t o = 0; o < surfaces.count && is_outermost; ++o) {
-      is_outermost = o == s || !nesting.encloses(o, s);
+      is_outermost = !nesting.encloses(o, s);
     }
     turned[s] = is_outermost;
   }
@@ -182,7 +193,7 @@ void orient_outwards(RepairMesh& mesh, StepNote& note) {
   for (const uint32_t s : inverted) {
     if (!outermost[s]) continue;
     for (uint32_t inner = 0; inner < surfaces.count; ++inner) {
-      if (inner != s && !turned[inner] && nesting.encloses(s, inner)) turned[inner] = true;
+      if (!turned[inner] && nesting.encloses(s, inner)) turned[inner] = true;
     }
   }
   for (uint32_t s = 0; s < surfaces.count; ++s) {

@@ -44,8 +44,8 @@ class StepNote {
 /// within `tolerance` that was not itself moved. So no point moves further than the tolerance.
 void weld_open_points(RepairMesh& mesh, double tolerance, StepNote& note);
 
-/// Splits edges that an odd number of faces uses at the points of such edges that lie on them:
-/// within `tolerance`, or as near as doubles can be.
+/// Splits edges that an odd number of faces uses, or that are not balanced, at the points of such
+/// edges that lie on them: within `tolerance`, or as near as doubles can be.
 void split_open_edges(RepairMesh& mesh, double tolerance, StepNote& note);
 
 /// Drops repeated corners and spikes, and faces of which nothing is left.
@@ -54,10 +54,11 @@ void clean_faces(RepairMesh& mesh, StepNote& note);
 /// Drops faces without area; the neighbour across the longest edge is split, so that nothing opens.
 void drop_flat_faces(RepairMesh& mesh, StepNote& note);
 
-/// Of faces over the same points keeps one where their neighbours need one: where on most of the
-/// edges an odd number of other faces ends. Elsewhere pairs back to back are taken away.
-/// Of a balanced mesh, which stays so, only these are.
-void drop_repeated_faces(RepairMesh& mesh, bool is_balanced, StepNote& note);
+/// Of faces over the same points one stays where its neighbours need one: where on most of its edges
+/// an odd number of others ends. Elsewhere, and where all edges are balanced, pairs back to back are
+/// taken away, which changes no winding number. If `keep_two_sided`, a surface of which nothing would
+/// be left stays once.
+void drop_repeated_faces(RepairMesh& mesh, bool keep_two_sided, StepNote& note);
 
 /// Turns faces so that every edge which an even number of faces uses is balanced, and as few faces
 /// as may be where there is a choice. Errors: kInvalidMesh, when there is no such orientation.

@@ -308,6 +308,30 @@ TEST(Repair, SurfacesInsideOut) {
   EXPECT_EQ(repaired_volume(beside, {}, &said), 65);
 }
 
+TEST(Repair, VoidThatTouchesItsShell) {
+  // All 27 cells but the middle one, and one of the corners: the void touches the outside there.
+  Soup soup;
+  for (int cell = 1; cell < 27; ++cell) {
+    if (cell == 13) continue;
+    const glm::dvec3 lo(cell % 3, cell / 3 % 3, cell / 9);
+    soup.add(box(lo, lo + 1.0));
+  }
+  RepairOptions options;
+  Lines said;
+  // Inner walls are there twice, back to back.
+  EXPECT_EQ(repaired_volume(soup, options, &said), 25);
+  soup.turn();
+  EXPECT_EQ(repaired_volume(soup, options, &said), 25);
+}
+
+TEST(Repair, TwoSidedSurface) {
+  Soup soup = cube();
+  Soup back = soup;
+  back.turn();
+  soup.add(back);
+  EXPECT_EQ(repaired_volume(soup, {}), 1);
+}
+
 TEST(Repair, MoebiusStripIsRefused) {
   Soup soup;
   for (int i = 0; i < 6; ++i) {
