@@ -124,7 +124,7 @@ constexpr const char* kUsage =
     "  hull FILE            the outer hull of a surface that crosses itself\n"
     "  front FILE STEPS     a surface moves along its normals, and splits and merges\n"
     "  model NAME FACES OUT.off\n"
-    "                       writes a model: statue, beads, twins, ring, contortionist\n";
+    "                       writes a model: statue, sieve, twins, ring, contortionist\n";
 
 void write_model(const std::string& name, const std::string& faces, const std::string& path) {
   const PolygonMesh mesh =

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 namespace csgrun::bench {
 namespace {
@@ -26,11 +24,6 @@ double bumps(const Vector& d, double strength, int octaves) {
     amplitude *= 0.5;
   }
   return sum;
-}
-
-/// Coordinates are single precision, as those of most files are.
-void add_point(RawMesh& mesh, const Vector& p) {
-  for (const double c : p) mesh.points.push_back(static_cast<float>(c));
 }
 
 Vector unit(const RawMesh& sphere, size_t i) {
@@ -73,71 +66,22 @@ RawMesh statue(size_t faces) {
   });
 }
 
-/// A surface of revolution about z, closed by its two poles: rings of equally many points, where
-/// the profile (radius over height in [0, length]) says, as far apart as the points of an average
-/// ring.
-template <class Profile>
-RawMesh turned(size_t faces, double length, Profile&& profile) {
-  // Places along the profile by arc length, by a fine polygon of it.
-  constexpr int kFine = 20000;
-  std::vector<double> arc{0};
-  double area = 0;
-  for (int i = 1; i <= kFine; ++i) {
-    const double z0 = length * (i - 1) / kFine, z1 = length * i / kFine;
-    const double step = std::hypot(z1 - z0, profile(z1) - profile(z0));
-    area += step * (profile(z0) + profile(z1)) / 2;
-    arc.push_back(arc.back() + step);
-  }
-  const double circumference = 2 * M_PI * area / arc.back();
-  const auto around = static_cast<uint32_t>(std::max(
-      3.0, std::round(std::sqrt(static_cast<double>(faces) / 2 * circumference / arc.back()))));
-  const auto rings = static_cast<uint32_t>(std::max<size_t>(2, faces / 2 / around));
-  RawMesh mesh;
-  add_point(mesh, {0, 0, 0});
-  size_t at = 0;
-  for (uint32_t r = 0; r < rings; ++r) {
-    const double wanted = arc.back() * (r + 1) / (rings + 1);
-    while (arc[at + 1] < wanted) ++at;
-    const double part = (wanted - arc[at]) / (arc[at + 1] - arc[at]);
-    const double z = length * (static_cast<double>(at) + part) / kFine, radius = profile(z);
-    for (uint32_t k = 0; k < around; ++k) {
-      const double turn = 2 * M_PI * (k + 0.5 * (r % 2)) / around;
-      add_point(mesh, {radius * std::cos(turn), radius * std::sin(turn), z});
+RawMesh sieve(size_t faces) {
+  // A round plate with a round rim; nine dimples on either side leave little between them.
+  constexpr double kFlat = 2.5, kRim = 0.5, kApart = 1.3, kDimple = 0.55, kDepth = 0.45;
+  return mapped_sphere(faces, [=](const Vector& d) {
+    const OnRod at = on_rod(d);
+    // Along the plate: from the middle of one side over the rim to that of the other.
+    const double s = (2 * kFlat + M_PI * kRim) * (0.5 - std::abs(at.along - 0.5));
+    const double bend = std::max(0.0, (s - kFlat) / kRim);
+    const double out = std::min(s, kFlat) + kRim * std::sin(bend);
+    const double x = out * std::cos(at.around), y = out * std::sin(at.around);
+    double half = kRim * std::cos(bend);
+    for (int i = 0; i < 9; ++i) {
+      const double off = std::hypot(x - kApart * (i % 3 - 1), y - kApart * (i / 3 - 1)) / kDimple;
+      if (off < 1) half -= kDepth * (1 + std::cos(M_PI * off)) / 2;
     }
-  }
-  add_point(mesh, {0, 0, length});
-  const uint32_t top = 1 + rings * around;
-  const auto point = [&](uint32_t r, uint32_t k) { return 1 + r * around + k % around; };
-  for (uint32_t k = 0; k < around; ++k) {
-    mesh.triangles.insert(mesh.triangles.end(), {0, point(0, k + 1), point(0, k)});
-    mesh.triangles.insert(mesh.triangles.end(),
-                          {top, point(rings - 1, k), point(rings - 1, k + 1)});
-  }
-  for (uint32_t r = 0; r + 1 < rings; ++r) {
-    for (uint32_t k = 0; k < around; ++k) {
-      // Every other ring is turned by half a step, so that triangles are nearly regular.
-      const uint32_t a = point(r, k), b = point(r, k + 1), c = point(r + 1, k),
-                     d = point(r + 1, k + 1);
-      if (r % 2 == 0) {
-        mesh.triangles.insert(mesh.triangles.end(), {a, b, c, b, d, c});
-      } else {
-        mesh.triangles.insert(mesh.triangles.end(), {a, b, d, a, d, c});
-      }
-    }
-  }
-  return mesh;
-}
-
-RawMesh beads(size_t faces) {
-  constexpr int kBeads = 10;
-  constexpr double kBall = 1, kNeck = 0.16;
-  return turned(faces, 2 * kBeads, [](double z) {
-    const double middle = (kBall + kNeck) / 2, swing = (kBall - kNeck) / 2;
-    if (z < 1 || z > 2 * kBeads - 1) {  // the ends are round
-      const double from = z < 1 ? 1 - z : z - (2 * kBeads - 1);
-      return std::sqrt(std::max(0.0, 1 - from * from));
-    }
-    return middle - swing * std::cos(M_PI * z);
+    return Vector{x, y, at.along < 0.5 ? -half : half};
   });
 }
 
@@ -207,7 +151,7 @@ RawMesh contortionist(size_t faces) {
 
 RawMesh model(const std::string& name, size_t faces) {
   if (name == "statue") return statue(faces);
-  if (name == "beads") return beads(faces);
+  if (name == "sieve") return sieve(faces);
   if (name == "twins") return twins(faces);
   if (name == "ring") return ring(faces);
   if (name == "contortionist") return contortionist(faces);

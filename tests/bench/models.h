@@ -10,7 +10,7 @@
 namespace csgrun::bench {
 
 /// `statue`: upright, bumpy at every scale, for unions with a turned copy.
-/// `beads`: ten balls in a row on necks of one width: moved inwards, nine splits at once.
+/// `sieve`: a round plate with nine dimples on either side: moved inwards, nine holes at once.
 /// `twins`: two bumpy bodies beside each other, which merge when they grow.
 /// `ring`: a tube that is bent to an open ring, whose ends meet when it grows.
 /// `contortionist`: a body bent at neck, waist and knees so far that it crosses itself in every

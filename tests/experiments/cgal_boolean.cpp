@@ -12,6 +12,7 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <sys/resource.h>
 #include <time.h>
 
@@ -33,8 +34,8 @@ double peak_mb() {
   return static_cast<double>(usage.ru_maxrss) * 1024e-6;
 }
 
-/// The double nearest to an exact number: CGAL's own conversion may be off by a unit in the last place,
-/// which would turn over every tie when it is rounded further.
+/// The double nearest to an exact number: CGAL's own conversion may be off by a unit in the last
+/// place, which would turn over every tie when it is rounded further.
 double nearest(const Kernel::FT& number) {
   const auto& exact = CGAL::exact(number);
   using Exact = std::decay_t<decltype(exact)>;
@@ -63,6 +64,10 @@ int main(int argc, char** argv) {
   Mesh a, b, result;
   if (!read(argv[2], a) || !read(argv[3], b)) {
     std::fprintf(stderr, "cgal_boolean: a mesh cannot be read\n");
+    return 1;
+  }
+  if (!CGAL::is_closed(a) || !CGAL::is_closed(b)) {
+    std::fprintf(stderr, "cgal_boolean: a mesh is no closed manifold to CGAL\n");
     return 1;
   }
   const double before_mb = peak_mb(), start = cpu_seconds();

@@ -2,12 +2,14 @@
 """The experiments of Campen & Kobbelt 2010, chapter 7, and a few more: runs csgbench, draws pictures and
 writes docs/experiments.md.
 
-usage: experiments.py [--quick] [NAME...]   (by default all of them)
+usage: experiments.py [--quick] [--keep] [--up-to FACES] [NAME...]   (by default all experiments)
 
 What an experiment measured is kept beside the programs, in experiments/, so that one of them can be run
-again; the document is written from what is there. --quick takes small models, writes everything to
-experiments/quick there, and checks that all experiments still work.
+again; the document is written from what is there. --keep does not measure again what was measured before;
+--up-to leaves out larger models. --quick takes small models, writes everything to experiments/quick there,
+and checks that all experiments still work.
 """
+import argparse
 import json
 import math
 import os
@@ -30,21 +32,43 @@ THOUSAND = 1000
 class Laboratory:
     """Where things are, and how programs are run."""
 
-    def __init__(self, quick):
-        self.quick = quick
+    def __init__(self, quick=False, keep=False, up_to=math.inf):
+        self.quick, self.up_to = quick, up_to
         self.folder = BINARIES / "experiments" / ("quick" if quick else "")
         self.images = self.folder if quick else SOURCE / "docs" / "images"
         self.document = self.folder / "experiments.md" if quick else SOURCE / "docs" / "experiments.md"
         for folder in (self.folder, self.images):
             folder.mkdir(parents=True, exist_ok=True)
+        self.figures = self.folder / "figures.json"
+        self.known = json.loads(self.figures.read_text()) if keep and self.figures.exists() else {}
 
     def run(self, program, *words):
+        """What the program prints; from an earlier run if that is to be kept."""
         command = [str(BINARIES / program), *map(str, words)]
-        print("+", *(word.rsplit("/", 1)[-1] for word in command), file=sys.stderr, flush=True)
+        key = " ".join(word.rsplit("/", 1)[-1] for word in command)
+        if key in self.known:
+            return self.known[key]
+        print("+", key, file=sys.stderr, flush=True)
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode != 0:
             raise RuntimeError(f"{' '.join(command)}: {done.stderr}")
-        return json.loads(done.stdout) if done.stdout.strip() else None
+        if not done.stdout.strip():
+            return None
+        self.known[key] = json.loads(done.stdout)
+        self.figures.write_text(json.dumps(self.known), encoding="utf-8")
+        return self.known[key]
+
+    def sizes(self, faces):
+        """Those numbers of faces that are not too large."""
+        return [n for n in faces if n <= self.up_to]
+
+    def cgal(self, op, a, b, result):
+        """CGAL's figures, or why there are none."""
+        try:
+            return self.run("cgal_boolean", op, a, b, result)
+        except RuntimeError as error:
+            print(error, file=sys.stderr)
+            return {"failed": "no closed manifold to CGAL" if "manifold" in str(error) else "crashed"}
 
     def bench(self, *words):
         return self.run("csgbench", *words)
@@ -57,8 +81,9 @@ class Laboratory:
         return path
 
     def shared(self, *names):
-        """Those of these shared models that are there."""
-        return [SHARED / name for name in names if (SHARED / name).exists()]
+        """Those of these shared models that are there, and not too large: 40 bytes a face or more."""
+        paths = [SHARED / name for name in names]
+        return [p for p in paths if p.exists() and p.stat().st_size <= 40 * self.up_to]
 
     def picture(self, name, *rows):
         """A PNG of panels: each a mesh and the options of csgpicture."""
@@ -86,7 +111,7 @@ def seconds(value):
 def table(head, rows):
     """Markdown, numbers to the right."""
     def is_number(column):
-        return all(str(row[column])[:1] in "0123456789-<" for row in rows)
+        return all(str(row[column])[:1] in "0123456789-" for row in rows if row[column] != "")
     marks = [" ---: " if is_number(c) else " --- " for c in range(len(head))]
     lines = ["| " + " | ".join(head) + " |", "|" + "|".join(marks) + "|"]
     lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
@@ -102,12 +127,12 @@ def own_name(path):
 
 def measure_round_trip(lab):
     own = ([("statue", n) for n in (72, 512, 5000, 25000, 50000, 100000, 400000, 1000000)] +
-           [("beads", 15000), ("beads", 100000), ("twins", 10000), ("twins", 200000),
+           [("sieve", 15000), ("sieve", 100000), ("twins", 10000), ("twins", 200000),
             ("ring", 2000), ("ring", 50000)])
     if lab.quick:
         own = [("statue", 72), ("ring", 512)]
     files = [] if lab.quick else lab.shared(*CLEAN)
-    files += [lab.model(*one) for one in own]
+    files += [lab.model(*one) for one in own if lab.sizes(one[1:])]
     return [lab.bench("roundtrip", path) for path in files]
 
 
@@ -133,17 +158,18 @@ digits for any grid of 27 bits is scaled by a power of two and snapped to 2^-20 
 def measure_shift(lab):
     files = lab.shared(*CLEAN[3:4]) if lab.quick else lab.shared(*CLEAN)
     own = [("ring", 512)] if lab.quick else [("statue", 2000), ("statue", 25000), ("statue", 100000),
-                                             ("beads", 15000), ("ring", 20000)]
-    files += [lab.model(*one) for one in own]
+                                             ("sieve", 15000), ("ring", 20000)]
+    files += [lab.model(*one) for one in own if lab.sizes(one[1:])]
     runs = []
     for path in files:
-        inputs, result = lab.folder / "shift_", lab.folder / "shift.off"
+        inputs = lab.folder / f"shift_{path.stem}_"
+        result = lab.folder / f"shift_{path.stem}.off"
         run = lab.bench("ulp", path, "--write-inputs", inputs, "--write", result)
         if lab.has_cgal() and not lab.quick and run["n_in_tris"] <= 2 * 26 * THOUSAND:
-            other = lab.folder / "shift_cgal.off"
-            run["cgal"] = lab.run("cgal_boolean", "difference", f"{inputs}0.off", f"{inputs}1.off",
-                                  other)
-            run["distance"] = lab.run("csgdistance", result, other)
+            other = lab.folder / f"shift_{path.stem}_cgal.off"
+            run["cgal"] = lab.cgal("difference", f"{inputs}0.off", f"{inputs}1.off", other)
+            if "failed" not in run["cgal"]:
+                run["distance"] = lab.run("csgdistance", result, other)
         runs.append(run)
     return runs
 
@@ -156,7 +182,7 @@ def tell_shift(lab, runs):
                      f"{run['volume']:.6g}", seconds(run["cpu_s"]), f"{run['rss_mb']:.0f}",
                      *((seconds(cgal["cpu_s"]), f"{cgal['rss_mb']:.0f}",
                         f"{distance['distance']:.2g}", f"{distance['distance_of_floats']:.2g}")
-                       if cgal else ("", "", "", ""))))
+                       if distance else (cgal["failed"] if cgal else "", "", "", ""))))
     return """## Shifted copies
 
 As the paper does, a copy is shifted as slightly as possible, and taken away from the original
@@ -188,7 +214,8 @@ PAPER_CGAL = {30: (17.6, 33.5, 81.3, 113.9), 60: (16.9, 31.4, 60.5, 117.0),
 
 
 def measure_turned(lab):
-    sizes = STATUES[:1] if lab.quick else STATUES
+    sizes = [n // THOUSAND for n in lab.sizes([n * THOUSAND for n in STATUES])]
+    sizes = sizes[:1] if lab.quick else sizes
     runs = {}
     for angle in ANGLES:
         runs[angle] = []
@@ -198,12 +225,11 @@ def measure_turned(lab):
             if size == (25 if lab.quick else 50) and angle == 90:
                 extra = ["--write", lab.folder / "turned.off", "--write-cells",
                          lab.folder / "turned_cells.txt"]
-            inputs = ["--write-inputs", lab.folder / "turned_"] if size == 25 else []
+            inputs = ["--write-inputs", lab.folder / f"turned_{angle}_"] if size == 25 else []
             run = lab.bench("rot", model, angle, *extra, *inputs)
             if size == 25 and lab.has_cgal() and not lab.quick:
-                other = lab.folder / "turned_cgal.off"
-                run["cgal"] = lab.run("cgal_boolean", "union", f"{lab.folder}/turned_0.off",
-                                      f"{lab.folder}/turned_1.off", other)
+                parts = [lab.folder / f"turned_{angle}_{i}.off" for i in (0, 1)]
+                run["cgal"] = lab.cgal("union", *parts, lab.folder / "turned_cgal.off")
             runs[angle].append(run)
     view = ("--view", 60, 8, "--size", 300, 420, "--zoom", 0.5, 0.5, 0.5, 1.0)
     lab.picture("turned_union", [
@@ -273,17 +299,16 @@ def measure_repair(lab):
     for path in files:
         hull = lab.folder / f"hull_{path.stem}.off"
         runs.append(lab.bench("hull", path, "--write", hull))
-    rows = []
-    for path, cut, view, zoom in (
-            (body, (0, -1, 0, 0.5), (0, 0), (0.42, 0.5, 0.30, 0.36)),
-            (*(cow or [None]), (0, 0, -1, 0.5), (0, 75), (0.5, 0.5, 0.5, 0.4))):
-        if path is None:
-            continue
-        hull = lab.folder / f"hull_{path.stem}.off"
-        size = ("--size", 300, 260)
-        rows.append([(path, *size, "--view", view[0] + 30, 20),
-                     (path, *size, "--view", *view, "--cut", *cut, "--zoom", *zoom),
-                     (hull, *size, "--view", *view, "--cut", *cut, "--zoom", *zoom)])
+    # Whole, then cut open where it crosses itself, before and after.
+    looks = [(body, ("--view", 30, 20, "--zoom", 0.5, 0.5, 0.5, 0.8),
+              ("--view", 0, 0, "--cut", 0, -1, 0, 0.5, "--zoom", 0.42, 0.5, 0.3, 0.4))]
+    if cow:
+        looks.append((cow[0], ("--view", -20, 65, "--zoom", 0.5, 0.5, 0.5, 0.9),
+                      ("--view", 0, 90, "--cut", 0, 0, 1, 0.503, "--zoom", 0.09, 0.76, 0.5, 0.22)))
+    size = ("--size", 300, 250)
+    rows = [[(path, *size, *whole), (path, *size, *inside),
+             (lab.folder / f"hull_{path.stem}.off", *size, *inside)]
+            for path, whole, inside in looks]
     lab.picture("repair", *rows)
     return runs
 
@@ -310,20 +335,18 @@ result as it is rounded to doubles.
 
 
 def measure_front(lab):
-    sizes = (2,) if lab.quick else (15, 50, 400)
+    sizes = (2,) if lab.quick else [n // THOUSAND for n in lab.sizes([15000, 50000, 400000])]
     steps = 6 if lab.quick else 15
-    runs = [lab.bench("front", lab.model("beads", size * THOUSAND), steps) for size in sizes]
-    beads, twins = (lab.model(name, (2 if lab.quick else 15) * THOUSAND) for name in ("beads", "twins"))
-    for model in (beads, twins):
+    runs = [lab.bench("front", lab.model("sieve", size * THOUSAND), steps) for size in sizes]
+    models = [lab.model(name, (2 if lab.quick else 15) * THOUSAND) for name in ("sieve", "twins")]
+    for model in models:
         lab.bench("front", model, steps, "--write-steps", lab.folder / f"front_{model.stem}_")
-
-    def frame(model, step):
-        return lab.folder / f"front_{model.stem}_{step}.off"
-    narrow = ("--size", 150, 420, "--view", 30, 10, "--zoom", 0.5, 0.5, 0.3, 0.42)
-    wide = ("--size", 300, 240, "--view", 0, 15)
-    frames = [(mesh, *narrow) for mesh in (beads, *(frame(beads, s) for s in (2, steps // 3, steps)))]
-    row = [(twins, *wide), (frame(twins, steps), *wide)]
-    lab.picture("front", frames, row)
+    looks = [("--size", 300, 230, "--view", 30, 50, "--zoom", 0.5, 0.5, 0.5, 0.75),
+             ("--size", 300, 180, "--view", 0, 15, "--zoom", 0.5, 0.5, 0.5, 0.6)]
+    rows = [[(mesh, *look) for mesh in (model, *(lab.folder / f"front_{model.stem}_{step}.off"
+                                                 for step in (steps // 3, steps)))]
+            for model, look in zip(models, looks)]
+    lab.picture("front", *rows)
     return runs
 
 
@@ -346,12 +369,12 @@ def tell_front(lab, runs):
     return """## Front tracking
 
 A closed surface moves along its vertex normals; after each step the orientation-sensitive outer hull
-resolves what has come to cross (`csgbench front FILE STEPS`). The model is a row of ten balls on necks
-(`csgbench model beads`): moved inwards, all nine necks pass through themselves in the same step, and the
-surface splits into ten; moved outwards again the balls merge. Times are CPU milliseconds for a step from
-arrays to arrays. A step without events only pays for finding out that there are none.
+resolves what has come to cross (`csgbench front FILE STEPS`). The model is a plate with nine dimples on
+either side (`csgbench model sieve`): moved inwards, the sides pass through each other in nine places, and
+the plate has nine holes; moved outwards again they close, one by one. Times are CPU milliseconds for a step
+from arrays to arrays. A step without events only pays for finding out that there are none.
 
-![Beads before and after the split, and merged again; twins that merge](images/front.png)
+![A plate, its holes, and how they close again; twins that merge](images/front.png)
 
 """ + table(("faces", "without events", "paper's", "first with events (how many)", "paper's",
              "mean with events", "steps without", "steps with"), rows)
@@ -400,13 +423,17 @@ def processor():
 
 
 def main(words):
-    quick = "--quick" in words
-    names = [word for word in words if word != "--quick"]
-    unknown = [name for name in names if name not in EXPERIMENTS]
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--keep", action="store_true")
+    parser.add_argument("--up-to", type=int, default=math.inf)
+    parser.add_argument("names", nargs="*", metavar="NAME")
+    asked = parser.parse_args(words)
+    unknown = [name for name in asked.names if name not in EXPERIMENTS]
     if unknown:
         sys.exit(f"there is no experiment '{unknown[0]}'; there are {', '.join(EXPERIMENTS)}")
-    lab = Laboratory(quick)
-    for name in names or EXPERIMENTS:
+    lab = Laboratory(asked.quick, asked.keep, asked.up_to)
+    for name in asked.names or EXPERIMENTS:
         result = EXPERIMENTS[name][0](lab)
         (lab.folder / f"{name}.json").write_text(json.dumps(result), encoding="utf-8")
     text = f"""# Experiments
