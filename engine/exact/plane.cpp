@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <limits>
 #include <numeric>
 #include <utility>
+
+#include "engine/exact/forced_tier.h"
 
 namespace csgrun {
 namespace {
@@ -77,6 +80,8 @@ PlaneId PlaneTable::intern(const Plane& plane) {
   planes_.push_back(p);
   approximate_.push_back({static_cast<double>(p.a), static_cast<double>(p.b),
                           static_cast<double>(p.c), static_cast<double>(p.d)});
+  // A sum with it compares as neither positive nor negative.
+  if (forced_tier >= 0) approximate_.back()[3] = std::numeric_limits<double>::quiet_NaN();
   bits_.push_back({static_cast<uint8_t>(normal), static_cast<uint8_t>(offset)});
   slots_[s] = index + 1;
   if (planes_.size() * 2 > slots_.size()) grow();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "engine/exact/forced_tier.h"
+
 namespace csgrun {
 namespace {
 
@@ -33,7 +35,7 @@ int exact_tier(const Plane& plane, const Point& p) {
 }
 
 int exact_side(const Plane& plane, const Point& p, int tier) {
-  switch (tier) {
+  switch (std::max(tier, forced_tier)) {
     case 0: return side<1>(plane, p);
     case 1: return side<2>(plane, p);
     case 2: return side<3>(plane, p);
