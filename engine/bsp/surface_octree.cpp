@@ -1,12 +1,14 @@
 #include "engine/bsp/surface_octree.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/bsp/corner_trace.h"
 
 namespace csgrun {
 namespace {
+
+/// Slivers that cross in a tangle cost the cube of their number, and come apart late: six octree levels.
+constexpr int kLongPatience = 18;
 
 class SurfaceOctreeBuilder {
  public:
@@ -57,14 +59,13 @@ class SurfaceOctreeBuilder {
   void visit(const Open& cell) {
     ++tree_.visited;
     const uint32_t count = static_cast<uint32_t>(polygons_.size() - cell.first_polygon);
-    const bool wanted =
-        witnesses_.size() > cell.first_witness ||
-        std::any_of(polygons_.begin() + cell.first_polygon, polygons_.end(),
-                    [&](uint32_t p) { return crosses_[p] != 0; });
-    if (!wanted || count == 0) return;
+    const auto crossing = std::count_if(polygons_.begin() + cell.first_polygon, polygons_.end(),
+                                        [&](uint32_t p) { return crosses_[p] != 0; });
+    if (count == 0 || (crossing == 0 && witnesses_.size() == cell.first_witness)) return;
+    const int patience = crossing > limit_ ? kLongPatience : kDivisionPatience;
     const int axis = choose_axis(cell, count);
     const bool cancelled = cancel_ && cancel_->load(std::memory_order_relaxed);
-    if (count <= limit_ || cell.stalled >= kDivisionPatience ||
+    if (count <= limit_ || cell.stalled >= patience ||
         cell.box.hi[axis] - cell.box.lo[axis] < 2 || cancelled) {
       tree_.cells.push_back(
           {cell.box, cell.winding, static_cast<uint32_t>(tree_.polygons.size()), count});
