@@ -72,7 +72,7 @@ void LineNamer::keys(const std::vector<PlanePair>& lines, std::vector<LineKey>& 
     const Coordinates& c = lines_[i];
     const uint64_t scale = times(rest, products_[i]);
     rest = times(rest, c.v[c.first]);
-    LineKey key{static_cast<uint64_t>(c.first), static_cast<uint64_t>(c.first) + 7};
+    LineKey key{0x9e3779b97f4a7c15ull, 0xc2b2ae3d27d4eb4full};
     for (const uint64_t coordinate : c.v) {
       const uint64_t v = times(coordinate, scale);
       key.a = scramble(key.a, v);
