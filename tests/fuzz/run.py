@@ -23,7 +23,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 AT_A_TIME = 2
 SECONDS_PER_INPUT = 60
 MEMORY_MB = 4096
-LONGEST_INPUT = 4096
+LONGEST_INPUT = {"kernel": 128, "mesh": 512, "number": 64, "definition": 256}  # others: 4096
 SECONDS_TO_SHRINK = 120
 SECONDS_PER_STEP = 15
 # A script that does not stop by itself ends the process with this code, as it must.
@@ -45,7 +45,8 @@ class Target:
         self.kept = []
 
     def options(self):
-        options = [f"-timeout={SECONDS_PER_INPUT}", f"-rss_limit_mb={MEMORY_MB}", f"-max_len={LONGEST_INPUT}",
+        options = [f"-timeout={SECONDS_PER_INPUT}", f"-rss_limit_mb={MEMORY_MB}",
+                   f"-max_len={LONGEST_INPUT.get(self.name, 4096)}", "-len_control=20",
                    f"-artifact_prefix={self.artifacts}/", "-print_final_stats=1"]
         words = HERE / "dict" / f"{self.name}.dict"
         return options + ([f"-dict={words}"] if words.exists() else [])
