@@ -97,6 +97,9 @@ std::string boxes_differ(const Boxes& b, Fault fault) {
   const Truth truth = truth_of(b.c);
   const Measured m = reference::measure(truth.leaves, truth.tree, fault);
   if (!m.fault.empty()) return m.fault;
+  // The reference counts leaves in the order of their mention.
+  std::vector<uint32_t> number(truth.leaves.size());
+  for (uint32_t l = 0; l < number.size(); ++l) number[truth.leaves[l].faces[0].label[0]] = l;
   int64_t volume = 0;
   std::map<Measured::Side, mpq_class> areas;
   for (int64_t i = 0; i < (kSize + 2) * (kSize + 2) * (kSize + 2); ++i) {
@@ -108,7 +111,7 @@ std::string boxes_differ(const Boxes& b, Fault fault) {
       const int label = label_between(b, b.c.tree, p, q, below, above);
       if (axis == 0 && above) ++volume;
       if (label < 0) continue;
-      Measured::Side side{{}, below, static_cast<uint32_t>(label)};
+      Measured::Side side{{}, below, number[static_cast<size_t>(label)]};
       side.plane.c = {0, 0, 0, -mpz_class(q[axis])};
       side.plane.c[axis] = 1;
       side.plane.axis = axis;
