@@ -78,6 +78,10 @@ test::RandomTree tree_of(BooleanOp op, const std::vector<test::Leaf>& leaves) {
   return tree;
 }
 
+uint64_t signs(const EvaluateStats& s) {
+  return std::accumulate(s.sign_exact.begin(), s.sign_exact.end(), s.sign_filter + s.sign_symbolic);
+}
+
 // Cells of two boxes, counted by hand.
 TEST(Kernel, WorkIsWhereSurfacesAreNearEachOther) {
   const auto box = [](const IVec3& lo, const IVec3& hi) { return test::box_leaf(lo, hi); };
@@ -110,11 +114,17 @@ TEST(Kernel, WorkIsWhereSurfacesAreNearEachOther) {
     EXPECT_EQ(s.solved_cells, 0u);
     EXPECT_EQ(s.critical_cells, 0u);
     EXPECT_LT(s.cells, 150u);
-    // A box in a cell of its own is six cells' worth of surface at one polygon a cell.
+    // A box in a cell of its own is six cells' worth of surface at one polygon a cell. Nothing is
+    // cut.
     EXPECT_EQ(s.surface_cells, 96u);
-    EXPECT_EQ(
-        s.sign_symbolic + std::accumulate(s.sign_exact.begin(), s.sign_exact.end(), uint64_t{0}),
-        0u);
+    EXPECT_EQ(signs(s), 0u);
+    // Holes in a block: all faces are copied, those of the tools turned over.
+    leaves.insert(leaves.begin(), box({0, 0, 0}, {256, 16, 16}));
+    s = {};
+    const Boundary less = evaluate(tree_of(BooleanOp::kDifference, leaves), options, s);
+    EXPECT_EQ(less->faces.size(), 102u);
+    EXPECT_EQ(s.solved_cells, 0u);
+    EXPECT_EQ(signs(s), 0u);
   }
 }
 
