@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
 
 #include "export/edge_flips.h"
 #include "export/self_union.h"
@@ -30,20 +33,24 @@ std::vector<uint32_t> bad_triangles(const Defects& defects) {
 
 class Repair {
  public:
-  Repair(RoundedMesh& mesh, std::span<const glm::dvec3> directions, Precision precision,
+  Repair(RoundedMesh& mesh, std::vector<glm::dvec3> directions, Precision precision,
          const WriteOptions& options, Defects& left, MeshCheck& check)
       : mesh_(mesh),
-        directions_(directions),
+        faces_{std::move(directions), {}},
         precision_(precision),
         options_(options),
         left_(left),
-        check_(check) {}
+        check_(check) {
+    faces_.original.resize(faces_.directions.size());
+    std::iota(faces_.original.begin(), faces_.original.end(), 0);
+  }
 
   Status run() {
     while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty()) {
       ++check_.rounds;
       if (Status status = run_round(); !status) return status;
     }
+    for (uint32_t& face : mesh_.triangle_face) face = faces_.original[face];
     return std::monostate{};
   }
 
@@ -54,9 +61,9 @@ class Repair {
     if (Status status = snap(); !status) return status;
     examine();
     turn_edges();
-    if (left_.crossings.empty()) return std::monostate{};
+    if (left_.none()) return std::monostate{};
     ++check_.unions;
-    if (const Status status = unite_with_itself(mesh_, precision_, options_); !status) {
+    if (const Status status = unite_with_itself(mesh_, faces_, precision_, options_); !status) {
       const ErrorCode code = status.error().code;
       if (code == ErrorCode::kCancelled || code == ErrorCode::kLimit ||
           code == ErrorCode::kInternal)
@@ -68,25 +75,25 @@ class Repair {
     return std::monostate{};
   }
 
-  void examine() { left_ = find_defects(mesh_, directions_); }
+  void examine() { left_ = find_defects(mesh_, faces_.directions); }
 
   void turn_edges() {
     // Each turn takes one bad triangle away and makes no other.
     while (true) {
       const std::vector<uint32_t> bad = bad_triangles(left_);
-      if (bad.empty() || turn_longest_edges(mesh_, bad, directions_) == 0) return;
+      if (bad.empty() || turn_longest_edges(mesh_, bad, faces_.directions) == 0) return;
       for (auto& outline : mesh_.outlines) outline.clear();
       examine();
     }
   }
 
-  /// The lattice of a round: steps of the file's numbers where the mesh is farthest from the
-  /// origin, and coarser from round to round.
+  /// The lattice of a round. Steps of four floats (where the mesh is farthest from the origin), then
+  /// sixteen and so on: what is snapped must get clear of what is rounded.
   [[nodiscard]] double lattice_step() const {
     const int finest = lattice_of(mesh_.positions).exponent;
     const int round = static_cast<int>(check_.rounds);
     // A float's step is eight steps of the engine's lattice; doubles approach that from below.
-    if (precision_ == Precision::kFloat) return std::ldexp(1.0, finest + 3 + round);
+    if (precision_ == Precision::kFloat) return std::ldexp(1.0, finest + 3 + 2 * round);
     return std::ldexp(1.0, finest - 5 * static_cast<int>(kMostRounds) + 5 * round);
   }
 
@@ -119,7 +126,7 @@ class Repair {
   }
 
   RoundedMesh& mesh_;
-  std::span<const glm::dvec3> directions_;
+  MeshFaces faces_;
   Precision precision_;
   const WriteOptions& options_;
   Defects& left_;
@@ -128,9 +135,9 @@ class Repair {
 
 }  // namespace
 
-Status repair(RoundedMesh& mesh, std::span<const glm::dvec3> directions, Precision precision,
+Status repair(RoundedMesh& mesh, std::vector<glm::dvec3> directions, Precision precision,
               const WriteOptions& options, Defects& left, MeshCheck& check) {
-  return Repair(mesh, directions, precision, options, left, check).run();
+  return Repair(mesh, std::move(directions), precision, options, left, check).run();
 }
 
 }  // namespace csgrun

@@ -24,7 +24,7 @@ constexpr unsigned kMostRounds = 5;
 /// faces of the solid that it was rounded from, whose directions are given. Outlines are lost. On
 /// return `left` is what is still wrong after the rounds that `check` counts. Deterministic.
 /// Errors: kCancelled, kLimit, kInternal.
-Status repair(RoundedMesh& mesh, std::span<const glm::dvec3> directions, Precision precision,
+Status repair(RoundedMesh& mesh, std::vector<glm::dvec3> directions, Precision precision,
               const WriteOptions& options, Defects& left, MeshCheck& check);
 
 }  // namespace csgrun

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <memory>
+
+#include "export/defects.h"
 
 namespace csgrun {
 namespace {
@@ -14,7 +17,7 @@ constexpr int kGridBits = 27;
 
 /// The mesh as a leaf. Each face of the original solid is an appearance of its own, which the
 /// engine keeps apart and hands on to what is left of it.
-PolygonMesh leaf_of(const RoundedMesh& mesh) {
+PolygonMesh leaf_of(const RoundedMesh& mesh, const MeshFaces& faces) {
   PolygonMesh leaf;
   leaf.kind = "rounded mesh";
   leaf.fill = FillRule::kPositive;
@@ -22,19 +25,19 @@ PolygonMesh leaf_of(const RoundedMesh& mesh) {
   for (size_t v = 0; v < place.size(); ++v) {
     if (place[v] == leaf.points.size()) leaf.points.push_back(mesh.positions[v]);
   }
-  std::vector<uint32_t> tag(mesh.face_normals.size(), kNone);
+  std::map<uint32_t, uint32_t> tags;  // original face -> appearance
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     leaf.add_face(Triangle{place[a], place[b], place[c]});
-    uint32_t& number = tag[mesh.triangle_face[t]];
-    if (number == kNone) {
-      number = static_cast<uint32_t>(leaf.appearances.size());
+    const uint32_t face = faces.original[mesh.triangle_face[t]];
+    const auto [tag, is_new] = tags.emplace(face, static_cast<uint32_t>(leaf.appearances.size()));
+    if (is_new) {
       Appearance appearance;
       appearance.is_default = false;
-      appearance.name = std::to_string(mesh.triangle_face[t]);
+      appearance.name = std::to_string(face);
       leaf.appearances.push_back(std::move(appearance));
     }
-    leaf.appearance_of.push_back(number);
+    leaf.appearance_of.push_back(tag->second);
   }
   return leaf;
 }
@@ -61,28 +64,32 @@ GridStep lattice_of(std::span<const glm::dvec3> points) {
   return {1, 1, step};
 }
 
-Status unite_with_itself(RoundedMesh& mesh, Precision precision, const WriteOptions& options) {
+Status unite_with_itself(RoundedMesh& mesh, MeshFaces& faces, Precision precision,
+                         const WriteOptions& options) {
   EvaluateOptions evaluate;
   evaluate.threads = options.threads;
   evaluate.cancel = options.cancel;
   evaluate.grid = lattice_of(mesh.positions);
   Evaluator evaluator(std::move(evaluate));
-  auto solid = evaluator.evaluate(Node::leaf(std::make_shared<const PolygonMesh>(leaf_of(mesh))));
+  auto solid =
+      evaluator.evaluate(Node::leaf(std::make_shared<const PolygonMesh>(leaf_of(mesh, faces))));
   if (!solid) return solid.error();
   Result<RoundedMesh> rounded = round_part(**solid, {}, precision, false);
   if (!rounded) return rounded.error();
+  MeshFaces united;
+  united.directions = face_directions(**solid, {});
+  for (const Solid::Face& face : (*solid)->faces) {
+    united.original.push_back(face_of((*solid)->appearances[face.appearance]));
+    if (united.original.back() >= mesh.face_normals.size())
+      return Error{ErrorCode::kInternal, "a face of a self-union comes from nowhere", {}};
+  }
+  faces = std::move(united);
   mesh.positions = std::move(rounded->positions);
   mesh.triangles = std::move(rounded->triangles);
+  mesh.triangle_face = std::move(rounded->triangle_face);
   mesh.twins = std::move(rounded->twins);
   mesh.dropped += rounded->dropped;
   mesh.cancelled += rounded->cancelled;
-  mesh.triangle_face.clear();
-  for (const uint32_t f : rounded->triangle_face) {
-    const uint32_t face = face_of((*solid)->appearances[(*solid)->faces[f].appearance]);
-    if (face >= mesh.face_normals.size())
-      return Error{ErrorCode::kInternal, "a face of a self-union comes from nowhere", {}};
-    mesh.triangle_face.push_back(face);
-  }
   for (auto& outline : mesh.outlines) outline.clear();
   return std::monostate{};
 }

@@ -13,9 +13,17 @@ namespace csgrun {
 /// eighth of the step of floats there, so floats of at least an eighth of the extent are on it.
 GridStep lattice_of(std::span<const glm::dvec3> points);
 
+/// The faces that a mesh belongs to.
+struct MeshFaces {
+  std::vector<glm::dvec3> directions;  ///< along their outward normals
+  std::vector<uint32_t> original;      ///< the face of the solid that was to be written
+};
+
 /// What the mesh encloses with a positive winding number, evaluated exactly on the lattice and
-/// rounded again. Points that are not on the lattice are snapped to it. Triangles keep the faces
-/// they belong to. Errors: those of the evaluator.
-Status unite_with_itself(RoundedMesh& mesh, Precision precision, const WriteOptions& options);
+/// rounded again. Points that are not on the lattice are snapped to it. The faces become those of
+/// the exact union, each of which goes on belonging to an original one. Outlines are lost. Errors:
+/// those of the evaluator; then nothing has changed.
+Status unite_with_itself(RoundedMesh& mesh, MeshFaces& faces, Precision precision,
+                         const WriteOptions& options);
 
 }  // namespace csgrun
