@@ -12,7 +12,7 @@
 namespace csgrun {
 namespace {
 
-const std::vector<std::string> kSettings = {"fn", "fa", "fs", "grid"};
+const std::vector<std::string> kSettings = {"fn", "fa", "fs", "grid", "contacts"};
 
 /// csg.fn and the like: read.
 int read_setting(lua_State* L) {
@@ -24,6 +24,8 @@ int read_setting(lua_State* L) {
     lua_pushnumber(L, session.facets.fa);
   } else if (name == "fs") {
     lua_pushnumber(L, session.facets.fs);
+  } else if (name == "contacts") {
+    lua_pushstring(L, session.joins_contacts() ? "join" : "separate");
   } else if (name == "grid") {
     if (session.grid().automatic()) {
       lua_pushnil(L);
@@ -65,6 +67,17 @@ int write_setting(lua_State* L) {
   const std::string name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
   if (name == "grid") {
     set_grid(L, session);
+    return 0;
+  }
+  if (name == "contacts") {
+    const std::string value = lua_type(L, 3) == LUA_TSTRING ? lua_tostring(L, 3) : "";
+    if (value != "join" && value != "separate") {
+      throw ScriptError("csg.contacts must be \"separate\" or \"join\", got " +
+                        (value.empty() ? describe_value(L, 3)
+                                       : "\"" + value + "\"" +
+                                             did_you_mean(value, {"separate", "join"})));
+    }
+    session.set_joins_contacts(value == "join");
     return 0;
   }
   if (name != "fn" && name != "fa" && name != "fs") {
@@ -179,7 +192,8 @@ std::string api_help() {
       "Lengths are millimetres, angles degrees, Z is up.\n"
       "Operators: a + b, a | b union; a - b difference; a * b, a & b intersection; a ~ b "
       "symmetric\n"
-      "difference; M * a transforms by a matrix. Settings: csg.fn, csg.fa, csg.fs, csg.grid.\n";
+      "difference; M * a transforms by a matrix. Settings: csg.fn, csg.fa, csg.fs, csg.grid;\n"
+      "csg.contacts = \"separate\" keeps solids that touch along an edge apart, \"join\" joins them.\n";
   for (const Binding& binding : all_bindings()) {
     text += '\n';
     text += help_text(*binding.spec);

@@ -1,4 +1,4 @@
-// union, difference, intersection, symmetric_difference; the operators.
+// union, difference, intersection, symmetric_difference, outer_hull; the operators.
 #include <fmt/format.h>
 
 #include "lua_bindings/api.h"
@@ -75,6 +75,33 @@ int boolean_function(lua_State* L) {
     }
   }
   operands.push_result(L, Op, Spec.name);
+  return 1;
+}
+
+constexpr Option kOuterHullOptions[] = {
+    {"orientation_sensitive", ArgumentType::kBoolean, "false",
+     "the way through a surface from its back to its front is open: inverted parts vanish, and a\n"
+     "          body parts where it is thinner than nothing",
+     false},
+    {"keep_voids", ArgumentType::kBoolean, "false", "voids inside stay empty instead of being filled",
+     false},
+};
+constexpr FunctionSpec kOuterHull{
+    "outer_hull",
+    "What cannot be reached from outside without crossing the surface, as it crosses itself.",
+    kOuterHullOptions,
+    false,
+    "outer_hull(import(\"scan.stl\"), {orientation_sensitive = true})",
+    "solid",
+    "a solid"};
+
+int outer_hull(lua_State* L) {
+  const NodePtr node = solid_argument(L, kOuterHull).node;
+  const Arguments arguments(L, kOuterHull, 2);
+  OuterHull options;
+  options.orientation_sensitive = arguments.boolean("orientation_sensitive", false);
+  options.keep_voids = arguments.boolean("keep_voids", false);
+  push_solid(L, Node::outer_hull(options, node, session_of(L).source_ref(L)));
   return 1;
 }
 
@@ -169,6 +196,7 @@ constexpr Binding kBindings[] = {
      guarded<boolean_function<kSymmetricDifference, BooleanOp::kSymmetricDifference>>,
      guarded<boolean_function<kSymmetricDifference, BooleanOp::kSymmetricDifference>>,
      guarded<boolean_function<kSymmetricDifference, BooleanOp::kSymmetricDifference>>},
+    {&kOuterHull, guarded<outer_hull>, guarded<outer_hull>, nullptr},
 };
 
 }  // namespace

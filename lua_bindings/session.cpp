@@ -49,6 +49,12 @@ void Session::set_grid(const GridStep& grid) {
   evaluator_.reset();
 }
 
+void Session::set_joins_contacts(bool join) {
+  if (join == joins_contacts()) return;
+  options_.evaluate.join_contacts = join;
+  evaluator_.reset();
+}
+
 Evaluator& Session::evaluator() {
   if (!evaluator_) evaluator_ = std::make_unique<Evaluator>(options_.evaluate);
   return *evaluator_;

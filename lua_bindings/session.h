@@ -61,8 +61,11 @@ class Session {
   [[nodiscard]] const GridStep& grid() const { return options_.evaluate.grid; }
   /// Another grid means another evaluator; what was cached so far is dropped.
   void set_grid(const GridStep& grid);
+  /// csg.contacts: whether solids that touch along an edge are joined there. As with the grid.
+  [[nodiscard]] bool joins_contacts() const { return options_.evaluate.join_contacts; }
+  void set_joins_contacts(bool join);
 
-  /// Lives as long as the grid stays the same.
+  /// Lives as long as the grid and csg.contacts stay the same.
   Evaluator& evaluator();
   /// The solid of a tree, on the script's clock. Throws ScriptError, with the place of the node.
   SolidPtr evaluate(const NodePtr& node);

@@ -127,6 +127,7 @@ Key Evaluator::Impl::solid_key(const Scene& scene, const Subtree& subtree) const
   builder.numbers(id.key).numbers(back.apply(id.origin));
   for (const auto& row : back.apply_to_frame(scene.frames[id.frame]).matrix) builder.numbers(row);
   if (id.paint != kUnpainted) builder.numbers(appearances.key(id.paint));
+  builder.number(options.join_contacts);
   builder.number(scene.step.numerator).number(scene.step.denominator).number(scene.step.exponent);
   return builder.key();
 }
@@ -135,6 +136,7 @@ Result<SolidPtr> Evaluator::Impl::present_root(const Scene& scene, uint32_t root
                                                const BoundaryMesh& boundary) {
   PresentContext context;
   context.step = scene.step;
+  context.join_contacts = options.join_contacts;
   context.appearances = appearances.values();
   context.exact_points = options.exact_points;
   for (uint32_t leaf : scene.leaves(root)) {

@@ -9,6 +9,7 @@
 #include "engine/mesh/canonical_hash.h"
 #include "engine/mesh/measure.h"
 #include "engine/mesh/cut_contacts.h"
+#include "engine/mesh/divide_edges.h"
 #include "engine/mesh/improve_triangles.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/plane_oracle.h"
@@ -98,19 +99,38 @@ class Presenter {
       break_at_own_corners(faces_, geometry_, planes_);
       if (!resolve_t_junctions(faces_, geometry_, planes_)) return not_closed("cut edges");
     }
-    if (auto status = triangulate_all(); !status) return status.error();
-    if (!split_fans(set_, faces_, geometry_, planes_, fans_)) return not_closed("vertices");
     auto solid = std::make_shared<Solid>();
+    if (context_.measure) solid->canonical_hash = canonical_hash(faces_, geometry_, context_);
+    // Solids may touch in parts of edges.
+    if (context_.join_contacts && !resolve_t_junctions(faces_, geometry_, planes_, true)) {
+      return not_closed("contacts");
+    }
+    if (auto status = triangulate_all(); !status) return status.error();
+    if (auto status = make_vertices(); !status) return status.error();
     fill(*solid);
     if (context_.measure) {
       if (auto status = measure(*solid); !status) return status.error();
-      solid->canonical_hash = canonical_hash(faces_, geometry_, context_);
     }
     return SolidPtr(std::move(solid));
   }
 
  private:
+  Status make_vertices() {
+    const Contacts contacts = context_.join_contacts ? Contacts::kJoin : Contacts::kSeparate;
+    // Solids that are joined along an edge have it twice, mostly between the same two vertices: with
+    // points in the middle the two are apart.
+    std::vector<std::array<uint32_t, 2>> doubled;
+    while (context_.join_contacts) {
+      if (!split_fans(set_, faces_, geometry_, planes_, contacts, fans_, &doubled)) break;
+      if (doubled.empty() || !divide_edges(faces_, geometry_, planes_, doubled)) break;
+      if (auto status = triangulate_all(); !status) return status.error();
+    }
+    if (!split_fans(set_, faces_, geometry_, planes_, contacts, fans_)) return not_closed("vertices");
+    return std::monostate();
+  }
+
   Status triangulate_all() {
+    set_ = {};
     const RoundedPosition position = [this](uint32_t p) -> const std::array<double, 3>& {
       return geometry_.point(p).rounded;
     };

@@ -69,7 +69,7 @@ bool break_line(LooseEdge* begin, LooseEdge* end, CellGeometry& geometry, const 
 }  // namespace
 
 bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
-                         const PlaneTable& planes) {
+                         const PlaneTable& planes, bool all) {
   std::vector<DirectedEdge*> edges;
   std::vector<PlaneId> support;
   for (MergedFace& f : faces) {
@@ -92,7 +92,7 @@ bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
     size_t j = i;
     int balance = 0;
     for (; j < refs.size() && same_ends(refs[i], refs[j]); ++j) balance += refs[j].forward ? 1 : -1;
-    if (balance != 0) {
+    if (balance != 0 || all) {
       for (size_t k = i; k < j; ++k) loose_edges.push_back(refs[k].index);
     }
     i = j;
@@ -145,6 +145,7 @@ namespace {
 /// The sheets around one edge, as half-planes named by their outward normals.
 struct Sheet {
   uint32_t half_edge;
+  uint32_t face;
   bool forward;   ///< runs along the edge from its lower to its higher point
   Plane normal;   ///< turned by 180 degrees for backward half-edges, so that its direction is the
                   ///< sheet's own turned by 90 degrees about the edge
@@ -182,13 +183,31 @@ int dot_sign(const Plane& a, const Plane& b) {
   return (product(a.a, b.a) + product(a.b, b.b) + product(a.c, b.c)).sign();
 }
 
+void make_twins(std::vector<uint32_t>& twin, uint32_t a, uint32_t b) {
+  twin[a] = b;
+  twin[b] = a;
+}
+
 /// Pairs the sheets around an edge: material lies clockwise of a forward sheet (seen with the edge
 /// pointing at the viewer) and counter-clockwise of a backward one, so a backward sheet's partner is
-/// the next forward one counter-clockwise. A face that the edge only touches has no sheets here, and
-/// two backward ones may follow each other: then they pair as brackets do. REQUIRES: as many forward
-/// as backward ones.
-void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order,
+/// the next forward one counter-clockwise, or, if solids are to be joined, a forward sheet's partner
+/// the next backward one. A face that the edge only touches has no sheets here, and two backward ones
+/// may follow each other: then they pair as brackets do. REQUIRES: as many forward as backward ones.
+void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order, Contacts contacts,
                  std::vector<uint32_t>& twin) {
+  const bool join = contacts == Contacts::kJoin;
+  // A face that runs through an edge of others is no part of the contact: where its diagonals are must
+  // not matter.
+  if (join) {
+    for (const Sheet& s : sheets) {
+      if (!s.forward || twin[s.half_edge] != kNone) continue;
+      for (const Sheet& t : sheets) {
+        if (t.forward || t.face != s.face || twin[t.half_edge] != kNone) continue;
+        make_twins(twin, s.half_edge, t.half_edge);
+        break;
+      }
+    }
+  }
   const Sheet first = sheets[0];
   for (Sheet& s : sheets) {
     const int t = order.turn(first.normal, s.normal);
@@ -203,11 +222,10 @@ void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order,
   for (size_t i = 0; i < 2 * sheets.size(); ++i) {
     const Sheet& s = sheets[i % sheets.size()];
     if (twin[s.half_edge] != kNone) continue;
-    if (!s.forward) {
+    if (s.forward == join) {
       if (i < sheets.size()) open.push_back(s.half_edge);
     } else if (!open.empty()) {
-      twin[s.half_edge] = open.back();
-      twin[open.back()] = s.half_edge;
+      make_twins(twin, s.half_edge, open.back());
       open.pop_back();
     }
   }
@@ -215,8 +233,8 @@ void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order,
 
 /// `crowded`: the forward half-edges of each edge where more than two triangles meet.
 bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
-                CellGeometry& geometry, const PlaneTable& planes, std::vector<uint32_t>& twin,
-                std::vector<std::vector<uint32_t>>& crowded) {
+                CellGeometry& geometry, const PlaneTable& planes, Contacts contacts,
+                std::vector<uint32_t>& twin, std::vector<std::vector<uint32_t>>& crowded) {
   std::vector<EdgeRef> refs;
   refs.reserve(set.triangles.size() * 3);
   for (uint32_t t = 0; t < set.triangles.size(); ++t) {
@@ -241,8 +259,9 @@ bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
       sheets.clear();
       LineAxis along;
       for (size_t k = i; k < j; ++k) {
-        const Plane normal = planes.oriented(faces[set.face[refs[k].index / 3]].plane);
-        sheets.push_back({refs[k].index, refs[k].forward, refs[k].forward ? normal : normal.reversed()});
+        const uint32_t face = set.face[refs[k].index / 3];
+        const Plane normal = planes.oriented(faces[face].plane);
+        sheets.push_back({refs[k].index, face, refs[k].forward, refs[k].forward ? normal : normal.reversed()});
       }
       for (int axis = 0; axis < 3; ++axis) {
         if (const int s = geometry.compare_along(refs[i].hi, refs[i].lo, axis)) {
@@ -250,7 +269,7 @@ bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
           break;
         }
       }
-      pair_sheets(sheets, RadialOrder(along), twin);
+      pair_sheets(sheets, RadialOrder(along), contacts, twin);
       crowded.emplace_back();
       for (const Sheet& s : sheets) {
         if (s.forward) crowded.back().push_back(s.half_edge);
@@ -281,48 +300,67 @@ void walk_fans(const TriangleSet& set, const std::vector<uint32_t>& order,
   }
 }
 
-/// Two wedges that touch along an edge and are one fan at both of its ends would be two edges between
-/// the same two vertices. Exchanging the partners of their sheets parts both fans (a closed walk that
-/// passes a place twice falls in two there), and the edges with them. False when all is well.
-bool part_double_edges(const std::vector<std::vector<uint32_t>>& crowded, const VertexFans& fans,
-                       std::vector<uint32_t>& twin) {
-  std::vector<uint8_t> parted(fans.point_of_vertex.size(), 0);
-  bool any = false;
+/// Calls `visit(i, j)` for half-edges that run between the same two vertices.
+template <class Visit>
+void for_each_double_edge(const std::vector<std::vector<uint32_t>>& crowded, const VertexFans& fans,
+                          Visit visit) {
   const auto ends = [&](uint32_t h) {
     return std::pair(fans.vertex_of_corner[h], fans.vertex_of_corner[h / 3 * 3 + (h % 3 + 1) % 3]);
   };
   for (const auto& halves : crowded) {
     for (size_t i = 0; i < halves.size(); ++i) {
       for (size_t j = i + 1; j < halves.size(); ++j) {
-        const auto [a, b] = ends(halves[i]);
-        // A fan that was parted already has other vertices: next time.
-        if (ends(halves[j]) != std::pair(a, b) || parted[a] || parted[b]) continue;
-        std::swap(twin[halves[i]], twin[halves[j]]);
-        twin[twin[halves[i]]] = halves[i];
-        twin[twin[halves[j]]] = halves[j];
-        parted[a] = parted[b] = 1;
-        any = true;
+        if (ends(halves[i]) == ends(halves[j])) visit(halves[i], halves[j]);
       }
     }
   }
+}
+
+/// Exchanging the partners of the sheets of a double edge parts both fans at its ends (a closed walk
+/// that passes a place twice falls in two there), and the edges with them. False when all is well.
+bool part_double_edges(const std::vector<std::vector<uint32_t>>& crowded, const VertexFans& fans,
+                       std::vector<uint32_t>& twin) {
+  std::vector<uint8_t> parted(fans.point_of_vertex.size(), 0);
+  bool any = false;
+  for_each_double_edge(crowded, fans, [&](uint32_t g, uint32_t h) {
+    const uint32_t a = fans.vertex_of_corner[g],
+                   b = fans.vertex_of_corner[g / 3 * 3 + (g % 3 + 1) % 3];
+    // A fan that was parted already has other vertices: next time.
+    if (parted[a] || parted[b]) return;
+    std::swap(twin[g], twin[h]);
+    twin[twin[g]] = g;
+    twin[twin[h]] = h;
+    parted[a] = parted[b] = 1;
+    any = true;
+  });
   return any;
 }
 
 }  // namespace
 
 bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
-                CellGeometry& geometry, const PlaneTable& planes, VertexFans& fans) {
+                CellGeometry& geometry, const PlaneTable& planes, Contacts contacts,
+                VertexFans& fans, std::vector<std::array<uint32_t, 2>>* doubled) {
   std::vector<uint32_t> twin;
   std::vector<std::vector<uint32_t>> crowded;
-  if (!find_twins(set, faces, geometry, planes, twin, crowded)) return false;
+  if (!find_twins(set, faces, geometry, planes, contacts, twin, crowded)) return false;
   std::vector<uint32_t> order(twin.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
     return set.triangles[a / 3][a % 3] < set.triangles[b / 3][b % 3];
   });
-  do {
-    walk_fans(set, order, twin, fans);
-  } while (part_double_edges(crowded, fans, twin));
+  walk_fans(set, order, twin, fans);
+  if (doubled != nullptr) {
+    doubled->clear();
+    for_each_double_edge(crowded, fans, [&](uint32_t h, uint32_t) {
+      const uint32_t from = set.triangles[h / 3][h % 3], to = set.triangles[h / 3][(h % 3 + 1) % 3];
+      doubled->push_back({std::min(from, to), std::max(from, to)});
+    });
+    std::sort(doubled->begin(), doubled->end());
+    doubled->erase(std::unique(doubled->begin(), doubled->end()), doubled->end());
+    return true;
+  }
+  while (part_double_edges(crowded, fans, twin)) walk_fans(set, order, twin, fans);
   return true;
 }
 

@@ -11,9 +11,10 @@ namespace csgrun {
 
 /// Inserts into the loops of faces the points at which neighbours have corners: afterwards each
 /// directed edge between consecutive points has as many reverses as copies (Campen & Kobbelt 2010,
-/// section 4.3). New edges inherit the plane. False when the faces do not close.
+/// section 4.3). New edges inherit the plane. With `all`, also edges that have their reverse are broken
+/// where edges of other solids that overlap them end. False when the faces do not close.
 bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
-                         const PlaneTable& planes);
+                         const PlaneTable& planes, bool all = false);
 
 /// Triangles over points, each with the plane of its face.
 struct TriangleSet {
@@ -21,18 +22,26 @@ struct TriangleSet {
   std::vector<uint32_t> face;  ///< per triangle
 };
 
-/// Per corner of a triangle (3 t + k) the vertex it belongs to, and per vertex its point. Around an
-/// edge where more than two triangles meet, each pair that bounds the same wedge of material is
-/// joined, found by the exact radial order: solids that touch along an edge are apart, unless they are
-/// connected around both ends of it (then they are joined along it, so that no two edges have the same
-/// vertices). Vertices are in order of points, then of triangles.
+/// Per corner of a triangle (3 t + k) the vertex it belongs to, and per vertex its point. Vertices are
+/// in order of points, then of triangles.
 struct VertexFans {
   std::vector<uint32_t> vertex_of_corner;
   std::vector<uint32_t> point_of_vertex;
 };
 
+/// What becomes of an edge where more than two faces meet, found by their exact radial order.
+enum class Contacts : uint8_t {
+  kSeparate,  ///< faces that bound the same wedge of material are neighbours
+  kJoin,      ///< faces that bound the same wedge between the solids are neighbours
+};
+
+/// Makes one vertex of each closed fan of triangles. Two edges with the same two vertices are none:
+/// their ends, the lower first, are put into `doubled`, if that is given, and the fans are not made.
+/// Without it such edges exchange neighbours, which parts their vertices: so solids kept apart are
+/// joined along an edge when they are connected around both of its ends, and the reverse.
 /// False when some directed edge has no reverse.
 bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
-                CellGeometry& geometry, const PlaneTable& planes, VertexFans& fans);
+                CellGeometry& geometry, const PlaneTable& planes, Contacts contacts,
+                VertexFans& fans, std::vector<std::array<uint32_t, 2>>* doubled = nullptr);
 
 }  // namespace csgrun

@@ -87,7 +87,8 @@ class FuzzEvaluator {
     o.first_source = source_++;
     if (l.may_cross || hull) {
       const InsideRule rule = hull ? inside_rule(*hull) : inside_rule(l.fill);
-      auto resolved = resolve_surface(o, find_self_intersections(*o.leaf), rule, case_.options, stats_);
+      auto resolved =
+          resolve_surface(o, find_self_intersections(*o.leaf), rule, case_.options, stats_);
       if (!resolved) return resolved.error();
       o = Operand();  // frame, translation and labels are the boundary's own
       o.boundary = *resolved;

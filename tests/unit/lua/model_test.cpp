@@ -52,6 +52,27 @@ TEST(Parts, Mistakes) {
   EXPECT_NE(message_of("return {cube(1), nil, cube(2)}").find("hole"), std::string::npos);
 }
 
+TEST(Surfaces, Mistakes) {
+  EXPECT_EQ(message_of("return outer_hull(cube(1), {keep_void = true})"),
+            "model.lua:1: outer_hull: unknown option 'keep_void' (did you mean 'keep_voids'?)");
+  EXPECT_NE(
+      message_of("return outer_hull(5)").find("outer_hull: the first argument must be a solid"),
+      std::string::npos);
+  EXPECT_EQ(message_of("csg.contacts = 'seperate'"),
+            "model.lua:1: csg.contacts must be \"separate\" or \"join\", got \"seperate\" (did you "
+            "mean 'separate'?)");
+  EXPECT_EQ(message_of("csg.contacts = 3"),
+            "model.lua:1: csg.contacts must be \"separate\" or \"join\", got 3");
+  const std::string tetrahedron =
+      "return polyhedron{points = {{0,0,0},{1,0,0},{0,1,0},{0,0,1}},"
+      "faces = {{0,1,2},{0,3,1},{0,2,3},{1,3,2}}, fill = ";
+  EXPECT_EQ(
+      message_of(tetrahedron + "'even-odd'}"),
+      "model.lua:1: polyhedron: option 'fill' must be \"nonzero\", \"positive\" or \"evenodd\", "
+      "got \"even-odd\" (did you mean 'evenodd'?)");
+  EXPECT_EQ(ScriptRun(tetrahedron + "'evenodd'}").outcome.status, ScriptStatus::kGood);
+}
+
 ScriptRun run_with(const std::string& script,
                    std::vector<std::pair<std::string, std::string>> definitions) {
   SessionOptions options = test_options();
