@@ -211,7 +211,8 @@ bool corner_plane(const std::vector<IVec3>& vertices, const uint32_t* corners, s
 
 void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, bool merged,
                        std::vector<LoopFace>& faces) {
-  bool collapsed = false, bent = false;
+  // `flat`: a loop that touches itself may leave triangles without area, in a plane too.
+  bool collapsed = false, bent = false, flat = false;
   for (LoopFace& face : faces) {
     for (Loop& loop : face.loops) {
       const size_t before = loop.size();
@@ -238,11 +239,12 @@ void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, b
     bent |= !planar;
     for (const Triangle& t : triangulate(vertices, face, prefer_convex && !planar)) {
       LoopFace piece{{{t[0], t[1], t[2]}}, face.facet, face.surface, face.appearance};
+      flat |= is_collinear(vertices, piece.loops[0]);
       result.push_back(std::move(piece));
     }
   }
   faces = std::move(result);
-  if (collapsed || bent) {
+  if (collapsed || bent || flat) {
     for (LoopFace& face : faces) clean_loop(face.loops[0]);
     drop_empty_loops(faces);
     collapsed |= drop_collinear_loops(vertices, faces);

@@ -198,6 +198,24 @@ TEST(PrepareLeaf, AFaceThatBecameASegmentSplitsItsNeighbour) {
   EXPECT_EQ(volume6(*leaf.geometry), 1e6);
 }
 
+TEST(PrepareLeaf, ALoopThatFoldsBackOverItsCornerLeavesNoFlatTriangle) {
+  // A prism over the loop (0, 0), (10, 0), (10, 10), (50, 0): it returns over (10, 0).
+  const auto mesh =
+      mesh_of({{0, 0, 0},
+               {10, 0, 0},
+               {10, 10, 0},
+               {50, 0, 0},
+               {0, 0, 9},
+               {10, 0, 9},
+               {10, 10, 9},
+               {50, 0, 9}},
+              {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
+  const auto leaf = prepare(mesh);
+  ASSERT_EQ(leaf.status, Status::kTangled);
+  expect_valid(*leaf.geometry);
+  EXPECT_EQ(volume6(*leaf.geometry), 3 * -10.0 * 40 * 9);
+}
+
 TEST(PrepareLeaf, WhatIsThinnerThanTheGridIsFlat) {
   EXPECT_EQ(prepare(box_mesh({0, 0, 0}, {100, 100, 0})).status, Status::kFlat);
   EXPECT_EQ(prepare(box_mesh({0, 0, 0}, {0, 0, 0})).status, Status::kFlat);
