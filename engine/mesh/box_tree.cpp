@@ -8,6 +8,8 @@
 namespace csgrun {
 namespace {
 
+constexpr double kFinest = 0x1fffff;
+
 /// Puts two zero bits before each of the lowest 21 bits.
 uint64_t spread(uint64_t x) {
   x &= 0x1fffff;
@@ -36,14 +38,17 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) : boxes_(boxes) {
   for (const Box& box : boxes) all.include(box);
   const double extent =
       std::max({all.hi[0] - all.lo[0], all.hi[1] - all.lo[1], all.hi[2] - all.lo[2]});
-  const double scale = extent > 0 ? 0x1fffff / extent : 0;
+  const double scale = extent > 0 ? kFinest / extent : 0;
 
   std::vector<std::pair<uint64_t, uint32_t>> keys(boxes.size());
   for (uint32_t i = 0; i < boxes.size(); ++i) {
     uint64_t code = 0;
     for (int k = 0; k < 3; ++k) {
       const double middle = (boxes[i].lo[k] + boxes[i].hi[k]) / 2;
-      code |= spread(static_cast<uint64_t>((middle - all.lo[k]) * scale)) << k;
+      const double at = (middle - all.lo[k]) * scale;
+      // Where an extent is near the ends of double's range, `at` is infinite or NaN: any order
+      // does.
+      code |= spread(at <= kFinest ? static_cast<uint64_t>(at) : 0) << k;
     }
     keys[i] = {code, i};
   }

@@ -19,7 +19,7 @@ struct TriangleView {
 /// Two triangles that meet in anything but corners and edges which both have.
 struct TriangleCrossing {
   std::array<uint32_t, 2> triangles{};  ///< the smaller number first
-  glm::dvec3 place{};                   ///< near a point that both have: correct to a few roundings
+  glm::dvec3 place{};  ///< near a point that both have: correct to a few roundings below 1e100
 };
 
 /// Crossings of a mesh in ascending order of their triangles; at most `most` of them, then the
