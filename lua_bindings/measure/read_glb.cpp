@@ -1,5 +1,6 @@
 #include "lua_bindings/measure/read_glb.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -67,6 +68,10 @@ class Reader {
     std::vector<TriangleMesh> result;
     if (!json_.contains("nodes")) return result;
     const Json& nodes = json_.at("nodes");
+    const auto is_object = [](const Json& node) { return node.is_object(); };
+    if (!nodes.is_array() || !std::all_of(nodes.begin(), nodes.end(), is_object)) {
+      throw Malformed{"its nodes are no list of objects"};
+    }
     const std::vector<Place> places = places_of(nodes);
     for (size_t n = 0; n < nodes.size(); ++n) {
       if (!places[n].is_reached || !nodes[n].contains("mesh")) continue;
