@@ -291,7 +291,7 @@ TEST(Reference, EveryDeliberateFaultIsNoticed) {
     }
     bool noticed_by_volume = false;
     for (const Known& k : known_volumes()) {
-      const Truth truth = truth_of(k.c);
+      const Truth truth = truth_of(k.c, fault);
       const Measured m = reference::measure(truth.leaves, truth.tree, fault);
       noticed_by_volume |= !m.fault.empty() || m.volume != k.volume;
     }

@@ -39,6 +39,32 @@ TEST(Trees, OfAllKinds) {
   agree(campaign, 4000);
 }
 
+// A deliberate fault of the reference stands for one of the kernel: it is found, and what is left
+// of the case shows the fault and nothing else.
+TEST(Trees, WhatFailsShrinks) {
+  const auto differs = [](const FuzzCase& c) {
+    const auto result = FuzzEvaluator(c).run();
+    if (!result) return true;
+    const Truth truth = truth_of(c);
+    return !reference::difference(truth.leaves, truth.tree, claim_of(**result),
+                                  reference::Fault::kXorAsUnion)
+                .empty();
+  };
+  Campaign campaign;
+  int shrunk = 0;
+  for (uint64_t i = 0; i < 40; ++i) {
+    const FuzzCase c = fuzz_case(campaign, i);
+    if (!differs(c)) continue;
+    const FuzzCase small = Shrinker(c, differs).run();
+    EXPECT_TRUE(differs(small));
+    EXPECT_EQ(small.leaves.size(), 2u) << text(small);
+    EXPECT_EQ(small.tree.node_count(), 3u) << text(small);
+    EXPECT_EQ(small.frames.size(), 1u) << text(small);
+    ++shrunk;
+  }
+  EXPECT_GT(shrunk, 3);
+}
+
 // What failed once, shrunk.
 TEST(Trees, KeptCases) {
   std::vector<std::filesystem::path> files;

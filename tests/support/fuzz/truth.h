@@ -128,7 +128,9 @@ struct Truth {
 
 class TruthMaker {
  public:
-  explicit TruthMaker(const FuzzCase& c) : case_(c) { truth_.tree = tree(c.tree); }
+  TruthMaker(const FuzzCase& c, reference::Fault fault) : case_(c), fault_(fault) {
+    truth_.tree = tree(c.tree);
+  }
   [[nodiscard]] Truth take() { return std::move(truth_); }
 
  private:
@@ -178,7 +180,7 @@ class TruthMaker {
 
   reference::Tree flooded(const std::vector<reference::Leaf>& leaves, const reference::Tree& tree,
                           reference::Reach reach, std::vector<uint32_t> sources) {
-    auto leaf = reference::hull(leaves, tree, reach);
+    auto leaf = reference::hull(leaves, tree, reach, fault_);
     if (!leaf) {
       truth_.fault = "windings of cells contradict each other";
       leaf.emplace();
@@ -193,9 +195,13 @@ class TruthMaker {
   }
 
   const FuzzCase& case_;
+  reference::Fault fault_;
   Truth truth_;
 };
 
-inline Truth truth_of(const FuzzCase& c) { return TruthMaker(c).take(); }
+/// With a deliberate fault in what is decided about hulls.
+inline Truth truth_of(const FuzzCase& c, reference::Fault fault = reference::Fault::kNone) {
+  return TruthMaker(c, fault).take();
+}
 
 }  // namespace csgrun::test

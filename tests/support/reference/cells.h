@@ -24,8 +24,8 @@ template <class Z>
 class Cells {
  public:
   /// Few planes only: there are about n^3 / 6 cells.
-  Cells(const std::vector<Leaf>& leaves, const Tree& tree, const Planes& planes)
-      : leaves_(leaves), tree_(tree), given_(planes) {
+  Cells(const std::vector<Leaf>& leaves, const Tree& tree, const Planes& planes, Fault fault)
+      : leaves_(leaves), tree_(tree), given_(planes), fault_(fault) {
     for (const Plane& p : planes.planes) add_plane(p);
     add_planes_of_flat_edges();
     cells_.push_back(everything());
@@ -362,9 +362,9 @@ class Cells {
   [[nodiscard]] bool passes(Reach reach, uint32_t from, const Door& door) const {
     switch (reach) {
       case Reach::kSurface:
-        return !door.has_up && !door.has_down;
+        return !door.has_up && (!door.has_down || fault_ == Fault::kLeak);
       case Reach::kFronts:  // who goes up comes from behind those that look up
-        return door.up ? !door.has_down : !door.has_up;
+        return door.up != (fault_ == Fault::kWrongWay) ? !door.has_down : !door.has_up;
       default:
         return inside_[from] == inside_[door.to];
     }
@@ -373,6 +373,7 @@ class Cells {
   const std::vector<Leaf>& leaves_;
   const Tree& tree_;
   const Planes& given_;  ///< the first of planes_
+  Fault fault_;
   std::vector<Vector> planes_;
   std::map<std::array<mpz_class, 4>, size_t> known_;
   std::vector<Cell> cells_;
@@ -384,7 +385,8 @@ class Cells {
 
 /// All that a flood from infinity does not reach, as a sound leaf; nothing when the leaves are not
 /// closed.
-inline std::optional<Leaf> hull(const std::vector<Leaf>& leaves, const Tree& tree, Reach reach) {
+inline std::optional<Leaf> hull(const std::vector<Leaf>& leaves, const Tree& tree, Reach reach,
+                                Fault fault = Fault::kNone) {
   Planes planes;
   if (!gather_planes(leaves, nullptr, planes).empty()) return std::nullopt;
   int n = 1, d = 1;
@@ -397,8 +399,8 @@ inline std::optional<Leaf> hull(const std::vector<Leaf>& leaves, const Tree& tre
   // Corners are where three planes meet, two bits wider for the box; walls of flat edges are
   // narrower than the planes of other faces by nothing that is known, so there is room.
   const int xyz = 2 * n + d + 6;
-  if (n + 2 * xyz + 6 <= 110) return Cells<__int128>(leaves, tree, planes).unreached(reach);
-  return Cells<mpz_class>(leaves, tree, planes).unreached(reach);
+  if (n + 2 * xyz + 6 <= 110) return Cells<__int128>(leaves, tree, planes, fault).unreached(reach);
+  return Cells<mpz_class>(leaves, tree, planes, fault).unreached(reach);
 }
 
 }  // namespace csgrun::reference

@@ -18,11 +18,14 @@ enum class Fault : uint8_t {
   kOneSide,           ///< what touches a plane from below is taken to touch it from above
   kNoCrossings,       ///< lines that cross keep their order
   kUpperLabel,        ///< on an overlap the last operand gives the label
+  kWrongWay,          ///< a flood passes fronts and is stopped by backs
+  kLeak,              ///< a flood passes faces that look down
 };
 
 inline constexpr std::array kFaults{
     Fault::kUnionAsXor, Fault::kXorAsUnion,  Fault::kDifferenceTurned,
     Fault::kOtherRule,  Fault::kLostFace,    Fault::kTurnedOver,
-    Fault::kOneSide,    Fault::kNoCrossings, Fault::kUpperLabel};
+    Fault::kOneSide,    Fault::kNoCrossings, Fault::kUpperLabel,
+    Fault::kWrongWay,   Fault::kLeak};
 
 }  // namespace csgrun::reference
