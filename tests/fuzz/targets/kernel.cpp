@@ -79,7 +79,8 @@ csgrun::Affine map(Decoder& in) {
   return result;
 }
 
-/// Reverse Polish: leaves push, maps change the top, Booleans take the two or three above.
+/// Reverse Polish: leaves push, maps and hulls change the top, Booleans take the two or three
+/// above.
 NodePtr decode(Decoder& in) {
   std::vector<NodePtr> stack;
   size_t leaves = 0;
@@ -108,6 +109,13 @@ NodePtr decode(Decoder& in) {
           ++leaves;
         }
         break;
+      case 6:
+        if (!stack.empty() && (what & 192) == 192) {
+          const csgrun::OuterHull hull{(what & 8) != 0, (what & 16) != 0};
+          stack.back() = Node::outer_hull(hull, stack.back());
+          break;
+        }
+        [[fallthrough]];
       default: {
         const size_t take = std::min<size_t>(what & 32 ? 3 : 2, stack.size());
         if (take < 2) break;
