@@ -7,8 +7,12 @@
 namespace csgrun {
 namespace {
 
-/// Slivers that cross in a tangle cost the cube of their number, and come apart late: six octree levels.
-constexpr int kLongPatience = 18;
+/// How many tests may be spent on dividing a cell of so many polygons: about what solving it would
+/// cost, which is their square, and more where many cross in a tangle. Fans of slivers come apart
+/// very late if at all, and everywhere along their length.
+size_t division_budget(size_t polygons, size_t crossing) {
+  return polygons * (polygons / 64 + 32) + 4 * crossing * crossing;
+}
 
 class SurfaceOctreeBuilder {
  public:
@@ -33,7 +37,7 @@ class SurfaceOctreeBuilder {
     polygons_.assign(polygons.begin(), polygons.end());
     witnesses_.assign(witnesses.begin(), witnesses.end());
     // The root's lowest corner is outside of everything.
-    visit({root_cell(region, shift), 0, 0, 0, 0});
+    visit({root_cell(region, shift), 0, 0, 0, SIZE_MAX});
     return std::move(tree_);
   }
 
@@ -43,7 +47,7 @@ class SurfaceOctreeBuilder {
     CellBox box;
     size_t first_polygon, first_witness;
     int32_t winding;
-    int stalled;
+    size_t budget;  ///< of tests for dividing it further
   };
 
   /// Whether a vertex may be in the cell: certain for one of the cells around it.
@@ -58,22 +62,24 @@ class SurfaceOctreeBuilder {
 
   void visit(const Open& cell) {
     ++tree_.visited;
-    const uint32_t count = static_cast<uint32_t>(polygons_.size() - cell.first_polygon);
-    const auto crossing = std::count_if(polygons_.begin() + cell.first_polygon, polygons_.end(),
-                                        [&](uint32_t p) { return crosses_[p] != 0; });
+    const auto count = static_cast<uint32_t>(polygons_.size() - cell.first_polygon);
+    const auto crossing = static_cast<size_t>(
+        std::count_if(polygons_.begin() + static_cast<std::ptrdiff_t>(cell.first_polygon),
+                      polygons_.end(), [&](uint32_t p) { return crosses_[p] != 0; }));
     if (count == 0 || (crossing == 0 && witnesses_.size() == cell.first_witness)) return;
-    const int patience = crossing > limit_ ? kLongPatience : kDivisionPatience;
+    const size_t budget = std::min(cell.budget, division_budget(count, crossing));
     const int axis = choose_axis(cell, count);
     const bool cancelled = cancel_ && cancel_->load(std::memory_order_relaxed);
-    if (count <= limit_ || cell.stalled >= patience ||
+    if (count <= limit_ || budget < 2 * size_t{count} ||
         cell.box.hi[axis] - cell.box.lo[axis] < 2 || cancelled) {
       tree_.cells.push_back(
           {cell.box, cell.winding, static_cast<uint32_t>(tree_.polygons.size()), count});
-      tree_.polygons.insert(tree_.polygons.end(), polygons_.begin() + cell.first_polygon,
+      tree_.polygons.insert(tree_.polygons.end(),
+                            polygons_.begin() + static_cast<std::ptrdiff_t>(cell.first_polygon),
                             polygons_.end());
       return;
     }
-    divide(cell, axis, count);
+    divide(cell, axis, budget - 2 * size_t{count});
   }
 
   [[nodiscard]] int choose_axis(const Open& cell, uint32_t count) const {
@@ -85,27 +91,39 @@ class SurfaceOctreeBuilder {
     return choice.best();
   }
 
-  void divide(const Open& cell, int axis, uint32_t count) {
-    const CellBox& box = cell.box;
-    const int64_t middle = box.lo[axis] + (box.hi[axis] - box.lo[axis]) / 2;
+  /// The budget goes to the halves in proportion to their polygons.
+  void divide(const Open& cell, int axis, size_t budget) {
+    const int64_t middle = cell.box.lo[axis] + (cell.box.hi[axis] - cell.box.lo[axis]) / 2;
     const size_t polygons_end = polygons_.size(), witnesses_end = witnesses_.size();
-    for (int upper = 0; upper < 2; ++upper) {
-      Open child{box, polygons_end, witnesses_end, cell.winding, 0};
-      (upper ? child.box.lo : child.box.hi)[axis] = middle;
+    const auto fill = [&](const CellBox& box) {
       for (size_t i = cell.first_polygon; i < polygons_end; ++i) {
-        const uint32_t polygon = polygons_[i];
-        if (upper) child.winding += winding_step(job_, polygon, box.lo, axis, middle);
-        if (may_meet(job_, polygon, child.box)) polygons_.push_back(polygon);
+        if (may_meet(job_, polygons_[i], box)) polygons_.push_back(polygons_[i]);
       }
       for (size_t i = cell.first_witness; i < witnesses_end; ++i) {
-        if (may_hold(witnesses_[i], child.box)) witnesses_.push_back(witnesses_[i]);
+        if (may_hold(witnesses_[i], box)) witnesses_.push_back(witnesses_[i]);
       }
-      const size_t left = polygons_.size() - polygons_end;
-      child.stalled = left * 10 <= count * size_t{9} ? 0 : cell.stalled + 1;
-      visit(child);
-      polygons_.resize(polygons_end);
-      witnesses_.resize(witnesses_end);
+    };
+    Open upper{cell.box, polygons_end, witnesses_end, cell.winding, 0};
+    upper.box.lo[axis] = middle;
+    for (size_t i = cell.first_polygon; i < polygons_end; ++i) {
+      upper.winding += winding_step(job_, polygons_[i], cell.box.lo, axis, middle);
     }
+    fill(upper.box);
+    Open lower{cell.box, polygons_.size(), witnesses_.size(), cell.winding, 0};
+    lower.box.hi[axis] = middle;
+    fill(lower.box);
+    const double below = static_cast<double>(polygons_.size() - lower.first_polygon),
+                 above = static_cast<double>(lower.first_polygon - polygons_end);
+    if (below + above > 0) {
+      lower.budget = static_cast<size_t>(static_cast<double>(budget) * (below / (below + above)));
+      upper.budget = budget - std::min(budget, lower.budget);
+    }
+    visit(lower);
+    polygons_.resize(lower.first_polygon);
+    witnesses_.resize(lower.first_witness);
+    visit(upper);
+    polygons_.resize(polygons_end);
+    witnesses_.resize(witnesses_end);
   }
 
   Job& job_;
