@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/bsp/operand.h"
 #include "engine/exact/plane.h"
 #include "engine/exact/point.h"
 
@@ -52,5 +53,11 @@ struct BoundaryMesh {
     return intersect(planes[t[0]], planes[t[1]], planes[t[2]]);
   }
 };
+
+/// The plane moved by `t` grid steps: as canonical as it was.
+Plane translate_plane(const Plane& plane, const IVec3& t);
+
+/// The boundary moved by `t` grid steps: what a job with this operand alone would make of it. O(n).
+BoundaryMesh translated(const BoundaryMesh& mesh, const IVec3& t);
 
 }  // namespace csgrun

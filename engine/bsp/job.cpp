@@ -27,10 +27,6 @@ Plane map_plane(const Frame& frame, const Plane& p) {
   return {row(0), row(1), row(2), p.d << Frame::kShift};
 }
 
-Plane translate_plane(const Plane& p, const IVec3& t) {
-  return {p.a, p.b, p.c, p.d - (p.a * t[0] + p.b * t[1] + p.c * t[2])};
-}
-
 std::array<std::array<Int<2>, 3>, 3> adjugate_of(const std::array<std::array<int64_t, 3>, 3>& m) {
   std::array<std::array<Int<2>, 3>, 3> r;
   for (int i = 0; i < 3; ++i) {

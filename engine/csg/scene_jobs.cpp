@@ -4,6 +4,32 @@
 #include <utility>
 
 namespace csgrun {
+namespace {
+
+/// What a materialised result that is only moved, and painted as a whole, is in the world: that
+/// needs no job. Nothing if it is more than moved; faces of several colours may become one by
+/// painting.
+BoundaryPtr moved_and_painted(const Operand& operand) {
+  if (!operand.boundary || !operand.frame.is_identity || operand.first_source != 0) return nullptr;
+  const auto& faces = operand.boundary->faces;
+  const bool is_painted =
+      operand.appearance && std::any_of(faces.begin(), faces.end(), [&](const auto& face) {
+        return face.label.appearance != *operand.appearance;
+      });
+  if (!is_painted && operand.translation == IVec3{0, 0, 0}) return operand.boundary;
+  if (is_painted && std::any_of(faces.begin(), faces.end(), [&](const auto& face) {
+        return face.label.appearance != faces[0].label.appearance;
+      })) {
+    return nullptr;
+  }
+  auto moved = std::make_shared<BoundaryMesh>(translated(*operand.boundary, operand.translation));
+  if (is_painted) {
+    for (auto& face : moved->faces) face.label.appearance = *operand.appearance;
+  }
+  return moved;
+}
+
+}  // namespace
 
 /// An operator whose operands are being put into a job.
 struct SceneJobs::OpenOperator {
@@ -203,7 +229,12 @@ Result<BoundaryPtr> SceneJobs::world_boundary(uint32_t root) {
   const Subtree& subtree = node.subtree;
   Parts parts;
   if (node.kind == SceneNode::Kind::kLeaf) {
-    put(parts, place_leaf(node, 0), subtree);
+    Operand leaf = place_leaf(node, 0);
+    if (BoundaryPtr boundary = moved_and_painted(leaf)) {
+      ++jobs_done_;
+      return boundary;
+    }
+    put(parts, std::move(leaf), subtree);
   } else if (!may_keep(subtree)) {
     parts = build(root, scene_.operands(root).operands.size(), 0);
     stats_.nodes_evaluated += parts.operators;
@@ -233,7 +264,8 @@ uint32_t SceneJobs::put(Parts& parts, Operand operand, const Subtree& subtree) c
   return static_cast<uint32_t>(parts.expression.nodes.size() - 1);
 }
 
-/// The local axes x of what was resolved and the frame's axes y: y = P x + o, so P^-1 y = x + P^-1 o.
+/// The local axes x of what was resolved and the frame's axes y: y = P x + o, so P^-1 y = x + P^-1
+/// o.
 Operand SceneJobs::place_leaf(const SceneNode& node, uint32_t job_frame) const {
   const Identity& id = node.subtree.id;
   Operand operand;
