@@ -15,6 +15,7 @@
 
 #include "engine/bsp/job.h"
 #include "engine/bsp/octree.h"
+#include "engine/bsp/self_resolution.h"
 #include "engine/csg/quantise.h"
 
 namespace csgrun::bench {
@@ -84,10 +85,19 @@ Operand Run::import(const PolygonMesh& mesh, const std::vector<IVec3>& points) {
   return clock.timed(clock.import, [&] {
     const std::vector<uint32_t> appearance(mesh.face_count(), 0);
     PreparedLeaf leaf = prepare_leaf(mesh, points, false, appearance);
-    if (leaf.status != PreparedLeaf::Status::kGood) fail("not a clean solid after quantisation");
+    using Status = PreparedLeaf::Status;
+    if (leaf.status != Status::kGood && leaf.status != Status::kTangled) {
+      fail("not a solid after quantisation");
+    }
     Operand operand;
     operand.leaf = leaf.geometry;
     operand.first_source = sources_++;
+    if (leaf.status == Status::kTangled) {  // rounding made it cross itself, or it did before
+      Operand resolved;
+      resolved.boundary =
+          take(resolve_surface(operand, leaf.crossings, InsideRule::kNonZero, options, stats_));
+      operand = resolved;
+    }
     for (int k = 0; k < 3; ++k) {
       region_.lo[k] = std::min(region_.lo[k], leaf.box.lo[k]);
       region_.hi[k] = std::max(region_.hi[k], leaf.box.hi[k]);

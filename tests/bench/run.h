@@ -75,7 +75,7 @@ class Run {
   Run(std::string name, const Settings& settings, double reach)
       : Run(std::move(name), settings, choose_step(reach, reach)) {}
 
-  /// A leaf of a mesh that is a clean solid on the grid.
+  /// A leaf of a mesh; if it crosses itself on the grid, the solid of its nonzero winding numbers.
   Operand import(const PolygonMesh& mesh);
   /// The same for points that are on the grid already.
   Operand import(const PolygonMesh& mesh, const std::vector<IVec3>& points);
