@@ -21,14 +21,21 @@ class Nester {
     v_ = (normal + 2) % 3;
   }
 
-  /// Seen from outside: an outer loop turns left at its lowest corner, a hole right.
+  /// Seen from outside: an outer loop turns left at its lowest corner, a hole right. A loop that touches
+  /// itself there passes it several times: a hole turns left between two of its lobes, but not each
+  /// time.
   [[nodiscard]] bool is_outer(const Loop& loop) const {
-    size_t low = 0;
-    for (size_t i = 1; i < loop.size(); ++i) {
-      if (before(loop[i].from, loop[low].from)) low = i;
+    uint32_t low = loop[0].from;
+    for (const DirectedEdge& e : loop) {
+      if (before(e.from, low)) low = e.from;
     }
-    const DirectedEdge& in = loop[(low + loop.size() - 1) % loop.size()];
-    return turn_between(geometry_, planes_, support_, in, loop[low]) > 0;
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const DirectedEdge& in = loop[(i + loop.size() - 1) % loop.size()];
+      if (loop[i].from == low && turn_between(geometry_, planes_, support_, in, loop[i]) < 0) {
+        return false;
+      }
+    }
+    return true;
   }
 
   /// Whether `hole` lies inside `outer`. Loops of one region do not cross.
