@@ -144,11 +144,16 @@ void StepNote::add_at(const glm::dvec3& point) {
 
 void clean_faces(RepairMesh& mesh, StepNote& note) {
   for (LoopFace& face : mesh.faces) {
-    const uint32_t first = face.loops.empty() || face.loops[0].empty() ? 0 : face.loops[0][0];
+    const uint32_t first = face.loops.empty() || face.loops[0].empty() ? kNone : face.loops[0][0];
     for (Loop& loop : face.loops) clean_loop(loop);
     const bool is_empty = std::all_of(face.loops.begin(), face.loops.end(),
                                       [](const Loop& loop) { return loop.empty(); });
-    if (is_empty) note.add_at(mesh.points[first]);
+    if (!is_empty) continue;
+    if (first == kNone) {
+      note.add();  // it had no corner at all
+    } else {
+      note.add_at(mesh.points[first]);
+    }
   }
   drop_empty_loops(mesh.faces);
 }

@@ -29,6 +29,7 @@ class StepNote {
     ++step_.count;
   }
   /// "at (1, 2, 3)".
+  void add() { ++step_.count; }  ///< somewhere: it has no place
   void add_at(const glm::dvec3& point);
   RepairStep& step() { return step_; }
   /// Into the report, if anything was counted.
