@@ -19,9 +19,10 @@ struct Defects {
   std::vector<TriangleCrossing> crossings;
   std::vector<uint32_t> degenerate, flipped;  ///< triangles, ascending
 
-  [[nodiscard]] bool none() const {
-    return crossings.empty() && degenerate.empty() && flipped.empty();
+  [[nodiscard]] size_t count() const {
+    return crossings.size() + degenerate.size() + flipped.size();
   }
+  [[nodiscard]] bool none() const { return count() == 0; }
   [[nodiscard]] MeshDefects counts() const {
     return {crossings.size(), degenerate.size(), flipped.size()};
   }

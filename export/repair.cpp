@@ -48,20 +48,37 @@ class Repair {
   Status run() {
     while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty()) {
       ++check_.rounds;
+      const State before{mesh_, faces_, left_, check_.moved};
       if (Status status = run_round(); !status) return status;
+      if (left_.count() < before.left.count()) continue;
+      // A round that makes it worse is undone: what it moved would be in the way of the next.
+      ++lattice_;
+      mesh_ = before.mesh;
+      faces_ = before.faces;
+      left_ = before.left;
+      check_.moved = before.moved;
     }
     for (uint32_t& face : mesh_.triangle_face) face = faces_.original[face];
     return std::monostate{};
   }
 
  private:
+  struct State {
+    RoundedMesh mesh;
+    MeshFaces faces;
+    Defects left;
+    uint64_t moved;
+  };
+
   Status run_round() {
     turn_edges();
     if (left_.none()) return std::monostate{};
-    if (Status status = snap(); !status) return status;
-    examine();
-    turn_edges();
-    if (left_.none()) return std::monostate{};
+    if (lattice_ > 0) {
+      if (Status status = snap(); !status) return status;
+      examine();
+      turn_edges();
+      if (left_.none()) return std::monostate{};
+    }
     ++check_.unions;
     if (const Status status = unite_with_itself(mesh_, faces_, precision_, options_); !status) {
       const ErrorCode code = status.error().code;
@@ -87,14 +104,13 @@ class Repair {
     }
   }
 
-  /// The lattice of a round. Steps of four floats (where the mesh is farthest from the origin), then
-  /// sixteen and so on: what is snapped must get clear of what is rounded.
+  /// Steps of two floats (where the mesh is farthest from the origin), then four, eight and so on:
+  /// what is snapped must get clear of what is rounded.
   [[nodiscard]] double lattice_step() const {
     const int finest = lattice_of(mesh_.positions).exponent;
-    const int round = static_cast<int>(check_.rounds);
     // A float's step is eight steps of the engine's lattice; doubles approach that from below.
-    if (precision_ == Precision::kFloat) return std::ldexp(1.0, finest + 3 + 2 * round);
-    return std::ldexp(1.0, finest - 5 * static_cast<int>(kMostRounds) + 5 * round);
+    return std::ldexp(1.0, precision_ == Precision::kFloat ? finest + 2 + 2 * lattice_
+                                                           : finest - 25 + 5 * lattice_);
   }
 
   Status snap() {
@@ -131,6 +147,7 @@ class Repair {
   const WriteOptions& options_;
   Defects& left_;
   MeshCheck& check_;
+  int lattice_ = 0;  ///< how many rounds did not help
 };
 
 }  // namespace

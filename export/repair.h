@@ -1,13 +1,13 @@
 // Repair of rounded meshes that cross themselves or have faces turned over, in a few rounds.
 //
 // A round does what is enough, and no more: (1) a triangle that was turned over or has no area is
-// taken out by turning its longest edge, or by closing its shortest if that is a few steps long;
-// (2) the corners of what is still wrong, with all that shares their cells of a lattice, are
-// snapped to it, so that what rounding brought too near becomes one (Valque & Lazard 2025; the
-// lattice is coarser in each round); (3) what crosses itself then is resolved by the exact
+// taken out by turning its longest edge; (2) what crosses itself then is resolved by the exact
 // self-union of the mesh, where only what is enclosed more often than not counts (winding number >
-// 0): an overlap is united, and what turned inside out is cut away. Each result is rounded and
-// examined again.
+// 0): an overlap is united, and what turned inside out is cut away. The result is rounded and examined
+// again. A round that does not leave less wrong than before is undone, and in the next one, before
+// the union, the corners of what is wrong, with all that shares their cells of a lattice, are snapped
+// to it, so that what rounding brought too near becomes one (Valque & Lazard 2025); the lattice is
+// coarser with each such round.
 #pragma once
 
 #include <csgrun/engine/error.h>
@@ -18,7 +18,7 @@
 
 namespace csgrun {
 
-constexpr unsigned kMostRounds = 5;
+constexpr unsigned kMostRounds = 12;
 
 /// Repairs `mesh`, which has the defects `left`, in place; its triangles go on belonging to the
 /// faces of the solid that it was rounded from, whose directions are given. Outlines are lost. On

@@ -58,7 +58,7 @@ class Check(Case):
                     self.assertEqual(part["rounds"], 0)
                     continue
                 self.assertGreater(sum(part["found"].values()), 0)
-                self.assertTrue(1 <= part["rounds"] <= 5)
+                self.assertTrue(1 <= part["rounds"] <= 12)
                 self.assertTrue(part["places"])
         self.assert_proved(*names)
         for check in stats["check"]:
