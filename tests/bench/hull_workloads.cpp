@@ -48,7 +48,9 @@ size_t crossings(const Surface& s) {
 /// The surface of a solid; what touches has the same points.
 Surface surface_of(const Solid& solid) {
   Surface s{solid.positions, solid.triangles};
-  std::vector<uint32_t> first(solid.positions.size(), UINT32_MAX);
+  uint32_t points = 0;  // numbers of points that no vertex has are left out of the vertices
+  for (const uint32_t p : solid.point_of) points = std::max(points, p + 1);
+  std::vector<uint32_t> first(points, UINT32_MAX);
   for (Triangle& t : s.triangles) {
     for (uint32_t& v : t) {
       uint32_t& copy = first[solid.point_of[v]];

@@ -42,7 +42,7 @@ struct Solid {
 
   std::vector<glm::dvec3> positions;               ///< mm, correctly rounded
   std::vector<std::array<float, 3>> positions_f32; ///< mm, correctly rounded from the exact value
-  std::vector<uint32_t> point_of;                  ///< per vertex: its geometric point
+  std::vector<uint32_t> point_of;                  ///< per vertex: its geometric point; a number may be left out
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise from outside
   std::vector<uint32_t> triangle_face;             ///< per triangle: its face
   std::vector<Face> faces;
