@@ -19,8 +19,9 @@ bool is_small(std::string_view text) {
       const csgrun::CsgValue* value = parser.call().find(name);
       return value == nullptr || (value->number >= low && value->number <= high);
     };
-    if (!within("$fn", -1e300, 60) || !within("$fa", 6, 1e300) || !within("slices", -1e300, 60) ||
-        !within("segments", -1e300, 60) || !within("twist", -3600, 3600)) {
+    if (!within("$fn", -1e300, 60) || !within("$fa", 6, 1e300) || !within("$fs", 0.5, 1e300) ||
+        !within("slices", -1e300, 60) || !within("segments", -1e300, 60) ||
+        !within("twist", -3600, 3600)) {
       return false;
     }
   }
