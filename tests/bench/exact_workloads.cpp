@@ -170,7 +170,7 @@ void run_ulp(const std::string& name, const Settings& settings, const std::strin
     fail("vol(A - B) is not vol(A) - vol(A * B)");
   }
   run.print(
-      *run.measured(*difference), rss, run.stats(),
+      *run.measured(*difference), rss, stats,
       fmt::format(R"(,"shift_steps":[{},{}],"manifold":true,"volume_exact":true)", least, most));
 }
 

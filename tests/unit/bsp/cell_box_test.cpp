@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/exact_solid.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
 namespace csgrun {
@@ -50,7 +51,7 @@ Count count_polygons(test::Random& random, int64_t reach, int64_t move) {
     // A triangle or a parallelogram.
     test::Loop loop{a, b, c};
     if (i % 2) loop.push_back({a[0] + c[0] - b[0], a[1] + c[1] - b[1], a[2] + c[2] - b[2]});
-    const std::vector<Operand> operands{Operand{.leaf = test::make_leaf({loop})}};
+    const std::vector<Operand> operands{test::operand_of(test::make_leaf({loop}))};
     const Job job(operands);
     CellBox cell;
     const int64_t size = int64_t{1} << random.integer(0, 5);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/exact_solid.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
 namespace csgrun {
@@ -157,7 +158,9 @@ TEST(CellGeometry, LineAxisIsTheLongestOfTheCrossProduct) {
         // By doubles, so nearly.
         ASSERT_LE(std::fabs(d[k].get_d()), std::fabs(d[line.axis].get_d()) * (1 + 0x1p-40));
         // The first of equal ones.
-        if (abs(d[k]) == abs(d[line.axis])) ASSERT_GE(k, line.axis);
+        if (abs(d[k]) == abs(d[line.axis])) {
+          ASSERT_GE(k, line.axis);
+        }
       }
     }
   }
@@ -168,7 +171,7 @@ TEST(CellGeometry, SplitsAlongPlanes) {
   test::Random random(54);
   size_t fronts = 0, backs = 0, ons = 0, splits = 0, touched = 0;
   for (int i = 0; i < 300; ++i) {
-    const std::vector<Operand> operands{Operand{.leaf = test::random_leaf(random)}};
+    const std::vector<Operand> operands{test::operand_of(test::random_leaf(random))};
     Job job(operands);
     for (uint32_t p = 0; p < job.polygons().size(); ++p) job.ensure_planes(p);
     PlaneTable& planes = job.planes();
@@ -246,7 +249,7 @@ TEST(CellGeometry, SplitsAlongPlanes) {
 
 TEST(CellGeometry, ForgetsWhatItHeld) {
   test::Random random(55);
-  const std::vector<Operand> operands{Operand{.leaf = test::box_leaf({0, 0, 0}, {2, 3, 4})}};
+  const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {2, 3, 4}))};
   Job job(operands);
   for (uint32_t p = 0; p < job.polygons().size(); ++p) job.ensure_planes(p);
   CellGeometry geometry(job.planes(), &job);

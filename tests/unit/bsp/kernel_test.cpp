@@ -66,7 +66,8 @@ test::RandomTree tree_of(BooleanOp op, const std::vector<test::Leaf>& leaves) {
   root.is_operand = false;
   root.op = op;
   for (uint32_t o = 0; o < leaves.size(); ++o) {
-    tree.operands.push_back(Operand{.leaf = leaves[o], .first_source = o});
+    tree.operands.emplace_back().leaf = leaves[o];
+    tree.operands.back().first_source = o;
     Expression::Node node;
     node.operand = o;
     tree.expression.nodes.push_back(node);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/gmp_bridge.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
 namespace csgrun {
@@ -34,8 +35,8 @@ TEST(LocalBsp, DividesByTheCheapestOfThreePlanes) {
   test::Random random(31);
   std::array<int, 3> chosen{};
   for (int i = 0; i < 300; ++i) {
-    const std::vector<Operand> operands{Operand{.leaf = test::random_leaf(random)},
-                                        Operand{.leaf = test::random_leaf(random)}};
+    const std::vector<Operand> operands{test::operand_of(test::random_leaf(random)),
+                                        test::operand_of(test::random_leaf(random))};
     Job job(operands);
     CellGeometry geometry(job.planes(), &job);
     // Of two leaves, since those of one hardly ever split each other.

@@ -131,7 +131,9 @@ TEST(ExactTier, IsTheLowestThatHoldsTheBound) {
     const int needed = std::max(widest + normal, w + bit_width(s.d)) + 2 + 1;
     const int tier = exact_tier(s, p);
     ASSERT_GE(kTierBits[tier], needed);
-    if (tier > 0) ASSERT_LT(kTierBits[tier - 1], needed);
+    if (tier > 0) {
+      ASSERT_LT(kTierBits[tier - 1], needed);
+    }
     ASSERT_EQ(exact_side(s, p), test::gmp_side(s, to_gmp(p)));
     ++seen[tier];
   }

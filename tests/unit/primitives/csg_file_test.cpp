@@ -44,6 +44,8 @@ std::string sketch(const NodePtr& node) {
       return "T(" + children() + ")";
     case NodeKind::kAppearance:
       return "C(" + children() + ")";
+    case NodeKind::kOuterHull:
+      return "H(" + children() + ")";
     case NodeKind::kBoolean:
       break;
   }
