@@ -102,6 +102,14 @@ class FuzzMaker {
   }
 
   std::vector<Loop> simple_loops(int64_t count) {
+    if (one_in(10)) {
+      // A plate beyond everything else on its sides: what cuts it leaves holes within its faces.
+      IVec3 lo{-1, -1, -1}, hi{size_ + 1, size_ + 1, size_ + 1};
+      const int axis = static_cast<int>(random_.integer(0, 2));
+      lo[axis] = random_.integer(0, size_ - 1);
+      hi[axis] = random_.integer(lo[axis] + 1, size_);
+      return box_loops(lo, hi);
+    }
     // Many leaves: mostly with few faces each.
     if (one_in(count > 4 ? 2 : 4)) {
       for (;;) {
@@ -120,7 +128,7 @@ class FuzzMaker {
   }
 
   std::vector<Loop> crossing_loops() {
-    switch (random_.integer(0, 4)) {
+    switch (random_.integer(0, 5)) {
       case 0: {  // two solids in one surface, one of them perhaps inside out
         auto loops = simple_loops(6);
         auto more = simple_loops(6);
@@ -159,6 +167,8 @@ class FuzzMaker {
         for (const auto& f : kFaces) loops.push_back({p[f[0]], p[f[1]], p[f[2]]});
         return without_slivers(loops);
       }
+      case 4:
+        return touching_wedges();
       default: {  // a cube of triangles, some corners moved anywhere
         auto loops = box_loops({0, 0, 0}, {size_, size_, size_});
         const IVec3 from{size_, size_, size_}, from_too{0, size_, 0};
@@ -172,6 +182,45 @@ class FuzzMaker {
         return without_slivers(triangles);
       }
     }
+  }
+
+  /// Two prisms of triangles that have an edge in common and lie on one side of it.
+  std::vector<Loop> touching_wedges() {
+    std::vector<IVec3> spokes;
+    while (spokes.size() < 4) {
+      const IVec3 s{random_.integer(1, size_), random_.integer(-size_, size_), 0};
+      const bool is_new = std::none_of(spokes.begin(), spokes.end(),
+                                       [&](const IVec3& t) { return s[0] * t[1] == s[1] * t[0]; });
+      if (is_new) spokes.push_back(s);
+    }
+    std::sort(spokes.begin(), spokes.end(),
+              [](const IVec3& s, const IVec3& t) { return s[1] * t[0] < t[1] * s[0]; });
+    const int axis = static_cast<int>(random_.integer(0, 2));
+    const bool mirrored = one_in(2), back = one_in(2);
+    const IVec3 at = point();
+    const int64_t height = random_.integer(1, size_);
+    const auto place = [&](const IVec3& spoke, int64_t z) {
+      IVec3 p = at;
+      p[(axis + 1) % 3] += mirrored ? -spoke[0] : spoke[0];
+      p[(axis + 2) % 3] += back ? -spoke[1] : spoke[1];
+      p[axis] += z;
+      return p;
+    };
+    std::vector<Loop> loops;
+    for (const size_t i : {0u, 2u}) {
+      std::array<IVec3, 3> triangle{IVec3{0, 0, 0}, spokes[i], spokes[i + 1]};
+      if (mirrored != back) std::swap(triangle[1], triangle[2]);
+      Loop floor, lid;
+      for (size_t k = 0; k < 3; ++k) {
+        const IVec3 &a = triangle[k], &b = triangle[(k + 1) % 3];
+        loops.push_back({place(a, 0), place(b, 0), place(b, height), place(a, height)});
+        floor.insert(floor.begin(), place(a, 0));
+        lid.push_back(place(a, height));
+      }
+      loops.push_back(floor);
+      loops.push_back(lid);
+    }
+    return loops;
   }
 
   /// Nothing when a triangle has no area: a leaf has none.
