@@ -118,8 +118,11 @@ void Arguments::read_positional(int first, int last) {
   }
   for (; index <= last; ++index, ++next) {
     if (next >= options.size()) {
-      if (options.empty())
-        fail(fmt::format("takes no arguments here, got {}", describe_value(L_, index)));
+      if (options.empty()) {
+        fail(fmt::format("takes {} here, got {}",
+                         spec_.options.empty() ? "no arguments" : "only {name = value}",
+                         describe_value(L_, index)));
+      }
       fail(fmt::format("too many arguments: after '{}' only {{name = value}} may follow, got {}",
                        options.back()->name, describe_value(L_, index)));
     }
