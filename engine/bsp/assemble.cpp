@@ -21,7 +21,8 @@ class Assembler {
         builder_(geometry_, job.planes()) {}
 
   Result<std::shared_ptr<const BoundaryMesh>> run(const std::vector<FragmentSet>& sets,
-                                                  const std::vector<WholePolygon>& whole) {
+                                                  const std::vector<WholePolygon>& whole,
+                                                  bool may_touch) {
     gather(sets, whole);
     std::sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
       return std::tie(a.plane, a.label, a.polygon, a.first) <
@@ -41,8 +42,9 @@ class Assembler {
       }
       i = j;
     }
-    return std::shared_ptr<const BoundaryMesh>(
-        std::make_shared<BoundaryMesh>(canonical(geometry_, job_.planes(), std::move(draft_))));
+    auto mesh = std::make_shared<BoundaryMesh>(canonical(geometry_, job_.planes(), std::move(draft_)));
+    mesh->may_touch = may_touch;
+    return std::shared_ptr<const BoundaryMesh>(std::move(mesh));
   }
 
  private:
@@ -221,8 +223,9 @@ class Assembler {
 }  // namespace
 
 Result<std::shared_ptr<const BoundaryMesh>> assemble(Job& job, const std::vector<FragmentSet>& sets,
-                                                     const std::vector<WholePolygon>& whole) {
-  return Assembler(job).run(sets, whole);
+                                                     const std::vector<WholePolygon>& whole,
+                                                     bool may_touch) {
+  return Assembler(job).run(sets, whole, may_touch);
 }
 
 }  // namespace csgrun

@@ -41,6 +41,9 @@ struct BoundaryMesh {
     bool complete = false;
   };
 
+  /// False when parts of the surface certainly meet in corners and edges that both have, or nowhere.
+  /// The only thing here that may depend on the way of evaluation.
+  bool may_touch = true;
   std::vector<Plane> planes;
   std::vector<std::array<uint32_t, 3>> point_planes;  ///< each point: three planes that meet in it
   std::vector<std::array<double, 3>> point_rounded;   ///< and its coordinates, correctly rounded

@@ -105,13 +105,17 @@ Side CellGeometry::classify(const Fragment& f, uint32_t plane) {
 }
 
 Side CellGeometry::split(const Fragment& f, uint32_t plane, Fragment& front, Fragment& back) {
-  if (f.support.index() == plane) return Side::kOn;
+  if (f.support.index() == plane) {
+    met_plane = true;
+    return Side::kOn;
+  }
   signs_.resize(f.count);
   bool any_front = false, any_back = false;
   for (uint32_t i = 0; i < f.count; ++i) {
     signs_[i] = static_cast<int8_t>(side(plane, corners_[f.first + i]));
     any_front |= signs_[i] > 0;
     any_back |= signs_[i] < 0;
+    met_plane |= signs_[i] == 0;
   }
   if (!any_back) return Side::kFront;
   if (!any_front) return Side::kBack;

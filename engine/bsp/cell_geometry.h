@@ -74,6 +74,8 @@ class CellGeometry {
   int compare_along(uint32_t p, uint32_t q, int axis);
 
   SignCounters counters;
+  /// Set when split() meets a corner in the cutting plane; never cleared here.
+  bool met_plane = false;
 
  private:
   const PlaneTable* planes_;

@@ -33,10 +33,12 @@ void CellSolver::solve(const Octree& tree, const CriticalCell& cell,
     slot_of_operand_[presence.operand] = i;
   }
   contact_ = false;
+  geometry_.met_plane = false;
   for (uint32_t i = 0; i < operand_count_; ++i) {
     for (const Fragment& f : operands_[i].polygons) solve_polygon(cell.expression, i, f, out);
   }
   cells_with_contact_ += contact_;
+  may_touch_ |= geometry_.met_plane;
 }
 
 void CellSolver::solve_polygon(const PrunedExpression& expression, uint32_t own, const Fragment& f,

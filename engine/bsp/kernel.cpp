@@ -1,5 +1,6 @@
 #include "engine/bsp/kernel.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/bsp/assemble.h"
@@ -68,6 +69,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   std::vector<FragmentSet> sets(critical_runs + copy_runs);
   std::vector<SignCounters> counters(sets.size());
   std::vector<uint64_t> contacts(sets.size(), 0);
+  std::vector<uint8_t> touches(sets.size(), 0);
   const auto solve_run = [&](CellSolver& solver, size_t run) {
     const SignCounters before = solver.counters();
     const uint64_t contacts_before = solver.cells_with_contact();
@@ -91,6 +93,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
       }
     }
     contacts[run] = solver.cells_with_contact() - contacts_before;
+    touches[run] = solver.may_touch();
     counters[run] = solver.counters();
     counters[run].subtract(before);
   };
@@ -106,7 +109,14 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   stats.sign_filter += total.filter;
   stats.sign_symbolic += total.symbolic;
   for (size_t t = 0; t < total.exact.size(); ++t) stats.sign_exact[t] += total.exact[t];
-  return assemble(job, sets, work.whole);
+  // Operands that are leaves do not touch themselves, and every contact of two of them is in a cell
+  // where both have surface.
+  const bool may_touch =
+      options.literal_cells ||
+      std::any_of(operands.begin(), operands.end(),
+                  [](const Operand& o) { return o.boundary && o.boundary->may_touch; }) ||
+      std::find(touches.begin(), touches.end(), 1) != touches.end();
+  return assemble(job, sets, work.whole, may_touch);
 }
 
 size_t memory_bytes(const BoundaryMesh& b) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "engine/mesh/face_location.h"
 #include "engine/mesh/nest_loops.h"
 #include "engine/mesh/self_contact.h"
 
@@ -188,27 +189,9 @@ class ContactCutter {
 
   /// Whether the line, from a point on the rim or inside of face f, goes on inside it.
   [[nodiscard]] bool starts_inside(uint32_t f, const DirectedEdge& line) {
-    const uint32_t p = line.from;
-    if (!rim_.count(p)) return true;
-    const PlaneId support = faces_[f].plane;
-    for (const auto& loop : faces_[f].loops) {
-      for (size_t i = 0; i < loop.size(); ++i) {
-        if (loop[i].from != p) continue;
-        const DirectedEdge& leaving = loop[i];
-        const DirectedEdge& arriving = loop[(i + loop.size() - 1) % loop.size()];
-        // The wedge of the interior runs counter-clockwise from the edge that leaves to the one that
-        // arrives (seen from p).
-        const int from_leaving = turn_between(geometry_, planes_, support, leaving, line);
-        const int to_arriving = turn_between(geometry_, planes_, support, arriving, line);
-        const int corner = turn_between(geometry_, planes_, support, arriving, leaving);
-        // Left of both at a convex corner, left of one of them at a reflex one.
-        if (corner > 0 ? from_leaving > 0 && to_arriving > 0
-                       : from_leaving > 0 || to_arriving > 0) {
-          return true;
-        }
-      }
-    }
-    return false;
+    if (!rim_.count(line.from)) return true;
+    FaceLocator locator(faces_[f].plane, geometry_, planes_);
+    return locator.starts_inside(faces_[f].loops, line);
   }
 
   /// Whether two edges cross between their ends.

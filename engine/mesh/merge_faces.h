@@ -2,6 +2,7 @@
 // wherever an operation touched them; facets of imports that nothing touched stay as they were.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "engine/bsp/boundary_mesh.h"
@@ -15,12 +16,16 @@ struct MergedFace {
   uint32_t appearance, surface, source;
   bool untouched;  ///< a facet that nothing touched: it shares no line with anything but its leaf
   std::vector<std::vector<DirectedEdge>> loops;
+  /// Where other faces touch this one from within (see conform.h): corners, and edges by their ends,
+  /// the lower first.
+  std::vector<uint32_t> points{};
+  std::vector<std::pair<uint32_t, uint32_t>> slits{};
 };
 
 /// Regroups the faces of a boundary. `geometry` holds the boundary's points under their own numbers,
 /// `plane_of` maps its planes to the geometry's. A facet counts as touched when some face at one of
-/// its corners is not a whole facet of the same leaf. Canonical order. False when a region does not
-/// close.
+/// its corners is not a whole facet of the same leaf. The source and surface of a face are those of
+/// the lowest label within it. Canonical order. False when a region does not close.
 bool merge_faces(const BoundaryMesh& boundary, CellGeometry& geometry, const PlaneTable& planes,
                  const std::vector<PlaneId>& plane_of, std::vector<MergedFace>& faces);
 

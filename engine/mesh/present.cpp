@@ -7,10 +7,12 @@
 
 #include "engine/exact/rounding.h"
 #include "engine/mesh/canonical_hash.h"
+#include "engine/mesh/conform.h"
 #include "engine/mesh/measure.h"
 #include "engine/mesh/cut_contacts.h"
 #include "engine/mesh/divide_edges.h"
 #include "engine/mesh/improve_triangles.h"
+#include "engine/mesh/insert_points.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/plane_oracle.h"
 #include "engine/mesh/rational_text.h"
@@ -101,10 +103,7 @@ class Presenter {
     }
     auto solid = std::make_shared<Solid>();
     if (context_.measure) solid->canonical_hash = canonical_hash(faces_, geometry_, context_);
-    // Solids may touch in parts of edges.
-    if (context_.join_contacts && !resolve_t_junctions(faces_, geometry_, planes_, true)) {
-      return not_closed("contacts");
-    }
+    if (boundary_.may_touch) conform_contacts(faces_, geometry_, planes_);
     if (auto status = triangulate_all(); !status) return status.error();
     if (auto status = make_vertices(); !status) return status.error();
     fill(*solid);
@@ -141,13 +140,15 @@ class Presenter {
         loops.emplace_back();
         for (const DirectedEdge& e : loop) loops.back().push_back(e.from);
       }
-      if (loops.size() == 1 && loops[0].size() == 3) {
+      for (const auto& [p, q] : faces_[f].slits) loops.push_back({p, q});
+      if (loops.size() == 1 && loops[0].size() == 3 && faces_[f].points.empty()) {
         add_triangle({loops[0][0], loops[0][1], loops[0][2]}, f);
         continue;
       }
       const PlaneOracle oracle(geometry_, planes_, faces_[f].plane);
       auto triangles = triangulate_face(loops, oracle);
       if (!triangles) return triangles.error();
+      if (!insert_points(faces_[f].points, oracle, *triangles)) return not_closed("contacts");
       improve_triangles(loops, oracle, position, *triangles);
       for (const auto& t : *triangles) add_triangle(t, f);
     }

@@ -69,7 +69,7 @@ bool break_line(LooseEdge* begin, LooseEdge* end, CellGeometry& geometry, const 
 }  // namespace
 
 bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
-                         const PlaneTable& planes, bool all) {
+                         const PlaneTable& planes) {
   std::vector<DirectedEdge*> edges;
   std::vector<PlaneId> support;
   for (MergedFace& f : faces) {
@@ -92,7 +92,7 @@ bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
     size_t j = i;
     int balance = 0;
     for (; j < refs.size() && same_ends(refs[i], refs[j]); ++j) balance += refs[j].forward ? 1 : -1;
-    if (balance != 0 || all) {
+    if (balance != 0) {
       for (size_t k = i; k < j; ++k) loose_edges.push_back(refs[k].index);
     }
     i = j;
@@ -196,16 +196,14 @@ void make_twins(std::vector<uint32_t>& twin, uint32_t a, uint32_t b) {
 void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order, Contacts contacts,
                  std::vector<uint32_t>& twin) {
   const bool join = contacts == Contacts::kJoin;
-  // A face that runs through an edge of others is no part of the contact: where its diagonals are must
-  // not matter.
-  if (join) {
-    for (const Sheet& s : sheets) {
-      if (!s.forward || twin[s.half_edge] != kNone) continue;
-      for (const Sheet& t : sheets) {
-        if (t.forward || t.face != s.face || twin[t.half_edge] != kNone) continue;
-        make_twins(twin, s.half_edge, t.half_edge);
-        break;
-      }
+  // A face that the edge runs through is touched there from one side, not parted: where its diagonals
+  // are must not matter.
+  for (const Sheet& s : sheets) {
+    if (!s.forward || twin[s.half_edge] != kNone) continue;
+    for (const Sheet& t : sheets) {
+      if (t.forward || t.face != s.face || twin[t.half_edge] != kNone) continue;
+      make_twins(twin, s.half_edge, t.half_edge);
+      break;
     }
   }
   const Sheet first = sheets[0];

@@ -11,10 +11,9 @@ namespace csgrun {
 
 /// Inserts into the loops of faces the points at which neighbours have corners: afterwards each
 /// directed edge between consecutive points has as many reverses as copies (Campen & Kobbelt 2010,
-/// section 4.3). New edges inherit the plane. With `all`, also edges that have their reverse are broken
-/// where edges of other solids that overlap them end. False when the faces do not close.
+/// section 4.3). New edges inherit the plane. False when the faces do not close.
 bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
-                         const PlaneTable& planes, bool all = false);
+                         const PlaneTable& planes);
 
 /// Triangles over points, each with the plane of its face.
 struct TriangleSet {

@@ -1,0 +1,291 @@
+#include "engine/mesh/conform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/bsp/point_index.h"
+#include "engine/mesh/box_tree.h"
+#include "engine/mesh/face_location.h"
+#include "engine/mesh/self_contact.h"
+
+namespace csgrun {
+namespace {
+
+class Conformer {
+ public:
+  Conformer(std::vector<MergedFace>& faces, CellGeometry& geometry, const PlaneTable& planes)
+      : faces_(faces),
+        geometry_(geometry),
+        planes_(planes),
+        boxes_(boxes_of(faces, geometry)),
+        tree_(boxes_),
+        corner_of_(geometry.point_count(), kNone),
+        lying_(faces.size()) {}
+
+  void run() {
+    for (uint32_t f = 0; f < faces_.size(); ++f) {
+      mark_corners(f);
+      tree_.visit_all(boxes_[f], [&](uint32_t g) {
+        if (g != f) look_at(f, g);
+      });
+    }
+    const size_t touched = lying_faces_.size();
+    for (size_t i = 0; i < touched; ++i) cross_lying_edges(lying_faces_[i]);
+    if (contacts_.empty() && touched == 0) return;
+    std::sort(contacts_.begin(), contacts_.end());
+    contacts_.erase(std::unique(contacts_.begin(), contacts_.end()), contacts_.end());
+    break_edges();
+    for (const uint32_t f : lying_faces_) find_slits(f);
+    find_points();
+  }
+
+ private:
+  static std::vector<Box> boxes_of(const std::vector<MergedFace>& faces,
+                                   const CellGeometry& geometry) {
+    std::vector<Box> boxes;
+    boxes.reserve(faces.size());
+    for (const MergedFace& face : faces) {
+      // Rounding is monotone: what is in a box is in the box of the rounded corners.
+      Box box{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+      for (const DirectedEdge& e : face.loops[0]) {
+        const auto& p = geometry.point(e.from).rounded;
+        box.include({p, p});
+      }
+      boxes.push_back(box);
+    }
+    return boxes;
+  }
+
+  void mark_corners(uint32_t f) {
+    for (const auto& loop : faces_[f].loops) {
+      for (const DirectedEdge& e : loop) corner_of_[e.from] = f;
+    }
+  }
+
+  /// What of face g touches face f, whose corners are marked.
+  void look_at(uint32_t f, uint32_t g) {
+    const uint32_t support = faces_[f].plane.index();
+    const bool coplanar = faces_[g].plane.index() == support;
+    for (const auto& loop : faces_[g].loops) {
+      signs_.clear();
+      for (const DirectedEdge& e : loop) {
+        signs_.push_back(corner_of_[e.from] == f ? 0 : geometry_.side(support, e.from));
+      }
+      for (size_t i = 0; i < loop.size(); ++i) {
+        const DirectedEdge& e = loop[i];
+        const int here = signs_[i], there = signs_[i + 1 < loop.size() ? i + 1 : 0];
+        if (here == 0 && corner_of_[e.from] != f && in_box(f, e.from)) touch(f, e.from);
+        if (here == 0 && there == 0 && !coplanar) lie(f, g, e);
+        if (f < g && here * there < 0) cross_edges(f, g, e);
+      }
+    }
+  }
+
+  [[nodiscard]] bool in_box(uint32_t f, uint32_t p) const {
+    const auto& at = geometry_.point(p).rounded;
+    return boxes_[f].overlaps({at, at});
+  }
+
+  void touch(uint32_t f, uint32_t p) {
+    FaceLocator locator(faces_[f].plane, geometry_, planes_);
+    const int where = locator.locate(faces_[f].loops, p);
+    if (where >= 0) contacts_.push_back(p);
+    if (where > 0) inner_.push_back({f, p});
+  }
+
+  /// An edge of g in the plane of f: an edge of f itself, or one that may run through it.
+  void lie(uint32_t f, uint32_t g, const DirectedEdge& e) {
+    const uint32_t support = faces_[f].plane.index();
+    const DirectedEdge line{e.from, e.to, e.plane == support ? faces_[g].plane.index() : e.plane};
+    Box box{geometry_.point(e.from).rounded, geometry_.point(e.from).rounded};
+    box.include({geometry_.point(e.to).rounded, geometry_.point(e.to).rounded});
+    if (!boxes_[f].overlaps(box)) return;
+    if (corner_of_[e.from] == f && corner_of_[e.to] == f && is_rim(f, e)) return;
+    if (lying_[f].empty()) lying_faces_.push_back(f);
+    lying_[f].push_back(line);
+  }
+
+  [[nodiscard]] bool is_rim(uint32_t f, const DirectedEdge& e) const {
+    for (const auto& loop : faces_[f].loops) {
+      for (const DirectedEdge& r : loop) {
+        if ((r.from == e.from && r.to == e.to) || (r.from == e.to && r.to == e.from)) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Where edge e of g, which passes through the plane of f, meets an edge of f that passes through
+  /// the plane of g.
+  void cross_edges(uint32_t f, uint32_t g, const DirectedEdge& e) {
+    const uint32_t f_plane = faces_[f].plane.index(), g_plane = faces_[g].plane.index();
+    for (const auto& loop : faces_[f].loops) {
+      for (const DirectedEdge& r : loop) {
+        if (r.from == e.from || r.from == e.to || r.to == e.from || r.to == e.to) continue;
+        if (geometry_.side(g_plane, r.from) * geometry_.side(g_plane, r.to) >= 0) continue;
+        if (!boxes_meet(e, r)) continue;
+        const uint32_t x = geometry_.add_point({g_plane, e.plane, f_plane});
+        if (geometry_.side(r.plane, x) != 0 || !lies_inside(geometry_, r, x) ||
+            !lies_inside(geometry_, e, x)) {
+          continue;
+        }
+        contacts_.push_back(unique(x));
+      }
+    }
+  }
+
+  [[nodiscard]] bool boxes_meet(const DirectedEdge& e, const DirectedEdge& r) const {
+    const auto box_of = [&](const DirectedEdge& d) {
+      const auto &p = geometry_.point(d.from).rounded, &q = geometry_.point(d.to).rounded;
+      Box box{p, p};
+      box.include({q, q});
+      return box;
+    };
+    return box_of(e).overlaps(box_of(r));
+  }
+
+  /// Where the edges that lie in the plane of a face cross its rim, and each other within it.
+  void cross_lying_edges(uint32_t f) {
+    const uint32_t support = faces_[f].plane.index();
+    const auto apart = [&](uint32_t plane, const DirectedEdge& e) {
+      return geometry_.side(plane, e.from) * geometry_.side(plane, e.to) < 0;
+    };
+    const auto cross = [&](const DirectedEdge& a, const DirectedEdge& b) {
+      if (!boxes_meet(a, b) || !apart(b.plane, a) || !apart(a.plane, b)) return;
+      contacts_.push_back(unique(geometry_.add_point({support, a.plane, b.plane})));
+    };
+    std::vector<DirectedEdge>& lines = lying_[f];
+    for (size_t i = 0; i < lines.size(); ++i) {
+      for (const auto& loop : faces_[f].loops) {
+        for (const DirectedEdge& r : loop) cross(lines[i], r);
+      }
+      for (size_t j = i + 1; j < lines.size(); ++j) cross(lines[i], lines[j]);
+    }
+  }
+
+  /// The number of a point made here: that of an equal one that was there before.
+  uint32_t unique(uint32_t point) {
+    if (!index_) {
+      index_.emplace(geometry_);
+      for (const MergedFace& face : faces_) {
+        for (const auto& loop : face.loops) {
+          for (const DirectedEdge& e : loop) index_->unique(e.from);
+        }
+      }
+    }
+    return index_->unique(point);
+  }
+
+  /// Breaks the edges of all faces at the contacts that lie inside them.
+  void break_edges() {
+    std::vector<std::pair<uint32_t, uint32_t>> near;  // face, contact
+    for (const uint32_t p : contacts_) {
+      const auto& at = geometry_.point(p).rounded;
+      tree_.visit_all({at, at}, [&](uint32_t f) { near.push_back({f, p}); });
+    }
+    std::sort(near.begin(), near.end());
+    for (size_t i = 0; i < near.size();) {
+      const uint32_t f = near[i].first;
+      points_.clear();
+      for (; i < near.size() && near[i].first == f; ++i) {
+        const uint32_t p = near[i].second;
+        if (geometry_.side(faces_[f].plane.index(), p) == 0) points_.push_back(p);
+      }
+      if (points_.empty()) continue;
+      for (auto& loop : faces_[f].loops) break_at(points_, loop);
+    }
+  }
+
+  /// Breaks edges at those of the points that lie inside them.
+  void break_at(const std::vector<uint32_t>& points, std::vector<DirectedEdge>& edges) {
+    std::vector<DirectedEdge> broken;
+    std::vector<uint32_t> inside;
+    for (DirectedEdge e : edges) {
+      inside.clear();
+      for (const uint32_t p : points) {
+        if (lies_inside(geometry_, e, p)) inside.push_back(p);
+      }
+      sort_along(e, inside);
+      for (const uint32_t p : inside) {
+        broken.push_back({e.from, p, e.plane});
+        e.from = p;
+      }
+      broken.push_back(e);
+    }
+    if (broken.size() != edges.size()) edges = std::move(broken);
+  }
+
+  void sort_along(const DirectedEdge& e, std::vector<uint32_t>& points) {
+    if (points.size() < 2) return;
+    int axis = 0, along = 0;
+    while (along == 0) along = geometry_.compare_along(e.to, e.from, axis++);
+    std::sort(points.begin(), points.end(), [&](uint32_t p, uint32_t q) {
+      return geometry_.compare_along(p, q, axis - 1) * along < 0;
+    });
+  }
+
+  /// The parts of lying edges that are inside their face.
+  void find_slits(uint32_t f) {
+    MergedFace& face = faces_[f];
+    std::vector<uint32_t> points;
+    for (const uint32_t p : contacts_) {
+      if (in_box(f, p) && geometry_.side(face.plane.index(), p) == 0) points.push_back(p);
+    }
+    for (const auto& loop : face.loops) {
+      for (const DirectedEdge& e : loop) points.push_back(e.from);
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    std::vector<DirectedEdge> lines = lying_[f];
+    break_at(points, lines);
+    FaceLocator locator(face.plane, geometry_, planes_);
+    for (const DirectedEdge& e : lines) {
+      if (is_rim(f, e)) continue;
+      const int from = locator.locate(face.loops, e.from);
+      if (from < 0) continue;
+      if (from == 0) {
+        const int to = locator.locate(face.loops, e.to);
+        if (to < 0 || (to == 0 && !locator.starts_inside(face.loops, e))) continue;
+      }
+      face.slits.push_back(std::minmax({e.from, e.to}));
+    }
+    std::sort(face.slits.begin(), face.slits.end());
+    face.slits.erase(std::unique(face.slits.begin(), face.slits.end()), face.slits.end());
+  }
+
+  /// The corners within faces at which no slit ends.
+  void find_points() {
+    std::sort(inner_.begin(), inner_.end());
+    inner_.erase(std::unique(inner_.begin(), inner_.end()), inner_.end());
+    for (const auto& [f, p] : inner_) {
+      const auto& slits = faces_[f].slits;
+      const bool ends_slit = std::any_of(slits.begin(), slits.end(), [p = p](const auto& s) {
+        return s.first == p || s.second == p;
+      });
+      if (!ends_slit) faces_[f].points.push_back(p);
+    }
+  }
+
+  std::vector<MergedFace>& faces_;
+  CellGeometry& geometry_;
+  const PlaneTable& planes_;
+  const std::vector<Box> boxes_;
+  const BoxTree tree_;
+  std::vector<uint32_t> corner_of_;  ///< per point: the face whose corners were marked last
+  std::vector<int> signs_;
+  std::vector<uint32_t> contacts_;                    ///< points at which edges are to be broken
+  std::vector<std::pair<uint32_t, uint32_t>> inner_;  ///< faces, and corners of others within them
+  std::vector<std::vector<DirectedEdge>> lying_;      ///< per face: edges of others in its plane
+  std::vector<uint32_t> lying_faces_;                 ///< those that have any
+  std::optional<PointIndex> index_;
+  std::vector<uint32_t> points_;
+};
+
+}  // namespace
+
+void conform_contacts(std::vector<MergedFace>& faces, CellGeometry& geometry,
+                      const PlaneTable& planes) {
+  Conformer(faces, geometry, planes).run();
+}
+
+}  // namespace csgrun

@@ -1,0 +1,22 @@
+// Where surfaces of a result touch without sharing a corner or an edge: what touches becomes part
+// of what is touched.
+#pragma once
+
+#include <vector>
+
+#include "engine/mesh/merge_faces.h"
+
+namespace csgrun {
+
+/// Makes the faces a complex: two of them meet in corners and edges that both have, or nowhere. A
+/// corner that lies within an edge of another face breaks it; edges that cross in a point of
+/// contact are broken there; a corner within a face becomes one of its `points`, an edge within a
+/// face one of its `slits`. So a contact is the same numbers on either side, and stays one when
+/// coordinates are rounded. No surface is moved.
+///
+/// REQUIRES: faces that do not cross, T-junctions resolved. Exact; doubles decide nearly always.
+/// Cost: O(n log n) and the pairs of faces whose boxes meet, as often as a contact is looked at.
+void conform_contacts(std::vector<MergedFace>& faces, CellGeometry& geometry,
+                      const PlaneTable& planes);
+
+}  // namespace csgrun

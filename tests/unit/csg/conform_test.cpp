@@ -1,0 +1,144 @@
+// Solids that touch in parts of edges and within faces: the written triangles meet in corners and
+// edges that both have, by coordinates, or nowhere.
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <csgrun/engine/evaluate.h>
+#include <csgrun/engine/exact_triangles.h>
+
+#include "test_meshes.h"
+
+namespace csgrun {
+namespace {
+
+using namespace testing;
+
+SolidPtr solid_of(const NodePtr& root, bool join) {
+  EvaluateOptions options;
+  options.threads = 1;
+  options.join_contacts = join;
+  Evaluator evaluator(options);
+  auto result = evaluator.evaluate(root);
+  EXPECT_TRUE(result.has_value()) << result.error().message;
+  return result ? *result : std::make_shared<Solid>();
+}
+
+/// Pairs of triangles that meet other than in corners and edges with equal coordinates.
+size_t crossings_by_place(const Solid& solid) {
+  const auto before = [](const glm::dvec3& a, const glm::dvec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  };
+  std::map<glm::dvec3, uint32_t, decltype(before)> first(before);
+  for (uint32_t v = 0; v < solid.positions.size(); ++v) first.try_emplace(solid.positions[v], v);
+  std::vector<std::array<uint32_t, 3>> triangles = solid.triangles;
+  for (auto& t : triangles) {
+    for (uint32_t& v : t) v = first.at(solid.positions[v]);
+  }
+  return find_crossings({solid.positions, triangles}, 1000).size();
+}
+
+void expect_complex(const NodePtr& root, double volume, int64_t components,
+                    const std::string& what) {
+  for (const bool join : {false, true}) {
+    const SolidPtr solid = solid_of(root, join);
+    EXPECT_EQ(crossings_by_place(*solid), 0u) << what;
+    EXPECT_NEAR(solid->measures.volume, volume, 1e-12 * volume) << what;
+    if (join) continue;
+    EXPECT_EQ(solid->measures.components, components) << what;
+  }
+}
+
+struct Tetrahedron {
+  NodePtr solid;
+  double volume;
+};
+
+/// Turned outwards if need be.
+Tetrahedron tetrahedron(std::array<glm::dvec3, 4> p) {
+  PolygonMesh mesh;
+  mesh.points.assign(p.begin(), p.end());
+  const glm::dvec3 u = p[1] - p[0], v = p[2] - p[0], w = p[3] - p[0];
+  const double det =
+      u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) + u.z * (v.x * w.y - v.y * w.x);
+  for (std::array<uint32_t, 3> face :
+       std::initializer_list<std::array<uint32_t, 3>>{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) {
+    if (det < 0) std::swap(face[0], face[1]);
+    mesh.add_face(face);
+  }
+  return {leaf(mesh, FillRule::kNonZero), std::abs(det) / 6};
+}
+
+TEST(Conform, PartsOfEdges) {
+  expect_complex(unite({cube(1), box({1, 1, -1}, {2, 2, 2})}), 4, 2, "a longer edge");
+  expect_complex(unite({cube(1), box({1, 1, 0.5}, {2, 2, 1.5})}), 2, 2, "overlapping edges");
+  expect_complex(unite({box({0, 0, 0}, {1, 1, 2}), box({1, 0, 2}, {4, 3, 3})}), 11, 2,
+                 "crossing ends");
+}
+
+TEST(Conform, CornersAndEdgesWithinFaces) {
+  const NodePtr base = cube(12);
+  const auto stands = [&](const std::vector<Tetrahedron>& on, const std::string& what) {
+    std::vector<NodePtr> parts{base};
+    double volume = 1728;
+    for (const Tetrahedron& t : on) parts.push_back(t.solid), volume += t.volume;
+    expect_complex(unite(parts), volume, static_cast<int64_t>(parts.size()), what);
+  };
+  const Tetrahedron apex = tetrahedron({{{4, 4, 12}, {3, 3, 15}, {6, 3, 15}, {3, 6, 15}}});
+  stands({apex}, "an apex on a face");
+  const Tetrahedron ridge = tetrahedron({{{7, 7, 12}, {11, 8, 12}, {7, 11, 15}, {9, 6, 15}}});
+  stands({ridge}, "an edge on a face");
+  stands({apex, ridge}, "both");
+  stands({tetrahedron({{{4, 4, 12}, {20, 5, 12}, {4, 8, 15}, {6, 3, 15}}})}, "over the rim");
+  stands({tetrahedron({{{-3, 5, 12}, {15, 5, 12}, {2, 9, 15}, {2, 2, 15}}})}, "from rim to rim");
+  stands({tetrahedron({{{-4, 4, 12}, {4, -4, 12}, {9, 9, 15}, {2, 2, 15}}})}, "through a corner");
+}
+
+TEST(Conform, EdgesThatCross) {
+  // Two ridges, one upside down, crosswise.
+  const Tetrahedron lower = tetrahedron({{{-4, 0, 0}, {4, 0, 0}, {0, 3, -5}, {0, -3, -5}}});
+  const Tetrahedron upper = tetrahedron({{{1, -4, 0}, {1, 4, 0}, {4, 0, 5}, {-2, 0, 5}}});
+  const double volume = lower.volume + upper.volume;
+  expect_complex(unite({lower.solid, upper.solid}), volume, 2, "two ridges");
+  const NodePtr block = box({-9, -9, -9}, {9, 9, 9});
+  expect_complex(subtract({block, lower.solid, upper.solid}), 5832 - volume, 3, "two voids");
+}
+
+TEST(Conform, VoidsThatTouchTheSurface) {
+  expect_complex(subtract({cube(10), box({2, 2, 2}, {4, 4, 4}), box({4, 4, 3}, {7, 7, 6})}), 965, 3,
+                 "voids with a common edge");
+  const Tetrahedron below = tetrahedron({{{3, 3, 10}, {6, 4, 10}, {4, 6, 6}, {6, 2, 6}}});
+  expect_complex(subtract({cube(10), below.solid}), 1000 - below.volume, 2, "an edge below a face");
+}
+
+TEST(Conform, RandomBoxes) {
+  std::mt19937 random(11);
+  const auto number = [&](int n) {
+    return static_cast<double>(random() % static_cast<uint32_t>(n));
+  };
+  size_t more = 0;
+  for (int round = 0; round < 150; ++round) {
+    std::vector<NodePtr> parts;
+    for (int i = 0; i < 5; ++i) {
+      const glm::dvec3 lo(number(4), number(4), number(4));
+      parts.push_back(box(lo, lo + glm::dvec3(1 + number(3), 1 + number(3), 1 + number(3))));
+      if (i % 2 == 1) {
+        parts = {round % 3 == 0   ? unite(parts)
+                 : round % 3 == 1 ? subtract(parts)
+                                  : symmetric(parts)};
+      }
+    }
+    const NodePtr root = symmetric(parts);
+    const SolidPtr apart = solid_of(root, false), joined = solid_of(root, true);
+    EXPECT_EQ(crossings_by_place(*apart), 0u) << round;
+    EXPECT_EQ(crossings_by_place(*joined), 0u) << round;
+    EXPECT_EQ(apart->measures.volume, joined->measures.volume);
+    more += apart->positions.size() > joined->positions.size();
+  }
+  EXPECT_GT(more, 20u) << "hardly any contacts";
+}
+
+}  // namespace
+}  // namespace csgrun
