@@ -1,9 +1,10 @@
 #include "engine/mesh/merge_faces.h"
 
 #include <algorithm>
-#include <cassert>
-#include <numeric>
+#include <span>
+#include <tuple>
 
+#include "engine/mesh/connected_pieces.h"
 #include "engine/mesh/nest_loops.h"
 
 namespace csgrun {
@@ -42,6 +43,125 @@ struct Group {
   bool curved;
   uint32_t keep;  ///< 0: merge; else 1 + face, kept apart
   uint32_t face;
+
+  [[nodiscard]] bool goes_with(const Group& o) const {
+    return plane == o.plane && appearance == o.appearance && curved == o.curved && keep == o.keep;
+  }
+};
+
+class FaceMerger {
+ public:
+  FaceMerger(const BoundaryMesh& boundary, CellGeometry& geometry, const PlaneTable& planes,
+             const std::vector<PlaneId>& plane_of, std::vector<MergedFace>& faces)
+      : boundary_(boundary),
+        geometry_(geometry),
+        planes_(planes),
+        plane_of_(plane_of),
+        faces_(faces),
+        builder_(geometry, planes) {}
+
+  /// The faces of one group.
+  bool add(std::span<const Group> group) {
+    const auto label = [&](const Group& g) { return boundary_.faces[g.face].label; };
+    const FaceLabel first = label(group[0]);
+    const bool is_of_one = std::all_of(group.begin(), group.end(), [&](const Group& g) {
+      return label(g).source == first.source && label(g).surface == first.surface;
+    });
+    return is_of_one ? add_as_one(group) : add_connected(group);
+  }
+
+ private:
+  /// A connected part of a face of the boundary.
+  struct Piece {
+    FaceLabel label;
+    std::vector<DirectedEdge> edges;
+  };
+
+  bool add_as_one(std::span<const Group> group) {
+    edges_.clear();
+    for (const Group& g : group) append_edges(boundary_.faces[g.face], edges_);
+    return add_region(group[0], boundary_.faces[group[0].face].label, group.size() == 1);
+  }
+
+  /// Pieces that do not hang together are different faces, each from the lowest label within it.
+  bool add_connected(std::span<const Group> group) {
+    std::vector<Piece> pieces;
+    for (const Group& g : group) {
+      if (!append_pieces(g, pieces)) return false;
+    }
+    std::vector<PieceEdge> edges;
+    for (uint32_t p = 0; p < pieces.size(); ++p) {
+      for (const DirectedEdge& e : pieces[p].edges) edges.push_back({e, p});
+    }
+    UnionFind connected(pieces.size());
+    if (!join_neighbours(group[0].plane, std::move(edges), geometry_, planes_, connected)) {
+      return false;
+    }
+    std::vector<std::vector<uint32_t>> members(pieces.size());
+    for (uint32_t p = 0; p < pieces.size(); ++p) members[connected.find(p)].push_back(p);
+    for (const std::vector<uint32_t>& component : members) {
+      if (component.empty()) continue;
+      FaceLabel lowest = pieces[component[0]].label;
+      edges_.clear();
+      for (const uint32_t p : component) {
+        lowest = std::min(lowest, pieces[p].label);
+        edges_.insert(edges_.end(), pieces[p].edges.begin(), pieces[p].edges.end());
+      }
+      if (!add_region(group[0], lowest, component.size() == 1)) return false;
+    }
+    return true;
+  }
+
+  /// The region that `edges_` bounds, of a single piece or of several.
+  bool add_region(const Group& group, const FaceLabel& label, bool is_single) {
+    const bool built = is_single ? builder_.build_single(group.plane, edges_, loops_)
+                                 : builder_.build(group.plane, edges_, loops_);
+    if (!built) return false;
+    for (auto& nested : nest_loops(group.plane, loops_, geometry_, planes_)) {
+      faces_.push_back({group.plane, group.appearance, label.surface, label.source, group.keep != 0,
+                        std::move(nested)});
+    }
+    return true;
+  }
+
+  void append_edges(const BoundaryMesh::Face& face, std::vector<DirectedEdge>& edges) const {
+    const BoundaryMesh& b = boundary_;
+    for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
+      const uint32_t begin = b.loop_starts[l], end = b.loop_starts[l + 1];
+      for (uint32_t c = begin; c < end; ++c) {
+        edges.push_back({b.corners[c].point, b.corners[c + 1 < end ? c + 1 : begin].point,
+                         plane_of_[b.corners[c].edge_plane].index()});
+      }
+    }
+  }
+
+  bool append_pieces(const Group& group, std::vector<Piece>& pieces) {
+    const BoundaryMesh::Face& face = boundary_.faces[group.face];
+    edges_.clear();
+    append_edges(face, edges_);
+    if (face.loop_count == 1) {
+      pieces.push_back({face.label, edges_});
+      return true;
+    }
+    if (!builder_.build_single(group.plane, edges_, loops_)) return false;
+    for (const auto& nested : nest_loops(group.plane, loops_, geometry_, planes_)) {
+      Piece piece{face.label, {}};
+      for (const auto& loop : nested) {
+        piece.edges.insert(piece.edges.end(), loop.begin(), loop.end());
+      }
+      pieces.push_back(std::move(piece));
+    }
+    return true;
+  }
+
+  const BoundaryMesh& boundary_;
+  CellGeometry& geometry_;
+  const PlaneTable& planes_;
+  const std::vector<PlaneId>& plane_of_;
+  std::vector<MergedFace>& faces_;
+  RegionBuilder builder_;
+  RegionLoops loops_;
+  std::vector<DirectedEdge> edges_;
 };
 
 }  // namespace
@@ -61,34 +181,10 @@ bool merge_faces(const BoundaryMesh& b, CellGeometry& geometry, const PlaneTable
     return std::tie(x.plane, x.appearance, x.curved, x.keep, x.face) <
            std::tie(y.plane, y.appearance, y.curved, y.keep, y.face);
   });
-  RegionBuilder builder(geometry, planes);
-  RegionLoops loops;
-  std::vector<DirectedEdge> edges;
-  for (size_t i = 0; i < groups.size();) {
-    size_t j = i;
-    edges.clear();
-    FaceLabel lowest = b.faces[groups[i].face].label;
-    while (j < groups.size() && groups[j].plane == groups[i].plane &&
-           groups[j].appearance == groups[i].appearance && groups[j].curved == groups[i].curved &&
-           groups[j].keep == groups[i].keep) {
-      const BoundaryMesh::Face& f = b.faces[groups[j++].face];
-      lowest = std::min(lowest, f.label);
-      for (uint32_t l = f.first_loop; l < f.first_loop + f.loop_count; ++l) {
-        const uint32_t begin = b.loop_starts[l], end = b.loop_starts[l + 1];
-        for (uint32_t c = begin; c < end; ++c) {
-          edges.push_back({b.corners[c].point, b.corners[c + 1 < end ? c + 1 : begin].point,
-                           plane_of[b.corners[c].edge_plane].index()});
-        }
-      }
-    }
-    const bool built = j - i == 1 ? builder.build_single(groups[i].plane, edges, loops)
-                                  : builder.build(groups[i].plane, edges, loops);
-    if (!built) return false;
-    for (auto& nested : nest_loops(groups[i].plane, loops, geometry, planes)) {
-      faces.push_back({groups[i].plane, lowest.appearance, lowest.surface, lowest.source,
-                       groups[i].keep != 0, std::move(nested)});
-    }
-    i = j;
+  FaceMerger merger(b, geometry, planes, plane_of, faces);
+  for (size_t i = 0, j = 0; i < groups.size(); i = j) {
+    while (j < groups.size() && groups[j].goes_with(groups[i])) ++j;
+    if (!merger.add({groups.data() + i, j - i})) return false;
   }
   sort_faces(faces, planes);
   return true;
