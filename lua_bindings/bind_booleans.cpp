@@ -166,10 +166,8 @@ int equal(lua_State* L) {
   if (SolidValue* a = to_solid(L, 1), *b = to_solid(L, 2); a != nullptr && b != nullptr) {
     same = a->node == b->node;
     if (!same) {
-      for (SolidValue* value : {a, b}) {
-        if (!value->evaluated) value->evaluated = session_of(L).evaluate(value->node);
-      }
-      same = a->evaluated->canonical_hash == b->evaluated->canonical_hash;
+      Session& session = session_of(L);
+      same = session.evaluated(*a).canonical_hash == session.evaluated(*b).canonical_hash;
     }
   } else if (const ShapeValue* s = to_shape(L, 1), *t = to_shape(L, 2);
              s != nullptr && t != nullptr) {

@@ -10,12 +10,11 @@
 namespace csgrun {
 namespace {
 
-/// The evaluated solid of the value at index 1; kept with the value, which never changes.
+/// The evaluated solid of the value at index 1.
 const Solid& evaluated(lua_State* L, const FunctionSpec& spec) {
   SolidValue& value = solid_argument(L, spec);
   if (lua_gettop(L) > 1) fail_in(spec, "takes no arguments");
-  if (!value.evaluated) value.evaluated = session_of(L).evaluate(value.node);
-  return *value.evaluated;
+  return session_of(L).evaluated(value);
 }
 
 const Shape2D& bare_shape(lua_State* L, const FunctionSpec& spec) {
@@ -38,6 +37,12 @@ constexpr FunctionSpec kCentroid{
 constexpr FunctionSpec kComponents{"components", "The number of connected surfaces.", {}};
 constexpr FunctionSpec kGenus{"genus", "The number of handles, over all surfaces.", {}};
 constexpr FunctionSpec kIsEmpty{"is_empty", "Whether there is nothing in it.", {}};
+constexpr FunctionSpec kMesh{
+    "mesh",
+    "Its triangles: {points = {{x, y, z}, ...}, faces = {{i, j, k}, ...}}, as polyhedron takes them.",
+    {},
+    false,
+    "polyhedron(part:mesh())"};
 constexpr Option kContainsOptions[] = {
     {"p", ArgumentType::kVector2Or3, "", "the point", true},
 };
@@ -154,6 +159,30 @@ int solid_genus(lua_State* L) {
   return 1;
 }
 
+/// Clockwise seen from outside and counted from 0: what polyhedron takes. In the canonical order.
+int solid_mesh(lua_State* L) {
+  const Solid& solid = evaluated(L, kMesh);
+  lua_createtable(L, 0, 2);
+  lua_createtable(L, static_cast<int>(solid.positions.size()), 0);
+  for (size_t i = 0; i < solid.positions.size(); ++i) {
+    const glm::dvec3& p = solid.positions[i];
+    push_list(L, {p.x, p.y, p.z});
+    lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
+  }
+  lua_setfield(L, -2, "points");
+  lua_createtable(L, static_cast<int>(solid.triangles.size()), 0);
+  for (size_t i = 0; i < solid.triangles.size(); ++i) {
+    lua_createtable(L, 3, 0);
+    for (int k = 0; k < 3; ++k) {
+      lua_pushinteger(L, solid.triangles[i][static_cast<size_t>(2 - k)]);
+      lua_rawseti(L, -2, k + 1);
+    }
+    lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
+  }
+  lua_setfield(L, -2, "faces");
+  return 1;
+}
+
 int solid_is_empty(lua_State* L) {
   lua_pushboolean(L, evaluated(L, kIsEmpty).empty() ? 1 : 0);
   return 1;
@@ -195,6 +224,7 @@ constexpr Binding kBindings[] = {
     {&kComponents, nullptr, guarded<solid_components>, nullptr},
     {&kGenus, nullptr, guarded<solid_genus>, nullptr},
     {&kIsEmpty, nullptr, guarded<solid_is_empty>, guarded<shape_is_empty>},
+    {&kMesh, nullptr, guarded<solid_mesh>, nullptr},
     {&kContains, nullptr, guarded<solid_contains>, guarded<shape_contains>},
 };
 

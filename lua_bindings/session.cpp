@@ -47,12 +47,14 @@ Session::Session(SessionOptions options)
 void Session::set_grid(const GridStep& grid) {
   options_.evaluate.grid = grid;
   evaluator_.reset();
+  ++settings_;
 }
 
 void Session::set_joins_contacts(bool join) {
   if (join == joins_contacts()) return;
   options_.evaluate.join_contacts = join;
   evaluator_.reset();
+  ++settings_;
 }
 
 Evaluator& Session::evaluator() {
@@ -65,6 +67,14 @@ SolidPtr Session::evaluate(const NodePtr& node) {
   auto solid = evaluator().evaluate(node);
   if (!solid) fail_evaluation(solid.error());
   return *solid;
+}
+
+const Solid& Session::evaluated(SolidValue& value) {
+  if (!value.evaluated || value.evaluated_with != settings_) {
+    value.evaluated = evaluate(value.node);
+    value.evaluated_with = settings_;
+  }
+  return *value.evaluated;
 }
 
 void Session::fail_evaluation(const Error& error) {

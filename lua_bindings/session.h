@@ -21,6 +21,7 @@
 
 #include "lua_bindings/budget.h"
 #include "lua_bindings/files.h"
+#include "lua_bindings/values.h"
 
 namespace csgrun {
 
@@ -69,6 +70,8 @@ class Session {
   Evaluator& evaluator();
   /// The solid of a tree, on the script's clock. Throws ScriptError, with the place of the node.
   SolidPtr evaluate(const NodePtr& node);
+  /// The same, kept with the value for as long as the grid and csg.contacts stay the same.
+  const Solid& evaluated(SolidValue& value);
   /// Whether the message is that of an evaluation that failed in a script: exit 3 rather than 1.
   [[nodiscard]] bool is_geometry_failure(const std::string& message) const;
   /// Throws ScriptError for an engine error.
@@ -108,6 +111,7 @@ class Session {
   Budget budget_;
   Files files_;
   std::unique_ptr<Evaluator> evaluator_;
+  uint64_t settings_ = 0;  ///< a number for the settings of the evaluator: one more for each change
   std::vector<std::string> warnings_;
   std::set<std::string> warned_;
   std::vector<ScriptPart> parts_;

@@ -23,7 +23,8 @@ struct SolidValue : Value {
   static constexpr const char* kName = "solid";
   explicit SolidValue(NodePtr n) : node(std::move(n)) {}
   NodePtr node;
-  SolidPtr evaluated;  ///< after the first measurement
+  SolidPtr evaluated;           ///< after the first measurement: see Session::evaluated
+  uint64_t evaluated_with = 0;  ///< the number of the settings that it was evaluated with
 };
 
 struct ShapeValue : Value {

@@ -1,0 +1,50 @@
+// What scripts see of an evaluated solid: never that of other settings, and its triangles.
+#include "lua_support.h"
+
+namespace csgrun::testing {
+namespace {
+
+TEST(Evaluated, IsMeasuredAnewWhenContactsAreSetOtherwise) {
+  expect_good(R"(
+    local s = cube(10) + cube(10):translate(10, 10, 0)
+    assert(s:components() == 2)
+    csg.contacts = "join"
+    assert(s:components() == 1)
+    csg.contacts = "separate"
+    assert(s:components() == 2))");
+}
+
+TEST(Evaluated, IsMeasuredAndComparedAnewOnAnotherGrid) {
+  expect_good(R"(
+    local s = cube(10.25)
+    csg.grid = "0.25mm"
+    assert(s:volume() == 10.25 ^ 3 and s ~= cube(10))
+    csg.grid = 1
+    assert(s:volume() == 1000 and s == cube(10)))");
+}
+
+TEST(Evaluated, TrianglesAreThoseOfAPolyhedron) {
+  expect_good(R"(
+    local m = cube(10):mesh()
+    assert(#m.points == 8 and #m.faces == 12)
+    local volume = 0
+    for _, f in ipairs(m.faces) do
+      local a, b, c = m.points[f[1] + 1], m.points[f[2] + 1], m.points[f[3] + 1]
+      volume = volume + a[1] * (b[2] * c[3] - b[3] * c[2]) + a[2] * (b[3] * c[1] - b[1] * c[3])
+               + a[3] * (b[1] * c[2] - b[2] * c[1])
+    end
+    assert(volume == -6000, "clockwise from outside")
+    csg.grid = "2^-20mm"
+    local s = cube(20) - cylinder{h = 30, r = 4, fn = 7}:translate(10, 10, -5) - cube(5)
+              + cube(10):translate(40, 0, 0) + cube(10):translate(50, 10, 0)
+    s = s:rotate(0, 90, 0)
+    local again = polyhedron(s:mesh())
+    assert(again:volume() == s:volume() and again:genus() == s:genus())
+    assert((again ~ s):is_empty())
+    assert(#(cube(1) - cube(1)):mesh().faces == 0))");
+  EXPECT_EQ(message_of("cube(1):mesh(3)").rfind("model.lua:1: mesh: takes no arguments", 0), 0u)
+      << message_of("cube(1):mesh(3)");
+}
+
+}  // namespace
+}  // namespace csgrun::testing
