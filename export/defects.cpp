@@ -2,20 +2,10 @@
 
 #include <algorithm>
 
+#include "export/shells.h"
+#include "export/text.h"
+
 namespace csgrun {
-namespace {
-
-constexpr size_t kMostPlaces = 8;  // of each kind
-
-std::string source_of(const Solid& solid, uint32_t face) {
-  const uint32_t source = solid.faces[face].source;
-  if (source >= solid.sources.size()) return {};
-  const Solid::Source& s = solid.sources[source];
-  if (s.kind.empty() || s.where.empty()) return s.kind + s.where;
-  return s.kind + ", " + s.where;
-}
-
-}  // namespace
 
 std::vector<glm::dvec3> face_directions(const Solid& solid, const Affine& placement) {
   if (solid.face_normals.size() != solid.faces.size())
@@ -45,10 +35,7 @@ std::vector<glm::dvec3> face_directions(const Solid& solid, const Affine& placem
 Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> directions) {
   // Surfaces that were split where they touch do not cross there: equal coordinates are one corner.
   const std::vector<uint32_t> place = number_places(mesh.positions);
-  std::vector<glm::dvec3> points;
-  for (size_t v = 0; v < place.size(); ++v) {
-    if (place[v] == points.size()) points.push_back(mesh.positions[v]);
-  }
+  const std::vector<glm::dvec3> points = positions_of_places(mesh.positions, place);
   std::vector<Triangle> triangles;
   triangles.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) triangles.push_back({place[a], place[b], place[c]});
@@ -63,6 +50,7 @@ Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> direct
     }
   }
   defects.crossings = find_crossings(view, kMostCrossings);
+  if (defects.crossings.empty()) defects.inverted = inverted_sheets(view);
   return defects;
 }
 
@@ -72,7 +60,7 @@ std::vector<DefectPlace> places_of(const Defects& defects, const RoundedMesh& me
   const auto sources = [&](std::span<const uint32_t> triangles) {
     std::vector<std::string> made_by;
     for (const uint32_t t : triangles) {
-      std::string source = source_of(solid, mesh.triangle_face[t]);
+      std::string source = source_text(solid, solid.faces[mesh.triangle_face[t]].source);
       if (!source.empty()) made_by.push_back(std::move(source));
     }
     return made_by;
@@ -92,6 +80,7 @@ std::vector<DefectPlace> places_of(const Defects& defects, const RoundedMesh& me
   };
   add(DefectKind::kDegenerate, first_of(defects.degenerate));
   add(DefectKind::kFlipped, first_of(defects.flipped));
+  add(DefectKind::kInverted, first_of(defects.inverted));
   return places;
 }
 

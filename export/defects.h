@@ -2,8 +2,10 @@
 //
 // A crossing is a pair of triangles that have a point in common beyond the corners and edges which
 // both have by coordinates. A triangle is degenerate when its corners lie on one line, and flipped
-// when its normal makes more than 90 degrees with that of the exact face that it belongs to. A mesh
-// without these is the boundary of a solid, at the coordinates that are in the file.
+// when its normal makes more than 90 degrees with that of the exact face that it belongs to. Where
+// nothing crosses, a surface is inverted when the winding number in front of it is not 0 (see
+// shells.h). A mesh without these is the boundary of a solid, at the coordinates that are in the
+// file.
 #pragma once
 
 #include <vector>
@@ -18,18 +20,26 @@ namespace csgrun {
 struct Defects {
   std::vector<TriangleCrossing> crossings;
   std::vector<uint32_t> degenerate, flipped;  ///< triangles, ascending
+  /// One triangle of each inverted surface, ascending; not looked for where something crosses.
+  std::vector<uint32_t> inverted;
 
   [[nodiscard]] size_t count() const {
-    return crossings.size() + degenerate.size() + flipped.size();
+    return crossings.size() + degenerate.size() + flipped.size() + inverted.size();
   }
   [[nodiscard]] bool none() const { return count() == 0; }
   [[nodiscard]] MeshDefects counts() const {
-    return {crossings.size(), degenerate.size(), flipped.size()};
+    return {crossings.size(), degenerate.size(), flipped.size(), inverted.size()};
+  }
+  /// Whether a mesh with these is better than one with `before`, or may be: where counting ended
+  /// both times, nobody knows.
+  [[nodiscard]] bool fewer_than(const Defects& before) const {
+    return count() < before.count() ||
+           (crossings.size() >= kMostCrossings && before.crossings.size() >= kMostCrossings);
   }
 };
 
-/// More crossings than this are not looked for.
-constexpr uint64_t kMostCrossings = 1'000'000;
+/// So many places of each kind of defect are told.
+constexpr size_t kMostPlaces = 8;
 
 /// Directions of the exact faces of a solid under an affine map, outwards as the map leaves them:
 /// from their exact planes where the solid has them, else from their corners.

@@ -4,6 +4,7 @@
 
 #include "export/defects.h"
 #include "export/repair.h"
+#include "export/text.h"
 
 namespace csgrun {
 namespace {
@@ -29,6 +30,19 @@ void drop_bent_outlines(RoundedMesh& mesh) {
   }
 }
 
+void add_vanished(const std::vector<SolidShell>& vanished, const Solid& solid, MeshCheck& check) {
+  check.vanished = vanished.size();
+  for (size_t i = 0; i < vanished.size(); ++i) {
+    const SolidShell& shell = vanished[i];
+    check.thickness = std::max(check.thickness, shell.thickness());
+    if (i >= kMostPlaces) continue;
+    DefectPlace place{DefectKind::kVanished, shell.at, {}};
+    std::string source = source_text(solid, solid.faces[shell.face].source);
+    if (!source.empty()) place.sources.push_back(std::move(source));
+    check.places.push_back(std::move(place));
+  }
+}
+
 double volume_of(const RoundedMesh& mesh) { return exact_volume({mesh.positions, mesh.triangles}); }
 
 }  // namespace
@@ -40,20 +54,24 @@ Result<RoundedMesh> MeshMaker::make(const Part& part, const Affine& placement, P
   if (options_.check) {
     const std::vector<glm::dvec3> directions = face_directions(*part.solid, placement);
     Defects defects = find_defects(*mesh, directions);
+    const Result<Fidelity> fidelity = Fidelity::of(*part.solid, placement, precision);
+    if (!fidelity) return fidelity.error();
     MeshCheck check;
     check.part = part.name;
     check.found = defects.counts();
     check.triangles[0] = mesh->triangles.size();
     check.volume[0] = volume_of(*mesh);
     check.places = places_of(defects, *mesh, *part.solid);
+    check.distance = fidelity->rounding().distance;
     if (!defects.none()) {
-      if (const Status status = repair(*mesh, directions, precision, options_, defects, check);
+      if (const Status status =
+              repair(*mesh, directions, precision, *fidelity, options_, defects, check);
           !status) {
         return status.error();
       }
       check.verdict = defects.none() ? CheckVerdict::kRepaired : CheckVerdict::kFailed;
-      if (!defects.none()) check.places = places_of(defects, *mesh, *part.solid);
     }
+    add_vanished(fidelity->vanished(mesh->triangle_face), *part.solid, check);
     check.left = defects.counts();
     check.triangles[1] = mesh->triangles.size();
     check.volume[1] = volume_of(*mesh);

@@ -10,12 +10,6 @@
 namespace csgrun {
 namespace {
 
-std::string source_text(const Solid& solid, uint32_t source) {
-  if (source >= solid.sources.size()) return {};
-  const Solid::Source& s = solid.sources[source];
-  return one_line(s.where.empty() ? s.kind : s.kind + ", " + s.where);
-}
-
 /// "case/lid" is the object "case/lid" in the groups "case" and "lid".
 void append_names(std::string& text, const std::string& name) {
   text += "o " + one_word(name) + '\n';

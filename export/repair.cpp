@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "export/edge_flips.h"
 #include "export/self_union.h"
 
@@ -34,31 +36,38 @@ std::vector<uint32_t> bad_triangles(const Defects& defects) {
 class Repair {
  public:
   Repair(RoundedMesh& mesh, std::vector<glm::dvec3> directions, Precision precision,
-         const WriteOptions& options, Defects& left, MeshCheck& check)
+         const Fidelity& fidelity, const WriteOptions& options, Defects& left, MeshCheck& check)
       : mesh_(mesh),
         faces_{std::move(directions), {}},
         precision_(precision),
+        fidelity_(fidelity),
         options_(options),
         left_(left),
-        check_(check) {
+        check_(check),
+        moves_(fidelity.rounding()) {
     faces_.original.resize(faces_.directions.size());
     std::iota(faces_.original.begin(), faces_.original.end(), 0);
   }
 
   Status run() {
     while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty()) {
+      if (lattice_ > 0 && lattice_exponent() > coarsest_exponent()) break;
       ++check_.rounds;
-      const State before{mesh_, faces_, left_, check_.moved};
+      const State before{mesh_, faces_, left_, check_.moved, moves_};
       if (Status status = run_round(); !status) return status;
-      if (left_.count() < before.left.count()) continue;
+      breach_ = fidelity_.breach(mesh_, original_faces(), moves_);
+      if (breach_.empty() && left_.fewer_than(before.left)) continue;
       // A round that makes it worse is undone: what it moved would be in the way of the next.
       ++lattice_;
       mesh_ = before.mesh;
       faces_ = before.faces;
       left_ = before.left;
       check_.moved = before.moved;
+      moves_ = before.moves;
     }
-    for (uint32_t& face : mesh_.triangle_face) face = faces_.original[face];
+    mesh_.triangle_face = original_faces();
+    check_.distance = moves_.distance;
+    if (!left_.none() && check_.problem.empty()) check_.problem = breach_;
     return std::monostate{};
   }
 
@@ -68,6 +77,7 @@ class Repair {
     MeshFaces faces;
     Defects left;
     uint64_t moved;
+    Moves moves;
   };
 
   Status run_round() {
@@ -80,7 +90,8 @@ class Repair {
       if (left_.none()) return std::monostate{};
     }
     ++check_.unions;
-    if (const Status status = unite_with_itself(mesh_, faces_, precision_, options_); !status) {
+    if (const Status status = unite_with_itself(mesh_, faces_, precision_, options_, moves_);
+        !status) {
       const ErrorCode code = status.error().code;
       if (code == ErrorCode::kCancelled || code == ErrorCode::kLimit ||
           code == ErrorCode::kInternal)
@@ -90,6 +101,13 @@ class Repair {
     examine();
     turn_edges();
     return std::monostate{};
+  }
+
+  /// Of the solid, per triangle.
+  [[nodiscard]] std::vector<uint32_t> original_faces() const {
+    std::vector<uint32_t> original;
+    for (const uint32_t face : mesh_.triangle_face) original.push_back(faces_.original[face]);
+    return original;
   }
 
   void examine() { left_ = find_defects(mesh_, faces_.directions); }
@@ -106,15 +124,18 @@ class Repair {
 
   /// Steps of two floats (where the mesh is farthest from the origin), then four, eight and so on:
   /// what is snapped must get clear of what is rounded.
-  [[nodiscard]] double lattice_step() const {
+  [[nodiscard]] int lattice_exponent() const {
     const int finest = lattice_of(mesh_.positions).exponent;
     // A float's step is eight steps of the engine's lattice; doubles approach that from below.
-    return std::ldexp(1.0, precision_ == Precision::kFloat ? finest + 2 + 2 * lattice_
-                                                           : finest - 25 + 5 * lattice_);
+    return precision_ == Precision::kFloat ? finest + 2 + 2 * lattice_ : finest - 25 + 5 * lattice_;
+  }
+  [[nodiscard]] int coarsest_exponent() const {
+    return lattice_of(mesh_.positions).exponent +
+           (precision_ == Precision::kFloat ? kCoarsestFloatLattice : kCoarsestDoubleLattice);
   }
 
   Status snap() {
-    const double step = lattice_step();
+    const double step = std::ldexp(1.0, lattice_exponent());
     std::vector<bool> offends(mesh_.positions.size(), false);
     const auto mark = [&](uint32_t triangle) {
       for (const uint32_t v : mesh_.triangles[triangle]) offends[v] = true;
@@ -124,6 +145,7 @@ class Repair {
       mark(crossing.triangles[1]);
     }
     for (const uint32_t t : bad_triangles(left_)) mark(t);
+    for (const uint32_t t : left_.inverted) mark(t);
 
     std::vector<glm::dvec3> cells;
     for (size_t v = 0; v < offends.size(); ++v) {
@@ -132,29 +154,36 @@ class Repair {
     std::sort(cells.begin(), cells.end(), precedes);
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     std::vector<glm::dvec3> positions = mesh_.positions;
+    double farthest = 0;
     for (glm::dvec3& p : positions) {
       const glm::dvec3 cell = snapped(p, step);
       if (cell == p || !std::binary_search(cells.begin(), cells.end(), cell, precedes)) continue;
+      farthest = std::max(farthest, glm::distance(p, cell));
       p = cell;
       ++check_.moved;
     }
+    moves_.add(mesh_.positions, mesh_.triangles, farthest);
     return move_vertices(mesh_, std::move(positions));
   }
 
   RoundedMesh& mesh_;
   MeshFaces faces_;
   Precision precision_;
+  const Fidelity& fidelity_;
   const WriteOptions& options_;
   Defects& left_;
   MeshCheck& check_;
-  int lattice_ = 0;  ///< how many rounds did not help
+  Moves moves_;
+  std::string breach_;  ///< why the last round was undone, if the mesh became another
+  int lattice_ = 0;     ///< how many rounds did not help
 };
 
 }  // namespace
 
 Status repair(RoundedMesh& mesh, std::vector<glm::dvec3> directions, Precision precision,
-              const WriteOptions& options, Defects& left, MeshCheck& check) {
-  return Repair(mesh, std::move(directions), precision, options, left, check).run();
+              const Fidelity& fidelity, const WriteOptions& options, Defects& left,
+              MeshCheck& check) {
+  return Repair(mesh, std::move(directions), precision, fidelity, options, left, check).run();
 }
 
 }  // namespace csgrun

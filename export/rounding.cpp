@@ -242,6 +242,15 @@ std::vector<uint32_t> number_places(std::span<const glm::dvec3> positions) {
   return place;
 }
 
+std::vector<glm::dvec3> positions_of_places(std::span<const glm::dvec3> positions,
+                                            std::span<const uint32_t> place) {
+  std::vector<glm::dvec3> points;
+  for (size_t v = 0; v < place.size(); ++v) {
+    if (place[v] == points.size()) points.push_back(positions[v]);
+  }
+  return points;
+}
+
 PlacedSolid place_solid(const Solid& solid, const Affine& placement) {
   PlacedSolid placed;
   placed.positions = solid.positions;
@@ -339,7 +348,7 @@ Status move_vertices(RoundedMesh& mesh, std::vector<glm::dvec3> positions) {
 }
 
 void RoundingTotals::add(const RoundedMesh& mesh, const std::string& part) {
-  if (mesh.triangles.empty() && mesh.dropped + mesh.cancelled > 0) {
+  if (mesh.triangles.empty() && !mesh.face_normals.empty()) {  // there was something to be written
     vanished_.add(1, part);
     return;
   }
@@ -360,10 +369,10 @@ void RoundingTotals::report(WriteReport& report) const {
   if (vanished_.count == 1) {
     report.warnings.push_back(
         (vanished_.first_part.empty() ? "the solid" : "part " + quoted(vanished_)) +
-        " is smaller than the file's precision and was written empty");
+        " is thinner than the file's precision and was written empty");
   } else if (vanished_.count > 1) {
     report.warnings.push_back(std::to_string(vanished_.count) +
-                              " parts are smaller than the file's precision and were written "
+                              " parts are thinner than the file's precision and were written "
                               "empty, the first is " +
                               quoted(vanished_));
   }

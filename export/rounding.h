@@ -48,6 +48,10 @@ struct RoundedMesh {
 /// A number for each distinct position, in the order of first occurrence.
 std::vector<uint32_t> number_places(std::span<const glm::dvec3> positions);
 
+/// The position of each place that number_places() numbered.
+std::vector<glm::dvec3> positions_of_places(std::span<const glm::dvec3> positions,
+                                            std::span<const uint32_t> place);
+
 /// The part's solid under `placement`. Exact when that is the identity.
 PlacedSolid place_solid(const Solid& solid, const Affine& placement);
 

@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 
+#include <glm/geometric.hpp>
+
 #include "export/defects.h"
 
 namespace csgrun {
@@ -22,9 +24,7 @@ PolygonMesh leaf_of(const RoundedMesh& mesh, const MeshFaces& faces) {
   leaf.kind = "rounded mesh";
   leaf.fill = FillRule::kPositive;
   const std::vector<uint32_t> place = number_places(mesh.positions);
-  for (size_t v = 0; v < place.size(); ++v) {
-    if (place[v] == leaf.points.size()) leaf.points.push_back(mesh.positions[v]);
-  }
+  leaf.points = positions_of_places(mesh.positions, place);
   std::map<uint32_t, uint32_t> tags;  // original face -> appearance
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
@@ -40,6 +40,18 @@ PolygonMesh leaf_of(const RoundedMesh& mesh, const MeshFaces& faces) {
     leaf.appearance_of.push_back(tag->second);
   }
   return leaf;
+}
+
+/// How far the vertex that is farthest from the lattice is from it.
+double farthest_from(const GridStep& lattice, const RoundedMesh& mesh) {
+  const double step = std::ldexp(1.0, lattice.exponent);
+  double farthest = 0;
+  for (const glm::dvec3& p : mesh.positions) {
+    glm::dvec3 rest;
+    for (int k = 0; k < 3; ++k) rest[k] = p[k] - std::nearbyint(p[k] / step) * step;
+    farthest = std::max(farthest, glm::length(rest));
+  }
+  return farthest;
 }
 
 /// The face of the original solid that an appearance of leaf_of() stands for.
@@ -65,7 +77,7 @@ GridStep lattice_of(std::span<const glm::dvec3> points) {
 }
 
 Status unite_with_itself(RoundedMesh& mesh, MeshFaces& faces, Precision precision,
-                         const WriteOptions& options) {
+                         const WriteOptions& options, Moves& moves) {
   EvaluateOptions evaluate;
   evaluate.threads = options.threads;
   evaluate.cancel = options.cancel;
@@ -84,10 +96,12 @@ Status unite_with_itself(RoundedMesh& mesh, MeshFaces& faces, Precision precisio
       return Error{ErrorCode::kInternal, "a face of a self-union comes from nowhere", {}};
   }
   faces = std::move(united);
+  moves.add(mesh.positions, mesh.triangles, farthest_from(lattice_of(mesh.positions), mesh));
   mesh.positions = std::move(rounded->positions);
   mesh.triangles = std::move(rounded->triangles);
   mesh.triangle_face = std::move(rounded->triangle_face);
   mesh.twins = std::move(rounded->twins);
+  moves.add(mesh.positions, mesh.triangles, unit_of(precision, mesh.positions));
   mesh.dropped += rounded->dropped;
   mesh.cancelled += rounded->cancelled;
   for (auto& outline : mesh.outlines) outline.clear();

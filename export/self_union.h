@@ -5,6 +5,7 @@
 #include <csgrun/engine/evaluate.h>
 #include <csgrun/export/write.h>
 
+#include "export/fidelity.h"
 #include "export/rounding.h"
 
 namespace csgrun {
@@ -21,9 +22,9 @@ struct MeshFaces {
 
 /// What the mesh encloses with a positive winding number, evaluated exactly on the lattice and
 /// rounded again. Points that are not on the lattice are snapped to it. The faces become those of
-/// the exact union, each of which goes on belonging to an original one. Outlines are lost. Errors:
-/// those of the evaluator; then nothing has changed.
+/// the exact union, each of which goes on belonging to an original one. Outlines are lost. What
+/// was moved is added to `moves`. Errors: those of the evaluator; then nothing has changed.
 Status unite_with_itself(RoundedMesh& mesh, MeshFaces& faces, Precision precision,
-                         const WriteOptions& options);
+                         const WriteOptions& options, Moves& moves);
 
 }  // namespace csgrun

@@ -54,4 +54,10 @@ std::string one_word(std::string_view name) { return with_controls_replaced(name
 
 std::string one_line(std::string_view text) { return with_controls_replaced(text, ' ', false); }
 
+std::string source_text(const Solid& solid, uint32_t source) {
+  if (source >= solid.sources.size()) return {};
+  const Solid::Source& s = solid.sources[source];
+  return one_line(s.kind.empty() || s.where.empty() ? s.kind + s.where : s.kind + ", " + s.where);
+}
+
 }  // namespace csgrun

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include <csgrun/engine/solid.h>
+
 namespace csgrun {
 
 /// Appends the shortest decimal that reads back as the same double.
@@ -26,6 +28,10 @@ std::string valid_utf8(std::string_view name);
 
 /// The name as one word of a line: white space and control characters become '_'.
 std::string one_word(std::string_view name);
+
+/// The leaf with this number in the solid's sources, on one line: "cube, model.lua:3"; empty if
+/// there is none.
+std::string source_text(const Solid& solid, uint32_t source);
 
 /// The text on one line: control characters become spaces.
 std::string one_line(std::string_view text);

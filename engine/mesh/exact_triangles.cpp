@@ -5,23 +5,13 @@
 
 #include <csgrun/engine/exact_triangles.h>
 
-#include "engine/mesh/exact_sum.h"
+#include "engine/mesh/exact_determinant.h"
 
 namespace csgrun {
 namespace {
 
 /// Products below this may have lost bits to underflow.
 constexpr double kSmallest = 0x1p-900;
-
-void add_determinant(ExactSum& sum, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
-                     bool negative) {
-  sum.add(a.x, b.y, c.z, negative);
-  sum.add(a.y, b.z, c.x, negative);
-  sum.add(a.z, b.x, c.y, negative);
-  sum.add(a.z, b.y, c.x, !negative);
-  sum.add(a.y, b.x, c.z, !negative);
-  sum.add(a.x, b.z, c.y, !negative);
-}
 
 /// Whether the double `difference` is a - b without rounding (Knuth's two-sum: what was lost).
 bool is_exact(double a, double b, double difference) {
@@ -56,10 +46,7 @@ int orient(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const 
   if (is_exact(a, d, ad) && is_exact(b, d, bd) && is_exact(c, d, cd)) {
     add_determinant(sum, ad, bd, cd, true);
   } else {
-    add_determinant(sum, a, b, c, true);
-    add_determinant(sum, a, b, d, false);
-    add_determinant(sum, a, c, d, true);
-    add_determinant(sum, b, c, d, false);
+    add_determinant(sum, a, b, c, d, false);
   }
   return sum.sign();
 }
@@ -72,12 +59,7 @@ int orient_along(int axis, const glm::dvec3& a, const glm::dvec3& b, const glm::
   const double size = std::abs(left) + std::abs(right);
   if (size > kSmallest && std::abs(left - right) > kBound * size) return left > right ? 1 : -1;
   ExactSum sum;
-  sum.add(a[u], b[v], 1);
-  sum.add(a[v], b[u], 1, true);
-  sum.add(b[u], c[v], 1);
-  sum.add(b[v], c[u], 1, true);
-  sum.add(c[u], a[v], 1);
-  sum.add(c[v], a[u], 1, true);
+  add_area(sum, u, v, a, b, c);
   return sum.sign();
 }
 

@@ -1,6 +1,8 @@
 #include "lua_bindings/cli/check_text.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -30,6 +32,10 @@ const char* name_of(DefectKind kind) {
       return "degenerate";
     case DefectKind::kFlipped:
       return "flipped";
+    case DefectKind::kInverted:
+      return "inverted";
+    case DefectKind::kVanished:
+      return "vanished";
   }
   return "self_intersection";
 }
@@ -44,16 +50,24 @@ std::string defects_text(const MeshDefects& defects) {
     if (count == 0) return;
     text += (text.empty() ? "" : ", ") + counted(count, one, many);
   };
-  add(defects.crossings, "self-intersection", "self-intersections");
+  if (defects.crossings >= kMostCrossings) text = "at least ";
+  text += defects.crossings > 0
+              ? counted(defects.crossings, "self-intersection", "self-intersections")
+              : "";
   add(defects.degenerate, "triangle without area", "triangles without area");
   add(defects.flipped, "triangle turned over", "triangles turned over");
+  add(defects.inverted, "surface inside out or on the wrong side of another",
+      "surfaces inside out or on the wrong side of others");
   return text;
 }
 
 Json defects_json(const MeshDefects& defects) {
-  return {{"self_intersections", defects.crossings},
-          {"degenerate", defects.degenerate},
-          {"flipped", defects.flipped}};
+  Json json = {{"self_intersections", defects.crossings},
+               {"degenerate", defects.degenerate},
+               {"flipped", defects.flipped},
+               {"inverted", defects.inverted}};
+  if (defects.crossings >= kMostCrossings) json["at_least"] = true;
+  return json;
 }
 
 Json mesh_json(const MeshCheck& check) {
@@ -70,27 +84,52 @@ Json mesh_json(const MeshCheck& check) {
           {"rounds", check.rounds},
           {"moved_vertices", check.moved},
           {"unions", check.unions},
+          {"distance", check.distance},
+          {"vanished", check.vanished},
+          {"thickness", check.thickness},
           {"triangles", check.triangles},
           {"volume", check.volume},
           {"places", places}};
+}
+
+/// ", near (1, 2, 3) mm (cube, model.lua:3)"
+std::string place_text(const DefectPlace& place, uint64_t count) {
+  std::string text =
+      fmt::format(", {} ({:.9g}, {:.9g}, {:.9g}) mm", count > 1 ? "the first near" : "near",
+                  place.at.x, place.at.y, place.at.z);
+  for (size_t i = 0; i < place.sources.size(); ++i)
+    text += (i == 0 ? " (" : "; ") + place.sources[i];
+  return place.sources.empty() ? text : text + ')';
+}
+
+std::string vanished_text(const MeshCheck& check) {
+  std::string text = counted(check.vanished, "connected surface", "connected surfaces");
+  // Rounded up: thinner than what is said.
+  text += fmt::format(" less than {:.3g} mm thick vanished",
+                      std::max(check.thickness * 1.01, std::numeric_limits<double>::min()));
+  for (const DefectPlace& place : check.places) {
+    if (place.kind == DefectKind::kVanished) return text + place_text(place, check.vanished);
+  }
+  return text;
 }
 
 }  // namespace
 
 std::string check_text(const MeshCheck& check) {
   std::string text = check.part.empty() ? "the solid" : fmt::format("part '{}'", check.part);
-  text += fmt::format(" has {} when rounded to the file's precision", defects_text(check.found));
+  if (check.verdict == CheckVerdict::kClean) return text + ": " + vanished_text(check);
+  text += fmt::format(" has {} at the coordinates of the file", defects_text(check.found));
   if (!check.places.empty()) {
-    const DefectPlace& place = check.places.front();
-    text += fmt::format(", {} ({:.9g}, {:.9g}, {:.9g}) mm",
-                        check.places.size() > 1 ? "the first near" : "near", place.at.x, place.at.y,
-                        place.at.z);
-    for (size_t i = 0; i < place.sources.size(); ++i)
-      text += (i == 0 ? " (" : "; ") + place.sources[i];
-    if (!place.sources.empty()) text += ')';
+    text += place_text(check.places.front(), check.found.crossings + check.found.degenerate +
+                                                 check.found.flipped + check.found.inverted);
   }
-  if (check.verdict == CheckVerdict::kRepaired)
-    return text + "; repaired in " + counted(check.rounds, "round", "rounds");
+  if (check.verdict == CheckVerdict::kRepaired) {
+    text += "; repaired in " + counted(check.rounds, "round", "rounds");
+    const auto [rounded, written] = check.volume;
+    if (check.triangles[1] > 0 && std::abs(written - rounded) > std::abs(rounded) / 100)
+      text += fmt::format(", which took the volume from {:.4g} to {:.4g} mm^3", rounded, written);
+    return check.vanished > 0 ? text + "; " + vanished_text(check) : text;
+  }
   if (check.rounds > 0) {
     text += fmt::format("; {} of repair left {}", counted(check.rounds, "round", "rounds"),
                         defects_text(check.left));
@@ -99,6 +138,7 @@ std::string check_text(const MeshCheck& check) {
 }
 
 const char* verdict_text(const FileCheck& check) {
+  if (model_format_of(check.file) == "exact.json") return "exact";  // nothing was rounded
   CheckVerdict worst = CheckVerdict::kClean;
   for (const MeshCheck& mesh : check.meshes) worst = std::max(worst, mesh.verdict);
   return name_of(worst);

@@ -86,7 +86,7 @@ Failure measure_file(const std::string& path, bool json, std::string& output) {
   }
   std::vector<PartMeasures> parts;
   std::vector<std::string> warnings;
-  uint64_t crossings = 0;
+  CountedCrossings crossings;
   for (TriangleMesh& mesh : *meshes) {
     parts.push_back(measure(mesh));
     if (!parts.back().closed) warnings.push_back(fmt::format("part '{}' is not closed", mesh.name));
@@ -97,7 +97,9 @@ Failure measure_file(const std::string& path, bool json, std::string& output) {
                                      count == 1 ? "" : "s"));
     }
     weld(mesh);  // surfaces that were split where they touch do not cross there
-    crossings += count_crossings(mesh);
+    const uint64_t count = count_crossings(mesh);
+    crossings.count += count;
+    if (count >= kMostCounted) crossings.at_least = true;
   }
   output += json ? info_json(path, parts, crossings, warnings)
                  : info_text(path, parts, crossings, warnings);

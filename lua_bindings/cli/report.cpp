@@ -111,21 +111,21 @@ std::string stats_text(const RunReport& report) {
 }
 
 std::string info_json(const std::string& file, const std::vector<PartMeasures>& parts,
-                      uint64_t self_intersections, const std::vector<std::string>& warnings) {
+                      const CountedCrossings& crossings, const std::vector<std::string>& warnings) {
   Json list = Json::array();
   for (const PartMeasures& part : parts) list.push_back(to_json(part));
-  const Json json = {{"file", file},
-                     {"parts", list},
-                     {"self_intersections", self_intersections},
-                     {"warnings", warnings}};
+  Json json = {{"file", file}, {"parts", list}, {"self_intersections", crossings.count}};
+  if (crossings.at_least) json["at_least"] = true;
+  json["warnings"] = warnings;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string info_text(const std::string& file, const std::vector<PartMeasures>& parts,
-                      uint64_t self_intersections, const std::vector<std::string>& warnings) {
+                      const CountedCrossings& crossings, const std::vector<std::string>& warnings) {
   std::string text = file + "\n";
   for (const PartMeasures& part : parts) text += to_text(part);
-  text += fmt::format("{} self-intersections\n", self_intersections);
+  text += fmt::format("{}{} self-intersections\n", crossings.at_least ? "at least " : "",
+                      crossings.count);
   for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
   return text;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,16 @@ std::string stats_json(const RunReport& report);
 /// The same for people.
 std::string stats_text(const RunReport& report);
 
+/// How many self-intersections a file has.
+struct CountedCrossings {
+  uint64_t count = 0;
+  bool at_least = false;  ///< counting ended there
+};
+
 /// The object of `csgrun info --json`, or text.
 std::string info_json(const std::string& file, const std::vector<PartMeasures>& parts,
-                      uint64_t self_intersections, const std::vector<std::string>& warnings);
+                      const CountedCrossings& crossings, const std::vector<std::string>& warnings);
 std::string info_text(const std::string& file, const std::vector<PartMeasures>& parts,
-                      uint64_t self_intersections, const std::vector<std::string>& warnings);
+                      const CountedCrossings& crossings, const std::vector<std::string>& warnings);
 
 }  // namespace csgrun

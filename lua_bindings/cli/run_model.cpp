@@ -325,7 +325,10 @@ class Run {
       report_.warnings.push_back(path + ": " + warning);
     if (!line_.check) return put(*files);
     for (const MeshCheck& check : report.checks) {
-      if (check.verdict == CheckVerdict::kRepaired)
+      // A part that rounding left nothing of was warned of already.
+      const bool lost = check.vanished > 0 && check.triangles[1] > 0;
+      if (check.verdict == CheckVerdict::kRepaired ||
+          (check.verdict == CheckVerdict::kClean && lost))
         report_.warnings.push_back(path + ": " + check_text(check));
     }
     report_.checks.push_back({path, std::move(report.checks)});

@@ -214,8 +214,7 @@ uint64_t count_degenerate(const TriangleMesh& mesh) {
 }
 
 uint64_t count_crossings(const TriangleMesh& mesh) {
-  constexpr uint64_t kMostCrossings = 1000000;  // more is "a lot" to everybody who reads it
-  return find_crossings(mesh.view(), kMostCrossings).size();
+  return find_crossings(mesh.view(), kMostCounted).size();
 }
 
 }  // namespace csgrun

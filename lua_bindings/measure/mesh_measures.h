@@ -1,8 +1,8 @@
 // The measures of a triangle mesh as it stands, exactly.
 #pragma once
 
-#include "lua_bindings/measure/triangle_mesh.h"
 #include "lua_bindings/measure/part_measures.h"
+#include "lua_bindings/measure/triangle_mesh.h"
 
 namespace csgrun {
 
@@ -12,8 +12,11 @@ namespace csgrun {
 /// for a mesh that is not closed.
 PartMeasures measure(const TriangleMesh& mesh);
 
-/// Pairs of triangles that meet in anything but corners and edges which both have, counted exactly.
-/// Triangles without area are left out.
+/// More crossings than this are not counted: "a lot" to everybody who reads it.
+constexpr uint64_t kMostCounted = 1'000'000;
+
+/// Pairs of triangles that meet in anything but corners and edges which both have, found exactly;
+/// kMostCounted if there are at least so many. Triangles without area are left out.
 uint64_t count_crossings(const TriangleMesh& mesh);
 
 /// Triangles whose corners lie on one line, or coincide.

@@ -32,7 +32,7 @@ class Check(Case):
         self.expect(outcome, 0)
         self.assertEqual(self.verdicts(outcome), {n: "clean" for n in names})
         part = outcome.json()["check"][2]["parts"][0]
-        self.assertEqual(part["found"], {"self_intersections": 0, "degenerate": 0, "flipped": 0})
+        self.assertEqual(part["found"], {"self_intersections": 0, "degenerate": 0, "flipped": 0, "inverted": 0})
         self.assertEqual(part["places"], [])
         self.assert_proved("a.glb", "a.stl", "a.off", "a.obj")
         checked = {n: self.bytes_of(n) for n in names}
@@ -53,7 +53,7 @@ class Check(Case):
             self.assertTrue(any(w.startswith(check["file"] + ": ") and "; repaired in " in w
                                 for w in stats["warnings"]), stats["warnings"])
             for part in check["parts"]:
-                self.assertEqual(part["left"], {"self_intersections": 0, "degenerate": 0, "flipped": 0})
+                self.assertEqual(part["left"], {"self_intersections": 0, "degenerate": 0, "flipped": 0, "inverted": 0})
                 if part["verdict"] == "clean":
                     self.assertEqual(part["rounds"], 0)
                     continue
@@ -72,6 +72,7 @@ class Check(Case):
                 step = 2.0 ** (math.frexp(extent)[1] - 24)
                 moved = step * (1 + 4.0 ** (part["rounds"] - 2) if part["rounds"] > 1 else 1)
                 self.assertLess(abs(written["volume"] - exact["volume"]), exact["area"] * moved, check["file"])
+                self.assertLess(abs(written["volume"] - exact["volume"]), exact["area"] * part["distance"])
         return stats
 
     def test_slivers_far_from_the_origin(self):
@@ -109,6 +110,57 @@ class Check(Case):
         self.assertEqual(names, {"block", "ball"})
         for colour in (b'"#ff0000"', b'"#0000ff"'):
             self.assertIn(colour, self.bytes_of("a.glb"))
+
+    def test_what_is_thinner_than_the_precision_is_said(self):
+        # 0.008 mm thick where floats have steps of 0.0625: rounding turns it inside out, and nothing crosses.
+        text = """
+          local p = {{1000009.105408, 1000008.941568, 999991.115776}, {999991.7056, 1000006.713344, 1000004.714496},
+            {1000003.403776, 999996.162048, 1000002.125824}, {1000001.404928, 1000003.960832, 999999.340544}}
+          local thin = polyhedron(p, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}})
+          return """
+        outcome = self.run_checked(text + "thin", "a.stl", "a.off")
+        self.expect(outcome, 0)
+        stats = outcome.json()
+        self.assertEqual(self.verdicts(outcome), {"a.stl": "repaired", "a.off": "clean"})
+        part = stats["check"][0]["parts"][0]
+        self.assertEqual(part["found"], {"self_intersections": 0, "degenerate": 0, "flipped": 0, "inverted": 1})
+        self.assertLess(part["volume"][0], 0)
+        self.assertEqual((part["triangles"][1], part["vanished"]), (0, 1))
+        self.assertAlmostEqual(part["thickness"], 0.00837, places=5)
+        self.assertEqual([p["kind"] for p in part["places"]], ["inverted", "vanished"])
+        self.assertIn("a.stl: the solid is thinner than the file's precision and was written empty",
+                      [w.replace("part 'part1'", "the solid") for w in stats["warnings"]])
+        self.assertTrue(any("1 surface inside out or on the wrong side of another at the coordinates of the file"
+                            in w for w in stats["warnings"]))
+
+        outcome = self.run_checked(text + "thin + cube(1)", "a.stl")
+        self.expect(outcome, 0)
+        part = outcome.json()["check"][0]["parts"][0]
+        self.assertEqual((part["verdict"], part["vanished"]), ("repaired", 1))
+        self.assertAlmostEqual(part["volume"][1], 1, delta=0.1)  # on a grid of 2^-7 mm
+        self.assert_proved("a.stl")
+
+    def test_walls_that_vanish_in_doubles_are_said(self):
+        text = "return cube(10) - cube(10):rotate(1e-7, 0, 0) + cube(3):translate(20, 0, 0)"
+        outcome = self.run_checked(text, "a.obj")
+        self.expect(outcome, 0)
+        check = outcome.json()["check"][0]
+        warnings = outcome.json()["warnings"]
+        part = check["parts"][0]
+        self.assertEqual(part["verdict"], "repaired")
+        self.assertEqual(part["vanished"], 1)
+        self.assertLess(part["thickness"], 2 * part["distance"])
+        self.assertLess(part["distance"], 1e-6)
+        self.assertTrue(any("; 1 connected surface less than 8.8" in w and " vanished, near (" in w
+                            and "(cube, model.lua:1)" in w for w in warnings), warnings)
+
+    def test_exact_files_have_a_verdict_of_their_own(self):
+        outcome = self.run_checked("return cube(1)", "a.exact.json", "a.off")
+        self.expect(outcome, 0)
+        self.assertEqual(outcome.json()["check"][0], {"file": "a.exact.json", "verdict": "exact", "parts": []})
+        self.assertEqual(self.verdicts(outcome)["a.off"], "clean")
+        outcome = self.run_script("return cube(1)", "--check", "--stats", "-o", "a.exact.json")
+        self.assertIn("a.exact.json: check: exact\n", outcome.err)
 
     def test_repairs_are_the_same_bytes_for_any_threads(self):
         text = "local s = sphere{r = 100, fn = 32}\nreturn s - s:translate(0.00001, 0, 0)"

@@ -102,6 +102,21 @@ class Info(Case):
         self.assertFalse(found["parts"][0]["closed"])
         self.assertEqual(found["warnings"], ["part 'open' is not closed"])
 
+    def test_counting_ends_somewhere(self):
+        # 420 bars across 420 others, all through one another.
+        lines = []
+        for bar in range(840):
+            at = 3 * (bar % 420)
+            low, high = ((-1, at, 0), (1300, at + 1, 1)) if bar < 420 else ((at, -1, 0.25), (at + 1, 1300, 0.75))
+            lines += [f"v {(high if i & 1 else low)[0]} {(high if i & 2 else low)[1]} {(high if i & 4 else low)[2]}"
+                      for i in range(8)]
+            sides = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6))
+            lines += ["f " + " ".join(str(8 * bar + i + 1) for i in s) for s in sides]
+        self.write("bars.obj", "\n".join(lines) + "\n")
+        found = self.info("bars.obj")
+        self.assertEqual((found["self_intersections"], found["at_least"]), (1000000, True))
+        self.assertIn("at least 1000000 self-intersections\n", self.run_csgrun("info", "bars.obj").out)
+
     def test_mistakes(self):
         self.expect(self.run_csgrun("info", "none.stl", "--json"), 4, "csgrun: cannot read 'none.stl': No such file")
         self.expect(self.run_csgrun("info", "model.lua", "--json"), 2, "csgrun info: 'model.lua': the ending must be")

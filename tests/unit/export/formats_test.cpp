@@ -271,7 +271,7 @@ TEST(Rounding, SheetThatVanishesIsAWarningAndAnEmptyPart) {
       encode("glb", {{"sheet", sheet.share(), {}}, {"cube", testing::cube(1), {}}}, &report));
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_EQ(report.warnings[0],
-            "part 'sheet' is smaller than the file's precision and was written empty");
+            "part 'sheet' is thinner than the file's precision and was written empty");
   EXPECT_EQ(glb.json["meshes"].size(), 1u);
   std::set<std::string> names;
   for (const auto& node : glb.json["nodes"]) names.insert(node.value("name", ""));
@@ -321,7 +321,7 @@ TEST(Rounding, OfManyPartsIsOneLineForEachKind) {
   turned.triangles.resize(4);
   turned.flipped = 2;
   turned.dropped = 1;
-  gone.dropped = 4;
+  gone.face_normals.resize(6);  // it had faces
   RoundingTotals totals;
   for (const char* part : {"a", "b", "c"}) totals.add(turned, part);
   totals.add(gone, "d");
@@ -330,7 +330,7 @@ TEST(Rounding, OfManyPartsIsOneLineForEachKind) {
   totals.report(report);
   EXPECT_EQ(report.warnings,
             (std::vector<std::string>{
-                "2 parts are smaller than the file's precision and were written empty, the first "
+                "2 parts are thinner than the file's precision and were written empty, the first "
                 "is 'd'",
                 "3 triangles of 3 parts thinner than the file's precision were dropped",
                 "6 triangles of 3 parts turned over by rounding"}));

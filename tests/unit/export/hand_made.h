@@ -78,6 +78,16 @@ class HandMade {
     }
   }
 
+  /// A tetrahedron; it looks outwards when d lies behind a, b, c.
+  void tetrahedron(const std::array<glm::dvec3, 4>& p) {
+    std::array<uint32_t, 4> v{};
+    for (size_t i = 0; i < 4; ++i) v[i] = vertex(p[i].x, p[i].y, p[i].z);
+    face({v[0], v[1], v[2]});
+    face({v[0], v[3], v[1]});
+    face({v[0], v[2], v[3]});
+    face({v[1], v[3], v[2]});
+  }
+
   /// A prism over a regular polygon given by its corners, z from 0 to h; the side is surface 1.
   void prism(const std::vector<std::pair<double, double>>& corners, double h,
              uint32_t side_surface) {

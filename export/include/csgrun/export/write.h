@@ -22,15 +22,25 @@ struct Part {
   Affine placement;  ///< identity unless parts share one solid at several places
 };
 
+/// More crossings of one mesh than this are not looked for.
+constexpr uint64_t kMostCrossings = 1'000'000;
+
 /// What can be wrong with a mesh after rounding; each is found exactly.
 struct MeshDefects {
-  uint64_t crossings = 0;   ///< pairs of triangles that meet in more than corners and edges of both
+  /// Pairs of triangles that meet in more than corners and edges of both; kMostCrossings stands for
+  /// "at least so many".
+  uint64_t crossings = 0;
   uint64_t degenerate = 0;  ///< triangles whose corners lie on one line
   uint64_t flipped = 0;     ///< triangles turned by more than 90 degrees from their exact face
-  [[nodiscard]] bool none() const { return crossings == 0 && degenerate == 0 && flipped == 0; }
+  /// Connected surfaces with a winding number other than 0 in front: turned inside out, or on the
+  /// wrong side of another. Looked for where nothing crosses.
+  uint64_t inverted = 0;
+  [[nodiscard]] bool none() const {
+    return crossings == 0 && degenerate == 0 && flipped == 0 && inverted == 0;
+  }
 };
 
-enum class DefectKind : uint8_t { kCrossing, kDegenerate, kFlipped };
+enum class DefectKind : uint8_t { kCrossing, kDegenerate, kFlipped, kInverted, kVanished };
 
 struct DefectPlace {
   DefectKind kind{};
@@ -44,16 +54,21 @@ enum class CheckVerdict : uint8_t { kClean, kRepaired, kFailed };
 struct MeshCheck {
   std::string part;  ///< the first part that shows the mesh
   CheckVerdict verdict = CheckVerdict::kClean;
-  MeshDefects found;  ///< as rounded
-  MeshDefects left;   ///< after the last round of repair
-  std::vector<DefectPlace>
-      places;           ///< of the first of those found, or of those left when it failed
-  unsigned rounds = 0;  ///< of repair
-  uint64_t moved = 0;   ///< vertices that repair snapped to a coarser lattice
-  unsigned unions = 0;  ///< self-unions that it took
+  MeshDefects found;                ///< as rounded
+  MeshDefects left;                 ///< after the last round of repair
+  std::vector<DefectPlace> places;  ///< of the first of those found of each kind
+  unsigned rounds = 0;              ///< of repair
+  uint64_t moved = 0;               ///< vertices that repair snapped to a coarser lattice
+  unsigned unions = 0;              ///< self-unions that it took
+  /// mm: no point of the surface is farther from the solid's, rounding and repair together.
+  double distance = 0;
+  /// Connected surfaces of the solid of which nothing is left: bodies, or voids.
+  uint64_t vanished = 0;
+  /// mm: twice the volume that each of those enclosed, divided by its area, is at most this.
+  double thickness = 0;
   std::array<uint64_t, 2> triangles{};  ///< as rounded, as written
   std::array<double, 2> volume{};       ///< mm^3, likewise
-  std::string problem;                  ///< why repair stopped before its last round, if it did
+  std::string problem;  ///< why repair gave up, if it did before its rounds were used up
 };
 
 struct WriteOptions {
@@ -83,7 +98,8 @@ bool keeps_parts(const std::string& format);
 
 /// The files of a model, in the order in which they must be there: an .obj after its .mtl. A mesh
 /// that failed its check is in them all the same: ask the report before writing. Errors:
-/// kCancelled, kLimit, kInternal, kOutOfRange.
+/// kInvalidArgument (an unknown ending, several parts for a format of one), kCancelled, kLimit,
+/// kInternal, kOutOfRange.
 Result<std::vector<ModelFile>> encode_files(const std::string& path, const std::vector<Part>& parts,
                                             const WriteOptions& options, WriteReport& report);
 
