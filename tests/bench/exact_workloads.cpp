@@ -50,9 +50,12 @@ class Verdicts {
     take(encode_files(name + ".glb", {Part{name, solid, {}}}, options, report));
     for (const MeshCheck& check : report.checks) {
       if (check.verdict == CheckVerdict::kFailed) {
-        fail(fmt::format(
-            "the check of {} failed: {} crossings, {} degenerate, {} flipped are left; {}", name,
-            check.left.crossings, check.left.degenerate, check.left.flipped, check.problem));
+        fail(
+            fmt::format("the check of {} failed: {} crossings, {} degenerate, {} flipped, {} "
+                        "inverted are left; "
+                        "{}",
+                        name, check.left.crossings, check.left.degenerate, check.left.flipped,
+                        check.left.inverted, check.problem));
       }
       (check.verdict == CheckVerdict::kClean ? clean_ : repaired_) += 1;
       crossings_ += check.found.crossings;
