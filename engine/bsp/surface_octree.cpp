@@ -1,18 +1,45 @@
 #include "engine/bsp/surface_octree.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/bsp/corner_trace.h"
 
 namespace csgrun {
 namespace {
 
-/// How many tests may be spent on dividing a cell of so many polygons: about what solving it would
-/// cost, which is their square, and more where many cross in a tangle. Fans of slivers come apart
-/// very late if at all, and everywhere along their length.
-size_t division_budget(size_t polygons, size_t crossing) {
-  return polygons * (polygons / 64 + 32) + 4 * crossing * crossing;
-}
+/// How many polygons a cell holds, and how many of them cross another one.
+struct Counts {
+  double polygons, crossing;
+};
+
+/// How many tests may be spent on dividing a cell: about what solving it costs, the square of its
+/// polygons. Where many cross they are cut by one another's planes, and it costs up to their cube.
+struct Budget {
+  double polygons, crossing;
+
+  static Budget of(const Counts& counts) {
+    const double n = counts.polygons, c = counts.crossing;
+    return {n * (n / 64 + 32), c * (c / 4 + 48)};
+  }
+  [[nodiscard]] double sum() const { return polygons + crossing; }
+  [[nodiscard]] Budget at_most(const Budget& o) const {
+    return {std::min(polygons, o.polygons), std::min(crossing, o.crossing)};
+  }
+  [[nodiscard]] Budget less(double tests) const {
+    const double first = std::min(crossing, tests);
+    return {polygons - (tests - first), crossing - first};
+  }
+  /// What is left for a half that holds `mine`, when the other holds `other`. For polygons that cross, by
+  /// what it costs to solve them; but where the other half holds a third less, something has come apart,
+  /// and nothing is taken away: the tip of a fan keeps them all, however often it is divided.
+  [[nodiscard]] Budget share(const Counts& mine, const Counts& other) const {
+    const auto part = [](double m, double o) { return m + o > 0 ? m / (m + o) : 0; };
+    const double m = mine.crossing, o = other.crossing;
+    return {polygons * part(mine.polygons, other.polygons),
+            crossing * (3 * o <= 2 * m ? 1 : part(m * m, o * o))};
+  }
+};
 
 class SurfaceOctreeBuilder {
  public:
@@ -37,7 +64,7 @@ class SurfaceOctreeBuilder {
     polygons_.assign(polygons.begin(), polygons.end());
     witnesses_.assign(witnesses.begin(), witnesses.end());
     // The root's lowest corner is outside of everything.
-    visit({root_cell(region, shift), 0, 0, 0, SIZE_MAX});
+    visit({root_cell(region, shift), 0, 0, 0, {HUGE_VAL, HUGE_VAL}});
     return std::move(tree_);
   }
 
@@ -47,7 +74,7 @@ class SurfaceOctreeBuilder {
     CellBox box;
     size_t first_polygon, first_witness;
     int32_t winding;
-    size_t budget;  ///< of tests for dividing it further
+    Budget budget;  ///< for dividing it further
   };
 
   /// Whether a vertex may be in the cell: certain for one of the cells around it.
@@ -63,15 +90,14 @@ class SurfaceOctreeBuilder {
   void visit(const Open& cell) {
     ++tree_.visited;
     const auto count = static_cast<uint32_t>(polygons_.size() - cell.first_polygon);
-    const auto crossing = static_cast<size_t>(
-        std::count_if(polygons_.begin() + static_cast<std::ptrdiff_t>(cell.first_polygon),
-                      polygons_.end(), [&](uint32_t p) { return crosses_[p] != 0; }));
-    if (count == 0 || (crossing == 0 && witnesses_.size() == cell.first_witness)) return;
-    const size_t budget = std::min(cell.budget, division_budget(count, crossing));
+    const Counts held = counts(cell.first_polygon, polygons_.size());
+    if (count == 0 || (held.crossing == 0 && witnesses_.size() == cell.first_witness)) return;
+    const Budget budget = Budget::of(held).at_most(cell.budget);
+    const double tests = 2 * held.polygons;
     const int axis = choose_axis(cell, count);
     const bool cancelled = cancel_ && cancel_->load(std::memory_order_relaxed);
-    if (count <= limit_ || budget < 2 * size_t{count} ||
-        cell.box.hi[axis] - cell.box.lo[axis] < 2 || cancelled) {
+    if (count <= limit_ || budget.sum() < tests || cell.box.hi[axis] - cell.box.lo[axis] < 2 ||
+        cancelled) {
       tree_.cells.push_back(
           {cell.box, cell.winding, static_cast<uint32_t>(tree_.polygons.size()), count});
       tree_.polygons.insert(tree_.polygons.end(),
@@ -79,7 +105,14 @@ class SurfaceOctreeBuilder {
                             polygons_.end());
       return;
     }
-    divide(cell, axis, budget - 2 * size_t{count});
+    divide(cell, axis, budget.less(tests));
+  }
+
+  /// Of the polygons on the stack from `begin` to `end`.
+  [[nodiscard]] Counts counts(size_t begin, size_t end) const {
+    size_t crossing = 0;
+    for (size_t i = begin; i < end; ++i) crossing += crosses_[polygons_[i]];
+    return {static_cast<double>(end - begin), static_cast<double>(crossing)};
   }
 
   [[nodiscard]] int choose_axis(const Open& cell, uint32_t count) const {
@@ -91,8 +124,7 @@ class SurfaceOctreeBuilder {
     return choice.best();
   }
 
-  /// The budget goes to the halves in proportion to their polygons.
-  void divide(const Open& cell, int axis, size_t budget) {
+  void divide(const Open& cell, int axis, const Budget& budget) {
     const int64_t middle = cell.box.lo[axis] + (cell.box.hi[axis] - cell.box.lo[axis]) / 2;
     const size_t polygons_end = polygons_.size(), witnesses_end = witnesses_.size();
     const auto fill = [&](const CellBox& box) {
@@ -103,21 +135,19 @@ class SurfaceOctreeBuilder {
         if (may_hold(witnesses_[i], box)) witnesses_.push_back(witnesses_[i]);
       }
     };
-    Open upper{cell.box, polygons_end, witnesses_end, cell.winding, 0};
+    Open upper{cell.box, polygons_end, witnesses_end, cell.winding, {}};
     upper.box.lo[axis] = middle;
     for (size_t i = cell.first_polygon; i < polygons_end; ++i) {
       upper.winding += winding_step(job_, polygons_[i], cell.box.lo, axis, middle);
     }
     fill(upper.box);
-    Open lower{cell.box, polygons_.size(), witnesses_.size(), cell.winding, 0};
+    Open lower{cell.box, polygons_.size(), witnesses_.size(), cell.winding, {}};
     lower.box.hi[axis] = middle;
     fill(lower.box);
-    const double below = static_cast<double>(polygons_.size() - lower.first_polygon),
-                 above = static_cast<double>(lower.first_polygon - polygons_end);
-    if (below + above > 0) {
-      lower.budget = static_cast<size_t>(static_cast<double>(budget) * (below / (below + above)));
-      upper.budget = budget - std::min(budget, lower.budget);
-    }
+    const Counts above = counts(polygons_end, lower.first_polygon),
+                 below = counts(lower.first_polygon, polygons_.size());
+    lower.budget = budget.share(below, above);
+    upper.budget = budget.share(above, below);
     visit(lower);
     polygons_.resize(lower.first_polygon);
     witnesses_.resize(lower.first_witness);
