@@ -21,7 +21,9 @@ using IVec3 = std::array<int64_t, 3>;
 /// Invariants: |coordinate| < 2^27 (2^40 for a leaf that reaches far outside the region of
 /// interest); each face is one loop, counter-clockwise from outside, exactly planar and convex, with
 /// at least three corners that are not collinear (180 degree corners are allowed); closed: each
-/// directed edge is balanced by its reverse; free of self-intersections.
+/// directed edge is balanced by its reverse. As an operand of a Boolean it bounds a solid: it crosses
+/// nothing and winds once around its inside. Leaves that do not are resolved first, by a job of their
+/// own (bsp/self_resolution).
 struct LeafGeometry {
   std::vector<IVec3> vertices;
   std::vector<uint32_t> corners;
@@ -32,6 +34,8 @@ struct LeafGeometry {
   std::vector<uint32_t> surface;     ///< per face: PolygonMesh::surface
   std::vector<uint32_t> appearance;  ///< per face: kernel-wide appearance id
   bool convex = false;
+  /// False when the faces are known to meet in corners and edges that both have, or nowhere.
+  bool may_touch = true;
 
   [[nodiscard]] size_t face_count() const { return face_starts.size() - 1; }
 };

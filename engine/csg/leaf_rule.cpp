@@ -1,6 +1,7 @@
 #include "engine/csg/leaf_rule.h"
 
 #include "engine/mesh/leaf_check.h"
+#include "engine/mesh/mesh_text.h"
 
 namespace csgrun {
 
@@ -44,14 +45,14 @@ std::string describe_tangle(const QuantisedLeaf& leaf, const LeafRounding& round
   }
   const auto place = intersection_place(*leaf.prepared->geometry, crossings[0][0], crossings[0][1]);
   const double step_mm = step.millimetres();
-  std::string text = "crosses itself: " + std::to_string(crossings.size()) +
-                     (crossings.size() == 1 ? " pair" : " pairs") + " of faces, the first near (";
+  glm::dvec3 shown;
   for (int i = 0; i < 3; ++i) {
-    double x = (place[i] + static_cast<double>(leaf.origin[i])) * step_mm;
-    if (!rounding.in_world) x = (x - rounding.offset[i]) / rounding.scale[i];
-    text += (i ? ", " : "") + std::to_string(x);
+    shown[i] = (place[i] + static_cast<double>(leaf.origin[i])) * step_mm;
+    if (!rounding.in_world) shown[i] = (shown[i] - rounding.offset[i]) / rounding.scale[i];
   }
-  return text + ") mm" + (rounding.in_world ? "" : " of its own coordinates");
+  return "crosses itself: " + std::to_string(crossings.size()) +
+         (crossings.size() == 1 ? " pair" : " pairs") + " of faces, the first near " +
+         rough_place_text(shown) + " mm" + (rounding.in_world ? "" : " of its own coordinates");
 }
 
 }  // namespace csgrun

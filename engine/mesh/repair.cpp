@@ -21,6 +21,14 @@ std::string counted(uint64_t count, const std::string& one, const std::string& m
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
+/// " (first: at (0, 0, 1), at (0, 0, 2))"; empty when no places are known.
+std::string places_text(const RepairStep& step) {
+  if (step.places.empty()) return {};
+  std::string text = step.count > step.places.size() ? " (first: " : " (";
+  for (size_t i = 0; i < step.places.size(); ++i) text += (i > 0 ? ", " : "") + step.places[i];
+  return text + ")";
+}
+
 /// Welds points of equal coordinates, and notes those that were more than one.
 void weld_equal(PolygonMesh& mesh, StepNote& note) {
   constexpr uint32_t kNone = UINT32_MAX;
@@ -110,7 +118,7 @@ std::optional<Error> find_disagreement(const RepairMesh& mesh) {
   EdgeUses(mesh.faces, mesh.points.size()).for_each_edge([&](std::span<const EdgeUse> uses) {
     if (error || uses.size() % 2 == 1 || excess(uses) == 0) return;
     error = refuse("faces disagree at the edge " + place_text(mesh.points[uses[0].low]) + " - " +
-                   place_text(mesh.points[uses[0].high]) + "; orient would turn them");
+                   place_text(mesh.points[uses[0].high]));
   });
   return error;
 }
@@ -154,13 +162,15 @@ Status run_steps(RepairMesh& mesh, const RepairOptions& options, bool outwards,
     size_t edges = 0;
     for (const HoleLoop& hole : holes) edges += hole.size();
     return refuse("not closed: " + counted(edges, "open edge ", "open edges ") +
-                  open_text(mesh, holes) + "; fill_holes closes holes, weld closes cracks");
+                  open_text(mesh, holes));
   }
   fill_holes(mesh, holes, filled);
   filled.file(report);
   if (options.drop_duplicates && !holes.empty()) drop_repeated_faces(mesh, false, repeated);
   repeated.file(report);
   if (mesh.faces.empty()) return refuse("nothing is left: no face bounds a solid");
+  if (encloses_nothing(mesh))
+    return refuse("nothing is enclosed: every face lies on others' backs");
   if (outwards) orient_outwards(mesh, inverted);
   inverted.file(report);
   if (!find_holes(mesh).empty()) {
@@ -206,10 +216,37 @@ std::string RepairStep::text() const {
              counted(faces, "face", "faces");
       break;
   }
-  if (places.empty()) return line;
-  line += count > places.size() ? " (first: " : " (";
-  for (size_t i = 0; i < places.size(); ++i) line += (i > 0 ? ", " : "") + places[i];
-  return line + ")";
+  return line + places_text(*this);
+}
+
+std::string RepairStep::advice() const {
+  std::string line;
+  switch (action) {
+    case RepairAction::kWeldEqual:
+    case RepairAction::kTurnSurfaces:
+      return {};  // nobody need do it by hand
+    case RepairAction::kWeldNear:
+      line = "make " + counted(count, "point", "points") + " equal to the one within " +
+             shortest_number(tolerance) + " mm";
+      break;
+    case RepairAction::kDropDegenerate:
+      line = "leave out " + counted(count, "face", "faces") + " without area";
+      break;
+    case RepairAction::kDropDuplicates:
+      line = "leave out " + counted(count, "face", "faces") + " on the same points as others";
+      break;
+    case RepairAction::kSplitEdges:
+      line = "put the points that lie on " + counted(count, "open edge", "open edges") +
+             " into the faces there, as corners";
+      break;
+    case RepairAction::kTurnFaces:
+      line = "reverse " + counted(count, "face", "faces");
+      break;
+    case RepairAction::kFillHoles:
+      line = "add the faces that close " + counted(count, "hole", "holes");
+      break;
+  }
+  return line + places_text(*this);
 }
 
 Result<PolygonMesh> repair_mesh(PolygonMesh mesh, const RepairOptions& options,
@@ -241,25 +278,6 @@ std::string describe_holes(const PolygonMesh& mesh) {
   if (!orient_faces(faces, unused)) return {};
   const std::vector<HoleLoop> holes = find_holes(faces);
   return holes.empty() ? std::string() : open_text(faces, holes);
-}
-
-Result<RepairOptions> suggest_repair(const PolygonMesh& mesh) {
-  RepairOptions options;
-  if (repair_mesh(mesh, options, nullptr)) return options;
-  double size = 0;
-  for (const glm::dvec3& p : mesh.points) {
-    for (int i = 0; i < 3; ++i) size = std::max(size, std::fabs(p[i] - mesh.points[0][i]));
-  }
-  for (const double weld : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0}) {
-    if (!(weld >= 1e-7 * size && weld <= 1e-4 * size)) continue;
-    options.weld = weld;
-    if (repair_mesh(mesh, options, nullptr)) return options;
-  }
-  options = {};
-  options.fill_holes = true;
-  const Result<PolygonMesh> filled = repair_mesh(mesh, options, nullptr);
-  if (!filled) return filled.error();
-  return options;
 }
 
 }  // namespace csgrun

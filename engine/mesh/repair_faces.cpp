@@ -2,8 +2,9 @@
 #include <algorithm>
 #include <span>
 
-#include "engine/mesh/area_sum.h"
+#include "engine/bsp/union_find.h"
 #include "engine/mesh/edge_uses.h"
+#include "engine/mesh/flat_points.h"
 #include "engine/mesh/mesh_text.h"
 #include "engine/mesh/repair_steps.h"
 
@@ -11,12 +12,6 @@ namespace csgrun {
 namespace {
 
 using Loop = std::vector<uint32_t>;
-
-bool is_flat(const RepairMesh& mesh, const Loop& loop) {
-  AreaSum area(mesh.points, loop[0]);
-  area.add_loop(loop);
-  return area.is_rounding();
-}
 
 /// A face of one loop by its vertices alone: from the lowest on, towards its lower neighbour.
 struct Outline {
@@ -110,26 +105,21 @@ std::vector<bool> balanced_faces(const RepairMesh& mesh) {
 /// needed.
 void keep_two_sided_surfaces(const Singles& singles, const EdgeUses& edges,
                              const std::vector<int64_t>& need, std::vector<Group>& groups) {
-  std::vector<uint32_t> parent(singles.faces.size());
-  for (uint32_t f = 0; f < parent.size(); ++f) parent[f] = f;
-  const auto root = [&](uint32_t f) {
-    while (parent[f] != f) f = parent[f] = parent[parent[f]];
-    return f;
-  };
+  UnionFind connected(singles.faces.size());
   edges.for_each_edge([&](std::span<const EdgeUse> uses) {
-    for (const EdgeUse& use : uses) parent[root(use.face)] = root(uses[0].face);
+    for (const EdgeUse& use : uses) connected.join(use.face, uses[0].face);
   });
-  std::vector<bool> something_stays(parent.size(), false);
+  std::vector<bool> something_stays(connected.size(), false);
   const auto group_of = [&](uint32_t f) {
     return singles.group_of[f] == kNone ? nullptr : &groups[singles.group_of[f]];
   };
-  for (uint32_t f = 0; f < parent.size(); ++f) {
+  for (uint32_t f = 0; f < connected.size(); ++f) {
     if (singles.faces[f].loops.empty()) continue;
-    if (group_of(f) == nullptr || group_of(f)->stay > 0) something_stays[root(f)] = true;
+    if (group_of(f) == nullptr || group_of(f)->stay > 0) something_stays[connected.find(f)] = true;
   }
-  for (uint32_t f = 0; f < parent.size(); ++f) {
+  for (uint32_t f = 0; f < connected.size(); ++f) {
     if (singles.faces[f].loops.empty() || group_of(f) == nullptr) continue;
-    if (!something_stays[root(f)] && need[f] >= 0) group_of(f)->stay = 1;
+    if (!something_stays[connected.find(f)] && need[f] >= 0) group_of(f)->stay = 1;
   }
 }
 
@@ -161,12 +151,12 @@ void clean_faces(RepairMesh& mesh, StepNote& note) {
 void drop_flat_faces(RepairMesh& mesh, StepNote& note) {
   for (const LoopFace& face : mesh.faces) {
     const bool all_flat = std::all_of(face.loops.begin(), face.loops.end(),
-                                      [&](const Loop& loop) { return is_flat(mesh, loop); });
+                                      [&](const Loop& loop) { return is_flat(mesh.points, loop); });
     if (all_flat) note.add_at(mesh.points[face.loops[0][0]]);
   }
   if (note.step().count == 0) return;
   drop_collinear_loops(mesh.points, mesh.faces,
-                       [&](const Loop& loop) { return is_flat(mesh, loop); });
+                       [&](const Loop& loop) { return is_flat(mesh.points, loop); });
 }
 
 void drop_repeated_faces(RepairMesh& mesh, bool keep_two_sided, StepNote& note) {

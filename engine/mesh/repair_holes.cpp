@@ -15,45 +15,68 @@ constexpr uint32_t kNone = UINT32_MAX;
 /// Longer loops are closed by one polygon: n^3 / 6 triangles are looked at.
 constexpr size_t kLongestByArea = 256;
 
-/// The directed edges that faces must still run through, and how often, by where they start.
+/// The directed edges that faces must still run through, and how often, by where they start and
+/// then by where they end.
 class MissingEdges {
  public:
   explicit MissingEdges(const RepairMesh& mesh) : starts_(mesh.points.size() + 1, 0) {
-    std::vector<EdgeUse> missing;
+    struct Missing {
+      EdgeUse use;
+      uint32_t left;
+    };
+    std::vector<Missing> missing;
     EdgeUses(mesh.faces, mesh.points.size()).for_each_edge([&](std::span<const EdgeUse> uses) {
       const int64_t sum = excess(uses);
       const EdgeUse reverse{uses[0].low, uses[0].high, 0, sum < 0};
-      for (int64_t k = std::abs(sum); k > 0; --k) missing.push_back(reverse);
+      if (sum != 0) missing.push_back({reverse, static_cast<uint32_t>(std::abs(sum))});
     });
-    for (const EdgeUse& edge : missing) ++starts_[edge.from() + 1];
+    for (const Missing& edge : missing) ++starts_[edge.use.from() + 1];
     for (size_t v = 1; v < starts_.size(); ++v) starts_[v] += starts_[v - 1];
-    ends_.resize(missing.size());
+    edges_.resize(missing.size());
     std::vector<size_t> next = starts_;
-    for (const EdgeUse& edge : missing) ends_[next[edge.from()]++] = edge.to();
+    for (const Missing& edge : missing)
+      edges_[next[edge.use.from()]++] = {edge.use.to(), edge.left};
     for (size_t v = 0; v + 1 < starts_.size(); ++v) {
-      std::sort(ends_.begin() + static_cast<std::ptrdiff_t>(starts_[v]),
-                ends_.begin() + static_cast<std::ptrdiff_t>(starts_[v + 1]));
+      std::sort(edges_.begin() + static_cast<std::ptrdiff_t>(starts_[v]),
+                edges_.begin() + static_cast<std::ptrdiff_t>(starts_[v + 1]),
+                [](const Edge& a, const Edge& b) { return a.to < b.to; });
     }
-    is_used_.resize(ends_.size(), false);
+    first_left_.assign(starts_.begin(), starts_.end() - 1);
     previous_.resize(mesh.points.size(), kNone);
   }
 
-  [[nodiscard]] size_t vertex_count() const { return starts_.size() - 1; }
+  /// The vertices where missing edges start, those with most of them first: around them searches
+  /// are short, while a search that came through one would have to look at all of its edges.
+  [[nodiscard]] std::vector<uint32_t> busiest_first() const {
+    const auto edges_at = [&](uint32_t v) { return starts_[v + 1] - starts_[v]; };
+    std::vector<uint32_t> order;
+    for (uint32_t v = 0; v + 1 < starts_.size(); ++v) {
+      if (edges_at(v) > 0) order.push_back(v);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return edges_at(a) > edges_at(b); });
+    return order;
+  }
 
-  /// Takes the shortest loop out that starts with an edge from `v`; empty when none starts there.
+  /// Takes the shortest loop out that starts with the first edge left at `v`; empty when there is
+  /// none.
   HoleLoop take_loop(uint32_t v) {
-    const size_t first = first_unused(v);
+    const size_t first = first_left(v);
     if (first == starts_[v + 1]) return {};
     // Breadth first, back to v. The missing edges that leave a vertex are as many as those that
     // reach it, so v is found.
-    std::vector<uint32_t> reached{ends_[first]};
-    previous_[ends_[first]] = v;
-    for (size_t i = 0; i < reached.size() && previous_[v] == kNone; ++i) {
-      for (size_t e = starts_[reached[i]]; e < starts_[reached[i] + 1]; ++e) {
-        if (is_used_[e] || previous_[ends_[e]] != kNone) continue;
-        previous_[ends_[e]] = reached[i];
-        if (ends_[e] == v) break;
-        reached.push_back(ends_[e]);
+    std::vector<uint32_t> reached;
+    const auto reach = [&](uint32_t u, uint32_t from) {
+      previous_[u] = from;
+      reached.push_back(u);
+      if (is_left(u, v)) previous_[v] = u;
+      return previous_[v] != kNone;
+    };
+    bool is_found = reach(edges_[first].to, v);
+    for (size_t i = 0; i < reached.size() && !is_found; ++i) {
+      for (size_t e = first_left(reached[i]); e < starts_[reached[i] + 1] && !is_found; ++e) {
+        if (edges_[e].left == 0 || previous_[edges_[e].to] != kNone) continue;
+        is_found = reach(edges_[e].to, reached[i]);
       }
     }
     HoleLoop loop;
@@ -69,20 +92,34 @@ class MissingEdges {
   }
 
  private:
-  [[nodiscard]] size_t first_unused(uint32_t v) const {
-    size_t e = starts_[v];
-    while (e < starts_[v + 1] && is_used_[e]) ++e;
+  struct Edge {
+    uint32_t to;
+    uint32_t left;  ///< how often it is still missing
+  };
+
+  /// The first edge from `v` that is still missing, or the end of its edges.
+  size_t first_left(uint32_t v) {
+    size_t& e = first_left_[v];
+    while (e < starts_[v + 1] && edges_[e].left == 0) ++e;
     return e;
   }
-  void use(uint32_t from, uint32_t to) {
-    size_t e = starts_[from];
-    while (is_used_[e] || ends_[e] != to) ++e;
-    is_used_[e] = true;
+  /// The edge by its ends, or the first one behind it.
+  [[nodiscard]] size_t find(uint32_t from, uint32_t to) const {
+    const auto begin = edges_.begin() + static_cast<std::ptrdiff_t>(starts_[from]);
+    const auto end = edges_.begin() + static_cast<std::ptrdiff_t>(starts_[from + 1]);
+    return static_cast<size_t>(
+        std::lower_bound(begin, end, to, [](const Edge& e, uint32_t v) { return e.to < v; }) -
+        edges_.begin());
   }
+  [[nodiscard]] bool is_left(uint32_t from, uint32_t to) const {
+    const size_t e = find(from, to);
+    return e < starts_[from + 1] && edges_[e].to == to && edges_[e].left > 0;
+  }
+  void use(uint32_t from, uint32_t to) { --edges_[find(from, to)].left; }
 
   std::vector<size_t> starts_;
-  std::vector<uint32_t> ends_;
-  std::vector<bool> is_used_;
+  std::vector<Edge> edges_;
+  std::vector<size_t> first_left_;  ///< by vertex: edges before it are used up
   std::vector<uint32_t> previous_;  ///< of the search; kNone: not reached
 };
 
@@ -101,11 +138,15 @@ double triangle_cost(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3&
 std::vector<HoleLoop> find_holes(const RepairMesh& mesh) {
   MissingEdges missing(mesh);
   std::vector<HoleLoop> holes;
-  for (uint32_t v = 0; v < missing.vertex_count(); ++v) {
+  for (const uint32_t v : missing.busiest_first()) {
     for (HoleLoop loop = missing.take_loop(v); !loop.empty(); loop = missing.take_loop(v)) {
+      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
       holes.push_back(std::move(loop));
     }
   }
+  std::stable_sort(holes.begin(), holes.end(), [](const HoleLoop& a, const HoleLoop& b) {
+    return a[0] != b[0] ? a[0] < b[0] : a[1] < b[1];
+  });
   return holes;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <span>
 
+#include "engine/bsp/union_find.h"
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/mesh_text.h"
 #include "engine/mesh/repair_patches.h"
@@ -29,20 +30,14 @@ struct Surfaces {
 Surfaces find_surfaces(const RepairMesh& mesh) {
   const EdgeUses edges(mesh.faces, mesh.points.size());
   const Patches patches = find_patches(mesh.faces, edges);
-  std::vector<uint32_t> parent(patches.count);
-  for (uint32_t p = 0; p < patches.count; ++p) parent[p] = p;
-  const auto root = [&](uint32_t p) {
-    while (parent[p] != p) p = parent[p] = parent[parent[p]];
-    return p;
-  };
+  UnionFind joined(patches.count);
   for (const Junction& junction : find_junctions(patches, edges)) {
-    const uint32_t first = root(junction.left[0].first);
-    for (const auto& [patch, left] : junction.left) parent[root(patch)] = first;
+    for (const auto& [patch, left] : junction.left) joined.join(patch, junction.left[0].first);
   }
   Surfaces surfaces;
   std::vector<uint32_t> number(patches.count, kNone);
   for (const uint32_t patch : patches.of_face) {
-    uint32_t& n = number[root(patch)];
+    uint32_t& n = number[joined.find(patch)];
     if (n == kNone) n = surfaces.count++;
     surfaces.of_face.push_back(n);
   }
@@ -71,6 +66,7 @@ class Nesting {
   }
 
   [[nodiscard]] double volume(uint32_t s) const { return volume_[s]; }
+  [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
 
   /// Whether surface `outer` winds around most of some points of surface `inner`. Surfaces may
   /// touch in corners and edges, so these are the middles of faces.
@@ -181,20 +177,21 @@ void orient_outwards(RepairMesh& mesh, StepNote& note) {
     if (nesting.volume(s) < 0) inverted.push_back(s);
   }
   if (inverted.empty()) return;
+  const BoxTree tree(nesting.boxes());
   std::vector<bool> turned(surfaces.count, false);
   for (const uint32_t s : inverted) {
     bool is_outermost = true;
-    for (uint32_t o = 0; o < surfaces.count && is_outermost; ++o) {
-      is_outermost = !nesting.encloses(o, s);
-    }
+    tree.visit_all(nesting.boxes()[s], [&](uint32_t o) {
+      if (is_outermost) is_outermost = !nesting.encloses(o, s);
+    });
     turned[s] = is_outermost;
   }
   const std::vector<bool> outermost = turned;
   for (const uint32_t s : inverted) {
     if (!outermost[s]) continue;
-    for (uint32_t inner = 0; inner < surfaces.count; ++inner) {
+    tree.visit_all(nesting.boxes()[s], [&](uint32_t inner) {
       if (!turned[inner] && nesting.encloses(s, inner)) turned[inner] = true;
-    }
+    });
   }
   for (uint32_t s = 0; s < surfaces.count; ++s) {
     if (!turned[s]) continue;

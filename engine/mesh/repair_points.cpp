@@ -104,37 +104,28 @@ void split_open_edges(RepairMesh& mesh, double tolerance, StepNote& note) {
   // number.
   const std::vector<EdgeUse> edges = open_edges(mesh, true);
   const std::vector<uint32_t> ends = ends_of(edges);
-  const auto edge_count = static_cast<uint32_t>(edges.size());
-  std::vector<double> margins;
   std::vector<Box> boxes;
-  boxes.reserve(edges.size() + ends.size());
-  for (const EdgeUse& edge : edges) {
-    const glm::dvec3 &a = mesh.points[edge.low], &b = mesh.points[edge.high];
-    margins.push_back(
-        std::max(tolerance, kRounding * std::max(largest_coordinate(a), largest_coordinate(b))));
-    boxes.push_back(box_around(a, b, margins.back()));
-  }
+  boxes.reserve(ends.size());
   for (const uint32_t v : ends) boxes.push_back(box_around(mesh.points[v], mesh.points[v], 0));
   const BoxTree tree(boxes);
   EdgeSplits splits;
   std::vector<std::pair<double, uint32_t>> inside;
-  for (uint32_t e = 0; e < edge_count; ++e) {
-    const EdgeUse& edge = edges[e];
+  for (const EdgeUse& edge : edges) {
+    const glm::dvec3 &a = mesh.points[edge.low], &b = mesh.points[edge.high];
+    const double margin =
+        std::max(tolerance, kRounding * std::max(largest_coordinate(a), largest_coordinate(b)));
     inside.clear();
-    tree.visit_later(e, [&](uint32_t j) {
-      if (j < edge_count) return;
-      const uint32_t v = ends[j - edge_count];
+    tree.visit_all(box_around(a, b, margin), [&](uint32_t j) {
+      const uint32_t v = ends[j];
       if (v == edge.low || v == edge.high) return;
-      const double t =
-          place_on(mesh.points[edge.low], mesh.points[edge.high], mesh.points[v], margins[e]);
+      const double t = place_on(a, b, mesh.points[v], margin);
       if (t > 0) inside.emplace_back(t, v);
     });
     if (inside.empty()) continue;
     std::sort(inside.begin(), inside.end());
     std::vector<uint32_t>& inner = splits[{edge.low, edge.high}];
     for (const auto& [t, v] : inside) inner.push_back(v);
-    note.add(rough_place_text(mesh.points[edge.low]) + " - " +
-             rough_place_text(mesh.points[edge.high]));
+    note.add(rough_place_text(a) + " - " + rough_place_text(b));
   }
   note.step().tolerance = tolerance;
   if (splits.empty()) return;

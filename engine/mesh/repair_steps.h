@@ -28,8 +28,8 @@ class StepNote {
     if (step_.places.size() < RepairStep::kMostPlaces) step_.places.push_back(place);
     ++step_.count;
   }
-  /// "at (1, 2, 3)".
   void add() { ++step_.count; }  ///< somewhere: it has no place
+  /// "at (1, 2, 3)".
   void add_at(const glm::dvec3& point);
   RepairStep& step() { return step_; }
   /// Into the report, if anything was counted.
@@ -52,7 +52,7 @@ void split_open_edges(RepairMesh& mesh, double tolerance, StepNote& note);
 /// Drops repeated corners and spikes, and faces of which nothing is left.
 void clean_faces(RepairMesh& mesh, StepNote& note);
 
-/// Drops faces without area; the neighbour across the longest edge is split, so that nothing opens.
+/// Drops faces whose points lie on a line; the neighbour across the longest edge is split, so that nothing opens.
 void drop_flat_faces(RepairMesh& mesh, StepNote& note);
 
 /// Of faces over the same points one stays where its neighbours need one: where on most of its edges
@@ -65,7 +65,13 @@ void drop_repeated_faces(RepairMesh& mesh, bool keep_two_sided, StepNote& note);
 /// as may be where there is a choice. Errors: kInvalidMesh, when there is no such orientation.
 Status orient_faces(RepairMesh& mesh, StepNote& note);
 
-/// Turns over closed surfaces that are inside out, each with what it encloses.
+/// Whether no point has a winding number other than 0: faces of each plane, up to rounding, cancel.
+/// False also where they do so but share no edges. O(n log n).
+bool encloses_nothing(const RepairMesh& mesh);
+
+/// Turns over closed surfaces that are inside out, each with what it encloses. Each is compared with
+/// the surfaces whose boxes hold its box, face by face: O(n log n) for those that lie side by side,
+/// O(s n) for s small ones within a large one of n faces.
 void orient_outwards(RepairMesh& mesh, StepNote& note);
 
 /// A loop of edges that are missing, in the direction of the face that would close it.

@@ -8,7 +8,7 @@
 
 #include <csgrun/engine/validate.h>
 
-#include "engine/mesh/area_sum.h"
+#include "engine/mesh/flat_points.h"
 #include "engine/mesh/mesh_text.h"
 
 namespace csgrun {
@@ -53,14 +53,11 @@ bool loop_is_degenerate(const PolygonMesh& mesh, uint32_t begin, uint32_t end) {
   return false;
 }
 
-/// Whether the vector area of a face is nothing but rounding.
+/// Whether all corners of a face lie on one line.
 bool has_no_area(const PolygonMesh& mesh, uint32_t face) {
-  AreaSum area(mesh.points, mesh.corners[mesh.loop_starts[mesh.face_starts[face]]]);
-  for (uint32_t l = mesh.face_starts[face]; l < mesh.face_starts[face + 1]; ++l) {
-    area.add_loop({mesh.corners.data() + mesh.loop_starts[l],
-                   mesh.corners.data() + mesh.loop_starts[l + 1]});
-  }
-  return area.is_rounding();
+  return is_flat(mesh.points,
+                 {mesh.corners.data() + mesh.loop_starts[mesh.face_starts[face]],
+                  mesh.corners.data() + mesh.loop_starts[mesh.face_starts[face + 1]]});
 }
 
 std::string face_text(const PolygonMesh& mesh, uint32_t face) {

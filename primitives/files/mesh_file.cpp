@@ -95,8 +95,12 @@ Result<PolygonMesh> repair_solid_mesh(PolygonMesh mesh, const RepairOptions& opt
                                       std::vector<std::string>* notes) {
   const std::string name = mesh.kind.empty() ? "mesh" : mesh.kind;
   RepairReport report;
-  Result<PolygonMesh> repaired = repair_mesh(std::move(mesh), options, &report);
-  if (!repaired) return Error{repaired.error().code, name + ": " + repaired.error().message, {}};
+  Result<PolygonMesh> repaired = repair_mesh(mesh, options, &report);
+  if (!repaired) {
+    const std::string& reason = repaired.error().message;
+    return Error{
+        repaired.error().code, name + ": " + reason + repair_hint(mesh, name, options, reason), {}};
+  }
   for (const RepairStep& step : report.steps) notes->push_back(name + ": repair: " + step.text());
   return repaired;
 }

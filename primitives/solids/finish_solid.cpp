@@ -48,20 +48,47 @@ bool all_indices_valid(const PolygonMesh& mesh) {
                      [&](uint32_t corner) { return corner < mesh.points.size(); });
 }
 
-/// How a script asks for the repair of a file, or why there is none.
-std::string repair_text(const PolygonMesh& mesh, const std::string& name) {
-  const Result<RepairOptions> options = suggest_repair(mesh);
+/// The options as a script writes them.
+std::string options_text(const RepairOptions& options) {
+  if (options == RepairOptions{}) return "true";
+  std::string text;
+  const auto add = [&](const std::string& entry) { text += (text.empty() ? "" : ", ") + entry; };
+  if (options.weld > 0) add("weld = " + number_text(options.weld));
+  if (options.fill_holes) add("fill_holes = true");
+  if (!options.orient) add("orient = false");
+  if (!options.drop_degenerate) add("drop_degenerate = false");
+  if (!options.drop_duplicates) add("drop_duplicates = false");
+  return "{" + text + "}";
+}
+
+/// What to do about faces that somebody wrote by hand.
+std::string advice(const PolygonMesh& mesh) {
+  RepairReport report;
+  const Result<RepairOptions> options = suggest_repair(mesh, {}, &report);
   if (!options) return "; " + options.error().message;
-  const std::string table = options->fill_holes ? "{fill_holes = true}"
-                            : options->weld > 0 ? "{weld = " + number_text(options->weld) + "}"
-                                                : "true";
-  return "; a script repairs it by import(\"" + name + "\", {repair = " + table + "})";
+  std::string text;
+  for (const RepairStep& step : report.steps) {
+    const std::string line = step.advice();
+    if (!line.empty()) text += (text.empty() ? "; to mend it, " : ", and ") + line;
+  }
+  return text;
 }
 
 }  // namespace
 
+std::string repair_hint(const PolygonMesh& mesh, const std::string& name,
+                        const RepairOptions& wanted, const std::string& refusal) {
+  const Result<RepairOptions> options = suggest_repair(mesh, wanted);
+  if (options) {
+    return "; a script repairs it by import(\"" + name + "\", {repair = " + options_text(*options) +
+           "})";
+  }
+  const std::string& reason = options.error().message;
+  return reason == refusal ? "" : "; no repair makes it a solid: " + reason;
+}
+
 Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std::string* note,
-                                 bool hint) {
+                                 bool is_file) {
   if (mesh.face_count() == 0) {
     return Error{ErrorCode::kInvalidMesh, name + ": has no faces", {}};
   }
@@ -77,7 +104,7 @@ Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std:
         const std::string holes = describe_holes(mesh);
         if (!holes.empty()) message += " " + holes;
       }
-      if (hint) message += repair_text(mesh, name);
+      message += is_file ? repair_hint(mesh, name, {}, "") : advice(mesh);
     }
     return Error{ErrorCode::kInvalidMesh, std::move(message), {}};
   }

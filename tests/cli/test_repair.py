@@ -37,14 +37,15 @@ class Repaired(Case):
         self.expect(outcome, 1, "m.off: not closed: " + where)
         self.assertIn(hint, outcome.err)
         self.refuse(", {repair = true}", "m.off: not closed: 4 open edges in 1 hole of 4 edges at (0, 0.5, 0.5)",
-                    "fill_holes")
+                    hint)
         self.repair("{fill_holes = true}", 1, "1 hole was filled with 2 faces (4 edges at (0, 0.5, 0.5))")
 
     def test_orientation(self):
         self.write("m.off", off(POINTS, FACES[:5] + [FACES[5][::-1]]))
         self.refuse("", "not consistently oriented: 4 edges", 'import("m.off", {repair = true})')
         self.repair("true", 1, "1 face was turned to agree with its neighbours (at (0, 1, 1))")
-        self.refuse(", {repair = {orient = false}}", "faces disagree at the edge (0, 0, 0) - (0, 1, 0)", "orient")
+        self.refuse(", {repair = {orient = false}}", "faces disagree at the edge (0, 0, 0) - (0, 1, 0)",
+                    'import("m.off", {repair = true})')
 
     def test_cracks(self):
         moved = [(x + 0.0001, y, z) for x, y, z in POINTS]
@@ -60,6 +61,30 @@ class Repaired(Case):
         self.refuse("", "degenerate", 'import("m.off", {repair = true})')
         self.repair("true", 1, "1 face without area was dropped (at (0, 0, 0))",
                     "2 faces on the same points as others were dropped (at (0, 0, 0), at (1, 0, 1))")
+
+        self.refuse(", {repair = {drop_duplicates = false}}", "not closed: ",
+                    '; a script repairs it by import("m.off", {repair = true})')
+
+    def test_sheet(self):
+        self.write("m.off", off([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)]))
+        self.refuse("", "m.off: not closed: 4 open edges", "; no repair makes it a solid: nothing is ")
+        self.refuse(", {repair = {fill_holes = true}}", "m.off: nothing is ")
+
+    def test_face_that_crosses_itself(self):
+        corners = [(0, 0), (10, 10), (10, 0), (0, 10)]
+        faces = [(3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+        self.write("m.off", off([(x, y, z) for z in (0, 5) for x, y in corners], faces))
+        self.write("triangles.off", off([(x, y, z) for z in (0, 5) for x, y in corners],
+                                        [f[:3] for f in faces] + [(f[0], f[2], f[3]) for f in faces]))
+        points = "{" + ", ".join("{%d, %d, %d}" % (x, y, z) for z in (0, 5) for x, y in corners) + "}"
+        clockwise = "{" + ", ".join("{%d, %d, %d, %d}" % f[::-1] for f in faces) + "}"
+        for rule, volume in (("nonzero", 250), ("evenodd", 250), ("positive", 125)):
+            for made in (f"import('m.off', {{fill = '{rule}'}})", f"import('m.off', {{fill = '{rule}', repair = true}})",
+                         f"import('triangles.off', {{fill = '{rule}'}})",
+                         f"polyhedron{{points = {points}, faces = {clockwise}, fill = '{rule}'}}"):
+                outcome = self.run_script("return " + made)
+                self.expect(outcome, 0)
+                self.assertEqual(outcome.json()["parts"][0]["volume"], volume, made)
 
     def test_no_orientation(self):
         strip = [(0, 1, 2), (1, 3, 2), (2, 3, 4), (3, 0, 4), (4, 0, 1)]

@@ -1,5 +1,6 @@
 // Leaves that cross themselves: what they enclose by each fill rule, compared with Booleans of the
 // parts that they were put together from.
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 #include <csgrun/engine/evaluate.h>
@@ -169,6 +170,39 @@ TEST(SelfCrossing, TheSameInEveryWayOfEvaluation) {
   }
 }
 
+TEST(SelfCrossing, FacesThatCrossThemselves) {
+  // Prisms over a bow-tie, whose caps have no signed area, and over a five-pointed star, whose caps
+  // have; both tilted, and compared with the same prisms with fans of triangles as caps.
+  const std::vector<glm::dvec2> bow{{0, 0}, {10, 10}, {10, 0}, {0, 10}};
+  const std::vector<glm::dvec2> star{{0, 0}, {12, 9}, {-3, 9}, {10, 0}, {5, 15}};
+  const auto prism = [](const std::vector<glm::dvec2>& outline, bool fans) {
+    const auto n = static_cast<uint32_t>(outline.size());
+    PolygonMesh mesh;
+    for (const double z : {0.0, 5.0}) {
+      for (const glm::dvec2& p : outline) mesh.points.push_back({p.x, p.y, z + p.x / 2 + p.y / 4});
+    }
+    std::vector<uint32_t> bottom, top;
+    for (uint32_t i = 0; i < n; ++i) {
+      bottom.push_back(n - 1 - i);
+      top.push_back(n + i);
+      const uint32_t next = (i + 1) % n;
+      mesh.add_face(std::array<uint32_t, 4>{i, next, n + next, n + i});
+    }
+    for (const auto& cap : {bottom, top}) {
+      if (!fans) mesh.add_face(cap);
+      for (uint32_t i = 1; fans && i + 1 < n; ++i)
+        mesh.add_face(std::array<uint32_t, 3>{cap[0], cap[i], cap[i + 1]});
+    }
+    return mesh;
+  };
+  for (const FillRule rule : kRules) {
+    for (const auto& outline : {bow, star})
+      expect_same(leaf(prism(outline, false), rule), leaf(prism(outline, true), rule));
+    EXPECT_EQ(run(leaf(prism(bow, false), rule)).solid->measures.volume,
+              rule == FillRule::kPositive ? 125 : 250);
+  }
+}
+
 TEST(SelfCrossing, WhatIsSaid) {
   SourceRef where{std::make_shared<const std::string>("model.lua"), 7};
   const NodePtr tangle =
@@ -180,6 +214,7 @@ TEST(SelfCrossing, WhatIsSaid) {
       text.rfind("model.lua:7: 'tangle' crosses itself: 6 pairs of faces, the first near (", 0), 0u)
       << text;
   EXPECT_NE(text.find("; what is inside follows the fill rule evenodd"), std::string::npos) << text;
+  EXPECT_EQ(text.find("00000"), std::string::npos) << text;
   // Faces 1 (z = 4) of the one and 2 to 5 of the other meet there.
   double x = 0, y = 0, z = 0;
   ASSERT_EQ(std::sscanf(text.c_str() + text.find("near ("), "near (%lf, %lf, %lf)", &x, &y, &z), 3);

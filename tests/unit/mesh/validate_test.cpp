@@ -107,6 +107,13 @@ TEST(Validate, DegenerateFaces) {
   EXPECT_EQ(report.first_places.at(0), "degenerate face 0 at (0, 0, 0)");
 }
 
+TEST(Validate, FacesWhoseAreaCancelsAreNotDegenerate) {
+  PolygonMesh mesh;  // a bow-tie
+  mesh.points = {{0, 0, 0}, {10, 10, 1}, {10, 0, 0}, {0, 10, 1}};
+  mesh.add_face(std::array<uint32_t, 4>{0, 1, 2, 3});
+  EXPECT_EQ(check_mesh(mesh).degenerate_faces, 0u);
+}
+
 TEST(Validate, ThinFacesAreNotDegenerate) {
   PolygonMesh mesh;
   mesh.points = {{1e6, 1e6, 0}, {1e6 + 1, 1e6, 0}, {1e6 + 0.5, 1e6 + 1e-9, 0}};

@@ -185,6 +185,27 @@ TEST(Polyhedron, ErrorsSayWhatIsWrong) {
   std::reverse(faces[3].begin(), faces[3].end());
   EXPECT_EQ(message(kTetraPoints, faces).substr(0, 39), "polyhedron: not consistently oriented: ");
   EXPECT_EQ(message(kTetraPoints, {}), "polyhedron: has no faces");
+
+  const auto ends_with = [&](const std::string& text, const std::string& end) {
+    EXPECT_TRUE(text.ends_with(end)) << text;
+  };
+  ends_with(message(kTetraPoints, faces), "; to mend it, reverse 1 face (at (1, 0, 0))");
+  faces.pop_back();
+  ends_with(message(kTetraPoints, faces),
+            "; to mend it, add the faces that close 1 hole (3 edges at (0.5, 0.5, 0.5))");
+  // A corner in the middle of an edge, in one of the two faces there.
+  auto more = kTetraPoints;
+  more.push_back({0.5, 0, 0});
+  faces = kTetraFaces;
+  for (auto& face : faces) {
+    const auto one = std::find(face.begin(), face.end(), 1u);
+    if (one == face.end() || face[(one - face.begin() + 1) % 3] != 0) continue;
+    face.insert(one + 1, 4u);
+    break;
+  }
+  ends_with(message(more, faces),
+            "; to mend it, put the points that lie on 1 open edge into the faces there, as corners "
+            "((0, 0, 0) - (1, 0, 0))");
   auto points = kTetraPoints;
   points[2].y = kInf;
   EXPECT_EQ(message(points, kTetraFaces), "polyhedron: point 2 must be finite, got inf");

@@ -22,17 +22,16 @@ struct SourceRef {
 
 /// What kind of failure; the ranges are: 1xx input, 2xx geometry, 3xx limits, 4xx files, 9xx ours.
 enum class ErrorCode {
-  kInvalidArgument = 100,   ///< a number out of range, NaN, infinite, an empty list ...
-  kMalformedFile = 101,     ///< a file is truncated or not what its name says
-  kInvalidMesh = 110,       ///< open, inconsistently oriented, index out of range ...
-  kSelfIntersecting = 200,  ///< a leaf whose surface crosses itself
+  kInvalidArgument = 100,  ///< a number out of range, NaN, infinite, an empty list ...
+  kMalformedFile = 101,    ///< a file is truncated or not what its name says
+  kInvalidMesh = 110,      ///< open, inconsistently oriented, index out of range ...
   kEmptyResult = 201,
-  kOutOfRange = 202,        ///< the scene does not fit the grid
-  kLimit = 300,             ///< memory or time budget used up
+  kOutOfRange = 202,  ///< the scene does not fit the grid
+  kLimit = 300,       ///< memory or time budget used up
   kCancelled = 301,
   kCannotRead = 400,
   kCannotWrite = 401,
-  kInternal = 900,          ///< an invariant of ours is broken
+  kInternal = 900,  ///< an invariant of ours is broken
 };
 
 struct Error {
@@ -45,7 +44,8 @@ struct Error {
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}    // NOLINT: implicit by design
+  Result(T value)
+      : state_(std::in_place_index<0>, std::move(value)) {}  // NOLINT: implicit by design
   Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT
 
   [[nodiscard]] bool has_value() const { return state_.index() == 0; }

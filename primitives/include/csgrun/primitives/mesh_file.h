@@ -34,7 +34,7 @@ Result<PolygonMesh> read_mesh_file(const std::string& path);
 Result<PolygonMesh> make_solid_mesh(PolygonMesh mesh, std::string* note);
 
 /// Makes a leaf of a mesh from outside by repair_mesh; each thing that was done is one of the
-/// notes. Notes and errors start with the mesh's kind.
+/// notes. Notes and errors start with the mesh's kind; errors end with the options that would help.
 Result<PolygonMesh> repair_solid_mesh(PolygonMesh mesh, const RepairOptions& options,
                                       std::vector<std::string>* notes);
 
