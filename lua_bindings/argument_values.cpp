@@ -215,6 +215,29 @@ VectorArgument Arguments::convert_vector(const Option& option, int index) const 
   return vector;
 }
 
+glm::dvec3 Arguments::convert_point(const Option& option, lua_Integer number, int index) const {
+  const ArgumentType type = option.type == T::kPoints2 ? T::kVector2 : T::kVector3;
+  const int size = vector_rule(type).most;
+  if (!lua_istable(L_, index) || list_length(L_, index) != size) {
+    fail(fmt::format("point {} must be {}, got {}", number, describe_type(type),
+                     describe_value(L_, index)));
+  }
+  glm::dvec3 point(0, 0, 0);
+  for (int i = 0; i < size; ++i) {
+    if (lua_rawgeti(L_, index, i + 1) != LUA_TNUMBER) {
+      fail(fmt::format("point {} must be {}, but its {} is {}", number, describe_type(type),
+                       "xyz"[i], describe_value(L_, -1)));
+    }
+    point[i] = lua_tonumber(L_, -1);
+    if (!std::isfinite(point[i])) {
+      fail(fmt::format("point {}: its {} must be finite, got {}", number, "xyz"[i],
+                       describe_value(L_, -1)));
+    }
+    lua_pop(L_, 1);
+  }
+  return point;
+}
+
 Arguments::Value Arguments::convert(const Option& option, int index) const {
   const int type = lua_type(L_, index);
   switch (option.type) {
@@ -267,13 +290,7 @@ Arguments::Value Arguments::convert(const Option& option, int index) const {
       Points points;
       for (lua_Integer i = 1; i <= length; ++i) {
         lua_rawgeti(L_, index, i);
-        const Option point{option.name, option.type == T::kPoints2 ? T::kVector2 : T::kVector3, "",
-                           ""};
-        if (!lua_istable(L_, -1)) {
-          fail(fmt::format("option '{}' must be {}, but entry {} is {}", option.name,
-                           describe_type(option.type), i, describe_value(L_, -1)));
-        }
-        points.push_back(convert_vector(point, lua_gettop(L_)).v);
+        points.push_back(convert_point(option, i - 1, lua_gettop(L_)));
         lua_pop(L_, 1);
       }
       return points;
@@ -282,18 +299,23 @@ Arguments::Value Arguments::convert(const Option& option, int index) const {
       const lua_Integer length = type == LUA_TTABLE ? list_length(L_, index) : -1;
       if (length < 0) wrong_type(option, index);
       IndexLists lists(static_cast<size_t>(length));
+      std::string one = option.name;  // "faces": each is a face
+      if (one.ends_with('s')) one.pop_back();
       for (lua_Integer i = 1; i <= length; ++i) {
         lua_rawgeti(L_, index, i);
         const lua_Integer count = lua_istable(L_, -1) ? list_length(L_, -1) : -1;
-        if (count < 0) wrong_type(option, index);
+        if (count < 0) {
+          fail(fmt::format("{} {} must be a list of indices, got {}", one, i - 1,
+                           describe_value(L_, -1)));
+        }
         for (lua_Integer k = 1; k <= count; ++k) {
           lua_rawgeti(L_, -1, k);
           int whole = 0;
           const lua_Integer value =
               lua_type(L_, -1) == LUA_TNUMBER ? lua_tointegerx(L_, -1, &whole) : 0;
           if (whole == 0 || value < 0 || value > UINT32_MAX) {
-            fail(fmt::format("option '{}': entry {} of list {} must be an index from 0 on, got {}",
-                             option.name, k, i, describe_value(L_, -1)));
+            fail(fmt::format("{} {}: index {} must be a whole number from 0 on", one, i - 1,
+                             describe_value(L_, -1)));
           }
           lists[static_cast<size_t>(i - 1)].push_back(static_cast<uint32_t>(value));
           lua_pop(L_, 1);

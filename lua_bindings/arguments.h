@@ -40,9 +40,9 @@ enum class ArgumentType : uint8_t {
   kSize3,       ///< a number, or a list of three
   kSize2Or3,    ///< a number, or a list of two or three (z is then 1)
   kAngles,      ///< a number, or a list of one to three
-  kPoints2,     ///< a list of points {x, y}
+  kPoints2,     ///< a list of points {x, y}; messages count them from 0, as indices do
   kPoints3,     ///< a list of points {x, y, z}
-  kIndexLists,  ///< a list of lists of indices from 0
+  kIndexLists,  ///< a list of lists of indices from 0; messages count the lists from 0 too
   kMatrix,      ///< a matrix, or its rows: a list of up to four lists of up to four numbers
   kColor,       ///< a name, "#rrggbb", or a list of three or four numbers
   kValue,       ///< anything; the function looks at it itself
@@ -119,6 +119,8 @@ class Arguments {
   void set_spread(const Option& option, int first, int count);
   Value convert(const Option& option, int index) const;
   VectorArgument convert_vector(const Option& option, int index) const;
+  /// Point `number` (from 0) of a list of points.
+  glm::dvec3 convert_point(const Option& option, lua_Integer number, int index) const;
   double check_number(const Option& option, int index) const;
   [[nodiscard]] std::string as_call(int list) const;
   [[noreturn]] void wrong_type(const Option& option, int index) const;

@@ -23,14 +23,18 @@ namespace {
 using T = ArgumentType;
 
 constexpr Option kImportOptions[] = {
-    {"file", T::kString, "", "STL, OFF, OBJ or PLY, relative to the file that calls", true},
+    {"file", T::kString, "",
+     "STL, OFF, OBJ or PLY, relative to the file that calls, or else to the folders of -L and\n"
+     "          CSGRUN_PATH",
+     true},
     {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
     {"repair", T::kValue, "false",
      "makes a broken mesh a closed one and warns of all it does: true, or a table of\n"
      "          weld = MM (0: how far apart points of open edges may be that become one),\n"
      "          fill_holes (false: closes what is open), orient (true: turns faces to agree, "
      "surfaces\n"
-     "          outwards), drop_degenerate and drop_duplicates (true)",
+     "          outwards), drop_degenerate (true: drops faces whose points lie on one line),\n"
+     "          drop_duplicates (true: of faces on the same points those that are too many)",
      false},
 };
 constexpr FunctionSpec kImport{
@@ -43,7 +47,7 @@ constexpr Option kRepairOptions[] = {
     {"weld", T::kNumber, "0", "mm", false, Range::kNotNegative},
     {"fill_holes", T::kBoolean, "false", "closes what is open", false},
     {"orient", T::kBoolean, "true", "turns faces to agree, surfaces outwards", false},
-    {"drop_degenerate", T::kBoolean, "true", "drops faces without area", false},
+    {"drop_degenerate", T::kBoolean, "true", "drops faces whose points lie on one line", false},
     {"drop_duplicates", T::kBoolean, "true", "drops faces on the same points as others", false},
 };
 constexpr FunctionSpec kRepair{"import: option 'repair'", "", kRepairOptions, false, ""};

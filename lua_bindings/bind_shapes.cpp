@@ -48,7 +48,7 @@ int circle(lua_State* L) {
 }
 
 constexpr Option kPolygonOptions[] = {
-    {"points", T::kPoints2, "", "the corners", true},
+    {"points", T::kPoints2, "", "the corners; the first is point 0, in paths and messages", true},
     {"paths", T::kIndexLists, "one outline of all points",
      "outlines and holes, as indices of points from 0", true},
 };

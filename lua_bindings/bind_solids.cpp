@@ -81,8 +81,9 @@ int cylinder(lua_State* L) {
 }
 
 constexpr Option kPolyhedronOptions[] = {
-    {"points", T::kPoints3, "", "the corners", true},
-    {"faces", T::kIndexLists, "", "corners of each face, clockwise seen from outside", true},
+    {"points", T::kPoints3, "", "the corners; the first is point 0, in faces and messages", true},
+    {"faces", T::kIndexLists, "",
+     "corners of each face, clockwise seen from outside; the first is face 0 in messages", true},
     {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
 };
 constexpr FunctionSpec kPolyhedron{"polyhedron",

@@ -72,7 +72,8 @@ std::string join_path(const std::string& folder, const std::string& name) {
   return folder.back() == '/' ? folder + name : folder + "/" + name;
 }
 
-Files::Files(const std::string& model_folder, const std::vector<std::string>& library_folders) {
+Files::Files(const std::string& model_folder, const std::vector<std::string>& library_folders)
+    : library_folders_(library_folders) {
   search_folders_ = {model_folder, join_path(model_folder, "csgrun_modules")};
   search_folders_.insert(search_folders_.end(), library_folders.begin(), library_folders.end());
   // Where the modules folder beside the model is a symlink, its target is a library by intent of
@@ -98,27 +99,53 @@ bool Files::is_allowed(const std::string& real) const {
   });
 }
 
+/// Whether a path where nothing is would lie below no allowed folder.
+bool Files::leads_outside(const std::string& missing) const {
+  std::string parent = folder_of(plain_path(missing)), real_parent;
+  while ((real_parent = real_path(parent)).empty() && parent != "/") parent = folder_of(parent);
+  return !is_allowed(join_path(real_parent, "x"));
+}
+
 Files::Opened Files::open(const std::string& caller, const std::string& path) const {
-  const std::string refusal =
-      "'" + path + "' lies outside of the model's folder and the library folders (-L)";
   if (path.find('\0') != std::string::npos)
     throw ScriptError("a path must not contain a zero byte");
-  Opened opened;
-  opened.display = join_path(folder_of(caller), path);
-  opened.real = real_path(opened.display);
-  if (opened.real.empty()) {
-    const std::string reason = system_reason();
-    // Whether a file outside exists is nothing that a script may find out.
-    std::string parent = folder_of(plain_path(opened.display)), real_parent;
-    while ((real_parent = real_path(parent)).empty() && parent != "/") parent = folder_of(parent);
-    if (!is_allowed(join_path(real_parent, "x"))) throw ScriptError(refusal);
-    throw ScriptError("cannot read '" + path + "': " + reason);
+  std::vector<std::string> folders{folder_of(caller)};
+  if (path.empty() || path[0] != '/') {
+    folders.insert(folders.end(), library_folders_.begin(), library_folders_.end());
   }
-  if (!is_allowed(opened.real)) throw ScriptError(refusal);
-  FileText text = read_whole_file(opened.real);
-  if (!text.error.empty()) throw ScriptError("cannot read '" + path + "': " + text.error);
-  opened.bytes = std::move(text.bytes);
-  return opened;
+  std::string problem;  // with the first folder; where nothing was, others are added
+  bool is_missing = false;
+  for (const std::string& folder : folders) {
+    Opened opened;
+    opened.display = join_path(folder, path);
+    opened.real = real_path(opened.display);
+    const std::string reason = opened.real.empty() ? system_reason() : "";
+    // Whether a file outside exists is nothing that a script may find out.
+    const bool outside =
+        opened.real.empty() ? leads_outside(opened.display) : !is_allowed(opened.real);
+    if (outside) {
+      if (problem.empty()) {
+        problem = "'" + path + "' lies outside of the model's folder and the library folders (-L)";
+      }
+      continue;
+    }
+    if (opened.real.empty()) {
+      const std::string shown = "'" + (folder.empty() ? "." : folder) + "'";
+      if (problem.empty()) {
+        is_missing = true;
+        problem = "cannot read '" + path + "': " + reason;
+        if (folders.size() > 1) problem += "; looked in " + shown;
+      } else if (is_missing) {
+        problem += ", " + shown;
+      }
+      continue;
+    }
+    FileText text = read_whole_file(opened.real);
+    if (!text.error.empty()) throw ScriptError("cannot read '" + path + "': " + text.error);
+    opened.bytes = std::move(text.bytes);
+    return opened;
+  }
+  throw ScriptError(problem);
 }
 
 Files::Opened Files::open_module(const std::string& name) const {

@@ -28,8 +28,9 @@ class Files {
     std::string real;     ///< after symlinks
     std::string bytes;
   };
-  /// Reads what `path` means to the file `caller` (a path as in messages). Throws ScriptError: not
-  /// below an allowed folder after symlinks, missing, or not a regular file.
+  /// Reads what `path` means to the file `caller` (a path as in messages): seen from its folder, or
+  /// else from the library folders, in their order. Throws ScriptError: not below an allowed folder
+  /// after symlinks, missing, or not a regular file.
   Opened open(const std::string& caller, const std::string& path) const;
   /// Reads the module `name` ("parts.wheel"). Throws ScriptError that lists the tried paths.
   Opened open_module(const std::string& name) const;
@@ -38,8 +39,10 @@ class Files {
 
  private:
   [[nodiscard]] bool is_allowed(const std::string& real) const;
+  [[nodiscard]] bool leads_outside(const std::string& missing) const;
 
-  std::vector<std::string> search_folders_;  // for modules, in order, as shown in messages
+  std::vector<std::string> library_folders_;  // as shown in messages
+  std::vector<std::string> search_folders_;   // for modules, in order, as shown in messages
   std::vector<std::string> roots_;           // real paths below which files may be read
 };
 

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -13,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lua_bindings/measure/embedded_buffer.h"
+#include "lua_bindings/measure/json_place.h"
 
 namespace csgrun {
 namespace {
@@ -22,15 +22,11 @@ static_assert(std::endian::native == std::endian::little, "GLB is read as it lie
 using Json = nlohmann::json;
 
 // Khronos glTF 2.0, section 4.4 (GLB) and 3.6 (accessors).
-constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+constexpr uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr size_t kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;
 constexpr size_t kTriangles = 4;
 constexpr size_t kLongestName = 4096;
-
-/// Not a GLB, or one that is made wrongly.
-struct Malformed {
-  std::string what;
-};
+constexpr const char* kManifold = "EXT_mesh_manifold";
 
 uint32_t read_word(std::string_view bytes, size_t at) {
   if (at + 4 > bytes.size()) throw Malformed{"the file is truncated"};
@@ -39,23 +35,33 @@ uint32_t read_word(std::string_view bytes, size_t at) {
   return word;
 }
 
-/// An index or a count. The library would cast anything.
-size_t whole(const Json& value) {
-  if (!value.is_number_unsigned()) throw Malformed{"an index or a count is no whole number"};
-  return value.get<size_t>();
-}
-
-size_t whole(const Json& object, const char* key, size_t otherwise) {
-  const auto found = object.find(key);
-  return found == object.end() ? otherwise : whole(*found);
-}
-
-std::vector<size_t> indices_in(const Json& object, const char* key) {
-  std::vector<size_t> indices;
-  if (const auto found = object.find(key); found != object.end()) {
-    for (const Json& index : *found) indices.push_back(whole(index));
+/// The points that triangles use, in their order, and nothing else.
+void drop_unused_points(TriangleMesh& mesh) {
+  std::vector<uint32_t> number(mesh.points.size(), 0);
+  for (const auto& triangle : mesh.triangles) {
+    for (const uint32_t corner : triangle) number[corner] = 1;
   }
-  return indices;
+  uint32_t kept = 0;
+  for (size_t p = 0; p < number.size(); ++p) {
+    if (number[p] == 0) continue;
+    mesh.points[kept] = mesh.points[p];
+    number[p] = kept++;
+  }
+  mesh.points.resize(kept);
+  for (auto& triangle : mesh.triangles) {
+    for (uint32_t& corner : triangle) corner = number[corner];
+  }
+}
+
+/// Whether two meshes have the same triangles in the same places.
+bool same_triangles(const TriangleMesh& a, const TriangleMesh& b) {
+  return std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(),
+                    [&](const auto& s, const auto& t) {
+                      for (size_t k = 0; k < 3; ++k) {
+                        if (a.points[s[k]] != b.points[t[k]]) return false;
+                      }
+                      return true;
+                    });
 }
 
 class Reader {
@@ -66,21 +72,15 @@ class Reader {
   /// that of its groups and its own, as in "legs/left".
   std::vector<TriangleMesh> meshes() const {
     std::vector<TriangleMesh> result;
-    if (!json_.contains("nodes")) return result;
-    const Json& nodes = json_.at("nodes");
-    const auto is_object = [](const Json& node) { return node.is_object(); };
-    if (!nodes.is_array() || !std::all_of(nodes.begin(), nodes.end(), is_object)) {
-      throw Malformed{"its nodes are no list of objects"};
-    }
+    if (!root().has("nodes")) return result;
+    const JsonPlace nodes = root().at("nodes");
     const std::vector<Place> places = places_of(nodes);
     for (size_t n = 0; n < nodes.size(); ++n) {
-      if (!places[n].is_reached || !nodes[n].contains("mesh")) continue;
-      const Json& mesh = json_.at("meshes").at(whole(nodes[n].at("mesh")));
-      TriangleMesh triangles;
-      triangles.name = places[n].name.empty() ? mesh.value("name", "mesh") : places[n].name;
-      for (const Json& primitive : mesh.at("primitives")) add_primitive(primitive, triangles);
+      if (!places[n].is_reached || !nodes.at(n).has("mesh")) continue;
+      const JsonPlace mesh = root().at("meshes").at(nodes.at(n).at("mesh").whole());
+      TriangleMesh triangles = triangles_of(mesh);
+      triangles.name = places[n].name.empty() ? mesh.text("name", "mesh") : places[n].name;
       put(triangles, places[n].map);
-      weld(triangles);
       result.push_back(std::move(triangles));
     }
     return result;
@@ -94,28 +94,51 @@ class Reader {
     std::string name;
   };
 
+  [[nodiscard]] JsonPlace root() const { return {json_, ""}; }
+
+  /// The triangles of all primitives. Vertices are one where the manifold that goes with them says
+  /// so, or else where their coordinates are equal.
+  TriangleMesh triangles_of(const JsonPlace& mesh) const {
+    TriangleMesh drawn;
+    const JsonPlace primitives = mesh.at("primitives");
+    for (size_t p = 0; p < primitives.size(); ++p) add_primitive(primitives.at(p), drawn);
+    if (!mesh.has("extensions") || !mesh.at("extensions").has(kManifold)) {
+      weld(drawn);
+      return drawn;
+    }
+    TriangleMesh manifold;
+    const JsonPlace primitive = mesh.at("extensions").at(kManifold).at("manifoldPrimitive");
+    add_primitive(primitive, manifold);
+    if (!same_triangles(drawn, manifold))
+      throw Malformed{primitive.name() + " has other triangles than the mesh"};
+    drop_unused_points(manifold);
+    return manifold;
+  }
+
   /// From the roots down. The only root, if it is no part itself, is the file's frame around its
   /// parts, which turns and scales to glTF's axes and units: lengths stay those of the meshes.
-  std::vector<Place> places_of(const Json& nodes) const {
+  std::vector<Place> places_of(const JsonPlace& nodes) const {
     std::vector<Place> places(nodes.size());
     std::vector<size_t> stack = roots_of(nodes);
-    for (const size_t root : stack) {
-      Place& place = places.at(root);
+    for (const size_t top : stack) {
+      const JsonPlace node = nodes.at(top);
+      Place& place = places[top];
       place.is_reached = true;
-      if (stack.size() == 1 && !nodes[root].contains("mesh")) continue;
-      place.map = map_of(nodes[root]);
-      place.name = nodes[root].value("name", "");
+      if (stack.size() == 1 && !node.has("mesh")) continue;
+      place.map = map_of(node);
+      place.name = node.text("name", "");
     }
     while (!stack.empty()) {
       const size_t parent = stack.back();
       stack.pop_back();
-      for (const size_t child : indices_in(nodes[parent], "children")) {
-        Place& place = places.at(child);
-        if (place.is_reached) throw Malformed{"a node has two parents"};
+      for (const size_t child : nodes.at(parent).indices("children")) {
+        const JsonPlace node = nodes.at(child);
+        Place& place = places[child];
+        if (place.is_reached) throw Malformed{node.name() + " has two parents"};
         place.is_reached = true;
-        place.map = places[parent].map * map_of(nodes[child]);
+        place.map = places[parent].map * map_of(node);
         place.name = places[parent].name;
-        const std::string own = nodes[child].value("name", "");
+        const std::string own = node.text("name", "");
         if (!place.name.empty() && !own.empty()) place.name += '/';
         place.name += own;
         // In a chain of nodes, the names together take the square of what the file does.
@@ -127,14 +150,14 @@ class Reader {
     return places;
   }
 
-  std::vector<size_t> roots_of(const Json& nodes) const {
-    if (json_.contains("scenes")) {
-      const Json& scene = json_.at("scenes").at(whole(json_, "scene", 0));
-      return indices_in(scene, "nodes");
-    }
+  std::vector<size_t> roots_of(const JsonPlace& nodes) const {
+    if (root().has("scenes"))
+      return root().at("scenes").at(root().whole("scene", 0)).indices("nodes");
     std::vector<bool> is_child(nodes.size(), false);
-    for (const Json& node : nodes) {
-      for (const size_t c : indices_in(node, "children")) is_child.at(c) = true;
+    for (size_t n = 0; n < nodes.size(); ++n) {
+      for (const size_t c : nodes.at(n).indices("children")) {
+        if (c < is_child.size()) is_child[c] = true;  // else told when it is walked to
+      }
     }
     std::vector<size_t> roots;
     for (size_t n = 0; n < nodes.size(); ++n) {
@@ -143,17 +166,12 @@ class Reader {
     return roots;
   }
 
-  static glm::dmat4 map_of(const Json& node) {
-    using Numbers = std::vector<double>;
-    const auto numbers = [&](const char* key, size_t count, Numbers otherwise) {
-      Numbers found = node.value(key, std::move(otherwise));
-      if (found.size() != count) throw Malformed{std::string("a node's ") + key + " is malformed"};
-      return found;
-    };
-    if (node.contains("matrix")) return glm::make_mat4(numbers("matrix", 16, {}).data());
-    const Numbers t = numbers("translation", 3, {0, 0, 0});
-    const Numbers r = numbers("rotation", 4, {0, 0, 0, 1});
-    const Numbers s = numbers("scale", 3, {1, 1, 1});
+  static glm::dmat4 map_of(const JsonPlace& node) {
+    if (node.has("matrix"))
+      return glm::make_mat4(node.numbers("matrix", std::vector<double>(16, 0)).data());
+    const std::vector<double> t = node.numbers("translation", {0, 0, 0});
+    const std::vector<double> r = node.numbers("rotation", {0, 0, 0, 1});
+    const std::vector<double> s = node.numbers("scale", {1, 1, 1});
     const glm::dmat4 moved = glm::translate(glm::dmat4(1), {t[0], t[1], t[2]});
     return glm::scale(moved * glm::mat4_cast(glm::dquat(r[3], r[0], r[1], r[2])),
                       {s[0], s[1], s[2]});
@@ -176,32 +194,31 @@ class Reader {
     size_t count, stride;
   };
 
-  Elements elements(const Json& accessor, size_t size) const {
-    if (accessor.contains("sparse")) throw Malformed{"sparse accessors are not read"};
-    const size_t count = whole(accessor.at("count"));
-    const Json& view = json_.at("bufferViews").at(whole(accessor.at("bufferView")));
-    if (whole(view.at("buffer")) != 0) throw Malformed{"there is data outside of the file"};
-    const size_t stride = whole(view, "byteStride", size);
-    const size_t start = whole(view, "byteOffset", 0) + whole(accessor, "byteOffset", 0);
+  /// `count` elements of a buffer view, from a byte on that `owner` names.
+  Elements elements(const JsonPlace& owner, size_t count, size_t size) const {
+    const JsonPlace view = root().at("bufferViews").at(owner.at("bufferView").whole());
+    if (view.at("buffer").whole() != 0) throw Malformed{"there is data outside of the file"};
+    const size_t stride = view.whole("byteStride", size);
+    const size_t start = view.whole("byteOffset", 0) + owner.whole("byteOffset", 0);
     if (stride < size || start > binary_.size() ||
         (count > 0 && (size > binary_.size() - start ||
                        (count - 1) > (binary_.size() - start - size) / stride))) {
-      throw Malformed{"an accessor reaches beyond the end of the data"};
+      throw Malformed{owner.name() + " reaches beyond the end of the data"};
     }
     return {binary_.data() + start, count, stride};
   }
 
-  void add_primitive(const Json& primitive, TriangleMesh& mesh) const {
-    if (whole(primitive, "mode", kTriangles) != kTriangles)
+  void add_primitive(const JsonPlace& primitive, TriangleMesh& mesh) const {
+    if (primitive.whole("mode", kTriangles) != kTriangles)
       throw Malformed{"only triangles are read, no strips, fans, lines or points"};
-    const Json& accessors = json_.at("accessors");
-    const Json& positions = accessors.at(whole(primitive.at("attributes").at("POSITION")));
-    if (whole(positions.at("componentType")) != kFloat ||
-        positions.at("type").get<std::string>() != "VEC3") {
-      throw Malformed{"positions must be three floats"};
-    }
+    const JsonPlace accessors = root().at("accessors");
+    const JsonPlace positions = accessors.at(primitive.at("attributes").at("POSITION").whole());
+    if (positions.at("componentType").whole() != kFloat || positions.at("type").text() != "VEC3")
+      throw Malformed{positions.name() + ": positions must be three floats"};
+    if (positions.has("sparse"))
+      throw Malformed{positions.name() + ": sparse positions are not read"};
     const auto first = static_cast<uint32_t>(mesh.points.size());
-    const Elements points = elements(positions, 12);
+    const Elements points = elements(positions, positions.at("count").whole(), 12);
     for (size_t i = 0; i < points.count; ++i) {
       float p[3];
       std::memcpy(p, points.data + i * points.stride, sizeof p);
@@ -210,8 +227,8 @@ class Reader {
       mesh.points.emplace_back(p[0] + 0.0, p[1] + 0.0, p[2] + 0.0);
     }
     std::vector<uint32_t> indices;
-    if (primitive.contains("indices")) {
-      indices = read_indices(accessors.at(whole(primitive.at("indices"))));
+    if (primitive.has("indices")) {
+      indices = read_indices(accessors.at(primitive.at("indices").whole()));
     } else {
       for (uint32_t i = 0; i < points.count; ++i) indices.push_back(i);
     }
@@ -225,14 +242,32 @@ class Reader {
     }
   }
 
-  std::vector<uint32_t> read_indices(const Json& accessor) const {
-    const size_t type = whole(accessor.at("componentType"));
+  /// Unsigned integers, as `owner` describes them; their type stands with `typed`.
+  std::vector<uint32_t> read_integers(const JsonPlace& owner, const JsonPlace& typed,
+                                      size_t count) const {
+    const size_t type = typed.at("componentType").whole();
     const size_t size = type == kByte ? 1 : type == kShort ? 2 : type == kInt ? 4 : 0;
-    if (size == 0) throw Malformed{"indices must be unsigned integers"};
-    const Elements values = elements(accessor, size);
-    std::vector<uint32_t> indices(values.count);
-    for (size_t i = 0; i < values.count; ++i)
-      std::memcpy(&indices[i], values.data + i * values.stride, size);
+    if (size == 0) throw Malformed{typed.name() + ": indices must be unsigned integers"};
+    const Elements values = elements(owner, count, size);
+    std::vector<uint32_t> integers(count);
+    for (size_t i = 0; i < count; ++i)
+      std::memcpy(&integers[i], values.data + i * values.stride, size);
+    return integers;
+  }
+
+  /// The indices of an accessor, with what its sparse part puts in the place of some.
+  std::vector<uint32_t> read_indices(const JsonPlace& accessor) const {
+    std::vector<uint32_t> indices = read_integers(accessor, accessor, accessor.at("count").whole());
+    if (!accessor.has("sparse")) return indices;
+    const JsonPlace sparse = accessor.at("sparse");
+    const size_t count = sparse.at("count").whole();
+    const std::vector<uint32_t> at =
+        read_integers(sparse.at("indices"), sparse.at("indices"), count);
+    const std::vector<uint32_t> to = read_integers(sparse.at("values"), accessor, count);
+    for (size_t i = 0; i < count; ++i) {
+      if (at[i] >= indices.size()) throw Malformed{sparse.name() + ": an index is out of range"};
+      indices[at[i]] = to[i];
+    }
     return indices;
   }
 
@@ -240,15 +275,24 @@ class Reader {
   std::string_view binary_;
 };
 
+Json parse_json(std::string_view text) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    throw Malformed{"its JSON is malformed at byte " + std::to_string(error.byte)};
+  }
+}
+
 /// A file of JSON alone, whose only buffer is in it.
 std::vector<TriangleMesh> read_text(std::string_view text) {
-  Json json = Json::parse(text);
+  Json json = parse_json(text);
+  const JsonPlace root(json, "");
   std::string binary;
-  if (json.contains("buffers")) {
-    const Json& buffers = json.at("buffers");
+  if (root.has("buffers")) {
+    const JsonPlace buffers = root.at("buffers");
     if (buffers.size() > 1) throw Malformed{"only one buffer is read"};
-    if (!buffers.empty()) {
-      auto data = decode_data_address(buffers.at(0).value("uri", ""));
+    if (buffers.size() == 1) {
+      auto data = decode_data_address(buffers.at(size_t{0}).text("uri", ""));
       if (!data) throw Malformed{"its buffer is not in the file itself, as base64"};
       binary = *std::move(data);
     }
@@ -259,7 +303,11 @@ std::vector<TriangleMesh> read_text(std::string_view text) {
 std::vector<TriangleMesh> read(std::string_view bytes) {
   const size_t start = bytes.find_first_not_of(" \t\r\n");
   if (start != std::string_view::npos && bytes[start] == '{') return read_text(bytes);
-  if (read_word(bytes, 0) != kMagic) throw Malformed{"this is not a GLB file"};
+  constexpr std::string_view kStart = "glTF";
+  if (bytes.substr(0, kStart.size()) != kStart.substr(0, bytes.size()))
+    throw Malformed{
+        "it is neither a GLB, which begins with \"glTF\", nor glTF as JSON, which is an "
+        "object and begins with \"{\""};
   if (read_word(bytes, 4) != 2) throw Malformed{"only version 2 of GLB is read"};
   if (read_word(bytes, 8) != bytes.size()) throw Malformed{"the file is not as long as it says"};
   const size_t json_size = read_word(bytes, 12);
@@ -273,7 +321,7 @@ std::vector<TriangleMesh> read(std::string_view bytes) {
       throw Malformed{"the second chunk must be binary"};
     binary = bytes.substr(at + 8, size);
   }
-  return Reader(Json::parse(text), binary).meshes();
+  return Reader(parse_json(text), binary).meshes();
 }
 
 }  // namespace
@@ -283,10 +331,6 @@ Result<std::vector<TriangleMesh>> parse_glb(const std::string& name, std::string
     return read(bytes);
   } catch (const Malformed& problem) {
     return Error{ErrorCode::kMalformedFile, name + ": " + problem.what, {}};
-  } catch (const std::out_of_range&) {
-    return Error{ErrorCode::kMalformedFile, name + ": it names a node that is not there", {}};
-  } catch (const Json::exception& problem) {
-    return Error{ErrorCode::kMalformedFile, name + ": " + problem.what(), {}};
   }
 }
 

@@ -13,7 +13,8 @@ namespace csgrun {
 
 /// One mesh for each node that shows one, with all its primitives, where the nodes below the file's
 /// root put it: the root's own turn and scale, which make glTF's axes and units, are left out.
-/// Points of equal coordinates are one. A file that starts with a brace is glTF, whose buffer must
+/// Points are one where the file's EXT_mesh_manifold says so, or without it where their coordinates
+/// are equal. A file that starts with a brace is glTF, whose buffer must
 /// be in it. `name` stands in messages. Errors: kMalformedFile.
 Result<std::vector<TriangleMesh>> parse_glb(const std::string& name, std::string_view bytes);
 

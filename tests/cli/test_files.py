@@ -160,6 +160,27 @@ class Bounds(Case):
         self.write("model/csgrun_modules/beside.lua", "return cube(2)")
         self.expect(self.run_inside("return require 'beside'"), 0)
 
+    def test_meshes_of_library_folders(self):
+        missing = "model/model.lua:1: import: cannot read 'shared.stl': No such file or directory"
+        self.expect(self.run_inside("return import('shared.stl')"), 1, missing)
+        for arguments, env in ((("--stats=json", "-L", "library"), None),
+                               (("--stats=json",), {"CSGRUN_PATH": "/nowhere:" + self.path("library")})):
+            outcome = self.run_inside("return import('shared.stl')", *arguments, env=env)
+            self.expect(outcome, 0)
+            self.assertEqual(outcome.json()["parts"][0]["volume"], 1 / 6)
+        # What lies beside the script comes first.
+        self.write("model/shared.stl", stl([[tuple(2 * c for c in p) for p in t] for t in TETRAHEDRON]))
+        outcome = self.run_inside("return import('shared.stl')", "--stats=json", "-L", "library")
+        self.assertEqual(outcome.json()["parts"][0]["volume"], 8 / 6)
+        outcome = self.run_inside("return import('other.stl')", "--stats=json", "-L", "library")
+        self.expect(outcome, 1, "model/model.lua:1: import: cannot read 'other.stl': No such file or directory; "
+                    "looked in 'model', 'library'")
+        # No way out of a library folder either.
+        os.symlink("../secret.stl", self.path("library/link.stl"))
+        self.expect(self.run_inside("return import('link.stl')", "--stats=json", "-L", "library"), 1)
+        self.expect(self.run_inside("return import('../secret.stl')", "--stats=json", "-L", "library"), 1,
+                    "model/model.lua:1: import: '../secret.stl' lies outside of the model's folder")
+
     def test_a_module_that_is_bytecode(self):
         self.write("model/code.lua", b"\x1bLuaT\0")
         self.expect(self.run_inside("return require 'code'"), 1, "model/code.lua:1: this is Lua bytecode")

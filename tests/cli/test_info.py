@@ -65,7 +65,7 @@ class Info(Case):
             self.expect(self.run_csgrun("info", "bad.gltf", "--json"), 1, "bad.gltf: its buffer is not in the file")
         document["buffers"][0]["uri"] = "data:;base64,AAAA"
         self.write("bad.gltf", json.dumps(document))
-        self.expect(self.run_csgrun("info", "bad.gltf"), 1, "bad.gltf: an accessor reaches beyond the end of the data")
+        self.expect(self.run_csgrun("info", "bad.gltf"), 1, "bad.gltf: accessors[0] reaches beyond the end of the data")
 
     def test_parts_stand_where_their_nodes_put_them(self):
         text = "local c = cube(2)\nreturn {a = c, g = {b = c:translate(10, 0, 0), c = c:mirror(1, 0, 0):up(7)}}"
@@ -90,6 +90,20 @@ class Info(Case):
                       [{}, {"children": [2]}, {"matrix": [1, 2]}], {"a": 1}):
             self.write("bad.glb", glb({"scenes": [{"nodes": [0, 1][:len(nodes)]}], "nodes": nodes}))
             self.expect(self.run_csgrun("info", "bad.glb", "--json"), 1, "bad.glb: ")
+
+    def test_vertices_are_those_of_the_manifold(self):
+        """Solids that are joined along an edge have vertices of equal coordinates, which the file keeps apart."""
+        text = "csg.contacts = 'join' return cube(10) + cube(10):translate(10, 10, 0)"
+        stats = self.run_script(text, "--stats=json", "-o", "a.glb", "-o", "a.gltf").json()["parts"][0]
+        for name in ("a.glb", "a.gltf"):
+            part = self.info(name)["parts"][0]
+            for key in ("vertices", "components", "genus", "closed", "triangles"):
+                self.assertEqual(part[key], stats[key], (name, key))
+        with open(self.path("a.gltf")) as file:
+            document = json.load(file)
+        document["meshes"][0]["extensions"]["EXT_mesh_manifold"]["manifoldPrimitive"]["indices"] = 99
+        self.write("a.gltf", json.dumps(document))
+        self.expect(self.run_csgrun("info", "a.gltf"), 1, "a.gltf: accessors has ")
 
     def test_crossings_are_counted(self):
         points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]

@@ -164,10 +164,19 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
       {"asin(2)", "asin: the ratio must be from -1 to 1, got 2"},
       {"csg.fn == nil and 1 or csg.fm", "csg has no 'fm' (did you mean 'fa'?)"},
       {"polyhedron{points = {{0, 0}}, faces = {}}",
-       "polyhedron: option 'points' must be a list of three numbers, got a "
-       "list of 2 values"},
+       "polyhedron: point 0 must be a list of three numbers, got a list of 2 values"},
+      {"polyhedron{points = {{0, 0, 0}, {0, 0/0, 0}}, faces = {}}",
+       "polyhedron: point 1: its y must be finite, got nan"},
+      {"polyhedron{points = {{0, 0, 0}, {0, 1, 'a'}}, faces = {}}",
+       "polyhedron: point 1 must be a list of three numbers, but its z is string"},
+      {"polyhedron{points = {{0, 0, 0}, {0, 1, 0}, 7}, faces = {}}",
+       "polyhedron: point 2 must be a list of three numbers, got 7"},
+      {"polyhedron{points = {{0, 0, 0}}, faces = {{0}, 5}}",
+       "polyhedron: face 1 must be a list of indices, got 5"},
+      {"polygon{points = {{0, 0}, {1, 0}, {0, 1}}, paths = {{0, 1, 2.5}}}",
+       "polygon: path 0: index 2.5 must be a whole number from 0 on"},
       {"polyhedron{points = {{0, 0, 0}}, faces = {{-1}}}",
-       "polyhedron: option 'faces': entry 1 of list 1 must be an index from 0 on, got -1"},
+       "polyhedron: face 0: index -1 must be a whole number from 0 on"},
   };
   for (const BadCall& call : kCalls) {
     EXPECT_EQ(message_of(std::string("\nreturn ") + call.text),

@@ -182,10 +182,38 @@ TEST(Glb, NamesOfNodesDoNotPileUp) {
 }
 
 TEST(Glb, TakesWholeNumbersOnly) {
-  for (const char* index : {"-1", "1e300", "0.5", "\"0\"", "null"}) {
-    EXPECT_EQ(message_of_glb(R"({"nodes":[{}],"scenes":[{"nodes":[)" + std::string(index) + "]}]}"),
-              "x.glb: an index or a count is no whole number")
-        << index;
+  const std::pair<const char*, const char*> kIndices[] = {{"-1", "the number -1"},
+                                                          {"1e300", "the number 1e+300"},
+                                                          {"0.5", "the number 0.5"},
+                                                          {"\"0\"", "a string"},
+                                                          {"null", "null"}};
+  for (const auto& [index, kind] : kIndices) {
+    EXPECT_EQ(
+        message_of_glb(R"({"nodes":[{}],"scenes":[{"nodes":[)" + std::string(index) + "]}]}"),
+        std::string("x.glb: scenes[0].nodes[0] must be a whole number from 0 on, it is ") + kind);
+  }
+}
+
+TEST(Glb, SaysWhatIsWrongAndWhere) {
+  const std::pair<const char*, const char*> kDocuments[] = {
+      {R"({"buffers":[{"uri":5}]})", "buffers[0].uri must be a string, it is the number 5"},
+      {R"({"buffers":[5]})", "buffers[0] must be an object, it is the number 5"},
+      {R"({"buffers":{}})", "buffers must be a list, it is an object"},
+      {R"({"nodes":[{"mesh":2}],"meshes":[{}]})",
+       "meshes has 1 entries, none of number 2 (from 0)"},
+      {R"({"nodes":[{"mesh":0}],"meshes":[{}]})", "meshes[0] has no \"primitives\""},
+      {R"({"nodes":[{"mesh":0,"matrix":[1]}]})",
+       "nodes[0].matrix must be a list of 16 numbers, it is another one"},
+      {R"({"nodes":[1})", "its JSON is malformed at byte 12"},
+      {"[]",
+       "it is neither a GLB, which begins with \"glTF\", nor glTF as JSON, which is an "
+       "object and begins with \"{\""},
+      {"gl", "the file is truncated"},
+      {"", "the file is truncated"}};
+  for (const auto& [text, said] : kDocuments) {
+    const auto meshes = parse_glb("x.gltf", text);
+    ASSERT_FALSE(meshes) << text;
+    EXPECT_EQ(meshes.error().message, std::string("x.gltf: ") + said);
   }
 }
 

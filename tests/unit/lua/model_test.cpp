@@ -220,7 +220,8 @@ TEST_F(FilesTest, NothingOutsideCanBeReached) {
   EXPECT_EQ(run("import 'folder.stl'"),
             "model/model.lua:1: import: cannot read 'folder.stl': it is a directory");
   EXPECT_EQ(run("import 'none.stl'"),
-            "model/model.lua:1: import: cannot read 'none.stl': No such file or directory");
+            "model/model.lua:1: import: cannot read 'none.stl': No such file or directory; looked in "
+            "'model', 'library'");
   EXPECT_NE(run("require 'link'").find("leads outside"), std::string::npos);
   for (const char* name : {"../secret", "..secret", "/etc/x", "a/b", "a..b", ".a", ""}) {
     EXPECT_NE(run(std::string("require '") + name + "'").find("require: "), std::string::npos)
@@ -240,7 +241,8 @@ TEST_F(FilesTest, ImportsAreRelativeToTheFileThatCalls) {
   write("model/sub/m.lua", "return import 't.off'");
   EXPECT_EQ(run("require 'sub.m' import 'sub/t.off'"), "good");
   EXPECT_EQ(run("import 't.off'"),
-            "model/model.lua:1: import: cannot read 't.off': No such file or directory");
+            "model/model.lua:1: import: cannot read 't.off': No such file or directory; looked in "
+            "'model', 'library'");
 }
 
 TEST(Nearest, NamesWithinOneEditInThreeLetters) {
