@@ -109,12 +109,13 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   stats.sign_filter += total.filter;
   stats.sign_symbolic += total.symbolic;
   for (size_t t = 0; t < total.exact.size(); ++t) stats.sign_exact[t] += total.exact[t];
-  // Operands that are leaves do not touch themselves, and every contact of two of them is in a cell
-  // where both have surface.
+  // Every contact of two operands is in a cell where both have surface.
   const bool may_touch =
       options.literal_cells ||
       std::any_of(operands.begin(), operands.end(),
-                  [](const Operand& o) { return o.boundary && o.boundary->may_touch; }) ||
+                  [](const Operand& o) {
+                    return o.leaf ? o.leaf->may_touch : o.boundary->may_touch;
+                  }) ||
       std::find(touches.begin(), touches.end(), 1) != touches.end();
   return assemble(job, sets, work.whole, may_touch);
 }

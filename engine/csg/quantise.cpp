@@ -169,6 +169,7 @@ PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& poi
     result.crossings = std::move(check.crossings);
     result.connected = check.connected;
   }
+  leaf->may_touch = !result.crossings.empty();
   result.geometry = std::move(leaf);
   return result;
 }

@@ -41,6 +41,13 @@ class Conformer {
   }
 
  private:
+  /// An edge in the plane of a face that it is no edge of; `other`: the face through which it runs,
+  /// too, or kNone for an edge of a face.
+  struct Lying {
+    DirectedEdge edge;
+    uint32_t other;
+  };
+
   static std::vector<Box> boxes_of(const std::vector<MergedFace>& faces,
                                    const CellGeometry& geometry) {
     std::vector<Box> boxes;
@@ -80,6 +87,7 @@ class Conformer {
         if (f < g && here * there < 0) cross_edges(f, g, e);
       }
     }
+    if (f < g && !coplanar) cross_faces(f, g);
   }
 
   [[nodiscard]] bool in_box(uint32_t f, uint32_t p) const {
@@ -102,8 +110,12 @@ class Conformer {
     box.include({geometry_.point(e.to).rounded, geometry_.point(e.to).rounded});
     if (!boxes_[f].overlaps(box)) return;
     if (corner_of_[e.from] == f && corner_of_[e.to] == f && is_rim(f, e)) return;
+    add_lying(f, {line, kNone});
+  }
+
+  void add_lying(uint32_t f, const Lying& lying) {
     if (lying_[f].empty()) lying_faces_.push_back(f);
-    lying_[f].push_back(line);
+    lying_[f].push_back(lying);
   }
 
   [[nodiscard]] bool is_rim(uint32_t f, const DirectedEdge& e) const {
@@ -134,6 +146,50 @@ class Conformer {
     }
   }
 
+  /// Faces may pass through each other along a line where wedges of material touch crosswise: of
+  /// both, only what is left and right of the line bounds anything.
+  void cross_faces(uint32_t f, uint32_t g) {
+    on_line_.clear();
+    if (!meet_plane(f, faces_[g].plane.index()) || !meet_plane(g, faces_[f].plane.index())) return;
+    const LineAxis line =
+        line_axis(planes_.plane(faces_[f].plane.index()), planes_.plane(faces_[g].plane.index()));
+    for (uint32_t& p : on_line_) p = unique(p);
+    std::sort(on_line_.begin(), on_line_.end(),
+              [&](uint32_t p, uint32_t q) { return geometry_.compare_along(p, q, line.axis) < 0; });
+    on_line_.erase(std::unique(on_line_.begin(), on_line_.end()), on_line_.end());
+    FaceLocator in_f(faces_[f].plane, geometry_, planes_),
+        in_g(faces_[g].plane, geometry_, planes_);
+    for (size_t i = 1; i < on_line_.size(); ++i) {
+      const uint32_t p = on_line_[i - 1], q = on_line_[i];
+      if (in_f.locate(faces_[f].loops, p) < 0 || in_f.locate(faces_[f].loops, q) < 0) continue;
+      if (in_g.locate(faces_[g].loops, p) < 0 || in_g.locate(faces_[g].loops, q) < 0) continue;
+      contacts_.push_back(p);
+      contacts_.push_back(q);
+      add_lying(f, {{p, q, faces_[g].plane.index()}, g});
+      add_lying(g, {{p, q, faces_[f].plane.index()}, f});
+    }
+  }
+
+  /// Adds the points in which the rim of a face meets a plane; false when it does not pass through
+  /// it.
+  bool meet_plane(uint32_t f, uint32_t plane) {
+    bool front = false, back = false;
+    for (const auto& loop : faces_[f].loops) {
+      signs_.clear();
+      for (const DirectedEdge& e : loop) signs_.push_back(geometry_.side(plane, e.from));
+      for (size_t i = 0; i < loop.size(); ++i) {
+        const int here = signs_[i], there = signs_[i + 1 < loop.size() ? i + 1 : 0];
+        front |= here > 0;
+        back |= here < 0;
+        if (here == 0) on_line_.push_back(loop[i].from);
+        if (here * there < 0) {
+          on_line_.push_back(geometry_.add_point({faces_[f].plane.index(), loop[i].plane, plane}));
+        }
+      }
+    }
+    return front && back;
+  }
+
   [[nodiscard]] bool boxes_meet(const DirectedEdge& e, const DirectedEdge& r) const {
     const auto box_of = [&](const DirectedEdge& d) {
       const auto &p = geometry_.point(d.from).rounded, &q = geometry_.point(d.to).rounded;
@@ -154,12 +210,12 @@ class Conformer {
       if (!boxes_meet(a, b) || !apart(b.plane, a) || !apart(a.plane, b)) return;
       contacts_.push_back(unique(geometry_.add_point({support, a.plane, b.plane})));
     };
-    std::vector<DirectedEdge>& lines = lying_[f];
+    const std::vector<Lying>& lines = lying_[f];
     for (size_t i = 0; i < lines.size(); ++i) {
       for (const auto& loop : faces_[f].loops) {
-        for (const DirectedEdge& r : loop) cross(lines[i], r);
+        for (const DirectedEdge& r : loop) cross(lines[i].edge, r);
       }
-      for (size_t j = i + 1; j < lines.size(); ++j) cross(lines[i], lines[j]);
+      for (size_t j = i + 1; j < lines.size(); ++j) cross(lines[i].edge, lines[j].edge);
     }
   }
 
@@ -236,21 +292,32 @@ class Conformer {
     }
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
-    std::vector<DirectedEdge> lines = lying_[f];
-    break_at(points, lines);
-    FaceLocator locator(face.plane, geometry_, planes_);
-    for (const DirectedEdge& e : lines) {
-      if (is_rim(f, e)) continue;
-      const int from = locator.locate(face.loops, e.from);
-      if (from < 0) continue;
-      if (from == 0) {
-        const int to = locator.locate(face.loops, e.to);
-        if (to < 0 || (to == 0 && !locator.starts_inside(face.loops, e))) continue;
+    std::vector<DirectedEdge> parts;
+    for (const Lying& lying : lying_[f]) {
+      parts.assign(1, lying.edge);
+      break_at(points, parts);
+      for (const DirectedEdge& e : parts) {
+        if (!runs_inside(f, e)) continue;
+        if (lying.other != kNone) {
+          const DirectedEdge there{e.from, e.to, face.plane.index()};
+          if (!runs_inside(lying.other, there)) continue;
+        }
+        face.slits.push_back(std::minmax({e.from, e.to}));
       }
-      face.slits.push_back(std::minmax({e.from, e.to}));
     }
     std::sort(face.slits.begin(), face.slits.end());
     face.slits.erase(std::unique(face.slits.begin(), face.slits.end()), face.slits.end());
+  }
+
+  /// Whether an edge in the plane of a face, broken at the face's corners, runs through it.
+  bool runs_inside(uint32_t f, const DirectedEdge& e) {
+    if (is_rim(f, e)) return false;
+    FaceLocator locator(faces_[f].plane, geometry_, planes_);
+    const int from = locator.locate(faces_[f].loops, e.from);
+    if (from != 0) return from > 0;
+    const int to = locator.locate(faces_[f].loops, e.to);
+    if (to != 0) return to > 0;
+    return locator.starts_inside(faces_[f].loops, e);
   }
 
   /// The corners within faces at which no slit ends.
@@ -275,10 +342,11 @@ class Conformer {
   std::vector<int> signs_;
   std::vector<uint32_t> contacts_;                    ///< points at which edges are to be broken
   std::vector<std::pair<uint32_t, uint32_t>> inner_;  ///< faces, and corners of others within them
-  std::vector<std::vector<DirectedEdge>> lying_;      ///< per face: edges of others in its plane
-  std::vector<uint32_t> lying_faces_;                 ///< those that have any
+  std::vector<std::vector<Lying>> lying_;
+  std::vector<uint32_t> lying_faces_;  ///< those that have any
   std::optional<PointIndex> index_;
   std::vector<uint32_t> points_;
+  std::vector<uint32_t> on_line_;
 };
 
 }  // namespace

@@ -196,13 +196,20 @@ void make_twins(std::vector<uint32_t>& twin, uint32_t a, uint32_t b) {
 void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order, Contacts contacts,
                  std::vector<uint32_t>& twin) {
   const bool join = contacts == Contacts::kJoin;
-  // A face that the edge runs through is touched there from one side, not parted: where its diagonals
-  // are must not matter.
+  // A face that the edge runs through, and that all others touch from one side, is not parted: where
+  // its diagonals are must not matter.
   for (const Sheet& s : sheets) {
     if (!s.forward || twin[s.half_edge] != kNone) continue;
     for (const Sheet& t : sheets) {
       if (t.forward || t.face != s.face || twin[t.half_edge] != kNone) continue;
-      make_twins(twin, s.half_edge, t.half_edge);
+      int left = 0, right = 0;
+      for (const Sheet& o : sheets) {
+        if (o.face == s.face) continue;
+        const int turn = order.turn(s.normal, o.normal);
+        left += turn > 0;
+        right += turn < 0;
+      }
+      if (left == 0 || right == 0) make_twins(twin, s.half_edge, t.half_edge);
       break;
     }
   }

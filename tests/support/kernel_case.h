@@ -197,7 +197,7 @@ inline std::string difference_between(const BoundaryMesh& a, const BoundaryMesh&
   return "";
 }
 
-/// Steps of 1 mm; as many appearances and sources as a test may name.
+/// Steps of 1 mm; as many appearances and sources as a test may name. Points come as fractions, too.
 inline PresentContext test_context(uint32_t sources = 64) {
   PresentContext context;
   context.step.numerator = 1;
@@ -207,6 +207,7 @@ inline PresentContext test_context(uint32_t sources = 64) {
     context.appearances[i].is_default = false;
   }
   context.sources.resize(sources);
+  context.exact_points = true;
   return context;
 }
 

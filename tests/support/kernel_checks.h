@@ -6,10 +6,14 @@
 #include <map>
 #include <string>
 
+#include "tests/support/conformity.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/oracle.h"
 
 namespace csgrun::test {
+
+/// Solids of so many triangles have all pairs of them tried.
+constexpr size_t kMostForPairs = 600;
 
 /// How many cases: CSGRUN_CASES, or so many in an ordinary run.
 inline int cases(int ordinary) {
@@ -154,14 +158,30 @@ std::string fault_in_measures(const Solid& solid, At&& at) {
   return "";
 }
 
-/// Empty when `solid` presents `mesh`: closed by index, and its triangles, at the exact points, all
-/// turn the same way as their face and add up to its area.
+/// The exact points of a solid that was presented with them, by Solid::point_of.
+inline std::vector<Rational3> exact_points(const Solid& solid) {
+  std::vector<Rational3> points;
+  for (const auto& text : solid.exact_points) {
+    points.emplace_back();
+    for (int k = 0; k < 3; ++k) points.back()[k] = mpq_class(text[k].empty() ? "0" : text[k]);
+  }
+  return points;
+}
+
+/// Empty when `solid`, made by test_context, presents `mesh`: closed by index, and its triangles, at
+/// the exact points, all turn the same way as their face, add up to its area, and meet in common
+/// corners and edges only.
 inline std::string fault_in(const Solid& solid, const BoundaryMesh& mesh) {
   if (const auto fault = fault_in(solid); !fault.empty()) return fault;
   const ExactSolid exact = exact_solid(mesh);
-  const auto at = [&](uint32_t v) -> const Rational3& { return exact.points[solid.point_of[v]]; };
+  // The mesh's points and, where edges of solids in contact cross or are divided, a few more.
+  const std::vector<Rational3> points = exact_points(solid);
+  for (const uint32_t p : solid.point_of) {
+    if (p < exact.points.size() && points[p] != exact.points[p]) return "a point is another one";
+  }
+  const auto at = [&](uint32_t v) -> const Rational3& { return points[solid.point_of[v]]; };
   ExactSolid flat;  // the presented faces over exact points
-  flat.points = exact.points;
+  flat.points = points;
   for (const Solid::Face& f : solid.faces) {
     flat.faces.emplace_back();
     for (uint32_t l = f.first_loop; l < f.first_loop + f.loop_count; ++l) {
@@ -192,6 +212,9 @@ inline std::string fault_in(const Solid& solid, const BoundaryMesh& mesh) {
         return "a position is not correctly rounded";
       }
     }
+  }
+  if (solid.triangles.size() <= kMostForPairs) {
+    if (const auto fault = fault_in_contacts(solid, at); !fault.empty()) return fault;
   }
   return fault_in_measures(solid, at);
 }
