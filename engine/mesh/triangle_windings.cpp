@@ -63,8 +63,8 @@ class Windings {
 
   [[nodiscard]] int in_front(uint32_t triangle) const {
     const Corners own = corners(triangle);
-    const auto [axis, own_sign] = view_of(own);
-    const int v = (axis + 2) % 3;
+    const View view = view_of(own);
+    const int axis = view.axis, v = (axis + 2) % 3;
     int ahead = 0;  // the winding number on the side that the ray leaves to
     tree_.visit_all(ray_box(own, axis), [&](uint32_t other) {
       if (other == triangle) return;
@@ -84,7 +84,7 @@ class Windings {
       // behind it.
       if (turns != 0 && side_of_middle(t, own) * turns < 0) ahead += turns;
     });
-    return own_sign > 0 ? ahead : ahead - 1;
+    return view.sign > 0 ? ahead : ahead - 1;
   }
 
  private:

@@ -280,6 +280,8 @@ Json parse_json(std::string_view text) {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
     throw Malformed{"its JSON is malformed at byte " + std::to_string(error.byte)};
+  } catch (const Json::out_of_range&) {
+    throw Malformed{"its JSON has a number beyond the range of doubles"};
   }
 }
 
