@@ -32,6 +32,19 @@ std::vector<glm::dvec3> face_directions(const Solid& solid, const Affine& placem
   return directions;
 }
 
+Defects find_bad_triangles(const RoundedMesh& mesh, std::span<const glm::dvec3> directions) {
+  const TriangleView view{mesh.positions, mesh.triangles};
+  Defects defects;
+  for (uint32_t t = 0; t < view.triangles.size(); ++t) {
+    if (is_degenerate(view, t)) {
+      defects.degenerate.push_back(t);
+    } else if (facing(view, t, directions[mesh.triangle_face[t]]) < 0) {
+      defects.flipped.push_back(t);
+    }
+  }
+  return defects;
+}
+
 Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> directions) {
   // Surfaces that were split where they touch do not cross there: equal coordinates are one corner.
   const std::vector<uint32_t> place = number_places(mesh.positions);
@@ -41,14 +54,7 @@ Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> direct
   for (const auto& [a, b, c] : mesh.triangles) triangles.push_back({place[a], place[b], place[c]});
   const TriangleView view{points, triangles};
 
-  Defects defects;
-  for (uint32_t t = 0; t < triangles.size(); ++t) {
-    if (is_degenerate(view, t)) {
-      defects.degenerate.push_back(t);
-    } else if (facing(view, t, directions[mesh.triangle_face[t]]) < 0) {
-      defects.flipped.push_back(t);
-    }
-  }
+  Defects defects = find_bad_triangles(mesh, directions);
   defects.crossings = find_crossings(view, kMostCrossings);
   if (defects.crossings.empty()) defects.inverted = inverted_sheets(view);
   return defects;

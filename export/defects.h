@@ -45,6 +45,9 @@ constexpr size_t kMostPlaces = 8;
 /// from their exact planes where the solid has them, else from their corners.
 std::vector<glm::dvec3> face_directions(const Solid& solid, const Affine& placement);
 
+/// Of all those only the degenerate and flipped triangles. O(n).
+Defects find_bad_triangles(const RoundedMesh& mesh, std::span<const glm::dvec3> directions);
+
 /// The defects of a mesh rounded from a solid with these face directions. O(n log n).
 Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> directions);
 

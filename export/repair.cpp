@@ -15,12 +15,26 @@
 namespace csgrun {
 namespace {
 
-/// A cell of the lattice, as the point that all in it are snapped to.
-glm::dvec3 snapped(const glm::dvec3& p, double step) {
-  glm::dvec3 result;
-  for (int k = 0; k < 3; ++k) result[k] = std::nearbyint(p[k] / step) * step + 0.0;
-  return result;
-}
+/// A lattice of cubes; its origin is half a step away from the coordinates' along some axes.
+struct Lattice {
+  double step;
+  std::array<double, 3> origin;
+
+  /// The point that all in a cell are snapped to.
+  [[nodiscard]] glm::dvec3 snapped(const glm::dvec3& p) const {
+    glm::dvec3 result;
+    for (int k = 0; k < 3; ++k) {
+      const double o = origin[static_cast<size_t>(k)];
+      result[k] = std::nearbyint((p[k] - o) / step) * step + o + 0.0;
+    }
+    return result;
+  }
+};
+
+/// Whether what is wrong goes away is as good as chance, so each lattice is tried from a few
+/// origins.
+constexpr std::array<std::array<double, 3>, 4> kOrigins{
+    {{0, 0, 0}, {0.5, 0.5, 0.5}, {0.5, 0, 0}, {0, 0.5, 0.5}}};
 
 bool precedes(const glm::dvec3& a, const glm::dvec3& b) {
   return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
@@ -58,7 +72,7 @@ class Repair {
       breach_ = fidelity_.breach(mesh_, original_faces(), moves_);
       if (breach_.empty() && left_.fewer_than(before.left)) continue;
       // A round that makes it worse is undone: what it moved would be in the way of the next.
-      ++lattice_;
+      if (lattice_ == 0 || ++origin_ == kOrigins.size()) ++lattice_, origin_ = 0;
       mesh_ = before.mesh;
       faces_ = before.faces;
       left_ = before.left;
@@ -114,12 +128,15 @@ class Repair {
 
   void turn_edges() {
     // Each turn takes one bad triangle away and makes no other.
-    while (true) {
-      const std::vector<uint32_t> bad = bad_triangles(left_);
-      if (bad.empty() || turn_longest_edges(mesh_, bad, faces_.directions) == 0) return;
-      for (auto& outline : mesh_.outlines) outline.clear();
-      examine();
+    bool any = false;
+    for (std::vector<uint32_t> bad = bad_triangles(left_);
+         !bad.empty() && turn_longest_edges(mesh_, bad, faces_.directions) > 0;
+         bad = bad_triangles(find_bad_triangles(mesh_, faces_.directions))) {
+      any = true;
     }
+    if (!any) return;
+    for (auto& outline : mesh_.outlines) outline.clear();
+    examine();
   }
 
   /// Steps of two floats (where the mesh is farthest from the origin), then four, eight and so on:
@@ -135,7 +152,8 @@ class Repair {
   }
 
   Status snap() {
-    const double step = std::ldexp(1.0, lattice_exponent());
+    Lattice lattice{std::ldexp(1.0, lattice_exponent()), kOrigins[origin_]};
+    for (double& o : lattice.origin) o *= lattice.step;
     std::vector<bool> offends(mesh_.positions.size(), false);
     const auto mark = [&](uint32_t triangle) {
       for (const uint32_t v : mesh_.triangles[triangle]) offends[v] = true;
@@ -149,14 +167,14 @@ class Repair {
 
     std::vector<glm::dvec3> cells;
     for (size_t v = 0; v < offends.size(); ++v) {
-      if (offends[v]) cells.push_back(snapped(mesh_.positions[v], step));
+      if (offends[v]) cells.push_back(lattice.snapped(mesh_.positions[v]));
     }
     std::sort(cells.begin(), cells.end(), precedes);
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     std::vector<glm::dvec3> positions = mesh_.positions;
     double farthest = 0;
     for (glm::dvec3& p : positions) {
-      const glm::dvec3 cell = snapped(p, step);
+      const glm::dvec3 cell = lattice.snapped(p);
       if (cell == p || !std::binary_search(cells.begin(), cells.end(), cell, precedes)) continue;
       farthest = std::max(farthest, glm::distance(p, cell));
       p = cell;
@@ -175,7 +193,8 @@ class Repair {
   MeshCheck& check_;
   Moves moves_;
   std::string breach_;  ///< why the last round was undone, if the mesh became another
-  int lattice_ = 0;     ///< how many rounds did not help
+  int lattice_ = 0;     ///< how many lattices did not help; 0: none was tried yet
+  size_t origin_ = 0;   ///< into kOrigins
 };
 
 }  // namespace
