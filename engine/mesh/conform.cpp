@@ -18,17 +18,27 @@ class Conformer {
       : faces_(faces),
         geometry_(geometry),
         planes_(planes),
-        boxes_(boxes_of(faces, geometry)),
+        edges_(edges_of(faces)),
+        boxes_(boxes_of(edges_, geometry)),
         tree_(boxes_),
         corner_of_(geometry.point_count(), kNone),
+        sides_(faces.size()),
         lying_(faces.size()) {}
 
   void run() {
+    uint32_t first_edge = 0;
     for (uint32_t f = 0; f < faces_.size(); ++f) {
-      mark_corners(f);
-      tree_.visit_all(boxes_[f], [&](uint32_t g) {
-        if (g != f) look_at(f, g);
+      face_boxes_.push_back(mark_face(f, first_edge));
+      tree_.visit_all(face_boxes_.back(), [&](uint32_t e) {
+        if (edges_[e].face != f) look_at(f, edges_[e].face, edges_[e].edge);
       });
+    }
+    std::sort(straddling_.begin(), straddling_.end());
+    straddling_.erase(std::unique(straddling_.begin(), straddling_.end()), straddling_.end());
+    for (const auto& [f, g] : straddling_) {
+      if (!may_meet_on_line(f, g)) continue;
+      cross_edges(f, g);
+      cross_faces(f, g);
     }
     const size_t touched = lying_faces_.size();
     for (size_t i = 0; i < touched; ++i) cross_lying_edges(lying_faces_[i]);
@@ -48,57 +58,85 @@ class Conformer {
     uint32_t other;
   };
 
-  static std::vector<Box> boxes_of(const std::vector<MergedFace>& faces,
+  struct FaceEdge {
+    DirectedEdge edge;
+    uint32_t face;
+  };
+  using Ends = std::pair<uint32_t, uint32_t>;
+  /// On which sides of a face's plane edges of another face were seen.
+  struct Sides {
+    uint32_t of = kNone;
+    bool front = false, back = false;
+  };
+
+  /// Of all faces, in the order of their loops.
+  static std::vector<FaceEdge> edges_of(const std::vector<MergedFace>& faces) {
+    std::vector<FaceEdge> edges;
+    for (uint32_t f = 0; f < faces.size(); ++f) {
+      for (const auto& loop : faces[f].loops) {
+        for (const DirectedEdge& e : loop) edges.push_back({e, f});
+      }
+    }
+    return edges;
+  }
+
+  /// Rounding is monotone: what is in a box is in the box of the rounded corners.
+  static Box box_of(const DirectedEdge& e, const CellGeometry& geometry) {
+    const auto &p = geometry.point(e.from).rounded, &q = geometry.point(e.to).rounded;
+    Box box{p, p};
+    box.include({q, q});
+    return box;
+  }
+
+  static std::vector<Box> boxes_of(const std::vector<FaceEdge>& edges,
                                    const CellGeometry& geometry) {
     std::vector<Box> boxes;
-    boxes.reserve(faces.size());
-    for (const MergedFace& face : faces) {
-      // Rounding is monotone: what is in a box is in the box of the rounded corners.
-      Box box{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
-      for (const DirectedEdge& e : face.loops[0]) {
-        const auto& p = geometry.point(e.from).rounded;
-        box.include({p, p});
-      }
-      boxes.push_back(box);
-    }
+    boxes.reserve(edges.size());
+    for (const FaceEdge& e : edges) boxes.push_back(box_of(e.edge, geometry));
     return boxes;
   }
 
-  void mark_corners(uint32_t f) {
-    for (const auto& loop : faces_[f].loops) {
-      for (const DirectedEdge& e : loop) corner_of_[e.from] = f;
+  /// Marks the corners and the rim of the face that is looked at from now on; returns its box.
+  Box mark_face(uint32_t f, uint32_t& first_edge) {
+    Box box = boxes_[first_edge];
+    rim_.clear();
+    for (; first_edge < edges_.size() && edges_[first_edge].face == f; ++first_edge) {
+      const DirectedEdge& e = edges_[first_edge].edge;
+      corner_of_[e.from] = f;
+      rim_.push_back(std::minmax(e.from, e.to));
+      box.include(boxes_[first_edge]);
     }
+    std::sort(rim_.begin(), rim_.end());
+    return box;
   }
 
-  /// What of face g touches face f, whose corners are marked.
-  void look_at(uint32_t f, uint32_t g) {
+  /// What an edge of face g does to face f, which is marked.
+  void look_at(uint32_t f, uint32_t g, const DirectedEdge& e) {
     const uint32_t support = faces_[f].plane.index();
-    const bool coplanar = faces_[g].plane.index() == support;
-    for (const auto& loop : faces_[g].loops) {
-      signs_.clear();
-      for (const DirectedEdge& e : loop) {
-        signs_.push_back(corner_of_[e.from] == f ? 0 : geometry_.side(support, e.from));
-      }
-      for (size_t i = 0; i < loop.size(); ++i) {
-        const DirectedEdge& e = loop[i];
-        const int here = signs_[i], there = signs_[i + 1 < loop.size() ? i + 1 : 0];
-        if (here == 0 && corner_of_[e.from] != f && in_box(f, e.from)) touch(f, e.from);
-        if (here == 0 && there == 0 && !coplanar) lie(f, g, e);
-      }
-    }
-    if (f >= g || coplanar || !may_meet_on_line(f, g)) return;
-    for (const auto& loop : faces_[g].loops) {
-      for (const DirectedEdge& e : loop) {
-        if (geometry_.side(support, e.from) * geometry_.side(support, e.to) < 0)
-          cross_edges(f, g, e);
-      }
-    }
-    cross_faces(f, g);
+    const bool from_shared = corner_of_[e.from] == f, to_shared = corner_of_[e.to] == f;
+    const int from = from_shared ? 0 : geometry_.side(support, e.from);
+    const int to = to_shared ? 0 : geometry_.side(support, e.to);
+    if (from == 0 && !from_shared && in_box(f, e.from)) touch(f, e.from);
+    note_sides(f, g, from, to);
+    if (from != 0 || to != 0 || faces_[g].plane.index() == support) return;
+    if (std::binary_search(rim_.begin(), rim_.end(), Ends(std::minmax(e.from, e.to)))) return;
+    // An edge of f itself is none that may run through it.
+    add_lying(f, {{e.from, e.to, e.plane == support ? faces_[g].plane.index() : e.plane}, kNone});
+  }
+
+  /// Notes the pair when edges of g near f lie on both sides of f's plane.
+  void note_sides(uint32_t f, uint32_t g, int from, int to) {
+    Sides& sides = sides_[g];
+    if (sides.of != f) sides = {f, false, false};
+    if (sides.front && sides.back) return;
+    sides.front |= from > 0 || to > 0;
+    sides.back |= from < 0 || to < 0;
+    if (sides.front && sides.back) straddling_.push_back(std::minmax(f, g));
   }
 
   [[nodiscard]] bool in_box(uint32_t f, uint32_t p) const {
     const auto& at = geometry_.point(p).rounded;
-    return boxes_[f].overlaps({at, at});
+    return face_boxes_[f].overlaps({at, at});
   }
 
   void touch(uint32_t f, uint32_t p) {
@@ -106,17 +144,6 @@ class Conformer {
     const int where = locator.locate(faces_[f].loops, p);
     if (where >= 0) contacts_.push_back(p);
     if (where > 0) inner_.push_back({f, p});
-  }
-
-  /// An edge of g in the plane of f: an edge of f itself, or one that may run through it.
-  void lie(uint32_t f, uint32_t g, const DirectedEdge& e) {
-    const uint32_t support = faces_[f].plane.index();
-    const DirectedEdge line{e.from, e.to, e.plane == support ? faces_[g].plane.index() : e.plane};
-    Box box{geometry_.point(e.from).rounded, geometry_.point(e.from).rounded};
-    box.include({geometry_.point(e.to).rounded, geometry_.point(e.to).rounded});
-    if (!boxes_[f].overlaps(box)) return;
-    if (corner_of_[e.from] == f && corner_of_[e.to] == f && is_rim(f, e)) return;
-    add_lying(f, {line, kNone});
   }
 
   void add_lying(uint32_t f, const Lying& lying) {
@@ -133,14 +160,22 @@ class Conformer {
     return false;
   }
 
-  /// Where edge e of g, which passes through the plane of f, meets an edge of f that passes through
-  /// the plane of g.
-  void cross_edges(uint32_t f, uint32_t g, const DirectedEdge& e) {
+  /// Where edges of the two faces, each of which passes through the plane of the other face, meet.
+  void cross_edges(uint32_t f, uint32_t g) {
     const uint32_t f_plane = faces_[f].plane.index(), g_plane = faces_[g].plane.index();
-    for (const auto& loop : faces_[f].loops) {
-      for (const DirectedEdge& r : loop) {
-        if (r.from == e.from || r.from == e.to || r.to == e.from || r.to == e.to) continue;
-        if (geometry_.side(g_plane, r.from) * geometry_.side(g_plane, r.to) >= 0) continue;
+    const auto passing = [&](uint32_t face, uint32_t plane, std::vector<DirectedEdge>& edges) {
+      edges.clear();
+      for (const auto& loop : faces_[face].loops) {
+        for (const DirectedEdge& e : loop) {
+          if (geometry_.side(plane, e.from) * geometry_.side(plane, e.to) < 0) edges.push_back(e);
+        }
+      }
+    };
+    std::vector<DirectedEdge> of_f, of_g;
+    passing(f, g_plane, of_f);
+    passing(g, f_plane, of_g);
+    for (const DirectedEdge& e : of_g) {
+      for (const DirectedEdge& r : of_f) {
         if (!boxes_meet(e, r)) continue;
         const uint32_t x = geometry_.add_point({g_plane, e.plane, f_plane});
         if (geometry_.side(r.plane, x) != 0 || !lies_inside(geometry_, r, x) ||
@@ -272,13 +307,7 @@ class Conformer {
   }
 
   [[nodiscard]] bool boxes_meet(const DirectedEdge& e, const DirectedEdge& r) const {
-    const auto box_of = [&](const DirectedEdge& d) {
-      const auto &p = geometry_.point(d.from).rounded, &q = geometry_.point(d.to).rounded;
-      Box box{p, p};
-      box.include({q, q});
-      return box;
-    };
-    return box_of(e).overlaps(box_of(r));
+    return box_of(e, geometry_).overlaps(box_of(r, geometry_));
   }
 
   /// Where the edges that lie in the plane of a face cross its rim, and each other within it.
@@ -315,41 +344,49 @@ class Conformer {
 
   /// Breaks the edges of all faces at the contacts that lie inside them.
   void break_edges() {
-    std::vector<std::pair<uint32_t, uint32_t>> near;  // face, contact
+    std::vector<std::pair<uint32_t, uint32_t>> inside;  // edge, contact
     for (const uint32_t p : contacts_) {
       const auto& at = geometry_.point(p).rounded;
-      tree_.visit_all({at, at}, [&](uint32_t f) { near.push_back({f, p}); });
+      tree_.visit_all({at, at}, [&](uint32_t e) {
+        if (geometry_.side(faces_[edges_[e].face].plane.index(), p) == 0 &&
+            lies_inside(geometry_, edges_[e].edge, p)) {
+          inside.push_back({e, p});
+        }
+      });
     }
-    std::sort(near.begin(), near.end());
-    for (size_t i = 0; i < near.size();) {
-      const uint32_t f = near[i].first;
-      points_.clear();
-      for (; i < near.size() && near[i].first == f; ++i) {
-        const uint32_t p = near[i].second;
-        if (geometry_.side(faces_[f].plane.index(), p) == 0) points_.push_back(p);
+    std::sort(inside.begin(), inside.end());
+    std::vector<DirectedEdge> broken;
+    std::vector<uint32_t> points;
+    uint32_t number = 0;
+    auto next = inside.begin();
+    for (MergedFace& face : faces_) {
+      for (auto& loop : face.loops) {
+        const auto count = static_cast<uint32_t>(loop.size());
+        if (next != inside.end() && next->first < number + count) {
+          broken.clear();
+          for (uint32_t i = 0; i < count; ++i) {
+            points.clear();
+            for (; next != inside.end() && next->first == number + i; ++next) {
+              points.push_back(next->second);
+            }
+            append_broken(loop[i], points, broken);
+          }
+          loop = broken;
+        }
+        number += count;
       }
-      if (points_.empty()) continue;
-      for (auto& loop : faces_[f].loops) break_at(points_, loop);
     }
   }
 
-  /// Breaks edges at those of the points that lie inside them.
-  void break_at(const std::vector<uint32_t>& points, std::vector<DirectedEdge>& edges) {
-    std::vector<DirectedEdge> broken;
-    std::vector<uint32_t> inside;
-    for (DirectedEdge e : edges) {
-      inside.clear();
-      for (const uint32_t p : points) {
-        if (lies_inside(geometry_, e, p)) inside.push_back(p);
-      }
-      sort_along(e, inside);
-      for (const uint32_t p : inside) {
-        broken.push_back({e.from, p, e.plane});
-        e.from = p;
-      }
-      broken.push_back(e);
+  /// Appends an edge, in parts between points that lie inside it.
+  void append_broken(DirectedEdge e, std::vector<uint32_t>& points,
+                     std::vector<DirectedEdge>& broken) {
+    sort_along(e, points);
+    for (const uint32_t p : points) {
+      broken.push_back({e.from, p, e.plane});
+      e.from = p;
     }
-    if (broken.size() != edges.size()) edges = std::move(broken);
+    broken.push_back(e);
   }
 
   void sort_along(const DirectedEdge& e, std::vector<uint32_t>& points) {
@@ -374,9 +411,14 @@ class Conformer {
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     std::vector<DirectedEdge> parts;
+    std::vector<uint32_t> inside;
     for (const Lying& lying : lying_[f]) {
-      parts.assign(1, lying.edge);
-      break_at(points, parts);
+      inside.clear();
+      for (const uint32_t p : points) {
+        if (lies_inside(geometry_, lying.edge, p)) inside.push_back(p);
+      }
+      parts.clear();
+      append_broken(lying.edge, inside, parts);
       for (const DirectedEdge& e : parts) {
         if (!runs_inside(f, e)) continue;
         if (lying.other != kNone) {
@@ -417,16 +459,21 @@ class Conformer {
   std::vector<MergedFace>& faces_;
   CellGeometry& geometry_;
   const PlaneTable& planes_;
-  const std::vector<Box> boxes_;
+  const std::vector<FaceEdge> edges_;  ///< as they were given
+  const std::vector<Box> boxes_;       ///< of the edges
   const BoxTree tree_;
-  std::vector<uint32_t> corner_of_;  ///< per point: the face whose corners were marked last
+  std::vector<Box> face_boxes_;
+  std::vector<uint32_t> corner_of_;  ///< per point: the face that was marked last
+  std::vector<Ends> rim_;            ///< of that face, sorted
   std::vector<int> signs_;
+  std::vector<Sides> sides_;  ///< per face, of the plane of the one that was marked last
+  /// Faces of which one has edges, near the other, on both sides of the other's plane.
+  std::vector<std::pair<uint32_t, uint32_t>> straddling_;
   std::vector<uint32_t> contacts_;                    ///< points at which edges are to be broken
   std::vector<std::pair<uint32_t, uint32_t>> inner_;  ///< faces, and corners of others within them
   std::vector<std::vector<Lying>> lying_;
   std::vector<uint32_t> lying_faces_;  ///< those that have any
   std::optional<PointIndex> index_;
-  std::vector<uint32_t> points_;
   std::vector<uint32_t> on_line_;
 };
 
