@@ -31,8 +31,8 @@ struct Lattice {
   }
 };
 
-/// Whether what is wrong goes away is as good as chance, so each lattice is tried from a few
-/// origins.
+/// Whether what is wrong goes away is as good as chance: all lattices are tried from one origin after
+/// another.
 constexpr std::array<std::array<double, 3>, 4> kOrigins{
     {{0, 0, 0}, {0.5, 0.5, 0.5}, {0.5, 0, 0}, {0, 0.5, 0.5}}};
 
@@ -65,14 +65,18 @@ class Repair {
 
   Status run() {
     while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty()) {
-      if (lattice_ > 0 && lattice_exponent() > coarsest_exponent()) break;
+      if (lattice_ > 0 && lattice_exponent() > coarsest_exponent()) {
+        lattice_ = 1;
+        ++origin_;
+      }
+      if (origin_ == kOrigins.size()) break;
       ++check_.rounds;
       const State before{mesh_, faces_, left_, check_.moved, moves_};
       if (Status status = run_round(); !status) return status;
       breach_ = fidelity_.breach(mesh_, original_faces(), moves_);
       if (breach_.empty() && left_.fewer_than(before.left)) continue;
       // A round that makes it worse is undone: what it moved would be in the way of the next.
-      if (lattice_ == 0 || ++origin_ == kOrigins.size()) ++lattice_, origin_ = 0;
+      ++lattice_;
       mesh_ = before.mesh;
       faces_ = before.faces;
       left_ = before.left;
@@ -193,7 +197,7 @@ class Repair {
   MeshCheck& check_;
   Moves moves_;
   std::string breach_;  ///< why the last round was undone, if the mesh became another
-  int lattice_ = 0;     ///< how many lattices did not help; 0: none was tried yet
+  int lattice_ = 0;     ///< how many did not help since the origin is this one
   size_t origin_ = 0;   ///< into kOrigins
 };
 

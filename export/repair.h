@@ -7,8 +7,8 @@
 // examined again. A round that does not leave less wrong than before is undone, and in the next
 // one, before the union, the corners of what is wrong, with all that shares their cells of a
 // lattice, are snapped to it, so that what rounding brought too near becomes one (Valque & Lazard
-// 2025); each lattice is tried from a few origins, then a coarser one, up to a bound: what is
-// coarser would be another model, not the same rounded. For the same reason a round is undone after
+// 2025); the lattice is coarser with each such round, up to a bound, and then tried again from other
+// origins: what is coarser would be another model, not the same rounded. For the same reason a round is undone after
 // which the mesh differs from the solid by more than all moves of its vertices explain
 // (fidelity.h).
 #pragma once
@@ -22,7 +22,7 @@
 
 namespace csgrun {
 
-constexpr unsigned kMostRounds = 24;
+constexpr unsigned kMostRounds = 32;
 /// The coarsest lattice, as a power of two of the finest that the engine takes at the mesh's
 /// extent: 2^10 units in the last place of floats there; for doubles one unit of floats.
 constexpr int kCoarsestFloatLattice = 13, kCoarsestDoubleLattice = 3;
