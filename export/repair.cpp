@@ -31,8 +31,8 @@ struct Lattice {
   }
 };
 
-/// Whether what is wrong goes away is as good as chance: all lattices are tried from one origin after
-/// another.
+/// Whether what is wrong goes away is as good as chance: all lattices are tried from one origin
+/// after another.
 constexpr std::array<std::array<double, 3>, 4> kOrigins{
     {{0, 0, 0}, {0.5, 0.5, 0.5}, {0.5, 0, 0}, {0, 0.5, 0.5}}};
 
