@@ -119,8 +119,8 @@ class Conformer {
     if (from == 0 && !from_shared && in_box(f, e.from)) touch(f, e.from);
     note_sides(f, g, from, to);
     if (from != 0 || to != 0 || faces_[g].plane.index() == support) return;
-    if (std::binary_search(rim_.begin(), rim_.end(), Ends(std::minmax(e.from, e.to)))) return;
     // An edge of f itself is none that may run through it.
+    if (std::binary_search(rim_.begin(), rim_.end(), Ends(std::minmax(e.from, e.to)))) return;
     add_lying(f, {{e.from, e.to, e.plane == support ? faces_[g].plane.index() : e.plane}, kNone});
   }
 
@@ -266,7 +266,8 @@ class Conformer {
   /// both, only what is left and right of the line bounds anything.
   void cross_faces(uint32_t f, uint32_t g) {
     on_line_.clear();
-    if (!meet_plane(f, faces_[g].plane.index()) || !meet_plane(g, faces_[f].plane.index())) return;
+    meet_plane(f, faces_[g].plane.index());
+    meet_plane(g, faces_[f].plane.index());
     const LineAxis line =
         line_axis(planes_.plane(faces_[f].plane.index()), planes_.plane(faces_[g].plane.index()));
     for (uint32_t& p : on_line_) p = unique(p);
@@ -286,24 +287,17 @@ class Conformer {
     }
   }
 
-  /// Adds the points in which the rim of a face meets a plane; false when it does not pass through
-  /// it.
-  bool meet_plane(uint32_t f, uint32_t plane) {
-    bool front = false, back = false;
+  /// Adds the points in which the rim of a face meets a plane.
+  void meet_plane(uint32_t f, uint32_t plane) {
     for (const auto& loop : faces_[f].loops) {
-      signs_.clear();
-      for (const DirectedEdge& e : loop) signs_.push_back(geometry_.side(plane, e.from));
-      for (size_t i = 0; i < loop.size(); ++i) {
-        const int here = signs_[i], there = signs_[i + 1 < loop.size() ? i + 1 : 0];
-        front |= here > 0;
-        back |= here < 0;
-        if (here == 0) on_line_.push_back(loop[i].from);
+      for (const DirectedEdge& e : loop) {
+        const int here = geometry_.side(plane, e.from), there = geometry_.side(plane, e.to);
+        if (here == 0) on_line_.push_back(e.from);
         if (here * there < 0) {
-          on_line_.push_back(geometry_.add_point({faces_[f].plane.index(), loop[i].plane, plane}));
+          on_line_.push_back(geometry_.add_point({faces_[f].plane.index(), e.plane, plane}));
         }
       }
     }
-    return front && back;
   }
 
   [[nodiscard]] bool boxes_meet(const DirectedEdge& e, const DirectedEdge& r) const {
@@ -369,33 +363,13 @@ class Conformer {
             for (; next != inside.end() && next->first == number + i; ++next) {
               points.push_back(next->second);
             }
-            append_broken(loop[i], points, broken);
+            append_broken(geometry_, loop[i], points, broken);
           }
           loop = broken;
         }
         number += count;
       }
     }
-  }
-
-  /// Appends an edge, in parts between points that lie inside it.
-  void append_broken(DirectedEdge e, std::vector<uint32_t>& points,
-                     std::vector<DirectedEdge>& broken) {
-    sort_along(e, points);
-    for (const uint32_t p : points) {
-      broken.push_back({e.from, p, e.plane});
-      e.from = p;
-    }
-    broken.push_back(e);
-  }
-
-  void sort_along(const DirectedEdge& e, std::vector<uint32_t>& points) {
-    if (points.size() < 2) return;
-    int axis = 0, along = 0;
-    while (along == 0) along = geometry_.compare_along(e.to, e.from, axis++);
-    std::sort(points.begin(), points.end(), [&](uint32_t p, uint32_t q) {
-      return geometry_.compare_along(p, q, axis - 1) * along < 0;
-    });
   }
 
   /// The parts of lying edges that are inside their face.
@@ -418,7 +392,7 @@ class Conformer {
         if (lies_inside(geometry_, lying.edge, p)) inside.push_back(p);
       }
       parts.clear();
-      append_broken(lying.edge, inside, parts);
+      append_broken(geometry_, lying.edge, inside, parts);
       for (const DirectedEdge& e : parts) {
         if (!runs_inside(f, e)) continue;
         if (lying.other != kNone) {
@@ -465,8 +439,7 @@ class Conformer {
   std::vector<Box> face_boxes_;
   std::vector<uint32_t> corner_of_;  ///< per point: the face that was marked last
   std::vector<Ends> rim_;            ///< of that face, sorted
-  std::vector<int> signs_;
-  std::vector<Sides> sides_;  ///< per face, of the plane of the one that was marked last
+  std::vector<Sides> sides_;         ///< per face, of the plane of the one that was marked last
   /// Faces of which one has edges, near the other, on both sides of the other's plane.
   std::vector<std::pair<uint32_t, uint32_t>> straddling_;
   std::vector<uint32_t> contacts_;                    ///< points at which edges are to be broken

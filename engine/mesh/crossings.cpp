@@ -6,6 +6,7 @@
 #include <csgrun/engine/exact_triangles.h>
 
 #include "engine/mesh/box_tree.h"
+#include "engine/mesh/triangle_shape.h"
 
 namespace csgrun {
 namespace {
@@ -15,17 +16,12 @@ using Triangle = std::array<uint32_t, 3>;
 /// A point that two triangles have, as doubles tell it; none when they do not meet.
 using Meeting = std::optional<glm::dvec3>;
 
-/// From where a triangle is seen with area: the axis, and the sign of its area from there.
-struct View {
-  int axis = 0;
-  int sign = 0;  ///< 0: a triangle without area
-};
-
 class CrossingTest {
  public:
   explicit CrossingTest(const TriangleView& mesh) : p_(mesh.points), triangles_(mesh.triangles) {
     views_.reserve(triangles_.size());
-    for (const Triangle& t : triangles_) views_.push_back(view_of(t));
+    for (uint32_t t = 0; t < triangles_.size(); ++t)
+      views_.push_back(aspect_of(corners_of(mesh, t)));
   }
 
   [[nodiscard]] bool has_area(uint32_t triangle) const { return views_[triangle].sign != 0; }
@@ -59,23 +55,6 @@ class CrossingTest {
     return static_cast<size_t>(std::find(flags.begin(), flags.end(), value) - flags.begin());
   }
 
-  [[nodiscard]] View view_of(const Triangle& t) const {
-    // The largest component of the normal, as doubles have it, is the least work for the filters.
-    const glm::dvec3 u = p_[t[1]] - p_[t[0]], v = p_[t[2]] - p_[t[0]];
-    glm::dvec3 size;
-    for (int k = 0; k < 3; ++k) {
-      const int i = (k + 1) % 3, j = (k + 2) % 3;
-      size[k] = std::abs(u[i] * v[j] - u[j] * v[i]);
-    }
-    const int best = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
-    for (int k = 0; k < 3; ++k) {
-      const int axis = (best + k) % 3;
-      if (const int sign = orient_along(axis, p_[t[0]], p_[t[1]], p_[t[2]]); sign != 0)
-        return {axis, sign};
-    }
-    return {};
-  }
-
   [[nodiscard]] glm::dvec3 middle(const Triangle& t) const {
     return p_[t[0]] / 3.0 + p_[t[1]] / 3.0 + p_[t[2]] / 3.0;
   }
@@ -87,7 +66,7 @@ class CrossingTest {
   /// Whether a point of the triangle's plane lies in it, boundary included.
   [[nodiscard]] bool contains(uint32_t triangle, uint32_t point) const {
     const Triangle& t = triangles_[triangle];
-    const View& view = views_[triangle];
+    const TriangleAspect& view = views_[triangle];
     for (size_t i = 0; i < 3; ++i) {
       if (orient_along(view.axis, p_[t[i]], p_[t[(i + 1) % 3]], p_[point]) == -view.sign)
         return false;
@@ -220,19 +199,8 @@ class CrossingTest {
 
   std::span<const glm::dvec3> p_;
   std::span<const Triangle> triangles_;
-  std::vector<View> views_;
+  std::vector<TriangleAspect> views_;
 };
-
-Box box_of(const TriangleView& mesh, const Triangle& t) {
-  Box box{};
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<glm::length_t>(axis);
-    const double a = mesh.points[t[0]][k], b = mesh.points[t[1]][k], c = mesh.points[t[2]][k];
-    box.lo[axis] = std::min({a, b, c});
-    box.hi[axis] = std::max({a, b, c});
-  }
-  return box;
-}
 
 }  // namespace
 
@@ -243,7 +211,7 @@ std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t 
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!test.has_area(t)) continue;
     with_area.push_back(t);
-    boxes.push_back(box_of(mesh, mesh.triangles[t]));
+    boxes.push_back(box_of(corners_of(mesh, t)));
   }
   const BoxTree tree(boxes);
   std::vector<TriangleCrossing> found;

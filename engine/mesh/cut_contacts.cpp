@@ -77,8 +77,8 @@ class ContactCutter {
     return false;
   }
 
-  /// Collects the edges in the plane of face f that lie inside it and are touched by faces behind it,
-  /// from the rim inwards. False when there is no way from rim to rim.
+  /// Collects the edges in the plane of face f that lie inside it and are touched by faces behind
+  /// it, from the rim inwards. False when there is no way from rim to rim.
   bool find_contacts(uint32_t f) {
     if (!may_have_contacts(f)) return false;
     const PlaneId support = faces_[f].plane;
@@ -148,20 +148,13 @@ class ContactCutter {
 
   void break_at(const std::set<uint32_t>& points, std::vector<DirectedEdge>& edges) {
     std::vector<DirectedEdge> broken;
-    for (DirectedEdge e : edges) {
-      std::vector<uint32_t> inside;
+    std::vector<uint32_t> inside;
+    for (const DirectedEdge& e : edges) {
+      inside.clear();
       for (const uint32_t p : points) {
         if (lies_inside(geometry_, e, p)) inside.push_back(p);
       }
-      // From the near end on: a point that lies between the start and another comes first.
-      std::sort(inside.begin(), inside.end(), [&](uint32_t p, uint32_t q) {
-        return p != q && lies_inside(geometry_, {e.from, q, e.plane}, p);
-      });
-      for (const uint32_t p : inside) {
-        broken.push_back({e.from, p, e.plane});
-        e.from = p;
-      }
-      broken.push_back(e);
+      append_broken(geometry_, e, inside, broken);
     }
     edges = std::move(broken);
   }
@@ -202,8 +195,8 @@ class ContactCutter {
     return apart(b.plane, a.from, a.to) && apart(a.plane, b.from, b.to);
   }
 
-  /// Whether the line crosses the rim between its ends. What starts inside and does not cross the rim
-  /// ends inside or on it.
+  /// Whether the line crosses the rim between its ends. What starts inside and does not cross the
+  /// rim ends inside or on it.
   [[nodiscard]] bool leaves(const DirectedEdge& line) {
     return std::any_of(rim_edges_.begin(), rim_edges_.end(),
                        [&](const DirectedEdge& e) { return cross(e, line); });
@@ -214,9 +207,8 @@ class ContactCutter {
       std::map<uint32_t, int> degree;
       for (const DirectedEdge& c : contacts_) ++degree[c.from], ++degree[c.to];
       const auto dead = [&](uint32_t p) { return degree[p] == 1 && !rim_.count(p); };
-      again = std::erase_if(contacts_, [&](const DirectedEdge& c) {
-                return dead(c.from) || dead(c.to);
-              }) > 0;
+      again = std::erase_if(contacts_,
+                            [&](const DirectedEdge& c) { return dead(c.from) || dead(c.to); }) > 0;
     }
   }
 

@@ -8,11 +8,11 @@
 #include "engine/exact/rounding.h"
 #include "engine/mesh/canonical_hash.h"
 #include "engine/mesh/conform.h"
-#include "engine/mesh/measure.h"
 #include "engine/mesh/cut_contacts.h"
 #include "engine/mesh/divide_edges.h"
 #include "engine/mesh/improve_triangles.h"
 #include "engine/mesh/insert_points.h"
+#include "engine/mesh/measure.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/plane_oracle.h"
 #include "engine/mesh/rational_text.h"
@@ -24,7 +24,8 @@ namespace csgrun {
 namespace {
 
 Error not_closed(const char* where) {
-  return {ErrorCode::kInternal, std::string("the boundary of a result is not closed (") + where + ")",
+  return {ErrorCode::kInternal,
+          std::string("the boundary of a result is not closed (") + where + ")",
           {}};
 }
 
@@ -95,10 +96,10 @@ class Presenter {
                           boundary_.point_rounded[p]);
     }
     if (!merge_faces(boundary_, geometry_, planes_, plane_of, faces_)) return not_closed("faces");
-    break_at_own_corners(faces_, geometry_, planes_);
+    break_at_own_corners(faces_, geometry_);
     if (!resolve_t_junctions(faces_, geometry_, planes_)) return not_closed("edges");
     if (cut_at_contacts(faces_, geometry_, planes_)) {
-      break_at_own_corners(faces_, geometry_, planes_);
+      break_at_own_corners(faces_, geometry_);
       if (!resolve_t_junctions(faces_, geometry_, planes_)) return not_closed("cut edges");
     }
     auto solid = std::make_shared<Solid>();
@@ -116,15 +117,16 @@ class Presenter {
  private:
   Status make_vertices() {
     const Contacts contacts = context_.join_contacts ? Contacts::kJoin : Contacts::kSeparate;
-    // Solids that are joined along an edge have it twice, mostly between the same two vertices: with
-    // points in the middle the two are apart.
+    // Solids that are joined along an edge have it twice, mostly between the same two vertices:
+    // with points in the middle the two are apart.
     std::vector<std::array<uint32_t, 2>> doubled;
     while (context_.join_contacts) {
       if (!split_fans(set_, faces_, geometry_, planes_, contacts, fans_, &doubled)) break;
       if (doubled.empty() || !divide_edges(faces_, geometry_, planes_, doubled)) break;
       if (auto status = triangulate_all(); !status) return status.error();
     }
-    if (!split_fans(set_, faces_, geometry_, planes_, contacts, fans_)) return not_closed("vertices");
+    if (!split_fans(set_, faces_, geometry_, planes_, contacts, fans_))
+      return not_closed("vertices");
     return std::monostate();
   }
 
@@ -184,7 +186,8 @@ class Presenter {
     if (context_.exact_points) {
       solid.exact_points.resize(geometry_.point_count());
       for (const uint32_t p : solid.point_of) {
-        if (solid.exact_points[p][0].empty()) solid.exact_points[p] = to_mm.text(geometry_.exact(p));
+        if (solid.exact_points[p][0].empty())
+          solid.exact_points[p] = to_mm.text(geometry_.exact(p));
       }
     }
     solid.appearances = context_.appearances;

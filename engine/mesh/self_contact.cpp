@@ -11,7 +11,7 @@ constexpr size_t kTooFew = 5;
 
 class Breaker {
  public:
-  Breaker(CellGeometry& geometry, const PlaneTable& planes) : geometry_(geometry), planes_(planes) {}
+  explicit Breaker(CellGeometry& geometry) : geometry_(geometry) {}
 
   void run(MergedFace& face) {
     corners_.clear();
@@ -25,7 +25,7 @@ class Breaker {
       return at(p, axis_) < at(q, axis_) || (at(p, axis_) == at(q, axis_) && p < q);
     });
     corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
-    for (auto& loop : face.loops) break_loop(face.plane, loop);
+    for (auto& loop : face.loops) break_loop(loop);
   }
 
  private:
@@ -34,7 +34,8 @@ class Breaker {
   [[nodiscard]] int longest_axis() const {
     std::array<double, 3> lo = geometry_.point(corners_[0]).rounded, hi = lo;
     for (const uint32_t c : corners_) {
-      for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], at(c, k)), hi[k] = std::max(hi[k], at(c, k));
+      for (int k = 0; k < 3; ++k)
+        lo[k] = std::min(lo[k], at(c, k)), hi[k] = std::max(hi[k], at(c, k));
     }
     int axis = 0;
     for (int k = 1; k < 3; ++k) {
@@ -43,7 +44,7 @@ class Breaker {
     return axis;
   }
 
-  void break_loop(PlaneId support, std::vector<DirectedEdge>& loop) {
+  void break_loop(std::vector<DirectedEdge>& loop) {
     broken_.clear();
     for (const DirectedEdge& e : loop) {
       inside_.clear();
@@ -54,26 +55,12 @@ class Breaker {
       for (; c != corners_.end() && at(*c, axis_) <= hi; ++c) {
         if (lies_inside(geometry_, e, *c)) inside_.push_back(*c);
       }
-      uint32_t from = e.from;
-      if (!inside_.empty()) {
-        const LineAxis line =
-            line_axis(planes_.plane(support.index()), planes_.plane(e.plane));
-        const int along = geometry_.compare_along(e.to, e.from, line.axis);
-        std::sort(inside_.begin(), inside_.end(), [&](uint32_t p, uint32_t q) {
-          return geometry_.compare_along(p, q, line.axis) * along < 0;
-        });
-        for (const uint32_t p : inside_) {
-          broken_.push_back({from, p, e.plane});
-          from = p;
-        }
-      }
-      broken_.push_back({from, e.to, e.plane});
+      append_broken(geometry_, e, inside_, broken_);
     }
     if (broken_.size() != loop.size()) loop = broken_;
   }
 
   CellGeometry& geometry_;
-  const PlaneTable& planes_;
   int axis_ = 0;
   std::vector<uint32_t> corners_, inside_;
   std::vector<DirectedEdge> broken_;
@@ -98,9 +85,24 @@ bool lies_inside(CellGeometry& geometry, const DirectedEdge& e, uint32_t p) {
   return false;
 }
 
-void break_at_own_corners(std::vector<MergedFace>& faces, CellGeometry& geometry,
-                          const PlaneTable& planes) {
-  Breaker breaker(geometry, planes);
+void append_broken(CellGeometry& geometry, DirectedEdge edge, std::vector<uint32_t>& inside,
+                   std::vector<DirectedEdge>& broken) {
+  int axis = 0, along = 0;
+  while (inside.size() > 1 && along == 0) {
+    along = geometry.compare_along(edge.to, edge.from, axis++);
+  }
+  std::sort(inside.begin(), inside.end(), [&](uint32_t p, uint32_t q) {
+    return geometry.compare_along(p, q, axis - 1) * along < 0;
+  });
+  for (const uint32_t p : inside) {
+    broken.push_back({edge.from, p, edge.plane});
+    edge.from = p;
+  }
+  broken.push_back(edge);
+}
+
+void break_at_own_corners(std::vector<MergedFace>& faces, CellGeometry& geometry) {
+  Breaker breaker(geometry);
   for (MergedFace& face : faces) breaker.run(face);
 }
 

@@ -10,10 +10,14 @@ namespace csgrun {
 /// Whether a point of the edge's support lies on the edge, between its ends. Exact.
 bool lies_inside(CellGeometry& geometry, const DirectedEdge& edge, uint32_t point);
 
-/// Breaks the edges of each face at those of its own corners that lie inside them, so that its loops
-/// touch in vertices only, as triangulation wants. (A corner that is straight on is none, so the loop
-/// that runs past has no vertex there.) Exact; box tests for nearly all pairs.
-void break_at_own_corners(std::vector<MergedFace>& faces, CellGeometry& geometry,
-                          const PlaneTable& planes);
+/// Appends an edge in parts, between the points that lie inside it; these come in any order and are
+/// left in that along the edge. Exact.
+void append_broken(CellGeometry& geometry, DirectedEdge edge, std::vector<uint32_t>& inside,
+                   std::vector<DirectedEdge>& broken);
+
+/// Breaks the edges of each face at those of its own corners that lie inside them, so that its
+/// loops touch in vertices only, as triangulation wants. (A corner that is straight on is none, so
+/// the loop that runs past has no vertex there.) Exact; box tests for nearly all pairs.
+void break_at_own_corners(std::vector<MergedFace>& faces, CellGeometry& geometry);
 
 }  // namespace csgrun

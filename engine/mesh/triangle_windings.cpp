@@ -11,11 +11,12 @@
 
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/exact_determinant.h"
+#include "engine/mesh/triangle_shape.h"
 
 namespace csgrun {
 namespace {
 
-using Corners = std::array<glm::dvec3, 3>;
+using Corners = TriangleCorners;
 
 /// The sign of a linear function at the middle of three points from those at the points, when they
 /// do not contradict one another.
@@ -62,13 +63,13 @@ class Windings {
       : mesh_(mesh), boxes_(boxes_of(mesh)), tree_(boxes_) {}
 
   [[nodiscard]] int in_front(uint32_t triangle) const {
-    const Corners own = corners(triangle);
-    const View view = view_of(own);
+    const Corners own = corners_of(mesh_, triangle);
+    const TriangleAspect view = aspect_of(own);
     const int axis = view.axis, v = (axis + 2) % 3;
     int ahead = 0;  // the winding number on the side that the ray leaves to
     tree_.visit_all(ray_box(own, axis), [&](uint32_t other) {
       if (other == triangle) return;
-      const Corners t = corners(other);
+      const Corners t = corners_of(mesh_, other);
       int turns = 0;  // of the triangle around the ray, seen from where the ray goes
       for (size_t i = 0; i < 3; ++i) {
         const glm::dvec3 &a = t[i], &b = t[(i + 1) % 3];
@@ -88,42 +89,10 @@ class Windings {
   }
 
  private:
-  struct View {
-    int axis, sign;
-  };
-
-  [[nodiscard]] Corners corners(uint32_t triangle) const {
-    const auto& [a, b, c] = mesh_.triangles[triangle];
-    return {mesh_.points[a], mesh_.points[b], mesh_.points[c]};
-  }
-
-  /// An axis along which the triangle has area, the largest as doubles tell, and its sign.
-  static View view_of(const Corners& t) {
-    const glm::dvec3 p = t[1] - t[0], q = t[2] - t[0];
-    std::array<double, 3> size{};
-    for (size_t k = 0; k < 3; ++k) {
-      const int i = static_cast<int>((k + 1) % 3), j = static_cast<int>((k + 2) % 3);
-      size[k] = std::abs(p[i] * q[j] - p[j] * q[i]);
-    }
-    const auto best = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
-    for (int k = 0; k < 3; ++k) {
-      const int axis = (best + k) % 3;
-      if (const int sign = orient_along(axis, t[0], t[1], t[2]); sign != 0) return {axis, sign};
-    }
-    return {best, 1};
-  }
-
   static std::vector<Box> boxes_of(const TriangleView& mesh) {
-    std::vector<Box> boxes(mesh.triangles.size());
-    for (size_t t = 0; t < boxes.size(); ++t) {
-      for (int k = 0; k < 3; ++k) {
-        const auto& [a, b, c] = mesh.triangles[t];
-        const auto [lo, hi] =
-            std::minmax({mesh.points[a][k], mesh.points[b][k], mesh.points[c][k]});
-        boxes[t].lo[static_cast<size_t>(k)] = lo;
-        boxes[t].hi[static_cast<size_t>(k)] = hi;
-      }
-    }
+    std::vector<Box> boxes;
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
+      boxes.push_back(box_of(corners_of(mesh, t)));
     return boxes;
   }
 

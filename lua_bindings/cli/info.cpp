@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <csgrun/export/write.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/budget.h"
@@ -99,7 +100,7 @@ Failure measure_file(const std::string& path, bool json, std::string& output) {
     weld(mesh);  // surfaces that were split where they touch do not cross there
     const uint64_t count = count_crossings(mesh);
     crossings.count += count;
-    if (count >= kMostCounted) crossings.at_least = true;
+    if (count >= kMostCrossings) crossings.at_least = true;
   }
   output += json ? info_json(path, parts, crossings, warnings)
                  : info_text(path, parts, crossings, warnings);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include <csgrun/engine/exact_triangles.h>
+#include <csgrun/export/write.h>
 
 namespace csgrun {
 namespace {
@@ -214,7 +215,7 @@ uint64_t count_degenerate(const TriangleMesh& mesh) {
 }
 
 uint64_t count_crossings(const TriangleMesh& mesh) {
-  return find_crossings(mesh.view(), kMostCounted).size();
+  return find_crossings(mesh.view(), kMostCrossings).size();
 }
 
 }  // namespace csgrun

@@ -12,11 +12,9 @@ namespace csgrun {
 /// for a mesh that is not closed.
 PartMeasures measure(const TriangleMesh& mesh);
 
-/// More crossings than this are not counted: "a lot" to everybody who reads it.
-constexpr uint64_t kMostCounted = 1'000'000;
-
 /// Pairs of triangles that meet in anything but corners and edges which both have, found exactly;
-/// kMostCounted if there are at least so many. Triangles without area are left out.
+/// kMostCrossings (csgrun/export/write.h) if there are at least so many. Triangles without area are
+/// left out.
 uint64_t count_crossings(const TriangleMesh& mesh);
 
 /// Triangles whose corners lie on one line, or coincide.
