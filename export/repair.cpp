@@ -143,7 +143,7 @@ class Repair {
     examine();
   }
 
-  /// Steps of two floats (where the mesh is farthest from the origin), then four, eight and so on:
+  /// Steps of two floats (where the mesh is farthest from the origin), then eight, 32 and so on:
   /// what is snapped must get clear of what is rounded.
   [[nodiscard]] int lattice_exponent() const {
     const int finest = lattice_of(mesh_.positions).exponent;
@@ -197,7 +197,7 @@ class Repair {
   MeshCheck& check_;
   Moves moves_;
   std::string breach_;  ///< why the last round was undone, if the mesh became another
-  int lattice_ = 0;     ///< how many did not help since the origin is this one
+  int lattice_ = 0;     ///< the number of the lattice; 0: nothing is snapped yet
   size_t origin_ = 0;   ///< into kOrigins
 };
 

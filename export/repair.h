@@ -7,10 +7,10 @@
 // examined again. A round that does not leave less wrong than before is undone, and in the next
 // one, before the union, the corners of what is wrong, with all that shares their cells of a
 // lattice, are snapped to it, so that what rounding brought too near becomes one (Valque & Lazard
-// 2025); the lattice is coarser with each such round, up to a bound, and then tried again from other
-// origins: what is coarser would be another model, not the same rounded. For the same reason a round is undone after
-// which the mesh differs from the solid by more than all moves of its vertices explain
-// (fidelity.h).
+// 2025). The lattice is coarser with each such round, up to a bound: what is coarser would be
+// another model, not the same rounded. Then all are tried again from other origins. For the same
+// reason a round is undone after which the mesh differs from the solid by more than all moves of
+// its vertices explain (fidelity.h).
 #pragma once
 
 #include <csgrun/engine/error.h>
