@@ -16,16 +16,6 @@ namespace {
 
 using namespace testing;
 
-SolidPtr solid_of(const NodePtr& root, bool join) {
-  EvaluateOptions options;
-  options.threads = 1;
-  options.join_contacts = join;
-  Evaluator evaluator(options);
-  auto result = evaluator.evaluate(root);
-  EXPECT_TRUE(result.has_value()) << result.error().message;
-  return result ? *result : std::make_shared<Solid>();
-}
-
 /// Pairs of triangles that meet other than in corners and edges with equal coordinates.
 size_t crossings_by_place(const Solid& solid) {
   const auto before = [](const glm::dvec3& a, const glm::dvec3& b) {

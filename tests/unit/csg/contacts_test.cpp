@@ -16,16 +16,6 @@ namespace {
 
 using namespace testing;
 
-SolidPtr solid_of(const NodePtr& root, bool join) {
-  EvaluateOptions options;
-  options.threads = 1;
-  options.join_contacts = join;
-  Evaluator evaluator(options);
-  auto result = evaluator.evaluate(root);
-  EXPECT_TRUE(result.has_value()) << result.error().message;
-  return result ? *result : std::make_shared<Solid>();
-}
-
 /// Every directed edge once, its reverse once, one fan of triangles around each vertex.
 void expect_manifold(const Solid& solid) {
   std::map<std::pair<uint32_t, uint32_t>, uint32_t>

@@ -12,14 +12,6 @@ namespace {
 
 using namespace testing;
 
-SolidPtr solid_of(const NodePtr& root, EvaluateOptions options = {}) {
-  options.threads = 1;
-  Evaluator evaluator(options);
-  auto result = evaluator.evaluate(root);
-  EXPECT_TRUE(result.has_value()) << result.error().message;
-  return result ? *result : std::make_shared<Solid>();
-}
-
 TEST(Evaluate, BooleansOfCubes) {
   const NodePtr a = cube(2), b = moved(1, 1, 1, cube(2));
   EXPECT_EQ(solid_of(a)->measures.volume, 8);

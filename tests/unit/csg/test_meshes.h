@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include <csgrun/engine/csg_tree.h>
+#include <csgrun/engine/evaluate.h>
 
 namespace csgrun::testing {
 
@@ -137,6 +140,21 @@ inline NodePtr subtract(std::vector<NodePtr> parts) {
 }
 inline NodePtr symmetric(std::vector<NodePtr> parts) {
   return Node::boolean(BooleanOp::kSymmetricDifference, std::move(parts));
+}
+
+/// Evaluated on one thread; an error fails the test.
+inline SolidPtr solid_of(const NodePtr& root, EvaluateOptions options = {}) {
+  options.threads = 1;
+  Evaluator evaluator(options);
+  auto result = evaluator.evaluate(root);
+  EXPECT_TRUE(result.has_value()) << result.error().message;
+  return result ? *result : std::make_shared<Solid>();
+}
+/// With contacts joined or kept apart.
+inline SolidPtr solid_of(const NodePtr& root, bool join) {
+  EvaluateOptions options;
+  options.join_contacts = join;
+  return solid_of(root, options);
 }
 
 }  // namespace csgrun::testing
