@@ -73,9 +73,9 @@ int write_setting(lua_State* L) {
     const std::string value = lua_type(L, 3) == LUA_TSTRING ? lua_tostring(L, 3) : "";
     if (value != "join" && value != "separate") {
       throw ScriptError("csg.contacts must be \"separate\" or \"join\", got " +
-                        (value.empty() ? describe_value(L, 3)
-                                       : "\"" + value + "\"" +
-                                             did_you_mean(value, {"separate", "join"})));
+                        (value.empty()
+                             ? describe_value(L, 3)
+                             : "\"" + value + "\"" + did_you_mean(value, {"separate", "join"})));
     }
     session.set_joins_contacts(value == "join");
     return 0;
@@ -193,7 +193,8 @@ std::string api_help() {
       "Operators: a + b, a | b union; a - b difference; a * b, a & b intersection; a ~ b "
       "symmetric\n"
       "difference; M * a transforms by a matrix. Settings: csg.fn, csg.fa, csg.fs, csg.grid;\n"
-      "csg.contacts = \"separate\" keeps solids that touch along an edge apart, \"join\" joins them.\n";
+      "csg.contacts = \"separate\" keeps solids that touch along an edge apart, \"join\" joins "
+      "them.\n";
   for (const Binding& binding : all_bindings()) {
     text += '\n';
     text += help_text(*binding.spec);

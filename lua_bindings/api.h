@@ -59,8 +59,10 @@ FillRule fill_argument(const Arguments& arguments, const FunctionSpec& spec);
 /// The meaning of option "fill", for tables of options.
 constexpr char kFillDoc[] =
     "what is inside where the surface crosses itself, by how often it wraps around a point, one\n"
-    "          way less the other: \"nonzero\" (wherever that is not 0: overlaps are united, but an\n"
-    "          inverted part cancels what it overlaps), \"positive\" (inverted parts are cut away),\n"
+    "          way less the other: \"nonzero\" (wherever that is not 0: overlaps are united, but "
+    "an\n"
+    "          inverted part cancels what it overlaps), \"positive\" (inverted parts are cut "
+    "away),\n"
     "          \"evenodd\" (an odd number: overlaps cancel)";
 /// Pushes a mesh as a solid, with the shape's colour if it has one.
 void push_leaf(lua_State* L, PolygonMesh mesh, const std::optional<Appearance>& appearance = {});

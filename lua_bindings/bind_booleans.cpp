@@ -83,8 +83,8 @@ constexpr Option kOuterHullOptions[] = {
      "the way through a surface from its back to its front is open: inverted parts vanish, and a\n"
      "          body parts where it is thinner than nothing",
      false},
-    {"keep_voids", ArgumentType::kBoolean, "false", "voids inside stay empty instead of being filled",
-     false},
+    {"keep_voids", ArgumentType::kBoolean, "false",
+     "voids inside stay empty instead of being filled", false},
 };
 constexpr FunctionSpec kOuterHull{
     "outer_hull",

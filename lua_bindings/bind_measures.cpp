@@ -37,12 +37,12 @@ constexpr FunctionSpec kCentroid{
 constexpr FunctionSpec kComponents{"components", "The number of connected surfaces.", {}};
 constexpr FunctionSpec kGenus{"genus", "The number of handles, over all surfaces.", {}};
 constexpr FunctionSpec kIsEmpty{"is_empty", "Whether there is nothing in it.", {}};
-constexpr FunctionSpec kMesh{
-    "mesh",
-    "Its triangles: {points = {{x, y, z}, ...}, faces = {{i, j, k}, ...}}, as polyhedron takes them.",
-    {},
-    false,
-    "polyhedron(part:mesh())"};
+constexpr FunctionSpec kMesh{"mesh",
+                             "Its triangles: {points = {{x, y, z}, ...}, faces = {{i, j, k}, "
+                             "...}}, as polyhedron takes them.",
+                             {},
+                             false,
+                             "polyhedron(part:mesh())"};
 constexpr Option kContainsOptions[] = {
     {"p", ArgumentType::kVector2Or3, "", "the point", true},
 };

@@ -98,9 +98,8 @@ int polyhedron(lua_State* L) {
     fail_in(kPolyhedron, "needs points and faces");
   std::string note;
   PolygonMesh mesh = value_or_fail(
-      kPolyhedron,
-      make_polyhedron(arguments.points3("points"), arguments.index_lists("faces"),
-                      &note, fill_argument(arguments, kPolyhedron)));
+      kPolyhedron, make_polyhedron(arguments.points3("points"), arguments.index_lists("faces"),
+                                   &note, fill_argument(arguments, kPolyhedron)));
   if (!note.empty()) session_of(L).warn(L, note);
   push_leaf(L, std::move(mesh));
   return 1;

@@ -43,7 +43,7 @@ class Files {
 
   std::vector<std::string> library_folders_;  // as shown in messages
   std::vector<std::string> search_folders_;   // for modules, in order, as shown in messages
-  std::vector<std::string> roots_;           // real paths below which files may be read
+  std::vector<std::string> roots_;            // real paths below which files may be read
 };
 
 }  // namespace csgrun

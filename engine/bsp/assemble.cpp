@@ -42,7 +42,8 @@ class Assembler {
       }
       i = j;
     }
-    auto mesh = std::make_shared<BoundaryMesh>(canonical(geometry_, job_.planes(), std::move(draft_)));
+    auto mesh =
+        std::make_shared<BoundaryMesh>(canonical(geometry_, job_.planes(), std::move(draft_)));
     mesh->may_touch = may_touch;
     return std::shared_ptr<const BoundaryMesh>(std::move(mesh));
   }
@@ -60,8 +61,9 @@ class Assembler {
     for (const FragmentSet& set : sets) {
       number.clear();
       for (const FragmentSet::NamedPoint& p : set.points) {
-        number.push_back(p.vertex != kNone ? vertex(p.vertex)
-                                           : index_.unique(geometry_.add_point(p.planes, p.rounded)));
+        number.push_back(p.vertex != kNone
+                             ? vertex(p.vertex)
+                             : index_.unique(geometry_.add_point(p.planes, p.rounded)));
       }
       for (const FragmentSet::Piece& p : set.pieces) {
         pieces_.push_back({p.plane, job_.label(job_.polygons()[p.polygon]), p.polygon,
@@ -117,8 +119,8 @@ class Assembler {
     return true;
   }
 
-  /// Whether the face just made is the whole facet that its pieces come from, alone or together with
-  /// the pieces on the other side of the plane.
+  /// Whether the face just made is the whole facet that its pieces come from, alone or together
+  /// with the pieces on the other side of the plane.
   void find_completeness(size_t begin, size_t end) {
     const Piece first = pieces_[begin];
     // The pieces of a plane stand together: mostly there is no other side, or no other label.
@@ -137,8 +139,8 @@ class Assembler {
     for (const uint32_t q : facet_of(first)) {
       const JobPolygon& p = job_.polygons()[q];
       ++polygons;
-      const Piece piece{first.plane, first.label, q, static_cast<uint32_t>(corners_.size()), p.count,
-                        true};
+      const Piece piece{first.plane, first.label, q, static_cast<uint32_t>(corners_.size()),
+                        p.count,     true};
       add_polygon(p, p.support != first.plane);
       edges_of(piece, facet_);
     }
@@ -180,10 +182,12 @@ class Assembler {
       }
       return polygons;
     }
-    // The two sides of a facet stand anywhere in the operand, which is a materialised result and has
-    // its planes.
+    // The two sides of a facet stand anywhere in the operand, which is a materialised result and
+    // has its planes.
     auto& sorted = by_label_[own.operand];
-    const auto key = [&](uint32_t q) { return std::pair(job_.label(all[q]), all[q].support.index()); };
+    const auto key = [&](uint32_t q) {
+      return std::pair(job_.label(all[q]), all[q].support.index());
+    };
     if (sorted.empty()) {
       sorted.resize(job_.polygon_start(own.operand + 1) - job_.polygon_start(own.operand));
       std::iota(sorted.begin(), sorted.end(), job_.polygon_start(own.operand));

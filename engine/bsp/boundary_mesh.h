@@ -1,8 +1,9 @@
 // A materialised result in plane form: the labelled boundary of a solid.
 //
-// The value of a node is a labelled point set: which points are boundary, which side is outside, and
-// from which facet of which leaf each boundary point comes. Faces are maximal regions of one (plane,
-// side, label); they carry only their true corners. Nothing here depends on the order of evaluation.
+// The value of a node is a labelled point set: which points are boundary, which side is outside,
+// and from which facet of which leaf each boundary point comes. Faces are maximal regions of one
+// (plane, side, label); they carry only their true corners. Nothing here depends on the order of
+// evaluation.
 #pragma once
 
 #include <array>
@@ -29,20 +30,21 @@ struct BoundaryMesh {
   struct Corner {
     uint32_t point, edge_plane;
   };
-  /// A region of one plane: loops with the interior on their left, seen from outside. Outer loops and
-  /// holes are not told apart here.
+  /// A region of one plane: loops with the interior on their left, seen from outside. Outer loops
+  /// and holes are not told apart here.
   struct Face {
     PlaneId plane;  ///< into `planes`; oriented outwards
     FaceLabel label;
     bool whole = false;  ///< exactly one facet of a leaf whose facets are kept, uncut
     uint32_t first_loop = 0, loop_count = 0;
-    /// Together with the face of the same label on the other side of the plane, if there is one, exactly
-    /// such a facet: what is cut by a symmetric difference may be made whole by another one.
+    /// Together with the face of the same label on the other side of the plane, if there is one,
+    /// exactly such a facet: what is cut by a symmetric difference may be made whole by another
+    /// one.
     bool complete = false;
   };
 
-  /// False when parts of the surface certainly meet in corners and edges that both have, or nowhere.
-  /// The only thing here that may depend on the way of evaluation.
+  /// False when parts of the surface certainly meet in corners and edges that both have, or
+  /// nowhere. The only thing here that may depend on the way of evaluation.
   bool may_touch = true;
   std::vector<Plane> planes;
   std::vector<std::array<uint32_t, 3>> point_planes;  ///< each point: three planes that meet in it

@@ -89,9 +89,12 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
   for (const uint32_t f : order) {
     const auto& face = draft.faces[f];
     const uint32_t support = local_plane(face.plane.index());
-    BoundaryMesh::Face out{PlaneId(support, face.plane.flipped()), face.label, face.whole,
+    BoundaryMesh::Face out{PlaneId(support, face.plane.flipped()),
+                           face.label,
+                           face.whole,
                            static_cast<uint32_t>(mesh.loop_starts.size() - 1),
-                           static_cast<uint32_t>(face.loops.loop_count()), face.complete};
+                           static_cast<uint32_t>(face.loops.loop_count()),
+                           face.complete};
     for (size_t l = 0; l < face.loops.loop_count(); ++l) {
       const uint32_t begin = face.loops.starts[l], end = face.loops.starts[l + 1];
       for (uint32_t c = begin; c < end; ++c) {

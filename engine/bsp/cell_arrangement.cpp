@@ -34,13 +34,19 @@ int32_t CellArrangement::build_node(std::vector<Fragment> polygons) {
   for (const Fragment& f : polygons) {
     Fragment a, b;
     switch (geometry_->split(f, plane, a, b)) {
-      case Side::kFront: front.push_back(f); break;
-      case Side::kBack: back.push_back(f); break;
+      case Side::kFront:
+        front.push_back(f);
+        break;
+      case Side::kBack:
+        back.push_back(f);
+        break;
       case Side::kSplit:
         front.push_back(a);
         back.push_back(b);
         break;
-      case Side::kOn: covering_.push_back(f); break;
+      case Side::kOn:
+        covering_.push_back(f);
+        break;
     }
   }
   polygons = {};
@@ -215,8 +221,8 @@ uint32_t CellArrangement::volume_below(CellGeometry& geometry, uint32_t point) c
   while (node >= 0) {
     const Node& n = nodes_[node];
     int side = geometry.side(n.plane, point);
-    // The first component of a stored plane that is not zero is positive: moved down, a point of the
-    // plane is behind it.
+    // The first component of a stored plane that is not zero is positive: moved down, a point of
+    // the plane is behind it.
     if (side == 0) side = -1;
     node = side > 0 ? n.front : n.back;
   }

@@ -1,6 +1,6 @@
-// How a surface that crosses itself divides one cell: an unlabelled BSP whose leaves are joined, across
-// what no polygon covers, to the volumes that the surface leaves (Campen & Kobbelt 2010, section 6.2:
-// flood filling of the cell adjacency graph).
+// How a surface that crosses itself divides one cell: an unlabelled BSP whose leaves are joined,
+// across what no polygon covers, to the volumes that the surface leaves (Campen & Kobbelt 2010,
+// section 6.2: flood filling of the cell adjacency graph).
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ class CellArrangement {
  public:
   /// A piece of the surface: convex, with one volume on either side. Pieces do not overlap.
   struct Part {
-    Fragment fragment;      ///< seen from the positive side of its plane; of the lowest polygon there
+    Fragment fragment;  ///< seen from the positive side of its plane; of the lowest polygon there
     uint32_t front, back;   ///< volumes on the positive and on the negative side
     bool has_up, has_down;  ///< polygons that face the positive side lie here, and the reverse
   };
@@ -32,16 +32,16 @@ class CellArrangement {
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
   /// Per volume.
   [[nodiscard]] const std::vector<int32_t>& windings() const { return windings_; }
-  /// The volume at a point of the cell (of the geometry), moved by (-e, -e^2, -e^3) for an infinitely
-  /// small e.
+  /// The volume at a point of the cell (of the geometry), moved by (-e, -e^2, -e^3) for an
+  /// infinitely small e.
   [[nodiscard]] uint32_t volume_below(CellGeometry& geometry, uint32_t point) const;
 
  private:
   struct Node {
     uint32_t plane;
-    int32_t front, back;                 ///< a node, or ~leaf
-    uint32_t first_covering, covering;   ///< polygons in the plane, into covering_
-    Fragment facet;                      ///< the plane inside the node's region
+    int32_t front, back;                ///< a node, or ~leaf
+    uint32_t first_covering, covering;  ///< polygons in the plane, into covering_
+    Fragment facet;                     ///< the plane inside the node's region
   };
   struct PathStep {
     uint32_t plane;

@@ -6,8 +6,8 @@ namespace csgrun {
 namespace {
 
 double distance_to(const double* center, const std::array<double, 3>& p) {
-  return std::max({std::fabs(center[0] - p[0]), std::fabs(center[1] - p[1]),
-                   std::fabs(center[2] - p[2])});
+  return std::max(
+      {std::fabs(center[0] - p[0]), std::fabs(center[1] - p[1]), std::fabs(center[2] - p[2])});
 }
 
 /// Separating axes in doubles: the polygon's normal, and in the projection along its longest
@@ -38,8 +38,7 @@ bool separated(const Job& job, uint32_t polygon, const CellBox& cell) {
     value += n[k] * (center[k] - a[k]);
     reach += std::fabs(n[k]) * (half[k] + 1);
   }
-  if (std::fabs(value) >
-      reach * (1 + 0x1p-40) + 4 * normal_error * (distance + reach_of_cell)) {
+  if (std::fabs(value) > reach * (1 + 0x1p-40) + 4 * normal_error * (distance + reach_of_cell)) {
     return true;
   }
   const int axis = std::fabs(n[0]) >= std::fabs(n[1]) && std::fabs(n[0]) >= std::fabs(n[2]) ? 0
@@ -49,12 +48,14 @@ bool separated(const Job& job, uint32_t polygon, const CellBox& cell) {
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   const double sign = n[axis] > 0 ? 1 : -1;
   for (size_t k = 0; k < corners.size(); ++k) {
-    const auto &p = job.rounded(corners[k]), &q = job.rounded(corners[k + 1 < corners.size() ? k + 1 : 0]);
+    const auto &p = job.rounded(corners[k]),
+               &q = job.rounded(corners[k + 1 < corners.size() ? k + 1 : 0]);
     const double du = q[i] - p[i], dv = q[j] - p[j];
     // Left of the edge is inside: the cell is outside when its leftmost corner is right of it.
     const double left = sign * (du * (center[j] - p[j]) - dv * (center[i] - p[i]));
     const double spread = std::fabs(du) * (half[j] + 1) + std::fabs(dv) * (half[i] + 1);
-    const double margin = (std::fabs(du) + std::fabs(dv)) * 0x1p-20 + 0x1p-20 * distance_to(center, p);
+    const double margin =
+        (std::fabs(du) + std::fabs(dv)) * 0x1p-20 + 0x1p-20 * distance_to(center, p);
     if (left < -spread * (1 + 0x1p-40) - margin) return true;
   }
   return false;

@@ -15,21 +15,21 @@ struct CellBox {
   IVec3 lo, hi;
 };
 
-/// Divisions that may pass without thinning out a cell before it is left as it is: two octree levels.
-/// Many polygons through one point cannot be told apart by dividing.
+/// Divisions that may pass without thinning out a cell before it is left as it is: two octree
+/// levels. Many polygons through one point cannot be told apart by dividing.
 constexpr int kDivisionPatience = 6;
 
-/// The smallest cube with a power of two steps a side that contains the region, its lower corner moved
-/// down by `shift`.
+/// The smallest cube with a power of two steps a side that contains the region, its lower corner
+/// moved down by `shift`.
 CellBox root_cell(const GridBox& region, const std::array<uint32_t, 3>& shift);
 
 /// Whether the polygon may meet the cell: its box does and, for a polygon that reaches beyond the
 /// cell, so do its plane and its outline. Conservative.
 bool may_meet(const Job& job, uint32_t polygon, const CellBox& cell);
 
-/// Along which axis to divide a cell: the longest, as an octree has it, unless dividing another leaves
-/// clearly fewer polygons in the halves: faces that overlap in one plane thin out only across their
-/// edges.
+/// Along which axis to divide a cell: the longest, as an octree has it, unless dividing another
+/// leaves clearly fewer polygons in the halves: faces that overlap in one plane thin out only
+/// across their edges.
 class AxisChoice {
  public:
   /// Up to this many polygons it pays to count them.

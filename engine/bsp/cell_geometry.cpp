@@ -30,10 +30,10 @@ uint32_t CellGeometry::vertex_point(uint32_t vertex) {
 
 uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes) {
   const auto p = static_cast<uint32_t>(points_.size());
-  exact_.push_back(intersect(planes_->plane(planes[0]), planes_->plane(planes[1]),
-                             planes_->plane(planes[2])));
-  points_.push_back({csgrun::rounded(exact_.back()), planes, kNone,
-                     static_cast<uint32_t>(exact_.size() - 1)});
+  exact_.push_back(
+      intersect(planes_->plane(planes[0]), planes_->plane(planes[1]), planes_->plane(planes[2])));
+  points_.push_back(
+      {csgrun::rounded(exact_.back()), planes, kNone, static_cast<uint32_t>(exact_.size() - 1)});
   return p;
 }
 
@@ -47,10 +47,10 @@ const Point& CellGeometry::exact(uint32_t p) {
   StoredPoint& s = points_[p];
   if (s.exact == kNone) {
     s.exact = static_cast<uint32_t>(exact_.size());
-    exact_.push_back(s.vertex != kNone ? job_->exact(s.vertex)
-                                       : intersect(planes_->plane(s.planes[0]),
-                                                   planes_->plane(s.planes[1]),
-                                                   planes_->plane(s.planes[2])));
+    exact_.push_back(s.vertex != kNone
+                         ? job_->exact(s.vertex)
+                         : intersect(planes_->plane(s.planes[0]), planes_->plane(s.planes[1]),
+                                     planes_->plane(s.planes[2])));
   }
   return exact_[s.exact];
 }
@@ -83,8 +83,9 @@ int CellGeometry::side(uint32_t plane, uint32_t p) {
     return sign;
   }
   const Point& x = exact(p);
-  const int bits = widths::side(x.xyz_bits, x.w_bits, planes_->normal_bits(plane),
-                                planes_->offset_bits(plane)) + 1;
+  const int bits =
+      widths::side(x.xyz_bits, x.w_bits, planes_->normal_bits(plane), planes_->offset_bits(plane)) +
+      1;
   int tier = 0;
   while (bits > kTierBits[tier]) ++tier;
   ++counters.exact[tier];
@@ -120,8 +121,8 @@ Side CellGeometry::split(const Fragment& f, uint32_t plane, Fragment& front, Fra
   if (!any_back) return Side::kFront;
   if (!any_front) return Side::kBack;
 
-  // Walk the loop once for each piece. A crossed edge gives a new corner; both pieces get the cutting
-  // plane as the plane of their new edge.
+  // Walk the loop once for each piece. A crossed edge gives a new corner; both pieces get the
+  // cutting plane as the plane of their new edge.
   uint32_t cut_of_edge[2] = {kNone, kNone}, cut_point[2] = {kNone, kNone};
   const auto crossing = [&](uint32_t i) {
     const int k = cut_of_edge[0] == i ? 0 : cut_of_edge[1] == i ? 1 : -1;

@@ -1,8 +1,8 @@
-// The working memory of one cell: points named by planes, convex polygons over them, and the splitting
-// of a polygon by a plane (Bernstein & Fussell 2009; Campen & Kobbelt 2010, section 4.2).
+// The working memory of one cell: points named by planes, convex polygons over them, and the
+// splitting of a polygon by a plane (Bernstein & Fussell 2009; Campen & Kobbelt 2010, section 4.2).
 //
-// Points are constructed once and never rounded: a cut is the meeting point of the polygon's plane, an
-// edge's plane and the cutting plane, and all decisions are signs of planes at points.
+// Points are constructed once and never rounded: a cut is the meeting point of the polygon's plane,
+// an edge's plane and the cutting plane, and all decisions are signs of planes at points.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@ namespace csgrun {
 
 constexpr uint32_t kNone = ~0u;
 
-/// A convex polygon: corners and edge planes in the arena of a CellGeometry. Edge i runs from corner
-/// i to corner i + 1 and lies in edge plane i. Counter-clockwise seen from the side the support's
-/// normal points to.
+/// A convex polygon: corners and edge planes in the arena of a CellGeometry. Edge i runs from
+/// corner i to corner i + 1 and lies in edge plane i. Counter-clockwise seen from the side the
+/// support's normal points to.
 struct Fragment {
   PlaneId support;
   uint32_t polygon = kNone;  ///< the job's polygon that this is a piece of
@@ -57,15 +57,17 @@ class CellGeometry {
   Fragment load(uint32_t polygon);
   Fragment make_fragment(PlaneId support, const std::vector<uint32_t>& points,
                          const std::vector<uint32_t>& edges);
-  [[nodiscard]] const uint32_t* corners(const Fragment& f) const { return corners_.data() + f.first; }
+  [[nodiscard]] const uint32_t* corners(const Fragment& f) const {
+    return corners_.data() + f.first;
+  }
   [[nodiscard]] const uint32_t* edges(const Fragment& f) const { return edges_.data() + f.first; }
 
   /// Sign of the stored plane `plane` at a point: symbolic, by filter, else exact.
   int side(uint32_t plane, uint32_t p);
 
-  /// Where a fragment lies relative to a plane; kSplit: `front` and `back` are the two pieces, which
-  /// inherit support and polygon. Front is the positive side of the stored plane. kOn only when the
-  /// plane is the support. REQUIRES: weakly convex fragment.
+  /// Where a fragment lies relative to a plane; kSplit: `front` and `back` are the two pieces,
+  /// which inherit support and polygon. Front is the positive side of the stored plane. kOn only
+  /// when the plane is the support. REQUIRES: weakly convex fragment.
   Side split(const Fragment& f, uint32_t plane, Fragment& front, Fragment& back);
   /// As split, without constructing the pieces.
   Side classify(const Fragment& f, uint32_t plane);

@@ -6,16 +6,16 @@ CellSolver::CellSolver(const Job& job) : job_(job), geometry_(job.planes(), &job
   slot_of_operand_.assign(job.operand_count(), kNone);
 }
 
-void CellSolver::copy(uint32_t polygon, const CellBox& box, const CellWalls& walls,
-                      bool flip, FragmentSet& out) {
+void CellSolver::copy(uint32_t polygon, const CellBox& box, const CellWalls& walls, bool flip,
+                      FragmentSet& out) {
   geometry_.clear();
   numbers_.clear();
   Fragment f = geometry_.load(polygon);
   if (clip_to_cell(geometry_, job_, box, walls, f)) out.add(geometry_, f, flip, numbers_);
 }
 
-void CellSolver::solve(const Octree& tree, const CriticalCell& cell,
-                       const CellWalls& walls, FragmentSet& out) {
+void CellSolver::solve(const Octree& tree, const CriticalCell& cell, const CellWalls& walls,
+                       FragmentSet& out) {
   geometry_.clear();
   numbers_.clear();
   operand_count_ = cell.presence_count;

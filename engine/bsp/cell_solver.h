@@ -10,11 +10,11 @@
 
 namespace csgrun {
 
-/// Solves critical cells one after another: each operand's polygons are clipped to the cell and made
-/// into a labelled BSP; each polygon is pushed down the BSPs of all other operands, which cuts it into
-/// pieces with known labels in front and behind for every operand; pieces where the expression's value
-/// changes are boundary. No merge of trees is needed for that (algorithm by Thibault; the literal
-/// merge of the paper is in literal_cell.h). One solver per thread.
+/// Solves critical cells one after another: each operand's polygons are clipped to the cell and
+/// made into a labelled BSP; each polygon is pushed down the BSPs of all other operands, which cuts
+/// it into pieces with known labels in front and behind for every operand; pieces where the
+/// expression's value changes are boundary. No merge of trees is needed for that (algorithm by
+/// Thibault; the literal merge of the paper is in literal_cell.h). One solver per thread.
 class CellSolver {
  public:
   explicit CellSolver(const Job& job);
@@ -28,8 +28,8 @@ class CellSolver {
   [[nodiscard]] const SignCounters& counters() const { return geometry_.counters; }
   /// In how many of the solved cells surfaces of different operands were found to meet.
   [[nodiscard]] uint64_t cells_with_contact() const { return cells_with_contact_; }
-  /// Whether in some solved cell surfaces of different operands may touch: a corner of one lies in a
-  /// plane of another.
+  /// Whether in some solved cell surfaces of different operands may touch: a corner of one lies in
+  /// a plane of another.
   [[nodiscard]] bool may_touch() const { return may_touch_; }
   /// The solver's working memory, for others that solve a cell in its place.
   CellGeometry& geometry() { return geometry_; }

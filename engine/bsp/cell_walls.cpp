@@ -11,8 +11,8 @@ CellWalls walls_of(Job& job, const CellBox& box) {
   return w;
 }
 
-bool clip_to_cell(CellGeometry& geometry, const Job& job, const CellBox& box, const CellWalls& walls,
-                  Fragment& f) {
+bool clip_to_cell(CellGeometry& geometry, const Job& job, const CellBox& box,
+                  const CellWalls& walls, Fragment& f) {
   const PolygonBox& b = job.boxes()[f.polygon];
   for (int k = 0; k < 3; ++k) {
     for (int upper = 0; upper < 2; ++upper) {
@@ -25,8 +25,11 @@ bool clip_to_cell(CellGeometry& geometry, const Job& job, const CellBox& box, co
         case Side::kBack:
           if (!upper) return false;
           break;
-        case Side::kSplit: f = upper ? back : front; break;
-        case Side::kOn: return false;  // unreachable: no leaf vertex lies in a wall
+        case Side::kSplit:
+          f = upper ? back : front;
+          break;
+        case Side::kOn:
+          return false;  // unreachable: no leaf vertex lies in a wall
       }
     }
   }

@@ -16,7 +16,7 @@ using CellWalls = std::array<uint32_t, 6>;
 CellWalls walls_of(Job& job, const CellBox& box);
 
 /// Clips a fragment to the cell; false when nothing is left.
-bool clip_to_cell(CellGeometry& geometry, const Job& job, const CellBox& box, const CellWalls& walls,
-                  Fragment& f);
+bool clip_to_cell(CellGeometry& geometry, const Job& job, const CellBox& box,
+                  const CellWalls& walls, Fragment& f);
 
 }  // namespace csgrun

@@ -7,8 +7,8 @@
 namespace csgrun {
 namespace {
 
-/// Up to this many edges a region is cut along its own edges; above, walls halve it first, so that the
-/// lines of edges stay short.
+/// Up to this many edges a region is cut along its own edges; above, walls halve it first, so that
+/// the lines of edges stay short.
 constexpr size_t kFewEdges = 12;
 constexpr int64_t kFarWall = int64_t{1} << 29;
 
@@ -35,7 +35,8 @@ class Convexifier {
     const uint32_t v0 = wall_(axes_[1], -kFarWall), v1 = wall_(axes_[1], kFarWall);
     const uint32_t s = support_.index();
     std::vector<uint32_t> points{geometry_.add_point({s, u0, v0}), geometry_.add_point({s, u1, v0}),
-                                 geometry_.add_point({s, u1, v1}), geometry_.add_point({s, u0, v1})};
+                                 geometry_.add_point({s, u1, v1}),
+                                 geometry_.add_point({s, u0, v1})};
     std::vector<uint32_t> edges{v0, u1, v1, u0};
     if (!positive_) {
       std::reverse(points.begin(), points.end());
@@ -119,8 +120,8 @@ class Convexifier {
     }
   }
 
-  /// The sign of the edge's plane on the left of the edge. With D = n x t (n the outward normal of the
-  /// support, t the normal of the edge's plane), an edge along D has -t on its left.
+  /// The sign of the edge's plane on the left of the edge. With D = n x t (n the outward normal of
+  /// the support, t the normal of the edge's plane), an edge along D has -t on its left.
   int left_side(const BoundaryEdge& e) {
     const LineAxis line = line_axis(planes_.oriented(support_), planes_.plane(e.plane));
     const int along = geometry_.compare_along(e.to, e.from, line.axis) * line.sign;

@@ -1,8 +1,8 @@
 // Convex pieces of a face that may have holes and many corners, without new planes through
 // constructed points: cuts extend edges that are there, or stand in walls of the grid.
 //
-// A labelled BSP in two dimensions (Thibault & Naylor 1987 in the plane of the face): the cells that
-// end up inside are the pieces. Planes through constructed points would make widths grow from
+// A labelled BSP in two dimensions (Thibault & Naylor 1987 in the plane of the face): the cells
+// that end up inside are the pieces. Planes through constructed points would make widths grow from
 // operation to operation (EMBER, section 3.2); extensions of edges never do.
 #pragma once
 

@@ -37,7 +37,8 @@ bool line_hits(const Job& job, const JobPolygon& polygon, const IVec3& corner, i
   const int support_sign = s[axis] > 0 ? 1 : -1;
   const int i = axis == 0 ? 1 : 0, j = axis == 2 ? 1 : 2;  // i < j: the order of the moves
   const int64_t p = job.prime();
-  const Int128 ci = static_cast<Int128>(p) * corner[i] + 1, cj = static_cast<Int128>(p) * corner[j] + 1;
+  const Int128 ci = static_cast<Int128>(p) * corner[i] + 1,
+               cj = static_cast<Int128>(p) * corner[j] + 1;
   const auto edges = job.edge_planes(polygon);
   const auto corners = job.corners(polygon);
   for (size_t k = 0; k < edges.size(); ++k) {
@@ -47,7 +48,9 @@ bool line_hits(const Job& job, const JobPolygon& polygon, const IVec3& corner, i
     const auto coefficient = [&](int c) { return product(s[axis], e[c]) - product(e[axis], s[c]); };
     const Wide by_i = coefficient(i), by_j = coefficient(j);
     const Wide constant = product(s[axis], edge.d) - product(e[axis], support.d);
-    const auto times = [](const Wide& v, Int128 f) { return multiply<6>(v, Int<2>::from_int128(f)); };
+    const auto times = [](const Wide& v, Int128 f) {
+      return multiply<6>(v, Int<2>::from_int128(f));
+    };
     int at_line = (times(by_i, ci) + times(by_j, cj) + times(constant, p)).sign();
     if (at_line == 0) at_line = by_i.sign();
     if (at_line == 0) at_line = by_j.sign();

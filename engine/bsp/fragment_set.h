@@ -28,7 +28,8 @@ struct FragmentSet {
   std::vector<uint32_t> corner_point, corner_plane;
 
   /// Adds a fragment; `flip`: the outside of the result is behind it. `numbers` maps the geometry's
-  /// points to this set's and grows as needed; it belongs to one geometry between two clear() calls.
+  /// points to this set's and grows as needed; it belongs to one geometry between two clear()
+  /// calls.
   void add(const CellGeometry& geometry, const Fragment& f, bool flip,
            std::vector<uint32_t>& numbers) {
     Piece piece{flip ? f.support.flip() : f.support, f.polygon,
@@ -52,7 +53,8 @@ struct FragmentSet {
 
   /// Turns a piece over.
   void flip(Piece& piece) {
-    const auto corner = corner_point.begin() + piece.first, edge = corner_plane.begin() + piece.first;
+    const auto corner = corner_point.begin() + piece.first,
+               edge = corner_plane.begin() + piece.first;
     std::reverse(corner, corner + piece.count);
     // The last edge, which closes the loop, stays the last.
     std::reverse(edge, edge + piece.count - 1);

@@ -21,9 +21,7 @@ int32_t clamp_to_box(double v) {
 Plane map_plane(const Frame& frame, const Plane& p) {
   if (frame.is_identity) return p;
   const auto& m = frame.matrix;
-  const auto row = [&](int j) {
-    return p.a * m[0][j] + p.b * m[1][j] + p.c * m[2][j];
-  };
+  const auto row = [&](int j) { return p.a * m[0][j] + p.b * m[1][j] + p.c * m[2][j]; };
   return {row(0), row(1), row(2), p.d << Frame::kShift};
 }
 
@@ -123,7 +121,8 @@ bool Job::is_good_prime(int64_t p) const {
   for (const Source& s : sources_) {
     if (remainder_of(s.determinant, p) == 0) return false;
   }
-  // A materialised result does not know the frames of its leaves: its planes are looked at themselves.
+  // A materialised result does not know the frames of its leaves: its planes are looked at
+  // themselves.
   for (uint32_t i = 0; i < planes_.size(); ++i) {
     const Plane& s = planes_.plane(i);
     if (((s.a != 0) + (s.b != 0) + (s.c != 0)) == 1 && s.a + s.b + s.c == p) return false;

@@ -22,9 +22,9 @@ struct PolygonBox {
 /// no intersection and never need them.
 struct JobPolygon {
   uint32_t operand;
-  uint32_t face;           ///< face of the leaf or of the boundary
-  uint32_t first, count;   ///< corners in Job::corners; also edge planes in Job::edge_planes
-  PlaneId support;         ///< oriented outwards; invalid until planes were made
+  uint32_t face;          ///< face of the leaf or of the boundary
+  uint32_t first, count;  ///< corners in Job::corners; also edge planes in Job::edge_planes
+  PlaneId support;        ///< oriented outwards; invalid until planes were made
 };
 
 class Job {
@@ -54,9 +54,9 @@ class Job {
   /// Three planes of this job that meet in the vertex, or ~0 thrice for a vertex of a leaf.
   [[nodiscard]] std::array<uint32_t, 3> vertex_planes(uint32_t vertex) const;
   [[nodiscard]] FaceLabel label(const JobPolygon& p) const;
-  /// Whether the polygon is a part of a facet of a leaf whose facets are kept, and all of that facet is
-  /// there, on either side of its plane; and whether all of it is there on the polygon's side, in which
-  /// case the polygons of the facet stand together.
+  /// Whether the polygon is a part of a facet of a leaf whose facets are kept, and all of that
+  /// facet is there, on either side of its plane; and whether all of it is there on the polygon's
+  /// side, in which case the polygons of the facet stand together.
   [[nodiscard]] bool is_of_complete_facet(const JobPolygon& p) const;
   [[nodiscard]] bool is_of_whole_facet(const JobPolygon& p) const;
 
@@ -67,8 +67,8 @@ class Job {
   /// Smallest odd prime that divides no frame's determinant, and such that no plane of a boundary
   /// operand is a wall: walls at m + 1/prime hold no leaf vertex and no face.
   [[nodiscard]] int64_t prime() const { return prime_; }
-  /// Chooses the prime anew so that none of these vertices lies in a wall made from now on. (Vertices of
-  /// leaves never do.)
+  /// Chooses the prime anew so that none of these vertices lies in a wall made from now on.
+  /// (Vertices of leaves never do.)
   void keep_walls_off(std::span<const uint32_t> vertices);
   /// Chooses a greater prime for walls made from now on.
   void move_walls();

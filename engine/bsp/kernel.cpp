@@ -88,8 +88,9 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
       const size_t end = std::min(work.cut_copies.size(), first + kCellsPerRun);
       for (size_t i = first; i < end; ++i) {
         const auto& piece = work.cut_copies[i];
-        solver.copy(piece.polygon, tree.copied_cells[piece.cell], 
-                    work.copied_walls[work.walls_of_copied_cell[piece.cell]], piece.flip, sets[run]);
+        solver.copy(piece.polygon, tree.copied_cells[piece.cell],
+                    work.copied_walls[work.walls_of_copied_cell[piece.cell]], piece.flip,
+                    sets[run]);
       }
     }
     contacts[run] = solver.cells_with_contact() - contacts_before;
@@ -97,7 +98,8 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     counters[run] = solver.counters();
     counters[run].subtract(before);
   };
-  for_each_run(sets.size(), options, [&] { return CellSolver(job); }, solve_run);
+  for_each_run(
+      sets.size(), options, [&] { return CellSolver(job); }, solve_run);
   if (cancelled()) return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
 
   SignCounters total;
@@ -110,13 +112,12 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   stats.sign_symbolic += total.symbolic;
   for (size_t t = 0; t < total.exact.size(); ++t) stats.sign_exact[t] += total.exact[t];
   // Every contact of two operands is in a cell where both have surface.
-  const bool may_touch =
-      options.literal_cells ||
-      std::any_of(operands.begin(), operands.end(),
-                  [](const Operand& o) {
-                    return o.leaf ? o.leaf->may_touch : o.boundary->may_touch;
-                  }) ||
-      std::find(touches.begin(), touches.end(), 1) != touches.end();
+  const bool may_touch = options.literal_cells ||
+                         std::any_of(operands.begin(), operands.end(),
+                                     [](const Operand& o) {
+                                       return o.leaf ? o.leaf->may_touch : o.boundary->may_touch;
+                                     }) ||
+                         std::find(touches.begin(), touches.end(), 1) != touches.end();
   return assemble(job, sets, work.whole, may_touch);
 }
 
@@ -136,7 +137,8 @@ GridBox bounding_box(const BoundaryMesh& b) {
     for (int k = 0; k < 3; ++k) {
       // The true coordinate is within half a unit in the last place of the rounded one.
       const bool whole = p[k] == std::floor(p[k]);
-      const double lo = whole ? p[k] - 1 : std::floor(p[k]), hi = whole ? p[k] + 1 : std::ceil(p[k]);
+      const double lo = whole ? p[k] - 1 : std::floor(p[k]),
+                   hi = whole ? p[k] + 1 : std::ceil(p[k]);
       box.lo[k] = std::min(box.lo[k], static_cast<int64_t>(lo));
       box.hi[k] = std::max(box.hi[k], static_cast<int64_t>(hi));
     }

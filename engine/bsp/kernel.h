@@ -11,10 +11,10 @@
 
 namespace csgrun {
 
-/// Evaluates `expression` over `operands` inside `region` (grid steps, world), which must contain the
-/// whole result; operands may reach beyond it. The value is canonical: a function of the geometry,
-/// the labels and the expression only (docs/decisions/0002-canonical-form.md).
-/// `stats` is added to. Errors: kCancelled, kOutOfRange, kInternal.
+/// Evaluates `expression` over `operands` inside `region` (grid steps, world), which must contain
+/// the whole result; operands may reach beyond it. The value is canonical: a function of the
+/// geometry, the labels and the expression only (docs/decisions/0002-canonical-form.md). `stats` is
+/// added to. Errors: kCancelled, kOutOfRange, kInternal.
 Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<Operand>& operands,
                                                              const Expression& expression,
                                                              const GridBox& region,

@@ -9,8 +9,9 @@
 namespace csgrun {
 
 /// 122 bits of the line's Plücker coordinates modulo 2^61 - 1, divided by their first non-zero one:
-/// independent of which planes through the line were used, and of their scale. Equal lines have equal
-/// keys; different lines have different keys but for a chance of about 2^-120, so users confirm.
+/// independent of which planes through the line were used, and of their scale. Equal lines have
+/// equal keys; different lines have different keys but for a chance of about 2^-120, so users
+/// confirm.
 struct LineKey {
   uint64_t a = 0, b = 0;
   bool operator==(const LineKey&) const = default;

@@ -19,10 +19,17 @@ size_t choose_splitter(CellGeometry& geometry, const std::vector<Fragment>& poly
     size_t front = 0, back = 0, split = 0;
     for (const Fragment& f : polygons) {
       switch (geometry.classify(f, polygons[candidate].support.index())) {
-        case Side::kFront: ++front; break;
-        case Side::kBack: ++back; break;
-        case Side::kSplit: ++split; break;
-        case Side::kOn: break;
+        case Side::kFront:
+          ++front;
+          break;
+        case Side::kBack:
+          ++back;
+          break;
+        case Side::kSplit:
+          ++split;
+          break;
+        case Side::kOn:
+          break;
       }
     }
     const size_t cost = 3 * split + (front > back ? front - back : back - front);
@@ -43,13 +50,18 @@ int32_t LocalBsp::build_node(CellGeometry& geometry, std::vector<Fragment> polyg
   for (const Fragment& f : polygons) {
     Fragment a, b;
     switch (geometry.split(f, chosen.index(), a, b)) {
-      case Side::kFront: front.push_back(f); break;
-      case Side::kBack: back.push_back(f); break;
+      case Side::kFront:
+        front.push_back(f);
+        break;
+      case Side::kBack:
+        back.push_back(f);
+        break;
       case Side::kSplit:
         front.push_back(a);
         back.push_back(b);
         break;
-      case Side::kOn: break;
+      case Side::kOn:
+        break;
     }
   }
   polygons = {};
@@ -95,7 +107,8 @@ void LocalBsp::push(CellGeometry& geometry, int32_t node, const Fragment& f,
   if (side == Side::kSplit) {
     push(geometry, nodes_[node].front, front, pieces);
     push(geometry, nodes_[node].back, back, pieces);
-    if (pieces.size() == before + 2 && pieces[before].front_inside == pieces[before + 1].front_inside &&
+    if (pieces.size() == before + 2 &&
+        pieces[before].front_inside == pieces[before + 1].front_inside &&
         pieces[before].back_inside == pieces[before + 1].back_inside) {
       pieces.pop_back();
       pieces.back().fragment = f;

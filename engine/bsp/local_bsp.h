@@ -10,8 +10,8 @@
 
 namespace csgrun {
 
-/// Which of the polygons' supports to split a cell by: of a few tried, the one that splits fewest others
-/// and halves the rest best.
+/// Which of the polygons' supports to split a cell by: of a few tried, the one that splits fewest
+/// others and halves the rest best.
 size_t choose_splitter(CellGeometry& geometry, const std::vector<Fragment>& polygons);
 
 class LocalBsp {

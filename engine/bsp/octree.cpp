@@ -16,7 +16,8 @@ class OctreeBuilder {
     tree_.fate.assign(job.polygons().size(), 0);
   }
 
-  Octree run(const Expression& expression, const GridBox& region, const std::array<uint32_t, 3>& shift) {
+  Octree run(const Expression& expression, const GridBox& region,
+             const std::array<uint32_t, 3>& shift) {
     if (region.empty()) return std::move(tree_);
     const CellBox box = root_cell(region, shift);
     PrunedExpression whole(expression);
@@ -42,8 +43,8 @@ class OctreeBuilder {
  private:
   using Presence = CriticalCell::Presence;
 
-  /// Handles a cell whose presences are presences_[first..] and may have lost their polygons or their
-  /// mention; leaves both stacks as they were below `first`.
+  /// Handles a cell whose presences are presences_[first..] and may have lost their polygons or
+  /// their mention; leaves both stacks as they were below `first`.
   void enter(const CellBox& box, size_t first, const PrunedExpression& outer, int stalled) {
     bool absent = false;
     for (size_t i = first; i < presences_.size(); ++i) {
@@ -90,13 +91,15 @@ class OctreeBuilder {
       case Form::kComplement:
         copy(box, first, expression);
         return;
-      case Form::kGeneral: break;
+      case Form::kGeneral:
+        break;
     }
     uint32_t total = 0;
     for (size_t i = first; i < presences_.size(); ++i) total += presences_[i].count;
     const int axis = choose_axis(box, first, total);
     const bool cancelled = cancel_ && cancel_->load(std::memory_order_relaxed);
-    if (total <= limit_ || stalled >= kDivisionPatience || box.hi[axis] - box.lo[axis] < 2 || cancelled) {
+    if (total <= limit_ || stalled >= kDivisionPatience || box.hi[axis] - box.lo[axis] < 2 ||
+        cancelled) {
       add_critical(box, first, expression);
       return;
     }
@@ -182,8 +185,8 @@ class OctreeBuilder {
   const uint32_t limit_;
   const std::atomic<bool>* cancel_;
   Octree tree_;
-  std::vector<Presence> presences_;   ///< a stack: those of the cells on the way down
-  std::vector<uint32_t> polygons_;    ///< likewise
+  std::vector<Presence> presences_;  ///< a stack: those of the cells on the way down
+  std::vector<uint32_t> polygons_;   ///< likewise
   std::vector<Inside> constant_;
   std::vector<uint8_t> mentioned_;
 };

@@ -19,17 +19,18 @@ using IVec3 = std::array<int64_t, 3>;
 /// A leaf on the integer grid of its frame: planar convex polygons over integer vertices.
 ///
 /// Invariants: |coordinate| < 2^27 (2^40 for a leaf that reaches far outside the region of
-/// interest); each face is one loop, counter-clockwise from outside, exactly planar and convex, with
-/// at least three corners that are not collinear (180 degree corners are allowed); closed: each
-/// directed edge is balanced by its reverse. As an operand of a Boolean it bounds a solid: it crosses
-/// nothing and winds once around its inside. Leaves that do not are resolved first, by a job of their
-/// own (bsp/self_resolution).
+/// interest); each face is one loop, counter-clockwise from outside, exactly planar and convex,
+/// with at least three corners that are not collinear (180 degree corners are allowed); closed:
+/// each directed edge is balanced by its reverse. As an operand of a Boolean it bounds a solid: it
+/// crosses nothing and winds once around its inside. Leaves that do not are resolved first, by a
+/// job of their own (bsp/self_resolution).
 struct LeafGeometry {
   std::vector<IVec3> vertices;
   std::vector<uint32_t> corners;
   std::vector<uint32_t> face_starts{0};
   /// Per face. Coplanar faces of one leaf with equal facet, surface and appearance are parts of one
-  /// face. 0 for primitives; the number of the original face, from 1, for meshes whose facets are kept.
+  /// face. 0 for primitives; the number of the original face, from 1, for meshes whose facets are
+  /// kept.
   std::vector<uint32_t> facet;
   std::vector<uint32_t> surface;     ///< per face: PolygonMesh::surface
   std::vector<uint32_t> appearance;  ///< per face: kernel-wide appearance id
@@ -40,9 +41,9 @@ struct LeafGeometry {
   [[nodiscard]] size_t face_count() const { return face_starts.size() - 1; }
 };
 
-/// The frame of a leaf: world -> frame is B = matrix / 2^40 (Numbers: docs/numerics.md). A point q of
-/// the frame is the world point 2^40 adj(matrix) q / det(matrix); a plane (n, d) of the frame is the
-/// world plane (matrix^T n, 2^40 d). A negative determinant mirrors. Identity: `is_identity`.
+/// The frame of a leaf: world -> frame is B = matrix / 2^40 (Numbers: docs/numerics.md). A point q
+/// of the frame is the world point 2^40 adj(matrix) q / det(matrix); a plane (n, d) of the frame is
+/// the world plane (matrix^T n, 2^40 d). A negative determinant mirrors. Identity: `is_identity`.
 struct Frame {
   static constexpr int kShift = 40;
   std::array<std::array<int64_t, 3>, 3> matrix{};
@@ -69,7 +70,7 @@ struct Expression {
   struct Node {
     bool is_operand = true;
     BooleanOp op = BooleanOp::kUnion;
-    uint32_t operand = 0;             ///< when is_operand
+    uint32_t operand = 0;                       ///< when is_operand
     uint32_t first_child = 0, child_count = 0;  ///< into `children`, when not
   };
   std::vector<Node> nodes;

@@ -1,13 +1,14 @@
-// Cells in parallel: handed out in fixed runs, so that what a run gives does not depend on the threads.
+// Cells in parallel: handed out in fixed runs, so that what a run gives does not depend on the
+// threads.
 #pragma once
+
+#include <atomic>
+#include <cstddef>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-
-#include <atomic>
-#include <cstddef>
 
 #include "engine/bsp/operand.h"
 

@@ -1,5 +1,5 @@
-// Equal points get one number. Coordinates are correctly rounded, so equal points have equal doubles:
-// a hash of these finds the candidates, exact signs confirm.
+// Equal points get one number. Coordinates are correctly rounded, so equal points have equal
+// doubles: a hash of these finds the candidates, exact signs confirm.
 #pragma once
 
 #include <bit>

@@ -119,10 +119,14 @@ PrunedExpression::PrunedExpression(const Expression& expression) {
     }
     const auto kind = [&] {
       switch (n.op) {
-        case BooleanOp::kUnion: return Kind::kUnion;
-        case BooleanOp::kIntersection: return Kind::kIntersection;
-        case BooleanOp::kDifference: return Kind::kDifference;
-        default: return Kind::kXor;
+        case BooleanOp::kUnion:
+          return Kind::kUnion;
+        case BooleanOp::kIntersection:
+          return Kind::kIntersection;
+        case BooleanOp::kDifference:
+          return Kind::kDifference;
+        default:
+          return Kind::kXor;
       }
     }();
     values[i] = folder.combine(kind, false, children);

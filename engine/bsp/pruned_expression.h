@@ -34,10 +34,10 @@ class PrunedExpression {
   template <class Value>
   [[nodiscard]] Inside evaluate(Value&& value, std::vector<Inside>& scratch) const;
 
-  /// The operand whose surface a boundary point belongs to, and whether the point is boundary at all:
-  /// at each node the lowest child that has boundary there, where a child has boundary if its values
-  /// in front and behind differ. kNoOperand when the root has none.
-  /// `front(operand)` and `back(operand)` must be known.
+  /// The operand whose surface a boundary point belongs to, and whether the point is boundary at
+  /// all: at each node the lowest child that has boundary there, where a child has boundary if its
+  /// values in front and behind differ. kNoOperand when the root has none. `front(operand)` and
+  /// `back(operand)` must be known.
   static constexpr uint32_t kNoOperand = ~0u;
   struct Boundary {
     bool front = false, back = false;
@@ -154,7 +154,7 @@ Inside PrunedExpression::evaluate(ValueOf&& value, std::vector<Inside>& scratch)
       }
       if (difference) {
         const Inside first = scratch[child[0]], rest = negate(result);
-        result = first == Inside::kNo || rest == Inside::kNo ? Inside::kNo
+        result = first == Inside::kNo || rest == Inside::kNo     ? Inside::kNo
                  : first == Inside::kYes && rest == Inside::kYes ? Inside::kYes
                                                                  : Inside::kUnknown;
       }
@@ -184,10 +184,18 @@ PrunedExpression::Boundary PrunedExpression::boundary(Front&& front, Back&& back
         if (n.kind == Kind::kXor && r.front == r.back) r.operand = kNoOperand;
         if (r.operand == kNoOperand) r.operand = b.operand;
         switch (n.kind) {
-          case Kind::kUnion: r.front = r.front || b.front, r.back = r.back || b.back; break;
-          case Kind::kIntersection: r.front = r.front && b.front, r.back = r.back && b.back; break;
-          case Kind::kDifference: r.front = r.front && !b.front, r.back = r.back && !b.back; break;
-          default: r.front = r.front != b.front, r.back = r.back != b.back; break;
+          case Kind::kUnion:
+            r.front = r.front || b.front, r.back = r.back || b.back;
+            break;
+          case Kind::kIntersection:
+            r.front = r.front && b.front, r.back = r.back && b.back;
+            break;
+          case Kind::kDifference:
+            r.front = r.front && !b.front, r.back = r.back && !b.back;
+            break;
+          default:
+            r.front = r.front != b.front, r.back = r.back != b.back;
+            break;
         }
       }
       if (n.complement) r.front = !r.front, r.back = !r.back;

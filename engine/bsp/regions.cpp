@@ -125,9 +125,8 @@ bool RegionBuilder::sweep_line(uint32_t support, const DirectedEdge* begin,
   }
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  std::sort(points.begin(), points.end(), [&](uint32_t p, uint32_t q) {
-    return geometry_.compare_along(p, q, axis.axis) < 0;
-  });
+  std::sort(points.begin(), points.end(),
+            [&](uint32_t p, uint32_t q) { return geometry_.compare_along(p, q, axis.axis) < 0; });
   std::map<uint32_t, size_t> place;
   for (size_t i = 0; i < points.size(); ++i) place[points[i]] = i;
   std::vector<int> change(points.size() + 1, 0);
@@ -238,8 +237,8 @@ void RegionBuilder::pair_wedges(PlaneId support, std::vector<uint32_t>& incident
     const int t = turn(planes_, support, a.edge->plane, a.sign, b.edge->plane, b.sign);
     return t > 0 || (t == 0 && (a.end & 1) > (b.end & 1));
   });
-  // Interior lies just counter-clockwise of an outgoing edge and just clockwise of an incoming one: an
-  // incoming edge goes on with the outgoing one next to it clockwise.
+  // Interior lies just counter-clockwise of an outgoing edge and just clockwise of an incoming one:
+  // an incoming edge goes on with the outgoing one next to it clockwise.
   for (size_t i = 0; i < spokes.size(); ++i) {
     if (!(spokes[i].end & 1)) continue;
     const Spoke& before = spokes[(i + spokes.size() - 1) % spokes.size()];

@@ -1,9 +1,9 @@
 // From pieces of one plane to the maximal regions that they form.
 //
-// Every piece contributes its directed edges. On each line the edges are intervals; where as many run
-// one way as the other they cancel, and what is left is the boundary of the union: cuts by cell walls
-// and by extended planes vanish, whatever points they were broken at. Then corners where the boundary
-// runs straight through are dropped, and loops are traced with the interior on their left.
+// Every piece contributes its directed edges. On each line the edges are intervals; where as many
+// run one way as the other they cancel, and what is left is the boundary of the union: cuts by cell
+// walls and by extended planes vanish, whatever points they were broken at. Then corners where the
+// boundary runs straight through are dropped, and loops are traced with the interior on their left.
 #pragma once
 
 #include <vector>
@@ -31,8 +31,8 @@ struct RegionLoops {
   [[nodiscard]] size_t loop_count() const { return starts.size() - 1; }
 };
 
-/// Exact sign of the turn from the direction of edge `a` to that of edge `b` in the plane `support`,
-/// seen from outside: +1 left, -1 right, 0 straight on or straight back.
+/// Exact sign of the turn from the direction of edge `a` to that of edge `b` in the plane
+/// `support`, seen from outside: +1 left, -1 right, 0 straight on or straight back.
 int turn_between(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
                  const DirectedEdge& a, const DirectedEdge& b);
 
@@ -44,8 +44,8 @@ class RegionBuilder {
 
   /// The boundary of the union of pieces that do not overlap, given by all their edges. Loops touch
   /// but do not cross; a loop passes a point at most once for each wedge of interior there.
-  /// False when the edges do not bound a region (some net multiplicity is not 0 or 1): the input was
-  /// not a set of disjoint pieces.
+  /// False when the edges do not bound a region (some net multiplicity is not 0 or 1): the input
+  /// was not a set of disjoint pieces.
   bool build(PlaneId support, const std::vector<DirectedEdge>& edges, RegionLoops& loops);
   /// The same for edges of which none overlaps another: one piece, or one region of before. An edge
   /// may be there in both directions: a slit.
@@ -63,9 +63,9 @@ class RegionBuilder {
   LineNamer namer_;
   std::vector<LineNamer::PlanePair> lines_;
   std::vector<LineKey> keys_;
-  std::vector<DirectedEdge> open_;       ///< edges whose exact reverse is not there
-  std::vector<DirectedEdge> boundary_;   ///< elementary boundary edges
-  std::vector<uint32_t> next_;           ///< per boundary edge: the one that follows
+  std::vector<DirectedEdge> open_;      ///< edges whose exact reverse is not there
+  std::vector<DirectedEdge> boundary_;  ///< elementary boundary edges
+  std::vector<uint32_t> next_;          ///< per boundary edge: the one that follows
 };
 
 }  // namespace csgrun

@@ -18,8 +18,9 @@ using BoundaryPtr = std::shared_ptr<const BoundaryMesh>;
 
 class Resolution {
  public:
-  Resolution(const std::vector<Operand>& surface, std::span<const std::array<uint32_t, 2>> crossings,
-             InsideRule rule, const KernelOptions& options, EvaluateStats& stats)
+  Resolution(const std::vector<Operand>& surface,
+             std::span<const std::array<uint32_t, 2>> crossings, InsideRule rule,
+             const KernelOptions& options, EvaluateStats& stats)
       : job_(surface),
         crosses_(job_.polygons().size(), 0),
         rule_(rule),
@@ -42,9 +43,9 @@ class Resolution {
   [[nodiscard]] bool may_be_nested() const { return is_hull() && patches_.class_count != 1; }
 
   Result<BoundaryPtr> run() {
-    const Status status = !is_hull()          ? solve(all_polygons(), patches_.witness, kNone)
-                          : job_.is_leaf(0)   ? solve_classes()
-                                              : fill_voids();
+    const Status status = !is_hull()        ? solve(all_polygons(), patches_.witness, kNone)
+                          : job_.is_leaf(0) ? solve_classes()
+                                            : fill_voids();
     if (!status) return status.error();
     return assemble(job_, sets_, whole_);
   }
@@ -119,9 +120,8 @@ class Resolution {
       runs = solve_cells(polygons, witnesses, request);
     }
     if (!runs) return runs.error();
-    const auto labels =
-        is_hull() ? label_by_reach(job_, *runs, patches_.patch_count, lowest, rule_)
-                  : label_by_winding(*runs, patches_.patch_count, rule_);
+    const auto labels = is_hull() ? label_by_reach(job_, *runs, patches_.patch_count, lowest, rule_)
+                                  : label_by_winding(*runs, patches_.patch_count, rule_);
     if (!labels) return contradiction();
     for (size_t r = 0; r < runs->size(); ++r) keep_boundary((*runs)[r], labels->volumes[r]);
     for (const uint32_t p : polygons) {

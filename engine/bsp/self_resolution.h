@@ -14,8 +14,8 @@
 
 namespace csgrun {
 
-/// What a surface encloses. By winding number w, which an oriented closed surface gives each point off
-/// it; or by what can be reached from infinity.
+/// What a surface encloses. By winding number w, which an oriented closed surface gives each point
+/// off it; or by what can be reached from infinity.
 enum class InsideRule : uint8_t {
   kNonZero,       ///< w != 0
   kPositive,      ///< w > 0
@@ -28,13 +28,13 @@ enum class InsideRule : uint8_t {
 /// own where nothing crosses it.
 ///
 /// A leaf may cross itself if it is otherwise as LeafGeometry says: balanced, with planar convex
-/// faces. `crossings` are all pairs of its faces that meet other than in common edges and vertices (by
-/// coordinates), each once, in any order. A boundary does not cross itself: `crossings` is empty.
-/// The surface's frame and translation are obeyed.
+/// faces. `crossings` are all pairs of its faces that meet other than in common edges and vertices
+/// (by coordinates), each once, in any order. A boundary does not cross itself: `crossings` is
+/// empty. The surface's frame and translation are obeyed.
 ///
-/// The cost is that of the places where the surface crosses itself, and O(n log n) to tell the parts
-/// that are left inside from those that are not. `stats` is added to.
-/// Errors: kCancelled, kInternal.
+/// The cost is that of the places where the surface crosses itself, and O(n log n) to tell the
+/// parts that are left inside from those that are not. `stats` is added to. Errors: kCancelled,
+/// kInternal.
 Result<std::shared_ptr<const BoundaryMesh>> resolve_surface(
     const Operand& surface, std::span<const std::array<uint32_t, 2>> crossings, InsideRule rule,
     const KernelOptions& options, EvaluateStats& stats);

@@ -33,7 +33,8 @@ class SurfaceCellSolver {
     out.windings.insert(out.windings.end(), windings.begin(), windings.end());
     for (const CellArrangement::Part& part : arrangement_.parts()) add(part, base, walls, out);
     if (request_.below_vertex != kNone) {
-      const uint32_t volume = volume_below(geometry_.vertex_point(request_.below_vertex), walls, base);
+      const uint32_t volume =
+          volume_below(geometry_.vertex_point(request_.below_vertex), walls, base);
       if (volume != kNone) out.vertex_volumes.push_back({request_.below_vertex, volume});
     }
     if (request_.below_points) {
@@ -68,7 +69,8 @@ class SurfaceCellSolver {
       if (wall == walls.end()) continue;
       out.wall_edges.push_back({f.support.index(), plane, (wall - walls.begin()) % 2 == 1,
                                 out.set.corner_point[piece.first + i],
-                                out.set.corner_point[piece.first + (i + 1) % f.count], front, back});
+                                out.set.corner_point[piece.first + (i + 1) % f.count], front,
+                                back});
     }
   }
 
@@ -115,7 +117,8 @@ Result<std::vector<SurfaceCells>> solve_surface_cells(Job& job, const SurfaceOct
     return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
   }
   if (!is_closed) {
-    return Error{ErrorCode::kInternal, "the winding numbers of a surface contradict each other", {}};
+    return Error{
+        ErrorCode::kInternal, "the winding numbers of a surface contradict each other", {}};
   }
   SignCounters total;
   for (const SignCounters& c : counters) total.add(c);

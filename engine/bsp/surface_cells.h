@@ -1,5 +1,5 @@
-// The solved cells of a surface that crosses itself, in parallel: the pieces of the polygons that cross
-// others, and what is known of the volumes on their sides.
+// The solved cells of a surface that crosses itself, in parallel: the pieces of the polygons that
+// cross others, and what is known of the volumes on their sides.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace csgrun {
 
 /// Volumes are those that a cell is divided into by the surface; they are numbered through a run.
 struct SurfaceCells {
-  /// Beside FragmentSet::pieces, one for one: which volumes a piece parts. `front` is on the positive
-  /// side of its plane; the piece is seen from there.
+  /// Beside FragmentSet::pieces, one for one: which volumes a piece parts. `front` is on the
+  /// positive side of its plane; the piece is seen from there.
   struct Sides {
     uint32_t front, back;
     bool has_up, has_down;  ///< polygons of the surface that face the front lie here; the back
@@ -42,8 +42,8 @@ struct SurfaceCells {
   std::vector<Sides> sides;
   std::vector<int32_t> windings;  ///< per volume
   std::vector<PatchSides> patches;
-  std::vector<WallEdge> wall_edges;           ///< when asked for
-  std::vector<VertexVolume> vertex_volumes;   ///< of a vertex that was asked for
+  std::vector<WallEdge> wall_edges;          ///< when asked for
+  std::vector<VertexVolume> vertex_volumes;  ///< of a vertex that was asked for
   /// When asked for, per point of the set: the volume just below it; kNone for a point in a wall.
   std::vector<uint32_t> below_point;
 };

@@ -30,9 +30,10 @@ struct Budget {
     const double first = std::min(crossing, tests);
     return {polygons - (tests - first), crossing - first};
   }
-  /// What is left for a half that holds `mine`, when the other holds `other`. For polygons that cross, by
-  /// what it costs to solve them; but where the other half holds a third less, something has come apart,
-  /// and nothing is taken away: the tip of a fan keeps them all, however often it is divided.
+  /// What is left for a half that holds `mine`, when the other holds `other`. For polygons that
+  /// cross, by what it costs to solve them; but where the other half holds a third less, something
+  /// has come apart, and nothing is taken away: the tip of a fan keeps them all, however often it
+  /// is divided.
   [[nodiscard]] Budget share(const Counts& mine, const Counts& other) const {
     const auto part = [](double m, double o) { return m + o > 0 ? m / (m + o) : 0; };
     const double m = mine.crossing, o = other.crossing;

@@ -1,9 +1,9 @@
 // Localisation for one surface that crosses itself: an octree refined, in binary steps, to where
 // something has to be found out (Campen & Kobbelt 2010, sections 4.1 and 6.2).
 //
-// Cells that hold neither a polygon that crosses another nor a witness are left as they are. The rest
-// is divided down to m polygons. The winding number at each cell's lowest corner, moved by (e, e^2,
-// e^3) for an infinitely small e, is traced from cell to cell as in octree.h.
+// Cells that hold neither a polygon that crosses another nor a witness are left as they are. The
+// rest is divided down to m polygons. The winding number at each cell's lowest corner, moved by (e,
+// e^2, e^3) for an infinitely small e, is traced from cell to cell as in octree.h.
 #pragma once
 
 #include <cstdint>

@@ -33,8 +33,7 @@ std::vector<Edge> sorted_edges(const Job& job, const std::vector<uint32_t>& poin
   for (uint32_t p = 0; p < polygons.size(); ++p) {
     const auto corners = job.corners(polygons[p]);
     for (uint32_t i = 0; i < corners.size(); ++i) {
-      const uint32_t a = point[corners[i]],
-                     b = point[corners[i + 1 < corners.size() ? i + 1 : 0]];
+      const uint32_t a = point[corners[i]], b = point[corners[i + 1 < corners.size() ? i + 1 : 0]];
       edges.push_back({std::min(a, b), std::max(a, b), p, i, a < b});
     }
   }
@@ -58,8 +57,9 @@ class EdgeLines {
     namer.keys(lines, keys_);
     order_.resize(edges.size());
     for (uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
-    std::sort(order_.begin(), order_.end(),
-              [&](uint32_t a, uint32_t b) { return std::tie(keys_[a], a) < std::tie(keys_[b], b); });
+    std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
+      return std::tie(keys_[a], a) < std::tie(keys_[b], b);
+    });
   }
 
   /// Whether no edge but `first` and the one after it reaches the places between their ends.

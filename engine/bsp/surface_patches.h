@@ -1,5 +1,5 @@
-// A surface taken apart: patches, which cross nothing and have one volume on each side, and classes,
-// the groups of parts that hang together.
+// A surface taken apart: patches, which cross nothing and have one volume on each side, and
+// classes, the groups of parts that hang together.
 #pragma once
 
 #include <array>
@@ -16,7 +16,8 @@ struct SurfacePatches {
   /// Per polygon: its patch, or kNone for a polygon that crosses another.
   std::vector<uint32_t> patch_of;
   uint32_t patch_count = 0;
-  /// Per patch: a vertex of one of its polygons, if possible of one that touches a polygon that crosses.
+  /// Per patch: a vertex of one of its polygons, if possible of one that touches a polygon that
+  /// crosses.
   std::vector<uint32_t> witness;
   /// Per class: vertices in which several patches meet.
   std::vector<std::vector<uint32_t>> junctions;
@@ -26,10 +27,10 @@ struct SurfacePatches {
   uint32_t class_count = 0;
 };
 
-/// Takes the only operand of a job apart. `crossings` are pairs of faces of a leaf; `crosses` says for
-/// each polygon whether it is in one of them. Neighbours belong to one patch if they meet in a whole
-/// edge that no third polygon touches; where that is not obvious a patch may be found in several
-/// pieces. Makes the planes of no polygon. O(n log n).
+/// Takes the only operand of a job apart. `crossings` are pairs of faces of a leaf; `crosses` says
+/// for each polygon whether it is in one of them. Neighbours belong to one patch if they meet in a
+/// whole edge that no third polygon touches; where that is not obvious a patch may be found in
+/// several pieces. Makes the planes of no polygon. O(n log n).
 SurfacePatches find_patches(const Job& job, std::span<const std::array<uint32_t, 2>> crossings,
                             std::span<const uint8_t> crosses);
 

@@ -12,9 +12,12 @@ namespace {
 
 bool is_inside(int32_t winding, InsideRule rule) {
   switch (rule) {
-    case InsideRule::kNonZero: return winding != 0;
-    case InsideRule::kPositive: return winding > 0;
-    default: return winding % 2 != 0;
+    case InsideRule::kNonZero:
+      return winding != 0;
+    case InsideRule::kPositive:
+      return winding > 0;
+    default:
+      return winding % 2 != 0;
   }
 }
 
@@ -45,7 +48,9 @@ std::vector<WallLine> wall_lines(const Job& job, const std::vector<SurfaceCells>
   for (const SurfaceCells& run : runs) {
     for (const SurfaceCells::WallEdge& e : run.wall_edges) lines.push_back({e.support, e.wall, {}});
   }
-  const auto by_planes = [](const WallLine& a, const WallLine& b) { return a.planes() < b.planes(); };
+  const auto by_planes = [](const WallLine& a, const WallLine& b) {
+    return a.planes() < b.planes();
+  };
   const auto same = [](const WallLine& a, const WallLine& b) { return a.planes() == b.planes(); };
   std::sort(lines.begin(), lines.end(), by_planes);
   lines.erase(std::unique(lines.begin(), lines.end(), same), lines.end());
@@ -76,19 +81,19 @@ class WallJoiner {
         return number[p];
       };
       for (const SurfaceCells::WallEdge& e : runs[r].wall_edges) {
-        const auto line = std::lower_bound(lines.begin(), lines.end(), std::tie(e.support, e.wall),
-                                           [](const WallLine& a, const auto& planes) {
-                                             return a.planes() < planes;
-                                           });
-        edges_.push_back({e.support, e.wall, line->key, is_first_side(e), point(e.from), point(e.to),
-                          first_volume[r] + e.front, first_volume[r] + e.back});
+        const auto line = std::lower_bound(
+            lines.begin(), lines.end(), std::tie(e.support, e.wall),
+            [](const WallLine& a, const auto& planes) { return a.planes() < planes; });
+        edges_.push_back({e.support, e.wall, line->key, is_first_side(e), point(e.from),
+                          point(e.to), first_volume[r] + e.front, first_volume[r] + e.back});
       }
     }
   }
 
   void join() {
     std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
-      return std::tie(a.support, a.key, b.is_first_side) < std::tie(b.support, b.key, a.is_first_side);
+      return std::tie(a.support, a.key, b.is_first_side) <
+             std::tie(b.support, b.key, a.is_first_side);
     });
     for (auto begin = edges_.begin(); begin != edges_.end();) {
       auto middle = begin, end = begin;
@@ -112,14 +117,14 @@ class WallJoiner {
   };
   using Iterator = std::vector<Edge>::iterator;
 
-  /// On which side of its line a piece lies: below the wall, or, where two walls meet in the plane and
-  /// an edge may be in either, so that both agree.
+  /// On which side of its line a piece lies: below the wall, or, where two walls meet in the plane
+  /// and an edge may be in either, so that both agree.
   [[nodiscard]] bool is_first_side(const SurfaceCells::WallEdge& e) const {
     const Plane plane = job_.planes().plane(e.support), wall = job_.planes().plane(e.wall);
     const std::array<Int128, 3> n{plane.a, plane.b, plane.c};
     const int k = wall.a != 0 ? 0 : wall.b != 0 ? 1 : 2;
-    // The line runs along an axis if the plane does. Across it, in the plane, one goes up the axis k
-    // where the product of the normal and that axis does.
+    // The line runs along an axis if the plane does. Across it, in the plane, one goes up the axis
+    // k where the product of the normal and that axis does.
     for (int along = 0; along < 3; ++along) {
       if (along == k || n[along] != 0) continue;
       const int other = 3 - k - along;
@@ -129,8 +134,8 @@ class WallJoiner {
     return e.is_below;
   }
 
-  /// The edges of either side do not overlap among themselves; where one of each do, the surface runs
-  /// on from one to the other.
+  /// The edges of either side do not overlap among themselves; where one of each do, the surface
+  /// runs on from one to the other.
   void join_line(Iterator begin, Iterator middle, Iterator end) {
     const int axis =
         line_axis(job_.planes().plane(begin->support), job_.planes().plane(begin->wall)).axis;
@@ -184,7 +189,8 @@ class VolumeSets {
     InsideLabels labels;
     for (size_t r = 0; r + 1 < first_.size(); ++r) {
       std::vector<uint8_t>& inside = labels.volumes.emplace_back();
-      for (uint32_t v = first_[r]; v < first_[r + 1]; ++v) inside.push_back(is_inside(sets_.find(v)));
+      for (uint32_t v = first_[r]; v < first_[r + 1]; ++v)
+        inside.push_back(is_inside(sets_.find(v)));
     }
     return labels;
   }
@@ -221,8 +227,8 @@ bool crosses_in_wall(const Job& job, const std::vector<SurfaceCells>& runs) {
 std::optional<InsideLabels> label_by_filling(const Job& job,
                                              const std::vector<SurfaceCells>& runs) {
   VolumeSets volumes(job, runs);
-  // Of each set of volumes outside: the lowest point of its surface, which is no crossing of a wall, and
-  // the set below it.
+  // Of each set of volumes outside: the lowest point of its surface, which is no crossing of a
+  // wall, and the set below it.
   struct Lowest {
     const FragmentSet::NamedPoint* point = nullptr;
     uint32_t below = kNone;
@@ -245,7 +251,8 @@ std::optional<InsideLabels> label_by_filling(const Job& job,
           if (least.point) {
             // Rounding keeps the order along each axis.
             const double step = point.rounded[0] - least.point->rounded[0];
-            if (step > 0 || (step == 0 && compare(exact(point), exact(*least.point)) >= 0)) continue;
+            if (step > 0 || (step == 0 && compare(exact(point), exact(*least.point)) >= 0))
+              continue;
           }
           const uint32_t below = run.below_point[number];
           least = {&point, below == kNone ? kNone : volumes.find(r, below)};

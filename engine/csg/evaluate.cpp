@@ -1,12 +1,12 @@
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <chrono>
 #include <cmath>
 #include <optional>
 #include <thread>
 #include <unordered_map>
 #include <utility>
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <csgrun/engine/evaluate.h>
 
@@ -53,8 +53,8 @@ void keep_used_appearances(Solid& solid) {
 
 uint64_t bytes_of(const Solid& s) {
   return sizeof(Solid) + s.positions.size() * 40 + s.triangles.size() * 16 +
-         s.faces.size() * (sizeof(Solid::Face) + sizeof(glm::dvec3)) +
-         s.loop_vertices.size() * 4 + s.sources.size() * 96 + s.exact_points.size() * 256;
+         s.faces.size() * (sizeof(Solid::Face) + sizeof(glm::dvec3)) + s.loop_vertices.size() * 4 +
+         s.sources.size() * 96 + s.exact_points.size() * 256;
 }
 
 }  // namespace

@@ -44,9 +44,8 @@ struct QuantisedLeaf {
 using BoundaryPtr = std::shared_ptr<const BoundaryMesh>;
 
 /// Makes the boundary of what a leaf's surface encloses, in its local axes (see resolve_surface).
-using Resolver =
-    std::function<Result<BoundaryPtr>(const Operand&, std::span<const std::array<uint32_t, 2>>,
-                                      InsideRule)>;
+using Resolver = std::function<Result<BoundaryPtr>(
+    const Operand&, std::span<const std::array<uint32_t, 2>>, InsideRule)>;
 
 /// What is remembered of one leaf of the normal form.
 struct LeafState {
@@ -70,8 +69,8 @@ class LeafStore {
   /// The geometry of a good leaf in the axes of its frame.
   std::shared_ptr<const LeafGeometry> geometry(const QuantisedLeaf& leaf,
                                                const SignedPermutation& permutation);
-  /// What the surface of a leaf encloses by a rule, in local axes, less the origin; made once for all
-  /// instances. Errors: those of the resolver.
+  /// What the surface of a leaf encloses by a rule, in local axes, less the origin; made once for
+  /// all instances. Errors: those of the resolver.
   Result<BoundaryPtr> resolved(const QuantisedLeaf& leaf, InsideRule rule, const Resolver& resolve);
   /// True the first time that something is to be said of a mesh and a rule, for all its instances.
   bool is_news(const PolygonMesh& mesh, InsideRule rule);

@@ -31,8 +31,8 @@ struct NormalNode {
 
   /// The operands are those of `first`, when that is an operator of the same kind, else `first`
   /// itself, then `rest`: so a chain that grows by one operand shares all it had. Every operator is
-  /// a left fold of binary ones. A hull has `first` only: all places are filled that cannot be reached
-  /// from outside of that solid. It is a barrier: no flattening goes through it.
+  /// a left fold of binary ones. A hull has `first` only: all places are filled that cannot be
+  /// reached from outside of that solid. It is a barrier: no flattening goes through it.
   BooleanOp op = BooleanOp::kUnion;
   uint32_t first = 0;
   std::vector<uint32_t> rest;

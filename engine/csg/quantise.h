@@ -36,20 +36,21 @@ std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh,
 struct PreparedLeaf {
   enum class Status {
     kGood,     ///< the boundary of a solid
-    kTangled,  ///< crosses itself, or its shells do not fit together: a fill rule says what is inside
+    kTangled,  ///< crosses itself, or its shells do not fit together: a fill rule says what is
+               ///< inside
     kFlat,     ///< no face is left on the grid
     kOpen,     ///< a directed edge without its reverse
   };
   Status status = Status::kFlat;
-  std::shared_ptr<const LeafGeometry> geometry;  ///< when kGood or kTangled
-  GridBox box;                                   ///< of the geometry
+  std::shared_ptr<const LeafGeometry> geometry;    ///< when kGood or kTangled
+  GridBox box;                                     ///< of the geometry
   std::vector<std::array<uint32_t, 2>> crossings;  ///< see find_self_intersections
   bool connected = true;  ///< one shell, without edges of more than two faces
 };
 
 /// Makes the faces of `mesh` over integer `points` planar and convex, and checks what they enclose
-/// (see LeafGeometry). `turn` reverses every loop. `appearance` has an id per face. The mesh's promise
-/// to be convex is verified.
+/// (see LeafGeometry). `turn` reverses every loop. `appearance` has an id per face. The mesh's
+/// promise to be convex is verified.
 PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
                           const std::vector<uint32_t>& appearance);
 

@@ -214,7 +214,8 @@ Status Builder::resolve_leaf(uint32_t index, const QuantisedLeaf& leaf, SceneNod
     return error;
   }
   if (!node.hull && context_.store.is_news(mesh, rule)) {
-    context_.warnings.add(node.leaf->where(), "'" + mesh.kind + "' " +
+    context_.warnings.add(node.leaf->where(),
+                          "'" + mesh.kind + "' " +
                               describe_tangle(leaf, rounding_[index], scene_.step) +
                               "; what is inside follows " + rule_text(rule));
   }

@@ -55,8 +55,8 @@ struct SceneNode {
   Kind kind = Kind::kEmpty;
   Subtree subtree;
 
-  /// Leaf: in the axes of its frame, less the origin; or, where its surface had to be resolved, what
-  /// it encloses, in its local axes, less the origin.
+  /// Leaf: in the axes of its frame, less the origin; or, where its surface had to be resolved,
+  /// what it encloses, in its local axes, less the origin.
   std::shared_ptr<const LeafGeometry> geometry;
   BoundaryPtr boundary;
   NodePtr leaf;
@@ -67,8 +67,8 @@ struct SceneNode {
   std::vector<Subtree> prefixes;  ///< the value after each of `rest`
 };
 
-/// The operands of an operator with those of its prefix, and the value after each of them; of a hull
-/// its only operand.
+/// The operands of an operator with those of its prefix, and the value after each of them; of a
+/// hull its only operand.
 struct OperandList {
   std::vector<uint32_t> operands;
   std::vector<const Subtree*> values;

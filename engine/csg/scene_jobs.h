@@ -20,9 +20,9 @@ namespace csgrun {
 KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads);
 
 /// One call's evaluation. A subtree that occurs more than once (by key) is evaluated once, in the
-/// axes of its frame, and stands in other jobs as one operand; so do a hull and the solid that it is
-/// the hull of, and what the cache knows, also when it is only a prefix of an operator's operands. All
-/// else becomes part of its parent's job.
+/// axes of its frame, and stands in other jobs as one operand; so do a hull and the solid that it
+/// is the hull of, and what the cache knows, also when it is only a prefix of an operator's
+/// operands. All else becomes part of its parent's job.
 class SceneJobs {
  public:
   SceneJobs(const Scene& scene, ResultCache<StoredBoundary>& cache, const EvaluateOptions& options,

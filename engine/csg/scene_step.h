@@ -33,7 +33,8 @@ struct SceneReach {
 
 /// Interval bounds over the normal form: the box of a union is the hull of the boxes, of a
 /// difference the first, of an intersection the common box; a leaf counts where a result can be
-/// above it. A leaf that is resolved by itself, and all below a hull, count as a whole. `order` has children before parents; `leaves` is indexed like the normal form.
+/// above it. A leaf that is resolved by itself, and all below a hull, count as a whole. `order` has
+/// children before parents; `leaves` is indexed like the normal form.
 SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
                        std::span<const uint32_t> roots, std::span<const StepLeaf> leaves);
 

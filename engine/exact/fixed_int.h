@@ -1,8 +1,8 @@
 // Signed integers of a fixed number of 64-bit limbs, in two's complement.
 //
-// Sums and products are taken modulo 2^(64 N), as machine integers are: partial sums may wrap as long
-// as the final value fits, which is what widths.h computes and asserts. There is no allocation, no
-// branch on size and no division; everything inlines.
+// Sums and products are taken modulo 2^(64 N), as machine integers are: partial sums may wrap as
+// long as the final value fits, which is what widths.h computes and asserts. There is no
+// allocation, no branch on size and no division; everything inlines.
 #pragma once
 
 #include <array>

@@ -22,9 +22,12 @@ Point cramer(const Plane& p, const Plane& q, const Plane& r) {
   const Normal qa = normal(q.a), qb = normal(q.b), qc = normal(q.c);
   const Normal ra = normal(r.a), rb = normal(r.b), rc = normal(r.c);
   // qr = q.n x r.n, and cyclic.
-  const Int<C> qr_x = minor(qb, qc, rb, rc), qr_y = minor(qc, qa, rc, ra), qr_z = minor(qa, qb, ra, rb);
-  const Int<C> rp_x = minor(rb, rc, pb, pc), rp_y = minor(rc, ra, pc, pa), rp_z = minor(ra, rb, pa, pb);
-  const Int<C> pq_x = minor(pb, pc, qb, qc), pq_y = minor(pc, pa, qc, qa), pq_z = minor(pa, pb, qa, qb);
+  const Int<C> qr_x = minor(qb, qc, rb, rc), qr_y = minor(qc, qa, rc, ra),
+               qr_z = minor(qa, qb, ra, rb);
+  const Int<C> rp_x = minor(rb, rc, pb, pc), rp_y = minor(rc, ra, pc, pa),
+               rp_z = minor(ra, rb, pa, pb);
+  const Int<C> pq_x = minor(pb, pc, qb, qc), pq_y = minor(pc, pa, qc, qa),
+               pq_z = minor(pa, pb, qa, qb);
   const Int<2> pd = Int<2>::from_int128(p.d), qd = Int<2>::from_int128(q.d),
                rd = Int<2>::from_int128(r.d);
   const auto combine = [&](const Int<C>& qr, const Int<C>& rp, const Int<C>& pq) {

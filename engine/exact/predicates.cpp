@@ -8,8 +8,8 @@
 namespace csgrun {
 namespace {
 
-/// Low limbs of the coordinates suffice: the sum is taken modulo 2^(64 R), and the tier was chosen so
-/// that the true value fits R limbs.
+/// Low limbs of the coordinates suffice: the sum is taken modulo 2^(64 R), and the tier was chosen
+/// so that the true value fits R limbs.
 template <int R>
 int side(const Plane& plane, const Point& p) {
   constexpr int kLow = R < kPointLimbs ? R : kPointLimbs;
@@ -36,12 +36,18 @@ int exact_tier(const Plane& plane, const Point& p) {
 
 int exact_side(const Plane& plane, const Point& p, int tier) {
   switch (std::max(tier, forced_tier)) {
-    case 0: return side<1>(plane, p);
-    case 1: return side<2>(plane, p);
-    case 2: return side<3>(plane, p);
-    case 3: return side<4>(plane, p);
-    case 4: return side<6>(plane, p);
-    default: return side<8>(plane, p);
+    case 0:
+      return side<1>(plane, p);
+    case 1:
+      return side<2>(plane, p);
+    case 2:
+      return side<3>(plane, p);
+    case 3:
+      return side<4>(plane, p);
+    case 4:
+      return side<6>(plane, p);
+    default:
+      return side<8>(plane, p);
   }
 }
 

@@ -42,13 +42,13 @@ inline int exact_side(const Plane& plane, const Point& point) {
   return exact_side(plane, point, exact_tier(plane, point));
 }
 
-/// The sign by doubles, or 0 when unsure. `plane` has coefficients with relative error u = 2^-53 each
-/// (one rounding), `point` coordinates with relative error u (rounded correctly).
+/// The sign by doubles, or 0 when unsure. `plane` has coefficients with relative error u = 2^-53
+/// each (one rounding), `point` coordinates with relative error u (rounded correctly).
 ///
 /// Error bound: each product a x carries three factors (1 + e), |e| <= u (coefficient, coordinate,
-/// product), the offset one; the three sums add at most three more. With M = |ax| + |by| + |cz| + |d|
-/// as computed, the total error is at most ((1+u)^6 - 1) M' where M' <= (1 + u)^6 M is the exact sum,
-/// so below 6.1 u (1 + 7u) M < 8 u M.
+/// product), the offset one; the three sums add at most three more. With M = |ax| + |by| + |cz| +
+/// |d| as computed, the total error is at most ((1+u)^6 - 1) M' where M' <= (1 + u)^6 M is the
+/// exact sum, so below 6.1 u (1 + 7u) M < 8 u M.
 inline int filter_side(const std::array<double, 4>& plane, const std::array<double, 3>& point) {
   const double ax = plane[0] * point[0], by = plane[1] * point[1], cz = plane[2] * point[2];
   const double value = ax + by + cz + plane[3];

@@ -30,8 +30,8 @@ struct Rounded {
 Rounded round_quotient(const Quotient& numerator, const Quotient& denominator, int exponent,
                        int precision, int lowest_exponent) {
   const Leading n = leading(numerator), d = leading(denominator);
-  // numerator / denominator = quotient * 2^scale up to 8 units of quotient: each truncation is off by
-  // less than 2^-63 relatively, and quotient < 2^65.
+  // numerator / denominator = quotient * 2^scale up to 8 units of quotient: each truncation is off
+  // by less than 2^-63 relatively, and quotient < 2^65.
   const UInt128 quotient = (static_cast<UInt128>(n.bits) << 64) / d.bits;
   const int scale = n.exponent - d.exponent - 64;
   const int width = quotient >> 64 ? 65 : 64;

@@ -1,5 +1,5 @@
-// Bit widths of every exact quantity, computed from two parameters: the bits of grid coordinates and
-// the bits that a frame adds. The code that holds a quantity asserts that it fits; nothing is
+// Bit widths of every exact quantity, computed from two parameters: the bits of grid coordinates
+// and the bits that a frame adds. The code that holds a quantity asserts that it fits; nothing is
 // remembered. Widths are of magnitudes: |value| < 2^bits. (docs/numerics.md has the table.)
 //
 // The bounds are products and sums of bounds, a little above the tight ones (shared analysis: a
@@ -9,12 +9,12 @@
 
 namespace csgrun::widths {
 
-/// |coordinate| < 2^kGrid for a leaf; a leaf that reaches far outside the region of interest may have
-/// kFarGrid.
+/// |coordinate| < 2^kGrid for a leaf; a leaf that reaches far outside the region of interest may
+/// have kFarGrid.
 constexpr int kGrid = 27;
 constexpr int kFarGrid = 40;
-/// Entries of a frame's integer matrix: |entry| <= 2^kFrame (kFrameShift for rotations, the rest for
-/// the inverses of shears).
+/// Entries of a frame's integer matrix: |entry| <= 2^kFrame (kFrameShift for rotations, the rest
+/// for the inverses of shears).
 constexpr int kFrameShift = 40;
 constexpr int kFrame = 56;
 
@@ -35,8 +35,8 @@ constexpr int side(int xyz, int w, int n, int d) { return (xyz + n > w + d ? xyz
 
 constexpr int max_of(int a, int b) { return a > b ? a : b; }
 
-/// The widest plane that is ever made: far leaves have no frame but the identity's (csg/frames), and
-/// framed leaves are not far.
+/// The widest plane that is ever made: far leaves have no frame but the identity's (csg/frames),
+/// and framed leaves are not far.
 constexpr int kMaxNormal = max_of(normal(kFarGrid), framed_normal(normal(kGrid), kFrame));
 constexpr int kMaxOffset = max_of(offset(kFarGrid), framed_offset(offset(kGrid)));
 constexpr int kMaxPointW = point_w(kMaxNormal);

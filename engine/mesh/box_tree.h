@@ -44,8 +44,8 @@ class BoxTree {
 
   /// Two nodes of the tree (or one, twice) whose boxes may hold pairs that overlap.
   using Task = std::array<uint32_t, 2>;
-  /// All pairs of boxes that may overlap, as tasks, about `wanted` of them or more if there are many
-  /// boxes: a function of the boxes and of `wanted` only.
+  /// All pairs of boxes that may overlap, as tasks, about `wanted` of them or more if there are
+  /// many boxes: a function of the boxes and of `wanted` only.
   [[nodiscard]] std::vector<Task> pair_tasks(size_t wanted) const;
   /// Calls `visit(i, j)`, i < j, for each pair of a task that overlaps. Over all tasks each pair
   /// occurs once. Thread-safe. Cheaper than looking for the partners of each box in turn.

@@ -247,8 +247,10 @@ FacePairs::LineEnd FacePairs::line_end(uint32_t f, const std::vector<int>& signs
 /// inside: a segment in common is a conflict then, a point is one unless it is a corner of both.
 bool FacePairs::crossing_conflict(uint32_t f, uint32_t g, const Scratch& scratch) const {
   // Along normal(f) x normal(g); for g the direction is the opposite one, so are its ends.
-  const LineEnd f_first = line_end(f, scratch.signs_f, false), f_last = line_end(f, scratch.signs_f, true);
-  const LineEnd g_first = line_end(g, scratch.signs_g, true), g_last = line_end(g, scratch.signs_g, false);
+  const LineEnd f_first = line_end(f, scratch.signs_f, false),
+                f_last = line_end(f, scratch.signs_f, true);
+  const LineEnd g_first = line_end(g, scratch.signs_g, true),
+                g_last = line_end(g, scratch.signs_g, false);
   // +1 when y comes after x. Both span lines run from the front of the other plane to its back, and
   // the volume between them has the sign of the way from x to y.
   const auto order = [&](const LineEnd& x, const LineEnd& y) {

@@ -21,9 +21,9 @@ struct MassProperties {
   glm::dvec3 centroid{};  ///< mm, each coordinate rounded once; zero when the volume is zero
 };
 
-/// Measures a closed, oriented triangle mesh over the points 0 .. point_count - 1, of which `point` tells the
-/// exact value in grid steps (|coordinate| < 2^40; called once a round for each point that a
-/// triangle uses, rounds are one except in rare cases). `step` is not automatic.
+/// Measures a closed, oriented triangle mesh over the points 0 .. point_count - 1, of which `point`
+/// tells the exact value in grid steps (|coordinate| < 2^40; called once a round for each point
+/// that a triangle uses, rounds are one except in rare cases). `step` is not automatic.
 ///
 /// Coordinates are cut to fixed point and summed without any further rounding; the error of the
 /// cuts is bounded. When that leaves more than one double, the next round takes twice the digits;

@@ -16,7 +16,8 @@ constexpr uint32_t kUnseen = ~0u, kMixed = ~0u - 1;
 std::vector<uint32_t> sources_at_points(const BoundaryMesh& b) {
   std::vector<uint32_t> state(b.point_planes.size(), kUnseen);
   for (const BoundaryMesh::Face& f : b.faces) {
-    for (uint32_t c = b.loop_starts[f.first_loop]; c < b.loop_starts[f.first_loop + f.loop_count]; ++c) {
+    for (uint32_t c = b.loop_starts[f.first_loop]; c < b.loop_starts[f.first_loop + f.loop_count];
+         ++c) {
       uint32_t& s = state[b.corners[c].point];
       if (!f.whole || (s != kUnseen && s != f.label.source)) {
         s = kMixed;
@@ -31,7 +32,8 @@ std::vector<uint32_t> sources_at_points(const BoundaryMesh& b) {
 bool untouched(const BoundaryMesh& b, const BoundaryMesh::Face& f,
                const std::vector<uint32_t>& state) {
   if (!f.whole) return false;
-  for (uint32_t c = b.loop_starts[f.first_loop]; c < b.loop_starts[f.first_loop + f.loop_count]; ++c) {
+  for (uint32_t c = b.loop_starts[f.first_loop]; c < b.loop_starts[f.first_loop + f.loop_count];
+       ++c) {
     if (state[b.corners[c].point] == kMixed) return false;
   }
   return true;

@@ -16,21 +16,21 @@ struct MergedFace {
   uint32_t appearance, surface, source;
   bool untouched;  ///< a facet that nothing touched: it shares no line with anything but its leaf
   std::vector<std::vector<DirectedEdge>> loops;
-  /// Where other faces touch this one from within (see conform.h): corners, and edges by their ends,
-  /// the lower first.
+  /// Where other faces touch this one from within (see conform.h): corners, and edges by their
+  /// ends, the lower first.
   std::vector<uint32_t> points{};
   std::vector<std::pair<uint32_t, uint32_t>> slits{};
 };
 
-/// Regroups the faces of a boundary. `geometry` holds the boundary's points under their own numbers,
-/// `plane_of` maps its planes to the geometry's. A facet counts as touched when some face at one of
-/// its corners is not a whole facet of the same leaf. The source and surface of a face are those of
-/// the lowest label within it. Canonical order. False when a region does not close.
+/// Regroups the faces of a boundary. `geometry` holds the boundary's points under their own
+/// numbers, `plane_of` maps its planes to the geometry's. A facet counts as touched when some face
+/// at one of its corners is not a whole facet of the same leaf. The source and surface of a face
+/// are those of the lowest label within it. Canonical order. False when a region does not close.
 bool merge_faces(const BoundaryMesh& boundary, CellGeometry& geometry, const PlaneTable& planes,
                  const std::vector<PlaneId>& plane_of, std::vector<MergedFace>& faces);
 
-/// Brings faces into canonical order: loops from their lowest edge, faces by their lowest loop. Points
-/// must be numbered in canonical order.
+/// Brings faces into canonical order: loops from their lowest edge, faces by their lowest loop.
+/// Points must be numbered in canonical order.
 void sort_faces(std::vector<MergedFace>& faces, const PlaneTable& planes);
 
 }  // namespace csgrun

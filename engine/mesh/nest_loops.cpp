@@ -14,11 +14,14 @@ using Loop = std::vector<DirectedEdge>;
 class Nester {
  public:
   Nester(PlaneId support, CellGeometry& geometry, const PlaneTable& planes)
-      : support_(support), geometry_(geometry), planes_(planes), locator_(support, geometry, planes) {}
+      : support_(support),
+        geometry_(geometry),
+        planes_(planes),
+        locator_(support, geometry, planes) {}
 
-  /// Seen from outside: an outer loop turns left at its lowest corner, a hole right. A loop that touches
-  /// itself there passes it several times: a hole turns left between two of its lobes, but not each
-  /// time.
+  /// Seen from outside: an outer loop turns left at its lowest corner, a hole right. A loop that
+  /// touches itself there passes it several times: a hole turns left between two of its lobes, but
+  /// not each time.
   [[nodiscard]] bool is_outer(const Loop& loop) const {
     uint32_t low = loop[0].from;
     for (const DirectedEdge& e : loop) {
@@ -86,9 +89,10 @@ std::vector<std::vector<Loop>> nest_loops(PlaneId support, const RegionLoops& lo
   }
   if (holes.empty()) return faces;
   const auto lowest = [&](const Loop& loop) {
-    return std::min_element(loop.begin(), loop.end(), [&](const auto& a, const auto& b) {
-             return nester.before(a.from, b.from);
-           })->from;
+    return std::min_element(
+               loop.begin(), loop.end(),
+               [&](const auto& a, const auto& b) { return nester.before(a.from, b.from); })
+        ->from;
   };
   std::vector<Nester::Box> boxes;
   for (const auto& face : faces) boxes.push_back(nester.box(face[0]));
@@ -97,8 +101,10 @@ std::vector<std::vector<Loop>> nest_loops(PlaneId support, const RegionLoops& lo
     // Of several outer loops around a hole the innermost has the highest lowest corner.
     size_t best = faces.size();
     for (size_t f = 0; f < faces.size(); ++f) {
-      if (!boxes[f].holds(box) || (faces.size() > 1 && !nester.contains(faces[f][0], hole))) continue;
-      if (best == faces.size() || nester.before(lowest(faces[best][0]), lowest(faces[f][0]))) best = f;
+      if (!boxes[f].holds(box) || (faces.size() > 1 && !nester.contains(faces[f][0], hole)))
+        continue;
+      if (best == faces.size() || nester.before(lowest(faces[best][0]), lowest(faces[f][0])))
+        best = f;
     }
     assert(best < faces.size());
     faces[best].push_back(std::move(hole));

@@ -8,8 +8,9 @@ PlaneOracle::PlaneOracle(CellGeometry& geometry, const PlaneTable& planes, Plane
     : geometry_(geometry) {
   const Plane n = planes.oriented(support);
   const auto size = [](Int128 v) { return v < 0 ? -v : v; };
-  const int axis =
-      size(n.a) >= size(n.b) && size(n.a) >= size(n.c) ? 0 : size(n.b) >= size(n.c) ? 1 : 2;
+  const int axis = size(n.a) >= size(n.b) && size(n.a) >= size(n.c) ? 0
+                   : size(n.b) >= size(n.c)                         ? 1
+                                                                    : 2;
   u_ = (axis + 1) % 3;
   v_ = (axis + 2) % 3;
   const Int128 along = axis == 0 ? n.a : axis == 1 ? n.b : n.c;

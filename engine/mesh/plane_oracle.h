@@ -1,5 +1,5 @@
-// Exact answers about the points of one face, for triangulation: a projection along the axis on which
-// the face's normal is longest, doubles first and integers where they are unsure.
+// Exact answers about the points of one face, for triangulation: a projection along the axis on
+// which the face's normal is longest, doubles first and integers where they are unsure.
 #pragma once
 
 #include "engine/bsp/cell_geometry.h"
@@ -19,8 +19,8 @@ class PlaneOracle final : public PlanarOracle {
   int exact_orient(uint32_t a, uint32_t b, uint32_t c) const;
 
   CellGeometry& geometry_;
-  int u_, v_;    ///< the axes of the projection
-  int sign_;     ///< +1 when (u, v) is right-handed seen from outside
+  int u_, v_;  ///< the axes of the projection
+  int sign_;   ///< +1 when (u, v) is right-handed seen from outside
 };
 
 }  // namespace csgrun

@@ -17,16 +17,16 @@ struct PresentContext {
   GridStep step;                        ///< never automatic here
   std::vector<Appearance> appearances;  ///< by appearance id of the labels
   std::vector<Solid::Source> sources;   ///< by source index of the labels
-  bool measure = true;  ///< whether to fill in the measures and the hash
-  bool join_contacts = false;  ///< EvaluateOptions::join_contacts
-  bool exact_points = false;  ///< whether to fill in the exact points
+  bool measure = true;                  ///< whether to fill in the measures and the hash
+  bool join_contacts = false;           ///< EvaluateOptions::join_contacts
+  bool exact_points = false;            ///< whether to fill in the exact points
 };
 
-/// The arrays of a boundary: coplanar faces of equal appearance and surface merged wherever they were
-/// touched, true corners only, T-junctions resolved, exact triangulation, one fan per vertex (edges
-/// in which solids are joined may have a point in the middle),
-/// correctly rounded coordinates, measures and hash. O(n log n).
-/// Error kInternal when the boundary is not closed: an invariant of ours is broken.
+/// The arrays of a boundary: coplanar faces of equal appearance and surface merged wherever they
+/// were touched, true corners only, T-junctions resolved, exact triangulation, one fan per vertex
+/// (edges in which solids are joined may have a point in the middle), correctly rounded
+/// coordinates, measures and hash. O(n log n). Error kInternal when the boundary is not closed: an
+/// invariant of ours is broken.
 Result<SolidPtr> present(const BoundaryMesh& boundary, const PresentContext& context);
 
 }  // namespace csgrun

@@ -52,13 +52,14 @@ void split_open_edges(RepairMesh& mesh, double tolerance, StepNote& note);
 /// Drops repeated corners and spikes, and faces of which nothing is left.
 void clean_faces(RepairMesh& mesh, StepNote& note);
 
-/// Drops faces whose points lie on a line; the neighbour across the longest edge is split, so that nothing opens.
+/// Drops faces whose points lie on a line; the neighbour across the longest edge is split, so that
+/// nothing opens.
 void drop_flat_faces(RepairMesh& mesh, StepNote& note);
 
-/// Of faces over the same points one stays where its neighbours need one: where on most of its edges
-/// an odd number of others ends. Elsewhere, and where all edges are balanced, pairs back to back are
-/// taken away, which changes no winding number. If `keep_two_sided`, a surface of which nothing would
-/// be left stays once.
+/// Of faces over the same points one stays where its neighbours need one: where on most of its
+/// edges an odd number of others ends. Elsewhere, and where all edges are balanced, pairs back to
+/// back are taken away, which changes no winding number. If `keep_two_sided`, a surface of which
+/// nothing would be left stays once.
 void drop_repeated_faces(RepairMesh& mesh, bool keep_two_sided, StepNote& note);
 
 /// Turns faces so that every edge which an even number of faces uses is balanced, and as few faces
@@ -69,9 +70,9 @@ Status orient_faces(RepairMesh& mesh, StepNote& note);
 /// False also where they do so but share no edges. O(n log n).
 bool encloses_nothing(const RepairMesh& mesh);
 
-/// Turns over closed surfaces that are inside out, each with what it encloses. Each is compared with
-/// the surfaces whose boxes hold its box, face by face: O(n log n) for those that lie side by side,
-/// O(s n) for s small ones within a large one of n faces.
+/// Turns over closed surfaces that are inside out, each with what it encloses. Each is compared
+/// with the surfaces whose boxes hold its box, face by face: O(n log n) for those that lie side by
+/// side, O(s n) for s small ones within a large one of n faces.
 void orient_outwards(RepairMesh& mesh, StepNote& note);
 
 /// A loop of edges that are missing, in the direction of the face that would close it.

@@ -33,7 +33,8 @@ struct LooseEdge {
 };
 
 /// Breaks the loose edges of one line at all their ends; false when they do not balance.
-bool break_line(LooseEdge* begin, LooseEdge* end, CellGeometry& geometry, const PlaneTable& planes) {
+bool break_line(LooseEdge* begin, LooseEdge* end, CellGeometry& geometry,
+                const PlaneTable& planes) {
   const uint32_t p = begin->support.index(), q = begin->edge->plane;
   const LineAxis axis = line_axis(planes.plane(p), planes.plane(q));
   std::vector<uint32_t> points;
@@ -82,7 +83,8 @@ bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
   }
   std::vector<EdgeRef> refs;
   refs.reserve(edges.size());
-  for (uint32_t i = 0; i < edges.size(); ++i) refs.push_back(make_ref(edges[i]->from, edges[i]->to, i));
+  for (uint32_t i = 0; i < edges.size(); ++i)
+    refs.push_back(make_ref(edges[i]->from, edges[i]->to, i));
   sort_refs(refs);
   LineNamer namer(planes);
   std::vector<LooseEdge> loose;
@@ -146,9 +148,9 @@ namespace {
 struct Sheet {
   uint32_t half_edge;
   uint32_t face;
-  bool forward;   ///< runs along the edge from its lower to its higher point
-  Plane normal;   ///< turned by 180 degrees for backward half-edges, so that its direction is the
-                  ///< sheet's own turned by 90 degrees about the edge
+  bool forward;  ///< runs along the edge from its lower to its higher point
+  Plane normal;  ///< turned by 180 degrees for backward half-edges, so that its direction is the
+                 ///< sheet's own turned by 90 degrees about the edge
   int half = 0;
 };
 
@@ -189,15 +191,16 @@ void make_twins(std::vector<uint32_t>& twin, uint32_t a, uint32_t b) {
 }
 
 /// Pairs the sheets around an edge: material lies clockwise of a forward sheet (seen with the edge
-/// pointing at the viewer) and counter-clockwise of a backward one, so a backward sheet's partner is
-/// the next forward one counter-clockwise, or, if solids are to be joined, a forward sheet's partner
-/// the next backward one. A face that the edge only touches has no sheets here, and two backward ones
-/// may follow each other: then they pair as brackets do. REQUIRES: as many forward as backward ones.
+/// pointing at the viewer) and counter-clockwise of a backward one, so a backward sheet's partner
+/// is the next forward one counter-clockwise, or, if solids are to be joined, a forward sheet's
+/// partner the next backward one. A face that the edge only touches has no sheets here, and two
+/// backward ones may follow each other: then they pair as brackets do. REQUIRES: as many forward as
+/// backward ones.
 void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order, Contacts contacts,
                  std::vector<uint32_t>& twin) {
   const bool join = contacts == Contacts::kJoin;
-  // A face that the edge runs through, and that all others touch from one side, is not parted: where
-  // its diagonals are must not matter.
+  // A face that the edge runs through, and that all others touch from one side, is not parted:
+  // where its diagonals are must not matter.
   for (const Sheet& s : sheets) {
     if (!s.forward || twin[s.half_edge] != kNone) continue;
     for (const Sheet& t : sheets) {
@@ -259,14 +262,15 @@ bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
       twin[refs[i].index] = refs[i + 1].index;
       twin[refs[i + 1].index] = refs[i].index;
     } else {
-      // A diagonal of one face may run along other faces' edge: both its sides lie in one plane, and
-      // the order below treats it like any other pair of sheets.
+      // A diagonal of one face may run along other faces' edge: both its sides lie in one plane,
+      // and the order below treats it like any other pair of sheets.
       sheets.clear();
       LineAxis along;
       for (size_t k = i; k < j; ++k) {
         const uint32_t face = set.face[refs[k].index / 3];
         const Plane normal = planes.oriented(faces[face].plane);
-        sheets.push_back({refs[k].index, face, refs[k].forward, refs[k].forward ? normal : normal.reversed()});
+        sheets.push_back(
+            {refs[k].index, face, refs[k].forward, refs[k].forward ? normal : normal.reversed()});
       }
       for (int axis = 0; axis < 3; ++axis) {
         if (const int s = geometry.compare_along(refs[i].hi, refs[i].lo, axis)) {
@@ -321,8 +325,9 @@ void for_each_double_edge(const std::vector<std::vector<uint32_t>>& crowded, con
   }
 }
 
-/// Exchanging the partners of the sheets of a double edge parts both fans at its ends (a closed walk
-/// that passes a place twice falls in two there), and the edges with them. False when all is well.
+/// Exchanging the partners of the sheets of a double edge parts both fans at its ends (a closed
+/// walk that passes a place twice falls in two there), and the edges with them. False when all is
+/// well.
 bool part_double_edges(const std::vector<std::vector<uint32_t>>& crowded, const VertexFans& fans,
                        std::vector<uint32_t>& twin) {
   std::vector<uint8_t> parted(fans.point_of_vertex.size(), 0);

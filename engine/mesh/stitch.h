@@ -21,8 +21,8 @@ struct TriangleSet {
   std::vector<uint32_t> face;  ///< per triangle
 };
 
-/// Per corner of a triangle (3 t + k) the vertex it belongs to, and per vertex its point. Vertices are
-/// in order of points, then of triangles.
+/// Per corner of a triangle (3 t + k) the vertex it belongs to, and per vertex its point. Vertices
+/// are in order of points, then of triangles.
 struct VertexFans {
   std::vector<uint32_t> vertex_of_corner;
   std::vector<uint32_t> point_of_vertex;
@@ -35,9 +35,9 @@ enum class Contacts : uint8_t {
 };
 
 /// Makes one vertex of each closed fan of triangles. Two edges with the same two vertices are none:
-/// their ends, the lower first, are put into `doubled`, if that is given, and the fans are not made.
-/// Without it such edges exchange neighbours, which parts their vertices: so solids kept apart are
-/// joined along an edge when they are connected around both of its ends, and the reverse.
+/// their ends, the lower first, are put into `doubled`, if that is given, and the fans are not
+/// made. Without it such edges exchange neighbours, which parts their vertices: so solids kept
+/// apart are joined along an edge when they are connected around both of its ends, and the reverse.
 /// False when some directed edge has no reverse.
 bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
                 CellGeometry& geometry, const PlaneTable& planes, Contacts contacts,

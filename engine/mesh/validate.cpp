@@ -55,9 +55,8 @@ bool loop_is_degenerate(const PolygonMesh& mesh, uint32_t begin, uint32_t end) {
 
 /// Whether all corners of a face lie on one line.
 bool has_no_area(const PolygonMesh& mesh, uint32_t face) {
-  return is_flat(mesh.points,
-                 {mesh.corners.data() + mesh.loop_starts[mesh.face_starts[face]],
-                  mesh.corners.data() + mesh.loop_starts[mesh.face_starts[face + 1]]});
+  return is_flat(mesh.points, {mesh.corners.data() + mesh.loop_starts[mesh.face_starts[face]],
+                               mesh.corners.data() + mesh.loop_starts[mesh.face_starts[face + 1]]});
 }
 
 std::string face_text(const PolygonMesh& mesh, uint32_t face) {

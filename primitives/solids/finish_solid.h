@@ -17,8 +17,8 @@ namespace csgrun {
 Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std::string* note,
                                  bool is_file = false);
 
-/// How a script has the file `name` repaired, if not by the options `wanted`: "; a script repairs it
-/// by import(...)", or why not. Empty where that would repeat `refusal`.
+/// How a script has the file `name` repaired, if not by the options `wanted`: "; a script repairs
+/// it by import(...)", or why not. Empty where that would repeat `refusal`.
 std::string repair_hint(const PolygonMesh& mesh, const std::string& name,
                         const RepairOptions& wanted, const std::string& refusal);
 

@@ -40,8 +40,8 @@ inline GmpPoint to_gmp(const Point& p) {
 }
 
 inline int gmp_side(const Plane& s, const GmpPoint& p) {
-  return sgn(mpz_class(to_gmp(s.a) * p.x + to_gmp(s.b) * p.y + to_gmp(s.c) * p.z +
-                       to_gmp(s.d) * p.w));
+  return sgn(
+      mpz_class(to_gmp(s.a) * p.x + to_gmp(s.b) * p.y + to_gmp(s.c) * p.z + to_gmp(s.d) * p.w));
 }
 
 }  // namespace csgrun::test

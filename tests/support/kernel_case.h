@@ -197,7 +197,8 @@ inline std::string difference_between(const BoundaryMesh& a, const BoundaryMesh&
   return "";
 }
 
-/// Steps of 1 mm; as many appearances and sources as a test may name. Points come as fractions, too.
+/// Steps of 1 mm; as many appearances and sources as a test may name. Points come as fractions,
+/// too.
 inline PresentContext test_context(uint32_t sources = 64) {
   PresentContext context;
   context.step.numerator = 1;

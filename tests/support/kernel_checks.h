@@ -168,8 +168,8 @@ inline std::vector<Rational3> exact_points(const Solid& solid) {
   return points;
 }
 
-/// Empty when `solid`, made by test_context, presents `mesh`: closed by index, and its triangles, at
-/// the exact points, all turn the same way as their face, add up to its area, and meet in common
+/// Empty when `solid`, made by test_context, presents `mesh`: closed by index, and its triangles,
+/// at the exact points, all turn the same way as their face, add up to its area, and meet in common
 /// corners and edges only.
 inline std::string fault_in(const Solid& solid, const BoundaryMesh& mesh) {
   if (const auto fault = fault_in(solid); !fault.empty()) return fault;

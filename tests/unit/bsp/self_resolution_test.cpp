@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kCases = 100;
 
-BoundaryResult resolved(const Operand& operand, InsideRule rule, const KernelOptions& options = {}) {
+BoundaryResult resolved(const Operand& operand, InsideRule rule,
+                        const KernelOptions& options = {}) {
   EvaluateStats stats;
   std::vector<std::array<uint32_t, 2>> crossings;
   if (operand.leaf) crossings = find_self_intersections(*operand.leaf);
@@ -78,8 +79,8 @@ TEST(SelfResolution, SeveralSolidsInOneMeshAreTheirUnion) {
     Random random(1000 + i);
     const Merged m = random_case(random, false);
     const auto expected = combined(m.solids, BooleanOp::kUnion);
-    EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kNonZero, random_options(random)), expected),
-              "")
+    EXPECT_EQ(
+        difference_of(resolved(m.all, InsideRule::kNonZero, random_options(random)), expected), "")
         << "case " << i;
     EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kPositive), expected), "") << "case " << i;
   }
@@ -111,7 +112,8 @@ TEST(SelfResolution, AnInvertedSolidIsTakenAway) {
   }
 }
 
-// The hull of several solids in one mesh is that of their union, which has no more than voids to fill.
+// The hull of several solids in one mesh is that of their union, which has no more than voids to
+// fill.
 TEST(SelfResolution, OuterHullFillsTheVoidsOfTheUnion) {
   for (int i = 0; i < kCases; ++i) {
     Random random(4000 + i);
@@ -121,12 +123,13 @@ TEST(SelfResolution, OuterHullFillsTheVoidsOfTheUnion) {
     Operand simple;
     simple.boundary = *united;
     const auto expected = resolved(simple, InsideRule::kOuterHull, random_options(random));
-    EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kOuterHull, random_options(random)), expected),
-              "")
+    EXPECT_EQ(
+        difference_of(resolved(m.all, InsideRule::kOuterHull, random_options(random)), expected),
+        "")
         << "case " << i;
-    EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kOrientedHull, random_options(random)),
-                            expected),
-              "")
+    EXPECT_EQ(
+        difference_of(resolved(m.all, InsideRule::kOrientedHull, random_options(random)), expected),
+        "")
         << "case " << i;
   }
 }
@@ -142,8 +145,9 @@ std::vector<Loop> boxes(const std::vector<std::array<IVec3, 2>>& list, std::vect
 }
 
 TEST(SelfResolution, HullsOfNestedAndInvertedBoxes) {
-  const std::array<IVec3, 2> outer{IVec3{0, 0, 0}, {12, 12, 12}}, room{IVec3{2, 2, 2}, {10, 10, 10}},
-      ball{IVec3{4, 4, 4}, {6, 6, 6}}, corner{IVec3{8, 8, 8}, {16, 16, 16}};
+  const std::array<IVec3, 2> outer{IVec3{0, 0, 0}, {12, 12, 12}},
+      room{IVec3{2, 2, 2}, {10, 10, 10}}, ball{IVec3{4, 4, 4}, {6, 6, 6}},
+      corner{IVec3{8, 8, 8}, {16, 16, 16}};
   const auto one = [](const std::array<IVec3, 2>& b) { return operand_of(box_leaf(b[0], b[1])); };
   const auto mesh = [](const std::vector<std::array<IVec3, 2>>& list, std::vector<bool> turned) {
     return operand_of(make_leaf(boxes(list, std::move(turned))));
@@ -158,9 +162,10 @@ TEST(SelfResolution, HullsOfNestedAndInvertedBoxes) {
   const Operand house = mesh({outer, room, ball}, {false, true, false});
   EXPECT_EQ(is(house, InsideRule::kOuterHull, kUnion, {o}), "");
   EXPECT_EQ(is(house, InsideRule::kOrientedHull, kUnion, {o}), "");
-  EXPECT_EQ(is(house, InsideRule::kNonZero, BooleanOp::kSymmetricDifference, {o, r, one(ball)}), "");
-  // A box inside out that reaches out of another: the plain hull has both. What sticks out is free to
-  // enter from behind, but what both cover can be entered from neither side: it is a void.
+  EXPECT_EQ(is(house, InsideRule::kNonZero, BooleanOp::kSymmetricDifference, {o, r, one(ball)}),
+            "");
+  // A box inside out that reaches out of another: the plain hull has both. What sticks out is free
+  // to enter from behind, but what both cover can be entered from neither side: it is a void.
   const Operand notched = mesh({outer, corner}, {false, true});
   EXPECT_EQ(is(notched, InsideRule::kOuterHull, kUnion, {o, c}), "");
   EXPECT_EQ(is(notched, InsideRule::kOrientedHull, kUnion, {o}), "");

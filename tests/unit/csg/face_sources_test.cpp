@@ -69,7 +69,8 @@ TEST(FaceSources, PiecesAlongALineAreOneFaceOfTheFirst) {
   const NodePtr a = named("a", {0, 0, 0}, {10, 10, 10}), b = named("b", {10, 3, 0}, {20, 13, 10}),
                 c = named("c", {20, 5, 0}, {30, 9, 10}), d = named("d", {40, 0, 0}, {50, 10, 10});
   EXPECT_EQ(tops(unite({c, d, a, b}), 10), (Names{{{0, 0}, "c"}, {{40, 0}, "d"}}));
-  EXPECT_EQ(tops(unite({unite({a, d}), unite({b, c})}), 10), (Names{{{0, 0}, "a"}, {{40, 0}, "d"}}));
+  EXPECT_EQ(tops(unite({unite({a, d}), unite({b, c})}), 10),
+            (Names{{{0, 0}, "a"}, {{40, 0}, "d"}}));
 }
 
 TEST(FaceSources, AFaceOfTwoPartsJoinsNothing) {

@@ -34,8 +34,9 @@ PolygonMesh hollow_drum(double depth) {
   return mesh;
 }
 
-/// The volume, resolved at a cost that does not grow with the cube of the facets. (Signs asked for: a
-/// single cell with all facets takes 17 million and half a gigabyte, division down to the tips 9.)
+/// The volume, resolved at a cost that does not grow with the cube of the facets. (Signs asked for:
+/// a single cell with all facets takes 17 million and half a gigabyte, division down to the
+/// tips 9.)
 double volume(double depth, FillRule rule) {
   EvaluateOptions options;
   options.threads = 1;
@@ -50,8 +51,7 @@ double volume(double depth, FillRule rule) {
 TEST(PiercingTips, AreResolvedWhereTheyAre) {
   for (const double depth : {0.01, 0.0001}) {
     // Turned inside out where the cones overlap: inside by one rule, outside by the other.
-    const double lens =
-        volume(depth, FillRule::kNonZero) - volume(depth, FillRule::kPositive);
+    const double lens = volume(depth, FillRule::kNonZero) - volume(depth, FillRule::kPositive);
     const double radius = 10 * depth / (6 + depth);  // where the cones' sides meet, nearly
     const double expected = kFacets * radius * radius * std::sin(kTurn) / 2 * depth / 3;
     EXPECT_NEAR(lens, expected, 0.02 * expected + 1e-11) << "depth " << depth;

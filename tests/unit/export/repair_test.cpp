@@ -87,8 +87,8 @@ MeshCheck refused(const HandMade& made, const std::string& format) {
   EXPECT_EQ(check.moved, 0u);
   EXPECT_EQ(check.triangles[0], check.triangles[1]);
   EXPECT_EQ(check.volume[0], check.volume[1]);
-  // Lattices end at 2^10 steps of floats (2, 8, 32, 128 and 512 are below), or at one; each is tried
-  // from four origins.
+  // Lattices end at 2^10 steps of floats (2, 8, 32, 128 and 512 are below), or at one; each is
+  // tried from four origins.
   EXPECT_EQ(check.rounds, 21u) << format;
   // The places are those of the mesh as it was rounded.
   const auto mesh = round_part(*solid, {}, Precision::kDouble, false);

@@ -219,9 +219,10 @@ TEST_F(FilesTest, NothingOutsideCanBeReached) {
             "model/model.lua:1: import: cannot read 'pipe.stl': it is not a regular file");
   EXPECT_EQ(run("import 'folder.stl'"),
             "model/model.lua:1: import: cannot read 'folder.stl': it is a directory");
-  EXPECT_EQ(run("import 'none.stl'"),
-            "model/model.lua:1: import: cannot read 'none.stl': No such file or directory; looked in "
-            "'model', 'library'");
+  EXPECT_EQ(
+      run("import 'none.stl'"),
+      "model/model.lua:1: import: cannot read 'none.stl': No such file or directory; looked in "
+      "'model', 'library'");
   EXPECT_NE(run("require 'link'").find("leads outside"), std::string::npos);
   for (const char* name : {"../secret", "..secret", "/etc/x", "a/b", "a..b", ".a", ""}) {
     EXPECT_NE(run(std::string("require '") + name + "'").find("require: "), std::string::npos)

@@ -6,10 +6,9 @@
 #include <random>
 #include <set>
 
-#include <tbb/task_arena.h>
-
 #include <gmpxx.h>
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 namespace csgrun::test {
 namespace {
@@ -138,9 +137,7 @@ SurfaceCheck check(const std::vector<Polygon>& faces) {
 std::vector<std::array<uint32_t, 2>> crossings(const std::vector<Polygon>& faces) {
   return check(faces).crossings;
 }
-bool found(const std::vector<Polygon>& faces) {
-  return !crossings(faces).empty();
-}
+bool found(const std::vector<Polygon>& faces) { return !crossings(faces).empty(); }
 
 IVec3 map_point(const std::array<IVec3, 3>& m, const IVec3& t, const IVec3& p) {
   IVec3 q = t;
@@ -369,7 +366,8 @@ TEST(LeafCheck, ShellsThatBoundASolid) {
 }
 
 TEST(LeafCheck, NestedShellsFarOutAndTurned) {
-  // The same in any axes and for coordinates of 40 bits; rays meet edges and vertices of other shells.
+  // The same in any axes and for coordinates of 40 bits; rays meet edges and vertices of other
+  // shells.
   const auto outer = box({0, 0, 0}, {9, 9, 9}), inner = box({3, 3, 3}, {6, 6, 6});
   const int64_t s = int64_t{1} << 35;
   for (const auto& m : {std::array<IVec3, 3>{{{s, 1, 0}, {0, s, 3}, {5, 0, s}}},

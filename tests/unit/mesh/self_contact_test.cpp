@@ -1,7 +1,6 @@
 // A face that touches itself: two pockets that meet in a point of one straight line.
-#include <gtest/gtest.h>
-
 #include <glm/geometric.hpp>
+#include <gtest/gtest.h>
 
 #include "engine/bsp/kernel.h"
 #include "engine/mesh/present.h"
@@ -9,7 +8,8 @@
 namespace csgrun {
 namespace {
 
-std::shared_ptr<LeafGeometry> prism(const std::vector<std::array<int, 2>>& outline, int z0, int z1) {
+std::shared_ptr<LeafGeometry> prism(const std::vector<std::array<int, 2>>& outline, int z0,
+                                    int z1) {
   auto leaf = std::make_shared<LeafGeometry>();
   const auto n = static_cast<uint32_t>(outline.size());
   for (const int z : {z0, z1}) {
@@ -76,8 +76,7 @@ TEST(SelfContact, NoVertexLiesInsideATrianglesEdge) {
       const glm::dvec3 a = s.positions[t[k]], b = s.positions[t[(k + 1) % 3]];
       for (const glm::dvec3& p : s.positions) {
         if (p == a || p == b || p.z != a.z || p.z != b.z) continue;
-        const bool inside = glm::cross(b - a, p - a) == glm::dvec3(0) &&
-                            glm::dot(p - a, p - b) < 0;
+        const bool inside = glm::cross(b - a, p - a) == glm::dvec3(0) && glm::dot(p - a, p - b) < 0;
         collinear_on_line += inside;
       }
     }

@@ -23,13 +23,14 @@ struct Affine {
 
 enum class BooleanOp : uint8_t { kUnion, kIntersection, kDifference, kSymmetricDifference };
 
-/// The outer hull of a surface (Campen & Kobbelt 2010, section 6.2): all that cannot be reached from
-/// infinity without crossing the surface.
+/// The outer hull of a surface (Campen & Kobbelt 2010, section 6.2): all that cannot be reached
+/// from infinity without crossing the surface.
 struct OuterHull {
-  /// Crossings from the back of the surface to its front are free: a body splits where it is thinner
-  /// than nothing.
+  /// Crossings from the back of the surface to its front are free: a body splits where it is
+  /// thinner than nothing.
   bool orientation_sensitive = false;
-  /// Enclosed places whose winding number says that they are outside stay empty; else they are filled.
+  /// Enclosed places whose winding number says that they are outside stay empty; else they are
+  /// filled.
   bool keep_voids = false;
   bool operator==(const OuterHull&) const = default;
 };
@@ -63,8 +64,8 @@ class Node {
   /// Union, intersection or symmetric difference of any number of operands; the difference is the
   /// first less all others. No operand: empty.
   static NodePtr boolean(BooleanOp op, std::vector<NodePtr> operands, SourceRef where = {});
-  /// The outer hull of a surface: of the mesh itself, as it crosses itself, when the child is a leaf
-  /// under transforms and appearances; else of the boundary of the child's solid.
+  /// The outer hull of a surface: of the mesh itself, as it crosses itself, when the child is a
+  /// leaf under transforms and appearances; else of the boundary of the child's solid.
   static NodePtr outer_hull(const OuterHull& options, NodePtr child, SourceRef where = {});
 
   ~Node();

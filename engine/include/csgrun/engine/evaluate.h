@@ -31,14 +31,14 @@ struct EvaluateOptions {
   GridStep grid;
   uint64_t cache_bytes = 512ull << 20;  ///< bound of the in-memory cache of intermediate meshes
   /// The kernel's tuning; no value changes any result (tests vary them).
-  uint32_t cell_limit = 17;             ///< m of Campen & Kobbelt 2010, section 4.1
+  uint32_t cell_limit = 17;  ///< m of Campen & Kobbelt 2010, section 4.1
   std::array<uint32_t, 3> octree_shift{0, 0, 0};
   bool literal_cells = false;  ///< labelled BSPs merged and extracted, as the paper has it
   /// Solids that touch in an edge: false keeps them apart, true joins them through the edge. Either
   /// way the result is a manifold by index (Campen & Kobbelt 2010, chapter 7).
   bool join_contacts = false;
-  bool exact_points = false;   ///< whether to fill Solid::exact_points
-  bool flatten = true;         ///< false: every Boolean node is materialised on its own
+  bool exact_points = false;  ///< whether to fill Solid::exact_points
+  bool flatten = true;        ///< false: every Boolean node is materialised on its own
   /// Polled now and then from any thread; non-zero stops the evaluation with kCancelled.
   const std::atomic<bool>* cancel = nullptr;
   /// Called from the evaluating thread with (done, total) units of work.

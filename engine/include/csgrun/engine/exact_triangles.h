@@ -37,8 +37,8 @@ bool is_degenerate(const TriangleView& mesh, uint32_t triangle);
 /// counter-clockwise. Exact for the doubles given.
 int facing(const TriangleView& mesh, uint32_t triangle, const glm::dvec3& direction);
 
-/// How often the surface wraps around a point just in front of each of `triangles`, near its middle: 0
-/// outside and 1 inside of a solid, less than 0 in front of what is inside out. Exact.
+/// How often the surface wraps around a point just in front of each of `triangles`, near its
+/// middle: 0 outside and 1 inside of a solid, less than 0 in front of what is inside out. Exact.
 /// REQUIRES: the mesh is closed; these triangles have area, and nothing meets their insides.
 /// O(log n) for each, and the triangles whose boxes a ray from there along an axis meets.
 std::vector<int> windings_in_front(const TriangleView& mesh, std::span<const uint32_t> triangles);

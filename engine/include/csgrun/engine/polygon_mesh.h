@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 namespace csgrun {
 
@@ -12,14 +13,14 @@ namespace csgrun {
 struct Appearance {
   float red = 0.976f, green = 0.843f, blue = 0.173f, alpha = 1.0f;
   float metallic = 0.0f, roughness = 0.6f;
-  std::string name;       ///< material name, may be empty
-  bool is_default = true; ///< no colour was asked for
+  std::string name;        ///< material name, may be empty
+  bool is_default = true;  ///< no colour was asked for
 
   bool operator==(const Appearance&) const = default;
 };
 
-/// What is inside a surface that crosses itself, by its winding number w: how often it wraps around a
-/// point, counter-clockwise surface counted up, inverted surface down.
+/// What is inside a surface that crosses itself, by its winding number w: how often it wraps around
+/// a point, counter-clockwise surface counted up, inverted surface down.
 enum class FillRule : uint8_t {
   kNonZero,   ///< w != 0: whatever is enclosed, inverted parts too
   kPositive,  ///< w > 0: inverted parts are cut away
@@ -33,9 +34,9 @@ enum class FillRule : uint8_t {
 /// is triangulated (Campen & Kobbelt 2010, section 3.3).
 struct PolygonMesh {
   std::vector<glm::dvec3> points;
-  std::vector<uint32_t> corners;          ///< point indices of all loops, one after another
-  std::vector<uint32_t> loop_starts{0};   ///< loop i is corners[loop_starts[i] .. loop_starts[i+1])
-  std::vector<uint32_t> face_starts{0};   ///< face i is loops[face_starts[i] .. face_starts[i+1])
+  std::vector<uint32_t> corners;         ///< point indices of all loops, one after another
+  std::vector<uint32_t> loop_starts{0};  ///< loop i is corners[loop_starts[i] .. loop_starts[i+1])
+  std::vector<uint32_t> face_starts{0};  ///< face i is loops[face_starts[i] .. face_starts[i+1])
   /// Per face: 0 = flat, k > 0 = the k-th curved surface, whose facets are shaded as one.
   /// May be empty: all flat.
   std::vector<uint32_t> surface;

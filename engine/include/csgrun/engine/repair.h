@@ -58,11 +58,11 @@ struct RepairReport {
 
 /// Makes a mesh what a leaf must be: closed, every directed edge balanced by its reverse. Its
 /// surface may still cross itself, which PolygonMesh::fill settles. In this order, each step only
-/// if there is need: points of equal coordinates are welded and unused ones dropped; duplicate faces
-/// are dropped; points of open edges are welded within the tolerance, and open edges split at points
-/// on them; faces without area are dropped; faces are turned to agree with their neighbours; holes
-/// are filled; surfaces that are inside out are turned over. Faces that one of these leaves without
-/// three distinct points, or makes duplicates, go at once.
+/// if there is need: points of equal coordinates are welded and unused ones dropped; duplicate
+/// faces are dropped; points of open edges are welded within the tolerance, and open edges split at
+/// points on them; faces without area are dropped; faces are turned to agree with their neighbours;
+/// holes are filled; surfaces that are inside out are turned over. Faces that one of these leaves
+/// without three distinct points, or makes duplicates, go at once.
 ///
 /// With the fill rule kPositive surfaces that are inside out stay as they are.
 ///

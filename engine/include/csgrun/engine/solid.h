@@ -1,12 +1,14 @@
-// An evaluated solid: the canonical boundary of a CSG tree as arrays, ready to be measured and written.
+// An evaluated solid: the canonical boundary of a CSG tree as arrays, ready to be measured and
+// written.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include <csgrun/engine/polygon_mesh.h>
 
@@ -14,8 +16,8 @@ namespace csgrun {
 
 /// Exact measures, each correctly rounded to double once (area: within one unit in the last place).
 struct Measures {
-  double volume = 0;   ///< mm^3
-  double area = 0;     ///< mm^2
+  double volume = 0;                 ///< mm^3
+  double area = 0;                   ///< mm^2
   std::array<glm::dvec3, 2> bbox{};  ///< mm; meaningless when empty
   glm::dvec3 centroid{};             ///< mm, of the volume
   int64_t components = 0;            ///< connected surfaces, touching ones counted apart
@@ -23,9 +25,9 @@ struct Measures {
   bool closed = true;
 };
 
-/// One solid. A closed, oriented 2-manifold by index: every directed edge of `triangles` occurs once
-/// and so does its reverse; the triangles around a vertex form one fan. Where surfaces touch in an
-/// edge or a vertex, vertices are duplicated; copies have the same `point_of`.
+/// One solid. A closed, oriented 2-manifold by index: every directed edge of `triangles` occurs
+/// once and so does its reverse; the triangles around a vertex form one fan. Where surfaces touch
+/// in an edge or a vertex, vertices are duplicated; copies have the same `point_of`.
 ///
 /// The order of everything is canonical: it depends on the geometry only.
 struct Solid {
@@ -40,16 +42,16 @@ struct Solid {
     std::string where;  ///< "file:line", may be empty
   };
 
-  std::vector<glm::dvec3> positions;               ///< mm, correctly rounded
-  std::vector<std::array<float, 3>> positions_f32; ///< mm, correctly rounded from the exact value
-  std::vector<uint32_t> point_of;                  ///< per vertex: its geometric point; a number may be left out
+  std::vector<glm::dvec3> positions;                ///< mm, correctly rounded
+  std::vector<std::array<float, 3>> positions_f32;  ///< mm, correctly rounded from the exact value
+  std::vector<uint32_t> point_of;  ///< per vertex: its geometric point; a number may be left out
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise from outside
   std::vector<uint32_t> triangle_face;             ///< per triangle: its face
   std::vector<Face> faces;
-  std::vector<uint32_t> loop_starts{0};            ///< loops index `loop_vertices`
+  std::vector<uint32_t> loop_starts{0};  ///< loops index `loop_vertices`
   std::vector<uint32_t> loop_vertices;
-  /// Per face: a vector along its outward normal, of no certain length; each coordinate is within one
-  /// unit in the last place of the exact plane's.
+  /// Per face: a vector along its outward normal, of no certain length; each coordinate is within
+  /// one unit in the last place of the exact plane's.
   std::vector<glm::dvec3> face_normals;
   std::vector<Appearance> appearances;
   std::vector<Source> sources;

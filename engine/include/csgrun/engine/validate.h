@@ -11,15 +11,16 @@ namespace csgrun {
 
 /// What is wrong with a mesh: counts, and the coordinates of the first places of each kind.
 struct MeshReport {
-  uint64_t open_edges = 0;        ///< directed edges without a reverse
-  uint64_t misoriented_edges = 0; ///< edges whose faces run in the same direction
-  uint64_t degenerate_faces = 0;  ///< fewer than three distinct points, or no area
+  uint64_t open_edges = 0;         ///< directed edges without a reverse
+  uint64_t misoriented_edges = 0;  ///< edges whose faces run in the same direction
+  uint64_t degenerate_faces = 0;   ///< fewer than three distinct points, or no area
   uint64_t bad_indices = 0;
   uint64_t non_finite_points = 0;
   std::vector<std::string> first_places;  ///< "open edge (0, 0, 0) - (1, 0, 0)", at most 5 a kind
 
   [[nodiscard]] bool ok() const {
-    return !open_edges && !misoriented_edges && !degenerate_faces && !bad_indices && !non_finite_points;
+    return !open_edges && !misoriented_edges && !degenerate_faces && !bad_indices &&
+           !non_finite_points;
   }
   /// One line for a message: "3 open edges (first: (0,0,0)-(1,0,0)), 1 degenerate face ...".
   [[nodiscard]] std::string text() const;
