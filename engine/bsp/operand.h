@@ -34,6 +34,10 @@ struct LeafGeometry {
   std::vector<uint32_t> facet;
   std::vector<uint32_t> surface;     ///< per face: PolygonMesh::surface
   std::vector<uint32_t> appearance;  ///< per face: kernel-wide appearance id
+  /// Per edge, which has the index (in `corners`) of the corner that it leaves: the same edge as
+  /// its neighbour runs it, back. Empty unless each directed edge is there once and its reverse
+  /// too.
+  std::vector<uint32_t> opposite;
   bool convex = false;
   /// False when the faces are known to meet in corners and edges that both have, or nowhere.
   bool may_touch = true;

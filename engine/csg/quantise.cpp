@@ -8,6 +8,7 @@
 #include "engine/csg/leaf_faces.h"
 #include "engine/mesh/edge_table.h"
 #include "engine/mesh/leaf_check.h"
+#include "engine/mesh/opposite_edges.h"
 
 namespace csgrun {
 namespace {
@@ -152,11 +153,13 @@ PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& poi
       result.box.hi[i] = std::max(result.box.hi[i], v[i]);
     }
   }
-  const EdgeTable edges(*leaf);
-  if (!edges.is_balanced()) {
+  EdgePairing pairing = pair_edges(*leaf);
+  if (!pairing.is_balanced) {
     result.status = PreparedLeaf::Status::kOpen;
     return result;
   }
+  leaf->opposite = std::move(pairing.opposite);
+  const EdgeTable edges(*leaf);
   // Rounding can close a gap that is narrower than a step, whatever was promised of the original
   // mesh; convexity is seen from the faces themselves.
   leaf->convex = mesh.convex && is_locally_convex(*leaf, edges);
@@ -177,11 +180,17 @@ PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& poi
 LeafGeometry permuted(const LeafGeometry& leaf, const SignedPermutation& permutation) {
   LeafGeometry result = leaf;
   for (IVec3& v : result.vertices) v = permutation.apply(v);
-  if (permutation.determinant() < 0) {
-    for (size_t f = 0; f < leaf.face_count(); ++f) {
-      std::reverse(result.corners.begin() + result.face_starts[f],
-                   result.corners.begin() + result.face_starts[f + 1]);
-    }
+  if (permutation.determinant() > 0) return result;
+  // An edge that left the corner before the last one now leaves the first, and so on.
+  std::vector<uint32_t> moved(leaf.corners.size());
+  for (size_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    std::reverse(result.corners.begin() + begin, result.corners.begin() + end);
+    for (uint32_t c = begin; c + 1 < end; ++c) moved[c] = begin + end - 2 - c;
+    moved[end - 1] = end - 1;
+  }
+  for (size_t edge = 0; edge < leaf.opposite.size(); ++edge) {
+    result.opposite[moved[edge]] = moved[leaf.opposite[edge]];
   }
   return result;
 }

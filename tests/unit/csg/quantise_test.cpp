@@ -33,8 +33,30 @@ PreparedLeaf prepare(const PolygonMesh& mesh) {
   return prepare_leaf(mesh, whole_points(mesh), false, plain(mesh));
 }
 
+/// LeafGeometry::opposite, against a map of all directed edges.
+void expect_opposites(const LeafGeometry& leaf) {
+  std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> uses;
+  for (size_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    for (uint32_t c = begin; c < end; ++c) {
+      uses[{leaf.corners[c], leaf.corners[c + 1 < end ? c + 1 : begin]}].push_back(c);
+    }
+  }
+  std::vector<uint32_t> expected(leaf.corners.size());
+  for (const auto& [ends, edges] : uses) {
+    const auto reverse = uses.find({ends.second, ends.first});
+    if (edges.size() != 1 || reverse == uses.end() || reverse->second.size() != 1) {
+      EXPECT_TRUE(leaf.opposite.empty());
+      return;
+    }
+    expected[edges[0]] = reverse->second[0];
+  }
+  EXPECT_EQ(leaf.opposite, expected);
+}
+
 /// The invariants of LeafGeometry, checked directly.
 void expect_valid(const LeafGeometry& leaf) {
+  expect_opposites(leaf);
   std::map<std::pair<uint32_t, uint32_t>, int> balance;
   for (size_t f = 0; f < leaf.face_count(); ++f) {
     const uint32_t begin = leaf.face_starts[f], count = leaf.face_starts[f + 1] - begin;
@@ -98,6 +120,19 @@ TEST(PrepareLeaf, PermutedLeavesKeepTheirOrientation) {
     expect_valid(other);
     EXPECT_EQ(volume6(other), 6.0 * 100 * 200 * 300);
   }
+}
+
+TEST(PrepareLeaf, EdgesOfManyFacesHaveNoOpposite) {
+  // Two boxes that have an edge in common, and two that have a corner.
+  const auto box = box_mesh({0, 0, 0}, {100, 100, 100});
+  const auto at_edge = prepare(in_one(box, box_mesh({100, 100, 0}, {200, 200, 100})));
+  ASSERT_EQ(at_edge.status, Status::kGood);
+  expect_valid(*at_edge.geometry);
+  EXPECT_TRUE(at_edge.geometry->opposite.empty());
+  const auto at_corner = prepare(in_one(box, box_mesh({100, 100, 100}, {200, 200, 200})));
+  ASSERT_EQ(at_corner.status, Status::kGood);
+  expect_valid(*at_corner.geometry);
+  EXPECT_EQ(at_corner.geometry->opposite.size(), 48u);
 }
 
 TEST(PrepareLeaf, BentQuadrilateralsOfAConvexMeshBulgeOutwards) {
