@@ -12,6 +12,7 @@ namespace {
 
 using Int128 = __int128;
 using Loop = std::vector<uint32_t>;
+using Corners = std::span<const uint32_t>;
 using Vec128 = std::array<Int128, 3>;
 
 Vec128 cross(const IVec3& a, const IVec3& b, const IVec3& c) {
@@ -28,7 +29,7 @@ bool is_zero(const Vec128& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 int sign(Int128 x) { return (x > 0) - (x < 0); }
 
 /// Twice the vector area, by Newell's formula.
-Vec128 loop_normal(const std::vector<IVec3>& vertices, const Loop& loop) {
+Vec128 loop_normal(const std::vector<IVec3>& vertices, Corners loop) {
   Vec128 sum{};
   for (size_t i = 1; i + 1 < loop.size(); ++i) {
     const Vec128 n = cross(vertices[loop[0]], vertices[loop[i]], vertices[loop[i + 1]]);
@@ -65,7 +66,7 @@ class ProjectedOracle final : public PlanarOracle {
     return 0;
   }
   /// Whether a loop turns left (or goes straight) everywhere, and around once.
-  [[nodiscard]] bool is_convex(const Loop& loop) const {
+  [[nodiscard]] bool is_convex(Corners loop) const {
     const size_t n = loop.size();
     int changes = 0;
     for (size_t i = 0; i < n; ++i) {
@@ -84,15 +85,23 @@ class ProjectedOracle final : public PlanarOracle {
   int u_, v_;
 };
 
+bool lies_in(const CornerPlane& plane, const std::vector<IVec3>& vertices, Corners loop) {
+  return std::all_of(loop.begin(), loop.end(),
+                     [&](uint32_t v) { return plane.side(vertices[v]) == 0; });
+}
+
 bool is_planar(const std::vector<IVec3>& vertices, const LoopFace& face) {
   CornerPlane plane;
   if (!corner_plane(vertices, face.loops[0].data(), face.loops[0].size(), plane)) return false;
-  for (const Loop& loop : face.loops) {
-    for (uint32_t v : loop) {
-      if (plane.side(vertices[v]) != 0) return false;
-    }
-  }
-  return true;
+  return std::all_of(face.loops.begin(), face.loops.end(),
+                     [&](const Loop& loop) { return lies_in(plane, vertices, loop); });
+}
+
+/// Of a loop in one plane.
+bool is_planar_convex(const std::vector<IVec3>& vertices, Corners loop) {
+  const Vec128 normal = loop_normal(vertices, loop);
+  const int axis = dominant_axis(normal);
+  return normal[axis] != 0 && ProjectedOracle(vertices, axis, normal[axis] > 0).is_convex(loop);
 }
 
 bool is_collinear(const std::vector<IVec3>& vertices, const Loop& loop) {
@@ -209,6 +218,12 @@ bool corner_plane(const std::vector<IVec3>& vertices, const uint32_t* corners, s
   return false;
 }
 
+bool is_convex_polygon(const std::vector<IVec3>& vertices, Corners loop) {
+  CornerPlane plane;
+  return corner_plane(vertices, loop.data(), loop.size(), plane) &&
+         lies_in(plane, vertices, loop) && is_planar_convex(vertices, loop);
+}
+
 void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, bool merged,
                        std::vector<LoopFace>& faces) {
   // `flat`: a loop that touches itself may leave triangles without area, in a plane too.
@@ -227,14 +242,9 @@ void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, b
   result.reserve(faces.size());
   for (LoopFace& face : faces) {
     const bool planar = is_planar(vertices, face);
-    if (planar && face.loops.size() == 1) {
-      const Vec128 normal = loop_normal(vertices, face.loops[0]);
-      const int axis = dominant_axis(normal);
-      if (normal[axis] != 0 &&
-          ProjectedOracle(vertices, axis, normal[axis] > 0).is_convex(face.loops[0])) {
-        result.push_back(std::move(face));
-        continue;
-      }
+    if (planar && face.loops.size() == 1 && is_planar_convex(vertices, face.loops[0])) {
+      result.push_back(std::move(face));
+      continue;
     }
     bent |= !planar;
     for (const Triangle& t : triangulate(vertices, face, prefer_convex && !planar)) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/bsp/operand.h"
@@ -18,6 +19,10 @@ namespace csgrun {
 /// vertex, so that faces may lie on each other's back.
 void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, bool merged,
                        std::vector<LoopFace>& faces);
+
+/// Whether a loop lies in a plane, turns left or goes straight everywhere as seen from its front,
+/// and goes around once.
+bool is_convex_polygon(const std::vector<IVec3>& vertices, std::span<const uint32_t> loop);
 
 /// The normal (b - a) x (c - a) of the first three corners that are not collinear, and the corners;
 /// false when there are none. |component| < 2^83.

@@ -5,8 +5,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "engine/csg/convex_leaf.h"
 #include "engine/csg/leaf_faces.h"
-#include "engine/mesh/edge_table.h"
+#include "engine/mesh/leaf_box.h"
 #include "engine/mesh/leaf_check.h"
 #include "engine/mesh/opposite_edges.h"
 
@@ -88,26 +89,56 @@ LeafGeometry pack(const std::vector<IVec3>& vertices, const std::vector<LoopFace
 
 /// Whether no face has a neighbour in front of it. For the surface of one body of genus 0, which a
 /// mesh that promises to be convex is, this is convexity.
-bool is_locally_convex(const LeafGeometry& leaf, const EdgeTable& edges) {
-  std::vector<CornerPlane> planes(leaf.face_count());
-  for (size_t f = 0; f < planes.size(); ++f) {
-    const uint32_t begin = leaf.face_starts[f];
-    if (!corner_plane(leaf.vertices, &leaf.corners[begin], leaf.face_starts[f + 1] - begin,
-                      planes[f])) {
-      return false;
-    }
+bool is_locally_convex(const LeafGeometry& leaf) {
+  if (leaf.opposite.empty()) return false;
+  std::vector<uint32_t> face_of(leaf.corners.size());
+  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+    std::fill(face_of.begin() + leaf.face_starts[f], face_of.begin() + leaf.face_starts[f + 1], f);
   }
-  for (uint32_t v = 0; v < edges.vertex_count(); ++v) {
-    for (const EdgeTable::Edge& edge : edges.leaving(v)) {
-      const auto reverse = edges.between(edge.to, v);
-      if (reverse.size() != 1) return false;
-      const uint32_t other = reverse[0].face;
-      for (uint32_t c = leaf.face_starts[other]; c < leaf.face_starts[other + 1]; ++c) {
-        if (planes[edge.face].side(leaf.vertices[leaf.corners[c]]) > 0) return false;
+  for (size_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    CornerPlane plane;
+    if (!corner_plane(leaf.vertices, &leaf.corners[begin], end - begin, plane)) return false;
+    for (uint32_t edge = begin; edge < end; ++edge) {
+      // The neighbour's corners but for those of the edge, which are in the plane.
+      const uint32_t start = leaf.opposite[edge], other = face_of[start];
+      const uint32_t first = leaf.face_starts[other], last = leaf.face_starts[other + 1] - 1;
+      const uint32_t stop = start < last ? start + 1 : first;
+      for (uint32_t c = first; c <= last; ++c) {
+        if (c == start || c == stop) continue;
+        if (plane.side(leaf.vertices[leaf.corners[c]]) > 0) return false;
       }
     }
   }
   return true;
+}
+
+/// Checks what convex faces enclose. `box` is that of the leaf's vertices.
+PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridBox& box,
+                     bool promised_convex) {
+  PreparedLeaf result;
+  result.box = box;
+  if (!pairing.is_balanced) {
+    result.status = PreparedLeaf::Status::kOpen;
+    return result;
+  }
+  auto leaf = std::make_shared<LeafGeometry>(std::move(geometry));
+  leaf->opposite = std::move(pairing.opposite);
+  // Rounding can close a gap that is narrower than a step, whatever was promised of the original
+  // mesh; convexity is seen from the faces themselves.
+  leaf->convex = promised_convex && is_locally_convex(*leaf);
+  result.status = PreparedLeaf::Status::kGood;
+  if (!leaf->convex) {
+    SurfaceCheck check = check_surface(*leaf);
+    if (!check.crossings.empty() || !check.bounds_solid) {
+      result.status = PreparedLeaf::Status::kTangled;
+    }
+    result.crossings = std::move(check.crossings);
+    result.connected = check.connected;
+  }
+  leaf->may_touch = !result.crossings.empty();
+  result.geometry = std::move(leaf);
+  return result;
 }
 
 }  // namespace
@@ -141,40 +172,22 @@ std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh,
 
 PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
                           const std::vector<uint32_t>& appearance) {
-  PreparedLeaf result;
+  if (auto taken = take_convex_faces(mesh, points, turn, appearance)) {
+    if (taken->leaf.face_count() == 0) return {};
+    EdgePairing pairing = pair_edges(taken->leaf);
+    // Faces on each other's back must go.
+    if (!taken->merged || !pairing.is_balanced ||
+        (!pairing.opposite.empty() && !has_reversed_pair(taken->leaf, pairing.opposite))) {
+      return examine(std::move(taken->leaf), std::move(pairing), taken->box, mesh.convex);
+    }
+  }
   Merged merged = merge_points(mesh, points, turn, appearance);
   make_convex_faces(merged.vertices, mesh.convex, merged.any, merged.faces);
-  auto leaf = std::make_shared<LeafGeometry>(pack(merged.vertices, merged.faces));
-  if (leaf->face_count() == 0) return result;
-  result.box.lo = result.box.hi = leaf->vertices[0];
-  for (const IVec3& v : leaf->vertices) {
-    for (int i = 0; i < 3; ++i) {
-      result.box.lo[i] = std::min(result.box.lo[i], v[i]);
-      result.box.hi[i] = std::max(result.box.hi[i], v[i]);
-    }
-  }
-  EdgePairing pairing = pair_edges(*leaf);
-  if (!pairing.is_balanced) {
-    result.status = PreparedLeaf::Status::kOpen;
-    return result;
-  }
-  leaf->opposite = std::move(pairing.opposite);
-  const EdgeTable edges(*leaf);
-  // Rounding can close a gap that is narrower than a step, whatever was promised of the original
-  // mesh; convexity is seen from the faces themselves.
-  leaf->convex = mesh.convex && is_locally_convex(*leaf, edges);
-  result.status = PreparedLeaf::Status::kGood;
-  if (!leaf->convex) {
-    SurfaceCheck check = check_surface(*leaf, edges);
-    if (!check.crossings.empty() || !check.bounds_solid) {
-      result.status = PreparedLeaf::Status::kTangled;
-    }
-    result.crossings = std::move(check.crossings);
-    result.connected = check.connected;
-  }
-  leaf->may_touch = !result.crossings.empty();
-  result.geometry = std::move(leaf);
-  return result;
+  LeafGeometry leaf = pack(merged.vertices, merged.faces);
+  if (leaf.face_count() == 0) return {};
+  EdgePairing pairing = pair_edges(leaf);
+  const GridBox box = box_of_points(leaf.vertices);
+  return examine(std::move(leaf), std::move(pairing), box, mesh.convex);
 }
 
 LeafGeometry permuted(const LeafGeometry& leaf, const SignedPermutation& permutation) {

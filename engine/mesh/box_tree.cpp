@@ -1,27 +1,25 @@
 #include "engine/mesh/box_tree.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
-#include <utility>
 
 namespace csgrun {
 namespace {
 
-constexpr double kFinest = 0x1fffff;
-
-/// Puts two zero bits before each of the lowest 21 bits.
-uint64_t spread(uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffff;
-  x = (x | x << 16) & 0x1f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  return (x | x << 2) & 0x1249249249249249;
+std::array<double, 3> middle_of(const std::vector<Box>& boxes) {
+  if (boxes.empty()) return {0, 0, 0};
+  Box all = boxes[0];
+  for (const Box& box : boxes) all.include(box);
+  std::array<double, 3> middle;
+  for (size_t k = 0; k < 3; ++k) middle[k] = all.lo[k] / 2 + all.hi[k] / 2;
+  return middle;
 }
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Box kNothing{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+/// Monotone, and finite for all but NaN.
+float round_to_float(double x) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -kMost, kMost));
+}
 
 }  // namespace
 
@@ -32,64 +30,23 @@ void Box::include(const Box& o) {
   }
 }
 
-BoxTree::BoxTree(const std::vector<Box>& boxes) : boxes_(boxes) {
-  if (boxes.empty()) return;
-  Box all = kNothing;
-  for (const Box& box : boxes) all.include(box);
-  const double extent =
-      std::max({all.hi[0] - all.lo[0], all.hi[1] - all.lo[1], all.hi[2] - all.lo[2]});
-  const double scale = extent > 0 ? kFinest / extent : 0;
+BoxTree::BoxTree(const std::vector<Box>& boxes)
+    : boxes_(boxes), middle_(middle_of(boxes)), packed_(rounded_boxes()) {}
 
-  std::vector<std::pair<uint64_t, uint32_t>> keys(boxes.size());
-  for (uint32_t i = 0; i < boxes.size(); ++i) {
-    uint64_t code = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double middle = (boxes[i].lo[k] + boxes[i].hi[k]) / 2;
-      const double at = (middle - all.lo[k]) * scale;
-      // Where an extent is near the ends of double's range, `at` is infinite or NaN: any order
-      // does.
-      code |= spread(at <= kFinest ? static_cast<uint64_t>(at) : 0) << k;
-    }
-    keys[i] = {code, i};
+FloatBox BoxTree::rounded(const Box& box) const {
+  FloatBox result;
+  for (size_t k = 0; k < 3; ++k) {
+    result.lo[k] = round_to_float(box.lo[k] - middle_[k]);
+    result.hi[k] = round_to_float(box.hi[k] - middle_[k]);
   }
-  std::sort(keys.begin(), keys.end());
-  order_.resize(boxes.size());
-  sorted_.resize(boxes.size());
-  for (size_t k = 0; k < keys.size(); ++k) {
-    order_[k] = keys[k].second;
-    sorted_[k] = boxes[order_[k]];
-  }
-
-  const size_t groups = (boxes.size() + kGroup - 1) / kGroup;
-  group_base_ = static_cast<uint32_t>(std::bit_ceil(groups));
-  nodes_.assign(size_t{group_base_} * 2, {kNothing, -1});
-  for (size_t k = 0; k < order_.size(); ++k) {
-    Node& node = nodes_[group_base_ + k / kGroup];
-    node.box.include(boxes[order_[k]]);
-    node.last = std::max<int64_t>(node.last, order_[k]);
-  }
-  for (size_t at = group_base_; at-- > 1;) {
-    nodes_[at] = nodes_[2 * at];
-    nodes_[at].box.include(nodes_[2 * at + 1].box);
-    nodes_[at].last = std::max(nodes_[at].last, nodes_[2 * at + 1].last);
-  }
+  return result;
 }
 
-std::vector<BoxTree::Task> BoxTree::pair_tasks(size_t wanted) const {
-  std::vector<Task> tasks;
-  if (nodes_.empty()) return tasks;
-  tasks.push_back({1, 1});
-  std::vector<Task> divided;
-  // All nodes of all tasks are of one level.
-  while (tasks.size() < wanted && !tasks.empty() && tasks[0][0] < group_base_) {
-    divided.clear();
-    for (const auto& [a, b] : tasks) divide(a, b, divided);
-    std::erase_if(divided, [this](const Task& t) {
-      return t[0] != t[1] && !nodes_[t[0]].box.overlaps(nodes_[t[1]].box);
-    });
-    tasks.swap(divided);
-  }
-  return tasks;
+std::vector<FloatBox> BoxTree::rounded_boxes() const {
+  std::vector<FloatBox> result;
+  result.reserve(boxes_.size());
+  for (const Box& box : boxes_) result.push_back(rounded(box));
+  return result;
 }
 
 }  // namespace csgrun

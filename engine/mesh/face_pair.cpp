@@ -18,69 +18,58 @@ constexpr double kUlp = 0x1p-53;
 
 int sign(__int128 x) { return (x > 0) - (x < 0); }
 
-/// A difference of points as integers: both are exact in double.
-IVec3 difference(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return {static_cast<int64_t>(a[0] - b[0]), static_cast<int64_t>(a[1] - b[1]),
-          static_cast<int64_t>(a[2] - b[2])};
-}
+IVec3 difference(const IVec3& a, const IVec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 }  // namespace
 
-FacePairs::FacePairs(const LeafGeometry& leaf) : corners_(leaf.corners), starts_(leaf.face_starts) {
-  points_.reserve(leaf.vertices.size());
-  for (const IVec3& v : leaf.vertices) {
-    points_.push_back(
-        {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])});
-  }
-
+FacePairs::FacePairs(const LeafGeometry& leaf) : leaf_(leaf) {
   const size_t faces = leaf.face_count();
-  planes_.resize(faces);
-  boxes_.resize(faces);
-  sorted_starts_.assign(faces + 1, 0);
   for (uint32_t f = 0; f < faces; ++f) {
     const Corners loop = corners(f);
-    Box& box = boxes_[f];
-    for (int k = 0; k < 3; ++k) box.lo[k] = INFINITY, box.hi[k] = -INFINITY;
-    for (uint32_t v : loop) {
-      for (int k = 0; k < 3; ++k) {
-        box.lo[k] = std::min(box.lo[k], points_[v][k]);
-        box.hi[k] = std::max(box.hi[k], points_[v][k]);
-      }
-    }
-    // Corners a third of the way round give a normal of good relative accuracy. A long run of 180
-    // degree corners may hold all three: then the first edge and a corner off its line.
-    const size_t n = loop.size();
-    planes_[f].base = {loop[0], loop[n / 3], loop[2 * n / 3]};
-    Normal normal = exact_normal(planes_[f].base);
-    for (size_t i = 2; i < n && normal == Normal{}; ++i) {
-      planes_[f].base = {loop[0], loop[1], loop[i]};
-      normal = exact_normal(planes_[f].base);
-    }
-    for (int k = 0; k < 3; ++k) planes_[f].normal[k] = static_cast<double>(normal[k]);
-    planes_[f].origin = points_[planes_[f].base[0]];
-
-    if (n > kManyCorners) {
+    if (loop.size() > kManyCorners) {
+      if (sorted_starts_.empty()) sorted_starts_.assign(faces + 1, 0);
       const auto first = static_cast<std::ptrdiff_t>(sorted_.size());
-      for (uint32_t i = 0; i < n; ++i) sorted_.push_back({loop[i], i});
+      for (uint32_t i = 0; i < loop.size(); ++i) sorted_.push_back({loop[i], i});
       std::sort(sorted_.begin() + first, sorted_.end());
     }
-    sorted_starts_[f + 1] = static_cast<uint32_t>(sorted_.size());
+    if (!sorted_starts_.empty()) sorted_starts_[f + 1] = static_cast<uint32_t>(sorted_.size());
   }
 }
 
+FacePairs::Point FacePairs::point(uint32_t v) const {
+  const IVec3& p = leaf_.vertices[v];
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+FacePairs::Plane FacePairs::plane_of(uint32_t f) const {
+  // Corners a third of the way round give a normal of good relative accuracy. A long run of 180
+  // degree corners may hold all three: then the first edge and a corner off its line.
+  const Corners loop = corners(f);
+  const size_t n = loop.size();
+  Plane plane;
+  plane.base = {loop[0], loop[n / 3], loop[2 * n / 3]};
+  Normal normal = exact_normal(plane.base);
+  for (size_t i = 2; i < n && normal == Normal{}; ++i) {
+    plane.base = {loop[0], loop[1], loop[i]};
+    normal = exact_normal(plane.base);
+  }
+  for (int k = 0; k < 3; ++k) plane.normal[k] = static_cast<double>(normal[k]);
+  plane.origin = point(plane.base[0]);
+  return plane;
+}
+
 FacePairs::Normal FacePairs::exact_normal(const std::array<uint32_t, 3>& base) const {
-  const IVec3 u = difference(points_[base[1]], points_[base[0]]),
-              v = difference(points_[base[2]], points_[base[0]]);
+  const IVec3 u = difference(leaf_.vertices[base[1]], leaf_.vertices[base[0]]),
+              v = difference(leaf_.vertices[base[2]], leaf_.vertices[base[0]]);
   const auto minor = [&](int i, int j) {
     return static_cast<__int128>(u[i]) * v[j] - static_cast<__int128>(u[j]) * v[i];
   };
   return {minor(1, 2), minor(2, 0), minor(0, 1)};
 }
 
-/// The sign of a point against a face's plane: +1 in front.
-int FacePairs::side(uint32_t f, uint32_t point) const {
-  const Plane& plane = planes_[f];
-  const Point& p = points_[point];
+/// The sign of a point against a plane: +1 in front.
+int FacePairs::side(const Plane& plane, uint32_t v) const {
+  const Point p = point(v);
   double sum = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {
     const double term = plane.normal[k] * (p[k] - plane.origin[k]);
@@ -92,21 +81,21 @@ int FacePairs::side(uint32_t f, uint32_t point) const {
   if (sum > bound) return 1;
   if (sum < -bound) return -1;
   const Normal n = exact_normal(plane.base);
-  const IVec3 d = difference(p, plane.origin);
+  const IVec3 d = difference(leaf_.vertices[v], leaf_.vertices[plane.base[0]]);
   return sign(n[0] * d[0] + n[1] * d[1] + n[2] * d[2]);
 }
 
 /// The sign of det(b - a, c - a, d - a).
 int FacePairs::orient(uint32_t a, uint32_t b, uint32_t c, uint32_t d) const {
-  const IVec3 u = difference(points_[b], points_[a]), v = difference(points_[c], points_[a]),
-              w = difference(points_[d], points_[a]);
+  const auto& p = leaf_.vertices;
+  const IVec3 u = difference(p[b], p[a]), v = difference(p[c], p[a]), w = difference(p[d], p[a]);
   double sum = 0, magnitude = 0;
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    const double p = static_cast<double>(v[i]) * static_cast<double>(w[j]);
-    const double q = static_cast<double>(v[j]) * static_cast<double>(w[i]);
-    sum += static_cast<double>(u[k]) * (p - q);
-    magnitude += std::fabs(static_cast<double>(u[k])) * (std::fabs(p) + std::fabs(q));
+    const double plus = static_cast<double>(v[i]) * static_cast<double>(w[j]);
+    const double minus = static_cast<double>(v[j]) * static_cast<double>(w[i]);
+    sum += static_cast<double>(u[k]) * (plus - minus);
+    magnitude += std::fabs(static_cast<double>(u[k])) * (std::fabs(plus) + std::fabs(minus));
   }
   const double bound = 8 * kUlp * magnitude;
   if (sum > bound) return 1;
@@ -119,9 +108,14 @@ int FacePairs::orient(uint32_t a, uint32_t b, uint32_t c, uint32_t d) const {
   return sign(exact);
 }
 
+std::span<const std::pair<uint32_t, uint32_t>> FacePairs::sorted_corners(uint32_t f) const {
+  if (sorted_starts_.empty()) return {};
+  return {sorted_.data() + sorted_starts_[f], sorted_.data() + sorted_starts_[f + 1]};
+}
+
 bool FacePairs::has_corner(uint32_t f, uint32_t point) const {
-  const auto begin = sorted_.begin() + sorted_starts_[f],
-             end = sorted_.begin() + sorted_starts_[f + 1];
+  const auto sorted = sorted_corners(f);
+  const auto begin = sorted.begin(), end = sorted.end();
   if (begin != end) {
     const auto at = std::lower_bound(begin, end, std::pair(point, 0u));
     return at != end && at->first == point;
@@ -132,8 +126,8 @@ bool FacePairs::has_corner(uint32_t f, uint32_t point) const {
 
 bool FacePairs::has_edge(uint32_t f, uint32_t a, uint32_t b) const {
   const Corners loop = corners(f);
-  const auto begin = sorted_.begin() + sorted_starts_[f],
-             end = sorted_.begin() + sorted_starts_[f + 1];
+  const auto sorted = sorted_corners(f);
+  const auto begin = sorted.begin(), end = sorted.end();
   size_t at;
   if (begin != end) {
     const auto found = std::lower_bound(begin, end, std::pair(a, 0u));
@@ -147,16 +141,18 @@ bool FacePairs::has_edge(uint32_t f, uint32_t a, uint32_t b) const {
 }
 
 /// The signs of f's corners against g's plane; shared corners need no arithmetic.
-void FacePairs::signs_against(uint32_t f, uint32_t g, std::vector<int>& signs) const {
+void FacePairs::signs_against(uint32_t f, uint32_t g, const Plane& plane_of_g,
+                              std::vector<int>& signs) const {
   const Corners loop = corners(f);
   signs.resize(loop.size());
   for (size_t i = 0; i < loop.size(); ++i) {
-    signs[i] = has_corner(g, loop[i]) ? 0 : side(g, loop[i]);
+    signs[i] = has_corner(g, loop[i]) ? 0 : side(plane_of_g, loop[i]);
   }
 }
 
 /// Whether two triangles certainly meet in common corners and edges only: nearly all pairs do.
-bool FacePairs::triangles_apart(const uint32_t* f, const uint32_t* g, uint32_t plane_of_f) const {
+bool FacePairs::triangles_apart(const uint32_t* f, const uint32_t* g,
+                                const Plane& plane_of_f) const {
   std::array<uint32_t, 3> own{};  // corners of g that f does not have
   size_t count = 0;
   for (int i = 0; i < 3; ++i) {
@@ -173,14 +169,13 @@ bool FacePairs::triangles_apart(const uint32_t* f, const uint32_t* g, uint32_t p
 }
 
 bool FacePairs::conflict(uint32_t f, uint32_t g, Scratch& scratch) const {
-  if (corners(f).size() == 3 && corners(g).size() == 3) {
-    const uint32_t *p = corners(f).data(), *q = corners(g).data();
-    if (triangles_apart(p, q, f) || triangles_apart(q, p, g)) return false;
-  }
   // The face with fewer corners is held against the plane of the other: mostly that decides.
   if (corners(f).size() < corners(g).size()) std::swap(f, g);
+  const Plane plane_of_f = plane_of(f);
   const Corners loop = corners(g);
-  signs_against(g, f, scratch.signs_g);
+  const bool are_triangles = corners(f).size() == 3 && loop.size() == 3;
+  if (are_triangles && triangles_apart(corners(f).data(), loop.data(), plane_of_f)) return false;
+  signs_against(g, f, plane_of_f, scratch.signs_g);
   const auto count = [](const std::vector<int>& signs, int s) {
     return std::count(signs.begin(), signs.end(), s);
   };
@@ -198,7 +193,9 @@ bool FacePairs::conflict(uint32_t f, uint32_t g, Scratch& scratch) const {
     }
     if (shared) return false;
   }
-  signs_against(f, g, scratch.signs_f);
+  const Plane plane_of_g = plane_of(g);
+  if (are_triangles && triangles_apart(loop.data(), corners(f).data(), plane_of_g)) return false;
+  signs_against(f, g, plane_of_g, scratch.signs_f);
   const bool f_crosses = count(scratch.signs_f, 1) > 0 && count(scratch.signs_f, -1) > 0;
   if (!f_crosses) {
     if (count(scratch.signs_f, 0) == 0) return false;
@@ -270,20 +267,22 @@ bool FacePairs::crossing_conflict(uint32_t f, uint32_t g, const Scratch& scratch
 }
 
 bool FacePairs::coplanar_conflict(uint32_t f, uint32_t g, Scratch& scratch) const {
-  const std::array<double, 3>& normal = planes_[f].normal;
+  const Point normal = plane_of(f).normal;
   int axis = 0;
   for (int k = 1; k < 3; ++k) {
     if (std::fabs(normal[k]) > std::fabs(normal[axis])) axis = k;
   }
   const int x = (axis + 1) % 3, y = (axis + 2) % 3;
   const auto turn = [&](uint32_t a, uint32_t b, uint32_t c) {
-    const IVec3 u = difference(points_[b], points_[a]), v = difference(points_[c], points_[a]);
+    const auto& p = leaf_.vertices;
+    const IVec3 u = difference(p[b], p[a]), v = difference(p[c], p[a]);
     return sign(static_cast<__int128>(u[x]) * v[y] - static_cast<__int128>(u[y]) * v[x]);
   };
   // Convex polygons with disjoint insides are separated by the line of an edge of one of them, and
   // then meet on that line only.
   const auto separated = [&](uint32_t one, uint32_t other) {
-    const int front = planes_[one].normal[axis] > 0 ? 1 : -1;
+    const double facing = one == f ? normal[axis] : plane_of(one).normal[axis];
+    const int front = facing > 0 ? 1 : -1;
     const Corners loop = corners(one), points = corners(other);
     for (size_t i = 0; i < loop.size(); ++i) {
       const uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
@@ -309,7 +308,7 @@ bool FacePairs::coplanar_conflict(uint32_t f, uint32_t g, Scratch& scratch) cons
 /// have in common must consist of the same corners.
 bool FacePairs::runs_conflict(Scratch& scratch) const {
   // On a line the lexicographic order is the order along it.
-  const auto before = [&](uint32_t a, uint32_t b) { return points_[a] < points_[b]; };
+  const auto before = [&](uint32_t a, uint32_t b) { return leaf_.vertices[a] < leaf_.vertices[b]; };
   std::vector<uint32_t>&f = scratch.run_f, &g = scratch.run_g;
   std::sort(f.begin(), f.end(), before);
   std::sort(g.begin(), g.end(), before);
@@ -327,13 +326,13 @@ bool FacePairs::runs_conflict(Scratch& scratch) const {
 /// Clips f by the sides of g (planes through g's edges along its normal), and, if the planes
 /// differ, takes the part nearest to g's plane.
 std::array<double, 3> FacePairs::place(uint32_t f, uint32_t g) const {
-  const auto at = [&](uint32_t v) { return points_[v]; };
   const auto dot = [](const Point& a, const Point& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };
-  const Point& normal = planes_[g].normal;
+  const Plane plane_of_g = plane_of(g);
+  const Point& normal = plane_of_g.normal;
   std::vector<Point> polygon;
-  for (uint32_t v : corners(f)) polygon.push_back(at(v));
+  for (uint32_t v : corners(f)) polygon.push_back(point(v));
   const auto clip = [&](const Point& n, double offset, bool keep_line_only) {
     std::vector<Point> kept;
     for (size_t i = 0; i < polygon.size(); ++i) {
@@ -350,11 +349,11 @@ std::array<double, 3> FacePairs::place(uint32_t f, uint32_t g) const {
     if (!kept.empty()) polygon = std::move(kept);
   };
   const bool coplanar = std::all_of(corners(f).begin(), corners(f).end(),
-                                    [&](uint32_t v) { return side(g, v) == 0; });
-  if (!coplanar) clip(normal, dot(normal, at(planes_[g].base[0])), true);
+                                    [&](uint32_t v) { return side(plane_of_g, v) == 0; });
+  if (!coplanar) clip(normal, dot(normal, plane_of_g.origin), true);
   const Corners loop = corners(g);
   for (size_t i = 0; i < loop.size(); ++i) {
-    const Point a = at(loop[i]), b = at(loop[(i + 1) % loop.size()]);
+    const Point a = point(loop[i]), b = point(loop[(i + 1) % loop.size()]);
     const Point e{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     const Point inward{normal[1] * e[2] - normal[2] * e[1], normal[2] * e[0] - normal[0] * e[2],
                        normal[0] * e[1] - normal[1] * e[0]};

@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "engine/bsp/operand.h"
-#include "engine/mesh/box_tree.h"
 
 namespace csgrun {
 
-/// The faces of a leaf, prepared for tests of pairs. REQUIRES: its vertices are distinct.
+/// The faces of a leaf, for tests of pairs. REQUIRES: its vertices are distinct; it outlives this.
 ///
 /// Coordinates up to 2^40 in magnitude are exact in double; differences have 41 bits, so every
 /// determinant here (three factors, at most 3 * 2 * 2^123 < 2^126) fits 128 bits.
@@ -26,7 +25,6 @@ class FacePairs {
 
   explicit FacePairs(const LeafGeometry& leaf);
 
-  [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
   /// Whether faces f and g meet in anything but corners and edges that both have.
   [[nodiscard]] bool conflict(uint32_t f, uint32_t g, Scratch& scratch) const;
   /// A point of a conflict, in doubles: for messages. It may be off by rounding.
@@ -49,27 +47,29 @@ class FacePairs {
   using Normal = std::array<__int128, 3>;
 
   Corners corners(uint32_t f) const {
-    return {corners_.data() + starts_[f], corners_.data() + starts_[f + 1]};
+    return {leaf_.corners.data() + leaf_.face_starts[f],
+            leaf_.corners.data() + leaf_.face_starts[f + 1]};
   }
+  Point point(uint32_t v) const;
   Normal exact_normal(const std::array<uint32_t, 3>& base) const;
-  bool triangles_apart(const uint32_t* f, const uint32_t* g, uint32_t plane_of_f) const;
-  int side(uint32_t f, uint32_t point) const;
+  Plane plane_of(uint32_t f) const;
+  bool triangles_apart(const uint32_t* f, const uint32_t* g, const Plane& plane_of_f) const;
+  int side(const Plane& plane, uint32_t v) const;
   int orient(uint32_t a, uint32_t b, uint32_t c, uint32_t d) const;
+  std::span<const std::pair<uint32_t, uint32_t>> sorted_corners(uint32_t f) const;
   bool has_corner(uint32_t f, uint32_t point) const;
   bool has_edge(uint32_t f, uint32_t a, uint32_t b) const;
-  void signs_against(uint32_t f, uint32_t g, std::vector<int>& signs) const;
+  void signs_against(uint32_t f, uint32_t g, const Plane& plane_of_g,
+                     std::vector<int>& signs) const;
   LineEnd line_end(uint32_t f, const std::vector<int>& signs, bool last) const;
   bool crossing_conflict(uint32_t f, uint32_t g, const Scratch& scratch) const;
   bool coplanar_conflict(uint32_t f, uint32_t g, Scratch& scratch) const;
   bool runs_conflict(Scratch& scratch) const;
 
-  std::vector<Point> points_;
-  const std::vector<uint32_t>&corners_, &starts_;  ///< the leaf's
-  std::vector<Plane> planes_;
-  std::vector<Box> boxes_;
+  const LeafGeometry& leaf_;
   /// Of faces with many corners: these sorted, with their positions; an empty range for others.
   std::vector<std::pair<uint32_t, uint32_t>> sorted_;
-  std::vector<uint32_t> sorted_starts_;
+  std::vector<uint32_t> sorted_starts_;  ///< empty when no face has many
 };
 
 }  // namespace csgrun

@@ -1,13 +1,17 @@
 #include "engine/mesh/leaf_check.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "engine/bsp/union_find.h"
-#include "engine/mesh/box_tree.h"
+#include "engine/mesh/edge_table.h"
 #include "engine/mesh/face_pair.h"
+#include "engine/mesh/leaf_box.h"
+#include "engine/mesh/packed_boxes.h"
+#include "engine/mesh/triangle_pairs.h"
 #include "engine/mesh/winding.h"
 
 namespace csgrun {
@@ -18,39 +22,88 @@ constexpr size_t kFewFaces = 2000;  ///< for which threads do not pay
 
 using Pairs = std::vector<std::array<uint32_t, 2>>;
 
-Pairs find_crossings(const FacePairs& faces, const BoxTree& tree) {
-  const bool few = faces.boxes().size() < kFewFaces;
-  const std::vector<BoxTree::Task> tasks = tree.pair_tasks(few ? 1 : kTasks);
-  std::vector<Pairs> found(tasks.size());
-  const auto run = [&](size_t t, FacePairs::Scratch& scratch) {
-    tree.visit_pairs(tasks[t], [&](uint32_t f, uint32_t g) {
-      if (faces.conflict(f, g, scratch)) found[t].push_back({f, g});
+std::vector<FloatBox> boxes_of(const LeafGeometry& leaf) {
+  std::vector<FloatBox> boxes(leaf.face_count());
+  for (size_t f = 0; f < boxes.size(); ++f) {
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    IVec3 lo = leaf.vertices[leaf.corners[begin]], hi = lo;
+    for (uint32_t c = begin + 1; c < end; ++c) {
+      const IVec3& p = leaf.vertices[leaf.corners[c]];
+      for (size_t k = 0; k < 3; ++k) {
+        lo[k] = std::min(lo[k], p[k]);
+        hi[k] = std::max(hi[k], p[k]);
+      }
+    }
+    for (size_t k = 0; k < 3; ++k) {
+      boxes[f].lo[k] = static_cast<float>(lo[k]);
+      boxes[f].hi[k] = static_cast<float>(hi[k]);
+    }
+  }
+  return boxes;
+}
+
+Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree, bool is_balanced) {
+  const std::vector<uint32_t>& order = tree.order();
+  const FacePairs faces(leaf);
+  std::optional<TrianglePairs> triangles;
+  if (const GridBox box = box_of_points(leaf.vertices); TrianglePairs::covers(leaf, box)) {
+    triangles.emplace(leaf, box, order, is_balanced);
+  }
+  const auto search = [&](const PackedBoxes::Task& task, FacePairs::Scratch& scratch,
+                          Pairs& found) {
+    const auto decide = [&](uint32_t a, uint32_t b) {
+      const uint32_t f = std::min(order[a], order[b]), g = std::max(order[a], order[b]);
+      if (faces.conflict(f, g, scratch)) found.push_back({f, g});
+    };
+    if (!triangles) return tree.visit_pairs(task, decide);
+    tree.visit_pairs(task, [&](uint32_t a, uint32_t b) {
+      if (!triangles->apart(a, b)) decide(a, b);
     });
   };
-  if (few) {
-    FacePairs::Scratch scratch;
-    for (size_t t = 0; t < tasks.size(); ++t) run(t, scratch);
-  } else {
-    tbb::enumerable_thread_specific<FacePairs::Scratch> scratches;
-    tbb::parallel_for(size_t{0}, tasks.size(), [&](size_t t) { run(t, scratches.local()); });
-  }
   Pairs all;
-  for (const Pairs& some : found) all.insert(all.end(), some.begin(), some.end());
+  if (leaf.face_count() < kFewFaces) {
+    FacePairs::Scratch scratch;
+    for (const auto& task : tree.pair_tasks(1)) search(task, scratch, all);
+  } else {
+    const std::vector<PackedBoxes::Task> tasks = tree.pair_tasks(kTasks);
+    std::vector<Pairs> found(tasks.size());
+    tbb::enumerable_thread_specific<FacePairs::Scratch> scratches;
+    tbb::parallel_for(size_t{0}, tasks.size(),
+                      [&](size_t t) { search(tasks[t], scratches.local(), found[t]); });
+    for (const Pairs& some : found) all.insert(all.end(), some.begin(), some.end());
+  }
   std::sort(all.begin(), all.end());
   return all;
 }
 
-/// One face of each part of the surface that is connected by edges of two faces: within a part the
-/// winding numbers in front of faces, and those behind, are the same.
-std::vector<uint32_t> one_face_of_each_part(const LeafGeometry& leaf, const EdgeTable& edges) {
-  UnionFind parts(leaf.face_count());
+/// Calls `visit(f, g)` for the faces of each edge that has two.
+template <class Visit>
+void for_each_neighbours(const LeafGeometry& leaf, Visit visit) {
+  if (!leaf.opposite.empty()) {
+    std::vector<uint32_t> face_of(leaf.corners.size());
+    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+      for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) face_of[c] = f;
+    }
+    for (uint32_t edge = 0; edge < leaf.opposite.size(); ++edge) {
+      if (edge < leaf.opposite[edge]) visit(face_of[edge], face_of[leaf.opposite[edge]]);
+    }
+    return;
+  }
+  const EdgeTable edges(leaf);
   for (uint32_t v = 0; v < edges.vertex_count(); ++v) {
     for (const EdgeTable::Edge& edge : edges.leaving(v)) {
       if (edge.to < v || edges.between(v, edge.to).size() != 1) continue;
       const auto reverse = edges.between(edge.to, v);
-      if (reverse.size() == 1) parts.join(edge.face, reverse[0].face);
+      if (reverse.size() == 1) visit(edge.face, reverse[0].face);
     }
   }
+}
+
+/// One face of each part of the surface that is connected by edges of two faces: within a part the
+/// winding numbers in front of faces, and those behind, are the same.
+std::vector<uint32_t> one_face_of_each_part(const LeafGeometry& leaf) {
+  UnionFind parts(leaf.face_count());
+  for_each_neighbours(leaf, [&](uint32_t f, uint32_t g) { parts.join(f, g); });
   std::vector<uint32_t> faces;
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
     if (parts.find(f) == f) faces.push_back(f);
@@ -61,18 +114,15 @@ std::vector<uint32_t> one_face_of_each_part(const LeafGeometry& leaf, const Edge
 }  // namespace
 
 Pairs find_self_intersections(const LeafGeometry& leaf) {
-  const FacePairs faces(leaf);
-  const BoxTree tree(faces.boxes());
-  return find_crossings(faces, tree);
+  return find_crossings(leaf, PackedBoxes(boxes_of(leaf)), false);
 }
 
-SurfaceCheck check_surface(const LeafGeometry& leaf, const EdgeTable& edges) {
-  const FacePairs faces(leaf);
-  const BoxTree tree(faces.boxes());
+SurfaceCheck check_surface(const LeafGeometry& leaf) {
+  const PackedBoxes tree(boxes_of(leaf));
   SurfaceCheck result;
-  result.crossings = find_crossings(faces, tree);
+  result.crossings = find_crossings(leaf, tree, true);
   if (!result.crossings.empty()) return result;
-  const std::vector<uint32_t> parts = one_face_of_each_part(leaf, edges);
+  const std::vector<uint32_t> parts = one_face_of_each_part(leaf);
   result.connected = parts.size() == 1;
   result.bounds_solid = std::all_of(parts.begin(), parts.end(), [&](uint32_t face) {
     return winding_in_front(leaf, tree, face) == 0;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/bsp/operand.h"
-#include "engine/mesh/edge_table.h"
 
 namespace csgrun {
 
@@ -31,8 +30,8 @@ struct SurfaceCheck {
 };
 
 /// Examines a surface exactly; one ray for each connected part finds its winding number. REQUIRES:
-/// as above, and directed edges balanced.
-SurfaceCheck check_surface(const LeafGeometry& leaf, const EdgeTable& edges);
+/// as above, and directed edges balanced. Faster where the leaf knows its opposite edges.
+SurfaceCheck check_surface(const LeafGeometry& leaf);
 
 /// A point near the place where two faces of a leaf meet, in grid steps: for messages.
 std::array<double, 3> intersection_place(const LeafGeometry& leaf, uint32_t f, uint32_t g);

@@ -5,13 +5,13 @@
 #include <span>
 
 #include "engine/bsp/operand.h"
-#include "engine/mesh/box_tree.h"
+#include "engine/mesh/packed_boxes.h"
 
 namespace csgrun {
 
 /// How often the surface of a leaf wraps around a point just in front of `face`, near the middle of
 /// the face. Exact: a ray to infinity, moved off every edge by infinitesimals. `tree` holds the
-/// boxes of the faces. REQUIRES: closed, no other face meets the inside of this one.
-int winding_in_front(const LeafGeometry& leaf, const BoxTree& tree, uint32_t face);
+/// boxes of the faces, rounded. REQUIRES: closed, no other face meets the inside of this one.
+int winding_in_front(const LeafGeometry& leaf, const PackedBoxes& tree, uint32_t face);
 
 }  // namespace csgrun

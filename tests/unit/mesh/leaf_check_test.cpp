@@ -130,12 +130,9 @@ LeafGeometry leaf_of(const std::vector<Polygon>& faces) {
   return leaf;
 }
 
-SurfaceCheck check(const std::vector<Polygon>& faces) {
-  const LeafGeometry leaf = leaf_of(faces);
-  return check_surface(leaf, EdgeTable(leaf));
-}
+SurfaceCheck check(const std::vector<Polygon>& faces) { return check_surface(leaf_of(faces)); }
 std::vector<std::array<uint32_t, 2>> crossings(const std::vector<Polygon>& faces) {
-  return check(faces).crossings;
+  return find_self_intersections(leaf_of(faces));
 }
 bool found(const std::vector<Polygon>& faces) { return !crossings(faces).empty(); }
 

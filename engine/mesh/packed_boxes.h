@@ -1,0 +1,147 @@
+// Boxes of floats in groups of eight, and the boxes of the groups in groups of eight, up to one
+// group: eight of them are held against a box at once.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace csgrun {
+
+/// Axis-aligned box, closed; bounds are finite. Rounding to float is monotone, so boxes that
+/// overlap still do when all their bounds are rounded.
+struct FloatBox {
+  std::array<float, 3> lo, hi;
+};
+
+class PackedBoxes {
+ public:
+  /// O(n). Boxes are ordered by their middles along a space-filling curve.
+  explicit PackedBoxes(std::span<const FloatBox> boxes);
+
+  /// The number of the box at each place in the order.
+  [[nodiscard]] const std::vector<uint32_t>& order() const { return order_; }
+
+  /// Calls `visit(place)` for every box that overlaps `box`, in their order.
+  template <class Visit>
+  void visit_all(const FloatBox& box, Visit visit) const {
+    if (levels_.empty()) return;
+    std::array<Step, kMostLevels * 8> stack;
+    size_t depth = 0;
+    stack[depth++] = {static_cast<uint32_t>(levels_.size()) - 1, 0};
+    while (depth > 0) {
+      const auto [level, group] = stack[--depth];
+      uint32_t hits = overlapping(levels_[level][group], box);
+      if (level == 0) {
+        for (; hits != 0; hits &= hits - 1) visit(8 * group + lowest(hits));
+        continue;
+      }
+      for (; hits != 0; hits ^= std::bit_floor(hits)) {
+        stack[depth++] = {level - 1, 8 * group + static_cast<uint32_t>(std::bit_width(hits)) - 1};
+      }
+    }
+  }
+
+  /// Two groups of a level, or one twice.
+  struct Task {
+    uint32_t level, first, second;
+  };
+  /// All pairs of boxes that overlap, as tasks, about `wanted` of them or more if there are many
+  /// boxes: a function of the boxes and of `wanted` only.
+  [[nodiscard]] std::vector<Task> pair_tasks(size_t wanted) const;
+  /// Calls `visit(place, other place)` for each pair of a task that overlaps. Over all tasks each
+  /// pair occurs once, the first place being the lower one. Thread-safe.
+  template <class Visit>
+  void visit_pairs(const Task& task, Visit visit) const {
+    std::vector<Task> stack{task};
+    while (!stack.empty()) {
+      const Task top = stack.back();
+      stack.pop_back();
+      if (top.level == 0) {
+        for_each_pair(top, visit);
+      } else {
+        for_each_pair(top, [&](uint32_t a, uint32_t b) { stack.push_back({top.level - 1, a, b}); });
+      }
+    }
+  }
+
+ private:
+  static constexpr size_t kMostLevels = 11;  // 8^11 > 2^32
+
+  struct Step {
+    uint32_t level, group;
+  };
+  /// Lanes that hold no box are inside out: they overlap nothing.
+  struct alignas(16) Group {
+    std::array<std::array<float, 8>, 3> lo, hi;
+  };
+
+  static uint32_t lowest(uint32_t bits) { return static_cast<uint32_t>(std::countr_zero(bits)); }
+
+  /// A bit for each of the eight that overlaps the box.
+  static uint32_t overlapping(const Group& group, const FloatBox& box) {
+#if defined(__SSE2__)
+    uint32_t bits = 0;
+    for (size_t half = 0; half < 8; half += 4) {
+      __m128 all = _mm_cmple_ps(_mm_load_ps(&group.lo[0][half]), _mm_set1_ps(box.hi[0]));
+      all = _mm_and_ps(all, _mm_cmpge_ps(_mm_load_ps(&group.hi[0][half]), _mm_set1_ps(box.lo[0])));
+      for (size_t k = 1; k < 3; ++k) {
+        all =
+            _mm_and_ps(all, _mm_cmple_ps(_mm_load_ps(&group.lo[k][half]), _mm_set1_ps(box.hi[k])));
+        all =
+            _mm_and_ps(all, _mm_cmpge_ps(_mm_load_ps(&group.hi[k][half]), _mm_set1_ps(box.lo[k])));
+      }
+      bits |= static_cast<uint32_t>(_mm_movemask_ps(all)) << half;
+    }
+    return bits;
+#else
+    uint32_t bits = 0;
+    for (size_t i = 0; i < 8; ++i) {
+      bool all = true;
+      for (size_t k = 0; k < 3; ++k) {
+        all = all & (group.lo[k][i] <= box.hi[k]) & (group.hi[k][i] >= box.lo[k]);
+      }
+      bits |= static_cast<uint32_t>(all) << i;
+    }
+    return bits;
+#endif
+  }
+
+  [[nodiscard]] FloatBox box_at(size_t level, size_t place) const {
+    const Group& group = levels_[level][place / 8];
+    const size_t i = place % 8;
+    return {{group.lo[0][i], group.lo[1][i], group.lo[2][i]},
+            {group.hi[0][i], group.hi[1][i], group.hi[2][i]}};
+  }
+
+  /// The pairs that overlap of two groups of a level, by their places there; above the lowest level
+  /// also each with itself.
+  template <class Visit>
+  void for_each_pair(const Task& task, Visit visit) const {
+    const auto& groups = levels_[task.level];
+    const Group& second = groups[task.second];
+    uint32_t rows = 0xff;
+    // Few of either group reach the other one.
+    if (task.first != task.second) {
+      rows = overlapping(groups[task.first], box_at(task.level + 1, task.second));
+    }
+    for (; rows != 0; rows &= rows - 1) {
+      const uint32_t row = lowest(rows), place = 8 * task.first + row;
+      uint32_t hits = overlapping(second, box_at(task.level, place));
+      if (task.first == task.second) hits &= 0xffu << (task.level == 0 ? row + 1 : row);
+      for (; hits != 0; hits &= hits - 1) visit(place, 8 * task.second + lowest(hits));
+    }
+  }
+
+  std::vector<uint32_t> order_;
+  std::vector<std::vector<Group>> levels_;  ///< the boxes first; the last has one group
+};
+
+}  // namespace csgrun

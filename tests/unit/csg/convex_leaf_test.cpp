@@ -1,0 +1,304 @@
+// The quick way to a leaf against the general one. Stretched by a power of two a mesh is too large
+// for the arithmetic of the quick way, so it goes the other one: through lists of loops, and with
+// every pair of near faces decided by signs. All but the coordinates must be the same.
+#include "engine/csg/convex_leaf.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "engine/csg/quantise.h"
+#include "engine/mesh/leaf_check.h"
+#include "test_meshes.h"
+
+namespace csgrun {
+namespace {
+
+using namespace testing;
+using Status = PreparedLeaf::Status;
+
+constexpr int64_t kStretch = int64_t{1} << 30;
+
+struct Tally {
+  size_t good = 0, tangled = 0, flat = 0, open = 0, crossings = 0, quick = 0, merged = 0;
+};
+
+std::vector<IVec3> stretched(std::vector<IVec3> points, int64_t by) {
+  for (IVec3& p : points) {
+    for (int64_t& x : p) x *= by;
+  }
+  return points;
+}
+
+void expect_same_both_ways(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
+                           Tally& tally) {
+  const std::vector<uint32_t> appearance(mesh.face_count(), 3);
+  const PreparedLeaf quick = prepare_leaf(mesh, points, turn, appearance);
+  const PreparedLeaf slow = prepare_leaf(mesh, stretched(points, kStretch), turn, appearance);
+  if (const auto taken = take_convex_faces(mesh, points, turn, appearance)) {
+    ++tally.quick;
+    tally.merged += taken->merged;
+  }
+  ASSERT_EQ(quick.status, slow.status);
+  EXPECT_EQ(quick.crossings, slow.crossings);
+  EXPECT_EQ(quick.connected, slow.connected);
+  tally.good += quick.status == Status::kGood;
+  tally.tangled += quick.status == Status::kTangled;
+  tally.flat += quick.status == Status::kFlat;
+  tally.open += quick.status == Status::kOpen;
+  tally.crossings += quick.crossings.size();
+  ASSERT_EQ(quick.geometry == nullptr, slow.geometry == nullptr);
+  if (!quick.geometry) return;
+  EXPECT_EQ(stretched({quick.box.lo, quick.box.hi}, kStretch),
+            (std::vector<IVec3>{slow.box.lo, slow.box.hi}));
+  const LeafGeometry &a = *quick.geometry, &b = *slow.geometry;
+  EXPECT_EQ(stretched(a.vertices, kStretch), b.vertices);
+  EXPECT_EQ(a.corners, b.corners);
+  EXPECT_EQ(a.face_starts, b.face_starts);
+  EXPECT_EQ(a.facet, b.facet);
+  EXPECT_EQ(a.surface, b.surface);
+  EXPECT_EQ(a.appearance, b.appearance);
+  EXPECT_EQ(a.opposite, b.opposite);
+  EXPECT_EQ(a.convex, b.convex);
+  EXPECT_EQ(a.may_touch, b.may_touch);
+}
+
+/// A mesh of triangles, not looked at, with points that are whole.
+struct WholeMesh {
+  PolygonMesh mesh;
+  std::vector<IVec3> points;
+};
+
+/// A ball of so many rings and sides whose points are moved by up to `noise`.
+WholeMesh ball(int rings, int sides, double radius, int noise, std::mt19937& random) {
+  WholeMesh result;
+  PolygonMesh& mesh = result.mesh;
+  const auto add = [&](double x, double y, double z) {
+    IVec3 p{std::lround(x), std::lround(y), std::lround(z)};
+    for (int64_t& c : p) {
+      if (noise > 0) c += static_cast<int64_t>(random() % (2 * noise + 1)) - noise;
+    }
+    result.points.push_back(p);
+  };
+  add(0, 0, radius);
+  for (int r = 1; r < rings; ++r) {
+    const double phi = 3.14159265358979 * r / rings;
+    for (int s = 0; s < sides; ++s) {
+      const double t = 2 * 3.14159265358979 * s / sides;
+      add(radius * std::sin(phi) * std::cos(t), radius * std::sin(phi) * std::sin(t),
+          radius * std::cos(phi));
+    }
+  }
+  add(0, 0, -radius);
+  const auto at = [&](int r, int s) {
+    return static_cast<uint32_t>(1 + (r - 1) * sides + s % sides);
+  };
+  const auto last = static_cast<uint32_t>(result.points.size() - 1);
+  for (int s = 0; s < sides; ++s) {
+    mesh.add_face(std::array<uint32_t, 3>{0, at(1, s), at(1, s + 1)});
+    mesh.add_face(std::array<uint32_t, 3>{last, at(rings - 1, s + 1), at(rings - 1, s)});
+    for (int r = 1; r + 1 < rings; ++r) {
+      mesh.add_face(std::array<uint32_t, 3>{at(r, s), at(r + 1, s), at(r + 1, s + 1)});
+      mesh.add_face(std::array<uint32_t, 3>{at(r, s), at(r + 1, s + 1), at(r, s + 1)});
+    }
+  }
+  mesh.points.resize(result.points.size());
+  return result;
+}
+
+WholeMesh both(const WholeMesh& a, const WholeMesh& b, const IVec3& by) {
+  WholeMesh result{in_one(a.mesh, b.mesh), a.points};
+  for (const IVec3& p : b.points) {
+    result.points.push_back({p[0] + by[0], p[1] + by[1], p[2] + by[2]});
+  }
+  return result;
+}
+
+/// The faces with such numbers only, and those with such turned over.
+template <class Keep, class Turn>
+WholeMesh changed(const WholeMesh& whole, Keep keep, Turn turn) {
+  WholeMesh result;
+  result.points = whole.points;
+  result.mesh.points = whole.mesh.points;
+  for (uint32_t f = 0; f < whole.mesh.face_count(); ++f) {
+    std::array<uint32_t, 3> t;
+    for (uint32_t i = 0; i < 3; ++i) t[i] = whole.mesh.corners[3 * f + i];
+    if (turn(f)) std::swap(t[0], t[1]);
+    if (keep(f)) result.mesh.add_face(t);
+  }
+  return result;
+}
+
+TEST(ConvexLeaf, BallsOfAllSizesAgreeWithTheGeneralWay) {
+  std::mt19937 random(5);
+  Tally tally;
+  for (int round = 0; round < 300; ++round) {
+    // From balls of a few steps, where edges and triangles collapse in all ways, to large ones;
+    // noise folds them and makes them cross themselves.
+    const double radius = std::exp2(static_cast<double>(random() % 90) / 10);
+    const int noise = random() % 3 == 0 ? 0 : static_cast<int>(random() % 3);
+    WholeMesh whole = ball(3 + static_cast<int>(random() % 8), 3 + static_cast<int>(random() % 12),
+                           radius, noise, random);
+    whole.mesh.keep_facets = random() % 2 != 0;
+    whole.mesh.convex = noise == 0 && random() % 2 != 0;
+    expect_same_both_ways(whole.mesh, whole.points, random() % 4 == 0, tally);
+    if (HasFailure()) FAIL() << "round " << round;
+  }
+  EXPECT_GT(tally.good, 40u);
+  EXPECT_GT(tally.tangled, 40u);
+  EXPECT_GT(tally.quick, 100u);
+  EXPECT_GT(tally.merged, 10u);
+  EXPECT_GT(tally.crossings, 1000u);
+}
+
+TEST(ConvexLeaf, PairsOfBallsAgreeWithTheGeneralWay) {
+  // Touching in vertices, edges and faces, crossing, one in the other, open, with a turned face.
+  std::mt19937 random(6);
+  Tally tally;
+  for (int round = 0; round < 300; ++round) {
+    const auto one = [&] {
+      return ball(2 + static_cast<int>(random() % 3), 4, 1.0 + static_cast<double>(random() % 9), 0,
+                  random);
+    };
+    const WholeMesh a = one(), b = random() % 3 == 0 ? a : one();
+    const auto shift = [&] { return static_cast<int64_t>(random() % 21) - 10; };
+    WholeMesh whole = both(a, b, {shift(), shift(), random() % 2 ? 0 : shift()});
+    const auto faces = static_cast<uint32_t>(whole.mesh.face_count());
+    const uint32_t left_out = random() % 6 == 0 ? random() % faces : faces;
+    const uint32_t turned = random() % 6 == 0 ? random() % faces : faces;
+    const bool invert_second = random() % 3 == 0;
+    const auto first_faces = static_cast<uint32_t>(a.mesh.face_count());
+    whole = changed(
+        whole, [&](uint32_t f) { return f != left_out; },
+        [&](uint32_t f) { return f == turned || (invert_second && f >= first_faces); });
+    expect_same_both_ways(whole.mesh, whole.points, false, tally);
+    if (HasFailure()) FAIL() << "round " << round;
+  }
+  EXPECT_GT(tally.good, 20u);
+  EXPECT_GT(tally.tangled, 50u);
+  EXPECT_GT(tally.open, 20u);
+  EXPECT_GT(tally.quick, 100u);
+}
+
+TEST(ConvexLeaf, ReversedCopiesGoAwayBothWays) {
+  // A surface and its reverse at one place: all that is left of the two encloses nothing.
+  std::mt19937 random(8);
+  Tally tally;
+  const WholeMesh a = ball(4, 6, 50, 0, random);
+  WholeMesh whole = both(a, a, {0, 0, 0});
+  const auto half = static_cast<uint32_t>(a.mesh.face_count());
+  whole = changed(
+      whole, [](uint32_t) { return true; }, [&](uint32_t f) { return f >= half; });
+  expect_same_both_ways(whole.mesh, whole.points, false, tally);
+  EXPECT_EQ(tally.flat, 1u);
+  // A triangle and its reverse beside a ball, of points of their own: the pair goes.
+  whole = a;
+  const auto first = static_cast<uint32_t>(whole.points.size());
+  whole.points.insert(whole.points.end(), {{90, 0, 0}, {99, 0, 0}, {90, 9, 0}});
+  whole.points.insert(whole.points.end(), {{90, 0, 0}, {99, 0, 0}, {90, 9, 0}});
+  whole.mesh.points.resize(whole.points.size());
+  whole.mesh.add_face(std::array<uint32_t, 3>{first, first + 1, first + 2});
+  whole.mesh.add_face(std::array<uint32_t, 3>{first + 4, first + 3, first + 5});
+  expect_same_both_ways(whole.mesh, whole.points, false, tally);
+  EXPECT_EQ(tally.good, 1u);
+  // Of the same points they were meant: a crossing.
+  uint32_t* const back = &whole.mesh.corners[whole.mesh.corners.size() - 3];
+  for (const uint32_t i : {0u, 1u, 2u}) back[i] -= 3;
+  expect_same_both_ways(whole.mesh, whole.points, false, tally);
+  EXPECT_EQ(tally.tangled, 1u);
+}
+
+TEST(ConvexLeaf, PolygonsAgreeWithTheGeneralWay) {
+  // Prisms over regular polygons on coarse grids: caps that stay planar, sides that bend.
+  std::mt19937 random(11);
+  Tally tally;
+  for (int round = 0; round < 200; ++round) {
+    const int sides = 3 + static_cast<int>(random() % 30);
+    const NodePtr node = prism(sides, std::exp2(static_cast<double>(random() % 120) / 10),
+                               1 + static_cast<double>(random() % 100));
+    PolygonMesh mesh = *node->mesh();
+    mesh.convex = random() % 2 != 0;
+    std::vector<IVec3> points;
+    const bool slanted = random() % 2 != 0;
+    for (const glm::dvec3& p : mesh.points) {
+      points.push_back({std::lround(p.x), std::lround(p.y),
+                        std::lround(p.z) + (slanted ? std::lround(p.x) : 0)});
+    }
+    expect_same_both_ways(mesh, points, random() % 4 == 0, tally);
+    if (HasFailure()) FAIL() << "round " << round;
+  }
+  EXPECT_GT(tally.good, 100u);
+  EXPECT_GT(tally.quick, 50u);
+}
+
+/// A double cone over a ring of points at such angles, in degrees, each less than half a turn from
+/// the one before.
+WholeMesh double_cone(const std::vector<int>& degrees, int64_t height, int axis) {
+  WholeMesh whole;
+  whole.points = {{0, 0, height}, {0, 0, -1000}};
+  const auto sides = static_cast<uint32_t>(degrees.size());
+  for (uint32_t s = 0; s < sides; ++s) {
+    const double t = 3.14159265358979 * degrees[s] / 180;
+    whole.points.push_back({std::lround(100 * std::cos(t)), std::lround(100 * std::sin(t)), s});
+    const uint32_t a = 2 + s, b = 2 + (s + 1) % sides;
+    whole.mesh.add_face(std::array<uint32_t, 3>{0, a, b});
+    whole.mesh.add_face(std::array<uint32_t, 3>{1, b, a});
+  }
+  for (IVec3& p : whole.points) p = {p[axis % 3], p[(axis + 1) % 3], p[(axis + 2) % 3]};
+  whole.mesh.points.resize(whole.points.size());
+  return whole;
+}
+
+TEST(ConvexLeaf, ManyTrianglesAtAVertex) {
+  // Around the axis once, twice, and twice with every other turn through the coordinate axes.
+  const std::vector<int> once{0, 90, 180, 270}, evenly{0, 51, 103, 154, 206, 257, 309},
+      twice{0, 60, 120, 180, 240, 300, 370, 430, 490, 550, 610, 670},
+      mixed{0, 90, 180, 270, 405, 495, 585, 675}, mixed_back{45, 135, 225, 315, 450, 540, 630, 720};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int64_t height : {0, 20, -20, 300}) {
+      for (const auto* ring : {&once, &evenly, &twice, &mixed, &mixed_back}) {
+        Tally tally;
+        const WholeMesh whole = double_cone(*ring, height, axis);
+        expect_same_both_ways(whole.mesh, whole.points, false, tally);
+        EXPECT_EQ(tally.tangled, ring->back() > 360 ? 1u : 0u) << ring->back() << ", " << height;
+      }
+    }
+  }
+}
+
+TEST(ConvexLeaf, SpreadVerticesHideNoCrossing) {
+  // With the reverse of the surface added every directed edge is balanced, whatever the mesh: what
+  // vertices are taken for spread then, and all crossings must be there as without that knowledge.
+  std::mt19937 random(12);
+  size_t crossings = 0;
+  for (int round = 0; round < 100; ++round) {
+    const WholeMesh whole =
+        ball(3 + static_cast<int>(random() % 4), 4 + static_cast<int>(random() % 5), 20,
+             static_cast<int>(random() % 8), random);
+    const std::vector<uint32_t> appearance(whole.mesh.face_count(), 0);
+    const PreparedLeaf leaf = prepare_leaf(whole.mesh, whole.points, false, appearance);
+    if (!leaf.geometry) continue;
+    EXPECT_EQ(check_surface(*leaf.geometry).crossings, find_self_intersections(*leaf.geometry));
+    LeafGeometry twice = *leaf.geometry;
+    twice.opposite.clear();
+    const size_t faces = twice.face_count();
+    for (size_t f = 0; f < faces; ++f) {
+      for (uint32_t c = twice.face_starts[f + 1]; c-- > twice.face_starts[f];) {
+        twice.corners.push_back(twice.corners[c]);
+      }
+      twice.face_starts.push_back(static_cast<uint32_t>(twice.corners.size()));
+    }
+    const auto found = check_surface(twice).crossings;
+    EXPECT_EQ(found, find_self_intersections(twice));
+    EXPECT_GE(found.size(), faces);
+    crossings += found.size();
+  }
+  EXPECT_GT(crossings, 4000u);
+}
+
+}  // namespace
+}  // namespace csgrun
