@@ -22,7 +22,8 @@ class Assembler {
 
   Result<std::shared_ptr<const BoundaryMesh>> run(const std::vector<FragmentSet>& sets,
                                                   const std::vector<WholePolygon>& whole,
-                                                  bool may_touch) {
+                                                  bool may_touch,
+                                                  std::vector<UntouchedPart> parts) {
     gather(sets, whole);
     std::sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
       return std::tie(a.plane, a.label, a.polygon, a.first) <
@@ -42,9 +43,14 @@ class Assembler {
       }
       i = j;
     }
-    auto mesh =
-        std::make_shared<BoundaryMesh>(canonical(geometry_, job_.planes(), std::move(draft_)));
+    std::vector<uint32_t> number;
+    auto mesh = std::make_shared<BoundaryMesh>(
+        canonical(geometry_, job_.planes(), std::move(draft_), &number));
     mesh->may_touch = may_touch;
+    for (UntouchedPart& part : parts) {
+      for (UntouchedPart::Shared& s : part.shared) s.point = number[vertex_number_[s.point]];
+    }
+    mesh->parts = std::move(parts);
     return std::shared_ptr<const BoundaryMesh>(std::move(mesh));
   }
 
@@ -228,8 +234,9 @@ class Assembler {
 
 Result<std::shared_ptr<const BoundaryMesh>> assemble(Job& job, const std::vector<FragmentSet>& sets,
                                                      const std::vector<WholePolygon>& whole,
-                                                     bool may_touch) {
-  return Assembler(job).run(sets, whole, may_touch);
+                                                     bool may_touch,
+                                                     std::vector<UntouchedPart> parts) {
+  return Assembler(job).run(sets, whole, may_touch, std::move(parts));
 }
 
 }  // namespace csgrun

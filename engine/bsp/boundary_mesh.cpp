@@ -1,5 +1,8 @@
 #include "engine/bsp/boundary_mesh.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace csgrun {
 
 Plane translate_plane(const Plane& p, const IVec3& t) {
@@ -12,7 +15,72 @@ BoundaryMesh translated(const BoundaryMesh& mesh, const IVec3& t) {
   for (uint32_t p = 0; p < moved.point_planes.size(); ++p) {
     moved.point_rounded[p] = rounded(moved.exact_point(p));
   }
+  for (UntouchedPart& part : moved.parts) {
+    for (int k = 0; k < 3; ++k) part.translation[k] += t[k];
+  }
   return moved;
+}
+
+bool is_empty(const BoundaryMesh& b) { return b.faces.empty() && b.parts.empty(); }
+
+size_t memory_bytes(const BoundaryMesh& b) {
+  size_t bytes =
+      sizeof b + b.planes.size() * sizeof(Plane) +
+      b.point_planes.size() * (sizeof(std::array<uint32_t, 3>) + sizeof(std::array<double, 3>)) +
+      b.faces.size() * sizeof(BoundaryMesh::Face) + b.loop_starts.size() * sizeof(uint32_t) +
+      b.corners.size() * sizeof(BoundaryMesh::Corner);
+  for (const UntouchedPart& part : b.parts) {
+    bytes += sizeof part + part.faces.size() * sizeof(uint32_t) +
+             part.shared.size() * sizeof(UntouchedPart::Shared);
+  }
+  return bytes;
+}
+
+GridBox bounding_box(const BoundaryMesh& b) {
+  GridBox box;
+  if (is_empty(b)) return box;
+  box.lo = {INT64_MAX, INT64_MAX, INT64_MAX};
+  box.hi = {INT64_MIN, INT64_MIN, INT64_MIN};
+  const auto include = [&box](int k, int64_t lo, int64_t hi) {
+    box.lo[k] = std::min(box.lo[k], lo);
+    box.hi[k] = std::max(box.hi[k], hi);
+  };
+  for (const auto& p : b.point_rounded) {
+    for (int k = 0; k < 3; ++k) {
+      // The true coordinate is within half a unit in the last place of the rounded one.
+      const bool whole = p[k] == std::floor(p[k]);
+      const double lo = whole ? p[k] - 1 : std::floor(p[k]),
+                   hi = whole ? p[k] + 1 : std::ceil(p[k]);
+      include(k, static_cast<int64_t>(lo), static_cast<int64_t>(hi));
+    }
+  }
+  for (const UntouchedPart& part : b.parts) {
+    for (const uint32_t f : part.faces) {
+      for (const uint32_t v : part.triangle(f)) {
+        const IVec3 p = part.vertex(v);
+        for (int k = 0; k < 3; ++k) include(k, p[k] - 1, p[k] + 1);
+      }
+    }
+  }
+  return box;
+}
+
+std::optional<uint32_t> only_appearance(const BoundaryMesh& b) {
+  std::optional<uint32_t> only;
+  bool several = false;
+  const auto see = [&](uint32_t appearance) {
+    if (!only) only = appearance;
+    several = several || *only != appearance;
+  };
+  for (const BoundaryMesh::Face& f : b.faces) see(f.label.appearance);
+  for (const UntouchedPart& part : b.parts) {
+    if (part.appearance) {
+      see(*part.appearance);
+    } else {
+      for (const uint32_t f : part.faces) see(part.leaf->appearance[f]);
+    }
+  }
+  return several ? std::nullopt : only;
 }
 
 }  // namespace csgrun

@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/bsp/operand.h"
@@ -22,6 +24,36 @@ struct FaceLabel {
   uint32_t source = 0, facet = 0, surface = 0, appearance = 0;
   bool operator==(const FaceLabel&) const = default;
   auto operator<=>(const FaceLabel&) const = default;
+};
+
+/// Triangles of one leaf that nothing touched (see bsp/untouched), by reference.
+struct UntouchedPart {
+  /// A corner that other faces of the boundary have, too: a vertex of the leaf and the point.
+  struct Shared {
+    uint32_t vertex, point;
+  };
+
+  std::shared_ptr<const LeafGeometry> leaf;
+  IVec3 translation{0, 0, 0};
+  uint32_t source = 0;
+  std::optional<uint32_t> appearance;  ///< overrides that of every face
+  bool flipped = false;
+  std::vector<uint32_t> faces;  ///< of the leaf, ascending
+  std::vector<Shared> shared;   ///< by vertex
+
+  [[nodiscard]] IVec3 vertex(uint32_t v) const {
+    const IVec3& p = leaf->vertices[v];
+    return {p[0] + translation[0], p[1] + translation[1], p[2] + translation[2]};
+  }
+  /// The corners of a face of the leaf, counter-clockwise from outside of the result.
+  [[nodiscard]] std::array<uint32_t, 3> triangle(uint32_t face) const {
+    const uint32_t* c = leaf->corners.data() + leaf->face_starts[face];
+    return flipped ? std::array{c[2], c[1], c[0]} : std::array{c[0], c[1], c[2]};
+  }
+  [[nodiscard]] FaceLabel label(uint32_t face) const {
+    return {source, leaf->facet[face], leaf->surface[face],
+            appearance.value_or(leaf->appearance[face])};
+  }
 };
 
 struct BoundaryMesh {
@@ -52,6 +84,8 @@ struct BoundaryMesh {
   std::vector<Face> faces;
   std::vector<uint32_t> loop_starts{0};
   std::vector<Corner> corners;
+  /// More faces. All points, faces and corners above are those of the others only.
+  std::vector<UntouchedPart> parts;
 
   [[nodiscard]] Point exact_point(uint32_t p) const {
     const auto& t = point_planes[p];
@@ -64,5 +98,13 @@ Plane translate_plane(const Plane& plane, const IVec3& t);
 
 /// The boundary moved by `t` grid steps: what a job with this operand alone would make of it. O(n).
 BoundaryMesh translated(const BoundaryMesh& mesh, const IVec3& t);
+
+bool is_empty(const BoundaryMesh& mesh);
+/// Bytes held by a boundary, for the cache's bound.
+size_t memory_bytes(const BoundaryMesh& mesh);
+/// Bounding box in grid steps, rounded outwards; empty for an empty boundary.
+GridBox bounding_box(const BoundaryMesh& mesh);
+/// The appearance that all faces have; nothing when they differ or there are none.
+std::optional<uint32_t> only_appearance(const BoundaryMesh& mesh);
 
 }  // namespace csgrun

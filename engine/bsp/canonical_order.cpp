@@ -18,7 +18,8 @@ std::vector<uint32_t> used_points(const DraftBoundary& draft) {
 
 }  // namespace
 
-BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBoundary draft) {
+BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBoundary draft,
+                       std::vector<uint32_t>* number_of_point) {
   BoundaryMesh mesh;
   std::vector<uint32_t> points = used_points(draft);
   std::sort(points.begin(), points.end(), [&](uint32_t p, uint32_t q) {
@@ -110,6 +111,7 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
     }
     mesh.faces.push_back(out);
   }
+  if (number_of_point != nullptr) *number_of_point = std::move(number);
   return mesh;
 }
 

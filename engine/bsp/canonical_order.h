@@ -21,7 +21,9 @@ struct DraftBoundary {
   std::vector<Face> faces;
 };
 
-/// The same faces with numbers of their own, in canonical order. O(n log n).
-BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBoundary draft);
+/// The same faces with numbers of their own, in canonical order; `number`, if it is given, tells
+/// those of the geometry's points (kNone: of no face). O(n log n).
+BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBoundary draft,
+                       std::vector<uint32_t>* number = nullptr);
 
 }  // namespace csgrun

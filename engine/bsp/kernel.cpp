@@ -1,13 +1,13 @@
 #include "engine/bsp/kernel.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/cell_solver.h"
 #include "engine/bsp/literal_cell.h"
 #include "engine/bsp/octree.h"
 #include "engine/bsp/parallel_runs.h"
+#include "engine/bsp/untouched.h"
 
 namespace csgrun {
 namespace {
@@ -62,7 +62,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     return options.cancel && options.cancel->load(std::memory_order_relaxed);
   };
   if (cancelled()) return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
-  const Work work = prepare(job, tree);
+  Work work = prepare(job, tree);
 
   const size_t critical_runs = run_count(tree.critical.size());
   const size_t copy_runs = run_count(work.cut_copies.size());
@@ -118,34 +118,9 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
                                        return o.leaf ? o.leaf->may_touch : o.boundary->may_touch;
                                      }) ||
                          std::find(touches.begin(), touches.end(), 1) != touches.end();
-  return assemble(job, sets, work.whole, may_touch);
+  std::vector<UntouchedPart> parts;
+  if (options.name_untouched) parts = take_untouched(job, operands, work.whole);
+  return assemble(job, sets, work.whole, may_touch, std::move(parts));
 }
-
-size_t memory_bytes(const BoundaryMesh& b) {
-  return sizeof b + b.planes.size() * sizeof(Plane) +
-         b.point_planes.size() * (sizeof(std::array<uint32_t, 3>) + sizeof(std::array<double, 3>)) +
-         b.faces.size() * sizeof(BoundaryMesh::Face) + b.loop_starts.size() * sizeof(uint32_t) +
-         b.corners.size() * sizeof(BoundaryMesh::Corner);
-}
-
-GridBox bounding_box(const BoundaryMesh& b) {
-  GridBox box;
-  if (b.point_rounded.empty()) return box;
-  box.lo = {INT64_MAX, INT64_MAX, INT64_MAX};
-  box.hi = {INT64_MIN, INT64_MIN, INT64_MIN};
-  for (const auto& p : b.point_rounded) {
-    for (int k = 0; k < 3; ++k) {
-      // The true coordinate is within half a unit in the last place of the rounded one.
-      const bool whole = p[k] == std::floor(p[k]);
-      const double lo = whole ? p[k] - 1 : std::floor(p[k]),
-                   hi = whole ? p[k] + 1 : std::ceil(p[k]);
-      box.lo[k] = std::min(box.lo[k], static_cast<int64_t>(lo));
-      box.hi[k] = std::max(box.hi[k], static_cast<int64_t>(hi));
-    }
-  }
-  return box;
-}
-
-bool is_empty(const BoundaryMesh& b) { return b.faces.empty(); }
 
 }  // namespace csgrun

@@ -7,6 +7,7 @@
 
 #include <csgrun/engine/evaluate.h>
 
+#include "engine/bsp/boundary_mesh.h"
 #include "engine/bsp/operand.h"
 
 namespace csgrun {
@@ -14,17 +15,13 @@ namespace csgrun {
 /// Evaluates `expression` over `operands` inside `region` (grid steps, world), which must contain
 /// the whole result; operands may reach beyond it. The value is canonical: a function of the
 /// geometry, the labels and the expression only (docs/decisions/0002-canonical-form.md). `stats` is
-/// added to. Errors: kCancelled, kOutOfRange, kInternal.
+/// added to. Boundaries of operands have
+/// no parts (see expanded); the result has some if the options ask for it. Errors: kCancelled,
+/// kOutOfRange, kInternal.
 Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<Operand>& operands,
                                                              const Expression& expression,
                                                              const GridBox& region,
                                                              const KernelOptions& options,
                                                              EvaluateStats& stats);
-
-/// Bytes held by a boundary, for the cache's bound.
-size_t memory_bytes(const BoundaryMesh& boundary);
-/// Bounding box in grid steps, rounded outwards; empty for an empty boundary.
-GridBox bounding_box(const BoundaryMesh& boundary);
-bool is_empty(const BoundaryMesh& boundary);
 
 }  // namespace csgrun

@@ -10,6 +10,7 @@
 
 #include <csgrun/engine/evaluate.h>
 
+#include "engine/bsp/untouched.h"
 #include "engine/csg/locate.h"
 #include "engine/csg/result_cache.h"
 #include "engine/csg/scene.h"
@@ -224,8 +225,9 @@ Result<int> Evaluator::Impl::contains(const NodePtr& root, const glm::dvec3& poi
   if (Status status = jobs.run(scene->roots); !status) return status.error();
   auto boundary = jobs.world_boundary(scene->roots[0]);
   if (!boundary) return boundary.error();
-  worlds.put(key, *boundary, memory_bytes(**boundary));
-  return locate(**boundary, p);
+  const BoundaryPtr world = expanded(*boundary);
+  worlds.put(key, world, memory_bytes(*world));
+  return locate(*world, p);
 }
 
 Evaluator::Evaluator(EvaluateOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}

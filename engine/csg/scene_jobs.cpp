@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/bsp/untouched.h"
+
 namespace csgrun {
 namespace {
 
@@ -11,20 +13,14 @@ namespace {
 /// painting.
 BoundaryPtr moved_and_painted(const Operand& operand) {
   if (!operand.boundary || !operand.frame.is_identity || operand.first_source != 0) return nullptr;
-  const auto& faces = operand.boundary->faces;
-  const bool is_painted =
-      operand.appearance && std::any_of(faces.begin(), faces.end(), [&](const auto& face) {
-        return face.label.appearance != *operand.appearance;
-      });
+  const std::optional<uint32_t> only = only_appearance(*operand.boundary);
+  const bool is_painted = operand.appearance && only != operand.appearance;
   if (!is_painted && operand.translation == IVec3{0, 0, 0}) return operand.boundary;
-  if (is_painted && std::any_of(faces.begin(), faces.end(), [&](const auto& face) {
-        return face.label.appearance != faces[0].label.appearance;
-      })) {
-    return nullptr;
-  }
+  if (is_painted && !only) return nullptr;
   auto moved = std::make_shared<BoundaryMesh>(translated(*operand.boundary, operand.translation));
   if (is_painted) {
     for (auto& face : moved->faces) face.label.appearance = *operand.appearance;
+    for (UntouchedPart& part : moved->parts) part.appearance = operand.appearance;
   }
   return moved;
 }
@@ -214,6 +210,7 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
 
 Result<BoundaryPtr> SceneJobs::run_job(const Parts& parts, const GridBox& region) {
   KernelOptions options = kernel_options(options_, threads_);
+  options.name_untouched = true;
   if (options_.progress) {
     // Each job is a thousand units of work, as their sizes are not known beforehand.
     options.progress = [this](uint64_t done, uint64_t total) {
@@ -286,7 +283,7 @@ Operand SceneJobs::place_leaf(const SceneNode& node, uint32_t job_frame) const {
 /// The stored axes x and the subtree's axes y are both images of the reference: x = P1 r + o1,
 /// y = P2 r + o2. So Q y = x + t with Q = P1 P2^-1 and t = Q o2 - o1.
 Operand SceneJobs::place(const Subtree& subtree, uint32_t job_frame) {
-  const StoredBoundary& stored = use(subtree.id.key);
+  const StoredBoundary& stored = expand(subtree.id.key, use(subtree.id.key));
   const SignedPermutation turn =
       SignedPermutation::compose(stored.id.permutation, subtree.id.permutation.inverse());
   const IVec3 turned = turn.apply(subtree.id.origin);
@@ -308,6 +305,15 @@ const StoredBoundary& SceneJobs::use(const Key& key) {
   if (!found->second.is_fresh) ++stats_.nodes_from_memory;
   found->second.is_fresh = false;
   return found->second.stored;
+}
+
+/// Operands of jobs have all their faces spelled out.
+const StoredBoundary& SceneJobs::expand(const Key& key, const StoredBoundary& stored) {
+  if (stored.boundary->parts.empty()) return stored;
+  StoredBoundary& kept = results_.at(key).stored;
+  kept.boundary = expanded(kept.boundary);
+  cache_.put(key, kept, memory_bytes(*kept.boundary));
+  return kept;
 }
 
 /// Starts on the first `count` operands of a node, from the longest prefix that is known.

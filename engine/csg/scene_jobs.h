@@ -68,6 +68,7 @@ class SceneJobs {
   Operand place(const Subtree& subtree, uint32_t job_frame);
   [[nodiscard]] Operand place_leaf(const SceneNode& node, uint32_t job_frame) const;
   const StoredBoundary& use(const Key& key);
+  const StoredBoundary& expand(const Key& key, const StoredBoundary& stored);
 
   const Scene& scene_;
   ResultCache<StoredBoundary>& cache_;

@@ -16,8 +16,22 @@ Result<double> boundary_volume(const BoundaryMesh& b, const GridStep& step) {
       fans.push_back({b.corners[first].point, b.corners[c].point, b.corners[c + 1].point});
     }
   }
-  auto mass = measure_mesh(
-      b.point_planes.size(), [&](uint32_t p) { return b.exact_point(p); }, fans, step);
+  const auto explicit_points = static_cast<uint32_t>(b.point_planes.size());
+  std::vector<IVec3> more;
+  for (const UntouchedPart& part : b.parts) {
+    const auto first = static_cast<uint32_t>(explicit_points + more.size());
+    for (uint32_t v = 0; v < part.leaf->vertices.size(); ++v) more.push_back(part.vertex(v));
+    for (const uint32_t f : part.faces) {
+      const auto t = part.triangle(f);
+      fans.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+  }
+  const auto point = [&](uint32_t p) {
+    if (p < explicit_points) return b.exact_point(p);
+    const IVec3& q = more[p - explicit_points];
+    return grid_point(q[0], q[1], q[2]);
+  };
+  auto mass = measure_mesh(explicit_points + more.size(), point, fans, step);
   if (!mass) return mass.error();
   return mass->volume;
 }

@@ -1,11 +1,13 @@
 #include "engine/mesh/present.h"
 
 #include <algorithm>
-#include <cassert>
-#include <cmath>
+#include <cstdlib>
+#include <functional>
 #include <numeric>
+#include <optional>
 
-#include "engine/exact/rounding.h"
+#include "engine/base/sort_few.h"
+#include "engine/bsp/grid_planes.h"
 #include "engine/mesh/canonical_hash.h"
 #include "engine/mesh/conform.h"
 #include "engine/mesh/cut_contacts.h"
@@ -15,10 +17,11 @@
 #include "engine/mesh/measure.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/plane_oracle.h"
-#include "engine/mesh/rational_text.h"
 #include "engine/mesh/self_contact.h"
 #include "engine/mesh/stitch.h"
+#include "engine/mesh/to_millimetres.h"
 #include "engine/mesh/triangulate.h"
+#include "engine/mesh/whole_order.h"
 
 namespace csgrun {
 namespace {
@@ -28,37 +31,6 @@ Error not_closed(const char* where) {
           std::string("the boundary of a result is not closed (") + where + ")",
           {}};
 }
-
-/// Millimetres from grid coordinates: coordinate * numerator / denominator * 2^exponent.
-class ToMillimetres {
- public:
-  explicit ToMillimetres(const GridStep& step) : step_(step) {}
-
-  void position(const Point& p, glm::dvec3& mm, std::array<float, 3>& single) const {
-    using Q = Int<kQuotientLimbs>;
-    static_assert(widths::kMaxPointXyz + 63 < 64 * kQuotientLimbs);
-    const Q denominator = multiply<kQuotientLimbs>(p.w, Int<1>(step_.denominator));
-    const Int<kPointLimbs>* coordinate[3] = {&p.x, &p.y, &p.z};
-    for (int k = 0; k < 3; ++k) {
-      const Q numerator = multiply<kQuotientLimbs>(*coordinate[k], Int<1>(step_.numerator));
-      mm[k] = round_to_double(numerator, denominator, step_.exponent);
-      single[k] = round_to_float(numerator, denominator, step_.exponent);
-    }
-  }
-
-  [[nodiscard]] std::array<std::string, 3> text(const Point& p) const {
-    const Natural denominator = multiply(natural(p.w), natural(Int<1>(step_.denominator)));
-    const Natural numerator = natural(Int<1>(step_.numerator));
-    const auto of = [&](const Int<kPointLimbs>& coordinate) {
-      return rational_text(multiply(signed_value(coordinate), numerator), denominator,
-                           step_.exponent);
-    };
-    return {of(p.x), of(p.y), of(p.z)};
-  }
-
- private:
-  GridStep step_;
-};
 
 /// Connected surfaces and the sum of their genera, from V - E + F = 2 (components - genus).
 void count_topology(Solid& solid) {
@@ -81,6 +53,39 @@ void count_topology(Solid& solid) {
   solid.measures.genus = components - euler / 2;
 }
 
+/// 2^64-fold precision is not needed here: coordinates below 2^30 make normals below 2^63.
+constexpr int64_t kNearGrid = int64_t{1} << 30;
+
+/// The outward normal of a triangle as PlaneTable::approximate tells that of its plane.
+glm::dvec3 normal_of(const IVec3& p, const IVec3& q, const IVec3& r) {
+  const auto rounded = [](const auto& n, const auto& divisor) {
+    // Stored planes have their first component positive; minus nothing is what the rest leave.
+    const bool flipped = n[0] != 0 ? n[0] < 0 : n[1] != 0 ? n[1] < 0 : n[2] < 0;
+    glm::dvec3 normal;
+    for (int k = 0; k < 3; ++k) {
+      const auto stored = static_cast<double>((flipped ? -n[k] : n[k]) / divisor);
+      normal[k] = flipped ? -stored : stored;
+    }
+    return normal;
+  };
+  const auto is_near = [](const IVec3& v) {
+    return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}) < kNearGrid;
+  };
+  if (is_near(p) && is_near(q) && is_near(r)) {
+    const int64_t ux = q[0] - p[0], uy = q[1] - p[1], uz = q[2] - p[2];
+    const int64_t vx = r[0] - p[0], vy = r[1] - p[1], vz = r[2] - p[2];
+    const std::array<int64_t, 3> n{uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
+    int64_t divisor = std::gcd(n[0], n[1]);
+    if (divisor != 1) divisor = std::gcd(divisor, n[2]);
+    return rounded(n, divisor);
+  }
+  PlaneTable table;
+  const PlaneId plane = table.intern(plane_through(p, q, r));
+  const auto& n = table.approximate(plane.index());
+  const glm::dvec3 normal(n[0], n[1], n[2]);
+  return plane.flipped() ? -normal : normal;
+}
+
 class Presenter {
  public:
   Presenter(const BoundaryMesh& boundary, const PresentContext& context)
@@ -95,15 +100,21 @@ class Presenter {
       geometry_.add_point({plane_of[t[0]].index(), plane_of[t[1]].index(), plane_of[t[2]].index()},
                           boundary_.point_rounded[p]);
     }
+    const WholeOrder& whole = whole_.emplace(boundary_, geometry_);
     if (!merge_faces(boundary_, geometry_, planes_, plane_of, faces_)) return not_closed("faces");
+    std::vector<LowestEdge> lowest = lowest_edges();
     break_at_own_corners(faces_, geometry_);
-    if (!resolve_t_junctions(faces_, geometry_, planes_)) return not_closed("edges");
+    if (!resolve_t_junctions(faces_, geometry_, planes_, whole)) return not_closed("edges");
     if (cut_at_contacts(faces_, geometry_, planes_)) {
+      lowest = lowest_edges();
       break_at_own_corners(faces_, geometry_);
-      if (!resolve_t_junctions(faces_, geometry_, planes_)) return not_closed("cut edges");
+      if (!resolve_t_junctions(faces_, geometry_, planes_, whole)) return not_closed("cut edges");
     }
+    whole_->order_faces(lowest);
     auto solid = std::make_shared<Solid>();
-    if (context_.measure) solid->canonical_hash = canonical_hash(faces_, geometry_, context_);
+    if (context_.measure) {
+      solid->canonical_hash = canonical_hash(faces_, whole, boundary_, geometry_, context_);
+    }
     if (boundary_.may_touch) conform_contacts(faces_, geometry_, planes_);
     if (auto status = triangulate_all(); !status) return status.error();
     if (auto status = make_vertices(); !status) return status.error();
@@ -115,17 +126,25 @@ class Presenter {
   }
 
  private:
+  /// By which the faces are sorted now.
+  [[nodiscard]] std::vector<LowestEdge> lowest_edges() const {
+    std::vector<LowestEdge> lowest;
+    lowest.reserve(faces_.size());
+    for (const MergedFace& f : faces_) lowest.push_back({f.loops[0][0].from, f.loops[0][0].to});
+    return lowest;
+  }
+
   Status make_vertices() {
     const Contacts contacts = context_.join_contacts ? Contacts::kJoin : Contacts::kSeparate;
     // Solids that are joined along an edge have it twice, mostly between the same two vertices:
     // with points in the middle the two are apart.
     std::vector<std::array<uint32_t, 2>> doubled;
     while (context_.join_contacts) {
-      if (!split_fans(set_, faces_, geometry_, planes_, contacts, fans_, &doubled)) break;
+      if (!split_fans(set_, faces_, geometry_, planes_, *whole_, contacts, fans_, &doubled)) break;
       if (doubled.empty() || !divide_edges(faces_, geometry_, planes_, doubled)) break;
       if (auto status = triangulate_all(); !status) return status.error();
     }
-    if (!split_fans(set_, faces_, geometry_, planes_, contacts, fans_))
+    if (!split_fans(set_, faces_, geometry_, planes_, *whole_, contacts, fans_))
       return not_closed("vertices");
     return std::monostate();
   }
@@ -164,42 +183,150 @@ class Presenter {
   }
 
   void fill(Solid& solid) {
-    const ToMillimetres to_mm(context_.step);
-    solid.positions.resize(fans_.point_of_vertex.size());
-    solid.positions_f32.resize(fans_.point_of_vertex.size());
-    solid.point_of = fans_.point_of_vertex;
-    for (size_t v = 0; v < solid.positions.size(); ++v) {
-      const uint32_t p = fans_.point_of_vertex[v];
-      if (v > 0 && fans_.point_of_vertex[v - 1] == p) {
-        solid.positions[v] = solid.positions[v - 1];
-        solid.positions_f32[v] = solid.positions_f32[v - 1];
-      } else {
-        to_mm.position(geometry_.exact(p), solid.positions[v], solid.positions_f32[v]);
-      }
-    }
-    for (size_t t = 0; t < set_.triangles.size(); ++t) {
-      solid.triangles.push_back({fans_.vertex_of_corner[3 * t], fans_.vertex_of_corner[3 * t + 1],
-                                 fans_.vertex_of_corner[3 * t + 2]});
-    }
-    solid.triangle_face = set_.face;
+    fill_vertices(solid);
     fill_faces(solid);
-    if (context_.exact_points) {
-      solid.exact_points.resize(geometry_.point_count());
-      for (const uint32_t p : solid.point_of) {
-        if (solid.exact_points[p][0].empty())
-          solid.exact_points[p] = to_mm.text(geometry_.exact(p));
-      }
-    }
     solid.appearances = context_.appearances;
     solid.sources = context_.sources;
+  }
+
+  /// Vertices in the order of points, several of one point in the order of their triangles.
+  void fill_vertices(Solid& solid) {
+    const std::vector<WholeOrder::Place>& points = whole_->points();
+    const std::vector<uint32_t>& point_of_own = fans_.point_of_vertex;
+    const size_t most = point_of_own.size() + points.size();
+    solid.positions.reserve(most);
+    solid.positions_f32.reserve(most);
+    solid.point_of.reserve(most);
+    first_vertex_.resize(points.size());
+    number_of_own_.resize(point_of_own.size());
+    const ToMillimetres to_mm(context_.step);
+    size_t own = 0;
+    // All explicit vertices of the point that comes next.
+    const auto add_own = [&](uint32_t number) {
+      const uint32_t p = point_of_own[own];
+      glm::dvec3 mm;
+      std::array<float, 3> single;
+      to_mm.position(geometry_.exact(p), mm, single);
+      for (; own < point_of_own.size() && point_of_own[own] == p; ++own) {
+        number_of_own_[own] = static_cast<uint32_t>(solid.positions.size());
+        solid.positions.push_back(mm);
+        solid.positions_f32.push_back(single);
+        solid.point_of.push_back(number);
+      }
+      if (context_.exact_points) {
+        solid.exact_points.resize(number + size_t{1});
+        solid.exact_points[number] = to_mm.text(geometry_.exact(p));
+      }
+    };
+    for (uint32_t n = 0; n < points.size(); ++n) {
+      first_vertex_[n] = static_cast<uint32_t>(solid.positions.size());
+      const uint32_t p = points[n].explicit_point;
+      if (p != kNone) {
+        if (own < point_of_own.size() && point_of_own[own] == p) add_own(n);
+        continue;
+      }
+      const IVec3 q = whole_->grid_point(points[n]);
+      glm::dvec3 mm;
+      std::array<float, 3> single;
+      to_mm.position(q, mm, single);
+      solid.positions.push_back(mm);
+      solid.positions_f32.push_back(single);
+      solid.point_of.push_back(n);
+      if (context_.exact_points) {
+        solid.exact_points.resize(n + size_t{1});
+        solid.exact_points[n] = to_mm.text(grid_point(q[0], q[1], q[2]));
+      }
+    }
+    // Points that were made since: contacts and middles of edges.
+    for (auto n = static_cast<uint32_t>(points.size()); own < point_of_own.size(); ++n) add_own(n);
+  }
+
+  void fill_faces(Solid& solid) {
+    const size_t triangles = set_.triangles.size() + whole_->triangles().size();
+    const size_t faces = whole_->faces().size();
+    solid.triangles.reserve(triangles);
+    solid.triangle_face.reserve(triangles);
+    solid.faces.reserve(faces);
+    solid.face_normals.reserve(faces);
+    solid.loop_starts.reserve(faces + 1);
+    solid.loop_vertices.reserve(triangles * 3);
+    // Triangles of explicit faces stand in the order of faces.
+    size_t t = 0;
+    for (const uint32_t f : whole_->faces()) {
+      if (f < whole_->explicit_face_count()) {
+        t = add_face(solid, f, t);
+      } else {
+        add_untouched(solid, whole_->triangle(f));
+      }
+    }
+  }
+
+  /// An explicit face and its triangles, from number t on. Returns where they end.
+  size_t add_face(Solid& solid, uint32_t f, size_t t) {
+    const auto number = static_cast<uint32_t>(solid.faces.size());
+    const auto vertex = [&](size_t corner) {
+      return number_of_own_[fans_.vertex_of_corner[corner]];
+    };
+    // Vertices of loops: those of the triangle that has the loop's edge.
+    edges_.clear();
+    for (; t < set_.triangles.size() && set_.face[t] == f; ++t) {
+      solid.triangles.push_back({vertex(3 * t), vertex(3 * t + 1), vertex(3 * t + 2)});
+      solid.triangle_face.push_back(number);
+      for (uint32_t k = 0; k < 3; ++k) {
+        edges_.push_back({set_.triangles[t][k], set_.triangles[t][(k + 1) % 3],
+                          static_cast<uint32_t>(3 * t + k)});
+      }
+    }
+    sort_few(edges_.begin(), edges_.end(), std::less<>());
+    const MergedFace& face = faces_[f];
+    solid.faces.push_back({static_cast<uint32_t>(solid.loop_starts.size() - 1),
+                           static_cast<uint32_t>(face.loops.size()), face.appearance,
+                           surface_number(face.source, face.surface), face.source});
+    const auto& plane = planes_.approximate(face.plane.index());
+    const glm::dvec3 normal(plane[0], plane[1], plane[2]);
+    solid.face_normals.push_back(face.plane.flipped() ? -normal : normal);
+    for (const auto& loop : face.loops) {
+      for (const DirectedEdge& e : loop) {
+        const auto at = std::lower_bound(edges_.begin(), edges_.end(),
+                                         std::array<uint32_t, 3>{e.from, e.to, 0});
+        solid.loop_vertices.push_back(vertex((*at)[2]));
+      }
+      solid.loop_starts.push_back(static_cast<uint32_t>(solid.loop_vertices.size()));
+    }
+    return t;
+  }
+
+  void add_untouched(Solid& solid, const UntouchedTriangle& t) {
+    const UntouchedPart& part = boundary_.parts[t.part];
+    const auto number = static_cast<uint32_t>(solid.faces.size());
+    const std::array<uint32_t, 3> vertices{first_vertex_[t.points[0]], first_vertex_[t.points[1]],
+                                           first_vertex_[t.points[2]]};
+    solid.triangles.push_back(vertices);
+    solid.triangle_face.push_back(number);
+    const FaceLabel label = part.label(t.face);
+    solid.faces.push_back({static_cast<uint32_t>(solid.loop_starts.size() - 1), 1, label.appearance,
+                           surface_number(label.source, label.surface), label.source});
+    const auto corners = part.triangle(t.face);
+    solid.face_normals.push_back(normal_of(part.leaf->vertices[corners[0]],
+                                           part.leaf->vertices[corners[1]],
+                                           part.leaf->vertices[corners[2]]));
+    solid.loop_vertices.insert(solid.loop_vertices.end(), vertices.begin(), vertices.end());
+    solid.loop_starts.push_back(static_cast<uint32_t>(solid.loop_vertices.size()));
   }
 
   Status measure(Solid& solid) {
     count_topology(solid);
     if (solid.empty()) return std::monostate();
-    auto mass = measure_mesh(
-        geometry_.point_count(), [this](uint32_t p) { return geometry_.exact(p); }, set_.triangles,
-        context_.step);
+    // By vertex: several may be one point.
+    const auto point = [&](uint32_t vertex) {
+      const uint32_t number = solid.point_of[vertex];
+      if (number >= whole_->points().size()) return geometry_.exact(own_point(vertex));
+      const WholeOrder::Place& place = whole_->points()[number];
+      if (place.explicit_point != kNone) return geometry_.exact(place.explicit_point);
+      const IVec3 q = whole_->grid_point(place);
+      return grid_point(q[0], q[1], q[2]);
+    };
+    auto mass = measure_mesh(solid.positions.size(), point, solid.triangles, context_.step);
     if (!mass) return mass.error();
     Measures& m = solid.measures;
     m.volume = mass->volume;
@@ -216,55 +343,36 @@ class Presenter {
     return std::monostate();
   }
 
-  void fill_faces(Solid& solid) {
-    // Vertices of loops: those of the triangle that has the loop's edge.
-    std::vector<std::array<uint32_t, 3>> edges;  // (from, to, corner), sorted for each face
-    size_t t = 0;
-    for (uint32_t f = 0; f < faces_.size(); ++f) {
-      edges.clear();
-      for (; t < set_.triangles.size() && set_.face[t] == f; ++t) {
-        for (uint32_t k = 0; k < 3; ++k) {
-          edges.push_back({set_.triangles[t][k], set_.triangles[t][(k + 1) % 3],
-                           static_cast<uint32_t>(3 * t + k)});
-        }
-      }
-      std::sort(edges.begin(), edges.end());
-      const MergedFace& face = faces_[f];
-      solid.faces.push_back({static_cast<uint32_t>(solid.loop_starts.size() - 1),
-                             static_cast<uint32_t>(face.loops.size()), face.appearance,
-                             surface_number(face), face.source});
-      const auto& plane = planes_.approximate(face.plane.index());
-      const glm::dvec3 normal(plane[0], plane[1], plane[2]);
-      solid.face_normals.push_back(face.plane.flipped() ? -normal : normal);
-      for (const auto& loop : face.loops) {
-        for (const DirectedEdge& e : loop) {
-          const auto at = std::lower_bound(edges.begin(), edges.end(),
-                                           std::array<uint32_t, 3>{e.from, e.to, 0});
-          solid.loop_vertices.push_back(fans_.vertex_of_corner[(*at)[2]]);
-        }
-        solid.loop_starts.push_back(static_cast<uint32_t>(solid.loop_vertices.size()));
-      }
-    }
+  /// The explicit point of a vertex that is at none of the boundary's points: those come last.
+  [[nodiscard]] uint32_t own_point(uint32_t vertex) const {
+    return fans_
+        .point_of_vertex[fans_.point_of_vertex.size() - (number_of_own_.back() + 1 - vertex)];
   }
 
   /// Curved surfaces are numbered from 1 in the order of their first faces.
-  uint32_t surface_number(const MergedFace& face) {
-    if (face.surface == 0) return 0;
-    const std::pair<uint32_t, uint32_t> key{face.source, face.surface};
+  uint32_t surface_number(uint32_t source, uint32_t surface) {
+    if (surface == 0) return 0;
+    const std::pair<uint32_t, uint32_t> key{source, surface};
+    if (last_surface_ > 0 && surfaces_[last_surface_ - 1] == key) return last_surface_;
     const auto at = std::find(surfaces_.begin(), surfaces_.end(), key);
-    if (at != surfaces_.end()) return static_cast<uint32_t>(at - surfaces_.begin()) + 1;
-    surfaces_.push_back(key);
-    return static_cast<uint32_t>(surfaces_.size());
+    last_surface_ = static_cast<uint32_t>(at - surfaces_.begin()) + 1;
+    if (at == surfaces_.end()) surfaces_.push_back(key);
+    return last_surface_;
   }
 
   const BoundaryMesh& boundary_;
   const PresentContext& context_;
   PlaneTable planes_;
   CellGeometry geometry_;
+  std::optional<WholeOrder> whole_;
   std::vector<MergedFace> faces_;
   TriangleSet set_;
   VertexFans fans_;
+  std::vector<uint32_t> first_vertex_;          ///< per point of the whole
+  std::vector<uint32_t> number_of_own_;         ///< per vertex of `fans_`: its number in the solid
+  std::vector<std::array<uint32_t, 3>> edges_;  ///< of one face: from, to, corner; sorted
   std::vector<std::pair<uint32_t, uint32_t>> surfaces_;
+  uint32_t last_surface_ = 0;
 };
 
 }  // namespace

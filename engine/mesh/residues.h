@@ -7,10 +7,10 @@
 
 namespace csgrun {
 
-/// The field of integers modulo a prime below 2^61.
+/// The field of integers modulo a prime 2^61 - k, k < 2^9: products are reduced without dividing.
 class PrimeField {
  public:
-  explicit PrimeField(uint64_t prime) : prime_(prime) {}
+  explicit PrimeField(uint64_t prime) : prime_(prime), k_((uint64_t{1} << 61) - prime) {}
 
   [[nodiscard]] uint64_t add(uint64_t a, uint64_t b) const {
     const uint64_t s = a + b;
@@ -20,7 +20,7 @@ class PrimeField {
     return a >= b ? a - b : a + prime_ - b;
   }
   [[nodiscard]] uint64_t multiply(uint64_t a, uint64_t b) const {
-    return static_cast<uint64_t>(static_cast<UInt128>(a) * b % prime_);
+    return reduce(static_cast<UInt128>(a) * b);
   }
   [[nodiscard]] uint64_t power(uint64_t a, uint64_t exponent) const {
     uint64_t r = 1;
@@ -36,7 +36,7 @@ class PrimeField {
                          : inverse(power(2, static_cast<uint64_t>(-exponent)));
   }
   [[nodiscard]] uint64_t residue(int64_t v) const {
-    const uint64_t r = (v < 0 ? 0 - static_cast<uint64_t>(v) : static_cast<uint64_t>(v)) % prime_;
+    const uint64_t r = reduce(v < 0 ? 0 - static_cast<uint64_t>(v) : static_cast<uint64_t>(v));
     return v < 0 ? subtract(0, r) : r;
   }
   template <int N>
@@ -44,13 +44,22 @@ class PrimeField {
     const Int<N> m = v.magnitude();
     uint64_t r = 0;
     for (int i = N - 1; i >= 0; --i) {
-      r = static_cast<uint64_t>((static_cast<UInt128>(r) << 64 | m.limb[i]) % prime_);
+      r = reduce(static_cast<UInt128>(r) << 64 | m.limb[i]);
     }
     return v.negative() ? subtract(0, r) : r;
   }
 
  private:
-  uint64_t prime_;
+  /// REQUIRES: v < 2^125. 2^61 is k: what lies above is put back below, k times.
+  [[nodiscard]] uint64_t reduce(UInt128 v) const {
+    constexpr uint64_t kMask = (uint64_t{1} << 61) - 1;
+    const UInt128 once = (v >> 61) * k_ + (static_cast<uint64_t>(v) & kMask);  // < 2^74
+    const uint64_t twice =
+        static_cast<uint64_t>(once >> 61) * k_ + (static_cast<uint64_t>(once) & kMask);
+    return twice >= prime_ ? twice - prime_ : twice;
+  }
+
+  uint64_t prime_, k_;
 };
 
 }  // namespace csgrun

@@ -4,6 +4,9 @@
 #include <cassert>
 #include <numeric>
 
+#include "engine/base/counting_order.h"
+#include "engine/base/sort_few.h"
+
 namespace csgrun {
 namespace {
 
@@ -15,10 +18,21 @@ struct EdgeRef {
 
 bool same_ends(const EdgeRef& a, const EdgeRef& b) { return a.lo == b.lo && a.hi == b.hi; }
 
-void sort_refs(std::vector<EdgeRef>& refs) {
-  std::sort(refs.begin(), refs.end(), [](const EdgeRef& a, const EdgeRef& b) {
-    return std::tie(a.lo, a.hi, a.index) < std::tie(b.lo, b.hi, b.index);
-  });
+/// By ends, then by index. They come by index.
+void sort_refs(std::vector<EdgeRef>& refs, size_t point_count) {
+  CountingOrder by_low;
+  by_low.sort(refs.size(), point_count, [&](size_t i) { return refs[i].lo; });
+  std::vector<EdgeRef> sorted;
+  sorted.reserve(refs.size());
+  for (size_t p = 0; p < point_count; ++p) {
+    const size_t begin = sorted.size();
+    for (uint32_t i = by_low.starts[p]; i < by_low.starts[p + 1]; ++i) {
+      sorted.push_back(refs[by_low.order[i]]);
+    }
+    sort_few(sorted.begin() + static_cast<long>(begin), sorted.end(),
+             [](const EdgeRef& a, const EdgeRef& b) { return a.hi < b.hi; });
+  }
+  refs = std::move(sorted);
 }
 
 EdgeRef make_ref(uint32_t from, uint32_t to, uint32_t index) {
@@ -69,8 +83,8 @@ bool break_line(LooseEdge* begin, LooseEdge* end, CellGeometry& geometry,
 
 }  // namespace
 
-bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
-                         const PlaneTable& planes) {
+bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry, PlaneTable& planes,
+                         const WholeOrder& whole) {
   std::vector<DirectedEdge*> edges;
   std::vector<PlaneId> support;
   for (MergedFace& f : faces) {
@@ -81,12 +95,19 @@ bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
       }
     }
   }
+  const auto own_edges = static_cast<uint32_t>(edges.size());
+  std::vector<DirectedEdge> rim;
+  rim.reserve(whole.rim().size());
+  for (const RimEdge& e : whole.rim()) {
+    rim.push_back({e.from, e.to, kNone});
+    edges.push_back(&rim.back());
+    support.emplace_back();
+  }
   std::vector<EdgeRef> refs;
   refs.reserve(edges.size());
   for (uint32_t i = 0; i < edges.size(); ++i)
     refs.push_back(make_ref(edges[i]->from, edges[i]->to, i));
-  sort_refs(refs);
-  LineNamer namer(planes);
+  sort_refs(refs, geometry.point_count());
   std::vector<LooseEdge> loose;
   std::vector<std::vector<uint32_t>> inserted;
   std::vector<uint32_t> loose_edges;
@@ -101,6 +122,13 @@ bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
   }
   if (loose_edges.empty()) return true;
   inserted.resize(loose_edges.size());
+  for (const uint32_t e : loose_edges) {
+    if (e < own_edges) continue;
+    const auto [face, edge] = whole.planes_of(whole.rim()[e - own_edges], planes);
+    support[e] = face;
+    edges[e]->plane = edge.index();
+  }
+  LineNamer namer(planes);
   std::vector<LineNamer::PlanePair> lines;
   for (const uint32_t e : loose_edges) lines.push_back({support[e].index(), edges[e]->plane});
   std::vector<LineKey> keys;
@@ -116,6 +144,10 @@ bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
     while (j < loose.size() && loose[j].line == loose[i].line) ++j;
     if (!break_line(loose.data() + i, loose.data() + j, geometry, planes)) return false;
     i = j;
+  }
+  for (size_t k = 0; k < loose_edges.size(); ++k) {
+    // Nothing ends inside an edge of what is untouched.
+    if (loose_edges[k] >= own_edges && !inserted[k].empty()) return false;
   }
   // Rebuild the loops; edges are numbered in the order of the walk above.
   std::vector<uint32_t> slot(edges.size(), kNone);
@@ -239,28 +271,36 @@ void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order, Contacts 
   }
 }
 
-/// `crowded`: the forward half-edges of each edge where more than two triangles meet.
+/// `crowded`: the forward half-edges of each edge where more than two triangles meet. On the rim of
+/// what is untouched a half-edge has no twin.
 bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
-                CellGeometry& geometry, const PlaneTable& planes, Contacts contacts,
-                std::vector<uint32_t>& twin, std::vector<std::vector<uint32_t>>& crowded) {
+                CellGeometry& geometry, const PlaneTable& planes, const WholeOrder& whole,
+                Contacts contacts, std::vector<uint32_t>& twin,
+                std::vector<std::vector<uint32_t>>& crowded) {
   std::vector<EdgeRef> refs;
-  refs.reserve(set.triangles.size() * 3);
+  const auto half_edges = static_cast<uint32_t>(set.triangles.size() * 3);
+  refs.reserve(half_edges + whole.rim().size());
   for (uint32_t t = 0; t < set.triangles.size(); ++t) {
     for (uint32_t k = 0; k < 3; ++k) {
       refs.push_back(make_ref(set.triangles[t][k], set.triangles[t][(k + 1) % 3], 3 * t + k));
     }
   }
-  sort_refs(refs);
-  twin.assign(refs.size(), kNone);
+  for (const RimEdge& e : whole.rim()) {
+    refs.push_back(make_ref(e.from, e.to, static_cast<uint32_t>(refs.size())));
+  }
+  sort_refs(refs, geometry.point_count());
+  twin.assign(half_edges, kNone);
   std::vector<Sheet> sheets;
   for (size_t i = 0; i < refs.size();) {
     size_t j = i;
     size_t forward = 0;
     for (; j < refs.size() && same_ends(refs[i], refs[j]); ++j) forward += refs[j].forward;
     if (2 * forward != j - i) return false;
+    const bool is_rim = refs[j - 1].index >= half_edges;
     if (j - i == 2) {
-      twin[refs[i].index] = refs[i + 1].index;
-      twin[refs[i + 1].index] = refs[i].index;
+      if (!is_rim) make_twins(twin, refs[i].index, refs[i + 1].index);
+    } else if (is_rim) {
+      return false;
     } else {
       // A diagonal of one face may run along other faces' edge: both its sides lie in one plane,
       // and the order below treats it like any other pair of sheets.
@@ -289,22 +329,31 @@ bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
   return true;
 }
 
-/// One vertex for each fan of triangles that are joined across edges.
+/// One vertex for each fan of triangles that are joined across edges, and for each point that
+/// untouched triangles share. `order`: corners by their points.
 void walk_fans(const TriangleSet& set, const std::vector<uint32_t>& order,
-               const std::vector<uint32_t>& twin, VertexFans& fans) {
+               const std::vector<uint32_t>& twin, const WholeOrder& whole, VertexFans& fans) {
   fans.vertex_of_corner.assign(twin.size(), kNone);
   fans.point_of_vertex.clear();
   for (const uint32_t start : order) {
     if (fans.vertex_of_corner[start] != kNone) continue;
+    const uint32_t point = set.triangles[start / 3][start % 3];
+    if (whole.is_shared(point)) {
+      if (fans.point_of_vertex.empty() || fans.point_of_vertex.back() != point) {
+        fans.point_of_vertex.push_back(point);
+      }
+      fans.vertex_of_corner[start] = static_cast<uint32_t>(fans.point_of_vertex.size() - 1);
+      continue;
+    }
     const auto vertex = static_cast<uint32_t>(fans.point_of_vertex.size());
-    fans.point_of_vertex.push_back(set.triangles[start / 3][start % 3]);
+    fans.point_of_vertex.push_back(point);
     // Walk around the vertex: the twin of the edge that leaves corner c arrives at it in the next
     // triangle; the corner there is the one after that edge.
     uint32_t c = start;
     do {
       fans.vertex_of_corner[c] = vertex;
       const uint32_t across = twin[c];
-      c = across / 3 * 3 + (across % 3 + 1) % 3;
+      c = across % 3 == 2 ? across - 2 : across + 1;
     } while (c != start);
   }
 }
@@ -349,17 +398,17 @@ bool part_double_edges(const std::vector<std::vector<uint32_t>>& crowded, const 
 }  // namespace
 
 bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
-                CellGeometry& geometry, const PlaneTable& planes, Contacts contacts,
-                VertexFans& fans, std::vector<std::array<uint32_t, 2>>* doubled) {
+                CellGeometry& geometry, const PlaneTable& planes, const WholeOrder& whole,
+                Contacts contacts, VertexFans& fans,
+                std::vector<std::array<uint32_t, 2>>* doubled) {
   std::vector<uint32_t> twin;
   std::vector<std::vector<uint32_t>> crowded;
-  if (!find_twins(set, faces, geometry, planes, contacts, twin, crowded)) return false;
-  std::vector<uint32_t> order(twin.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    return set.triangles[a / 3][a % 3] < set.triangles[b / 3][b % 3];
-  });
-  walk_fans(set, order, twin, fans);
+  if (!find_twins(set, faces, geometry, planes, whole, contacts, twin, crowded)) return false;
+  CountingOrder by_point;
+  by_point.sort(twin.size(), geometry.point_count(),
+                [&](size_t corner) { return set.triangles[corner / 3][corner % 3]; });
+  const std::vector<uint32_t>& order = by_point.order;
+  walk_fans(set, order, twin, whole, fans);
   if (doubled != nullptr) {
     doubled->clear();
     for_each_double_edge(crowded, fans, [&](uint32_t h, uint32_t) {
@@ -370,7 +419,7 @@ bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
     doubled->erase(std::unique(doubled->begin(), doubled->end()), doubled->end());
     return true;
   }
-  while (part_double_edges(crowded, fans, twin)) walk_fans(set, order, twin, fans);
+  while (part_double_edges(crowded, fans, twin)) walk_fans(set, order, twin, whole, fans);
   return true;
 }
 

@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "engine/mesh/merge_faces.h"
+#include "engine/mesh/whole_order.h"
 
 namespace csgrun {
 
 /// Inserts into the loops of faces the points at which neighbours have corners: afterwards each
 /// directed edge between consecutive points has as many reverses as copies (Campen & Kobbelt 2010,
-/// section 4.3). New edges inherit the plane. False when the faces do not close.
-bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
-                         const PlaneTable& planes);
+/// section 4.3). New edges inherit the plane. The rim of what is untouched counts as edges of
+/// faces. False when the faces do not close.
+bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry, PlaneTable& planes,
+                         const WholeOrder& whole);
 
 /// Triangles over points, each with the plane of its face.
 struct TriangleSet {
@@ -38,9 +40,11 @@ enum class Contacts : uint8_t {
 /// their ends, the lower first, are put into `doubled`, if that is given, and the fans are not
 /// made. Without it such edges exchange neighbours, which parts their vertices: so solids kept
 /// apart are joined along an edge when they are connected around both of its ends, and the reverse.
-/// False when some directed edge has no reverse.
+/// Points that untouched triangles have too are one vertex. False when some directed edge has no
+/// reverse, neither in the set nor on the rim.
 bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
-                CellGeometry& geometry, const PlaneTable& planes, Contacts contacts,
-                VertexFans& fans, std::vector<std::array<uint32_t, 2>>* doubled = nullptr);
+                CellGeometry& geometry, const PlaneTable& planes, const WholeOrder& whole,
+                Contacts contacts, VertexFans& fans,
+                std::vector<std::array<uint32_t, 2>>* doubled = nullptr);
 
 }  // namespace csgrun

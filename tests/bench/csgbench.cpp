@@ -28,6 +28,7 @@ namespace {
 void run_nary(const std::string& name, const Settings& settings, const std::vector<RawMesh>& meshes,
               BooleanOp op, bool keep_facets) {
   Run run(name, settings, reach_of(meshes));
+  run.options.name_untouched = true;  // the result is only presented
   std::vector<Operand> operands;
   for (const RawMesh& m : meshes) operands.push_back(run.import(m, keep_facets));
   run.finish(*run.evaluate(operands, op));

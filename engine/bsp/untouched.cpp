@@ -1,0 +1,234 @@
+#include "engine/bsp/untouched.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/bsp/canonical_order.h"
+#include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/grid_planes.h"
+
+namespace csgrun {
+namespace {
+
+/// What becomes of a face, or of all faces at a vertex.
+enum Fate : uint8_t { kMixed = 0, kKept = 1, kFlipped = 2, kUnseen = 3 };
+
+/// The corners before and after a corner in its face.
+class CornerWalk {
+ public:
+  explicit CornerWalk(const LeafGeometry& leaf) : leaf_(leaf) {
+    if (leaf.corners.size() == 3 * leaf.face_count()) return;
+    face_of_.resize(leaf.corners.size());
+    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+      std::fill(face_of_.begin() + leaf.face_starts[f], face_of_.begin() + leaf.face_starts[f + 1],
+                f);
+    }
+  }
+
+  [[nodiscard]] uint32_t before(uint32_t corner) const {
+    if (face_of_.empty()) return corner % 3 == 0 ? corner + 2 : corner - 1;
+    const uint32_t f = face_of_[corner];
+    return (corner == leaf_.face_starts[f] ? leaf_.face_starts[f + 1] : corner) - 1;
+  }
+  /// How many faces there are in the fan around the vertex of a corner.
+  [[nodiscard]] uint32_t fan(uint32_t corner) const {
+    uint32_t count = 0;
+    for (uint32_t c = corner; count == 0 || c != corner; ++count) c = leaf_.opposite[before(c)];
+    return count;
+  }
+
+ private:
+  const LeafGeometry& leaf_;
+  std::vector<uint32_t> face_of_;  ///< per corner, unless all faces are triangles
+};
+
+/// Whether faces that are parts of one facet stand together.
+bool facets_ascend(const LeafGeometry& leaf) {
+  return std::is_sorted(leaf.facet.begin(), leaf.facet.end());
+}
+
+bool is_own_facet(const LeafGeometry& leaf, uint32_t f) {
+  const std::vector<uint32_t>& facet = leaf.facet;
+  return leaf.face_starts[f + 1] - leaf.face_starts[f] == 3 && facet[f] != 0 &&
+         (f == 0 || facet[f - 1] != facet[f]) &&
+         (f + 1 == facet.size() || facet[f + 1] != facet[f]);
+}
+
+/// Finds the untouched faces of one leaf.
+class UntouchedFaces {
+ public:
+  /// `fate`: of each face.
+  UntouchedFaces(const LeafGeometry& leaf, const uint8_t* fate) : leaf_(leaf), fate_(fate) {
+    look_at_vertices();
+  }
+
+  /// Those of one fate, marked in `taken`, with their corners as vertices of the leaf.
+  void collect(Fate fate, UntouchedPart& part, std::vector<uint8_t>& taken) const {
+    std::vector<uint8_t> met(leaf_.vertices.size(), 0);  // 1: by such a face, 2: by others
+    for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
+      const uint32_t begin = leaf_.face_starts[f], end = leaf_.face_starts[f + 1];
+      const bool is_untouched =
+          fate_[f] == fate && is_own_facet(leaf_, f) &&
+          std::all_of(leaf_.corners.begin() + begin, leaf_.corners.begin() + end,
+                      [&](uint32_t v) { return of_vertex_[v] == fate; });
+      if (is_untouched) part.faces.push_back(f);
+      taken[f] |= static_cast<uint8_t>(is_untouched);
+      for (uint32_t c = begin; c < end; ++c) met[leaf_.corners[c]] |= is_untouched ? 1 : 2;
+    }
+    for (uint32_t v = 0; v < met.size(); ++v) {
+      if (met[v] == 3) part.shared.push_back({v, v});
+    }
+  }
+
+ private:
+  /// The common fate of the faces at each vertex; kMixed too where they are more than one fan.
+  void look_at_vertices() {
+    of_vertex_.assign(leaf_.vertices.size(), kUnseen);
+    std::vector<uint32_t> some_corner(leaf_.vertices.size(), 0), faces(leaf_.vertices.size(), 0);
+    for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
+      for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
+        const uint32_t v = leaf_.corners[c];
+        if (of_vertex_[v] == kUnseen) {
+          of_vertex_[v] = fate_[f];
+        } else if (of_vertex_[v] != fate_[f]) {
+          of_vertex_[v] = kMixed;
+        }
+        some_corner[v] = c;
+        ++faces[v];
+      }
+    }
+    const CornerWalk walk(leaf_);
+    for (uint32_t v = 0; v < of_vertex_.size(); ++v) {
+      if (of_vertex_[v] == kMixed || of_vertex_[v] == kUnseen) continue;
+      if (walk.fan(some_corner[v]) != faces[v]) of_vertex_[v] = kMixed;
+    }
+  }
+
+  const LeafGeometry& leaf_;
+  const uint8_t* fate_;
+  std::vector<uint8_t> of_vertex_;
+};
+
+/// Points and planes of a boundary, with its untouched faces, as they would be in a job.
+class Expander {
+ public:
+  explicit Expander(const BoundaryMesh& mesh) : mesh_(mesh), geometry_(planes_, nullptr) {}
+
+  BoundaryMesh run() {
+    for (const Plane& p : mesh_.planes) plane_of_.push_back(planes_.intern(p));
+    for (size_t p = 0; p < mesh_.point_planes.size(); ++p) {
+      const auto& t = mesh_.point_planes[p];
+      geometry_.add_point(
+          {plane_of_[t[0]].index(), plane_of_[t[1]].index(), plane_of_[t[2]].index()},
+          mesh_.point_rounded[p]);
+    }
+    for (const BoundaryMesh::Face& face : mesh_.faces) add(face);
+    for (const UntouchedPart& part : mesh_.parts) add(part);
+    BoundaryMesh result = canonical(geometry_, planes_, std::move(draft_));
+    result.may_touch = mesh_.may_touch;
+    return result;
+  }
+
+ private:
+  void add(const BoundaryMesh::Face& face) {
+    const PlaneId plane = plane_of_[face.plane.index()];
+    DraftBoundary::Face made{
+        face.plane.flipped() ? plane.flip() : plane, face.label, face.whole, face.complete, {}};
+    for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
+      const uint32_t begin = mesh_.loop_starts[l], end = mesh_.loop_starts[l + 1];
+      for (uint32_t c = begin; c < end; ++c) {
+        const BoundaryMesh::Corner &corner = mesh_.corners[c],
+                                   &next = mesh_.corners[c + 1 < end ? c + 1 : begin];
+        made.loops.edges.push_back(
+            {corner.point, next.point, plane_of_[corner.edge_plane].index()});
+      }
+      made.loops.starts.push_back(static_cast<uint32_t>(made.loops.edges.size()));
+    }
+    draft_.faces.push_back(std::move(made));
+  }
+
+  void add(const UntouchedPart& part) {
+    std::vector<uint32_t> point_of(part.leaf->vertices.size(), kNone);
+    for (const UntouchedPart::Shared& s : part.shared) point_of[s.vertex] = s.point;
+    for (const uint32_t f : part.faces) {
+      const auto corners = part.triangle(f);
+      const IVec3 at[3] = {part.vertex(corners[0]), part.vertex(corners[1]),
+                           part.vertex(corners[2])};
+      const Plane support = plane_through(at[0], at[1], at[2]);
+      const PlaneId plane = planes_.intern(support);
+      const int axis = dominant_axis(support);
+      std::array<uint32_t, 3> edge{};
+      for (int i = 0; i < 3; ++i) {
+        edge[i] = planes_.intern(edge_plane(at[i], at[(i + 1) % 3], axis)).index();
+      }
+      DraftBoundary::Face made{plane, part.label(f), true, true, {}};
+      for (int i = 0; i < 3; ++i) {
+        uint32_t& point = point_of[corners[i]];
+        if (point == kNone) {
+          point = geometry_.add_point({plane.index(), edge[(i + 2) % 3], edge[i]},
+                                      {static_cast<double>(at[i][0]), static_cast<double>(at[i][1]),
+                                       static_cast<double>(at[i][2])});
+        }
+        made.loops.edges.push_back({point, kNone, edge[i]});
+      }
+      for (int i = 0; i < 3; ++i) made.loops.edges[i].to = made.loops.edges[(i + 1) % 3].from;
+      made.loops.starts.push_back(3);
+      draft_.faces.push_back(std::move(made));
+    }
+  }
+
+  const BoundaryMesh& mesh_;
+  PlaneTable planes_;
+  CellGeometry geometry_;
+  std::vector<PlaneId> plane_of_;
+  DraftBoundary draft_;
+};
+
+}  // namespace
+
+std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Operand>& operands,
+                                          std::vector<WholePolygon>& whole) {
+  std::vector<UntouchedPart> parts;
+  std::vector<uint8_t> fate(job.polygons().size(), kMixed), taken(job.polygons().size(), 0);
+  for (const WholePolygon& w : whole) fate[w.polygon] = w.flip ? kFlipped : kKept;
+  for (size_t o = 0; o < operands.size(); ++o) {
+    const Operand& operand = operands[o];
+    if (!operand.leaf || !operand.frame.is_identity) continue;
+    const LeafGeometry& leaf = *operand.leaf;
+    if (leaf.may_touch || leaf.opposite.empty() || leaf.facet.back() == 0) continue;
+    if (!facets_ascend(leaf)) continue;
+    const uint32_t start = job.polygon_start(o);
+    const auto begin = fate.begin() + start, end = begin + static_cast<long>(leaf.face_count());
+    bool any[3] = {false, false, false};
+    for (auto f = begin; f != end; ++f) any[*f] = true;
+    if (!any[kKept] && !any[kFlipped]) continue;
+    const UntouchedFaces faces(leaf, fate.data() + start);
+    std::vector<uint8_t> of_leaf(leaf.face_count(), 0);
+    for (const Fate side : {kKept, kFlipped}) {
+      if (!any[side]) continue;
+      UntouchedPart part{operand.leaf,
+                         operand.translation,
+                         operand.first_source,
+                         operand.appearance,
+                         side == kFlipped,
+                         {},
+                         {}};
+      faces.collect(side, part, of_leaf);
+      // The vertices of an operand stand together, in the order of the leaf.
+      const uint32_t first_vertex =
+          job.corners(job.polygons()[start])[0] - leaf.corners[leaf.face_starts[0]];
+      for (UntouchedPart::Shared& s : part.shared) s.point += first_vertex;
+      if (!part.faces.empty()) parts.push_back(std::move(part));
+    }
+    std::copy(of_leaf.begin(), of_leaf.end(), taken.begin() + start);
+  }
+  std::erase_if(whole, [&](const WholePolygon& w) { return taken[w.polygon] != 0; });
+  return parts;
+}
+
+std::shared_ptr<const BoundaryMesh> expanded(std::shared_ptr<const BoundaryMesh> mesh) {
+  if (mesh->parts.empty()) return mesh;
+  return std::make_shared<BoundaryMesh>(Expander(*mesh).run());
+}
+
+}  // namespace csgrun

@@ -1,0 +1,269 @@
+// Results that name untouched triangles of leaves against the same results spelled out: both must
+// be one value, and present as the same arrays to the last bit.
+#include "engine/bsp/untouched.h"
+
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "engine/mesh/boundary_volume.h"
+#include "engine/mesh/opposite_edges.h"
+#include "tests/support/kernel_case.h"
+
+namespace csgrun {
+namespace {
+
+using namespace test;  // NOLINT: a test
+
+/// A leaf whose facets are its triangles, of several loops each a closed surface.
+std::shared_ptr<LeafGeometry> leaf_of_triangles(const std::vector<Loop>& loops) {
+  auto leaf = std::make_shared<LeafGeometry>(*make_leaf(loops, true));
+  leaf->opposite = pair_edges(*leaf).opposite;
+  leaf->may_touch = false;
+  return leaf;
+}
+
+void add_quad(std::vector<Loop>& loops, const IVec3& a, const IVec3& b, const IVec3& c,
+              const IVec3& d, bool turned) {
+  if (turned) {
+    loops.insert(loops.end(), {{a, b, d}, {b, c, d}});
+  } else {
+    loops.insert(loops.end(), {{a, b, c}, {a, c, d}});
+  }
+}
+
+/// The surface of a box in n x n squares a side, each of two triangles.
+std::vector<Loop> tiled_box(Random& random, const IVec3& lo, int64_t n, int64_t step) {
+  std::vector<Loop> loops;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (const int64_t side : {int64_t{0}, n}) {
+      for (int64_t i = 0; i < n; ++i) {
+        for (int64_t j = 0; j < n; ++j) {
+          const auto at = [&](int64_t x, int64_t y) {
+            IVec3 p = lo;
+            p[axis] += side * step, p[u] += x * step, p[v] += y * step;
+            return p;
+          };
+          const bool turned = random.integer(0, 1) != 0;
+          if (side == 0) {
+            add_quad(loops, at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j), turned);
+          } else {
+            add_quad(loops, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1), turned);
+          }
+        }
+      }
+    }
+  }
+  return loops;
+}
+
+/// A torus with bumps: nothing of it lies in one plane with anything else.
+std::vector<Loop> bumpy_torus(Random& random, const IVec3& center, double size) {
+  constexpr int kAround = 22, kTube = 10;
+  std::vector<IVec3> points;
+  for (int i = 0; i < kAround; ++i) {
+    for (int j = 0; j < kTube; ++j) {
+      const double a = 2 * M_PI * i / kAround, b = 2 * M_PI * j / kTube;
+      const double tube = size * (0.25 + 0.04 * random.unit()), ring = size + tube * std::cos(b);
+      points.push_back({center[0] + std::llround(ring * std::cos(a)),
+                        center[1] + std::llround(ring * std::sin(a)),
+                        center[2] + std::llround(tube * std::sin(b))});
+    }
+  }
+  std::vector<Loop> loops;
+  for (int i = 0; i < kAround; ++i) {
+    for (int j = 0; j < kTube; ++j) {
+      const auto at = [&](int x, int y) { return points[x % kAround * kTube + y % kTube]; };
+      add_quad(loops, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1), false);
+    }
+  }
+  return loops;
+}
+
+std::vector<Loop> operator+(std::vector<Loop> a, const std::vector<Loop>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+std::string difference_of_arrays(const Solid& a, const Solid& b) {
+  if (const std::string text = difference_between(a, b); !text.empty()) return text;
+  if (!same_bits(a.positions, b.positions)) return "different bits of positions";
+  if (!same_bits(a.positions_f32, b.positions_f32)) return "different bits of single positions";
+  if (!same_bits(a.face_normals, b.face_normals)) return "different normals";
+  if (a.exact_points != b.exact_points) return "different exact points";
+  const Measures &m = a.measures, &n = b.measures;
+  if (m.volume != n.volume || m.area != n.area || m.centroid != n.centroid) return "different mass";
+  if (m.bbox != n.bbox) return "different boxes";
+  if (m.components != n.components || m.genus != n.genus) return "different topology";
+  return "";
+}
+
+/// Counts what was named, so that a test can tell whether it tested anything.
+size_t named(const BoundaryMesh& mesh) {
+  size_t count = 0;
+  for (const UntouchedPart& part : mesh.parts) count += part.faces.size();
+  return count;
+}
+
+struct Pair {
+  Boundary spelled, naming;
+};
+
+void expect_one_value(const Pair& pair, const std::string& what) {
+  ASSERT_TRUE(pair.spelled->parts.empty()) << what;
+  ASSERT_EQ(difference_between(*pair.spelled, *expanded(pair.naming)), "") << what;
+  EXPECT_EQ(is_empty(*pair.spelled), is_empty(*pair.naming)) << what;
+  const GridBox a = bounding_box(*pair.spelled), b = bounding_box(*pair.naming);
+  EXPECT_TRUE(a.lo == b.lo && a.hi == b.hi) << what;
+  EXPECT_EQ(only_appearance(*pair.spelled), only_appearance(*pair.naming)) << what;
+  PresentContext context = test_context();
+  for (const bool join : {false, true}) {
+    context.join_contacts = join;
+    const auto x = present(*pair.spelled, context), y = present(*pair.naming, context);
+    ASSERT_TRUE(x) << what << text(x.error());
+    ASSERT_TRUE(y) << what << text(y.error());
+    ASSERT_EQ(difference_of_arrays(**x, **y), "") << what;
+  }
+  if (is_empty(*pair.spelled)) return;
+  const auto volume = boundary_volume(*pair.spelled, context.step),
+             same = boundary_volume(*pair.naming, context.step);
+  ASSERT_TRUE(volume && same) << what;
+  EXPECT_EQ(*volume, *same) << what;
+}
+
+Pair evaluate_both(const Tree& tree, const std::vector<Operand>& operands) {
+  Pair pair;
+  KernelOptions options;
+  for (Boundary* result : {&pair.spelled, &pair.naming}) {
+    options.name_untouched = result == &pair.naming;
+    // The operands of other jobs must be spelled out.
+    const auto made = evaluate(tree, operands, options);
+    if (!made) ADD_FAILURE() << text(made.error());
+    *result = made ? *made : std::make_shared<BoundaryMesh>();
+  }
+  return pair;
+}
+
+/// An expression over the given leaves in this order.
+Tree random_tree(Random& random, int first, int count) {
+  if (count == 1) return leaf(first);
+  Tree tree;
+  tree.op = static_cast<BooleanOp>(random.integer(0, 3));
+  const int split = static_cast<int>(random.integer(1, count - 1));
+  tree.children = {random_tree(random, first, split),
+                   random_tree(random, first + split, count - split)};
+  return tree;
+}
+
+Operand placed(Leaf leaf, const IVec3& at) {
+  Operand operand = operand_of(std::move(leaf));
+  operand.translation = at;
+  return operand;
+}
+
+TEST(Untouched, RandomTreesOfBumpySurfaces) {
+  Random random(1201);
+  constexpr int64_t kSize = 1 << 20;
+  size_t total = 0;
+  for (int round = 0; round < 12; ++round) {
+    const IVec3 origin{0, 0, 0};
+    const auto once = leaf_of_triangles(bumpy_torus(random, origin, kSize));
+    const auto twice = leaf_of_triangles(bumpy_torus(random, origin, kSize) +
+                                         bumpy_torus(random, {0, 0, kSize}, kSize));
+    for (uint32_t& a : once->appearance) a = static_cast<uint32_t>(random.integer(0, 2));
+    for (uint32_t& s : twice->surface) s = static_cast<uint32_t>(random.integer(0, 2));
+    std::vector<Operand> operands;
+    for (int i = 0; i < 4; ++i) {
+      const auto move = [&] { return random.integer(-kSize, kSize); };
+      operands.push_back(placed(random.integer(0, 1) ? once : twice, {move(), move(), move()}));
+      if (random.integer(0, 3) == 0) operands.back().appearance = 3;
+    }
+    const Tree tree = random_tree(random, 0, 4);
+    const Pair pair = evaluate_both(tree, operands);
+    total += named(*pair.naming);
+    ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, tree.text()));
+  }
+  EXPECT_GT(total, 500u);
+}
+
+TEST(Untouched, ContactsOfTiledBoxes) {
+  Random random(1202);
+  size_t total = 0, contacts = 0;
+  for (int round = 0; round < 60; ++round) {
+    std::vector<Operand> operands;
+    for (int i = 0; i < 3; ++i) {
+      const auto move = [&] { return random.integer(-6, 6); };
+      const int64_t step = random.integer(1, 2);
+      const auto box =
+          leaf_of_triangles(tiled_box(random, {0, 0, 0}, random.integer(4, 12) / step, step));
+      operands.push_back(placed(box, {move(), move(), move()}));
+    }
+    const Tree tree = random_tree(random, 0, 3);
+    const Pair pair = evaluate_both(tree, operands);
+    total += named(*pair.naming);
+    contacts += pair.naming->may_touch;
+    ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, std::to_string(round) + tree.text()));
+  }
+  EXPECT_GT(total, 500u);
+  EXPECT_GT(contacts, 20u);
+}
+
+TEST(Untouched, MovedAndTurnedOver) {
+  Random random(1203);
+  const auto torus = leaf_of_triangles(bumpy_torus(random, {5, 6, 7}, 1000.5));
+  const auto box = leaf_of_triangles(tiled_box(random, {-300, -300, -300}, 20, 30));
+  const auto check = [](const Tree& tree, const std::vector<Operand>& operands) {
+    Pair pair = evaluate_both(tree, operands);
+    EXPECT_GT(named(*pair.naming), 100u) << tree.text();
+    ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, tree.text()));
+    for (Boundary* result : {&pair.spelled, &pair.naming}) {
+      *result = std::make_shared<BoundaryMesh>(translated(**result, {17, -123456, 1 << 20}));
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, tree.text() + " moved"));
+  };
+  check(leaf(0), {placed(torus, {0, 0, 0})});
+  // A cavity: its faces are turned over.
+  check(less({leaf(0), leaf(1)}),
+        {placed(leaf_of_triangles(tiled_box(random, {-4000, -4000, -4000}, 16, 500)), {0, 0, 0}),
+         placed(torus, {1, 2, 3})});
+  check(differ({leaf(0), leaf(1)}), {placed(torus, {0, 0, 0}), placed(box, {1000, 0, 0})});
+  check(join({leaf(0), leaf(1)}), {placed(torus, {0, 0, 0}), placed(torus, {0, 0, 100000})});
+}
+
+TEST(Untouched, WhatCannotBeNamed) {
+  Random random(1204);
+  const auto loops = tiled_box(random, {0, 0, 0}, 6, 2);
+  const auto count = [](const Leaf& leaf) {
+    return named(*evaluate_both(test::leaf(0), {operand_of(leaf)}).naming);
+  };
+  const auto plain = leaf_of_triangles(loops);
+  EXPECT_EQ(count(plain), plain->face_count());
+  const auto changed = [&](auto change) {
+    auto leaf = std::make_shared<LeafGeometry>(*plain);
+    change(*leaf);
+    return count(leaf);
+  };
+  EXPECT_EQ(changed([](LeafGeometry& l) { l.may_touch = true; }), 0u);
+  EXPECT_EQ(changed([](LeafGeometry& l) { l.opposite.clear(); }), 0u);
+  EXPECT_EQ(changed([](LeafGeometry& l) { std::fill(l.facet.begin(), l.facet.end(), 0u); }), 0u);
+  // Two triangles that are one facet; they lie in one plane.
+  EXPECT_EQ(changed([](LeafGeometry& l) { l.facet[1] = l.facet[0]; }), plain->face_count() - 2);
+  // Boxes that have a corner in common: its faces form two fans.
+  const auto corner = leaf_of_triangles(loops + tiled_box(random, {12, 12, 12}, 6, 2));
+  ASSERT_FALSE(corner->opposite.empty());
+  const Pair pair = evaluate_both(leaf(0), {operand_of(corner)});
+  EXPECT_LT(named(*pair.naming), corner->face_count());
+  EXPECT_GT(named(*pair.naming), corner->face_count() - 20);
+  expect_one_value(pair, "two boxes");
+}
+
+}  // namespace
+}  // namespace csgrun
