@@ -9,7 +9,6 @@
 #include "engine/bsp/union_find.h"
 #include "engine/mesh/edge_table.h"
 #include "engine/mesh/face_pair.h"
-#include "engine/mesh/leaf_box.h"
 #include "engine/mesh/packed_boxes.h"
 #include "engine/mesh/triangle_pairs.h"
 #include "engine/mesh/winding.h"
@@ -46,18 +45,16 @@ Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree, bool is_
   const std::vector<uint32_t>& order = tree.order();
   const FacePairs faces(leaf);
   std::optional<TrianglePairs> triangles;
-  if (const GridBox box = box_of_points(leaf.vertices); TrianglePairs::covers(leaf, box)) {
-    triangles.emplace(leaf, box, order, is_balanced);
-  }
+  if (TrianglePairs::covers(leaf)) triangles.emplace(leaf, order, is_balanced);
   const auto search = [&](const PackedBoxes::Task& task, FacePairs::Scratch& scratch,
                           Pairs& found) {
-    const auto decide = [&](uint32_t a, uint32_t b) {
-      const uint32_t f = std::min(order[a], order[b]), g = std::max(order[a], order[b]);
-      if (faces.conflict(f, g, scratch)) found.push_back({f, g});
-    };
-    if (!triangles) return tree.visit_pairs(task, decide);
-    tree.visit_pairs(task, [&](uint32_t a, uint32_t b) {
-      if (!triangles->apart(a, b)) decide(a, b);
+    tree.visit_rows(task, [&](uint32_t place, uint32_t group, uint32_t hits) {
+      if (triangles) hits &= ~triangles->spread_neighbours(place, group);
+      PackedBoxes::for_each_bit(hits, [&](uint32_t bit) {
+        const auto [f, g] = std::minmax({order[place], order[8 * group + bit]});
+        if (triangles && triangles->apart(f, g)) return;
+        if (faces.conflict(f, g, scratch)) found.push_back({f, g});
+      });
     });
   };
   Pairs all;

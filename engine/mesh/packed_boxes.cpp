@@ -157,8 +157,10 @@ std::vector<PackedBoxes::Task> PackedBoxes::pair_tasks(size_t wanted) const {
   while (tasks.size() < wanted && !tasks.empty() && tasks[0].level > 0) {
     divided.clear();
     for (const Task& task : tasks) {
-      for_each_pair(task, [&](uint32_t a, uint32_t b) {
-        divided.push_back({task.level - 1, a, b});
+      for_each_row(task, [&](uint32_t place, uint32_t group, uint32_t hits) {
+        for_each_bit(hits, [&](uint32_t bit) {
+          divided.push_back({task.level - 1, place, 8 * group + bit});
+        });
       });
     }
     tasks.swap(divided);

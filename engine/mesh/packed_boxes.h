@@ -40,7 +40,7 @@ class PackedBoxes {
       const auto [level, group] = stack[--depth];
       uint32_t hits = overlapping(levels_[level][group], box);
       if (level == 0) {
-        for (; hits != 0; hits &= hits - 1) visit(8 * group + lowest(hits));
+        for_each_bit(hits, [&](uint32_t bit) { visit(8 * group + bit); });
         continue;
       }
       for (; hits != 0; hits ^= std::bit_floor(hits)) {
@@ -56,20 +56,30 @@ class PackedBoxes {
   /// All pairs of boxes that overlap, as tasks, about `wanted` of them or more if there are many
   /// boxes: a function of the boxes and of `wanted` only.
   [[nodiscard]] std::vector<Task> pair_tasks(size_t wanted) const;
-  /// Calls `visit(place, other place)` for each pair of a task that overlaps. Over all tasks each
-  /// pair occurs once, the first place being the lower one. Thread-safe.
+  /// Calls `visit(place, group, hits)` for boxes that overlap others in a group, a bit of `hits`
+  /// for each: the places of these are 8 group + bit, and above `place`. Over all tasks each pair
+  /// occurs once. Thread-safe.
   template <class Visit>
-  void visit_pairs(const Task& task, Visit visit) const {
+  void visit_rows(const Task& task, Visit visit) const {
     std::vector<Task> stack{task};
     while (!stack.empty()) {
       const Task top = stack.back();
       stack.pop_back();
       if (top.level == 0) {
-        for_each_pair(top, visit);
-      } else {
-        for_each_pair(top, [&](uint32_t a, uint32_t b) { stack.push_back({top.level - 1, a, b}); });
+        for_each_row(top, visit);
+        continue;
       }
+      for_each_row(top, [&](uint32_t place, uint32_t group, uint32_t hits) {
+        for_each_bit(hits, [&](uint32_t bit) {
+          stack.push_back({top.level - 1, place, 8 * group + bit});
+        });
+      });
     }
+  }
+
+  template <class Visit>
+  static void for_each_bit(uint32_t bits, Visit visit) {
+    for (; bits != 0; bits &= bits - 1) visit(static_cast<uint32_t>(std::countr_zero(bits)));
   }
 
  private:
@@ -82,8 +92,6 @@ class PackedBoxes {
   struct alignas(16) Group {
     std::array<std::array<float, 8>, 3> lo, hi;
   };
-
-  static uint32_t lowest(uint32_t bits) { return static_cast<uint32_t>(std::countr_zero(bits)); }
 
   /// A bit for each of the eight that overlaps the box.
   static uint32_t overlapping(const Group& group, const FloatBox& box) {
@@ -121,10 +129,10 @@ class PackedBoxes {
             {group.hi[0][i], group.hi[1][i], group.hi[2][i]}};
   }
 
-  /// The pairs that overlap of two groups of a level, by their places there; above the lowest level
-  /// also each with itself.
+  /// What each box of a group of a level overlaps in another one; above the lowest level of a group
+  /// also itself.
   template <class Visit>
-  void for_each_pair(const Task& task, Visit visit) const {
+  void for_each_row(const Task& task, Visit visit) const {
     const auto& groups = levels_[task.level];
     const Group& second = groups[task.second];
     uint32_t rows = 0xff;
@@ -132,12 +140,12 @@ class PackedBoxes {
     if (task.first != task.second) {
       rows = overlapping(groups[task.first], box_at(task.level + 1, task.second));
     }
-    for (; rows != 0; rows &= rows - 1) {
-      const uint32_t row = lowest(rows), place = 8 * task.first + row;
+    for_each_bit(rows, [&](uint32_t row) {
+      const uint32_t place = 8 * task.first + row;
       uint32_t hits = overlapping(second, box_at(task.level, place));
       if (task.first == task.second) hits &= 0xffu << (task.level == 0 ? row + 1 : row);
-      for (; hits != 0; hits &= hits - 1) visit(place, 8 * task.second + lowest(hits));
-    }
+      visit(place, task.second, hits);
+    });
   }
 
   std::vector<uint32_t> order_;

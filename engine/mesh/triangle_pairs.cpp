@@ -4,21 +4,32 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/mesh/leaf_box.h"
+
 namespace csgrun {
 namespace {
 
 /// Differences of coordinates are below 2^30: normals fit 62 bits, and three of their
 /// components 63.
 constexpr int64_t kLargestExtent = int64_t{1} << 30;
+/// No vertices, and not the same one.
+constexpr uint32_t kNone = UINT32_MAX, kOther = UINT32_MAX - 1;
 
 /// The directions from which vertices are looked at: the axes and the diagonals, and the reverse of
 /// each. Bit 2 i stands for direction i, bit 2 i + 1 for its reverse.
 constexpr std::array<IVec3, 7> kDirections{
     {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}}};
-/// A direction across each of them, which is up as one looks from there.
-constexpr std::array<IVec3, 7> kUps{
-    {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {1, 1, 0}}};
+/// A direction across each of them, which is up as one looks from there: an axis, and so many times
+/// the next one.
+struct Up {
+  size_t axis;
+  int64_t times;
+};
+constexpr std::array<Up, 7> kUps{{{1, 0}, {2, 0}, {0, 0}, {0, -1}, {0, -1}, {0, 1}, {0, 1}}};
 
+constexpr int64_t height(const Up& up, const IVec3& p) {
+  return p[up.axis] + up.times * p[(up.axis + 1) % 3];
+}
 constexpr IVec3 cross(const IVec3& a, const IVec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -27,7 +38,7 @@ constexpr int64_t dot(const IVec3& a, const IVec3& b) {
 }
 constexpr bool are_across() {
   for (size_t i = 0; i < kUps.size(); ++i) {
-    if (dot(kUps[i], kDirections[i]) != 0) return false;
+    if (height(kUps[i], kDirections[i]) != 0) return false;
   }
   return true;
 }
@@ -48,114 +59,157 @@ uint32_t facing(const IVec3& normal) {
 
 }  // namespace
 
-bool TrianglePairs::covers(const LeafGeometry& leaf, const GridBox& box) {
+bool TrianglePairs::covers(const LeafGeometry& leaf) {
   if (leaf.corners.size() != 3 * leaf.face_count()) return false;
-  for (int k = 0; k < 3; ++k) {
-    if (box.hi[k] - box.lo[k] >= kLargestExtent) return false;
-  }
   for (size_t f = 0; f < leaf.face_count(); ++f) {
     if (leaf.face_starts[f] != 3 * f) return false;
+  }
+  const GridBox box = box_of_points(leaf.vertices);
+  for (size_t k = 0; k < 3; ++k) {
+    if (box.hi[k] - box.lo[k] >= kLargestExtent) return false;
   }
   return true;
 }
 
-TrianglePairs::TrianglePairs(const LeafGeometry& leaf, const GridBox& box,
-                             std::span<const uint32_t> order, bool is_balanced)
-    : points_(leaf.vertices.size()), shapes_(order.size()) {
-  double reach = 0;  // of all coordinates
-  IVec3 middle;
-  for (int k = 0; k < 3; ++k) {
-    middle[k] = box.lo[k] + (box.hi[k] - box.lo[k]) / 2;
-    reach = std::max(reach, static_cast<double>(box.hi[k] - middle[k]));
+TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order,
+                             bool is_balanced)
+    : leaf_(leaf), corners_((order.size() + 7) / 8), spread_(order.size()) {
+  const std::vector<uint8_t> is_spread =
+      is_balanced ? find_spread_vertices() : std::vector<uint8_t>(leaf.vertices.size(), 0);
+  if (!corners_.empty()) {
+    for (auto& lanes : corners_.back().corners) lanes.fill(kNone);
   }
-  for (size_t v = 0; v < points_.size(); ++v) {
-    for (size_t k = 0; k < 3; ++k) {
-      points_[v][k] = static_cast<double>(leaf.vertices[v][k] - middle[k]);
+  for (size_t place = 0; place < order.size(); ++place) {
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t v = leaf.corners[3 * size_t{order[place]} + i];
+      corners_[place / 8].corners[i][place % 8] = v;
+      spread_[place][i] = is_spread[v] != 0 ? v : kOther;
     }
   }
-  for (size_t i = 0; i < order.size(); ++i) {
-    const uint32_t* const c = &leaf.corners[3 * size_t{order[i]}];
-    const IVec3& origin = leaf.vertices[c[0]];
-    const IVec3 normal =
-        cross(difference(leaf.vertices[c[1]], origin), difference(leaf.vertices[c[2]], origin));
-    Shape& shape = shapes_[i];
-    shape.corners = {c[0], c[1], c[2], c[2]};
-    shape.offset = 0;
-    double size = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      shape.normal[k] = static_cast<double>(normal[k]);
-      size += std::fabs(shape.normal[k]);
-    }
-    // With u = 2^-53: the normal and the products of three sums are off by 2 u, the sums by 2 u,
-    // of the offset and of what it is taken from; the difference by u of both: below 10 u.
-    shape.offset = distance(shape, c[0]);
-    shape.slack = 0x1p-49 * size * reach;
-    shape.spread = 0;
-    shape.facing = is_balanced ? facing(normal) : 0;
-  }
-  if (is_balanced) find_spread_vertices(leaf);
 }
 
-void TrianglePairs::find_spread_vertices(const LeafGeometry& leaf) {
-  constexpr uint8_t kNone = 255;
-  std::vector<uint16_t> common(leaf.vertices.size(), 0x3fff);
-  for (const Shape& shape : shapes_) {
-    for (int i = 0; i < 3; ++i) common[shape.corners[i]] &= static_cast<uint16_t>(shape.facing);
+std::vector<uint8_t> TrianglePairs::find_spread_vertices() const {
+  constexpr uint16_t kAll = (1 << 2 * kDirections.size()) - 1;
+  constexpr uint8_t kNoDirection = 255, kMany = 2;
+  const size_t count = leaf_.vertices.size(), faces = leaf_.face_count();
+  std::vector<uint16_t> common(count, kAll);
+  for (size_t f = 0; f < faces; ++f) {
+    const uint32_t* const t = &leaf_.corners[3 * f];
+    const IVec3& origin = leaf_.vertices[t[0]];
+    const IVec3 normal =
+        cross(difference(leaf_.vertices[t[1]], origin), difference(leaf_.vertices[t[2]], origin));
+    const auto bits = static_cast<uint16_t>(facing(normal));
+    for (size_t i = 0; i < 3; ++i) common[t[i]] &= bits;
   }
-  std::vector<uint8_t> direction(leaf.vertices.size());
-  for (size_t v = 0; v < direction.size(); ++v) {
-    direction[v] =
-        common[v] == 0 ? kNone : static_cast<uint8_t>(std::countr_zero(uint32_t{common[v]}));
+  std::vector<uint8_t> direction(count);
+  for (size_t v = 0; v < count; ++v) {
+    const auto lowest = static_cast<uint8_t>(std::countr_zero(uint32_t{common[v]}) / 2);
+    direction[v] = common[v] != 0 ? lowest : kNoDirection;
   }
   // Each triangle is a sector of less than half a turn, all in the same sense. So none leads past
   // the upper half plane, and together they surround the vertex as often as one of them enters it.
-  std::vector<uint8_t> turns(leaf.vertices.size(), 0);  // 2 stands for more
-  for (const Shape& shape : shapes_) {
+  std::vector<uint8_t> turns(count, 0);
+  for (size_t f = 0; f < faces; ++f) {
+    const uint32_t* const t = &leaf_.corners[3 * f];
+    const std::array<const IVec3*, 3> p{&leaf_.vertices[t[0]], &leaf_.vertices[t[1]],
+                                        &leaf_.vertices[t[2]]};
     for (size_t i = 0; i < 3; ++i) {
-      const uint32_t v = shape.corners[i];
-      if (direction[v] == kNone) continue;
-      const IVec3& up = kUps[direction[v] / 2];
-      const auto height = [&](size_t k) { return dot(up, leaf.vertices[shape.corners[k % 3]]); };
-      const int64_t own = height(i);
-      const bool enters = height(i + 1) <= own && height(i + 2) > own;
-      turns[v] = static_cast<uint8_t>(turns[v] + (enters && turns[v] < 2 ? 1 : 0));
+      if (direction[t[i]] == kNoDirection) continue;
+      const Up& up = kUps[direction[t[i]]];
+      const int64_t own = height(up, *p[i]);
+      const bool enters = height(up, *p[(i + 1) % 3]) <= own && height(up, *p[(i + 2) % 3]) > own;
+      uint8_t& known = turns[t[i]];
+      known = static_cast<uint8_t>(std::min<int>(known + (enters ? 1 : 0), kMany));
     }
   }
-  for (Shape& shape : shapes_) {
-    for (uint32_t i = 0; i < 3; ++i) {
-      const uint32_t v = shape.corners[i];
-      shape.spread |= static_cast<uint32_t>(direction[v] != kNone && turns[v] == 1) << i;
+  for (size_t v = 0; v < count; ++v) turns[v] = turns[v] == 1;
+  return turns;
+}
+
+namespace {
+
+using Point = std::array<double, 3>;
+using Triangle = std::array<Point, 3>;
+
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point normal_of(const Triangle& t) { return cross(minus(t[1], t[0]), minus(t[2], t[0])); }
+
+/// Whether the corners of `other` that are not marked lie strictly on one side of a plane.
+bool is_beside(const Triangle& t, const Point& normal, const Triangle& other, uint32_t marked,
+               double slack) {
+  bool front = true, back = true;
+  for (size_t i = 0; i < 3; ++i) {
+    if ((marked >> i & 1) != 0) continue;
+    const double distance = dot(normal, minus(other[i], t[0]));
+    front = front & (distance > slack);
+    back = back & (distance < -slack);
+  }
+  return front || back;
+}
+
+/// Whether, seen along an axis, `other` lies strictly beyond the line of a side of the triangle.
+bool is_beyond_side(const Triangle& t, const Point& normal, size_t axis, const Triangle& other,
+                    double slack) {
+  if (std::fabs(normal[axis]) <= slack) return false;
+  const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const double sense = normal[axis] > 0 ? 1 : -1;
+  for (size_t i = 0; i < 3; ++i) {
+    const Point &a = t[i], &b = t[(i + 1) % 3];
+    const double du = sense * (b[u] - a[u]), dv = sense * (b[v] - a[v]);
+    bool beyond = true;
+    for (const Point& p : other) {
+      beyond = beyond & (du * (p[v] - a[v]) - dv * (p[u] - a[u]) < -slack);
+    }
+    if (beyond) return true;
+  }
+  return false;
+}
+
+size_t longest(const Point& v) {
+  size_t axis = std::fabs(v[1]) > std::fabs(v[0]) ? 1 : 0;
+  return std::fabs(v[2]) > std::fabs(v[axis]) ? 2 : axis;
+}
+
+}  // namespace
+
+bool TrianglePairs::apart(uint32_t f, uint32_t g) const {
+  const uint32_t* const p = &leaf_.corners[3 * size_t{f}];
+  const uint32_t* const q = &leaf_.corners[3 * size_t{g}];
+  uint32_t f_common = 0, g_common = 0;
+  for (uint32_t i = 0; i < 3; ++i) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      f_common |= static_cast<uint32_t>(p[i] == q[k]) << i;
+      g_common |= static_cast<uint32_t>(p[i] == q[k]) << k;
     }
   }
-}
-
-/// Whether g lies strictly on one side of f's plane.
-bool TrianglePairs::beside_plane(const Shape& f, const Shape& g) const {
-  const double a = distance(f, g.corners[0]), b = distance(f, g.corners[1]),
-               c = distance(f, g.corners[2]);
-  return std::min({a, b, c}) > f.slack || std::max({a, b, c}) < -f.slack;
-}
-
-bool TrianglePairs::separated(const Shape& f, const Shape& g) const {
-  return beside_plane(f, g) || beside_plane(g, f);
-}
-
-/// For triangles with common corners: what they have in common lies in both planes, so it is enough
-/// that the others of one triangle lie strictly on one side of the plane of the other one.
-bool TrianglePairs::neighbours_apart(const Shape& f, const Shape& g) const {
-  const auto others_beside = [this](const Shape& s, const Shape& t) {
-    const uint32_t common = common_corners(t, s);
-    if (common == 7) return false;
-    bool front = true, back = true;
-    for (uint32_t i = 0; i < 3; ++i) {
-      if ((common >> i & 1) != 0) continue;
-      const double d = distance(s, t.corners[i]);
-      front = front && d > s.slack;
-      back = back && d < -s.slack;
+  if (f_common == 7) return false;
+  // Relative to one corner, all coordinates and their differences are exact.
+  const IVec3& origin = leaf_.vertices[p[0]];
+  Triangle s, t;
+  double size = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t k = 0; k < 3; ++k) {
+      s[i][k] = static_cast<double>(leaf_.vertices[p[i]][k] - origin[k]);
+      t[i][k] = static_cast<double>(leaf_.vertices[q[i]][k] - origin[k]);
+      size = std::max({size, std::fabs(s[i][k]), std::fabs(t[i][k])});
     }
-    return front || back;
-  };
-  return others_beside(f, g) || others_beside(g, f);
+  }
+  // Differences are at most d = 2 size. With u = 2^-53, a component of a normal is at most 2 d^2
+  // and off by 4 u d^2 (two products, their difference); a distance by 28 u d^3: 12 for the normal,
+  // 6 for the products, 10 for their sums. An area is computed like a component.
+  const double d = 2 * size, area_slack = 0x1p-50 * d * d, slack = 0x1p-48 * d * d * d;
+  const Point s_normal = normal_of(s), t_normal = normal_of(t);
+  // What triangles have in common lies in both planes: of neighbours the other corners decide.
+  if (is_beside(s, s_normal, t, g_common, slack)) return true;
+  if (is_beside(t, t_normal, s, f_common, slack)) return true;
+  if (f_common != 0) return false;
+  const size_t axis = longest(s_normal);
+  return is_beyond_side(s, s_normal, axis, t, area_slack) ||
+         is_beyond_side(t, t_normal, axis, s, area_slack);
 }
 
 }  // namespace csgrun

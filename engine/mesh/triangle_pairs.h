@@ -1,5 +1,5 @@
 // Quick answers for pairs of triangles of a leaf: most pairs that are near each other are
-// neighbours around a vertex, or on different sides of a plane.
+// neighbours around a vertex, or on different sides of a plane or a line.
 #pragma once
 
 #include <array>
@@ -23,68 +23,61 @@ namespace csgrun {
 class TrianglePairs {
  public:
   /// Whether the leaf has triangles only, and fits the arithmetic.
-  static bool covers(const LeafGeometry& leaf, const GridBox& box);
+  static bool covers(const LeafGeometry& leaf);
 
-  /// REQUIRES: covers(leaf, box), `box` holds its vertices, and no triangle is degenerate. `order`
-  /// lists all faces; `is_balanced` says that every directed edge occurs as often as its reverse
-  /// (else no vertex is taken for spread). O(n).
-  TrianglePairs(const LeafGeometry& leaf, const GridBox& box, std::span<const uint32_t> order,
-                bool is_balanced);
+  /// REQUIRES: covers(leaf), and no triangle is degenerate; the leaf outlives this. `order` lists
+  /// all faces; `is_balanced` says that every directed edge occurs as often as its reverse (else no
+  /// vertex is taken for spread). O(n).
+  TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order, bool is_balanced);
 
-  /// True only when the triangles at two different places in the order meet nowhere but in corners
-  /// and edges that both have. False says nothing.
-  [[nodiscard]] bool apart(uint32_t a, uint32_t b) const {
-    const Shape &f = shapes_[a], &g = shapes_[b];
-    const uint32_t common = common_corners(f, g);
-    if ((common & f.spread) != 0) return true;
-    return common == 0 ? separated(f, g) : neighbours_apart(f, g);
-  }
-
- private:
-  using Point = std::array<double, 3>;
-  struct Shape {
-    Point normal;                     ///< each component rounded once
-    double offset;                    ///< of the plane
-    double slack;                     ///< what a point's distance may be off by rounding
-    std::array<uint32_t, 4> corners;  ///< the last is the third again
-    uint32_t spread;                  ///< a bit for each corner that is a spread vertex
-    uint32_t facing;                  ///< a bit for each direction that it faces
-  };
-
-  /// A bit for each corner of f that g has too.
-  static uint32_t common_corners(const Shape& f, const Shape& g) {
+  /// A bit for each triangle at places 8 group .. 8 group + 7 in the order that has a spread vertex
+  /// in common with the one at `place`.
+  [[nodiscard]] uint32_t spread_neighbours(uint32_t place, uint32_t group) const {
+    const std::array<uint32_t, 3>& own = spread_[place];
+    const auto& others = corners_[group];
 #if defined(__SSE2__)
-    const auto load = [](const Shape& s) {
-      return _mm_loadu_si128(reinterpret_cast<const __m128i*>(s.corners.data()));
-    };
-    const __m128i own = load(f), other = load(g);
-    const __m128i first = _mm_cmpeq_epi32(own, _mm_shuffle_epi32(other, 0x00)),
-                  second = _mm_cmpeq_epi32(own, _mm_shuffle_epi32(other, 0x55)),
-                  third = _mm_cmpeq_epi32(own, _mm_shuffle_epi32(other, 0xaa));
-    const __m128i any = _mm_or_si128(_mm_or_si128(first, second), third);
-    return static_cast<uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(any))) & 7;
+    uint32_t bits = 0;
+    for (size_t half = 0; half < 8; half += 4) {
+      __m128i any = _mm_setzero_si128();
+      for (size_t i = 0; i < 3; ++i) {
+        const auto* const lanes = reinterpret_cast<const __m128i*>(&others.corners[i][half]);
+        const __m128i four = _mm_load_si128(lanes);
+        for (size_t k = 0; k < 3; ++k) {
+          const __m128i vertex = _mm_set1_epi32(static_cast<int>(own[k]));
+          any = _mm_or_si128(any, _mm_cmpeq_epi32(four, vertex));
+        }
+      }
+      bits |= static_cast<uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(any))) << half;
+    }
+    return bits;
 #else
     uint32_t bits = 0;
-    for (uint32_t i = 0; i < 3; ++i) {
-      const uint32_t v = f.corners[i];
-      bits |= static_cast<uint32_t>((v == g.corners[0]) | (v == g.corners[1]) | (v == g.corners[2]))
-              << i;
+    for (uint32_t lane = 0; lane < 8; ++lane) {
+      bool any = false;
+      for (size_t i = 0; i < 3; ++i) {
+        for (size_t k = 0; k < 3; ++k) any = any | (others.corners[i][lane] == own[k]);
+      }
+      bits |= static_cast<uint32_t>(any) << lane;
     }
     return bits;
 #endif
   }
 
-  [[nodiscard]] double distance(const Shape& f, uint32_t v) const {
-    const Point& p = points_[v];
-    return f.normal[0] * p[0] + f.normal[1] * p[1] + f.normal[2] * p[2] - f.offset;
-  }
-  [[nodiscard]] bool beside_plane(const Shape& f, const Shape& g) const;
-  [[nodiscard]] bool separated(const Shape& f, const Shape& g) const;
-  [[nodiscard]] bool neighbours_apart(const Shape& f, const Shape& g) const;
-  void find_spread_vertices(const LeafGeometry& leaf);
+  /// True only when two triangles meet nowhere but in corners and edges that both have. False says
+  /// nothing.
+  [[nodiscard]] bool apart(uint32_t f, uint32_t g) const;
 
-  std::vector<Point> points_;  ///< from the middle of the leaf: exact
-  std::vector<Shape> shapes_;  ///< in the order that was given
+ private:
+  /// The corners of eight triangles.
+  struct alignas(16) Group {
+    std::array<std::array<uint32_t, 8>, 3> corners;
+  };
+
+  [[nodiscard]] std::vector<uint8_t> find_spread_vertices() const;
+
+  const LeafGeometry& leaf_;
+  std::vector<Group> corners_;                   ///< by place; lanes without a triangle hold kNone
+  std::vector<std::array<uint32_t, 3>> spread_;  ///< by place: corners that are spread, else kOther
 };
 
 }  // namespace csgrun

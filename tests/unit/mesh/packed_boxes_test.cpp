@@ -68,9 +68,11 @@ TEST(PackedBoxes, FindsEachPairOnceHoweverItIsDivided) {
       for (const size_t wanted : {1, 10, 300}) {
         Pairs found;
         for (const auto& task : tree.pair_tasks(wanted)) {
-          tree.visit_pairs(task, [&](uint32_t a, uint32_t b) {
-            EXPECT_LT(a, b);
-            found.push_back(std::minmax({tree.order()[a], tree.order()[b]}));
+          tree.visit_rows(task, [&](uint32_t place, uint32_t group, uint32_t hits) {
+            PackedBoxes::for_each_bit(hits, [&](uint32_t bit) {
+              EXPECT_LT(place, 8 * group + bit);
+              found.push_back(std::minmax({tree.order()[place], tree.order()[8 * group + bit]}));
+            });
           });
         }
         std::sort(found.begin(), found.end());
