@@ -5,7 +5,7 @@
 #include <span>
 
 #include "engine/csg/leaf_faces.h"
-#include "engine/mesh/leaf_box.h"
+#include "engine/mesh/leaf_shape.h"
 
 namespace csgrun {
 namespace {
@@ -135,21 +135,19 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
 }
 
 bool has_reversed_pair(const LeafGeometry& leaf, const std::vector<uint32_t>& opposite) {
-  std::vector<uint32_t> face_of(leaf.corners.size());
-  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    std::fill(face_of.begin() + leaf.face_starts[f], face_of.begin() + leaf.face_starts[f + 1], f);
-  }
-  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    const std::span edges(opposite.data() + leaf.face_starts[f],
-                          opposite.data() + leaf.face_starts[f + 1]);
-    const uint32_t other = face_of[edges[0]];
-    if (leaf.face_starts[other + 1] - leaf.face_starts[other] == edges.size() &&
-        std::all_of(edges.begin(), edges.end(),
-                    [&](uint32_t edge) { return face_of[edge] == other; })) {
-      return true;
+  return with_face_of(leaf, [&](auto face_of) {
+    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+      const std::span edges(opposite.data() + leaf.face_starts[f],
+                            opposite.data() + leaf.face_starts[f + 1]);
+      const uint32_t other = face_of(edges[0]);
+      if (leaf.face_starts[other + 1] - leaf.face_starts[other] == edges.size() &&
+          std::all_of(edges.begin(), edges.end(),
+                      [&](uint32_t edge) { return face_of(edge) == other; })) {
+        return true;
+      }
     }
-  }
-  return false;
+    return false;
+  });
 }
 
 }  // namespace csgrun

@@ -109,11 +109,12 @@ Result<GridStep> GridStep::parse(const std::string& text) {
 }
 
 Quantiser::Quantiser(const GridStep& step)
-    : step_(step), step_mm_(step.millimetres()), limit_mm_(std::ldexp(step_mm_, 41)) {}
+    : step_(step),
+      step_mm_(step.millimetres()),
+      limit_mm_(std::ldexp(step_mm_, 41)),
+      steps_per_mm_(1 / step_mm_) {}
 
-std::optional<int64_t> Quantiser::operator()(double x) const {
-  if (!(std::fabs(x) < limit_mm_)) return std::nullopt;
-  if (x == 0) return 0;
+int64_t Quantiser::round_exactly(double x) const {
   // x = m 2^k, so x / step = (m denominator) 2^s / numerator with an exact product of 106 bits.
   const uint64_t bits = std::bit_cast<uint64_t>(x);
   const int biased = static_cast<int>((bits >> 52) & 0x7ff);

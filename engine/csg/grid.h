@@ -1,6 +1,7 @@
 // The integer grid: its step, and the rounding of millimetres to it.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -26,14 +27,28 @@ class Quantiser {
   /// the way. The 2^-12 makes ties (multiples of half a step) safe from the noise of the doubles
   /// that lead to `x`, and the rule is invariant under translation by whole steps. std::nullopt
   /// when |x / step| is 2^41 or more, or x is not finite.
-  [[nodiscard]] std::optional<int64_t> operator()(double x) const;
+  [[nodiscard]] std::optional<int64_t> operator()(double x) const {
+    if (!(std::fabs(x) < limit_mm_)) return std::nullopt;
+    // In doubles: three roundings lead to the quotient and one to the sum, each by 2^-53 of it,
+    // which is at most 0.51 more than the quotient. Below 2^41 steps the bound is under 2^-8.
+    const double quotient = x * steps_per_mm_, sum = quotient + (0.5 + 0x1p-12);
+    const double bound = (std::fabs(quotient) + 1) * 0x1p-50;
+    const int64_t low = floor_of(sum - bound), high = floor_of(sum + bound);
+    return low == high ? low : round_exactly(x);
+  }
 
   [[nodiscard]] const GridStep& step() const { return step_; }
   [[nodiscard]] double step_mm() const { return step_mm_; }
 
  private:
+  static int64_t floor_of(double x) {
+    const auto whole = static_cast<int64_t>(x);
+    return whole - (static_cast<double>(whole) > x ? 1 : 0);
+  }
+  [[nodiscard]] int64_t round_exactly(double x) const;
+
   GridStep step_;
-  double step_mm_, limit_mm_;
+  double step_mm_, limit_mm_, steps_per_mm_;
 };
 
 /// The step 2^g nm, in lowest terms.

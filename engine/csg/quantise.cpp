@@ -7,8 +7,8 @@
 
 #include "engine/csg/convex_leaf.h"
 #include "engine/csg/leaf_faces.h"
-#include "engine/mesh/leaf_box.h"
 #include "engine/mesh/leaf_check.h"
+#include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/opposite_edges.h"
 
 namespace csgrun {
@@ -91,26 +91,24 @@ LeafGeometry pack(const std::vector<IVec3>& vertices, const std::vector<LoopFace
 /// mesh that promises to be convex is, this is convexity.
 bool is_locally_convex(const LeafGeometry& leaf) {
   if (leaf.opposite.empty()) return false;
-  std::vector<uint32_t> face_of(leaf.corners.size());
-  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    std::fill(face_of.begin() + leaf.face_starts[f], face_of.begin() + leaf.face_starts[f + 1], f);
-  }
-  for (size_t f = 0; f < leaf.face_count(); ++f) {
-    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
-    CornerPlane plane;
-    if (!corner_plane(leaf.vertices, &leaf.corners[begin], end - begin, plane)) return false;
-    for (uint32_t edge = begin; edge < end; ++edge) {
-      // The neighbour's corners but for those of the edge, which are in the plane.
-      const uint32_t start = leaf.opposite[edge], other = face_of[start];
-      const uint32_t first = leaf.face_starts[other], last = leaf.face_starts[other + 1] - 1;
-      const uint32_t stop = start < last ? start + 1 : first;
-      for (uint32_t c = first; c <= last; ++c) {
-        if (c == start || c == stop) continue;
-        if (plane.side(leaf.vertices[leaf.corners[c]]) > 0) return false;
+  return with_face_of(leaf, [&](auto face_of) {
+    for (size_t f = 0; f < leaf.face_count(); ++f) {
+      const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+      CornerPlane plane;
+      if (!corner_plane(leaf.vertices, &leaf.corners[begin], end - begin, plane)) return false;
+      for (uint32_t edge = begin; edge < end; ++edge) {
+        // The neighbour's corners but for those of the edge, which are in the plane.
+        const uint32_t start = leaf.opposite[edge], other = face_of(start);
+        const uint32_t first = leaf.face_starts[other], last = leaf.face_starts[other + 1] - 1;
+        const uint32_t stop = start < last ? start + 1 : first;
+        for (uint32_t c = first; c <= last; ++c) {
+          if (c == start || c == stop) continue;
+          if (plane.side(leaf.vertices[leaf.corners[c]]) > 0) return false;
+        }
       }
     }
-  }
-  return true;
+    return true;
+  });
 }
 
 /// Checks what convex faces enclose. `box` is that of the leaf's vertices.

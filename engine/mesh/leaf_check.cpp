@@ -9,6 +9,7 @@
 #include "engine/bsp/union_find.h"
 #include "engine/mesh/edge_table.h"
 #include "engine/mesh/face_pair.h"
+#include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/packed_boxes.h"
 #include "engine/mesh/triangle_pairs.h"
 #include "engine/mesh/winding.h"
@@ -77,13 +78,11 @@ Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree, bool is_
 template <class Visit>
 void for_each_neighbours(const LeafGeometry& leaf, Visit visit) {
   if (!leaf.opposite.empty()) {
-    std::vector<uint32_t> face_of(leaf.corners.size());
-    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-      for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) face_of[c] = f;
-    }
-    for (uint32_t edge = 0; edge < leaf.opposite.size(); ++edge) {
-      if (edge < leaf.opposite[edge]) visit(face_of[edge], face_of[leaf.opposite[edge]]);
-    }
+    with_face_of(leaf, [&](auto face_of) {
+      for (uint32_t edge = 0; edge < leaf.opposite.size(); ++edge) {
+        if (edge < leaf.opposite[edge]) visit(face_of(edge), face_of(leaf.opposite[edge]));
+      }
+    });
     return;
   }
   const EdgeTable edges(leaf);

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "engine/mesh/leaf_box.h"
+#include "engine/mesh/leaf_shape.h"
 
 namespace csgrun {
 namespace {
@@ -60,10 +60,7 @@ uint32_t facing(const IVec3& normal) {
 }  // namespace
 
 bool TrianglePairs::covers(const LeafGeometry& leaf) {
-  if (leaf.corners.size() != 3 * leaf.face_count()) return false;
-  for (size_t f = 0; f < leaf.face_count(); ++f) {
-    if (leaf.face_starts[f] != 3 * f) return false;
-  }
+  if (!consists_of_triangles(leaf)) return false;
   const GridBox box = box_of_points(leaf.vertices);
   for (size_t k = 0; k < 3; ++k) {
     if (box.hi[k] - box.lo[k] >= kLargestExtent) return false;

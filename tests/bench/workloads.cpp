@@ -76,6 +76,8 @@ PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets) {
     mesh.points[i] = {raw.points[3 * i], raw.points[3 * i + 1], raw.points[3 * i + 2]};
   }
   mesh.corners = raw.triangles;
+  mesh.loop_starts.reserve(raw.triangle_count() + 1);
+  mesh.face_starts.reserve(raw.triangle_count() + 1);
   for (size_t t = 1; t <= raw.triangle_count(); ++t) {
     mesh.loop_starts.push_back(static_cast<uint32_t>(3 * t));
     mesh.face_starts.push_back(static_cast<uint32_t>(t));

@@ -124,6 +124,44 @@ TEST(Quantise, AgreesWithExtendedPrecision) {
   EXPECT_GT(decided, 80000);
 }
 
+// The truth: q <= x / step + 2049 / 4096 < q + 1, in whole numbers.
+TEST(Quantise, NeighboursOfWhereTheRoundingTurns) {
+  using Int128 = __int128;
+  std::mt19937_64 random(3);
+  size_t below = 0, above = 0;
+  for (const GridStep& step : {nanometre_step(0), nanometre_step(4), *GridStep::parse("0.0254"),
+                               *GridStep::parse("2^-20"), *GridStep::parse("0.003")}) {
+    const Quantiser q(step);
+    for (int i = 0; i < 20000; ++i) {
+      const auto turn =
+          static_cast<int64_t>(random() >> (38 + random() % 20)) * (random() % 2 == 0 ? 1 : -1);
+      const auto place = static_cast<double>(
+          ldexpl((static_cast<long double>(turn) - 2049.0L / 4096) * step.numerator /
+                     static_cast<long double>(step.denominator),
+                 step.exponent));
+      double x = place;
+      for (int ulps = static_cast<int>(random() % 5); ulps > 0; --ulps) {
+        x = std::nextafter(x, random() % 2 == 0 ? HUGE_VAL : -HUGE_VAL);
+      }
+      const auto rounded = q(x);
+      ASSERT_TRUE(rounded.has_value());
+      int exponent = 0;
+      const auto m = static_cast<int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
+      const int shift = step.exponent + 53 - exponent;  // x / step = m den / num / 2^shift
+      ASSERT_TRUE(shift >= 0 && shift < 70);
+      const Int128 value = Int128{4096} * m * step.denominator;
+      const Int128 unit = Int128{step.numerator} << shift;
+      ASSERT_LE((Int128{4096} * *rounded - 2049) * unit, value) << x;
+      ASSERT_GT((Int128{4096} * (*rounded + 1) - 2049) * unit, value) << x;
+      below += *rounded == turn - 1;
+      above += *rounded == turn;
+    }
+  }
+  EXPECT_EQ(below + above, 100000u);
+  EXPECT_GT(below, 20000u);
+  EXPECT_GT(above, 20000u);
+}
+
 TEST(Quantise, TinyAndHugeNumbers) {
   const Quantiser q(nanometre_step(0));
   EXPECT_EQ(q(0.0), 0);

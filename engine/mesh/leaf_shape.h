@@ -1,0 +1,43 @@
+// The box of the vertices of a leaf, and the form of its faces.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/bsp/operand.h"
+
+namespace csgrun {
+
+/// Empty for no points.
+inline GridBox box_of_points(const std::vector<IVec3>& points) {
+  GridBox box;
+  if (points.empty()) return box;
+  box.lo = box.hi = points[0];
+  for (const IVec3& p : points) {
+    for (size_t k = 0; k < 3; ++k) {
+      box.lo[k] = std::min(box.lo[k], p[k]);
+      box.hi[k] = std::max(box.hi[k], p[k]);
+    }
+  }
+  return box;
+}
+
+inline bool consists_of_triangles(const LeafGeometry& leaf) {
+  if (leaf.corners.size() != 3 * leaf.face_count()) return false;
+  bool all = true;
+  for (size_t f = 0; f < leaf.face_count(); ++f) all = all & (leaf.face_starts[f] == 3 * f);
+  return all;
+}
+
+/// Calls `visit(face_of)` with a function from an edge, by the corner that it leaves, to its face.
+template <class Visit>
+auto with_face_of(const LeafGeometry& leaf, Visit visit) {
+  if (consists_of_triangles(leaf)) return visit([](uint32_t edge) { return edge / 3; });
+  std::vector<uint32_t> face(leaf.corners.size());
+  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+    std::fill(face.begin() + leaf.face_starts[f], face.begin() + leaf.face_starts[f + 1], f);
+  }
+  return visit([&](uint32_t edge) { return face[edge]; });
+}
+
+}  // namespace csgrun
