@@ -22,7 +22,7 @@ class Assembler {
 
   Result<std::shared_ptr<const BoundaryMesh>> run(const std::vector<FragmentSet>& sets,
                                                   const std::vector<WholePolygon>& whole,
-                                                  bool may_touch,
+                                                  Touching touching,
                                                   std::vector<UntouchedPart> parts) {
     gather(sets, whole);
     std::sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
@@ -46,7 +46,8 @@ class Assembler {
     std::vector<uint32_t> number;
     auto mesh = std::make_shared<BoundaryMesh>(
         canonical(geometry_, job_.planes(), std::move(draft_), &number));
-    mesh->may_touch = may_touch;
+    mesh->may_touch = touching.anywhere || !touching.boxes.empty();
+    if (!touching.anywhere) mesh->touches = std::move(touching.boxes);
     for (UntouchedPart& part : parts) {
       for (UntouchedPart::Shared& s : part.shared) s.point = number[vertex_number_[s.point]];
     }
@@ -116,11 +117,24 @@ class Assembler {
     edges_.clear();
     for (size_t i = begin; i < end; ++i) edges_of(pieces_[i], edges_);
     const Piece first = pieces_[begin];
-    const bool built = end - begin == 1 ? builder_.build_single(first.plane, edges_, loops_)
-                                        : builder_.build(first.plane, edges_, loops_);
-    if (!built) return false;
-    if (loops_.loop_count() == 0) return true;
-    draft_.faces.push_back({first.plane, first.label, false, false, loops_});
+    const bool is_triangle = end - begin == 1 && first.whole && first.count == 3;
+    if (is_triangle) {
+      // All its corners are true ones.
+      draft_.begin_face(first.plane, first.label, false, false);
+      draft_.edges.insert(draft_.edges.end(), edges_.begin(), edges_.end());
+      draft_.end_loop();
+    } else {
+      const bool built = end - begin == 1 ? builder_.build_single(first.plane, edges_, loops_)
+                                          : builder_.build(first.plane, edges_, loops_);
+      if (!built) return false;
+      if (loops_.loop_count() == 0) return true;
+      draft_.begin_face(first.plane, first.label, false, false);
+      for (size_t l = 0; l < loops_.loop_count(); ++l) {
+        draft_.edges.insert(draft_.edges.end(), loops_.edges.begin() + loops_.starts[l],
+                            loops_.edges.begin() + loops_.starts[l + 1]);
+        draft_.end_loop();
+      }
+    }
     if (job_.is_of_complete_facet(job_.polygons()[first.polygon])) find_completeness(begin, end);
     return true;
   }
@@ -139,24 +153,23 @@ class Assembler {
             return std::tie(a.plane, a.label) < std::tie(b.plane, b.label);
           });
     }
-    facet_.clear();
-    uint32_t polygons = 0;
-    const size_t mark = corners_.size();
-    for (const uint32_t q : facet_of(first)) {
-      const JobPolygon& p = job_.polygons()[q];
-      ++polygons;
-      const Piece piece{first.plane, first.label, q, static_cast<uint32_t>(corners_.size()),
-                        p.count,     true};
-      add_polygon(p, p.support != first.plane);
-      edges_of(piece, facet_);
-    }
-    corners_.resize(mark);
-    planes_.resize(mark);
     const bool alone = other_begin == other_end;
-    bool complete = alone && polygons == end - begin &&
+    const std::vector<uint32_t>& polygons = facet_of(first);
+    bool complete = alone && polygons.size() == end - begin &&
                     std::all_of(pieces_.begin() + begin, pieces_.begin() + end,
                                 [](const Piece& p) { return p.whole; });
-    if (!complete) {
+    if (!complete && !(alone && has_new_corner(polygons))) {
+      facet_.clear();
+      const size_t mark = corners_.size();
+      for (const uint32_t q : polygons) {
+        const JobPolygon& p = job_.polygons()[q];
+        const Piece piece{first.plane, first.label, q, static_cast<uint32_t>(corners_.size()),
+                          p.count,     true};
+        add_polygon(p, p.support != first.plane);
+        edges_of(piece, facet_);
+      }
+      corners_.resize(mark);
+      planes_.resize(mark);
       for (auto p = other_begin; p != other_end; ++p) {
         const size_t at = edges_.size();
         edges_of(*p, edges_);
@@ -170,11 +183,27 @@ class Assembler {
     draft_.faces.back().whole = complete && alone;
   }
 
+  /// Whether the face made last has a corner that none of the polygons has.
+  bool has_new_corner(const std::vector<uint32_t>& polygons) {
+    constexpr size_t kFew = 16;
+    old_corners_.clear();
+    for (const uint32_t q : polygons) {
+      for (const uint32_t v : job_.corners(job_.polygons()[q])) old_corners_.push_back(vertex(v));
+      if (old_corners_.size() > kFew) return false;
+    }
+    const uint32_t first = draft_.loop_starts[draft_.faces.back().first_loop];
+    return std::any_of(
+        draft_.edges.begin() + first, draft_.edges.end(), [&](const DirectedEdge& e) {
+          return std::find(old_corners_.begin(), old_corners_.end(), e.from) == old_corners_.end();
+        });
+  }
+
   /// The polygons of the facet that a piece comes from, which lie in its plane.
-  std::vector<uint32_t> facet_of(const Piece& piece) {
+  const std::vector<uint32_t>& facet_of(const Piece& piece) {
     const auto& all = job_.polygons();
     const JobPolygon& own = all[piece.polygon];
-    std::vector<uint32_t> polygons;
+    std::vector<uint32_t>& polygons = facet_polygons_;
+    polygons.clear();
     if (job_.is_of_whole_facet(own)) {
       const auto same = [&](uint32_t q) {
         return all[q].operand == own.operand && job_.label(all[q]) == piece.label;
@@ -226,6 +255,7 @@ class Assembler {
   std::vector<uint32_t> corners_, planes_;
   std::vector<DirectedEdge> edges_, facet_;
   RegionLoops loops_, facet_loops_, both_sides_;
+  std::vector<uint32_t> facet_polygons_, old_corners_;
   std::map<uint32_t, std::vector<uint32_t>> by_label_;  ///< per operand
   DraftBoundary draft_;
 };
@@ -234,9 +264,9 @@ class Assembler {
 
 Result<std::shared_ptr<const BoundaryMesh>> assemble(Job& job, const std::vector<FragmentSet>& sets,
                                                      const std::vector<WholePolygon>& whole,
-                                                     bool may_touch,
+                                                     Touching touching,
                                                      std::vector<UntouchedPart> parts) {
-  return Assembler(job).run(sets, whole, may_touch, std::move(parts));
+  return Assembler(job).run(sets, whole, std::move(touching), std::move(parts));
 }
 
 }  // namespace csgrun

@@ -17,15 +17,21 @@ struct WholePolygon {
   bool flip;
 };
 
+/// BoundaryMesh::may_touch and ::touches.
+struct Touching {
+  bool anywhere = true;
+  std::vector<GridBox> boxes{};  ///< more places
+};
+
 /// Merges the fragments of each (plane, side, label) into maximal regions, names equal points once,
 /// and brings everything into canonical order. `job` must have planes for all polygons concerned;
-/// they are made here for whole ones. `may_touch` is what BoundaryMesh says. O(k log k).
+/// they are made here for whole ones. `touching` is what BoundaryMesh says. O(k log k).
 /// `parts` are taken over as they are, but for the numbers of their shared points: vertices of the
 /// job, which other faces have. Error kInternal when the fragments do not close up: an invariant of
 /// ours is broken.
 Result<std::shared_ptr<const BoundaryMesh>> assemble(Job& job, const std::vector<FragmentSet>& sets,
                                                      const std::vector<WholePolygon>& whole,
-                                                     bool may_touch = true,
+                                                     Touching touching = {},
                                                      std::vector<UntouchedPart> parts = {});
 
 }  // namespace csgrun

@@ -15,6 +15,7 @@ BoundaryMesh translated(const BoundaryMesh& mesh, const IVec3& t) {
   for (uint32_t p = 0; p < moved.point_planes.size(); ++p) {
     moved.point_rounded[p] = rounded(moved.exact_point(p));
   }
+  for (GridBox& box : moved.touches) box = box.moved(t);
   for (UntouchedPart& part : moved.parts) {
     for (int k = 0; k < 3; ++k) part.translation[k] += t[k];
   }
@@ -28,7 +29,7 @@ size_t memory_bytes(const BoundaryMesh& b) {
       sizeof b + b.planes.size() * sizeof(Plane) +
       b.point_planes.size() * (sizeof(std::array<uint32_t, 3>) + sizeof(std::array<double, 3>)) +
       b.faces.size() * sizeof(BoundaryMesh::Face) + b.loop_starts.size() * sizeof(uint32_t) +
-      b.corners.size() * sizeof(BoundaryMesh::Corner);
+      b.corners.size() * sizeof(BoundaryMesh::Corner) + b.touches.size() * sizeof(GridBox);
   for (const UntouchedPart& part : b.parts) {
     bytes += sizeof part + part.faces.size() * sizeof(uint32_t) +
              part.shared.size() * sizeof(UntouchedPart::Shared);

@@ -76,8 +76,10 @@ struct BoundaryMesh {
   };
 
   /// False when parts of the surface certainly meet in corners and edges that both have, or
-  /// nowhere. The only thing here that may depend on the way of evaluation.
+  /// nowhere. This and `touches` alone may depend on the way of evaluation.
   bool may_touch = true;
+  /// If they may touch, boxes in which all places are where they do; none: it can be anywhere.
+  std::vector<GridBox> touches;
   std::vector<Plane> planes;
   std::vector<std::array<uint32_t, 3>> point_planes;  ///< each point: three planes that meet in it
   std::vector<std::array<double, 3>> point_rounded;   ///< and its coordinates, correctly rounded

@@ -1,19 +1,76 @@
 #include "engine/bsp/canonical_order.h"
 
 #include <algorithm>
-#include <numeric>
+#include <tuple>
+
+#include "engine/base/counting_order.h"
+#include "engine/base/sort_few.h"
+#include "engine/bsp/lexicographic.h"
 
 namespace csgrun {
 namespace {
 
-std::vector<uint32_t> used_points(const DraftBoundary& draft) {
+std::vector<uint32_t> used_points(const DraftBoundary& draft, size_t point_count) {
+  std::vector<uint8_t> used(point_count, 0);
+  for (const DirectedEdge& e : draft.edges) used[e.from] = 1;
   std::vector<uint32_t> points;
-  for (const auto& face : draft.faces) {
-    for (const DirectedEdge& e : face.loops.edges) points.push_back(e.from);
+  for (uint32_t p = 0; p < point_count; ++p) {
+    if (used[p]) points.push_back(p);
   }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
+}
+
+/// The loops of a face, each from its lowest corner, by these.
+void sort_loops(DraftBoundary::Face& face, DraftBoundary& draft) {
+  struct LoopRef {
+    uint32_t begin, end;
+  };
+  const auto begin_of = [&](uint32_t l) { return draft.loop_starts[face.first_loop + l]; };
+  const auto before = [](const DirectedEdge& a, const DirectedEdge& b) {
+    return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+  };
+  std::vector<DirectedEdge>& edges = draft.edges;
+  for (uint32_t l = 0; l < face.loop_count; ++l) {
+    const auto begin = edges.begin() + begin_of(l), end = edges.begin() + begin_of(l + 1);
+    // A loop may pass a point twice: among equal corners the lower successor comes first.
+    std::rotate(begin, std::min_element(begin, end, before), end);
+  }
+  if (face.loop_count < 2) return;
+  std::vector<LoopRef> refs;
+  for (uint32_t l = 0; l < face.loop_count; ++l) refs.push_back({begin_of(l), begin_of(l + 1)});
+  std::sort(refs.begin(), refs.end(), [&](const LoopRef& a, const LoopRef& b) {
+    return before(edges[a.begin], edges[b.begin]);
+  });
+  std::vector<DirectedEdge> sorted;
+  std::vector<uint32_t> ends;
+  for (const LoopRef& r : refs) {
+    sorted.insert(sorted.end(), edges.begin() + r.begin, edges.begin() + r.end);
+    ends.push_back(begin_of(0) + static_cast<uint32_t>(sorted.size()));
+  }
+  std::copy(sorted.begin(), sorted.end(), edges.begin() + begin_of(0));
+  std::copy(ends.begin(), ends.end(), draft.loop_starts.begin() + face.first_loop + 1);
+}
+
+/// Faces by their lowest edge. Two with the same one lie on either side of one plane or in
+/// different planes.
+std::vector<uint32_t> face_order(const DraftBoundary& draft, const PlaneTable& planes,
+                                 size_t point_count) {
+  const auto lowest = [&](size_t f) -> const DirectedEdge& {
+    return draft.edges[draft.loop_starts[draft.faces[f].first_loop]];
+  };
+  CountingOrder by_point;
+  by_point.sort(draft.faces.size(), point_count, [&](size_t f) { return lowest(f).from; });
+  for (size_t point = 0; point < point_count; ++point) {
+    sort_few(by_point.order.begin() + by_point.starts[point],
+             by_point.order.begin() + by_point.starts[point + 1], [&](uint32_t i, uint32_t j) {
+               const DirectedEdge &u = lowest(i), &v = lowest(j);
+               if (u.to != v.to) return u.to < v.to;
+               const auto &a = draft.faces[i], &b = draft.faces[j];
+               const Plane p = planes.oriented(a.plane), q = planes.oriented(b.plane);
+               return std::tie(p.a, p.b, p.c, p.d, a.label) < std::tie(q.a, q.b, q.c, q.d, b.label);
+             });
+  }
+  return std::move(by_point.order);
 }
 
 }  // namespace
@@ -21,62 +78,26 @@ std::vector<uint32_t> used_points(const DraftBoundary& draft) {
 BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBoundary draft,
                        std::vector<uint32_t>* number_of_point) {
   BoundaryMesh mesh;
-  std::vector<uint32_t> points = used_points(draft);
-  std::sort(points.begin(), points.end(), [&](uint32_t p, uint32_t q) {
-    const auto &a = geometry.point(p).rounded, &b = geometry.point(q).rounded;
-    if (a != b) return a < b;
-    // Doubles cannot tell them apart on some axes: exactly.
-    for (int axis = 0; axis < 3; ++axis) {
-      if (const int order = geometry.compare_along(p, q, axis)) return order < 0;
-    }
-    return false;
-  });
-  std::vector<uint32_t> number(geometry.point_count(), kNone);
-  for (uint32_t i = 0; i < points.size(); ++i) {
-    number[points[i]] = i;
-    mesh.point_rounded.push_back(geometry.point(points[i]).rounded);
-  }
-
-  // Loops in new numbers, each from its lowest corner.
-  struct LoopRef {
-    uint32_t face, begin, end;
-  };
-  for (auto& face : draft.faces) {
-    RegionLoops sorted;
-    std::vector<LoopRef> refs;
-    auto& edges = face.loops.edges;
-    for (DirectedEdge& e : edges) e.from = number[e.from], e.to = number[e.to];
-    for (size_t l = 0; l < face.loops.loop_count(); ++l) {
-      const auto begin = edges.begin() + face.loops.starts[l];
-      const auto end = edges.begin() + face.loops.starts[l + 1];
-      // A loop may pass a point twice: among equal corners the lower successor comes first.
-      const auto lowest = std::min_element(begin, end, [](const auto& a, const auto& b) {
-        return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+  const std::vector<uint32_t> used = used_points(draft, geometry.point_count());
+  const std::vector<uint32_t> points = lexicographic_order(
+      used.size(),
+      [&](uint32_t i) -> const std::array<double, 3>& { return geometry.point(used[i]).rounded; },
+      [&](uint32_t i, uint32_t j) {
+        // Doubles cannot tell them apart: exactly.
+        for (int axis = 0; axis < 3; ++axis) {
+          if (const int order = geometry.compare_along(used[i], used[j], axis)) return order < 0;
+        }
+        return false;
       });
-      std::rotate(begin, lowest, end);
-      refs.push_back({0, face.loops.starts[l], face.loops.starts[l + 1]});
-    }
-    std::sort(refs.begin(), refs.end(), [&](const LoopRef& a, const LoopRef& b) {
-      return std::tie(edges[a.begin].from, edges[a.begin].to) <
-             std::tie(edges[b.begin].from, edges[b.begin].to);
-    });
-    for (const LoopRef& r : refs) {
-      sorted.edges.insert(sorted.edges.end(), edges.begin() + r.begin, edges.begin() + r.end);
-      sorted.starts.push_back(static_cast<uint32_t>(sorted.edges.size()));
-    }
-    face.loops = std::move(sorted);
+  std::vector<uint32_t> number(geometry.point_count(), kNone);
+  mesh.point_rounded.reserve(points.size());
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    number[used[points[i]]] = i;
+    mesh.point_rounded.push_back(geometry.point(used[points[i]]).rounded);
   }
-  std::vector<uint32_t> order(draft.faces.size());
-  std::iota(order.begin(), order.end(), 0u);
-  // Two faces with the same lowest edge lie on either side of one plane or in different planes.
-  std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
-    const auto &a = draft.faces[i], &b = draft.faces[j];
-    const auto &u = a.loops.edges[0], &v = b.loops.edges[0];
-    if (u.from != v.from) return u.from < v.from;
-    if (u.to != v.to) return u.to < v.to;
-    const Plane p = planes.oriented(a.plane), q = planes.oriented(b.plane);
-    return std::tie(p.a, p.b, p.c, p.d, a.label) < std::tie(q.a, q.b, q.c, q.d, b.label);
-  });
+  for (DirectedEdge& e : draft.edges) e.from = number[e.from], e.to = number[e.to];
+  for (DraftBoundary::Face& face : draft.faces) sort_loops(face, draft);
+  const std::vector<uint32_t> order = face_order(draft, planes, points.size());
 
   std::vector<uint32_t> plane_number(planes.size(), kNone);
   const auto local_plane = [&](uint32_t index) {
@@ -87,21 +108,21 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
     return plane_number[index];
   };
   mesh.point_planes.assign(points.size(), {kNone, kNone, kNone});
+  mesh.faces.reserve(order.size());
+  mesh.loop_starts.reserve(draft.loop_starts.size());
+  mesh.corners.reserve(draft.edges.size());
   for (const uint32_t f : order) {
-    const auto& face = draft.faces[f];
+    const DraftBoundary::Face& face = draft.faces[f];
     const uint32_t support = local_plane(face.plane.index());
-    BoundaryMesh::Face out{PlaneId(support, face.plane.flipped()),
-                           face.label,
-                           face.whole,
-                           static_cast<uint32_t>(mesh.loop_starts.size() - 1),
-                           static_cast<uint32_t>(face.loops.loop_count()),
-                           face.complete};
-    for (size_t l = 0; l < face.loops.loop_count(); ++l) {
-      const uint32_t begin = face.loops.starts[l], end = face.loops.starts[l + 1];
+    mesh.faces.push_back({PlaneId(support, face.plane.flipped()), face.label, face.whole,
+                          static_cast<uint32_t>(mesh.loop_starts.size() - 1), face.loop_count,
+                          face.complete});
+    for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
+      const uint32_t begin = draft.loop_starts[l], end = draft.loop_starts[l + 1];
       for (uint32_t c = begin; c < end; ++c) {
-        const DirectedEdge& e = face.loops.edges[c];
+        const DirectedEdge& e = draft.edges[c];
         const uint32_t edge_plane = local_plane(e.plane);
-        const DirectedEdge& before = face.loops.edges[c > begin ? c - 1 : end - 1];
+        const DirectedEdge& before = draft.edges[c > begin ? c - 1 : end - 1];
         auto& named = mesh.point_planes[e.from];
         // A true corner: the planes of its two edges and of the face meet in it alone.
         if (named[0] == kNone) named = {support, local_plane(before.plane), edge_plane};
@@ -109,7 +130,6 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
       }
       mesh.loop_starts.push_back(static_cast<uint32_t>(mesh.corners.size()));
     }
-    mesh.faces.push_back(out);
   }
   if (number_of_point != nullptr) *number_of_point = std::move(number);
   return mesh;

@@ -16,9 +16,21 @@ struct DraftBoundary {
     PlaneId plane;
     FaceLabel label;
     bool whole, complete;
-    RegionLoops loops;
+    uint32_t first_loop, loop_count;
   };
   std::vector<Face> faces;
+  std::vector<uint32_t> loop_starts{0};
+  std::vector<DirectedEdge> edges;
+
+  /// Adds a face without loops, and a loop to the last face: the edges since the last loop.
+  void begin_face(PlaneId plane, const FaceLabel& label, bool whole, bool complete) {
+    faces.push_back(
+        {plane, label, whole, complete, static_cast<uint32_t>(loop_starts.size() - 1), 0});
+  }
+  void end_loop() {
+    loop_starts.push_back(static_cast<uint32_t>(edges.size()));
+    ++faces.back().loop_count;
+  }
 };
 
 /// The same faces with numbers of their own, in canonical order; `number`, if it is given, tells

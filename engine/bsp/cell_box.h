@@ -13,6 +13,9 @@ namespace csgrun {
 /// wall.
 struct CellBox {
   IVec3 lo, hi;
+
+  /// All grid points and more of the cell, walls included.
+  [[nodiscard]] GridBox rounded_outwards() const { return {lo, {hi[0] + 1, hi[1] + 1, hi[2] + 1}}; }
 };
 
 /// Divisions that may pass without thinning out a cell before it is left as it is: two octree

@@ -1,9 +1,32 @@
 #include "engine/bsp/cell_geometry.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace csgrun {
+namespace {
+
+/// Whether the rounded coordinates are exact: they are whole, and in all three planes of the point.
+bool is_grid_point(const PlaneTable& planes, const CellGeometry::StoredPoint& point) {
+  constexpr double kLimit = 0x1p30;
+  constexpr int kNormalBits = 90, kOffsetBits = 122;
+  for (const double c : point.rounded) {
+    if (c != std::floor(c) || std::fabs(c) > kLimit) return false;
+  }
+  const auto at = [&](int k) {
+    return static_cast<Int128>(static_cast<int64_t>(point.rounded[k]));
+  };
+  return std::all_of(point.planes.begin(), point.planes.end(), [&](uint32_t index) {
+    if (planes.normal_bits(index) > kNormalBits || planes.offset_bits(index) > kOffsetBits) {
+      return false;
+    }
+    const Plane& s = planes.plane(index);
+    return s.a * at(0) + s.b * at(1) + s.c * at(2) + s.d == 0;
+  });
+}
+
+}  // namespace
 
 CellGeometry::CellGeometry(const PlaneTable& planes, const Job* job) : planes_(&planes), job_(job) {
   if (job) {
@@ -47,10 +70,16 @@ const Point& CellGeometry::exact(uint32_t p) {
   StoredPoint& s = points_[p];
   if (s.exact == kNone) {
     s.exact = static_cast<uint32_t>(exact_.size());
-    exact_.push_back(s.vertex != kNone
-                         ? job_->exact(s.vertex)
-                         : intersect(planes_->plane(s.planes[0]), planes_->plane(s.planes[1]),
-                                     planes_->plane(s.planes[2])));
+    if (s.vertex != kNone) {
+      exact_.push_back(job_->exact(s.vertex));
+    } else if (is_grid_point(*planes_, s)) {
+      exact_.push_back(grid_point(static_cast<int64_t>(s.rounded[0]),
+                                  static_cast<int64_t>(s.rounded[1]),
+                                  static_cast<int64_t>(s.rounded[2])));
+    } else {
+      exact_.push_back(intersect(planes_->plane(s.planes[0]), planes_->plane(s.planes[1]),
+                                 planes_->plane(s.planes[2])));
+    }
   }
   return exact_[s.exact];
 }

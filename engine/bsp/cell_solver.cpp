@@ -38,7 +38,7 @@ void CellSolver::solve(const Octree& tree, const CriticalCell& cell, const CellW
     for (const Fragment& f : operands_[i].polygons) solve_polygon(cell.expression, i, f, out);
   }
   cells_with_contact_ += contact_;
-  may_touch_ |= geometry_.met_plane;
+  may_touch_ = geometry_.met_plane;
 }
 
 void CellSolver::solve_polygon(const PrunedExpression& expression, uint32_t own, const Fragment& f,

@@ -28,8 +28,8 @@ class CellSolver {
   [[nodiscard]] const SignCounters& counters() const { return geometry_.counters; }
   /// In how many of the solved cells surfaces of different operands were found to meet.
   [[nodiscard]] uint64_t cells_with_contact() const { return cells_with_contact_; }
-  /// Whether in some solved cell surfaces of different operands may touch: a corner of one lies in
-  /// a plane of another.
+  /// Whether in the cell solved last surfaces of different operands may touch: a corner of one lies
+  /// in a plane of another.
   [[nodiscard]] bool may_touch() const { return may_touch_; }
   /// The solver's working memory, for others that solve a cell in its place.
   CellGeometry& geometry() { return geometry_; }

@@ -49,6 +49,22 @@ Work prepare(Job& job, const Octree& tree) {
   return work;
 }
 
+/// Where single operands may touch themselves.
+Touching touching_before(const std::vector<Operand>& operands) {
+  Touching result{false, {}};
+  for (const Operand& o : operands) {
+    if (o.leaf ? !o.leaf->may_touch : !o.boundary->may_touch) continue;
+    if (o.leaf || o.boundary->touches.empty() || !o.frame.is_identity) {
+      result.anywhere = true;
+      continue;
+    }
+    for (const GridBox& box : o.boundary->touches) {
+      result.boxes.push_back(box.moved(o.translation));
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<Operand>& operands,
@@ -69,7 +85,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   std::vector<FragmentSet> sets(critical_runs + copy_runs);
   std::vector<SignCounters> counters(sets.size());
   std::vector<uint64_t> contacts(sets.size(), 0);
-  std::vector<uint8_t> touches(sets.size(), 0);
+  std::vector<std::vector<GridBox>> touches(sets.size());
   const auto solve_run = [&](CellSolver& solver, size_t run) {
     const SignCounters before = solver.counters();
     const uint64_t contacts_before = solver.cells_with_contact();
@@ -81,6 +97,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
           solve_literal_cell(solver.geometry(), tree, tree.critical[c], walls, sets[run]);
         } else {
           solver.solve(tree, tree.critical[c], walls, sets[run]);
+          if (solver.may_touch()) touches[run].push_back(tree.critical[c].box.rounded_outwards());
         }
       }
     } else {
@@ -94,7 +111,6 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
       }
     }
     contacts[run] = solver.cells_with_contact() - contacts_before;
-    touches[run] = solver.may_touch();
     counters[run] = solver.counters();
     counters[run].subtract(before);
   };
@@ -111,16 +127,15 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   stats.sign_filter += total.filter;
   stats.sign_symbolic += total.symbolic;
   for (size_t t = 0; t < total.exact.size(); ++t) stats.sign_exact[t] += total.exact[t];
+  Touching touching = touching_before(operands);
+  touching.anywhere |= options.literal_cells;
   // Every contact of two operands is in a cell where both have surface.
-  const bool may_touch = options.literal_cells ||
-                         std::any_of(operands.begin(), operands.end(),
-                                     [](const Operand& o) {
-                                       return o.leaf ? o.leaf->may_touch : o.boundary->may_touch;
-                                     }) ||
-                         std::find(touches.begin(), touches.end(), 1) != touches.end();
+  for (const auto& boxes : touches) {
+    touching.boxes.insert(touching.boxes.end(), boxes.begin(), boxes.end());
+  }
   std::vector<UntouchedPart> parts;
   if (options.name_untouched) parts = take_untouched(job, operands, work.whole);
-  return assemble(job, sets, work.whole, may_touch, std::move(parts));
+  return assemble(job, sets, work.whole, std::move(touching), std::move(parts));
 }
 
 }  // namespace csgrun

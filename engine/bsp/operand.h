@@ -96,6 +96,9 @@ struct KernelOptions {
 struct GridBox {
   IVec3 lo{0, 0, 0}, hi{-1, -1, -1};
   [[nodiscard]] bool empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
+  [[nodiscard]] GridBox moved(const IVec3& t) const {
+    return {{lo[0] + t[0], lo[1] + t[1], lo[2] + t[2]}, {hi[0] + t[0], hi[1] + t[1], hi[2] + t[2]}};
+  }
 };
 
 }  // namespace csgrun

@@ -126,25 +126,24 @@ class Expander {
     for (const UntouchedPart& part : mesh_.parts) add(part);
     BoundaryMesh result = canonical(geometry_, planes_, std::move(draft_));
     result.may_touch = mesh_.may_touch;
+    result.touches = mesh_.touches;
     return result;
   }
 
  private:
   void add(const BoundaryMesh::Face& face) {
     const PlaneId plane = plane_of_[face.plane.index()];
-    DraftBoundary::Face made{
-        face.plane.flipped() ? plane.flip() : plane, face.label, face.whole, face.complete, {}};
+    draft_.begin_face(face.plane.flipped() ? plane.flip() : plane, face.label, face.whole,
+                      face.complete);
     for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
       const uint32_t begin = mesh_.loop_starts[l], end = mesh_.loop_starts[l + 1];
       for (uint32_t c = begin; c < end; ++c) {
         const BoundaryMesh::Corner &corner = mesh_.corners[c],
                                    &next = mesh_.corners[c + 1 < end ? c + 1 : begin];
-        made.loops.edges.push_back(
-            {corner.point, next.point, plane_of_[corner.edge_plane].index()});
+        draft_.edges.push_back({corner.point, next.point, plane_of_[corner.edge_plane].index()});
       }
-      made.loops.starts.push_back(static_cast<uint32_t>(made.loops.edges.size()));
+      draft_.end_loop();
     }
-    draft_.faces.push_back(std::move(made));
   }
 
   void add(const UntouchedPart& part) {
@@ -161,19 +160,18 @@ class Expander {
       for (int i = 0; i < 3; ++i) {
         edge[i] = planes_.intern(edge_plane(at[i], at[(i + 1) % 3], axis)).index();
       }
-      DraftBoundary::Face made{plane, part.label(f), true, true, {}};
       for (int i = 0; i < 3; ++i) {
         uint32_t& point = point_of[corners[i]];
-        if (point == kNone) {
-          point = geometry_.add_point({plane.index(), edge[(i + 2) % 3], edge[i]},
-                                      {static_cast<double>(at[i][0]), static_cast<double>(at[i][1]),
-                                       static_cast<double>(at[i][2])});
-        }
-        made.loops.edges.push_back({point, kNone, edge[i]});
+        if (point != kNone) continue;
+        point = geometry_.add_point({plane.index(), edge[(i + 2) % 3], edge[i]},
+                                    {static_cast<double>(at[i][0]), static_cast<double>(at[i][1]),
+                                     static_cast<double>(at[i][2])});
       }
-      for (int i = 0; i < 3; ++i) made.loops.edges[i].to = made.loops.edges[(i + 1) % 3].from;
-      made.loops.starts.push_back(3);
-      draft_.faces.push_back(std::move(made));
+      draft_.begin_face(plane, part.label(f), true, true);
+      for (int i = 0; i < 3; ++i) {
+        draft_.edges.push_back({point_of[corners[i]], point_of[corners[(i + 1) % 3]], edge[i]});
+      }
+      draft_.end_loop();
     }
   }
 

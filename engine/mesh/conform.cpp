@@ -14,24 +14,32 @@ namespace {
 
 class Conformer {
  public:
-  Conformer(std::vector<MergedFace>& faces, CellGeometry& geometry, const PlaneTable& planes)
+  Conformer(std::vector<MergedFace>& faces, std::span<const uint32_t> near, CellGeometry& geometry,
+            const PlaneTable& planes)
       : faces_(faces),
+        near_(near),
         geometry_(geometry),
         planes_(planes),
-        edges_(edges_of(faces)),
+        edges_(edges_of(faces, near)),
         boxes_(boxes_of(edges_, geometry)),
         tree_(boxes_),
+        face_boxes_(faces.size()),
         corner_of_(geometry.point_count(), kNone),
         sides_(faces.size()),
         lying_(faces.size()) {}
 
   void run() {
     uint32_t first_edge = 0;
-    for (uint32_t f = 0; f < faces_.size(); ++f) {
-      face_boxes_.push_back(mark_face(f, first_edge));
-      tree_.visit_all(face_boxes_.back(), [&](uint32_t e) {
-        if (edges_[e].face != f) look_at(f, edges_[e].face, edges_[e].edge);
+    std::vector<uint32_t> met;
+    for (const uint32_t f : near_) {
+      face_boxes_[f] = mark_face(f, first_edge);
+      met.clear();
+      tree_.visit_all(face_boxes_[f], [&](uint32_t e) {
+        if (edges_[e].face != f) met.push_back(e);
       });
+      // In the order of edges: which points are made first must not depend on the tree.
+      std::sort(met.begin(), met.end());
+      for (const uint32_t e : met) look_at(f, edges_[e].face, edges_[e].edge);
     }
     std::sort(straddling_.begin(), straddling_.end());
     straddling_.erase(std::unique(straddling_.begin(), straddling_.end()), straddling_.end());
@@ -69,10 +77,11 @@ class Conformer {
     bool front = false, back = false;
   };
 
-  /// Of all faces, in the order of their loops.
-  static std::vector<FaceEdge> edges_of(const std::vector<MergedFace>& faces) {
+  /// In the order of faces and their loops.
+  static std::vector<FaceEdge> edges_of(const std::vector<MergedFace>& faces,
+                                        std::span<const uint32_t> near) {
     std::vector<FaceEdge> edges;
-    for (uint32_t f = 0; f < faces.size(); ++f) {
+    for (const uint32_t f : near) {
       for (const auto& loop : faces[f].loops) {
         for (const DirectedEdge& e : loop) edges.push_back({e, f});
       }
@@ -327,8 +336,8 @@ class Conformer {
   uint32_t unique(uint32_t point) {
     if (!index_) {
       index_.emplace(geometry_);
-      for (const MergedFace& face : faces_) {
-        for (const auto& loop : face.loops) {
+      for (const uint32_t f : near_) {
+        for (const auto& loop : faces_[f].loops) {
           for (const DirectedEdge& e : loop) index_->unique(e.from);
         }
       }
@@ -353,8 +362,8 @@ class Conformer {
     std::vector<uint32_t> points;
     uint32_t number = 0;
     auto next = inside.begin();
-    for (MergedFace& face : faces_) {
-      for (auto& loop : face.loops) {
+    for (const uint32_t f : near_) {
+      for (auto& loop : faces_[f].loops) {
         const auto count = static_cast<uint32_t>(loop.size());
         if (next != inside.end() && next->first < number + count) {
           broken.clear();
@@ -431,12 +440,13 @@ class Conformer {
   }
 
   std::vector<MergedFace>& faces_;
+  std::span<const uint32_t> near_;
   CellGeometry& geometry_;
   const PlaneTable& planes_;
   const std::vector<FaceEdge> edges_;  ///< as they were given
   const std::vector<Box> boxes_;       ///< of the edges
   const BoxTree tree_;
-  std::vector<Box> face_boxes_;
+  std::vector<Box> face_boxes_;      ///< of the faces near contacts
   std::vector<uint32_t> corner_of_;  ///< per point: the face that was marked last
   std::vector<Ends> rim_;            ///< of that face, sorted
   std::vector<Sides> sides_;         ///< per face, of the plane of the one that was marked last
@@ -452,9 +462,9 @@ class Conformer {
 
 }  // namespace
 
-void conform_contacts(std::vector<MergedFace>& faces, CellGeometry& geometry,
-                      const PlaneTable& planes) {
-  Conformer(faces, geometry, planes).run();
+void conform_contacts(std::vector<MergedFace>& faces, std::span<const uint32_t> near,
+                      CellGeometry& geometry, const PlaneTable& planes) {
+  Conformer(faces, near, geometry, planes).run();
 }
 
 }  // namespace csgrun

@@ -2,6 +2,7 @@
 // of what is touched.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engine/mesh/merge_faces.h"
@@ -16,7 +17,9 @@ namespace csgrun {
 ///
 /// REQUIRES: faces that do not cross, T-junctions resolved. Exact; doubles decide nearly always.
 /// Cost: O(n log n) and the pairs of faces whose boxes meet, as often as a contact is looked at.
-void conform_contacts(std::vector<MergedFace>& faces, CellGeometry& geometry,
-                      const PlaneTable& planes);
+///
+/// Only the faces `near` (ascending) are looked at: no others touch anything.
+void conform_contacts(std::vector<MergedFace>& faces, std::span<const uint32_t> near,
+                      CellGeometry& geometry, const PlaneTable& planes);
 
 }  // namespace csgrun

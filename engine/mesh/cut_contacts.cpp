@@ -20,15 +20,15 @@ struct FaceEdge {
 
 class ContactCutter {
  public:
-  ContactCutter(std::vector<MergedFace>& faces, CellGeometry& geometry, const PlaneTable& planes)
-      : faces_(faces), geometry_(geometry), planes_(planes) {
+  ContactCutter(std::vector<MergedFace>& faces, std::span<const uint32_t> near,
+                CellGeometry& geometry, const PlaneTable& planes)
+      : faces_(faces), near_(near), geometry_(geometry), planes_(planes) {
     index_edges();
   }
 
   bool run() {
     bool any = false;
-    const size_t count = faces_.size();
-    for (uint32_t f = 0; f < count; ++f) {
+    for (const uint32_t f : near_) {
       if (!faces_[f].untouched && find_contacts(f)) any |= cut(f);
     }
     if (any) sort_faces(faces_, planes_);
@@ -42,7 +42,7 @@ class ContactCutter {
   void index_edges() {
     std::vector<uint32_t> count(geometry_.point_count() + 1, 0);
     const auto each = [&](auto&& visit) {
-      for (uint32_t f = 0; f < faces_.size(); ++f) {
+      for (const uint32_t f : near_) {
         if (faces_[f].untouched) continue;
         for (const auto& loop : faces_[f].loops) {
           for (const DirectedEdge& e : loop) {
@@ -232,6 +232,7 @@ class ContactCutter {
   }
 
   std::vector<MergedFace>& faces_;
+  std::span<const uint32_t> near_;
   CellGeometry& geometry_;
   const PlaneTable& planes_;
   std::vector<uint32_t> starts_;
@@ -242,9 +243,9 @@ class ContactCutter {
 
 }  // namespace
 
-bool cut_at_contacts(std::vector<MergedFace>& faces, CellGeometry& geometry,
-                     const PlaneTable& planes) {
-  return ContactCutter(faces, geometry, planes).run();
+bool cut_at_contacts(std::vector<MergedFace>& faces, std::span<const uint32_t> near,
+                     CellGeometry& geometry, const PlaneTable& planes) {
+  return ContactCutter(faces, near, geometry, planes).run();
 }
 
 }  // namespace csgrun

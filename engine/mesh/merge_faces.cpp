@@ -4,6 +4,8 @@
 #include <span>
 #include <tuple>
 
+#include "engine/base/counting_order.h"
+#include "engine/base/sort_few.h"
 #include "engine/mesh/connected_pieces.h"
 #include "engine/mesh/nest_loops.h"
 
@@ -64,6 +66,7 @@ class FaceMerger {
 
   /// The faces of one group.
   bool add(std::span<const Group> group) {
+    if (group.size() == 1 && add_plain(group[0])) return true;
     const auto label = [&](const Group& g) { return boundary_.faces[g.face].label; };
     const FaceLabel first = label(group[0]);
     const bool is_of_one = std::all_of(group.begin(), group.end(), [&](const Group& g) {
@@ -78,6 +81,26 @@ class FaceMerger {
     FaceLabel label;
     std::vector<DirectedEdge> edges;
   };
+
+  /// A face by itself whose loop passes no point twice is what it was. False for all others.
+  bool add_plain(const Group& group) {
+    constexpr uint32_t kFew = 8;
+    const BoundaryMesh& b = boundary_;
+    const BoundaryMesh::Face& face = b.faces[group.face];
+    const uint32_t begin = b.loop_starts[face.first_loop], end = b.loop_starts[face.first_loop + 1];
+    if (face.loop_count != 1 || end - begin > kFew) return false;
+    for (uint32_t c = begin; c < end; ++c) {
+      for (uint32_t d = begin; d < c; ++d) {
+        if (b.corners[c].point == b.corners[d].point) return false;
+      }
+    }
+    MergedFace& made = faces_.emplace_back(MergedFace{
+        group.plane, group.appearance, face.label.surface, face.label.source, group.keep != 0, {}});
+    edges_.clear();
+    append_edges(face, edges_);
+    made.loops.push_back(edges_);
+    return true;
+  }
 
   bool add_as_one(std::span<const Group> group) {
     edges_.clear();
@@ -171,18 +194,27 @@ class FaceMerger {
 bool merge_faces(const BoundaryMesh& b, CellGeometry& geometry, const PlaneTable& planes,
                  const std::vector<PlaneId>& plane_of, std::vector<MergedFace>& faces) {
   const std::vector<uint32_t> state = sources_at_points(b);
+  const auto plane = [&](size_t i) {
+    const PlaneId mapped = plane_of[b.faces[i].plane.index()];
+    return b.faces[i].plane.flipped() ? mapped.flip() : mapped;
+  };
+  CountingOrder by_plane;
+  by_plane.sort(b.faces.size(), planes.size(), [&](size_t i) { return plane(i).index(); });
   std::vector<Group> groups;
   groups.reserve(b.faces.size());
-  for (uint32_t i = 0; i < b.faces.size(); ++i) {
-    const BoundaryMesh::Face& f = b.faces[i];
-    const PlaneId mapped = plane_of[f.plane.index()];
-    groups.push_back({f.plane.flipped() ? mapped.flip() : mapped, f.label.appearance,
-                      f.label.surface != 0, untouched(b, f, state) ? i + 1 : 0, i});
+  for (size_t p = 0; p < planes.size(); ++p) {
+    const auto first = static_cast<long>(groups.size());
+    for (uint32_t k = by_plane.starts[p]; k < by_plane.starts[p + 1]; ++k) {
+      const uint32_t i = by_plane.order[k];
+      const BoundaryMesh::Face& f = b.faces[i];
+      groups.push_back({plane(i), f.label.appearance, f.label.surface != 0,
+                        untouched(b, f, state) ? i + 1 : 0, i});
+    }
+    sort_few(groups.begin() + first, groups.end(), [](const Group& x, const Group& y) {
+      return std::tie(x.plane, x.appearance, x.curved, x.keep, x.face) <
+             std::tie(y.plane, y.appearance, y.curved, y.keep, y.face);
+    });
   }
-  std::sort(groups.begin(), groups.end(), [](const Group& x, const Group& y) {
-    return std::tie(x.plane, x.appearance, x.curved, x.keep, x.face) <
-           std::tie(y.plane, y.appearance, y.curved, y.keep, y.face);
-  });
   FaceMerger merger(b, geometry, planes, plane_of, faces);
   for (size_t i = 0, j = 0; i < groups.size(); i = j) {
     while (j < groups.size() && groups[j].goes_with(groups[i])) ++j;
@@ -206,14 +238,27 @@ void sort_faces(std::vector<MergedFace>& faces, const PlaneTable& planes) {
       return std::tie(x[0].from, x[0].to) < std::tie(y[0].from, y[0].to);
     });
   }
-  std::sort(faces.begin(), faces.end(), [&](const MergedFace& x, const MergedFace& y) {
+  uint32_t last_point = 0;
+  for (const MergedFace& f : faces) last_point = std::max(last_point, f.loops[0][0].from);
+  CountingOrder by_point;
+  by_point.sort(faces.size(), size_t{last_point} + 1,
+                [&](size_t f) { return faces[f].loops[0][0].from; });
+  const auto before = [&](uint32_t f, uint32_t g) {
+    const MergedFace &x = faces[f], &y = faces[g];
     const DirectedEdge &u = x.loops[0][0], &v = y.loops[0][0];
-    if (u.from != v.from) return u.from < v.from;
     if (u.to != v.to) return u.to < v.to;
     const Plane p = planes.oriented(x.plane), q = planes.oriented(y.plane);
     return std::tie(p.a, p.b, p.c, p.d, x.appearance, x.surface) <
            std::tie(q.a, q.b, q.c, q.d, y.appearance, y.surface);
-  });
+  };
+  for (size_t p = 0; p <= last_point; ++p) {
+    sort_few(by_point.order.begin() + by_point.starts[p],
+             by_point.order.begin() + by_point.starts[p + 1], before);
+  }
+  std::vector<MergedFace> sorted;
+  sorted.reserve(faces.size());
+  for (const uint32_t f : by_point.order) sorted.push_back(std::move(faces[f]));
+  faces = std::move(sorted);
 }
 
 }  // namespace csgrun

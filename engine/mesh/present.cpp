@@ -16,6 +16,7 @@
 #include "engine/mesh/insert_points.h"
 #include "engine/mesh/measure.h"
 #include "engine/mesh/merge_faces.h"
+#include "engine/mesh/near_contacts.h"
 #include "engine/mesh/plane_oracle.h"
 #include "engine/mesh/self_contact.h"
 #include "engine/mesh/stitch.h"
@@ -105,17 +106,20 @@ class Presenter {
     std::vector<LowestEdge> lowest = lowest_edges();
     break_at_own_corners(faces_, geometry_);
     if (!resolve_t_junctions(faces_, geometry_, planes_, whole)) return not_closed("edges");
-    if (cut_at_contacts(faces_, geometry_, planes_)) {
+    std::vector<uint32_t> near;
+    if (boundary_.may_touch) near = faces_near(boundary_.touches, faces_, geometry_);
+    if (!near.empty() && cut_at_contacts(faces_, near, geometry_, planes_)) {
       lowest = lowest_edges();
       break_at_own_corners(faces_, geometry_);
       if (!resolve_t_junctions(faces_, geometry_, planes_, whole)) return not_closed("cut edges");
+      near = faces_near(boundary_.touches, faces_, geometry_);
     }
     whole_->order_faces(lowest);
     auto solid = std::make_shared<Solid>();
     if (context_.measure) {
       solid->canonical_hash = canonical_hash(faces_, whole, boundary_, geometry_, context_);
     }
-    if (boundary_.may_touch) conform_contacts(faces_, geometry_, planes_);
+    if (!near.empty()) conform_contacts(faces_, near, geometry_, planes_);
     if (auto status = triangulate_all(); !status) return status.error();
     if (auto status = make_vertices(); !status) return status.error();
     fill(*solid);

@@ -7,6 +7,18 @@
 #include "engine/mesh/rational_text.h"
 
 namespace csgrun {
+namespace {
+
+/// A double in the middle of two floats says on which side the exact value is only if it is exact;
+/// subnormal numbers have other middles.
+bool tells_float(double correctly_rounded) {
+  if (correctly_rounded == 0) return true;
+  const bool is_middle = (std::bit_cast<uint64_t>(correctly_rounded) & 0x1fffffff) == 0x10000000;
+  return !is_middle && std::fabs(correctly_rounded) > 0x1p-120 &&
+         std::fabs(correctly_rounded) < 0x1p120;
+}
+
+}  // namespace
 
 ToMillimetres::ToMillimetres(const GridStep& step) : step_(step) {
   constexpr int64_t kExact = int64_t{1} << 53;
@@ -24,11 +36,7 @@ bool ToMillimetres::quick(int64_t coordinate, double& mm, float& single) const {
   const auto numerator = static_cast<double>(coordinate * step_.numerator);
   mm = numerator / denominator_ * scale_;
   single = static_cast<float>(mm);
-  if (mm == 0) return true;
-  // A double in the middle of two floats says on which side the exact value is only if it is exact;
-  // subnormal numbers have other middles.
-  const bool is_middle = (std::bit_cast<uint64_t>(mm) & 0x1fffffff) == 0x10000000;
-  return !is_middle && std::fabs(mm) > 0x1p-120 && std::fabs(mm) < 0x1p120;
+  return tells_float(mm);
 }
 
 void ToMillimetres::position(const IVec3& p, glm::dvec3& mm, std::array<float, 3>& single) const {
@@ -56,7 +64,8 @@ void ToMillimetres::divide(const Point& p, glm::dvec3& mm, std::array<float, 3>&
   for (int k = 0; k < 3; ++k) {
     const Q numerator = multiply<kQuotientLimbs>(*coordinate[k], Int<1>(step_.numerator));
     mm[k] = round_to_double(numerator, denominator, step_.exponent);
-    single[k] = round_to_float(numerator, denominator, step_.exponent);
+    single[k] = tells_float(mm[k]) ? static_cast<float>(mm[k])
+                                   : round_to_float(numerator, denominator, step_.exponent);
   }
 }
 

@@ -1,12 +1,12 @@
 #include "engine/mesh/whole_order.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "engine/base/counting_order.h"
 #include "engine/base/sort_few.h"
 #include "engine/bsp/grid_planes.h"
+#include "engine/bsp/lexicographic.h"
 
 namespace csgrun {
 
@@ -100,26 +100,13 @@ void WholeOrder::sort_points(CellGeometry& geometry) {
     const IVec3 q = grid_point(points_[p]);
     return csgrun::grid_point(q[0], q[1], q[2]);
   };
-  // By whole parts of x, at most 2^20 buckets wide, then within each bucket.
-  double lo = at[0][0], hi = lo;
-  for (const auto& p : at) lo = std::min(lo, p[0]), hi = std::max(hi, p[0]);
-  const double buckets =
-      std::min({static_cast<double>(at.size()), std::floor(hi - lo) + 1, 0x1p20});
-  const double scale = buckets / (hi - lo + 1);
-  CountingOrder by_x;
-  by_x.sort(at.size(), static_cast<size_t>(buckets) + 1,
-            [&](size_t p) { return static_cast<size_t>((at[p][0] - lo) * scale); });
-  for (size_t b = 0; b + 1 < by_x.starts.size(); ++b) {
-    std::sort(by_x.order.begin() + by_x.starts[b], by_x.order.begin() + by_x.starts[b + 1],
-              [&](uint32_t p, uint32_t q) {
-                if (at[p] != at[q]) return at[p] < at[q];
-                return p != q && compare(exact(p), exact(q)) < 0;
-              });
-  }
+  const std::vector<uint32_t> order = lexicographic_order(
+      at.size(), [&](uint32_t p) -> const std::array<double, 3>& { return at[p]; },
+      [&](uint32_t p, uint32_t q) { return p != q && compare(exact(p), exact(q)) < 0; });
   std::vector<Place> sorted;
   sorted.reserve(points_.size());
   number_.resize(points_.size());
-  for (const uint32_t p : by_x.order) {
+  for (const uint32_t p : order) {
     number_[p] = static_cast<uint32_t>(sorted.size());
     sorted.push_back(points_[p]);
   }

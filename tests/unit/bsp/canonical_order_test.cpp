@@ -109,7 +109,6 @@ TEST(CanonicalOrder, OfPointsThatDoublesCannotTellApart) {
       const auto corner = [&](int u, int v) {
         return point[upper << (2 - axis) | u << (2 - i) | v << (2 - j)];
       };
-      DraftBoundary::Face face{PlaneId(wall[axis][upper], upper == 0), {}, false, false, {}};
       std::vector<DirectedEdge> loop{{corner(0, 0), corner(1, 0), wall[j][0]},
                                      {corner(1, 0), corner(1, 1), wall[i][1]},
                                      {corner(1, 1), corner(0, 1), wall[j][1]},
@@ -119,9 +118,9 @@ TEST(CanonicalOrder, OfPointsThatDoublesCannotTellApart) {
         for (auto& e : loop) std::swap(e.from, e.to);
       }
       std::rotate(loop.begin(), loop.begin() + random.integer(0, 3), loop.end());
-      face.loops.edges = loop;
-      face.loops.starts.push_back(4);
-      draft.faces.push_back(face);
+      draft.begin_face(PlaneId(wall[axis][upper], upper == 0), {}, false, false);
+      draft.edges.insert(draft.edges.end(), loop.begin(), loop.end());
+      draft.end_loop();
     }
     const BoundaryMesh mesh = canonical(geometry, planes, draft);
     ASSERT_EQ(mesh.point_planes.size(), 8u);

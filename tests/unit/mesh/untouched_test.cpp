@@ -131,6 +131,13 @@ void expect_one_value(const Pair& pair, const std::string& what) {
     ASSERT_TRUE(x) << what << text(x.error());
     ASSERT_TRUE(y) << what << text(y.error());
     ASSERT_EQ(difference_of_arrays(**x, **y), "") << what;
+    // Where contacts are looked for must not matter.
+    BoundaryMesh anywhere = *pair.spelled;
+    anywhere.touches.clear();
+    anywhere.may_touch = true;
+    const auto z = present(anywhere, context);
+    ASSERT_TRUE(z) << what << text(z.error());
+    ASSERT_EQ(difference_of_arrays(**x, **z), "") << what;
   }
   if (is_empty(*pair.spelled)) return;
   const auto volume = boundary_volume(*pair.spelled, context.step),
