@@ -11,15 +11,6 @@ namespace csgrun {
 namespace {
 
 constexpr uint32_t kNone = UINT32_MAX;
-/// So that normals fit 62 bits.
-constexpr int64_t kLargestExtent = int64_t{1} << 30;
-
-bool fits(const GridBox& box) {
-  for (size_t k = 0; k < 3; ++k) {
-    if (box.hi[k] - box.lo[k] >= kLargestExtent) return false;
-  }
-  return true;
-}
 
 /// Gives points numbers in the order in which they are asked for, equal points the same one.
 class Numbering {
@@ -94,7 +85,8 @@ void renumber(LeafGeometry& leaf) {
 std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
                                              const std::vector<IVec3>& points, bool turn,
                                              const std::vector<uint32_t>& appearance) {
-  if (mesh.loop_count() != mesh.face_count() || !fits(box_of_points(points))) return std::nullopt;
+  if (mesh.loop_count() != mesh.face_count() || !is_compact(box_of_points(points)))
+    return std::nullopt;
   std::optional<ConvexFaces> result(std::in_place);
   LeafGeometry& leaf = result->leaf;
   const size_t faces = mesh.face_count();

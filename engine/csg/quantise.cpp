@@ -7,6 +7,7 @@
 
 #include "engine/csg/convex_leaf.h"
 #include "engine/csg/leaf_faces.h"
+#include "engine/mesh/convex_surface.h"
 #include "engine/mesh/leaf_check.h"
 #include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/opposite_edges.h"
@@ -124,7 +125,7 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
   leaf->opposite = std::move(pairing.opposite);
   // Rounding can close a gap that is narrower than a step, whatever was promised of the original
   // mesh; convexity is seen from the faces themselves.
-  leaf->convex = promised_convex && is_locally_convex(*leaf);
+  leaf->convex = is_convex_surface(*leaf) || (promised_convex && is_locally_convex(*leaf));
   result.status = PreparedLeaf::Status::kGood;
   if (!leaf->convex) {
     SurfaceCheck check = check_surface(*leaf);

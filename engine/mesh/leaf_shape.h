@@ -1,4 +1,4 @@
-// The box of the vertices of a leaf, and the form of its faces.
+// The extent of the vertices of a leaf, and the form of its faces.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +20,13 @@ inline GridBox box_of_points(const std::vector<IVec3>& points) {
     }
   }
   return box;
+}
+
+/// Whether coordinates are less than 2^30 apart: normals of three points fit 62 bits.
+inline bool is_compact(const GridBox& box) {
+  bool all = true;
+  for (size_t k = 0; k < 3; ++k) all = all && box.hi[k] - box.lo[k] < int64_t{1} << 30;
+  return all;
 }
 
 inline bool consists_of_triangles(const LeafGeometry& leaf) {

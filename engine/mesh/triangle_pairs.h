@@ -15,11 +15,7 @@
 
 namespace csgrun {
 
-/// Neighbours are told from the vertices that they have in common. A vertex is *spread* when there
-/// is a direction in which all its triangles face, and its triangles, seen from there, surround it
-/// once. They are then sectors that do not overlap: a map that is one to one on each of them takes
-/// no two points to one unless they lie on the edge that two neighbouring sectors have. So two
-/// triangles of a spread vertex have nothing in common but corners and edges of both.
+/// Neighbours are told from the vertices that they have in common: see spread_vertices.h.
 class TrianglePairs {
  public:
   /// Whether the leaf has triangles only, and fits the arithmetic.
@@ -72,8 +68,6 @@ class TrianglePairs {
   struct alignas(16) Group {
     std::array<std::array<uint32_t, 8>, 3> corners;
   };
-
-  [[nodiscard]] std::vector<uint8_t> find_spread_vertices() const;
 
   const LeafGeometry& leaf_;
   std::vector<Group> corners_;                   ///< by place; lanes without a triangle hold kNone

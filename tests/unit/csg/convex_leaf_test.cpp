@@ -11,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/csg/leaf_faces.h"
 #include "engine/csg/quantise.h"
+#include "engine/mesh/convex_surface.h"
 #include "engine/mesh/leaf_check.h"
 #include "test_meshes.h"
 
@@ -24,7 +26,8 @@ using Status = PreparedLeaf::Status;
 constexpr int64_t kStretch = int64_t{1} << 30;
 
 struct Tally {
-  size_t good = 0, tangled = 0, flat = 0, open = 0, crossings = 0, quick = 0, merged = 0;
+  size_t good = 0, tangled = 0, flat = 0, open = 0, crossings = 0, quick = 0, merged = 0,
+         convex = 0;
 };
 
 std::vector<IVec3> stretched(std::vector<IVec3> points, int64_t by) {
@@ -32,6 +35,22 @@ std::vector<IVec3> stretched(std::vector<IVec3> points, int64_t by) {
     for (int64_t& x : p) x *= by;
   }
   return points;
+}
+
+/// Whether no vertex is in front of a face.
+bool nothing_in_front(const LeafGeometry& leaf) {
+  for (size_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t begin = leaf.face_starts[f];
+    CornerPlane plane;
+    if (!corner_plane(leaf.vertices, &leaf.corners[begin], leaf.face_starts[f + 1] - begin,
+                      plane)) {
+      return false;
+    }
+    for (const IVec3& v : leaf.vertices) {
+      if (plane.side(v) > 0) return false;
+    }
+  }
+  return true;
 }
 
 void expect_same_both_ways(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
@@ -63,7 +82,10 @@ void expect_same_both_ways(const PolygonMesh& mesh, const std::vector<IVec3>& po
   EXPECT_EQ(a.surface, b.surface);
   EXPECT_EQ(a.appearance, b.appearance);
   EXPECT_EQ(a.opposite, b.opposite);
-  EXPECT_EQ(a.convex, b.convex);
+  // The general way believes no mesh that does not promise to be convex.
+  EXPECT_TRUE(a.convex || !b.convex);
+  EXPECT_TRUE(!a.convex || nothing_in_front(a));
+  tally.convex += a.convex && !b.convex;
   EXPECT_EQ(a.may_touch, b.may_touch);
 }
 
@@ -153,6 +175,7 @@ TEST(ConvexLeaf, BallsOfAllSizesAgreeWithTheGeneralWay) {
   EXPECT_GT(tally.quick, 100u);
   EXPECT_GT(tally.merged, 10u);
   EXPECT_GT(tally.crossings, 1000u);
+  EXPECT_GT(tally.convex, 5u);
 }
 
 TEST(ConvexLeaf, PairsOfBallsAgreeWithTheGeneralWay) {
@@ -268,6 +291,78 @@ TEST(ConvexLeaf, ManyTrianglesAtAVertex) {
       }
     }
   }
+}
+
+/// The icosahedron, or the great icosahedron, whose triangles join vertices that are not next to
+/// each other: convex along every edge, and with as many vertices, edges and faces.
+WholeMesh icosahedron(bool great, bool inside_out) {
+  constexpr int64_t kOne = 1000000, kGolden = 1618034;
+  WholeMesh whole;
+  for (const int64_t a : {-kOne, kOne}) {
+    for (const int64_t b : {-kGolden, kGolden}) {
+      for (size_t k = 0; k < 3; ++k) {
+        IVec3 p{0, 0, 0};
+        p[(k + 1) % 3] = a;
+        p[(k + 2) % 3] = b;
+        whole.points.push_back(p);
+      }
+    }
+  }
+  const auto dot = [&](uint32_t i, uint32_t j) {
+    const IVec3 &p = whole.points[i], &q = whole.points[j];
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+  };
+  const auto joined = [&](uint32_t i, uint32_t j) {
+    const int64_t product = dot(i, j);
+    return std::abs(product) < 2 * kOne * kOne && (product < 0) == great;
+  };
+  for (uint32_t i = 0; i < 12; ++i) {
+    for (uint32_t j = i + 1; j < 12; ++j) {
+      for (uint32_t k = j + 1; k < 12; ++k) {
+        if (!joined(i, j) || !joined(j, k) || !joined(k, i)) continue;
+        const IVec3 &p = whole.points[i], &q = whole.points[j], &r = whole.points[k];
+        const double volume =
+            static_cast<double>(p[0]) * static_cast<double>(q[1] * r[2] - q[2] * r[1]) +
+            static_cast<double>(p[1]) * static_cast<double>(q[2] * r[0] - q[0] * r[2]) +
+            static_cast<double>(p[2]) * static_cast<double>(q[0] * r[1] - q[1] * r[0]);
+        if ((volume > 0) != inside_out) {
+          whole.mesh.add_face(std::array<uint32_t, 3>{i, j, k});
+        } else {
+          whole.mesh.add_face(std::array<uint32_t, 3>{i, k, j});
+        }
+      }
+    }
+  }
+  whole.mesh.points.resize(whole.points.size());
+  return whole;
+}
+
+TEST(ConvexLeaf, WhatIsConvexNearItselfMayStillWindAroundItself) {
+  const auto prepared = [](const WholeMesh& whole) {
+    return prepare_leaf(whole.mesh, whole.points, false,
+                        std::vector<uint32_t>(whole.mesh.face_count(), 0));
+  };
+  const PreparedLeaf plain = prepared(icosahedron(false, false));
+  ASSERT_EQ(plain.status, Status::kGood);
+  EXPECT_EQ(plain.geometry->face_count(), 20u);
+  EXPECT_TRUE(plain.geometry->convex);
+  EXPECT_EQ(prepared(icosahedron(false, true)).status, Status::kTangled);
+
+  const WholeMesh great = icosahedron(true, false);
+  const PreparedLeaf wound = prepared(great);
+  ASSERT_EQ(wound.status, Status::kTangled);
+  EXPECT_EQ(wound.geometry->face_count(), 20u);
+  EXPECT_EQ(wound.geometry->opposite.size(), 60u);
+  EXPECT_FALSE(is_convex_surface(*wound.geometry));
+  EXPECT_FALSE(wound.crossings.empty());
+
+  // Two bodies, each of them convex.
+  const WholeMesh one = icosahedron(false, false);
+  const PreparedLeaf two = prepared(both(one, one, {9000000, 0, 0}));
+  ASSERT_EQ(two.status, Status::kGood);
+  EXPECT_FALSE(two.geometry->convex);
+  EXPECT_FALSE(two.connected);
+  EXPECT_EQ(prepared(both(one, one, {100, 0, 0})).status, Status::kTangled);
 }
 
 TEST(ConvexLeaf, SpreadVerticesHideNoCrossing) {
