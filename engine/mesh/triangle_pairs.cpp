@@ -111,9 +111,10 @@ bool TrianglePairs::apart(uint32_t f, uint32_t g) const {
   // and off by 4 u d^2 (two products, their difference); a distance by 28 u d^3: 12 for the normal,
   // 6 for the products, 10 for their sums. An area is computed like a component.
   const double d = 2 * size, area_slack = 0x1p-50 * d * d, slack = 0x1p-48 * d * d * d;
-  const Point s_normal = normal_of(s), t_normal = normal_of(t);
   // What triangles have in common lies in both planes: of neighbours the other corners decide.
+  const Point s_normal = normal_of(s);
   if (is_beside(s, s_normal, t, g_common, slack)) return true;
+  const Point t_normal = normal_of(t);
   if (is_beside(t, t_normal, s, f_common, slack)) return true;
   if (f_common != 0) return false;
   const size_t axis = longest(s_normal);
