@@ -49,16 +49,36 @@ bool facets_ascend(const LeafGeometry& leaf) {
 
 bool is_own_facet(const LeafGeometry& leaf, uint32_t f) {
   const std::vector<uint32_t>& facet = leaf.facet;
-  return leaf.face_starts[f + 1] - leaf.face_starts[f] == 3 && facet[f] != 0 &&
-         (f == 0 || facet[f - 1] != facet[f]) &&
+  return facet[f] != 0 && (f == 0 || facet[f - 1] != facet[f]) &&
          (f + 1 == facet.size() || facet[f + 1] != facet[f]);
+}
+
+/// Whether no neighbour of a face of a convex leaf lies in its plane. REQUIRES: a triangle.
+bool is_alone(const LeafGeometry& leaf, const CornerWalk& walk, uint32_t f) {
+  const uint32_t first = leaf.face_starts[f];
+  const auto at = [&](uint32_t corner) -> const IVec3& {
+    return leaf.vertices[leaf.corners[corner]];
+  };
+  const Plane plane = plane_through(at(first), at(first + 1), at(first + 2));
+  for (uint32_t c = first; c < first + 3; ++c) {
+    // In one plane with an edge and another corner of the neighbour, unless that is a straight one.
+    const uint32_t across = leaf.opposite[c];
+    bool is_level = true;
+    for (uint32_t d = walk.before(across); d != across && is_level; d = walk.before(d)) {
+      const IVec3& p = at(d);
+      is_level = plane.a * p[0] + plane.b * p[1] + plane.c * p[2] + plane.d == 0;
+    }
+    if (is_level) return false;
+  }
+  return true;
 }
 
 /// Finds the untouched faces of one leaf.
 class UntouchedFaces {
  public:
   /// `fate`: of each face.
-  UntouchedFaces(const LeafGeometry& leaf, const uint8_t* fate) : leaf_(leaf), fate_(fate) {
+  UntouchedFaces(const LeafGeometry& leaf, const uint8_t* fate)
+      : leaf_(leaf), fate_(fate), walk_(leaf), keeps_facets_(leaf.facet.back() != 0) {
     look_at_vertices();
   }
 
@@ -68,9 +88,10 @@ class UntouchedFaces {
     for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
       const uint32_t begin = leaf_.face_starts[f], end = leaf_.face_starts[f + 1];
       const bool is_untouched =
-          fate_[f] == fate && is_own_facet(leaf_, f) &&
+          fate_[f] == fate && end - begin == 3 &&
           std::all_of(leaf_.corners.begin() + begin, leaf_.corners.begin() + end,
-                      [&](uint32_t v) { return of_vertex_[v] == fate; });
+                      [&](uint32_t v) { return of_vertex_[v] == fate; }) &&
+          (keeps_facets_ ? is_own_facet(leaf_, f) : is_alone(leaf_, walk_, f));
       if (is_untouched) part.faces.push_back(f);
       taken[f] |= static_cast<uint8_t>(is_untouched);
       for (uint32_t c = begin; c < end; ++c) met[leaf_.corners[c]] |= is_untouched ? 1 : 2;
@@ -97,15 +118,16 @@ class UntouchedFaces {
         ++faces[v];
       }
     }
-    const CornerWalk walk(leaf_);
     for (uint32_t v = 0; v < of_vertex_.size(); ++v) {
       if (of_vertex_[v] == kMixed || of_vertex_[v] == kUnseen) continue;
-      if (walk.fan(some_corner[v]) != faces[v]) of_vertex_[v] = kMixed;
+      if (walk_.fan(some_corner[v]) != faces[v]) of_vertex_[v] = kMixed;
     }
   }
 
   const LeafGeometry& leaf_;
   const uint8_t* fate_;
+  const CornerWalk walk_;
+  const bool keeps_facets_;
   std::vector<uint8_t> of_vertex_;
 };
 
@@ -167,7 +189,8 @@ class Expander {
                                     {static_cast<double>(at[i][0]), static_cast<double>(at[i][1]),
                                      static_cast<double>(at[i][2])});
       }
-      draft_.begin_face(plane, part.label(f), true, true);
+      const FaceLabel label = part.label(f);
+      draft_.begin_face(plane, label, label.facet != 0, label.facet != 0);
       for (int i = 0; i < 3; ++i) {
         draft_.edges.push_back({point_of[corners[i]], point_of[corners[(i + 1) % 3]], edge[i]});
       }
@@ -193,8 +216,10 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
     const Operand& operand = operands[o];
     if (!operand.leaf || !operand.frame.is_identity) continue;
     const LeafGeometry& leaf = *operand.leaf;
-    if (leaf.may_touch || leaf.opposite.empty() || leaf.facet.back() == 0) continue;
-    if (!facets_ascend(leaf)) continue;
+    if (leaf.may_touch || leaf.opposite.empty() || !facets_ascend(leaf)) continue;
+    // Without facets of its own a face must be alone in its plane; that is easily told of convex
+    // leaves.
+    if (leaf.facet.back() == 0 && !leaf.convex) continue;
     const uint32_t start = job.polygon_start(o);
     const auto begin = fate.begin() + start, end = begin + static_cast<long>(leaf.face_count());
     bool any[3] = {false, false, false};

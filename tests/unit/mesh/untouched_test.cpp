@@ -82,6 +82,39 @@ std::vector<Loop> bumpy_torus(Random& random, const IVec3& center, double size) 
   return loops;
 }
 
+/// A ball of triangles without facets of their own; some lie in one plane with a neighbour.
+std::shared_ptr<LeafGeometry> ball(int64_t radius, int n) {
+  std::vector<Loop> loops;
+  for (int octant = 0; octant < 8; ++octant) {
+    const auto at = [&](int i, int j) {
+      const int c[3] = {i, j, n - i - j};
+      const double length = std::sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
+      IVec3 p;
+      for (int k = 0; k < 3; ++k) {
+        p[k] =
+            std::llround(static_cast<double>(radius) * c[k] / length) * (octant >> k & 1 ? -1 : 1);
+      }
+      return p;
+    };
+    const auto add = [&](Loop loop) {
+      const bool mirrored = ((octant & 1) + (octant >> 1 & 1) + (octant >> 2 & 1)) % 2 != 0;
+      if (mirrored) std::reverse(loop.begin(), loop.end());
+      loops.push_back(std::move(loop));
+    };
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; i + j < n; ++j) {
+        add({at(i, j), at(i + 1, j), at(i, j + 1)});
+        if (i + j + 1 < n) add({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+      }
+    }
+  }
+  auto leaf = std::make_shared<LeafGeometry>(*make_leaf(loops, false, 1));
+  leaf->opposite = pair_edges(*leaf).opposite;
+  leaf->may_touch = false;
+  leaf->convex = true;
+  return leaf;
+}
+
 std::vector<Loop> operator+(std::vector<Loop> a, const std::vector<Loop>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
@@ -223,6 +256,26 @@ TEST(Untouched, ContactsOfTiledBoxes) {
   EXPECT_GT(contacts, 20u);
 }
 
+TEST(Untouched, Balls) {
+  Random random(1205);
+  size_t total = 0, contacts = 0;
+  for (int round = 0; round < 40; ++round) {
+    std::vector<Operand> operands;
+    const int64_t radius = round % 2 ? 1 << 20 : 12;
+    for (int i = 0; i < 4; ++i) {
+      const auto move = [&] { return random.integer(-2 * radius, 2 * radius); };
+      operands.push_back(placed(ball(radius, round % 2 ? 8 : 4), {move(), move(), move()}));
+    }
+    const Tree tree = random_tree(random, 0, 4);
+    const Pair pair = evaluate_both(tree, operands);
+    total += named(*pair.naming);
+    contacts += pair.naming->may_touch;
+    ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, std::to_string(round) + tree.text()));
+  }
+  EXPECT_GT(total, 500u);
+  EXPECT_GT(contacts, 3u);
+}
+
 TEST(Untouched, MovedAndTurnedOver) {
   Random random(1203);
   const auto torus = leaf_of_triangles(bumpy_torus(random, {5, 6, 7}, 1000.5));
@@ -261,6 +314,11 @@ TEST(Untouched, WhatCannotBeNamed) {
   EXPECT_EQ(changed([](LeafGeometry& l) { l.may_touch = true; }), 0u);
   EXPECT_EQ(changed([](LeafGeometry& l) { l.opposite.clear(); }), 0u);
   EXPECT_EQ(changed([](LeafGeometry& l) { std::fill(l.facet.begin(), l.facet.end(), 0u); }), 0u);
+  EXPECT_EQ(changed([](LeafGeometry& l) {
+              std::fill(l.facet.begin(), l.facet.end(), 0u);
+              l.convex = true;
+            }),
+            0u);
   // Two triangles that are one facet; they lie in one plane.
   EXPECT_EQ(changed([](LeafGeometry& l) { l.facet[1] = l.facet[0]; }), plain->face_count() - 2);
   // Boxes that have a corner in common: its faces form two fans.
