@@ -259,7 +259,7 @@ TEST(ConvexLeaf, PolygonsAgreeWithTheGeneralWay) {
 }
 
 /// A double cone over a ring of points at such angles, in degrees, each less than half a turn from
-/// the one before.
+/// the one before. About a coordinate axis, or about the diagonal (3).
 WholeMesh double_cone(const std::vector<int>& degrees, int64_t height, int axis) {
   WholeMesh whole;
   whole.points = {{0, 0, height}, {0, 0, -1000}};
@@ -271,7 +271,14 @@ WholeMesh double_cone(const std::vector<int>& degrees, int64_t height, int axis)
     whole.mesh.add_face(std::array<uint32_t, 3>{0, a, b});
     whole.mesh.add_face(std::array<uint32_t, 3>{1, b, a});
   }
-  for (IVec3& p : whole.points) p = {p[axis % 3], p[(axis + 1) % 3], p[(axis + 2) % 3]};
+  for (IVec3& p : whole.points) {
+    if (axis < 3) {
+      p = {p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]};
+    } else {
+      const int64_t across = std::lround(static_cast<double>(p[1]) / std::sqrt(3));
+      p = {p[0] + across + p[2], -p[0] + across + p[2], -2 * across + p[2]};
+    }
+  }
   whole.mesh.points.resize(whole.points.size());
   return whole;
 }
@@ -281,7 +288,7 @@ TEST(ConvexLeaf, ManyTrianglesAtAVertex) {
   const std::vector<int> once{0, 90, 180, 270}, evenly{0, 51, 103, 154, 206, 257, 309},
       twice{0, 60, 120, 180, 240, 300, 370, 430, 490, 550, 610, 670},
       mixed{0, 90, 180, 270, 405, 495, 585, 675}, mixed_back{45, 135, 225, 315, 450, 540, 630, 720};
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = 0; axis < 4; ++axis) {
     for (const int64_t height : {0, 20, -20, 300}) {
       for (const auto* ring : {&once, &evenly, &twice, &mixed, &mixed_back}) {
         Tally tally;
