@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -17,12 +19,15 @@ struct KeyHash {
   size_t operator()(const Key& key) const { return static_cast<size_t>(key[0]); }
 };
 
-/// Gathers bytes and hashes them at once. Everything is put with its length where it varies, so
-/// that different sequences give different bytes. Numbers are hashed as this machine holds them:
-/// keys do not leave the process.
+/// Gathers bytes and hashes them; long lists are hashed where they are. Everything is put with its
+/// length where it varies, so that different sequences give different bytes. Numbers are hashed as
+/// this machine holds them: keys do not leave the process.
 class KeyBuilder {
  public:
-  explicit KeyBuilder(std::string_view domain) { text(domain); }
+  explicit KeyBuilder(std::string_view domain);
+  ~KeyBuilder();
+  KeyBuilder(const KeyBuilder&) = delete;
+  KeyBuilder& operator=(const KeyBuilder&) = delete;
 
   template <class T>
   KeyBuilder& number(T value) {
@@ -37,9 +42,14 @@ class KeyBuilder {
   }
   template <class T>
   KeyBuilder& list(const std::vector<T>& values) {
-    static_assert(std::has_unique_object_representations_v<T>);
     number(static_cast<uint64_t>(values.size()));
-    append(values.data(), values.size() * sizeof(T));
+    return bare_list(std::span<const T>(values));
+  }
+  /// Without their number, as if one by one.
+  template <class T>
+  KeyBuilder& bare_list(std::span<const T> values) {
+    static_assert(std::has_unique_object_representations_v<T>);
+    append(values.data(), values.size_bytes());
     return *this;
   }
   KeyBuilder& text(std::string_view value) {
@@ -47,13 +57,23 @@ class KeyBuilder {
     append(value.data(), value.size());
     return *this;
   }
-  [[nodiscard]] Key key() const;
+  [[nodiscard]] Key key();
 
  private:
+  static constexpr size_t kLong = 4096;
+  struct Stream;
+
   void append(const void* data, size_t size) {
-    if (size > 0) bytes_.append(static_cast<const char*>(data), size);
+    if (size >= kLong || bytes_.size() >= kLong) {
+      hash(data, size);
+    } else if (size > 0) {
+      bytes_.append(static_cast<const char*>(data), size);
+    }
   }
-  std::string bytes_;
+  void hash(const void* data, size_t size);
+
+  std::string bytes_;               ///< not hashed yet
+  std::unique_ptr<Stream> stream_;  ///< of what is hashed; most keys need none
 };
 
 }  // namespace csgrun

@@ -9,17 +9,34 @@
 namespace csgrun {
 namespace {
 
+/// What is wrong with the first corner whose point is missing or not finite.
+const char* corner_fault(const PolygonMesh& mesh) {
+  for (const uint32_t corner : mesh.corners) {
+    if (corner >= mesh.points.size()) return "has a point index out of range";
+    const glm::dvec3& p = mesh.points[corner];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      return "has a point that is not finite";
+    }
+  }
+  return nullptr;
+}
+
+/// The same for meshes in which all points of the list are good, that is nearly all, by a look at
+/// each point instead of each corner.
+const char* find_corner_fault(const PolygonMesh& mesh) {
+  bool good = true;
+  for (const uint32_t corner : mesh.corners) good = good & (corner < mesh.points.size());
+  for (const glm::dvec3& p : mesh.points) {
+    good = good & std::isfinite(p.x) & std::isfinite(p.y) & std::isfinite(p.z);
+  }
+  return good ? nullptr : corner_fault(mesh);
+}
+
 std::optional<Error> find_fault(const PolygonMesh& mesh) {
   const auto fault = [&](const char* what) {
     return Error{ErrorCode::kInvalidMesh, "the mesh of '" + mesh.kind + "' " + what, {}};
   };
-  for (uint32_t corner : mesh.corners) {
-    if (corner >= mesh.points.size()) return fault("has a point index out of range");
-    const glm::dvec3& p = mesh.points[corner];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-      return fault("has a point that is not finite");
-    }
-  }
+  if (const char* const what = find_corner_fault(mesh)) return fault(what);
   const size_t faces = mesh.face_count();
   if ((!mesh.surface.empty() && mesh.surface.size() != faces) ||
       (!mesh.appearance_of.empty() && mesh.appearance_of.size() != faces)) {
@@ -60,10 +77,12 @@ const MeshFacts& LeafStore::facts(const std::shared_ptr<const PolygonMesh>& mesh
   facts.topology = builder.key();
   facts.lo.fill(std::numeric_limits<double>::infinity());
   facts.hi.fill(-std::numeric_limits<double>::infinity());
-  for (uint32_t corner : mesh->corners) {
+  const std::vector<uint8_t> is_used = find_used_points(*mesh);
+  for (size_t p = 0; p < is_used.size(); ++p) {
+    if (is_used[p] == 0) continue;
     for (int i = 0; i < 3; ++i) {
-      facts.lo[i] = std::min(facts.lo[i], mesh->points[corner][i]);
-      facts.hi[i] = std::max(facts.hi[i], mesh->points[corner][i]);
+      facts.lo[i] = std::min(facts.lo[i], mesh->points[p][i]);
+      facts.hi[i] = std::max(facts.hi[i], mesh->points[p][i]);
     }
   }
   facts.appearance.resize(mesh->face_count());
@@ -107,7 +126,10 @@ LeafState& LeafStore::state(uint32_t index, const NormalNode& leaf) {
     extend({known.hi[0], known.hi[1], known.hi[2]});
     if (state.split.framed) return state;
   }
-  for (uint32_t corner : mesh.corners) extend(mesh.points[corner]);
+  const std::vector<uint8_t> is_used = find_used_points(mesh);
+  for (size_t p = 0; p < is_used.size(); ++p) {
+    if (is_used[p] != 0) extend(mesh.points[p]);
+  }
   return state;
 }
 
@@ -128,10 +150,12 @@ std::optional<QuantisedLeaf> LeafStore::quantise(uint32_t index, const NormalNod
   result.paint = leaf.paint != kUnpainted ? leaf.paint : mesh_facts.paint;
   // Points relative to the middle of their box: equal for all instances that are whole steps apart.
   IVec3 lo{INT64_MAX, INT64_MAX, INT64_MAX}, hi{INT64_MIN, INT64_MIN, INT64_MIN};
-  for (uint32_t corner : mesh.corners) {
+  const std::vector<uint8_t> is_used = find_used_points(mesh);
+  for (size_t p = 0; p < is_used.size(); ++p) {
+    if (is_used[p] == 0) continue;
     for (int i = 0; i < 3; ++i) {
-      lo[i] = std::min(lo[i], (*points)[corner][i]);
-      hi[i] = std::max(hi[i], (*points)[corner][i]);
+      lo[i] = std::min(lo[i], (*points)[p][i]);
+      hi[i] = std::max(hi[i], (*points)[p][i]);
     }
   }
   if (!mesh.corners.empty()) {
@@ -149,14 +173,10 @@ std::optional<QuantisedLeaf> LeafStore::quantise(uint32_t index, const NormalNod
   }
   builder.number(static_cast<uint64_t>(mesh.corners.size()));
   // Points that no face uses do not count; they all stand at minus the origin.
-  std::vector<uint8_t> is_used(points->size(), 0);
-  for (uint32_t corner : mesh.corners) is_used[corner] = 1;
-  for (size_t p = 0; p < points->size(); ++p) {
-    if (is_used[p]) {
-      builder.numbers((*points)[p]);
-    } else {
-      builder.number('-');
-    }
+  for (size_t p = 0, end = 0; p < points->size(); p = end) {
+    while (end < points->size() && is_used[end] != 0) ++end;
+    builder.bare_list(std::span<const IVec3>(*points).subspan(p, end - p));
+    for (; end < points->size() && is_used[end] == 0; ++end) builder.number('-');
   }
   result.key = builder.key();
 

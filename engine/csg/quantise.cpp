@@ -142,12 +142,17 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
 
 }  // namespace
 
+std::vector<uint8_t> find_used_points(const PolygonMesh& mesh) {
+  std::vector<uint8_t> is_used(mesh.points.size(), 0);
+  for (const uint32_t corner : mesh.corners) is_used[corner] = 1;
+  return is_used;
+}
+
 std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh,
                                                const LeafRounding& rounding,
                                                const Quantiser& quantiser) {
   std::vector<IVec3> points(mesh.points.size(), IVec3{0, 0, 0});
-  std::vector<uint8_t> is_used(mesh.points.size(), 0);
-  for (uint32_t corner : mesh.corners) is_used[corner] = 1;
+  const std::vector<uint8_t> is_used = find_used_points(mesh);
   std::array<int, 3> sign;
   for (int i = 0; i < 3; ++i) {
     sign[rounding.permutation.axis[i]] = rounding.permutation.sign[i];

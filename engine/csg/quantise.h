@@ -26,6 +26,9 @@ struct LeafRounding {
   SignedPermutation permutation;
 };
 
+/// A byte for each point of a mesh, 1 if a face uses it.
+std::vector<uint8_t> find_used_points(const PolygonMesh& mesh);
+
 /// The points that the mesh's faces use (others are 0), rounded, in local axes. std::nullopt when a
 /// coordinate is 2^40 steps or more.
 std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh,
