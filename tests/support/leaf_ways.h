@@ -1,0 +1,83 @@
+// The quick way to a leaf against the general one. Stretched by a power of two a mesh is too large
+// for the arithmetic of the quick way, so it goes the other one: through lists of loops, and with
+// every pair of near faces decided by signs. All but the coordinates must be the same.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/csg/convex_leaf.h"
+#include "engine/csg/leaf_faces.h"
+#include "engine/csg/quantise.h"
+
+namespace csgrun::test {
+
+/// What was compared.
+struct Tally {
+  size_t good = 0, tangled = 0, flat = 0, open = 0, crossings = 0, quick = 0, merged = 0,
+         convex = 0;
+};
+
+inline std::vector<IVec3> stretched(std::vector<IVec3> points, int64_t by) {
+  for (IVec3& p : points) {
+    for (int64_t& x : p) x *= by;
+  }
+  return points;
+}
+
+/// Whether no vertex is in front of a face.
+inline bool nothing_in_front(const LeafGeometry& leaf) {
+  for (size_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t begin = leaf.face_starts[f];
+    CornerPlane plane;
+    if (!corner_plane(leaf.vertices, &leaf.corners[begin], leaf.face_starts[f + 1] - begin,
+                      plane)) {
+      return false;
+    }
+    for (const IVec3& v : leaf.vertices) {
+      if (plane.side(v) > 0) return false;
+    }
+  }
+  return true;
+}
+
+/// REQUIRES: coordinates below 2^39 / stretch.
+inline void expect_same_both_ways(const PolygonMesh& mesh, const std::vector<IVec3>& points,
+                                  bool turn, Tally& tally, int64_t stretch = int64_t{1} << 30) {
+  const std::vector<uint32_t> appearance(mesh.face_count(), 3);
+  const PreparedLeaf quick = prepare_leaf(mesh, points, turn, appearance);
+  const PreparedLeaf slow = prepare_leaf(mesh, stretched(points, stretch), turn, appearance);
+  if (const auto taken = take_convex_faces(mesh, points, turn, appearance)) {
+    ++tally.quick;
+    tally.merged += taken->merged;
+  }
+  ASSERT_EQ(quick.status, slow.status);
+  EXPECT_EQ(quick.crossings, slow.crossings);
+  EXPECT_EQ(quick.connected, slow.connected);
+  tally.good += quick.status == PreparedLeaf::Status::kGood;
+  tally.tangled += quick.status == PreparedLeaf::Status::kTangled;
+  tally.flat += quick.status == PreparedLeaf::Status::kFlat;
+  tally.open += quick.status == PreparedLeaf::Status::kOpen;
+  tally.crossings += quick.crossings.size();
+  ASSERT_EQ(quick.geometry == nullptr, slow.geometry == nullptr);
+  if (!quick.geometry) return;
+  EXPECT_EQ(stretched({quick.box.lo, quick.box.hi}, stretch),
+            (std::vector<IVec3>{slow.box.lo, slow.box.hi}));
+  const LeafGeometry &a = *quick.geometry, &b = *slow.geometry;
+  EXPECT_EQ(stretched(a.vertices, stretch), b.vertices);
+  EXPECT_EQ(a.corners, b.corners);
+  EXPECT_EQ(a.face_starts, b.face_starts);
+  EXPECT_EQ(a.facet, b.facet);
+  EXPECT_EQ(a.surface, b.surface);
+  EXPECT_EQ(a.appearance, b.appearance);
+  EXPECT_EQ(a.opposite, b.opposite);
+  // The general way believes no mesh that does not promise to be convex.
+  EXPECT_TRUE(a.convex || !b.convex);
+  EXPECT_TRUE(!a.convex || nothing_in_front(a));
+  tally.convex += a.convex && !b.convex;
+  EXPECT_EQ(a.may_touch, b.may_touch);
+}
+
+}  // namespace csgrun::test
