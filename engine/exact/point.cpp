@@ -97,6 +97,7 @@ std::array<double, 3> rounded(const Point& p) {
 int compare_along(const Point& p, const Point& q, int axis) {
   const Coordinate& a = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
   const Coordinate& b = axis == 0 ? q.x : axis == 1 ? q.y : q.z;
+  if (p.w == q.w) return compare(a, b);
   return compare(multiply<kWideLimbs>(a, q.w), multiply<kWideLimbs>(b, p.w));
 }
 

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <span>
 #include <vector>
@@ -104,6 +105,55 @@ struct Sums {
   double twice_area_error = 0;  ///< steps^2
 };
 
+/// Coordinates that are whole and less than 2^29 from the origin, or kFar.
+using Near = std::array<int64_t, 3>;
+constexpr int64_t kNearLimit = int64_t{1} << 29;
+constexpr int64_t kFar = INT64_MAX;
+
+/// The sums over triangles of near points: with fewer digits, and no less exact.
+class WholeSums {
+ public:
+  /// Adds det(a, b, c) and its moments; returns twice the area.
+  DoubleDouble add(const Near& a, const Near& b, const Near& c) {
+    Int128 determinant = 0;
+    DoubleDouble squares;
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      // Differences have 30 bits, so this has 61.
+      const int64_t n = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
+      determinant += static_cast<Int128>(n) * a[k];
+      const auto rounded = static_cast<double>(n);
+      const DoubleDouble component{rounded, static_cast<double>(n - static_cast<int64_t>(rounded))};
+      squares = squares + component * component;
+    }
+    six_volumes_ += determinant;
+    const auto high = static_cast<int64_t>(determinant >> kSplit);
+    const auto low = static_cast<int64_t>(determinant & ((int64_t{1} << kSplit) - 1));
+    for (int k = 0; k < 3; ++k) {
+      const int64_t sum = a[k] + b[k] + c[k];
+      high_moments_[k] += static_cast<Int128>(high) * sum;
+      low_moments_[k] += static_cast<Int128>(low) * sum;
+    }
+    return squares.square_root();
+  }
+
+  template <class Volume>
+  [[nodiscard]] Volume six_volumes() const {
+    return Volume::from(Int<2>::from_int128(six_volumes_));
+  }
+  template <class Moment>
+  [[nodiscard]] Moment moment(int axis) const {
+    return Moment::from(Int<2>::from_int128(high_moments_[axis])).shifted_left(kSplit) +
+           Moment::from(Int<2>::from_int128(low_moments_[axis]));
+  }
+
+ private:
+  // A determinant has less than 93 bits, a sum of coordinates 31, a number of triangles 32.
+  static constexpr int kSplit = 48;
+  Int128 six_volumes_ = 0;
+  std::array<Int128, 3> high_moments_{}, low_moments_{};
+};
+
 template <int K>
 class FixedRound {
  public:
@@ -112,6 +162,7 @@ class FixedRound {
       : triangles_(triangles) {
     points_.resize(used.size());
     cut_.resize(used.size());
+    near_.resize(used.size(), {kFar, kFar, kFar});
     for (uint32_t v = 0; v < used.size(); ++v) {
       if (used[v]) in_range_ = in_range_ && take(v, point(v), origin);
     }
@@ -125,7 +176,13 @@ class FixedRound {
     Volume six_volumes;
     std::array<Moment, 3> moments;
     uint64_t cut_triangles = 0;
+    WholeSums whole;
     for (const auto& t : triangles_) {
+      const Near &p = near_[t[0]], &q = near_[t[1]], &r = near_[t[2]];
+      if (p[0] != kFar && q[0] != kFar && r[0] != kFar) {
+        result.twice_area = result.twice_area + whole.add(p, q, r);
+        continue;
+      }
       const Coordinates &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
       cut_triangles += cut_[t[0]] | cut_[t[1]] | cut_[t[2]];
       // det(a, b, c) is a . n, and |n| twice the area.
@@ -145,6 +202,10 @@ class FixedRound {
       }
       result.twice_area = result.twice_area + squares.square_root();
     }
+    six_volumes += whole.six_volumes<Volume>().shifted_left(3 * result.fraction_bits);
+    for (int k = 0; k < 3; ++k) {
+      moments[k] += whole.moment<Moment>(k).shifted_left(4 * result.fraction_bits);
+    }
     result.six_volumes.value = signed_value(six_volumes);
     for (int k = 0; k < 3; ++k) result.moments[k].value = signed_value(moments[k]);
     if (cut_triangles > 0) bound_errors(cut_triangles, result);
@@ -162,15 +223,26 @@ class FixedRound {
 
   bool take(uint32_t v, const Point& p, const std::array<int64_t, 3>& origin) {
     bool cut = false;
+    const bool whole = p.w_bits == 1 && p.xyz_bits < kCoordinateBits - 1;
+    Near near{};
+    bool is_near = whole;
     for (int k = 0; k < 3; ++k) {
       Fixed x;
-      if (!fixed_point<K>(coordinate(p, k), p.w, x, cut)) return false;
+      if (whole) {
+        const auto c = static_cast<int64_t>(coordinate(p, k).limb[0]);
+        near[k] = c - origin[k];
+        is_near = is_near && std::abs(near[k]) < kNearLimit;
+        x = Fixed(c).shifted_left(64 * K);
+      } else if (!fixed_point<K>(coordinate(p, k), p.w, x, cut)) {
+        return false;
+      }
       x -= Fixed(origin[k]).shifted_left(64 * K);
       const Fixed m = x.magnitude();
       if (compare(extent_, m) < 0) extent_ = m;
       points_[v][k] = x;
     }
     cut_[v] = cut;
+    if (is_near) near_[v] = near;
     return true;
   }
 
@@ -204,6 +276,7 @@ class FixedRound {
   TriangleSpan triangles_;
   std::vector<Coordinates> points_;
   std::vector<uint8_t> cut_;
+  std::vector<Near> near_;
   Fixed extent_;  ///< the largest magnitude
   bool in_range_ = true;
 };

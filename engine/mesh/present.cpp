@@ -1,13 +1,11 @@
 #include "engine/mesh/present.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <functional>
 #include <numeric>
 #include <optional>
 
 #include "engine/base/sort_few.h"
-#include "engine/bsp/grid_planes.h"
 #include "engine/mesh/canonical_hash.h"
 #include "engine/mesh/conform.h"
 #include "engine/mesh/cut_contacts.h"
@@ -21,6 +19,7 @@
 #include "engine/mesh/self_contact.h"
 #include "engine/mesh/stitch.h"
 #include "engine/mesh/to_millimetres.h"
+#include "engine/mesh/triangle_normals.h"
 #include "engine/mesh/triangulate.h"
 #include "engine/mesh/whole_order.h"
 
@@ -52,39 +51,6 @@ void count_topology(Solid& solid) {
   const auto euler = static_cast<int64_t>(parent.size()) - triangles * 3 / 2 + triangles;
   solid.measures.components = components;
   solid.measures.genus = components - euler / 2;
-}
-
-/// 2^64-fold precision is not needed here: coordinates below 2^30 make normals below 2^63.
-constexpr int64_t kNearGrid = int64_t{1} << 30;
-
-/// The outward normal of a triangle as PlaneTable::approximate tells that of its plane.
-glm::dvec3 normal_of(const IVec3& p, const IVec3& q, const IVec3& r) {
-  const auto rounded = [](const auto& n, const auto& divisor) {
-    // Stored planes have their first component positive; minus nothing is what the rest leave.
-    const bool flipped = n[0] != 0 ? n[0] < 0 : n[1] != 0 ? n[1] < 0 : n[2] < 0;
-    glm::dvec3 normal;
-    for (int k = 0; k < 3; ++k) {
-      const auto stored = static_cast<double>((flipped ? -n[k] : n[k]) / divisor);
-      normal[k] = flipped ? -stored : stored;
-    }
-    return normal;
-  };
-  const auto is_near = [](const IVec3& v) {
-    return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}) < kNearGrid;
-  };
-  if (is_near(p) && is_near(q) && is_near(r)) {
-    const int64_t ux = q[0] - p[0], uy = q[1] - p[1], uz = q[2] - p[2];
-    const int64_t vx = r[0] - p[0], vy = r[1] - p[1], vz = r[2] - p[2];
-    const std::array<int64_t, 3> n{uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
-    int64_t divisor = std::gcd(n[0], n[1]);
-    if (divisor != 1) divisor = std::gcd(divisor, n[2]);
-    return rounded(n, divisor);
-  }
-  PlaneTable table;
-  const PlaneId plane = table.intern(plane_through(p, q, r));
-  const auto& n = table.approximate(plane.index());
-  const glm::dvec3 normal(n[0], n[1], n[2]);
-  return plane.flipped() ? -normal : normal;
 }
 
 class Presenter {
@@ -256,11 +222,12 @@ class Presenter {
     solid.loop_vertices.reserve(triangles * 3);
     // Triangles of explicit faces stand in the order of faces.
     size_t t = 0;
+    const std::vector<glm::dvec3> normals = outward_normals(boundary_, whole_->triangles());
     for (const uint32_t f : whole_->faces()) {
       if (f < whole_->explicit_face_count()) {
         t = add_face(solid, f, t);
       } else {
-        add_untouched(solid, whole_->triangle(f));
+        add_untouched(solid, whole_->triangle(f), normals[f - whole_->explicit_face_count()]);
       }
     }
   }
@@ -300,7 +267,7 @@ class Presenter {
     return t;
   }
 
-  void add_untouched(Solid& solid, const UntouchedTriangle& t) {
+  void add_untouched(Solid& solid, const UntouchedTriangle& t, const glm::dvec3& normal) {
     const UntouchedPart& part = boundary_.parts[t.part];
     const auto number = static_cast<uint32_t>(solid.faces.size());
     const std::array<uint32_t, 3> vertices{first_vertex_[t.points[0]], first_vertex_[t.points[1]],
@@ -310,10 +277,7 @@ class Presenter {
     const FaceLabel label = part.label(t.face);
     solid.faces.push_back({static_cast<uint32_t>(solid.loop_starts.size() - 1), 1, label.appearance,
                            surface_number(label.source, label.surface), label.source});
-    const auto corners = part.triangle(t.face);
-    solid.face_normals.push_back(normal_of(part.leaf->vertices[corners[0]],
-                                           part.leaf->vertices[corners[1]],
-                                           part.leaf->vertices[corners[2]]));
+    solid.face_normals.push_back(normal);
     solid.loop_vertices.insert(solid.loop_vertices.end(), vertices.begin(), vertices.end());
     solid.loop_starts.push_back(static_cast<uint32_t>(solid.loop_vertices.size()));
   }
