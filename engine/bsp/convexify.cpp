@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/bsp/regions.h"
+
 namespace csgrun {
 namespace {
 
@@ -25,10 +27,45 @@ class Convexifier {
   }
 
   void run(std::vector<BoundaryEdge> edges) {
-    if (!edges.empty()) cut(far_square(), std::move(edges));
+    if (edges.empty()) return;
+    if (is_convex_loop(edges)) {
+      take(edges);
+    } else {
+      cut(far_square(), std::move(edges));
+    }
   }
 
  private:
+  /// Whether the edges are one loop, in its order, that turns left at every corner. It does not
+  /// cross itself.
+  bool is_convex_loop(const std::vector<BoundaryEdge>& edges) {
+    const size_t count = edges.size();
+    for (size_t i = 0; i < count; ++i) {
+      if (edges[i].to != edges[i + 1 < count ? i + 1 : 0].from) return false;
+    }
+    if (count == 3) return true;
+    const auto directed = [&](size_t i) {
+      return DirectedEdge{edges[i].from, edges[i].to, edges[i].plane};
+    };
+    for (size_t i = 0; i < count; ++i) {
+      const size_t next = i + 1 < count ? i + 1 : 0;
+      if (turn_between(geometry_, planes_, support_, directed(i), directed(next)) <= 0) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// The face as it is.
+  void take(const std::vector<BoundaryEdge>& edges) {
+    std::vector<uint32_t> points, planes;
+    for (const BoundaryEdge& e : edges) {
+      points.push_back(e.from);
+      planes.push_back(e.plane);
+    }
+    pieces_.push_back(geometry_.make_fragment(support_, points, planes));
+  }
+
   /// The part of the plane between far walls: contains the whole face.
   Fragment far_square() {
     const uint32_t u0 = wall_(axes_[0], -kFarWall), u1 = wall_(axes_[0], kFarWall);

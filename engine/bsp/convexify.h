@@ -19,7 +19,8 @@ struct BoundaryEdge {
   uint32_t plane;     ///< holds the edge, not the support
 };
 
-/// Appends the convex pieces of the region bounded by `edges` in the plane `support` to `pieces`.
+/// Appends the convex pieces of the region bounded by `edges` in the plane `support` to `pieces`: a
+/// convex loop given in order is the only one itself, over the same points.
 /// `wall(axis, m)` gives the plane of a wall; walls lie beyond the region at +-2^29.
 void convexify(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
                std::vector<BoundaryEdge> edges, const std::function<uint32_t(int, int64_t)>& wall,

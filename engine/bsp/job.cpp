@@ -179,6 +179,7 @@ void Job::add_boundary(uint32_t o, const Operand& operand) {
         edges.push_back(e);
       }
     }
+    if (mirrored) std::reverse(edges.begin(), edges.end());
     const PlaneId mapped = plane_of[face.plane.index()];
     const PlaneId support = face.plane.flipped() ? mapped.flip() : mapped;
     pieces.clear();
