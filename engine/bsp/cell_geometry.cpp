@@ -1,33 +1,11 @@
 #include "engine/bsp/cell_geometry.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "engine/exact/grid_meeting.h"
+
 namespace csgrun {
-namespace {
-
-/// Whether the rounded coordinates are exact: they are whole, and in all three planes of the point.
-bool is_grid_point(const PlaneTable& planes, const CellGeometry::StoredPoint& point) {
-  constexpr double kLimit = 0x1p30;
-  constexpr int kNormalBits = 90, kOffsetBits = 122;
-  for (const double c : point.rounded) {
-    if (c != std::floor(c) || std::fabs(c) > kLimit) return false;
-  }
-  const auto at = [&](int k) {
-    return static_cast<Int128>(static_cast<int64_t>(point.rounded[k]));
-  };
-  return std::all_of(point.planes.begin(), point.planes.end(), [&](uint32_t index) {
-    if (planes.normal_bits(index) > kNormalBits || planes.offset_bits(index) > kOffsetBits) {
-      return false;
-    }
-    const Plane& s = planes.plane(index);
-    return s.a * at(0) + s.b * at(1) + s.c * at(2) + s.d == 0;
-  });
-}
-
-}  // namespace
-
 CellGeometry::CellGeometry(const PlaneTable& planes, const Job* job) : planes_(&planes), job_(job) {
   if (job) {
     vertex_stamp_.assign(job->vertex_count(), 0);
@@ -72,13 +50,13 @@ const Point& CellGeometry::exact(uint32_t p) {
     s.exact = static_cast<uint32_t>(exact_.size());
     if (s.vertex != kNone) {
       exact_.push_back(job_->exact(s.vertex));
-    } else if (is_grid_point(*planes_, s)) {
-      exact_.push_back(grid_point(static_cast<int64_t>(s.rounded[0]),
-                                  static_cast<int64_t>(s.rounded[1]),
-                                  static_cast<int64_t>(s.rounded[2])));
     } else {
-      exact_.push_back(intersect(planes_->plane(s.planes[0]), planes_->plane(s.planes[1]),
-                                 planes_->plane(s.planes[2])));
+      const Plane &p0 = planes_->plane(s.planes[0]), &p1 = planes_->plane(s.planes[1]),
+                  &p2 = planes_->plane(s.planes[2]);
+      const auto whole = [&s](int k) { return static_cast<int64_t>(s.rounded[k]); };
+      exact_.push_back(meet_on_grid(p0, p1, p2, s.rounded)
+                           ? grid_point(whole(0), whole(1), whole(2))
+                           : intersect(p0, p1, p2));
     }
   }
   return exact_[s.exact];

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/exact/grid_meeting.h"
 #include "engine/mesh/measure.h"
 
 namespace csgrun {
@@ -27,13 +28,18 @@ Result<double> boundary_volume(const BoundaryMesh& b, const GridStep& step) {
     }
   }
   const auto point = [&](uint32_t p) {
-    if (p < explicit_points) return b.exact_point(p);
+    if (p < explicit_points) {
+      const auto& [i, j, k] = b.point_planes[p];
+      const auto& at = b.point_rounded[p];
+      return meet_on_grid(b.planes[i], b.planes[j], b.planes[k], at)
+                 ? grid_point(static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]),
+                              static_cast<int64_t>(at[2]))
+                 : b.exact_point(p);
+    }
     const IVec3& q = more[p - explicit_points];
     return grid_point(q[0], q[1], q[2]);
   };
-  auto mass = measure_mesh(explicit_points + more.size(), point, fans, step);
-  if (!mass) return mass.error();
-  return mass->volume;
+  return measure_volume(explicit_points + more.size(), point, fans, step);
 }
 
 }  // namespace csgrun

@@ -105,10 +105,23 @@ struct Sums {
   double twice_area_error = 0;  ///< steps^2
 };
 
+/// What sums are formed: all, or the volume and a bound of the area.
+enum class Wanted : uint8_t { kAll, kVolume };
+
 /// Coordinates that are whole and less than 2^29 from the origin, or kFar.
 using Near = std::array<int64_t, 3>;
 constexpr int64_t kNearLimit = int64_t{1} << 29;
 constexpr int64_t kFar = INT64_MAX;
+
+/// Twice the area vector of a triangle of near points. Differences have 30 bits, so it has 61.
+inline std::array<int64_t, 3> normal_of(const Near& a, const Near& b, const Near& c) {
+  std::array<int64_t, 3> n{};
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    n[k] = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
+  }
+  return n;
+}
 
 /// The sums over triangles of near points: with fewer digits, and no less exact.
 class WholeSums {
@@ -117,13 +130,12 @@ class WholeSums {
   DoubleDouble add(const Near& a, const Near& b, const Near& c) {
     Int128 determinant = 0;
     DoubleDouble squares;
+    const auto n = normal_of(a, b, c);
     for (int k = 0; k < 3; ++k) {
-      const int i = (k + 1) % 3, j = (k + 2) % 3;
-      // Differences have 30 bits, so this has 61.
-      const int64_t n = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
-      determinant += static_cast<Int128>(n) * a[k];
-      const auto rounded = static_cast<double>(n);
-      const DoubleDouble component{rounded, static_cast<double>(n - static_cast<int64_t>(rounded))};
+      determinant += static_cast<Int128>(n[k]) * a[k];
+      const auto rounded = static_cast<double>(n[k]);
+      const DoubleDouble component{rounded,
+                                   static_cast<double>(n[k] - static_cast<int64_t>(rounded))};
       squares = squares + component * component;
     }
     six_volumes_ += determinant;
@@ -158,8 +170,8 @@ template <int K>
 class FixedRound {
  public:
   FixedRound(const PointAccess& point, TriangleSpan triangles, const std::vector<bool>& used,
-             const std::array<int64_t, 3>& origin)
-      : triangles_(triangles) {
+             const std::array<int64_t, 3>& origin, Wanted wanted)
+      : triangles_(triangles), wanted_(wanted) {
     points_.resize(used.size());
     cut_.resize(used.size());
     near_.resize(used.size(), {kFar, kFar, kFar});
@@ -170,7 +182,18 @@ class FixedRound {
 
   [[nodiscard]] bool in_range() const { return in_range_; }
 
-  [[nodiscard]] Sums sums() const {
+  [[nodiscard]] Sums sums() const { return wanted_ == Wanted::kVolume ? volume() : all(); }
+
+ private:
+  using Fixed = Int<K + 1>;
+  using Coordinates = std::array<Fixed, 3>;
+  using Volume = Int<3 * K + 3>;
+  using Moment = Int<4 * K + 4>;
+  static_assert(kCoordinateBits + 64 * K + 2 < 64 * (K + 1), "a sum of three coordinates");
+  static_assert(3 * (kCoordinateBits + 64 * K) + 3 + kTriangleBits < 64 * (3 * K + 3));
+  static_assert(4 * (kCoordinateBits + 64 * K) + 5 + kTriangleBits < 64 * (4 * K + 4));
+
+  [[nodiscard]] Sums all() const {
     Sums result;
     result.fraction_bits = 64 * K;
     Volume six_volumes;
@@ -212,14 +235,40 @@ class FixedRound {
     return result;
   }
 
- private:
-  using Fixed = Int<K + 1>;
-  using Coordinates = std::array<Fixed, 3>;
-  using Volume = Int<3 * K + 3>;
-  using Moment = Int<4 * K + 4>;
-  static_assert(kCoordinateBits + 64 * K + 2 < 64 * (K + 1), "a sum of three coordinates");
-  static_assert(3 * (kCoordinateBits + 64 * K) + 3 + kTriangleBits < 64 * (3 * K + 3));
-  static_assert(4 * (kCoordinateBits + 64 * K) + 5 + kTriangleBits < 64 * (4 * K + 4));
+  [[nodiscard]] Sums volume() const {
+    Sums result;
+    result.fraction_bits = 64 * K;
+    Volume six_volumes;
+    uint64_t cut_triangles = 0;
+    Int128 whole = 0;
+    double twice_area = 0;  // by the sum of a normal's coordinates, which is no less
+    for (const auto& t : triangles_) {
+      const Near &p = near_[t[0]], &q = near_[t[1]], &r = near_[t[2]];
+      if (p[0] != kFar && q[0] != kFar && r[0] != kFar) {
+        const auto n = normal_of(p, q, r);
+        for (int k = 0; k < 3; ++k) {
+          whole += static_cast<Int128>(n[k]) * p[k];
+          twice_area += std::fabs(static_cast<double>(n[k]));
+        }
+        continue;
+      }
+      const Coordinates &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
+      cut_triangles += cut_[t[0]] | cut_[t[1]] | cut_[t[2]];
+      for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        const Int<2 * K + 2> n =
+            full_product(b[i] - a[i], c[j] - a[j]) - full_product(b[j] - a[j], c[i] - a[i]);
+        six_volumes += full_product(n, a[k]);
+        twice_area += std::fabs(double_double(n, -2 * K).hi);
+      }
+    }
+    six_volumes += Volume::from(Int<2>::from_int128(whole)).shifted_left(3 * result.fraction_bits);
+    result.six_volumes.value = signed_value(six_volumes);
+    // Far more than what rounding may have taken from it.
+    result.twice_area.hi = twice_area * (1 + 0x1p-16);
+    if (cut_triangles > 0) bound_errors(cut_triangles, result);
+    return result;
+  }
 
   bool take(uint32_t v, const Point& p, const std::array<int64_t, 3>& origin) {
     bool cut = false;
@@ -274,6 +323,7 @@ class FixedRound {
   }
 
   TriangleSpan triangles_;
+  Wanted wanted_;
   std::vector<Coordinates> points_;
   std::vector<uint8_t> cut_;
   std::vector<Near> near_;

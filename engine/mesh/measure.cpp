@@ -59,6 +59,7 @@ struct Mesh {
   TriangleSpan triangles;
   std::vector<bool> used;
   std::array<int64_t, 3> origin{};
+  Wanted wanted = Wanted::kAll;
 };
 
 /// Nothing when the prime divides a denominator.
@@ -103,15 +104,17 @@ class Rounder {
         numerator_(natural(Int<1>(step.numerator))),
         denominator_(natural(Int<1>(step.denominator))) {}
 
-  /// Takes the results that the sums make certain. Returns whether that is all of them.
+  /// Takes the results that the sums make certain. Returns whether that is all that is wanted.
   bool take(const Sums& sums) {
     take_volume(sums);
+    if (mesh_.wanted == Wanted::kVolume) return volume_.has_value();
     for (int k = 0; k < 3; ++k) take_centroid(sums, k);
     take_area(sums);
     return volume_ && area_ && centroid_[0] && centroid_[1] && centroid_[2];
   }
 
   [[nodiscard]] MassProperties result() const {
+    if (mesh_.wanted == Wanted::kVolume) return {*volume_, 0, {}};
     return {*volume_, *area_, {*centroid_[0], *centroid_[1], *centroid_[2]}};
   }
 
@@ -214,7 +217,7 @@ template <int K>
 Result<MassProperties> measure_from(const Mesh& mesh, Rounder& rounder) {
   constexpr int kLastRound = 8;
   {
-    const FixedRound<K> round(mesh.point, mesh.triangles, mesh.used, mesh.origin);
+    const FixedRound<K> round(mesh.point, mesh.triangles, mesh.used, mesh.origin, mesh.wanted);
     if (!round.in_range()) return failure("a point is out of range");
     if (rounder.take(round.sums())) return rounder.result();
   }
@@ -225,13 +228,10 @@ Result<MassProperties> measure_from(const Mesh& mesh, Rounder& rounder) {
   }
 }
 
-}  // namespace
-
-Result<MassProperties> measure_mesh(size_t point_count, const std::function<Point(uint32_t)>& point,
-                                    std::span<const std::array<uint32_t, 3>> triangles,
-                                    const GridStep& step) {
+Result<MassProperties> measure(size_t point_count, const PointAccess& point, TriangleSpan triangles,
+                               const GridStep& step, Wanted wanted) {
   if (triangles.empty()) return MassProperties{};
-  Mesh mesh{point, triangles, std::vector<bool>(point_count)};
+  Mesh mesh{point, triangles, std::vector<bool>(point_count), {}, wanted};
   for (const auto& t : triangles) {
     for (uint32_t v : t) {
       if (v >= point_count) return failure("an index is out of range");
@@ -249,6 +249,20 @@ Result<MassProperties> measure_mesh(size_t point_count, const std::function<Poin
   }
   Rounder rounder(mesh, step);
   return measure_from<1>(mesh, rounder);
+}
+
+}  // namespace
+
+Result<MassProperties> measure_mesh(size_t point_count, const PointAccess& point,
+                                    TriangleSpan triangles, const GridStep& step) {
+  return measure(point_count, point, triangles, step, Wanted::kAll);
+}
+
+Result<double> measure_volume(size_t point_count, const PointAccess& point, TriangleSpan triangles,
+                              const GridStep& step) {
+  auto mass = measure(point_count, point, triangles, step, Wanted::kVolume);
+  if (!mass) return mass.error();
+  return mass->volume;
 }
 
 }  // namespace csgrun

@@ -34,4 +34,9 @@ Result<MassProperties> measure_mesh(size_t point_count, const std::function<Poin
                                     std::span<const std::array<uint32_t, 3>> triangles,
                                     const GridStep& step);
 
+/// Only the volume: about a third of the time.
+Result<double> measure_volume(size_t point_count, const std::function<Point(uint32_t)>& point,
+                              std::span<const std::array<uint32_t, 3>> triangles,
+                              const GridStep& step);
+
 }  // namespace csgrun

@@ -107,6 +107,10 @@ void check(const std::vector<Point>& points, const Triangles& triangles, const G
   for (int k = 0; k < 3; ++k) EXPECT_EQ(got->centroid[k], nearest(expected.centroid[k])) << k;
   EXPECT_GE(got->area, std::nextafter(expected.area, 0));
   EXPECT_LE(got->area, std::nextafter(expected.area, INFINITY));
+  const auto volume = measure_volume(
+      points.size(), [&](uint32_t v) { return points[v]; }, triangles, step);
+  ASSERT_TRUE(volume) << volume.error().message;
+  EXPECT_EQ(*volume, got->volume);
 }
 
 /// An octahedron-like closed surface over six points: +x, -x, +y, -y, +z, -z.
