@@ -44,9 +44,23 @@ static_assert(are_across());
 
 IVec3 difference(const IVec3& a, const IVec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-IVec3 normal_of(const LeafGeometry& leaf, const uint32_t* t) {
-  const IVec3& origin = leaf.vertices[t[0]];
-  return cross(difference(leaf.vertices[t[1]], origin), difference(leaf.vertices[t[2]], origin));
+/// Twice the vector area of a convex face, which fits as it stays within the box of the leaf.
+IVec3 normal_of(const LeafGeometry& leaf, uint32_t begin, uint32_t end) {
+  const IVec3& origin = leaf.vertices[leaf.corners[begin]];
+  IVec3 to_next = difference(leaf.vertices[leaf.corners[begin + 1]], origin), normal{0, 0, 0};
+  for (uint32_t c = begin + 2; c < end; ++c) {
+    const IVec3 from = to_next;
+    to_next = difference(leaf.vertices[leaf.corners[c]], origin);
+    const IVec3 part = cross(from, to_next);
+    for (size_t k = 0; k < 3; ++k) normal[k] += part[k];
+  }
+  return normal;
+}
+
+bool is_straight(const LeafGeometry& leaf, uint32_t a, uint32_t b, uint32_t c) {
+  const IVec3& origin = leaf.vertices[b];
+  return cross(difference(leaf.vertices[a], origin), difference(leaf.vertices[c], origin)) ==
+         IVec3{0, 0, 0};
 }
 
 /// A bit for each direction that a normal has a part along; the others are set too.
@@ -65,24 +79,22 @@ uint16_t facing(const IVec3& normal) {
 /// For each vertex a direction that all its triangles face, one of an axis if there is one; as half
 /// the number of its bit.
 std::vector<uint8_t> common_directions(const LeafGeometry& leaf, uint8_t none) {
-  const size_t count = leaf.vertices.size(), corners = leaf.corners.size();
+  const size_t count = leaf.vertices.size(), faces = leaf.face_count();
   std::vector<uint16_t> common(count, kAll);
-  for (size_t c = 0; c < corners; c += 3) {
-    const uint32_t* const t = &leaf.corners[c];
-    const uint16_t bits = facing<0, kAxes>(normal_of(leaf, t));
-    for (size_t i = 0; i < 3; ++i) common[t[i]] &= bits;
+  for (size_t f = 0; f < faces; ++f) {
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    const uint16_t bits = facing<0, kAxes>(normal_of(leaf, begin, end));
+    for (uint32_t c = begin; c < end; ++c) common[leaf.corners[c]] &= bits;
   }
   const auto is_open = [&](uint32_t v) { return (common[v] & kAlongAxes) == 0; };
   std::vector<uint8_t> direction(count);
   bool any_open = false;
   for (uint32_t v = 0; v < count; ++v) any_open |= is_open(v);
-  if (any_open) {
-    for (size_t c = 0; c < corners; c += 3) {
-      const uint32_t* const t = &leaf.corners[c];
-      if (!is_open(t[0]) && !is_open(t[1]) && !is_open(t[2])) continue;
-      const uint16_t bits = facing<kAxes, kDirections.size()>(normal_of(leaf, t));
-      for (size_t i = 0; i < 3; ++i) common[t[i]] &= bits;
-    }
+  for (size_t f = 0; any_open && f < faces; ++f) {
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    if (std::none_of(&leaf.corners[begin], &leaf.corners[end - 1] + 1, is_open)) continue;
+    const uint16_t bits = facing<kAxes, kDirections.size()>(normal_of(leaf, begin, end));
+    for (uint32_t c = begin; c < end; ++c) common[leaf.corners[c]] &= bits;
   }
   for (size_t v = 0; v < count; ++v) {
     const auto lowest = static_cast<uint8_t>(std::countr_zero(uint32_t{common[v]}) / 2);
@@ -96,26 +108,36 @@ std::vector<uint8_t> common_directions(const LeafGeometry& leaf, uint8_t none) {
 std::vector<uint8_t> find_spread_vertices(const LeafGeometry& leaf) {
   constexpr uint8_t kNone = 255, kMany = 2;
   const std::vector<uint8_t> direction = common_directions(leaf, kNone);
-  // Each triangle is a sector of less than half a turn, all in the same sense. So none leads past
-  // the upper half plane, and together they surround the vertex as often as one of them enters it.
+  // Each corner is a sector of less than half a turn, all in the same sense. So none leads past the
+  // upper half plane, and together they surround the vertex as often as one of them enters it.
   std::vector<uint8_t> turns(leaf.vertices.size(), 0);
-  for (size_t c = 0; c < leaf.corners.size(); c += 3) {
-    const uint32_t* const t = &leaf.corners[c];
-    const std::array<const IVec3*, 3> p{&leaf.vertices[t[0]], &leaf.vertices[t[1]],
-                                        &leaf.vertices[t[2]]};
-    for (size_t i = 0; i < 3; ++i) {
-      const IVec3 &own = *p[i], &from = *p[(i + 1) % 3], &to = *p[(i + 2) % 3];
-      const uint8_t d = direction[t[i]];
-      bool enters = false;
-      if (d < kAxes) {
-        const size_t up = kUps[d].axis;
-        enters = (from[up] <= own[up]) & (to[up] > own[up]);
-      } else if (d != kNone) {
-        const int64_t level = height(kUps[d], own);
-        enters = height(kUps[d], from) <= level && height(kUps[d], to) > level;
-      }
-      uint8_t& known = turns[t[i]];
-      known = static_cast<uint8_t>(std::min<int>(known + (enters ? 1 : 0), kMany));
+  const auto count_turn = [&](uint32_t vertex, uint32_t after, uint32_t before) {
+    const IVec3 &own = leaf.vertices[vertex], &from = leaf.vertices[after],
+                &to = leaf.vertices[before];
+    const uint8_t d = direction[vertex];
+    bool enters = false;
+    if (d < kAxes) {
+      const size_t up = kUps[d].axis;
+      enters = (from[up] <= own[up]) & (to[up] > own[up]);
+    } else if (d != kNone) {
+      const int64_t level = height(kUps[d], own);
+      enters = height(kUps[d], from) <= level && height(kUps[d], to) > level;
+    }
+    turns[vertex] = static_cast<uint8_t>(std::min<int>(turns[vertex] + (enters ? 1 : 0), kMany));
+  };
+  for (size_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t begin = leaf.face_starts[f], count = leaf.face_starts[f + 1] - begin;
+    const uint32_t* const loop = &leaf.corners[begin];
+    if (count == 3) {
+      count_turn(loop[0], loop[1], loop[2]);
+      count_turn(loop[1], loop[2], loop[0]);
+      count_turn(loop[2], loop[0], loop[1]);
+      continue;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+      const uint32_t after = loop[(i + 1) % count], before = loop[(i + count - 1) % count];
+      if (is_straight(leaf, before, loop[i], after)) turns[loop[i]] = kMany;
+      count_turn(loop[i], after, before);
     }
   }
   for (uint8_t& known : turns) known = known == 1;

@@ -15,7 +15,7 @@ constexpr uint32_t kNone = UINT32_MAX, kOther = UINT32_MAX - 1;
 }  // namespace
 
 bool TrianglePairs::covers(const LeafGeometry& leaf) {
-  return consists_of_triangles(leaf) && is_compact(box_of_points(leaf.vertices));
+  return is_compact(box_of_points(leaf.vertices));
 }
 
 TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order,
@@ -28,9 +28,12 @@ TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t>
   }
   for (size_t place = 0; place < order.size(); ++place) {
     for (size_t i = 0; i < 3; ++i) {
-      const uint32_t v = leaf.corners[3 * size_t{order[place]} + i];
-      corners_[place / 8].corners[i][place % 8] = v;
-      spread_[place][i] = is_spread[v] != 0 ? v : kOther;
+      uint32_t& corner = corners_[place / 8].corners[i][place % 8];
+      corner = kNone;
+      spread_[place][i] = kOther;
+      if (!is_triangle(order[place])) continue;
+      corner = leaf.corners[leaf.face_starts[order[place]] + i];
+      if (is_spread[corner] != 0) spread_[place][i] = corner;
     }
   }
 }
@@ -47,47 +50,86 @@ Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], 
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point normal_of(const Triangle& t) { return cross(minus(t[1], t[0]), minus(t[2], t[0])); }
 
-/// Whether the corners of `other` that are not marked lie strictly on one side of a plane.
-bool is_beside(const Triangle& t, const Point& normal, const Triangle& other, uint32_t marked,
+/// Where the corners of a triangle are that are not common, against a plane; as bits. (Common ones
+/// are on it: their distances are below any slack.)
+struct Sides {
+  uint32_t front = 0, back = 0, on = 0;
+  uint32_t open = 0;  ///< not decided in doubles
+
+  [[nodiscard]] bool one() const { return front == 0 || back == 0; }
+};
+
+Sides sides_of(const Triangle& t, const Point& normal, const Triangle& other, uint32_t common,
                double slack) {
-  bool front = true, back = true;
-  for (size_t i = 0; i < 3; ++i) {
-    if ((marked >> i & 1) != 0) continue;
+  Sides sides;
+  for (uint32_t i = 0; i < 3; ++i) {
     const double distance = dot(normal, minus(other[i], t[0]));
-    front = front & (distance > slack);
-    back = back & (distance < -slack);
+    sides.front |= static_cast<uint32_t>(distance > slack) << i;
+    sides.back |= static_cast<uint32_t>(distance < -slack) << i;
   }
-  return front || back;
+  sides.open = 7 & ~(sides.front | sides.back | common);
+  return sides;
 }
 
-/// Whether, seen along an axis, `other` lies strictly beyond the line of a side of the triangle.
-bool is_beyond_side(const Triangle& t, const Point& normal, size_t axis, const Triangle& other,
-                    double slack) {
+/// Decides what is open by whole numbers: all coordinates are.
+void decide_open(const Triangle& t, const Triangle& other, Sides& sides) {
+  const auto whole = [&](const Point& p) {
+    const Point d = minus(p, t[0]);
+    return IVec3{static_cast<int64_t>(d[0]), static_cast<int64_t>(d[1]),
+                 static_cast<int64_t>(d[2])};
+  };
+  const IVec3 u = whole(t[1]), v = whole(t[2]);
+  for (uint32_t i = 0; i < 3; ++i) {
+    if ((sides.open >> i & 1) == 0) continue;
+    const IVec3 w = whole(other[i]);
+    __int128 sum = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t x = (k + 1) % 3, y = (k + 2) % 3;
+      sum += static_cast<__int128>(u[x] * v[y] - u[y] * v[x]) * w[k];
+    }
+    sides.front |= static_cast<uint32_t>(sum > 0) << i;
+    sides.back |= static_cast<uint32_t>(sum < 0) << i;
+    sides.on |= static_cast<uint32_t>(sum == 0) << i;
+  }
+  sides.open = 0;
+}
+
+size_t longest(const Point& v) {
+  const size_t axis = std::fabs(v[1]) > std::fabs(v[0]) ? 1 : 0;
+  return std::fabs(v[2]) > std::fabs(v[axis]) ? 2 : axis;
+}
+
+/// Whether, seen along the axis that the triangle faces most, the corners of `other` lie strictly
+/// beyond the line of one of its sides, but for the common ones, which are on that side, and for
+/// those that are off its plane, with the whole of `other` on one side of it. Then the two meet in
+/// the common corners and the edge between them only. Corners are given as bits.
+bool is_beyond_side(const Triangle& t, uint32_t t_common, const Point& normal,
+                    const Triangle& other, uint32_t common, uint32_t aside, double slack) {
+  const size_t axis = longest(normal), u = (axis + 1) % 3, v = (axis + 2) % 3;
   if (std::fabs(normal[axis]) <= slack) return false;
-  const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
   const double sense = normal[axis] > 0 ? 1 : -1;
   for (size_t i = 0; i < 3; ++i) {
-    const Point &a = t[i], &b = t[(i + 1) % 3];
+    const size_t next = (i + 1) % 3;
+    if ((t_common & ~(1u << i | 1u << next)) != 0) continue;
+    const Point &a = t[i], &b = t[next];
     const double du = sense * (b[u] - a[u]), dv = sense * (b[v] - a[v]);
     bool beyond = true;
-    for (const Point& p : other) {
-      beyond = beyond & (du * (p[v] - a[v]) - dv * (p[u] - a[u]) < -slack);
+    for (size_t k = 0; k < 3; ++k) {
+      const Point& p = other[k];
+      beyond = beyond & (((common | aside) >> k & 1) != 0 ||
+                         du * (p[v] - a[v]) - dv * (p[u] - a[u]) < -slack);
     }
     if (beyond) return true;
   }
   return false;
 }
 
-size_t longest(const Point& v) {
-  size_t axis = std::fabs(v[1]) > std::fabs(v[0]) ? 1 : 0;
-  return std::fabs(v[2]) > std::fabs(v[axis]) ? 2 : axis;
-}
-
 }  // namespace
 
 bool TrianglePairs::apart(uint32_t f, uint32_t g) const {
-  const uint32_t* const p = &leaf_.corners[3 * size_t{f}];
-  const uint32_t* const q = &leaf_.corners[3 * size_t{g}];
+  if (!is_triangle(f) || !is_triangle(g)) return false;
+  const uint32_t* const p = &leaf_.corners[leaf_.face_starts[f]];
+  const uint32_t* const q = &leaf_.corners[leaf_.face_starts[g]];
   uint32_t f_common = 0, g_common = 0;
   for (uint32_t i = 0; i < 3; ++i) {
     for (uint32_t k = 0; k < 3; ++k) {
@@ -111,15 +153,28 @@ bool TrianglePairs::apart(uint32_t f, uint32_t g) const {
   // and off by 4 u d^2 (two products, their difference); a distance by 28 u d^3: 12 for the normal,
   // 6 for the products, 10 for their sums. An area is computed like a component.
   const double d = 2 * size, area_slack = 0x1p-50 * d * d, slack = 0x1p-48 * d * d * d;
-  // What triangles have in common lies in both planes: of neighbours the other corners decide.
+  // What triangles have in common lies in both planes: of one that is on one side of the other's
+  // plane, in the corners that it has there; if these are common, that is all.
   const Point s_normal = normal_of(s);
-  if (is_beside(s, s_normal, t, g_common, slack)) return true;
+  Sides of_t = sides_of(s, s_normal, t, g_common, slack);
+  if (of_t.open == 0 && of_t.one()) return true;
   const Point t_normal = normal_of(t);
-  if (is_beside(t, t_normal, s, f_common, slack)) return true;
-  if (f_common != 0) return false;
-  const size_t axis = longest(s_normal);
-  return is_beyond_side(s, s_normal, axis, t, area_slack) ||
-         is_beyond_side(t, t_normal, axis, s, area_slack);
+  Sides of_s = sides_of(t, t_normal, s, f_common, slack);
+  if (of_s.open == 0 && of_s.one()) return true;
+  if (is_beyond_side(s, f_common, s_normal, t, g_common, 0, area_slack) ||
+      is_beyond_side(t, g_common, t_normal, s, f_common, 0, area_slack)) {
+    return true;
+  }
+  // One may rest on the plane of the other with a corner or an edge that is beside it.
+  const auto rests_beside = [&](const Triangle& one, uint32_t one_common, const Point& normal,
+                                const Triangle& other, uint32_t common, Sides& sides) {
+    decide_open(one, other, sides);
+    if (!sides.one()) return false;
+    return sides.on == 0 || is_beyond_side(one, one_common, normal, other, common,
+                                           sides.front | sides.back, area_slack);
+  };
+  return rests_beside(s, f_common, s_normal, t, g_common, of_t) ||
+         rests_beside(t, g_common, t_normal, s, f_common, of_s);
 }
 
 }  // namespace csgrun

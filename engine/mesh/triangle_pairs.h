@@ -18,10 +18,10 @@ namespace csgrun {
 /// Neighbours are told from the vertices that they have in common: see spread_vertices.h.
 class TrianglePairs {
  public:
-  /// Whether the leaf has triangles only, and fits the arithmetic.
+  /// Whether the leaf fits the arithmetic.
   static bool covers(const LeafGeometry& leaf);
 
-  /// REQUIRES: covers(leaf), and no triangle is degenerate; the leaf outlives this. `order` lists
+  /// REQUIRES: covers(leaf), and no face is degenerate; the leaf outlives this. `order` lists
   /// all faces; `is_balanced` says that every directed edge occurs as often as its reverse (else no
   /// vertex is taken for spread). O(n).
   TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order, bool is_balanced);
@@ -59,8 +59,8 @@ class TrianglePairs {
 #endif
   }
 
-  /// True only when two triangles meet nowhere but in corners and edges that both have. False says
-  /// nothing.
+  /// True only when two faces are triangles that meet nowhere but in corners and edges that both
+  /// have. False says nothing.
   [[nodiscard]] bool apart(uint32_t f, uint32_t g) const;
 
  private:
@@ -68,6 +68,10 @@ class TrianglePairs {
   struct alignas(16) Group {
     std::array<std::array<uint32_t, 8>, 3> corners;
   };
+
+  [[nodiscard]] bool is_triangle(uint32_t f) const {
+    return leaf_.face_starts[f + 1] - leaf_.face_starts[f] == 3;
+  }
 
   const LeafGeometry& leaf_;
   std::vector<Group> corners_;                   ///< by place; lanes without a triangle hold kNone

@@ -114,21 +114,66 @@ TEST(TrianglePairs, InnerVerticesOfAHeightFieldAreSpread) {
 TEST(TrianglePairs, TrianglesOfAPlaneAreApartBySides) {
   const LeafGeometry leaf = terrain(5, 0);
   const TrianglePairs pairs(leaf, any_order(leaf), false);
+  size_t neighbours = 0;
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+    EXPECT_FALSE(pairs.apart(f, f));
     for (uint32_t g = 0; g < leaf.face_count(); ++g) {
-      EXPECT_EQ(pairs.apart(f, g), !share_a_corner(leaf, f, g)) << f << ", " << g;
+      const bool apart = pairs.apart(f, g);
+      // Opposite ones at a vertex may have their sides on one line.
+      EXPECT_TRUE(f == g || apart || share_a_corner(leaf, f, g)) << f << ", " << g;
+      neighbours += apart && share_a_corner(leaf, f, g);
     }
   }
+  EXPECT_GT(neighbours, 200u);
 }
 
-TEST(TrianglePairs, PolygonsAndFarTrianglesAreNotCovered) {
+TEST(TrianglePairs, TrianglesThatRestOnAPlaneBesideATriangle) {
+  // Against the triangle (0, 0), (10, 0), (0, 10) of the plane z = 0: with one corner in the plane,
+  // with an edge, from above and through the plane.
+  std::array<IVec3, 3> base{{{0, 0, 0}, {10, 0, 0}, {0, 10, 0}}};
+  const auto is_apart = [&](const std::array<IVec3, 3>& t) {
+    LeafGeometry leaf;
+    leaf.vertices = {base[0], base[1], base[2], t[0], t[1], t[2]};
+    add_triangle(leaf, 0, 1, 2);
+    add_triangle(leaf, 3, 4, 5);
+    const TrianglePairs pairs(leaf, std::vector<uint32_t>{0, 1}, false);
+    EXPECT_EQ(pairs.apart(0, 1), pairs.apart(1, 0));
+    return pairs.apart(0, 1);
+  };
+  EXPECT_TRUE(is_apart({{{6, 5, 0}, {1, 1, 5}, {2, 1, 5}}}));
+  EXPECT_FALSE(is_apart({{{5, 5, 0}, {1, 1, 5}, {2, 1, 5}}}));
+  EXPECT_FALSE(is_apart({{{4, 5, 0}, {1, 1, 5}, {2, 1, 5}}}));
+  EXPECT_TRUE(is_apart({{{6, 5, 0}, {10, 1, 0}, {2, 1, 5}}}));
+  EXPECT_FALSE(is_apart({{{6, 5, 0}, {10, 0, 0}, {2, 1, 5}}}));
+  EXPECT_FALSE(is_apart({{{6, 5, 0}, {1, 1, 5}, {2, 1, -5}}}));
+  EXPECT_TRUE(is_apart({{{2, 2, 1}, {1, 1, 5}, {2, 1, 5}}}));
+  EXPECT_FALSE(is_apart({{{2, 2, 1}, {1, 1, 5}, {2, 1, -5}}}));
+  // A corner so near to a large triangle that doubles do not tell its side.
+  constexpr int64_t kBig = int64_t{1} << 27;
+  base = {{{0, 0, 0}, {4 * kBig, 0, 2}, {0, 4 * kBig, 2}}};
+  const IVec3 p{kBig, kBig, 1000}, q{kBig + 5, kBig, 1000};
+  EXPECT_TRUE(is_apart({{{kBig, kBig - 1, 1}, p, q}}));
+  EXPECT_FALSE(is_apart({{{kBig, kBig, 1}, p, q}}));
+  EXPECT_FALSE(is_apart({{{kBig, kBig + 1, 1}, p, q}}));
+}
+
+TEST(TrianglePairs, PolygonsAreLeftToOthersAndFarLeavesToo) {
   LeafGeometry leaf = octahedron();
   EXPECT_TRUE(TrianglePairs::covers(leaf));
   leaf.vertices[0][2] += int64_t{1} << 30;
   EXPECT_FALSE(TrianglePairs::covers(leaf));
-  leaf = octahedron();
-  leaf.face_starts.erase(leaf.face_starts.begin() + 3);
-  EXPECT_FALSE(TrianglePairs::covers(leaf));
+  // A square pyramid: its base is no triangle, and its vertices are spread all the same.
+  LeafGeometry pyramid;
+  pyramid.vertices = {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {4, 4, 9}};
+  pyramid.corners = {0, 3, 2, 1};
+  pyramid.face_starts = {0, 4};
+  for (uint32_t i = 0; i < 4; ++i) add_triangle(pyramid, i, (i + 1) % 4, 4);
+  const TrianglePairs pairs(pyramid, std::vector<uint32_t>{0, 1, 2, 3, 4}, true);
+  EXPECT_EQ(pairs.spread_neighbours(0, 0), 0u);
+  for (uint32_t place = 1; place < 5; ++place) {
+    EXPECT_EQ(pairs.spread_neighbours(place, 0), 0b11110u);
+    EXPECT_FALSE(pairs.apart(place, 0));
+  }
 }
 
 }  // namespace
