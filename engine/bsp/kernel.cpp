@@ -49,6 +49,25 @@ Work prepare(Job& job, const Octree& tree) {
   return work;
 }
 
+/// Neighbours in the list are near each other mostly: a result of a long chain does not carry all
+/// cells of before.
+void keep_few(std::vector<GridBox>& boxes) {
+  constexpr size_t kMost = 4096;
+  while (boxes.size() > kMost) {
+    size_t kept = 0;
+    for (size_t i = 0; i < boxes.size(); i += 2) {
+      GridBox hull = boxes[i];
+      const GridBox& other = boxes[std::min(i + 1, boxes.size() - 1)];
+      for (size_t k = 0; k < 3; ++k) {
+        hull.lo[k] = std::min(hull.lo[k], other.lo[k]);
+        hull.hi[k] = std::max(hull.hi[k], other.hi[k]);
+      }
+      boxes[kept++] = hull;
+    }
+    boxes.resize(kept);
+  }
+}
+
 /// Where single operands may touch themselves.
 Touching touching_before(const std::vector<Operand>& operands) {
   Touching result{false, {}};
@@ -62,6 +81,7 @@ Touching touching_before(const std::vector<Operand>& operands) {
       result.boxes.push_back(box.moved(o.translation));
     }
   }
+  keep_few(result.boxes);
   return result;
 }
 

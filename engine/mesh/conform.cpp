@@ -25,6 +25,8 @@ class Conformer {
         tree_(boxes_),
         face_boxes_(faces.size()),
         corner_of_(geometry.point_count(), kNone),
+        next_(geometry.point_count(), kNone),
+        previous_(geometry.point_count(), kNone),
         sides_(faces.size()),
         lying_(faces.size()) {}
 
@@ -109,14 +111,29 @@ class Conformer {
   Box mark_face(uint32_t f, uint32_t& first_edge) {
     Box box = boxes_[first_edge];
     rim_.clear();
+    bool is_simple = true;
+    const uint32_t begin = first_edge;
     for (; first_edge < edges_.size() && edges_[first_edge].face == f; ++first_edge) {
       const DirectedEdge& e = edges_[first_edge].edge;
+      is_simple = is_simple && corner_of_[e.from] != f;
       corner_of_[e.from] = f;
-      rim_.push_back(std::minmax(e.from, e.to));
+      next_[e.from] = e.to;
+      previous_[e.to] = e.from;
       box.include(boxes_[first_edge]);
+    }
+    if (is_simple) return box;
+    for (uint32_t i = begin; i < first_edge; ++i) {
+      rim_.push_back(std::minmax(edges_[i].edge.from, edges_[i].edge.to));
     }
     std::sort(rim_.begin(), rim_.end());
     return box;
+  }
+
+  /// Whether an edge between corners of the face that is marked is one of its own.
+  [[nodiscard]] bool is_marked_rim(const DirectedEdge& e) const {
+    if (next_[e.from] == e.to || previous_[e.from] == e.to) return true;
+    return !rim_.empty() &&
+           std::binary_search(rim_.begin(), rim_.end(), Ends(std::minmax(e.from, e.to)));
   }
 
   /// What an edge of face g does to face f, which is marked.
@@ -129,7 +146,7 @@ class Conformer {
     note_sides(f, g, from, to);
     if (from != 0 || to != 0 || faces_[g].plane.index() == support) return;
     // An edge of f itself is none that may run through it.
-    if (std::binary_search(rim_.begin(), rim_.end(), Ends(std::minmax(e.from, e.to)))) return;
+    if (from_shared && to_shared && is_marked_rim(e)) return;
     add_lying(f, {{e.from, e.to, e.plane == support ? faces_[g].plane.index() : e.plane}, kNone});
   }
 
@@ -446,10 +463,11 @@ class Conformer {
   const std::vector<FaceEdge> edges_;  ///< as they were given
   const std::vector<Box> boxes_;       ///< of the edges
   const BoxTree tree_;
-  std::vector<Box> face_boxes_;      ///< of the faces near contacts
-  std::vector<uint32_t> corner_of_;  ///< per point: the face that was marked last
-  std::vector<Ends> rim_;            ///< of that face, sorted
-  std::vector<Sides> sides_;         ///< per face, of the plane of the one that was marked last
+  std::vector<Box> face_boxes_;            ///< of the faces near contacts
+  std::vector<uint32_t> corner_of_;        ///< per point: the face that was marked last
+  std::vector<uint32_t> next_, previous_;  ///< per corner of that face: along its loop
+  std::vector<Ends> rim_;     ///< of that face, sorted; empty if it passes no corner twice
+  std::vector<Sides> sides_;  ///< per face, of the plane of the one that was marked last
   /// Faces of which one has edges, near the other, on both sides of the other's plane.
   std::vector<std::pair<uint32_t, uint32_t>> straddling_;
   std::vector<uint32_t> contacts_;                    ///< points at which edges are to be broken

@@ -16,6 +16,7 @@ struct FaceEdge {
   uint32_t lo, hi;
   uint32_t face;
   uint32_t plane;
+  bool forward;  ///< runs from lo to hi
 };
 
 class ContactCutter {
@@ -24,6 +25,7 @@ class ContactCutter {
                 CellGeometry& geometry, const PlaneTable& planes)
       : faces_(faces), near_(near), geometry_(geometry), planes_(planes) {
     index_edges();
+    first_corner_.assign(geometry_.point_count(), kNone);
   }
 
   bool run() {
@@ -46,7 +48,8 @@ class ContactCutter {
         if (faces_[f].untouched) continue;
         for (const auto& loop : faces_[f].loops) {
           for (const DirectedEdge& e : loop) {
-            visit(FaceEdge{std::min(e.from, e.to), std::max(e.from, e.to), f, e.plane});
+            visit(FaceEdge{std::min(e.from, e.to), std::max(e.from, e.to), f, e.plane,
+                           e.from < e.to});
           }
         }
       }
@@ -87,11 +90,18 @@ class ContactCutter {
     contacts_.clear();
     std::set<Edge> known;
     std::vector<uint32_t> frontier;
+    for (const uint32_t p : marked_) first_corner_[p] = kNone;
+    marked_.clear();
+    corners_.clear();
     for (const auto& loop : faces_[f].loops) {
-      for (const DirectedEdge& e : loop) {
+      for (size_t i = 0; i < loop.size(); ++i) {
+        const DirectedEdge& e = loop[i];
         rim_edges_.push_back(e);
         known.insert(std::minmax(e.from, e.to));
         if (rim_.insert(e.from).second) frontier.push_back(e.from);
+        corners_.push_back({loop[i > 0 ? i - 1 : loop.size() - 1], e, first_corner_[e.from]});
+        first_corner_[e.from] = static_cast<uint32_t>(corners_.size() - 1);
+        marked_.push_back(e.from);
       }
     }
     std::set<uint32_t> reached = rim_;
@@ -168,23 +178,21 @@ class ContactCutter {
   [[nodiscard]] bool behind(PlaneId support, const FaceEdge& e) {
     const MergedFace& g = faces_[e.face];
     if (g.plane.index() == support.index()) return false;
-    for (const auto& loop : g.loops) {
-      for (const DirectedEdge& d : loop) {
-        if (std::min(d.from, d.to) != e.lo || std::max(d.from, d.to) != e.hi) continue;
-        // g runs to the left of the edge, along n_g x D: behind the support when n_f . (n_g x D) =
-        // D . (n_f x n_g) is negative.
-        const LineAxis line = line_axis(planes_.oriented(support), planes_.oriented(g.plane));
-        return geometry_.compare_along(d.to, d.from, line.axis) * line.sign < 0;
-      }
-    }
-    return false;
+    // g runs to the left of the edge, along n_g x D: behind the support when n_f . (n_g x D) =
+    // D . (n_f x n_g) is negative.
+    const LineAxis line = line_axis(planes_.oriented(support), planes_.oriented(g.plane));
+    const int along = geometry_.compare_along(e.hi, e.lo, line.axis) * line.sign;
+    return (e.forward ? along : -along) < 0;
   }
 
   /// Whether the line, from a point on the rim or inside of face f, goes on inside it.
   [[nodiscard]] bool starts_inside(uint32_t f, const DirectedEdge& line) {
     if (!rim_.count(line.from)) return true;
     FaceLocator locator(faces_[f].plane, geometry_, planes_);
-    return locator.starts_inside(faces_[f].loops, line);
+    for (uint32_t c = first_corner_[line.from]; c != kNone; c = corners_[c].next) {
+      if (locator.is_in_wedge(corners_[c].arriving, corners_[c].leaving, line)) return true;
+    }
+    return false;
   }
 
   /// Whether two edges cross between their ends.
@@ -238,6 +246,13 @@ class ContactCutter {
   std::vector<uint32_t> starts_;
   std::vector<FaceEdge> edges_;
   std::vector<DirectedEdge> rim_edges_, contacts_;
+  /// Of the face that is looked at; several at one point are linked.
+  struct Corner {
+    DirectedEdge arriving, leaving;
+    uint32_t next;
+  };
+  std::vector<Corner> corners_;
+  std::vector<uint32_t> first_corner_, marked_;  ///< per point; those that have one
   std::set<uint32_t> rim_;  ///< points of the rim, also where a contact ends on it
 };
 

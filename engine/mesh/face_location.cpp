@@ -63,6 +63,17 @@ int FaceLocator::side_towards_u(const DirectedEdge& e, uint32_t p) {
   return geometry_.side(e.plane, p) * along_u;
 }
 
+bool FaceLocator::is_in_wedge(const DirectedEdge& arriving, const DirectedEdge& leaving,
+                              const DirectedEdge& line) {
+  // The wedge of the interior runs counter-clockwise from the edge that leaves to the one that
+  // arrives (seen from the point).
+  const int from_leaving = turn_between(geometry_, planes_, support_, leaving, line);
+  const int to_arriving = turn_between(geometry_, planes_, support_, arriving, line);
+  const int corner = turn_between(geometry_, planes_, support_, arriving, leaving);
+  // Left of both at a convex corner, left of one of them at a reflex one.
+  return corner > 0 ? from_leaving > 0 && to_arriving > 0 : from_leaving > 0 || to_arriving > 0;
+}
+
 bool FaceLocator::starts_inside(std::span<const std::vector<DirectedEdge>> loops,
                                 const DirectedEdge& line) {
   for (const auto& loop : loops) {
@@ -70,15 +81,7 @@ bool FaceLocator::starts_inside(std::span<const std::vector<DirectedEdge>> loops
       if (loop[i].from != line.from) continue;
       const DirectedEdge& leaving = loop[i];
       const DirectedEdge& arriving = loop[(i + loop.size() - 1) % loop.size()];
-      // The wedge of the interior runs counter-clockwise from the edge that leaves to the one that
-      // arrives (seen from the point).
-      const int from_leaving = turn_between(geometry_, planes_, support_, leaving, line);
-      const int to_arriving = turn_between(geometry_, planes_, support_, arriving, line);
-      const int corner = turn_between(geometry_, planes_, support_, arriving, leaving);
-      // Left of both at a convex corner, left of one of them at a reflex one.
-      if (corner > 0 ? from_leaving > 0 && to_arriving > 0 : from_leaving > 0 || to_arriving > 0) {
-        return true;
-      }
+      if (is_in_wedge(arriving, leaving, line)) return true;
     }
   }
   return false;

@@ -16,6 +16,9 @@ class FaceLocator {
   /// +1 when a point of the plane is inside loops that do not cross (by their parity), 0 on them,
   /// -1 outside.
   int locate(std::span<const std::vector<DirectedEdge>> loops, uint32_t p);
+  /// Whether a line from a corner goes on inside the wedge between two edges of the face there.
+  bool is_in_wedge(const DirectedEdge& arriving, const DirectedEdge& leaving,
+                   const DirectedEdge& line);
   /// Whether a line, which leaves a point of the loops, goes on between them and to the left of
   /// them. `line.plane` is any plane that holds it but the support.
   bool starts_inside(std::span<const std::vector<DirectedEdge>> loops, const DirectedEdge& line);
