@@ -273,6 +273,24 @@ TEST(PrepareLeaf, FaultsAreFound) {
   EXPECT_FALSE(leaf.crossings.empty());
 }
 
+TEST(PrepareLeaf, FacesTooManyOrTurnedAreFoundWhereverTheyStand) {
+  // A tetrahedron with one face more: the same again, or one turned over. Some edges are then run
+  // through three times, or twice one way.
+  const std::vector<glm::dvec3> points{{0, 0, 0}, {100, 0, 0}, {0, 100, 0}, {0, 0, 100}};
+  const std::vector<std::vector<uint32_t>> faces{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  ASSERT_EQ(prepare(mesh_of(points, faces)).status, Status::kGood);
+  for (size_t which = 0; which < faces.size(); ++which) {
+    for (size_t where = 0; where <= faces.size(); ++where) {
+      auto more = faces;
+      more.insert(more.begin() + static_cast<std::ptrdiff_t>(where), faces[which]);
+      EXPECT_EQ(prepare(mesh_of(points, more)).status, Status::kOpen) << which << ", " << where;
+    }
+    auto turned = faces;
+    std::reverse(turned[which].begin(), turned[which].end());
+    EXPECT_EQ(prepare(mesh_of(points, turned)).status, Status::kOpen) << which;
+  }
+}
+
 TEST(PrepareLeaf, FacetsOfImportsAreKeptApart) {
   auto mesh = box_mesh({0, 0, 0}, {100, 100, 100});
   EXPECT_EQ(prepare(mesh).geometry->facet, std::vector<uint32_t>(6, 0));
