@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <map>
+#include <tuple>
 
 namespace csgrun {
 namespace {
@@ -82,6 +82,8 @@ bool RegionBuilder::build_single(PlaneId support, const std::vector<DirectedEdge
 }
 
 bool RegionBuilder::cancel_on_lines(PlaneId support) {
+  constexpr size_t kFew = 16;
+  if (open_.size() <= kFew) return cancel_few(support);
   struct Keyed {
     LineKey key;
     uint32_t edge;
@@ -95,31 +97,55 @@ bool RegionBuilder::cancel_on_lines(PlaneId support) {
   std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
     return std::tie(a.key, a.edge) < std::tie(b.key, b.edge);
   });
-  std::vector<DirectedEdge> line;
   for (size_t i = 0; i < keyed.size();) {
     size_t j = i;
-    line.clear();
-    while (j < keyed.size() && keyed[j].key == keyed[i].key) line.push_back(open_[keyed[j++].edge]);
-    if (line.size() == 1) {
-      boundary_.push_back(line[0]);
-    } else if (!sweep_line(support.index(), line.data(), line.data() + line.size())) {
-      return false;
+    line_.clear();
+    while (j < keyed.size() && keyed[j].key == keyed[i].key) {
+      line_.push_back(open_[keyed[j++].edge]);
     }
+    if (!cancel_line(support.index())) return false;
     i = j;
   }
   return true;
 }
 
-bool RegionBuilder::sweep_line(uint32_t support, const DirectedEdge* begin,
-                               const DirectedEdge* end) {
-  const uint32_t plane = begin->plane;
+/// Lines of a few edges are told apart by looking at pairs: mostly one end decides.
+bool RegionBuilder::cancel_few(PlaneId support) {
+  while (!open_.empty()) {
+    line_.clear();
+    const DirectedEdge first = open_[0];
+    size_t kept = 0;
+    for (const DirectedEdge& e : open_) {
+      const bool on_line = e.plane == first.plane || (geometry_.side(first.plane, e.from) == 0 &&
+                                                      geometry_.side(first.plane, e.to) == 0);
+      if (on_line) {
+        line_.push_back(e);
+      } else {
+        open_[kept++] = e;
+      }
+    }
+    open_.resize(kept);
+    if (!cancel_line(support.index())) return false;
+  }
+  return true;
+}
+
+bool RegionBuilder::cancel_line(uint32_t support) {
+  if (line_.size() > 1) return sweep_line(support);
+  boundary_.push_back(line_[0]);
+  return true;
+}
+
+bool RegionBuilder::sweep_line(uint32_t support) {
+  const uint32_t plane = line_[0].plane;
   const LineAxis axis = line_axis(planes_.plane(support), planes_.plane(plane));
-  std::vector<uint32_t> points;
-  for (const DirectedEdge* e = begin; e != end; ++e) {
-    points.push_back(e->from);
-    points.push_back(e->to);
+  std::vector<uint32_t>& points = on_line_;
+  points.clear();
+  for (const DirectedEdge& e : line_) {
+    points.push_back(e.from);
+    points.push_back(e.to);
     // The key is a hash: confirm that this edge lies on the first one's line.
-    if (e->plane != plane && (geometry_.side(plane, e->from) || geometry_.side(plane, e->to))) {
+    if (e.plane != plane && (geometry_.side(plane, e.from) || geometry_.side(plane, e.to))) {
       return false;
     }
   }
@@ -127,21 +153,25 @@ bool RegionBuilder::sweep_line(uint32_t support, const DirectedEdge* begin,
   points.erase(std::unique(points.begin(), points.end()), points.end());
   std::sort(points.begin(), points.end(),
             [&](uint32_t p, uint32_t q) { return geometry_.compare_along(p, q, axis.axis) < 0; });
-  std::map<uint32_t, size_t> place;
-  for (size_t i = 0; i < points.size(); ++i) place[points[i]] = i;
-  std::vector<int> change(points.size() + 1, 0);
-  for (const DirectedEdge* e = begin; e != end; ++e) {
-    ++change[place[e->from]];
-    --change[place[e->to]];
+  place_.clear();
+  for (uint32_t i = 0; i < points.size(); ++i) place_.emplace_back(points[i], i);
+  std::sort(place_.begin(), place_.end());
+  const auto place = [&](uint32_t p) {
+    return std::lower_bound(place_.begin(), place_.end(), std::pair(p, 0u))->second;
+  };
+  change_.assign(points.size() + 1, 0);
+  for (const DirectedEdge& e : line_) {
+    ++change_[place(e.from)];
+    --change_[place(e.to)];
   }
   int net = 0;
   for (size_t i = 0; i + 1 < points.size(); ++i) {
-    net += change[i];
+    net += change_[i];
     if (net > 1 || net < -1) return false;
     if (net == 1) boundary_.push_back({points[i], points[i + 1], plane});
     if (net == -1) boundary_.push_back({points[i + 1], points[i], plane});
   }
-  return net + change[points.size() - 1] == 0;
+  return net + change_[points.size() - 1] == 0;
 }
 
 bool RegionBuilder::straight(const DirectedEdge& in, const DirectedEdge& out) {
@@ -150,16 +180,17 @@ bool RegionBuilder::straight(const DirectedEdge& in, const DirectedEdge& out) {
 
 bool RegionBuilder::trace(PlaneId support, RegionLoops& loops) {
   // Incident edges by point: edge 2 i leaves boundary edge i's start, 2 i + 1 arrives at its end.
-  std::vector<std::pair<uint32_t, uint32_t>> ends;
-  ends.reserve(boundary_.size() * 2);
+  std::vector<std::pair<uint32_t, uint32_t>>& ends = ends_;
+  ends.clear();
   for (uint32_t i = 0; i < boundary_.size(); ++i) {
     ends.emplace_back(boundary_[i].from, 2 * i);
     ends.emplace_back(boundary_[i].to, 2 * i + 1);
   }
   std::sort(ends.begin(), ends.end());
   next_.assign(boundary_.size(), kNone);
-  std::vector<uint8_t> corner(boundary_.size(), 1);  ///< whether the edge starts in a true corner
-  std::vector<uint32_t> incident;
+  std::vector<uint8_t>& corner = corner_;
+  corner.assign(boundary_.size(), 1);
+  std::vector<uint32_t>& incident = incident_;
   for (size_t i = 0; i < ends.size();) {
     size_t j = i;
     incident.clear();
@@ -184,7 +215,8 @@ bool RegionBuilder::trace(PlaneId support, RegionLoops& loops) {
     }
     i = j;
   }
-  std::vector<uint8_t> done(boundary_.size(), 0);
+  std::vector<uint8_t>& done = done_;
+  done.assign(boundary_.size(), 0);
   for (uint32_t i = 0; i < boundary_.size(); ++i) {
     if (done[i] || !corner[i]) continue;
     for (uint32_t e = i; !done[e];) {

@@ -6,6 +6,7 @@
 // boundary runs straight through are dropped, and loops are traced with the interior on their left.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "engine/bsp/cell_geometry.h"
@@ -53,7 +54,9 @@ class RegionBuilder {
 
  private:
   bool cancel_on_lines(PlaneId support);
-  bool sweep_line(uint32_t support, const DirectedEdge* begin, const DirectedEdge* end);
+  bool cancel_few(PlaneId support);
+  bool cancel_line(uint32_t support);
+  bool sweep_line(uint32_t support);
   bool trace(PlaneId support, RegionLoops& loops);
   [[nodiscard]] bool straight(const DirectedEdge& in, const DirectedEdge& out);
   void pair_wedges(PlaneId support, std::vector<uint32_t>& incident);
@@ -63,9 +66,17 @@ class RegionBuilder {
   LineNamer namer_;
   std::vector<LineNamer::PlanePair> lines_;
   std::vector<LineKey> keys_;
-  std::vector<DirectedEdge> open_;      ///< edges whose exact reverse is not there
+  std::vector<DirectedEdge> open_;                    ///< edges whose exact reverse is not there
+  std::vector<DirectedEdge> line_;                    ///< those of one line
+  std::vector<uint32_t> on_line_;                     ///< their ends, in order
+  std::vector<std::pair<uint32_t, uint32_t>> place_;  ///< by end: where it stands there
+  std::vector<int> change_;
   std::vector<DirectedEdge> boundary_;  ///< elementary boundary edges
   std::vector<uint32_t> next_;          ///< per boundary edge: the one that follows
+  std::vector<uint8_t> corner_;         ///< per boundary edge: whether it starts in a true corner
+  std::vector<uint8_t> done_;
+  std::vector<std::pair<uint32_t, uint32_t>> ends_;  ///< of boundary edges, by point
+  std::vector<uint32_t> incident_;
 };
 
 }  // namespace csgrun
