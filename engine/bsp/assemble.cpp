@@ -61,6 +61,7 @@ class Assembler {
     FaceLabel label;
     uint32_t polygon, first, count;
     bool whole;
+    bool is_loose = false;
   };
 
   void gather(const std::vector<FragmentSet>& sets, const std::vector<WholePolygon>& whole) {
@@ -74,7 +75,7 @@ class Assembler {
       }
       for (const FragmentSet::Piece& p : set.pieces) {
         pieces_.push_back({p.plane, job_.label(job_.polygons()[p.polygon]), p.polygon,
-                           static_cast<uint32_t>(corners_.size()), p.count, false});
+                           static_cast<uint32_t>(corners_.size()), p.count, false, p.is_loose});
         for (uint32_t i = 0; i < p.count; ++i) {
           corners_.push_back(number[set.corner_point[p.first + i]]);
           planes_.push_back(set.corner_plane[p.first + i]);
@@ -124,8 +125,9 @@ class Assembler {
       draft_.edges.insert(draft_.edges.end(), edges_.begin(), edges_.end());
       draft_.end_loop();
     } else {
-      const bool built = end - begin == 1 ? builder_.build_single(first.plane, edges_, loops_)
-                                          : builder_.build(first.plane, edges_, loops_);
+      const bool built = end - begin == 1 && !first.is_loose
+                             ? builder_.build_single(first.plane, edges_, loops_)
+                             : builder_.build(first.plane, edges_, loops_);
       if (!built) return false;
       if (loops_.loop_count() == 0) return true;
       draft_.begin_face(first.plane, first.label, false, false);

@@ -15,6 +15,7 @@ namespace csgrun {
 struct WholePolygon {
   uint32_t polygon;
   bool flip;
+  bool is_met = false;  ///< another operand's surface touches it
 };
 
 /// BoundaryMesh::may_touch and ::touches.

@@ -35,7 +35,9 @@ void CellSolver::solve(const Octree& tree, const CriticalCell& cell, const CellW
   contact_ = false;
   geometry_.met_plane = false;
   for (uint32_t i = 0; i < operand_count_; ++i) {
-    for (const Fragment& f : operands_[i].polygons) solve_polygon(cell.expression, i, f, out);
+    for (const Fragment& f : operands_[i].polygons) {
+      if (tree.is_wanted(f.polygon)) solve_polygon(cell.expression, i, f, out);
+    }
   }
   cells_with_contact_ += contact_;
   may_touch_ = geometry_.met_plane;

@@ -16,11 +16,13 @@ struct FragmentSet {
     std::array<uint32_t, 3> planes;  ///< kNone thrice for a vertex of a leaf
     uint32_t vertex;                 ///< of the job, or kNone
   };
-  /// A convex piece; `plane` is oriented to the outside of the result.
+  /// A piece; `plane` is oriented to the outside of the result.
   struct Piece {
     PlaneId plane;
     uint32_t polygon;
     uint32_t first, count;  ///< into corner_point and corner_plane
+    /// The loop may run along a line twice, or past points at which it does not turn.
+    bool is_loose = false;
   };
 
   std::vector<NamedPoint> points;

@@ -33,6 +33,10 @@ class Job {
 
   [[nodiscard]] bool is_leaf(size_t o) const { return (*operands_)[o].leaf != nullptr; }
   [[nodiscard]] size_t operand_count() const { return operands_->size(); }
+  /// Whether the vertices of an operand are grid points, so that their doubles are exact.
+  [[nodiscard]] bool has_grid_vertices(size_t o) const {
+    return is_leaf(o) && (*operands_)[o].frame.is_identity;
+  }
   [[nodiscard]] const std::vector<JobPolygon>& polygons() const { return polygons_; }
   [[nodiscard]] const std::vector<PolygonBox>& boxes() const { return boxes_; }
   /// Polygons of operand o are [polygon_start(o), polygon_start(o + 1)).
@@ -48,6 +52,14 @@ class Job {
     return rounded_[vertex];
   }
   [[nodiscard]] size_t vertex_count() const { return rounded_.size(); }
+  /// Whether the faces of an operand meet in corners and edges that both have, or nowhere, and each
+  /// edge has two faces.
+  [[nodiscard]] bool has_simple_edges(size_t o) const {
+    return is_leaf(o) && !(*operands_)[o].leaf->may_touch &&
+           !(*operands_)[o].leaf->opposite.empty();
+  }
+  /// Vertices of operand o are [vertex_start(o), vertex_start(o + 1)).
+  [[nodiscard]] uint32_t vertex_start(size_t o) const { return vertex_operand_starts_[o]; }
   [[nodiscard]] Point exact(uint32_t vertex) const;
   /// Whether one vertex comes before another in the exact lexicographic order of their points.
   [[nodiscard]] bool is_below(uint32_t vertex, uint32_t other) const;

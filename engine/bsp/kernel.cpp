@@ -8,6 +8,7 @@
 #include "engine/bsp/octree.h"
 #include "engine/bsp/parallel_runs.h"
 #include "engine/bsp/untouched.h"
+#include "engine/bsp/whole_faces.h"
 
 namespace csgrun {
 namespace {
@@ -27,7 +28,7 @@ bool copied_whole(uint8_t fate) {
 Work prepare(Job& job, const Octree& tree) {
   Work work;
   for (uint32_t p = 0; p < tree.fate.size(); ++p) {
-    if (copied_whole(tree.fate[p])) {
+    if (tree.is_wanted(p) && copied_whole(tree.fate[p])) {
       work.whole.push_back({p, tree.fate[p] == static_cast<uint8_t>(Copy::kFlip)});
     }
   }
@@ -93,10 +94,20 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
                                                              const KernelOptions& options,
                                                              EvaluateStats& stats) {
   Job job(operands);
-  const Octree tree = build_octree(job, expression, region, options);
   const auto cancelled = [&] {
     return options.cancel && options.cancel->load(std::memory_order_relaxed);
   };
+  const bool is_fast = options.whole_faces && !options.literal_cells;
+  WholeFaces faces;
+  if (is_fast) {
+    auto evaluated = evaluate_whole_faces(job, expression, options, stats);
+    if (!evaluated) return evaluated.error();
+    faces = std::move(*evaluated);
+  }
+  Octree tree;
+  if (!is_fast || faces.any_general) {
+    tree = build_octree(job, expression, region, options, is_fast ? &faces.general : nullptr);
+  }
   if (cancelled()) return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
   Work work = prepare(job, tree);
 
@@ -153,6 +164,9 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   for (const auto& boxes : touches) {
     touching.boxes.insert(touching.boxes.end(), boxes.begin(), boxes.end());
   }
+  touching.boxes.insert(touching.boxes.end(), faces.touching.begin(), faces.touching.end());
+  sets.push_back(std::move(faces.cut));
+  work.whole.insert(work.whole.end(), faces.whole.begin(), faces.whole.end());
   std::vector<UntouchedPart> parts;
   if (options.name_untouched) parts = take_untouched(job, operands, work.whole);
   return assemble(job, sets, work.whole, std::move(touching), std::move(parts));

@@ -9,8 +9,9 @@ namespace {
 
 class OctreeBuilder {
  public:
-  OctreeBuilder(Job& job, const KernelOptions& options)
+  OctreeBuilder(Job& job, const KernelOptions& options, const std::vector<uint8_t>* wanted)
       : job_(job), limit_(std::max<uint32_t>(1, options.cell_limit)), cancel_(options.cancel) {
+    tree_.wanted = wanted;
     constant_.assign(job.operand_count(), Inside::kUnknown);
     mentioned_.assign(job.operand_count(), 0);
     tree_.fate.assign(job.polygons().size(), 0);
@@ -46,6 +47,7 @@ class OctreeBuilder {
   /// Handles a cell whose presences are presences_[first..] and may have lost their polygons or
   /// their mention; leaves both stacks as they were below `first`.
   void enter(const CellBox& box, size_t first, const PrunedExpression& outer, int stalled) {
+    if (!any_wanted(first)) return;
     bool absent = false;
     for (size_t i = first; i < presences_.size(); ++i) {
       if (presences_[i].count) continue;
@@ -71,6 +73,14 @@ class OctreeBuilder {
     }
     presences_.resize(kept);
     visit(box, first, folded, stalled);
+  }
+
+  [[nodiscard]] bool any_wanted(size_t first) const {
+    if (!tree_.wanted) return true;
+    return std::any_of(presences_.begin() + first, presences_.end(), [&](const Presence& p) {
+      const auto begin = polygons_.begin() + p.first_polygon;
+      return std::any_of(begin, begin + p.count, [&](uint32_t i) { return tree_.is_wanted(i); });
+    });
   }
 
   void mark(const Presence& p, Copy copy) {
@@ -161,7 +171,8 @@ class OctreeBuilder {
       }
       mark(p, flip ? Copy::kFlip : Copy::kKeep);
       for (uint32_t k = 0; k < p.count; ++k) {
-        tree_.copied.push_back({polygons_[p.first_polygon + k], cell, flip});
+        const uint32_t polygon = polygons_[p.first_polygon + k];
+        if (tree_.is_wanted(polygon)) tree_.copied.push_back({polygon, cell, flip});
       }
     }
   }
@@ -194,8 +205,8 @@ class OctreeBuilder {
 }  // namespace
 
 Octree build_octree(Job& job, const Expression& expression, const GridBox& region,
-                    const KernelOptions& options) {
-  return OctreeBuilder(job, options).run(expression, region, options.octree_shift);
+                    const KernelOptions& options, const std::vector<uint8_t>* wanted) {
+  return OctreeBuilder(job, options, wanted).run(expression, region, options.octree_shift);
 }
 
 }  // namespace csgrun

@@ -37,6 +37,10 @@ struct CriticalCell {
 enum class Copy : uint8_t { kDrop = 1, kKeep = 2, kFlip = 4, kCritical = 8 };
 
 struct Octree {
+  /// If not null, per polygon whether its part of the result is asked for: others stand in cells as
+  /// bounds only, and cells without any that is asked for are left out.
+  const std::vector<uint8_t>* wanted = nullptr;
+  [[nodiscard]] bool is_wanted(uint32_t polygon) const { return !wanted || (*wanted)[polygon]; }
   std::vector<CriticalCell> critical;
   std::vector<CriticalCell::Presence> presences;
   std::vector<uint32_t> cell_polygons;
@@ -57,7 +61,8 @@ struct Octree {
 
 /// Builds the octree over `region`; makes planes where corners are traced. `options.cell_limit` is
 /// m. O((n + k) log) for n polygons, k of them near intersections.
+/// `wanted`: see Octree.
 Octree build_octree(Job& job, const Expression& expression, const GridBox& region,
-                    const KernelOptions& options);
+                    const KernelOptions& options, const std::vector<uint8_t>* wanted = nullptr);
 
 }  // namespace csgrun

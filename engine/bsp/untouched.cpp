@@ -211,7 +211,9 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
                                           std::vector<WholePolygon>& whole) {
   std::vector<UntouchedPart> parts;
   std::vector<uint8_t> fate(job.polygons().size(), kMixed), taken(job.polygons().size(), 0);
-  for (const WholePolygon& w : whole) fate[w.polygon] = w.flip ? kFlipped : kKept;
+  for (const WholePolygon& w : whole) {
+    if (!w.is_met) fate[w.polygon] = w.flip ? kFlipped : kKept;
+  }
   for (size_t o = 0; o < operands.size(); ++o) {
     const Operand& operand = operands[o];
     if (!operand.leaf || !operand.frame.is_identity) continue;

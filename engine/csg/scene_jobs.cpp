@@ -204,6 +204,7 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
   result.cell_limit = options.cell_limit;
   result.octree_shift = options.octree_shift;
   result.literal_cells = options.literal_cells;
+  result.whole_faces = options.whole_faces;
   result.cancel = options.cancel;
   return result;
 }

@@ -46,6 +46,7 @@ TEST(Metamorphic, WaysOfEvaluation) {
       other.options = random_options(random);
       other.options.threads = way == 0 ? 7 : 1;
       other.options.literal_cells = way == 1 ? !c.options.literal_cells : c.options.literal_cells;
+      other.options.whole_faces = way != 0;
       other.nest = way == 2 ? ~uint64_t{0} : way == 3 ? random.bits() : c.nest;
       const Boundary b = boundary_of(other);
       ASSERT_TRUE(b);

@@ -74,6 +74,7 @@ inline KernelOptions random_options(Random& random) {
   constexpr uint32_t kLimits[] = {1, 3, 9, 17, 33};
   o.cell_limit = kLimits[random.integer(0, 4)];
   for (auto& s : o.octree_shift) s = static_cast<uint32_t>(random.integer(0, 5));
+  o.whole_faces = random.integer(0, 3) != 0;
   return o;
 }
 

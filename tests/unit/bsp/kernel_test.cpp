@@ -32,10 +32,11 @@ TEST(Kernel, StatsAreAddedToAndDoNotDependOnThreads) {
   test::Random random(81);
   test::TreeMaker maker(random);
   EvaluateStats sum;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const auto tree = maker.make({.size = 8, .operands = 6, .depth = 3, .frames = i % 3 == 0});
     KernelOptions options;
     options.cell_limit = 3;
+    options.whole_faces = i % 2 == 0;
     EvaluateStats one, four, twice;
     evaluate(tree, options, one);
     evaluate(tree, options, twice);

@@ -1,0 +1,503 @@
+#include "engine/bsp/face_arrangement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace csgrun {
+
+uint32_t FaceArrangement::vertex(uint32_t v) {
+  const uint32_t p = geometry_.vertex_point(v);
+  return touched_[v] ? index_.unique(p) : p;
+}
+
+/// The sign of a plane that holds an edge of a polygon at its other corners.
+int FaceArrangement::inner_sign(const JobPolygon& polygon, uint32_t edge_plane) {
+  for (const uint32_t v : job_.corners(polygon)) {
+    if (const int s = geometry_.side(edge_plane, geometry_.vertex_point(v))) return s;
+  }
+  return 0;
+}
+
+bool FaceArrangement::build(uint32_t polygon, std::span<const SheetSegment> segments,
+                            std::span<const uint32_t> coplanar, CutLoops& out) {
+  polygon_ = &job_.polygons()[polygon];
+  lines_.clear();
+  add_boundary();
+  add_segments(segments);
+  add_coplanar(coplanar);
+  find_stops();
+  break_lines();
+  join_parts();
+  sort_around_points();
+  const auto first_loop = static_cast<uint32_t>(out.loops.size());
+  const size_t corners = out.corner_point.size(), facts = out.facts.size();
+  if (trace(out) && spread_coplanar(out, first_loop) && write_facts(out, first_loop)) return true;
+  out.loops.resize(first_loop);
+  out.corner_point.resize(corners);
+  out.corner_plane.resize(corners);
+  out.facts.resize(facts);
+  return false;
+}
+
+void FaceArrangement::add_boundary() {
+  const auto corners = job_.corners(*polygon_);
+  const auto planes = job_.edge_planes(*polygon_);
+  for (uint32_t e = 0; e < polygon_->count; ++e) {
+    lines_.push_back({vertex(corners[e]), vertex(corners[e + 1 < polygon_->count ? e + 1 : 0]),
+                      planes[e], inner_sign(*polygon_, planes[e]), Kind::kBoundary, kNone, kNone});
+  }
+}
+
+void FaceArrangement::add_segments(std::span<const SheetSegment> segments) {
+  for (const SheetSegment& s : segments) {
+    const JobPolygon& other = job_.polygons()[s.other];
+    const Kind kind = s.front && s.back ? Kind::kThrough : s.front ? Kind::kFront : Kind::kBack;
+    lines_.push_back({s.from, s.to, other.support.index(), other.support.flipped() ? 1 : -1, kind,
+                      s.other, other.operand});
+  }
+}
+
+/// Whether a coplanar polygon is strictly on the outer side of an edge of the polygon.
+bool FaceArrangement::is_apart(uint32_t sheet) {
+  const auto corners = job_.corners(job_.polygons()[sheet]);
+  for (uint32_t e = 0; e < polygon_->count; ++e) {
+    const Line& edge = lines_[e];
+    if (std::all_of(corners.begin(), corners.end(), [&](uint32_t v) {
+          return geometry_.side(edge.plane, geometry_.vertex_point(v)) * edge.left < 0;
+        })) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The edges of coplanar sheets, without those that only two sheets of one operand have.
+void FaceArrangement::add_coplanar(std::span<const uint32_t> coplanar) {
+  sheets_.clear();
+  sheet_edges_.clear();
+  for (const uint32_t q : coplanar) {
+    if (is_apart(q)) continue;
+    sheets_.push_back(q);
+    const JobPolygon& other = job_.polygons()[q];
+    const auto corners = job_.corners(other);
+    for (uint32_t e = 0; e < other.count; ++e) {
+      const uint32_t a = corners[e], b = corners[e + 1 < other.count ? e + 1 : 0];
+      sheet_edges_.push_back({other.operand, std::min(a, b), std::max(a, b), q, e});
+    }
+  }
+  std::sort(sheet_edges_.begin(), sheet_edges_.end(), [](const SheetEdge& a, const SheetEdge& b) {
+    return std::tie(a.operand, a.low, a.high, a.sheet) <
+           std::tie(b.operand, b.low, b.high, b.sheet);
+  });
+  const auto same = [](const SheetEdge& a, const SheetEdge& b) {
+    return a.low == b.low && a.high == b.high;
+  };
+  for (size_t i = 0; i < sheet_edges_.size(); ++i) {
+    const SheetEdge& s = sheet_edges_[i];
+    if (i + 1 < sheet_edges_.size() && same(s, sheet_edges_[i + 1]) &&
+        job_.has_simple_edges(s.operand)) {
+      ++i;
+      continue;
+    }
+    const JobPolygon& other = job_.polygons()[s.sheet];
+    const auto corners = job_.corners(other);
+    const uint32_t plane = job_.edge_planes(other)[s.edge];
+    // Seen from outside the polygon, a sheet that faces the other way runs clockwise.
+    const bool is_left = other.support == polygon_->support;
+    const int inner = inner_sign(other, plane);
+    lines_.push_back(
+        {vertex(corners[s.edge]), vertex(corners[s.edge + 1 < other.count ? s.edge + 1 : 0]), plane,
+         is_left ? inner : -inner, is_left ? Kind::kLeft : Kind::kRight, s.sheet, other.operand});
+  }
+}
+
+/// The points in which lines meet, by a sweep over their boxes.
+void FaceArrangement::find_stops() {
+  stops_.clear();
+  boxes_.resize(lines_.size());
+  by_position_.clear();
+  for (uint32_t l = 0; l < lines_.size(); ++l) {
+    const auto &a = geometry_.point(lines_[l].from).rounded,
+               &b = geometry_.point(lines_[l].to).rounded;
+    for (int k = 0; k < 3; ++k) boxes_[l][k] = {std::min(a[k], b[k]), std::max(a[k], b[k])};
+    by_position_.push_back(l);
+    stops_.emplace_back(l, lines_[l].from);
+    stops_.emplace_back(l, lines_[l].to);
+  }
+  // Along the axis on which the polygon is longest.
+  int axis = 0;
+  std::array<double, 3> extent{};
+  for (int k = 0; k < 3; ++k) {
+    double lo = HUGE_VAL, hi = -HUGE_VAL;
+    for (uint32_t e = 0; e < polygon_->count; ++e) {
+      lo = std::min(lo, boxes_[e][k][0]);
+      hi = std::max(hi, boxes_[e][k][1]);
+    }
+    extent[k] = hi - lo;
+    if (extent[k] > extent[axis]) axis = k;
+  }
+  std::sort(by_position_.begin(), by_position_.end(), [&](uint32_t a, uint32_t b) {
+    return std::tie(boxes_[a][axis][0], a) < std::tie(boxes_[b][axis][0], b);
+  });
+  active_.clear();
+  for (const uint32_t t : by_position_) {
+    // Rounding keeps order: boxes of rounded ends meet where the true ones do.
+    std::erase_if(active_, [&](uint32_t s) { return boxes_[s][axis][1] < boxes_[t][axis][0]; });
+    const uint32_t operand = lines_[t].operand;
+    // Sheets of a leaf meet in edges and corners that both have.
+    const bool fits = operand != kNone && job_.has_simple_edges(operand);
+    for (const uint32_t s : active_) {
+      if (fits && lines_[s].operand == operand) continue;
+      bool near = true;
+      for (int k = 0; k < 3; ++k) {
+        near &= boxes_[s][k][0] <= boxes_[t][k][1] && boxes_[t][k][0] <= boxes_[s][k][1];
+      }
+      if (near) meet(s, t);
+    }
+    active_.push_back(t);
+  }
+}
+
+void FaceArrangement::meet(uint32_t s, uint32_t t) {
+  const Line a = lines_[s], b = lines_[t];
+  // Lines that share an end meet nowhere else, unless they are one.
+  const bool shares = a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to;
+  if (shares) {
+    const uint32_t far = a.from == b.from || a.from == b.to ? a.to : a.from;
+    const bool all = (a.from == b.from && a.to == b.to) || (a.from == b.to && a.to == b.from);
+    if (all || geometry_.side(b.plane, far) != 0) return;
+  } else {
+    const int a_from = geometry_.side(b.plane, a.from), a_to = geometry_.side(b.plane, a.to);
+    if (a_from * a_to > 0) return;
+    const int b_from = geometry_.side(a.plane, b.from), b_to = geometry_.side(a.plane, b.to);
+    if (b_from * b_to > 0) return;
+    if (a_from != 0 || a_to != 0) {
+      const uint32_t x =
+          a_from == 0   ? a.from
+          : a_to == 0   ? a.to
+          : b_from == 0 ? b.from
+          : b_to == 0
+              ? b.to
+              : index_.unique(geometry_.add_point({polygon_->support.index(), a.plane, b.plane}));
+      stops_.emplace_back(s, x);
+      stops_.emplace_back(t, x);
+      return;
+    }
+  }
+  add_collinear(a, s, b.from);
+  add_collinear(a, s, b.to);
+  add_collinear(b, t, a.from);
+  add_collinear(b, t, a.to);
+}
+
+/// Adds a point of the line if it lies between its ends.
+void FaceArrangement::add_collinear(const Line& on, uint32_t line, uint32_t point) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int along = geometry_.compare_along(on.to, on.from, axis);
+    if (along == 0) continue;
+    if (geometry_.compare_along(point, on.from, axis) * along > 0 &&
+        geometry_.compare_along(on.to, point, axis) * along > 0) {
+      stops_.emplace_back(line, point);
+    }
+    return;
+  }
+}
+
+void FaceArrangement::break_lines() {
+  parts_.clear();
+  std::sort(stops_.begin(), stops_.end());
+  stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
+  for (size_t begin = 0; begin < stops_.size();) {
+    const uint32_t l = stops_[begin].first;
+    const Line& line = lines_[l];
+    size_t end = begin;
+    while (end < stops_.size() && stops_[end].first == l) ++end;
+    int axis = 0, along = 0;
+    while (end - begin > 1 && along == 0) {
+      along = geometry_.compare_along(line.to, line.from, axis++);
+    }
+    std::sort(stops_.begin() + begin, stops_.begin() + end, [&](const auto& p, const auto& q) {
+      return geometry_.compare_along(p.second, q.second, axis - 1) * along < 0;
+    });
+    for (size_t i = begin; i + 1 < end; ++i) {
+      const uint32_t p = stops_[i].second, q = stops_[i + 1].second;
+      const Part part{std::min(p, q), std::max(p, q), l, p > q};
+      if (!is_outside(part)) parts_.push_back(part);
+    }
+    begin = end;
+  }
+}
+
+/// Whether a part of a coplanar sheet's edge is outside the polygon; parts are broken at its edges.
+bool FaceArrangement::is_outside(const Part& part) {
+  const Kind kind = lines_[part.line].kind;
+  if (!is_coplanar(kind)) return false;
+  for (uint32_t e = 0; e < polygon_->count; ++e) {
+    const Line& edge = lines_[e];
+    if (geometry_.side(edge.plane, part.low) * edge.left < 0 ||
+        geometry_.side(edge.plane, part.high) * edge.left < 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void FaceArrangement::join_parts() {
+  arcs_.clear();
+  std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
+    return std::tie(a.low, a.high, a.line) < std::tie(b.low, b.high, b.line);
+  });
+  for (uint32_t i = 0; i < parts_.size(); ++i) {
+    if (!arcs_.empty() && arcs_.back().low == parts_[i].low &&
+        arcs_.back().high == parts_[i].high) {
+      ++arcs_.back().part_count;
+    } else {
+      arcs_.push_back({parts_[i].low, parts_[i].high, i, 1});
+    }
+  }
+}
+
+int FaceArrangement::left_of(uint32_t half, uint32_t point) {
+  const Part& part = parts_[arcs_[half / 2].first_part];
+  const Line& line = lines_[part.line];
+  const int left = part.backwards != (half % 2 == 1) ? -line.left : line.left;
+  return geometry_.side(line.plane, point) * left;
+}
+
+/// Half-edges that leave a point, counter-clockwise.
+void FaceArrangement::sort_around_points() {
+  around_.clear();
+  for (uint32_t h = 0; h < 2 * arcs_.size(); ++h) around_.emplace_back(from(h), h);
+  std::sort(around_.begin(), around_.end());
+  for (size_t begin = 0; begin < around_.size();) {
+    size_t end = begin + 1;
+    while (end < around_.size() && around_[end].first == around_[begin].first) ++end;
+    if (end - begin > 2) {
+      const uint32_t first = around_[begin].second;
+      // 1: within half a turn to the left of the first; 2: straight back; 3: further round.
+      const auto sector = [&](uint32_t h) {
+        const int side = left_of(first, to(h));
+        return side > 0 ? 1 : side == 0 ? 2 : 3;
+      };
+      std::sort(around_.begin() + begin + 1, around_.begin() + end,
+                [&](const auto& a, const auto& b) {
+                  const int s = sector(a.second), t = sector(b.second);
+                  return s != t ? s < t : left_of(a.second, to(b.second)) > 0;
+                });
+    }
+    begin = end;
+  }
+  place_.resize(around_.size());
+  for (uint32_t i = 0; i < around_.size(); ++i) place_[around_[i].second] = i;
+}
+
+/// Whether a half-edge runs along the polygon's boundary with the outside on its left.
+bool FaceArrangement::is_outer(uint32_t half) const {
+  const Arc& arc = arcs_[half / 2];
+  for (uint32_t i = arc.first_part; i < arc.first_part + arc.part_count; ++i) {
+    if (lines_[parts_[i].line].kind == Kind::kBoundary) {
+      return parts_[i].backwards != (half % 2 == 1);
+    }
+  }
+  return false;
+}
+
+bool FaceArrangement::trace(CutLoops& out) {
+  facts_.clear();
+  loop_of_.assign(2 * arcs_.size(), kNone);
+  uint32_t number = 0;
+  for (uint32_t start = 0; start < loop_of_.size(); ++start) {
+    if (loop_of_[start] != kNone || is_outer(start)) continue;
+    CutLoops::Loop loop{static_cast<uint32_t>(out.corner_point.size()), 0, 0, 0, kNone, true};
+    uint32_t h = start;
+    do {
+      if (loop_of_[h] != kNone || is_outer(h)) return false;
+      loop_of_[h] = number;
+      const uint32_t point = from(h);
+      out.corner_point.push_back(point);
+      out.corner_plane.push_back(lines_[parts_[arcs_[h / 2].first_part].line].plane);
+      const uint32_t v = geometry_.point(point).vertex;
+      if (v != kNone && !touched_[v]) loop.vertex = v;
+      if (!add_facts(h, number)) return false;
+      // The next half-edge is the one before this one's reverse, counter-clockwise.
+      uint32_t at = place_[h ^ 1];
+      if (at > 0 && around_[at - 1].first == around_[at].first) {
+        --at;
+      } else {
+        while (at + 1 < around_.size() && around_[at + 1].first == around_[at].first) ++at;
+      }
+      h = around_[at].second;
+    } while (h != start);
+    loop.corner_count = static_cast<uint32_t>(out.corner_point.size()) - loop.first_corner;
+    out.loops.push_back(loop);
+    ++number;
+  }
+  return true;
+}
+
+/// Whether an operand covers a region is the same across arcs without sheets of it.
+bool FaceArrangement::spread_coplanar(const CutLoops& out, uint32_t first_loop) {
+  for (size_t i = 0; i < sheet_edges_.size(); ++i) {
+    const uint32_t operand = sheet_edges_[i].operand;
+    if (i > 0 && sheet_edges_[i - 1].operand == operand) continue;
+    if (!spread(operand, out, first_loop)) return false;
+  }
+  return true;
+}
+
+bool FaceArrangement::spread(uint32_t operand, const CutLoops& out, uint32_t first_loop) {
+  const auto loops = static_cast<uint32_t>(out.loops.size()) - first_loop;
+  regions_.reset(loops);
+  for (uint32_t a = 0; a < arcs_.size(); ++a) {
+    const uint32_t left = loop_of_[2 * a], right = loop_of_[2 * a + 1];
+    if (left == kNone || right == kNone) continue;
+    const Part* parts = parts_.data() + arcs_[a].first_part;
+    if (std::none_of(parts, parts + arcs_[a].part_count,
+                     [&](const Part& p) { return lines_[p.line].operand == operand; })) {
+      regions_.join(left, right);
+    }
+  }
+  const auto is_covered = [](const CutLoops::Fact& f) { return f.front != f.back; };
+  const bool may_touch_itself = !job_.has_simple_edges(operand);
+  enum class Cover : uint8_t { kOpen, kNo, kYes };
+  std::vector<Cover> cover(loops, Cover::kOpen);
+  std::vector<CutLoops::Fact> state(loops, {operand, false, false});
+  for (const LoopFact& f : facts_) {
+    if (f.fact.operand != operand) continue;
+    const uint32_t r = regions_.find(f.loop);
+    // Where a covering sheet is touched from behind, that counts as little as what is behind it.
+    if (is_covered(f.fact)) {
+      cover[r] = Cover::kYes, state[r] = f.fact;
+    } else if (cover[r] == Cover::kOpen && (f.beside_coplanar || !may_touch_itself)) {
+      cover[r] = Cover::kNo;
+    }
+  }
+  for (uint32_t l = 0; l < loops; ++l) {
+    const uint32_t r = regions_.find(l);
+    if (cover[r] != Cover::kOpen) continue;
+    // No edge of a covering sheet is along the region: any of its points tells that is not on one.
+    const CutLoops::Loop& loop = out.loops[first_loop + l];
+    for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
+      const uint32_t point = out.corner_point[c];
+      if (std::any_of(stops_.begin(), stops_.end(), [&](const auto& stop) {
+            const Line& line = lines_[stop.first];
+            return stop.second == point && line.operand == operand && is_coplanar(line.kind);
+          })) {
+        continue;
+      }
+      const uint32_t sheet = sheet_at(operand, point);
+      cover[r] = sheet == kNone ? Cover::kNo : Cover::kYes;
+      const bool same = sheet != kNone && job_.polygons()[sheet].support == polygon_->support;
+      state[r] = {operand, !same, same};
+      break;
+    }
+  }
+  std::erase_if(facts_, [&](const LoopFact& f) {
+    return f.fact.operand == operand && cover[regions_.find(f.loop)] == Cover::kYes;
+  });
+  for (uint32_t l = 0; l < loops; ++l) {
+    const uint32_t r = regions_.find(l);
+    if (cover[r] == Cover::kOpen) return false;
+    if (cover[r] == Cover::kYes) facts_.push_back({l, state[r]});
+  }
+  return true;
+}
+
+uint32_t FaceArrangement::sheet_at(uint32_t operand, uint32_t point) {
+  for (const uint32_t q : sheets_) {
+    const JobPolygon& sheet = job_.polygons()[q];
+    if (sheet.operand != operand) continue;
+    const auto planes = job_.edge_planes(sheet);
+    if (std::all_of(planes.begin(), planes.end(), [&](uint32_t plane) {
+          return geometry_.side(plane, point) * inner_sign(sheet, plane) >= 0;
+        })) {
+      return q;
+    }
+  }
+  return kNone;
+}
+
+/// Gives each loop its facts; false when they contradict one another.
+bool FaceArrangement::write_facts(CutLoops& out, uint32_t first_loop) {
+  std::sort(facts_.begin(), facts_.end());
+  facts_.erase(std::unique(facts_.begin(), facts_.end()), facts_.end());
+  size_t at = 0;
+  for (uint32_t l = 0; first_loop + l < out.loops.size(); ++l) {
+    CutLoops::Loop& loop = out.loops[first_loop + l];
+    loop.first_fact = static_cast<uint32_t>(out.facts.size());
+    for (; at < facts_.size() && facts_[at].loop == l; ++at) out.facts.push_back(facts_[at].fact);
+    if (!out.finish_facts(loop)) return false;
+  }
+  return true;
+}
+
+/// Whether the solid's edge between two polygons is convex: q goes behind p, or straight on.
+bool FaceArrangement::is_convex_edge(uint32_t p, uint32_t q) {
+  const PlaneId support = job_.polygons()[p].support;
+  for (const uint32_t v : job_.corners(job_.polygons()[q])) {
+    const int s = geometry_.side(support.index(), geometry_.vertex_point(v));
+    if (s != 0) return support.flipped() ? s > 0 : s < 0;
+  }
+  return true;
+}
+
+/// What is on the left of a half-edge, for each operand that has sheets there.
+bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
+  const Arc& arc = arcs_[half / 2];
+  const Part* begin = parts_.data() + arc.first_part;
+  const Part* end = begin + arc.part_count;
+  const auto operand = [&](const Part& p) { return lines_[p.line].operand; };
+  const auto reversed = [&](const Part& p) { return p.backwards != (half % 2 == 1); };
+  // Parts ascend by lines, but coplanar sheets come after the others: few, so look for each.
+  for (const Part* p = begin; p < end; ++p) {
+    const uint32_t o = operand(*p);
+    if (o == kNone) continue;
+    const Part* second = nullptr;
+    uint32_t count = 0;
+    bool is_first = true;
+    for (const Part* q = begin; q < end; ++q) {
+      if (operand(*q) != o) continue;
+      if (q < p) is_first = false;
+      if (q > p && !second) second = q;
+      ++count;
+    }
+    if (!is_first) continue;
+    const Line& line = lines_[p->line];
+    if (line.kind == Kind::kThrough) {
+      if (count != 1) return false;
+      const bool inside = !reversed(*p);
+      facts_.push_back({loop, {o, inside, inside}});
+      continue;
+    }
+    if (count != 2) return false;
+    const Line& other = lines_[second->line];
+    if (other.kind == Kind::kThrough) return false;
+    // A coplanar sheet on this half-edge's left covers what is there.
+    const auto coplanar_side = [&](const Part& part) {  // 1: left, -1: right, 0: not coplanar
+      const Kind kind = lines_[part.line].kind;
+      if (!is_coplanar(kind)) return 0;
+      return (kind == Kind::kLeft) != reversed(part) ? 1 : -1;
+    };
+    const int a = coplanar_side(*p), b = coplanar_side(*second);
+    if (a != 0 && a == b) return false;
+    if (a > 0 || b > 0) {
+      const bool same =
+          job_.polygons()[a > 0 ? line.sheet : other.sheet].support == polygon_->support;
+      facts_.push_back({loop, {o, !same, same}});
+      continue;
+    }
+    const bool convex = is_convex_edge(line.sheet, other.sheet);
+    bool inside;
+    if (a < 0 || b < 0) {
+      inside = !convex;
+    } else {
+      const bool behind = !reversed(*p), behind_other = !reversed(*second);
+      inside = convex ? behind && behind_other : behind || behind_other;
+    }
+    facts_.push_back({loop, {o, inside, inside}, a < 0 || b < 0});
+  }
+  return true;
+}
+
+}  // namespace csgrun

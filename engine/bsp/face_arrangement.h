@@ -1,0 +1,128 @@
+// A convex polygon and all that meets it, in any position: the arrangement of the segments in which
+// polygons of other operands meet it, with what lies on either side of each.
+//
+// Points are compared by value. Segments are broken where they meet, equal parts become one arc
+// with several sheets, and the arcs around a point are sorted by exact signs. What is inside an
+// operand beside an arc follows from its sheets there: one that passes through, or the two that
+// share an edge.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/bsp/cut_polygon.h"
+#include "engine/bsp/point_index.h"
+#include "engine/bsp/union_find.h"
+
+namespace csgrun {
+
+/// A segment in which a polygon whose plane is another one meets the polygon. Points are unique.
+struct SheetSegment {
+  uint32_t from, to;  ///< what is behind `other` is on the left, seen from outside the polygon
+  uint32_t other;
+  bool front, back;  ///< where `other` goes from there
+};
+
+class FaceArrangement {
+ public:
+  /// `touched`: per vertex of the job, whether it may be on another operand's surface.
+  FaceArrangement(const Job& job, CellGeometry& geometry, PointIndex& index,
+                  const std::vector<uint8_t>& touched)
+      : job_(job), geometry_(geometry), index_(index), touched_(touched) {}
+
+  /// Appends the loops of a polygon that meets `segments` and polygons of its own plane. False,
+  /// with nothing appended, where sheets are too many or too few to tell sides, as at edges of more
+  /// than two faces. The planes of all polygons must have been made. O(n log n + pairs of segments
+  /// whose boxes meet).
+  bool build(uint32_t polygon, std::span<const SheetSegment> segments,
+             std::span<const uint32_t> coplanar, CutLoops& out);
+
+ private:
+  enum class Kind : uint8_t {
+    kBoundary,  ///< an edge of the polygon itself
+    kThrough,   ///< of a sheet that goes to the front and to the back
+    kFront,     ///< an edge of a sheet in front
+    kBack,
+    kLeft,  ///< an edge of a coplanar sheet on the left
+    kRight,
+  };
+  static bool is_coplanar(Kind kind) { return kind == Kind::kLeft || kind == Kind::kRight; }
+  struct Line {
+    uint32_t from, to;
+    uint32_t plane;
+    int left;  ///< the sign of the plane on the left
+    Kind kind;
+    uint32_t sheet;    ///< the other polygon, or kNone
+    uint32_t operand;  ///< its operand, or kNone
+  };
+  struct Part {  ///< of a line, between neighbouring points
+    uint32_t low, high;
+    uint32_t line;
+    bool backwards;  ///< the line runs from high to low
+  };
+  struct Arc {  ///< parts between the same two points
+    uint32_t low, high;
+    uint32_t first_part, part_count;
+  };
+  struct LoopFact {
+    uint32_t loop;  ///< number within the polygon
+    CutLoops::Fact fact;
+    bool beside_coplanar = false;  ///< a coplanar sheet of the operand ends there
+    bool operator==(const LoopFact&) const = default;
+    auto operator<=>(const LoopFact&) const = default;
+  };
+  struct SheetEdge {  ///< of a coplanar sheet
+    uint32_t operand, low, high;
+    uint32_t sheet, edge;
+  };
+
+  uint32_t vertex(uint32_t v);
+  int inner_sign(const JobPolygon& polygon, uint32_t edge_plane);
+  [[nodiscard]] bool is_apart(uint32_t sheet);
+  void add_boundary();
+  void add_segments(std::span<const SheetSegment> segments);
+  void add_coplanar(std::span<const uint32_t> coplanar);
+  void find_stops();
+  void meet(uint32_t s, uint32_t t);
+  void add_collinear(const Line& on, uint32_t line, uint32_t point);
+  void break_lines();
+  void join_parts();
+  [[nodiscard]] bool is_outside(const Part& part);
+  void sort_around_points();
+  bool trace(CutLoops& out);
+  bool add_facts(uint32_t half, uint32_t loop);
+  bool spread_coplanar(const CutLoops& out, uint32_t first_loop);
+  bool spread(uint32_t operand, const CutLoops& out, uint32_t first_loop);
+  bool write_facts(CutLoops& out, uint32_t first_loop);
+  /// A coplanar sheet of an operand that holds a point, or kNone.
+  uint32_t sheet_at(uint32_t operand, uint32_t point);
+  bool is_convex_edge(uint32_t p, uint32_t q);
+  [[nodiscard]] bool is_outer(uint32_t half) const;
+  [[nodiscard]] uint32_t from(uint32_t half) const {
+    return half % 2 ? arcs_[half / 2].high : arcs_[half / 2].low;
+  }
+  [[nodiscard]] uint32_t to(uint32_t half) const { return from(half ^ 1); }
+  /// Positive when a point is on the left of a half-edge.
+  int left_of(uint32_t half, uint32_t point);
+
+  const Job& job_;
+  CellGeometry& geometry_;
+  PointIndex& index_;
+  const std::vector<uint8_t>& touched_;
+  const JobPolygon* polygon_ = nullptr;
+  std::vector<Line> lines_;
+  std::vector<std::array<std::array<double, 2>, 3>> boxes_;
+  std::vector<uint32_t> by_position_, active_;
+  std::vector<std::pair<uint32_t, uint32_t>> stops_;  ///< (line, point)
+  std::vector<Part> parts_;
+  std::vector<Arc> arcs_;
+  std::vector<std::pair<uint32_t, uint32_t>> around_;  ///< (point, half-edge that leaves it)
+  std::vector<uint32_t> place_;                        ///< of a half-edge in around_
+  std::vector<uint32_t> loop_of_;  ///< per half-edge: number within the polygon, or kNone
+  std::vector<LoopFact> facts_;
+  std::vector<uint32_t> sheets_;  ///< coplanar ones that are not clearly apart
+  std::vector<SheetEdge> sheet_edges_;
+  UnionFind regions_;  ///< of loops
+};
+
+}  // namespace csgrun

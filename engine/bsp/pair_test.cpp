@@ -1,0 +1,148 @@
+#include "engine/bsp/pair_test.h"
+
+#include <cassert>
+
+#include "engine/exact/forced_tier.h"
+
+namespace csgrun {
+namespace {
+
+/// Three corners of a polygon that are not collinear, in its order: those of the largest triangle
+/// at the first corner, as doubles tell.
+std::array<uint32_t, 3> base_corners(const Job& job, const JobPolygon& polygon) {
+  const auto corners = job.corners(polygon);
+  if (corners.size() == 3) return {corners[0], corners[1], corners[2]};
+  const auto& a = job.rounded(corners[0]);
+  double largest = -1;
+  size_t best = 1;
+  for (size_t i = 1; i + 1 < corners.size(); ++i) {
+    const auto &b = job.rounded(corners[i]), &c = job.rounded(corners[i + 1]);
+    const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+    const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+    const double size = x * x + y * y + z * z;
+    if (size > largest) largest = size, best = i;
+  }
+  return {corners[0], corners[best], corners[best + 1]};
+}
+
+}  // namespace
+
+PairTest::PairTest(const Job& job) : job_(job), signs_(job), planes_only_(forced_tier >= 0) {}
+
+/// The sides of p's corners on q's plane. +1 or -1 when all are strictly on that side, 0 when not,
+/// or kUnsure.
+int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
+  const JobPolygon &own = job_.polygons()[p], &other = job_.polygons()[q];
+  const auto base = base_corners(job_, other);
+  const auto &a = job_.rounded(base[0]), &b = job_.rounded(base[1]), &c = job_.rounded(base[2]);
+  const double error = std::max(signs_.error(own.operand), signs_.error(other.operand));
+  sides.resize(own.count);
+  int all = 0;
+  for (uint32_t i = 0; i < own.count; ++i) {
+    const uint32_t v = job_.corners(own)[i];
+    int s = orient(a, b, c, job_.rounded(v), error);
+    if (s == kUnsure) {
+      if (!planes_) return kUnsure;
+      s = planes_->side(other.support.index(), planes_->vertex_point(v));
+      if (other.support.flipped()) s = -s;
+    }
+    sides[i] = static_cast<int8_t>(s);
+    all = i == 0 ? s : all == s ? all : 0;
+  }
+  return all;
+}
+
+/// False when all corners lie in the plane. A corner in the plane counts as the far side of those
+/// that do not.
+bool PairTest::find_passage(const std::vector<int8_t>& sides, Passage& passage) {
+  for (const int8_t s : sides) {
+    passage.front |= s > 0;
+    passage.back |= s < 0;
+    passage.zero |= s == 0;
+  }
+  if (!passage.front && !passage.back) return false;
+  const auto front = [&](size_t i) { return passage.front ? sides[i] > 0 : sides[i] >= 0; };
+  for (size_t i = 0; i < sides.size(); ++i) {
+    const size_t next = i + 1 < sides.size() ? i + 1 : 0;
+    if (front(i) && !front(next)) passage.falls = static_cast<uint32_t>(i);
+    if (!front(i) && front(next)) passage.rises = static_cast<uint32_t>(i);
+  }
+  return true;
+}
+
+int PairTest::inside(uint32_t p, uint32_t i, bool falls, uint32_t q, uint32_t j) {
+  const JobPolygon &own = job_.polygons()[p], &other = job_.polygons()[q];
+  const auto of_p = job_.corners(own), of_q = job_.corners(other);
+  const uint32_t i_next = i + 1 < own.count ? i + 1 : 0, j_next = j + 1 < other.count ? j + 1 : 0;
+  const double error = std::max(signs_.error(own.operand), signs_.error(other.operand));
+  const int s = orient(job_.rounded(of_q[j]), job_.rounded(of_q[j_next]), job_.rounded(of_p[i]),
+                       job_.rounded(of_p[i_next]), error);
+  if (s != kUnsure) return falls ? -s : s;
+  if (!planes_) return kUnsure;
+  const uint32_t edge = job_.edge_planes(other)[j];
+  const uint32_t x =
+      planes_->add_point({own.support.index(), job_.edge_planes(own)[i], other.support.index()});
+  for (const uint32_t v : of_q) {
+    const int inner = planes_->side(edge, planes_->vertex_point(v));
+    if (inner != 0) return planes_->side(edge, x) * inner;
+  }
+  assert(false);
+  return 0;
+}
+
+Meeting PairTest::run(uint32_t p, uint32_t q, CellGeometry* planes, Contact& contact) {
+  planes_ = planes;
+  const int p_side = corner_sides(p, q, sides_p_);
+  if (p_side == 1 || p_side == -1) return Meeting::kApart;
+  const int q_side = corner_sides(q, p, sides_q_);
+  if (q_side == 1 || q_side == -1) return Meeting::kApart;
+  if (p_side == kUnsure || q_side == kUnsure) return Meeting::kUnsure;
+  contact.p = p;
+  contact.q = q;
+  Passage of_p, of_q;
+  contact.is_coplanar = !find_passage(sides_p_, of_p) || !find_passage(sides_q_, of_q);
+  contact.is_plain = false;
+  if (contact.is_coplanar) return Meeting::kContact;
+  // p from rises to falls, q from falls to rises.
+  const int upper_reaches = inside(p, of_p.falls, true, q, of_q.falls);
+  if (upper_reaches == kUnsure) return Meeting::kUnsure;
+  if (upper_reaches < 0) return Meeting::kApart;
+  const int lower_reaches = inside(p, of_p.rises, false, q, of_q.rises);
+  if (lower_reaches == kUnsure) return Meeting::kUnsure;
+  if (lower_reaches < 0) return Meeting::kApart;
+  const int lower_on_p = inside(p, of_p.rises, false, q, of_q.falls);
+  const int upper_on_p = inside(p, of_p.falls, true, q, of_q.rises);
+  if (lower_on_p == kUnsure || upper_on_p == kUnsure) return Meeting::kUnsure;
+  contact.is_plain = !of_p.zero && !of_q.zero && upper_reaches != 0 && lower_reaches != 0 &&
+                     lower_on_p != 0 && upper_on_p != 0;
+  contact.p_front = of_p.front, contact.p_back = of_p.back;
+  contact.q_front = of_q.front, contact.q_back = of_q.back;
+  contact.lower = lower_on_p >= 0 ? end_of(p, of_p.rises, true) : end_of(q, of_q.falls, false);
+  contact.upper = upper_on_p >= 0 ? end_of(p, of_p.falls, true) : end_of(q, of_q.rises, false);
+  return Meeting::kContact;
+}
+
+Contact::End PairTest::end_of(uint32_t polygon, uint32_t edge, bool on_p) const {
+  const std::vector<int8_t>& sides = on_p ? sides_p_ : sides_q_;
+  const auto corners = job_.corners(job_.polygons()[polygon]);
+  const uint32_t next = edge + 1 < corners.size() ? edge + 1 : 0;
+  const uint32_t vertex = sides[edge] == 0   ? corners[edge]
+                          : sides[next] == 0 ? corners[next]
+                                             : kNone;
+  return {on_p, edge, vertex};
+}
+
+void PairTest::add_touching_vertices(const Contact& contact,
+                                     std::vector<uint32_t>& vertices) const {
+  const auto add = [&](uint32_t polygon, const std::vector<int8_t>& sides) {
+    const auto corners = job_.corners(job_.polygons()[polygon]);
+    for (size_t i = 0; i < corners.size(); ++i) {
+      if (sides[i] == 0) vertices.push_back(corners[i]);
+    }
+  };
+  add(contact.p, sides_p_);
+  add(contact.q, sides_q_);
+}
+
+}  // namespace csgrun

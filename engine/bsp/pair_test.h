@@ -1,0 +1,80 @@
+// Where two convex polygons meet: a segment whose ends are named by an edge of one and the plane of
+// the other, or, where a sign is zero, by a corner.
+//
+// Both polygons cut the line in which their planes meet in an interval. Seen along the direction d
+// = n_p x n_q, p's interval runs from the edge on which its boundary rises through q's plane to the
+// one on which it falls, and q's from where it falls through p's plane to where it rises. Which of
+// two ends comes first is the orientation of the two edges (Guigue & Devillers 2003).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/vertex_signs.h"
+
+namespace csgrun {
+
+/// What two polygons of different operands have in common. If their planes differ, a segment (or a
+/// point), from its lower end along n_p x n_q to the upper one: on p, what is behind q is on its
+/// left, seen from outside; on q, what is behind p is on its right.
+struct Contact {
+  /// Where an edge (by its first corner) of p or q passes through the other's plane.
+  struct End {
+    bool on_p;
+    uint32_t edge;
+    uint32_t vertex;  ///< the corner in the plane, or kNone
+  };
+  uint32_t p, q;
+  bool is_plain;     ///< no sign was zero
+  bool is_coplanar;  ///< then there are no ends
+  /// Whether p has corners in front of q's plane and behind it, and the reverse.
+  bool p_front, p_back, q_front, q_back;
+  End lower, upper;
+};
+
+enum class Meeting : uint8_t {
+  kApart,
+  kContact,
+  kUnsure,  ///< without planes this cannot be told
+};
+
+class PairTest {
+ public:
+  explicit PairTest(const Job& job);
+
+  /// How p and q, of different operands, meet; fills in `contact` unless they are apart. (Coplanar
+  /// ones are said to be in contact when their boxes are.) Where doubles and 128-bit integers do
+  /// not do, and `planes` is given, planes decide; they must have been made.
+  Meeting run(uint32_t p, uint32_t q, CellGeometry* planes, Contact& contact);
+  /// After a contact that is not plain: the corners of either polygon in the other's plane.
+  void add_touching_vertices(const Contact& contact, std::vector<uint32_t>& vertices) const;
+
+  [[nodiscard]] const VertexSigns& signs() const { return signs_; }
+
+ private:
+  /// Where the boundary of a polygon falls and rises through the other's plane, by edges.
+  struct Passage {
+    uint32_t falls = 0, rises = 0;
+    bool front = false, back = false, zero = false;  ///< corners of each kind
+  };
+
+  int orient(const std::array<double, 3>& a, const std::array<double, 3>& b,
+             const std::array<double, 3>& c, const std::array<double, 3>& d, double error) {
+    return planes_only_ ? kUnsure : signs_.orient(a, b, c, d, error);
+  }
+  int corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides);
+  static bool find_passage(const std::vector<int8_t>& sides, Passage& passage);
+  /// Whether the point in which edge i of p passes through q's plane lies on the inner side of edge
+  /// j of q: +1, 0, -1, or kUnsure. `falls`: towards the back of q.
+  int inside(uint32_t p, uint32_t i, bool falls, uint32_t q, uint32_t j);
+  [[nodiscard]] Contact::End end_of(uint32_t polygon, uint32_t edge, bool on_p) const;
+
+  const Job& job_;
+  VertexSigns signs_;
+  const bool planes_only_;  ///< tests want to see that
+  CellGeometry* planes_ = nullptr;
+  std::vector<int8_t> sides_p_, sides_q_;
+};
+
+}  // namespace csgrun

@@ -1,0 +1,49 @@
+// Which operands a patch of one operand's surface is inside of, and what becomes of it.
+//
+// A patch is a part of the surface that no other operand's surface meets, so that all of it is
+// inside the same operands. What bounds it says so for those that cut it there; for the others one
+// point of it is looked at.
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "engine/bsp/cut_polygon.h"
+#include "engine/bsp/pruned_expression.h"
+#include "engine/bsp/vertex_signs.h"
+
+namespace csgrun {
+
+enum class PatchFate : uint8_t { kDrop, kKeep, kFlip, kUnknown };
+
+class PatchLabels {
+ public:
+  PatchLabels(const Job& job, const Expression& expression);
+
+  /// What becomes of a patch of operand `own`, of which `point` is a point (each coordinate as
+  /// wrong as `error` at most) on no operand but its own and those of the facts. kUnknown when
+  /// doubles do not tell. O(operands), and O(n) for each of them whose box holds the point.
+  PatchFate fate(uint32_t own, const std::array<double, 3>& point, double error,
+                 std::span<const CutLoops::Fact> facts);
+
+  [[nodiscard]] double error(uint32_t operand) const { return signs_.error(operand); }
+  [[nodiscard]] const VertexSigns& signs() const { return signs_; }
+
+ private:
+  /// What an operand is at the patch: twice its number, and one more for what is behind the patch;
+  /// those that stand here are inside.
+  using Sides = std::vector<uint64_t>;
+  PatchFate evaluate(uint32_t own, const Sides& inside);
+
+  const Job& job_;
+  PrunedExpression expression_;
+  VertexSigns signs_;
+  std::vector<PolygonBox> boxes_;  ///< per operand
+  /// By the operand and those that it is inside of: few differ.
+  std::map<std::pair<uint32_t, Sides>, PatchFate> known_;
+  std::vector<uint8_t> is_inside_;  ///< by such numbers
+  std::vector<PrunedExpression::Boundary> scratch_;
+};
+
+}  // namespace csgrun

@@ -1,0 +1,400 @@
+#include "engine/bsp/whole_faces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/bsp/crossing_points.h"
+#include "engine/bsp/cut_polygon.h"
+#include "engine/bsp/face_arrangement.h"
+#include "engine/bsp/pair_cells.h"
+#include "engine/bsp/pair_test.h"
+#include "engine/bsp/parallel_runs.h"
+#include "engine/bsp/patch_labels.h"
+#include "engine/bsp/point_index.h"
+#include "engine/bsp/union_find.h"
+
+namespace csgrun {
+namespace {
+
+class FaceEvaluator {
+ public:
+  FaceEvaluator(Job& job, const Expression& expression, const KernelOptions& options,
+                EvaluateStats& stats)
+      : job_(job),
+        options_(options),
+        stats_(stats),
+        geometry_(job.planes(), &job),
+        index_(geometry_),
+        labels_(job, expression) {
+    result_.general.assign(job.polygons().size(), 0);
+    is_cut_.assign(job.polygons().size(), 0);
+    touched_.assign(job.vertex_count(), 0);
+  }
+
+  Result<WholeFaces> run() {
+    find_contacts();
+    if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) {
+      return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
+    }
+    gather_contacts();
+    cut_polygons();
+    join_patches();
+    if (!gather_facts()) {
+      return Error{ErrorCode::kInternal, "the labels of a patch contradict one another", {}};
+    }
+    emit();
+    count(geometry_.counters);
+    return std::move(result_);
+  }
+
+ private:
+  struct Found {
+    std::vector<Contact> contacts;
+    std::vector<uint32_t> touching;  ///< vertices
+    std::vector<std::pair<uint32_t, uint32_t>> unsure;
+    uint64_t critical = 0;
+  };
+  struct CutPolygon {
+    uint32_t polygon, first_loop, end_loop;
+  };
+  struct PatchFact {
+    uint32_t patch;
+    CutLoops::Fact fact;
+    bool operator==(const PatchFact&) const = default;
+    auto operator<=>(const PatchFact&) const = default;
+  };
+
+  void find_contacts() {
+    const PairCells cells = find_pair_cells(job_, options_);
+    std::vector<Found> found(run_count(cells.cells.size()));
+    std::vector<std::array<uint64_t, 2>> signs(found.size());
+    for_each_run(
+        found.size(), options_, [&] { return PairTest(job_); },
+        [&](PairTest& test, size_t run) {
+          const std::array<uint64_t, 2> before{test.signs().filtered, test.signs().exact};
+          const size_t end = std::min(cells.cells.size(), (run + 1) * kCellsPerRun);
+          for (size_t c = run * kCellsPerRun; c < end; ++c) {
+            look_at(test, cells, cells.cells[c], found[run]);
+          }
+          signs[run] = {test.signs().filtered - before[0], test.signs().exact - before[1]};
+        });
+    for (const auto& [filtered, exact] : signs) {
+      stats_.sign_filter += filtered;
+      stats_.sign_exact[1] += exact;
+    }
+    stats_.cells += cells.visited;
+    stats_.solved_cells += cells.cells.size();
+    stats_.surface_cells += cells.surface;
+    size_t total = 0;
+    for (const Found& f : found) total += f.contacts.size();
+    contacts_.reserve(total);
+    for (const Found& f : found) {
+      contacts_.insert(contacts_.end(), f.contacts.begin(), f.contacts.end());
+      for (const uint32_t v : f.touching) touched_[v] = 1;
+      stats_.critical_cells += f.critical;
+    }
+    decide_unsure(found);
+  }
+
+  void look_at(PairTest& test, const PairCells& cells, const PairCells::Cell& cell, Found& out) {
+    bool critical = false;
+    Contact contact;
+    for_each_pair(job_, cells, cell, [&](uint32_t p, uint32_t q) {
+      const Meeting meeting = test.run(p, q, nullptr, contact);
+      if (meeting == Meeting::kApart) return;
+      critical = true;
+      if (meeting == Meeting::kUnsure) {
+        out.unsure.emplace_back(p, q);
+        return;
+      }
+      out.contacts.push_back(contact);
+      if (!contact.is_plain) test.add_touching_vertices(contact, out.touching);
+    });
+    out.critical += critical;
+  }
+
+  /// Pairs that need planes, which are made one after another.
+  void decide_unsure(const std::vector<Found>& found) {
+    bool any = false;
+    for (const Found& f : found) {
+      for (const auto& [p, q] : f.unsure) {
+        job_.ensure_planes(p);
+        job_.ensure_planes(q);
+        any = true;
+      }
+    }
+    if (!any) return;
+    CellGeometry planes(job_.planes(), &job_);
+    PairTest test(job_);
+    Contact contact;
+    std::vector<uint32_t> touching;
+    for (const Found& f : found) {
+      for (const auto& [p, q] : f.unsure) {
+        if (test.run(p, q, &planes, contact) != Meeting::kContact) continue;
+        contacts_.push_back(contact);
+        if (!contact.is_plain) test.add_touching_vertices(contact, touching);
+      }
+    }
+    for (const uint32_t v : touching) touched_[v] = 1;
+    count(planes.counters);
+  }
+
+  void count(const SignCounters& c) {
+    stats_.sign_filter += c.filter;
+    stats_.sign_symbolic += c.symbolic;
+    for (size_t t = 0; t < c.exact.size(); ++t) stats_.sign_exact[t] += c.exact[t];
+  }
+
+  /// Leaves a polygon to the general way.
+  void leave(uint32_t polygon) {
+    result_.general[polygon] = 1;
+    result_.any_general = true;
+  }
+
+  /// The contacts of each polygon, and the points at their ends.
+  void gather_contacts() {
+    const size_t n = job_.polygons().size();
+    contact_starts_.assign(n + 1, 0);
+    for (const Contact& c : contacts_) {
+      job_.ensure_planes(c.p);
+      job_.ensure_planes(c.q);
+      ++contact_starts_[c.p + 1], ++contact_starts_[c.q + 1];
+    }
+    for (size_t i = 0; i < n; ++i) contact_starts_[i + 1] += contact_starts_[i];
+    contact_of_.resize(2 * contacts_.size());
+    std::vector<uint32_t> next(contact_starts_.begin(), contact_starts_.end() - 1);
+    CrossingPoints points(job_, geometry_, index_);
+    const auto point = [&](const Contact& c, const Contact::End& end) {
+      if (end.vertex != kNone) return index_.unique(geometry_.vertex_point(end.vertex));
+      return end.on_p ? points.point(c.p, end.edge, c.q) : points.point(c.q, end.edge, c.p);
+    };
+    for (uint32_t i = 0; i < contacts_.size(); ++i) {
+      const Contact& c = contacts_[i];
+      contact_of_[next[c.p]++] = i;
+      contact_of_[next[c.q]++] = i;
+      ends_.push_back(c.is_coplanar ? std::array{kNone, kNone}
+                                    : std::array{point(c, c.lower), point(c, c.upper)});
+      if (!c.is_plain) add_touching(job_.boxes()[c.p], job_.boxes()[c.q]);
+    }
+  }
+
+  void add_touching(const PolygonBox& a, const PolygonBox& b) {
+    GridBox box;
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] = std::max(a.lo[k], b.lo[k]);
+      box.hi[k] = std::min(a.hi[k], b.hi[k]);
+    }
+    result_.touching.push_back(box);
+  }
+
+  void cut_polygons() {
+    PolygonCutter cutter(job_, geometry_);
+    FaceArrangement arrangement(job_, geometry_, index_, touched_);
+    for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
+      const bool is_met = contact_starts_[p] < contact_starts_[p + 1];
+      if (!is_met && untouched_corner(p) != kNone) continue;
+      const bool plain = list_segments(p);
+      if (segments_.empty() && coplanar_.empty() && untouched_corner(p) != kNone) continue;
+      job_.ensure_planes(p);
+      const auto loops = static_cast<uint32_t>(loops_.loops.size());
+      is_cut_[p] = 1;
+      bool is_done = plain && cutter.cut(p, segments_, loops_);
+      if (!is_done) {
+        is_done = arrangement.build(p, sheets_, coplanar_, loops_);
+        if (plain) add_touching(job_.boxes()[p], job_.boxes()[p]);
+      }
+      if (is_done) {
+        cut_.push_back({p, loops, static_cast<uint32_t>(loops_.loops.size())});
+      } else {
+        leave(p);
+      }
+    }
+  }
+
+  /// Lists what is on a polygon; whether all of it is plain.
+  bool list_segments(uint32_t polygon) {
+    segments_.clear();
+    sheets_.clear();
+    coplanar_.clear();
+    bool plain = true;
+    for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
+      const Contact& c = contacts_[contact_of_[i]];
+      const bool is_p = c.p == polygon;
+      const uint32_t other = is_p ? c.q : c.p;
+      plain &= c.is_plain;
+      if (c.is_coplanar) {
+        coplanar_.push_back(other);
+        continue;
+      }
+      const auto& [lower, upper] = ends_[contact_of_[i]];
+      if (lower == upper) continue;
+      const auto edge = [&](const Contact::End& e) { return e.on_p == is_p ? e.edge : kNone; };
+      if (is_p) {
+        segments_.push_back({lower, upper, other, edge(c.lower), edge(c.upper)});
+        sheets_.push_back({lower, upper, other, c.q_front, c.q_back});
+      } else {
+        segments_.push_back({upper, lower, other, edge(c.upper), edge(c.lower)});
+        sheets_.push_back({upper, lower, other, c.p_front, c.p_back});
+      }
+    }
+    return plain;
+  }
+
+  /// A corner that is on no other operand's surface.
+  [[nodiscard]] uint32_t untouched_corner(uint32_t polygon) const {
+    for (const uint32_t v : job_.corners(job_.polygons()[polygon])) {
+      if (!touched_[v]) return v;
+    }
+    return kNone;
+  }
+
+  /// Patches by the vertices that they hold: polygons that share a vertex, and parts of cut ones
+  /// around it, are inside the same operands, as no other surface passes there.
+  void join_patches() {
+    patches_.reset(job_.vertex_count());
+    for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
+      if (is_cut_[p]) continue;
+      const uint32_t first = untouched_corner(p);
+      for (const uint32_t v : job_.corners(job_.polygons()[p])) {
+        if (!touched_[v]) patches_.join(first, v);
+      }
+    }
+    for (const CutLoops::Loop& loop : loops_.loops) {
+      if (loop.vertex == kNone) continue;
+      for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
+        const uint32_t v = geometry_.point(loops_.corner_point[c]).vertex;
+        if (v != kNone && !touched_[v]) patches_.join(loop.vertex, v);
+      }
+    }
+  }
+
+  /// What the loops of each patch say of it; false if they disagree.
+  bool gather_facts() {
+    for (const CutLoops::Loop& loop : loops_.loops) {
+      if (loop.vertex == kNone) continue;
+      const uint32_t patch = patches_.find(loop.vertex);
+      for (uint32_t f = loop.first_fact; f < loop.first_fact + loop.fact_count; ++f) {
+        facts_.push_back({patch, loops_.facts[f]});
+      }
+    }
+    std::sort(facts_.begin(), facts_.end());
+    facts_.erase(std::unique(facts_.begin(), facts_.end()), facts_.end());
+    return std::adjacent_find(facts_.begin(), facts_.end(), [](const auto& a, const auto& b) {
+             return a.patch == b.patch && a.fact.operand == b.fact.operand;
+           }) == facts_.end();
+  }
+
+  PatchFate fate_of_patch(uint32_t vertex, uint32_t own) {
+    if (patch_fates_.empty()) patch_fates_.assign(job_.vertex_count(), kUnasked);
+    const uint32_t patch = patches_.find(vertex);
+    if (patch_fates_[patch] == kUnasked) {
+      auto at = std::lower_bound(facts_.begin(), facts_.end(), PatchFact{patch, {0, false, false}});
+      own_facts_.clear();
+      for (; at != facts_.end() && at->patch == patch; ++at) own_facts_.push_back(at->fact);
+      patch_fates_[patch] = static_cast<uint8_t>(
+          labels_.fate(own, job_.rounded(patch), labels_.error(own), own_facts_));
+    }
+    return static_cast<PatchFate>(patch_fates_[patch]);
+  }
+
+  PatchFate fate_of_loop(const CutLoops::Loop& loop, uint32_t own) {
+    if (loop.vertex != kNone) return fate_of_patch(loop.vertex, own);
+    // The middle of an edge is on no operand's surface that has none along the edge.
+    const auto& a = geometry_.point(loops_.corner_point[loop.first_corner]).rounded;
+    const auto& b = geometry_.point(loops_.corner_point[loop.first_corner + 1]).rounded;
+    std::array<double, 3> middle{};
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) {
+      middle[k] = (a[k] + b[k]) / 2;
+      largest = std::max({largest, std::fabs(a[k]), std::fabs(b[k])});
+    }
+    return labels_.fate(own, middle, largest * 0x1p-52,
+                        {loops_.facts.data() + loop.first_fact, loop.fact_count});
+  }
+
+  void emit() {
+    uint32_t cut = 0;
+    for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
+      if (result_.general[p]) continue;
+      if (is_cut_[p]) {
+        emit_loops(cut_[cut++]);
+        continue;
+      }
+      const PatchFate fate = fate_of_patch(untouched_corner(p), job_.polygons()[p].operand);
+      if (fate == PatchFate::kUnknown) leave(p);
+      if (fate == PatchFate::kKeep || fate == PatchFate::kFlip) {
+        result_.whole.push_back(
+            {p, fate == PatchFate::kFlip, contact_starts_[p] < contact_starts_[p + 1]});
+      }
+    }
+  }
+
+  void emit_loops(const CutPolygon& cut) {
+    const uint32_t own = job_.polygons()[cut.polygon].operand;
+    loop_fates_.clear();
+    for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+      loop_fates_.push_back(fate_of_loop(loops_.loops[l], own));
+      if (loop_fates_.back() == PatchFate::kUnknown) return leave(cut.polygon);
+    }
+    for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+      const PatchFate fate = loop_fates_[l - cut.first_loop];
+      if (fate != PatchFate::kDrop) {
+        emit_loop(loops_.loops[l], cut.polygon, fate == PatchFate::kFlip);
+      }
+    }
+  }
+
+  void emit_loop(const CutLoops::Loop& loop, uint32_t polygon, bool flip) {
+    FragmentSet& out = result_.cut;
+    const PlaneId support = job_.polygons()[polygon].support;
+    numbers_.resize(geometry_.point_count(), kNone);
+    const auto first = static_cast<uint32_t>(out.corner_point.size());
+    for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
+      const uint32_t p = loops_.corner_point[c];
+      if (numbers_[p] == kNone) {
+        numbers_[p] = static_cast<uint32_t>(out.points.size());
+        const auto& s = geometry_.point(p);
+        out.points.push_back({s.rounded, s.planes, s.vertex});
+      }
+      out.corner_point.push_back(numbers_[p]);
+      out.corner_plane.push_back(loops_.corner_plane[c]);
+    }
+    out.pieces.push_back({support, polygon, first, loop.corner_count, loop.is_loose});
+    if (flip) out.flip(out.pieces.back());
+  }
+
+  static constexpr uint8_t kUnasked = 0xff;
+
+  Job& job_;
+  const KernelOptions& options_;
+  EvaluateStats& stats_;
+  CellGeometry geometry_;
+  PointIndex index_;
+  PatchLabels labels_;
+  WholeFaces result_;
+  std::vector<Contact> contacts_;
+  std::vector<std::array<uint32_t, 2>> ends_;          ///< of the contacts: lower and upper point
+  std::vector<uint32_t> contact_starts_, contact_of_;  ///< per polygon
+  std::vector<uint8_t> touched_;                       ///< per vertex: may be on another surface
+  std::vector<uint8_t> is_cut_;                        ///< per polygon: has loops, or is left
+  std::vector<CutSegment> segments_;                   ///< of the polygon at hand
+  std::vector<SheetSegment> sheets_;
+  std::vector<uint32_t> coplanar_;
+  CutLoops loops_;
+  std::vector<CutPolygon> cut_;
+  UnionFind patches_;
+  std::vector<PatchFact> facts_;
+  std::vector<CutLoops::Fact> own_facts_;
+  std::vector<uint8_t> patch_fates_;  ///< per vertex that stands for a patch: a PatchFate
+  std::vector<PatchFate> loop_fates_;
+  std::vector<uint32_t> numbers_;
+};
+
+}  // namespace
+
+Result<WholeFaces> evaluate_whole_faces(Job& job, const Expression& expression,
+                                        const KernelOptions& options, EvaluateStats& stats) {
+  return FaceEvaluator(job, expression, options, stats).run();
+}
+
+}  // namespace csgrun

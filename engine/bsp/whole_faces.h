@@ -1,0 +1,33 @@
+// The fast way through a Boolean: polygons that meet no zero sign are cut along the segments in
+// which they cross others, and patches between cuts are kept, turned over or dropped as a whole. No
+// cell cuts anything, no plane is made away from the cuts, and connectivity is by name.
+//
+// Where three or more things meet in a point by chance, or a corner lies in a plane, polygons are
+// left to the general way (octree.h, cell_solver.h), which is exact for them as for all.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <csgrun/engine/evaluate.h>
+
+#include "engine/bsp/assemble.h"
+#include "engine/bsp/fragment_set.h"
+#include "engine/bsp/job.h"
+
+namespace csgrun {
+
+struct WholeFaces {
+  FragmentSet cut;                  ///< what is kept of polygons that were cut
+  std::vector<WholePolygon> whole;  ///< what is kept as it is
+  std::vector<uint8_t> general;     ///< per polygon: left to the general way
+  bool any_general = false;
+  /// Where polygons touch, or meet in a point by chance; see BoundaryMesh::touches.
+  std::vector<GridBox> touching;
+};
+
+/// Evaluates an expression as far as names do. `stats` is added to. Errors: kCancelled, kInternal.
+Result<WholeFaces> evaluate_whole_faces(Job& job, const Expression& expression,
+                                        const KernelOptions& options, EvaluateStats& stats);
+
+}  // namespace csgrun

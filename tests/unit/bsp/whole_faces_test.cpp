@@ -1,0 +1,82 @@
+// The fast way and the general one give the same value; and the fast one leaves little.
+#include "engine/bsp/whole_faces.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/bsp/kernel.h"
+#include "tests/support/boundary_compare.h"
+#include "tests/support/random_solids.h"
+#include "tests/support/random_trees.h"
+
+namespace csgrun {
+namespace {
+
+std::shared_ptr<const BoundaryMesh> evaluate(const test::RandomTree& tree, bool whole_faces,
+                                             unsigned threads = 1) {
+  KernelOptions options;
+  options.whole_faces = whole_faces;
+  options.threads = threads;
+  EvaluateStats stats;
+  const auto result = evaluate_boolean(tree.operands, tree.expression, tree.region, options, stats);
+  EXPECT_TRUE(result) << result.error().message;
+  return result ? *result : std::make_shared<BoundaryMesh>();
+}
+
+void expect_equal_ways(uint64_t seed, test::TreeShape shape, int trees) {
+  test::Random random(seed);
+  test::TreeMaker maker(random);
+  for (int i = 0; i < trees; ++i) {
+    const auto tree = maker.make(shape);
+    const auto slow = evaluate(tree, false);
+    ASSERT_EQ(test::first_difference(*evaluate(tree, true), *slow), "") << "tree " << i;
+    ASSERT_EQ(test::first_difference(*evaluate(tree, true, 3), *slow), "") << "tree " << i;
+  }
+}
+
+TEST(WholeFaces, AreWhatCellsGive) {
+  expect_equal_ways(401, {.size = 5, .operands = 2, .depth = 1, .frames = false}, 250);
+  expect_equal_ways(402, {.size = 8, .operands = 6, .depth = 3, .frames = false}, 80);
+  expect_equal_ways(403, {.size = 1000, .operands = 4, .depth = 2, .frames = false}, 80);
+}
+
+TEST(WholeFaces, AreWhatCellsGiveInFrames) {
+  expect_equal_ways(404, {.size = 6, .operands = 3, .depth = 2, .frames = true}, 60);
+}
+
+size_t count_general(const test::RandomTree& tree, size_t& polygons) {
+  Job job(tree.operands);
+  EvaluateStats stats;
+  const auto faces = evaluate_whole_faces(job, tree.expression, {}, stats);
+  EXPECT_TRUE(faces) << faces.error().message;
+  polygons += job.polygons().size();
+  return static_cast<size_t>(std::count(faces->general.begin(), faces->general.end(), 1));
+}
+
+// What is left to cells is what edges of more than two faces make hard.
+TEST(WholeFaces, LeaveLittleToCells) {
+  test::Random random(405);
+  test::TreeMaker maker(random);
+  size_t polygons = 0, general = 0;
+  for (int i = 0; i < 60; ++i) {
+    general += count_general(maker.make({.size = 6, .operands = 4, .depth = 2, .frames = false}),
+                             polygons);
+  }
+  EXPECT_GT(polygons, 1000u);
+  EXPECT_LT(general * 10, polygons);
+}
+
+TEST(WholeFaces, StopWhenCancelled) {
+  test::Random random(406);
+  const auto tree =
+      test::TreeMaker(random).make({.size = 6, .operands = 4, .depth = 2, .frames = false});
+  std::atomic<bool> cancel = true;
+  KernelOptions options;
+  options.cancel = &cancel;
+  EvaluateStats stats;
+  const auto result = evaluate_boolean(tree.operands, tree.expression, tree.region, options, stats);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace csgrun
