@@ -56,9 +56,10 @@ class PackedBoxes {
   /// All pairs of boxes that overlap, as tasks, about `wanted` of them or more if there are many
   /// boxes: a function of the boxes and of `wanted` only.
   [[nodiscard]] std::vector<Task> pair_tasks(size_t wanted) const;
-  /// Calls `visit(place, group, hits)` for boxes that overlap others in a group, a bit of `hits`
-  /// for each: the places of these are 8 group + bit, and above `place`. Over all tasks each pair
-  /// occurs once. Thread-safe.
+  /// Calls `visit(place, group, hits)` for boxes that may overlap others in a group, with a bit of
+  /// `hits` for each that does: the places of these are 8 group + bit, and above `place`. (Places
+  /// fill the last group; those beyond the last box have no hits.) Over all tasks each pair occurs
+  /// once. Thread-safe.
   template <class Visit>
   void visit_rows(const Task& task, Visit visit) const {
     std::vector<Task> stack{task};

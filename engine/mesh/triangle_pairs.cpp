@@ -20,7 +20,9 @@ bool TrianglePairs::covers(const LeafGeometry& leaf) {
 
 TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order,
                              bool is_balanced)
-    : leaf_(leaf), corners_((order.size() + 7) / 8), spread_(order.size()) {
+    : leaf_(leaf),
+      corners_((order.size() + 7) / 8),
+      spread_(8 * corners_.size(), {kOther, kOther, kOther}) {
   const std::vector<uint8_t> is_spread =
       is_balanced ? find_spread_vertices(leaf) : std::vector<uint8_t>(leaf.vertices.size(), 0);
   if (!corners_.empty()) {
@@ -30,7 +32,6 @@ TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t>
     for (size_t i = 0; i < 3; ++i) {
       uint32_t& corner = corners_[place / 8].corners[i][place % 8];
       corner = kNone;
-      spread_[place][i] = kOther;
       if (!is_triangle(order[place])) continue;
       corner = leaf.corners[leaf.face_starts[order[place]] + i];
       if (is_spread[corner] != 0) spread_[place][i] = corner;
