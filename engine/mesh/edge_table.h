@@ -49,18 +49,6 @@ class EdgeTable {
     while (last != all.end() && last->to == to) ++last;
     return {first, last};
   }
-  /// Whether every directed edge occurs as often as its reverse.
-  [[nodiscard]] bool is_balanced() const {
-    for (uint32_t v = 0; v < vertex_count(); ++v) {
-      const auto all = leaving(v);
-      for (size_t i = 0; i < all.size();) {
-        const auto same = between(v, all[i].to);
-        if (between(all[i].to, v).size() != same.size()) return false;
-        i += same.size();
-      }
-    }
-    return true;
-  }
 
  private:
   std::vector<uint32_t> starts_;
