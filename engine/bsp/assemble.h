@@ -11,7 +11,8 @@
 
 namespace csgrun {
 
-/// A polygon that belongs to the result as a whole, as it is or turned over.
+/// A polygon that belongs to the result as a whole, as it is or turned over. Nothing of another
+/// operand that is in the result touches it.
 struct WholePolygon {
   uint32_t polygon;
   bool flip;

@@ -9,6 +9,7 @@
 
 #include <csgrun/primitives/mesh_file.h>
 
+#include "engine/bsp/untouched.h"
 #include "engine/csg/quantise.h"
 #include "tests/support/kernel_checks.h"
 #include "tests/support/random_frames.h"
@@ -109,6 +110,17 @@ void check_pair(const std::vector<Operand>& leaves) {
     const auto solid = present(**r, test_context());
     ASSERT_TRUE(solid) << trees[t].text() << ": " << text(solid.error());
     ASSERT_EQ(fault_in(**solid), "") << trees[t].text();
+    // What is untouched may be named: the same value, and the same arrays.
+    KernelOptions options;
+    options.name_untouched = true;
+    const auto naming = evaluate_boolean(leaves, e, region, options, stats);
+    ASSERT_TRUE(naming) << trees[t].text() << ": " << text(naming.error());
+    ASSERT_EQ(difference_between(**r, *expanded(*naming)), "") << trees[t].text();
+    const auto same = present(**naming, test_context());
+    ASSERT_TRUE(same) << trees[t].text() << ": " << text(same.error());
+    ASSERT_EQ(difference_between(**solid, **same), "") << trees[t].text();
+    ASSERT_EQ((*solid)->measures.volume, (*same)->measures.volume) << trees[t].text();
+    ASSERT_EQ((*solid)->measures.genus, (*same)->measures.genus) << trees[t].text();
   }
   for (int which = 0; which < 2; ++which) {
     const Residues r(kPrimes[which]);
