@@ -50,8 +50,8 @@ Work prepare(Job& job, const Octree& tree) {
   return work;
 }
 
-/// Neighbours in the list are near each other mostly: a result of a long chain does not carry all
-/// cells of before.
+/// Neighbours in the list are near each other mostly; a result has no use for a box a contact, and
+/// one of a long chain does not carry all of those before.
 void keep_few(std::vector<GridBox>& boxes) {
   constexpr size_t kMost = 4096;
   while (boxes.size() > kMost) {
@@ -82,7 +82,6 @@ Touching touching_before(const std::vector<Operand>& operands) {
       result.boxes.push_back(box.moved(o.translation));
     }
   }
-  keep_few(result.boxes);
   return result;
 }
 
@@ -165,6 +164,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     touching.boxes.insert(touching.boxes.end(), boxes.begin(), boxes.end());
   }
   touching.boxes.insert(touching.boxes.end(), faces.touching.begin(), faces.touching.end());
+  keep_few(touching.boxes);
   sets.push_back(std::move(faces.cut));
   work.whole.insert(work.whole.end(), faces.whole.begin(), faces.whole.end());
   std::vector<UntouchedPart> parts;
