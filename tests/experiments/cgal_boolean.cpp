@@ -1,14 +1,23 @@
-// cgal_boolean union|difference A.off B.off OUT.off: the same by CGAL's Nef polyhedra, which the
-// paper compares itself with. One JSON line with the seconds from arrays to arrays and the peak of
-// memory. Built only where CGAL is installed; nothing else needs it.
+// cgal_boolean nef|corefine union|difference once|each OUT.off IN.off...: the same by CGAL, with
+// its Nef polyhedra, which the paper compares itself with, or by corefinement of surface meshes
+// with exact points; one mesh after the other. `each` asks for the box and the volume of every
+// result, which only corefinement can. One JSON line with the CPU seconds from CGAL's mesh of the
+// input to that of the result and the peak of memory; reading, and exact points to doubles, are not
+// counted. Built only where CGAL is installed; nothing else needs it.
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Nef_polyhedron_3.h>
+#include <CGAL/Polygon_mesh_processing/bbox.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h>
@@ -21,6 +30,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Nef = CGAL::Nef_polyhedron_3<Kernel>;
+namespace pmp = CGAL::Polygon_mesh_processing;
 
 double cpu_seconds() {
   timespec t{};
@@ -48,44 +58,84 @@ double nearest(const Kernel::FT& number) {
   return best;
 }
 
-bool read(const char* path, Mesh& mesh) {
+/// A closed manifold, or the program ends.
+Mesh read(const char* path) {
+  Mesh mesh;
   std::ifstream file(path);
-  return static_cast<bool>(file >> mesh);
+  if (!(file >> mesh)) {
+    std::fprintf(stderr, "cgal_boolean: %s cannot be read\n", path);
+    std::exit(1);
+  }
+  if (!CGAL::is_closed(mesh)) {
+    std::fprintf(stderr, "cgal_boolean: %s is no closed manifold to CGAL\n", path);
+    std::exit(1);
+  }
+  return mesh;
+}
+
+Mesh by_nef(const std::vector<Mesh>& meshes, bool unite) {
+  Nef sum(meshes[0]);
+  for (size_t i = 1; i < meshes.size(); ++i) {
+    const Nef tool(meshes[i]);
+    sum = unite ? sum + tool : sum - tool;
+  }
+  Mesh result;
+  CGAL::convert_nef_polyhedron_to_polygon_mesh(sum, result, true);
+  return result;
+}
+
+/// Changes the meshes. Ends the program where a result is no manifold, which this cannot express.
+Mesh by_corefinement(std::vector<Mesh>& meshes, bool unite, bool ask_each) {
+  Mesh& sum = meshes[0];
+  for (size_t i = 1; i < meshes.size(); ++i) {
+    Mesh& tool = meshes[i];
+    if (!(unite ? pmp::corefine_and_compute_union(sum, tool, sum)
+                : pmp::corefine_and_compute_difference(sum, tool, sum))) {
+      std::fprintf(stderr, "cgal_boolean: a result is no manifold, which CGAL refuses\n");
+      std::exit(1);
+    }
+    if (ask_each && !(CGAL::to_double(pmp::volume(sum)) > 0 && pmp::bbox(sum).xmax() > 0)) {
+      std::fprintf(stderr, "cgal_boolean: a result has no volume\n");
+      std::exit(1);
+    }
+  }
+  return std::move(sum);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string op = argc == 5 ? argv[1] : "";
-  if (op != "union" && op != "difference") {
-    std::fprintf(stderr, "usage: cgal_boolean union|difference A.off B.off OUT.off\n");
+  const std::string way = argc > 5 ? argv[1] : "", op = argc > 5 ? argv[2] : "";
+  const std::string asking = argc > 5 ? argv[3] : "";
+  if ((way != "nef" && way != "corefine") || (op != "union" && op != "difference") ||
+      (asking != "once" && (asking != "each" || way == "nef"))) {
+    std::fprintf(stderr,
+                 "usage: cgal_boolean nef|corefine union|difference once|each OUT.off IN.off...\n");
     return 2;
   }
-  Mesh a, b, result;
-  if (!read(argv[2], a) || !read(argv[3], b)) {
-    std::fprintf(stderr, "cgal_boolean: a mesh cannot be read\n");
-    return 1;
-  }
-  if (!CGAL::is_closed(a) || !CGAL::is_closed(b)) {
-    std::fprintf(stderr, "cgal_boolean: a mesh is no closed manifold to CGAL\n");
-    return 1;
-  }
+  std::vector<Mesh> meshes;
+  for (int i = 5; i < argc; ++i) meshes.push_back(read(argv[i]));
   const double before_mb = peak_mb(), start = cpu_seconds();
-  const Nef p(a), q(b);
-  const Nef r = op == "union" ? p + q : p - q;
-  CGAL::convert_nef_polyhedron_to_polygon_mesh(r, result, true);
+  const Mesh result = way == "nef" ? by_nef(meshes, op == "union")
+                                   : by_corefinement(meshes, op == "union", asking == "each");
   const double seconds = cpu_seconds() - start;
   const double mb = peak_mb() - before_mb;
   std::ofstream file(argv[4]);
   file.precision(17);
   file << "OFF\n" << result.number_of_vertices() << " " << result.number_of_faces() << " 0\n";
+  // Of what was taken out, a mesh keeps places: the vertices are counted anew.
+  std::vector<size_t> number(result.num_vertices());
+  size_t count = 0;
   for (const auto v : result.vertices()) {
+    number[v.idx()] = count++;
     const auto& point = result.point(v);
     file << nearest(point.x()) << " " << nearest(point.y()) << " " << nearest(point.z()) << "\n";
   }
   for (const auto f : result.faces()) {
     file << result.degree(f);
-    for (const auto v : vertices_around_face(result.halfedge(f), result)) file << " " << v.idx();
+    for (const auto v : vertices_around_face(result.halfedge(f), result)) {
+      file << " " << number[v.idx()];
+    }
     file << "\n";
   }
   if (!file) return 1;

@@ -65,7 +65,7 @@ class Laboratory:
     def cgal(self, op, a, b, result):
         """CGAL's figures, or why there are none."""
         try:
-            return self.run("cgal_boolean", op, a, b, result)
+            return self.run("cgal_boolean", "nef", op, "once", result, a, b)
         except RuntimeError as error:
             print(error, file=sys.stderr)
             return {"failed": "no closed manifold to CGAL" if "manifold" in str(error) else "crashed"}
