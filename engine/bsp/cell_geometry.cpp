@@ -176,6 +176,19 @@ int CellGeometry::compare_along(uint32_t p, uint32_t q, int axis) {
   return csgrun::compare_along(exact(p), exact(q), axis);
 }
 
+LineAxis CellGeometry::axis_between(uint32_t p, uint32_t q) {
+  const auto &a = points_[p].rounded, &b = points_[q].rounded;
+  int best = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (std::fabs(b[k] - a[k]) > std::fabs(b[best] - a[best])) best = k;
+  }
+  if (a[best] != b[best]) return {best, a[best] < b[best] ? 1 : -1};
+  for (int k = 0; k < 3; ++k) {
+    if (const int sign = compare_along(q, p, k)) return {k, sign};
+  }
+  return {0, 0};
+}
+
 LineAxis line_axis(const Plane& a, const Plane& b) {
   using N = Int<2>;
   const auto minor = [](Int128 p, Int128 q, Int128 r, Int128 s) {

@@ -25,6 +25,12 @@ struct Fragment {
   uint32_t first = 0, count = 0;
 };
 
+/// The direction of a line, as far as ordering points on it needs it.
+struct LineAxis {
+  int axis = 0;
+  int sign = 1;
+};
+
 enum class Side : uint8_t { kFront, kBack, kOn, kSplit };
 
 class CellGeometry {
@@ -74,6 +80,9 @@ class CellGeometry {
 
   /// -1, 0, +1: the order of two points along an axis. Exact.
   int compare_along(uint32_t p, uint32_t q, int axis);
+  /// An axis along which two points differ, the one on which their doubles do most if they do, and
+  /// the sign of the way from p to q there; 0 if the points are equal.
+  LineAxis axis_between(uint32_t p, uint32_t q);
 
   SignCounters counters;
   /// Set when split() meets a corner in the cutting plane; never cleared here.
@@ -92,10 +101,6 @@ class CellGeometry {
 
 /// The direction of the line where two planes meet, as far as ordering points needs it: the axis on
 /// which the cross product of the normals is largest, and its sign there.
-struct LineAxis {
-  int axis = 0;
-  int sign = 1;
-};
 LineAxis line_axis(const Plane& a, const Plane& b);
 
 }  // namespace csgrun

@@ -31,66 +31,45 @@ bool PolygonCutter::find_meets(std::span<const CutSegment> segments) {
   while (different < segments.size() && operand(different) == operand(0)) ++different;
   if (different >= segments.size() && job_.has_simple_edges(operand(0))) return true;
 
-  boxes_.resize(segments.size());
-  by_position_.clear();
-  for (uint32_t s = 0; s < segments.size(); ++s) {
-    const auto &a = geometry_.point(segments[s].from).rounded,
-               &b = geometry_.point(segments[s].to).rounded;
-    for (int k = 0; k < 3; ++k) boxes_[s][k] = {std::min(a[k], b[k]), std::max(a[k], b[k])};
-    by_position_.push_back(s);
+  sweep_.clear();
+  for (const CutSegment& s : segments) {
+    sweep_.add(geometry_.point(s.from).rounded, geometry_.point(s.to).rounded);
   }
-  std::sort(by_position_.begin(), by_position_.end(), [&](uint32_t a, uint32_t b) {
-    return std::tie(boxes_[a][0].lo, a) < std::tie(boxes_[b][0].lo, b);
-  });
-  active_.clear();
-  for (const uint32_t t : by_position_) {
-    // Rounding keeps order: boxes of rounded ends meet where the true ones do.
-    std::erase_if(active_, [&](uint32_t s) { return boxes_[s][0].hi < boxes_[t][0].lo; });
-    for (const uint32_t s : active_) {
-      if (operand(s) == operand(t) &&
-          (job_.has_simple_edges(operand(s)) || have_common_end(segments[s], segments[t]))) {
-        continue;
-      }
-      bool meets = true;
-      for (int k = 1; k < 3; ++k) {
-        meets &= boxes_[s][k].lo <= boxes_[t][k].hi && boxes_[t][k].lo <= boxes_[s][k].hi;
-      }
-      if (!meets) continue;
-      const PlaneId plane_s = job_.polygons()[segments[s].other].support,
-                    plane_t = job_.polygons()[segments[t].other].support;
-      const int s_from = geometry_.side(plane_t.index(), segments[s].from),
-                s_to = geometry_.side(plane_t.index(), segments[s].to);
-      if (s_from * s_to > 0) continue;
-      const int t_from = geometry_.side(plane_s.index(), segments[t].from),
-                t_to = geometry_.side(plane_s.index(), segments[t].to);
-      if (t_from * t_to > 0) continue;
-      if (s_from == 0 || s_to == 0 || t_from == 0 || t_to == 0) return false;
-      const uint32_t x =
-          geometry_.add_point({polygon_->support.index(), plane_s.index(), plane_t.index()});
-      // On the left of s is its back.
-      meets_.push_back({s, t, x, (plane_s.flipped() ? -t_to : t_to) < 0});
+  bool apart = true;
+  sweep_.for_each_pair([&](uint32_t s, uint32_t t) {
+    if (operand(s) == operand(t) &&
+        (job_.has_simple_edges(operand(s)) || have_common_end(segments[s], segments[t]))) {
+      return;
     }
-    active_.push_back(t);
-  }
-  return true;
+    const PlaneId plane_s = job_.polygons()[segments[s].other].support,
+                  plane_t = job_.polygons()[segments[t].other].support;
+    const int s_from = geometry_.side(plane_t.index(), segments[s].from),
+              s_to = geometry_.side(plane_t.index(), segments[s].to);
+    if (s_from * s_to > 0) return;
+    const int t_from = geometry_.side(plane_s.index(), segments[t].from),
+              t_to = geometry_.side(plane_s.index(), segments[t].to);
+    if (t_from * t_to > 0) return;
+    if (s_from == 0 || s_to == 0 || t_from == 0 || t_to == 0) {
+      apart = false;
+      return;
+    }
+    const uint32_t x =
+        geometry_.add_point({polygon_->support.index(), plane_s.index(), plane_t.index()});
+    // On the left of s is its back.
+    meets_.push_back({s, t, x, (plane_s.flipped() ? -t_to : t_to) < 0});
+  });
+  return apart;
 }
 
 /// Sorts points along a line, from one end on; false when two coincide. Indices are kept.
 bool PolygonCutter::order(std::vector<Stop>& stops, uint32_t from, uint32_t to) {
   if (stops.size() < 2) return true;
-  // An axis on which the rounded ends differ most orders nearly all points without more.
-  const auto &a = geometry_.point(from).rounded, &b = geometry_.point(to).rounded;
-  int axis = 0;
-  for (int k = 1; k < 3; ++k) {
-    if (std::fabs(b[k] - a[k]) > std::fabs(b[axis] - a[axis])) axis = k;
-  }
-  const int along = geometry_.compare_along(to, from, axis);
-  if (along == 0) return false;
+  const LineAxis way = geometry_.axis_between(from, to);
   std::sort(stops.begin(), stops.end(), [&](const Stop& p, const Stop& q) {
-    return geometry_.compare_along(p.point, q.point, axis) * along < 0;
+    return geometry_.compare_along(p.point, q.point, way.axis) * way.sign < 0;
   });
   for (size_t i = 1; i < stops.size(); ++i) {
-    if (geometry_.compare_along(stops[i - 1].point, stops[i].point, axis) == 0) return false;
+    if (geometry_.compare_along(stops[i - 1].point, stops[i].point, way.axis) == 0) return false;
   }
   return true;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/segment_sweep.h"
 
 namespace csgrun {
 
@@ -97,11 +98,7 @@ class PolygonCutter {
   std::vector<EndOnEdge> ends_on_edge_;
   std::vector<std::array<uint32_t, 3>> inner_ends_;  ///< (point, segment, 1 for its end)
   std::vector<Stop> stops_;
-  std::vector<uint32_t> by_position_, active_;
-  struct Low {
-    double lo, hi;
-  };
-  std::vector<std::array<Low, 3>> boxes_;
+  SegmentSweep sweep_;
   std::vector<uint8_t> seen_;
 };
 

@@ -1,7 +1,6 @@
 #include "engine/bsp/face_arrangement.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace csgrun {
@@ -112,51 +111,22 @@ void FaceArrangement::add_coplanar(std::span<const uint32_t> coplanar) {
   }
 }
 
-/// The points in which lines meet, by a sweep over their boxes.
+/// The points in which lines meet.
 void FaceArrangement::find_stops() {
   stops_.clear();
-  boxes_.resize(lines_.size());
-  by_position_.clear();
+  sweep_.clear();
   for (uint32_t l = 0; l < lines_.size(); ++l) {
-    const auto &a = geometry_.point(lines_[l].from).rounded,
-               &b = geometry_.point(lines_[l].to).rounded;
-    for (int k = 0; k < 3; ++k) boxes_[l][k] = {std::min(a[k], b[k]), std::max(a[k], b[k])};
-    by_position_.push_back(l);
+    sweep_.add(geometry_.point(lines_[l].from).rounded, geometry_.point(lines_[l].to).rounded);
     stops_.emplace_back(l, lines_[l].from);
     stops_.emplace_back(l, lines_[l].to);
   }
-  // Along the axis on which the polygon is longest.
-  int axis = 0;
-  std::array<double, 3> extent{};
-  for (int k = 0; k < 3; ++k) {
-    double lo = HUGE_VAL, hi = -HUGE_VAL;
-    for (uint32_t e = 0; e < polygon_->count; ++e) {
-      lo = std::min(lo, boxes_[e][k][0]);
-      hi = std::max(hi, boxes_[e][k][1]);
-    }
-    extent[k] = hi - lo;
-    if (extent[k] > extent[axis]) axis = k;
-  }
-  std::sort(by_position_.begin(), by_position_.end(), [&](uint32_t a, uint32_t b) {
-    return std::tie(boxes_[a][axis][0], a) < std::tie(boxes_[b][axis][0], b);
-  });
-  active_.clear();
-  for (const uint32_t t : by_position_) {
-    // Rounding keeps order: boxes of rounded ends meet where the true ones do.
-    std::erase_if(active_, [&](uint32_t s) { return boxes_[s][axis][1] < boxes_[t][axis][0]; });
-    const uint32_t operand = lines_[t].operand;
+  sweep_.for_each_pair([&](uint32_t s, uint32_t t) {
     // Sheets of a leaf meet in edges and corners that both have.
-    const bool fits = operand != kNone && job_.has_simple_edges(operand);
-    for (const uint32_t s : active_) {
-      if (fits && lines_[s].operand == operand) continue;
-      bool near = true;
-      for (int k = 0; k < 3; ++k) {
-        near &= boxes_[s][k][0] <= boxes_[t][k][1] && boxes_[t][k][0] <= boxes_[s][k][1];
-      }
-      if (near) meet(s, t);
+    const uint32_t operand = lines_[t].operand;
+    if (operand == kNone || lines_[s].operand != operand || !job_.has_simple_edges(operand)) {
+      meet(s, t);
     }
-    active_.push_back(t);
-  }
+  });
 }
 
 void FaceArrangement::meet(uint32_t s, uint32_t t) {
@@ -193,14 +163,10 @@ void FaceArrangement::meet(uint32_t s, uint32_t t) {
 
 /// Adds a point of the line if it lies between its ends.
 void FaceArrangement::add_collinear(const Line& on, uint32_t line, uint32_t point) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const int along = geometry_.compare_along(on.to, on.from, axis);
-    if (along == 0) continue;
-    if (geometry_.compare_along(point, on.from, axis) * along > 0 &&
-        geometry_.compare_along(on.to, point, axis) * along > 0) {
-      stops_.emplace_back(line, point);
-    }
-    return;
+  const LineAxis way = geometry_.axis_between(on.from, on.to);
+  if (geometry_.compare_along(point, on.from, way.axis) * way.sign > 0 &&
+      geometry_.compare_along(on.to, point, way.axis) * way.sign > 0) {
+    stops_.emplace_back(line, point);
   }
 }
 
@@ -213,13 +179,11 @@ void FaceArrangement::break_lines() {
     const Line& line = lines_[l];
     size_t end = begin;
     while (end < stops_.size() && stops_[end].first == l) ++end;
-    int axis = 0, along = 0;
-    while (end - begin > 1 && along == 0) {
-      along = geometry_.compare_along(line.to, line.from, axis++);
-    }
-    std::sort(stops_.begin() + begin, stops_.begin() + end, [&](const auto& p, const auto& q) {
-      return geometry_.compare_along(p.second, q.second, axis - 1) * along < 0;
-    });
+    const LineAxis way = geometry_.axis_between(line.from, line.to);
+    std::sort(stops_.begin() + static_cast<long>(begin), stops_.begin() + static_cast<long>(end),
+              [&](const auto& p, const auto& q) {
+                return geometry_.compare_along(p.second, q.second, way.axis) * way.sign < 0;
+              });
     for (size_t i = begin; i + 1 < end; ++i) {
       const uint32_t p = stops_[i].second, q = stops_[i + 1].second;
       const Part part{std::min(p, q), std::max(p, q), l, p > q};

@@ -111,8 +111,7 @@ class FaceArrangement {
   const std::vector<uint8_t>& touched_;
   const JobPolygon* polygon_ = nullptr;
   std::vector<Line> lines_;
-  std::vector<std::array<std::array<double, 2>, 3>> boxes_;
-  std::vector<uint32_t> by_position_, active_;
+  SegmentSweep sweep_;
   std::vector<std::pair<uint32_t, uint32_t>> stops_;  ///< (line, point)
   std::vector<Part> parts_;
   std::vector<Arc> arcs_;

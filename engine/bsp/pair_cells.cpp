@@ -37,62 +37,78 @@ struct Bounds {
   }
 };
 
+/// A polygon on the way down, with its box at hand.
+struct Entry {
+  PolygonBox box;
+  uint32_t polygon, operand;
+};
+
+/// Entries [first, first + count) of the stack, by ascending operands.
+struct List {
+  static constexpr uint32_t kNobody = ~0u;
+  uint32_t first = 0, count = 0;
+  uint32_t lowest = kNobody, second = kNobody, last = kNobody;  ///< operands
+  Bounds of_lowest = Bounds::none(), of_others = Bounds::none();
+
+  void add(const Entry& e) {
+    if (count++ == 0) lowest = e.operand;
+    if (e.operand == lowest) {
+      of_lowest.include(e.box);
+      return;
+    }
+    if (second == kNobody) second = e.operand;
+    last = e.operand;
+    of_others.include(e.box);
+  }
+  [[nodiscard]] bool has_one_operand() const { return second == kNobody; }
+  [[nodiscard]] bool has_two_operands() const { return second != kNobody && second == last; }
+  [[nodiscard]] Bounds bounds() const {
+    Bounds all = of_lowest;
+    all.include({of_others.lo, of_others.hi});
+    return all;
+  }
+};
+
 class CellFinder {
  public:
   CellFinder(const Job& job, const KernelOptions& options)
       : job_(job), limit_(std::max<uint32_t>(1, options.cell_limit)), cancel_(options.cancel) {}
 
   PairCells run() {
-    // What is far from all other operands takes part in nothing.
-    std::vector<Bounds> bounds(job_.operand_count(), Bounds::none());
-    for (uint32_t o = 0; o < job_.operand_count(); ++o) {
-      for (uint32_t p = job_.polygon_start(o); p < job_.polygon_start(o + 1); ++p) {
-        bounds[o].include(job_.boxes()[p]);
-      }
+    List all;
+    for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
+      stack_.push_back({job_.boxes()[p], p, job_.polygons()[p].operand});
+      all.add(stack_.back());
     }
-    Bounds region = Bounds::none();
-    for (uint32_t p = 0; p < job_.polygons().size(); ++p) list_.push_back(p);
-    for (const Bounds& b : bounds) {
-      if (b.lo[0] <= b.hi[0]) region.include({b.lo, b.hi});
-    }
-    visit(region, 0, static_cast<uint32_t>(list_.size()), 0);
+    visit(all.bounds(), all, 0);
     return std::move(result_);
   }
 
  private:
-  [[nodiscard]] uint32_t operand(uint32_t i) const { return job_.polygons()[list_[i]].operand; }
-
   /// Of two operands, only what is in the box of the other one matters.
-  uint32_t keep_near(uint32_t first, uint32_t count) {
-    const uint32_t one = operand(first), other = operand(first + count - 1);
-    Bounds of_one = Bounds::none(), of_other = Bounds::none();
-    for (uint32_t i = first; i < first + count; ++i) {
-      const uint32_t o = operand(i);
-      if (o != one && o != other) return count;
-      (o == one ? of_one : of_other).include(job_.boxes()[list_[i]]);
+  List keep_near(const List& list) {
+    Bounds common = list.of_lowest;
+    common.clip(list.of_others);
+    List kept;
+    kept.first = list.first;
+    for (uint32_t i = list.first; i < list.first + list.count; ++i) {
+      if (!common.meets(stack_[i].box)) continue;
+      stack_[kept.first + kept.count] = stack_[i];
+      kept.add(stack_[i]);
     }
-    of_one.clip(of_other);
-    uint32_t kept = first;
-    for (uint32_t i = first; i < first + count; ++i) {
-      if (of_one.meets(job_.boxes()[list_[i]])) list_[kept++] = list_[i];
-    }
-    return kept - first;
+    return kept;
   }
 
-  /// Handles list_[first, first + count), the top of the stack.
-  void visit(Bounds cell, uint32_t first, uint32_t count, int stalled) {
+  /// Handles the list, which is the top of the stack.
+  void visit(Bounds cell, List list, int stalled) {
     ++result_.visited;
-    const auto has_one = [&] { return count == 0 || operand(first) == operand(first + count - 1); };
-    if (has_one()) return leave_alone(count);
-    if (count > limit_) {
-      const uint32_t all = count;
-      count = keep_near(first, count);
-      leave_alone(all - count);
-      if (has_one()) return leave_alone(count);
+    if (list.count > limit_ && list.has_two_operands()) {
+      const uint32_t all = list.count;
+      list = keep_near(list);
+      leave_alone(all - list.count);
     }
-    Bounds content = Bounds::none();
-    for (uint32_t i = first; i < first + count; ++i) content.include(job_.boxes()[list_[i]]);
-    cell.clip(content);
+    if (list.has_one_operand()) return leave_alone(list.count);
+    cell.clip(list.bounds());
     int axis = 0;
     int64_t longest = -1;
     for (int k = 0; k < 3; ++k) {
@@ -100,27 +116,34 @@ class CellFinder {
       if (size > longest) longest = size, axis = k;
     }
     if (cancel_ && cancel_->load(std::memory_order_relaxed)) return;
-    if (count <= limit_ || longest < 1 || stalled >= kPatience) {
-      ++result_.surface;
-      result_.cells.push_back(
-          {cell.lo, cell.hi, static_cast<uint32_t>(result_.polygons.size()), count});
-      result_.polygons.insert(result_.polygons.end(), list_.begin() + first,
-                              list_.begin() + first + count);
-      return;
-    }
+    if (list.count <= limit_ || longest < 1 || stalled >= kPatience) return add_cell(cell, list);
     const auto middle = static_cast<int32_t>(cell.lo[axis] + longest / 2);
+    const uint32_t end = list.first + list.count;
     for (int upper = 0; upper < 2; ++upper) {
-      list_.resize(first + count);
-      Bounds child = cell;
-      (upper ? child.lo : child.hi)[axis] = upper ? middle + 1 : middle;
-      for (uint32_t i = first; i < first + count; ++i) {
-        if (child.meets(job_.boxes()[list_[i]])) list_.push_back(list_[i]);
+      stack_.resize(end);
+      Bounds half = cell;
+      (upper ? half.lo : half.hi)[axis] = upper ? middle + 1 : middle;
+      List child;
+      child.first = end;
+      for (uint32_t i = list.first; i < end; ++i) {
+        if (!half.meets(stack_[i].box)) continue;
+        const Entry e = stack_[i];
+        stack_.push_back(e);
+        child.add(e);
       }
-      const auto child_count = static_cast<uint32_t>(list_.size()) - first - count;
-      const bool thinner = child_count * 10 <= count * 9;
-      visit(child, first + count, child_count, thinner ? 0 : stalled + 1);
+      const bool thinner = child.count * 10 <= list.count * 9;
+      visit(half, child, thinner ? 0 : stalled + 1);
     }
-    list_.resize(first + count);
+    stack_.resize(end);
+  }
+
+  void add_cell(const Bounds& cell, const List& list) {
+    ++result_.surface;
+    result_.cells.push_back(
+        {cell.lo, cell.hi, static_cast<uint32_t>(result_.polygons.size()), list.count});
+    for (uint32_t i = list.first; i < list.first + list.count; ++i) {
+      result_.polygons.push_back(stack_[i].polygon);
+    }
   }
 
   void leave_alone(uint32_t count) { result_.surface += (count + limit_ - 1) / limit_; }
@@ -129,7 +152,7 @@ class CellFinder {
   const uint32_t limit_;
   const std::atomic<bool>* cancel_;
   PairCells result_;
-  std::vector<uint32_t> list_;
+  std::vector<Entry> stack_;
 };
 
 }  // namespace

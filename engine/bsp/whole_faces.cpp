@@ -16,6 +16,10 @@
 namespace csgrun {
 namespace {
 
+/// With so many contacts a polygon, cells that prune the expression are less work than arrangements
+/// of all that meets a polygon, much of it inside what another one removes.
+constexpr size_t kDense = 16;
+
 class FaceEvaluator {
  public:
   FaceEvaluator(Job& job, const Expression& expression, const KernelOptions& options,
@@ -35,6 +39,11 @@ class FaceEvaluator {
     find_contacts();
     if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) {
       return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
+    }
+    if (contacts_.size() > kDense * job_.polygons().size()) {
+      result_.general.assign(job_.polygons().size(), 1);
+      result_.any_general = true;
+      return std::move(result_);
     }
     gather_contacts();
     cut_polygons();
