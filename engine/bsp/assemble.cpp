@@ -157,7 +157,8 @@ class Assembler {
     }
     const bool alone = other_begin == other_end;
     const std::vector<uint32_t>& polygons = facet_of(first);
-    bool complete = alone && polygons.size() == end - begin &&
+    // (All of them here leave nothing for the other side.)
+    bool complete = polygons.size() == end - begin &&
                     std::all_of(pieces_.begin() + begin, pieces_.begin() + end,
                                 [](const Piece& p) { return p.whole; });
     if (!complete && !(alone && has_new_corner(polygons))) {
