@@ -7,6 +7,7 @@
 #include "engine/bsp/literal_cell.h"
 #include "engine/bsp/octree.h"
 #include "engine/bsp/parallel_runs.h"
+#include "engine/bsp/sign_stats.h"
 #include "engine/bsp/untouched.h"
 #include "engine/bsp/whole_faces.h"
 
@@ -85,6 +86,24 @@ Touching touching_before(const std::vector<Operand>& operands) {
   return result;
 }
 
+/// Progress of the first or the second half of a job.
+KernelOptions first_half(KernelOptions options) {
+  if (options.progress) {
+    options.progress = [report = std::move(options.progress)](uint64_t done, uint64_t total) {
+      report(done, 2 * total);
+    };
+  }
+  return options;
+}
+KernelOptions second_half(KernelOptions options) {
+  if (options.progress) {
+    options.progress = [report = std::move(options.progress)](uint64_t done, uint64_t total) {
+      report(total + done, 2 * total);
+    };
+  }
+  return options;
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<Operand>& operands,
@@ -99,7 +118,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   const bool is_fast = options.whole_faces && !options.literal_cells;
   WholeFaces faces;
   if (is_fast) {
-    auto evaluated = evaluate_whole_faces(job, expression, options, stats);
+    auto evaluated = evaluate_whole_faces(job, expression, first_half(options), stats);
     if (!evaluated) return evaluated.error();
     faces = std::move(*evaluated);
   }
@@ -145,7 +164,8 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     counters[run].subtract(before);
   };
   for_each_run(
-      sets.size(), options, [&] { return CellSolver(job); }, solve_run);
+      sets.size(), is_fast ? second_half(options) : options, [&] { return CellSolver(job); },
+      solve_run);
   if (cancelled()) return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
 
   SignCounters total;
@@ -154,9 +174,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   stats.surface_cells += tree.surface_cells;
   stats.solved_cells += tree.critical.size();
   for (const uint64_t c : contacts) stats.critical_cells += c;
-  stats.sign_filter += total.filter;
-  stats.sign_symbolic += total.symbolic;
-  for (size_t t = 0; t < total.exact.size(); ++t) stats.sign_exact[t] += total.exact[t];
+  add_signs(stats, total);
   Touching touching = touching_before(operands);
   touching.anywhere |= options.literal_cells;
   // Every contact of two operands is in a cell where both have surface.

@@ -29,7 +29,6 @@ class PatchLabels {
                  std::span<const CutLoops::Fact> facts);
 
   [[nodiscard]] double error(uint32_t operand) const { return signs_.error(operand); }
-  [[nodiscard]] const VertexSigns& signs() const { return signs_; }
 
  private:
   /// What an operand is at the patch: twice its number, and one more for what is behind the patch;

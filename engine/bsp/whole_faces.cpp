@@ -6,11 +6,10 @@
 #include "engine/bsp/crossing_points.h"
 #include "engine/bsp/cut_polygon.h"
 #include "engine/bsp/face_arrangement.h"
-#include "engine/bsp/pair_cells.h"
-#include "engine/bsp/pair_test.h"
-#include "engine/bsp/parallel_runs.h"
+#include "engine/bsp/find_contacts.h"
 #include "engine/bsp/patch_labels.h"
 #include "engine/bsp/point_index.h"
+#include "engine/bsp/sign_stats.h"
 #include "engine/bsp/union_find.h"
 
 namespace csgrun {
@@ -32,37 +31,30 @@ class FaceEvaluator {
         labels_(job, expression) {
     result_.general.assign(job.polygons().size(), 0);
     is_cut_.assign(job.polygons().size(), 0);
-    touched_.assign(job.vertex_count(), 0);
   }
 
   Result<WholeFaces> run() {
-    find_contacts();
-    if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) {
-      return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
-    }
+    Contacts found = find_contacts(job_, options_, stats_);
+    contacts_ = std::move(found.contacts);
+    touched_ = std::move(found.touched);
+    if (is_cancelled()) return cancelled();
     if (contacts_.size() > kDense * job_.polygons().size()) {
       result_.general.assign(job_.polygons().size(), 1);
       result_.any_general = true;
       return std::move(result_);
     }
     gather_contacts();
-    cut_polygons();
+    if (!cut_polygons()) return cancelled();
     join_patches();
     if (!gather_facts()) {
       return Error{ErrorCode::kInternal, "the labels of a patch contradict one another", {}};
     }
     emit();
-    count(geometry_.counters);
+    add_signs(stats_, geometry_.counters);
     return std::move(result_);
   }
 
  private:
-  struct Found {
-    std::vector<Contact> contacts;
-    std::vector<uint32_t> touching;  ///< vertices
-    std::vector<std::pair<uint32_t, uint32_t>> unsure;
-    uint64_t critical = 0;
-  };
   struct CutPolygon {
     uint32_t polygon, first_loop, end_loop;
   };
@@ -73,86 +65,10 @@ class FaceEvaluator {
     auto operator<=>(const PatchFact&) const = default;
   };
 
-  void find_contacts() {
-    const PairCells cells = find_pair_cells(job_, options_);
-    std::vector<Found> found(run_count(cells.cells.size()));
-    std::vector<std::array<uint64_t, 2>> signs(found.size());
-    for_each_run(
-        found.size(), options_, [&] { return PairTest(job_); },
-        [&](PairTest& test, size_t run) {
-          const std::array<uint64_t, 2> before{test.signs().filtered, test.signs().exact};
-          const size_t end = std::min(cells.cells.size(), (run + 1) * kCellsPerRun);
-          for (size_t c = run * kCellsPerRun; c < end; ++c) {
-            look_at(test, cells, cells.cells[c], found[run]);
-          }
-          signs[run] = {test.signs().filtered - before[0], test.signs().exact - before[1]};
-        });
-    for (const auto& [filtered, exact] : signs) {
-      stats_.sign_filter += filtered;
-      stats_.sign_exact[1] += exact;
-    }
-    stats_.cells += cells.visited;
-    stats_.solved_cells += cells.cells.size();
-    stats_.surface_cells += cells.surface;
-    size_t total = 0;
-    for (const Found& f : found) total += f.contacts.size();
-    contacts_.reserve(total);
-    for (const Found& f : found) {
-      contacts_.insert(contacts_.end(), f.contacts.begin(), f.contacts.end());
-      for (const uint32_t v : f.touching) touched_[v] = 1;
-      stats_.critical_cells += f.critical;
-    }
-    decide_unsure(found);
+  [[nodiscard]] bool is_cancelled() const {
+    return options_.cancel && options_.cancel->load(std::memory_order_relaxed);
   }
-
-  void look_at(PairTest& test, const PairCells& cells, const PairCells::Cell& cell, Found& out) {
-    bool critical = false;
-    Contact contact;
-    for_each_pair(job_, cells, cell, [&](uint32_t p, uint32_t q) {
-      const Meeting meeting = test.run(p, q, nullptr, contact);
-      if (meeting == Meeting::kApart) return;
-      critical = true;
-      if (meeting == Meeting::kUnsure) {
-        out.unsure.emplace_back(p, q);
-        return;
-      }
-      out.contacts.push_back(contact);
-      if (!contact.is_plain) test.add_touching_vertices(contact, out.touching);
-    });
-    out.critical += critical;
-  }
-
-  /// Pairs that need planes, which are made one after another.
-  void decide_unsure(const std::vector<Found>& found) {
-    bool any = false;
-    for (const Found& f : found) {
-      for (const auto& [p, q] : f.unsure) {
-        job_.ensure_planes(p);
-        job_.ensure_planes(q);
-        any = true;
-      }
-    }
-    if (!any) return;
-    CellGeometry planes(job_.planes(), &job_);
-    PairTest test(job_);
-    Contact contact;
-    std::vector<uint32_t> touching;
-    for (const Found& f : found) {
-      for (const auto& [p, q] : f.unsure) {
-        if (test.run(p, q, &planes, contact) != Meeting::kContact) continue;
-        contacts_.push_back(contact);
-        if (!contact.is_plain) test.add_touching_vertices(contact, touching);
-      }
-    }
-    for (const uint32_t v : touching) touched_[v] = 1;
-    count(planes.counters);
-  }
-
-  void count(const SignCounters& c) {
-    stats_.sign_filter += c.filter;
-    stats_.sign_symbolic += c.symbolic;
-    for (size_t t = 0; t < c.exact.size(); ++t) stats_.sign_exact[t] += c.exact[t];
-  }
+  static Error cancelled() { return {ErrorCode::kCancelled, "the evaluation was cancelled", {}}; }
 
   /// Leaves a polygon to the general way.
   void leave(uint32_t polygon) {
@@ -196,7 +112,8 @@ class FaceEvaluator {
     result_.touching.push_back(box);
   }
 
-  void cut_polygons() {
+  /// False when the evaluation is cancelled.
+  bool cut_polygons() {
     PolygonCutter cutter(job_, geometry_);
     FaceArrangement arrangement(job_, geometry_, index_, touched_);
     for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
@@ -204,6 +121,7 @@ class FaceEvaluator {
       if (!is_met && untouched_corner(p) != kNone) continue;
       const bool plain = list_segments(p);
       if (segments_.empty() && coplanar_.empty() && untouched_corner(p) != kNone) continue;
+      if (p % 64 == 0 && is_cancelled()) return false;
       job_.ensure_planes(p);
       const auto loops = static_cast<uint32_t>(loops_.loops.size());
       is_cut_[p] = 1;
@@ -218,6 +136,7 @@ class FaceEvaluator {
         leave(p);
       }
     }
+    return true;
   }
 
   /// Lists what is on a polygon; whether all of it is plain.

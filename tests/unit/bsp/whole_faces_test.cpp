@@ -65,6 +65,29 @@ TEST(WholeFaces, LeaveLittleToCells) {
   EXPECT_LT(general * 10, polygons);
 }
 
+// Both ways report to one measure of progress.
+TEST(WholeFaces, ProgressDoesNotGoBack) {
+  test::Random random(407);
+  test::TreeMaker maker(random);
+  int reports = 0;
+  for (int i = 0; i < 40; ++i) {
+    const auto tree = maker.make({.size = 6, .operands = 6, .depth = 2, .frames = i % 2 == 0});
+    KernelOptions options;
+    options.cell_limit = 1;
+    double last = 0;
+    options.progress = [&](uint64_t done, uint64_t total) {
+      const double share = static_cast<double>(done) / static_cast<double>(total);
+      EXPECT_GE(share, last);
+      EXPECT_LE(share, 1);
+      last = share;
+      ++reports;
+    };
+    EvaluateStats stats;
+    ASSERT_TRUE(evaluate_boolean(tree.operands, tree.expression, tree.region, options, stats));
+  }
+  EXPECT_GT(reports, 40);
+}
+
 TEST(WholeFaces, StopWhenCancelled) {
   test::Random random(406);
   const auto tree =

@@ -1,0 +1,103 @@
+#include "engine/bsp/find_contacts.h"
+
+#include <array>
+#include <utility>
+
+#include "engine/bsp/pair_cells.h"
+#include "engine/bsp/parallel_runs.h"
+#include "engine/bsp/sign_stats.h"
+
+namespace csgrun {
+namespace {
+
+/// What one run of cells gives.
+struct Found {
+  std::vector<Contact> contacts;
+  std::vector<uint32_t> touching;  ///< vertices
+  std::vector<std::pair<uint32_t, uint32_t>> unsure;
+  uint64_t critical = 0;
+  uint64_t filtered = 0, exact = 0;  ///< signs
+};
+
+void look_at(const Job& job, PairTest& test, const PairCells& cells, const PairCells::Cell& cell,
+             Found& out) {
+  bool critical = false;
+  Contact contact;
+  for_each_pair(job, cells, cell, [&](uint32_t p, uint32_t q) {
+    const Meeting meeting = test.run(p, q, nullptr, contact);
+    if (meeting == Meeting::kApart) return;
+    critical = true;
+    if (meeting == Meeting::kUnsure) {
+      out.unsure.emplace_back(p, q);
+      return;
+    }
+    out.contacts.push_back(contact);
+    if (!contact.is_plain) test.add_touching_vertices(contact, out.touching);
+  });
+  out.critical += critical;
+}
+
+/// Pairs that need planes, which are made one after another.
+void decide_unsure(Job& job, const std::vector<Found>& found, Contacts& result,
+                   EvaluateStats& stats) {
+  bool any = false;
+  for (const Found& f : found) {
+    for (const auto& [p, q] : f.unsure) {
+      job.ensure_planes(p);
+      job.ensure_planes(q);
+      any = true;
+    }
+  }
+  if (!any) return;
+  CellGeometry planes(job.planes(), &job);
+  PairTest test(job);
+  Contact contact;
+  std::vector<uint32_t> touching;
+  for (const Found& f : found) {
+    for (const auto& [p, q] : f.unsure) {
+      if (test.run(p, q, &planes, contact) != Meeting::kContact) continue;
+      result.contacts.push_back(contact);
+      if (!contact.is_plain) test.add_touching_vertices(contact, touching);
+    }
+  }
+  for (const uint32_t v : touching) result.touched[v] = 1;
+  add_signs(stats, planes.counters);
+}
+
+}  // namespace
+
+Contacts find_contacts(Job& job, const KernelOptions& options, EvaluateStats& stats) {
+  const PairCells cells = find_pair_cells(job, options);
+  std::vector<Found> found(run_count(cells.cells.size()));
+  for_each_run(
+      found.size(), options, [&] { return PairTest(job); },
+      [&](PairTest& test, size_t run) {
+        Found& out = found[run];
+        const uint64_t filtered = test.signs().filtered, exact = test.signs().exact;
+        const size_t end = std::min(cells.cells.size(), (run + 1) * kCellsPerRun);
+        for (size_t c = run * kCellsPerRun; c < end; ++c) {
+          look_at(job, test, cells, cells.cells[c], out);
+        }
+        out.filtered = test.signs().filtered - filtered;
+        out.exact = test.signs().exact - exact;
+      });
+  stats.cells += cells.visited;
+  stats.solved_cells += cells.cells.size();
+  stats.surface_cells += cells.surface;
+  Contacts result;
+  result.touched.assign(job.vertex_count(), 0);
+  size_t total = 0;
+  for (const Found& f : found) total += f.contacts.size();
+  result.contacts.reserve(total);
+  for (const Found& f : found) {
+    result.contacts.insert(result.contacts.end(), f.contacts.begin(), f.contacts.end());
+    for (const uint32_t v : f.touching) result.touched[v] = 1;
+    stats.critical_cells += f.critical;
+    stats.sign_filter += f.filtered;
+    stats.sign_exact[1] += f.exact;
+  }
+  decide_unsure(job, found, result, stats);
+  return result;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,23 @@
+// All pairs of polygons of different operands that meet.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <csgrun/engine/evaluate.h>
+
+#include "engine/bsp/pair_test.h"
+
+namespace csgrun {
+
+struct Contacts {
+  std::vector<Contact> contacts;  ///< in no order that means anything, the same on every run
+  /// Per vertex of the job: it may be on another operand's surface.
+  std::vector<uint8_t> touched;
+};
+
+/// Divides space into cells of pairs and looks at each pair; planes are made where doubles and
+/// 128-bit integers do not tell. `stats` is added to. Parallel; incomplete when cancelled.
+Contacts find_contacts(Job& job, const KernelOptions& options, EvaluateStats& stats);
+
+}  // namespace csgrun
