@@ -31,7 +31,7 @@ bool FaceArrangement::build(uint32_t polygon, std::span<const SheetSegment> segm
   sort_around_points();
   const auto first_loop = static_cast<uint32_t>(out.loops.size());
   const size_t corners = out.corner_point.size(), facts = out.facts.size();
-  if (trace(out) && spread_coplanar(out, first_loop) && write_facts(out, first_loop)) return true;
+  if (trace(out) && find_covered(out, first_loop) && write_facts(out, first_loop)) return true;
   out.loops.resize(first_loop);
   out.corner_point.resize(corners);
   out.corner_plane.resize(corners);
@@ -73,6 +73,8 @@ bool FaceArrangement::is_apart(uint32_t sheet) {
 
 /// The edges of coplanar sheets, without those that only two sheets of one operand have.
 void FaceArrangement::add_coplanar(std::span<const uint32_t> coplanar) {
+  first_coplanar_line_ = lines_.size();
+  covered_.clear();
   sheets_.clear();
   sheet_edges_.clear();
   for (const uint32_t q : coplanar) {
@@ -300,78 +302,87 @@ bool FaceArrangement::trace(CutLoops& out) {
   return true;
 }
 
-/// Whether an operand covers a region is the same across arcs without sheets of it.
-bool FaceArrangement::spread_coplanar(const CutLoops& out, uint32_t first_loop) {
-  for (size_t i = 0; i < sheet_edges_.size(); ++i) {
-    const uint32_t operand = sheet_edges_[i].operand;
-    if (i > 0 && sheet_edges_[i - 1].operand == operand) continue;
-    if (!spread(operand, out, first_loop)) return false;
-  }
-  return true;
-}
-
-bool FaceArrangement::spread(uint32_t operand, const CutLoops& out, uint32_t first_loop) {
-  const auto loops = static_cast<uint32_t>(out.loops.size()) - first_loop;
-  regions_.reset(loops);
-  for (uint32_t a = 0; a < arcs_.size(); ++a) {
-    const uint32_t left = loop_of_[2 * a], right = loop_of_[2 * a + 1];
-    if (left == kNone || right == kNone) continue;
-    const Part* parts = parts_.data() + arcs_[a].first_part;
-    if (std::none_of(parts, parts + arcs_[a].part_count,
-                     [&](const Part& p) { return lines_[p.line].operand == operand; })) {
-      regions_.join(left, right);
-    }
-  }
-  const auto is_covered = [](const CutLoops::Fact& f) { return f.front != f.back; };
-  const bool may_touch_itself = !job_.has_simple_edges(operand);
-  enum class Cover : uint8_t { kOpen, kNo, kYes };
-  std::vector<Cover> cover(loops, Cover::kOpen);
-  std::vector<CutLoops::Fact> state(loops, {operand, false, false});
-  for (const LoopFact& f : facts_) {
-    if (f.fact.operand != operand) continue;
-    const uint32_t r = regions_.find(f.loop);
-    // Where a covering sheet is touched from behind, that counts as little as what is behind it.
-    if (is_covered(f.fact)) {
-      cover[r] = Cover::kYes, state[r] = f.fact;
-    } else if (cover[r] == Cover::kOpen && (f.beside_coplanar || !may_touch_itself)) {
-      cover[r] = Cover::kNo;
-    }
-  }
-  for (uint32_t l = 0; l < loops; ++l) {
-    const uint32_t r = regions_.find(l);
-    if (cover[r] != Cover::kOpen) continue;
-    // No edge of a covering sheet is along the region: any of its points tells that is not on one.
-    const CutLoops::Loop& loop = out.loops[first_loop + l];
+/// Adds what coplanar sheets cover beyond what arcs say; false if that cannot be told.
+bool FaceArrangement::find_covered(const CutLoops& out, uint32_t first_loop) {
+  if (sheets_.empty()) return true;
+  loop_boxes_.clear();
+  for (uint32_t l = first_loop; l < out.loops.size(); ++l) {
+    const CutLoops::Loop& loop = out.loops[l];
+    SheetBox box;
     for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
-      const uint32_t point = out.corner_point[c];
-      if (std::any_of(stops_.begin(), stops_.end(), [&](const auto& stop) {
-            const Line& line = lines_[stop.first];
-            return stop.second == point && line.operand == operand && is_coplanar(line.kind);
-          })) {
-        continue;
-      }
-      const uint32_t sheet = sheet_at(operand, point);
-      cover[r] = sheet == kNone ? Cover::kNo : Cover::kYes;
-      const bool same = sheet != kNone && job_.polygons()[sheet].support == polygon_->support;
-      state[r] = {operand, !same, same};
-      break;
+      box.include(geometry_.point(out.corner_point[c]).rounded);
     }
+    loop_boxes_.push_back(box);
   }
-  std::erase_if(facts_, [&](const LoopFact& f) {
-    return f.fact.operand == operand && cover[regions_.find(f.loop)] == Cover::kYes;
-  });
-  for (uint32_t l = 0; l < loops; ++l) {
-    const uint32_t r = regions_.find(l);
-    if (cover[r] == Cover::kOpen) return false;
-    if (cover[r] == Cover::kYes) facts_.push_back({l, state[r]});
+  std::sort(facts_.begin(), facts_.end());
+  std::sort(sheets_.begin(), sheets_.end());
+  for (size_t begin = 0; begin < sheets_.size();) {
+    const uint32_t operand = job_.polygons()[sheets_[begin]].operand;
+    size_t end = begin;
+    SheetBox box;
+    for (; end < sheets_.size() && job_.polygons()[sheets_[end]].operand == operand; ++end) {
+      for (const uint32_t v : job_.corners(job_.polygons()[sheets_[end]])) {
+        box.include(job_.rounded(v));
+      }
+    }
+    // What is covered is within the box of what covers it, corner by corner.
+    for (uint32_t l = 0; l < loop_boxes_.size(); ++l) {
+      if (box.holds(loop_boxes_[l]) &&
+          !find_covered_loop(out.loops[first_loop + l], l, {sheets_.data() + begin, end - begin},
+                             out)) {
+        return false;
+      }
+    }
+    begin = end;
   }
+  facts_.insert(facts_.end(), covered_.begin(), covered_.end());
   return true;
 }
 
-uint32_t FaceArrangement::sheet_at(uint32_t operand, uint32_t point) {
-  for (const uint32_t q : sheets_) {
+/// The same for one loop and the sheets of one operand.
+bool FaceArrangement::find_covered_loop(const CutLoops::Loop& loop, uint32_t number,
+                                        std::span<const uint32_t> sheets, const CutLoops& out) {
+  const uint32_t operand = job_.polygons()[sheets[0]].operand;
+  const auto begin = std::lower_bound(facts_.begin(), facts_.end(),
+                                      LoopFact{number, {operand, false, false}, false});
+  for (auto f = begin; f != facts_.end() && f->loop == number && f->fact.operand == operand; ++f) {
+    // A sheet that ends there tells; so does any other, unless the operand may touch itself: then
+    // what touches a covering sheet from behind says as little as what is behind it.
+    const bool is_covered = f->fact.front != f->fact.back;
+    if (is_covered || f->beside_coplanar || job_.has_simple_edges(operand)) return true;
+  }
+  // No edge of a covering sheet is along the region: any of its points tells that is not on one.
+  for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
+    const uint32_t point = out.corner_point[c];
+    if (is_on_sheet_edge(operand, point)) continue;
+    const uint32_t sheet = sheet_at(sheets, point);
+    if (sheet == kNone) return true;
+    const bool same = job_.polygons()[sheet].support == polygon_->support;
+    covered_.push_back({number, {operand, !same, same}, false});
+    return true;
+  }
+  return false;
+}
+
+/// Whether a point is on an edge of the operand's coplanar sheets; lines have all points at which
+/// they meet others as stops.
+bool FaceArrangement::is_on_sheet_edge(uint32_t operand, uint32_t point) const {
+  // Lines of coplanar sheets come last, by ascending operands; stops are in the order of lines.
+  const auto first =
+      std::lower_bound(lines_.begin() + static_cast<long>(first_coplanar_line_), lines_.end(),
+                       operand, [](const Line& line, uint32_t o) { return line.operand < o; });
+  auto stop = std::lower_bound(
+      stops_.begin(), stops_.end(), static_cast<uint32_t>(first - lines_.begin()),
+      [](const std::pair<uint32_t, uint32_t>& s, uint32_t line) { return s.first < line; });
+  for (; stop != stops_.end() && lines_[stop->first].operand == operand; ++stop) {
+    if (stop->second == point) return true;
+  }
+  return false;
+}
+
+uint32_t FaceArrangement::sheet_at(std::span<const uint32_t> sheets, uint32_t point) {
+  for (const uint32_t q : sheets) {
     const JobPolygon& sheet = job_.polygons()[q];
-    if (sheet.operand != operand) continue;
     const auto planes = job_.edge_planes(sheet);
     if (std::all_of(planes.begin(), planes.end(), [&](uint32_t plane) {
           return geometry_.side(plane, point) * inner_sign(sheet, plane) >= 0;
@@ -390,7 +401,20 @@ bool FaceArrangement::write_facts(CutLoops& out, uint32_t first_loop) {
   for (uint32_t l = 0; first_loop + l < out.loops.size(); ++l) {
     CutLoops::Loop& loop = out.loops[first_loop + l];
     loop.first_fact = static_cast<uint32_t>(out.facts.size());
-    for (; at < facts_.size() && facts_[at].loop == l; ++at) out.facts.push_back(facts_[at].fact);
+    while (at < facts_.size() && facts_[at].loop == l) {
+      // Of an operand that covers the region, only that counts.
+      size_t end = at;
+      bool is_covered = false;
+      for (; end < facts_.size() && facts_[end].loop == l &&
+             facts_[end].fact.operand == facts_[at].fact.operand;
+           ++end) {
+        is_covered |= facts_[end].fact.front != facts_[end].fact.back;
+      }
+      for (; at < end; ++at) {
+        const CutLoops::Fact& fact = facts_[at].fact;
+        if (!is_covered || fact.front != fact.back) out.facts.push_back(fact);
+      }
+    }
     if (!out.finish_facts(loop)) return false;
   }
   return true;

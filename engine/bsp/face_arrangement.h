@@ -7,12 +7,14 @@
 // share an edge.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
 #include "engine/bsp/cut_polygon.h"
 #include "engine/bsp/point_index.h"
-#include "engine/bsp/union_find.h"
 
 namespace csgrun {
 
@@ -71,6 +73,17 @@ class FaceArrangement {
     bool operator==(const LoopFact&) const = default;
     auto operator<=>(const LoopFact&) const = default;
   };
+  struct SheetBox {
+    std::array<double, 3> lo{HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    void include(const std::array<double, 3>& p) {
+      for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], p[k]), hi[k] = std::max(hi[k], p[k]);
+    }
+    [[nodiscard]] bool holds(const SheetBox& o) const {
+      bool all = true;
+      for (int k = 0; k < 3; ++k) all &= lo[k] <= o.lo[k] && o.hi[k] <= hi[k];
+      return all;
+    }
+  };
   struct SheetEdge {  ///< of a coplanar sheet
     uint32_t operand, low, high;
     uint32_t sheet, edge;
@@ -91,11 +104,13 @@ class FaceArrangement {
   void sort_around_points();
   bool trace(CutLoops& out);
   bool add_facts(uint32_t half, uint32_t loop);
-  bool spread_coplanar(const CutLoops& out, uint32_t first_loop);
-  bool spread(uint32_t operand, const CutLoops& out, uint32_t first_loop);
+  bool find_covered(const CutLoops& out, uint32_t first_loop);
+  bool find_covered_loop(const CutLoops::Loop& loop, uint32_t number,
+                         std::span<const uint32_t> sheets, const CutLoops& out);
+  [[nodiscard]] bool is_on_sheet_edge(uint32_t operand, uint32_t point) const;
   bool write_facts(CutLoops& out, uint32_t first_loop);
-  /// A coplanar sheet of an operand that holds a point, or kNone.
-  uint32_t sheet_at(uint32_t operand, uint32_t point);
+  /// The first of the sheets that holds a point, or kNone.
+  uint32_t sheet_at(std::span<const uint32_t> sheets, uint32_t point);
   bool is_convex_edge(uint32_t p, uint32_t q);
   [[nodiscard]] bool is_outer(uint32_t half) const;
   [[nodiscard]] uint32_t from(uint32_t half) const {
@@ -121,7 +136,9 @@ class FaceArrangement {
   std::vector<LoopFact> facts_;
   std::vector<uint32_t> sheets_;  ///< coplanar ones that are not clearly apart
   std::vector<SheetEdge> sheet_edges_;
-  UnionFind regions_;  ///< of loops
+  size_t first_coplanar_line_ = 0;
+  std::vector<SheetBox> loop_boxes_;
+  std::vector<LoopFact> covered_;  ///< not told by arcs
 };
 
 }  // namespace csgrun
