@@ -10,6 +10,7 @@ A mutant that no test notices must stand in explained.txt with the reason; other
 """
 import argparse
 import concurrent.futures
+import hashlib
 import json
 import math
 import os
@@ -26,6 +27,7 @@ import instrument
 ROOT = Path(__file__).resolve().parents[2]
 WORK = ROOT / "build" / "mutate"
 SOURCE, BUILD = WORK / "source", WORK / "build"
+NOTICED = WORK / "noticed.jsonl"  # kept from run to run, for --resume
 EXPLAINED = Path(__file__).with_name("explained.txt")
 MUTATED = ("engine/exact", "engine/bsp")
 PARTS = ("CMakeLists.txt", "engine", "primitives", "tests/CMakeLists.txt", "tests/unit", "tests/property",
@@ -194,11 +196,25 @@ def read_explained():
     return explained
 
 
+def source_hash(name):
+    return hashlib.sha256((ROOT / name).read_bytes()).hexdigest()
+
+
+def read_noticed():
+    """By key of a mutant that was noticed: the hash of its file then."""
+    if not NOTICED.exists():
+        return {}
+    return dict(json.loads(line) for line in NOTICED.read_text().splitlines())
+
+
 def choose(mutants, arguments, explained):
     chosen = [m for m in mutants if arguments.only in m.key]
     if arguments.again:
         survived = set(json.loads((WORK / "survivors.json").read_text()))
         chosen = [m for m in chosen if m.key in survived]
+    if arguments.resume:
+        before = read_noticed()
+        chosen = [m for m in chosen if before.get(m.key) != source_hash(m.file)]
     if not arguments.explained:
         chosen = [m for m in chosen if m.key not in explained]
     if arguments.count and arguments.count < len(chosen):
@@ -211,6 +227,8 @@ def parse_arguments():
     parser.add_argument("count", type=int, nargs="?", help="try so many, evenly spread (default: all)")
     parser.add_argument("--only", default="", metavar="TEXT", help="those whose `file: line` has TEXT")
     parser.add_argument("--again", action="store_true", help="those that survived the last run")
+    parser.add_argument("--resume", action="store_true",
+                        help="leave out what earlier runs noticed, in files that are the same since")
     parser.add_argument("--quick", type=float, default=math.inf, metavar="SECONDS",
                         help="leave out tests that take longer, and the thorough ones")
     parser.add_argument("--explained", action="store_true", help="try the explained ones too")
@@ -251,6 +269,8 @@ def main():
     for done, (mutant, how, stage) in enumerate(pool.map(try_one, chosen), 1):
         if how:
             noticed.setdefault((stage.executable, how), []).append(mutant)
+            with NOTICED.open("a") as record:
+                record.write(json.dumps([mutant.key, source_hash(mutant.file)]) + "\n")
             if mutant.key in explained:
                 print(f"explained, but noticed by {stage.name}: {mutant.key}")
         elif mutant.key not in explained:

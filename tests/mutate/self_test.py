@@ -1,5 +1,7 @@
 """The mutation check checked: each kind of mutant is found in a sample, compiled, and makes the sample
 give another answer; without a mutant it gives its own. And the kernel's sources can be read."""
+import argparse
+import json
 import os
 import subprocess
 import sys
@@ -116,7 +118,21 @@ def answer(program, **environment):
     return run.stdout if run.returncode == 0 else run.returncode
 
 
+def check_resuming():
+    """What was noticed is left out while its file is the same."""
+    name = "engine/bsp/job.cpp"
+    same, changed, new = (instrument.Mutant(name, 1, text) for text in ("a", "b", "c"))
+    with tempfile.TemporaryDirectory() as folder:
+        kept, mutate.NOTICED = mutate.NOTICED, Path(folder, "noticed")
+        mutate.NOTICED.write_text(json.dumps([same.key, mutate.source_hash(name)]) + "\n" +
+                                  json.dumps([changed.key, "another"]) + "\n")
+        arguments = argparse.Namespace(only="", again=False, resume=True, explained=False, count=None)
+        assert mutate.choose([same, changed, new], arguments, {}) == [changed, new]
+        mutate.NOTICED = kept
+
+
 def main():
+    check_resuming()
     sample = instrument.Instrumenter("sample.cpp", SAMPLE, 0)
     text = sample.run()
     texts = {m.text for m in sample.mutants}
