@@ -102,16 +102,21 @@ class UntouchedFaces {
   }
 
  private:
-  /// The common fate of the faces at each vertex; kMixed too where they are more than one fan.
+  /// The common fate of the faces at each vertex; kMixed too where they are more than one fan, and
+  /// where a facet may have no corner: one in several pieces, or with a straight corner.
   void look_at_vertices() {
     of_vertex_.assign(leaf_.vertices.size(), kUnseen);
     std::vector<uint32_t> some_corner(leaf_.vertices.size(), 0), faces(leaf_.vertices.size(), 0);
     for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
+      const bool has_corners =
+          !keeps_facets_ ||
+          (leaf_.face_starts[f + 1] - leaf_.face_starts[f] == 3 && is_own_facet(leaf_, f));
+      const uint8_t fate = has_corners ? fate_[f] : static_cast<uint8_t>(kMixed);
       for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
         const uint32_t v = leaf_.corners[c];
         if (of_vertex_[v] == kUnseen) {
-          of_vertex_[v] = fate_[f];
-        } else if (of_vertex_[v] != fate_[f]) {
+          of_vertex_[v] = fate;
+        } else if (of_vertex_[v] != fate) {
           of_vertex_[v] = kMixed;
         }
         some_corner[v] = c;
