@@ -49,7 +49,13 @@ class Assembler {
     mesh->may_touch = touching.anywhere || !touching.boxes.empty();
     if (!touching.anywhere) mesh->touches = std::move(touching.boxes);
     for (UntouchedPart& part : parts) {
-      for (UntouchedPart::Shared& s : part.shared) s.point = number[vertex_number_[s.point]];
+      for (UntouchedPart::Shared& s : part.shared) {
+        const uint32_t point = s.point < vertex_number_.size() ? vertex_number_[s.point] : kNone;
+        if (point == kNone || number[point] == kNone) {
+          return Error{ErrorCode::kInternal, "an untouched face shares a corner with no other", {}};
+        }
+        s.point = number[point];
+      }
     }
     mesh->parts = std::move(parts);
     return std::shared_ptr<const BoundaryMesh>(std::move(mesh));

@@ -29,26 +29,9 @@ bool CellArrangement::build(CellGeometry& geometry, const Job& job, const CellBo
 int32_t CellArrangement::build_node(std::vector<Fragment> polygons) {
   if (polygons.empty()) return ~static_cast<int32_t>(leaf_count_++);
   const uint32_t plane = polygons[choose_splitter(*geometry_, polygons)].support.index();
-  std::vector<Fragment> front, back;
+  auto [front, back, on] = part_polygons(*geometry_, polygons, plane);
   const auto first_covering = static_cast<uint32_t>(covering_.size());
-  for (const Fragment& f : polygons) {
-    Fragment a, b;
-    switch (geometry_->split(f, plane, a, b)) {
-      case Side::kFront:
-        front.push_back(f);
-        break;
-      case Side::kBack:
-        back.push_back(f);
-        break;
-      case Side::kSplit:
-        front.push_back(a);
-        back.push_back(b);
-        break;
-      case Side::kOn:
-        covering_.push_back(f);
-        break;
-    }
-  }
+  covering_.insert(covering_.end(), on.begin(), on.end());
   polygons = {};
   const auto index = static_cast<int32_t>(nodes_.size());
   nodes_.push_back({plane, 0, 0, first_covering,

@@ -1,4 +1,4 @@
-// Pieces of result boundary on their way from the cells to the assembled mesh.
+// Pieces of result boundary on their way from where they are cut to the assembled mesh.
 #pragma once
 
 #include <algorithm>

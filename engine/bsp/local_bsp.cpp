@@ -38,6 +38,30 @@ size_t choose_splitter(CellGeometry& geometry, const std::vector<Fragment>& poly
   return best;
 }
 
+PartedPolygons part_polygons(CellGeometry& geometry, const std::vector<Fragment>& polygons,
+                             uint32_t plane) {
+  PartedPolygons parted;
+  for (const Fragment& f : polygons) {
+    Fragment a, b;
+    switch (geometry.split(f, plane, a, b)) {
+      case Side::kFront:
+        parted.front.push_back(f);
+        break;
+      case Side::kBack:
+        parted.back.push_back(f);
+        break;
+      case Side::kSplit:
+        parted.front.push_back(a);
+        parted.back.push_back(b);
+        break;
+      case Side::kOn:
+        parted.on.push_back(f);
+        break;
+    }
+  }
+  return parted;
+}
+
 void LocalBsp::build(CellGeometry& geometry, const std::vector<Fragment>& polygons,
                      bool corner_inside) {
   nodes_.clear();
@@ -46,24 +70,7 @@ void LocalBsp::build(CellGeometry& geometry, const std::vector<Fragment>& polygo
 
 int32_t LocalBsp::build_node(CellGeometry& geometry, std::vector<Fragment> polygons) {
   const PlaneId chosen = polygons[choose_splitter(geometry, polygons)].support;
-  std::vector<Fragment> front, back;
-  for (const Fragment& f : polygons) {
-    Fragment a, b;
-    switch (geometry.split(f, chosen.index(), a, b)) {
-      case Side::kFront:
-        front.push_back(f);
-        break;
-      case Side::kBack:
-        back.push_back(f);
-        break;
-      case Side::kSplit:
-        front.push_back(a);
-        back.push_back(b);
-        break;
-      case Side::kOn:
-        break;
-    }
-  }
+  auto [front, back, on] = part_polygons(geometry, polygons, chosen.index());
   polygons = {};
   const auto index = static_cast<int32_t>(nodes_.size());
   nodes_.push_back({chosen.index(), kOutside, kInside});

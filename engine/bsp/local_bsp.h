@@ -14,6 +14,13 @@ namespace csgrun {
 /// others and halves the rest best.
 size_t choose_splitter(CellGeometry& geometry, const std::vector<Fragment>& polygons);
 
+/// Polygons of a cell on either side of a plane, cut by it where they cross it, and in it.
+struct PartedPolygons {
+  std::vector<Fragment> front, back, on;
+};
+PartedPolygons part_polygons(CellGeometry& geometry, const std::vector<Fragment>& polygons,
+                             uint32_t plane);
+
 class LocalBsp {
  public:
   static constexpr int32_t kOutside = -1, kInside = -2;

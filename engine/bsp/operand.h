@@ -86,7 +86,7 @@ struct KernelOptions {
   uint32_t cell_limit = 17;
   std::array<uint32_t, 3> octree_shift{0, 0, 0};
   bool literal_cells = false;
-  bool whole_faces = true;  ///< what meets no zero sign goes the fast way (whole_faces.h)
+  bool whole_faces = true;  ///< cut faces whole (whole_faces.h); false: cells for all
   /// Faces of leaves that nothing touched are named instead of spelled out (BoundaryMesh::parts).
   bool name_untouched = false;
   const std::atomic<bool>* cancel = nullptr;

@@ -26,6 +26,7 @@ void for_each_run(size_t runs, const KernelOptions& options, Make&& make, Work&&
   const auto cancelled = [&] {
     return options.cancel && options.cancel->load(std::memory_order_relaxed);
   };
+  if (runs == 0) return;
   if (options.threads <= 1 || runs <= 1) {
     auto solver = make();
     for (size_t run = 0; run < runs && !cancelled(); ++run) {

@@ -121,7 +121,7 @@ class FaceEvaluator {
       if (!is_met && untouched_corner(p) != kNone) continue;
       const bool plain = list_segments(p);
       if (segments_.empty() && coplanar_.empty() && untouched_corner(p) != kNone) continue;
-      if (p % 64 == 0 && is_cancelled()) return false;
+      if (cut_.size() % 64 == 0 && is_cancelled()) return false;
       job_.ensure_planes(p);
       const auto loops = static_cast<uint32_t>(loops_.loops.size());
       is_cut_[p] = 1;

@@ -34,7 +34,7 @@ struct EvaluateOptions {
   uint32_t cell_limit = 17;  ///< m of Campen & Kobbelt 2010, section 4.1
   std::array<uint32_t, 3> octree_shift{0, 0, 0};
   bool literal_cells = false;  ///< labelled BSPs merged and extracted, as the paper has it
-  bool whole_faces = true;     ///< cut faces by names where no sign is zero; false: cells for all
+  bool whole_faces = true;     ///< cut faces whole, by names; false: cell by cell
   /// Solids that touch in an edge: false keeps them apart, true joins them through the edge. Either
   /// way the result is a manifold by index (Campen & Kobbelt 2010, chapter 7).
   bool join_contacts = false;
