@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/bsp/piece_store.h"
 #include "engine/bsp/ray_label.h"
 
 namespace csgrun {
@@ -15,6 +16,10 @@ PatchLabels::PatchLabels(const Job& job, const Expression& expression)
   boxes_.assign(job.operand_count(), {{hi, hi, hi}, {lo, lo, lo}});
   for (uint32_t o = 0; o < job.operand_count(); ++o) {
     PolygonBox& box = boxes_[o];
+    if (const PieceOperand* all = job.pieces(o)) {
+      if (all->pieces.size() > 0) box = rounded_outwards(all->pieces.box());
+      continue;
+    }
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
       for (int k = 0; k < 3; ++k) {
         box.lo[k] = std::min(box.lo[k], job.boxes()[p].lo[k]);

@@ -1,0 +1,18 @@
+// The volume of a result in pieces: what two versions share is summed once.
+#pragma once
+
+#include <optional>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/evaluate.h>
+
+#include "engine/bsp/result_pieces.h"
+
+namespace csgrun {
+
+/// The exact volume in mm^3, rounded once, as boundary_volume gives it. Nodes of the tree keep
+/// their sums: the time is that for the pieces whose sums nobody has asked for before, and O(n)
+/// only when the sums leave more than one double. Errors: kInternal.
+Result<double> pieces_volume(const ResultPieces& pieces, const GridStep& step);
+
+}  // namespace csgrun
