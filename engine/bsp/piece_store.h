@@ -78,6 +78,17 @@ class PieceStore {
   /// Where sums over pieces take points from: a grid point near them.
   [[nodiscard]] const IVec3& origin() const { return origin_; }
 
+  /// A point relative to the origin, cut to 64 fractional bits, for those who sum over pieces
+  /// (mesh/pieces_volume), who put it there.
+  struct CutPoint {
+    std::array<Int<2>, 3> at;
+    bool is_known = false, is_cut = false;
+  };
+  CutPoint& cut_point(uint32_t point) {
+    cut_points_.resize(rounded_.size());
+    return cut_points_[point];
+  }
+
   /// Room for a number per point, all kNone; whoever takes it leaves it so.
   std::vector<uint32_t>& scratch() {
     scratch_.resize(rounded_.size(), kNoNumber);
@@ -95,6 +106,7 @@ class PieceStore {
   std::vector<PieceBox> boxes_;
   std::vector<uint32_t> corners_, edges_;
   std::vector<uint32_t> scratch_;
+  std::vector<CutPoint> cut_points_;
   IVec3 origin_{0, 0, 0};
 };
 

@@ -25,6 +25,7 @@ PieceTree::NodePtr PieceTree::build(std::span<Item> items) {
   if (items.size() <= kLeafSize) {
     auto leaf = std::make_shared<Node>();
     leaf->count = static_cast<uint32_t>(items.size());
+    leaf->pieces.reserve(items.size());
     for (const Item& item : items) {
       leaf->pieces.push_back(item.piece);
       leaf->box.add(item.box);

@@ -131,6 +131,21 @@ class PieceWriter {
     }
   }
 
+  /// A polygon of the job, seen from one side of its plane.
+  Fragment cell_of(uint32_t polygon, PlaneId plane) {
+    const JobPolygon& p = job_.polygons()[polygon];
+    const auto corners = job_.corners(p);
+    const auto edges = job_.edge_planes(p);
+    const bool flip = plane != p.support;
+    cell_points_.clear();
+    cell_edges_.clear();
+    for (uint32_t i = 0; i < p.count; ++i) {
+      cell_points_.push_back(geometry_.vertex_point(corners[flip ? p.count - 1 - i : i]));
+      cell_edges_.push_back(edges[flip ? (2 * p.count - 2 - i) % p.count : i]);
+    }
+    return geometry_.make_fragment(plane, cell_points_, cell_edges_);
+  }
+
   /// What is left of a polygon on one side of its plane, given by edges_.
   bool add_region(uint32_t polygon, PlaneId plane, bool is_simple) {
     std::vector<DirectedEdge>* outline = &edges_;
@@ -141,7 +156,8 @@ class PieceWriter {
     boundary_.clear();
     for (const DirectedEdge& e : *outline) boundary_.push_back({e.from, e.to, e.plane});
     fragments_.clear();
-    convexify(geometry_, job_.planes(), plane, boundary_, wall_of_, fragments_);
+    convexify_within(geometry_, job_.planes(), cell_of(polygon, plane), boundary_, wall_of_,
+                     fragments_);
     PieceStore::Piece piece = origin_of(polygon);
     piece.is_whole = false;
     // (Of a polygon in pieces the job has the support as the piece has it.)
@@ -173,6 +189,7 @@ class PieceWriter {
   std::vector<BoundaryEdge> boundary_;
   std::vector<Fragment> fragments_;
   RegionLoops loops_;
+  std::vector<uint32_t> cell_points_, cell_edges_;
 };
 
 Error not_closed() {

@@ -56,7 +56,12 @@ class Conformer {
     std::sort(contacts_.begin(), contacts_.end());
     contacts_.erase(std::unique(contacts_.begin(), contacts_.end()), contacts_.end());
     break_edges();
-    for (const uint32_t f : lying_faces_) find_slits(f);
+    std::vector<Box> at_contacts;
+    for (const uint32_t p : contacts_) {
+      at_contacts.push_back({geometry_.point(p).rounded, geometry_.point(p).rounded});
+    }
+    const BoxTree contact_tree(at_contacts);
+    for (const uint32_t f : lying_faces_) find_slits(f, contact_tree);
     find_points();
   }
 
@@ -399,12 +404,12 @@ class Conformer {
   }
 
   /// The parts of lying edges that are inside their face.
-  void find_slits(uint32_t f) {
+  void find_slits(uint32_t f, const BoxTree& contact_tree) {
     MergedFace& face = faces_[f];
     std::vector<uint32_t> points;
-    for (const uint32_t p : contacts_) {
-      if (in_box(f, p) && geometry_.side(face.plane.index(), p) == 0) points.push_back(p);
-    }
+    contact_tree.visit_all(face_boxes_[f], [&](uint32_t c) {
+      if (geometry_.side(face.plane.index(), contacts_[c]) == 0) points.push_back(contacts_[c]);
+    });
     for (const auto& loop : face.loops) {
       for (const DirectedEdge& e : loop) points.push_back(e.from);
     }

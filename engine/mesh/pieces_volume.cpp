@@ -21,7 +21,7 @@ using Fixed = std::array<Int<2>, 3>;
 
 class Summer {
  public:
-  explicit Summer(const PieceStore& store) : store_(store) {}
+  explicit Summer(PieceStore& store) : store_(store) {}
 
   /// The sums below a node; false when a point is out of range.
   bool sums(const PieceTree::Node& node, PieceSums& result) {
@@ -94,17 +94,29 @@ class Summer {
     return true;
   }
 
-  bool take(uint32_t point, Fixed& fixed, bool& cut) const {
+  /// Where a point is, cut to the fraction; the store keeps it.
+  bool take(uint32_t point, Fixed& fixed, bool& cut) {
+    PieceStore::CutPoint& known = store_.cut_point(point);
+    if (!known.is_known) {
+      if (!find(point, known)) return false;
+      known.is_known = true;
+    }
+    fixed = known.at;
+    cut = cut || known.is_cut;
+    return true;
+  }
+
+  bool find(uint32_t point, PieceStore::CutPoint& found) const {
     const Point p = store_.exact(point);
     for (int k = 0; k < 3; ++k) {
       const auto axis = static_cast<size_t>(k);
-      if (!fixed_point<1>(coordinate(p, k), p.w, fixed[axis], cut)) return false;
-      fixed[axis] -= Int<2>(store_.origin()[axis]).shifted_left(kFraction);
+      if (!fixed_point<1>(coordinate(p, k), p.w, found.at[axis], found.is_cut)) return false;
+      found.at[axis] -= Int<2>(store_.origin()[axis]).shifted_left(kFraction);
     }
     return true;
   }
 
-  const PieceStore& store_;
+  PieceStore& store_;
   std::vector<Near> near_;
   std::vector<Fixed> fixed_;
 };
