@@ -79,7 +79,7 @@ class PieceStore {
   [[nodiscard]] const IVec3& origin() const { return origin_; }
 
   /// A point relative to the origin, cut to 64 fractional bits, for those who sum over pieces
-  /// (mesh/pieces_volume), who put it there.
+  /// (mesh/pieces_measures), who put it there.
   struct CutPoint {
     std::array<Int<2>, 3> at;
     bool is_known = false, is_cut = false;

@@ -42,7 +42,7 @@ struct PieceBox {
   }
 };
 
-/// What adds up over pieces, without rounding: parts of a volume (mesh/pieces_volume). Points are
+/// What adds up over pieces, without rounding: parts of a volume (mesh/pieces_measures). Points are
 /// cut to 64 fractional bits and taken relative to the store's origin.
 struct PieceSums {
   Int<6> six_volumes;      ///< sum of the determinants of the cut points, * 2^-192
@@ -61,6 +61,9 @@ class PieceTree {
     std::vector<uint32_t> pieces;  ///< of a leaf
     mutable bool has_sums = false;
     mutable PieceSums sums;  ///< of the pieces below, when somebody asked
+    mutable bool has_extent = false;
+    /// The least and the greatest coordinates in mm, when somebody asked.
+    mutable std::array<std::array<double, 3>, 2> extent{};
   };
   using NodePtr = std::shared_ptr<const Node>;
 

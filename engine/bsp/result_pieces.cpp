@@ -205,6 +205,12 @@ Expression renumbered(Expression expression, Number&& number) {
   return expression;
 }
 
+/// Bytes of the store and the tree for pieces and points that are new.
+size_t bytes_of(size_t pieces, size_t points) {
+  constexpr size_t kPiece = 300, kPoint = 250;  // with their planes and their share of nodes
+  return sizeof(ResultPieces) + pieces * kPiece + points * kPoint;
+}
+
 enum class Outside : uint8_t { kKept, kDropped, kTurned };
 
 /// What becomes of an operand where it is outside all others.
@@ -232,6 +238,7 @@ Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& operands,
   for (const WholePolygon& w : evaluated->whole) writer.add_whole(w);
   if (!writer.add_cut(evaluated->sets)) return not_closed();
   result->touching = std::move(evaluated->touching);
+  result->bytes = bytes_of(store.piece_count(), store.point_count());
   result->tree = PieceTree().changed(
       {}, [](uint32_t) { return false; }, std::move(writer.added),
       [&](uint32_t p) -> const PieceBox& { return store.box(p); });
@@ -264,6 +271,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
     return evaluate_pieces(operands, expression, region, options, stats);
   }
 
+  const size_t pieces_before = store.piece_count(), points_before = store.point_count();
   PieceWriter writer(job, operands, store);
   if (!writer.add_operands()) return PiecesPtr();
   const uint32_t first = job.polygon_start(own);
@@ -282,6 +290,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
 
   auto result = std::make_shared<ResultPieces>();
   result->store = version.store;
+  result->bytes = bytes_of(store.piece_count() - pieces_before, store.point_count() - points_before);
   result->touching = version.touching;
   Touching more = touching_before(others);
   result->touching.anywhere |= more.anywhere;

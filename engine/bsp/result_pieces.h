@@ -23,6 +23,7 @@ struct ResultPieces {
   std::shared_ptr<PieceStore> store;
   PieceTree tree;
   Touching touching;
+  size_t bytes = 0;  ///< about what this version has that the one before had not
 };
 using PiecesPtr = std::shared_ptr<const ResultPieces>;
 

@@ -15,7 +15,7 @@
 #include <csgrun/engine/evaluate.h>
 
 #include "engine/bsp/kernel.h"
-#include "engine/mesh/pieces_volume.h"
+#include "engine/mesh/pieces_measures.h"
 #include "tests/bench/exact_workloads.h"
 #include "tests/bench/hull_workloads.h"
 #include "tests/bench/models.h"

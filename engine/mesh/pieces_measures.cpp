@@ -3,7 +3,7 @@
 // corner of det(a, b, c) = a . (b - a) x (c - a) moves by less than u along each axis: the
 // determinant changes by less than u N + 12 u M L + 24 u^2 M, with N the sum of the normal's
 // coordinates, L the sum of the two edges' greatest coordinates, and M the extent.
-#include "engine/mesh/pieces_volume.h"
+#include "engine/mesh/pieces_measures.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +12,7 @@
 #include "engine/mesh/boundary_volume.h"
 #include "engine/mesh/fixed_sums.h"
 #include "engine/mesh/measure.h"
+#include "engine/mesh/to_millimetres.h"
 
 namespace csgrun {
 namespace {
@@ -121,6 +122,39 @@ class Summer {
   std::vector<Fixed> fixed_;
 };
 
+/// Finds the extent of a node.
+void find_extent(const PieceTree::Node& node, const PieceStore& store,
+                 const ToMillimetres& to_millimetres) {
+  if (node.has_extent) return;
+  node.has_extent = true;
+  node.extent[0].fill(HUGE_VAL);
+  node.extent[1].fill(-HUGE_VAL);
+  const auto add = [&](size_t axis, double lo, double hi) {
+    node.extent[0][axis] = std::min(node.extent[0][axis], lo);
+    node.extent[1][axis] = std::max(node.extent[1][axis], hi);
+  };
+  for (const PieceTree::NodePtr& child : node.child) {
+    if (!child) continue;
+    find_extent(*child, store, to_millimetres);
+    for (size_t k = 0; k < 3; ++k) add(k, child->extent[0][k], child->extent[1][k]);
+  }
+  for (const uint32_t piece : node.pieces) {
+    for (const uint32_t p : store.corners(piece)) {
+      // Rounding is monotone: what is furthest has the furthest rounded coordinate.
+      const auto& at = store.rounded(p);
+      std::array<bool, 3> is_end{};
+      for (size_t k = 0; k < 3; ++k) is_end[k] = at[k] == node.box.lo[k] || at[k] == node.box.hi[k];
+      if (!is_end[0] && !is_end[1] && !is_end[2]) continue;
+      glm::dvec3 mm;
+      std::array<float, 3> single{};
+      to_millimetres.position(store.exact(p), mm, single);
+      for (size_t k = 0; k < 3; ++k) {
+        if (is_end[k]) add(k, mm[static_cast<int>(k)], mm[static_cast<int>(k)]);
+      }
+    }
+  }
+}
+
 /// x * 2^shift as a whole number that is no less.
 Natural whole_above(double x, int shift) {
   int exponent = 0;
@@ -157,6 +191,15 @@ Result<double> pieces_volume(const ResultPieces& pieces, const GridStep& step) {
   auto boundary = assemble_pieces(pieces, false);
   if (!boundary) return boundary.error();
   return boundary_volume(**boundary, step);
+}
+
+std::optional<std::array<glm::dvec3, 2>> pieces_box(const ResultPieces& pieces,
+                                                    const GridStep& step) {
+  const PieceTree::NodePtr& root = pieces.tree.root();
+  if (!root) return std::nullopt;
+  find_extent(*root, *pieces.store, ToMillimetres(step));
+  const auto point = [](const std::array<double, 3>& p) { return glm::dvec3(p[0], p[1], p[2]); };
+  return std::array{point(root->extent[0]), point(root->extent[1])};
 }
 
 }  // namespace csgrun

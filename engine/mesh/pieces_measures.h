@@ -1,7 +1,10 @@
-// The volume of a result in pieces: what two versions share is summed once.
+// Volume and bounding box of a result in pieces: what two versions share is summed once.
 #pragma once
 
+#include <array>
 #include <optional>
+
+#include <glm/vec3.hpp>
 
 #include <csgrun/engine/error.h>
 #include <csgrun/engine/evaluate.h>
@@ -14,5 +17,10 @@ namespace csgrun {
 /// their sums: the time is that for the pieces whose sums nobody has asked for before, and O(n)
 /// only when the sums leave more than one double. Errors: kInternal.
 Result<double> pieces_volume(const ResultPieces& pieces, const GridStep& step);
+
+/// The least and the greatest coordinates in mm, as the corners of the presented solid have them;
+/// nothing of an empty one. Nodes of the tree keep theirs: a store serves one step.
+std::optional<std::array<glm::dvec3, 2>> pieces_box(const ResultPieces& pieces,
+                                                    const GridStep& step);
 
 }  // namespace csgrun
