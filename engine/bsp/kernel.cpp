@@ -4,6 +4,7 @@
 
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/cell_solver.h"
+#include "engine/bsp/evaluate_boxes.h"
 #include "engine/bsp/literal_cell.h"
 #include "engine/bsp/octree.h"
 #include "engine/bsp/parallel_runs.h"
@@ -111,11 +112,18 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
                                                              const GridBox& region,
                                                              const KernelOptions& options,
                                                              EvaluateStats& stats) {
+  const bool is_fast = options.whole_faces && !options.literal_cells;
+  if (is_fast) {
+    if (auto boxes = evaluate_boxes(operands, expression, options, stats)) {
+      if (!*boxes) return boxes->error();
+      keep_few((**boxes)->touches);
+      return std::shared_ptr<const BoundaryMesh>(std::move(**boxes));
+    }
+  }
   Job job(operands);
   const auto cancelled = [&] {
     return options.cancel && options.cancel->load(std::memory_order_relaxed);
   };
-  const bool is_fast = options.whole_faces && !options.literal_cells;
   WholeFaces faces;
   if (is_fast) {
     auto evaluated = evaluate_whole_faces(job, expression, first_half(options), stats);
