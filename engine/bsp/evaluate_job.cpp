@@ -69,9 +69,7 @@ KernelOptions second_half(KernelOptions options) {
 
 }  // namespace
 
-void add_touching(Touching& touching, const std::vector<GridBox>& more) {
-  std::vector<GridBox>& boxes = touching.boxes;
-  boxes.insert(boxes.end(), more.begin(), more.end());
+void keep_few(std::vector<GridBox>& boxes) {
   constexpr size_t kMost = 4096;
   while (boxes.size() > kMost) {
     size_t kept = 0;
@@ -86,6 +84,11 @@ void add_touching(Touching& touching, const std::vector<GridBox>& more) {
     }
     boxes.resize(kept);
   }
+}
+
+void add_touching(Touching& touching, const std::vector<GridBox>& more) {
+  touching.boxes.insert(touching.boxes.end(), more.begin(), more.end());
+  keep_few(touching.boxes);
 }
 
 Touching touching_before(const std::vector<Operand>& operands) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/bsp/assemble.h"
+#include "engine/bsp/evaluate_boxes.h"
 #include "engine/bsp/evaluate_job.h"
 #include "engine/bsp/untouched.h"
 
@@ -13,6 +14,13 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
                                                              const GridBox& region,
                                                              const KernelOptions& options,
                                                              EvaluateStats& stats) {
+  if (options.whole_faces && !options.literal_cells) {
+    if (auto boxes = evaluate_boxes(operands, expression, options, stats)) {
+      if (!*boxes) return boxes->error();
+      keep_few((**boxes)->touches);
+      return std::shared_ptr<const BoundaryMesh>(std::move(**boxes));
+    }
+  }
   Job job(operands);
   auto evaluated = evaluate_job(job, operands, expression, region, options, stats);
   if (!evaluated) return evaluated.error();

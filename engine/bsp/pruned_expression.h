@@ -46,6 +46,17 @@ class PrunedExpression {
   template <class Front, class Back>
   [[nodiscard]] Boundary boundary(Front&& front, Back&& back, std::vector<Boundary>& scratch) const;
 
+  /// The same for 64 points at once, a bit each: leaves in `words` what each node contains, the
+  /// root last. `value(operand)` is a word. REQUIRES: not kEmpty or kFull.
+  template <class Value>
+  void evaluate_words(Value&& value, std::vector<uint64_t>& words) const;
+  /// For words that evaluate_words has left: calls emit(operand, points) with those of the points
+  /// `asked` whose neighbour, `shift` bits on, is on the other side of the boundary, by the operand
+  /// that boundary() would name. REQUIRES: no symmetric difference.
+  template <class Emit>
+  void split_boundary(const std::vector<uint64_t>& words, int shift, uint64_t asked,
+                      std::vector<uint64_t>& scratch, Emit&& emit) const;
+
   /// Calls f(operand) for each operand mentioned (repeatedly if it occurs repeatedly).
   template <class F>
   void each_operand(F&& f) const {
@@ -162,6 +173,60 @@ Inside PrunedExpression::evaluate(ValueOf&& value, std::vector<Inside>& scratch)
     scratch[i] = n.complement ? negate(result) : result;
   }
   return scratch.back();
+}
+
+template <class ValueOf>
+void PrunedExpression::evaluate_words(ValueOf&& value, std::vector<uint64_t>& words) const {
+  words.resize(nodes_.size());
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& n = nodes_[i];
+    if (n.kind == Kind::kOperand) {
+      words[i] = value(n.operand);
+      continue;
+    }
+    const uint32_t* child = children_.data() + n.first_child;
+    uint64_t word = words[child[0]];
+    for (uint32_t c = 1; c < n.child_count; ++c) {
+      const uint64_t next = words[child[c]];
+      switch (n.kind) {
+        case Kind::kUnion:
+          word |= next;
+          break;
+        case Kind::kIntersection:
+          word &= next;
+          break;
+        case Kind::kDifference:
+          word &= ~next;
+          break;
+        default:
+          word ^= next;
+          break;
+      }
+    }
+    words[i] = n.complement ? ~word : word;
+  }
+}
+
+template <class Emit>
+void PrunedExpression::split_boundary(const std::vector<uint64_t>& words, int shift, uint64_t asked,
+                                      std::vector<uint64_t>& scratch, Emit&& emit) const {
+  const auto boundary_of = [&](size_t node) { return words[node] ^ (words[node] >> shift); };
+  scratch.resize(nodes_.size());
+  scratch.back() = asked & boundary_of(nodes_.size() - 1);
+  for (size_t i = nodes_.size(); i-- > 0;) {
+    const Node& n = nodes_[i];
+    uint64_t rest = scratch[i];
+    if (n.kind == Kind::kOperand) {
+      if (rest != 0) emit(n.operand, rest);
+      continue;
+    }
+    // The lowest child that has boundary there gives it.
+    for (uint32_t c = 0; c < n.child_count; ++c) {
+      const uint32_t child = children_[n.first_child + c];
+      scratch[child] = rest & boundary_of(child);
+      rest &= ~scratch[child];
+    }
+  }
 }
 
 template <class Front, class Back>

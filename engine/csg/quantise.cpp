@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/csg/convex_leaf.h"
+#include "engine/csg/flat_sides.h"
 #include "engine/csg/leaf_faces.h"
 #include "engine/mesh/convex_surface.h"
 #include "engine/mesh/leaf_check.h"
@@ -136,6 +137,8 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
     result.connected = check.connected;
   }
   leaf->may_touch = !result.crossings.empty();
+  // Facets that are kept as they are have no others of their label.
+  if (leaf->convex && !leaf->opposite.empty() && leaf->facet[0] == 0) join_flat_faces(*leaf);
   result.geometry = std::move(leaf);
   return result;
 }

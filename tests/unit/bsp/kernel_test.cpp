@@ -84,22 +84,25 @@ uint64_t signs(const EvaluateStats& s) {
   return std::accumulate(s.sign_exact.begin(), s.sign_exact.end(), s.sign_filter + s.sign_symbolic);
 }
 
-// Cells of two boxes, counted by hand.
+// Cells of two boxes, counted by hand. (A symmetric difference: others are decided on the lattice
+// of their planes, without such cells.)
 TEST(Kernel, WorkIsWhereSurfacesAreNearEachOther) {
   const auto box = [](const IVec3& lo, const IVec3& hi) { return test::box_leaf(lo, hi); };
   {
     // Twelve faces in one cell of up to 17.
     EvaluateStats s;
-    evaluate(tree_of(BooleanOp::kUnion, {box({0, 0, 0}, {4, 4, 4}), box({2, 2, 2}, {6, 6, 6})}), {},
-             s);
+    evaluate(tree_of(BooleanOp::kSymmetricDifference,
+                     {box({0, 0, 0}, {4, 4, 4}), box({2, 2, 2}, {6, 6, 6})}),
+             {}, s);
     EXPECT_EQ((std::vector<uint64_t>{s.cells, s.surface_cells, s.solved_cells, s.critical_cells}),
               (std::vector<uint64_t>{1, 1, 1, 1}));
   }
   {
     // Solved together, but they do not meet.
     EvaluateStats s;
-    evaluate(tree_of(BooleanOp::kUnion, {box({0, 0, 0}, {2, 2, 2}), box({4, 4, 4}, {6, 6, 6})}), {},
-             s);
+    evaluate(tree_of(BooleanOp::kSymmetricDifference,
+                     {box({0, 0, 0}, {2, 2, 2}), box({4, 4, 4}, {6, 6, 6})}),
+             {}, s);
     EXPECT_EQ((std::vector<uint64_t>{s.cells, s.surface_cells, s.solved_cells, s.critical_cells}),
               (std::vector<uint64_t>{1, 1, 1, 0}));
   }
@@ -111,7 +114,7 @@ TEST(Kernel, WorkIsWhereSurfacesAreNearEachOther) {
     KernelOptions options;
     options.cell_limit = 1;
     EvaluateStats s;
-    const Boundary result = evaluate(tree_of(BooleanOp::kUnion, leaves), options, s);
+    const Boundary result = evaluate(tree_of(BooleanOp::kSymmetricDifference, leaves), options, s);
     EXPECT_EQ(result->faces.size(), 96u);
     EXPECT_EQ(s.solved_cells, 0u);
     EXPECT_EQ(s.critical_cells, 0u);
@@ -123,7 +126,7 @@ TEST(Kernel, WorkIsWhereSurfacesAreNearEachOther) {
     // Holes in a block: all faces are copied, those of the tools turned over.
     leaves.insert(leaves.begin(), box({0, 0, 0}, {256, 16, 16}));
     s = {};
-    const Boundary less = evaluate(tree_of(BooleanOp::kDifference, leaves), options, s);
+    const Boundary less = evaluate(tree_of(BooleanOp::kSymmetricDifference, leaves), options, s);
     EXPECT_EQ(less->faces.size(), 102u);
     EXPECT_EQ(s.solved_cells, 0u);
     EXPECT_EQ(signs(s), 0u);
