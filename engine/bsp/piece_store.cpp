@@ -32,13 +32,8 @@ uint32_t PieceStore::add_operand(Job& job, const std::vector<Operand>& operands,
     point_planes_.push_back(job.vertex_planes(v));
   }
   point_operand_.resize(rounded_.size(), number);
-  faces_.emplace_back();
   const uint32_t first_polygon = job.polygon_start(o), end_polygon = job.polygon_start(o + 1);
-  if (operand.boundary) {
-    for (uint32_t p = first_polygon; p < end_polygon; ++p) {
-      faces_.back().push_back(job.polygons()[p].face);
-    }
-  } else if (!operand.frame.is_identity) {
+  if (operand.leaf && !operand.frame.is_identity) {
     for (uint32_t p = first_polygon; p < end_polygon; ++p) {
       job.ensure_planes(p);
       const JobPolygon& polygon = job.polygons()[p];
@@ -84,33 +79,46 @@ uint32_t PieceStore::add_piece(const Piece& piece) {
 
 FaceLabel PieceStore::label(uint32_t piece) const {
   const Piece& p = pieces_[piece];
-  const Operand& operand = operands_[p.operand];
-  if (operand.leaf) return label_of(operand, p.polygon);
-  return label_of(operand, faces_[p.operand][p.polygon]);
+  return label_of(operands_[p.operand], p.face);
 }
 
-void PieceStore::ensure_planes(uint32_t piece) {
+Plane PieceStore::plane_of_corners(uint32_t piece) const {
+  const Piece& p = pieces_[piece];
+  return support_of_loop(p.count, [&](uint32_t i) {
+    return on_grid(corners_[p.first + i % p.count]);
+  });
+}
+
+IVec3 PieceStore::on_grid(uint32_t point) const {
+  const auto& at = rounded_[point];
+  return {static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]), static_cast<int64_t>(at[2])};
+}
+
+PlaneId PieceStore::ensure_support(uint32_t piece) {
   Piece& p = pieces_[piece];
-  if (p.support.valid()) return;
-  const auto vertex = [&](uint32_t i) {
-    const auto& at = rounded_[corners_[p.first + i % p.count]];
-    return IVec3{static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]),
-                 static_cast<int64_t>(at[2])};
-  };
-  const Plane support = support_of_loop(p.count, vertex);
-  p.support = planes.intern(support);
-  const int axis = dominant_axis(support);
-  for (uint32_t i = 0; i < p.count; ++i) {
-    edges_[p.first + i] = planes.intern(edge_plane(vertex(i), vertex(i + 1), axis)).index();
+  if (!p.support.valid()) p.support = planes.intern(plane_of_corners(piece));
+  return p.support;
+}
+
+uint32_t PieceStore::ensure_edge(uint32_t piece, uint32_t edge) {
+  const Piece& p = pieces_[piece];
+  uint32_t& plane = edges_[p.first + edge];
+  if (plane == kNoNumber) {
+    const uint32_t next = edge + 1 < p.count ? edge + 1 : 0;
+    plane = planes
+                .intern(edge_plane(on_grid(corners_[p.first + edge]),
+                                   on_grid(corners_[p.first + next]),
+                                   dominant_axis(plane_of_corners(piece))))
+                .index();
   }
+  return plane;
 }
 
 Point PieceStore::exact(uint32_t point) const {
   const auto& t = point_planes_[point];
   if (t[0] != kNoNumber) return intersect(planes.plane(t[0]), planes.plane(t[1]), planes.plane(t[2]));
-  const auto& at = rounded_[point];
-  return grid_point(static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]),
-                    static_cast<int64_t>(at[2]));
+  const IVec3 at = on_grid(point);
+  return grid_point(at[0], at[1], at[2]);
 }
 
 }  // namespace csgrun

@@ -18,15 +18,15 @@ namespace csgrun {
 
 class PieceStore {
  public:
-  /// A piece of a polygon of an operand, oriented to the outside of the result. Its planes may not
+  /// A piece of a face of an operand, oriented to the outside of the result. Planes of it may not
   /// have been made yet if all its corners are grid points.
   struct Piece {
     uint32_t operand;       ///< number in the store
-    uint32_t polygon;       ///< of the operand, from 0, as a job numbers them
+    uint32_t face;          ///< of the operand, a leaf or a boundary
     uint32_t first, count;  ///< corners
-    PlaneId support;        ///< invalid until planes were made
-    bool is_whole;          ///< all of the polygon
-    bool is_flipped;        ///< runs the other way round than the polygon
+    PlaneId support;        ///< invalid until it was made
+    bool is_whole;          ///< all of a leaf's face
+    bool is_flipped;        ///< runs the other way round than the face
     bool is_met = false;    ///< another operand's surface touched it
   };
 
@@ -57,8 +57,9 @@ class PieceStore {
   [[nodiscard]] const PieceBox& box(uint32_t piece) const { return boxes_[piece]; }
   [[nodiscard]] FaceLabel label(uint32_t piece) const;
   void set_met(uint32_t piece) { pieces_[piece].is_met = true; }
-  /// Makes the support and the edge planes of a piece over grid points, if they were not made.
-  void ensure_planes(uint32_t piece);
+  /// Makes the support, or the plane of an edge, of a piece over grid points, if it was not made.
+  PlaneId ensure_support(uint32_t piece);
+  uint32_t ensure_edge(uint32_t piece, uint32_t edge);
 
   [[nodiscard]] size_t point_count() const { return rounded_.size(); }
   [[nodiscard]] const std::array<double, 3>& rounded(uint32_t point) const {
@@ -96,9 +97,11 @@ class PieceStore {
   }
 
  private:
+  [[nodiscard]] IVec3 on_grid(uint32_t point) const;
+  [[nodiscard]] Plane plane_of_corners(uint32_t piece) const;
+
   std::vector<Operand> operands_;
   std::vector<uint32_t> first_point_;
-  std::vector<std::vector<uint32_t>> faces_;  ///< per boundary operand: the face of each polygon
   std::vector<std::array<double, 3>> rounded_;
   std::vector<std::array<uint32_t, 3>> point_planes_;
   std::vector<uint32_t> point_operand_;

@@ -44,17 +44,15 @@ class PieceWriter {
     const auto corners = job_.corners(p);
     const auto edges = job_.edge_planes(p);
     PieceStore::Piece piece = origin_of(w.polygon);
-    piece.is_whole = piece.is_whole || number_[p.operand] != kNone;
+    piece.is_whole = piece.is_whole || operands_[p.operand].leaf;
     piece.is_flipped = piece.is_flipped != w.flip;
     piece.is_met = w.is_met;
     piece.first = static_cast<uint32_t>(store_.corners().size());
     piece.count = p.count;
-    const bool has_planes = p.support.valid();
-    if (has_planes) piece.support = w.flip ? p.support.flip() : p.support;
+    piece.support = p.support.valid() && w.flip ? p.support.flip() : p.support;
     for (uint32_t i = 0; i < p.count; ++i) {
       store_.corners().push_back(store_vertex(corners[w.flip ? p.count - 1 - i : i]));
-      store_.edges().push_back(
-          !has_planes ? kNone : edges[w.flip ? (2 * p.count - 2 - i) % p.count : i]);
+      store_.edges().push_back(edges[w.flip ? (2 * p.count - 2 - i) % p.count : i]);
     }
     added.push_back(store_.add_piece(piece));
   }
@@ -98,7 +96,7 @@ class PieceWriter {
   PieceStore::Piece origin_of(uint32_t polygon) const {
     const uint32_t o = job_.polygons()[polygon].operand;
     if (number_[o] == kNone) return store_.piece(job_.piece(polygon));
-    return {number_[o], polygon - job_.polygon_start(o), 0, 0, PlaneId(), false, false};
+    return {number_[o], job_.polygons()[polygon].face, 0, 0, PlaneId(), false, false};
   }
 
   uint32_t store_vertex(uint32_t vertex) {
@@ -153,6 +151,7 @@ class PieceWriter {
       if (!regions_.build(plane, edges_, loops_)) return false;
       outline = &loops_.edges;
     }
+    job_.ensure_planes(polygon);
     boundary_.clear();
     for (const DirectedEdge& e : *outline) boundary_.push_back({e.from, e.to, e.plane});
     fragments_.clear();
@@ -209,6 +208,24 @@ Expression renumbered(Expression expression, Number&& number) {
 size_t bytes_of(size_t pieces, size_t points) {
   constexpr size_t kPiece = 300, kPoint = 250;  // with their planes and their share of nodes
   return sizeof(ResultPieces) + pieces * kPiece + points * kPoint;
+}
+
+/// The first polygon of a job that is of a face of an operand.
+uint32_t first_polygon(const Job& job, uint32_t operand, uint32_t face) {
+  const uint32_t begin = job.polygon_start(operand), end = job.polygon_start(operand + 1);
+  if (job.is_leaf(operand)) return begin + face;
+  // How a boundary's face is made convex depends on the other operands of a job.
+  const auto first = job.polygons().begin();
+  const auto found = std::lower_bound(first + begin, first + end, face,
+                                      [](const JobPolygon& p, uint32_t f) { return p.face < f; });
+  return static_cast<uint32_t>(found - first);
+}
+
+/// Whether a point is named by a leaf. (How many vertices a boundary has in a job depends on the
+/// job; its points are named by their planes.)
+bool is_leaf_vertex(const PieceStore& store, uint32_t point) {
+  const uint32_t o = store.operand_of(point);
+  return o != kNone && store.operands()[o].leaf;
 }
 
 enum class Outside : uint8_t { kKept, kDropped, kTurned };
@@ -334,7 +351,7 @@ Result<std::shared_ptr<const BoundaryMesh>> assemble_pieces(const ResultPieces& 
   for (const uint32_t p : pieces) {
     is_used[store.piece(p).operand] = 1;
     for (const uint32_t point : store.corners(p)) {
-      if (store.operand_of(point) != kNone) is_used[store.operand_of(point)] = 1;
+      if (is_leaf_vertex(store, point)) is_used[store.operand_of(point)] = 1;
     }
   }
   for (uint32_t o = 0; o < is_used.size(); ++o) {
@@ -357,7 +374,7 @@ Result<std::shared_ptr<const BoundaryMesh>> assemble_pieces(const ResultPieces& 
   std::vector<uint32_t> named;
   for (const uint32_t p : pieces) {
     const PieceStore::Piece& piece = store.piece(p);
-    const uint32_t polygon = job.polygon_start(number[piece.operand]) + piece.polygon;
+    const uint32_t polygon = first_polygon(job, number[piece.operand], piece.face);
     if (piece.is_whole) {
       whole.push_back({polygon, piece.is_flipped, piece.is_met});
       continue;
@@ -371,9 +388,11 @@ Result<std::shared_ptr<const BoundaryMesh>> assemble_pieces(const ResultPieces& 
       if (number_of[point] == kNone) {
         number_of[point] = static_cast<uint32_t>(set.points.size());
         named.push_back(point);
-        const uint32_t o = store.operand_of(point);
-        const uint32_t vertex =
-            o != kNone ? job.vertex_start(number[o]) + point - store.first_point(o) : kNone;
+        uint32_t vertex = kNone;
+        if (is_leaf_vertex(store, point)) {
+          const uint32_t o = store.operand_of(point);
+          vertex = job.vertex_start(number[o]) + point - store.first_point(o);
+        }
         set.points.push_back({store.rounded(point), store.point_planes(point), vertex});
       }
       set.corner_point.push_back(number_of[point]);

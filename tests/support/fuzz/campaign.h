@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,9 @@ inline CampaignResult run(const Campaign& campaign) {
     r.leaves += c.leaves.size();
     r.most_leaves = std::max<uint64_t>(r.most_leaves, c.leaves.size());
     if (outcome.failure.empty()) continue;
+    // Should a smaller case bring the program down, this one is known.
+    std::fprintf(stderr, "case %llu: %s; shrinking\n%s\n", static_cast<unsigned long long>(number),
+                 outcome.failure.c_str(), text(c).c_str());
     const FuzzCase small =
         Shrinker(c, [](const FuzzCase& s) { return !check_case(s).failure.empty(); }).run();
     r.failures.push_back("seed " + std::to_string(campaign.seed) + ", case " +
