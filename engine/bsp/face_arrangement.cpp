@@ -42,7 +42,9 @@ bool FaceArrangement::build(uint32_t polygon, std::span<const SheetSegment> segm
 void FaceArrangement::add_boundary() {
   const auto corners = job_.corners(*polygon_);
   const auto planes = job_.edge_planes(*polygon_);
+  box_ = {};
   for (uint32_t e = 0; e < polygon_->count; ++e) {
+    box_.include(job_.rounded(corners[e]));
     lines_.push_back({vertex(corners[e]), vertex(corners[e + 1 < polygon_->count ? e + 1 : 0]),
                       planes[e], inner_sign(*polygon_, planes[e]), Kind::kBoundary, kNone, kNone});
   }
@@ -55,6 +57,16 @@ void FaceArrangement::add_segments(std::span<const SheetSegment> segments) {
     lines_.push_back({s.from, s.to, other.support.index(), other.support.flipped() ? 1 : -1, kind,
                       s.other, other.operand});
   }
+}
+
+/// Whether the way between two vertices is clearly beside the polygon's box: rounding keeps order.
+bool FaceArrangement::is_far(uint32_t vertex, uint32_t other) const {
+  const auto &a = job_.rounded(vertex), &b = job_.rounded(other);
+  bool far = false;
+  for (int k = 0; k < 3; ++k) {
+    far |= (a[k] < box_.lo[k] && b[k] < box_.lo[k]) || (a[k] > box_.hi[k] && b[k] > box_.hi[k]);
+  }
+  return far;
 }
 
 /// Whether a coplanar polygon is strictly on the outer side of an edge of the polygon.
@@ -101,6 +113,7 @@ void FaceArrangement::add_coplanar(std::span<const uint32_t> coplanar) {
       ++i;
       continue;
     }
+    if (is_far(s.low, s.high)) continue;
     const JobPolygon& other = job_.polygons()[s.sheet];
     const auto corners = job_.corners(other);
     const uint32_t plane = job_.edge_planes(other)[s.edge];
@@ -458,16 +471,22 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
       facts_.push_back({loop, {o, inside, inside}});
       continue;
     }
-    if (count != 2) return false;
-    const Line& other = lines_[second->line];
-    if (other.kind == Kind::kThrough) return false;
     // A coplanar sheet on this half-edge's left covers what is there.
     const auto coplanar_side = [&](const Part& part) {  // 1: left, -1: right, 0: not coplanar
       const Kind kind = lines_[part.line].kind;
       if (!is_coplanar(kind)) return 0;
       return (kind == Kind::kLeft) != reversed(part) ? 1 : -1;
     };
-    const int a = coplanar_side(*p), b = coplanar_side(*second);
+    const int a = coplanar_side(*p);
+    if (count == 1 && a != 0 && job_.is_convex(o)) {  // beyond such a sheet one is outside
+      const bool same = job_.polygons()[line.sheet].support == polygon_->support;
+      facts_.push_back({loop, {o, a > 0 && !same, a > 0 && same}, a < 0});
+      continue;
+    }
+    if (count != 2) return false;
+    const Line& other = lines_[second->line];
+    if (other.kind == Kind::kThrough) return false;
+    const int b = coplanar_side(*second);
     if (a != 0 && a == b) return false;
     if (a > 0 || b > 0) {
       const bool same =
