@@ -307,10 +307,7 @@ class Instrumenter:
             start = self.tokens[first].start
             length = self.tokens[last].start + len(self.tokens[last].text) - start
             n = self.add_mutant(start, length, identity)
-            if identity == "true":
-                self.wrap(first, last, f"(csgrun_mutant::active<{n}>() || (", "))")
-            else:
-                self.wrap(first, last, f"(!csgrun_mutant::active<{n}>() && (", "))")
+            self.wrap(first, last, f"csgrun_mutant::fixed<{n}, {identity}>(static_cast<bool>(", "))")
 
     def operand_end(self, i, step):
         """Index of the far token of the operand beside the && or || at i."""
@@ -358,11 +355,11 @@ class Instrumenter:
             self.wrap(declared[0] + 1, last, f"csgrun_mutant::or_zero<{n}>(", ")")
             return
         if self.has_operator(first, last):
-            self.wrap(first, last, f"!csgrun_mutant::active<{n}>() && (", ")")
+            self.wrap(first, last, f"csgrun_mutant::fixed<{n}, false>(static_cast<bool>(", "))")
             return
         turned = self.add_mutant(start, length, f"!({self.source[start:start + length]})")
-        self.wrap(first, last, f"!csgrun_mutant::active<{n}>() && csgrun_mutant::active<{turned}>() "
-                               "!= static_cast<bool>(", ")")
+        self.wrap(first, last, f"csgrun_mutant::fixed<{n}, false>(csgrun_mutant::turned<{turned}>("
+                               "static_cast<bool>(", ")))")
 
     def ternary(self, i):
         far = self.operand_end(i, -1)
@@ -371,7 +368,7 @@ class Instrumenter:
         start = self.tokens[far].start
         end = self.tokens[i - 1].start + len(self.tokens[i - 1].text)
         n = self.add_mutant(start, end - start, f"!({self.source[start:end]})")
-        self.wrap(far, i - 1, f"csgrun_mutant::active<{n}>() != static_cast<bool>(", ")")
+        self.wrap(far, i - 1, f"csgrun_mutant::turned<{n}>(static_cast<bool>(", "))")
 
     def switch(self, opening):
         closing = self.tokens[opening].partner

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -19,45 +20,63 @@
 namespace csgrun_mutant {
 
 constexpr int kMost = 1 << 14;
+enum : int { kTracing = -1, kAsWritten = kMost };
 
-/// The active mutant; or, with CSGRUN_MUTANT_TRACE=FILE, which mutants' places were passed.
+/// The active mutant; or, with CSGRUN_MUTANT_TRACE=FILE, which mutants would have made a
+/// difference: a run is as written until its mutant's place has another outcome for the first time,
+/// so a test in which that does not happen cannot notice the mutant.
 class State {
  public:
   State() {
-    if (const char* number = std::getenv("CSGRUN_MUTANT")) flag_[std::atoi(number)] = kActive;
+    if (const char* number = std::getenv("CSGRUN_MUTANT")) mutant = std::atoi(number);
     trace_ = std::getenv("CSGRUN_MUTANT_TRACE");
-    if (trace_) {
-      for (auto& f : flag_) f = kUnseen;
-    }
+    if (trace_) mutant = kTracing;
   }
   ~State() {
     std::FILE* file = trace_ ? std::fopen(trace_, "w") : nullptr;
     if (!file) return;
     for (int i = 0; i < kMost; ++i) {
-      if (flag_[i] == kSeen) std::fprintf(file, "%d\n", i);
+      if (seen_[i].load(std::memory_order_relaxed)) std::fprintf(file, "%d\n", i);
     }
     std::fclose(file);
   }
-  bool active(int n) {
-    const uint8_t f = flag_[n].load(std::memory_order_relaxed);
-    if (f == kAsWritten) [[likely]] {
-      return false;
-    }
-    if (f == kUnseen) flag_[n].store(kSeen, std::memory_order_relaxed);
-    return f == kActive;
+  void see(int n) {
+    if (!seen_[n].load(std::memory_order_relaxed)) seen_[n].store(true, std::memory_order_relaxed);
   }
+  int mutant = kAsWritten;
 
  private:
-  enum : uint8_t { kAsWritten, kActive, kUnseen, kSeen };
-  std::atomic<uint8_t> flag_[kMost]{};  // no std::array: its checks would cost much here
+  std::atomic<bool> seen_[kMost]{};  // no std::array: its checks would cost much here
   const char* trace_ = nullptr;
 };
 inline State state;
 
+/// Not to be kept in a constant: the initialiser of one may count as a constant expression.
+constexpr int mutant() { return std::is_constant_evaluated() ? kAsWritten : state.mutant; }
+
+/// Whether mutant N is active, where it is known to differ.
 template <int N>
 constexpr bool active() {
-  if (std::is_constant_evaluated()) return false;
-  return state.active(N);
+  if (mutant() == kTracing) state.see(N);
+  return mutant() == N;
+}
+
+/// As told apart by anything that looks at them; things that cannot be compared are different.
+template <class A>
+constexpr bool same(const A& a, const A& b) {
+  if constexpr (std::is_same_v<A, double>) {
+    return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
+  } else if constexpr (requires { static_cast<bool>(a == b); }) {
+    return static_cast<bool>(a == b);
+  } else {
+    return false;
+  }
+}
+
+/// For tracing: mutant N makes `mutated` of what is `written`.
+template <int N, class A>
+constexpr void compare(const A& written, const A& mutated) {
+  if (!same(written, mutated)) state.see(N);
 }
 
 /// The two operands of a tagged operator, the left one first.
@@ -77,9 +96,15 @@ struct Left {
   }                                                          \
   template <class A, int N, class B>                         \
   constexpr bool operator OP(Left<A, NAME<N>> l, B&& b) {    \
-    if (active<N>()) return l.a BORDER b;                    \
-    if (active<N + 1>()) return l.a TURNED b;                \
-    return l.a OP b;                                         \
+    int m = mutant();                                   \
+    if (m == N) return l.a BORDER b;                         \
+    if (m == N + 1) return l.a TURNED b;                     \
+    const bool written = l.a OP b;                           \
+    if (m == kTracing) {                                     \
+      compare<N, bool>(written, l.a BORDER b);               \
+      compare<N + 1, bool>(written, l.a TURNED b);           \
+    }                                                        \
+    return written;                                          \
   }
 CSGRUN_MUTANT_COMPARISON(Less, <, <=, >)
 CSGRUN_MUTANT_COMPARISON(Greater, >, >=, <)
@@ -97,9 +122,17 @@ CSGRUN_MUTANT_COMPARISON(GreaterEqual, >=, >, <=)
   template <class A, int N, class B>                         \
   constexpr RESULT operator OP(Left<A, NAME<N>> l, B&& b) {  \
     if constexpr (requires { MUTATED; }) {                   \
-      if (active<N>()) return MUTATED;                       \
+      int m = mutant();                                 \
+      if (m == N) return MUTATED;                            \
+      RESULT written = l.a OP b;                             \
+      if (m == kTracing) {                                   \
+        RESULT mutated = MUTATED;                            \
+        compare<N>(written, mutated);                        \
+      }                                                      \
+      return written;                                        \
+    } else {                                                 \
+      return l.a OP b;                                       \
     }                                                        \
-    return l.a OP b;                                         \
   }
 template <class A>
 constexpr A next(A a) {
@@ -111,7 +144,7 @@ CSGRUN_MUTANT_PAIR(LastLess, <, bool, l.a + 1 < b)
 CSGRUN_MUTANT_PAIR(LastGreater, >, bool, l.a > b + 1)
 CSGRUN_MUTANT_PAIR(LastLessEqual, <=, bool, l.a < b)
 CSGRUN_MUTANT_PAIR(LastGreaterEqual, >=, bool, l.a > b)
-CSGRUN_MUTANT_PAIR(LastUnequal, !=, bool, next(l.a) != b)
+CSGRUN_MUTANT_PAIR(LastUnequal, !=, bool, l.a != b && next(l.a) != b)
 CSGRUN_MUTANT_PAIR(Plus, +, auto, l.a - b)
 CSGRUN_MUTANT_PAIR(Minus, -, auto, l.a + b)
 #undef CSGRUN_MUTANT_PAIR
@@ -141,11 +174,23 @@ CSGRUN_MUTANT_PREFIX(Decrement, --, decltype(auto), ++a)
   }                                                          \
   template <class A, class B, int N>                         \
   constexpr A& operator OP(A& a, Left<B, NAME<N>> r) {       \
-    if (active<N>()) {                                       \
+    int m = mutant();                                   \
+    if (m == N) {                                            \
       MUTATED;                                               \
-    } else {                                                 \
-      a OP std::forward<B>(r.a);                             \
+      return a;                                              \
     }                                                        \
+    if (m == kTracing) {                                     \
+      if constexpr (std::is_arithmetic_v<A>) {               \
+        const A before = a;                                  \
+        MUTATED;                                             \
+        const A mutated = a;                                 \
+        a = before;                                          \
+        compare<N>(static_cast<A>(a OP r.a), mutated);       \
+        return a;                                            \
+      }                                                      \
+      state.see(N);                                          \
+    }                                                        \
+    a OP std::forward<B>(r.a);                               \
     return a;                                                \
   }
 CSGRUN_MUTANT_UPDATE(PlusUpdate, +=, a -= r.a)
@@ -160,18 +205,39 @@ template <int N, bool MIN>
 struct Extreme {
   template <class T>
   constexpr T operator()(std::initializer_list<T> list) const {
-    return MIN != active<N>() ? std::min(list) : std::max(list);
+    return of(std::min(list), std::max(list));
   }
   template <class T>
   constexpr T operator()(const T& a, const T& b) const {
-    return MIN != active<N>() ? std::min(a, b) : std::max(a, b);
+    return of(std::min(a, b), std::max(a, b));
+  }
+
+ private:
+  template <class T>
+  static constexpr T of(const T& least, const T& most) {
+    if (mutant() == kTracing) compare<N>(least, most);
+    return MIN != (mutant() == N) ? least : most;
   }
 };
+
+/// A condition; mutant N takes it for VALUE whatever it is.
+template <int N, bool VALUE>
+constexpr bool fixed(bool condition) {
+  if (mutant() == kTracing) compare<N>(condition, VALUE);
+  return mutant() == N ? VALUE : condition;
+}
+
+/// A condition, and its reverse as mutant N.
+template <int N>
+constexpr bool turned(bool condition) {
+  return condition != active<N>();
+}
 
 /// The value, or zero as mutant N.
 template <int N, class T>
 constexpr std::decay_t<T> or_zero(T&& value) {
-  if (active<N>()) return std::decay_t<T>{};
+  if (mutant() == N) return std::decay_t<T>{};
+  if (mutant() == kTracing) compare<N>(std::decay_t<T>(value), std::decay_t<T>{});
   return std::forward<T>(value);
 }
 
@@ -179,10 +245,9 @@ constexpr std::decay_t<T> or_zero(T&& value) {
 /// split for the front, N + 1 for the back, N + 2 exchanges front and back.
 template <int N, class S>
 S side(S s) {
-  if (active<N>() && s == S::kSplit) return S::kFront;
-  if (active<N + 1>() && s == S::kSplit) return S::kBack;
-  if (active<N + 2>()) return s == S::kFront ? S::kBack : s == S::kBack ? S::kFront : s;
-  return s;
+  if (s == S::kSplit) return active<N>() ? S::kFront : active<N + 1>() ? S::kBack : s;
+  if (s != S::kFront && s != S::kBack) return s;
+  return active<N + 2>() == (s == S::kFront) ? S::kBack : S::kFront;
 }
 
 }  // namespace csgrun_mutant

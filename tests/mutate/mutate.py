@@ -2,8 +2,9 @@
 they notice.
 
 One build holds all mutants, switched by an environment variable. Each test runs alone first, without
-a mutant, to learn its time and the places that it passes; a mutant is then tried on the tests that pass
-its place, short ones first, until one fails, crashes, or takes far longer than it should.
+a mutant, to learn its time and the mutants whose places would have another outcome in it. A mutant is
+then tried on those tests, short ones and ones that noticed its neighbours first, until one fails,
+crashes, or takes far longer than it should.
 
 A mutant that no test notices must stand in explained.txt with the reason; otherwise the exit status is
 1. Explained mutants are not tried unless asked for.
@@ -39,26 +40,53 @@ QUICK = (("unit_exact", {}), ("unit_bsp", {}), ("property", {"CSGRUN_CASES": "4"
          ("unit_mesh", {}), ("unit_csg", {}))
 THOROUGH = (("property", {}),)
 TOGETHER_SECONDS = 0.25  # short tests of one executable run in one process, up to this time
+START_SECONDS = 0.03  # what a process costs besides
+NUMBERS = 64  # each file's mutants have numbers from a multiple of this on
 MEMORY_BYTES = 6 << 30
+
+
+class Test:
+    def __init__(self, executable, environment, name, seconds, different):
+        self.executable, self.environment, self.name, self.seconds = executable, environment, name, seconds
+        self.different = different  # mutants that can make a difference
 
 
 class Stage:
     """Tests of one executable that run in one process."""
 
-    def __init__(self, executable, environment, tests, seconds, passed):
-        self.executable, self.environment = executable, environment
-        self.tests, self.seconds, self.passed = tests, seconds, passed
+    def __init__(self, test):
+        self.tests, self.executable, self.environment = [test], test.executable, test.environment
+        self.count = {}  # by file: [mutants that were tried, noticed], older ones counting less
+
+    @property
+    def seconds(self):
+        return sum(t.seconds for t in self.tests)
 
     @property
     def name(self):
         cases = "".join(f" ({v} cases)" for v in self.environment.values())
         others = f" and {len(self.tests) - 1} more" if len(self.tests) > 1 else ""
-        return f"{self.executable} {self.tests[0]}{others}{cases}"
+        return f"{self.executable} {self.tests[0].name}{others}{cases}"
+
+    def tests_for(self, mutant):
+        return [t for t in self.tests if mutant.number in t.different]
+
+    def gain(self, mutant):
+        """How likely this stage is to notice the mutant, for its time."""
+        tried, noticed = self.count.get(mutant.file, (0, 0))
+        all_tried, all_noticed = self.count.get("", (0, 0))
+        chance = (noticed + (all_noticed + 1) / (all_tried + 5)) / (tried + 1)
+        return chance / (START_SECONDS + sum(t.seconds for t in self.tests_for(mutant)))
 
     def run(self, mutant):
         """None, or how the mutant was noticed."""
-        cpu = int(2 + 6 * self.seconds)
-        code = run_tests(self.executable, self.tests, self.environment, cpu, CSGRUN_MUTANT=str(mutant))[0]
+        tests = self.tests_for(mutant)
+        cpu = int(2 + 6 * sum(t.seconds for t in tests))
+        code = run_tests(self.executable, [t.name for t in tests], self.environment, cpu,
+                         CSGRUN_MUTANT=str(mutant.number))[0]
+        for key, kept in ((mutant.file, 0.9), ("", 0.99)):
+            tried, noticed = self.count.get(key, (0, 0))
+            self.count[key] = (kept * tried + 1, kept * noticed + (code != 0))
         if code == 0:
             return None
         if code in (-signal.SIGXCPU, -signal.SIGKILL):
@@ -98,13 +126,15 @@ def write_sources(names):
             name = file.relative_to(ROOT)
             if file.is_file() and str(name) not in LEFT_OUT and "__pycache__" not in file.parts:
                 fresh[name] = file.read_bytes()
-    mutants = []
+    mutants, number = [], 0
     for name, content in fresh.items():
         if name.suffix in (".h", ".cpp") and str(name.parent) in names:
-            file = instrument.Instrumenter(str(name), content.decode(), len(mutants))
+            file = instrument.Instrumenter(str(name), content.decode(), number)
             fresh[name] = file.run().encode()
             instrument.number_keys(file.mutants)
             mutants += file.mutants
+            # With room, so that a few more or less do not change the other files.
+            number = -(-(number + len(file.mutants) + NUMBERS // 4) // NUMBERS) * NUMBERS
     fresh[Path("mutant.h")] = Path(__file__).with_name("mutant.h").read_bytes()
     for old in sorted(SOURCE.rglob("*")) if SOURCE.exists() else ():
         if old.is_file() and old.relative_to(SOURCE) not in fresh:
@@ -149,35 +179,33 @@ def make_stages(configurations, pool, arguments):
                                      CSGRUN_MUTANT_TRACE=str(trace))
         if code:
             sys.exit(f"mutate: {executable} {test} fails without a mutant")
-        passed = {int(n) for n in trace.read_text().split()}
+        different = {int(n) for n in trace.read_text().split()}
         trace.unlink()
-        return Stage(executable, environment, [test], seconds, passed)
+        return Test(executable, environment, test, seconds, different)
 
     jobs = [(e, env, t) for e, env in configurations for t in list_tests(e)]
     built = [[e, (BUILD / e).stat().st_mtime_ns] for e, _ in configurations]
-    saved = WORK / "stages.json"
+    saved = WORK / "tests.json"
     known = json.loads(saved.read_text()) if saved.exists() else None
     if known and known["built"] == built:
-        single = [Stage(*s[:4], set(s[4])) for s in known["stages"]]
+        tests = [Test(*t[:4], set(t[4])) for t in known["tests"]]
     else:
-        single = list(pool.map(measure, [(i, *job) for i, job in enumerate(jobs)]))
-        lists = [[s.executable, s.environment, s.tests, s.seconds, sorted(s.passed)] for s in single]
-        saved.write_text(json.dumps({"built": built, "stages": lists}))
+        tests = list(pool.map(measure, [(i, *job) for i, job in enumerate(jobs)]))
+        lists = [[t.executable, t.environment, t.name, t.seconds, sorted(t.different)] for t in tests]
+        saved.write_text(json.dumps({"built": built, "tests": lists}))
     stages = []
-    for s in single:
+    for t in tests:
         last = stages[-1] if stages else None
-        if last and last.executable == s.executable and last.environment == s.environment and \
-                s.seconds < TOGETHER_SECONDS / 4 and last.seconds + s.seconds < TOGETHER_SECONDS:
-            last.tests += s.tests
-            last.seconds += s.seconds
-            last.passed |= s.passed
+        if not t.different or t.seconds > arguments.quick:
+            continue
+        if last and last.executable == t.executable and last.environment == t.environment and \
+                t.seconds < TOGETHER_SECONDS / 4 and last.seconds + t.seconds < TOGETHER_SECONDS:
+            last.tests.append(t)
         else:
-            stages.append(s)
-    stages = [s for s in stages if s.passed and s.seconds <= arguments.quick]
-    stages.sort(key=lambda s: s.seconds)
+            stages.append(Stage(t))
     if arguments.verbose:
-        for s in stages:
-            print(f"{s.seconds:6.2f} s {len(s.passed):5} passed by {s.name}")
+        for s in sorted(stages, key=lambda s: s.seconds):
+            print(f"{s.seconds:6.2f} s {len(set().union(*(t.different for t in s.tests))):5} mutants of {s.name}")
     return stages
 
 
@@ -258,11 +286,11 @@ def main():
           f"({sum(s.seconds for s in stages):.0f} s of CPU without a mutant)", flush=True)
 
     def try_one(mutant):
-        for stage in stages:
-            if mutant.number in stage.passed:
-                how = stage.run(mutant.number)
-                if how:
-                    return mutant, how, stage
+        left = [s for s in stages if s.tests_for(mutant)]
+        for stage in sorted(left, key=lambda s: -s.gain(mutant)):
+            how = stage.run(mutant)
+            if how:
+                return mutant, how, stage
         return mutant, None, None
 
     noticed, survivors = {}, []
@@ -275,8 +303,8 @@ def main():
                 print(f"explained, but noticed by {stage.name}: {mutant.key}")
         elif mutant.key not in explained:
             survivors.append(mutant)
-            passed = any(mutant.number in s.passed for s in stages)
-            print(f"{mutant.file}:{mutant.line}: {'survived' if passed else 'in no test'}: {mutant.text}",
+            different = any(s.tests_for(mutant) for s in stages)
+            print(f"{mutant.file}:{mutant.line}: {'survived' if different else 'no difference'}: {mutant.text}",
                   flush=True)
         if done % 200 == 0:
             print(f"... {done} of {len(chosen)}, {time.monotonic() - start:.0f} s", flush=True)

@@ -2,6 +2,9 @@
 // it helps. Against clipping in rationals and counts by hand.
 #include "engine/bsp/cell_box.h"
 
+#include <algorithm>
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/exact_solid.h"
@@ -98,6 +101,131 @@ TEST(CellBox, MayMeetMissesNothingAndKeepsLittleForNothing) {
   EXPECT_LT(all.kept_for_nothing, all.dropped / 40);
 }
 
+bool may_meet_triangle(const test::Loop& loop, const CellBox& cell) {
+  const std::vector<Operand> operands{test::operand_of(test::make_leaf({loop}))};
+  return may_meet(Job(operands), 0, cell);
+}
+
+IVec3 plus(const IVec3& a, const IVec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+
+// Polygons that miss the cell [0, 64]^3 by one separating axis alone, at any place and in any turn.
+TEST(CellBox, EachSeparatingAxisDropsAPolygon) {
+  const auto near = [](int64_t at) { return CellBox{{at, at, at}, {at + 64, at + 64, at + 64}}; };
+  for (const int64_t at : {int64_t{0}, int64_t{1} << 29}) {
+    for (int turn = 0; turn < 12; ++turn) {
+      const int axis = turn % 3, rotation = turn / 3 % 2, mirrored = turn / 6;
+      const auto placed = [&](test::Loop loop) {
+        std::rotate(loop.begin(), loop.begin() + rotation, loop.end());
+        for (IVec3& p : loop) {
+          std::rotate(p.begin(), p.begin() + axis, p.end());
+          for (int64_t& c : p) c = at + (mirrored ? 64 - c : c);
+        }
+        return loop;
+      };
+      // By its box: on the cell's lower wall or above the upper one; else inside.
+      for (const auto& [x, expected] :
+           {std::pair<int64_t, bool>{-1, false}, {0, mirrored != 0}, {1, true}, {40, true}}) {
+        EXPECT_EQ(may_meet_triangle(placed({{x, 9, 9}, {x, 20, 9}, {x, 9, 30}}), near(at)),
+                  expected)
+            << x << " turn " << turn << " at " << at;
+      }
+      // By its plane, which cuts off a corner of the box: x + y + z = -10.
+      EXPECT_FALSE(
+          may_meet_triangle(placed({{60, -35, -35}, {-35, 60, -35}, {-35, -35, 60}}), near(at)))
+          << turn << " at " << at;
+      EXPECT_TRUE(
+          may_meet_triangle(placed({{80, -35, -35}, {-35, 80, -35}, {-35, -35, 80}}), near(at)));
+      // By an edge, x + y = -20 in the plane z = 30.
+      EXPECT_FALSE(
+          may_meet_triangle(placed({{60, -80, 30}, {-80, 60, 30}, {-80, -80, 30}}), near(at)))
+          << turn << " at " << at;
+      EXPECT_FALSE(
+          may_meet_triangle(placed({{-80, 60, 30}, {60, -80, 30}, {-80, -80, 30}}), near(at)))
+          << turn << " at " << at;
+      EXPECT_TRUE(
+          may_meet_triangle(placed({{80, -70, 30}, {-70, 80, 30}, {-80, -80, 30}}), near(at)));
+    }
+  }
+}
+
+// The first three corners turn by so little that doubles cannot say to which side, or how the plane
+// lies; the polygon is wide all the same.
+TEST(CellBox, MayMeetMissesNothingOfPolygonsThatStartStraight) {
+  test::Random random(43);
+  int met = 0;
+  for (int i = 0; i < 4000; ++i) {
+    // A basis of the plane, and numbers p s - q r = 1 as long as the coordinates allow.
+    const int small = static_cast<int>(random.integer(0, 12));
+    const auto basis = [&] {
+      const int64_t reach = (int64_t{1} << small) - 1;
+      return IVec3{random.integer(-reach, reach), random.integer(-reach, reach),
+                   random.integer(-reach, reach)};
+    };
+    const int64_t large = int64_t{1} << (26 - small);
+    IVec3 along = basis(), across = basis();
+    if (small == 0 || test::cross_of(along, across) == IVec3{0, 0, 0}) {
+      along = {1, 0, 0}, across = {0, 1, 0};
+      std::rotate(along.begin(), along.begin() + i % 3, along.end());
+      std::rotate(across.begin(), across.begin() + i % 3, across.end());
+    }
+    int64_t p = random.integer(large / 2, large), q = random.integer(1, large), r = 0, s = 0;
+    {
+      int64_t a = p, b = q, a_p = 1, a_q = 0, b_p = 0, b_q = 1;
+      while (b != 0) {
+        const int64_t n = a / b;
+        std::tie(a, b) = std::pair(b, a - n * b);
+        std::tie(a_p, b_p) = std::pair(b_p, a_p - n * b_p);
+        std::tie(a_q, b_q) = std::pair(b_q, a_q - n * b_q);
+      }
+      if (a != 1) continue;
+      s = a_p, r = -a_q;  // p a_p + q a_q = 1
+      if (r < 0 || (r == 0 && s < 0)) r += p, s += q;
+    }
+    const auto at = [&](int64_t u, int64_t v) {
+      return IVec3{u * along[0] + v * across[0], u * along[1] + v * across[1],
+                   u * along[2] + v * across[2]};
+    };
+    test::Loop loop{at(0, 0), at(p, q), at(p + r, q + s), at(p + r - q, q + s + p), at(-q, p)};
+    std::rotate(loop.begin(), loop.begin() + random.integer(0, 4), loop.end());
+    const std::vector<Operand> operands{test::operand_of(test::make_leaf({loop}))};
+    const Job job(operands);
+    std::vector<Rational3> corners;
+    for (const IVec3& c : loop) {
+      corners.push_back(
+          {mpq_class(mpz_class(c[0])), mpq_class(mpz_class(c[1])), mpq_class(mpz_class(c[2]))});
+    }
+    for (int k = 0; k < 4; ++k) {
+      // A grid point of the polygon, anywhere in it, and a cell around it.
+      const double u = random.unit(), v = random.unit();
+      const IVec3 inside = plus(at(static_cast<int64_t>(u * static_cast<double>(p)),
+                                   static_cast<int64_t>(u * static_cast<double>(q))),
+                                at(static_cast<int64_t>(-v * static_cast<double>(q)),
+                                   static_cast<int64_t>(v * static_cast<double>(p))));
+      CellBox cell;
+      const int64_t size = int64_t{1} << random.integer(0, 6);
+      for (int c = 0; c < 3; ++c) {
+        cell.lo[c] = inside[c] - random.integer(1, size);
+        cell.hi[c] = cell.lo[c] + size;
+      }
+      const mpq_class shift(1, static_cast<unsigned long>(job.prime()));
+      Rational3 lo, hi;
+      for (int c = 0; c < 3; ++c) {
+        lo[c] = mpz_class(cell.lo[c]) + shift, hi[c] = mpz_class(cell.hi[c]) + shift;
+      }
+      if (!meets(corners, lo, hi)) continue;
+      ++met;
+      ASSERT_TRUE(may_meet(job, 0, cell)) << "case " << i;
+    }
+  }
+  EXPECT_GT(met, 2000);
+}
+
+TEST(CellBox, RoundedOutwardsHoldsTheWalls) {
+  const GridBox box = CellBox{{-3, 4, 5}, {6, 7, 8}}.rounded_outwards();
+  EXPECT_EQ(box.lo, (IVec3{-3, 4, 5}));  // -3 + 1/p and 6 + 1/p, rounded
+  EXPECT_EQ(box.hi, (IVec3{7, 8, 9}));
+}
+
 TEST(CellBox, RootCellIsTheSmallestCubeOfAPowerOfTwo) {
   test::Random random(42);
   for (int i = 0; i < 500; ++i) {
@@ -142,6 +270,7 @@ TEST(CellBox, DividesTheLongestAxisUnlessAnotherThinsOut) {
   EXPECT_EQ(best(tall, {{{0, 0, 0}, {8, 3, 16}}, {{0, 6, 0}, {8, 8, 16}}}), 1);
   EXPECT_EQ(best(tall, {low, high, low}), 2);
   EXPECT_EQ(best(cube, {all, all}), 0);
+  EXPECT_EQ(best({{0, 0, 0}, {8, 2, 8}}, {{{0, 0, 0}, {8, 1, 8}}}), 1);  // two can
   EXPECT_EQ(best(thin, {{{0, 0, 0}, {8, 0, 8}}}), 0);  // one step cannot be divided
   // A wall stands at middle + 1/p: a box that ends in 4 is below, one that starts in 5 above.
   EXPECT_EQ(best(cube, {{{0, 0, 0}, {8, 4, 8}}}), 1);

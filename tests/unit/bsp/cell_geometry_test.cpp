@@ -142,7 +142,38 @@ TEST(CellGeometry, OrdersPointsThatDoublesCannotTellApart) {
     EXPECT_EQ(geometry.compare_along(high, low, axis), 1);
     EXPECT_EQ(geometry.compare_along(high, high, axis), 0);
     EXPECT_EQ(geometry.compare_along(high, low, (axis + 1) % 3), 0);
+    for (const auto& [from, to] : {std::pair{low, high}, std::pair{high, low}}) {
+      const LineAxis way = geometry.axis_between(from, to);
+      EXPECT_EQ(way.axis, axis);
+      EXPECT_EQ(way.sign, from == low ? 1 : -1);
+    }
   }
+}
+
+TEST(CellGeometry, AxisBetweenIsTheOneOnWhichDoublesDifferMost) {
+  test::Random random(56);
+  size_t equal = 0;
+  std::array<size_t, 3> chosen{};
+  for (const int bits : {1, 2, 40}) {
+    Arrangement a(random, 9, bits);
+    for (uint32_t p = 0; p < a.points.size(); ++p) {
+      for (uint32_t q = 0; q < a.points.size(); ++q) {
+        const LineAxis way = a.geometry.axis_between(p, q);
+        const auto &from = a.geometry.point(p).rounded, &to = a.geometry.point(q).rounded;
+        for (int k = 0; k < 3; ++k) {
+          ASSERT_LE(std::fabs(to[k] - from[k]), std::fabs(to[way.axis] - from[way.axis]));
+        }
+        ASSERT_EQ(way.sign, sgn(mpq_class(a.points[q][way.axis] - a.points[p][way.axis])));
+        if (way.sign == 0) {
+          ASSERT_EQ(a.points[p], a.points[q]);
+          ++equal;
+        }
+        chosen[static_cast<size_t>(way.axis)] += way.sign != 0;
+      }
+    }
+  }
+  EXPECT_GT(equal, 20u);
+  for (const size_t n : chosen) EXPECT_GT(n, 50u);
 }
 
 TEST(CellGeometry, LineAxisIsTheLongestOfTheCrossProduct) {
@@ -194,7 +225,14 @@ TEST(CellGeometry, SplitsAlongPlanes) {
         negative += sign(f, c) < 0;
       }
       Fragment front, back;
+      geometry.met_plane = false;
       const Side side = geometry.split(f, plane, front, back);
+      ASSERT_EQ(geometry.met_plane, positive + negative < f.count);
+      if (side != Side::kSplit) {  // once met, it stays so
+        geometry.met_plane = true;
+        geometry.split(f, plane, front, back);
+        ASSERT_TRUE(geometry.met_plane);
+      }
       ASSERT_EQ(side, geometry.classify(f, plane));
       if (plane == f.support.index()) {
         ASSERT_EQ(side, Side::kOn);
