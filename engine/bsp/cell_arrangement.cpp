@@ -203,11 +203,9 @@ uint32_t CellArrangement::volume_below(CellGeometry& geometry, uint32_t point) c
   int32_t node = root_;
   while (node >= 0) {
     const Node& n = nodes_[node];
-    int side = geometry.side(n.plane, point);
     // The first component of a stored plane that is not zero is positive: moved down, a point of
     // the plane is behind it.
-    if (side == 0) side = -1;
-    node = side > 0 ? n.front : n.back;
+    node = geometry.side(n.plane, point) > 0 ? n.front : n.back;
   }
   return volume_of_leaf_[~node];
 }

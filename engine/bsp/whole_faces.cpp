@@ -99,8 +99,8 @@ class FaceEvaluator {
     const size_t n = job_.polygons().size();
     contact_starts_.assign(n + 1, 0);
     for (const Contact& c : contacts_) {
-      job_.ensure_planes(c.p);
-      job_.ensure_planes(c.q);
+      job_.ensure_support(c.p);
+      job_.ensure_support(c.q);
       ++contact_starts_[c.p + 1], ++contact_starts_[c.q + 1];
     }
     for (size_t i = 0; i < n; ++i) contact_starts_[i + 1] += contact_starts_[i];
@@ -141,7 +141,7 @@ class FaceEvaluator {
   bool is_within(uint32_t polygon, uint32_t operand) {
     const auto corners = job_.corners(job_.polygons()[polygon]);
     for (uint32_t q = job_.polygon_start(operand); q < job_.polygon_start(operand + 1); ++q) {
-      job_.ensure_planes(q);
+      job_.ensure_support(q);
       const PlaneId plane = job_.polygons()[q].support;
       bool any_behind = false;
       for (const uint32_t v : corners) {
@@ -199,10 +199,12 @@ class FaceEvaluator {
       const bool plain = list_segments(p);
       if (segments_.empty() && coplanar_.empty() && untouched_corner(p) != kNone) continue;
       if (cut_.size() % 64 == 0 && is_cancelled()) return false;
-      job_.ensure_planes(p);
+      job_.ensure_support(p);
       is_cut_[p] = 1;
       bool is_done = plain && cutter.cut(p, segments_, loops_);
       if (!is_done) {
+        job_.ensure_planes(p);
+        for (const uint32_t q : coplanar_) job_.ensure_planes(q);
         is_done = arrangement.build(p, sheets_, coplanar_, loops_);
         if (plain) add_touching(job_.boxes()[p], job_.boxes()[p]);
       }
@@ -263,9 +265,9 @@ class FaceEvaluator {
     patches_.reset(job_.vertex_count());
     for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
       if (is_cut_[p]) continue;
-      const uint32_t first = untouched_corner(p);
+      uint32_t patch = patches_.find(untouched_corner(p));
       for (const uint32_t v : job_.corners(job_.polygons()[p])) {
-        if (!touched_[v]) patches_.join(first, v);
+        if (!touched_[v]) patch = patches_.join_with(patch, v);
       }
     }
     for (const CutLoops::Loop& loop : loops_.loops) {
@@ -356,6 +358,10 @@ class FaceEvaluator {
   void emit_loop(const CutLoops::Loop& loop, uint32_t polygon, bool flip) {
     FragmentSet& out = result_.cut;
     const PlaneId support = job_.polygons()[polygon].support;
+    const auto plane = [&](uint32_t named) {
+      return named & CutLoops::kOwnEdge ? job_.edge_plane(polygon, named & ~CutLoops::kOwnEdge)
+                                        : named;
+    };
     numbers_.resize(geometry_.point_count(), kNone);
     const auto first = static_cast<uint32_t>(out.corner_point.size());
     for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
@@ -366,7 +372,7 @@ class FaceEvaluator {
         out.points.push_back({s.rounded, s.planes, s.vertex});
       }
       out.corner_point.push_back(numbers_[p]);
-      out.corner_plane.push_back(loops_.corner_plane[c]);
+      out.corner_plane.push_back(plane(loops_.corner_plane[c]));
     }
     out.pieces.push_back({support, polygon, first, loop.corner_count, loop.is_loose});
     if (flip) out.flip(out.pieces.back());

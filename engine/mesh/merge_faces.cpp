@@ -56,11 +56,10 @@ struct Group {
 class FaceMerger {
  public:
   FaceMerger(const BoundaryMesh& boundary, CellGeometry& geometry, const PlaneTable& planes,
-             const std::vector<PlaneId>& plane_of, std::vector<MergedFace>& faces)
+             std::vector<MergedFace>& faces)
       : boundary_(boundary),
         geometry_(geometry),
         planes_(planes),
-        plane_of_(plane_of),
         faces_(faces),
         builder_(geometry, planes) {}
 
@@ -155,7 +154,7 @@ class FaceMerger {
       const uint32_t begin = b.loop_starts[l], end = b.loop_starts[l + 1];
       for (uint32_t c = begin; c < end; ++c) {
         edges.push_back({b.corners[c].point, b.corners[c + 1 < end ? c + 1 : begin].point,
-                         plane_of_[b.corners[c].edge_plane].index()});
+                         b.corners[c].edge_plane});
       }
     }
   }
@@ -182,7 +181,6 @@ class FaceMerger {
   const BoundaryMesh& boundary_;
   CellGeometry& geometry_;
   const PlaneTable& planes_;
-  const std::vector<PlaneId>& plane_of_;
   std::vector<MergedFace>& faces_;
   RegionBuilder builder_;
   RegionLoops loops_;
@@ -192,12 +190,9 @@ class FaceMerger {
 }  // namespace
 
 bool merge_faces(const BoundaryMesh& b, CellGeometry& geometry, const PlaneTable& planes,
-                 const std::vector<PlaneId>& plane_of, std::vector<MergedFace>& faces) {
+                 std::vector<MergedFace>& faces) {
   const std::vector<uint32_t> state = sources_at_points(b);
-  const auto plane = [&](size_t i) {
-    const PlaneId mapped = plane_of[b.faces[i].plane.index()];
-    return b.faces[i].plane.flipped() ? mapped.flip() : mapped;
-  };
+  const auto plane = [&](size_t i) { return b.faces[i].plane; };
   CountingOrder by_plane;
   by_plane.sort(b.faces.size(), planes.size(), [&](size_t i) { return plane(i).index(); });
   std::vector<Group> groups;
@@ -215,7 +210,7 @@ bool merge_faces(const BoundaryMesh& b, CellGeometry& geometry, const PlaneTable
              std::tie(y.plane, y.appearance, y.curved, y.keep, y.face);
     });
   }
-  FaceMerger merger(b, geometry, planes, plane_of, faces);
+  FaceMerger merger(b, geometry, planes, faces);
   for (size_t i = 0, j = 0; i < groups.size(); i = j) {
     while (j < groups.size() && groups[j].goes_with(groups[i])) ++j;
     if (!merger.add({groups.data() + i, j - i})) return false;

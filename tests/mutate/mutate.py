@@ -91,7 +91,7 @@ class Stage:
             return None
         if code in (-signal.SIGXCPU, -signal.SIGKILL):
             return "too long"
-        return "crash" if code < 0 else "failure"
+        return "crash" if code < 0 and code != -signal.SIGTRAP else "failure"
 
 
 def run_tests(executable, tests, environment, cpu_seconds, **more):
@@ -100,7 +100,7 @@ def run_tests(executable, tests, environment, cpu_seconds, **more):
         resource.setrlimit(resource.RLIMIT_CPU, (cpu_seconds, cpu_seconds + 1))
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    command = [BUILD / executable, "--gtest_brief=1", "--gtest_fail_fast",
+    command = [BUILD / executable, "--gtest_brief=1", "--gtest_break_on_failure",
                "--gtest_filter=" + ":".join(tests)]
     process = subprocess.Popen(command, env={**os.environ, **environment, **more}, preexec_fn=limit,
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=WORK)

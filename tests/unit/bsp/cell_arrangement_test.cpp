@@ -2,82 +2,19 @@
 // what lies in it and how much of it there is, against rationals.
 #include "engine/bsp/cell_arrangement.h"
 
-#include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "tests/support/exact_solid.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
+#include "tests/support/rational_polygons.h"
 
 namespace csgrun {
 namespace {
 
+using test::area_of, test::covers, test::sum, test::tiny, test::winding_around;
 using test::Rational3;
-
-mpq_class tiny(int bits) { return {mpz_class(1), mpz_class(1) << bits}; }
-
-Rational3 sum(const Rational3& a, const Rational3& b, const mpq_class& times) {
-  return {a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]};
-}
-
-/// The winding number of a closed surface around a point; no edge of it lies in front of the point,
-/// seen along x.
-int winding_around(const test::ExactSolid& surface, const Rational3& q) {
-  int winding = 0;
-  for (const auto& face : surface.faces) {
-    const auto& loop = face.loops[0];
-    // Most faces are plainly beside it.
-    const auto all = [&](const auto& holds) {
-      return std::all_of(loop.begin(), loop.end(),
-                         [&](uint32_t v) { return holds(surface.points[v]); });
-    };
-    if (all([&](const Rational3& p) { return p[1] < q[1]; }) ||
-        all([&](const Rational3& p) { return p[1] > q[1]; }) ||
-        all([&](const Rational3& p) { return p[2] < q[2]; }) ||
-        all([&](const Rational3& p) { return p[2] > q[2]; }) ||
-        all([&](const Rational3& p) { return p[0] < q[0]; })) {
-      continue;
-    }
-    for (size_t i = 1; i + 1 < loop.size(); ++i) {
-      const Rational3 a = test::minus(surface.points[loop[0]], q),
-                      b = test::minus(surface.points[loop[i]], q),
-                      c = test::minus(surface.points[loop[i + 1]], q);
-      const auto turn = [](const Rational3& u, const Rational3& v) {
-        return sgn(mpq_class(u[1] * v[2] - u[2] * v[1]));
-      };
-      const int side = turn(a, b);
-      if (side == 0 || side != turn(b, c) || side != turn(c, a)) continue;
-      // The triangle is ahead along x, not behind.
-      const int volume = sgn(test::dot(a, test::cross(b, c)));
-      if (volume == side) winding += side;
-    }
-  }
-  return winding;
-}
-
-/// Normal times twice the area.
-Rational3 area_of(const std::vector<Rational3>& polygon) {
-  Rational3 area{0, 0, 0};
-  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
-    area = sum(
-        area,
-        test::cross(test::minus(polygon[i], polygon[0]), test::minus(polygon[i + 1], polygon[0])),
-        1);
-  }
-  return area;
-}
-
-/// Whether a point of the plane of a convex polygon lies inside.
-bool covers(const std::vector<Rational3>& polygon, const Rational3& p) {
-  const Rational3 n = area_of(polygon);
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const Rational3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    if (test::dot(n, test::cross(test::minus(b, a), test::minus(p, a))) < 0) return false;
-  }
-  return true;
-}
 
 /// Two or three solids over one another in one mesh, some inside out, and a cell that may cut them.
 struct Case {

@@ -7,38 +7,15 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/exact_solid.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
+#include "tests/support/rational_polygons.h"
 
 namespace csgrun {
 namespace {
 
+using test::meets;
 using test::Rational3;
-
-/// Whether a convex polygon meets the box [lo, hi], by clipping it.
-bool meets(std::vector<Rational3> polygon, const Rational3& lo, const Rational3& hi) {
-  for (int k = 0; k < 3; ++k) {
-    for (int upper = 0; upper < 2; ++upper) {
-      const auto depth = [&](const Rational3& p) -> mpq_class {
-        return upper ? mpq_class(hi[k] - p[k]) : mpq_class(p[k] - lo[k]);
-      };
-      std::vector<Rational3> rest;
-      for (size_t i = 0; i < polygon.size(); ++i) {
-        const Rational3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-        const mpq_class s = depth(p), t = depth(q);
-        if (s >= 0) rest.push_back(p);
-        if (s * t < 0) {
-          Rational3 x;
-          for (int j = 0; j < 3; ++j) x[j] = p[j] + (q[j] - p[j]) * s / (s - t);
-          rest.push_back(x);
-        }
-      }
-      polygon = rest;
-    }
-  }
-  return !polygon.empty();
-}
 
 struct Count {
   int met = 0, missed = 0, kept_for_nothing = 0, dropped = 0;

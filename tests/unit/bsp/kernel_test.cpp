@@ -133,6 +133,29 @@ TEST(Kernel, WorkIsWhereSurfacesAreNearEachOther) {
   }
 }
 
+// Of cells in which two operands have surface, those count where a surface passes or covers
+// another.
+TEST(Kernel, CriticalCellsAreThoseWithContact) {
+  const auto tetrahedron = [](const IVec3& p) {
+    const auto at = [&](int64_t x, int64_t y, int64_t z) {
+      return IVec3{p[0] + x, p[1] + y, p[2] + z};
+    };
+    return test::make_leaf(test::hull_loops({at(0, 0, 0), at(6, 1, 0), at(1, 7, 2), at(2, 1, 9)}));
+  };
+  const auto critical = [&](const test::Leaf& a, const test::Leaf& b) {
+    KernelOptions options;
+    options.whole_faces = false;
+    EvaluateStats s;
+    evaluate(tree_of(BooleanOp::kUnion, {a, b}), options, s);
+    EXPECT_EQ(s.solved_cells, 1u);
+    return s.critical_cells;
+  };
+  const test::Leaf one = tetrahedron({0, 0, 0});
+  EXPECT_EQ(critical(one, tetrahedron({8, 0, 0})), 0u);
+  EXPECT_EQ(critical(one, tetrahedron({1, 1, 1})), 1u);  // they cross
+  EXPECT_EQ(critical(one, one), 1u);                     // one covers the other
+}
+
 // No cell holds much more than the limit, unless dividing does not help.
 TEST(Kernel, CellsAreDividedDownToTheLimit) {
   std::vector<test::Leaf> leaves;

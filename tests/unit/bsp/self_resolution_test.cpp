@@ -11,7 +11,13 @@
 namespace csgrun::test {
 namespace {
 
-constexpr int kCases = 100;
+/// A quarter of a hundred random cases.
+class RandomSurfaces : public ::testing::TestWithParam<int> {
+ protected:
+  static constexpr int kCases = 25;
+  static int first() { return GetParam() * kCases; }
+};
+INSTANTIATE_TEST_SUITE_P(Quarters, RandomSurfaces, ::testing::Range(0, 4));
 
 BoundaryResult resolved(const Operand& operand, InsideRule rule,
                         const KernelOptions& options = {}) {
@@ -74,8 +80,8 @@ KernelOptions random_options(Random& random) {
   return options;
 }
 
-TEST(SelfResolution, SeveralSolidsInOneMeshAreTheirUnion) {
-  for (int i = 0; i < kCases; ++i) {
+TEST_P(RandomSurfaces, SeveralSolidsInOneMeshAreTheirUnion) {
+  for (int i = first(); i < first() + kCases; ++i) {
     Random random(1000 + i);
     const Merged m = random_case(random, false);
     const auto expected = combined(m.solids, BooleanOp::kUnion);
@@ -86,8 +92,8 @@ TEST(SelfResolution, SeveralSolidsInOneMeshAreTheirUnion) {
   }
 }
 
-TEST(SelfResolution, EvenOddIsTheSymmetricDifference) {
-  for (int i = 0; i < kCases; ++i) {
+TEST_P(RandomSurfaces, EvenOddIsTheSymmetricDifference) {
+  for (int i = first(); i < first() + kCases; ++i) {
     Random random(2000 + i);
     const Merged m = random_case(random, false);
     EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kEvenOdd, random_options(random)),
@@ -97,8 +103,8 @@ TEST(SelfResolution, EvenOddIsTheSymmetricDifference) {
   }
 }
 
-TEST(SelfResolution, AnInvertedSolidIsTakenAway) {
-  for (int i = 0; i < kCases; ++i) {
+TEST_P(RandomSurfaces, AnInvertedSolidIsTakenAway) {
+  for (int i = first(); i < first() + kCases; ++i) {
     Random random(3000 + i);
     const Merged m = random_case(random, true);
     EXPECT_EQ(difference_of(resolved(m.all, InsideRule::kPositive, random_options(random)),
@@ -114,8 +120,8 @@ TEST(SelfResolution, AnInvertedSolidIsTakenAway) {
 
 // The hull of several solids in one mesh is that of their union, which has no more than voids to
 // fill.
-TEST(SelfResolution, OuterHullFillsTheVoidsOfTheUnion) {
-  for (int i = 0; i < kCases; ++i) {
+TEST_P(RandomSurfaces, OuterHullFillsTheVoidsOfTheUnion) {
+  for (int i = first(); i < first() + kCases; ++i) {
     Random random(4000 + i);
     const Merged m = random_case(random, false);
     auto united = combined(m.solids, BooleanOp::kUnion);

@@ -1,0 +1,199 @@
+// Convex pieces of regions with many corners and holes: they fill the region, once, and a convex
+// region stays as it is. In rationals.
+#include "engine/bsp/convexify.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/rational_polygons.h"
+#include "tests/support/seeded.h"
+
+namespace csgrun {
+namespace {
+
+using test::Rational3;
+using Loop2 = std::vector<std::array<int64_t, 2>>;
+
+/// A plane with loops in it, in one of three turns, seen from either side.
+class Region {
+ public:
+  Region(int axis, bool flipped, const std::vector<Loop2>& loops)
+      : geometry_(planes_, nullptr), axis_(axis) {
+    // Slanted: u + 2 v + 3 w = 0, w along the axis.
+    support_ = PlaneId(planes_.intern(plane(1, 2, 3, 0)).index(), flipped);
+    for (const Loop2& loop : loops) {
+      const size_t n = loop.size();
+      std::vector<uint32_t> edges, points;
+      for (size_t i = 0; i < n; ++i) {
+        const auto &p = loop[i], &q = loop[(i + 1) % n];
+        const int64_t a = q[1] - p[1], b = p[0] - q[0];
+        edges.push_back(planes_.intern(plane(a, b, 0, -(a * p[0] + b * p[1]))).index());
+      }
+      for (size_t i = 0; i < n; ++i) {
+        points.push_back(geometry_.add_point({support_.index(), edges[(i + n - 1) % n], edges[i]}));
+      }
+      for (size_t i = 0; i < n; ++i) {
+        const size_t next = (i + 1) % n;
+        edges_.push_back(flipped ? BoundaryEdge{points[next], points[i], edges[i]}
+                                 : BoundaryEdge{points[i], points[next], edges[i]});
+      }
+      if (flipped) std::reverse(edges_.end() - static_cast<std::ptrdiff_t>(n), edges_.end());
+    }
+  }
+
+  void run() {
+    const auto wall = [this](int axis, int64_t m) {
+      Plane p{0, 0, 0, -(3 * static_cast<Int128>(m) + 1)};
+      (axis == 0 ? p.a : axis == 1 ? p.b : p.c) = 3;
+      return planes_.intern(p).index();
+    };
+    convexify(geometry_, planes_, support_, edges_, wall, pieces_);
+  }
+
+  [[nodiscard]] const std::vector<BoundaryEdge>& edges() const { return edges_; }
+  [[nodiscard]] const std::vector<Fragment>& pieces() const { return pieces_; }
+  CellGeometry& geometry() { return geometry_; }
+  Rational3 at(uint32_t point) {
+    const test::GmpPoint p = test::to_gmp(geometry_.exact(point));
+    return {mpq_class(p.x) / p.w, mpq_class(p.y) / p.w, mpq_class(p.z) / p.w};
+  }
+
+  /// Pieces are convex polygons of the plane, turn left, and fill the region without overlap.
+  void check() {
+    const Plane plane = planes_.oriented(support_);
+    const Rational3 normal{test::to_gmp(plane.a), test::to_gmp(plane.b), test::to_gmp(plane.c)};
+    const Rational3 origin{0, 0, 0};
+    Rational3 area{0, 0, 0};
+    for (const BoundaryEdge& e : edges_) {
+      area = test::sum(area, test::cross(at(e.from), at(e.to)), 1);
+    }
+    std::vector<std::vector<Rational3>> outlines;
+    std::vector<Rational3> middles;
+    for (const Fragment& f : pieces_) {
+      ASSERT_EQ(f.support, support_);
+      auto& outline = outlines.emplace_back();
+      Rational3& middle = middles.emplace_back(origin);
+      for (uint32_t c = 0; c < f.count; ++c) {
+        outline.push_back(at(geometry_.corners(f)[c]));
+        middle = test::sum(middle, outline.back(), mpq_class(1, f.count));
+      }
+      for (uint32_t c = 0; c < f.count; ++c) {
+        const Rational3 &p = outline[c], &q = outline[(c + 1) % f.count],
+                        &r = outline[(c + 2) % f.count];
+        ASSERT_GE(test::dot(normal, test::cross(test::minus(q, p), test::minus(r, q))), 0);
+        const uint32_t edge = geometry_.edges(f)[c];
+        ASSERT_NE(edge, support_.index());
+        ASSERT_EQ(geometry_.side(edge, geometry_.corners(f)[c]), 0);
+        ASSERT_EQ(geometry_.side(edge, geometry_.corners(f)[(c + 1) % f.count]), 0);
+      }
+      const Rational3 own = test::area_of(outline);
+      ASSERT_GT(test::dot(normal, own), 0);
+      area = test::sum(area, own, -1);
+    }
+    EXPECT_EQ(area, origin);
+    for (size_t i = 0; i < outlines.size(); ++i) {
+      for (size_t j = 0; j < outlines.size(); ++j) {
+        ASSERT_EQ(test::covers(outlines[i], middles[j]), i == j);
+      }
+    }
+  }
+
+ private:
+  /// With coefficients of u, v and w, where w is along the axis.
+  [[nodiscard]] Plane plane(int64_t u, int64_t v, int64_t w, int64_t d) const {
+    std::array<Int128, 3> n{};
+    n[(axis_ + 1) % 3] = u, n[(axis_ + 2) % 3] = v, n[axis_] = w;
+    return {n[0], n[1], n[2], d};
+  }
+
+  PlaneTable planes_;
+  CellGeometry geometry_;
+  const int axis_;
+  PlaneId support_;
+  std::vector<BoundaryEdge> edges_;
+  std::vector<Fragment> pieces_;
+};
+
+/// Corners around the origin, at random distances; no three follow each other in a line.
+Loop2 star(test::Random& random, int corners) {
+  for (;;) {
+    Loop2 loop;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = (i + 0.8 * random.unit()) * 6.28318 / corners;
+      const double radius = 40 + 400 * random.unit();
+      loop.push_back(
+          {std::llround(radius * std::cos(angle)), std::llround(radius * std::sin(angle))});
+    }
+    bool is_good = true;
+    for (int i = 0; i < corners; ++i) {
+      const auto &p = loop[i], &q = loop[(i + 1) % corners], &r = loop[(i + 2) % corners];
+      is_good = is_good && p[0] * q[1] - p[1] * q[0] > 0 &&
+                (q[0] - p[0]) * (r[1] - q[1]) != (q[1] - p[1]) * (r[0] - q[0]);
+    }
+    if (is_good) return loop;
+  }
+}
+
+TEST(Convexify, PiecesFillTheRegion) {
+  test::Random random(91);
+  for (int i = 0; i < 60 && !testing::Test::HasFailure(); ++i) {
+    const Loop2 outer = star(random, static_cast<int>(random.integer(4, i % 4 ? 11 : 40)));
+    std::vector<Loop2> loops{outer};
+    if (random.integer(0, 1)) {
+      // The same with a third of the size is a hole; with a ninth, an island in it.
+      for (auto& p : loops[0]) p = {9 * p[0], 9 * p[1]};
+      Loop2 hole = outer;
+      for (auto& p : hole) p = {3 * p[0], 3 * p[1]};
+      std::reverse(hole.begin(), hole.end());
+      loops.push_back(hole);
+      if (random.integer(0, 1)) loops.push_back(outer);
+    }
+    Region region(i % 3, i / 3 % 2 != 0, loops);
+    region.run();
+    region.check();
+    EXPECT_LE(region.pieces().size(), 3 * region.edges().size()) << "case " << i;
+  }
+}
+
+TEST(Convexify, ConvexLoopsStayAsTheyAre) {
+  for (int turn = 0; turn < 6; ++turn) {
+    for (const Loop2& loop : {Loop2{{0, 0}, {7, 1}, {2, 9}}, Loop2{{0, 0}, {7, 1}, {8, 6}, {1, 4}},
+                              Loop2{{0, 0}, {3, 0}, {5, 1}, {6, 3}, {6, 6}, {3, 8}, {0, 5}}}) {
+      Region region(turn % 3, turn / 3 != 0, {loop});
+      region.run();
+      ASSERT_EQ(region.pieces().size(), 1u);
+      const Fragment& f = region.pieces()[0];
+      ASSERT_EQ(f.count, region.edges().size());
+      for (uint32_t c = 0; c < f.count; ++c) {
+        EXPECT_EQ(region.geometry().corners(f)[c], region.edges()[c].from);
+        EXPECT_EQ(region.geometry().edges(f)[c], region.edges()[c].plane);
+      }
+    }
+    // One corner turns right, whichever is the first; two triangles.
+    const Loop2 dart{{0, 0}, {9, -4}, {3, 1}, {2, 8}};
+    for (int first = 0; first < 4; ++first) {
+      Loop2 loop = dart;
+      std::rotate(loop.begin(), loop.begin() + first, loop.end());
+      Region region(turn % 3, turn / 3 != 0, {loop});
+      region.run();
+      EXPECT_GT(region.pieces().size(), 1u);
+      region.check();
+    }
+    Region region(turn % 3, turn / 3 != 0,
+                  {{{0, 0}, {7, 1}, {2, 9}}, {{20, 20}, {27, 21}, {22, 29}}});
+    region.run();
+    EXPECT_EQ(region.pieces().size(), 2u);
+    region.check();
+  }
+}
+
+TEST(Convexify, OfNothingIsNothing) {
+  Region region(0, false, {});
+  region.run();
+  EXPECT_TRUE(region.pieces().empty());
+}
+
+}  // namespace
+}  // namespace csgrun
