@@ -91,7 +91,7 @@ class FaceArrangement {
   };
 
   uint32_t vertex(uint32_t v);
-  int inner_sign(const JobPolygon& polygon, uint32_t edge_plane);
+  int inner_sign(const JobPolygon& polygon, uint32_t edge);
   [[nodiscard]] bool is_apart(uint32_t sheet);
   void add_boundary();
   void add_segments(std::span<const SheetSegment> segments);
@@ -103,6 +103,7 @@ class FaceArrangement {
   void break_lines();
   void join_parts();
   [[nodiscard]] bool is_outside(const Part& part);
+  [[nodiscard]] bool is_beyond(uint32_t point);
   void sort_around_points();
   bool trace(CutLoops& out);
   bool add_facts(uint32_t half, uint32_t loop);
@@ -139,7 +140,9 @@ class FaceArrangement {
   std::vector<uint32_t> sheets_;  ///< coplanar ones that are not clearly apart
   std::vector<SheetEdge> sheet_edges_;
   size_t first_coplanar_line_ = 0;
-  SheetBox box_;  ///< of the polygon
+  SheetBox box_;             ///< of the polygon
+  uint32_t asked_ = kNone;   ///< the last point of is_beyond
+  bool was_beyond_ = false;  ///< and the answer
   std::vector<SheetBox> loop_boxes_;
   std::vector<LoopFact> covered_;  ///< not told by arcs
 };

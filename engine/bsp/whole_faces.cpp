@@ -63,6 +63,10 @@ class FaceEvaluator {
   struct CutPolygon {
     uint32_t polygon, first_loop, end_loop;
   };
+  struct Within {  ///< whether a vertex is in or on an operand
+    uint32_t operand = kNone;
+    bool is_within = false;
+  };
   struct PatchFact {
     uint32_t patch;
     CutLoops::Fact fact;
@@ -116,6 +120,8 @@ class FaceEvaluator {
   /// Polygons that touch a remover's surface from within: none of them is boundary.
   void find_covered() {
     is_covered_.assign(job_.polygons().size(), 0);
+    if (std::find(removes_.begin(), removes_.end(), 1) == removes_.end()) return;
+    within_.assign(job_.vertex_count(), {});
     std::vector<uint32_t> touched_by, crossed_by;
     for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
       touched_by.clear();
@@ -137,19 +143,24 @@ class FaceEvaluator {
     }
   }
 
-  /// Whether a polygon is inside a convex operand but for its corners and edges.
+  /// Whether a polygon that is in no plane of a convex operand is inside it, but for its corners
+  /// and edges.
   bool is_within(uint32_t polygon, uint32_t operand) {
     const auto corners = job_.corners(job_.polygons()[polygon]);
+    return std::all_of(corners.begin(), corners.end(), [&](uint32_t v) {
+      Within& known = within_[v];
+      if (known.operand != operand) known = {operand, is_in_or_on(v, operand)};
+      return known.is_within;
+    });
+  }
+
+  bool is_in_or_on(uint32_t vertex, uint32_t operand) {
+    const uint32_t point = geometry_.vertex_point(vertex);
     for (uint32_t q = job_.polygon_start(operand); q < job_.polygon_start(operand + 1); ++q) {
       job_.ensure_support(q);
       const PlaneId plane = job_.polygons()[q].support;
-      bool any_behind = false;
-      for (const uint32_t v : corners) {
-        const int side = geometry_.side(plane.index(), geometry_.vertex_point(v));
-        if (plane.flipped() ? side < 0 : side > 0) return false;
-        any_behind |= side != 0;
-      }
-      if (!any_behind) return false;
+      const int side = geometry_.side(plane.index(), point);
+      if (plane.flipped() ? side < 0 : side > 0) return false;
     }
     return true;
   }
@@ -392,6 +403,7 @@ class FaceEvaluator {
   std::vector<std::array<uint32_t, 2>> ends_;          ///< of the contacts: lower and upper point
   std::vector<uint32_t> contact_starts_, contact_of_;  ///< per polygon
   std::vector<uint8_t> removes_;                       ///< per operand, see find_removers
+  std::vector<Within> within_;                         ///< per vertex, of the operand asked last
   std::vector<uint8_t> is_covered_;                    ///< per polygon, see find_covered
   std::vector<uint8_t> is_flat_;      ///< per operand: convex, with a face in the plane at hand
   std::vector<uint8_t> touched_;      ///< per vertex: may be on another surface
