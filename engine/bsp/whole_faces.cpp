@@ -205,8 +205,7 @@ class FaceEvaluator {
         cut_.push_back({p, loops, loops});
         continue;
       }
-      const bool is_met = contact_starts_[p] < contact_starts_[p + 1];
-      if (!is_met && untouched_corner(p) != kNone) continue;
+      if (is_met_on_rim_only(p) && untouched_corner(p) != kNone) continue;
       const bool plain = list_segments(p);
       if (segments_.empty() && coplanar_.empty() && untouched_corner(p) != kNone) continue;
       if (cut_.size() % 64 == 0 && is_cancelled()) return false;
@@ -224,6 +223,16 @@ class FaceEvaluator {
       } else {
         leave(p);
       }
+    }
+    return true;
+  }
+
+  /// Whether nothing cuts a polygon: what meets it lies on one side, if anything does.
+  [[nodiscard]] bool is_met_on_rim_only(uint32_t polygon) const {
+    for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
+      const Contact& c = contacts_[contact_of_[i]];
+      const bool is_p = c.p == polygon;
+      if (c.is_coplanar || (is_p ? c.p_front && c.p_back : c.q_front && c.q_back)) return false;
     }
     return true;
   }
