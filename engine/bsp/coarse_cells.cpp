@@ -12,7 +12,7 @@ namespace {
 /// are not.
 constexpr size_t kCellsOverLimit = 8;
 /// A smaller grid is not worth the while, a larger one not the memory.
-constexpr size_t kFewestCells = 128, kMostCells = size_t{1} << 21;
+constexpr size_t kFewestCells = 1024, kMostCells = size_t{1} << 21;
 /// Polygons that are in more cells than this on the average are too large for the grid.
 constexpr size_t kMostCellsEach = 16;
 

@@ -218,7 +218,10 @@ bool PolygonCutter::trace(std::span<const CutSegment> segments, CutLoops& out) {
         const bool inside = h % 2 == 0;
         out.facts.push_back({job_.polygons()[segments[arc.segment].other].operand, inside, inside});
       } else if (loop.vertex == kNone) {
-        loop.vertex = geometry_.point(from).vertex;
+        // A crossing may have the number of a vertex elsewhere, where an operand touches itself.
+        const uint32_t v = geometry_.point(from).vertex;
+        const auto own = job_.corners(*polygon_);
+        if (std::find(own.begin(), own.end(), v) != own.end()) loop.vertex = v;
       }
       h = arc.next[h % 2];
     } while (h != start);

@@ -90,6 +90,9 @@ class Job {
     return is_leaf(o) && !(*operands_)[o].leaf->may_touch &&
            !(*operands_)[o].leaf->opposite.empty();
   }
+  [[nodiscard]] bool is_convex(size_t o) const {
+    return is_leaf(o) && (*operands_)[o].leaf->convex;
+  }
   /// Vertices of operand o are [vertex_start(o), vertex_start(o + 1)).
   [[nodiscard]] uint32_t vertex_start(size_t o) const { return vertex_operand_starts_[o]; }
   [[nodiscard]] Point exact(uint32_t vertex) const;

@@ -10,6 +10,8 @@ namespace {
 
 /// Divisions in a row that thin out nothing before a cell is taken as it is.
 constexpr int kPatience = 3;
+/// A cell of the grid is not divided for so many times the limit: that costs more than its pairs.
+constexpr uint32_t kPatientLimit = 4;
 
 using Corner = std::array<int32_t, 3>;
 
@@ -81,7 +83,7 @@ class CellFinder {
     result_.surface = coarse.surface;
     for (const PairCells::Cell& cell : coarse.cells) {
       const uint32_t* polygons = coarse.polygons.data() + cell.first;
-      if (coarse.cells.size() > 1 && cell.count <= limit_) {
+      if (coarse.cells.size() > 1 && cell.count <= kPatientLimit * limit_) {
         ++result_.visited, ++result_.surface;
         result_.cells.push_back(
             {cell.lo, cell.hi, static_cast<uint32_t>(result_.polygons.size()), cell.count});

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
+
+#include "engine/base/sort_few.h"
 
 namespace csgrun {
 namespace {
@@ -15,6 +18,8 @@ constexpr double kMargin = 1.0 / 64;
 /// A ring between two circles of 1000 corners each takes 11, other faces hardly ever more than 2.
 /// Such rings are the known bad case: there the number grows with that of corners.
 constexpr size_t kFlipsPerTriangle = 16;
+/// Of so many corners or triangles, all pairs are looked at sooner than sorted.
+constexpr size_t kFewCorners = 12;
 
 using Triangle = std::array<uint32_t, 3>;
 
@@ -66,6 +71,7 @@ class Flipper {
   /// neighbours there.
   void find_slits(std::span<const std::vector<uint32_t>> loops) {
     slits_.clear();
+    if (loops.size() == 1 && loops[0].size() <= kFewCorners && are_distinct(loops[0])) return;
     std::vector<Edge>& edges = memory_.loop_edges;
     edges.clear();
     for (const auto& loop : loops) {
@@ -79,12 +85,22 @@ class Flipper {
     }
   }
 
+  static bool are_distinct(std::span<const uint32_t> corners) {
+    for (size_t i = 1; i < corners.size(); ++i) {
+      for (size_t j = 0; j < i; ++j) {
+        if (corners[i] == corners[j]) return false;
+      }
+    }
+    return true;
+  }
+
   /// Finds the twins of half-edges and queues all diagonals in the order of their points.
   void pair_diagonals() {
     const auto count = static_cast<uint32_t>(3 * triangles_.size());
     std::vector<std::pair<Edge, uint32_t>>& edges = memory_.edges;
     edges.clear();
     queue_.clear();
+    if (triangles_.size() <= kFewCorners && slits_.empty()) return pair_few();
     for (uint32_t h = 0; h < count; ++h) {
       edges.push_back({std::minmax({origin(h), origin(next(h))}), h});
     }
@@ -98,6 +114,24 @@ class Flipper {
       link(h, edges[i].second);
       enqueue(h);
     }
+  }
+
+  /// The same for a few: each half-edge is held against the others.
+  void pair_few() {
+    const auto count = static_cast<uint32_t>(3 * triangles_.size());
+    twin_.assign(count, kNoTwin);
+    queued_.assign(count, false);
+    std::vector<std::pair<Edge, uint32_t>>& diagonals = memory_.edges;
+    for (uint32_t h = 0; h < count; ++h) {
+      const uint32_t from = origin(h), to = origin(next(h));
+      for (uint32_t g = h / 3 * 3 + 3; g < count; ++g) {
+        if (origin(g) != to || origin(next(g)) != from) continue;
+        link(h, g);
+        diagonals.push_back({std::minmax({from, to}), h});
+      }
+    }
+    sort_few(diagonals.begin(), diagonals.end(), std::less<>());
+    for (const auto& diagonal : diagonals) enqueue(diagonal.second);
   }
 
   void link(uint32_t h, uint32_t twin) {

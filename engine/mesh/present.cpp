@@ -122,16 +122,19 @@ class Presenter {
     };
     std::vector<std::vector<uint32_t>> loops;
     for (uint32_t f = 0; f < faces_.size(); ++f) {
-      loops.clear();
-      for (const auto& loop : faces_[f].loops) {
-        loops.emplace_back();
-        for (const DirectedEdge& e : loop) loops.back().push_back(e.from);
-      }
-      for (const auto& [p, q] : faces_[f].slits) loops.push_back({p, q});
-      if (loops.size() == 1 && loops[0].size() == 3 && faces_[f].points.empty()) {
-        add_triangle({loops[0][0], loops[0][1], loops[0][2]}, f);
+      const MergedFace& face = faces_[f];
+      if (face.loops.size() == 1 && face.loops[0].size() == 3 && face.points.empty() &&
+          face.slits.empty()) {
+        add_triangle({face.loops[0][0].from, face.loops[0][1].from, face.loops[0][2].from}, f);
         continue;
       }
+      // The memory of loops is kept.
+      loops.resize(face.loops.size());
+      for (size_t l = 0; l < loops.size(); ++l) {
+        loops[l].clear();
+        for (const DirectedEdge& e : face.loops[l]) loops[l].push_back(e.from);
+      }
+      for (const auto& [p, q] : face.slits) loops.push_back({p, q});
       const PlaneOracle oracle(geometry_, planes_, faces_[f].plane);
       auto triangles = triangulate_face(loops, oracle);
       if (!triangles) return triangles.error();
