@@ -29,16 +29,18 @@ class Summer {
     if (!node.has_sums) {
       PieceSums own;
       for (const uint32_t p : node.pieces) {
-        if (!add_piece(p, own)) return false;
+        PieceStore::PieceSum& piece = store_.piece_sum(p);
+        if (!piece.is_known) {
+          if (!add_piece(p, piece.sums)) return false;
+          piece.is_known = true;
+        }
+        add(piece.sums, own);
       }
       for (const PieceTree::NodePtr& child : node.child) {
         PieceSums below;
         if (!child) continue;
         if (!sums(*child, below)) return false;
-        own.six_volumes += below.six_volumes;
-        own.twice_area += below.twice_area;
-        own.edges += below.edges;
-        own.triangles += below.triangles;
+        add(below, own);
       }
       node.sums = own;
       node.has_sums = true;
@@ -48,6 +50,13 @@ class Summer {
   }
 
  private:
+  static void add(const PieceSums& more, PieceSums& sums) {
+    sums.six_volumes += more.six_volumes;
+    sums.twice_area += more.twice_area;
+    sums.edges += more.edges;
+    sums.triangles += more.triangles;
+  }
+
   /// A fan from the first corner.
   bool add_piece(uint32_t piece, PieceSums& out) {
     const auto corners = store_.corners(piece);

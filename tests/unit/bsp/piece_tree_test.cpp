@@ -103,7 +103,7 @@ TEST_F(PieceTrees, StayShallowAlongALine) {
         [&](uint32_t p) -> const PieceBox& { return boxes_[p]; });
   }
   ASSERT_EQ(tree.size(), 3000u);
-  EXPECT_LE(tree.root()->height, 8u + 3 * 12u);
+  EXPECT_LE(tree.root()->height, 6u + 2 * 12u);
   EXPECT_EQ(in_box(tree, boxes_[1500]), (std::set<uint32_t>{1499, 1500, 1501}));
 }
 
