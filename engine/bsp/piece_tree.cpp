@@ -110,8 +110,7 @@ PieceTree::NodePtr PieceTree::insert(const NodePtr& node, const NodePtr& added) 
                      child->count);
   };
   const auto& [a, b] = node->child;
-  NodePtr result =
-      cost(a) <= cost(b) ? join(insert(a, added), b) : join(a, insert(b, added));
+  NodePtr result = cost(a) <= cost(b) ? join(insert(a, added), b) : join(a, insert(b, added));
   if (!is_too_deep(*result)) return result;
   std::vector<NodePtr> leaves;
   collect_leaves(result, leaves);

@@ -16,8 +16,8 @@
 
 namespace csgrun {
 
-/// Box of correctly rounded coordinates, closed. Rounding keeps the order along an axis, so boxes of
-/// things that meet meet.
+/// Box of correctly rounded coordinates, closed. Rounding keeps the order along an axis, so boxes
+/// of things that meet meet.
 struct PieceBox {
   std::array<double, 3> lo{HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
