@@ -1,0 +1,145 @@
+#include "engine/bsp/piece_writer.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace csgrun {
+
+bool PieceWriter::add_operands() {
+  for (uint32_t o = 0; o < operands_.size(); ++o) {
+    number_.push_back(kNone);
+    if (operands_[o].pieces) continue;
+    number_[o] = store_.add_operand(job_, operands_, o);
+    if (number_[o] == PieceStore::kNoNumber) return false;
+  }
+  return true;
+}
+
+void PieceWriter::add_whole(const WholePolygon& w) {
+  const JobPolygon& p = job_.polygons()[w.polygon];
+  const auto corners = job_.corners(p);
+  const auto edges = job_.edge_planes(p);
+  PieceStore::Piece piece = origin_of(w.polygon);
+  piece.is_whole = piece.is_whole || operands_[p.operand].leaf;
+  piece.is_flipped = piece.is_flipped != w.flip;
+  piece.is_met = w.is_met;
+  piece.first = static_cast<uint32_t>(store_.corners().size());
+  piece.count = p.count;
+  piece.support = p.support.valid() && w.flip ? p.support.flip() : p.support;
+  for (uint32_t i = 0; i < p.count; ++i) {
+    store_.corners().push_back(store_vertex(corners[w.flip ? p.count - 1 - i : i]));
+    store_.edges().push_back(edges[w.flip ? (2 * p.count - 2 - i) % p.count : i]);
+  }
+  added.push_back(store_.add_piece(piece));
+}
+
+bool PieceWriter::add_cut(const std::vector<FragmentSet>& sets) {
+  struct Loop {
+    uint32_t polygon;
+    PlaneId plane;
+    uint32_t set, piece;
+  };
+  std::vector<Loop> loops;
+  for (uint32_t s = 0; s < sets.size(); ++s) {
+    for (uint32_t i = 0; i < sets[s].pieces.size(); ++i) {
+      loops.push_back({sets[s].pieces[i].polygon, sets[s].pieces[i].plane, s, i});
+    }
+  }
+  std::stable_sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) {
+    return std::pair(a.polygon, a.plane) < std::pair(b.polygon, b.plane);
+  });
+  points_.resize(sets.size());
+  for (size_t i = 0, j = 0; i < loops.size(); i = j) {
+    edges_.clear();
+    bool is_simple = true;
+    for (j = i; j < loops.size() && loops[j].polygon == loops[i].polygon &&
+                loops[j].plane == loops[i].plane;
+         ++j) {
+      is_simple = is_simple && j == i;
+      add_edges(sets[loops[j].set], loops[j].piece, points_[loops[j].set]);
+      is_simple = is_simple && !sets[loops[j].set].pieces[loops[j].piece].is_loose;
+    }
+    if (!add_region(loops[i].polygon, loops[i].plane, is_simple)) return false;
+  }
+  return true;
+}
+
+PieceStore::Piece PieceWriter::origin_of(uint32_t polygon) const {
+  const uint32_t o = job_.polygons()[polygon].operand;
+  if (number_[o] == kNone) return store_.piece(job_.piece(polygon));
+  return {number_[o], job_.polygons()[polygon].face, 0, 0, PlaneId(), false, false};
+}
+
+uint32_t PieceWriter::store_vertex(uint32_t vertex) {
+  const uint32_t o = job_.operand_of_vertex(vertex);
+  if (number_[o] == kNone) return job_.piece_point(vertex);
+  return store_.first_point(number_[o]) + vertex - job_.vertex_start(o);
+}
+
+uint32_t PieceWriter::store_point(uint32_t p) {
+  const auto point = geometry_.point(p);
+  if (point.vertex != kNone) return store_vertex(point.vertex);
+  point_number_.resize(geometry_.point_count(), kNone);
+  if (point_number_[p] == kNone) point_number_[p] = store_.add_point(point.planes, point.rounded);
+  return point_number_[p];
+}
+
+void PieceWriter::add_edges(const FragmentSet& set, uint32_t piece, std::vector<uint32_t>& points) {
+  if (points.empty()) {
+    for (const FragmentSet::NamedPoint& p : set.points) {
+      points.push_back(index_.unique(p.vertex != kNone ? geometry_.vertex_point(p.vertex)
+                                                       : geometry_.add_point(p.planes, p.rounded)));
+    }
+  }
+  const FragmentSet::Piece& p = set.pieces[piece];
+  for (uint32_t i = 0; i < p.count; ++i) {
+    const uint32_t next = i + 1 < p.count ? i + 1 : 0;
+    edges_.push_back({points[set.corner_point[p.first + i]],
+                      points[set.corner_point[p.first + next]], set.corner_plane[p.first + i]});
+  }
+}
+
+Fragment PieceWriter::cell_of(uint32_t polygon, PlaneId plane) {
+  const JobPolygon& p = job_.polygons()[polygon];
+  const auto corners = job_.corners(p);
+  const auto edges = job_.edge_planes(p);
+  const bool flip = plane != p.support;
+  cell_points_.clear();
+  cell_edges_.clear();
+  for (uint32_t i = 0; i < p.count; ++i) {
+    cell_points_.push_back(geometry_.vertex_point(corners[flip ? p.count - 1 - i : i]));
+    cell_edges_.push_back(edges[flip ? (2 * p.count - 2 - i) % p.count : i]);
+  }
+  return geometry_.make_fragment(plane, cell_points_, cell_edges_);
+}
+
+bool PieceWriter::add_region(uint32_t polygon, PlaneId plane, bool is_simple) {
+  std::vector<DirectedEdge>* outline = &edges_;
+  if (!is_simple) {
+    if (!regions_.build(plane, edges_, loops_)) return false;
+    outline = &loops_.edges;
+  }
+  job_.ensure_planes(polygon);
+  boundary_.clear();
+  for (const DirectedEdge& e : *outline) boundary_.push_back({e.from, e.to, e.plane});
+  fragments_.clear();
+  convexify_within(geometry_, job_.planes(), cell_of(polygon, plane), boundary_, wall_of_,
+                   fragments_);
+  PieceStore::Piece piece = origin_of(polygon);
+  piece.is_whole = false;
+  // (Of a polygon in pieces the job has the support as the piece has it.)
+  piece.is_flipped = piece.is_flipped != (plane != job_.polygons()[polygon].support);
+  piece.support = plane;
+  for (const Fragment& f : fragments_) {
+    piece.first = static_cast<uint32_t>(store_.corners().size());
+    piece.count = f.count;
+    for (uint32_t i = 0; i < f.count; ++i) {
+      store_.corners().push_back(store_point(geometry_.corners(f)[i]));
+      store_.edges().push_back(geometry_.edges(f)[i]);
+    }
+    added.push_back(store_.add_piece(piece));
+  }
+  return true;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,73 @@
+// What a job gives, put into a store of pieces.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "engine/bsp/assemble.h"
+#include "engine/bsp/convexify.h"
+#include "engine/bsp/fragment_set.h"
+#include "engine/bsp/piece_store.h"
+#include "engine/bsp/point_index.h"
+#include "engine/bsp/regions.h"
+
+namespace csgrun {
+
+/// Puts what a job gives into a store.
+class PieceWriter {
+ public:
+  PieceWriter(Job& job, const std::vector<Operand>& operands, PieceStore& store)
+      : job_(job),
+        operands_(operands),
+        store_(store),
+        geometry_(job.planes(), &job),
+        index_(geometry_),
+        regions_(geometry_, job.planes()),
+        wall_of_([&job](int axis, int64_t m) { return job.wall(axis, m); }) {}
+
+  /// Tells the store of operands that are not in pieces; false if one cannot be.
+  bool add_operands();
+
+  /// A polygon that is kept. One in pieces must be turned over; others are there already.
+  void add_whole(const WholePolygon& w);
+
+  /// Pieces of polygons that were cut; false if they do not close up.
+  bool add_cut(const std::vector<FragmentSet>& sets);
+
+  std::vector<uint32_t> added;  ///< pieces
+
+ private:
+  /// Where a polygon of the job comes from.
+  PieceStore::Piece origin_of(uint32_t polygon) const;
+
+  uint32_t store_vertex(uint32_t vertex);
+
+  uint32_t store_point(uint32_t p);
+
+  void add_edges(const FragmentSet& set, uint32_t piece, std::vector<uint32_t>& points);
+
+  /// A polygon of the job, seen from one side of its plane.
+  Fragment cell_of(uint32_t polygon, PlaneId plane);
+
+  /// What is left of a polygon on one side of its plane, given by edges_.
+  bool add_region(uint32_t polygon, PlaneId plane, bool is_simple);
+
+  Job& job_;
+  const std::vector<Operand>& operands_;
+  PieceStore& store_;
+  CellGeometry geometry_;
+  PointIndex index_;
+  RegionBuilder regions_;
+  const std::function<uint32_t(int, int64_t)> wall_of_;
+  std::vector<uint32_t> number_;               ///< per operand: that in the store, or kNone
+  std::vector<std::vector<uint32_t>> points_;  ///< per set: the geometry's
+  std::vector<uint32_t> point_number_;         ///< per constructed point: the store's
+  std::vector<DirectedEdge> edges_;
+  std::vector<BoundaryEdge> boundary_;
+  std::vector<Fragment> fragments_;
+  RegionLoops loops_;
+  std::vector<uint32_t> cell_points_, cell_edges_;
+};
+
+}  // namespace csgrun
