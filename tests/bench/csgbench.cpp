@@ -34,6 +34,23 @@ void run_nary(const std::string& name, const Settings& settings, const std::vect
   run.finish(*run.evaluate(operands, op));
 }
 
+/// What an operation looks at: the pieces in the tool's box, and the tool's faces.
+size_t touched_faces(const ResultPieces& result, const Operand& tool) {
+  if (!tool.leaf) return 0;
+  PieceBox box;
+  for (uint32_t v = 0; v < tool.leaf->vertices.size(); ++v) {
+    std::array<double, 3> p{};
+    for (size_t k = 0; k < 3; ++k) {
+      p[k] = static_cast<double>(tool.leaf->vertices[v][k] + tool.translation[k]);
+    }
+    box.add(p);
+  }
+  size_t count = tool.leaf->face_count();
+  result.tree.each([&](const PieceBox& node) { return node.meets(box); },
+                   [&](uint32_t piece) { count += result.store->box(piece).meets(box); });
+  return count;
+}
+
 /// One operation after another; every result is a kernel mesh whose box and volume are asked.
 void run_chain(const std::string& name, const Settings& settings,
                const std::vector<RawMesh>& meshes, BooleanOp op) {
@@ -42,23 +59,26 @@ void run_chain(const std::string& name, const Settings& settings,
   for (const RawMesh& m : meshes) tools.push_back(run.import(m, false));
   const size_t steps = tools.size() - 1, tenth = std::max<size_t>(1, steps / 10);
   double first_tenth = 0, last_tenth = 0, asked = 0;
+  size_t first_faces = 0, last_faces = 0;
   PiecesPtr result = run.evaluate_next(nullptr, {tools[0]}, BooleanOp::kUnion);
   for (size_t i = 1; i <= steps; ++i) {
     const double start = run.clock.op;
+    const size_t faces = touched_faces(*result, tools[i]);
     result = run.evaluate_next(result, {tools[i]}, op);
     run.clock.timed(run.clock.op, [&] {
       asked += take(pieces_volume(*result, run.step())) + result->tree.box().hi[0];
       return 0;
     });
     const double seconds = run.clock.op - start;
-    if (i <= tenth) first_tenth += seconds;
-    if (i > steps - tenth) last_tenth += seconds;
+    if (i <= tenth) first_tenth += seconds, first_faces += faces;
+    if (i > steps - tenth) last_tenth += seconds, last_faces += faces;
   }
   if (!(asked > 0)) fail("a result of the chain has no volume");
   const auto boundary =
       run.clock.timed(run.clock.exporting, [&] { return take(assemble_pieces(*result, true)); });
-  run.finish(*boundary, fmt::format(R"(,"first_tenth_s":{:.6f},"last_tenth_s":{:.6f})", first_tenth,
-                                    last_tenth));
+  run.finish(*boundary, fmt::format(R"(,"first_tenth_s":{:.6f},"last_tenth_s":{:.6f})"
+                                    R"(,"first_tenth_faces":{},"last_tenth_faces":{})",
+                                    first_tenth, last_tenth, first_faces, last_faces));
 }
 
 /// The turn as a transform, that is, by a frame: through the evaluator.
