@@ -96,7 +96,7 @@ struct Left {
   }                                                          \
   template <class A, int N, class B>                         \
   constexpr bool operator OP(Left<A, NAME<N>> l, B&& b) {    \
-    int m = mutant();                                   \
+    int m = mutant();                                        \
     if (m == N) return l.a BORDER b;                         \
     if (m == N + 1) return l.a TURNED b;                     \
     const bool written = l.a OP b;                           \
@@ -122,7 +122,7 @@ CSGRUN_MUTANT_COMPARISON(GreaterEqual, >=, >, <=)
   template <class A, int N, class B>                         \
   constexpr RESULT operator OP(Left<A, NAME<N>> l, B&& b) {  \
     if constexpr (requires { MUTATED; }) {                   \
-      int m = mutant();                                 \
+      int m = mutant();                                      \
       if (m == N) return MUTATED;                            \
       RESULT written = l.a OP b;                             \
       if (m == kTracing) {                                   \
@@ -174,7 +174,7 @@ CSGRUN_MUTANT_PREFIX(Decrement, --, decltype(auto), ++a)
   }                                                          \
   template <class A, class B, int N>                         \
   constexpr A& operator OP(A& a, Left<B, NAME<N>> r) {       \
-    int m = mutant();                                   \
+    int m = mutant();                                        \
     if (m == N) {                                            \
       MUTATED;                                               \
       return a;                                              \
