@@ -1,6 +1,8 @@
 // A mesh that is several solids at once, resolved, is a Boolean of these solids.
 #include "engine/bsp/self_resolution.h"
 
+#include <atomic>
+
 #include <gtest/gtest.h>
 
 #include "engine/mesh/leaf_check.h"
@@ -187,6 +189,48 @@ TEST(SelfResolution, HullsOfNestedAndInvertedBoxes) {
   EXPECT_EQ(is(twice, InsideRule::kNonZero, kUnion, {o}), "");
   EXPECT_EQ(is(twice, InsideRule::kOuterHull, kUnion, {o}), "");
   EXPECT_TRUE((*resolved(twice, InsideRule::kEvenOdd))->faces.empty());
+}
+
+constexpr InsideRule kRules[] = {InsideRule::kNonZero, InsideRule::kPositive, InsideRule::kEvenOdd,
+                                 InsideRule::kOuterHull, InsideRule::kOrientedHull};
+
+TEST(SelfResolution, OpenSurfacesAreRefused) {
+  // Two boxes across each other, or apart; one of them without its last face.
+  for (const int64_t move : {3, 20}) {
+    auto loops = box_loops({0, 0, 0}, {6, 6, 6});
+    const auto other = box_loops({move, 3, 3}, {move + 6, 9, 9});
+    loops.insert(loops.end(), other.begin(), other.end() - 1);
+    const Operand open = operand_of(make_leaf(loops));
+    for (const InsideRule rule : kRules) {
+      const auto result = resolved(open, rule);
+      ASSERT_FALSE(result);
+      EXPECT_EQ(result.error().code, ErrorCode::kInternal);
+    }
+  }
+}
+
+TEST(SelfResolution, StopsWhenCancelled) {
+  auto loops = box_loops({0, 0, 0}, {6, 6, 6});
+  for (const int64_t move : {3, 20}) {
+    const auto other = box_loops({move, 3, 3}, {move + 6, 9, 9});
+    loops.insert(loops.end(), other.begin(), other.end());
+  }
+  const Operand leaf = operand_of(make_leaf(loops));
+  Operand result;
+  result.boundary = *resolved(leaf, InsideRule::kNonZero);
+  std::atomic<bool> cancel = false;
+  KernelOptions options;
+  options.cancel = &cancel;
+  for (const Operand* operand : std::array<const Operand*, 2>{&leaf, &result}) {
+    for (const InsideRule rule : kRules) {
+      cancel = false;
+      EXPECT_EQ(difference_of(resolved(*operand, rule, options), resolved(*operand, rule)), "");
+      cancel = true;
+      const auto stopped = resolved(*operand, rule, options);
+      ASSERT_FALSE(stopped);
+      EXPECT_EQ(stopped.error().code, ErrorCode::kCancelled);
+    }
+  }
 }
 
 }  // namespace
