@@ -13,10 +13,10 @@ namespace csgrun {
 
 class CrossingPoints {
  public:
-  CrossingPoints(const Job& job, CellGeometry& geometry, PointIndex& index)
+  CrossingPoints(Job& job, CellGeometry& geometry, PointIndex& index)
       : job_(job), geometry_(geometry), index_(index), slots_(1024) {}
 
-  /// The number in the geometry. The planes of both polygons must have been made.
+  /// The number in the geometry. The supports of both polygons must have been made.
   uint32_t point(uint32_t polygon, uint32_t edge, uint32_t through) {
     const JobPolygon& p = job_.polygons()[polygon];
     const auto corners = job_.corners(p);
@@ -26,8 +26,9 @@ class CrossingPoints {
     for (; slots_[s].point != kNone; s = (s + 1) & (slots_.size() - 1)) {
       if (slots_[s].name == name) return slots_[s].point;
     }
-    const uint32_t x = index_.unique(geometry_.add_point(
-        {p.support.index(), job_.edge_planes(p)[edge], job_.polygons()[through].support.index()}));
+    const uint32_t x =
+        index_.unique(geometry_.add_point({p.support.index(), job_.edge_plane(polygon, edge),
+                                           job_.polygons()[through].support.index()}));
     slots_[s] = {name, x};
     if (++count_ * 2 > slots_.size()) grow();
     return x;
@@ -59,7 +60,7 @@ class CrossingPoints {
     }
   }
 
-  const Job& job_;
+  Job& job_;
   CellGeometry& geometry_;
   PointIndex& index_;
   std::vector<Slot> slots_;

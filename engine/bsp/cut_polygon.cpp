@@ -121,7 +121,6 @@ bool PolygonCutter::add_boundary(std::span<const CutSegment> segments) {
     return std::tie(a.edge, a.segment, a.at_to) < std::tie(b.edge, b.segment, b.at_to);
   });
   const auto corners = job_.corners(*polygon_);
-  const auto planes = job_.edge_planes(*polygon_);
   const auto first = static_cast<uint32_t>(arcs_.size());
   size_t at = 0;
   for (uint32_t e = 0; e < polygon_->count; ++e) {
@@ -140,12 +139,13 @@ bool PolygonCutter::add_boundary(std::span<const CutSegment> segments) {
       const uint32_t s = stop.index / 2;
       const bool at_to = stop.index % 2;
       const uint32_t arc = at_to ? first_arc_[s + 1] - 1 : first_arc_[s];
-      arcs_.push_back({{from, stop.point}, planes[e], kNone, {half(arc, at_to), kNone}});
+      arcs_.push_back(
+          {{from, stop.point}, CutLoops::kOwnEdge | e, kNone, {half(arc, at_to), kNone}});
       arcs_[arc].next[at_to ? 0 : 1] = half(arriving + 1, false);
       from = stop.point;
     }
     arcs_.push_back({{from, end},
-                     planes[e],
+                     CutLoops::kOwnEdge | e,
                      kNone,
                      {half(static_cast<uint32_t>(arcs_.size()) + 1, false), kNone}});
   }
@@ -218,7 +218,10 @@ bool PolygonCutter::trace(std::span<const CutSegment> segments, CutLoops& out) {
         const bool inside = h % 2 == 0;
         out.facts.push_back({job_.polygons()[segments[arc.segment].other].operand, inside, inside});
       } else if (loop.vertex == kNone) {
-        loop.vertex = geometry_.point(from).vertex;
+        // A crossing may have the number of a vertex elsewhere, where an operand touches itself.
+        const uint32_t v = geometry_.point(from).vertex;
+        const auto own = job_.corners(*polygon_);
+        if (std::find(own.begin(), own.end(), v) != own.end()) loop.vertex = v;
       }
       h = arc.next[h % 2];
     } while (h != start);

@@ -38,6 +38,10 @@ struct CutLoops {
     bool operator==(const Fact&) const = default;
     auto operator<=>(const Fact&) const = default;
   };
+  /// In `corner_plane`: this and the number of an edge of the polygon, whose plane may not have
+  /// been made.
+  static constexpr uint32_t kOwnEdge = 1u << 31;
+
   std::vector<Loop> loops;
   std::vector<uint32_t> corner_point;  ///< of the geometry
   std::vector<uint32_t> corner_plane;  ///< of the edge to the next corner
@@ -53,7 +57,7 @@ class PolygonCutter {
   PolygonCutter(const Job& job, CellGeometry& geometry) : job_(job), geometry_(geometry) {}
 
   /// Appends the loops of a polygon. False, with nothing appended, when points coincide: then more
-  /// than names is needed. The planes of all polygons must have been made. O(n log n) for n
+  /// than names is needed. The supports of all polygons must have been made. O(n log n) for n
   /// segments of one operand, and the pairs of segments of different ones whose boxes meet.
   bool cut(uint32_t polygon, std::span<const CutSegment> segments, CutLoops& out);
 

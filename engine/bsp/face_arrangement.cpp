@@ -10,10 +10,14 @@ uint32_t FaceArrangement::vertex(uint32_t v) {
   return touched_[v] ? index_.unique(p) : p;
 }
 
-/// The sign of a plane that holds an edge of a polygon at its other corners.
-int FaceArrangement::inner_sign(const JobPolygon& polygon, uint32_t edge_plane) {
-  for (const uint32_t v : job_.corners(polygon)) {
-    if (const int s = geometry_.side(edge_plane, geometry_.vertex_point(v))) return s;
+/// The sign of the plane that holds an edge of a polygon at its other corners.
+int FaceArrangement::inner_sign(const JobPolygon& polygon, uint32_t edge) {
+  const auto corners = job_.corners(polygon);
+  const uint32_t plane = job_.edge_planes(polygon)[edge];
+  // The corners after those of the edge are off it, but for straight angles.
+  for (uint32_t i = 2; i < polygon.count; ++i) {
+    const uint32_t v = corners[(edge + i) % polygon.count];
+    if (const int s = geometry_.side(plane, geometry_.vertex_point(v))) return s;
   }
   return 0;
 }
@@ -42,9 +46,11 @@ bool FaceArrangement::build(uint32_t polygon, std::span<const SheetSegment> segm
 void FaceArrangement::add_boundary() {
   const auto corners = job_.corners(*polygon_);
   const auto planes = job_.edge_planes(*polygon_);
+  box_ = {};
   for (uint32_t e = 0; e < polygon_->count; ++e) {
+    box_.include(job_.rounded(corners[e]));
     lines_.push_back({vertex(corners[e]), vertex(corners[e + 1 < polygon_->count ? e + 1 : 0]),
-                      planes[e], inner_sign(*polygon_, planes[e]), Kind::kBoundary, kNone, kNone});
+                      planes[e], inner_sign(*polygon_, e), Kind::kBoundary, kNone, kNone});
   }
 }
 
@@ -57,16 +63,30 @@ void FaceArrangement::add_segments(std::span<const SheetSegment> segments) {
   }
 }
 
+/// Whether the way between two vertices is clearly beside the polygon's box: rounding keeps order.
+bool FaceArrangement::is_far(uint32_t vertex, uint32_t other) const {
+  const auto &a = job_.rounded(vertex), &b = job_.rounded(other);
+  bool far = false;
+  for (int k = 0; k < 3; ++k) {
+    far |= (a[k] < box_.lo[k] && b[k] < box_.lo[k]) || (a[k] > box_.hi[k] && b[k] > box_.hi[k]);
+  }
+  return far;
+}
+
 /// Whether a coplanar polygon is strictly on the outer side of an edge of the polygon.
 bool FaceArrangement::is_apart(uint32_t sheet) {
   const auto corners = job_.corners(job_.polygons()[sheet]);
+  size_t inner = 0;  // a corner that is inside of most edges, once it is found
   for (uint32_t e = 0; e < polygon_->count; ++e) {
     const Line& edge = lines_[e];
-    if (std::all_of(corners.begin(), corners.end(), [&](uint32_t v) {
-          return geometry_.side(edge.plane, geometry_.vertex_point(v)) * edge.left < 0;
-        })) {
-      return true;
-    }
+    const auto is_beyond = [&](size_t c) {
+      return geometry_.side(edge.plane, geometry_.vertex_point(corners[c])) * edge.left < 0;
+    };
+    if (!is_beyond(inner)) continue;
+    size_t c = 0;
+    while (c < corners.size() && is_beyond(c)) ++c;
+    if (c == corners.size()) return true;
+    inner = c;
   }
   return false;
 }
@@ -101,12 +121,13 @@ void FaceArrangement::add_coplanar(std::span<const uint32_t> coplanar) {
       ++i;
       continue;
     }
+    if (is_far(s.low, s.high)) continue;
     const JobPolygon& other = job_.polygons()[s.sheet];
     const auto corners = job_.corners(other);
     const uint32_t plane = job_.edge_planes(other)[s.edge];
     // Seen from outside the polygon, a sheet that faces the other way runs clockwise.
     const bool is_left = other.support == polygon_->support;
-    const int inner = inner_sign(other, plane);
+    const int inner = inner_sign(other, s.edge);
     lines_.push_back(
         {vertex(corners[s.edge]), vertex(corners[s.edge + 1 < other.count ? s.edge + 1 : 0]), plane,
          is_left ? inner : -inner, is_left ? Kind::kLeft : Kind::kRight, s.sheet, other.operand});
@@ -174,6 +195,7 @@ void FaceArrangement::add_collinear(const Line& on, uint32_t line, uint32_t poin
 
 void FaceArrangement::break_lines() {
   parts_.clear();
+  asked_ = kNone;
   std::sort(stops_.begin(), stops_.end());
   stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
   for (size_t begin = 0; begin < stops_.size();) {
@@ -197,16 +219,21 @@ void FaceArrangement::break_lines() {
 
 /// Whether a part of a coplanar sheet's edge is outside the polygon; parts are broken at its edges.
 bool FaceArrangement::is_outside(const Part& part) {
-  const Kind kind = lines_[part.line].kind;
-  if (!is_coplanar(kind)) return false;
-  for (uint32_t e = 0; e < polygon_->count; ++e) {
-    const Line& edge = lines_[e];
-    if (geometry_.side(edge.plane, part.low) * edge.left < 0 ||
-        geometry_.side(edge.plane, part.high) * edge.left < 0) {
-      return true;
-    }
+  if (!is_coplanar(lines_[part.line].kind)) return false;
+  return is_beyond(part.backwards ? part.high : part.low) ||
+         is_beyond(part.backwards ? part.low : part.high);
+}
+
+/// Whether a point is outside the polygon. Parts that follow one another ask the same.
+bool FaceArrangement::is_beyond(uint32_t point) {
+  if (point == asked_) return was_beyond_;
+  asked_ = point;
+  const auto& at = geometry_.point(point).rounded;
+  was_beyond_ = !box_.holds({at, at});
+  for (uint32_t e = 0; e < polygon_->count && !was_beyond_; ++e) {
+    was_beyond_ = geometry_.side(lines_[e].plane, point) * lines_[e].left < 0;
   }
-  return false;
+  return was_beyond_;
 }
 
 void FaceArrangement::join_parts() {
@@ -384,9 +411,11 @@ uint32_t FaceArrangement::sheet_at(std::span<const uint32_t> sheets, uint32_t po
   for (const uint32_t q : sheets) {
     const JobPolygon& sheet = job_.polygons()[q];
     const auto planes = job_.edge_planes(sheet);
-    if (std::all_of(planes.begin(), planes.end(), [&](uint32_t plane) {
-          return geometry_.side(plane, point) * inner_sign(sheet, plane) >= 0;
-        })) {
+    bool holds = true;
+    for (uint32_t e = 0; e < sheet.count && holds; ++e) {
+      holds = geometry_.side(planes[e], point) * inner_sign(sheet, e) >= 0;
+    }
+    if (holds) {
       return q;
     }
   }
@@ -458,16 +487,22 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
       facts_.push_back({loop, {o, inside, inside}});
       continue;
     }
-    if (count != 2) return false;
-    const Line& other = lines_[second->line];
-    if (other.kind == Kind::kThrough) return false;
     // A coplanar sheet on this half-edge's left covers what is there.
     const auto coplanar_side = [&](const Part& part) {  // 1: left, -1: right, 0: not coplanar
       const Kind kind = lines_[part.line].kind;
       if (!is_coplanar(kind)) return 0;
       return (kind == Kind::kLeft) != reversed(part) ? 1 : -1;
     };
-    const int a = coplanar_side(*p), b = coplanar_side(*second);
+    const int a = coplanar_side(*p);
+    if (count == 1 && a != 0 && job_.is_convex(o)) {  // beyond such a sheet one is outside
+      const bool same = job_.polygons()[line.sheet].support == polygon_->support;
+      facts_.push_back({loop, {o, a > 0 && !same, a > 0 && same}, a < 0});
+      continue;
+    }
+    if (count != 2) return false;
+    const Line& other = lines_[second->line];
+    if (other.kind == Kind::kThrough) return false;
+    const int b = coplanar_side(*second);
     if (a != 0 && a == b) return false;
     if (a > 0 || b > 0) {
       const bool same =

@@ -32,7 +32,8 @@ class FaceArrangement {
                   const std::vector<uint8_t>& touched)
       : job_(job), geometry_(geometry), index_(index), touched_(touched) {}
 
-  /// Appends the loops of a polygon that meets `segments` and polygons of its own plane. False,
+  /// Appends the loops of a polygon that meets `segments` and polygons of its own plane; a convex
+  /// operand that has one of these needs no segments. False,
   /// with nothing appended, where sheets are too many or too few to tell sides, as at edges of more
   /// than two faces. The planes of all polygons must have been made. O(n log n + pairs of segments
   /// whose boxes meet).
@@ -90,17 +91,19 @@ class FaceArrangement {
   };
 
   uint32_t vertex(uint32_t v);
-  int inner_sign(const JobPolygon& polygon, uint32_t edge_plane);
+  int inner_sign(const JobPolygon& polygon, uint32_t edge);
   [[nodiscard]] bool is_apart(uint32_t sheet);
   void add_boundary();
   void add_segments(std::span<const SheetSegment> segments);
   void add_coplanar(std::span<const uint32_t> coplanar);
+  [[nodiscard]] bool is_far(uint32_t vertex, uint32_t other) const;
   void find_stops();
   void meet(uint32_t s, uint32_t t);
   void add_collinear(const Line& on, uint32_t line, uint32_t point);
   void break_lines();
   void join_parts();
   [[nodiscard]] bool is_outside(const Part& part);
+  [[nodiscard]] bool is_beyond(uint32_t point);
   void sort_around_points();
   bool trace(CutLoops& out);
   bool add_facts(uint32_t half, uint32_t loop);
@@ -137,6 +140,9 @@ class FaceArrangement {
   std::vector<uint32_t> sheets_;  ///< coplanar ones that are not clearly apart
   std::vector<SheetEdge> sheet_edges_;
   size_t first_coplanar_line_ = 0;
+  SheetBox box_;             ///< of the polygon
+  uint32_t asked_ = kNone;   ///< the last point of is_beyond
+  bool was_beyond_ = false;  ///< and the answer
   std::vector<SheetBox> loop_boxes_;
   std::vector<LoopFact> covered_;  ///< not told by arcs
 };

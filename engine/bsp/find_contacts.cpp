@@ -19,11 +19,18 @@ struct Found {
   uint64_t filtered = 0, exact = 0;  ///< signs
 };
 
-void look_at(const Job& job, PairTest& test, const PairCells& cells, const PairCells::Cell& cell,
+/// What one thread works with.
+struct Looker {
+  PairTest test;
+  CellPairs pairs;
+};
+
+void look_at(const Job& job, Looker& looker, const PairCells& cells, const PairCells::Cell& cell,
              Found& out) {
   bool critical = false;
   Contact contact;
-  for_each_pair(job, cells, cell, [&](uint32_t p, uint32_t q) {
+  PairTest& test = looker.test;
+  looker.pairs.visit(job, cells, cell, [&](uint32_t p, uint32_t q) {
     const Meeting meeting = test.run(p, q, nullptr, contact);
     if (meeting == Meeting::kApart) return;
     critical = true;
@@ -70,13 +77,17 @@ Contacts find_contacts(Job& job, const KernelOptions& options, EvaluateStats& st
   const PairCells cells = find_pair_cells(job, options);
   std::vector<Found> found(run_count(cells.cells.size()));
   for_each_run(
-      found.size(), options, [&] { return PairTest(job); },
-      [&](PairTest& test, size_t run) {
+      found.size(), options,
+      [&] {
+        return Looker{PairTest(job), {}};
+      },
+      [&](Looker& looker, size_t run) {
         Found& out = found[run];
+        const PairTest& test = looker.test;
         const uint64_t filtered = test.signs().filtered, exact = test.signs().exact;
         const size_t end = std::min(cells.cells.size(), (run + 1) * kCellsPerRun);
         for (size_t c = run * kCellsPerRun; c < end; ++c) {
-          look_at(job, test, cells, cells.cells[c], out);
+          look_at(job, looker, cells, cells.cells[c], out);
         }
         out.filtered = test.signs().filtered - filtered;
         out.exact = test.signs().exact - exact;

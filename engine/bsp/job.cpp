@@ -11,11 +11,33 @@
 namespace csgrun {
 namespace {
 
-constexpr double kBoxLimit = 0x1p30;
+constexpr int32_t kBoxLimit = 1 << 30;
 constexpr uint32_t kNoVertexPlanes = ~0u;
 
 int32_t clamp_to_box(double v) {
-  return static_cast<int32_t>(std::clamp(v, -kBoxLimit, kBoxLimit));
+  constexpr double kLimit = kBoxLimit;
+  return static_cast<int32_t>(std::clamp(v, -kLimit, kLimit));
+}
+
+/// Appends the boxes of all faces of a leaf on the grid, from whole numbers.
+void append_grid_boxes(const LeafGeometry& leaf, const IVec3& translation,
+                       std::vector<PolygonBox>& boxes) {
+  std::vector<std::array<int32_t, 3>> at;
+  at.reserve(leaf.vertices.size());
+  const auto clamped = [](int64_t c) {
+    return static_cast<int32_t>(std::clamp<int64_t>(c, -kBoxLimit, kBoxLimit));
+  };
+  for (const IVec3& q : leaf.vertices) {
+    at.push_back({clamped(q[0] + translation[0]), clamped(q[1] + translation[1]),
+                  clamped(q[2] + translation[2])});
+  }
+  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+    PolygonBox box{at[leaf.corners[leaf.face_starts[f]]], at[leaf.corners[leaf.face_starts[f]]]};
+    for (uint32_t c = leaf.face_starts[f] + 1; c < leaf.face_starts[f + 1]; ++c) {
+      box.include({at[leaf.corners[c]], at[leaf.corners[c]]});
+    }
+    boxes.push_back(box);
+  }
 }
 
 /// C^T n and 2^k d: the plane of a frame in the world.
@@ -56,6 +78,21 @@ bool is_prime(int64_t p) {
 
 bool has_normal(const Plane& p) { return p.a != 0 || p.b != 0 || p.c != 0; }
 
+/// The plane of a face of a leaf, outwards.
+Plane support_of(const LeafGeometry& leaf, uint32_t face) {
+  const uint32_t begin = leaf.face_starts[face], count = leaf.face_starts[face + 1] - begin;
+  const auto vertex = [&](uint32_t i) -> const IVec3& {
+    return leaf.vertices[leaf.corners[begin + i % count]];
+  };
+  // The first corner that is not a 180 degree one; a convex polygon turns left there.
+  Plane support;
+  for (uint32_t i = 0; i < count && !has_normal(support); ++i) {
+    support = plane_through(vertex(i), vertex(i + 1), vertex(i + 2));
+  }
+  assert(has_normal(support));
+  return support;
+}
+
 }  // namespace
 
 Job::Job(const std::vector<Operand>& operands) : operands_(&operands) {
@@ -81,6 +118,18 @@ Job::Job(const std::vector<Operand>& operands) : operands_(&operands) {
     }
   }
   while (!is_good_prime(prime_)) prime_ += 2;
+  size_t vertices = 0, polygons = 0, corners = 0;
+  for (const Operand& operand : operands) {
+    if (!operand.leaf) continue;
+    vertices += operand.leaf->vertices.size();
+    polygons += operand.leaf->face_count();
+    corners += operand.leaf->corners.size();
+  }
+  rounded_.reserve(vertices);
+  polygons_.reserve(polygons);
+  boxes_.reserve(polygons);
+  corners_.reserve(corners);
+  edge_planes_.reserve(corners);
   for (uint32_t o = 0; o < operands.size(); ++o) {
     sources_[o].first_vertex = static_cast<uint32_t>(rounded_.size());
     if (operands[o].leaf) {
@@ -88,6 +137,9 @@ Job::Job(const std::vector<Operand>& operands) : operands_(&operands) {
     } else {
       add_boundary(o, operands[o]);
     }
+    PolygonBox box = PolygonBox::none();
+    for (size_t p = polygon_starts_.back(); p < polygons_.size(); ++p) box.include(boxes_[p]);
+    operand_boxes_.push_back(box);
     polygon_starts_.push_back(static_cast<uint32_t>(polygons_.size()));
     vertex_operand_starts_.push_back(static_cast<uint32_t>(rounded_.size()));
   }
@@ -121,26 +173,34 @@ void Job::move_walls() {
   while (!is_good_prime(prime_));
 }
 
+void Job::add_grid_vertices(const LeafGeometry& leaf, const IVec3& translation) {
+  for (const IVec3& q : leaf.vertices) {
+    rounded_.push_back({static_cast<double>(q[0] + translation[0]),
+                        static_cast<double>(q[1] + translation[1]),
+                        static_cast<double>(q[2] + translation[2])});
+  }
+}
+
 void Job::add_leaf(uint32_t o, const Operand& operand) {
   const LeafGeometry& leaf = *operand.leaf;
   const auto first_vertex = static_cast<uint32_t>(rounded_.size());
-  for (uint32_t v = 0; v < leaf.vertices.size(); ++v) {
-    if (operand.frame.is_identity) {
-      const IVec3& q = leaf.vertices[v];
-      rounded_.push_back({static_cast<double>(q[0] + operand.translation[0]),
-                          static_cast<double>(q[1] + operand.translation[1]),
-                          static_cast<double>(q[2] + operand.translation[2])});
-    } else {
+  if (operand.frame.is_identity) {
+    add_grid_vertices(leaf, operand.translation);
+    append_grid_boxes(leaf, operand.translation, boxes_);
+  } else {
+    for (uint32_t v = 0; v < leaf.vertices.size(); ++v) {
       rounded_.push_back(csgrun::rounded(exact_of(o, v)));
     }
   }
+  const auto first_corner = static_cast<uint32_t>(corners_.size());
+  for (const uint32_t v : leaf.corners) corners_.push_back(first_vertex + v);
+  edge_planes_.resize(corners_.size(), kNone);
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    const auto first = static_cast<uint32_t>(corners_.size());
-    for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) {
-      corners_.push_back(first_vertex + leaf.corners[c]);
-    }
-    if (sources_[o].mirrored) std::reverse(corners_.begin() + first, corners_.end());
-    finish_polygon(o, f, first, PlaneId());
+    const uint32_t first = first_corner + leaf.face_starts[f],
+                   end = first_corner + leaf.face_starts[f + 1];
+    if (sources_[o].mirrored) std::reverse(corners_.begin() + first, corners_.begin() + end);
+    polygons_.push_back({o, f, first, end - first, PlaneId()});
+    if (!operand.frame.is_identity) boxes_.push_back(box_of(polygons_.back()));
   }
 }
 
@@ -204,27 +264,25 @@ void Job::add_boundary(uint32_t o, const Operand& operand) {
 }
 
 PolygonBox Job::box_of(const JobPolygon& polygon) const {
-  PolygonBox box{{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
-  const Operand& operand = (*operands_)[polygon.operand];
-  const bool grid_vertices = operand.leaf && operand.frame.is_identity;
+  std::array<double, 3> lo, hi;
+  lo.fill(HUGE_VAL), hi.fill(-HUGE_VAL);
   for (const uint32_t v : corners(polygon)) {
-    for (int k = 0; k < 3; ++k) {
-      const double c = rounded_[v][k];
-      // A rounded coordinate may stand on either side of the true one.
-      const double lo = grid_vertices ? c : std::floor(std::nextafter(c, -HUGE_VAL));
-      const double hi = grid_vertices ? c : std::ceil(std::nextafter(c, HUGE_VAL));
-      box.lo[k] = std::min(box.lo[k], clamp_to_box(lo));
-      box.hi[k] = std::max(box.hi[k], clamp_to_box(hi));
+    for (size_t k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], rounded_[v][k]);
+      hi[k] = std::max(hi[k], rounded_[v][k]);
     }
   }
+  // A rounded coordinate may stand on either side of the true one.
+  for (size_t k = 0; k < 3; ++k) {
+    lo[k] = std::floor(std::nextafter(lo[k], -HUGE_VAL));
+    hi[k] = std::ceil(std::nextafter(hi[k], HUGE_VAL));
+  }
+  PolygonBox box{};
+  for (size_t k = 0; k < 3; ++k) {
+    box.lo[k] = clamp_to_box(lo[k]);
+    box.hi[k] = clamp_to_box(hi[k]);
+  }
   return box;
-}
-
-void Job::finish_polygon(uint32_t operand, uint32_t face, uint32_t first, PlaneId support) {
-  polygons_.push_back(
-      {operand, face, first, static_cast<uint32_t>(corners_.size()) - first, support});
-  edge_planes_.resize(corners_.size(), kNone);
-  boxes_.push_back(box_of(polygons_.back()));
 }
 
 uint32_t Job::operand_of_vertex(uint32_t vertex) const {
@@ -302,32 +360,36 @@ bool Job::is_of_whole_facet(const JobPolygon& p) const {
   return operand.boundary->faces[p.face].whole;
 }
 
-void Job::ensure_planes(uint32_t polygon) {
+PlaneId Job::intern_for(const Operand& operand, const Plane& plane) {
+  return planes_.intern(map_plane(operand.frame, translate_plane(plane, operand.translation)));
+}
+
+void Job::ensure_support(uint32_t polygon) {
   JobPolygon& p = polygons_[polygon];
   if (p.support.valid()) return;
   const Operand& operand = (*operands_)[p.operand];
+  p.support = intern_for(operand, support_of(*operand.leaf, p.face));
+}
+
+uint32_t Job::edge_plane(uint32_t polygon, uint32_t edge) {
+  const JobPolygon& p = polygons_[polygon];
+  uint32_t& plane = edge_planes_[p.first + edge];
+  if (plane != kNone) return plane;
+  const Operand& operand = (*operands_)[p.operand];
   const LeafGeometry& leaf = *operand.leaf;
-  const uint32_t begin = leaf.face_starts[p.face];
-  const auto vertex = [&](uint32_t i) -> const IVec3& {
-    return leaf.vertices[leaf.corners[begin + i % p.count]];
-  };
-  // The first corner that is not a 180 degree one; a convex polygon turns left there.
-  Plane support;
-  for (uint32_t i = 0; i < p.count && !has_normal(support); ++i) {
-    support = plane_through(vertex(i), vertex(i + 1), vertex(i + 2));
-  }
-  assert(has_normal(support));
-  const auto intern = [&](const Plane& plane) {
-    return planes_.intern(map_plane(operand.frame, translate_plane(plane, operand.translation)));
-  };
-  p.support = intern(support);
-  const int axis = dominant_axis(support);
-  for (uint32_t i = 0; i < p.count; ++i) {
-    const uint32_t edge = intern(edge_plane(vertex(i), vertex(i + 1), axis)).index();
-    // A mirrored loop runs backwards: its edge from corner j to j + 1 is the leaf's edge n - 2 - j.
-    const uint32_t at = sources_[p.operand].mirrored ? (2 * p.count - 2 - i) % p.count : i;
-    edge_planes_[p.first + at] = edge;
-  }
+  // A mirrored loop runs backwards: its edge from corner j to j + 1 is the leaf's edge n - 2 - j.
+  const uint32_t i = sources_[p.operand].mirrored ? (2 * p.count - 2 - edge) % p.count : edge;
+  const uint32_t* corners = leaf.corners.data() + leaf.face_starts[p.face];
+  const int axis = dominant_axis(support_of(leaf, p.face));
+  return plane = intern_for(operand,
+                            csgrun::edge_plane(leaf.vertices[corners[i]],
+                                               leaf.vertices[corners[(i + 1) % p.count]], axis))
+                     .index();
+}
+
+void Job::ensure_planes(uint32_t polygon) {
+  ensure_support(polygon);
+  for (uint32_t i = 0; i < polygons_[polygon].count; ++i) edge_plane(polygon, i);
 }
 
 uint32_t Job::wall(int axis, int64_t m) {

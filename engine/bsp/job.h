@@ -1,8 +1,10 @@
 // The operands of one evaluation as one set of convex polygons over common vertices and planes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -16,6 +18,20 @@ namespace csgrun {
 /// Small box for culling: outward rounded grid coordinates, clamped to +-2^30.
 struct PolygonBox {
   std::array<int32_t, 3> lo, hi;
+
+  /// One that holds nothing.
+  static PolygonBox none() {
+    constexpr int32_t lo = std::numeric_limits<int32_t>::min(),
+                      hi = std::numeric_limits<int32_t>::max();
+    return {{hi, hi, hi}, {lo, lo, lo}};
+  }
+  void include(const PolygonBox& o) {
+    for (size_t k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], o.lo[k]);
+      hi[k] = std::max(hi[k], o.hi[k]);
+    }
+  }
+  [[nodiscard]] bool is_empty() const { return lo[0] > hi[0]; }
 };
 
 /// One convex polygon of an operand. Its planes are made when somebody asks: most polygons are near
@@ -39,6 +55,8 @@ class Job {
   }
   [[nodiscard]] const std::vector<JobPolygon>& polygons() const { return polygons_; }
   [[nodiscard]] const std::vector<PolygonBox>& boxes() const { return boxes_; }
+  /// That of all polygons of an operand; empty (lo > hi) if it has none.
+  [[nodiscard]] const PolygonBox& operand_box(size_t o) const { return operand_boxes_[o]; }
   /// Polygons of operand o are [polygon_start(o), polygon_start(o + 1)).
   [[nodiscard]] uint32_t polygon_start(size_t o) const { return polygon_starts_[o]; }
   [[nodiscard]] std::span<const uint32_t> corners(const JobPolygon& p) const {
@@ -58,6 +76,9 @@ class Job {
     return is_leaf(o) && !(*operands_)[o].leaf->may_touch &&
            !(*operands_)[o].leaf->opposite.empty();
   }
+  [[nodiscard]] bool is_convex(size_t o) const {
+    return is_leaf(o) && (*operands_)[o].leaf->convex;
+  }
   /// Vertices of operand o are [vertex_start(o), vertex_start(o + 1)).
   [[nodiscard]] uint32_t vertex_start(size_t o) const { return vertex_operand_starts_[o]; }
   [[nodiscard]] Point exact(uint32_t vertex) const;
@@ -72,8 +93,13 @@ class Job {
   [[nodiscard]] bool is_of_complete_facet(const JobPolygon& p) const;
   [[nodiscard]] bool is_of_whole_facet(const JobPolygon& p) const;
 
-  /// Makes the support and edge planes of a polygon. Not thread-safe; everything else is.
+  /// Makes the support and edge planes of a polygon. Not thread-safe; all that does not make
+  /// planes is.
   void ensure_planes(uint32_t polygon);
+  /// Makes the support only.
+  void ensure_support(uint32_t polygon);
+  /// The plane of one edge, which is made now if it was not.
+  uint32_t edge_plane(uint32_t polygon, uint32_t edge);
   /// The wall x_axis = m + 1/prime as a plane index.
   uint32_t wall(int axis, int64_t m);
   /// Smallest odd prime that divides no frame's determinant, and such that no plane of a boundary
@@ -99,17 +125,18 @@ class Job {
   void add_boundary(uint32_t o, const Operand& operand);
   [[nodiscard]] uint32_t operand_of_vertex(uint32_t vertex) const;
   [[nodiscard]] PolygonBox box_of(const JobPolygon& polygon) const;
+  void add_grid_vertices(const LeafGeometry& leaf, const IVec3& translation);
   /// The exact position of vertex `local` of operand `o`.
   [[nodiscard]] Point exact_of(uint32_t o, uint32_t local) const;
   [[nodiscard]] bool is_good_prime(int64_t p) const;
-  /// Closes the polygon whose corners were appended from `first` on, and boxes it.
-  void finish_polygon(uint32_t operand, uint32_t face, uint32_t first, PlaneId support);
+  [[nodiscard]] PlaneId intern_for(const Operand& operand, const Plane& plane);
 
   const std::vector<Operand>* operands_;
   PlaneTable planes_;
   std::vector<Source> sources_;
   std::vector<JobPolygon> polygons_;
   std::vector<PolygonBox> boxes_;
+  std::vector<PolygonBox> operand_boxes_;
   std::vector<uint32_t> polygon_starts_{0};
   std::vector<uint32_t> corners_;
   std::vector<uint32_t> edge_planes_;

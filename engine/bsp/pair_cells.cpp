@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/bsp/coarse_cells.h"
+
 namespace csgrun {
 namespace {
 
 /// Divisions in a row that thin out nothing before a cell is taken as it is.
 constexpr int kPatience = 3;
+/// A cell of the grid is not divided for so many times the limit: that costs more than its pairs.
+constexpr uint32_t kPatientLimit = 4;
 
 using Corner = std::array<int32_t, 3>;
 
@@ -75,12 +79,26 @@ class CellFinder {
       : job_(job), limit_(std::max<uint32_t>(1, options.cell_limit)), cancel_(options.cancel) {}
 
   PairCells run() {
-    List all;
-    for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
-      stack_.push_back({job_.boxes()[p], p, job_.polygons()[p].operand});
-      all.add(stack_.back());
+    const PairCells coarse = find_coarse_cells(job_, limit_);
+    result_.surface = coarse.surface;
+    for (const PairCells::Cell& cell : coarse.cells) {
+      const uint32_t* polygons = coarse.polygons.data() + cell.first;
+      if (coarse.cells.size() > 1 && cell.count <= kPatientLimit * limit_) {
+        ++result_.visited, ++result_.surface;
+        result_.cells.push_back(
+            {cell.lo, cell.hi, static_cast<uint32_t>(result_.polygons.size()), cell.count});
+        result_.polygons.insert(result_.polygons.end(), polygons, polygons + cell.count);
+        continue;
+      }
+      List list;
+      stack_.clear();
+      for (uint32_t i = 0; i < cell.count; ++i) {
+        const uint32_t p = polygons[i];
+        stack_.push_back({job_.boxes()[p], p, job_.polygons()[p].operand});
+        list.add(stack_.back());
+      }
+      visit({cell.lo, cell.hi}, list, 0);
     }
-    visit(all.bounds(), all, 0);
     return std::move(result_);
   }
 
@@ -156,6 +174,41 @@ class CellFinder {
 };
 
 }  // namespace
+
+/// All of them meet the cell, so the overlap of two starts in it where either of them does.
+void CellPairs::load(const Job& job, const PairCells& all, const PairCells::Cell& cell) {
+  polygons_ = all.polygons.data() + cell.first;
+  for (int k = 0; k < 3; ++k) {
+    lo_[k].resize(cell.count);
+    hi_[k].resize(cell.count);
+  }
+  starts_.assign(cell.count, 0);
+  operands_.resize(cell.count);
+  for (uint32_t i = 0; i < cell.count; ++i) {
+    const PolygonBox& box = job.boxes()[polygons_[i]];
+    operands_[i] = job.polygons()[polygons_[i]].operand;
+    for (int k = 0; k < 3; ++k) {
+      lo_[k][i] = box.lo[k];
+      hi_[k][i] = box.hi[k];
+      if (box.lo[k] >= cell.lo[k]) starts_[i] |= 1u << k;
+    }
+  }
+}
+
+void CellPairs::compare(uint32_t first, uint32_t count, uint32_t j,
+                        std::array<uint32_t, kAtOnce>& meets) {
+  std::array<uint32_t, kAtOnce> all;  // on the stack: nothing else can be there
+  const uint32_t own_starts = starts_[j], *starts = starts_.data() + first;
+  for (uint32_t i = 0; i < count; ++i) all[i] = (starts[i] | own_starts) == kAllAxes ? 1 : 0;
+  for (int k = 0; k < 3; ++k) {
+    const int32_t own_lo = lo_[k][j], own_hi = hi_[k][j];
+    const int32_t *lo = lo_[k].data() + first, *hi = hi_[k].data() + first;
+    for (uint32_t i = 0; i < count; ++i) {
+      all[i] &= static_cast<uint32_t>(lo[i] <= own_hi) & static_cast<uint32_t>(hi[i] >= own_lo);
+    }
+  }
+  meets = all;
+}
 
 PairCells find_pair_cells(const Job& job, const KernelOptions& options) {
   return CellFinder(job, options).run();

@@ -3,6 +3,8 @@
 // two boxes, so each is looked at once, and polygons stay whole.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,26 +30,40 @@ struct PairCells {
 /// Cells with polygons of at least two operands. O(n log n) for n polygons of bounded size.
 PairCells find_pair_cells(const Job& job, const KernelOptions& options);
 
-/// Calls visit(p, q), p < q, for each pair of different operands that belongs to the cell.
-template <class Visit>
-void for_each_pair(const Job& job, const PairCells& all, const PairCells::Cell& cell,
-                   Visit&& visit) {
-  const uint32_t* polygons = all.polygons.data() + cell.first;
-  const auto& boxes = job.boxes();
-  for (uint32_t j = 1; j < cell.count; ++j) {
-    const PolygonBox& b = boxes[polygons[j]];
-    const uint32_t operand = job.polygons()[polygons[j]].operand;
-    for (uint32_t i = 0; i < j; ++i) {
-      const PolygonBox& a = boxes[polygons[i]];
-      bool meets = true;
-      for (int k = 0; k < 3; ++k) {
-        const int32_t lo = a.lo[k] > b.lo[k] ? a.lo[k] : b.lo[k];
-        const int32_t hi = a.hi[k] < b.hi[k] ? a.hi[k] : b.hi[k];
-        meets &= lo <= hi && lo >= cell.lo[k] && lo <= cell.hi[k];
+/// The pairs of a cell. Keeps its working memory from one cell to the next.
+class CellPairs {
+ public:
+  /// Calls visit(p, q), p < q, for each pair of different operands that belongs to the cell.
+  template <class Visit>
+  void visit(const Job& job, const PairCells& all, const PairCells::Cell& cell, Visit&& visit) {
+    load(job, all, cell);
+    uint32_t own_start = 0;  // the first of the polygons that are of the same operand
+    for (uint32_t j = 1; j < cell.count; ++j) {
+      if (operands_[j] != operands_[j - 1]) own_start = j;
+      for (uint32_t first = 0; first < own_start; first += kAtOnce) {
+        const uint32_t count = std::min(kAtOnce, own_start - first);
+        std::array<uint32_t, kAtOnce> meets;
+        compare(first, count, j, meets);
+        for (uint32_t i = 0; i < count; ++i) {
+          if (meets[i]) visit(polygons_[first + i], polygons_[j]);
+        }
       }
-      if (meets && job.polygons()[polygons[i]].operand != operand) visit(polygons[i], polygons[j]);
     }
   }
-}
+
+ private:
+  static constexpr uint32_t kAllAxes = 7, kAtOnce = 32;
+
+  void load(const Job& job, const PairCells& all, const PairCells::Cell& cell);
+  /// Whether the boxes of so many polygons overlap that of polygon j, with an overlap that starts
+  /// in the cell.
+  void compare(uint32_t first, uint32_t count, uint32_t j, std::array<uint32_t, kAtOnce>& meets);
+
+  const uint32_t* polygons_ = nullptr;
+  /// By the place in the cell, axis by axis, so that many boxes are compared at once.
+  std::array<std::vector<int32_t>, 3> lo_, hi_;
+  std::vector<uint32_t> starts_;  ///< along which axes the box has its lower end in the cell
+  std::vector<uint32_t> operands_;
+};
 
 }  // namespace csgrun

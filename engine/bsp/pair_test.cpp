@@ -30,12 +30,20 @@ std::array<uint32_t, 3> base_corners(const Job& job, const JobPolygon& polygon) 
 
 PairTest::PairTest(const Job& job) : job_(job), signs_(job), planes_only_(forced_tier >= 0) {}
 
+/// Pairs come by the second polygon, and the first one's neighbours follow each other.
+const std::array<uint32_t, 3>& PairTest::base_of(uint32_t polygon) {
+  Base& known = bases_[polygon % bases_.size()];
+  if (known.polygon != polygon) known = {polygon, base_corners(job_, job_.polygons()[polygon])};
+  return known.corners;
+}
+
 /// The sides of p's corners on q's plane. +1 or -1 when all are strictly on that side, 0 when not,
 /// or kUnsure.
 int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
   const JobPolygon &own = job_.polygons()[p], &other = job_.polygons()[q];
-  const auto base = base_corners(job_, other);
-  const auto &a = job_.rounded(base[0]), &b = job_.rounded(base[1]), &c = job_.rounded(base[2]);
+  const auto& base = base_of(q);
+  // Copies: what is written to `sides` might be them.
+  const auto a = job_.rounded(base[0]), b = job_.rounded(base[1]), c = job_.rounded(base[2]);
   const double error = std::max(signs_.error(own.operand), signs_.error(other.operand));
   sides.resize(own.count);
   int all = 0;
@@ -93,10 +101,14 @@ int PairTest::inside(uint32_t p, uint32_t i, bool falls, uint32_t q, uint32_t j)
 
 Meeting PairTest::run(uint32_t p, uint32_t q, CellGeometry* planes, Contact& contact) {
   planes_ = planes;
-  const int p_side = corner_sides(p, q, sides_p_);
-  if (p_side == 1 || p_side == -1) return Meeting::kApart;
-  const int q_side = corner_sides(q, p, sides_q_);
-  if (q_side == 1 || q_side == -1) return Meeting::kApart;
+  // Few corners tell as well as many that polygons are apart.
+  const bool p_first = job_.polygons()[p].count <= job_.polygons()[q].count;
+  int p_side = 0, q_side = 0;
+  for (const bool of_p : {p_first, !p_first}) {
+    const int side =
+        of_p ? p_side = corner_sides(p, q, sides_p_) : q_side = corner_sides(q, p, sides_q_);
+    if (side == 1 || side == -1) return Meeting::kApart;
+  }
   if (p_side == kUnsure || q_side == kUnsure) return Meeting::kUnsure;
   contact.p = p;
   contact.q = q;

@@ -63,6 +63,11 @@ class PairTest {
              const std::array<double, 3>& c, const std::array<double, 3>& d, double error) {
     return planes_only_ ? kUnsure : signs_.orient(a, b, c, d, error);
   }
+  struct Base {
+    uint32_t polygon = kNone;
+    std::array<uint32_t, 3> corners{};
+  };
+  const std::array<uint32_t, 3>& base_of(uint32_t polygon);
   int corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides);
   static bool find_passage(const std::vector<int8_t>& sides, Passage& passage);
   /// Whether the point in which edge i of p passes through q's plane lies on the inner side of edge
@@ -72,7 +77,8 @@ class PairTest {
 
   const Job& job_;
   VertexSigns signs_;
-  const bool planes_only_;  ///< tests want to see that
+  std::array<Base, 256> bases_;  ///< of the polygons that were asked for last
+  const bool planes_only_;       ///< tests want to see that
   CellGeometry* planes_ = nullptr;
   std::vector<int8_t> sides_p_, sides_q_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/bsp/ray_label.h"
 
@@ -10,18 +9,7 @@ namespace csgrun {
 
 PatchLabels::PatchLabels(const Job& job, const Expression& expression)
     : job_(job), expression_(expression), signs_(job), is_inside_(2 * job.operand_count(), 0) {
-  constexpr int32_t lo = std::numeric_limits<int32_t>::min(),
-                    hi = std::numeric_limits<int32_t>::max();
-  boxes_.assign(job.operand_count(), {{hi, hi, hi}, {lo, lo, lo}});
-  for (uint32_t o = 0; o < job.operand_count(); ++o) {
-    PolygonBox& box = boxes_[o];
-    for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
-      for (int k = 0; k < 3; ++k) {
-        box.lo[k] = std::min(box.lo[k], job.boxes()[p].lo[k]);
-        box.hi[k] = std::max(box.hi[k], job.boxes()[p].hi[k]);
-      }
-    }
-  }
+  for (uint32_t o = 0; o < job.operand_count(); ++o) boxes_.push_back(job.operand_box(o));
   fill_bins();
 }
 

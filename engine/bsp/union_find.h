@@ -24,6 +24,13 @@ class UnionFind {
     a = find(a), b = find(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
+  /// Joins a number with the set that has the representative `root`; returns that of both.
+  uint32_t join_with(uint32_t root, uint32_t i) {
+    if (parent_[i] == root) return root;
+    i = find(i);
+    parent_[std::max(root, i)] = std::min(root, i);
+    return std::min(root, i);
+  }
   [[nodiscard]] size_t size() const { return parent_.size(); }
 
  private:

@@ -11,7 +11,7 @@ namespace csgrun {
 namespace {
 
 /// What becomes of a face, or of all faces at a vertex.
-enum Fate : uint8_t { kMixed = 0, kKept = 1, kFlipped = 2, kUnseen = 3 };
+enum Fate : uint8_t { kMixed = 0, kKept = 1, kFlipped = 2, kUnseen = 3, kNoFan = 4 };
 
 /// The corners before and after a corner in its face.
 class CornerWalk {
@@ -86,15 +86,12 @@ class UntouchedFaces {
   void collect(Fate fate, UntouchedPart& part, std::vector<uint8_t>& taken) const {
     std::vector<uint8_t> met(leaf_.vertices.size(), 0);  // 1: by such a face, 2: by others
     for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
-      const uint32_t begin = leaf_.face_starts[f], end = leaf_.face_starts[f + 1];
-      const bool is_untouched =
-          fate_[f] == fate && end - begin == 3 &&
-          std::all_of(leaf_.corners.begin() + begin, leaf_.corners.begin() + end,
-                      [&](uint32_t v) { return of_vertex_[v] == fate; }) &&
-          (keeps_facets_ ? is_own_facet(leaf_, f) : is_alone(leaf_, walk_, f));
+      const bool is_untouched = fate_[f] == fate && stays_apart(f);
       if (is_untouched) part.faces.push_back(f);
       taken[f] |= static_cast<uint8_t>(is_untouched);
-      for (uint32_t c = begin; c < end; ++c) met[leaf_.corners[c]] |= is_untouched ? 1 : 2;
+      for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
+        met[leaf_.corners[c]] |= is_untouched ? 1 : 2;
+      }
     }
     for (uint32_t v = 0; v < met.size(); ++v) {
       if (met[v] == 3) part.shared.push_back({v, v});
@@ -102,8 +99,22 @@ class UntouchedFaces {
   }
 
  private:
-  /// The common fate of the faces at each vertex; kMixed too where they are more than one fan, and
-  /// where a facet may have no corner: one in several pieces, or with a straight corner.
+  /// Whether a face that nothing met is a triangle that no other face is merged with, and shares
+  /// each corner with one fan of faces.
+  [[nodiscard]] bool stays_apart(uint32_t f) const {
+    const uint32_t begin = leaf_.face_starts[f], end = leaf_.face_starts[f + 1];
+    if (end - begin != 3) return false;
+    bool all_whole = true;
+    for (uint32_t c = begin; c < end; ++c) {
+      const uint8_t around = of_vertex_[leaf_.corners[c]];
+      if (around == kNoFan) return false;
+      all_whole = all_whole && around != kMixed;
+    }
+    return (keeps_facets_ && all_whole) || is_alone(leaf_, walk_, f);
+  }
+
+  /// The common fate of the faces at each vertex, or kMixed; kNoFan where they are more than one
+  /// fan, and where a facet may have no corner: one in several pieces, or with a straight corner.
   void look_at_vertices() {
     of_vertex_.assign(leaf_.vertices.size(), kUnseen);
     std::vector<uint32_t> some_corner(leaf_.vertices.size(), 0), faces(leaf_.vertices.size(), 0);
@@ -111,21 +122,22 @@ class UntouchedFaces {
       const bool has_corners =
           !keeps_facets_ ||
           (leaf_.face_starts[f + 1] - leaf_.face_starts[f] == 3 && is_own_facet(leaf_, f));
-      const uint8_t fate = has_corners ? fate_[f] : static_cast<uint8_t>(kMixed);
       for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
-        const uint32_t v = leaf_.corners[c];
-        if (of_vertex_[v] == kUnseen) {
-          of_vertex_[v] = fate;
-        } else if (of_vertex_[v] != fate) {
-          of_vertex_[v] = kMixed;
+        uint8_t& around = of_vertex_[leaf_.corners[c]];
+        if (!has_corners) {
+          around = kNoFan;
+        } else if (around == kUnseen) {
+          around = fate_[f];
+        } else if (around != fate_[f] && around != kNoFan) {
+          around = kMixed;
         }
-        some_corner[v] = c;
-        ++faces[v];
+        some_corner[leaf_.corners[c]] = c;
+        ++faces[leaf_.corners[c]];
       }
     }
     for (uint32_t v = 0; v < of_vertex_.size(); ++v) {
-      if (of_vertex_[v] == kMixed || of_vertex_[v] == kUnseen) continue;
-      if (walk_.fan(some_corner[v]) != faces[v]) of_vertex_[v] = kMixed;
+      if (of_vertex_[v] == kNoFan || of_vertex_[v] == kUnseen) continue;
+      if (walk_.fan(some_corner[v]) != faces[v]) of_vertex_[v] = kNoFan;
     }
   }
 
@@ -142,12 +154,9 @@ class Expander {
   explicit Expander(const BoundaryMesh& mesh) : mesh_(mesh), geometry_(planes_, nullptr) {}
 
   BoundaryMesh run() {
-    for (const Plane& p : mesh_.planes) plane_of_.push_back(planes_.intern(p));
+    planes_.adopt(mesh_.planes);
     for (size_t p = 0; p < mesh_.point_planes.size(); ++p) {
-      const auto& t = mesh_.point_planes[p];
-      geometry_.add_point(
-          {plane_of_[t[0]].index(), plane_of_[t[1]].index(), plane_of_[t[2]].index()},
-          mesh_.point_rounded[p]);
+      geometry_.add_point(mesh_.point_planes[p], mesh_.point_rounded[p]);
     }
     for (const BoundaryMesh::Face& face : mesh_.faces) add(face);
     for (const UntouchedPart& part : mesh_.parts) add(part);
@@ -159,15 +168,13 @@ class Expander {
 
  private:
   void add(const BoundaryMesh::Face& face) {
-    const PlaneId plane = plane_of_[face.plane.index()];
-    draft_.begin_face(face.plane.flipped() ? plane.flip() : plane, face.label, face.whole,
-                      face.complete);
+    draft_.begin_face(face.plane, face.label, face.whole, face.complete);
     for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
       const uint32_t begin = mesh_.loop_starts[l], end = mesh_.loop_starts[l + 1];
       for (uint32_t c = begin; c < end; ++c) {
         const BoundaryMesh::Corner &corner = mesh_.corners[c],
                                    &next = mesh_.corners[c + 1 < end ? c + 1 : begin];
-        draft_.edges.push_back({corner.point, next.point, plane_of_[corner.edge_plane].index()});
+        draft_.edges.push_back({corner.point, next.point, corner.edge_plane});
       }
       draft_.end_loop();
     }
@@ -206,7 +213,6 @@ class Expander {
   const BoundaryMesh& mesh_;
   PlaneTable planes_;
   CellGeometry geometry_;
-  std::vector<PlaneId> plane_of_;
   DraftBoundary draft_;
 };
 

@@ -28,7 +28,10 @@ class FaceEvaluator {
         stats_(stats),
         geometry_(job.planes(), &job),
         index_(geometry_),
+        points_(job, geometry_, index_),
         labels_(job, expression) {
+    find_removers(expression);
+    is_flat_.assign(job.operand_count(), 0);
     result_.general.assign(job.polygons().size(), 0);
     is_cut_.assign(job.polygons().size(), 0);
   }
@@ -44,6 +47,8 @@ class FaceEvaluator {
       return std::move(result_);
     }
     gather_contacts();
+    find_covered();
+    note_touching();
     if (!cut_polygons()) return cancelled();
     join_patches();
     if (!gather_facts()) {
@@ -57,6 +62,10 @@ class FaceEvaluator {
  private:
   struct CutPolygon {
     uint32_t polygon, first_loop, end_loop;
+  };
+  struct Within {  ///< whether a vertex is in or on an operand
+    uint32_t operand = kNone;
+    bool is_within = false;
   };
   struct PatchFact {
     uint32_t patch;
@@ -76,31 +85,104 @@ class FaceEvaluator {
     result_.any_general = true;
   }
 
-  /// The contacts of each polygon, and the points at their ends.
+  /// Convex operands inside of which nothing is boundary: what is added to all else, or taken away
+  /// from it.
+  void find_removers(const Expression& expression) {
+    removes_.assign(job_.operand_count(), 0);
+    if (expression.nodes.empty() || expression.nodes.back().is_operand) return;
+    const Expression::Node& root = expression.nodes.back();
+    const bool is_union = root.op == BooleanOp::kUnion;
+    if (!is_union && root.op != BooleanOp::kDifference) return;
+    for (uint32_t c = is_union ? 0 : 1; c < root.child_count; ++c) {
+      const Expression::Node& child = expression.nodes[expression.children[root.first_child + c]];
+      if (child.is_operand && job_.is_convex(child.operand)) removes_[child.operand] = 1;
+    }
+  }
+
   void gather_contacts() {
     const size_t n = job_.polygons().size();
     contact_starts_.assign(n + 1, 0);
     for (const Contact& c : contacts_) {
-      job_.ensure_planes(c.p);
-      job_.ensure_planes(c.q);
+      job_.ensure_support(c.p);
+      job_.ensure_support(c.q);
       ++contact_starts_[c.p + 1], ++contact_starts_[c.q + 1];
     }
     for (size_t i = 0; i < n; ++i) contact_starts_[i + 1] += contact_starts_[i];
     contact_of_.resize(2 * contacts_.size());
     std::vector<uint32_t> next(contact_starts_.begin(), contact_starts_.end() - 1);
-    CrossingPoints points(job_, geometry_, index_);
-    const auto point = [&](const Contact& c, const Contact::End& end) {
-      if (end.vertex != kNone) return index_.unique(geometry_.vertex_point(end.vertex));
-      return end.on_p ? points.point(c.p, end.edge, c.q) : points.point(c.q, end.edge, c.p);
-    };
     for (uint32_t i = 0; i < contacts_.size(); ++i) {
-      const Contact& c = contacts_[i];
-      contact_of_[next[c.p]++] = i;
-      contact_of_[next[c.q]++] = i;
-      ends_.push_back(c.is_coplanar ? std::array{kNone, kNone}
-                                    : std::array{point(c, c.lower), point(c, c.upper)});
-      if (!c.is_plain) add_touching(job_.boxes()[c.p], job_.boxes()[c.q]);
+      contact_of_[next[contacts_[i].p]++] = i;
+      contact_of_[next[contacts_[i].q]++] = i;
     }
+    ends_.assign(contacts_.size(), {kNone, kNone});
+  }
+
+  /// Polygons that touch a remover's surface from within: none of them is boundary.
+  void find_covered() {
+    is_covered_.assign(job_.polygons().size(), 0);
+    if (std::find(removes_.begin(), removes_.end(), 1) == removes_.end()) return;
+    within_.assign(job_.vertex_count(), {});
+    std::vector<uint32_t> touched_by, crossed_by;
+    for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
+      touched_by.clear();
+      crossed_by.clear();
+      for (uint32_t i = contact_starts_[p]; i < contact_starts_[p + 1]; ++i) {
+        const Contact& c = contacts_[contact_of_[i]];
+        const uint32_t o = job_.polygons()[c.p == p ? c.q : c.p].operand;
+        if (!removes_[o]) continue;
+        std::vector<uint32_t>& list = c.is_plain || c.is_coplanar ? crossed_by : touched_by;
+        if (list.empty() || list.back() != o) list.push_back(o);
+      }
+      for (const uint32_t o : touched_by) {
+        if (std::find(crossed_by.begin(), crossed_by.end(), o) == crossed_by.end() &&
+            is_within(p, o)) {
+          is_covered_[p] = 1;
+          break;
+        }
+      }
+    }
+  }
+
+  /// Whether a polygon that is in no plane of a convex operand is inside it, but for its corners
+  /// and edges.
+  bool is_within(uint32_t polygon, uint32_t operand) {
+    const auto corners = job_.corners(job_.polygons()[polygon]);
+    return std::all_of(corners.begin(), corners.end(), [&](uint32_t v) {
+      Within& known = within_[v];
+      if (known.operand != operand) known = {operand, is_in_or_on(v, operand)};
+      return known.is_within;
+    });
+  }
+
+  bool is_in_or_on(uint32_t vertex, uint32_t operand) {
+    const uint32_t point = geometry_.vertex_point(vertex);
+    for (uint32_t q = job_.polygon_start(operand); q < job_.polygon_start(operand + 1); ++q) {
+      job_.ensure_support(q);
+      const PlaneId plane = job_.polygons()[q].support;
+      const int side = geometry_.side(plane.index(), point);
+      if (plane.flipped() ? side < 0 : side > 0) return false;
+    }
+    return true;
+  }
+
+  void note_touching() {
+    for (const Contact& c : contacts_) {
+      if (!c.is_plain && !is_covered_[c.p] && !is_covered_[c.q]) {
+        add_touching(job_.boxes()[c.p], job_.boxes()[c.q]);
+      }
+    }
+  }
+
+  /// The points at the ends of a contact, lower and upper.
+  const std::array<uint32_t, 2>& ends(uint32_t contact) {
+    std::array<uint32_t, 2>& ends = ends_[contact];
+    if (ends[0] != kNone) return ends;
+    const Contact& c = contacts_[contact];
+    const auto point = [&](const Contact::End& end) {
+      if (end.vertex != kNone) return index_.unique(geometry_.vertex_point(end.vertex));
+      return end.on_p ? points_.point(c.p, end.edge, c.q) : points_.point(c.q, end.edge, c.p);
+    };
+    return ends = {point(c.lower), point(c.upper)};
   }
 
   void add_touching(const PolygonBox& a, const PolygonBox& b) {
@@ -117,16 +199,22 @@ class FaceEvaluator {
     PolygonCutter cutter(job_, geometry_);
     FaceArrangement arrangement(job_, geometry_, index_, touched_);
     for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
-      const bool is_met = contact_starts_[p] < contact_starts_[p + 1];
-      if (!is_met && untouched_corner(p) != kNone) continue;
+      const auto loops = static_cast<uint32_t>(loops_.loops.size());
+      if (is_covered_[p]) {
+        is_cut_[p] = 1;
+        cut_.push_back({p, loops, loops});
+        continue;
+      }
+      if (is_met_on_rim_only(p) && untouched_corner(p) != kNone) continue;
       const bool plain = list_segments(p);
       if (segments_.empty() && coplanar_.empty() && untouched_corner(p) != kNone) continue;
       if (cut_.size() % 64 == 0 && is_cancelled()) return false;
-      job_.ensure_planes(p);
-      const auto loops = static_cast<uint32_t>(loops_.loops.size());
+      job_.ensure_support(p);
       is_cut_[p] = 1;
       bool is_done = plain && cutter.cut(p, segments_, loops_);
       if (!is_done) {
+        job_.ensure_planes(p);
+        for (const uint32_t q : coplanar_) job_.ensure_planes(q);
         is_done = arrangement.build(p, sheets_, coplanar_, loops_);
         if (plain) add_touching(job_.boxes()[p], job_.boxes()[p]);
       }
@@ -139,6 +227,16 @@ class FaceEvaluator {
     return true;
   }
 
+  /// Whether nothing cuts a polygon: what meets it lies on one side, if anything does.
+  [[nodiscard]] bool is_met_on_rim_only(uint32_t polygon) const {
+    for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
+      const Contact& c = contacts_[contact_of_[i]];
+      const bool is_p = c.p == polygon;
+      if (c.is_coplanar || (is_p ? c.p_front && c.p_back : c.q_front && c.q_back)) return false;
+    }
+    return true;
+  }
+
   /// Lists what is on a polygon; whether all of it is plain.
   bool list_segments(uint32_t polygon) {
     segments_.clear();
@@ -147,14 +245,18 @@ class FaceEvaluator {
     bool plain = true;
     for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
       const Contact& c = contacts_[contact_of_[i]];
+      plain &= c.is_plain;
+      if (!c.is_coplanar) continue;
+      coplanar_.push_back(c.p == polygon ? c.q : c.p);
+      const uint32_t o = job_.polygons()[coplanar_.back()].operand;
+      is_flat_[o] = job_.is_convex(o);
+    }
+    for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
+      const Contact& c = contacts_[contact_of_[i]];
       const bool is_p = c.p == polygon;
       const uint32_t other = is_p ? c.q : c.p;
-      plain &= c.is_plain;
-      if (c.is_coplanar) {
-        coplanar_.push_back(other);
-        continue;
-      }
-      const auto& [lower, upper] = ends_[contact_of_[i]];
+      if (c.is_coplanar || is_flat_[job_.polygons()[other].operand]) continue;
+      const auto& [lower, upper] = ends(contact_of_[i]);
       if (lower == upper) continue;
       const auto edge = [&](const Contact::End& e) { return e.on_p == is_p ? e.edge : kNone; };
       if (is_p) {
@@ -165,6 +267,7 @@ class FaceEvaluator {
         sheets_.push_back({upper, lower, other, c.p_front, c.p_back});
       }
     }
+    for (const uint32_t q : coplanar_) is_flat_[job_.polygons()[q].operand] = 0;
     return plain;
   }
 
@@ -182,9 +285,9 @@ class FaceEvaluator {
     patches_.reset(job_.vertex_count());
     for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
       if (is_cut_[p]) continue;
-      const uint32_t first = untouched_corner(p);
+      uint32_t patch = patches_.find(untouched_corner(p));
       for (const uint32_t v : job_.corners(job_.polygons()[p])) {
-        if (!touched_[v]) patches_.join(first, v);
+        if (!touched_[v]) patch = patches_.join_with(patch, v);
       }
     }
     for (const CutLoops::Loop& loop : loops_.loops) {
@@ -275,6 +378,10 @@ class FaceEvaluator {
   void emit_loop(const CutLoops::Loop& loop, uint32_t polygon, bool flip) {
     FragmentSet& out = result_.cut;
     const PlaneId support = job_.polygons()[polygon].support;
+    const auto plane = [&](uint32_t named) {
+      return named & CutLoops::kOwnEdge ? job_.edge_plane(polygon, named & ~CutLoops::kOwnEdge)
+                                        : named;
+    };
     numbers_.resize(geometry_.point_count(), kNone);
     const auto first = static_cast<uint32_t>(out.corner_point.size());
     for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
@@ -285,7 +392,7 @@ class FaceEvaluator {
         out.points.push_back({s.rounded, s.planes, s.vertex});
       }
       out.corner_point.push_back(numbers_[p]);
-      out.corner_plane.push_back(loops_.corner_plane[c]);
+      out.corner_plane.push_back(plane(loops_.corner_plane[c]));
     }
     out.pieces.push_back({support, polygon, first, loop.corner_count, loop.is_loose});
     if (flip) out.flip(out.pieces.back());
@@ -298,14 +405,19 @@ class FaceEvaluator {
   EvaluateStats& stats_;
   CellGeometry geometry_;
   PointIndex index_;
+  CrossingPoints points_;
   PatchLabels labels_;
   WholeFaces result_;
   std::vector<Contact> contacts_;
   std::vector<std::array<uint32_t, 2>> ends_;          ///< of the contacts: lower and upper point
   std::vector<uint32_t> contact_starts_, contact_of_;  ///< per polygon
-  std::vector<uint8_t> touched_;                       ///< per vertex: may be on another surface
-  std::vector<uint8_t> is_cut_;                        ///< per polygon: has loops, or is left
-  std::vector<CutSegment> segments_;                   ///< of the polygon at hand
+  std::vector<uint8_t> removes_;                       ///< per operand, see find_removers
+  std::vector<Within> within_;                         ///< per vertex, of the operand asked last
+  std::vector<uint8_t> is_covered_;                    ///< per polygon, see find_covered
+  std::vector<uint8_t> is_flat_;      ///< per operand: convex, with a face in the plane at hand
+  std::vector<uint8_t> touched_;      ///< per vertex: may be on another surface
+  std::vector<uint8_t> is_cut_;       ///< per polygon: has loops, or is left
+  std::vector<CutSegment> segments_;  ///< of the polygon at hand
   std::vector<SheetSegment> sheets_;
   std::vector<uint32_t> coplanar_;
   CutLoops loops_;

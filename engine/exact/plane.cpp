@@ -4,7 +4,6 @@
 #include <bit>
 #include <cassert>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "engine/exact/forced_tier.h"
@@ -14,15 +13,46 @@ namespace {
 
 UInt128 magnitude(Int128 v) { return v < 0 ? -static_cast<UInt128>(v) : static_cast<UInt128>(v); }
 
+/// Stein's way.
+uint64_t gcd(uint64_t a, uint64_t b) {
+  if (a == 0 || b == 0) return a | b;
+  const int shift = std::countr_zero(a | b);
+  a >>= std::countr_zero(a);
+  while (b != 0) {
+    b >>= std::countr_zero(b);
+    const uint64_t less = std::min(a, b);
+    b = a > b ? a - b : b - a;
+    a = less;
+  }
+  return a << shift;
+}
+
+bool is_narrow(UInt128 v) { return (v >> 64) == 0; }
+
 UInt128 gcd(UInt128 a, UInt128 b) {
   // 128-bit remainders only while a number needs them: nearly all coefficients fit 64 bits.
   while (b != 0) {
-    if ((a >> 64) == 0 && (b >> 64) == 0) {
-      return std::gcd(static_cast<uint64_t>(a), static_cast<uint64_t>(b));
+    if (is_narrow(a) && is_narrow(b)) {
+      return gcd(static_cast<uint64_t>(a), static_cast<uint64_t>(b));
     }
     a = std::exchange(b, a % b);
   }
   return a;
+}
+
+/// The greatest common divisor of the four coefficients.
+UInt128 divisor(const Plane& p) {
+  UInt128 g = gcd(magnitude(p.a), magnitude(p.b));
+  // It is small by now, mostly.
+  if (g != 1) g = gcd(g, g == 0 ? magnitude(p.c) : magnitude(p.c) % g);
+  if (g != 1) g = gcd(g, magnitude(p.d) % g);
+  return g;
+}
+
+/// Nearly all fit 64 bits, which convert at once.
+double to_double(Int128 v) {
+  const auto low = static_cast<int64_t>(v);
+  return low == v ? static_cast<double>(low) : static_cast<double>(v);
 }
 
 uint64_t mix(uint64_t h, Int128 v) {
@@ -32,9 +62,9 @@ uint64_t mix(uint64_t h, Int128 v) {
   return h * 0xc4ceb9fe1a85ec53ull;
 }
 
-uint64_t hash(const Plane& p) {
-  uint64_t h = mix(mix(mix(mix(0, p.a), p.b), p.c), p.d);
-  return h ^ (h >> 32);
+uint32_t hash(const Plane& p) {
+  const uint64_t h = mix(mix(mix(mix(0, p.a), p.b), p.c), p.d);
+  return static_cast<uint32_t>(h ^ (h >> 32));
 }
 
 }  // namespace
@@ -45,46 +75,70 @@ int bit_width(Int128 v) {
   return high ? 128 - std::countl_zero(high) : 64 - std::countl_zero(static_cast<uint64_t>(m));
 }
 
-PlaneTable::PlaneTable() : slots_(64, 0), mask_(63) {}
+void PlaneTable::enter(uint32_t hash, uint32_t index) {
+  const size_t mask = slots_.size() - 1;
+  size_t s = hash & mask;
+  while (slots_[s].plane) s = (s + 1) & mask;
+  slots_[s] = {hash, index + 1};
+}
 
-void PlaneTable::grow() {
-  slots_.assign(slots_.size() * 2, 0);
-  mask_ = slots_.size() - 1;
-  for (uint32_t i = 0; i < planes_.size(); ++i) {
-    size_t s = hash(planes_[i]) & mask_;
-    while (slots_[s]) s = (s + 1) & mask_;
-    slots_[s] = i + 1;
+/// Gives all planes places among so many slots, a power of two.
+void PlaneTable::enter_all(size_t slots) {
+  std::vector<Slot> old(slots);
+  std::swap(old, slots_);
+  for (const Slot& slot : old) {
+    if (slot.plane) enter(slot.hash, slot.plane - 1);
+  }
+  for (; entered_ < planes_.size(); ++entered_) {
+    enter(hash(planes_[entered_]), static_cast<uint32_t>(entered_));
   }
 }
 
-PlaneId PlaneTable::intern(const Plane& plane) {
-  Plane p = plane;
-  const bool flipped = p.a < 0 || (p.a == 0 && (p.b < 0 || (p.b == 0 && p.c < 0)));
-  if (flipped) p = p.reversed();
-  assert(p.a != 0 || p.b != 0 || p.c != 0);
-  UInt128 g = gcd(magnitude(p.a), magnitude(p.b));
-  if (g != 1) g = gcd(g, magnitude(p.c));
-  if (g != 1) g = gcd(g, magnitude(p.d));
-  if (g != 1) {
-    const auto divisor = static_cast<Int128>(g);
-    p = {p.a / divisor, p.b / divisor, p.c / divisor, p.d / divisor};
-  }
-  size_t s = hash(p) & mask_;
-  for (; slots_[s]; s = (s + 1) & mask_) {
-    if (planes_[slots_[s] - 1] == p) return {slots_[s] - 1, flipped};
-  }
-  const auto index = static_cast<uint32_t>(planes_.size());
+void PlaneTable::add(const Plane& p) {
   const int normal = std::max({bit_width(p.a), bit_width(p.b), bit_width(p.c)});
   const int offset = bit_width(p.d);
   assert(normal <= widths::kMaxNormal && offset <= widths::kMaxOffset);
   planes_.push_back(p);
-  approximate_.push_back({static_cast<double>(p.a), static_cast<double>(p.b),
-                          static_cast<double>(p.c), static_cast<double>(p.d)});
+  approximate_.push_back({to_double(p.a), to_double(p.b), to_double(p.c), to_double(p.d)});
   // A sum with it compares as neither positive nor negative.
   if (forced_tier >= 0) approximate_.back()[3] = std::numeric_limits<double>::quiet_NaN();
   bits_.push_back({static_cast<uint8_t>(normal), static_cast<uint8_t>(offset)});
-  slots_[s] = index + 1;
-  if (planes_.size() * 2 > slots_.size()) grow();
+}
+
+void PlaneTable::adopt(const std::vector<Plane>& planes) {
+  assert(planes_.empty());
+  planes_.reserve(planes.size());
+  approximate_.reserve(planes.size());
+  bits_.reserve(planes.size());
+  for (const Plane& p : planes) add(p);
+}
+
+PlaneId PlaneTable::intern(const Plane& plane) {
+  const UInt128 g = divisor(plane);
+  if (g == 1) return intern_reduced(plane);
+  const auto whole = static_cast<Int128>(g);
+  return intern_reduced({plane.a / whole, plane.b / whole, plane.c / whole, plane.d / whole});
+}
+
+PlaneId PlaneTable::intern_reduced(const Plane& plane) {
+  constexpr size_t kFewSlots = 64;
+  assert(plane.a != 0 || plane.b != 0 || plane.c != 0);
+  const bool flipped =
+      plane.a < 0 || (plane.a == 0 && (plane.b < 0 || (plane.b == 0 && plane.c < 0)));
+  const Plane p = flipped ? plane.reversed() : plane;
+  if (entered_ < planes_.size() || planes_.size() * 2 >= slots_.size()) {
+    enter_all(std::bit_ceil(std::max(kFewSlots, planes_.size() * 4)));
+  }
+  const uint32_t own = hash(p);
+  const size_t mask = slots_.size() - 1;
+  for (size_t s = own & mask; slots_[s].plane; s = (s + 1) & mask) {
+    const uint32_t index = slots_[s].plane - 1;
+    if (slots_[s].hash == own && planes_[index] == p) return {index, flipped};
+  }
+  const auto index = static_cast<uint32_t>(planes_.size());
+  add(p);
+  ++entered_;
+  enter(own, index);
   return {index, flipped};
 }
 

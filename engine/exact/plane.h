@@ -54,11 +54,14 @@ class PlaneId {
 /// four coefficients, with the first non-zero normal component positive.
 class PlaneTable {
  public:
-  PlaneTable();
-
   /// The id of a plane; its flipped() bit is set when the stored orientation is the reverse.
   /// REQUIRES: the normal is not zero, widths as in widths.h.
   PlaneId intern(const Plane& plane);
+  /// The same for a plane whose four coefficients have no common divisor: a few times quicker.
+  PlaneId intern_reduced(const Plane& plane);
+  /// Takes over the planes of another table, as they stand there, under their numbers. REQUIRES:
+  /// the table is empty; each plane is there once.
+  void adopt(const std::vector<Plane>& planes);
 
   [[nodiscard]] const Plane& plane(uint32_t index) const { return planes_[index]; }
   /// The plane with the orientation of the id.
@@ -74,13 +77,20 @@ class PlaneTable {
   [[nodiscard]] size_t size() const { return planes_.size(); }
 
  private:
-  void grow();
+  struct Slot {
+    uint32_t hash;
+    uint32_t plane;  ///< index + 1, or 0
+  };
+
+  void add(const Plane& plane);
+  void enter_all(size_t slots);
+  void enter(uint32_t hash, uint32_t index);
 
   std::vector<Plane> planes_;
   std::vector<std::array<double, 4>> approximate_;
   std::vector<std::array<uint8_t, 2>> bits_;
-  std::vector<uint32_t> slots_;  ///< open addressing: index + 1, or 0
-  size_t mask_ = 0;
+  std::vector<Slot> slots_;  ///< open addressing
+  size_t entered_ = 0;  ///< so many planes have slots: none of those taken over until asked for
 };
 
 }  // namespace csgrun

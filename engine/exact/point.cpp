@@ -70,28 +70,35 @@ Point intersect(const Plane& p, const Plane& q, const Plane& r) {
   const auto normal_bits = [](const Plane& s) {
     return std::max({bit_width(s.a), bit_width(s.b), bit_width(s.c)});
   };
-  const int n = std::max({normal_bits(p), normal_bits(q), normal_bits(r)});
-  const int d = std::max({bit_width(p.d), bit_width(q.d), bit_width(r.d)});
-  const int needed = std::max(widths::point_xyz(n, d), widths::point_w(n));
+  const int n0 = normal_bits(p), n1 = normal_bits(q), n2 = normal_bits(r);
+  const int xyz =
+      std::max({n0 + n1 + bit_width(r.d), n0 + n2 + bit_width(q.d), n1 + n2 + bit_width(p.d)}) +
+      widths::point_xyz(0, 0);
+  const int needed = std::max(xyz, n0 + n1 + n2 + widths::point_w(0));
   Point result;
   // 63 bits of normal: minors of 127 bits fit two limbs.
-  if (n <= 62 && needed < 128) {
-    result = cramer<1, 2, 2>(p, q, r);
-  } else if (n <= 62 && needed < 256) {
-    result = cramer<1, 2, 4>(p, q, r);
-  } else {
+  if (std::max({n0, n1, n2}) > 62 || needed >= 256) {
     static_assert(widths::kMaxPointXyz < 64 * kPointLimbs);
     result = cramer<2, 4, kPointLimbs>(p, q, r);
+  } else if (needed < 128) {
+    result = cramer<1, 2, 2>(p, q, r);
+  } else if (needed < 192) {
+    result = cramer<1, 2, 3>(p, q, r);
+  } else {
+    result = cramer<1, 2, 4>(p, q, r);
   }
   measure(result);
   return result;
 }
 
 std::array<double, 3> rounded(const Point& p) {
-  using Q = Int<kQuotientLimbs>;
-  const Q w = Q::from(p.w);
-  return {round_to_double(Q::from(p.x), w), round_to_double(Q::from(p.y), w),
-          round_to_double(Q::from(p.z), w)};
+  const auto quotients = [&]<int N>() -> std::array<double, 3> {
+    const auto w = Int<N>::from(p.w);
+    return {round_to_double(Int<N>::from(p.x), w), round_to_double(Int<N>::from(p.y), w),
+            round_to_double(Int<N>::from(p.z), w)};
+  };
+  if (std::max(p.xyz_bits, p.w_bits) < 256) return quotients.template operator()<4>();
+  return quotients.template operator()<kQuotientLimbs>();
 }
 
 int compare_along(const Point& p, const Point& q, int axis) {

@@ -1,6 +1,8 @@
 #include "engine/exact/rounding.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdlib>
 
 namespace csgrun {
 namespace {
@@ -12,7 +14,8 @@ struct Leading {
   int exponent;   ///< value is in [bits, bits + 1) * 2^exponent
 };
 
-Leading leading(const Quotient& v) {
+template <int N>
+Leading leading(const Int<N>& v) {
   const int width = v.bit_width();
   if (width <= 64) return {v.limb[0] << (64 - width), width - 64};
   const int low = width - 64, whole = low / 64, part = low % 64;
@@ -71,6 +74,26 @@ double round_to_double(const Quotient& numerator, const Quotient& denominator, i
   if (numerator.is_zero()) return 0;
   const Rounded r = round_quotient(numerator.magnitude(), denominator, exponent, 53, -1074);
   const double value = std::ldexp(static_cast<double>(r.mantissa), r.exponent);
+  return numerator.negative() ? -value : value;
+}
+
+double round_to_double(const Int<4>& numerator, const Int<4>& denominator, int exponent) {
+  if (numerator.is_zero()) return 0;
+  const Leading n = leading(numerator.magnitude()), d = leading(denominator);
+  // As above, but with 63 or 64 bits of quotient.
+  const auto quotient = static_cast<uint64_t>((static_cast<UInt128>(n.bits) << 63) / d.bits);
+  const int scale = n.exponent - d.exponent - 63 + exponent;
+  const int drop = std::bit_width(quotient) - 53;
+  const uint64_t half = uint64_t{1} << (drop - 1), low = quotient & (2 * half - 1);
+  const uint64_t distance = low > half ? low - half : half - low;
+  const int power = scale + drop;
+  constexpr int kFarFromSubnormal = 960;
+  if (distance <= 16 || std::abs(power) > kFarFromSubnormal) {
+    return round_to_double(Quotient::from(numerator), Quotient::from(denominator), exponent);
+  }
+  const uint64_t mantissa = (quotient >> drop) + (low > half ? 1 : 0);
+  const double value = static_cast<double>(mantissa) *
+                       std::bit_cast<double>(static_cast<uint64_t>(power + 1023) << 52);
   return numerator.negative() ? -value : value;
 }
 

@@ -14,6 +14,8 @@ constexpr int kQuotientLimbs = 8;
 /// rounding boundary.
 double round_to_double(const Int<kQuotientLimbs>& numerator, const Int<kQuotientLimbs>& denominator,
                        int exponent = 0);
+/// The same for narrower numbers, a few times as fast.
+double round_to_double(const Int<4>& numerator, const Int<4>& denominator, int exponent = 0);
 /// The same for float, subnormal results included.
 float round_to_float(const Int<kQuotientLimbs>& numerator, const Int<kQuotientLimbs>& denominator,
                      int exponent = 0);

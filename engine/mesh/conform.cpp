@@ -56,6 +56,8 @@ class Conformer {
     std::sort(contacts_.begin(), contacts_.end());
     contacts_.erase(std::unique(contacts_.begin(), contacts_.end()), contacts_.end());
     break_edges();
+    for (const uint32_t p : contacts_) by_x_.emplace_back(geometry_.point(p).rounded[0], p);
+    std::sort(by_x_.begin(), by_x_.end());
     for (const uint32_t f : lying_faces_) find_slits(f);
     find_points();
   }
@@ -402,7 +404,10 @@ class Conformer {
   void find_slits(uint32_t f) {
     MergedFace& face = faces_[f];
     std::vector<uint32_t> points;
-    for (const uint32_t p : contacts_) {
+    const Box& box = face_boxes_[f];
+    for (auto at = std::lower_bound(by_x_.begin(), by_x_.end(), std::pair(box.lo[0], 0u));
+         at != by_x_.end() && at->first <= box.hi[0]; ++at) {
+      const uint32_t p = at->second;
       if (in_box(f, p) && geometry_.side(face.plane.index(), p) == 0) points.push_back(p);
     }
     for (const auto& loop : face.loops) {
@@ -470,6 +475,7 @@ class Conformer {
   std::vector<Sides> sides_;  ///< per face, of the plane of the one that was marked last
   /// Faces of which one has edges, near the other, on both sides of the other's plane.
   std::vector<std::pair<uint32_t, uint32_t>> straddling_;
+  std::vector<std::pair<double, uint32_t>> by_x_;     ///< contacts, by their first coordinates
   std::vector<uint32_t> contacts_;                    ///< points at which edges are to be broken
   std::vector<std::pair<uint32_t, uint32_t>> inner_;  ///< faces, and corners of others within them
   std::vector<std::vector<Lying>> lying_;

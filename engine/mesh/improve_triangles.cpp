@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
+
+#include "engine/base/sort_few.h"
 
 namespace csgrun {
 namespace {
@@ -15,6 +18,8 @@ constexpr double kMargin = 1.0 / 64;
 /// A ring between two circles of 1000 corners each takes 11, other faces hardly ever more than 2.
 /// Such rings are the known bad case: there the number grows with that of corners.
 constexpr size_t kFlipsPerTriangle = 16;
+/// Of so many corners or triangles, all pairs are looked at sooner than sorted.
+constexpr size_t kFewCorners = 12;
 
 using Triangle = std::array<uint32_t, 3>;
 
@@ -25,12 +30,23 @@ void sort_canonically(std::vector<Triangle>& triangles) {
   std::sort(triangles.begin(), triangles.end());
 }
 
+/// Kept from one face to the next: most are small.
+struct Memory {
+  using Edge = std::pair<uint32_t, uint32_t>;
+  std::vector<Edge> slits;       ///< sorted, lower point first
+  std::vector<uint32_t> twin;    ///< per half-edge; kNoTwin on the boundary
+  std::vector<uint8_t> queued;   ///< per half-edge
+  std::vector<uint32_t> queue;   ///< half-edges to look at, those before the current one are done
+  std::vector<Edge> loop_edges;  ///< while slits are looked for
+  std::vector<std::pair<Edge, uint32_t>> edges;  ///< while twins are
+};
+
 /// Half-edge h = 3 t + k runs from corner k of triangle t to the next one.
 class Flipper {
  public:
   Flipper(std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle,
-          const RoundedPosition& position, std::vector<Triangle>& triangles)
-      : oracle_(oracle), position_(position), triangles_(triangles) {
+          const RoundedPosition& position, std::vector<Triangle>& triangles, Memory& memory)
+      : oracle_(oracle), position_(position), triangles_(triangles), memory_(memory) {
     find_slits(loops);
     pair_diagonals();
   }
@@ -46,7 +62,7 @@ class Flipper {
   }
 
  private:
-  using Edge = std::pair<uint32_t, uint32_t>;
+  using Edge = Memory::Edge;
 
   static uint32_t next(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
   uint32_t& origin(uint32_t h) { return triangles_[h / 3][h % 3]; }
@@ -54,7 +70,10 @@ class Flipper {
   /// Edges of the loops that occur in both directions: both sides have triangles, which are not
   /// neighbours there.
   void find_slits(std::span<const std::vector<uint32_t>> loops) {
-    std::vector<Edge> edges;
+    slits_.clear();
+    if (loops.size() == 1 && loops[0].size() <= kFewCorners && are_distinct(loops[0])) return;
+    std::vector<Edge>& edges = memory_.loop_edges;
+    edges.clear();
     for (const auto& loop : loops) {
       for (size_t i = 0; i < loop.size(); ++i) {
         edges.push_back(std::minmax({loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]}));
@@ -66,11 +85,22 @@ class Flipper {
     }
   }
 
+  static bool are_distinct(std::span<const uint32_t> corners) {
+    for (size_t i = 1; i < corners.size(); ++i) {
+      for (size_t j = 0; j < i; ++j) {
+        if (corners[i] == corners[j]) return false;
+      }
+    }
+    return true;
+  }
+
   /// Finds the twins of half-edges and queues all diagonals in the order of their points.
   void pair_diagonals() {
     const auto count = static_cast<uint32_t>(3 * triangles_.size());
-    std::vector<std::pair<Edge, uint32_t>> edges;
-    edges.reserve(count);
+    std::vector<std::pair<Edge, uint32_t>>& edges = memory_.edges;
+    edges.clear();
+    queue_.clear();
+    if (triangles_.size() <= kFewCorners && slits_.empty()) return pair_few();
     for (uint32_t h = 0; h < count; ++h) {
       edges.push_back({std::minmax({origin(h), origin(next(h))}), h});
     }
@@ -84,6 +114,24 @@ class Flipper {
       link(h, edges[i].second);
       enqueue(h);
     }
+  }
+
+  /// The same for a few: each half-edge is held against the others.
+  void pair_few() {
+    const auto count = static_cast<uint32_t>(3 * triangles_.size());
+    twin_.assign(count, kNoTwin);
+    queued_.assign(count, false);
+    std::vector<std::pair<Edge, uint32_t>>& diagonals = memory_.edges;
+    for (uint32_t h = 0; h < count; ++h) {
+      const uint32_t from = origin(h), to = origin(next(h));
+      for (uint32_t g = h / 3 * 3 + 3; g < count; ++g) {
+        if (origin(g) != to || origin(next(g)) != from) continue;
+        link(h, g);
+        diagonals.push_back({std::minmax({from, to}), h});
+      }
+    }
+    sort_few(diagonals.begin(), diagonals.end(), std::less<>());
+    for (const auto& diagonal : diagonals) enqueue(diagonal.second);
   }
 
   void link(uint32_t h, uint32_t twin) {
@@ -135,10 +183,11 @@ class Flipper {
   const PlanarOracle& oracle_;
   const RoundedPosition& position_;
   std::vector<Triangle>& triangles_;
-  std::vector<Edge> slits_;      ///< sorted, lower point first
-  std::vector<uint32_t> twin_;   ///< per half-edge; kNoTwin on the boundary
-  std::vector<bool> queued_;     ///< per half-edge
-  std::vector<uint32_t> queue_;  ///< half-edges to look at, those before the current one are done
+  Memory& memory_;
+  std::vector<Edge>& slits_ = memory_.slits;
+  std::vector<uint32_t>& twin_ = memory_.twin;
+  std::vector<uint8_t>& queued_ = memory_.queued;
+  std::vector<uint32_t>& queue_ = memory_.queue;
 };
 
 }  // namespace
@@ -148,7 +197,8 @@ void improve_triangles(std::span<const std::vector<uint32_t>> loops, const Plana
                        std::vector<std::array<uint32_t, 3>>& triangles) {
   sort_canonically(triangles);
   if (triangles.size() < 2) return;
-  Flipper(loops, oracle, position, triangles).run();
+  thread_local Memory memory;
+  Flipper(loops, oracle, position, triangles, memory).run();
   sort_canonically(triangles);
 }
 

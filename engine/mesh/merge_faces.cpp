@@ -56,17 +56,19 @@ struct Group {
 class FaceMerger {
  public:
   FaceMerger(const BoundaryMesh& boundary, CellGeometry& geometry, const PlaneTable& planes,
-             const std::vector<PlaneId>& plane_of, std::vector<MergedFace>& faces)
+             std::vector<MergedFace>& faces)
       : boundary_(boundary),
         geometry_(geometry),
         planes_(planes),
-        plane_of_(plane_of),
         faces_(faces),
         builder_(geometry, planes) {}
 
   /// The faces of one group.
   bool add(std::span<const Group> group) {
-    if (group.size() == 1 && add_plain(group[0])) return true;
+    if (group.size() == 1) {
+      if (!add_plain(group[0])) add_alone(group[0]);
+      return true;
+    }
     const auto label = [&](const Group& g) { return boundary_.faces[g.face].label; };
     const FaceLabel first = label(group[0]);
     const bool is_of_one = std::all_of(group.begin(), group.end(), [&](const Group& g) {
@@ -79,7 +81,7 @@ class FaceMerger {
   /// A connected part of a face of the boundary.
   struct Piece {
     FaceLabel label;
-    std::vector<DirectedEdge> edges;
+    std::vector<std::vector<DirectedEdge>> loops;  ///< the outer one first
   };
 
   /// A face by itself whose loop passes no point twice is what it was. False for all others.
@@ -102,51 +104,70 @@ class FaceMerger {
     return true;
   }
 
+  /// A face by itself is what it was, but that its parts are faces of their own.
+  void add_alone(const Group& group) {
+    for (auto& nested : parts_of(group)) add_face(group, boundary_.faces[group.face].label, nested);
+  }
+
   bool add_as_one(std::span<const Group> group) {
     edges_.clear();
     for (const Group& g : group) append_edges(boundary_.faces[g.face], edges_);
-    return add_region(group[0], boundary_.faces[group[0].face].label, group.size() == 1);
+    return add_region(group[0], boundary_.faces[group[0].face].label);
   }
 
   /// Pieces that do not hang together are different faces, each from the lowest label within it.
   bool add_connected(std::span<const Group> group) {
     std::vector<Piece> pieces;
     for (const Group& g : group) {
-      if (!append_pieces(g, pieces)) return false;
+      for (auto& nested : parts_of(g)) {
+        pieces.push_back({boundary_.faces[g.face].label, std::move(nested)});
+      }
     }
     std::vector<PieceEdge> edges;
     for (uint32_t p = 0; p < pieces.size(); ++p) {
-      for (const DirectedEdge& e : pieces[p].edges) edges.push_back({e, p});
+      for (const auto& loop : pieces[p].loops) {
+        for (const DirectedEdge& e : loop) edges.push_back({e, p});
+      }
     }
     UnionFind connected(pieces.size());
     if (!join_neighbours(group[0].plane, std::move(edges), geometry_, planes_, connected)) {
       return false;
     }
-    std::vector<std::vector<uint32_t>> members(pieces.size());
-    for (uint32_t p = 0; p < pieces.size(); ++p) members[connected.find(p)].push_back(p);
-    for (const std::vector<uint32_t>& component : members) {
-      if (component.empty()) continue;
-      FaceLabel lowest = pieces[component[0]].label;
-      edges_.clear();
-      for (const uint32_t p : component) {
-        lowest = std::min(lowest, pieces[p].label);
-        edges_.insert(edges_.end(), pieces[p].edges.begin(), pieces[p].edges.end());
+    CountingOrder by_root;
+    by_root.sort(pieces.size(), pieces.size(),
+                 [&](size_t p) { return connected.find(static_cast<uint32_t>(p)); });
+    for (size_t root = 0; root < pieces.size(); ++root) {
+      const uint32_t begin = by_root.starts[root], end = by_root.starts[root + 1];
+      if (begin == end) continue;
+      FaceLabel lowest = pieces[root].label;
+      if (end - begin == 1) {
+        add_face(group[0], lowest, pieces[root].loops);
+        continue;
       }
-      if (!add_region(group[0], lowest, component.size() == 1)) return false;
+      edges_.clear();
+      for (uint32_t i = begin; i < end; ++i) {
+        const Piece& piece = pieces[by_root.order[i]];
+        lowest = std::min(lowest, piece.label);
+        for (const auto& loop : piece.loops) edges_.insert(edges_.end(), loop.begin(), loop.end());
+      }
+      if (!add_region(group[0], lowest)) return false;
     }
     return true;
   }
 
-  /// The region that `edges_` bounds, of a single piece or of several.
-  bool add_region(const Group& group, const FaceLabel& label, bool is_single) {
-    const bool built = is_single ? builder_.build_single(group.plane, edges_, loops_)
-                                 : builder_.build(group.plane, edges_, loops_);
-    if (!built) return false;
+  /// The region that `edges_` bounds, of several pieces.
+  bool add_region(const Group& group, const FaceLabel& label) {
+    if (!builder_.build(group.plane, edges_, loops_)) return false;
     for (auto& nested : nest_loops(group.plane, loops_, geometry_, planes_)) {
-      faces_.push_back({group.plane, group.appearance, label.surface, label.source, group.keep != 0,
-                        std::move(nested)});
+      add_face(group, label, nested);
     }
     return true;
+  }
+
+  void add_face(const Group& group, const FaceLabel& label,
+                std::vector<std::vector<DirectedEdge>>& loops) {
+    faces_.push_back({group.plane, group.appearance, label.surface, label.source, group.keep != 0,
+                      std::move(loops)});
   }
 
   void append_edges(const BoundaryMesh::Face& face, std::vector<DirectedEdge>& edges) const {
@@ -155,34 +176,26 @@ class FaceMerger {
       const uint32_t begin = b.loop_starts[l], end = b.loop_starts[l + 1];
       for (uint32_t c = begin; c < end; ++c) {
         edges.push_back({b.corners[c].point, b.corners[c + 1 < end ? c + 1 : begin].point,
-                         plane_of_[b.corners[c].edge_plane].index()});
+                         b.corners[c].edge_plane});
       }
     }
   }
 
-  bool append_pieces(const Group& group, std::vector<Piece>& pieces) {
-    const BoundaryMesh::Face& face = boundary_.faces[group.face];
-    edges_.clear();
-    append_edges(face, edges_);
-    if (face.loop_count == 1) {
-      pieces.push_back({face.label, edges_});
-      return true;
+  /// The connected parts of a face of the boundary; its loops are those of a region already.
+  std::vector<std::vector<std::vector<DirectedEdge>>> parts_of(const Group& group) {
+    const BoundaryMesh& b = boundary_;
+    const BoundaryMesh::Face& face = b.faces[group.face];
+    loops_.clear();
+    append_edges(face, loops_.edges);
+    for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
+      loops_.starts.push_back(b.loop_starts[l + 1] - b.loop_starts[face.first_loop]);
     }
-    if (!builder_.build_single(group.plane, edges_, loops_)) return false;
-    for (const auto& nested : nest_loops(group.plane, loops_, geometry_, planes_)) {
-      Piece piece{face.label, {}};
-      for (const auto& loop : nested) {
-        piece.edges.insert(piece.edges.end(), loop.begin(), loop.end());
-      }
-      pieces.push_back(std::move(piece));
-    }
-    return true;
+    return nest_loops(group.plane, loops_, geometry_, planes_);
   }
 
   const BoundaryMesh& boundary_;
   CellGeometry& geometry_;
   const PlaneTable& planes_;
-  const std::vector<PlaneId>& plane_of_;
   std::vector<MergedFace>& faces_;
   RegionBuilder builder_;
   RegionLoops loops_;
@@ -192,12 +205,9 @@ class FaceMerger {
 }  // namespace
 
 bool merge_faces(const BoundaryMesh& b, CellGeometry& geometry, const PlaneTable& planes,
-                 const std::vector<PlaneId>& plane_of, std::vector<MergedFace>& faces) {
+                 std::vector<MergedFace>& faces) {
   const std::vector<uint32_t> state = sources_at_points(b);
-  const auto plane = [&](size_t i) {
-    const PlaneId mapped = plane_of[b.faces[i].plane.index()];
-    return b.faces[i].plane.flipped() ? mapped.flip() : mapped;
-  };
+  const auto plane = [&](size_t i) { return b.faces[i].plane; };
   CountingOrder by_plane;
   by_plane.sort(b.faces.size(), planes.size(), [&](size_t i) { return plane(i).index(); });
   std::vector<Group> groups;
@@ -215,7 +225,7 @@ bool merge_faces(const BoundaryMesh& b, CellGeometry& geometry, const PlaneTable
              std::tie(y.plane, y.appearance, y.curved, y.keep, y.face);
     });
   }
-  FaceMerger merger(b, geometry, planes, plane_of, faces);
+  FaceMerger merger(b, geometry, planes, faces);
   for (size_t i = 0, j = 0; i < groups.size(); i = j) {
     while (j < groups.size() && groups[j].goes_with(groups[i])) ++j;
     if (!merger.add({groups.data() + i, j - i})) return false;

@@ -23,11 +23,11 @@ struct MergedFace {
 };
 
 /// Regroups the faces of a boundary. `geometry` holds the boundary's points under their own
-/// numbers, `plane_of` maps its planes to the geometry's. A facet counts as touched when some face
+/// numbers, `planes` its planes under theirs. A facet counts as touched when some face
 /// at one of its corners is not a whole facet of the same leaf. The source and surface of a face
 /// are those of the lowest label within it. Canonical order. False when a region does not close.
 bool merge_faces(const BoundaryMesh& boundary, CellGeometry& geometry, const PlaneTable& planes,
-                 const std::vector<PlaneId>& plane_of, std::vector<MergedFace>& faces);
+                 std::vector<MergedFace>& faces);
 
 /// Brings faces into canonical order: loops from their lowest edge, faces by their lowest loop.
 /// Points must be numbered in canonical order.

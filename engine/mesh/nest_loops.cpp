@@ -23,6 +23,7 @@ class Nester {
   /// touches itself there passes it several times: a hole turns left between two of its lobes, but
   /// not each time.
   [[nodiscard]] bool is_outer(const Loop& loop) const {
+    if (const int turn = clear_turn(loop)) return turn > 0;
     uint32_t low = loop[0].from;
     for (const DirectedEdge& e : loop) {
       if (before(e.from, low)) low = e.from;
@@ -66,6 +67,31 @@ class Nester {
   }
 
  private:
+  /// Whether a loop clearly goes around on the left (+1) or on the right (-1), by its area.
+  [[nodiscard]] int clear_turn(const Loop& loop) const {
+    const auto [u, v] = locator_.axes();
+    const auto& origin = geometry_.point(loop[0].from).rounded;
+    double area = 0, size = 0, largest = 0, extent = 0;
+    for (const DirectedEdge& e : loop) {
+      const auto &p = geometry_.point(e.from).rounded, &q = geometry_.point(e.to).rounded;
+      const double pu = p[u] - origin[u], pv = p[v] - origin[v];
+      const double qu = q[u] - origin[u], qv = q[v] - origin[v];
+      area += pu * qv - pv * qu;
+      size += std::fabs(pu * qv) + std::fabs(pv * qu);
+      largest = std::max({largest, std::fabs(p[u]), std::fabs(p[v])});
+      extent = std::max({extent, std::fabs(pu), std::fabs(pv)});
+    }
+    // With n corners, coordinates up to M and differences up to D: products are off by less than
+    // 4 u M D + 4 u |product| each (PlaneOracle), and 2 n additions by 2 n u times their sizes.
+    const auto n = static_cast<double>(loop.size());
+    const double bound = 0x1p-49 * n * (largest * extent + size);
+    if (std::fabs(area) <= bound) return 0;
+    const Plane normal = planes_.oriented(support_);
+    const int w = 3 - u - v;
+    const Int128 along = w == 0 ? normal.a : w == 1 ? normal.b : normal.c;
+    return (area > 0) == (along > 0) ? 1 : -1;
+  }
+
   PlaneId support_;
   CellGeometry& geometry_;
   const PlaneTable& planes_;

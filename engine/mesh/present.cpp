@@ -59,16 +59,12 @@ class Presenter {
       : boundary_(boundary), context_(context), geometry_(planes_, nullptr) {}
 
   Result<SolidPtr> run() {
-    std::vector<PlaneId> plane_of;
-    plane_of.reserve(boundary_.planes.size());
-    for (const Plane& p : boundary_.planes) plane_of.push_back(planes_.intern(p));
+    planes_.adopt(boundary_.planes);
     for (size_t p = 0; p < boundary_.point_planes.size(); ++p) {
-      const auto& t = boundary_.point_planes[p];
-      geometry_.add_point({plane_of[t[0]].index(), plane_of[t[1]].index(), plane_of[t[2]].index()},
-                          boundary_.point_rounded[p]);
+      geometry_.add_point(boundary_.point_planes[p], boundary_.point_rounded[p]);
     }
     const WholeOrder& whole = whole_.emplace(boundary_, geometry_);
-    if (!merge_faces(boundary_, geometry_, planes_, plane_of, faces_)) return not_closed("faces");
+    if (!merge_faces(boundary_, geometry_, planes_, faces_)) return not_closed("faces");
     std::vector<LowestEdge> lowest = lowest_edges();
     break_at_own_corners(faces_, geometry_);
     if (!resolve_t_junctions(faces_, geometry_, planes_, whole)) return not_closed("edges");
@@ -126,16 +122,19 @@ class Presenter {
     };
     std::vector<std::vector<uint32_t>> loops;
     for (uint32_t f = 0; f < faces_.size(); ++f) {
-      loops.clear();
-      for (const auto& loop : faces_[f].loops) {
-        loops.emplace_back();
-        for (const DirectedEdge& e : loop) loops.back().push_back(e.from);
-      }
-      for (const auto& [p, q] : faces_[f].slits) loops.push_back({p, q});
-      if (loops.size() == 1 && loops[0].size() == 3 && faces_[f].points.empty()) {
-        add_triangle({loops[0][0], loops[0][1], loops[0][2]}, f);
+      const MergedFace& face = faces_[f];
+      if (face.loops.size() == 1 && face.loops[0].size() == 3 && face.points.empty() &&
+          face.slits.empty()) {
+        add_triangle({face.loops[0][0].from, face.loops[0][1].from, face.loops[0][2].from}, f);
         continue;
       }
+      // The memory of loops is kept.
+      loops.resize(face.loops.size());
+      for (size_t l = 0; l < loops.size(); ++l) {
+        loops[l].clear();
+        for (const DirectedEdge& e : face.loops[l]) loops[l].push_back(e.from);
+      }
+      for (const auto& [p, q] : face.slits) loops.push_back({p, q});
       const PlaneOracle oracle(geometry_, planes_, faces_[f].plane);
       auto triangles = triangulate_face(loops, oracle);
       if (!triangles) return triangles.error();
@@ -222,12 +221,11 @@ class Presenter {
     solid.loop_vertices.reserve(triangles * 3);
     // Triangles of explicit faces stand in the order of faces.
     size_t t = 0;
-    const std::vector<glm::dvec3> normals = outward_normals(boundary_, whole_->triangles());
     for (const uint32_t f : whole_->faces()) {
       if (f < whole_->explicit_face_count()) {
         t = add_face(solid, f, t);
       } else {
-        add_untouched(solid, whole_->triangle(f), normals[f - whole_->explicit_face_count()]);
+        add_untouched(solid, whole_->triangle(f));
       }
     }
   }
@@ -254,8 +252,8 @@ class Presenter {
                            static_cast<uint32_t>(face.loops.size()), face.appearance,
                            surface_number(face.source, face.surface), face.source});
     const auto& plane = planes_.approximate(face.plane.index());
-    const glm::dvec3 normal(plane[0], plane[1], plane[2]);
-    solid.face_normals.push_back(face.plane.flipped() ? -normal : normal);
+    const double sign = face.plane.flipped() ? -1 : 1;
+    solid.face_normals.push_back(direction({sign * plane[0], sign * plane[1], sign * plane[2]}));
     for (const auto& loop : face.loops) {
       for (const DirectedEdge& e : loop) {
         const auto at = std::lower_bound(edges_.begin(), edges_.end(),
@@ -267,7 +265,7 @@ class Presenter {
     return t;
   }
 
-  void add_untouched(Solid& solid, const UntouchedTriangle& t, const glm::dvec3& normal) {
+  void add_untouched(Solid& solid, const UntouchedTriangle& t) {
     const UntouchedPart& part = boundary_.parts[t.part];
     const auto number = static_cast<uint32_t>(solid.faces.size());
     const std::array<uint32_t, 3> vertices{first_vertex_[t.points[0]], first_vertex_[t.points[1]],
@@ -277,7 +275,7 @@ class Presenter {
     const FaceLabel label = part.label(t.face);
     solid.faces.push_back({static_cast<uint32_t>(solid.loop_starts.size() - 1), 1, label.appearance,
                            surface_number(label.source, label.surface), label.source});
-    solid.face_normals.push_back(normal);
+    solid.face_normals.push_back(outward_direction(part, t.face));
     solid.loop_vertices.insert(solid.loop_vertices.end(), vertices.begin(), vertices.end());
     solid.loop_starts.push_back(static_cast<uint32_t>(solid.loop_vertices.size()));
   }

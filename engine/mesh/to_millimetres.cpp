@@ -1,5 +1,6 @@
 #include "engine/mesh/to_millimetres.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -57,15 +58,25 @@ void ToMillimetres::position(const Point& p, glm::dvec3& mm, std::array<float, 3
 }
 
 void ToMillimetres::divide(const Point& p, glm::dvec3& mm, std::array<float, 3>& single) const {
-  using Q = Int<kQuotientLimbs>;
   static_assert(widths::kMaxPointXyz + 63 < 64 * kQuotientLimbs);
-  const Q denominator = multiply<kQuotientLimbs>(p.w, Int<1>(step_.denominator));
   const Int<kPointLimbs>* coordinate[3] = {&p.x, &p.y, &p.z};
-  for (int k = 0; k < 3; ++k) {
-    const Q numerator = multiply<kQuotientLimbs>(*coordinate[k], Int<1>(step_.numerator));
-    mm[k] = round_to_double(numerator, denominator, step_.exponent);
-    single[k] = tells_float(mm[k]) ? static_cast<float>(mm[k])
-                                   : round_to_float(numerator, denominator, step_.exponent);
+  const auto round = [&]<int N>() {
+    using Q = Int<kQuotientLimbs>;
+    const auto denominator =
+        multiply<N>(Int<std::min(N, kPointLimbs)>::from(p.w), Int<1>(step_.denominator));
+    for (int k = 0; k < 3; ++k) {
+      const auto numerator =
+          multiply<N>(Int<std::min(N, kPointLimbs)>::from(*coordinate[k]), Int<1>(step_.numerator));
+      mm[k] = round_to_double(numerator, denominator, step_.exponent);
+      single[k] = tells_float(mm[k])
+                      ? static_cast<float>(mm[k])
+                      : round_to_float(Q::from(numerator), Q::from(denominator), step_.exponent);
+    }
+  };
+  if (std::max(p.xyz_bits, p.w_bits) + 63 < 256) {
+    round.template operator()<4>();
+  } else {
+    round.template operator()<kQuotientLimbs>();
   }
 }
 

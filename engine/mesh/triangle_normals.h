@@ -1,18 +1,20 @@
-// Normals of triangles over grid points, without tables of planes.
+// Directions of faces, as doubles.
 #pragma once
 
-#include <span>
-#include <vector>
+#include <array>
+#include <cstdint>
 
 #include <glm/vec3.hpp>
 
-#include "engine/mesh/whole_order.h"
+#include "engine/bsp/boundary_mesh.h"
 
 namespace csgrun {
 
-/// The outward normal of each triangle as PlaneTable tells that of its plane: reduced, rounded
-/// once. O(n).
-std::vector<glm::dvec3> outward_normals(const BoundaryMesh& boundary,
-                                        std::span<const UntouchedTriangle> triangles);
+/// A vector along a normal, given rounded once: its largest coordinate is 1 or -1. Whole multiples
+/// of a normal below 2^53 have the same bits.
+glm::dvec3 direction(const std::array<double, 3>& normal);
+
+/// The direction of the outward normal of an untouched triangle: that of its plane, to the bit.
+glm::dvec3 outward_direction(const UntouchedPart& part, uint32_t face);
 
 }  // namespace csgrun

@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "engine/mesh/sweep_status.h"
+#include "engine/mesh/triangulate_monotone.h"
 
 namespace csgrun {
 namespace {
@@ -332,9 +333,18 @@ class Sweep {
 
 }  // namespace
 
-Result<std::vector<std::array<uint32_t, 3>>> triangulate_face(
+Result<std::vector<std::array<uint32_t, 3>>> triangulate_by_sweep(
     std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle) {
   return Sweep(loops, oracle).run();
+}
+
+Result<std::vector<std::array<uint32_t, 3>>> triangulate_face(
+    std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle) {
+  if (loops.size() == 1) {
+    std::vector<std::array<uint32_t, 3>> triangles;
+    if (triangulate_monotone(loops[0], oracle, triangles)) return triangles;
+  }
+  return triangulate_by_sweep(loops, oracle);
 }
 
 }  // namespace csgrun

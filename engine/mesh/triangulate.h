@@ -32,4 +32,8 @@ class PlanarOracle {
 Result<std::vector<std::array<uint32_t, 3>>> triangulate_face(
     std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle);
 
+/// The same by the general sweep alone, without the quick way for small loops: for tests.
+Result<std::vector<std::array<uint32_t, 3>>> triangulate_by_sweep(
+    std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle);
+
 }  // namespace csgrun

@@ -8,6 +8,7 @@
 
 #include "engine/bsp/grid_planes.h"
 #include "engine/bsp/kernel.h"
+#include "engine/mesh/opposite_edges.h"
 #include "tests/support/boundary_compare.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
@@ -136,6 +137,62 @@ TEST(WholeFaces, OfLeavesThatReachFar) {
     tree.expression.nodes.push_back(root);
     ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
         << "case " << i;
+  }
+}
+
+/// Octagonal columns that are known to be convex, most of them flush.
+test::RandomTree convex_columns(test::Random& random) {
+  const std::vector<IVec3> rim{{1, 0, 0}, {3, 0, 0}, {4, 1, 0}, {4, 3, 0},
+                               {3, 4, 0}, {1, 4, 0}, {0, 3, 0}, {0, 1, 0}};
+  test::Loop bottom(rim.rbegin(), rim.rend()), top = rim;
+  for (IVec3& p : top) p[2] = 3;
+  std::vector<test::Loop> loops{bottom, top};
+  for (size_t i = 0; i < 8; ++i) {
+    loops.push_back({rim[i], rim[(i + 1) % 8], top[(i + 1) % 8], top[i]});
+  }
+  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(loops));
+  leaf->opposite = pair_edges(*leaf).opposite;
+  leaf->convex = true;
+  leaf->may_touch = false;
+  test::RandomTree tree;
+  const auto count = static_cast<uint32_t>(random.integer(2, 6));
+  for (uint32_t o = 0; o < count; ++o) {
+    Operand& operand = tree.operands.emplace_back();
+    operand.leaf = leaf;
+    operand.first_source = o;
+    operand.translation = {random.integer(-3, 3), random.integer(-3, 3), random.integer(-1, 1)};
+    tree.expression.nodes.emplace_back().operand = o;
+  }
+  // The last two are a node of their own now and then: no operands of the root.
+  const auto join = [&](uint32_t first, uint32_t last) {
+    Expression::Node node;
+    node.is_operand = false;
+    node.op = static_cast<BooleanOp>(random.integer(0, 3));
+    node.first_child = static_cast<uint32_t>(tree.expression.children.size());
+    node.child_count = last - first;
+    for (uint32_t o = first; o < last; ++o) tree.expression.children.push_back(o);
+    tree.expression.nodes.push_back(node);
+  };
+  if (count > 3 && random.integer(0, 1) == 0) {
+    join(count - 2, count);
+    join(0, count - 2);
+    tree.expression.nodes.back().child_count++;
+    tree.expression.children.push_back(count);
+  } else {
+    join(0, count);
+  }
+  tree.region = test::TreeMaker::region_of(tree.operands);
+  return tree;
+}
+
+// What touches a convex body from within is not looked at, and a side of one in a polygon's plane
+// says all about it.
+TEST(WholeFaces, OfFlushConvexBodiesAreWhatCellsGive) {
+  test::Random random(408);
+  for (int i = 0; i < 400; ++i) {
+    const auto tree = convex_columns(random);
+    ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
+        << "tree " << i;
   }
 }
 

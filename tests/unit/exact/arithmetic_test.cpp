@@ -166,6 +166,37 @@ TEST(Rounding, IsToTheNearestDouble) {
   }
 }
 
+// The quick way for narrower numbers: near ties, of all sizes, and scaled out of the normal range.
+TEST(Rounding, IsTheSameForNarrowNumbers) {
+  Random random(12);
+  const auto positive = [&](int bits) {
+    return mpz_class(abs(to_gmp(random_bits(random, bits))) + 1);
+  };
+  for (int i = 0; i < 60'000; ++i) {
+    const mpz_class denominator = positive(static_cast<int>(random.integer(1, 120))) *
+                                  positive(static_cast<int>(random.integer(1, 120)));
+    mpz_class numerator = positive(static_cast<int>(random.integer(1, 120))) *
+                          positive(static_cast<int>(random.integer(1, 120)));
+    if (i % 2 == 0) {
+      const mpz_class odd = 2 * mpz_class(static_cast<unsigned long>(random.bits() >> 11)) + 1;
+      const mpz_class small = positive(static_cast<int>(random.integer(1, 120)));
+      numerator = odd * small + random.integer(-1, 1);
+      if (i % 4 == 0) numerator *= denominator / small + 1;
+      numerator %= mpz_class(1) << 250;
+    }
+    if (random.bits() & 1) numerator = -numerator;
+    const int exponent = static_cast<int>(random.integer(0, 3) == 0 ? random.integer(-1200, 700)
+                                                                    : random.integer(-40, 40));
+    const double expected = round_to_double(test::from_gmp<kQuotientLimbs>(numerator),
+                                            test::from_gmp<kQuotientLimbs>(denominator), exponent);
+    ASSERT_EQ(
+        round_to_double(test::from_gmp<4>(numerator), test::from_gmp<4>(denominator), exponent),
+        expected)
+        << numerator << " / " << denominator << " * 2^" << exponent;
+  }
+  EXPECT_EQ(round_to_double(Int<4>(0), Int<4>(7)), 0);
+}
+
 TEST(FixedInt, MultipliesAddsAndShiftsAsGmpDoes) {
   Random random(13);
   const mpz_class modulus = mpz_class(1) << 256;

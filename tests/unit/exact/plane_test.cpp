@@ -88,6 +88,40 @@ TEST(PlaneTable, NamesEachPlaneOnce) {
   }
 }
 
+// Planes that were taken over are found like those that were interned, and new ones come after
+// them.
+TEST(PlaneTable, TakesOverPlanesOfAnother) {
+  test::Random random(73);
+  PlaneTable table;
+  std::vector<Plane> given;
+  while (given.size() < 500) {
+    const auto component = [&] { return Int128{random.integer(-9, 9)} << random.integer(0, 70); };
+    const Plane p{component(), component(), component(), component()};
+    if (p.a == 0 && p.b == 0 && p.c == 0) continue;
+    given.push_back(p);
+    table.intern(p);
+  }
+  std::vector<Plane> planes;
+  for (uint32_t i = 0; i < table.size(); ++i) planes.push_back(table.plane(i));
+  PlaneTable other;
+  other.adopt(planes);
+  ASSERT_EQ(other.size(), planes.size());
+  for (uint32_t i = 0; i < planes.size(); ++i) {
+    ASSERT_EQ(other.plane(i), planes[i]);
+    ASSERT_EQ(other.approximate(i), table.approximate(i));
+    ASSERT_EQ(other.normal_bits(i), table.normal_bits(i));
+    ASSERT_EQ(other.offset_bits(i), table.offset_bits(i));
+  }
+  const PlaneId fresh = other.intern({1, 2, 3, 1000001});
+  EXPECT_EQ(fresh, PlaneId(static_cast<uint32_t>(planes.size()), false));
+  for (const Plane& p : given) ASSERT_EQ(other.intern(p), table.intern(p));
+  for (uint32_t i = 0; i < planes.size(); ++i) {
+    ASSERT_EQ(other.intern_reduced(planes[i]), PlaneId(i, false));
+    ASSERT_EQ(other.intern_reduced(planes[i].reversed()), PlaneId(i, true));
+  }
+  EXPECT_EQ(other.intern_reduced({-1, -2, -3, -1000001}), fresh.flip());
+}
+
 TEST(PlaneId, IsANumberAndASide) {
   std::set<PlaneId> all;
   for (uint32_t i = 0; i < 50; ++i) {

@@ -1,0 +1,219 @@
+#include "engine/bsp/coarse_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+
+namespace csgrun {
+namespace {
+
+/// The grid's cells are so many times as many as would do if polygons were evenly spread: surfaces
+/// are not.
+constexpr size_t kCellsOverLimit = 8;
+/// A smaller grid is not worth the while, a larger one not the memory.
+constexpr size_t kFewestCells = 1024, kMostCells = size_t{1} << 21;
+/// Polygons that are in more cells than this on the average are too large for the grid.
+constexpr size_t kMostCellsEach = 16;
+
+constexpr uint32_t kNobody = 0, kSeveral = ~0u;  ///< in a cell; else an operand's number and one
+
+/// The box of all operands, and what those of two have in common, if there are no more.
+struct Bounds {
+  PolygonBox all = PolygonBox::none(), common = PolygonBox::none();
+};
+
+Bounds bounds_of(const Job& job) {
+  Bounds bounds;
+  size_t operands = 0;
+  for (size_t o = 0; o < job.operand_count(); ++o) {
+    const PolygonBox& own = job.operand_box(o);
+    if (own.is_empty()) continue;
+    bounds.all.include(own);
+    if (operands++ == 0) bounds.common = own;
+    for (size_t k = 0; k < 3; ++k) {
+      bounds.common.lo[k] = std::max(bounds.common.lo[k], own.lo[k]);
+      bounds.common.hi[k] = std::min(bounds.common.hi[k], own.hi[k]);
+    }
+  }
+  if (operands > 2) bounds.common = bounds.all;
+  return bounds;
+}
+
+/// Boxes whose sides are powers of two and differ by a factor of two at most.
+class Grid {
+ public:
+  Grid(const PolygonBox& bounds, size_t most_cells) : bounds_(bounds) {
+    constexpr unsigned kWhole = 31;
+    shift_.fill(kWhole);
+    for (size_t k = 0; k < 3; ++k) count_[k] = place(k, bounds.hi[k]) + 1;
+    while (true) {
+      const size_t k = std::max_element(shift_.begin(), shift_.end()) - shift_.begin();
+      if (shift_[k] == 0) break;
+      --shift_[k];
+      const size_t before = count_[k];
+      count_[k] = place(k, bounds.hi[k]) + 1;
+      if (count_[0] * count_[1] * count_[2] <= most_cells) continue;
+      ++shift_[k];
+      count_[k] = before;
+      break;
+    }
+    cells_.assign(count_[0] * count_[1] * count_[2], kNobody);
+  }
+
+  /// The cells that a box meets: in rows of `count[0]`, from `first` on.
+  struct Cells {
+    uint32_t first;
+    std::array<uint8_t, 3> more;  ///< along each axis, so many more than one
+    bool any;
+  };
+  /// Nothing when there are too many to name.
+  [[nodiscard]] std::optional<Cells> cells_of(const PolygonBox& box) const {
+    constexpr size_t kMostMore = 255;
+    Cells cells{0, {}, true};
+    size_t stride = 1;
+    for (size_t k = 0; k < 3; ++k) {
+      if (box.lo[k] > bounds_.hi[k] || box.hi[k] < bounds_.lo[k]) return Cells{0, {}, false};
+      const size_t first = place(k, std::max(box.lo[k], bounds_.lo[k])),
+                   last = place(k, std::min(box.hi[k], bounds_.hi[k]));
+      if (last - first > kMostMore) return std::nullopt;
+      cells.first += static_cast<uint32_t>(stride * first);
+      cells.more[k] = static_cast<uint8_t>(last - first);
+      stride *= count_[k];
+    }
+    return cells;
+  }
+  /// Calls visit(cell) for each.
+  template <class Visit>
+  void each_cell(const Cells& cells, Visit&& visit) {
+    if (!cells.any) return;
+    uint32_t* layer = cells_.data() + cells.first;
+    for (size_t z = 0; z <= cells.more[2]; ++z, layer += count_[0] * count_[1]) {
+      uint32_t* row = layer;
+      for (size_t y = 0; y <= cells.more[1]; ++y, row += count_[0]) {
+        for (size_t x = 0; x <= cells.more[0]; ++x) visit(row[x]);
+      }
+    }
+  }
+  /// Calls visit(cell, bounds) for all cells with kSeveral.
+  template <class Visit>
+  void each_shared(Visit&& visit) {
+    size_t at = 0;
+    for (size_t z = 0; z < count_[2]; ++z) {
+      for (size_t y = 0; y < count_[1]; ++y) {
+        for (size_t x = 0; x < count_[0]; ++x, ++at) {
+          if (cells_[at] == kSeveral) visit(cells_[at], bounds_of_cell({x, y, z}));
+        }
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] size_t place(size_t axis, int32_t coordinate) const {
+    // Boxes are within 2^30: differences fit.
+    return (static_cast<uint32_t>(coordinate) - static_cast<uint32_t>(bounds_.lo[axis])) >>
+           shift_[axis];
+  }
+  [[nodiscard]] PolygonBox bounds_of_cell(const std::array<size_t, 3>& cell) const {
+    PolygonBox box{};
+    for (size_t k = 0; k < 3; ++k) {
+      const int64_t lo = bounds_.lo[k] + static_cast<int64_t>(cell[k] << shift_[k]);
+      const int64_t hi = lo + (int64_t{1} << shift_[k]) - 1;
+      box.lo[k] = static_cast<int32_t>(lo);
+      box.hi[k] = static_cast<int32_t>(std::min<int64_t>(hi, bounds_.hi[k]));
+    }
+    return box;
+  }
+
+  const PolygonBox bounds_;
+  std::array<unsigned, 3> shift_{};
+  std::array<size_t, 3> count_{};
+  std::vector<uint32_t> cells_;
+};
+
+uint64_t cells_for(uint64_t polygons, uint32_t limit) { return (polygons + limit - 1) / limit; }
+
+/// One cell with everything.
+PairCells whole(const Job& job, const PolygonBox& all) {
+  const auto count = static_cast<uint32_t>(job.polygons().size());
+  PairCells result;
+  result.polygons.resize(count);
+  std::iota(result.polygons.begin(), result.polygons.end(), 0u);
+  if (count > 0) result.cells.push_back({all.lo, all.hi, 0, count});
+  return result;
+}
+
+/// Marks the cells by operands, and lists those of each polygon. False when polygons are too large.
+bool mark(const Job& job, Grid& grid, std::vector<Grid::Cells>& cells) {
+  size_t left = kMostCellsEach * job.polygons().size();
+  cells.reserve(job.polygons().size());
+  for (size_t o = 0; o < job.operand_count(); ++o) {
+    const auto own = static_cast<uint32_t>(o) + 1;
+    for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
+      const std::optional<Grid::Cells> of_polygon = grid.cells_of(job.boxes()[p]);
+      if (!of_polygon) return false;
+      const auto& more = of_polygon->more;
+      const size_t count = (more[0] + size_t{1}) * (more[1] + size_t{1}) * (more[2] + size_t{1});
+      if (count > left) return false;
+      left -= count;
+      cells.push_back(*of_polygon);
+      grid.each_cell(*of_polygon, [own](uint32_t& cell) {
+        cell = cell == kNobody || cell == own ? own : kSeveral;
+      });
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+PairCells find_coarse_cells(const Job& job, uint32_t limit) {
+  const size_t count = job.polygons().size();
+  const Bounds bounds = bounds_of(job);
+  const size_t most_cells = std::min(kMostCells, kCellsOverLimit * count / limit);
+  if (most_cells < kFewestCells) return whole(job, bounds.all);
+  PairCells result;
+  result.surface = cells_for(count, limit);
+  for (size_t k = 0; k < 3; ++k) {
+    if (bounds.common.lo[k] > bounds.common.hi[k]) return result;
+  }
+  Grid grid(bounds.common, most_cells);
+  std::vector<Grid::Cells> cells;
+  if (!mark(job, grid, cells)) return whole(job, bounds.all);
+
+  // From here on a cell holds its number among the shared ones, from the top down.
+  const auto number = [](uint32_t cell) { return kSeveral - 1 - cell; };
+  grid.each_shared([&](uint32_t& cell, const PolygonBox& box) {
+    cell = number(static_cast<uint32_t>(result.cells.size()));
+    result.cells.push_back({box.lo, box.hi, 0, 0});
+  });
+  struct Entry {
+    uint32_t cell, polygon;
+  };
+  std::vector<Entry> entries;
+  const auto shared = static_cast<uint32_t>(result.cells.size());
+  uint64_t alone = 0;
+  for (uint32_t p = 0; p < count; ++p) {
+    const size_t before = entries.size();
+    grid.each_cell(cells[p], [&](uint32_t cell) {
+      if (number(cell) < shared) entries.push_back({number(cell), p});
+    });
+    alone += entries.size() == before;
+  }
+  for (const Entry& e : entries) ++result.cells[e.cell].count;
+  uint32_t total = 0;
+  for (PairCells::Cell& cell : result.cells) {
+    cell.first = total;
+    total += cell.count;
+    cell.count = 0;
+  }
+  result.polygons.resize(total);
+  for (const Entry& e : entries) {
+    PairCells::Cell& cell = result.cells[e.cell];
+    result.polygons[cell.first + cell.count++] = e.polygon;
+  }
+  result.surface = cells_for(alone, limit);
+  return result;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,14 @@
+// The first step of finding pairs: a grid over all polygons, of which only the cells count that
+// polygons of several operands share.
+#pragma once
+
+#include "engine/bsp/pair_cells.h"
+
+namespace csgrun {
+
+/// Cells with polygons of at least two operands, by their boxes, which hold the lower corners of
+/// all overlaps of boxes of different operands. Where polygons are few, or large, it is one cell
+/// with all of them. `surface` counts what is in no such cell, in cells of `limit` polygons. O(n).
+PairCells find_coarse_cells(const Job& job, uint32_t limit);
+
+}  // namespace csgrun

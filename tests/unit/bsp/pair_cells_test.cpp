@@ -1,0 +1,136 @@
+// Every pair of polygons of different operands whose boxes overlap is looked at once, whichever way
+// cells were found.
+#include "engine/bsp/pair_cells.h"
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "engine/bsp/coarse_cells.h"
+#include "tests/support/kernel_case.h"
+#include "tests/support/seeded.h"
+
+namespace csgrun {
+namespace {
+
+using Pairs = std::map<std::pair<uint32_t, uint32_t>, int>;
+
+bool overlap(const PolygonBox& a, const PolygonBox& b) {
+  for (size_t k = 0; k < 3; ++k) {
+    if (a.lo[k] > b.hi[k] || b.lo[k] > a.hi[k]) return false;
+  }
+  return true;
+}
+
+Pairs all_pairs(const Job& job) {
+  Pairs pairs;
+  for (uint32_t q = 0; q < job.polygons().size(); ++q) {
+    for (uint32_t p = 0; p < q; ++p) {
+      if (job.polygons()[p].operand != job.polygons()[q].operand &&
+          overlap(job.boxes()[p], job.boxes()[q])) {
+        pairs[{p, q}] = 1;
+      }
+    }
+  }
+  return pairs;
+}
+
+Pairs visited(const Job& job, const PairCells& cells) {
+  Pairs pairs;
+  CellPairs look;
+  for (const PairCells::Cell& cell : cells.cells) {
+    look.visit(job, cells, cell, [&](uint32_t p, uint32_t q) { ++pairs[{p, q}]; });
+  }
+  return pairs;
+}
+
+/// Boxes of all sizes, of which some touch.
+std::vector<Operand> random_boxes(test::Random& random, int count, int64_t reach, int64_t size) {
+  std::vector<Operand> operands;
+  for (int i = 0; i < count; ++i) {
+    IVec3 lo{}, hi{};
+    for (size_t k = 0; k < 3; ++k) {
+      lo[k] = random.integer(-reach, reach);
+      hi[k] = lo[k] + random.integer(1, size);
+    }
+    operands.push_back(test::operand_of(test::box_leaf(lo, hi)));
+  }
+  return operands;
+}
+
+/// Two surfaces of many squares each.
+std::vector<Operand> tilings(test::Random& random, int64_t squares) {
+  std::vector<Operand> operands;
+  for (int i = 0; i < 2; ++i) {
+    std::vector<test::Loop> loops;
+    for (int64_t x = 0; x < squares; ++x) {
+      for (int64_t y = 0; y < squares; ++y) {
+        const int64_t z = random.integer(0, 3);
+        loops.push_back({{x, y, z}, {x + 1, y, z}, {x + 1, y + 1, z}, {x, y + 1, z}});
+      }
+    }
+    operands.push_back(test::operand_of(test::make_leaf(loops)));
+    operands.back().translation = {random.integer(-9, 9), random.integer(-9, 9), 0};
+  }
+  return operands;
+}
+
+void expect_all_pairs(const std::vector<Operand>& operands, size_t& grids) {
+  const Job job(operands);
+  const Pairs expected = all_pairs(job);
+  for (const uint32_t limit : {1u, 5u, 17u}) {
+    KernelOptions options;
+    options.cell_limit = limit;
+    ASSERT_EQ(visited(job, find_pair_cells(job, options)), expected) << "limit " << limit;
+    const PairCells coarse = find_coarse_cells(job, limit);
+    ASSERT_EQ(visited(job, coarse), expected) << "limit " << limit;
+    if (coarse.cells.size() < 2) continue;
+    ++grids;
+    for (const PairCells::Cell& cell : coarse.cells) {
+      const auto of = [&](uint32_t i) {
+        return job.polygons()[coarse.polygons[cell.first + i]].operand;
+      };
+      ASSERT_NE(of(0), of(cell.count - 1));
+    }
+  }
+}
+
+TEST(PairCells, LookAtEachPairOnce) {
+  test::Random random(501);
+  size_t grids = 0;
+  for (const int count : {1, 2, 3, 40, 120}) {
+    for (const int64_t size : {3, 30, 300}) {
+      ASSERT_NO_FATAL_FAILURE(expect_all_pairs(random_boxes(random, count, 100, size), grids));
+    }
+  }
+  for (const int64_t squares : {5, 20, 30}) {
+    ASSERT_NO_FATAL_FAILURE(expect_all_pairs(tilings(random, squares), grids));
+  }
+  EXPECT_GE(grids, 10u);
+  EXPECT_LT(grids, 50u);
+}
+
+// Polygons that reach far beyond what boxes can tell, and operands with nothing in common.
+TEST(PairCells, FarAndApart) {
+  test::Random random(502);
+  size_t grids = 0;
+  std::vector<Operand> operands = tilings(random, 30);
+  operands[1].translation = {int64_t{1} << 39, 0, 0};
+  expect_all_pairs(operands, grids);
+  operands[0].translation = {-(int64_t{1} << 39), 0, 0};
+  expect_all_pairs(operands, grids);
+  operands[0].translation = {int64_t{1} << 39, 5, 0};
+  expect_all_pairs(operands, grids);
+  operands.push_back(
+      test::operand_of(test::box_leaf({-(1 << 20), -(1 << 20), 1}, {1 << 20, 1 << 20, 1 << 20})));
+  expect_all_pairs(operands, grids);
+}
+
+TEST(PairCells, NothingIsNoPair) {
+  size_t grids = 0;
+  expect_all_pairs({}, grids);
+  EXPECT_EQ(grids, 0u);
+}
+
+}  // namespace
+}  // namespace csgrun
