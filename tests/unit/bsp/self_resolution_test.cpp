@@ -13,13 +13,13 @@
 namespace csgrun::test {
 namespace {
 
-/// A quarter of a hundred random cases.
+/// Five of a hundred random cases: quick.
 class RandomSurfaces : public ::testing::TestWithParam<int> {
  protected:
-  static constexpr int kCases = 25;
+  static constexpr int kCases = 5;
   static int first() { return GetParam() * kCases; }
 };
-INSTANTIATE_TEST_SUITE_P(Quarters, RandomSurfaces, ::testing::Range(0, 4));
+INSTANTIATE_TEST_SUITE_P(Parts, RandomSurfaces, ::testing::Range(0, 20));
 
 BoundaryResult resolved(const Operand& operand, InsideRule rule,
                         const KernelOptions& options = {}) {
@@ -231,6 +231,33 @@ TEST(SelfResolution, StopsWhenCancelled) {
       EXPECT_EQ(stopped.error().code, ErrorCode::kCancelled);
     }
   }
+}
+
+// Work is added to what was counted before.
+TEST(SelfResolution, CountsItsWork) {
+  auto loops = box_loops({0, 0, 0}, {60, 60, 60});
+  const auto other = box_loops({30, 30, 30}, {90, 90, 91});
+  loops.insert(loops.end(), other.begin(), other.end());
+  const Operand operand = operand_of(make_leaf(loops));
+  const auto crossings = find_self_intersections(*operand.leaf);
+  KernelOptions options;
+  options.cell_limit = 1;
+  const auto numbers = [&](EvaluateStats& s) {
+    EXPECT_TRUE(resolve_surface(operand, crossings, InsideRule::kNonZero, options, s));
+    std::vector<uint64_t> n{s.cells, s.surface_cells, s.solved_cells, s.sign_filter,
+                            s.sign_symbolic};
+    n.insert(n.end(), s.sign_exact.begin(), s.sign_exact.end());
+    return n;
+  };
+  EvaluateStats stats;
+  const auto once = numbers(stats), twice = numbers(stats);
+  for (size_t k = 0; k < once.size(); ++k) {
+    EXPECT_LT(once[k], 100000u) << k;
+    EXPECT_EQ(twice[k], 2 * once[k]) << k;
+  }
+  for (size_t k = 0; k < 5; ++k) EXPECT_GT(once[k], 0u) << k;
+  EXPECT_EQ(stats.cells / 2 % 2, 1u);  // each division makes two of one
+  EXPECT_LT(stats.solved_cells, stats.cells);
 }
 
 }  // namespace
