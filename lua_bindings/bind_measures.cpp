@@ -17,6 +17,13 @@ const Solid& evaluated(lua_State* L, const FunctionSpec& spec) {
   return session_of(L).evaluated(value);
 }
 
+/// What the value at index 1 measures, without its triangles.
+Extent extent_of(lua_State* L, const FunctionSpec& spec) {
+  const SolidValue& value = solid_argument(L, spec);
+  if (lua_gettop(L) > 1) fail_in(spec, "takes no arguments");
+  return session_of(L).extent(value);
+}
+
 const Shape2D& bare_shape(lua_State* L, const FunctionSpec& spec) {
   const ShapeValue& value = shape_argument(L, spec);
   if (lua_gettop(L) > 1) fail_in(spec, "takes no arguments");
@@ -63,8 +70,8 @@ void push_box(lua_State* L, void (*push)(lua_State*, const void*, int), const vo
 }
 
 int solid_bbox(lua_State* L) {
-  const Solid& solid = evaluated(L, kBbox);
-  fail_if_empty(solid.empty(), kBbox);
+  const Extent solid = extent_of(L, kBbox);
+  fail_if_empty(solid.empty, kBbox);
   push_box(
       L,
       [](lua_State* state, const void* box, int i) {
@@ -72,7 +79,7 @@ int solid_bbox(lua_State* L) {
             (*static_cast<const std::array<glm::dvec3, 2>*>(box))[static_cast<size_t>(i)];
         push_list(state, {p.x, p.y, p.z});
       },
-      &solid.measures.bbox);
+      &solid.bbox);
   return 1;
 }
 
@@ -92,9 +99,9 @@ int shape_bbox(lua_State* L) {
 }
 
 int solid_size(lua_State* L) {
-  const Solid& solid = evaluated(L, kSize);
-  fail_if_empty(solid.empty(), kSize);
-  const glm::dvec3 size = solid.measures.bbox[1] - solid.measures.bbox[0];
+  const Extent solid = extent_of(L, kSize);
+  fail_if_empty(solid.empty, kSize);
+  const glm::dvec3 size = solid.bbox[1] - solid.bbox[0];
   push_list(L, {size.x, size.y, size.z});
   return 1;
 }
@@ -108,7 +115,7 @@ int shape_size(lua_State* L) {
 }
 
 int solid_volume(lua_State* L) {
-  lua_pushnumber(L, evaluated(L, kVolume).measures.volume);
+  lua_pushnumber(L, extent_of(L, kVolume).volume);
   return 1;
 }
 
@@ -184,7 +191,7 @@ int solid_mesh(lua_State* L) {
 }
 
 int solid_is_empty(lua_State* L) {
-  lua_pushboolean(L, evaluated(L, kIsEmpty).empty() ? 1 : 0);
+  lua_pushboolean(L, extent_of(L, kIsEmpty).empty ? 1 : 0);
   return 1;
 }
 

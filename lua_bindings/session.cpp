@@ -77,6 +77,17 @@ const Solid& Session::evaluated(SolidValue& value) {
   return *value.evaluated;
 }
 
+Extent Session::extent(const SolidValue& value) {
+  if (value.evaluated && value.evaluated_with == settings_) {
+    const Solid& solid = *value.evaluated;
+    return {solid.empty(), solid.measures.volume, solid.measures.bbox};
+  }
+  const EvaluationScope scope(budget_);
+  auto extent = evaluator().extent(value.node);
+  if (!extent) fail_evaluation(extent.error());
+  return *extent;
+}
+
 void Session::fail_evaluation(const Error& error) {
   std::string message = error.message;
   if (const std::string place = place_text(error.where); !place.empty())

@@ -171,6 +171,7 @@ class Assembler {
       facet_.clear();
       const size_t mark = corners_.size();
       for (const uint32_t q : polygons) {
+        job_.ensure_planes(q);
         const JobPolygon& p = job_.polygons()[q];
         const Piece piece{first.plane, first.label, q, static_cast<uint32_t>(corners_.size()),
                           p.count,     true};
@@ -221,7 +222,7 @@ class Assembler {
       while (lo > 0 && same(lo - 1)) --lo;
       while (hi < all.size() && same(hi)) ++hi;
       for (uint32_t q = lo; q < hi; ++q) {
-        job_.ensure_planes(q);
+        job_.ensure_support(q);
         if (all[q].support.index() == piece.plane.index()) polygons.push_back(q);
       }
       return polygons;

@@ -5,6 +5,19 @@
 
 namespace csgrun {
 
+FaceLabel label_of(const Operand& operand, uint32_t face) {
+  FaceLabel label;
+  if (operand.leaf) {
+    const LeafGeometry& leaf = *operand.leaf;
+    label = {operand.first_source, leaf.facet[face], leaf.surface[face], leaf.appearance[face]};
+  } else {
+    label = operand.boundary->faces[face].label;
+    label.source += operand.first_source;
+  }
+  if (operand.appearance) label.appearance = *operand.appearance;
+  return label;
+}
+
 Plane translate_plane(const Plane& p, const IVec3& t) {
   return {p.a, p.b, p.c, p.d - (p.a * t[0] + p.b * t[1] + p.c * t[2])};
 }

@@ -95,6 +95,9 @@ struct BoundaryMesh {
   }
 };
 
+/// The label of a face of an operand, a leaf or a boundary.
+FaceLabel label_of(const Operand& operand, uint32_t face);
+
 /// The plane moved by `t` grid steps: as canonical as it was.
 Plane translate_plane(const Plane& plane, const IVec3& t);
 

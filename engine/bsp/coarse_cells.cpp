@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <optional>
 
 namespace csgrun {
 namespace {
@@ -67,21 +66,23 @@ class Grid {
     std::array<uint8_t, 3> more;  ///< along each axis, so many more than one
     bool any;
   };
-  /// Nothing when there are too many to name.
-  [[nodiscard]] std::optional<Cells> cells_of(const PolygonBox& box) const {
-    constexpr size_t kMostMore = 255;
-    Cells cells{0, {}, true};
-    size_t stride = 1;
+  /// False when there are too many to name.
+  bool find_cells(const PolygonBox& box, Cells& cells) const {
+    constexpr uint32_t kMostMore = 255;
+    uint32_t stride = 1, most = 0;
+    cells = {0, {}, true};
     for (size_t k = 0; k < 3; ++k) {
-      if (box.lo[k] > bounds_.hi[k] || box.hi[k] < bounds_.lo[k]) return Cells{0, {}, false};
-      const size_t first = place(k, std::max(box.lo[k], bounds_.lo[k])),
-                   last = place(k, std::min(box.hi[k], bounds_.hi[k]));
-      if (last - first > kMostMore) return std::nullopt;
-      cells.first += static_cast<uint32_t>(stride * first);
-      cells.more[k] = static_cast<uint8_t>(last - first);
-      stride *= count_[k];
+      const int32_t lo = std::max(box.lo[k], bounds_.lo[k]),
+                    hi = std::min(box.hi[k], bounds_.hi[k]);
+      cells.any &= lo <= hi;
+      const auto first = static_cast<uint32_t>(place(k, lo)),
+                 more = static_cast<uint32_t>(place(k, hi)) - first;
+      cells.first += stride * first;
+      cells.more[k] = static_cast<uint8_t>(more);
+      most = std::max(most, more);
+      stride *= static_cast<uint32_t>(count_[k]);
     }
-    return cells;
+    return !cells.any || most <= kMostMore;
   }
   /// Calls visit(cell) for each.
   template <class Visit>
@@ -146,18 +147,17 @@ PairCells whole(const Job& job, const PolygonBox& all) {
 /// Marks the cells by operands, and lists those of each polygon. False when polygons are too large.
 bool mark(const Job& job, Grid& grid, std::vector<Grid::Cells>& cells) {
   size_t left = kMostCellsEach * job.polygons().size();
-  cells.reserve(job.polygons().size());
+  cells.resize(job.polygons().size());
   for (size_t o = 0; o < job.operand_count(); ++o) {
     const auto own = static_cast<uint32_t>(o) + 1;
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
-      const std::optional<Grid::Cells> of_polygon = grid.cells_of(job.boxes()[p]);
-      if (!of_polygon) return false;
-      const auto& more = of_polygon->more;
+      if (!grid.find_cells(job.boxes()[p], cells[p])) return false;
+      if (!cells[p].any) continue;
+      const auto& more = cells[p].more;
       const size_t count = (more[0] + size_t{1}) * (more[1] + size_t{1}) * (more[2] + size_t{1});
       if (count > left) return false;
       left -= count;
-      cells.push_back(*of_polygon);
-      grid.each_cell(*of_polygon, [own](uint32_t& cell) {
+      grid.each_cell(cells[p], [own](uint32_t& cell) {
         cell = cell == kNobody || cell == own ? own : kSeveral;
       });
     }

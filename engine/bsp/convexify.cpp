@@ -35,6 +35,25 @@ class Convexifier {
     }
   }
 
+  void run_within(Fragment cell, const std::vector<BoundaryEdge>& edges) {
+    if (edges.empty()) return;
+    if (is_convex_loop(edges)) return take(edges);
+    std::vector<BoundaryEdge> rim, inner;
+    const uint32_t* planes = geometry_.edges(cell);
+    for (const BoundaryEdge& e : edges) {
+      const bool is_rim = std::find(planes, planes + cell.count, e.plane) != planes + cell.count;
+      (is_rim ? rim : inner).push_back(e);
+    }
+    if (inner.empty()) {
+      pieces_.push_back(cell);
+      return;
+    }
+    const Extent busy = extent_of(inner);
+    while (cut_off(cell, busy, rim)) {
+    }
+    cut(cell, std::move(inner));
+  }
+
  private:
   /// Whether the edges are one loop, in its order, that turns left at every corner. It does not
   /// cross itself.
@@ -109,16 +128,61 @@ class Convexifier {
     return halves;
   }
 
-  bool cut_by_wall(const Fragment& cell, const std::vector<BoundaryEdge>& edges) {
+  /// An extent along the two axes.
+  struct Extent {
     double lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL};
+  };
+  void add(Extent& extent, uint32_t point) const {
+    for (int k = 0; k < 2; ++k) {
+      const double c = geometry_.point(point).rounded[axes_[k]];
+      extent.lo[k] = std::min(extent.lo[k], c);
+      extent.hi[k] = std::max(extent.hi[k], c);
+    }
+  }
+  [[nodiscard]] Extent extent_of(const std::vector<BoundaryEdge>& edges) const {
+    Extent extent;
     for (const BoundaryEdge& e : edges) {
-      for (int k = 0; k < 2; ++k) {
-        const double c = geometry_.point(e.from).rounded[axes_[k]];
-        lo[k] = std::min(lo[k], c);
-        hi[k] = std::max(hi[k], c);
+      add(extent, e.from);
+      add(extent, e.to);
+    }
+    return extent;
+  }
+
+  /// Cuts off what of a cell is furthest beside all of its edges, if that is far more than these,
+  /// by a wall; `rim` are the edges of the region on the rim of the whole cell. False when nothing
+  /// is.
+  bool cut_off(Fragment& cell, const Extent& busy, const std::vector<BoundaryEdge>& rim) {
+    constexpr double kFewSteps = 64;
+    Extent extent;
+    for (uint32_t i = 0; i < cell.count; ++i) add(extent, geometry_.corners(cell)[i]);
+    int axis = 0;
+    bool above = false;
+    double most = 0;
+    for (int k = 0; k < 2; ++k) {
+      const double enough = std::max((busy.hi[k] - busy.lo[k]) / 2, kFewSteps);
+      for (const bool side : {false, true}) {
+        const double beside = side ? extent.hi[k] - busy.hi[k] : busy.lo[k] - extent.lo[k];
+        if (beside > std::max(most, enough)) axis = k, above = side, most = beside;
       }
     }
-    const int k = hi[0] - lo[0] >= hi[1] - lo[1] ? 0 : 1;
+    if (most == 0) return false;
+    const double at = above ? std::ceil(busy.hi[axis]) : std::floor(busy.lo[axis]) - 1;
+    const uint32_t plane = wall_(axes_[axis], static_cast<int64_t>(at));
+    Fragment front, back;
+    if (geometry_.split(cell, plane, front, back) != Side::kSplit) return false;
+    // No edge of the region is there but on the rim: it is all or nothing.
+    const int outer = above ? 1 : -1;
+    const bool inside = std::any_of(rim.begin(), rim.end(), [&](const BoundaryEdge& e) {
+      return geometry_.side(plane, e.from) == outer || geometry_.side(plane, e.to) == outer;
+    });
+    if (inside) pieces_.push_back(above ? front : back);
+    cell = above ? back : front;
+    return true;
+  }
+
+  bool cut_by_wall(const Fragment& cell, const std::vector<BoundaryEdge>& edges) {
+    const Extent extent = extent_of(edges);
+    const int k = extent.hi[0] - extent.lo[0] >= extent.hi[1] - extent.lo[1] ? 0 : 1;
     std::vector<double> at;
     at.reserve(edges.size());
     for (const BoundaryEdge& e : edges) at.push_back(geometry_.point(e.from).rounded[axes_[k]]);
@@ -181,6 +245,13 @@ void convexify(CellGeometry& geometry, const PlaneTable& planes, PlaneId support
                std::vector<BoundaryEdge> edges, const std::function<uint32_t(int, int64_t)>& wall,
                std::vector<Fragment>& pieces) {
   Convexifier(geometry, planes, support, wall, pieces).run(std::move(edges));
+}
+
+void convexify_within(CellGeometry& geometry, const PlaneTable& planes, const Fragment& cell,
+                      const std::vector<BoundaryEdge>& edges,
+                      const std::function<uint32_t(int, int64_t)>& wall,
+                      std::vector<Fragment>& pieces) {
+  Convexifier(geometry, planes, cell.support, wall, pieces).run_within(cell, edges);
 }
 
 }  // namespace csgrun

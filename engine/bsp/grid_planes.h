@@ -1,6 +1,8 @@
 // The planes of a polygon over grid points: its support, and one through each edge.
 #pragma once
 
+#include <cassert>
+
 #include "engine/bsp/operand.h"
 #include "engine/exact/plane.h"
 
@@ -13,6 +15,18 @@ inline Plane plane_through(const IVec3& p, const IVec3& q, const IVec3& r) {
   Plane s{uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx, 0};
   s.d = -(s.a * p[0] + s.b * p[1] + s.c * p[2]);
   return s;
+}
+
+/// The plane of a weakly convex loop of `count` grid points, `vertex(i)` for i below 2 `count`.
+template <class Vertex>
+Plane support_of_loop(uint32_t count, Vertex&& vertex) {
+  // The first corner that is not a 180 degree one; a convex loop turns left there.
+  Plane support;
+  for (uint32_t i = 0; i < count && support.a == 0 && support.b == 0 && support.c == 0; ++i) {
+    support = plane_through(vertex(i), vertex(i + 1), vertex(i + 2));
+  }
+  assert(support.a != 0 || support.b != 0 || support.c != 0);
+  return support;
 }
 
 /// The axis along which a normal is longest.

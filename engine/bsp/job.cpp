@@ -7,6 +7,7 @@
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/convexify.h"
 #include "engine/bsp/grid_planes.h"
+#include "engine/bsp/piece_store.h"
 
 namespace csgrun {
 namespace {
@@ -76,26 +77,27 @@ bool is_prime(int64_t p) {
   return true;
 }
 
-bool has_normal(const Plane& p) { return p.a != 0 || p.b != 0 || p.c != 0; }
-
 /// The plane of a face of a leaf, outwards.
 Plane support_of(const LeafGeometry& leaf, uint32_t face) {
   const uint32_t begin = leaf.face_starts[face], count = leaf.face_starts[face + 1] - begin;
-  const auto vertex = [&](uint32_t i) -> const IVec3& {
+  return support_of_loop(count, [&](uint32_t i) -> const IVec3& {
     return leaf.vertices[leaf.corners[begin + i % count]];
-  };
-  // The first corner that is not a 180 degree one; a convex polygon turns left there.
-  Plane support;
-  for (uint32_t i = 0; i < count && !has_normal(support); ++i) {
-    support = plane_through(vertex(i), vertex(i + 1), vertex(i + 2));
-  }
-  assert(has_normal(support));
-  return support;
+  });
 }
 
 }  // namespace
 
-Job::Job(const std::vector<Operand>& operands) : operands_(&operands) {
+PolygonBox rounded_outwards(const PieceBox& box) {
+  PolygonBox result{};
+  for (size_t k = 0; k < 3; ++k) {
+    result.lo[k] = clamp_to_box(std::floor(std::nextafter(box.lo[k], -HUGE_VAL)));
+    result.hi[k] = clamp_to_box(std::ceil(std::nextafter(box.hi[k], HUGE_VAL)));
+  }
+  return result;
+}
+
+Job::Job(const std::vector<Operand>& operands, PlaneTable* planes)
+    : operands_(&operands), planes_(planes ? *planes : own_planes_.emplace()) {
   sources_.resize(operands.size());
   boundary_vertices_.resize(operands.size());
   for (size_t o = 0; o < operands.size(); ++o) {
@@ -111,7 +113,7 @@ Job::Job(const std::vector<Operand>& operands) : operands_(&operands) {
   }
   boundary_planes_.resize(operands.size());
   for (size_t o = 0; o < operands.size(); ++o) {
-    if (operands[o].leaf) continue;
+    if (!operands[o].boundary) continue;
     for (const Plane& plane : operands[o].boundary->planes) {
       boundary_planes_[o].push_back(planes_.intern(
           map_plane(operands[o].frame, translate_plane(plane, operands[o].translation))));
@@ -134,10 +136,15 @@ Job::Job(const std::vector<Operand>& operands) : operands_(&operands) {
     sources_[o].first_vertex = static_cast<uint32_t>(rounded_.size());
     if (operands[o].leaf) {
       add_leaf(o, operands[o]);
-    } else {
+    } else if (operands[o].boundary) {
       add_boundary(o, operands[o]);
+    } else {
+      add_pieces(o, *operands[o].pieces);
     }
     PolygonBox box = PolygonBox::none();
+    if (operands[o].pieces && operands[o].pieces->pieces.size() > 0) {
+      box = rounded_outwards(operands[o].pieces->pieces.box());  // that of all pieces
+    }
     for (size_t p = polygon_starts_.back(); p < polygons_.size(); ++p) box.include(boxes_[p]);
     operand_boxes_.push_back(box);
     polygon_starts_.push_back(static_cast<uint32_t>(polygons_.size()));
@@ -152,9 +159,11 @@ bool Job::is_good_prime(int64_t p) const {
   }
   // A materialised result does not know the frames of its leaves: its planes are looked at
   // themselves.
-  for (uint32_t i = 0; i < planes_.size(); ++i) {
-    const Plane& s = planes_.plane(i);
-    if (((s.a != 0) + (s.b != 0) + (s.c != 0)) == 1 && s.a + s.b + s.c == p) return false;
+  for (const auto& planes : boundary_planes_) {
+    for (const PlaneId id : planes) {
+      const Plane& s = planes_.plane(id.index());
+      if (((s.a != 0) + (s.b != 0) + (s.c != 0)) == 1 && s.a + s.b + s.c == p) return false;
+    }
   }
   return true;
 }
@@ -263,26 +272,51 @@ void Job::add_boundary(uint32_t o, const Operand& operand) {
   }
 }
 
-PolygonBox Job::box_of(const JobPolygon& polygon) const {
-  std::array<double, 3> lo, hi;
-  lo.fill(HUGE_VAL), hi.fill(-HUGE_VAL);
-  for (const uint32_t v : corners(polygon)) {
-    for (size_t k = 0; k < 3; ++k) {
-      lo[k] = std::min(lo[k], rounded_[v][k]);
-      hi[k] = std::max(hi[k], rounded_[v][k]);
+void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
+  PieceStore& store = *operand.store;
+  std::vector<PieceBox> boxes;
+  for (uint32_t other = 0; other < o; ++other) {
+    boxes.emplace_back();
+    for (uint32_t v = vertex_start(other); v < vertex_start(other + 1); ++v) {
+      boxes.back().add(rounded_[v]);
     }
   }
-  // A rounded coordinate may stand on either side of the true one.
-  for (size_t k = 0; k < 3; ++k) {
-    lo[k] = std::floor(std::nextafter(lo[k], -HUGE_VAL));
-    hi[k] = std::ceil(std::nextafter(hi[k], HUGE_VAL));
+  operand.pieces.each([&](const PieceBox& box) { return box.meets_any(boxes); },
+                      [&](uint32_t piece) {
+                        if (store.box(piece).meets_any(boxes)) pieces_.push_back(piece);
+                      });
+  std::vector<uint32_t>& vertex_of = store.scratch();
+  for (uint32_t i = 0; i < pieces_.size(); ++i) {
+    const auto first = static_cast<uint32_t>(corners_.size());
+    for (const uint32_t point : store.corners(pieces_[i])) {
+      if (vertex_of[point] == kNone) {
+        vertex_of[point] = static_cast<uint32_t>(rounded_.size());
+        rounded_.push_back(store.rounded(point));
+        piece_points_.push_back(point);
+      }
+      corners_.push_back(vertex_of[point]);
+    }
+    const auto edges = store.edges(pieces_[i]);
+    edge_planes_.insert(edge_planes_.end(), edges.begin(), edges.end());
+    const PieceStore::Piece& piece = store.piece(pieces_[i]);
+    polygons_.push_back({o, i, first, piece.count, piece.support});
+    boxes_.push_back(box_of(polygons_.back()));
   }
-  PolygonBox box{};
-  for (size_t k = 0; k < 3; ++k) {
-    box.lo[k] = clamp_to_box(lo[k]);
-    box.hi[k] = clamp_to_box(hi[k]);
-  }
-  return box;
+  for (const uint32_t point : piece_points_) vertex_of[point] = kNone;
+}
+
+uint32_t Job::piece(uint32_t polygon) const {
+  return pieces_[polygons_[polygon].face];
+}
+
+uint32_t Job::piece_point(uint32_t vertex) const {
+  return piece_points_[vertex - sources_.back().first_vertex];
+}
+
+PolygonBox Job::box_of(const JobPolygon& polygon) const {
+  PieceBox box;
+  for (const uint32_t v : corners(polygon)) box.add(rounded_[v]);
+  return rounded_outwards(box);
 }
 
 uint32_t Job::operand_of_vertex(uint32_t vertex) const {
@@ -305,6 +339,7 @@ bool Job::is_below(uint32_t vertex, uint32_t other) const {
 Point Job::exact_of(uint32_t o, uint32_t local) const {
   const Operand& operand = (*operands_)[o];
   const Source& source = sources_[o];
+  if (operand.pieces) return operand.pieces->store->exact(piece_points_[local]);
   if (!operand.leaf) {
     const auto& t = boundary_vertices_[o][local];
     return intersect(planes_.plane(t[0]), planes_.plane(t[1]), planes_.plane(t[2]));
@@ -329,23 +364,16 @@ Point Job::exact_of(uint32_t o, uint32_t local) const {
 
 std::array<uint32_t, 3> Job::vertex_planes(uint32_t vertex) const {
   const uint32_t o = operand_of_vertex(vertex);
-  if ((*operands_)[o].leaf) return {kNoVertexPlanes, kNoVertexPlanes, kNoVertexPlanes};
+  const Operand& operand = (*operands_)[o];
+  if (operand.leaf) return {kNoVertexPlanes, kNoVertexPlanes, kNoVertexPlanes};
+  if (operand.pieces) return operand.pieces->store->point_planes(piece_point(vertex));
   return boundary_vertices_[o][vertex - sources_[o].first_vertex];
 }
 
 FaceLabel Job::label(const JobPolygon& p) const {
   const Operand& operand = (*operands_)[p.operand];
-  FaceLabel label;
-  if (operand.leaf) {
-    const LeafGeometry& leaf = *operand.leaf;
-    label = {operand.first_source, leaf.facet[p.face], leaf.surface[p.face],
-             leaf.appearance[p.face]};
-  } else {
-    label = operand.boundary->faces[p.face].label;
-    label.source += operand.first_source;
-  }
-  if (operand.appearance) label.appearance = *operand.appearance;
-  return label;
+  if (operand.pieces) return operand.pieces->store->label(pieces_[p.face]);
+  return label_of(operand, p.face);
 }
 
 bool Job::is_of_complete_facet(const JobPolygon& p) const {
@@ -368,6 +396,10 @@ void Job::ensure_support(uint32_t polygon) {
   JobPolygon& p = polygons_[polygon];
   if (p.support.valid()) return;
   const Operand& operand = (*operands_)[p.operand];
+  if (operand.pieces) {
+    p.support = operand.pieces->store->ensure_support(pieces_[p.face]);
+    return;
+  }
   p.support = intern_for(operand, support_of(*operand.leaf, p.face));
 }
 
@@ -376,6 +408,7 @@ uint32_t Job::edge_plane(uint32_t polygon, uint32_t edge) {
   uint32_t& plane = edge_planes_[p.first + edge];
   if (plane != kNone) return plane;
   const Operand& operand = (*operands_)[p.operand];
+  if (operand.pieces) return plane = operand.pieces->store->ensure_edge(pieces_[p.face], edge);
   const LeafGeometry& leaf = *operand.leaf;
   // A mirrored loop runs backwards: its edge from corner j to j + 1 is the leaf's edge n - 2 - j.
   const uint32_t i = sources_[p.operand].mirrored ? (2 * p.count - 2 - edge) % p.count : edge;

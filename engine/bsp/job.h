@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,10 @@ struct PolygonBox {
   }
   [[nodiscard]] bool is_empty() const { return lo[0] > hi[0]; }
 };
+struct PieceBox;
+/// The box around one of correctly rounded coordinates, which may stand on either side of the true
+/// ones.
+PolygonBox rounded_outwards(const PieceBox& box);
 
 /// One convex polygon of an operand. Its planes are made when somebody asks: most polygons are near
 /// no intersection and never need them.
@@ -45,10 +50,19 @@ struct JobPolygon {
 
 class Job {
  public:
-  explicit Job(const std::vector<Operand>& operands);
+  /// Planes go into `planes`, if a table is given: that of the operand in pieces, if there is one.
+  explicit Job(const std::vector<Operand>& operands, PlaneTable* planes = nullptr);
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
 
   [[nodiscard]] bool is_leaf(size_t o) const { return (*operands_)[o].leaf != nullptr; }
+  /// The version of a result that an operand is, or null.
+  [[nodiscard]] const PieceOperand* pieces(size_t o) const { return (*operands_)[o].pieces.get(); }
+  /// The piece that a polygon of such an operand is, and the point that a vertex of it is.
+  [[nodiscard]] uint32_t piece(uint32_t polygon) const;
+  [[nodiscard]] uint32_t piece_point(uint32_t vertex) const;
   [[nodiscard]] size_t operand_count() const { return operands_->size(); }
+  [[nodiscard]] uint32_t operand_of_vertex(uint32_t vertex) const;
   /// Whether the vertices of an operand are grid points, so that their doubles are exact.
   [[nodiscard]] bool has_grid_vertices(size_t o) const {
     return is_leaf(o) && (*operands_)[o].frame.is_identity;
@@ -123,7 +137,7 @@ class Job {
 
   void add_leaf(uint32_t o, const Operand& operand);
   void add_boundary(uint32_t o, const Operand& operand);
-  [[nodiscard]] uint32_t operand_of_vertex(uint32_t vertex) const;
+  void add_pieces(uint32_t o, const PieceOperand& operand);
   [[nodiscard]] PolygonBox box_of(const JobPolygon& polygon) const;
   void add_grid_vertices(const LeafGeometry& leaf, const IVec3& translation);
   /// The exact position of vertex `local` of operand `o`.
@@ -132,7 +146,8 @@ class Job {
   [[nodiscard]] PlaneId intern_for(const Operand& operand, const Plane& plane);
 
   const std::vector<Operand>* operands_;
-  PlaneTable planes_;
+  std::optional<PlaneTable> own_planes_;
+  PlaneTable& planes_;
   std::vector<Source> sources_;
   std::vector<JobPolygon> polygons_;
   std::vector<PolygonBox> boxes_;
@@ -146,6 +161,7 @@ class Job {
   std::vector<std::vector<std::array<uint32_t, 3>>> boundary_vertices_;
   /// Planes of boundary operands, by their number in the boundary.
   std::vector<std::vector<PlaneId>> boundary_planes_;
+  std::vector<uint32_t> pieces_, piece_points_;  ///< of the operand in pieces
   int64_t prime_ = 3;
 };
 

@@ -56,12 +56,15 @@ struct Frame {
 };
 
 struct BoundaryMesh;  // boundary_mesh.h: a materialised result in plane form
+struct PieceOperand;  // piece_store.h: a materialised result in pieces
 
 /// One operand: a leaf or a materialised result, moved by whole steps within its frame, then mapped
-/// to the world by its frame.
+/// to the world by its frame. A result in pieces stands where it is, in the world, under the labels
+/// that it has, and last in a list; a job has only a part of it.
 struct Operand {
   std::shared_ptr<const LeafGeometry> leaf;
   std::shared_ptr<const BoundaryMesh> boundary;
+  std::shared_ptr<const PieceOperand> pieces;
   IVec3 translation{0, 0, 0};
   Frame frame;
   uint32_t first_source = 0;  ///< source of a leaf; added to the sources of a boundary's labels

@@ -8,7 +8,7 @@
 namespace csgrun {
 
 PatchLabels::PatchLabels(const Job& job, const Expression& expression)
-    : job_(job), expression_(expression), signs_(job), is_inside_(2 * job.operand_count(), 0) {
+    : job_(job), boundary_(expression), signs_(job) {
   for (uint32_t o = 0; o < job.operand_count(); ++o) boxes_.push_back(job.operand_box(o));
   fill_bins();
 }
@@ -88,13 +88,16 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
 }
 
 PatchFate PatchLabels::evaluate(uint32_t own, const Sides& inside) {
-  for (const uint64_t side : inside) is_inside_[side] = 1;
-  is_inside_[2 * uint64_t{own} + 1] = 1;
-  const auto boundary = expression_.boundary(
-      [&](uint32_t o) { return is_inside_[2 * uint64_t{o}] != 0; },
-      [&](uint32_t o) { return is_inside_[2 * uint64_t{o} + 1] != 0; }, scratch_);
-  is_inside_[2 * uint64_t{own} + 1] = 0;
-  for (const uint64_t side : inside) is_inside_[side] = 0;
+  sides_.clear();
+  const auto add = [&](uint32_t operand, bool is_back) {
+    if (sides_.empty() || sides_.back().operand != operand) {
+      sides_.push_back({operand, false, false});
+    }
+    (is_back ? sides_.back().back : sides_.back().front) = true;
+  };
+  for (const uint64_t side : inside) add(static_cast<uint32_t>(side / 2), side % 2 == 1);
+  add(own, true);
+  const auto boundary = boundary_.evaluate(sides_);
   // Where several operands have surface, the lowest that counts gives it, once.
   if (boundary.operand != own) return PatchFate::kDrop;
   return boundary.front ? PatchFate::kFlip : PatchFate::kKeep;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/bsp/cut_polygon.h"
-#include "engine/bsp/pruned_expression.h"
+#include "engine/bsp/sparse_boundary.h"
 #include "engine/bsp/vertex_signs.h"
 
 namespace csgrun {
@@ -40,7 +40,7 @@ class PatchLabels {
   [[nodiscard]] uint32_t bin(int axis, double coordinate) const;
 
   const Job& job_;
-  PrunedExpression expression_;
+  SparseBoundary boundary_;
   VertexSigns signs_;
   std::vector<PolygonBox> boxes_;  ///< per operand
   /// Operands by the squares of a grid in x and y that their boxes meet, ascending.
@@ -50,8 +50,7 @@ class PatchLabels {
   Sides inside_;  ///< of the patch at hand
   /// By the operand and those that it is inside of: few differ.
   std::map<std::pair<uint32_t, Sides>, PatchFate> known_;
-  std::vector<uint8_t> is_inside_;  ///< by such numbers
-  std::vector<PrunedExpression::Boundary> scratch_;
+  std::vector<SparseBoundary::Sides> sides_;
 };
 
 }  // namespace csgrun

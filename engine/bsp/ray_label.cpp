@@ -1,6 +1,10 @@
 #include "engine/bsp/ray_label.h"
 
 #include <limits>
+#include <span>
+#include <vector>
+
+#include "engine/bsp/piece_store.h"
 
 namespace csgrun {
 namespace {
@@ -18,9 +22,8 @@ constexpr double kBoxLimit = 0x1p30;  // boxes are clamped there
 
 class Ray {
  public:
-  Ray(const Job& job, VertexSigns& signs, const Position& from, double error,
-      const Direction& direction)
-      : job_(job), signs_(signs), from_(from), error_(error), direction_(direction) {}
+  Ray(VertexSigns& signs, const Position& from, double error, const Direction& direction)
+      : signs_(signs), from_(from), error_(error), direction_(direction) {}
 
   [[nodiscard]] bool may_meet(const PolygonBox& box) const {
     if (box.hi[0] < from_[0] || box.hi[1] < from_[1] || box.hi[2] < from_[2]) return false;
@@ -31,16 +34,15 @@ class Ray {
            box.lo[2] <= from_[2] + reach * direction_.z;
   }
 
-  /// Whether the ray meets the polygon.
-  Inside meets(const JobPolygon& polygon) {
-    const auto corners = job_.corners(polygon);
-    const double error = std::max(error_, signs_.error(polygon.operand));
+  /// Whether the ray meets a convex polygon, the corners of which are as wrong as `error` at most.
+  Inside meets(std::span<const Position> corners, double polygon_error) {
+    const double error = std::max(error_, polygon_error);
     // Corners relative to the start, sheared so that the ray is the first axis.
     y_.resize(corners.size());
     z_.resize(corners.size());
     double reach = 0;
     for (size_t i = 0; i < corners.size(); ++i) {
-      const Position& c = job_.rounded(corners[i]);
+      const Position& c = corners[i];
       const double dx = c[0] - from_[0], dy = c[1] - from_[1], dz = c[2] - from_[2];
       y_[i] = dy - direction_.y * dx;
       z_[i] = dz - direction_.z * dx;
@@ -67,24 +69,21 @@ class Ray {
     }
     if (left && right) return Inside::kNo;  // a convex loop that goes round is seen from one side
     if (unsure) return Inside::kUnknown;
-    const int side = side_of_start(polygon, error);
+    const int side = side_of_start(corners, error);
     if (side == 0 || side == kUnsure) return Inside::kUnknown;
     return side == (left ? -1 : 1) ? Inside::kYes : Inside::kNo;
   }
 
  private:
-  int side_of_start(const JobPolygon& polygon, double error) {
-    const auto c = job_.corners(polygon);
+  int side_of_start(std::span<const Position> c, double error) {
     // Corners may stand in line: any three that turn will do.
     for (size_t i = 1; i + 1 < c.size(); ++i) {
-      const int s = signs_.orient(job_.rounded(c[0]), job_.rounded(c[i]), job_.rounded(c[i + 1]),
-                                  from_, error);
+      const int s = signs_.orient(c[0], c[i], c[i + 1], from_, error);
       if (s != 0) return s;
     }
     return 0;
   }
 
-  const Job& job_;
   VertexSigns& signs_;
   const Position from_;
   const double error_;
@@ -99,15 +98,34 @@ Inside ray_label(const Job& job, VertexSigns& signs, uint32_t operand, const Pos
   for (const double c : point) {
     if (std::fabs(c) >= kBoxLimit) return Inside::kUnknown;
   }
+  const double operand_error = signs.error(operand);
+  std::vector<Position> corners;
   for (const Direction& direction : kDirections) {
-    Ray ray(job, signs, point, error, direction);
+    Ray ray(signs, point, error, direction);
     bool inside = false, unsure = false;
-    for (uint32_t p = job.polygon_start(operand); p < job.polygon_start(operand + 1) && !unsure;
-         ++p) {
-      if (!ray.may_meet(job.boxes()[p])) continue;
-      const Inside met = ray.meets(job.polygons()[p]);
-      unsure = met == Inside::kUnknown;
+    const auto look_at = [&] {
+      const Inside met = ray.meets(corners, operand_error);
+      unsure |= met == Inside::kUnknown;
       inside ^= met == Inside::kYes;
+    };
+    if (const PieceOperand* all = job.pieces(operand)) {
+      const PieceStore& store = *all->store;
+      all->pieces.each(
+          [&](const PieceBox& box) { return !unsure && ray.may_meet(rounded_outwards(box)); },
+          [&](uint32_t piece) {
+            if (unsure || !ray.may_meet(rounded_outwards(store.box(piece)))) return;
+            corners.clear();
+            for (const uint32_t p : store.corners(piece)) corners.push_back(store.rounded(p));
+            look_at();
+          });
+    } else {
+      for (uint32_t p = job.polygon_start(operand); p < job.polygon_start(operand + 1) && !unsure;
+           ++p) {
+        if (!ray.may_meet(job.boxes()[p])) continue;
+        corners.clear();
+        for (const uint32_t v : job.corners(job.polygons()[p])) corners.push_back(job.rounded(v));
+        look_at();
+      }
     }
     if (!unsure) return inside ? Inside::kYes : Inside::kNo;
   }

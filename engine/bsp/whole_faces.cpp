@@ -185,6 +185,14 @@ class FaceEvaluator {
     return ends = {point(c.lower), point(c.upper)};
   }
 
+  /// Wherever a polygon meets others.
+  void add_touching(uint32_t p) {
+    for (uint32_t i = contact_starts_[p]; i < contact_starts_[p + 1]; ++i) {
+      const Contact& c = contacts_[contact_of_[i]];
+      add_touching(job_.boxes()[c.p], job_.boxes()[c.q]);
+    }
+  }
+
   void add_touching(const PolygonBox& a, const PolygonBox& b) {
     GridBox box;
     for (int k = 0; k < 3; ++k) {
@@ -216,7 +224,7 @@ class FaceEvaluator {
         job_.ensure_planes(p);
         for (const uint32_t q : coplanar_) job_.ensure_planes(q);
         is_done = arrangement.build(p, sheets_, coplanar_, loops_);
-        if (plain) add_touching(job_.boxes()[p], job_.boxes()[p]);
+        if (plain) add_touching(p);
       }
       if (is_done) {
         cut_.push_back({p, loops, static_cast<uint32_t>(loops_.loops.size())});

@@ -15,6 +15,7 @@
 #include "engine/csg/result_cache.h"
 #include "engine/csg/scene.h"
 #include "engine/csg/scene_jobs.h"
+#include "engine/mesh/pieces_measures.h"
 #include "engine/mesh/present.h"
 
 namespace csgrun {
@@ -81,6 +82,8 @@ struct Evaluator::Impl {
   Result<int> contains(const NodePtr& root, const glm::dvec3& point);
   [[nodiscard]] Key solid_key(const Scene& scene, const Subtree& subtree) const;
   Result<SolidPtr> present_root(const Scene& scene, uint32_t root, const BoundaryMesh& boundary);
+  Result<SolidPtr> solid_of(const Scene& scene, SceneJobs& jobs, uint32_t root, const Key& key);
+  Result<Extent> extent(const NodePtr& root);
 
   EvaluateOptions options;
   unsigned threads;
@@ -184,21 +187,59 @@ Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const std::vector<NodePt
     if (result[i]) continue;
     SolidPtr& solid = made[keys[i]];
     if (!solid) {
-      const uint32_t root = scene->roots[i];
-      auto boundary = jobs.world_boundary(root);
-      if (!boundary) return boundary.error();
-      if (is_empty(**boundary)) {
-        solid = std::make_shared<Solid>();
-      } else {
-        auto presented = present_root(*scene, root, **boundary);
-        if (!presented) return presented.error();
-        solid = *presented;
-      }
-      solids.put(keys[i], solid, bytes_of(*solid));
+      auto made_now = solid_of(*scene, jobs, scene->roots[i], keys[i]);
+      if (!made_now) return made_now.error();
+      solid = *made_now;
     }
     result[i] = solid;
   }
   return result;
+}
+
+/// The solid of a root whose jobs have run.
+Result<SolidPtr> Evaluator::Impl::solid_of(const Scene& scene, SceneJobs& jobs, uint32_t root,
+                                           const Key& key) {
+  auto boundary = jobs.world_boundary(root);
+  if (!boundary) return boundary.error();
+  SolidPtr solid = std::make_shared<Solid>();
+  if (!is_empty(**boundary)) {
+    auto presented = present_root(scene, root, **boundary);
+    if (!presented) return presented.error();
+    solid = *presented;
+  }
+  solids.put(key, solid, bytes_of(*solid));
+  return solid;
+}
+
+Result<Extent> Evaluator::Impl::extent(const NodePtr& part) {
+  auto scene = scene_of({part});
+  if (!scene) return scene.error();
+  stats.grid_mm = scene->step.millimetres();
+  const Stopwatch watch(stats.boolean_seconds);
+  const uint32_t root = scene->roots[0];
+  const SceneNode& node = scene->nodes[root];
+  if (node.kind == SceneNode::Kind::kEmpty) return Extent{};
+  const Key key = solid_key(*scene, node.subtree);
+  SolidPtr solid;
+  if (const SolidPtr* known = solids.find(key)) {
+    solid = *known;
+    ++stats.nodes_from_memory;
+  } else {
+    SceneJobs jobs(*scene, boundaries, options, threads, stats);
+    if (Status status = jobs.run({root}); !status) return status.error();
+    if (const PiecesPtr pieces = jobs.pieces(root)) {
+      const auto box = pieces_box(*pieces, scene->step);
+      if (!box) return Extent{};
+      auto volume = pieces_volume(*pieces, scene->step);
+      if (!volume) return volume.error();
+      return Extent{false, *volume, *box};
+    }
+    auto made = solid_of(*scene, jobs, root, key);
+    if (!made) return made.error();
+    solid = *made;
+  }
+  if (solid->empty()) return Extent{};
+  return Extent{false, solid->measures.volume, solid->measures.bbox};
 }
 
 Result<int> Evaluator::Impl::contains(const NodePtr& root, const glm::dvec3& point) {
@@ -246,6 +287,8 @@ Result<SolidPtr> Evaluator::evaluate(const NodePtr& root) {
 Result<int> Evaluator::contains(const NodePtr& root, const glm::dvec3& point) {
   return impl_->contains(root, point);
 }
+
+Result<Extent> Evaluator::extent(const NodePtr& root) { return impl_->extent(root); }
 
 const EvaluateStats& Evaluator::stats() const { return impl_->stats; }
 const std::vector<std::string>& Evaluator::warnings() const { return impl_->warnings.lines(); }

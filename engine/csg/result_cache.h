@@ -10,6 +10,7 @@
 #include <csgrun/engine/solid.h>
 
 #include "engine/bsp/boundary_mesh.h"
+#include "engine/bsp/result_pieces.h"
 #include "engine/csg/key.h"
 #include "engine/csg/scene.h"
 
@@ -17,7 +18,8 @@ namespace csgrun {
 
 /// The value of a subtree, in the frame axes of the instance that was evaluated.
 struct StoredBoundary {
-  std::shared_ptr<const BoundaryMesh> boundary;
+  std::shared_ptr<const BoundaryMesh> boundary;  ///< null until asked for, if there are pieces
+  PiecesPtr pieces;                              ///< or null
   Identity id;
 };
 
@@ -35,9 +37,14 @@ class ResultCache {
   }
   [[nodiscard]] bool contains(const Key& key) const { return entries_.contains(key); }
 
-  /// An entry larger than the limit is not kept.
+  /// In place of what was there. An entry larger than the limit is not kept.
   void put(const Key& key, Value value, uint64_t bytes) {
-    if (bytes > limit_ || entries_.contains(key)) return;
+    if (const auto found = entries_.find(key); found != entries_.end()) {
+      bytes_ -= found->second->bytes;
+      order_.erase(found->second);
+      entries_.erase(found);
+    }
+    if (bytes > limit_) return;
     order_.push_front({key, std::move(value), bytes});
     entries_.emplace(key, order_.begin());
     bytes_ += bytes;

@@ -164,11 +164,12 @@ Status SceneJobs::evaluate(uint32_t node) {
   for (size_t count = options_.flatten ? all : 2; count <= all; ++count) {
     const Subtree& subtree = *list.values[count - 1];
     if (!may_keep(subtree) || is_known(subtree.id.key)) continue;
-    const Parts parts = build(node, count, subtree.id.frame);
-    auto boundary = run_job(parts, subtree.box);
-    if (!boundary) return boundary.error();
-    stats_.nodes_evaluated += parts.operators;
-    keep(subtree, *boundary);
+    auto parts = build(node, count, subtree.id.frame);
+    if (!parts) return parts.error();
+    stats_.nodes_evaluated += parts->operators;
+    auto stored = run_kept_job(*std::move(parts), subtree);
+    if (!stored) return stored.error();
+    keep(subtree, *std::move(stored));
   }
   ++jobs_done_;
   return std::monostate{};
@@ -179,23 +180,23 @@ Status SceneJobs::evaluate_hull(uint32_t node) {
   const Subtree& subtree = scene_.nodes[node].subtree;
   if (is_known(subtree.id.key)) return std::monostate{};
   const SceneNode& solid = scene_.nodes[scene_.nodes[node].first];
-  const Operand surface = solid.kind == SceneNode::Kind::kLeaf
-                              ? place_leaf(solid, subtree.id.frame)
-                              : place(solid.subtree, subtree.id.frame);
-  auto boundary = resolve_surface(surface, {}, InsideRule::kOuterHull,
+  auto surface = solid.kind == SceneNode::Kind::kLeaf
+                     ? Result<Operand>(place_leaf(solid, subtree.id.frame))
+                     : place(solid.subtree, subtree.id.frame);
+  if (!surface) return surface.error();
+  auto boundary = resolve_surface(*surface, {}, InsideRule::kOuterHull,
                                   kernel_options(options_, threads_), stats_);
   if (!boundary) return boundary.error();
   ++stats_.nodes_evaluated;
-  keep(subtree, *boundary);
+  keep(subtree, {*boundary, nullptr, subtree.id});
   ++jobs_done_;
   return std::monostate{};
 }
 
-void SceneJobs::keep(const Subtree& subtree, BoundaryPtr boundary) {
-  const size_t bytes = memory_bytes(*boundary);
-  const StoredBoundary stored{std::move(boundary), subtree.id};
+void SceneJobs::keep(const Subtree& subtree, StoredBoundary stored) {
+  const size_t bytes = stored.boundary ? memory_bytes(*stored.boundary) : stored.pieces->bytes;
   cache_.put(subtree.id.key, stored, bytes);
-  results_[subtree.id.key] = {stored, true};
+  results_[subtree.id.key] = {std::move(stored), true};
 }
 
 KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
@@ -209,7 +210,32 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
   return result;
 }
 
-Result<BoundaryPtr> SceneJobs::run_job(const Parts& parts, const GridBox& region) {
+/// A result that goes on from another one, which somebody looked at, is kept in pieces: it is
+/// likely to be gone on from, too.
+Result<StoredBoundary> SceneJobs::run_kept_job(Parts parts, const Subtree& subtree) {
+  if (options_.whole_faces && !options_.literal_cells && parts.operands.size() > 1) {
+    Result<PiecesPtr> pieces = PiecesPtr();
+    if (parts.first) {
+      const std::vector<Operand> others(parts.operands.begin() + 1, parts.operands.end());
+      pieces = change_pieces(*parts.first, others, parts.expression, subtree.box, job_options(),
+                             stats_);
+    } else if (parts.extends_result) {
+      pieces = evaluate_pieces(parts.operands, parts.expression, subtree.box, job_options(), stats_);
+    }
+    if (!pieces) return pieces.error();
+    if (*pieces) return StoredBoundary{nullptr, *pieces, subtree.id};
+  }
+  if (parts.first) {
+    auto first = assemble_pieces(*parts.first, false);
+    if (!first) return first.error();
+    parts.operands[0].boundary = *first;
+  }
+  auto boundary = run_job(parts, subtree.box);
+  if (!boundary) return boundary.error();
+  return StoredBoundary{*boundary, nullptr, subtree.id};
+}
+
+KernelOptions SceneJobs::job_options() {
   KernelOptions options = kernel_options(options_, threads_);
   options.name_untouched = true;
   if (options_.progress) {
@@ -219,7 +245,24 @@ Result<BoundaryPtr> SceneJobs::run_job(const Parts& parts, const GridBox& region
       options_.progress(1000 * jobs_done_ + part, 1000 * std::max(jobs_total_, jobs_done_ + 1));
     };
   }
-  return evaluate_boolean(parts.operands, parts.expression, region, options, stats_);
+  return options;
+}
+
+Result<BoundaryPtr> SceneJobs::run_job(const Parts& parts, const GridBox& region) {
+  return evaluate_boolean(parts.operands, parts.expression, region, job_options(), stats_);
+}
+
+bool SceneJobs::stands_as_stored(const Subtree& subtree, const StoredBoundary& stored) {
+  const Identity& id = subtree.id;
+  return stored.id.permutation == id.permutation && stored.id.origin == id.origin &&
+         stored.id.frame == id.frame && stored.id.paint == id.paint;
+}
+
+PiecesPtr SceneJobs::pieces(uint32_t root) {
+  const SceneNode& node = scene_.nodes[root];
+  if (!is_operator(root) || !may_keep(node.subtree) || node.subtree.id.frame != 0) return nullptr;
+  const StoredBoundary& stored = use(node.subtree.id.key);
+  return stands_as_stored(node.subtree, stored) ? stored.pieces : nullptr;
 }
 
 Result<BoundaryPtr> SceneJobs::world_boundary(uint32_t root) {
@@ -234,18 +277,21 @@ Result<BoundaryPtr> SceneJobs::world_boundary(uint32_t root) {
     }
     put(parts, std::move(leaf), subtree);
   } else if (!may_keep(subtree)) {
-    parts = build(root, scene_.operands(root).operands.size(), 0);
+    auto built = build(root, scene_.operands(root).operands.size(), 0);
+    if (!built) return built.error();
+    parts = *std::move(built);
     stats_.nodes_evaluated += parts.operators;
   } else {
     const StoredBoundary& stored = use(subtree.id.key);
     const Identity& id = subtree.id;
-    if (id.frame == 0 && stored.id.permutation == id.permutation && stored.id.origin == id.origin &&
-        stored.id.frame == 0 && stored.id.paint == id.paint) {
+    if (id.frame == 0 && stands_as_stored(subtree, stored)) {
       ++jobs_done_;
-      return stored.boundary;
+      return boundary_of(id.key);
     }
     results_.at(id.key).is_fresh = true;  // place() below is the same use
-    put(parts, place(subtree, 0), subtree);
+    auto operand = place(subtree, 0);
+    if (!operand) return operand.error();
+    put(parts, *std::move(operand), subtree);
   }
   auto boundary = run_job(parts, subtree.world);
   ++jobs_done_;
@@ -283,13 +329,15 @@ Operand SceneJobs::place_leaf(const SceneNode& node, uint32_t job_frame) const {
 
 /// The stored axes x and the subtree's axes y are both images of the reference: x = P1 r + o1,
 /// y = P2 r + o2. So Q y = x + t with Q = P1 P2^-1 and t = Q o2 - o1.
-Operand SceneJobs::place(const Subtree& subtree, uint32_t job_frame) {
-  const StoredBoundary& stored = expand(subtree.id.key, use(subtree.id.key));
+Result<Operand> SceneJobs::place(const Subtree& subtree, uint32_t job_frame) {
+  const StoredBoundary& stored = use(subtree.id.key);
+  auto boundary = expanded_boundary(subtree.id.key);
+  if (!boundary) return boundary.error();
   const SignedPermutation turn =
       SignedPermutation::compose(stored.id.permutation, subtree.id.permutation.inverse());
   const IVec3 turned = turn.apply(subtree.id.origin);
   Operand operand;
-  operand.boundary = stored.boundary;
+  operand.boundary = *boundary;
   for (int i = 0; i < 3; ++i) operand.translation[i] = turned[i] - stored.id.origin[i];
   const Frame base = subtree.id.frame == job_frame ? Frame{} : scene_.frames[subtree.id.frame];
   operand.frame = turn.apply_to_frame(base);
@@ -308,23 +356,48 @@ const StoredBoundary& SceneJobs::use(const Key& key) {
   return found->second.stored;
 }
 
-/// Operands of jobs have all their faces spelled out.
-const StoredBoundary& SceneJobs::expand(const Key& key, const StoredBoundary& stored) {
-  if (stored.boundary->parts.empty()) return stored;
+/// The boundary of a result that is in use.
+Result<BoundaryPtr> SceneJobs::boundary_of(const Key& key) {
+  StoredBoundary& kept = results_.at(key).stored;
+  if (!kept.boundary) {
+    auto boundary = assemble_pieces(*kept.pieces, true);
+    if (!boundary) return boundary.error();
+    kept.boundary = *boundary;
+    cache_.put(key, kept, memory_bytes(*kept.boundary) + kept.pieces->bytes);
+  }
+  return kept.boundary;
+}
+
+/// The same with all faces spelled out, as operands of jobs have them.
+Result<BoundaryPtr> SceneJobs::expanded_boundary(const Key& key) {
+  auto boundary = boundary_of(key);
+  if (!boundary || (*boundary)->parts.empty()) return boundary;
   StoredBoundary& kept = results_.at(key).stored;
   kept.boundary = expanded(kept.boundary);
-  cache_.put(key, kept, memory_bytes(*kept.boundary));
-  return kept;
+  cache_.put(key, kept, memory_bytes(*kept.boundary) + (kept.pieces ? kept.pieces->bytes : 0));
+  return kept.boundary;
 }
 
 /// Starts on the first `count` operands of a node, from the longest prefix that is known.
-SceneJobs::OpenOperator SceneJobs::open(uint32_t node, size_t count, bool is_target,
-                                        uint32_t job_frame, Parts& parts) {
+Result<SceneJobs::OpenOperator> SceneJobs::open(uint32_t node, size_t count, bool is_target,
+                                                uint32_t job_frame, Parts& parts) {
   OpenOperator result{scene_.nodes[node].op, scene_.operands(node), 0, count, {}, {}};
   for (size_t prefix = is_target ? count - 1 : count; prefix >= 2; --prefix) {
     const Subtree& value = *result.list.values[prefix - 1];
     if (!may_keep(value) || !is_known(value.id.key)) continue;
-    result.children.push_back(put(parts, place(value, job_frame), value));
+    const StoredBoundary& stored = use(value.id.key);
+    const bool is_in_place =
+        parts.operands.empty() && value.id.frame == job_frame && stands_as_stored(value, stored);
+    if (is_in_place && stored.pieces) {
+      parts.first = stored.pieces;
+      result.children.push_back(put(parts, Operand(), value));
+    } else {
+      parts.extends_result = is_in_place;
+      results_.at(value.id.key).is_fresh = true;  // place() is the same use
+      auto operand = place(value, job_frame);
+      if (!operand) return operand.error();
+      result.children.push_back(put(parts, *std::move(operand), value));
+    }
     result.next = prefix;
     for (size_t i = 0; i < prefix; ++i) {
       result.repeats(scene_.nodes[result.list.operands[i]].subtree, i);
@@ -334,10 +407,16 @@ SceneJobs::OpenOperator SceneJobs::open(uint32_t node, size_t count, bool is_tar
   return result;
 }
 
-SceneJobs::Parts SceneJobs::build(uint32_t node, size_t count, uint32_t job_frame) {
+Result<SceneJobs::Parts> SceneJobs::build(uint32_t node, size_t count, uint32_t job_frame) {
   Parts parts;
   std::vector<OpenOperator> stack;
-  stack.push_back(open(node, count, true, job_frame, parts));
+  const auto start = [&](uint32_t at, size_t operands, bool is_target) -> Status {
+    auto opened = open(at, operands, is_target, job_frame, parts);
+    if (!opened) return opened.error();
+    stack.push_back(*std::move(opened));
+    return std::monostate{};
+  };
+  if (Status status = start(node, count, true); !status) return status.error();
   while (true) {
     OpenOperator& top = stack.back();
     if (top.next < top.count) {
@@ -351,10 +430,12 @@ SceneJobs::Parts SceneJobs::build(uint32_t node, size_t count, uint32_t job_fram
       if (child.kind == SceneNode::Kind::kLeaf) {
         top.children.push_back(put(parts, place_leaf(child, job_frame), child.subtree));
       } else if (is_hull(operand)) {
-        top.children.push_back(put(parts, place(child.subtree, job_frame), child.subtree));
+        auto hull = place(child.subtree, job_frame);
+        if (!hull) return hull.error();
+        top.children.push_back(put(parts, *std::move(hull), child.subtree));
       } else {
         const size_t all = scene_.operands(operand).operands.size();
-        stack.push_back(open(operand, all, false, job_frame, parts));
+        if (Status status = start(operand, all, false); !status) return status.error();
       }
       continue;
     }

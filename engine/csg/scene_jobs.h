@@ -31,6 +31,9 @@ class SceneJobs {
 
   /// Evaluates what the roots (scene nodes, not empty) need. Errors: those of evaluate_boolean.
   Status run(const std::vector<uint32_t>& roots);
+  /// The pieces of a root, if it has become one in pieces and stands in the world as it was
+  /// evaluated; else null. REQUIRES: run() was called with it.
+  PiecesPtr pieces(uint32_t root);
   /// The boundary of a root in the world. REQUIRES: run() was called with it.
   Result<BoundaryPtr> world_boundary(uint32_t root);
 
@@ -41,6 +44,8 @@ class SceneJobs {
   };
   struct Parts {  // of one job
     std::vector<Operand> operands;
+    PiecesPtr first;               // the first operand, which is empty then
+    bool extends_result = false;  // the first operand is a result, where it was evaluated
     Expression expression;
     uint64_t operators = 0, sources = 0;
   };
@@ -60,15 +65,21 @@ class SceneJobs {
   [[nodiscard]] size_t shared_prefix(const OperandList& list) const;
   Status evaluate(uint32_t node);
   Status evaluate_hull(uint32_t node);
-  void keep(const Subtree& subtree, BoundaryPtr boundary);
+  void keep(const Subtree& subtree, StoredBoundary stored);
+  Result<StoredBoundary> run_kept_job(Parts parts, const Subtree& subtree);
+  KernelOptions job_options();
   Result<BoundaryPtr> run_job(const Parts& parts, const GridBox& region);
-  Parts build(uint32_t node, size_t count, uint32_t job_frame);
-  OpenOperator open(uint32_t node, size_t count, bool is_target, uint32_t job_frame, Parts& parts);
+  Result<Parts> build(uint32_t node, size_t count, uint32_t job_frame);
+  Result<OpenOperator> open(uint32_t node, size_t count, bool is_target, uint32_t job_frame,
+                            Parts& parts);
   uint32_t put(Parts& parts, Operand operand, const Subtree& subtree) const;
-  Operand place(const Subtree& subtree, uint32_t job_frame);
+  Result<Operand> place(const Subtree& subtree, uint32_t job_frame);
   [[nodiscard]] Operand place_leaf(const SceneNode& node, uint32_t job_frame) const;
+  /// Whether the stored axes are the world's and nothing is painted over.
+  static bool stands_as_stored(const Subtree& subtree, const StoredBoundary& stored);
   const StoredBoundary& use(const Key& key);
-  const StoredBoundary& expand(const Key& key, const StoredBoundary& stored);
+  Result<BoundaryPtr> boundary_of(const Key& key);
+  Result<BoundaryPtr> expanded_boundary(const Key& key);
 
   const Scene& scene_;
   ResultCache<StoredBoundary>& cache_;

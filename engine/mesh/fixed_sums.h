@@ -20,6 +20,7 @@
 
 #include "engine/exact/point.h"
 #include "engine/mesh/double_double.h"
+#include "engine/mesh/measure.h"
 #include "engine/mesh/natural.h"
 
 namespace csgrun {
@@ -87,12 +88,6 @@ Int<A + B> full_product(const Int<A>& a, const Int<B>& b) {
   take_off(a, B, b.negative());
   return r;
 }
-
-/// An exact sum and how far the true value may be from it: value and error * 2^exponent.
-struct Sum {
-  Signed value;
-  Natural error;
-};
 
 /// What is known of a mesh after a round.
 struct Sums {

@@ -95,6 +95,19 @@ std::optional<Residues> residues_of(const Mesh& mesh, uint64_t prime) {
   return r;
 }
 
+/// The least and the greatest volume in mm^3 that a sum of determinants leaves, each rounded.
+std::array<double, 2> volume_bounds(const Sum& six_volumes, int fraction_bits,
+                                    const GridStep& step) {
+  const auto cube = [](const Natural& n) { return multiply(multiply(n, n), n); };
+  const auto rounded = [&](bool low) {
+    const Signed bound = add(six_volumes.value, {low, six_volumes.error});
+    return round_quotient(multiply(bound, cube(natural(Int<1>(step.numerator)))),
+                          multiply(cube(natural(Int<1>(step.denominator))), natural(6)),
+                          3 * (step.exponent - fraction_bits));
+  };
+  return {rounded(true), rounded(false)};
+}
+
 /// Turns sums into results; keeps what is certain from one round to the next.
 class Rounder {
  public:
@@ -121,14 +134,8 @@ class Rounder {
  private:
   void take_volume(const Sums& sums) {
     if (volume_) return;
-    const auto cube = [](const Natural& n) { return multiply(multiply(n, n), n); };
-    const auto rounded = [&](bool low) {
-      const Signed bound = add(sums.six_volumes.value, {low, sums.six_volumes.error});
-      return round_quotient(multiply(bound, cube(numerator_)),
-                            multiply(cube(denominator_), natural(6)),
-                            3 * (step_.exponent - sums.fraction_bits));
-    };
-    volume_ = settle(rounded(true), rounded(false), sums, [&](const Residues& r, Dyadic value) {
+    const auto [low, high] = volume_bounds(sums.six_volumes, sums.fraction_bits, step_);
+    volume_ = settle(low, high, sums, [&](const Residues& r, Dyadic value) {
       const PrimeField& f = r.field;
       return f.multiply(r.six_volumes, f.power(r.residue(step_), 3)) ==
              f.multiply(6, r.residue(value));
@@ -256,6 +263,13 @@ Result<MassProperties> measure(size_t point_count, const PointAccess& point, Tri
 Result<MassProperties> measure_mesh(size_t point_count, const PointAccess& point,
                                     TriangleSpan triangles, const GridStep& step) {
   return measure(point_count, point, triangles, step, Wanted::kAll);
+}
+
+std::optional<double> round_volume(const Sum& six_volumes, int fraction_bits,
+                                   const GridStep& step) {
+  const auto [low, high] = volume_bounds(six_volumes, fraction_bits, step);
+  if (low != high) return std::nullopt;
+  return low;
 }
 
 Result<double> measure_volume(size_t point_count, const PointAccess& point, TriangleSpan triangles,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include <glm/vec3.hpp>
@@ -12,8 +13,15 @@
 #include <csgrun/engine/evaluate.h>
 
 #include "engine/exact/point.h"
+#include "engine/mesh/natural.h"
 
 namespace csgrun {
+
+/// An exact sum and how far the true value may be from it: value and error * 2^exponent.
+struct Sum {
+  Signed value;
+  Natural error;
+};
 
 struct MassProperties {
   double volume = 0;      ///< mm^3, the exact rational rounded once; negative when inside out
@@ -33,6 +41,10 @@ struct MassProperties {
 Result<MassProperties> measure_mesh(size_t point_count, const std::function<Point(uint32_t)>& point,
                                     std::span<const std::array<uint32_t, 3>> triangles,
                                     const GridStep& step);
+
+/// The volume in mm^3, rounded once, from the sum of all triangles' determinants * 2^-3F, F being
+/// `fraction_bits`. Nothing when the sum's error leaves more than one double.
+std::optional<double> round_volume(const Sum& six_volumes, int fraction_bits, const GridStep& step);
 
 /// Only the volume: about a third of the time.
 Result<double> measure_volume(size_t point_count, const std::function<Point(uint32_t)>& point,

@@ -15,7 +15,7 @@
 #include <csgrun/engine/evaluate.h>
 
 #include "engine/bsp/kernel.h"
-#include "engine/mesh/boundary_volume.h"
+#include "engine/mesh/pieces_measures.h"
 #include "tests/bench/exact_workloads.h"
 #include "tests/bench/hull_workloads.h"
 #include "tests/bench/models.h"
@@ -40,18 +40,14 @@ void run_chain(const std::string& name, const Settings& settings,
   Run run(name, settings, reach_of(meshes));
   std::vector<Operand> tools;
   for (const RawMesh& m : meshes) tools.push_back(run.import(m, false));
-  Operand result = tools[0];
   const size_t steps = tools.size() - 1, tenth = std::max<size_t>(1, steps / 10);
   double first_tenth = 0, last_tenth = 0, asked = 0;
-  std::shared_ptr<const BoundaryMesh> boundary = run.evaluate({result}, BooleanOp::kUnion);
+  PiecesPtr result = run.evaluate_next(nullptr, {tools[0]}, BooleanOp::kUnion);
   for (size_t i = 1; i <= steps; ++i) {
     const double start = run.clock.op;
-    result = Operand{};
-    result.boundary = boundary;
-    boundary = run.evaluate({result, tools[i]}, op);
+    result = run.evaluate_next(result, {tools[i]}, op);
     run.clock.timed(run.clock.op, [&] {
-      const GridBox box = bounding_box(*boundary);
-      asked += take(boundary_volume(*boundary, run.step())) + static_cast<double>(box.hi[0] > 0);
+      asked += take(pieces_volume(*result, run.step())) + result->tree.box().hi[0];
       return 0;
     });
     const double seconds = run.clock.op - start;
@@ -59,6 +55,8 @@ void run_chain(const std::string& name, const Settings& settings,
     if (i > steps - tenth) last_tenth += seconds;
   }
   if (!(asked > 0)) fail("a result of the chain has no volume");
+  const auto boundary = run.clock.timed(
+      run.clock.exporting, [&] { return take(assemble_pieces(*result, true)); });
   run.finish(*boundary, fmt::format(R"(,"first_tenth_s":{:.6f},"last_tenth_s":{:.6f})", first_tenth,
                                     last_tenth));
 }

@@ -114,23 +114,46 @@ Operand Run::import(const RawMesh& raw, bool keep_facets) {
   return import(clock.timed(clock.import, [&] { return polygon_mesh(raw, keep_facets); }));
 }
 
-std::shared_ptr<const BoundaryMesh> Run::evaluate(const std::vector<Operand>& operands,
-                                                  BooleanOp op) {
+namespace {
+
+/// `op` over operands 0 to count - 1.
+Expression one_operation(size_t count, BooleanOp op) {
   Expression expression;
   Expression::Node root;
   root.is_operand = false;
   root.op = op;
-  root.child_count = static_cast<uint32_t>(operands.size());
-  for (uint32_t i = 0; i < operands.size(); ++i) {
+  root.child_count = static_cast<uint32_t>(count);
+  for (uint32_t i = 0; i < count; ++i) {
     Expression::Node leaf;
     leaf.operand = i;
     expression.nodes.push_back(leaf);
     expression.children.push_back(i);
   }
   expression.nodes.push_back(root);
+  return expression;
+}
+
+}  // namespace
+
+std::shared_ptr<const BoundaryMesh> Run::evaluate(const std::vector<Operand>& operands,
+                                                  BooleanOp op) {
+  const Expression expression = one_operation(operands.size(), op);
   if (!settings_.write_cells.empty()) write_cells(operands, expression);
   return clock.timed(clock.op, [&] {
     return take(evaluate_boolean(operands, expression, region_, options, stats_));
+  });
+}
+
+PiecesPtr Run::evaluate_next(const PiecesPtr& before, const std::vector<Operand>& operands,
+                             BooleanOp op) {
+  return clock.timed(clock.op, [&] {
+    const size_t count = operands.size() + (before ? 1 : 0);
+    const Expression expression = one_operation(count, op);
+    PiecesPtr pieces =
+        take(before ? change_pieces(*before, operands, expression, region_, options, stats_)
+                    : evaluate_pieces(operands, expression, region_, options, stats_));
+    if (!pieces) fail("a result cannot be in pieces");
+    return pieces;
   });
 }
 

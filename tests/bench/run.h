@@ -13,6 +13,7 @@
 
 #include "engine/bsp/boundary_mesh.h"
 #include "engine/bsp/kernel.h"
+#include "engine/bsp/result_pieces.h"
 #include "engine/csg/grid.h"
 #include "engine/mesh/present.h"
 #include "tests/bench/workloads.h"
@@ -85,6 +86,9 @@ class Run {
 
   /// One n-ary operation: union of all, or the first less the rest.
   std::shared_ptr<const BoundaryMesh> evaluate(const std::vector<Operand>& operands, BooleanOp op);
+  /// The same with results in pieces, from one operation to the next; `before` is null at first.
+  PiecesPtr evaluate_next(const PiecesPtr& before, const std::vector<Operand>& operands,
+                          BooleanOp op);
   /// The arrays of a result, on the clock; `measured` asks for volume, area and the rest, off it.
   SolidPtr arrays(const BoundaryMesh& boundary);
   [[nodiscard]] SolidPtr measured(const BoundaryMesh& boundary) const;

@@ -41,13 +41,16 @@ TEST(Metamorphic, WaysOfEvaluation) {
   for_cases(51, 250, {}, [&](FuzzCase c) {
     const Boundary base = boundary_of(c);
     ASSERT_TRUE(base);
-    for (int way = 0; way < 4; ++way) {
+    for (int way = 0; way < 5; ++way) {
       FuzzCase other = c;
       other.options = random_options(random);
       other.options.threads = way == 0 ? 7 : 1;
       other.options.literal_cells = way == 1 ? !c.options.literal_cells : c.options.literal_cells;
       other.options.whole_faces = way != 0;
-      other.nest = way == 2 ? ~uint64_t{0} : way == 3 ? random.bits() : c.nest;
+      other.nest = way == 2   ? ~kInPieces
+                   : way == 3 ? random.bits()
+                   : way == 4 ? c.nest ^ kInPieces
+                              : c.nest;
       const Boundary b = boundary_of(other);
       ASSERT_TRUE(b);
       ASSERT_EQ(difference_between(*base, *b), "") << text(c) << text(other);

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct Campaign {
 };
 
 struct CampaignResult {
-  uint64_t cases = 0, zeros = 0, empty = 0, framed = 0, crossing = 0, hulls = 0, nested = 0,
+  uint64_t cases = 0, zeros = 0, empty = 0, framed = 0, crossing = 0, hulls = 0, nested = 0, in_pieces = 0,
            literal = 0, leaves = 0, most_leaves = 0;
   std::vector<std::string> failures;  ///< what differed, and the shrunk case as text
 
@@ -36,7 +37,7 @@ struct CampaignResult {
     return std::to_string(cases) + " trees, " + std::to_string(failures.size()) +
            " differences; zero signs in " + share(zeros) + ", frames in " + share(framed) +
            ", leaves that cross themselves in " + share(crossing) + ", hulls in " + share(hulls) +
-           ", subtrees materialised in " + share(nested) + ", the paper's cells in " +
+           ", subtrees materialised in " + share(nested) + ", in pieces " + share(in_pieces) + ", the paper's cells in " +
            share(literal) + ", empty results " + share(empty) + "; " + std::to_string(leaves) +
            " leaves, at most " + std::to_string(most_leaves) + " a tree";
   }
@@ -72,10 +73,14 @@ inline CampaignResult run(const Campaign& campaign) {
                               [](const FuzzLeaf& l) { return l.may_cross; });
     r.hulls += has_hull(c.tree);
     r.nested += c.nest != 0;
+    r.in_pieces += (c.nest & kInPieces) != 0;
     r.literal += c.options.literal_cells;
     r.leaves += c.leaves.size();
     r.most_leaves = std::max<uint64_t>(r.most_leaves, c.leaves.size());
     if (outcome.failure.empty()) continue;
+    // Should a smaller case bring the program down, this one is known.
+    std::fprintf(stderr, "case %llu: %s; shrinking\n%s\n", static_cast<unsigned long long>(number),
+                 outcome.failure.c_str(), text(c).c_str());
     const FuzzCase small =
         Shrinker(c, [](const FuzzCase& s) { return !check_case(s).failure.empty(); }).run();
     r.failures.push_back("seed " + std::to_string(campaign.seed) + ", case " +

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "engine/bsp/result_pieces.h"
 #include "engine/mesh/leaf_check.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/fuzz/truth.h"
@@ -18,7 +19,10 @@ class FuzzEvaluator {
   BoundaryResult run() {
     source_ = 0;
     inner_ = 0;
-    return evaluate(case_.tree);
+    if (!(case_.nest & kInPieces)) return evaluate(case_.tree);
+    auto pieces = pieces_of(case_.tree);
+    if (!pieces) return pieces.error();
+    return assemble_pieces(**pieces, false);
   }
   [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
 
@@ -33,6 +37,69 @@ class FuzzEvaluator {
     Parts parts;
     if (auto root = put(n, parts, true); !root) return root.error();
     return evaluate_boolean(parts.operands, parts.expression, parts.region, case_.options, stats_);
+  }
+
+  /// One operand after another: each result is in pieces, and goes on from the one before.
+  Result<PiecesPtr> pieces_of(const FuzzNode& n) {
+    if (n.leaf >= 0 || n.hull) {
+      Parts parts;
+      if (auto root = put(n, parts, true); !root) return root.error();
+      return in_pieces(parts);
+    }
+    auto result = pieces_of(n.children[0]);
+    for (size_t i = 1; result && i < n.children.size(); ++i) {
+      Parts parts;  // all but the first operand
+      const FuzzNode& child = n.children[i];
+      if (child.leaf >= 0) {
+        if (auto put_in = put(child, parts, true); !put_in) return put_in.error();
+      } else {
+        auto inner = evaluate(child);
+        if (!inner) return inner.error();
+        add_operand(parts, boundary_operand(*inner));
+      }
+      Expression binary;
+      binary.nodes = {{true, n.op, 0, 0, 0}, {true, n.op, 1, 0, 0}, {false, n.op, 0, 0, 2}};
+      binary.children = {0, 1};
+      hold(parts.region, (*result)->tree.box());
+      auto next = change_pieces(**result, parts.operands, binary, parts.region, case_.options,
+                                stats_);
+      if (next && !*next) {
+        auto before = assemble_pieces(**result, false);
+        if (!before) return before.error();
+        parts.operands.insert(parts.operands.begin(), boundary_operand(*before));
+        auto boundary = evaluate_boolean(parts.operands, binary, parts.region, case_.options, stats_);
+        if (!boundary) return boundary.error();
+        Parts made;
+        add_operand(made, boundary_operand(*boundary));
+        next = in_pieces(made);
+      }
+      result = std::move(next);
+    }
+    return result;
+  }
+
+  /// A single operand in pieces; a leaf that cannot be, by its boundary.
+  Result<PiecesPtr> in_pieces(const Parts& parts) {
+    auto pieces =
+        evaluate_pieces(parts.operands, parts.expression, parts.region, case_.options, stats_);
+    if (!pieces || *pieces) return pieces;
+    auto boundary =
+        evaluate_boolean(parts.operands, parts.expression, parts.region, case_.options, stats_);
+    if (!boundary) return boundary.error();
+    return evaluate_pieces({boundary_operand(*boundary)}, parts.expression, parts.region,
+                           case_.options, stats_);
+  }
+
+  static Operand boundary_operand(Boundary boundary) {
+    Operand o;
+    o.boundary = std::move(boundary);
+    return o;
+  }
+
+  static void hold(GridBox& box, const PieceBox& pieces) {
+    if (pieces.lo[0] > pieces.hi[0]) return;
+    hold(box, pieces.lo);
+    hold(box, pieces.hi);
   }
 
   static void hold(GridBox& box, const std::array<double, 3>& p) {
@@ -51,7 +118,7 @@ class FuzzEvaluator {
         for (int k = 0; k < 3; ++k) q[k] += operand.translation[k];
         const reference::Point x = map(q);
         const double w = x[3].get_d();
-        hold(parts.region, {x[0].get_d() / w, x[1].get_d() / w, x[2].get_d() / w});
+        hold(parts.region, std::array{x[0].get_d() / w, x[1].get_d() / w, x[2].get_d() / w});
       }
     }
     Expression::Node node;
@@ -118,9 +185,7 @@ class FuzzEvaluator {
     if (!root && (case_.nest >> (inner_++ % 64) & 1)) {
       auto inner = evaluate(n);  // its labels are those of the whole tree
       if (!inner) return inner.error();
-      Operand o;
-      o.boundary = *inner;
-      return add_operand(parts, std::move(o));
+      return add_operand(parts, boundary_operand(*inner));
     }
     std::vector<uint32_t> children;
     for (const FuzzNode& c : n.children) {

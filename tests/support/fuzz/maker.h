@@ -39,6 +39,7 @@ class FuzzMaker {
     for (auto& s : c.options.octree_shift) s = static_cast<uint32_t>(random_.integer(0, 5));
     c.options.literal_cells = one_in(6);
     c.nest = one_in(2) ? random_.bits() & 0xffff : 0;
+    if (one_in(4)) c.nest |= kInPieces;
     return c;
   }
 

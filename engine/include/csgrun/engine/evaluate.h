@@ -58,6 +58,13 @@ struct EvaluateStats {
   std::array<uint64_t, 8> sign_exact{};  ///< by tier: 64 128 192 256 384 512 more, unused
 };
 
+/// What Measures says of a solid, as far as it needs no triangles.
+struct Extent {
+  bool empty = true;
+  double volume = 0;                  ///< mm^3
+  std::array<glm::dvec3, 2> bbox{};  ///< mm; of an empty solid all zero
+};
+
 /// Evaluates trees. One object serves one run: its cache spans all calls. Not thread-safe.
 class Evaluator {
  public:
@@ -68,6 +75,9 @@ class Evaluator {
   [[nodiscard]] Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts);
   /// The solid of one tree, on the grid that its own extent asks for.
   [[nodiscard]] Result<SolidPtr> evaluate(const NodePtr& root);
+  /// Volume and bounding box of one tree's solid. A result that goes on from one that was asked for
+  /// before is not presented: the time then depends on what the difference touches.
+  [[nodiscard]] Result<Extent> extent(const NodePtr& root);
   /// Whether `point` (mm) is inside (1), on the boundary (0) or outside (-1), exactly; the point is
   /// rounded to the grid as the vertices of leaves are, so that equal decimals meet.
   [[nodiscard]] Result<int> contains(const NodePtr& root, const glm::dvec3& point);

@@ -1,0 +1,123 @@
+// Convex pieces of results over common planes and points. A store only grows: all versions of a
+// result, from operation to operation, name their pieces in one store (result_pieces.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/bsp/job.h"
+#include "engine/bsp/operand.h"
+#include "engine/bsp/piece_tree.h"
+#include "engine/exact/plane.h"
+#include "engine/exact/point.h"
+
+namespace csgrun {
+
+class PieceStore {
+ public:
+  /// A piece of a face of an operand, oriented to the outside of the result. Planes of it may not
+  /// have been made yet if all its corners are grid points.
+  struct Piece {
+    uint32_t operand;       ///< number in the store
+    uint32_t face;          ///< of the operand, a leaf or a boundary
+    uint32_t first, count;  ///< corners
+    PlaneId support;        ///< invalid until it was made
+    bool is_whole;          ///< all of a leaf's face
+    bool is_flipped;        ///< runs the other way round than the face
+    bool is_met = false;    ///< another operand's surface touched it
+  };
+
+  PlaneTable planes;
+
+  static constexpr uint32_t kNoNumber = ~0u;
+
+  /// Operand `o` of a job over this store's planes: its vertices become points. Returns its number
+  /// here; kNoNumber for a leaf in a frame some vertex of which is a true corner of no face.
+  uint32_t add_operand(Job& job, const std::vector<Operand>& operands, uint32_t o);
+  /// The point in which three planes meet, with its coordinates, correctly rounded.
+  uint32_t add_point(const std::array<uint32_t, 3>& meeting, const std::array<double, 3>& at);
+  /// A piece whose corners and edge planes were appended to corners() and edges() last. Returns its
+  /// number.
+  uint32_t add_piece(const Piece& piece);
+  std::vector<uint32_t>& corners() { return corners_; }
+  std::vector<uint32_t>& edges() { return edges_; }
+
+  [[nodiscard]] const Piece& piece(uint32_t p) const { return pieces_[p]; }
+  [[nodiscard]] uint32_t piece_count() const { return static_cast<uint32_t>(pieces_.size()); }
+  [[nodiscard]] std::span<const uint32_t> corners(uint32_t piece) const {
+    return {corners_.data() + pieces_[piece].first, pieces_[piece].count};
+  }
+  /// Planes of the edges: edge i runs from corner i to the next. kNone where they were not made.
+  [[nodiscard]] std::span<const uint32_t> edges(uint32_t piece) const {
+    return {edges_.data() + pieces_[piece].first, pieces_[piece].count};
+  }
+  [[nodiscard]] const PieceBox& box(uint32_t piece) const { return boxes_[piece]; }
+  [[nodiscard]] FaceLabel label(uint32_t piece) const;
+  void set_met(uint32_t piece) { pieces_[piece].is_met = true; }
+  /// Makes the support, or the plane of an edge, of a piece over grid points, if it was not made.
+  PlaneId ensure_support(uint32_t piece);
+  uint32_t ensure_edge(uint32_t piece, uint32_t edge);
+
+  [[nodiscard]] size_t point_count() const { return rounded_.size(); }
+  [[nodiscard]] const std::array<double, 3>& rounded(uint32_t point) const {
+    return rounded_[point];
+  }
+  /// Three planes that meet in the point, or kNone thrice for a grid point.
+  [[nodiscard]] const std::array<uint32_t, 3>& point_planes(uint32_t point) const {
+    return point_planes_[point];
+  }
+  [[nodiscard]] Point exact(uint32_t point) const;
+
+  [[nodiscard]] const std::vector<Operand>& operands() const { return operands_; }
+  /// The points of an operand's vertices stand together, from this one on.
+  [[nodiscard]] uint32_t first_point(uint32_t operand) const { return first_point_[operand]; }
+  /// The operand whose vertex a point is, or kNone.
+  [[nodiscard]] uint32_t operand_of(uint32_t point) const { return point_operand_[point]; }
+  /// Where sums over pieces take points from: a grid point near them.
+  [[nodiscard]] const IVec3& origin() const { return origin_; }
+
+  /// A point relative to the origin, cut to 64 fractional bits, for those who sum over pieces
+  /// (mesh/pieces_measures), who put it there.
+  struct CutPoint {
+    std::array<Int<2>, 3> at;
+    bool is_known = false, is_cut = false;
+  };
+  CutPoint& cut_point(uint32_t point) {
+    cut_points_.resize(rounded_.size());
+    return cut_points_[point];
+  }
+
+  /// Room for a number per point, all kNone; whoever takes it leaves it so.
+  std::vector<uint32_t>& scratch() {
+    scratch_.resize(rounded_.size(), kNoNumber);
+    return scratch_;
+  }
+
+ private:
+  [[nodiscard]] IVec3 on_grid(uint32_t point) const;
+  [[nodiscard]] Plane plane_of_corners(uint32_t piece) const;
+
+  std::vector<Operand> operands_;
+  std::vector<uint32_t> first_point_;
+  std::vector<std::array<double, 3>> rounded_;
+  std::vector<std::array<uint32_t, 3>> point_planes_;
+  std::vector<uint32_t> point_operand_;
+  std::vector<Piece> pieces_;
+  std::vector<PieceBox> boxes_;
+  std::vector<uint32_t> corners_, edges_;
+  std::vector<uint32_t> scratch_;
+  std::vector<CutPoint> cut_points_;
+  IVec3 origin_{0, 0, 0};
+};
+
+/// A version of a result as an operand: a job takes those pieces that the boxes of its other
+/// operands meet.
+struct PieceOperand {
+  std::shared_ptr<PieceStore> store;
+  PieceTree pieces;
+};
+
+}  // namespace csgrun

@@ -1,0 +1,205 @@
+// Pieces are not closed at their corners (one may lie in the middle of another's edge), so that
+// cutting digits is bounded for each triangle by itself. With u the unit of the last digit, each
+// corner of det(a, b, c) = a . (b - a) x (c - a) moves by less than u along each axis: the
+// determinant changes by less than u N + 12 u M L + 24 u^2 M, with N the sum of the normal's
+// coordinates, L the sum of the two edges' greatest coordinates, and M the extent.
+#include "engine/mesh/pieces_measures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/mesh/boundary_volume.h"
+#include "engine/mesh/fixed_sums.h"
+#include "engine/mesh/measure.h"
+#include "engine/mesh/to_millimetres.h"
+
+namespace csgrun {
+namespace {
+
+constexpr int kFraction = 64;
+using Fixed = std::array<Int<2>, 3>;
+
+class Summer {
+ public:
+  explicit Summer(PieceStore& store) : store_(store) {}
+
+  /// The sums below a node; false when a point is out of range.
+  bool sums(const PieceTree::Node& node, PieceSums& result) {
+    if (!node.has_sums) {
+      PieceSums own;
+      for (const uint32_t p : node.pieces) {
+        if (!add_piece(p, own)) return false;
+      }
+      for (const PieceTree::NodePtr& child : node.child) {
+        PieceSums below;
+        if (!child) continue;
+        if (!sums(*child, below)) return false;
+        own.six_volumes += below.six_volumes;
+        own.twice_area += below.twice_area;
+        own.edges += below.edges;
+        own.triangles += below.triangles;
+      }
+      node.sums = own;
+      node.has_sums = true;
+    }
+    result = node.sums;
+    return true;
+  }
+
+ private:
+  /// A fan from the first corner.
+  bool add_piece(uint32_t piece, PieceSums& out) {
+    const auto corners = store_.corners(piece);
+    bool cut = false, is_near = true;
+    near_.resize(corners.size());
+    for (size_t i = 0; i < corners.size(); ++i) is_near = take_near(corners[i], near_[i]) && is_near;
+    if (is_near) {
+      Int128 sum = 0;
+      for (size_t i = 1; i + 1 < corners.size(); ++i) {
+        const auto n = normal_of(near_[0], near_[i], near_[i + 1]);
+        for (size_t k = 0; k < 3; ++k) sum += static_cast<Int128>(n[k]) * near_[0][k];
+      }
+      out.six_volumes += Int<6>::from(Int<2>::from_int128(sum)).shifted_left(3 * kFraction);
+      return true;
+    }
+    fixed_.resize(corners.size());
+    for (size_t i = 0; i < corners.size(); ++i) {
+      if (!take(corners[i], fixed_[i], cut)) return false;
+    }
+    const Fixed& a = fixed_[0];
+    for (size_t i = 1; i + 1 < corners.size(); ++i) {
+      const Fixed &b = fixed_[i], &c = fixed_[i + 1];
+      double edges = 0;
+      for (size_t k = 0; k < 3; ++k) {
+        const size_t x = (k + 1) % 3, y = (k + 2) % 3;
+        const Int<4> n =
+            full_product(b[x] - a[x], c[y] - a[y]) - full_product(b[y] - a[y], c[x] - a[x]);
+        out.six_volumes += full_product(n, a[k]);
+        out.twice_area += std::fabs(double_double(n, -2 * kFraction).hi);
+        edges += std::fabs(to_double(b[k] - a[k])) + std::fabs(to_double(c[k] - a[k]));
+      }
+      out.edges += std::ldexp(edges, -kFraction);
+    }
+    if (cut) out.triangles += corners.size() - 2;
+    return true;
+  }
+
+  /// Whole coordinates near the origin; false for others.
+  bool take_near(uint32_t point, Near& near) const {
+    if (store_.point_planes(point)[0] != PieceStore::kNoNumber) return false;
+    for (size_t k = 0; k < 3; ++k) {
+      near[k] = static_cast<int64_t>(store_.rounded(point)[k]) - store_.origin()[k];
+      if (std::abs(near[k]) >= kNearLimit) return false;
+    }
+    return true;
+  }
+
+  /// Where a point is, cut to the fraction; the store keeps it.
+  bool take(uint32_t point, Fixed& fixed, bool& cut) {
+    PieceStore::CutPoint& known = store_.cut_point(point);
+    if (!known.is_known) {
+      if (!find(point, known)) return false;
+      known.is_known = true;
+    }
+    fixed = known.at;
+    cut = cut || known.is_cut;
+    return true;
+  }
+
+  bool find(uint32_t point, PieceStore::CutPoint& found) const {
+    const Point p = store_.exact(point);
+    for (int k = 0; k < 3; ++k) {
+      const auto axis = static_cast<size_t>(k);
+      if (!fixed_point<1>(coordinate(p, k), p.w, found.at[axis], found.is_cut)) return false;
+      found.at[axis] -= Int<2>(store_.origin()[axis]).shifted_left(kFraction);
+    }
+    return true;
+  }
+
+  PieceStore& store_;
+  std::vector<Near> near_;
+  std::vector<Fixed> fixed_;
+};
+
+/// Finds the extent of a node.
+void find_extent(const PieceTree::Node& node, const PieceStore& store,
+                 const ToMillimetres& to_millimetres) {
+  if (node.has_extent) return;
+  node.has_extent = true;
+  node.extent[0].fill(HUGE_VAL);
+  node.extent[1].fill(-HUGE_VAL);
+  const auto add = [&](size_t axis, double lo, double hi) {
+    node.extent[0][axis] = std::min(node.extent[0][axis], lo);
+    node.extent[1][axis] = std::max(node.extent[1][axis], hi);
+  };
+  for (const PieceTree::NodePtr& child : node.child) {
+    if (!child) continue;
+    find_extent(*child, store, to_millimetres);
+    for (size_t k = 0; k < 3; ++k) add(k, child->extent[0][k], child->extent[1][k]);
+  }
+  for (const uint32_t piece : node.pieces) {
+    for (const uint32_t p : store.corners(piece)) {
+      // Rounding is monotone: what is furthest has the furthest rounded coordinate.
+      const auto& at = store.rounded(p);
+      std::array<bool, 3> is_end{};
+      for (size_t k = 0; k < 3; ++k) is_end[k] = at[k] == node.box.lo[k] || at[k] == node.box.hi[k];
+      if (!is_end[0] && !is_end[1] && !is_end[2]) continue;
+      glm::dvec3 mm;
+      std::array<float, 3> single{};
+      to_millimetres.position(store.exact(p), mm, single);
+      for (size_t k = 0; k < 3; ++k) {
+        if (is_end[k]) add(k, mm[static_cast<int>(k)], mm[static_cast<int>(k)]);
+      }
+    }
+  }
+}
+
+/// x * 2^shift as a whole number that is no less.
+Natural whole_above(double x, int shift) {
+  int exponent = 0;
+  const double m = std::frexp(x, &exponent);
+  const Natural leading = natural(static_cast<UInt128>(std::ldexp(m, 53)) + 1);
+  const int up = exponent - 53 + shift;
+  return up >= 0 ? shift_left(leading, up) : leading;
+}
+
+}  // namespace
+
+Result<double> pieces_volume(const ResultPieces& pieces, const GridStep& step) {
+  const PieceTree::NodePtr& root = pieces.tree.root();
+  if (!root) return 0.0;
+  PieceSums sums;
+  if (Summer(*pieces.store).sums(*root, sums)) {
+    double extent = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const auto origin = static_cast<double>(pieces.store->origin()[k]);
+      extent = std::max({extent, std::fabs(root->box.lo[k] - origin),
+                         std::fabs(root->box.hi[k] - origin)});
+    }
+    extent += 1;
+    // In steps^2 times the unit; far more than rounding may have taken from it.
+    const double bound = sums.triangles == 0
+                             ? 0
+                             : (sums.twice_area + 12 * extent * sums.edges +
+                                extent * static_cast<double>(sums.triangles)) *
+                                   (1 + 0x1p-16);
+    const Sum six_volumes{signed_value(sums.six_volumes),
+                          bound > 0 ? whole_above(bound, 2 * kFraction) : Natural()};
+    if (const auto volume = round_volume(six_volumes, kFraction, step)) return *volume;
+  }
+  auto boundary = assemble_pieces(pieces, false);
+  if (!boundary) return boundary.error();
+  return boundary_volume(**boundary, step);
+}
+
+std::optional<std::array<glm::dvec3, 2>> pieces_box(const ResultPieces& pieces,
+                                                    const GridStep& step) {
+  const PieceTree::NodePtr& root = pieces.tree.root();
+  if (!root) return std::nullopt;
+  find_extent(*root, *pieces.store, ToMillimetres(step));
+  const auto point = [](const std::array<double, 3>& p) { return glm::dvec3(p[0], p[1], p[2]); };
+  return std::array{point(root->extent[0]), point(root->extent[1])};
+}
+
+}  // namespace csgrun

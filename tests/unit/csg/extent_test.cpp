@@ -1,0 +1,119 @@
+// Volume and box of results that go on from one another, against evaluations that start anew.
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <csgrun/engine/evaluate.h>
+
+#include "test_meshes.h"
+
+namespace csgrun {
+namespace {
+
+using namespace testing;
+
+void expect_extent_of(const Extent& extent, const NodePtr& node) {
+  const SolidPtr solid = solid_of(node);  // by an evaluator of its own
+  ASSERT_EQ(extent.empty, solid->empty());
+  if (extent.empty) return;
+  EXPECT_EQ(extent.volume, solid->measures.volume);
+  for (size_t side = 0; side < 2; ++side) {
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(extent.bbox[side][k], solid->measures.bbox[side][k]) << side << ' ' << k;
+    }
+  }
+}
+
+/// A tool of its own at a place of thirds, so that coordinates are rounded.
+NodePtr tool(std::mt19937& random) {
+  const auto at = [&] { return static_cast<double>(random() % 31) / 3; };
+  const NodePtr body = cube(1 + static_cast<double>(random() % 3));
+  const double x = at(), y = at(), z = at();
+  if (random() % 3 != 0) return moved(x, y, z, body);
+  Affine turn;  // 3-4-5
+  turn.m = {{{0.6, -0.8, 0, x}, {0.8, 0.6, 0, y}, {0, 0, 1, z}}};
+  return Node::transformed(turn, body);
+}
+
+TEST(Extent, OfChainsIsThatOfAFreshEvaluation) {
+  std::mt19937 random(91);
+  for (int round = 0; round < 12; ++round) {
+    EvaluateOptions options;
+    options.threads = 1;
+    Evaluator evaluator(options);
+    NodePtr part = moved(0, 0, 0, cube(10));
+    std::vector<NodePtr> before;
+    for (int step = 0; step < 14; ++step) {
+      before.push_back(part);
+      // Mostly from the last one, sometimes from one that others went on from already.
+      const NodePtr& from = random() % 5 != 0 ? part : before[random() % before.size()];
+      const std::vector<NodePtr> operands =
+          random() % 4 != 0 ? std::vector{from, tool(random)}
+                            : std::vector{from, tool(random), tool(random)};
+      switch (random() % 6) {
+        case 0:
+          part = unite(operands);
+          break;
+        case 1:
+          part = symmetric(operands);
+          break;
+        case 2:
+          part = intersect({from, moved(-1, -1, 0.5, cube(11))});
+          break;
+        default:
+          part = subtract(operands);
+          break;
+      }
+      const auto extent = evaluator.extent(part);
+      ASSERT_TRUE(extent) << extent.error().message;
+      expect_extent_of(*extent, part);
+      if (HasFailure()) FAIL() << "round " << round << ", step " << step;
+    }
+    const auto solid = evaluator.evaluate(part);
+    ASSERT_TRUE(solid) << solid.error().message;
+    const SolidPtr fresh = solid_of(part);
+    EXPECT_EQ((*solid)->positions, fresh->positions);
+    EXPECT_EQ((*solid)->triangles, fresh->triangles);
+  }
+}
+
+TEST(Extent, WorkDependsOnTheTool) {
+  // Pins over a plate, far from each other: the last one costs no more signs than an early one.
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options);
+  NodePtr part = moved(-1, -1, 0, cube(100));
+  std::vector<uint64_t> signs;
+  const auto count = [&] {
+    uint64_t total = evaluator.stats().sign_filter + evaluator.stats().sign_symbolic;
+    for (const uint64_t n : evaluator.stats().sign_exact) total += n;
+    return total;
+  };
+  for (int i = 0; i < 81; ++i) {
+    part = subtract({part, moved(i % 9 * 10 + 1, i / 9 * 10 + 1, 99, cube(3))});
+    const uint64_t was = count();
+    ASSERT_TRUE(evaluator.extent(part));
+    signs.push_back(count() - was);
+  }
+  uint64_t early = 0, late = 0;
+  for (size_t i = 0; i < 10; ++i) {
+    early += signs[5 + i];
+    late += signs[71 + i];
+  }
+  EXPECT_LE(late, 2 * early);
+  expect_extent_of(*evaluator.extent(part), part);
+}
+
+TEST(Extent, OfNothing) {
+  Evaluator evaluator{EvaluateOptions()};
+  const NodePtr a = cube(2);
+  EXPECT_TRUE(evaluator.extent(subtract({a, a}))->empty);
+  const NodePtr first = subtract({cube(4), moved(0, 0, 2, cube(4))});
+  EXPECT_EQ(evaluator.extent(first)->volume, 32);
+  const NodePtr second = subtract({first, moved(0, 0, -1, cube(4))});
+  EXPECT_TRUE(evaluator.extent(second)->empty);
+  EXPECT_EQ(evaluator.extent(unite({second, cube(1)}))->volume, 1);
+}
+
+}  // namespace
+}  // namespace csgrun
