@@ -74,7 +74,7 @@ TEST(VertexSigns, OnTheGridAreExact) {
   }
   EXPECT_GT(zeros, 500u);
   EXPECT_GT(signs.filtered, 5000u);
-  EXPECT_GT(signs.exact, zeros + 500);
+  EXPECT_GT(signs.exact, zeros + 50);
 }
 
 TEST(VertexSigns, OfFarPointsAreToldByDoublesOrNotAtAll) {
