@@ -27,8 +27,8 @@ void convexify(CellGeometry& geometry, const PlaneTable& planes, PlaneId support
                std::vector<Fragment>& pieces);
 
 /// The same for a region within a weakly convex cell, the rim of which goes along edges of the
-/// region where these have planes of the cell's edges. What is far beside all other edges is cut off
-/// by walls first: lines of edges stay short.
+/// region where these have planes of the cell's edges. What is far beside all other edges is cut
+/// off by walls first: lines of edges stay short.
 void convexify_within(CellGeometry& geometry, const PlaneTable& planes, const Fragment& cell,
                       const std::vector<BoundaryEdge>& edges,
                       const std::function<uint32_t(int, int64_t)>& wall,

@@ -305,9 +305,7 @@ void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
   for (const uint32_t point : piece_points_) vertex_of[point] = kNone;
 }
 
-uint32_t Job::piece(uint32_t polygon) const {
-  return pieces_[polygons_[polygon].face];
-}
+uint32_t Job::piece(uint32_t polygon) const { return pieces_[polygons_[polygon].face]; }
 
 uint32_t Job::piece_point(uint32_t vertex) const {
   return piece_points_[vertex - sources_.back().first_vertex];

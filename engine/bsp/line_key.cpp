@@ -38,8 +38,10 @@ uint64_t scramble(uint64_t h, uint64_t v) {
 }  // namespace
 
 const LineNamer::Residues& LineNamer::residues(uint32_t plane) {
-  if (plane >= residues_.size()) residues_.resize(planes_->size());
-  Residues& r = residues_[plane];
+  if (plane / kPage >= pages_.size()) pages_.resize(planes_->size() / kPage + 1);
+  std::unique_ptr<Page>& page = pages_[plane / kPage];
+  if (!page) page = std::make_unique<Page>();
+  Residues& r = (*page)[plane % kPage];
   if (!r.known) {
     const Plane& p = planes_->plane(plane);
     r = {{residue(p.a), residue(p.b), residue(p.c), residue(p.d)}, true};
@@ -48,7 +50,6 @@ const LineNamer::Residues& LineNamer::residues(uint32_t plane) {
 }
 
 LineNamer::Coordinates LineNamer::coordinates(PlanePair line) {
-  residues(line.p), residues(line.q);  // both first: the table may move
   const uint64_t* a = residues(line.p).v;
   const uint64_t* b = residues(line.q).v;
   const auto minor = [&](int i, int j) { return minus(times(a[i], b[j]), times(a[j], b[i])); };

@@ -1,7 +1,9 @@
 // A name for a line by value: equal for any two planes that meet in it.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "engine/exact/plane.h"
@@ -31,7 +33,7 @@ class LineNamer {
 
  private:
   struct Residues {
-    uint64_t v[4];
+    uint64_t v[4] = {0, 0, 0, 0};
     bool known = false;
   };
   const Residues& residues(uint32_t plane);
@@ -44,7 +46,10 @@ class LineNamer {
   Coordinates coordinates(PlanePair line);
 
   const PlaneTable* planes_;
-  std::vector<Residues> residues_;
+  /// In pages, made when asked for: of a table that many operations share each needs a few planes.
+  static constexpr uint32_t kPage = 64;
+  using Page = std::array<Residues, kPage>;
+  std::vector<std::unique_ptr<Page>> pages_;
   std::vector<Coordinates> lines_;
   std::vector<uint64_t> products_;
 };

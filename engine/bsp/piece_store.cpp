@@ -84,9 +84,8 @@ FaceLabel PieceStore::label(uint32_t piece) const {
 
 Plane PieceStore::plane_of_corners(uint32_t piece) const {
   const Piece& p = pieces_[piece];
-  return support_of_loop(p.count, [&](uint32_t i) {
-    return on_grid(corners_[p.first + i % p.count]);
-  });
+  return support_of_loop(p.count,
+                         [&](uint32_t i) { return on_grid(corners_[p.first + i % p.count]); });
 }
 
 IVec3 PieceStore::on_grid(uint32_t point) const {
@@ -105,18 +104,19 @@ uint32_t PieceStore::ensure_edge(uint32_t piece, uint32_t edge) {
   uint32_t& plane = edges_[p.first + edge];
   if (plane == kNoNumber) {
     const uint32_t next = edge + 1 < p.count ? edge + 1 : 0;
-    plane = planes
-                .intern(edge_plane(on_grid(corners_[p.first + edge]),
-                                   on_grid(corners_[p.first + next]),
-                                   dominant_axis(plane_of_corners(piece))))
-                .index();
+    plane =
+        planes
+            .intern(edge_plane(on_grid(corners_[p.first + edge]), on_grid(corners_[p.first + next]),
+                               dominant_axis(plane_of_corners(piece))))
+            .index();
   }
   return plane;
 }
 
 Point PieceStore::exact(uint32_t point) const {
   const auto& t = point_planes_[point];
-  if (t[0] != kNoNumber) return intersect(planes.plane(t[0]), planes.plane(t[1]), planes.plane(t[2]));
+  if (t[0] != kNoNumber)
+    return intersect(planes.plane(t[0]), planes.plane(t[1]), planes.plane(t[2]));
   const IVec3 at = on_grid(point);
   return grid_point(at[0], at[1], at[2]);
 }

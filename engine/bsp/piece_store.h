@@ -90,6 +90,16 @@ class PieceStore {
     return cut_points_[point];
   }
 
+  /// What a piece adds to sums, for the same.
+  struct PieceSum {
+    PieceSums sums;
+    bool is_known = false;
+  };
+  PieceSum& piece_sum(uint32_t piece) {
+    piece_sums_.resize(pieces_.size());
+    return piece_sums_[piece];
+  }
+
   /// Room for a number per point, all kNone; whoever takes it leaves it so.
   std::vector<uint32_t>& scratch() {
     scratch_.resize(rounded_.size(), kNoNumber);
@@ -110,6 +120,7 @@ class PieceStore {
   std::vector<uint32_t> corners_, edges_;
   std::vector<uint32_t> scratch_;
   std::vector<CutPoint> cut_points_;
+  std::vector<PieceSum> piece_sums_;
   IVec3 origin_{0, 0, 0};
 };
 

@@ -17,6 +17,36 @@ PieceBox hull(const PieceBox& a, const PieceBox& b) {
   return r;
 }
 
+/// Parts things by the middles of their boxes along the axis on which these differ most; equal ones
+/// by number. Returns where the second half begins.
+template <class T, class BoxOf, class NumberOf>
+size_t halve(std::span<T> items, BoxOf&& box_of, NumberOf&& number_of) {
+  const auto middle = [&](const T& item, size_t k) {
+    const PieceBox& box = box_of(item);
+    return box.lo[k] + box.hi[k];
+  };
+  PieceBox middles;
+  for (const T& item : items) {
+    middles.add(std::array{middle(item, 0), middle(item, 1), middle(item, 2)});
+  }
+  size_t axis = 0;
+  for (size_t k = 1; k < 3; ++k) {
+    if (middles.hi[k] - middles.lo[k] > middles.hi[axis] - middles.lo[axis]) axis = k;
+  }
+  const size_t half = items.size() / 2;
+  std::nth_element(items.begin(), items.begin() + static_cast<long>(half), items.end(),
+                   [&](const T& a, const T& b) {
+                     return std::pair(middle(a, axis), number_of(a)) <
+                            std::pair(middle(b, axis), number_of(b));
+                   });
+  return half;
+}
+
+/// Far more than a tree of halves would have.
+bool is_too_deep(const PieceTree::Node& node) {
+  return node.height > 6 + 2 * static_cast<uint32_t>(std::bit_width(node.count));
+}
+
 }  // namespace
 
 /// Halves along the longest axis of the pieces' middles; equal middles by number.
@@ -32,22 +62,27 @@ PieceTree::NodePtr PieceTree::build(std::span<Item> items) {
     }
     return leaf;
   }
-  PieceBox middles;
-  const auto middle = [](const Item& item, size_t k) { return item.box.lo[k] + item.box.hi[k]; };
-  for (const Item& item : items) {
-    middles.add(std::array{middle(item, 0), middle(item, 1), middle(item, 2)});
-  }
-  size_t axis = 0;
-  for (size_t k = 1; k < 3; ++k) {
-    if (middles.hi[k] - middles.lo[k] > middles.hi[axis] - middles.lo[axis]) axis = k;
-  }
-  const size_t half = items.size() / 2;
-  std::nth_element(items.begin(), items.begin() + static_cast<long>(half), items.end(),
-                   [&](const Item& a, const Item& b) {
-                     return std::pair(middle(a, axis), a.piece) <
-                            std::pair(middle(b, axis), b.piece);
-                   });
+  const size_t half = halve(
+      items, [](const Item& item) -> const PieceBox& { return item.box; },
+      [](const Item& item) { return item.piece; });
   return join(build(items.first(half)), build(items.subspan(half)));
+}
+
+void PieceTree::collect_leaves(const NodePtr& node, std::vector<NodePtr>& leaves) {
+  if (node->height == 0) {
+    leaves.push_back(node);
+    return;
+  }
+  for (const NodePtr& child : node->child) collect_leaves(child, leaves);
+}
+
+/// The same over leaves.
+PieceTree::NodePtr PieceTree::over_leaves(std::span<NodePtr> leaves) {
+  if (leaves.size() == 1) return leaves.front();
+  const size_t half = halve(
+      leaves, [](const NodePtr& leaf) -> const PieceBox& { return leaf->box; },
+      [](const NodePtr& leaf) { return leaf->pieces.front(); });
+  return join(over_leaves(leaves.first(half)), over_leaves(leaves.subspan(half)));
 }
 
 PieceTree::NodePtr PieceTree::join(NodePtr a, NodePtr b) {
@@ -67,18 +102,19 @@ PieceTree::NodePtr PieceTree::join(NodePtr a, NodePtr b) {
   return node;
 }
 
-/// Beside a node that is not larger, else on the side whose box grows least.
+/// Beside a node that is not larger, else on the side whose box grows least, or which has fewer.
 PieceTree::NodePtr PieceTree::insert(const NodePtr& node, const NodePtr& added) {
   if (node->height == 0 || node->count <= added->count) return join(node, added);
-  const auto growth = [&](const NodePtr& child) {
-    return half_surface(hull(child->box, added->box)) - half_surface(child->box);
+  const auto cost = [&](const NodePtr& child) {
+    return std::pair(half_surface(hull(child->box, added->box)) - half_surface(child->box),
+                     child->count);
   };
   const auto& [a, b] = node->child;
-  return growth(a) <= growth(b) ? join(insert(a, added), b) : join(a, insert(b, added));
-}
-
-bool PieceTree::is_too_deep(const Node& node) {
-  return node.height > 8 + 3 * static_cast<uint32_t>(std::bit_width(node.count));
+  NodePtr result = cost(a) <= cost(b) ? join(insert(a, added), b) : join(a, insert(b, added));
+  if (!is_too_deep(*result)) return result;
+  std::vector<NodePtr> leaves;
+  collect_leaves(result, leaves);
+  return over_leaves(leaves);
 }
 
 }  // namespace csgrun

@@ -16,8 +16,8 @@
 
 namespace csgrun {
 
-/// Box of correctly rounded coordinates, closed. Rounding keeps the order along an axis, so boxes of
-/// things that meet meet.
+/// Box of correctly rounded coordinates, closed. Rounding keeps the order along an axis, so boxes
+/// of things that meet meet.
 struct PieceBox {
   std::array<double, 3> lo{HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
@@ -79,8 +79,8 @@ class PieceTree {
   }
 
   /// The pieces without those for which `is_gone(piece)`, which are looked for in these boxes, and
-  /// with `added`. `box_of(piece)` is the box of a piece. O(k log n) for k nodes in the boxes; a
-  /// tree that has become too deep is built anew.
+  /// with `added`. `box_of(piece)` is the box of a piece. O(k log n) for k nodes in the boxes,
+  /// amortised: a part that has become too deep is put together anew from its leaves.
   template <class IsGone, class BoxOf>
   [[nodiscard]] PieceTree changed(std::span<const PieceBox> where, IsGone&& is_gone,
                                   std::vector<uint32_t> added, BoxOf&& box_of) const;
@@ -104,7 +104,8 @@ class PieceTree {
   static NodePtr build(std::span<Item> items);
   static NodePtr join(NodePtr a, NodePtr b);
   static NodePtr insert(const NodePtr& node, const NodePtr& added);
-  static bool is_too_deep(const Node& node);
+  static void collect_leaves(const NodePtr& node, std::vector<NodePtr>& leaves);
+  static NodePtr over_leaves(std::span<NodePtr> leaves);
 
   template <class IsGone, class BoxOf>
   static NodePtr without(const NodePtr& node, std::span<const PieceBox> where, IsGone& is_gone,
@@ -148,13 +149,6 @@ PieceTree PieceTree::changed(std::span<const PieceBox> where, IsGone&& is_gone,
     std::vector<Item> items = items_of(added, box_of);
     const NodePtr more = build(items);
     result.root_ = result.root_ ? insert(result.root_, more) : more;
-  }
-  if (result.root_ && is_too_deep(*result.root_)) {
-    std::vector<uint32_t> all;
-    all.reserve(result.size());
-    result.each([](const PieceBox&) { return true; }, [&](uint32_t p) { all.push_back(p); });
-    std::vector<Item> items = items_of(all, box_of);
-    result.root_ = build(items);
   }
   return result;
 }

@@ -211,7 +211,7 @@ template <class Emit>
 void PrunedExpression::split_boundary(const std::vector<uint64_t>& words, int shift, uint64_t asked,
                                       std::vector<uint64_t>& scratch, Emit&& emit) const {
   const auto boundary_of = [&](size_t node) { return words[node] ^ (words[node] >> shift); };
-  scratch.resize(nodes_.size());
+  scratch.assign(nodes_.size(), 0);
   scratch.back() = asked & boundary_of(nodes_.size() - 1);
   for (size_t i = nodes_.size(); i-- > 0;) {
     const Node& n = nodes_[i];
@@ -220,11 +220,12 @@ void PrunedExpression::split_boundary(const std::vector<uint64_t>& words, int sh
       if (rest != 0) emit(n.operand, rest);
       continue;
     }
-    // The lowest child that has boundary there gives it.
+    // The lowest child that has boundary there gives it; it may be that of other nodes, too.
     for (uint32_t c = 0; c < n.child_count; ++c) {
       const uint32_t child = children_[n.first_child + c];
-      scratch[child] = rest & boundary_of(child);
-      rest &= ~scratch[child];
+      const uint64_t taken = rest & boundary_of(child);
+      scratch[child] |= taken;
+      rest &= ~taken;
     }
   }
 }

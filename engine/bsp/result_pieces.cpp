@@ -116,9 +116,9 @@ class PieceWriter {
   void add_edges(const FragmentSet& set, uint32_t piece, std::vector<uint32_t>& points) {
     if (points.empty()) {
       for (const FragmentSet::NamedPoint& p : set.points) {
-        points.push_back(
-            index_.unique(p.vertex != kNone ? geometry_.vertex_point(p.vertex)
-                                            : geometry_.add_point(p.planes, p.rounded)));
+        points.push_back(index_.unique(p.vertex != kNone
+                                           ? geometry_.vertex_point(p.vertex)
+                                           : geometry_.add_point(p.planes, p.rounded)));
       }
     }
     const FragmentSet::Piece& p = set.pieces[piece];
@@ -191,9 +191,7 @@ class PieceWriter {
   std::vector<uint32_t> cell_points_, cell_edges_;
 };
 
-Error not_closed() {
-  return {ErrorCode::kInternal, "the pieces of a face do not close up", {}};
-}
+Error not_closed() { return {ErrorCode::kInternal, "the pieces of a face do not close up", {}}; }
 
 /// The expression with other numbers for the operands.
 template <class Number>
@@ -233,8 +231,9 @@ enum class Outside : uint8_t { kKept, kDropped, kTurned };
 /// What becomes of an operand where it is outside all others.
 Outside fate_outside(const Expression& expression, uint32_t operand) {
   std::vector<PrunedExpression::Boundary> scratch;
-  const auto boundary = PrunedExpression(expression).boundary(
-      [](uint32_t) { return false; }, [&](uint32_t o) { return o == operand; }, scratch);
+  const auto boundary = PrunedExpression(expression)
+                            .boundary([](uint32_t) { return false; },
+                                      [&](uint32_t o) { return o == operand; }, scratch);
   if (boundary.operand != operand) return Outside::kDropped;
   return boundary.front ? Outside::kTurned : Outside::kKept;
 }
@@ -307,7 +306,8 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
 
   auto result = std::make_shared<ResultPieces>();
   result->store = version.store;
-  result->bytes = bytes_of(store.piece_count() - pieces_before, store.point_count() - points_before);
+  result->bytes =
+      bytes_of(store.piece_count() - pieces_before, store.point_count() - points_before);
   result->touching = version.touching;
   Touching more = touching_before(others);
   result->touching.anywhere |= more.anywhere;
@@ -316,8 +316,8 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   const auto box_of = [&](uint32_t p) -> const PieceBox& { return store.box(p); };
   if (outside == Outside::kDropped) {
     kept.insert(kept.end(), writer.added.begin(), writer.added.end());
-    result->tree =
-        PieceTree().changed({}, [](uint32_t) { return false; }, std::move(kept), box_of);
+    result->tree = PieceTree().changed(
+        {}, [](uint32_t) { return false; }, std::move(kept), box_of);
     return PiecesPtr(std::move(result));
   }
   // Gone are the pieces of the job that were not kept.
@@ -342,10 +342,10 @@ Result<std::shared_ptr<const BoundaryMesh>> assemble_pieces(const ResultPieces& 
                                                             bool name_untouched) {
   PieceStore& store = *version.store;
   std::vector<uint32_t> pieces;
-  version.tree.each([](const PieceBox&) { return true; },
-                    [&](uint32_t p) { pieces.push_back(p); });
+  version.tree.each([](const PieceBox&) { return true; }, [&](uint32_t p) { pieces.push_back(p); });
   std::sort(pieces.begin(), pieces.end());
-  // The operands that have pieces or corners of pieces, in the order of their sources, as one operation would have them.
+  // The operands that have pieces or corners of pieces, in the order of their sources, as one
+  // operation would have them.
   std::vector<uint32_t> order;
   std::vector<uint8_t> is_used(store.operands().size(), 0);
   for (const uint32_t p : pieces) {

@@ -7,8 +7,7 @@ namespace csgrun {
 
 SparseBoundary::SparseBoundary(const Expression& expression) : expression_(expression) {
   const std::vector<Expression::Node>& nodes = expression_.nodes;
-  parent_.assign(nodes.size(), 0);
-  place_.assign(nodes.size(), 0);
+  parent_starts_.assign(nodes.size() + 1, 0);
   is_full_.assign(nodes.size(), 0);
   full_children_.assign(nodes.size(), 0);
   changed_.resize(nodes.size());
@@ -20,11 +19,18 @@ SparseBoundary::SparseBoundary(const Expression& expression) : expression_(expre
     }
     for (uint32_t c = 0; c < nodes[n].child_count; ++c) {
       const uint32_t child = expression_.children[nodes[n].first_child + c];
-      parent_[child] = n;
-      place_[child] = c;
+      ++parent_starts_[child + 1];
       full_children_[n] += is_full_[child];
     }
     is_full_[n] = combine(n).front;
+  }
+  for (size_t n = 0; n < nodes.size(); ++n) parent_starts_[n + 1] += parent_starts_[n];
+  parents_.resize(parent_starts_.back());
+  std::vector<uint32_t> next(parent_starts_.begin(), parent_starts_.end() - 1);
+  for (uint32_t n = 0; n < nodes.size(); ++n) {
+    for (uint32_t c = 0; c < nodes[n].child_count; ++c) {
+      parents_[next[expression_.children[nodes[n].first_child + c]]++] = {n, c};
+    }
   }
   leaf_starts_.assign(operands + 1, 0);
   for (const Expression::Node& n : nodes) {
@@ -32,7 +38,7 @@ SparseBoundary::SparseBoundary(const Expression& expression) : expression_(expre
   }
   for (uint32_t o = 0; o < operands; ++o) leaf_starts_[o + 1] += leaf_starts_[o];
   leaves_.resize(leaf_starts_.back());
-  std::vector<uint32_t> next(leaf_starts_.begin(), leaf_starts_.end() - 1);
+  next.assign(leaf_starts_.begin(), leaf_starts_.end() - 1);
   for (uint32_t n = 0; n < nodes.size(); ++n) {
     if (nodes[n].is_operand) leaves_[next[nodes[n].operand]++] = n;
   }
@@ -62,7 +68,7 @@ PrunedExpression::Boundary SparseBoundary::evaluate(std::span<const Sides> given
   return root_;
 }
 
-/// Tells a node's parent that the node is not what it was when everything was outside.
+/// Tells a node's parents that the node is not what it was when everything was outside.
 void SparseBoundary::note(uint32_t node, const Boundary& value) {
   const bool was = is_full_[node] != 0;
   if (value.front == was && value.back == was) return;
@@ -70,12 +76,14 @@ void SparseBoundary::note(uint32_t node, const Boundary& value) {
     root_ = value;
     return;
   }
-  const uint32_t parent = parent_[node];
-  if (changed_[parent].empty()) {
-    queue_.push_back(parent);
-    std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
+  for (uint32_t i = parent_starts_[node]; i < parent_starts_[node + 1]; ++i) {
+    const auto& [parent, place] = parents_[i];
+    if (changed_[parent].empty()) {
+      queue_.push_back(parent);
+      std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
+    }
+    changed_[parent].push_back({place, value, was});
   }
-  changed_[parent].push_back({place_[node], value, was});
 }
 
 /// The value of an inner node; its children are as they were but for those in `changed_`.

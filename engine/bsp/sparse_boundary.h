@@ -12,7 +12,6 @@ namespace csgrun {
 
 class SparseBoundary {
  public:
-  /// REQUIRES: each node but the root is the child of one node.
   explicit SparseBoundary(const Expression& expression);
 
   struct Sides {
@@ -25,6 +24,9 @@ class SparseBoundary {
 
  private:
   using Boundary = PrunedExpression::Boundary;
+  struct Place {
+    uint32_t parent, place;
+  };
   struct Child {
     uint32_t place;  ///< among its parent's children
     Boundary value;
@@ -35,7 +37,9 @@ class SparseBoundary {
   [[nodiscard]] Boundary combine(uint32_t node);
 
   Expression expression_;
-  std::vector<uint32_t> parent_, place_;        ///< per node
+  /// By nodes: whose children they are, a node may be that of several or several times.
+  std::vector<uint32_t> parent_starts_;
+  std::vector<Place> parents_;
   std::vector<uint8_t> is_full_;                ///< per node, when everything is outside
   std::vector<uint32_t> full_children_;         ///< how many of its children are
   std::vector<uint32_t> leaf_starts_, leaves_;  ///< nodes by operands

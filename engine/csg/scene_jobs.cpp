@@ -217,10 +217,11 @@ Result<StoredBoundary> SceneJobs::run_kept_job(Parts parts, const Subtree& subtr
     Result<PiecesPtr> pieces = PiecesPtr();
     if (parts.first) {
       const std::vector<Operand> others(parts.operands.begin() + 1, parts.operands.end());
-      pieces = change_pieces(*parts.first, others, parts.expression, subtree.box, job_options(),
-                             stats_);
+      pieces =
+          change_pieces(*parts.first, others, parts.expression, subtree.box, job_options(), stats_);
     } else if (parts.extends_result) {
-      pieces = evaluate_pieces(parts.operands, parts.expression, subtree.box, job_options(), stats_);
+      pieces =
+          evaluate_pieces(parts.operands, parts.expression, subtree.box, job_options(), stats_);
     }
     if (!pieces) return pieces.error();
     if (*pieces) return StoredBoundary{nullptr, *pieces, subtree.id};

@@ -44,7 +44,7 @@ class SceneJobs {
   };
   struct Parts {  // of one job
     std::vector<Operand> operands;
-    PiecesPtr first;               // the first operand, which is empty then
+    PiecesPtr first;              // the first operand, which is empty then
     bool extends_result = false;  // the first operand is a result, where it was evaluated
     Expression expression;
     uint64_t operators = 0, sources = 0;

@@ -167,9 +167,27 @@ class Conformer {
     return face_boxes_[f].overlaps({at, at});
   }
 
-  void touch(uint32_t f, uint32_t p) {
+  /// FaceLocator::locate, with those of the face's edges alone that a ray from the point may meet.
+  int locate(uint32_t f, uint32_t p) {
+    constexpr size_t kFew = 16;
     FaceLocator locator(faces_[f].plane, geometry_, planes_);
-    const int where = locator.locate(faces_[f].loops, p);
+    const auto& loops = faces_[f].loops;
+    if (loops.size() == 1 && loops[0].size() <= kFew) return locator.locate(loops, p);
+    const auto& at = geometry_.point(p).rounded;
+    const auto [u, v] = locator.axes();
+    Box band{at, at};
+    band.lo[u] = face_boxes_[f].lo[u];
+    band.lo[3 - u - v] = face_boxes_[f].lo[3 - u - v];
+    band.hi[3 - u - v] = face_boxes_[f].hi[3 - u - v];
+    band_[0].clear();
+    tree_.visit_all(band, [&](uint32_t e) {
+      if (edges_[e].face == f) band_[0].push_back(edges_[e].edge);
+    });
+    return locator.locate(band_, p);
+  }
+
+  void touch(uint32_t f, uint32_t p) {
+    const int where = locate(f, p);
     if (where >= 0) contacts_.push_back(p);
     if (where > 0) inner_.push_back({f, p});
   }
@@ -343,11 +361,22 @@ class Conformer {
       contacts_.push_back(unique(geometry_.add_point({support, a.plane, b.plane})));
     };
     const std::vector<Lying>& lines = lying_[f];
-    for (size_t i = 0; i < lines.size(); ++i) {
-      for (const auto& loop : faces_[f].loops) {
-        for (const DirectedEdge& r : loop) cross(lines[i].edge, r);
-      }
-      for (size_t j = i + 1; j < lines.size(); ++j) cross(lines[i].edge, lines[j].edge);
+    std::vector<Box> boxes;
+    for (const Lying& line : lines) boxes.push_back(box_of(line.edge, geometry_));
+    const BoxTree tree(boxes);
+    // In the order of edges: which points are made first must not depend on the trees.
+    std::vector<uint32_t> met;
+    for (uint32_t i = 0; i < lines.size(); ++i) {
+      met.clear();
+      tree_.visit_all(boxes[i], [&](uint32_t e) {
+        if (edges_[e].face == f) met.push_back(e);
+      });
+      std::sort(met.begin(), met.end());
+      for (const uint32_t e : met) cross(lines[i].edge, edges_[e].edge);
+      met.clear();
+      tree.visit_later(i, [&](uint32_t j) { met.push_back(j); });
+      std::sort(met.begin(), met.end());
+      for (const uint32_t j : met) cross(lines[i].edge, lines[j].edge);
     }
   }
 
@@ -440,11 +469,11 @@ class Conformer {
   /// Whether an edge in the plane of a face, broken at the face's corners, runs through it.
   bool runs_inside(uint32_t f, const DirectedEdge& e) {
     if (is_rim(f, e)) return false;
-    FaceLocator locator(faces_[f].plane, geometry_, planes_);
-    const int from = locator.locate(faces_[f].loops, e.from);
+    const int from = locate(f, e.from);
     if (from != 0) return from > 0;
-    const int to = locator.locate(faces_[f].loops, e.to);
+    const int to = locate(f, e.to);
     if (to != 0) return to > 0;
+    FaceLocator locator(faces_[f].plane, geometry_, planes_);
     return locator.starts_inside(faces_[f].loops, e);
   }
 
@@ -482,6 +511,7 @@ class Conformer {
   std::vector<uint32_t> lying_faces_;  ///< those that have any
   std::optional<PointIndex> index_;
   std::vector<uint32_t> on_line_;
+  std::vector<std::vector<DirectedEdge>> band_{1};  ///< of locate
 };
 
 }  // namespace

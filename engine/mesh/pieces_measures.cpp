@@ -29,16 +29,18 @@ class Summer {
     if (!node.has_sums) {
       PieceSums own;
       for (const uint32_t p : node.pieces) {
-        if (!add_piece(p, own)) return false;
+        PieceStore::PieceSum& piece = store_.piece_sum(p);
+        if (!piece.is_known) {
+          if (!add_piece(p, piece.sums)) return false;
+          piece.is_known = true;
+        }
+        add(piece.sums, own);
       }
       for (const PieceTree::NodePtr& child : node.child) {
         PieceSums below;
         if (!child) continue;
         if (!sums(*child, below)) return false;
-        own.six_volumes += below.six_volumes;
-        own.twice_area += below.twice_area;
-        own.edges += below.edges;
-        own.triangles += below.triangles;
+        add(below, own);
       }
       node.sums = own;
       node.has_sums = true;
@@ -48,12 +50,20 @@ class Summer {
   }
 
  private:
+  static void add(const PieceSums& more, PieceSums& sums) {
+    sums.six_volumes += more.six_volumes;
+    sums.twice_area += more.twice_area;
+    sums.edges += more.edges;
+    sums.triangles += more.triangles;
+  }
+
   /// A fan from the first corner.
   bool add_piece(uint32_t piece, PieceSums& out) {
     const auto corners = store_.corners(piece);
     bool cut = false, is_near = true;
     near_.resize(corners.size());
-    for (size_t i = 0; i < corners.size(); ++i) is_near = take_near(corners[i], near_[i]) && is_near;
+    for (size_t i = 0; i < corners.size(); ++i)
+      is_near = take_near(corners[i], near_[i]) && is_near;
     if (is_near) {
       Int128 sum = 0;
       for (size_t i = 1; i + 1 < corners.size(); ++i) {
@@ -174,16 +184,15 @@ Result<double> pieces_volume(const ResultPieces& pieces, const GridStep& step) {
     double extent = 0;
     for (size_t k = 0; k < 3; ++k) {
       const auto origin = static_cast<double>(pieces.store->origin()[k]);
-      extent = std::max({extent, std::fabs(root->box.lo[k] - origin),
-                         std::fabs(root->box.hi[k] - origin)});
+      extent = std::max(
+          {extent, std::fabs(root->box.lo[k] - origin), std::fabs(root->box.hi[k] - origin)});
     }
     extent += 1;
     // In steps^2 times the unit; far more than rounding may have taken from it.
-    const double bound = sums.triangles == 0
-                             ? 0
-                             : (sums.twice_area + 12 * extent * sums.edges +
-                                extent * static_cast<double>(sums.triangles)) *
-                                   (1 + 0x1p-16);
+    const double bound = sums.triangles == 0 ? 0
+                                             : (sums.twice_area + 12 * extent * sums.edges +
+                                                extent * static_cast<double>(sums.triangles)) *
+                                                   (1 + 0x1p-16);
     const Sum six_volumes{signed_value(sums.six_volumes),
                           bound > 0 ? whole_above(bound, 2 * kFraction) : Natural()};
     if (const auto volume = round_volume(six_volumes, kFraction, step)) return *volume;

@@ -55,8 +55,8 @@ void run_chain(const std::string& name, const Settings& settings,
     if (i > steps - tenth) last_tenth += seconds;
   }
   if (!(asked > 0)) fail("a result of the chain has no volume");
-  const auto boundary = run.clock.timed(
-      run.clock.exporting, [&] { return take(assemble_pieces(*result, true)); });
+  const auto boundary =
+      run.clock.timed(run.clock.exporting, [&] { return take(assemble_pieces(*result, true)); });
   run.finish(*boundary, fmt::format(R"(,"first_tenth_s":{:.6f},"last_tenth_s":{:.6f})", first_tenth,
                                     last_tenth));
 }

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -24,8 +23,8 @@ struct Campaign {
 };
 
 struct CampaignResult {
-  uint64_t cases = 0, zeros = 0, empty = 0, framed = 0, crossing = 0, hulls = 0, nested = 0, in_pieces = 0,
-           literal = 0, leaves = 0, most_leaves = 0;
+  uint64_t cases = 0, zeros = 0, empty = 0, framed = 0, crossing = 0, hulls = 0, nested = 0,
+           in_pieces = 0, literal = 0, leaves = 0, most_leaves = 0;
   std::vector<std::string> failures;  ///< what differed, and the shrunk case as text
 
   [[nodiscard]] std::string summary() const {
@@ -37,9 +36,9 @@ struct CampaignResult {
     return std::to_string(cases) + " trees, " + std::to_string(failures.size()) +
            " differences; zero signs in " + share(zeros) + ", frames in " + share(framed) +
            ", leaves that cross themselves in " + share(crossing) + ", hulls in " + share(hulls) +
-           ", subtrees materialised in " + share(nested) + ", in pieces " + share(in_pieces) + ", the paper's cells in " +
-           share(literal) + ", empty results " + share(empty) + "; " + std::to_string(leaves) +
-           " leaves, at most " + std::to_string(most_leaves) + " a tree";
+           ", subtrees materialised in " + share(nested) + ", in pieces " + share(in_pieces) +
+           ", the paper's cells in " + share(literal) + ", empty results " + share(empty) + "; " +
+           std::to_string(leaves) + " leaves, at most " + std::to_string(most_leaves) + " a tree";
   }
 };
 

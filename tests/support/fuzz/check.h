@@ -61,13 +61,14 @@ class FuzzEvaluator {
       binary.nodes = {{true, n.op, 0, 0, 0}, {true, n.op, 1, 0, 0}, {false, n.op, 0, 0, 2}};
       binary.children = {0, 1};
       hold(parts.region, (*result)->tree.box());
-      auto next = change_pieces(**result, parts.operands, binary, parts.region, case_.options,
-                                stats_);
+      auto next =
+          change_pieces(**result, parts.operands, binary, parts.region, case_.options, stats_);
       if (next && !*next) {
         auto before = assemble_pieces(**result, false);
         if (!before) return before.error();
         parts.operands.insert(parts.operands.begin(), boundary_operand(*before));
-        auto boundary = evaluate_boolean(parts.operands, binary, parts.region, case_.options, stats_);
+        auto boundary =
+            evaluate_boolean(parts.operands, binary, parts.region, case_.options, stats_);
         if (!boundary) return boundary.error();
         Parts made;
         add_operand(made, boundary_operand(*boundary));

@@ -27,6 +27,11 @@ uint32_t add_node(test::Random& random, Expression& e, uint32_t first, uint32_t 
     node.is_operand = false;
     node.op = static_cast<BooleanOp>(random.integer(0, 2));
     std::vector<uint32_t> children;
+    // Now and then an operand of before once more.
+    if (!e.nodes.empty() && random.integer(0, 3) == 0) {
+      children.push_back(
+          static_cast<uint32_t>(random.integer(0, static_cast<int64_t>(e.nodes.size()) - 1)));
+    }
     for (uint32_t o = first; o < first + count;) {
       const uint32_t left = first + count - o;
       uint32_t size = static_cast<uint32_t>(random.integer(1, left));

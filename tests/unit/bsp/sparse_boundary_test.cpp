@@ -20,7 +20,11 @@ uint32_t add_node(test::Random& random, Expression& e, uint32_t operands, int de
     // Now and then a node of nothing: all of space, if it is an intersection.
     const int64_t count = random.integer(0, 20) == 0 ? 0 : random.integer(1, 5);
     for (int64_t c = 0; c < count; ++c) {
-      children.push_back(add_node(random, e, operands, depth - 1));
+      // A node may be the child of several, and several times.
+      const bool known = !e.nodes.empty() && random.integer(0, 5) == 0;
+      children.push_back(
+          known ? static_cast<uint32_t>(random.integer(0, static_cast<int64_t>(e.nodes.size()) - 1))
+                : add_node(random, e, operands, depth - 1));
     }
     node.first_child = static_cast<uint32_t>(e.children.size());
     node.child_count = static_cast<uint32_t>(children.size());

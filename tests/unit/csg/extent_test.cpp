@@ -47,9 +47,9 @@ TEST(Extent, OfChainsIsThatOfAFreshEvaluation) {
       before.push_back(part);
       // Mostly from the last one, sometimes from one that others went on from already.
       const NodePtr& from = random() % 5 != 0 ? part : before[random() % before.size()];
-      const std::vector<NodePtr> operands =
-          random() % 4 != 0 ? std::vector{from, tool(random)}
-                            : std::vector{from, tool(random), tool(random)};
+      const std::vector<NodePtr> operands = random() % 4 != 0
+                                                ? std::vector{from, tool(random)}
+                                                : std::vector{from, tool(random), tool(random)};
       switch (random() % 6) {
         case 0:
           part = unite(operands);

@@ -61,7 +61,7 @@ struct EvaluateStats {
 /// What Measures says of a solid, as far as it needs no triangles.
 struct Extent {
   bool empty = true;
-  double volume = 0;                  ///< mm^3
+  double volume = 0;                 ///< mm^3
   std::array<glm::dvec3, 2> bbox{};  ///< mm; of an empty solid all zero
 };
 
