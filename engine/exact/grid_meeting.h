@@ -14,7 +14,8 @@ namespace csgrun {
 inline bool meet_on_grid(const Plane& p, const Plane& q, const Plane& r,
                          const std::array<double, 3>& rounded) {
   constexpr double kFar = 0x1p30;
-  constexpr int kNormalBits = 90, kOffsetBits = 122;
+  constexpr int kNormalBits = 90;
+  static_assert(kNormalBits + 30 < 125 && widths::kMaxOffset < 125);
   std::array<Int128, 3> at{};
   for (size_t k = 0; k < 3; ++k) {
     if (rounded[k] != std::floor(rounded[k]) || std::fabs(rounded[k]) > kFar) return false;
@@ -22,7 +23,7 @@ inline bool meet_on_grid(const Plane& p, const Plane& q, const Plane& r,
   }
   const auto holds = [&](const Plane& s) {
     if (bit_width(s.a) > kNormalBits || bit_width(s.b) > kNormalBits ||
-        bit_width(s.c) > kNormalBits || bit_width(s.d) > kOffsetBits) {
+        bit_width(s.c) > kNormalBits) {
       return false;
     }
     return s.a * at[0] + s.b * at[1] + s.c * at[2] + s.d == 0;

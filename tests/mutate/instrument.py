@@ -8,7 +8,8 @@ Mutants, for the text of a function's body (not: preprocessor, static_assert, as
 variables, case labels):
   a < b       a <= b and a > b; likewise for > <= >=
   a == b      a != b, and the reverse
-  a + b       a - b, and the reverse (not for texts); ++a and --a, a += b and a -= b likewise
+  a + b       a - b, and the reverse (not for texts; b - a between iterators); ++a and --a,
+              a += b and a -= b likewise
   -a  !a      a
   a |= b      nothing; likewise for &= and ^=
   a && b      each operand left out; likewise for ||

@@ -134,9 +134,24 @@ CSGRUN_MUTANT_COMPARISON(GreaterEqual, >=, >, <=)
       return l.a OP b;                                       \
     }                                                        \
   }
+/// Not `next`: for iterators that could be std::next as well, and there would be no mutant.
 template <class A>
-constexpr A next(A a) {
+constexpr A one_on(A a) {
   return ++a;
+}
+/// a + b; where that has no meaning, as for two iterators, b - a.
+template <class A, class B>
+constexpr auto sum_or_reverse(const A& a, const B& b) requires requires {
+  b - a;
+} || requires {
+  a + b;
+}
+{
+  if constexpr (requires { a + b; }) {
+    return a + b;
+  } else {
+    return b - a;
+  }
 }
 CSGRUN_MUTANT_PAIR(Equal, ==, bool, !(l.a == b))
 CSGRUN_MUTANT_PAIR(Unequal, !=, bool, l.a == b)
@@ -144,9 +159,9 @@ CSGRUN_MUTANT_PAIR(LastLess, <, bool, l.a + 1 < b)
 CSGRUN_MUTANT_PAIR(LastGreater, >, bool, l.a > b + 1)
 CSGRUN_MUTANT_PAIR(LastLessEqual, <=, bool, l.a < b)
 CSGRUN_MUTANT_PAIR(LastGreaterEqual, >=, bool, l.a > b)
-CSGRUN_MUTANT_PAIR(LastUnequal, !=, bool, l.a != b && next(l.a) != b)
+CSGRUN_MUTANT_PAIR(LastUnequal, !=, bool, l.a != b && one_on(l.a) != b)
 CSGRUN_MUTANT_PAIR(Plus, +, auto, l.a - b)
-CSGRUN_MUTANT_PAIR(Minus, -, auto, l.a + b)
+CSGRUN_MUTANT_PAIR(Minus, -, auto, sum_or_reverse(l.a, b))
 #undef CSGRUN_MUTANT_PAIR
 
 // Prefix operators, as `tag ->* operand`, which binds tighter than any binary operator.

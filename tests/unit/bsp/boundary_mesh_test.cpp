@@ -81,6 +81,10 @@ TEST(BoundaryMesh, BoundingBoxHoldsEveryPointAndLittleMore) {
   const GridBox whole = bounding_box(untouched_triangles({}));
   EXPECT_EQ(whole.lo, (IVec3{99, 195, 299}));
   EXPECT_EQ(whole.hi, (IVec3{110, 209, 308}));
+  // Moved, parts and all.
+  const GridBox moved = bounding_box(translated(untouched_triangles({}), {5, -6, 7}));
+  EXPECT_EQ(moved.lo, (IVec3{104, 189, 306}));
+  EXPECT_EQ(moved.hi, (IVec3{115, 203, 315}));
   const GridBox none = bounding_box({}), fresh;
   EXPECT_EQ(none.lo, fresh.lo);
   EXPECT_EQ(none.hi, fresh.hi);
@@ -96,8 +100,11 @@ TEST(BoundaryMesh, OnlyAppearanceIsThatOfAllFaces) {
   EXPECT_EQ(only_appearance(mesh), 5u);
   mesh.faces[0].label.appearance = 6;
   EXPECT_EQ(only_appearance(mesh), std::nullopt);
-  mesh.faces[1].label.appearance = 6;
   mesh.parts.clear();
+  mesh.faces.resize(3);
+  mesh.faces[2].label.appearance = 6;  // as the first, but not the second
+  EXPECT_EQ(only_appearance(mesh), std::nullopt);
+  mesh.faces[1].label.appearance = 6;
   EXPECT_EQ(only_appearance(mesh), 6u);
 }
 

@@ -67,7 +67,7 @@ class Arrangement {
 TEST(CellGeometry, SidesAreExactAndCountedByTheTierThatGaveThem) {
   test::Random random(51);
   SignCounters seen;
-  for (const int bits : {2, 6, 15, 25, 40, 55, 80, 100}) {
+  for (const int bits : {2, 6, 13, 14, 15, 25, 40, 55, 80, 100}) {
     Arrangement a(random, 14, bits);
     for (uint32_t p = 0; p < a.points.size(); ++p) {
       const auto named = a.geometry.point(p).planes;

@@ -1,6 +1,8 @@
 // A mesh that is several solids at once, resolved, is a Boolean of these solids.
 #include "engine/bsp/self_resolution.h"
 
+#include <atomic>
+
 #include <gtest/gtest.h>
 
 #include "engine/mesh/leaf_check.h"
@@ -11,13 +13,13 @@
 namespace csgrun::test {
 namespace {
 
-/// A quarter of a hundred random cases.
+/// Five of a hundred random cases: quick.
 class RandomSurfaces : public ::testing::TestWithParam<int> {
  protected:
-  static constexpr int kCases = 25;
+  static constexpr int kCases = 5;
   static int first() { return GetParam() * kCases; }
 };
-INSTANTIATE_TEST_SUITE_P(Quarters, RandomSurfaces, ::testing::Range(0, 4));
+INSTANTIATE_TEST_SUITE_P(Parts, RandomSurfaces, ::testing::Range(0, 20));
 
 BoundaryResult resolved(const Operand& operand, InsideRule rule,
                         const KernelOptions& options = {}) {
@@ -187,6 +189,75 @@ TEST(SelfResolution, HullsOfNestedAndInvertedBoxes) {
   EXPECT_EQ(is(twice, InsideRule::kNonZero, kUnion, {o}), "");
   EXPECT_EQ(is(twice, InsideRule::kOuterHull, kUnion, {o}), "");
   EXPECT_TRUE((*resolved(twice, InsideRule::kEvenOdd))->faces.empty());
+}
+
+constexpr InsideRule kRules[] = {InsideRule::kNonZero, InsideRule::kPositive, InsideRule::kEvenOdd,
+                                 InsideRule::kOuterHull, InsideRule::kOrientedHull};
+
+TEST(SelfResolution, OpenSurfacesAreRefused) {
+  // Two boxes across each other, or apart; one of them without its last face.
+  for (const int64_t move : {3, 20}) {
+    auto loops = box_loops({0, 0, 0}, {6, 6, 6});
+    const auto other = box_loops({move, 3, 3}, {move + 6, 9, 9});
+    loops.insert(loops.end(), other.begin(), other.end() - 1);
+    const Operand open = operand_of(make_leaf(loops));
+    for (const InsideRule rule : kRules) {
+      const auto result = resolved(open, rule);
+      ASSERT_FALSE(result);
+      EXPECT_EQ(result.error().code, ErrorCode::kInternal);
+    }
+  }
+}
+
+TEST(SelfResolution, StopsWhenCancelled) {
+  auto loops = box_loops({0, 0, 0}, {6, 6, 6});
+  for (const int64_t move : {3, 20}) {
+    const auto other = box_loops({move, 3, 3}, {move + 6, 9, 9});
+    loops.insert(loops.end(), other.begin(), other.end());
+  }
+  const Operand leaf = operand_of(make_leaf(loops));
+  Operand result;
+  result.boundary = *resolved(leaf, InsideRule::kNonZero);
+  std::atomic<bool> cancel = false;
+  KernelOptions options;
+  options.cancel = &cancel;
+  for (const Operand* operand : std::array<const Operand*, 2>{&leaf, &result}) {
+    for (const InsideRule rule : kRules) {
+      cancel = false;
+      EXPECT_EQ(difference_of(resolved(*operand, rule, options), resolved(*operand, rule)), "");
+      cancel = true;
+      const auto stopped = resolved(*operand, rule, options);
+      ASSERT_FALSE(stopped);
+      EXPECT_EQ(stopped.error().code, ErrorCode::kCancelled);
+    }
+  }
+}
+
+// Work is added to what was counted before.
+TEST(SelfResolution, CountsItsWork) {
+  auto loops = box_loops({0, 0, 0}, {60, 60, 60});
+  const auto other = box_loops({30, 30, 30}, {90, 90, 91});
+  loops.insert(loops.end(), other.begin(), other.end());
+  const Operand operand = operand_of(make_leaf(loops));
+  const auto crossings = find_self_intersections(*operand.leaf);
+  KernelOptions options;
+  options.cell_limit = 1;
+  const auto numbers = [&](EvaluateStats& s) {
+    EXPECT_TRUE(resolve_surface(operand, crossings, InsideRule::kNonZero, options, s));
+    std::vector<uint64_t> n{s.cells, s.surface_cells, s.solved_cells, s.sign_filter,
+                            s.sign_symbolic};
+    n.insert(n.end(), s.sign_exact.begin(), s.sign_exact.end());
+    return n;
+  };
+  EvaluateStats stats;
+  const auto once = numbers(stats), twice = numbers(stats);
+  for (size_t k = 0; k < once.size(); ++k) {
+    EXPECT_LT(once[k], 100000u) << k;
+    EXPECT_EQ(twice[k], 2 * once[k]) << k;
+  }
+  for (size_t k = 0; k < 5; ++k) EXPECT_GT(once[k], 0u) << k;
+  EXPECT_EQ(stats.cells / 2 % 2, 1u);  // each division makes two of one
+  EXPECT_LT(stats.solved_cells, stats.cells);
 }
 
 }  // namespace

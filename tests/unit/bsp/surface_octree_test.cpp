@@ -2,6 +2,7 @@
 // their corners, and that nothing which has to be found out is left out.
 #include "engine/bsp/surface_octree.h"
 
+#include <atomic>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -124,13 +125,15 @@ TEST(SurfaceOctree, CellsHoldWhatCrossesAndWitnesses) {
 
 /// Of all polygons of a leaf, which cross others or do not.
 /// witness.
-SurfaceOctree octree_of(const std::vector<test::Loop>& loops, uint32_t limit, bool crossing) {
+SurfaceOctree octree_of(const std::vector<test::Loop>& loops, uint32_t limit, bool crossing,
+                        const std::atomic<bool>* cancel = nullptr) {
   const std::vector<Operand> operands{test::operand_of(test::make_leaf(loops))};
   Job job(operands);
   std::vector<uint32_t> all(job.polygons().size());
   for (uint32_t p = 0; p < all.size(); ++p) all[p] = p;
   KernelOptions options;
   options.cell_limit = limit;
+  options.cancel = cancel;
   return build_surface_octree(job, all, std::vector<uint8_t>(all.size(), crossing), {}, options);
 }
 
@@ -142,6 +145,14 @@ TEST(SurfaceOctree, WithoutCrossingsOrPolygonsThereIsNothingToSolve) {
   EXPECT_EQ(octree_of(box, 6, true).cells.size(), 1u);
   EXPECT_GT(octree_of(box, 5, true).visited, 1u);
   EXPECT_EQ(octree_of({}, 5, true).visited, 0u);
+}
+
+TEST(SurfaceOctree, IsNotDividedOnceCancelled) {
+  const auto box = test::box_loops({0, 0, 0}, {9, 9, 9});
+  std::atomic<bool> cancel = true;
+  EXPECT_EQ(octree_of(box, 1, true, &cancel).visited, 1u);
+  cancel = false;
+  EXPECT_EQ(octree_of(box, 1, true, &cancel).visited, octree_of(box, 1, true).visited);
 }
 
 TEST(SurfaceOctree, ThingsThatAreApartComeApart) {

@@ -1,8 +1,12 @@
 // The fast way and the general one give the same value; and the fast one leaves little.
 #include "engine/bsp/whole_faces.h"
 
+#include <cstdlib>
+#include <tuple>
+
 #include <gtest/gtest.h>
 
+#include "engine/bsp/grid_planes.h"
 #include "engine/bsp/kernel.h"
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/boundary_compare.h"
@@ -23,25 +27,117 @@ std::shared_ptr<const BoundaryMesh> evaluate(const test::RandomTree& tree, bool 
   return result ? *result : std::make_shared<BoundaryMesh>();
 }
 
-void expect_equal_ways(uint64_t seed, test::TreeShape shape, int trees) {
-  test::Random random(seed);
-  test::TreeMaker maker(random);
-  for (int i = 0; i < trees; ++i) {
-    const auto tree = maker.make(shape);
+/// Random trees of one shape; a part of them a test, which is quick.
+struct Shape {
+  uint64_t seed;
+  test::TreeShape shape;
+  uint64_t trees;  ///< a part
+};
+class WholeFacesOfTrees : public ::testing::TestWithParam<std::tuple<Shape, uint64_t>> {};
+
+TEST_P(WholeFacesOfTrees, AreWhatCellsGive) {
+  const auto& [shape, part] = GetParam();
+  for (uint64_t i = part * shape.trees; i < (part + 1) * shape.trees; ++i) {
+    auto random = test::Random::of_case(shape.seed, i);
+    const auto tree = test::TreeMaker(random).make(shape.shape);
     const auto slow = evaluate(tree, false);
     ASSERT_EQ(test::first_difference(*evaluate(tree, true), *slow), "") << "tree " << i;
     ASSERT_EQ(test::first_difference(*evaluate(tree, true, 3), *slow), "") << "tree " << i;
   }
 }
 
-TEST(WholeFaces, AreWhatCellsGive) {
-  expect_equal_ways(401, {.size = 5, .operands = 2, .depth = 1, .frames = false}, 250);
-  expect_equal_ways(402, {.size = 8, .operands = 6, .depth = 3, .frames = false}, 80);
-  expect_equal_ways(403, {.size = 1000, .operands = 4, .depth = 2, .frames = false}, 80);
+INSTANTIATE_TEST_SUITE_P(
+    Parts, WholeFacesOfTrees,
+    ::testing::Combine(
+        ::testing::Values(Shape{401, {.size = 5, .operands = 2, .depth = 1, .frames = false}, 25},
+                          Shape{402, {.size = 8, .operands = 6, .depth = 3, .frames = false}, 8},
+                          Shape{403, {.size = 1000, .operands = 4, .depth = 2, .frames = false}, 8},
+                          Shape{404, {.size = 6, .operands = 3, .depth = 2, .frames = true}, 6}),
+        ::testing::Range<uint64_t>(0, 10)),
+    [](const auto& test) {
+      return "Seed" + std::to_string(std::get<0>(test.param).seed) + "Part" +
+             std::to_string(std::get<1>(test.param));
+    });
+
+/// A tetrahedron one of whose faces has the origin inside, so that all such faces, and what they
+/// cross, meet in one point.
+test::Leaf wedge_at_origin(test::Random& random) {
+  for (;;) {
+    const auto vector = [&] {
+      return IVec3{random.integer(-40, 40), random.integer(-40, 40), random.integer(-40, 40)};
+    };
+    const IVec3 a = vector(), b = vector(), tip = vector();
+    const IVec3 c{-a[0] - b[0], -a[1] - b[1], -a[2] - b[2]};
+    if (std::abs(test::dot_of(test::cross_of(a, b), tip)) < 10000) continue;
+    return test::make_leaf(test::hull_loops({a, b, c, tip}));
+  }
 }
 
-TEST(WholeFaces, AreWhatCellsGiveInFrames) {
-  expect_equal_ways(404, {.size = 6, .operands = 3, .depth = 2, .frames = true}, 60);
+// By names nothing touches here, and yet cuts meet in one point, inside of a face and on its edge.
+TEST(WholeFaces, CutsThatMeetInOnePointAreLikeThoseOfCells) {
+  test::Random random(407);
+  for (int i = 0; i < 24; ++i) {
+    test::RandomTree tree;
+    tree.operands.emplace_back().leaf =
+        test::box_leaf({-50, -50, -50}, {50, i % 3 ? 50 : 0, i % 2 ? 0 : 50});
+    for (int k = 0; k < 3; ++k) tree.operands.emplace_back().leaf = wedge_at_origin(random);
+    Expression::Node root;
+    root.is_operand = false;
+    root.op = static_cast<BooleanOp>(i / 6);
+    root.child_count = 4;
+    for (uint32_t o = 0; o < 4; ++o) {
+      tree.operands[o].first_source = o;
+      Expression::Node node;
+      node.operand = o;
+      tree.expression.nodes.push_back(node);
+      tree.expression.children.push_back(o);
+    }
+    tree.expression.nodes.push_back(root);
+    tree.region = test::TreeMaker::region_of(tree.operands);
+    ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
+        << "case " << i;
+  }
+}
+
+// Leaves that reach far beyond what is asked for, where the boxes of polygons end.
+TEST(WholeFaces, OfLeavesThatReachFar) {
+  test::Random random(408);
+  for (int i = 0; i < 60; ++i) {
+    test::RandomTree tree;
+    const auto tetrahedron = [&](int64_t size, int64_t move) {
+      const auto corner = [&](int64_t x, int64_t y, int64_t z) {
+        const auto at = [&](int64_t c) { return c * size + random.integer(-move, move); };
+        return IVec3{at(x), at(y), at(z)};
+      };
+      const IVec3 a = corner(-1, -1, -1), b = corner(1, 0, -1), c = corner(-1, 1, 0),
+                  d = corner(0, 0, 1);
+      const Plane base = plane_through(a, b, c);  // wide enough, unlike grid steps
+      std::vector<test::Loop> loops{{a, b, c}, {a, c, d}, {c, b, d}, {b, a, d}};
+      if (base.a * d[0] + base.b * d[1] + base.c * d[2] + base.d > 0) test::turn_over(loops);
+      return test::make_leaf(loops);
+    };
+    tree.operands.emplace_back().leaf = tetrahedron(1000, 300);
+    tree.region = test::TreeMaker::region_of(tree.operands);
+    // The others are far tetrahedra with the first one in the midst, or beside it, far or not.
+    for (int k = 0; k < 2; ++k) {
+      const int64_t far = int64_t{1} << random.integer(24, 36);
+      tree.operands.emplace_back().leaf = tetrahedron(far, far / 8 * random.integer(1, 4));
+    }
+    Expression::Node root;
+    root.is_operand = false;
+    root.op = i % 2 ? BooleanOp::kDifference : BooleanOp::kIntersection;
+    root.child_count = 3;
+    for (uint32_t o = 0; o < 3; ++o) {
+      tree.operands[o].first_source = o;
+      Expression::Node node;
+      node.operand = o;
+      tree.expression.nodes.push_back(node);
+      tree.expression.children.push_back(o);
+    }
+    tree.expression.nodes.push_back(root);
+    ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
+        << "case " << i;
+  }
 }
 
 /// Octagonal columns that are known to be convex, most of them flush.

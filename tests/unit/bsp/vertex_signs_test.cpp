@@ -1,0 +1,173 @@
+// The orientation of four points: never wrong, and told wherever it can be. In GMP.
+#include "engine/bsp/vertex_signs.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/bsp/grid_planes.h"
+#include "tests/support/exact_solid.h"
+#include "tests/support/kernel_case.h"
+#include "tests/support/random_frames.h"
+
+namespace csgrun {
+namespace {
+
+using test::Rational3;
+
+int sign_of(const std::array<IVec3, 4>& p) {
+  std::array<Rational3, 3> way;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) way[i][k] = mpz_class(p[i + 1][k] - p[0][k]);
+  }
+  return sgn(test::dot(way[0], test::cross(way[1], way[2])));
+}
+
+std::array<double, 3> rounded(const IVec3& p) {
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+/// Four points within 2^bits along each axis, in one plane or next to one, mostly.
+std::array<IVec3, 4> random_points(test::Random& random, const std::array<int, 3>& bits) {
+  const auto vector = [&](int less) {
+    IVec3 v;
+    for (int k = 0; k < 3; ++k) {
+      const int64_t reach = int64_t{1} << std::max(1, bits[k] - less);
+      v[k] = random.integer(-reach, reach);
+    }
+    return v;
+  };
+  std::array<IVec3, 4> p{vector(3)};
+  const IVec3 u = vector(3);
+  IVec3 v = vector(3);
+  if (random.integer(0, 3) == 0) {  // nearly along u
+    for (int k = 0; k < 3; ++k) v[k] = u[k] + random.integer(-1, 1);
+  }
+  for (int k = 0; k < 3; ++k) {
+    p[1][k] = p[0][k] + u[k], p[2][k] = p[0][k] + v[k];
+    p[3][k] = p[0][k] + u[k] + v[k] * (random.integer(0, 1) ? 1 : -1) +
+              (random.integer(0, 2) ? random.integer(-1, 1) : 0);
+  }
+  if (random.integer(0, 5) == 0) p[3] = vector(3);
+  return p;
+}
+
+TEST(VertexSigns, OnTheGridAreExact) {
+  test::Random random(51);
+  const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {1, 1, 1}))};
+  VertexSigns signs{Job(operands)};
+  EXPECT_EQ(signs.error(0), 0);
+  size_t zeros = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::array<int, 3> bits;
+    for (int& b : bits) b = static_cast<int>(random.integer(4, i % 2 ? 40 : 12));
+    const auto p = random_points(random, bits);
+    const uint64_t filtered = signs.filtered, exact = signs.exact;
+    const int expected = sign_of(p);
+    ASSERT_EQ(signs.orient(rounded(p[0]), rounded(p[1]), rounded(p[2]), rounded(p[3]), 0),
+              expected);
+    ASSERT_EQ(signs.filtered + signs.exact, filtered + exact + 1);
+    if (expected == 0) {
+      ASSERT_EQ(signs.exact, exact + 1);
+    }
+    zeros += expected == 0;
+  }
+  EXPECT_GT(zeros, 500u);
+  EXPECT_GT(signs.filtered, 5000u);
+  EXPECT_GT(signs.exact, zeros + 50);
+}
+
+TEST(VertexSigns, OfFarPointsAreToldByDoublesOrNotAtAll) {
+  const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {1, 1, 1}))};
+  VertexSigns signs{Job(operands)};
+  const double far = 0x1p40;
+  // In one plane: exact below 2^40 only.
+  EXPECT_EQ(signs.orient({0, 0, 0}, {far - 1, 0, 0}, {0, 1, 0}, {5, 5, 0}, 0), 0);
+  EXPECT_EQ(signs.orient({0, 0, 0}, {far, 0, 0}, {0, 1, 0}, {5, 5, 0}, 0), kUnsure);
+  EXPECT_EQ(signs.orient({0, 0, 0}, {4, 0, 0}, {0, far, 0}, {5, 5, 0}, 0), kUnsure);
+  EXPECT_EQ(signs.orient({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {far, 5, 0}, 0), kUnsure);
+  EXPECT_EQ(signs.orient({0, 0, 0}, {far, 0, 0}, {0, 1, 0}, {5, 5, 9}, 0), 1);
+  EXPECT_EQ(signs.orient({0, 0, 0}, {far, 0, 0}, {0, 1, 0}, {5, 5, -9}, 0), -1);
+}
+
+// Coordinates are off by an error: what is told is told of the true points, too.
+TEST(VertexSigns, OfRoundedPointsAreNeverWrong) {
+  test::Random random(52);
+  const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {1, 1, 1}))};
+  VertexSigns signs{Job(operands)};
+  size_t told = 0, unsure = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::array<int, 3> bits;
+    for (int& b : bits) b = static_cast<int>(random.integer(4, 24));
+    const auto p = random_points(random, bits);
+    const double error = std::ldexp(1, static_cast<int>(random.integer(-12, 2)));
+    std::array<std::array<double, 3>, 4> off;
+    for (size_t k = 0; k < 4; ++k) {
+      off[k] = rounded(p[k]);
+      for (double& c : off[k]) c += error * static_cast<double>(random.integer(-1, 1));
+    }
+    const int sign = signs.orient(off[0], off[1], off[2], off[3], error);
+    if (sign == kUnsure) {
+      ++unsure;
+    } else {
+      ASSERT_EQ(sign, sign_of(p)) << "case " << i;
+      ++told;
+    }
+  }
+  EXPECT_GT(told, 2000u);
+  EXPECT_GT(unsure, 2000u);
+}
+
+TEST(VertexSigns, ErrorsAreHalfAUnitInTheLastPlaceOfTheLargestCoordinate) {
+  test::Random random(53);
+  for (int i = 0; i < 20; ++i) {
+    std::vector<Operand> operands;
+    for (int o = 0; o < 3; ++o) {
+      operands.push_back(
+          test::operand_of(test::box_leaf({0, 0, 0}, {3, 4 + o, 900 >> (o * i % 7)})));
+      if (random.integer(0, 2)) operands.back().frame = test::random_frame(random);
+    }
+    const Job job(operands);
+    const VertexSigns signs(job);
+    for (uint32_t o = 0; o < operands.size(); ++o) {
+      double largest = 0;
+      for (const Rational3& p : test::exact_solid(operands[o]).points) {
+        for (const mpq_class& c : p) largest = std::max(largest, std::fabs(c.get_d()));
+      }
+      if (operands[o].frame.is_identity) {
+        EXPECT_EQ(signs.error(o), 0);
+      } else {
+        EXPECT_NEAR(signs.error(o), largest * 0x1p-53, largest * 0x1p-70);
+      }
+    }
+  }
+}
+
+TEST(GridPlanes, PassThroughTheirPointsAndHaveALongestAxis) {
+  test::Random random(54);
+  const auto at = [](const Plane& s, const IVec3& p) {
+    return s.a * p[0] + s.b * p[1] + s.c * p[2] + s.d;
+  };
+  for (int i = 0; i < 500; ++i) {
+    const int64_t reach = int64_t{1} << random.integer(1, 26);
+    std::array<IVec3, 4> p;
+    for (IVec3& v : p) {
+      for (int64_t& c : v) c = random.integer(-reach, reach);
+    }
+    const Plane s = plane_through(p[0], p[1], p[2]);
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(at(s, p[k]), 0);
+    const Int128 value = at(s, p[3]);
+    ASSERT_EQ((value > 0) - (value < 0), sign_of(p));
+    const std::array<Int128, 3> n{s.a, s.b, s.c};
+    const auto size = [](Int128 v) { return v < 0 ? -v : v; };
+    for (int k = 0; k < 3; ++k) ASSERT_LE(size(n[k]), size(n[dominant_axis(s)]));
+    const int axis = static_cast<int>(random.integer(0, 2));
+    const Plane edge = edge_plane(p[0], p[1], axis);
+    ASSERT_EQ((std::array<Int128, 3>{edge.a, edge.b, edge.c})[axis], 0);
+    ASSERT_EQ(at(edge, p[0]), 0);
+    ASSERT_EQ(at(edge, p[1]), 0);
+  }
+}
+
+}  // namespace
+}  // namespace csgrun
