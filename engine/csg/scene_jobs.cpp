@@ -226,12 +226,7 @@ Result<StoredBoundary> SceneJobs::run_kept_job(Parts parts, const Subtree& subtr
     if (!pieces) return pieces.error();
     if (*pieces) return StoredBoundary{nullptr, *pieces, subtree.id};
   }
-  if (parts.first) {
-    auto first = assemble_pieces(*parts.first, false);
-    if (!first) return first.error();
-    parts.operands[0].boundary = *first;
-  }
-  auto boundary = run_job(parts, subtree.box);
+  auto boundary = run_job(std::move(parts), subtree.box);
   if (!boundary) return boundary.error();
   return StoredBoundary{*boundary, nullptr, subtree.id};
 }
@@ -249,7 +244,12 @@ KernelOptions SceneJobs::job_options() {
   return options;
 }
 
-Result<BoundaryPtr> SceneJobs::run_job(const Parts& parts, const GridBox& region) {
+Result<BoundaryPtr> SceneJobs::run_job(Parts parts, const GridBox& region) {
+  if (parts.first) {
+    auto first = assemble_pieces(*parts.first, false);
+    if (!first) return first.error();
+    parts.operands[0].boundary = *first;
+  }
   return evaluate_boolean(parts.operands, parts.expression, region, job_options(), stats_);
 }
 
@@ -294,7 +294,7 @@ Result<BoundaryPtr> SceneJobs::world_boundary(uint32_t root) {
     if (!operand) return operand.error();
     put(parts, *std::move(operand), subtree);
   }
-  auto boundary = run_job(parts, subtree.world);
+  auto boundary = run_job(std::move(parts), subtree.world);
   ++jobs_done_;
   return boundary;
 }

@@ -68,7 +68,7 @@ class SceneJobs {
   void keep(const Subtree& subtree, StoredBoundary stored);
   Result<StoredBoundary> run_kept_job(Parts parts, const Subtree& subtree);
   KernelOptions job_options();
-  Result<BoundaryPtr> run_job(const Parts& parts, const GridBox& region);
+  Result<BoundaryPtr> run_job(Parts parts, const GridBox& region);
   Result<Parts> build(uint32_t node, size_t count, uint32_t job_frame);
   Result<OpenOperator> open(uint32_t node, size_t count, bool is_target, uint32_t job_frame,
                             Parts& parts);
