@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/bsp/untouched.h"
+
 namespace csgrun {
 
 FaceLabel label_of(const Operand& operand, uint32_t face) {
@@ -23,7 +25,10 @@ Plane translate_plane(const Plane& p, const IVec3& t) {
 }
 
 BoundaryMesh translated(const BoundaryMesh& mesh, const IVec3& t) {
-  BoundaryMesh moved = mesh;
+  const bool is_on_grid = std::all_of(mesh.parts.begin(), mesh.parts.end(),
+                                      [](const UntouchedPart& p) { return p.map.is_identity(); });
+  // Whole steps are none in a frame.
+  BoundaryMesh moved = is_on_grid ? mesh : *expanded(std::make_shared<BoundaryMesh>(mesh));
   for (Plane& plane : moved.planes) plane = translate_plane(plane, t);
   for (uint32_t p = 0; p < moved.point_planes.size(); ++p) {
     moved.point_rounded[p] = rounded(moved.exact_point(p));
@@ -45,7 +50,8 @@ size_t memory_bytes(const BoundaryMesh& b) {
       b.corners.size() * sizeof(BoundaryMesh::Corner) + b.touches.size() * sizeof(GridBox);
   for (const UntouchedPart& part : b.parts) {
     bytes += sizeof part + part.faces.size() * sizeof(uint32_t) +
-             part.shared.size() * sizeof(UntouchedPart::Shared);
+             part.shared.size() * sizeof(UntouchedPart::Shared) +
+             part.world.size() * sizeof part.world[0];
   }
   return bytes;
 }
@@ -59,7 +65,7 @@ GridBox bounding_box(const BoundaryMesh& b) {
     box.lo[k] = std::min(box.lo[k], lo);
     box.hi[k] = std::max(box.hi[k], hi);
   };
-  for (const auto& p : b.point_rounded) {
+  const auto include_point = [&include](const std::array<double, 3>& p) {
     for (int k = 0; k < 3; ++k) {
       // The true coordinate is within half a unit in the last place of the rounded one.
       const bool whole = p[k] == std::floor(p[k]);
@@ -67,13 +73,11 @@ GridBox bounding_box(const BoundaryMesh& b) {
                    hi = whole ? p[k] + 1 : std::ceil(p[k]);
       include(k, static_cast<int64_t>(lo), static_cast<int64_t>(hi));
     }
-  }
+  };
+  for (const auto& p : b.point_rounded) include_point(p);
   for (const UntouchedPart& part : b.parts) {
     for (const uint32_t f : part.faces) {
-      for (const uint32_t v : part.triangle(f)) {
-        const IVec3 p = part.vertex(v);
-        for (int k = 0; k < 3; ++k) include(k, p[k] - 1, p[k] + 1);
-      }
+      for (const uint32_t v : part.triangle(f)) include_point(part.rounded_point(v));
     }
   }
   return box;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/bsp/frame_map.h"
 #include "engine/bsp/operand.h"
 #include "engine/exact/plane.h"
 #include "engine/exact/point.h"
@@ -34,16 +35,27 @@ struct UntouchedPart {
   };
 
   std::shared_ptr<const LeafGeometry> leaf;
-  IVec3 translation{0, 0, 0};
+  IVec3 translation{0, 0, 0};  ///< in the leaf's frame
+  FrameMap map;                ///< to the world; it does not mirror
   uint32_t source = 0;
   std::optional<uint32_t> appearance;  ///< overrides that of every face
   bool flipped = false;
   std::vector<uint32_t> faces;  ///< of the leaf, ascending
   std::vector<Shared> shared;   ///< by vertex
+  /// Of each vertex of the leaf, its coordinates in the world, correctly rounded; none if they are
+  /// its own.
+  std::vector<std::array<double, 3>> world;
 
+  /// A vertex in the leaf's frame, and in the world.
   [[nodiscard]] IVec3 vertex(uint32_t v) const {
     const IVec3& p = leaf->vertices[v];
     return {p[0] + translation[0], p[1] + translation[1], p[2] + translation[2]};
+  }
+  [[nodiscard]] Point point(uint32_t v) const { return map.point(vertex(v)); }
+  [[nodiscard]] std::array<double, 3> rounded_point(uint32_t v) const {
+    if (!map.is_identity()) return world[v];
+    const IVec3 p = vertex(v);
+    return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
   }
   /// The corners of a face of the leaf, counter-clockwise from outside of the result.
   [[nodiscard]] std::array<uint32_t, 3> triangle(uint32_t face) const {

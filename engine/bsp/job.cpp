@@ -41,26 +41,6 @@ void append_grid_boxes(const LeafGeometry& leaf, const IVec3& translation,
   }
 }
 
-/// C^T n and 2^k d: the plane of a frame in the world.
-Plane map_plane(const Frame& frame, const Plane& p) {
-  if (frame.is_identity) return p;
-  const auto& m = frame.matrix;
-  const auto row = [&](int j) { return p.a * m[0][j] + p.b * m[1][j] + p.c * m[2][j]; };
-  return {row(0), row(1), row(2), p.d << Frame::kShift};
-}
-
-std::array<std::array<Int<2>, 3>, 3> adjugate_of(const std::array<std::array<int64_t, 3>, 3>& m) {
-  std::array<std::array<Int<2>, 3>, 3> r;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const int a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-      r[i][j] = Int<2>::from_int128(static_cast<Int128>(m[a][c]) * m[b][d] -
-                                    static_cast<Int128>(m[a][d]) * m[b][c]);
-    }
-  }
-  return r;
-}
-
 /// Remainder of a signed wide integer by a small number, in [0, p).
 template <int N>
 int64_t remainder_of(const Int<N>& v, int64_t p) {
@@ -100,23 +80,13 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes)
     : operands_(&operands), planes_(planes ? *planes : own_planes_.emplace()) {
   sources_.resize(operands.size());
   boundary_vertices_.resize(operands.size());
-  for (size_t o = 0; o < operands.size(); ++o) {
-    const Frame& frame = operands[o].frame;
-    if (frame.is_identity) continue;
-    Source& s = sources_[o];
-    s.adjugate = adjugate_of(frame.matrix);
-    s.determinant = Int<4>();
-    for (int j = 0; j < 3; ++j) {
-      s.determinant += multiply<4>(Int<2>(frame.matrix[0][j]), s.adjugate[j][0]);
-    }
-    s.mirrored = s.determinant.negative();
-  }
+  for (size_t o = 0; o < operands.size(); ++o) sources_[o].map = FrameMap(operands[o].frame);
   boundary_planes_.resize(operands.size());
   for (size_t o = 0; o < operands.size(); ++o) {
     if (!operands[o].boundary) continue;
     for (const Plane& plane : operands[o].boundary->planes) {
-      boundary_planes_[o].push_back(planes_.intern(
-          map_plane(operands[o].frame, translate_plane(plane, operands[o].translation))));
+      boundary_planes_[o].push_back(
+          planes_.intern(sources_[o].map.plane(translate_plane(plane, operands[o].translation))));
     }
   }
   while (!is_good_prime(prime_)) prime_ += 2;
@@ -155,7 +125,7 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes)
 bool Job::is_good_prime(int64_t p) const {
   if (!is_prime(p)) return false;
   for (const Source& s : sources_) {
-    if (remainder_of(s.determinant, p) == 0) return false;
+    if (remainder_of(s.map.determinant(), p) == 0) return false;
   }
   // A materialised result does not know the frames of its leaves: its planes are looked at
   // themselves.
@@ -207,7 +177,8 @@ void Job::add_leaf(uint32_t o, const Operand& operand) {
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
     const uint32_t first = first_corner + leaf.face_starts[f],
                    end = first_corner + leaf.face_starts[f + 1];
-    if (sources_[o].mirrored) std::reverse(corners_.begin() + first, corners_.begin() + end);
+    if (sources_[o].map.is_mirrored())
+      std::reverse(corners_.begin() + first, corners_.begin() + end);
     polygons_.push_back({o, f, first, end - first, PlaneId()});
     if (!operand.frame.is_identity) boxes_.push_back(box_of(polygons_.back()));
   }
@@ -231,7 +202,7 @@ void Job::add_boundary(uint32_t o, const Operand& operand) {
   const std::function<uint32_t(int, int64_t)> wall_of = [this](int axis, int64_t m) {
     return wall(axis, m);
   };
-  const bool mirrored = sources_[o].mirrored;
+  const bool mirrored = sources_[o].map.is_mirrored();
   std::vector<Fragment> pieces;
   std::vector<BoundaryEdge> edges;
   const auto first_vertex = static_cast<uint32_t>(rounded_.size());
@@ -345,19 +316,7 @@ Point Job::exact_of(uint32_t o, uint32_t local) const {
   const IVec3& q = operand.leaf->vertices[local];
   const IVec3 moved{q[0] + operand.translation[0], q[1] + operand.translation[1],
                     q[2] + operand.translation[2]};
-  if (operand.frame.is_identity) return grid_point(moved[0], moved[1], moved[2]);
-  Point p;
-  const auto coordinate = [&](int i) {
-    Int<kPointLimbs> sum;
-    for (int j = 0; j < 3; ++j) {
-      sum += multiply<kPointLimbs>(source.adjugate[i][j], Int<1>(moved[j]));
-    }
-    return sum.shifted_left(Frame::kShift);
-  };
-  p.x = coordinate(0), p.y = coordinate(1), p.z = coordinate(2);
-  p.w = Int<kPointLimbs>::from(source.determinant);
-  normalise(p);
-  return p;
+  return source.map.point(moved);
 }
 
 std::array<uint32_t, 3> Job::vertex_planes(uint32_t vertex) const {
@@ -386,8 +345,9 @@ bool Job::is_of_whole_facet(const JobPolygon& p) const {
   return operand.boundary->faces[p.face].whole;
 }
 
-PlaneId Job::intern_for(const Operand& operand, const Plane& plane) {
-  return planes_.intern(map_plane(operand.frame, translate_plane(plane, operand.translation)));
+PlaneId Job::intern_for(uint32_t operand, const Plane& plane) {
+  return planes_.intern(
+      sources_[operand].map.plane(translate_plane(plane, (*operands_)[operand].translation)));
 }
 
 void Job::ensure_support(uint32_t polygon) {
@@ -398,7 +358,7 @@ void Job::ensure_support(uint32_t polygon) {
     p.support = operand.pieces->store->ensure_support(pieces_[p.face]);
     return;
   }
-  p.support = intern_for(operand, support_of(*operand.leaf, p.face));
+  p.support = intern_for(p.operand, support_of(*operand.leaf, p.face));
 }
 
 uint32_t Job::edge_plane(uint32_t polygon, uint32_t edge) {
@@ -409,10 +369,11 @@ uint32_t Job::edge_plane(uint32_t polygon, uint32_t edge) {
   if (operand.pieces) return plane = operand.pieces->store->ensure_edge(pieces_[p.face], edge);
   const LeafGeometry& leaf = *operand.leaf;
   // A mirrored loop runs backwards: its edge from corner j to j + 1 is the leaf's edge n - 2 - j.
-  const uint32_t i = sources_[p.operand].mirrored ? (2 * p.count - 2 - edge) % p.count : edge;
+  const uint32_t i =
+      sources_[p.operand].map.is_mirrored() ? (2 * p.count - 2 - edge) % p.count : edge;
   const uint32_t* corners = leaf.corners.data() + leaf.face_starts[p.face];
   const int axis = dominant_axis(support_of(leaf, p.face));
-  return plane = intern_for(operand,
+  return plane = intern_for(p.operand,
                             csgrun::edge_plane(leaf.vertices[corners[i]],
                                                leaf.vertices[corners[(i + 1) % p.count]], axis))
                      .index();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/bsp/boundary_mesh.h"
+#include "engine/bsp/frame_map.h"
 #include "engine/bsp/operand.h"
 #include "engine/exact/plane.h"
 #include "engine/exact/point.h"
@@ -130,9 +131,7 @@ class Job {
  private:
   struct Source {  ///< how the vertices of one operand are computed exactly
     uint32_t first_vertex;
-    std::array<std::array<Int<2>, 3>, 3> adjugate{};
-    Int<4> determinant{1};
-    bool mirrored = false;  ///< the frame's determinant is negative: loops run the other way
+    FrameMap map;  ///< one that mirrors turns loops round
   };
 
   void add_leaf(uint32_t o, const Operand& operand);
@@ -143,7 +142,7 @@ class Job {
   /// The exact position of vertex `local` of operand `o`.
   [[nodiscard]] Point exact_of(uint32_t o, uint32_t local) const;
   [[nodiscard]] bool is_good_prime(int64_t p) const;
-  [[nodiscard]] PlaneId intern_for(const Operand& operand, const Plane& plane);
+  [[nodiscard]] PlaneId intern_for(uint32_t operand, const Plane& plane);
 
   const std::vector<Operand>* operands_;
   std::optional<PlaneTable> own_planes_;

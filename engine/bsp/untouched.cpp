@@ -188,18 +188,17 @@ class Expander {
       const IVec3 at[3] = {part.vertex(corners[0]), part.vertex(corners[1]),
                            part.vertex(corners[2])};
       const Plane support = plane_through(at[0], at[1], at[2]);
-      const PlaneId plane = planes_.intern(support);
+      const PlaneId plane = planes_.intern(part.map.plane(support));
       const int axis = dominant_axis(support);
       std::array<uint32_t, 3> edge{};
       for (int i = 0; i < 3; ++i) {
-        edge[i] = planes_.intern(edge_plane(at[i], at[(i + 1) % 3], axis)).index();
+        edge[i] = planes_.intern(part.map.plane(edge_plane(at[i], at[(i + 1) % 3], axis))).index();
       }
       for (int i = 0; i < 3; ++i) {
         uint32_t& point = point_of[corners[i]];
         if (point != kNone) continue;
         point = geometry_.add_point({plane.index(), edge[(i + 2) % 3], edge[i]},
-                                    {static_cast<double>(at[i][0]), static_cast<double>(at[i][1]),
-                                     static_cast<double>(at[i][2])});
+                                    part.rounded_point(corners[i]));
       }
       const FaceLabel label = part.label(f);
       draft_.begin_face(plane, label, label.facet != 0, label.facet != 0);
@@ -227,7 +226,9 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
   }
   for (size_t o = 0; o < operands.size(); ++o) {
     const Operand& operand = operands[o];
-    if (!operand.leaf || !operand.frame.is_identity) continue;
+    if (!operand.leaf) continue;
+    const FrameMap map(operand.frame);
+    if (map.is_mirrored()) continue;
     const LeafGeometry& leaf = *operand.leaf;
     if (leaf.may_touch || leaf.opposite.empty() || !facets_ascend(leaf)) continue;
     // Without facets of its own a face must be alone in its plane; that is easily told of convex
@@ -244,9 +245,11 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
       if (!any[side]) continue;
       UntouchedPart part{operand.leaf,
                          operand.translation,
+                         map,
                          operand.first_source,
                          operand.appearance,
                          side == kFlipped,
+                         {},
                          {},
                          {}};
       faces.collect(side, part, of_leaf);
@@ -254,7 +257,11 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
       const uint32_t first_vertex =
           job.corners(job.polygons()[start])[0] - leaf.corners[leaf.face_starts[0]];
       for (UntouchedPart::Shared& s : part.shared) s.point += first_vertex;
-      if (!part.faces.empty()) parts.push_back(std::move(part));
+      if (part.faces.empty()) continue;
+      for (uint32_t v = 0; !map.is_identity() && v < leaf.vertices.size(); ++v) {
+        part.world.push_back(job.rounded(first_vertex + v));
+      }
+      parts.push_back(std::move(part));
     }
     std::copy(of_leaf.begin(), of_leaf.end(), taken.begin() + start);
   }

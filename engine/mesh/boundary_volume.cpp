@@ -18,10 +18,14 @@ Result<double> boundary_volume(const BoundaryMesh& b, const GridStep& step) {
     }
   }
   const auto explicit_points = static_cast<uint32_t>(b.point_planes.size());
-  std::vector<IVec3> more;
+  struct Vertex {
+    const UntouchedPart* part;
+    uint32_t number;
+  };
+  std::vector<Vertex> more;
   for (const UntouchedPart& part : b.parts) {
     const auto first = static_cast<uint32_t>(explicit_points + more.size());
-    for (uint32_t v = 0; v < part.leaf->vertices.size(); ++v) more.push_back(part.vertex(v));
+    for (uint32_t v = 0; v < part.leaf->vertices.size(); ++v) more.push_back({&part, v});
     for (const uint32_t f : part.faces) {
       const auto t = part.triangle(f);
       fans.push_back({first + t[0], first + t[1], first + t[2]});
@@ -36,8 +40,8 @@ Result<double> boundary_volume(const BoundaryMesh& b, const GridStep& step) {
                               static_cast<int64_t>(at[2]))
                  : b.exact_point(p);
     }
-    const IVec3& q = more[p - explicit_points];
-    return grid_point(q[0], q[1], q[2]);
+    const Vertex& v = more[p - explicit_points];
+    return v.part->point(v.number);
   };
   return measure_volume(explicit_points + more.size(), point, fans, step);
 }

@@ -112,8 +112,10 @@ std::array<uint64_t, 2> canonical_hash(const std::vector<MergedFace>& faces,
     for (const uint32_t p : t.points) {
       if (points.is_new(p)) {
         const WholeOrder::Place& place = whole.points()[p];
-        if (place.explicit_point == kNone) {
-          points.add(p, whole.grid_point(place));
+        if (place.explicit_point == kNone && part.map.is_identity()) {
+          points.add(p, part.vertex(place.vertex));
+        } else if (place.explicit_point == kNone) {
+          points.add(p, part.point(place.vertex), part.rounded_point(place.vertex));
         } else {
           points.add(p, geometry.exact(place.explicit_point),
                      geometry.point(place.explicit_point).rounded);

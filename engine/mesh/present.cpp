@@ -194,16 +194,21 @@ class Presenter {
         if (own < point_of_own.size() && point_of_own[own] == p) add_own(n);
         continue;
       }
-      const IVec3 q = whole_->grid_point(points[n]);
+      const UntouchedPart& part = whole_->part(points[n]);
+      const uint32_t v = points[n].vertex;
       glm::dvec3 mm;
       std::array<float, 3> single;
-      to_mm.position(q, mm, single);
+      if (part.map.is_identity()) {
+        to_mm.position(part.vertex(v), mm, single);
+      } else {
+        to_mm.position(part.point(v), mm, single);
+      }
       solid.positions.push_back(mm);
       solid.positions_f32.push_back(single);
       solid.point_of.push_back(n);
       if (context_.exact_points) {
         solid.exact_points.resize(n + size_t{1});
-        solid.exact_points[n] = to_mm.text(grid_point(q[0], q[1], q[2]));
+        solid.exact_points[n] = to_mm.text(part.point(v));
       }
     }
     // Points that were made since: contacts and middles of edges.
@@ -251,9 +256,7 @@ class Presenter {
     solid.faces.push_back({static_cast<uint32_t>(solid.loop_starts.size() - 1),
                            static_cast<uint32_t>(face.loops.size()), face.appearance,
                            surface_number(face.source, face.surface), face.source});
-    const auto& plane = planes_.approximate(face.plane.index());
-    const double sign = face.plane.flipped() ? -1 : 1;
-    solid.face_normals.push_back(direction({sign * plane[0], sign * plane[1], sign * plane[2]}));
+    solid.face_normals.push_back(direction(planes_.oriented(face.plane)));
     for (const auto& loop : face.loops) {
       for (const DirectedEdge& e : loop) {
         const auto at = std::lower_bound(edges_.begin(), edges_.end(),
@@ -289,8 +292,7 @@ class Presenter {
       if (number >= whole_->points().size()) return geometry_.exact(own_point(vertex));
       const WholeOrder::Place& place = whole_->points()[number];
       if (place.explicit_point != kNone) return geometry_.exact(place.explicit_point);
-      const IVec3 q = whole_->grid_point(place);
-      return grid_point(q[0], q[1], q[2]);
+      return whole_->part(place).point(place.vertex);
     };
     auto mass = measure_mesh(solid.positions.size(), point, solid.triangles, context_.step);
     if (!mass) return mass.error();

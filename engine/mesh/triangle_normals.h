@@ -1,7 +1,6 @@
 // Directions of faces, as doubles.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -10,11 +9,11 @@
 
 namespace csgrun {
 
-/// A vector along a normal, given rounded once: its largest coordinate is 1 or -1. Whole multiples
-/// of a normal below 2^53 have the same bits.
-glm::dvec3 direction(const std::array<double, 3>& normal);
+/// A vector along the normal of a plane: its coordinates divided by the largest, each rounded once.
+/// So multiples of a plane have the same, to the bit.
+glm::dvec3 direction(const Plane& plane);
 
-/// The direction of the outward normal of an untouched triangle: that of its plane, to the bit.
+/// The direction of the outward normal of an untouched triangle: that of its plane.
 glm::dvec3 outward_direction(const UntouchedPart& part, uint32_t face);
 
 }  // namespace csgrun

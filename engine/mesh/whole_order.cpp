@@ -82,7 +82,8 @@ std::array<PlaneId, 2> WholeOrder::planes_of(const RimEdge& edge, PlaneTable& pl
   const auto corners = part.triangle(edge.face);
   const auto at = [&](uint32_t i) { return part.vertex(corners[(edge.corner + i) % 3]); };
   const Plane support = plane_through(at(0), at(1), at(2));
-  return {planes.intern(support), planes.intern(edge_plane(at(0), at(1), dominant_axis(support)))};
+  const Plane of_edge = edge_plane(at(0), at(1), dominant_axis(support));
+  return {planes.intern(part.map.plane(support)), planes.intern(part.map.plane(of_edge))};
 }
 
 void WholeOrder::sort_points(CellGeometry& geometry) {
@@ -91,14 +92,12 @@ void WholeOrder::sort_points(CellGeometry& geometry) {
     if (p < explicit_count_) {
       at[p] = boundary_.point_rounded[p];
     } else {
-      const IVec3 q = grid_point(points_[p]);
-      for (int k = 0; k < 3; ++k) at[p][k] = static_cast<double>(q[k]);
+      at[p] = part(points_[p]).rounded_point(points_[p].vertex);
     }
   }
   const auto exact = [&](uint32_t p) {
     if (p < explicit_count_) return geometry.exact(p);
-    const IVec3 q = grid_point(points_[p]);
-    return csgrun::grid_point(q[0], q[1], q[2]);
+    return part(points_[p]).point(points_[p].vertex);
   };
   const std::vector<uint32_t> order = lexicographic_order(
       at.size(), [&](uint32_t p) -> const std::array<double, 3>& { return at[p]; },

@@ -50,8 +50,9 @@ class WholeOrder {
                ? number_[explicit_point]
                : static_cast<uint32_t>(points_.size()) + explicit_point - explicit_count_;
   }
-  [[nodiscard]] IVec3 grid_point(const Place& place) const {
-    return boundary_.parts[place.part].vertex(place.vertex);
+  /// That of a place which is no explicit point.
+  [[nodiscard]] const UntouchedPart& part(const Place& place) const {
+    return boundary_.parts[place.part];
   }
 
   /// Lines up the untouched triangles with explicit faces, given in canonical order by their lowest

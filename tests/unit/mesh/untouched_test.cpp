@@ -10,6 +10,7 @@
 #include "engine/mesh/boundary_volume.h"
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/kernel_case.h"
+#include "tests/support/random_frames.h"
 
 namespace csgrun {
 namespace {
@@ -235,6 +236,42 @@ TEST(Untouched, RandomTreesOfBumpySurfaces) {
   }
   EXPECT_GT(total, 500u);
   EXPECT_LT(spelled, total / 40);
+}
+
+// Turned, sheared and mirrored leaves, whose points are quotients, among others.
+TEST(Untouched, InFrames) {
+  Random random(1206);
+  constexpr int64_t kSize = 1 << 18;
+  size_t total = 0, in_frames = 0;
+  for (int round = 0; round < 24; ++round) {
+    std::vector<Operand> operands;
+    for (int i = 0; i < 3; ++i) {
+      const auto move = [&] { return random.integer(-kSize, kSize); };
+      const auto torus = leaf_of_triangles(bumpy_torus(random, {0, 0, 0}, kSize));
+      const auto box =
+          leaf_of_triangles(tiled_box(random, {-kSize / 2, -kSize / 2, -kSize / 2}, 8, kSize / 8));
+      operands.push_back(placed(round % 3 == 0   ? box
+                                : round % 3 == 1 ? torus
+                                                 : ball(kSize, 6),
+                                {move(), move(), move()}));
+      if (i > 0) operands.back().frame = random_frame(random);
+    }
+    const Tree tree = random_tree(random, 0, 3);
+    const Pair pair = evaluate_both(tree, operands);
+    total += named(*pair.naming);
+    for (const UntouchedPart& part : pair.naming->parts) {
+      if (!part.map.is_identity()) in_frames += part.faces.size();
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, std::to_string(round) + tree.text()));
+    // Moving by whole steps.
+    Pair moved;
+    moved.spelled =
+        std::make_shared<BoundaryMesh>(translated(*pair.spelled, {17, -12345, 1 << 20}));
+    moved.naming = std::make_shared<BoundaryMesh>(translated(*pair.naming, {17, -12345, 1 << 20}));
+    ASSERT_NO_FATAL_FAILURE(expect_one_value(moved, std::to_string(round) + " moved"));
+  }
+  EXPECT_GT(total, 500u);
+  EXPECT_GT(in_frames, 500u);
 }
 
 TEST(Untouched, ContactsOfTiledBoxes) {
