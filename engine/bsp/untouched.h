@@ -18,8 +18,9 @@
 namespace csgrun {
 
 /// Takes the untouched triangles of the operands out of `whole`; their corners that other faces
-/// have too are named by the job's vertices in UntouchedPart::shared. A leaf counts if it stands in
-/// the world's axes, touches itself nowhere, and its edges are paired; a face if it is a triangle.
+/// have too are named by the job's vertices in UntouchedPart::shared. A leaf counts if its
+/// frame does not mirror, it touches itself nowhere, and its edges are paired; a face if it is a
+/// triangle.
 /// O(faces of such leaves).
 std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Operand>& operands,
                                           std::vector<WholePolygon>& whole);
