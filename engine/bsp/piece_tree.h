@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include <csgrun/engine/evaluate.h>
+
 #include "engine/exact/fixed_int.h"
 
 namespace csgrun {
@@ -61,9 +63,10 @@ class PieceTree {
     std::vector<uint32_t> pieces;  ///< of a leaf
     mutable bool has_sums = false;
     mutable PieceSums sums;  ///< of the pieces below, when somebody asked
-    mutable bool has_extent = false;
-    /// The least and the greatest coordinates in mm, when somebody asked.
+    /// The least and the greatest coordinates in mm, when somebody asked, and the step for which:
+    /// results are shared between grids on which they have the same whole numbers.
     mutable std::array<std::array<double, 3>, 2> extent{};
+    mutable GridStep extent_step;
   };
   using NodePtr = std::shared_ptr<const Node>;
 

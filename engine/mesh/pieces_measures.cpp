@@ -132,11 +132,11 @@ class Summer {
   std::vector<Fixed> fixed_;
 };
 
-/// Finds the extent of a node.
-void find_extent(const PieceTree::Node& node, const PieceStore& store,
+/// Finds the extent of a node for a step.
+void find_extent(const PieceTree::Node& node, const PieceStore& store, const GridStep& step,
                  const ToMillimetres& to_millimetres) {
-  if (node.has_extent) return;
-  node.has_extent = true;
+  if (node.extent_step == step) return;
+  node.extent_step = step;
   node.extent[0].fill(HUGE_VAL);
   node.extent[1].fill(-HUGE_VAL);
   const auto add = [&](size_t axis, double lo, double hi) {
@@ -145,7 +145,7 @@ void find_extent(const PieceTree::Node& node, const PieceStore& store,
   };
   for (const PieceTree::NodePtr& child : node.child) {
     if (!child) continue;
-    find_extent(*child, store, to_millimetres);
+    find_extent(*child, store, step, to_millimetres);
     for (size_t k = 0; k < 3; ++k) add(k, child->extent[0][k], child->extent[1][k]);
   }
   for (const uint32_t piece : node.pieces) {
@@ -206,7 +206,7 @@ std::optional<std::array<glm::dvec3, 2>> pieces_box(const ResultPieces& pieces,
                                                     const GridStep& step) {
   const PieceTree::NodePtr& root = pieces.tree.root();
   if (!root) return std::nullopt;
-  find_extent(*root, *pieces.store, ToMillimetres(step));
+  find_extent(*root, *pieces.store, step, ToMillimetres(step));
   const auto point = [](const std::array<double, 3>& p) { return glm::dvec3(p[0], p[1], p[2]); };
   return std::array{point(root->extent[0]), point(root->extent[1])};
 }

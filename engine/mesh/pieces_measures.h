@@ -19,7 +19,7 @@ namespace csgrun {
 Result<double> pieces_volume(const ResultPieces& pieces, const GridStep& step);
 
 /// The least and the greatest coordinates in mm, as the corners of the presented solid have them;
-/// nothing of an empty one. Nodes of the tree keep theirs: a store serves one step.
+/// nothing of an empty one. Nodes of the tree keep theirs for the step last asked for.
 std::optional<std::array<glm::dvec3, 2>> pieces_box(const ResultPieces& pieces,
                                                     const GridStep& step);
 

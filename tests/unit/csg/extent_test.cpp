@@ -104,6 +104,27 @@ TEST(Extent, WorkDependsOnTheTool) {
   expect_extent_of(*evaluator.extent(part), part);
 }
 
+TEST(Extent, DependsOnTheStep) {
+  // Where the grid grows with the part, whole numbers are the same and pieces shared; their
+  // millimetres are not.
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options);
+  const auto evaluated = [&](double scale) {
+    const uint64_t before = evaluator.stats().nodes_evaluated;
+    NodePtr part = cube(100 * scale);
+    for (int i = 1; i <= 4; ++i) {
+      part = subtract({part, moved(10 * i * scale, 5 * scale, 90 * scale, cube(20 * scale))});
+      expect_extent_of(*evaluator.extent(part), part);
+    }
+    return evaluator.stats().nodes_evaluated - before;
+  };
+  EXPECT_EQ(evaluated(1), 4u);
+  uint64_t rest = 0;
+  for (const double scale : {8, 10, 64, 100, 1000}) rest += evaluated(scale);
+  EXPECT_LT(rest, 5 * 4u) << "nothing is shared";
+}
+
 TEST(Extent, OfNothing) {
   Evaluator evaluator{EvaluateOptions()};
   const NodePtr a = cube(2);

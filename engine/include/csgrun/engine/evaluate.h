@@ -20,6 +20,7 @@ struct GridStep {
   int64_t denominator = 1;
   int exponent = 0;
 
+  bool operator==(const GridStep&) const = default;
   [[nodiscard]] bool automatic() const { return numerator == 0; }
   [[nodiscard]] double millimetres() const;
   /// Parses "0.001", "1e-3mm", "2^-20mm".
