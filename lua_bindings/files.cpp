@@ -12,6 +12,8 @@
 #include <unistd.h>
 
 #include "lua_bindings/guard.h"
+#include "lua_bindings/nearest.h"
+#include "lua_bindings/shipped_modules.h"
 
 namespace csgrun {
 namespace {
@@ -160,9 +162,19 @@ Files::Opened Files::open_module(const std::string& name) const {
     throw ScriptError("'" + name +
                       "' is not a module's name: write it as in require \"parts.wheel\"");
   }
+  for (const ShippedModule& module : shipped_modules()) {
+    if (module.name != name) continue;
+    const std::string place = "csgrun:" + name;
+    return {place, place, std::string(module.text)};
+  }
   std::string relative = name;
   std::replace(relative.begin(), relative.end(), '.', '/');
   std::string tried;
+  if (name.rfind("csg.", 0) == 0) {
+    std::vector<std::string> shipped;
+    for (const ShippedModule& module : shipped_modules()) shipped.emplace_back(module.name);
+    tried += "\n\tnot in the library of csgrun" + did_you_mean(name, shipped);
+  }
   for (const std::string& folder : search_folders_) {
     for (const char* ending : {".lua", "/init.lua"}) {
       const std::string path = join_path(folder, relative + ending);
