@@ -74,16 +74,6 @@ std::optional<RepairOptions> repair_argument(lua_State* L, const Arguments& argu
   return options;
 }
 
-/// The file whose code is running, as messages name it: chunks made by load() do not count.
-std::string calling_file(lua_State* L) {
-  lua_Debug frame{};
-  for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
-    lua_getinfo(L, "Sl", &frame);
-    if (frame.currentline > 0 && frame.source[0] == '@') return frame.source + 1;
-  }
-  return session_of(L).options().model;
-}
-
 int import_mesh(lua_State* L) {
   const Arguments arguments(L, kImport, 1);
   const std::string path = arguments.string("file", "");

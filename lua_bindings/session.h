@@ -18,6 +18,7 @@
 #include <csgrun/engine/repair.h>
 #include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/solids.h>
+#include <csgrun/primitives/text.h>
 
 #include "lua_bindings/budget.h"
 #include "lua_bindings/files.h"
@@ -47,6 +48,7 @@ struct SessionOptions {
   Facets facets;
   EvaluateOptions evaluate;
   BudgetLimits limits;
+  FontOptions fonts;
 };
 
 class Session {
@@ -56,6 +58,7 @@ class Session {
   [[nodiscard]] const SessionOptions& options() const { return options_; }
   [[nodiscard]] Budget& budget() { return budget_; }
   [[nodiscard]] Files& files() { return files_; }
+  [[nodiscard]] FontBook& fonts() { return fonts_; }
 
   /// csg.fn, csg.fa, csg.fs; csg.grid.
   Facets facets;
@@ -113,6 +116,7 @@ class Session {
   SessionOptions options_;
   Budget budget_;
   Files files_;
+  FontBook fonts_;
   std::unique_ptr<Evaluator> evaluator_;
   uint64_t settings_ = 0;  ///< a number for the settings of the evaluator: one more for each change
   std::vector<std::string> warnings_;

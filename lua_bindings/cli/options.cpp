@@ -234,6 +234,9 @@ CommandLine parse_command_line(int argc, char** argv) {
   app.add_option("--max-memory", raw.megabytes,
                  "MB for the process (three quarters of what is there)")
       ->type_name("MB");
+  app.add_flag("--system-fonts", line.system_fonts,
+               "text may use the fonts of this machine, not only the one of the program");
+  app.add_flag("--strict", line.strict, "a font that is not there is an error, not a warning");
   app.add_flag("-q,--quiet", line.quiet, "no progress, no warnings");
   app.add_flag("--help-api", raw.help_api, "prints the functions that a script has");
   try {

@@ -81,6 +81,8 @@ class Run {
     options.evaluate.exact_points = std::any_of(
         line.outputs.begin(), line.outputs.end(),
         [](const std::string& output) { return model_format_of(output) == "exact.json"; });
+    options.fonts.system_fonts = line.system_fonts;
+    options.fonts.strict = line.strict;
     options.limits.total_seconds = line.timeout_seconds;
     if (line.memory_bytes)
       options.limits.heap_bytes = std::min(options.limits.heap_bytes, *line.memory_bytes);
@@ -107,7 +109,16 @@ class Run {
     // Places go into written files, so they are seen from the tree's own folder; messages are not.
     const SourceRef where = session_.source_ref(line_.model, 1);
     const std::string folder = folder_of(line_.model);
-    auto model = parse_csg(*where.file, text);
+    CsgEnvironment environment;
+    environment.fonts = &session_.fonts();
+    environment.read = [this](const std::string& path) -> Result<std::string> {
+      try {
+        return session_.files().open(line_.model, path).bytes;
+      } catch (const ScriptError& error) {
+        return Error{ErrorCode::kMalformedFile, error.what(), {}};
+      }
+    };
+    auto model = parse_csg(*where.file, text, environment);
     if (!model) {
       const std::string place = model.error().where.text();
       return {kExitScript, (place.empty() ? line_.model : join_path(folder, place)) + ": " +

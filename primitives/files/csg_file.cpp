@@ -45,8 +45,7 @@ struct Frame {
   std::vector<Item> children;
 };
 
-constexpr std::array<std::string_view, 5> kNotBuilt{"text", "import", "surface", "projection",
-                                                    "roof"};
+constexpr std::array<std::string_view, 4> kNotBuilt{"import", "surface", "projection", "roof"};
 
 bool is_not_built(std::string_view name) {
   return std::find(kNotBuilt.begin(), kNotBuilt.end(), name) != kNotBuilt.end();
@@ -54,8 +53,10 @@ bool is_not_built(std::string_view name) {
 
 class CsgBuilder {
  public:
-  CsgBuilder(const std::string& name, std::string_view text)
-      : file_(std::make_shared<const std::string>(name)), parser_(file_, text) {}
+  CsgBuilder(const std::string& name, std::string_view text, const CsgEnvironment& environment)
+      : file_(std::make_shared<const std::string>(name)),
+        parser_(file_, text),
+        environment_(environment) {}
 
   Result<CsgModel> build() {
     stack_.emplace_back();  // the file itself: a union
@@ -132,6 +133,7 @@ class CsgBuilder {
       return leaf(frame, std::move(mesh), notes);
     }
     if (is_flat_primitive(name)) return flat_primitive(frame);
+    if (name == "text") return text(frame);
     if (name == "offset") return offset(frame);
     if (name == "hull") return hull(frame);
     if (name == "minkowski") return minkowski(frame);
@@ -145,7 +147,7 @@ class CsgBuilder {
   }
 
   static bool takes_children(std::string_view name) {
-    return name != "text" && name != "import" && name != "surface";
+    return name != "import" && name != "surface";
   }
 
   /// A leaf of the mesh; impossible arguments make it empty.
@@ -163,11 +165,34 @@ class CsgBuilder {
   Result<Item> flat_primitive(const Frame& frame) {
     std::vector<std::string> notes;
     Result<Shape2D> shape = make_csg_shape(frame.call, notes);
+    return flat_leaf(frame, std::move(shape), notes);
+  }
+
+  /// A shape; impossible arguments make it empty.
+  Result<Item> flat_leaf(const Frame& frame, Result<Shape2D> shape,
+                         const std::vector<std::string>& notes) {
     for (const std::string& note : notes) warn(frame, note);
     if (shape) return Item::of(*std::move(shape));
     if (shape.error().code != ErrorCode::kInvalidArgument) return shape.error();
     warn(frame, shape.error().message);
     return Item();
+  }
+
+  Result<Item> text(const Frame& frame) {
+    const Result<CsgText> text = csg_text(frame.call);
+    if (!text) return text.error();
+    FontBook shipped;
+    FontBook& fonts = environment_.fonts != nullptr ? *environment_.fonts : shipped;
+    const Result<FontChoice> choice = fonts.find(text->font);
+    if (!choice) {
+      return Error{choice.error().code, "text: " + choice.error().message, {}};
+    }
+    std::vector<std::string> notes;
+    if (!choice->note.empty()) notes.push_back("text: " + choice->note);
+    std::string note;
+    Result<Shape2D> shape = make_text(text->options, choice->font, &note);
+    if (!note.empty()) notes.push_back(note);
+    return flat_leaf(frame, std::move(shape), notes);
   }
 
   /// The first child that is not empty decides between 2D and 3D; children of the other kind
@@ -351,14 +376,16 @@ class CsgBuilder {
 
   std::shared_ptr<const std::string> file_;
   CsgParser parser_;
+  const CsgEnvironment& environment_;
   std::vector<Frame> stack_;
   std::vector<std::string> warnings_;
 };
 
 }  // namespace
 
-Result<CsgModel> parse_csg(const std::string& name, std::string_view text) {
-  return CsgBuilder(name, text).build();
+Result<CsgModel> parse_csg(const std::string& name, std::string_view text,
+                           const CsgEnvironment& environment) {
+  return CsgBuilder(name, text, environment).build();
 }
 
 Result<CsgModel> read_csg_file(const std::string& path) {
