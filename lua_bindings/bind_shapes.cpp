@@ -20,14 +20,18 @@ constexpr FunctionSpec kSquare{"square",
                                "A rectangle; a corner lies in the origin unless it is centred.",
                                kSquareOptions, false, "square{20, 10, center = true}"};
 
+constexpr FunctionSpec kRect{"rect", "A rectangle: another name of square.", kSquareOptions, false,
+                             "rect(20, 10)"};
+
+template <const FunctionSpec& Spec>
 int square(lua_State* L) {
-  const Arguments arguments(L, kSquare, 1);
+  const Arguments arguments(L, Spec, 1);
   glm::dvec2 size(1, 1);
   if (const auto given = arguments.vector("size")) {
     size = given->count == 1 ? glm::dvec2(given->v.x) : glm::dvec2(given->v.x, given->v.y);
   }
   const auto center = arguments.booleans("center");
-  push_shape(L, value_or_fail(kSquare, make_square(size, {center[0], center[1]})), {});
+  push_shape(L, value_or_fail(Spec, make_square(size, {center[0], center[1]})), {});
   return 1;
 }
 
@@ -181,7 +185,8 @@ int rotate_extrude_shape(lua_State* L) {
 }
 
 constexpr Binding kBindings[] = {
-    {&kSquare, guarded<square>, nullptr, nullptr},
+    {&kSquare, guarded<square<kSquare>>, nullptr, nullptr},
+    {&kRect, guarded<square<kRect>>, nullptr, nullptr},
     {&kCircle, guarded<circle>, nullptr, nullptr},
     {&kPolygon, guarded<polygon>, nullptr, nullptr},
     {&kLinearExtrude, guarded<linear_extrude_shape>, nullptr, guarded<linear_extrude_shape>},
