@@ -4,64 +4,11 @@
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
 #include "lua_bindings/nearest.h"
-#include "lua_bindings/repaint.h"
+#include "lua_bindings/operands.h"
 #include "lua_bindings/session.h"
 
 namespace csgrun {
 namespace {
-
-/// The operands of a Boolean: all solids, or all shapes.
-struct Operands {
-  std::vector<NodePtr> solids;
-  std::vector<Shape2D> shapes;
-  std::optional<Appearance> appearance;  // of the first shape
-  std::string name;                      // of the first operand
-  bool has_solids = false, has_shapes = false;
-
-  void add(lua_State* L, int index, const std::string& function) {
-    const bool is_first = !has_solids && !has_shapes;
-    if (const SolidValue* solid = to_solid(L, index)) {
-      has_solids = true;
-      if (!solid->marks.absent) solids.push_back(solid->node);
-    } else if (const ShapeValue* shape = to_shape(L, index)) {
-      has_shapes = true;
-      if (shapes.empty()) appearance = shape->appearance;
-      if (!shape->marks.absent) shapes.push_back(shape->shape);
-    } else {
-      throw ScriptError(fmt::format("{}: an operand must be a solid or a shape, got {}", function,
-                                    describe_value(L, index)));
-    }
-    if (is_first) name = marks_of(L, index)->name;
-    if (has_solids && has_shapes) {
-      throw ScriptError(
-          function +
-          ": a solid and a 2D shape cannot be combined; make a solid of the shape first, "
-          "with linear_extrude or rotate_extrude");
-    }
-  }
-
-  /// Cut faces have the appearance of what is cut, instead of the tools'.
-  void paint_tools_as_body() {
-    if (solids.empty()) return;
-    const Appearance body = first_appearance(solids[0]);
-    for (size_t i = 1; i < solids.size(); ++i)
-      solids[i] = Node::painted(body, solids[i], solids[i]->where());
-  }
-
-  /// The name of the first operand is the name of the result.
-  void push_result(lua_State* L, BooleanOp op, const std::string& function) const {
-    if (!has_shapes) {
-      push_solid(L, Node::boolean(op, solids, session_of(L).source_ref(L)));
-    } else if (shapes.empty()) {
-      push_shape(L, {}, appearance);
-    } else {
-      auto shape = Shape2D::boolean(op, shapes);
-      if (!shape) throw ScriptError(function + ": " + shape.error().message);
-      push_shape(L, *std::move(shape), appearance);
-    }
-    marks_of(L, -1)->name = name;
-  }
-};
 
 constexpr Option kOperandOptions[] = {
     {"operands", ArgumentType::kValue, "", "solids or shapes, one after another or as lists", true},
@@ -92,49 +39,43 @@ constexpr FunctionSpec kSymmetricDifference{"symmetric_difference",
                                             "What is in an odd number of them.", kOperandOptions,
                                             false, "a:symmetric_difference(b)"};
 
-/// Takes the named options out of the table at `index`, where there are any.
-void read_boolean_options(lua_State* L, const FunctionSpec& spec, int index, bool& cut_as_body) {
-  lua_pushnil(L);
-  while (lua_next(L, index) != 0) {
-    if (lua_type(L, -2) != LUA_TSTRING) {
+/// Takes option "cut" out of the tables among the arguments: whether it says "body".
+bool take_cut_option(lua_State* L, const FunctionSpec& spec) {
+  bool cut_as_body = false;
+  if (spec.options.size() < 2) return cut_as_body;
+  const int count = lua_gettop(L);
+  for (int index = 1; index <= count; ++index) {
+    if (!lua_istable(L, index)) continue;
+    lua_newtable(L);  // what is left: the list
+    const int rest = lua_gettop(L);
+    lua_pushnil(L);
+    while (lua_next(L, index) != 0) {
+      if (lua_type(L, -2) != LUA_TSTRING) {
+        lua_pushvalue(L, -2);
+        lua_insert(L, -2);
+        lua_rawset(L, rest);
+        continue;
+      }
+      const std::string key = lua_tostring(L, -2);
+      if (key != "cut")
+        fail_in(spec, fmt::format("unknown option '{}'{}", key, did_you_mean(key, {"cut"})));
+      const std::string value = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
+      if (value != "tool" && value != "body") {
+        fail_in(spec, "option 'cut' must be \"tool\" or \"body\", got " +
+                          (value.empty() ? describe_value(L, -1) : "\"" + value + "\""));
+      }
+      cut_as_body = value == "body";
       lua_pop(L, 1);
-      continue;
     }
-    const std::string key = lua_tostring(L, -2);
-    if (spec.options.size() < 2)
-      fail_in(spec, "takes lists of solids or shapes without holes and names in them");
-    if (key != "cut")
-      fail_in(spec, fmt::format("unknown option '{}'{}", key, did_you_mean(key, {"cut"})));
-    const std::string value = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
-    if (value != "tool" && value != "body") {
-      fail_in(spec, "option 'cut' must be \"tool\" or \"body\", got " +
-                        (value.empty() ? describe_value(L, -1) : "\"" + value + "\""));
-    }
-    cut_as_body = value == "body";
-    lua_pop(L, 1);
+    lua_replace(L, index);
   }
+  return cut_as_body;
 }
 
 template <const FunctionSpec& Spec, BooleanOp Op>
 int boolean_function(lua_State* L) {
-  Operands operands;
-  bool cut_as_body = false;
-  const int count = lua_gettop(L);
-  for (int index = 1; index <= count; ++index) {
-    if (!lua_istable(L, index)) {
-      operands.add(L, index, Spec.name);
-      continue;
-    }
-    read_boolean_options(L, Spec, index, cut_as_body);
-    const lua_Integer length = list_part_length(L, index);
-    if (length < 0)
-      fail_in(Spec, "takes lists of solids or shapes without holes and names in them");
-    for (lua_Integer i = 1; i <= length; ++i) {
-      lua_rawgeti(L, index, i);
-      operands.add(L, lua_gettop(L), Spec.name);
-      lua_pop(L, 1);
-    }
-  }
+  const bool cut_as_body = take_cut_option(L, Spec);
+  Operands operands = read_operands(L, Spec);
   if (cut_as_body) operands.paint_tools_as_body();
   operands.push_result(L, Op, Spec.name);
   return 1;
