@@ -7,10 +7,12 @@
 #include <utility>
 
 #include <csgrun/primitives/csg_file.h>
+#include <csgrun/primitives/mesh_file.h>
 #include <csgrun/primitives/shape_operations.h>
 
 #include "primitives/files/csg_parser.h"
 #include "primitives/files/csg_shapes.h"
+#include "primitives/files/formats.h"
 #include "primitives/files/read_file.h"
 
 namespace csgrun {
@@ -45,7 +47,7 @@ struct Frame {
   std::vector<Item> children;
 };
 
-constexpr std::array<std::string_view, 4> kNotBuilt{"import", "surface", "projection", "roof"};
+constexpr std::array<std::string_view, 3> kNotBuilt{"surface", "projection", "roof"};
 
 bool is_not_built(std::string_view name) {
   return std::find(kNotBuilt.begin(), kNotBuilt.end(), name) != kNotBuilt.end();
@@ -134,6 +136,7 @@ class CsgBuilder {
     }
     if (is_flat_primitive(name)) return flat_primitive(frame);
     if (name == "text") return text(frame);
+    if (name == "import") return import(frame);
     if (name == "offset") return offset(frame);
     if (name == "hull") return hull(frame);
     if (name == "minkowski") return minkowski(frame);
@@ -146,9 +149,7 @@ class CsgBuilder {
     return Error{ErrorCode::kMalformedFile, "unknown node " + name + "()", {}};
   }
 
-  static bool takes_children(std::string_view name) {
-    return name != "import" && name != "surface";
-  }
+  static bool takes_children(std::string_view name) { return name != "surface"; }
 
   /// A leaf of the mesh; impossible arguments make it empty.
   Result<Item> leaf(const Frame& frame, MeshResult mesh, const std::vector<std::string>& notes) {
@@ -176,6 +177,37 @@ class CsgBuilder {
     if (shape.error().code != ErrorCode::kInvalidArgument) return shape.error();
     warn(frame, shape.error().message);
     return Item();
+  }
+
+  /// A mesh, or a drawing. A file that is not there is an error: nothing is dropped silently.
+  Result<Item> import(const Frame& frame) {
+    const Result<CsgImport> import = csg_import(frame.call);
+    if (!import) return import.error();
+    const std::string& path = import->file;
+    const bool drawing = !flat_file_format_of(path).empty();
+    if (!drawing && mesh_format_of(path).empty()) {
+      return Error{
+          ErrorCode::kInvalidArgument,
+          "import: " + quoted(path) + " has none of the endings .stl, .off, .obj, .ply, .svg, .dxf",
+          {}};
+    }
+    if (!environment_.read) {
+      return Error{ErrorCode::kInvalidArgument, "import: there are no files here", {}};
+    }
+    const Result<std::string> bytes = environment_.read(path);
+    if (!bytes) return Error{bytes.error().code, "import: " + bytes.error().message, {}};
+    if (drawing) {
+      Result<FlatFile> file = parse_flat(path, *bytes, import->options);
+      if (!file) return Error{file.error().code, "import: " + file.error().message, {}};
+      for (const std::string& note : file->notes) warn(frame, "import: " + note);
+      return Item::of(std::move(file->shape));
+    }
+    Result<PolygonMesh> mesh = parse_mesh(path, *bytes);
+    std::string note;
+    if (mesh) mesh = make_solid_mesh(*std::move(mesh), &note);
+    if (!mesh) return Error{mesh.error().code, "import: " + mesh.error().message, {}};
+    if (!note.empty()) warn(frame, "import: " + note);
+    return leaf(frame, std::move(mesh), {});
   }
 
   Result<Item> text(const Frame& frame) {

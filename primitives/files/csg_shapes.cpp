@@ -216,6 +216,23 @@ Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& wa
   return make_polygon(points, paths);
 }
 
+Result<CsgImport> csg_import(const CsgCall& call) {
+  CsgArguments arguments(call);
+  CsgImport import;
+  FlatFileOptions& o = import.options;
+  import.file = arguments.string("file", "");
+  o.layer = arguments.string("layer", "");
+  o.id = arguments.string("id", "");
+  o.dpi = arguments.number("dpi", 72);
+  o.scale = arguments.number("scale", 1);
+  const std::vector<double> origin = arguments.numbers("origin", 2, {0, 0});
+  o.origin = {origin[0], origin[1]};
+  o.center = arguments.boolean("center", false);
+  o.facets = arguments.facets();
+  if (arguments.error()) return *arguments.error();
+  return import;
+}
+
 Result<CsgText> csg_text(const CsgCall& call) {
   CsgArguments arguments(call);
   CsgText text;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <csgrun/engine/csg_tree.h>
+#include <csgrun/primitives/flat_file.h>
 #include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/shape_operations.h>
 #include <csgrun/primitives/solids.h>
@@ -52,6 +53,13 @@ bool is_flat_primitive(std::string_view name);
 /// `warnings` gets what was left out. An impossible size is a kInvalidArgument.
 MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings);
 Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& warnings);
+/// The arguments of import.
+struct CsgImport {
+  std::string file;
+  FlatFileOptions options;
+};
+Result<CsgImport> csg_import(const CsgCall& call);
+
 /// The arguments of text, and the description of its font.
 struct CsgText {
   TextOptions options;

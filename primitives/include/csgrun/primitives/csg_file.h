@@ -30,7 +30,7 @@ struct CsgEnvironment {
   std::function<Result<std::string>(const std::string& path)> read;
 };
 
-/// Reads cube, sphere, cylinder, polyhedron, square, circle, polygon, text, linear_extrude,
+/// Reads cube, sphere, cylinder, polyhedron, square, circle, polygon, text, import, linear_extrude,
 /// rotate_extrude, multmatrix, color, union, difference, intersection, group and render, and with
 /// 2D children offset, hull, minkowski, fill and resize, with the modifiers % (left out, not even
 /// an operand) and # (nothing). As in OpenSCAD, an empty node is an operand, primitives of
