@@ -1,12 +1,11 @@
--- A flat gasket for a cylinder head, drawn in two dimensions: write it as a drawing for the cutter,
+-- A flat gasket for a cylinder head, drawn in two dimensions: a solid for the printer, or a drawing
+-- for the cutter.
 --
---   csgrun examples/gasket.lua -o gasket.svg        or .dxf; measures in its parts
---
--- or -D thickness=1 as a solid for a printer.
+--   csgrun examples/gasket.lua -D thickness=0 -o gasket.svg        or .dxf
 
 local bores     = param("bores", 3, {min = 1, max = 8, step = 1})
 local bore      = param("bore", 48, {min = 10, max = 200, doc = "diameter, mm"})
-local thickness = param("thickness", 0, {min = 0, max = 10, doc = "0: a drawing"})
+local thickness = param("thickness", 1, {min = 0, max = 10, doc = "0: a drawing"})
 
 csg.fn = 72
 local pitch, ring, bolt = bore * 1.25, bore * 0.12, bore * 0.09
