@@ -140,10 +140,11 @@ void open_methods(lua_State* L, const char* kind, lua_CFunction Binding::*form) 
 
 std::vector<Binding> all_bindings() {
   std::vector<Binding> all;
-  for (const auto& group : {solid_bindings(), polyhedron_bindings(), shape_bindings(),
-                            outline_bindings(), transform_bindings(), boolean_bindings(),
-                            color_bindings(), mark_bindings(), measure_bindings(), math_bindings(),
-                            vector_bindings(), parameter_bindings(), model_bindings()}) {
+  for (const auto& group :
+       {solid_bindings(), polyhedron_bindings(), shape_bindings(), outline_bindings(),
+        transform_bindings(), array_bindings(), boolean_bindings(), color_bindings(),
+        mark_bindings(), measure_bindings(), math_bindings(), vector_bindings(),
+        parameter_bindings(), file_bindings(), model_bindings()}) {
     all.insert(all.end(), group.begin(), group.end());
   }
   return all;
@@ -179,6 +180,7 @@ void open_api(lua_State* L) {
 
   open_methods(L, SolidValue::kName, &Binding::solid_method);
   open_methods(L, ShapeValue::kName, &Binding::shape_method);
+  open_methods(L, MatrixValue::kName, &Binding::matrix_method);
   for (const char* kind : {SolidValue::kName, ShapeValue::kName, MatrixValue::kName}) {
     luaL_getmetatable(L, kind);
     lua_pushcfunction(L, guarded<refuse_assignment>);

@@ -12,12 +12,12 @@
 #include <fmt/format.h>
 
 #include <csgrun/export/write.h>
-#include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/arguments.h"
 #include "lua_bindings/cli/exit_codes.h"
 #include "lua_bindings/cli/info.h"
 #include "lua_bindings/cli/parameter_file.h"
+#include "lua_bindings/model_parts.h"
 
 namespace csgrun {
 namespace {
@@ -52,12 +52,13 @@ void check_output(const std::string& path, const CommandLine& line) {
   }
   if (model_format_of(path).empty()) {
     const std::string ending = ending_of(path);
-    for (const char* later : {".3mf", ".ply", ".svg", ".dxf"}) {
+    for (const char* later : {".svg", ".dxf"}) {
       if (ending == later)
         throw UsageError{fmt::format("'{}': writing {} is not built yet", path, later)};
     }
     throw UsageError{fmt::format(
-        "'{}': the ending must be one of .glb, .gltf, .stl, .obj, .off, .exact.json", path)};
+        "'{}': the ending must be one of .glb, .gltf, .stl, .3mf, .obj, .off, .ply, .exact.json",
+        path)};
   }
   if (std::count(line.outputs.begin(), line.outputs.end(), path) > 1) {
     throw UsageError{fmt::format("'{}' is given twice with -o", path)};
@@ -68,13 +69,13 @@ void check_output(const std::string& path, const CommandLine& line) {
 }
 
 void check_model(const std::string& model) {
-  if (model == "-" || !mesh_format_of(model).empty()) return;
+  if (model == "-" || !model_file_format_of(model).empty()) return;
   const std::string ending = ending_of(model);
   if (ending != ".lua" && ending != ".csg") {
-    throw UsageError{
-        fmt::format("'{}': the model must end in .lua, .csg, .stl, .off, .obj or .ply, or be - for "
-                    "Lua from standard input",
-                    model)};
+    throw UsageError{fmt::format(
+        "'{}': the model must end in .lua, .csg, .stl, .off, .obj, .ply, .glb, .gltf or "
+        ".3mf, or be - for Lua from standard input",
+        model)};
   }
 }
 
@@ -179,7 +180,7 @@ CommandLine parse_info(int argc, char** argv) {
   CommandLine line;
   line.command = Command::kInfo;
   CLI::App app("Measures a mesh file exactly, on its own coordinates.", "csgrun info");
-  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY or GLB")->required();
+  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY, GLB, glTF or 3MF")->required();
   app.add_flag("--json", line.info_json, "as one JSON object");
   try {
     app.parse(argc - 1, argv + 1);
@@ -189,7 +190,7 @@ CommandLine parse_info(int argc, char** argv) {
   if (!is_info_path(line.model)) {
     std::fputs(
         fmt::format("csgrun info: '{}': the ending must be one of .stl, .off, .obj, .ply, .glb, "
-                    ".gltf\n",
+                    ".gltf, .3mf\n",
                     line.model)
             .c_str(),
         stderr);
@@ -216,9 +217,10 @@ CommandLine parse_command_line(int argc, char** argv) {
   auto* model = app.add_option(
       "MODEL", line.model,
       "a script (.lua), an OpenSCAD tree (.csg), a mesh, or - for Lua from standard input");
-  app.add_option("-o", line.outputs,
-                 "output: .glb .gltf .stl .obj .off, or .exact.json (coordinates as fractions); "
-                 "'dir/%s.stl' writes one file a part")
+  app.add_option(
+         "-o", line.outputs,
+         "output: .glb .gltf .stl .3mf .obj .off .ply, or .exact.json (coordinates as fractions); "
+         "'dir/%s.stl' writes one file a part")
       ->allow_extra_args(false)
       ->type_name("OUT");
   app.add_option("-D", raw.definitions, "sets a parameter of the model")
