@@ -28,6 +28,7 @@ struct Binding {
 std::span<const Binding> solid_bindings();
 std::span<const Binding> shape_bindings();
 std::span<const Binding> outline_bindings();
+std::span<const Binding> text_bindings();
 std::span<const Binding> transform_bindings();
 std::span<const Binding> boolean_bindings();
 std::span<const Binding> measure_bindings();
@@ -41,7 +42,15 @@ std::span<const Binding> parameter_bindings();
 std::span<const Binding> file_bindings();
 std::span<const Binding> model_bindings();
 
-/// All of them, by name within each group.
+/// Functions that belong together, for the pages of the language.
+struct BindingGroup {
+  const char* title;
+  const char* result;  ///< what most of them give: "Solid", "number", or "same" as their subject
+  std::span<const Binding> bindings;
+};
+std::vector<BindingGroup> binding_groups();
+
+/// All of them, group after group.
 std::vector<Binding> all_bindings();
 
 /// Sets globals, `csg`, methods and operators.

@@ -239,7 +239,8 @@ std::string api_markdown() {
       "list `{x, y, z}` wherever a vector is meant,\nand numbers one after another for the first "
       "vector. Lengths are millimetres, angles degrees, Z is up.\n\n"
       "Operators: `a + b` and `a | b` union, `a - b` difference, `a * b` and `a & b` intersection, "
-      "`a ~ b` symmetric\ndifference, `M * a` transforms by a matrix. Settings: `csg.fn`, `csg.fa`, "
+      "`a ~ b` symmetric\ndifference, `M * a` transforms by a matrix. Settings: `csg.fn`, "
+      "`csg.fa`, "
       "`csg.fs`, `csg.grid`, `csg.contacts`.\n";
   for (const BindingGroup& group : binding_groups()) {
     page += fmt::format("\n## {}\n", group.title);

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <csgrun/primitives/flat_file.h>
+
 #include "lua_bindings/api.h"
 #include "lua_bindings/call_site.h"
 #include "lua_bindings/guard.h"
@@ -21,8 +23,8 @@ using T = ArgumentType;
 
 constexpr Option kImportOptions[] = {
     {"file", T::kString, "",
-     "STL, OFF, OBJ, PLY, GLB, glTF or 3MF, relative to the file that calls, or else to the "
-     "folders of\n          -L and CSGRUN_PATH",
+     "STL, OFF, OBJ, PLY, GLB, glTF, 3MF, SVG or DXF, relative to the file that calls, or else to "
+     "the\n          folders of -L and CSGRUN_PATH",
      true},
     {"parts", T::kBoolean, "false",
      "gives a list of its parts, which have the names that the file has for them, instead of their "
@@ -37,12 +39,21 @@ constexpr Option kImportOptions[] = {
      "          outwards), drop_degenerate (true: drops faces whose points lie on one line),\n"
      "          drop_duplicates (true: of faces on the same points those that are too many)",
      false},
+    {"layer", T::kString, "", "of a drawing: only this layer (in an SVG one of Inkscape)", false},
+    {"id", T::kString, "", "of an SVG: only the element of this id, with what is in it", false},
+    {"dpi", T::kNumber, "72", "of an SVG: user units an inch, where it gives no size", false,
+     Range::kPositive},
+    {"origin", T::kVector2, "{0, 0}", "of a DXF: this point becomes the origin", false},
+    {"scale", T::kNumber, "1", "of a DXF: a factor", false, Range::kPositive},
+    {"center", T::kBoolean, "false", "of a drawing: the middle of its box becomes the origin",
+     false},
 };
 constexpr FunctionSpec kImport{
     "import",
     "A solid from a file, with its colours; its meshes must be closed, or are repaired on request. "
-    "Where one crosses itself, fill says what is inside.",
-    kImportOptions, false, "import(\"scan.stl\", {repair = {weld = 0.01, fill_holes = true}})"};
+    "Where one crosses itself, fill says what is inside. A shape from a drawing: what is filled or "
+    "closed.",
+    kImportOptions, true, "import(\"scan.stl\", {repair = {weld = 0.01, fill_holes = true}})"};
 
 constexpr Option kRepairOptions[] = {
     {"weld", T::kNumber, "0", "mm", false, Range::kNotNegative},
@@ -93,13 +104,54 @@ const std::vector<Session::ImportedPart>& import_parts(lua_State* L, const Files
   return parts;
 }
 
+/// A drawing as a shape.
+int import_drawing(lua_State* L, const Arguments& arguments, const std::string& path) {
+  const std::string format = flat_file_format_of(path);
+  for (const char* name : {"fill", "repair", "parts"}) {
+    if (arguments.has(name))
+      fail_in(kImport, fmt::format("option '{}' is for meshes, not for drawings", name));
+  }
+  for (const auto& [name, of] : {std::pair{"id", "svg"}, std::pair{"dpi", "svg"},
+                                 std::pair{"origin", "dxf"}, std::pair{"scale", "dxf"}}) {
+    if (arguments.has(name) && format != of)
+      fail_in(kImport, fmt::format("option '{}' is for .{} files", name, of));
+  }
+  FlatFileOptions options;
+  options.layer = arguments.string("layer", "");
+  options.id = arguments.string("id", "");
+  if (!options.layer.empty() && !options.id.empty())
+    fail_in(kImport, "give either 'layer' or 'id', not both");
+  options.dpi = arguments.number("dpi", 72);
+  options.scale = arguments.number("scale", 1);
+  if (const auto origin = arguments.vector("origin")) options.origin = {origin->v.x, origin->v.y};
+  options.center = arguments.boolean("center", false);
+  options.facets = arguments.facets();
+  Session& session = session_of(L);
+  Files::Opened file;
+  try {
+    file = session.files().open(calling_file(L), path);
+  } catch (const ScriptError& error) {
+    fail_in(kImport, error.what());
+  }
+  FlatFile drawing = value_or_fail(kImport, parse_flat(file.display, file.bytes, options));
+  for (const std::string& note : drawing.notes) session.warn(L, "import: " + note);
+  push_shape(L, std::move(drawing.shape), {});
+  return 1;
+}
+
 int import_file(lua_State* L) {
   const Arguments arguments(L, kImport, 1);
   const std::string path = arguments.string("file", "");
   if (path.empty()) fail_in(kImport, "needs the name of a file");
+  if (!flat_file_format_of(path).empty()) return import_drawing(L, arguments, path);
   if (model_file_format_of(path).empty()) {
-    fail_in(kImport,
-            "'" + path + "' has none of the endings .stl, .off, .obj, .ply, .glb, .gltf, .3mf");
+    fail_in(kImport, "'" + path +
+                         "' has none of the endings .stl, .off, .obj, .ply, .glb, .gltf, .3mf, "
+                         ".svg, .dxf");
+  }
+  for (const char* name : {"layer", "id", "dpi", "origin", "scale", "center", "fn", "fa", "fs"}) {
+    if (arguments.has(name))
+      fail_in(kImport, fmt::format("option '{}' is for drawings, not for meshes", name));
   }
   Session& session = session_of(L);
   Files::Opened file;

@@ -41,6 +41,7 @@ int offset(lua_State* L) {
     fail_in(kOffset, "option 'chamfer' goes with 'delta', not with 'r'");
   }
   push_shape(L, value_or_fail(kOffset, offset_shape(shape.shape, options)), shape.appearance);
+  keep_marks(L, 1);
   return 1;
 }
 
@@ -57,9 +58,10 @@ constexpr FunctionSpec kMinkowski{
 template <const FunctionSpec& Spec, Result<Shape2D> (*Make)(const std::vector<Shape2D>&)>
 int combine_shapes(lua_State* L) {
   const Operands operands = read_operands(L, Spec);
-  if (operands.shapes.empty() && operands.solids.empty()) fail_in(Spec, "needs a shape");
-  if (!operands.solids.empty()) fail_in(Spec, "an operand must be a 2D shape, got solid");
+  if (operands.has_solids) fail_in(Spec, "an operand must be a 2D shape, got solid");
+  if (!operands.has_shapes) fail_in(Spec, "needs a shape");
   push_shape(L, value_or_fail(Spec, Make(operands.shapes)), operands.appearance);
+  marks_of(L, -1)->name = operands.name;
   return 1;
 }
 
@@ -72,6 +74,7 @@ int fill(lua_State* L) {
   const ShapeValue& shape = shape_argument(L, kFill);
   const Arguments arguments(L, kFill, 2);
   push_shape(L, value_or_fail(kFill, fill_shape(shape.shape)), shape.appearance);
+  keep_marks(L, 1);
   return 1;
 }
 
@@ -107,6 +110,7 @@ int resize(lua_State* L) {
   map.m[0][0] = factors[0];
   map.m[1][1] = factors[1];
   push_shape(L, value_or_fail(kResize, shape.shape.transformed(map)), shape.appearance);
+  keep_marks(L, 1);
   return 1;
 }
 
@@ -116,7 +120,8 @@ const ShapeValue& bare_shape(lua_State* L, const FunctionSpec& spec) {
   return value;
 }
 
-constexpr FunctionSpec kPerimeter{"perimeter", "The length of all outlines, holes included.", {}};
+constexpr FunctionSpec kPerimeter{
+    "perimeter", "The length of all outlines, holes included.", {}, false, "circle(5):perimeter()"};
 constexpr FunctionSpec kPoints{"points",
                                "The corners {{x, y}, ...}, as polygon takes them.",
                                {},
@@ -125,9 +130,14 @@ constexpr FunctionSpec kPoints{"points",
 constexpr FunctionSpec kPaths{
     "paths",
     "The outlines, by indices of points() from 0: outer ones counter-clockwise, holes clockwise.",
-    {}};
-constexpr FunctionSpec kOutlines{
-    "outlines", "The outlines as lists of points {x, y}, in the order of paths().", {}};
+    {},
+    false,
+    "square(5):paths()"};
+constexpr FunctionSpec kOutlines{"outlines",
+                                 "The outlines as lists of points {x, y}, in the order of paths().",
+                                 {},
+                                 false,
+                                 "square(5):outlines()"};
 constexpr FunctionSpec kDecompose{
     "decompose", "Its connected pieces, a list.", {}, false, "#shape:decompose()"};
 

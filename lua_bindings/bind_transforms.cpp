@@ -127,11 +127,12 @@ constexpr FunctionSpec kRight{"right", "Moves along +X.", kDistanceOptions, fals
 constexpr FunctionSpec kForward{"forward", "Moves along -Y, towards the viewer.", kDistanceOptions,
                                 false, "part:forward(3)"};
 constexpr FunctionSpec kFront{
-    "front", "Moves along -Y, towards the viewer: another name of forward.", kDistanceOptions};
-constexpr FunctionSpec kTx{"tx", "Moves along X.", kDistanceOptions, false, "part:front(3)"};
-constexpr FunctionSpec kTy{"ty", "Moves along Y.", kDistanceOptions, false, "part:tx(3)"};
-constexpr FunctionSpec kTz{"tz", "Moves along Z.", kDistanceOptions, false, "part:ty(3)"};
-constexpr FunctionSpec kBack{"back", "Moves along +Y.", kDistanceOptions, false, "part:tz(3)"};
+    "front", "Moves along -Y, towards the viewer: another name of forward.", kDistanceOptions, false,
+    "part:front(3)"};
+constexpr FunctionSpec kTx{"tx", "Moves along X.", kDistanceOptions, false, "part:tx(3)"};
+constexpr FunctionSpec kTy{"ty", "Moves along Y.", kDistanceOptions, false, "part:ty(3)"};
+constexpr FunctionSpec kTz{"tz", "Moves along Z.", kDistanceOptions, false, "part:tz(3)"};
+constexpr FunctionSpec kBack{"back", "Moves along +Y.", kDistanceOptions, false, "part:back(3)"};
 constexpr FunctionSpec kRx{"rx", "Turns about X.", kAngleOptions, false, "part:rx(90)"};
 constexpr FunctionSpec kRy{"ry", "Turns about Y.", kAngleOptions, false, "part:ry(90)"};
 constexpr FunctionSpec kRz{"rz", "Turns about Z.", kAngleOptions, false, "part:rz(90)"};

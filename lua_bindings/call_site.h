@@ -15,9 +15,6 @@ bool innermost_lua_frame(lua_State* L, lua_Debug& frame);
 /// The file name of a chunk: the whole path, where Lua's short_src cuts it after 60 characters.
 const char* chunk_file(const lua_Debug& frame);
 
-/// The file whose code is running, as messages name it: chunks made by load() do not count.
-std::string calling_file(lua_State* L);
-
 /// "FILE:line" of the innermost Lua function, or an empty string.
 std::string place_of_call(lua_State* L);
 
@@ -28,5 +25,8 @@ std::string with_whole_path(const std::string& message, const std::string& path)
 /// A message handler for lua_pcall: message, "stack traceback:", one line a frame. Without
 /// addresses, and with whole paths.
 int add_traceback(lua_State* L);
+
+/// The file whose code is running, as messages name it: chunks made by load() do not count.
+std::string calling_file(lua_State* L);
 
 }  // namespace csgrun

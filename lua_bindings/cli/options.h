@@ -13,11 +13,13 @@
 
 namespace csgrun {
 
-enum class Command : uint8_t { kRun, kInfo, kHelpApi, kDone };
+enum class Command : uint8_t { kRun, kInfo, kHelpApi, kInit, kDone };
+enum class ApiForm : uint8_t { kText, kMarkdown, kDefinitions };
 enum class StatsForm : uint8_t { kNone, kText, kJson };
 
 struct CommandLine {
   Command command = Command::kRun;
+  ApiForm api_form = ApiForm::kText;
   int exit_code = 0;  ///< for kDone: help, version, or a usage error that was told already
   std::string model;
   std::vector<std::string> outputs;
@@ -30,7 +32,9 @@ struct CommandLine {
   StatsForm stats = StatsForm::kNone;
   std::optional<double> timeout_seconds;
   std::optional<size_t> memory_bytes;
-  bool check = false;  ///< prove every written mesh free of defects, or repair it
+  bool check = false;         ///< prove every written mesh free of defects, or repair it
+  bool system_fonts = false;  ///< text may use the fonts of the machine
+  bool strict = false;        ///< what would be replaced with a warning is an error
   bool quiet = false;
   bool info_json = false;
 };

@@ -29,9 +29,7 @@ Status apply_materials(PolygonMesh& mesh, const std::string& name, std::string_v
     const std::string_view word = scanner.word();
     bool good = true;
     if (word == "newmtl") {
-      std::string material;
-      for (std::string_view next = scanner.word(); !next.empty(); next = scanner.word())
-        material += (material.empty() ? "" : " ") + std::string(next);
+      const std::string_view material = scanner.rest_of_line();
       const auto used = std::find_if(mesh.appearances.begin(), mesh.appearances.end(),
                                      [&](const Appearance& a) { return a.name == material; });
       look = used == mesh.appearances.end() ? &unused : &*used;

@@ -40,7 +40,7 @@ class ObjReader {
       } else if (word == "mtllib") {
         error = read_material_file();
       } else if (word == "usemtl") {
-        material_ = rest_of_statement();
+        material_ = scanner_.rest_of_line();
       } else if (!word.empty() && !is_passed_over(word)) {
         error = here("not an OBJ statement: " + quoted(word));
       }
@@ -74,7 +74,7 @@ class ObjReader {
 
   /// A model from somewhere must not make us read what lies beside it.
   std::optional<Error> read_material_file() {
-    const std::string path = rest_of_statement();
+    const std::string path(scanner_.rest_of_line());
     const bool leads_out = path.starts_with('/') || path.find("..") != std::string::npos ||
                            path.find(':') != std::string::npos ||
                            path.find('\\') != std::string::npos;

@@ -33,7 +33,10 @@ LIBRARIES = [
     (r"OpenMesh/", ["engine/mesh/openmesh_bridge"]),
     (r"tiny_gltf", ["export/gltf.cpp"]),
     (r"(lua|lualib|lauxlib|luaconf)\.h(pp)?$", ["lua_bindings/", "tests/"]),
+    (r"hb(-ot)?\.h$", ["primitives/text/"]),
+    (r"pugixml\.hpp$", ["primitives/files/"]),
     (r"CLI/", ["lua_bindings/", "tests/"]),
+    (r"minizip/", ["export/zip_file.cpp", "primitives/files/unzip.cpp"]),
     (r"(gmp|gmpxx)\.h$", ["tests/"]),
     (r"boost/", ["tests/"]),
     (r"CGAL/", ["tests/experiments/cgal_"]),  # GPL: a peer to compare with, no part of the product
