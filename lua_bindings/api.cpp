@@ -145,6 +145,7 @@ std::vector<BindingGroup> binding_groups() {
       {"Shapes, and solids of them", "Shape", shape_bindings()},
       {"Outlines", "Shape", outline_bindings()},
       {"Text", "Shape", text_bindings()},
+      {"Sweeps", "Solid", sweep_bindings()},
       {"Transforms", "same", transform_bindings()},
       {"Places and copies", "same", array_bindings()},
       {"Booleans", "same", boolean_bindings()},

@@ -644,6 +644,53 @@ csg.text_metrics = text_metrics
 function textmetrics(text, size, font, options) end
 csg.textmetrics = textmetrics
 
+---@class (exact) csgrun.sweep
+---@field [integer] any
+---@field path? number[][] the points that it goes along
+---@field closed? boolean joins the last point to the first
+---@field twist? number turn over the whole path, counter-clockwise seen against it, degrees
+---@field scale? number|number[] factor at the end, or factors along X and Y of the shape
+---@field up? number[] where the shape's Y points to at the start
+---@field fn? number number of facets of a full turn; 0: from fa and fs
+---@field segments? number the same as fn
+---@field fa? number smallest angle of a facet, degrees, at least 0.01
+---@field fs? number smallest length of a facet, mm, at least 0.01
+
+---A solid: the shape, across the path, moved along it; it turns with the path and no more.
+---
+---Example: `circle(2):sweep{{0, 0, 0}, {0, 0, 20}, {15, 0, 30}}`
+---@param shape any the 2D shape; as a method, shape:f(...), it is left out
+---@param path? number[][] the points that it goes along
+---@param options? csgrun.sweep
+---@return Solid
+function sweep(shape, path, options) end
+csg.sweep = sweep
+
+---A solid: the shape, across the path, moved along it; it turns with the path and no more.
+---
+---Example: `circle(2):sweep{{0, 0, 0}, {0, 0, 20}, {15, 0, 30}}`
+---@overload fun(self: Shape, options: csgrun.sweep): Solid
+---@param path? number[][] the points that it goes along
+---@param options? csgrun.sweep
+---@return Solid
+function Shape:sweep(path, options) end
+
+---@class (exact) csgrun.loft
+---@field [integer] any
+---@field outlines? any a list of shapes, from the lowest on
+---@field heights? any where each lies along Z, a list; or one number: all in even steps
+
+---A solid between shapes, each flat at its height, with straight walls from one to the next.
+---
+---Example: `loft({square(20, true), circle(6)}, {0, 15})`
+---@overload fun(options: csgrun.loft): Solid
+---@param outlines? any a list of shapes, from the lowest on
+---@param heights? any where each lies along Z, a list; or one number: all in even steps
+---@param options? csgrun.loft
+---@return Solid
+function loft(outlines, heights, options) end
+csg.loft = loft
+
 ---@class (exact) csgrun.translate
 ---@field [integer] any
 ---@field v? number[] how far along X, Y and Z
