@@ -1815,12 +1815,12 @@ function Shape:polar_array(n, angle, options) end
 
 ---@class (exact) csgrun.union
 ---@field [integer] any
----@field operands? any solids or shapes, one after another or as lists
+---@field operands? any solids or shapes, one after another or as lists (of lists)
 
 ---What is in any of them.
 ---
 ---Example: `union{a, b, c}`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return any
 function union(...) end
 csg.union = union
@@ -1828,26 +1828,26 @@ csg.union = union
 ---What is in any of them.
 ---
 ---Example: `union{a, b, c}`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Solid
 function Solid:union(...) end
 
 ---What is in any of them.
 ---
 ---Example: `union{a, b, c}`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Shape
 function Shape:union(...) end
 
 ---@class (exact) csgrun.difference
 ---@field [integer] any
----@field operands? any solids or shapes, one after another or as lists
+---@field operands? any solids or shapes, one after another or as lists (of lists)
 ---@field cut? string which colour cut faces have: "tool", that of what cuts, or "body", that of the first solid (of its first leaf, where it has several)
 
 ---What is in the first and in none of the others.
 ---
 ---Example: `plate:difference(hole, slot)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return any
 function difference(...) end
 csg.difference = difference
@@ -1855,25 +1855,25 @@ csg.difference = difference
 ---What is in the first and in none of the others.
 ---
 ---Example: `plate:difference(hole, slot)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Solid
 function Solid:difference(...) end
 
 ---What is in the first and in none of the others.
 ---
 ---Example: `plate:difference(hole, slot)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Shape
 function Shape:difference(...) end
 
 ---@class (exact) csgrun.intersection
 ---@field [integer] any
----@field operands? any solids or shapes, one after another or as lists
+---@field operands? any solids or shapes, one after another or as lists (of lists)
 
 ---What is in all of them.
 ---
 ---Example: `a:intersection(b)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return any
 function intersection(...) end
 csg.intersection = intersection
@@ -1881,25 +1881,25 @@ csg.intersection = intersection
 ---What is in all of them.
 ---
 ---Example: `a:intersection(b)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Solid
 function Solid:intersection(...) end
 
 ---What is in all of them.
 ---
 ---Example: `a:intersection(b)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Shape
 function Shape:intersection(...) end
 
 ---@class (exact) csgrun.symmetric_difference
 ---@field [integer] any
----@field operands? any solids or shapes, one after another or as lists
+---@field operands? any solids or shapes, one after another or as lists (of lists)
 
 ---What is in an odd number of them.
 ---
 ---Example: `a:symmetric_difference(b)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return any
 function symmetric_difference(...) end
 csg.symmetric_difference = symmetric_difference
@@ -1907,69 +1907,69 @@ csg.symmetric_difference = symmetric_difference
 ---What is in an odd number of them.
 ---
 ---Example: `a:symmetric_difference(b)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Solid
 function Solid:symmetric_difference(...) end
 
 ---What is in an odd number of them.
 ---
 ---Example: `a:symmetric_difference(b)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Shape
 function Shape:symmetric_difference(...) end
 
 ---@class (exact) csgrun.add
 ---@field [integer] any
----@field operands? any solids or shapes, one after another or as lists
+---@field operands? any solids or shapes, one after another or as lists (of lists)
 
 ---What is in any of them: another name of union.
 ---
 ---Example: `a:add(b, c)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Solid
 function Solid:add(...) end
 
 ---What is in any of them: another name of union.
 ---
 ---Example: `a:add(b, c)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Shape
 function Shape:add(...) end
 
 ---@class (exact) csgrun.sub
 ---@field [integer] any
----@field operands? any solids or shapes, one after another or as lists
+---@field operands? any solids or shapes, one after another or as lists (of lists)
 ---@field cut? string which colour cut faces have: "tool", that of what cuts, or "body", that of the first solid (of its first leaf, where it has several)
 
 ---What is in the first and in none of the others: another name of difference.
 ---
 ---Example: `plate:sub(hole, {cut = "body"})`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Solid
 function Solid:sub(...) end
 
 ---What is in the first and in none of the others: another name of difference.
 ---
 ---Example: `plate:sub(hole, {cut = "body"})`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Shape
 function Shape:sub(...) end
 
 ---@class (exact) csgrun.intersect
 ---@field [integer] any
----@field operands? any solids or shapes, one after another or as lists
+---@field operands? any solids or shapes, one after another or as lists (of lists)
 
 ---What is in all of them: another name of intersection.
 ---
 ---Example: `a:intersect(b)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Solid
 function Solid:intersect(...) end
 
 ---What is in all of them: another name of intersection.
 ---
 ---Example: `a:intersect(b)`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists (of lists)
 ---@return Shape
 function Shape:intersect(...) end
 
@@ -2922,13 +2922,13 @@ csg.import = import
 
 ---@class (exact) csgrun.require
 ---@field [integer] any
----@field name? string the file name.lua or name/init.lua in the model's folder, in csgrun_modules beside it, in the folders of -L and in those of CSGRUN_PATH, and before these where package.path says; a dot in the name opens a folder
+---@field name? string a module of csgrun's own library (csg.gears, csg.layout, csg.options, csg.threads), or the file name.lua or name/init.lua in the model's folder, in csgrun_modules beside it, in the folders of -L and in those of CSGRUN_PATH, and before these where package.path says; a dot in the name opens a folder
 
 ---Runs a module once and gives what it returns.
 ---
 ---Example: `local wheel = require "parts.wheel"`
 ---@overload fun(options: csgrun.require): any
----@param name? string the file name.lua or name/init.lua in the model's folder, in csgrun_modules beside it, in the folders of -L and in those of CSGRUN_PATH, and before these where package.path says; a dot in the name opens a folder
+---@param name? string a module of csgrun's own library (csg.gears, csg.layout, csg.options, csg.threads), or the file name.lua or name/init.lua in the model's folder, in csgrun_modules beside it, in the folders of -L and in those of CSGRUN_PATH, and before these where package.path says; a dot in the name opens a folder
 ---@param options? csgrun.require
 ---@return any
 function require(name, options) end
