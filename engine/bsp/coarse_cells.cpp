@@ -30,10 +30,7 @@ Bounds bounds_of(const Job& job) {
     if (own.is_empty()) continue;
     bounds.all.include(own);
     if (operands++ == 0) bounds.common = own;
-    for (size_t k = 0; k < 3; ++k) {
-      bounds.common.lo[k] = std::max(bounds.common.lo[k], own.lo[k]);
-      bounds.common.hi[k] = std::min(bounds.common.hi[k], own.hi[k]);
-    }
+    bounds.common.clip(own);
   }
   if (operands > 2) bounds.common = bounds.all;
   return bounds;
@@ -174,9 +171,7 @@ PairCells find_coarse_cells(const Job& job, uint32_t limit) {
   if (most_cells < kFewestCells) return whole(job, bounds.all);
   PairCells result;
   result.surface = cells_for(count, limit);
-  for (size_t k = 0; k < 3; ++k) {
-    if (bounds.common.lo[k] > bounds.common.hi[k]) return result;
-  }
+  if (bounds.common.is_empty()) return result;
   Grid grid(bounds.common, most_cells);
   std::vector<Grid::Cells> cells;
   if (!mark(job, grid, cells)) return whole(job, bounds.all);

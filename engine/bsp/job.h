@@ -33,7 +33,24 @@ struct PolygonBox {
       hi[k] = std::max(hi[k], o.hi[k]);
     }
   }
-  [[nodiscard]] bool is_empty() const { return lo[0] > hi[0]; }
+  /// Leaves what another one has, too.
+  void clip(const PolygonBox& o) {
+    for (size_t k = 0; k < 3; ++k) {
+      lo[k] = std::max(lo[k], o.lo[k]);
+      hi[k] = std::min(hi[k], o.hi[k]);
+    }
+  }
+  [[nodiscard]] bool meets(const PolygonBox& o) const {
+    bool all = true;
+    for (size_t k = 0; k < 3; ++k) all &= o.lo[k] <= hi[k] && o.hi[k] >= lo[k];
+    return all;
+  }
+  [[nodiscard]] bool holds(const PolygonBox& o) const {
+    bool all = true;
+    for (size_t k = 0; k < 3; ++k) all &= lo[k] <= o.lo[k] && o.hi[k] <= hi[k];
+    return all;
+  }
+  [[nodiscard]] bool is_empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
 };
 struct PieceBox;
 /// The box around one of correctly rounded coordinates, which may stand on either side of the true

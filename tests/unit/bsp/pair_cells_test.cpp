@@ -37,7 +37,7 @@ Pairs all_pairs(const Job& job) {
 
 Pairs visited(const Job& job, const PairCells& cells) {
   Pairs pairs;
-  CellPairs look;
+  CellPairs look({});
   for (const PairCells::Cell& cell : cells.cells) {
     look.visit(job, cells, cell, [&](uint32_t p, uint32_t q) { ++pairs[{p, q}]; });
   }
@@ -81,7 +81,7 @@ void expect_all_pairs(const std::vector<Operand>& operands, size_t& grids) {
   for (const uint32_t limit : {1u, 5u, 17u}) {
     KernelOptions options;
     options.cell_limit = limit;
-    ASSERT_EQ(visited(job, find_pair_cells(job, options)), expected) << "limit " << limit;
+    ASSERT_EQ(visited(job, find_pair_cells(job, {}, options)), expected) << "limit " << limit;
     const PairCells coarse = find_coarse_cells(job, limit);
     ASSERT_EQ(visited(job, coarse), expected) << "limit " << limit;
     if (coarse.cells.size() < 2) continue;
