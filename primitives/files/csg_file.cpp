@@ -7,9 +7,12 @@
 #include <utility>
 
 #include <csgrun/primitives/csg_file.h>
+#include <csgrun/primitives/mesh_file.h>
+#include <csgrun/primitives/shape_operations.h>
 
 #include "primitives/files/csg_parser.h"
 #include "primitives/files/csg_shapes.h"
+#include "primitives/files/formats.h"
 #include "primitives/files/read_file.h"
 
 namespace csgrun {
@@ -44,9 +47,7 @@ struct Frame {
   std::vector<Item> children;
 };
 
-constexpr std::array<std::string_view, 10> kNotBuilt{"text",      "import", "surface", "hull",
-                                                     "minkowski", "resize", "offset",  "projection",
-                                                     "fill",      "roof"};
+constexpr std::array<std::string_view, 3> kNotBuilt{"surface", "projection", "roof"};
 
 bool is_not_built(std::string_view name) {
   return std::find(kNotBuilt.begin(), kNotBuilt.end(), name) != kNotBuilt.end();
@@ -54,8 +55,10 @@ bool is_not_built(std::string_view name) {
 
 class CsgBuilder {
  public:
-  CsgBuilder(const std::string& name, std::string_view text)
-      : file_(std::make_shared<const std::string>(name)), parser_(file_, text) {}
+  CsgBuilder(const std::string& name, std::string_view text, const CsgEnvironment& environment)
+      : file_(std::make_shared<const std::string>(name)),
+        parser_(file_, text),
+        environment_(environment) {}
 
   Result<CsgModel> build() {
     stack_.emplace_back();  // the file itself: a union
@@ -132,18 +135,21 @@ class CsgBuilder {
       return leaf(frame, std::move(mesh), notes);
     }
     if (is_flat_primitive(name)) return flat_primitive(frame);
+    if (name == "text") return text(frame);
+    if (name == "import") return import(frame);
+    if (name == "offset") return offset(frame);
+    if (name == "hull") return hull(frame);
+    if (name == "minkowski") return minkowski(frame);
+    if (name == "fill") return fill(frame);
+    if (name == "resize") return resize(frame);
     if (is_not_built(name)) {
-      if (!takes_children(name) || !frame.children.empty()) {
-        return Error{ErrorCode::kInvalidArgument, name + "() is not supported in .csg files", {}};
-      }
+      if (!takes_children(name) || !frame.children.empty()) return not_supported(frame);
       return Item();
     }
     return Error{ErrorCode::kMalformedFile, "unknown node " + name + "()", {}};
   }
 
-  static bool takes_children(std::string_view name) {
-    return name != "text" && name != "import" && name != "surface";
-  }
+  static bool takes_children(std::string_view name) { return name != "surface"; }
 
   /// A leaf of the mesh; impossible arguments make it empty.
   Result<Item> leaf(const Frame& frame, MeshResult mesh, const std::vector<std::string>& notes) {
@@ -160,6 +166,12 @@ class CsgBuilder {
   Result<Item> flat_primitive(const Frame& frame) {
     std::vector<std::string> notes;
     Result<Shape2D> shape = make_csg_shape(frame.call, notes);
+    return flat_leaf(frame, std::move(shape), notes);
+  }
+
+  /// A shape; impossible arguments make it empty.
+  Result<Item> flat_leaf(const Frame& frame, Result<Shape2D> shape,
+                         const std::vector<std::string>& notes) {
     for (const std::string& note : notes) warn(frame, note);
     if (shape) return Item::of(*std::move(shape));
     if (shape.error().code != ErrorCode::kInvalidArgument) return shape.error();
@@ -167,11 +179,60 @@ class CsgBuilder {
     return Item();
   }
 
-  /// The children under a Boolean. The first that is not empty decides between 2D and 3D.
-  Result<Item> combine(BooleanOp op, Frame& frame) {
+  /// A mesh, or a drawing. A file that is not there is an error: nothing is dropped silently.
+  Result<Item> import(const Frame& frame) {
+    const Result<CsgImport> import = csg_import(frame.call);
+    if (!import) return import.error();
+    const std::string& path = import->file;
+    const bool drawing = !flat_file_format_of(path).empty();
+    if (!drawing && mesh_format_of(path).empty()) {
+      return Error{
+          ErrorCode::kInvalidArgument,
+          "import: " + quoted(path) + " has none of the endings .stl, .off, .obj, .ply, .svg, .dxf",
+          {}};
+    }
+    if (!environment_.read) {
+      return Error{ErrorCode::kInvalidArgument, "import: there are no files here", {}};
+    }
+    const Result<std::string> bytes = environment_.read(path);
+    if (!bytes) return Error{bytes.error().code, "import: " + bytes.error().message, {}};
+    if (drawing) {
+      Result<FlatFile> file = parse_flat(path, *bytes, import->options);
+      if (!file) return Error{file.error().code, "import: " + file.error().message, {}};
+      for (const std::string& note : file->notes) warn(frame, "import: " + note);
+      return Item::of(std::move(file->shape));
+    }
+    Result<PolygonMesh> mesh = parse_mesh(path, *bytes);
+    std::string note;
+    if (mesh) mesh = make_solid_mesh(*std::move(mesh), &note);
+    if (!mesh) return Error{mesh.error().code, "import: " + mesh.error().message, {}};
+    if (!note.empty()) warn(frame, "import: " + note);
+    return leaf(frame, std::move(mesh), {});
+  }
+
+  Result<Item> text(const Frame& frame) {
+    const Result<CsgText> text = csg_text(frame.call);
+    if (!text) return text.error();
+    FontBook shipped;
+    FontBook& fonts = environment_.fonts != nullptr ? *environment_.fonts : shipped;
+    const Result<FontChoice> choice = fonts.find(text->font);
+    if (!choice) {
+      return Error{choice.error().code, "text: " + choice.error().message, {}};
+    }
+    std::vector<std::string> notes;
+    if (!choice->note.empty()) notes.push_back("text: " + choice->note);
+    std::string note;
+    Result<Shape2D> shape = make_text(text->options, choice->font, &note);
+    if (!note.empty()) notes.push_back(note);
+    return flat_leaf(frame, std::move(shape), notes);
+  }
+
+  /// The first child that is not empty decides between 2D and 3D; children of the other kind
+  /// become empty. kEmpty when all are.
+  Item::Kind settle_kind(Frame& frame) {
     const auto first = std::find_if(frame.children.begin(), frame.children.end(),
                                     [](const Item& i) { return i.kind != Item::Kind::kEmpty; });
-    if (first == frame.children.end()) return Item();
+    if (first == frame.children.end()) return Item::Kind::kEmpty;
     const Item::Kind kind = first->kind;
     for (Item& child : frame.children) {
       if (child.kind == kind || child.kind == Item::Kind::kEmpty) continue;
@@ -179,14 +240,87 @@ class CsgBuilder {
                                              : "a 3D child among 2D ones was left out");
       child = Item();
     }
-    if (kind == Item::Kind::kFlat) {
-      std::vector<Shape2D> shapes;
-      for (Item& child : frame.children) shapes.push_back(std::move(child.shape));
-      Result<Shape2D> result = Shape2D::boolean(op, shapes);
-      if (!result) return result.error();
-      return Item::of(*std::move(result));
-    }
+    return kind;
+  }
+
+  static std::vector<Shape2D> take_shapes(Frame& frame) {
+    std::vector<Shape2D> shapes;
+    for (Item& child : frame.children) shapes.push_back(std::move(child.shape));
+    return shapes;
+  }
+
+  static Result<Item> item_of(Result<Shape2D> shape) {
+    if (!shape) return shape.error();
+    return Item::of(*std::move(shape));
+  }
+
+  /// The children under a Boolean.
+  Result<Item> combine(BooleanOp op, Frame& frame) {
+    const Item::Kind kind = settle_kind(frame);
+    if (kind == Item::Kind::kEmpty) return Item();
+    if (kind == Item::Kind::kFlat) return item_of(Shape2D::boolean(op, take_shapes(frame)));
     return Item::of(combine_solids(op, frame));
+  }
+
+  /// The union of the 2D children; solids are left out, with a warning.
+  Result<Item> combine_flat(Frame& frame) {
+    for (Item& child : frame.children) {
+      if (child.kind != Item::Kind::kSolid) continue;
+      warn(frame, frame.call.name + ": a 3D child was left out");
+      child = Item();
+    }
+    return combine(BooleanOp::kUnion, frame);
+  }
+
+  static Error not_supported(const Frame& frame) {
+    return Error{
+        ErrorCode::kInvalidArgument, frame.call.name + "() is not supported in .csg files", {}};
+  }
+
+  Result<Item> offset(Frame& frame) {
+    const Result<OffsetOptions> options = csg_offset(frame.call);
+    if (!options) return options.error();
+    Result<Item> child = combine_flat(frame);
+    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    return item_of(offset_shape(child->shape, *options));
+  }
+
+  Result<Item> hull(Frame& frame) {
+    const Item::Kind kind = settle_kind(frame);
+    if (kind == Item::Kind::kEmpty) return Item();
+    if (kind == Item::Kind::kFlat) return item_of(hull_of_shapes(take_shapes(frame)));
+    return not_supported(frame);
+  }
+
+  Result<Item> minkowski(Frame& frame) {
+    const Item::Kind kind = settle_kind(frame);
+    if (kind == Item::Kind::kEmpty) return Item();
+    if (kind == Item::Kind::kFlat) return item_of(minkowski_of_shapes(take_shapes(frame)));
+    return not_supported(frame);
+  }
+
+  Result<Item> fill(Frame& frame) {
+    Result<Item> child = combine(BooleanOp::kUnion, frame);
+    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    if (child->kind == Item::Kind::kFlat) return item_of(fill_shape(child->shape));
+    warn(frame, "fill: has no meaning for 3D children, they were united");
+    return child;
+  }
+
+  Result<Item> resize(Frame& frame) {
+    const Result<CsgResize> wanted = csg_resize(frame.call);
+    if (!wanted) return wanted.error();
+    Result<Item> child = combine(BooleanOp::kUnion, frame);
+    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    if (child->kind == Item::Kind::kSolid) return not_supported(frame);
+    const auto [low, high] = child->shape.bounds();
+    const auto factors =
+        resize_factors({high.x - low.x, high.y - low.y}, {wanted->newsize[0], wanted->newsize[1]},
+                       {wanted->automatic[0], wanted->automatic[1]});
+    Affine map;
+    map.m[0][0] = factors[0];
+    map.m[1][1] = factors[1];
+    return item_of(child->shape.transformed(map));
   }
 
   NodePtr combine_solids(BooleanOp op, Frame& frame) {
@@ -267,26 +401,23 @@ class CsgBuilder {
   }
 
   Result<Item> extrude(Frame& frame) {
-    for (Item& child : frame.children) {
-      if (child.kind != Item::Kind::kSolid) continue;
-      warn(frame, frame.call.name + ": a 3D child was left out");
-      child = Item();
-    }
-    Result<Item> profile = combine(BooleanOp::kUnion, frame);
+    Result<Item> profile = combine_flat(frame);
     if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
     return leaf(frame, extrude_csg(frame.call, profile->shape), {});
   }
 
   std::shared_ptr<const std::string> file_;
   CsgParser parser_;
+  const CsgEnvironment& environment_;
   std::vector<Frame> stack_;
   std::vector<std::string> warnings_;
 };
 
 }  // namespace
 
-Result<CsgModel> parse_csg(const std::string& name, std::string_view text) {
-  return CsgBuilder(name, text).build();
+Result<CsgModel> parse_csg(const std::string& name, std::string_view text,
+                           const CsgEnvironment& environment) {
+  return CsgBuilder(name, text, environment).build();
 }
 
 Result<CsgModel> read_csg_file(const std::string& path) {

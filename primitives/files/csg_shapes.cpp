@@ -47,6 +47,13 @@ bool CsgArguments::boolean(std::string_view name, bool otherwise) {
   return value->boolean;
 }
 
+std::string CsgArguments::string(std::string_view name, const std::string& otherwise) {
+  const CsgValue* value = call_.find(name);
+  if (value == nullptr) return otherwise;
+  if (value->kind != Kind::kString) wrong_type(name, "a string");
+  return value->string;
+}
+
 std::vector<double> CsgArguments::numbers(std::string_view name, size_t size,
                                           std::vector<double> otherwise) {
   const CsgValue* value = call_.find(name);
@@ -207,6 +214,67 @@ Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& wa
   std::erase_if(paths, [](const std::vector<uint32_t>& path) { return path.size() < 3; });
   if (paths.empty()) return invalid_argument("polygon: encloses no area");
   return make_polygon(points, paths);
+}
+
+Result<CsgImport> csg_import(const CsgCall& call) {
+  CsgArguments arguments(call);
+  CsgImport import;
+  FlatFileOptions& o = import.options;
+  import.file = arguments.string("file", "");
+  o.layer = arguments.string("layer", "");
+  o.id = arguments.string("id", "");
+  o.dpi = arguments.number("dpi", 72);
+  o.scale = arguments.number("scale", 1);
+  const std::vector<double> origin = arguments.numbers("origin", 2, {0, 0});
+  o.origin = {origin[0], origin[1]};
+  o.center = arguments.boolean("center", false);
+  o.facets = arguments.facets();
+  if (arguments.error()) return *arguments.error();
+  return import;
+}
+
+Result<CsgText> csg_text(const CsgCall& call) {
+  CsgArguments arguments(call);
+  CsgText text;
+  TextOptions& o = text.options;
+  o.text = arguments.string("text", "");
+  o.size = arguments.number("size", 10);
+  o.spacing = arguments.number("spacing", 1);
+  o.direction = arguments.string("direction", "");
+  o.language = arguments.string("language", "en");
+  o.script = arguments.string("script", "");
+  o.halign = arguments.string("halign", "default");
+  o.valign = arguments.string("valign", "default");
+  o.facets = arguments.facets();
+  text.font = arguments.string("font", "");
+  if (arguments.error()) return *arguments.error();
+  return text;
+}
+
+Result<OffsetOptions> csg_offset(const CsgCall& call) {
+  CsgArguments arguments(call);
+  OffsetOptions options;
+  const bool sharp = arguments.has("delta") && !arguments.has("r");
+  options.distance = arguments.number(sharp ? "delta" : "r", 1);
+  const bool chamfer = arguments.boolean("chamfer", false);
+  if (sharp) options.join = chamfer ? OffsetJoin::kChamfer : OffsetJoin::kMitre;
+  options.facets = arguments.facets();
+  if (arguments.error()) return *arguments.error();
+  return options;
+}
+
+Result<CsgResize> csg_resize(const CsgCall& call) {
+  CsgArguments arguments(call);
+  const std::vector<double> newsize = arguments.numbers("newsize", 3, {0, 0, 0});
+  const std::vector<double> automatic = arguments.numbers("auto", 3, {0, 0, 0});
+  if (arguments.error()) return *arguments.error();
+  CsgResize resize;
+  for (size_t i = 0; i < 3; ++i) {
+    if (!std::isfinite(newsize[i])) return not_finite("resize", "newsize", newsize[i]);
+    resize.newsize[i] = std::max(newsize[i], 0.0);
+    resize.automatic[i] = automatic[i] != 0;
+  }
+  return resize;
 }
 
 MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape) {

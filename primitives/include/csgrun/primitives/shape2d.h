@@ -35,10 +35,11 @@ class Shape2D {
   };
 
   Shape2D() = default;  ///< the empty region
-  /// Any outlines, under the even-odd rule; snapped to the 2D grid, cleaned. Outlines that enclose
-  /// nothing give the empty shape. Errors: kInvalidArgument for coordinates that are not finite,
-  /// kOutOfRange beyond 1e12 mm.
-  static Result<Shape2D> from_outlines(const std::vector<Loop>& outlines);
+  /// Any outlines, by default under the even-odd rule; snapped to the 2D grid, cleaned. Outlines
+  /// that enclose nothing give the empty shape. Errors: kInvalidArgument for coordinates that are
+  /// not finite, kOutOfRange beyond 1e12 mm.
+  static Result<Shape2D> from_outlines(const std::vector<Loop>& outlines,
+                                       FillRule fill = FillRule::kEvenOdd);
 
   [[nodiscard]] const std::vector<Loop>& loops() const;
   /// In the order of their outer loops; each loop is in exactly one region.
@@ -68,6 +69,10 @@ class Shape2D {
 
 /// Errors: kInvalidArgument for sizes that are not positive and finite.
 Result<Shape2D> make_square(const glm::dvec2& size, std::array<bool, 2> center = {false, false});
+/// Quarters of a circle of radius r at the corners, each in ceil(fragments(r) / 4) steps. Errors:
+/// kInvalidArgument as above, and when two radii are longer than a side.
+Result<Shape2D> make_rounded_square(const glm::dvec2& size, double r, const Facets& facets,
+                                    std::array<bool, 2> center = {false, false});
 Result<Shape2D> make_circle(double r, const Facets& facets);
 /// No paths: one outline of all points. With paths: all outlines together, even-odd; winding and
 /// order do not matter. Errors: kInvalidArgument for fewer than 3 points in an outline, indices out
