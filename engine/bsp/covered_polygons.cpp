@@ -247,8 +247,10 @@ std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expr
   bool any = false;
   for (uint32_t o = 0; o < job.operand_count(); ++o) {
     if (balls.empty() && live[o].holds(job.operand_box(o))) continue;
+    const bool is_live = !live[o].is_empty();
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
-      is_covered[p] = !live[o].meets(job.boxes()[p]) || balls.hold(job, job.polygons()[p]);
+      is_covered[p] =
+          !is_live || !live[o].meets(job.boxes()[p]) || balls.hold(job, job.polygons()[p]);
       any |= is_covered[p] != 0;
     }
   }

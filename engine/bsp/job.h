@@ -66,6 +66,15 @@ struct JobPolygon {
   PlaneId support;        ///< oriented outwards; invalid until planes were made
 };
 
+/// Where the i-th corner of a loop is, and the edge after it, if it is run backwards when `flip`:
+/// the edge that follows corner n - 1 - i is then the one that came before it.
+constexpr uint32_t corner_place(uint32_t i, uint32_t count, bool flip) {
+  return flip ? count - 1 - i : i;
+}
+constexpr uint32_t edge_place(uint32_t i, uint32_t count, bool flip) {
+  return flip ? (2 * count - 2 - i) % count : i;
+}
+
 class Job {
  public:
   /// Planes go into `planes`, if a table is given: that of the operand in pieces, if there is one.

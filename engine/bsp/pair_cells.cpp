@@ -56,14 +56,10 @@ class CellFinder {
         cancel_(options.cancel) {}
 
   PairCells run() {
-    const PairCells coarse = find_coarse_cells(job_, limit_);
+    const PairCells coarse = find_coarse_cells(job_, covered_, limit_);
     result_.surface = coarse.surface;
     for (const PairCells::Cell& cell : coarse.cells) {
       const uint32_t* polygons = coarse.polygons.data() + cell.first;
-      if (std::all_of(polygons, polygons + cell.count, [&](uint32_t p) { return is_covered(p); })) {
-        leave_alone(cell.count);
-        continue;
-      }
       if (coarse.cells.size() > 1 && cell.count <= kPatientLimit * limit_) {
         ++result_.visited, ++result_.surface;
         result_.cells.push_back(

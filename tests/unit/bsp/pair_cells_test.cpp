@@ -82,7 +82,7 @@ void expect_all_pairs(const std::vector<Operand>& operands, size_t& grids) {
     KernelOptions options;
     options.cell_limit = limit;
     ASSERT_EQ(visited(job, find_pair_cells(job, {}, options)), expected) << "limit " << limit;
-    const PairCells coarse = find_coarse_cells(job, limit);
+    const PairCells coarse = find_coarse_cells(job, {}, limit);
     ASSERT_EQ(visited(job, coarse), expected) << "limit " << limit;
     if (coarse.cells.size() < 2) continue;
     ++grids;
