@@ -250,7 +250,7 @@ TEST(WholeFaces, ProgressDoesNotGoBack) {
   test::Random random(407);
   test::TreeMaker maker(random);
   int reports = 0;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const auto tree = maker.make({.size = 6, .operands = 6, .depth = 2, .frames = i % 2 == 0});
     KernelOptions options;
     options.cell_limit = 1;
