@@ -105,6 +105,9 @@ struct Hit {
   bool entering;
 };
 
+/// A triangle is a little larger than it is, so that no ray slips through between two.
+constexpr double kMargin = 1e-12;
+
 /// Moeller and Trumbore (1997); edges belong to both triangles, and hits are made one later.
 bool hits(const glm::dvec3& from, const glm::dvec3& along, const glm::dvec3& a, const glm::dvec3& b,
           const glm::dvec3& c, double& distance) {
@@ -115,7 +118,7 @@ bool hits(const glm::dvec3& from, const glm::dvec3& along, const glm::dvec3& a, 
   const double u = glm::dot(s, p) / det;
   const glm::dvec3 q = glm::cross(s, b - a);
   const double v = glm::dot(along, q) / det;
-  if (u < 0 || v < 0 || u + v > 1) return false;
+  if (u < -kMargin || v < -kMargin || u + v > 1 + kMargin) return false;
   distance = glm::dot(c - a, q) / det;
   return distance >= 0;
 }

@@ -13,10 +13,10 @@ TEST(Faces, ByDirectionAndPlane) {
       "assert(#f[1].loops == 1 and #f[1].loops[1] == 4 and f[1].loops[1][1][3] == 4)");
   // A step: two faces look up, one of them through a point.
   expect_good(
-      "local s = cube(4) - cube(2, 4, 2):up(2)\n"
-      "assert(#s:faces({0, 0, 1}) == 2 and #s:faces({0, 0, 1}, {through = {9, 9, 2}}) == 1)\n"
-      "assert(s:faces({0, 0, 1}, {through = {0, 0, 4}})[1].area == 8 and #s:faces{through = {0, 0, "
-      "3}} == 0)");
+      "local s, up = cube(4) - cube(2, 4, 2):up(2), {0, 0, 1}\n"
+      "assert(#s:faces(up) == 2 and #s:faces(up, {through = {9, 9, 2}}) == 1)\n"
+      "assert(s:faces(up, {through = {0, 0, 4}})[1].area == 8)\n"
+      "assert(#s:faces(up, {through = {0, 0, 3}}) == 0 and #s:faces{through = {0, 0, 3}} == 2)");
   // A hole is a second loop, clockwise.
   expect_good(
       "local f = (cube(10) - cube(2, 2, 10):translate(4, 4, 0)):faces({0, 0, -1})\n"
