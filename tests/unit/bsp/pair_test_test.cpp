@@ -6,10 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/bsp/ray_label.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/kernel_case.h"
-#include "tests/support/oracle.h"
 
 namespace csgrun {
 namespace {
@@ -136,34 +134,6 @@ TEST(PairTest, AgainstIntervalsInRationals) {
   EXPECT_GT(seen.plain, 100);
   EXPECT_GT(seen.touching, 100);
   EXPECT_GT(seen.coplanar, 10);
-}
-
-// Rays in doubles say nothing, or what winding numbers in rationals say.
-TEST(RayLabel, AgainstWindingNumbers) {
-  Random random(412);
-  int inside = 0, outside = 0, unknown = 0;
-  for (int i = 0; i < 200; ++i) {
-    const std::vector<Operand> operands{operand_of(random_leaf(random))};
-    const Oracle oracle(exact_solid(operands[0]));
-    const Job job(operands);
-    VertexSigns signs(job);
-    for (int k = 0; k < 40; ++k) {
-      std::array<double, 3> p{};
-      for (double& c : p) c = static_cast<double>(random.integer(-8, 48)) / 8;
-      const auto winding = oracle.winding({p[0], p[1], p[2]});
-      if (!winding) continue;  // on the surface
-      const Inside label = ray_label(job, signs, 0, p, 0);
-      if (label == Inside::kUnknown) {
-        ++unknown;
-        continue;
-      }
-      ASSERT_EQ(label == Inside::kYes, *winding == 1);
-      ++(label == Inside::kYes ? inside : outside);
-    }
-  }
-  EXPECT_GT(inside, 100);
-  EXPECT_GT(outside, 100);
-  EXPECT_LT(unknown, 100);
 }
 
 }  // namespace
