@@ -1,6 +1,5 @@
-// What connects a script with the world: import, require, param, emit, render.
+// What connects a script with the world: import, require, emit, render.
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +11,6 @@
 #include "lua_bindings/api.h"
 #include "lua_bindings/call_site.h"
 #include "lua_bindings/guard.h"
-#include "lua_bindings/parameters.h"
 #include "lua_bindings/parts.h"
 #include "lua_bindings/sandbox.h"
 #include "lua_bindings/session.h"
@@ -125,7 +123,9 @@ int import_mesh(lua_State* L) {
 constexpr Option kRequireOptions[] = {
     {"name", T::kString, "",
      "the file name.lua or name/init.lua in the model's folder, in csgrun_modules beside it, in\n"
-     "          the folders of -L and in those of CSGRUN_PATH; a dot in the name opens a folder",
+     "          the folders of -L and in those of CSGRUN_PATH, and before these where package.path "
+     "says;\n"
+     "          a dot in the name opens a folder",
      true},
 };
 constexpr FunctionSpec kRequire{"require", "Runs a module once and gives what it returns.",
@@ -137,13 +137,13 @@ const char kLoadingMark = 0;    // value while a module runs
 int require_module(lua_State* L) {
   const Arguments arguments(L, kRequire, 1);
   const std::string name = arguments.string("name", "");
-  if (name == "csg") {
+  if (name == "csg" || name == "luacad") {  // what a script has without asking
     lua_getglobal(L, "csg");
     return 1;
   }
   Files::Opened file;
   try {
-    file = session_of(L).files().open_module(name);
+    file = session_of(L).files().open_module(name, package_path(L));
   } catch (const ScriptError& error) {
     fail_in(kRequire, error.what());
   }
@@ -169,112 +169,6 @@ int require_module(lua_State* L) {
   }
   lua_pushvalue(L, -1);
   lua_setfield(L, loaded, file.real.c_str());
-  return 1;
-}
-
-constexpr Option kParamOptions[] = {
-    {"name", T::kString, "", "name, for -D name=value", true},
-    {"default", T::kValue, "", "a number, true or false, a string or a list of numbers", true},
-    {"min", T::kNumber, "", "least value", false},
-    {"max", T::kNumber, "", "greatest value", false},
-    {"step", T::kNumber, "", "values are whole steps from min (or from 0)", false,
-     Range::kPositive},
-    {"choices", T::kValue, "", "list of the values that it may have", false},
-    {"doc", T::kString, "", "what it means", false},
-};
-constexpr FunctionSpec kParam{
-    "param", "A parameter of the model: its default, or what -D name=value says.", kParamOptions,
-    false, "param(\"hole_radius\", 4, {min = 1, max = 10})"};
-
-/// What is wrong with a number, or with the value at `index`, as this parameter's; empty if
-/// nothing.
-std::string check_number(const Arguments& arguments, double x) {
-  if (arguments.has("min") && x < arguments.number("min", 0)) {
-    return fmt::format("must be at least {:.14g}, got {:.14g}", arguments.number("min", 0), x);
-  }
-  if (arguments.has("max") && x > arguments.number("max", 0)) {
-    return fmt::format("must be at most {:.14g}, got {:.14g}", arguments.number("max", 0), x);
-  }
-  if (arguments.has("step")) {
-    const double step = arguments.number("step", 1), from = arguments.number("min", 0);
-    const double steps = std::round((x - from) / step);
-    // Decimal steps are not exact in binary: a value within a millionth of a step counts.
-    if (std::abs(x - (from + steps * step)) > 1e-6 * step) {
-      return fmt::format("must be a whole number of steps of {:.14g} from {:.14g}, got {:.14g}",
-                         step, from, x);
-    }
-  }
-  return {};
-}
-
-std::string check_value(lua_State* L, const Arguments& arguments, int index) {
-  if (lua_type(L, index) == LUA_TNUMBER) {
-    if (auto problem = check_number(arguments, lua_tonumber(L, index)); !problem.empty())
-      return problem;
-  } else if (lua_istable(L, index)) {
-    const lua_Integer length = list_length(L, index);
-    for (lua_Integer i = 1; i <= length; ++i) {
-      if (lua_rawgeti(L, index, i) != LUA_TNUMBER) return "must be a list of numbers";
-      auto problem = check_number(arguments, lua_tonumber(L, -1));
-      lua_pop(L, 1);
-      if (!problem.empty()) return fmt::format("entry {} {}", i, problem);
-    }
-    if (length < 0) return "must be a list of numbers";
-  }
-  if (const int choices = arguments.stack_index("choices"); choices != 0) {
-    if (!lua_istable(L, choices)) fail_in(kParam, "option 'choices' must be a list");
-    std::string names;
-    const auto length = static_cast<lua_Integer>(lua_rawlen(L, choices));
-    for (lua_Integer i = 1; i <= length; ++i) {
-      lua_rawgeti(L, choices, i);
-      const bool same = lua_rawequal(L, -1, index) != 0;
-      if (lua_type(L, -1) == LUA_TSTRING)
-        names += std::string(i > 1 ? ", " : "") + lua_tostring(L, -1);
-      if (lua_type(L, -1) == LUA_TNUMBER)
-        names += std::string(i > 1 ? ", " : "") + describe_value(L, -1);
-      lua_pop(L, 1);
-      if (same) return {};
-    }
-    return "must be one of " + names;
-  }
-  return {};
-}
-
-int param(lua_State* L) {
-  const Arguments arguments(L, kParam, 1);
-  const std::string name = arguments.string("name", "");
-  const int fallback = arguments.stack_index("default");
-  if (name.empty() || fallback == 0) fail_in(kParam, "needs a name and a default value");
-  const std::string type = parameter_type(L, fallback);
-  if (type.empty()) {
-    fail_in(kParam, "the default of '" + name +
-                        "' must be a number, true or false, a string or a list of numbers, got " +
-                        describe_value(L, fallback));
-  }
-  Session& session = session_of(L);
-  session.parameter_names.push_back(name);
-  if (const std::string problem = check_value(L, arguments, fallback); !problem.empty()) {
-    fail_in(kParam, "the default of '" + name + "' " + problem);
-  }
-  Definition* definition = nullptr;  // the last -D of a name counts
-  for (Definition& candidate : session.definitions) {
-    if (candidate.name != name) continue;
-    candidate.used = true;
-    definition = &candidate;
-  }
-  lua_pushvalue(L, fallback);
-  if (definition == nullptr) return 1;
-  std::string problem;
-  if (!push_definition(L, fallback, definition->text)) {
-    problem = "must be " + type;
-  } else {
-    problem = check_value(L, arguments, lua_gettop(L));
-  }
-  if (!problem.empty()) {
-    session.definition_error =
-        fmt::format("-D {}={}: '{}' {}", name, definition->text, name, problem);
-    throw ScriptError(*session.definition_error);
-  }
   return 1;
 }
 
@@ -315,7 +209,6 @@ int emit(lua_State* L) {
 constexpr Binding kBindings[] = {
     {&kImport, guarded<import_mesh>, nullptr, nullptr},
     {&kRequire, guarded<require_module>, nullptr, nullptr},
-    {&kParam, guarded<param>, nullptr, nullptr},
     {&kEmit, guarded<emit<kEmit>>, nullptr, nullptr},
     {&kRender, guarded<emit<kRender>>, nullptr, nullptr},
 };

@@ -17,6 +17,7 @@
 #include "lua_bindings/arguments.h"
 #include "lua_bindings/cli/exit_codes.h"
 #include "lua_bindings/cli/info.h"
+#include "lua_bindings/cli/parameter_file.h"
 
 namespace csgrun {
 namespace {
@@ -77,17 +78,21 @@ void check_model(const std::string& model) {
   }
 }
 
-std::pair<std::string, std::string> split_definition(const std::string& text) {
+Definition split_definition(const std::string& text) {
   const size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw UsageError{fmt::format("-D {}: write it as -D name=value", text)};
   }
-  return {text.substr(0, equals), text.substr(equals + 1)};
+  Definition definition;
+  definition.name = text.substr(0, equals);
+  definition.text = text.substr(equals + 1);
+  return definition;
 }
 
 /// What the options are read into before they are checked.
 struct RawOptions {
   std::vector<std::string> definitions;
+  std::string parameter_file, parameter_set;
   std::string grid, stats, cache_folder;
   double timeout = 0, megabytes = 0;
   bool no_cache = false, help_api = false;
@@ -96,6 +101,13 @@ struct RawOptions {
 void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
   check_model(line.model);
   for (const std::string& path : line.outputs) check_output(path, line);
+  if (raw.parameter_file.empty() && !raw.parameter_set.empty())
+    throw UsageError{"-P names a set in a file: give the file with -p"};
+  if (!raw.parameter_file.empty()) {
+    auto set = read_parameter_file(raw.parameter_file, raw.parameter_set);
+    if (!set) throw UsageError{set.error().message};
+    line.definitions = *std::move(set);
+  }
   for (const std::string& text : raw.definitions)
     line.definitions.push_back(split_definition(text));
   for (const std::string& folder : line.library_folders) {
@@ -136,7 +148,9 @@ void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
     }
     line.memory_bytes = static_cast<size_t>(raw.megabytes * 1048576.0);
   }
-  if (line.outputs.empty() && line.stats == StatsForm::kNone) {
+  if (line.list_params && (!line.outputs.empty() || line.stats != StatsForm::kNone))
+    throw UsageError{"--list-params writes no model: leave -o and --stats out"};
+  if (line.outputs.empty() && line.stats == StatsForm::kNone && !line.list_params) {
     throw UsageError{"nothing to do: give an output with -o, or --stats"};
   }
   if (line.check && line.outputs.empty())
@@ -210,6 +224,12 @@ CommandLine parse_command_line(int argc, char** argv) {
   app.add_option("-D", raw.definitions, "sets a parameter of the model")
       ->allow_extra_args(false)
       ->type_name("name=value");
+  app.add_option("-p", raw.parameter_file,
+                 "a JSON file with values of parameters: {\"name\": value}, or OpenSCAD's sets")
+      ->type_name("FILE");
+  app.add_option("-P", raw.parameter_set, "which set of the file")->type_name("SET");
+  app.add_flag("--list-params", line.list_params,
+               "prints the parameters that the model asks for, as a JSON schema");
   app.add_option("-L", line.library_folders, "a folder of modules and meshes")
       ->allow_extra_args(false)
       ->type_name("DIR");

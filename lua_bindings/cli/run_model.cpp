@@ -54,6 +54,11 @@ class Run {
     const auto start = Clock::now();
     Failure failure = load();
     report_.script_seconds = seconds_since(start) - session_.budget().evaluation_seconds();
+    if (line_.list_params) {
+      if (!failure.failed()) report_.parameters = session_.parameters;
+      session_.budget().stop();
+      return failure;
+    }
     if (!failure.failed()) failure = evaluate();
     if (!failure.failed()) failure = write_all();
     session_.budget().stop();
@@ -162,8 +167,8 @@ class Run {
   /// Meshes and trees have no parameters.
   Failure refuse_definitions() const {
     if (line_.definitions.empty()) return {};
-    return {kExitUsage,
-            fmt::format("csgrun: -D {}: only a script has parameters", line_.definitions[0].first)};
+    return {kExitUsage, fmt::format("csgrun: {} {}: only a script has parameters",
+                                    line_.definitions[0].origin, line_.definitions[0].name)};
   }
 
   Failure evaluation_failure(const Error& error) {

@@ -20,6 +20,7 @@ struct FileCheck {
 
 /// What a run has to tell.
 struct RunReport {
+  std::vector<Parameter> parameters;  ///< with --list-params
   std::vector<Part> parts;
   EvaluateStats stats;
   std::vector<std::string> warnings;
