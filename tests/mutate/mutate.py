@@ -199,6 +199,8 @@ def make_stages(configurations, pool, arguments):
     for t in tests:
         last = stages[-1] if stages else None
         special = len(t.different) < SPECIAL
+        if not re.search(arguments.tests, f"{t.executable} {t.name}"):
+            continue
         if not t.different or t.seconds > arguments.quick * (SPECIAL_TIMES if special else 1):
             continue
         if last and last.executable == t.executable and last.environment == t.environment and \
@@ -263,6 +265,7 @@ def parse_arguments():
     parser.add_argument("--quick", type=float, default=math.inf, metavar="SECONDS",
                         help="leave out tests that take longer (of few mutants: than ten times), and the "
                              "thorough ones")
+    parser.add_argument("--tests", default="", metavar="REGEX", help="on tests of such names only")
     parser.add_argument("--explained", action="store_true", help="try the explained ones too")
     parser.add_argument("--list", action="store_true", help="print the mutants and stop")
     parser.add_argument("--verbose", action="store_true", help="say what the tests cost")

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/bsp/untouched.h"
+#include "engine/bsp/vertex_signs.h"
 #include "tests/support/boundary_compare.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_trees.h"
@@ -170,6 +171,61 @@ TEST(ResultPieces, OfResults) {
     ASSERT_TRUE(assembled && once);
     ASSERT_EQ(test::first_difference(**assembled, **once), "") << "case " << i;
   }
+}
+
+// A job has the pieces near the others only, but the box of all; and what is in the midst of a
+// result is told from all pieces around.
+TEST(ResultPieces, AreOfOneBox) {
+  std::vector<Operand> boxes{test::operand_of(test::box_leaf({0, 0, 0}, {40, 40, 40})),
+                             test::operand_of(test::box_leaf({30, 30, 30}, {50, 50, 51})),
+                             test::operand_of(test::box_leaf({10, 11, 12}, {14, 15, 16})),
+                             test::operand_of(test::box_leaf({70, 70, 70}, {80, 80, 80}))};
+  for (uint32_t o = 0; o < 4; ++o) {
+    boxes[o].first_source = o;
+    boxes[o].frame.is_identity = false;  // no lattice
+    boxes[o].frame.matrix = {
+        {{int64_t{1} << 40, 0, 0}, {0, int64_t{1} << 40, 0}, {0, 0, int64_t{1} << 40}}};
+  }
+  const GridBox region{{-1, -1, -1}, {99, 99, 99}};
+  EvaluateStats stats;
+  const auto version = evaluate_pieces(
+      {boxes[0], boxes[1]}, test::flat_expression(BooleanOp::kUnion, 2), region, {}, stats);
+  ASSERT_TRUE(version && *version);
+  for (const uint32_t tool : {2u, 3u}) {
+    Operand pieces;
+    pieces.pieces =
+        std::make_shared<PieceOperand>(PieceOperand{(*version)->store, (*version)->tree});
+    const std::vector<Operand> operands{boxes[tool], pieces};
+    const Job job(operands, &(*version)->store->planes);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_LE(job.operand_box(1).lo[k], 0);
+      EXPECT_GE(job.operand_box(1).lo[k], -1);
+      EXPECT_GE(job.operand_box(1).hi[k], k == 2 ? 51 : 50);
+      EXPECT_LE(job.operand_box(1).hi[k], k == 2 ? 52 : 51);
+    }
+    EXPECT_LT(job.polygons().size(), 18u);
+    // Rays meet all of them: the largest coordinate counts, and rounding.
+    EXPECT_EQ(VertexSigns(job).error(1), 51 * 0x1p-53);
+    for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kDifference, BooleanOp::kIntersection,
+                               BooleanOp::kSymmetricDifference}) {
+      const auto next =
+          change_pieces(**version, {boxes[tool]}, test::flat_expression(op, 2), region, {}, stats);
+      ASSERT_TRUE(next && *next);
+      const auto assembled = assemble_pieces(**next, false);
+      const auto once = evaluate_boolean(
+          {boxes[0], boxes[1], boxes[tool]},
+          continued(test::flat_expression(BooleanOp::kUnion, 2), op, 2, 1), region, {}, stats);
+      ASSERT_TRUE(assembled && once);
+      EXPECT_EQ(test::first_difference(**assembled, **once), "") << tool << static_cast<int>(op);
+    }
+  }
+  // Of nothing at all.
+  Operand none;
+  none.pieces = std::make_shared<PieceOperand>(PieceOperand{(*version)->store, {}});
+  const std::vector<Operand> operands{boxes[3], none};
+  const Job job(operands, &(*version)->store->planes);
+  EXPECT_TRUE(job.operand_box(1).is_empty());
+  EXPECT_FALSE(job.operand_box(0).is_empty());
 }
 
 TEST(ResultPieces, StopWhenCancelled) {

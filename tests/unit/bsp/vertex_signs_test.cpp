@@ -143,6 +143,16 @@ TEST(VertexSigns, ErrorsAreHalfAUnitInTheLastPlaceOfTheLargestCoordinate) {
   }
 }
 
+TEST(VertexSigns, OfResultsAreRoundedEvenOnTheGrid) {
+  const std::vector<Operand> boxes{test::operand_of(test::box_leaf({0, 0, 0}, {4, 4, 4})),
+                                   test::operand_of(test::box_leaf({2, 2, 2}, {6, 7, 8}))};
+  const auto result = test::evaluate(test::join({test::leaf(0), test::leaf(1)}), boxes);
+  ASSERT_TRUE(result);
+  std::vector<Operand> operands(1);
+  operands[0].boundary = *result;
+  EXPECT_GE(VertexSigns(Job(operands)).error(0), 8 * 0x1p-53);
+}
+
 TEST(GridPlanes, PassThroughTheirPointsAndHaveALongestAxis) {
   test::Random random(54);
   const auto at = [](const Plane& s, const IVec3& p) {
