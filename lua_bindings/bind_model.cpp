@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <csgrun/primitives/flat_file.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/api.h"
@@ -22,7 +23,8 @@ using T = ArgumentType;
 
 constexpr Option kImportOptions[] = {
     {"file", T::kString, "",
-     "STL, OFF, OBJ or PLY, relative to the file that calls, or else to the folders of -L and\n"
+     "STL, OFF, OBJ, PLY, SVG or DXF, relative to the file that calls, or else to the folders of "
+     "-L and\n"
      "          CSGRUN_PATH",
      true},
     {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
@@ -34,12 +36,20 @@ constexpr Option kImportOptions[] = {
      "          outwards), drop_degenerate (true: drops faces whose points lie on one line),\n"
      "          drop_duplicates (true: of faces on the same points those that are too many)",
      false},
+    {"layer", T::kString, "", "of a drawing: only this layer (in an SVG one of Inkscape)", false},
+    {"id", T::kString, "", "of an SVG: only the element of this id, with what is in it", false},
+    {"dpi", T::kNumber, "72", "of an SVG: user units an inch, where it gives no size", false,
+     Range::kPositive},
+    {"origin", T::kVector2, "{0, 0}", "of a DXF: this point becomes the origin", false},
+    {"scale", T::kNumber, "1", "of a DXF: a factor", false, Range::kPositive},
+    {"center", T::kBoolean, "false", "of a drawing: the middle of its box becomes the origin",
+     false},
 };
 constexpr FunctionSpec kImport{
     "import",
     "A solid from a mesh file; the mesh must be closed, or is repaired on request. Where it "
-    "crosses itself, fill says what is inside.",
-    kImportOptions, false, "import(\"scan.stl\", {repair = {weld = 0.01, fill_holes = true}})"};
+    "crosses itself, fill says what is inside. A shape from a drawing: what is filled or closed.",
+    kImportOptions, true, "import(\"scan.stl\", {repair = {weld = 0.01, fill_holes = true}})"};
 
 constexpr Option kRepairOptions[] = {
     {"weld", T::kNumber, "0", "mm", false, Range::kNotNegative},
@@ -72,22 +82,52 @@ std::optional<RepairOptions> repair_argument(lua_State* L, const Arguments& argu
   return options;
 }
 
-/// The file whose code is running, as messages name it: chunks made by load() do not count.
-std::string calling_file(lua_State* L) {
-  lua_Debug frame{};
-  for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
-    lua_getinfo(L, "Sl", &frame);
-    if (frame.currentline > 0 && frame.source[0] == '@') return frame.source + 1;
+/// A drawing as a shape.
+int import_drawing(lua_State* L, const Arguments& arguments, const std::string& path) {
+  const std::string format = flat_file_format_of(path);
+  for (const char* name : {"fill", "repair"}) {
+    if (arguments.has(name))
+      fail_in(kImport, fmt::format("option '{}' is for meshes, not for drawings", name));
   }
-  return session_of(L).options().model;
+  for (const auto& [name, of] : {std::pair{"id", "svg"}, std::pair{"dpi", "svg"},
+                                 std::pair{"origin", "dxf"}, std::pair{"scale", "dxf"}}) {
+    if (arguments.has(name) && format != of)
+      fail_in(kImport, fmt::format("option '{}' is for .{} files", name, of));
+  }
+  FlatFileOptions options;
+  options.layer = arguments.string("layer", "");
+  options.id = arguments.string("id", "");
+  if (!options.layer.empty() && !options.id.empty())
+    fail_in(kImport, "give either 'layer' or 'id', not both");
+  options.dpi = arguments.number("dpi", 72);
+  options.scale = arguments.number("scale", 1);
+  if (const auto origin = arguments.vector("origin")) options.origin = {origin->v.x, origin->v.y};
+  options.center = arguments.boolean("center", false);
+  options.facets = arguments.facets();
+  Session& session = session_of(L);
+  Files::Opened file;
+  try {
+    file = session.files().open(calling_file(L), path);
+  } catch (const ScriptError& error) {
+    fail_in(kImport, error.what());
+  }
+  FlatFile drawing = value_or_fail(kImport, parse_flat(file.display, file.bytes, options));
+  for (const std::string& note : drawing.notes) session.warn(L, "import: " + note);
+  push_shape(L, std::move(drawing.shape), {});
+  return 1;
 }
 
-int import_mesh(lua_State* L) {
+int import_file(lua_State* L) {
   const Arguments arguments(L, kImport, 1);
   const std::string path = arguments.string("file", "");
   if (path.empty()) fail_in(kImport, "needs the name of a file");
+  if (!flat_file_format_of(path).empty()) return import_drawing(L, arguments, path);
   if (mesh_format_of(path).empty()) {
-    fail_in(kImport, "'" + path + "' has none of the endings .stl, .off, .obj, .ply");
+    fail_in(kImport, "'" + path + "' has none of the endings .stl, .off, .obj, .ply, .svg, .dxf");
+  }
+  for (const char* name : {"layer", "id", "dpi", "origin", "scale", "center", "fn", "fa", "fs"}) {
+    if (arguments.has(name))
+      fail_in(kImport, fmt::format("option '{}' is for drawings, not for meshes", name));
   }
   Session& session = session_of(L);
   Files::Opened file;
@@ -207,7 +247,7 @@ int emit(lua_State* L) {
 }
 
 constexpr Binding kBindings[] = {
-    {&kImport, guarded<import_mesh>, nullptr, nullptr},
+    {&kImport, guarded<import_file>, nullptr, nullptr},
     {&kRequire, guarded<require_module>, nullptr, nullptr},
     {&kEmit, guarded<emit<kEmit>>, nullptr, nullptr},
     {&kRender, guarded<emit<kRender>>, nullptr, nullptr},

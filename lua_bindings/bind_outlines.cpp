@@ -41,6 +41,7 @@ int offset(lua_State* L) {
     fail_in(kOffset, "option 'chamfer' goes with 'delta', not with 'r'");
   }
   push_shape(L, value_or_fail(kOffset, offset_shape(shape.shape, options)), shape.appearance);
+  keep_marks(L, 1);
   return 1;
 }
 
@@ -57,9 +58,10 @@ constexpr FunctionSpec kMinkowski{
 template <const FunctionSpec& Spec, Result<Shape2D> (*Make)(const std::vector<Shape2D>&)>
 int combine_shapes(lua_State* L) {
   const Operands operands = read_operands(L, Spec);
-  if (operands.shapes.empty() && operands.solids.empty()) fail_in(Spec, "needs a shape");
-  if (!operands.solids.empty()) fail_in(Spec, "an operand must be a 2D shape, got solid");
+  if (operands.has_solids) fail_in(Spec, "an operand must be a 2D shape, got solid");
+  if (!operands.has_shapes) fail_in(Spec, "needs a shape");
   push_shape(L, value_or_fail(Spec, Make(operands.shapes)), operands.appearance);
+  marks_of(L, -1)->name = operands.name;
   return 1;
 }
 
@@ -72,6 +74,7 @@ int fill(lua_State* L) {
   const ShapeValue& shape = shape_argument(L, kFill);
   const Arguments arguments(L, kFill, 2);
   push_shape(L, value_or_fail(kFill, fill_shape(shape.shape)), shape.appearance);
+  keep_marks(L, 1);
   return 1;
 }
 
@@ -107,6 +110,7 @@ int resize(lua_State* L) {
   map.m[0][0] = factors[0];
   map.m[1][1] = factors[1];
   push_shape(L, value_or_fail(kResize, shape.shape.transformed(map)), shape.appearance);
+  keep_marks(L, 1);
   return 1;
 }
 

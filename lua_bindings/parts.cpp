@@ -63,7 +63,8 @@ void add(lua_State* L, int index, const std::string& group, const std::string& n
       session.add_part({own, solid->node, {}, solid->node->where()}, group);
     } else {
       const ShapeValue& shape = *to_shape(L, index);
-      session.add_part({own, nullptr, shape.shape, shape.where, marks->only}, group);
+      session.add_part({own, nullptr, shape.shape, shape.where, marks->only, shape.appearance},
+                       group);
     }
   } else if (lua_istable(L, index)) {
     // A list without a name of its own is no group.

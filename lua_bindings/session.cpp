@@ -39,7 +39,8 @@ Session::Session(SessionOptions options)
     : facets(options.facets),
       options_(std::move(options)),
       budget_(options_.limits, options_.model),
-      files_(options_.model_folder, options_.library_folders) {
+      files_(options_.model_folder, options_.library_folders),
+      fonts_(options_.fonts) {
   definitions = options_.definitions;
   options_.evaluate.cancel = &budget_.cancel();
 }

@@ -18,6 +18,7 @@
 #include <csgrun/engine/repair.h>
 #include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/solids.h>
+#include <csgrun/primitives/text.h>
 
 #include "lua_bindings/budget.h"
 #include "lua_bindings/files.h"
@@ -31,8 +32,9 @@ struct ScriptPart {
   std::string name;  ///< unique; groups are separated by '/'
   NodePtr solid;     ///< null for a shape
   Shape2D shape;
-  SourceRef where;    ///< where it was emitted or made
-  bool only = false;  ///< of a shape: it alone is to be in the result
+  SourceRef where;                       ///< where it was emitted or made
+  bool only = false;                     ///< of a shape: it alone is to be in the result
+  std::optional<Appearance> appearance;  ///< of a shape
 };
 
 struct SessionOptions {
@@ -43,6 +45,7 @@ struct SessionOptions {
   Facets facets;
   EvaluateOptions evaluate;
   BudgetLimits limits;
+  FontOptions fonts;
 };
 
 class Session {
@@ -52,6 +55,7 @@ class Session {
   [[nodiscard]] const SessionOptions& options() const { return options_; }
   [[nodiscard]] Budget& budget() { return budget_; }
   [[nodiscard]] Files& files() { return files_; }
+  [[nodiscard]] FontBook& fonts() { return fonts_; }
 
   /// csg.fn, csg.fa, csg.fs; csg.grid.
   Facets facets;
@@ -118,6 +122,7 @@ class Session {
   SessionOptions options_;
   Budget budget_;
   Files files_;
+  FontBook fonts_;
   std::unique_ptr<Evaluator> evaluator_;
   uint64_t settings_ = 0;  ///< a number for the settings of the evaluator: one more for each change
   std::vector<std::string> warnings_;

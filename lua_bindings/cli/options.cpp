@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 
 #include <csgrun/export/write.h>
+#include <csgrun/export/write_flat.h>
+#include <csgrun/primitives/flat_file.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/arguments.h"
@@ -50,14 +52,15 @@ void check_output(const std::string& path, const CommandLine& line) {
     throw UsageError{
         fmt::format("'{}': %s, the place of the part's name, can stand there only once", path)};
   }
-  if (model_format_of(path).empty()) {
+  if (model_format_of(path).empty() && flat_format_of(path).empty()) {
     const std::string ending = ending_of(path);
-    for (const char* later : {".3mf", ".ply", ".svg", ".dxf"}) {
+    for (const char* later : {".3mf", ".ply"}) {
       if (ending == later)
         throw UsageError{fmt::format("'{}': writing {} is not built yet", path, later)};
     }
     throw UsageError{fmt::format(
-        "'{}': the ending must be one of .glb, .gltf, .stl, .obj, .off, .exact.json", path)};
+        "'{}': the ending must be one of .glb, .gltf, .stl, .obj, .off, .exact.json, .svg, .dxf",
+        path)};
   }
   if (std::count(line.outputs.begin(), line.outputs.end(), path) > 1) {
     throw UsageError{fmt::format("'{}' is given twice with -o", path)};
@@ -68,12 +71,12 @@ void check_output(const std::string& path, const CommandLine& line) {
 }
 
 void check_model(const std::string& model) {
-  if (model == "-" || !mesh_format_of(model).empty()) return;
+  if (model == "-" || !mesh_format_of(model).empty() || !flat_file_format_of(model).empty()) return;
   const std::string ending = ending_of(model);
   if (ending != ".lua" && ending != ".csg") {
     throw UsageError{
-        fmt::format("'{}': the model must end in .lua, .csg, .stl, .off, .obj or .ply, or be - for "
-                    "Lua from standard input",
+        fmt::format("'{}': the model must end in .lua, .csg, .stl, .off, .obj, .ply, .svg or .dxf, "
+                    "or be - for Lua from standard input",
                     model)};
   }
 }
@@ -179,7 +182,7 @@ CommandLine parse_info(int argc, char** argv) {
   CommandLine line;
   line.command = Command::kInfo;
   CLI::App app("Measures a mesh file exactly, on its own coordinates.", "csgrun info");
-  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY or GLB")->required();
+  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY, GLB, SVG or DXF")->required();
   app.add_flag("--json", line.info_json, "as one JSON object");
   try {
     app.parse(argc - 1, argv + 1);
@@ -189,7 +192,7 @@ CommandLine parse_info(int argc, char** argv) {
   if (!is_info_path(line.model)) {
     std::fputs(
         fmt::format("csgrun info: '{}': the ending must be one of .stl, .off, .obj, .ply, .glb, "
-                    ".gltf\n",
+                    ".gltf, .svg, .dxf\n",
                     line.model)
             .c_str(),
         stderr);
@@ -217,7 +220,8 @@ CommandLine parse_command_line(int argc, char** argv) {
       "MODEL", line.model,
       "a script (.lua), an OpenSCAD tree (.csg), a mesh, or - for Lua from standard input");
   app.add_option("-o", line.outputs,
-                 "output: .glb .gltf .stl .obj .off, or .exact.json (coordinates as fractions); "
+                 "output: .glb .gltf .stl .obj .off, .exact.json (coordinates as fractions), of "
+                 "shapes .svg .dxf; "
                  "'dir/%s.stl' writes one file a part")
       ->allow_extra_args(false)
       ->type_name("OUT");
@@ -254,6 +258,9 @@ CommandLine parse_command_line(int argc, char** argv) {
   app.add_option("--max-memory", raw.megabytes,
                  "MB for the process (three quarters of what is there)")
       ->type_name("MB");
+  app.add_flag("--system-fonts", line.system_fonts,
+               "text may use the fonts of this machine, not only the one of the program");
+  app.add_flag("--strict", line.strict, "a font that is not there is an error, not a warning");
   app.add_flag("-q,--quiet", line.quiet, "no progress, no warnings");
   app.add_flag("--help-api", raw.help_api, "prints the functions that a script has");
   try {

@@ -30,7 +30,9 @@ struct CommandLine {
   StatsForm stats = StatsForm::kNone;
   std::optional<double> timeout_seconds;
   std::optional<size_t> memory_bytes;
-  bool check = false;  ///< prove every written mesh free of defects, or repair it
+  bool check = false;         ///< prove every written mesh free of defects, or repair it
+  bool system_fonts = false;  ///< text may use the fonts of the machine
+  bool strict = false;        ///< what would be replaced with a warning is an error
   bool quiet = false;
   bool info_json = false;
 };
