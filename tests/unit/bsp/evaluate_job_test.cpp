@@ -225,5 +225,21 @@ TEST(EvaluateJob, StraightCornersOfUntouchedFacesAreDropped) {
   }
 }
 
+// The region may lie within an operand whose face is at the lowest wall, just outside of it.
+TEST(EvaluateJob, RegionsMayStartInsideAnOperand) {
+  for (const int64_t lo : {-1, 0, 1}) {
+    std::vector<Operand> operands{test::operand_of(test::box_leaf({lo, lo, lo}, {9, 9, 9})),
+                                  test::operand_of(test::box_leaf({2, 2, 2}, {3, 3, 3}))};
+    KernelOptions options;
+    options.whole_faces = false;
+    EvaluateStats stats;
+    const auto result =
+        evaluate_boolean(operands, test::flat_expression(BooleanOp::kIntersection, 2),
+                         {{1, 1, 1}, {4, 4, 4}}, options, stats);
+    ASSERT_TRUE(result);
+    EXPECT_EQ((*result)->faces.size(), 6u) << lo;
+  }
+}
+
 }  // namespace
 }  // namespace csgrun
