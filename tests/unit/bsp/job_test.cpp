@@ -280,8 +280,13 @@ TEST(Job, WallsKeepOffVertices) {
 
 TEST(Job, VerticesHaveALexicographicOrder) {
   Random random(104);
-  for (int i = 0; i < 12; ++i) {
-    const auto operands = random_operands(random);
+  for (int i = 0; i < 40; ++i) {
+    std::vector<Operand> operands;  // some points are equal
+    for (int o = 0; o < 3; ++o) {
+      operands.push_back(operand_of(make_leaf(random_loops(random, 3))));
+      if (i % 2) operands.back().frame = random_frame(random);
+      if (i % 4 == 1 && o > 0) operands.back().frame = operands[0].frame;
+    }
     const Job job(operands);
     std::vector<Rational3> points;
     for (uint32_t v = 0; v < job.vertex_count(); ++v) points.push_back(value_of(job.exact(v)));

@@ -2,6 +2,7 @@
 #include "engine/bsp/whole_faces.h"
 
 #include <cstdlib>
+#include <random>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -90,6 +91,47 @@ TEST(WholeFaces, CutsThatMeetInOnePointAreLikeThoseOfCells) {
     tree.expression = test::flat_expression(static_cast<BooleanOp>(i / 6), 4);
     tree.region = test::TreeMaker::region_of(tree.operands);
     ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
+        << "case " << i;
+  }
+}
+
+// The same with edges through the point: cuts end where others pass. By names all is plain, but the
+// result may touch itself there, and says so.
+TEST(WholeFaces, CutsThatEndOnOthersAreNoted) {
+  test::Random random(414);
+  for (int i = 0; i < 80; ++i) {
+    const auto vector = [&] {
+      return IVec3{random.integer(-30, 30), random.integer(-30, 30), random.integer(-30, 30)};
+    };
+    const auto edge_at_origin = [&] {
+      for (;;) {
+        const IVec3 a = vector(), tip = vector(), other = vector();
+        if (std::abs(test::dot_of(test::cross_of(a, tip), other)) < 5000 || std::abs(a[2]) < 5) {
+          continue;
+        }
+        return test::make_leaf(test::hull_loops({a, {-a[0], -a[1], -a[2]}, tip, other}));
+      }
+    };
+    test::RandomTree tree;
+    tree.operands.emplace_back().leaf = test::box_leaf({-50, -50, -50}, {50, 50, 0});
+    tree.operands.emplace_back().leaf = edge_at_origin();
+    tree.operands.emplace_back().leaf = i % 2 ? edge_at_origin() : wedge_at_origin(random);
+    std::shuffle(tree.operands.begin() + 1, tree.operands.end(), std::mt19937(i));
+    for (uint32_t o = 0; o < 3; ++o) tree.operands[o].first_source = o;
+    tree.expression = test::flat_expression(static_cast<BooleanOp>(i % 4), 3);
+    tree.region = test::TreeMaker::region_of(tree.operands);
+    ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
+        << "case " << i;
+    Job job(tree.operands);
+    EvaluateStats stats;
+    const auto faces = evaluate_whole_faces(job, tree.expression, {}, stats);
+    ASSERT_TRUE(faces);
+    const auto& touching = faces->touching;
+    EXPECT_TRUE(std::any_of(touching.begin(), touching.end(),
+                            [](const GridBox& box) {
+                              return box.lo[2] <= 0 && box.hi[2] >= 0 && box.lo[0] <= 0 &&
+                                     box.hi[0] >= 0;
+                            }))
         << "case " << i;
   }
 }
