@@ -120,7 +120,8 @@ const ShapeValue& bare_shape(lua_State* L, const FunctionSpec& spec) {
   return value;
 }
 
-constexpr FunctionSpec kPerimeter{"perimeter", "The length of all outlines, holes included.", {}};
+constexpr FunctionSpec kPerimeter{
+    "perimeter", "The length of all outlines, holes included.", {}, false, "circle(5):perimeter()"};
 constexpr FunctionSpec kPoints{"points",
                                "The corners {{x, y}, ...}, as polygon takes them.",
                                {},
@@ -129,9 +130,14 @@ constexpr FunctionSpec kPoints{"points",
 constexpr FunctionSpec kPaths{
     "paths",
     "The outlines, by indices of points() from 0: outer ones counter-clockwise, holes clockwise.",
-    {}};
-constexpr FunctionSpec kOutlines{
-    "outlines", "The outlines as lists of points {x, y}, in the order of paths().", {}};
+    {},
+    false,
+    "square(5):paths()"};
+constexpr FunctionSpec kOutlines{"outlines",
+                                 "The outlines as lists of points {x, y}, in the order of paths().",
+                                 {},
+                                 false,
+                                 "square(5):outlines()"};
 constexpr FunctionSpec kDecompose{
     "decompose", "Its connected pieces, a list.", {}, false, "#shape:decompose()"};
 
