@@ -165,7 +165,7 @@ TEST(PairCells, NothingIsNoPair) {
   expect_all_pairs({}, grids);
   EXPECT_EQ(grids, 0u);
   const std::vector<Operand> none;
-  EXPECT_TRUE(find_coarse_cells(Job(none), 1).cells.empty());
+  EXPECT_TRUE(find_coarse_cells(Job(none), {}, 1).cells.empty());
 }
 
 bool overlap(const PairCells::Cell& a, const PairCells::Cell& b) {
@@ -208,7 +208,7 @@ TEST(PairCells, GridsHoldWhatIsShared) {
     }
     const Job job(operands);
     for (const uint32_t limit : {1u, 2u, 5u}) {
-      const PairCells grid = find_coarse_cells(job, limit);
+      const PairCells grid = find_coarse_cells(job, {}, limit);
       ASSERT_GT(grid.cells.size(), 1u);
       ASSERT_NO_FATAL_FAILURE(expect_good_grid(job, grid, limit)) << i << " limit " << limit;
     }
@@ -220,9 +220,9 @@ TEST(PairCells, GridsOfTwoOperandsAndNothing) {
   test::Random random(504);
   std::vector<Operand> operands = tilings(random, 30);
   operands[1].translation = {25, 20, 0};
-  const PairCells grid = find_coarse_cells(Job(operands), 1);
+  const PairCells grid = find_coarse_cells(Job(operands), {}, 1);
   operands.insert(operands.begin(), test::operand_of(std::make_shared<LeafGeometry>()));
-  const PairCells with = find_coarse_cells(Job(operands), 1);
+  const PairCells with = find_coarse_cells(Job(operands), {}, 1);
   ASSERT_EQ(with.cells.size(), grid.cells.size());
   for (size_t c = 0; c < grid.cells.size(); ++c) EXPECT_EQ(with.cells[c].lo, grid.cells[c].lo);
 }
@@ -235,7 +235,7 @@ TEST(PairCells, NothingInCommonIsNoCell) {
     operands[0].translation = operands[1].translation = {0, 0, 0};
     operands[1].translation[k] = 31;
     const Job job(operands);
-    const PairCells grid = find_coarse_cells(job, 1);
+    const PairCells grid = find_coarse_cells(job, {}, 1);
     EXPECT_TRUE(grid.cells.empty());
     EXPECT_EQ(grid.surface, job.polygons().size());
   }
@@ -253,7 +253,7 @@ TEST(PairCells, LongPolygonsAreTooLargeForAGrid) {
     if (length < 3000)
       operands[1].leaf = test::make_leaf({{{0, 0, 0}, {length, 0, 0}, {length, 1, 0}}});
     const Job job(operands);
-    const PairCells grid = find_coarse_cells(job, 1);
+    const PairCells grid = find_coarse_cells(job, {}, 1);
     EXPECT_EQ(visited(job, grid), all_pairs(job)) << length;
     return grid.cells.size();
   };
@@ -272,7 +272,7 @@ TEST(PairCells, LargePolygonsAreNotPutIntoAGrid) {
     operands.push_back(test::operand_of(test::box_leaf(lo, hi)));
   }
   const Job job(operands);
-  EXPECT_EQ(find_coarse_cells(job, 1).cells.size(), 1u);
+  EXPECT_EQ(find_coarse_cells(job, {}, 1).cells.size(), 1u);
 }
 
 }  // namespace

@@ -52,24 +52,24 @@ KernelOptions cells_only(bool literal) {
 
 TEST(Work, OfLeavesThatTouch) {
   const EvaluateStats stats = work_of_trees(601, 40, {.size = 4, .operands = 4, .known = true}, {});
-  expect_at_most(stats, {226, 133, 130, 113, 46672, 2587, 16211});
+  expect_at_most(stats, {197, 120, 111, 98, 45523, 3100, 9486});
 }
 
 TEST(Work, OfLeavesThatMayTouchThemselves) {
   const EvaluateStats stats = work_of_trees(602, 40, {.size = 4, .operands = 4}, {});
-  expect_at_most(stats, {236, 138, 128, 109, 62690, 4875, 22690});
+  expect_at_most(stats, {206, 124, 116, 99, 56697, 4837, 13592});
 }
 
 TEST(Work, OfTurnedLeaves) {
   const EvaluateStats stats =
       work_of_trees(603, 20, {.size = 5, .operands = 4, .frames = true, .known = true}, {});
-  expect_at_most(stats, {156, 88, 86, 48, 18221, 942, 2349});
+  expect_at_most(stats, {118, 71, 66, 41, 17077, 1223, 1924});
 }
 
 TEST(Work, OfLeavesThatCross) {
   const EvaluateStats stats =
       work_of_trees(604, 60, {.size = 1000, .operands = 5, .known = true}, {});
-  expect_at_most(stats, {654, 361, 293, 105, 28495, 639, 5108});
+  expect_at_most(stats, {342, 229, 138, 59, 18976, 504, 1699});
 }
 
 TEST(Work, OfCells) {
@@ -120,11 +120,11 @@ TEST(Work, OfManyOperands) {
     EXPECT_TRUE(evaluate_boolean(operands, test::flat_expression(op, 100), region, options, stats));
     return stats;
   };
-  expect_at_most(work(BooleanOp::kUnion, true), {7764, 4123, 3181, 31, 3465, 0, 0});
+  expect_at_most(work(BooleanOp::kUnion, true), {490, 389, 297, 22, 3465, 0, 0});
   expect_at_most(work(BooleanOp::kUnion, false), {6909, 3282, 1289, 356, 157976, 0, 1416});
-  expect_at_most(work(BooleanOp::kDifference, true), {7764, 4123, 3181, 31, 3465, 0, 0});
+  expect_at_most(work(BooleanOp::kDifference, true), {5, 137, 2, 0, 0, 0, 0});
   expect_at_most(work(BooleanOp::kDifference, false), {41, 6, 0, 0, 0, 0, 0});
-  expect_at_most(work(BooleanOp::kSymmetricDifference, true), {7764, 4123, 3181, 31, 3465, 0, 0});
+  expect_at_most(work(BooleanOp::kSymmetricDifference, true), {490, 389, 297, 22, 3465, 0, 0});
 }
 
 TEST(Work, OfBoxes) {
@@ -143,8 +143,8 @@ TEST(Work, OfBoxes) {
   for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kDifference}) {
     EvaluateStats stats;
     EXPECT_TRUE(evaluate_boolean(boxes, test::flat_expression(op, 80), region, {}, stats));
-    expect_at_most(stats, op == BooleanOp::kUnion ? Work{179, 90, 85, 43, 6894, 881, 1590}
-                                                  : Work{179, 90, 85, 43, 6894, 881, 1590});
+    expect_at_most(stats, op == BooleanOp::kUnion ? Work{167, 84, 81, 40, 7348, 1164, 1056}
+                                                  : Work{15, 37, 1, 0, 0, 0, 0});
   }
 }
 
