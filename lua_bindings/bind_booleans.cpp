@@ -3,45 +3,11 @@
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
+#include "lua_bindings/operands.h"
 #include "lua_bindings/session.h"
 
 namespace csgrun {
 namespace {
-
-/// The operands of a Boolean: all solids, or all shapes.
-struct Operands {
-  std::vector<NodePtr> solids;
-  std::vector<Shape2D> shapes;
-  std::optional<Appearance> appearance;  // of the first shape
-
-  void add(lua_State* L, int index, const std::string& function) {
-    if (const SolidValue* solid = to_solid(L, index)) {
-      solids.push_back(solid->node);
-    } else if (const ShapeValue* shape = to_shape(L, index)) {
-      if (shapes.empty()) appearance = shape->appearance;
-      shapes.push_back(shape->shape);
-    } else {
-      throw ScriptError(fmt::format("{}: an operand must be a solid or a shape, got {}", function,
-                                    describe_value(L, index)));
-    }
-    if (!solids.empty() && !shapes.empty()) {
-      throw ScriptError(
-          function +
-          ": a solid and a 2D shape cannot be combined; make a solid of the shape first, "
-          "with linear_extrude or rotate_extrude");
-    }
-  }
-
-  void push_result(lua_State* L, BooleanOp op, const std::string& function) const {
-    if (shapes.empty()) {
-      push_solid(L, Node::boolean(op, solids, session_of(L).source_ref(L)));
-      return;
-    }
-    auto shape = Shape2D::boolean(op, shapes);
-    if (!shape) throw ScriptError(function + ": " + shape.error().message);
-    push_shape(L, *std::move(shape), appearance);
-  }
-};
 
 constexpr Option kOperandOptions[] = {
     {"operands", ArgumentType::kValue, "", "solids or shapes, one after another or as lists", true},
@@ -58,22 +24,7 @@ constexpr FunctionSpec kSymmetricDifference{"symmetric_difference",
 
 template <const FunctionSpec& Spec, BooleanOp Op>
 int boolean_function(lua_State* L) {
-  Operands operands;
-  const int count = lua_gettop(L);
-  for (int index = 1; index <= count; ++index) {
-    if (!lua_istable(L, index)) {
-      operands.add(L, index, Spec.name);
-      continue;
-    }
-    const lua_Integer length = list_length(L, index);
-    if (length < 0)
-      fail_in(Spec, "takes lists of solids or shapes without holes and names in them");
-    for (lua_Integer i = 1; i <= length; ++i) {
-      lua_rawgeti(L, index, i);
-      operands.add(L, lua_gettop(L), Spec.name);
-      lua_pop(L, 1);
-    }
-  }
+  const Operands operands = read_operands(L, Spec);
   operands.push_result(L, Op, Spec.name);
   return 1;
 }

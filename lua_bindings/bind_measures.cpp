@@ -41,7 +41,8 @@ constexpr FunctionSpec kArea{
     "area", "The area of the surface in mm^2; of a shape its own area.", {}};
 constexpr FunctionSpec kCentroid{
     "centroid", "The centre of mass, {x, y, z}; of a shape {x, y}.", {}};
-constexpr FunctionSpec kComponents{"components", "The number of connected surfaces.", {}};
+constexpr FunctionSpec kComponents{
+    "components", "The number of connected surfaces; of a shape that of connected pieces.", {}};
 constexpr FunctionSpec kGenus{"genus", "The number of handles, over all surfaces.", {}};
 constexpr FunctionSpec kIsEmpty{"is_empty", "Whether there is nothing in it.", {}};
 constexpr FunctionSpec kMesh{"mesh",
@@ -161,6 +162,11 @@ int solid_components(lua_State* L) {
   return 1;
 }
 
+int shape_components(lua_State* L) {
+  lua_pushinteger(L, static_cast<lua_Integer>(bare_shape(L, kComponents).regions().size()));
+  return 1;
+}
+
 int solid_genus(lua_State* L) {
   lua_pushinteger(L, evaluated(L, kGenus).measures.genus);
   return 1;
@@ -228,7 +234,7 @@ constexpr Binding kBindings[] = {
     {&kVolume, nullptr, guarded<solid_volume>, nullptr},
     {&kArea, nullptr, guarded<solid_area>, guarded<shape_area>},
     {&kCentroid, nullptr, guarded<solid_centroid>, guarded<shape_centroid>},
-    {&kComponents, nullptr, guarded<solid_components>, nullptr},
+    {&kComponents, nullptr, guarded<solid_components>, guarded<shape_components>},
     {&kGenus, nullptr, guarded<solid_genus>, nullptr},
     {&kIsEmpty, nullptr, guarded<solid_is_empty>, guarded<shape_is_empty>},
     {&kMesh, nullptr, guarded<solid_mesh>, nullptr},

@@ -1,10 +1,14 @@
-// square, circle, polygon, linear_extrude, rotate_extrude.
+// square, circle, regular_polygon, polygon, linear_extrude, rotate_extrude.
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <csgrun/primitives/shape2d.h>
+#include <csgrun/primitives/trig.h>
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
+#include "lua_bindings/operands.h"
 #include "lua_bindings/session.h"
 
 namespace csgrun {
@@ -15,10 +19,11 @@ using T = ArgumentType;
 constexpr Option kSquareOptions[] = {
     {"size", T::kSize2, "1", "edge length, or lengths along X and Y", true, Range::kPositive},
     {"center", T::kBooleans2, "false", "centred in the origin, or along these axes", true},
+    {"r", T::kNumber, "0", "radius of the corners", false, Range::kNotNegative},
 };
 constexpr FunctionSpec kSquare{"square",
                                "A rectangle; a corner lies in the origin unless it is centred.",
-                               kSquareOptions, false, "square{20, 10, center = true}"};
+                               kSquareOptions, true, "square{20, 10, center = true, r = 2}"};
 
 int square(lua_State* L) {
   const Arguments arguments(L, kSquare, 1);
@@ -27,7 +32,13 @@ int square(lua_State* L) {
     size = given->count == 1 ? glm::dvec2(given->v.x) : glm::dvec2(given->v.x, given->v.y);
   }
   const auto center = arguments.booleans("center");
-  push_shape(L, value_or_fail(kSquare, make_square(size, {center[0], center[1]})), {});
+  const Facets facets = arguments.facets();
+  const double r = arguments.number("r", 0);
+  push_shape(
+      L,
+      value_or_fail(kSquare, r > 0 ? make_rounded_square(size, r, facets, {center[0], center[1]})
+                                   : make_square(size, {center[0], center[1]})),
+      {});
   return 1;
 }
 
@@ -44,6 +55,37 @@ int circle(lua_State* L) {
     fail_in(kCircle, "give either 'r' or 'd', not both");
   const double r = arguments.has("d") ? arguments.number("d", 0) / 2 : arguments.number("r", 1);
   push_shape(L, value_or_fail(kCircle, make_circle(r, arguments.facets())), {});
+  return 1;
+}
+
+constexpr Option kRegularPolygonOptions[] = {
+    {"n", T::kInteger, "", "number of corners, at least 3", true, Range::kPositive},
+    {"r", T::kNumber, "1", "radius of the corners", true, Range::kPositive},
+    {"d", T::kNumber, "", "twice that", false, Range::kPositive},
+    {"side", T::kNumber, "", "length of a side, instead of r", false, Range::kPositive},
+    {"across", T::kNumber, "",
+     "twice the distance of a side from the centre, instead of r: the size of a spanner", false,
+     Range::kPositive},
+};
+constexpr FunctionSpec kRegularPolygon{
+    "regular_polygon", "A polygon of equal sides about the origin; its first corner lies on +X.",
+    kRegularPolygonOptions, false, "regular_polygon(6, {across = 10})"};
+
+int regular_polygon(lua_State* L) {
+  const Arguments arguments(L, kRegularPolygon, 1);
+  if (!arguments.has("n")) fail_in(kRegularPolygon, "needs the number of corners");
+  const double n = arguments.number("n", 0);
+  if (n < 3) fail_in(kRegularPolygon, fmt::format("option 'n' must be at least 3, got {}", n));
+  int given = 0;
+  for (const char* name : {"r", "d", "side", "across"}) given += arguments.has(name) ? 1 : 0;
+  if (given > 1) fail_in(kRegularPolygon, "give only one of 'r', 'd', 'side' and 'across'");
+  double r = arguments.number("r", 1);
+  if (arguments.has("d")) r = arguments.number("d", 0) / 2;
+  if (arguments.has("side")) r = arguments.number("side", 0) / (2 * sin_deg(180 / n));
+  if (arguments.has("across")) r = arguments.number("across", 0) / (2 * cos_deg(180 / n));
+  Facets facets;
+  facets.fn = n;
+  push_shape(L, value_or_fail(kRegularPolygon, make_circle(r, facets)), {});
   return 1;
 }
 
@@ -66,8 +108,6 @@ int polygon(lua_State* L) {
   return 1;
 }
 
-constexpr const char* kShapeDoc = "the 2D shape; as a method, shape:f(...), it is left out";
-
 constexpr Option kLinearExtrudeOptions[] = {
     {"height", T::kNumber, "100, or the length of v", "height", true, Range::kPositive, "h"},
     {"v", T::kVector3, "{0, 0, 1}", "direction", false},
@@ -89,36 +129,8 @@ constexpr FunctionSpec kLinearExtrude{"linear_extrude",
                                       "shape",
                                       kShapeDoc};
 
-/// linear_extrude{shape, 16, twist = 90}: the shape comes out of the list, the rest stays options.
-void take_shape_out_of_list(lua_State* L) {
-  if (lua_gettop(L) != 1 || !lua_istable(L, 1)) return;
-  lua_rawgeti(L, 1, 1);
-  if (to_shape(L, -1) == nullptr) {
-    lua_pop(L, 1);
-    return;
-  }
-  lua_insert(L, 1);  // shape, table
-  lua_newtable(L);
-  lua_pushnil(L);
-  while (lua_next(L, 2) != 0) {
-    lua_pushvalue(L, -2);
-    if (lua_isinteger(L, -1) != 0) {
-      const lua_Integer place = lua_tointeger(L, -1);
-      lua_pop(L, 1);
-      if (place == 1) {
-        lua_pop(L, 1);
-        continue;
-      }
-      lua_pushinteger(L, place - 1);
-    }
-    lua_insert(L, -2);
-    lua_rawset(L, 3);
-  }
-  lua_replace(L, 2);
-}
-
 int linear_extrude_shape(lua_State* L) {
-  take_shape_out_of_list(L);
+  take_subject_out_of_list(L);
   const ShapeValue& shape = shape_argument(L, kLinearExtrude);
   const Arguments arguments(L, kLinearExtrude, 2);
   LinearExtrudeOptions options;
@@ -162,7 +174,7 @@ constexpr FunctionSpec kRotateExtrude{
     kShapeDoc};
 
 int rotate_extrude_shape(lua_State* L) {
-  take_shape_out_of_list(L);
+  take_subject_out_of_list(L);
   const ShapeValue& shape = shape_argument(L, kRotateExtrude);
   const Arguments arguments(L, kRotateExtrude, 2);
   RotateExtrudeOptions options;
@@ -183,6 +195,7 @@ int rotate_extrude_shape(lua_State* L) {
 constexpr Binding kBindings[] = {
     {&kSquare, guarded<square>, nullptr, nullptr},
     {&kCircle, guarded<circle>, nullptr, nullptr},
+    {&kRegularPolygon, guarded<regular_polygon>, nullptr, nullptr},
     {&kPolygon, guarded<polygon>, nullptr, nullptr},
     {&kLinearExtrude, guarded<linear_extrude_shape>, nullptr, guarded<linear_extrude_shape>},
     {&kRotateExtrude, guarded<rotate_extrude_shape>, nullptr, guarded<rotate_extrude_shape>},

@@ -26,12 +26,14 @@ class Ray {
       : signs_(signs), from_(from), error_(error), direction_(direction) {}
 
   [[nodiscard]] bool may_meet(const PolygonBox& box) const {
-    if (box.hi[0] < from_[0] || box.hi[1] < from_[1] || box.hi[2] < from_[2]) return false;
+    for (int k = 0; k < 3; ++k) {
+      if (box.hi[k] < from_[k] - error_) return false;
+    }
     // Twice as far as the ray gets: rounding is no matter.
     const double reach = box.hi[0] >= kBoxLimit ? std::numeric_limits<double>::infinity()
                                                 : 2 * (box.hi[0] - from_[0]) + 1;
-    return box.lo[1] <= from_[1] + reach * direction_.y &&
-           box.lo[2] <= from_[2] + reach * direction_.z;
+    return box.lo[1] <= from_[1] + error_ + reach * direction_.y &&
+           box.lo[2] <= from_[2] + error_ + reach * direction_.z;
   }
 
   /// Whether the ray meets a convex polygon, the corners of which are as wrong as `error` at most.

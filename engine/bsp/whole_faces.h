@@ -1,9 +1,11 @@
-// The fast way through a Boolean: polygons that meet no zero sign are cut along the segments in
-// which they cross others, and patches between cuts are kept, turned over or dropped as a whole. No
-// cell cuts anything, no plane is made away from the cuts, and connectivity is by name.
+// The fast way through a Boolean: polygons are cut whole along the segments in which they cross
+// others, and patches between cuts are kept, turned over or dropped as a whole. No cell cuts
+// anything, no plane is made away from the cuts, and connectivity is by name where no sign is zero
+// (cut_polygon.h), by value where polygons touch (face_arrangement.h).
 //
-// Where three or more things meet in a point by chance, or a corner lies in a plane, polygons are
-// left to the general way (octree.h, cell_solver.h), which is exact for them as for all.
+// Left to the general way (octree.h, cell_solver.h), which is exact for all: where edges of more
+// than two faces are in contact, where doubles do not decide what a ray meets, and evaluations with
+// so many contacts that cells are less work.
 #pragma once
 
 #include <cstdint>

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <csgrun/primitives/csg_file.h>
+#include <csgrun/primitives/shape_operations.h>
 
 #include "primitives/files/csg_parser.h"
 #include "primitives/files/csg_shapes.h"
@@ -44,9 +45,8 @@ struct Frame {
   std::vector<Item> children;
 };
 
-constexpr std::array<std::string_view, 10> kNotBuilt{"text",      "import", "surface", "hull",
-                                                     "minkowski", "resize", "offset",  "projection",
-                                                     "fill",      "roof"};
+constexpr std::array<std::string_view, 5> kNotBuilt{"text", "import", "surface", "projection",
+                                                    "roof"};
 
 bool is_not_built(std::string_view name) {
   return std::find(kNotBuilt.begin(), kNotBuilt.end(), name) != kNotBuilt.end();
@@ -132,10 +132,13 @@ class CsgBuilder {
       return leaf(frame, std::move(mesh), notes);
     }
     if (is_flat_primitive(name)) return flat_primitive(frame);
+    if (name == "offset") return offset(frame);
+    if (name == "hull") return hull(frame);
+    if (name == "minkowski") return minkowski(frame);
+    if (name == "fill") return fill(frame);
+    if (name == "resize") return resize(frame);
     if (is_not_built(name)) {
-      if (!takes_children(name) || !frame.children.empty()) {
-        return Error{ErrorCode::kInvalidArgument, name + "() is not supported in .csg files", {}};
-      }
+      if (!takes_children(name) || !frame.children.empty()) return not_supported(frame);
       return Item();
     }
     return Error{ErrorCode::kMalformedFile, "unknown node " + name + "()", {}};
@@ -167,11 +170,12 @@ class CsgBuilder {
     return Item();
   }
 
-  /// The children under a Boolean. The first that is not empty decides between 2D and 3D.
-  Result<Item> combine(BooleanOp op, Frame& frame) {
+  /// The first child that is not empty decides between 2D and 3D; children of the other kind
+  /// become empty. kEmpty when all are.
+  Item::Kind settle_kind(Frame& frame) {
     const auto first = std::find_if(frame.children.begin(), frame.children.end(),
                                     [](const Item& i) { return i.kind != Item::Kind::kEmpty; });
-    if (first == frame.children.end()) return Item();
+    if (first == frame.children.end()) return Item::Kind::kEmpty;
     const Item::Kind kind = first->kind;
     for (Item& child : frame.children) {
       if (child.kind == kind || child.kind == Item::Kind::kEmpty) continue;
@@ -179,14 +183,87 @@ class CsgBuilder {
                                              : "a 3D child among 2D ones was left out");
       child = Item();
     }
-    if (kind == Item::Kind::kFlat) {
-      std::vector<Shape2D> shapes;
-      for (Item& child : frame.children) shapes.push_back(std::move(child.shape));
-      Result<Shape2D> result = Shape2D::boolean(op, shapes);
-      if (!result) return result.error();
-      return Item::of(*std::move(result));
-    }
+    return kind;
+  }
+
+  static std::vector<Shape2D> take_shapes(Frame& frame) {
+    std::vector<Shape2D> shapes;
+    for (Item& child : frame.children) shapes.push_back(std::move(child.shape));
+    return shapes;
+  }
+
+  static Result<Item> item_of(Result<Shape2D> shape) {
+    if (!shape) return shape.error();
+    return Item::of(*std::move(shape));
+  }
+
+  /// The children under a Boolean.
+  Result<Item> combine(BooleanOp op, Frame& frame) {
+    const Item::Kind kind = settle_kind(frame);
+    if (kind == Item::Kind::kEmpty) return Item();
+    if (kind == Item::Kind::kFlat) return item_of(Shape2D::boolean(op, take_shapes(frame)));
     return Item::of(combine_solids(op, frame));
+  }
+
+  /// The union of the 2D children; solids are left out, with a warning.
+  Result<Item> combine_flat(Frame& frame) {
+    for (Item& child : frame.children) {
+      if (child.kind != Item::Kind::kSolid) continue;
+      warn(frame, frame.call.name + ": a 3D child was left out");
+      child = Item();
+    }
+    return combine(BooleanOp::kUnion, frame);
+  }
+
+  static Error not_supported(const Frame& frame) {
+    return Error{
+        ErrorCode::kInvalidArgument, frame.call.name + "() is not supported in .csg files", {}};
+  }
+
+  Result<Item> offset(Frame& frame) {
+    const Result<OffsetOptions> options = csg_offset(frame.call);
+    if (!options) return options.error();
+    Result<Item> child = combine_flat(frame);
+    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    return item_of(offset_shape(child->shape, *options));
+  }
+
+  Result<Item> hull(Frame& frame) {
+    const Item::Kind kind = settle_kind(frame);
+    if (kind == Item::Kind::kEmpty) return Item();
+    if (kind == Item::Kind::kFlat) return item_of(hull_of_shapes(take_shapes(frame)));
+    return not_supported(frame);
+  }
+
+  Result<Item> minkowski(Frame& frame) {
+    const Item::Kind kind = settle_kind(frame);
+    if (kind == Item::Kind::kEmpty) return Item();
+    if (kind == Item::Kind::kFlat) return item_of(minkowski_of_shapes(take_shapes(frame)));
+    return not_supported(frame);
+  }
+
+  Result<Item> fill(Frame& frame) {
+    Result<Item> child = combine(BooleanOp::kUnion, frame);
+    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    if (child->kind == Item::Kind::kFlat) return item_of(fill_shape(child->shape));
+    warn(frame, "fill: has no meaning for 3D children, they were united");
+    return child;
+  }
+
+  Result<Item> resize(Frame& frame) {
+    const Result<CsgResize> wanted = csg_resize(frame.call);
+    if (!wanted) return wanted.error();
+    Result<Item> child = combine(BooleanOp::kUnion, frame);
+    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    if (child->kind == Item::Kind::kSolid) return not_supported(frame);
+    const auto [low, high] = child->shape.bounds();
+    const auto factors =
+        resize_factors({high.x - low.x, high.y - low.y}, {wanted->newsize[0], wanted->newsize[1]},
+                       {wanted->automatic[0], wanted->automatic[1]});
+    Affine map;
+    map.m[0][0] = factors[0];
+    map.m[1][1] = factors[1];
+    return item_of(child->shape.transformed(map));
   }
 
   NodePtr combine_solids(BooleanOp op, Frame& frame) {
@@ -267,12 +344,7 @@ class CsgBuilder {
   }
 
   Result<Item> extrude(Frame& frame) {
-    for (Item& child : frame.children) {
-      if (child.kind != Item::Kind::kSolid) continue;
-      warn(frame, frame.call.name + ": a 3D child was left out");
-      child = Item();
-    }
-    Result<Item> profile = combine(BooleanOp::kUnion, frame);
+    Result<Item> profile = combine_flat(frame);
     if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
     return leaf(frame, extrude_csg(frame.call, profile->shape), {});
   }

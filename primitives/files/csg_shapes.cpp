@@ -209,6 +209,32 @@ Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& wa
   return make_polygon(points, paths);
 }
 
+Result<OffsetOptions> csg_offset(const CsgCall& call) {
+  CsgArguments arguments(call);
+  OffsetOptions options;
+  const bool sharp = arguments.has("delta") && !arguments.has("r");
+  options.distance = arguments.number(sharp ? "delta" : "r", 1);
+  const bool chamfer = arguments.boolean("chamfer", false);
+  if (sharp) options.join = chamfer ? OffsetJoin::kChamfer : OffsetJoin::kMitre;
+  options.facets = arguments.facets();
+  if (arguments.error()) return *arguments.error();
+  return options;
+}
+
+Result<CsgResize> csg_resize(const CsgCall& call) {
+  CsgArguments arguments(call);
+  const std::vector<double> newsize = arguments.numbers("newsize", 3, {0, 0, 0});
+  const std::vector<double> automatic = arguments.numbers("auto", 3, {0, 0, 0});
+  if (arguments.error()) return *arguments.error();
+  CsgResize resize;
+  for (size_t i = 0; i < 3; ++i) {
+    if (!std::isfinite(newsize[i])) return not_finite("resize", "newsize", newsize[i]);
+    resize.newsize[i] = std::max(newsize[i], 0.0);
+    resize.automatic[i] = automatic[i] != 0;
+  }
+  return resize;
+}
+
 MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape) {
   CsgArguments arguments(call);
   if (call.name == "rotate_extrude") {

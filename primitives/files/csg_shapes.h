@@ -1,12 +1,14 @@
 // Arguments of .csg calls, and the primitives and extrusions made from them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <csgrun/engine/csg_tree.h>
 #include <csgrun/primitives/shape2d.h>
+#include <csgrun/primitives/shape_operations.h>
 #include <csgrun/primitives/solids.h>
 
 #include "primitives/files/csg_parser.h"
@@ -48,6 +50,16 @@ bool is_flat_primitive(std::string_view name);
 /// `warnings` gets what was left out. An impossible size is a kInvalidArgument.
 MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings);
 Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& warnings);
+/// The arguments of offset: `r` counts before `delta`.
+Result<OffsetOptions> csg_offset(const CsgCall& call);
+
+/// The arguments of resize; lengths that are not positive are 0.
+struct CsgResize {
+  std::array<double, 3> newsize{};
+  std::array<bool, 3> automatic{};
+};
+Result<CsgResize> csg_resize(const CsgCall& call);
+
 /// linear_extrude and rotate_extrude.
 MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape);
 

@@ -3,115 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
-#include <tuple>
 #include <utility>
 
 #include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/trig.h>
 
 #include "primitives/base/text.h"
-#include "primitives/shape2d/regions.h"
+#include "primitives/shape2d/shape_factory.h"
 #include "primitives/solids/mesh_builder.h"
 
 namespace csgrun {
-namespace {
-
-bool lexicographic_less(const glm::dvec2& p, const glm::dvec2& q) {
-  return std::tie(p.x, p.y) < std::tie(q.x, q.y);
-}
-
-double extent_of(const std::vector<Shape2D::Loop>& loops) {
-  double extent = 0;
-  for (const Shape2D::Loop& loop : loops) {
-    for (const glm::dvec2& p : loop) {
-      extent = std::max({extent, std::fabs(p.x), std::fabs(p.y)});
-    }
-  }
-  return extent;
-}
-
-bool all_finite(const std::vector<Shape2D::Loop>& loops) {
-  for (const Shape2D::Loop& loop : loops) {
-    for (const glm::dvec2& p : loop) {
-      if (!std::isfinite(p.x) || !std::isfinite(p.y)) return false;
-    }
-  }
-  return true;
-}
-
-Result<Grid2D> grid_for(double extent) {
-  if (const auto grid = Grid2D::for_extent(extent)) return *grid;
-  return Error{ErrorCode::kOutOfRange,
-               "2D shape: coordinates up to " + number_text(extent) + " mm, the limit is 1e+12",
-               {}};
-}
-
-GridLoop snap_loop(const Grid2D& grid, const Shape2D::Loop& loop) {
-  GridLoop snapped(loop.size());
-  std::transform(loop.begin(), loop.end(), snapped.begin(),
-                 [&](const glm::dvec2& p) { return grid.snap(p); });
-  return snapped;
-}
-
-}  // namespace
-
-/// Makes shapes from loops that are known to be clean.
-class Shape2DFactory {
- public:
-  using Loop = Shape2D::Loop;
-
-  static Shape2D from_grid(const Grid2D& grid, const GridRegions& regions) {
-    std::vector<Loop> loops;
-    for (const GridLoop& grid_loop : regions.loops) {
-      Loop& loop = loops.emplace_back();
-      for (const Point2D& p : grid_loop) loop.push_back(grid.unsnap(p));
-    }
-    return canonical(std::move(loops), regions.outer_of);
-  }
-
-  /// Loops with the right directions, in any order and from any start; outer_of as in GridRegions.
-  static Shape2D canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of) {
-    if (loops.empty()) return {};
-    for (Loop& loop : loops) {
-      for (glm::dvec2& p : loop) p += 0.0;  // no negative zeros
-      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), lexicographic_less),
-                  loop.end());
-    }
-    std::vector<uint32_t> order(loops.size()), rank(loops.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
-      return std::lexicographical_compare(loops[i].begin(), loops[i].end(), loops[j].begin(),
-                                          loops[j].end(), lexicographic_less);
-    });
-    auto data = std::make_shared<Shape2D::Data>();
-    for (uint32_t k = 0; k < order.size(); ++k) {
-      rank[order[k]] = k;
-      data->loops.push_back(std::move(loops[order[k]]));
-    }
-    std::vector<std::vector<uint32_t>> holes(loops.size());
-    for (uint32_t k = 0; k < order.size(); ++k) {
-      const uint32_t outer = rank[outer_of[order[k]]];
-      if (outer != k) holes[outer].push_back(k);
-    }
-    for (uint32_t k = 0; k < order.size(); ++k) {
-      if (outer_of[order[k]] == order[k]) data->regions.push_back({k, std::move(holes[k])});
-    }
-    Shape2D shape;
-    shape.data_ = std::move(data);
-    return shape;
-  }
-
-  static Result<Shape2D> arranged(const Grid2D& grid, std::vector<Segment2D> segments,
-                                  const std::function<bool(int32_t, int32_t)>& inside) {
-    const auto arrangement = arrange(std::move(segments));
-    if (!arrangement) {
-      return Error{ErrorCode::kInternal, "2D Boolean: crossings do not settle on the grid", {}};
-    }
-    return from_grid(grid, extract_regions(*arrangement, inside));
-  }
-};
-
 const std::vector<Shape2D::Loop>& Shape2D::loops() const {
   static const std::vector<Loop> kNone;
   return data_ ? data_->loops : kNone;
@@ -252,6 +153,33 @@ Result<Shape2D> make_square(const glm::dvec2& size, std::array<bool, 2> center) 
   }
   const auto& [x, y] = range;
   return Shape2DFactory::canonical({{{x[0], y[0]}, {x[1], y[0]}, {x[1], y[1]}, {x[0], y[1]}}}, {0});
+}
+
+Result<Shape2D> make_rounded_square(const glm::dvec2& size, double r, const Facets& facets,
+                                    std::array<bool, 2> center) {
+  const Result<Shape2D> sharp = make_square(size, center);
+  if (!sharp) return sharp;
+  if (!std::isfinite(r)) return not_finite("square", "r", r);
+  if (!(r > 0)) return not_positive("square", "r", r);
+  if (2 * r > std::min(size.x, size.y)) {
+    return invalid_argument("square: r must be at most half of the shorter side, " +
+                            number_text(std::min(size.x, size.y) / 2) + ", got " + number_text(r));
+  }
+  const int steps = (facets.fragments(r) + 3) / 4;
+  if (steps > kMostPoints / 4) return too_many_points("square", steps, 4.0 * steps);
+  const auto [low, high] = sharp->bounds();
+  Shape2D::Loop loop;
+  for (int corner = 0; corner < 4; ++corner) {
+    const glm::dvec2 center_of_arc(corner == 1 || corner == 2 ? low.x + r : high.x - r,
+                                   corner >= 2 ? low.y + r : high.y - r);
+    for (int k = 0; k <= steps; ++k) {
+      const double angle = 90 * corner + 90.0 * k / steps;
+      const glm::dvec2 p = center_of_arc + r * glm::dvec2(cos_deg(angle), sin_deg(angle));
+      if (loop.empty() || p != loop.back()) loop.push_back(p);
+    }
+  }
+  while (loop.front() == loop.back()) loop.pop_back();
+  return Shape2DFactory::canonical({std::move(loop)}, {0});
 }
 
 Result<Shape2D> make_circle(double r, const Facets& facets) {

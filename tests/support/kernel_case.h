@@ -70,6 +70,23 @@ inline Tree differ(std::vector<Tree> c) {
   return {-1, BooleanOp::kSymmetricDifference, std::move(c)};
 }
 
+/// One node over the first `count` operands.
+inline Expression flat_expression(BooleanOp op, uint32_t count) {
+  Expression expression;
+  for (uint32_t o = 0; o < count; ++o) {
+    Expression::Node node;
+    node.operand = o;
+    expression.nodes.push_back(node);
+    expression.children.push_back(o);
+  }
+  Expression::Node root;
+  root.is_operand = false;
+  root.op = op;
+  root.child_count = count;
+  expression.nodes.push_back(root);
+  return expression;
+}
+
 using Boundary = std::shared_ptr<const BoundaryMesh>;
 using BoundaryResult = Result<Boundary>;
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/bsp/operand.h"
+#include "engine/mesh/opposite_edges.h"
 #include "tests/support/seeded.h"
 
 namespace csgrun::test {
@@ -20,6 +21,7 @@ struct TreeShape {
   int operands = 3;
   int depth = 2;
   bool frames = false;  ///< some operands are turned, mirrored or sheared
+  bool known = false;   ///< leaves say which edges are opposite, and whether they are convex
 };
 
 struct RandomTree {
@@ -228,7 +230,25 @@ class TreeMaker {
       leaf->surface.push_back(0);
       leaf->appearance.push_back(0);
     }
+    if (shape_.known) {
+      leaf->opposite = pair_edges(*leaf).opposite;
+      leaf->convex = is_convex(*leaf);
+      leaf->may_touch = false;
+    }
     return leaf;
+  }
+
+  /// Whether no vertex is in front of a face. The first three corners of a face are no line.
+  static bool is_convex(const LeafGeometry& leaf) {
+    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+      const uint32_t* corner = &leaf.corners[leaf.face_starts[f]];
+      const IVec3& at = leaf.vertices[corner[0]];
+      const IVec3 u = minus(leaf.vertices[corner[1]], at), v = minus(leaf.vertices[corner[2]], at);
+      for (const IVec3& p : leaf.vertices) {
+        if (det(u, v, minus(p, at)) > 0) return false;
+      }
+    }
+    return true;
   }
 
   Frame frame() {

@@ -15,18 +15,8 @@ namespace {
 
 Octree octree_of(const std::vector<Operand>& operands, const GridBox& region,
                  const KernelOptions& options) {
-  Expression expression;
-  for (uint32_t o = 0; o < operands.size(); ++o) {
-    Expression::Node node;
-    node.operand = o;
-    expression.nodes.push_back(node);
-    expression.children.push_back(o);
-  }
-  Expression::Node root;
-  root.is_operand = false;
-  root.op = BooleanOp::kUnion;
-  root.child_count = static_cast<uint32_t>(operands.size());
-  expression.nodes.push_back(root);
+  const Expression expression =
+      test::flat_expression(BooleanOp::kUnion, static_cast<uint32_t>(operands.size()));
   Job job(operands);
   return build_octree(job, expression, region, options);
 }

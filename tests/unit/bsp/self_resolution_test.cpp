@@ -31,18 +31,7 @@ BoundaryResult resolved(const Operand& operand, InsideRule rule,
 
 /// The solids' Boolean, all faces labelled as from one source, as in one mesh.
 BoundaryResult combined(const std::vector<Operand>& solids, BooleanOp op) {
-  Expression expression;
-  for (uint32_t i = 0; i < solids.size(); ++i) {
-    Expression::Node node;
-    node.operand = i;
-    expression.nodes.push_back(node);
-    expression.children.push_back(i);
-  }
-  Expression::Node root;
-  root.is_operand = false;
-  root.op = op;
-  root.child_count = static_cast<uint32_t>(solids.size());
-  expression.nodes.push_back(root);
+  const Expression expression = flat_expression(op, static_cast<uint32_t>(solids.size()));
   EvaluateStats stats;
   return evaluate_boolean(solids, expression, region_of(solids), {}, stats);
 }

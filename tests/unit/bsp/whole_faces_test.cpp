@@ -6,10 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/find_contacts.h"
 #include "engine/bsp/grid_planes.h"
 #include "engine/bsp/kernel.h"
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/boundary_compare.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
@@ -49,10 +51,13 @@ TEST_P(WholeFacesOfTrees, AreWhatCellsGive) {
 INSTANTIATE_TEST_SUITE_P(
     Parts, WholeFacesOfTrees,
     ::testing::Combine(
-        ::testing::Values(Shape{401, {.size = 5, .operands = 2, .depth = 1, .frames = false}, 25},
-                          Shape{402, {.size = 8, .operands = 6, .depth = 3, .frames = false}, 8},
-                          Shape{403, {.size = 1000, .operands = 4, .depth = 2, .frames = false}, 8},
-                          Shape{404, {.size = 6, .operands = 3, .depth = 2, .frames = true}, 6}),
+        ::testing::Values(
+            Shape{401, {.size = 5, .operands = 2, .depth = 1, .frames = false}, 25},
+            Shape{402, {.size = 8, .operands = 6, .depth = 3, .frames = false}, 8},
+            Shape{403, {.size = 1000, .operands = 4, .depth = 2, .frames = false}, 8},
+            Shape{404, {.size = 6, .operands = 3, .depth = 2, .frames = true}, 6},
+            Shape{409, {.size = 4, .operands = 4, .depth = 2, .frames = false, .known = true}, 20},
+            Shape{410, {.size = 8, .operands = 6, .depth = 3, .frames = true, .known = true}, 6}),
         ::testing::Range<uint64_t>(0, 10)),
     [](const auto& test) {
       return "Seed" + std::to_string(std::get<0>(test.param).seed) + "Part" +
@@ -81,18 +86,8 @@ TEST(WholeFaces, CutsThatMeetInOnePointAreLikeThoseOfCells) {
     tree.operands.emplace_back().leaf =
         test::box_leaf({-50, -50, -50}, {50, i % 3 ? 50 : 0, i % 2 ? 0 : 50});
     for (int k = 0; k < 3; ++k) tree.operands.emplace_back().leaf = wedge_at_origin(random);
-    Expression::Node root;
-    root.is_operand = false;
-    root.op = static_cast<BooleanOp>(i / 6);
-    root.child_count = 4;
-    for (uint32_t o = 0; o < 4; ++o) {
-      tree.operands[o].first_source = o;
-      Expression::Node node;
-      node.operand = o;
-      tree.expression.nodes.push_back(node);
-      tree.expression.children.push_back(o);
-    }
-    tree.expression.nodes.push_back(root);
+    for (uint32_t o = 0; o < 4; ++o) tree.operands[o].first_source = o;
+    tree.expression = test::flat_expression(static_cast<BooleanOp>(i / 6), 4);
     tree.region = test::TreeMaker::region_of(tree.operands);
     ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
         << "case " << i;
@@ -123,18 +118,9 @@ TEST(WholeFaces, OfLeavesThatReachFar) {
       const int64_t far = int64_t{1} << random.integer(24, 36);
       tree.operands.emplace_back().leaf = tetrahedron(far, far / 8 * random.integer(1, 4));
     }
-    Expression::Node root;
-    root.is_operand = false;
-    root.op = i % 2 ? BooleanOp::kDifference : BooleanOp::kIntersection;
-    root.child_count = 3;
-    for (uint32_t o = 0; o < 3; ++o) {
-      tree.operands[o].first_source = o;
-      Expression::Node node;
-      node.operand = o;
-      tree.expression.nodes.push_back(node);
-      tree.expression.children.push_back(o);
-    }
-    tree.expression.nodes.push_back(root);
+    for (uint32_t o = 0; o < 3; ++o) tree.operands[o].first_source = o;
+    tree.expression =
+        test::flat_expression(i % 2 ? BooleanOp::kDifference : BooleanOp::kIntersection, 3);
     ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
         << "case " << i;
   }
@@ -216,6 +202,47 @@ TEST(WholeFaces, LeaveLittleToCells) {
   }
   EXPECT_GT(polygons, 1000u);
   EXPECT_LT(general * 10, polygons);
+}
+
+// Names do where nothing touches: no polygon is looked at by value, which would be noted.
+TEST(WholeFaces, ThatTouchNothingAreCutByNames) {
+  test::Random random(411);
+  test::TreeMaker maker(random);
+  size_t plain = 0, crossing = 0;
+  for (int i = 0; i < 400; ++i) {
+    const auto tree = maker.make(
+        {.size = 1000, .operands = 4, .depth = 2, .frames = i % 3 == 0, .known = i % 2 == 0});
+    Job job(tree.operands);
+    EvaluateStats stats;
+    const std::vector<Contact> contacts = find_contacts(job, {}, stats).contacts;
+    const auto is_plain = [](const Contact& c) { return c.is_plain; };
+    if (!std::all_of(contacts.begin(), contacts.end(), is_plain)) continue;
+    const auto faces = evaluate_whole_faces(job, tree.expression, {}, stats);
+    ASSERT_TRUE(faces) << faces.error().message;
+    ASSERT_TRUE(faces->touching.empty()) << "tree " << i;
+    ASSERT_FALSE(faces->any_general) << "tree " << i;
+    ASSERT_EQ(std::count(faces->general.begin(), faces->general.end(), 1), 0) << "tree " << i;
+    ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
+        << "tree " << i;
+    ++plain;
+    crossing += faces->cut.pieces.size();
+  }
+  EXPECT_GT(plain, 30u);
+  EXPECT_GT(crossing, 300u);
+}
+
+// What is on a polygon tells nearly all where no leaf touches itself.
+TEST(WholeFaces, OfSimpleLeavesLeaveHardlyAnything) {
+  test::Random random(412);
+  test::TreeMaker maker(random);
+  size_t polygons = 0, general = 0;
+  for (int i = 0; i < 100; ++i) {
+    general += count_general(
+        maker.make({.size = 4, .operands = 3, .depth = 2, .frames = false, .known = true}),
+        polygons);
+  }
+  EXPECT_GT(polygons, 1000u);
+  EXPECT_LT(general * 300, polygons);
 }
 
 // Both ways report to one measure of progress.

@@ -188,6 +188,34 @@ TEST(CsgFile, ExtrusionsAndPolygons) {
   EXPECT_EQ(holed.warnings.size(), 1u);
 }
 
+TEST(CsgFile, OutlinesOfShapes) {
+  const auto area = [](const std::string& text) { return parse(text).shape.area(); };
+  const std::string ring =
+      "difference() { square(size = [4, 4], center = true); square(size = [2, 2], center = true); "
+      "}";
+  EXPECT_NEAR(area("offset(r = 1, $fn = 8, $fa = 12, $fs = 2) {" + kSquare + "}"),
+              2 + 2 * 3 + 4 * std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(area("offset(delta = 1, chamfer = false, $fn = 0) {" + kSquare + "}"), 12, 1e-9);
+  EXPECT_NEAR(area("offset(delta = -0.25, chamfer = true) {" + kSquare + "}"), 1.5 * 0.5, 1e-9);
+  EXPECT_NEAR(area("offset() {" + kSquare + kCube + "}"), 2 + 6 + 2.5 * std::sin(2 * M_PI / 5),
+              0.7);
+  EXPECT_NEAR(area("hull() {" + ring + kSquare + "}"), 16, 1e-9);
+  EXPECT_NEAR(area("fill() {" + ring + "}"), 16, 1e-9);
+  EXPECT_NEAR(area("minkowski(convexity = 0) {" + ring + kNothing + kSquare + "}"), 6 * 5, 1e-9);
+  EXPECT_NEAR(area("resize(newsize = [8, 0, 0], auto = [0, 1, 0], convexity = 0) {" + ring + "}"),
+              48, 1e-9);
+  EXPECT_NEAR(area("resize(newsize = [8, -1, 5], auto = [0, 0, 0]) {" + ring + "}"), 24, 1e-9);
+  EXPECT_EQ(parse("offset(r = 1) {" + kCube + "}").warnings,
+            std::vector<std::string>{"m.csg:1: offset: a 3D child was left out"});
+  EXPECT_EQ(
+      parse("fill() {" + kCube + "}").warnings,
+      std::vector<std::string>{"m.csg:1: fill: has no meaning for 3D children, they were united"});
+  EXPECT_EQ(error("offset(r = nan) {" + kSquare + "}"),
+            "m.csg:1: offset: distance must be finite, got nan");
+  EXPECT_EQ(error("resize(newsize = 3) {" + kSquare + "}"),
+            "m.csg:1: resize: newsize must be a list of 3 numbers");
+}
+
 TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
   const std::string tetra =
       "polyhedron(points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]], ";

@@ -68,6 +68,10 @@ class Shape2D {
 
 /// Errors: kInvalidArgument for sizes that are not positive and finite.
 Result<Shape2D> make_square(const glm::dvec2& size, std::array<bool, 2> center = {false, false});
+/// Quarters of a circle of radius r at the corners, each in ceil(fragments(r) / 4) steps. Errors:
+/// kInvalidArgument as above, and when two radii are longer than a side.
+Result<Shape2D> make_rounded_square(const glm::dvec2& size, double r, const Facets& facets,
+                                    std::array<bool, 2> center = {false, false});
 Result<Shape2D> make_circle(double r, const Facets& facets);
 /// No paths: one outline of all points. With paths: all outlines together, even-odd; winding and
 /// order do not matter. Errors: kInvalidArgument for fewer than 3 points in an outline, indices out

@@ -1,0 +1,86 @@
+#include "lua_bindings/operands.h"
+
+#include <fmt/format.h>
+
+#include "lua_bindings/api.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/session.h"
+
+namespace csgrun {
+
+void Operands::add(lua_State* L, int index, const std::string& function) {
+  if (const SolidValue* solid = to_solid(L, index)) {
+    solids.push_back(solid->node);
+  } else if (const ShapeValue* shape = to_shape(L, index)) {
+    if (shapes.empty()) appearance = shape->appearance;
+    shapes.push_back(shape->shape);
+  } else {
+    throw ScriptError(fmt::format("{}: an operand must be a solid or a shape, got {}", function,
+                                  describe_value(L, index)));
+  }
+  if (!solids.empty() && !shapes.empty()) {
+    throw ScriptError(
+        function +
+        ": a solid and a 2D shape cannot be combined; make a solid of the shape first, "
+        "with linear_extrude or rotate_extrude");
+  }
+}
+
+void Operands::push_result(lua_State* L, BooleanOp op, const std::string& function) const {
+  if (shapes.empty()) {
+    push_solid(L, Node::boolean(op, solids, session_of(L).source_ref(L)));
+    return;
+  }
+  auto shape = Shape2D::boolean(op, shapes);
+  if (!shape) throw ScriptError(function + ": " + shape.error().message);
+  push_shape(L, *std::move(shape), appearance);
+}
+
+Operands read_operands(lua_State* L, const FunctionSpec& spec) {
+  Operands operands;
+  const int count = lua_gettop(L);
+  for (int index = 1; index <= count; ++index) {
+    if (!lua_istable(L, index)) {
+      operands.add(L, index, spec.name);
+      continue;
+    }
+    const lua_Integer length = list_length(L, index);
+    if (length < 0)
+      fail_in(spec, "takes lists of solids or shapes without holes and names in them");
+    for (lua_Integer i = 1; i <= length; ++i) {
+      lua_rawgeti(L, index, i);
+      operands.add(L, lua_gettop(L), spec.name);
+      lua_pop(L, 1);
+    }
+  }
+  return operands;
+}
+
+void take_subject_out_of_list(lua_State* L) {
+  if (lua_gettop(L) != 1 || !lua_istable(L, 1)) return;
+  lua_rawgeti(L, 1, 1);
+  if (to_shape(L, -1) == nullptr && to_solid(L, -1) == nullptr) {
+    lua_pop(L, 1);
+    return;
+  }
+  lua_insert(L, 1);  // subject, table
+  lua_newtable(L);
+  lua_pushnil(L);
+  while (lua_next(L, 2) != 0) {
+    lua_pushvalue(L, -2);
+    if (lua_isinteger(L, -1) != 0) {
+      const lua_Integer place = lua_tointeger(L, -1);
+      lua_pop(L, 1);
+      if (place == 1) {
+        lua_pop(L, 1);
+        continue;
+      }
+      lua_pushinteger(L, place - 1);
+    }
+    lua_insert(L, -2);
+    lua_rawset(L, 3);
+  }
+  lua_replace(L, 2);
+}
+
+}  // namespace csgrun

@@ -1,0 +1,120 @@
+// Offset: the shape united with a rectangle along each edge and a fan at each corner.
+//
+// Written as boundaries, rectangles and fans share their spokes, so their sum is one closed curve
+// for each loop: the moved edges, joined by the fan's rim where the outline turns outwards, and
+// through the corner itself where it turns inwards. Every piece winds counter-clockwise, so the
+// winding number of the sum is nowhere negative and positive exactly in the union. Inwards, the
+// same is done to the outside: loops turned over wind by -1 inside, and what stays below 0 is left.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include <csgrun/primitives/shape_operations.h>
+#include <csgrun/primitives/trig.h>
+
+#include "primitives/base/text.h"
+#include "primitives/shape2d/shape_factory.h"
+#include "primitives/solids/mesh_builder.h"
+
+namespace csgrun {
+namespace {
+
+/// A mitre reaches at most so many distances from its corner, as in OpenSCAD.
+constexpr double kMitreLimit = 1e6;
+
+class OffsetCurve {
+ public:
+  explicit OffsetCurve(const OffsetOptions& options)
+      : join_(options.join),
+        distance_(std::fabs(options.distance)),
+        fragments_(options.facets.fragments(distance_)) {}
+
+  [[nodiscard]] Shape2D::Loop around(const Shape2D::Loop& loop) {
+    const size_t n = loop.size();
+    std::vector<glm::dvec2> normals(n);
+    for (size_t i = 0; i < n; ++i) {
+      const glm::dvec2 d = loop[(i + 1) % n] - loop[i];
+      const double length = std::sqrt(glm::dot(d, d));
+      normals[i] = glm::dvec2(d.y / length, -d.x / length);
+    }
+    Shape2D::Loop curve;
+    for (size_t i = 0; i < n; ++i) add_corner(loop[i], normals[(i + n - 1) % n], normals[i], curve);
+    return curve;
+  }
+
+ private:
+  /// The join at p from the edge with outward normal `a` to that with normal `b`.
+  void add_corner(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b,
+                  Shape2D::Loop& curve) const {
+    const double sine = a.x * b.y - a.y * b.x, cosine = glm::dot(a, b);
+    const auto add = [&](const glm::dvec2& direction) {
+      curve.push_back(p + distance_ * direction);
+    };
+    if (sine <= 0) {  // inwards, or straight on: then all three lie on one spoke
+      add(a);
+      curve.push_back(p);
+      add(b);
+      return;
+    }
+    constexpr double kAlmostStraight = 0.999;  // a chamfer of less than 2.6 degrees is a mitre
+    const double limit = 2 / (kMitreLimit * kMitreLimit) - 1;
+    if (join_ == OffsetJoin::kRound) {
+      add_arc(p, a, atan2_deg(sine, cosine), curve);
+    } else if (cosine > (join_ == OffsetJoin::kMitre ? limit : kAlmostStraight)) {
+      add((a + b) / (1 + cosine));
+      return;
+    } else {
+      // The line at the distance, square to the bisector: tan(turn / 4) beyond both moved edges.
+      const double t = tan_deg(atan2_deg(sine, cosine) / 4);
+      add(a + t * glm::dvec2(-a.y, a.x));
+      add(b + t * glm::dvec2(b.y, -b.x));
+      return;
+    }
+    add(b);
+  }
+
+  /// From direction `a` on, `turn` degrees counter-clockwise; the last point is the caller's.
+  void add_arc(const glm::dvec2& p, const glm::dvec2& a, double turn, Shape2D::Loop& curve) const {
+    // A turn of whole steps must not get one more for the noise of the angle.
+    constexpr double kNoise = 1e-9;
+    const int steps = std::max(static_cast<int>(std::ceil(turn * fragments_ / 360 - kNoise)), 1);
+    for (int i = 0; i < steps; ++i) {
+      const double c = cos_deg(360.0 * i / fragments_), s = sin_deg(360.0 * i / fragments_);
+      curve.push_back(p + distance_ * glm::dvec2(c * a.x - s * a.y, s * a.x + c * a.y));
+    }
+  }
+
+  OffsetJoin join_;
+  double distance_;
+  int fragments_;
+};
+
+}  // namespace
+
+Result<Shape2D> offset_shape(const Shape2D& shape, const OffsetOptions& options) {
+  if (!std::isfinite(options.distance)) return not_finite("offset", "distance", options.distance);
+  if (shape.empty() || options.distance == 0) return shape;
+  const bool inwards = options.distance < 0;
+  OffsetCurve maker(options);
+  std::vector<Shape2D::Loop> curves;
+  double corners = 0;
+  for (Shape2D::Loop loop : shape.loops()) {
+    if (inwards) std::reverse(loop.begin(), loop.end());
+    curves.push_back(maker.around(loop));
+    corners += static_cast<double>(curves.back().size());
+    if (corners > kMostPoints) return too_many_points("offset", corners, corners);
+  }
+  if (!all_finite(curves)) return invalid_argument("offset: a coordinate would not be finite");
+  const Result<Grid2D> grid = grid_for(extent_of(curves));
+  if (!grid) return grid.error();
+  std::vector<Segment2D> segments;
+  for (const Shape2D::Loop& curve : curves) add_outline(snap_loop(*grid, curve), false, segments);
+  return Shape2DFactory::arranged(
+      *grid, std::move(segments),
+      inwards ? [](int32_t, int32_t sum) { return sum < 0; }
+              : [](int32_t, int32_t sum) { return sum > 0; });
+}
+
+}  // namespace csgrun

@@ -1,0 +1,101 @@
+#include "primitives/shape2d/shape_factory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "primitives/base/text.h"
+
+namespace csgrun {
+namespace {
+
+bool lexicographic_less(const glm::dvec2& p, const glm::dvec2& q) {
+  return std::tie(p.x, p.y) < std::tie(q.x, q.y);
+}
+
+}  // namespace
+
+double extent_of(const std::vector<Shape2D::Loop>& loops) {
+  double extent = 0;
+  for (const Shape2D::Loop& loop : loops) {
+    for (const glm::dvec2& p : loop) {
+      extent = std::max({extent, std::fabs(p.x), std::fabs(p.y)});
+    }
+  }
+  return extent;
+}
+
+bool all_finite(const std::vector<Shape2D::Loop>& loops) {
+  for (const Shape2D::Loop& loop : loops) {
+    for (const glm::dvec2& p : loop) {
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) return false;
+    }
+  }
+  return true;
+}
+
+Result<Grid2D> grid_for(double extent) {
+  if (const auto grid = Grid2D::for_extent(extent)) return *grid;
+  return Error{ErrorCode::kOutOfRange,
+               "2D shape: coordinates up to " + number_text(extent) + " mm, the limit is 1e+12",
+               {}};
+}
+
+GridLoop snap_loop(const Grid2D& grid, const Shape2D::Loop& loop) {
+  GridLoop snapped(loop.size());
+  std::transform(loop.begin(), loop.end(), snapped.begin(),
+                 [&](const glm::dvec2& p) { return grid.snap(p); });
+  return snapped;
+}
+
+Shape2D Shape2DFactory::from_grid(const Grid2D& grid, const GridRegions& regions) {
+  std::vector<Loop> loops;
+  for (const GridLoop& grid_loop : regions.loops) {
+    Loop& loop = loops.emplace_back();
+    for (const Point2D& p : grid_loop) loop.push_back(grid.unsnap(p));
+  }
+  return canonical(std::move(loops), regions.outer_of);
+}
+
+Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of) {
+  if (loops.empty()) return {};
+  for (Loop& loop : loops) {
+    for (glm::dvec2& p : loop) p += 0.0;  // no negative zeros
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), lexicographic_less),
+                loop.end());
+  }
+  std::vector<uint32_t> order(loops.size()), rank(loops.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
+    return std::lexicographical_compare(loops[i].begin(), loops[i].end(), loops[j].begin(),
+                                        loops[j].end(), lexicographic_less);
+  });
+  auto data = std::make_shared<Shape2D::Data>();
+  for (uint32_t k = 0; k < order.size(); ++k) {
+    rank[order[k]] = k;
+    data->loops.push_back(std::move(loops[order[k]]));
+  }
+  std::vector<std::vector<uint32_t>> holes(loops.size());
+  for (uint32_t k = 0; k < order.size(); ++k) {
+    const uint32_t outer = rank[outer_of[order[k]]];
+    if (outer != k) holes[outer].push_back(k);
+  }
+  for (uint32_t k = 0; k < order.size(); ++k) {
+    if (outer_of[order[k]] == order[k]) data->regions.push_back({k, std::move(holes[k])});
+  }
+  Shape2D shape;
+  shape.data_ = std::move(data);
+  return shape;
+}
+
+Result<Shape2D> Shape2DFactory::arranged(const Grid2D& grid, std::vector<Segment2D> segments,
+                                         const std::function<bool(int32_t, int32_t)>& inside) {
+  const auto arrangement = arrange(std::move(segments));
+  if (!arrangement) {
+    return Error{ErrorCode::kInternal, "2D Boolean: crossings do not settle on the grid", {}};
+  }
+  return from_grid(grid, extract_regions(*arrangement, inside));
+}
+}  // namespace csgrun

@@ -1,0 +1,34 @@
+// Makes shapes from loops that are known to be clean, and clean loops from arrangements.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <csgrun/primitives/shape2d.h>
+
+#include "primitives/shape2d/grid2d.h"
+#include "primitives/shape2d/regions.h"
+
+namespace csgrun {
+
+/// The largest coordinate, in absolute value.
+double extent_of(const std::vector<Shape2D::Loop>& loops);
+bool all_finite(const std::vector<Shape2D::Loop>& loops);
+/// The grid for coordinates up to `extent` mm. Errors: kOutOfRange.
+Result<Grid2D> grid_for(double extent);
+GridLoop snap_loop(const Grid2D& grid, const Shape2D::Loop& loop);
+
+class Shape2DFactory {
+ public:
+  using Loop = Shape2D::Loop;
+
+  static Shape2D from_grid(const Grid2D& grid, const GridRegions& regions);
+  /// Loops with the right directions, in any order and from any start; outer_of as in GridRegions.
+  static Shape2D canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of);
+  /// Where inside(first, rest) holds, as in extract_regions. Errors: kInternal.
+  static Result<Shape2D> arranged(const Grid2D& grid, std::vector<Segment2D> segments,
+                                  const std::function<bool(int32_t, int32_t)>& inside);
+};
+
+}  // namespace csgrun

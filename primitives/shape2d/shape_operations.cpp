@@ -1,0 +1,60 @@
+// Operations on shapes that are a few lines each.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include <csgrun/primitives/shape_operations.h>
+
+#include "primitives/shape2d/shape_factory.h"
+
+namespace csgrun {
+
+Result<Shape2D> fill_shape(const Shape2D& shape) {
+  if (shape.regions().size() == shape.loops().size()) return shape;
+  const Result<Grid2D> grid = grid_for(extent_of(shape.loops()));
+  if (!grid) return grid.error();
+  std::vector<Segment2D> segments;
+  for (const Shape2D::Region& region : shape.regions()) {
+    add_outline(snap_loop(*grid, shape.loops()[region.outer]), false, segments);
+  }
+  return Shape2DFactory::arranged(*grid, std::move(segments),
+                                  [](int32_t, int32_t sum) { return sum > 0; });
+}
+
+std::array<double, 2> resize_factors(const std::array<double, 2>& size,
+                                     const std::array<double, 2>& wanted,
+                                     const std::array<bool, 2>& automatic) {
+  const size_t largest = wanted[1] > wanted[0] ? 1 : 0;
+  const double other = wanted[largest] > 0 ? wanted[largest] / size[largest] : 1;
+  std::array<double, 2> factors{};
+  for (size_t i = 0; i < 2; ++i) {
+    factors[i] = wanted[i] > 0 ? wanted[i] / size[i] : automatic[i] ? other : 1;
+  }
+  return factors;
+}
+
+double perimeter_of(const Shape2D& shape) {
+  double sum = 0;
+  for (const Shape2D::Loop& loop : shape.loops()) {
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const glm::dvec2 edge = loop[(i + 1) % loop.size()] - loop[i];
+      sum += std::sqrt(glm::dot(edge, edge));
+    }
+  }
+  return sum;
+}
+
+std::vector<Shape2D> pieces_of_shape(const Shape2D& shape) {
+  std::vector<Shape2D> pieces;
+  for (const Shape2D::Region& region : shape.regions()) {
+    std::vector<Shape2D::Loop> loops{shape.loops()[region.outer]};
+    for (const uint32_t hole : region.holes) loops.push_back(shape.loops()[hole]);
+    pieces.push_back(Shape2DFactory::canonical(std::move(loops),
+                                               std::vector<uint32_t>(region.holes.size() + 1, 0)));
+  }
+  return pieces;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,215 @@
+// Whether a point is inside an operand, against winding numbers in rational arithmetic: what
+// doubles tell must be true, however wrong the point may be, and they must tell where they can.
+#include "engine/bsp/ray_label.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/kernel_case.h"
+#include "tests/support/oracle.h"
+#include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
+
+namespace csgrun {
+namespace {
+
+using test::Query;
+
+/// The directions of rays (ray_label.cpp): here so that rays can be sent through corners.
+constexpr double kDirections[3][2] = {
+    {0.0142578125, 0.0081787109375}, {0.0313720703125, 0.0117}, {0.0057373046875, 0.0427}};
+
+struct Operands {
+  explicit Operands(const Operand& operand)
+      : list{operand}, job(list), signs(job), oracle(test::exact_solid(operand)) {}
+  explicit Operands(const std::vector<test::Loop>& loops)
+      : Operands(test::operand_of(test::make_leaf(loops))) {}
+
+  /// 1 inside, 0 outside, -1 not told.
+  int label(const Query& at, double error = 0) {
+    const Inside label = ray_label(job, signs, 0, at, error);
+    return label == Inside::kUnknown ? -1 : label == Inside::kYes ? 1 : 0;
+  }
+
+  const std::vector<Operand> list;
+  const Job job;
+  VertexSigns signs;
+  const test::Oracle oracle;
+};
+
+TEST(RayLabel, IsTheWindingNumber) {
+  test::Random random(501);
+  int inside = 0, outside = 0;
+  for (int i = 0; i < 150; ++i) {
+    Operands solid(test::random_loops(random));
+    for (int k = 0; k < 60; ++k) {
+      Query at;
+      for (double& c : at) c = static_cast<double>(random.integer(-2, 24)) / 4 + 1. / 64;
+      const auto truth = solid.oracle.winding(at);
+      if (!truth) continue;
+      ASSERT_EQ(solid.label(at), *truth) << at[0] << ' ' << at[1] << ' ' << at[2];
+      ++(*truth ? inside : outside);
+    }
+  }
+  EXPECT_GT(inside, 300);
+  EXPECT_GT(outside, 500);
+}
+
+// A ray that passes through a corner says nothing; the next one does.
+TEST(RayLabel, OfPointsWhoseRayPassesThroughACorner) {
+  test::Random random(502);
+  int inside = 0, outside = 0;
+  for (int i = 0; i < 300; ++i) {
+    auto loops = test::random_loops(random, 4);
+    // A corner to the origin, near which doubles are exact.
+    const auto& loop = loops[static_cast<size_t>(random.integer(0, loops.size() - 1))];
+    test::GridMap map;
+    for (int k = 0; k < 3; ++k) map.move[k] = -loop[0][k];
+    Operands solid(test::mapped(loops, map));
+    for (const auto& [y, z] : kDirections) {
+      for (const double back : {0.5, 1.0, 2.0, 4.0}) {
+        const Query at{-back, -back * y, -back * z};
+        const auto truth = solid.oracle.winding(at);
+        if (!truth) continue;
+        ASSERT_EQ(solid.label(at), *truth) << i << ": " << back << ' ' << y;
+        ++(*truth ? inside : outside);
+      }
+    }
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_GT(outside, 500);
+}
+
+// The same in front of edges, where a ray meets two faces in one point.
+TEST(RayLabel, OfPointsWhoseRayPassesThroughAnEdge) {
+  test::Random random(503);
+  int told = 0;
+  for (int i = 0; i < 300; ++i) {
+    auto loops = test::random_loops(random, 4);
+    for (test::Loop& l : loops) {
+      for (IVec3& p : l) {
+        for (int64_t& c : p) c *= 2;
+      }
+    }
+    const auto& loop = loops[static_cast<size_t>(random.integer(0, loops.size() - 1))];
+    test::GridMap map;
+    for (int k = 0; k < 3; ++k) map.move[k] = -(loop[0][k] + loop[1][k]) / 2;
+    Operands solid(test::mapped(loops, map));
+    for (const auto& [y, z] : kDirections) {
+      for (const double back : {1.0, 4.0}) {
+        const Query at{-back, -back * y, -back * z};
+        const auto truth = solid.oracle.winding(at);
+        if (!truth) continue;
+        ASSERT_EQ(solid.label(at), *truth) << i << ": " << back << ' ' << y;
+        ++told;
+      }
+    }
+  }
+  EXPECT_GT(told, 1000);
+}
+
+// A point may be anywhere around the one given: what is said must be true of all of them.
+TEST(RayLabel, HoldsForAllPointsThatMayBeMeant) {
+  test::Random random(504);
+  int told = 0, open = 0;
+  for (int i = 0; i < 600; ++i) {
+    Operands solid(test::random_loops(random, 4));
+    for (int k = 0; k < 60; ++k) {
+      const double error = std::ldexp(1.0, -static_cast<int>(random.integer(0, 8))) * 0.9;
+      Query at, meant;
+      for (int c = 0; c < 3; ++c) {
+        at[c] = static_cast<double>(random.integer(-8, 40)) / 8 + 1. / 64;
+        meant[c] = at[c] + error * (random.integer(0, 1) ? 1 : -1) * (1 - random.unit() / 16);
+      }
+      const auto truth = solid.oracle.winding(meant);
+      if (!truth) continue;
+      const int label = solid.label(at, error);
+      if (label >= 0) {
+        ASSERT_EQ(label, *truth) << i << ' ' << k << " error " << error;
+      }
+      ++(label >= 0 ? told : open);
+    }
+  }
+  EXPECT_GT(told, 10000);
+  EXPECT_GT(open, 1000);
+}
+
+// The corners of a turned leaf are rounded; those of a very large one by much.
+TEST(RayLabel, OfTurnedLeaves) {
+  test::Random random(505);
+  int told = 0, inside = 0, far = 0;
+  for (int i = 0; i < 200; ++i) {
+    Operand operand = test::operand_of(test::make_leaf(test::random_loops(random, 4)));
+    operand.frame = test::random_frame(random);
+    Operands solid(operand);
+    for (int k = 0; k < 30; ++k) {
+      const auto& points = solid.oracle.solid().points;
+      const auto& p = points[static_cast<size_t>(random.integer(0, points.size() - 1))];
+      Query at;
+      const double scale = random.integer(0, 3) ? 2 : 1e-13;
+      for (int c = 0; c < 3; ++c) at[c] = p[c].get_d() + scale * (random.unit() - 0.5);
+      const auto truth = solid.oracle.winding(at);
+      if (!truth) continue;
+      const int label = solid.label(at);
+      if (label >= 0) {
+        ASSERT_EQ(label, *truth) << i << ' ' << k;
+      }
+      told += label >= 0;
+      inside += label == 1;
+      far += scale == 2 && label < 0;
+    }
+  }
+  EXPECT_GT(told, 3000);
+  EXPECT_GT(inside, 300);
+  EXPECT_LT(far, 30);
+}
+
+// Boxes are clamped at 2^30: a leaf that reaches farther is met beyond, too.
+TEST(RayLabel, OfLeavesThatReachBeyondBoxes) {
+  const int64_t far = int64_t{1} << 36;
+  Operands box(test::box_loops({-far, -far, -far}, {far, far, far}));
+  Operands beside(test::box_loops({5, -far, -far}, {far, far, far}));
+  Operands flat(test::box_loops({-far, -far, -5}, {far, far, 7}));
+  for (const double x : {-0x1p29, -1000.25, 0.25, 4.75, 5.25, 0x1p29}) {
+    EXPECT_EQ(box.label({x, 0.5, 0.25}), 1) << x;
+    EXPECT_EQ(beside.label({x, 0.5, 0.25}), x > 5) << x;
+    EXPECT_EQ(flat.label({0.25, x, -4.75}), 1) << x;
+    EXPECT_EQ(flat.label({0.25, 0.5, x}), std::fabs(x) < 7 && x > -5) << x;
+  }
+  // Points that boxes do not reach are not told.
+  for (int k = 0; k < 3; ++k) {
+    for (const double c : {-0x1p30, 0x1p30, 0x1p33}) {
+      Query at{0.5, 0.5, 0.5};
+      at[k] = c;
+      EXPECT_EQ(box.label(at), -1) << k << ' ' << c;
+    }
+    Query at{0.5, 0.5, 0.5};
+    at[k] = 0x1p30 - 0.5;
+    EXPECT_EQ(box.label(at), 1) << k;
+    at[k] = -0x1p30 + 0.5;
+    EXPECT_EQ(box.label(at), 1) << k;
+  }
+}
+
+// Beside a straight angle the start of a face says nothing about its plane: other corners do.
+TEST(RayLabel, OfFacesThatStartWithCornersInLine) {
+  std::vector<test::Loop> loops = test::box_loops({0, 0, 0}, {4, 4, 4});
+  for (test::Loop& loop : loops) {
+    test::Loop with_middles;
+    for (size_t c = 0; c < loop.size(); ++c) {
+      const IVec3 &a = loop[c], &b = loop[(c + 1) % loop.size()];
+      with_middles.push_back(a);
+      with_middles.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
+    }
+    loop = with_middles;
+  }
+  for (int turn = 0; turn < 8; ++turn) {
+    Operands box(loops);
+    for (double x = -1.75; x < 6; x += 1) {
+      EXPECT_EQ(box.label({x, 1.25, 2.75}), x > 0 && x < 4) << x;
+    }
+    for (test::Loop& loop : loops) std::rotate(loop.begin(), loop.begin() + 1, loop.end());
+  }
+}
+
+}  // namespace
+}  // namespace csgrun
