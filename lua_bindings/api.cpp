@@ -140,8 +140,9 @@ void open_methods(lua_State* L, const char* kind, lua_CFunction Binding::*form) 
 std::vector<Binding> all_bindings() {
   std::vector<Binding> all;
   for (const auto& group :
-       {solid_bindings(), shape_bindings(), outline_bindings(), transform_bindings(),
-        boolean_bindings(), measure_bindings(), math_bindings(), model_bindings()}) {
+       {solid_bindings(), shape_bindings(), outline_bindings(), construction_bindings(),
+        section_bindings(), transform_bindings(), boolean_bindings(), measure_bindings(),
+        math_bindings(), model_bindings()}) {
     all.insert(all.end(), group.begin(), group.end());
   }
   return all;

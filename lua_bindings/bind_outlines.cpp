@@ -1,5 +1,5 @@
-// What makes new outlines of shapes, and what reads them: offset, hull, minkowski, fill, resize,
-// perimeter, points, paths, outlines, decompose.
+// What makes new outlines of shapes, and what reads them: offset, fill, perimeter,
+// points, paths, outlines, decompose.
 #include <fmt/format.h>
 
 #include <csgrun/primitives/shape_operations.h>
@@ -44,25 +44,6 @@ int offset(lua_State* L) {
   return 1;
 }
 
-constexpr Option kShapesOptions[] = {
-    {"operands", T::kValue, "", "shapes, one after another or as lists", true},
-};
-constexpr FunctionSpec kHull{"hull", "The smallest convex shape that contains all of them.",
-                             kShapesOptions, false, "hull(circle(2), circle(4):translate(20, 0))"};
-constexpr FunctionSpec kMinkowski{
-    "minkowski",
-    "All sums of a point of each: the first, swept by the others. Empty ones count for nothing.",
-    kShapesOptions, false, "minkowski(square(10), circle(1))"};
-
-template <const FunctionSpec& Spec, Result<Shape2D> (*Make)(const std::vector<Shape2D>&)>
-int combine_shapes(lua_State* L) {
-  const Operands operands = read_operands(L, Spec);
-  if (operands.shapes.empty() && operands.solids.empty()) fail_in(Spec, "needs a shape");
-  if (!operands.solids.empty()) fail_in(Spec, "an operand must be a 2D shape, got solid");
-  push_shape(L, value_or_fail(Spec, Make(operands.shapes)), operands.appearance);
-  return 1;
-}
-
 constexpr FunctionSpec kFill{"fill",   "The shape without its holes.",   {},
                              false,    "(circle(5) - circle(3)):fill()", "shape",
                              kShapeDoc};
@@ -72,41 +53,6 @@ int fill(lua_State* L) {
   const ShapeValue& shape = shape_argument(L, kFill);
   const Arguments arguments(L, kFill, 2);
   push_shape(L, value_or_fail(kFill, fill_shape(shape.shape)), shape.appearance);
-  return 1;
-}
-
-constexpr Option kResizeOptions[] = {
-    {"newsize", T::kVector2Or3, "", "lengths along X and Y; 0 leaves that axis as it is", true,
-     Range::kNotNegative, "size"},
-    {"auto", T::kBooleans2, "false",
-     "axes of length 0 take the factor of the longest one that is given", true},
-};
-constexpr FunctionSpec kResize{"resize",
-                               "Scales about the origin until the bounding box has these lengths.",
-                               kResizeOptions,
-                               false,
-                               "circle(5):resize({20, 0}, {auto = true})",
-                               "shape",
-                               kShapeDoc};
-
-int resize(lua_State* L) {
-  take_subject_out_of_list(L);
-  const ShapeValue& shape = shape_argument(L, kResize);
-  const Arguments arguments(L, kResize, 2);
-  const auto wanted = arguments.vector("newsize");
-  if (!wanted) fail_in(kResize, "needs the new lengths: (20, 10), or 0 where nothing changes");
-  if (shape.shape.empty()) {
-    push_shape(L, shape.shape, shape.appearance);
-    return 1;
-  }
-  const auto automatic = arguments.booleans("auto");
-  const auto [low, high] = shape.shape.bounds();
-  const auto factors = resize_factors({high.x - low.x, high.y - low.y}, {wanted->v.x, wanted->v.y},
-                                      {automatic[0], automatic[1]});
-  Affine map;
-  map.m[0][0] = factors[0];
-  map.m[1][1] = factors[1];
-  push_shape(L, value_or_fail(kResize, shape.shape.transformed(map)), shape.appearance);
   return 1;
 }
 
@@ -128,9 +74,6 @@ constexpr FunctionSpec kPaths{
     {}};
 constexpr FunctionSpec kOutlines{
     "outlines", "The outlines as lists of points {x, y}, in the order of paths().", {}};
-constexpr FunctionSpec kDecompose{
-    "decompose", "Its connected pieces, a list.", {}, false, "#shape:decompose()"};
-
 int perimeter(lua_State* L) {
   lua_pushnumber(L, perimeter_of(bare_shape(L, kPerimeter).shape));
   return 1;
@@ -176,30 +119,13 @@ int outlines(lua_State* L) {
   });
 }
 
-int decompose(lua_State* L) {
-  const ShapeValue& value = bare_shape(L, kDecompose);
-  lua_newtable(L);
-  lua_Integer count = 0;
-  for (Shape2D& piece : pieces_of_shape(value.shape)) {
-    push_shape(L, std::move(piece), value.appearance);
-    lua_rawseti(L, -2, ++count);
-  }
-  return 1;
-}
-
 constexpr Binding kBindings[] = {
     {&kOffset, guarded<offset>, nullptr, guarded<offset>},
-    {&kHull, guarded<combine_shapes<kHull, hull_of_shapes>>, nullptr,
-     guarded<combine_shapes<kHull, hull_of_shapes>>},
-    {&kMinkowski, guarded<combine_shapes<kMinkowski, minkowski_of_shapes>>, nullptr,
-     guarded<combine_shapes<kMinkowski, minkowski_of_shapes>>},
     {&kFill, guarded<fill>, nullptr, guarded<fill>},
-    {&kResize, guarded<resize>, nullptr, guarded<resize>},
     {&kPerimeter, nullptr, nullptr, guarded<perimeter>},
     {&kPoints, nullptr, nullptr, guarded<points>},
     {&kPaths, nullptr, nullptr, guarded<paths>},
     {&kOutlines, nullptr, nullptr, guarded<outlines>},
-    {&kDecompose, nullptr, nullptr, guarded<decompose>},
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include <glm/common.hpp>
+
 #include "engine/csg/grid_solid.h"
 #include "engine/csg/minkowski.h"
 #include "engine/csg/operand_leaves.h"
@@ -24,8 +26,7 @@ NodePtr hull_leaf(std::vector<glm::dvec3> points, const Appearance* appearance, 
 
 /// Whether the corners of a member are its mesh's points.
 bool has_own_points(const PlacedNode& member) {
-  return member.node->kind() == NodeKind::kLeaf &&
-         member.node->mesh()->fill == FillRule::kNonZero;
+  return member.node->kind() == NodeKind::kLeaf && member.node->mesh()->fill == FillRule::kNonZero;
 }
 
 void append_points(const PlacedNode& member, std::vector<glm::dvec3>& points) {
@@ -150,17 +151,33 @@ Result<NodePtr> Constructions::make_sum(const Node& node, const std::vector<Node
                                : result;
 }
 
+/// The lengths of the bounding box of a solid; all 0 when it is empty. A union of leaves is not
+/// evaluated: it may be so long that its width is nothing on a grid that holds it.
+Result<std::array<double, 3>> Constructions::lengths(const NodePtr& operand) {
+  const std::vector<PlacedNode> members = union_members({operand});
+  std::array<glm::dvec3, 2> box{};
+  if (std::all_of(members.begin(), members.end(), has_own_points)) {
+    std::vector<glm::dvec3> points;
+    for (const PlacedNode& member : members) append_points(member, points);
+    if (!points.empty()) box = {points[0], points[0]};
+    for (const glm::dvec3& p : points) box = {glm::min(box[0], p), glm::max(box[1], p)};
+  } else {
+    auto parts = evaluate_({operand}, false);
+    if (!parts) return parts.error();
+    if (!parts->solids[0]->empty()) box = parts->solids[0]->measures.bbox;
+  }
+  return std::array<double, 3>{box[1].x - box[0].x, box[1].y - box[0].y, box[1].z - box[0].z};
+}
+
 Result<NodePtr> Constructions::make_resized(const Node& node, const NodePtr& operand) {
-  auto parts = evaluate_({operand}, false);
-  if (!parts) return parts.error();
-  const Solid& solid = *parts->solids[0];
-  if (solid.empty()) return Node::empty(node.where());
+  const auto length = lengths(operand);
+  if (!length) return length.error();
+  if (*std::min_element(length->begin(), length->end()) <= 0) return Node::empty(node.where());
   const Resize& resize = node.resize();
   std::array<double, 3> factor{1, 1, 1};
   int largest = 0;
   for (int i = 0; i < 3; ++i) {
-    const double length = solid.measures.bbox[1][i] - solid.measures.bbox[0][i];
-    if (resize.size[i] > 0) factor[i] = resize.size[i] / length;
+    if (resize.size[i] > 0) factor[i] = resize.size[i] / (*length)[i];
     if (resize.size[i] > resize.size[largest]) largest = i;
   }
   Affine map;

@@ -2,6 +2,7 @@
 // become leaves, transforms and unions.
 #pragma once
 
+#include <array>
 #include <unordered_map>
 #include <vector>
 
@@ -29,6 +30,7 @@ class Constructions {
   Result<NodePtr> make(const Node& node, const std::vector<NodePtr>& operands);
   Result<NodePtr> make_hull(const Node& node, const std::vector<NodePtr>& operands);
   Result<NodePtr> make_sum(const Node& node, const std::vector<NodePtr>& operands);
+  Result<std::array<double, 3>> lengths(const NodePtr& operand);
   Result<NodePtr> make_resized(const Node& node, const NodePtr& operand);
 
   EvaluateParts evaluate_;

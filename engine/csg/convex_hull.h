@@ -12,9 +12,9 @@ namespace csgrun {
 /// corners, vertices are the extreme points, opposite edges are known. The same for any order and
 /// repetition of the points. No faces when the points lie in one plane.
 ///
-/// Points are added one at a time, the farthest in front of a face first (Barber, Dobkin & Huhdanpaa
-/// 1996, "The quickhull algorithm for convex hulls"). A face sees a point only where that is
-/// strictly in front of its plane, which is decided exactly; so what is coplanar needs no care:
+/// Points are added one at a time, the farthest in front of a face first (Barber, Dobkin &
+/// Huhdanpaa 1996, "The quickhull algorithm for convex hulls"). A face sees a point only where that
+/// is strictly in front of its plane, which is decided exactly; so what is coplanar needs no care:
 /// new triangles are never degenerate, and those of one plane always stay or go together.
 ///
 /// REQUIRES: |coordinate| <= 2^40. O(n log n) expected.

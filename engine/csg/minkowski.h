@@ -25,9 +25,9 @@ struct Summand {
 ///   A + B  =  union of A + b, of B + a, and of all f + g,
 /// for where x - B moves away from x - b, which is in A, without leaving A for good, it crosses the
 /// boundary of A; and there the boundary of B does, or lies within A altogether. If B is convex the
-/// last two are f + B. Faces are convex polygons, so f + g is the hull of sums of their corners; what
-/// is flat of these bounds others. Everything is on the grid if the summands are.
-/// Cost: a hull for each pair of faces.
+/// last two are f + B. Faces are convex polygons, so f + g is the hull of sums of their corners;
+/// what is flat of these bounds others. Everything is on the grid if the summands are. Cost: a hull
+/// for each pair of faces.
 ///
 /// Errors: kLimit when that is more than 2^28 pairs of points.
 Result<std::vector<Summand>> minkowski_sum(const std::vector<Summand>& a,

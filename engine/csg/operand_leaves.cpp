@@ -88,7 +88,8 @@ std::optional<CommonTurn> common_turn(const std::vector<PlacedNode>& members) {
     const LinearSplit split = split_linear(top.map);
     if (!split.framed) return std::nullopt;
     std::array<std::array<int64_t, 3>, 3> rows;
-    for (int i = 0; i < 3; ++i) rows[i] = integer_row(table.representative(table.add(split.rows[i])));
+    for (int i = 0; i < 3; ++i)
+      rows[i] = integer_row(table.representative(table.add(split.rows[i])));
     const CanonicalFrame canonical = canonical_frame(rows);
     if (!canonical.framed || canonical.placement.frame.is_identity) return std::nullopt;
     if (!common) {

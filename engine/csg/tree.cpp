@@ -28,10 +28,10 @@ glm::dvec3 Affine::apply(const glm::dvec3& p) const {
 std::shared_ptr<Node> Node::made(NodeKind kind, std::vector<NodePtr> children, SourceRef where) {
   auto node = std::shared_ptr<Node>(new Node());
   node->kind_ = kind;
-  node->has_constructions_ =
-      kind == NodeKind::kConstruction ||
-      std::any_of(children.begin(), children.end(),
-                  [](const NodePtr& c) { return c && c->has_constructions_; });
+  node->has_constructions_ = kind == NodeKind::kConstruction ||
+                             std::any_of(children.begin(), children.end(), [](const NodePtr& c) {
+                               return c && c->has_constructions_;
+                             });
   node->children_ = std::move(children);
   node->where_ = std::move(where);
   return node;

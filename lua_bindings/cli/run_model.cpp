@@ -107,7 +107,8 @@ class Run {
     // Places go into written files, so they are seen from the tree's own folder; messages are not.
     const SourceRef where = session_.source_ref(line_.model, 1);
     const std::string folder = folder_of(line_.model);
-    auto model = parse_csg(*where.file, text);
+    const EvaluationScope scope(session_.budget());
+    auto model = parse_csg(*where.file, text, {&session_.evaluator()});
     if (!model) {
       const std::string place = model.error().where.text();
       return {kExitScript, (place.empty() ? line_.model : join_path(folder, place)) + ": " +

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <csgrun/primitives/csg_file.h>
+#include <csgrun/primitives/projection.h>
 #include <csgrun/primitives/shape_operations.h>
 
 #include "primitives/files/csg_parser.h"
@@ -45,8 +46,7 @@ struct Frame {
   std::vector<Item> children;
 };
 
-constexpr std::array<std::string_view, 5> kNotBuilt{"text", "import", "surface", "projection",
-                                                    "roof"};
+constexpr std::array<std::string_view, 4> kNotBuilt{"text", "import", "surface", "roof"};
 
 bool is_not_built(std::string_view name) {
   return std::find(kNotBuilt.begin(), kNotBuilt.end(), name) != kNotBuilt.end();
@@ -54,8 +54,8 @@ bool is_not_built(std::string_view name) {
 
 class CsgBuilder {
  public:
-  CsgBuilder(const std::string& name, std::string_view text)
-      : file_(std::make_shared<const std::string>(name)), parser_(file_, text) {}
+  CsgBuilder(const std::string& name, std::string_view text, const CsgOptions& options)
+      : file_(std::make_shared<const std::string>(name)), parser_(file_, text), options_(options) {}
 
   Result<CsgModel> build() {
     stack_.emplace_back();  // the file itself: a union
@@ -137,6 +137,7 @@ class CsgBuilder {
     if (name == "minkowski") return minkowski(frame);
     if (name == "fill") return fill(frame);
     if (name == "resize") return resize(frame);
+    if (name == "projection") return projection(frame);
     if (is_not_built(name)) {
       if (!takes_children(name) || !frame.children.empty()) return not_supported(frame);
       return Item();
@@ -192,6 +193,15 @@ class CsgBuilder {
     return shapes;
   }
 
+  /// Those that are not empty.
+  static std::vector<NodePtr> take_solids(Frame& frame) {
+    std::vector<NodePtr> solids;
+    for (Item& child : frame.children) {
+      if (child.kind == Item::Kind::kSolid) solids.push_back(std::move(child.solid));
+    }
+    return solids;
+  }
+
   static Result<Item> item_of(Result<Shape2D> shape) {
     if (!shape) return shape.error();
     return Item::of(*std::move(shape));
@@ -232,14 +242,16 @@ class CsgBuilder {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
     if (kind == Item::Kind::kFlat) return item_of(hull_of_shapes(take_shapes(frame)));
-    return not_supported(frame);
+    return Item::of(Node::convex_hull(take_solids(frame), where(frame)));
   }
 
   Result<Item> minkowski(Frame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
     if (kind == Item::Kind::kFlat) return item_of(minkowski_of_shapes(take_shapes(frame)));
-    return not_supported(frame);
+    std::vector<NodePtr> solids = take_solids(frame);
+    if (solids.size() == 1) return Item::of(std::move(solids[0]));
+    return Item::of(Node::minkowski_sum(std::move(solids), where(frame)));
   }
 
   Result<Item> fill(Frame& frame) {
@@ -255,7 +267,10 @@ class CsgBuilder {
     if (!wanted) return wanted.error();
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
-    if (child->kind == Item::Kind::kSolid) return not_supported(frame);
+    if (child->kind == Item::Kind::kSolid) {
+      const Resize resize{wanted->newsize, wanted->automatic};
+      return Item::of(Node::resized(resize, std::move(child->solid), where(frame)));
+    }
     const auto [low, high] = child->shape.bounds();
     const auto factors =
         resize_factors({high.x - low.x, high.y - low.y}, {wanted->newsize[0], wanted->newsize[1]},
@@ -264,6 +279,29 @@ class CsgBuilder {
     map.m[0][0] = factors[0];
     map.m[1][1] = factors[1];
     return item_of(child->shape.transformed(map));
+  }
+
+  Result<Item> projection(Frame& frame) {
+    CsgArguments arguments(frame.call);
+    const bool cut = arguments.boolean("cut", false);
+    if (arguments.error()) return *arguments.error();
+    for (Item& child : frame.children) {
+      if (child.kind != Item::Kind::kFlat) continue;
+      warn(frame, "projection: a 2D child was left out");
+      child = Item();
+    }
+    Result<Item> child = combine(BooleanOp::kUnion, frame);
+    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    if (cut) return item_of(slice_solid(evaluator(), child->solid, 0));
+    const auto solid = evaluator().evaluate(child->solid);
+    if (!solid) return solid.error();
+    return item_of(project_solid(**solid));
+  }
+
+  Evaluator& evaluator() {
+    if (options_.evaluator != nullptr) return *options_.evaluator;
+    if (!own_evaluator_) own_evaluator_ = std::make_unique<Evaluator>(EvaluateOptions{});
+    return *own_evaluator_;
   }
 
   NodePtr combine_solids(BooleanOp op, Frame& frame) {
@@ -351,20 +389,23 @@ class CsgBuilder {
 
   std::shared_ptr<const std::string> file_;
   CsgParser parser_;
+  CsgOptions options_;
+  std::unique_ptr<Evaluator> own_evaluator_;
   std::vector<Frame> stack_;
   std::vector<std::string> warnings_;
 };
 
 }  // namespace
 
-Result<CsgModel> parse_csg(const std::string& name, std::string_view text) {
-  return CsgBuilder(name, text).build();
+Result<CsgModel> parse_csg(const std::string& name, std::string_view text,
+                           const CsgOptions& options) {
+  return CsgBuilder(name, text, options).build();
 }
 
-Result<CsgModel> read_csg_file(const std::string& path) {
+Result<CsgModel> read_csg_file(const std::string& path, const CsgOptions& options) {
   const Result<std::string> bytes = read_regular_file(path);
   if (!bytes) return bytes.error();
-  return parse_csg(path, *bytes);
+  return parse_csg(path, *bytes, options);
 }
 
 }  // namespace csgrun

@@ -7,6 +7,7 @@
 
 #include <csgrun/engine/csg_tree.h>
 #include <csgrun/engine/error.h>
+#include <csgrun/engine/evaluate.h>
 #include <csgrun/primitives/shape2d.h>
 
 namespace csgrun {
@@ -21,20 +22,27 @@ struct CsgModel {
   std::vector<std::string> warnings;
 };
 
+struct CsgOptions {
+  /// Evaluates what projections need; null: one with default options. Its warnings then tell of
+  /// these solids, too.
+  Evaluator* evaluator = nullptr;
+};
+
 /// Reads cube, sphere, cylinder, polyhedron, square, circle, polygon, linear_extrude,
-/// rotate_extrude, multmatrix, color, union, difference, intersection, group and render, with the
-/// modifiers % (left out, not even an operand) and # (nothing). As in OpenSCAD, an empty node is an
-/// operand, primitives of impossible size are empty, and where 2D and 3D mix the first child that
-/// is not empty decides; each is said in a warning. Unknown arguments are passed over; arguments
-/// are matched by name.
+/// rotate_extrude, projection, multmatrix, resize, color, hull, minkowski, offset, fill, union,
+/// difference, intersection, group and render, with the modifiers % (left out, not even an operand)
+/// and # (nothing). As in OpenSCAD, an empty node is an operand, primitives of impossible size are
+/// empty, and where 2D and 3D mix the first child that is not empty decides; each is said in a
+/// warning. Unknown arguments are passed over; arguments are matched by name.
 ///
 /// Errors have `where` set to the line and a message without it: kMalformedFile for what is not a
-/// .csg file, kInvalidArgument for nodes that csgrun does not build (text, import, hull ...;
+/// .csg file, kInvalidArgument for nodes that csgrun does not build (text, import, surface ...;
 /// without children they are empty, and no error), kInvalidMesh for polyhedra that are not closed.
-/// Depth is limited by memory only.
-Result<CsgModel> parse_csg(const std::string& name, std::string_view text);
+/// Depth is limited by memory only. Those of the evaluation of what is projected.
+Result<CsgModel> parse_csg(const std::string& name, std::string_view text,
+                           const CsgOptions& options = {});
 
 /// Reads a regular file and parses it.
-Result<CsgModel> read_csg_file(const std::string& path);
+Result<CsgModel> read_csg_file(const std::string& path, const CsgOptions& options = {});
 
 }  // namespace csgrun
