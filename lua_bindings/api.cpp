@@ -1,6 +1,7 @@
 #include "lua_bindings/api.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -140,9 +141,10 @@ void open_methods(lua_State* L, const char* kind, lua_CFunction Binding::*form) 
 std::vector<Binding> all_bindings() {
   std::vector<Binding> all;
   for (const auto& group :
-       {solid_bindings(), shape_bindings(), outline_bindings(), construction_bindings(),
-        section_bindings(), transform_bindings(), boolean_bindings(), measure_bindings(),
-        math_bindings(), model_bindings()}) {
+       {solid_bindings(), polyhedron_bindings(), shape_bindings(), outline_bindings(),
+        text_bindings(), construction_bindings(), section_bindings(), transform_bindings(),
+        boolean_bindings(), color_bindings(), mark_bindings(), measure_bindings(), math_bindings(),
+        vector_bindings(), parameter_bindings(), model_bindings()}) {
     all.insert(all.end(), group.begin(), group.end());
   }
   return all;
@@ -151,6 +153,7 @@ std::vector<Binding> all_bindings() {
 void open_api(lua_State* L) {
   open_values(L);
   open_operators(L);
+  open_vectors(L);
   lua_pushglobaltable(L);
   lua_newtable(L);  // csg
   for (const Binding& binding : all_bindings()) {
@@ -159,6 +162,10 @@ void open_api(lua_State* L) {
     lua_pushvalue(L, -1);
     lua_setfield(L, -3, binding.spec->name);
     lua_setfield(L, -3, binding.spec->name);
+  }
+  for (const int table : {-1, -2}) {  // csg, then the globals
+    lua_pushnumber(L, std::numbers::pi);
+    lua_setfield(L, table - 1, "PI");
   }
   lua_createtable(L, 0, 3);
   lua_pushcfunction(L, guarded<read_setting>);

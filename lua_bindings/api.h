@@ -29,10 +29,16 @@ std::span<const Binding> shape_bindings();
 std::span<const Binding> outline_bindings();
 std::span<const Binding> construction_bindings();
 std::span<const Binding> section_bindings();
+std::span<const Binding> text_bindings();
 std::span<const Binding> transform_bindings();
 std::span<const Binding> boolean_bindings();
 std::span<const Binding> measure_bindings();
 std::span<const Binding> math_bindings();
+std::span<const Binding> vector_bindings();
+std::span<const Binding> color_bindings();
+std::span<const Binding> mark_bindings();
+std::span<const Binding> polyhedron_bindings();
+std::span<const Binding> parameter_bindings();
 std::span<const Binding> model_bindings();
 
 /// All of them, by name within each group.
@@ -71,5 +77,7 @@ constexpr char kFillDoc[] =
 void push_leaf(lua_State* L, PolygonMesh mesh, const std::optional<Appearance>& appearance = {});
 /// Sets the operators of solids, shapes and matrices.
 void open_operators(lua_State* L);
+/// Registers what vec() gives.
+void open_vectors(lua_State* L);
 
 }  // namespace csgrun

@@ -17,7 +17,7 @@ using T = ArgumentType;
 
 constexpr Option kFacetOptions[] = {
     {"fn", T::kNumber, "csg.fn", "number of facets of a full turn; 0: from fa and fs", false,
-     Range::kNotNegative},
+     Range::kNotNegative, "segments"},
     {"fa", T::kNumber, "csg.fa", "smallest angle of a facet, degrees, at least 0.01", false,
      Range::kPositive},
     {"fs", T::kNumber, "csg.fs", "smallest length of a facet, mm, at least 0.01", false,
@@ -217,7 +217,7 @@ const Option* Arguments::find_option(std::string_view name) const {
   }
   if (spec_.facets) {
     for (const Option& option : kFacetOptions) {
-      if (name == option.name) return &option;
+      if (name == option.name || (option.alias != nullptr && name == option.alias)) return &option;
     }
   }
   return nullptr;

@@ -3,6 +3,7 @@
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
+#include "lua_bindings/nearest.h"
 #include "lua_bindings/operands.h"
 #include "lua_bindings/session.h"
 
@@ -12,19 +13,70 @@ namespace {
 constexpr Option kOperandOptions[] = {
     {"operands", ArgumentType::kValue, "", "solids or shapes, one after another or as lists", true},
 };
+constexpr Option kDifferenceOptions[] = {
+    kOperandOptions[0],
+    {"cut", ArgumentType::kString, "\"tool\"",
+     "which colour cut faces have: \"tool\", that of what cuts, or \"body\", that of the first\n"
+     "          solid (of its first leaf, where it has several)",
+     false},
+};
 constexpr FunctionSpec kUnion{"union", "What is in any of them.", kOperandOptions, false,
                               "union{a, b, c}"};
+constexpr FunctionSpec kAdd{"add", "What is in any of them: another name of union.",
+                            kOperandOptions, false, "a:add(b, c)"};
 constexpr FunctionSpec kDifference{"difference", "What is in the first and in none of the others.",
-                                   kOperandOptions, false, "plate:difference(hole, slot)"};
+                                   kDifferenceOptions, false, "plate:difference(hole, slot)"};
+constexpr FunctionSpec kSub{"sub",
+                            "What is in the first and in none of the others: another name of "
+                            "difference.",
+                            kDifferenceOptions, false, "plate:sub(hole, {cut = \"body\"})"};
 constexpr FunctionSpec kIntersection{"intersection", "What is in all of them.", kOperandOptions,
                                      false, "a:intersection(b)"};
+constexpr FunctionSpec kIntersect{"intersect",
+                                  "What is in all of them: another name of intersection.",
+                                  kOperandOptions, false, "a:intersect(b)"};
 constexpr FunctionSpec kSymmetricDifference{"symmetric_difference",
                                             "What is in an odd number of them.", kOperandOptions,
                                             false, "a:symmetric_difference(b)"};
 
+/// Takes option "cut" out of the tables among the arguments: whether it says "body".
+bool take_cut_option(lua_State* L, const FunctionSpec& spec) {
+  bool cut_as_body = false;
+  if (spec.options.size() < 2) return cut_as_body;
+  const int count = lua_gettop(L);
+  for (int index = 1; index <= count; ++index) {
+    if (!lua_istable(L, index)) continue;
+    lua_newtable(L);  // what is left: the list
+    const int rest = lua_gettop(L);
+    lua_pushnil(L);
+    while (lua_next(L, index) != 0) {
+      if (lua_type(L, -2) != LUA_TSTRING) {
+        lua_pushvalue(L, -2);
+        lua_insert(L, -2);
+        lua_rawset(L, rest);
+        continue;
+      }
+      const std::string key = lua_tostring(L, -2);
+      if (key != "cut")
+        fail_in(spec, fmt::format("unknown option '{}'{}", key, did_you_mean(key, {"cut"})));
+      const std::string value = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
+      if (value != "tool" && value != "body") {
+        fail_in(spec, "option 'cut' must be \"tool\" or \"body\", got " +
+                          (value.empty() ? describe_value(L, -1) : "\"" + value + "\""));
+      }
+      cut_as_body = value == "body";
+      lua_pop(L, 1);
+    }
+    lua_replace(L, index);
+  }
+  return cut_as_body;
+}
+
 template <const FunctionSpec& Spec, BooleanOp Op>
 int boolean_function(lua_State* L) {
-  const Operands operands = read_operands(L, Spec);
+  const bool cut_as_body = take_cut_option(L, Spec);
+  Operands operands = read_operands(L, Spec);
+  if (cut_as_body) operands.paint_tools_as_body();
   operands.push_result(L, Op, Spec.name);
   return 1;
 }
@@ -131,20 +183,25 @@ int equal(lua_State* L) {
   return 1;
 }
 
+template <const FunctionSpec& Spec, BooleanOp Op>
+constexpr Binding boolean_binding() {
+  return {&Spec, guarded<boolean_function<Spec, Op>>, guarded<boolean_function<Spec, Op>>,
+          guarded<boolean_function<Spec, Op>>};
+}
+/// Names that would be too common for globals.
+template <const FunctionSpec& Spec, BooleanOp Op>
+constexpr Binding boolean_method() {
+  return {&Spec, nullptr, guarded<boolean_function<Spec, Op>>, guarded<boolean_function<Spec, Op>>};
+}
+
 constexpr Binding kBindings[] = {
-    {&kUnion, guarded<boolean_function<kUnion, BooleanOp::kUnion>>,
-     guarded<boolean_function<kUnion, BooleanOp::kUnion>>,
-     guarded<boolean_function<kUnion, BooleanOp::kUnion>>},
-    {&kDifference, guarded<boolean_function<kDifference, BooleanOp::kDifference>>,
-     guarded<boolean_function<kDifference, BooleanOp::kDifference>>,
-     guarded<boolean_function<kDifference, BooleanOp::kDifference>>},
-    {&kIntersection, guarded<boolean_function<kIntersection, BooleanOp::kIntersection>>,
-     guarded<boolean_function<kIntersection, BooleanOp::kIntersection>>,
-     guarded<boolean_function<kIntersection, BooleanOp::kIntersection>>},
-    {&kSymmetricDifference,
-     guarded<boolean_function<kSymmetricDifference, BooleanOp::kSymmetricDifference>>,
-     guarded<boolean_function<kSymmetricDifference, BooleanOp::kSymmetricDifference>>,
-     guarded<boolean_function<kSymmetricDifference, BooleanOp::kSymmetricDifference>>},
+    boolean_binding<kUnion, BooleanOp::kUnion>(),
+    boolean_binding<kDifference, BooleanOp::kDifference>(),
+    boolean_binding<kIntersection, BooleanOp::kIntersection>(),
+    boolean_binding<kSymmetricDifference, BooleanOp::kSymmetricDifference>(),
+    boolean_method<kAdd, BooleanOp::kUnion>(),
+    boolean_method<kSub, BooleanOp::kDifference>(),
+    boolean_method<kIntersect, BooleanOp::kIntersection>(),
     {&kOuterHull, guarded<outer_hull>, guarded<outer_hull>, nullptr},
 };
 

@@ -25,13 +25,14 @@ template <const FunctionSpec& Spec, NodePtr (*OfSolids)(std::vector<NodePtr>, So
           Result<Shape2D> (*OfShapes)(const std::vector<Shape2D>&)>
 int combine(lua_State* L) {
   Operands operands = read_operands(L, Spec);
-  if (!operands.shapes.empty()) {
+  if (operands.has_shapes) {
     push_shape(L, value_or_fail(Spec, OfShapes(operands.shapes)), operands.appearance);
-  } else if (!operands.solids.empty()) {
+  } else if (operands.has_solids) {
     push_solid(L, OfSolids(std::move(operands.solids), session_of(L).source_ref(L)));
   } else {
     fail_in(Spec, "needs a solid or a shape");
   }
+  marks_of(L, -1)->name = operands.name;
   return 1;
 }
 
@@ -77,10 +78,11 @@ int resize(lua_State* L) {
   const std::array<bool, 3> automatic = arguments.booleans("auto");
   if (shape != nullptr) {
     resize_shape(L, *shape, wanted->v, automatic);
-    return 1;
+  } else {
+    const Resize resize{{wanted->v.x, wanted->v.y, wanted->v.z}, automatic};
+    push_solid(L, Node::resized(resize, solid->node, session_of(L).source_ref(L)));
   }
-  const Resize resize{{wanted->v.x, wanted->v.y, wanted->v.z}, automatic};
-  push_solid(L, Node::resized(resize, solid->node, session_of(L).source_ref(L)));
+  keep_marks(L, 1);
   return 1;
 }
 

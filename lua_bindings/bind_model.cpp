@@ -1,18 +1,17 @@
-// What connects a script with the world: import, require, param, emit, render.
+// What connects a script with the world: import, require, emit, render.
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include <csgrun/primitives/flat_file.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/call_site.h"
 #include "lua_bindings/guard.h"
-#include "lua_bindings/parameters.h"
 #include "lua_bindings/parts.h"
 #include "lua_bindings/sandbox.h"
 #include "lua_bindings/session.h"
@@ -24,7 +23,8 @@ using T = ArgumentType;
 
 constexpr Option kImportOptions[] = {
     {"file", T::kString, "",
-     "STL, OFF, OBJ or PLY, relative to the file that calls, or else to the folders of -L and\n"
+     "STL, OFF, OBJ, PLY, SVG or DXF, relative to the file that calls, or else to the folders of "
+     "-L and\n"
      "          CSGRUN_PATH",
      true},
     {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
@@ -36,12 +36,20 @@ constexpr Option kImportOptions[] = {
      "          outwards), drop_degenerate (true: drops faces whose points lie on one line),\n"
      "          drop_duplicates (true: of faces on the same points those that are too many)",
      false},
+    {"layer", T::kString, "", "of a drawing: only this layer (in an SVG one of Inkscape)", false},
+    {"id", T::kString, "", "of an SVG: only the element of this id, with what is in it", false},
+    {"dpi", T::kNumber, "72", "of an SVG: user units an inch, where it gives no size", false,
+     Range::kPositive},
+    {"origin", T::kVector2, "{0, 0}", "of a DXF: this point becomes the origin", false},
+    {"scale", T::kNumber, "1", "of a DXF: a factor", false, Range::kPositive},
+    {"center", T::kBoolean, "false", "of a drawing: the middle of its box becomes the origin",
+     false},
 };
 constexpr FunctionSpec kImport{
     "import",
     "A solid from a mesh file; the mesh must be closed, or is repaired on request. Where it "
-    "crosses itself, fill says what is inside.",
-    kImportOptions, false, "import(\"scan.stl\", {repair = {weld = 0.01, fill_holes = true}})"};
+    "crosses itself, fill says what is inside. A shape from a drawing: what is filled or closed.",
+    kImportOptions, true, "import(\"scan.stl\", {repair = {weld = 0.01, fill_holes = true}})"};
 
 constexpr Option kRepairOptions[] = {
     {"weld", T::kNumber, "0", "mm", false, Range::kNotNegative},
@@ -74,22 +82,52 @@ std::optional<RepairOptions> repair_argument(lua_State* L, const Arguments& argu
   return options;
 }
 
-/// The file whose code is running, as messages name it: chunks made by load() do not count.
-std::string calling_file(lua_State* L) {
-  lua_Debug frame{};
-  for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
-    lua_getinfo(L, "Sl", &frame);
-    if (frame.currentline > 0 && frame.source[0] == '@') return frame.source + 1;
+/// A drawing as a shape.
+int import_drawing(lua_State* L, const Arguments& arguments, const std::string& path) {
+  const std::string format = flat_file_format_of(path);
+  for (const char* name : {"fill", "repair"}) {
+    if (arguments.has(name))
+      fail_in(kImport, fmt::format("option '{}' is for meshes, not for drawings", name));
   }
-  return session_of(L).options().model;
+  for (const auto& [name, of] : {std::pair{"id", "svg"}, std::pair{"dpi", "svg"},
+                                 std::pair{"origin", "dxf"}, std::pair{"scale", "dxf"}}) {
+    if (arguments.has(name) && format != of)
+      fail_in(kImport, fmt::format("option '{}' is for .{} files", name, of));
+  }
+  FlatFileOptions options;
+  options.layer = arguments.string("layer", "");
+  options.id = arguments.string("id", "");
+  if (!options.layer.empty() && !options.id.empty())
+    fail_in(kImport, "give either 'layer' or 'id', not both");
+  options.dpi = arguments.number("dpi", 72);
+  options.scale = arguments.number("scale", 1);
+  if (const auto origin = arguments.vector("origin")) options.origin = {origin->v.x, origin->v.y};
+  options.center = arguments.boolean("center", false);
+  options.facets = arguments.facets();
+  Session& session = session_of(L);
+  Files::Opened file;
+  try {
+    file = session.files().open(calling_file(L), path);
+  } catch (const ScriptError& error) {
+    fail_in(kImport, error.what());
+  }
+  FlatFile drawing = value_or_fail(kImport, parse_flat(file.display, file.bytes, options));
+  for (const std::string& note : drawing.notes) session.warn(L, "import: " + note);
+  push_shape(L, std::move(drawing.shape), {});
+  return 1;
 }
 
-int import_mesh(lua_State* L) {
+int import_file(lua_State* L) {
   const Arguments arguments(L, kImport, 1);
   const std::string path = arguments.string("file", "");
   if (path.empty()) fail_in(kImport, "needs the name of a file");
+  if (!flat_file_format_of(path).empty()) return import_drawing(L, arguments, path);
   if (mesh_format_of(path).empty()) {
-    fail_in(kImport, "'" + path + "' has none of the endings .stl, .off, .obj, .ply");
+    fail_in(kImport, "'" + path + "' has none of the endings .stl, .off, .obj, .ply, .svg, .dxf");
+  }
+  for (const char* name : {"layer", "id", "dpi", "origin", "scale", "center", "fn", "fa", "fs"}) {
+    if (arguments.has(name))
+      fail_in(kImport, fmt::format("option '{}' is for drawings, not for meshes", name));
   }
   Session& session = session_of(L);
   Files::Opened file;
@@ -125,7 +163,9 @@ int import_mesh(lua_State* L) {
 constexpr Option kRequireOptions[] = {
     {"name", T::kString, "",
      "the file name.lua or name/init.lua in the model's folder, in csgrun_modules beside it, in\n"
-     "          the folders of -L and in those of CSGRUN_PATH; a dot in the name opens a folder",
+     "          the folders of -L and in those of CSGRUN_PATH, and before these where package.path "
+     "says;\n"
+     "          a dot in the name opens a folder",
      true},
 };
 constexpr FunctionSpec kRequire{"require", "Runs a module once and gives what it returns.",
@@ -137,13 +177,13 @@ const char kLoadingMark = 0;    // value while a module runs
 int require_module(lua_State* L) {
   const Arguments arguments(L, kRequire, 1);
   const std::string name = arguments.string("name", "");
-  if (name == "csg") {
+  if (name == "csg" || name == "luacad") {  // what a script has without asking
     lua_getglobal(L, "csg");
     return 1;
   }
   Files::Opened file;
   try {
-    file = session_of(L).files().open_module(name);
+    file = session_of(L).files().open_module(name, package_path(L));
   } catch (const ScriptError& error) {
     fail_in(kRequire, error.what());
   }
@@ -169,112 +209,6 @@ int require_module(lua_State* L) {
   }
   lua_pushvalue(L, -1);
   lua_setfield(L, loaded, file.real.c_str());
-  return 1;
-}
-
-constexpr Option kParamOptions[] = {
-    {"name", T::kString, "", "name, for -D name=value", true},
-    {"default", T::kValue, "", "a number, true or false, a string or a list of numbers", true},
-    {"min", T::kNumber, "", "least value", false},
-    {"max", T::kNumber, "", "greatest value", false},
-    {"step", T::kNumber, "", "values are whole steps from min (or from 0)", false,
-     Range::kPositive},
-    {"choices", T::kValue, "", "list of the values that it may have", false},
-    {"doc", T::kString, "", "what it means", false},
-};
-constexpr FunctionSpec kParam{
-    "param", "A parameter of the model: its default, or what -D name=value says.", kParamOptions,
-    false, "param(\"hole_radius\", 4, {min = 1, max = 10})"};
-
-/// What is wrong with a number, or with the value at `index`, as this parameter's; empty if
-/// nothing.
-std::string check_number(const Arguments& arguments, double x) {
-  if (arguments.has("min") && x < arguments.number("min", 0)) {
-    return fmt::format("must be at least {:.14g}, got {:.14g}", arguments.number("min", 0), x);
-  }
-  if (arguments.has("max") && x > arguments.number("max", 0)) {
-    return fmt::format("must be at most {:.14g}, got {:.14g}", arguments.number("max", 0), x);
-  }
-  if (arguments.has("step")) {
-    const double step = arguments.number("step", 1), from = arguments.number("min", 0);
-    const double steps = std::round((x - from) / step);
-    // Decimal steps are not exact in binary: a value within a millionth of a step counts.
-    if (std::abs(x - (from + steps * step)) > 1e-6 * step) {
-      return fmt::format("must be a whole number of steps of {:.14g} from {:.14g}, got {:.14g}",
-                         step, from, x);
-    }
-  }
-  return {};
-}
-
-std::string check_value(lua_State* L, const Arguments& arguments, int index) {
-  if (lua_type(L, index) == LUA_TNUMBER) {
-    if (auto problem = check_number(arguments, lua_tonumber(L, index)); !problem.empty())
-      return problem;
-  } else if (lua_istable(L, index)) {
-    const lua_Integer length = list_length(L, index);
-    for (lua_Integer i = 1; i <= length; ++i) {
-      if (lua_rawgeti(L, index, i) != LUA_TNUMBER) return "must be a list of numbers";
-      auto problem = check_number(arguments, lua_tonumber(L, -1));
-      lua_pop(L, 1);
-      if (!problem.empty()) return fmt::format("entry {} {}", i, problem);
-    }
-    if (length < 0) return "must be a list of numbers";
-  }
-  if (const int choices = arguments.stack_index("choices"); choices != 0) {
-    if (!lua_istable(L, choices)) fail_in(kParam, "option 'choices' must be a list");
-    std::string names;
-    const auto length = static_cast<lua_Integer>(lua_rawlen(L, choices));
-    for (lua_Integer i = 1; i <= length; ++i) {
-      lua_rawgeti(L, choices, i);
-      const bool same = lua_rawequal(L, -1, index) != 0;
-      if (lua_type(L, -1) == LUA_TSTRING)
-        names += std::string(i > 1 ? ", " : "") + lua_tostring(L, -1);
-      if (lua_type(L, -1) == LUA_TNUMBER)
-        names += std::string(i > 1 ? ", " : "") + describe_value(L, -1);
-      lua_pop(L, 1);
-      if (same) return {};
-    }
-    return "must be one of " + names;
-  }
-  return {};
-}
-
-int param(lua_State* L) {
-  const Arguments arguments(L, kParam, 1);
-  const std::string name = arguments.string("name", "");
-  const int fallback = arguments.stack_index("default");
-  if (name.empty() || fallback == 0) fail_in(kParam, "needs a name and a default value");
-  const std::string type = parameter_type(L, fallback);
-  if (type.empty()) {
-    fail_in(kParam, "the default of '" + name +
-                        "' must be a number, true or false, a string or a list of numbers, got " +
-                        describe_value(L, fallback));
-  }
-  Session& session = session_of(L);
-  session.parameter_names.push_back(name);
-  if (const std::string problem = check_value(L, arguments, fallback); !problem.empty()) {
-    fail_in(kParam, "the default of '" + name + "' " + problem);
-  }
-  Definition* definition = nullptr;  // the last -D of a name counts
-  for (Definition& candidate : session.definitions) {
-    if (candidate.name != name) continue;
-    candidate.used = true;
-    definition = &candidate;
-  }
-  lua_pushvalue(L, fallback);
-  if (definition == nullptr) return 1;
-  std::string problem;
-  if (!push_definition(L, fallback, definition->text)) {
-    problem = "must be " + type;
-  } else {
-    problem = check_value(L, arguments, lua_gettop(L));
-  }
-  if (!problem.empty()) {
-    session.definition_error =
-        fmt::format("-D {}={}: '{}' {}", name, definition->text, name, problem);
-    throw ScriptError(*session.definition_error);
-  }
   return 1;
 }
 
@@ -313,9 +247,8 @@ int emit(lua_State* L) {
 }
 
 constexpr Binding kBindings[] = {
-    {&kImport, guarded<import_mesh>, nullptr, nullptr},
+    {&kImport, guarded<import_file>, nullptr, nullptr},
     {&kRequire, guarded<require_module>, nullptr, nullptr},
-    {&kParam, guarded<param>, nullptr, nullptr},
     {&kEmit, guarded<emit<kEmit>>, nullptr, nullptr},
     {&kRender, guarded<emit<kRender>>, nullptr, nullptr},
 };

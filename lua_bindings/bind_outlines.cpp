@@ -1,5 +1,5 @@
 // What makes new outlines of shapes, and what reads them: offset, fill, perimeter,
-// points, paths, outlines, decompose.
+// points, paths, outlines.
 #include <fmt/format.h>
 
 #include <csgrun/primitives/shape_operations.h>
@@ -41,6 +41,7 @@ int offset(lua_State* L) {
     fail_in(kOffset, "option 'chamfer' goes with 'delta', not with 'r'");
   }
   push_shape(L, value_or_fail(kOffset, offset_shape(shape.shape, options)), shape.appearance);
+  keep_marks(L, 1);
   return 1;
 }
 
@@ -53,6 +54,7 @@ int fill(lua_State* L) {
   const ShapeValue& shape = shape_argument(L, kFill);
   const Arguments arguments(L, kFill, 2);
   push_shape(L, value_or_fail(kFill, fill_shape(shape.shape)), shape.appearance);
+  keep_marks(L, 1);
   return 1;
 }
 

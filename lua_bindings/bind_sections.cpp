@@ -142,8 +142,10 @@ int cut(lua_State* L) {
   }
   const SourceRef where = session.source_ref(L);
   push_solid(L, Node::boolean(BooleanOp::kIntersection, {solid, front}, where));
+  keep_marks(L, 1);
   if (!kBoth) return 1;
   push_solid(L, Node::boolean(BooleanOp::kDifference, {solid, front}, where));
+  keep_marks(L, 1);
   return 2;
 }
 

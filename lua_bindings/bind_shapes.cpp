@@ -25,8 +25,12 @@ constexpr FunctionSpec kSquare{"square",
                                "A rectangle; a corner lies in the origin unless it is centred.",
                                kSquareOptions, true, "square{20, 10, center = true, r = 2}"};
 
+constexpr FunctionSpec kRect{"rect", "A rectangle: another name of square.", kSquareOptions, true,
+                             "rect(20, 10)"};
+
+template <const FunctionSpec& Spec>
 int square(lua_State* L) {
-  const Arguments arguments(L, kSquare, 1);
+  const Arguments arguments(L, Spec, 1);
   glm::dvec2 size(1, 1);
   if (const auto given = arguments.vector("size")) {
     size = given->count == 1 ? glm::dvec2(given->v.x) : glm::dvec2(given->v.x, given->v.y);
@@ -36,8 +40,8 @@ int square(lua_State* L) {
   const double r = arguments.number("r", 0);
   push_shape(
       L,
-      value_or_fail(kSquare, r > 0 ? make_rounded_square(size, r, facets, {center[0], center[1]})
-                                   : make_square(size, {center[0], center[1]})),
+      value_or_fail(Spec, r > 0 ? make_rounded_square(size, r, facets, {center[0], center[1]})
+                                : make_square(size, {center[0], center[1]})),
       {});
   return 1;
 }
@@ -193,7 +197,8 @@ int rotate_extrude_shape(lua_State* L) {
 }
 
 constexpr Binding kBindings[] = {
-    {&kSquare, guarded<square>, nullptr, nullptr},
+    {&kSquare, guarded<square<kSquare>>, nullptr, nullptr},
+    {&kRect, guarded<square<kRect>>, nullptr, nullptr},
     {&kCircle, guarded<circle>, nullptr, nullptr},
     {&kRegularPolygon, guarded<regular_polygon>, nullptr, nullptr},
     {&kPolygon, guarded<polygon>, nullptr, nullptr},

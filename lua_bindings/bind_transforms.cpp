@@ -1,4 +1,4 @@
-// Moves, turns, scales, mirrors, matrices and colours.
+// Moves, turns, scales, mirrors, matrices.
 //
 // One function serves three forms: on a solid or shape it gives a new one, on a matrix the matrix
 // that does both, and without any of these the matrix itself: `rotate(90) * part`.
@@ -9,7 +9,6 @@
 #include <csgrun/primitives/trig.h>
 
 #include "lua_bindings/api.h"
-#include "lua_bindings/colors.h"
 #include "lua_bindings/guard.h"
 #include "lua_bindings/session.h"
 
@@ -197,10 +196,12 @@ int transform(lua_State* L) {
   if (const SolidValue* solid = to_solid(L, 1)) {
     const Arguments arguments(L, Spec, 2);
     push_solid(L, Node::transformed(Make(arguments), solid->node, session_of(L).source_ref(L)));
+    keep_marks(L, 1);
   } else if (const ShapeValue* shape = to_shape(L, 1)) {
     const Arguments arguments(L, Spec, 2);
     push_shape(L, value_or_fail(Spec, shape->shape.transformed(Make(arguments))),
                shape->appearance);
+    keep_marks(L, 1);
   } else if (const MatrixValue* matrix = to_matrix(L, 1);
              matrix != nullptr && &Spec != &kMultmatrix) {
     const Arguments arguments(L, Spec, 2);
@@ -210,88 +211,6 @@ int transform(lua_State* L) {
   } else {
     const Arguments arguments(L, Spec, 1);
     push_matrix(L, Make(arguments));
-  }
-  return 1;
-}
-
-constexpr Option kColorOptions[] = {
-    {"c", T::kColor, "",
-     "name, '#rrggbb', '#rrggbbaa', or red, green, blue (and alpha) from 0 to 1", true},
-    {"alpha", T::kNumber, "1", "opacity, 0 to 1", true, Range::kNotNegative},
-    {"metallic", T::kNumber, "0", "0 to 1", false, Range::kNotNegative},
-    {"roughness", T::kNumber, "0.6", "0 to 1", false, Range::kNotNegative},
-    {"name", T::kString, "", "name of the material", false},
-};
-constexpr FunctionSpec kColor{"color",
-                              "Paints every face; of several colours the outermost counts.",
-                              kColorOptions,
-                              false,
-                              "part:color('steelblue', 0.5)",
-                              "part",
-                              "a solid or a shape; part:color(...) leaves it out"};
-
-/// A fraction from 0 to 1.
-float fraction(const FunctionSpec& spec, const char* name, double x) {
-  if (!(x >= 0 && x <= 1))
-    fail_in(spec, fmt::format("'{}' must be from 0 to 1, got {:.14g}", name, x));
-  return static_cast<float>(x);
-}
-
-void read_color(lua_State* L, int index, Appearance& appearance) {
-  if (lua_type(L, index) == LUA_TSTRING) {
-    const std::string name = lua_tostring(L, index);
-    const auto color = parse_color(name);
-    if (!color) fail_in(kColor, "there is no colour '" + name + "'" + color_hint(name));
-    appearance.red = (*color)[0];
-    appearance.green = (*color)[1];
-    appearance.blue = (*color)[2];
-    appearance.alpha = (*color)[3];
-    return;
-  }
-  const lua_Integer length = lua_istable(L, index) ? list_length(L, index) : -1;
-  if (length != 3 && length != 4) {
-    fail_in(kColor,
-            "option 'c' must be " + describe_type(T::kColor) + ", got " + describe_value(L, index));
-  }
-  float* const channels[] = {&appearance.red, &appearance.green, &appearance.blue,
-                             &appearance.alpha};
-  for (lua_Integer i = 0; i < length; ++i) {
-    if (lua_rawgeti(L, index, i + 1) != LUA_TNUMBER) {
-      fail_in(kColor, "option 'c' must be " + describe_type(T::kColor) + "; one entry is " +
-                          describe_value(L, -1));
-    }
-    *channels[i] = fraction(kColor, "c", lua_tonumber(L, -1));
-    lua_pop(L, 1);
-  }
-}
-
-int color(lua_State* L) {
-  // color(part, r, g, b): three numbers stand for the list.
-  if (lua_gettop(L) >= 4 && lua_type(L, 2) == LUA_TNUMBER && lua_type(L, 3) == LUA_TNUMBER &&
-      lua_type(L, 4) == LUA_TNUMBER) {
-    push_list(L, {lua_tonumber(L, 2), lua_tonumber(L, 3), lua_tonumber(L, 4)});
-    lua_replace(L, 2);
-    lua_remove(L, 4);
-    lua_remove(L, 3);
-  }
-  const SolidValue* solid = to_solid(L, 1);
-  const ShapeValue* shape = to_shape(L, 1);
-  if (solid == nullptr && shape == nullptr) solid_argument(L, kColor);
-  const Arguments arguments(L, kColor, 2);
-  if (!arguments.has("c")) fail_in(kColor, "needs a colour");
-  Appearance appearance;
-  appearance.is_default = false;
-  read_color(L, arguments.stack_index("c"), appearance);
-  appearance.alpha =
-      fraction(kColor, "alpha", arguments.number("alpha", static_cast<double>(appearance.alpha)));
-  appearance.metallic = fraction(kColor, "metallic", arguments.number("metallic", 0));
-  if (arguments.has("roughness"))
-    appearance.roughness = fraction(kColor, "roughness", arguments.number("roughness", 0));
-  appearance.name = arguments.string("name", "");
-  if (solid != nullptr) {
-    push_solid(L, Node::painted(appearance, solid->node, session_of(L).source_ref(L)));
-  } else {
-    push_shape(L, shape->shape, appearance);
   }
   return 1;
 }
@@ -308,7 +227,6 @@ constexpr Binding kBindings[] = {
     transform_binding<kScale, make_scale>(),
     transform_binding<kMirror, make_mirror>(),
     transform_binding<kMultmatrix, make_multmatrix>(),
-    {&kColor, guarded<color>, guarded<color>, guarded<color>},
     transform_binding<kMove, make_translation<kMove>>(),
     transform_binding<kUp, make_step<kUp, 2, 1>>(),
     transform_binding<kDown, make_step<kDown, 2, -1>>(),

@@ -129,4 +129,13 @@ int add_traceback(lua_State* L) {
   return 1;
 }
 
+std::string calling_file(lua_State* L) {
+  lua_Debug frame{};
+  for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
+    lua_getinfo(L, "Sl", &frame);
+    if (frame.currentline > 0 && frame.source[0] == '@') return frame.source + 1;
+  }
+  return session_of(L).options().model;
+}
+
 }  // namespace csgrun

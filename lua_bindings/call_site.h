@@ -26,4 +26,7 @@ std::string with_whole_path(const std::string& message, const std::string& path)
 /// addresses, and with whole paths.
 int add_traceback(lua_State* L);
 
+/// The file whose code is running, as messages name it: chunks made by load() do not count.
+std::string calling_file(lua_State* L);
+
 }  // namespace csgrun

@@ -148,7 +148,28 @@ Files::Opened Files::open(const std::string& caller, const std::string& path) co
   throw ScriptError(problem);
 }
 
-Files::Opened Files::open_module(const std::string& name) const {
+namespace {
+
+/// The paths that a list of templates, "./lib/?.lua;./?/init.lua", makes of a module's path.
+std::vector<std::string> fill_templates(const std::string& templates, const std::string& folder,
+                                        const std::string& module) {
+  std::vector<std::string> paths;
+  for (size_t start = 0; start < templates.size();) {
+    const size_t end = std::min(templates.find(';', start), templates.size());
+    std::string path = templates.substr(start, end - start);
+    start = end + 1;
+    if (path.empty()) continue;
+    for (size_t mark = 0; (mark = path.find('?', mark)) != std::string::npos; mark += module.size())
+      path.replace(mark, 1, module);
+    if (path.rfind("./", 0) == 0) path = path.substr(2);
+    paths.push_back(join_path(folder, path));
+  }
+  return paths;
+}
+
+}  // namespace
+
+Files::Opened Files::open_module(const std::string& name, const std::string& search_path) const {
   const auto is_name_character = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.';
@@ -162,21 +183,29 @@ Files::Opened Files::open_module(const std::string& name) const {
   }
   std::string relative = name;
   std::replace(relative.begin(), relative.end(), '.', '/');
-  std::string tried;
+  std::vector<std::string> paths = fill_templates(search_path, search_folders_[0], relative);
+  const size_t of_templates = paths.size();
   for (const std::string& folder : search_folders_) {
     for (const char* ending : {".lua", "/init.lua"}) {
-      const std::string path = join_path(folder, relative + ending);
-      const std::string real = real_path(path);
-      if (real.empty()) {
-        tried += "\n\tno file '" + path + "'";
-      } else if (!is_allowed(real)) {
-        tried +=
-            "\n\t'" + path + "' leads outside of the model's folder and the library folders (-L)";
-      } else {
-        FileText text = read_whole_file(real);
-        if (text.error.empty()) return {path, real, std::move(text.bytes)};
-        tried += "\n\tcannot read '" + path + "': " + text.error;
-      }
+      std::string path = join_path(folder, relative + ending);
+      if (std::find(paths.begin(), paths.end(), path) == paths.end())
+        paths.push_back(std::move(path));
+    }
+  }
+  std::string tried;
+  for (size_t i = 0; i < paths.size(); ++i) {
+    const std::string& path = paths[i];
+    const std::string real = real_path(path);
+    // Whether a file outside exists is nothing that a script may find out.
+    if (real.empty() ? i < of_templates && leads_outside(path) : !is_allowed(real)) {
+      tried +=
+          "\n\t'" + path + "' leads outside of the model's folder and the library folders (-L)";
+    } else if (real.empty()) {
+      tried += "\n\tno file '" + path + "'";
+    } else {
+      FileText text = read_whole_file(real);
+      if (text.error.empty()) return {path, real, std::move(text.bytes)};
+      tried += "\n\tcannot read '" + path + "': " + text.error;
     }
   }
   throw ScriptError("module '" + name + "' not found:" + tried);

@@ -4,21 +4,26 @@
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
+#include "lua_bindings/repaint.h"
 #include "lua_bindings/session.h"
 
 namespace csgrun {
 
 void Operands::add(lua_State* L, int index, const std::string& function) {
+  const bool is_first = !has_solids && !has_shapes;
   if (const SolidValue* solid = to_solid(L, index)) {
-    solids.push_back(solid->node);
+    has_solids = true;
+    if (!solid->marks.absent) solids.push_back(solid->node);
   } else if (const ShapeValue* shape = to_shape(L, index)) {
+    has_shapes = true;
     if (shapes.empty()) appearance = shape->appearance;
-    shapes.push_back(shape->shape);
+    if (!shape->marks.absent) shapes.push_back(shape->shape);
   } else {
     throw ScriptError(fmt::format("{}: an operand must be a solid or a shape, got {}", function,
                                   describe_value(L, index)));
   }
-  if (!solids.empty() && !shapes.empty()) {
+  if (is_first) name = marks_of(L, index)->name;
+  if (has_solids && has_shapes) {
     throw ScriptError(
         function +
         ": a solid and a 2D shape cannot be combined; make a solid of the shape first, "
@@ -26,14 +31,24 @@ void Operands::add(lua_State* L, int index, const std::string& function) {
   }
 }
 
+void Operands::paint_tools_as_body() {
+  if (solids.empty()) return;
+  const Appearance body = first_appearance(solids[0]);
+  for (size_t i = 1; i < solids.size(); ++i)
+    solids[i] = Node::painted(body, solids[i], solids[i]->where());
+}
+
 void Operands::push_result(lua_State* L, BooleanOp op, const std::string& function) const {
-  if (shapes.empty()) {
+  if (!has_shapes) {
     push_solid(L, Node::boolean(op, solids, session_of(L).source_ref(L)));
-    return;
+  } else if (shapes.empty()) {
+    push_shape(L, {}, appearance);
+  } else {
+    auto shape = Shape2D::boolean(op, shapes);
+    if (!shape) throw ScriptError(function + ": " + shape.error().message);
+    push_shape(L, *std::move(shape), appearance);
   }
-  auto shape = Shape2D::boolean(op, shapes);
-  if (!shape) throw ScriptError(function + ": " + shape.error().message);
-  push_shape(L, *std::move(shape), appearance);
+  marks_of(L, -1)->name = name;
 }
 
 Operands read_operands(lua_State* L, const FunctionSpec& spec) {

@@ -18,10 +18,15 @@ namespace csgrun {
 struct Operands {
   std::vector<NodePtr> solids;
   std::vector<Shape2D> shapes;
-  std::optional<Appearance> appearance;  ///< of the first shape
+  std::optional<Appearance> appearance;         ///< of the first shape
+  std::string name;                             ///< of the first operand
+  bool has_solids = false, has_shapes = false;  ///< skipped ones count here, and are not listed
 
   /// Takes the value at `index`. Throws ScriptError that begins with `function`.
   void add(lua_State* L, int index, const std::string& function);
+  /// Cut faces will have the appearance of what is cut, instead of the tools'.
+  void paint_tools_as_body();
+  /// The result has the name of the first operand.
   void push_result(lua_State* L, BooleanOp op, const std::string& function) const;
 };
 

@@ -53,10 +53,19 @@ void add_table(lua_State* L, int table, const std::string& group, int depth) {
 
 void add(lua_State* L, int index, const std::string& group, const std::string& name, int depth) {
   Session& session = session_of(L);
-  if (const SolidValue* solid = to_solid(L, index)) {
-    session.add_part({name, solid->node, {}, solid->node->where()}, group);
-  } else if (const ShapeValue* shape = to_shape(L, index)) {
-    session.add_part({name, nullptr, shape->shape, shape->where}, group);
+  if (const Marks* marks = marks_of(L, index)) {
+    if (marks->absent) {
+      session.has_absent_parts = true;
+      return;
+    }
+    const std::string& own = name.empty() ? marks->name : name;
+    if (const SolidValue* solid = to_solid(L, index)) {
+      session.add_part({own, solid->node, {}, solid->node->where()}, group);
+    } else {
+      const ShapeValue& shape = *to_shape(L, index);
+      session.add_part({own, nullptr, shape.shape, shape.where, marks->only, shape.appearance},
+                       group);
+    }
   } else if (lua_istable(L, index)) {
     // A list without a name of its own is no group.
     const std::string inner = name.empty() ? group : group.empty() ? name : group + "/" + name;

@@ -23,8 +23,7 @@ const char* missing_name_reason(const std::string& name) {
     return "models cannot reach files or the system; import() and require() read below the model's "
            "folder";
   }
-  if (name == "debug" || name == "package")
-    return "it is not part of the language that models have";
+  if (name == "debug") return "it is not part of the language that models have";
   return nullptr;
 }
 
@@ -41,6 +40,18 @@ int undefined_global(lua_State* L) {
     if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
   }
   throw ScriptError("undefined variable '" + name + "'" + did_you_mean(name, names));
+}
+
+/// Where modules are looked for first; "./" is the model's folder.
+constexpr char kPackagePath[] =
+    "./?.lua;./?/init.lua;./csgrun_modules/?.lua;./csgrun_modules/?/init.lua";
+
+/// package.X: of Lua's own table there is nothing but `path`.
+int undefined_package_field(lua_State* L) {
+  const std::string name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+  throw ScriptError("'package." + name +
+                    "' is not available: models have package.path only, for more folders below "
+                    "the model's own or -L");
 }
 
 /// Runs upvalue 1, a function of Lua's own without upvalues, in our place: so its errors name the
@@ -145,12 +156,38 @@ void open_sandbox(lua_State* L, Session& session) {
   lua_call(L, 1, 0);
   lua_pop(L, 1);
 
+  lua_createtable(L, 0, 1);  // package
+  lua_pushstring(L, kPackagePath);
+  lua_setfield(L, -2, "path");
+  lua_createtable(L, 0, 3);
+  set_field(L, "__index", guarded<undefined_package_field>);
+  set_field(L, "__newindex", guarded<undefined_package_field>);
+  lua_pushboolean(L, 0);
+  lua_setfield(L, -2, "__metatable");
+  lua_setmetatable(L, -2);
+  lua_setfield(L, -2, "package");
+
   lua_createtable(L, 0, 2);
   set_field(L, "__index", guarded<undefined_global>);
   lua_pushboolean(L, 0);
   lua_setfield(L, -2, "__metatable");
   lua_setmetatable(L, -2);
   lua_pop(L, 1);
+}
+
+std::string package_path(lua_State* L) {
+  lua_getglobal(L, "package");
+  if (lua_istable(L, -1)) {
+    lua_pushliteral(L, "path");
+    lua_rawget(L, -2);
+  } else {
+    lua_pushnil(L);
+  }
+  if (lua_type(L, -1) != LUA_TSTRING)
+    throw ScriptError("package.path must be a string of templates such as \"./lib/?.lua\"");
+  std::string path = lua_tostring(L, -1);
+  lua_settop(L, lua_gettop(L) - 2);
+  return path;
 }
 
 void load_chunk(lua_State* L, const std::string& path, const std::string& text) {

@@ -11,6 +11,9 @@ namespace csgrun {
 /// the session. Runs protected by the caller.
 void open_sandbox(lua_State* L, Session& session);
 
+/// The templates that the script has set as package.path. Throws ScriptError if it is no string.
+std::string package_path(lua_State* L);
+
 /// Loads text (never bytecode) as the chunk of `path` and pushes the function. A first line that
 /// starts with '#' and a byte order mark are skipped. Throws PlacedScriptError.
 void load_chunk(lua_State* L, const std::string& path, const std::string& text);

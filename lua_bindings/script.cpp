@@ -55,8 +55,11 @@ int run_program(lua_State* L) {
     for (int index = function + 1; index <= top; ++index) {
       if (!lua_isnil(L, index)) add_parts(L, index, "");
     }
+    program.session->keep_only_parts();
     if (program.session->parts().empty()) {
-      throw ScriptError("the script makes no part: return a solid, or call emit(solid)");
+      throw ScriptError(program.session->has_absent_parts
+                            ? "the script makes no part: all that it gave are skipped"
+                            : "the script makes no part: return a solid, or call emit(solid)");
     }
   } catch (const ScriptError& error) {
     throw PlacedScriptError(*program.name + ":" + std::to_string(last_line(L, function)) + ": " +
@@ -69,8 +72,10 @@ int run_program(lua_State* L) {
 std::string unknown_definition(const Session& session) {
   for (const Definition& definition : session.definitions) {
     if (definition.used) continue;
-    return "-D " + definition.name + ": the model has no such parameter" +
-           did_you_mean(definition.name, session.parameter_names);
+    std::vector<std::string> names;
+    for (const Parameter& parameter : session.parameters) names.push_back(parameter.name);
+    return definition.origin + " " + definition.name + ": the model has no such parameter" +
+           did_you_mean(definition.name, names);
   }
   return {};
 }

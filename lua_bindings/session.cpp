@@ -39,8 +39,9 @@ Session::Session(SessionOptions options)
     : facets(options.facets),
       options_(std::move(options)),
       budget_(options_.limits, options_.model),
-      files_(options_.model_folder, options_.library_folders) {
-  for (const auto& [name, text] : options_.definitions) definitions.push_back({name, text});
+      files_(options_.model_folder, options_.library_folders),
+      fonts_(options_.fonts) {
+  definitions = options_.definitions;
   options_.evaluate.cancel = &budget_.cancel();
 }
 
@@ -146,6 +147,65 @@ void Session::add_part(ScriptPart part, const std::string& group) {
     throw ScriptError("there are two parts named '" + part.name + "'");
   }
   parts_.push_back(std::move(part));
+}
+
+namespace {
+
+/// The subtrees of `root` whose roots are among `wanted`, under the transforms and colours above
+/// them. Stops at each that it finds.
+std::vector<NodePtr> find_marked(const NodePtr& root, const std::set<const Node*>& wanted) {
+  struct Place {
+    NodePtr node;
+    Affine map;
+    const Appearance* appearance;
+  };
+  std::vector<NodePtr> found;
+  std::vector<Place> pending{{root, {}, nullptr}};
+  // Shared subtrees are looked at once in each place: s = s + s would take for ever otherwise.
+  std::set<std::tuple<const Node*, decltype(Affine::m), const Appearance*>> seen;
+  while (!pending.empty()) {
+    const Place place = pending.back();
+    pending.pop_back();
+    const Node& node = *place.node;
+    if (!seen.emplace(&node, place.map.m, place.appearance).second) continue;
+    if (wanted.contains(&node)) {
+      NodePtr whole = Node::transformed(place.map, place.node, node.where());
+      if (place.appearance != nullptr)
+        whole = Node::painted(*place.appearance, std::move(whole), node.where());
+      found.push_back(std::move(whole));
+      continue;
+    }
+    Place below = place;
+    if (node.kind() == NodeKind::kTransform)
+      below.map = Affine::compose(place.map, node.transform());
+    if (node.kind() == NodeKind::kAppearance && place.appearance == nullptr)
+      below.appearance = &node.appearance();
+    for (size_t i = node.children().size(); i-- > 0;) {
+      below.node = node.children()[i];
+      pending.push_back(below);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+void Session::keep_only_parts() {
+  std::set<const Node*> wanted;
+  for (const NodePtr& node : only_nodes) wanted.insert(node.get());
+  std::vector<ScriptPart> kept;
+  for (const ScriptPart& part : parts_) {
+    if (part.solid == nullptr) {
+      if (part.only) kept.push_back(part);
+      continue;
+    }
+    if (wanted.empty()) continue;
+    std::vector<NodePtr> found = find_marked(part.solid, wanted);
+    if (found.empty()) continue;
+    kept.push_back(part);
+    kept.back().solid = Node::boolean(BooleanOp::kUnion, std::move(found), part.where);
+  }
+  if (!kept.empty()) parts_ = std::move(kept);
 }
 
 Session& session_of(lua_State* L) {

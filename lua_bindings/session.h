@@ -18,9 +18,11 @@
 #include <csgrun/engine/repair.h>
 #include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/solids.h>
+#include <csgrun/primitives/text.h>
 
 #include "lua_bindings/budget.h"
 #include "lua_bindings/files.h"
+#include "lua_bindings/parameters.h"
 #include "lua_bindings/values.h"
 
 namespace csgrun {
@@ -30,23 +32,20 @@ struct ScriptPart {
   std::string name;  ///< unique; groups are separated by '/'
   NodePtr solid;     ///< null for a shape
   Shape2D shape;
-  SourceRef where;  ///< where it was emitted or made
-};
-
-/// A `-D name=value`, and whether a param() asked for it.
-struct Definition {
-  std::string name, text;
-  bool used = false;
+  SourceRef where;                       ///< where it was emitted or made
+  bool only = false;                     ///< of a shape: it alone is to be in the result
+  std::optional<Appearance> appearance;  ///< of a shape
 };
 
 struct SessionOptions {
   std::string model;         ///< as the user gave it: for messages and relative paths
   std::string model_folder;  ///< where the model's own files are
   std::vector<std::string> library_folders;  ///< -L and CSGRUN_PATH, in order
-  std::vector<std::pair<std::string, std::string>> definitions;
+  std::vector<Definition> definitions;       ///< of several for one name the last counts
   Facets facets;
   EvaluateOptions evaluate;
   BudgetLimits limits;
+  FontOptions fonts;
 };
 
 class Session {
@@ -56,6 +55,7 @@ class Session {
   [[nodiscard]] const SessionOptions& options() const { return options_; }
   [[nodiscard]] Budget& budget() { return budget_; }
   [[nodiscard]] Files& files() { return files_; }
+  [[nodiscard]] FontBook& fonts() { return fonts_; }
 
   /// csg.fn, csg.fa, csg.fs; csg.grid.
   Facets facets;
@@ -95,14 +95,23 @@ class Session {
 
   /// Takes a part; gives it a name when it has none. Throws ScriptError for a bad or taken name.
   void add_part(ScriptPart part, const std::string& group);
+  /// Nodes that alone are to be in the result, wherever in a part they occur.
+  std::vector<NodePtr> only_nodes;
+  /// Where parts have such nodes in them, or are such shapes: leaves these and nothing else.
+  void keep_only_parts();
+  bool has_absent_parts = false;  ///< skipped ones were given as parts
   [[nodiscard]] const std::vector<ScriptPart>& parts() const { return parts_; }
 
+  /// Whether a script gave any colour a material: then colours must be changed face by face.
+  bool has_materials = false;
+
   std::vector<Definition> definitions;
-  std::vector<std::string> parameter_names;     ///< that the script asked for
-  std::optional<std::string> definition_error;  ///< a -D whose value does not fit: a usage error
+  std::vector<Parameter> parameters;            ///< that the script asked for, each name once
+  std::optional<std::string> definition_error;  ///< a value that does not fit: a usage error
 
   /// Numbers values in the order of their making.
   uint64_t next_serial() { return ++last_serial_; }
+  uint64_t random_state = 42;  ///< of rands() without a seed: the same on every run
   size_t collector_debt =
       0;  ///< bytes outside of the Lua heap that the collector was not told of yet
 
@@ -113,6 +122,7 @@ class Session {
   SessionOptions options_;
   Budget budget_;
   Files files_;
+  FontBook fonts_;
   std::unique_ptr<Evaluator> evaluator_;
   uint64_t settings_ = 0;  ///< a number for the settings of the evaluator: one more for each change
   std::vector<std::string> warnings_;

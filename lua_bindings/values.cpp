@@ -79,12 +79,25 @@ void push_solid(lua_State* L, NodePtr node) {
 void push_shape(lua_State* L, Shape2D shape, std::optional<Appearance> appearance) {
   size_t bytes = kNodeBytes;
   for (const auto& loop : shape.loops()) bytes += loop.size() * sizeof(loop[0]);
-  push_value(L,
-             ShapeValue{{}, std::move(shape), std::move(appearance), session_of(L).source_ref(L)});
+  ShapeValue value;
+  value.shape = std::move(shape);
+  value.appearance = std::move(appearance);
+  value.where = session_of(L).source_ref(L);
+  push_value(L, std::move(value));
   account(L, bytes);
 }
 
 void push_matrix(lua_State* L, const Affine& map) { push_value(L, MatrixValue{{}, map}); }
+
+Marks* marks_of(lua_State* L, int index) {
+  if (SolidValue* solid = to_solid(L, index)) return &solid->marks;
+  if (ShapeValue* shape = to_shape(L, index)) return &shape->marks;
+  return nullptr;
+}
+
+void keep_marks(lua_State* L, int index) {
+  if (const Marks* marks = marks_of(L, index)) *marks_of(L, -1) = *marks;
+}
 
 SolidValue* to_solid(lua_State* L, int index) { return to_value<SolidValue>(L, index); }
 ShapeValue* to_shape(lua_State* L, int index) { return to_value<ShapeValue>(L, index); }

@@ -14,9 +14,17 @@
 
 namespace csgrun {
 
+/// What a script said of a solid or a shape beside its geometry. Transforms and colours keep it.
+struct Marks {
+  std::string name;     ///< of the part that it becomes; empty: none
+  bool absent = false;  ///< skipped: no operand and no part; its geometry is empty
+  bool only = false;    ///< of a shape: the only one to be a part. Solids: Session::only_nodes
+};
+
 /// What all values have.
 struct Value {
   uint64_t serial = 0;  ///< position in the order of making
+  Marks marks;
 };
 
 struct SolidValue : Value {
@@ -42,6 +50,11 @@ struct MatrixValue : Value {
 void push_solid(lua_State* L, NodePtr node);
 void push_shape(lua_State* L, Shape2D shape, std::optional<Appearance> appearance);
 void push_matrix(lua_State* L, const Affine& map);
+
+/// The marks of the solid or shape at `index`, or null when it is something else.
+Marks* marks_of(lua_State* L, int index);
+/// Gives the value on the top of the stack the marks of the one at `index`.
+void keep_marks(lua_State* L, int index);
 
 /// The value at `index`, or null when it is something else.
 SolidValue* to_solid(lua_State* L, int index);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <csgrun/export/write.h>
+#include <csgrun/primitives/flat_file.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/budget.h"
@@ -76,15 +77,27 @@ Result<std::vector<TriangleMesh>> read_meshes(const std::string& path, const std
                   mesh_format_of(path) == "stl");
 }
 
+Failure refused(const std::string& path, const std::string& message) {
+  return {kExitScript, message.rfind(path, 0) == 0 ? message : path + ": " + message};
+}
+
+Failure measure_drawing(const std::string& path, const std::string& bytes, bool json,
+                        std::string& output) {
+  auto file = parse_flat(path, bytes, {});
+  if (!file) return refused(path, file.error().message);
+  const FlatResult part{std::filesystem::path(path).stem().string(), std::move(file->shape)};
+  output +=
+      json ? flat_info_json(path, part, file->notes) : flat_info_text(path, part, file->notes);
+  return {};
+}
+
 Failure measure_file(const std::string& path, bool json, std::string& output) {
   const FileText text = read_whole_file(path);
   if (!text.error.empty())
     return {kExitFiles, fmt::format("csgrun: cannot read '{}': {}", path, text.error)};
+  if (!flat_file_format_of(path).empty()) return measure_drawing(path, text.bytes, json, output);
   auto meshes = read_meshes(path, text.bytes);
-  if (!meshes) {
-    const std::string& message = meshes.error().message;
-    return {kExitScript, message.rfind(path, 0) == 0 ? message : path + ": " + message};
-  }
+  if (!meshes) return refused(path, meshes.error().message);
   std::vector<PartMeasures> parts;
   std::vector<std::string> warnings;
   CountedCrossings crossings;
@@ -110,7 +123,7 @@ Failure measure_file(const std::string& path, bool json, std::string& output) {
 }  // namespace
 
 bool is_info_path(const std::string& path) {
-  return is_gltf(path) || !mesh_format_of(path).empty();
+  return is_gltf(path) || !mesh_format_of(path).empty() || !flat_file_format_of(path).empty();
 }
 
 Failure run_info(const std::string& path, bool json, std::string& output) {

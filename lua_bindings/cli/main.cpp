@@ -6,6 +6,7 @@
 #include "lua_bindings/cli/exit_codes.h"
 #include "lua_bindings/cli/info.h"
 #include "lua_bindings/cli/options.h"
+#include "lua_bindings/cli/parameter_file.h"
 #include "lua_bindings/cli/report.h"
 #include "lua_bindings/cli/run_model.h"
 
@@ -25,6 +26,7 @@ int run(const csgrun::CommandLine& line) {
   }
   // A failed check is a finding: the measures and the verdict are told all the same.
   if (failure.failed() && !report.check_failed) return failure.code;
+  if (line.list_params) print(stdout, csgrun::parameters_json(line.model, report.parameters));
   if (line.stats == csgrun::StatsForm::kJson) print(stdout, csgrun::stats_json(report));
   if (line.stats == csgrun::StatsForm::kText) print(stderr, csgrun::stats_text(report));
   return failure.code;

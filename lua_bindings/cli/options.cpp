@@ -12,11 +12,14 @@
 #include <fmt/format.h>
 
 #include <csgrun/export/write.h>
+#include <csgrun/export/write_flat.h>
+#include <csgrun/primitives/flat_file.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/arguments.h"
 #include "lua_bindings/cli/exit_codes.h"
 #include "lua_bindings/cli/info.h"
+#include "lua_bindings/cli/parameter_file.h"
 
 namespace csgrun {
 namespace {
@@ -49,14 +52,15 @@ void check_output(const std::string& path, const CommandLine& line) {
     throw UsageError{
         fmt::format("'{}': %s, the place of the part's name, can stand there only once", path)};
   }
-  if (model_format_of(path).empty()) {
+  if (model_format_of(path).empty() && flat_format_of(path).empty()) {
     const std::string ending = ending_of(path);
-    for (const char* later : {".3mf", ".ply", ".svg", ".dxf"}) {
+    for (const char* later : {".3mf", ".ply"}) {
       if (ending == later)
         throw UsageError{fmt::format("'{}': writing {} is not built yet", path, later)};
     }
     throw UsageError{fmt::format(
-        "'{}': the ending must be one of .glb, .gltf, .stl, .obj, .off, .exact.json", path)};
+        "'{}': the ending must be one of .glb, .gltf, .stl, .obj, .off, .exact.json, .svg, .dxf",
+        path)};
   }
   if (std::count(line.outputs.begin(), line.outputs.end(), path) > 1) {
     throw UsageError{fmt::format("'{}' is given twice with -o", path)};
@@ -67,27 +71,31 @@ void check_output(const std::string& path, const CommandLine& line) {
 }
 
 void check_model(const std::string& model) {
-  if (model == "-" || !mesh_format_of(model).empty()) return;
+  if (model == "-" || !mesh_format_of(model).empty() || !flat_file_format_of(model).empty()) return;
   const std::string ending = ending_of(model);
   if (ending != ".lua" && ending != ".csg") {
     throw UsageError{
-        fmt::format("'{}': the model must end in .lua, .csg, .stl, .off, .obj or .ply, or be - for "
-                    "Lua from standard input",
+        fmt::format("'{}': the model must end in .lua, .csg, .stl, .off, .obj, .ply, .svg or .dxf, "
+                    "or be - for Lua from standard input",
                     model)};
   }
 }
 
-std::pair<std::string, std::string> split_definition(const std::string& text) {
+Definition split_definition(const std::string& text) {
   const size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw UsageError{fmt::format("-D {}: write it as -D name=value", text)};
   }
-  return {text.substr(0, equals), text.substr(equals + 1)};
+  Definition definition;
+  definition.name = text.substr(0, equals);
+  definition.text = text.substr(equals + 1);
+  return definition;
 }
 
 /// What the options are read into before they are checked.
 struct RawOptions {
   std::vector<std::string> definitions;
+  std::string parameter_file, parameter_set;
   std::string grid, stats, cache_folder;
   double timeout = 0, megabytes = 0;
   bool no_cache = false, help_api = false;
@@ -96,6 +104,13 @@ struct RawOptions {
 void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
   check_model(line.model);
   for (const std::string& path : line.outputs) check_output(path, line);
+  if (raw.parameter_file.empty() && !raw.parameter_set.empty())
+    throw UsageError{"-P names a set in a file: give the file with -p"};
+  if (!raw.parameter_file.empty()) {
+    auto set = read_parameter_file(raw.parameter_file, raw.parameter_set);
+    if (!set) throw UsageError{set.error().message};
+    line.definitions = *std::move(set);
+  }
   for (const std::string& text : raw.definitions)
     line.definitions.push_back(split_definition(text));
   for (const std::string& folder : line.library_folders) {
@@ -136,7 +151,9 @@ void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
     }
     line.memory_bytes = static_cast<size_t>(raw.megabytes * 1048576.0);
   }
-  if (line.outputs.empty() && line.stats == StatsForm::kNone) {
+  if (line.list_params && (!line.outputs.empty() || line.stats != StatsForm::kNone))
+    throw UsageError{"--list-params writes no model: leave -o and --stats out"};
+  if (line.outputs.empty() && line.stats == StatsForm::kNone && !line.list_params) {
     throw UsageError{"nothing to do: give an output with -o, or --stats"};
   }
   if (line.check && line.outputs.empty())
@@ -165,7 +182,7 @@ CommandLine parse_info(int argc, char** argv) {
   CommandLine line;
   line.command = Command::kInfo;
   CLI::App app("Measures a mesh file exactly, on its own coordinates.", "csgrun info");
-  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY or GLB")->required();
+  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY, GLB, SVG or DXF")->required();
   app.add_flag("--json", line.info_json, "as one JSON object");
   try {
     app.parse(argc - 1, argv + 1);
@@ -175,7 +192,7 @@ CommandLine parse_info(int argc, char** argv) {
   if (!is_info_path(line.model)) {
     std::fputs(
         fmt::format("csgrun info: '{}': the ending must be one of .stl, .off, .obj, .ply, .glb, "
-                    ".gltf\n",
+                    ".gltf, .svg, .dxf\n",
                     line.model)
             .c_str(),
         stderr);
@@ -203,13 +220,20 @@ CommandLine parse_command_line(int argc, char** argv) {
       "MODEL", line.model,
       "a script (.lua), an OpenSCAD tree (.csg), a mesh, or - for Lua from standard input");
   app.add_option("-o", line.outputs,
-                 "output: .glb .gltf .stl .obj .off, or .exact.json (coordinates as fractions); "
+                 "output: .glb .gltf .stl .obj .off, .exact.json (coordinates as fractions), of "
+                 "shapes .svg .dxf; "
                  "'dir/%s.stl' writes one file a part")
       ->allow_extra_args(false)
       ->type_name("OUT");
   app.add_option("-D", raw.definitions, "sets a parameter of the model")
       ->allow_extra_args(false)
       ->type_name("name=value");
+  app.add_option("-p", raw.parameter_file,
+                 "a JSON file with values of parameters: {\"name\": value}, or OpenSCAD's sets")
+      ->type_name("FILE");
+  app.add_option("-P", raw.parameter_set, "which set of the file")->type_name("SET");
+  app.add_flag("--list-params", line.list_params,
+               "prints the parameters that the model asks for, as a JSON schema");
   app.add_option("-L", line.library_folders, "a folder of modules and meshes")
       ->allow_extra_args(false)
       ->type_name("DIR");
@@ -234,6 +258,9 @@ CommandLine parse_command_line(int argc, char** argv) {
   app.add_option("--max-memory", raw.megabytes,
                  "MB for the process (three quarters of what is there)")
       ->type_name("MB");
+  app.add_flag("--system-fonts", line.system_fonts,
+               "text may use the fonts of this machine, not only the one of the program");
+  app.add_flag("--strict", line.strict, "a font that is not there is an error, not a warning");
   app.add_flag("-q,--quiet", line.quiet, "no progress, no warnings");
   app.add_flag("--help-api", raw.help_api, "prints the functions that a script has");
   try {

@@ -4,11 +4,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <csgrun/engine/evaluate.h>
 #include <csgrun/primitives/solids.h>
+
+#include "lua_bindings/parameters.h"
 
 namespace csgrun {
 
@@ -20,7 +21,8 @@ struct CommandLine {
   int exit_code = 0;  ///< for kDone: help, version, or a usage error that was told already
   std::string model;
   std::vector<std::string> outputs;
-  std::vector<std::pair<std::string, std::string>> definitions;
+  std::vector<Definition> definitions;       ///< of -p, then those of -D
+  bool list_params = false;                  ///< print what the model asks for, and no more
   std::vector<std::string> library_folders;  ///< -L, then CSGRUN_PATH
   Facets facets;
   unsigned threads = 0;
@@ -28,7 +30,9 @@ struct CommandLine {
   StatsForm stats = StatsForm::kNone;
   std::optional<double> timeout_seconds;
   std::optional<size_t> memory_bytes;
-  bool check = false;  ///< prove every written mesh free of defects, or repair it
+  bool check = false;         ///< prove every written mesh free of defects, or repair it
+  bool system_fonts = false;  ///< text may use the fonts of the machine
+  bool strict = false;        ///< what would be replaced with a warning is an error
   bool quiet = false;
   bool info_json = false;
 };

@@ -67,6 +67,7 @@ std::string stats_json(const RunReport& report) {
     json["hash"] = fmt::format("{:016x}{:016x}", hash[0], hash[1]);
     parts.push_back(json);
   }
+  for (const FlatResult& part : report.flat_parts) parts.push_back(flat_json(part));
   Json json = {{"version", CSGRUN_VERSION},
                {"threads", report.threads},
                {"grid_mm", s.grid_mm},
@@ -97,6 +98,7 @@ std::string stats_text(const RunReport& report) {
   const EvaluateStats& s = report.stats;
   std::string text;
   for (const Part& part : report.parts) text += to_text(measures_of(part));
+  for (const FlatResult& part : report.flat_parts) text += flat_text(part);
   for (const FileCheck& check : report.checks)
     text += fmt::format("{}: check: {}\n", check.file, verdict_text(check));
   text += fmt::format(

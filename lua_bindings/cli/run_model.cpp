@@ -10,7 +10,9 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <csgrun/export/write_flat.h>
 #include <csgrun/primitives/csg_file.h>
+#include <csgrun/primitives/flat_file.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/cli/check_text.h"
@@ -54,7 +56,13 @@ class Run {
     const auto start = Clock::now();
     Failure failure = load();
     report_.script_seconds = seconds_since(start) - session_.budget().evaluation_seconds();
-    if (!failure.failed()) failure = evaluate();
+    if (line_.list_params) {
+      if (!failure.failed()) report_.parameters = session_.parameters;
+      session_.budget().stop();
+      return failure;
+    }
+    if (!failure.failed()) failure = check_dimensions();
+    if (!failure.failed()) failure = is_flat() ? take_shapes() : evaluate();
     if (!failure.failed()) failure = write_all();
     session_.budget().stop();
     report_.stats = session_.evaluator().stats();
@@ -81,6 +89,8 @@ class Run {
     options.evaluate.exact_points = std::any_of(
         line.outputs.begin(), line.outputs.end(),
         [](const std::string& output) { return model_format_of(output) == "exact.json"; });
+    options.fonts.system_fonts = line.system_fonts;
+    options.fonts.strict = line.strict;
     options.limits.total_seconds = line.timeout_seconds;
     if (line.memory_bytes)
       options.limits.heap_bytes = std::min(options.limits.heap_bytes, *line.memory_bytes);
@@ -98,6 +108,7 @@ class Run {
         return {kExitFiles, fmt::format("csgrun: cannot read '{}': {}", line_.model, text.error)};
     }
     if (!mesh_format_of(line_.model).empty()) return load_mesh(text.bytes);
+    if (!flat_file_format_of(line_.model).empty()) return load_flat(text.bytes);
     if (is_csg_path(line_.model)) return load_csg(text.bytes);
     return load_script(text.bytes);
   }
@@ -107,8 +118,18 @@ class Run {
     // Places go into written files, so they are seen from the tree's own folder; messages are not.
     const SourceRef where = session_.source_ref(line_.model, 1);
     const std::string folder = folder_of(line_.model);
+    CsgEnvironment environment;
+    environment.evaluator = &session_.evaluator();
+    environment.fonts = &session_.fonts();
+    environment.read = [this](const std::string& path) -> Result<std::string> {
+      try {
+        return session_.files().open(line_.model, path).bytes;
+      } catch (const ScriptError& error) {
+        return Error{ErrorCode::kMalformedFile, error.what(), {}};
+      }
+    };
     const EvaluationScope scope(session_.budget());
-    auto model = parse_csg(*where.file, text, {&session_.evaluator()});
+    auto model = parse_csg(*where.file, text, environment);
     if (!model) {
       const std::string place = model.error().where.text();
       return {kExitScript, (place.empty() ? line_.model : join_path(folder, place)) + ": " +
@@ -160,11 +181,27 @@ class Run {
     return {};
   }
 
+  Failure load_flat(const std::string& bytes) {
+    if (Failure failure = refuse_definitions(); failure.failed()) return failure;
+    FlatFileOptions options;
+    options.facets = line_.facets;
+    auto file = parse_flat(line_.model, bytes, options);
+    if (!file) {
+      const std::string& message = file.error().message;
+      return {kExitScript,
+              message.rfind(line_.model, 0) == 0 ? message : line_.model + ": " + message};
+    }
+    report_.warnings.insert(report_.warnings.end(), file->notes.begin(), file->notes.end());
+    const SourceRef where = session_.source_ref(line_.model, 1);
+    session_.add_part({"", nullptr, std::move(file->shape), where}, "");
+    return {};
+  }
+
   /// Meshes and trees have no parameters.
   Failure refuse_definitions() const {
     if (line_.definitions.empty()) return {};
-    return {kExitUsage,
-            fmt::format("csgrun: -D {}: only a script has parameters", line_.definitions[0].first)};
+    return {kExitUsage, fmt::format("csgrun: {} {}: only a script has parameters",
+                                    line_.definitions[0].origin, line_.definitions[0].name)};
   }
 
   Failure evaluation_failure(const Error& error) {
@@ -178,18 +215,86 @@ class Run {
     return {kExitGeometry, place + ": " + error.message};
   }
 
+  /// Whether the parts are shapes. All are, or none: see check_dimensions.
+  [[nodiscard]] bool is_flat() const { return session_.parts()[0].solid == nullptr; }
+
+  [[nodiscard]] std::string place_of(const ScriptPart& part) const {
+    const std::string place = session_.place_text(part.where);
+    return place.empty() ? session_.options().model : place;
+  }
+
+  /// Shapes go into drawings, solids into meshes.
+  Failure check_dimensions() const {
+    const auto& parts = session_.parts();
+    for (const ScriptPart& part : parts) {
+      const bool flat = part.solid == nullptr;
+      if (flat != is_flat()) {
+        return {kExitScript,
+                fmt::format("{}: part '{}' is a {}, but part '{}' is a {}: no file holds both; "
+                            "linear_extrude makes a solid of a shape, project a shape of a solid",
+                            place_of(part), part.name, flat ? "2D shape" : "solid", parts[0].name,
+                            flat ? "solid" : "2D shape")};
+      }
+      for (const std::string& output : line_.outputs) {
+        const bool drawing = !flat_format_of(output).empty();
+        if (flat && !drawing) {
+          return {kExitScript,
+                  fmt::format("{}: part '{}' is a 2D shape, and '{}' holds solids; make a solid of "
+                              "it with linear_extrude or rotate_extrude, or write .svg or .dxf",
+                              place_of(part), part.name, output)};
+        }
+        if (!flat && drawing) {
+          return {kExitScript,
+                  fmt::format("{}: part '{}' is a solid, and '{}' holds 2D shapes; make a shape of "
+                              "it with project",
+                              place_of(part), part.name, output)};
+        }
+      }
+    }
+    return {};
+  }
+
+  /// The parts of a drawing, to be written and measured.
+  Failure take_shapes() {
+    std::vector<std::string> empty;
+    for (const ScriptPart& part : session_.parts()) {
+      report_.flat_parts.push_back({part.name, part.shape});
+      if (part.shape.empty())
+        empty.push_back(place_of(part) + ": part '" + part.name + "' is empty");
+    }
+    if (empty.size() == report_.flat_parts.size()) {
+      return {kExitGeometry, place_of(session_.parts()[0]) + ": the result is empty"};
+    }
+    report_.warnings.insert(report_.warnings.end(), empty.begin(), empty.end());
+    return {};
+  }
+
+  Failure write_drawing(const std::string& path, const std::vector<FlatPart>& parts) {
+    auto bytes = encode_flat(flat_format_of(path), parts);
+    if (!bytes) return {kExitFiles, "csgrun: " + bytes.error().message};
+    return put({{path, *std::move(bytes)}});
+  }
+
+  Failure write_flat(const std::string& output) {
+    std::vector<FlatPart> parts;
+    for (const ScriptPart& part : session_.parts()) {
+      if (part.shape.empty()) continue;
+      FlatPart flat{part.name, part.shape.loops(), {}};
+      if (const auto& a = part.appearance) flat.color = {a->red, a->green, a->blue, a->alpha};
+      parts.push_back(std::move(flat));
+    }
+    if (output.find("%s") == std::string::npos) return write_drawing(output, parts);
+    std::vector<std::string> paths;
+    if (Failure failure = paths_of_parts(output, parts, paths); failure.failed()) return failure;
+    for (size_t i = 0; i < parts.size(); ++i) {
+      if (Failure failure = write_drawing(paths[i], {parts[i]}); failure.failed()) return failure;
+    }
+    return {};
+  }
+
   Failure evaluate() {
     std::vector<NodePtr> nodes;
     for (const ScriptPart& part : session_.parts()) {
-      if (part.solid == nullptr) {
-        std::string place = session_.place_text(part.where);
-        if (place.empty()) place = session_.options().model;
-        return {kExitScript,
-                fmt::format(
-                    "{}: part '{}' is a 2D shape, and the outputs hold solids; make a solid of it "
-                    "with linear_extrude or rotate_extrude",
-                    place, part.name)};
-      }
       nodes.push_back(part.solid);
     }
     const Instances instances = wants_instances() ? find_instances(nodes) : Instances{};
@@ -259,7 +364,9 @@ class Run {
     const EvaluationScope scope(session_.budget());
     Failure failure;
     for (const std::string& output : line_.outputs) {
-      failure = output.find("%s") != std::string::npos ? write_each(output) : write_one(output);
+      failure = is_flat()                                ? write_flat(output)
+                : output.find("%s") != std::string::npos ? write_each(output)
+                                                         : write_one(output);
       if (failure.failed()) break;
     }
     // With a check nothing was written yet: one bad mesh, and there is no file.
@@ -291,10 +398,12 @@ class Run {
     return write(output, parts);
   }
 
-  Failure write_each(const std::string& pattern) {
+  /// The files of a pattern with the parts' names in it.
+  template <class AnyPart>
+  static Failure paths_of_parts(const std::string& pattern, const std::vector<AnyPart>& parts,
+                                std::vector<std::string>& paths) {
     std::map<std::string, std::string> taken;  // file -> part
-    std::vector<std::pair<std::string, Part>> files;
-    for (const Part& part : with_content(report_.parts)) {
+    for (const AnyPart& part : parts) {
       std::string name = part.name;
       std::replace(name.begin(), name.end(), '/', '-');
       std::string path = pattern;
@@ -303,10 +412,17 @@ class Run {
         return {kExitFiles, fmt::format("csgrun: parts '{}' and '{}' would both be written to '{}'",
                                         other->second, part.name, path)};
       }
-      files.emplace_back(path, part);
+      paths.push_back(path);
     }
-    for (const auto& [path, part] : files) {
-      if (Failure failure = write(path, {part}); failure.failed()) return failure;
+    return {};
+  }
+
+  Failure write_each(const std::string& pattern) {
+    const std::vector<Part> parts = with_content(report_.parts);
+    std::vector<std::string> paths;
+    if (Failure failure = paths_of_parts(pattern, parts, paths); failure.failed()) return failure;
+    for (size_t i = 0; i < parts.size(); ++i) {
+      if (Failure failure = write(paths[i], {parts[i]}); failure.failed()) return failure;
     }
     return {};
   }

@@ -8,6 +8,7 @@
 #include <csgrun/export/write.h>
 
 #include "lua_bindings/cli/exit_codes.h"
+#include "lua_bindings/cli/flat_report.h"
 #include "lua_bindings/cli/options.h"
 
 namespace csgrun {
@@ -20,7 +21,9 @@ struct FileCheck {
 
 /// What a run has to tell.
 struct RunReport {
+  std::vector<Parameter> parameters;  ///< with --list-params
   std::vector<Part> parts;
+  std::vector<FlatResult> flat_parts;  ///< instead, when the model is a drawing
   EvaluateStats stats;
   std::vector<std::string> warnings;
   std::vector<FileCheck> checks;  ///< one for each file when --check was given

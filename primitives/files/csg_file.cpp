@@ -7,11 +7,13 @@
 #include <utility>
 
 #include <csgrun/primitives/csg_file.h>
+#include <csgrun/primitives/mesh_file.h>
 #include <csgrun/primitives/projection.h>
 #include <csgrun/primitives/shape_operations.h>
 
 #include "primitives/files/csg_parser.h"
 #include "primitives/files/csg_shapes.h"
+#include "primitives/files/formats.h"
 #include "primitives/files/read_file.h"
 
 namespace csgrun {
@@ -46,7 +48,7 @@ struct Frame {
   std::vector<Item> children;
 };
 
-constexpr std::array<std::string_view, 4> kNotBuilt{"text", "import", "surface", "roof"};
+constexpr std::array<std::string_view, 2> kNotBuilt{"surface", "roof"};
 
 bool is_not_built(std::string_view name) {
   return std::find(kNotBuilt.begin(), kNotBuilt.end(), name) != kNotBuilt.end();
@@ -54,8 +56,10 @@ bool is_not_built(std::string_view name) {
 
 class CsgBuilder {
  public:
-  CsgBuilder(const std::string& name, std::string_view text, const CsgOptions& options)
-      : file_(std::make_shared<const std::string>(name)), parser_(file_, text), options_(options) {}
+  CsgBuilder(const std::string& name, std::string_view text, const CsgEnvironment& environment)
+      : file_(std::make_shared<const std::string>(name)),
+        parser_(file_, text),
+        environment_(environment) {}
 
   Result<CsgModel> build() {
     stack_.emplace_back();  // the file itself: a union
@@ -132,6 +136,8 @@ class CsgBuilder {
       return leaf(frame, std::move(mesh), notes);
     }
     if (is_flat_primitive(name)) return flat_primitive(frame);
+    if (name == "text") return text(frame);
+    if (name == "import") return import(frame);
     if (name == "offset") return offset(frame);
     if (name == "hull") return hull(frame);
     if (name == "minkowski") return minkowski(frame);
@@ -145,9 +151,7 @@ class CsgBuilder {
     return Error{ErrorCode::kMalformedFile, "unknown node " + name + "()", {}};
   }
 
-  static bool takes_children(std::string_view name) {
-    return name != "text" && name != "import" && name != "surface";
-  }
+  static bool takes_children(std::string_view name) { return name != "surface"; }
 
   /// A leaf of the mesh; impossible arguments make it empty.
   Result<Item> leaf(const Frame& frame, MeshResult mesh, const std::vector<std::string>& notes) {
@@ -164,11 +168,65 @@ class CsgBuilder {
   Result<Item> flat_primitive(const Frame& frame) {
     std::vector<std::string> notes;
     Result<Shape2D> shape = make_csg_shape(frame.call, notes);
+    return flat_leaf(frame, std::move(shape), notes);
+  }
+
+  /// A shape; impossible arguments make it empty.
+  Result<Item> flat_leaf(const Frame& frame, Result<Shape2D> shape,
+                         const std::vector<std::string>& notes) {
     for (const std::string& note : notes) warn(frame, note);
     if (shape) return Item::of(*std::move(shape));
     if (shape.error().code != ErrorCode::kInvalidArgument) return shape.error();
     warn(frame, shape.error().message);
     return Item();
+  }
+
+  /// A mesh, or a drawing. A file that is not there is an error: nothing is dropped silently.
+  Result<Item> import(const Frame& frame) {
+    const Result<CsgImport> import = csg_import(frame.call);
+    if (!import) return import.error();
+    const std::string& path = import->file;
+    const bool drawing = !flat_file_format_of(path).empty();
+    if (!drawing && mesh_format_of(path).empty()) {
+      return Error{
+          ErrorCode::kInvalidArgument,
+          "import: " + quoted(path) + " has none of the endings .stl, .off, .obj, .ply, .svg, .dxf",
+          {}};
+    }
+    if (!environment_.read) {
+      return Error{ErrorCode::kInvalidArgument, "import: there are no files here", {}};
+    }
+    const Result<std::string> bytes = environment_.read(path);
+    if (!bytes) return Error{bytes.error().code, "import: " + bytes.error().message, {}};
+    if (drawing) {
+      Result<FlatFile> file = parse_flat(path, *bytes, import->options);
+      if (!file) return Error{file.error().code, "import: " + file.error().message, {}};
+      for (const std::string& note : file->notes) warn(frame, "import: " + note);
+      return Item::of(std::move(file->shape));
+    }
+    Result<PolygonMesh> mesh = parse_mesh(path, *bytes);
+    std::string note;
+    if (mesh) mesh = make_solid_mesh(*std::move(mesh), &note);
+    if (!mesh) return Error{mesh.error().code, "import: " + mesh.error().message, {}};
+    if (!note.empty()) warn(frame, "import: " + note);
+    return leaf(frame, std::move(mesh), {});
+  }
+
+  Result<Item> text(const Frame& frame) {
+    const Result<CsgText> text = csg_text(frame.call);
+    if (!text) return text.error();
+    FontBook shipped;
+    FontBook& fonts = environment_.fonts != nullptr ? *environment_.fonts : shipped;
+    const Result<FontChoice> choice = fonts.find(text->font);
+    if (!choice) {
+      return Error{choice.error().code, "text: " + choice.error().message, {}};
+    }
+    std::vector<std::string> notes;
+    if (!choice->note.empty()) notes.push_back("text: " + choice->note);
+    std::string note;
+    Result<Shape2D> shape = make_text(text->options, choice->font, &note);
+    if (!note.empty()) notes.push_back(note);
+    return flat_leaf(frame, std::move(shape), notes);
   }
 
   /// The first child that is not empty decides between 2D and 3D; children of the other kind
@@ -299,7 +357,7 @@ class CsgBuilder {
   }
 
   Evaluator& evaluator() {
-    if (options_.evaluator != nullptr) return *options_.evaluator;
+    if (environment_.evaluator != nullptr) return *environment_.evaluator;
     if (!own_evaluator_) own_evaluator_ = std::make_unique<Evaluator>(EvaluateOptions{});
     return *own_evaluator_;
   }
@@ -389,7 +447,7 @@ class CsgBuilder {
 
   std::shared_ptr<const std::string> file_;
   CsgParser parser_;
-  CsgOptions options_;
+  const CsgEnvironment& environment_;
   std::unique_ptr<Evaluator> own_evaluator_;
   std::vector<Frame> stack_;
   std::vector<std::string> warnings_;
@@ -398,14 +456,14 @@ class CsgBuilder {
 }  // namespace
 
 Result<CsgModel> parse_csg(const std::string& name, std::string_view text,
-                           const CsgOptions& options) {
-  return CsgBuilder(name, text, options).build();
+                           const CsgEnvironment& environment) {
+  return CsgBuilder(name, text, environment).build();
 }
 
-Result<CsgModel> read_csg_file(const std::string& path, const CsgOptions& options) {
+Result<CsgModel> read_csg_file(const std::string& path, const CsgEnvironment& environment) {
   const Result<std::string> bytes = read_regular_file(path);
   if (!bytes) return bytes.error();
-  return parse_csg(path, *bytes, options);
+  return parse_csg(path, *bytes, environment);
 }
 
 }  // namespace csgrun

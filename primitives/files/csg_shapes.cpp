@@ -47,6 +47,13 @@ bool CsgArguments::boolean(std::string_view name, bool otherwise) {
   return value->boolean;
 }
 
+std::string CsgArguments::string(std::string_view name, const std::string& otherwise) {
+  const CsgValue* value = call_.find(name);
+  if (value == nullptr) return otherwise;
+  if (value->kind != Kind::kString) wrong_type(name, "a string");
+  return value->string;
+}
+
 std::vector<double> CsgArguments::numbers(std::string_view name, size_t size,
                                           std::vector<double> otherwise) {
   const CsgValue* value = call_.find(name);
@@ -207,6 +214,41 @@ Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& wa
   std::erase_if(paths, [](const std::vector<uint32_t>& path) { return path.size() < 3; });
   if (paths.empty()) return invalid_argument("polygon: encloses no area");
   return make_polygon(points, paths);
+}
+
+Result<CsgImport> csg_import(const CsgCall& call) {
+  CsgArguments arguments(call);
+  CsgImport import;
+  FlatFileOptions& o = import.options;
+  import.file = arguments.string("file", "");
+  o.layer = arguments.string("layer", "");
+  o.id = arguments.string("id", "");
+  o.dpi = arguments.number("dpi", 72);
+  o.scale = arguments.number("scale", 1);
+  const std::vector<double> origin = arguments.numbers("origin", 2, {0, 0});
+  o.origin = {origin[0], origin[1]};
+  o.center = arguments.boolean("center", false);
+  o.facets = arguments.facets();
+  if (arguments.error()) return *arguments.error();
+  return import;
+}
+
+Result<CsgText> csg_text(const CsgCall& call) {
+  CsgArguments arguments(call);
+  CsgText text;
+  TextOptions& o = text.options;
+  o.text = arguments.string("text", "");
+  o.size = arguments.number("size", 10);
+  o.spacing = arguments.number("spacing", 1);
+  o.direction = arguments.string("direction", "");
+  o.language = arguments.string("language", "en");
+  o.script = arguments.string("script", "");
+  o.halign = arguments.string("halign", "default");
+  o.valign = arguments.string("valign", "default");
+  o.facets = arguments.facets();
+  text.font = arguments.string("font", "");
+  if (arguments.error()) return *arguments.error();
+  return text;
 }
 
 Result<OffsetOptions> csg_offset(const CsgCall& call) {

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include <csgrun/engine/csg_tree.h>
+#include <csgrun/primitives/flat_file.h>
 #include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/shape_operations.h>
 #include <csgrun/primitives/solids.h>
+#include <csgrun/primitives/text.h>
 
 #include "primitives/files/csg_parser.h"
 
@@ -23,6 +25,7 @@ class CsgArguments {
 
   double number(std::string_view name, double otherwise);
   bool boolean(std::string_view name, bool otherwise);
+  std::string string(std::string_view name, const std::string& otherwise);
   /// Exactly `size` numbers.
   std::vector<double> numbers(std::string_view name, size_t size, std::vector<double> otherwise);
   std::vector<std::vector<double>> rows(std::string_view name, size_t row_size);
@@ -50,6 +53,20 @@ bool is_flat_primitive(std::string_view name);
 /// `warnings` gets what was left out. An impossible size is a kInvalidArgument.
 MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings);
 Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& warnings);
+/// The arguments of import.
+struct CsgImport {
+  std::string file;
+  FlatFileOptions options;
+};
+Result<CsgImport> csg_import(const CsgCall& call);
+
+/// The arguments of text, and the description of its font.
+struct CsgText {
+  TextOptions options;
+  std::string font;
+};
+Result<CsgText> csg_text(const CsgCall& call);
+
 /// The arguments of offset: `r` counts before `delta`.
 Result<OffsetOptions> csg_offset(const CsgCall& call);
 

@@ -26,12 +26,46 @@ constexpr double kMitreLimit = 1e6;
 
 class OffsetCurve {
  public:
-  explicit OffsetCurve(const OffsetOptions& options)
-      : join_(options.join),
-        distance_(std::fabs(options.distance)),
-        fragments_(options.facets.fragments(distance_)) {}
+  OffsetCurve(double distance, OffsetJoin join, double mitre_limit, const Facets& facets)
+      : join_(join),
+        distance_(distance),
+        mitre_limit_(mitre_limit),
+        fragments_(facets.fragments(distance_)) {}
 
-  [[nodiscard]] Shape2D::Loop around(const Shape2D::Loop& loop) {
+  /// Forth along a line and back, with caps where it turns.
+  [[nodiscard]] Shape2D::Loop along(const Shape2D::Loop& line, StrokeCap cap) const {
+    Shape2D::Loop there_and_back = line;
+    there_and_back.insert(there_and_back.end(), line.rbegin() + 1, line.rend() - 1);
+    const size_t n = there_and_back.size();
+    const std::vector<glm::dvec2> normals = normals_of(there_and_back);
+    Shape2D::Loop curve;
+    for (size_t i = 0; i < n; ++i) {
+      const glm::dvec2 &p = there_and_back[i], &a = normals[(i + n - 1) % n], &b = normals[i];
+      if (i != 0 && i + 1 != line.size()) {
+        add_corner(p, a, b, curve);
+      } else if (cap == StrokeCap::kRound) {
+        add_arc(p, a, 180, curve);
+        curve.push_back(p + distance_ * b);
+      } else {
+        const glm::dvec2 beyond = cap == StrokeCap::kSquare ? glm::dvec2(-a.y, a.x) : glm::dvec2(0);
+        curve.push_back(p + distance_ * (a + beyond));
+        curve.push_back(p + distance_ * (b + beyond));
+      }
+    }
+    return curve;
+  }
+
+  [[nodiscard]] Shape2D::Loop around(const Shape2D::Loop& loop) const {
+    const size_t n = loop.size();
+    const std::vector<glm::dvec2> normals = normals_of(loop);
+    Shape2D::Loop curve;
+    for (size_t i = 0; i < n; ++i) add_corner(loop[i], normals[(i + n - 1) % n], normals[i], curve);
+    return curve;
+  }
+
+ private:
+  /// Outward unit normals of the edges, for loops with the shape on their left.
+  static std::vector<glm::dvec2> normals_of(const Shape2D::Loop& loop) {
     const size_t n = loop.size();
     std::vector<glm::dvec2> normals(n);
     for (size_t i = 0; i < n; ++i) {
@@ -39,12 +73,9 @@ class OffsetCurve {
       const double length = std::sqrt(glm::dot(d, d));
       normals[i] = glm::dvec2(d.y / length, -d.x / length);
     }
-    Shape2D::Loop curve;
-    for (size_t i = 0; i < n; ++i) add_corner(loop[i], normals[(i + n - 1) % n], normals[i], curve);
-    return curve;
+    return normals;
   }
 
- private:
   /// The join at p from the edge with outward normal `a` to that with normal `b`.
   void add_corner(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b,
                   Shape2D::Loop& curve) const {
@@ -59,12 +90,19 @@ class OffsetCurve {
       return;
     }
     constexpr double kAlmostStraight = 0.999;  // a chamfer of less than 2.6 degrees is a mitre
-    const double limit = 2 / (kMitreLimit * kMitreLimit) - 1;
-    if (join_ == OffsetJoin::kRound) {
-      add_arc(p, a, atan2_deg(sine, cosine), curve);
-    } else if (cosine > (join_ == OffsetJoin::kMitre ? limit : kAlmostStraight)) {
+    // A mitre is 1 / cos(turn / 2) distances long.
+    const double limit = 2 / (mitre_limit_ * mitre_limit_) - 1;
+    const bool mitred = join_ == OffsetJoin::kMitre
+                            ? cosine > limit
+                            : join_ == OffsetJoin::kChamfer && cosine > kAlmostStraight;
+    if (mitred) {
       add((a + b) / (1 + cosine));
       return;
+    }
+    if (join_ == OffsetJoin::kRound) {
+      add_arc(p, a, atan2_deg(sine, cosine), curve);
+    } else if (join_ == OffsetJoin::kBevel || mitre_limit_ < kMitreLimit) {
+      add(a);
     } else {
       // The line at the distance, square to the bisector: tan(turn / 4) beyond both moved edges.
       const double t = tan_deg(atan2_deg(sine, cosine) / 4);
@@ -87,9 +125,27 @@ class OffsetCurve {
   }
 
   OffsetJoin join_;
-  double distance_;
+  double distance_, mitre_limit_;
   int fragments_;
 };
+
+/// Where the curves wind around a point the right way.
+Result<Shape2D> united(const std::vector<Shape2D::Loop>& curves, const char* function,
+                       bool inwards) {
+  double corners = 0;
+  for (const Shape2D::Loop& curve : curves) corners += static_cast<double>(curve.size());
+  if (corners > kMostPoints) return too_many_points(function, corners, corners);
+  if (!all_finite(curves)) {
+    return invalid_argument(std::string(function) + ": a coordinate would not be finite");
+  }
+  const Result<Grid2D> grid = grid_for(extent_of(curves));
+  if (!grid) return grid.error();
+  std::vector<Segment2D> segments;
+  for (const Shape2D::Loop& curve : curves) add_outline(snap_loop(*grid, curve), false, segments);
+  return Shape2DFactory::arranged(*grid, std::move(segments), [inwards](int32_t, int32_t sum) {
+    return inwards ? sum < 0 : sum > 0;
+  });
+}
 
 }  // namespace
 
@@ -97,24 +153,26 @@ Result<Shape2D> offset_shape(const Shape2D& shape, const OffsetOptions& options)
   if (!std::isfinite(options.distance)) return not_finite("offset", "distance", options.distance);
   if (shape.empty() || options.distance == 0) return shape;
   const bool inwards = options.distance < 0;
-  OffsetCurve maker(options);
+  const OffsetCurve maker(std::fabs(options.distance), options.join, kMitreLimit, options.facets);
   std::vector<Shape2D::Loop> curves;
-  double corners = 0;
   for (Shape2D::Loop loop : shape.loops()) {
     if (inwards) std::reverse(loop.begin(), loop.end());
     curves.push_back(maker.around(loop));
-    corners += static_cast<double>(curves.back().size());
-    if (corners > kMostPoints) return too_many_points("offset", corners, corners);
   }
-  if (!all_finite(curves)) return invalid_argument("offset: a coordinate would not be finite");
-  const Result<Grid2D> grid = grid_for(extent_of(curves));
-  if (!grid) return grid.error();
-  std::vector<Segment2D> segments;
-  for (const Shape2D::Loop& curve : curves) add_outline(snap_loop(*grid, curve), false, segments);
-  return Shape2DFactory::arranged(
-      *grid, std::move(segments),
-      inwards ? [](int32_t, int32_t sum) { return sum < 0; }
-              : [](int32_t, int32_t sum) { return sum > 0; });
+  return united(curves, "offset", inwards);
+}
+
+Result<Shape2D> stroke_shape(const Shape2D::Loop& line, const StrokeOptions& options) {
+  if (!std::isfinite(options.width)) return not_finite("stroke", "width", options.width);
+  if (!(options.width > 0)) return not_positive("stroke", "width", options.width);
+  Shape2D::Loop points;
+  for (const glm::dvec2& p : line) {
+    if (points.empty() || p != points.back()) points.push_back(p);
+  }
+  if (points.size() < 2) return Shape2D();
+  const OffsetCurve maker(options.width / 2, options.join, std::max(options.mitre_limit, 1.0),
+                          options.facets);
+  return united({maker.along(points, options.cap)}, "stroke", false);
 }
 
 }  // namespace csgrun

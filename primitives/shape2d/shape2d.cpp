@@ -23,14 +23,17 @@ const std::vector<Shape2D::Region>& Shape2D::regions() const {
   return data_ ? data_->regions : kNone;
 }
 
-Result<Shape2D> Shape2D::from_outlines(const std::vector<Loop>& outlines) {
+Result<Shape2D> Shape2D::from_outlines(const std::vector<Loop>& outlines, FillRule fill) {
   if (!all_finite(outlines)) return invalid_argument("2D shape: a coordinate is not finite");
   const Result<Grid2D> grid = grid_for(extent_of(outlines));
   if (!grid) return grid.error();
   std::vector<Segment2D> segments;
   for (const Loop& loop : outlines) add_outline(snap_loop(*grid, loop), false, segments);
-  return Shape2DFactory::arranged(*grid, std::move(segments),
-                                  [](int32_t, int32_t rest) { return rest % 2 != 0; });
+  return Shape2DFactory::arranged(*grid, std::move(segments), [fill](int32_t, int32_t rest) {
+    return fill == FillRule::kEvenOdd   ? rest % 2 != 0
+           : fill == FillRule::kNonZero ? rest != 0
+                                        : rest > 0;
+  });
 }
 
 Result<Shape2D> Shape2D::boolean(BooleanOp op, const std::vector<Shape2D>& operands) {

@@ -40,10 +40,13 @@ class Mistakes(Case):
         self.check("return multmatrix{{0/0}} * cube(1)", "model.lua:1: entry [1][1] of a matrix must be a finite number")
 
     def test_sandbox(self):
-        for text in ("io.open('x')", "os.execute('ls')", "debug.sethook()", "dofile('x')", "loadfile('x')",
-                     "package.loadlib('x', 'y')"):
+        for text in ("io.open('x')", "os.execute('ls')", "debug.sethook()", "dofile('x')", "loadfile('x')"):
             name = text.split(".")[0].split("(")[0]
             self.check(text, f"model.lua:1: '{name}' is not available: ")
+        for field in ("loadlib", "cpath", "preload", "searchers", "loaded"):
+            self.check(f"local x = package.{field}", f"model.lua:1: 'package.{field}' is not available: ")
+        self.check("package.cpath = '/tmp/?.so'", "model.lua:1: 'package.cpath' is not available: ")
+        self.check("package.path = 5 require 'x'", "model.lua:1: require: package.path must be a string")
         self.check("setmetatable({}, {__gc = function() end})", "model.lua:1: setmetatable: '__gc' is not available")
         self.check(b"\x1bLuaR\0".decode("latin1"), "model.lua:1: this is Lua bytecode; only text is accepted")
         self.check("assert(load('\\27Lua'))", "model.lua:1: attempt to load a binary chunk (mode is 't')")

@@ -33,6 +33,8 @@ LIBRARIES = [
     (r"OpenMesh/", ["engine/mesh/openmesh_bridge"]),
     (r"tiny_gltf", ["export/gltf.cpp"]),
     (r"(lua|lualib|lauxlib|luaconf)\.h(pp)?$", ["lua_bindings/", "tests/"]),
+    (r"hb(-ot)?\.h$", ["primitives/text/"]),
+    (r"pugixml\.hpp$", ["primitives/files/"]),
     (r"CLI/", ["lua_bindings/", "tests/"]),
     (r"(gmp|gmpxx)\.h$", ["tests/"]),
     (r"boost/", ["tests/"]),

@@ -73,8 +73,7 @@ TEST(Surfaces, Mistakes) {
   EXPECT_EQ(ScriptRun(tetrahedron + "'evenodd'}").outcome.status, ScriptStatus::kGood);
 }
 
-ScriptRun run_with(const std::string& script,
-                   std::vector<std::pair<std::string, std::string>> definitions) {
+ScriptRun run_with(const std::string& script, std::vector<Definition> definitions) {
   SessionOptions options = test_options();
   options.definitions = std::move(definitions);
   return ScriptRun(script + "\nemit(cube(1))", std::move(options));
@@ -128,6 +127,43 @@ TEST(Parameters, ABadDefaultIsTheScriptsFault) {
             "model.lua:1: param: the default of 'p' must be at most 10, got 20");
   EXPECT_NE(message_of("param('p', print)").find("must be a number, true or false"),
             std::string::npos);
+}
+
+TEST(Parameters, VarIsAParameterNamedByItsMeaning) {
+  EXPECT_EQ(run_with("assert(var('Radius of hole', 4) == 4)", {}).outcome.status,
+            ScriptStatus::kGood);
+  EXPECT_EQ(
+      run_with("assert(var('Radius of hole', 4) == 7)", {{"Radius of hole", "7"}}).outcome.status,
+      ScriptStatus::kGood);
+  EXPECT_EQ(run_with("var('Radius', 4)", {{"Radius", "x"}}).outcome.message,
+            "-D Radius=x: 'Radius' must be a number");
+  EXPECT_EQ(message_of("var('Radius')"), "model.lua:1: var: needs a name and a default value");
+}
+
+TEST(Parameters, OptionsMustFitTheDefault) {
+  EXPECT_EQ(message_of("param('p', true, {min = 1})"),
+            "model.lua:1: param: option 'min' goes with numbers, and the default of 'p' is true or "
+            "false");
+  EXPECT_EQ(message_of("param('p', 'a', {choices = {'a', 1}})"),
+            "model.lua:1: param: choice 2 of 'p' must be a string, as its default is, got 1");
+  EXPECT_EQ(message_of("param('p', 'a', {choices = 'a'})"),
+            "model.lua:1: param: option 'choices' must be a list of values, got string");
+  EXPECT_EQ(message_of("param('p', 1, {chioces = {1}})"),
+            "model.lua:1: param: unknown option 'chioces' (did you mean 'choices'?)");
+}
+
+TEST(Parameters, AreKnownAfterTheRun) {
+  const ScriptRun run = run_with(
+      "param('n', 4, {min = 1, max = 9, step = 0.5, doc = 'how many'}) param('n', 5)"
+      "param('on', true) param('size', {1, 2})",
+      {{"n", "6"}});
+  ASSERT_EQ(run.session.parameters.size(), 3u);
+  const Parameter& n = run.session.parameters[0];
+  EXPECT_EQ(n.name, "n");
+  EXPECT_EQ(n.doc, "how many");
+  EXPECT_EQ(n.fallback, ParameterValue(4.0));
+  EXPECT_EQ(n.step, 0.5);
+  EXPECT_EQ(run.session.parameters[2].fallback, ParameterValue(std::vector<double>{1, 2}));
 }
 
 TEST(Settings, FacetsOfTheSession) {
@@ -184,6 +220,39 @@ TEST_F(FilesTest, ModulesAreFoundInOrderAndRunOnce) {
             "\tno file 'model/none/x/init.lua'\n\tno file 'model/csgrun_modules/none/x.lua'\n"
             "\tno file 'model/csgrun_modules/none/x/init.lua'\n\tno file 'library/none/x.lua'\n"
             "\tno file 'library/none/x/init.lua'");
+}
+
+TEST_F(FilesTest, PackagePathAddsFoldersInsideTheLimits) {
+  std::filesystem::create_directories(root_ / "model/lib/deep");
+  write("model/lib/a.lua", "return 'lib'");
+  write("model/lib/deep/init.lua", "return 'deep'");
+  write("model/a.lua", "return 'model'");
+  write("secret.lua", "return 1");
+  write("library/far.lua", "return 'far'");
+  EXPECT_EQ(run("package.path = './lib/?.lua;' .. package.path assert(require 'a' == 'lib')"),
+            "good");
+  EXPECT_EQ(run("package.path = package.path .. ';lib/?.lua;lib/?/init.lua'\n"
+                "assert(require 'a' == 'model' and require 'deep' == 'deep')"),
+            "good");
+  EXPECT_EQ(run("package.path = '" + (root_ / "library").string() +
+                "/?.lua' assert(require 'far' == 'far')"),
+            "good");
+  // Whatever stands in the templates, the border stays where it is, and tells nothing.
+  for (const char* name : {"secret", "none"}) {
+    const std::string message =
+        run(std::string("package.path = './../?.lua' require '") + name + "'");
+    EXPECT_NE(message.find(std::string("'model/../") + name + ".lua' leads outside"),
+              std::string::npos)
+        << message;
+  }
+  EXPECT_NE(run("package.path = '/etc/?;/etc/hostname' require 'hostname'").find("not found"),
+            std::string::npos);
+  EXPECT_NE(run("package.path = nil require 'a'").find("package.path must be a string"),
+            std::string::npos);
+  EXPECT_NE(run("package = 5 require 'a'").find("package.path must be a string"),
+            std::string::npos);
+  EXPECT_NE(run("local x = package.loaded").find("'package.loaded' is not available"),
+            std::string::npos);
 }
 
 TEST_F(FilesTest, ErrorsInModulesNameTheModule) {

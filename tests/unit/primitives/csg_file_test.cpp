@@ -218,6 +218,62 @@ TEST(CsgFile, OutlinesOfShapes) {
             "m.csg:1: resize: newsize must be a list of 3 numbers");
 }
 
+TEST(CsgFile, TextIsNotEscaped) {
+  const auto width = [](const std::string& string) {
+    const CsgModel model = parse("text(text = \"" + string +
+                                 "\", size = 10, spacing = 1, font = \"\", direction = \"ltr\", "
+                                 "language = \"en\", script = \"Latn\", halign = \"left\", "
+                                 "valign = \"baseline\", $fn = 0, $fa = 12, $fs = 2);");
+    EXPECT_TRUE(model.warnings.empty());
+    return model.shape.bounds()[1].x;
+  };
+  EXPECT_GT(width("\""), 0);
+  EXPECT_GT(width("a\"b\\n\", size"), width("a\"b"));
+  const CsgModel other = parse("text(text = \"I\", size = 10, font = \"Arial\");");
+  EXPECT_GT(other.shape.area(), 10);
+  EXPECT_EQ(other.warnings,
+            std::vector<std::string>{"m.csg:1: text: there is no font \"Arial\"; Liberation Sans "
+                                     "Regular is used instead"});
+  EXPECT_EQ(parse("text(text = \"I\", size = -1);").warnings,
+            std::vector<std::string>{"m.csg:1: text: size must be positive, got -1"});
+  FontOptions strict;
+  strict.strict = true;
+  FontBook fonts(strict);
+  const auto refused =
+      parse_csg("m.csg", "text(text = \"I\", size = 10, font = \"Arial\");", {&fonts, nullptr});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().where.line, 1);
+}
+
+TEST(CsgFile, ImportsFilesOfTheirFolder) {
+  CsgEnvironment environment;
+  environment.read = [](const std::string& path) -> Result<std::string> {
+    if (path == "a.svg")
+      return std::string("<svg viewBox='0 0 9 9'><rect width='3' height='2'/></svg>");
+    if (path == "a.off")
+      return std::string(
+          "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    return Error{ErrorCode::kMalformedFile, "cannot read it", {}};
+  };
+  const auto import = [&](const std::string& text) {
+    return parse_csg("m.csg", "import(" + text + ");", environment);
+  };
+  const auto drawing = import(
+      "file = \"a.svg\", origin = [0, 0], dpi = 25.4, scale = 1, "
+      "center = true, convexity = 1, timestamp = -5");
+  ASSERT_TRUE(drawing);
+  EXPECT_NEAR(drawing->shape.area(), 6, 1e-9);
+  EXPECT_EQ(drawing->shape.bounds()[0], glm::dvec2(-1.5, -1));
+  const auto mesh = import("file = \"a.off\"");
+  ASSERT_TRUE(mesh);
+  EXPECT_EQ(mesh->solid->mesh()->face_count(), 4u);
+  const auto missing = import("file = \"b.svg\"");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().message, "import: cannot read it");
+  EXPECT_EQ(import("file = \"b.nef3\"").error().message,
+            "import: \"b.nef3\" has none of the endings .stl, .off, .obj, .ply, .svg, .dxf");
+}
+
 TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
   const std::string tetra =
       "polyhedron(points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]], ";
@@ -245,8 +301,8 @@ TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
 TEST(CsgFile, ErrorsHaveTheirLine) {
   EXPECT_EQ(error("group() {\n" + kCube + "\troof() {\n" + kSquare + "}\n}"),
             "m.csg:3: roof() is not supported in .csg files");
-  EXPECT_EQ(error("\ntext(text = \"a\"\", size = 10, font = \"x\");"),
-            "m.csg:2: text() is not supported in .csg files");
+  EXPECT_EQ(error("\nsurface(file = \"x.png\", center = false);"),
+            "m.csg:2: surface() is not supported in .csg files");
   EXPECT_EQ(sketch(parse("hull();\nminkowski(convexity = 0);\n").solid), "empty");
   EXPECT_EQ(error("cuboid(size = 1);"), "m.csg:1: unknown node cuboid()");
   EXPECT_EQ(error("cube(size = [1, 2], center = false);"),

@@ -35,10 +35,11 @@ class Shape2D {
   };
 
   Shape2D() = default;  ///< the empty region
-  /// Any outlines, under the even-odd rule; snapped to the 2D grid, cleaned. Outlines that enclose
-  /// nothing give the empty shape. Errors: kInvalidArgument for coordinates that are not finite,
-  /// kOutOfRange beyond 1e12 mm.
-  static Result<Shape2D> from_outlines(const std::vector<Loop>& outlines);
+  /// Any outlines, by default under the even-odd rule; snapped to the 2D grid, cleaned. Outlines
+  /// that enclose nothing give the empty shape. Errors: kInvalidArgument for coordinates that are
+  /// not finite, kOutOfRange beyond 1e12 mm.
+  static Result<Shape2D> from_outlines(const std::vector<Loop>& outlines,
+                                       FillRule fill = FillRule::kEvenOdd);
 
   [[nodiscard]] const std::vector<Loop>& loops() const;
   /// In the order of their outer loops; each loop is in exactly one region.

@@ -20,6 +20,7 @@ enum class OffsetJoin : uint8_t {
   kRound,    ///< OpenSCAD's `r`: an arc about the corner, in steps of 360 / fragments(|distance|)
   kMitre,    ///< OpenSCAD's `delta`: edges run on until they meet
   kChamfer,  ///< with `chamfer`: cut square, at the distance from the corner
+  kBevel,    ///< cut straight between the moved edges (strokes of SVG)
 };
 
 struct OffsetOptions {
@@ -32,6 +33,20 @@ struct OffsetOptions {
 /// thinner than twice an inward distance vanishes; mitres that would reach farther than 10^6 times
 /// the distance are chamfered. Errors: kInvalidArgument (not finite), kOutOfRange, kLimit.
 Result<Shape2D> offset_shape(const Shape2D& shape, const OffsetOptions& options);
+
+enum class StrokeCap : uint8_t { kButt, kRound, kSquare };
+
+struct StrokeOptions {
+  double width = 1;  ///< mm
+  StrokeCap cap = StrokeCap::kButt;
+  OffsetJoin join = OffsetJoin::kMitre;
+  double mitre_limit = 4;  ///< of half widths; beyond it a bevel
+  Facets facets;           ///< of round joins and caps
+};
+
+/// The area that a pen of this width covers along an open line; empty for a line of no length.
+/// Errors: kInvalidArgument (not finite, width not positive), kOutOfRange, kLimit.
+Result<Shape2D> stroke_shape(const Shape2D::Loop& line, const StrokeOptions& options);
 
 /// The smallest convex shape that contains all of them; empty ones count for nothing.
 Result<Shape2D> hull_of_shapes(const std::vector<Shape2D>& shapes);

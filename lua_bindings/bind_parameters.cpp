@@ -1,0 +1,145 @@
+// param and var: values that a model takes from outside.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "lua_bindings/api.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/parameters.h"
+#include "lua_bindings/session.h"
+
+namespace csgrun {
+namespace {
+
+using T = ArgumentType;
+
+constexpr Option kParamOptions[] = {
+    {"name", T::kString, "", "name, for -D name=value", true},
+    {"default", T::kValue, "", "a number, true or false, a string or a list of numbers", true},
+    {"min", T::kNumber, "", "least value", false},
+    {"max", T::kNumber, "", "greatest value", false},
+    {"step", T::kNumber, "", "values are whole steps from min (or from 0)", false,
+     Range::kPositive},
+    {"choices", T::kValue, "", "list of the values that it may have", false},
+    {"doc", T::kString, "", "what it means", false},
+};
+constexpr FunctionSpec kParam{
+    "param", "A parameter of the model: its default, or what -D name=value or a file of -p says.",
+    kParamOptions, false, "param(\"hole_radius\", 4, {min = 1, max = 10})"};
+
+constexpr Option kVarOptions[] = {
+    {"doc", T::kString, "", "what it means; -D \"doc=value\" sets it by this", true},
+    {"default", T::kValue, "", "a number, true or false, a string or a list of numbers", true},
+};
+constexpr FunctionSpec kVar{"var", "A parameter of the model, as LuaCAD writes it.", kVarOptions,
+                            false, "var(\"Radius of the hole\", 4)"};
+
+std::vector<ParameterValue> read_choices(lua_State* L, const Arguments& arguments,
+                                         const Parameter& parameter) {
+  const int index = arguments.stack_index("choices");
+  if (index == 0) return {};
+  const lua_Integer length = lua_istable(L, index) ? list_length(L, index) : -1;
+  if (length < 1)
+    fail_in(kParam, "option 'choices' must be a list of values, got " + describe_value(L, index));
+  std::vector<ParameterValue> choices;
+  for (lua_Integer i = 1; i <= length; ++i) {
+    lua_rawgeti(L, index, i);
+    const auto choice = parameter_value(L, lua_gettop(L));
+    if (!choice || choice->index() != parameter.fallback.index()) {
+      fail_in(kParam, fmt::format("choice {} of '{}' must be {}, as its default is, got {}", i,
+                                  parameter.name, parameter_type(parameter.fallback),
+                                  describe_value(L, -1)));
+    }
+    choices.push_back(*choice);
+    lua_pop(L, 1);
+  }
+  return choices;
+}
+
+/// Pushes the value of a parameter whose default is at index `fallback`.
+void push_parameter(lua_State* L, const FunctionSpec& spec, Parameter parameter, int fallback) {
+  if (const std::string problem = check_parameter(parameter, parameter.fallback);
+      !problem.empty()) {
+    fail_in(spec, "the default of '" + parameter.name + "' " + problem);
+  }
+  Session& session = session_of(L);
+  const bool is_known =
+      std::any_of(session.parameters.begin(), session.parameters.end(),
+                  [&](const Parameter& known) { return known.name == parameter.name; });
+  if (!is_known) session.parameters.push_back(parameter);
+  const Definition* definition = nullptr;  // the last of a name counts
+  for (Definition& candidate : session.definitions) {
+    if (candidate.name != parameter.name) continue;
+    candidate.used = true;
+    definition = &candidate;
+  }
+  if (definition == nullptr) {
+    lua_pushvalue(L, fallback);
+    return;
+  }
+  const auto value = parse_definition(L, parameter.fallback, *definition);
+  const std::string problem =
+      value ? check_parameter(parameter, *value) : "must be " + parameter_type(parameter.fallback);
+  if (!problem.empty()) {
+    session.definition_error = fmt::format("{} {}={}: '{}' {}", definition->origin, parameter.name,
+                                           definition->text, parameter.name, problem);
+    throw ScriptError(*session.definition_error);
+  }
+  push_parameter_value(L, *value);
+}
+
+/// The name and default that both functions take.
+Parameter read_parameter(lua_State* L, const Arguments& arguments, const FunctionSpec& spec,
+                         const char* name) {
+  Parameter parameter;
+  parameter.name = arguments.string(name, "");
+  const int fallback = arguments.stack_index("default");
+  if (parameter.name.empty() || fallback == 0) fail_in(spec, "needs a name and a default value");
+  const auto value = parameter_value(L, fallback);
+  if (!value) {
+    fail_in(spec, "the default of '" + parameter.name +
+                      "' must be a number, true or false, a string or a list of numbers, got " +
+                      describe_value(L, fallback));
+  }
+  parameter.fallback = *value;
+  return parameter;
+}
+
+int param(lua_State* L) {
+  const Arguments arguments(L, kParam, 1);
+  Parameter parameter = read_parameter(L, arguments, kParam, "name");
+  const bool is_text = std::holds_alternative<bool>(parameter.fallback) ||
+                       std::holds_alternative<std::string>(parameter.fallback);
+  for (const char* range : {"min", "max", "step"}) {
+    if (is_text && arguments.has(range)) {
+      fail_in(kParam, fmt::format("option '{}' goes with numbers, and the default of '{}' is {}",
+                                  range, parameter.name, parameter_type(parameter.fallback)));
+    }
+  }
+  if (arguments.has("min")) parameter.min = arguments.number("min", 0);
+  if (arguments.has("max")) parameter.max = arguments.number("max", 0);
+  if (arguments.has("step")) parameter.step = arguments.number("step", 1);
+  parameter.doc = arguments.string("doc", "");
+  parameter.choices = read_choices(L, arguments, parameter);
+  push_parameter(L, kParam, std::move(parameter), arguments.stack_index("default"));
+  return 1;
+}
+
+int var(lua_State* L) {
+  const Arguments arguments(L, kVar, 1);
+  Parameter parameter = read_parameter(L, arguments, kVar, "doc");
+  parameter.doc = parameter.name;
+  push_parameter(L, kVar, std::move(parameter), arguments.stack_index("default"));
+  return 1;
+}
+
+constexpr Binding kBindings[] = {
+    {&kParam, guarded<param>, nullptr, nullptr},
+    {&kVar, guarded<var>, nullptr, nullptr},
+};
+
+}  // namespace
+
+std::span<const Binding> parameter_bindings() { return kBindings; }
+
+}  // namespace csgrun

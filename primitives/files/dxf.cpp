@@ -1,0 +1,374 @@
+// DXF: entities become chains, chains that end in the same 1/1024 are joined to loops.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include <csgrun/primitives/flat_file.h>
+#include <csgrun/primitives/trig.h>
+
+#include "primitives/base/text.h"
+#include "primitives/files/dxf_records.h"
+#include "primitives/files/flat_curves.h"
+#include "primitives/files/flat_formats.h"
+#include "primitives/files/formats.h"
+
+namespace csgrun {
+namespace {
+
+constexpr int kDeepestInsert = 16;
+constexpr size_t kMostEntities = 200000;  // those of a block count for each time it is inserted
+
+struct Placement {
+  glm::dvec2 u{1, 0}, v{0, 1}, at{0, 0};
+  [[nodiscard]] glm::dvec2 apply(const glm::dvec2& p) const { return p.x * u + p.y * v + at; }
+};
+
+class DxfReader {
+ public:
+  DxfReader(const std::string& name, const FlatFileOptions& options, const DxfRecords& records)
+      : name_(name), options_(options), records_(records) {}
+
+  Result<FlatFile> read() {
+    Placement placement;
+    placement.u *= options_.scale;
+    placement.v *= options_.scale;
+    placement.at = -options_.scale * options_.origin;
+    if (auto status = entities(records_.entities, placement, "", 0); !status) return status.error();
+    if (!options_.layer.empty() && !found_layer_) {
+      return invalid_argument(name_ + ": there is no layer " + csgrun::quoted(options_.layer));
+    }
+    std::vector<Shape2D::Loop> loops;
+    join(loops);
+    Result<Shape2D> shape = Shape2D::from_outlines(loops);
+    if (!shape) return Error{shape.error().code, name_ + ": " + shape.error().message, {}};
+    FlatFile file{*std::move(shape), {}};
+    for (const auto& [kind, count] : left_out_) {
+      file.notes.push_back(name_ + ": " + kind + " left out (" + std::to_string(count) + ")");
+    }
+    if (open_chains_ > 0) {
+      file.notes.push_back(name_ + ": " + std::to_string(open_chains_) +
+                           (open_chains_ == 1 ? " line is" : " lines are") +
+                           " not closed and left out; the first begins at (" +
+                           number_text(first_open_.x) + ", " + number_text(first_open_.y) + ")");
+    }
+    return file;
+  }
+
+ private:
+  static glm::dvec2 point(const DxfRecord& r, int x_code) {
+    return {r.number(x_code), r.number(x_code + 10)};
+  }
+
+  Status entities(const std::vector<DxfRecord>& list, const Placement& placement,
+                  const std::string& block_layer, int depth) {
+    for (size_t i = 0; i < list.size(); ++i) {
+      const DxfRecord& r = list[i];
+      if (++entities_ > kMostEntities) {
+        return Error{
+            ErrorCode::kLimit,
+            name_ + ": unfolds to more than " + std::to_string(kMostEntities) + " entities",
+            {}};
+      }
+      // What is on layer 0 of a block is on the layer of its insertion.
+      std::string layer = r.text(8);
+      if (layer.empty()) layer = "0";
+      if (layer == "0" && !block_layer.empty()) layer = block_layer;
+      const bool wanted = options_.layer.empty() || layer == options_.layer;
+      if (wanted) found_layer_ = true;
+      if (r.kind == "INSERT") {
+        if (auto status = insert(r, placement, layer, depth); !status) return status;
+        continue;
+      }
+      if (r.kind == "POLYLINE") {
+        const size_t first = i + 1;
+        while (i + 1 < list.size() && list[i + 1].kind == "VERTEX") ++i;
+        if (wanted) polyline(r, list, first, i + 1, placement);
+      } else if (wanted) {
+        draw(r, placement);
+      }
+      if (points_ > kMostDrawingPoints) {
+        return Error{
+            ErrorCode::kLimit,
+            name_ + ": unfolds to more than " + std::to_string(kMostDrawingPoints) + " points",
+            {}};
+      }
+    }
+    return std::monostate();
+  }
+
+  Status insert(const DxfRecord& r, const Placement& outer, const std::string& layer, int depth) {
+    const auto block = records_.blocks.find(r.text(2));
+    if (block == records_.blocks.end()) {
+      ++left_out_["INSERT of a block that is not there"];
+      return std::monostate();
+    }
+    if (depth >= kDeepestInsert) {
+      return Error{ErrorCode::kLimit,
+                   name_ + ": line " + std::to_string(r.line) + ": blocks are nested deeper than " +
+                       std::to_string(kDeepestInsert) + " (does one contain itself?)",
+                   {}};
+    }
+    const double c = cos_deg(r.number(50)), s = sin_deg(r.number(50));
+    const double sx = r.number(41, 1), sy = r.number(42, 1);
+    const auto count = [&](int code) { return std::clamp(r.number(code, 1), 1.0, 1e6); };
+    for (double row = 0; row < count(71); ++row) {
+      for (double column = 0; column < count(70); ++column) {
+        const glm::dvec2 step(column * r.number(44), row * r.number(45));
+        Placement inner;
+        inner.u = glm::dvec2(c, s) * sx;
+        inner.v = glm::dvec2(-s, c) * sy;
+        inner.at = point(r, 10) + glm::dvec2(c * step.x - s * step.y, s * step.x + c * step.y) -
+                   block->second.x * inner.u - block->second.y * inner.v;
+        Placement total;
+        total.at = outer.apply(inner.at);
+        total.u = outer.apply(inner.u) - outer.at;
+        total.v = outer.apply(inner.v) - outer.at;
+        if (++entities_ > kMostEntities) break;  // the next entity says so
+        if (auto status = entities(block->second.entities, total, layer, depth + 1); !status)
+          return status;
+      }
+    }
+    return std::monostate();
+  }
+
+  void add(Chain chain, const Placement& placement) {
+    for (glm::dvec2& p : chain.points) p = placement.apply(p);
+    points_ += chain.points.size();
+    if (chain.points.size() > 1) chains_.push_back(std::move(chain));
+  }
+
+  void draw(const DxfRecord& r, const Placement& placement) {
+    const std::string& kind = r.kind;
+    // An arc of one unit of radius is so large in the drawing.
+    const double scale =
+        std::sqrt(std::fabs(placement.u.x * placement.v.y - placement.u.y * placement.v.x));
+    Chain chain;
+    if (kind == "LINE") {
+      chain.points = {point(r, 10), point(r, 11)};
+    } else if (kind == "CIRCLE" || kind == "ARC") {
+      const double radius = r.number(40);
+      if (!(radius > 0)) return;
+      double sweep = 360;
+      if (kind == "ARC") {
+        sweep = r.number(51) - r.number(50);
+        while (sweep <= 0) sweep += 360;
+        while (sweep > 360) sweep -= 360;
+      }
+      chain.closed = sweep == 360;
+      append_ellipse(point(r, 10), {radius, 0}, {0, radius}, kind == "ARC" ? r.number(50) : 0,
+                     sweep, options_.facets.fragments(radius * scale, sweep), chain.points);
+    } else if (kind == "ELLIPSE") {
+      ellipse(r, scale, chain);
+    } else if (kind == "LWPOLYLINE") {
+      std::vector<Vertex> vertices;
+      for (const auto& [code, value] : r.values) {
+        DxfRecord one;
+        one.values.emplace_back(code, value);
+        if (code == 10) vertices.push_back({{one.number(10), 0}, 0});
+        if (code == 20 && !vertices.empty()) vertices.back().at.y = one.number(20);
+        if (code == 42 && !vertices.empty()) vertices.back().bulge = one.number(42);
+      }
+      chain = bulged(vertices, is_closed(r), scale);
+    } else if (kind == "SPLINE") {
+      spline(r, scale, chain);
+    } else {
+      if (kind != "SEQEND" && kind != "POINT" && kind != "VIEWPORT") ++left_out_[kind];
+      return;
+    }
+    add(std::move(chain), placement);
+  }
+
+  static bool is_closed(const DxfRecord& r) {
+    return (static_cast<int>(std::clamp(r.number(70), 0.0, 65535.0)) & 1) != 0;
+  }
+
+  struct Vertex {
+    glm::dvec2 at;
+    double bulge;
+  };
+
+  [[nodiscard]] Chain bulged(const std::vector<Vertex>& vertices, bool closed, double scale) const {
+    Chain chain;
+    chain.closed = closed;
+    if (vertices.empty()) return chain;
+    Facets facets = options_.facets;
+    facets.fs /= scale;  // the arc is measured before it is scaled
+    chain.points.push_back(vertices[0].at);
+    const size_t n = vertices.size();
+    for (size_t i = 0; i + 1 < n || (closed && i + 1 == n); ++i) {
+      append_bulge(vertices[i].at, vertices[(i + 1) % n].at, vertices[i].bulge, facets,
+                   chain.points);
+    }
+    if (closed && chain.points.size() > 1) chain.points.pop_back();
+    return chain;
+  }
+
+  void polyline(const DxfRecord& r, const std::vector<DxfRecord>& list, size_t first, size_t last,
+                const Placement& placement) {
+    std::vector<Vertex> vertices;
+    for (size_t i = first; i < last; ++i)
+      vertices.push_back({point(list[i], 10), list[i].number(42)});
+    const double scale =
+        std::sqrt(std::fabs(placement.u.x * placement.v.y - placement.u.y * placement.v.x));
+    add(bulged(vertices, is_closed(r), scale), placement);
+  }
+
+  void ellipse(const DxfRecord& r, double scale, Chain& chain) const {
+    constexpr double kDegrees = 180 / 3.14159265358979323846;
+    const glm::dvec2 major = point(r, 11);
+    const double ratio = r.number(40, 1), radius = std::sqrt(glm::dot(major, major));
+    if (!(radius > 0) || !(ratio > 0)) return;
+    // Angles are radians here; a hair beside a full turn is a full turn.
+    const double from = r.number(41) * kDegrees;
+    double sweep = r.number(42, 2 * 3.14159265358979323846) * kDegrees - from;
+    while (sweep <= 0) sweep += 360;
+    while (sweep > 360 + 1e-6) sweep -= 360;
+    if (std::fabs(sweep - 360) < 1e-6) sweep = 360;
+    chain.closed = sweep == 360;
+    append_ellipse(point(r, 10), major, ratio * glm::dvec2(-major.y, major.x), from, sweep,
+                   options_.facets.fragments(radius * std::max(ratio, 1.0) * scale, sweep),
+                   chain.points);
+  }
+
+  /// By de Boor's algorithm, with weights; each knot span in steps of its own.
+  void spline(const DxfRecord& r, double scale, Chain& chain) {
+    const auto degree = static_cast<int>(std::clamp(r.number(71, 3), 1.0, 15.0));
+    std::vector<double> knots, weights;
+    std::vector<glm::dvec2> control;
+    for (const auto& [code, value] : r.values) {
+      DxfRecord one;
+      one.values.emplace_back(code, value);
+      if (code == 40) knots.push_back(one.number(40));
+      if (code == 41) weights.push_back(one.number(41, 1));
+      if (code == 10) control.emplace_back(one.number(10), 0);
+      if (code == 20 && !control.empty()) control.back().y = one.number(20);
+    }
+    const size_t n = control.size();
+    const bool sound =
+        n > static_cast<size_t>(degree) && knots.size() == n + static_cast<size_t>(degree) + 1 &&
+        std::is_sorted(knots.begin(), knots.end()) && (weights.empty() || weights.size() == n);
+    if (!sound) {
+      ++left_out_["SPLINE without control points and knots"];
+      return;
+    }
+    weights.resize(n, 1);
+    double length = 0;
+    for (size_t i = 1; i < n; ++i) {
+      const glm::dvec2 d = control[i] - control[i - 1];
+      length += std::sqrt(glm::dot(d, d));
+    }
+    const size_t spans = n - static_cast<size_t>(degree);
+    const int steps = curve_steps(length * scale / static_cast<double>(spans), options_.facets);
+    for (auto k = static_cast<size_t>(degree); k < n; ++k) {
+      if (knots[k] == knots[k + 1]) continue;
+      for (int i = chain.points.empty() ? 0 : 1; i <= steps; ++i) {
+        const double t = knots[k] + (knots[k + 1] - knots[k]) * i / steps;
+        chain.points.push_back(spline_point(degree, knots, control, weights, k, t));
+      }
+      points_ += static_cast<size_t>(steps);
+      if (points_ > kMostDrawingPoints) return;
+    }
+  }
+
+  static glm::dvec2 spline_point(int degree, const std::vector<double>& knots,
+                                 const std::vector<glm::dvec2>& control,
+                                 const std::vector<double>& weights, size_t span, double t) {
+    struct Weighted {
+      glm::dvec2 p;
+      double w;
+    };
+    std::vector<Weighted> d;
+    const auto p = static_cast<size_t>(degree);
+    for (size_t j = 0; j <= p; ++j) {
+      const size_t i = j + span - p;
+      d.push_back({control[i] * weights[i], weights[i]});
+    }
+    for (size_t r = 1; r <= p; ++r) {
+      for (size_t j = p; j >= r; --j) {
+        const double low = knots[j + span - p], high = knots[j + 1 + span - r];
+        const double a = high > low ? (t - low) / (high - low) : 0;
+        d[j] = {d[j - 1].p * (1 - a) + d[j].p * a, d[j - 1].w * (1 - a) + d[j].w * a};
+      }
+    }
+    return d[p].p / d[p].w;
+  }
+
+  /// Closed chains are loops; open ones are joined end to end, from the first on.
+  void join(std::vector<Shape2D::Loop>& loops) {
+    using Key = std::pair<int64_t, int64_t>;
+    const auto key = [](const glm::dvec2& p) {
+      constexpr double kMost = 9e15;
+      return Key(std::llround(std::clamp(p.x * 1024, -kMost, kMost)),
+                 std::llround(std::clamp(p.y * 1024, -kMost, kMost)));
+    };
+    std::multimap<Key, size_t> ends;  // of open chains: equal keys stay in order
+    std::vector<bool> used(chains_.size(), false);
+    for (size_t i = 0; i < chains_.size(); ++i) {
+      Chain& chain = chains_[i];
+      if (chain.closed || key(chain.points.front()) == key(chain.points.back())) {
+        used[i] = true;
+        loops.push_back(std::move(chain.points));
+        continue;
+      }
+      ends.emplace(key(chain.points.front()), i);
+      ends.emplace(key(chain.points.back()), i);
+    }
+    const auto find_next = [&](const glm::dvec2& p) -> std::optional<size_t> {
+      const auto [begin, end] = ends.equal_range(key(p));
+      for (auto e = begin; e != end; ++e) {
+        if (!used[e->second]) return e->second;
+      }
+      return std::nullopt;
+    };
+    for (size_t i = 0; i < chains_.size(); ++i) {
+      if (used[i]) continue;
+      used[i] = true;
+      Shape2D::Loop line = chains_[i].points;
+      // Both ways, so that it does not matter where in an open line the first chain lies.
+      for (int side = 0; side < 2; ++side) {
+        while (key(line.front()) != key(line.back())) {
+          const auto next = find_next(line.back());
+          if (!next) break;
+          used[*next] = true;
+          Shape2D::Loop& more = chains_[*next].points;
+          if (key(more.front()) != key(line.back())) std::reverse(more.begin(), more.end());
+          line.insert(line.end(), more.begin() + 1, more.end());
+        }
+        std::reverse(line.begin(), line.end());
+      }
+      if (key(line.front()) == key(line.back())) {
+        line.pop_back();
+        loops.push_back(std::move(line));
+      } else if (open_chains_++ == 0) {
+        first_open_ = line.front();
+      }
+    }
+  }
+
+  const std::string& name_;
+  const FlatFileOptions& options_;
+  const DxfRecords& records_;
+  std::vector<Chain> chains_;
+  std::map<std::string, size_t> left_out_;
+  size_t entities_ = 0, points_ = 0, open_chains_ = 0;
+  glm::dvec2 first_open_{};
+  bool found_layer_ = false;
+};
+
+}  // namespace
+
+Result<FlatFile> parse_dxf(const std::string& name, std::string_view bytes,
+                           const FlatFileOptions& options) {
+  if (!std::isfinite(options.scale) || options.scale == 0) {
+    return invalid_argument("import: scale must be a number other than 0");
+  }
+  const Result<DxfRecords> records = read_dxf_records(name, bytes);
+  if (!records) return records.error();
+  return DxfReader(name, options, *records).read();
+}
+
+}  // namespace csgrun

@@ -1,0 +1,37 @@
+#include <csgrun/primitives/flat_file.h>
+
+#include "primitives/base/text.h"
+#include "primitives/files/flat_formats.h"
+
+namespace csgrun {
+
+std::string flat_file_format_of(const std::string& path) {
+  for (const char* format : {"svg", "dxf"}) {
+    if (path.size() < 4 || path[path.size() - 4] != '.') continue;
+    std::string ending = path.substr(path.size() - 3);
+    for (char& c : ending) {
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    if (ending == format) return ending;
+  }
+  return {};
+}
+
+Result<FlatFile> parse_flat(const std::string& name, std::string_view bytes,
+                            const FlatFileOptions& options) {
+  const std::string format = flat_file_format_of(name);
+  if (format.empty()) return invalid_argument(name + ": the ending is none of .svg, .dxf");
+  Result<FlatFile> file =
+      format == "svg" ? parse_svg(name, bytes, options) : parse_dxf(name, bytes, options);
+  if (!file || !options.center || file->shape.empty()) return file;
+  const auto [low, high] = file->shape.bounds();
+  Affine map;
+  map.m[0][3] = -(low.x + high.x) / 2;
+  map.m[1][3] = -(low.y + high.y) / 2;
+  Result<Shape2D> moved = file->shape.transformed(map);
+  if (!moved) return moved.error();
+  file->shape = *std::move(moved);
+  return file;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,447 @@
+// SVG: the document is walked once, with the transform, the fill and the stroke of each element.
+//
+// Every element gives a shape of its own by its own fill rule, and the result is their union: the
+// order of painting has no meaning for area. Sizes follow OpenSCAD: with a viewBox its width is the
+// page's; else a user unit is 1/dpi inch.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <pugixml.hpp>
+
+#include <csgrun/primitives/flat_file.h>
+#include <csgrun/primitives/shape_operations.h>
+
+#include "primitives/base/text.h"
+#include "primitives/files/flat_formats.h"
+#include "primitives/files/formats.h"
+#include "primitives/files/svg_path.h"
+
+namespace csgrun {
+namespace {
+
+constexpr int kDeepest = 200;             // groups in groups
+constexpr size_t kMostElements = 200000;  // a `use` counts what it shows
+constexpr double kMmPerInch = 25.4;
+
+/// What an element hands down to those in it.
+struct Style {
+  std::string fill = "black", stroke = "none", fill_rule = "nonzero";
+  std::string cap = "butt", join = "miter";
+  double stroke_width = 1, mitre_limit = 4;
+  bool visible = true;
+};
+
+class SvgReader {
+ public:
+  SvgReader(const std::string& name, const FlatFileOptions& options)
+      : name_(name), options_(options) {}
+
+  Result<FlatFile> read(std::string_view bytes) {
+    if (bytes.find("<!ENTITY") != std::string_view::npos) {
+      return malformed(name_, "", "entities are refused: <!ENTITY> in a drawing is of no good");
+    }
+    pugi::xml_document document;
+    const pugi::xml_parse_result parsed = document.load_buffer(bytes.data(), bytes.size());
+    if (!parsed) return malformed(name_, place(bytes, parsed.offset), parsed.description());
+    const pugi::xml_node root = document.document_element();
+    if (plain_name(root) != "svg") return malformed(name_, "", "the root element is not <svg>");
+    if (auto status = index(root); !status) return status.error();
+    SvgMap map;
+    if (auto status = page(root, map); !status) return status.error();
+    if (auto status =
+            children(root, map, Style(), options_.id.empty() && options_.layer.empty(), 0);
+        !status) {
+      return status.error();
+    }
+    if (!found_) {
+      const bool by_id = !options_.id.empty();
+      return invalid_argument(name_ + ": there is no " +
+                              (by_id ? "element of id " + csgrun::quoted(options_.id)
+                                     : "layer " + csgrun::quoted(options_.layer)));
+    }
+    Result<Shape2D> all = Shape2D::boolean(BooleanOp::kUnion, shapes_);
+    if (!all) return all.error();
+    FlatFile file{*std::move(all), {}};
+    for (const auto& [what, count] : left_out_) {
+      file.notes.push_back(name_ + ": " + what + " left out (" + std::to_string(count) + ")");
+    }
+    return file;
+  }
+
+ private:
+  static std::string place(std::string_view bytes, ptrdiff_t offset) {
+    const auto line =
+        1 + std::count(bytes.begin(), bytes.begin() + std::max<ptrdiff_t>(offset, 0), '\n');
+    return "line " + std::to_string(line);
+  }
+
+  /// The name without its namespace.
+  static std::string plain_name(const pugi::xml_node& node) {
+    const char* name = node.name();
+    const char* colon = std::strrchr(name, ':');
+    return colon != nullptr ? colon + 1 : name;
+  }
+
+  void leave_out(const std::string& what) { ++left_out_[what]; }
+
+  /// Elements by id, for `use`.
+  Status index(const pugi::xml_node& root) {
+    size_t count = 0;
+    // In the order of the document, without recursion.
+    for (pugi::xml_node node = root; node;) {
+      if (node.type() == pugi::node_element) {
+        if (++count > kMostElements) return limit("elements", kMostElements);
+        if (const char* id = node.attribute("id").value(); *id != '\0') by_id_.emplace(id, node);
+      }
+      if (node.first_child()) {
+        node = node.first_child();
+        continue;
+      }
+      while (node && node != root && !node.next_sibling()) node = node.parent();
+      node = !node || node == root ? pugi::xml_node() : node.next_sibling();
+    }
+    return std::monostate();
+  }
+
+  [[nodiscard]] Error limit(const char* what, size_t most) const {
+    return Error{ErrorCode::kLimit,
+                 name_ + ": unfolds to more than " + std::to_string(most) + " " + what,
+                 {}};
+  }
+
+  /// Millimetres; percentages are of `whole`, in user units.
+  std::optional<double> to_mm(const char* text, std::optional<double> whole) const {
+    const auto length = parse_svg_length(text);
+    if (!length) return std::nullopt;
+    const double n = length->number;
+    if (length->unit.empty()) return n * kMmPerInch / options_.dpi;
+    if (length->unit == "mm") return n;
+    if (length->unit == "cm") return n * 10;
+    if (length->unit == "in") return n * kMmPerInch;
+    if (length->unit == "pt") return n * kMmPerInch / 72;
+    if (length->unit == "pc") return n * kMmPerInch / 6;
+    if (length->unit == "px") return n * kMmPerInch / 96;
+    if (length->unit == "%" && whole) return n / 100 * *whole * kMmPerInch / options_.dpi;
+    return std::nullopt;
+  }
+
+  /// From user units to mm, with Y upwards.
+  Status page(const pugi::xml_node& root, SvgMap& map) {
+    std::vector<double> box;
+    if (const pugi::xml_attribute view = root.attribute("viewBox")) {
+      box = parse_svg_numbers(view.value()).value_or(std::vector<double>());
+      if (box.size() != 4 || !(box[2] > 0) || !(box[3] > 0)) {
+        return malformed(name_, "",
+                         "viewBox must be four numbers with a positive size, got " +
+                             csgrun::quoted(view.value()));
+      }
+    }
+    const auto size = [&](const char* side, size_t i) -> Result<std::optional<double>> {
+      const pugi::xml_attribute attribute = root.attribute(side);
+      if (!attribute) return std::optional<double>();
+      std::optional<double> whole;
+      if (!box.empty()) whole = box[i];
+      const std::optional<double> mm = to_mm(attribute.value(), whole);
+      const bool percent = std::strchr(attribute.value(), '%') != nullptr;
+      if (!mm && percent) return mm;
+      if (!mm || !(*mm > 0) || !std::isfinite(*mm)) {
+        return malformed(name_, "",
+                         std::string(side) + " must be a positive length, got " +
+                             csgrun::quoted(attribute.value()));
+      }
+      return mm;
+    };
+    const auto width = size("width", 2), height = size("height", 3);
+    if (!width) return width.error();
+    if (!height) return height.error();
+    const double unit = kMmPerInch / options_.dpi;
+    if (box.empty()) {
+      map = {unit, 0, 0, -unit, 0, height->value_or(0)};
+      return std::monostate();
+    }
+    double sx = width->has_value() ? **width / box[2] : unit;
+    double sy = height->has_value() ? **height / box[3] : unit;
+    if (!width->has_value() && height->has_value()) sx = sy;
+    if (width->has_value() && !height->has_value()) sy = sx;
+    const double page_height = height->has_value() ? **height : sy * box[3];
+    const double page_width = width->has_value() ? **width : sx * box[2];
+    glm::dvec2 align(0);
+    const std::string keep = root.attribute("preserveAspectRatio").as_string("xMidYMid");
+    if (keep.find("none") == std::string::npos) {
+      sx = sy = keep.find("slice") != std::string::npos ? std::max(sx, sy) : std::min(sx, sy);
+      const auto part = [&](const char* low, const char* high) {
+        return keep.find(low) != std::string::npos    ? 0.0
+               : keep.find(high) != std::string::npos ? 1.0
+                                                      : 0.5;
+      };
+      align = {part("xMin", "xMax") * (page_width - sx * box[2]),
+               part("YMin", "YMax") * (page_height - sy * box[3])};
+    }
+    map = {sx, 0, 0, -sy, align.x - sx * box[0], page_height - align.y + sy * box[1]};
+    return std::monostate();
+  }
+
+  Status children(const pugi::xml_node& parent, const SvgMap& map, const Style& style, bool shown,
+                  int depth) {
+    for (const pugi::xml_node& child : parent.children()) {
+      if (child.type() != pugi::node_element) continue;
+      if (auto status = element(child, map, style, shown, depth); !status) return status;
+    }
+    return std::monostate();
+  }
+
+  /// Whether an element is the one asked for by id or layer.
+  bool is_wanted(const pugi::xml_node& node) const {
+    if (!options_.id.empty()) return options_.id == node.attribute("id").value();
+    return !options_.layer.empty() &&
+           std::strcmp(node.attribute("inkscape:groupmode").value(), "layer") == 0 &&
+           options_.layer == node.attribute("inkscape:label").value();
+  }
+
+  Status element(const pugi::xml_node& node, const SvgMap& outer, const Style& inherited,
+                 bool shown, int depth) {
+    if (depth > kDeepest) {
+      return Error{ErrorCode::kLimit,
+                   name_ + ": elements are nested deeper than " + std::to_string(kDeepest),
+                   {}};
+    }
+    if (++elements_ > kMostElements) return limit("elements", kMostElements);
+    const std::string kind = plain_name(node);
+    if (kind == "defs" || kind == "symbol" || kind == "clipPath" || kind == "mask" ||
+        kind == "marker" || kind == "pattern" || kind == "style" || kind == "metadata" ||
+        kind == "namedview" || kind == "title" || kind == "desc" || kind == "script") {
+      // Where only one element is wanted, it may stand among the definitions.
+      const bool look = !shown && (kind == "defs" || kind == "symbol");
+      return look ? children(node, outer, inherited, false, depth + 1) : std::monostate();
+    }
+    SvgMap map = outer;
+    if (const pugi::xml_attribute transform = node.attribute("transform")) {
+      const auto inner = parse_svg_transform(transform.value());
+      if (!inner) {
+        return malformed(name_, "<" + kind + ">",
+                         "no transform: " + csgrun::quoted(transform.value()));
+      }
+      map = outer.after(*inner);
+    }
+    Style style = inherited;
+    read_style(node, style);
+    const bool hidden = std::strcmp(node.attribute("display").value(), "none") == 0 ||
+                        property(node, "display") == "none";
+    if (hidden && !is_wanted(node)) return std::monostate();
+    if (is_wanted(node)) shown = true;
+    if (shown) found_ = true;
+    if (kind == "g" || kind == "a" || kind == "switch") {
+      return children(node, map, style, shown, depth + 1);
+    }
+    if (kind == "svg") {
+      map = map.after({1, 0, 0, 1, number(node, "x"), number(node, "y")});
+      return children(node, map, style, shown, depth + 1);
+    }
+    if (kind == "use") return use(node, map, style, shown, depth);
+    if (!shown || !style.visible) return std::monostate();
+    return draw(node, kind, map, style);
+  }
+
+  Status use(const pugi::xml_node& node, const SvgMap& outer, const Style& style, bool shown,
+             int depth) {
+    if (!shown) return std::monostate();
+    pugi::xml_attribute link = node.attribute("href");
+    if (!link) link = node.attribute("xlink:href");
+    const char* text = link.value();
+    if (*text != '#') {
+      return malformed(name_, "<use>",
+                       "only elements of the same file can be used, got " + csgrun::quoted(text));
+    }
+    const auto target = by_id_.find(text + 1);
+    if (target == by_id_.end()) {
+      leave_out("a <use> of " + csgrun::quoted(text) + ", which is not there,");
+      return std::monostate();
+    }
+    const SvgMap map = outer.after({1, 0, 0, 1, number(node, "x"), number(node, "y")});
+    if (plain_name(target->second) == "symbol") {
+      return children(target->second, map, style, shown, depth + 1);
+    }
+    return element(target->second, map, style, shown, depth + 1);
+  }
+
+  /// A property of the attribute `style`, or an attribute of that name.
+  static std::string property(const pugi::xml_node& node, const std::string& name) {
+    const std::string style = node.attribute("style").value();
+    for (size_t begin = 0; begin < style.size();) {
+      const size_t end = std::min(style.find(';', begin), style.size());
+      const size_t colon = style.find(':', begin);
+      if (colon < end && trimmed(style.substr(begin, colon - begin)) == name)
+        return trimmed(style.substr(colon + 1, end - colon - 1));
+      begin = end + 1;
+    }
+    return trimmed(node.attribute(name.c_str()).value());
+  }
+
+  static std::string trimmed(const std::string& text) {
+    constexpr const char* kBlanks = " \t\n\r";
+    const size_t begin = text.find_first_not_of(kBlanks);
+    if (begin == std::string::npos) return {};
+    return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+  }
+
+  static void read_style(const pugi::xml_node& node, Style& style) {
+    const auto take = [&](const char* name, std::string& value) {
+      const std::string given = property(node, name);
+      if (!given.empty() && given != "inherit") value = given;
+    };
+    take("fill", style.fill);
+    take("stroke", style.stroke);
+    take("fill-rule", style.fill_rule);
+    take("stroke-linecap", style.cap);
+    take("stroke-linejoin", style.join);
+    std::string text;
+    take("stroke-width", text);
+    if (const auto width = parse_svg_length(text)) style.stroke_width = width->number;
+    text.clear();
+    take("stroke-miterlimit", text);
+    if (const auto limit = parse_svg_length(text)) style.mitre_limit = limit->number;
+    text.clear();
+    take("visibility", text);
+    if (!text.empty()) style.visible = text == "visible";
+  }
+
+  /// A length in user units.
+  double number(const pugi::xml_node& node, const char* name, double otherwise = 0) const {
+    const auto length = parse_svg_length(node.attribute(name).value());
+    if (!length) return otherwise;
+    const auto& unit = length->unit;
+    const double per_mm = options_.dpi / kMmPerInch;
+    return unit == "mm"   ? length->number * per_mm
+           : unit == "cm" ? length->number * per_mm * 10
+           : unit == "in" ? length->number * options_.dpi
+                          : length->number;
+  }
+
+  Status draw(const pugi::xml_node& node, const std::string& kind, const SvgMap& map,
+              const Style& style) {
+    const double mm = map.scale();
+    std::vector<Chain> chains;
+    bool good = true;
+    if (kind == "path") {
+      chains = parse_svg_path(node.attribute("d").value(), mm, options_.facets, good);
+    } else if (kind == "rect") {
+      rectangle(node, mm, chains);
+    } else if (kind == "circle" || kind == "ellipse") {
+      const bool circle = kind == "circle";
+      const double rx = number(node, circle ? "r" : "rx"), ry = circle ? rx : number(node, "ry");
+      const glm::dvec2 center(number(node, "cx"), number(node, "cy"));
+      if (rx > 0 && ry > 0) {
+        Chain& chain = chains.emplace_back();
+        chain.closed = true;
+        append_ellipse(center, {rx, 0}, {0, ry}, 0, 360,
+                       options_.facets.fragments(std::max(rx, ry) * mm), chain.points);
+      }
+    } else if (kind == "line") {
+      chains.push_back(
+          {{{number(node, "x1"), number(node, "y1")}, {number(node, "x2"), number(node, "y2")}},
+           false});
+    } else if (kind == "polyline" || kind == "polygon") {
+      const auto numbers = parse_svg_numbers(node.attribute("points").value());
+      good = numbers.has_value();
+      Chain chain;
+      chain.closed = kind == "polygon";
+      for (size_t i = 0; numbers && i + 1 < numbers->size(); i += 2)
+        chain.points.emplace_back((*numbers)[i], (*numbers)[i + 1]);
+      chains.push_back(std::move(chain));
+    } else {
+      if (kind == "text" || kind == "image" || kind == "foreignObject") leave_out("<" + kind + ">");
+      return std::monostate();
+    }
+    if (!good) leave_out("the rest of a damaged <" + kind + ">");
+    return add(chains, map, style);
+  }
+
+  void rectangle(const pugi::xml_node& node, double mm, std::vector<Chain>& chains) const {
+    const double x = number(node, "x"), y = number(node, "y");
+    const double w = number(node, "width"), h = number(node, "height");
+    if (!(w > 0) || !(h > 0)) return;
+    double rx = number(node, "rx", -1), ry = number(node, "ry", -1);
+    if (rx < 0) rx = ry;
+    if (ry < 0) ry = rx;
+    rx = std::clamp(rx, 0.0, w / 2);
+    ry = std::clamp(ry, 0.0, h / 2);
+    Chain& chain = chains.emplace_back();
+    chain.closed = true;
+    if (rx == 0 || ry == 0) {
+      chain.points = {{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}};
+      return;
+    }
+    const int steps = (options_.facets.fragments(std::max(rx, ry) * mm) + 3) / 4;
+    for (int corner = 0; corner < 4; ++corner) {
+      const glm::dvec2 center(corner == 1 || corner == 2 ? x + rx : x + w - rx,
+                              corner >= 2 ? y + ry : y + h - ry);
+      append_ellipse(center, {rx, 0}, {0, ry}, 90.0 * corner, 90, steps, chain.points);
+    }
+  }
+
+  Status add(const std::vector<Chain>& chains, const SvgMap& map, const Style& style) {
+    std::vector<Shape2D::Loop> loops;
+    for (const Chain& chain : chains) {
+      Shape2D::Loop loop;
+      for (const glm::dvec2& p : chain.points) loop.push_back(map.apply(p));
+      points_ += loop.size();
+      if (points_ > kMostDrawingPoints) return limit("points", kMostDrawingPoints);
+      // An open line without a fill is area by its stroke only.
+      const bool ends_meet = loop.size() > 2 && loop.front() == loop.back();
+      if (!chain.closed && !ends_meet && (style.fill == "none" || loop.size() < 3)) {
+        if (style.stroke == "none") continue;
+        if (auto status = stroke(loop, map, style); !status) return status;
+      } else if (loop.size() >= 3) {
+        loops.push_back(std::move(loop));
+      }
+    }
+    if (loops.empty()) return std::monostate();
+    Result<Shape2D> shape = Shape2D::from_outlines(
+        loops, style.fill_rule == "evenodd" ? FillRule::kEvenOdd : FillRule::kNonZero);
+    if (!shape) return Error{shape.error().code, name_ + ": " + shape.error().message, {}};
+    shapes_.push_back(*std::move(shape));
+    return std::monostate();
+  }
+
+  Status stroke(const Shape2D::Loop& line, const SvgMap& map, const Style& style) {
+    StrokeOptions options;
+    options.width = style.stroke_width * map.scale();
+    options.cap = style.cap == "round"    ? StrokeCap::kRound
+                  : style.cap == "square" ? StrokeCap::kSquare
+                                          : StrokeCap::kButt;
+    options.join = style.join == "round"   ? OffsetJoin::kRound
+                   : style.join == "bevel" ? OffsetJoin::kBevel
+                                           : OffsetJoin::kMitre;
+    options.mitre_limit = style.mitre_limit;
+    options.facets = options_.facets;
+    Result<Shape2D> shape = stroke_shape(line, options);
+    if (!shape) return Error{shape.error().code, name_ + ": " + shape.error().message, {}};
+    points_ += line.size();
+    shapes_.push_back(*std::move(shape));
+    return std::monostate();
+  }
+
+  const std::string& name_;
+  const FlatFileOptions& options_;
+  std::map<std::string, pugi::xml_node, std::less<>> by_id_;
+  std::vector<Shape2D> shapes_;
+  std::map<std::string, size_t> left_out_;
+  size_t elements_ = 0, points_ = 0;
+  bool found_ = false;
+};
+
+}  // namespace
+
+Result<FlatFile> parse_svg(const std::string& name, std::string_view bytes,
+                           const FlatFileOptions& options) {
+  if (!(options.dpi > 0) || !std::isfinite(options.dpi)) {
+    return not_positive("import", "dpi", options.dpi);
+  }
+  return SvgReader(name, options).read(bytes);
+}
+
+}  // namespace csgrun

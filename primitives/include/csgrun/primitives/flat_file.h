@@ -1,0 +1,46 @@
+// 2D shapes from files: SVG and DXF.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/primitives/shape2d.h>
+#include <csgrun/primitives/solids.h>
+
+namespace csgrun {
+
+struct FlatFileOptions {
+  std::string layer;    ///< only this layer; empty: all
+  std::string id;       ///< SVG: only the element of that id, and what is in it
+  double dpi = 72;      ///< SVG: user units an inch where the file gives no size
+  glm::dvec2 origin{};  ///< DXF: this point of the drawing becomes (0, 0)
+  double scale = 1;     ///< DXF
+  bool center = false;  ///< the middle of the bounding box becomes (0, 0)
+  Facets facets;        ///< of arcs and curves
+};
+
+struct FlatFile {
+  Shape2D shape;
+  std::vector<std::string> notes;  ///< what was left out, counted
+};
+
+/// An SVG in mm, its page's lower left corner in the origin: paths, basic shapes, groups, use,
+/// transforms, viewBox, sizes in units. What is filled or closed is area by its fill rule; open
+/// lines that are only stroked give the area of their stroke. A DXF as drawn: LINE, LWPOLYLINE and
+/// POLYLINE with bulges, CIRCLE, ARC, ELLIPSE, SPLINE, INSERT; ends that round to the same
+/// 1/1024 are joined, and the loops filled by the even-odd rule; what stays open is left out.
+///
+/// Errors: kMalformedFile with line or byte, kLimit for files that unfold to too much (nested
+/// references, millions of points), kInvalidArgument for a layer or id that is not in the file.
+/// Files are never followed to other files; XML entities are refused.
+Result<FlatFile> parse_flat(const std::string& name, std::string_view bytes,
+                            const FlatFileOptions& options);
+
+/// "svg", "dxf" or empty: the lower-case ending of a path when it is readable here.
+std::string flat_file_format_of(const std::string& path);
+
+}  // namespace csgrun

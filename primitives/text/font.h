@@ -1,0 +1,36 @@
+// A face with its HarfBuzz objects, in its own units.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <hb-ot.h>
+#include <hb.h>
+
+#include <csgrun/primitives/text.h>
+
+namespace csgrun {
+
+struct HarfbuzzDeleter {
+  void operator()(hb_blob_t* p) const { hb_blob_destroy(p); }
+  void operator()(hb_face_t* p) const { hb_face_destroy(p); }
+  void operator()(hb_font_t* p) const { hb_font_destroy(p); }
+  void operator()(hb_buffer_t* p) const { hb_buffer_destroy(p); }
+  void operator()(hb_draw_funcs_t* p) const { hb_draw_funcs_destroy(p); }
+};
+template <class T>
+using HarfbuzzPtr = std::unique_ptr<T, HarfbuzzDeleter>;
+
+struct Font::Data {
+  std::string bytes;  ///< empty for a shipped face, whose bytes are the program's
+  HarfbuzzPtr<hb_blob_t> blob;
+  HarfbuzzPtr<hb_face_t> face;
+  HarfbuzzPtr<hb_font_t> font;  ///< its scale is the em in units, so that all numbers are whole
+  std::string family, style;
+  double units_per_em = 1000;
+};
+
+/// What the file's name table says; empty if nothing.
+std::string face_name(hb_face_t* face, hb_ot_name_id_t first, hb_ot_name_id_t second);
+
+}  // namespace csgrun

@@ -1,0 +1,196 @@
+// Text against the numbers of the font: Liberation Sans has 2048 units to the em.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <csgrun/primitives/text.h>
+
+#include "primitives/text/shipped_fonts.h"
+
+namespace csgrun {
+namespace {
+
+/// mm per unit at size 10: an em of 13.889.
+constexpr double kUnit = 1000.0 / 72 / 2048;
+
+Shape2D drawn(const TextOptions& options, std::string* note = nullptr) {
+  auto r = make_text(options, Font::shipped(false, false), note);
+  EXPECT_TRUE(r) << (r ? "" : r.error().message);
+  return r ? *r : Shape2D();
+}
+
+TextOptions line(const std::string& text) {
+  TextOptions options;
+  options.text = text;
+  return options;
+}
+
+TextMetrics metrics(const TextOptions& options) {
+  auto r = measure_text(options, Font::shipped(false, false));
+  EXPECT_TRUE(r) << (r ? "" : r.error().message);
+  return r ? *r : TextMetrics();
+}
+
+std::string error(const TextOptions& options) {
+  const auto r = make_text(options, Font::shipped(false, false), nullptr);
+  return r ? "no error" : r.error().message;
+}
+
+TEST(Text, CapitalsHaveTheSizeOfTheFont) {
+  // I is a bar from 189 to 380, 1409 high; its advance is 569, that of A 1366.
+  const Shape2D bar = drawn(line("I"));
+  EXPECT_NEAR(bar.area(), 191 * 1409 * kUnit * kUnit, 1e-6);
+  EXPECT_NEAR(bar.bounds()[0].x, 189 * kUnit, 1e-7);
+  EXPECT_NEAR(bar.bounds()[1].y, 1409 * kUnit, 1e-7);
+  EXPECT_EQ(bar.bounds()[0].y, 0);
+  EXPECT_NEAR(metrics(line("A")).advance.x, 1366 * kUnit, 1e-9);
+  EXPECT_NEAR(metrics(line("II")).advance.x, 2 * 569 * kUnit, 1e-9);
+  EXPECT_NEAR(drawn(line("II")).area(), 2 * bar.area(), 1e-6);
+  TextOptions large = line("I");
+  large.size = 20;
+  EXPECT_NEAR(drawn(large).area(), 4 * bar.area(), 1e-6);
+}
+
+TEST(Text, HolesAreHoles) {
+  EXPECT_EQ(drawn(line("O")).loops().size(), 2u);
+  EXPECT_EQ(drawn(line("B8%")).regions().size(), 5u);
+  EXPECT_TRUE(drawn(line("  ")).empty());
+  EXPECT_TRUE(drawn(line("")).empty());
+}
+
+TEST(Text, CurvesHaveOpenScadsSteps) {
+  const auto corners = [](double fn) {
+    TextOptions options = line("O");
+    options.facets.fn = fn;
+    size_t count = 0;
+    const Shape2D shape = drawn(options);
+    for (const auto& loop : shape.loops()) count += loop.size();
+    return count;
+  };
+  // An O is made of curves only: max(fn / 8 + 1, 2) steps each, that is 2, 3 and 5.
+  EXPECT_NEAR(double(corners(16)) / double(corners(8)), 1.5, 0.1);
+  EXPECT_NEAR(double(corners(32)) / double(corners(8)), 2.5, 0.15);
+  EXPECT_EQ(corners(3), corners(15));
+}
+
+TEST(Text, AlignsByAdvanceAndInk) {
+  TextOptions options = line("Iy");
+  const TextMetrics plain = metrics(options);
+  EXPECT_LT(plain.descent, 0);
+  EXPECT_NEAR(plain.size.y, plain.ascent - plain.descent, 1e-12);
+  options.halign = "center";
+  options.valign = "center";
+  EXPECT_NEAR(metrics(options).offset.x, -plain.advance.x / 2, 1e-12);
+  EXPECT_NEAR(metrics(options).position.y, -plain.size.y / 2, 1e-12);
+  options.halign = "right";
+  options.valign = "top";
+  EXPECT_NEAR(metrics(options).offset.x, -plain.advance.x, 1e-12);
+  EXPECT_NEAR(drawn(options).bounds()[1].y, 0, 1e-7);
+  options.valign = "bottom";
+  EXPECT_NEAR(drawn(options).bounds()[0].y, 0, 1e-7);
+  options.halign = "left";
+  options.valign = "baseline";
+  EXPECT_EQ(metrics(options).offset, glm::dvec2(0));
+  // What is drawn lies where it was measured.
+  EXPECT_NEAR(drawn(options).bounds()[0].x, plain.position.x, 1e-7);
+  EXPECT_NEAR(drawn(options).bounds()[1].x, plain.position.x + plain.size.x, 1e-7);
+}
+
+TEST(Text, SpacingAndDirection) {
+  TextOptions options = line("III");
+  const double advance = metrics(options).advance.x;
+  options.spacing = 2;
+  EXPECT_NEAR(metrics(options).advance.x, 2 * advance, 1e-9);
+  EXPECT_NEAR(metrics(options).size.x - metrics(line("III")).size.x, 2 * 569 * kUnit, 1e-9);
+  // From right to left the last character stands first.
+  options = line("Ii.");
+  options.direction = "rtl";
+  EXPECT_NEAR(drawn(options).area(), drawn(line("Ii.")).area(), 1e-5);
+  EXPECT_NEAR(metrics(options).position.x, metrics(line(".")).position.x, 1e-9);
+  options.direction = "ttb";
+  const TextMetrics column = metrics(options);
+  EXPECT_LT(column.advance.y, 0);
+  EXPECT_EQ(column.advance.x, 0);
+}
+
+TEST(Text, WhatIsMissingIsSaid) {
+  std::string note;
+  drawn(line("a\xf0\x9f\x98\x80"), &note);
+  EXPECT_EQ(note, "text: the font Liberation Sans has no glyph for U+1F600");
+  note.clear();
+  drawn(line("\xc3\x84\xce\xa9\xd0\x96"), &note);  // Latin, Greek and Cyrillic are there
+  EXPECT_EQ(note, "");
+  drawn(line("\xff"), &note);  // no UTF-8: the replacement character, which is there
+}
+
+TEST(Text, BadOptionsAreErrors) {
+  TextOptions options = line("x");
+  options.size = -1;
+  EXPECT_EQ(error(options), "text: size must be positive, got -1");
+  options.size = 10;
+  options.halign = "middle";
+  EXPECT_EQ(error(options),
+            "text: halign must be one of \"default\", \"left\", \"center\", \"right\", got "
+            "\"middle\"");
+  options.halign = "left";
+  options.direction = "up";
+  EXPECT_EQ(error(options),
+            "text: direction must be one of \"ltr\", \"rtl\", \"ttb\", \"btt\", got \"up\"");
+  options.direction = "";
+  options.spacing = std::nan("");
+  EXPECT_EQ(error(options), "text: spacing must be finite, got nan");
+  EXPECT_EQ(error(line(std::string(100000, 'x'))), "text: longer than 65536 bytes");
+}
+
+TEST(Fonts, AreFoundByDescription) {
+  FontBook book;
+  const auto name = [&](const std::string& description) {
+    const auto choice = book.find(description);
+    return choice ? choice->font.family() + "|" + choice->font.style() + "|" + choice->note
+                  : choice.error().message;
+  };
+  EXPECT_EQ(name(""), "Liberation Sans|Regular|");
+  EXPECT_EQ(name("liberation sans"), "Liberation Sans|Regular|");
+  EXPECT_EQ(name("Liberation Sans:style=Bold Italic"), "Liberation Sans|Bold Italic|");
+  EXPECT_EQ(name("Liberation Sans:bold"), "Liberation Sans|Bold|");
+  EXPECT_EQ(
+      name("Arial:style=Italic"),
+      "Liberation Sans|Italic|there is no font \"Arial:style=Italic\"; Liberation Sans Italic "
+      "is used instead");
+  EXPECT_NE(name("Liberation Sans:style=Narrow").find("is used instead"), std::string::npos);
+  FontOptions strict;
+  strict.strict = true;
+  const auto refused = FontBook(strict).find("Arial");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message,
+            "there is no font \"Arial\"; name a font file, or allow --system-fonts");
+  FontOptions nowhere;
+  nowhere.system_fonts = true;
+  nowhere.folder = "/nowhere";
+  EXPECT_NE(FontBook(nowhere).find("Arial")->note, "");
+}
+
+TEST(Fonts, TheShippedOneIsOpen) {
+  // Version 1 has another licence. The names are in the file as UTF-16.
+  const std::string_view bytes = shipped_font(false, false);
+  std::string version;
+  for (const char c : std::string("Version 2.")) version += std::string(1, '\0') + c;
+  EXPECT_NE(bytes.find(version), std::string_view::npos);
+  EXPECT_GT(bytes.size(), 100000u);
+}
+
+TEST(Fonts, WhatIsNoFontIsRefused) {
+  for (const std::string bytes : {std::string(), std::string("OTTO"), std::string(1000, '\0'),
+                                  std::string("\0\1\0\0\xff\xff\xff\xff\xff\xff\xff\xff", 12)}) {
+    const auto font = Font::parse("x.ttf", bytes);
+    ASSERT_FALSE(font);
+    EXPECT_EQ(font.error().message,
+              "x.ttf: this is no TrueType or OpenType font, or it is damaged");
+  }
+  EXPECT_TRUE(is_font_path("a/B.TTF"));
+  EXPECT_FALSE(is_font_path("ttf"));
+  EXPECT_FALSE(is_font_path("Arial"));
+}
+
+}  // namespace
+}  // namespace csgrun
