@@ -34,8 +34,8 @@ assert(resize{cube(1), {2, 2, 2}} == cube(2))
 
 -- Shadows and sections.
 assert(cube(3):project() == square(3) and cube(3):projection() == square(3))
-local hollow = cube{10, center = true} - cube{6, 6, 20, center = true}
-assert(hollow:project() == square{10, center = true} - square{6, center = true})
+local hollow = cube{size = 10, center = true} - cube{6, 6, 20, center = true}
+assert(hollow:project() == square{size = 10, center = true} - square{size = 6, center = true})
 assert(hollow:slice(1) == hollow:project() and hollow:projection{cut = true} == hollow:slice())
 assert(hollow:slice(5):is_empty() and hollow:slice(-5):area() == 64) -- what is above the plane
 near(cylinder(10, 5, 0, {fn = 100}):slice(4):area(), circle(3, {fn = 100}):area(), 1e-6)

@@ -20,6 +20,13 @@ Vec cross(const Vec& a, const Vec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 Int128 dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+/// The sign of the part of `v` along `normal`, to which it is parallel (the product might not fit).
+int sense(const Vec& normal, const Vec& v) {
+  for (int i = 0; i < 3; ++i) {
+    if (normal[i] != 0) return v[i] == 0 ? 0 : (v[i] > 0) == (normal[i] > 0) ? 1 : -1;
+  }
+  return 0;
+}
 bool is_zero(const Vec& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
 /// Whether points do not lie in one plane.
@@ -56,10 +63,10 @@ void expect_hull(const LeafGeometry& hull, const std::vector<IVec3>& points) {
     for (uint32_t i = 0; i < n; ++i) {
       EXPECT_EQ(dot(normal, minus(at(i), at(0))), 0);
       const Vec edge = minus(at(i + 1), at(i));
-      EXPECT_GT(dot(normal, cross(edge, minus(at(i + 2), at(i)))), 0);  // turns left
+      EXPECT_GT(sense(normal, cross(edge, minus(at(i + 2), at(i)))), 0);  // turns left
       for (const IVec3& p : points) {
         if (dot(normal, minus(p, at(0))) == 0) {
-          EXPECT_GE(dot(normal, cross(edge, minus(p, at(i)))), 0);
+          EXPECT_GE(sense(normal, cross(edge, minus(p, at(i)))), 0);
         }
       }
       ++edges[{loop[i], loop[(i + 1) % n]}];
