@@ -39,5 +39,30 @@ TEST(Outlines, Mistakes) {
             "model.lua:1: perimeter: takes no arguments");
 }
 
+TEST(Sweeps, Mistakes) {
+  EXPECT_EQ(message_of("return square(1):sweep()"),
+            "model.lua:1: sweep: needs a path, a list of points {x, y, z}");
+  EXPECT_EQ(message_of("return square(1):sweep{{0, 0}, {1, 1}}"),
+            "model.lua:1: sweep: point 0 must be a list of three numbers, got a list of 2 values");
+  EXPECT_EQ(message_of("return square(1):sweep({{0, 0, 0}, {0, 0, 1}}, {twits = 3})"),
+            "model.lua:1: sweep: unknown option 'twits' (did you mean 'twist'?)");
+  EXPECT_EQ(message_of("return square(1):sweep({{0, 0, 0}, {0, 0, 1}}, {scale = 0})"),
+            "model.lua:1: sweep: option 'scale' must be positive, got 0");
+  EXPECT_EQ(message_of("return square(1):sweep{{0, 0, 0}, {0, 0, 0}}"),
+            "model.lua:1: sweep: the path needs at least 2 different points, got 1");
+  EXPECT_EQ(message_of("return loft(square(1), 2)"),
+            "model.lua:1: loft: option 'outlines' must be a list of two or more shapes, got shape");
+  EXPECT_EQ(message_of("return loft({square(1), cube(1)}, 2)"),
+            "model.lua:1: loft: outline 2 must be a 2D shape, got solid");
+  EXPECT_EQ(message_of("return loft({square(1), square(1)})"),
+            "model.lua:1: loft: needs a list of shapes and their heights");
+  EXPECT_EQ(message_of("return loft({square(1), square(1)}, {0, 'x'})"),
+            "model.lua:1: loft: height 2 must be a number, got string");
+  EXPECT_EQ(message_of("return loft({square(1), square(1)}, 0)"),
+            "model.lua:1: loft: option 'heights' must be positive, got 0");
+  EXPECT_EQ(message_of("return loft({square(1), square(1)}, {1, 0})"),
+            "model.lua:1: loft: heights must increase, got 0 after 1");
+}
+
 }  // namespace
 }  // namespace csgrun::testing

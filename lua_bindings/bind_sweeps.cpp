@@ -1,0 +1,124 @@
+// sweep, loft.
+#include <fmt/format.h>
+
+#include <csgrun/primitives/sweep.h>
+
+#include "lua_bindings/api.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/operands.h"
+#include "lua_bindings/session.h"
+
+namespace csgrun {
+namespace {
+
+using T = ArgumentType;
+
+constexpr Option kSweepOptions[] = {
+    {"path", T::kPoints3, "", "the points that it goes along", true},
+    {"closed", T::kBoolean, "false", "joins the last point to the first", false},
+    {"twist", T::kNumber, "0",
+     "turn over the whole path, counter-clockwise seen against it, degrees", false},
+    {"scale", T::kSize2, "1", "factor at the end, or factors along X and Y of the shape", false,
+     Range::kPositive},
+    {"up", T::kVector3, "{0, 0, 1}; {0, 1, 0} where the path starts along Z",
+     "where the shape's Y points to at the start", false},
+};
+constexpr FunctionSpec kSweep{
+    "sweep",
+    "A solid: the shape, across the path, moved along it; it turns with the path and no more.",
+    kSweepOptions,
+    true,
+    "circle(2):sweep{{0, 0, 0}, {0, 0, 20}, {15, 0, 30}}",
+    "shape",
+    kShapeDoc};
+
+int sweep(lua_State* L) {
+  take_subject_out_of_list(L);
+  const ShapeValue& shape = shape_argument(L, kSweep);
+  const Arguments arguments(L, kSweep, 2);
+  if (!arguments.has("path")) fail_in(kSweep, "needs a path, a list of points {x, y, z}");
+  SweepOptions options;
+  options.path = arguments.points3("path");
+  options.closed = arguments.boolean("closed", false);
+  options.twist = arguments.number("twist", 0);
+  if (const auto scale = arguments.vector("scale")) {
+    options.scale = scale->count == 1 ? glm::dvec2(scale->v.x) : glm::dvec2(scale->v.x, scale->v.y);
+  }
+  if (const auto up = arguments.vector("up")) options.up = up->v;
+  options.facets = arguments.facets();
+  if (shape.shape.empty()) {
+    push_solid(L, Node::empty(session_of(L).source_ref(L)));
+  } else {
+    push_leaf(L, value_or_fail(kSweep, sweep_shape(shape.shape, options)), shape.appearance);
+  }
+  keep_marks(L, 1);
+  return 1;
+}
+
+constexpr Option kLoftOptions[] = {
+    {"outlines", T::kValue, "", "a list of shapes, from the lowest on", true},
+    {"heights", T::kValue, "", "where each lies along Z, a list; or one number: all in even steps",
+     true},
+};
+constexpr FunctionSpec kLoft{
+    "loft",
+    "A solid between shapes, each flat at its height, with straight walls from one to the next.",
+    kLoftOptions, false, "loft({square(20, true), circle(6)}, {0, 15})"};
+
+int loft(lua_State* L) {
+  const Arguments arguments(L, kLoft, 1);
+  const int outlines = arguments.stack_index("outlines"), given = arguments.stack_index("heights");
+  if (outlines == 0 || given == 0) fail_in(kLoft, "needs a list of shapes and their heights");
+  const lua_Integer count = lua_istable(L, outlines) ? list_length(L, outlines) : -1;
+  if (count < 2) {
+    fail_in(kLoft, "option 'outlines' must be a list of two or more shapes, got " +
+                       describe_value(L, outlines));
+  }
+  std::vector<Shape2D> shapes;
+  std::optional<Appearance> appearance;
+  for (lua_Integer i = 1; i <= count; ++i) {
+    lua_rawgeti(L, outlines, i);
+    const ShapeValue* shape = to_shape(L, -1);
+    if (shape == nullptr) {
+      fail_in(kLoft,
+              fmt::format("outline {} must be a 2D shape, got {}", i, describe_value(L, -1)));
+    }
+    if (i == 1) appearance = shape->appearance;
+    shapes.push_back(shape->shape);
+    lua_pop(L, 1);
+  }
+  std::vector<double> heights;
+  if (lua_type(L, given) == LUA_TNUMBER) {
+    const double height = lua_tonumber(L, given);
+    if (!(height > 0))
+      fail_in(kLoft, "option 'heights' must be positive, got " + describe_value(L, given));
+    for (lua_Integer i = 0; i < count; ++i)
+      heights.push_back(height * static_cast<double>(i) / static_cast<double>(count - 1));
+  } else {
+    const lua_Integer length = lua_istable(L, given) ? list_length(L, given) : -1;
+    if (length < 0) {
+      fail_in(kLoft, "option 'heights' must be a number or a list of numbers, got " +
+                         describe_value(L, given));
+    }
+    for (lua_Integer i = 1; i <= length; ++i) {
+      if (lua_rawgeti(L, given, i) != LUA_TNUMBER) {
+        fail_in(kLoft, fmt::format("height {} must be a number, got {}", i, describe_value(L, -1)));
+      }
+      heights.push_back(lua_tonumber(L, -1));
+      lua_pop(L, 1);
+    }
+  }
+  push_leaf(L, value_or_fail(kLoft, loft_shapes(shapes, heights)), appearance);
+  return 1;
+}
+
+constexpr Binding kBindings[] = {
+    {&kSweep, guarded<sweep>, nullptr, guarded<sweep>},
+    {&kLoft, guarded<loft>, nullptr, nullptr},
+};
+
+}  // namespace
+
+std::span<const Binding> sweep_bindings() { return kBindings; }
+
+}  // namespace csgrun

@@ -1,0 +1,41 @@
+// Solids from outlines along a path, and between outlines at different heights.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/primitives/shape2d.h>
+#include <csgrun/primitives/solids.h>
+
+namespace csgrun {
+
+struct SweepOptions {
+  std::vector<glm::dvec3> path;  ///< at least two points, three of a closed one; mm
+  bool closed = false;           ///< the last point is joined to the first; no caps
+  double twist = 0;  ///< degrees over the whole path, counter-clockwise seen against its direction
+  glm::dvec2 scale{1, 1};  ///< of the outline at the end; 0 is not allowed
+  /// Where the outline's Y points to, as far as it is across the path there, at its start; Z, or Y
+  /// where the path starts along Z.
+  std::optional<glm::dvec3> up = std::nullopt;
+  /// With a twist, pieces are divided so that none turns by more than 360 / fn, or fa, degrees.
+  Facets facets = {};
+};
+
+/// The outline, its plane across the path, moved along it. From piece to piece it turns no more
+/// than the path does (a frame of minimal rotation); pieces are mitred where they meet, so each of
+/// them is a prism of the outline. Where the path turns more sharply than the outline has room for,
+/// the walls cross, and the solid is what they wind around. A closed sweep makes up for the turn
+/// that such a frame has gathered when it comes home, evenly along the path; its twist is a
+/// multiple of 360. Equal points one after another count once. Errors: kInvalidArgument, kLimit.
+MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options);
+
+/// A solid between outlines, each flat at its height: straight walls from each to the next. All
+/// must have the same numbers of pieces and of holes in them; these are paired by the places of
+/// their middles. Points are paired by how far along their outline they lie, from that pair of
+/// corners on which gives the shortest walls. Heights increase. Errors: kInvalidArgument, kLimit.
+MeshResult loft_shapes(const std::vector<Shape2D>& shapes, const std::vector<double>& heights);
+
+}  // namespace csgrun

@@ -1,0 +1,277 @@
+// sweep: rings of the outline where the path's pieces meet, and walls between them.
+//
+// At a corner of the path the ring lies in the plane that halves the angle. To turn the frame by
+// the least rotation from one direction to the next and to reflect it at that plane (and turn it
+// back over) is the same, so what arrives along one piece leaves along the next: walls are prisms.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include <csgrun/primitives/sweep.h>
+#include <csgrun/primitives/trig.h>
+
+#include "primitives/base/text.h"
+#include "primitives/shape2d/profile.h"
+#include "primitives/solids/mesh_builder.h"
+
+namespace csgrun {
+namespace {
+
+constexpr const char* kName = "sweep";
+
+double length_of(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
+
+/// From point i of the path to the next one.
+glm::dvec3 direction_of(const std::vector<glm::dvec3>& path, size_t i) {
+  const glm::dvec3 way = path[(i + 1) % path.size()] - path[i];
+  return way / length_of(way);
+}
+
+/// The path with more points, so that a twist turns in small steps.
+std::vector<glm::dvec3> divided(const std::vector<glm::dvec3>& path, const SweepOptions& o) {
+  const size_t n = path.size(), pieces = o.closed ? n : n - 1;
+  double total = 0;
+  for (size_t i = 0; i < pieces; ++i) total += length_of(path[(i + 1) % n] - path[i]);
+  const double step = o.facets.fn > 0 ? 360 / o.facets.fn : std::max(o.facets.fa, 0.01);
+  std::vector<glm::dvec3> result;
+  for (size_t i = 0; i < pieces; ++i) {
+    const glm::dvec3 a = path[i], way = path[(i + 1) % n] - a;
+    // A turn of whole steps must not get one more by rounding.
+    constexpr double kNoise = 1e-9;
+    const double turn = std::fabs(o.twist) * length_of(way) / total;
+    const double parts = std::clamp(std::ceil(turn / step - kNoise), 1.0, kMostPoints);
+    for (double k = 0; k < parts && static_cast<double>(result.size()) <= kMostPoints; ++k)
+      result.push_back(a + way * (k / parts));
+  }
+  if (!o.closed) result.push_back(path.back());
+  return result;
+}
+
+/// Directions across a piece of the path: x of the outline, y, and the way forward.
+struct Frame {
+  glm::dvec3 x, y, forward;
+};
+
+/// Turned with the path from one direction to the next.
+Frame carried(const Frame& frame, const glm::dvec3& forward) {
+  // Two reflections are a rotation: at the plane across the path, then at the halving plane.
+  const glm::dvec3 half = frame.forward + forward;
+  const double square = glm::dot(half, half);
+  const auto move = [&](const glm::dvec3& v) {
+    return v - half * (2 * glm::dot(v, half) / square);
+  };
+  Frame next{move(frame.x), move(frame.y), forward};
+  // Rounding adds up along a path of many points: y stays across, x across both.
+  next.y -= forward * glm::dot(next.y, forward);
+  next.y /= length_of(next.y);
+  next.x = glm::cross(next.y, forward);
+  return next;
+}
+
+Result<Frame> first_frame(const glm::dvec3& forward, const std::optional<glm::dvec3>& up) {
+  const bool along_z = forward.x == 0 && forward.y == 0;
+  glm::dvec3 y = up ? *up : along_z ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+  y -= forward * glm::dot(y, forward);
+  const double length = length_of(y);
+  constexpr double kLeast = 1e-9;  // of a direction that is given with sixteen digits
+  if (!(length > kLeast)) {
+    return invalid_argument("sweep: up must not point along the start of the path");
+  }
+  y /= length;
+  return Frame{glm::cross(y, forward), y, forward};
+}
+
+/// The angle from frame a to b about their common direction, counter-clockwise seen against it.
+double angle_between(const Frame& a, const Frame& b) {
+  return atan2_deg(glm::dot(b.x, a.y), glm::dot(b.x, a.x));
+}
+
+class Sweeper {
+ public:
+  Sweeper(const Shape2D& shape, const SweepOptions& options, std::vector<glm::dvec3> path,
+          std::vector<Frame> frames)
+      : options_(options),
+        path_(std::move(path)),
+        frames_(std::move(frames)),
+        loops_(shape.loops()),
+        profile_(make_profile(shape, loops_)) {}
+
+  PolygonMesh build() {
+    mesh_.kind = kName;
+    walk();
+    for (size_t i = 0; i < path_.size(); ++i) add_ring(i);
+    const size_t pieces = frames_.size();
+    uint32_t surface = 0;
+    for (size_t l = 0; l < profile_.loops.size(); ++l) {
+      uint32_t chains = 0;
+      const std::vector<uint32_t> chain = smooth_chains(loops_[l], chains);
+      const std::vector<uint32_t>& loop = profile_.loops[l];
+      for (size_t k = 0; k < loop.size(); ++k) {
+        for (size_t j = 0; j < pieces; ++j) {
+          add_side(j, loop[k], loop[(k + 1) % loop.size()],
+                   surface + 1 + chain[k] + chains * bend_[j]);
+        }
+      }
+      surface += chains * (bend_.back() + 1);
+    }
+    if (!options_.closed) {
+      add_cap(0, true);
+      add_cap(path_.size() - 1, false);
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  void walk() {
+    along_.push_back(0);
+    for (size_t i = 0; i < frames_.size(); ++i)
+      along_.push_back(along_.back() + length_of(path_[(i + 1) % path_.size()] - path_[i]));
+    // Walls go on smoothly until the path turns sharply.
+    const double least_cosine = cos_deg(kSmoothTurnDegrees);
+    for (size_t i = 0; i < frames_.size(); ++i) {
+      const bool smooth =
+          i == 0 || glm::dot(frames_[i - 1].forward, frames_[i].forward) > least_cosine;
+      bend_.push_back(i == 0 ? 0 : bend_.back() + (smooth ? 0 : 1));
+    }
+    if (!options_.closed) return;
+    // Home again, the frame has turned: what is missing is added along the way.
+    const Frame home = carried(frames_.back(), frames_[0].forward);
+    correction_ = angle_between(home, frames_[0]);
+  }
+
+  void add_ring(size_t i) {
+    const size_t n = path_.size();
+    const bool ends = !options_.closed && (i == 0 || i + 1 == n);
+    const Frame& before = i > 0 ? frames_[i - 1] : ends ? frames_[0] : frames_.back();
+    const Frame& after = ends && i > 0 ? before : frames_[i % frames_.size()];
+    // The ring lies where the lines of the piece before meet the halving plane; the first of a
+    // closed path is seen from the piece after it, from which the frames were carried on.
+    const Frame& frame = i == 0 ? after : before;
+    const glm::dvec3 half = before.forward + after.forward;
+    const double part = along_[i] / along_.back();
+    const double angle = (options_.twist + correction_) * part;
+    const double c = cos_deg(angle), s = sin_deg(angle);
+    const glm::dvec2 scale = glm::dvec2(1) + (options_.scale - glm::dvec2(1)) * part;
+    std::vector<uint32_t>& ring = rings_.emplace_back();
+    for (const glm::dvec2& p : profile_.points) {
+      const glm::dvec2 q = p * scale;
+      const glm::dvec3 across = frame.x * (c * q.x - s * q.y) + frame.y * (s * q.x + c * q.y);
+      const double back = glm::dot(across, half) / glm::dot(frame.forward, half);
+      ring.push_back(static_cast<uint32_t>(mesh_.points.size()));
+      mesh_.points.push_back(path_[i] + across - frame.forward * back);
+    }
+  }
+
+  void add_side(size_t piece, uint32_t p, uint32_t q, uint32_t surface) {
+    const std::vector<uint32_t>&ring = rings_[piece], &next = rings_[(piece + 1) % rings_.size()];
+    const uint32_t a = ring[p], b = ring[q], c = next[q], d = next[p];
+    // Rounded quadrilaterals are planar only along the axes: triangles are what they say.
+    const auto& points = mesh_.points;
+    const glm::dvec3 ac = points[c] - points[a], bd = points[d] - points[b];
+    const bool from_a = glm::dot(ac, ac) <= glm::dot(bd, bd);
+    mesh_.add_face(std::array<uint32_t, 3>{a, b, from_a ? c : d}, surface);
+    mesh_.add_face(std::array<uint32_t, 3>{c, d, from_a ? a : b}, surface);
+  }
+
+  void add_cap(size_t at, bool backwards) {
+    for (const Shape2D::Region& region : profile_.regions) {
+      std::vector<std::vector<uint32_t>> loops;
+      auto add = [&](uint32_t l) {
+        std::vector<uint32_t>& loop = loops.emplace_back();
+        for (const uint32_t p : profile_.loops[l]) loop.push_back(rings_[at][p]);
+        if (backwards) std::reverse(loop.begin(), loop.end());
+      };
+      add(region.outer);
+      for (const uint32_t hole : region.holes) add(hole);
+      add_face_with_holes(mesh_, loops);
+    }
+  }
+
+  const SweepOptions& options_;
+  std::vector<glm::dvec3> path_;
+  std::vector<Frame> frames_;  // of each piece
+  const std::vector<Shape2D::Loop>& loops_;
+  Profile profile_;
+  std::vector<double> along_;   // how far each point of the path lies from its start
+  std::vector<uint32_t> bend_;  // per piece: how many sharp turns lie before it
+  double correction_ = 0;
+  std::vector<std::vector<uint32_t>> rings_;
+  PolygonMesh mesh_;
+};
+
+std::optional<Error> check(const SweepOptions& o) {
+  if (!std::isfinite(o.twist)) return not_finite(kName, "twist", o.twist);
+  if (!std::isfinite(o.facets.fn)) return not_finite(kName, "fn", o.facets.fn);
+  if (!std::isfinite(o.facets.fa)) return not_finite(kName, "fa", o.facets.fa);
+  for (int i = 0; i < 2; ++i) {
+    if (!std::isfinite(o.scale[i])) return not_finite(kName, "scale", o.scale[i]);
+    if (!(o.scale[i] > 0)) return not_positive(kName, "scale", o.scale[i]);
+  }
+  if (o.closed && o.twist != 360 * std::round(o.twist / 360)) {
+    return invalid_argument("sweep: the twist of a closed path must be a multiple of 360, got " +
+                            number_text(o.twist));
+  }
+  if (o.closed && o.scale != glm::dvec2(1)) {
+    return invalid_argument("sweep: a closed path ends as it begins, without a scale");
+  }
+  for (size_t i = 0; i < o.path.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (std::isfinite(o.path[i][k])) continue;
+      return invalid_argument("sweep: point " + std::to_string(i) +
+                              " of the path must be finite, got " + number_text(o.path[i][k]));
+    }
+  }
+  return std::nullopt;
+}
+
+/// A path that goes back on itself has no plane that halves the angle.
+std::optional<Error> check_turns(const std::vector<glm::dvec3>& path, bool closed) {
+  for (size_t i = closed ? 0 : 1; i + (closed ? 0 : 1) < path.size(); ++i) {
+    const glm::dvec3 in = direction_of(path, (i + path.size() - 1) % path.size());
+    // Next to the way back, at a cosine of -1, a mitre has no end.
+    if (glm::dot(in, direction_of(path, i)) > -0.9999) continue;
+    return invalid_argument("sweep: the path turns back at its point " + std::to_string(i));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
+  if (shape.empty()) return invalid_argument("sweep: the shape is empty");
+  if (auto error = check(options)) return *error;
+  std::vector<glm::dvec3> path;
+  for (const glm::dvec3& p : options.path) {
+    if (path.empty() || p != path.back()) path.push_back(p);
+  }
+  if (options.closed && path.size() > 1 && path.front() == path.back()) path.pop_back();
+  const size_t least = options.closed ? 3 : 2;
+  if (path.size() < least) {
+    return invalid_argument("sweep: the path needs at least " + std::to_string(least) +
+                            " different points, got " + std::to_string(path.size()));
+  }
+  if (auto error = check_turns(path, options.closed)) return *error;
+  if (options.twist != 0) path = divided(path, options);
+  const size_t pieces = options.closed ? path.size() : path.size() - 1;
+  size_t outline = 0;
+  for (const Shape2D::Loop& loop : shape.loops()) outline += loop.size();
+  const double points = static_cast<double>(path.size()) * static_cast<double>(outline);
+  if (points > kMostPoints) return too_many_points(kName, static_cast<double>(path.size()), points);
+  std::vector<Frame> frames;
+  for (size_t i = 0; i < pieces; ++i) {
+    const glm::dvec3 forward = direction_of(path, i);
+    if (i == 0) {
+      const Result<Frame> first = first_frame(forward, options.up);
+      if (!first) return first.error();
+      frames.push_back(*first);
+      continue;
+    }
+    frames.push_back(carried(frames.back(), forward));
+  }
+  return Sweeper(shape, options, std::move(path), std::move(frames)).build();
+}
+
+}  // namespace csgrun

@@ -1,0 +1,233 @@
+// Sweeps and lofts against prisms, tubes and frusta of known volume.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <csgrun/primitives/sweep.h>
+#include <csgrun/primitives/trig.h>
+
+#include "tests/unit/primitives/mesh_measures.h"
+
+namespace csgrun {
+namespace {
+
+using Loop = Shape2D::Loop;
+using testing::euler_number;
+using testing::expect_closed;
+using testing::volume;
+
+constexpr double kPi = 3.14159265358979323846;
+
+Shape2D outlines(const std::vector<Loop>& loops) {
+  auto r = Shape2D::from_outlines(loops);
+  EXPECT_TRUE(r);
+  return r ? *r : Shape2D();
+}
+
+Shape2D box(double x0, double y0, double x1, double y1) {
+  return outlines({{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}});
+}
+
+Shape2D disc(double r, int n) { return *make_circle(r, Facets{double(n), 12, 2}); }
+
+PolygonMesh good(const MeshResult& r) {
+  EXPECT_TRUE(r) << (r ? "" : r.error().message);
+  if (!r) return {};
+  expect_closed(*r);
+  return *r;
+}
+
+PolygonMesh swept(const Shape2D& shape, std::vector<glm::dvec3> path, SweepOptions options = {}) {
+  options.path = std::move(path);
+  return good(sweep_shape(shape, options));
+}
+
+std::string error(const MeshResult& r) { return r ? "no error" : r.error().message; }
+
+std::array<glm::dvec3, 2> bounds(const PolygonMesh& mesh) {
+  std::array<glm::dvec3, 2> b{mesh.points[0], mesh.points[0]};
+  for (const glm::dvec3& p : mesh.points) {
+    for (int k = 0; k < 3; ++k) {
+      b[0][k] = std::min(b[0][k], p[k]);
+      b[1][k] = std::max(b[1][k], p[k]);
+    }
+  }
+  return b;
+}
+
+const Shape2D kSquare = box(-1, -1, 1, 1);
+
+TEST(Sweep, AlongZIsAnExtrusion) {
+  const Shape2D l = outlines({{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}}});
+  const PolygonMesh mesh = swept(l, {{0, 0, 0}, {0, 0, 5}});
+  EXPECT_NEAR(volume(mesh), 6 * 5, 1e-12);
+  EXPECT_EQ(bounds(mesh)[1], glm::dvec3(4, 3, 5));
+  LinearExtrudeOptions twisted;
+  twisted.height = 5;
+  twisted.height_given = true;
+  twisted.twist = -70;
+  twisted.slices = 7;
+  twisted.segments = 0;
+  twisted.scale = {0.5, 2};
+  SweepOptions options;
+  options.twist = 70;
+  options.scale = {0.5, 2};
+  std::vector<glm::dvec3> path{{0, 0, 0}, {0, 0, 5}};  // 70 degrees in steps of 10
+  options.facets.fa = 10;
+  // The extrusion scales what is turned, the sweep turns what is scaled: equal if even.
+  twisted.scale = options.scale = {0.5, 0.5};
+  EXPECT_NEAR(volume(swept(l, path, options)), volume(*linear_extrude(l, twisted)), 1e-9);
+}
+
+TEST(Sweep, CornersAreMitred) {
+  // The middle of the square runs along the path: every piece is area times length.
+  EXPECT_NEAR(volume(swept(kSquare, {{0, 0, 0}, {0, 0, 10}, {20, 0, 10}})), 4 * 30, 1e-9);
+  EXPECT_NEAR(volume(swept(kSquare, {{0, 0, 0}, {9, 0, 0}, {14, 5, 0}, {14, 5, 8}})),
+              4 * (9 + std::sqrt(50) + 8), 1e-9);
+  const PolygonMesh elbow = swept(kSquare, {{0, 0, 0}, {0, 0, 10}, {20, 0, 10}});
+  EXPECT_EQ(euler_number(elbow), 2);
+  EXPECT_NEAR(bounds(elbow)[0].x, -1, 1e-12);
+  EXPECT_NEAR(bounds(elbow)[1].z, 11, 1e-12);
+  const Shape2D tube = outlines({kSquare.loops()[0], box(-0.5, -0.5, 0.5, 0.5).loops()[0]});
+  EXPECT_EQ(euler_number(swept(tube, {{0, 0, 0}, {0, 0, 10}, {20, 0, 10}})), 0);
+  EXPECT_NEAR(volume(swept(tube, {{0, 0, 0}, {0, 0, 10}, {20, 0, 10}})), 3 * 30, 1e-9);
+}
+
+TEST(Sweep, ClosedPathsComeHome) {
+  SweepOptions closed;
+  closed.closed = true;
+  const PolygonMesh frame =
+      swept(kSquare, {{0, 0, 0}, {20, 0, 0}, {20, 10, 0}, {0, 10, 0}}, closed);
+  EXPECT_NEAR(volume(frame), 4 * 60, 1e-9);
+  EXPECT_EQ(euler_number(frame), 0);
+  closed.twist = 360;
+  EXPECT_EQ(euler_number(swept(kSquare, {{0, 0, 0}, {20, 0, 0}, {20, 10, 0}, {0, 10, 0}}, closed)),
+            0);
+  closed.twist = 0;
+  // A saddle: the frame is turned when it comes home, by what the path encloses on the sphere of
+  // directions. Fine pieces make the correction smooth, and the volume that of a straight tube.
+  std::vector<glm::dvec3> path;
+  double length = 0;
+  constexpr int kPieces = 360;
+  for (int i = 0; i < kPieces; ++i) {
+    const double a = 360.0 * i / kPieces;
+    path.emplace_back(20 * cos_deg(a), 20 * sin_deg(a), 6 * sin_deg(2 * a) + 3 * sin_deg(3 * a));
+    if (i > 0) length += glm::length(path[i] - path[i - 1]);
+  }
+  length += glm::length(path.back() - path.front());
+  const Shape2D round = disc(1.5, 24);
+  const PolygonMesh saddle = swept(round, path, closed);
+  EXPECT_EQ(euler_number(saddle), 0);
+  EXPECT_NEAR(volume(saddle) / (round.area() * length), 1, 1e-4);
+}
+
+TEST(Sweep, FramesTurnLeast) {
+  // Up, to the side, and forward: the outline's X and Y are carried along without a roll.
+  const PolygonMesh mesh = swept(box(0, 0, 2, 1), {{0, 0, 0}, {0, 0, 10}, {10, 0, 10}});
+  // Along Z: x is X and y is Y. After the turn to X, x is -Z and y still Y.
+  EXPECT_NEAR(bounds(mesh)[0].y, 0, 1e-12);
+  EXPECT_NEAR(bounds(mesh)[1].y, 1, 1e-12);
+  EXPECT_NEAR(bounds(mesh)[1].z, 10, 1e-12);
+  SweepOptions up;
+  up.up = glm::dvec3(1, 0, 3);
+  const PolygonMesh turned = swept(box(0, 0, 2, 1), {{0, 0, 0}, {0, 0, 10}}, up);
+  EXPECT_NEAR(bounds(turned)[1].x, 1, 1e-12);   // y is X
+  EXPECT_NEAR(bounds(turned)[0].y, -2, 1e-12);  // x is -Y
+  const PolygonMesh level = swept(box(0, 0, 2, 1), {{0, 0, 0}, {0, 5, 0}});
+  EXPECT_NEAR(bounds(level)[1].z, 1, 1e-12);
+  EXPECT_NEAR(bounds(level)[0].x, -2, 1e-12);
+}
+
+TEST(Sweep, HelixHasTheVolumeOfItsLength) {
+  std::vector<glm::dvec3> path;
+  constexpr int kPieces = 720;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double a = 3 * 360.0 * i / kPieces;
+    path.emplace_back(10 * cos_deg(a), 10 * sin_deg(a), 12.0 * i / kPieces);
+  }
+  const Shape2D wire = disc(1, 16);
+  const double length = std::hypot(3 * 2 * kPi * 10, 12);
+  EXPECT_NEAR(volume(swept(wire, path)) / (wire.area() * length), 1, 1e-3);
+}
+
+TEST(Sweep, BadInputIsAnError) {
+  const auto message = [](std::vector<glm::dvec3> path, bool closed = false, double twist = 0,
+                          glm::dvec2 scale = {1, 1}, std::optional<glm::dvec3> up = {}) {
+    SweepOptions options;
+    options.path = std::move(path);
+    options.closed = closed;
+    options.twist = twist;
+    options.scale = scale;
+    options.up = up;
+    return error(sweep_shape(kSquare, options));
+  };
+  EXPECT_EQ(message({{{0, 0, 0}}}), "sweep: the path needs at least 2 different points, got 1");
+  EXPECT_EQ(message({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}),
+            "sweep: the path needs at least 2 different points, got 1");
+  EXPECT_EQ(message({{0, 0, 0}, {0, 0, 1}}, true),
+            "sweep: the path needs at least 3 different points, got 2");
+  EXPECT_EQ(message({{0, 0, 0}, {0, 0, 5}, {0, 0, 2}}),
+            "sweep: the path turns back at its point 1");
+  EXPECT_EQ(message({{0, 0, 0}, {0, 0, std::nan("")}}),
+            "sweep: point 1 of the path must be finite, got nan");
+  EXPECT_EQ(message({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}}, true, 90),
+            "sweep: the twist of a closed path must be a multiple of 360, got 90");
+  EXPECT_EQ(message({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}}, true, 0, {2, 1}),
+            "sweep: a closed path ends as it begins, without a scale");
+  EXPECT_EQ(message({{0, 0, 0}, {0, 0, 1}}, false, 0, {0, 1}),
+            "sweep: scale must be positive, got 0");
+  EXPECT_EQ(message({{0, 0, 0}, {0, 0, 1}}, false, 0, {1, 1}, glm::dvec3(0, 0, 2)),
+            "sweep: up must not point along the start of the path");
+  EXPECT_EQ(error(sweep_shape(Shape2D(), SweepOptions())), "sweep: the shape is empty");
+}
+
+TEST(Loft, FrustaByFormula) {
+  // (A + B + sqrt(A B)) h / 3 for outlines of one form.
+  EXPECT_NEAR(volume(good(loft_shapes({box(-5, -5, 5, 5), box(-2, -2, 2, 2)}, {0, 6}))),
+              (100 + 16 + 40) * 6 / 3.0, 1e-9);
+  for (const int n : {5, 24}) {
+    const double a = disc(6, n).area(), b = disc(2, n).area();
+    EXPECT_NEAR(volume(good(loft_shapes({disc(6, n), disc(2, n)}, {-1, 8}))),
+                (a + b + std::sqrt(a * b)) * 9 / 3, 1e-6);
+  }
+  // Of three the middle one counts twice.
+  EXPECT_NEAR(volume(good(loft_shapes({kSquare, box(-2, -2, 2, 2), kSquare}, {0, 3, 9}))),
+              (4 + 16 + 8) * 9 / 3.0, 1e-9);
+  // A rectangle to one that lies across: the middle is 2 by 2 of sides 1 and 3.
+  const Shape2D flat = box(-3, -1, 3, 1), tall = box(-1, -3, 1, 3);
+  EXPECT_NEAR(volume(good(loft_shapes({flat, tall}, {0, 6}))), 6 / 6.0 * (12 + 4 * 16 + 12), 1e-9);
+  // Moved aside: the same.
+  EXPECT_NEAR(volume(good(loft_shapes({kSquare, box(49, 7, 51, 9)}, {0, 6}))), 24, 1e-9);
+}
+
+TEST(Loft, OutlinesOfOtherForms) {
+  const PolygonMesh mesh = good(loft_shapes({box(-5, -5, 5, 5), disc(4, 32)}, {0, 10}));
+  EXPECT_EQ(mesh.face_count(), 2u + 4 + 32);
+  EXPECT_EQ(euler_number(mesh), 2);
+  // Symmetric, and between the prisms of the two.
+  const auto b = bounds(mesh);
+  EXPECT_EQ(b[0], glm::dvec3(-5, -5, 0));
+  EXPECT_GT(volume(mesh), 10 * disc(4, 32).area());
+  EXPECT_LT(volume(mesh), 10 * 100);
+  const Shape2D ring = outlines({disc(5, 12).loops()[0], disc(2, 12).loops()[0]});
+  const Shape2D frame = outlines({box(-6, -6, 6, 6).loops()[0], box(-1, -1, 1, 1).loops()[0]});
+  EXPECT_EQ(euler_number(good(loft_shapes({ring, frame}, {0, 4}))), 0);
+  const Shape2D two = outlines({box(0, 0, 1, 1).loops()[0], box(5, 0, 6, 1).loops()[0]});
+  const Shape2D wide = outlines({box(8, 0, 9, 1).loops()[0], box(-3, 0, -2, 1).loops()[0]});
+  EXPECT_NEAR(volume(good(loft_shapes({two, wide}, {0, 4}))), 8, 1e-9);
+}
+
+TEST(Loft, BadInputIsAnError) {
+  EXPECT_EQ(error(loft_shapes({kSquare}, {0})), "loft: needs at least two outlines");
+  EXPECT_EQ(error(loft_shapes({kSquare, kSquare}, {0})),
+            "loft: 2 outlines need as many heights, got 1");
+  EXPECT_EQ(error(loft_shapes({kSquare, kSquare}, {3, 3})),
+            "loft: heights must increase, got 3 after 3");
+  EXPECT_EQ(error(loft_shapes({kSquare, Shape2D()}, {0, 3})), "loft: outline 2 is empty");
+  const Shape2D two = outlines({box(0, 0, 1, 1).loops()[0], box(5, 0, 6, 1).loops()[0]});
+  EXPECT_EQ(error(loft_shapes({kSquare, two}, {0, 3})),
+            "loft: outlines 1 and 2 have not the same numbers of pieces and of holes");
+}
+
+}  // namespace
+}  // namespace csgrun
