@@ -143,9 +143,9 @@ std::vector<Binding> all_bindings() {
   for (const auto& group :
        {solid_bindings(), polyhedron_bindings(), shape_bindings(), outline_bindings(),
         text_bindings(), sweep_bindings(), construction_bindings(), section_bindings(),
-        transform_bindings(), boolean_bindings(), color_bindings(), mark_bindings(),
-        measure_bindings(), math_bindings(), vector_bindings(), parameter_bindings(),
-        model_bindings()}) {
+        surface_bindings(), transform_bindings(), boolean_bindings(), color_bindings(),
+        mark_bindings(), measure_bindings(), math_bindings(), vector_bindings(),
+        parameter_bindings(), model_bindings()}) {
     all.insert(all.end(), group.begin(), group.end());
   }
   return all;

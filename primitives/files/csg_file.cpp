@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <csgrun/primitives/csg_file.h>
+#include <csgrun/primitives/height_map.h>
 #include <csgrun/primitives/mesh_file.h>
 #include <csgrun/primitives/projection.h>
 #include <csgrun/primitives/shape_operations.h>
@@ -47,12 +48,6 @@ struct Frame {
   bool background = false;  ///< it, or a node around it, is marked with %
   std::vector<Item> children;
 };
-
-constexpr std::array<std::string_view, 2> kNotBuilt{"surface", "roof"};
-
-bool is_not_built(std::string_view name) {
-  return std::find(kNotBuilt.begin(), kNotBuilt.end(), name) != kNotBuilt.end();
-}
 
 class CsgBuilder {
  public:
@@ -138,20 +133,19 @@ class CsgBuilder {
     if (is_flat_primitive(name)) return flat_primitive(frame);
     if (name == "text") return text(frame);
     if (name == "import") return import(frame);
+    if (name == "surface") return surface(frame);
     if (name == "offset") return offset(frame);
     if (name == "hull") return hull(frame);
     if (name == "minkowski") return minkowski(frame);
     if (name == "fill") return fill(frame);
     if (name == "resize") return resize(frame);
     if (name == "projection") return projection(frame);
-    if (is_not_built(name)) {
-      if (!takes_children(name) || !frame.children.empty()) return not_supported(frame);
+    if (name == "roof") {
+      if (!frame.children.empty()) return not_supported(frame);
       return Item();
     }
     return Error{ErrorCode::kMalformedFile, "unknown node " + name + "()", {}};
   }
-
-  static bool takes_children(std::string_view name) { return name != "surface"; }
 
   /// A leaf of the mesh; impossible arguments make it empty.
   Result<Item> leaf(const Frame& frame, MeshResult mesh, const std::vector<std::string>& notes) {
@@ -182,6 +176,22 @@ class CsgBuilder {
   }
 
   /// A mesh, or a drawing. A file that is not there is an error: nothing is dropped silently.
+  Result<Item> surface(const Frame& frame) {
+    CsgArguments arguments(frame.call);
+    const std::string path = arguments.string("file", "");
+    const bool center = arguments.boolean("center", false);
+    const bool invert = arguments.boolean("invert", false);
+    if (arguments.error()) return *arguments.error();
+    if (!environment_.read) {
+      return Error{ErrorCode::kInvalidArgument, "surface: there are no files here", {}};
+    }
+    const Result<std::string> bytes = environment_.read(path);
+    if (!bytes) return Error{bytes.error().code, "surface: " + bytes.error().message, {}};
+    const Result<HeightMap> map = parse_height_map(path, *bytes, invert);
+    if (!map) return Error{map.error().code, "surface: " + map.error().message, {}};
+    return leaf(frame, make_surface(*map, center), {});
+  }
+
   Result<Item> import(const Frame& frame) {
     const Result<CsgImport> import = csg_import(frame.call);
     if (!import) return import.error();
