@@ -162,7 +162,9 @@ int import_file(lua_State* L) {
 
 constexpr Option kRequireOptions[] = {
     {"name", T::kString, "",
-     "the file name.lua or name/init.lua in the model's folder, in csgrun_modules beside it, in\n"
+     "a module of csgrun's own library (csg.gears, csg.layout, csg.options, csg.threads), or the\n"
+     "          file name.lua or name/init.lua in the model's folder, in csgrun_modules beside it, "
+     "in\n"
      "          the folders of -L and in those of CSGRUN_PATH, and before these where package.path "
      "says;\n"
      "          a dot in the name opens a folder",

@@ -12,6 +12,8 @@
 #include <unistd.h>
 
 #include "lua_bindings/guard.h"
+#include "lua_bindings/nearest.h"
+#include "lua_bindings/shipped_modules.h"
 
 namespace csgrun {
 namespace {
@@ -181,6 +183,11 @@ Files::Opened Files::open_module(const std::string& name, const std::string& sea
     throw ScriptError("'" + name +
                       "' is not a module's name: write it as in require \"parts.wheel\"");
   }
+  for (const ShippedModule& module : shipped_modules()) {
+    if (module.name != name) continue;
+    const std::string place = "csgrun:" + name;
+    return {place, place, std::string(module.text)};
+  }
   std::string relative = name;
   std::replace(relative.begin(), relative.end(), '.', '/');
   std::vector<std::string> paths = fill_templates(search_path, search_folders_[0], relative);
@@ -193,6 +200,11 @@ Files::Opened Files::open_module(const std::string& name, const std::string& sea
     }
   }
   std::string tried;
+  if (name.rfind("csg.", 0) == 0) {
+    std::vector<std::string> shipped;
+    for (const ShippedModule& module : shipped_modules()) shipped.emplace_back(module.name);
+    tried += "\n\tnot in the library of csgrun" + did_you_mean(name, shipped);
+  }
   for (size_t i = 0; i < paths.size(); ++i) {
     const std::string& path = paths[i];
     const std::string real = real_path(path);

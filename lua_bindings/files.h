@@ -32,9 +32,10 @@ class Files {
   /// else from the library folders, in their order. Throws ScriptError: not below an allowed folder
   /// after symlinks, missing, or not a regular file.
   Opened open(const std::string& caller, const std::string& path) const;
-  /// Reads the module `name` ("parts.wheel"): by the templates "./lib/?.lua;..." of `search_path`,
-  /// seen from the model's folder, then in the folders that are searched in any case. Throws
-  /// ScriptError that lists the tried paths.
+  /// Reads the module `name` ("parts.wheel"). The names of the shipped modules are theirs; others
+  /// are looked for by the templates "./lib/?.lua;..." of `search_path`, seen from the model's
+  /// folder, then in the folders that are searched in any case. Throws ScriptError that lists the
+  /// tried paths.
   Opened open_module(const std::string& name, const std::string& search_path) const;
   /// The part of a path behind the longest of the searched folders that it starts with.
   [[nodiscard]] std::string name_from_folder(const std::string& display) const;

@@ -51,23 +51,32 @@ void Operands::push_result(lua_State* L, BooleanOp op, const std::string& functi
   marks_of(L, -1)->name = name;
 }
 
+namespace {
+
+/// Deeper lists are taken for one that contains itself.
+constexpr int kDeepestList = 100;
+
+/// The value at `index`: an operand, or a list of values such as this one.
+void add_operands(lua_State* L, int index, const FunctionSpec& spec, int depth,
+                  Operands& operands) {
+  if (!lua_istable(L, index)) return operands.add(L, index, spec.name);
+  const lua_Integer length = list_length(L, index);
+  if (length < 0) fail_in(spec, "takes lists of solids or shapes without holes and names in them");
+  if (depth == kDeepestList) fail_in(spec, "its lists are nested too deep");
+  luaL_checkstack(L, 4, "lists are nested too deep");
+  for (lua_Integer i = 1; i <= length; ++i) {
+    lua_rawgeti(L, index, i);
+    add_operands(L, lua_gettop(L), spec, depth + 1, operands);
+    lua_pop(L, 1);
+  }
+}
+
+}  // namespace
+
 Operands read_operands(lua_State* L, const FunctionSpec& spec) {
   Operands operands;
   const int count = lua_gettop(L);
-  for (int index = 1; index <= count; ++index) {
-    if (!lua_istable(L, index)) {
-      operands.add(L, index, spec.name);
-      continue;
-    }
-    const lua_Integer length = list_length(L, index);
-    if (length < 0)
-      fail_in(spec, "takes lists of solids or shapes without holes and names in them");
-    for (lua_Integer i = 1; i <= length; ++i) {
-      lua_rawgeti(L, index, i);
-      operands.add(L, lua_gettop(L), spec.name);
-      lua_pop(L, 1);
-    }
-  }
+  for (int index = 1; index <= count; ++index) add_operands(L, index, spec, 0, operands);
   return operands;
 }
 

@@ -8,7 +8,8 @@
 namespace csgrun {
 namespace {
 
-/// Divisions in a row that thin out nothing before a cell is taken as it is.
+/// Divisions on the way to a cell that did not thin it out before it is taken as it is. All of them
+/// count: each may double the work.
 constexpr int kPatience = 3;
 /// A cell of the grid is not divided for so many times the limit: that costs more than its pairs.
 constexpr uint32_t kPatientLimit = 4;
@@ -117,6 +118,39 @@ class CellFinder {
     return kept;
   }
 
+  /// Where to halve a cell.
+  struct Cut {
+    int axis;
+    int32_t middle;
+    bool thins_out;  ///< the halves hold clearly fewer pairs
+  };
+
+  /// Along the longest axis on which the halves hold fewer pairs, or else along the longest: a few
+  /// long polygons among many small ones would be copied into ever smaller cells, as often as there
+  /// is room in their boxes. Needs a side that is longer than one.
+  [[nodiscard]] Cut find_cut(const Bounds& cell, const List& list) const {
+    std::array<int, 3> axes{0, 1, 2};
+    const auto length = [&](int k) { return static_cast<int64_t>(cell.hi[k]) - cell.lo[k]; };
+    std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return length(a) > length(b); });
+    const auto middle = [&](int k) { return static_cast<int32_t>(cell.lo[k] + length(k) / 2); };
+    for (const int axis : axes) {
+      if (length(axis) >= 1 && thins_out(list, axis, middle(axis))) {
+        return {axis, middle(axis), true};
+      }
+    }
+    return {axes[0], middle(axes[0]), false};
+  }
+
+  [[nodiscard]] bool thins_out(const List& list, int axis, int32_t middle) const {
+    uint64_t lower = 0, upper = 0;
+    for (uint32_t i = list.first; i < list.first + list.count; ++i) {
+      lower += stack_[i].box.lo[axis] <= middle;
+      upper += stack_[i].box.hi[axis] > middle;
+    }
+    const uint64_t all = list.count;
+    return (lower * lower + upper * upper) * 10 <= all * all * 9;
+  }
+
   /// Handles the list, which is the top of the stack.
   void visit(Bounds cell, List list, int stalled) {
     ++result_.visited;
@@ -127,20 +161,15 @@ class CellFinder {
     }
     if (list.has_one_operand()) return leave_alone(list.count);
     cell.clip(list.bounds());
-    int axis = 0;
-    int64_t longest = -1;
-    for (int k = 0; k < 3; ++k) {
-      const int64_t size = static_cast<int64_t>(cell.hi[k]) - cell.lo[k];
-      if (size > longest) longest = size, axis = k;
-    }
     if (cancel_ && cancel_->load(std::memory_order_relaxed)) return;
-    if (list.count <= limit_ || longest < 1 || stalled >= kPatience) return add_cell(cell, list);
-    const auto middle = static_cast<int32_t>(cell.lo[axis] + longest / 2);
+    if (list.count <= limit_ || cell.lo == cell.hi) return add_cell(cell, list);
+    const Cut cut = find_cut(cell, list);
+    if (!cut.thins_out && ++stalled > kPatience) return add_cell(cell, list);
     const uint32_t end = list.first + list.count;
     for (int upper = 0; upper < 2; ++upper) {
       stack_.resize(end);
       Bounds half = cell;
-      (upper ? half.lo : half.hi)[axis] = upper ? middle + 1 : middle;
+      (upper ? half.lo : half.hi)[cut.axis] = upper ? cut.middle + 1 : cut.middle;
       List child;
       child.first = end;
       for (uint32_t i = list.first; i < end; ++i) {
@@ -149,8 +178,7 @@ class CellFinder {
         stack_.push_back(e);
         child.add(e);
       }
-      const bool thinner = child.count * 10 <= list.count * 9;
-      visit(half, child, thinner ? 0 : stalled + 1);
+      visit(half, child, stalled);
     }
     stack_.resize(end);
   }

@@ -2,6 +2,7 @@
 // cells were found.
 #include "engine/bsp/pair_cells.h"
 
+#include <cmath>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -124,6 +125,39 @@ TEST(PairCells, FarAndApart) {
   operands.push_back(
       test::operand_of(test::box_leaf({-(1 << 20), -(1 << 20), 1}, {1 << 20, 1 << 20, 1 << 20})));
   expect_all_pairs(operands, grids);
+}
+
+/// A cone of long triangles, whose boxes overlap in many places, around thousands of small ones.
+std::vector<Operand> long_among_small(test::Random& random) {
+  constexpr int64_t kLow = 26000, kHigh = 4000, kHeight = 22000;
+  constexpr int kSides = 72, kSmall = 20000;
+  std::vector<test::Loop> cone, small;
+  const auto point = [](int side, int64_t radius, int64_t z) {
+    const double angle = 2 * M_PI * side / kSides, r = static_cast<double>(radius);
+    return IVec3{std::lround(r * std::cos(angle)), std::lround(r * std::sin(angle)), z};
+  };
+  for (int i = 0; i < kSides; ++i) {
+    cone.push_back({point(i, kLow, 0), point(i + 1, kLow, 0), point(i, kHigh, kHeight)});
+    cone.push_back({point(i + 1, kLow, 0), point(i + 1, kHigh, kHeight), point(i, kHigh, kHeight)});
+  }
+  for (int i = 0; i < kSmall; ++i) {
+    const int64_t z = random.integer(0, kHeight - 100);
+    const IVec3 p = point(i % kSides, random.integer(3500, 4000), z);
+    small.push_back({p, {p[0] + 1100, p[1], z + 50}, {p[0], p[1] + 700, z + 70}});
+  }
+  return {test::operand_of(test::make_leaf(cone)), test::operand_of(test::make_leaf(small)),
+          test::operand_of(test::box_leaf({-kHigh, -kHigh, -kHeight}, {kHigh, kHigh, 0}))};
+}
+
+// Cells are not made smaller where that only copies long polygons.
+TEST(PairCells, LongPolygonsAreNotCopiedWithoutEnd) {
+  test::Random random(503);
+  const std::vector<Operand> operands = long_among_small(random);
+  const Job job(operands);
+  const PairCells cells = find_pair_cells(job, {});
+  EXPECT_EQ(visited(job, cells), all_pairs(job));
+  EXPECT_LT(cells.visited, 5 * job.polygons().size());
+  EXPECT_LT(cells.polygons.size(), 40 * job.polygons().size());
 }
 
 TEST(PairCells, NothingIsNoPair) {

@@ -349,6 +349,9 @@ TEST(Booleans, BuildTheTreeThatIsMeant) {
   EXPECT_EQ(root("difference(cube(1), {cube(2), cube(3)})")->children().size(), 3u);
   EXPECT_EQ(root("cube(1):intersection(cube(2))")->op(), BooleanOp::kIntersection);
   EXPECT_EQ(root("union{}")->kind(), NodeKind::kEmpty);
+  EXPECT_EQ(root("union{cube(1), {cube(2), {cube(3), {}}}}")->children().size(), 3u);
+  EXPECT_EQ(message_of("local t = {} t[1] = t return union(t)"),
+            "model.lua:1: union: its lists are nested too deep");
   const ScriptRun run("local a = cube(1)\nlocal b = a +\n  cube(2)\nreturn b");
   EXPECT_EQ(run.session.parts().at(0).solid->where().text(), "model.lua:2");
 }

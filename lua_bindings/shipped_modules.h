@@ -1,0 +1,18 @@
+// The library that the program carries in itself: modules in Lua, for require "csg.gears" and the
+// like. Their texts stand in lua_bindings/library and are put into the program when it is built.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace csgrun {
+
+struct ShippedModule {
+  std::string_view name;  ///< "csg.gears"
+  std::string_view text;
+};
+
+/// All of them, by name.
+std::span<const ShippedModule> shipped_modules();
+
+}  // namespace csgrun

@@ -1,0 +1,242 @@
+// The library that the program carries: csg.gears, csg.layout, csg.options, csg.threads. Against
+// formulas, against one another (what meshes must not collide), and their messages.
+#include "lua_bindings/shipped_modules.h"
+#include "lua_support.h"
+
+namespace csgrun::testing {
+namespace {
+
+const std::string kGears = "local gears = require 'csg.gears' ";
+const std::string kLayout = "local layout = require 'csg.layout' ";
+const std::string kThreads = "local threads = require 'csg.threads' ";
+const std::string kNear =
+    "local function near(a, b, by) assert(math.abs(a - b) <= (by or 1e-6), a .. ' is not ' .. b) "
+    "end ";
+
+TEST(Library, ModulesAreFoundByNameOnly) {
+  for (const ShippedModule& module : shipped_modules()) {
+    expect_good("assert(require '" + std::string(module.name) + "' == require '" +
+                std::string(module.name) + "')");
+  }
+  const std::string message = ScriptRun("require 'csg.gear'").outcome.message;
+  EXPECT_EQ(
+      message.rfind("model.lua:1: require: module 'csg.gear' not found:\n\tnot in the library "
+                    "of csgrun (did you mean 'csg.gears'?)\n\tno file",
+                    0),
+      0u)
+      << message;
+}
+
+TEST(Library, OptionsAreChecked) {
+  const std::string wheel =
+      "local options = require 'csg.options' local function wheel(given) local o = "
+      "options('wheel', "
+      "given, {spokes = {5, min = 3, max = 9, whole = true}, radius = {type = 'number', above = 0},"
+      " name = {type = 'string', optional = true}, finish = {'plain', choices = {'plain', "
+      "'worn'}}})"
+      " return o end ";
+  expect_good(
+      wheel +
+      "local o = wheel{radius = 2} assert(o.spokes == 5 and o.radius == 2 and o.name == nil "
+      "and o.finish == 'plain') assert(wheel{radius = 1, spokes = 3, name = 'x', finish = "
+      "'worn'}.finish == 'worn')");
+  const auto message = [&](const std::string& call) { return message_of(wheel + call); };
+  EXPECT_EQ(message("wheel{radius = 1, spoke = 4}"),
+            "model.lua:1: wheel: unknown option 'spoke' (did you mean 'spokes'?)");
+  EXPECT_EQ(message("wheel{radius = 1, zzz = 4}"),
+            "model.lua:1: wheel: unknown option 'zzz'; it has finish, name, radius, spokes");
+  EXPECT_EQ(message("wheel{}"), "model.lua:1: wheel: option 'radius' is missing");
+  EXPECT_EQ(message("wheel{radius = '1'}"),
+            "model.lua:1: wheel: option 'radius' must be a number, got \"1\"");
+  EXPECT_EQ(message("wheel{radius = 0}"),
+            "model.lua:1: wheel: option 'radius' must be greater than 0, got 0");
+  EXPECT_EQ(message("wheel{radius = 0/0}").substr(0, 61),
+            "model.lua:1: wheel: option 'radius' must be a finite number, ");
+  EXPECT_EQ(message("wheel{radius = 1, spokes = 2}"),
+            "model.lua:1: wheel: option 'spokes' must be at least 3, got 2");
+  EXPECT_EQ(message("wheel{radius = 1, spokes = 10}"),
+            "model.lua:1: wheel: option 'spokes' must be at most 9, got 10");
+  EXPECT_EQ(message("wheel{radius = 1, spokes = 3.5}"),
+            "model.lua:1: wheel: option 'spokes' must be a whole number, got 3.5");
+  EXPECT_EQ(message("wheel{radius = 1, finish = 'new'}"),
+            "model.lua:1: wheel: option 'finish' must be one of \"plain\", \"worn\", got \"new\"");
+  EXPECT_EQ(message("wheel(5)"), "model.lua:1: wheel: wants a table of options, got 5");
+  EXPECT_EQ(message("wheel{radius = 1, 7}"),
+            "model.lua:1: wheel: its options are named, got 7 without a name");
+}
+
+// Teeth in mesh leave each other alone, whatever the pair; without backlash and half a pitch off
+// they collide.
+TEST(Gears, Mesh) {
+  const char* const kPairs[] = {
+      "gears.spur{teeth = 24, module = 2, width = 3, backlash = 0.02}, 24, 17, {module = 2, at = "
+      "33}",
+      "gears.spur{teeth = 31, module = 2, width = 3, backlash = 0.02, helix = 15}, 31, 17, {module "
+      "= "
+      "2, at = -70}",
+      "gears.spur{teeth = 20, module = 2, width = 3, backlash = 0.02, helix = 25, herringbone = "
+      "true}, 20, 17, {module = 2}",
+  };
+  for (const std::string pair : kPairs) {
+    const bool is_helical = pair.find("helix") != std::string::npos;
+    const std::string helix = !is_helical ? ""
+                              : pair.find("herring") != std::string::npos
+                                  ? ", helix = -25, herringbone = true"
+                                  : ", helix = -15";
+    expect_good(kGears +
+                "local function at(turn, first, n, m, o) local second = gears.spur{teeth = "
+                "17, module = 2, width = 3, backlash = 0.02" +
+                helix +
+                "} return first * gears.meshed(second:rotate(turn), n, m, o) end "
+                "assert(at(0, " +
+                pair + "):is_empty()) assert(at(360 / 34, " + pair + "):volume() > 1)");
+  }
+  expect_good(
+      kGears +
+      "local ring = gears.ring{teeth = 60, module = 1, width = 2, backlash = 0.02} local "
+      "planet = gears.spur{teeth = 18, module = 1, width = 2, backlash = 0.02} for _, at in "
+      "ipairs{0, 41, 190} do assert((ring * gears.meshed(planet, 60, 18, {module = 1, "
+      "internal = true, at = at})):is_empty()) assert((ring * "
+      "gears.meshed(planet:rotate(10), 60, 18, {module = 1, internal = true, at = "
+      "at})):volume() > 0.1) end assert(gears.distance(60, 18, {module = 1, internal = true})"
+      " == 21)");
+  expect_good(
+      kGears +
+      "local rack = gears.rack{teeth = 7, module = 2, width = 3, backlash = 0.02} local gear "
+      "= gears.spur{teeth = 20, module = 2, width = 3, backlash = 0.02}:rotate(-90 + 9):"
+      "translate(3 * math.pi * 2, 20, 0) assert((rack * gear):is_empty()) assert((rack * "
+      "gear:translate(math.pi, 0, 0)):volume() > 1)");
+}
+
+TEST(Gears, Measures) {
+  // The bore is a prism of 4 x teeth sides. Corners are on a grid of a nanometre.
+  expect_good(
+      kGears + kNear +
+      "local o = {teeth = 40, module = 1, width = 2} local r = gears.radii{teeth = 40, module = 1} "
+      "near(r.pitch, "
+      "20) near(r.tip, 21) near(r.root, 18.75) near(r.base, 20 * cos(20)) local whole = "
+      "gears.spur(o):volume() o.bore = 10 near(whole - gears.spur(o):volume(), 2 * 160 / 2 * "
+      "25 * sin(360 / 160), 1e-4) o.herringbone, o.helix, o.bore = true, 20, nil local v = "
+      "gears.spur(o) assert(v:components() == 1 and v:genus() == 0) near(v:volume() / whole, "
+      "1, 0.01) near(gears.outline{teeth = 40, module = 1}:area() * 2, whole, 1e-4)");
+  // The tooth is half a pitch wide at the pitch circle, less the backlash.
+  expect_good(
+      kGears + kNear +
+      "local rack = gears.rack{teeth = 3, module = 2, width = 1, backlash = 0.5, height = 1} "
+      "local p = math.pi * 2 local strip = cube(3 * p, 1e-3, 1):translate(-p / 2, -5e-4, 0) "
+      "near((rack * strip):volume() / 1e-3, 3 * (p / 2 - 0.5), 1e-4)");
+}
+
+TEST(Gears, Mistakes) {
+  const auto message = [](const std::string& call) { return message_of(kGears + call); };
+  EXPECT_EQ(
+      message("gears.spur{teeth = 24, module = 2, width = 8, bore = 80}"),
+      "model.lua:1: gears.spur: option 'bore' must be less than 43.0, the diameter at the roots "
+      "of the teeth, got 80");
+  EXPECT_EQ(message("gears.spur{teeth = 6, module = 2, width = 8, shift = 1}"),
+            "model.lua:1: gears.spur: the teeth come to a point below their tips: take less shift, "
+            "less backlash or a smaller pressure angle");
+  EXPECT_EQ(message("gears.ring{teeth = 40, module = 2, width = 8, rims = 3}"),
+            "model.lua:1: gears.ring: unknown option 'rims' (did you mean 'rim'?)");
+  EXPECT_EQ(message("gears.rack{teeth = 40, module = 2, width = 8, pressure = 44}"),
+            "model.lua:1: gears.rack: the teeth come to a point below their tips");
+  EXPECT_EQ(message("gears.meshed(cube(1), 2.5, 3, {module = 2})"),
+            "model.lua:1: gears.meshed: wants two numbers of teeth");
+}
+
+TEST(Threads, BoltAndNutFit) {
+  expect_good(
+      kThreads +
+      "local bolt = threads.bolt{size = 'M8', length = 16, threaded = 12, facets = 24} local "
+      "nut = threads.nut{size = 'M8', clearance = 0.1, facets = 24}:up(5.3 + 4 + 2.5) "
+      "assert((bolt * nut):is_empty()) assert((bolt * nut:up(0.625)):volume() > 0.5) "
+      "assert(bolt:components() == 1 and bolt:genus() == 0 and nut:genus() == 1)");
+  // A left-handed one is the mirror image.
+  expect_good(
+      kThreads + kNear +
+      "local o = {d = 12, pitch = 3, length = 9, profile = 'trapezoidal', starts = 2, facets "
+      "= 24} local right = threads.thread(o) o.left = true local left = threads.thread(o) "
+      "assert((right:mirror(0, 1, 0) ~ left):is_empty()) assert((right ~ left):volume() > "
+      "1) o.chamfer = true assert((threads.thread(o) - left):is_empty())");
+}
+
+// The section at any height is the outline: the volume is its area times the length, less what the
+// facets of the helix cut off: one of them turns by three degrees.
+TEST(Threads, Volume) {
+  expect_good(
+      kThreads + kNear +
+      "local h, n = 0.625 * math.sqrt(3) / 2 * 1.5, 240 local sum = 0 local function r(i) "
+      "local t = math.abs(i / n % 1 - 0.5) * 2 return 5 - h * math.max(0, math.min(1, (t - "
+      "1 / 8) / 0.625)) end for i = 0, n - 1 do sum = sum + r(i) * r(i + 1) * sin(360 / n) / "
+      "2 end local v = threads.thread{size = 'M10', length = 6, facets = n}:volume() "
+      "assert(v < sum * 6 and v > sum * 6 * cos(1.5) ^ 2)");
+  expect_good(
+      kThreads +
+      "local t = threads.hole{size = 'M5', depth = 8, head = 'socket'} local box = t:bbox() "
+      "assert(box.max[3] == 0 and box.min[3] == -8 and box.max[1] == 4.5) assert(threads"
+      ".washer{size = 'M5'}:genus() == 1)");
+}
+
+TEST(Threads, Mistakes) {
+  const auto message = [](const std::string& call) { return message_of(kThreads + call); };
+  EXPECT_EQ(message("threads.thread{length = 3}"),
+            "model.lua:1: threads.thread: wants a size such as \"M8\", or d and pitch");
+  EXPECT_EQ(
+      message("threads.thread{length = 3, d = 1, pitch = 1}"),
+      "model.lua:1: threads.thread: a thread of pitch 1 is deeper than a diameter of 1 has room "
+      "for");
+  EXPECT_EQ(message("threads.bolt{size = 'M8', lenght = 3}"),
+            "model.lua:1: threads.bolt: unknown option 'lenght' (did you mean 'length'?)");
+  EXPECT_EQ(message("threads.size('M7')").substr(0, 55),
+            "model.lua:1: threads.size: there is no size 'M7'; there");
+  EXPECT_EQ(message("threads.washer{size = 'M8', d = 8}"),
+            "model.lua:1: threads.washer: option 'd' must be greater than 8.4, got 8");
+}
+
+TEST(Layout, Places) {
+  const std::string at =
+      "local function at(part, x, y, z) local b = part:bbox().min assert(b[1] == x and b[2] == y "
+      "and b[3] == z, b[1] .. ' ' .. b[2] .. ' ' .. b[3]) end ";
+  expect_good(
+      kLayout + at +
+      "local a, b = cube(10, 20, 30), cube(2, 4, 6) local row = layout.row({a, b, b}, {gap = "
+      "3}) at(row[1], 0, 0, 0) at(row[2], 13, 0, 0) at(row[3], 18, 0, 0) row = layout.row("
+      "{a, b}, {axis = 'y', gap = 1, align = 'max'}) at(row[2], 8, 21, 24) local tower = "
+      "layout.stack{a, b} at(tower[2], 4, 8, 30) local grid = layout.grid({b, b, a}, "
+      "{columns = 2, gap = 1}) at(grid[1], 0, 0, 0) at(grid[2], 11, 0, 0) at(grid[3], -4, "
+      "-29, 0)");
+  expect_good(
+      kLayout + at +
+      "local a, b = cube(10, 20, 30), cube(2, 4, 6) at(layout.attach(b, 'bottom', a, 'top'), "
+      "4, 8, 30) at(layout.attach(b, 'left front bottom', a, 'right back top', {gap = 1}), "
+      "11, 21, 31) at(layout.place(b, {-1, 0, 1}, {0, 0, 0}), 0, -2, -6) local p = "
+      "layout.anchor(a, 'right') assert(p[1] == 10 and p[2] == 10 and p[3] == 15)");
+  expect_good(
+      kLayout + at +
+      "local c = cube(1) local line = layout.line(c, 3, {step = {2, 0, 0}}) at(line[3], 4, 0, "
+      "0) line = layout.line(c, 5, {to = {0, 0, 8}}) at(line[2], 0, 0, 2) local ring = "
+      "layout.ring(c, 4, {radius = 10}) at(ring[2], -1, 10, 0) ring = layout.ring(c, 3, "
+      "{radius = 10, angle = 180, turn = false}) at(ring[2], 0, 10, 0) at(ring[3], -10, 0, 0)"
+      " at(layout.at(c, {{0, 0}, {5, 6, 7}})[2], 5, 6, 7)");
+}
+
+TEST(Layout, Mistakes) {
+  const auto message = [](const std::string& call) { return message_of(kLayout + call); };
+  EXPECT_EQ(
+      message("layout.anchor(cube(1), 'topp')"),
+      "model.lua:1: layout.anchor: there is no side 'topp'; there are left, right, front, back, "
+      "bottom, top and center");
+  EXPECT_EQ(message("layout.anchor(cube(1), 'top bottom')"),
+            "model.lua:1: layout.anchor: 'top bottom' names two sides of one axis");
+  EXPECT_EQ(message("layout.row(5)"), "model.lua:1: layout.row: wants a list of solids, got 5");
+  EXPECT_EQ(message("layout.row{cube(1) - cube(1)}"), "model.lua:1: layout.row: part 1 is empty");
+  EXPECT_EQ(message("layout.ring(cube(1), 0)"),
+            "model.lua:1: layout.ring: wants how many, a whole number from 1, got 0");
+  EXPECT_EQ(message("layout.line(cube(1), 3, {})"),
+            "model.lua:1: layout.line: wants either step = {x, y, z} or to = {x, y, z}");
+  EXPECT_EQ(message("layout.at(cube(1), {3})"),
+            "model.lua:1: layout.at: point 1 must be {x, y, z}, got 3");
+}
+
+}  // namespace
+}  // namespace csgrun::testing
