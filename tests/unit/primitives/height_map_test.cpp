@@ -1,4 +1,6 @@
 // Tables of heights as solids: volumes in closed form, pictures from bytes made here.
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <png.h>
 
