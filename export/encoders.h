@@ -22,6 +22,13 @@ Result<std::string> encode_stl(const Part& part, MeshMaker& maker);
 /// OFF of one part: doubles, polygons kept, colours where one was asked for.
 Result<std::string> encode_off(const Part& part, MeshMaker& maker);
 
+/// Binary PLY of one part: doubles, polygons kept, colours of faces where one was asked for.
+Result<std::string> encode_ply(const Part& part, MeshMaker& maker);
+
+/// 3MF: doubles, one object a part, base materials. A part that rounding left nothing of is left
+/// out.
+Result<std::string> encode_3mf(const Parts& parts, MeshMaker& maker);
+
 struct ObjFiles {
   std::string obj, mtl;
 };

@@ -12,7 +12,7 @@
 namespace csgrun {
 namespace {
 
-constexpr std::array kFormats{"glb", "gltf", "stl", "obj", "off", "exact.json"};
+constexpr std::array kFormats{"glb", "gltf", "stl", "3mf", "obj", "off", "ply", "exact.json"};
 
 Status check_parts(const std::string& format, const std::vector<Part>& parts) {
   if (std::find(kFormats.begin(), kFormats.end(), format) == kFormats.end()) {
@@ -61,6 +61,8 @@ Result<std::vector<ModelFile>> encode(const std::string& path, const std::string
     if (format == "gltf") return encode_gltf(parts, GltfContainer::kText, maker);
     if (format == "stl") return encode_stl(parts[0], maker);
     if (format == "off") return encode_off(parts[0], maker);
+    if (format == "ply") return encode_ply(parts[0], maker);
+    if (format == "3mf") return encode_3mf(parts, maker);
     return encode_exact(parts);
   }();
   if (!bytes) return bytes.error();
@@ -82,16 +84,18 @@ std::string model_format_of(const std::string& path) {
 }
 
 bool keeps_parts(const std::string& format) {
-  return format == "glb" || format == "gltf" || format == "obj" || format == "exact.json";
+  return format == "glb" || format == "gltf" || format == "3mf" || format == "obj" ||
+         format == "exact.json";
 }
 
 Result<std::vector<ModelFile>> encode_files(const std::string& path, const std::vector<Part>& parts,
                                             const WriteOptions& options, WriteReport& report) {
   const std::string format = model_format_of(path);
   if (format.empty()) {
-    return Error{ErrorCode::kInvalidArgument,
-                 "'" + path + "' does not end in .glb, .gltf, .stl, .obj, .off or .exact.json",
-                 {}};
+    return Error{
+        ErrorCode::kInvalidArgument,
+        "'" + path + "' does not end in .glb, .gltf, .stl, .3mf, .obj, .off, .ply or .exact.json",
+        {}};
   }
   if (Status status = check_parts(format, parts); !status) return status.error();
   MeshMaker maker(options, report);

@@ -138,16 +138,35 @@ void open_methods(lua_State* L, const char* kind, lua_CFunction Binding::*form) 
 
 }  // namespace
 
+std::vector<BindingGroup> binding_groups() {
+  return {
+      {"Solids", "Solid", solid_bindings()},
+      {"More solids", "Solid", polyhedron_bindings()},
+      {"Shapes, and solids of them", "Shape", shape_bindings()},
+      {"Outlines", "Shape", outline_bindings()},
+      {"Text", "Shape", text_bindings()},
+      {"Sweeps", "Solid", sweep_bindings()},
+      {"Hulls and sums", "same", construction_bindings()},
+      {"Sections and parts", "Solid", section_bindings()},
+      {"Free forms", "Solid", surface_bindings()},
+      {"Transforms", "same", transform_bindings()},
+      {"Places and copies", "same", array_bindings()},
+      {"Booleans", "same", boolean_bindings()},
+      {"Colours and materials", "same", color_bindings()},
+      {"Names and modifiers", "same", mark_bindings()},
+      {"Measuring", "number", measure_bindings()},
+      {"Trigonometry, in degrees", "number", math_bindings()},
+      {"Vectors and numbers", "number", vector_bindings()},
+      {"Parameters", "any", parameter_bindings()},
+      {"Files as values", "any", file_bindings()},
+      {"The model", "any", model_bindings()},
+  };
+}
+
 std::vector<Binding> all_bindings() {
   std::vector<Binding> all;
-  for (const auto& group :
-       {solid_bindings(), polyhedron_bindings(), shape_bindings(), outline_bindings(),
-        text_bindings(), sweep_bindings(), construction_bindings(), section_bindings(),
-        surface_bindings(), transform_bindings(), boolean_bindings(), color_bindings(),
-        mark_bindings(), measure_bindings(), math_bindings(), vector_bindings(),
-        parameter_bindings(), model_bindings()}) {
-    all.insert(all.end(), group.begin(), group.end());
-  }
+  for (const BindingGroup& group : binding_groups())
+    all.insert(all.end(), group.bindings.begin(), group.bindings.end());
   return all;
 }
 
@@ -181,6 +200,7 @@ void open_api(lua_State* L) {
 
   open_methods(L, SolidValue::kName, &Binding::solid_method);
   open_methods(L, ShapeValue::kName, &Binding::shape_method);
+  open_methods(L, MatrixValue::kName, &Binding::matrix_method);
   for (const char* kind : {SolidValue::kName, ShapeValue::kName, MatrixValue::kName}) {
     luaL_getmetatable(L, kind);
     lua_pushcfunction(L, guarded<refuse_assignment>);

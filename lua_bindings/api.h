@@ -19,9 +19,10 @@ namespace csgrun {
 /// One name of the language. Null where it does not exist in that form.
 struct Binding {
   const FunctionSpec* spec;
-  lua_CFunction function;      ///< as a global and in `csg`
-  lua_CFunction solid_method;  ///< as solid:name(...)
-  lua_CFunction shape_method;  ///< as shape:name(...)
+  lua_CFunction function;                 ///< as a global and in `csg`
+  lua_CFunction solid_method;             ///< as solid:name(...)
+  lua_CFunction shape_method;             ///< as shape:name(...)
+  lua_CFunction matrix_method = nullptr;  ///< as matrix:name(...)
 };
 
 std::span<const Binding> solid_bindings();
@@ -40,10 +41,20 @@ std::span<const Binding> vector_bindings();
 std::span<const Binding> color_bindings();
 std::span<const Binding> mark_bindings();
 std::span<const Binding> polyhedron_bindings();
+std::span<const Binding> array_bindings();
 std::span<const Binding> parameter_bindings();
+std::span<const Binding> file_bindings();
 std::span<const Binding> model_bindings();
 
-/// All of them, by name within each group.
+/// Functions that belong together, for the pages of the language.
+struct BindingGroup {
+  const char* title;
+  const char* result;  ///< what most of them give: "Solid", "number", or "same" as their subject
+  std::span<const Binding> bindings;
+};
+std::vector<BindingGroup> binding_groups();
+
+/// All of them, group after group.
 std::vector<Binding> all_bindings();
 
 /// Sets globals, `csg`, methods and operators.

@@ -18,20 +18,21 @@ constexpr Option kSides[] = {
     {"x", ArgumentType::kNumber, "", "adjacent side", true},
 };
 
-constexpr FunctionSpec kSin{"sin", "Sine of an angle in degrees.", kAngle},
-    kSind{"sind", "The same as sin.", kAngle};
-constexpr FunctionSpec kCos{"cos", "Cosine of an angle in degrees.", kAngle},
-    kCosd{"cosd", "The same as cos.", kAngle};
-constexpr FunctionSpec kTan{"tan", "Tangent of an angle in degrees.", kAngle},
-    kTand{"tand", "The same as tan.", kAngle};
-constexpr FunctionSpec kAsin{"asin", "Arc sine in degrees.", kRatio},
-    kAsind{"asind", "The same as asin.", kRatio};
-constexpr FunctionSpec kAcos{"acos", "Arc cosine in degrees.", kRatio},
-    kAcosd{"acosd", "The same as acos.", kRatio};
-constexpr FunctionSpec kAtan{"atan", "Arc tangent in degrees.", kRatio},
-    kAtand{"atand", "The same as atan.", kRatio};
-constexpr FunctionSpec kAtan2{"atan2", "Angle of the direction (x, y) in degrees.", kSides},
-    kAtan2d{"atan2d", "The same as atan2.", kSides};
+constexpr FunctionSpec kSin{"sin", "Sine of an angle in degrees.", kAngle, false, "sin(30)"},
+    kSind{"sind", "The same as sin.", kAngle, false, "sind(30)"};
+constexpr FunctionSpec kCos{"cos", "Cosine of an angle in degrees.", kAngle, false, "cos(60)"},
+    kCosd{"cosd", "The same as cos.", kAngle, false, "cosd(60)"};
+constexpr FunctionSpec kTan{"tan", "Tangent of an angle in degrees.", kAngle, false, "tan(45)"},
+    kTand{"tand", "The same as tan.", kAngle, false, "tand(45)"};
+constexpr FunctionSpec kAsin{"asin", "Arc sine in degrees.", kRatio, false, "asin(0.5)"},
+    kAsind{"asind", "The same as asin.", kRatio, false, "asind(0.5)"};
+constexpr FunctionSpec kAcos{"acos", "Arc cosine in degrees.", kRatio, false, "acos(0.5)"},
+    kAcosd{"acosd", "The same as acos.", kRatio, false, "acosd(0.5)"};
+constexpr FunctionSpec kAtan{"atan", "Arc tangent in degrees.", kRatio, false, "atan(1)"},
+    kAtand{"atand", "The same as atan.", kRatio, false, "atand(1)"};
+constexpr FunctionSpec kAtan2{"atan2", "Angle of the direction (x, y) in degrees.", kSides, false,
+                              "atan2(1, -1)"},
+    kAtan2d{"atan2d", "The same as atan2.", kSides, false, "atan2d(1, -1)"};
 
 template <const FunctionSpec& Spec, double (*Function)(double), bool kUnitRange = false>
 int of_one(lua_State* L) {

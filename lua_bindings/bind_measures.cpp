@@ -33,18 +33,30 @@ const Shape2D& bare_shape(lua_State* L, const FunctionSpec& spec) {
 constexpr FunctionSpec kBbox{
     "bbox",
     "The bounding box: {min = {x, y, z}, max = {x, y, z}}; two numbers each for a shape.",
-    {}};
-constexpr FunctionSpec kSize{"size", "The lengths of the bounding box.", {}};
+    {},
+    false,
+    "part:bbox().max[3]"};
+constexpr FunctionSpec kSize{
+    "size", "The lengths of the bounding box.", {}, false, "part:size()[1]"};
 constexpr FunctionSpec kVolume{
-    "volume", "The volume in mm^3, rounded once from the exact value.", {}};
+    "volume", "The volume in mm^3, rounded once from the exact value.", {}, false, "part:volume()"};
 constexpr FunctionSpec kArea{
-    "area", "The area of the surface in mm^2; of a shape its own area.", {}};
-constexpr FunctionSpec kCentroid{
-    "centroid", "The centre of mass, {x, y, z}; of a shape {x, y}.", {}};
+    "area", "The area of the surface in mm^2; of a shape its own area.", {}, false, "part:area()"};
+constexpr FunctionSpec kCentroid{"centroid",
+                                 "The centre of mass, {x, y, z}; of a shape {x, y}.",
+                                 {},
+                                 false,
+                                 "part:centroid()[1]"};
 constexpr FunctionSpec kComponents{
-    "components", "The number of connected surfaces; of a shape that of connected pieces.", {}};
-constexpr FunctionSpec kGenus{"genus", "The number of handles, over all surfaces.", {}};
-constexpr FunctionSpec kIsEmpty{"is_empty", "Whether there is nothing in it.", {}};
+    "components",
+    "The number of connected surfaces; of a shape that of connected pieces.",
+    {},
+    false,
+    "part:components()"};
+constexpr FunctionSpec kGenus{
+    "genus", "The number of handles, over all surfaces.", {}, false, "part:genus()"};
+constexpr FunctionSpec kIsEmpty{
+    "is_empty", "Whether there is nothing in it.", {}, false, "(part - part):is_empty()"};
 constexpr FunctionSpec kMesh{"mesh",
                              "Its triangles: {points = {{x, y, z}, ...}, faces = {{i, j, k}, "
                              "...}}, as polyhedron takes them.",

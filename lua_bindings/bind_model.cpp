@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include <csgrun/primitives/flat_file.h>
-#include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/call_site.h"
 #include "lua_bindings/guard.h"
+#include "lua_bindings/model_parts.h"
 #include "lua_bindings/parts.h"
 #include "lua_bindings/sandbox.h"
 #include "lua_bindings/session.h"
@@ -23,10 +23,13 @@ using T = ArgumentType;
 
 constexpr Option kImportOptions[] = {
     {"file", T::kString, "",
-     "STL, OFF, OBJ, PLY, SVG or DXF, relative to the file that calls, or else to the folders of "
-     "-L and\n"
-     "          CSGRUN_PATH",
+     "STL, OFF, OBJ, PLY, GLB, glTF, 3MF, SVG or DXF, relative to the file that calls, or else to "
+     "the\n          folders of -L and CSGRUN_PATH",
      true},
+    {"parts", T::kBoolean, "false",
+     "gives a list of its parts, which have the names that the file has for them, instead of their "
+     "union",
+     false},
     {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
     {"repair", T::kValue, "false",
      "makes a broken mesh a closed one and warns of all it does: true, or a table of\n"
@@ -47,8 +50,9 @@ constexpr Option kImportOptions[] = {
 };
 constexpr FunctionSpec kImport{
     "import",
-    "A solid from a mesh file; the mesh must be closed, or is repaired on request. Where it "
-    "crosses itself, fill says what is inside. A shape from a drawing: what is filled or closed.",
+    "A solid from a file, with its colours; its meshes must be closed, or are repaired on request. "
+    "Where one crosses itself, fill says what is inside. A shape from a drawing: what is filled or "
+    "closed.",
     kImportOptions, true, "import(\"scan.stl\", {repair = {weld = 0.01, fill_holes = true}})"};
 
 constexpr Option kRepairOptions[] = {
@@ -82,10 +86,28 @@ std::optional<RepairOptions> repair_argument(lua_State* L, const Arguments& argu
   return options;
 }
 
+/// The parts of a file as nodes; read once.
+const std::vector<Session::ImportedPart>& import_parts(lua_State* L, const Files::Opened& file,
+                                                       const ModelPartOptions& options) {
+  Session& session = session_of(L);
+  auto& parts = session.imported[{file.real, options.fill, options.repair}];
+  if (!parts.empty()) return parts;
+  const EvaluationScope scope(session.budget());  // reading a large file is no fault of the script
+  std::vector<std::string> notes;
+  std::vector<ModelPart> read =
+      value_or_fail(kImport, read_model_parts(file.display, file.bytes, options, &notes));
+  for (const std::string& note : notes) session.warn(L, "import: " + note);
+  for (ModelPart& part : read) {
+    part.mesh.kind = session.files().name_from_folder(file.display);  // what is written names it so
+    parts.push_back({part.name, counted_leaf(L, std::move(part.mesh))});
+  }
+  return parts;
+}
+
 /// A drawing as a shape.
 int import_drawing(lua_State* L, const Arguments& arguments, const std::string& path) {
   const std::string format = flat_file_format_of(path);
-  for (const char* name : {"fill", "repair"}) {
+  for (const char* name : {"fill", "repair", "parts"}) {
     if (arguments.has(name))
       fail_in(kImport, fmt::format("option '{}' is for meshes, not for drawings", name));
   }
@@ -122,8 +144,10 @@ int import_file(lua_State* L) {
   const std::string path = arguments.string("file", "");
   if (path.empty()) fail_in(kImport, "needs the name of a file");
   if (!flat_file_format_of(path).empty()) return import_drawing(L, arguments, path);
-  if (mesh_format_of(path).empty()) {
-    fail_in(kImport, "'" + path + "' has none of the endings .stl, .off, .obj, .ply, .svg, .dxf");
+  if (model_file_format_of(path).empty()) {
+    fail_in(kImport, "'" + path +
+                         "' has none of the endings .stl, .off, .obj, .ply, .glb, .gltf, .3mf, "
+                         ".svg, .dxf");
   }
   for (const char* name : {"layer", "id", "dpi", "origin", "scale", "center", "fn", "fa", "fs"}) {
     if (arguments.has(name))
@@ -136,27 +160,32 @@ int import_file(lua_State* L) {
   } catch (const ScriptError& error) {
     fail_in(kImport, error.what());
   }
-  const FillRule fill = fill_argument(arguments, kImport);
-  const std::optional<RepairOptions> repair = repair_argument(L, arguments);
-  NodePtr& node = session.imported[{file.real, fill, repair}];
-  if (!node) {
-    const EvaluationScope scope(
-        session.budget());  // reading a large mesh is no fault of the script
-    PolygonMesh mesh = value_or_fail(kImport, parse_mesh(file.display, file.bytes));
-    mesh.fill = fill;
-    std::vector<std::string> notes;
-    if (repair) {
-      mesh = value_or_fail(kImport, repair_solid_mesh(std::move(mesh), *repair, &notes));
-    } else {
-      std::string note;
-      mesh = value_or_fail(kImport, make_solid_mesh(std::move(mesh), &note));
-      if (!note.empty()) notes.push_back(note);
+  ModelPartOptions options;
+  options.fill = fill_argument(arguments, kImport);
+  options.repair = repair_argument(L, arguments);
+  options.open_material_file = [&](const std::string& name) -> std::optional<std::string> {
+    try {
+      return session.files().open(file.display, name).bytes;
+    } catch (const ScriptError& error) {
+      session.warn(L, std::string("import: no colours: ") + error.what());
+      return std::nullopt;
     }
-    for (const std::string& note : notes) session.warn(L, "import: " + note);
-    mesh.kind = session.files().name_from_folder(file.display);  // what is written names it so
-    node = counted_leaf(L, std::move(mesh));
+  };
+  const auto& parts = import_parts(L, file, options);
+  if (arguments.boolean("parts", false)) {
+    lua_createtable(L, static_cast<int>(parts.size()), 0);
+    for (size_t i = 0; i < parts.size(); ++i) {
+      push_solid(L, parts[i].node);
+      marks_of(L, -1)->name = parts[i].name;
+      lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
+    }
+  } else if (parts.size() == 1) {
+    push_solid(L, parts[0].node);
+  } else {
+    std::vector<NodePtr> nodes;
+    for (const auto& part : parts) nodes.push_back(part.node);
+    push_solid(L, Node::boolean(BooleanOp::kUnion, std::move(nodes), session.source_ref(L)));
   }
-  push_solid(L, node);
   return 1;
 }
 

@@ -1,8 +1,12 @@
 // What makes new outlines of shapes, and what reads them: offset, fill, perimeter,
 // points, paths, outlines.
+#include <cmath>
+
 #include <fmt/format.h>
 
+#include <csgrun/primitives/freeform.h>
 #include <csgrun/primitives/shape_operations.h>
+#include <csgrun/primitives/solid_parts.h>
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
@@ -15,20 +19,50 @@ namespace {
 using T = ArgumentType;
 
 constexpr Option kOffsetOptions[] = {
-    {"r", T::kNumber, "1", "distance, outwards (negative: inwards), with round corners", true},
-    {"delta", T::kNumber, "", "distance with sharp corners; r counts if both are given", false},
+    {"r", T::kNumber, "1",
+     "distance, outwards (negative: inwards), with round corners: of a solid by a ball", true},
+    {"delta", T::kNumber, "",
+     "distance with sharp corners (of a solid by a box along the axes); r counts if both are given",
+     false},
     {"chamfer", T::kBoolean, "false", "with delta: corners are cut square at that distance", false},
 };
-constexpr FunctionSpec kOffset{"offset",
-                               "The shape with its outline moved.",
-                               kOffsetOptions,
-                               true,
-                               "square(10):offset{delta = 2, chamfer = true}",
-                               "shape",
-                               kShapeDoc};
+constexpr FunctionSpec kOffset{
+    "offset",
+    "The shape with its outline moved; or the solid with its surface moved.",
+    kOffsetOptions,
+    true,
+    "square(10):offset{delta = 2, chamfer = true}",
+    "shape",
+    kShapeDoc};
+
+/// A solid grown, or shrunk, by a ball or a box.
+int offset_of_solid(lua_State* L, const SolidValue& solid) {
+  const Arguments arguments(L, kOffset, 2);
+  if (arguments.has("chamfer")) fail_in(kOffset, "option 'chamfer' is for shapes");
+  const bool sharp = arguments.has("delta") && !arguments.has("r");
+  const double distance = arguments.number(sharp ? "delta" : "r", 1);
+  const double reach = std::fabs(distance);
+  if (reach == 0) {
+    push_solid(L, solid.node);
+  } else {
+    const glm::dvec3 size(2 * reach);
+    const NodePtr tool = counted_leaf(
+        L, value_or_fail(kOffset, sharp ? make_cube(size, {true, true, true})
+                                        : make_rounded_cube(size, reach, {true, true, true},
+                                                            arguments.facets())));
+    Session& session = session_of(L);
+    const EvaluationScope scope(session.budget());
+    auto moved = offset_solid(session.evaluator(), solid.node, tool, distance);
+    if (!moved) session.fail_evaluation(moved.error());
+    push_solid(L, *std::move(moved));
+  }
+  keep_marks(L, 1);
+  return 1;
+}
 
 int offset(lua_State* L) {
   take_subject_out_of_list(L);
+  if (const SolidValue* solid = to_solid(L, 1)) return offset_of_solid(L, *solid);
   const ShapeValue& shape = shape_argument(L, kOffset);
   const Arguments arguments(L, kOffset, 2);
   OffsetOptions options;
@@ -64,7 +98,8 @@ const ShapeValue& bare_shape(lua_State* L, const FunctionSpec& spec) {
   return value;
 }
 
-constexpr FunctionSpec kPerimeter{"perimeter", "The length of all outlines, holes included.", {}};
+constexpr FunctionSpec kPerimeter{
+    "perimeter", "The length of all outlines, holes included.", {}, false, "circle(5):perimeter()"};
 constexpr FunctionSpec kPoints{"points",
                                "The corners {{x, y}, ...}, as polygon takes them.",
                                {},
@@ -73,9 +108,15 @@ constexpr FunctionSpec kPoints{"points",
 constexpr FunctionSpec kPaths{
     "paths",
     "The outlines, by indices of points() from 0: outer ones counter-clockwise, holes clockwise.",
-    {}};
-constexpr FunctionSpec kOutlines{
-    "outlines", "The outlines as lists of points {x, y}, in the order of paths().", {}};
+    {},
+    false,
+    "square(5):paths()"};
+constexpr FunctionSpec kOutlines{"outlines",
+                                 "The outlines as lists of points {x, y}, in the order of paths().",
+                                 {},
+                                 false,
+                                 "square(5):outlines()"};
+
 int perimeter(lua_State* L) {
   lua_pushnumber(L, perimeter_of(bare_shape(L, kPerimeter).shape));
   return 1;
@@ -122,7 +163,7 @@ int outlines(lua_State* L) {
 }
 
 constexpr Binding kBindings[] = {
-    {&kOffset, guarded<offset>, nullptr, guarded<offset>},
+    {&kOffset, guarded<offset>, guarded<offset>, guarded<offset>},
     {&kFill, guarded<fill>, nullptr, guarded<fill>},
     {&kPerimeter, nullptr, nullptr, guarded<perimeter>},
     {&kPoints, nullptr, nullptr, guarded<points>},

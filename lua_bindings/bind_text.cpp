@@ -1,4 +1,9 @@
-// text, text_metrics.
+// text, text3d, text_metrics.
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/text.h>
 
 #include "lua_bindings/api.h"
@@ -30,6 +35,14 @@ constexpr Option kTextOptions[] = {
 };
 constexpr FunctionSpec kText{"text", "A line of text as a 2D shape.", kTextOptions, true,
                              "text(\"csgrun\", {size = 8, halign = \"center\"})"};
+constexpr auto kText3dOptions = [] {
+  std::array<Option, std::size(kTextOptions) + 1> options{};
+  std::copy(std::begin(kTextOptions), std::end(kTextOptions), options.begin());
+  options.back() = {"depth", T::kNumber, "1", "how thick, along Z", false, Range::kPositive};
+  return options;
+}();
+constexpr FunctionSpec kText3d{"text3d", "A line of text as a solid.", kText3dOptions, true,
+                               "text3d(\"csgrun\", {size = 8, depth = 2})"};
 constexpr FunctionSpec kTextMetrics{
     "text_metrics",
     "What text would measure: {position, size, ascent, descent, offset, advance}, in mm.",
@@ -81,6 +94,24 @@ int text(lua_State* L) {
   return 1;
 }
 
+int text3d(lua_State* L) {
+  const Arguments arguments(L, kText3d, 1);
+  const TextOptions options = text_options(arguments, kText3d);
+  std::string note;
+  const Shape2D shape =
+      value_or_fail(kText3d, make_text(options, font_of(L, arguments, kText3d), &note));
+  if (!note.empty()) session_of(L).warn(L, note);
+  LinearExtrudeOptions extrusion;
+  extrusion.height = arguments.number("depth", 1);
+  extrusion.height_given = true;
+  if (shape.empty()) {
+    push_solid(L, Node::empty(session_of(L).source_ref(L)));  // a text of blanks
+  } else {
+    push_leaf(L, value_or_fail(kText3d, linear_extrude(shape, extrusion)));
+  }
+  return 1;
+}
+
 template <const FunctionSpec& Spec>
 int text_metrics(lua_State* L) {
   const Arguments arguments(L, Spec, 1);
@@ -105,6 +136,7 @@ int text_metrics(lua_State* L) {
 
 constexpr Binding kBindings[] = {
     {&kText, guarded<text>, nullptr, nullptr},
+    {&kText3d, guarded<text3d>, nullptr, nullptr},
     {&kTextMetrics, guarded<text_metrics<kTextMetrics>>, nullptr, nullptr},
     {&kTextmetrics, guarded<text_metrics<kTextmetrics>>, nullptr, nullptr},
 };

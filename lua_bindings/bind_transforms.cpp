@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <csgrun/primitives/trig.h>
-
+#include "lua_bindings/affine_maps.h"
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
 #include "lua_bindings/session.h"
@@ -25,42 +24,6 @@ std::optional<glm::dvec3> named_axes(const Arguments& arguments, const FunctionS
     fail_in(spec, fmt::format("give either '{}' or x, y and z, not both", main));
   return glm::dvec3(arguments.number("x", rest), arguments.number("y", rest),
                     arguments.number("z", rest));
-}
-
-Affine translation(const glm::dvec3& v) {
-  Affine map;
-  map.m[0][3] = v.x;
-  map.m[1][3] = v.y;
-  map.m[2][3] = v.z;
-  return map;
-}
-
-/// About X, Y or Z (0, 1, 2).
-Affine axis_rotation(int axis, double degrees) {
-  const double c = cos_deg(degrees), s = sin_deg(degrees);
-  const auto i = static_cast<size_t>((axis + 1) % 3), j = static_cast<size_t>((axis + 2) % 3);
-  Affine map;
-  map.m[i][i] = c;
-  map.m[i][j] = -s;
-  map.m[j][i] = s;
-  map.m[j][j] = c;
-  return map;
-}
-
-Affine rotation_about(const glm::dvec3& axis, double degrees) {
-  const double length = std::sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
-  if (length == 0) return {};
-  // Along a coordinate axis the matrix is exact; the general formula would round it.
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(axis[i]) == length) return axis_rotation(i, axis[i] > 0 ? degrees : -degrees);
-  }
-  const glm::dvec3 u(axis.x / length, axis.y / length, axis.z / length);
-  const double c = cos_deg(degrees), s = sin_deg(degrees), t = 1 - c;
-  Affine map;
-  map.m[0] = {t * u.x * u.x + c, t * u.x * u.y - s * u.z, t * u.x * u.z + s * u.y, 0};
-  map.m[1] = {t * u.x * u.y + s * u.z, t * u.y * u.y + c, t * u.y * u.z - s * u.x, 0};
-  map.m[2] = {t * u.x * u.z - s * u.y, t * u.y * u.z + s * u.x, t * u.z * u.z + c, 0};
-  return map;
 }
 
 constexpr Option kTranslateOptions[] = {
@@ -140,17 +103,7 @@ constexpr FunctionSpec kMirror{"mirror", "Mirrors at a plane through the origin.
 
 Affine make_mirror(const Arguments& arguments) {
   const auto given = arguments.vector("v");
-  const glm::dvec3 n = given ? given->v : glm::dvec3(1, 0, 0);
-  const double square = n.x * n.x + n.y * n.y + n.z * n.z;
-  Affine map;
-  if (square == 0) return map;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      map.m[static_cast<size_t>(i)][static_cast<size_t>(j)] =
-          (i == j ? 1.0 : 0.0) - 2 * n[i] * n[j] / square;
-    }
-  }
-  return map;
+  return reflection(given ? given->v : glm::dvec3(1, 0, 0));
 }
 
 constexpr Option kMultmatrixOptions[] = {
@@ -167,15 +120,22 @@ Affine make_multmatrix(const Arguments& arguments) {
 
 constexpr Option kDistanceOptions[] = {{"d", T::kNumber, "", "how far", true}};
 constexpr Option kAngleOptions[] = {{"a", T::kNumber, "", "degrees", true}};
-constexpr FunctionSpec kUp{"up", "Moves along +Z.", kDistanceOptions};
-constexpr FunctionSpec kDown{"down", "Moves along -Z.", kDistanceOptions};
-constexpr FunctionSpec kLeft{"left", "Moves along -X.", kDistanceOptions};
-constexpr FunctionSpec kRight{"right", "Moves along +X.", kDistanceOptions};
-constexpr FunctionSpec kForward{"forward", "Moves along -Y, towards the viewer.", kDistanceOptions};
-constexpr FunctionSpec kBack{"back", "Moves along +Y.", kDistanceOptions};
-constexpr FunctionSpec kRx{"rx", "Turns about X.", kAngleOptions};
-constexpr FunctionSpec kRy{"ry", "Turns about Y.", kAngleOptions};
-constexpr FunctionSpec kRz{"rz", "Turns about Z.", kAngleOptions};
+constexpr FunctionSpec kUp{"up", "Moves along +Z.", kDistanceOptions, false, "part:up(3)"};
+constexpr FunctionSpec kDown{"down", "Moves along -Z.", kDistanceOptions, false, "part:down(3)"};
+constexpr FunctionSpec kLeft{"left", "Moves along -X.", kDistanceOptions, false, "part:left(3)"};
+constexpr FunctionSpec kRight{"right", "Moves along +X.", kDistanceOptions, false, "part:right(3)"};
+constexpr FunctionSpec kForward{"forward", "Moves along -Y, towards the viewer.", kDistanceOptions,
+                                false, "part:forward(3)"};
+constexpr FunctionSpec kFront{"front",
+                              "Moves along -Y, towards the viewer: another name of forward.",
+                              kDistanceOptions, false, "part:front(3)"};
+constexpr FunctionSpec kTx{"tx", "Moves along X.", kDistanceOptions, false, "part:tx(3)"};
+constexpr FunctionSpec kTy{"ty", "Moves along Y.", kDistanceOptions, false, "part:ty(3)"};
+constexpr FunctionSpec kTz{"tz", "Moves along Z.", kDistanceOptions, false, "part:tz(3)"};
+constexpr FunctionSpec kBack{"back", "Moves along +Y.", kDistanceOptions, false, "part:back(3)"};
+constexpr FunctionSpec kRx{"rx", "Turns about X.", kAngleOptions, false, "part:rx(90)"};
+constexpr FunctionSpec kRy{"ry", "Turns about Y.", kAngleOptions, false, "part:ry(90)"};
+constexpr FunctionSpec kRz{"rz", "Turns about Z.", kAngleOptions, false, "part:rz(90)"};
 
 template <const FunctionSpec& Spec, int Axis, int Sign>
 Affine make_step(const Arguments& arguments) {
@@ -215,10 +175,24 @@ int transform(lua_State* L) {
   return 1;
 }
 
+constexpr FunctionSpec kInverse{
+    "inverse", "The matrix that undoes a matrix.", {}, false, "rotate(30):inverse()", "matrix",
+    "a matrix"};
+
+int invert(lua_State* L) {
+  Affine map;
+  if (lua_gettop(L) != 1 || !to_affine(L, 1, map))
+    fail_in(kInverse, "needs a matrix, got " + describe_value(L, 1));
+  const auto back = inverse(map);
+  if (!back) fail_in(kInverse, "the matrix makes solids flat: nothing undoes it");
+  push_matrix(L, *back);
+  return 1;
+}
+
 template <const FunctionSpec& Spec, Affine (*Make)(const Arguments&)>
 constexpr Binding transform_binding() {
   return {&Spec, guarded<transform<Spec, Make, false>>, guarded<transform<Spec, Make, true>>,
-          guarded<transform<Spec, Make, true>>};
+          guarded<transform<Spec, Make, true>>, guarded<transform<Spec, Make, true>>};
 }
 
 constexpr Binding kBindings[] = {
@@ -226,14 +200,21 @@ constexpr Binding kBindings[] = {
     transform_binding<kRotate, make_rotation>(),
     transform_binding<kScale, make_scale>(),
     transform_binding<kMirror, make_mirror>(),
-    transform_binding<kMultmatrix, make_multmatrix>(),
+    {&kMultmatrix, guarded<transform<kMultmatrix, make_multmatrix, false>>,
+     guarded<transform<kMultmatrix, make_multmatrix, true>>,
+     guarded<transform<kMultmatrix, make_multmatrix, true>>},
+    {&kInverse, guarded<invert>, nullptr, nullptr, guarded<invert>},
     transform_binding<kMove, make_translation<kMove>>(),
     transform_binding<kUp, make_step<kUp, 2, 1>>(),
     transform_binding<kDown, make_step<kDown, 2, -1>>(),
     transform_binding<kLeft, make_step<kLeft, 0, -1>>(),
     transform_binding<kRight, make_step<kRight, 0, 1>>(),
     transform_binding<kForward, make_step<kForward, 1, -1>>(),
+    transform_binding<kFront, make_step<kFront, 1, -1>>(),
     transform_binding<kBack, make_step<kBack, 1, 1>>(),
+    transform_binding<kTx, make_step<kTx, 0, 1>>(),
+    transform_binding<kTy, make_step<kTy, 1, 1>>(),
+    transform_binding<kTz, make_step<kTz, 2, 1>>(),
     transform_binding<kRx, make_turn<kRx, 0>>(),
     transform_binding<kRy, make_turn<kRy, 1>>(),
     transform_binding<kRz, make_turn<kRz, 2>>(),

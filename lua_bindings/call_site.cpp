@@ -100,6 +100,15 @@ const char* chunk_file(const lua_Debug& frame) {
   return frame.source[0] == '@' ? frame.source + 1 : frame.short_src;
 }
 
+std::string calling_file(lua_State* L) {
+  lua_Debug frame{};
+  for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
+    lua_getinfo(L, "Sl", &frame);
+    if (frame.currentline > 0 && frame.source[0] == '@') return frame.source + 1;
+  }
+  return session_of(L).options().model;
+}
+
 std::string place_of_call(lua_State* L) {
   lua_Debug frame{};
   if (!innermost_lua_frame(L, frame)) return {};
@@ -127,15 +136,6 @@ int add_traceback(lua_State* L) {
   message += traceback(L);
   lua_pushlstring(L, message.data(), message.size());
   return 1;
-}
-
-std::string calling_file(lua_State* L) {
-  lua_Debug frame{};
-  for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
-    lua_getinfo(L, "Sl", &frame);
-    if (frame.currentline > 0 && frame.source[0] == '@') return frame.source + 1;
-  }
-  return session_of(L).options().model;
 }
 
 }  // namespace csgrun

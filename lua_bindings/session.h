@@ -115,8 +115,15 @@ class Session {
   size_t collector_debt =
       0;  ///< bytes outside of the Lua heap that the collector was not told of yet
 
-  /// Meshes of files by their real path and how they were asked for: read once.
-  std::map<std::tuple<std::string, FillRule, std::optional<RepairOptions>>, NodePtr> imported;
+  /// One part of a file that was imported.
+  struct ImportedPart {
+    std::string name;
+    NodePtr node;
+  };
+  /// Files by their real path and how they were asked for: read once.
+  std::map<std::tuple<std::string, FillRule, std::optional<RepairOptions>>,
+           std::vector<ImportedPart>>
+      imported;
 
  private:
   SessionOptions options_;

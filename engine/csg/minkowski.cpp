@@ -11,7 +11,7 @@ namespace {
 
 /// So many points are kept at most before their hull is taken.
 constexpr size_t kMostWaiting = size_t{1} << 20;
-constexpr double kMostSums = 0x1p28;
+constexpr double kMostSums = 0x1p26;
 
 IVec3 sum(const IVec3& a, const IVec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 
@@ -106,7 +106,7 @@ Result<std::vector<Summand>> minkowski_sum(const std::vector<Summand>& a,
   }
   if (count > kMostSums) {
     return Error{ErrorCode::kLimit,
-                 "minkowski: the operands have too many faces, more than 2^28 pairs of corners "
+                 "minkowski: the operands have too many faces, more than 2^26 pairs of corners "
                  "would be summed; sum rounder shapes with fewer facets",
                  {}};
   }

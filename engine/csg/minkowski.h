@@ -29,7 +29,7 @@ struct Summand {
 /// what is flat of these bounds others. Everything is on the grid if the summands are. Cost: a hull
 /// for each pair of faces.
 ///
-/// Errors: kLimit when that is more than 2^28 pairs of points.
+/// Errors: kLimit when that is more than 2^26 pairs of points.
 Result<std::vector<Summand>> minkowski_sum(const std::vector<Summand>& a,
                                            const std::vector<Summand>& b, const GridStep& step);
 

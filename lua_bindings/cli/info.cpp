@@ -17,6 +17,7 @@
 #include "lua_bindings/files.h"
 #include "lua_bindings/measure/mesh_measures.h"
 #include "lua_bindings/measure/read_glb.h"
+#include "lua_bindings/model_parts.h"
 
 namespace csgrun {
 namespace {
@@ -69,12 +70,22 @@ std::vector<TriangleMesh> parts_of(const PolygonMesh& mesh, std::vector<MeshObje
 
 Result<std::vector<TriangleMesh>> read_meshes(const std::string& path, const std::string& bytes) {
   if (is_gltf(path)) return parse_glb(path, bytes);
+  const std::string stem = std::filesystem::path(path).stem().string();
+  if (model_file_format_of(path) == "3mf") {
+    auto parts = parse_3mf(path, bytes);
+    if (!parts) return parts.error();
+    std::vector<TriangleMesh> meshes;
+    for (const ModelPart& part : *parts) {
+      meshes.push_back(triangulated(part.mesh, false));
+      meshes.back().name = part.name.empty() ? stem : part.name;
+    }
+    return meshes;
+  }
   std::vector<MeshObject> objects;
   auto mesh = parse_mesh(path, bytes, &objects);
   if (!mesh) return mesh.error();
   // STL has no indices: equal coordinates are one point. The others say themselves what is one.
-  return parts_of(*mesh, std::move(objects), std::filesystem::path(path).stem().string(),
-                  mesh_format_of(path) == "stl");
+  return parts_of(*mesh, std::move(objects), stem, mesh_format_of(path) == "stl");
 }
 
 Failure refused(const std::string& path, const std::string& message) {
@@ -123,7 +134,7 @@ Failure measure_file(const std::string& path, bool json, std::string& output) {
 }  // namespace
 
 bool is_info_path(const std::string& path) {
-  return is_gltf(path) || !mesh_format_of(path).empty() || !flat_file_format_of(path).empty();
+  return !model_file_format_of(path).empty() || !flat_file_format_of(path).empty();
 }
 
 Failure run_info(const std::string& path, bool json, std::string& output) {

@@ -3,8 +3,10 @@
 #include <cstdio>
 
 #include "lua_bindings/api.h"
+#include "lua_bindings/api_docs.h"
 #include "lua_bindings/cli/exit_codes.h"
 #include "lua_bindings/cli/info.h"
+#include "lua_bindings/cli/init.h"
 #include "lua_bindings/cli/options.h"
 #include "lua_bindings/cli/parameter_file.h"
 #include "lua_bindings/cli/report.h"
@@ -55,8 +57,15 @@ int main(int argc, char** argv) {
     case csgrun::Command::kInfo:
       return info(line);
     case csgrun::Command::kHelpApi:
-      print(stdout, csgrun::api_help());
+      print(stdout, line.api_form == csgrun::ApiForm::kMarkdown      ? csgrun::api_markdown()
+                    : line.api_form == csgrun::ApiForm::kDefinitions ? csgrun::api_definitions()
+                                                                     : csgrun::api_help());
       return csgrun::kExitGood;
+    case csgrun::Command::kInit: {
+      const csgrun::Failure failure = csgrun::init_folder();
+      if (failure.failed()) print(stderr, failure.message + "\n");
+      return failure.code;
+    }
     case csgrun::Command::kDone:
       return line.exit_code;
   }

@@ -14,12 +14,12 @@
 #include <csgrun/export/write.h>
 #include <csgrun/export/write_flat.h>
 #include <csgrun/primitives/flat_file.h>
-#include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/arguments.h"
 #include "lua_bindings/cli/exit_codes.h"
 #include "lua_bindings/cli/info.h"
 #include "lua_bindings/cli/parameter_file.h"
+#include "lua_bindings/model_parts.h"
 
 namespace csgrun {
 namespace {
@@ -53,13 +53,9 @@ void check_output(const std::string& path, const CommandLine& line) {
         fmt::format("'{}': %s, the place of the part's name, can stand there only once", path)};
   }
   if (model_format_of(path).empty() && flat_format_of(path).empty()) {
-    const std::string ending = ending_of(path);
-    for (const char* later : {".3mf", ".ply"}) {
-      if (ending == later)
-        throw UsageError{fmt::format("'{}': writing {} is not built yet", path, later)};
-    }
     throw UsageError{fmt::format(
-        "'{}': the ending must be one of .glb, .gltf, .stl, .obj, .off, .exact.json, .svg, .dxf",
+        "'{}': the ending must be one of .glb, .gltf, .stl, .3mf, .obj, .off, .ply, .exact.json, "
+        ".svg, .dxf",
         path)};
   }
   if (std::count(line.outputs.begin(), line.outputs.end(), path) > 1) {
@@ -71,13 +67,14 @@ void check_output(const std::string& path, const CommandLine& line) {
 }
 
 void check_model(const std::string& model) {
-  if (model == "-" || !mesh_format_of(model).empty() || !flat_file_format_of(model).empty()) return;
+  if (model == "-" || !model_file_format_of(model).empty() || !flat_file_format_of(model).empty())
+    return;
   const std::string ending = ending_of(model);
   if (ending != ".lua" && ending != ".csg") {
-    throw UsageError{
-        fmt::format("'{}': the model must end in .lua, .csg, .stl, .off, .obj, .ply, .svg or .dxf, "
-                    "or be - for Lua from standard input",
-                    model)};
+    throw UsageError{fmt::format(
+        "'{}': the model must end in .lua, .csg, .stl, .off, .obj, .ply, .glb, .gltf, .3mf, .svg "
+        "or .dxf, or be - for Lua from standard input",
+        model)};
   }
 }
 
@@ -98,7 +95,8 @@ struct RawOptions {
   std::string parameter_file, parameter_set;
   std::string grid, stats, cache_folder;
   double timeout = 0, megabytes = 0;
-  bool no_cache = false, help_api = false;
+  bool no_cache = false, init = false;
+  std::string help_api;
 };
 
 void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
@@ -182,7 +180,7 @@ CommandLine parse_info(int argc, char** argv) {
   CommandLine line;
   line.command = Command::kInfo;
   CLI::App app("Measures a mesh file exactly, on its own coordinates.", "csgrun info");
-  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY, GLB, SVG or DXF")->required();
+  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY, GLB, glTF, 3MF, SVG or DXF")->required();
   app.add_flag("--json", line.info_json, "as one JSON object");
   try {
     app.parse(argc - 1, argv + 1);
@@ -192,7 +190,7 @@ CommandLine parse_info(int argc, char** argv) {
   if (!is_info_path(line.model)) {
     std::fputs(
         fmt::format("csgrun info: '{}': the ending must be one of .stl, .off, .obj, .ply, .glb, "
-                    ".gltf, .svg, .dxf\n",
+                    ".gltf, .3mf, .svg, .dxf\n",
                     line.model)
             .c_str(),
         stderr);
@@ -220,9 +218,8 @@ CommandLine parse_command_line(int argc, char** argv) {
       "MODEL", line.model,
       "a script (.lua), an OpenSCAD tree (.csg), a mesh, or - for Lua from standard input");
   app.add_option("-o", line.outputs,
-                 "output: .glb .gltf .stl .obj .off, .exact.json (coordinates as fractions), of "
-                 "shapes .svg .dxf; "
-                 "'dir/%s.stl' writes one file a part")
+                 "output: .glb .gltf .stl .3mf .obj .off .ply, .exact.json (coordinates as "
+                 "fractions), of shapes .svg .dxf; 'dir/%s.stl' writes one file a part")
       ->allow_extra_args(false)
       ->type_name("OUT");
   app.add_option("-D", raw.definitions, "sets a parameter of the model")
@@ -262,11 +259,25 @@ CommandLine parse_command_line(int argc, char** argv) {
                "text may use the fonts of this machine, not only the one of the program");
   app.add_flag("--strict", line.strict, "a font that is not there is an error, not a warning");
   app.add_flag("-q,--quiet", line.quiet, "no progress, no warnings");
-  app.add_flag("--help-api", raw.help_api, "prints the functions that a script has");
+  app.add_flag("--help-api{text}", raw.help_api,
+               "prints the functions that a script has; =markdown as a page, =luals as definitions "
+               "for editors");
+  app.add_flag("--init", raw.init,
+               "writes .luarc.json and the definitions for editors into the working folder");
   try {
     app.parse(argc, argv);
-    if (raw.help_api) {
+    if (!raw.help_api.empty()) {
       line.command = Command::kHelpApi;
+      line.api_form = raw.help_api == "markdown" ? ApiForm::kMarkdown
+                      : raw.help_api == "luals"  ? ApiForm::kDefinitions
+                                                 : ApiForm::kText;
+      if (line.api_form == ApiForm::kText && raw.help_api != "text")
+        throw UsageError{"--help-api can be =markdown, =luals or nothing"};
+      return line;
+    }
+    if (raw.init) {
+      if (model->count() > 0) throw UsageError{"--init takes no model"};
+      line.command = Command::kInit;
       return line;
     }
     if (model->count() == 0)

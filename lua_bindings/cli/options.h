@@ -13,11 +13,13 @@
 
 namespace csgrun {
 
-enum class Command : uint8_t { kRun, kInfo, kHelpApi, kDone };
+enum class Command : uint8_t { kRun, kInfo, kHelpApi, kInit, kDone };
+enum class ApiForm : uint8_t { kText, kMarkdown, kDefinitions };
 enum class StatsForm : uint8_t { kNone, kText, kJson };
 
 struct CommandLine {
   Command command = Command::kRun;
+  ApiForm api_form = ApiForm::kText;
   int exit_code = 0;  ///< for kDone: help, version, or a usage error that was told already
   std::string model;
   std::vector<std::string> outputs;

@@ -13,12 +13,12 @@
 #include <csgrun/export/write_flat.h>
 #include <csgrun/primitives/csg_file.h>
 #include <csgrun/primitives/flat_file.h>
-#include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/cli/check_text.h"
 #include "lua_bindings/cli/instances.h"
 #include "lua_bindings/cli/progress.h"
 #include "lua_bindings/guard.h"
+#include "lua_bindings/model_parts.h"
 #include "lua_bindings/script.h"
 
 namespace csgrun {
@@ -107,7 +107,7 @@ class Run {
       if (!text.error.empty())
         return {kExitFiles, fmt::format("csgrun: cannot read '{}': {}", line_.model, text.error)};
     }
-    if (!mesh_format_of(line_.model).empty()) return load_mesh(text.bytes);
+    if (!model_file_format_of(line_.model).empty()) return load_mesh(text.bytes);
     if (!flat_file_format_of(line_.model).empty()) return load_flat(text.bytes);
     if (is_csg_path(line_.model)) return load_csg(text.bytes);
     return load_script(text.bytes);
@@ -164,20 +164,33 @@ class Run {
 
   Failure load_mesh(const std::string& bytes) {
     if (Failure failure = refuse_definitions(); failure.failed()) return failure;
-    auto mesh = parse_mesh(line_.model, bytes);
-    std::string note;
-    if (mesh) mesh = make_solid_mesh(*std::move(mesh), &note);
-    if (!mesh) {
-      const std::string& message = mesh.error().message;
+    ModelPartOptions options;
+    std::vector<std::string> notes;
+    options.open_material_file = [&](const std::string& name) -> std::optional<std::string> {
+      const FileText text = read_whole_file(join_path(folder_of(line_.model), name));
+      if (text.error.empty()) return text.bytes;
+      notes.push_back(
+          fmt::format("{}: no colours: cannot read '{}': {}", line_.model, name, text.error));
+      return std::nullopt;
+    };
+    auto parts = read_model_parts(line_.model, bytes, options, &notes);
+    if (!parts) {
+      const std::string& message = parts.error().message;
       return {kExitScript,
               message.rfind(line_.model, 0) == 0 ? message : line_.model + ": " + message};
     }
-    if (!note.empty()) report_.warnings.push_back(note);  // it begins with the file's name
-    mesh->kind = session_.files().name_from_folder(line_.model);
+    // Notes begin with the file's name.
+    report_.warnings.insert(report_.warnings.end(), notes.begin(), notes.end());
     const SourceRef where = session_.source_ref(line_.model, 1);
-    session_.add_part(
-        {"", Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where), {}, where},
-        "");
+    for (ModelPart& part : *parts) {
+      part.mesh.kind = session_.files().name_from_folder(line_.model);
+      const auto mesh = std::make_shared<const PolygonMesh>(std::move(part.mesh));
+      try {
+        session_.add_part({part.name, Node::leaf(mesh, where), {}, where}, "");
+      } catch (const ScriptError& error) {
+        return {kExitScript, line_.model + ": " + error.what()};
+      }
+    }
     return {};
   }
 
@@ -211,7 +224,8 @@ class Run {
     }
     std::string place = session_.place_text(error.where);
     // A mesh has no lines to speak of.
-    if (place.empty() || !mesh_format_of(line_.model).empty()) place = session_.options().model;
+    if (place.empty() || !model_file_format_of(line_.model).empty())
+      place = session_.options().model;
     return {kExitGeometry, place + ": " + error.message};
   }
 

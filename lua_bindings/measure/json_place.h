@@ -44,6 +44,10 @@ class JsonPlace {
     require(json_->is_number_unsigned(), "a whole number from 0 on");
     return json_->get<size_t>();
   }
+  [[nodiscard]] double number() const {
+    require(json_->is_number(), "a number");
+    return json_->get<double>();
+  }
   [[nodiscard]] std::string text() const {
     require(json_->is_string(), "a string");
     return json_->get<std::string>();

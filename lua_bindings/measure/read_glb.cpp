@@ -66,7 +66,11 @@ bool same_triangles(const TriangleMesh& a, const TriangleMesh& b) {
 
 class Reader {
  public:
-  Reader(Json json, std::string_view binary) : json_(std::move(json)), binary_(binary) {}
+  Reader(Json json, std::string_view binary, GltfFrame frame)
+      : json_(std::move(json)), binary_(binary), frame_(frame) {
+    refuse_addresses();
+    read_materials();
+  }
 
   /// The meshes of all nodes where the nodes put them, in the order of the nodes. A node's name is
   /// that of its groups and its own, as in "legs/left".
@@ -96,6 +100,78 @@ class Reader {
 
   [[nodiscard]] JsonPlace root() const { return {json_, ""}; }
 
+  /// Nothing outside of the file is read; a file that asks for it is told apart from one that is
+  /// merely without textures.
+  void refuse_addresses() const {
+    for (const char* list : {"buffers", "images"}) {
+      if (!root().has(list)) continue;
+      const JsonPlace entries = root().at(list);
+      for (size_t i = 0; i < entries.size(); ++i) {
+        const std::string address = entries.at(i).text("uri", "");
+        if (address.starts_with("data:")) continue;
+        const bool leads_out = address.find("..") != std::string::npos ||
+                               address.find(':') != std::string::npos || address.starts_with('/');
+        if (leads_out || (!address.empty() && std::string_view(list) == "buffers")) {
+          throw Malformed{entries.at(i).name() + " is at \"" + address.substr(0, 60) +
+                          "\", outside of the file: only data in the file itself is read"};
+        }
+      }
+    }
+  }
+
+  /// sRGB of a linear component, in the bytes that it was very likely made of.
+  static float srgb_from_linear(double c) {
+    c = std::clamp(c, 0.0, 1.0);
+    const double s = c <= 0.0031308 ? c * 12.92 : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+    const double byte = std::round(s * 255);
+    if (std::abs(s * 255 - byte) < 0.01) return static_cast<float>(byte) / 255.0F;
+    return static_cast<float>(std::round(s * 1e6) / 1e6);
+  }
+
+  void read_materials() {
+    if (!root().has("materials")) return;
+    const JsonPlace materials = root().at("materials");
+    for (size_t m = 0; m < materials.size(); ++m) {
+      Appearance look;
+      look.is_default = false;
+      look.metallic = look.roughness = 1;  // glTF's own defaults
+      std::vector<double> color{1, 1, 1, 1}, metallic{1}, roughness{1};
+      if (materials.at(m).has("pbrMetallicRoughness")) {
+        const JsonPlace pbr = materials.at(m).at("pbrMetallicRoughness");
+        color = pbr.numbers("baseColorFactor", color);
+        if (pbr.has("metallicFactor")) metallic[0] = pbr.at("metallicFactor").number();
+        if (pbr.has("roughnessFactor")) roughness[0] = pbr.at("roughnessFactor").number();
+      }
+      look.red = srgb_from_linear(color[0]);
+      look.green = srgb_from_linear(color[1]);
+      look.blue = srgb_from_linear(color[2]);
+      look.alpha = static_cast<float>(std::clamp(color[3], 0.0, 1.0));
+      look.metallic = static_cast<float>(std::clamp(metallic[0], 0.0, 1.0));
+      look.roughness = static_cast<float>(std::clamp(roughness[0], 0.0, 1.0));
+      const std::string name = materials.at(m).text("name", "");
+      if (name == "default") look = Appearance{};
+      if (name != "default" && !name.starts_with('#')) look.name = name;
+      materials_.push_back(std::move(look));
+    }
+  }
+
+  /// What takes glTF's metres, Y up, to millimetres, Z up.
+  static glm::dmat4 to_millimetres() {
+    return {glm::dvec4(1000, 0, 0, 0), glm::dvec4(0, 0, 1000, 0), glm::dvec4(0, -1000, 0, 0),
+            glm::dvec4(0, 0, 0, 1)};
+  }
+
+  /// The map of a root with the change of axes and units: exactly nothing, where the root says just
+  /// these in the digits that a file has.
+  static glm::dmat4 without_noise(const glm::dmat4& map) {
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 4; ++r) {
+        if (std::abs(map[c][r] - (c == r ? 1.0 : 0.0)) > 1e-9) return map;
+      }
+    }
+    return glm::dmat4(1);
+  }
+
   /// The triangles of all primitives. Vertices are one where the manifold that goes with them says
   /// so, or else where their coordinates are equal.
   TriangleMesh triangles_of(const JsonPlace& mesh) const {
@@ -112,6 +188,8 @@ class Reader {
     if (!same_triangles(drawn, manifold))
       throw Malformed{primitive.name() + " has other triangles than the mesh"};
     drop_unused_points(manifold);
+    manifold.appearance_of = std::move(drawn.appearance_of);
+    manifold.appearances = std::move(drawn.appearances);
     return manifold;
   }
 
@@ -124,9 +202,13 @@ class Reader {
       const JsonPlace node = nodes.at(top);
       Place& place = places[top];
       place.is_reached = true;
-      if (stack.size() == 1 && !node.has("mesh")) continue;
-      place.map = map_of(node);
-      place.name = node.text("name", "");
+      const bool is_frame = stack.size() == 1 && !node.has("mesh");
+      if (frame_ == GltfFrame::kMillimetres) {
+        place.map = without_noise(to_millimetres() * map_of(node));
+      } else if (!is_frame) {
+        place.map = map_of(node);
+      }
+      if (!is_frame) place.name = node.text("name", "");
     }
     while (!stack.empty()) {
       const size_t parent = stack.back();
@@ -240,6 +322,22 @@ class Reader {
       mesh.triangles.push_back(
           {first + indices[i], first + indices[i + 1], first + indices[i + 2]});
     }
+    add_look(primitive, indices.size() / 3, mesh);
+  }
+
+  /// The appearance of the last `count` triangles, which are the primitive's.
+  void add_look(const JsonPlace& primitive, size_t count, TriangleMesh& mesh) const {
+    Appearance look;
+    if (primitive.has("material")) {
+      const size_t number = primitive.at("material").whole();
+      if (number >= materials_.size())
+        throw Malformed{primitive.name() + " has a material that is not there"};
+      look = materials_[number];
+    }
+    const auto known = std::find(mesh.appearances.begin(), mesh.appearances.end(), look);
+    const auto place = static_cast<uint32_t>(known - mesh.appearances.begin());
+    if (known == mesh.appearances.end()) mesh.appearances.push_back(look);
+    mesh.appearance_of.insert(mesh.appearance_of.end(), count, place);
   }
 
   /// Unsigned integers, as `owner` describes them; their type stands with `typed`.
@@ -273,6 +371,8 @@ class Reader {
 
   Json json_;
   std::string_view binary_;
+  GltfFrame frame_;
+  std::vector<Appearance> materials_;
 };
 
 Json parse_json(std::string_view text) {
@@ -286,7 +386,7 @@ Json parse_json(std::string_view text) {
 }
 
 /// A file of JSON alone, whose only buffer is in it.
-std::vector<TriangleMesh> read_text(std::string_view text) {
+std::vector<TriangleMesh> read_text(std::string_view text, GltfFrame frame) {
   Json json = parse_json(text);
   const JsonPlace root(json, "");
   std::string binary;
@@ -295,16 +395,19 @@ std::vector<TriangleMesh> read_text(std::string_view text) {
     if (buffers.size() > 1) throw Malformed{"only one buffer is read"};
     if (buffers.size() == 1) {
       auto data = decode_data_address(buffers.at(size_t{0}).text("uri", ""));
-      if (!data) throw Malformed{"its buffer is not in the file itself, as base64"};
+      if (!data) {
+        const Reader refusal(json, {}, frame);  // an address has a message of its own
+        throw Malformed{"its buffer is not in the file itself, as base64"};
+      }
       binary = *std::move(data);
     }
   }
-  return Reader(std::move(json), binary).meshes();
+  return Reader(std::move(json), binary, frame).meshes();
 }
 
-std::vector<TriangleMesh> read(std::string_view bytes) {
+std::vector<TriangleMesh> read(std::string_view bytes, GltfFrame frame) {
   const size_t start = bytes.find_first_not_of(" \t\r\n");
-  if (start != std::string_view::npos && bytes[start] == '{') return read_text(bytes);
+  if (start != std::string_view::npos && bytes[start] == '{') return read_text(bytes, frame);
   constexpr std::string_view kStart = "glTF";
   if (bytes.substr(0, kStart.size()) != kStart.substr(0, bytes.size()))
     throw Malformed{
@@ -323,14 +426,15 @@ std::vector<TriangleMesh> read(std::string_view bytes) {
       throw Malformed{"the second chunk must be binary"};
     binary = bytes.substr(at + 8, size);
   }
-  return Reader(parse_json(text), binary).meshes();
+  return Reader(parse_json(text), binary, frame).meshes();
 }
 
 }  // namespace
 
-Result<std::vector<TriangleMesh>> parse_glb(const std::string& name, std::string_view bytes) {
+Result<std::vector<TriangleMesh>> parse_glb(const std::string& name, std::string_view bytes,
+                                            GltfFrame frame) {
   try {
-    return read(bytes);
+    return read(bytes, frame);
   } catch (const Malformed& problem) {
     return Error{ErrorCode::kMalformedFile, name + ": " + problem.what, {}};
   }

@@ -17,6 +17,8 @@ struct TriangleMesh {
   std::string name;
   std::vector<glm::dvec3> points;
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise from outside
+  std::vector<uint32_t> appearance_of;             ///< per triangle; empty: no colours were read
+  std::vector<Appearance> appearances;
 
   [[nodiscard]] TriangleView view() const { return {points, triangles}; }
 };

@@ -16,7 +16,8 @@ namespace csgrun {
 Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes);
 Result<PolygonMesh> parse_off(const std::string& name, std::string_view bytes);
 Result<PolygonMesh> parse_obj(const std::string& name, std::string_view bytes,
-                              std::vector<MeshObject>* objects);
+                              std::vector<MeshObject>* objects,
+                              std::vector<std::string>* material_files);
 Result<PolygonMesh> parse_ply(const std::string& name, std::string_view bytes);
 
 /// "part.obj: line 12: face index 9 is out of range, there are 8 points".

@@ -61,7 +61,8 @@ std::string quoted(std::string_view word) {
 }
 
 Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
-                               std::vector<MeshObject>* objects) {
+                               std::vector<MeshObject>* objects,
+                               std::vector<std::string>* material_files) {
   const std::string format = mesh_format_of(name);
   if (format.empty()) {
     return Error{ErrorCode::kCannotRead,
@@ -71,7 +72,7 @@ Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
   if (bytes.empty()) return malformed(name, "", "the file is empty");
   Result<PolygonMesh> mesh = format == "stl"   ? parse_stl(name, bytes)
                              : format == "off" ? parse_off(name, bytes)
-                             : format == "obj" ? parse_obj(name, bytes, objects)
+                             : format == "obj" ? parse_obj(name, bytes, objects, material_files)
                                                : parse_ply(name, bytes);
   if (!mesh) return mesh;
   if (mesh->face_count() == 0) return malformed(name, "", "has no faces");

@@ -13,11 +13,11 @@ namespace csgrun {
 namespace {
 
 /// Everything that may start a line, but v and f. Sorted.
-constexpr std::array<std::string_view, 36> kPassedOver{
-    "bevel", "bmat",     "c_interp",  "call", "con",    "csh",    "cstype",     "ctech", "curv",
-    "curv2", "d_interp", "deg",       "end",  "g",      "hole",   "l",          "lod",   "maplib",
-    "mg",    "mtllib",   "p",         "parm", "s",      "scrv",   "shadow_obj", "sp",    "stech",
-    "step",  "surf",     "trace_obj", "trim", "usemap", "usemtl", "vn",         "vp",    "vt"};
+constexpr std::array<std::string_view, 34> kPassedOver{
+    "bevel", "bmat",      "c_interp", "call",   "con",  "csh",        "cstype", "ctech", "curv",
+    "curv2", "d_interp",  "deg",      "end",    "g",    "hole",       "l",      "lod",   "maplib",
+    "mg",    "p",         "parm",     "s",      "scrv", "shadow_obj", "sp",     "stech", "step",
+    "surf",  "trace_obj", "trim",     "usemap", "vn",   "vp",         "vt"};
 
 bool is_passed_over(std::string_view word) {
   return std::binary_search(kPassedOver.begin(), kPassedOver.end(), word);
@@ -37,6 +37,10 @@ class ObjReader {
         error = read_face();
       } else if (word == "o") {
         begin_object();
+      } else if (word == "mtllib") {
+        error = read_material_file();
+      } else if (word == "usemtl") {
+        material_ = scanner_.rest_of_line();
       } else if (!word.empty() && !is_passed_over(word)) {
         error = here("not an OBJ statement: " + quoted(word));
       }
@@ -50,17 +54,43 @@ class ObjReader {
   }
 
   std::vector<MeshObject> take_objects() { return std::move(objects_); }
+  std::vector<std::string> take_material_files() { return std::move(material_files_); }
 
  private:
   /// An object that had no faces gives way to the next one.
   void begin_object() {
     const auto first = static_cast<uint32_t>(mesh_.face_count());
     if (objects_.empty() || objects_.back().first_face != first) objects_.emplace_back();
-    std::string name;
+    objects_.back() = {rest_of_statement(), first};
+  }
+
+  std::string rest_of_statement() {
+    std::string text;
     for (std::string_view word = next(); !word.empty(); word = next()) {
-      name += (name.empty() ? "" : " ") + std::string(word);
+      text += (text.empty() ? "" : " ") + std::string(word);
     }
-    objects_.back() = {std::move(name), first};
+    return text;
+  }
+
+  /// A model from somewhere must not make us read what lies beside it.
+  std::optional<Error> read_material_file() {
+    const std::string path(scanner_.rest_of_line());
+    const bool leads_out = path.starts_with('/') || path.find("..") != std::string::npos ||
+                           path.find(':') != std::string::npos ||
+                           path.find('\\') != std::string::npos;
+    if (leads_out) return here("mtllib " + quoted(path) + " leads out of the file's folder");
+    if (!path.empty()) material_files_.push_back(path);
+    return std::nullopt;
+  }
+
+  /// The number of the appearance that stands for the material in use.
+  uint32_t appearance() {
+    auto& looks = mesh_.appearances;
+    const auto known = std::find_if(looks.begin(), looks.end(),
+                                    [&](const Appearance& a) { return a.name == material_; });
+    if (known != looks.end()) return static_cast<uint32_t>(known - looks.begin());
+    looks.emplace_back().name = material_;
+    return static_cast<uint32_t>(looks.size() - 1);
   }
 
   /// An index of a point that had not been read yet.
@@ -114,6 +144,7 @@ class ObjReader {
       return here("a face has " + std::to_string(loop_.size()) + " corners");
     }
     mesh_.add_face(loop_);
+    mesh_.appearance_of.push_back(appearance());
     return std::nullopt;
   }
 
@@ -123,15 +154,23 @@ class ObjReader {
   std::vector<uint32_t> loop_;
   std::vector<Forward> forward_;
   std::vector<MeshObject> objects_;
+  std::vector<std::string> material_files_;
+  std::string material_;
 };
 
 }  // namespace
 
 Result<PolygonMesh> parse_obj(const std::string& name, std::string_view bytes,
-                              std::vector<MeshObject>* objects) {
+                              std::vector<MeshObject>* objects,
+                              std::vector<std::string>* material_files) {
   ObjReader reader(name, bytes);
   Result<PolygonMesh> mesh = reader.read();
   if (objects != nullptr) *objects = reader.take_objects();
+  if (material_files != nullptr) *material_files = reader.take_material_files();
+  if (mesh && (material_files == nullptr || material_files->empty())) {
+    mesh->appearances.clear();
+    mesh->appearance_of.clear();
+  }
   return mesh;
 }
 

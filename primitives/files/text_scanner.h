@@ -29,6 +29,17 @@ class TextScanner {
     return {begin, static_cast<size_t>(at_ - begin)};
   }
 
+  /// What is left of this line without blanks around it. Nothing in it is a comment: "#ff0000" is a
+  /// good name.
+  std::string_view rest_of_line() {
+    while (at_ != end_ && is_blank(*at_)) ++at_;
+    const char* begin = at_;
+    while (at_ != end_ && *at_ != '\n') ++at_;
+    const char* last = at_;
+    while (last != begin && is_blank(last[-1])) --last;
+    return {begin, static_cast<size_t>(last - begin)};
+  }
+
   /// Goes to the start of the next line; false at the end of the text.
   bool next_line() {
     while (at_ != end_ && *at_ != '\n') ++at_;

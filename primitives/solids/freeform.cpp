@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include <csgrun/engine/validate.h>
 #include <csgrun/primitives/freeform.h>
-
-#include <glm/geometric.hpp>
 
 #include "primitives/base/text.h"
 #include "primitives/solids/mesh_builder.h"
@@ -285,14 +285,14 @@ class LevelSet {
 
   /// Where the surface crosses the line between two samples.
   uint32_t crossing(size_t a, size_t b) {
-    return crossings_.get(
-        static_cast<uint32_t>(a), static_cast<uint32_t>(b), [&](uint32_t low, uint32_t high) {
-          const double t = values_[low] / (values_[low] - values_[high]);
-          const double within = std::clamp(t, 1.0 / 256, 255.0 / 256);
-          const glm::dvec3 p = place(low), q = place(high);
-          mesh_.points.push_back(p + (q - p) * within);
-          return static_cast<uint32_t>(mesh_.points.size() - 1);
-        });
+    return crossings_.get(static_cast<uint32_t>(a), static_cast<uint32_t>(b),
+                          [&](uint32_t low, uint32_t high) {
+                            const double t = values_[low] / (values_[low] - values_[high]);
+                            const double within = std::clamp(t, 1.0 / 256, 255.0 / 256);
+                            const glm::dvec3 p = place(low), q = place(high);
+                            mesh_.points.push_back(p + (q - p) * within);
+                            return static_cast<uint32_t>(mesh_.points.size() - 1);
+                          });
   }
 
   /// The piece of the surface in a tetrahedron of positive volume.

@@ -15,8 +15,8 @@ namespace csgrun {
 namespace {
 
 std::optional<Error> check_facets(const char* function, const Facets& facets) {
-  for (const auto& [name, value] : {std::pair{"fn", facets.fn}, std::pair{"fa", facets.fa},
-                                    std::pair{"fs", facets.fs}}) {
+  for (const auto& [name, value] :
+       {std::pair{"fn", facets.fn}, std::pair{"fa", facets.fa}, std::pair{"fs", facets.fs}}) {
     if (!std::isfinite(value)) return not_finite(function, name, value);
   }
   return std::nullopt;
@@ -73,7 +73,8 @@ MeshResult make_rounded_cube(const glm::dvec3& size, double r, std::array<bool, 
 
 MeshResult make_rounded_cylinder(double h, double r, double round, bool center,
                                  const Facets& facets) {
-  for (const auto& [name, value] : {std::pair{"h", h}, std::pair{"r", r}, std::pair{"round", round}}) {
+  for (const auto& [name, value] :
+       {std::pair{"h", h}, std::pair{"r", r}, std::pair{"round", round}}) {
     if (!std::isfinite(value)) return not_finite("cylinder", name, value);
     if (!(value > 0)) return not_positive("cylinder", name, value);
   }

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include <csgrun/engine/exact_triangles.h>
+#include <csgrun/primitives/freeform.h>
 #include <csgrun/primitives/solid_parts.h>
 #include <csgrun/primitives/solids.h>
 
@@ -90,30 +91,6 @@ double half_gap(const Surface& a, const Surface& b) {
   return gap / 2;
 }
 
-/// A component as a mesh of its own.
-NodePtr mesh_of(const Solid& solid, const std::vector<uint32_t>& triangles,
-                const SourceRef& where) {
-  auto mesh = std::make_shared<PolygonMesh>();
-  mesh->kind = "component";
-  mesh->appearances = solid.appearances;
-  std::vector<uint32_t> number(solid.positions.size(), UINT32_MAX);
-  for (const uint32_t t : triangles) {
-    std::array<uint32_t, 3> face{};
-    for (int i = 0; i < 3; ++i) {
-      uint32_t& n = number[solid.triangles[t][i]];
-      if (n == UINT32_MAX) {
-        n = static_cast<uint32_t>(mesh->points.size());
-        mesh->points.push_back(solid.positions[solid.triangles[t][i]]);
-      }
-      face[i] = n;
-    }
-    const Solid::Face& from = solid.faces[solid.triangle_face[t]];
-    mesh->add_face(face, from.surface);
-    mesh->appearance_of.push_back(from.appearance);
-  }
-  return Node::leaf(std::move(mesh), where);
-}
-
 }  // namespace
 
 Result<CutPlane> make_cut_plane(const glm::dvec3& normal, double offset) {
@@ -158,6 +135,21 @@ Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const Cut
   return Node::transformed(turn, box, solid->where());
 }
 
+Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const NodePtr& tool,
+                             double distance) {
+  const SourceRef& where = tool->where();
+  if (distance > 0) return Node::minkowski_sum({solid, tool}, where);
+  const auto extent = evaluator.extent(solid);
+  if (!extent) return extent.error();
+  if (extent->empty) return solid;
+  // All that is outside of the solid and near to it.
+  const glm::dvec3 margin(2 * std::fabs(distance));
+  const NodePtr around = box_leaf(extent->bbox[0] - margin, extent->bbox[1] + margin, where);
+  const NodePtr outside = Node::boolean(BooleanOp::kDifference, {around, solid}, where);
+  const NodePtr gone = Node::minkowski_sum({outside, tool}, where);
+  return Node::boolean(BooleanOp::kDifference, {solid, gone}, where);
+}
+
 Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr& solid) {
   const auto evaluated = evaluator.evaluate(solid);
   if (!evaluated) return evaluated.error();
@@ -200,7 +192,9 @@ Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr
                                    outer[i].high + glm::dvec3(margin), solid->where());
       result.push_back(Node::boolean(BooleanOp::kIntersection, {solid, box}, solid->where()));
     } else {
-      result.push_back(mesh_of(whole, triangles[i], solid->where()));
+      result.push_back(Node::leaf(
+          std::make_shared<const PolygonMesh>(mesh_of_solid(whole, triangles[i], "component")),
+          solid->where()));
     }
   }
   return result;

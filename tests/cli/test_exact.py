@@ -87,7 +87,8 @@ class Exact(Case):
         self.expect(self.run_script("return {a = cube(1), b = cube(2)}", "-o", "%s.EXACT.json"), 0)
         self.assertEqual(self.measure(read(self.path("b.EXACT.json"))["parts"][0]), 8)
         self.expect(self.run_script("return cube(1)", "-o", "a.json"), 2,
-                    "csgrun: 'a.json': the ending must be one of .glb, .gltf, .stl, .obj, .off, .exact.json")
+                    "csgrun: 'a.json': the ending must be one of .glb, .gltf, .stl, .3mf, .obj, .off, "
+                    ".ply, .exact.json")
 
 
 if __name__ == "__main__":

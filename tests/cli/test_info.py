@@ -57,12 +57,17 @@ class Info(Case):
         self.assertEqual(self.info("a.gltf")["parts"], self.info("a.glb")["parts"])
         with open(self.path("a.gltf")) as file:
             document = json.load(file)
-        for uri in ("a.bin", "data:application/octet-stream;base64,AAA", "data:;base64,A?==", "data:,AAAA", None):
+        for uri in ("data:application/octet-stream;base64,AAA", "data:;base64,A?==", "data:,AAAA", None):
             document["buffers"][0]["uri"] = uri
             if uri is None:
                 del document["buffers"][0]["uri"]
             self.write("bad.gltf", json.dumps(document))
             self.expect(self.run_csgrun("info", "bad.gltf", "--json"), 1, "bad.gltf: its buffer is not in the file")
+        for uri in ("a.bin", "../a.bin", "http://a.b/c.bin", "/etc/passwd", "file:///etc/passwd"):
+            document["buffers"][0]["uri"] = uri
+            self.write("bad.gltf", json.dumps(document))
+            for command in (("info", "bad.gltf"), ("bad.gltf", "--stats")):
+                self.expect(self.run_csgrun(*command), 1, f'bad.gltf: buffers[0] is at "{uri}", outside of the file')
         document["buffers"][0]["uri"] = "data:;base64,AAAA"
         self.write("bad.gltf", json.dumps(document))
         self.expect(self.run_csgrun("info", "bad.gltf"), 1, "bad.gltf: accessors[0] reaches beyond the end of the data")

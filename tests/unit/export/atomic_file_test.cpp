@@ -215,7 +215,7 @@ TEST_F(AtomicFileTest, ObjWithoutRoomForItsMaterialsIsNotWritten) {
 }
 
 TEST_F(AtomicFileTest, UnknownEndingIsRefused) {
-  const auto result = write_model(path("a.ply"), parts_);
+  const auto result = write_model(path("a.step"), parts_);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kInvalidArgument);
   EXPECT_EQ(files(), 0u);

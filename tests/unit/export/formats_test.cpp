@@ -292,7 +292,8 @@ TEST(Formats, NegativeZeroIsWrittenAsZero) {
 TEST(Formats, AreKnownByTheirEnding) {
   EXPECT_EQ(model_format_of("a/b.c/out.GLB"), "glb");
   EXPECT_EQ(model_format_of("out.gltf"), "gltf");
-  EXPECT_EQ(model_format_of("out.3mf"), "");
+  EXPECT_EQ(model_format_of("out.3mf"), "3mf");
+  EXPECT_EQ(model_format_of("out.step"), "");
   EXPECT_EQ(model_format_of("a.stl/out"), "");
   EXPECT_EQ(model_format_of("stl"), "");
   EXPECT_TRUE(keeps_parts("glb") && keeps_parts("obj") && keeps_parts("gltf"));

@@ -52,5 +52,41 @@ TEST(Sections, Mistakes) {
             "model.lua:1: decompose: takes no arguments");
 }
 
+TEST(Freeform, Mistakes) {
+  EXPECT_EQ(message_of("return cube(1):refine()"),
+            "model.lua:1: refine: needs the length of the longest edge");
+  EXPECT_EQ(message_of("return cube(1):refine(0)"),
+            "model.lua:1: refine: option 'length' must be positive, got 0");
+  EXPECT_EQ(message_of("return cube(1):smooth{round = 2}"),
+            "model.lua:1: smooth: unknown option 'round' (did you mean 'rounds'?)");
+  EXPECT_EQ(message_of("return cube(1):smooth(1.5)"),
+            "model.lua:1: smooth: option 'rounds' must be a whole number, got 1.5");
+  EXPECT_EQ(message_of("return cube(1):warp(3)"),
+            "model.lua:1: warp: option 'f' must be a function, got 3");
+  EXPECT_EQ(message_of("return cube(1):warp()"), "model.lua:1: warp: needs a function");
+  EXPECT_EQ(message_of("return cube(1):warp(function() return 1, 2 end)"),
+            "model.lua:1: warp: the function must give three numbers, got 2 values");
+  EXPECT_EQ(message_of("return cube(1):warp(function(x, y) return x, y, 0 end)"),
+            "model.lua:1: warp: the moved points enclose no volume");
+  EXPECT_EQ(message_of("return cube(1):warp(function(x, y, z) return x, y, 1/0 end)"),
+            "model.lua:1: warp: a moved point must be finite, got inf");
+  EXPECT_EQ(message_of("return levelset(function() return 0 end)"),
+            "model.lua:1: levelset: needs bounds: {min = {x, y, z}, max = {x, y, z}}");
+  EXPECT_EQ(message_of("return levelset(function() end, {{0, 0, 0}, {1, 1, 1}})"),
+            "model.lua:1: levelset: the function must give a number, got 0 values");
+  EXPECT_EQ(message_of("return levelset(function() return 0 end, {{0, 0, 0}, {1, 0, 1}})"),
+            "model.lua:1: levelset: the bounds must be finite and increase along each axis");
+  EXPECT_EQ(message_of("return surface()"), "model.lua:1: surface: needs a file, or 'heights'");
+  EXPECT_EQ(message_of("return surface{heights = {{1, 2}, {3}}}"),
+            "model.lua:1: surface: row 2 of option 'heights' must be a list of 2 numbers, as the "
+            "first, got a list of one value");
+  EXPECT_EQ(message_of("return cube{4, 4, 4, r = 3}"),
+            "model.lua:1: cube: r must be at most half of the shortest side, 2, got 3");
+  EXPECT_EQ(message_of("return cylinder{h = 4, r1 = 1, r2 = 2, round = 1}"),
+            "model.lua:1: cylinder: 'round' needs both radii to be the same");
+  EXPECT_EQ(message_of("return cube(1):offset{delta = 1, chamfer = true}"),
+            "model.lua:1: offset: option 'chamfer' is for shapes");
+}
+
 }  // namespace
 }  // namespace csgrun::testing

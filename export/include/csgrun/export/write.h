@@ -1,4 +1,5 @@
-// Writing models: GLB, glTF, STL, OBJ, OFF, exact JSON. A file is complete or not there at all.
+// Writing models: GLB, glTF, STL, 3MF, OBJ, OFF, PLY, exact JSON. A file is complete or not there
+// at all.
 #pragma once
 
 #include <array>
@@ -89,8 +90,8 @@ struct ModelFile {
   std::string path, bytes;
 };
 
-/// "glb", "gltf", "stl", "obj", "off", "exact.json" or empty when the ending of `path` is none of
-/// these.
+/// "glb", "gltf", "stl", "3mf", "obj", "off", "ply", "exact.json" or empty when the ending of
+/// `path` is none of these.
 std::string model_format_of(const std::string& path);
 
 /// Whether the format keeps parts apart; the others want one solid (the caller makes the union).

@@ -48,8 +48,8 @@ MeshResult make_level_set(const std::function<Result<double>(const glm::dvec3&)>
                           const LevelSetOptions& options);
 
 /// A box with round edges and corners of radius r: its extents are those of the box. The number of
-/// facets of a full turn is a multiple of 4. Errors: kInvalidArgument when r is not positive or more
-/// than half of the shortest side, kLimit.
+/// facets of a full turn is a multiple of 4. Errors: kInvalidArgument when r is not positive or
+/// more than half of the shortest side, kLimit.
 MeshResult make_rounded_cube(const glm::dvec3& size, double r, std::array<bool, 3> center,
                              const Facets& facets);
 /// A cylinder along +Z with round rims of radius `round`. Errors: kInvalidArgument when that is

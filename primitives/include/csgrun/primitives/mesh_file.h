@@ -22,8 +22,12 @@ struct MeshObject {
 /// `name` is used in messages and its ending chooses the format. Errors: kMalformedFile with the
 /// line or byte where reading stopped, kLimit when a count field promises more than the file holds.
 /// `objects`, if given, gets the objects of an OBJ that have faces, in the order of the file.
+/// `material_files`, if given, gets the material files that an OBJ names; then its faces have
+/// appearances with the names of their materials, without a colour (see apply_materials). A
+/// material file that is not below the OBJ's folder is an error in any case.
 Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
-                               std::vector<MeshObject>* objects = nullptr);
+                               std::vector<MeshObject>* objects = nullptr,
+                               std::vector<std::string>* material_files = nullptr);
 
 /// Reads a regular file (a FIFO, a directory or a device is refused) and parses it.
 Result<PolygonMesh> read_mesh_file(const std::string& path);

@@ -1,4 +1,4 @@
-// Solids in parts: by a plane, and by what is connected.
+// Solids in parts, by a plane and by what is connected; solids grown and shrunk.
 #pragma once
 
 #include <vector>
@@ -25,6 +25,13 @@ Result<CutPlane> make_cut_plane(const glm::dvec3& normal, double offset);
 /// empty if that is nothing. What is cut with it keeps its exact planes. Errors: those of the
 /// evaluation.
 Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const CutPlane& plane);
+
+/// A solid with its surface moved outwards by `tool`, a convex solid about the origin, or inwards
+/// when `distance`, which the tool reaches along each axis, is negative: then what the tool touches
+/// when it is moved over all that is outside goes. Exact on the grid, as minkowski_sum. Errors:
+/// those of the evaluation.
+Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const NodePtr& tool,
+                             double distance);
 
 /// The connected solids of which one consists, in the order of their smallest corners; voids belong
 /// to what is around them. Solids that touch in edges or corners are apart. A component whose box

@@ -1,0 +1,29 @@
+// Model files of several parts: 3MF; and the materials of OBJ.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/polygon_mesh.h>
+
+namespace csgrun {
+
+/// One thing in a model file, where the file puts it, in millimetres: not yet checked for
+/// closedness. Faces have the colours that the file gives them, or none.
+struct ModelPart {
+  std::string name;  ///< may be empty, or that of another part as well
+  PolygonMesh mesh;
+};
+
+/// The parts that a 3MF file builds, in its order: units, transforms, components, base materials
+/// and colours are understood. `name` stands in messages. Errors: kMalformedFile; kLimit for what
+/// unpacks, or multiplies by components, to more than a model would.
+Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes);
+
+/// Gives the appearances of an OBJ's mesh, which have the names of its materials, what a material
+/// file says of these: Kd, d or Tr, Pm, Pr. Others stay. Errors: kMalformedFile with the line.
+Status apply_materials(PolygonMesh& mesh, const std::string& name, std::string_view mtl);
+
+}  // namespace csgrun

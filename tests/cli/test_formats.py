@@ -1,0 +1,346 @@
+"""Each format by an independent reader (assimp; the file's text itself for colours of faces), and what is read back in;
+hostile files."""
+import io
+import json
+import os
+import shutil
+import struct
+import subprocess
+import unittest
+import xml.etree.ElementTree
+import zipfile
+
+from support import SANITIZED, Case, main
+
+MODEL = """
+local body = cube{20, 20, 10}:color("red")
+local hole = cube{8, 8, 30, center = true}:translate(10, 10, 5):color("#0000ff", 0.4)
+render((body - hole):name("body"))
+render(octahedron(6):translate(40, 0, 0):color("gold"):material("metal", {roughness = 0.25}):name("ball & <co>"))
+render(cube(3):translate(0, 40, 0):name("group/plain"))
+"""
+VOLUMES = {"body": 20 * 20 * 10 - 8 * 8 * 10, "ball & <co>": 4 / 3 * 216, "group/plain": 27}
+RED, BLUE, GOLD, DEFAULT = (255, 0, 0, 255), (0, 0, 255, 102), (255, 215, 0, 255), (249, 215, 44, 255)
+CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+MATERIAL = "{http://schemas.microsoft.com/3dmanufacturing/material/2015/02}"
+
+
+def volume(points, faces):
+    total = 0
+    for face in faces:
+        for b, c in zip(face[1:], face[2:]):
+            p, q, r = points[face[0]], points[b], points[c]
+            total += (p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0])
+                      + p[2] * (q[0] * r[1] - q[1] * r[0])) / 6
+    return total
+
+
+def is_closed(faces):
+    edges = [(a, b) for face in faces for a, b in zip(face, face[1:] + face[:1])]
+    return len(set(edges)) == len(edges) and all((b, a) in set(edges) for a, b in edges)
+
+
+class Formats(Case):
+    def setUp(self):
+        super().setUp()
+        self.write("model.lua", MODEL)
+
+    def export(self, name):
+        self.expect(self.run_csgrun("model.lua", "-o", name), 0)
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def assimp(self, name, scale=1):
+        """By name of node: volume, and the colours of its meshes."""
+        if shutil.which("assimp") is None:
+            if os.environ.get("CI") == "true":
+                self.fail("assimp-utils is not installed")
+            raise unittest.SkipTest("assimp-utils is not installed")
+        subprocess.run(["assimp", "export", self.path(name), self.path("scene.assjson"), "-fassjson"], check=True,
+                       stdout=subprocess.DEVNULL)
+        scene = json.loads(self.read("scene.assjson"))
+        parts = {}
+
+        def walk(node):
+            total, colours = 0, set()
+            for index in node.get("meshes", []):
+                mesh = scene["meshes"][index]
+                flat = mesh["vertices"]
+                points = [flat[i:i + 3] for i in range(0, len(flat), 3)]
+                total += volume(points, mesh["faces"]) * scale ** 3
+                look = {p["key"]: p["value"] for p in scene["materials"][mesh["materialindex"]]["properties"]}
+                colours.add(tuple(round(255 * c) for c in look["$clr.diffuse"][:3]))
+            if total:
+                parts[node["name"]] = (total, colours)
+            for child in node.get("children", []):
+                walk(child)
+        walk(scene["rootnode"])
+        return parts
+
+    def check_parts(self, parts, names, colours):
+        self.assertEqual(set(parts), set(names.values()))
+        for part, name in names.items():
+            self.assertAlmostEqual(parts[name][0], VOLUMES[part], delta=VOLUMES[part] * 1e-5)
+            self.assertEqual(parts[name][1], colours[part])
+
+    def test_3mf(self):
+        self.export("a.3mf")
+        self.check_parts(self.assimp("a.3mf"), {"body": "Object_3", "ball & <co>": "Object_4", "group/plain": "Object_5"},
+                         {"body": {RED[:3]}, "ball & <co>": {GOLD[:3]}, "group/plain": {DEFAULT[:3]}})
+        archive = zipfile.ZipFile(self.path("a.3mf"))
+        self.assertIsNone(archive.testzip())
+        self.assertEqual(archive.namelist(), ["[Content_Types].xml", "_rels/.rels", "3D/3dmodel.model"])
+        self.assertEqual({info.date_time for info in archive.infolist()}, {(1980, 1, 1, 0, 0, 0)})
+        model = xml.etree.ElementTree.fromstring(archive.read("3D/3dmodel.model"))
+        self.assertEqual(model.get("unit"), "millimeter")
+        bases = [tuple(bytes.fromhex(base.get("displaycolor")[1:])) for base in model.iter(CORE + "base")]
+        metals = [(float(m.get("metallicness")), float(m.get("roughness"))) for m in model.iter(MATERIAL + "pbmetallic")]
+        self.assertEqual(bases, [RED, BLUE, GOLD, DEFAULT])
+        self.assertEqual(metals, [(0, 0.6), (0, 0.6), (1, 0.25), (0, 0.6)])
+        names = []
+        for item in model.iter(CORE + "item"):
+            node = next(o for o in model.iter(CORE + "object") if o.get("id") == item.get("objectid"))
+            names.append(node.get("name"))
+            points = [[float(v.get(c)) for c in "xyz"] for v in node.iter(CORE + "vertex")]
+            triangles = list(node.iter(CORE + "triangle"))
+            faces = [[int(t.get(c)) for c in ("v1", "v2", "v3")] for t in triangles]
+            self.assertTrue(is_closed(faces))
+            self.assertAlmostEqual(volume(points, faces), VOLUMES[names[-1]], delta=1e-6)
+            looks = {int(t.get("p1") or node.get("pindex")) for t in triangles}
+            self.assertEqual(looks, {"body": {0, 1}, "ball & <co>": {2}, "group/plain": {3}}[names[-1]])
+        self.assertEqual(names, list(VOLUMES))
+
+    def test_3mf_again_is_the_same_bytes(self):
+        self.export("a.3mf")
+        first = self.read("a.3mf")
+        self.expect(self.run_csgrun("model.lua", "-o", "a.3mf", "--threads", "1"), 0)
+        self.assertEqual(self.read("a.3mf"), first)
+        # Read and written again it has its triangles; from there on nothing changes.
+        self.expect(self.run_csgrun("a.3mf", "-o", "b.3mf"), 0)
+        self.expect(self.run_csgrun("b.3mf", "-o", "c.3mf"), 0)
+        self.assertEqual(self.read("c.3mf"), self.read("b.3mf"))
+
+    def test_glb(self):
+        self.export("a.glb")
+        linear = lambda c: round(255 * ((c / 255 + 0.055) / 1.055) ** 2.4) if c > 10 else 0
+        colours = {"body": {RED[:3], BLUE[:3]}, "ball & <co>": {tuple(map(linear, GOLD[:3]))},
+                   "group/plain": {tuple(map(linear, (0.976 * 255, 0.843 * 255, 0.173 * 255)))}}
+        self.check_parts(self.assimp("a.glb"), {"body": "body", "ball & <co>": "ball & <co>", "group/plain": "plain"}, colours)
+
+    def test_obj(self):
+        self.export("a.obj")
+        self.check_parts(self.assimp("a.obj"), {"body": "body", "ball & <co>": "ball_&_<co>", "group/plain": "group plain"},
+                         {"body": {RED[:3], BLUE[:3]}, "ball & <co>": {GOLD[:3]}, "group/plain": {DEFAULT[:3]}})
+        mtl = self.read("a.mtl").decode()
+        self.assertIn("newmtl metal\nKd 1 0.843137 0\nd 1\nPm 1\nPr 0.25\n", mtl)
+        self.assertIn("newmtl #0000ff\nKd 0 0 1\nd 0.4\n", mtl)
+
+    def face_colours(self, faces):
+        """How much area there is of a colour: faces as (points, colour)."""
+        return {colour for _, colour in faces}
+
+    def test_ply(self):
+        self.export("a.ply")
+        total = sum(VOLUMES.values())
+        ((got, _),) = self.assimp("a.ply").values()
+        self.assertAlmostEqual(got, total, delta=total * 1e-5)
+        data = self.read("a.ply")
+        head, body = data.split(b"end_header\n", 1)
+        count = {line.split()[1]: int(line.split()[2]) for line in head.decode().split("\n") if line.startswith("element")}
+        points = [struct.unpack_from("<3d", body, 24 * i) for i in range(count["vertex"])]
+        at, faces, colours = 24 * len(points), [], set()
+        for _ in range(count["face"]):
+            (n,) = struct.unpack_from("<I", body, at)
+            faces.append(list(struct.unpack_from(f"<{n}I", body, at + 4)))
+            colours.add(tuple(body[at + 4 + 4 * n:at + 8 + 4 * n]))
+            at += 8 + 4 * n
+        self.assertEqual(at, len(body))
+        self.assertTrue(is_closed(faces))
+        self.assertAlmostEqual(volume(points, faces), total, delta=1e-6)
+        self.assertEqual(colours, {RED, BLUE, GOLD, DEFAULT})
+
+    def test_plain_ply_has_no_colours(self):
+        self.expect(self.run_script("return cube(2)", "-o", "b.ply"), 0)
+        self.assertNotIn(b"red", self.read("b.ply"))
+        self.assertEqual(self.run_csgrun("b.ply", "--stats=json").json()["parts"][0]["volume"], 8)
+
+    def test_off(self):
+        self.export("a.off")
+        total = sum(VOLUMES.values())
+        ((got, _),) = self.assimp("a.off").values()
+        self.assertAlmostEqual(got, total, delta=total * 1e-5)
+        lines = self.read("a.off").decode().split("\n")
+        points, faces = (int(x) for x in lines[1].split()[:2])
+        colours = set()
+        for line in lines[2 + points:2 + points + faces]:
+            numbers = [int(x) for x in line.split()]
+            colours.add(tuple(numbers[1 + numbers[0]:]))
+        self.assertEqual(colours, {RED[:3], BLUE, GOLD[:3], ()})
+
+    def test_stl(self):
+        self.export("a.stl")
+        ((got, _),) = self.assimp("a.stl").values()
+        self.assertAlmostEqual(got, sum(VOLUMES.values()), delta=0.05)
+
+
+class ReadBack(Case):
+    """What csgrun wrote, it reads: parts, their places, colours."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("model.lua", MODEL)
+
+    def glb(self, name):
+        with open(self.path(name), "rb") as file:
+            data = file.read()
+        gltf = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+        for buffer in gltf["buffers"]:
+            buffer.pop("byteLength")
+        return gltf
+
+    def test_parts_and_colours(self):
+        for ending in ("3mf", "glb", "gltf"):
+            self.expect(self.run_csgrun("model.lua", "-o", "a." + ending, "-o", "direct.glb"), 0)
+            again = self.run_csgrun("a." + ending, "-o", "again.glb", "--stats=json")
+            self.expect(again, 0)
+            self.assertEqual(again.json()["warnings"], [])
+            self.assertEqual({p["name"]: p["volume"] for p in again.json()["parts"]}, VOLUMES)
+            self.assertEqual(self.glb("again.glb")["materials"], self.glb("direct.glb")["materials"])
+
+    def test_obj_with_its_materials(self):
+        self.expect(self.run_csgrun("model.lua", "-o", "a.obj"), 0)
+        self.write("b.lua", "return import('a.obj')")
+        self.expect(self.run_csgrun("b.lua", "-o", "b.glb"), 0)
+        looks = {m["name"]: m["pbrMetallicRoughness"] for m in self.glb("b.glb")["materials"]}
+        self.assertEqual(set(looks), {"#ff0000", "#0000ff", "metal", "default"})
+        self.assertEqual(looks["#0000ff"]["baseColorFactor"], [0, 0, 1, 0.4])
+        self.assertEqual(looks["metal"]["roughnessFactor"], 0.25)
+        os.remove(self.path("a.mtl"))
+        outcome = self.run_csgrun("b.lua", "--stats=json")
+        self.expect(outcome, 0)
+        self.assertEqual(len(outcome.json()["warnings"]), 1)
+        self.assertIn("b.lua:1: import: no colours: cannot read 'a.mtl'", outcome.json()["warnings"][0])
+
+    def test_import(self):
+        self.expect(self.run_csgrun("model.lua", "-o", "a.3mf", "-o", "a.glb"), 0)
+        for ending in ("3mf", "glb"):
+            self.write("b.lua", f"""
+              local whole = import("a.{ending}")
+              assert(whole:volume() == {sum(VOLUMES.values())})
+              local parts = import("a.{ending}", {{parts = true}})
+              assert(#parts == 3 and parts[1]:volume() == {VOLUMES["body"]})
+              return parts""")
+            outcome = self.run_csgrun("b.lua", "--stats=json")
+            self.expect(outcome, 0)
+            self.assertEqual([p["name"] for p in outcome.json()["parts"]], list(VOLUMES))
+
+    def test_foreign_gltf_is_in_metres_with_y_up(self):
+        self.expect(self.run_script("return {tall = cube{1, 2, 3}:translate(0, 0, 5)}", "-o", "a.gltf"), 0)
+        with open(self.path("a.gltf")) as file:
+            gltf = json.load(file)
+        gltf["nodes"][0].pop("rotation")
+        gltf["nodes"][0].pop("scale")  # now the numbers are metres, and Y is up
+        self.write("b.gltf", json.dumps(gltf))
+        (part,) = self.run_csgrun("b.gltf", "--stats=json").json()["parts"]
+        self.assertEqual(part["bbox"], [[0, -8000, 0], [1000, -5000, 2000]])
+
+    def model_3mf(self, resources, build, attributes='unit="millimeter"'):
+        text = io.BytesIO()
+        with zipfile.ZipFile(text, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr("_rels/.rels", '<Relationships><Relationship Target="/3D/m.model" Id="r" '
+                             'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>')
+            archive.writestr("3D/m.model", f'<model {attributes} xmlns="{CORE[1:-1]}" xmlns:m="{MATERIAL[1:-1]}"><resources>'
+                             f'{resources}</resources><build>{build}</build></model>')
+        self.write("a.3mf", text.getvalue())
+
+    TETRAHEDRON = ('<mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/>'
+                   '<vertex x="0" y="0" z="1"/></vertices><triangles><triangle v1="0" v2="2" v3="1"/>'
+                   '<triangle v1="0" v2="1" v3="3"/><triangle v1="0" v2="3" v3="2"/><triangle v1="1" v2="2" v3="3"/>'
+                   '</triangles></mesh>')
+
+    def test_units_transforms_and_components(self):
+        self.model_3mf(f'<object id="1">{self.TETRAHEDRON}</object><object id="2" name="pair"><components>'
+                       '<component objectid="1"/><component objectid="1" transform="-1 0 0 0 1 0 0 0 1 -5 0 0"/></components>'
+                       '</object>', '<item objectid="2" transform="2 0 0 0 2 0 0 0 2 0 0 1"/><item objectid="1"/>',
+                       'unit="inch"')
+        outcome = self.run_csgrun("a.3mf", "--stats=json")
+        self.expect(outcome, 0)
+        pair, single = outcome.json()["parts"]
+        self.assertEqual((pair["name"], single["name"]), ("pair", "part1"))
+        self.assertAlmostEqual(single["volume"], 25.4 ** 3 / 6, delta=1e-6)
+        self.assertAlmostEqual(pair["volume"], 25.4 ** 3 / 6 * 16, delta=1e-5)
+        self.assertEqual(pair["bbox"], [[-304.8, 0, 25.4], [50.8, 50.8, 76.2]])
+
+    def test_colour_groups(self):
+        self.model_3mf('<m:colorgroup id="4"><m:color color="#FF0000"/><m:color color="#0000FF80"/></m:colorgroup>'
+                       f'<object id="1" pid="4" pindex="1">{self.TETRAHEDRON}</object>', '<item objectid="1"/>')
+        self.expect(self.run_csgrun("a.3mf", "-o", "a.glb"), 0)
+        (look,) = [m["pbrMetallicRoughness"] for m in self.glb("a.glb")["materials"]]
+        self.assertEqual(look["baseColorFactor"][:3], [0, 0, 1])
+
+    def refuse(self, message, name="a.3mf"):
+        for command in ((name, "--stats"), ("info", name)):
+            outcome = self.run_csgrun(*command)
+            self.expect(outcome, 1, name + ": ")
+            self.assertIn(message, outcome.first)
+            if not SANITIZED:
+                self.assertLess(outcome.seconds, 1)
+                self.assertLess(outcome.peak_mb, 200)
+
+    def test_hostile_3mf(self):
+        self.write("a.3mf", "no zip")
+        self.refuse("it is no zip file")
+        item = '<item objectid="1"/>'
+        for resources, build, message in (
+                ("", item, "there is no object 1"),
+                (f'<object id="1">{self.TETRAHEDRON}</object>', '<item objectid="1" transform="1 2 3"/>', "twelve finite numbers"),
+                (f'<object id="1">{self.TETRAHEDRON}</object>', '<item objectid="1" p:path="/x"/>', "in another file"),
+                (f'<object id="1">{self.TETRAHEDRON.replace(chr(34) + "3" + chr(34), chr(34) + "9" + chr(34))}</object>', item,
+                 "corner 9"),
+                ('<object id="1"><components><component objectid="1"/></components></object>', item, "nest too deep"),
+                ('<object id="1"><mesh/></object>', item, "has no faces"),
+                (f'<object id="1" pid="3" pindex="1">{self.TETRAHEDRON}</object><basematerials id="3"/>', item, "no material 1"),
+                ('<basematerials id="3"><base name="x" displaycolor="red"/></basematerials>', "", "#RRGGBB")):
+            self.model_3mf(resources, build)
+            self.refuse(message)
+        self.model_3mf(f'<object id="1">{self.TETRAHEDRON}</object>', item, 'unit="cubit"')
+        self.refuse("there is no unit")
+
+    def test_bombs(self):
+        # By compression: a gigabyte of blanks.
+        text = io.BytesIO()
+        with zipfile.ZipFile(text, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr("_rels/.rels", '<Relationships><Relationship Target="/m" Type="x/3dmodel"/></Relationships>')
+            archive.writestr("m", b" " * 300_000_000)
+        self.write("a.3mf", text.getvalue())
+        self.refuse("which no model does")
+        # By components: each of thirty objects is ten of the one before.
+        tower = f'<object id="1">{self.TETRAHEDRON}</object>'
+        for n in range(2, 31):
+            tower += f'<object id="{n}"><components>' + f'<component objectid="{n - 1}"/>' * 10 + "</components></object>"
+        self.model_3mf(tower, '<item objectid="30"/>')
+        self.refuse("multiply to more than a model would")
+        # By entities: they are not expanded.
+        text = io.BytesIO()
+        with zipfile.ZipFile(text, "w") as archive:
+            archive.writestr("_rels/.rels", '<Relationships><Relationship Target="/m" Type="x/3dmodel"/></Relationships>')
+            archive.writestr("m", '<!DOCTYPE m [<!ENTITY a "' + "x" * 1000 + '">' + "".join(
+                f'<!ENTITY {chr(98 + i)} "' + f"&{chr(97 + i)};" * 100 + '">' for i in range(8)) + "]><model>&i;</model>")
+        self.write("a.3mf", text.getvalue())
+        self.refuse("no resources")
+
+    def test_addresses_that_lead_out(self):
+        off = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+        for address in ("../x.mtl", "/etc/passwd", "http://a.b/c.mtl", "a/../../x", "..\\x"):
+            self.write("a.obj", f"mtllib {address}\n" + off)
+            self.refuse("leads out of the file's folder", "a.obj")
+        self.write("a.obj", "mtllib x.mtl\nusemtl a\n" + off)
+        outcome = self.run_csgrun("a.obj", "--stats=json")
+        self.expect(outcome, 0)
+        self.assertIn("no colours: cannot read 'x.mtl'", outcome.json()["warnings"][0])
+
+
+if __name__ == "__main__":
+    main()
