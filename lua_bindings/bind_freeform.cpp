@@ -210,8 +210,7 @@ constexpr FunctionSpec kLevelset{
     "The solid where a function (a signed distance, say) is less than the level, cut with the\n"
     "  bounds where it reaches farther.",
     kLevelsetOptions, false,
-    "levelset(function(x, y, z) return norm{x, y, z} - 8 end,\n"
-    "  {min = {-9, -9, -9}, max = {9, 9, 9}}, 1)"};
+    "levelset(function(x, y, z) return norm{x, y, z} - 8 end, {{-9, -9, -9}, {9, 9, 9}}, 1)"};
 
 glm::dvec3 bound(lua_State* L, int index, const char* name, int place) {
   glm::dvec3 p(0);

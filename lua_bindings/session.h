@@ -34,7 +34,7 @@ struct ScriptPart {
   Shape2D shape;
   SourceRef where;                       ///< where it was emitted or made
   bool only = false;                     ///< of a shape: it alone is to be in the result
-  std::optional<Appearance> appearance;  ///< of a shape
+  std::optional<Appearance> appearance = std::nullopt;  ///< of a shape
 };
 
 struct SessionOptions {

@@ -101,8 +101,8 @@ class Assembler {
     const auto corners = job_.corners(p);
     const auto edges = job_.edge_planes(p);
     for (uint32_t i = 0; i < p.count; ++i) {
-      corners_.push_back(vertex(corners[flip ? p.count - 1 - i : i]));
-      planes_.push_back(edges[flip ? (2 * p.count - 2 - i) % p.count : i]);
+      corners_.push_back(vertex(corners[corner_place(i, p.count, flip)]));
+      planes_.push_back(edges[edge_place(i, p.count, flip)]);
     }
   }
 

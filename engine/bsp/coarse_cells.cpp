@@ -30,10 +30,7 @@ Bounds bounds_of(const Job& job) {
     if (own.is_empty()) continue;
     bounds.all.include(own);
     if (operands++ == 0) bounds.common = own;
-    for (size_t k = 0; k < 3; ++k) {
-      bounds.common.lo[k] = std::max(bounds.common.lo[k], own.lo[k]);
-      bounds.common.hi[k] = std::min(bounds.common.hi[k], own.hi[k]);
-    }
+    bounds.common.clip(own);
   }
   if (operands > 2) bounds.common = bounds.all;
   return bounds;
@@ -144,21 +141,27 @@ PairCells whole(const Job& job, const PolygonBox& all) {
   return result;
 }
 
-/// Marks the cells by operands, and lists those of each polygon. False when polygons are too large.
-bool mark(const Job& job, Grid& grid, std::vector<Grid::Cells>& cells) {
-  size_t left = kMostCellsEach * job.polygons().size();
-  cells.resize(job.polygons().size());
+/// Marks the cells by the operands of those polygons that are covered, or of those that are not,
+/// and lists those of each. Covered ones mark only what others have. False when there are more than
+/// `left`, which is lowered.
+bool mark(const Job& job, std::span<const uint8_t> covered, bool are_covered, Grid& grid,
+          std::vector<Grid::Cells>& cells, size_t& left) {
   for (size_t o = 0; o < job.operand_count(); ++o) {
     const auto own = static_cast<uint32_t>(o) + 1;
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
+      if ((!covered.empty() && covered[p] != 0) != are_covered) continue;
       if (!grid.find_cells(job.boxes()[p], cells[p])) return false;
       if (!cells[p].any) continue;
       const auto& more = cells[p].more;
       const size_t count = (more[0] + size_t{1}) * (more[1] + size_t{1}) * (more[2] + size_t{1});
       if (count > left) return false;
       left -= count;
-      grid.each_cell(cells[p], [own](uint32_t& cell) {
-        cell = cell == kNobody || cell == own ? own : kSeveral;
+      grid.each_cell(cells[p], [own, are_covered](uint32_t& cell) {
+        if (cell == kNobody) {
+          cell = are_covered ? kNobody : own;
+        } else if (cell != own) {
+          cell = kSeveral;
+        }
       });
     }
   }
@@ -167,19 +170,21 @@ bool mark(const Job& job, Grid& grid, std::vector<Grid::Cells>& cells) {
 
 }  // namespace
 
-PairCells find_coarse_cells(const Job& job, uint32_t limit) {
+PairCells find_coarse_cells(const Job& job, std::span<const uint8_t> covered, uint32_t limit) {
   const size_t count = job.polygons().size();
   const Bounds bounds = bounds_of(job);
   const size_t most_cells = std::min(kMostCells, kCellsOverLimit * count / limit);
   if (most_cells < kFewestCells) return whole(job, bounds.all);
   PairCells result;
   result.surface = cells_for(count, limit);
-  for (size_t k = 0; k < 3; ++k) {
-    if (bounds.common.lo[k] > bounds.common.hi[k]) return result;
-  }
+  if (bounds.common.is_empty()) return result;
   Grid grid(bounds.common, most_cells);
-  std::vector<Grid::Cells> cells;
-  if (!mark(job, grid, cells)) return whole(job, bounds.all);
+  std::vector<Grid::Cells> cells(count);
+  size_t left = kMostCellsEach * count;
+  if (!mark(job, covered, false, grid, cells, left) ||
+      (!covered.empty() && !mark(job, covered, true, grid, cells, left))) {
+    return whole(job, bounds.all);
+  }
 
   // From here on a cell holds its number among the shared ones, from the top down.
   const auto number = [](uint32_t cell) { return kSeveral - 1 - cell; };

@@ -6,9 +6,10 @@
 
 namespace csgrun {
 
-/// Cells with polygons of at least two operands, by their boxes, which hold the lower corners of
-/// all overlaps of boxes of different operands. Where polygons are few, or large, it is one cell
-/// with all of them. `surface` counts what is in no such cell, in cells of `limit` polygons. O(n).
-PairCells find_coarse_cells(const Job& job, uint32_t limit);
+/// Cells with polygons of at least two operands, not all of which are in `covered` (per polygon;
+/// empty: none is), by their boxes, which hold the lower corners of all overlaps of boxes of
+/// different operands. Where polygons are few, or large, it is one cell with all of them. `surface`
+/// counts what is in no such cell, in cells of `limit` polygons. O(n).
+PairCells find_coarse_cells(const Job& job, std::span<const uint8_t> covered, uint32_t limit);
 
 }  // namespace csgrun

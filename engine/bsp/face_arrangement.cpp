@@ -134,22 +134,51 @@ void FaceArrangement::add_coplanar(std::span<const uint32_t> coplanar) {
   }
 }
 
+/// Lines of one operand with the same ends: the two sheets of an edge in the polygon's plane.
+void FaceArrangement::find_same_lines() {
+  line_ends_.clear();
+  for (uint32_t l = 0; l < lines_.size(); ++l) {
+    const Line& line = lines_[l];
+    line_ends_.push_back(
+        {std::min(line.from, line.to), std::max(line.from, line.to), line.operand, l});
+  }
+  std::sort(line_ends_.begin(), line_ends_.end());
+  swept_.clear();
+  next_same_.assign(lines_.size(), kNone);
+  for (size_t i = 0; i < line_ends_.size(); ++i) {
+    const auto &own = line_ends_[i], &before = line_ends_[i > 0 ? i - 1 : 0];
+    if (i > 0 && own[2] != kNone && std::equal(own.begin(), own.begin() + 3, before.begin())) {
+      next_same_[before[3]] = own[3];
+    } else {
+      swept_.push_back(own[3]);
+    }
+  }
+  std::sort(swept_.begin(), swept_.end());
+}
+
 /// The points in which lines meet.
 void FaceArrangement::find_stops() {
   stops_.clear();
   sweep_.clear();
-  for (uint32_t l = 0; l < lines_.size(); ++l) {
+  find_same_lines();
+  for (const uint32_t l : swept_) {
     sweep_.add(geometry_.point(lines_[l].from).rounded, geometry_.point(lines_[l].to).rounded);
     stops_.emplace_back(l, lines_[l].from);
     stops_.emplace_back(l, lines_[l].to);
   }
-  sweep_.for_each_pair([&](uint32_t s, uint32_t t) {
+  sweep_.for_each_pair([&](uint32_t i, uint32_t j) {
+    const uint32_t s = swept_[i], t = swept_[j];
     // Sheets of a leaf meet in edges and corners that both have.
     const uint32_t operand = lines_[t].operand;
     if (operand == kNone || lines_[s].operand != operand || !job_.has_simple_edges(operand)) {
       meet(s, t);
     }
   });
+  for (size_t i = 0, count = stops_.size(); i < count; ++i) {
+    const auto [line, point] = stops_[i];
+    for (uint32_t l = next_same_[line]; l != kNone; l = next_same_[l])
+      stops_.emplace_back(l, point);
+  }
 }
 
 void FaceArrangement::meet(uint32_t s, uint32_t t) {

@@ -98,6 +98,7 @@ class FaceArrangement {
   void add_coplanar(std::span<const uint32_t> coplanar);
   [[nodiscard]] bool is_far(uint32_t vertex, uint32_t other) const;
   void find_stops();
+  void find_same_lines();
   void meet(uint32_t s, uint32_t t);
   void add_collinear(const Line& on, uint32_t line, uint32_t point);
   void break_lines();
@@ -130,6 +131,9 @@ class FaceArrangement {
   const JobPolygon* polygon_ = nullptr;
   std::vector<Line> lines_;
   SegmentSweep sweep_;
+  std::vector<std::array<uint32_t, 4>> line_ends_;    ///< lower, higher, operand, line
+  std::vector<uint32_t> swept_;                       ///< lines, of those with equal ends one
+  std::vector<uint32_t> next_same_;                   ///< per line: the next one of these, or kNone
   std::vector<std::pair<uint32_t, uint32_t>> stops_;  ///< (line, point)
   std::vector<Part> parts_;
   std::vector<Arc> arcs_;

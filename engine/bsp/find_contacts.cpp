@@ -73,13 +73,14 @@ void decide_unsure(Job& job, const std::vector<Found>& found, Contacts& result,
 
 }  // namespace
 
-Contacts find_contacts(Job& job, const KernelOptions& options, EvaluateStats& stats) {
-  const PairCells cells = find_pair_cells(job, options);
+Contacts find_contacts(Job& job, std::span<const uint8_t> covered, const KernelOptions& options,
+                       EvaluateStats& stats) {
+  const PairCells cells = find_pair_cells(job, covered, options);
   std::vector<Found> found(run_count(cells.cells.size()));
   for_each_run(
       found.size(), options,
       [&] {
-        return Looker{PairTest(job), {}};
+        return Looker{PairTest(job), CellPairs(covered)};
       },
       [&](Looker& looker, size_t run) {
         Found& out = found[run];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <csgrun/engine/evaluate.h>
@@ -17,7 +18,9 @@ struct Contacts {
 };
 
 /// Divides space into cells of pairs and looks at each pair; planes are made where doubles and
-/// 128-bit integers do not tell. `stats` is added to. Parallel; incomplete when cancelled.
-Contacts find_contacts(Job& job, const KernelOptions& options, EvaluateStats& stats);
+/// 128-bit integers do not tell. Pairs of polygons both of which are in `covered` (empty: none is)
+/// are left out. `stats` is added to. Parallel; incomplete when cancelled.
+Contacts find_contacts(Job& job, std::span<const uint8_t> covered, const KernelOptions& options,
+                       EvaluateStats& stats);
 
 }  // namespace csgrun

@@ -38,17 +38,14 @@ struct FragmentSet {
                 static_cast<uint32_t>(corner_point.size()), f.count};
     numbers.resize(geometry.point_count(), kNone);
     for (uint32_t i = 0; i < f.count; ++i) {
-      // Reversed, the edge that follows corner n - 1 - i is the one that came before it.
-      const uint32_t at = flip ? f.count - 1 - i : i;
-      const uint32_t edge = flip ? (2 * f.count - 2 - i) % f.count : i;
-      const uint32_t p = geometry.corners(f)[at];
+      const uint32_t p = geometry.corners(f)[corner_place(i, f.count, flip)];
       if (numbers[p] == kNone) {
         numbers[p] = static_cast<uint32_t>(points.size());
         const auto& s = geometry.point(p);
         points.push_back({s.rounded, s.planes, s.vertex});
       }
       corner_point.push_back(numbers[p]);
-      corner_plane.push_back(geometry.edges(f)[edge]);
+      corner_plane.push_back(geometry.edges(f)[edge_place(i, f.count, flip)]);
     }
     pieces.push_back(piece);
   }

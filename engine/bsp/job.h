@@ -33,7 +33,24 @@ struct PolygonBox {
       hi[k] = std::max(hi[k], o.hi[k]);
     }
   }
-  [[nodiscard]] bool is_empty() const { return lo[0] > hi[0]; }
+  /// Leaves what another one has, too.
+  void clip(const PolygonBox& o) {
+    for (size_t k = 0; k < 3; ++k) {
+      lo[k] = std::max(lo[k], o.lo[k]);
+      hi[k] = std::min(hi[k], o.hi[k]);
+    }
+  }
+  [[nodiscard]] bool meets(const PolygonBox& o) const {
+    bool all = true;
+    for (size_t k = 0; k < 3; ++k) all &= o.lo[k] <= hi[k] && o.hi[k] >= lo[k];
+    return all;
+  }
+  [[nodiscard]] bool holds(const PolygonBox& o) const {
+    bool all = true;
+    for (size_t k = 0; k < 3; ++k) all &= lo[k] <= o.lo[k] && o.hi[k] <= hi[k];
+    return all;
+  }
+  [[nodiscard]] bool is_empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
 };
 struct PieceBox;
 /// The box around one of correctly rounded coordinates, which may stand on either side of the true
@@ -48,6 +65,15 @@ struct JobPolygon {
   uint32_t first, count;  ///< corners in Job::corners; also edge planes in Job::edge_planes
   PlaneId support;        ///< oriented outwards; invalid until planes were made
 };
+
+/// Where the i-th corner of a loop is, and the edge after it, if it is run backwards when `flip`:
+/// the edge that follows corner n - 1 - i is then the one that came before it.
+constexpr uint32_t corner_place(uint32_t i, uint32_t count, bool flip) {
+  return flip ? count - 1 - i : i;
+}
+constexpr uint32_t edge_place(uint32_t i, uint32_t count, bool flip) {
+  return flip ? (2 * count - 2 - i) % count : i;
+}
 
 class Job {
  public:

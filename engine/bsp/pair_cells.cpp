@@ -1,7 +1,6 @@
 #include "engine/bsp/pair_cells.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "engine/bsp/coarse_cells.h"
 
@@ -14,38 +13,11 @@ constexpr int kPatience = 3;
 /// A cell of the grid is not divided for so many times the limit: that costs more than its pairs.
 constexpr uint32_t kPatientLimit = 4;
 
-using Corner = std::array<int32_t, 3>;
-
-struct Bounds {
-  Corner lo, hi;
-  static Bounds none() {
-    constexpr int32_t lo = std::numeric_limits<int32_t>::min(),
-                      hi = std::numeric_limits<int32_t>::max();
-    return {{hi, hi, hi}, {lo, lo, lo}};
-  }
-  void include(const PolygonBox& b) {
-    for (int k = 0; k < 3; ++k) {
-      lo[k] = std::min(lo[k], b.lo[k]);
-      hi[k] = std::max(hi[k], b.hi[k]);
-    }
-  }
-  void clip(const Bounds& o) {
-    for (int k = 0; k < 3; ++k) {
-      lo[k] = std::max(lo[k], o.lo[k]);
-      hi[k] = std::min(hi[k], o.hi[k]);
-    }
-  }
-  [[nodiscard]] bool meets(const PolygonBox& b) const {
-    bool all = true;
-    for (int k = 0; k < 3; ++k) all &= b.lo[k] <= hi[k] && b.hi[k] >= lo[k];
-    return all;
-  }
-};
-
 /// A polygon on the way down, with its box at hand.
 struct Entry {
   PolygonBox box;
   uint32_t polygon, operand;
+  bool is_covered;
 };
 
 /// Entries [first, first + count) of the stack, by ascending operands.
@@ -53,9 +25,11 @@ struct List {
   static constexpr uint32_t kNobody = ~0u;
   uint32_t first = 0, count = 0;
   uint32_t lowest = kNobody, second = kNobody, last = kNobody;  ///< operands
-  Bounds of_lowest = Bounds::none(), of_others = Bounds::none();
+  PolygonBox of_lowest = PolygonBox::none(), of_others = PolygonBox::none();
+  bool is_covered = true;  ///< all of them
 
   void add(const Entry& e) {
+    is_covered &= e.is_covered;
     if (count++ == 0) lowest = e.operand;
     if (e.operand == lowest) {
       of_lowest.include(e.box);
@@ -67,20 +41,23 @@ struct List {
   }
   [[nodiscard]] bool has_one_operand() const { return second == kNobody; }
   [[nodiscard]] bool has_two_operands() const { return second != kNobody && second == last; }
-  [[nodiscard]] Bounds bounds() const {
-    Bounds all = of_lowest;
-    all.include({of_others.lo, of_others.hi});
+  [[nodiscard]] PolygonBox bounds() const {
+    PolygonBox all = of_lowest;
+    all.include(of_others);
     return all;
   }
 };
 
 class CellFinder {
  public:
-  CellFinder(const Job& job, const KernelOptions& options)
-      : job_(job), limit_(std::max<uint32_t>(1, options.cell_limit)), cancel_(options.cancel) {}
+  CellFinder(const Job& job, std::span<const uint8_t> covered, const KernelOptions& options)
+      : job_(job),
+        covered_(covered),
+        limit_(std::max<uint32_t>(1, options.cell_limit)),
+        cancel_(options.cancel) {}
 
   PairCells run() {
-    const PairCells coarse = find_coarse_cells(job_, limit_);
+    const PairCells coarse = find_coarse_cells(job_, covered_, limit_);
     result_.surface = coarse.surface;
     for (const PairCells::Cell& cell : coarse.cells) {
       const uint32_t* polygons = coarse.polygons.data() + cell.first;
@@ -95,7 +72,7 @@ class CellFinder {
       stack_.clear();
       for (uint32_t i = 0; i < cell.count; ++i) {
         const uint32_t p = polygons[i];
-        stack_.push_back({job_.boxes()[p], p, job_.polygons()[p].operand});
+        stack_.push_back({job_.boxes()[p], p, job_.polygons()[p].operand, is_covered(p)});
         list.add(stack_.back());
       }
       visit({cell.lo, cell.hi}, list, 0);
@@ -106,7 +83,7 @@ class CellFinder {
  private:
   /// Of two operands, only what is in the box of the other one matters.
   List keep_near(const List& list) {
-    Bounds common = list.of_lowest;
+    PolygonBox common = list.of_lowest;
     common.clip(list.of_others);
     List kept;
     kept.first = list.first;
@@ -128,7 +105,7 @@ class CellFinder {
   /// Along the longest axis on which the halves hold fewer pairs, or else along the longest: a few
   /// long polygons among many small ones would be copied into ever smaller cells, as often as there
   /// is room in their boxes. Needs a side that is longer than one.
-  [[nodiscard]] Cut find_cut(const Bounds& cell, const List& list) const {
+  [[nodiscard]] Cut find_cut(const PolygonBox& cell, const List& list) const {
     std::array<int, 3> axes{0, 1, 2};
     const auto length = [&](int k) { return static_cast<int64_t>(cell.hi[k]) - cell.lo[k]; };
     std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return length(a) > length(b); });
@@ -152,14 +129,14 @@ class CellFinder {
   }
 
   /// Handles the list, which is the top of the stack.
-  void visit(Bounds cell, List list, int stalled) {
+  void visit(PolygonBox cell, List list, int stalled) {
     ++result_.visited;
     if (list.count > limit_ && list.has_two_operands()) {
       const uint32_t all = list.count;
       list = keep_near(list);
       leave_alone(all - list.count);
     }
-    if (list.has_one_operand()) return leave_alone(list.count);
+    if (list.has_one_operand() || list.is_covered) return leave_alone(list.count);
     cell.clip(list.bounds());
     if (cancel_ && cancel_->load(std::memory_order_relaxed)) return;
     if (list.count <= limit_ || cell.lo == cell.hi) return add_cell(cell, list);
@@ -168,7 +145,7 @@ class CellFinder {
     const uint32_t end = list.first + list.count;
     for (int upper = 0; upper < 2; ++upper) {
       stack_.resize(end);
-      Bounds half = cell;
+      PolygonBox half = cell;
       (upper ? half.lo : half.hi)[cut.axis] = upper ? cut.middle + 1 : cut.middle;
       List child;
       child.first = end;
@@ -183,7 +160,7 @@ class CellFinder {
     stack_.resize(end);
   }
 
-  void add_cell(const Bounds& cell, const List& list) {
+  void add_cell(const PolygonBox& cell, const List& list) {
     ++result_.surface;
     result_.cells.push_back(
         {cell.lo, cell.hi, static_cast<uint32_t>(result_.polygons.size()), list.count});
@@ -192,9 +169,14 @@ class CellFinder {
     }
   }
 
+  [[nodiscard]] bool is_covered(uint32_t polygon) const {
+    return !covered_.empty() && covered_[polygon] != 0;
+  }
+
   void leave_alone(uint32_t count) { result_.surface += (count + limit_ - 1) / limit_; }
 
   const Job& job_;
+  const std::span<const uint8_t> covered_;  ///< per polygon, or empty
   const uint32_t limit_;
   const std::atomic<bool>* cancel_;
   PairCells result_;
@@ -238,8 +220,9 @@ void CellPairs::compare(uint32_t first, uint32_t count, uint32_t j,
   meets = all;
 }
 
-PairCells find_pair_cells(const Job& job, const KernelOptions& options) {
-  return CellFinder(job, options).run();
+PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,
+                          const KernelOptions& options) {
+  return CellFinder(job, covered, options).run();
 }
 
 }  // namespace csgrun

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/bsp/job.h"
@@ -27,13 +28,19 @@ struct PairCells {
   uint64_t surface = 0;
 };
 
-/// Cells with polygons of at least two operands. O(n log n) for n polygons of bounded size.
-PairCells find_pair_cells(const Job& job, const KernelOptions& options);
+/// Cells with polygons of at least two operands, not all of which are in `covered` (per polygon;
+/// empty: none is). O(n log n) for n polygons of bounded size.
+PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,
+                          const KernelOptions& options);
 
 /// The pairs of a cell. Keeps its working memory from one cell to the next.
 class CellPairs {
  public:
-  /// Calls visit(p, q), p < q, for each pair of different operands that belongs to the cell.
+  /// `covered`: per polygon; empty: none is.
+  explicit CellPairs(std::span<const uint8_t> covered) : covered_(covered) {}
+
+  /// Calls visit(p, q), p < q, for each pair of different operands that belongs to the cell, but
+  /// for those of two covered polygons.
   template <class Visit>
   void visit(const Job& job, const PairCells& all, const PairCells::Cell& cell, Visit&& visit) {
     load(job, all, cell);
@@ -45,7 +52,9 @@ class CellPairs {
         std::array<uint32_t, kAtOnce> meets;
         compare(first, count, j, meets);
         for (uint32_t i = 0; i < count; ++i) {
-          if (meets[i]) visit(polygons_[first + i], polygons_[j]);
+          if (meets[i] && !are_covered(polygons_[first + i], polygons_[j])) {
+            visit(polygons_[first + i], polygons_[j]);
+          }
         }
       }
     }
@@ -54,11 +63,16 @@ class CellPairs {
  private:
   static constexpr uint32_t kAllAxes = 7, kAtOnce = 32;
 
+  [[nodiscard]] bool are_covered(uint32_t p, uint32_t q) const {
+    return !covered_.empty() && covered_[p] && covered_[q];
+  }
+
   void load(const Job& job, const PairCells& all, const PairCells::Cell& cell);
   /// Whether the boxes of so many polygons overlap that of polygon j, with an overlap that starts
   /// in the cell.
   void compare(uint32_t first, uint32_t count, uint32_t j, std::array<uint32_t, kAtOnce>& meets);
 
+  std::span<const uint8_t> covered_;
   const uint32_t* polygons_ = nullptr;
   /// By the place in the cell, axis by axis, so that many boxes are compared at once.
   std::array<std::vector<int32_t>, 3> lo_, hi_;

@@ -31,25 +31,77 @@ std::array<uint32_t, 3> base_corners(const Job& job, const JobPolygon& polygon) 
 PairTest::PairTest(const Job& job) : job_(job), signs_(job), planes_only_(forced_tier >= 0) {}
 
 /// Pairs come by the second polygon, and the first one's neighbours follow each other.
-const std::array<uint32_t, 3>& PairTest::base_of(uint32_t polygon) {
+const PairTest::Base& PairTest::base_of(uint32_t polygon) {
   Base& known = bases_[polygon % bases_.size()];
-  if (known.polygon != polygon) known = {polygon, base_corners(job_, job_.polygons()[polygon])};
-  return known.corners;
+  if (known.polygon != polygon) {
+    known = {};
+    known.polygon = polygon;
+    known.corners = base_corners(job_, job_.polygons()[polygon]);
+    if (!planes_only_) find_level(known);
+  }
+  return known;
+}
+
+void PairTest::find_level(Base& base) const {
+  constexpr Int128 kExact = Int128{1} << 53;  // doubles hold it
+  const JobPolygon& polygon = job_.polygons()[base.polygon];
+  if (!job_.is_leaf(polygon.operand) && polygon.support.valid()) {
+    const Plane plane = job_.planes().oriented(polygon.support);
+    const std::array<Int128, 3> normal{plane.a, plane.b, plane.c};
+    for (size_t k = 0; k < 3; ++k) {
+      const bool is_unit = normal[k] == 1 || normal[k] == -1;
+      if (!is_unit || normal[(k + 1) % 3] != 0 || normal[(k + 2) % 3] != 0) continue;
+      if (plane.d >= kExact || plane.d <= -kExact) continue;
+      base.is_level = true;
+      base.grows = normal[k] > 0;
+      base.axis = k;
+      base.level = static_cast<double>(base.grows ? -plane.d : plane.d);
+    }
+    return;
+  }
+  if (signs_.error(polygon.operand) > 0) return;
+  const auto &a = job_.rounded(base.corners[0]), &b = job_.rounded(base.corners[1]),
+             &c = job_.rounded(base.corners[2]);
+  for (size_t k = 0; k < 3; ++k) {
+    if (a[k] != b[k] || a[k] != c[k]) continue;
+    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const auto whole = [](double v) { return static_cast<Int128>(static_cast<int64_t>(v)); };
+    const Int128 turn =
+        whole(b[i] - a[i]) * whole(c[j] - a[j]) - whole(b[j] - a[j]) * whole(c[i] - a[i]);
+    base.is_level = turn != 0;
+    base.grows = turn > 0;
+    base.axis = k;
+    base.level = a[k];
+    return;
+  }
 }
 
 /// The sides of p's corners on q's plane. +1 or -1 when all are strictly on that side, 0 when not,
 /// or kUnsure.
 int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
   const JobPolygon &own = job_.polygons()[p], &other = job_.polygons()[q];
-  const auto& base = base_of(q);
+  const Base& base = base_of(q);
   // Copies: what is written to `sides` might be them.
-  const auto a = job_.rounded(base[0]), b = job_.rounded(base[1]), c = job_.rounded(base[2]);
+  const auto a = job_.rounded(base.corners[0]), b = job_.rounded(base.corners[1]),
+             c = job_.rounded(base.corners[2]);
+  const bool is_level = base.is_level, grows = base.grows;
+  const size_t axis = base.axis;
+  const double level = base.level;
   const double error = std::max(signs_.error(own.operand), signs_.error(other.operand));
+  const bool is_exact = signs_.error(own.operand) == 0;
   sides.resize(own.count);
   int all = 0;
   for (uint32_t i = 0; i < own.count; ++i) {
     const uint32_t v = job_.corners(own)[i];
-    int s = orient(a, b, c, job_.rounded(v), error);
+    int s = kUnsure;
+    if (is_level) {
+      // Whole numbers are not rounded, and what is rounded keeps the order, but for ties.
+      const double above = job_.rounded(v)[axis] - level;
+      if (above != 0 || is_exact) s = above == 0 ? 0 : (above > 0) == grows ? 1 : -1;
+      ++signs_.filtered;
+    } else {
+      s = orient(a, b, c, job_.rounded(v), error);
+    }
     if (s == kUnsure) {
       if (!planes_) return kUnsure;
       s = planes_->side(other.support.index(), planes_->vertex_point(v));

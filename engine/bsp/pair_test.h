@@ -66,8 +66,14 @@ class PairTest {
   struct Base {
     uint32_t polygon = kNone;
     std::array<uint32_t, 3> corners{};
+    /// If the plane is one of a coordinate along an axis: that one, and whether it grows to the
+    /// front.
+    bool is_level = false, grows = false;
+    size_t axis = 0;
+    double level = 0;
   };
-  const std::array<uint32_t, 3>& base_of(uint32_t polygon);
+  const Base& base_of(uint32_t polygon);
+  void find_level(Base& base) const;
   int corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides);
   static bool find_passage(const std::vector<int8_t>& sides, Passage& passage);
   /// Whether the point in which edge i of p passes through q's plane lies on the inner side of edge

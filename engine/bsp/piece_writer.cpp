@@ -27,8 +27,8 @@ void PieceWriter::add_whole(const WholePolygon& w) {
   piece.count = p.count;
   piece.support = p.support.valid() && w.flip ? p.support.flip() : p.support;
   for (uint32_t i = 0; i < p.count; ++i) {
-    store_.corners().push_back(store_vertex(corners[w.flip ? p.count - 1 - i : i]));
-    store_.edges().push_back(edges[w.flip ? (2 * p.count - 2 - i) % p.count : i]);
+    store_.corners().push_back(store_vertex(corners[corner_place(i, p.count, w.flip)]));
+    store_.edges().push_back(edges[edge_place(i, p.count, w.flip)]);
   }
   added.push_back(store_.add_piece(piece));
 }
@@ -107,8 +107,8 @@ Fragment PieceWriter::cell_of(uint32_t polygon, PlaneId plane) {
   cell_points_.clear();
   cell_edges_.clear();
   for (uint32_t i = 0; i < p.count; ++i) {
-    cell_points_.push_back(geometry_.vertex_point(corners[flip ? p.count - 1 - i : i]));
-    cell_edges_.push_back(edges[flip ? (2 * p.count - 2 - i) % p.count : i]);
+    cell_points_.push_back(geometry_.vertex_point(corners[corner_place(i, p.count, flip)]));
+    cell_edges_.push_back(edges[edge_place(i, p.count, flip)]);
   }
   return geometry_.make_fragment(plane, cell_points_, cell_edges_);
 }

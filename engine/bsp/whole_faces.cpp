@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/bsp/covered_polygons.h"
 #include "engine/bsp/crossing_points.h"
 #include "engine/bsp/cut_polygon.h"
 #include "engine/bsp/face_arrangement.h"
@@ -10,6 +11,7 @@
 #include "engine/bsp/patch_labels.h"
 #include "engine/bsp/point_index.h"
 #include "engine/bsp/sign_stats.h"
+#include "engine/bsp/touch_finder.h"
 #include "engine/bsp/union_find.h"
 
 namespace csgrun {
@@ -24,20 +26,21 @@ class FaceEvaluator {
   FaceEvaluator(Job& job, const Expression& expression, const KernelOptions& options,
                 EvaluateStats& stats)
       : job_(job),
+        expression_(expression),
         options_(options),
         stats_(stats),
         geometry_(job.planes(), &job),
         index_(geometry_),
         points_(job, geometry_, index_),
         labels_(job, expression) {
-    find_removers(expression);
     is_flat_.assign(job.operand_count(), 0);
     result_.general.assign(job.polygons().size(), 0);
     is_cut_.assign(job.polygons().size(), 0);
   }
 
   Result<WholeFaces> run() {
-    Contacts found = find_contacts(job_, options_, stats_);
+    plainly_covered_ = find_plainly_covered(job_, expression_);
+    Contacts found = find_contacts(job_, plainly_covered_, options_, stats_);
     contacts_ = std::move(found.contacts);
     touched_ = std::move(found.touched);
     if (is_cancelled()) return cancelled();
@@ -47,14 +50,18 @@ class FaceEvaluator {
       return std::move(result_);
     }
     gather_contacts();
-    find_covered();
-    note_touching();
+    is_covered_ =
+        find_covered(job_, geometry_, expression_, contacts_, contact_starts_, contact_of_);
+    for (size_t p = 0; p < plainly_covered_.size(); ++p) is_covered_[p] |= plainly_covered_[p];
+    find_suspects();
     if (!cut_polygons()) return cancelled();
     join_patches();
     if (!gather_facts()) {
       return Error{ErrorCode::kInternal, "the labels of a patch contradict one another", {}};
     }
+    drop_covered_patches();
     emit();
+    find_touching();
     add_signs(stats_, geometry_.counters);
     return std::move(result_);
   }
@@ -62,10 +69,6 @@ class FaceEvaluator {
  private:
   struct CutPolygon {
     uint32_t polygon, first_loop, end_loop;
-  };
-  struct Within {  ///< whether a vertex is in or on an operand
-    uint32_t operand = kNone;
-    bool is_within = false;
   };
   struct PatchFact {
     uint32_t patch;
@@ -83,20 +86,6 @@ class FaceEvaluator {
   void leave(uint32_t polygon) {
     result_.general[polygon] = 1;
     result_.any_general = true;
-  }
-
-  /// Convex operands inside of which nothing is boundary: what is added to all else, or taken away
-  /// from it.
-  void find_removers(const Expression& expression) {
-    removes_.assign(job_.operand_count(), 0);
-    if (expression.nodes.empty() || expression.nodes.back().is_operand) return;
-    const Expression::Node& root = expression.nodes.back();
-    const bool is_union = root.op == BooleanOp::kUnion;
-    if (!is_union && root.op != BooleanOp::kDifference) return;
-    for (uint32_t c = is_union ? 0 : 1; c < root.child_count; ++c) {
-      const Expression::Node& child = expression.nodes[expression.children[root.first_child + c]];
-      if (child.is_operand && job_.is_convex(child.operand)) removes_[child.operand] = 1;
-    }
   }
 
   void gather_contacts() {
@@ -117,59 +106,11 @@ class FaceEvaluator {
     ends_.assign(contacts_.size(), {kNone, kNone});
   }
 
-  /// Polygons that touch a remover's surface from within: none of them is boundary.
-  void find_covered() {
-    is_covered_.assign(job_.polygons().size(), 0);
-    if (std::find(removes_.begin(), removes_.end(), 1) == removes_.end()) return;
-    within_.assign(job_.vertex_count(), {});
-    std::vector<uint32_t> touched_by, crossed_by;
-    for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
-      touched_by.clear();
-      crossed_by.clear();
-      for (uint32_t i = contact_starts_[p]; i < contact_starts_[p + 1]; ++i) {
-        const Contact& c = contacts_[contact_of_[i]];
-        const uint32_t o = job_.polygons()[c.p == p ? c.q : c.p].operand;
-        if (!removes_[o]) continue;
-        std::vector<uint32_t>& list = c.is_plain || c.is_coplanar ? crossed_by : touched_by;
-        if (list.empty() || list.back() != o) list.push_back(o);
-      }
-      for (const uint32_t o : touched_by) {
-        if (std::find(crossed_by.begin(), crossed_by.end(), o) == crossed_by.end() &&
-            is_within(p, o)) {
-          is_covered_[p] = 1;
-          break;
-        }
-      }
-    }
-  }
-
-  /// Whether a polygon that is in no plane of a convex operand is inside it, but for its corners
-  /// and edges.
-  bool is_within(uint32_t polygon, uint32_t operand) {
-    const auto corners = job_.corners(job_.polygons()[polygon]);
-    return std::all_of(corners.begin(), corners.end(), [&](uint32_t v) {
-      Within& known = within_[v];
-      if (known.operand != operand) known = {operand, is_in_or_on(v, operand)};
-      return known.is_within;
-    });
-  }
-
-  bool is_in_or_on(uint32_t vertex, uint32_t operand) {
-    const uint32_t point = geometry_.vertex_point(vertex);
-    for (uint32_t q = job_.polygon_start(operand); q < job_.polygon_start(operand + 1); ++q) {
-      job_.ensure_support(q);
-      const PlaneId plane = job_.polygons()[q].support;
-      const int side = geometry_.side(plane.index(), point);
-      if (plane.flipped() ? side < 0 : side > 0) return false;
-    }
-    return true;
-  }
-
-  void note_touching() {
+  /// Polygons that something touches.
+  void find_suspects() {
+    is_suspect_.assign(job_.polygons().size(), 0);
     for (const Contact& c : contacts_) {
-      if (!c.is_plain && !is_covered_[c.p] && !is_covered_[c.q]) {
-        add_touching(job_.boxes()[c.p], job_.boxes()[c.q]);
-      }
+      if (!c.is_plain) is_suspect_[c.p] = is_suspect_[c.q] = 1;
     }
   }
 
@@ -183,23 +124,6 @@ class FaceEvaluator {
       return end.on_p ? points_.point(c.p, end.edge, c.q) : points_.point(c.q, end.edge, c.p);
     };
     return ends = {point(c.lower), point(c.upper)};
-  }
-
-  /// Wherever a polygon meets others.
-  void add_touching(uint32_t p) {
-    for (uint32_t i = contact_starts_[p]; i < contact_starts_[p + 1]; ++i) {
-      const Contact& c = contacts_[contact_of_[i]];
-      add_touching(job_.boxes()[c.p], job_.boxes()[c.q]);
-    }
-  }
-
-  void add_touching(const PolygonBox& a, const PolygonBox& b) {
-    GridBox box;
-    for (int k = 0; k < 3; ++k) {
-      box.lo[k] = std::max(a.lo[k], b.lo[k]);
-      box.hi[k] = std::min(a.hi[k], b.hi[k]);
-    }
-    result_.touching.push_back(box);
   }
 
   /// False when the evaluation is cancelled.
@@ -224,7 +148,7 @@ class FaceEvaluator {
         job_.ensure_planes(p);
         for (const uint32_t q : coplanar_) job_.ensure_planes(q);
         is_done = arrangement.build(p, sheets_, coplanar_, loops_);
-        if (plain) add_touching(p);
+        is_suspect_[p] = 1;
       }
       if (is_done) {
         cut_.push_back({p, loops, static_cast<uint32_t>(loops_.loops.size())});
@@ -307,6 +231,19 @@ class FaceEvaluator {
     }
   }
 
+  /// Patches that hold a corner of a polygon that is seen to be boundary of nothing, as they are.
+  void drop_covered_patches() {
+    patch_fates_.assign(job_.vertex_count(), kUnasked);
+    for (uint32_t p = 0; p < plainly_covered_.size(); ++p) {
+      if (!plainly_covered_[p]) continue;
+      for (const uint32_t v : job_.corners(job_.polygons()[p])) {
+        if (!touched_[v]) {
+          patch_fates_[patches_.find(v)] = static_cast<uint8_t>(PatchFate::kDrop);
+        }
+      }
+    }
+  }
+
   /// What the loops of each patch say of it; false if they disagree.
   bool gather_facts() {
     for (const CutLoops::Loop& loop : loops_.loops) {
@@ -324,7 +261,6 @@ class FaceEvaluator {
   }
 
   PatchFate fate_of_patch(uint32_t vertex, uint32_t own) {
-    if (patch_fates_.empty()) patch_fates_.assign(job_.vertex_count(), kUnasked);
     const uint32_t patch = patches_.find(vertex);
     if (patch_fates_[patch] == kUnasked) {
       auto at = std::lower_bound(facts_.begin(), facts_.end(), PatchFact{patch, {0, false, false}});
@@ -352,6 +288,8 @@ class FaceEvaluator {
   }
 
   void emit() {
+    is_kept_.assign(job_.polygons().size(), 0);
+    fate_of_loop_.assign(loops_.loops.size(), PatchFate::kDrop);
     uint32_t cut = 0;
     for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
       if (result_.general[p]) continue;
@@ -362,6 +300,7 @@ class FaceEvaluator {
       const PatchFate fate = fate_of_patch(untouched_corner(p), job_.polygons()[p].operand);
       if (fate == PatchFate::kUnknown) leave(p);
       if (fate == PatchFate::kKeep || fate == PatchFate::kFlip) {
+        is_kept_[p] = 1;
         result_.whole.push_back(
             {p, fate == PatchFate::kFlip, contact_starts_[p] < contact_starts_[p + 1]});
       }
@@ -378,6 +317,8 @@ class FaceEvaluator {
     for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
       const PatchFate fate = loop_fates_[l - cut.first_loop];
       if (fate != PatchFate::kDrop) {
+        is_kept_[cut.polygon] = 1;
+        fate_of_loop_[l] = fate;
         emit_loop(loops_.loops[l], cut.polygon, fate == PatchFate::kFlip);
       }
     }
@@ -406,9 +347,102 @@ class FaceEvaluator {
     if (flip) out.flip(out.pieces.back());
   }
 
+  /// Where what is kept may touch itself: where no corner is at an end of a contact, and where
+  /// corners are not one round.
+  void find_touching() {
+    TouchFinder finder(job_, geometry_, index_, touched_);
+    std::vector<uint8_t> is_open(contacts_.size(), 0);
+    for (uint32_t i = 0; i < contacts_.size(); ++i) {
+      const Contact& c = contacts_[i];
+      is_open[i] =
+          (result_.general[c.p] && is_suspect_[c.p]) || (result_.general[c.q] && is_suspect_[c.q]);
+      if (is_of_kept(c)) ends(i);
+    }
+    for (const CutPolygon& cut : cut_) {
+      if (!is_suspect_[cut.polygon] || !is_kept_[cut.polygon]) continue;
+      corners_.clear();
+      for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+        for (const uint32_t p : points_of(loops_.loops[l])) {
+          corners_.push_back(p);
+          if (fate_of_loop_[l] != PatchFate::kDrop) finder.examine(p);
+        }
+      }
+      find_open(cut.polygon, finder, is_open, nullptr);
+    }
+    for (const WholePolygon& w : result_.whole) {
+      if (!is_suspect_[w.polygon]) continue;
+      list_corners(w.polygon);
+      for (const uint32_t p : corners_) finder.examine(p);
+      find_open(w.polygon, finder, is_open, &w);
+    }
+    for (const CutPolygon& cut : cut_) {
+      for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+        if (fate_of_loop_[l] == PatchFate::kDrop) continue;
+        const CutLoops::Loop& loop = loops_.loops[l];
+        finder.add_outline(cut.polygon, points_of(loop),
+                           {loops_.corner_plane.data() + loop.first_corner, loop.corner_count},
+                           fate_of_loop_[l] == PatchFate::kFlip);
+      }
+    }
+    for (const WholePolygon& w : result_.whole) {
+      if (!w.is_met) continue;
+      list_corners(w.polygon);
+      finder.add_outline(w.polygon, corners_, {}, w.flip);
+    }
+    result_.touching = finder.find();
+    for (uint32_t i = 0; i < contacts_.size(); ++i) {
+      if (is_open[i]) add_touching(job_.boxes()[contacts_[i].p], job_.boxes()[contacts_[i].q]);
+    }
+  }
+
+  /// Whether polygons touch in an edge or a corner, both of which leave something.
+  [[nodiscard]] bool is_of_kept(const Contact& c) const {
+    return !c.is_plain && !c.is_coplanar && is_kept_[c.p] && is_kept_[c.q];
+  }
+
+  /// Marks the contacts of a polygon that end where none of `corners_` is, nor an edge of it if it
+  /// is whole.
+  void find_open(uint32_t polygon, TouchFinder& finder, std::vector<uint8_t>& is_open,
+                 const WholePolygon* whole) {
+    corner_of_.resize(geometry_.point_count(), kNone);
+    for (const uint32_t p : corners_) corner_of_[finder.number(p)] = polygon;
+    for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
+      const uint32_t contact = contact_of_[i];
+      if (!is_of_kept(contacts_[contact])) continue;
+      for (const uint32_t end : ends_[contact]) {
+        if (corner_of_[end] == polygon) continue;
+        if (whole && finder.add_on_edge(polygon, end, whole->flip)) {
+          corner_of_[end] = polygon;
+        } else {
+          is_open[contact] = 1;
+        }
+      }
+    }
+  }
+
+  void add_touching(const PolygonBox& a, const PolygonBox& b) {
+    GridBox& box = result_.touching.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      box.lo[k] = std::max(a.lo[k], b.lo[k]);
+      box.hi[k] = std::min(a.hi[k], b.hi[k]);
+    }
+  }
+
+  void list_corners(uint32_t polygon) {
+    corners_.clear();
+    for (const uint32_t v : job_.corners(job_.polygons()[polygon])) {
+      corners_.push_back(geometry_.vertex_point(v));
+    }
+  }
+
+  [[nodiscard]] std::span<const uint32_t> points_of(const CutLoops::Loop& loop) const {
+    return {loops_.corner_point.data() + loop.first_corner, loop.corner_count};
+  }
+
   static constexpr uint8_t kUnasked = 0xff;
 
   Job& job_;
+  const Expression& expression_;
   const KernelOptions& options_;
   EvaluateStats& stats_;
   CellGeometry geometry_;
@@ -419,9 +453,10 @@ class FaceEvaluator {
   std::vector<Contact> contacts_;
   std::vector<std::array<uint32_t, 2>> ends_;          ///< of the contacts: lower and upper point
   std::vector<uint32_t> contact_starts_, contact_of_;  ///< per polygon
-  std::vector<uint8_t> removes_;                       ///< per operand, see find_removers
-  std::vector<Within> within_;                         ///< per vertex, of the operand asked last
+  std::vector<uint8_t> plainly_covered_;               ///< see find_plainly_covered
   std::vector<uint8_t> is_covered_;                    ///< per polygon, see find_covered
+  std::vector<uint8_t> is_suspect_;   ///< per polygon: something touches it, maybe by chance
+  std::vector<uint8_t> is_kept_;      ///< per polygon: it leaves something, whole or in loops
   std::vector<uint8_t> is_flat_;      ///< per operand: convex, with a face in the plane at hand
   std::vector<uint8_t> touched_;      ///< per vertex: may be on another surface
   std::vector<uint8_t> is_cut_;       ///< per polygon: has loops, or is left
@@ -433,8 +468,10 @@ class FaceEvaluator {
   UnionFind patches_;
   std::vector<PatchFact> facts_;
   std::vector<CutLoops::Fact> own_facts_;
-  std::vector<uint8_t> patch_fates_;  ///< per vertex that stands for a patch: a PatchFate
-  std::vector<PatchFate> loop_fates_;
+  std::vector<uint8_t> patch_fates_;           ///< per vertex that stands for a patch: a PatchFate
+  std::vector<PatchFate> loop_fates_;          ///< of the polygon at hand
+  std::vector<PatchFate> fate_of_loop_;        ///< per loop
+  std::vector<uint32_t> corners_, corner_of_;  ///< see find_open
   std::vector<uint32_t> numbers_;
 };
 

@@ -155,17 +155,17 @@ Result<NodePtr> Constructions::make_sum(const Node& node, const std::vector<Node
 /// evaluated: it may be so long that its width is nothing on a grid that holds it.
 Result<std::array<double, 3>> Constructions::lengths(const NodePtr& operand) {
   const std::vector<PlacedNode> members = union_members({operand});
-  std::array<glm::dvec3, 2> box{};
+  std::vector<glm::dvec3> points;
   if (std::all_of(members.begin(), members.end(), has_own_points)) {
-    std::vector<glm::dvec3> points;
     for (const PlacedNode& member : members) append_points(member, points);
-    if (!points.empty()) box = {points[0], points[0]};
-    for (const glm::dvec3& p : points) box = {glm::min(box[0], p), glm::max(box[1], p)};
   } else {
     auto parts = evaluate_({operand}, false);
     if (!parts) return parts.error();
-    if (!parts->solids[0]->empty()) box = parts->solids[0]->measures.bbox;
+    points = parts->solids[0]->positions;
   }
+  std::array<glm::dvec3, 2> box{};
+  if (!points.empty()) box = {points[0], points[0]};
+  for (const glm::dvec3& p : points) box = {glm::min(box[0], p), glm::max(box[1], p)};
   return std::array<double, 3>{box[1].x - box[0].x, box[1].y - box[0].y, box[1].z - box[0].z};
 }
 

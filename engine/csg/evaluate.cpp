@@ -91,9 +91,11 @@ struct Evaluator::Impl {
   Result<std::vector<SolidPtr>> evaluate(const Scene& scene);
   Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts);
   Result<int> contains(const NodePtr& root, const glm::dvec3& point);
-  [[nodiscard]] Key solid_key(const Scene& scene, const Subtree& subtree) const;
-  Result<SolidPtr> present_root(const Scene& scene, uint32_t root, const BoundaryMesh& boundary);
-  Result<SolidPtr> solid_of(const Scene& scene, SceneJobs& jobs, uint32_t root, const Key& key);
+  [[nodiscard]] Key solid_key(const Scene& scene, const Subtree& subtree, bool measured) const;
+  Result<SolidPtr> present_root(const Scene& scene, uint32_t root, const BoundaryMesh& boundary,
+                                bool measured);
+  Result<SolidPtr> solid_of(const Scene& scene, SceneJobs& jobs, uint32_t root, const Key& key,
+                            bool measured);
   Result<Extent> extent(const NodePtr& root);
 
   EvaluateOptions options;
@@ -151,25 +153,26 @@ Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& par
 }
 
 /// What the arrays of a root depend on: what it is, where it is in the world, and the step.
-Key Evaluator::Impl::solid_key(const Scene& scene, const Subtree& subtree) const {
+Key Evaluator::Impl::solid_key(const Scene& scene, const Subtree& subtree, bool measured) const {
   const Identity& id = subtree.id;
   const SignedPermutation back = id.permutation.inverse();
   KeyBuilder builder("solid");
   builder.numbers(id.key).numbers(back.apply(id.origin));
   for (const auto& row : back.apply_to_frame(scene.frames[id.frame]).matrix) builder.numbers(row);
   if (id.paint != kUnpainted) builder.numbers(appearances.key(id.paint));
-  builder.number(options.join_contacts);
+  builder.number(options.join_contacts).number(measured);
   builder.number(scene.step.numerator).number(scene.step.denominator).number(scene.step.exponent);
   return builder.key();
 }
 
 Result<SolidPtr> Evaluator::Impl::present_root(const Scene& scene, uint32_t root,
-                                               const BoundaryMesh& boundary) {
+                                               const BoundaryMesh& boundary, bool measured) {
   PresentContext context;
   context.step = scene.step;
   context.join_contacts = options.join_contacts;
   context.appearances = appearances.values();
   context.exact_points = options.exact_points;
+  context.measure = measured;
   for (uint32_t leaf : scene.leaves(root)) {
     const Node& node = *scene.nodes[leaf].leaf;
     context.sources.push_back({node.mesh()->kind, node.where().text()});
@@ -216,7 +219,7 @@ Result<bool> Evaluator::Impl::is_convex(const Scene& scene, uint32_t root) {
 
 /// The boundary of a root in the world, all faces spelled out.
 Result<BoundaryPtr> Evaluator::Impl::world_of(const Scene& scene, uint32_t root) {
-  const Key key = solid_key(scene, scene.nodes[root].subtree);
+  const Key key = solid_key(scene, scene.nodes[root].subtree, options.measure);
   if (const BoundaryPtr* known = worlds.find(key)) return BoundaryPtr(*known);
   SceneJobs jobs(scene, boundaries, options, threads, stats);
   if (Status status = jobs.run({root}); !status) return status.error();
@@ -243,7 +246,7 @@ Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const Scene& scene_on_gr
       result[i] = std::make_shared<Solid>();
       continue;
     }
-    keys[i] = solid_key(*scene, node.subtree);
+    keys[i] = solid_key(*scene, node.subtree, options.measure);
     const auto [entry, is_new] = made.try_emplace(keys[i]);
     if (const SolidPtr* known = is_new ? solids.find(keys[i]) : nullptr) {
       entry->second = *known;
@@ -260,7 +263,7 @@ Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const Scene& scene_on_gr
     if (result[i]) continue;
     SolidPtr& solid = made[keys[i]];
     if (!solid) {
-      auto made_now = solid_of(*scene, jobs, scene->roots[i], keys[i]);
+      auto made_now = solid_of(*scene, jobs, scene->roots[i], keys[i], options.measure);
       if (!made_now) return made_now.error();
       solid = *made_now;
     }
@@ -271,12 +274,12 @@ Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const Scene& scene_on_gr
 
 /// The solid of a root whose jobs have run.
 Result<SolidPtr> Evaluator::Impl::solid_of(const Scene& scene, SceneJobs& jobs, uint32_t root,
-                                           const Key& key) {
+                                           const Key& key, bool measured) {
   auto boundary = jobs.world_boundary(root);
   if (!boundary) return boundary.error();
   SolidPtr solid = std::make_shared<Solid>();
   if (!is_empty(**boundary)) {
-    auto presented = present_root(scene, root, **boundary);
+    auto presented = present_root(scene, root, **boundary, measured);
     if (!presented) return presented.error();
     solid = *presented;
   }
@@ -292,7 +295,7 @@ Result<Extent> Evaluator::Impl::extent(const NodePtr& part) {
   const uint32_t root = scene->roots[0];
   const SceneNode& node = scene->nodes[root];
   if (node.kind == SceneNode::Kind::kEmpty) return Extent{};
-  const Key key = solid_key(*scene, node.subtree);
+  const Key key = solid_key(*scene, node.subtree, true);
   SolidPtr solid;
   if (const SolidPtr* known = solids.find(key)) {
     solid = *known;
@@ -307,7 +310,7 @@ Result<Extent> Evaluator::Impl::extent(const NodePtr& part) {
       if (!volume) return volume.error();
       return Extent{false, *volume, *box};
     }
-    auto made = solid_of(*scene, jobs, root, key);
+    auto made = solid_of(*scene, jobs, root, key, true);
     if (!made) return made.error();
     solid = *made;
   }

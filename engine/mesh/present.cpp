@@ -66,15 +66,15 @@ class Presenter {
     const WholeOrder& whole = whole_.emplace(boundary_, geometry_);
     if (!merge_faces(boundary_, geometry_, planes_, faces_)) return not_closed("faces");
     std::vector<LowestEdge> lowest = lowest_edges();
-    break_at_own_corners(faces_, geometry_);
-    if (!resolve_t_junctions(faces_, geometry_, planes_, whole)) return not_closed("edges");
     std::vector<uint32_t> near;
     if (boundary_.may_touch) near = faces_near(boundary_.touches, faces_, geometry_);
+    break_at_own_corners(faces_, near, geometry_);
+    if (!resolve_t_junctions(faces_, geometry_, planes_, whole)) return not_closed("edges");
     if (!near.empty() && cut_at_contacts(faces_, near, geometry_, planes_)) {
       lowest = lowest_edges();
-      break_at_own_corners(faces_, geometry_);
-      if (!resolve_t_junctions(faces_, geometry_, planes_, whole)) return not_closed("cut edges");
       near = faces_near(boundary_.touches, faces_, geometry_);
+      break_at_own_corners(faces_, near, geometry_);
+      if (!resolve_t_junctions(faces_, geometry_, planes_, whole)) return not_closed("cut edges");
     }
     whole_->order_faces(lowest);
     auto solid = std::make_shared<Solid>();

@@ -101,9 +101,10 @@ void append_broken(CellGeometry& geometry, DirectedEdge edge, std::vector<uint32
   broken.push_back(edge);
 }
 
-void break_at_own_corners(std::vector<MergedFace>& faces, CellGeometry& geometry) {
+void break_at_own_corners(std::vector<MergedFace>& faces, std::span<const uint32_t> which,
+                          CellGeometry& geometry) {
   Breaker breaker(geometry);
-  for (MergedFace& face : faces) breaker.run(face);
+  for (const uint32_t f : which) breaker.run(faces[f]);
 }
 
 }  // namespace csgrun

@@ -73,10 +73,11 @@ class SvgReader {
   }
 
  private:
+  /// The line of a byte. Bytes are counted in UTF-8, to which other encodings are converted first,
+  /// so the count can lie behind the end of the file.
   static std::string place(std::string_view bytes, ptrdiff_t offset) {
-    const auto line =
-        1 + std::count(bytes.begin(), bytes.begin() + std::max<ptrdiff_t>(offset, 0), '\n');
-    return "line " + std::to_string(line);
+    const auto end = std::clamp<ptrdiff_t>(offset, 0, static_cast<ptrdiff_t>(bytes.size()));
+    return "line " + std::to_string(1 + std::count(bytes.begin(), bytes.begin() + end, '\n'));
   }
 
   /// The name without its namespace.

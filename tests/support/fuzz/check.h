@@ -239,6 +239,14 @@ inline FuzzOutcome check_case(const FuzzCase& c, bool forms = true) {
     return outcome;
   }
   outcome.failure = fault_in(**solid, **result);
+  if (!outcome.failure.empty()) return outcome;
+  // Where contacts are looked for must not matter.
+  BoundaryMesh anywhere = **result;
+  anywhere.touches.clear();
+  anywhere.may_touch = true;
+  const auto same = present(anywhere, test_context());
+  outcome.failure = same ? difference_between(**solid, **same) : same.error().message;
+  if (!outcome.failure.empty()) outcome.failure = "contacts anywhere: " + outcome.failure;
   return outcome;
 }
 

@@ -38,7 +38,7 @@ Pairs all_pairs(const Job& job) {
 
 Pairs visited(const Job& job, const PairCells& cells) {
   Pairs pairs;
-  CellPairs look;
+  CellPairs look({});
   for (const PairCells::Cell& cell : cells.cells) {
     look.visit(job, cells, cell, [&](uint32_t p, uint32_t q) { ++pairs[{p, q}]; });
   }
@@ -82,8 +82,8 @@ void expect_all_pairs(const std::vector<Operand>& operands, size_t& grids) {
   for (const uint32_t limit : {1u, 5u, 17u}) {
     KernelOptions options;
     options.cell_limit = limit;
-    ASSERT_EQ(visited(job, find_pair_cells(job, options)), expected) << "limit " << limit;
-    const PairCells coarse = find_coarse_cells(job, limit);
+    ASSERT_EQ(visited(job, find_pair_cells(job, {}, options)), expected) << "limit " << limit;
+    const PairCells coarse = find_coarse_cells(job, {}, limit);
     ASSERT_EQ(visited(job, coarse), expected) << "limit " << limit;
     if (coarse.cells.size() < 2) continue;
     ++grids;
@@ -154,7 +154,7 @@ TEST(PairCells, LongPolygonsAreNotCopiedWithoutEnd) {
   test::Random random(503);
   const std::vector<Operand> operands = long_among_small(random);
   const Job job(operands);
-  const PairCells cells = find_pair_cells(job, {});
+  const PairCells cells = find_pair_cells(job, {}, {});
   EXPECT_EQ(visited(job, cells), all_pairs(job));
   EXPECT_LT(cells.visited, 5 * job.polygons().size());
   EXPECT_LT(cells.polygons.size(), 40 * job.polygons().size());

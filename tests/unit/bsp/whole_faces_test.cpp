@@ -214,7 +214,7 @@ TEST(WholeFaces, ThatTouchNothingAreCutByNames) {
         {.size = 1000, .operands = 4, .depth = 2, .frames = i % 3 == 0, .known = i % 2 == 0});
     Job job(tree.operands);
     EvaluateStats stats;
-    const std::vector<Contact> contacts = find_contacts(job, {}, stats).contacts;
+    const std::vector<Contact> contacts = find_contacts(job, {}, {}, stats).contacts;
     const auto is_plain = [](const Contact& c) { return c.is_plain; };
     if (!std::all_of(contacts.begin(), contacts.end(), is_plain)) continue;
     const auto faces = evaluate_whole_faces(job, tree.expression, {}, stats);
@@ -250,7 +250,7 @@ TEST(WholeFaces, ProgressDoesNotGoBack) {
   test::Random random(407);
   test::TreeMaker maker(random);
   int reports = 0;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const auto tree = maker.make({.size = 6, .operands = 6, .depth = 2, .frames = i % 2 == 0});
     KernelOptions options;
     options.cell_limit = 1;

@@ -40,6 +40,7 @@ struct EvaluateOptions {
   /// way the result is a manifold by index (Campen & Kobbelt 2010, chapter 7).
   bool join_contacts = false;
   bool exact_points = false;  ///< whether to fill Solid::exact_points
+  bool measure = true;        ///< whether Evaluator::evaluate fills Solid::measures and its hash
   bool flatten = true;        ///< false: every Boolean node is materialised on its own
   /// Polled now and then from any thread; non-zero stops the evaluation with kCancelled.
   const std::atomic<bool>* cancel = nullptr;

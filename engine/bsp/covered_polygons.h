@@ -1,0 +1,28 @@
+// Polygons that are boundary of nothing, and need not be cut: what is inside of a convex operand
+// that is added to all else, or taken away from it, and what is where the expression has nothing.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/bsp/operand.h"
+#include "engine/bsp/pair_test.h"
+
+namespace csgrun {
+
+/// Per polygon of the job, whether it is easily seen to be of that kind, so that nobody looks at
+/// what two of them have in common: it is beside the boxes of what it would be taken away from, or
+/// cut with, or inside a ball in such an operand. No point of it is on that operand, or on these
+/// boxes. Empty if there are none. O(n) for operands of bounded depth.
+std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expression);
+
+/// Per polygon of the job, whether it touches the surface of a convex operand of that kind from
+/// within. Contacts of polygon p are contacts[contact_of[i]] for i in [starts[p], starts[p + 1]).
+/// Makes planes.
+std::vector<uint8_t> find_covered(Job& job, CellGeometry& geometry, const Expression& expression,
+                                  std::span<const Contact> contacts,
+                                  std::span<const uint32_t> starts,
+                                  std::span<const uint32_t> contact_of);
+
+}  // namespace csgrun

@@ -1,0 +1,124 @@
+#include "engine/bsp/touch_finder.h"
+
+#include <utility>
+
+#include "engine/base/counting_order.h"
+#include "engine/bsp/cut_polygon.h"
+#include "engine/bsp/piece_tree.h"
+
+namespace csgrun {
+
+uint32_t TouchFinder::number(uint32_t point) {
+  const uint32_t vertex = geometry_.point(point).vertex;
+  if (vertex != kNone && !touched_[vertex]) return point;
+  if (point >= numbers_.size()) numbers_.resize(geometry_.point_count(), kNone);
+  if (numbers_[point] == kNone) numbers_[point] = index_.unique(point);
+  return numbers_[point];
+}
+
+void TouchFinder::examine(uint32_t point) {
+  // Nothing passes a vertex that is not touched.
+  const uint32_t vertex = geometry_.point(point).vertex;
+  if (vertex != kNone && !touched_[vertex]) return;
+  is_examined_.resize(geometry_.point_count(), 0);
+  is_examined_[number(point)] = 1;
+}
+
+void TouchFinder::add_outline(uint32_t polygon, std::span<const uint32_t> points,
+                              std::span<const uint32_t> planes, bool flip) {
+  is_examined_.resize(geometry_.point_count(), 0);
+  const size_t count = points.size();
+  for (size_t i = 0; i < count; ++i) {
+    // Points that are made of three planes by chance have other numbers elsewhere, but nothing
+    // that is examined is there.
+    const uint32_t vertex = geometry_.point(points[i]).vertex;
+    const uint32_t at = vertex == kNone ? points[i] : number(points[i]);
+    if (!is_examined_[at]) continue;
+    const size_t last = i > 0 ? i - 1 : count - 1, next = i + 1 < count ? i + 1 : 0,
+                 edge = flip ? last : i;
+    Corner corner{number(points[last]), at, number(points[next]), polygon,
+                  planes.empty() ? CutLoops::kOwnEdge | static_cast<uint32_t>(edge) : planes[edge]};
+    if (flip) std::swap(corner.before, corner.after);
+    corners_.push_back(corner);
+  }
+}
+
+bool TouchFinder::add_on_edge(uint32_t polygon, uint32_t point, bool flip) {
+  const JobPolygon& p = job_.polygons()[polygon];
+  for (uint32_t e = 0; e < p.count; ++e) {
+    const auto corners = job_.corners(p);
+    const uint32_t a = geometry_.vertex_point(corners[e]),
+                   b = geometry_.vertex_point(corners[e + 1 < p.count ? e + 1 : 0]);
+    if (geometry_.side(job_.edge_plane(polygon, e), point) != 0) continue;
+    const LineAxis way = geometry_.axis_between(a, b);
+    if (geometry_.compare_along(point, a, way.axis) * way.sign < 0 ||
+        geometry_.compare_along(b, point, way.axis) * way.sign < 0) {
+      continue;
+    }
+    corners_.push_back({number(flip ? b : a), number(point), number(flip ? a : b), polygon,
+                        CutLoops::kOwnEdge | e});
+    examine(point);
+    return true;
+  }
+  return false;
+}
+
+/// Whether the edge after a corner starts towards a point. Edges of one line may be broken
+/// elsewhere on the other side.
+bool TouchFinder::leads_to(const Corner& corner, uint32_t point) {
+  if (corner.after == point) return true;
+  job_.ensure_support(corner.polygon);
+  if (geometry_.side(job_.polygons()[corner.polygon].support.index(), point) != 0) return false;
+  const uint32_t plane = corner.plane & CutLoops::kOwnEdge
+                             ? job_.edge_plane(corner.polygon, corner.plane & ~CutLoops::kOwnEdge)
+                             : corner.plane;
+  if (geometry_.side(plane, point) != 0) return false;
+  const LineAxis way = geometry_.axis_between(corner.at, corner.after);
+  return geometry_.compare_along(point, corner.at, way.axis) * way.sign > 0;
+}
+
+bool TouchFinder::is_one_round(std::span<const Corner> corners) {
+  constexpr size_t kMost = 64;  // all are compared with all
+  if (corners.size() > kMost) return false;
+  size_t at = 0;
+  for (size_t steps = 1; steps <= corners.size(); ++steps) {
+    size_t next = 0;
+    while (next < corners.size() && corners[next].before != corners[at].after) ++next;
+    for (size_t i = 0; next == corners.size() && i < corners.size(); ++i) {
+      if (leads_to(corners[at], corners[i].before)) next = i;
+    }
+    if (next == corners.size()) return false;
+    if (next == 0) return steps == corners.size();
+    at = next;
+  }
+  return false;
+}
+
+void TouchFinder::add_edge(uint32_t a, uint32_t b) {
+  PieceBox box;
+  box.add(geometry_.point(a).rounded);
+  box.add(geometry_.point(b).rounded);
+  const PolygonBox around = rounded_outwards(box);
+  GridBox& added = boxes_.emplace_back();
+  for (size_t k = 0; k < 3; ++k) added.lo[k] = around.lo[k], added.hi[k] = around.hi[k];
+}
+
+std::vector<GridBox> TouchFinder::find() {
+  CountingOrder by_point;
+  by_point.sort(corners_.size(), is_examined_.size(), [&](size_t c) { return corners_[c].at; });
+  std::vector<Corner> here;
+  for (size_t p = 0; p < is_examined_.size(); ++p) {
+    here.clear();
+    for (uint32_t i = by_point.starts[p]; i < by_point.starts[p + 1]; ++i) {
+      here.push_back(corners_[by_point.order[i]]);
+    }
+    if (here.empty() || is_one_round(here)) continue;
+    for (const Corner& c : here) {
+      add_edge(c.before, c.at);
+      add_edge(c.at, c.after);
+    }
+  }
+  return std::move(boxes_);
+}
+
+}  // namespace csgrun
