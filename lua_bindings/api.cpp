@@ -155,6 +155,7 @@ std::vector<BindingGroup> binding_groups() {
       {"Colours and materials", "same", color_bindings()},
       {"Names and modifiers", "same", mark_bindings()},
       {"Measuring", "number", measure_bindings()},
+      {"Selecting", "number", selecting_bindings()},
       {"Trigonometry, in degrees", "number", math_bindings()},
       {"Vectors and numbers", "number", vector_bindings()},
       {"Parameters", "any", parameter_bindings()},

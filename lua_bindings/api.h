@@ -42,6 +42,7 @@ std::span<const Binding> color_bindings();
 std::span<const Binding> mark_bindings();
 std::span<const Binding> polyhedron_bindings();
 std::span<const Binding> array_bindings();
+std::span<const Binding> selecting_bindings();
 std::span<const Binding> parameter_bindings();
 std::span<const Binding> file_bindings();
 std::span<const Binding> model_bindings();

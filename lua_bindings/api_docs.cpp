@@ -223,6 +223,8 @@ std::string result_of(const Binding& binding, const BindingGroup& group, const c
       {"linear_extrude", "Solid"},
       {"rotate_extrude", "Solid"},
       {"import", "Solid"},
+      {"faces", "{normal: number[], area: number, center: number[], loops: number[][][]}[]"},
+      {"ray", "{distance: number, point: number[], normal: number[], entering: boolean}[]"},
       {"emit", ""},
       {"render", ""},
   };

@@ -2626,6 +2626,51 @@ function Solid:contains(p, options) end
 ---@return boolean
 function Shape:contains(p, options) end
 
+---@class (exact) csgrun.faces
+---@field [integer] any
+---@field normal? number[] which way they look, outwards
+---@field angle? number how far from that, in degrees
+---@field through? number[] a point of their plane, to a millionth of a mm
+
+---Its flat faces, each {normal, area, center, loops}: loops are lists of points, the outer one first and counter-clockwise, then holes.
+---
+---Example: `part:faces({0, 0, 1})[1].area`
+---@overload fun(self: Solid, options: csgrun.faces): {normal: number[], area: number, center: number[], loops: number[][][]}[]
+---@overload fun(self: Solid, x: number, y: number, z?: number, ...): {normal: number[], area: number, center: number[], loops: number[][][]}[]
+---@param normal? number[] which way they look, outwards
+---@param options? csgrun.faces
+---@return {normal: number[], area: number, center: number[], loops: number[][][]}[]
+function Solid:faces(normal, options) end
+
+---@class (exact) csgrun.ray
+---@field [integer] any
+---@field from? number[] where it starts
+---@field direction? number[] where it goes
+
+---Where a ray meets its surface, from the start on: each {distance, point, normal, entering}.
+---
+---Example: `part:ray({-5, 5, 5}, {1, 0, 0})[1].distance`
+---@overload fun(self: Solid, options: csgrun.ray): {distance: number, point: number[], normal: number[], entering: boolean}[]
+---@overload fun(self: Solid, x: number, y: number, z?: number, ...): {distance: number, point: number[], normal: number[], entering: boolean}[]
+---@param from? number[] where it starts
+---@param direction? number[] where it goes
+---@param options? csgrun.ray
+---@return {distance: number, point: number[], normal: number[], entering: boolean}[]
+function Solid:ray(from, direction, options) end
+
+---@class (exact) csgrun.gap
+---@field [integer] any
+---@field other? any the other solid
+
+---How far it is from another solid: 0 where they touch or overlap.
+---
+---Example: `part:gap(cube(1):translate(20, 0, 0))`
+---@overload fun(self: Solid, options: csgrun.gap): number
+---@param other? any the other solid
+---@param options? csgrun.gap
+---@return number
+function Solid:gap(other, options) end
+
 ---@class (exact) csgrun.sin
 ---@field [integer] any
 ---@field a? number degrees

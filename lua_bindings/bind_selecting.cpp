@@ -1,0 +1,205 @@
+// faces, ray, gap: what of a solid is where. In doubles, of the exact result.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <csgrun/primitives/trig.h>
+
+#include "lua_bindings/api.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/measure/triangle_distance.h"
+#include "lua_bindings/session.h"
+
+namespace csgrun {
+namespace {
+
+using T = ArgumentType;
+
+void push_point(lua_State* L, const glm::dvec3& p) { push_list(L, {p.x, p.y, p.z}); }
+
+constexpr Option kFacesOptions[] = {
+    {"normal", T::kVector3, "any", "which way they look, outwards", true},
+    {"angle", T::kNumber, "0.01", "how far from that, in degrees", false, Range::kNotNegative},
+    {"through", T::kVector3, "any", "a point of their plane, to a millionth of a mm", false},
+};
+constexpr FunctionSpec kFaces{
+    "faces",
+    "Its flat faces, each {normal, area, center, loops}: loops are lists of points, the outer one "
+    "first and counter-clockwise, then holes.",
+    kFacesOptions, false, "part:faces({0, 0, 1})[1].area"};
+
+struct FaceSum {
+  double area = 0;
+  glm::dvec3 moment{0, 0, 0};
+};
+
+void push_face(lua_State* L, const Solid& solid, const Solid::Face& face, const glm::dvec3& normal,
+               const FaceSum& sum) {
+  lua_createtable(L, 0, 4);
+  push_point(L, normal);
+  lua_setfield(L, -2, "normal");
+  lua_pushnumber(L, sum.area);
+  lua_setfield(L, -2, "area");
+  push_point(L, sum.moment / sum.area);
+  lua_setfield(L, -2, "center");
+  lua_createtable(L, static_cast<int>(face.loop_count), 0);
+  for (uint32_t l = 0; l < face.loop_count; ++l) {
+    const uint32_t begin = solid.loop_starts[face.first_loop + l];
+    const uint32_t end = solid.loop_starts[face.first_loop + l + 1];
+    lua_createtable(L, static_cast<int>(end - begin), 0);
+    for (uint32_t i = begin; i < end; ++i) {
+      push_point(L, solid.positions[solid.loop_vertices[i]]);
+      lua_rawseti(L, -2, static_cast<lua_Integer>(i - begin + 1));
+    }
+    lua_rawseti(L, -2, static_cast<lua_Integer>(l + 1));
+  }
+  lua_setfield(L, -2, "loops");
+}
+
+int faces(lua_State* L) {
+  constexpr double kNearPlane = 1e-6;  // mm
+  SolidValue& value = solid_argument(L, kFaces);
+  const Arguments arguments(L, kFaces, 2);
+  const auto wanted = arguments.vector("normal"), through = arguments.vector("through");
+  if (wanted && wanted->v == glm::dvec3(0, 0, 0)) fail_in(kFaces, "option 'normal' must not be 0");
+  const double least = cos_deg(arguments.number("angle", 0.01));
+  const Solid& solid = session_of(L).evaluated(value);
+  std::vector<FaceSum> sums(solid.faces.size());
+  for (size_t t = 0; t < solid.triangles.size(); ++t) {
+    const auto& corners = solid.triangles[t];
+    const glm::dvec3 &a = solid.positions[corners[0]], &b = solid.positions[corners[1]],
+                     &c = solid.positions[corners[2]];
+    const double area = glm::length(glm::cross(b - a, c - a)) / 2;
+    sums[solid.triangle_face[t]].area += area;
+    sums[solid.triangle_face[t]].moment += area / 3 * (a + b + c);
+  }
+  lua_newtable(L);
+  lua_Integer count = 0;
+  for (size_t f = 0; f < solid.faces.size(); ++f) {
+    if (!(sums[f].area > 0)) continue;
+    const glm::dvec3 normal = glm::normalize(solid.face_normals[f]);
+    if (wanted && glm::dot(normal, glm::normalize(wanted->v)) < least) continue;
+    const glm::dvec3& corner =
+        solid.positions[solid.loop_vertices[solid.loop_starts[solid.faces[f].first_loop]]];
+    if (through && std::abs(glm::dot(normal, through->v - corner)) > kNearPlane) continue;
+    push_face(L, solid, solid.faces[f], normal, sums[f]);
+    lua_rawseti(L, -2, ++count);
+  }
+  return 1;
+}
+
+constexpr Option kRayOptions[] = {
+    {"from", T::kVector3, "", "where it starts", true},
+    {"direction", T::kVector3, "", "where it goes", true},
+};
+constexpr FunctionSpec kRay{
+    "ray",
+    "Where a ray meets its surface, from the start on: each {distance, point, normal, entering}.",
+    kRayOptions, false, "part:ray({-5, 5, 5}, {1, 0, 0})[1].distance"};
+
+struct Hit {
+  double distance;
+  glm::dvec3 normal;
+  bool entering;
+};
+
+/// A triangle is a little larger than it is, so that no ray slips through between two.
+constexpr double kMargin = 1e-12;
+
+/// Moeller and Trumbore (1997); edges belong to both triangles, and hits are made one later.
+bool hits(const glm::dvec3& from, const glm::dvec3& along, const glm::dvec3& a, const glm::dvec3& b,
+          const glm::dvec3& c, double& distance) {
+  const glm::dvec3 p = glm::cross(along, c - a);
+  const double det = glm::dot(b - a, p);
+  if (det == 0) return false;  // beside it, or in its plane
+  const glm::dvec3 s = from - a;
+  const double u = glm::dot(s, p) / det;
+  const glm::dvec3 q = glm::cross(s, b - a);
+  const double v = glm::dot(along, q) / det;
+  if (u < -kMargin || v < -kMargin || u + v > 1 + kMargin) return false;
+  distance = glm::dot(c - a, q) / det;
+  return distance >= 0;
+}
+
+int ray(lua_State* L) {
+  SolidValue& value = solid_argument(L, kRay);
+  const Arguments arguments(L, kRay, 2);
+  const auto from = arguments.vector("from"), direction = arguments.vector("direction");
+  if (!from || !direction) fail_in(kRay, "needs where it starts and where it goes");
+  if (direction->v == glm::dvec3(0, 0, 0)) fail_in(kRay, "option 'direction' must not be 0");
+  const glm::dvec3 along = glm::normalize(direction->v);
+  const Solid& solid = session_of(L).evaluated(value);
+  std::vector<Hit> found;
+  for (size_t t = 0; t < solid.triangles.size(); ++t) {
+    const auto& corners = solid.triangles[t];
+    double distance = 0;
+    if (!hits(from->v, along, solid.positions[corners[0]], solid.positions[corners[1]],
+              solid.positions[corners[2]], distance)) {
+      continue;
+    }
+    const glm::dvec3 normal = glm::normalize(solid.face_normals[solid.triangle_face[t]]);
+    found.push_back({distance, normal, glm::dot(normal, along) < 0});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
+  lua_newtable(L);
+  lua_Integer count = 0;
+  const Hit* last = nullptr;
+  for (const Hit& hit : found) {
+    // Triangles that share the edge or corner which was met are one hit.
+    const bool again = last != nullptr && last->entering == hit.entering &&
+                       hit.distance - last->distance <= 1e-9 * (1 + hit.distance);
+    if (again) continue;
+    last = &hit;
+    lua_createtable(L, 0, 4);
+    lua_pushnumber(L, hit.distance);
+    lua_setfield(L, -2, "distance");
+    push_point(L, from->v + hit.distance * along);
+    lua_setfield(L, -2, "point");
+    push_point(L, hit.normal);
+    lua_setfield(L, -2, "normal");
+    lua_pushboolean(L, hit.entering ? 1 : 0);
+    lua_setfield(L, -2, "entering");
+    lua_rawseti(L, -2, ++count);
+  }
+  return 1;
+}
+
+constexpr Option kGapOptions[] = {{"other", T::kValue, "", "the other solid", true}};
+constexpr FunctionSpec kGap{"gap",
+                            "How far it is from another solid: 0 where they touch or overlap.",
+                            kGapOptions, false, "part:gap(cube(1):translate(20, 0, 0))"};
+
+int gap(lua_State* L) {
+  SolidValue& value = solid_argument(L, kGap);
+  const Arguments arguments(L, kGap, 2);
+  const int index = arguments.stack_index("other");
+  SolidValue* other = index == 0 ? nullptr : to_solid(L, index);
+  if (other == nullptr)
+    fail_in(kGap, "needs the other solid" +
+                      (index == 0 ? std::string() : ", got " + describe_value(L, index)));
+  Session& session = session_of(L);
+  const Solid &a = session.evaluated(value), &b = session.evaluated(*other);
+  if (a.empty() || b.empty()) fail_in(kGap, "there is nothing in one of them");
+  // What is inside of the other crosses nothing; the Boolean knows.
+  const NodePtr common = Node::boolean(BooleanOp::kIntersection, {value.node, other->node});
+  const bool overlap = !session.extent(SolidValue(common)).empty;
+  lua_pushnumber(
+      L, overlap ? 0
+                 : surface_distance({a.positions, a.triangles}, {b.positions, b.triangles}).length);
+  return 1;
+}
+
+constexpr Binding kBindings[] = {
+    {&kFaces, nullptr, guarded<faces>, nullptr},
+    {&kRay, nullptr, guarded<ray>, nullptr},
+    {&kGap, nullptr, guarded<gap>, nullptr},
+};
+
+}  // namespace
+
+std::span<const Binding> selecting_bindings() { return kBindings; }
+
+}  // namespace csgrun

@@ -1,0 +1,84 @@
+// Faces by direction and plane, rays, gaps: against boxes and balls, where the answers are known.
+#include "lua_support.h"
+
+namespace csgrun::testing {
+namespace {
+
+TEST(Faces, ByDirectionAndPlane) {
+  expect_good("local f = cube(2, 3, 4):faces() assert(#f == 6)");
+  expect_good(
+      "local f = cube(2, 3, 4):faces({0, 0, 5}) assert(#f == 1 and f[1].area == 6 and "
+      "f[1].normal[3] == 1)\n"
+      "assert(f[1].center[1] == 1 and f[1].center[2] == 1.5 and f[1].center[3] == 4)\n"
+      "assert(#f[1].loops == 1 and #f[1].loops[1] == 4 and f[1].loops[1][1][3] == 4)");
+  // A step: two faces look up, one of them through a point.
+  expect_good(
+      "local s, up = cube(4) - cube(2, 4, 2):up(2), {0, 0, 1}\n"
+      "assert(#s:faces(up) == 2 and #s:faces(up, {through = {9, 9, 2}}) == 1)\n"
+      "assert(s:faces(up, {through = {0, 0, 4}})[1].area == 8)\n"
+      "assert(#s:faces(up, {through = {0, 0, 3}}) == 0 and #s:faces{through = {0, 0, 3}} == 2)");
+  // A hole is a second loop, clockwise.
+  expect_good(
+      "local f = (cube(10) - cube(2, 2, 10):translate(4, 4, 0)):faces({0, 0, -1})\n"
+      "assert(#f == 1 and f[1].area == 96 and #f[1].loops == 2)\n"
+      "local function area(l) local s = 0 for i = 1, #l do local p, q = l[i], l[i % #l + 1]\n"
+      "s = s + p[1] * q[2] - p[2] * q[1] end return s / 2 end\n"
+      "assert(area(f[1].loops[1]) == -100 and area(f[1].loops[2]) == 4)");
+  expect_good("assert(#cylinder(5, 2, {fn = 36}):faces({1, 0, 0}, {angle = 6}) == 2)");
+  EXPECT_EQ(message_of("cube(1):faces({0, 0, 0})"),
+            "model.lua:1: faces: option 'normal' must not be 0");
+  EXPECT_EQ(message_of("cube(1):faces{nromal = {0, 0, 1}}"),
+            "model.lua:1: faces: unknown option 'nromal' (did you mean 'normal'?)");
+  EXPECT_EQ(
+      message_of("cube(1):faces(5)"),
+      "model.lua:1: faces: option 'normal' must be a list of three numbers, got the number 5");
+}
+
+TEST(Rays, EnterAndLeave) {
+  expect_good(
+      "local h = cube(10):ray({-5, 5, 5}, {2, 0, 0})\n"
+      "assert(#h == 2 and h[1].distance == 5 and h[2].distance == 15 and h[1].entering and not "
+      "h[2].entering)\n"
+      "assert(h[1].point[1] == 0 and h[1].normal[1] == -1 and h[2].normal[1] == 1)");
+  expect_good(
+      "assert(#cube(10):ray({5, 5, 5}, {0, 0, 1}) == 1 and #cube(10):ray({-5, 5, 5}, {-1, 0, 0}) "
+      "== 0)");
+  // Through the diagonals of faces, along edges' planes and through corners: hits are not doubled.
+  expect_good(
+      "assert(#cube(10):ray({5, 5, -1}, {0, 0, 1}) == 2 and #cube(10):ray({-1, -1, -1}, {1, 1, 1}) "
+      "== 2)");
+  expect_good(
+      "local s = cube(10) - cube(4, 10, 10):translate(3, 0, 0) assert(#s:ray({-1, 5, 5}, {1, 0, "
+      "0}) == 4)");
+  EXPECT_EQ(message_of("cube(1):ray({0, 0, 0})"),
+            "model.lua:1: ray: needs where it starts and where it goes");
+  EXPECT_EQ(message_of("cube(1):ray({0, 0, 0}, {0, 0, 0})"),
+            "model.lua:1: ray: option 'direction' must not be 0");
+}
+
+TEST(Gaps, OfSolids) {
+  expect_good("assert(cube(10):gap(cube(10):translate(13, 0, 0)) == 3)");
+  expect_good("assert(cube(10):gap(cube(10):translate(13, 14, 0)) == 5)");  // edge to edge
+  expect_good(
+      "assert(abs(cube(10):gap(cube(1):translate(12, 12, 11)) - 3) < 1e-12)");  // corner to corner
+  expect_good("assert(cube(10):gap(cube(10):translate(10, 0, 0)) == 0)");       // touching
+  expect_good(
+      "assert(cube(10):gap(cube(2):translate(4, 4, 4)) == 0 and cube(2):gap(cube(10)) == 0)");
+  expect_good(
+      "local shell = cube(10) - cube(8):translate(1, 1, 1) assert(shell:gap(cube(2):translate(4, "
+      "4, 4)) == 3)");
+  // Crossed edges, nearest in their middles.
+  expect_good(
+      "local g = cube(10, 1, 1):rx(45):gap(cube(10, 1, 1):rx(45):rz(90):translate(5, -5, 5))\n"
+      "assert(abs(g - (5 - math.sqrt(2))) < 1e-5)");
+  expect_good(
+      "local a, b = sphere(5, {fn = 48}), sphere(5, {fn = 48}):translate(20, 3, 1)\n"
+      "local g = a:gap(b) assert(abs(g - b:gap(a)) < 1e-12 and g > 10.2 and g < 10.4)");
+  EXPECT_EQ(message_of("cube(1):gap()"), "model.lua:1: gap: needs the other solid");
+  EXPECT_EQ(message_of("cube(1):gap(5)"), "model.lua:1: gap: needs the other solid, got 5");
+  EXPECT_EQ(message_of("cube(1):gap(cube(1) - cube(2))"),
+            "model.lua:1: gap: there is nothing in one of them");
+}
+
+}  // namespace
+}  // namespace csgrun::testing
