@@ -154,13 +154,14 @@ class DxfReader {
       if (!(radius > 0)) return;
       double sweep = 360;
       if (kind == "ARC") {
-        sweep = r.number(51) - r.number(50);
-        while (sweep <= 0) sweep += 360;
-        while (sweep > 360) sweep -= 360;
+        sweep = std::fmod(r.number(51) - r.number(50), 360);
+        if (sweep <= 0) sweep += 360;
+        if (!std::isfinite(sweep)) return;
       }
       chain.closed = sweep == 360;
-      append_ellipse(point(r, 10), {radius, 0}, {0, radius}, kind == "ARC" ? r.number(50) : 0,
-                     sweep, options_.facets.fragments(radius * scale, sweep), chain.points);
+      append_ellipse(point(r, 10), {radius, 0}, {0, radius},
+                     kind == "ARC" ? std::fmod(r.number(50), 360) : 0, sweep,
+                     options_.facets.fragments(radius * scale, sweep), chain.points);
     } else if (kind == "ELLIPSE") {
       ellipse(r, scale, chain);
     } else if (kind == "LWPOLYLINE") {
@@ -223,11 +224,12 @@ class DxfReader {
     const double ratio = r.number(40, 1), radius = std::sqrt(glm::dot(major, major));
     if (!(radius > 0) || !(ratio > 0)) return;
     // Angles are radians here; a hair beside a full turn is a full turn.
-    const double from = r.number(41) * kDegrees;
-    double sweep = r.number(42, 2 * 3.14159265358979323846) * kDegrees - from;
-    while (sweep <= 0) sweep += 360;
-    while (sweep > 360 + 1e-6) sweep -= 360;
-    if (std::fabs(sweep - 360) < 1e-6) sweep = 360;
+    const double given = r.number(41) * kDegrees, from = std::fmod(given, 360);
+    double sweep = std::fmod(r.number(42, 2 * 3.14159265358979323846) * kDegrees - given, 360);
+    constexpr double kNoise = 1e-6;
+    if (sweep <= kNoise) sweep += 360;
+    if (sweep > 360 - kNoise) sweep = 360;
+    if (!std::isfinite(sweep)) return;
     chain.closed = sweep == 360;
     append_ellipse(point(r, 10), major, ratio * glm::dvec2(-major.y, major.x), from, sweep,
                    options_.facets.fragments(radius * std::max(ratio, 1.0) * scale, sweep),

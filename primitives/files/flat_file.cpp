@@ -21,6 +21,12 @@ Result<FlatFile> parse_flat(const std::string& name, std::string_view bytes,
                             const FlatFileOptions& options) {
   const std::string format = flat_file_format_of(name);
   if (format.empty()) return invalid_argument(name + ": the ending is none of .svg, .dxf");
+  // Every curve may take as many points.
+  constexpr double kMostFragments = 1 << 17;
+  if (!(options.facets.fn <= kMostFragments)) {
+    return invalid_argument("import: fn must be at most " + number_text(kMostFragments) + ", got " +
+                            number_text(options.facets.fn));
+  }
   Result<FlatFile> file =
       format == "svg" ? parse_svg(name, bytes, options) : parse_dxf(name, bytes, options);
   if (!file || !options.center || file->shape.empty()) return file;

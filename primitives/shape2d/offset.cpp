@@ -59,7 +59,9 @@ class OffsetCurve {
     const size_t n = loop.size();
     const std::vector<glm::dvec2> normals = normals_of(loop);
     Shape2D::Loop curve;
-    for (size_t i = 0; i < n; ++i) add_corner(loop[i], normals[(i + n - 1) % n], normals[i], curve);
+    for (size_t i = 0; i < n && static_cast<double>(curve.size()) <= kMostPoints; ++i) {
+      add_corner(loop[i], normals[(i + n - 1) % n], normals[i], curve);
+    }
     return curve;
   }
 
@@ -117,7 +119,9 @@ class OffsetCurve {
   void add_arc(const glm::dvec2& p, const glm::dvec2& a, double turn, Shape2D::Loop& curve) const {
     // A turn of whole steps must not get one more for the noise of the angle.
     constexpr double kNoise = 1e-9;
-    const int steps = std::max(static_cast<int>(std::ceil(turn * fragments_ / 360 - kNoise)), 1);
+    // What is more than anybody can have is not made; the caller counts and says so.
+    const double wanted = std::min(std::ceil(turn * fragments_ / 360 - kNoise), kMostPoints + 1);
+    const int steps = std::max(static_cast<int>(wanted), 1);
     for (int i = 0; i < steps; ++i) {
       const double c = cos_deg(360.0 * i / fragments_), s = sin_deg(360.0 * i / fragments_);
       curve.push_back(p + distance_ * glm::dvec2(c * a.x - s * a.y, s * a.x + c * a.y));
@@ -158,6 +162,7 @@ Result<Shape2D> offset_shape(const Shape2D& shape, const OffsetOptions& options)
   for (Shape2D::Loop loop : shape.loops()) {
     if (inwards) std::reverse(loop.begin(), loop.end());
     curves.push_back(maker.around(loop));
+    if (static_cast<double>(curves.back().size()) > kMostPoints) break;  // united() says so
   }
   return united(curves, "offset", inwards);
 }

@@ -204,6 +204,11 @@ Result<Line> lay_out(const TextOptions& o, const Font& font) {
   const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer.get(), nullptr);
   const hb_glyph_position_t* places = hb_buffer_get_glyph_positions(buffer.get(), nullptr);
   const int steps = std::max(o.facets.fragments(o.size) / 8 + 1, 2);
+  constexpr int kMostSteps = 1 << 14;
+  if (steps > kMostSteps) {
+    return invalid_argument("text: a curve of " + std::to_string(steps) + " steps, the limit is " +
+                            std::to_string(kMostSteps));
+  }
   Line line;
   line.scale = o.size * kEmPerSize / font.data().units_per_em;
   line.low = glm::dvec2(std::numeric_limits<double>::infinity());

@@ -359,6 +359,14 @@ TEST(Dxf, HostileAndDamagedFiles) {
                               pairs({{0, "BLOCK"}, {2, "B"}}) + dxf_line(0, 0, 1, 1) +
                                   pairs({{0, "ENDBLK"}}))),
       "x.dxf: unfolds to more than 200000 entities");
+  // Angles beyond all measure are angles all the same.
+  EXPECT_NEAR(
+      dxf(pairs({{0, "ELLIPSE"}, {11, "1"}, {21, "0"}, {40, "1"}, {41, "1e300"}, {42, "1e300"}}))
+          .area(),
+      ngon(32, 1), 1e-6);
+  dxf(pairs({{0, "ARC"}, {40, "1"}, {50, "1e300"}, {51, "-1e300"}}));
+  dxf(pairs({{0, "ARC"}, {40, "1"}, {50, "1.7e308"}, {51, "-1.7e308"}}));
+  EXPECT_EQ(error("x.dxf", "", with_fn(1e9)), "import: fn must be at most 131072, got 1e+09");
   const FlatFile unknown = read("x.dxf", entities(pairs({{0, "3DSOLID"}, {1, "x"}})), {});
   EXPECT_TRUE(unknown.shape.empty());
   EXPECT_EQ(unknown.notes, std::vector<std::string>{"x.dxf: 3DSOLID left out (1)"});

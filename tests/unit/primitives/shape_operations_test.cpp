@@ -156,6 +156,7 @@ TEST(Offset, BadInputIsAnError) {
   ASSERT_FALSE(bad);
   EXPECT_EQ(bad.error().message, "offset: distance must be finite, got nan");
   EXPECT_FALSE(offset_shape(box(0, 0, 1, 1), {1e13, OffsetJoin::kMitre, {}}));
+  EXPECT_FALSE(offset_shape(box(0, 0, 1, 1), {1, OffsetJoin::kRound, Facets{1e9, 12, 2}}));
 }
 
 TEST(Minkowski2D, ConvexSumsByFormula) {

@@ -139,6 +139,9 @@ TEST(Text, BadOptionsAreErrors) {
   options.direction = "";
   options.spacing = std::nan("");
   EXPECT_EQ(error(options), "text: spacing must be finite, got nan");
+  options = line("x");
+  options.facets.fn = 1e9;
+  EXPECT_EQ(error(options), "text: a curve of 125000001 steps, the limit is 16384");
   EXPECT_EQ(error(line(std::string(100000, 'x'))), "text: longer than 65536 bytes");
 }
 
@@ -180,7 +183,7 @@ TEST(Fonts, TheShippedOneIsOpen) {
 }
 
 TEST(Fonts, WhatIsNoFontIsRefused) {
-  for (const std::string bytes : {std::string(), std::string("OTTO"), std::string(1000, '\0'),
+  for (const std::string& bytes : {std::string(), std::string("OTTO"), std::string(1000, '\0'),
                                   std::string("\0\1\0\0\xff\xff\xff\xff\xff\xff\xff\xff", 12)}) {
     const auto font = Font::parse("x.ttf", bytes);
     ASSERT_FALSE(font);
