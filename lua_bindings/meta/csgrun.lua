@@ -959,8 +959,7 @@ function Solid:warp(f, options) end
 
 ---The solid where a function (a signed distance, say) is less than the level, cut with the bounds where it reaches farther.
 ---
----Example: `levelset(function(x, y, z) return norm{x, y, z} - 8 end,
-  {min = {-9, -9, -9}, max = {9, 9, 9}}, 1)`
+---Example: `levelset(function(x, y, z) return norm{x, y, z} - 8 end, {{-9, -9, -9}, {9, 9, 9}}, 1)`
 ---@overload fun(options: csgrun.levelset): Solid
 ---@param f? any a function of x, y, z: less than the level inside
 ---@param bounds? any {min = {x, y, z}, max = {x, y, z}}, as bbox() gives them
