@@ -28,9 +28,11 @@ struct Binding {
 std::span<const Binding> solid_bindings();
 std::span<const Binding> shape_bindings();
 std::span<const Binding> outline_bindings();
+std::span<const Binding> construction_bindings();
+std::span<const Binding> section_bindings();
+std::span<const Binding> surface_bindings();
 std::span<const Binding> text_bindings();
 std::span<const Binding> sweep_bindings();
-std::span<const Binding> reshape_bindings();
 std::span<const Binding> transform_bindings();
 std::span<const Binding> boolean_bindings();
 std::span<const Binding> measure_bindings();

@@ -26,6 +26,7 @@ const char* type_name(T type) {
       return "boolean";
     case T::kBooleans2:
     case T::kBooleans3:
+    case T::kBooleans2Or3:
       return "boolean|boolean[]";
     case T::kString:
       return "string";
@@ -208,6 +209,10 @@ std::string result_of(const Binding& binding, const BindingGroup& group, const c
       {"paths", "integer[][]"},
       {"outlines", "number[][][]"},
       {"decompose", "any[]"},
+      {"project", "Shape"},
+      {"projection", "Shape"},
+      {"slice", "Shape"},
+      {"split", "Solid, Solid"},
       {"vec", "Vector"},
       {"vector", "Vector"},
       {"cross", "Vector"},

@@ -46,6 +46,8 @@ std::string describe_type(ArgumentType type) {
       return "true, false or a list of two of them";
     case T::kBooleans3:
       return "true, false or a list of three of them";
+    case T::kBooleans2Or3:
+      return "true, false or a list of two or three of them";
     case T::kString:
       return "a string";
     case T::kVector2:
@@ -273,14 +275,17 @@ Arguments::Value Arguments::convert(const Option& option, int index) const {
       if (type != LUA_TBOOLEAN) wrong_type(option, index);
       return lua_toboolean(L_, index) != 0;
     case T::kBooleans2:
-    case T::kBooleans3: {
+    case T::kBooleans3:
+    case T::kBooleans2Or3: {
       std::array<bool, 3> flags{};
       if (type == LUA_TBOOLEAN) {
         flags.fill(lua_toboolean(L_, index) != 0);
         return flags;
       }
-      const int count = option.type == T::kBooleans2 ? 2 : 3;
-      if (type != LUA_TTABLE || list_length(L_, index) != count) wrong_type(option, index);
+      const lua_Integer count = type == LUA_TTABLE ? list_length(L_, index) : -1;
+      const bool fits = (count == 2 && option.type != T::kBooleans3) ||
+                        (count == 3 && option.type != T::kBooleans2);
+      if (!fits) wrong_type(option, index);
       for (int i = 0; i < count; ++i) {
         if (lua_rawgeti(L_, index, i + 1) != LUA_TBOOLEAN) wrong_type(option, index);
         flags[static_cast<size_t>(i)] = lua_toboolean(L_, -1) != 0;

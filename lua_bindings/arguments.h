@@ -30,8 +30,9 @@ enum class ArgumentType : uint8_t {
   kNumber,
   kInteger,
   kBoolean,
-  kBooleans2,  ///< a boolean, or a list of two
-  kBooleans3,  ///< a boolean, or a list of three
+  kBooleans2,     ///< a boolean, or a list of two
+  kBooleans3,     ///< a boolean, or a list of three
+  kBooleans2Or3,  ///< a boolean, or a list of two or three (the third is then false)
   kString,
   kVector2,     ///< a list of two numbers
   kVector3,     ///< a list of three numbers

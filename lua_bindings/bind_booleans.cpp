@@ -11,7 +11,8 @@ namespace csgrun {
 namespace {
 
 constexpr Option kOperandOptions[] = {
-    {"operands", ArgumentType::kValue, "", "solids or shapes, one after another or as lists (of lists)", true},
+    {"operands", ArgumentType::kValue, "",
+     "solids or shapes, one after another or as lists (of lists)", true},
 };
 constexpr Option kDifferenceOptions[] = {
     kOperandOptions[0],

@@ -258,7 +258,20 @@ int load_csg(lua_State* L) {
   const Files::Opened file = open_file(L, arguments, kLoadCsg);
   const SourceRef where = session.source_ref(file.display, 1);
   const std::string folder = folder_of(file.display);
-  const auto model = parse_csg(*where.file, file.bytes);
+  CsgEnvironment environment;
+  environment.evaluator = &session.evaluator();
+  environment.fonts = &session.fonts();
+  environment.read = [&](const std::string& path) -> Result<std::string> {
+    try {
+      return session.files().open(file.display, path).bytes;
+    } catch (const ScriptError& error) {
+      return Error{ErrorCode::kMalformedFile, error.what(), {}};
+    }
+  };
+  const auto model = [&] {
+    const EvaluationScope scope(session.budget());
+    return parse_csg(*where.file, file.bytes, environment);
+  }();
   if (!model) {
     const std::string place = session.place_text(model.error().where);
     fail_in(kLoadCsg, (place.empty() ? file.display : place) + ": " + model.error().message);

@@ -1,8 +1,12 @@
-// What makes new outlines of shapes, and what reads them: offset, hull, minkowski, fill, resize,
-// perimeter, points, paths, outlines, decompose.
+// What makes new outlines of shapes, and what reads them: offset, fill, perimeter,
+// points, paths, outlines.
+#include <cmath>
+
 #include <fmt/format.h>
 
+#include <csgrun/primitives/freeform.h>
 #include <csgrun/primitives/shape_operations.h>
+#include <csgrun/primitives/solid_parts.h>
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
@@ -15,20 +19,50 @@ namespace {
 using T = ArgumentType;
 
 constexpr Option kOffsetOptions[] = {
-    {"r", T::kNumber, "1", "distance, outwards (negative: inwards), with round corners", true},
-    {"delta", T::kNumber, "", "distance with sharp corners; r counts if both are given", false},
+    {"r", T::kNumber, "1",
+     "distance, outwards (negative: inwards), with round corners: of a solid by a ball", true},
+    {"delta", T::kNumber, "",
+     "distance with sharp corners (of a solid by a box along the axes); r counts if both are given",
+     false},
     {"chamfer", T::kBoolean, "false", "with delta: corners are cut square at that distance", false},
 };
-constexpr FunctionSpec kOffset{"offset",
-                               "The shape with its outline moved.",
-                               kOffsetOptions,
-                               true,
-                               "square(10):offset{delta = 2, chamfer = true}",
-                               "shape",
-                               kShapeDoc};
+constexpr FunctionSpec kOffset{
+    "offset",
+    "The shape with its outline moved; or the solid with its surface moved.",
+    kOffsetOptions,
+    true,
+    "square(10):offset{delta = 2, chamfer = true}",
+    "shape",
+    kShapeDoc};
+
+/// A solid grown, or shrunk, by a ball or a box.
+int offset_of_solid(lua_State* L, const SolidValue& solid) {
+  const Arguments arguments(L, kOffset, 2);
+  if (arguments.has("chamfer")) fail_in(kOffset, "option 'chamfer' is for shapes");
+  const bool sharp = arguments.has("delta") && !arguments.has("r");
+  const double distance = arguments.number(sharp ? "delta" : "r", 1);
+  const double reach = std::fabs(distance);
+  if (reach == 0) {
+    push_solid(L, solid.node);
+  } else {
+    const glm::dvec3 size(2 * reach);
+    const NodePtr tool = counted_leaf(
+        L, value_or_fail(kOffset, sharp ? make_cube(size, {true, true, true})
+                                        : make_rounded_cube(size, reach, {true, true, true},
+                                                            arguments.facets())));
+    Session& session = session_of(L);
+    const EvaluationScope scope(session.budget());
+    auto moved = offset_solid(session.evaluator(), solid.node, tool, distance);
+    if (!moved) session.fail_evaluation(moved.error());
+    push_solid(L, *std::move(moved));
+  }
+  keep_marks(L, 1);
+  return 1;
+}
 
 int offset(lua_State* L) {
   take_subject_out_of_list(L);
+  if (const SolidValue* solid = to_solid(L, 1)) return offset_of_solid(L, *solid);
   const ShapeValue& shape = shape_argument(L, kOffset);
   const Arguments arguments(L, kOffset, 2);
   OffsetOptions options;
@@ -45,26 +79,6 @@ int offset(lua_State* L) {
   return 1;
 }
 
-constexpr Option kShapesOptions[] = {
-    {"operands", T::kValue, "", "shapes, one after another or as lists", true},
-};
-constexpr FunctionSpec kHull{"hull", "The smallest convex shape that contains all of them.",
-                             kShapesOptions, false, "hull(circle(2), circle(4):translate(20, 0))"};
-constexpr FunctionSpec kMinkowski{
-    "minkowski",
-    "All sums of a point of each: the first, swept by the others. Empty ones count for nothing.",
-    kShapesOptions, false, "minkowski(square(10), circle(1))"};
-
-template <const FunctionSpec& Spec, Result<Shape2D> (*Make)(const std::vector<Shape2D>&)>
-int combine_shapes(lua_State* L) {
-  const Operands operands = read_operands(L, Spec);
-  if (operands.has_solids) fail_in(Spec, "an operand must be a 2D shape, got solid");
-  if (!operands.has_shapes) fail_in(Spec, "needs a shape");
-  push_shape(L, value_or_fail(Spec, Make(operands.shapes)), operands.appearance);
-  marks_of(L, -1)->name = operands.name;
-  return 1;
-}
-
 constexpr FunctionSpec kFill{"fill",   "The shape without its holes.",   {},
                              false,    "(circle(5) - circle(3)):fill()", "shape",
                              kShapeDoc};
@@ -74,42 +88,6 @@ int fill(lua_State* L) {
   const ShapeValue& shape = shape_argument(L, kFill);
   const Arguments arguments(L, kFill, 2);
   push_shape(L, value_or_fail(kFill, fill_shape(shape.shape)), shape.appearance);
-  keep_marks(L, 1);
-  return 1;
-}
-
-constexpr Option kResizeOptions[] = {
-    {"newsize", T::kVector2Or3, "", "lengths along X and Y; 0 leaves that axis as it is", true,
-     Range::kNotNegative, "size"},
-    {"auto", T::kBooleans2, "false",
-     "axes of length 0 take the factor of the longest one that is given", true},
-};
-constexpr FunctionSpec kResize{"resize",
-                               "Scales about the origin until the bounding box has these lengths.",
-                               kResizeOptions,
-                               false,
-                               "circle(5):resize({20, 0}, {auto = true})",
-                               "shape",
-                               kShapeDoc};
-
-int resize(lua_State* L) {
-  take_subject_out_of_list(L);
-  const ShapeValue& shape = shape_argument(L, kResize);
-  const Arguments arguments(L, kResize, 2);
-  const auto wanted = arguments.vector("newsize");
-  if (!wanted) fail_in(kResize, "needs the new lengths: (20, 10), or 0 where nothing changes");
-  if (shape.shape.empty()) {
-    push_shape(L, shape.shape, shape.appearance);
-    return 1;
-  }
-  const auto automatic = arguments.booleans("auto");
-  const auto [low, high] = shape.shape.bounds();
-  const auto factors = resize_factors({high.x - low.x, high.y - low.y}, {wanted->v.x, wanted->v.y},
-                                      {automatic[0], automatic[1]});
-  Affine map;
-  map.m[0][0] = factors[0];
-  map.m[1][1] = factors[1];
-  push_shape(L, value_or_fail(kResize, shape.shape.transformed(map)), shape.appearance);
   keep_marks(L, 1);
   return 1;
 }
@@ -138,8 +116,6 @@ constexpr FunctionSpec kOutlines{"outlines",
                                  {},
                                  false,
                                  "square(5):outlines()"};
-constexpr FunctionSpec kDecompose{
-    "decompose", "Its connected pieces, a list.", {}, false, "#shape:decompose()"};
 
 int perimeter(lua_State* L) {
   lua_pushnumber(L, perimeter_of(bare_shape(L, kPerimeter).shape));
@@ -186,30 +162,13 @@ int outlines(lua_State* L) {
   });
 }
 
-int decompose(lua_State* L) {
-  const ShapeValue& value = bare_shape(L, kDecompose);
-  lua_newtable(L);
-  lua_Integer count = 0;
-  for (Shape2D& piece : pieces_of_shape(value.shape)) {
-    push_shape(L, std::move(piece), value.appearance);
-    lua_rawseti(L, -2, ++count);
-  }
-  return 1;
-}
-
 constexpr Binding kBindings[] = {
-    {&kOffset, guarded<offset>, nullptr, guarded<offset>},
-    {&kHull, guarded<combine_shapes<kHull, hull_of_shapes>>, nullptr,
-     guarded<combine_shapes<kHull, hull_of_shapes>>},
-    {&kMinkowski, guarded<combine_shapes<kMinkowski, minkowski_of_shapes>>, nullptr,
-     guarded<combine_shapes<kMinkowski, minkowski_of_shapes>>},
+    {&kOffset, guarded<offset>, guarded<offset>, guarded<offset>},
     {&kFill, guarded<fill>, nullptr, guarded<fill>},
-    {&kResize, guarded<resize>, nullptr, guarded<resize>},
     {&kPerimeter, nullptr, nullptr, guarded<perimeter>},
     {&kPoints, nullptr, nullptr, guarded<points>},
     {&kPaths, nullptr, nullptr, guarded<paths>},
     {&kOutlines, nullptr, nullptr, guarded<outlines>},
-    {&kDecompose, nullptr, nullptr, guarded<decompose>},
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 // cube, sphere, cylinder, polyhedron.
+#include <csgrun/primitives/freeform.h>
 #include <csgrun/primitives/solids.h>
 
 #include "lua_bindings/api.h"
@@ -13,9 +14,11 @@ using T = ArgumentType;
 constexpr Option kCubeOptions[] = {
     {"size", T::kSize3, "1", "edge length, or lengths along X, Y and Z", true, Range::kPositive},
     {"center", T::kBooleans3, "false", "centred in the origin, or along these axes", true},
+    {"r", T::kNumber, "0", "radius of its edges and corners, at most half of its shortest side",
+     false, Range::kNotNegative},
 };
 constexpr FunctionSpec kCube{"cube", "A box; a corner stands in the origin unless it is centred.",
-                             kCubeOptions, false, "cube{size = {60, 40, 5}, center = true}"};
+                             kCubeOptions, true, "cube{size = {60, 40, 5}, center = true}"};
 
 int cube(lua_State* L) {
   const Arguments arguments(L, kCube, 1);
@@ -23,7 +26,10 @@ int cube(lua_State* L) {
   if (const auto given = arguments.vector("size")) {
     size = given->count == 1 ? glm::dvec3(given->v.x) : given->v;
   }
-  push_leaf(L, value_or_fail(kCube, make_cube(size, arguments.booleans("center"))));
+  const double r = arguments.number("r", 0);
+  const std::array<bool, 3> center = arguments.booleans("center");
+  push_leaf(L, value_or_fail(kCube, r > 0 ? make_rounded_cube(size, r, center, arguments.facets())
+                                          : make_cube(size, center)));
   return 1;
 }
 
@@ -58,6 +64,8 @@ constexpr Option kCylinderOptions[] = {
     {"d", T::kNumber, "", "diameter at both ends", false, Range::kPositive},
     {"d1", T::kNumber, "", "diameter at the bottom", false, Range::kNotNegative},
     {"d2", T::kNumber, "", "diameter at the top", false, Range::kNotNegative},
+    {"round", T::kNumber, "0", "radius of both rims, at most r and half of h", false,
+     Range::kNotNegative},
 };
 constexpr FunctionSpec kCylinder{
     "cylinder", "A cylinder along Z; cylinder(h, r1, r2) is a cone, cylinder(h, r) is not.",
@@ -74,9 +82,13 @@ int cylinder(lua_State* L) {
     r2 = r1;
   }
   if (r1 == 0 && r2 == 0) fail_in(kCylinder, "one of the radii must be positive");
-  const double h = arguments.number("h", 1);
-  push_leaf(L, value_or_fail(kCylinder, make_cylinder(h, r1, r2, arguments.boolean("center", false),
-                                                      arguments.facets())));
+  const double h = arguments.number("h", 1), round = arguments.number("round", 0);
+  const bool center = arguments.boolean("center", false);
+  if (round > 0 && r1 != r2) fail_in(kCylinder, "'round' needs both radii to be the same");
+  push_leaf(
+      L, value_or_fail(kCylinder,
+                       round > 0 ? make_rounded_cylinder(h, r1, round, center, arguments.facets())
+                                 : make_cylinder(h, r1, r2, center, arguments.facets())));
   return 1;
 }
 

@@ -126,9 +126,9 @@ constexpr FunctionSpec kLeft{"left", "Moves along -X.", kDistanceOptions, false,
 constexpr FunctionSpec kRight{"right", "Moves along +X.", kDistanceOptions, false, "part:right(3)"};
 constexpr FunctionSpec kForward{"forward", "Moves along -Y, towards the viewer.", kDistanceOptions,
                                 false, "part:forward(3)"};
-constexpr FunctionSpec kFront{
-    "front", "Moves along -Y, towards the viewer: another name of forward.", kDistanceOptions, false,
-    "part:front(3)"};
+constexpr FunctionSpec kFront{"front",
+                              "Moves along -Y, towards the viewer: another name of forward.",
+                              kDistanceOptions, false, "part:front(3)"};
 constexpr FunctionSpec kTx{"tx", "Moves along X.", kDistanceOptions, false, "part:tx(3)"};
 constexpr FunctionSpec kTy{"ty", "Moves along Y.", kDistanceOptions, false, "part:ty(3)"};
 constexpr FunctionSpec kTz{"tz", "Moves along Z.", kDistanceOptions, false, "part:tz(3)"};

@@ -192,9 +192,8 @@ class Convexifier {
     Fragment front, back;
     if (geometry_.split(cell, plane, front, back) != Side::kSplit) return false;
     Halves halves = distribute(edges, plane);
-    // A side without edges would have no label; and a cut must make progress.
-    const size_t most = std::max(halves.front.size(), halves.back.size());
-    if (halves.front.empty() || halves.back.empty() || most + 3 > edges.size()) return false;
+    // A cut must make progress; so either side has edges, which say what it is.
+    if (std::max(halves.front.size(), halves.back.size()) + 3 > edges.size()) return false;
     cut(front, std::move(halves.front));
     cut(back, std::move(halves.back));
     return true;

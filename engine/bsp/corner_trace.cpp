@@ -103,7 +103,7 @@ bool ray_crosses(Job& job, uint32_t polygon, const IVec3& corner) {
   const JobPolygon& p = job.polygons()[polygon];
   const Plane support = job.planes().plane(p.support.index());
   const int at_infinity = support.a > 0 ? -1 : 1;
-  return support.a != 0 && side_of_corner(support, corner, job.prime()) != at_infinity &&
+  return side_of_corner(support, corner, job.prime()) != at_infinity &&
          line_hits(job, p, corner, 0);
 }
 

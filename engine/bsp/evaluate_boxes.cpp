@@ -15,7 +15,7 @@ constexpr uint32_t kOwn = 3;
 constexpr std::array<int, 3> kShift{1, 4, 16};
 
 /// The cells whose place along an axis is among the four bits of `places`.
-constexpr uint64_t cells_at(int axis, uint32_t places) {
+consteval uint64_t cells_at(int axis, uint32_t places) {
   uint64_t word = 0;
   for (uint32_t cell = 0; cell < 64; ++cell) {
     const uint32_t at = axis == 0 ? cell % 4 : axis == 1 ? cell / 4 % 4 : cell / 16;
@@ -24,13 +24,14 @@ constexpr uint64_t cells_at(int axis, uint32_t places) {
   return word;
 }
 
-constexpr auto kCellsAt = [] {
+consteval auto all_cells_at() {
   std::array<std::array<uint64_t, 16>, 3> words{};
   for (int axis = 0; axis < 3; ++axis) {
     for (uint32_t places = 0; places < 16; ++places) words[axis][places] = cells_at(axis, places);
   }
   return words;
-}();
+}
+constexpr auto kCellsAt = all_cells_at();
 constexpr uint64_t kOwnCells = kCellsAt[0][7] & kCellsAt[1][7] & kCellsAt[2][7];
 
 /// Whether the surface around an edge or a corner within a window is in more than one piece.
@@ -128,7 +129,6 @@ class BoxEvaluator {
   void enter(const Block& block, size_t first, size_t end, const PrunedExpression& outer) {
     if (present_.size() - end == end - first) return visit(block, end, outer);
     const PrunedExpression folded = outer.fold([this](uint32_t o) { return constant_[o]; });
-    for (size_t i = first; i < end; ++i) constant_[present_[i]] = Inside::kUnknown;
     folded.each_operand([this](uint32_t o) { mentioned_[o] = 1; });
     size_t kept = end;
     for (size_t i = end; i < present_.size(); ++i) {
@@ -208,10 +208,9 @@ class BoxEvaluator {
 std::optional<Result<std::shared_ptr<BoundaryMesh>>> evaluate_boxes(
     const std::vector<Operand>& operands, const Expression& expression,
     const KernelOptions& options, EvaluateStats& stats) {
-  const bool has_symmetric =
-      std::any_of(expression.nodes.begin(), expression.nodes.end(), [](const Expression::Node& n) {
-        return !n.is_operand && n.op == BooleanOp::kSymmetricDifference;
-      });
+  const bool has_symmetric = std::any_of(
+      expression.nodes.begin(), expression.nodes.end(),
+      [](const Expression::Node& n) { return n.op == BooleanOp::kSymmetricDifference; });
   if (has_symmetric || expression.nodes.empty()) return std::nullopt;
   const auto lattice = make_lattice(operands);
   if (!lattice) return std::nullopt;

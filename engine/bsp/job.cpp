@@ -112,9 +112,7 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes)
       add_pieces(o, *operands[o].pieces);
     }
     PolygonBox box = PolygonBox::none();
-    if (operands[o].pieces && operands[o].pieces->pieces.size() > 0) {
-      box = rounded_outwards(operands[o].pieces->pieces.box());  // that of all pieces
-    }
+    if (operands[o].pieces) box = rounded_outwards(operands[o].pieces->pieces.box());  // of all
     for (size_t p = polygon_starts_.back(); p < polygons_.size(); ++p) box.include(boxes_[p]);
     operand_boxes_.push_back(box);
     polygon_starts_.push_back(static_cast<uint32_t>(polygons_.size()));

@@ -41,7 +41,7 @@ void PatchLabels::fill_bins() {
   }
   for (size_t b = 0; b + 1 < bin_starts_.size(); ++b) bin_starts_[b + 1] += bin_starts_[b];
   in_bin_.resize(bin_starts_.back());
-  std::vector<uint32_t> next(bin_starts_.begin(), bin_starts_.end() - 1);
+  std::vector<uint32_t> next = bin_starts_;
   for (uint32_t o = 0; o < boxes_.size(); ++o) {
     each_bin(boxes_[o], [&](uint32_t b) { in_bin_[next[b]++] = o; });
   }

@@ -26,7 +26,7 @@ SparseBoundary::SparseBoundary(const Expression& expression) : expression_(expre
   }
   for (size_t n = 0; n < nodes.size(); ++n) parent_starts_[n + 1] += parent_starts_[n];
   parents_.resize(parent_starts_.back());
-  std::vector<uint32_t> next(parent_starts_.begin(), parent_starts_.end() - 1);
+  std::vector<uint32_t> next = parent_starts_;
   for (uint32_t n = 0; n < nodes.size(); ++n) {
     for (uint32_t c = 0; c < nodes[n].child_count; ++c) {
       parents_[next[expression_.children[nodes[n].first_child + c]]++] = {n, c};
@@ -38,7 +38,7 @@ SparseBoundary::SparseBoundary(const Expression& expression) : expression_(expre
   }
   for (uint32_t o = 0; o < operands; ++o) leaf_starts_[o + 1] += leaf_starts_[o];
   leaves_.resize(leaf_starts_.back());
-  next.assign(leaf_starts_.begin(), leaf_starts_.end() - 1);
+  next = leaf_starts_;
   for (uint32_t n = 0; n < nodes.size(); ++n) {
     if (nodes[n].is_operand) leaves_[next[nodes[n].operand]++] = n;
   }

@@ -20,10 +20,7 @@ class UnionFind {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void join(uint32_t a, uint32_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
+  void join(uint32_t a, uint32_t b) { join_with(find(a), b); }
   /// Joins a number with the set that has the representative `root`; returns that of both.
   uint32_t join_with(uint32_t root, uint32_t i) {
     if (parent_[i] == root) return root;

@@ -11,6 +11,8 @@
 #include <csgrun/engine/evaluate.h>
 
 #include "engine/bsp/untouched.h"
+#include "engine/csg/constructions.h"
+#include "engine/csg/convexity.h"
 #include "engine/csg/locate.h"
 #include "engine/csg/result_cache.h"
 #include "engine/csg/scene.h"
@@ -69,7 +71,10 @@ struct Evaluator::Impl {
         boundaries(options.cache_bytes),
         // Solids are a fraction of what led to them.
         solids(options.cache_bytes / 4),
-        worlds(options.cache_bytes / 4) {
+        worlds(options.cache_bytes / 4),
+        constructions([this](const std::vector<NodePtr>& parts,
+                             bool ask_convex) { return evaluate_parts(parts, ask_convex); },
+                      warnings) {
     threads = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
     if (threads == 0) threads = 1;
   }
@@ -77,7 +82,13 @@ struct Evaluator::Impl {
   [[nodiscard]] bool cancelled() const {
     return options.cancel && options.cancel->load(std::memory_order_relaxed);
   }
+  bool forget_if_full();
   Result<Scene> scene_of(const std::vector<NodePtr>& parts);
+  Result<Scene> scene_of_expanded(const std::vector<NodePtr>& parts);
+  Result<EvaluatedParts> evaluate_parts(const std::vector<NodePtr>& parts, bool ask_convex);
+  Result<bool> is_convex(const Scene& scene, uint32_t root);
+  Result<BoundaryPtr> world_of(const Scene& scene, uint32_t root);
+  Result<std::vector<SolidPtr>> evaluate(const Scene& scene);
   Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts);
   Result<int> contains(const NodePtr& root, const glm::dvec3& point);
   [[nodiscard]] Key solid_key(const Scene& scene, const Subtree& subtree, bool measured) const;
@@ -97,16 +108,32 @@ struct Evaluator::Impl {
   ResultCache<BoundaryPtr> worlds;  // of roots that points were compared with
   Warnings warnings;
   EvaluateStats stats;
+  Constructions constructions;
 };
 
-Result<Scene> Evaluator::Impl::scene_of(const std::vector<NodePtr>& parts) {
-  const Stopwatch watch(stats.leaf_seconds);
-  // What is remembered of trees and leaves is bounded too; forgetting costs time only.
+/// What is remembered of trees and leaves is bounded too; forgetting costs time only.
+bool Evaluator::Impl::forget_if_full() {
   constexpr size_t kMostNodes = 4u << 20;
-  if (form.nodes().size() > kMostNodes || store.bytes() > options.cache_bytes) {
-    form.clear();
-    store.clear();
+  if (form.nodes().size() <= kMostNodes && store.bytes() <= options.cache_bytes) return false;
+  form.clear();
+  store.clear();
+  return true;
+}
+
+Result<Scene> Evaluator::Impl::scene_of(const std::vector<NodePtr>& parts) {
+  if (forget_if_full()) constructions.clear();
+  std::vector<NodePtr> expanded;
+  for (const NodePtr& part : parts) {
+    auto made = constructions.expand(part);
+    if (!made) return made.error();
+    expanded.push_back(*std::move(made));
   }
+  return scene_of_expanded(expanded);
+}
+
+Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& parts) {
+  const Stopwatch watch(stats.leaf_seconds);
+  forget_if_full();
   std::vector<uint32_t> roots;
   for (const NodePtr& part : parts) {
     auto root = form.add(part);
@@ -160,9 +187,55 @@ Result<SolidPtr> Evaluator::Impl::present_root(const Scene& scene, uint32_t root
 Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const std::vector<NodePtr>& parts) {
   auto scene = scene_of(parts);
   if (!scene) return scene.error();
+  return evaluate(*scene);
+}
+
+/// Solids for a construction: their trees have none left.
+Result<EvaluatedParts> Evaluator::Impl::evaluate_parts(const std::vector<NodePtr>& parts,
+                                                       bool ask_convex) {
+  auto scene = scene_of_expanded(parts);
+  if (!scene) return scene.error();
+  auto solids_of_parts = evaluate(*scene);
+  if (!solids_of_parts) return solids_of_parts.error();
+  EvaluatedParts result{scene->step, *std::move(solids_of_parts), {}};
+  result.is_convex.assign(parts.size(), 0);
+  for (size_t i = 0; ask_convex && i < parts.size(); ++i) {
+    if (result.solids[i]->empty()) continue;
+    auto convex = is_convex(*scene, scene->roots[i]);
+    if (!convex) return convex.error();
+    result.is_convex[i] = *convex ? 1 : 0;
+  }
+  return result;
+}
+
+Result<bool> Evaluator::Impl::is_convex(const Scene& scene, uint32_t root) {
+  const SceneNode& node = scene.nodes[root];
+  if (node.kind == SceneNode::Kind::kLeaf && node.geometry) return node.geometry->convex;
+  const Stopwatch watch(stats.boolean_seconds);
+  auto world = world_of(scene, root);
+  if (!world) return world.error();
+  return bounds_convex(**world);
+}
+
+/// The boundary of a root in the world, all faces spelled out.
+Result<BoundaryPtr> Evaluator::Impl::world_of(const Scene& scene, uint32_t root) {
+  const Key key = solid_key(scene, scene.nodes[root].subtree, options.measure);
+  if (const BoundaryPtr* known = worlds.find(key)) return BoundaryPtr(*known);
+  SceneJobs jobs(scene, boundaries, options, threads, stats);
+  if (Status status = jobs.run({root}); !status) return status.error();
+  auto boundary = jobs.world_boundary(root);
+  if (!boundary) return boundary.error();
+  const BoundaryPtr world = expanded(*boundary);
+  worlds.put(key, world, memory_bytes(*world));
+  return world;
+}
+
+Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const Scene& scene_on_grid) {
+  const Scene* scene = &scene_on_grid;
   stats.grid_mm = scene->step.millimetres();
   const Stopwatch watch(stats.boolean_seconds);
 
+  const std::vector<uint32_t>& parts = scene->roots;
   std::vector<SolidPtr> result(parts.size());
   std::vector<Key> keys(parts.size());
   std::unordered_map<Key, SolidPtr, KeyHash> made;  // of this call: they outlive the cache's bound
@@ -263,15 +336,9 @@ Result<int> Evaluator::Impl::contains(const NodePtr& root, const glm::dvec3& poi
     p[i] = *rounded;
   }
   const Stopwatch watch(stats.boolean_seconds);
-  const Key key = solid_key(*scene, node.subtree, options.measure);
-  if (const BoundaryPtr* known = worlds.find(key)) return locate(**known, p);
-  SceneJobs jobs(*scene, boundaries, options, threads, stats);
-  if (Status status = jobs.run(scene->roots); !status) return status.error();
-  auto boundary = jobs.world_boundary(scene->roots[0]);
-  if (!boundary) return boundary.error();
-  const BoundaryPtr world = expanded(*boundary);
-  worlds.put(key, world, memory_bytes(*world));
-  return locate(*world, p);
+  auto world = world_of(*scene, scene->roots[0]);
+  if (!world) return world.error();
+  return locate(**world, p);
 }
 
 Evaluator::Evaluator(EvaluateOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}

@@ -42,6 +42,14 @@ std::optional<Error> find_fault(const PolygonMesh& mesh) {
       (!mesh.appearance_of.empty() && mesh.appearance_of.size() != faces)) {
     return fault("has labels for another number of faces");
   }
+  if (mesh.hull_of_points) {
+    if (faces > 0) return fault("has faces beside its points");
+    for (const glm::dvec3& p : mesh.points) {
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        return fault("has a point that is not finite");
+      }
+    }
+  }
   for (uint32_t a : mesh.appearance_of) {
     if (a >= mesh.appearances.size()) return fault("has an appearance index out of range");
   }
@@ -73,7 +81,7 @@ const MeshFacts& LeafStore::facts(const std::shared_ptr<const PolygonMesh>& mesh
   if (facts.error) return facts;
   KeyBuilder builder("mesh");
   builder.list(mesh->corners).list(mesh->loop_starts).list(mesh->face_starts).list(mesh->surface);
-  builder.number(mesh->keep_facets).number(mesh->convex);
+  builder.number(mesh->keep_facets).number(mesh->convex).number(mesh->hull_of_points);
   facts.topology = builder.key();
   facts.lo.fill(std::numeric_limits<double>::infinity());
   facts.hi.fill(-std::numeric_limits<double>::infinity());
@@ -92,6 +100,10 @@ const MeshFacts& LeafStore::facts(const std::shared_ptr<const PolygonMesh>& mesh
     for (size_t f = 0; f < facts.appearance.size(); ++f) {
       facts.appearance[f] = appearances_.intern(mesh->appearances[mesh->appearance_of[f]]);
     }
+  }
+  if (mesh->hull_of_points) {
+    facts.paint =
+        appearances_.intern(mesh->appearances.empty() ? Appearance{} : mesh->appearances[0]);
   }
   if (std::adjacent_find(facts.appearance.begin(), facts.appearance.end(), std::not_equal_to<>()) ==
           facts.appearance.end() &&
@@ -120,7 +132,7 @@ LeafState& LeafStore::state(uint32_t index, const NormalNode& leaf) {
       state.world_hi[i] = std::max(state.world_hi[i], x[i]);
     }
   };
-  if (mesh.corners.empty()) return state;
+  if (mesh.corners.empty() && !mesh.hull_of_points) return state;
   if (entries <= 3) {
     extend({known.lo[0], known.lo[1], known.lo[2]});
     extend({known.hi[0], known.hi[1], known.hi[2]});
@@ -158,7 +170,7 @@ std::optional<QuantisedLeaf> LeafStore::quantise(uint32_t index, const NormalNod
       hi[i] = std::max(hi[i], (*points)[p][i]);
     }
   }
-  if (!mesh.corners.empty()) {
+  if (lo[0] <= hi[0]) {
     for (int i = 0; i < 3; ++i) result.origin[i] = (lo[i] + hi[i]) >> 1;
   }
   for (IVec3& p : *points) {

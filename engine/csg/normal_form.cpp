@@ -136,6 +136,8 @@ Status NormalForm::unwrap(Item& item) const {
           return std::monostate{};
         }
         break;
+      case NodeKind::kConstruction:
+        return Error{ErrorCode::kInternal, "a construction was not made before", node.where()};
       default:
         return std::monostate{};
     }

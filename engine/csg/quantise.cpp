@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "engine/csg/convex_hull.h"
 #include "engine/csg/convex_leaf.h"
 #include "engine/csg/flat_sides.h"
 #include "engine/csg/leaf_faces.h"
@@ -143,10 +144,21 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
   return result;
 }
 
+/// The hull of points as a leaf of one appearance.
+PreparedLeaf hull_leaf(const std::vector<IVec3>& points) {
+  PreparedLeaf result;
+  auto leaf = std::make_shared<LeafGeometry>(convex_hull(points));
+  if (leaf->face_count() == 0) return result;
+  result.status = PreparedLeaf::Status::kGood;
+  result.box = box_of_points(leaf->vertices);
+  result.geometry = std::move(leaf);
+  return result;
+}
+
 }  // namespace
 
 std::vector<uint8_t> find_used_points(const PolygonMesh& mesh) {
-  std::vector<uint8_t> is_used(mesh.points.size(), 0);
+  std::vector<uint8_t> is_used(mesh.points.size(), mesh.hull_of_points ? 1 : 0);
   for (const uint32_t corner : mesh.corners) is_used[corner] = 1;
   return is_used;
 }
@@ -179,6 +191,7 @@ std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh,
 
 PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
                           const std::vector<uint32_t>& appearance) {
+  if (mesh.hull_of_points) return hull_leaf(points);
   if (auto taken = take_convex_faces(mesh, points, turn, appearance)) {
     if (taken->leaf.face_count() == 0) return {};
     EdgePairing pairing = pair_edges(taken->leaf);

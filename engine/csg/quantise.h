@@ -26,7 +26,7 @@ struct LeafRounding {
   SignedPermutation permutation;
 };
 
-/// A byte for each point of a mesh, 1 if a face uses it.
+/// A byte for each point of a mesh, 1 if a face uses it, or if the mesh is but points.
 std::vector<uint8_t> find_used_points(const PolygonMesh& mesh);
 
 /// The points that the mesh's faces use (others are 0), rounded, in local axes. std::nullopt when a

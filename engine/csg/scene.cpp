@@ -238,7 +238,7 @@ Result<SceneNode> Builder::make_leaf(uint32_t index) {
     return Error{code, "'" + mesh.kind + "' " + text, node.leaf->where()};
   };
   SceneNode result;
-  if (mesh.face_count() == 0) return result;
+  if (mesh.face_count() == 0 && !mesh.hull_of_points) return result;
   const LeafRounding& rounding = rounding_[index];
   const Quantiser quantiser(scene_.step);
   const auto leaf = context_.store.quantise(index, node, rounding, quantiser);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -24,54 +25,67 @@ glm::dvec3 Affine::apply(const glm::dvec3& p) const {
   return r;
 }
 
-NodePtr Node::empty(SourceRef where) {
+std::shared_ptr<Node> Node::made(NodeKind kind, std::vector<NodePtr> children, SourceRef where) {
   auto node = std::shared_ptr<Node>(new Node());
+  node->kind_ = kind;
+  node->has_constructions_ = kind == NodeKind::kConstruction ||
+                             std::any_of(children.begin(), children.end(), [](const NodePtr& c) {
+                               return c && c->has_constructions_;
+                             });
+  node->children_ = std::move(children);
   node->where_ = std::move(where);
   return node;
 }
 
+NodePtr Node::empty(SourceRef where) { return made(NodeKind::kEmpty, {}, std::move(where)); }
+
 NodePtr Node::leaf(std::shared_ptr<const PolygonMesh> mesh, SourceRef where) {
-  auto node = std::shared_ptr<Node>(new Node());
-  node->kind_ = NodeKind::kLeaf;
+  auto node = made(NodeKind::kLeaf, {}, std::move(where));
   node->mesh_ = std::move(mesh);
-  node->where_ = std::move(where);
   return node;
 }
 
 NodePtr Node::transformed(const Affine& map, NodePtr child, SourceRef where) {
-  auto node = std::shared_ptr<Node>(new Node());
-  node->kind_ = NodeKind::kTransform;
+  auto node = made(NodeKind::kTransform, {std::move(child)}, std::move(where));
   node->transform_ = std::make_unique<Affine>(map);
-  node->children_.push_back(std::move(child));
-  node->where_ = std::move(where);
   return node;
 }
 
 NodePtr Node::painted(const Appearance& appearance, NodePtr child, SourceRef where) {
-  auto node = std::shared_ptr<Node>(new Node());
-  node->kind_ = NodeKind::kAppearance;
+  auto node = made(NodeKind::kAppearance, {std::move(child)}, std::move(where));
   node->appearance_ = std::make_unique<Appearance>(appearance);
-  node->children_.push_back(std::move(child));
-  node->where_ = std::move(where);
   return node;
 }
 
 NodePtr Node::boolean(BooleanOp op, std::vector<NodePtr> operands, SourceRef where) {
   if (operands.empty()) return empty(std::move(where));
-  auto node = std::shared_ptr<Node>(new Node());
-  node->kind_ = NodeKind::kBoolean;
+  auto node = made(NodeKind::kBoolean, std::move(operands), std::move(where));
   node->op_ = op;
-  node->children_ = std::move(operands);
-  node->where_ = std::move(where);
   return node;
 }
 
 NodePtr Node::outer_hull(const OuterHull& options, NodePtr child, SourceRef where) {
-  auto node = std::shared_ptr<Node>(new Node());
-  node->kind_ = NodeKind::kOuterHull;
+  auto node = made(NodeKind::kOuterHull, {std::move(child)}, std::move(where));
   node->outer_hull_ = options;
-  node->children_.push_back(std::move(child));
-  node->where_ = std::move(where);
+  return node;
+}
+
+NodePtr Node::convex_hull(std::vector<NodePtr> operands, SourceRef where) {
+  if (operands.empty()) return empty(std::move(where));
+  return made(NodeKind::kConstruction, std::move(operands), std::move(where));
+}
+
+NodePtr Node::minkowski_sum(std::vector<NodePtr> operands, SourceRef where) {
+  if (operands.empty()) return empty(std::move(where));
+  auto node = made(NodeKind::kConstruction, std::move(operands), std::move(where));
+  node->construction_ = Construction::kMinkowskiSum;
+  return node;
+}
+
+NodePtr Node::resized(const Resize& resize, NodePtr child, SourceRef where) {
+  auto node = made(NodeKind::kConstruction, {std::move(child)}, std::move(where));
+  node->construction_ = Construction::kResize;
+  node->resize_ = std::make_unique<Resize>(resize);
   return node;
 }
 

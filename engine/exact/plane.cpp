@@ -126,7 +126,8 @@ PlaneId PlaneTable::intern_reduced(const Plane& plane) {
   const bool flipped =
       plane.a < 0 || (plane.a == 0 && (plane.b < 0 || (plane.b == 0 && plane.c < 0)));
   const Plane p = flipped ? plane.reversed() : plane;
-  if (entered_ < planes_.size() || planes_.size() * 2 >= slots_.size()) {
+  // (After adopt there are no slots.)
+  if (planes_.size() * 2 >= slots_.size()) {
     enter_all(std::bit_ceil(std::max(kFewSlots, planes_.size() * 4)));
   }
   const uint32_t own = hash(p);

@@ -76,8 +76,9 @@ Point intersect(const Plane& p, const Plane& q, const Plane& r) {
       widths::point_xyz(0, 0);
   const int needed = std::max(xyz, n0 + n1 + n2 + widths::point_w(0));
   Point result;
-  // 63 bits of normal: minors of 127 bits fit two limbs.
-  if (std::max({n0, n1, n2}) > 62 || needed >= 256) {
+  // 62 bits of normal: minors of 126 bits fit two limbs, and all fits four.
+  static_assert(widths::point_xyz(62, widths::kMaxOffset) < 256 && widths::point_w(62) < 256);
+  if (std::max({n0, n1, n2}) > 62) {
     static_assert(widths::kMaxPointXyz < 64 * kPointLimbs);
     result = cramer<2, 4, kPointLimbs>(p, q, r);
   } else if (needed < 128) {

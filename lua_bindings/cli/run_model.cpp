@@ -119,6 +119,7 @@ class Run {
     const SourceRef where = session_.source_ref(line_.model, 1);
     const std::string folder = folder_of(line_.model);
     CsgEnvironment environment;
+    environment.evaluator = &session_.evaluator();
     environment.fonts = &session_.fonts();
     environment.read = [this](const std::string& path) -> Result<std::string> {
       try {
@@ -127,6 +128,7 @@ class Run {
         return Error{ErrorCode::kMalformedFile, error.what(), {}};
       }
     };
+    const EvaluationScope scope(session_.budget());
     auto model = parse_csg(*where.file, text, environment);
     if (!model) {
       const std::string place = model.error().where.text();

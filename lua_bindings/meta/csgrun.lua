@@ -51,6 +51,11 @@ local Shape = {}
 ---@field [integer] any
 ---@field size? number|number[] edge length, or lengths along X, Y and Z
 ---@field center? boolean|boolean[] centred in the origin, or along these axes
+---@field r? number radius of its edges and corners, at most half of its shortest side
+---@field fn? number number of facets of a full turn; 0: from fa and fs
+---@field segments? number the same as fn
+---@field fa? number smallest angle of a facet, degrees, at least 0.01
+---@field fs? number smallest length of a facet, mm, at least 0.01
 
 ---A box; a corner stands in the origin unless it is centred.
 ---
@@ -94,6 +99,7 @@ csg.sphere = sphere
 ---@field d? number diameter at both ends
 ---@field d1? number diameter at the bottom
 ---@field d2? number diameter at the top
+---@field round? number radius of both rims, at most r and half of h
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
@@ -389,70 +395,41 @@ function Shape:rotate_extrude(angle, options) end
 
 ---@class (exact) csgrun.offset
 ---@field [integer] any
----@field r? number distance, outwards (negative: inwards), with round corners
----@field delta? number distance with sharp corners; r counts if both are given
+---@field r? number distance, outwards (negative: inwards), with round corners: of a solid by a ball
+---@field delta? number distance with sharp corners (of a solid by a box along the axes); r counts if both are given
 ---@field chamfer? boolean with delta: corners are cut square at that distance
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
 ---@field fs? number smallest length of a facet, mm, at least 0.01
 
----The shape with its outline moved.
+---The shape with its outline moved; or the solid with its surface moved.
 ---
 ---Example: `square(10):offset{delta = 2, chamfer = true}`
 ---@param shape any the 2D shape; as a method, shape:f(...), it is left out
----@param r? number distance, outwards (negative: inwards), with round corners
+---@param r? number distance, outwards (negative: inwards), with round corners: of a solid by a ball
 ---@param options? csgrun.offset
 ---@return Shape
 function offset(shape, r, options) end
 csg.offset = offset
 
----The shape with its outline moved.
+---The shape with its outline moved; or the solid with its surface moved.
+---
+---Example: `square(10):offset{delta = 2, chamfer = true}`
+---@overload fun(self: Solid, options: csgrun.offset): Shape
+---@param r? number distance, outwards (negative: inwards), with round corners: of a solid by a ball
+---@param options? csgrun.offset
+---@return Shape
+function Solid:offset(r, options) end
+
+---The shape with its outline moved; or the solid with its surface moved.
 ---
 ---Example: `square(10):offset{delta = 2, chamfer = true}`
 ---@overload fun(self: Shape, options: csgrun.offset): Shape
----@param r? number distance, outwards (negative: inwards), with round corners
+---@param r? number distance, outwards (negative: inwards), with round corners: of a solid by a ball
 ---@param options? csgrun.offset
 ---@return Shape
 function Shape:offset(r, options) end
-
----@class (exact) csgrun.hull
----@field [integer] any
----@field operands? any shapes, one after another or as lists
-
----The smallest convex shape that contains all of them.
----
----Example: `hull(circle(2), circle(4):translate(20, 0))`
----@param ... any shapes, one after another or as lists
----@return Shape
-function hull(...) end
-csg.hull = hull
-
----The smallest convex shape that contains all of them.
----
----Example: `hull(circle(2), circle(4):translate(20, 0))`
----@param ... any shapes, one after another or as lists
----@return Shape
-function Shape:hull(...) end
-
----@class (exact) csgrun.minkowski
----@field [integer] any
----@field operands? any shapes, one after another or as lists
-
----All sums of a point of each: the first, swept by the others. Empty ones count for nothing.
----
----Example: `minkowski(square(10), circle(1))`
----@param ... any shapes, one after another or as lists
----@return Shape
-function minkowski(...) end
-csg.minkowski = minkowski
-
----All sums of a point of each: the first, swept by the others. Empty ones count for nothing.
----
----Example: `minkowski(square(10), circle(1))`
----@param ... any shapes, one after another or as lists
----@return Shape
-function Shape:minkowski(...) end
 
 ---The shape without its holes.
 ---
@@ -467,35 +444,6 @@ csg.fill = fill
 ---Example: `(circle(5) - circle(3)):fill()`
 ---@return Shape
 function Shape:fill() end
-
----@class (exact) csgrun.resize
----@field [integer] any
----@field newsize? number[] lengths along X and Y; 0 leaves that axis as it is
----@field size? number[] the same as newsize
----@field auto? boolean|boolean[] axes of length 0 take the factor of the longest one that is given
-
----Scales about the origin until the bounding box has these lengths.
----
----Example: `circle(5):resize({20, 0}, {auto = true})`
----@overload fun(x: number, y: number, z?: number, ...): Shape
----@param shape any the 2D shape; as a method, shape:f(...), it is left out
----@param newsize? number[] lengths along X and Y; 0 leaves that axis as it is
----@param auto? boolean|boolean[] axes of length 0 take the factor of the longest one that is given
----@param options? csgrun.resize
----@return Shape
-function resize(shape, newsize, auto, options) end
-csg.resize = resize
-
----Scales about the origin until the bounding box has these lengths.
----
----Example: `circle(5):resize({20, 0}, {auto = true})`
----@overload fun(self: Shape, options: csgrun.resize): Shape
----@overload fun(self: Shape, x: number, y: number, z?: number, ...): Shape
----@param newsize? number[] lengths along X and Y; 0 leaves that axis as it is
----@param auto? boolean|boolean[] axes of length 0 take the factor of the longest one that is given
----@param options? csgrun.resize
----@return Shape
-function Shape:resize(newsize, auto, options) end
 
 ---The length of all outlines, holes included.
 ---
@@ -520,12 +468,6 @@ function Shape:paths() end
 ---Example: `square(5):outlines()`
 ---@return number[][][]
 function Shape:outlines() end
-
----Its connected pieces, a list.
----
----Example: `#shape:decompose()`
----@return any[]
-function Shape:decompose() end
 
 ---@class (exact) csgrun.text
 ---@field [integer] any
@@ -691,95 +633,341 @@ function Shape:sweep(path, options) end
 function loft(outlines, heights, options) end
 csg.loft = loft
 
----@class (exact) csgrun.levelset
+---@class (exact) csgrun.hull
 ---@field [integer] any
----@field f? any a function of x, y, z: the signed distance, or any number like it
----@field bounds? any the box to look in, {{x, y, z}, {x, y, z}} or {min = {...}, max = {...}}; it cuts off what reaches out of it
----@field step? number distance of the points that are looked at, mm
----@field inside? string where the function is "negative" or "positive"
+---@field operands? any solids or shapes, one after another or as lists
 
----The solid in which a function of space is negative.
+---The least convex solid or shape that contains all of them.
 ---
----Example: `levelset(function(x, y, z) return norm{x, y, z} - 5 end, {{-6, -6, -6}, {6, 6, 6}}, 0.5)`
----@overload fun(options: csgrun.levelset): Solid
----@param f? any a function of x, y, z: the signed distance, or any number like it
----@param bounds? any the box to look in, {{x, y, z}, {x, y, z}} or {min = {...}, max = {...}}; it cuts off what reaches out of it
----@param step? number distance of the points that are looked at, mm
----@param options? csgrun.levelset
+---Example: `hull(sphere(4), cube(2):up(10))`
+---@param ... any solids or shapes, one after another or as lists
+---@return any
+function hull(...) end
+csg.hull = hull
+
+---The least convex solid or shape that contains all of them.
+---
+---Example: `hull(sphere(4), cube(2):up(10))`
+---@param ... any solids or shapes, one after another or as lists
 ---@return Solid
-function levelset(f, bounds, step, options) end
-csg.levelset = levelset
+function Solid:hull(...) end
 
----@class (exact) csgrun.warp
----@field [integer] any
----@field f? any a function of x, y, z that gives the new x, y, z
----@field length? number edges are cut to this first, mm, so that they can bend
-
----The solid with each corner of its triangles where a function sends it.
+---The least convex solid or shape that contains all of them.
 ---
----Example: `cube(30, 4, 4):warp(function(x, y, z) return x, y + sin(x * 12), z end, {length = 1})`
+---Example: `hull(sphere(4), cube(2):up(10))`
+---@param ... any solids or shapes, one after another or as lists
+---@return Shape
+function Shape:hull(...) end
+
+---@class (exact) csgrun.minkowski
+---@field [integer] any
+---@field operands? any solids or shapes, one after another or as lists
+
+---All sums of a point of each: the first, swept by the others. Empty ones count for nothing.
+---
+---Example: `minkowski{cube{20, 20, 5}, sphere(1)}`
+---@param ... any solids or shapes, one after another or as lists
+---@return any
+function minkowski(...) end
+csg.minkowski = minkowski
+
+---All sums of a point of each: the first, swept by the others. Empty ones count for nothing.
+---
+---Example: `minkowski{cube{20, 20, 5}, sphere(1)}`
+---@param ... any solids or shapes, one after another or as lists
+---@return Solid
+function Solid:minkowski(...) end
+
+---All sums of a point of each: the first, swept by the others. Empty ones count for nothing.
+---
+---Example: `minkowski{cube{20, 20, 5}, sphere(1)}`
+---@param ... any solids or shapes, one after another or as lists
+---@return Shape
+function Shape:minkowski(...) end
+
+---@class (exact) csgrun.resize
+---@field [integer] any
+---@field newsize? number[] lengths along X, Y and (of a solid) Z; 0 leaves that axis as it is
+---@field size? number[] the same as newsize
+---@field auto? boolean|boolean[] whether axes of length 0 take the factor of the longest one that is given; or which do
+
+---Scales about the origin until the bounding box has these lengths.
+---
+---Example: `part:resize({20, 0, 0}, {auto = true})`
+---@overload fun(x: number, y: number, z?: number, ...): any
+---@param part any a solid or a shape; part:resize(...) leaves it out
+---@param newsize? number[] lengths along X, Y and (of a solid) Z; 0 leaves that axis as it is
+---@param auto? boolean|boolean[] whether axes of length 0 take the factor of the longest one that is given; or which do
+---@param options? csgrun.resize
+---@return any
+function resize(part, newsize, auto, options) end
+csg.resize = resize
+
+---Scales about the origin until the bounding box has these lengths.
+---
+---Example: `part:resize({20, 0, 0}, {auto = true})`
+---@overload fun(self: Solid, options: csgrun.resize): Solid
+---@overload fun(self: Solid, x: number, y: number, z?: number, ...): Solid
+---@param newsize? number[] lengths along X, Y and (of a solid) Z; 0 leaves that axis as it is
+---@param auto? boolean|boolean[] whether axes of length 0 take the factor of the longest one that is given; or which do
+---@param options? csgrun.resize
+---@return Solid
+function Solid:resize(newsize, auto, options) end
+
+---Scales about the origin until the bounding box has these lengths.
+---
+---Example: `part:resize({20, 0, 0}, {auto = true})`
+---@overload fun(self: Shape, options: csgrun.resize): Shape
+---@overload fun(self: Shape, x: number, y: number, z?: number, ...): Shape
+---@param newsize? number[] lengths along X, Y and (of a solid) Z; 0 leaves that axis as it is
+---@param auto? boolean|boolean[] whether axes of length 0 take the factor of the longest one that is given; or which do
+---@param options? csgrun.resize
+---@return Shape
+function Shape:resize(newsize, auto, options) end
+
+---@class (exact) csgrun.projection
+---@field [integer] any
+---@field cut? boolean the section at z = 0 instead of the shadow
+
+---The shadow of a solid on the plane z = 0, a 2D shape.
+---
+---Example: `part:projection{cut = true}`
 ---@param solid any the solid; as a method, solid:f(...), it is left out
----@param f? any a function of x, y, z that gives the new x, y, z
----@param options? csgrun.warp
----@return Solid
-function warp(solid, f, options) end
-csg.warp = warp
+---@param cut? boolean the section at z = 0 instead of the shadow
+---@param options? csgrun.projection
+---@return Shape
+function projection(solid, cut, options) end
+csg.projection = projection
 
----The solid with each corner of its triangles where a function sends it.
+---The shadow of a solid on the plane z = 0, a 2D shape.
 ---
----Example: `cube(30, 4, 4):warp(function(x, y, z) return x, y + sin(x * 12), z end, {length = 1})`
----@overload fun(self: Solid, options: csgrun.warp): Solid
----@param f? any a function of x, y, z that gives the new x, y, z
----@param options? csgrun.warp
+---Example: `part:projection{cut = true}`
+---@overload fun(self: Solid, options: csgrun.projection): Shape
+---@param cut? boolean the section at z = 0 instead of the shadow
+---@param options? csgrun.projection
+---@return Shape
+function Solid:projection(cut, options) end
+
+---The shadow of a solid on the plane z = 0, a 2D shape.
+---
+---Example: `linear_extrude(part:project(), 2)`
+---@param solid any the solid; as a method, solid:f(...), it is left out
+---@return Shape
+function project(solid) end
+csg.project = project
+
+---The shadow of a solid on the plane z = 0, a 2D shape.
+---
+---Example: `linear_extrude(part:project(), 2)`
+---@return Shape
+function Solid:project() end
+
+---@class (exact) csgrun.slice
+---@field [integer] any
+---@field z? number the height of the cut
+
+---What a horizontal plane cuts of a solid, a 2D shape. Where the solid has a face in the plane, what is above it counts.
+---
+---Example: `sphere(10):slice(5):area()`
+---@param solid any the solid; as a method, solid:f(...), it is left out
+---@param z? number the height of the cut
+---@param options? csgrun.slice
+---@return Shape
+function slice(solid, z, options) end
+csg.slice = slice
+
+---What a horizontal plane cuts of a solid, a 2D shape. Where the solid has a face in the plane, what is above it counts.
+---
+---Example: `sphere(10):slice(5):area()`
+---@overload fun(self: Solid, options: csgrun.slice): Shape
+---@param z? number the height of the cut
+---@param options? csgrun.slice
+---@return Shape
+function Solid:slice(z, options) end
+
+---@class (exact) csgrun.split
+---@field [integer] any
+---@field normal? number[] a direction across the plane, of any length
+---@field offset? number where the plane is: its distance from the origin along the normal
+---@field point? number[] instead of the offset: a point of the plane
+
+---The two parts of a solid on either side of a plane: first what is in front of it, where the normal points, then what is behind.
+---
+---Example: `local top, bottom = part:split({0, 0, 1}, 5)`
+---@overload fun(x: number, y: number, z?: number, ...): Solid, Solid
+---@param solid any the solid; as a method, solid:f(...), it is left out
+---@param normal? number[] a direction across the plane, of any length
+---@param offset? number where the plane is: its distance from the origin along the normal
+---@param options? csgrun.split
+---@return Solid, Solid
+function split(solid, normal, offset, options) end
+csg.split = split
+
+---The two parts of a solid on either side of a plane: first what is in front of it, where the normal points, then what is behind.
+---
+---Example: `local top, bottom = part:split({0, 0, 1}, 5)`
+---@overload fun(self: Solid, options: csgrun.split): Solid, Solid
+---@overload fun(self: Solid, x: number, y: number, z?: number, ...): Solid, Solid
+---@param normal? number[] a direction across the plane, of any length
+---@param offset? number where the plane is: its distance from the origin along the normal
+---@param options? csgrun.split
+---@return Solid, Solid
+function Solid:split(normal, offset, options) end
+
+---@class (exact) csgrun.trim
+---@field [integer] any
+---@field normal? number[] a direction across the plane, of any length
+---@field offset? number where the plane is: its distance from the origin along the normal
+---@field point? number[] instead of the offset: a point of the plane
+
+---What of a solid is in front of a plane, where the normal points.
+---
+---Example: `part:trim{normal = {1, 0, 1}, point = {0, 0, 5}}`
+---@overload fun(x: number, y: number, z?: number, ...): Solid
+---@param solid any the solid; as a method, solid:f(...), it is left out
+---@param normal? number[] a direction across the plane, of any length
+---@param offset? number where the plane is: its distance from the origin along the normal
+---@param options? csgrun.trim
 ---@return Solid
-function Solid:warp(f, options) end
+function trim(solid, normal, offset, options) end
+csg.trim = trim
+
+---What of a solid is in front of a plane, where the normal points.
+---
+---Example: `part:trim{normal = {1, 0, 1}, point = {0, 0, 5}}`
+---@overload fun(self: Solid, options: csgrun.trim): Solid
+---@overload fun(self: Solid, x: number, y: number, z?: number, ...): Solid
+---@param normal? number[] a direction across the plane, of any length
+---@param offset? number where the plane is: its distance from the origin along the normal
+---@param options? csgrun.trim
+---@return Solid
+function Solid:trim(normal, offset, options) end
+
+---A list of the connected solids, or shapes, of which it consists.
+---
+---Example: `for i, piece in ipairs(part:decompose()) do print(piece) end`
+---@param part any a solid or a shape; part:decompose() leaves it out
+---@return any[]
+function decompose(part) end
+csg.decompose = decompose
+
+---A list of the connected solids, or shapes, of which it consists.
+---
+---Example: `for i, piece in ipairs(part:decompose()) do print(piece) end`
+---@return any[]
+function Solid:decompose() end
+
+---A list of the connected solids, or shapes, of which it consists.
+---
+---Example: `for i, piece in ipairs(part:decompose()) do print(piece) end`
+---@return any[]
+function Shape:decompose() end
+
+---@class (exact) csgrun.surface
+---@field [integer] any
+---@field file? string a PNG, or a text of numbers with one row a line
+---@field center? boolean the middle of the table stands on the Z axis
+---@field invert? boolean of a PNG: what is dark is high
+---@field heights? any instead of a file: a list of rows, each a list of numbers; the first row is at y = 0
+
+---The solid under heights 1 mm apart along X and Y, down to 1 mm below the least of them.
+---
+---Example: `surface{heights = {{0, 1, 0}, {1, 3, 1}, {0, 1, 0}}, center = true}`
+---@overload fun(options: csgrun.surface): Solid
+---@param file? string a PNG, or a text of numbers with one row a line
+---@param center? boolean the middle of the table stands on the Z axis
+---@param options? csgrun.surface
+---@return Solid
+function surface(file, center, options) end
+csg.surface = surface
 
 ---@class (exact) csgrun.refine
 ---@field [integer] any
----@field length? number no edge is longer, mm
+---@field length? number the longest edge that is left, mm
 
----The same solid with its triangles cut into smaller ones, for warp.
+---The same solid with triangles divided until no edge is longer: for warp and smooth.
 ---
 ---Example: `cube(10):refine(2)`
 ---@param solid any the solid; as a method, solid:f(...), it is left out
----@param length? number no edge is longer, mm
+---@param length? number the longest edge that is left, mm
 ---@param options? csgrun.refine
 ---@return Solid
 function refine(solid, length, options) end
 csg.refine = refine
 
----The same solid with its triangles cut into smaller ones, for warp.
+---The same solid with triangles divided until no edge is longer: for warp and smooth.
 ---
 ---Example: `cube(10):refine(2)`
 ---@overload fun(self: Solid, options: csgrun.refine): Solid
----@param length? number no edge is longer, mm
+---@param length? number the longest edge that is left, mm
 ---@param options? csgrun.refine
 ---@return Solid
 function Solid:refine(length, options) end
 
 ---@class (exact) csgrun.smooth
 ---@field [integer] any
----@field steps? integer how often each triangle becomes four, 1 to 8
----@field length? number edges are cut to this first, mm: corners are kept closer
+---@field rounds? integer each makes four triangles of one
 
----The solid without edges: its triangles are subdivided by Loop's scheme, which rounds corners off inwards.
+---Rounds off the whole solid by subdivision (Loop 1987): it draws near a surface without edges that lies within its corners. Refine it first to keep it nearer to what it was.
 ---
----Example: `cube(10):smooth(2, {length = 4})`
+---Example: `cube(10):refine(4):smooth(2)`
 ---@param solid any the solid; as a method, solid:f(...), it is left out
----@param steps? integer how often each triangle becomes four, 1 to 8
+---@param rounds? integer each makes four triangles of one
 ---@param options? csgrun.smooth
 ---@return Solid
-function smooth(solid, steps, options) end
+function smooth(solid, rounds, options) end
 csg.smooth = smooth
 
----The solid without edges: its triangles are subdivided by Loop's scheme, which rounds corners off inwards.
+---Rounds off the whole solid by subdivision (Loop 1987): it draws near a surface without edges that lies within its corners. Refine it first to keep it nearer to what it was.
 ---
----Example: `cube(10):smooth(2, {length = 4})`
+---Example: `cube(10):refine(4):smooth(2)`
 ---@overload fun(self: Solid, options: csgrun.smooth): Solid
----@param steps? integer how often each triangle becomes four, 1 to 8
+---@param rounds? integer each makes four triangles of one
 ---@param options? csgrun.smooth
 ---@return Solid
-function Solid:smooth(steps, options) end
+function Solid:smooth(rounds, options) end
+
+---@class (exact) csgrun.warp
+---@field [integer] any
+---@field f? any a function of x, y, z that gives the three of the moved point, or a list
+
+---Moves every corner by a function. Edges stay straight: refine the solid first.
+---
+---Example: `cube{40, 4, 4}:refine(2):warp(function(x, y, z) return x, y, z + 5 * sin(9 * x) end)`
+---@param solid any the solid; as a method, solid:f(...), it is left out
+---@param f? any a function of x, y, z that gives the three of the moved point, or a list
+---@param options? csgrun.warp
+---@return Solid
+function warp(solid, f, options) end
+csg.warp = warp
+
+---Moves every corner by a function. Edges stay straight: refine the solid first.
+---
+---Example: `cube{40, 4, 4}:refine(2):warp(function(x, y, z) return x, y, z + 5 * sin(9 * x) end)`
+---@overload fun(self: Solid, options: csgrun.warp): Solid
+---@param f? any a function of x, y, z that gives the three of the moved point, or a list
+---@param options? csgrun.warp
+---@return Solid
+function Solid:warp(f, options) end
+
+---@class (exact) csgrun.levelset
+---@field [integer] any
+---@field f? any a function of x, y, z: less than the level inside
+---@field bounds? any {min = {x, y, z}, max = {x, y, z}}, as bbox() gives them
+---@field step? number mm between samples
+---@field level? number the value at the surface
+
+---The solid where a function (a signed distance, say) is less than the level, cut with the bounds where it reaches farther.
+---
+---Example: `levelset(function(x, y, z) return norm{x, y, z} - 8 end, {{-9, -9, -9}, {9, 9, 9}}, 1)`
+---@overload fun(options: csgrun.levelset): Solid
+---@param f? any a function of x, y, z: less than the level inside
+---@param bounds? any {min = {x, y, z}, max = {x, y, z}}, as bbox() gives them
+---@param step? number mm between samples
+---@param options? csgrun.levelset
+---@return Solid
+function levelset(f, bounds, step, options) end
+csg.levelset = levelset
 
 ---@class (exact) csgrun.translate
 ---@field [integer] any

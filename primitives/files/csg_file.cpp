@@ -7,7 +7,9 @@
 #include <utility>
 
 #include <csgrun/primitives/csg_file.h>
+#include <csgrun/primitives/height_map.h>
 #include <csgrun/primitives/mesh_file.h>
+#include <csgrun/primitives/projection.h>
 #include <csgrun/primitives/shape_operations.h>
 
 #include "primitives/files/csg_parser.h"
@@ -46,12 +48,6 @@ struct Frame {
   bool background = false;  ///< it, or a node around it, is marked with %
   std::vector<Item> children;
 };
-
-constexpr std::array<std::string_view, 3> kNotBuilt{"surface", "projection", "roof"};
-
-bool is_not_built(std::string_view name) {
-  return std::find(kNotBuilt.begin(), kNotBuilt.end(), name) != kNotBuilt.end();
-}
 
 class CsgBuilder {
  public:
@@ -137,19 +133,19 @@ class CsgBuilder {
     if (is_flat_primitive(name)) return flat_primitive(frame);
     if (name == "text") return text(frame);
     if (name == "import") return import(frame);
+    if (name == "surface") return surface(frame);
     if (name == "offset") return offset(frame);
     if (name == "hull") return hull(frame);
     if (name == "minkowski") return minkowski(frame);
     if (name == "fill") return fill(frame);
     if (name == "resize") return resize(frame);
-    if (is_not_built(name)) {
-      if (!takes_children(name) || !frame.children.empty()) return not_supported(frame);
+    if (name == "projection") return projection(frame);
+    if (name == "roof") {
+      if (!frame.children.empty()) return not_supported(frame);
       return Item();
     }
     return Error{ErrorCode::kMalformedFile, "unknown node " + name + "()", {}};
   }
-
-  static bool takes_children(std::string_view name) { return name != "surface"; }
 
   /// A leaf of the mesh; impossible arguments make it empty.
   Result<Item> leaf(const Frame& frame, MeshResult mesh, const std::vector<std::string>& notes) {
@@ -180,6 +176,22 @@ class CsgBuilder {
   }
 
   /// A mesh, or a drawing. A file that is not there is an error: nothing is dropped silently.
+  Result<Item> surface(const Frame& frame) {
+    CsgArguments arguments(frame.call);
+    const std::string path = arguments.string("file", "");
+    const bool center = arguments.boolean("center", false);
+    const bool invert = arguments.boolean("invert", false);
+    if (arguments.error()) return *arguments.error();
+    if (!environment_.read) {
+      return Error{ErrorCode::kInvalidArgument, "surface: there are no files here", {}};
+    }
+    const Result<std::string> bytes = environment_.read(path);
+    if (!bytes) return Error{bytes.error().code, "surface: " + bytes.error().message, {}};
+    const Result<HeightMap> map = parse_height_map(path, *bytes, invert);
+    if (!map) return Error{map.error().code, "surface: " + map.error().message, {}};
+    return leaf(frame, make_surface(*map, center), {});
+  }
+
   Result<Item> import(const Frame& frame) {
     const Result<CsgImport> import = csg_import(frame.call);
     if (!import) return import.error();
@@ -249,6 +261,15 @@ class CsgBuilder {
     return shapes;
   }
 
+  /// Those that are not empty.
+  static std::vector<NodePtr> take_solids(Frame& frame) {
+    std::vector<NodePtr> solids;
+    for (Item& child : frame.children) {
+      if (child.kind == Item::Kind::kSolid) solids.push_back(std::move(child.solid));
+    }
+    return solids;
+  }
+
   static Result<Item> item_of(Result<Shape2D> shape) {
     if (!shape) return shape.error();
     return Item::of(*std::move(shape));
@@ -289,14 +310,16 @@ class CsgBuilder {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
     if (kind == Item::Kind::kFlat) return item_of(hull_of_shapes(take_shapes(frame)));
-    return not_supported(frame);
+    return Item::of(Node::convex_hull(take_solids(frame), where(frame)));
   }
 
   Result<Item> minkowski(Frame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
     if (kind == Item::Kind::kFlat) return item_of(minkowski_of_shapes(take_shapes(frame)));
-    return not_supported(frame);
+    std::vector<NodePtr> solids = take_solids(frame);
+    if (solids.size() == 1) return Item::of(std::move(solids[0]));
+    return Item::of(Node::minkowski_sum(std::move(solids), where(frame)));
   }
 
   Result<Item> fill(Frame& frame) {
@@ -312,7 +335,10 @@ class CsgBuilder {
     if (!wanted) return wanted.error();
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
-    if (child->kind == Item::Kind::kSolid) return not_supported(frame);
+    if (child->kind == Item::Kind::kSolid) {
+      const Resize resize{wanted->newsize, wanted->automatic};
+      return Item::of(Node::resized(resize, std::move(child->solid), where(frame)));
+    }
     const auto [low, high] = child->shape.bounds();
     const auto factors =
         resize_factors({high.x - low.x, high.y - low.y}, {wanted->newsize[0], wanted->newsize[1]},
@@ -321,6 +347,29 @@ class CsgBuilder {
     map.m[0][0] = factors[0];
     map.m[1][1] = factors[1];
     return item_of(child->shape.transformed(map));
+  }
+
+  Result<Item> projection(Frame& frame) {
+    CsgArguments arguments(frame.call);
+    const bool cut = arguments.boolean("cut", false);
+    if (arguments.error()) return *arguments.error();
+    for (Item& child : frame.children) {
+      if (child.kind != Item::Kind::kFlat) continue;
+      warn(frame, "projection: a 2D child was left out");
+      child = Item();
+    }
+    Result<Item> child = combine(BooleanOp::kUnion, frame);
+    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    if (cut) return item_of(slice_solid(evaluator(), child->solid, 0));
+    const auto solid = evaluator().evaluate(child->solid);
+    if (!solid) return solid.error();
+    return item_of(project_solid(**solid));
+  }
+
+  Evaluator& evaluator() {
+    if (environment_.evaluator != nullptr) return *environment_.evaluator;
+    if (!own_evaluator_) own_evaluator_ = std::make_unique<Evaluator>(EvaluateOptions{});
+    return *own_evaluator_;
   }
 
   NodePtr combine_solids(BooleanOp op, Frame& frame) {
@@ -409,6 +458,7 @@ class CsgBuilder {
   std::shared_ptr<const std::string> file_;
   CsgParser parser_;
   const CsgEnvironment& environment_;
+  std::unique_ptr<Evaluator> own_evaluator_;
   std::vector<Frame> stack_;
   std::vector<std::string> warnings_;
 };
@@ -420,10 +470,10 @@ Result<CsgModel> parse_csg(const std::string& name, std::string_view text,
   return CsgBuilder(name, text, environment).build();
 }
 
-Result<CsgModel> read_csg_file(const std::string& path) {
+Result<CsgModel> read_csg_file(const std::string& path, const CsgEnvironment& environment) {
   const Result<std::string> bytes = read_regular_file(path);
   if (!bytes) return bytes.error();
-  return parse_csg(path, *bytes);
+  return parse_csg(path, *bytes, environment);
 }
 
 }  // namespace csgrun

@@ -14,7 +14,8 @@ CORPUS = support.SHARED / "csg_corpus"
 NOT_SUPPORTED = re.compile(r"^\S+:\d+: (\w+)\(\) is not supported in \.csg files$")
 SUPPORTED = {"cube", "sphere", "cylinder", "polyhedron", "multmatrix", "union", "difference",
              "intersection", "group", "render", "color", "square", "circle", "polygon",
-             "linear_extrude", "rotate_extrude"}
+             "linear_extrude", "rotate_extrude", "hull", "minkowski", "resize", "projection",
+             "offset", "fill"}
 
 
 @support.needs_shared("csg_corpus")

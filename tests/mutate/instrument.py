@@ -5,7 +5,7 @@ The text is split into tokens; no compiler is asked. That suffices because clang
 it: a binary operator has a space on either side, a template's bracket or a reference has not.
 
 Mutants, for the text of a function's body (not: preprocessor, static_assert, assert, constexpr
-variables, case labels):
+variables, consteval functions, case labels):
   a < b       a <= b and a > b; likewise for > <= >=
   a == b      a != b, and the reverse
   a + b       a - b, and the reverse (not for texts; b - a between iterators); ++a and --a,
@@ -126,11 +126,22 @@ class Instrumenter:
             elif t.text == "constexpr":
                 if self.tokens[i - 1].text == "if":
                     frozen.update(range(i, self.tokens[i + 1].partner + 1))
-                elif i in depth_of_body:  # a constant inside a function
+                elif i in depth_of_body or self.is_constant(i):
                     while self.tokens[i].text != ";":
-                        frozen.add(i)
-                        i += 1
+                        last = max(i, self.tokens[i].partner)
+                        frozen.update(range(i, last + 1))
+                        i = last + 1
+            elif t.text == "consteval":
+                while self.tokens[i].text != "{":
+                    i += 1
+                frozen.update(range(i, self.tokens[i].partner + 1))
         return frozen
+
+    def is_constant(self, i):
+        """Whether what `constexpr` says of is a variable, not a function."""
+        while self.tokens[i].text not in ("=", "(", "{", ";"):
+            i += 1
+        return self.tokens[i].text == "="
 
     def function_bodies(self):
         """Tokens inside `{}` that is the body of a function, or in a constructor's initialisers."""

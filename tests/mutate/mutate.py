@@ -41,6 +41,8 @@ QUICK = (("unit_exact", {}), ("unit_bsp", {}), ("property", {"CSGRUN_CASES": "4"
 THOROUGH = (("property", {}),)
 TOGETHER_SECONDS = 0.25  # short tests of one executable run in one process, up to this time
 START_SECONDS = 0.03  # what a process costs besides
+# A test of one file's mutants is worth more than its share of time.
+SPECIAL, SPECIAL_TIMES = 900, 10
 NUMBERS = 64  # each file's mutants have numbers from a multiple of this on
 MEMORY_BYTES = 6 << 30
 
@@ -196,7 +198,10 @@ def make_stages(configurations, pool, arguments):
     stages = []
     for t in tests:
         last = stages[-1] if stages else None
-        if not t.different or t.seconds > arguments.quick:
+        special = len(t.different) < SPECIAL
+        if not re.search(arguments.tests, f"{t.executable} {t.name}"):
+            continue
+        if not t.different or t.seconds > arguments.quick * (SPECIAL_TIMES if special else 1):
             continue
         if last and last.executable == t.executable and last.environment == t.environment and \
                 t.seconds < TOGETHER_SECONDS / 4 and last.seconds + t.seconds < TOGETHER_SECONDS:
@@ -258,7 +263,9 @@ def parse_arguments():
     parser.add_argument("--resume", action="store_true",
                         help="leave out what earlier runs noticed, in files that are the same since")
     parser.add_argument("--quick", type=float, default=math.inf, metavar="SECONDS",
-                        help="leave out tests that take longer, and the thorough ones")
+                        help="leave out tests that take longer (of few mutants: than ten times), and the "
+                             "thorough ones")
+    parser.add_argument("--tests", default="", metavar="REGEX", help="on tests of such names only")
     parser.add_argument("--explained", action="store_true", help="try the explained ones too")
     parser.add_argument("--list", action="store_true", help="print the mutants and stop")
     parser.add_argument("--verbose", action="store_true", help="say what the tests cost")

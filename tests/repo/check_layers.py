@@ -30,7 +30,7 @@ ARROWS = {
 }
 # Where a library may be included at all: a pattern of the header, and prefixes of files.
 LIBRARIES = [
-    (r"OpenMesh/", ["engine/mesh/openmesh_bridge", "primitives/solids/smooth"]),
+    (r"OpenMesh/", ["engine/mesh/openmesh_bridge"]),
     (r"tiny_gltf", ["export/gltf.cpp"]),
     (r"(lua|lualib|lauxlib|luaconf)\.h(pp)?$", ["lua_bindings/", "tests/"]),
     (r"hb(-ot)?\.h$", ["primitives/text/"]),

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/kernel_case.h"
+#include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/rational_polygons.h"
 
@@ -195,6 +196,65 @@ TEST(CellBox, MayMeetMissesNothingOfPolygonsThatStartStraight) {
     }
   }
   EXPECT_GT(met, 2000);
+}
+
+// Corners of turned leaves are rounded; of a small polygon far from the middle of a large cell that
+// is much.
+TEST(CellBox, MayMeetMissesNothingOfSmallRoundedPolygons) {
+  test::Random random(44);
+  int met = 0, dropped = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const int bits = static_cast<int>(random.integer(20, 28));
+    const int64_t reach = int64_t{1} << bits, size = random.integer(1, 4);
+    const auto far = [&] { return random.integer(-reach, reach); };
+    const IVec3 at{far(), far(), far()};
+    const auto near = [&] {
+      return plus(at, {random.integer(-size, size), random.integer(-size, size),
+                       random.integer(-size, size)});
+    };
+    test::Loop loop{near(), near(), near()};
+    if (test::cross_of(test::sub(loop[1], loop[0]), test::sub(loop[2], loop[0])) ==
+        IVec3{0, 0, 0}) {
+      continue;
+    }
+    if (i % 3 == 0) {  // with a straight angle at the start
+      for (IVec3& p : loop) p = plus(p, test::sub(p, at));
+      loop.insert(loop.begin() + 1, {(loop[0][0] + loop[1][0]) / 2, (loop[0][1] + loop[1][1]) / 2,
+                                     (loop[0][2] + loop[1][2]) / 2});
+    }
+    Operand operand = test::operand_of(test::make_leaf({loop}));
+    operand.frame = test::random_frame(random);
+    const std::vector<Operand> operands{operand};
+    const Job job(operands);
+    std::vector<Rational3> corners;
+    for (const uint32_t v : job.corners(job.polygons()[0])) {
+      const test::GmpPoint x = test::to_gmp(job.exact(v));
+      corners.push_back({mpq_class(x.x) / x.w, mpq_class(x.y) / x.w, mpq_class(x.z) / x.w});
+    }
+    for (int trial = 0; trial < 4; ++trial) {
+      // A cell of any size that has a corner, an edge or a side there.
+      CellBox cell;
+      const int64_t extent = int64_t{1} << random.integer(1, bits);
+      for (int k = 0; k < 3; ++k) {
+        const auto here = static_cast<int64_t>(job.rounded(0)[k]) + random.integer(-3, 3);
+        cell.lo[k] = here - (random.integer(0, 4) ? (random.integer(0, 1) ? 0 : extent)
+                                                  : random.integer(0, extent));
+        cell.hi[k] = cell.lo[k] + extent;
+      }
+      const mpq_class shift(1, static_cast<unsigned long>(job.prime()));
+      Rational3 lo, hi;
+      for (int c = 0; c < 3; ++c) {
+        lo[c] = mpz_class(cell.lo[c]) + shift, hi[c] = mpz_class(cell.hi[c]) + shift;
+      }
+      const bool kept = may_meet(job, 0, cell);
+      dropped += !kept;
+      if (!meets(corners, lo, hi)) continue;
+      ++met;
+      ASSERT_TRUE(kept) << "case " << i;
+    }
+  }
+  EXPECT_GT(met, 2000);
+  EXPECT_GT(dropped, 1000);
 }
 
 TEST(CellBox, RoundedOutwardsHoldsTheWalls) {

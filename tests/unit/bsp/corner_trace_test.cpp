@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/exact_solid.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
@@ -155,6 +156,65 @@ TEST(CornerTrace, CornersInPlanesAreMoved) {
   }
   EXPECT_GT(through, 100);
   for (const int n : hits) EXPECT_GT(n, 100);
+}
+
+// Straight angles anywhere: corners in line with an edge do not say where its inner side is.
+TEST(CornerTrace, OfFacesWithStraightCorners) {
+  std::vector<test::Loop> loops = test::box_loops({0, 0, 0}, {4, 4, 4});
+  for (test::Loop& loop : loops) {
+    test::Loop with_middles;
+    for (size_t c = 0; c < loop.size(); ++c) {
+      const IVec3 &a = loop[c], &b = loop[(c + 1) % loop.size()];
+      with_middles.push_back(a);
+      with_middles.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
+    }
+    loop = with_middles;
+  }
+  for (int turn = 0; turn < 8; ++turn) {
+    const std::vector<Operand> operands{test::operand_of(test::make_leaf(loops))};
+    Job job(operands);
+    for (int64_t x = -1; x < 5; ++x) {
+      for (int64_t y = -1; y < 5; ++y) {
+        for (int64_t z = -1; z < 5; ++z) {
+          bool inside = false;
+          for (uint32_t p = 0; p < 6; ++p) inside ^= ray_crosses(job, p, {x, y, z});
+          const auto within = [](int64_t c) { return c >= 0 && c < 4; };
+          ASSERT_EQ(inside, within(x) && within(y) && within(z)) << x << ' ' << y << ' ' << z;
+        }
+      }
+    }
+    for (test::Loop& loop : loops) std::rotate(loop.begin(), loop.begin() + 1, loop.end());
+  }
+}
+
+// A triangle so thin that doubles do not tell its inner side, with a line of walls through its
+// middle.
+TEST(CornerTrace, OfTrianglesThatDoublesCannotTell) {
+  int64_t a = 1, b = 1;
+  while (b < int64_t{1} << 24) std::tie(a, b) = std::pair(b, a + b);
+  int hit = 0;
+  // Sums of corners are 3 y + 2 a + b and so on: a step of the numbers gives other remainders.
+  for (int step = 0; step < 8; ++step) {
+    std::tie(a, b) = std::pair(b, a + b);
+    for (const int64_t y : {0, 1}) {
+      const int64_t z = 0, far = 3 << 20;
+      const IVec3 u{0, far + y, z}, v{0, u[1] + a, u[2] + b}, w{0, v[1] + b, v[2] + a + b};
+      const int64_t sum_y = u[1] + v[1] + w[1], sum_z = u[2] + v[2] + w[2];
+      if (((sum_y % 3) + 3) % 3 != 1 || ((sum_z % 3) + 3) % 3 != 1) continue;
+      for (const bool reverse : {false, true}) {
+        test::Loop loop{u, v, w};
+        if (reverse) std::reverse(loop.begin(), loop.end());
+        const std::vector<Operand> operands{test::operand_of(test::make_leaf({loop}))};
+        Job job(operands);
+        ASSERT_EQ(job.prime(), 3);
+        EXPECT_TRUE(ray_crosses(job, 0, {5, (sum_y - 1) / 3, (sum_z - 1) / 3}));
+        EXPECT_FALSE(ray_crosses(job, 0, {-5, (sum_y - 1) / 3, (sum_z - 1) / 3}));
+        EXPECT_FALSE(ray_crosses(job, 0, {5, (sum_y - 1) / 3, (sum_z - 1) / 3 + 1}));
+        ++hit;
+      }
+    }
+  }
+  EXPECT_GT(hit, 0);
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 // cells that keep off all vertices.
 #include "engine/bsp/job.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
+#include "engine/bsp/piece_store.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
@@ -181,6 +184,147 @@ TEST(Job, WallsAreNoPlanesOfTheOperands) {
   const std::vector<Operand> operands{operand};
   Job job(operands);
   for (const Plane& s : mesh->planes) EXPECT_NE(s.a + s.b + s.c, job.prime());
+}
+
+/// A result that is nothing but a plane.
+Operand plane_operand(const std::vector<Plane>& planes) {
+  auto mesh = std::make_shared<BoundaryMesh>();
+  mesh->planes = planes;
+  Operand operand;
+  operand.boundary = mesh;
+  return operand;
+}
+
+TEST(Job, PrimesAreTheSmallestThatWillDo) {
+  const auto prime_of = [](const std::vector<Plane>& planes) {
+    const std::vector<Operand> operands{plane_operand(planes)};
+    return Job(operands).prime();
+  };
+  EXPECT_EQ(prime_of({}), 3);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto along = [&](int c) {
+      Plane s{0, 0, 0, 1};
+      (axis == 0 ? s.a : axis == 1 ? s.b : s.c) = c;
+      return s;
+    };
+    EXPECT_EQ(prime_of({along(1)}), 3);
+    EXPECT_EQ(prime_of({along(3)}), 5);
+    EXPECT_EQ(prime_of({along(5)}), 3);
+    EXPECT_EQ(prime_of({along(5), along(3)}), 7);
+    EXPECT_EQ(prime_of({along(3), along(5), along(7)}), 11);  // not 9
+    EXPECT_EQ(prime_of({along(3), along(5), along(7), along(11), along(13), along(17), along(19),
+                        along(23)}),
+              29);  // not 25
+  }
+  // Planes along no axis are no walls, whatever their coefficients' sum.
+  EXPECT_EQ(prime_of({{1, 2, 0, 1},
+                      {2, 0, 1, 1},
+                      {0, 1, 2, 1},
+                      {1, 1, 1, 1},
+                      {1, -1, 3, 1},
+                      {4, -1, 0, 2},
+                      {0, 4, -1, 2},
+                      {4, 0, -1, 2},
+                      {5, -1, -1, 1},
+                      {1, 3, -1, 1}}),
+            3);
+
+  // Frames: no divisor of the determinant.
+  const auto prime_in = [](int64_t x, int64_t y, int64_t z) {
+    Operand operand = operand_of(box_leaf({0, 0, 0}, {1, 1, 1}));
+    operand.frame.is_identity = false;
+    operand.frame.matrix = {{{x << 36, 0, 0}, {0, y << 36, 0}, {0, 0, z << 36}}};
+    const std::vector<Operand> operands{operand_of(box_leaf({0, 0, 0}, {1, 1, 1})), operand};
+    return Job(operands).prime();
+  };
+  EXPECT_EQ(prime_in(16, 16, 16), 3);
+  EXPECT_EQ(prime_in(16, 11, 16), 3);
+  EXPECT_EQ(prime_in(16, 12, 16), 5);
+  EXPECT_EQ(prime_in(15, 16, 16), 7);
+  EXPECT_EQ(prime_in(15, 16, -14), 11);
+}
+
+TEST(Job, WallsMove) {
+  const std::vector<Operand> operands{plane_operand({{5, 0, 0, 1}, {0, 0, 11, 2}})};
+  Job job(operands);
+  for (const int64_t prime : {3, 7, 13, 17, 19, 23, 29}) {
+    EXPECT_EQ(job.prime(), prime);
+    job.move_walls();
+  }
+}
+
+// A vertex of a result has a denominator, in which the prime of walls must not be.
+TEST(Job, WallsKeepOffVertices) {
+  Random random(103);
+  int moved = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto operands = random_operands(random);
+    Job job(operands);
+    std::vector<uint32_t> vertices;
+    for (uint32_t v = 0; v < job.vertex_count(); ++v) vertices.push_back(v);
+    const auto is_free = [&](int64_t p) {
+      return std::all_of(vertices.begin(), vertices.end(), [&](uint32_t v) {
+        const mpz_class w = to_gmp(job.exact(v)).w;
+        return w % p != 0;
+      });
+    };
+    const int64_t before = job.prime();
+    const bool was_free = is_free(before);
+    job.keep_walls_off(vertices);
+    EXPECT_TRUE(is_free(job.prime()));
+    EXPECT_EQ(job.prime() == before, was_free);
+    moved += !was_free;
+  }
+  EXPECT_GT(moved, 0);
+}
+
+TEST(Job, VerticesHaveALexicographicOrder) {
+  Random random(104);
+  for (int i = 0; i < 40; ++i) {
+    std::vector<Operand> operands;  // some points are equal
+    for (int o = 0; o < 3; ++o) {
+      operands.push_back(operand_of(make_leaf(random_loops(random, 3))));
+      if (i % 2) operands.back().frame = random_frame(random);
+      if (i % 4 == 1 && o > 0) operands.back().frame = operands[0].frame;
+    }
+    const Job job(operands);
+    std::vector<Rational3> points;
+    for (uint32_t v = 0; v < job.vertex_count(); ++v) points.push_back(value_of(job.exact(v)));
+    for (uint32_t v = 0; v < points.size(); ++v) {
+      for (uint32_t w = 0; w < points.size(); ++w) {
+        ASSERT_EQ(job.is_below(v, w), points[v] < points[w]) << v << ' ' << w;
+      }
+    }
+  }
+}
+
+TEST(Job, OperandsHaveTheBoxOfTheirPolygons) {
+  Random random(105);
+  for (int i = 0; i < 20; ++i) {
+    auto operands = random_operands(random);
+    operands.push_back(operand_of(std::make_shared<LeafGeometry>()));
+    const Job job(operands);
+    for (uint32_t o = 0; o < operands.size(); ++o) {
+      PolygonBox box = PolygonBox::none();
+      for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
+        box.include(job.boxes()[p]);
+      }
+      ASSERT_EQ(job.operand_box(o).is_empty(), box.is_empty());
+      if (box.is_empty()) continue;
+      ASSERT_EQ(job.operand_box(o).lo, box.lo);
+      ASSERT_EQ(job.operand_box(o).hi, box.hi);
+    }
+  }
+}
+
+// A rounded coordinate stands for all that round to it.
+TEST(Job, BoxesOfRoundedPointsHoldTheTrueOnes) {
+  PieceBox box;
+  box.lo = {3, 2.5, -4};
+  box.hi = {3, 2.5, 0x1p40};
+  const PolygonBox outwards = rounded_outwards(box);
+  EXPECT_EQ(outwards.lo, (std::array<int32_t, 3>{2, 2, -5}));
+  EXPECT_EQ(outwards.hi, (std::array<int32_t, 3>{4, 3, 1 << 30}));
 }
 
 }  // namespace

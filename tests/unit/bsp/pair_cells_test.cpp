@@ -164,6 +164,115 @@ TEST(PairCells, NothingIsNoPair) {
   size_t grids = 0;
   expect_all_pairs({}, grids);
   EXPECT_EQ(grids, 0u);
+  const std::vector<Operand> none;
+  EXPECT_TRUE(find_coarse_cells(Job(none), {}, 1).cells.empty());
+}
+
+bool overlap(const PairCells::Cell& a, const PairCells::Cell& b) {
+  return overlap(PolygonBox{a.lo, a.hi}, PolygonBox{b.lo, b.hi});
+}
+
+/// What a grid is for: cells apart, in what is common to two operands, with polygons that meet
+/// them.
+void expect_good_grid(const Job& job, const PairCells& grid, uint32_t limit) {
+  std::vector<uint8_t> is_in(job.polygons().size(), 0);
+  for (size_t c = 0; c < grid.cells.size(); ++c) {
+    const PairCells::Cell& cell = grid.cells[c];
+    for (size_t d = 0; d < c; ++d) ASSERT_FALSE(overlap(cell, grid.cells[d])) << c << ' ' << d;
+    for (size_t k = 0; k < 3; ++k) {
+      ASSERT_LE(cell.lo[k], cell.hi[k]);
+      if (job.operand_count() != 2) continue;
+      for (const size_t o : {0, 1}) {
+        ASSERT_GE(cell.lo[k], job.operand_box(o).lo[k]);
+        ASSERT_LE(cell.hi[k], job.operand_box(o).hi[k]);
+      }
+    }
+    for (uint32_t i = 0; i < cell.count; ++i) {
+      const uint32_t p = grid.polygons[cell.first + i];
+      ASSERT_TRUE(overlap(job.boxes()[p], PolygonBox{cell.lo, cell.hi}));
+      is_in[p] = 1;
+    }
+  }
+  const auto alone = static_cast<uint32_t>(std::count(is_in.begin(), is_in.end(), 0));
+  EXPECT_EQ(grid.surface, (alone + limit - 1) / limit);
+}
+
+TEST(PairCells, GridsHoldWhatIsShared) {
+  test::Random random(503);
+  for (int i = 0; i < 6; ++i) {
+    std::vector<Operand> operands = tilings(random, 30);
+    operands[1].translation = {random.integer(-20, 20), random.integer(-20, 20), i % 3};
+    if (i >= 3) {  // of several operands all is shared; one of them is empty
+      operands.push_back(test::operand_of(std::make_shared<LeafGeometry>()));
+      operands.push_back(test::operand_of(test::box_leaf({-5, -5, 1}, {5, 5, 9})));
+    }
+    const Job job(operands);
+    for (const uint32_t limit : {1u, 2u, 5u}) {
+      const PairCells grid = find_coarse_cells(job, {}, limit);
+      ASSERT_GT(grid.cells.size(), 1u);
+      ASSERT_NO_FATAL_FAILURE(expect_good_grid(job, grid, limit)) << i << " limit " << limit;
+    }
+  }
+}
+
+// An operand that is empty says nothing about what two others have in common.
+TEST(PairCells, GridsOfTwoOperandsAndNothing) {
+  test::Random random(504);
+  std::vector<Operand> operands = tilings(random, 30);
+  operands[1].translation = {25, 20, 0};
+  const PairCells grid = find_coarse_cells(Job(operands), {}, 1);
+  operands.insert(operands.begin(), test::operand_of(std::make_shared<LeafGeometry>()));
+  const PairCells with = find_coarse_cells(Job(operands), {}, 1);
+  ASSERT_EQ(with.cells.size(), grid.cells.size());
+  for (size_t c = 0; c < grid.cells.size(); ++c) EXPECT_EQ(with.cells[c].lo, grid.cells[c].lo);
+}
+
+// What is apart along any axis is not looked at.
+TEST(PairCells, NothingInCommonIsNoCell) {
+  test::Random random(505);
+  for (size_t k = 0; k < 3; ++k) {
+    std::vector<Operand> operands = tilings(random, 30);
+    operands[0].translation = operands[1].translation = {0, 0, 0};
+    operands[1].translation[k] = 31;
+    const Job job(operands);
+    const PairCells grid = find_coarse_cells(job, {}, 1);
+    EXPECT_TRUE(grid.cells.empty());
+    EXPECT_EQ(grid.surface, job.polygons().size());
+  }
+}
+
+// A long strip of small squares, and one polygon along all of it: too many cells to name.
+TEST(PairCells, LongPolygonsAreTooLargeForAGrid) {
+  std::vector<test::Loop> strip;
+  for (int64_t x = 0; x < 3000; ++x) strip.push_back({{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}});
+  const auto cells_beside = [&](int64_t length) {
+    std::vector<Operand> operands{
+        test::operand_of(test::make_leaf(strip)),
+        test::operand_of(test::make_leaf({{{0, 0, 0}, {length, 0, 0}, {length, 1, 0}},
+                                          {{0, 0, 0}, {3000, 0, 0}, {3000, 1, 0}}}))};
+    if (length < 3000)
+      operands[1].leaf = test::make_leaf({{{0, 0, 0}, {length, 0, 0}, {length, 1, 0}}});
+    const Job job(operands);
+    const PairCells grid = find_coarse_cells(job, {}, 1);
+    EXPECT_EQ(visited(job, grid), all_pairs(job)) << length;
+    return grid.cells.size();
+  };
+  EXPECT_GT(cells_beside(100), 1u);
+  EXPECT_EQ(cells_beside(3000), 1u);
+}
+
+// Large polygons that are in all cells each.
+TEST(PairCells, LargePolygonsAreNotPutIntoAGrid) {
+  test::Random random(506);
+  std::vector<Operand> operands;
+  for (int i = 0; i < 60; ++i) {
+    IVec3 lo{}, hi{};
+    for (size_t k = 0; k < 3; ++k)
+      lo[k] = random.integer(0, 9), hi[k] = 1000 - random.integer(0, 9);
+    operands.push_back(test::operand_of(test::box_leaf(lo, hi)));
+  }
+  const Job job(operands);
+  EXPECT_EQ(find_coarse_cells(job, {}, 1).cells.size(), 1u);
 }
 
 }  // namespace

@@ -120,5 +120,23 @@ TEST_F(PieceTrees, UnchangedNodesAreShared) {
   EXPECT_EQ(tree.size(), 500u);
 }
 
+TEST(PieceBox, MeetsWhatItTouches) {
+  const PieceBox box{{0, 0, 0}, {4, 4, 4}};
+  for (int x = -2; x <= 5; ++x) {
+    for (int y = -2; y <= 5; ++y) {
+      for (int z = -2; z <= 5; ++z) {
+        const double at[3] = {static_cast<double>(x), static_cast<double>(y),
+                              static_cast<double>(z)};
+        const PieceBox other{{at[0], at[1], at[2]}, {at[0] + 1, at[1] + 1, at[2] + 1}};
+        const auto is_near = [](int c) { return c >= -1 && c <= 4; };
+        EXPECT_EQ(box.meets(other), is_near(x) && is_near(y) && is_near(z));
+        EXPECT_EQ(other.meets(box), box.meets(other));
+      }
+    }
+  }
+  EXPECT_FALSE(box.meets(PieceBox()));
+  EXPECT_FALSE(PieceBox().meets(box));
+}
+
 }  // namespace
 }  // namespace csgrun

@@ -190,6 +190,48 @@ TEST(RayLabel, OfLeavesThatReachBeyondBoxes) {
   }
 }
 
+// What a ray meets there may have nothing of its box near the ray's start.
+TEST(RayLabel, OfPolygonsThatAreWhollyBeyondBoxes) {
+  // A bar that grows from near to far, closed by two triangles there, of which the ray meets the
+  // one that lies where y is large.
+  const int64_t far = int64_t{1} << 36, grows = int64_t{1} << 25;
+  const std::array<IVec3, 4> near{{{-8, -64, 0}, {-8, 8, -64}, {-8, 64, 0}, {-8, 8, 64}}};
+  std::array<IVec3, 4> end = near;
+  for (IVec3& p : end) p = {far, p[1] * grows, p[2] * grows};
+  std::vector<test::Loop> loops{
+      {near[0], near[3], near[2], near[1]}, {end[0], end[1], end[3]}, {end[1], end[2], end[3]}};
+  for (size_t i = 0; i < 4; ++i) {
+    const size_t j = (i + 1) % 4;
+    loops.push_back({near[i], near[j], end[j], end[i]});
+  }
+  Operands bar(loops);
+  EXPECT_EQ(bar.label({0.25, 0.5, 0.25}), 1);
+  EXPECT_EQ(bar.label({-9.25, 0.5, 0.25}), 0);
+}
+
+// The same as in the midst of the grid, where differences are rounded.
+TEST(RayLabel, OfPointsWhoseRayPassesByACornerFarOut) {
+  test::Random random(506);
+  int told = 0;
+  for (int i = 0; i < 400; ++i) {
+    auto loops = test::random_loops(random, 4);
+    const IVec3 corner = loops[static_cast<size_t>(random.integer(0, loops.size() - 1))][0];
+    test::GridMap map;
+    for (int k = 0; k < 3; ++k) map.move[k] = random.integer(1 << 20, 1 << 26);
+    Operands solid(test::mapped(loops, map));
+    for (const auto& [y, z] : kDirections) {
+      const double back = std::ldexp(1 + random.unit(), static_cast<int>(random.integer(-2, 3)));
+      const Query at{corner[0] + map.move[0] - back, corner[1] + map.move[1] - back * y,
+                     corner[2] + map.move[2] - back * z};
+      const auto truth = solid.oracle.winding(at);
+      if (!truth) continue;
+      ASSERT_EQ(solid.label(at), *truth) << i << ": " << back << ' ' << y;
+      ++told;
+    }
+  }
+  EXPECT_GT(told, 1000);
+}
+
 // Beside a straight angle the start of a face says nothing about its plane: other corners do.
 TEST(RayLabel, OfFacesThatStartWithCornersInLine) {
   std::vector<test::Loop> loops = test::box_loops({0, 0, 0}, {4, 4, 4});

@@ -143,6 +143,16 @@ TEST(VertexSigns, ErrorsAreHalfAUnitInTheLastPlaceOfTheLargestCoordinate) {
   }
 }
 
+TEST(VertexSigns, OfResultsAreRoundedEvenOnTheGrid) {
+  const std::vector<Operand> boxes{test::operand_of(test::box_leaf({0, 0, 0}, {4, 4, 4})),
+                                   test::operand_of(test::box_leaf({2, 2, 2}, {6, 7, 8}))};
+  const auto result = test::evaluate(test::join({test::leaf(0), test::leaf(1)}), boxes);
+  ASSERT_TRUE(result);
+  std::vector<Operand> operands(1);
+  operands[0].boundary = *result;
+  EXPECT_GE(VertexSigns(Job(operands)).error(0), 8 * 0x1p-53);
+}
+
 TEST(GridPlanes, PassThroughTheirPointsAndHaveALongestAxis) {
   test::Random random(54);
   const auto at = [](const Plane& s, const IVec3& p) {
@@ -166,6 +176,44 @@ TEST(GridPlanes, PassThroughTheirPointsAndHaveALongestAxis) {
     ASSERT_EQ((std::array<Int128, 3>{edge.a, edge.b, edge.c})[axis], 0);
     ASSERT_EQ(at(edge, p[0]), 0);
     ASSERT_EQ(at(edge, p[1]), 0);
+  }
+}
+
+// Straight angles anywhere, in planes along the axes and others.
+TEST(GridPlanes, OfLoopsWithStraightCorners) {
+  const std::vector<IVec3> flat{{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {4, 2, 0}, {4, 3, 0},
+                                {2, 3, 0}, {1, 3, 0}, {0, 3, 0}, {0, 2, 0}};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int64_t slope : {0, 1, -2}) {
+      for (size_t start = 0; start < flat.size(); ++start) {
+        for (size_t count = 3; count <= flat.size(); ++count) {
+          // A convex loop of so many of the corners, some of them straight.
+          std::vector<IVec3> loop;
+          for (size_t i = 0; i < count; ++i) {
+            IVec3 p = flat[(start + i) % flat.size()];
+            p[2] = slope * (p[0] + 2 * p[1]);
+            std::rotate(p.begin(), p.begin() + axis, p.end());
+            loop.push_back(p);
+          }
+          const bool is_line = [&] {
+            for (size_t i = 0; i < count; ++i) {
+              const Plane s = plane_through(loop[i], loop[(i + 1) % count], loop[(i + 2) % count]);
+              if (s.a != 0 || s.b != 0 || s.c != 0) return false;
+            }
+            return true;
+          }();
+          if (is_line) continue;
+          const Plane s =
+              support_of_loop(static_cast<uint32_t>(count),
+                              [&](uint32_t i) -> const IVec3& { return loop[i % count]; });
+          ASSERT_FALSE(s.a == 0 && s.b == 0 && s.c == 0) << start << ' ' << count;
+          for (const IVec3& p : loop) ASSERT_TRUE(s.a * p[0] + s.b * p[1] + s.c * p[2] + s.d == 0);
+          // Left turns, seen from the third axis.
+          const Int128 up = axis == 0 ? s.c : axis == 1 ? s.b : s.a;
+          ASSERT_TRUE(up > 0);
+        }
+      }
+    }
   }
 }
 

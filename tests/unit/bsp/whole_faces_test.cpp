@@ -2,6 +2,7 @@
 #include "engine/bsp/whole_faces.h"
 
 #include <cstdlib>
+#include <random>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -94,6 +95,35 @@ TEST(WholeFaces, CutsThatMeetInOnePointAreLikeThoseOfCells) {
   }
 }
 
+// The same with edges through the point: cuts end where others pass.
+TEST(WholeFaces, CutsThatEndOnOthersAreLikeThoseOfCells) {
+  test::Random random(414);
+  for (int i = 0; i < 80; ++i) {
+    const auto vector = [&] {
+      return IVec3{random.integer(-30, 30), random.integer(-30, 30), random.integer(-30, 30)};
+    };
+    const auto edge_at_origin = [&] {
+      for (;;) {
+        const IVec3 a = vector(), tip = vector(), other = vector();
+        if (std::abs(test::dot_of(test::cross_of(a, tip), other)) < 5000 || std::abs(a[2]) < 5) {
+          continue;
+        }
+        return test::make_leaf(test::hull_loops({a, {-a[0], -a[1], -a[2]}, tip, other}));
+      }
+    };
+    test::RandomTree tree;
+    tree.operands.emplace_back().leaf = test::box_leaf({-50, -50, -50}, {50, 50, 0});
+    tree.operands.emplace_back().leaf = edge_at_origin();
+    tree.operands.emplace_back().leaf = i % 2 ? edge_at_origin() : wedge_at_origin(random);
+    std::shuffle(tree.operands.begin() + 1, tree.operands.end(), std::mt19937(i));
+    for (uint32_t o = 0; o < 3; ++o) tree.operands[o].first_source = o;
+    tree.expression = test::flat_expression(static_cast<BooleanOp>(i % 4), 3);
+    tree.region = test::TreeMaker::region_of(tree.operands);
+    ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
+        << "case " << i;
+  }
+}
+
 // Leaves that reach far beyond what is asked for, where the boxes of polygons end.
 TEST(WholeFaces, OfLeavesThatReachFar) {
   test::Random random(408);
@@ -180,6 +210,52 @@ TEST(WholeFaces, OfFlushConvexBodiesAreWhatCellsGive) {
     ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
         << "tree " << i;
   }
+}
+
+/// A leaf of two bodies: an edge of the second lies in a face of the first, or on an edge of it, or
+/// ends there.
+std::shared_ptr<LeafGeometry> touching_bodies(test::Random& random) {
+  auto loops = test::box_loops({0, 0, 0}, {4, 4, 4});
+  const int64_t y = random.integer(0, 1) ? 4 : random.integer(1, 3);
+  const int64_t from = random.integer(-1, 3), to = random.integer(from + 1, 5);
+  const auto beyond = [&] {
+    return IVec3{random.integer(5, 7), random.integer(0, 6), random.integer(0, 5)};
+  };
+  std::vector<test::Loop> second;
+  while (second.empty()) {
+    second = test::hull_loops({{4, y, from}, {4, y, to}, beyond(), beyond(), beyond()});
+  }
+  loops.insert(loops.end(), second.begin(), second.end());
+  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(loops, random.integer(0, 1) == 1));
+  leaf->opposite = pair_edges(*leaf).opposite;
+  return leaf;
+}
+
+/// Two boxes with a common edge, which is an edge of four faces of one leaf that crosses nothing.
+std::shared_ptr<LeafGeometry> boxes_sharing_an_edge() {
+  auto loops = test::box_loops({0, 0, 0}, {3, 3, 4});
+  const auto second = test::box_loops({3, 3, 0}, {6, 6, 4});
+  loops.insert(loops.end(), second.begin(), second.end());
+  // make_leaf numbers equal corners once.
+  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(loops));
+  leaf->opposite = pair_edges(*leaf).opposite;
+  leaf->may_touch = false;
+  return leaf;
+}
+
+// Leaves that touch themselves have segments on a polygon that meet elsewhere than at their ends.
+TEST(WholeFaces, OfLeavesThatTouchThemselves) {
+  test::Random random(413);
+  test::TreeMaker maker(random);
+  for (int i = 0; i < 120; ++i) {
+    auto tree = maker.make({.size = 6, .operands = 3, .depth = 1, .known = i % 2 == 0});
+    tree.operands[0].leaf = i % 4 == 3 ? boxes_sharing_an_edge() : touching_bodies(random);
+    if (i % 3 == 0) tree.operands[1].leaf = touching_bodies(random);
+    tree.region = test::TreeMaker::region_of(tree.operands);
+    ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
+        << "tree " << i;
+  }
+  EXPECT_TRUE(boxes_sharing_an_edge()->opposite.empty());
 }
 
 size_t count_general(const test::RandomTree& tree, size_t& polygons) {

@@ -1,9 +1,11 @@
 // The table of planes: one number for each plane, whatever scale and side it was given in.
+#include <cmath>
 #include <numeric>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "engine/exact/forced_tier.h"
 #include "engine/exact/predicates.h"
 #include "tests/support/gmp_bridge.h"
 #include "tests/support/seeded.h"
@@ -120,6 +122,28 @@ TEST(PlaneTable, TakesOverPlanesOfAnother) {
     ASSERT_EQ(other.intern_reduced(planes[i].reversed()), PlaneId(i, true));
   }
   EXPECT_EQ(other.intern_reduced({-1, -2, -3, -1000001}), fresh.flip());
+}
+
+// Of so many planes some have equal hashes of 32 bits.
+TEST(PlaneTable, EqualHashesAreNotEqualPlanes) {
+  PlaneTable table;
+  for (uint32_t i = 0; i < 400000; ++i) {
+    const PlaneId id = table.intern({1, i % 1000, i / 1000, 7});
+    ASSERT_EQ(id.index(), i);
+  }
+  EXPECT_EQ(table.intern({1, 5, 0, 7}).index(), 5u);
+}
+
+// Where a tier is forced, no sum with the approximate offset may decide.
+TEST(PlaneTable, HasNoApproximationWhereATierIsForced) {
+  const int before = forced_tier;
+  for (const int tier : {-1, 0, 3}) {
+    forced_tier = tier;
+    PlaneTable table;
+    const double offset = table.approximate(table.intern({1, 2, 3, 4}).index())[3];
+    EXPECT_EQ(std::isnan(offset), tier >= 0) << tier;
+  }
+  forced_tier = before;
 }
 
 TEST(PlaneId, IsANumberAndASide) {

@@ -46,6 +46,8 @@ std::string sketch(const NodePtr& node) {
       return "C(" + children() + ")";
     case NodeKind::kOuterHull:
       return "H(" + children() + ")";
+    case NodeKind::kConstruction:
+      return std::string(1, "HMR"[static_cast<int>(node->construction())]) + "(" + children() + ")";
     case NodeKind::kBoolean:
       break;
   }
@@ -297,8 +299,8 @@ TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
 }
 
 TEST(CsgFile, ErrorsHaveTheirLine) {
-  EXPECT_EQ(error("group() {\n" + kCube + "\thull() {\n" + kCube + "}\n}"),
-            "m.csg:3: hull() is not supported in .csg files");
+  EXPECT_EQ(error("group() {\n" + kCube + "\troof() {\n" + kSquare + "}\n}"),
+            "m.csg:3: roof() is not supported in .csg files");
   EXPECT_EQ(error("\nsurface(file = \"x.png\", center = false);"),
             "m.csg:2: surface() is not supported in .csg files");
   EXPECT_EQ(sketch(parse("hull();\nminkowski(convexity = 0);\n").solid), "empty");
@@ -350,6 +352,34 @@ double sum_of_leaves(const NodePtr& node) {
 }
 
 /// Scenes of the corpus whose leaves stand apart: their volumes are those that OpenSCAD gave.
+TEST(CsgFile, ConstructionsOfSolids) {
+  EXPECT_EQ(sketch(parse("hull() {" + kCube + kNothing + kSphere + "}").solid), "H(cube sphere)");
+  EXPECT_EQ(sketch(parse("hull() {" + kCube + kSquare + "}").solid), "H(cube)");
+  EXPECT_EQ(sketch(parse("minkowski(convexity = 0) {" + kCube + kSphere + "}").solid),
+            "M(cube sphere)");
+  // One that is alone comes through as it is.
+  EXPECT_EQ(sketch(parse("minkowski(convexity = 0) {" + kNothing + kCube + "}").solid), "cube");
+  EXPECT_EQ(
+      sketch(
+          parse("resize(newsize = [5,0,0], auto = [0,1,0], convexity = 0) {" + kCube + "}").solid),
+      "R(cube)");
+}
+
+TEST(CsgFile, Projections) {
+  const CsgModel shadow = parse("projection(cut = false, convexity = 0) {" + kCube + "}");
+  ASSERT_TRUE(shadow.is_2d);
+  EXPECT_EQ(shadow.shape.area(), 2);
+  // A cut through the bottom face takes what is above it.
+  EXPECT_EQ(parse("projection(cut = true, convexity = 0) {" + kCube + "}").shape.area(), 2);
+  EXPECT_EQ(sketch(parse("projection(cut = true) { multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, "
+                         "1, -3], [0, 0, 0, 1]]) {" +
+                         kCube + "}}")
+                       .solid),
+            "empty");
+  EXPECT_EQ(error("projection(cut = 1) {" + kCube + "}"),
+            "m.csg:1: projection: cut must be true or false");
+}
+
 TEST(CsgFile, CorpusVolumesOfSeparateLeaves) {
   const auto folder = shared_folder() / "csg_corpus";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder " << folder;

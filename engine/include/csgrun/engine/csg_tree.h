@@ -35,7 +35,27 @@ struct OuterHull {
   bool operator==(const OuterHull&) const = default;
 };
 
-enum class NodeKind : uint8_t { kEmpty, kLeaf, kTransform, kAppearance, kBoolean, kOuterHull };
+/// What is made of solids that are evaluated for it. The normal form has leaves and transforms in
+/// its place.
+enum class Construction : uint8_t { kConvexHull, kMinkowskiSum, kResize };
+
+/// New lengths of a bounding box, along each axis.
+struct Resize {
+  std::array<double, 3> size{0, 0, 0};  ///< mm; 0: the length stays
+  /// Where `size` is 0: scaled as along the axis of the largest `size`.
+  std::array<bool, 3> automatic{false, false, false};
+  bool operator==(const Resize&) const = default;
+};
+
+enum class NodeKind : uint8_t {
+  kEmpty,
+  kLeaf,
+  kTransform,
+  kAppearance,
+  kBoolean,
+  kOuterHull,
+  kConstruction
+};
 
 class Node;
 using NodePtr = std::shared_ptr<const Node>;
@@ -51,6 +71,12 @@ class Node {
   [[nodiscard]] const Appearance& appearance() const { return *appearance_; }
   /// Of a kOuterHull.
   [[nodiscard]] const OuterHull& outer_hull() const { return outer_hull_; }
+  /// Of a kConstruction.
+  [[nodiscard]] Construction construction() const { return construction_; }
+  /// Of a Construction::kResize.
+  [[nodiscard]] const Resize& resize() const { return *resize_; }
+  /// Whether it or a node below it is a construction.
+  [[nodiscard]] bool has_constructions() const { return has_constructions_; }
   [[nodiscard]] const std::shared_ptr<const PolygonMesh>& mesh() const { return mesh_; }
   [[nodiscard]] const SourceRef& where() const { return where_; }
 
@@ -67,6 +93,15 @@ class Node {
   /// The outer hull of a surface: of the mesh itself, as it crosses itself, when the child is a
   /// leaf under transforms and appearances; else of the boundary of the child's solid.
   static NodePtr outer_hull(const OuterHull& options, NodePtr child, SourceRef where = {});
+  /// The least convex solid that holds all operands. Vertices of leaves count as they are on the
+  /// grid; corners that Booleans made are rounded to it, with a note. Points in one plane give the
+  /// empty solid, with a note. Its appearance is that of the first operand.
+  static NodePtr convex_hull(std::vector<NodePtr> operands, SourceRef where = {});
+  /// All sums of a point of each operand; empty operands do not count. Rounding, notes and
+  /// appearance are those of convex_hull.
+  static NodePtr minkowski_sum(std::vector<NodePtr> operands, SourceRef where = {});
+  /// Scaled about the origin so that its bounding box has the lengths asked for.
+  static NodePtr resized(const Resize& resize, NodePtr child, SourceRef where = {});
 
   ~Node();
   Node(const Node&) = delete;
@@ -74,12 +109,17 @@ class Node {
 
  private:
   Node() = default;
+  static std::shared_ptr<Node> made(NodeKind kind, std::vector<NodePtr> children, SourceRef where);
+
   NodeKind kind_ = NodeKind::kEmpty;
   BooleanOp op_ = BooleanOp::kUnion;
+  Construction construction_ = Construction::kConvexHull;
+  bool has_constructions_ = false;
   OuterHull outer_hull_;
   std::vector<NodePtr> children_;
   std::unique_ptr<Affine> transform_;
   std::unique_ptr<Appearance> appearance_;
+  std::unique_ptr<Resize> resize_;
   std::shared_ptr<const PolygonMesh> mesh_;
   SourceRef where_;
 };

@@ -50,6 +50,9 @@ struct PolygonMesh {
   FillRule fill = FillRule::kNonZero;
   /// Known to be convex; verified after rounding.
   bool convex = false;
+  /// The solid is the convex hull of `points`, which is made of them on the grid; there are no
+  /// faces. `appearances` may have one entry, for all of it.
+  bool hull_of_points = false;
   std::string kind;  ///< "cube", "sphere", a file's name ...: for messages and source maps
 
   [[nodiscard]] size_t face_count() const { return face_starts.size() - 1; }

@@ -8,6 +8,7 @@
 
 #include <csgrun/engine/csg_tree.h>
 #include <csgrun/engine/error.h>
+#include <csgrun/engine/evaluate.h>
 #include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/text.h>
 
@@ -26,25 +27,27 @@ struct CsgModel {
 /// What a .csg file may ask for beside its own text.
 struct CsgEnvironment {
   FontBook* fonts = nullptr;  ///< null: what is shipped
-  /// The bytes of a file that an import names; null: there are none.
+  /// The bytes of a file that an import or a surface names; null: there are none.
   std::function<Result<std::string>(const std::string& path)> read;
+  /// Evaluates what is projected; null: one with default options.
+  Evaluator* evaluator = nullptr;
 };
 
-/// Reads cube, sphere, cylinder, polyhedron, square, circle, polygon, text, import, linear_extrude,
-/// rotate_extrude, multmatrix, color, union, difference, intersection, group and render, and with
-/// 2D children offset, hull, minkowski, fill and resize, with the modifiers % (left out, not even
-/// an operand) and # (nothing). As in OpenSCAD, an empty node is an operand, primitives of
+/// Reads cube, sphere, cylinder, polyhedron, square, circle, polygon, text, import, surface,
+/// linear_extrude, rotate_extrude, projection, multmatrix, resize, color, union, difference,
+/// intersection, hull, minkowski, offset, fill, group and render, with the modifiers % (left out,
+/// not even an operand) and # (nothing). As in OpenSCAD, an empty node is an operand, primitives of
 /// impossible size are empty, and where 2D and 3D mix the first child that is not empty decides;
 /// each is said in a warning. Unknown arguments are passed over; arguments are matched by name.
 ///
 /// Errors have `where` set to the line and a message without it: kMalformedFile for what is not a
-/// .csg file, kInvalidArgument for nodes that csgrun does not build (surface, projection ...;
-/// without children they are empty, and no error), kInvalidMesh for polyhedra that are not closed.
-/// Depth is limited by memory only.
+/// .csg file, kInvalidArgument for nodes that csgrun does not build (roof; without
+/// children they are empty, and no error), kInvalidMesh for polyhedra that are not closed, and
+/// those of the evaluation of what is projected. Depth is limited by memory only.
 Result<CsgModel> parse_csg(const std::string& name, std::string_view text,
                            const CsgEnvironment& environment = {});
 
 /// Reads a regular file and parses it.
-Result<CsgModel> read_csg_file(const std::string& path);
+Result<CsgModel> read_csg_file(const std::string& path, const CsgEnvironment& environment = {});
 
 }  // namespace csgrun

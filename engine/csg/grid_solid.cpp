@@ -1,0 +1,159 @@
+#include "engine/csg/grid_solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <unordered_map>
+
+#include "engine/bsp/union_find.h"
+#include "engine/csg/grid.h"
+#include "engine/exact/fixed_int.h"
+#include "engine/mesh/to_millimetres.h"
+
+namespace csgrun {
+namespace {
+
+constexpr uint32_t kNone = UINT32_MAX;
+
+/// Joins the triangles of a face to convex polygons, by leaving out edges between them where that
+/// makes no corner that turns right (Hertel & Mehlhorn 1983): at most four times as many as needed.
+class ConvexPatches {
+ public:
+  ConvexPatches(const Solid& solid, const std::vector<IVec3>& points)
+      : solid_(solid), points_(points) {}
+
+  std::vector<std::vector<uint32_t>> make() {
+    const size_t edges = solid_.triangles.size() * 3;
+    next_.resize(edges);
+    previous_.resize(edges);
+    is_gone_.assign(edges, 0);
+    polygon_.reset(solid_.triangles.size());
+    for (uint32_t e = 0; e < edges; ++e) {
+      next_[e] = e % 3 == 2 ? e - 2 : e + 1;
+      previous_[e] = e % 3 == 0 ? e + 2 : e - 1;
+    }
+    find_twins();
+    for (uint32_t e = 0; e < edges; ++e) {
+      if (twin_[e] != kNone && e < twin_[e]) drop(e, twin_[e]);
+    }
+    std::vector<std::vector<uint32_t>> result;
+    std::vector<uint8_t> is_done(edges, 0);
+    for (uint32_t e = 0; e < edges; ++e) {
+      if (is_gone_[e] != 0 || is_done[e] != 0) continue;
+      std::vector<uint32_t>& loop = result.emplace_back();
+      for (uint32_t at = e; is_done[at] == 0; at = next_[at]) {
+        is_done[at] = 1;
+        loop.push_back(from(at));
+      }
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] uint32_t from(uint32_t edge) const { return solid_.triangles[edge / 3][edge % 3]; }
+
+  /// Edges between two triangles of one face.
+  void find_twins() {
+    twin_.assign(next_.size(), kNone);
+    std::unordered_map<uint64_t, uint32_t> edge_at;
+    edge_at.reserve(next_.size());
+    for (uint32_t e = 0; e < next_.size(); ++e) {
+      const uint64_t a = from(e), b = from(next_[e]);
+      edge_at[a << 32 | b] = e;
+      const auto found = edge_at.find(b << 32 | a);
+      if (found == edge_at.end()) continue;
+      if (solid_.triangle_face[e / 3] != solid_.triangle_face[found->second / 3]) continue;
+      twin_[e] = found->second;
+      twin_[found->second] = e;
+    }
+  }
+
+  /// Whether the way a, b, c does not turn right, seen from outside of a face: along the axis that
+  /// its normal is nearest to.
+  [[nodiscard]] bool turns_left(uint32_t face, uint32_t a, uint32_t b, uint32_t c) const {
+    const glm::dvec3& normal = solid_.face_normals[face];
+    int axis = 0;
+    for (int i = 1; i < 3; ++i) {
+      if (std::fabs(normal[i]) > std::fabs(normal[axis])) axis = i;
+    }
+    const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+    const IVec3 &p = points_[a], &q = points_[b], &r = points_[c];
+    const Int128 area = static_cast<Int128>(q[x] - p[x]) * (r[y] - p[y]) -
+                        static_cast<Int128>(q[y] - p[y]) * (r[x] - p[x]);
+    return normal[axis] > 0 ? area >= 0 : area <= 0;
+  }
+
+  void drop(uint32_t edge, uint32_t twin) {
+    const uint32_t face = solid_.triangle_face[edge / 3];
+    if (polygon_.find(edge / 3) == polygon_.find(twin / 3)) return;
+    const uint32_t a = from(edge), b = from(twin);
+    if (!turns_left(face, from(previous_[edge]), a, from(next_[next_[twin]])) ||
+        !turns_left(face, from(previous_[twin]), b, from(next_[next_[edge]]))) {
+      return;
+    }
+    polygon_.join(edge / 3, twin / 3);
+    is_gone_[edge] = is_gone_[twin] = 1;
+    link(previous_[edge], next_[twin]);
+    link(previous_[twin], next_[edge]);
+  }
+  void link(uint32_t a, uint32_t b) {
+    next_[a] = b;
+    previous_[b] = a;
+  }
+
+  const Solid& solid_;
+  const std::vector<IVec3>& points_;
+  std::vector<uint32_t> next_, previous_, twin_;
+  std::vector<uint8_t> is_gone_;
+  UnionFind polygon_;
+};
+
+}  // namespace
+
+std::vector<glm::dvec3> to_millimetres(const std::vector<IVec3>& points, const GridStep& step) {
+  const ToMillimetres convert(step);
+  std::vector<glm::dvec3> result(points.size());
+  std::array<float, 3> unused;
+  for (size_t i = 0; i < points.size(); ++i) convert.position(points[i], result[i], unused);
+  return result;
+}
+
+Result<GridSolid> grid_solid(const Solid& solid, const GridStep& step, bool with_patches) {
+  GridSolid result;
+  const Quantiser quantiser(step);
+  result.points.reserve(solid.positions.size());
+  for (const glm::dvec3& p : solid.positions) {
+    IVec3& q = result.points.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      const auto rounded = quantiser(p[i]);
+      if (!rounded || *rounded > kFarLimit || *rounded < -kFarLimit) {
+        return Error{ErrorCode::kOutOfRange, "reaches too far from the origin for the grid", {}};
+      }
+      q[i] = *rounded;
+    }
+  }
+  const std::vector<glm::dvec3> back = to_millimetres(result.points, step);
+  for (size_t i = 0; i < back.size(); ++i) result.rounded += back[i] != solid.positions[i] ? 1 : 0;
+  if (!with_patches) return result;
+
+  UnionFind surface(result.points.size());
+  for (const auto& t : solid.triangles) {
+    surface.join(t[0], t[1]);
+    surface.join(t[0], t[2]);
+  }
+  for (uint32_t v = 0; v < result.points.size(); ++v) {
+    if (surface.find(v) == v) result.anchors.push_back(v);
+  }
+  result.patches = ConvexPatches(solid, result.points).make();
+  return result;
+}
+
+std::string rounding_note(size_t corners, const GridStep& step) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6g", step.millimetres());
+  return std::to_string(corners) + (corners == 1 ? " corner" : " corners") +
+         " of its operands lie off the grid and were rounded to it, by up to half a step of " +
+         text + " mm";
+}
+
+}  // namespace csgrun

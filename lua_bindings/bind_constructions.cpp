@@ -1,0 +1,103 @@
+// What is made of whole solids or shapes: hull, minkowski, resize.
+#include <csgrun/primitives/shape_operations.h>
+
+#include "lua_bindings/api.h"
+#include "lua_bindings/guard.h"
+#include "lua_bindings/operands.h"
+#include "lua_bindings/session.h"
+
+namespace csgrun {
+namespace {
+
+using T = ArgumentType;
+
+constexpr Option kOperandOptions[] = {
+    {"operands", T::kValue, "", "solids or shapes, one after another or as lists", true},
+};
+constexpr FunctionSpec kHull{"hull", "The least convex solid or shape that contains all of them.",
+                             kOperandOptions, false, "hull(sphere(4), cube(2):up(10))"};
+constexpr FunctionSpec kMinkowski{
+    "minkowski",
+    "All sums of a point of each: the first, swept by the others. Empty ones count for nothing.",
+    kOperandOptions, false, "minkowski{cube{20, 20, 5}, sphere(1)}"};
+
+template <const FunctionSpec& Spec, NodePtr (*OfSolids)(std::vector<NodePtr>, SourceRef),
+          Result<Shape2D> (*OfShapes)(const std::vector<Shape2D>&)>
+int combine(lua_State* L) {
+  Operands operands = read_operands(L, Spec);
+  if (operands.has_shapes) {
+    push_shape(L, value_or_fail(Spec, OfShapes(operands.shapes)), operands.appearance);
+  } else if (operands.has_solids) {
+    push_solid(L, OfSolids(std::move(operands.solids), session_of(L).source_ref(L)));
+  } else {
+    fail_in(Spec, "needs a solid or a shape");
+  }
+  marks_of(L, -1)->name = operands.name;
+  return 1;
+}
+
+constexpr Option kResizeOptions[] = {
+    {"newsize", T::kVector2Or3, "",
+     "lengths along X, Y and (of a solid) Z; 0 leaves that axis as it is", true,
+     Range::kNotNegative, "size"},
+    {"auto", T::kBooleans2Or3, "false",
+     "whether axes of length 0 take the factor of the longest one that is given; or which do",
+     true},
+};
+constexpr FunctionSpec kResize{"resize",
+                               "Scales about the origin until the bounding box has these lengths.",
+                               kResizeOptions,
+                               false,
+                               "part:resize({20, 0, 0}, {auto = true})",
+                               "part",
+                               "a solid or a shape; part:resize(...) leaves it out"};
+
+void resize_shape(lua_State* L, const ShapeValue& shape, const glm::dvec3& size,
+                  const std::array<bool, 3>& automatic) {
+  if (shape.shape.empty()) {
+    push_shape(L, shape.shape, shape.appearance);
+    return;
+  }
+  const auto [low, high] = shape.shape.bounds();
+  const auto factors = resize_factors({high.x - low.x, high.y - low.y}, {size.x, size.y},
+                                      {automatic[0], automatic[1]});
+  Affine map;
+  map.m[0][0] = factors[0];
+  map.m[1][1] = factors[1];
+  push_shape(L, value_or_fail(kResize, shape.shape.transformed(map)), shape.appearance);
+}
+
+int resize(lua_State* L) {
+  take_subject_out_of_list(L);
+  const ShapeValue* shape = to_shape(L, 1);
+  const SolidValue* solid = to_solid(L, 1);
+  if (shape == nullptr && solid == nullptr) solid_argument(L, kResize);
+  const Arguments arguments(L, kResize, 2);
+  const auto wanted = arguments.vector("newsize");
+  if (!wanted) fail_in(kResize, "needs the new lengths: (20, 10), or 0 where nothing changes");
+  const std::array<bool, 3> automatic = arguments.booleans("auto");
+  if (shape != nullptr) {
+    resize_shape(L, *shape, wanted->v, automatic);
+  } else {
+    const Resize resize{{wanted->v.x, wanted->v.y, wanted->v.z}, automatic};
+    push_solid(L, Node::resized(resize, solid->node, session_of(L).source_ref(L)));
+  }
+  keep_marks(L, 1);
+  return 1;
+}
+
+constexpr lua_CFunction kHullFunction = guarded<combine<kHull, Node::convex_hull, hull_of_shapes>>;
+constexpr lua_CFunction kMinkowskiFunction =
+    guarded<combine<kMinkowski, Node::minkowski_sum, minkowski_of_shapes>>;
+
+constexpr Binding kBindings[] = {
+    {&kHull, kHullFunction, kHullFunction, kHullFunction},
+    {&kMinkowski, kMinkowskiFunction, kMinkowskiFunction, kMinkowskiFunction},
+    {&kResize, guarded<resize>, guarded<resize>, guarded<resize>},
+};
+
+}  // namespace
+
+std::span<const Binding> construction_bindings() { return kBindings; }
+
+}  // namespace csgrun

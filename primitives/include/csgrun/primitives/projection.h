@@ -1,0 +1,20 @@
+// From solids to 2D shapes: shadows and sections.
+#pragma once
+
+#include <csgrun/engine/csg_tree.h>
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/evaluate.h>
+#include <csgrun/primitives/shape2d.h>
+
+namespace csgrun {
+
+/// The shadow of a solid on the plane z = 0: the union of its faces that look up, exact on the 2D
+/// grid. Errors: kOutOfRange, kInternal.
+Result<Shape2D> project_solid(const Solid& solid);
+
+/// The section of a solid just above height z: what the plane cuts, with faces in the plane that
+/// have the solid above them. Cut exactly; corners are then rounded to the 2D grid. `z` must be
+/// finite. Errors: those of the evaluation.
+Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z);
+
+}  // namespace csgrun

@@ -1,0 +1,42 @@
+// Solids in parts, by a plane and by what is connected; solids grown and shrunk.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <csgrun/engine/csg_tree.h>
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/evaluate.h>
+
+namespace csgrun {
+
+/// The plane of the points p with normal . p = offset.
+struct CutPlane {
+  glm::dvec3 normal{0, 0, 1};  ///< of length 1
+  double offset = 0;           ///< mm
+};
+
+/// The plane with a normal of any length but 0, at a distance from the origin along it. Errors:
+/// kInvalidArgument.
+Result<CutPlane> make_cut_plane(const glm::dvec3& normal, double offset);
+
+/// A box whose face lies in the plane, large enough to hold all of `solid` that is in front of it;
+/// empty if that is nothing. What is cut with it keeps its exact planes. Errors: those of the
+/// evaluation.
+Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const CutPlane& plane);
+
+/// A solid with its surface moved outwards by `tool`, a convex solid about the origin, or inwards
+/// when `distance`, which the tool reaches along each axis, is negative: then what the tool touches
+/// when it is moved over all that is outside goes. Exact on the grid, as minkowski_sum. Errors:
+/// those of the evaluation.
+Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const NodePtr& tool,
+                             double distance);
+
+/// The connected solids of which one consists, in the order of their smallest corners; voids belong
+/// to what is around them. Solids that touch in edges or corners are apart. A component whose box
+/// meets no other's is cut out exactly; others are made of its corners, which are rounded to the
+/// grid where they are not on it. Errors: those of the evaluation.
+Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr& solid);
+
+}  // namespace csgrun

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <csgrun/primitives/projection.h>
+
+#include "primitives/shape2d/shape_factory.h"
+
+namespace csgrun {
+namespace {
+
+Shape2D::Loop outline(const Solid& solid, uint32_t loop) {
+  Shape2D::Loop result;
+  for (uint32_t c = solid.loop_starts[loop]; c < solid.loop_starts[loop + 1]; ++c) {
+    const glm::dvec3& p = solid.positions[solid.loop_vertices[c]];
+    result.emplace_back(p.x, p.y);
+  }
+  return result;
+}
+
+NodePtr box_leaf(const glm::dvec3& low, const glm::dvec3& high, const SourceRef& where) {
+  auto mesh = std::make_shared<PolygonMesh>();
+  for (int i = 0; i < 8; ++i) {
+    mesh->points.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y,
+                              i & 4 ? high.z : low.z);
+  }
+  mesh->hull_of_points = true;
+  mesh->kind = "half-space";
+  return Node::leaf(std::move(mesh), where);
+}
+
+}  // namespace
+
+Result<Shape2D> project_solid(const Solid& solid) {
+  std::vector<Shape2D::Loop> outlines;
+  for (size_t f = 0; f < solid.faces.size(); ++f) {
+    if (!(solid.face_normals[f].z > 0)) continue;
+    const Solid::Face& face = solid.faces[f];
+    for (uint32_t l = 0; l < face.loop_count; ++l) {
+      outlines.push_back(outline(solid, face.first_loop + l));
+    }
+  }
+  if (outlines.empty()) return Shape2D();
+  const Result<Grid2D> grid = grid_for(extent_of(outlines));
+  if (!grid) return grid.error();
+  // Seen from above all these faces run counter-clockwise: the winding number of a point is how
+  // many of them are over it.
+  std::vector<Segment2D> segments;
+  for (const auto& loop : outlines) add_outline(snap_loop(*grid, loop), false, segments);
+  return Shape2DFactory::arranged(*grid, std::move(segments),
+                                  [](int32_t, int32_t rest) { return rest > 0; });
+}
+
+Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z) {
+  Affine down;
+  down.m[2][3] = -z;
+  const NodePtr moved = Node::transformed(down, solid, solid->where());
+  const auto extent = evaluator.extent(moved);
+  if (!extent) return extent.error();
+  if (extent->empty || extent->bbox[0].z > 0 || extent->bbox[1].z <= 0) return Shape2D();
+  const glm::dvec3 size = extent->bbox[1] - extent->bbox[0];
+  const double margin = std::max({size.x, size.y, size.z});
+  glm::dvec3 low = extent->bbox[0] - glm::dvec3(margin),
+             high = extent->bbox[1] + glm::dvec3(margin);
+  low.z = 0;
+  const auto above = evaluator.evaluate(Node::boolean(
+      BooleanOp::kIntersection, {moved, box_leaf(low, high, solid->where())}, solid->where()));
+  if (!above) return above.error();
+  std::vector<Shape2D::Loop> outlines;
+  const Solid& part = **above;
+  for (size_t f = 0; f < part.faces.size(); ++f) {
+    const glm::dvec3& normal = part.face_normals[f];
+    if (!(normal.z < 0) || normal.x != 0 || normal.y != 0) continue;
+    const Solid::Face& face = part.faces[f];
+    if (part.positions[part.loop_vertices[part.loop_starts[face.first_loop]]].z != 0) continue;
+    for (uint32_t l = 0; l < face.loop_count; ++l) {
+      outlines.push_back(outline(part, face.first_loop + l));
+    }
+  }
+  return Shape2D::from_outlines(outlines);
+}
+
+}  // namespace csgrun

@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <csgrun/engine/exact_triangles.h>
+#include <csgrun/primitives/freeform.h>
+#include <csgrun/primitives/solid_parts.h>
+#include <csgrun/primitives/solids.h>
+
+#include "primitives/base/text.h"
+
+namespace csgrun {
+namespace {
+
+NodePtr box_leaf(const glm::dvec3& low, const glm::dvec3& high, const SourceRef& where) {
+  auto mesh = make_cube(high - low);
+  for (glm::dvec3& p : mesh->points) p += low;
+  return Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where);
+}
+
+/// Connected surfaces of a solid.
+struct Surface {
+  std::vector<uint32_t> triangles;
+  glm::dvec3 low{0}, high{0};
+  double volume = 0;  ///< negative for a void
+};
+
+std::vector<Surface> surfaces_of(const Solid& solid) {
+  std::vector<uint32_t> parent(solid.positions.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto find = [&](uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& t : solid.triangles) {
+    for (int i = 1; i < 3; ++i) parent[find(t[i])] = find(t[0]);
+  }
+  std::vector<uint32_t> number(solid.positions.size(), UINT32_MAX);
+  std::vector<Surface> surfaces;
+  for (uint32_t t = 0; t < solid.triangles.size(); ++t) {
+    uint32_t& n = number[find(solid.triangles[t][0])];
+    if (n == UINT32_MAX) {
+      n = static_cast<uint32_t>(surfaces.size());
+      surfaces.emplace_back();
+      surfaces.back().low = surfaces.back().high = solid.positions[solid.triangles[t][0]];
+    }
+    Surface& surface = surfaces[n];
+    surface.triangles.push_back(t);
+    for (const uint32_t v : solid.triangles[t]) {
+      surface.low = glm::min(surface.low, solid.positions[v]);
+      surface.high = glm::max(surface.high, solid.positions[v]);
+    }
+  }
+  return surfaces;
+}
+
+std::vector<std::array<uint32_t, 3>> triangles_of(const Solid& solid, const Surface& surface) {
+  std::vector<std::array<uint32_t, 3>> result;
+  for (const uint32_t t : surface.triangles) result.push_back(solid.triangles[t]);
+  return result;
+}
+
+bool holds(const Surface& outer, const Surface& inner) {
+  for (int i = 0; i < 3; ++i) {
+    if (inner.low[i] < outer.low[i] || inner.high[i] > outer.high[i]) return false;
+  }
+  return true;
+}
+
+/// Whether a void lies in what a surface encloses: then nothing is wrapped around a point in it.
+bool is_void_of(const Solid& solid, const Surface& hole, const Surface& outer) {
+  if (!holds(outer, hole)) return false;
+  auto triangles = triangles_of(solid, hole);
+  const auto others = triangles_of(solid, outer);
+  triangles.insert(triangles.end(), others.begin(), others.end());
+  const uint32_t first = 0;
+  return windings_in_front({solid.positions, triangles}, {&first, 1})[0] == 0;
+}
+
+/// Half of the widest gap between two boxes along an axis; not positive when they meet.
+double half_gap(const Surface& a, const Surface& b) {
+  double gap = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) gap = std::max({gap, b.low[i] - a.high[i], a.low[i] - b.high[i]});
+  return gap / 2;
+}
+
+}  // namespace
+
+Result<CutPlane> make_cut_plane(const glm::dvec3& normal, double offset) {
+  const double length = glm::length(normal);
+  if (!std::isfinite(length) || length == 0) {
+    return invalid_argument("the normal must be finite and not 0");
+  }
+  if (!std::isfinite(offset)) return invalid_argument("the offset must be finite");
+  // A normal along an axis has exactly this direction.
+  for (int i = 0; i < 3; ++i) {
+    if (std::fabs(normal[i]) != length) continue;
+    CutPlane plane{glm::dvec3(0), offset};
+    plane.normal[i] = normal[i] > 0 ? 1 : -1;
+    return plane;
+  }
+  return CutPlane{normal / length, offset};
+}
+
+Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const CutPlane& plane) {
+  const auto extent = evaluator.extent(solid);
+  if (!extent) return extent.error();
+  if (extent->empty) return Node::empty(solid->where());
+  const glm::dvec3 middle = (extent->bbox[0] + extent->bbox[1]) / 2.0;
+  const double radius = glm::length(extent->bbox[1] - middle) * 1.125;
+  const double height = glm::dot(plane.normal, middle);
+  if (height + radius <= plane.offset) return Node::empty(solid->where());
+  // Axes with the normal as the third: the plane is where the third coordinate is the offset,
+  // whatever the solid.
+  int least = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::fabs(plane.normal[i]) < std::fabs(plane.normal[least])) least = i;
+  }
+  glm::dvec3 axis(0);
+  axis[least] = 1;
+  const glm::dvec3 v = glm::normalize(glm::cross(plane.normal, axis));
+  const glm::dvec3 u = glm::cross(v, plane.normal);
+  const double x = glm::dot(u, middle), y = glm::dot(v, middle);
+  const NodePtr box = box_leaf({x - radius, y - radius, plane.offset},
+                               {x + radius, y + radius, height + radius}, solid->where());
+  Affine turn;
+  for (int i = 0; i < 3; ++i) turn.m[i] = {u[i], v[i], plane.normal[i], 0};
+  return Node::transformed(turn, box, solid->where());
+}
+
+Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const NodePtr& tool,
+                             double distance) {
+  const SourceRef& where = tool->where();
+  if (distance > 0) return Node::minkowski_sum({solid, tool}, where);
+  const auto extent = evaluator.extent(solid);
+  if (!extent) return extent.error();
+  if (extent->empty) return solid;
+  // All that is outside of the solid and near to it.
+  const glm::dvec3 margin(2 * std::fabs(distance));
+  const NodePtr around = box_leaf(extent->bbox[0] - margin, extent->bbox[1] + margin, where);
+  const NodePtr outside = Node::boolean(BooleanOp::kDifference, {around, solid}, where);
+  const NodePtr gone = Node::minkowski_sum({outside, tool}, where);
+  return Node::boolean(BooleanOp::kDifference, {solid, gone}, where);
+}
+
+Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr& solid) {
+  const auto evaluated = evaluator.evaluate(solid);
+  if (!evaluated) return evaluated.error();
+  const Solid& whole = **evaluated;
+  std::vector<Surface> outer, holes;
+  for (Surface& surface : surfaces_of(whole)) {
+    const auto triangles = triangles_of(whole, surface);
+    surface.volume = exact_volume({whole.positions, triangles});
+    (surface.volume > 0 ? outer : holes).push_back(std::move(surface));
+  }
+  std::sort(outer.begin(), outer.end(), [](const Surface& a, const Surface& b) {
+    return std::tie(a.low.x, a.low.y, a.low.z, a.triangles[0]) <
+           std::tie(b.low.x, b.low.y, b.low.z, b.triangles[0]);
+  });
+  std::vector<std::vector<uint32_t>> triangles;
+  for (const Surface& surface : outer) triangles.push_back(surface.triangles);
+  for (const Surface& hole : holes) {
+    size_t innermost = outer.size();
+    for (size_t i = 0; i < outer.size(); ++i) {
+      if (innermost < outer.size() && outer[innermost].volume <= outer[i].volume) continue;
+      if (is_void_of(whole, hole, outer[i])) innermost = i;
+    }
+    if (innermost == outer.size()) {
+      return Error{ErrorCode::kInternal, "a void lies in no component", solid->where()};
+    }
+    triangles[innermost].insert(triangles[innermost].end(), hole.triangles.begin(),
+                                hole.triangles.end());
+  }
+  if (outer.size() == 1) return std::vector<NodePtr>{solid};
+  std::vector<NodePtr> result;
+  for (size_t i = 0; i < outer.size(); ++i) {
+    double margin = std::numeric_limits<double>::infinity();
+    for (size_t k = 0; k < outer.size(); ++k) {
+      if (k != i) margin = std::min(margin, half_gap(outer[i], outer[k]));
+    }
+    // Several steps of any grid on which the solid stands.
+    const double reach = glm::length(glm::max(glm::abs(outer[i].low), glm::abs(outer[i].high)));
+    if (margin > 1e-6 * reach) {
+      const NodePtr box = box_leaf(outer[i].low - glm::dvec3(margin),
+                                   outer[i].high + glm::dvec3(margin), solid->where());
+      result.push_back(Node::boolean(BooleanOp::kIntersection, {solid, box}, solid->where()));
+    } else {
+      result.push_back(Node::leaf(
+          std::make_shared<const PolygonMesh>(mesh_of_solid(whole, triangles[i], "component")),
+          solid->where()));
+    }
+  }
+  return result;
+}
+
+}  // namespace csgrun

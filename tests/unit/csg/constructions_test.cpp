@@ -1,0 +1,208 @@
+// Hulls, Minkowski sums and resizing in trees, against closed forms and identities.
+#include <cmath>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <csgrun/engine/evaluate.h>
+
+#include "test_meshes.h"
+
+namespace csgrun {
+namespace {
+
+using namespace testing;
+
+struct Evaluated {
+  SolidPtr solid = std::make_shared<Solid>();
+  std::vector<std::string> warnings;
+  [[nodiscard]] double volume() const { return solid->measures.volume; }
+};
+
+Evaluated evaluated(const NodePtr& root, const char* grid = nullptr) {
+  EvaluateOptions options;
+  options.threads = 2;
+  if (grid != nullptr) options.grid = *GridStep::parse(grid);
+  Evaluator evaluator(options);
+  auto result = evaluator.evaluate(root);
+  EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().message);
+  if (!result) return {};
+  return {*result, evaluator.warnings()};
+}
+
+NodePtr moved(const NodePtr& node, double x, double y, double z) {
+  return testing::moved(x, y, z, node);
+}
+NodePtr turned(const NodePtr& node) {
+  // About an axis off all others, by columns that are orthogonal only up to rounding.
+  Affine map;
+  const double a = std::cos(0.3), b = std::sin(0.3), c = std::cos(0.7), d = std::sin(0.7);
+  map.m[0] = {a, -b, 0, 0};
+  map.m[1] = {b * c, a * c, -d, 0};
+  map.m[2] = {b * d, a * d, c, 0};
+  return Node::transformed(map, node);
+}
+
+void expect_same(const NodePtr& given, const NodePtr& truth, const std::string& what) {
+  const Evaluated a = evaluated(given), b = evaluated(truth);
+  EXPECT_EQ(a.volume(), b.volume()) << what;
+  EXPECT_EQ(a.solid->canonical_hash, b.solid->canonical_hash) << what;
+}
+
+using Cell = std::array<int, 3>;
+
+const NodePtr kBox = box({0, 0, 0}, {1, 2, 3});
+
+TEST(ConvexHullNode, OfBoxesInARow) {
+  const NodePtr row = Node::convex_hull({kBox, moved(kBox, 5, 0, 0)});
+  expect_same(row, box({0, 0, 0}, {6, 2, 3}), "plain");
+  expect_same(turned(row), turned(box({0, 0, 0}, {6, 2, 3})), "turned as a whole");
+  expect_same(Node::convex_hull({turned(kBox), turned(moved(kBox, 5, 0, 0))}),
+              turned(box({0, 0, 0}, {6, 2, 3})), "each turned");
+  expect_same(Node::convex_hull({row, moved(row, 0, 0, 7)}), box({0, 0, 0}, {6, 2, 10}), "nested");
+  expect_same(Node::convex_hull({unite({kBox, moved(kBox, 5, 0, 0)})}), box({0, 0, 0}, {6, 2, 3}),
+              "of a union");
+}
+
+TEST(ConvexHullNode, OfBooleans) {
+  const NodePtr cross = subtract({box({0, 0, 0}, {9, 9, 9}), box({3, 3, -1}, {6, 6, 10})});
+  const Evaluated plain = evaluated(Node::convex_hull({cross}));
+  EXPECT_EQ(plain.volume(), 729);
+  EXPECT_TRUE(plain.warnings.empty());
+  expect_same(Node::convex_hull({turned(cross)}), turned(box({0, 0, 0}, {9, 9, 9})), "turned");
+  const NodePtr nothing = intersect({kBox, moved(kBox, 9, 0, 0)});
+  EXPECT_TRUE(evaluated(Node::convex_hull({nothing})).solid->empty());
+  EXPECT_EQ(evaluated(Node::convex_hull({nothing, kBox})).volume(), 6);
+  // A corner where three planes meet off the grid.
+  const NodePtr cut = intersect({kBox, turned(moved(kBox, -0.5, -0.5, -0.5))});
+  const Evaluated rounded = evaluated(Node::convex_hull({cut}));
+  ASSERT_EQ(rounded.warnings.size(), 1u);
+  EXPECT_NE(rounded.warnings[0].find("off the grid"), std::string::npos);
+  EXPECT_NEAR(rounded.volume(), evaluated(cut).volume(), 1e-6);
+}
+
+TEST(ConvexHullNode, WhatIsFlatIsEmptyWithANote) {
+  auto flat = std::make_shared<PolygonMesh>();
+  flat->points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 3, 0}};
+  flat->hull_of_points = true;
+  flat->kind = "hull";
+  const Evaluated result = evaluated(Node::leaf(flat));
+  EXPECT_TRUE(result.solid->empty());
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_EQ(result.warnings[0], "'hull' encloses no volume on the grid and is left out");
+  EXPECT_TRUE(evaluated(Node::convex_hull({})).solid->empty());
+  EXPECT_TRUE(evaluated(Node::convex_hull({Node::empty(), Node::empty()})).solid->empty());
+}
+
+TEST(MinkowskiNode, OfBoxes) {
+  expect_same(Node::minkowski_sum({kBox, box({-1, -1, -1}, {1, 1, 1})}),
+              box({-1, -1, -1}, {2, 3, 4}), "two");
+  expect_same(Node::minkowski_sum({kBox, kBox, kBox}), box({0, 0, 0}, {3, 6, 9}), "three");
+  expect_same(Node::minkowski_sum({turned(kBox), turned(kBox)}), turned(box({0, 0, 0}, {2, 4, 6})),
+              "turned");
+  expect_same(Node::minkowski_sum({Node::empty(), kBox, Node::empty()}), kBox, "and nothing");
+  EXPECT_TRUE(evaluated(Node::minkowski_sum({Node::empty()})).solid->empty());
+  const NodePtr nothing = intersect({kBox, moved(kBox, 9, 0, 0)});
+  expect_same(Node::minkowski_sum({nothing, kBox}), kBox, "and an empty result");
+}
+
+/// A plate with a slot, an L and a frame: their sums are boxes less boxes.
+TEST(MinkowskiNode, OfWhatIsNotConvex) {
+  const NodePtr cube = box({0, 0, 0}, {1, 1, 1});
+  const NodePtr frame = subtract({box({0, 0, 0}, {10, 10, 2}), box({3, 3, -1}, {7, 7, 3})});
+  expect_same(Node::minkowski_sum({frame, cube}),
+              subtract({box({0, 0, 0}, {11, 11, 3}), box({4, 4, -1}, {7, 7, 4})}), "frame, cube");
+  expect_same(Node::minkowski_sum({cube, frame}),
+              subtract({box({0, 0, 0}, {11, 11, 3}), box({4, 4, -1}, {7, 7, 4})}), "cube, frame");
+  expect_same(Node::minkowski_sum({frame, frame}), box({0, 0, 0}, {20, 20, 4}), "two frames");
+  const NodePtr corner = subtract({box({0, 0, 0}, {10, 10, 2}), box({-1, -1, -1}, {5, 5, 3})});
+  EXPECT_EQ(evaluated(Node::minkowski_sum({corner, corner})).volume(), (400 - 75) * 4);
+  // A void that the cube does not fill, and one that it does.
+  const NodePtr hollow = subtract({box({0, 0, 0}, {9, 9, 9}), box({2, 2, 2}, {7, 7, 7})});
+  expect_same(Node::minkowski_sum({hollow, cube}),
+              subtract({box({0, 0, 0}, {10, 10, 10}), box({3, 3, 3}, {7, 7, 7})}), "hollow");
+  expect_same(Node::minkowski_sum({hollow, box({0, 0, 0}, {5, 5, 5})}),
+              box({0, 0, 0}, {14, 14, 14}), "filled");
+  // In pieces, one of which is a union, and three operands in another order.
+  const NodePtr apart = unite({kBox, moved(kBox, 20, 0, 0)});
+  expect_same(Node::minkowski_sum({apart, cube, frame}), Node::minkowski_sum({frame, apart, cube}),
+              "commutes");
+}
+
+/// Unions of unit cubes against cells: a cell is in the sum if it is in the sum of two of them.
+TEST(MinkowskiNode, OfRandomCells) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 12; ++round) {
+    std::array<std::vector<Cell>, 2> cells;
+    std::array<NodePtr, 2> solids;
+    for (int k = 0; k < 2; ++k) {
+      std::vector<NodePtr> cubes;
+      for (int i = 0; i < 27; ++i) {
+        if (random() % 3 != 0) continue;
+        const Cell c{i % 3, i / 3 % 3, i / 9};
+        cells[k].push_back(c);
+        cubes.push_back(box({c[0], c[1], c[2]}, {c[0] + 1, c[1] + 1, c[2] + 1}));
+      }
+      // Under a difference they are one operand that is not convex.
+      solids[k] =
+          cubes.empty() ? Node::empty() : subtract({unite(cubes), box({50, 50, 50}, {51, 51, 51})});
+    }
+    if (cells[0].empty() || cells[1].empty()) continue;
+    std::set<Cell> filled;
+    for (const Cell& a : cells[0]) {
+      for (const Cell& b : cells[1]) {
+        for (int i = 0; i < 8; ++i) {
+          filled.insert(
+              {a[0] + b[0] + (i & 1), a[1] + b[1] + (i >> 1 & 1), a[2] + b[2] + (i >> 2)});
+        }
+      }
+    }
+    const Evaluated sum = evaluated(Node::minkowski_sum({solids[0], solids[1]}));
+    EXPECT_EQ(sum.volume(), static_cast<double>(filled.size())) << "round " << round;
+  }
+}
+
+TEST(ResizeNode, ScalesTheBox) {
+  const auto volume = [](std::array<double, 3> size, std::array<bool, 3> automatic) {
+    return evaluated(Node::resized({size, automatic}, moved(kBox, 1, 0, 0))).volume();
+  };
+  EXPECT_EQ(volume({0, 0, 0}, {true, true, true}), 6);
+  EXPECT_EQ(volume({4, 0, 0}, {false, false, false}), 24);
+  EXPECT_EQ(volume({2, 0, 0}, {false, true, true}), 48);
+  EXPECT_EQ(volume({2, 8, 0}, {false, false, true}), 2 * 8 * 12);
+  EXPECT_EQ(volume({-2, 8, 0}, {false, false, false}), 24);
+  const Evaluated result = evaluated(Node::resized({{2, 2, 2}, {}}, moved(kBox, 1, 0, 0)));
+  EXPECT_EQ(result.solid->measures.bbox[0], glm::dvec3(2, 0, 0));  // about the origin
+  EXPECT_TRUE(evaluated(Node::resized({{1, 1, 1}, {}}, Node::empty())).solid->empty());
+  // So long that its width is nothing on a grid that holds its length.
+  EXPECT_EQ(evaluated(Node::resized({{0, 0, 0.5}, {}}, box({0, 0, 0}, {6, 6, 1e10}))).volume(), 18);
+  const NodePtr notched = subtract({kBox, box({0, 0, 2}, {9, 9, 9})});
+  EXPECT_EQ(evaluated(Node::resized({{0, 0, 5}, {}}, notched)).volume(), 10);
+}
+
+TEST(ConstructionNode, KeepsColours) {
+  Appearance red;
+  red.red = 1, red.green = red.blue = 0, red.is_default = false;
+  const NodePtr painted = Node::painted(red, kBox);
+  for (const NodePtr& node :
+       {Node::convex_hull({painted, moved(kBox, 9, 0, 0)}), Node::minkowski_sum({painted, kBox}),
+        Node::minkowski_sum({subtract({painted, box({0, 0, 0}, {0.5, 0.5, 0.5})}), kBox})}) {
+    const Evaluated result = evaluated(node);
+    ASSERT_EQ(result.solid->appearances.size(), 1u);
+    EXPECT_EQ(result.solid->appearances[0], red);
+  }
+}
+
+TEST(ConstructionNode, DeepChainsUseConstantStack) {
+  NodePtr chain = kBox;
+  for (int i = 0; i < 20000; ++i) chain = Node::convex_hull({chain});
+  EXPECT_EQ(evaluated(chain).volume(), 6);
+  // Shared operands are walked once.
+  NodePtr doubled = kBox;
+  for (int i = 0; i < 60; ++i) doubled = unite({doubled, doubled});
+  EXPECT_EQ(evaluated(Node::convex_hull({doubled})).volume(), 6);
+}
+
+}  // namespace
+}  // namespace csgrun

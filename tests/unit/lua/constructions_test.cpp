@@ -1,0 +1,92 @@
+// What functions of whole solids say when they are called wrongly.
+#include "lua_support.h"
+
+namespace csgrun::testing {
+namespace {
+
+TEST(Constructions, Mistakes) {
+  EXPECT_EQ(message_of("return hull()"), "model.lua:1: hull: needs a solid or a shape");
+  EXPECT_EQ(message_of("return hull{}"), "model.lua:1: hull: needs a solid or a shape");
+  EXPECT_EQ(message_of("return hull(cube(1), 3)"),
+            "model.lua:1: hull: an operand must be a solid or a shape, got 3");
+  EXPECT_EQ(message_of("return cube(1):minkowski{a = cube(1)}"),
+            "model.lua:1: minkowski: takes lists of solids or shapes without holes and names in "
+            "them");
+  EXPECT_EQ(message_of("return minkowski(cube(1), square(1))"),
+            "model.lua:1: minkowski: a solid and a 2D shape cannot be combined; make a solid of "
+            "the shape first, with linear_extrude or rotate_extrude");
+  EXPECT_EQ(message_of("return cube(1):resize()"),
+            "model.lua:1: resize: needs the new lengths: (20, 10), or 0 where nothing changes");
+  EXPECT_EQ(message_of("return cube(1):resize({1, 1, 1}, {auto = 1})"),
+            "model.lua:1: resize: option 'auto' must be true, false or a list of two or three of "
+            "them, got 1");
+  EXPECT_EQ(message_of("return cube(1):resize(1/0, 1, 1)"),
+            "model.lua:1: resize: option 'newsize' must be finite, got inf");
+  EXPECT_EQ(message_of("return cube(1):resize(1, -1, 1)"),
+            "model.lua:1: resize: option 'newsize' must not be negative, got -1");
+  EXPECT_EQ(message_of("return resize(7)").substr(0, 60),
+            "model.lua:1: resize: the first argument must be a solid, got ");
+}
+
+TEST(Sections, Mistakes) {
+  EXPECT_EQ(message_of("return cube(1):projection{cutt = true}"),
+            "model.lua:1: projection: unknown option 'cutt' (did you mean 'cut'?)");
+  EXPECT_EQ(message_of("return cube(1):projection{cut = 1}"),
+            "model.lua:1: projection: option 'cut' must be true or false, got 1");
+  EXPECT_EQ(message_of("return cube(1):project(1)"),
+            "model.lua:1: project: takes no arguments; slice(z) cuts");
+  EXPECT_EQ(message_of("return cube(1):slice('a')"),
+            "model.lua:1: slice: option 'z' must be a number, got string");
+  EXPECT_EQ(message_of("return cube(1):slice(0/0)"),
+            "model.lua:1: slice: option 'z' must be finite, got nan");
+  EXPECT_EQ(message_of("return cube(1):trim({0, 0, 0})"),
+            "model.lua:1: trim: the normal must be finite and not 0");
+  EXPECT_EQ(message_of("return cube(1):split{normel = {0, 0, 1}}"),
+            "model.lua:1: split: unknown option 'normel' (did you mean 'normal'?)");
+  EXPECT_EQ(message_of("return cube(1):split({0, 0, 1}, 1, {point = {0, 0, 1}})"),
+            "model.lua:1: split: give either 'offset' or 'point', not both");
+  EXPECT_EQ(message_of("return cube(1):split({0, 0})"),
+            "model.lua:1: split: option 'normal' must be a list of three numbers, got a list of 2 "
+            "numbers");
+  EXPECT_EQ(message_of("return cube(1):decompose(1)"),
+            "model.lua:1: decompose: takes no arguments");
+}
+
+TEST(Freeform, Mistakes) {
+  EXPECT_EQ(message_of("return cube(1):refine()"),
+            "model.lua:1: refine: needs the length of the longest edge");
+  EXPECT_EQ(message_of("return cube(1):refine(0)"),
+            "model.lua:1: refine: option 'length' must be positive, got 0");
+  EXPECT_EQ(message_of("return cube(1):smooth{round = 2}"),
+            "model.lua:1: smooth: unknown option 'round' (did you mean 'rounds'?)");
+  EXPECT_EQ(message_of("return cube(1):smooth(1.5)"),
+            "model.lua:1: smooth: option 'rounds' must be a whole number, got 1.5");
+  EXPECT_EQ(message_of("return cube(1):warp(3)"),
+            "model.lua:1: warp: option 'f' must be a function, got 3");
+  EXPECT_EQ(message_of("return cube(1):warp()"), "model.lua:1: warp: needs a function");
+  EXPECT_EQ(message_of("return cube(1):warp(function() return 1, 2 end)"),
+            "model.lua:1: warp: the function must give three numbers, got 2 values");
+  EXPECT_EQ(message_of("return cube(1):warp(function(x, y) return x, y, 0 end)"),
+            "model.lua:1: warp: the moved points enclose no volume");
+  EXPECT_EQ(message_of("return cube(1):warp(function(x, y, z) return x, y, 1/0 end)"),
+            "model.lua:1: warp: a moved point must be finite, got inf");
+  EXPECT_EQ(message_of("return levelset(function() return 0 end)"),
+            "model.lua:1: levelset: needs bounds: {min = {x, y, z}, max = {x, y, z}}");
+  EXPECT_EQ(message_of("return levelset(function() end, {{0, 0, 0}, {1, 1, 1}})"),
+            "model.lua:1: levelset: the function must give a number, got 0 values");
+  EXPECT_EQ(message_of("return levelset(function() return 0 end, {{0, 0, 0}, {1, 0, 1}})"),
+            "model.lua:1: levelset: the bounds must be finite and increase along each axis");
+  EXPECT_EQ(message_of("return surface()"), "model.lua:1: surface: needs a file, or 'heights'");
+  EXPECT_EQ(message_of("return surface{heights = {{1, 2}, {3}}}"),
+            "model.lua:1: surface: row 2 of option 'heights' must be a list of 2 numbers, as the "
+            "first, got a list of one value");
+  EXPECT_EQ(message_of("return cube{4, 4, 4, r = 3}"),
+            "model.lua:1: cube: r must be at most half of the shortest side, 2, got 3");
+  EXPECT_EQ(message_of("return cylinder{h = 4, r1 = 1, r2 = 2, round = 1}"),
+            "model.lua:1: cylinder: 'round' needs both radii to be the same");
+  EXPECT_EQ(message_of("return cube(1):offset{delta = 1, chamfer = true}"),
+            "model.lua:1: offset: option 'chamfer' is for shapes");
+}
+
+}  // namespace
+}  // namespace csgrun::testing
