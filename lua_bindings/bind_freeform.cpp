@@ -200,14 +200,14 @@ int warp(lua_State* L) {
 }
 
 constexpr Option kLevelsetOptions[] = {
-    {"f", T::kValue, "", "a function of x, y, z: less than the level inside", true},
+    {"f", T::kValue, "", "a function of x, y, z: at most the level inside", true},
     {"bounds", T::kValue, "", "{min = {x, y, z}, max = {x, y, z}}, as bbox() gives them", true},
     {"step", T::kNumber, "1", "mm between samples", true, Range::kPositive},
     {"level", T::kNumber, "0", "the value at the surface", false},
 };
 constexpr FunctionSpec kLevelset{
     "levelset",
-    "The solid where a function (a signed distance, say) is less than the level, cut with the\n"
+    "The solid where a function (a signed distance, say) is at most the level, cut with the\n"
     "  bounds where it reaches farther.",
     kLevelsetOptions, false,
     "levelset(function(x, y, z) return norm{x, y, z} - 8 end, {{-9, -9, -9}, {9, 9, 9}}, 1)"};
@@ -260,16 +260,11 @@ int levelset(lua_State* L) {
     return result;
   };
   PolygonMesh mesh = value_or_fail(kLevelset, make_level_set(value, options));
-  const SourceRef where = session_of(L).source_ref(L);
   if (mesh.face_count() == 0) {
-    push_solid(L, Node::empty(where));
+    push_solid(L, Node::empty(session_of(L).source_ref(L)));
     return 1;
   }
-  PolygonMesh box = value_or_fail(kLevelset, make_cube(options.high - options.low));
-  for (glm::dvec3& p : box.points) p += options.low;
-  const NodePtr set = counted_leaf(L, std::move(mesh));
-  const NodePtr limit = counted_leaf(L, std::move(box));
-  push_solid(L, Node::boolean(BooleanOp::kIntersection, {set, limit}, where));
+  push_leaf(L, std::move(mesh));
   return 1;
 }
 

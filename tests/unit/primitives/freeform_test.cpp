@@ -127,17 +127,22 @@ TEST(LevelSet, OfPlanesAndSamplesOnTheSurface) {
   const auto mesh = make_level_set(half, options(2, 1));
   ASSERT_TRUE(mesh);
   EXPECT_TRUE(check_mesh(*mesh).ok());
-  for (const glm::dvec3& p : mesh->points) EXPECT_LE(p.z, 0.25 + 1e-12);
+  EXPECT_NEAR(signed_volume(*mesh), 16 * 2.25, 1e-12);
   const auto cube = [](const glm::dvec3& p) {
     return Result<double>(std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) - 1);
   };
   const auto touching = make_level_set(cube, options(3, 1));
   ASSERT_TRUE(touching);
   EXPECT_TRUE(check_mesh(*touching).ok());
-  EXPECT_NEAR(signed_volume(*touching), 8, 0.5);
+  EXPECT_NEAR(signed_volume(*touching), 8, 1e-12);  // its corners lie on the lattice
+  const auto all = make_level_set([](const glm::dvec3&) { return Result<double>(-1.0); },
+                                  options(1.5, 1));  // cut off at the bounds
+  ASSERT_TRUE(all);
+  EXPECT_TRUE(check_mesh(*all).ok());
+  EXPECT_NEAR(signed_volume(*all), 27, 1e-12);
   const auto nothing = [](const glm::dvec3&) { return Result<double>(1.0); };
   EXPECT_EQ(make_level_set(nothing, options(2, 1))->face_count(), 0u);
-  EXPECT_EQ(make_level_set(nothing, options(200, 0.1)).error().code, ErrorCode::kLimit);
+  EXPECT_EQ(make_level_set(nothing, options(200, 0.01)).error().code, ErrorCode::kLimit);
   EXPECT_EQ(make_level_set(nothing, options(2, -1)).error().message,
             "levelset: step must be positive, got -1");
 }

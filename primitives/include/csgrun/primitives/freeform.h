@@ -34,16 +34,17 @@ MeshResult warp_mesh(PolygonMesh mesh,
                      const std::function<Result<glm::dvec3>(const glm::dvec3&)>& move);
 
 struct LevelSetOptions {
-  glm::dvec3 low{0}, high{0};  ///< where it is looked for; what reaches farther is open there
+  glm::dvec3 low{0}, high{0};  ///< where it is looked for; what reaches farther is cut off
   double step = 1;             ///< mm between samples, at most
   double level = 0;
 };
-/// The solid where a function is less than `level`. It is sampled on a grid one step wider than the
-/// bounds, with each cube cut into six tetrahedra (which leaves no ambiguity, so the surface is
-/// always a manifold), and the surface is where straight lines between samples reach the level, at
-/// least 1/256 of the line away from both. At the border of the samples it is closed: cut it with
-/// the bounds. An empty mesh (no faces) when nothing is below the level. Errors: those of
-/// `function`, kInvalidArgument, kLimit above 2^22 samples.
+/// The solid where a function is at most `level`, within the bounds, whose sides close it where it
+/// reaches them. The function is asked on a lattice, in ascending z, y, x, each side of the bounds
+/// cut into equal parts no longer than a step, and taken as linear in six tetrahedra of each cell:
+/// so the surface is closed whatever the function does, it is exact where its corners lie on the
+/// lattice, and what is smaller than a step may be missed. An empty mesh (no faces) when nothing is
+/// inside. Errors: those of `function`, kInvalidArgument, kLimit above 2^28 samples. Memory for two
+/// layers.
 MeshResult make_level_set(const std::function<Result<double>(const glm::dvec3&)>& function,
                           const LevelSetOptions& options);
 
