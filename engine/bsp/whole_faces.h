@@ -24,7 +24,7 @@ struct WholeFaces {
   std::vector<WholePolygon> whole;  ///< what is kept as it is
   std::vector<uint8_t> general;     ///< per polygon: left to the general way
   bool any_general = false;
-  /// Where polygons touch, or meet in a point by chance; see BoundaryMesh::touches.
+  /// Where what is kept, here or in the general way, may touch itself; see BoundaryMesh::touches.
   std::vector<GridBox> touching;
 };
 

@@ -136,5 +136,20 @@ TEST(Extent, OfNothing) {
   EXPECT_EQ(evaluator.extent(unite({second, cube(1)}))->volume, 1);
 }
 
+// Solids that were not measured are the same but for that, and do not stand in for measured ones.
+TEST(Extent, IsKnownOfSolidsThatWereNotMeasured) {
+  EvaluateOptions options;
+  Evaluator measuring(options);
+  options.measure = false;
+  Evaluator evaluator(options);
+  const NodePtr part = subtract({cube(4), moved(1, 1, 2, cube(4))});
+  const auto solid = evaluator.evaluate(part), measured = measuring.evaluate(part);
+  ASSERT_TRUE(solid && measured);
+  EXPECT_EQ((*solid)->triangles, (*measured)->triangles);
+  EXPECT_EQ((*solid)->measures.volume, 0);
+  EXPECT_EQ((*measured)->measures.volume, 46);
+  EXPECT_EQ(evaluator.extent(part)->volume, 46);
+}
+
 }  // namespace
 }  // namespace csgrun
