@@ -115,8 +115,8 @@ constexpr Option kSmoothOptions[] = {
 };
 constexpr FunctionSpec kSmooth{
     "smooth",
-    "Rounds off the whole solid by subdivision (Loop 1987): it draws near a surface without edges\n"
-    "  that lies within its corners. Refine it first to keep it nearer to what it was.",
+    "Rounds off the whole solid by subdivision (Loop 1987): it draws near a surface without edges "
+    "that lies within its corners. Refine it first to keep it nearer to what it was.",
     kSmoothOptions,
     false,
     "cube(10):refine(4):smooth(2)",
@@ -207,8 +207,8 @@ constexpr Option kLevelsetOptions[] = {
 };
 constexpr FunctionSpec kLevelset{
     "levelset",
-    "The solid where a function (a signed distance, say) is at most the level, cut with the\n"
-    "  bounds where it reaches farther.",
+    "The solid where a function (a signed distance, say) is at most the level, cut with the "
+    "bounds where it reaches farther.",
     kLevelsetOptions, false,
     "levelset(function(x, y, z) return norm{x, y, z} - 8 end, {{-9, -9, -9}, {9, 9, 9}}, 1)"};
 

@@ -78,8 +78,8 @@ constexpr Option kSliceOptions[] = {
 };
 constexpr FunctionSpec kSlice{
     "slice",
-    "What a horizontal plane cuts of a solid, a 2D shape. Where the solid has a face in the\n"
-    "  plane, what is above it counts.",
+    "What a horizontal plane cuts of a solid, a 2D shape. Where the solid has a face in the "
+    "plane, what is above it counts.",
     kSliceOptions,
     false,
     "sphere(10):slice(5):area()",
@@ -102,8 +102,8 @@ constexpr Option kPlaneOptions[] = {
 };
 constexpr FunctionSpec kSplit{
     "split",
-    "The two parts of a solid on either side of a plane: first what is in front of it, where the\n"
-    "  normal points, then what is behind.",
+    "The two parts of a solid on either side of a plane: first what is in front of it, where the "
+    "normal points, then what is behind.",
     kPlaneOptions,
     false,
     "local top, bottom = part:split({0, 0, 1}, 5)",

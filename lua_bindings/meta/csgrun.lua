@@ -952,16 +952,16 @@ function Solid:warp(f, options) end
 
 ---@class (exact) csgrun.levelset
 ---@field [integer] any
----@field f? any a function of x, y, z: less than the level inside
+---@field f? any a function of x, y, z: at most the level inside
 ---@field bounds? any {min = {x, y, z}, max = {x, y, z}}, as bbox() gives them
 ---@field step? number mm between samples
 ---@field level? number the value at the surface
 
----The solid where a function (a signed distance, say) is less than the level, cut with the bounds where it reaches farther.
+---The solid where a function (a signed distance, say) is at most the level, cut with the bounds where it reaches farther.
 ---
 ---Example: `levelset(function(x, y, z) return norm{x, y, z} - 8 end, {{-9, -9, -9}, {9, 9, 9}}, 1)`
 ---@overload fun(options: csgrun.levelset): Solid
----@param f? any a function of x, y, z: less than the level inside
+---@param f? any a function of x, y, z: at most the level inside
 ---@param bounds? any {min = {x, y, z}, max = {x, y, z}}, as bbox() gives them
 ---@param step? number mm between samples
 ---@param options? csgrun.levelset

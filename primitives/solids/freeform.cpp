@@ -90,6 +90,16 @@ MeshResult refine_mesh(PolygonMesh mesh, double length) {
   if (!std::isfinite(length)) return not_finite("refine", "length", length);
   if (!(length > 0)) return not_positive("refine", "length", length);
   mesh.keep_facets = true;
+  const Error too_many{ErrorCode::kLimit, "refine: makes more than 16777216 points", {}};
+  // A triangle without longer edges has at most the area of the one with all edges of that length.
+  double area = 0;
+  for (size_t f = 0; f < mesh.face_count(); ++f) {
+    const Triangle t = triangle(mesh, f);
+    area += glm::length(glm::cross(mesh.points[t[1]] - mesh.points[t[0]],
+                                   mesh.points[t[2]] - mesh.points[t[0]])) /
+            2;
+  }
+  if (area / (std::sqrt(3.0) / 4 * length * length) > 2 * kMostPoints) return too_many;
   while (true) {
     PolygonMesh next = without_faces(mesh);
     bool is_done = true;
@@ -136,9 +146,7 @@ MeshResult refine_mesh(PolygonMesh mesh, double length) {
       }
     }
     if (is_done) return mesh;
-    if (static_cast<double>(next.points.size()) > kMostPoints) {
-      return Error{ErrorCode::kLimit, "refine: makes more than 16777216 points", {}};
-    }
+    if (static_cast<double>(next.points.size()) > kMostPoints) return too_many;
     mesh = std::move(next);
   }
 }

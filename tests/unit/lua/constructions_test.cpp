@@ -19,20 +19,20 @@ TEST(Constructions, Mistakes) {
             "model.lua:1: resize: needs the new lengths: (20, 10), or 0 where nothing changes");
   EXPECT_EQ(message_of("return cube(1):resize({1, 1, 1}, {auto = 1})"),
             "model.lua:1: resize: option 'auto' must be true, false or a list of two or three of "
-            "them, got 1");
+            "them, got the number 1");
   EXPECT_EQ(message_of("return cube(1):resize(1/0, 1, 1)"),
             "model.lua:1: resize: option 'newsize' must be finite, got inf");
   EXPECT_EQ(message_of("return cube(1):resize(1, -1, 1)"),
             "model.lua:1: resize: option 'newsize' must not be negative, got -1");
   EXPECT_EQ(message_of("return resize(7)").substr(0, 60),
-            "model.lua:1: resize: the first argument must be a solid, got ");
+            "model.lua:1: resize: the first argument must be a solid, got");
 }
 
 TEST(Sections, Mistakes) {
   EXPECT_EQ(message_of("return cube(1):projection{cutt = true}"),
             "model.lua:1: projection: unknown option 'cutt' (did you mean 'cut'?)");
   EXPECT_EQ(message_of("return cube(1):projection{cut = 1}"),
-            "model.lua:1: projection: option 'cut' must be true or false, got 1");
+            "model.lua:1: projection: option 'cut' must be true or false, got the number 1");
   EXPECT_EQ(message_of("return cube(1):project(1)"),
             "model.lua:1: project: takes no arguments; slice(z) cuts");
   EXPECT_EQ(message_of("return cube(1):slice('a')"),
@@ -47,7 +47,7 @@ TEST(Sections, Mistakes) {
             "model.lua:1: split: give either 'offset' or 'point', not both");
   EXPECT_EQ(message_of("return cube(1):split({0, 0})"),
             "model.lua:1: split: option 'normal' must be a list of three numbers, got a list of 2 "
-            "numbers");
+            "values");
   EXPECT_EQ(message_of("return cube(1):decompose(1)"),
             "model.lua:1: decompose: takes no arguments");
 }
@@ -60,7 +60,7 @@ TEST(Freeform, Mistakes) {
   EXPECT_EQ(message_of("return cube(1):smooth{round = 2}"),
             "model.lua:1: smooth: unknown option 'round' (did you mean 'rounds'?)");
   EXPECT_EQ(message_of("return cube(1):smooth(1.5)"),
-            "model.lua:1: smooth: option 'rounds' must be a whole number, got 1.5");
+            "model.lua:1: smooth: option 'rounds' must be a whole number, got the number 1.5");
   EXPECT_EQ(message_of("return cube(1):warp(3)"),
             "model.lua:1: warp: option 'f' must be a function, got 3");
   EXPECT_EQ(message_of("return cube(1):warp()"), "model.lua:1: warp: needs a function");

@@ -302,7 +302,7 @@ TEST(CsgFile, ErrorsHaveTheirLine) {
   EXPECT_EQ(error("group() {\n" + kCube + "\troof() {\n" + kSquare + "}\n}"),
             "m.csg:3: roof() is not supported in .csg files");
   EXPECT_EQ(error("\nsurface(file = \"x.png\", center = false);"),
-            "m.csg:2: surface() is not supported in .csg files");
+            "m.csg:2: surface: there are no files here");
   EXPECT_EQ(sketch(parse("hull();\nminkowski(convexity = 0);\n").solid), "empty");
   EXPECT_EQ(error("cuboid(size = 1);"), "m.csg:1: unknown node cuboid()");
   EXPECT_EQ(error("cube(size = [1, 2], center = false);"),
