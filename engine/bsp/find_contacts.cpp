@@ -34,7 +34,7 @@ void look_at(const Job& job, Looker& looker, const PairCells& cells, const PairC
     const Meeting meeting = test.run(p, q, nullptr, contact);
     if (meeting == Meeting::kApart) return;
     critical = true;
-    if (meeting == Meeting::kUnsure) {
+    if (meeting == Meeting::kUndecided) {
       out.unsure.emplace_back(p, q);
       return;
     }

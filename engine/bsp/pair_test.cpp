@@ -161,7 +161,7 @@ Meeting PairTest::run(uint32_t p, uint32_t q, CellGeometry* planes, Contact& con
         of_p ? p_side = corner_sides(p, q, sides_p_) : q_side = corner_sides(q, p, sides_q_);
     if (side == 1 || side == -1) return Meeting::kApart;
   }
-  if (p_side == kUnsure || q_side == kUnsure) return Meeting::kUnsure;
+  if (p_side == kUnsure || q_side == kUnsure) return Meeting::kUndecided;
   contact.p = p;
   contact.q = q;
   Passage of_p, of_q;
@@ -170,14 +170,14 @@ Meeting PairTest::run(uint32_t p, uint32_t q, CellGeometry* planes, Contact& con
   if (contact.is_coplanar) return Meeting::kContact;
   // p from rises to falls, q from falls to rises.
   const int upper_reaches = inside(p, of_p.falls, true, q, of_q.falls);
-  if (upper_reaches == kUnsure) return Meeting::kUnsure;
+  if (upper_reaches == kUnsure) return Meeting::kUndecided;
   if (upper_reaches < 0) return Meeting::kApart;
   const int lower_reaches = inside(p, of_p.rises, false, q, of_q.rises);
-  if (lower_reaches == kUnsure) return Meeting::kUnsure;
+  if (lower_reaches == kUnsure) return Meeting::kUndecided;
   if (lower_reaches < 0) return Meeting::kApart;
   const int lower_on_p = inside(p, of_p.rises, false, q, of_q.falls);
   const int upper_on_p = inside(p, of_p.falls, true, q, of_q.rises);
-  if (lower_on_p == kUnsure || upper_on_p == kUnsure) return Meeting::kUnsure;
+  if (lower_on_p == kUnsure || upper_on_p == kUnsure) return Meeting::kUndecided;
   contact.is_plain = !of_p.zero && !of_q.zero && upper_reaches != 0 && lower_reaches != 0 &&
                      lower_on_p != 0 && upper_on_p != 0;
   contact.p_front = of_p.front, contact.p_back = of_p.back;

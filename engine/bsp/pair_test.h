@@ -36,7 +36,7 @@ struct Contact {
 enum class Meeting : uint8_t {
   kApart,
   kContact,
-  kUnsure,  ///< without planes this cannot be told
+  kUndecided,  ///< without planes this cannot be told
 };
 
 class PairTest {

@@ -196,7 +196,7 @@ class Trees(Case):
         self.assertEqual(outcome.json()["parts"][0]["volume"], 875)
 
     def test_a_node_that_is_not_there_yet(self):
-        self.write("m.csg", "group() {\n\thull() {\n\t\tcube(size = [1, 1, 1], center = false);\n\t}\n}\n")
+        self.write("m.csg", "group() {\n\troof(method = \"voronoi\") {\n\t\tsquare(size = [1, 1], center = false);\n\t}\n}\n")
         self.expect(self.run_csgrun("m.csg", "--stats=json"), 1, "m.csg:2: ")
 
     def test_what_is_no_tree(self):

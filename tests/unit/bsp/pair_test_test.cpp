@@ -97,7 +97,7 @@ void check_pairs(const std::vector<Operand>& operands, bool with_planes, Seen& s
       Contact contact;
       const Meeting met = test.run(p, q, with_planes ? &geometry : nullptr, contact);
       const bool is_sure = with_planes || (job.has_grid_vertices(0) && job.has_grid_vertices(1));
-      if (met == Meeting::kUnsure) {
+      if (met == Meeting::kUndecided) {
         ASSERT_FALSE(is_sure);
         ++seen.unsure;
         continue;
