@@ -96,7 +96,7 @@ local ears = tab:mirror_copy(1, 0, 0)
 local grid = cylinder(2, 0.8):grid_array({4, 3}, {3, 3})
 local round = cube(2, 1, 1):translate(10, 0, 0):polar_array(8)
 assert(grid:components() == 12 and round:components() == 8 and ears:components() == 2)
-local knob_on_lever = layout.attach(knob, "bottom", lever, "top")
+local knob_on_lever = layout.attach(knob, lever, "top")
 assert(layout.anchor(knob_on_lever, "bottom")[3] == layout.anchor(lever, "top")[3])
 
 -- Booleans as operators, and what they keep.
