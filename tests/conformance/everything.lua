@@ -111,7 +111,7 @@ assert(upright:anchor("bottom")[3] == 10)
 local grid = cylinder(2, 0.8):grid_array({4, 3}, {3, 3})
 local ring = cube(2, 1, 1):translate(10, 0, 0):polar_array(8)
 assert(grid:components() == 12 and ring:components() == 8 and ears:components() == 2)
-local knob_on_lever = layout.attach(knob, "bottom", lever, "top")
+local knob_on_lever = layout.attach(knob, lever, "top")
 assert(layout.anchor(knob_on_lever, "bottom")[3] == layout.anchor(lever, "top")[3])
 
 -- Booleans as operators, and what they keep.
