@@ -57,7 +57,12 @@ using Anchor = glm::dvec3;
 
 glm::dvec3 point_of(const std::array<glm::dvec3, 2>& box, const Anchor& anchor) {
   glm::dvec3 p;
-  for (int i = 0; i < 3; ++i) p[i] = box[0][i] + (box[1][i] - box[0][i]) * ((anchor[i] + 1) / 2);
+  // Sides are the box's own numbers: no rounding comes between parts that are to touch.
+  for (int i = 0; i < 3; ++i) {
+    p[i] = anchor[i] < 0   ? box[0][i]
+           : anchor[i] > 0 ? box[1][i]
+                           : box[0][i] + (box[1][i] - box[0][i]) / 2;
+  }
   return p;
 }
 

@@ -72,6 +72,15 @@ class Examples(Case):
             self.assertEqual(outcome.json()["warnings"], [], f"{name}: {example}")
 
 
+class Everything(Case):
+    def test_the_model_of_everything_has_every_function(self):
+        with open(os.path.join(SOURCE, "tests/conformance/everything.lua"), encoding="utf-8") as file:
+            model = file.read()
+        self.assertGreater(len(model.split("\n")), 200)
+        names = re.findall(r"^### (\w+)$", page("markdown"), re.MULTILINE)
+        self.assertEqual([name for name in names if not re.search(rf"\b{name}\b", model)], [])
+
+
 class Init(Case):
     def test_it_writes_what_editors_want(self):
         self.expect(self.run_csgrun("--init"), 0)
