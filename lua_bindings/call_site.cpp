@@ -1,9 +1,11 @@
 #include "lua_bindings/call_site.h"
 
 #include <cstring>
+#include <string_view>
 
 #include "lua_bindings/budget.h"
 #include "lua_bindings/session.h"
+#include "lua_bindings/shipped_modules.h"
 #include "lua_bindings/text.h"
 
 namespace csgrun {
@@ -86,14 +88,22 @@ std::string traceback(lua_State* L) {
   return text;
 }
 
+bool is_shipped(const lua_Debug& frame) {
+  return frame.source[0] == '@' && std::string_view(frame.source + 1).starts_with(kShippedPlace);
+}
+
 }  // namespace
 
 bool innermost_lua_frame(lua_State* L, lua_Debug& frame) {
+  lua_Debug innermost{};
   for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
     lua_getinfo(L, "Sl", &frame);
-    if (frame.currentline > 0) return true;
+    if (frame.currentline <= 0) continue;
+    if (!is_shipped(frame)) return true;
+    if (innermost.currentline <= 0) innermost = frame;
   }
-  return false;
+  frame = innermost;
+  return frame.currentline > 0;
 }
 
 const char* chunk_file(const lua_Debug& frame) {

@@ -7,7 +7,8 @@
 
 namespace csgrun {
 
-/// The innermost Lua function of the stack: fills `source`, `short_src` and `currentline`.
+/// The innermost Lua function of the stack that is not the program's own library (whose calls stand
+/// where the model called it), or the innermost one: fills `source`, `short_src` and `currentline`.
 /// Allocates nothing, so that the allocator and the watchdog may ask. False when no Lua function
 /// runs.
 bool innermost_lua_frame(lua_State* L, lua_Debug& frame);

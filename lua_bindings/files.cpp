@@ -185,7 +185,7 @@ Files::Opened Files::open_module(const std::string& name, const std::string& sea
   }
   for (const ShippedModule& module : shipped_modules()) {
     if (module.name != name) continue;
-    const std::string place = "csgrun:" + name;
+    const std::string place = std::string(kShippedPlace) + name;
     return {place, place, std::string(module.text)};
   }
   std::string relative = name;

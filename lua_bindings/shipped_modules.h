@@ -12,6 +12,9 @@ struct ShippedModule {
   std::string_view text;
 };
 
+/// A module's file as messages and call sites name it: this and its name, "csgrun:csg.gears".
+inline constexpr std::string_view kShippedPlace = "csgrun:";
+
 /// All of them, by name.
 std::span<const ShippedModule> shipped_modules();
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/csg/double_double.h"
+#include "engine/base/double_double.h"
 
 namespace csgrun {
 namespace {

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <unordered_map>
 
+#include <glm/geometric.hpp>
+
 #include "engine/bsp/union_find.h"
 #include "engine/csg/grid.h"
 #include "engine/exact/fixed_int.h"
@@ -22,7 +24,8 @@ class ConvexPatches {
   ConvexPatches(const Solid& solid, const std::vector<IVec3>& points)
       : solid_(solid), points_(points) {}
 
-  std::vector<std::vector<uint32_t>> make() {
+  /// `is_rounded` is by point.
+  void make(const std::vector<uint8_t>& is_rounded, GridSolid& result) {
     const size_t edges = solid_.triangles.size() * 3;
     next_.resize(edges);
     previous_.resize(edges);
@@ -34,25 +37,53 @@ class ConvexPatches {
     }
     find_twins();
     for (uint32_t e = 0; e < edges; ++e) {
-      if (twin_[e] != kNone && e < twin_[e]) drop(e, twin_[e]);
+      if (e < twin_[e] && face(e) == face(twin_[e])) drop(e, twin_[e]);
     }
-    std::vector<std::vector<uint32_t>> result;
-    std::vector<uint8_t> is_done(edges, 0);
+    patch_of_.assign(edges, kNone);
     for (uint32_t e = 0; e < edges; ++e) {
-      if (is_gone_[e] != 0 || is_done[e] != 0) continue;
-      std::vector<uint32_t>& loop = result.emplace_back();
-      for (uint32_t at = e; is_done[at] == 0; at = next_[at]) {
-        is_done[at] = 1;
-        loop.push_back(from(at));
+      if (is_gone_[e] != 0 || patch_of_[e] != kNone) continue;
+      const auto patch = static_cast<uint32_t>(result.patches.size());
+      GridSolid::Patch& made = result.patches.emplace_back();
+      made.face = face(e);
+      made.normal = glm::normalize(solid_.face_normals[face(e)]);
+      for (uint32_t at = e; patch_of_[at] == kNone; at = next_[at]) {
+        patch_of_[at] = patch;
+        made.corners.push_back(from(at));
+        made.is_exact = made.is_exact && is_rounded[from(at)] == 0;
       }
     }
-    return result;
+    for (uint32_t e = 0; e < edges; ++e) {
+      const uint32_t twin = twin_[e];
+      if (e > twin || face(e) == face(twin)) continue;
+      const int side = side_of_apex(e, twin);
+      if (side == 0) continue;
+      result.rims.push_back({from(e), from(twin), patch_of_[e], patch_of_[twin], side < 0});
+    }
   }
 
  private:
   [[nodiscard]] uint32_t from(uint32_t edge) const { return solid_.triangles[edge / 3][edge % 3]; }
+  [[nodiscard]] uint32_t face(uint32_t edge) const { return solid_.triangle_face[edge / 3]; }
 
-  /// Edges between two triangles of one face.
+  /// On which side of the triangle of an edge the third corner of its neighbour is: +1 in front.
+  [[nodiscard]] int side_of_apex(uint32_t edge, uint32_t twin) const {
+    const uint32_t third = twin - twin % 3 + (twin % 3 + 2) % 3;
+    const auto& t = solid_.triangles[edge / 3];
+    std::array<std::array<Int128, 3>, 3> d;
+    for (int i = 0; i < 3; ++i) {
+      const int64_t origin = points_[t[0]][i];
+      d[0][i] = points_[t[1]][i] - origin;
+      d[1][i] = points_[t[2]][i] - origin;
+      d[2][i] = points_[from(third)][i] - origin;
+    }
+    // Differences are at most 2^41, so this is below 2^126.
+    const Int128 value = d[2][0] * (d[0][1] * d[1][2] - d[0][2] * d[1][1]) +
+                         d[2][1] * (d[0][2] * d[1][0] - d[0][0] * d[1][2]) +
+                         d[2][2] * (d[0][0] * d[1][1] - d[0][1] * d[1][0]);
+    return value > 0 ? 1 : value < 0 ? -1 : 0;
+  }
+
+  /// The same edge as its other triangle runs it.
   void find_twins() {
     twin_.assign(next_.size(), kNone);
     std::unordered_map<uint64_t, uint32_t> edge_at;
@@ -62,7 +93,6 @@ class ConvexPatches {
       edge_at[a << 32 | b] = e;
       const auto found = edge_at.find(b << 32 | a);
       if (found == edge_at.end()) continue;
-      if (solid_.triangle_face[e / 3] != solid_.triangle_face[found->second / 3]) continue;
       twin_[e] = found->second;
       twin_[found->second] = e;
     }
@@ -103,7 +133,7 @@ class ConvexPatches {
 
   const Solid& solid_;
   const std::vector<IVec3>& points_;
-  std::vector<uint32_t> next_, previous_, twin_;
+  std::vector<uint32_t> next_, previous_, twin_, patch_of_;
   std::vector<uint8_t> is_gone_;
   UnionFind polygon_;
 };
@@ -133,7 +163,11 @@ Result<GridSolid> grid_solid(const Solid& solid, const GridStep& step, bool with
     }
   }
   const std::vector<glm::dvec3> back = to_millimetres(result.points, step);
-  for (size_t i = 0; i < back.size(); ++i) result.rounded += back[i] != solid.positions[i] ? 1 : 0;
+  std::vector<uint8_t> is_rounded(back.size());
+  for (size_t i = 0; i < back.size(); ++i) {
+    is_rounded[i] = back[i] != solid.positions[i] ? 1 : 0;
+    result.rounded += is_rounded[i];
+  }
   if (!with_patches) return result;
 
   UnionFind surface(result.points.size());
@@ -144,7 +178,7 @@ Result<GridSolid> grid_solid(const Solid& solid, const GridStep& step, bool with
   for (uint32_t v = 0; v < result.points.size(); ++v) {
     if (surface.find(v) == v) result.anchors.push_back(v);
   }
-  result.patches = ConvexPatches(solid, result.points).make();
+  ConvexPatches(solid, result.points).make(is_rounded, result);
   return result;
 }
 

@@ -12,14 +12,29 @@
 namespace csgrun {
 
 struct GridSolid {
+  /// A convex polygon that is a part of a face.
+  struct Patch {
+    std::vector<uint32_t> corners;  ///< indices of points, counter-clockwise from outside
+    uint32_t face;
+    glm::dvec3 normal;     ///< unit, outwards, within 1e-15; that of the face
+    bool is_exact = true;  ///< no corner was rounded: all are in the plane of the face
+  };
+  /// An edge between two faces that are not in one plane.
+  struct Rim {
+    uint32_t from, to;      ///< indices of points, as `patch` runs it
+    uint32_t patch, other;  ///< the patches beside it
+    bool is_convex;
+  };
+
   std::vector<IVec3> points;  ///< its vertices; may repeat
-  /// Convex polygons that cover its faces: indices of points.
-  std::vector<std::vector<uint32_t>> patches;
+  std::vector<Patch> patches;
+  std::vector<Rim> rims;
   std::vector<uint32_t> anchors;  ///< a vertex of each connected surface
   size_t rounded = 0;             ///< how many vertices were off the grid
 };
 
-/// Coordinates at most 2^40 steps. Errors: kOutOfRange beyond.
+/// Patches, rims and anchors only if they are asked for. Coordinates at most 2^40 steps. Errors:
+/// kOutOfRange beyond.
 Result<GridSolid> grid_solid(const Solid& solid, const GridStep& step, bool with_patches);
 
 /// A note about corners that were rounded: "12 corners of its operands are not on the grid and were

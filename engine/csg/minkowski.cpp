@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/csg/convex_hull.h"
+#include "engine/csg/outward_sums.h"
 
 namespace csgrun {
 namespace {
@@ -28,9 +29,9 @@ std::vector<IVec3> hull_of_sums(const std::vector<IVec3>& a, const std::vector<I
   return convex_hull(waiting).vertices;
 }
 
-std::vector<IVec3> corners(const GridSolid& solid, const std::vector<uint32_t>& patch) {
+std::vector<IVec3> corners(const GridSolid& solid, const GridSolid::Patch& patch) {
   std::vector<IVec3> result;
-  for (const uint32_t v : patch) result.push_back(solid.points[v]);
+  for (const uint32_t v : patch.corners) result.push_back(solid.points[v]);
   return result;
 }
 
@@ -58,14 +59,26 @@ class Sums {
 
  private:
   void add_hull(const std::vector<IVec3>& a, const std::vector<IVec3>& b) {
+    add_body(hull_of_sums(a, b));
+  }
+
+  void add_body(std::vector<IVec3> points) {
+    if (points.empty()) return;
     Summand summand;
-    summand.solid.points = hull_of_sums(a, b);
-    if (summand.solid.points.empty()) return;
+    summand.solid.points = std::move(points);
     summand.is_convex = true;
     result_.push_back(std::move(summand));
   }
 
   void add_convex(const Summand& a, const Summand& convex) {
+    OutwardSums outward;
+    if (outward_sums(a.solid, convex.solid.points, outward)) {
+      add_moved(a, outward.centre);
+      for (const std::vector<IVec3>& body : outward.bodies) {
+        add_body(convex_hull(body).vertices);
+      }
+      return;
+    }
     add_moved(a, convex.solid.points[0]);
     for (const auto& f : a.solid.patches) add_hull(corners(a.solid, f), convex.solid.points);
   }
@@ -90,7 +103,7 @@ double count_sums(const Summand& a, const Summand& b) {
     size_t count = s.solid.points.size();
     if (s.is_convex) return static_cast<double>(count);
     count = 0;
-    for (const auto& patch : s.solid.patches) count += patch.size();
+    for (const auto& patch : s.solid.patches) count += patch.corners.size();
     return static_cast<double>(count);
   };
   return points(a) * points(b);

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "engine/exact/point.h"
-#include "engine/mesh/double_double.h"
+#include "engine/mesh/leading_bits.h"
 #include "engine/mesh/measure.h"
 #include "engine/mesh/natural.h"
 
@@ -141,7 +141,7 @@ class WholeSums {
       high_moments_[k] += static_cast<Int128>(high) * sum;
       low_moments_[k] += static_cast<Int128>(low) * sum;
     }
-    return squares.square_root();
+    return sqrt(squares);
   }
 
   template <class Volume>
@@ -218,7 +218,7 @@ class FixedRound {
       for (int k = 0; k < 3; ++k) {
         moments[k] += full_product(determinant, a[k] + b[k] + c[k]);
       }
-      result.twice_area = result.twice_area + squares.square_root();
+      result.twice_area = result.twice_area + sqrt(squares);
     }
     six_volumes += whole.six_volumes<Volume>().shifted_left(3 * result.fraction_bits);
     for (int k = 0; k < 3; ++k) {

@@ -38,7 +38,7 @@ class Pages(Case):
         self.assertRegex(text, r"---@overload fun\(options: csgrun.cube\): Solid")
 
     def test_forms(self):
-        self.expect(self.run_csgrun("--help-api=html"), 2, "csgrun: --help-api can be =markdown, =luals or nothing")
+        self.expect(self.run_csgrun("--help-api=html"), 2, "csgrun: --help-api can be =markdown, =luals, =json or nothing")
         self.assertIn("\ncube(size, center)\n", self.run_csgrun("--help-api").out)
 
 
@@ -70,6 +70,15 @@ class Examples(Case):
                 outcome = self.run_script(f"{PRELUDE}\n{example}\nemit(cube(1))")
             self.assertEqual(outcome.code, 0, f"{name}: {example}: {outcome.err}")
             self.assertEqual(outcome.json()["warnings"], [], f"{name}: {example}")
+
+
+class Everything(Case):
+    def test_the_model_of_everything_has_every_function(self):
+        with open(os.path.join(SOURCE, "tests/conformance/everything.lua"), encoding="utf-8") as file:
+            model = file.read()
+        self.assertGreater(len(model.split("\n")), 200)
+        names = re.findall(r"^### (\w+)$", page("markdown"), re.MULTILINE)
+        self.assertEqual([name for name in names if not re.search(rf"\b{name}\b", model)], [])
 
 
 class Init(Case):

@@ -16,6 +16,16 @@ local function near(value, wanted, tolerance)
   assert(math.abs(value - wanted) <= tolerance * math.abs(wanted), value .. " instead of " .. wanted)
 end
 
+-- What the model reads: its own text, tables as values, a tree of OpenSCAD, a drawing.
+local data = read_json("everything/sizes.json")
+assert(data.tray.gap == 6 and data.names[2] == "drive" and read_text("everything/note.txt"):find("mill"))
+local rows = read_csv("everything/pins.csv", {header = true})
+assert(#rows == 3 and rows[2].height == 5)
+local tree = load_csg("everything/bracket.csg")
+near(tree:volume(), 20 * 10 * 2 + 2 * 10 * 8, 1e-12)
+local badge = import("everything/badge.svg", {fn = 16})
+near(badge:area(), 12 * 8 - 16 / 2 * 4 ^ 2 * sin(360 / 16), 1e-6)
+
 local function painted(part, name)
   return finish == "painted" and part:color(name) or part
 end
@@ -27,12 +37,14 @@ local rim = outline - outline:offset(-4)
 local feet = hull(circle(5):translate(-width / 2 + 12, 0), circle(5):translate(width / 2 - 12, 0))
 local nut_pocket = regular_polygon(6, {across = 7})
 local star = polygon{{0, 6}, {1.5, 1.5}, {6, 0}, {1.5, -1.5}, {0, -6}, {-1.5, -1.5}, {-6, 0}, {-1.5, 1.5}}
+assert(polygon(star:points(), star:paths()):area() == star:area())
 local soft_star = star:offset{delta = 1, chamfer = true}
 local window = minkowski(square(10, 4), circle(1))
 assert((circle(5) - circle(3)):fill():area() > circle(4):area())
 assert(rim:components() == 1 and #rim:outlines() == 2 and rim:contains(width / 2 - 1, 0))
-near(outline:perimeter(), 2 * (width + depth) - 16 * (2 - math.pi / 2) * 2 / 2, 0.02)
+near(outline:perimeter(), 2 * (width - 16) + 2 * (depth - 16) + 32 * 2 * 8 * sin(180 / 32), 1e-6)
 local metrics = text_metrics(label, {size = 6})
+assert(fontmetrics(6).interline == font_metrics(6).interline and text("a\nb"):components() == 2)
 local plate_size = {metrics.size[1] + 10, 14}
 
 -- The base: extrusions, holes from the library, pockets, ribs as an array.
@@ -74,7 +86,8 @@ local cover = cube{30, 30, 8, r = 2, fn = 16}
 local knob = minkowski(cylinder{h = 6, r = 6, fn = 12}, sphere{r = 1, fn = 8})
 local upper, lower = knob:split({0, 0, 1}, 3)
 near(upper:volume() + lower:volume(), knob:volume(), 1e-9)
-near(knob:slice(3):area(), knob:projection():area(), 0.05)
+near(knob:slice(3):area(), knob:projection():area(), 1e-9)
+assert(knob:project():area() == knob:projection():area())
 near(cover:resize{60, 0, 0}:size()[1], 60, 1e-12)
 assert(#(cube(1) + cube(1):right(3)):decompose() == 2)
 assert(upper:trim({0, 0, 1}, 5):bbox().min[3] == 5)
@@ -93,10 +106,12 @@ local relief = surface{heights = {{0, 1, 0, 1}, {1, 3, 2, 0}, {0, 1, 1, 1}}, cen
 local tab = cube(6, 2, 1):multmatrix{{0, -1, 0, 5}, {1, 0, 0, 0}, {0, 0, 1, 2}}
 assert(tab:bbox().min[3] == 2 and tab:bbox().max[1] == 5)
 local ears = tab:mirror_copy(1, 0, 0)
+local upright = cylinder(5, 2):attach(cube(10), "top"):align{x = "center"}
+assert(upright:anchor("bottom")[3] == 10)
 local grid = cylinder(2, 0.8):grid_array({4, 3}, {3, 3})
-local round = cube(2, 1, 1):translate(10, 0, 0):polar_array(8)
-assert(grid:components() == 12 and round:components() == 8 and ears:components() == 2)
-local knob_on_lever = layout.attach(knob, "bottom", lever, "top")
+local ring = cube(2, 1, 1):translate(10, 0, 0):polar_array(8)
+assert(grid:components() == 12 and ring:components() == 8 and ears:components() == 2)
+local knob_on_lever = layout.attach(knob, lever, "top")
 assert(layout.anchor(knob_on_lever, "bottom")[3] == layout.anchor(lever, "top")[3])
 
 -- Booleans as operators, and what they keep.
@@ -136,15 +151,53 @@ end
 local good, message = pcall(spacer, {h = 3, dd = 4})
 assert(not good and message:find("unknown option 'dd' %(did you mean 'd'%?%)"), message)
 
+-- The other solids there are, and other names of what is there.
+local egg, gem, die = ellipsoid(6, 4, 3), octahedron(4), icosahedron(4)
+local roof, word = pyramid(0, 0, 0, 8, 5), text3d("ok", {size = 5, depth = 1})
+near(gem:volume(), 4 / 3 * 4 ^ 3, 1e-12)
+near(roof:volume(), 8 * 8 * 5 / 3, 1e-12)
+near(die:volume(), 5 / 12 * (3 + sqrt(5)) * (4 / sin(72)) ^ 3, 1e-6)
+assert(rect(4, 3):area() == 12 and textmetrics("ok").size[1] == text_metrics("ok").size[1])
+local ball_in_box = polyhedron{points = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}},
+                               faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}}
+assert(ball_in_box:faces({0, 0, -1})[1].area == 40.5 and #ball_in_box:faces() == 4)
+
+-- Matrices as values: they turn, move and mirror what they stand before, and can be undone.
+local there = translate(5, 0, 0) * rotate(0, 0, 90) * mirror(0, 1, 0)
+local moved = there * cube(1, 2, 3)
+assert((there:inverse() * moved) == cube(1, 2, 3) and (there * {1, 1, 0})[1] == 6)
+local block = cube(4):rx(90):ry(180):rz(-90):tx(1):ty(2):tz(3):forward(1):front(1):back(2):move{x = -1}
+assert(block:centered() == cube(4, true) and block:scale(0.5):volume() == 8)
+near(cube(2):offset{delta = 1}:volume(), 4 ^ 3, 1e-12)
+
+-- Booleans as methods, and modifiers: what is skipped is not there.
+assert(a:union(b) == a:add(b) and a:difference(b) == a:sub(b) and a:intersection(b) == a:intersect(b))
+assert(a:symmetric_difference(b):volume() == (a ~ b):volume() and a:clone() == a and a:copy() == a)
+assert((a - s(b)):volume() == 1000 and (a - b:skip() - t(b)):volume() == 1000 and (a - b:transparent()) == a)
+assert((a - d(b)) == (a - b:debug()) and o(a) == a:only())
+assert(outer_hull(cube(8) - cube(2):translate(3, 3, 3)):volume() == 512)
+local inlet = lever:ray({-9, 0, 0}, {1, 0, 0})
+near(inlet[1].distance, 9 - 4 * cos(180 / 32), 1e-6)
+
+-- Numbers, in degrees and not.
+assert(tan(45) == 1 and asin(0.5) == 30 and acos(0.5) == 60 and atan(1) == 45 and sind(30) == sin(30))
+assert(cosd(60) == cos(60) and tand(45) == 1 and asind(1) == 90 and acosd(0) == 90 and atand(1) == 45)
+assert(atan2d(1, -1) == 135 and sign(-3) == -1 and floor(1.5) == 1 and ceil(1.5) == 2 and pow(2, 3) == 8)
+near(exp(ln(5)), 5, 1e-12)
+assert(var("of LuaCAD", 7) == 7 and round(2.4) == 2 and abs(-1) == 1 and vector{1, 2, 3}.z == 3)
+
 -- Parts, groups, one after another.
 emit(painted(base, "slategray"), {name = "base"})
 emit(painted(drive, "goldenrod"), {name = "drive"})
 emit({shaft = painted(shaft, "silver"):up(60), spring = spring:up(100), spacer = spacer{h = 5}:up(90)},
      {name = "axle"})
 emit(painted(hopper, "teal"):translate(0, 0, 130):material{metallic = 0.8, roughness = 0.3}, {name = "hopper"})
+render(tree:up(200):name("bracket"))
+render(badge:linear_extrude(1):up(220):setcolor("crimson"):name("badge"))
+render(upright:right(80):material("brass"):name("upright"))
 emit(layout.row({bell, handle, lever, cover, knob_on_lever, foam, wave, pebble, relief, charm},
                 {gap = 6, align = "min"}), {name = "tray"})
-emit(layout.row({ears, grid, round, union(pins)}, {gap = 4, axis = "y"}), {name = "bits"})
+emit(layout.row({ears, grid, ring, union(pins), egg, gem, die, roof, word, ball_in_box, moved, block}, {gap = 4, axis = "y"}), {name = "bits"})
 return {
   plate = painted(nameplate, "black"):translate(0, -depth / 2 - 20, 0),
   letters = painted(raised, "gold"):translate(0, -depth / 2 - 20, 0),

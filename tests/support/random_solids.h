@@ -69,6 +69,21 @@ inline std::vector<Loop> box_loops(const IVec3& lo, const IVec3& hi) {
           {at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0)},
           {at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)}};
 }
+/// The loops with the middle of each edge as a corner, which is in line with its neighbours.
+/// REQUIRES: even coordinates.
+inline std::vector<Loop> with_middles(std::vector<Loop> loops) {
+  for (Loop& loop : loops) {
+    Loop longer;
+    for (size_t c = 0; c < loop.size(); ++c) {
+      const IVec3 &a = loop[c], &b = loop[(c + 1) % loop.size()];
+      longer.push_back(a);
+      longer.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
+    }
+    loop = std::move(longer);
+  }
+  return loops;
+}
+
 inline Leaf box_leaf(const IVec3& lo, const IVec3& hi) { return make_leaf(box_loops(lo, hi)); }
 
 /// An integer affine map of the loops; a mirror turns them round.

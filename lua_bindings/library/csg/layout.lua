@@ -3,19 +3,16 @@
 ---   local layout = require "csg.layout"
 ---   emit(layout.row({box, lid, knob}, {gap = 5}))
 ---   local tower = union(layout.stack{base, drum, cap})
----   local lamp  = base + layout.attach(shade, "bottom", base, "top")
+---   local lamp  = base + layout.attach(shade, base, "top")
 ---
---- Works on solids. Functions that distribute give a list, for union(), emit() or a loop.
+--- Works on solids. Functions that distribute give a list, for union(), emit() or a loop; the arrays
+--- that are built in (linear_array, grid_array, polar_array) give the union.
 
 local options = require "csg.options"
 
 local layout = {}
 
 local kAxes = {x = 1, y = 2, z = 3}
-local kSides = {
-  left = {1, -1}, right = {1, 1}, front = {2, -1}, back = {2, 1}, bottom = {3, -1}, top = {3, 1},
-  center = {},
-}
 
 local function list_of(name, parts)
   if type(parts) ~= "table" then
@@ -34,70 +31,14 @@ local function count_of(name, count)
   return count
 end
 
--- -1, 0 and 1 along each axis, from "top left", "center" or a list.
-local function direction_of(name, where)
-  local direction = {0, 0, 0}
-  if type(where) == "table" and #where == 3 then
-    for i = 1, 3 do
-      if type(where[i]) ~= "number" or math.abs(where[i]) > 1 then
-        error(name .. ": an anchor has three numbers from -1 to 1, got " .. tostring(where[i]), 3)
-      end
-      direction[i] = where[i]
-    end
-    return direction
-  end
-  if type(where) ~= "string" then
-    error(name .. ": an anchor is a text such as \"top left\" or a list {x, y, z}, got "
-          .. tostring(where), 3)
-  end
-  for word in where:gmatch("%a+") do
-    local side = kSides[word]
-    if not side then
-      error(name .. ": there is no side '" .. word
-            .. "'; there are left, right, front, back, bottom, top and center", 3)
-    end
-    if side[1] then
-      if direction[side[1]] ~= 0 then
-        error(name .. ": '" .. where .. "' names two sides of one axis", 3)
-      end
-      direction[side[1]] = side[2]
-    end
-  end
-  return direction
-end
+-- The functions of the same names that are built in.
+layout.anchor, layout.attach, layout.align, layout.centered = anchor, attach, align, centered
 
-local function point_at(part, direction)
-  local box, point = part:bbox(), {}
-  for i = 1, 3 do
-    -- Corners are the box's own numbers: no rounding comes between parts that are to touch.
-    local low, high, d = box.min[i], box.max[i], direction[i]
-    point[i] = d == -1 and low or d == 1 and high or (low + high) / 2 + d * (high - low) / 2
-  end
-  return point
-end
-
---- The point {x, y, z} of a solid's bounding box that is meant: "top", "bottom left", "center", or
---- {x, y, z} from -1 (least) to 1 (greatest) along each axis.
-function layout.anchor(part, where)
-  return point_at(part, direction_of("layout.anchor", where))
-end
-
---- The part, moved so that its anchor lies in a point.
+--- The part, moved so that its anchor ("top left", "center"; sides as anchor() has them) lies in a
+--- point {x, y, z}.
 function layout.place(part, where, point)
-  local from = point_at(part, direction_of("layout.place", where))
-  return part:translate(point[1] - from[1], point[2] - from[2], (point[3] or 0) - from[3])
-end
-
---- The part, moved so that its anchor `from` lies in the anchor `to` of the target. `gap` moves it
---- on, away from that side of the target.
-function layout.attach(part, from, target, to, given)
-  local o = options("layout.attach", given or {}, {gap = {0}})
-  local start = point_at(part, direction_of("layout.attach", from))
-  local side = direction_of("layout.attach", to)
-  local goal = point_at(target, side)
-  return part:translate(goal[1] + side[1] * o.gap - start[1],
-                        goal[2] + side[2] * o.gap - start[2],
-                        goal[3] + side[3] * o.gap - start[3])
+  local from = anchor(part, where)
+  return part:translate(point[1] - from[1], point[2] - from[2], (point[3] or 0) - (from[3] or 0))
 end
 
 local function row(parts, o)
@@ -157,10 +98,10 @@ function layout.grid(parts, given)
     local size = part:size()
     cell = {math.max(cell[1], size[1]), math.max(cell[2], size[2])}
   end
-  local placed, origin = {}, parts[1] and layout.anchor(parts[1], "center")
+  local placed, origin = {}, parts[1] and anchor(parts[1], "center")
   for i, part in ipairs(parts) do
     local column, line = (i - 1) % o.columns, (i - 1) // o.columns
-    local middle = layout.anchor(part, "center")
+    local middle = anchor(part, "center")
     placed[i] = part:translate(origin[1] + column * (cell[1] + o.gap) - middle[1],
                                origin[2] - line * (cell[2] + o.gap) - middle[2], 0)
   end
@@ -177,13 +118,9 @@ function layout.line(part, count, given)
   if (o.step == nil) == (o.to == nil) then
     error("layout.line: wants either step = {x, y, z} or to = {x, y, z}", 2)
   end
-  local vector, parts = o.step or o.to, count - 1
-  local copies = {}
-  for i = 0, count - 1 do
-    local t = o.step and i or parts > 0 and i / parts or 0
-    copies[i + 1] = part:translate((vector[1] or 0) * t, (vector[2] or 0) * t, (vector[3] or 0) * t)
-  end
-  return copies
+  local step = o.step or {}
+  for i, length in ipairs(o.to or {}) do step[i] = length / math.max(count - 1, 1) end
+  return part:linear_array{count, step, list = true}
 end
 
 --- `count` copies around Z. Options: radius [0: how far along X the part is moved first], angle
@@ -194,16 +131,14 @@ function layout.ring(part, count, given)
   local o = options("layout.ring", given or {}, {
     radius = {0}, angle = {360, min = -360, max = 360}, start = {0}, turn = {true},
   })
-  local full = math.abs(o.angle) == 360
-  local gaps = full and count or math.max(count - 1, 1)
+  if o.turn then
+    return part:translate(o.radius, 0, 0):rotate(o.start):polar_array{count, o.angle, list = true}
+  end
+  local gaps = math.abs(o.angle) == 360 and count or math.max(count - 1, 1)
   local copies = {}
-  for i = 0, count - 1 do
-    local angle = o.start + o.angle * i / gaps
-    if o.turn then
-      copies[i + 1] = part:translate(o.radius, 0, 0):rotate(angle)
-    else
-      copies[i + 1] = part:translate(o.radius * cos(angle), o.radius * sin(angle), 0)
-    end
+  for i = 1, count do
+    local angle = o.start + o.angle * (i - 1) / gaps
+    copies[i] = part:translate(o.radius * cos(angle), o.radius * sin(angle), 0)
   end
   return copies
 end

@@ -160,16 +160,7 @@ TEST(CornerTrace, CornersInPlanesAreMoved) {
 
 // Straight angles anywhere: corners in line with an edge do not say where its inner side is.
 TEST(CornerTrace, OfFacesWithStraightCorners) {
-  std::vector<test::Loop> loops = test::box_loops({0, 0, 0}, {4, 4, 4});
-  for (test::Loop& loop : loops) {
-    test::Loop with_middles;
-    for (size_t c = 0; c < loop.size(); ++c) {
-      const IVec3 &a = loop[c], &b = loop[(c + 1) % loop.size()];
-      with_middles.push_back(a);
-      with_middles.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
-    }
-    loop = with_middles;
-  }
+  std::vector<test::Loop> loops = test::with_middles(test::box_loops({0, 0, 0}, {4, 4, 4}));
   for (int turn = 0; turn < 8; ++turn) {
     const std::vector<Operand> operands{test::operand_of(test::make_leaf(loops))};
     Job job(operands);

@@ -195,18 +195,9 @@ TEST(EvaluateJob, StopsAtAnyTime) {
 
 // Corners in line are dropped from faces that nothing touches, too.
 TEST(EvaluateJob, StraightCornersOfUntouchedFacesAreDropped) {
-  std::vector<test::Loop> loops = test::box_loops({0, 0, 0}, {4, 4, 4});
+  const std::vector<test::Loop> loops = test::box_loops({0, 0, 0}, {4, 4, 4});
   const Operand plain = test::operand_of(test::make_leaf(loops));
-  for (test::Loop& loop : loops) {
-    test::Loop with_middles;
-    for (size_t c = 0; c < loop.size(); ++c) {
-      const IVec3 &a = loop[c], &b = loop[(c + 1) % loop.size()];
-      with_middles.push_back(a);
-      with_middles.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
-    }
-    loop = with_middles;
-  }
-  const Operand operand = test::operand_of(test::make_leaf(loops));
+  const Operand operand = test::operand_of(test::make_leaf(test::with_middles(loops)));
   const Operand other = test::operand_of(test::box_leaf({10, 0, 0}, {14, 4, 4}));
   EvaluateStats stats;
   for (const bool whole_faces : {true, false}) {

@@ -234,16 +234,7 @@ TEST(RayLabel, OfPointsWhoseRayPassesByACornerFarOut) {
 
 // Beside a straight angle the start of a face says nothing about its plane: other corners do.
 TEST(RayLabel, OfFacesThatStartWithCornersInLine) {
-  std::vector<test::Loop> loops = test::box_loops({0, 0, 0}, {4, 4, 4});
-  for (test::Loop& loop : loops) {
-    test::Loop with_middles;
-    for (size_t c = 0; c < loop.size(); ++c) {
-      const IVec3 &a = loop[c], &b = loop[(c + 1) % loop.size()];
-      with_middles.push_back(a);
-      with_middles.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
-    }
-    loop = with_middles;
-  }
+  std::vector<test::Loop> loops = test::with_middles(test::box_loops({0, 0, 0}, {4, 4, 4}));
   for (int turn = 0; turn < 8; ++turn) {
     Operands box(loops);
     for (double x = -1.75; x < 6; x += 1) {

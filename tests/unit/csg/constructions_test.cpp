@@ -163,6 +163,82 @@ TEST(MinkowskiNode, OfRandomCells) {
   }
 }
 
+/// The hull of the points in `shape`, moved.
+NodePtr hull_at(const std::vector<glm::dvec3>& shape, const glm::dvec3& at) {
+  auto mesh = std::make_shared<PolygonMesh>();
+  for (const glm::dvec3& p : shape) mesh->points.push_back(at + p);
+  mesh->hull_of_points = true;
+  mesh->kind = "hull";
+  return Node::leaf(mesh);
+}
+
+/// A sum with a union is the union of the sums, which are sums of convex solids. Planes of boxes
+/// and octahedra meet in multiples of a quarter, so nothing is rounded.
+TEST(MinkowskiNode, OfRandomUnionsWithAConvexSolid) {
+  const std::vector<glm::dvec3> octahedron{{4, 0, 0},  {-4, 0, 0}, {0, 4, 0},
+                                           {0, -4, 0}, {0, 0, 4},  {0, 0, -4}};
+  std::vector<glm::dvec3> cube;
+  for (int i = 0; i < 8; ++i) cube.emplace_back(i & 1 ? 3 : -1, i & 2 ? 2 : -2, i & 4 ? 3 : -2);
+  std::mt19937 random(11);
+  const auto coordinate = [&](int most) { return static_cast<double>(random() % most); };
+  for (int round = 0; round < 24; ++round) {
+    std::vector<glm::dvec3> convex;
+    switch (round % 4) {
+      case 0:
+        convex = octahedron;
+        break;
+      case 1:
+        for (const glm::dvec3& p : cube) convex.push_back(p * 0.5);
+        break;
+      case 2:  // in no symmetry
+        for (int i = 0; i < 12; ++i) {
+          convex.emplace_back(coordinate(5), coordinate(5), coordinate(5));
+        }
+        break;
+      default:  // without a grid point inside
+        convex = {{0, 0, 0}, {1e-6, 0, 0}, {0, 1e-6, 0}, {0, 0, 1e-6}};
+        break;
+    }
+    std::vector<NodePtr> members, sums;
+    const int count = 2 + round % 5;
+    const NodePtr other = hull_at(convex, {0, 0, 0});
+    for (int i = 0; i < count; ++i) {
+      const glm::dvec3 at(coordinate(9), coordinate(9), coordinate(9));
+      members.push_back(hull_at(random() % 2 == 0 ? cube : octahedron, at));
+      sums.push_back(Node::minkowski_sum({members.back(), other}));
+    }
+    // Under a difference they are one operand that is not convex.
+    const NodePtr whole = subtract({unite(members), box({50, 50, 50}, {51, 51, 51})});
+    const Evaluated sum = evaluated(Node::minkowski_sum({whole, other}), "0.000001");
+    const Evaluated truth = evaluated(unite(sums), "0.000001");
+    EXPECT_TRUE(sum.warnings.empty()) << "round " << round;
+    EXPECT_EQ(sum.volume(), truth.volume()) << "round " << round;
+    EXPECT_EQ(sum.solid->measures.bbox, truth.solid->measures.bbox) << "round " << round;
+  }
+}
+
+/// Corners that were rounded: no gap opens, and the volume is right to the width of a step.
+TEST(MinkowskiNode, OfWhatIsOffTheGrid) {
+  std::vector<glm::dvec3> ball;
+  for (int i = 0; i < 8; ++i) ball.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  for (int i = 0; i < 3; ++i) {
+    ball.emplace_back(0, 0, 0)[i] = 1.5;
+    ball.emplace_back(0, 0, 0)[i] = -1.5;
+  }
+  const NodePtr other = hull_at(ball, {0, 0, 0});
+  const std::vector<NodePtr> members{box({0, 0, 0}, {9, 3, 2}),
+                                     turned(box({1, -1, -1}, {3, 9, 2}))};
+  const NodePtr whole = subtract({unite(members), box({50, 50, 50}, {51, 51, 51})});
+  const Evaluated sum = evaluated(Node::minkowski_sum({whole, other}));
+  ASSERT_EQ(sum.warnings.size(), 1u);
+  EXPECT_NE(sum.warnings[0].find("off the grid"), std::string::npos);
+  const Evaluated truth = evaluated(
+      unite({Node::minkowski_sum({members[0], other}), Node::minkowski_sum({members[1], other})}));
+  EXPECT_NEAR(sum.volume(), truth.volume(), 1e-4);
+  EXPECT_EQ(sum.solid->measures.components, 1);
+  EXPECT_EQ(sum.solid->measures.genus, truth.solid->measures.genus);
+}
+
 TEST(ResizeNode, ScalesTheBox) {
   const auto volume = [](std::array<double, 3> size, std::array<bool, 3> automatic) {
     return evaluated(Node::resized({size, automatic}, moved(kBox, 1, 0, 0))).volume();

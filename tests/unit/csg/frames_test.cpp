@@ -9,35 +9,15 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/csg/test_meshes.h"
+
 namespace csgrun {
 namespace {
 
+using testing::rotation;
+using testing::scaling;
+
 constexpr int64_t kOne = int64_t{1} << Frame::kShift;
-
-Affine rotation(double degrees, std::array<double, 3> axis) {
-  const double length = std::hypot(axis[0], axis[1], axis[2]);
-  for (double& a : axis) a /= length;
-  const double t = degrees * 3.14159265358979323846 / 180, c = std::cos(t), s = std::sin(t);
-  Affine r;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) r.m[i][j] = axis[i] * axis[j] * (1 - c) + (i == j ? c : 0);
-  }
-  r.m[0][1] -= axis[2] * s;
-  r.m[1][0] += axis[2] * s;
-  r.m[0][2] += axis[1] * s;
-  r.m[2][0] -= axis[1] * s;
-  r.m[1][2] -= axis[0] * s;
-  r.m[2][1] += axis[0] * s;
-  return r;
-}
-
-Affine diagonal(double x, double y, double z) {
-  Affine r;
-  r.m[0][0] = x;
-  r.m[1][1] = y;
-  r.m[2][2] = z;
-  return r;
-}
 
 Affine signed_axes(const SignedPermutation& p) {
   Affine r;
@@ -119,7 +99,7 @@ TEST(Frames, SharedNormalsStaySharedUnderMildShearsAndScales) {
   std::uniform_real_distribution<double> angle(-180, 180), unit(-1, 1), size(0.5, 2);
   for (int trial = 0; trial < 100; ++trial) {
     Affine outer = rotation(angle(random), {unit(random), unit(random), unit(random)});
-    Affine shear = diagonal(size(random), size(random), size(random));
+    Affine shear = scaling(size(random), size(random), size(random));
     shear.m[0][1] = unit(random) * 0.5;
     outer = Affine::compose(outer, shear);
     std::vector<Affine> scene;
@@ -166,7 +146,7 @@ TEST(Frames, SignedPermutationsOfThePartShareItsFrame) {
 
 TEST(Frames, TurnedBySignedPermutationsOnlyIsTheWorld) {
   for (const auto& p : all_signed_permutations()) {
-    const auto frames = frames_of({Affine::compose(signed_axes(p), diagonal(1.1, 2, 0.3))});
+    const auto frames = frames_of({Affine::compose(signed_axes(p), scaling(1.1, 2, 0.3))});
     EXPECT_TRUE(frames[0].placement.frame.is_identity);
     EXPECT_EQ(frames[0].placement.permutation, p);
   }
@@ -176,7 +156,7 @@ TEST(Frames, NoiseLevelRoutesGiveOneFrame) {
   const Affine twice = Affine::compose(rotation(10, {0, 0, 1}), rotation(10, {0, 0, 1}));
   Affine many;
   for (int i = 0; i < 40; ++i) many = Affine::compose(rotation(0.5, {0, 0, 1}), many);
-  const Affine full = Affine::compose(rotation(380, {0, 0, 1}), diagonal(1, 1, 1));
+  const Affine full = Affine::compose(rotation(380, {0, 0, 1}), scaling(1, 1, 1));
   const auto frames = frames_of({rotation(20, {0, 0, 1}), twice, many, full});
   for (const auto& frame : frames) {
     EXPECT_EQ(frame.placement.frame, frames[0].placement.frame);
@@ -199,18 +179,18 @@ TEST(Frames, ClustersAreTransitiveAndLedByTheFirst) {
 }
 
 TEST(Frames, ScaleIsTakenOutOfTheColumns) {
-  const Affine map = Affine::compose(rotation(33, {1, 2, 3}), diagonal(1.1, 2.5, 0.01));
+  const Affine map = Affine::compose(rotation(33, {1, 2, 3}), scaling(1.1, 2.5, 0.01));
   const LinearSplit split = split_linear(map);
   EXPECT_NEAR(split.scale[0], 1.1, 1e-15);
   EXPECT_NEAR(split.scale[1], 2.5, 1e-15);
   EXPECT_NEAR(split.scale[2], 0.01, 1e-17);
   EXPECT_EQ(split_linear(rotation(33, {1, 2, 3})).scale, (std::array<double, 3>{1, 1, 1}));
-  EXPECT_EQ(split_linear(diagonal(1.1, 0.3, 7)).scale, (std::array<double, 3>{1.1, 0.3, 7}));
+  EXPECT_EQ(split_linear(scaling(1.1, 0.3, 7)).scale, (std::array<double, 3>{1.1, 0.3, 7}));
 }
 
 TEST(Frames, MirrorsHaveFramesAndNearlySingularMapsHaveNone) {
   const auto frames = frames_of(
-      {rotation(20, {1, 1, 0}), Affine::compose(rotation(20, {1, 1, 0}), diagonal(-1, 1, 1))});
+      {rotation(20, {1, 1, 0}), Affine::compose(rotation(20, {1, 1, 0}), scaling(-1, 1, 1))});
   EXPECT_EQ(frames[0].placement.frame, frames[1].placement.frame);
   EXPECT_EQ(frames[0].placement.permutation.determinant(),
             -frames[1].placement.permutation.determinant());
@@ -220,7 +200,7 @@ TEST(Frames, MirrorsHaveFramesAndNearlySingularMapsHaveNone) {
   EXPECT_FALSE(split_linear(shear).framed);
   shear.m[0][1] = 100;
   EXPECT_TRUE(split_linear(shear).framed);
-  EXPECT_FALSE(split_linear(diagonal(1, 1, 0)).framed);
+  EXPECT_FALSE(split_linear(scaling(1, 1, 0)).framed);
 }
 
 TEST(Frames, RowsAreTheInverse) {

@@ -207,9 +207,9 @@ TEST(Layout, Places) {
       "-29, 0)");
   expect_good(
       kLayout + at +
-      "local a, b = cube(10, 20, 30), cube(2, 4, 6) at(layout.attach(b, 'bottom', a, 'top'), "
-      "4, 8, 30) at(layout.attach(b, 'left front bottom', a, 'right back top', {gap = 1}), "
-      "11, 21, 31) at(layout.place(b, {-1, 0, 1}, {0, 0, 0}), 0, -2, -6) local p = "
+      "local a, b = cube(10, 20, 30), cube(2, 4, 6) at(layout.attach(b, a, 'top'), 4, 8, 30) "
+      "at(layout.attach(b, a, 'right back top', {gap = 1}), "
+      "11, 21, 31) at(layout.place(b, 'left top', {0, 0, 0}), 0, -2, -6) local p = "
       "layout.anchor(a, 'right') assert(p[1] == 10 and p[2] == 10 and p[3] == 15)");
   expect_good(
       kLayout + at +
@@ -224,16 +224,20 @@ TEST(Layout, Mistakes) {
   const auto message = [](const std::string& call) { return message_of(kLayout + call); };
   EXPECT_EQ(
       message("layout.anchor(cube(1), 'topp')"),
-      "model.lua:1: layout.anchor: there is no side 'topp'; there are left, right, front, back, "
-      "bottom, top and center");
+      "model.lua:1: anchor: option 'at': there is no side 'topp' (did you mean 'top'?); sides are "
+      "left, right, front, back, bottom, top, center, as in \"top-left\"");
   EXPECT_EQ(message("layout.anchor(cube(1), 'top bottom')"),
-            "model.lua:1: layout.anchor: 'top bottom' names two sides of one axis");
+            "model.lua:1: anchor: option 'at': 'top bottom' has opposite sides");
   EXPECT_EQ(message("layout.row(5)"), "model.lua:1: layout.row: wants a list of solids, got 5");
   EXPECT_EQ(message("layout.row{cube(1) - cube(1)}"), "model.lua:1: layout.row: part 1 is empty");
   EXPECT_EQ(message("layout.ring(cube(1), 0)"),
             "model.lua:1: layout.ring: wants how many, a whole number from 1, got 0");
   EXPECT_EQ(message("layout.line(cube(1), 3, {})"),
             "model.lua:1: layout.line: wants either step = {x, y, z} or to = {x, y, z}");
+  // What a built-in function says of a call inside the library stands at the model's line.
+  EXPECT_EQ(message("layout.line(cube(1), 3, {step = {1, 2, 'z'}})"),
+            "model.lua:1: linear_array: option 'v' must be a list of two or three numbers, but entry 3 "
+            "is string");
   EXPECT_EQ(message("layout.at(cube(1), {3})"),
             "model.lua:1: layout.at: point 1 must be {x, y, z}, got 3");
 }

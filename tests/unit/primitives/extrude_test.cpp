@@ -10,27 +10,20 @@
 #include <csgrun/primitives/shape2d.h>
 
 #include "tests/unit/primitives/mesh_measures.h"
+#include "tests/unit/primitives/outlines.h"
 
 namespace csgrun {
 namespace {
 
 using Loop = Shape2D::Loop;
 using testing::area;
+using testing::box;
 using testing::euler_number;
 using testing::expect_closed;
+using testing::outlines;
 using testing::volume;
 
 constexpr double kPi = 3.14159265358979323846;
-
-Shape2D polygon(const std::vector<Loop>& loops) {
-  auto r = Shape2D::from_outlines(loops);
-  EXPECT_TRUE(r);
-  return r ? *r : Shape2D();
-}
-
-Shape2D box(double x0, double y0, double x1, double y1) {
-  return polygon({{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}});
-}
 
 PolygonMesh extruded(const Shape2D& shape, const LinearExtrudeOptions& options) {
   auto r = linear_extrude(shape, options);
@@ -68,11 +61,11 @@ double moment(const Shape2D& shape) {
 }
 
 const Shape2D kHoled =
-    polygon({{{0, 0}, {4, 0}, {4, 3}, {0, 3}}, {{1, 1}, {2, 1}, {2, 2}, {1, 2}}});
+    outlines({{{0, 0}, {4, 0}, {4, 3}, {0, 3}}, {{1, 1}, {2, 1}, {2, 2}, {1, 2}}});
 // Two squares that touch in a corner, and a hole that touches an edge.
-const Shape2D kTouching = polygon({{{0, 0}, {2, 0}, {2, 2}, {0, 2}},
-                                   {{2, 2}, {4, 2}, {4, 4}, {2, 4}},
-                                   {{1, 0}, {1.5, 1}, {0.5, 1}}});
+const Shape2D kTouching = outlines({{{0, 0}, {2, 0}, {2, 2}, {0, 2}},
+                                    {{2, 2}, {4, 2}, {4, 4}, {2, 4}},
+                                    {{1, 0}, {1.5, 1}, {0.5, 1}}});
 
 TEST(LinearExtrude, StraightPrismsHaveQuadsAndCaps) {
   const PolygonMesh mesh = extruded(kHoled, height(2.5));
@@ -130,7 +123,7 @@ TEST(LinearExtrude, ScalesToFrustaPointsAndEdges) {
   EXPECT_NEAR(volume(wedge), 6, 1e-12);
   // A triangle collapsed to a segment, with one corner's image inside the edge of the others. Walls
   // are bent surfaces: their facets come nearer with more slices.
-  const Shape2D triangle = polygon({{{-1, -1}, {1, -1}, {0.25, 1}}});
+  const Shape2D triangle = outlines({{{-1, -1}, {1, -1}, {0.25, 1}}});
   o.slices = 1;
   EXPECT_NEAR(volume(extruded(triangle, o)), 3, 0.2);
   o.slices = 100;
@@ -293,7 +286,7 @@ TEST(RotateExtrude, FullTurnsFollowPappus) {
     const PolygonMesh ring = turned(off, o);
     EXPECT_NEAR(volume(ring), factor * moment(off), 1e-10);
     EXPECT_EQ(euler_number(ring), 0);
-    const Shape2D cone = polygon({{{0, 0}, {2, 0}, {0, 3}}});
+    const Shape2D cone = outlines({{{0, 0}, {2, 0}, {0, 3}}});
     const PolygonMesh solid = turned(cone, o);
     EXPECT_NEAR(volume(solid), factor * moment(cone), 1e-10);
     EXPECT_EQ(solid.points.size(), static_cast<size_t>(n + 2));

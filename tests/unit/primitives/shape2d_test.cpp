@@ -9,21 +9,14 @@
 #include <csgrun/primitives/shape2d.h>
 
 #include "primitives/shape2d/grid2d.h"
+#include "tests/unit/primitives/outlines.h"
 
 namespace csgrun {
 namespace {
 
 using Loop = Shape2D::Loop;
-
-Shape2D outlines(const std::vector<Loop>& loops) {
-  auto r = Shape2D::from_outlines(loops);
-  EXPECT_TRUE(r) << (r ? "" : r.error().message);
-  return r ? *r : Shape2D();
-}
-
-Shape2D box(double x0, double y0, double x1, double y1) {
-  return outlines({{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}});
-}
+using testing::box;
+using testing::outlines;
 
 Shape2D boolean(BooleanOp op, const std::vector<Shape2D>& operands) {
   auto r = Shape2D::boolean(op, operands);

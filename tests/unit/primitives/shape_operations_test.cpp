@@ -7,27 +7,17 @@
 
 #include <csgrun/primitives/shape_operations.h>
 
+#include "tests/unit/primitives/outlines.h"
+
 namespace csgrun {
 namespace {
 
 using Loop = Shape2D::Loop;
+using testing::box;
+using testing::good;
+using testing::outlines;
 
 constexpr double kPi = 3.14159265358979323846;
-
-Shape2D outlines(const std::vector<Loop>& loops) {
-  auto r = Shape2D::from_outlines(loops);
-  EXPECT_TRUE(r) << (r ? "" : r.error().message);
-  return r ? *r : Shape2D();
-}
-
-Shape2D box(double x0, double y0, double x1, double y1) {
-  return outlines({{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}});
-}
-
-Shape2D good(const Result<Shape2D>& r) {
-  EXPECT_TRUE(r) << (r ? "" : r.error().message);
-  return r ? *r : Shape2D();
-}
 
 Shape2D offset(const Shape2D& shape, double distance, OffsetJoin join, double fn = 32) {
   return good(offset_shape(shape, {distance, join, Facets{fn, 12, 2}}));

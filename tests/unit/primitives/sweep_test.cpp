@@ -7,26 +7,18 @@
 #include <csgrun/primitives/trig.h>
 
 #include "tests/unit/primitives/mesh_measures.h"
+#include "tests/unit/primitives/outlines.h"
 
 namespace csgrun {
 namespace {
 
-using Loop = Shape2D::Loop;
+using testing::box;
 using testing::euler_number;
 using testing::expect_closed;
+using testing::outlines;
 using testing::volume;
 
 constexpr double kPi = 3.14159265358979323846;
-
-Shape2D outlines(const std::vector<Loop>& loops) {
-  auto r = Shape2D::from_outlines(loops);
-  EXPECT_TRUE(r);
-  return r ? *r : Shape2D();
-}
-
-Shape2D box(double x0, double y0, double x1, double y1) {
-  return outlines({{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}});
-}
 
 Shape2D disc(double r, int n) { return *make_circle(r, Facets{double(n), 12, 2}); }
 
