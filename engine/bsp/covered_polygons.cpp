@@ -5,7 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/base/counting_order.h"
+#include "engine/bsp/grid_planes.h"
+#include "engine/bsp/square_bins.h"
 
 namespace csgrun {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 /// from it.
 std::vector<uint8_t> find_removers(const Job& job, const Expression& expression) {
   std::vector<uint8_t> removes(job.operand_count(), 0);
-  if (expression.nodes.empty() || expression.nodes.back().is_operand) return removes;
+  if (expression.nodes.empty()) return removes;
   const Expression::Node& root = expression.nodes.back();
   const bool is_union = root.op == BooleanOp::kUnion;
   if (!is_union && root.op != BooleanOp::kDifference) return removes;
@@ -77,123 +78,97 @@ struct Ball {
   std::array<double, 3> middle{};
   double radius = 0;  ///< not positive: none
 
-  /// The largest one around the middle of a leaf on the grid, or a little less.
+  /// The largest one around the middle of a leaf on the grid, less one step.
   static Ball within(const Job& job, uint32_t operand) {
     const PolygonBox& box = job.operand_box(operand);
+    IVec3 twice{};
     Ball ball;
-    for (size_t k = 0; k < 3; ++k) ball.middle[k] = (double{0} + box.lo[k] + box.hi[k]) / 2;
-    // Points of other operands are rounded, by less than this.
-    constexpr double kMargin = 1;
-    double square = HUGE_VAL;
-    for (uint32_t q = job.polygon_start(operand); q < job.polygon_start(operand + 1); ++q) {
-      square = std::min(square, ball.square_to(job, job.polygons()[q]));
+    for (size_t k = 0; k < 3; ++k) {
+      twice[k] = int64_t{box.lo[k]} + box.hi[k];
+      ball.middle[k] = static_cast<double>(twice[k]) / 2;
     }
-    if (square < HUGE_VAL) ball.radius = std::sqrt(square) * (1 - 0x1p-40) - kMargin;
+    double radius = (static_cast<double>(box.hi[0]) - box.lo[0]) / 2;
+    for (uint32_t q = job.polygon_start(operand); q < job.polygon_start(operand + 1); ++q) {
+      radius = std::min(radius, depth(job, job.polygons()[q], twice));
+    }
+    // Points of other operands are rounded, and so is all this, by less than a step.
+    constexpr double kMargin = 1;
+    ball.radius = radius - kMargin;
     return ball;
   }
 
   [[nodiscard]] bool holds(const std::array<double, 3>& p) const {
     const double x = p[0] - middle[0], y = p[1] - middle[1], z = p[2] - middle[2];
-    return x * x + y * y + z * z < radius * radius * (1 - 0x1p-40);
+    return x * x + y * y + z * z < radius * radius;
   }
 
  private:
-  /// No more than the square of the distance of the middle behind the plane of a polygon; 0 if it
-  /// is in front.
-  [[nodiscard]] double square_to(const Job& job, const JobPolygon& polygon) const {
-    using Vector = std::array<double, 3>;
-    const auto minus = [](const Vector& a, const Vector& b) {
-      return Vector{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    };
-    const auto size = [](const Vector& v) {
-      return std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
-    };
+  /// How far half of a point is behind the plane of a polygon.
+  static double depth(const Job& job, const JobPolygon& polygon, const IVec3& twice) {
     const auto corners = job.corners(polygon);
-    const Vector& origin = job.rounded(corners[0]);
-    const Vector to = minus(origin, middle);
-    double best = 0;
-    // Three corners may stand in line; of a triangle they do not.
-    for (size_t i = 1; i + 1 < corners.size(); ++i) {
-      const Vector u = minus(job.rounded(corners[i]), origin),
-                   v = minus(job.rounded(corners[i + 1]), origin);
-      const Vector n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                     u[0] * v[1] - u[1] * v[0]};
-      // Differences of grid points are exact, so 2^-48 of the product is more than all roundings
-      // make; (|n| + 2^-48 product)^2 is below the divisor.
-      const double product = size(u) * size(v);
-      const double above =
-          n[0] * to[0] + n[1] * to[1] + n[2] * to[2] - 0x1p-48 * product * size(to);
-      const double divisor =
-          (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) * (1 + 0x1p-39) + product * product * 0x1p-54;
-      if (above > 0) best = std::max(best, above * above / divisor);
-    }
-    return best;
+    const Plane plane = support_of_loop(polygon.count, [&](uint32_t i) {
+      const auto& v = job.rounded(corners[i % polygon.count]);
+      return IVec3{static_cast<int64_t>(v[0]), static_cast<int64_t>(v[1]),
+                   static_cast<int64_t>(v[2])};
+    });
+    const Int128 above = plane.a * twice[0] + plane.b * twice[1] + plane.c * twice[2] + 2 * plane.d;
+    return static_cast<double>(-above) /
+           (2 * std::hypot(static_cast<double>(plane.a), static_cast<double>(plane.b),
+                           static_cast<double>(plane.c)));
   }
 };
 
-/// Balls by the squares of a grid in x and y that they meet.
-class BallBins {
+/// Balls inside the convex leaves on the grid among some operands.
+class Balls {
  public:
-  BallBins(const Job& job, const std::vector<uint8_t>& removes) {
-    for (uint32_t o = 0; o < removes.size(); ++o) {
-      if (!removes[o] || !job.has_grid_vertices(o)) continue;
-      const Ball ball = Ball::within(job, o);
-      if (ball.radius > 0) balls_.push_back(ball);
-    }
-    if (balls_.empty()) return;
-    constexpr size_t kMost = 256;
-    while (bins_ < kMost && bins_ * bins_ < 4 * balls_.size()) bins_ *= 2;
-    for (int k = 0; k < 2; ++k) {
-      double hi = -HUGE_VAL;
-      lo_[k] = HUGE_VAL;
-      for (const Ball& b : balls_) {
-        lo_[k] = std::min(lo_[k], b.middle[k] - b.radius);
-        hi = std::max(hi, b.middle[k] + b.radius);
-      }
-      per_step_[k] = static_cast<double>(bins_) / (hi - lo_[k]);
-    }
-    std::vector<std::pair<uint32_t, uint32_t>> entries;  // bin, ball
-    for (uint32_t i = 0; i < balls_.size(); ++i) {
-      const Ball& b = balls_[i];
-      for (size_t y = bin(1, b.middle[1] - b.radius); y <= bin(1, b.middle[1] + b.radius); ++y) {
-        for (size_t x = bin(0, b.middle[0] - b.radius); x <= bin(0, b.middle[0] + b.radius); ++x) {
-          entries.emplace_back(static_cast<uint32_t>(y * bins_ + x), i);
-        }
-      }
-    }
-    in_bin_.sort(entries.size(), bins_ * bins_, [&](size_t e) { return entries[e].first; });
-    for (uint32_t& e : in_bin_.order) e = entries[e].second;
-  }
+  Balls(const Job& job, const std::vector<uint8_t>& operands)
+      : balls_(find(job, operands)), bins_(boxes(), per_side()) {}
 
   [[nodiscard]] bool empty() const { return balls_.empty(); }
 
-  /// Whether one of the balls holds all corners of a polygon.
+  /// Whether one of them holds all corners of a polygon.
   [[nodiscard]] bool hold(const Job& job, const JobPolygon& polygon) const {
-    if (balls_.empty()) return false;
     const auto corners = job.corners(polygon);
     const auto& first = job.rounded(corners[0]);
-    const size_t b = bin(1, first[1]) * bins_ + bin(0, first[0]);
-    for (uint32_t i = in_bin_.starts[b]; i < in_bin_.starts[b + 1]; ++i) {
-      const Ball& ball = balls_[in_bin_.order[i]];
-      if (std::all_of(corners.begin(), corners.end(),
-                      [&](uint32_t v) { return ball.holds(job.rounded(v)); })) {
-        return true;
-      }
-    }
-    return false;
+    const auto near = bins_.at(first[0], first[1]);
+    return std::any_of(near.begin(), near.end(), [&](uint32_t i) {
+      return std::all_of(corners.begin(), corners.end(),
+                         [&](uint32_t v) { return balls_[i].holds(job.rounded(v)); });
+    });
   }
 
  private:
-  /// Monotone: a point of a ball is in a bin between those of its ends.
-  [[nodiscard]] size_t bin(int axis, double coordinate) const {
-    const double at = (coordinate - lo_[axis]) * per_step_[axis];
-    return static_cast<size_t>(std::clamp(at, 0.0, static_cast<double>(bins_ - 1)));
+  static std::vector<Ball> find(const Job& job, const std::vector<uint8_t>& operands) {
+    std::vector<Ball> balls;
+    for (uint32_t o = 0; o < operands.size(); ++o) {
+      if (!operands[o] || !job.has_grid_vertices(o)) continue;
+      const Ball ball = Ball::within(job, o);
+      if (ball.radius > 0) balls.push_back(ball);
+    }
+    return balls;
   }
 
-  std::vector<Ball> balls_;
-  size_t bins_ = 1;
-  std::array<double, 2> lo_{}, per_step_{};
-  CountingOrder in_bin_;
+  [[nodiscard]] std::vector<SquareBins::Box> boxes() const {
+    std::vector<SquareBins::Box> boxes;
+    for (const Ball& b : balls_) {
+      SquareBins::Box& box = boxes.emplace_back();
+      for (size_t k = 0; k < 2; ++k) {
+        box.lo[k] = b.middle[k] - b.radius;
+        box.hi[k] = b.middle[k] + b.radius;
+      }
+    }
+    return boxes;
+  }
+
+  /// Several squares a ball.
+  [[nodiscard]] uint32_t per_side() const {
+    constexpr double kMost = 256;
+    return static_cast<uint32_t>(
+        std::clamp(2 * std::sqrt(static_cast<double>(balls_.size())), 1.0, kMost));
+  }
+
+  const std::vector<Ball> balls_;
+  const SquareBins bins_;
 };
 
 /// Asks whether polygons are inside a convex operand.
@@ -238,11 +213,11 @@ class Within {
 }  // namespace
 
 std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expression) {
-  if (expression.nodes.empty() || expression.nodes.back().is_operand) return {};
+  if (expression.nodes.empty()) return {};
   const std::vector<PolygonBox> live = find_live_boxes(job, expression);
   const std::vector<uint8_t> removes = find_removers(job, expression);
   // With two operands, what is inside one meets nothing at all.
-  const BallBins balls(job, job.operand_count() > 2 ? removes : std::vector<uint8_t>());
+  const Balls balls(job, job.operand_count() > 2 ? removes : std::vector<uint8_t>());
   std::vector<uint8_t> is_covered(job.polygons().size(), 0);
   bool any = false;
   for (uint32_t o = 0; o < job.operand_count(); ++o) {
@@ -274,9 +249,8 @@ std::vector<uint8_t> find_covered(Job& job, CellGeometry& geometry, const Expres
       const uint32_t o = job.polygons()[c.p == p ? c.q : c.p].operand;
       if (!removes[o]) continue;
       // What is in front of a plane of a convex operand is outside of it.
-      const bool is_crossed = c.is_plain || c.is_coplanar || (c.p == p ? c.p_front : c.q_front);
-      std::vector<uint32_t>& list = is_crossed ? crossed_by : touched_by;
-      if (list.empty() || list.back() != o) list.push_back(o);
+      const bool is_crossed = c.is_coplanar || (c.p == p ? c.p_front : c.q_front);
+      (is_crossed ? crossed_by : touched_by).push_back(o);
     }
     is_covered[p] = std::any_of(touched_by.begin(), touched_by.end(), [&](uint32_t o) {
       return std::find(crossed_by.begin(), crossed_by.end(), o) == crossed_by.end() &&

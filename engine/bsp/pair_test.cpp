@@ -13,7 +13,7 @@ std::array<uint32_t, 3> base_corners(const Job& job, const JobPolygon& polygon) 
   const auto corners = job.corners(polygon);
   if (corners.size() == 3) return {corners[0], corners[1], corners[2]};
   const auto& a = job.rounded(corners[0]);
-  double largest = -1;
+  double largest = 0;
   size_t best = 1;
   for (size_t i = 1; i + 1 < corners.size(); ++i) {
     const auto &b = job.rounded(corners[i]), &c = job.rounded(corners[i + 1]);

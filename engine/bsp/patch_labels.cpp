@@ -7,51 +7,36 @@
 
 namespace csgrun {
 
-PatchLabels::PatchLabels(const Job& job, const Expression& expression)
-    : job_(job), boundary_(expression), signs_(job) {
-  for (uint32_t o = 0; o < job.operand_count(); ++o) boxes_.push_back(job.operand_box(o));
-  fill_bins();
-}
+namespace {
 
-void PatchLabels::fill_bins() {
-  constexpr uint32_t kMost = 64;
-  while (bins_ < kMost && bins_ * bins_ < boxes_.size()) bins_ *= 2;
-  for (int k = 0; k < 2; ++k) {
-    double lo = HUGE_VAL, hi = -HUGE_VAL;
-    for (const PolygonBox& box : boxes_) {
-      if (box.lo[k] > box.hi[k]) continue;
-      lo = std::min<double>(lo, box.lo[k]);
-      hi = std::max<double>(hi, box.hi[k]);
-    }
-    bin_lo_[k] = lo;
-    bins_per_step_[k] = hi > lo ? bins_ / (hi - lo) : 0;
-  }
-  const auto each_bin = [&](const PolygonBox& box, auto&& f) {
-    if (box.lo[0] > box.hi[0]) return;
+std::vector<SquareBins::Box> boxes_of_operands(const Job& job) {
+  std::vector<SquareBins::Box> boxes;
+  for (uint32_t o = 0; o < job.operand_count(); ++o) {
+    const PolygonBox& box = job.operand_box(o);
     // A step more: a point is not known to the last bit.
-    const auto first = [&](int k) { return bin(k, static_cast<double>(box.lo[k]) - 1); };
-    const auto last = [&](int k) { return bin(k, static_cast<double>(box.hi[k]) + 1); };
-    for (uint32_t y = first(1); y <= last(1); ++y) {
-      for (uint32_t x = first(0); x <= last(0); ++x) f(y * bins_ + x);
+    SquareBins::Box& wide = boxes.emplace_back();
+    for (size_t k = 0; k < 2; ++k) {
+      wide.lo[k] = static_cast<double>(box.lo[k]) - 1;
+      wide.hi[k] = static_cast<double>(box.hi[k]) + 1;
     }
-  };
-  bin_starts_.assign(bins_ * bins_ + 1, 0);
-  for (const PolygonBox& box : boxes_) {
-    each_bin(box, [&](uint32_t b) { ++bin_starts_[b + 1]; });
   }
-  for (size_t b = 0; b + 1 < bin_starts_.size(); ++b) bin_starts_[b + 1] += bin_starts_[b];
-  in_bin_.resize(bin_starts_.back());
-  std::vector<uint32_t> next = bin_starts_;
-  for (uint32_t o = 0; o < boxes_.size(); ++o) {
-    each_bin(boxes_[o], [&](uint32_t b) { in_bin_[next[b]++] = o; });
-  }
+  return boxes;
 }
 
-uint32_t PatchLabels::bin(int axis, double coordinate) const {
-  // Monotone: what is between the ends of a box is in a bin between theirs.
-  const double at = (coordinate - bin_lo_[axis]) * bins_per_step_[axis];
-  return static_cast<uint32_t>(std::clamp(at, 0.0, static_cast<double>(bins_ - 1)));
+/// A square an operand, about.
+uint32_t squares_per_side(size_t operands) {
+  constexpr double kMost = 64;
+  return static_cast<uint32_t>(
+      std::clamp(std::ceil(std::sqrt(static_cast<double>(operands))), 1.0, kMost));
 }
+
+}  // namespace
+
+PatchLabels::PatchLabels(const Job& job, const Expression& expression)
+    : job_(job),
+      boundary_(expression),
+      signs_(job),
+      bins_(boxes_of_operands(job), squares_per_side(job.operand_count())) {}
 
 PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, double error,
                             std::span<const CutLoops::Fact> facts) {
@@ -64,10 +49,8 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
     if (f.front) inside_.push_back(2 * uint64_t{f.operand});
     if (f.back) inside_.push_back(2 * uint64_t{f.operand} + 1);
   }
-  const uint32_t b = bin(1, point[1]) * bins_ + bin(0, point[0]);
-  for (uint32_t i = bin_starts_[b]; i < bin_starts_[b + 1]; ++i) {
-    const uint32_t o = in_bin_[i];
-    const PolygonBox& box = boxes_[o];
+  for (const uint32_t o : bins_.at(point[0], point[1])) {
+    const PolygonBox& box = job_.operand_box(o);
     bool may_hold = o != own;
     for (int k = 0; k < 3; ++k) {
       may_hold &= point[k] + error >= box.lo[k] && point[k] - error <= box.hi[k];

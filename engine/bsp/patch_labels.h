@@ -12,6 +12,7 @@
 
 #include "engine/bsp/cut_polygon.h"
 #include "engine/bsp/sparse_boundary.h"
+#include "engine/bsp/square_bins.h"
 #include "engine/bsp/vertex_signs.h"
 
 namespace csgrun {
@@ -35,19 +36,12 @@ class PatchLabels {
   /// those that stand here are inside.
   using Sides = std::vector<uint64_t>;
   PatchFate evaluate(uint32_t own, const Sides& inside);
-  void fill_bins();
-  /// The bin of a coordinate, of those along one axis.
-  [[nodiscard]] uint32_t bin(int axis, double coordinate) const;
 
   const Job& job_;
   SparseBoundary boundary_;
   VertexSigns signs_;
-  std::vector<PolygonBox> boxes_;  ///< per operand
-  /// Operands by the squares of a grid in x and y that their boxes meet, ascending.
-  uint32_t bins_ = 1;  ///< along each of the two axes
-  std::array<double, 2> bin_lo_{}, bins_per_step_{};
-  std::vector<uint32_t> bin_starts_, in_bin_;
-  Sides inside_;  ///< of the patch at hand
+  const SquareBins bins_;  ///< of the operands
+  Sides inside_;           ///< of the patch at hand
   /// By the operand and those that it is inside of: few differ.
   std::map<std::pair<uint32_t, Sides>, PatchFate> known_;
   std::vector<SparseBoundary::Sides> sides_;

@@ -34,33 +34,35 @@ bool label_patches(const std::vector<SurfaceCells>& runs, InsideLabels& labels) 
   return true;
 }
 
-/// A line in which a polygon's plane meets a wall.
-struct WallLine {
-  uint32_t support, wall;
-  LineKey key;
+/// The lines in which the planes of polygons meet walls.
+class WallLines {
+ public:
+  using Planes = std::pair<uint32_t, uint32_t>;  ///< support and wall
 
-  [[nodiscard]] auto planes() const { return std::tie(support, wall); }
-};
-
-/// All lines of wall edges, sorted by planes.
-std::vector<WallLine> wall_lines(const Job& job, const std::vector<SurfaceCells>& runs) {
-  std::vector<WallLine> lines;
-  for (const SurfaceCells& run : runs) {
-    for (const SurfaceCells::WallEdge& e : run.wall_edges) lines.push_back({e.support, e.wall, {}});
+  /// Those of all wall edges, each once.
+  WallLines(const Job& job, const std::vector<SurfaceCells>& runs) {
+    for (const SurfaceCells& run : runs) {
+      for (const SurfaceCells::WallEdge& e : run.wall_edges)
+        planes_.emplace_back(e.support, e.wall);
+    }
+    std::sort(planes_.begin(), planes_.end());
+    planes_.erase(std::unique(planes_.begin(), planes_.end()), planes_.end());
+    std::vector<LineNamer::PlanePair> pairs;
+    for (const auto& [support, wall] : planes_) pairs.push_back({wall, support});
+    LineNamer(job.planes()).keys(pairs, keys_);
   }
-  const auto by_planes = [](const WallLine& a, const WallLine& b) {
-    return a.planes() < b.planes();
-  };
-  const auto same = [](const WallLine& a, const WallLine& b) { return a.planes() == b.planes(); };
-  std::sort(lines.begin(), lines.end(), by_planes);
-  lines.erase(std::unique(lines.begin(), lines.end(), same), lines.end());
-  std::vector<LineNamer::PlanePair> pairs;
-  for (const WallLine& line : lines) pairs.push_back({line.wall, line.support});
-  std::vector<LineKey> keys;
-  LineNamer(job.planes()).keys(pairs, keys);
-  for (size_t i = 0; i < lines.size(); ++i) lines[i].key = keys[i];
-  return lines;
-}
+
+  [[nodiscard]] const std::vector<Planes>& planes() const { return planes_; }
+  [[nodiscard]] const std::vector<LineKey>& keys() const { return keys_; }
+  [[nodiscard]] const LineKey& key(const SurfaceCells::WallEdge& e) const {
+    const auto at = std::lower_bound(planes_.begin(), planes_.end(), Planes(e.support, e.wall));
+    return keys_[static_cast<size_t>(std::distance(planes_.begin(), at))];
+  }
+
+ private:
+  std::vector<Planes> planes_;  ///< sorted
+  std::vector<LineKey> keys_;   ///< one for one
+};
 
 /// Joins the volumes of neighbouring cells along the edges in which pieces of a plane meet a wall.
 class WallJoiner {
@@ -68,7 +70,7 @@ class WallJoiner {
   WallJoiner(const Job& job, const std::vector<SurfaceCells>& runs,
              const std::vector<uint32_t>& first_volume, UnionFind& volumes)
       : job_(job), geometry_(job.planes(), &job), volumes_(volumes) {
-    const std::vector<WallLine> lines = wall_lines(job, runs);
+    const WallLines lines(job, runs);
     for (size_t r = 0; r < runs.size(); ++r) {
       const auto& points = runs[r].set.points;
       std::vector<uint32_t> number(points.size(), kNone);
@@ -81,28 +83,22 @@ class WallJoiner {
         return number[p];
       };
       for (const SurfaceCells::WallEdge& e : runs[r].wall_edges) {
-        const auto line = std::lower_bound(
-            lines.begin(), lines.end(), std::tie(e.support, e.wall),
-            [](const WallLine& a, const auto& planes) { return a.planes() < planes; });
-        edges_.push_back({e.support, e.wall, line->key, is_first_side(e), point(e.from),
+        edges_.push_back({e.support, e.wall, lines.key(e), is_first_side(e), point(e.from),
                           point(e.to), first_volume[r] + e.front, first_volume[r] + e.back});
       }
     }
   }
 
   void join() {
+    // A line has one support: else polygons would cross in it.
     std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
-      return std::tie(a.support, a.key, b.is_first_side) <
-             std::tie(b.support, b.key, a.is_first_side);
+      return std::tie(a.key, b.is_first_side) < std::tie(b.key, a.is_first_side);
     });
     for (auto begin = edges_.begin(); begin != edges_.end();) {
-      auto middle = begin, end = begin;
-      const auto on_line = [&](const Edge& e) {
-        return e.support == begin->support && e.key == begin->key;
-      };
-      while (end != edges_.end() && on_line(*end)) ++end;
-      while (middle != end && middle->is_first_side) ++middle;
-      join_line(begin, middle, end);
+      const auto end =
+          std::find_if_not(begin, edges_.end(), [&](const Edge& e) { return e.key == begin->key; });
+      join_line(begin, std::find_if_not(begin, end, [](const Edge& e) { return e.is_first_side; }),
+                end);
       begin = end;
     }
   }
@@ -145,18 +141,15 @@ class WallJoiner {
     for (auto e = begin; e != end; ++e) {
       if (before(e->to, e->from)) std::swap(e->from, e->to);
     }
-    const auto by_start = [&](const Edge& a, const Edge& b) { return before(a.from, b.from); };
-    std::sort(begin, middle, by_start);
-    std::sort(middle, end, by_start);
-    for (auto a = begin, b = middle; a != middle && b != end;) {
-      if (before(a->from, b->to) && before(b->from, a->to)) {
+    std::sort(middle, end, [&](const Edge& a, const Edge& b) { return before(a.from, b.from); });
+    for (auto a = begin; a != middle; ++a) {
+      const auto first =
+          std::partition_point(middle, end, [&](const Edge& b) { return !before(a->from, b.to); });
+      const auto last =
+          std::partition_point(first, end, [&](const Edge& b) { return before(b.from, a->to); });
+      for (auto b = first; b != last; ++b) {
         volumes_.join(a->front, b->front);
         volumes_.join(a->back, b->back);
-      }
-      if (before(a->to, b->to)) {
-        ++a;
-      } else {
-        ++b;
       }
     }
   }
@@ -215,8 +208,11 @@ std::optional<InsideLabels> label_by_winding(const std::vector<SurfaceCells>& ru
 }
 
 bool crosses_in_wall(const Job& job, const std::vector<SurfaceCells>& runs) {
+  const WallLines in_walls(job, runs);
   std::vector<std::pair<LineKey, uint32_t>> lines;  // with the support
-  for (const WallLine& line : wall_lines(job, runs)) lines.emplace_back(line.key, line.support);
+  for (size_t i = 0; i < in_walls.keys().size(); ++i) {
+    lines.emplace_back(in_walls.keys()[i], in_walls.planes()[i].first);
+  }
   std::sort(lines.begin(), lines.end());
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
   return std::adjacent_find(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
@@ -227,8 +223,8 @@ bool crosses_in_wall(const Job& job, const std::vector<SurfaceCells>& runs) {
 std::optional<InsideLabels> label_by_filling(const Job& job,
                                              const std::vector<SurfaceCells>& runs) {
   VolumeSets volumes(job, runs);
-  // Of each set of volumes outside: the lowest point of its surface, which is no crossing of a
-  // wall, and the set below it.
+  // Of each set of volumes: the lowest point of its surface, which is no crossing of a wall, and
+  // the set below it, which is another one unless it reaches to infinity.
   struct Lowest {
     const FragmentSet::NamedPoint* point = nullptr;
     uint32_t below = kNone;
@@ -243,7 +239,6 @@ std::optional<InsideLabels> label_by_filling(const Job& job,
     for (size_t i = 0; i < run.sides.size(); ++i) {
       const FragmentSet::Piece& piece = run.set.pieces[i];
       for (const uint32_t volume : {run.sides[i].front, run.sides[i].back}) {
-        if (run.windings[volume] != 0) continue;
         Lowest& least = lowest[volumes.find(r, volume)];
         for (uint32_t c = piece.first; c < piece.first + piece.count; ++c) {
           const uint32_t number = run.set.corner_point[c];
@@ -314,11 +309,11 @@ std::optional<InsideLabels> label_by_reach(const Job& job, const std::vector<Sur
     while (!open.empty()) {
       const uint32_t from = open.back();
       open.pop_back();
-      auto at = std::lower_bound(free.begin(), free.end(), std::array<uint32_t, 2>{from, 0});
-      for (; at != free.end() && (*at)[0] == from; ++at) {
-        if (reached[(*at)[1]]) continue;
-        reached[(*at)[1]] = 1;
-        open.push_back((*at)[1]);
+      for (const auto& [_, to] : std::ranges::equal_range(
+               free, from, {}, [](const std::array<uint32_t, 2>& way) { return way[0]; })) {
+        if (reached[to]) continue;
+        reached[to] = 1;
+        open.push_back(to);
       }
     }
   }

@@ -25,9 +25,9 @@ struct InsideLabels {
 std::optional<InsideLabels> label_by_winding(const std::vector<SurfaceCells>& runs,
                                              size_t patch_count, InsideRule rule);
 
-/// Whether polygons, for all that is known, cross each other in a line of a wall, or one crosses
-/// two walls where these meet: then what runs on from cell to cell there is not what it seems, and
-/// the cells are to be solved again with other walls. REQUIRES: wall edges were asked for.
+/// Whether polygons of different planes, for all that is known, cross each other in a line of a
+/// wall: then what runs on from cell to cell there is not what it seems, and the cells are to be
+/// solved again with other walls. REQUIRES: wall edges were asked for.
 bool crosses_in_wall(const Job& job, const std::vector<SurfaceCells>& runs);
 
 /// By kOuterHull or kOrientedHull, for one class of polygons: volumes are joined along the surface,

@@ -406,6 +406,12 @@ class Instrumenter:
             self.replace(t, f": if (csgrun_mutant::active<{n}>()) break;")
 
 
+def count_mutants(name, source):
+    file = Instrumenter(name, source, 0)
+    file.run()
+    return len(file.mutants)
+
+
 def number_keys(mutants):
     """Tells equal keys of one file apart by their order."""
     count = {}

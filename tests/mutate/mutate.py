@@ -43,7 +43,9 @@ TOGETHER_SECONDS = 0.25  # short tests of one executable run in one process, up 
 START_SECONDS = 0.03  # what a process costs besides
 # A test of one file's mutants is worth more than its share of time.
 SPECIAL, SPECIAL_TIMES = 900, 10
+PLACES = WORK / "places.json"
 NUMBERS = 64  # each file's mutants have numbers from a multiple of this on
+MOST = 1 << 14  # kMost of mutant.h
 MEMORY_BYTES = 6 << 30
 
 
@@ -119,6 +121,29 @@ def run_tests(executable, tests, environment, cpu_seconds, **more):
     return process.returncode, usage.ru_utime + usage.ru_stime
 
 
+class Places:
+    """Where each file's numbers begin. With room, and kept from run to run, so that a few mutants more
+    or less do not change the other files."""
+
+    def __init__(self):
+        self.first_and_end = json.loads(PLACES.read_text()) if PLACES.exists() else {}
+
+    def first(self, name, count):
+        first, end = self.first_and_end.get(name, (0, 0))
+        if count > end - first:
+            first = max((end for _, end in self.first_and_end.values()), default=0)
+            end = -(-(first + count + NUMBERS // 4) // NUMBERS) * NUMBERS
+            if end > MOST:
+                PLACES.unlink()
+                sys.exit("mutate: the numbers are used up; they start anew in the next run")
+            self.first_and_end[name] = [first, end]
+        return first
+
+    def save(self):
+        WORK.mkdir(parents=True, exist_ok=True)
+        PLACES.write_text(json.dumps(self.first_and_end))
+
+
 def write_sources(names):
     """Copies the sources to build/mutate/source with all mutants in them; returns the mutants."""
     fresh = {}
@@ -128,15 +153,15 @@ def write_sources(names):
             name = file.relative_to(ROOT)
             if file.is_file() and str(name) not in LEFT_OUT and "__pycache__" not in file.parts:
                 fresh[name] = file.read_bytes()
-    mutants, number = [], 0
+    mutants, places = [], Places()
     for name, content in fresh.items():
         if name.suffix in (".h", ".cpp") and str(name.parent) in names:
-            file = instrument.Instrumenter(str(name), content.decode(), number)
+            count = instrument.count_mutants(str(name), content.decode())
+            file = instrument.Instrumenter(str(name), content.decode(), places.first(str(name), count))
             fresh[name] = file.run().encode()
             instrument.number_keys(file.mutants)
             mutants += file.mutants
-            # With room, so that a few more or less do not change the other files.
-            number = -(-(number + len(file.mutants) + NUMBERS // 4) // NUMBERS) * NUMBERS
+    places.save()
     fresh[Path("mutant.h")] = Path(__file__).with_name("mutant.h").read_bytes()
     for old in sorted(SOURCE.rglob("*")) if SOURCE.exists() else ():
         if old.is_file() and old.relative_to(SOURCE) not in fresh:
@@ -181,26 +206,32 @@ def make_stages(configurations, pool, arguments):
                                      CSGRUN_MUTANT_TRACE=str(trace))
         if code:
             sys.exit(f"mutate: {executable} {test} fails without a mutant")
-        different = {int(n) for n in trace.read_text().split()}
+        different = [int(n) for n in trace.read_text().split()]
         trace.unlink()
-        return Test(executable, environment, test, seconds, different)
+        return seconds, different
 
-    jobs = [(e, env, t) for e, env in configurations for t in list_tests(e)]
-    built = [[e, (BUILD / e).stat().st_mtime_ns] for e, _ in configurations]
+    # Kept with the time of the executable, and only for tests that are asked for.
     saved = WORK / "tests.json"
-    known = json.loads(saved.read_text()) if saved.exists() else None
-    if known and known["built"] == built:
-        tests = [Test(*t[:4], set(t[4])) for t in known["tests"]]
-    else:
-        tests = list(pool.map(measure, [(i, *job) for i, job in enumerate(jobs)]))
-        lists = [[t.executable, t.environment, t.name, t.seconds, sorted(t.different)] for t in tests]
-        saved.write_text(json.dumps({"built": built, "tests": lists}))
+    known = json.loads(saved.read_text()) if saved.exists() else {}
+    jobs, keys = [], []
+    for executable, environment in configurations:
+        built = (BUILD / executable).stat().st_mtime_ns
+        for name in list_tests(executable):
+            if re.search(arguments.tests, f"{executable} {name}"):
+                jobs.append((len(jobs), executable, environment, name))
+                keys.append(json.dumps([executable, built, environment, name]))
+    missing = [job for job, key in zip(jobs, keys) if key not in known]
+    for job, (seconds, different) in zip(missing, pool.map(measure, missing)):
+        known[keys[job[0]]] = [seconds, different]
+    if missing:
+        current = {(e, (BUILD / e).stat().st_mtime_ns) for e, _ in QUICK + THOROUGH}
+        known = {key: value for key, value in known.items() if tuple(json.loads(key)[:2]) in current}
+        saved.write_text(json.dumps(known))
+    tests = [Test(*job[1:], known[key][0], set(known[key][1])) for job, key in zip(jobs, keys)]
     stages = []
     for t in tests:
         last = stages[-1] if stages else None
         special = len(t.different) < SPECIAL
-        if not re.search(arguments.tests, f"{t.executable} {t.name}"):
-            continue
         if not t.different or t.seconds > arguments.quick * (SPECIAL_TIMES if special else 1):
             continue
         if last and last.executable == t.executable and last.environment == t.environment and \
@@ -241,7 +272,7 @@ def read_noticed():
 
 
 def choose(mutants, arguments, explained):
-    chosen = [m for m in mutants if arguments.only in m.key]
+    chosen = [m for m in mutants if not arguments.only or any(t in m.key for t in arguments.only)]
     if arguments.again:
         survived = set(json.loads((WORK / "survivors.json").read_text()))
         chosen = [m for m in chosen if m.key in survived]
@@ -258,7 +289,8 @@ def choose(mutants, arguments, explained):
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="./dev mutate", description=__doc__.split("\n\n")[0])
     parser.add_argument("count", type=int, nargs="?", help="try so many, evenly spread (default: all)")
-    parser.add_argument("--only", default="", metavar="TEXT", help="those whose `file: line` has TEXT")
+    parser.add_argument("--only", action="append", metavar="TEXT",
+                        help="those whose `file: line` has TEXT; may be given several times")
     parser.add_argument("--again", action="store_true", help="those that survived the last run")
     parser.add_argument("--resume", action="store_true",
                         help="leave out what earlier runs noticed, in files that are the same since")
@@ -269,6 +301,8 @@ def parse_arguments():
     parser.add_argument("--explained", action="store_true", help="try the explained ones too")
     parser.add_argument("--list", action="store_true", help="print the mutants and stop")
     parser.add_argument("--verbose", action="store_true", help="say what the tests cost")
+    parser.add_argument("--nice", type=int, default=19, metavar="N",
+                        help="how far to stand back for what else runs (default: 19)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N")
     return parser.parse_args()
 
@@ -284,7 +318,7 @@ def main():
         for m in mutants:
             print(f"{m.number:5} {m.file}:{m.line}: {m.text}")
         return 0
-    os.nice(19)
+    os.nice(arguments.nice)
     build()
     pool = concurrent.futures.ThreadPoolExecutor(arguments.jobs)
     stages = make_stages(QUICK + (THOROUGH if arguments.quick == math.inf else ()), pool, arguments)

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/find_contacts.h"
+#include "engine/bsp/grid_planes.h"
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
@@ -10,7 +12,15 @@
 namespace csgrun {
 namespace {
 
-/// An octahedron that knows that it is convex.
+/// An operand that knows that it is convex.
+Operand convex(const std::vector<test::Loop>& loops) {
+  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(loops));
+  leaf->opposite = pair_edges(*leaf).opposite;
+  leaf->convex = true;
+  leaf->may_touch = false;
+  return test::operand_of(std::move(leaf));
+}
+
 Operand octahedron(const IVec3& middle, int64_t radius) {
   std::vector<IVec3> points;
   for (size_t k = 0; k < 3; ++k) {
@@ -19,11 +29,7 @@ Operand octahedron(const IVec3& middle, int64_t radius) {
       points.back()[k] += r;
     }
   }
-  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(test::hull_loops(points)));
-  leaf->opposite = pair_edges(*leaf).opposite;
-  leaf->convex = true;
-  leaf->may_touch = false;
-  return test::operand_of(std::move(leaf));
+  return convex(test::hull_loops(points));
 }
 
 /// Whether a point is strictly inside an octahedron.
@@ -87,6 +93,309 @@ TEST(CoveredPolygons, AreNotLookedForWhereAllCount) {
   EXPECT_EQ(covered(BooleanOp::kSymmetricDifference), 0);
   // The last two have no box in common.
   EXPECT_EQ(covered(BooleanOp::kIntersection), 24);
+}
+
+IVec3 random_point(test::Random& random, int64_t reach) {
+  return {random.integer(-reach, reach), random.integer(-reach, reach),
+          random.integer(-reach, reach)};
+}
+
+/// A convex body of any shape, some of whose faces start with corners in line.
+Operand random_convex(test::Random& random, int64_t reach) {
+  std::vector<test::Loop> loops;
+  if (random.integer(0, 2) == 0) {
+    const IVec3 size = random_point(random, reach / 2);
+    loops = test::box_loops({0, 0, 0}, {2 + std::abs(size[0]), 2 + std::abs(size[1]), 4});
+    for (test::Loop& loop : loops) {
+      // Even lengths have a middle.
+      for (IVec3& p : loop) {
+        for (int64_t& c : p) c *= 2;
+      }
+      IVec3 middle{};
+      for (size_t k = 0; k < 3; ++k) middle[k] = (loop[0][k] + loop[1][k]) / 2;
+      loop.insert(loop.begin() + 1, middle);
+    }
+  }
+  while (loops.empty()) {
+    std::vector<IVec3> points(static_cast<size_t>(random.integer(4, 9)));
+    for (IVec3& p : points) p = random_point(random, reach);
+    loops = test::hull_loops(points);
+  }
+  const IVec3 move = random_point(random, 12);
+  for (test::Loop& loop : loops) {
+    for (IVec3& p : loop) {
+      for (size_t k = 0; k < 3; ++k) p[k] += move[k];
+    }
+  }
+  return convex(loops);
+}
+
+/// Some nodes over the operands, which may have several parents or none; a few are named at once.
+Expression random_expression(test::Random& random, uint32_t operands) {
+  Expression expression;
+  for (uint32_t o = 0; o < operands; ++o) expression.nodes.emplace_back().operand = o;
+  for (int64_t more = random.integer(1, 5); more > 0; --more) {
+    Expression::Node node;
+    node.is_operand = false;
+    node.op = static_cast<BooleanOp>(random.integer(0, 3));
+    node.first_child = static_cast<uint32_t>(expression.children.size());
+    node.child_count = static_cast<uint32_t>(random.integer(1, 5));
+    const auto last = static_cast<int64_t>(expression.nodes.size()) - 1;
+    for (uint32_t c = 0; c < node.child_count; ++c) {
+      const int64_t child = c == 0 ? last : random.integer(0, last);
+      expression.children.push_back(static_cast<uint32_t>(child));
+    }
+    expression.nodes.push_back(node);
+  }
+  return expression;
+}
+
+const PolygonBox kEverywhere{
+    {std::numeric_limits<int32_t>::min(), std::numeric_limits<int32_t>::min(),
+     std::numeric_limits<int32_t>::min()},
+    {std::numeric_limits<int32_t>::max(), std::numeric_limits<int32_t>::max(),
+     std::numeric_limits<int32_t>::max()}};
+
+/// The boxes of an expression, node by node and path by path.
+struct Boxes {
+  const Job& job;
+  const Expression& expression;
+
+  [[nodiscard]] std::vector<uint32_t> children(uint32_t n) const {
+    const Expression::Node& node = expression.nodes[n];
+    const auto first = expression.children.begin() + node.first_child;
+    return {first, first + node.child_count};
+  }
+  [[nodiscard]] PolygonBox around(uint32_t n) const {
+    const Expression::Node& node = expression.nodes[n];
+    if (node.is_operand) return job.operand_box(node.operand);
+    const auto of = children(n);
+    PolygonBox box = around(of[0]);
+    if (node.op == BooleanOp::kDifference) return box;
+    for (const uint32_t c : of) {
+      node.op == BooleanOp::kIntersection ? box.clip(around(c)) : box.include(around(c));
+    }
+    return box;
+  }
+  /// Adds where operand `o` counts, on all ways down from a node.
+  void add_live(uint32_t n, const PolygonBox& within, uint32_t o, PolygonBox& live) const {
+    const Expression::Node& node = expression.nodes[n];
+    if (node.is_operand) {
+      if (node.operand == o) live.include(within);
+      return;
+    }
+    const auto of = children(n);
+    for (size_t i = 0; i < of.size(); ++i) {
+      PolygonBox box = within;
+      if (node.op == BooleanOp::kIntersection) {
+        for (const uint32_t sibling : of) box.clip(around(sibling));
+      }
+      if (node.op == BooleanOp::kDifference && i > 0) box.clip(around(of[0]));
+      add_live(of[i], box, o, live);
+    }
+  }
+};
+
+/// Convex operands that the root adds to all else, or takes away from it.
+std::vector<uint32_t> removers(const std::vector<Operand>& operands, const Expression& expression) {
+  std::vector<uint32_t> found;
+  const Expression::Node& root = expression.nodes.back();
+  for (uint32_t c = root.op == BooleanOp::kUnion ? 0 : 1; c < root.child_count; ++c) {
+    const auto& child = expression.nodes[expression.children[root.first_child + c]];
+    if (root.op != BooleanOp::kUnion && root.op != BooleanOp::kDifference) continue;
+    if (child.is_operand && operands[child.operand].leaf->convex) found.push_back(child.operand);
+  }
+  return found;
+}
+
+Plane plane_of(const test::Loop& loop) {
+  return support_of_loop(static_cast<uint32_t>(loop.size()),
+                         [&](uint32_t i) { return loop[i % loop.size()]; });
+}
+
+double length(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
+
+/// How far the corner of a polygon that is farthest from the middle of an operand's box is from
+/// there, less the radius of the ball around it in all planes; a step is left.
+double beyond_ball(const Job& job, uint32_t o, const Operand& operand, const JobPolygon& polygon) {
+  std::array<double, 3> middle{};
+  for (size_t k = 0; k < 3; ++k) {
+    middle[k] = (job.operand_box(o).lo[k] + job.operand_box(o).hi[k]) / 2.0;
+  }
+  double radius = HUGE_VAL, farthest = 0;
+  for (const test::Loop& loop : test::loops_of(*operand.leaf)) {
+    const Plane p = plane_of(loop);
+    const std::array<double, 3> n{static_cast<double>(p.a), static_cast<double>(p.b),
+                                  static_cast<double>(p.c)};
+    double above = static_cast<double>(p.d);
+    for (size_t k = 0; k < 3; ++k) {
+      above += n[k] * (middle[k] - static_cast<double>(operand.translation[k]));
+    }
+    radius = std::min(radius, -above / length(n));
+  }
+  for (const uint32_t v : job.corners(polygon)) {
+    const auto& p = job.rounded(v);
+    farthest = std::max(farthest, length({p[0] - middle[0], p[1] - middle[1], p[2] - middle[2]}));
+  }
+  return farthest - std::max(radius - 1, 0.0);
+}
+
+TEST(CoveredPolygons, AreThoseInBallsAndBesideBoxes) {
+  test::Random random(952);
+  size_t in_balls = 0, beside = 0, left = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Operand> operands;
+    const auto count = static_cast<uint32_t>(random.integer(2, 9));
+    for (uint32_t o = 0; o < count; ++o) {
+      operands.push_back(random_convex(random, o % 2 == 0 ? 90 : 6));
+      operands.back().translation = random_point(random, round % 3 * 6);
+      if (random.integer(0, 5) == 0) operands.back() = test::operand_of(test::random_leaf(random));
+      if (random.integer(0, 9) == 0) {  // a turn that changes no number, which nobody knows
+        operands.back().frame.is_identity = false;
+        for (size_t k = 0; k < 3; ++k) {
+          operands.back().frame.matrix[k][k] = int64_t{1} << Frame::kShift;
+        }
+      }
+    }
+    const Expression expression =
+        round % 2 ? random_expression(random, count)
+                  : test::flat_expression(static_cast<BooleanOp>(round / 2 % 4), count);
+    const Job job(operands);
+    const auto found = find_plainly_covered(job, expression);
+    const Boxes boxes{job, expression};
+    const auto root = static_cast<uint32_t>(expression.nodes.size() - 1);
+    size_t covered = 0;
+    for (uint32_t o = 0; o < count; ++o) {
+      PolygonBox live = PolygonBox::none();
+      boxes.add_live(root, kEverywhere, o, live);
+      for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
+        bool expected = live.is_empty() || !live.meets(job.boxes()[p]), is_close = false;
+        beside += expected;
+        for (const uint32_t r : removers(operands, expression)) {
+          if (count < 3 || !job.has_grid_vertices(r)) continue;
+          const double beyond = beyond_ball(job, r, operands[r], job.polygons()[p]);
+          is_close |= std::fabs(beyond) < 1e-6;
+          in_balls += !expected && beyond < 0;
+          expected |= beyond < 0;
+        }
+        covered += expected;
+        if (is_close) continue;
+        ASSERT_EQ(!found.empty() && found[p], expected) << "round " << round << ", polygon " << p;
+        left += !expected;
+      }
+    }
+    if (covered == 0) {
+      ASSERT_TRUE(found.empty());
+    }
+  }
+  EXPECT_GT(in_balls, 200u);
+  EXPECT_GT(beside, 1000u);
+  EXPECT_GT(left, 1000u);
+}
+
+// A ball of radius 11 in a box, less a step: what is as far away as that is not in it.
+TEST(CoveredPolygons, AreNotThoseOnTheBallItself) {
+  const Operand box = convex(test::box_loops({-11, -11, -11}, {11, 11, 11}));
+  const auto covered = [&](const IVec3& far) {
+    const std::vector<Operand> operands{
+        box, test::operand_of(test::make_leaf({{{0, 0, 0}, {1, 0, 0}, far}})),
+        test::operand_of(test::box_leaf({50, 0, 0}, {60, 9, 9}))};
+    return find_plainly_covered(Job(operands), test::flat_expression(BooleanOp::kUnion, 3));
+  };
+  EXPECT_TRUE(covered({6, 8, 0}).empty());
+  EXPECT_TRUE(covered({0, 6, -8}).empty());
+  const auto in = covered({-6, 7, 3});
+  ASSERT_FALSE(in.empty());
+  EXPECT_EQ(std::count(in.begin(), in.end(), 1), 1);
+  EXPECT_EQ(in[6], 1);
+}
+
+// Of nothing, and of bodies without faces.
+TEST(CoveredPolygons, OfNothing) {
+  const std::vector<Operand> none;
+  EXPECT_TRUE(find_plainly_covered(Job(none), {}).empty());
+  auto empty = std::make_shared<LeafGeometry>();
+  empty->convex = true;
+  const std::vector<Operand> operands{test::operand_of(empty), octahedron({0, 0, 0}, 9),
+                                      octahedron({0, 0, 0}, 5)};
+  EXPECT_TRUE(
+      find_plainly_covered(Job(operands), test::flat_expression(BooleanOp::kUnion, 3)).empty());
+}
+
+/// The sides of a polygon's corners on the planes of a leaf.
+struct SidesOfLeaf {
+  bool in_front = false, on = false, in_plane = false;
+};
+SidesOfLeaf sides_of(const Job& job, const JobPolygon& polygon, const Operand& operand) {
+  SidesOfLeaf sides;
+  for (const test::Loop& loop : test::loops_of(*operand.leaf)) {
+    const Plane p = plane_of(loop);
+    bool all_on = true;
+    for (const uint32_t v : job.corners(polygon)) {
+      IVec3 at{};
+      for (size_t k = 0; k < 3; ++k) {
+        at[k] = static_cast<int64_t>(job.rounded(v)[k]) - operand.translation[k];
+      }
+      const Int128 above = p.a * at[0] + p.b * at[1] + p.c * at[2] + p.d;
+      sides.in_front |= above > 0;
+      sides.on |= above == 0;
+      all_on &= above == 0;
+    }
+    sides.in_plane |= all_on;
+  }
+  return sides;
+}
+
+// Polygons that touch a convex body from within, but for those in its planes.
+TEST(CoveredPolygons, TouchFromWithin) {
+  test::Random random(953);
+  size_t covered = 0, in_plane = 0, apart = 0;
+  for (int round = 0; round < 400; ++round) {
+    std::vector<Operand> operands;
+    const auto count = static_cast<uint32_t>(random.integer(2, 5));
+    for (uint32_t o = 0; o < count; ++o) {
+      if (random.integer(0, 1)) {
+        operands.push_back(octahedron({0, 0, 0}, random.integer(1, 5)));
+      } else {
+        const int64_t x = random.integer(1, 4), y = random.integer(1, 4);
+        operands.push_back(convex(test::box_loops({-x, -y, -2}, {x, y, 2})));
+      }
+      operands.back().translation = random_point(random, 2);
+      if (random.integer(0, 3) == 0) operands.back() = test::operand_of(test::random_leaf(random));
+    }
+    const Expression expression =
+        round % 3 == 0 ? random_expression(random, count)
+                       : test::flat_expression(static_cast<BooleanOp>(round % 4), count);
+    Job job(operands);
+    EvaluateStats stats;
+    const std::vector<Contact> contacts = find_contacts(job, {}, {}, stats).contacts;
+    std::vector<uint32_t> starts{0}, contact_of;
+    for (uint32_t p = 0; p < job.polygons().size(); ++p) {
+      for (uint32_t i = 0; i < contacts.size(); ++i) {
+        if (contacts[i].p == p || contacts[i].q == p) contact_of.push_back(i);
+      }
+      starts.push_back(static_cast<uint32_t>(contact_of.size()));
+    }
+    CellGeometry geometry(job.planes(), &job);
+    const auto found = find_covered(job, geometry, expression, contacts, starts, contact_of);
+    ASSERT_EQ(found.size(), job.polygons().size());
+    for (uint32_t p = 0; p < found.size(); ++p) {
+      bool expected = false;
+      for (const uint32_t r : removers(operands, expression)) {
+        const JobPolygon& polygon = job.polygons()[p];
+        if (r == polygon.operand) continue;
+        const SidesOfLeaf sides = sides_of(job, polygon, operands[r]);
+        expected |= !sides.in_front && sides.on && !sides.in_plane;
+        in_plane += !sides.in_front && sides.in_plane;
+        apart += !sides.in_front && !sides.on;
+      }
+      ASSERT_EQ(found[p] != 0, expected) << "round " << round << ", polygon " << p;
+      covered += expected;
+    }
+  }
+  EXPECT_GT(covered, 300u);
+  EXPECT_GT(in_plane, 50u);
+  EXPECT_GT(apart, 50u);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/exact/forced_tier.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
@@ -57,6 +58,24 @@ Interval interval_of(const Corners& c, const Corners& plane, const Rational3& d)
     }
   }
   return r;
+}
+
+/// How many corners of a polygon are in front of another one's plane and behind it, and which are
+/// on it.
+struct Sides {
+  int front = 0, back = 0;
+  std::vector<size_t> on;
+};
+Sides sides_of(const Corners& c, const Corners& plane) {
+  const Rational3 n = normal_of(plane);
+  Sides sides;
+  for (size_t i = 0; i < c.size(); ++i) {
+    const int s = sgn(dot(n, minus(c[i], plane[0])));
+    sides.front += s > 0;
+    sides.back += s < 0;
+    if (s == 0) sides.on.push_back(i);
+  }
+  return sides;
 }
 
 Corners corners_of(const Job& job, uint32_t polygon) {
@@ -112,6 +131,7 @@ void check_pairs(const std::vector<Operand>& operands, bool with_planes, Seen& s
       }
       if (dot(d, d) == 0) {
         ASSERT_EQ(met, Meeting::kApart);
+        ASSERT_NE(dot(normal_of(a), minus(b[0], a[0])), 0);
         continue;
       }
       const Interval of_a = interval_of(a, b, d), of_b = interval_of(b, a, d);
@@ -123,6 +143,19 @@ void check_pairs(const std::vector<Operand>& operands, bool with_planes, Seen& s
       }
       ASSERT_EQ(place_of(job, contact, contact.lower, d), std::max(of_a->first, of_b->first));
       ASSERT_EQ(place_of(job, contact, contact.upper, d), std::min(of_a->second, of_b->second));
+      const Sides of_p = sides_of(a, b), of_q = sides_of(b, a);
+      ASSERT_EQ(contact.p_front, of_p.front > 0);
+      ASSERT_EQ(contact.p_back, of_p.back > 0);
+      ASSERT_EQ(contact.q_front, of_q.front > 0);
+      ASSERT_EQ(contact.q_back, of_q.back > 0);
+      ASSERT_EQ(contact.is_plain, of_p.on.empty() && of_q.on.empty() &&
+                                      of_a->first != of_b->first && of_a->first != of_b->second &&
+                                      of_a->second != of_b->first && of_a->second != of_b->second);
+      std::vector<uint32_t> on, expected;
+      test.add_touching_vertices(contact, on);
+      for (const size_t i : of_p.on) expected.push_back(job.corners(job.polygons()[p])[i]);
+      for (const size_t i : of_q.on) expected.push_back(job.corners(job.polygons()[q])[i]);
+      ASSERT_EQ(on, expected);
       ++(contact.is_plain ? seen.plain : seen.touching);
     }
   }
@@ -185,6 +218,122 @@ TEST(PairTest, OfFacesWithStraightCorners) {
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(seen.plain, 50);
+}
+
+/// A polygon with most of its corners in line, and triangles about it.
+std::vector<Operand> mostly_in_line(Random& random) {
+  const auto vector = [&](int64_t reach) {
+    return IVec3{random.integer(-reach, reach), random.integer(-reach, reach),
+                 random.integer(-reach, reach)};
+  };
+  IVec3 u{}, v{};
+  do {
+    u = vector(3), v = vector(3);
+  } while (cross_of(u, v) == IVec3{0, 0, 0});
+  const IVec3 origin = vector(20);
+  const auto at = [&](int64_t a, int64_t b) {
+    IVec3 p = origin;
+    for (size_t k = 0; k < 3; ++k) p[k] += a * u[k] + b * v[k];
+    return p;
+  };
+  Loop loop;
+  const int64_t length = random.integer(2, 8);
+  for (int64_t i = 0; i <= length; ++i) loop.push_back(at(i, 0));
+  if (random.integer(0, 1)) {
+    loop.push_back(at(random.integer(0, length), random.integer(1, 3)));
+  } else {
+    loop.push_back(at(length, 1));
+    loop.push_back(at(0, random.integer(1, 2)));
+  }
+  std::rotate(loop.begin(), loop.begin() + random.integer(0, static_cast<int64_t>(loop.size()) - 1),
+              loop.end());
+  std::vector<Loop> others;
+  while (others.size() < 8) {
+    const Loop other{vector(30), vector(30), vector(30)};
+    if (cross_of(sub(other[1], other[0]), sub(other[2], other[0])) != IVec3{0, 0, 0}) {
+      others.push_back(other);
+    }
+  }
+  return {operand_of(make_leaf({loop})), operand_of(make_leaf(others))};
+}
+
+// The three corners that stand for a plane are not in line, wherever a loop starts.
+TEST(PairTest, OfFacesMostlyInLine) {
+  Random random(417);
+  Seen seen;
+  for (int i = 0; i < 400; ++i) {
+    check_pairs(mostly_in_line(random), i % 2 == 0, seen);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(seen.plain, 100);
+}
+
+/// Coordinates that no double has, with edges that meet edges all the same.
+Frame thirds() {
+  Frame frame;
+  frame.is_identity = false;
+  for (size_t k = 0; k < 3; ++k) frame.matrix[k][k] = int64_t{3} << Frame::kShift;
+  return frame;
+}
+
+TEST(PairTest, OfTheGridAndThirdsOfIt) {
+  Random random(418);
+  Seen seen;
+  for (int i = 0; i < 60; ++i) {
+    std::vector<Operand> operands{operand_of(random_leaf(random)), operand_of(random_leaf(random))};
+    operands[i % 2].frame = thirds();
+    if (i % 3 == 0) operands[1 - i % 2].frame = thirds();
+    check_pairs(operands, i % 4 != 3, seen);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(seen.plain, 100);
+  EXPECT_GT(seen.touching, 100);
+}
+
+// All is asked of planes, as a tier that is forced wants it.
+TEST(PairTest, ByPlanesOnly) {
+  forced_tier = 0;
+  Random random(419);
+  Seen seen;
+  for (int i = 0; i < 12; ++i) {
+    std::vector<Operand> operands{operand_of(random_leaf(random)), operand_of(random_leaf(random))};
+    if (i % 3 == 1) operands[i % 2].frame = random_frame(random);
+    check_pairs(operands, true, seen);
+    if (HasFatalFailure()) break;
+  }
+  forced_tier = -1;
+  EXPECT_GT(seen.plain, 20);
+  EXPECT_GT(seen.touching, 20);
+}
+
+// Faces of results may lie in planes of one coordinate, too; others are decided by planes.
+TEST(PairTest, OfResults) {
+  Random random(420);
+  Seen seen;
+  for (int i = 0; i < 40; ++i) {
+    const auto box = [&] {
+      IVec3 lo{}, hi{};
+      for (size_t k = 0; k < 3; ++k) {
+        lo[k] = random.integer(-6, 3), hi[k] = lo[k] + random.integer(1, 6);
+      }
+      return operand_of(box_leaf(lo, hi));
+    };
+    std::vector<Operand> parts{box(), i % 2 ? box() : operand_of(random_leaf(random))};
+    if (i % 4 == 3) parts[1].frame = thirds();
+    const auto result =
+        evaluate(i % 3 ? join({leaf(0), leaf(1)}) : less({leaf(0), leaf(1)}), parts);
+    ASSERT_TRUE(result);
+    Operand first;
+    first.boundary = *result;
+    std::vector<Operand> operands{first, i % 5 ? operand_of(random_leaf(random)) : first};
+    operands[1].translation = {random.integer(-2, 2), random.integer(-2, 2), 0};
+    if (i % 2) std::swap(operands[0], operands[1]);
+    check_pairs(operands, i % 4 != 1, seen);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(seen.plain, 50);
+  EXPECT_GT(seen.touching, 50);
+  EXPECT_GT(seen.coplanar, 10);
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+// Boxes by the squares of a grid in x and y that they meet, to find those that hold a point.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/base/counting_order.h"
+
+namespace csgrun {
+
+class SquareBins {
+ public:
+  /// A box seen along z, below 2^62. One with lo > hi holds nothing; others are longer than nothing.
+  struct Box {
+    std::array<double, 2> lo, hi;
+  };
+
+  /// `per_side`: so many squares along either axis, at least one. O(boxes and the squares that they
+  /// meet).
+  SquareBins(std::span<const Box> boxes, uint32_t per_side) : per_side_(per_side) {
+    for (int k = 0; k < 2; ++k) {
+      double lo = kFar, hi = -kFar;
+      for (const Box& b : boxes) {
+        lo = std::min(lo, b.lo[k]);
+        hi = std::max(hi, b.hi[k]);
+      }
+      lo_[k] = lo;
+      per_step_[k] = per_side / (hi - lo);
+    }
+    std::vector<std::pair<uint32_t, uint32_t>> entries;  // square, box
+    for (uint32_t i = 0; i < boxes.size(); ++i) {
+      const Box& b = boxes[i];
+      for (uint32_t y = place(1, b.lo[1]); y <= place(1, b.hi[1]); ++y) {
+        for (uint32_t x = place(0, b.lo[0]); x <= place(0, b.hi[0]); ++x) {
+          entries.emplace_back(y * per_side + x, i);
+        }
+      }
+    }
+    in_square_.sort(entries.size(), size_t{per_side} * per_side,
+                    [&](size_t e) { return entries[e].first; });
+    for (uint32_t& e : in_square_.order) e = entries[e].second;
+  }
+
+  /// Those that hold a point, and some near it, ascending.
+  [[nodiscard]] std::span<const uint32_t> at(double x, double y) const {
+    const uint32_t s = place(1, y) * per_side_ + place(0, x);
+    return {in_square_.order.data() + in_square_.starts[s],
+            in_square_.starts[s + 1] - in_square_.starts[s]};
+  }
+
+ private:
+  /// Monotone: what is between the ends of a box is in a square between theirs.
+  [[nodiscard]] uint32_t place(int axis, double coordinate) const {
+    const double at = (coordinate - lo_[axis]) * per_step_[axis];
+    return static_cast<uint32_t>(std::clamp(at, 0.0, static_cast<double>(per_side_ - 1)));
+  }
+
+  static constexpr double kFar = 0x1p62;
+
+  const uint32_t per_side_;
+  std::array<double, 2> lo_{}, per_step_{};
+  CountingOrder in_square_;
+};
+
+}  // namespace csgrun
