@@ -970,10 +970,10 @@ function Solid:fillet(r, edges, options) end
 ---Its straight edges between flat faces, each {from, to, length, turn, convex, normals}. Those between facets of one round surface, or of fillets, are left out.
 ---
 ---Example: `#part:edges{along = "z"}`
----@overload fun(self: Solid, options: csgrun.edges): Solid
+---@overload fun(self: Solid, options: csgrun.edges): {from: number[], to: number[], length: number, turn: number, convex: boolean, normals: number[][]}[]
 ---@param on? any edges of the faces that look this way and lie farthest that way: "top", "bottom", "left", "right", "front", "back", or a vector
 ---@param options? csgrun.edges
----@return Solid
+---@return {from: number[], to: number[], length: number, turn: number, convex: boolean, normals: number[][]}[]
 function Solid:edges(on, options) end
 
 ---@class (exact) csgrun.surface
