@@ -166,6 +166,8 @@ class EdgeChoice {
         add_value(-1);
         lua_pop(L_, 1);
       }
+    } else if (is_empty(index)) {
+      return;  // a list that somebody made, and found nothing for
     } else {
       const int top = lua_gettop(L_);
       lua_pushvalue(L_, index);
@@ -276,10 +278,18 @@ class EdgeChoice {
     }
   }
 
+  bool is_empty(int table) const {
+    lua_pushnil(L_);
+    if (lua_next(L_, table) == 0) return true;
+    lua_pop(L_, 2);
+    return false;
+  }
+
   bool is_edge(int table) const {
+    const int top = lua_gettop(L_);
     const bool has_ends = lua_getfield(L_, table, "from") == LUA_TTABLE &&
                           lua_getfield(L_, table, "to") == LUA_TTABLE;
-    lua_settop(L_, std::max(lua_gettop(L_) - 1, table));
+    lua_settop(L_, top);
     return has_ends;
   }
 
