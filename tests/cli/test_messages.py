@@ -4,10 +4,11 @@ A message has the place, the function, the argument and what was expected. Whate
 tried here without being named; only what a function cannot do without stands in NEEDS.
 """
 import json
+import os
 import re
 import subprocess
 
-from support import CSGRUN, Case, main
+from support import CSGRUN, SOURCE, Case, main
 
 # What must be given, besides the subject.
 NEEDS = {
@@ -152,6 +153,13 @@ class Messages(Case):
 
     def each(self):
         return [f for f in self.functions if f["name"] not in OPEN]
+
+    def test_every_option_is_shown_by_what_it_changes(self):
+        outcome = self.run_csgrun(os.path.join(SOURCE, "tests/conformance/options.lua"), "-q", "--stats")
+        self.expect(outcome, 0)
+        shown = {line[6:] for line in outcome.err.split("\n") if line.startswith("SHOWN ")}
+        options = {f"{function['name']}.{option['name']}" for function in self.functions for option in function["options"]}
+        self.assertEqual(shown, options)
 
     def test_what_is_needed_is_enough(self):
         for function in self.each():
