@@ -25,6 +25,7 @@ local round = {
   text = function(o) o.text, o.size = "O", 100 return text(o) end,
   text3d = function(o) o.text, o.size = "O", 100 return text3d(o) end,
   sweep = function(o) o.path, o.twist = {{0, 0, 0}, {0, 0, 40}}, 180 return square(20, true):sweep(o) end,
+  fillet = function(o) o.r = 10 return cube(30):fillet(o) end,
   import = function(o) o[1] = "options/a.svg" return import(o) end,
 }
 local function count(x)
@@ -173,6 +174,16 @@ shows("smooth.rounds", #cube(4):smooth{rounds = 2}:mesh().faces == 12 * 16)
 shows("warp.f", cube(1):warp{f = function(x, y, z) return 2 * x, y, z end}:volume() == 2)
 local function ball(x, y, z) return norm{x, y, z} - 3 end
 local box = {min = {-5, -5, -5}, max = {5, 5, 5}}
+shows("chamfer.distance", cube(4):chamfer{distance = 1, edges = "z"}:volume() == 56)
+shows("chamfer.edges", cube(4):chamfer(1, {edges = "x"}) ~= cube(4):chamfer(1, {edges = "y"}))
+shows("fillet.r", cube(4):fillet{r = 1} == cube(4):fillet{radius = 1})
+shows("fillet.edges", cube(4):fillet(1, {edges = {on = "top"}}) == cube(4):fillet(1, "top"))
+shows("edges.on", #cube(4):edges{on = "left"} == 4)
+shows("edges.along", #cube(4):edges{along = {0, 0, -1}} == 4)
+shows("edges.near", #cube(4):edges{near = {2, 0, 5}} == 1)
+shows("edges.normal", #cube(4):edges{normal = {0, 1, 0}} == 4)
+shows("edges.through", #cube(4):edges{through = {1, 0, 1}} == 4)
+shows("edges.turn", #cube(4):edges{turn = 90} == 12 and #cube(4):edges{turn = 91} == 0)
 shows("levelset.f", levelset{f = ball, bounds = box}:contains(0, 0, 2))
 shows("levelset.bounds", high(levelset{f = ball, bounds = {{-5, -5, -5}, {0, 5, 5}}})[1] == 0)
 shows("levelset.step", #levelset{f = ball, bounds = box, step = 0.5}:mesh().points > 2 * #levelset(ball, box):mesh().points)
