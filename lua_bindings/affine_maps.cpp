@@ -1,10 +1,20 @@
 #include "lua_bindings/affine_maps.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <csgrun/primitives/trig.h>
 
 namespace csgrun {
+namespace {
+
+/// The same direction with a largest coordinate of 1, so that no square leaves the range; 0 stays.
+glm::dvec3 moderate(const glm::dvec3& v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return largest > 0 && (largest < 1e-100 || largest > 1e100) ? v / largest : v;
+}
+
+}  // namespace
 
 Affine translation(const glm::dvec3& v) {
   Affine map;
@@ -25,7 +35,8 @@ Affine axis_rotation(int axis, double degrees) {
   return map;
 }
 
-Affine rotation_about(const glm::dvec3& axis, double degrees) {
+Affine rotation_about(const glm::dvec3& given, double degrees) {
+  const glm::dvec3 axis = moderate(given);
   const double length = std::sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
   if (length == 0) return {};
   // Along a coordinate axis the matrix is exact; the general formula would round it.
@@ -41,7 +52,8 @@ Affine rotation_about(const glm::dvec3& axis, double degrees) {
   return map;
 }
 
-Affine reflection(const glm::dvec3& n) {
+Affine reflection(const glm::dvec3& normal) {
+  const glm::dvec3 n = moderate(normal);
   const double square = n.x * n.x + n.y * n.y + n.z * n.z;
   Affine map;
   if (square == 0) return map;

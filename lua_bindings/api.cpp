@@ -244,7 +244,16 @@ std::string api_help() {
   return text;
 }
 
-void fail_in(const FunctionSpec& spec, const std::string& message) { fail_as(spec.name, message); }
+void fail_in(const FunctionSpec& spec, const std::string& message) {
+  // What a function makes with the help of another one is its own: "rect: r must be", not "rect:
+  // square: r must be".
+  const size_t end = message.find(": ");
+  for (const Binding& binding : all_bindings()) {
+    if (end != std::string::npos && message.compare(0, end, binding.spec->name) == 0)
+      fail_as(spec.name, message.substr(end + 2));
+  }
+  fail_as(spec.name, message);
+}
 
 ShapeValue& shape_argument(lua_State* L, const FunctionSpec& spec) {
   if (ShapeValue* shape = to_shape(L, 1)) return *shape;

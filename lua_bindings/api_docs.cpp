@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/vector_rule.h"
@@ -127,6 +128,18 @@ void append_function_page(std::string& page, const Binding& binding) {
   page += fmt::format("\n```lua\n{}\n```\n", spec.example);
 }
 
+const char* range_name(Range range) {
+  switch (range) {
+    case Range::kAny:
+      return "any";
+    case Range::kPositive:
+      return "positive";
+    case Range::kNotNegative:
+      return "not negative";
+  }
+  return "any";
+}
+
 /// A word that Lua does not let be a parameter's name.
 std::string parameter_name(const char* name) {
   const std::string text = name;
@@ -218,6 +231,11 @@ std::string result_of(const Binding& binding, const BindingGroup& group, const c
       {"cross", "Vector"},
       {"rands", "number[]"},
       {"inverse", "Matrix"},
+      {"text3d", "Solid"},
+      {"text_metrics", "table"},
+      {"textmetrics", "table"},
+      {"font_metrics", "table"},
+      {"fontmetrics", "table"},
       {"read_text", "string"},
       {"load_csg", "any"},
       {"linear_extrude", "Solid"},
@@ -254,6 +272,39 @@ std::string api_markdown() {
     for (const Binding& binding : group.bindings) append_function_page(page, binding);
   }
   return page;
+}
+
+std::string api_json() {
+  using Json = nlohmann::ordered_json;
+  Json functions = Json::array();
+  for (const BindingGroup& group : binding_groups()) {
+    for (const Binding& binding : group.bindings) {
+      const FunctionSpec& spec = *binding.spec;
+      Json options = Json::array();
+      for (const Option* option : options_of(spec)) {
+        options.push_back({{"name", option->name},
+                           {"alias", option->alias != nullptr ? Json(option->alias) : Json()},
+                           {"takes", describe_type(option->type)},
+                           {"range", range_name(option->range)},
+                           {"default", option->fallback},
+                           {"positional", option->positional},
+                           {"doc", one_line_of(option->doc)}});
+      }
+      Json methods = Json::array();
+      if (binding.solid_method != nullptr) methods.push_back("solid");
+      if (binding.shape_method != nullptr) methods.push_back("shape");
+      if (binding.matrix_method != nullptr) methods.push_back("matrix");
+      functions.push_back({{"name", spec.name},
+                           {"group", group.title},
+                           {"doc", one_line_of(spec.doc)},
+                           {"function", binding.function != nullptr},
+                           {"methods", std::move(methods)},
+                           {"subject", spec.subject},
+                           {"options", std::move(options)},
+                           {"example", spec.example}});
+    }
+  }
+  return Json{{"functions", std::move(functions)}}.dump(1) + "\n";
 }
 
 std::string api_definitions() {

@@ -342,7 +342,13 @@ Arguments::Value Arguments::convert(const Option& option, int index) const {
     }
     case T::kMatrix: {
       Affine map;
-      if (!to_affine(L_, index, map)) wrong_type(option, index);
+      bool good = false;
+      try {
+        good = to_affine(L_, index, map);
+      } catch (const ScriptError& error) {
+        fail(fmt::format("option '{}': {}", option.name, error.what()));
+      }
+      if (!good) wrong_type(option, index);
       return map;
     }
     case T::kColor:

@@ -75,7 +75,7 @@ Arguments::Arguments(lua_State* L, const FunctionSpec& spec, int first) : L_(L),
     read_table(last);
   } else if (last >= first) {
     // An empty table is an empty table of options.
-    if (lua_istable(L, last) && lua_rawlen(L, last) == 0) --last;
+    if (lua_istable(L, last) && list_length(L, last) == 0) --last;
     // f{value}: the list in a list is the value, as it would be with options beside it.
     if (last == first && is_wrapped_list(L, last, spec)) {
       lua_rawgeti(L, last, 1);
@@ -83,6 +83,8 @@ Arguments::Arguments(lua_State* L, const FunctionSpec& spec, int first) : L_(L),
     }
     read_positional(first, last);
   }
+  // Facets that cannot be are told also where nothing is round.
+  if (has("fn") || has("fa") || has("fs")) static_cast<void>(facets());
 }
 
 void Arguments::fail(const std::string& message) const { fail_as(spec_.name, message); }

@@ -20,8 +20,10 @@ using T = ArgumentType;
 constexpr int kMostCopies = 1'000'000;
 constexpr const char* kPartDoc = "a solid or a shape; as a method, part:f(...), it is left out";
 
-/// The bounding box of the solid or shape at `index`; z is 0 for a shape.
-std::array<glm::dvec3, 2> box_of(lua_State* L, int index, const FunctionSpec& spec) {
+/// The bounding box of the solid or shape at `index`, which is `option` unless it is the first
+/// argument; z is 0 for a shape.
+std::array<glm::dvec3, 2> box_of(lua_State* L, int index, const FunctionSpec& spec,
+                                 const char* option = "part") {
   if (const SolidValue* solid = to_solid(L, index)) {
     const Extent extent = session_of(L).extent(*solid);
     if (extent.empty) fail_in(spec, "there is nothing in it, so it has no place");
@@ -29,7 +31,8 @@ std::array<glm::dvec3, 2> box_of(lua_State* L, int index, const FunctionSpec& sp
   }
   const ShapeValue* shape = to_shape(L, index);
   if (shape == nullptr)
-    fail_in(spec, "must have a solid or a shape, got " + describe_value(L, index));
+    fail_in(spec, fmt::format("option '{}' must be a solid or a shape, got {}", option,
+                              describe_value(L, index)));
   if (shape->shape.empty()) fail_in(spec, "there is nothing in it, so it has no place");
   const auto bounds = shape->shape.bounds();
   return {glm::dvec3(bounds[0].x, bounds[0].y, 0), glm::dvec3(bounds[1].x, bounds[1].y, 0)};
@@ -144,7 +147,7 @@ int attach(lua_State* L) {
                          : Anchor(-at.x, -at.y, -at.z);
   const double gap = arguments.number("gap", 0);
   const glm::dvec3 from = point_of(box_of(L, 1, kAttach), own);
-  const glm::dvec3 target = point_of(box_of(L, to, kAttach), at) + gap * at;
+  const glm::dvec3 target = point_of(box_of(L, to, kAttach, "to"), at) + gap * at;
   push_moved(L, kAttach, translation(target - from));
   return 1;
 }
@@ -182,6 +185,8 @@ int align(lua_State* L) {
         lua_pop(L, 1);
       }
     } else {
+      if (to_solid(L, to) == nullptr && to_shape(L, to) == nullptr)
+        fail_in(kAlign, "option 'to' must be a point or a part, got " + describe_value(L, to));
       target = box_of(L, to, kAlign);
     }
   }
@@ -269,6 +274,7 @@ int mirror_copy(lua_State* L) {
   require_part(L, kMirrorCopy);
   const Arguments arguments(L, kMirrorCopy, 2);
   const auto v = arguments.vector("v");
+  if (v && v->v == glm::dvec3(0, 0, 0)) fail_in(kMirrorCopy, "option 'v' must not be 0");
   push_copies(L, kMirrorCopy, {{}, reflection(v ? v->v : glm::dvec3(1, 0, 0))},
               arguments.boolean("list", false));
   return 1;
@@ -303,6 +309,8 @@ int linear_array(lua_State* L) {
   const int n = copies_argument(arguments, kLinearArray, "n");
   const auto v = arguments.vector("v");
   if (!v) fail_in(kLinearArray, "needs how far it is from one to the next: {x, y, z}");
+  if (n > 1 && v->v == glm::dvec3(0, 0, 0))
+    fail_in(kLinearArray, "option 'v' must not be 0: all copies would be in one place");
   const double first = arguments.boolean("center", false) ? -(n - 1) / 2.0 : 0;
   std::vector<Affine> maps;
   for (int i = 0; i < n; ++i) maps.push_back(translation((first + i) * v->v));
@@ -333,6 +341,11 @@ int grid_array(lua_State* L) {
     if (count[i] != std::floor(count[i]) || count[i] < 1 || count[i] > kMostCopies)
       fail_in(kGridArray,
               fmt::format("option 'n' must have whole numbers from 1 on, got {:.14g}", count[i]));
+    if (count[i] > 1 && far[i] == 0) {
+      fail_in(kGridArray, fmt::format("option 'step' must not be 0 along {}, where there are "
+                                      "several copies",
+                                      "XYZ"[i]));
+    }
   }
   if (count.x * count.y * count.z > kMostCopies)
     fail_in(kGridArray, fmt::format("makes more than {} copies", kMostCopies));
@@ -374,6 +387,8 @@ int polar_array(lua_State* L) {
   const Arguments arguments(L, kPolarArray, 2);
   const int n = copies_argument(arguments, kPolarArray, "n");
   const double angle = arguments.number("angle", 360);
+  if (n > 1 && angle == 0)
+    fail_in(kPolarArray, "option 'angle' must not be 0: all copies would be in one place");
   const auto axis = arguments.vector("axis");
   const auto given_center = arguments.vector("center");
   const glm::dvec3 center = given_center ? given_center->v : glm::dvec3(0, 0, 0);

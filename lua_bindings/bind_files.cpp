@@ -278,7 +278,7 @@ int load_csg(lua_State* L) {
   }
   for (const std::string& warning : model->warnings) session.warn(L, "load_csg: " + warning);
   if (model->is_2d) {
-    push_shape(L, model->shape, {});
+    push_shape(L, model->shape, model->appearance);
   } else {
     push_solid(L, model->solid);
   }

@@ -207,6 +207,7 @@ const char kLoadingMark = 0;    // value while a module runs
 
 int require_module(lua_State* L) {
   const Arguments arguments(L, kRequire, 1);
+  if (!arguments.has("name")) fail_in(kRequire, "needs the name of a module");
   const std::string name = arguments.string("name", "");
   if (name == "csg" || name == "luacad") {  // what a script has without asking
     lua_getglobal(L, "csg");

@@ -32,6 +32,8 @@ int torus(lua_State* L) {
   RotateExtrudeOptions turn;
   turn.facets = tube;
   tube.fn = arguments.number("segments_minor", tube.fn);
+  if (const std::string problem = check_facets(tube); !problem.empty())
+    fail_in(kTorus, "option 'segments_minor': " + problem);
   turn.start = 0;
   const Shape2D circle = value_or_fail(kTorus, make_circle(minor, tube));
   Affine map;

@@ -64,7 +64,10 @@ int faces(lua_State* L) {
   const Arguments arguments(L, kFaces, 2);
   const auto wanted = arguments.vector("normal"), through = arguments.vector("through");
   if (wanted && wanted->v == glm::dvec3(0, 0, 0)) fail_in(kFaces, "option 'normal' must not be 0");
-  const double least = cos_deg(arguments.number("angle", 0.01));
+  const double angle = arguments.number("angle", 0.01);
+  if (angle > 180)
+    fail_in(kFaces, fmt::format("option 'angle' must be at most 180, got {:.14g}", angle));
+  const double least = cos_deg(angle);
   const Solid& solid = session_of(L).evaluated(value);
   std::vector<FaceSum> sums(solid.faces.size());
   for (size_t t = 0; t < solid.triangles.size(); ++t) {
@@ -177,9 +180,9 @@ int gap(lua_State* L) {
   const Arguments arguments(L, kGap, 2);
   const int index = arguments.stack_index("other");
   SolidValue* other = index == 0 ? nullptr : to_solid(L, index);
+  if (index == 0) fail_in(kGap, "needs the other solid");
   if (other == nullptr)
-    fail_in(kGap, "needs the other solid" +
-                      (index == 0 ? std::string() : ", got " + describe_value(L, index)));
+    fail_in(kGap, "option 'other' must be a solid, got " + describe_value(L, index));
   Session& session = session_of(L);
   const Solid &a = session.evaluated(value), &b = session.evaluated(*other);
   if (a.empty() || b.empty()) fail_in(kGap, "there is nothing in one of them");

@@ -44,7 +44,10 @@ int sweep(lua_State* L) {
   if (const auto scale = arguments.vector("scale")) {
     options.scale = scale->count == 1 ? glm::dvec2(scale->v.x) : glm::dvec2(scale->v.x, scale->v.y);
   }
-  if (const auto up = arguments.vector("up")) options.up = up->v;
+  if (const auto up = arguments.vector("up")) {
+    if (up->v == glm::dvec3(0, 0, 0)) fail_in(kSweep, "option 'up' must not be 0");
+    options.up = up->v;
+  }
   options.facets = arguments.facets();
   if (shape.shape.empty()) {
     push_solid(L, Node::empty(session_of(L).source_ref(L)));

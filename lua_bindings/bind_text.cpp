@@ -1,4 +1,4 @@
-// text, text3d, text_metrics.
+// text, text3d, text_metrics, font_metrics.
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -17,7 +17,7 @@ namespace {
 using T = ArgumentType;
 
 constexpr Option kTextOptions[] = {
-    {"text", T::kString, "", "one line, in UTF-8", true},
+    {"text", T::kString, "", "in UTF-8; a newline begins a line", true},
     {"size", T::kNumber, "10", "height of capitals, roughly; the em is size / 0.72", true,
      Range::kPositive},
     {"font", T::kString, "\"Liberation Sans\"",
@@ -29,11 +29,14 @@ constexpr Option kTextOptions[] = {
     {"valign", T::kString, "\"baseline\"",
      "\"baseline\", \"bottom\", \"center\" or \"top\", by the ink", false},
     {"spacing", T::kNumber, "1", "factor of the distances of characters", false},
+    {"line_spacing", T::kNumber, "1", "factor of the distance of lines, which the font has", false,
+     Range::kPositive},
     {"direction", T::kString, "that of the script", "\"ltr\", \"rtl\", \"ttb\" or \"btt\"", false},
     {"language", T::kString, "\"en\"", "language, for the font's rules", false},
-    {"script", T::kString, "that of the characters", "script: \"latin\", \"arabic\" ...", false},
+    {"script", T::kString, "that of the characters",
+     "script: \"latin\", \"arabic\" ..., or a code: \"Latn\"", false},
 };
-constexpr FunctionSpec kText{"text", "A line of text as a 2D shape.", kTextOptions, true,
+constexpr FunctionSpec kText{"text", "Text as a 2D shape: one line or several.", kTextOptions, true,
                              "text(\"csgrun\", {size = 8, halign = \"center\"})"};
 constexpr auto kText3dOptions = [] {
   std::array<Option, std::size(kTextOptions) + 1> options{};
@@ -41,23 +44,43 @@ constexpr auto kText3dOptions = [] {
   options.back() = {"depth", T::kNumber, "1", "how thick, along Z", false, Range::kPositive};
   return options;
 }();
-constexpr FunctionSpec kText3d{"text3d", "A line of text as a solid.", kText3dOptions, true,
-                               "text3d(\"csgrun\", {size = 8, depth = 2})"};
-constexpr FunctionSpec kTextMetrics{
-    "text_metrics",
-    "What text would measure: {position, size, ascent, descent, offset, advance}, in mm.",
-    kTextOptions, true, "text_metrics(\"csgrun\", {size = 8}).size[1]"};
+constexpr FunctionSpec kText3d{"text3d", "Text as a solid: one line or several.", kText3dOptions,
+                               true, "text3d(\"csgrun\", {size = 8, depth = 2})"};
+constexpr FunctionSpec kTextMetrics{"text_metrics",
+                                    "What text would measure: {position, size, ascent, descent, "
+                                    "offset, advance}, in mm. Of several "
+                                    "lines: of all, above and below the first baseline.",
+                                    kTextOptions, true,
+                                    "text_metrics(\"csgrun\", {size = 8}).size[1]"};
 constexpr FunctionSpec kTextmetrics{"textmetrics", "OpenSCAD's name of text_metrics.", kTextOptions,
                                     true, "textmetrics(\"csgrun\").advance[1]"};
 
-TextOptions text_options(const Arguments& arguments, const FunctionSpec& spec) {
-  if (!arguments.has("text")) fail_in(spec, "needs a text");
+constexpr Option kFontMetricsOptions[] = {kTextOptions[1], kTextOptions[2], kTextOptions[3]};
+constexpr FunctionSpec kFontMetrics{
+    "font_metrics",
+    "What a font measures: {nominal = {ascent, descent}, max = {ascent, descent}, interline, font "
+    "= "
+    "{family, style}}, in mm: what it keeps for a line, its tallest and deepest glyph, from a "
+    "baseline to the next.",
+    kFontMetricsOptions, false, "font_metrics(10).interline"};
+constexpr FunctionSpec kFontmetrics{
+    "fontmetrics", "OpenSCAD's name of font_metrics.", kFontMetricsOptions, false,
+    "fontmetrics(10, \"Liberation Sans:style=Bold\").nominal.ascent"};
+
+/// The size of text as OpenSCAD counts it.
+double size_of(const Arguments& arguments, const FunctionSpec& spec) {
   if (arguments.has("em") && arguments.has("size"))
     fail_in(spec, "give either 'size' or 'em', not both");
+  return arguments.has("em") ? arguments.number("em", 0) * 0.72 : arguments.number("size", 10);
+}
+
+TextOptions text_options(const Arguments& arguments, const FunctionSpec& spec) {
+  if (!arguments.has("text")) fail_in(spec, "needs a text");
   TextOptions options;
   options.text = arguments.string("text", "");
-  options.size =
-      arguments.has("em") ? arguments.number("em", 0) * 0.72 : arguments.number("size", 10);
+  options.lines = true;
+  options.line_spacing = arguments.number("line_spacing", 1);
+  options.size = size_of(arguments, spec);
   options.halign = arguments.string("halign", "default");
   options.valign = arguments.string("valign", "default");
   options.spacing = arguments.number("spacing", 1);
@@ -134,11 +157,40 @@ int text_metrics(lua_State* L) {
   return 1;
 }
 
+template <const FunctionSpec& Spec>
+int font_metrics(lua_State* L) {
+  const Arguments arguments(L, Spec, 1);
+  const Font font = font_of(L, arguments, Spec);
+  const FontMetrics metrics = value_or_fail(Spec, measure_font(size_of(arguments, Spec), font));
+  lua_createtable(L, 0, 4);
+  const auto set_pair = [L](const char* name, double ascent, double descent) {
+    lua_createtable(L, 0, 2);
+    lua_pushnumber(L, ascent);
+    lua_setfield(L, -2, "ascent");
+    lua_pushnumber(L, descent);
+    lua_setfield(L, -2, "descent");
+    lua_setfield(L, -2, name);
+  };
+  set_pair("nominal", metrics.ascent, metrics.descent);
+  set_pair("max", metrics.max_ascent, metrics.max_descent);
+  lua_pushnumber(L, metrics.interline);
+  lua_setfield(L, -2, "interline");
+  lua_createtable(L, 0, 2);
+  lua_pushstring(L, font.family().c_str());
+  lua_setfield(L, -2, "family");
+  lua_pushstring(L, font.style().c_str());
+  lua_setfield(L, -2, "style");
+  lua_setfield(L, -2, "font");
+  return 1;
+}
+
 constexpr Binding kBindings[] = {
     {&kText, guarded<text>, nullptr, nullptr},
     {&kText3d, guarded<text3d>, nullptr, nullptr},
     {&kTextMetrics, guarded<text_metrics<kTextMetrics>>, nullptr, nullptr},
     {&kTextmetrics, guarded<text_metrics<kTextmetrics>>, nullptr, nullptr},
+    {&kFontMetrics, guarded<font_metrics<kFontMetrics>>, nullptr, nullptr},
+    {&kFontmetrics, guarded<font_metrics<kFontmetrics>>, nullptr, nullptr},
 };
 
 }  // namespace

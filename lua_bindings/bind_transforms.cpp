@@ -48,7 +48,8 @@ Affine make_translation(const Arguments& arguments) {
 constexpr Option kRotateOptions[] = {
     {"a", T::kAngles, "", "an angle about Z (or v), or angles about X, Y and Z in this order",
      true},
-    {"v", T::kVector3, "{0, 0, 1}", "axis to turn about", true},
+    {"v", T::kVector3, "{0, 0, 1}", "axis to turn about; {0, 0, 0} turns nothing, as in OpenSCAD",
+     true},
     {"x", T::kNumber, "0", "about X", false},
     {"y", T::kNumber, "0", "about Y", false},
     {"z", T::kNumber, "0", "about Z", false},
@@ -96,7 +97,8 @@ Affine make_scale(const Arguments& arguments) {
 }
 
 constexpr Option kMirrorOptions[] = {
-    {"v", T::kVector2Or3, "{1, 0, 0}", "normal of the plane through the origin", true},
+    {"v", T::kVector2Or3, "{1, 0, 0}",
+     "normal of the plane through the origin; {0, 0, 0} mirrors nothing, as in OpenSCAD", true},
 };
 constexpr FunctionSpec kMirror{"mirror", "Mirrors at a plane through the origin.", kMirrorOptions,
                                false, "part:mirror(1, 0, 0)"};

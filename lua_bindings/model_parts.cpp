@@ -39,10 +39,11 @@ Result<std::vector<ModelPart>> read_gltf(const std::string& name, std::string_vi
 }
 
 Result<std::vector<ModelPart>> read_mesh(const std::string& name, std::string_view bytes,
-                                         const ModelPartOptions& options) {
+                                         const ModelPartOptions& options,
+                                         std::vector<std::string>* notes) {
   std::vector<std::string> material_files;
-  auto mesh =
-      parse_mesh(name, bytes, nullptr, options.open_material_file ? &material_files : nullptr);
+  auto mesh = parse_mesh(name, bytes, nullptr,
+                         options.open_material_file ? &material_files : nullptr, notes);
   if (!mesh) return mesh.error();
   for (const std::string& file : material_files) {
     const auto text = options.open_material_file(file);
@@ -76,7 +77,8 @@ std::string model_file_format_of(const std::string& path) {
   for (char& c : lower) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
-  for (const char* format : {"glb", "gltf", "3mf"}) {
+  if (is_3mf_path(path)) return "3mf";
+  for (const char* format : {"glb", "gltf"}) {
     if (lower.ends_with(std::string(".") + format)) return format;
   }
   return mesh_format_of(path);
@@ -88,7 +90,7 @@ Result<std::vector<ModelPart>> read_model_parts(const std::string& name, std::st
   const std::string format = model_file_format_of(name);
   auto parts = format == "3mf"                       ? parse_3mf(name, bytes)
                : format == "glb" || format == "gltf" ? read_gltf(name, bytes)
-                                                     : read_mesh(name, bytes, options);
+                                                     : read_mesh(name, bytes, options, notes);
   if (!parts) return parts;
   for (ModelPart& part : *parts) {
     part.mesh.fill = options.fill;

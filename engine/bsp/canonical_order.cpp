@@ -84,10 +84,7 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
       [&](uint32_t i) -> const std::array<double, 3>& { return geometry.point(used[i]).rounded; },
       [&](uint32_t i, uint32_t j) {
         // Doubles cannot tell them apart: exactly.
-        for (int axis = 0; axis < 3; ++axis) {
-          if (const int order = geometry.compare_along(used[i], used[j], axis)) return order < 0;
-        }
-        return false;
+        return compare(geometry.value(used[i]), geometry.value(used[j])) < 0;
       });
   std::vector<uint32_t> number(geometry.point_count(), kNone);
   mesh.point_rounded.reserve(points.size());

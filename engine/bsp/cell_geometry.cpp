@@ -44,22 +44,23 @@ uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes,
   return static_cast<uint32_t>(points_.size() - 1);
 }
 
+Point CellGeometry::value(uint32_t p) const {
+  const StoredPoint& s = points_[p];
+  if (s.exact != kNone) return exact_[s.exact];
+  if (s.vertex != kNone) return job_->exact(s.vertex);
+  const Plane &p0 = planes_->plane(s.planes[0]), &p1 = planes_->plane(s.planes[1]),
+              &p2 = planes_->plane(s.planes[2]);
+  const auto whole = [&s](int k) { return static_cast<int64_t>(s.rounded[k]); };
+  return meet_on_grid(p0, p1, p2, s.rounded) ? grid_point(whole(0), whole(1), whole(2))
+                                             : intersect(p0, p1, p2);
+}
+
 const Point& CellGeometry::exact(uint32_t p) {
-  StoredPoint& s = points_[p];
-  if (s.exact == kNone) {
-    s.exact = static_cast<uint32_t>(exact_.size());
-    if (s.vertex != kNone) {
-      exact_.push_back(job_->exact(s.vertex));
-    } else {
-      const Plane &p0 = planes_->plane(s.planes[0]), &p1 = planes_->plane(s.planes[1]),
-                  &p2 = planes_->plane(s.planes[2]);
-      const auto whole = [&s](int k) { return static_cast<int64_t>(s.rounded[k]); };
-      exact_.push_back(meet_on_grid(p0, p1, p2, s.rounded)
-                           ? grid_point(whole(0), whole(1), whole(2))
-                           : intersect(p0, p1, p2));
-    }
+  if (points_[p].exact == kNone) {
+    exact_.push_back(value(p));
+    points_[p].exact = static_cast<uint32_t>(exact_.size() - 1);
   }
-  return exact_[s.exact];
+  return exact_[points_[p].exact];
 }
 
 Fragment CellGeometry::load(uint32_t polygon) {

@@ -58,6 +58,8 @@ class CellGeometry {
   [[nodiscard]] const StoredPoint& point(uint32_t p) const { return points_[p]; }
   [[nodiscard]] size_t point_count() const { return points_.size(); }
   const Point& exact(uint32_t p);
+  /// The same, not kept for the next time: may be asked on several threads.
+  [[nodiscard]] Point value(uint32_t p) const;
 
   /// The whole polygon of the job.
   Fragment load(uint32_t polygon);

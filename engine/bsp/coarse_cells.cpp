@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <numeric>
+
+#include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 
 namespace csgrun {
 namespace {
@@ -141,30 +145,45 @@ PairCells whole(const Job& job, const PolygonBox& all) {
   return result;
 }
 
+/// Marks a cell with the surface of an operand. What is there after all of them does not depend on
+/// who comes first.
+void mark_cell(uint32_t& cell, uint32_t own, bool are_covered) {
+  const std::atomic_ref<uint32_t> shared(cell);
+  uint32_t known = shared.load(std::memory_order_relaxed);
+  while (known != own && known != kSeveral) {
+    if (known == kNobody && are_covered) return;
+    const uint32_t then = known == kNobody ? own : kSeveral;
+    if (shared.compare_exchange_weak(known, then, std::memory_order_relaxed)) return;
+  }
+}
+
 /// Marks the cells by the operands of those polygons that are covered, or of those that are not,
 /// and lists those of each. Covered ones mark only what others have. False when there are more than
 /// `left`, which is lowered.
 bool mark(const Job& job, std::span<const uint8_t> covered, bool are_covered, Grid& grid,
-          std::vector<Grid::Cells>& cells, size_t& left) {
-  for (size_t o = 0; o < job.operand_count(); ++o) {
-    const auto own = static_cast<uint32_t>(o) + 1;
-    for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
+          RawVector<Grid::Cells>& cells, size_t& left) {
+  const size_t count = job.polygons().size();
+  std::atomic<size_t> all = 0;
+  std::atomic<bool> failed = false;
+  for_each_range(count, [&](size_t begin, size_t end) {
+    size_t sum = 0;
+    for (size_t p = begin; p < end; ++p) {
       if ((!covered.empty() && covered[p] != 0) != are_covered) continue;
-      if (!grid.find_cells(job.boxes()[p], cells[p])) return false;
+      if (sum + all.load(std::memory_order_relaxed) > left ||
+          !grid.find_cells(job.boxes()[p], cells[p])) {
+        failed = true;
+        return;
+      }
       if (!cells[p].any) continue;
       const auto& more = cells[p].more;
-      const size_t count = (more[0] + size_t{1}) * (more[1] + size_t{1}) * (more[2] + size_t{1});
-      if (count > left) return false;
-      left -= count;
-      grid.each_cell(cells[p], [own, are_covered](uint32_t& cell) {
-        if (cell == kNobody) {
-          cell = are_covered ? kNobody : own;
-        } else if (cell != own) {
-          cell = kSeveral;
-        }
-      });
+      sum += (more[0] + size_t{1}) * (more[1] + size_t{1}) * (more[2] + size_t{1});
+      const uint32_t own = job.polygons()[p].operand + 1;
+      grid.each_cell(cells[p], [&](uint32_t& cell) { mark_cell(cell, own, are_covered); });
     }
-  }
+    all += sum;
+  });
+  if (failed || all > left) return false;
+  left -= all;
   return true;
 }
 
@@ -179,7 +198,7 @@ PairCells find_coarse_cells(const Job& job, std::span<const uint8_t> covered, ui
   result.surface = cells_for(count, limit);
   if (bounds.common.is_empty()) return result;
   Grid grid(bounds.common, most_cells);
-  std::vector<Grid::Cells> cells(count);
+  RawVector<Grid::Cells> cells(count);
   size_t left = kMostCellsEach * count;
   if (!mark(job, covered, false, grid, cells, left) ||
       (!covered.empty() && !mark(job, covered, true, grid, cells, left))) {
@@ -195,17 +214,30 @@ PairCells find_coarse_cells(const Job& job, std::span<const uint8_t> covered, ui
   struct Entry {
     uint32_t cell, polygon;
   };
-  std::vector<Entry> entries;
   const auto shared = static_cast<uint32_t>(result.cells.size());
-  uint64_t alone = 0;
-  for (uint32_t p = 0; p < count; ++p) {
-    const size_t before = entries.size();
-    grid.each_cell(cells[p], [&](uint32_t cell) {
-      if (number(cell) < shared) entries.push_back({number(cell), p});
-    });
-    alone += entries.size() == before;
-  }
-  for (const Entry& e : entries) ++result.cells[e.cell].count;
+  struct Part {
+    std::vector<Entry> entries;
+    uint64_t alone = 0;
+  };
+  std::vector<Part> parts(part_count(count, kFewForThreads));
+  for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+    std::vector<Entry> entries;
+    uint64_t alone = 0;
+    for (size_t p = begin; p < end; ++p) {
+      const size_t before = entries.size();
+      grid.each_cell(cells[p], [&](uint32_t cell) {
+        if (number(cell) < shared) entries.push_back({number(cell), static_cast<uint32_t>(p)});
+      });
+      alone += entries.size() == before;
+    }
+    parts[part] = {std::move(entries), alone};
+  });
+  const auto each_entry = [&](auto&& visit) {
+    for (const Part& part : parts) {
+      for (const Entry& e : part.entries) visit(e);
+    }
+  };
+  each_entry([&](const Entry& e) { ++result.cells[e.cell].count; });
   uint32_t total = 0;
   for (PairCells::Cell& cell : result.cells) {
     cell.first = total;
@@ -213,10 +245,12 @@ PairCells find_coarse_cells(const Job& job, std::span<const uint8_t> covered, ui
     cell.count = 0;
   }
   result.polygons.resize(total);
-  for (const Entry& e : entries) {
+  each_entry([&](const Entry& e) {
     PairCells::Cell& cell = result.cells[e.cell];
     result.polygons[cell.first + cell.count++] = e.polygon;
-  }
+  });
+  uint64_t alone = 0;
+  for (const Part& part : parts) alone += part.alone;
   result.surface = cells_for(alone, limit);
   return result;
 }

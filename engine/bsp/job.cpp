@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/convexify.h"
 #include "engine/bsp/grid_planes.h"
@@ -18,27 +19,6 @@ constexpr uint32_t kNoVertexPlanes = ~0u;
 int32_t clamp_to_box(double v) {
   constexpr double kLimit = kBoxLimit;
   return static_cast<int32_t>(std::clamp(v, -kLimit, kLimit));
-}
-
-/// Appends the boxes of all faces of a leaf on the grid, from whole numbers.
-void append_grid_boxes(const LeafGeometry& leaf, const IVec3& translation,
-                       std::vector<PolygonBox>& boxes) {
-  std::vector<std::array<int32_t, 3>> at;
-  at.reserve(leaf.vertices.size());
-  const auto clamped = [](int64_t c) {
-    return static_cast<int32_t>(std::clamp<int64_t>(c, -kBoxLimit, kBoxLimit));
-  };
-  for (const IVec3& q : leaf.vertices) {
-    at.push_back({clamped(q[0] + translation[0]), clamped(q[1] + translation[1]),
-                  clamped(q[2] + translation[2])});
-  }
-  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    PolygonBox box{at[leaf.corners[leaf.face_starts[f]]], at[leaf.corners[leaf.face_starts[f]]]};
-    for (uint32_t c = leaf.face_starts[f] + 1; c < leaf.face_starts[f + 1]; ++c) {
-      box.include({at[leaf.corners[c]], at[leaf.corners[c]]});
-    }
-    boxes.push_back(box);
-  }
 }
 
 /// Remainder of a signed wide integer by a small number, in [0, p).
@@ -102,22 +82,32 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes)
   boxes_.reserve(polygons);
   corners_.reserve(corners);
   edge_planes_.reserve(corners);
+  operand_boxes_.assign(operands.size(), PolygonBox::none());
+  leaf_corner_starts_.resize(operands.size());
   for (uint32_t o = 0; o < operands.size(); ++o) {
     sources_[o].first_vertex = static_cast<uint32_t>(rounded_.size());
     if (operands[o].leaf) {
-      add_leaf(o, operands[o]);
+      leaf_corner_starts_[o] = static_cast<uint32_t>(corners_.size());
+      make_room(*operands[o].leaf);
     } else if (operands[o].boundary) {
       add_boundary(o, operands[o]);
-    } else {
-      add_pieces(o, *operands[o].pieces);
+      for (size_t p = polygon_starts_.back(); p < polygons_.size(); ++p) {
+        operand_boxes_[o].include(boxes_[p]);
+      }
     }
-    PolygonBox box = PolygonBox::none();
-    if (operands[o].pieces) box = rounded_outwards(operands[o].pieces->pieces.box());  // of all
-    for (size_t p = polygon_starts_.back(); p < polygons_.size(); ++p) box.include(boxes_[p]);
-    operand_boxes_.push_back(box);
+    if (operands[o].pieces) break;  // the last one
     polygon_starts_.push_back(static_cast<uint32_t>(polygons_.size()));
     vertex_operand_starts_.push_back(static_cast<uint32_t>(rounded_.size()));
   }
+  for_each_alone(operands.size(), polygons_.size() > kFewForThreads, [&](size_t o) {
+    if (operands[o].leaf) add_leaf(static_cast<uint32_t>(o), operands[o]);
+  });
+  if (polygon_starts_.size() > operands.size()) return;
+  const PieceOperand& pieces = *operands.back().pieces;
+  add_pieces(static_cast<uint32_t>(operands.size() - 1), pieces);
+  operand_boxes_.back() = rounded_outwards(pieces.pieces.box());  // of all
+  polygon_starts_.push_back(static_cast<uint32_t>(polygons_.size()));
+  vertex_operand_starts_.push_back(static_cast<uint32_t>(rounded_.size()));
 }
 
 bool Job::is_good_prime(int64_t p) const {
@@ -150,36 +140,50 @@ void Job::move_walls() {
   while (!is_good_prime(prime_));
 }
 
-void Job::add_grid_vertices(const LeafGeometry& leaf, const IVec3& translation) {
-  for (const IVec3& q : leaf.vertices) {
-    rounded_.push_back({static_cast<double>(q[0] + translation[0]),
-                        static_cast<double>(q[1] + translation[1]),
-                        static_cast<double>(q[2] + translation[2])});
-  }
+/// For what add_leaf sets.
+void Job::make_room(const LeafGeometry& leaf) {
+  rounded_.resize(rounded_.size() + leaf.vertices.size());
+  polygons_.resize(polygons_.size() + leaf.face_count());
+  boxes_.resize(boxes_.size() + leaf.face_count());
+  corners_.resize(corners_.size() + leaf.corners.size());
+  edge_planes_.resize(edge_planes_.size() + leaf.corners.size());
 }
 
 void Job::add_leaf(uint32_t o, const Operand& operand) {
   const LeafGeometry& leaf = *operand.leaf;
-  const auto first_vertex = static_cast<uint32_t>(rounded_.size());
-  if (operand.frame.is_identity) {
-    add_grid_vertices(leaf, operand.translation);
-    append_grid_boxes(leaf, operand.translation, boxes_);
-  } else {
-    for (uint32_t v = 0; v < leaf.vertices.size(); ++v) {
-      rounded_.push_back(csgrun::rounded(exact_of(o, v)));
+  const uint32_t first_vertex = sources_[o].first_vertex, first_polygon = polygon_starts_[o];
+  const bool on_grid = operand.frame.is_identity;
+  for_each_range(leaf.vertices.size(), [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      std::array<double, 3>& at = rounded_[first_vertex + v];
+      if (!on_grid) {
+        at = csgrun::rounded(exact_of(o, static_cast<uint32_t>(v)));
+        continue;
+      }
+      const IVec3& q = leaf.vertices[v];
+      for (size_t k = 0; k < 3; ++k) at[k] = static_cast<double>(q[k] + operand.translation[k]);
     }
-  }
-  const auto first_corner = static_cast<uint32_t>(corners_.size());
-  for (const uint32_t v : leaf.corners) corners_.push_back(first_vertex + v);
-  edge_planes_.resize(corners_.size(), kNone);
-  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    const uint32_t first = first_corner + leaf.face_starts[f],
-                   end = first_corner + leaf.face_starts[f + 1];
-    if (sources_[o].map.is_mirrored())
-      std::reverse(corners_.begin() + first, corners_.begin() + end);
-    polygons_.push_back({o, f, first, end - first, PlaneId()});
-    if (!operand.frame.is_identity) boxes_.push_back(box_of(polygons_.back()));
-  }
+  });
+  const uint32_t first_corner = leaf_corner_starts_[o];
+  std::vector<PolygonBox> boxes(part_count(leaf.face_count(), kFewForThreads), PolygonBox::none());
+  for_each_part(leaf.face_count(), kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      const uint32_t first = first_corner + leaf.face_starts[f],
+                     last = first_corner + leaf.face_starts[f + 1];
+      for (uint32_t c = first; c < last; ++c) {
+        corners_[c] = first_vertex + leaf.corners[c - first_corner];
+        edge_planes_[c] = kNone;
+      }
+      if (sources_[o].map.is_mirrored())
+        std::reverse(corners_.begin() + first, corners_.begin() + last);
+      JobPolygon& polygon = polygons_[first_polygon + f];
+      polygon = {o, static_cast<uint32_t>(f), first, last - first, PlaneId()};
+      PolygonBox& box = boxes_[first_polygon + f];
+      box = on_grid ? grid_box_of(polygon) : box_of(polygon);
+      boxes[part].include(box);
+    }
+  });
+  for (const PolygonBox& box : boxes) operand_boxes_[o].include(box);
 }
 
 void Job::add_boundary(uint32_t o, const Operand& operand) {
@@ -284,6 +288,17 @@ PolygonBox Job::box_of(const JobPolygon& polygon) const {
   PieceBox box;
   for (const uint32_t v : corners(polygon)) box.add(rounded_[v]);
   return rounded_outwards(box);
+}
+
+/// Where vertices are whole numbers.
+PolygonBox Job::grid_box_of(const JobPolygon& polygon) const {
+  PolygonBox box = PolygonBox::none();
+  for (const uint32_t v : corners(polygon)) {
+    std::array<int32_t, 3> at;
+    for (size_t k = 0; k < 3; ++k) at[k] = clamp_to_box(rounded_[v][k]);
+    box.include({at, at});
+  }
+  return box;
 }
 
 uint32_t Job::operand_of_vertex(uint32_t vertex) const {

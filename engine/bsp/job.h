@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/boundary_mesh.h"
 #include "engine/bsp/frame_map.h"
 #include "engine/bsp/operand.h"
@@ -94,8 +95,8 @@ class Job {
   [[nodiscard]] bool has_grid_vertices(size_t o) const {
     return is_leaf(o) && (*operands_)[o].frame.is_identity;
   }
-  [[nodiscard]] const std::vector<JobPolygon>& polygons() const { return polygons_; }
-  [[nodiscard]] const std::vector<PolygonBox>& boxes() const { return boxes_; }
+  [[nodiscard]] const RawVector<JobPolygon>& polygons() const { return polygons_; }
+  [[nodiscard]] const RawVector<PolygonBox>& boxes() const { return boxes_; }
   /// That of all polygons of an operand; empty (lo > hi) if it has none.
   [[nodiscard]] const PolygonBox& operand_box(size_t o) const { return operand_boxes_[o]; }
   /// Polygons of operand o are [polygon_start(o), polygon_start(o + 1)).
@@ -160,11 +161,12 @@ class Job {
     FrameMap map;  ///< one that mirrors turns loops round
   };
 
+  void make_room(const LeafGeometry& leaf);
   void add_leaf(uint32_t o, const Operand& operand);
   void add_boundary(uint32_t o, const Operand& operand);
   void add_pieces(uint32_t o, const PieceOperand& operand);
   [[nodiscard]] PolygonBox box_of(const JobPolygon& polygon) const;
-  void add_grid_vertices(const LeafGeometry& leaf, const IVec3& translation);
+  [[nodiscard]] PolygonBox grid_box_of(const JobPolygon& polygon) const;
   /// The exact position of vertex `local` of operand `o`.
   [[nodiscard]] Point exact_of(uint32_t o, uint32_t local) const;
   [[nodiscard]] bool is_good_prime(int64_t p) const;
@@ -174,13 +176,14 @@ class Job {
   std::optional<PlaneTable> own_planes_;
   PlaneTable& planes_;
   std::vector<Source> sources_;
-  std::vector<JobPolygon> polygons_;
-  std::vector<PolygonBox> boxes_;
+  RawVector<JobPolygon> polygons_;
+  RawVector<PolygonBox> boxes_;
   std::vector<PolygonBox> operand_boxes_;
   std::vector<uint32_t> polygon_starts_{0};
-  std::vector<uint32_t> corners_;
-  std::vector<uint32_t> edge_planes_;
-  std::vector<std::array<double, 3>> rounded_;
+  std::vector<uint32_t> leaf_corner_starts_;  ///< per operand, if it is a leaf
+  RawVector<uint32_t> corners_;
+  RawVector<uint32_t> edge_planes_;
+  RawVector<std::array<double, 3>> rounded_;
   std::vector<uint32_t> vertex_operand_starts_{0};
   /// Vertices of boundary operands: three planes of this job, by vertex - first vertex.
   std::vector<std::vector<std::array<uint32_t, 3>>> boundary_vertices_;

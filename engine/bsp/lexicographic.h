@@ -13,7 +13,8 @@
 namespace csgrun {
 
 /// The numbers 0 .. count - 1 in the order of at(i), coordinates that are finite; where they are
-/// equal, in that of before(i, j). O(n), but for points that have many x in common: O(n log n).
+/// equal, in that of before(i, j), which is asked on several threads. O(n), but for points that
+/// have many x in common: O(n log n).
 template <class At, class Before>
 std::vector<uint32_t> lexicographic_order(size_t count, At at, Before before) {
   if (count == 0) return {};
@@ -29,13 +30,15 @@ std::vector<uint32_t> lexicographic_order(size_t count, At at, Before before) {
   by_x.sort(count, static_cast<size_t>(buckets) + 1, [&](size_t i) {
     return static_cast<size_t>((at(static_cast<uint32_t>(i))[0] - lo) * scale);
   });
-  for (size_t b = 0; b + 1 < by_x.starts.size(); ++b) {
-    sort_few(by_x.order.begin() + by_x.starts[b], by_x.order.begin() + by_x.starts[b + 1],
-             [&](uint32_t i, uint32_t j) {
-               const std::array<double, 3>&p = at(i), &q = at(j);
-               return p != q ? p < q : before(i, j);
-             });
-  }
+  for_each_range(by_x.starts.size() - 1, [&](size_t begin, size_t end) {
+    for (size_t b = begin; b < end; ++b) {
+      sort_few(by_x.order.begin() + by_x.starts[b], by_x.order.begin() + by_x.starts[b + 1],
+               [&](uint32_t i, uint32_t j) {
+                 const std::array<double, 3>&p = at(i), &q = at(j);
+                 return p != q ? p < q : before(i, j);
+               });
+    }
+  });
   return std::move(by_x.order);
 }
 

@@ -6,10 +6,8 @@
 #include <cstddef>
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/operand.h"
 
 namespace csgrun {
@@ -35,10 +33,7 @@ void for_each_run(size_t runs, const KernelOptions& options, Make&& make, Work&&
     }
     return;
   }
-  // Without the control, more threads than cores would be cut down, with a message.
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, options.threads);
-  tbb::task_arena arena(static_cast<int>(options.threads));
-  arena.execute([&] {
+  with_threads(options.threads, [&] {
     using Solver = decltype(make());
     tbb::enumerable_thread_specific<Solver> solvers([&] { return make(); });
     tbb::parallel_for(size_t{0}, runs, [&](size_t run) {

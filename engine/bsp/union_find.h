@@ -20,6 +20,13 @@ class UnionFind {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
+  /// Leads each number of [begin, end) to its representative at once, if none of their sets reaches
+  /// below `begin`.
+  void flatten(uint32_t begin, uint32_t end) {
+    for (uint32_t i = begin; i < end; ++i) parent_[i] = parent_[parent_[i]];
+  }
+  /// That of a number after flatten.
+  [[nodiscard]] uint32_t root(uint32_t i) const { return parent_[i]; }
   void join(uint32_t a, uint32_t b) { join_with(find(a), b); }
   /// Joins a number with the set that has the representative `root`; returns that of both.
   uint32_t join_with(uint32_t root, uint32_t i) {

@@ -1,8 +1,10 @@
 #include "engine/bsp/untouched.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/canonical_order.h"
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/grid_planes.h"
@@ -223,21 +225,22 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
   for (const WholePolygon& w : whole) {
     if (!w.is_met) fate[w.polygon] = w.flip ? kFlipped : kKept;
   }
-  for (size_t o = 0; o < operands.size(); ++o) {
+  std::vector<std::vector<UntouchedPart>> of_operand(operands.size());
+  for_each_alone(operands.size(), job.polygons().size() > kFewForThreads, [&](size_t o) {
     const Operand& operand = operands[o];
-    if (!operand.leaf) continue;
+    if (!operand.leaf) return;
     const FrameMap map(operand.frame);
-    if (map.is_mirrored()) continue;
+    if (map.is_mirrored()) return;
     const LeafGeometry& leaf = *operand.leaf;
-    if (leaf.may_touch || leaf.opposite.empty() || !facets_ascend(leaf)) continue;
+    if (leaf.may_touch || leaf.opposite.empty() || !facets_ascend(leaf)) return;
     // Without facets of its own a face must be alone in its plane; that is easily told of convex
     // leaves.
-    if (leaf.facet.back() == 0 && !leaf.convex) continue;
+    if (leaf.facet.back() == 0 && !leaf.convex) return;
     const uint32_t start = job.polygon_start(o);
     const auto begin = fate.begin() + start, end = begin + static_cast<long>(leaf.face_count());
     bool any[3] = {false, false, false};
     for (auto f = begin; f != end; ++f) any[*f] = true;
-    if (!any[kKept] && !any[kFlipped]) continue;
+    if (!any[kKept] && !any[kFlipped]) return;
     const UntouchedFaces faces(leaf, fate.data() + start);
     std::vector<uint8_t> of_leaf(leaf.face_count(), 0);
     for (const Fate side : {kKept, kFlipped}) {
@@ -260,9 +263,12 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
       for (uint32_t v = 0; !map.is_identity() && v < leaf.vertices.size(); ++v) {
         part.world.push_back(job.rounded(first_vertex + v));
       }
-      parts.push_back(std::move(part));
+      of_operand[o].push_back(std::move(part));
     }
     std::copy(of_leaf.begin(), of_leaf.end(), taken.begin() + start);
+  });
+  for (auto& some : of_operand) {
+    std::move(some.begin(), some.end(), std::back_inserter(parts));
   }
   std::erase_if(whole, [&](const WholePolygon& w) { return taken[w.polygon] != 0; });
   return parts;

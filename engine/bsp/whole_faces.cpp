@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/covered_polygons.h"
 #include "engine/bsp/crossing_points.h"
 #include "engine/bsp/cut_polygon.h"
@@ -129,14 +131,14 @@ class FaceEvaluator {
   bool cut_polygons() {
     PolygonCutter cutter(job_, geometry_);
     FaceArrangement arrangement(job_, geometry_, index_, touched_);
-    for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
+    for (const uint32_t p :
+         polygons_where([&](uint32_t q) { return is_covered_[q] || !may_stay_whole(q); })) {
       const auto loops = static_cast<uint32_t>(loops_.loops.size());
       if (is_covered_[p]) {
         is_cut_[p] = 1;
         cut_.push_back({p, loops, loops});
         continue;
       }
-      if (is_met_on_rim_only(p) && untouched_corner(p) != kNone) continue;
       const bool plain = list_segments(p);
       if (segments_.empty() && coplanar_.empty() && untouched_corner(p) != kNone) continue;
       if (cut_.size() % 64 == 0 && is_cancelled()) return false;
@@ -156,6 +158,29 @@ class FaceEvaluator {
       }
     }
     return true;
+  }
+
+  /// The polygons for which `is_wanted` says so, ascending; it is asked on several threads.
+  template <class Wanted>
+  [[nodiscard]] std::vector<uint32_t> polygons_where(Wanted&& is_wanted) const {
+    const size_t count = job_.polygons().size();
+    std::vector<std::vector<uint32_t>> parts(part_count(count, kFewForThreads));
+    for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+      std::vector<uint32_t> wanted;
+      for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
+        if (is_wanted(p)) wanted.push_back(p);
+      }
+      parts[part] = std::move(wanted);
+    });
+    if (parts.size() == 1) return std::move(parts[0]);
+    std::vector<uint32_t> all;
+    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }
+
+  /// Whether a polygon is whole and one of its corners tells what becomes of it.
+  [[nodiscard]] bool may_stay_whole(uint32_t polygon) const {
+    return is_met_on_rim_only(polygon) && untouched_corner(polygon) != kNone;
   }
 
   /// Whether nothing cuts a polygon: what meets it lies on one side, if anything does.
@@ -214,13 +239,17 @@ class FaceEvaluator {
   /// around it, are inside the same operands, as no other surface passes there.
   void join_patches() {
     patches_.reset(job_.vertex_count());
-    for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
-      if (is_cut_[p]) continue;
-      uint32_t patch = patches_.find(untouched_corner(p));
-      for (const uint32_t v : job_.corners(job_.polygons()[p])) {
-        if (!touched_[v]) patch = patches_.join_with(patch, v);
+    // Operands have no vertices in common.
+    const bool much = job_.polygons().size() > kFewForThreads;
+    for_each_alone(job_.operand_count(), much, [&](size_t o) {
+      for (uint32_t p = job_.polygon_start(o); p < job_.polygon_start(o + 1); ++p) {
+        if (is_cut_[p]) continue;
+        uint32_t patch = patches_.find(untouched_corner(p));
+        for (const uint32_t v : job_.corners(job_.polygons()[p])) {
+          if (!touched_[v]) patch = patches_.join_with(patch, v);
+        }
       }
-    }
+    });
     for (const CutLoops::Loop& loop : loops_.loops) {
       if (loop.vertex == kNone) continue;
       for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
@@ -228,6 +257,9 @@ class FaceEvaluator {
         if (v != kNone && !touched_[v]) patches_.join(loop.vertex, v);
       }
     }
+    for_each_alone(job_.operand_count(), much, [&](size_t o) {
+      patches_.flatten(job_.vertex_start(o), job_.vertex_start(o + 1));
+    });
   }
 
   /// Patches that hold a corner of a polygon that is seen to be boundary of nothing, as they are.
@@ -289,20 +321,53 @@ class FaceEvaluator {
   void emit() {
     is_kept_.assign(job_.polygons().size(), 0);
     fate_of_loop_.assign(loops_.loops.size(), PatchFate::kDrop);
-    uint32_t cut = 0;
-    for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
-      if (result_.general[p]) continue;
-      if (is_cut_[p]) {
-        emit_loops(cut_[cut++]);
-        continue;
+    for (const CutPolygon& cut : cut_) {
+      if (!result_.general[cut.polygon]) emit_loops(cut);
+    }
+    emit_whole();
+  }
+
+  /// What becomes of the polygons that were not cut.
+  void emit_whole() {
+    const size_t count = job_.polygons().size();
+    const auto is_whole = [&](size_t p) { return !is_cut_[p] && !result_.general[p]; };
+    const auto patch_of = [&](size_t p) {
+      return patches_.root(untouched_corner(static_cast<uint32_t>(p)));
+    };
+    // Patches are asked about one after another, and only those of which there is a polygon.
+    RawVector<uint32_t> patch(count);
+    std::vector<std::vector<uint32_t>> unasked(part_count(count, kFewForThreads));
+    for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+      uint32_t last = kNone;
+      for (size_t p = begin; p < end; ++p) {
+        patch[p] = is_whole(p) ? patch_of(p) : kNone;
+        if (patch[p] == kNone || patch[p] == last || patch_fates_[patch[p]] != kUnasked) continue;
+        last = patch[p];
+        unasked[part].push_back(last);
       }
-      const PatchFate fate = fate_of_patch(untouched_corner(p), job_.polygons()[p].operand);
-      if (fate == PatchFate::kUnknown) leave(p);
-      if (fate == PatchFate::kKeep || fate == PatchFate::kFlip) {
+    });
+    for (const auto& part : unasked) {
+      for (const uint32_t vertex : part) fate_of_patch(vertex, job_.operand_of_vertex(vertex));
+    }
+    std::vector<std::vector<WholePolygon>> kept(unasked.size());
+    std::vector<std::vector<uint32_t>> left(unasked.size());
+    for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+      for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
+        if (patch[p] == kNone) continue;
+        const auto fate = static_cast<PatchFate>(patch_fates_[patch[p]]);
+        if (fate == PatchFate::kUnknown) left[part].push_back(p);
+        if (fate != PatchFate::kKeep && fate != PatchFate::kFlip) continue;
         is_kept_[p] = 1;
-        result_.whole.push_back(
+        kept[part].push_back(
             {p, fate == PatchFate::kFlip, contact_starts_[p] < contact_starts_[p + 1]});
       }
+    });
+    size_t total = 0;
+    for (const auto& part : kept) total += part.size();
+    result_.whole.reserve(total);
+    for (size_t part = 0; part < kept.size(); ++part) {
+      result_.whole.insert(result_.whole.end(), kept[part].begin(), kept[part].end());
+      for (const uint32_t p : left[part]) leave(p);
     }
   }
 

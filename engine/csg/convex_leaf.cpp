@@ -1,8 +1,10 @@
 #include "engine/csg/convex_leaf.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <span>
+#include <utility>
 
 #include "engine/csg/leaf_faces.h"
 #include "engine/mesh/leaf_shape.h"
@@ -12,51 +14,73 @@ namespace {
 
 constexpr uint32_t kNone = UINT32_MAX;
 
+uint64_t hash(const IVec3& p) {
+  uint64_t h = 0;
+  for (const int64_t c : p)
+    h = (std::rotl(h, 29) ^ static_cast<uint64_t>(c)) * 0xff51afd7ed558ccdULL;
+  return h ^ h >> 32;
+}
+
+/// For each point the first one that equals it; nothing if no two are equal. The table is larger
+/// than what is near the processor: its lines are asked for before they are needed.
+std::vector<uint32_t> find_equal(const std::vector<IVec3>& points) {
+  constexpr size_t kAhead = 16;
+  std::vector<uint32_t> table(std::bit_ceil(2 * points.size() + 1), kNone);  // open, of points
+  std::vector<uint32_t> first(points.size());
+  const size_t mask = table.size() - 1;
+  std::array<size_t, kAhead> places{};
+  bool any = false;
+  const auto prepare = [&](size_t point) {
+    const size_t at = hash(points[point]) & mask;
+    places[point % kAhead] = at;
+    __builtin_prefetch(&table[at], 1);
+  };
+  for (size_t p = 0; p < std::min(kAhead, points.size()); ++p) prepare(p);
+  for (uint32_t p = 0; p < points.size(); ++p) {
+    size_t at = places[p % kAhead];
+    if (p + kAhead < points.size()) prepare(p + kAhead);
+    while (table[at] != kNone && points[table[at]] != points[p]) at = (at + 1) & mask;
+    if (table[at] == kNone) table[at] = p;
+    first[p] = table[at];
+    any |= table[at] != p;
+  }
+  if (!any) first.clear();
+  return first;
+}
+
 /// Gives points numbers in the order in which they are asked for, equal points the same one.
 class Numbering {
  public:
   explicit Numbering(const std::vector<IVec3>& points)
-      : points_(points),
-        number_(points.size(), kNone),
-        table_(std::bit_ceil(2 * points.size() + 1), kNone) {
+      : points_(points), equal_(find_equal(points)), number_(points.size(), kNone) {
     vertices_.reserve(points.size());
   }
 
   uint32_t operator()(uint32_t point) {
-    const uint32_t known = number_[point];
-    return known != kNone ? known : find(point);
+    uint32_t& number = number_[equal_.empty() ? point : equal_[point]];
+    if (number == kNone) {
+      number = static_cast<uint32_t>(vertices_.size());
+      vertices_.push_back(points_[point]);
+    }
+    return number;
   }
-  [[nodiscard]] bool merged() const { return merged_; }
+  /// Whether different points of a list are equal.
+  [[nodiscard]] bool merges(std::span<const uint32_t> points) const {
+    if (equal_.empty()) return false;
+    std::vector<uint32_t> met(points_.size(), kNone);
+    return std::any_of(points.begin(), points.end(), [&](uint32_t point) {
+      const uint32_t other = std::exchange(met[equal_[point]], point);
+      return other != kNone && other != point;
+    });
+  }
   [[nodiscard]] const std::vector<IVec3>& vertices() const { return vertices_; }
   std::vector<IVec3> take_vertices() { return std::move(vertices_); }
 
  private:
-  static uint64_t hash(const IVec3& p) {
-    uint64_t h = 0;
-    for (const int64_t c : p)
-      h = (std::rotl(h, 29) ^ static_cast<uint64_t>(c)) * 0xff51afd7ed558ccdULL;
-    return h ^ h >> 32;
-  }
-
-  uint32_t find(uint32_t point) {
-    const IVec3& p = points_[point];
-    const size_t mask = table_.size() - 1;
-    size_t at = hash(p) & mask;
-    while (table_[at] != kNone && vertices_[table_[at]] != p) at = (at + 1) & mask;
-    if (table_[at] == kNone) {
-      table_[at] = static_cast<uint32_t>(vertices_.size());
-      vertices_.push_back(p);
-    } else {
-      merged_ = true;
-    }
-    return number_[point] = table_[at];
-  }
-
   const std::vector<IVec3>& points_;
-  std::vector<uint32_t> number_;
-  std::vector<uint32_t> table_;  ///< of vertices, open; it is only asked, never walked through
+  std::vector<uint32_t> equal_;   ///< see find_equal; empty if no two are
+  std::vector<uint32_t> number_;  ///< by the first of those that are equal
   std::vector<IVec3> vertices_;
-  bool merged_ = false;
 };
 
 bool has_area(const IVec3& a, const IVec3& b, const IVec3& c) {
@@ -121,7 +145,7 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
   }
   leaf.vertices = number.take_vertices();
   if (dropped) renumber(leaf);
-  result->merged = dropped || number.merged();
+  result->merged = dropped || number.merges(mesh.corners);
   result->box = box_of_points(leaf.vertices);
   return result;
 }

@@ -4,7 +4,9 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <utility>
 
+#include "engine/base/parallel.h"
 #include "engine/base/sort_few.h"
 #include "engine/mesh/canonical_hash.h"
 #include "engine/mesh/conform.h"
@@ -158,129 +160,254 @@ class Presenter {
     solid.sources = context_.sources;
   }
 
+  /// How many vertices come before a place in the order of points: of untouched triangles, and of
+  /// explicit faces.
+  struct VertexCount {
+    size_t untouched = 0, own = 0;
+  };
+
   /// Vertices in the order of points, several of one point in the order of their triangles.
   void fill_vertices(Solid& solid) {
-    const std::vector<WholeOrder::Place>& points = whole_->points();
-    const std::vector<uint32_t>& point_of_own = fans_.point_of_vertex;
-    const size_t most = point_of_own.size() + points.size();
-    solid.positions.reserve(most);
-    solid.positions_f32.reserve(most);
-    solid.point_of.reserve(most);
-    first_vertex_.resize(points.size());
-    number_of_own_.resize(point_of_own.size());
+    const size_t points = whole_->points().size();
+    // The texts of points are appended one after another.
+    const size_t each = context_.exact_points ? std::max<size_t>(1, points) : kFewForThreads;
+    const size_t parts = part_count(points, each);
+    // What comes before each part, and at last before points that were made since.
+    std::vector<VertexCount> starts(parts + 1);
+    for_each_part(points, each, [&](size_t part, size_t begin, size_t end) {
+      starts[part] = count_vertices(begin, end);
+    });
+    starts[parts].own = first_own(static_cast<uint32_t>(boundary_.point_planes.size()));
+    size_t untouched = 0;
+    for (VertexCount& count : starts) untouched += std::exchange(count.untouched, untouched);
+    for (size_t part = parts; part-- > 0;) {
+      starts[part].own = std::min(starts[part].own, starts[part + 1].own);
+    }
+    const size_t all = fans_.point_of_vertex.size() + untouched;
+    solid.positions.resize(all);
+    solid.positions_f32.resize(all);
+    solid.point_of.resize(all);
+    first_vertex_.resize(points);
+    number_of_own_.resize(fans_.point_of_vertex.size());
+    for_each_part(points, each, [&](size_t part, size_t begin, size_t end) {
+      fill_vertices(solid, starts[part], begin, end);
+    });
+    // Points that were made since: contacts and middles of edges.
+    VertexCount count = starts[parts];
+    for (size_t n = points; count.own < number_of_own_.size(); ++n) {
+      add_own(solid, count, static_cast<uint32_t>(n));
+    }
+  }
+
+  /// The first vertex of explicit faces at an explicit point, or after it.
+  [[nodiscard]] size_t first_own(uint32_t explicit_point) const {
+    const std::vector<uint32_t>& all = fans_.point_of_vertex;
+    return std::lower_bound(all.begin(), all.end(), explicit_point) - all.begin();
+  }
+
+  /// The untouched ones at points [begin, end), and the first of the others from there on.
+  [[nodiscard]] VertexCount count_vertices(size_t begin, size_t end) const {
+    VertexCount count{0, SIZE_MAX};
+    for (size_t n = begin; n < end; ++n) {
+      const uint32_t p = whole_->points()[n].explicit_point;
+      count.untouched += p == kNone;
+      if (p != kNone && count.own == SIZE_MAX) count.own = first_own(p);
+    }
+    return count;
+  }
+
+  void fill_vertices(Solid& solid, VertexCount count, size_t begin, size_t end) {
     const ToMillimetres to_mm(context_.step);
-    size_t own = 0;
-    // All explicit vertices of the point that comes next.
-    const auto add_own = [&](uint32_t number) {
-      const uint32_t p = point_of_own[own];
-      glm::dvec3 mm;
-      std::array<float, 3> single;
-      to_mm.position(geometry_.exact(p), mm, single);
-      for (; own < point_of_own.size() && point_of_own[own] == p; ++own) {
-        number_of_own_[own] = static_cast<uint32_t>(solid.positions.size());
-        solid.positions.push_back(mm);
-        solid.positions_f32.push_back(single);
-        solid.point_of.push_back(number);
-      }
-      if (context_.exact_points) {
-        solid.exact_points.resize(number + size_t{1});
-        solid.exact_points[number] = to_mm.text(geometry_.exact(p));
-      }
-    };
-    for (uint32_t n = 0; n < points.size(); ++n) {
-      first_vertex_[n] = static_cast<uint32_t>(solid.positions.size());
-      const uint32_t p = points[n].explicit_point;
+    for (auto n = static_cast<uint32_t>(begin); n < end; ++n) {
+      const size_t at = count.untouched + count.own;
+      first_vertex_[n] = static_cast<uint32_t>(at);
+      const WholeOrder::Place& place = whole_->points()[n];
+      const uint32_t p = place.explicit_point;
       if (p != kNone) {
-        if (own < point_of_own.size() && point_of_own[own] == p) add_own(n);
+        const std::vector<uint32_t>& point_of_own = fans_.point_of_vertex;
+        if (count.own < point_of_own.size() && point_of_own[count.own] == p) {
+          add_own(solid, count, n);
+        }
         continue;
       }
-      const UntouchedPart& part = whole_->part(points[n]);
-      const uint32_t v = points[n].vertex;
-      glm::dvec3 mm;
-      std::array<float, 3> single;
+      const UntouchedPart& part = whole_->part(place);
+      const uint32_t v = place.vertex;
       if (part.map.is_identity()) {
-        to_mm.position(part.vertex(v), mm, single);
+        to_mm.position(part.vertex(v), solid.positions[at], solid.positions_f32[at]);
       } else {
-        to_mm.position(part.point(v), mm, single);
+        to_mm.position(part.point(v), solid.positions[at], solid.positions_f32[at]);
       }
-      solid.positions.push_back(mm);
-      solid.positions_f32.push_back(single);
-      solid.point_of.push_back(n);
+      solid.point_of[at] = n;
+      ++count.untouched;
       if (context_.exact_points) {
         solid.exact_points.resize(n + size_t{1});
         solid.exact_points[n] = to_mm.text(part.point(v));
       }
     }
-    // Points that were made since: contacts and middles of edges.
-    for (auto n = static_cast<uint32_t>(points.size()); own < point_of_own.size(); ++n) add_own(n);
   }
 
-  void fill_faces(Solid& solid) {
-    const size_t triangles = set_.triangles.size() + whole_->triangles().size();
-    const size_t faces = whole_->faces().size();
-    solid.triangles.reserve(triangles);
-    solid.triangle_face.reserve(triangles);
-    solid.faces.reserve(faces);
-    solid.face_normals.reserve(faces);
-    solid.loop_starts.reserve(faces + 1);
-    solid.loop_vertices.reserve(triangles * 3);
-    // Triangles of explicit faces stand in the order of faces.
-    size_t t = 0;
-    for (const uint32_t f : whole_->faces()) {
-      if (f < whole_->explicit_face_count()) {
-        t = add_face(solid, f, t);
-      } else {
-        add_untouched(solid, whole_->triangle(f));
-      }
+  /// All explicit vertices of the point that comes next.
+  void add_own(Solid& solid, VertexCount& count, uint32_t number) {
+    const std::vector<uint32_t>& point_of_own = fans_.point_of_vertex;
+    const ToMillimetres to_mm(context_.step);
+    const uint32_t p = point_of_own[count.own];
+    const Point exact = geometry_.value(p);
+    glm::dvec3 mm;
+    std::array<float, 3> single;
+    to_mm.position(exact, mm, single);
+    for (; count.own < point_of_own.size() && point_of_own[count.own] == p; ++count.own) {
+      const size_t at = count.untouched + count.own;
+      number_of_own_[count.own] = static_cast<uint32_t>(at);
+      solid.positions[at] = mm;
+      solid.positions_f32[at] = single;
+      solid.point_of[at] = number;
+    }
+    if (context_.exact_points) {
+      solid.exact_points.resize(number + size_t{1});
+      solid.exact_points[number] = to_mm.text(exact);
     }
   }
 
-  /// An explicit face and its triangles, from number t on. Returns where they end.
-  size_t add_face(Solid& solid, uint32_t f, size_t t) {
-    const auto number = static_cast<uint32_t>(solid.faces.size());
+  /// Where what comes next goes in the arrays of faces.
+  struct FacePlace {
+    size_t triangle = 0, loop = 0, corner = 0;
+  };
+
+  /// Triangles of explicit faces stand in the order of faces, and so do these faces in the whole.
+  void fill_faces(Solid& solid) {
+    const uint32_t own_count = whole_->explicit_face_count();
+    const size_t count = whole_->faces().size();
+    // Where each explicit face begins, were there no others.
+    std::vector<FacePlace> own(own_count + size_t{1});
+    for (uint32_t f = 0; f < own_count; ++f) {
+      FacePlace& next = own[f + 1];
+      next = own[f];
+      while (next.triangle < set_.face.size() && set_.face[next.triangle] == f) ++next.triangle;
+      next.loop += faces_[f].loops.size();
+      for (const auto& loop : faces_[f].loops) next.corner += loop.size();
+    }
+    const size_t parts = part_count(count, kFewForThreads);
+    std::vector<uint32_t> own_before(parts + 1, 0);
+    for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+      for (size_t n = begin; n < end; ++n) {
+        own_before[part + 1] += static_cast<uint32_t>(whole_->faces()[n] < own_count);
+      }
+    });
+    for (size_t part = 0; part < parts; ++part) own_before[part + 1] += own_before[part];
+    const size_t others = count - own_count, triangles = own[own_count].triangle + others;
+    solid.triangles.resize(triangles);
+    solid.triangle_face.resize(triangles);
+    solid.faces.resize(count);
+    solid.face_normals.resize(count);
+    solid.loop_starts.resize(own[own_count].loop + others + 1);
+    solid.loop_vertices.resize(own[own_count].corner + 3 * others);
+    for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+      uint32_t next_own = own_before[part];
+      std::vector<std::array<uint32_t, 3>> edges;
+      for (size_t n = begin; n < end; ++n) {
+        fetch_ahead(n);
+        const uint32_t f = whole_->faces()[n];
+        const size_t before = n - next_own;  // untouched ones
+        const FacePlace& first = own[next_own];
+        const FacePlace at{first.triangle + before, first.loop + before, first.corner + 3 * before};
+        if (f < own_count) {
+          add_face(solid, f, first.triangle, at, static_cast<uint32_t>(n), edges);
+          ++next_own;
+        } else {
+          add_untouched(solid, whole_->triangle(f), at, static_cast<uint32_t>(n));
+        }
+      }
+    });
+    number_surfaces(solid);
+  }
+
+  /// Asks for the memory of faces that come soon: in their order they stand anywhere in their
+  /// leaves.
+  void fetch_ahead(size_t n) const {
+    constexpr size_t kSoon = 8, kLater = 16, kMuchLater = 32;
+    const std::vector<uint32_t>& faces = whole_->faces();
+    const uint32_t own_count = whole_->explicit_face_count();
+    const auto each = [&](size_t ahead, auto&& fetch) {
+      if (n + ahead < faces.size() && faces[n + ahead] >= own_count) {
+        fetch(whole_->triangle(faces[n + ahead]));
+      }
+    };
+    each(kMuchLater, [](const UntouchedTriangle& t) { __builtin_prefetch(&t); });
+    each(kLater, [&](const UntouchedTriangle& t) {
+      const LeafGeometry& leaf = *boundary_.parts[t.part].leaf;
+      __builtin_prefetch(&leaf.face_starts[t.face]);
+      __builtin_prefetch(&leaf.corners[3 * size_t{t.face} % leaf.corners.size()]);
+      __builtin_prefetch(&leaf.facet[t.face]);
+      __builtin_prefetch(&leaf.surface[t.face]);
+      __builtin_prefetch(&leaf.appearance[t.face]);
+      for (const uint32_t p : t.points) __builtin_prefetch(&first_vertex_[p]);
+    });
+    each(kSoon, [&](const UntouchedTriangle& t) {
+      const UntouchedPart& part = boundary_.parts[t.part];
+      for (const uint32_t v : part.triangle(t.face)) __builtin_prefetch(&part.leaf->vertices[v]);
+    });
+  }
+
+  /// An explicit face and its triangles, from number t on. `edges` is working memory.
+  void add_face(Solid& solid, uint32_t f, size_t t, FacePlace at, uint32_t number,
+                std::vector<std::array<uint32_t, 3>>& edges) const {
     const auto vertex = [&](size_t corner) {
       return number_of_own_[fans_.vertex_of_corner[corner]];
     };
     // Vertices of loops: those of the triangle that has the loop's edge.
-    edges_.clear();
-    for (; t < set_.triangles.size() && set_.face[t] == f; ++t) {
-      solid.triangles.push_back({vertex(3 * t), vertex(3 * t + 1), vertex(3 * t + 2)});
-      solid.triangle_face.push_back(number);
+    edges.clear();
+    for (; t < set_.triangles.size() && set_.face[t] == f; ++t, ++at.triangle) {
+      solid.triangles[at.triangle] = {vertex(3 * t), vertex(3 * t + 1), vertex(3 * t + 2)};
+      solid.triangle_face[at.triangle] = number;
       for (uint32_t k = 0; k < 3; ++k) {
-        edges_.push_back({set_.triangles[t][k], set_.triangles[t][(k + 1) % 3],
-                          static_cast<uint32_t>(3 * t + k)});
+        edges.push_back({set_.triangles[t][k], set_.triangles[t][(k + 1) % 3],
+                         static_cast<uint32_t>(3 * t + k)});
       }
     }
-    sort_few(edges_.begin(), edges_.end(), std::less<>());
+    sort_few(edges.begin(), edges.end(), std::less<>());
     const MergedFace& face = faces_[f];
-    solid.faces.push_back({static_cast<uint32_t>(solid.loop_starts.size() - 1),
-                           static_cast<uint32_t>(face.loops.size()), face.appearance,
-                           surface_number(face.source, face.surface), face.source});
-    solid.face_normals.push_back(direction(planes_.oriented(face.plane)));
+    solid.faces[number] = {static_cast<uint32_t>(at.loop), static_cast<uint32_t>(face.loops.size()),
+                           face.appearance, face.surface, face.source};
+    solid.face_normals[number] = direction(planes_.oriented(face.plane));
     for (const auto& loop : face.loops) {
       for (const DirectedEdge& e : loop) {
-        const auto at = std::lower_bound(edges_.begin(), edges_.end(),
-                                         std::array<uint32_t, 3>{e.from, e.to, 0});
-        solid.loop_vertices.push_back(vertex((*at)[2]));
+        const auto edge =
+            std::lower_bound(edges.begin(), edges.end(), std::array<uint32_t, 3>{e.from, e.to, 0});
+        solid.loop_vertices[at.corner++] = vertex((*edge)[2]);
       }
-      solid.loop_starts.push_back(static_cast<uint32_t>(solid.loop_vertices.size()));
+      solid.loop_starts[++at.loop] = static_cast<uint32_t>(at.corner);
     }
-    return t;
   }
 
-  void add_untouched(Solid& solid, const UntouchedTriangle& t) {
+  void add_untouched(Solid& solid, const UntouchedTriangle& t, const FacePlace& at,
+                     uint32_t number) const {
     const UntouchedPart& part = boundary_.parts[t.part];
-    const auto number = static_cast<uint32_t>(solid.faces.size());
     const std::array<uint32_t, 3> vertices{first_vertex_[t.points[0]], first_vertex_[t.points[1]],
                                            first_vertex_[t.points[2]]};
-    solid.triangles.push_back(vertices);
-    solid.triangle_face.push_back(number);
+    solid.triangles[at.triangle] = vertices;
+    solid.triangle_face[at.triangle] = number;
     const FaceLabel label = part.label(t.face);
-    solid.faces.push_back({static_cast<uint32_t>(solid.loop_starts.size() - 1), 1, label.appearance,
-                           surface_number(label.source, label.surface), label.source});
-    solid.face_normals.push_back(outward_direction(part, t.face));
-    solid.loop_vertices.insert(solid.loop_vertices.end(), vertices.begin(), vertices.end());
-    solid.loop_starts.push_back(static_cast<uint32_t>(solid.loop_vertices.size()));
+    solid.faces[number] = {static_cast<uint32_t>(at.loop), 1, label.appearance, label.surface,
+                           label.source};
+    solid.face_normals[number] = outward_direction(part, t.face);
+    std::copy(vertices.begin(), vertices.end(), solid.loop_vertices.begin() + at.corner);
+    solid.loop_starts[at.loop + 1] = static_cast<uint32_t>(at.corner + 3);
+  }
+
+  /// Curved surfaces are numbered from 1 in the order of their first faces.
+  static void number_surfaces(Solid& solid) {
+    std::vector<std::pair<uint32_t, uint32_t>> surfaces;  // of a source, by their numbers
+    uint32_t last = 0;
+    for (Solid::Face& face : solid.faces) {
+      if (face.surface == 0) continue;
+      const std::pair<uint32_t, uint32_t> key{face.source, face.surface};
+      if (last == 0 || surfaces[last - 1] != key) {
+        const auto at = std::find(surfaces.begin(), surfaces.end(), key);
+        last = static_cast<uint32_t>(at - surfaces.begin()) + 1;
+        if (at == surfaces.end()) surfaces.push_back(key);
+      }
+      face.surface = last;
+    }
   }
 
   Status measure(Solid& solid) {
@@ -317,17 +444,6 @@ class Presenter {
         .point_of_vertex[fans_.point_of_vertex.size() - (number_of_own_.back() + 1 - vertex)];
   }
 
-  /// Curved surfaces are numbered from 1 in the order of their first faces.
-  uint32_t surface_number(uint32_t source, uint32_t surface) {
-    if (surface == 0) return 0;
-    const std::pair<uint32_t, uint32_t> key{source, surface};
-    if (last_surface_ > 0 && surfaces_[last_surface_ - 1] == key) return last_surface_;
-    const auto at = std::find(surfaces_.begin(), surfaces_.end(), key);
-    last_surface_ = static_cast<uint32_t>(at - surfaces_.begin()) + 1;
-    if (at == surfaces_.end()) surfaces_.push_back(key);
-    return last_surface_;
-  }
-
   const BoundaryMesh& boundary_;
   const PresentContext& context_;
   PlaneTable planes_;
@@ -336,11 +452,8 @@ class Presenter {
   std::vector<MergedFace> faces_;
   TriangleSet set_;
   VertexFans fans_;
-  std::vector<uint32_t> first_vertex_;          ///< per point of the whole
-  std::vector<uint32_t> number_of_own_;         ///< per vertex of `fans_`: its number in the solid
-  std::vector<std::array<uint32_t, 3>> edges_;  ///< of one face: from, to, corner; sorted
-  std::vector<std::pair<uint32_t, uint32_t>> surfaces_;
-  uint32_t last_surface_ = 0;
+  std::vector<uint32_t> first_vertex_;   ///< per point of the whole
+  std::vector<uint32_t> number_of_own_;  ///< per vertex of `fans_`: its number in the solid
 };
 
 }  // namespace

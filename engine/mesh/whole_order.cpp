@@ -4,13 +4,14 @@
 #include <numeric>
 
 #include "engine/base/counting_order.h"
+#include "engine/base/parallel.h"
 #include "engine/base/sort_few.h"
 #include "engine/bsp/grid_planes.h"
 #include "engine/bsp/lexicographic.h"
 
 namespace csgrun {
 
-WholeOrder::WholeOrder(const BoundaryMesh& boundary, CellGeometry& geometry)
+WholeOrder::WholeOrder(const BoundaryMesh& boundary, const CellGeometry& geometry)
     : boundary_(boundary), explicit_count_(static_cast<uint32_t>(boundary.point_planes.size())) {
   points_.reserve(explicit_count_);
   for (uint32_t p = 0; p < explicit_count_; ++p) points_.push_back({p, kNone, kNone});
@@ -25,38 +26,57 @@ WholeOrder::WholeOrder(const BoundaryMesh& boundary, CellGeometry& geometry)
 
 /// Triangles over points as they are met, explicit points before all others.
 void WholeOrder::collect_triangles() {
-  size_t count = 0;
-  for (const UntouchedPart& part : boundary_.parts) count += part.faces.size();
-  triangles_.reserve(count);
-  points_.reserve(points_.size() + count / 2 + 16);
-  std::vector<uint32_t> met;
+  const std::vector<UntouchedPart>& parts = boundary_.parts;
+  std::vector<size_t> first(parts.size() + 1, 0);
+  for (size_t k = 0; k < parts.size(); ++k) {
+    first[k + 1] = first[k] + parts[k].faces.size();
+    for (const UntouchedPart::Shared& s : parts[k].shared) shared_[s.point] = 1;
+  }
+  triangles_.resize(first.back());
+  struct Met {
+    std::vector<Place> places;
+    std::vector<RimEdge> candidates;
+  };
+  std::vector<Met> met(parts.size());
+  const bool much = triangles_.size() > kFewForThreads;
+  for_each_alone(parts.size(), much, [&](size_t k) {
+    collect_triangles(static_cast<uint32_t>(k), triangles_.data() + first[k], met[k].places,
+                      met[k].candidates);
+  });
   std::vector<RimEdge> candidates;
-  for (uint32_t k = 0; k < boundary_.parts.size(); ++k) {
-    const UntouchedPart& part = boundary_.parts[k];
-    met.assign(part.leaf->vertices.size(), kNone);
-    for (const UntouchedPart::Shared& s : part.shared) {
-      met[s.vertex] = s.point;
-      shared_[s.point] = 1;
-    }
-    for (const uint32_t f : part.faces) {
-      UntouchedTriangle t{part.triangle(f), k, f};
-      for (uint32_t& v : t.points) {
-        if (met[v] == kNone) {
-          met[v] = static_cast<uint32_t>(points_.size());
-          points_.push_back({kNone, k, v});
-        }
-        v = met[v];
-      }
-      for (size_t i = 0; i < 3; ++i) {
-        const uint32_t from = t.points[i], to = t.points[(i + 1) % 3];
-        if (from < explicit_count_ && to < explicit_count_) {
-          candidates.push_back({from, to, k, f, static_cast<uint32_t>(i)});
-        }
-      }
-      triangles_.push_back(t);
-    }
+  first_point_.resize(parts.size());
+  for (size_t k = 0; k < parts.size(); ++k) {
+    first_point_[k] = static_cast<uint32_t>(points_.size()) - explicit_count_;
+    points_.insert(points_.end(), met[k].places.begin(), met[k].places.end());
+    candidates.insert(candidates.end(), met[k].candidates.begin(), met[k].candidates.end());
   }
   find_rim(candidates);
+}
+
+/// Those of one part. Its own points are numbered from the number of explicit points on.
+void WholeOrder::collect_triangles(uint32_t k, UntouchedTriangle* out, std::vector<Place>& places,
+                                   std::vector<RimEdge>& candidates) const {
+  const UntouchedPart& part = boundary_.parts[k];
+  places.reserve(part.faces.size() / 2 + 16);
+  std::vector<uint32_t> number(part.leaf->vertices.size(), kNone);
+  for (const UntouchedPart::Shared& s : part.shared) number[s.vertex] = s.point;
+  for (const uint32_t f : part.faces) {
+    UntouchedTriangle t{part.triangle(f), k, f};
+    for (uint32_t& v : t.points) {
+      if (number[v] == kNone) {
+        number[v] = explicit_count_ + static_cast<uint32_t>(places.size());
+        places.push_back({kNone, k, v});
+      }
+      v = number[v];
+    }
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t from = t.points[i], to = t.points[(i + 1) % 3];
+      if (from < explicit_count_ && to < explicit_count_) {
+        candidates.push_back({from, to, k, f, static_cast<uint32_t>(i)});
+      }
+    }
+    *out++ = t;
+  }
 }
 
 /// Edges between shared points are the rim where they do not run both ways.
@@ -86,39 +106,46 @@ std::array<PlaneId, 2> WholeOrder::planes_of(const RimEdge& edge, PlaneTable& pl
   return {planes.intern(part.map.plane(support)), planes.intern(part.map.plane(of_edge))};
 }
 
-void WholeOrder::sort_points(CellGeometry& geometry) {
-  std::vector<std::array<double, 3>> at(points_.size());
-  for (uint32_t p = 0; p < points_.size(); ++p) {
-    if (p < explicit_count_) {
-      at[p] = boundary_.point_rounded[p];
-    } else {
-      at[p] = part(points_[p]).rounded_point(points_[p].vertex);
+void WholeOrder::sort_points(const CellGeometry& geometry) {
+  RawVector<std::array<double, 3>> at(points_.size());
+  for_each_range(points_.size(), [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) {
+      if (p < explicit_count_) {
+        at[p] = boundary_.point_rounded[p];
+      } else {
+        at[p] = part(points_[p]).rounded_point(points_[p].vertex);
+      }
     }
-  }
+  });
   const auto exact = [&](uint32_t p) {
-    if (p < explicit_count_) return geometry.exact(p);
+    if (p < explicit_count_) return geometry.value(p);
     return part(points_[p]).point(points_[p].vertex);
   };
   const std::vector<uint32_t> order = lexicographic_order(
       at.size(), [&](uint32_t p) -> const std::array<double, 3>& { return at[p]; },
       [&](uint32_t p, uint32_t q) { return p != q && compare(exact(p), exact(q)) < 0; });
-  std::vector<Place> sorted;
-  sorted.reserve(points_.size());
+  RawVector<Place> sorted(points_.size());
   number_.resize(points_.size());
-  for (const uint32_t p : order) {
-    number_[p] = static_cast<uint32_t>(sorted.size());
-    sorted.push_back(points_[p]);
-  }
+  for_each_range(order.size(), [&](size_t begin, size_t end) {
+    for (size_t n = begin; n < end; ++n) {
+      number_[order[n]] = static_cast<uint32_t>(n);
+      sorted[n] = points_[order[n]];
+    }
+  });
   points_ = std::move(sorted);
 }
 
 void WholeOrder::number_triangles() {
-  for (UntouchedTriangle& t : triangles_) {
-    for (uint32_t& p : t.points) p = number_[p];
-    const auto [a, b, c] = t.points;
-    if (b < a && b < c) t.points = {b, c, a};
-    if (c < a && c < b) t.points = {c, a, b};
-  }
+  for_each_range(triangles_.size(), [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      UntouchedTriangle& t = triangles_[i];
+      const uint32_t first_point = first_point_[t.part];
+      for (uint32_t& p : t.points) p = number_[p < explicit_count_ ? p : p + first_point];
+      const auto [a, b, c] = t.points;
+      if (b < a && b < c) t.points = {b, c, a};
+      if (c < a && c < b) t.points = {c, a, b};
+    }
+  });
 }
 
 void WholeOrder::order_faces(std::span<const LowestEdge> explicit_faces) {
@@ -140,10 +167,12 @@ void WholeOrder::order_faces(std::span<const LowestEdge> explicit_faces) {
   by_from.sort(faces_.size(), points_.size(), from);
   faces_ = std::move(by_from.order);
   // Explicit faces with the same lowest edge stay as they are.
-  for (size_t p = 0; p < points_.size(); ++p) {
-    sort_few(faces_.begin() + by_from.starts[p], faces_.begin() + by_from.starts[p + 1],
-             [&](uint32_t f, uint32_t g) { return to(f) < to(g); });
-  }
+  for_each_range(points_.size(), [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) {
+      sort_few(faces_.begin() + by_from.starts[p], faces_.begin() + by_from.starts[p + 1],
+               [&](uint32_t f, uint32_t g) { return to(f) < to(g); });
+    }
+  });
 }
 
 }  // namespace csgrun

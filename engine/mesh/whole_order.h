@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/boundary_mesh.h"
 #include "engine/bsp/cell_geometry.h"
 
@@ -40,10 +41,10 @@ class WholeOrder {
 
   /// `geometry` holds the explicit points of the boundary under their own numbers. O(n), but for
   /// points that have many x in common. REQUIRES: points of different places are different.
-  WholeOrder(const BoundaryMesh& boundary, CellGeometry& geometry);
+  WholeOrder(const BoundaryMesh& boundary, const CellGeometry& geometry);
 
   /// In canonical order.
-  [[nodiscard]] const std::vector<Place>& points() const { return points_; }
+  [[nodiscard]] const RawVector<Place>& points() const { return points_; }
   /// The number of an explicit point; points that the geometry got since come after all others.
   [[nodiscard]] uint32_t number(uint32_t explicit_point) const {
     return explicit_point < explicit_count_
@@ -61,7 +62,7 @@ class WholeOrder {
   /// Number f < explicit_face_count(): the explicit face f, else triangle f - that number.
   [[nodiscard]] const std::vector<uint32_t>& faces() const { return faces_; }
   [[nodiscard]] uint32_t explicit_face_count() const { return explicit_face_count_; }
-  [[nodiscard]] const std::vector<UntouchedTriangle>& triangles() const { return triangles_; }
+  [[nodiscard]] const RawVector<UntouchedTriangle>& triangles() const { return triangles_; }
   [[nodiscard]] const UntouchedTriangle& triangle(uint32_t face) const {
     return triangles_[face - explicit_face_count_];
   }
@@ -76,16 +77,19 @@ class WholeOrder {
 
  private:
   void collect_triangles();
-  void sort_points(CellGeometry& geometry);
+  void collect_triangles(uint32_t k, UntouchedTriangle* out, std::vector<Place>& places,
+                         std::vector<RimEdge>& candidates) const;
+  void sort_points(const CellGeometry& geometry);
   void number_triangles();
   void find_rim(const std::vector<RimEdge>& candidates);
 
   const BoundaryMesh& boundary_;
   uint32_t explicit_count_;
-  std::vector<Place> points_;
+  RawVector<Place> points_;
   std::vector<uint32_t> number_;  ///< per explicit point, then per other point as it was met
   std::vector<uint8_t> shared_;
-  std::vector<UntouchedTriangle> triangles_;
+  RawVector<UntouchedTriangle> triangles_;
+  std::vector<uint32_t> first_point_;  ///< per part: how many points the parts before it have
   std::vector<RimEdge> rim_;
   uint32_t explicit_face_count_ = 0;
   std::vector<uint32_t> faces_;

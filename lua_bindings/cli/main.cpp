@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
     case csgrun::Command::kHelpApi:
       print(stdout, line.api_form == csgrun::ApiForm::kMarkdown      ? csgrun::api_markdown()
                     : line.api_form == csgrun::ApiForm::kDefinitions ? csgrun::api_definitions()
+                    : line.api_form == csgrun::ApiForm::kJson        ? csgrun::api_json()
                                                                      : csgrun::api_help());
       return csgrun::kExitGood;
     case csgrun::Command::kInit: {

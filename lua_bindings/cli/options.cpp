@@ -261,7 +261,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   app.add_flag("-q,--quiet", line.quiet, "no progress, no warnings");
   app.add_flag("--help-api{text}", raw.help_api,
                "prints the functions that a script has; =markdown as a page, =luals as definitions "
-               "for editors");
+               "for editors, =json as data");
   app.add_flag("--init", raw.init,
                "writes .luarc.json and the definitions for editors into the working folder");
   try {
@@ -270,9 +270,10 @@ CommandLine parse_command_line(int argc, char** argv) {
       line.command = Command::kHelpApi;
       line.api_form = raw.help_api == "markdown" ? ApiForm::kMarkdown
                       : raw.help_api == "luals"  ? ApiForm::kDefinitions
+                      : raw.help_api == "json"   ? ApiForm::kJson
                                                  : ApiForm::kText;
       if (line.api_form == ApiForm::kText && raw.help_api != "text")
-        throw UsageError{"--help-api can be =markdown, =luals or nothing"};
+        throw UsageError{"--help-api can be =markdown, =luals, =json or nothing"};
       return line;
     }
     if (raw.init) {

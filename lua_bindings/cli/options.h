@@ -14,7 +14,7 @@
 namespace csgrun {
 
 enum class Command : uint8_t { kRun, kInfo, kHelpApi, kInit, kDone };
-enum class ApiForm : uint8_t { kText, kMarkdown, kDefinitions };
+enum class ApiForm : uint8_t { kText, kMarkdown, kDefinitions, kJson };
 enum class StatsForm : uint8_t { kNone, kText, kJson };
 
 struct CommandLine {

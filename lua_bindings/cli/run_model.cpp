@@ -138,7 +138,7 @@ class Run {
     for (const std::string& warning : model->warnings)
       report_.warnings.push_back(join_path(folder, warning));
     if (model->is_2d) {
-      session_.add_part({"", nullptr, model->shape, where}, "");
+      session_.add_part({"", nullptr, model->shape, where, false, model->appearance}, "");
     } else {
       session_.add_part({"", model->solid, {}, where}, "");
     }

@@ -471,26 +471,27 @@ function Shape:outlines() end
 
 ---@class (exact) csgrun.text
 ---@field [integer] any
----@field text? string one line, in UTF-8
+---@field text? string in UTF-8; a newline begins a line
 ---@field size? number height of capitals, roughly; the em is size / 0.72
 ---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
 ---@field em? number the em itself, instead of size
 ---@field halign? string "left", "center" or "right", by advance width
 ---@field valign? string "baseline", "bottom", "center" or "top", by the ink
 ---@field spacing? number factor of the distances of characters
+---@field line_spacing? number factor of the distance of lines, which the font has
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
 ---@field language? string language, for the font's rules
----@field script? string script: "latin", "arabic" ...
+---@field script? string script: "latin", "arabic" ..., or a code: "Latn"
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
 ---@field fs? number smallest length of a facet, mm, at least 0.01
 
----A line of text as a 2D shape.
+---Text as a 2D shape: one line or several.
 ---
 ---Example: `text("csgrun", {size = 8, halign = "center"})`
 ---@overload fun(options: csgrun.text): Shape
----@param text? string one line, in UTF-8
+---@param text? string in UTF-8; a newline begins a line
 ---@param size? number height of capitals, roughly; the em is size / 0.72
 ---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
 ---@param options? csgrun.text
@@ -500,75 +501,78 @@ csg.text = text
 
 ---@class (exact) csgrun.text3d
 ---@field [integer] any
----@field text? string one line, in UTF-8
+---@field text? string in UTF-8; a newline begins a line
 ---@field size? number height of capitals, roughly; the em is size / 0.72
 ---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
 ---@field em? number the em itself, instead of size
 ---@field halign? string "left", "center" or "right", by advance width
 ---@field valign? string "baseline", "bottom", "center" or "top", by the ink
 ---@field spacing? number factor of the distances of characters
+---@field line_spacing? number factor of the distance of lines, which the font has
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
 ---@field language? string language, for the font's rules
----@field script? string script: "latin", "arabic" ...
+---@field script? string script: "latin", "arabic" ..., or a code: "Latn"
 ---@field depth? number how thick, along Z
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
 ---@field fs? number smallest length of a facet, mm, at least 0.01
 
----A line of text as a solid.
+---Text as a solid: one line or several.
 ---
 ---Example: `text3d("csgrun", {size = 8, depth = 2})`
----@overload fun(options: csgrun.text3d): Shape
----@param text? string one line, in UTF-8
+---@overload fun(options: csgrun.text3d): Solid
+---@param text? string in UTF-8; a newline begins a line
 ---@param size? number height of capitals, roughly; the em is size / 0.72
 ---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
 ---@param options? csgrun.text3d
----@return Shape
+---@return Solid
 function text3d(text, size, font, options) end
 csg.text3d = text3d
 
 ---@class (exact) csgrun.text_metrics
 ---@field [integer] any
----@field text? string one line, in UTF-8
+---@field text? string in UTF-8; a newline begins a line
 ---@field size? number height of capitals, roughly; the em is size / 0.72
 ---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
 ---@field em? number the em itself, instead of size
 ---@field halign? string "left", "center" or "right", by advance width
 ---@field valign? string "baseline", "bottom", "center" or "top", by the ink
 ---@field spacing? number factor of the distances of characters
+---@field line_spacing? number factor of the distance of lines, which the font has
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
 ---@field language? string language, for the font's rules
----@field script? string script: "latin", "arabic" ...
+---@field script? string script: "latin", "arabic" ..., or a code: "Latn"
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
 ---@field fs? number smallest length of a facet, mm, at least 0.01
 
----What text would measure: {position, size, ascent, descent, offset, advance}, in mm.
+---What text would measure: {position, size, ascent, descent, offset, advance}, in mm. Of several lines: of all, above and below the first baseline.
 ---
 ---Example: `text_metrics("csgrun", {size = 8}).size[1]`
----@overload fun(options: csgrun.text_metrics): Shape
----@param text? string one line, in UTF-8
+---@overload fun(options: csgrun.text_metrics): table
+---@param text? string in UTF-8; a newline begins a line
 ---@param size? number height of capitals, roughly; the em is size / 0.72
 ---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
 ---@param options? csgrun.text_metrics
----@return Shape
+---@return table
 function text_metrics(text, size, font, options) end
 csg.text_metrics = text_metrics
 
 ---@class (exact) csgrun.textmetrics
 ---@field [integer] any
----@field text? string one line, in UTF-8
+---@field text? string in UTF-8; a newline begins a line
 ---@field size? number height of capitals, roughly; the em is size / 0.72
 ---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
 ---@field em? number the em itself, instead of size
 ---@field halign? string "left", "center" or "right", by advance width
 ---@field valign? string "baseline", "bottom", "center" or "top", by the ink
 ---@field spacing? number factor of the distances of characters
+---@field line_spacing? number factor of the distance of lines, which the font has
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
 ---@field language? string language, for the font's rules
----@field script? string script: "latin", "arabic" ...
+---@field script? string script: "latin", "arabic" ..., or a code: "Latn"
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
@@ -577,14 +581,48 @@ csg.text_metrics = text_metrics
 ---OpenSCAD's name of text_metrics.
 ---
 ---Example: `textmetrics("csgrun").advance[1]`
----@overload fun(options: csgrun.textmetrics): Shape
----@param text? string one line, in UTF-8
+---@overload fun(options: csgrun.textmetrics): table
+---@param text? string in UTF-8; a newline begins a line
 ---@param size? number height of capitals, roughly; the em is size / 0.72
 ---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
 ---@param options? csgrun.textmetrics
----@return Shape
+---@return table
 function textmetrics(text, size, font, options) end
 csg.textmetrics = textmetrics
+
+---@class (exact) csgrun.font_metrics
+---@field [integer] any
+---@field size? number height of capitals, roughly; the em is size / 0.72
+---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@field em? number the em itself, instead of size
+
+---What a font measures: {nominal = {ascent, descent}, max = {ascent, descent}, interline, font = {family, style}}, in mm: what it keeps for a line, its tallest and deepest glyph, from a baseline to the next.
+---
+---Example: `font_metrics(10).interline`
+---@overload fun(options: csgrun.font_metrics): table
+---@param size? number height of capitals, roughly; the em is size / 0.72
+---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@param options? csgrun.font_metrics
+---@return table
+function font_metrics(size, font, options) end
+csg.font_metrics = font_metrics
+
+---@class (exact) csgrun.fontmetrics
+---@field [integer] any
+---@field size? number height of capitals, roughly; the em is size / 0.72
+---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@field em? number the em itself, instead of size
+
+---OpenSCAD's name of font_metrics.
+---
+---Example: `fontmetrics(10, "Liberation Sans:style=Bold").nominal.ascent`
+---@overload fun(options: csgrun.fontmetrics): table
+---@param size? number height of capitals, roughly; the em is size / 0.72
+---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@param options? csgrun.fontmetrics
+---@return table
+function fontmetrics(size, font, options) end
+csg.fontmetrics = fontmetrics
 
 ---@class (exact) csgrun.sweep
 ---@field [integer] any
@@ -1020,7 +1058,7 @@ function Matrix:translate(v, options) end
 ---@class (exact) csgrun.rotate
 ---@field [integer] any
 ---@field a? number|number[] an angle about Z (or v), or angles about X, Y and Z in this order
----@field v? number[] axis to turn about
+---@field v? number[] axis to turn about; {0, 0, 0} turns nothing, as in OpenSCAD
 ---@field x? number about X
 ---@field y? number about Y
 ---@field z? number about Z
@@ -1031,7 +1069,7 @@ function Matrix:translate(v, options) end
 ---@overload fun(options: csgrun.rotate): any
 ---@overload fun(x: number, y?: number, z?: number, ...): any
 ---@param a? number|number[] an angle about Z (or v), or angles about X, Y and Z in this order
----@param v? number[] axis to turn about
+---@param v? number[] axis to turn about; {0, 0, 0} turns nothing, as in OpenSCAD
 ---@param options? csgrun.rotate
 ---@return any
 function rotate(a, v, options) end
@@ -1043,7 +1081,7 @@ csg.rotate = rotate
 ---@overload fun(self: Solid, options: csgrun.rotate): Solid
 ---@overload fun(self: Solid, x: number, y?: number, z?: number, ...): Solid
 ---@param a? number|number[] an angle about Z (or v), or angles about X, Y and Z in this order
----@param v? number[] axis to turn about
+---@param v? number[] axis to turn about; {0, 0, 0} turns nothing, as in OpenSCAD
 ---@param options? csgrun.rotate
 ---@return Solid
 function Solid:rotate(a, v, options) end
@@ -1054,7 +1092,7 @@ function Solid:rotate(a, v, options) end
 ---@overload fun(self: Shape, options: csgrun.rotate): Shape
 ---@overload fun(self: Shape, x: number, y?: number, z?: number, ...): Shape
 ---@param a? number|number[] an angle about Z (or v), or angles about X, Y and Z in this order
----@param v? number[] axis to turn about
+---@param v? number[] axis to turn about; {0, 0, 0} turns nothing, as in OpenSCAD
 ---@param options? csgrun.rotate
 ---@return Shape
 function Shape:rotate(a, v, options) end
@@ -1065,7 +1103,7 @@ function Shape:rotate(a, v, options) end
 ---@overload fun(self: Matrix, options: csgrun.rotate): Matrix
 ---@overload fun(self: Matrix, x: number, y?: number, z?: number, ...): Matrix
 ---@param a? number|number[] an angle about Z (or v), or angles about X, Y and Z in this order
----@param v? number[] axis to turn about
+---@param v? number[] axis to turn about; {0, 0, 0} turns nothing, as in OpenSCAD
 ---@param options? csgrun.rotate
 ---@return Matrix
 function Matrix:rotate(a, v, options) end
@@ -1120,14 +1158,14 @@ function Matrix:scale(v, options) end
 
 ---@class (exact) csgrun.mirror
 ---@field [integer] any
----@field v? number[] normal of the plane through the origin
+---@field v? number[] normal of the plane through the origin; {0, 0, 0} mirrors nothing, as in OpenSCAD
 
 ---Mirrors at a plane through the origin.
 ---
 ---Example: `part:mirror(1, 0, 0)`
 ---@overload fun(options: csgrun.mirror): any
 ---@overload fun(x: number, y: number, z?: number, ...): any
----@param v? number[] normal of the plane through the origin
+---@param v? number[] normal of the plane through the origin; {0, 0, 0} mirrors nothing, as in OpenSCAD
 ---@param options? csgrun.mirror
 ---@return any
 function mirror(v, options) end
@@ -1138,7 +1176,7 @@ csg.mirror = mirror
 ---Example: `part:mirror(1, 0, 0)`
 ---@overload fun(self: Solid, options: csgrun.mirror): Solid
 ---@overload fun(self: Solid, x: number, y: number, z?: number, ...): Solid
----@param v? number[] normal of the plane through the origin
+---@param v? number[] normal of the plane through the origin; {0, 0, 0} mirrors nothing, as in OpenSCAD
 ---@param options? csgrun.mirror
 ---@return Solid
 function Solid:mirror(v, options) end
@@ -1148,7 +1186,7 @@ function Solid:mirror(v, options) end
 ---Example: `part:mirror(1, 0, 0)`
 ---@overload fun(self: Shape, options: csgrun.mirror): Shape
 ---@overload fun(self: Shape, x: number, y: number, z?: number, ...): Shape
----@param v? number[] normal of the plane through the origin
+---@param v? number[] normal of the plane through the origin; {0, 0, 0} mirrors nothing, as in OpenSCAD
 ---@param options? csgrun.mirror
 ---@return Shape
 function Shape:mirror(v, options) end
@@ -1158,7 +1196,7 @@ function Shape:mirror(v, options) end
 ---Example: `part:mirror(1, 0, 0)`
 ---@overload fun(self: Matrix, options: csgrun.mirror): Matrix
 ---@overload fun(self: Matrix, x: number, y: number, z?: number, ...): Matrix
----@param v? number[] normal of the plane through the origin
+---@param v? number[] normal of the plane through the origin; {0, 0, 0} mirrors nothing, as in OpenSCAD
 ---@param options? csgrun.mirror
 ---@return Matrix
 function Matrix:mirror(v, options) end

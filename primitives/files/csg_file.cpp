@@ -9,6 +9,7 @@
 #include <csgrun/primitives/csg_file.h>
 #include <csgrun/primitives/height_map.h>
 #include <csgrun/primitives/mesh_file.h>
+#include <csgrun/primitives/model_file.h>
 #include <csgrun/primitives/projection.h>
 #include <csgrun/primitives/shape_operations.h>
 
@@ -20,18 +21,21 @@
 namespace csgrun {
 namespace {
 
-/// What a node came to. Empty ones have no dimension.
+/// What a node came to. Empty ones have no dimension. A shape has one colour: that of the first of
+/// those that it was made of.
 struct Item {
   enum class Kind { kEmpty, kFlat, kSolid };
   Kind kind = Kind::kEmpty;
   Shape2D shape;
+  std::optional<Appearance> appearance;  ///< of the shape; faces of solids have their own
   NodePtr solid;
 
-  static Item of(Shape2D shape) {
+  static Item of(Shape2D shape, const std::optional<Appearance>& appearance = {}) {
     Item item;
     if (shape.empty()) return item;
     item.kind = Kind::kFlat;
     item.shape = std::move(shape);
+    item.appearance = appearance;
     return item;
   }
   static Item of(NodePtr solid) {
@@ -86,6 +90,7 @@ class CsgBuilder {
     CsgModel model;
     model.is_2d = all->kind == Item::Kind::kFlat;
     model.shape = all->shape;
+    model.appearance = all->appearance;
     model.solid = all->kind == Item::Kind::kSolid ? all->solid : Node::empty(SourceRef{file_, 1});
     model.warnings = std::move(warnings_);
     return model;
@@ -197,11 +202,12 @@ class CsgBuilder {
     if (!import) return import.error();
     const std::string& path = import->file;
     const bool drawing = !flat_file_format_of(path).empty();
-    if (!drawing && mesh_format_of(path).empty()) {
-      return Error{
-          ErrorCode::kInvalidArgument,
-          "import: " + quoted(path) + " has none of the endings .stl, .off, .obj, .ply, .svg, .dxf",
-          {}};
+    const bool archive = is_3mf_path(path);
+    if (!drawing && !archive && mesh_format_of(path).empty()) {
+      return Error{ErrorCode::kInvalidArgument,
+                   "import: " + quoted(path) +
+                       " has none of the endings .stl, .off, .obj, .ply, .3mf, .svg, .dxf",
+                   {}};
     }
     if (!environment_.read) {
       return Error{ErrorCode::kInvalidArgument, "import: there are no files here", {}};
@@ -214,12 +220,30 @@ class CsgBuilder {
       for (const std::string& note : file->notes) warn(frame, "import: " + note);
       return Item::of(std::move(file->shape));
     }
-    Result<PolygonMesh> mesh = parse_mesh(path, *bytes);
-    std::string note;
-    if (mesh) mesh = make_solid_mesh(*std::move(mesh), &note);
-    if (!mesh) return Error{mesh.error().code, "import: " + mesh.error().message, {}};
-    if (!note.empty()) warn(frame, "import: " + note);
-    return leaf(frame, std::move(mesh), {});
+    std::vector<std::string> notes;
+    auto parts = archive ? parse_3mf(path, *bytes) : mesh_as_parts(path, *bytes, &notes);
+    if (!parts) return Error{parts.error().code, "import: " + parts.error().message, {}};
+    std::vector<NodePtr> solids;
+    for (ModelPart& part : *parts) {
+      std::string note;
+      part.mesh.kind = path;
+      Result<PolygonMesh> mesh = make_solid_mesh(std::move(part.mesh), &note);
+      if (!mesh) return Error{mesh.error().code, "import: " + mesh.error().message, {}};
+      if (!note.empty()) notes.push_back(note);
+      solids.push_back(
+          Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where(frame)));
+    }
+    for (const std::string& note : notes) warn(frame, "import: " + note);
+    if (solids.size() == 1) return Item::of(solids[0]);
+    return Item::of(Node::boolean(BooleanOp::kUnion, std::move(solids), where(frame)));
+  }
+
+  static Result<std::vector<ModelPart>> mesh_as_parts(const std::string& path,
+                                                      const std::string& bytes,
+                                                      std::vector<std::string>* notes) {
+    Result<PolygonMesh> mesh = parse_mesh(path, bytes, nullptr, nullptr, notes);
+    if (!mesh) return mesh.error();
+    return std::vector<ModelPart>{{"", *std::move(mesh)}};
   }
 
   Result<Item> text(const Frame& frame) {
@@ -261,6 +285,20 @@ class CsgBuilder {
     return shapes;
   }
 
+  /// The colour of the first shape among the children; that others are lost is said where they
+  /// would be seen.
+  std::optional<Appearance> colour_of_first(const Frame& frame) {
+    const Item* first = nullptr;
+    for (const Item& child : frame.children) {
+      if (child.kind != Item::Kind::kFlat) continue;
+      if (first == nullptr) first = &child;
+      if (child.appearance == first->appearance || frame.call.name == "difference") continue;
+      warn(frame, frame.call.name + ": of 2D shapes of several colours the first's is kept");
+      break;
+    }
+    return first != nullptr ? first->appearance : std::nullopt;
+  }
+
   /// Those that are not empty.
   static std::vector<NodePtr> take_solids(Frame& frame) {
     std::vector<NodePtr> solids;
@@ -270,16 +308,20 @@ class CsgBuilder {
     return solids;
   }
 
-  static Result<Item> item_of(Result<Shape2D> shape) {
+  static Result<Item> item_of(Result<Shape2D> shape,
+                              const std::optional<Appearance>& appearance = {}) {
     if (!shape) return shape.error();
-    return Item::of(*std::move(shape));
+    return Item::of(*std::move(shape), appearance);
   }
 
   /// The children under a Boolean.
   Result<Item> combine(BooleanOp op, Frame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
-    if (kind == Item::Kind::kFlat) return item_of(Shape2D::boolean(op, take_shapes(frame)));
+    if (kind == Item::Kind::kFlat) {
+      const auto colour = colour_of_first(frame);
+      return item_of(Shape2D::boolean(op, take_shapes(frame)), colour);
+    }
     return Item::of(combine_solids(op, frame));
   }
 
@@ -303,20 +345,26 @@ class CsgBuilder {
     if (!options) return options.error();
     Result<Item> child = combine_flat(frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
-    return item_of(offset_shape(child->shape, *options));
+    return item_of(offset_shape(child->shape, *options), child->appearance);
   }
 
   Result<Item> hull(Frame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
-    if (kind == Item::Kind::kFlat) return item_of(hull_of_shapes(take_shapes(frame)));
+    if (kind == Item::Kind::kFlat) {
+      const auto colour = colour_of_first(frame);
+      return item_of(hull_of_shapes(take_shapes(frame)), colour);
+    }
     return Item::of(Node::convex_hull(take_solids(frame), where(frame)));
   }
 
   Result<Item> minkowski(Frame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
-    if (kind == Item::Kind::kFlat) return item_of(minkowski_of_shapes(take_shapes(frame)));
+    if (kind == Item::Kind::kFlat) {
+      const auto colour = colour_of_first(frame);
+      return item_of(minkowski_of_shapes(take_shapes(frame)), colour);
+    }
     std::vector<NodePtr> solids = take_solids(frame);
     if (solids.size() == 1) return Item::of(std::move(solids[0]));
     return Item::of(Node::minkowski_sum(std::move(solids), where(frame)));
@@ -325,7 +373,8 @@ class CsgBuilder {
   Result<Item> fill(Frame& frame) {
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
-    if (child->kind == Item::Kind::kFlat) return item_of(fill_shape(child->shape));
+    if (child->kind == Item::Kind::kFlat)
+      return item_of(fill_shape(child->shape), child->appearance);
     warn(frame, "fill: has no meaning for 3D children, they were united");
     return child;
   }
@@ -346,7 +395,7 @@ class CsgBuilder {
     Affine map;
     map.m[0][0] = factors[0];
     map.m[1][1] = factors[1];
-    return item_of(child->shape.transformed(map));
+    return item_of(child->shape.transformed(map), child->appearance);
   }
 
   Result<Item> projection(Frame& frame) {
@@ -402,7 +451,7 @@ class CsgBuilder {
       Result<Shape2D> shape = child->shape.transformed(*map);
       if (!shape) return shape.error();
       if (shape->empty()) warn_flattened(frame);
-      return Item::of(*std::move(shape));
+      return Item::of(*std::move(shape), child->appearance);
     }
     const auto& m = map->m;
     const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
@@ -435,10 +484,6 @@ class CsgBuilder {
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     const bool unset = rgba[0] < 0;  // -1 in all four: color() without a colour
     if (!child || child->kind == Item::Kind::kEmpty || unset) return child;
-    if (child->kind == Item::Kind::kFlat) {
-      warn(frame, "color: 2D shapes have no colour");
-      return child;
-    }
     auto component = [](double v) { return static_cast<float>(v > 0 ? std::min(v, 1.0) : 0.0); };
     Appearance appearance;
     appearance.red = component(rgba[0]);
@@ -446,13 +491,20 @@ class CsgBuilder {
     appearance.blue = component(rgba[2]);
     appearance.alpha = rgba[3] < 0 ? 1.0f : component(rgba[3]);
     appearance.is_default = false;
+    if (child->kind == Item::Kind::kFlat) {
+      child->appearance = appearance;
+      return child;
+    }
     return Item::of(Node::painted(appearance, std::move(child->solid), where(frame)));
   }
 
   Result<Item> extrude(Frame& frame) {
     Result<Item> profile = combine_flat(frame);
     if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
-    return leaf(frame, extrude_csg(frame.call, profile->shape), {});
+    Result<Item> solid = leaf(frame, extrude_csg(frame.call, profile->shape), {});
+    if (solid && solid->kind == Item::Kind::kSolid && profile->appearance)
+      solid->solid = Node::painted(*profile->appearance, std::move(solid->solid), where(frame));
+    return solid;
   }
 
   std::shared_ptr<const std::string> file_;

@@ -14,11 +14,13 @@
 namespace csgrun {
 
 Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes);
-Result<PolygonMesh> parse_off(const std::string& name, std::string_view bytes);
+Result<PolygonMesh> parse_off(const std::string& name, std::string_view bytes,
+                              std::vector<std::string>* notes);
 Result<PolygonMesh> parse_obj(const std::string& name, std::string_view bytes,
                               std::vector<MeshObject>* objects,
                               std::vector<std::string>* material_files);
-Result<PolygonMesh> parse_ply(const std::string& name, std::string_view bytes);
+Result<PolygonMesh> parse_ply(const std::string& name, std::string_view bytes,
+                              std::vector<std::string>* notes);
 
 /// "part.obj: line 12: face index 9 is out of range, there are 8 points".
 Error malformed(const std::string& name, const std::string& place, const std::string& what);

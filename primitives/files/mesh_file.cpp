@@ -62,7 +62,8 @@ std::string quoted(std::string_view word) {
 
 Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
                                std::vector<MeshObject>* objects,
-                               std::vector<std::string>* material_files) {
+                               std::vector<std::string>* material_files,
+                               std::vector<std::string>* notes) {
   const std::string format = mesh_format_of(name);
   if (format.empty()) {
     return Error{ErrorCode::kCannotRead,
@@ -70,14 +71,18 @@ Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
                  {}};
   }
   if (bytes.empty()) return malformed(name, "", "the file is empty");
+  std::vector<std::string> own_notes;
   Result<PolygonMesh> mesh = format == "stl"   ? parse_stl(name, bytes)
-                             : format == "off" ? parse_off(name, bytes)
+                             : format == "off" ? parse_off(name, bytes, &own_notes)
                              : format == "obj" ? parse_obj(name, bytes, objects, material_files)
-                                               : parse_ply(name, bytes);
+                                               : parse_ply(name, bytes, &own_notes);
   if (!mesh) return mesh;
   if (mesh->face_count() == 0) return malformed(name, "", "has no faces");
   mesh->kind = name;
   mesh->keep_facets = true;
+  if (notes != nullptr) {
+    for (const std::string& note : own_notes) notes->push_back(name + ": " + note);
+  }
   return mesh;
 }
 

@@ -1,29 +1,43 @@
-// OFF in ASCII: [ST][C][N]OFF, three counts, a point a line, a face a line. Normals, texture
-// coordinates and colours are passed over.
+// OFF in ASCII: [ST][C][N]OFF, three counts, a point a line, a face a line, each with a colour or
+// without. Normals and texture coordinates are passed over.
 #include <utility>
 #include <vector>
 
+#include "primitives/files/face_colours.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/text_scanner.h"
 
 namespace csgrun {
 namespace {
 
-/// Whether a first word is one of OFF's names for three-dimensional meshes.
-bool is_magic(std::string_view word) {
-  for (const std::string_view part : {"ST", "C", "N"}) {
-    if (word.substr(0, part.size()) == part) word.remove_prefix(part.size());
-  }
-  return word == "OFF";
+/// What a first word says, one of OFF's names for three-dimensional meshes, of the lines of points.
+struct Magic {
+  bool has_colours = false, has_normals = false;
+};
+std::optional<Magic> parse_magic(std::string_view word) {
+  const auto take = [&](std::string_view part) {
+    if (!word.starts_with(part)) return false;
+    word.remove_prefix(part.size());
+    return true;
+  };
+  Magic magic;
+  take("ST");
+  magic.has_colours = take("C");
+  magic.has_normals = take("N");
+  if (word != "OFF") return std::nullopt;
+  return magic;
 }
 
 class OffReader {
  public:
-  OffReader(const std::string& name, std::string_view text) : name_(name), scanner_(text, '#') {}
+  OffReader(const std::string& name, std::string_view text, std::vector<std::string>* notes)
+      : name_(name), scanner_(text, '#'), notes_(notes) {}
 
   Result<PolygonMesh> read() {
     const std::string_view magic = scanner_.word_anywhere();
-    if (!is_magic(magic)) return here("not an OFF file: it starts with " + quoted(magic));
+    const std::optional<Magic> parsed = parse_magic(magic);
+    if (!parsed) return here("not an OFF file: it starts with " + quoted(magic));
+    magic_ = *parsed;
     uint64_t points = 0, faces = 0;
     if (auto error = read_count("the number of points", points)) return *error;
     if (auto error = read_count("the number of faces", faces)) return *error;
@@ -48,11 +62,24 @@ class OffReader {
     }
     const std::string_view rest = scanner_.word_anywhere();
     if (!rest.empty()) return here("more data after the last face: " + quoted(rest));
+    colours_.apply(mesh_, notes_);
     return std::move(mesh_);
   }
 
  private:
   Error here(const std::string& what) { return malformed(name_, scanner_.place(), what); }
+
+  /// The colour that the rest of the line holds.
+  std::optional<Rgba> read_colour() {
+    std::vector<std::string_view>& words = words_;
+    words.clear();
+    while (words.size() < 5) {
+      const std::string_view word = scanner_.word();
+      if (word.empty()) break;
+      words.push_back(word);
+    }
+    return colour_of_words(words);
+  }
 
   std::optional<Error> read_count(const std::string& what, uint64_t& count) {
     const std::string_view word = scanner_.word_anywhere();
@@ -79,6 +106,10 @@ class OffReader {
       if (axis < 2) word = scanner_.word();
     }
     mesh_.points.push_back(p);
+    if (magic_.has_colours) {
+      for (int n = 0; magic_.has_normals && n < 3; ++n) scanner_.word();
+      colours_.add_vertex(read_colour());
+    }
     scanner_.next_line();
     return std::nullopt;
   }
@@ -114,20 +145,26 @@ class OffReader {
       loop_.push_back(static_cast<uint32_t>(*index));
     }
     mesh_.add_face(loop_);
+    colours_.add_face(read_colour());
     scanner_.next_line();
     return std::nullopt;
   }
 
   const std::string& name_;
   TextScanner scanner_;
+  std::vector<std::string>* notes_;
+  Magic magic_;
   PolygonMesh mesh_;
+  FaceColours colours_;
   std::vector<uint32_t> loop_;
+  std::vector<std::string_view> words_;
 };
 
 }  // namespace
 
-Result<PolygonMesh> parse_off(const std::string& name, std::string_view bytes) {
-  return OffReader(name, bytes).read();
+Result<PolygonMesh> parse_off(const std::string& name, std::string_view bytes,
+                              std::vector<std::string>* notes) {
+  return OffReader(name, bytes, notes).read();
 }
 
 }  // namespace csgrun

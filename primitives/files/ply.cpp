@@ -1,11 +1,14 @@
 // PLY: ASCII and binary of either byte order. Of the element "vertex" x, y and z are kept, of
-// "face" the list vertex_indices (or vertex_index); everything else is stepped over.
+// "face" the list vertex_indices (or vertex_index), of both red, green, blue and alpha; everything
+// else is stepped over.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "primitives/base/text.h"
 #include "primitives/files/byte_order.h"
+#include "primitives/files/face_colours.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/text_scanner.h"
 
@@ -44,7 +47,16 @@ size_t size_of(Type type) {
 bool is_integer(Type type) { return type != Type::kFloat && type != Type::kDouble; }
 
 /// What a property means to us.
-enum class Role { kNone, kX, kY, kZ, kCorners };
+enum class Role { kNone, kX, kY, kZ, kCorners, kRed, kGreen, kBlue, kAlpha };
+constexpr size_t kRoles = 9;
+
+bool is_colour(Role role) { return role >= Role::kRed; }
+
+/// What stands for the full channel in a type.
+double full_channel(Type type) {
+  if (!is_integer(type)) return 1;
+  return type == Type::kUint16 ? 65535 : 255;
+}
 
 struct Property {
   bool is_list = false;
@@ -151,6 +163,13 @@ class HeaderReader {
       if (property_name == "y") property.role = Role::kY;
       if (property_name == "z") property.role = Role::kZ;
     }
+    if ((element.name == "vertex" || element.name == "face") && !property.is_list) {
+      if (property_name == "red" || property_name == "diffuse_red") property.role = Role::kRed;
+      if (property_name == "green" || property_name == "diffuse_green")
+        property.role = Role::kGreen;
+      if (property_name == "blue" || property_name == "diffuse_blue") property.role = Role::kBlue;
+      if (property_name == "alpha") property.role = Role::kAlpha;
+    }
     if (element.name == "face" && property.is_list &&
         (property_name == "vertex_indices" || property_name == "vertex_index")) {
       if (!is_integer(property.type)) return here("vertex indices must be integers");
@@ -242,7 +261,7 @@ class BodyReader {
   BodyReader(const std::string& name, const Header& header, Source source)
       : name_(name), header_(header), source_(std::move(source)) {}
 
-  Result<PolygonMesh> read() {
+  Result<PolygonMesh> read(std::vector<std::string>* notes) {
     if (auto error = check_roles()) return *error;
     for (const Element& element : header_.elements) {
       if (element.properties.empty()) continue;
@@ -264,6 +283,7 @@ class BodyReader {
                        "vertex index " + std::to_string(index) + " is out of range, there are " +
                            std::to_string(mesh_.points.size()) + " points");
     }
+    colours_.apply(mesh_, notes);
     return std::move(mesh_);
   }
 
@@ -271,7 +291,7 @@ class BodyReader {
   Error here(const std::string& what) { return malformed(name_, source_.place(), what); }
 
   std::optional<Error> check_roles() {
-    bool seen[5] = {};
+    bool seen[kRoles] = {};
     for (const Element& element : header_.elements) {
       for (const Property& p : element.properties) seen[static_cast<int>(p.role)] = true;
     }
@@ -288,7 +308,9 @@ class BodyReader {
 
   std::optional<Error> read_element(const Element& element, uint64_t i) {
     glm::dvec3 point(0);
+    Rgba colour{0, 0, 0, 1};
     bool is_point = false;
+    int channels = 0;
     for (const Property& property : element.properties) {
       if (property.is_list) {
         if (auto error = read_list(element, i, property)) return error;
@@ -300,10 +322,24 @@ class BodyReader {
       }
       const std::optional<double> value = source_.number(property.type);
       if (!value) return bad_number(element, i);
+      if (is_colour(property.role)) {
+        const int channel = static_cast<int>(property.role) - static_cast<int>(Role::kRed);
+        channels |= 1 << channel;
+        colour[static_cast<size_t>(channel)] =
+            static_cast<float>(std::clamp(*value / full_channel(property.type), 0.0, 1.0));
+        continue;
+      }
       is_point = true;
       point[static_cast<int>(property.role) - static_cast<int>(Role::kX)] = *value;
     }
-    if (is_point) mesh_.points.push_back(point);
+    constexpr int kRedGreenBlue = 7;
+    const bool has_colour = (channels & kRedGreenBlue) == kRedGreenBlue;
+    if (is_point) {
+      mesh_.points.push_back(point);
+      if (has_colour) colours_.add_vertex(colour);
+    } else if (has_colour) {
+      colours_.add_face(colour);
+    }
     return std::nullopt;
   }
 
@@ -350,18 +386,20 @@ class BodyReader {
   const Header& header_;
   Source source_;
   PolygonMesh mesh_;
+  FaceColours colours_;
   std::vector<uint32_t> loop_;
 };
 
 }  // namespace
 
-Result<PolygonMesh> parse_ply(const std::string& name, std::string_view bytes) {
+Result<PolygonMesh> parse_ply(const std::string& name, std::string_view bytes,
+                              std::vector<std::string>* notes) {
   const Result<Header> header = HeaderReader(name, bytes).read();
   if (!header) return header.error();
   if (header->encoding == Encoding::kAscii) {
-    return BodyReader(name, *header, AsciiSource(bytes, *header)).read();
+    return BodyReader(name, *header, AsciiSource(bytes, *header)).read(notes);
   }
-  return BodyReader(name, *header, BinarySource(bytes, *header)).read();
+  return BodyReader(name, *header, BinarySource(bytes, *header)).read(notes);
 }
 
 }  // namespace csgrun

@@ -337,6 +337,15 @@ Result<std::string> model_path(const std::string& name, std::string_view bytes) 
 
 }  // namespace
 
+bool is_3mf_path(const std::string& path) {
+  if (path.size() < 4) return false;
+  std::string ending = path.substr(path.size() - 4);
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return ending == ".3mf";
+}
+
 Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes) {
   const auto path = model_path(name, bytes);
   if (!path) return path.error();

@@ -1,5 +1,5 @@
 // Text to outlines: HarfBuzz chooses and places the glyphs in the font's own whole units; the
-// conversion to mm, the alignment and the curves are ours.
+// conversion to mm, the lines, the alignment and the curves are ours.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -110,13 +110,13 @@ class GlyphPen {
   int steps_;
 };
 
-/// A line of text as outlines, in units, from the first glyph's origin.
-struct Line {
+/// Lines of text as outlines, in units, from the origin of the first glyph of the first line.
+struct Block {
   std::vector<Shape2D::Loop> loops;
-  glm::dvec2 advance{};
+  glm::dvec2 advance{};           ///< of the first line; across it that of the longest
   glm::dvec2 low{}, high{};       ///< of the ink
   double scale = 1;               ///< mm per unit
-  glm::dvec2 offset{};            ///< of the alignment, in units
+  glm::dvec2 offset{};            ///< of the alignment of the first line, in units
   std::vector<uint32_t> missing;  ///< characters without a glyph
 };
 
@@ -124,6 +124,7 @@ std::optional<Error> check(const TextOptions& o) {
   if (!std::isfinite(o.size)) return not_finite("text", "size", o.size);
   if (!(o.size > 0)) return not_positive("text", "size", o.size);
   if (!std::isfinite(o.spacing)) return not_finite("text", "spacing", o.spacing);
+  if (!std::isfinite(o.line_spacing)) return not_finite("text", "line_spacing", o.line_spacing);
   const auto one_of = [](const char* name, const std::string& value,
                          std::initializer_list<const char*> choices) -> std::optional<Error> {
     std::string list;
@@ -147,15 +148,61 @@ hb_language_t language_of(const std::string& name) {
   return given != HB_LANGUAGE_INVALID ? given : hb_language_from_string("en", -1);
 }
 
-HarfbuzzPtr<hb_buffer_t> shape(const TextOptions& o, const Font& font) {
+/// The code of a script: that of ISO 15924, or its name in English; nothing for what is neither.
+std::optional<hb_script_t> script_of(const std::string& name) {
+  struct Named {
+    const char* name;
+    hb_script_t script;
+  };
+  static constexpr Named kNamed[] = {
+      {"latin", HB_SCRIPT_LATIN},       {"arabic", HB_SCRIPT_ARABIC},
+      {"armenian", HB_SCRIPT_ARMENIAN}, {"bengali", HB_SCRIPT_BENGALI},
+      {"common", HB_SCRIPT_COMMON},     {"cyrillic", HB_SCRIPT_CYRILLIC},
+      {"georgian", HB_SCRIPT_GEORGIAN}, {"devanagari", HB_SCRIPT_DEVANAGARI},
+      {"greek", HB_SCRIPT_GREEK},       {"han", HB_SCRIPT_HAN},
+      {"hangul", HB_SCRIPT_HANGUL},     {"hebrew", HB_SCRIPT_HEBREW},
+      {"hiragana", HB_SCRIPT_HIRAGANA}, {"katakana", HB_SCRIPT_KATAKANA},
+      {"tamil", HB_SCRIPT_TAMIL},       {"thai", HB_SCRIPT_THAI},
+  };
+  std::string lower = name;
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  for (const Named& named : kNamed) {
+    if (lower == named.name) return named.script;
+  }
+  const bool is_code = lower.size() == 4 &&
+                       lower.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos;
+  if (!is_code) return std::nullopt;
+  return hb_script_from_string(lower.data(), static_cast<int>(lower.size()));
+}
+
+/// The glyphs of one line and their places.
+Result<HarfbuzzPtr<hb_buffer_t>> shape(const TextOptions& o, std::string_view text,
+                                       const Font& font) {
+  constexpr hb_codepoint_t kBroken = ~hb_codepoint_t(0);  // where there is no character
   HarfbuzzPtr<hb_buffer_t> buffer(hb_buffer_create());
-  hb_buffer_add_utf8(buffer.get(), o.text.data(), static_cast<int>(o.text.size()), 0,
-                     static_cast<int>(o.text.size()));
+  hb_buffer_set_replacement_codepoint(buffer.get(), kBroken);
+  hb_buffer_add_utf8(buffer.get(), text.data(), static_cast<int>(text.size()), 0,
+                     static_cast<int>(text.size()));
+  const hb_glyph_info_t* characters = hb_buffer_get_glyph_infos(buffer.get(), nullptr);
+  for (unsigned i = 0; i < hb_buffer_get_length(buffer.get()); ++i) {
+    if (characters[i].codepoint != kBroken) continue;
+    return invalid_argument("text: it is not in UTF-8: byte " +
+                            std::to_string(characters[i].cluster + 1) + " of " + quoted(text));
+  }
   if (!o.direction.empty()) {
     hb_buffer_set_direction(buffer.get(), hb_direction_from_string(o.direction.c_str(), -1));
   }
   if (!o.script.empty()) {
-    hb_buffer_set_script(buffer.get(), hb_script_from_string(o.script.c_str(), -1));
+    const auto script = script_of(o.script);
+    if (!script) {
+      return invalid_argument(
+          "text: script must be a code of four letters, as \"Latn\", or a name, as \"latin\", "
+          "got " +
+          quoted(o.script));
+    }
+    hb_buffer_set_script(buffer.get(), *script);
   }
   hb_buffer_set_language(buffer.get(), language_of(o.language));
   hb_buffer_guess_segment_properties(buffer.get());
@@ -164,7 +211,7 @@ HarfbuzzPtr<hb_buffer_t> shape(const TextOptions& o, const Font& font) {
 }
 
 /// The code point at byte `at` of a text, for messages only.
-uint32_t code_point_at(const std::string& text, size_t at) {
+uint32_t code_point_at(std::string_view text, size_t at) {
   const auto byte = [&](size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
   };
@@ -175,95 +222,176 @@ uint32_t code_point_at(const std::string& text, size_t at) {
   return code;
 }
 
-void align(const TextOptions& o, bool horizontal, Line& line) {
-  const glm::dvec2 &low = line.low, &high = line.high, &advance = line.advance;
-  glm::dvec2& offset = line.offset;
-  if (horizontal) {
-    if (o.halign == "center") offset.x = -advance.x / 2;
-    if (o.halign == "right") offset.x = -advance.x;
-    if (o.valign == "top") offset.y = -high.y;
-    if (o.valign == "center") offset.y = -(high.y + low.y) / 2;
-    if (o.valign == "bottom") offset.y = -low.y;
-    return;
-  }
-  // Glyphs of a column stand with their middle on it, below the origin.
-  if (o.halign == "left") offset.x = -low.x;
-  if (o.halign == "right") offset.x = -high.x;
-  if (o.valign == "center") offset.y = -advance.y / 2;
-  if (o.valign == "bottom") offset.y = -advance.y;
+/// Where a line begins, by its own advance; the other direction is aligned for all lines at once.
+double start_of_line(const std::string& alignment, double advance) {
+  if (alignment == "center") return -advance / 2;
+  return alignment == "right" || alignment == "bottom" ? -advance : 0;
 }
 
-Result<Line> lay_out(const TextOptions& o, const Font& font) {
+/// The alignment of all lines across them, by their ink. Glyphs of a column stand with their middle
+/// on it.
+double offset_across(const TextOptions& o, bool horizontal, const Block& block) {
+  const glm::dvec2 &low = block.low, &high = block.high;
+  if (horizontal) {
+    if (o.valign == "top") return -high.y;
+    if (o.valign == "center") return -(high.y + low.y) / 2;
+    return o.valign == "bottom" ? -low.y : 0;
+  }
+  if (o.halign == "left") return -low.x;
+  return o.halign == "right" ? -high.x : 0;
+}
+
+/// From one line to the next, in units: what the font says of its lines.
+double line_distance(const Font& font) {
+  hb_font_extents_t extents{};
+  hb_font_get_h_extents(font.data().font.get(), &extents);
+  return double(extents.ascender) - extents.descender + extents.line_gap;
+}
+
+/// The lines of a text, without their ends; all of it where newlines are characters like others.
+std::vector<std::string_view> lines_of(const TextOptions& o) {
+  std::vector<std::string_view> lines;
+  std::string_view rest = o.text;
+  for (size_t end = 0; o.lines && (end = rest.find('\n')) != std::string_view::npos;) {
+    const bool with_return = end > 0 && rest[end - 1] == '\r';
+    lines.push_back(rest.substr(0, with_return ? end - 1 : end));
+    rest.remove_prefix(end + 1);
+  }
+  lines.push_back(rest);
+  return lines;
+}
+
+/// Adds the glyphs of one line, `down` across the lines.
+std::optional<Error> add_line(const TextOptions& o, std::string_view text, const Font& font,
+                              int steps, double down, bool& horizontal, Block& block) {
+  const auto shaped = shape(o, text, font);
+  if (!shaped) return shaped.error();
+  hb_buffer_t* const buffer = shaped->get();
+  const unsigned count = hb_buffer_get_length(buffer);
+  const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer, nullptr);
+  const hb_glyph_position_t* places = hb_buffer_get_glyph_positions(buffer, nullptr);
+  horizontal = HB_DIRECTION_IS_HORIZONTAL(hb_buffer_get_direction(buffer));
+  glm::dvec2 advance(0);
+  for (unsigned i = 0; i < count; ++i)
+    advance += o.spacing * glm::dvec2(places[i].x_advance, places[i].y_advance);
+  const glm::dvec2 start = horizontal ? glm::dvec2(start_of_line(o.halign, advance.x), -down)
+                                      : glm::dvec2(-down, start_of_line(o.valign, advance.y));
+  if (down == 0) block.offset = start;
+  for (const int i : {0, 1}) {
+    if (std::abs(advance[i]) > std::abs(block.advance[i])) block.advance[i] = advance[i];
+  }
+  glm::dvec2 pen_at = start;
+  for (unsigned i = 0; i < count; ++i) {
+    if (infos[i].codepoint == 0) block.missing.push_back(code_point_at(text, infos[i].cluster));
+    GlyphPen pen(steps);
+    pen.draw(font.data().font.get(), infos[i].codepoint);
+    const glm::dvec2 at = pen_at + glm::dvec2(places[i].x_offset, places[i].y_offset);
+    for (Shape2D::Loop& loop : pen.loops) {
+      for (glm::dvec2& p : loop) p += at;
+      block.loops.push_back(std::move(loop));
+    }
+    if (pen.low.x <= pen.high.x) {
+      block.low = {std::min(block.low.x, pen.low.x + at.x),
+                   std::min(block.low.y, pen.low.y + at.y)};
+      block.high = {std::max(block.high.x, pen.high.x + at.x),
+                    std::max(block.high.y, pen.high.y + at.y)};
+    }
+    pen_at += o.spacing * glm::dvec2(places[i].x_advance, places[i].y_advance);
+  }
+  return std::nullopt;
+}
+
+Result<Block> lay_out(const TextOptions& o, const Font& font) {
   if (auto error = check(o)) return *error;
   constexpr size_t kLongest = 1 << 16;
   if (o.text.size() > kLongest) {
     return invalid_argument("text: longer than " + std::to_string(kLongest) + " bytes");
   }
-  const HarfbuzzPtr<hb_buffer_t> buffer = shape(o, font);
-  const unsigned count = hb_buffer_get_length(buffer.get());
-  const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer.get(), nullptr);
-  const hb_glyph_position_t* places = hb_buffer_get_glyph_positions(buffer.get(), nullptr);
   const int steps = std::max(o.facets.fragments(o.size) / 8 + 1, 2);
   constexpr int kMostSteps = 1 << 14;
   if (steps > kMostSteps) {
     return invalid_argument("text: a curve of " + std::to_string(steps) + " steps, the limit is " +
                             std::to_string(kMostSteps));
   }
-  Line line;
-  line.scale = o.size * kEmPerSize / font.data().units_per_em;
-  line.low = glm::dvec2(std::numeric_limits<double>::infinity());
-  line.high = -line.low;
-  for (unsigned i = 0; i < count; ++i) {
-    if (infos[i].codepoint == 0) line.missing.push_back(code_point_at(o.text, infos[i].cluster));
-    GlyphPen pen(steps);
-    pen.draw(font.data().font.get(), infos[i].codepoint);
-    const glm::dvec2 at = line.advance + glm::dvec2(places[i].x_offset, places[i].y_offset);
-    for (Shape2D::Loop& loop : pen.loops) {
-      for (glm::dvec2& p : loop) p += at;
-      line.loops.push_back(std::move(loop));
-    }
-    if (pen.low.x <= pen.high.x) {
-      line.low = {std::min(line.low.x, pen.low.x + at.x), std::min(line.low.y, pen.low.y + at.y)};
-      line.high = {std::max(line.high.x, pen.high.x + at.x),
-                   std::max(line.high.y, pen.high.y + at.y)};
-    }
-    line.advance += o.spacing * glm::dvec2(places[i].x_advance, places[i].y_advance);
+  Block block;
+  block.scale = o.size * kEmPerSize / font.data().units_per_em;
+  block.low = glm::dvec2(std::numeric_limits<double>::infinity());
+  block.high = -block.low;
+  const double distance = o.line_spacing * line_distance(font);
+  const std::vector<std::string_view> lines = lines_of(o);
+  bool horizontal = true;  // as the last line that has a direction of its own
+  for (size_t i = 0; i < lines.size(); ++i) {
+    if (auto error = add_line(o, lines[i], font, steps, double(i) * distance, horizontal, block))
+      return *error;
   }
-  if (line.loops.empty()) line.low = line.high = glm::dvec2(0);
-  align(o, HB_DIRECTION_IS_HORIZONTAL(hb_buffer_get_direction(buffer.get())), line);
-  return line;
+  if (block.loops.empty()) block.low = block.high = glm::dvec2(0);
+  const double across = offset_across(o, horizontal, block);
+  const glm::dvec2 move = horizontal ? glm::dvec2(0, across) : glm::dvec2(across, 0);
+  for (Shape2D::Loop& loop : block.loops) {
+    for (glm::dvec2& p : loop) p += move;
+  }
+  block.offset += move;
+  block.low += move;
+  block.high += move;
+  return block;
 }
 
 }  // namespace
 
 Result<Shape2D> make_text(const TextOptions& options, const Font& font, std::string* note) {
-  Result<Line> line = lay_out(options, font);
-  if (!line) return line.error();
-  if (note != nullptr && !line->missing.empty()) {
+  Result<Block> block = lay_out(options, font);
+  if (!block) return block.error();
+  if (note != nullptr && !block->missing.empty()) {
     constexpr const char* kDigits = "0123456789ABCDEF";
     std::string code;
-    for (uint32_t c = line->missing[0], i = 0; i < 4 || c != 0; c >>= 4, ++i)
+    for (uint32_t c = block->missing[0], i = 0; i < 4 || c != 0; c >>= 4, ++i)
       code.insert(code.begin(), kDigits[c & 15]);
     *note = "text: the font " + font.family() + " has no glyph for U+" + code;
-    if (line->missing.size() > 1)
-      *note += " and " + std::to_string(line->missing.size() - 1) + " more characters";
+    if (block->missing.size() > 1)
+      *note += " and " + std::to_string(block->missing.size() - 1) + " more characters";
   }
-  for (Shape2D::Loop& loop : line->loops) {
-    for (glm::dvec2& p : loop) p = (p + line->offset) * line->scale;
+  for (Shape2D::Loop& loop : block->loops) {
+    for (glm::dvec2& p : loop) p *= block->scale;
   }
-  return Shape2D::from_outlines(line->loops, FillRule::kNonZero);
+  return Shape2D::from_outlines(block->loops, FillRule::kNonZero);
 }
 
 Result<TextMetrics> measure_text(const TextOptions& options, const Font& font) {
-  const Result<Line> line = lay_out(options, font);
-  if (!line) return line.error();
+  const Result<Block> block = lay_out(options, font);
+  if (!block) return block.error();
   TextMetrics metrics;
-  metrics.position = (line->low + line->offset) * line->scale;
-  metrics.size = (line->high - line->low) * line->scale;
-  metrics.ascent = line->high.y * line->scale;
-  metrics.descent = line->low.y * line->scale;
-  metrics.offset = line->offset * line->scale;
-  metrics.advance = line->advance * line->scale;
+  metrics.position = block->low * block->scale;
+  metrics.size = (block->high - block->low) * block->scale;
+  metrics.ascent = (block->high.y - block->offset.y) * block->scale;
+  metrics.descent = (block->low.y - block->offset.y) * block->scale;
+  metrics.offset = block->offset * block->scale;
+  metrics.advance = block->advance * block->scale;
+  return metrics;
+}
+
+Result<FontMetrics> measure_font(double size, const Font& font) {
+  if (!std::isfinite(size)) return not_finite("font_metrics", "size", size);
+  if (!(size > 0)) return not_positive("font_metrics", "size", size);
+  const double scale = size * kEmPerSize / font.data().units_per_em;
+  hb_font_extents_t extents{};
+  hb_font_get_h_extents(font.data().font.get(), &extents);
+  FontMetrics metrics;
+  metrics.ascent = extents.ascender * scale;
+  metrics.descent = extents.descender * scale;
+  metrics.interline = line_distance(font) * scale;
+  // The box of all glyphs: yMin and yMax of the table "head", signed words of 16 bits.
+  const HarfbuzzPtr<hb_blob_t> head(
+      hb_face_reference_table(font.data().face.get(), HB_TAG('h', 'e', 'a', 'd')));
+  unsigned length = 0;
+  const char* bytes = hb_blob_get_data(head.get(), &length);
+  const auto word = [&](unsigned at) {
+    if (at + 2 > length) return 0.0;
+    const auto byte = [&](unsigned i) { return static_cast<unsigned char>(bytes[i]); };
+    return double(static_cast<int16_t>(byte(at) << 8 | byte(at + 1)));
+  };
+  constexpr unsigned kLowest = 38, kHighest = 42;
+  metrics.max_descent = word(kLowest) * scale;
+  metrics.max_ascent = word(kHighest) * scale;
   return metrics;
 }
 

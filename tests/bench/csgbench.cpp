@@ -14,6 +14,7 @@
 
 #include <csgrun/engine/evaluate.h>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/kernel.h"
 #include "engine/mesh/pieces_measures.h"
 #include "tests/bench/exact_workloads.h"
@@ -29,9 +30,7 @@ void run_nary(const std::string& name, const Settings& settings, const std::vect
               BooleanOp op, bool keep_facets) {
   Run run(name, settings, reach_of(meshes));
   run.options.name_untouched = true;  // the result is only presented
-  std::vector<Operand> operands;
-  for (const RawMesh& m : meshes) operands.push_back(run.import(m, keep_facets));
-  run.finish(*run.evaluate(operands, op));
+  run.finish(*run.evaluate(run.import(meshes, keep_facets), op));
 }
 
 /// What an operation looks at: the pieces in the tool's box, and the tool's faces.
@@ -55,8 +54,7 @@ size_t touched_faces(const ResultPieces& result, const Operand& tool) {
 void run_chain(const std::string& name, const Settings& settings,
                const std::vector<RawMesh>& meshes, BooleanOp op) {
   Run run(name, settings, reach_of(meshes));
-  std::vector<Operand> tools;
-  for (const RawMesh& m : meshes) tools.push_back(run.import(m, false));
+  const std::vector<Operand> tools = run.import(meshes, false);
   const size_t steps = tools.size() - 1, tenth = std::max<size_t>(1, steps / 10);
   double first_tenth = 0, last_tenth = 0, asked = 0;
   size_t first_faces = 0, last_faces = 0;
@@ -236,6 +234,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s", csgrun::bench::kUsage);
     return 2;
   }
-  for (int r = 0; r < settings.repeat; ++r) csgrun::bench::run_once(words, settings);
+  for (int r = 0; r < settings.repeat; ++r) {
+    csgrun::with_threads(settings.threads, [&] { csgrun::bench::run_once(words, settings); });
+  }
   return 0;
 }

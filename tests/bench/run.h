@@ -15,6 +15,7 @@
 #include "engine/bsp/kernel.h"
 #include "engine/bsp/result_pieces.h"
 #include "engine/csg/grid.h"
+#include "engine/csg/quantise.h"
 #include "engine/mesh/present.h"
 #include "tests/bench/workloads.h"
 
@@ -23,6 +24,8 @@ namespace csgrun::bench {
 double wall_seconds();
 /// CPU seconds of all threads of the process.
 double cpu_seconds();
+/// CPU seconds of the calling thread: what a run takes if there is a core for each of the others.
+double own_cpu_seconds();
 /// What the process holds now, and the most that it held, in MB.
 double resident_mb();
 double peak_mb();
@@ -40,14 +43,16 @@ T take(Result<T> r) {
 struct Clock {
   double import = 0, op = 0, exporting = 0, cpu = 0;
   double import_cpu = 0, op_cpu = 0;  ///< shares of `cpu`
+  double own_cpu = 0;                 ///< that of the calling thread
 
   template <class F>
   auto timed(double& seconds, F&& f) {
-    const double w = wall_seconds(), c = cpu_seconds();
+    const double w = wall_seconds(), c = cpu_seconds(), own = own_cpu_seconds();
     auto result = f();
     seconds += wall_seconds() - w;
     const double used = cpu_seconds() - c;
     cpu += used;
+    own_cpu += own_cpu_seconds() - own;
     if (&seconds == &import) import_cpu += used;
     if (&seconds == &op) op_cpu += used;
     return result;
@@ -81,6 +86,8 @@ class Run {
   /// The same for points that are on the grid already.
   Operand import(const PolygonMesh& mesh, const std::vector<IVec3>& points);
   Operand import(const RawMesh& raw, bool keep_facets);
+  /// All of them, on the threads of the run.
+  std::vector<Operand> import(const std::vector<RawMesh>& meshes, bool keep_facets);
   /// The points of a mesh on the run's grid.
   [[nodiscard]] std::vector<IVec3> on_grid(const PolygonMesh& mesh) const;
 
@@ -109,6 +116,8 @@ class Run {
 
  private:
   [[nodiscard]] PresentContext context(bool measure) const;
+  void note_input(const PolygonMesh& mesh, const std::vector<IVec3>& points);
+  Operand operand_of(const PreparedLeaf& leaf);
   void write_cells(const std::vector<Operand>& operands, const Expression& expression) const;
 
   std::string name_;

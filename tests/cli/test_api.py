@@ -38,7 +38,7 @@ class Pages(Case):
         self.assertRegex(text, r"---@overload fun\(options: csgrun.cube\): Solid")
 
     def test_forms(self):
-        self.expect(self.run_csgrun("--help-api=html"), 2, "csgrun: --help-api can be =markdown, =luals or nothing")
+        self.expect(self.run_csgrun("--help-api=html"), 2, "csgrun: --help-api can be =markdown, =luals, =json or nothing")
         self.assertIn("\ncube(size, center)\n", self.run_csgrun("--help-api").out)
 
 

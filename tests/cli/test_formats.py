@@ -236,6 +236,96 @@ class ReadBack(Case):
             self.expect(outcome, 0)
             self.assertEqual([p["name"] for p in outcome.json()["parts"]], list(VOLUMES))
 
+    def colours_of(self, name, text):
+        """Names of the colours that the faces of a file get, each with the area that has it."""
+        self.write(name, text)
+        outcome = self.run_csgrun(name, "-o", "a.glb", "-o", "b.ply", "--stats=json")
+        self.expect(outcome, 0)
+        self.assertEqual(outcome.json()["warnings"], [])
+        with open(self.path("b.ply"), "rb") as file:
+            head, body = file.read().split(b"end_header\n", 1)
+        count = {line.split()[1]: int(line.split()[2]) for line in head.decode().split("\n") if line.startswith("element")}
+        at, colours = 24 * count["vertex"], []
+        for _ in range(count["face"]):
+            (n,) = struct.unpack_from("<I", body, at)
+            if b"red" in head:
+                colours.append(tuple(body[at + 4 + 4 * n:at + 8 + 4 * n]))
+                at += 4
+            at += 4 + 4 * n
+        return sorted(colours)
+
+    POINTS = ("0 0 0", "1 0 0", "0 1 0", "0 0 1")
+    FACES = ("3 0 2 1", "3 0 1 3", "3 0 3 2", "3 1 2 3")
+
+    def test_colours_of_off(self):
+        lines = lambda more: "".join(f"{face} {colour}\n" for face, colour in zip(self.FACES, more))
+        points = "".join(p + "\n" for p in self.POINTS)
+        self.assertEqual(self.colours_of("a.off", "OFF\n4 4 0\n" + points + lines(("255 0 0", "0 255 0 128", "", "5"))),
+                         sorted([RED, (0, 255, 0, 128), DEFAULT, DEFAULT]))
+        self.assertEqual(self.colours_of("a.off", "OFF\n4 4 0\n" + points + lines(("1.0 0 0", "0.0 0.0 1.0 0.4", "", ""))),
+                         sorted([RED, BLUE, DEFAULT, DEFAULT]))
+        coloured = "".join(f"{p} 0 0 1 {c}\n" for p, c in zip(self.POINTS, ("255 0 0",) * 3 + ("0 0 0",)))
+        self.assertEqual(self.colours_of("a.off", "CNOFF\n4 4 0\n" + coloured + lines(("",) * 4)),
+                         sorted([RED] + [(170, 0, 0, 255)] * 3))
+        self.assertEqual(self.colours_of("a.off", "OFF\n4 4 0\n" + points + lines(("",) * 4)), [])
+
+    def ply(self, form, vertex="", face="", of_vertex=lambda i: "", of_face=lambda i: ""):
+        head = (f"ply\nformat {form} 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n{vertex}"
+                f"element face 4\nproperty list uchar int vertex_indices\n{face}end_header\n")
+        body = "".join(f"{p} {of_vertex(i)}\n" for i, p in enumerate(self.POINTS))
+        return head + body + "".join(f"{f} {of_face(i)}\n" for i, f in enumerate(self.FACES))
+
+    def test_colours_of_ply(self):
+        bytes3 = "".join(f"property uchar {c}\n" for c in ("red", "green", "blue"))
+        floats4 = "".join(f"property float {c}\n" for c in ("red", "green", "blue", "alpha"))
+        self.assertEqual(self.colours_of("a.ply", self.ply("ascii", face=bytes3, of_face=lambda i: "255 0 0" if i else "0 0 255")),
+                         sorted([RED] * 3 + [(0, 0, 255, 255)]))
+        self.assertEqual(self.colours_of("a.ply", self.ply("ascii", vertex=floats4, of_vertex=lambda i: "0 0 1 0.4")), [BLUE] * 4)
+        self.assertEqual(self.colours_of("a.ply", self.ply("ascii", vertex=bytes3, of_vertex=lambda i: f"{90 * (i == 3)} 0 0")),
+                         sorted([(0, 0, 0, 255)] + [(30, 0, 0, 255)] * 3))
+        # Two of three channels are no colour.
+        self.assertEqual(self.colours_of("a.ply", self.ply("ascii", face=bytes3[:-20], of_face=lambda i: "255 0")), [])
+        binary = self.ply("binary_big_endian", face=bytes3).split("end_header\n")[0].encode() + b"end_header\n"
+        for p in self.POINTS:
+            binary += struct.pack(">3f", *map(float, p.split()))
+        for f in self.FACES:
+            binary += struct.pack(">B3iBBB", *map(int, f.split()), 255, 0, 0)
+        self.assertEqual(self.colours_of("a.ply", binary), [RED] * 4)
+
+    def test_what_was_written_keeps_its_colours(self):
+        for ending in ("ply", "off"):
+            self.expect(self.run_csgrun("model.lua", "-o", "a." + ending), 0)
+            self.expect(self.run_csgrun("a." + ending, "-o", "b.ply", "-o", "b.off"), 0)
+            with open(self.path("b.ply"), "rb") as file:
+                again = file.read()
+            self.expect(self.run_csgrun("b.ply", "-o", "c.ply"), 0)
+            with open(self.path("c.ply"), "rb") as file:
+                self.assertEqual(file.read(), again, ending)
+
+    def test_colours_of_a_scan_are_rounded(self):
+        rows = 100  # a grid of points on both sides, each with a colour of its own
+        points, faces = [], []
+        for z in (0, 1):
+            for y in range(rows):
+                for x in range(rows):
+                    points.append(f"{x} {y} {z} {x * 2} {y * 2} {z * 200}")
+        index = lambda x, y, z: z * rows * rows + y * rows + x
+        for y in range(rows - 1):
+            for x in range(rows - 1):
+                corners = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)]
+                faces.append([index(*c, 1) for c in corners])
+                faces.append([index(*c, 0) for c in reversed(corners)])
+        rim = ([(i, 0) for i in range(rows - 1)] + [(rows - 1, i) for i in range(rows - 1)]
+               + [(i, rows - 1) for i in range(rows - 1, 0, -1)] + [(0, i) for i in range(rows - 1, 0, -1)])
+        for a, b in zip(rim, rim[1:] + rim[:1]):
+            faces.append([index(*a, 0), index(*b, 0), index(*b, 1), index(*a, 1)])
+        text = f"COFF\n{len(points)} {len(faces)} 0\n" + "\n".join(points) + "\n"
+        self.write("a.off", text + "".join(f"4 {' '.join(map(str, f))}\n" for f in faces))
+        outcome = self.run_csgrun("a.off", "-o", "a.glb", "--stats=json")
+        self.expect(outcome, 0)
+        self.assertRegex(outcome.json()["warnings"][0], r"^a\.off: \d{5} colours of faces were rounded to \d{2,3}$")
+        self.assertLess(len(self.glb("a.glb")["materials"]), 400)
+
     def test_foreign_gltf_is_in_metres_with_y_up(self):
         self.expect(self.run_script("return {tall = cube{1, 2, 3}:translate(0, 0, 5)}", "-o", "a.gltf"), 0)
         with open(self.path("a.gltf")) as file:

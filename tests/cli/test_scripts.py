@@ -37,7 +37,7 @@ class Mistakes(Case):
                        f"model.lua:1: linear_extrude: option 'height' must be {said}")
         self.check("return cube(1):translate(0/0, 0, 0)", "model.lua:1: translate: option 'v' must be finite, got nan")
         self.check("return cube(1):rotate(1/0)", "model.lua:1: rotate: option 'a' must be finite, got inf")
-        self.check("return multmatrix{{0/0}} * cube(1)", "model.lua:1: entry [1][1] of a matrix must be a finite number")
+        self.check("return multmatrix{{0/0}} * cube(1)", "model.lua:1: multmatrix: option 'm': entry [1][1] of a matrix must be a finite number")
 
     def test_sandbox(self):
         for text in ("io.open('x')", "os.execute('ls')", "debug.sethook()", "dofile('x')", "loadfile('x')"):

@@ -44,6 +44,7 @@ assert((circle(5) - circle(3)):fill():area() > circle(4):area())
 assert(rim:components() == 1 and #rim:outlines() == 2 and rim:contains(width / 2 - 1, 0))
 near(outline:perimeter(), 2 * (width - 16) + 2 * (depth - 16) + 32 * 2 * 8 * sin(180 / 32), 1e-6)
 local metrics = text_metrics(label, {size = 6})
+assert(fontmetrics(6).interline == font_metrics(6).interline and text("a\nb"):components() == 2)
 local plate_size = {metrics.size[1] + 10, 14}
 
 -- The base: extrusions, holes from the library, pockets, ribs as an array.

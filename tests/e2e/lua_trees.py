@@ -33,6 +33,13 @@ SOLID_TREES = {
     "drawing": f'linear_extrude(height = 2, {FACETS}) {{ import(file = "a.svg", origin = [0, 0], dpi = 25.4, scale = 1,'
                f' center = true, convexity = 1, {FACETS}, timestamp = -5); }}',
     "mesh": f'import(file = "a.off", origin = [0, 0], scale = 1, center = false, convexity = 1, {FACETS});',
+    "colours of faces": f'import(file = "c.off", origin = [0, 0], scale = 1, center = false, {FACETS});',
+    "archive": f'difference() {{ import(file = "a.3mf", {FACETS}); cube(size = [1, 1, 1], center = true); }}',
+    "colours of shapes": f"""linear_extrude(height = 2, {FACETS}) {{ difference() {{
+        color([1, 0, 0, 0.5]) {{ circle({FACETS}, r = 5); }} color([0, 0, 1, 1]) {{ square(size = [2, 2]); }} }} }}
+        rotate_extrude(angle = 90, start = 0, {FACETS}) {{ offset(r = 1, {FACETS}) {{ color([0, 1, 0, 1]) {{
+            multmatrix([[1, 0, 0, 20], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {{
+                hull() {{ color([1, 1, 0, 1]) {{ circle({FACETS}, r = 2); }} }} }} }} }} }}""",
     "heights": 'surface(file = "a.txt", center = true, invert = false, timestamp = 3);',
     "picture": 'surface(file = "a.png", center = false, invert = true, timestamp = 3);',
     "outlines": f"""linear_extrude(height = 3, center = true, scale = [0.5, 2], slices = 3, {FACETS}) {{
@@ -70,6 +77,7 @@ FLAT_TREES = {
             f' font = "Liberation Sans:style=Bold", direction = "ltr", language = "en", script = "Latn",'
             f' halign = "center", valign = "center", {FACETS}); }}',
     "shadow": f"projection(cut = false, convexity = 0) {{ sphere({FACETS}, r = 5); }}",
+    "coloured": f"color([0, 0.5, 1, 1]) {{ circle({FACETS}, r = 3); }}",
     "mixed": f"group() {{ circle({FACETS}, r = 0); }} square(size = [2, 3], center = false); cube(size = [9, 9, 9]);",
 }
 
@@ -102,6 +110,9 @@ class LuaTrees(support.Case):
     def test_what_the_corpus_has_not(self):
         (self.folder / "a.svg").write_text(DRAWING)
         (self.folder / "a.off").write_text(WEDGE)
+        (self.folder / "c.off").write_text(WEDGE.replace("OFF", "COFF", 1).replace("3 0 2 1\n", "3 0 2 1 255 0 0\n"))
+        (self.folder / "two.lua").write_text("return {a = cube(2):color('red'), b = sphere(3):right(5)}")
+        self.csgrun(self.folder / "two.lua", "-o", self.folder / "a.3mf")
         (self.folder / "a.txt").write_text("# heights\n0 1 2\n1 4 1\n2 1 0\n")
         (self.folder / "a.png").write_bytes(png([[0, 80, 200], [9, 255, 1], [40, 40, 40]]))
         for trees, endings in ((SOLID_TREES, SOLID), (FLAT_TREES, FLAT)):

@@ -11,7 +11,8 @@ namespace {
 
 void draw(const csgrun::Font& font) {
   csgrun::TextOptions options;
-  options.text = "aB\xc3\xa4 fi";
+  options.text = "aB\xc3\xa4\n fi";
+  options.lines = true;
   csgrun::fuzz::expect_shape(csgrun::make_text(options, font, nullptr));
   options.direction = "ttb";
   const auto metrics = csgrun::measure_text(options, font);

@@ -75,7 +75,8 @@ TEST(Gaps, OfSolids) {
       "local a, b = sphere(5, {fn = 48}), sphere(5, {fn = 48}):translate(20, 3, 1)\n"
       "local g = a:gap(b) assert(abs(g - b:gap(a)) < 1e-12 and g > 10.2 and g < 10.4)");
   EXPECT_EQ(message_of("cube(1):gap()"), "model.lua:1: gap: needs the other solid");
-  EXPECT_EQ(message_of("cube(1):gap(5)"), "model.lua:1: gap: needs the other solid, got 5");
+  EXPECT_EQ(message_of("cube(1):gap(5)"),
+            "model.lua:1: gap: option 'other' must be a solid, got 5");
   EXPECT_EQ(message_of("cube(1):gap(cube(1) - cube(2))"),
             "model.lua:1: gap: there is nothing in one of them");
 }

@@ -61,6 +61,31 @@ const std::string kSquare = "square(size = [2, 1], center = true);\n";
 const std::string kNothing = "group();\n";
 const std::string kMove = "multmatrix([[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, -0], [0, 0, 0, 1]])";
 
+TEST(CsgFile, ShapesHaveColours) {
+  const std::string red = "color([1, 0, 0, 0.5]) { square(size = [2, 1], center = false); }";
+  const std::string blue = "color([0, 0, 1, 1]) { circle($fn = 8, $fa = 12, $fs = 2, r = 3); }";
+  const CsgModel flat = parse(red);
+  ASSERT_TRUE(flat.appearance);
+  EXPECT_EQ(flat.appearance->red, 1);
+  EXPECT_EQ(flat.appearance->alpha, 0.5f);
+  EXPECT_FALSE(parse("square(size = [1, 1]);").appearance);
+  // Transforms and operations on one shape keep it, and the outermost colour counts.
+  EXPECT_TRUE(
+      parse("offset(r = 1, $fn = 8, $fa = 12, $fs = 2) { fill() { " + red + " } }").appearance);
+  EXPECT_TRUE(parse("resize(newsize = [9, 0, 0], auto = [0, 0, 0]) { " + red + " }").appearance);
+  EXPECT_EQ(parse("color([0, 1, 0, 1]) { " + red + " }").appearance->green, 1);
+  EXPECT_EQ(
+      sketch(parse("linear_extrude(height = 3, $fn = 0, $fa = 12, $fs = 2) { " + red + " }").solid),
+      "C(linear_extrude)");
+  // Of several the first; what is taken away was never seen.
+  const CsgModel both = parse(red + blue);
+  EXPECT_EQ(both.appearance, flat.appearance);
+  ASSERT_EQ(both.warnings.size(), 1u);
+  EXPECT_EQ(both.warnings[0],
+            "m.csg:1: union: of 2D shapes of several colours the first's is kept");
+  EXPECT_TRUE(parse("difference() { " + blue + red + " }").warnings.empty());
+}
+
 TEST(CsgFile, TreesAreImplicitUnions) {
   EXPECT_EQ(sketch(parse("\n").solid), "empty");
   EXPECT_EQ(sketch(parse(kCube).solid), "cube");
@@ -271,7 +296,7 @@ TEST(CsgFile, ImportsFilesOfTheirFolder) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().message, "import: cannot read it");
   EXPECT_EQ(import("file = \"b.nef3\"").error().message,
-            "import: \"b.nef3\" has none of the endings .stl, .off, .obj, .ply, .svg, .dxf");
+            "import: \"b.nef3\" has none of the endings .stl, .off, .obj, .ply, .3mf, .svg, .dxf");
 }
 
 TEST(CsgFile, PolyhedraAreWeldedAndChecked) {

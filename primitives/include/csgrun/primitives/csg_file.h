@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@ struct CsgModel {
   bool is_2d = false;
   /// "model.csg:12: cube: size.x must be positive, got 0": what was left out, in the file's order.
   std::vector<std::string> warnings;
+  std::optional<Appearance> appearance = {};  ///< of the shape
 };
 
 /// What a .csg file may ask for beside its own text.
@@ -38,7 +40,9 @@ struct CsgEnvironment {
 /// intersection, hull, minkowski, offset, fill, group and render, with the modifiers % (left out,
 /// not even an operand) and # (nothing). As in OpenSCAD, an empty node is an operand, primitives of
 /// impossible size are empty, and where 2D and 3D mix the first child that is not empty decides;
-/// each is said in a warning. Unknown arguments are passed over; arguments are matched by name.
+/// each is said in a warning. A shape has one colour, that of the first of the shapes it is made
+/// of, and an extrusion has that of its shape. Unknown arguments are passed over; arguments are
+/// matched by name.
 ///
 /// Errors have `where` set to the line and a message without it: kMalformedFile for what is not a
 /// .csg file, kInvalidArgument for nodes that csgrun does not build (roof; without

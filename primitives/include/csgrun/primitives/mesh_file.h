@@ -25,9 +25,13 @@ struct MeshObject {
 /// `material_files`, if given, gets the material files that an OBJ names; then its faces have
 /// appearances with the names of their materials, without a colour (see apply_materials). A
 /// material file that is not below the OBJ's folder is an error in any case.
+/// Faces of OFF and PLY have the colours that the file gives them, or the mean of those that it
+/// gives their corners. `notes`, if given, gets what was done to them: "part.ply: 9000 colours of
+/// faces were rounded to 212".
 Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
                                std::vector<MeshObject>* objects = nullptr,
-                               std::vector<std::string>* material_files = nullptr);
+                               std::vector<std::string>* material_files = nullptr,
+                               std::vector<std::string>* notes = nullptr);
 
 /// Reads a regular file (a FIFO, a directory or a device is refused) and parses it.
 Result<PolygonMesh> read_mesh_file(const std::string& path);

@@ -22,6 +22,9 @@ struct ModelPart {
 /// unpacks, or multiplies by components, to more than a model would.
 Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes);
 
+/// Whether a path ends in .3mf, in letters of any case.
+bool is_3mf_path(const std::string& path);
+
 /// Gives the appearances of an OBJ's mesh, which have the names of its materials, what a material
 /// file says of these: Kd, d or Tr, Pm, Pr. Others stay. Errors: kMalformedFile with the line.
 Status apply_materials(PolygonMesh& mesh, const std::string& name, std::string_view mtl);

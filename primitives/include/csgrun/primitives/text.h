@@ -65,18 +65,22 @@ class FontBook {
 bool is_font_path(const std::string& description);
 
 struct TextOptions {
-  std::string text;                ///< UTF-8, one line
+  std::string text;                ///< UTF-8
+  bool lines = false;              ///< newlines begin lines; else they are characters like others
+  double line_spacing = 1;         ///< factor of the font's distance of lines
   double size = 10;                ///< mm; the em is size / 0.72, as in OpenSCAD
   std::string direction;           ///< "ltr", "rtl", "ttb", "btt"; empty: that of the script
   std::string language = "en";     ///< as in "en", "tr", "zh-hans"
-  std::string script;              ///< as in "latin" or "Latn"; empty: that of the characters
+  std::string script;              ///< "Latn" (ISO 15924), "latin"; empty: that of the characters
   std::string halign = "default";  ///< "left", "center", "right", by advance widths
   std::string valign = "default";  ///< "baseline", "bottom", "center", "top", by ink
   double spacing = 1;              ///< factor of all advances
   Facets facets;                   ///< a curve has max(fragments(size) / 8 + 1, 2) steps
 };
 
-/// In mm, with the alignments applied to `position` and `offset`; OpenSCAD's textmetrics.
+/// In mm, with the alignments applied to `position` and `offset`; OpenSCAD's textmetrics. Of
+/// several lines: of all their ink, from the first baseline, the longest advance, and where the
+/// first begins.
 struct TextMetrics {
   glm::dvec2 position{};           ///< the lower left corner of the ink
   glm::dvec2 size{};               ///< of the ink
@@ -89,5 +93,14 @@ struct TextMetrics {
 /// ...", of which empty boxes are drawn. Errors: kInvalidArgument.
 Result<Shape2D> make_text(const TextOptions& options, const Font& font, std::string* note);
 Result<TextMetrics> measure_text(const TextOptions& options, const Font& font);
+
+/// In mm; OpenSCAD's fontmetrics. Descents are negative.
+struct FontMetrics {
+  double ascent = 0, descent = 0;          ///< what the font keeps for a line
+  double max_ascent = 0, max_descent = 0;  ///< of the tallest and the deepest glyph
+  double interline = 0;                    ///< from a baseline to the next
+};
+/// Errors: kInvalidArgument for a size that is not positive.
+Result<FontMetrics> measure_font(double size, const Font& font);
 
 }  // namespace csgrun

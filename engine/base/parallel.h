@@ -1,0 +1,62 @@
+// Loops on several threads. What they do is divided by sizes alone, never by the number of threads,
+// so that results put together in the order of the parts are the same for any number.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace csgrun {
+
+/// Below so many things of a few nanoseconds each threads do not pay.
+constexpr size_t kFewForThreads = 16384;
+
+/// Returns work(), in which the loops below use so many threads.
+template <class Work>
+auto with_threads(unsigned threads, Work&& work) {
+  if (tbb::this_task_arena::max_concurrency() == static_cast<int>(threads)) return work();
+  // Without the control, more threads than cores would be cut down, with a message.
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, threads);
+  tbb::task_arena arena(static_cast<int>(threads));
+  return arena.execute(std::forward<Work>(work));
+}
+
+/// The number of parts of so many things in each that all are divided into.
+constexpr size_t part_count(size_t count, size_t each) { return (count + each - 1) / each; }
+
+/// Calls work(part, begin, end) for the parts of [0, count), in any order and at the same time.
+template <class Work>
+void for_each_part(size_t count, size_t each, Work&& work) {
+  const auto one = [&](size_t part) {
+    work(part, part * each, std::min(count, (part + 1) * each));
+  };
+  const size_t parts = part_count(count, each);
+  if (parts <= 1 || tbb::this_task_arena::max_concurrency() == 1) {
+    for (size_t part = 0; part < parts; ++part) one(part);
+  } else {
+    tbb::parallel_for(size_t{0}, parts, one);
+  }
+}
+
+/// Calls work(begin, end) for ranges that make up [0, count), in any order and at the same time.
+template <class Work>
+void for_each_range(size_t count, Work&& work) {
+  for_each_part(count, kFewForThreads, [&](size_t, size_t begin, size_t end) { work(begin, end); });
+}
+
+/// Calls work(i) for i below count, at the same time if all of it is `much`: each i by itself.
+template <class Work>
+void for_each_alone(size_t count, bool much, Work&& work) {
+  if (!much) {
+    for (size_t i = 0; i < count; ++i) work(i);
+    return;
+  }
+  for_each_part(count, 1, [&](size_t, size_t i, size_t) { work(i); });
+}
+
+}  // namespace csgrun

@@ -1,0 +1,73 @@
+// Loops on several threads: everything is done once, in parts that do not depend on the threads.
+#include "engine/base/parallel.h"
+
+#include <array>
+#include <atomic>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/base/raw_vector.h"
+
+namespace csgrun {
+namespace {
+
+TEST(Parallel, PartsMakeUpEverything) {
+  for (const unsigned threads : {1u, 2u, 4u}) {
+    for (const size_t count : {0, 1, 6, 7, 8, 14, 100}) {
+      std::vector<std::array<size_t, 2>> parts(part_count(count, 7));
+      std::vector<std::atomic<int>> seen(count);
+      with_threads(threads, [&] {
+        for_each_part(count, 7, [&](size_t part, size_t begin, size_t end) {
+          parts[part] = {begin, end};
+          for (size_t i = begin; i < end; ++i) ++seen[i];
+        });
+      });
+      EXPECT_EQ(parts.size(), (count + 6) / 7);
+      for (size_t part = 0; part < parts.size(); ++part) {
+        EXPECT_EQ(parts[part][0], 7 * part);
+        EXPECT_EQ(parts[part][1], part + 1 < parts.size() ? 7 * part + 7 : count);
+      }
+      for (const auto& times : seen) EXPECT_EQ(times, 1);
+    }
+  }
+}
+
+TEST(Parallel, RangesAndSinglesMakeUpEverything) {
+  for (const unsigned threads : {1u, 4u}) {
+    for (const size_t count : {size_t{0}, kFewForThreads, kFewForThreads + 1, 5 * kFewForThreads}) {
+      std::vector<uint8_t> seen(count, 0), alone(count, 0), few(count, 0);
+      with_threads(threads, [&] {
+        for_each_range(count, [&](size_t begin, size_t end) {
+          for (size_t i = begin; i < end; ++i) ++seen[i];
+        });
+        for_each_alone(count, true, [&](size_t i) { ++alone[i]; });
+        for_each_alone(count, false, [&](size_t i) { ++few[i]; });
+      });
+      const std::vector<uint8_t> once(count, 1);
+      EXPECT_EQ(seen, once);
+      EXPECT_EQ(alone, once);
+      EXPECT_EQ(few, once);
+    }
+  }
+}
+
+TEST(Parallel, ThreadsAreAsManyAsAskedFor) {
+  for (const int threads : {1, 2, 5}) {
+    EXPECT_EQ(with_threads(static_cast<unsigned>(threads),
+                           [] { return tbb::this_task_arena::max_concurrency(); }),
+              threads);
+  }
+}
+
+TEST(RawVector, KeepsWhatIsPutIn) {
+  RawVector<std::array<uint32_t, 2>> v;
+  for (uint32_t i = 0; i < 100; ++i) v.push_back({i, 2 * i});
+  v.resize(200);
+  for (uint32_t i = 100; i < 200; ++i) v[i] = {i, 2 * i};
+  const RawVector<std::array<uint32_t, 2>> copy = v;
+  for (uint32_t i = 0; i < 200; ++i) EXPECT_EQ(copy[i][1], 2 * i);
+}
+
+}  // namespace
+}  // namespace csgrun
