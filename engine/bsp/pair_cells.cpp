@@ -40,7 +40,7 @@ struct List {
     of_others.include(e.box);
   }
   [[nodiscard]] bool has_one_operand() const { return second == kNobody; }
-  [[nodiscard]] bool has_two_operands() const { return second != kNobody && second == last; }
+  [[nodiscard]] bool has_two_operands_at_most() const { return second == last; }
   [[nodiscard]] PolygonBox bounds() const {
     PolygonBox all = of_lowest;
     all.include(of_others);
@@ -81,7 +81,7 @@ class CellFinder {
   }
 
  private:
-  /// Of two operands, only what is in the box of the other one matters.
+  /// Of two operands, only what is in the box of the other one matters; of one, nothing.
   List keep_near(const List& list) {
     PolygonBox common = list.of_lowest;
     common.clip(list.of_others);
@@ -131,7 +131,7 @@ class CellFinder {
   /// Handles the list, which is the top of the stack.
   void visit(PolygonBox cell, List list, int stalled) {
     ++result_.visited;
-    if (list.count > limit_ && list.has_two_operands()) {
+    if (list.count > limit_ && list.has_two_operands_at_most()) {
       const uint32_t all = list.count;
       list = keep_near(list);
       leave_alone(all - list.count);
