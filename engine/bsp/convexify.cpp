@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "engine/bsp/regions.h"
 
@@ -12,19 +13,22 @@ namespace {
 /// Up to this many edges a region is cut along its own edges; above, walls halve it first, so that
 /// the lines of edges stay short.
 constexpr size_t kFewEdges = 12;
+/// What is no longer than this is not worth a wall.
+constexpr double kFewSteps = 64;
 constexpr int64_t kFarWall = int64_t{1} << 29;
 
 class Convexifier {
  public:
   Convexifier(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
               const std::function<uint32_t(int, int64_t)>& wall, std::vector<Fragment>& pieces)
-      : geometry_(geometry), planes_(planes), support_(support), wall_(wall), pieces_(pieces) {
-    const auto& n = planes.approximate(support.index());
-    const double x = std::fabs(n[0]), y = std::fabs(n[1]), z = std::fabs(n[2]);
-    const int normal_axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
-    axes_ = {(normal_axis + 1) % 3, (normal_axis + 2) % 3};
-    positive_ = (n[normal_axis] > 0) != support.flipped();
-  }
+      : geometry_(geometry),
+        planes_(planes),
+        support_(support),
+        wall_(wall),
+        pieces_(pieces),
+        loops_(geometry, planes, support),
+        axes_(loops_.axes()),
+        positive_(loops_.is_positive()) {}
 
   void run(std::vector<BoundaryEdge> edges) {
     if (edges.empty()) return;
@@ -49,6 +53,7 @@ class Convexifier {
       return;
     }
     const Extent busy = extent_of(inner);
+    if (!is_far_beside(cell, busy) && divide_loops(edges)) return;
     while (cut_off(cell, busy, rim)) {
     }
     cut(cell, std::move(inner));
@@ -63,12 +68,24 @@ class Convexifier {
       if (edges[i].to != edges[i + 1 < count ? i + 1 : 0].from) return false;
     }
     if (count == 3) return true;
-    const auto directed = [&](size_t i) {
-      return DirectedEdge{edges[i].from, edges[i].to, edges[i].plane};
-    };
     for (size_t i = 0; i < count; ++i) {
-      const size_t next = i + 1 < count ? i + 1 : 0;
-      if (turn_between(geometry_, planes_, support_, directed(i), directed(next)) <= 0) {
+      if (loops_.turn(edges[i], edges[i + 1 < count ? i + 1 : 0]) <= 0) return false;
+    }
+    return true;
+  }
+
+  /// Divides a region all of whose loops are outlines, one after another in the list; else does
+  /// nothing and returns false.
+  bool divide_loops(const std::vector<BoundaryEdge>& edges) {
+    const size_t before = pieces_.size();
+    for (size_t first = 0, last = 0; first < edges.size(); first = ++last) {
+      while (edges[last].to != edges[first].from) {
+        if (last + 1 == edges.size() || edges[last + 1].from != edges[last].to) break;
+        ++last;
+      }
+      if (edges[last].to != edges[first].from ||
+          !loops_.add(std::span(edges).subspan(first, last + 1 - first), pieces_)) {
+        pieces_.resize(before);
         return false;
       }
     }
@@ -148,23 +165,39 @@ class Convexifier {
     return extent;
   }
 
-  /// Cuts off what of a cell is furthest beside all of its edges, if that is far more than these,
-  /// by a wall; `rim` are the edges of the region on the rim of the whole cell. False when nothing
-  /// is.
-  bool cut_off(Fragment& cell, const Extent& busy, const std::vector<BoundaryEdge>& rim) {
-    constexpr double kFewSteps = 64;
-    Extent extent;
-    for (uint32_t i = 0; i < cell.count; ++i) add(extent, geometry_.corners(cell)[i]);
+  /// Where most of a cell is beside all of its edges.
+  struct Beside {
     int axis = 0;
     bool above = false;
-    double most = 0;
+    double most = 0;  ///< 0 if that is not far more than these
+  };
+  Beside find_beside(const Fragment& cell, const Extent& busy) const {
+    Extent extent;
+    for (uint32_t i = 0; i < cell.count; ++i) add(extent, geometry_.corners(cell)[i]);
+    Beside found;
     for (int k = 0; k < 2; ++k) {
       const double enough = std::max((busy.hi[k] - busy.lo[k]) / 2, kFewSteps);
       for (const bool side : {false, true}) {
         const double beside = side ? extent.hi[k] - busy.hi[k] : busy.lo[k] - extent.lo[k];
-        if (beside > std::max(most, enough)) axis = k, above = side, most = beside;
+        if (beside > std::max(found.most, enough)) found = {k, side, beside};
       }
     }
+    return found;
+  }
+
+  /// Whether edges that are drawn on would run through a cell in which all else is small: what
+  /// comes next would meet the slivers between them.
+  bool is_far_beside(const Fragment& cell, const Extent& busy) const {
+    constexpr double kFar = 4;
+    const double size = std::max(busy.hi[0] - busy.lo[0], busy.hi[1] - busy.lo[1]);
+    return find_beside(cell, busy).most > kFar * std::max(size, kFewSteps);
+  }
+
+  /// Cuts off what of a cell is furthest beside all of its edges, if that is far more than these,
+  /// by a wall; `rim` are the edges of the region on the rim of the whole cell. False when nothing
+  /// is.
+  bool cut_off(Fragment& cell, const Extent& busy, const std::vector<BoundaryEdge>& rim) {
+    const auto [axis, above, most] = find_beside(cell, busy);
     if (most == 0) return false;
     const double at = above ? std::ceil(busy.hi[axis]) : std::floor(busy.lo[axis]) - 1;
     const uint32_t plane = wall_(axes_[axis], static_cast<int64_t>(at));
@@ -234,8 +267,9 @@ class Convexifier {
   PlaneId support_;
   const std::function<uint32_t(int, int64_t)>& wall_;
   std::vector<Fragment>& pieces_;
-  std::array<int, 2> axes_{};
-  bool positive_ = true;
+  LoopPieces loops_;
+  const std::array<int, 2> axes_;
+  const bool positive_;
 };
 
 }  // namespace

@@ -10,14 +10,9 @@
 #include <vector>
 
 #include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/loop_pieces.h"
 
 namespace csgrun {
-
-/// A directed boundary edge with the interior on its left, seen from outside.
-struct BoundaryEdge {
-  uint32_t from, to;  ///< points of the geometry
-  uint32_t plane;     ///< holds the edge, not the support
-};
 
 /// Appends the convex pieces of the region bounded by `edges` in the plane `support` to `pieces`: a
 /// convex loop given in order is the only one itself, over the same points.
@@ -27,8 +22,9 @@ void convexify(CellGeometry& geometry, const PlaneTable& planes, PlaneId support
                std::vector<Fragment>& pieces);
 
 /// The same for a region within a weakly convex cell, the rim of which goes along edges of the
-/// region where these have planes of the cell's edges. What is far beside all other edges is cut
-/// off by walls first: lines of edges stay short.
+/// region where these have planes of the cell's edges. Loops without holes that fill the cell are
+/// divided by themselves (loop_pieces.h). Else what is far beside all other edges is cut off by
+/// walls first: lines of edges stay short.
 void convexify_within(CellGeometry& geometry, const PlaneTable& planes, const Fragment& cell,
                       const std::vector<BoundaryEdge>& edges,
                       const std::function<uint32_t(int, int64_t)>& wall,

@@ -16,9 +16,9 @@ namespace {
 constexpr int32_t kBoxLimit = 1 << 30;
 constexpr uint32_t kNoVertexPlanes = ~0u;
 
-int32_t clamp_to_box(double v) {
+double clamp_to_box(double v) {
   constexpr double kLimit = kBoxLimit;
-  return static_cast<int32_t>(std::clamp(v, -kLimit, kLimit));
+  return std::clamp(v, -kLimit, kLimit);
 }
 
 /// Remainder of a signed wide integer by a small number, in [0, p).
@@ -48,10 +48,13 @@ Plane support_of(const LeafGeometry& leaf, uint32_t face) {
 }  // namespace
 
 PolygonBox rounded_outwards(const PieceBox& box) {
+  // A whole coordinate may stand for one that is a little less, or more: it goes a step further.
   PolygonBox result{};
   for (size_t k = 0; k < 3; ++k) {
-    result.lo[k] = clamp_to_box(std::floor(std::nextafter(box.lo[k], -HUGE_VAL)));
-    result.hi[k] = clamp_to_box(std::ceil(std::nextafter(box.hi[k], HUGE_VAL)));
+    const double lo = clamp_to_box(box.lo[k]), hi = clamp_to_box(box.hi[k]);
+    const auto whole_lo = static_cast<int32_t>(lo), whole_hi = static_cast<int32_t>(hi);
+    result.lo[k] = std::max(whole_lo - (lo > whole_lo ? 0 : 1), -kBoxLimit);
+    result.hi[k] = std::min(whole_hi + (hi < whole_hi ? 0 : 1), kBoxLimit);
   }
   return result;
 }

@@ -10,7 +10,8 @@ namespace {
 /// Divisions on the way to a cell that did not thin it out before it is taken as it is. All of them
 /// count: each may double the work.
 constexpr int kPatience = 3;
-/// A cell of the grid is not divided for so many times the limit: that costs more than its pairs.
+/// A cell of the grid, or of two operands, is not divided for so many times the limit: that costs
+/// more than its pairs.
 constexpr uint32_t kPatientLimit = 4;
 
 /// A polygon on the way down, with its box at hand.
@@ -139,7 +140,8 @@ class CellFinder {
     if (list.has_one_operand() || list.is_covered) return leave_alone(list.count);
     cell.clip(list.bounds());
     if (cancel_ && cancel_->load(std::memory_order_relaxed)) return;
-    if (list.count <= limit_ || cell.lo == cell.hi) return add_cell(cell, list);
+    const uint32_t limit = list.has_two_operands() ? kPatientLimit * limit_ : limit_;
+    if (list.count <= limit || cell.lo == cell.hi) return add_cell(cell, list);
     const Cut cut = find_cut(cell, list);
     if (!cut.thins_out && ++stalled > kPatience) return add_cell(cell, list);
     const uint32_t end = list.first + list.count;

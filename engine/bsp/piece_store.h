@@ -86,8 +86,7 @@ class PieceStore {
     bool is_known = false, is_cut = false;
   };
   CutPoint& cut_point(uint32_t point) {
-    cut_points_.resize(rounded_.size());
-    return cut_points_[point];
+    return entry(point, rounded_.size(), cut_point_number_, cut_points_);
   }
 
   /// What a piece adds to sums, for the same.
@@ -96,8 +95,7 @@ class PieceStore {
     bool is_known = false;
   };
   PieceSum& piece_sum(uint32_t piece) {
-    piece_sums_.resize(pieces_.size());
-    return piece_sums_[piece];
+    return entry(piece, pieces_.size(), piece_sum_number_, piece_sums_);
   }
 
   /// Room for a number per point, all kNone; whoever takes it leaves it so.
@@ -107,6 +105,18 @@ class PieceStore {
   }
 
  private:
+  /// The entry of thing `i` of so many, of which few have one.
+  template <class T>
+  static T& entry(uint32_t i, size_t count, std::vector<uint32_t>& number,
+                  std::vector<T>& entries) {
+    number.resize(count, kNoNumber);
+    if (number[i] == kNoNumber) {
+      number[i] = static_cast<uint32_t>(entries.size());
+      entries.emplace_back();
+    }
+    return entries[number[i]];
+  }
+
   [[nodiscard]] IVec3 on_grid(uint32_t point) const;
   [[nodiscard]] Plane plane_of_corners(uint32_t piece) const;
 
@@ -119,6 +129,7 @@ class PieceStore {
   std::vector<PieceBox> boxes_;
   std::vector<uint32_t> corners_, edges_;
   std::vector<uint32_t> scratch_;
+  std::vector<uint32_t> cut_point_number_, piece_sum_number_;
   std::vector<CutPoint> cut_points_;
   std::vector<PieceSum> piece_sums_;
   IVec3 origin_{0, 0, 0};

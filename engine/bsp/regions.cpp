@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <tuple>
 
 namespace csgrun {
@@ -15,9 +16,28 @@ int direction_sign(CellGeometry& geometry, const PlaneTable& planes, PlaneId sup
   return geometry.compare_along(e.to, e.from, line.axis) * line.sign;
 }
 
+/// The sign of det(n, p, q) of the normals; 0 where doubles do not tell.
+int turn_by_doubles(const PlaneTable& planes, PlaneId support, uint32_t p_plane, uint32_t q_plane) {
+  const auto &n = planes.approximate(support.index()), &p = planes.approximate(p_plane),
+             &q = planes.approximate(q_plane);
+  double determinant = 0, size = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const double u = n[k] * (p[i] * q[j]), v = n[k] * (p[j] * q[i]);
+    determinant += u - v;
+    size += std::fabs(u) + std::fabs(v);
+  }
+  // Less than ten roundings of no more than the sum of the sizes.
+  if (std::fabs(determinant) <= 0x1p-48 * size) return 0;
+  return (determinant > 0) != support.flipped() ? 1 : -1;
+}
+
 /// The turn between the directions sign_a n x t_a and sign_b n x t_b: the sign of det(n, t_a, t_b).
 int turn(const PlaneTable& planes, PlaneId support, uint32_t plane_a, int sign_a, uint32_t plane_b,
          int sign_b) {
+  if (const int quick = turn_by_doubles(planes, support, plane_a, plane_b)) {
+    return quick * sign_a * sign_b;
+  }
   const Plane n = planes.oriented(support);
   const Plane &p = planes.plane(plane_a), &q = planes.plane(plane_b);
   using N = Int<2>;

@@ -7,11 +7,6 @@
 #include "engine/exact/predicates.h"
 
 namespace csgrun {
-namespace {
-
-double to_double(Int128 v) { return static_cast<double>(v); }
-
-}  // namespace
 
 bool bounds_convex(const BoundaryMesh& mesh) {
   std::vector<PlaneId> planes;

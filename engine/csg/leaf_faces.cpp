@@ -144,30 +144,33 @@ std::vector<Triangle> bulging_triangles(const std::vector<IVec3>& vertices, cons
   return {{quad[1], quad[2], quad[3]}, {quad[1], quad[3], quad[0]}};
 }
 
-std::vector<Triangle> triangulate(const std::vector<IVec3>& vertices, const LoopFace& face,
-                                  bool prefer_convex) {
+std::vector<Triangle> triangles_of(const std::vector<IVec3>& vertices, const LoopFace& face,
+                                   bool prefer_convex) {
   Vec128 normal{};
   for (const Loop& loop : face.loops) {
     const Vec128 n = loop_normal(vertices, loop);
     for (int k = 0; k < 3; ++k) normal[k] += n[k];
   }
-  if (!is_zero(normal)) {
-    const int best = dominant_axis(normal);
-    for (int turn = 0; turn < 3; ++turn) {
-      const int axis = (best + turn) % 3;
-      if (normal[axis] == 0) continue;
-      const ProjectedOracle oracle(vertices, axis, normal[axis] > 0);
-      if (prefer_convex && face.loops.size() == 1 && face.loops[0].size() == 4 &&
-          oracle.is_convex(face.loops[0])) {
-        auto triangles = bulging_triangles(vertices, face.loops[0]);
-        if (!triangles.empty()) return triangles;
-      }
-      const auto result = triangulate_face(face.loops, oracle);
-      if (result && covers(*result, face.loops)) return *result;
+  if (is_zero(normal)) return {};
+  const int best = dominant_axis(normal);
+  for (int turn = 0; turn < 3; ++turn) {
+    const int axis = (best + turn) % 3;
+    if (normal[axis] == 0) continue;
+    const ProjectedOracle oracle(vertices, axis, normal[axis] > 0);
+    if (prefer_convex && face.loops.size() == 1 && face.loops[0].size() == 4 &&
+        oracle.is_convex(face.loops[0])) {
+      auto triangles = bulging_triangles(vertices, face.loops[0]);
+      if (!triangles.empty()) return triangles;
     }
+    auto result = triangulate_face(face.loops, oracle);
+    if (result && covers(*result, face.loops)) return std::move(*result);
   }
-  // No projection shows simple loops: fans keep the surface closed, and the test for
-  // self-intersections tells whether it is still a solid.
+  return {};
+}
+
+/// They keep the surface closed, and the test for self-intersections tells whether it is still a
+/// solid.
+std::vector<Triangle> fans_of(const LoopFace& face) {
   std::vector<Triangle> fans;
   for (const Loop& loop : face.loops) {
     for (size_t i = 1; i + 1 < loop.size(); ++i) fans.push_back({loop[0], loop[i], loop[i + 1]});
@@ -224,10 +227,14 @@ bool is_convex_polygon(const std::vector<IVec3>& vertices, Corners loop) {
          lies_in(plane, vertices, loop) && is_planar_convex(vertices, loop);
 }
 
-void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, bool merged,
+std::vector<Triangle> triangulate(const std::vector<IVec3>& vertices, const LoopFace& face) {
+  return triangles_of(vertices, face, false);
+}
+
+bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, bool merged,
                        std::vector<LoopFace>& faces) {
   // `flat`: a loop that touches itself may leave triangles without area, in a plane too.
-  bool collapsed = false, bent = false, flat = false;
+  bool collapsed = false, bent = false, flat = false, simple = true;
   for (LoopFace& face : faces) {
     for (Loop& loop : face.loops) {
       const size_t before = loop.size();
@@ -247,7 +254,12 @@ void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, b
       continue;
     }
     bent |= !planar;
-    for (const Triangle& t : triangulate(vertices, face, prefer_convex && !planar)) {
+    auto triangles = triangles_of(vertices, face, prefer_convex && !planar);
+    if (triangles.empty()) {
+      simple = false;
+      triangles = fans_of(face);
+    }
+    for (const Triangle& t : triangles) {
       LoopFace piece{{{t[0], t[1], t[2]}}, face.facet, face.surface, face.appearance};
       flat |= is_collinear(vertices, piece.loops[0]);
       result.push_back(std::move(piece));
@@ -260,6 +272,7 @@ void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, b
     collapsed |= drop_collinear_loops(vertices, faces);
   }
   if (merged || collapsed) cancel_opposite_faces(faces);
+  return simple;
 }
 
 }  // namespace csgrun

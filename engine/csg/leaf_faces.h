@@ -16,9 +16,16 @@ namespace csgrun {
 /// Directed edges stay balanced: a face that collapses to a segment goes by splitting the edges
 /// of its neighbours at its inner vertices. Diagonals lie inside faces. `prefer_convex` chooses the
 /// diagonal of a bent quadrilateral that bulges outwards; `merged` says that points became one
-/// vertex, so that faces may lie on each other's back.
-void make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, bool merged,
+/// vertex, so that faces may lie on each other's back. False when the loops of a face cross in
+/// every projection: it became fans, which keep the surface closed but may lie far outside the
+/// face.
+bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, bool merged,
                        std::vector<LoopFace>& faces);
+
+/// Triangles over the corners of a face, with its loops as their boundary; none when the loops
+/// cross in every projection along an axis.
+std::vector<std::array<uint32_t, 3>> triangulate(const std::vector<IVec3>& vertices,
+                                                 const LoopFace& face);
 
 /// Whether a loop lies in a plane, turns left or goes straight everywhere as seen from its front,
 /// and goes around once.

@@ -50,7 +50,10 @@ std::string describe_tangle(const QuantisedLeaf& leaf, const LeafRounding& round
     shown[i] = (place[i] + static_cast<double>(leaf.origin[i])) * step_mm;
     if (!rounding.in_world) shown[i] = (shown[i] - rounding.offset[i]) / rounding.scale[i];
   }
-  return "crosses itself: " + std::to_string(crossings.size()) +
+  const std::string when = leaf.prepared->by_rounding
+                               ? " once rounded to the grid of " + shortest_number(step_mm) + " mm"
+                               : "";
+  return "crosses itself" + when + ": " + std::to_string(crossings.size()) +
          (crossings.size() == 1 ? " pair" : " pairs") + " of faces, the first near " +
          rough_place_text(shown) + " mm" + (rounding.in_world ? "" : " of its own coordinates");
 }

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
 #include "engine/csg/convex_hull.h"
 #include "engine/csg/convex_leaf.h"
+#include "engine/csg/fine_triangles.h"
 #include "engine/csg/flat_sides.h"
 #include "engine/csg/leaf_faces.h"
 #include "engine/mesh/convex_surface.h"
@@ -35,34 +37,47 @@ struct Merged {
   bool any = false;  // points became one
 };
 
+/// `triangles`, if there are any, take the places of faces (see fine_triangles).
 Merged merge_points(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
-                    const std::vector<uint32_t>& appearance) {
+                    const std::vector<uint32_t>& appearance,
+                    std::span<const std::vector<std::array<uint32_t, 3>>> triangles = {}) {
   constexpr uint32_t kNone = UINT32_MAX;
   Merged result;
   std::unordered_map<IVec3, uint32_t, PointHash> vertex_at;
   vertex_at.reserve(points.size());
   std::vector<uint32_t> vertex_of(points.size(), kNone);
   result.faces.reserve(mesh.face_count());
+  const auto merged_loop = [&](std::span<const uint32_t> corners) {
+    std::vector<uint32_t> loop;
+    for (const uint32_t point : corners) {
+      if (vertex_of[point] == kNone) {
+        const auto [found, is_new] =
+            vertex_at.try_emplace(points[point], static_cast<uint32_t>(result.vertices.size()));
+        if (is_new) result.vertices.push_back(points[point]);
+        result.any |= !is_new;
+        vertex_of[point] = found->second;
+      }
+      loop.push_back(vertex_of[point]);
+    }
+    if (turn) std::reverse(loop.begin(), loop.end());
+    return loop;
+  };
   for (size_t f = 0; f < mesh.face_count(); ++f) {
     LoopFace face;
     face.facet = mesh.keep_facets ? static_cast<uint32_t>(f) + 1 : 0;
     face.surface = mesh.surface.empty() ? 0 : mesh.surface[f];
     face.appearance = appearance[f];
-    for (uint32_t l = mesh.face_starts[f]; l < mesh.face_starts[f + 1]; ++l) {
-      std::vector<uint32_t> loop;
-      for (uint32_t c = mesh.loop_starts[l]; c < mesh.loop_starts[l + 1]; ++c) {
-        const uint32_t point = mesh.corners[c];
-        if (vertex_of[point] == kNone) {
-          const auto [found, is_new] =
-              vertex_at.try_emplace(points[point], static_cast<uint32_t>(result.vertices.size()));
-          if (is_new) result.vertices.push_back(points[point]);
-          result.any |= !is_new;
-          vertex_of[point] = found->second;
-        }
-        loop.push_back(vertex_of[point]);
+    if (!triangles.empty() && !triangles[f].empty()) {
+      for (const auto& triangle : triangles[f]) {
+        result.faces.push_back(face);
+        result.faces.back().loops.push_back(merged_loop(triangle));
       }
-      if (turn) std::reverse(loop.begin(), loop.end());
-      face.loops.push_back(std::move(loop));
+      continue;
+    }
+    for (uint32_t l = mesh.face_starts[f]; l < mesh.face_starts[f + 1]; ++l) {
+      face.loops.push_back(merged_loop(
+          std::span(mesh.corners)
+              .subspan(mesh.loop_starts[l], mesh.loop_starts[l + 1] - mesh.loop_starts[l])));
     }
     result.faces.push_back(std::move(face));
   }
@@ -202,12 +217,18 @@ PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& poi
     }
   }
   Merged merged = merge_points(mesh, points, turn, appearance);
-  make_convex_faces(merged.vertices, mesh.convex, merged.any, merged.faces);
+  bool by_rounding = false;
+  if (!make_convex_faces(merged.vertices, mesh.convex, merged.any, merged.faces)) {
+    merged = merge_points(mesh, points, turn, appearance, fine_triangles(mesh));
+    by_rounding = make_convex_faces(merged.vertices, mesh.convex, merged.any, merged.faces);
+  }
   LeafGeometry leaf = pack(merged.vertices, merged.faces);
   if (leaf.face_count() == 0) return {};
   EdgePairing pairing = pair_edges(leaf);
   const GridBox box = box_of_points(leaf.vertices);
-  return examine(std::move(leaf), std::move(pairing), box, mesh.convex);
+  PreparedLeaf prepared = examine(std::move(leaf), std::move(pairing), box, mesh.convex);
+  prepared.by_rounding = by_rounding;
+  return prepared;
 }
 
 LeafGeometry permuted(const LeafGeometry& leaf, const SignedPermutation& permutation) {

@@ -48,6 +48,7 @@ struct PreparedLeaf {
   std::shared_ptr<const LeafGeometry> geometry;    ///< when kGood or kTangled
   GridBox box;                                     ///< of the geometry
   std::vector<std::array<uint32_t, 2>> crossings;  ///< see find_self_intersections
+  bool by_rounding = false;  ///< a face's loops cross only since they were rounded
   bool connected = true;  ///< one shell, without edges of more than two faces
 };
 

@@ -49,12 +49,6 @@ UInt128 divisor(const Plane& p) {
   return g;
 }
 
-/// Nearly all fit 64 bits, which convert at once.
-double to_double(Int128 v) {
-  const auto low = static_cast<int64_t>(v);
-  return low == v ? static_cast<double>(low) : static_cast<double>(v);
-}
-
 uint64_t mix(uint64_t h, Int128 v) {
   h ^= static_cast<uint64_t>(v) + 0x9e3779b97f4a7c15ull + (h << 6) + (h >> 2);
   h *= 0xff51afd7ed558ccdull;

@@ -26,6 +26,12 @@ static_assert(widths::limbs(widths::kMaxNormal) <= 2 && widths::limbs(widths::kM
 /// Number of bits of the magnitude.
 int bit_width(Int128 v);
 
+/// The nearest double. Nearly all coefficients fit 64 bits, which convert at once.
+inline double to_double(Int128 v) {
+  const auto low = static_cast<int64_t>(v);
+  return low == v ? static_cast<double>(low) : static_cast<double>(v);
+}
+
 /// A plane's number in its table, with a bit that says on which side the normal points: flip() is
 /// the same plane seen from behind.
 class PlaneId {

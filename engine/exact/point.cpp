@@ -45,6 +45,45 @@ Point cramer(const Plane& p, const Plane& q, const Plane& r) {
   return result;
 }
 
+/// The same where machine integers of 64 bits hold the normals and 128 bits the results, modulo
+/// which sums are taken.
+Point cramer_narrow(const Plane& p, const Plane& q, const Plane& r) {
+  struct Normal {
+    int64_t a, b, c;
+  };
+  struct Cross {
+    UInt128 x, y, z;
+  };
+  const auto normal = [](const Plane& s) {
+    return Normal{static_cast<int64_t>(s.a), static_cast<int64_t>(s.b), static_cast<int64_t>(s.c)};
+  };
+  const auto minor = [](int64_t a, int64_t b, int64_t c, int64_t d) {
+    return static_cast<UInt128>(static_cast<Int128>(a) * d - static_cast<Int128>(b) * c);
+  };
+  const auto cross = [&minor](const Normal& u, const Normal& v) {
+    return Cross{minor(u.b, u.c, v.b, v.c), minor(u.c, u.a, v.c, v.a), minor(u.a, u.b, v.a, v.b)};
+  };
+  const auto times = [](UInt128 u, Int128 v) { return u * static_cast<UInt128>(v); };
+  const Normal pn = normal(p), qn = normal(q), rn = normal(r);
+  const Cross qr = cross(qn, rn), rp = cross(rn, pn), pq = cross(pn, qn);
+  const auto w = static_cast<Int128>(times(qr.x, p.a) + times(qr.y, p.b) + times(qr.z, p.c));
+  assert(w != 0);
+  const auto combine = [&](UInt128 a, UInt128 b, UInt128 c) {
+    const auto sum = static_cast<Int128>(times(a, p.d) + times(b, q.d) + times(c, r.d));
+    return w < 0 ? sum : -sum;
+  };
+  const Int128 x = combine(qr.x, rp.x, pq.x), y = combine(qr.y, rp.y, pq.y),
+               z = combine(qr.z, rp.z, pq.z), whole = w < 0 ? -w : w;
+  Point result;
+  result.x = Coordinate::from_int128(x);
+  result.y = Coordinate::from_int128(y);
+  result.z = Coordinate::from_int128(z);
+  result.w = Coordinate::from_int128(whole);
+  result.xyz_bits = std::max({bit_width(x), bit_width(y), bit_width(z)});
+  result.w_bits = bit_width(whole);
+  return result;
+}
+
 void measure(Point& p) {
   p.xyz_bits = std::max({p.x.bit_width(), p.y.bit_width(), p.z.bit_width()});
   p.w_bits = p.w.bit_width();
@@ -75,14 +114,13 @@ Point intersect(const Plane& p, const Plane& q, const Plane& r) {
       std::max({n0 + n1 + bit_width(r.d), n0 + n2 + bit_width(q.d), n1 + n2 + bit_width(p.d)}) +
       widths::point_xyz(0, 0);
   const int needed = std::max(xyz, n0 + n1 + n2 + widths::point_w(0));
+  if (std::max({n0, n1, n2}) <= 62 && needed < 128) return cramer_narrow(p, q, r);
   Point result;
   // 62 bits of normal: minors of 126 bits fit two limbs, and all fits four.
   static_assert(widths::point_xyz(62, widths::kMaxOffset) < 256 && widths::point_w(62) < 256);
   if (std::max({n0, n1, n2}) > 62) {
     static_assert(widths::kMaxPointXyz < 64 * kPointLimbs);
     result = cramer<2, 4, kPointLimbs>(p, q, r);
-  } else if (needed < 128) {
-    result = cramer<1, 2, 2>(p, q, r);
   } else if (needed < 192) {
     result = cramer<1, 2, 3>(p, q, r);
   } else {

@@ -24,29 +24,32 @@ class Summer {
  public:
   explicit Summer(PieceStore& store) : store_(store) {}
 
-  /// The sums below a node; false when a point is out of range.
-  bool sums(const PieceTree::Node& node, PieceSums& result) {
-    if (!node.has_sums) {
-      PieceSums own;
-      for (const uint32_t p : node.pieces) {
-        PieceStore::PieceSum& piece = store_.piece_sum(p);
-        if (!piece.is_known) {
-          if (!add_piece(p, piece.sums)) return false;
-          piece.is_known = true;
-        }
-        add(piece.sums, own);
+  /// The sums below a node, which keeps them; null when a point is out of range.
+  const PieceSums* sums(const PieceTree::Node& node) {
+    if (node.has_sums) return &node.sums;
+    PieceSums own;
+    Int128 near_sum = 0;  // a few determinants of less than 93 bits
+    for (const uint32_t p : node.pieces) {
+      if (find_near(p)) {
+        near_sum += near_determinant();
+      } else if (const PieceSums* cut = cut_sums(p)) {
+        add(*cut, own);
+      } else {
+        return nullptr;
       }
-      for (const PieceTree::NodePtr& child : node.child) {
-        PieceSums below;
-        if (!child) continue;
-        if (!sums(*child, below)) return false;
-        add(below, own);
-      }
-      node.sums = own;
-      node.has_sums = true;
     }
-    result = node.sums;
-    return true;
+    if (near_sum != 0) {
+      own.six_volumes += Int<6>::from(Int<2>::from_int128(near_sum)).shifted_left(3 * kFraction);
+    }
+    for (const PieceTree::NodePtr& child : node.child) {
+      if (!child) continue;
+      const PieceSums* below = sums(*child);
+      if (!below) return nullptr;
+      add(*below, own);
+    }
+    node.sums = own;
+    node.has_sums = true;
+    return &node.sums;
   }
 
  private:
@@ -57,51 +60,71 @@ class Summer {
     sums.triangles += more.triangles;
   }
 
-  /// A fan from the first corner.
-  bool add_piece(uint32_t piece, PieceSums& out) {
-    const auto corners = store_.corners(piece);
-    bool cut = false, is_near = true;
-    near_.resize(corners.size());
-    for (size_t i = 0; i < corners.size(); ++i)
-      is_near = take_near(corners[i], near_[i]) && is_near;
-    if (is_near) {
-      Int128 sum = 0;
-      for (size_t i = 1; i + 1 < corners.size(); ++i) {
-        const auto n = normal_of(near_[0], near_[i], near_[i + 1]);
-        for (size_t k = 0; k < 3; ++k) sum += static_cast<Int128>(n[k]) * near_[0][k];
+  /// Lists the corners of a piece all of which are whole and near the origin; false for others.
+  bool find_near(uint32_t piece) {
+    near_.clear();
+    for (const uint32_t point : store_.corners(piece)) {
+      if (store_.point_planes(point)[0] != PieceStore::kNoNumber) return false;
+      Near& near = near_.emplace_back();
+      for (size_t k = 0; k < 3; ++k) {
+        near[k] = static_cast<int64_t>(store_.rounded(point)[k]) - store_.origin()[k];
+        if (std::abs(near[k]) >= kNearLimit) return false;
       }
-      out.six_volumes += Int<6>::from(Int<2>::from_int128(sum)).shifted_left(3 * kFraction);
-      return true;
     }
+    return true;
+  }
+
+  /// Of a fan from the first corner.
+  [[nodiscard]] Int128 near_determinant() const {
+    Int128 sum = 0;
+    for (size_t i = 1; i + 1 < near_.size(); ++i) {
+      const auto n = normal_of(near_[0], near_[i], near_[i + 1]);
+      for (size_t k = 0; k < 3; ++k) sum += static_cast<Int128>(n[k]) * near_[0][k];
+    }
+    return sum;
+  }
+
+  /// What another piece adds, which the store keeps; null when a corner is out of range.
+  const PieceSums* cut_sums(uint32_t piece) {
+    PieceStore::PieceSum& known = store_.piece_sum(piece);
+    if (!known.is_known) {
+      if (!find_cut(piece, known.sums)) return nullptr;
+      known.is_known = true;
+    }
+    return &known.sums;
+  }
+
+  /// A fan from the first corner, the normals of which add up before they meet that corner.
+  bool find_cut(uint32_t piece, PieceSums& out) {
+    const auto corners = store_.corners(piece);
+    bool cut = false;
     fixed_.resize(corners.size());
     for (size_t i = 0; i < corners.size(); ++i) {
       if (!take(corners[i], fixed_[i], cut)) return false;
     }
     const Fixed& a = fixed_[0];
+    std::array<Int<4>, 3> normal;
+    double edges = 0;
     for (size_t i = 1; i + 1 < corners.size(); ++i) {
-      const Fixed &b = fixed_[i], &c = fixed_[i + 1];
-      double edges = 0;
+      Fixed b, c;
+      for (size_t k = 0; k < 3; ++k) {
+        b[k] = fixed_[i][k] - a[k];
+        c[k] = fixed_[i + 1][k] - a[k];
+        edges += std::fabs(to_double(b[k])) + std::fabs(to_double(c[k]));
+      }
       for (size_t k = 0; k < 3; ++k) {
         const size_t x = (k + 1) % 3, y = (k + 2) % 3;
-        const Int<4> n =
-            full_product(b[x] - a[x], c[y] - a[y]) - full_product(b[y] - a[y], c[x] - a[x]);
-        out.six_volumes += full_product(n, a[k]);
-        out.twice_area += std::fabs(double_double(n, -2 * kFraction).hi);
-        edges += std::fabs(to_double(b[k] - a[k])) + std::fabs(to_double(c[k] - a[k]));
+        normal[k] += full_product(b[x], c[y]) - full_product(b[y], c[x]);
       }
-      out.edges += std::ldexp(edges, -kFraction);
     }
-    if (cut) out.triangles += corners.size() - 2;
-    return true;
-  }
-
-  /// Whole coordinates near the origin; false for others.
-  bool take_near(uint32_t point, Near& near) const {
-    if (store_.point_planes(point)[0] != PieceStore::kNoNumber) return false;
     for (size_t k = 0; k < 3; ++k) {
-      near[k] = static_cast<int64_t>(store_.rounded(point)[k]) - store_.origin()[k];
-      if (std::abs(near[k]) >= kNearLimit) return false;
+      out.six_volumes += full_product(normal[k], a[k]);
+      // A convex piece's triangles are all on one side: the sum's magnitude is that of magnitudes,
+      // up to digits that were cut, which are bounded with the edges.
+      out.twice_area += std::ldexp(std::fabs(to_double(normal[k])), -2 * kFraction);
     }
+    out.edges += std::ldexp(edges, -kFraction);
+    if (cut) out.triangles += corners.size() - 2;
     return true;
   }
 
@@ -179,8 +202,8 @@ Natural whole_above(double x, int shift) {
 Result<double> pieces_volume(const ResultPieces& pieces, const GridStep& step) {
   const PieceTree::NodePtr& root = pieces.tree.root();
   if (!root) return 0.0;
-  PieceSums sums;
-  if (Summer(*pieces.store).sums(*root, sums)) {
+  if (const PieceSums* known = Summer(*pieces.store).sums(*root)) {
+    const PieceSums& sums = *known;
     double extent = 0;
     for (size_t k = 0; k < 3; ++k) {
       const auto origin = static_cast<double>(pieces.store->origin()[k]);

@@ -227,7 +227,8 @@ class CsgBuilder {
     for (ModelPart& part : *parts) {
       std::string note;
       part.mesh.kind = path;
-      Result<PolygonMesh> mesh = make_solid_mesh(std::move(part.mesh), &note);
+      Result<PolygonMesh> mesh = make_solid_mesh(part.mesh, &note);
+      if (!mesh) mesh = repaired_or(std::move(mesh), std::move(part.mesh), notes);
       if (!mesh) return Error{mesh.error().code, "import: " + mesh.error().message, {}};
       if (!note.empty()) notes.push_back(note);
       solids.push_back(

@@ -33,6 +33,11 @@ void CsgArguments::wrong_type(std::string_view name, const std::string& wanted) 
       ErrorCode::kMalformedFile, call_.name + ": " + std::string(name) + " must be " + wanted, {}};
 }
 
+void CsgArguments::impossible(std::string_view name, const std::string& wanted) {
+  if (error_) return;
+  error_ = invalid_argument(call_.name + ": " + std::string(name) + " must be " + wanted);
+}
+
 double CsgArguments::number(std::string_view name, double otherwise) {
   const CsgValue* value = call_.find(name);
   if (value == nullptr) return otherwise;
@@ -70,7 +75,7 @@ std::vector<std::vector<double>> CsgArguments::rows(std::string_view name, size_
   if (value->kind != Kind::kList) wrong_type(name, "a list");
   for (const CsgValue& row : value->list) {
     if (!is_number_list(row, row_size)) {
-      wrong_type(name, "a list of lists of " + std::to_string(row_size) + " numbers");
+      impossible(name, "a list of lists of " + std::to_string(row_size) + " numbers");
       return {};
     }
     result.push_back(number_list(row));
@@ -86,7 +91,7 @@ std::vector<std::vector<uint32_t>> CsgArguments::index_lists(std::string_view na
   if (value->kind != Kind::kList) wrong_type(name, "a list");
   for (const CsgValue& entry : value->list) {
     if (!is_number_list(entry, entry.list.size())) {
-      wrong_type(name, "a list of lists of numbers");
+      impossible(name, "a list of lists of numbers");
       return {};
     }
     std::vector<uint32_t>& indices = result.emplace_back();
@@ -126,6 +131,15 @@ std::optional<Affine> CsgArguments::matrix() {
   return map;
 }
 
+Result<PolygonMesh> repaired_or(Result<PolygonMesh> refused, PolygonMesh given,
+                                std::vector<std::string>& notes) {
+  std::vector<std::string> steps;
+  Result<PolygonMesh> mesh = repair_solid_mesh(std::move(given), RepairOptions{}, &steps);
+  if (!mesh) return refused;
+  notes.insert(notes.end(), steps.begin(), steps.end());
+  return mesh;
+}
+
 bool is_solid_primitive(std::string_view name) {
   return name == "cube" || name == "sphere" || name == "cylinder" || name == "polyhedron";
 }
@@ -158,6 +172,14 @@ MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>
   std::string note;
   MeshResult mesh = make_polyhedron(points, faces, &note);
   if (!note.empty()) warnings.push_back(note);
+  if (!mesh && mesh.error().code == ErrorCode::kInvalidMesh) {
+    PolygonMesh given;
+    given.kind = "polyhedron";
+    given.points = points;
+    for (const auto& face : faces)
+      given.add_face(std::vector<uint32_t>(face.rbegin(), face.rend()));
+    mesh = repaired_or(std::move(mesh), std::move(given), warnings);
+  }
   // Without the index the rest is hardly a solid: what is to be said is the index.
   if (!mesh && !bad_index.empty()) {
     return Error{mesh.error().code, bad_index + ", and then " + mesh.error().message, {}};

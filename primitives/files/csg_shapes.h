@@ -8,6 +8,7 @@
 
 #include <csgrun/engine/csg_tree.h>
 #include <csgrun/primitives/flat_file.h>
+#include <csgrun/primitives/mesh_file.h>
 #include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/shape_operations.h>
 #include <csgrun/primitives/solids.h>
@@ -42,10 +43,17 @@ class CsgArguments {
 
  private:
   void wrong_type(std::string_view name, const std::string& wanted);
+  /// What OpenSCAD takes, and makes nothing of.
+  void impossible(std::string_view name, const std::string& wanted);
 
   const CsgCall& call_;
   std::optional<Error> error_;
 };
+
+/// What a repair by default makes of a mesh that was refused, with what it did among the notes:
+/// nobody can ask for one in a .csg file. Where it does not help, the refusal.
+Result<PolygonMesh> repaired_or(Result<PolygonMesh> refused, PolygonMesh given,
+                                std::vector<std::string>& notes);
 
 bool is_solid_primitive(std::string_view name);
 bool is_flat_primitive(std::string_view name);

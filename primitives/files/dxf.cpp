@@ -50,10 +50,11 @@ class DxfReader {
       file.notes.push_back(name_ + ": " + kind + " left out (" + std::to_string(count) + ")");
     }
     if (open_chains_ > 0) {
-      file.notes.push_back(name_ + ": " + std::to_string(open_chains_) +
-                           (open_chains_ == 1 ? " line is" : " lines are") +
-                           " not closed and left out; the first begins at (" +
-                           number_text(first_open_.x) + ", " + number_text(first_open_.y) + ")");
+      file.notes.push_back(
+          name_ + ": " + std::to_string(open_chains_) +
+          (open_chains_ == 1 ? " line is not closed, its" : " lines are not closed, their") +
+          " ends were joined; the first begins at (" + number_text(first_open_.x) + ", " +
+          number_text(first_open_.y) + ")");
     }
     return file;
   }
@@ -345,8 +346,9 @@ class DxfReader {
       if (key(line.front()) == key(line.back())) {
         line.pop_back();
         loops.push_back(std::move(line));
-      } else if (open_chains_++ == 0) {
-        first_open_ = line.front();
+      } else {
+        if (open_chains_++ == 0) first_open_ = line.front();
+        loops.push_back(std::move(line));
       }
     }
   }

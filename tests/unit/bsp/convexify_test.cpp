@@ -32,7 +32,14 @@ class Region {
         edges.push_back(planes_.intern(plane(a, b, 0, -(a * p[0] + b * p[1]))).index());
       }
       for (size_t i = 0; i < n; ++i) {
-        points.push_back(geometry_.add_point({support_.index(), edges[(i + n - 1) % n], edges[i]}));
+        uint32_t other = edges[(i + n - 1) % n];
+        if (other == edges[i]) {  // straight on: a plane across the line
+          const bool is_along = loop[i][0] == loop[(i + 1) % n][0];
+          other =
+              planes_.intern(is_along ? plane(0, 1, 0, -loop[i][1]) : plane(1, 0, 0, -loop[i][0]))
+                  .index();
+        }
+        points.push_back(geometry_.add_point({support_.index(), other, edges[i]}));
       }
       for (size_t i = 0; i < n; ++i) {
         const size_t next = (i + 1) % n;
@@ -52,7 +59,19 @@ class Region {
     convexify(geometry_, planes_, support_, edges_, wall, pieces_);
   }
 
+  /// Divides one loop by itself.
+  bool run_loop() { return LoopPieces(geometry_, planes_, support_).add(edges_, pieces_); }
+
   [[nodiscard]] const std::vector<BoundaryEdge>& edges() const { return edges_; }
+  /// Gives corners in one place one point.
+  void join_points() {
+    for (const BoundaryEdge& one : std::vector(edges_)) {
+      for (BoundaryEdge& e : edges_) {
+        if (at(e.from) == at(one.from)) e.from = one.from;
+        if (at(e.to) == at(one.from)) e.to = one.from;
+      }
+    }
+  }
   [[nodiscard]] const std::vector<Fragment>& pieces() const { return pieces_; }
   CellGeometry& geometry() { return geometry_; }
   Rational3 at(uint32_t point) {
@@ -186,6 +205,102 @@ TEST(Convexify, ConvexLoopsStayAsTheyAre) {
     region.run();
     EXPECT_EQ(region.pieces().size(), 2u);
     region.check();
+  }
+}
+
+/// The number of corners that turn right.
+size_t count_reflex(const Loop2& loop) {
+  size_t count = 0;
+  for (size_t i = 0; i < loop.size(); ++i) {
+    const auto &p = loop[i], &q = loop[(i + 1) % loop.size()], &r = loop[(i + 2) % loop.size()];
+    count += (q[0] - p[0]) * (r[1] - q[1]) < (q[1] - p[1]) * (r[0] - q[0]);
+  }
+  return count;
+}
+
+TEST(LoopPieces, FillTheLoopWithAPieceForEachCornerThatTurnsRight) {
+  test::Random random(92);
+  for (int i = 0; i < 90 && !testing::Test::HasFailure(); ++i) {
+    const Loop2 loop = star(random, static_cast<int>(random.integer(4, i % 4 ? 9 : 30)));
+    Region region(i % 3, i / 3 % 2 != 0, {loop});
+    ASSERT_TRUE(region.run_loop());
+    region.check();
+    EXPECT_LE(region.pieces().size(), 1 + count_reflex(loop)) << "case " << i;
+  }
+}
+
+TEST(LoopPieces, LinesThatEndInCorners) {
+  // From the corners of a cross, a comb and stairs on small numbers, lines end in others.
+  const Loop2 cross{{1, 0}, {2, 0}, {2, 1}, {3, 1}, {3, 2}, {2, 2},
+                    {2, 3}, {1, 3}, {1, 2}, {0, 2}, {0, 1}, {1, 1}};
+  const Loop2 comb{{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {5, 1},
+                   {5, 3}, {3, 3}, {3, 1}, {2, 1}, {2, 3}, {0, 3}};
+  const Loop2 stairs{{0, 0}, {4, 0}, {4, 1}, {3, 1}, {3, 2},
+                     {2, 2}, {2, 3}, {1, 3}, {1, 4}, {0, 4}};
+  const Loop2 hourglass{{0, 0}, {6, 0}, {4, 3}, {6, 6}, {0, 6}, {2, 3}};
+  for (const Loop2& loop : {cross, comb, stairs, hourglass}) {
+    for (size_t first = 0; first < loop.size(); ++first) {
+      for (int turn = 0; turn < 6; ++turn) {
+        Loop2 turned = loop;
+        std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(first),
+                    turned.end());
+        Region region(turn % 3, turn / 3 != 0, {turned});
+        ASSERT_TRUE(region.run_loop());
+        region.check();
+        EXPECT_LE(region.pieces().size(), 1 + count_reflex(loop));
+      }
+    }
+  }
+}
+
+TEST(LoopPieces, StraightCornersAreLeftOut) {
+  for (int turn = 0; turn < 6; ++turn) {
+    for (size_t first = 0; first < 6; ++first) {
+      Loop2 loop{{0, 0}, {3, 0}, {7, 0}, {7, 5}, {7, 9}, {0, 9}};
+      std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(first), loop.end());
+      Region region(turn % 3, turn / 3 != 0, {loop});
+      ASSERT_TRUE(region.run_loop());
+      ASSERT_EQ(region.pieces().size(), 1u);
+      EXPECT_EQ(region.pieces()[0].count, 4u);
+      region.check();
+    }
+    // Of two lines in one, the nearer edge ends the one that is drawn on.
+    Region region(
+        turn % 3, turn / 3 != 0,
+        {{{0, 0}, {9, 0}, {9, 2}, {8, 2}, {8, 4}, {6, 4}, {6, 2}, {4, 2}, {4, 5}, {0, 5}}});
+    ASSERT_TRUE(region.run_loop());
+    region.check();
+  }
+}
+
+TEST(LoopPieces, RefusesWhatIsNoOutline) {
+  for (int turn = 0; turn < 6; ++turn) {
+    const Loop2 clockwise{{0, 0}, {0, 4}, {1, 1}, {4, 0}};
+    // One that passes a point twice, and one that goes back where it came from.
+    const Loop2 pinched{{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}, {2, 2}};
+    const Loop2 slit{{0, 0}, {8, 0}, {8, 6}, {4, 6}, {4, 2}, {4, 6}, {0, 6}};
+    for (const Loop2& loop : {clockwise, slit}) {
+      Region region(turn % 3, turn / 3 != 0, {loop});
+      EXPECT_FALSE(region.run_loop());
+      EXPECT_TRUE(region.pieces().empty());
+    }
+    Region region(turn % 3, turn / 3 != 0, {pinched});
+    region.join_points();
+    EXPECT_FALSE(region.run_loop());
+    EXPECT_TRUE(region.pieces().empty());
+  }
+}
+
+TEST(LoopPieces, TurnsTooSmallForDoubles) {
+  // A corner that is off the line by less than a step at coordinates of 26 bits.
+  const int64_t far = int64_t{1} << 25;
+  for (int turn = 0; turn < 6; ++turn) {
+    for (const int64_t off : {-1, 1}) {
+      Region region(turn % 3, turn / 3 != 0,
+                    {{{-far, -far}, {far - 1, -far - 1}, {off, far / 2}, {-far + 1, 2 * far}}});
+      ASSERT_TRUE(region.run_loop());
+      region.check();
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <random>
 
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/csg/leaf_faces.h"
@@ -149,6 +150,51 @@ TEST(PrepareLeaf, BentQuadrilateralsOfAConvexMeshBulgeOutwards) {
   ASSERT_EQ(dented.status, Status::kGood);
   expect_valid(*dented.geometry);
   EXPECT_TRUE(dented.geometry->convex);
+}
+
+// A hole whose corner lies less than a step inside the outline: rounded, it lies outside. The caps
+// must not be covered by anything that lies far from them.
+TEST(PrepareLeaf, LoopsThatCrossByRoundingAreTriangulatedAsTheyWere) {
+  const std::vector<glm::dvec2> outline{{0, 0}, {1000, 7}, {1000, 1000}, {0, 1000}};
+  const std::vector<glm::dvec2> hole{{214, 1.499}, {300, 800}, {700, 600}};
+  PolygonMesh mesh;
+  for (const double z : {0.0, 100.0}) {
+    for (const auto& p : outline) mesh.points.emplace_back(p.x, p.y, z);
+    for (const auto& p : hole) mesh.points.emplace_back(p.x, p.y, z);
+  }
+  const auto add_face = [&](const std::vector<std::vector<uint32_t>>& loops) {
+    for (const auto& loop : loops) {
+      mesh.corners.insert(mesh.corners.end(), loop.begin(), loop.end());
+      mesh.loop_starts.push_back(static_cast<uint32_t>(mesh.corners.size()));
+    }
+    mesh.face_starts.push_back(static_cast<uint32_t>(mesh.loop_starts.size() - 1));
+  };
+  add_face({{3, 2, 1, 0}, {6, 5, 4}});
+  add_face({{7, 8, 9, 10}, {11, 12, 13}});
+  for (uint32_t i = 0; i < 4; ++i) add_face({{i, (i + 1) % 4, (i + 1) % 4 + 7, i + 7}});
+  for (uint32_t i = 4; i < 7; ++i) {
+    const uint32_t next = i < 6 ? i + 1 : 4;
+    add_face({{i, next, next + 7, i + 7}});
+  }
+  const auto leaf = prepare(mesh);
+  ASSERT_EQ(leaf.status, Status::kTangled);
+  EXPECT_TRUE(leaf.by_rounding);
+  EXPECT_LT(leaf.crossings.size(), 30u);
+  double caps = 0;
+  const LeafGeometry& geometry = *leaf.geometry;
+  for (size_t f = 0; f < geometry.face_count(); ++f) {
+    const uint32_t begin = geometry.face_starts[f], end = geometry.face_starts[f + 1];
+    const auto at = [&](uint32_t c) { return geometry.vertices[geometry.corners[c]]; };
+    if (at(begin)[2] != at(begin + 1)[2] || at(begin)[2] != at(begin + 2)[2]) continue;
+    double twice = 0;
+    for (uint32_t c = begin; c < end; ++c) {
+      const IVec3 p = at(c), q = at(c + 1 < end ? c + 1 : begin);
+      twice += static_cast<double>(p[0] * q[1] - p[1] * q[0]);
+    }
+    caps += std::fabs(twice) / 2;
+  }
+  // Twice the outline less the hole, but for slivers of a step along 1000 steps.
+  EXPECT_NEAR(caps, 2 * (1e6 - 3500 - 168300), 3000);
 }
 
 TEST(PrepareLeaf, AFalsePromiseOfConvexityIsNotBelieved) {

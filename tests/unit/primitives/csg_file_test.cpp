@@ -323,6 +323,32 @@ TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
       std::vector<std::string>{"m.csg:1: polyhedron: inside out, its faces were turned over"});
 }
 
+// OpenSCAD draws them, so trees have them; there is no place in a .csg file to ask for a repair.
+TEST(CsgFile, PolyhedraThatAreBrokenButClosedAreRepaired) {
+  const std::string points =
+      "polyhedron(points = [[0, 0, 0], [6, 0, 0], [0, 6, 0], [0, 0, 6], [3, 0, 0]], faces = ";
+  const CsgModel turned = parse(points + "[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 2, 3]]);");
+  EXPECT_EQ(turned.warnings,
+            std::vector<std::string>{"m.csg:1: polyhedron: repair: 1 face was turned to agree with "
+                                     "its neighbours (at (0, 0, 6))"});
+  EXPECT_DOUBLE_EQ(testing::volume(*turned.solid->mesh()), 36);
+  // A face on a line closes what would be a gap.
+  const CsgModel flat =
+      parse(points + "[[0, 1, 2], [0, 3, 4], [4, 3, 1], [0, 4, 1], [0, 2, 3], [1, 3, 2]]);");
+  EXPECT_EQ(flat.warnings, std::vector<std::string>{
+                               "m.csg:1: polyhedron: repair: 1 face without area was dropped (at "
+                               "(6, 0, 0))"});
+  EXPECT_DOUBLE_EQ(testing::volume(*flat.solid->mesh()), 36);
+}
+
+TEST(CsgFile, PointsThatAreNoneMakeNothing) {
+  for (const std::string list : {"[[], []]", "[[[]]]", "[[0, 0], [1, 0], [1]]"}) {
+    EXPECT_EQ(parse("polygon(points = " + list + ", paths = undef);").warnings,
+              std::vector<std::string>{"m.csg:1: polygon: points must be a list of lists of 2 "
+                                       "numbers"});
+  }
+}
+
 TEST(CsgFile, ErrorsHaveTheirLine) {
   EXPECT_EQ(error("group() {\n" + kCube + "\troof() {\n" + kSquare + "}\n}"),
             "m.csg:3: roof() is not supported in .csg files");

@@ -244,7 +244,7 @@ TEST(Dxf, LinesAreJoined) {
   EXPECT_NEAR(open.shape.area(), 100, 1e-2);
   EXPECT_EQ(open.notes,
             std::vector<std::string>{
-                "x.dxf: 1 line is not closed and left out; the first begins at (20, 0)"});
+                "x.dxf: 1 line is not closed, its ends were joined; the first begins at (20, 0)"});
   // A quarter of a disc of two lines and an arc.
   const std::string arc =
       pairs({{0, "ARC"}, {10, "0"}, {20, "0"}, {40, "5"}, {50, "0"}, {51, "90"}});
