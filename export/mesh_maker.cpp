@@ -1,6 +1,9 @@
 #include "export/mesh_maker.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
 
 #include "export/defects.h"
 #include "export/repair.h"
@@ -27,6 +30,31 @@ void drop_bent_outlines(RoundedMesh& mesh) {
           return orient(p[outline[0]], p[outline[1]], p[outline[third]], p[v]) == 0;
         });
     if (!flat) outline.clear();
+  }
+}
+
+/// Leaves out the outlines that triangles around their first corner do not fill: many readers cut
+/// polygons so, whatever their outline, and would draw what is not there.
+void drop_concave_outlines(RoundedMesh& mesh) {
+  const auto& p = mesh.positions;
+  for (auto& outline : mesh.outlines) {
+    if (outline.size() <= 3) continue;
+    // Seen along the axis that it faces most, all these triangles look the same way.
+    glm::dvec3 normal(0);
+    for (size_t k = 2; k < outline.size(); ++k)
+      normal += glm::cross(p[outline[k - 1]] - p[outline[0]], p[outline[k]] - p[outline[0]]);
+    int axis = 0;
+    for (const int other : {1, 2}) {
+      if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
+    }
+    int least = 0, greatest = 0;
+    for (size_t k = 2; k < outline.size(); ++k) {
+      const int sign = orient_along(axis, p[outline[0]], p[outline[k - 1]], p[outline[k]]);
+      least = std::min(least, sign);
+      greatest = std::max(greatest, sign);
+    }
+    const bool fills = (least < 0) != (greatest > 0);
+    if (!fills) outline.clear();
   }
 }
 
@@ -79,6 +107,7 @@ Result<RoundedMesh> MeshMaker::make(const Part& part, const Affine& placement, P
     drop_bent_outlines(*mesh);
     report_.checks.push_back(std::move(check));
   }
+  if (with_outlines) drop_concave_outlines(*mesh);
   totals_.add(*mesh, part.name);
   return mesh;
 }

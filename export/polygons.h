@@ -1,5 +1,5 @@
 // Polygons of a rounded mesh for formats that can hold them: outlines of faces where they can stand
-// for their triangles, triangles elsewhere.
+// for their triangles (flat, without holes, not concave), triangles elsewhere.
 #pragma once
 
 #include <span>

@@ -148,6 +148,7 @@ std::vector<BindingGroup> binding_groups() {
       {"Sweeps", "Solid", sweep_bindings()},
       {"Hulls and sums", "same", construction_bindings()},
       {"Sections and parts", "Solid", section_bindings()},
+      {"Edges", "Solid", edge_bindings()},
       {"Free forms", "Solid", surface_bindings()},
       {"Transforms", "same", transform_bindings()},
       {"Places and copies", "same", array_bindings()},

@@ -30,6 +30,7 @@ std::span<const Binding> shape_bindings();
 std::span<const Binding> outline_bindings();
 std::span<const Binding> construction_bindings();
 std::span<const Binding> section_bindings();
+std::span<const Binding> edge_bindings();
 std::span<const Binding> surface_bindings();
 std::span<const Binding> text_bindings();
 std::span<const Binding> sweep_bindings();

@@ -209,6 +209,9 @@ void append_definition(std::string& text, const Binding& binding, const char* ow
 std::string result_of(const Binding& binding, const BindingGroup& group, const char* owner) {
   static const std::map<std::string, std::string> kResults = {
       {"bbox", "{min: number[], max: number[]}"},
+      {"edges",
+       "{from: number[], to: number[], length: number, turn: number, convex: boolean, normals: "
+       "number[][]}[]"},
       {"size", "number[]"},
       {"centroid", "number[]"},
       {"components", "integer"},

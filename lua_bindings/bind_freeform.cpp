@@ -233,7 +233,19 @@ glm::dvec3 bound(lua_State* L, int index, const char* name, int place) {
   return p;
 }
 
+/// levelset(f, part:bbox()): a box at the end is the bounds, not a table of options.
+void tell_box_from_options(lua_State* L) {
+  if (lua_gettop(L) != 2 || !lua_istable(L, 2)) return;
+  for (const char* name : {"min", "max"}) {
+    const bool is_there = lua_getfield(L, 2, name) != LUA_TNIL;
+    lua_pop(L, 1);
+    if (!is_there) return;
+  }
+  lua_newtable(L);  // no options
+}
+
 int levelset(lua_State* L) {
+  tell_box_from_options(L);
   const Arguments arguments(L, kLevelset, 1);
   const int function = function_argument(L, arguments, kLevelset, "f");
   const int bounds = arguments.stack_index("bounds");

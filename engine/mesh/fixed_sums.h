@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -35,6 +36,34 @@ inline const Int<kPointLimbs>& coordinate(const Point& p, int axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
+/// floor(m * 2^64 / w) for w below 2^127, if the quotient's whole part fits 64 bits; `whole` says
+/// whether nothing is left. Knuth's algorithm D with one digit after the point.
+inline Int<2> narrow_quotient(UInt128 m, UInt128 w, bool& whole) {
+  const UInt128 whole_part = m / w;
+  UInt128 rest = m - whole_part * w;
+  const auto high = static_cast<uint64_t>(w >> 64);
+  const int lift =
+      high != 0 ? std::countl_zero(high) : 64 + std::countl_zero(static_cast<uint64_t>(w));
+  rest <<= lift;
+  const UInt128 divisor = w << lift;
+  const auto first = static_cast<uint64_t>(divisor >> 64), second = static_cast<uint64_t>(divisor);
+  // A digit by the divisor's first limb is too large by two at most; the second says by how much.
+  uint64_t digit = ~uint64_t{0};
+  UInt128 left = rest - static_cast<UInt128>(digit) * first;
+  if (static_cast<uint64_t>(rest >> 64) < first) {
+    digit = static_cast<uint64_t>(rest / first);
+    left = rest - static_cast<UInt128>(digit) * first;
+  }
+  while ((left >> 64) == 0 && static_cast<UInt128>(digit) * second > (left << 64)) {
+    --digit;
+    left += first;
+  }
+  whole = (left << 64) == static_cast<UInt128>(digit) * second;
+  Int<2> result;
+  result.limb = {digit, static_cast<uint64_t>(whole_part)};
+  return result;
+}
+
 /// Whether x is w * 2^(64 K) times less than 2^kCoordinateBits, and then floor(x * 2^(64 K) / w);
 /// `cut` is set when the quotient was not whole.
 template <int K>
@@ -42,7 +71,20 @@ bool fixed_point(const Int<kPointLimbs>& x, const Int<kPointLimbs>& w, Int<K + 1
                  bool& cut) {
   const int w_bits = w.bit_width();
   const Int<kPointLimbs> m = x.magnitude();
-  if (m.bit_width() - w_bits >= kCoordinateBits - 1) return false;
+  const int m_bits = m.bit_width();
+  if (m_bits - w_bits >= kCoordinateBits - 1) return false;
+  if constexpr (K == 1) {
+    if (std::max(m_bits, w_bits) < 127) {
+      const auto low = [](const Int<kPointLimbs>& v) {
+        return static_cast<UInt128>(v.limb[1]) << 64 | v.limb[0];
+      };
+      bool whole = true;
+      result = narrow_quotient(low(m), low(w), whole);
+      if (x.negative()) result = whole ? -result : -result - Int<2>(1);
+      cut = cut || !whole;
+      return true;
+    }
+  }
   const int lift = (64 - w_bits % 64) % 64;
   const auto n = static_cast<size_t>((w_bits + 63) / 64);
   const Int<kPointLimbs + 1> divisor = Int<kPointLimbs + 1>::from(w).shifted_left(lift);

@@ -901,6 +901,81 @@ function Solid:decompose() end
 ---@return any[]
 function Shape:decompose() end
 
+---@class (exact) csgrun.chamfer
+---@field [integer] any
+---@field distance? number from the edge, on both faces, in mm
+---@field edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+
+---The solid with edges cut off flat. Where all three edges of a corner are cut, so is it.
+---
+---Example: `cube(10):chamfer(1.5, {edges = "top"})`
+---@param solid any the solid; as a method, solid:f(...), it is left out
+---@param distance? number from the edge, on both faces, in mm
+---@param edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+---@param options? csgrun.chamfer
+---@return Solid
+function chamfer(solid, distance, edges, options) end
+csg.chamfer = chamfer
+
+---The solid with edges cut off flat. Where all three edges of a corner are cut, so is it.
+---
+---Example: `cube(10):chamfer(1.5, {edges = "top"})`
+---@overload fun(self: Solid, options: csgrun.chamfer): Solid
+---@param distance? number from the edge, on both faces, in mm
+---@param edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+---@param options? csgrun.chamfer
+---@return Solid
+function Solid:chamfer(distance, edges, options) end
+
+---@class (exact) csgrun.fillet
+---@field [integer] any
+---@field r? number radius, in mm
+---@field radius? number the same as r
+---@field edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+---@field fn? number number of facets of a full turn; 0: from fa and fs
+---@field segments? number the same as fn
+---@field fa? number smallest angle of a facet, degrees, at least 0.01
+---@field fs? number smallest length of a facet, mm, at least 0.01
+
+---The solid with edges rounded off. Where all three edges of a corner are rounded, so is it, by a ball.
+---
+---Example: `cube(10):fillet(2, {edges = "z", fn = 32})`
+---@param solid any the solid; as a method, solid:f(...), it is left out
+---@param r? number radius, in mm
+---@param edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+---@param options? csgrun.fillet
+---@return Solid
+function fillet(solid, r, edges, options) end
+csg.fillet = fillet
+
+---The solid with edges rounded off. Where all three edges of a corner are rounded, so is it, by a ball.
+---
+---Example: `cube(10):fillet(2, {edges = "z", fn = 32})`
+---@overload fun(self: Solid, options: csgrun.fillet): Solid
+---@param r? number radius, in mm
+---@param edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+---@param options? csgrun.fillet
+---@return Solid
+function Solid:fillet(r, edges, options) end
+
+---@class (exact) csgrun.edges
+---@field [integer] any
+---@field on? any edges of the faces that look this way and lie farthest that way: "top", "bottom", "left", "right", "front", "back", or a vector
+---@field along? any their direction, either way: "x", "y", "z" or a vector
+---@field near? number[] the one that is nearest to a point
+---@field normal? number[] edges of faces that look this way, as faces() has it
+---@field through? number[] edges of faces in a plane through this point
+---@field turn? number the least angle between their two faces' normals, in degrees
+
+---Its straight edges between flat faces, each {from, to, length, turn, convex, normals}. Those between facets of one round surface, or of fillets, are left out.
+---
+---Example: `#part:edges{along = "z"}`
+---@overload fun(self: Solid, options: csgrun.edges): {from: number[], to: number[], length: number, turn: number, convex: boolean, normals: number[][]}[]
+---@param on? any edges of the faces that look this way and lie farthest that way: "top", "bottom", "left", "right", "front", "back", or a vector
+---@param options? csgrun.edges
+---@return {from: number[], to: number[], length: number, turn: number, convex: boolean, normals: number[][]}[]
+function Solid:edges(on, options) end
+
 ---@class (exact) csgrun.surface
 ---@field [integer] any
 ---@field file? string a PNG, or a text of numbers with one row a line

@@ -30,12 +30,18 @@ glm::dvec3 direction_of(const std::vector<glm::dvec3>& path, size_t i) {
   return way / length_of(way);
 }
 
-/// The path with more points, so that a twist turns in small steps.
-std::vector<glm::dvec3> divided(const std::vector<glm::dvec3>& path, const SweepOptions& o) {
+/// The path with more points, so that a twist turns in steps as small as those of a circle through
+/// the farthest point of the shape.
+std::vector<glm::dvec3> divided(const std::vector<glm::dvec3>& path, const Shape2D& shape,
+                                const SweepOptions& o) {
   const size_t n = path.size(), pieces = o.closed ? n : n - 1;
   double total = 0;
   for (size_t i = 0; i < pieces; ++i) total += length_of(path[(i + 1) % n] - path[i]);
-  const double step = o.facets.fn > 0 ? 360 / o.facets.fn : std::max(o.facets.fa, 0.01);
+  double radius = 0;
+  for (const Shape2D::Loop& loop : shape.loops()) {
+    for (const glm::dvec2& p : loop) radius = std::max(radius, std::sqrt(glm::dot(p, p)));
+  }
+  const double step = 360.0 / o.facets.fragments(radius);
   std::vector<glm::dvec3> result;
   for (size_t i = 0; i < pieces; ++i) {
     const glm::dvec3 a = path[i], way = path[(i + 1) % n] - a;
@@ -254,7 +260,7 @@ MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
                             " different points, got " + std::to_string(path.size()));
   }
   if (auto error = check_turns(path, options.closed)) return *error;
-  if (options.twist != 0) path = divided(path, options);
+  if (options.twist != 0) path = divided(path, shape, options);
   const size_t pieces = options.closed ? path.size() : path.size() - 1;
   size_t outline = 0;
   for (const Shape2D::Loop& loop : shape.loops()) outline += loop.size();

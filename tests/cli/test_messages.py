@@ -4,14 +4,15 @@ A message has the place, the function, the argument and what was expected. Whate
 tried here without being named; only what a function cannot do without stands in NEEDS.
 """
 import json
+import os
 import re
 import subprocess
 
-from support import CSGRUN, Case, main
+from support import CSGRUN, SOURCE, Case, main
 
 # What must be given, besides the subject.
 NEEDS = {
-    "anchor": {}, "attach": {"to": "cube(3)"}, "color": {"c": '"red"'}, "setcolor": {"c": '"red"'},
+    "anchor": {}, "attach": {"to": "cube(3)"}, "chamfer": {"distance": "0.1"}, "fillet": {"r": "0.1"}, "color": {"c": '"red"'}, "setcolor": {"c": '"red"'},
     "contains": {"p": "{1, 1, 1}"}, "cross": {"a": "{1, 0, 0}", "b": "{0, 1, 0}"},
     "gap": {"other": "cube(1):right(9)"}, "grid_array": {"n": "{2, 2}", "step": "{9, 9}"},
     "import": {"file": '"a.off"'}, "levelset": {"f": "ball", "bounds": "{{-3, -3, -3}, {3, 3, 3}}"},
@@ -68,6 +69,8 @@ WRONG_VALUES = {  # of what a function looks at itself
     "outlines": ["5", "{}", "{square(1)}", "{cube(1), cube(2)}"], "heights": ['"x"', "{}", '{"a", "b"}', "{1}"],
     "f": ["5", '"x"'], "bounds": ["5", "{}", "{{1, 2, 3}}", "{{0, 0}, {1, 1}}"], "to": ["5", '"x"', "{}", "{1}"],
     "other": ["5", "square(1)", "{}"], "choices": ["5", "{}", '{"a"}'], "default": ["cube(1)", "print", '{"a"}'],
+    "edges": ["5", '"up"', "true", '{"x", 5}', "{{}}"], "on": ["5", '"x"', "{1, 2}", "{1, 2, true}"],
+    "along": ["5", '"top"', "{1, 2}", "{0, 0, 1/0}"],
     "repair": ["5", '"x"', "{weeld = 1}", "{weld = -1}", '{orient = "yes"}'],
 }
 NUMBERS = ("a number", "a whole number")
@@ -153,6 +156,13 @@ class Messages(Case):
     def each(self):
         return [f for f in self.functions if f["name"] not in OPEN]
 
+    def test_every_option_is_shown_by_what_it_changes(self):
+        outcome = self.run_csgrun(os.path.join(SOURCE, "tests/conformance/options.lua"), "-q", "--stats")
+        self.expect(outcome, 0)
+        shown = {line[6:] for line in outcome.err.split("\n") if line.startswith("SHOWN ")}
+        options = {f"{function['name']}.{option['name']}" for function in self.functions for option in function["options"]}
+        self.assertEqual(shown, options)
+
     def test_what_is_needed_is_enough(self):
         for function in self.each():
             if function["options"]:
@@ -181,12 +191,12 @@ class Messages(Case):
                 elif name in ("faces", "paths"):
                     said = rf"'{name}'|{name[:-1]} \d+"
                 else:
-                    said = rf"'{name}'|(outline|height|row|choice) \d+|as many heights|default of '|option 'repair'|no colour"
+                    said = rf"'{name}'|(outline|height|row|choice) \d+|as many heights|default of '|option 'repair'|no colour|no edge"
                 for value in wrong:
                     if (function["name"], name, value) in (("resize", "newsize", "{1, 2}"),):
                         continue
                     self.try_call("wrong type", self.call(function, **{name: value}), rf"^{function['name']}: ", said,
-                                  r"must |needs? |there is no colour|unknown option|there are \d+ points")
+                                  r"must |needs? |no edge of it is meant|there is no colour|unknown option|there are \d+ points")
         self.run_cases()
 
     def test_numbers_that_are_none(self):
@@ -223,7 +233,7 @@ class Messages(Case):
     def test_vectors_of_nothing_and_less(self):
         refused = {("polar_array", "axis"), ("mirror_copy", "v"), ("linear_array", "v"), ("split", "normal"),
                    ("trim", "normal"), ("faces", "normal"), ("ray", "direction"), ("linear_extrude", "v"), ("scale", "v"),
-                   ("grid_array", "step"), ("grid_array", "n"), ("sweep", "up")}
+                   ("grid_array", "step"), ("grid_array", "n"), ("sweep", "up"), ("edges", "normal")}
         for function in self.each():
             for option in function["options"]:
                 if not VECTORS.search(option["takes"]):

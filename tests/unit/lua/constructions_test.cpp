@@ -52,6 +52,70 @@ TEST(Sections, Mistakes) {
             "model.lua:1: decompose: takes no arguments");
 }
 
+TEST(Edges, Mistakes) {
+  EXPECT_EQ(message_of("return cube(1):chamfer()"), "model.lua:1: chamfer: needs a distance");
+  EXPECT_EQ(message_of("return cube(1):fillet()"), "model.lua:1: fillet: needs a radius");
+  EXPECT_EQ(message_of("return cube(1):chamfer(0)"),
+            "model.lua:1: chamfer: option 'distance' must be positive, got 0");
+  EXPECT_EQ(message_of("return cube(1):fillet(-1)"),
+            "model.lua:1: fillet: option 'r' must be positive, got -1");
+  EXPECT_EQ(message_of("return cube(1):chamfer(1/0)"),
+            "model.lua:1: chamfer: option 'distance' must be finite, got inf");
+  EXPECT_EQ(message_of("return cube(1):fillet('a')"),
+            "model.lua:1: fillet: option 'r' must be a number, got string");
+  EXPECT_EQ(message_of("return cube(1):fillet{r = 0.1, edge = 'z'}"),
+            "model.lua:1: fillet: unknown option 'edge' (did you mean 'edges'?)");
+  EXPECT_EQ(message_of("return cube(1):chamfer(0.1, 'up')"),
+            "model.lua:1: chamfer: option 'edges' must be \"all\", \"x\", \"y\", \"z\", \"top\", "
+            "\"bottom\", \"left\", \"right\", \"front\" or \"back\", got \"up\"");
+  EXPECT_EQ(message_of("return cube(1):chamfer(0.1, 7)"),
+            "model.lua:1: chamfer: option 'edges' must be a name, a table, a list or a function, "
+            "got 7");
+  EXPECT_EQ(message_of("return cube(1):chamfer(0.1, {edges = {alon = 'z'}})"),
+            "model.lua:1: chamfer: unknown option 'alon' (did you mean 'along'?)");
+  EXPECT_EQ(message_of("return cube(1):edges{along = 'q'}"),
+            "model.lua:1: edges: option 'along' must be \"x\", \"y\", \"z\" or a list of three "
+            "numbers, got \"q\"");
+  EXPECT_EQ(message_of("return cube(1):edges{on = {1, 2}}"),
+            "model.lua:1: edges: option 'on' must be \"top\", \"bottom\", \"left\", \"right\", "
+            "\"front\", \"back\" or a list of three numbers, got a list of 2 values");
+  EXPECT_EQ(message_of("return cube(1):edges{normal = {0, 0, 0}}"),
+            "model.lua:1: edges: option 'normal' must not be 0");
+  EXPECT_EQ(message_of("return cube(1):edges{turn = -1}"),
+            "model.lua:1: edges: option 'turn' must not be negative, got -1");
+  EXPECT_EQ(message_of("return cube(1):edges{through = 1}"),
+            "model.lua:1: edges: option 'through' must be a list of three numbers, got the number "
+            "1");
+  EXPECT_EQ(message_of("return cube(10):chamfer(6)"),
+            "model.lua:1: chamfer: 6 is too much for the edge from {0, 0, 0} to {0, 0, 10}: 5 "
+            "fits");
+  EXPECT_EQ(message_of("return cube(20, 20, 3):fillet(4, 'top')"),
+            "model.lua:1: fillet: 4 is too much for the edge from {0, 0, 3} to {0, 20, 3}: 3 "
+            "fits");
+  // Beyond a hole.
+  EXPECT_EQ(message_of("return (cube(20, 20, 9) - cube(8, 8, 30):translate(2, 6, -1)):chamfer(3, "
+                       "{edges = {near = {0, 10, 9}}})"),
+            "model.lua:1: chamfer: 3 is too much for the edge from {0, 0, 9} to {0, 20, 9}: 2 "
+            "fits");
+  const std::string steps = "local s = cube(20, 20, 5) + cube(8, 20, 15) return s:";
+  EXPECT_EQ(message_of(steps + "chamfer(1, {edges = {near = {8, 10, 5}}})"),
+            "model.lua:1: chamfer: the edge from {8, 0, 5} to {8, 20, 5} is concave; only convex "
+            "edges can be cut");
+  EXPECT_EQ(message_of(steps + "fillet(1, {edges = s:edges{near = {8, 10, 5}}})"),
+            "model.lua:1: fillet: the edge from {8, 0, 5} to {8, 20, 5} is concave; only convex "
+            "edges can be cut");
+  EXPECT_EQ(message_of(steps + "fillet(1, {edges = function(e) return not e.convex end})"),
+            "model.lua:1: fillet: no convex edge of it is meant, but 1 concave");
+  EXPECT_EQ(message_of(steps + "fillet(1, {edges = {turn = 91}})"),
+            "model.lua:1: fillet: no edge of it is meant");
+  EXPECT_EQ(message_of("return cube(1):fillet(0.1, {edges = cube(2):edges()})"),
+            "model.lua:1: fillet: it has no edge from {0, 0, 0} to {0, 0, 2}");
+  EXPECT_EQ(message_of("return union{}:fillet(1)"), "model.lua:1: fillet: there is nothing in it");
+  EXPECT_EQ(message_of("return square(1):fillet(1)").substr(0, 11), "model.lua:1");
+  EXPECT_EQ(message_of("return cube(1):chamfer(0.1, {edges = function(e) error('no') end})"),
+            "model.lua:1: no");
+}
+
 TEST(Freeform, Mistakes) {
   EXPECT_EQ(message_of("return cube(1):refine()"),
             "model.lua:1: refine: needs the length of the longest edge");

@@ -7,6 +7,7 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include "engine/mesh/fixed_sums.h"
 #include "engine/mesh/natural.h"
 #include "engine/mesh/residues.h"
 
@@ -310,6 +311,51 @@ TEST(PrimeField, AgreesWithGmp) {
     EXPECT_EQ(field.multiply(field.power_of_two(-77), field.power_of_two(77)), 1u);
     EXPECT_EQ(field.add(field.residue(int64_t{-5}), 5), 0u);
   }
+}
+
+/// A number of so many bits, often with long runs of ones or zeros.
+mpz_class number_of_bits(std::mt19937_64& random, unsigned bits) {
+  mpz_class v = 1;
+  while (mpz_sizeinbase(v.get_mpz_t(), 2) < bits) {
+    const unsigned run = 1 + random() % 40;
+    const int kind = static_cast<int>(random() % 3);
+    for (unsigned i = 0; i < run && mpz_sizeinbase(v.get_mpz_t(), 2) < bits; ++i) {
+      v = 2 * v + (kind == 2 ? static_cast<int>(random() % 2) : kind);
+    }
+  }
+  return v;
+}
+
+TEST(FixedPoint, IsTheQuotientCutTo64Bits) {
+  std::mt19937_64 random(7);
+  int whole_ones = 0;
+  for (int i = 0; i < 60000; ++i) {
+    const unsigned w_bits = 1 + random() % 150;
+    const mpz_class w = number_of_bits(random, w_bits);
+    mpz_class x = number_of_bits(random, 1 + random() % (w_bits + kCoordinateBits - 2));
+    switch (random() % 4) {
+      case 0:  // a whole number, or next to one
+        x -= x % w;
+        x += static_cast<int>(random() % 3) - 1;
+        break;
+      case 1:  // next to a digit of the fraction
+        x = (w * (number_of_bits(random, 60)) >> 64) + static_cast<int>(random() % 3) - 1;
+        break;
+      default:
+        break;
+    }
+    if (random() % 2) x = -x;
+    Int<2> result;
+    bool cut = false;
+    ASSERT_TRUE(fixed_point<1>(fixed<kPointLimbs>(x), fixed<kPointLimbs>(w), result, cut));
+    mpz_class expected, rest;
+    mpz_fdiv_qr(expected.get_mpz_t(), rest.get_mpz_t(), mpz_class(x << 64).get_mpz_t(),
+                w.get_mpz_t());
+    ASSERT_EQ(big(result), expected) << x << " / " << w;
+    ASSERT_EQ(cut, rest != 0) << x << " / " << w;
+    whole_ones += !cut;
+  }
+  EXPECT_GT(whole_ones, 1000);
 }
 
 }  // namespace

@@ -66,6 +66,7 @@ TEST(Sweep, AlongZIsAnExtrusion) {
   options.scale = {0.5, 2};
   std::vector<glm::dvec3> path{{0, 0, 0}, {0, 0, 5}};  // 70 degrees in steps of 10
   options.facets.fa = 10;
+  options.facets.fs = 0.01;
   // The extrusion scales what is turned, the sweep turns what is scaled: equal if even.
   twisted.scale = options.scale = {0.5, 0.5};
   EXPECT_NEAR(volume(swept(l, path, options)), volume(*linear_extrude(l, twisted)), 1e-9);

@@ -20,7 +20,8 @@ struct SweepOptions {
   /// Where the outline's Y points to, as far as it is across the path there, at its start; Z, or Y
   /// where the path starts along Z.
   std::optional<glm::dvec3> up = std::nullopt;
-  /// With a twist, pieces are divided so that none turns by more than 360 / fn, or fa, degrees.
+  /// With a twist, pieces are divided so that none turns by more than a facet of a circle through the
+  /// farthest point of the outline.
   Facets facets = {};
 };
 

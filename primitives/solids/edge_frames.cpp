@@ -1,0 +1,195 @@
+#include "primitives/solids/edge_frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include <csgrun/primitives/trig.h>
+
+namespace csgrun {
+namespace {
+
+/// Directions are good to this.
+constexpr double kParallel = 1e-9;
+/// Parts of the setback that two cuts may have in common by rounding.
+constexpr double kTouch = 1e-7;
+
+using Point = std::array<double, 2>;
+
+/// A convex polygon, clipped with half-planes one after another (Sutherland & Hodgman 1974).
+class Clipped {
+ public:
+  explicit Clipped(std::span<const Point> corners) : corners_(corners.begin(), corners.end()) {}
+
+  /// Keeps what is to the left of the line from a to b, and farther from it than `margin`.
+  void keep_left(const Point& a, const Point& b, double margin) {
+    const double dx = b[0] - a[0], dy = b[1] - a[1];
+    const double length = std::sqrt(dx * dx + dy * dy);
+    if (length == 0) return;
+    const auto height = [&](const Point& p) {
+      return (dx * (p[1] - a[1]) - dy * (p[0] - a[0])) / length - margin;
+    };
+    rest_.clear();
+    for (size_t i = 0; i < corners_.size(); ++i) {
+      const Point &p = corners_[i], &q = corners_[i + 1 < corners_.size() ? i + 1 : 0];
+      const double at_p = height(p), at_q = height(q);
+      if (at_p >= 0) rest_.push_back(p);
+      if ((at_p < 0) == (at_q < 0)) continue;
+      const double s = at_p / (at_p - at_q);
+      rest_.push_back({p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])});
+    }
+    corners_.swap(rest_);
+  }
+  /// The greatest extent along an axis.
+  [[nodiscard]] double size() const {
+    double result = 0;
+    for (const Point& p : corners_) {
+      for (const Point& q : corners_) {
+        result = std::max({result, std::fabs(p[0] - q[0]), std::fabs(p[1] - q[1])});
+      }
+    }
+    return result;
+  }
+  [[nodiscard]] double area() const {
+    double twice = 0;
+    for (size_t i = 0; i < corners_.size(); ++i) {
+      const Point &p = corners_[i], &q = corners_[i + 1 < corners_.size() ? i + 1 : 0];
+      twice += p[0] * q[1] - p[1] * q[0];
+    }
+    return std::fabs(twice) / 2;
+  }
+
+ private:
+  std::vector<Point> corners_, rest_;
+};
+
+}  // namespace
+
+EdgeFrames::EdgeFrames(const EdgeGraph& graph, std::span<const uint32_t> chosen)
+    : graph_(graph), number_(graph.edges().size(), UINT32_MAX) {
+  for (const uint32_t e : chosen) {
+    if (number_[e] != UINT32_MAX) continue;
+    number_[e] = static_cast<uint32_t>(frames_.size());
+    const SolidEdge& line = graph.edges()[e].line;
+    EdgeFrame& f = frames_.emplace_back();
+    f.edge = e;
+    f.start = line.from;
+    f.length = glm::length(line.to - line.from);
+    f.along = (line.to - line.from) / f.length;
+    f.in = {glm::normalize(glm::cross(line.normals[0], f.along)),
+            glm::normalize(glm::cross(f.along, line.normals[1]))};
+  }
+}
+
+void EdgeFrames::set_size(double size, bool is_radius) {
+  for (EdgeFrame& f : frames_) {
+    f.setback = is_radius ? size * tan_deg(graph_.edges()[f.edge].line.turn / 2) : size;
+  }
+}
+
+EdgeFrames::Next EdgeFrames::next(const EdgeFrame& f, int end, int side) const {
+  const EdgeGraph::Edge& own = graph_.edges()[f.edge];
+  const uint32_t id = own.next[end][side];
+  const EdgeGraph::Edge& other = graph_.edges()[id];
+  const uint32_t vertex = own.vertex[end];
+  glm::dvec3 away = other.line.to - other.line.from;
+  if (other.vertex[0] != vertex) away = -away;
+  away /= glm::length(away);
+  const double towards = end == 0 ? 1 : -1;  // back along the edge
+  return {id, glm::dot(away, f.along) * towards, glm::dot(away, f.in[side])};
+}
+
+EdgeEnd EdgeFrames::kind(const EdgeFrame& f, int end, int side) const {
+  const Next n = next(f, end, side);
+  if (std::fabs(n.y) <= kParallel) return EdgeEnd::kGoesOn;
+  if (frame_of(n.edge) != nullptr) return n.y > 0 ? EdgeEnd::kMitre : EdgeEnd::kInside;
+  const double outwards = end == 0 ? -1 : 1;
+  return glm::dot(plane_normal(f, end, side), f.along) * outwards > 0 ? EdgeEnd::kCap
+                                                                      : EdgeEnd::kWall;
+}
+
+glm::dvec3 EdgeFrames::plane_normal(const EdgeFrame& f, int end, int side) const {
+  const EdgeGraph::Edge& own = graph_.edges()[f.edge];
+  const EdgeGraph::Edge& other = graph_.edges()[own.next[end][side]];
+  return other.line.normals[other.side[0] == own.side[side] ? 1 : 0];
+}
+
+double EdgeFrames::at_plane(const EdgeFrame& f, int end, int side, const glm::dvec3& offset) const {
+  const glm::dvec3 normal = plane_normal(f, end, side);
+  const double slope = glm::dot(normal, f.along);
+  if (std::fabs(slope) <= kParallel) return at_end(f, end);
+  return at_end(f, end) - glm::dot(normal, offset) / slope;
+}
+
+double EdgeFrames::at_next_cut(const EdgeFrame& f, int end, int side) const {
+  const Next n = next(f, end, side);
+  // At y = setback, and as far from the next edge as its own cut goes.
+  const double x = (frame_of(n.edge)->setback + f.setback * n.x) / n.y;
+  return end == 0 ? x : f.length - x;
+}
+
+EdgeFrames::Strip EdgeFrames::strip(const EdgeFrame& f, int side) const {
+  Strip result{{{0, 0}, {f.length, 0}, {f.length, f.setback}, {0, f.setback}}};
+  for (int end = 0; end < 2; ++end) {
+    double& at = result[end == 0 ? 3 : 2][0];
+    switch (kind(f, end, side)) {
+      case EdgeEnd::kMitre:
+      case EdgeEnd::kInside:
+        at = at_next_cut(f, end, side);
+        break;
+      case EdgeEnd::kCap:
+      case EdgeEnd::kWall:
+        at = at_plane(f, end, side, f.in[side] * f.setback);
+        break;
+      case EdgeEnd::kGoesOn:
+        break;
+    }
+  }
+  return result;
+}
+
+bool EdgeFrames::has_room(const EdgeFrame& f) const {
+  const double margin = kTouch * f.setback;
+  for (int side = 0; side < 2; ++side) {
+    const Strip own = strip(f, side);
+    if (own[3][0] > own[2][0] + margin) return false;
+    const auto clip = [&](Clipped& polygon) {
+      for (size_t i = 0; i < 4; ++i) polygon.keep_left(own[i], own[(i + 1) % 4], margin);
+    };
+    const auto seen = [&](const glm::dvec3& p) {
+      return Point{glm::dot(p - f.start, f.along), glm::dot(p - f.start, f.in[side])};
+    };
+    const uint32_t plane = graph_.edges()[f.edge].side[side];
+    for (const uint32_t e : graph_.edges_of(plane)) {
+      if (e == f.edge) continue;
+      const EdgeGraph::Edge& other = graph_.edges()[e];
+      const std::array<Point, 2> ends{seen(other.line.from), seen(other.line.to)};
+      Clipped segment(ends);
+      clip(segment);
+      if (segment.size() > margin) return false;
+      const EdgeFrame* cut = frame_of(e);
+      if (cut == nullptr) continue;
+      const int its_side = other.side[0] == plane ? 0 : 1;
+      const Strip theirs = strip(*cut, its_side);
+      std::array<Point, 4> corners;
+      for (size_t i = 0; i < 4; ++i) {
+        corners[i] = seen(cut->start + theirs[i][0] * cut->along +
+                          theirs[i][1] * cut->in[static_cast<size_t>(its_side)]);
+      }
+      Clipped common(corners);
+      clip(common);
+      if (common.area() > margin * f.setback) return false;
+    }
+  }
+  return true;
+}
+
+std::optional<uint32_t> EdgeFrames::first_without_room() const {
+  for (uint32_t i = 0; i < frames_.size(); ++i) {
+    if (!has_room(frames_[i])) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace csgrun

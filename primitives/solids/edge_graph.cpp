@@ -1,0 +1,175 @@
+#include "primitives/solids/edge_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+
+#include <glm/geometric.hpp>
+
+#include <csgrun/primitives/trig.h>
+
+namespace csgrun {
+namespace {
+
+constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+/// Sides whose normals are so near are in one plane: what is known of these is good to 1e-15.
+constexpr double kSamePlane = 1e-14;
+
+auto as_tuple(const glm::dvec3& p) { return std::tie(p.x, p.y, p.z); }
+
+}  // namespace
+
+EdgeGraph::EdgeGraph(const Solid& solid) : solid_(solid) {
+  for (const glm::dvec3& p : solid.positions) {
+    for (int i = 0; i < 3; ++i) scale_ = std::max(scale_, std::fabs(p[i]));
+  }
+  find_twins();
+  find_sides();
+  find_lines();
+}
+
+void EdgeGraph::find_twins() {
+  const size_t halves = solid_.triangles.size() * 3;
+  twin_.assign(halves, kNone);
+  std::unordered_map<uint64_t, uint32_t> half_at;
+  half_at.reserve(halves);
+  for (uint32_t h = 0; h < halves; ++h) {
+    const uint64_t a = from(h), b = to(h);
+    half_at[a << 32 | b] = h;
+    const auto found = half_at.find(b << 32 | a);
+    if (found == half_at.end()) continue;
+    twin_[h] = found->second;
+    twin_[found->second] = h;
+  }
+}
+
+void EdgeGraph::find_sides() {
+  std::vector<glm::dvec3> normals;
+  for (const glm::dvec3& n : solid_.face_normals) normals.push_back(glm::normalize(n));
+  side_.assign(solid_.triangles.size(), kNone);
+  uint32_t count = 0;
+  std::vector<uint32_t> stack;
+  for (uint32_t start = 0; start < side_.size(); ++start) {
+    if (side_[start] != kNone) continue;
+    side_[start] = count;
+    face_of_.push_back(solid_.triangle_face[start]);
+    stack.assign(1, start);
+    while (!stack.empty()) {
+      const uint32_t t = stack.back();
+      stack.pop_back();
+      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const uint32_t other = twin_[h] / 3;
+        if (side_[other] != kNone) continue;
+        const uint32_t f = solid_.triangle_face[t], g = solid_.triangle_face[other];
+        if (f != g && glm::dot(normals[f], normals[g]) < 1 - kSamePlane) continue;
+        side_[other] = count;
+        stack.push_back(other);
+      }
+    }
+    ++count;
+  }
+  edges_of_.resize(count);
+}
+
+uint32_t EdgeGraph::following(uint32_t half) const {
+  uint32_t h = around(half);
+  while (!is_boundary(h)) h = around(twin_[h]);
+  return h;
+}
+
+bool EdgeGraph::goes_straight_on(uint32_t half, uint32_t next) const {
+  if (side_[twin_[half] / 3] != side_[twin_[next] / 3]) return false;
+  if (following(twin_[next]) != twin_[half]) return false;
+  const glm::dvec3 &a = solid_.positions[from(half)], &b = solid_.positions[to(half)],
+                   &c = solid_.positions[to(next)];
+  const glm::dvec3 along = c - a;
+  const double length = glm::length(along);
+  // Between the ends of what is straight, up to the rounding of the three.
+  return glm::dot(b - a, along) > 0 && glm::dot(c - b, along) > 0 &&
+         glm::length(glm::cross(b - a, along)) <= 1e-14 * scale_ * length;
+}
+
+void EdgeGraph::find_lines() {
+  const auto halves = static_cast<uint32_t>(twin_.size());
+  edge_of_.assign(halves, kNone);
+  std::vector<uint32_t> previous(halves, kNone), line;
+  for (uint32_t h = 0; h < halves; ++h) {
+    if (is_boundary(h)) previous[following(h)] = h;
+  }
+  for (uint32_t h = 0; h < halves; ++h) {
+    if (previous[h] == kNone || edge_of_[h] != kNone) continue;
+    if (goes_straight_on(previous[h], h)) continue;  // a straight loop there is not
+    line.assign(1, h);
+    for (uint32_t next = following(h); goes_straight_on(line.back(), next); next = following(next))
+      line.push_back(next);
+    const glm::dvec3 &a = solid_.positions[from(h)], &b = solid_.positions[to(line.back())];
+    if (as_tuple(b) < as_tuple(a)) continue;  // its other side makes it
+    add_line(h, line);
+  }
+  std::vector<uint32_t> order(edges_.size()), place(edges_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t k) {
+    const Edge &a = edges_[i], &b = edges_[k];
+    return std::tuple(as_tuple(a.line.from), as_tuple(a.line.to), a.vertex) <
+           std::tuple(as_tuple(b.line.from), as_tuple(b.line.to), b.vertex);
+  });
+  std::vector<Edge> sorted;
+  for (uint32_t i = 0; i < order.size(); ++i) {
+    place[order[i]] = i;
+    sorted.push_back(edges_[order[i]]);
+  }
+  edges_ = std::move(sorted);
+  degree_.assign(solid_.positions.size(), 0);
+  for (uint32_t i = 0; i < edges_.size(); ++i) {
+    Edge& e = edges_[i];
+    for (auto& end : e.next) {
+      for (uint32_t& next : end) next = place[edge_of_[next]];
+    }
+    for (const uint32_t side : e.side) edges_of_[side].push_back(i);
+    for (const uint32_t v : e.vertex) ++degree_[v];
+  }
+}
+
+void EdgeGraph::add_line(uint32_t first, std::span<const uint32_t> halves) {
+  const uint32_t last = halves.back();
+  Edge e;
+  e.vertex = {from(first), to(last)};
+  e.line.from = solid_.positions[e.vertex[0]];
+  e.line.to = solid_.positions[e.vertex[1]];
+  e.side = {side_[first / 3], side_[twin_[first] / 3]};
+  const std::array<uint32_t, 2> face{solid_.triangle_face[first / 3],
+                                     solid_.triangle_face[twin_[first] / 3]};
+  for (int k = 0; k < 2; ++k) e.line.normals[k] = glm::normalize(solid_.face_normals[face[k]]);
+  const glm::dvec3 across = glm::cross(e.line.normals[0], e.line.normals[1]);
+  e.line.turn = atan2_deg(glm::length(across), glm::dot(e.line.normals[0], e.line.normals[1]));
+  e.line.is_convex = glm::dot(across, e.line.to - e.line.from) > 0;
+  const Solid::Face &f = solid_.faces[face[0]], &g = solid_.faces[face[1]];
+  const auto is_fillet = [&](const Solid::Face& x) {
+    return solid_.sources[x.source].kind == "fillet";
+  };
+  e.line.is_smooth = (f.surface != 0 && f.surface == g.surface) || (is_fillet(f) && is_fillet(g));
+  // What the sides have before and after it, as half-edges for now. The right side runs it back.
+  const auto before = [&](uint32_t half) {
+    // The one that comes to the start of `half`: round that corner, against its triangles' order.
+    uint32_t h = around(around(half));
+    while (!is_boundary(h)) h = around(around(twin_[h]));
+    return h;
+  };
+  e.next[1] = {following(last), before(twin_[last])};
+  e.next[0] = {before(first), following(twin_[first])};
+  const auto id = static_cast<uint32_t>(edges_.size());
+  for (const uint32_t h : halves) edge_of_[h] = edge_of_[twin_[h]] = id;
+  edges_.push_back(e);
+}
+
+std::vector<SolidEdge> edges_of_solid(const Solid& solid) {
+  const EdgeGraph graph(solid);
+  std::vector<SolidEdge> result;
+  for (const EdgeGraph::Edge& e : graph.edges()) result.push_back(e.line);
+  return result;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,55 @@
+// The flat sides of a solid, the straight edges between them, and how these follow one another.
+#pragma once
+
+#include <csgrun/primitives/solid_edges.h>
+
+namespace csgrun {
+
+class EdgeGraph {
+ public:
+  struct Edge {
+    SolidEdge line;
+    std::array<uint32_t, 2> vertex;  ///< of the solid, at `from` and at `to`
+    std::array<uint32_t, 2> side;    ///< left and right of it
+    /// next[end][k]: the edge that side k has beyond that end.
+    std::array<std::array<uint32_t, 2>, 2> next;
+  };
+
+  explicit EdgeGraph(const Solid& solid);
+
+  /// Ordered by their ends.
+  [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
+  /// The edges of a side.
+  [[nodiscard]] const std::vector<uint32_t>& edges_of(uint32_t side) const {
+    return edges_of_[side];
+  }
+  /// One of the solid's faces that make a side.
+  [[nodiscard]] uint32_t face(uint32_t side) const { return face_of_[side]; }
+  /// How many edges end at a vertex.
+  [[nodiscard]] uint32_t degree(uint32_t vertex) const { return degree_[vertex]; }
+
+ private:
+  void find_twins();
+  void find_sides();
+  void find_lines();
+  [[nodiscard]] uint32_t from(uint32_t half) const { return solid_.triangles[half / 3][half % 3]; }
+  [[nodiscard]] uint32_t to(uint32_t half) const { return from(around(half)); }
+  static uint32_t around(uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
+  /// The half-edge of the same side's boundary that goes on from one of them.
+  [[nodiscard]] uint32_t following(uint32_t half) const;
+  [[nodiscard]] bool is_boundary(uint32_t half) const {
+    return side_[half / 3] != side_[twin_[half] / 3];
+  }
+  [[nodiscard]] bool goes_straight_on(uint32_t half, uint32_t next) const;
+  void add_line(uint32_t first, std::span<const uint32_t> halves);
+
+  const Solid& solid_;
+  double scale_ = 0;  ///< the largest coordinate
+  std::vector<uint32_t> twin_, side_;
+  std::vector<uint32_t> edge_of_;  ///< by half-edge
+  std::vector<Edge> edges_;
+  std::vector<std::vector<uint32_t>> edges_of_;
+  std::vector<uint32_t> degree_, face_of_;
+};
+
+}  // namespace csgrun

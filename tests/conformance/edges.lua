@@ -1,0 +1,91 @@
+-- Edges of solids: which there are, and solids with some of them cut off, against closed forms.
+local function near(a, b, relative)
+  assert(math.abs(a - b) <= (relative or 1e-12) * math.max(1, math.abs(b)), a .. " for " .. b)
+end
+
+-- What there is, and how it is chosen.
+local box = cube(10, 20, 30)
+assert(#box:edges() == 12 and #box:edges("top") == 4 and #box:edges{along = "z"} == 4)
+assert(#box:edges{on = "top", along = "x"} == 2 and #box:edges{on = {0, 0, -1}, along = {0, 3, 0}} == 2)
+assert(#box:edges{near = {5, 0, 31}} == 1 and #box:edges{near = {0, 0, 0}} == 3)
+assert(#box:edges{normal = {1, 0, 0}} == 4 and #box:edges{through = {10, 20, 5}} == 7)
+assert(#box:edges{turn = 91} == 0)
+local edge = box:edges{near = {5, 0, 31}}[1]
+assert(edge.length == 10 and edge.convex and edge.turn == 90 and edge.from[1] == 0 and edge.to[1] == 10)
+assert(edge.from[3] == 30 and edge.normals[1][3] + edge.normals[2][3] == 1)
+local steps = cube(20, 20, 5) + cube(8, 20, 15)
+assert(#steps:edges() == 18 and #steps:edges("top") == 4 and #steps:edges{normal = {0, 0, 1}} == 8)
+local concave = steps:edges{near = {8, 10, 5}}
+assert(#concave == 1 and not concave[1].convex)
+-- Facets of what is round have none; its rims have.
+assert(#cylinder{h = 10, r = 5, fn = 24}:edges() == 48 and #cylinder{h = 10, r = 5, fn = 24}:edges{turn = 0} == 48)
+
+-- Chamfers. All of a cube: twelve prisms; of each corner a sixth of a cube stays.
+local a, d = 10, 1.5
+local c = cube(a)
+near(c:chamfer(d):volume(), a ^ 3 - 6 * d ^ 2 * (a - 2 * d) - 8 * 5 / 6 * d ^ 3)
+near(c:chamfer(5):volume(), 1000 / 6)
+assert(c:chamfer(1.5):components() == 1 and #c:chamfer(1.5):faces() == 26)
+near(c:chamfer(2, "z"):volume(), 1000 - 4 * 2 * 10)
+assert(c:chamfer(2, "|Z") == linear_extrude(square(10):offset{delta = 2} - square(14):translate(-2, -2), 1) +
+  linear_extrude(polygon{{2, 0}, {8, 0}, {10, 2}, {10, 8}, {8, 10}, {2, 10}, {0, 8}, {0, 2}}, 10))
+assert(c:chamfer(2, "top") == hull(cube(10, 10, 8), cube(6, 6, 10):translate(2, 2, 0)))
+assert(chamfer(c, 2, {edges = "top"}) == c:chamfer{2, edges = {on = "top"}})
+near(c:chamfer(1, {edges = {near = {5, 0, 10}}}):volume(), 995)
+near(box:chamfer(1, {edges = function(e) return e.length == 20 end}):volume(), 6000 - 40)
+near(box:chamfer(1, {edges = {"x", {on = "top", along = "y"}}}):volume(),
+  6000 - 4 * 5 - 2 * 10 + 4 / 3) -- what two have at a mitre goes once
+assert(box:chamfer(1, {edges = box:edges("top")}) == box:chamfer(1, "top"))
+-- Up to walls, and around corners that point inwards.
+local l = cube(10, 10, 5) - cube(5, 5, 5):translate(5, 5, 0)
+near(l:chamfer(1, "top"):volume(), 375 - (40 / 2 - 4 / 3))
+near(steps:chamfer(1, {edges = {along = "x", normal = {0, 0, 1}}}):volume(), 3600 - 2 * 0.5 * (8 + 12))
+-- The mouth of a hole of 30 facets, and the rim of a plate.
+local plate = cube(60, 40, 5) - cylinder{h = 20, r = 3, fn = 30, center = true}:translate(20, 20, 0)
+local rho = 3 * cos(6)
+near(plate:chamfer(1, "top"):volume(), plate:volume() - (200 / 2 - 4 / 3)
+  - 30 * tan(6) * (rho + 1 / 3), 1e-8)
+-- Rims of a cylinder.
+local disc = cylinder{h = 10, r = 5, fn = 60}
+local r = 5 * cos(3)
+near(disc:chamfer(1, "top"):volume(), 60 * tan(3) * (9 * r ^ 2 + (r ^ 3 - (r - 1) ^ 3) / 3), 1e-8)
+
+-- Fillets. Upright ones leave squares less quarters of a polygon; all of them are the round cube.
+near(c:fillet(2, {edges = "z", fn = 32}):volume(), 10 * (100 - 4 * (4 - 8 * 2 * sin(90 / 8))), 1e-8)
+assert(c:fillet(2, {fn = 32}) == cube(10, {r = 2, fn = 32}))
+assert(c:fillet{r = 2, fa = 12, fs = 0.1} == cube(10, {r = 2, fn = 32}))
+assert(c:fillet(5, {fn = 16}) == cube(10, {r = 5, fn = 16}))
+near(fillet(c, 2, "top", {fn = 16}):volume(), c:fillet{r = 2, edges = {on = "top"}, fn = 16}:volume())
+-- Turned, it is the same up to the rounding of corners that have no place on the grid.
+local turned = c:rotate(20, 30, 40):fillet(2, {fn = 32})
+near(turned:volume(), c:fillet(2, {fn = 32}):volume(), 1e-6)
+assert(turned:components() == 1 and turned:genus() == 0)
+-- One after another: the rim of upright edges that are round. Each layer is a polygon.
+local tower = cube(20, 20, 10):fillet(3, {edges = "z", fn = 32})
+local rim, turn = tower:fillet(2, {edges = "top", fn = 32}), 90 / 8
+assert(rim:components() == 1 and rim:genus() == 0 and rim:volume() < tower:volume())
+local function area(s) -- of the outline, moved inwards by s
+  local side = 2 * 3 * sin(turn / 2)
+  local perimeter, bends = 4 * 14 + 32 * side, 4 * (7 * tan(turn / 2) + 2 * tan(turn / 4))
+  return tower:slice(5):area() - s * perimeter + s ^ 2 * bends
+end
+local missing = 0
+for k = 0, 7 do -- from the side of the rim to its top, in facets
+  local s0, s1 = 2 * (1 - cos(k * turn)), 2 * (1 - cos((k + 1) * turn))
+  local h = 2 * (sin((k + 1) * turn) - sin(k * turn))
+  missing = missing + h * (area(0) - (area(s0) + 4 * area((s0 + s1) / 2) + area(s1)) / 6)
+end
+near(rim:volume(), tower:volume() - missing, 1e-7)
+-- A corner of three edges that are not upright on one another.
+local tent = polyhedron{points = {{0, 0, 0}, {10, 0, 0}, {0, 12, 0}, {3, 2, 9}},
+  faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}}
+local ball = tent:fillet(0.5, {fn = 24})
+assert(ball:components() == 1 and ball:genus() == 0)
+-- It is what a ball of that radius sweeps inside, up to the facets.
+local smaller = tent:offset(-0.5, {fn = 60})
+near(ball:volume(), minkowski(smaller, sphere{r = 0.5, fn = 60}):volume(), 5e-3)
+
+-- A cut has the colour of a face beside it.
+assert(c:color("red"):chamfer(1) == c:chamfer(1):color("red"))
+assert(c:color("red"):fillet(1) == c:fillet(1):color("red"))
+return c:chamfer(1)
