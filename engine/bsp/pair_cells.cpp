@@ -140,7 +140,7 @@ class CellFinder {
     if (list.has_one_operand() || list.is_covered) return leave_alone(list.count);
     cell.clip(list.bounds());
     if (cancel_ && cancel_->load(std::memory_order_relaxed)) return;
-    const uint32_t limit = list.has_two_operands() ? kPatientLimit * limit_ : limit_;
+    const uint32_t limit = list.has_two_operands_at_most() ? kPatientLimit * limit_ : limit_;
     if (list.count <= limit || cell.lo == cell.hi) return add_cell(cell, list);
     const Cut cut = find_cut(cell, list);
     if (!cut.thins_out && ++stalled > kPatience) return add_cell(cell, list);
