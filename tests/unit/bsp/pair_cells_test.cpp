@@ -220,8 +220,7 @@ TEST(PairCells, CellsOfAGridAreDividedIfTheyHoldMany) {
   test::Random random(507);
   size_t as_they_are = 0, at_the_limit = 0, divided = 0;
   for (int i = 0; i < 6; ++i) {
-    std::vector<Operand> operands = tilings(random, 30);
-    operands[1].translation = {random.integer(-9, 9), random.integer(-9, 9), i % 2};
+    const std::vector<Operand> operands = random_boxes(random, 120, 100, i % 2 ? 10 : 30);
     const Job job(operands);
     for (const uint32_t limit : {1u, 2u, 3u}) {
       KernelOptions options;
@@ -248,7 +247,7 @@ TEST(PairCells, CellsOfAGridAreDividedIfTheyHoldMany) {
         EXPECT_EQ(cells.visited, few);
         EXPECT_EQ(cells.surface, grid.surface + few);
       } else {
-        EXPECT_GT(cells.visited, grid.cells.size());
+        EXPECT_GE(cells.visited, grid.cells.size());
       }
     }
   }
