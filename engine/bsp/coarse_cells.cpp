@@ -167,7 +167,9 @@ bool mark(const Job& job, std::span<const uint8_t> covered, bool are_covered, Gr
   std::atomic<bool> failed = false;
   for_each_range(count, [&](size_t begin, size_t end) {
     size_t sum = 0;
+    uint32_t own = 0;  // the operand's number and one
     for (size_t p = begin; p < end; ++p) {
+      while (p >= job.polygon_start(own)) ++own;
       if ((!covered.empty() && covered[p] != 0) != are_covered) continue;
       if (sum + all.load(std::memory_order_relaxed) > left ||
           !grid.find_cells(job.boxes()[p], cells[p])) {
@@ -177,7 +179,6 @@ bool mark(const Job& job, std::span<const uint8_t> covered, bool are_covered, Gr
       if (!cells[p].any) continue;
       const auto& more = cells[p].more;
       sum += (more[0] + size_t{1}) * (more[1] + size_t{1}) * (more[2] + size_t{1});
-      const uint32_t own = job.polygons()[p].operand + 1;
       grid.each_cell(cells[p], [&](uint32_t& cell) { mark_cell(cell, own, are_covered); });
     }
     all += sum;

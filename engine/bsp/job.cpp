@@ -295,12 +295,15 @@ PolygonBox Job::box_of(const JobPolygon& polygon) const {
 
 /// Where vertices are whole numbers.
 PolygonBox Job::grid_box_of(const JobPolygon& polygon) const {
-  PolygonBox box = PolygonBox::none();
+  std::array<double, 3> lo = rounded_[corners_[polygon.first]], hi = lo;
   for (const uint32_t v : corners(polygon)) {
-    std::array<int32_t, 3> at;
-    for (size_t k = 0; k < 3; ++k) at[k] = clamp_to_box(rounded_[v][k]);
-    box.include({at, at});
+    for (size_t k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], rounded_[v][k]);
+      hi[k] = std::max(hi[k], rounded_[v][k]);
+    }
   }
+  PolygonBox box;
+  for (size_t k = 0; k < 3; ++k) box.lo[k] = clamp_to_box(lo[k]), box.hi[k] = clamp_to_box(hi[k]);
   return box;
 }
 

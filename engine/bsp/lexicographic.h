@@ -12,9 +12,9 @@
 
 namespace csgrun {
 
-/// The numbers 0 .. count - 1 in the order of at(i), coordinates that are finite; where they are
-/// equal, in that of before(i, j), which is asked on several threads. O(n), but for points that
-/// have many x in common: O(n log n).
+/// The numbers 0 .. count - 1 in the order of at(i), references to coordinates that are finite;
+/// where they are equal, in that of before(i, j), which is asked on several threads. O(n), but for
+/// points that have many x in common: O(n log n).
 template <class At, class Before>
 std::vector<uint32_t> lexicographic_order(size_t count, At at, Before before) {
   if (count == 0) return {};
@@ -32,6 +32,8 @@ std::vector<uint32_t> lexicographic_order(size_t count, At at, Before before) {
   });
   for_each_range(by_x.starts.size() - 1, [&](size_t begin, size_t end) {
     for (size_t b = begin; b < end; ++b) {
+      const size_t soon = by_x.starts[b] + size_t{16};
+      if (soon < count) __builtin_prefetch(&at(by_x.order[soon]));
       sort_few(by_x.order.begin() + by_x.starts[b], by_x.order.begin() + by_x.starts[b + 1],
                [&](uint32_t i, uint32_t j) {
                  const std::array<double, 3>&p = at(i), &q = at(j);

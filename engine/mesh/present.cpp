@@ -273,8 +273,20 @@ class Presenter {
     size_t triangle = 0, loop = 0, corner = 0;
   };
 
+  /// The label, but for the facet, that all faces of a leaf have, if they do.
+  static std::optional<FaceLabel> common_label(const UntouchedPart& part) {
+    const auto all_equal = [](const std::vector<uint32_t>& numbers) {
+      return std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) ==
+             numbers.end();
+    };
+    if (!all_equal(part.leaf->surface)) return std::nullopt;
+    if (!part.appearance && !all_equal(part.leaf->appearance)) return std::nullopt;
+    return part.label(0);
+  }
+
   /// Triangles of explicit faces stand in the order of faces, and so do these faces in the whole.
   void fill_faces(Solid& solid) {
+    for (const UntouchedPart& part : boundary_.parts) common_labels_.push_back(common_label(part));
     const uint32_t own_count = whole_->explicit_face_count();
     const size_t count = whole_->faces().size();
     // Where each explicit face begins, were there no others.
@@ -314,38 +326,22 @@ class Presenter {
           add_face(solid, f, first.triangle, at, static_cast<uint32_t>(n), edges);
           ++next_own;
         } else {
-          add_untouched(solid, whole_->triangle(f), at, static_cast<uint32_t>(n));
+          add_untouched(solid, f, at, static_cast<uint32_t>(n));
         }
       }
     });
     number_surfaces(solid);
   }
 
-  /// Asks for the memory of faces that come soon: in their order they stand anywhere in their
-  /// leaves.
+  /// Asks for the memory of a face that comes soon: in their order they stand anywhere.
   void fetch_ahead(size_t n) const {
-    constexpr size_t kSoon = 8, kLater = 16, kMuchLater = 32;
+    constexpr size_t kAhead = 16;
     const std::vector<uint32_t>& faces = whole_->faces();
-    const uint32_t own_count = whole_->explicit_face_count();
-    const auto each = [&](size_t ahead, auto&& fetch) {
-      if (n + ahead < faces.size() && faces[n + ahead] >= own_count) {
-        fetch(whole_->triangle(faces[n + ahead]));
-      }
-    };
-    each(kMuchLater, [](const UntouchedTriangle& t) { __builtin_prefetch(&t); });
-    each(kLater, [&](const UntouchedTriangle& t) {
-      const LeafGeometry& leaf = *boundary_.parts[t.part].leaf;
-      __builtin_prefetch(&leaf.face_starts[t.face]);
-      __builtin_prefetch(&leaf.corners[3 * size_t{t.face} % leaf.corners.size()]);
-      __builtin_prefetch(&leaf.facet[t.face]);
-      __builtin_prefetch(&leaf.surface[t.face]);
-      __builtin_prefetch(&leaf.appearance[t.face]);
-      for (const uint32_t p : t.points) __builtin_prefetch(&first_vertex_[p]);
-    });
-    each(kSoon, [&](const UntouchedTriangle& t) {
-      const UntouchedPart& part = boundary_.parts[t.part];
-      for (const uint32_t v : part.triangle(t.face)) __builtin_prefetch(&part.leaf->vertices[v]);
-    });
+    if (n + kAhead >= faces.size()) return;
+    const uint32_t f = faces[n + kAhead];
+    if (f < whole_->explicit_face_count()) return;
+    __builtin_prefetch(&whole_->triangle(f));
+    __builtin_prefetch(&whole_->direction(f));
   }
 
   /// An explicit face and its triangles, from number t on. `edges` is working memory.
@@ -379,17 +375,17 @@ class Presenter {
     }
   }
 
-  void add_untouched(Solid& solid, const UntouchedTriangle& t, const FacePlace& at,
-                     uint32_t number) const {
-    const UntouchedPart& part = boundary_.parts[t.part];
+  void add_untouched(Solid& solid, uint32_t f, const FacePlace& at, uint32_t number) const {
+    const UntouchedTriangle& t = whole_->triangle(f);
     const std::array<uint32_t, 3> vertices{first_vertex_[t.points[0]], first_vertex_[t.points[1]],
                                            first_vertex_[t.points[2]]};
     solid.triangles[at.triangle] = vertices;
     solid.triangle_face[at.triangle] = number;
-    const FaceLabel label = part.label(t.face);
+    const std::optional<FaceLabel>& common = common_labels_[t.part];
+    const FaceLabel label = common ? *common : boundary_.parts[t.part].label(t.face);
     solid.faces[number] = {static_cast<uint32_t>(at.loop), 1, label.appearance, label.surface,
                            label.source};
-    solid.face_normals[number] = outward_direction(part, t.face);
+    solid.face_normals[number] = whole_->direction(f);
     std::copy(vertices.begin(), vertices.end(), solid.loop_vertices.begin() + at.corner);
     solid.loop_starts[at.loop + 1] = static_cast<uint32_t>(at.corner + 3);
   }
@@ -454,6 +450,7 @@ class Presenter {
   VertexFans fans_;
   std::vector<uint32_t> first_vertex_;   ///< per point of the whole
   std::vector<uint32_t> number_of_own_;  ///< per vertex of `fans_`: its number in the solid
+  std::vector<std::optional<FaceLabel>> common_labels_;  ///< per part, see common_label
 };
 
 }  // namespace

@@ -8,8 +8,15 @@
 #include "engine/base/sort_few.h"
 #include "engine/bsp/grid_planes.h"
 #include "engine/bsp/lexicographic.h"
+#include "engine/mesh/triangle_normals.h"
 
 namespace csgrun {
+namespace {
+
+/// What is needed so many steps later is asked for now: in its order it stands anywhere.
+constexpr size_t kAhead = 16;
+
+}  // namespace
 
 WholeOrder::WholeOrder(const BoundaryMesh& boundary, const CellGeometry& geometry)
     : boundary_(boundary), explicit_count_(static_cast<uint32_t>(boundary.point_planes.size())) {
@@ -33,6 +40,7 @@ void WholeOrder::collect_triangles() {
     for (const UntouchedPart::Shared& s : parts[k].shared) shared_[s.point] = 1;
   }
   triangles_.resize(first.back());
+  directions_.resize(first.back());
   struct Met {
     std::vector<Place> places;
     std::vector<RimEdge> candidates;
@@ -40,8 +48,7 @@ void WholeOrder::collect_triangles() {
   std::vector<Met> met(parts.size());
   const bool much = triangles_.size() > kFewForThreads;
   for_each_alone(parts.size(), much, [&](size_t k) {
-    collect_triangles(static_cast<uint32_t>(k), triangles_.data() + first[k], met[k].places,
-                      met[k].candidates);
+    collect_triangles(static_cast<uint32_t>(k), first[k], met[k].places, met[k].candidates);
   });
   std::vector<RimEdge> candidates;
   first_point_.resize(parts.size());
@@ -54,8 +61,8 @@ void WholeOrder::collect_triangles() {
 }
 
 /// Those of one part. Its own points are numbered from the number of explicit points on.
-void WholeOrder::collect_triangles(uint32_t k, UntouchedTriangle* out, std::vector<Place>& places,
-                                   std::vector<RimEdge>& candidates) const {
+void WholeOrder::collect_triangles(uint32_t k, size_t first, std::vector<Place>& places,
+                                   std::vector<RimEdge>& candidates) {
   const UntouchedPart& part = boundary_.parts[k];
   places.reserve(part.faces.size() / 2 + 16);
   std::vector<uint32_t> number(part.leaf->vertices.size(), kNone);
@@ -75,7 +82,8 @@ void WholeOrder::collect_triangles(uint32_t k, UntouchedTriangle* out, std::vect
         candidates.push_back({from, to, k, f, static_cast<uint32_t>(i)});
       }
     }
-    *out++ = t;
+    triangles_[first] = t;
+    directions_[first++] = outward_direction(part, f);
   }
 }
 
@@ -128,6 +136,7 @@ void WholeOrder::sort_points(const CellGeometry& geometry) {
   number_.resize(points_.size());
   for_each_range(order.size(), [&](size_t begin, size_t end) {
     for (size_t n = begin; n < end; ++n) {
+      if (n + kAhead < end) __builtin_prefetch(&points_[order[n + kAhead]]);
       number_[order[n]] = static_cast<uint32_t>(n);
       sorted[n] = points_[order[n]];
     }
@@ -169,6 +178,10 @@ void WholeOrder::order_faces(std::span<const LowestEdge> explicit_faces) {
   // Explicit faces with the same lowest edge stay as they are.
   for_each_range(points_.size(), [&](size_t begin, size_t end) {
     for (size_t p = begin; p < end; ++p) {
+      const size_t soon = by_from.starts[p] + kAhead;
+      if (soon < faces_.size() && faces_[soon] >= explicit_face_count_) {
+        __builtin_prefetch(&triangle(faces_[soon]));
+      }
       sort_few(faces_.begin() + by_from.starts[p], faces_.begin() + by_from.starts[p + 1],
                [&](uint32_t f, uint32_t g) { return to(f) < to(g); });
     }

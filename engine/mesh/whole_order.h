@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "engine/base/raw_vector.h"
 #include "engine/bsp/boundary_mesh.h"
 #include "engine/bsp/cell_geometry.h"
@@ -66,6 +68,10 @@ class WholeOrder {
   [[nodiscard]] const UntouchedTriangle& triangle(uint32_t face) const {
     return triangles_[face - explicit_face_count_];
   }
+  /// That of its outward normal: see outward_direction.
+  [[nodiscard]] const glm::dvec3& direction(uint32_t face) const {
+    return directions_[face - explicit_face_count_];
+  }
 
   [[nodiscard]] const std::vector<RimEdge>& rim() const { return rim_; }
   /// The planes of a rim edge's triangle and of the edge.
@@ -77,8 +83,8 @@ class WholeOrder {
 
  private:
   void collect_triangles();
-  void collect_triangles(uint32_t k, UntouchedTriangle* out, std::vector<Place>& places,
-                         std::vector<RimEdge>& candidates) const;
+  void collect_triangles(uint32_t k, size_t first, std::vector<Place>& places,
+                         std::vector<RimEdge>& candidates);
   void sort_points(const CellGeometry& geometry);
   void number_triangles();
   void find_rim(const std::vector<RimEdge>& candidates);
@@ -89,6 +95,7 @@ class WholeOrder {
   std::vector<uint32_t> number_;  ///< per explicit point, then per other point as it was met
   std::vector<uint8_t> shared_;
   RawVector<UntouchedTriangle> triangles_;
+  RawVector<glm::dvec3> directions_;   ///< of the triangles, found while their leaves are at hand
   std::vector<uint32_t> first_point_;  ///< per part: how many points the parts before it have
   std::vector<RimEdge> rim_;
   uint32_t explicit_face_count_ = 0;

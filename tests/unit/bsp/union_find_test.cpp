@@ -32,6 +32,10 @@ TEST(UnionFind, SetsAreKnownByTheirLeastMember) {
       for (uint32_t n = 0; n < count; ++n) ASSERT_EQ(sets.find(n), of[n]) << n;
     }
     EXPECT_EQ(sets.size(), count);
+    const uint32_t half = count / 2;
+    sets.flatten(0, half);
+    sets.flatten(half, count);
+    for (uint32_t n = 0; n < count; ++n) ASSERT_EQ(sets.root(n), of[n]) << n;
     sets.reset(count + 1);
     for (uint32_t n = 0; n <= count; ++n) EXPECT_EQ(sets.find(n), n);
   }
