@@ -21,6 +21,7 @@ using T = ArgumentType;
 using Json = nlohmann::json;
 
 constexpr int kDeepest = 200;  // tables in tables; a file beyond it is made to break readers
+constexpr const char* kTooDeep = "tables are nested deeper than 200 times";
 constexpr size_t kMostBytes = size_t{256} << 20;
 
 constexpr const char* kFileDoc =
@@ -57,7 +58,7 @@ constexpr FunctionSpec kReadJson{
     kReadTextOptions, false, "read_json(\"sizes.json\").width"};
 
 void push_json(lua_State* L, const Json& value, const std::string& path, int depth) {
-  if (depth > kDeepest) fail_in(kReadJson, "tables are nested deeper than 200 times");
+  if (depth > kDeepest) fail_in(kReadJson, kTooDeep);
   luaL_checkstack(L, 8, "read_json");
   switch (value.type()) {
     case Json::value_t::boolean:
@@ -110,7 +111,11 @@ int read_json(lua_State* L) {
   const Files::Opened file = open_file(L, arguments, kReadJson);
   Json json;
   try {
-    json = Json::parse(file.bytes);
+    // Depth is told while it is read: what nests a million times need not be built first.
+    json = Json::parse(file.bytes, [](int depth, Json::parse_event_t, const Json&) {
+      if (depth > kDeepest) fail_in(kReadJson, kTooDeep);
+      return true;
+    });
   } catch (const Json::parse_error& error) {
     const auto line = 1 + std::count(file.bytes.begin(),
                                      file.bytes.begin() + static_cast<std::ptrdiff_t>(std::min(

@@ -38,8 +38,7 @@ std::vector<PolygonBox> find_live_boxes(const Job& job, const Expression& expres
   for (size_t n = 0; n < expression.nodes.size(); ++n) {
     const Expression::Node& node = expression.nodes[n];
     if (node.is_operand) {
-      bounds[n] = job.operand_box(node.operand);
-      continue;
+      bounds[n] = job.operand_box(node.operand);  // and there are no children
     }
     if (node.op == BooleanOp::kIntersection) bounds[n] = everywhere;
     for (uint32_t c = 0; c < node.child_count; ++c) {
@@ -58,13 +57,12 @@ std::vector<PolygonBox> find_live_boxes(const Job& job, const Expression& expres
     const Expression::Node& node = expression.nodes[n];
     if (node.is_operand) {
       of_operand[node.operand].include(live[n]);
-      continue;
     }
     for (uint32_t c = 0; c < node.child_count; ++c) {
       PolygonBox box = live[n];
       if (node.op == BooleanOp::kIntersection) {
         box.clip(bounds[n]);
-      } else if (node.op == BooleanOp::kDifference && c > 0) {
+      } else if (node.op == BooleanOp::kDifference) {
         box.clip(bounds[child(node, 0)]);
       }
       live[child(node, c)].include(box);
@@ -171,45 +169,6 @@ class Balls {
   const SquareBins bins_;
 };
 
-/// Asks whether polygons are inside a convex operand.
-class Within {
- public:
-  Within(Job& job, CellGeometry& geometry)
-      : job_(job), geometry_(geometry), known_(job.vertex_count()) {}
-
-  /// Whether a polygon that is in no plane of the operand is inside it, but for its corners and
-  /// edges.
-  bool holds(uint32_t operand, uint32_t polygon) {
-    const auto corners = job_.corners(job_.polygons()[polygon]);
-    return std::all_of(corners.begin(), corners.end(), [&](uint32_t v) {
-      Known& known = known_[v];
-      if (known.operand != operand) known = {operand, is_in_or_on(v, operand)};
-      return known.is_within;
-    });
-  }
-
- private:
-  struct Known {
-    uint32_t operand = kNone;
-    bool is_within = false;
-  };
-
-  bool is_in_or_on(uint32_t vertex, uint32_t operand) {
-    const uint32_t point = geometry_.vertex_point(vertex);
-    for (uint32_t q = job_.polygon_start(operand); q < job_.polygon_start(operand + 1); ++q) {
-      job_.ensure_support(q);
-      const PlaneId plane = job_.polygons()[q].support;
-      const int side = geometry_.side(plane.index(), point);
-      if (plane.flipped() ? side < 0 : side > 0) return false;
-    }
-    return true;
-  }
-
-  Job& job_;
-  CellGeometry& geometry_;
-  std::vector<Known> known_;  ///< per vertex, of the operand asked last
-};
-
 }  // namespace
 
 std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expression) {
@@ -232,14 +191,12 @@ std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expr
   return any ? std::move(is_covered) : std::vector<uint8_t>();
 }
 
-std::vector<uint8_t> find_covered(Job& job, CellGeometry& geometry, const Expression& expression,
+std::vector<uint8_t> find_covered(const Job& job, const Expression& expression,
                                   std::span<const Contact> contacts,
                                   std::span<const uint32_t> starts,
                                   std::span<const uint32_t> contact_of) {
   std::vector<uint8_t> is_covered(job.polygons().size(), 0);
   const std::vector<uint8_t> removes = find_removers(job, expression);
-  if (std::find(removes.begin(), removes.end(), 1) == removes.end()) return is_covered;
-  Within within(job, geometry);
   std::vector<uint32_t> touched_by, crossed_by;
   for (uint32_t p = 0; p < is_covered.size(); ++p) {
     touched_by.clear();
@@ -248,13 +205,12 @@ std::vector<uint8_t> find_covered(Job& job, CellGeometry& geometry, const Expres
       const Contact& c = contacts[contact_of[i]];
       const uint32_t o = job.polygons()[c.p == p ? c.q : c.p].operand;
       if (!removes[o]) continue;
-      // What is in front of a plane of a convex operand is outside of it.
-      const bool is_crossed = c.is_coplanar || (c.p == p ? c.p_front : c.q_front);
-      (is_crossed ? crossed_by : touched_by).push_back(o);
+      // What meets a convex body and is not within it goes to the front of a face that it meets.
+      const bool leaves = c.is_coplanar || (c.p == p ? c.p_front : c.q_front);
+      (leaves ? crossed_by : touched_by).push_back(o);
     }
     is_covered[p] = std::any_of(touched_by.begin(), touched_by.end(), [&](uint32_t o) {
-      return std::find(crossed_by.begin(), crossed_by.end(), o) == crossed_by.end() &&
-             within.holds(o, p);
+      return std::find(crossed_by.begin(), crossed_by.end(), o) == crossed_by.end();
     });
   }
   return is_covered;

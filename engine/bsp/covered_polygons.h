@@ -18,9 +18,9 @@ namespace csgrun {
 std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expression);
 
 /// Per polygon of the job, whether it touches the surface of a convex operand of that kind from
-/// within. Contacts of polygon p are contacts[contact_of[i]] for i in [starts[p], starts[p + 1]).
-/// Makes planes.
-std::vector<uint8_t> find_covered(Job& job, CellGeometry& geometry, const Expression& expression,
+/// within. Contacts of polygon p are contacts[contact_of[i]] for i in [starts[p], starts[p + 1]):
+/// all that it has with polygons that are not plainly covered, or all.
+std::vector<uint8_t> find_covered(const Job& job, const Expression& expression,
                                   std::span<const Contact> contacts,
                                   std::span<const uint32_t> starts,
                                   std::span<const uint32_t> contact_of);

@@ -41,7 +41,7 @@ struct List {
     of_others.include(e.box);
   }
   [[nodiscard]] bool has_one_operand() const { return second == kNobody; }
-  [[nodiscard]] bool has_two_operands() const { return second != kNobody && second == last; }
+  [[nodiscard]] bool has_two_operands_at_most() const { return second == last; }
   [[nodiscard]] PolygonBox bounds() const {
     PolygonBox all = of_lowest;
     all.include(of_others);
@@ -82,7 +82,7 @@ class CellFinder {
   }
 
  private:
-  /// Of two operands, only what is in the box of the other one matters.
+  /// Of two operands, only what is in the box of the other one matters; of one, nothing.
   List keep_near(const List& list) {
     PolygonBox common = list.of_lowest;
     common.clip(list.of_others);
@@ -132,7 +132,7 @@ class CellFinder {
   /// Handles the list, which is the top of the stack.
   void visit(PolygonBox cell, List list, int stalled) {
     ++result_.visited;
-    if (list.count > limit_ && list.has_two_operands()) {
+    if (list.count > limit_ && list.has_two_operands_at_most()) {
       const uint32_t all = list.count;
       list = keep_near(list);
       leave_alone(all - list.count);
@@ -140,7 +140,7 @@ class CellFinder {
     if (list.has_one_operand() || list.is_covered) return leave_alone(list.count);
     cell.clip(list.bounds());
     if (cancel_ && cancel_->load(std::memory_order_relaxed)) return;
-    const uint32_t limit = list.has_two_operands() ? kPatientLimit * limit_ : limit_;
+    const uint32_t limit = list.has_two_operands_at_most() ? kPatientLimit * limit_ : limit_;
     if (list.count <= limit || cell.lo == cell.hi) return add_cell(cell, list);
     const Cut cut = find_cut(cell, list);
     if (!cut.thins_out && ++stalled > kPatience) return add_cell(cell, list);

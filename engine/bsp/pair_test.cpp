@@ -43,15 +43,15 @@ const PairTest::Base& PairTest::base_of(uint32_t polygon) {
 }
 
 void PairTest::find_level(Base& base) const {
-  constexpr Int128 kExact = Int128{1} << 53;  // doubles hold it
+  [[maybe_unused]] constexpr Int128 kExact = Int128{1} << 53;  // doubles hold it
   const JobPolygon& polygon = job_.polygons()[base.polygon];
-  if (!job_.is_leaf(polygon.operand) && polygon.support.valid()) {
+  if (polygon.support.valid()) {
     const Plane plane = job_.planes().oriented(polygon.support);
     const std::array<Int128, 3> normal{plane.a, plane.b, plane.c};
     for (size_t k = 0; k < 3; ++k) {
       const bool is_unit = normal[k] == 1 || normal[k] == -1;
       if (!is_unit || normal[(k + 1) % 3] != 0 || normal[(k + 2) % 3] != 0) continue;
-      if (plane.d >= kExact || plane.d <= -kExact) continue;
+      assert(plane.d < kExact && plane.d > -kExact);  // it is a coordinate
       base.is_level = true;
       base.grows = normal[k] > 0;
       base.axis = k;

@@ -12,7 +12,8 @@ ExpressionFolder::Value ExpressionFolder::operand(uint32_t o) {
 
 ExpressionFolder::Value ExpressionFolder::make(Kind kind, bool complement,
                                                const std::vector<Value>& children) {
-  if (children.size() == 1 && !complement && kind != Kind::kDifference) return children[0];
+  assert(children.size() > 1 || kind != Kind::kDifference);
+  if (children.size() == 1 && !complement) return children[0];
   Node n{kind, complement, 0, static_cast<uint32_t>(result_.children_.size()),
          static_cast<uint32_t>(children.size())};
   for (const Value& c : children) result_.children_.push_back(c.node);
@@ -26,7 +27,7 @@ ExpressionFolder::Value ExpressionFolder::combine(Kind kind, bool complement,
     return [full](const Value& v) { return v.constant && v.full == full; };
   };
   if (kind == Kind::kXor) {
-    for (const Value& v : children) complement ^= v.constant && v.full;
+    for (const Value& v : children) complement ^= v.full;  // nothing else is
     std::erase_if(children, [](const Value& v) { return v.constant; });
     if (children.empty()) return constant(complement);
     // One child left: the complement of a union of one.
@@ -92,8 +93,8 @@ PrunedExpression ExpressionFolder::finish(const Value& root) {
   const Node& last = r.nodes_.back();
   if (last.kind == Kind::kOperand) {
     r.form_ = Form::kOperand;
-  } else if (last.complement && last.child_count == 1 && last.kind == Kind::kUnion &&
-             r.nodes_.size() == 2) {
+  } else if (last.child_count == 1 && r.nodes_.size() == 2) {
+    assert(last.complement && last.kind == Kind::kUnion);  // else it would be its child
     r.form_ = Form::kComplement;
     r.nodes_.back().operand = r.nodes_.front().operand;
   } else {

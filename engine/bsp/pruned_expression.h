@@ -4,6 +4,7 @@
 // costs no stack.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -146,7 +147,7 @@ Inside PrunedExpression::evaluate(ValueOf&& value, std::vector<Inside>& scratch)
     // The value that decides alone, and the value when nothing decides.
     Inside result = Inside::kNo;
     if (n.kind == Kind::kXor) {
-      for (uint32_t c = 0; c < n.child_count && result != Inside::kUnknown; ++c) {
+      for (uint32_t c = 0; c < n.child_count; ++c) {
         const Inside v = scratch[child[c]];
         result = v == Inside::kUnknown ? v : v == Inside::kYes ? negate(result) : result;
       }
@@ -195,11 +196,9 @@ void PrunedExpression::evaluate_words(ValueOf&& value, std::vector<uint64_t>& wo
         case Kind::kIntersection:
           word &= next;
           break;
-        case Kind::kDifference:
-          word &= ~next;
-          break;
         default:
-          word ^= next;
+          assert(n.kind == Kind::kDifference);
+          word &= ~next;
           break;
       }
     }
@@ -246,8 +245,8 @@ PrunedExpression::Boundary PrunedExpression::boundary(Front&& front, Back&& back
       for (uint32_t c = 1; c < n.child_count; ++c) {
         const Boundary& b = scratch[child[c]];
         // A symmetric difference is a left fold of binary ones: what came before counts only where
-        // it still has boundary. In the others a child's boundary cannot vanish and come back.
-        if (n.kind == Kind::kXor && r.front == r.back) r.operand = kNoOperand;
+        // it still has boundary. (In the others a child's boundary cannot vanish and come back.)
+        if (r.front == r.back) r.operand = kNoOperand;
         if (r.operand == kNoOperand) r.operand = b.operand;
         switch (n.kind) {
           case Kind::kUnion:

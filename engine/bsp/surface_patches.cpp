@@ -1,6 +1,7 @@
 #include "engine/bsp/surface_patches.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -24,7 +25,6 @@ std::vector<uint32_t> unique_points(const Job& job) {
 struct Edge {
   uint32_t low, high;  ///< points
   uint32_t polygon, position;
-  bool forward;  ///< runs from low to high
 };
 
 std::vector<Edge> sorted_edges(const Job& job, const std::vector<uint32_t>& point) {
@@ -34,7 +34,7 @@ std::vector<Edge> sorted_edges(const Job& job, const std::vector<uint32_t>& poin
     const auto corners = job.corners(polygons[p]);
     for (uint32_t i = 0; i < corners.size(); ++i) {
       const uint32_t a = point[corners[i]], b = point[corners[i + 1 < corners.size() ? i + 1 : 0]];
-      edges.push_back({std::min(a, b), std::max(a, b), p, i, a < b});
+      edges.push_back({std::min(a, b), std::max(a, b), p, i});
     }
   }
   std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
@@ -56,7 +56,7 @@ class EdgeLines {
     }
     namer.keys(lines, keys_);
     order_.resize(edges.size());
-    for (uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
+    std::iota(order_.begin(), order_.end(), 0u);
     std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
       return std::tie(keys_[a], a) < std::tie(keys_[b], b);
     });
@@ -65,12 +65,10 @@ class EdgeLines {
   /// Whether no edge but `first` and the one after it reaches the places between their ends.
   /// Conservative: by rounded coordinates.
   [[nodiscard]] bool are_alone(uint32_t first) const {
-    const auto by_key = [&](uint32_t i, const LineKey& key) { return keys_[i] < key; };
-    auto at = std::lower_bound(order_.begin(), order_.end(), keys_[first], by_key);
-    for (; at != order_.end() && keys_[*at] == keys_[first]; ++at) {
-      if (*at != first && *at != first + 1 && overlap(*at, first)) return false;
-    }
-    return true;
+    const auto on_line =
+        std::ranges::equal_range(order_, keys_[first], {}, [&](uint32_t i) { return keys_[i]; });
+    return std::ranges::none_of(
+        on_line, [&](uint32_t i) { return i != first && i != first + 1 && overlap(i, first); });
   }
 
  private:
@@ -80,7 +78,7 @@ class EdgeLines {
     for (int k = 0; k < 3; ++k) {
       const auto [a, b] = range(i, k);
       const auto [c, d] = range(j, k);
-      if (a > d || c > b || (share && a < b && c < d && (a == d || c == b))) return false;
+      if (a > d || c > b || (share && a < b && (a == d || c == b))) return false;
     }
     return true;
   }
@@ -140,8 +138,8 @@ SurfacePatches find_patches(const Job& job, std::span<const std::array<uint32_t,
     uint32_t j = i + 1;
     while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
     // Faces of a leaf whose edges overlap in part are among its crossings.
-    if (j - i == 2 && edges[i].forward != edges[i + 1].forward && !crosses[edges[i].polygon] &&
-        !crosses[edges[i + 1].polygon] && (is_leaf || lines->are_alone(i))) {
+    if (j - i == 2 && !crosses[edges[i].polygon] && !crosses[edges[i + 1].polygon] &&
+        (is_leaf || lines->are_alone(i))) {
       patches.join(edges[i].polygon, edges[i + 1].polygon);
     }
     i = j;

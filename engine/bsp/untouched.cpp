@@ -1,7 +1,6 @@
 #include "engine/bsp/untouched.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <iterator>
 #include <utility>
 
@@ -52,43 +51,9 @@ bool facets_ascend(const LeafGeometry& leaf) {
 
 bool is_own_facet(const LeafGeometry& leaf, uint32_t f) {
   const std::vector<uint32_t>& facet = leaf.facet;
-  return facet[f] != 0 && (f == 0 || facet[f - 1] != facet[f]) &&
+  return (f == 0 || facet[f - 1] != facet[f]) &&
          (f + 1 == facet.size() || facet[f + 1] != facet[f]);
 }
-
-/// The plane of three points of a leaf, to ask which others it holds.
-class FacePlane {
- public:
-  FacePlane(const IVec3& a, const IVec3& b, const IVec3& c) : origin_(a) {
-    constexpr int64_t kNear = int64_t{1} << 30;  // products of two fit
-    IVec3 u{}, v{};
-    for (size_t k = 0; k < 3; ++k) {
-      u[k] = b[k] - a[k], v[k] = c[k] - a[k];
-      is_near_ = is_near_ && std::abs(u[k]) < kNear && std::abs(v[k]) < kNear;
-    }
-    if (!is_near_) {
-      plane_ = plane_through(a, b, c);
-      return;
-    }
-    for (size_t k = 0; k < 3; ++k) {
-      const size_t i = (k + 1) % 3, j = (k + 2) % 3;
-      normal_[k] = u[i] * v[j] - u[j] * v[i];
-    }
-  }
-
-  [[nodiscard]] bool holds(const IVec3& p) const {
-    if (!is_near_) return plane_.a * p[0] + plane_.b * p[1] + plane_.c * p[2] + plane_.d == 0;
-    Int128 sum = 0;
-    for (size_t k = 0; k < 3; ++k) sum += static_cast<Int128>(normal_[k]) * (p[k] - origin_[k]);
-    return sum == 0;
-  }
-
- private:
-  const IVec3 origin_;
-  IVec3 normal_{};
-  bool is_near_ = true;
-  Plane plane_{};  ///< if they are far apart
-};
 
 /// Whether no neighbour of a face of a convex leaf lies in its plane. REQUIRES: a triangle.
 bool is_alone(const LeafGeometry& leaf, const CornerWalk& walk, uint32_t f) {
@@ -96,13 +61,14 @@ bool is_alone(const LeafGeometry& leaf, const CornerWalk& walk, uint32_t f) {
   const auto at = [&](uint32_t corner) -> const IVec3& {
     return leaf.vertices[leaf.corners[corner]];
   };
-  const FacePlane plane(at(first), at(first + 1), at(first + 2));
+  const Plane plane = plane_through(at(first), at(first + 1), at(first + 2));
   for (uint32_t c = first; c < first + 3; ++c) {
     // In one plane with an edge and another corner of the neighbour, unless that is a straight one.
     const uint32_t across = leaf.opposite[c];
     bool is_level = true;
     for (uint32_t d = walk.before(across); d != across && is_level; d = walk.before(d)) {
-      is_level = plane.holds(at(d));
+      const IVec3& p = at(d);
+      is_level = plane.a * p[0] + plane.b * p[1] + plane.c * p[2] + plane.d == 0;
     }
     if (is_level) return false;
   }
@@ -172,7 +138,6 @@ class UntouchedFaces {
       }
     }
     for (uint32_t v = 0; v < of_vertex_.size(); ++v) {
-      if (of_vertex_[v] == kNoFan || of_vertex_[v] == kUnseen) continue;
       if (walk_.fan(some_corner[v]) != faces[v]) of_vertex_[v] = kNoFan;
     }
   }

@@ -52,8 +52,7 @@ class FaceEvaluator {
       return std::move(result_);
     }
     gather_contacts();
-    is_covered_ =
-        find_covered(job_, geometry_, expression_, contacts_, contact_starts_, contact_of_);
+    is_covered_ = find_covered(job_, expression_, contacts_, contact_starts_, contact_of_);
     for (size_t p = 0; p < plainly_covered_.size(); ++p) is_covered_[p] |= plainly_covered_[p];
     find_suspects();
     if (!cut_polygons()) return cancelled();

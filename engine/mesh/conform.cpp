@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/bsp/point_index.h"
+#include "engine/exact/predicates.h"
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/face_location.h"
 #include "engine/mesh/self_contact.h"
@@ -36,8 +37,18 @@ class Conformer {
     for (const uint32_t f : near_) {
       face_boxes_[f] = mark_face(f, first_edge);
       met.clear();
+      const std::array<double, 4>& plane = planes_.approximate(faces_[f].plane.index());
       tree_.visit_all(face_boxes_[f], [&](uint32_t e) {
-        if (edges_[e].face != f) met.push_back(e);
+        const FaceEdge& met_edge = edges_[e];
+        if (met_edge.face == f) return;
+        const int from = filter_side(plane, geometry_.point(met_edge.edge.from).rounded);
+        const int to = filter_side(plane, geometry_.point(met_edge.edge.to).rounded);
+        if (from == 0 || to == 0) {
+          met.push_back(e);
+        } else {
+          note_sides(f, met_edge.face, from,
+                     to);  // in any order: most of them, in long faces' boxes
+        }
       });
       // In the order of edges: which points are made first must not depend on the tree.
       std::sort(met.begin(), met.end());

@@ -7,6 +7,7 @@
 #include <csgrun/primitives/height_map.h>
 
 #include "primitives/base/text.h"
+#include "primitives/files/byte_order.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/text_scanner.h"
 
@@ -49,6 +50,19 @@ Result<HeightMap> parse_table(const std::string& name, std::string_view bytes) {
   return map;
 }
 
+/// How many bytes the chunks of a PNG have that hold its pixels.
+size_t pixel_bytes(std::string_view bytes) {
+  constexpr size_t kSignatureSize = 8, kFrame = 12;  // length, type and checksum of a chunk
+  size_t sum = 0;
+  for (size_t at = kSignatureSize; at + kFrame <= bytes.size();) {
+    const size_t length = read_unsigned<4>(bytes, at, true);
+    if (length > bytes.size() - at - kFrame) break;
+    if (bytes.substr(at + 4, 4) == "IDAT") sum += length;
+    at += kFrame + length;
+  }
+  return sum;
+}
+
 /// By libpng's simplified interface: no jumps, and no more memory than the picture's 8-bit pixels.
 Result<HeightMap> parse_png(const std::string& name, std::string_view bytes, bool invert) {
   png_image image{};
@@ -62,6 +76,14 @@ Result<HeightMap> parse_png(const std::string& name, std::string_view bytes, boo
   if (image.width == 0 || image.height == 0 || image.width > kMostHeights / image.height) {
     png_image_free(&image);
     return too_many(name);
+  }
+  // What is compressed is hardly larger than what it unpacks to. More would be unpacked and thrown
+  // away, a thousandfold.
+  constexpr size_t kMostOfPixel = 8, kOfRow = 16, kOfFile = 1024;
+  const size_t most = size_t{image.height} * (image.width * kMostOfPixel + kOfRow) + kOfFile;
+  if (pixel_bytes(bytes) > most) {
+    png_image_free(&image);
+    return malformed(name, "", "the PNG has more data than its size needs");
   }
   // Values as they are in the file, however it says they are to be shown.
   image.format = PNG_FORMAT_RGBA;

@@ -66,7 +66,7 @@ class Cutter {
     uint32_t vertex;
     std::array<uint32_t, 3> frames;
     glm::dvec3 centre{0};  ///< of the ball, for fillets
-    NodePtr ball;          ///< the part of it that stays
+    NodePtr ball{};        ///< the part of it that stays
   };
   /// What is made of one edge: prisms towards its two ends (mostly the same one), which round
   /// corners end at the middle, and the cylinder.

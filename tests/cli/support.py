@@ -15,9 +15,9 @@ SANITIZED = b"__asan_init" in open(CSGRUN, "rb").read() or b"__tsan_init" in ope
 
 
 class Outcome:
-    def __init__(self, code, out, err, seconds, peak_mb):
+    def __init__(self, code, out, err, seconds, cpu_seconds, peak_mb):
         self.code, self.out, self.err = code, out, err
-        self.seconds, self.peak_mb = seconds, peak_mb
+        self.seconds, self.cpu_seconds, self.peak_mb = seconds, cpu_seconds, peak_mb
         self.first = err.split("\n")[0]
 
     def json(self):
@@ -76,7 +76,7 @@ class Case(unittest.TestCase):
             texts.append(file.read().decode(errors="replace"))
             file.close()
         self.assertGreaterEqual(process.returncode, 0, f"{arguments} was ended by a signal:\n{texts[1]}")
-        return Outcome(process.returncode, texts[0], texts[1], seconds, usage.ru_maxrss / 1024)
+        return Outcome(process.returncode, texts[0], texts[1], seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
 
     def run_script(self, text, *arguments, **options):
         """Runs a script of this text as model.lua; asks for measures when for nothing else."""

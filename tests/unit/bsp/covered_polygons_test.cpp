@@ -314,6 +314,8 @@ TEST(CoveredPolygons, AreNotThoseOnTheBallItself) {
 TEST(CoveredPolygons, OfNothing) {
   const std::vector<Operand> none;
   EXPECT_TRUE(find_plainly_covered(Job(none), {}).empty());
+  const std::vector<uint32_t> no_contacts{0};
+  EXPECT_TRUE(find_covered(Job(none), {}, {}, no_contacts, {}).empty());
   auto empty = std::make_shared<LeafGeometry>();
   empty->convex = true;
   const std::vector<Operand> operands{test::operand_of(empty), octahedron({0, 0, 0}, 9),
@@ -376,8 +378,7 @@ TEST(CoveredPolygons, TouchFromWithin) {
       }
       starts.push_back(static_cast<uint32_t>(contact_of.size()));
     }
-    CellGeometry geometry(job.planes(), &job);
-    const auto found = find_covered(job, geometry, expression, contacts, starts, contact_of);
+    const auto found = find_covered(job, expression, contacts, starts, contact_of);
     ASSERT_EQ(found.size(), job.polygons().size());
     for (uint32_t p = 0; p < found.size(); ++p) {
       bool expected = false;

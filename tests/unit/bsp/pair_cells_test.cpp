@@ -215,6 +215,61 @@ TEST(PairCells, GridsHoldWhatIsShared) {
   }
 }
 
+// Cells of a grid with few polygons are taken as they are, those with more are divided.
+TEST(PairCells, CellsOfAGridAreDividedIfTheyHoldMany) {
+  test::Random random(507);
+  size_t as_they_are = 0, at_the_limit = 0, divided = 0;
+  for (int i = 0; i < 6; ++i) {
+    const std::vector<Operand> operands = random_boxes(random, 120, 100, i % 2 ? 10 : 30);
+    const Job job(operands);
+    for (const uint32_t limit : {1u, 2u, 3u}) {
+      KernelOptions options;
+      options.cell_limit = limit;
+      const PairCells grid = find_coarse_cells(job, {}, limit),
+                      cells = find_pair_cells(job, {}, options);
+      ASSERT_GT(grid.cells.size(), 1u);
+      size_t few = 0;
+      for (const PairCells::Cell& g : grid.cells) {
+        const bool is_there =
+            std::any_of(cells.cells.begin(), cells.cells.end(), [&](const PairCells::Cell& c) {
+              return c.lo == g.lo && c.hi == g.hi && c.count == g.count;
+            });
+        at_the_limit += g.count == 4 * limit;
+        few += g.count <= 4 * limit;
+        if (g.count <= 4 * limit) {
+          ASSERT_TRUE(is_there);
+        } else {
+          divided += !is_there;
+        }
+      }
+      as_they_are += few;
+      if (few == grid.cells.size()) {
+        EXPECT_EQ(cells.visited, few);
+        EXPECT_EQ(cells.surface, grid.surface + few);
+      } else {
+        EXPECT_GE(cells.visited, grid.cells.size());
+      }
+    }
+  }
+  EXPECT_GT(as_they_are, 100u);
+  EXPECT_GT(at_the_limit, 0u);
+  EXPECT_GT(divided, 0u);
+}
+
+// A flag that is there but not set stops nothing.
+TEST(PairCells, AreNotLookedForOnceCancelled) {
+  const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {9, 9, 9})),
+                                      test::operand_of(test::box_leaf({3, 3, 3}, {12, 12, 12}))};
+  const Job job(operands);
+  std::atomic<bool> cancel = false;
+  KernelOptions options;
+  options.cell_limit = 1;
+  options.cancel = &cancel;
+  EXPECT_EQ(visited(job, find_pair_cells(job, {}, options)), all_pairs(job));
+  cancel = true;
+  EXPECT_TRUE(find_pair_cells(job, {}, options).cells.empty());
+}
+
 // An operand that is empty says nothing about what two others have in common.
 TEST(PairCells, GridsOfTwoOperandsAndNothing) {
   test::Random random(504);

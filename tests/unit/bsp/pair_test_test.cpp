@@ -336,5 +336,58 @@ TEST(PairTest, OfResults) {
   EXPECT_GT(seen.coplanar, 10);
 }
 
+// Of a result's face in a plane of one coordinate no plane is asked: a square that stands on it,
+// and is longer, is known to touch it.
+TEST(PairTest, OfResultsOfBoxesWithoutPlanes) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (const int64_t side : {-1, 1}) {
+      const auto turned = [&](Loop loop) {
+        for (IVec3& p : loop) {
+          p[2] *= side;
+          std::rotate(p.begin(), p.begin() + axis, p.end());
+        }
+        return loop;
+      };
+      const Loop ends = turned({{0, 0, -9}, {4, 8, 0}});
+      IVec3 lo{}, hi{};
+      for (size_t k = 0; k < 3; ++k) {
+        lo[k] = std::min(ends[0][k], ends[1][k]), hi[k] = std::max(ends[0][k], ends[1][k]);
+      }
+      std::vector<Operand> operands(2);
+      operands[0].leaf = make_leaf({turned({{2, -1, 0}, {2, 9, 0}, {2, 9, 3}, {2, -1, 3}})});
+      operands[1].boundary = *evaluate(leaf(0), {operand_of(box_leaf(lo, hi))});
+      const Job job(operands);
+      PairTest test(job);
+      int contacts = 0;
+      for (uint32_t q = 1; q < job.polygons().size(); ++q) {
+        const auto corners = job.corners(job.polygons()[q]);
+        const size_t level = (5 - axis) % 3;  // where the third coordinate has gone
+        if (std::any_of(corners.begin(), corners.end(),
+                        [&](uint32_t v) { return job.rounded(v)[level] != 0; })) {
+          continue;
+        }
+        Contact contact;
+        EXPECT_EQ(test.run(0, q, nullptr, contact), Meeting::kContact) << axis << ' ' << side;
+        EXPECT_FALSE(contact.is_plain);
+        ++contacts;
+      }
+      EXPECT_EQ(contacts, 1) << axis << ' ' << side;
+    }
+  }
+}
+
+// A square clearly in front of another one: four signs say so.
+TEST(PairTest, CountsItsSigns) {
+  const std::vector<Operand> operands{
+      operand_of(make_leaf({{{0, 0, 5}, {4, 0, 5}, {4, 4, 5}, {0, 4, 5}}})),
+      operand_of(make_leaf({{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}}))};
+  const Job job(operands);
+  PairTest test(job);
+  Contact contact;
+  EXPECT_EQ(test.run(0, 1, nullptr, contact), Meeting::kApart);
+  EXPECT_EQ(test.signs().filtered, 4u);
+  EXPECT_EQ(test.signs().exact, 0u);
+}
+
 }  // namespace
 }  // namespace csgrun

@@ -197,6 +197,28 @@ TEST(PrunedExpression, EvaluatesWhatIsKnownOfOneNode) {
   }
 }
 
+// One node may be a child twice.
+TEST(PrunedExpression, OfOneOperandTwice) {
+  for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kIntersection, BooleanOp::kDifference,
+                             BooleanOp::kSymmetricDifference}) {
+    Expression e;
+    e.nodes.emplace_back().operand = 3;
+    Expression::Node both;
+    both.is_operand = false;
+    both.op = op;
+    both.child_count = 2;
+    e.nodes.push_back(both);
+    e.children = {0, 0};
+    const PrunedExpression pruned(e);
+    std::vector<Inside> scratch;
+    for (const Inside value : {Inside::kNo, Inside::kYes}) {
+      const bool is_itself = op == BooleanOp::kUnion || op == BooleanOp::kIntersection;
+      EXPECT_EQ(pruned.evaluate([&](uint32_t) { return value; }, scratch),
+                is_itself ? value : Inside::kNo);
+    }
+  }
+}
+
 TEST(PrunedExpression, OfNothingIsEmpty) {
   EXPECT_EQ(PrunedExpression().form(), Form::kEmpty);
   EXPECT_EQ(PrunedExpression(Expression()).form(), Form::kEmpty);

@@ -33,6 +33,16 @@ struct Walls {
   }
 };
 
+/// Whether a point is in a cell, or beside it by less than a step.
+bool is_near(const CellBox& box, const std::array<double, 3>& p) {
+  for (int k = 0; k < 3; ++k) {
+    if (p[k] < static_cast<double>(box.lo[k]) || p[k] > static_cast<double>(box.hi[k]) + 1) {
+      return false;
+    }
+  }
+  return true;
+}
+
 TEST(SurfaceOctree, CellsHoldWhatCrossesAndWitnesses) {
   test::Random random(61);
   size_t cells = 0, corners_inside = 0;
@@ -89,8 +99,12 @@ TEST(SurfaceOctree, CellsHoldWhatCrossesAndWitnesses) {
       ASSERT_EQ(cell.corner_winding, test::winding_around(surface, corner)) << "case " << i;
       corners_inside += cell.corner_winding != 0;
       // One of them is reason enough to solve the cell.
+      ASSERT_GT(cell.count, 0u);
       ASSERT_TRUE(std::any_of(held.begin(), held.end(), [&](uint32_t p) { return crosses[p]; }) ||
-                  !witnesses.empty());
+                  std::any_of(witnesses.begin(), witnesses.end(),
+                              [&](uint32_t v) { return is_near(cell.box, job.rounded(v)); }))
+          << "case " << i;
+      for (int k = 0; k < 3; ++k) ASSERT_LT(cell.box.lo[k], cell.box.hi[k]);
     }
     ASSERT_EQ(listed, tree.polygons.size());
     cells += walls.size();
@@ -183,6 +197,12 @@ TEST(SurfaceOctree, WhatCannotComeApartIsLeftSoon) {
   const SurfaceOctree tree = octree_of(loops, 1, true);
   EXPECT_LT(tree.visited, 250u);
   EXPECT_GT(tree.visited, 20u);
+  // Nor do polygons that are all the same, down to a step.
+  const SurfaceOctree same =
+      octree_of(std::vector<test::Loop>(200, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), 1, true);
+  for (const SurfaceCell& cell : same.cells) {
+    for (int k = 0; k < 3; ++k) EXPECT_LT(cell.box.lo[k], cell.box.hi[k]);
+  }
 }
 
 }  // namespace

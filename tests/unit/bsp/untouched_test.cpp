@@ -17,6 +17,10 @@ using test::Loop;
 
 std::shared_ptr<LeafGeometry> leaf_of(const std::vector<Loop>& loops, bool keep_facets) {
   auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(loops, keep_facets));
+  // The first face has not the first vertex.
+  const auto count = static_cast<uint32_t>(leaf->vertices.size());
+  std::rotate(leaf->vertices.begin(), leaf->vertices.begin() + 1, leaf->vertices.end());
+  for (uint32_t& v : leaf->corners) v = (v + count - 1) % count;
   leaf->opposite = pair_edges(*leaf).opposite;
   leaf->may_touch = false;
   return leaf;
@@ -77,12 +81,33 @@ std::shared_ptr<LeafGeometry> any_leaf(test::Random& random) {
   }
   std::vector<Loop> loops = tiled_cube(random, {0, 0, 0}, 4, kind == 1);
   if (kind == 2) {  // with a corner in common
-    const std::vector<Loop> more = tiled_cube(random, {4, 4, 4}, 2, false);
+    const IVec3 common{4, 4, 4};
+    const std::vector<Loop> more = tiled_cube(random, common, 2, false);
     loops.insert(loops.end(), more.begin(), more.end());
+    // In the first faces or the last ones: so its number is near zero, or the last but one.
+    const bool is_last = random.integer(0, 1) != 0;
+    std::stable_partition(loops.begin(), loops.end(), [&](const Loop& loop) {
+      return (std::find(loop.begin(), loop.end(), common) == loop.end()) == is_last;
+    });
+    if (is_last) {
+      // Numbers go down by one: a face whose first corner is that of number 0 makes it the last.
+      const auto first = std::find_if(loops.begin(), loops.end(), [&](const Loop& loop) {
+        return std::find(loop.begin(), loop.end(), common) != loop.end();
+      });
+      std::iter_swap(loops.begin(), first);
+      std::rotate(loops[0].begin(), std::find(loops[0].begin(), loops[0].end(), common),
+                  loops[0].end());
+    }
   }
-  // Bent, so that not all are level.
+  // Bent, so that not all are level: some, or nearly none.
   for (Loop& loop : loops) {
-    for (IVec3& p : loop) p[0] = 100 * p[0] + p[1] * p[1] + (kind == 4 ? p[2] * p[2] : 0);
+    for (IVec3& p : loop) {
+      const IVec3 q = p;
+      p[0] = 100 * q[0] + q[1] * q[1] + (kind == 4 ? q[2] * q[2] : 0);
+      if (kind != 3) continue;
+      p[1] = 100 * q[1] + q[2] * q[2] + q[0] * q[0] * q[0];
+      p[2] = 100 * q[2] + q[0] * q[0] + q[1] * q[1] * q[1];
+    }
   }
   auto leaf = leaf_of(loops, true);
   // A few facets of several faces.
@@ -333,6 +358,16 @@ TEST(UntouchedFaces, AreNoneOfOtherOperands) {
               leaf.convex = true;
             }),
             20u);
+  // The last face alone, which is level with no other.
+  const std::vector<Operand> one{test::operand_of(
+      leaf_of(test::hull_loops({{0, 0, 0}, {9, 0, 1}, {0, 9, 2}, {1, 2, 9}}), true))};
+  const Job job(one);
+  const auto last = static_cast<uint32_t>(job.polygons().size() - 1);
+  std::vector<WholePolygon> whole{{last, false, false}};
+  const auto parts = take_untouched(job, one, whole);
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(parts[0].faces, std::vector<uint32_t>{last});
+  EXPECT_EQ(parts[0].shared.size(), 3u);
   Operand result;
   result.boundary = *test::evaluate(test::leaf(0), {test::operand_of(good)});
   EXPECT_EQ(count({result}), 0u);

@@ -1,0 +1,241 @@
+// Polygons cut by all that meets them: the loops fill the polygon, and what is said of a region is
+// what an oracle says of points in front of it and behind it, beside each of its edges.
+#include "engine/bsp/face_arrangement.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/bsp/crossing_points.h"
+#include "engine/bsp/find_contacts.h"
+#include "engine/mesh/opposite_edges.h"
+#include "tests/support/kernel_case.h"
+#include "tests/support/oracle.h"
+#include "tests/support/random_solids.h"
+
+namespace csgrun {
+namespace {
+
+using test::Query;
+
+Query minus(const Query& a, const Query& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Query cross(const Query& a, const Query& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Query& a, const Query& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Query unit(const Query& a) {
+  const double length = std::sqrt(dot(a, a));
+  return {a[0] / length, a[1] / length, a[2] / length};
+}
+Query along(const Query& a, const Query& way, double length) {
+  return {a[0] + way[0] * length, a[1] + way[1] * length, a[2] + way[2] * length};
+}
+
+/// Twice the area that points go round.
+Query area_vector(const std::vector<Query>& points) {
+  Query sum{};
+  for (size_t i = 2; i < points.size(); ++i) {
+    sum = along(sum, cross(minus(points[i - 1], points[0]), minus(points[i], points[0])), 1);
+  }
+  return sum;
+}
+
+struct Count {
+  size_t cut = 0, by_names = 0, left = 0, facts = 0, coplanar = 0;
+};
+
+class Cuts {
+ public:
+  explicit Cuts(const std::vector<Operand>& operands)
+      : job_(operands),
+        contacts_(find_contacts(job_, {}, {}, stats_)),
+        geometry_(job_.planes(), &job_),
+        index_(geometry_),
+        points_(job_, geometry_, index_) {
+    for (const Operand& o : operands) oracles_.emplace_back(test::exact_solid(o));
+    for (uint32_t p = 0; p < job_.polygons().size(); ++p) job_.ensure_planes(p);
+  }
+
+  void check(Count& count) {
+    FaceArrangement arrangement(job_, geometry_, index_, contacts_.touched);
+    PolygonCutter cutter(job_, geometry_);
+    for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
+      const bool is_plain = list(p);
+      if (sheets_.empty() && coplanar_.empty()) continue;
+      CutLoops loops;
+      if (is_plain && cutter.cut(p, segments_, loops)) {
+        ++count.by_names;
+        ASSERT_NO_FATAL_FAILURE(check_loops(p, loops, count));
+      }
+      loops = {};
+      if (!arrangement.build(p, sheets_, coplanar_, loops)) {
+        ASSERT_TRUE(loops.loops.empty() && loops.corner_point.empty() && loops.facts.empty());
+        ++count.left;
+        continue;
+      }
+      ++count.cut;
+      count.coplanar += !coplanar_.empty();
+      ASSERT_NO_FATAL_FAILURE(check_loops(p, loops, count));
+    }
+  }
+
+ private:
+  /// What meets a polygon; whether nothing touches it.
+  bool list(uint32_t polygon) {
+    sheets_.clear();
+    segments_.clear();
+    coplanar_.clear();
+    bool is_plain = true;
+    std::vector<uint8_t> is_flat(job_.operand_count(), 0);
+    const auto other_of = [&](const Contact& c) { return c.p == polygon ? c.q : c.p; };
+    for (const Contact& c : contacts_.contacts) {
+      if (c.p != polygon && c.q != polygon) continue;
+      is_plain = is_plain && c.is_plain;
+      if (!c.is_coplanar) continue;
+      coplanar_.push_back(other_of(c));
+      const uint32_t o = job_.polygons()[coplanar_.back()].operand;
+      is_flat[o] = job_.is_convex(o);
+    }
+    for (const Contact& c : contacts_.contacts) {
+      const bool is_p = c.p == polygon;
+      if (c.is_coplanar || (!is_p && c.q != polygon)) continue;
+      if (is_flat[job_.polygons()[other_of(c)].operand]) continue;
+      const auto point = [&](const Contact::End& end) {
+        if (end.vertex != kNone) return index_.unique(geometry_.vertex_point(end.vertex));
+        return end.on_p ? points_.point(c.p, end.edge, c.q) : points_.point(c.q, end.edge, c.p);
+      };
+      const auto edge = [&](const Contact::End& e) { return e.on_p == is_p ? e.edge : kNone; };
+      const Contact::End &from = is_p ? c.lower : c.upper, &to = is_p ? c.upper : c.lower;
+      if (point(from) == point(to)) continue;
+      sheets_.push_back({point(from), point(to), other_of(c), is_p ? c.q_front : c.p_front,
+                         is_p ? c.q_back : c.p_back});
+      segments_.push_back({point(from), point(to), other_of(c), edge(from), edge(to)});
+    }
+    return is_plain;
+  }
+
+  void check_loops(uint32_t polygon, const CutLoops& loops, Count& count) {
+    std::vector<Query> outline;
+    for (const uint32_t v : job_.corners(job_.polygons()[polygon])) {
+      outline.push_back(job_.rounded(v));
+    }
+    const Query area = area_vector(outline), normal = unit(area);
+    double filled = 0;
+    for (const CutLoops::Loop& loop : loops.loops) {
+      std::vector<Query> points;
+      for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
+        points.push_back(geometry_.point(loops.corner_point[c]).rounded);
+      }
+      filled += dot(area_vector(points), normal);
+      if (loop.vertex != kNone) {
+        ASSERT_NE(std::find(points.begin(), points.end(), job_.rounded(loop.vertex)), points.end());
+      }
+      for (size_t i = 0; i < points.size(); ++i) {
+        const Query &a = points[i], &b = points[(i + 1) % points.size()];
+        // Not the middle, which is in line with too much.
+        const Query between = along(a, minus(b, a), 0.4296875);
+        const Query within = along(between, unit(cross(normal, minus(b, a))), 0x1p-24);
+        const Query before = along(within, normal, 0x1p-44),
+                    behind = along(within, normal, -0x1p-44);
+        for (uint32_t f = loop.first_fact; f < loop.first_fact + loop.fact_count; ++f) {
+          const CutLoops::Fact& fact = loops.facts[f];
+          const auto front = oracles_[fact.operand].winding(before),
+                     back = oracles_[fact.operand].winding(behind);
+          if (!front || !back) continue;  // in line with an edge
+          ASSERT_EQ(fact.front, *front == 1) << "polygon " << polygon;
+          ASSERT_EQ(fact.back, *back == 1) << "polygon " << polygon;
+          ++count.facts;
+        }
+      }
+    }
+    ASSERT_NEAR(filled, dot(area, normal), 1e-9 * dot(area, normal));
+  }
+
+  Job job_;
+  EvaluateStats stats_;
+  Contacts contacts_;
+  CellGeometry geometry_;
+  PointIndex index_;
+  CrossingPoints points_;
+  std::vector<test::Oracle> oracles_;
+  std::vector<SheetSegment> sheets_;
+  std::vector<CutSegment> segments_;
+  std::vector<uint32_t> coplanar_;
+};
+
+Operand known(const std::vector<test::Loop>& loops, bool is_convex) {
+  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(loops));
+  leaf->opposite = pair_edges(*leaf).opposite;
+  leaf->may_touch = false;
+  leaf->convex = is_convex;
+  return test::operand_of(std::move(leaf));
+}
+
+Operand random_box(test::Random& random, bool is_convex) {
+  IVec3 lo{}, hi{};
+  for (size_t k = 0; k < 3; ++k) {
+    lo[k] = random.integer(-4, 2);
+    hi[k] = lo[k] + random.integer(1, 5);
+  }
+  return known(test::box_loops(lo, hi), is_convex);
+}
+
+Operand random_hull(test::Random& random, bool is_convex) {
+  std::vector<test::Loop> loops;
+  while (loops.empty()) {
+    std::vector<IVec3> points(static_cast<size_t>(random.integer(4, 8)));
+    for (IVec3& p : points) {
+      for (int64_t& c : p) c = random.integer(-4, 4);
+    }
+    loops = test::hull_loops(points);
+  }
+  return known(loops, is_convex);
+}
+
+/// Counts are those of when this was written: fewer polygons left to others are fine, and more
+/// facts.
+void expect_at_least(const Count& count, const Count& limit) {
+  EXPECT_GE(count.cut, limit.cut);
+  EXPECT_GE(count.by_names, limit.by_names);
+  EXPECT_LE(count.left, limit.left);
+  EXPECT_GE(count.facts, limit.facts);
+  EXPECT_GE(count.coplanar, limit.coplanar);
+}
+
+TEST(FaceArrangement, OfConvexBodies) {
+  test::Random random(981);
+  Count count;
+  for (int i = 0; i < 60; ++i) {
+    std::vector<Operand> operands;
+    for (int64_t o = random.integer(2, 4); o > 0; --o) {
+      operands.push_back(random.integer(0, 1) ? random_box(random, i % 3 != 0)
+                                              : random_hull(random, i % 3 != 0));
+    }
+    ASSERT_NO_FATAL_FAILURE(Cuts(operands).check(count)) << "case " << i;
+  }
+  expect_at_least(count, {749, 243, 0, 20261, 74});
+}
+
+// Of any bodies on a small grid, which may touch themselves as far as anybody knows, or do not.
+TEST(FaceArrangement, OfAnyBodies) {
+  test::Random random(982);
+  Count count;
+  for (int i = 0; i < 40; ++i) {
+    std::vector<Operand> operands;
+    for (int64_t o = random.integer(2, 3); o > 0; --o) {
+      Operand operand = test::operand_of(test::random_leaf(random));
+      if (i % 2) operand = known(test::loops_of(*operand.leaf), false);
+      if (i % 4 == 0 && random.integer(0, 1)) {  // an edge of four faces
+        auto loops = test::box_loops({-2, -2, -3}, {0, 0, 3});
+        const auto more = test::box_loops({0, 0, -3}, {3, 3, 3});
+        loops.insert(loops.end(), more.begin(), more.end());
+        operand = test::operand_of(test::make_leaf(loops));
+        for (int64_t& t : operand.translation) t = random.integer(-2, 2);
+      }
+      operands.push_back(operand);
+    }
+    ASSERT_NO_FATAL_FAILURE(Cuts(operands).check(count)) << "case " << i;
+  }
+  expect_at_least(count, {948, 84, 44, 11613, 270});
+}
+
+}  // namespace
+}  // namespace csgrun

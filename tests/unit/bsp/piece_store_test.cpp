@@ -1,0 +1,133 @@
+// Points of a store of pieces are those of the jobs that they come from.
+#include "engine/bsp/piece_store.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "engine/bsp/result_pieces.h"
+#include "tests/support/kernel_case.h"
+#include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
+
+namespace csgrun {
+namespace {
+
+using test::Loop;
+
+/// A box whose top is of two squares, so that its front and its rear have a corner that is straight
+/// there; each loop starts anywhere.
+std::vector<Loop> box_with_split_top(test::Random& random) {
+  std::vector<Loop> loops{{{0, 0, 2}, {1, 0, 2}, {1, 2, 2}, {0, 2, 2}},
+                          {{1, 0, 2}, {2, 0, 2}, {2, 2, 2}, {1, 2, 2}},
+                          {{0, 0, 0}, {0, 2, 0}, {2, 2, 0}, {2, 0, 0}},
+                          {{0, 0, 0}, {2, 0, 0}, {2, 0, 2}, {1, 0, 2}, {0, 0, 2}},
+                          {{2, 2, 0}, {0, 2, 0}, {0, 2, 2}, {1, 2, 2}, {2, 2, 2}},
+                          {{0, 0, 0}, {0, 0, 2}, {0, 2, 2}, {0, 2, 0}},
+                          {{2, 0, 0}, {2, 2, 0}, {2, 2, 2}, {2, 0, 2}}};
+  for (Loop& loop : loops) {
+    std::rotate(loop.begin(),
+                loop.begin() + random.integer(0, static_cast<int64_t>(loop.size()) - 1),
+                loop.end());
+  }
+  std::shuffle(loops.begin(), loops.end(),
+               std::mt19937(static_cast<unsigned>(random.integer(0, 999))));
+  return loops;
+}
+
+/// A box with a corner in the middle of an edge, at which no face turns.
+std::vector<Loop> box_with_middle() {
+  auto loops = test::box_loops({0, 0, 0}, {2, 2, 2});
+  const IVec3 a{0, 0, 0}, b{0, 0, 2}, middle{0, 0, 1};
+  for (Loop& loop : loops) {
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const IVec3 &p = loop[i], &q = loop[(i + 1) % loop.size()];
+      if (std::minmax(p, q) != std::minmax(a, b)) continue;
+      loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
+      break;
+    }
+  }
+  return loops;
+}
+
+TEST(PieceStore, PointsAreThoseOfTheJob) {
+  test::Random random(991);
+  size_t constructed = 0, on_grid = 0;
+  for (int round = 0; round < 60; ++round) {
+    std::vector<Operand> operands(3);
+    for (Operand& o : operands) {
+      o.leaf = random.integer(0, 1) ? test::make_leaf(box_with_split_top(random))
+                                    : test::random_leaf(random);
+      o.translation = {random.integer(-9, 9), random.integer(-9, 9), random.integer(-9, 9)};
+      if (random.integer(0, 3)) o.frame = test::random_frame(random);
+    }
+    if (round % 3 == 0) {
+      const auto result = test::evaluate(test::leaf(0), {operands[1]});
+      operands[1].leaf = nullptr;
+      operands[1].boundary = *result;
+      operands[1].frame = {};
+      operands[1].translation = {0, 0, 0};
+    }
+    PieceStore store;
+    Job job(operands, &store.planes);
+    for (uint32_t o = 0; o < operands.size(); ++o) {
+      ASSERT_EQ(store.add_operand(job, operands, o), o);
+      ASSERT_EQ(store.operands().size(), o + 1);
+      for (uint32_t v = job.vertex_start(o); v < job.vertex_start(o + 1); ++v) {
+        const uint32_t p = store.first_point(o) + v - job.vertex_start(o);
+        ASSERT_EQ(store.rounded(p), job.rounded(v));
+        ASSERT_EQ(store.operand_of(p), o);
+        ASSERT_EQ(compare(store.exact(p), job.exact(v)), 0) << "round " << round;
+        ++(store.point_planes(p)[0] == PieceStore::kNoNumber ? on_grid : constructed);
+      }
+    }
+    ASSERT_EQ(store.point_count(), job.vertex_count());
+  }
+  EXPECT_GT(constructed, 300u);
+  EXPECT_GT(on_grid, 100u);
+}
+
+// In a frame a point needs three planes, of a face that turns there.
+TEST(PieceStore, RefusesVerticesAtWhichNoFaceTurns) {
+  test::Random random(992);
+  Operand operand = test::operand_of(test::make_leaf(box_with_middle()));
+  ASSERT_EQ(operand.leaf->vertices.size(), 9u);
+  const auto number_of = [](const Operand& o) {
+    const std::vector<Operand> operands{o};
+    PieceStore store;
+    Job job(operands, &store.planes);
+    return store.add_operand(job, operands, 0);
+  };
+  const auto pieces_of = [](const Operand& o) {
+    const std::vector<Operand> operands{o, test::operand_of(test::box_leaf({1, 1, 1}, {5, 5, 5}))};
+    EvaluateStats stats;
+    const auto made = evaluate_pieces(operands, test::flat_expression(BooleanOp::kUnion, 2),
+                                      test::region_of(operands), {}, stats);
+    EXPECT_TRUE(made);
+    return made && *made;
+  };
+  EXPECT_EQ(number_of(operand), 0u);
+  EXPECT_TRUE(pieces_of(operand));
+  operand.frame = test::random_frame(random);
+  EXPECT_EQ(number_of(operand), PieceStore::kNoNumber);
+  EXPECT_FALSE(pieces_of(operand));
+}
+
+TEST(PieceStore, HasItsOriginAtTheFirstVertex) {
+  const auto origin = [](const std::vector<Operand>& operands) {
+    PieceStore store;
+    Job job(operands, &store.planes);
+    for (uint32_t o = 0; o < operands.size(); ++o) store.add_operand(job, operands, o);
+    return store.origin();
+  };
+  const Operand nothing = test::operand_of(std::make_shared<LeafGeometry>()),
+                box = test::operand_of(test::box_leaf({5, -6, 7}, {9, 9, 9})),
+                other = test::operand_of(test::box_leaf({1, 2, 3}, {9, 9, 9}));
+  EXPECT_EQ(origin({box}), (IVec3{5, -6, 7}));
+  EXPECT_EQ(origin({box, other}), (IVec3{5, -6, 7}));
+  EXPECT_EQ(origin({nothing}), (IVec3{0, 0, 0}));
+  EXPECT_EQ(origin({nothing, other}), (IVec3{0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace csgrun
