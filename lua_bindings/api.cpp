@@ -116,6 +116,16 @@ int refuse_assignment(lua_State* L) {
   throw ScriptError("a " + kind_name(L, 1) + " cannot be changed: methods return new values");
 }
 
+/// difference() { ... } and translate(...) cube(1) in parentheses, as OpenSCAD has them.
+int refuse_call(lua_State* L) {
+  const std::string kind = kind_name(L, 1);
+  if (kind == MatrixValue::kName)
+    throw ScriptError("a matrix stands before what it moves: M * part, or part:translate(...)");
+  throw ScriptError("a " + kind +
+                    " is no function: operands stand in the parentheses, "
+                    "difference(a, b), or between them, a - b");
+}
+
 int value_text(lua_State* L) {
   const std::string kind = kind_name(L, 1);
   lua_pushlstring(L, kind.data(), kind.size());
@@ -209,6 +219,8 @@ void open_api(lua_State* L) {
     lua_setfield(L, -2, "__newindex");
     lua_pushcfunction(L, guarded<value_text>);
     lua_setfield(L, -2, "__tostring");
+    lua_pushcfunction(L, guarded<refuse_call>);
+    lua_setfield(L, -2, "__call");
     lua_pop(L, 1);
   }
 }

@@ -43,6 +43,14 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
       best_distance = d;
     }
   }
+  // Half of a name of several words: "extrude" is linear_extrude.
+  constexpr size_t kShortestHalf = 4;
+  const bool is_far = best.empty() && word.size() >= kShortestHalf;
+  for (const std::string& name : names) {
+    const bool is_half = name.size() > word.size() && name.ends_with(word) &&
+                         name[name.size() - word.size() - 1] == '_';
+    if (is_far && is_half && (best.empty() || name < best)) best = name;
+  }
   return best;
 }
 

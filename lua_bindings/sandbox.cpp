@@ -1,12 +1,15 @@
 #include "lua_bindings/sandbox.h"
 
 #include <algorithm>
+#include <charconv>
 #include <string>
 #include <vector>
 
+#include "lua_bindings/arguments.h"
 #include "lua_bindings/call_site.h"
 #include "lua_bindings/guard.h"
 #include "lua_bindings/nearest.h"
+#include "lua_bindings/openscad_hints.h"
 #include "lua_bindings/ordered.h"
 #include "lua_bindings/text.h"
 
@@ -33,6 +36,8 @@ int undefined_global(lua_State* L) {
   if (const char* reason = missing_name_reason(name)) {
     throw ScriptError("'" + name + "' is not available: " + reason);
   }
+  if (const char* hint = name_hint(name))
+    throw ScriptError("undefined variable '" + name + "' (in Lua " + hint + ")");
   std::vector<std::string> names;
   lua_pushnil(L);
   while (lua_next(L, 1) != 0) {
@@ -40,6 +45,17 @@ int undefined_global(lua_State* L) {
     if (lua_type(L, -1) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -1));
   }
   throw ScriptError("undefined variable '" + name + "'" + did_you_mean(name, names));
+}
+
+/// A new global. OpenSCAD's facets are special variables, and these are not.
+int new_global(lua_State* L) {
+  const std::string name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
+  if ((name == "fn" || name == "fa" || name == "fs") && lua_type(L, 3) == LUA_TNUMBER) {
+    session_of(L).warn(L, "'" + name + "' is a variable like any other; csg." + name + " = " +
+                              describe_value(L, 3) + " sets the facets");
+  }
+  lua_rawset(L, 1);
+  return 0;
 }
 
 /// Where modules are looked for first; "./" is the model's folder.
@@ -167,8 +183,9 @@ void open_sandbox(lua_State* L, Session& session) {
   lua_setmetatable(L, -2);
   lua_setfield(L, -2, "package");
 
-  lua_createtable(L, 0, 2);
+  lua_createtable(L, 0, 3);
   set_field(L, "__index", guarded<undefined_global>);
+  set_field(L, "__newindex", guarded<new_global>);
   lua_pushboolean(L, 0);
   lua_setfield(L, -2, "__metatable");
   lua_setmetatable(L, -2);
@@ -190,6 +207,22 @@ std::string package_path(lua_State* L) {
   return path;
 }
 
+namespace {
+
+/// The line of the text that a message "path:12: ..." is about.
+std::string_view line_of(std::string_view message, const std::string& path, std::string_view text) {
+  size_t line = 0;
+  if (message.size() > path.size() + 1) {
+    const char* digits = message.data() + path.size() + 1;
+    std::from_chars(digits, message.data() + message.size(), line);
+  }
+  for (; line > 1 && !text.empty(); --line)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
 void load_chunk(lua_State* L, const std::string& path, const std::string& text) {
   size_t start = text.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0;
   if (start < text.size() && text[start] == kBytecodeMark) {
@@ -201,7 +234,10 @@ void load_chunk(lua_State* L, const std::string& path, const std::string& text) 
   const int status =
       luaL_loadbufferx(L, text.data() + start, text.size() - start, name.c_str(), "t");
   if (status == LUA_ERRMEM) throw std::bad_alloc();
-  if (status != LUA_OK) throw PlacedScriptError(with_whole_path(lua_tostring(L, -1), path));
+  if (status != LUA_OK) {
+    const std::string message = with_whole_path(lua_tostring(L, -1), path);
+    throw PlacedScriptError(message + syntax_hint(line_of(message, path, text), message));
+  }
 }
 
 }  // namespace csgrun

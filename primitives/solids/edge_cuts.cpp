@@ -91,6 +91,23 @@ class Cutter {
     return colour == nullptr ? leaf : Node::painted(*colour, leaf, where_);
   }
 
+  /// The same of a body whose edges run along a chosen one: in a frame that is turned with it, so
+  /// that its long faces are flat on the grid, and those that meet in a line are the same all
+  /// along.
+  NodePtr hull_along(std::vector<glm::dvec3> points, const EdgeFrame& f) const {
+    const std::array<glm::dvec3, 3> axes{f.along, f.in[0], glm::cross(f.along, f.in[0])};
+    const bool is_upright = is_along_axis(axes[0]) && is_along_axis(axes[1]);
+    if (is_upright || (is_fillet() && (corner_at(f, 0) != nullptr || corner_at(f, 1) != nullptr))) {
+      return hull(std::move(points), f);
+    }
+    for (glm::dvec3& p : points) {
+      p = {glm::dot(p, axes[0]), glm::dot(p, axes[1]), glm::dot(p, axes[2])};
+    }
+    Affine turn;
+    for (int i = 0; i < 3; ++i) turn.m[i] = {axes[0][i], axes[1][i], axes[2][i], 0};
+    return Node::transformed(turn, hull(std::move(points), f), where_);
+  }
+
   /// The appearance of the left side, if it has one of its own.
   [[nodiscard]] const Appearance* colour_beside(const EdgeFrame& f) const {
     const Appearance& found =
@@ -286,7 +303,7 @@ class Cutter {
         points.push_back(f.start + offsets[k] + from.at[k] * f.along);
         points.push_back(f.start + offsets[k] + to.at[k] * f.along);
       }
-      return hull(std::move(points), f);
+      return hull_along(std::move(points), f);
     };
     const std::array<const Corner*, 2> corners{corner_at(f, 0), corner_at(f, 1)};
     if (!is_fillet() || (corners[0] == nullptr && corners[1] == nullptr)) {
@@ -335,7 +352,7 @@ class Cutter {
       }
     }
     if (at[1] - at[0] <= 1e-9 * (f.length + f.setback)) return nullptr;
-    return hull(std::move(points), f);
+    return hull_along(std::move(points), f);
   }
 
   static NodePtr less(NodePtr from, std::vector<NodePtr> what, const SourceRef& where) {

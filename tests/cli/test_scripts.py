@@ -26,6 +26,28 @@ class Mistakes(Case):
     def test_undefined_global(self):
         self.check("\nreturn cub(10)", "model.lua:2: undefined variable 'cub' (did you mean 'cube'?)")
 
+    def test_what_openscad_users_write(self):
+        for text, message in (
+                ("cube([1, 2, 3]);", "unexpected symbol near '['; a list stands in braces: {10, 20, 30}"),
+                ("return cube({1, 2, 3}, center=true)", "')' expected near '='; options by name stand in braces: cube{"),
+                ("return translate{1, 2, 3} cube(10)", "<eof> expected near 'cube'; what is changed stands before: cube(10):translate("),
+                ("return cylinder(5, 10, $fn=32)", "unexpected symbol near '$'; the facets are fn, fa and fs: sphere(5, {fn = 64})"),
+                ("module foo() { cube(1); }", "syntax error near 'foo'; a module is a function that returns a solid: local function"),
+                ("include <a.scad>", "syntax error near '<'; other files of Lua are read by require"),
+                ("// words", "unexpected symbol near '//'; a comment begins with --"),
+                ("if 1 != 2 then end", "'then' expected near '!'; \"not equal\" is ~="),
+                ("difference() { cube(10); sphere(5) }", "a solid is no function: operands stand in the parentheses, difference(a, b)"),
+                ("return translate(1, 2, 3)(cube(10))", "a matrix stands before what it moves: M * part"),
+                ("return square(5):extrude(10)", "a shape has no method 'extrude' (did you mean 'linear_extrude'?)"),
+                ("echo('x')", "undefined variable 'echo' (in Lua print(...) writes to the log)"),
+                ("return cube(len({1}))", "undefined variable 'len' (in Lua it is #list)")):
+            with self.subTest(text):
+                self.check(text, "model.lua:1: " + message)
+        outcome = self.run_script("fn = 64\nfunction fs() end\nreturn cube(fn)")
+        self.expect(outcome, 0)
+        self.assertEqual(outcome.json()["warnings"], ["model.lua:1: 'fn' is a variable like any other; csg.fn = 64 sets the facets"])
+        self.assertEqual(outcome.json()["parts"][0]["volume"], 64 ** 3)
+
     def test_sizes(self):
         for size, said in (("0/0", "finite, got nan"), ("1/0", "finite, got inf"), ("-1/0", "finite, got -inf"),
                            ("0", "positive, got 0"), ("-3", "positive, got -3")):

@@ -1,0 +1,83 @@
+#include "lua_bindings/openscad_hints.h"
+
+#include <algorithm>
+
+namespace csgrun {
+namespace {
+
+constexpr const char* kMovers[] = {"translate", "rotate",         "scale",          "mirror",
+                                   "color",     "linear_extrude", "rotate_extrude", "offset",
+                                   "resize",    "multmatrix",     "projection",     "render"};
+
+bool has(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+/// A list in brackets where a value stands: after a parenthesis, a comma or an equals sign.
+bool has_list_in_brackets(std::string_view line) {
+  for (size_t i = 0; i < line.size(); ++i) {
+    if (line[i] != '[') continue;
+    const size_t before = line.substr(0, i).find_last_not_of(' ');
+    if (before != std::string_view::npos && has("(,=[", line.substr(before, 1))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string syntax_hint(std::string_view line, std::string_view message) {
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  if (line.starts_with("module "))
+    return "; a module is a function that returns a solid: local function name(...) ... end";
+  if (line.starts_with("include <") || line.starts_with("use <"))
+    return "; other files of Lua are read by require \"name\"";
+  if (line.starts_with("//") || line.starts_with("/*") || has(message, "'//'"))
+    return "; a comment begins with --";
+  if (has(message, "'$'"))
+    return "; the facets are fn, fa and fs: sphere(5, {fn = 64}), or csg.fn = 64 for all";
+  if (has(message, "'['") && has_list_in_brackets(line))
+    return "; a list stands in braces: {10, 20, 30}";
+  if (has(message, "'!'")) return "; \"not equal\" is ~=, and \"not\" is not";
+  if (has(message, "near '='") && has(message, "')' expected"))
+    return "; options by name stand in braces: cube{size = 10, center = true}";
+  for (const char* mover : kMovers) {
+    if (line.starts_with(mover) || line.starts_with(std::string("return ") + mover)) {
+      if (has(message, "expected near") || has(message, "syntax error near"))
+        return std::string("; what is changed stands before: cube(10):") + mover + "(...)";
+    }
+  }
+  return {};
+}
+
+const char* name_hint(std::string_view name) {
+  struct Hint {
+    std::string_view name;
+    const char* text;
+  };
+  static constexpr Hint kHints[] = {
+      {"echo", "print(...) writes to the log"},
+      {"undef", "it is nil"},
+      {"len", "it is #list"},
+      {"str", "it is a .. b, or tostring(x)"},
+      {"concat", "it is table.move, or a loop"},
+      {"chr", "it is utf8.char(code)"},
+      {"ord", "it is utf8.codepoint(text)"},
+      {"log", "it is math.log(x, base), or ln(x)"},
+      {"is_undef", "it is x == nil"},
+      {"is_num", "it is type(x) == \"number\""},
+      {"is_list", "it is type(x) == \"table\""},
+      {"is_string", "it is type(x) == \"string\""},
+      {"is_bool", "it is type(x) == \"boolean\""},
+      {"is_function", "it is type(x) == \"function\""},
+      {"use", "it is require \"name\""},
+      {"include", "it is require \"name\""},
+      {"children", "a function takes what it works on as an argument"},
+      {"intersection_for", "it is intersection(list), of a list that a loop fills"},
+      {"version", "csgrun --version tells"},
+  };
+  const auto* hint = std::find_if(std::begin(kHints), std::end(kHints),
+                                  [&](const Hint& each) { return each.name == name; });
+  return hint == std::end(kHints) ? nullptr : hint->text;
+}
+
+}  // namespace csgrun

@@ -1,0 +1,16 @@
+// What somebody who writes OpenSCAD's language in a script is told.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace csgrun {
+
+/// How OpenSCAD's syntax in a line is said in Lua, for the end of a message of a syntax error;
+/// empty when the line has none of it.
+std::string syntax_hint(std::string_view line, std::string_view message);
+
+/// What stands for one of OpenSCAD's functions that there is under another name; null for others.
+const char* name_hint(std::string_view name);
+
+}  // namespace csgrun
