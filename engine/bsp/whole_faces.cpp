@@ -99,7 +99,7 @@ class FaceEvaluator {
     }
     for (size_t i = 0; i < n; ++i) contact_starts_[i + 1] += contact_starts_[i];
     contact_of_.resize(2 * contacts_.size());
-    std::vector<uint32_t> next(contact_starts_.begin(), contact_starts_.end() - 1);
+    std::vector<uint32_t> next = contact_starts_;
     for (uint32_t i = 0; i < contacts_.size(); ++i) {
       contact_of_[next[contacts_[i].p]++] = i;
       contact_of_[next[contacts_[i].q]++] = i;
@@ -251,10 +251,9 @@ class FaceEvaluator {
       }
     });
     for (const CutLoops::Loop& loop : loops_.loops) {
-      if (loop.vertex == kNone) continue;
       for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
         const uint32_t v = geometry_.point(loops_.corner_point[c]).vertex;
-        if (v != kNone && !touched_[v]) patches_.join(loop.vertex, v);
+        if (v != kNone && !touched_[v]) patches_.join(loop.vertex, v);  // so it has one
       }
     }
     for_each_alone(job_.operand_count(), much, [&](size_t o) {

@@ -58,7 +58,9 @@ assert(c:fillet(5, {fn = 16}) == cube(10, {r = 5, fn = 16}))
 near(fillet(c, 2, "top", {fn = 16}):volume(), c:fillet{r = 2, edges = {on = "top"}, fn = 16}:volume())
 -- Turned, it is the same up to the rounding of corners that have no place on the grid.
 local turned = c:rotate(20, 30, 40):fillet(2, {fn = 32})
-near(turned:volume(), c:fillet(2, {fn = 32}):volume(), 1e-6)
+near(turned:volume(), c:fillet(2, {fn = 32}):volume(), 1e-8)
+assert(#c:rotate(20, 30, 40):chamfer(1.5):faces() == 26)
+assert(#cylinder{h = 10, r = 5, fn = 60}:fillet(1, {edges = "top", fn = 24}):faces() == 62 + 60 * 6)
 assert(turned:components() == 1 and turned:genus() == 0)
 -- One after another: the rim of upright edges that are round. Each layer is a polygon.
 local tower = cube(20, 20, 10):fillet(3, {edges = "z", fn = 32})

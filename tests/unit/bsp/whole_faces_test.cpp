@@ -357,5 +357,68 @@ TEST(WholeFaces, StopWhenCancelled) {
   EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
 }
 
+// Where nothing was found to cut because somebody cancelled, that is no result.
+TEST(WholeFaces, StopWhenCancelledBeforeAnythingIsCut) {
+  const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {9, 9, 9})),
+                                      test::operand_of(test::box_leaf({3, 3, 3}, {12, 12, 12}))};
+  std::atomic<bool> cancel = true;
+  KernelOptions options;
+  options.cancel = &cancel;
+  EvaluateStats stats;
+  Job job(operands);
+  const auto faces =
+      evaluate_whole_faces(job, test::flat_expression(BooleanOp::kUnion, 2), options, stats);
+  ASSERT_FALSE(faces);
+  EXPECT_EQ(faces.error().code, ErrorCode::kCancelled);
+}
+
+// What is too far away for boxes to tell is whole, and left to cells.
+TEST(WholeFaces, OfLeavesThatAreFarAway) {
+  constexpr int64_t kFar = int64_t{1} << 33;
+  test::RandomTree tree;
+  const IVec3 a{-kFar, -kFar, -kFar}, b{kFar, 0, -kFar}, c{-kFar, kFar, 0}, d{0, 0, kFar};
+  tree.operands.emplace_back().leaf = test::make_leaf({{a, c, b}, {a, d, c}, {c, d, b}, {b, d, a}});
+  tree.operands.emplace_back().leaf = test::box_leaf({0, 0, 0}, {5, 6, 7});
+  tree.operands[1].first_source = 1;
+  tree.region = test::TreeMaker::region_of(tree.operands);
+  for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kDifference, BooleanOp::kIntersection,
+                             BooleanOp::kSymmetricDifference}) {
+    tree.expression = test::flat_expression(op, 2);
+    const auto fast = evaluate(tree, true);
+    ASSERT_EQ(test::first_difference(*fast, *evaluate(tree, false)), "");
+    const size_t far = op == BooleanOp::kIntersection ? 0 : 4,
+                 near = op == BooleanOp::kUnion ? 0 : 6;
+    EXPECT_EQ(fast->faces.size(), far + near);
+  }
+}
+
+// Plates that all cross each other: so many contacts are left to cells.
+TEST(WholeFaces, LeaveDenseContactsToCells) {
+  const auto is_left = [](int64_t plates) {
+    std::vector<Operand> operands;
+    for (int64_t i = 0; i < plates; ++i) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        IVec3 lo{0, 0, 0}, hi{1000, 1000, 1000};
+        lo[axis] = 10 * i + 5, hi[axis] = 10 * i + 8;
+        operands.push_back(test::operand_of(test::box_leaf(lo, hi)));
+      }
+    }
+    Job job(operands);
+    EvaluateStats stats;
+    const size_t contacts = find_contacts(job, {}, {}, stats).contacts.size();
+    const auto faces = evaluate_whole_faces(
+        job, test::flat_expression(BooleanOp::kUnion, static_cast<uint32_t>(operands.size())), {},
+        stats);
+    EXPECT_TRUE(faces);
+    const bool is_left = faces->any_general;
+    EXPECT_EQ(is_left, contacts > 16 * job.polygons().size());
+    EXPECT_EQ(std::count(faces->general.begin(), faces->general.end(), 1),
+              is_left ? static_cast<long>(job.polygons().size()) : 0);
+    return is_left;
+  };
+  EXPECT_FALSE(is_left(4));
+  EXPECT_TRUE(is_left(24));
+}
+
 }  // namespace
 }  // namespace csgrun
