@@ -27,11 +27,52 @@ int distance(std::string_view a, std::string_view b) {
   return above[b.size()];
 }
 
+/// What other programs call things: of the language's names that one counts which is there.
+struct Synonym {
+  std::string_view word, name;
+};
+constexpr Synonym kSynonyms[] = {
+    {"add", "union"},
+    {"angle", "a"},
+    {"bounding_box", "bbox"},
+    {"boundingbox", "bbox"},
+    {"bounds", "bbox"},
+    {"centre", "center"},
+    {"cut", "difference"},
+    {"diameter", "d"},
+    {"distance", "d"},
+    {"extrude", "linear_extrude"},
+    {"facets", "fn"},
+    {"fuse", "union"},
+    {"getbounds", "bbox"},
+    {"getvolume", "volume"},
+    {"isempty", "is_empty"},
+    {"length", "h"},
+    {"minus", "difference"},
+    {"numcomponents", "components"},
+    {"plus", "union"},
+    {"radius", "r"},
+    {"revolve", "rotate_extrude"},
+    {"splitbyplane", "split"},
+    {"subtract", "difference"},
+    {"surface_area", "area"},
+    {"surfacearea", "area"},
+    {"transform", "multmatrix"},
+    {"trimbyplane", "trim"},
+};
+
 }  // namespace
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
   constexpr size_t kLongestWord = 64;  // nobody means a name that is longer than this
   if (word.empty() || word.size() > kLongestWord) return {};
+  std::string folded(word);
+  std::transform(folded.begin(), folded.end(), folded.begin(), lower);
+  for (const Synonym& synonym : kSynonyms) {
+    if (folded != synonym.word) continue;
+    const auto known = std::find(names.begin(), names.end(), synonym.name);
+    if (known != names.end()) return *known;
+  }
   // One edit in three letters, at least one: "cub" is cube, "box" is not "rx".
   const int limit = 2 * std::max<int>(1, static_cast<int>(word.size() + 1) / 3);
   std::string best;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,7 +30,6 @@ std::string edge_text(const SolidEdge& edge) {
   return "the edge from " + point_text(edge.from) + " to " + point_text(edge.to);
 }
 
-/// Whether two directions are along the same axis of coordinates is exact.
 bool is_along_axis(const glm::dvec3& n) {
   return std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z) == 1;
 }
@@ -47,6 +47,7 @@ class Cutter {
 
   Result<std::vector<NodePtr>> cuts() {
     find_corners();
+    choose_turns();
     const size_t count = frames_.frames().size();
     bodies_.resize(count);
     for (size_t i = 0; i < count; ++i) {
@@ -89,6 +90,53 @@ class Cutter {
     const NodePtr leaf = Node::leaf(std::move(mesh), where_);
     const Appearance* colour = colour_beside(f);
     return colour == nullptr ? leaf : Node::painted(*colour, leaf, where_);
+  }
+
+  [[nodiscard]] static std::array<glm::dvec3, 3> axes_of(const EdgeFrame& f) {
+    return {f.along, f.in[0], glm::cross(f.along, f.in[0])};
+  }
+  [[nodiscard]] static bool is_upright(const EdgeFrame& f) {
+    return is_along_axis(f.along) && is_along_axis(f.in[0]);
+  }
+
+  /// The chosen edge with which the bodies of another one are turned: itself, but where edges meet
+  /// at balls, whose bodies share points, one for all of them.
+  [[nodiscard]] uint32_t turned_with(uint32_t i) const {
+    while (turned_with_[i] != i) i = turned_with_[i];
+    return i;
+  }
+  [[nodiscard]] const EdgeFrame& turn_of(const EdgeFrame& f) const {
+    return frames_.frames()[turned_with(static_cast<uint32_t>(&f - frames_.frames().data()))];
+  }
+  void choose_turns() {
+    turned_with_.resize(frames_.frames().size());
+    std::iota(turned_with_.begin(), turned_with_.end(), 0u);
+    if (!is_fillet()) return;
+    for (const Corner& corner : corners_) {
+      for (size_t k = 1; k < 3; ++k) {
+        uint32_t a = turned_with(corner.frames[0]), b = turned_with(corner.frames[k]);
+        const bool a_first = is_upright(frames_.frames()[a]) == is_upright(frames_.frames()[b])
+                                 ? a < b
+                                 : is_upright(frames_.frames()[a]);
+        if (!a_first) std::swap(a, b);
+        turned_with_[b] = a;
+      }
+      for (const uint32_t k : corner.frames) turned_with_[k] = turned_with(k);
+    }
+  }
+
+  /// The same of a body along a chosen edge: in a frame that is turned with it, so that its long
+  /// faces are flat on the grid, and those that meet in a line are the same all along.
+  NodePtr hull_along(std::vector<glm::dvec3> points, const EdgeFrame& f) const {
+    const EdgeFrame& with = turn_of(f);
+    if (is_upright(with)) return hull(std::move(points), f);
+    const std::array<glm::dvec3, 3> axes = axes_of(with);
+    for (glm::dvec3& p : points) {
+      p = {glm::dot(p, axes[0]), glm::dot(p, axes[1]), glm::dot(p, axes[2])};
+    }
+    Affine turn;
+    for (int i = 0; i < 3; ++i) turn.m[i] = {axes[0][i], axes[1][i], axes[2][i], 0};
+    return Node::transformed(turn, hull(std::move(points), f), where_);
   }
 
   /// The appearance of the left side, if it has one of its own.
@@ -286,7 +334,7 @@ class Cutter {
         points.push_back(f.start + offsets[k] + from.at[k] * f.along);
         points.push_back(f.start + offsets[k] + to.at[k] * f.along);
       }
-      return hull(std::move(points), f);
+      return hull_along(std::move(points), f);
     };
     const std::array<const Corner*, 2> corners{corner_at(f, 0), corner_at(f, 1)};
     if (!is_fillet() || (corners[0] == nullptr && corners[1] == nullptr)) {
@@ -335,7 +383,7 @@ class Cutter {
       }
     }
     if (at[1] - at[0] <= 1e-9 * (f.length + f.setback)) return nullptr;
-    return hull(std::move(points), f);
+    return hull_along(std::move(points), f);
   }
 
   static NodePtr less(NodePtr from, std::vector<NodePtr> what, const SourceRef& where) {
@@ -387,7 +435,7 @@ class Cutter {
       }
     }
     add_ball(normals_at(corner), corner.centre, points);
-    return hull(std::move(points), frames_.frames()[corner.frames[0]]);
+    return hull_along(std::move(points), frames_.frames()[corner.frames[0]]);
   }
 
   void cut_corner(const Corner& corner) {
@@ -435,7 +483,7 @@ class Cutter {
         kept.push_back(far->ball);
       }
     }
-    prisms.push_back(hull(std::move(around), first));
+    prisms.push_back(hull_along(std::move(around), first));
     cuts_.push_back(
         less(Node::boolean(BooleanOp::kUnion, std::move(prisms), where_), std::move(kept), where_));
   }
@@ -469,6 +517,7 @@ class Cutter {
   const Facets& facets_;
   const SourceRef where_;
   std::vector<Corner> corners_;
+  std::vector<uint32_t> turned_with_;
   std::vector<Bodies> bodies_;
   std::vector<NodePtr> cuts_;
 };

@@ -106,7 +106,8 @@ void EdgeGraph::find_lines() {
     for (uint32_t next = following(h); goes_straight_on(line.back(), next); next = following(next))
       line.push_back(next);
     const glm::dvec3 &a = solid_.positions[from(h)], &b = solid_.positions[to(line.back())];
-    if (as_tuple(b) < as_tuple(a)) continue;  // its other side makes it
+    // Of its two sides one makes it.
+    if (as_tuple(b) < as_tuple(a) || (a == b && twin_[line.back()] < h)) continue;
     add_line(h, line);
   }
   std::vector<uint32_t> order(edges_.size()), place(edges_.size());

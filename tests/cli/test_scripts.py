@@ -39,6 +39,11 @@ class Mistakes(Case):
                 ("difference() { cube(10); sphere(5) }", "a solid is no function: operands stand in the parentheses, difference(a, b)"),
                 ("return translate(1, 2, 3)(cube(10))", "a matrix stands before what it moves: M * part"),
                 ("return square(5):extrude(10)", "a shape has no method 'extrude' (did you mean 'linear_extrude'?)"),
+                ("return cube(5):subtract(cube(1))", "a solid has no method 'subtract' (did you mean 'difference'?)"),
+                ("return cube(5):boundingBox()", "a solid has no method 'boundingBox' (did you mean 'bbox'?)"),
+                ("return square(5):revolve()", "a shape has no method 'revolve' (did you mean 'rotate_extrude'?)"),
+                ("return cylinder{h = 5, radius = 2}", "cylinder: unknown option 'radius' (did you mean 'r'?)"),
+                ("return circle{diameter = 2}", "circle: unknown option 'diameter' (did you mean 'd'?)"),
                 ("echo('x')", "undefined variable 'echo' (in Lua print(...) writes to the log)"),
                 ("return cube(len({1}))", "undefined variable 'len' (in Lua it is #list)")):
             with self.subTest(text):
