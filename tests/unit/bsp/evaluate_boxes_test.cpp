@@ -353,6 +353,8 @@ TEST(EvaluateBoxes, CountTheirWork) {
     EXPECT_EQ(stats.solved_cells, stats.critical_cells);
     EXPECT_GE(stats.surface_cells, stats.solved_cells);
     EXPECT_GT(stats.surface_cells, 0u);
+    EXPECT_GE(stats.cells, stats.surface_cells);
+    EXPECT_LT(stats.cells, 1000u);
     return stats.solved_cells;
   };
   const Operand box = test::operand_of(test::box_leaf({0, 0, 0}, {4, 4, 4})),
@@ -361,6 +363,11 @@ TEST(EvaluateBoxes, CountTheirWork) {
   const uint64_t several = work({box, crossing});
   EXPECT_GT(several, 0u);
   EXPECT_LT(several, 100u);
+  std::vector<Operand> row;
+  for (int64_t x = 0; x < 12; ++x) {
+    row.push_back(test::operand_of(test::box_leaf({10 * x, 0, 0}, {10 * x + 1, 1, 1})));
+  }
+  EXPECT_LE(work(row), 8u);
 }
 
 }  // namespace
