@@ -174,8 +174,7 @@ def write_sources(names):
     return mutants
 
 
-def build():
-    executables = sorted({name for name, _ in QUICK + THOROUGH})
+def build(executables):
     # Assertions off: the tests themselves must notice. Those of the standard library make a step
     # outside an array a crash instead of a matter of luck.
     flags = "-O2 -DNDEBUG -D_GLIBCXX_ASSERTIONS -w"
@@ -224,7 +223,7 @@ def make_stages(configurations, pool, arguments):
     for job, (seconds, different) in zip(missing, pool.map(measure, missing)):
         known[keys[job[0]]] = [seconds, different]
     if missing:
-        current = {(e, (BUILD / e).stat().st_mtime_ns) for e, _ in QUICK + THOROUGH}
+        current = {(e, (BUILD / e).stat().st_mtime_ns) for e, _ in QUICK + THOROUGH if (BUILD / e).exists()}
         known = {key: value for key, value in known.items() if tuple(json.loads(key)[:2]) in current}
         saved.write_text(json.dumps(known))
     tests = [Test(*job[1:], known[key][0], set(known[key][1])) for job, key in zip(jobs, keys)]
@@ -298,6 +297,8 @@ def parse_arguments():
                         help="leave out tests that take longer (of few mutants: than ten times), and the "
                              "thorough ones")
     parser.add_argument("--tests", default="", metavar="REGEX", help="on tests of such names only")
+    parser.add_argument("--program", action="append", metavar="NAME",
+                        help="on tests of this executable only; may be given several times")
     parser.add_argument("--explained", action="store_true", help="try the explained ones too")
     parser.add_argument("--list", action="store_true", help="print the mutants and stop")
     parser.add_argument("--verbose", action="store_true", help="say what the tests cost")
@@ -319,9 +320,11 @@ def main():
             print(f"{m.number:5} {m.file}:{m.line}: {m.text}")
         return 0
     os.nice(arguments.nice)
-    build()
+    configurations = [c for c in QUICK + (THOROUGH if arguments.quick == math.inf else ())
+                      if not arguments.program or c[0] in arguments.program]
+    build(sorted({executable for executable, _ in configurations}))
     pool = concurrent.futures.ThreadPoolExecutor(arguments.jobs)
-    stages = make_stages(QUICK + (THOROUGH if arguments.quick == math.inf else ()), pool, arguments)
+    stages = make_stages(configurations, pool, arguments)
     print(f"{len(mutants)} mutants, {len(explained) - len(stale)} of them explained; trying {len(chosen)} "
           f"on {sum(len(s.tests) for s in stages)} tests "
           f"({sum(s.seconds for s in stages):.0f} s of CPU without a mutant)", flush=True)

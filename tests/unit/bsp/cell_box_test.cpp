@@ -257,6 +257,63 @@ TEST(CellBox, MayMeetMissesNothingOfSmallRoundedPolygons) {
   EXPECT_GT(dropped, 1000);
 }
 
+// Long polygons in frames, one of whose edges is tiny: what its rounded ends say of its direction,
+// and of the plane, is far off at the other end.
+TEST(CellBox, MayMeetMissesNothingOfLongPolygonsWithATinyEdge) {
+  test::Random random(45);
+  int met = 0, dropped = 0;
+  for (int i = 0; i < 2500; ++i) {
+    const int64_t reach = int64_t{1} << random.integer(18, 24);
+    const auto step = [&] {
+      return IVec3{random.integer(-3, 3), random.integer(-3, 3), random.integer(-3, 3)};
+    };
+    const IVec3 along = step(), across = step();
+    if (test::cross_of(along, across) == IVec3{0, 0, 0}) continue;
+    const IVec3 origin{random.integer(-reach, reach), random.integer(-reach, reach),
+                       random.integer(-reach, reach)};
+    const auto at = [&](int64_t u, int64_t v) {
+      IVec3 p = origin;
+      for (size_t k = 0; k < 3; ++k) p[k] += u * along[k] + v * across[k];
+      return p;
+    };
+    const int64_t length = random.integer(reach, 2 * reach), width = random.integer(1, 1 << 12);
+    // The tiny edge in line with the long one, or at right angles to it.
+    test::Loop loop{at(0, 0), at(1, 0), at(length, 0), at(length, width), at(0, 1)};
+    std::rotate(loop.begin(), loop.begin() + random.integer(0, 4), loop.end());
+    Operand operand = test::operand_of(test::make_leaf({loop}));
+    operand.frame = test::random_frame(random);
+    const std::vector<Operand> operands{operand};
+    const Job job(operands);
+    std::vector<Rational3> corners;
+    for (const uint32_t v : job.corners(job.polygons()[0])) {
+      const test::GmpPoint x = test::to_gmp(job.exact(v));
+      corners.push_back({mpq_class(x.x) / x.w, mpq_class(x.y) / x.w, mpq_class(x.z) / x.w});
+    }
+    for (int trial = 0; trial < 4; ++trial) {
+      // A small cell at a corner, mostly at the far end.
+      const auto& corner = job.rounded(static_cast<uint32_t>(random.integer(0, 4)));
+      CellBox cell;
+      const int64_t extent = int64_t{1} << random.integer(0, 3);
+      for (int k = 0; k < 3; ++k) {
+        cell.lo[k] = static_cast<int64_t>(corner[k]) - random.integer(0, extent + 1);
+        cell.hi[k] = cell.lo[k] + extent;
+      }
+      const mpq_class shift(1, static_cast<unsigned long>(job.prime()));
+      Rational3 lo, hi;
+      for (int c = 0; c < 3; ++c) {
+        lo[c] = mpz_class(cell.lo[c]) + shift, hi[c] = mpz_class(cell.hi[c]) + shift;
+      }
+      const bool kept = may_meet(job, 0, cell);
+      dropped += !kept;
+      if (!meets(corners, lo, hi)) continue;
+      ++met;
+      ASSERT_TRUE(kept) << "case " << i;
+    }
+  }
+  EXPECT_GT(met, 2000);
+  EXPECT_GT(dropped, 20);
+}
+
 TEST(CellBox, RoundedOutwardsHoldsTheWalls) {
   const GridBox box = CellBox{{-3, 4, 5}, {6, 7, 8}}.rounded_outwards();
   EXPECT_EQ(box.lo, (IVec3{-3, 4, 5}));  // -3 + 1/p and 6 + 1/p, rounded

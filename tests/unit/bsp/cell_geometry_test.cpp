@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/exact_solid.h"
+#include "tests/support/gmp_bridge.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
@@ -305,6 +306,38 @@ TEST(CellGeometry, ForgetsWhatItHeld) {
     geometry.clear();
     EXPECT_EQ(geometry.point_count(), 0u);
   }
+}
+
+// Normals that are nearly parallel: the direction of the line is what is left of large products.
+TEST(CellGeometry, LineAxisOfNearlyParallelPlanes) {
+  test::Random random(1221);
+  int narrow = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const int bits = static_cast<int>(random.integer(3, 90));
+    const auto wide = [&] {
+      return (static_cast<Int128>(random.integer(-1000000, 1000000)) << bits) +
+             random.integer(-1000000, 1000000);
+    };
+    const Plane a{wide(), wide(), wide(), 0};
+    const int off = static_cast<int>(random.integer(0, bits));
+    const auto near = [&] { return static_cast<Int128>(random.integer(-9, 9)) << off; };
+    const Plane b{a.a + near(), a.b + near(), a.c + near(), 5};
+    const mpz_class n[3] = {test::to_gmp(a.a), test::to_gmp(a.b), test::to_gmp(a.c)},
+                    m[3] = {test::to_gmp(b.a), test::to_gmp(b.b), test::to_gmp(b.c)};
+    mpz_class d[3], largest = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int u = (k + 1) % 3, v = (k + 2) % 3;
+      d[k] = n[u] * m[v] - n[v] * m[u];
+      if (abs(d[k]) > largest) largest = abs(d[k]);
+    }
+    if (largest == 0) continue;
+    const LineAxis way = line_axis(a, b);
+    ASSERT_EQ(way.sign, sgn(d[way.axis])) << i;
+    ASSERT_NE(way.sign, 0) << i;
+    ASSERT_GE(abs(d[way.axis]) * 4, largest) << i;  // or one that is sure
+    narrow += off < bits - 40;
+  }
+  EXPECT_GT(narrow, 300);
 }
 
 }  // namespace

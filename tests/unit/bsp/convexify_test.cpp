@@ -291,6 +291,33 @@ TEST(LoopPieces, RefusesWhatIsNoOutline) {
   }
 }
 
+// Wherever a loop starts, and whichever corners are as low as the lowest, it is an outline; and it
+// is none the other way round.
+TEST(LoopPieces, AnyCornerMayBeTheFirst) {
+  test::Random random(93);
+  std::vector<Loop2> loops{
+      {{0, 0}, {7, 0}, {7, 9}, {0, 9}, {0, 5}, {0, 2}},
+      {{0, 0}, {2, 0}, {5, 0}, {7, 0}, {7, 9}, {0, 9}},
+      {{0, 0}, {2, 3}, {4, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 6}, {3, 5}, {0, 4}}};
+  for (int i = 0; i < 30; ++i)
+    loops.push_back(star(random, static_cast<int>(random.integer(4, 9))));
+  for (const Loop2& loop : loops) {
+    for (size_t first = 0; first < loop.size(); ++first) {
+      const int turn = static_cast<int>(random.integer(0, 5));
+      Loop2 turned = loop;
+      std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(first),
+                  turned.end());
+      Region region(turn % 3, turn / 3 != 0, {turned});
+      ASSERT_TRUE(region.run_loop());
+      region.check();
+      std::reverse(turned.begin(), turned.end());
+      Region clockwise(turn % 3, turn / 3 != 0, {turned});
+      EXPECT_FALSE(clockwise.run_loop());
+      EXPECT_TRUE(clockwise.pieces().empty());
+    }
+  }
+}
+
 TEST(LoopPieces, TurnsTooSmallForDoubles) {
   // A corner that is off the line by less than a step at coordinates of 26 bits.
   const int64_t far = int64_t{1} << 25;

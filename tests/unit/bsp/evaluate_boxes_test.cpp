@@ -10,6 +10,7 @@
 #include "engine/bsp/box_lattice.h"
 #include "engine/bsp/kernel.h"
 #include "tests/support/boundary_compare.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
@@ -295,6 +296,78 @@ TEST(EvaluateBoxes, CanBeCancelled) {
   ASSERT_TRUE(result);
   ASSERT_FALSE(*result);
   EXPECT_EQ(result->error().code, ErrorCode::kCancelled);
+}
+
+// A flag that is not set stops nothing.
+TEST(EvaluateBoxes, AreNotCancelledByAFlagAlone) {
+  test::Random random(505);
+  const auto tree = random_boxes(random, 6, 8);
+  const std::atomic<bool> cancel{false};
+  KernelOptions options;
+  options.cancel = &cancel;
+  EvaluateStats stats;
+  const auto result = evaluate_boxes(tree.operands, tree.expression, options, stats);
+  ASSERT_TRUE(result && *result);
+  EXPECT_EQ(test::first_difference(***result, *cell_by_cell(tree)), "");
+}
+
+// All ways to fill the eight cells around a point: the surface touches itself along an edge that
+// only two opposite ones share, and in the point if it is all that two have in common.
+TEST(EvaluateBoxes, TouchInEdgesAndCorners) {
+  for (uint32_t filled = 1; filled < 256; ++filled) {
+    RandomTree tree;
+    const auto is_filled = [&](int c) { return (filled >> c & 1) != 0; };
+    for (int c = 0; c < 8; ++c) {
+      const IVec3 lo{c & 1, c >> 1 & 1, c >> 2};
+      if (!is_filled(c)) continue;
+      tree.operands.push_back(
+          test::operand_of(test::box_leaf(lo, {lo[0] + 1, lo[1] + 1, lo[2] + 1})));
+    }
+    tree.expression =
+        test::flat_expression(BooleanOp::kUnion, static_cast<uint32_t>(tree.operands.size()));
+    bool touches = filled == 0x81 || filled == 0x42 || filled == 0x24 || filled == 0x18;
+    touches |= (filled ^ 0xff) == 0x81 || (filled ^ 0xff) == 0x42 || (filled ^ 0xff) == 0x24 ||
+               (filled ^ 0xff) == 0x18;
+    for (int along = 0; along < 3; ++along) {
+      const int s = 1 << (along + 1) % 3, t = 1 << (along + 2) % 3;
+      for (const int c : {0, 1 << along}) {
+        touches |= is_filled(c) == is_filled(c + s + t) && is_filled(c + s) == is_filled(c + t) &&
+                   is_filled(c) != is_filled(c + s);
+      }
+    }
+    EvaluateStats stats;
+    const auto result = evaluate_boxes(tree.operands, tree.expression, {}, stats);
+    ASSERT_TRUE(result && *result);
+    EXPECT_EQ((**result)->may_touch, touches) << filled;
+  }
+}
+
+// Cells in which several boxes have surface are counted.
+TEST(EvaluateBoxes, CountTheirWork) {
+  const auto work = [](const std::vector<Operand>& operands) {
+    EvaluateStats stats;
+    const auto expression =
+        test::flat_expression(BooleanOp::kUnion, static_cast<uint32_t>(operands.size()));
+    const auto result = evaluate_boxes(operands, expression, {}, stats);
+    EXPECT_TRUE(result && *result);
+    EXPECT_EQ(stats.solved_cells, stats.critical_cells);
+    EXPECT_GE(stats.surface_cells, stats.solved_cells);
+    EXPECT_GT(stats.surface_cells, 0u);
+    EXPECT_GE(stats.cells, stats.surface_cells);
+    EXPECT_LT(stats.cells, 1000u);
+    return stats.solved_cells;
+  };
+  const Operand box = test::operand_of(test::box_leaf({0, 0, 0}, {4, 4, 4})),
+                crossing = test::operand_of(test::box_leaf({2, 2, 2}, {9, 9, 9}));
+  EXPECT_EQ(work({box}), 0u);
+  const uint64_t several = work({box, crossing});
+  EXPECT_GT(several, 0u);
+  EXPECT_LT(several, 100u);
+  std::vector<Operand> row;
+  for (int64_t x = 0; x < 12; ++x) {
+    row.push_back(test::operand_of(test::box_leaf({10 * x, 0, 0}, {10 * x + 1, 1, 1})));
+  }
+  EXPECT_LE(work(row), 8u);
 }
 
 }  // namespace

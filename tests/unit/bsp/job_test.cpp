@@ -317,6 +317,37 @@ TEST(Job, OperandsHaveTheBoxOfTheirPolygons) {
   }
 }
 
+TEST(Job, BoxesHoldTheirBorders) {
+  const PolygonBox box{{-3, 4, 5}, {7, 8, 9}};
+  EXPECT_TRUE(box.holds(box));
+  EXPECT_TRUE(box.meets(box));
+  for (size_t k = 0; k < 3; ++k) {
+    PolygonBox other = box;
+    --other.lo[k];
+    EXPECT_FALSE(box.holds(other));
+    EXPECT_TRUE(other.holds(box));
+    other = box;
+    ++other.hi[k];
+    EXPECT_FALSE(box.holds(other));
+    EXPECT_TRUE(other.holds(box));
+    PolygonBox flat = box;
+    flat.lo[k] = flat.hi[k];
+    EXPECT_FALSE(flat.is_empty());
+    EXPECT_TRUE(box.holds(flat));
+    EXPECT_TRUE(box.meets(flat));
+    ++flat.lo[k];
+    EXPECT_TRUE(flat.is_empty());
+    PolygonBox beyond = box;
+    beyond.lo[k] = box.hi[k] + 1, beyond.hi[k] = box.hi[k] + 5;
+    EXPECT_FALSE(box.meets(beyond));
+    EXPECT_FALSE(beyond.meets(box));
+    PolygonBox common = box;
+    common.clip(beyond);
+    EXPECT_TRUE(common.is_empty());
+  }
+  EXPECT_TRUE(PolygonBox::none().is_empty());
+}
+
 // A rounded coordinate stands for all that round to it.
 TEST(Job, BoxesOfRoundedPointsHoldTheTrueOnes) {
   PieceBox box;

@@ -256,6 +256,39 @@ TEST(PairCells, CellsOfAGridAreDividedIfTheyHoldMany) {
   EXPECT_GT(divided, 0u);
 }
 
+// Pairs of two covered polygons are left out; those of one are not.
+TEST(PairCells, OfCoveredPolygonsAreThoseWithOthers) {
+  test::Random random(508);
+  size_t grids = 0, left_out = 0;
+  for (int i = 0; i < 12; ++i) {
+    const std::vector<Operand> operands =
+        i % 2 ? tilings(random, 30) : random_boxes(random, 80, 100, 30);
+    const Job job(operands);
+    std::vector<uint8_t> covered(job.polygons().size(), 0);
+    for (uint8_t& c : covered) c = random.integer(0, i % 3 ? 1 : 9) != 0;
+    Pairs expected = all_pairs(job);
+    left_out += std::erase_if(expected, [&](const auto& pair) {
+      return covered[pair.first.first] && covered[pair.first.second];
+    });
+    for (const uint32_t limit : {1u, 5u}) {
+      KernelOptions options;
+      options.cell_limit = limit;
+      const PairCells coarse = find_coarse_cells(job, covered, limit);
+      grids += coarse.cells.size() > 1;
+      for (const PairCells& cells : {coarse, find_pair_cells(job, covered, options)}) {
+        Pairs pairs;
+        CellPairs look(covered);
+        for (const PairCells::Cell& cell : cells.cells) {
+          look.visit(job, cells, cell, [&](uint32_t p, uint32_t q) { ++pairs[{p, q}]; });
+        }
+        ASSERT_EQ(pairs, expected) << i << " limit " << limit;
+      }
+    }
+  }
+  EXPECT_GT(grids, 5u);
+  EXPECT_GT(left_out, 1000u);
+}
+
 // A flag that is there but not set stops nothing.
 TEST(PairCells, AreNotLookedForOnceCancelled) {
   const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {9, 9, 9})),
