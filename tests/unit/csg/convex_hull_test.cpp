@@ -100,7 +100,8 @@ TEST(ConvexHull, SmallGridsFullOfCoincidences) {
               count = 1 + static_cast<int>(random() % 40);
     std::vector<IVec3> points;
     for (int i = 0; i < count; ++i) {
-      points.push_back({random() % side, random() % side, random() % side});
+      const auto one = [&] { return static_cast<int64_t>(random() % static_cast<uint64_t>(side)); };
+      points.push_back({one(), one(), one()});
     }
     const LeafGeometry hull = convex_hull(points);
     ASSERT_EQ(hull.face_count() > 0, spans_space(points)) << round;

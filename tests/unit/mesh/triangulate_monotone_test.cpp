@@ -26,7 +26,9 @@ bool agrees(const Loop& loop, const PlanarOracle& oracle) {
     return false;
   }
   EXPECT_TRUE(expected) << expected.error().message;
-  if (expected) EXPECT_EQ(got, *expected);
+  if (expected) {
+    EXPECT_EQ(got, *expected);
+  }
   return true;
 }
 
