@@ -411,11 +411,11 @@ TEST(WholeFaces, LeaveDenseContactsToCells) {
         job, test::flat_expression(BooleanOp::kUnion, static_cast<uint32_t>(operands.size())), {},
         stats);
     EXPECT_TRUE(faces);
-    const bool is_left = faces->any_general;
-    EXPECT_EQ(is_left, contacts > 16 * job.polygons().size());
+    const bool any = faces->any_general;
+    EXPECT_EQ(any, contacts > 16 * job.polygons().size());
     EXPECT_EQ(std::count(faces->general.begin(), faces->general.end(), 1),
-              is_left ? static_cast<long>(job.polygons().size()) : 0);
-    return is_left;
+              any ? static_cast<long>(job.polygons().size()) : 0);
+    return any;
   };
   EXPECT_FALSE(is_left(4));
   EXPECT_TRUE(is_left(24));
