@@ -71,6 +71,8 @@ TEST(SurfaceVolumes, AnOrientedHullIsEnteredFromBehind) {
   EXPECT_EQ(inside(InsideRule::kOrientedHull), (std::vector<uint8_t>{0, 1, 0, 1}));
   runs[0].sides.push_back({2, 3, false, true});  // faces 3: entered from 2
   EXPECT_EQ(inside(InsideRule::kOrientedHull), (std::vector<uint8_t>{0, 1, 0, 0}));
+  runs[0].sides.push_back({0, 2, true, false});  // and back again
+  EXPECT_EQ(inside(InsideRule::kOrientedHull), (std::vector<uint8_t>{0, 1, 0, 0}));
 }
 
 /// Cells by hand: edges of pieces in walls, each of two volumes of its own.
