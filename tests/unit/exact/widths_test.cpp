@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/exact/predicates.h"
+#include "tests/support/source_folder.h"
 
 namespace csgrun {
 namespace {
@@ -29,9 +30,8 @@ TEST(Widths, AreThoseOfTheDocument) {
   const Widths plain{w::normal(w::kGrid), w::offset(w::kGrid)};
   const Widths far{w::normal(w::kFarGrid), w::offset(w::kFarGrid)};
   const Widths framed{w::framed_normal(plain.normal, w::kFrame), w::framed_offset(plain.offset)};
-  const std::filesystem::path here = __FILE__;
-  std::ifstream file(here.parent_path() / "../../../docs/numerics.md");
-  if (!file) GTEST_SKIP() << "docs/numerics.md is not beside the tests";
+  std::ifstream file(test::source_folder() / "docs/numerics.md");
+  ASSERT_TRUE(file);
   std::stringstream text;
   text << file.rdbuf();
   for (const std::string& line :

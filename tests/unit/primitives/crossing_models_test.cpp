@@ -1,7 +1,6 @@
 // Meshes as they are found that cross themselves: what is inside by each rule, at random points,
 // against winding numbers by solid angles.
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <random>
 
@@ -12,14 +11,12 @@
 #include <csgrun/engine/validate.h>
 #include <csgrun/primitives/mesh_file.h>
 
+#include "tests/support/source_folder.h"
+
 namespace csgrun {
 namespace {
 
-std::filesystem::path mesh_folder() {
-  if (const char* given = std::getenv("CSGRUN_SHARED"))
-    return std::filesystem::path(given) / "meshes";
-  return std::filesystem::path(__FILE__).parent_path() / "../../../../shared/meshes";
-}
+std::filesystem::path mesh_folder() { return test::shared_folder() / "meshes"; }
 
 /// The sum of the solid angles of triangles over 4 pi, by van Oosterom and Strackee.
 double winding(const PolygonMesh& mesh, const glm::dvec3& q) {

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -9,6 +8,7 @@
 
 #include <csgrun/primitives/csg_file.h>
 
+#include "tests/support/source_folder.h"
 #include "tests/unit/primitives/mesh_measures.h"
 
 namespace csgrun {
@@ -382,12 +382,6 @@ TEST(CsgFile, DepthCostsNoStack) {
   EXPECT_EQ(parse(text).solid->kind(), NodeKind::kTransform);
 }
 
-std::filesystem::path shared_folder() {
-  if (const char* given = std::getenv("CSGRUN_SHARED")) return given;
-  return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path().parent_path() /
-         ".." / "shared";
-}
-
 /// The volume of a tree of leaves that do not overlap; NaN where another Boolean occurs.
 double sum_of_leaves(const NodePtr& node) {
   if (node->kind() == NodeKind::kEmpty) return 0;
@@ -432,7 +426,7 @@ TEST(CsgFile, Projections) {
 }
 
 TEST(CsgFile, CorpusVolumesOfSeparateLeaves) {
-  const auto folder = shared_folder() / "csg_corpus";
+  const auto folder = test::shared_folder() / "csg_corpus";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder " << folder;
   std::map<std::string, double> expected;
   std::ifstream table(folder / "expected.csv");

@@ -1,5 +1,4 @@
 #include <bit>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,7 @@
 
 #include <csgrun/primitives/mesh_file.h>
 
+#include "tests/support/source_folder.h"
 #include "tests/unit/primitives/mesh_measures.h"
 
 namespace csgrun {
@@ -329,14 +329,8 @@ TEST(MakeSolidMesh, RefusesListsThatDoNotFit) {
             "part.obj: indices out of range: 1");
 }
 
-std::filesystem::path shared_folder() {
-  if (const char* given = std::getenv("CSGRUN_SHARED")) return given;
-  return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path().parent_path() /
-         ".." / "shared";
-}
-
 TEST(MakeSolidMesh, SharedMeshes) {
-  const auto folder = shared_folder() / "meshes";
+  const auto folder = test::shared_folder() / "meshes";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder " << folder;
   for (const char* file :
        {"c3_nefertiti.obj", "lg_armadillo.obj", "lg_bunny.off", "lg_decimated-knight.off",
