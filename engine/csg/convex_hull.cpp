@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/csg/wide_cross.h"
 #include "engine/exact/fixed_int.h"
 #include "engine/mesh/opposite_edges.h"
 
@@ -11,20 +12,6 @@ namespace csgrun {
 namespace {
 
 constexpr uint32_t kNone = UINT32_MAX;
-
-using Vec128 = std::array<Int128, 3>;
-
-/// (b - a) x (c - a). Differences are at most 2^41, components at most 2^83.
-Vec128 cross(const IVec3& a, const IVec3& b, const IVec3& c) {
-  std::array<Int128, 3> u, v;
-  for (int i = 0; i < 3; ++i) {
-    u[i] = b[i] - a[i];
-    v[i] = c[i] - a[i];
-  }
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-bool is_zero(const Vec128& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
 /// A triangle, counter-clockwise from outside. Neighbour i lies beyond the edge from corner i.
 struct Triangle {

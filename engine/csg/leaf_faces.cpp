@@ -5,26 +5,14 @@
 #include <span>
 #include <utility>
 
+#include "engine/csg/wide_cross.h"
 #include "engine/mesh/triangulate.h"
 
 namespace csgrun {
 namespace {
 
-using Int128 = __int128;
 using Loop = std::vector<uint32_t>;
 using Corners = std::span<const uint32_t>;
-using Vec128 = std::array<Int128, 3>;
-
-Vec128 cross(const IVec3& a, const IVec3& b, const IVec3& c) {
-  std::array<Int128, 3> u, v;
-  for (int i = 0; i < 3; ++i) {
-    u[i] = b[i] - a[i];
-    v[i] = c[i] - a[i];
-  }
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-bool is_zero(const Vec128& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
 int sign(Int128 x) { return (x > 0) - (x < 0); }
 
