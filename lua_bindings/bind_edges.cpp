@@ -455,9 +455,11 @@ int cut(lua_State* L) {
   if (solid.empty()) fail_in(Spec, "there is nothing in it");
   const std::vector<uint32_t> chosen = chosen_edges(L, Spec, solid, arguments);
   const double mm = arguments.number(size, 0);
-  push_solid(L, value_or_fail(
-                    Spec, kRound ? fillet_edges(value.node, solid, chosen, mm, arguments.facets())
-                                 : chamfer_edges(value.node, solid, chosen, mm)));
+  session.extent(value);  // for the grid, which a function that chooses edges may have changed
+  const EdgeCut cut{value.node, solid, chosen, session.evaluator().stats().grid_mm,
+                    session.source_ref(L)};
+  push_solid(L, value_or_fail(Spec, kRound ? fillet_edges(cut, mm, arguments.facets())
+                                           : chamfer_edges(cut, mm)));
   keep_marks(L, 1);
   return 1;
 }
