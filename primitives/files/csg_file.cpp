@@ -410,7 +410,7 @@ class CsgBuilder {
     }
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
-    if (cut) return item_of(slice_solid(evaluator(), child->solid, 0));
+    if (cut) return item_of(slice_solid(evaluator(), child->solid, 0, child->solid->where()));
     const auto solid = evaluator().evaluate(child->solid);
     if (!solid) return solid.error();
     return item_of(project_solid(**solid));
