@@ -671,6 +671,33 @@ function Shape:sweep(path, options) end
 function loft(outlines, heights, options) end
 csg.loft = loft
 
+---@class (exact) csgrun.roof
+---@field [integer] any
+---@field method? string "voronoi": as high as the outline is far, with cones around corners that point inwards; or "straight": planes only
+---@field fn? number number of facets of a full turn; 0: from fa and fs
+---@field segments? number the same as fn
+---@field fa? number smallest angle of a facet, degrees, at least 0.01
+---@field fs? number smallest length of a facet, mm, at least 0.01
+
+---A solid: a roof over the shape, with planes that rise inwards from its edges at 45 degrees.
+---
+---Example: `square(30, 20):roof()`
+---@param shape any the 2D shape; as a method, shape:f(...), it is left out
+---@param method? string "voronoi": as high as the outline is far, with cones around corners that point inwards; or "straight": planes only
+---@param options? csgrun.roof
+---@return Solid
+function roof(shape, method, options) end
+csg.roof = roof
+
+---A solid: a roof over the shape, with planes that rise inwards from its edges at 45 degrees.
+---
+---Example: `square(30, 20):roof()`
+---@overload fun(self: Shape, options: csgrun.roof): Solid
+---@param method? string "voronoi": as high as the outline is far, with cones around corners that point inwards; or "straight": planes only
+---@param options? csgrun.roof
+---@return Solid
+function Shape:roof(method, options) end
+
 ---@class (exact) csgrun.hull
 ---@field [integer] any
 ---@field operands? any solids or shapes, one after another or as lists

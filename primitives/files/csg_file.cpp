@@ -145,10 +145,7 @@ class CsgBuilder {
     if (name == "fill") return fill(frame);
     if (name == "resize") return resize(frame);
     if (name == "projection") return projection(frame);
-    if (name == "roof") {
-      if (!frame.children.empty()) return not_supported(frame);
-      return Item();
-    }
+    if (name == "roof") return roof(frame);
     return Error{ErrorCode::kMalformedFile, "unknown node " + name + "()", {}};
   }
 
@@ -336,11 +333,6 @@ class CsgBuilder {
     return combine(BooleanOp::kUnion, frame);
   }
 
-  static Error not_supported(const Frame& frame) {
-    return Error{
-        ErrorCode::kInvalidArgument, frame.call.name + "() is not supported in .csg files", {}};
-  }
-
   Result<Item> offset(Frame& frame) {
     const Result<OffsetOptions> options = csg_offset(frame.call);
     if (!options) return options.error();
@@ -502,9 +494,22 @@ class CsgBuilder {
   Result<Item> extrude(Frame& frame) {
     Result<Item> profile = combine_flat(frame);
     if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
-    Result<Item> solid = leaf(frame, extrude_csg(frame.call, profile->shape), {});
-    if (solid && solid->kind == Item::Kind::kSolid && profile->appearance)
-      solid->solid = Node::painted(*profile->appearance, std::move(solid->solid), where(frame));
+    return painted(frame, leaf(frame, extrude_csg(frame.call, profile->shape), {}), *profile);
+  }
+
+  Result<Item> roof(Frame& frame) {
+    std::vector<std::string> notes;
+    const Result<RoofOptions> options = csg_roof(frame.call, notes);
+    if (!options) return options.error();
+    Result<Item> profile = combine_flat(frame);
+    if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
+    return painted(frame, leaf(frame, make_roof(profile->shape, *options), notes), *profile);
+  }
+
+  /// A solid that was made of a shape has its colour.
+  Result<Item> painted(const Frame& frame, Result<Item> solid, const Item& shape) {
+    if (solid && solid->kind == Item::Kind::kSolid && shape.appearance)
+      solid->solid = Node::painted(*shape.appearance, std::move(solid->solid), where(frame));
     return solid;
   }
 
