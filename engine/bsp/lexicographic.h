@@ -32,8 +32,9 @@ std::vector<uint32_t> lexicographic_order(size_t count, At at, Before before) {
   });
   for_each_range(by_x.starts.size() - 1, [&](size_t begin, size_t end) {
     for (size_t b = begin; b < end; ++b) {
+      // Beyond this range others sort.
       const size_t soon = by_x.starts[b] + size_t{16};
-      if (soon < count) __builtin_prefetch(&at(by_x.order[soon]));
+      if (soon < by_x.starts[end]) __builtin_prefetch(&at(by_x.order[soon]));
       sort_few(by_x.order.begin() + by_x.starts[b], by_x.order.begin() + by_x.starts[b + 1],
                [&](uint32_t i, uint32_t j) {
                  const std::array<double, 3>&p = at(i), &q = at(j);

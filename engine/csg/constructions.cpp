@@ -1,12 +1,18 @@
 #include "engine/csg/constructions.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <glm/common.hpp>
 
+#include "engine/csg/frames.h"
 #include "engine/csg/grid_solid.h"
+#include "engine/csg/grid_tree.h"
 #include "engine/csg/minkowski.h"
 #include "engine/csg/operand_leaves.h"
 
@@ -45,13 +51,86 @@ void turn_back(std::vector<PlacedNode>& members, const std::optional<CommonTurn>
   for (PlacedNode& member : members) member.map = Affine::compose(turn->back, member.map);
 }
 
-NodePtr turned_forth(NodePtr node, const std::optional<CommonTurn>& turn, const SourceRef& where) {
-  return turn ? Node::transformed(turn->forth, std::move(node), where) : node;
+/// A map as what scales along the axes, and then turns and moves. All of it goes inside if it is so
+/// nearly singular that there is no frame for it.
+struct PartedMap {
+  Affine inside, outside;
+};
+PartedMap parted(const Affine& map) {
+  const LinearSplit split = split_linear(map);
+  PartedMap result;
+  if (!split.framed) {
+    result.inside = map;
+    return result;
+  }
+  result.outside = map;
+  for (int j = 0; j < 3; ++j) {
+    result.inside.m[j][j] = split.scale[j];
+    for (int i = 0; i < 3; ++i) result.outside.m[i][j] /= split.scale[j];
+  }
+  return result;
+}
+
+Affine turned_forth(const Affine& map, const std::optional<CommonTurn>& turn) {
+  return turn ? Affine::compose(map, turn->forth) : map;
+}
+
+bool is_finite(const Affine& map) {
+  for (const auto& row : map.m) {
+    for (const double entry : row) {
+      if (!std::isfinite(entry)) return false;
+    }
+  }
+  return true;
+}
+
+bool is_sum(const Node& node) {
+  return node.kind() == NodeKind::kConstruction &&
+         node.construction() == Construction::kMinkowskiSum;
+}
+
+bool is_resizing(const Node& node) {
+  return node.kind() == NodeKind::kConstruction && node.construction() == Construction::kResize;
 }
 
 }  // namespace
 
-Result<NodePtr> Constructions::make_hull(const Node& node, const std::vector<NodePtr>& operands) {
+/// A node that is to be made at a place.
+struct Constructions::Task {
+  NodePtr node;
+  Place place;
+  GridStep inner;                      ///< the least step for what a construction is made of
+  const SourceRef* bent_by = nullptr;  ///< of the transforms above it, the most nearly singular one
+  double bent = 2;
+
+  Task(const NodePtr& at, const Affine& map, const GridStep& least)
+      : node(at), place{at.get(), map, least}, inner(least) {}
+  [[nodiscard]] NodePtr under(const Affine& map, NodePtr tree) const {
+    if (!tree || map == Affine{}) return tree;
+    return Node::transformed(map, std::move(tree), bent_by != nullptr ? *bent_by : node->where());
+  }
+};
+
+size_t Constructions::PlaceHash::operator()(const Place& place) const {
+  uint64_t h = reinterpret_cast<uintptr_t>(place.node) ^
+               static_cast<uint64_t>(place.least.exponent) << 48 ^
+               static_cast<uint64_t>(place.least.numerator);
+  for (const auto& row : place.map.m) {
+    for (double entry : row) {
+      uint64_t bits;
+      entry += 0.0;  // negative zero equals zero
+      std::memcpy(&bits, &entry, sizeof(bits));
+      h = (h ^ bits) * 0xff51afd7ed558ccdULL;
+      h ^= h >> 32;
+    }
+  }
+  return static_cast<size_t>(h);
+}
+
+Result<Constructions::Outcome> Constructions::make_hull(const Task& task,
+                                                        const std::vector<NodePtr>& operands,
+                                                        Made& made) {
+  const Node& node = *task.node;
   std::vector<PlacedNode> members = union_members(operands);
   const std::optional<CommonTurn> turn = common_turn(members);
   turn_back(members, turn);
@@ -67,8 +146,11 @@ Result<NodePtr> Constructions::make_hull(const Node& node, const std::vector<Nod
     }
   }
   if (!others.empty()) {
-    auto parts = evaluate_(others, false);
+    auto parts = evaluate_(others, false, task.inner);
     if (!parts) return parts.error();
+    const double step_mm = parts->step.millimetres();
+    if (step_mm > made.finest_mm) return Outcome{parts->step};
+    made.finest_mm = step_mm;
     size_t rounded = 0;
     for (const SolidPtr& solid : parts->solids) {
       auto corners = grid_solid(*solid, parts->step, false);
@@ -76,14 +158,21 @@ Result<NodePtr> Constructions::make_hull(const Node& node, const std::vector<Nod
       rounded += corners->rounded;
       points.insert(points.end(), solid->positions.begin(), solid->positions.end());
     }
-    if (rounded > 0) warnings_.add(node.where(), "hull: " + rounding_note(rounded, parts->step));
+    if (rounded > 0) made.note = "hull: " + rounding_note(rounded, parts->step);
   }
-  if (points.empty()) return Node::empty(node.where());
-  return turned_forth(hull_leaf(std::move(points), appearance, "hull", node.where()), turn,
-                      node.where());
+  if (points.empty()) {
+    made.node = Node::empty(node.where());
+    return Outcome{};
+  }
+  made.node = task.under(turned_forth(parted(task.place.map).outside, turn),
+                         hull_leaf(std::move(points), appearance, "hull", node.where()));
+  return Outcome{};
 }
 
-Result<NodePtr> Constructions::make_sum(const Node& node, const std::vector<NodePtr>& operands) {
+Result<Constructions::Outcome> Constructions::make_sum(const Task& task,
+                                                       const std::vector<NodePtr>& operands,
+                                                       Made& made) {
+  const Node& node = *task.node;
   std::vector<std::vector<PlacedNode>> unions;
   std::vector<PlacedNode> all;
   for (const NodePtr& operand : operands) {
@@ -94,9 +183,12 @@ Result<NodePtr> Constructions::make_sum(const Node& node, const std::vector<Node
   turn_back(all, turn);
   std::vector<NodePtr> trees;
   for (const PlacedNode& member : all) trees.push_back(member.tree());
-  if (trees.empty()) return Node::empty(node.where());
-  auto parts = evaluate_(trees, true);
+  made.node = Node::empty(node.where());
+  if (trees.empty()) return Outcome{};
+  auto parts = evaluate_(trees, true, task.inner);
   if (!parts) return parts.error();
+  const double step_mm = parts->step.millimetres();
+  if (step_mm > made.finest_mm) return Outcome{parts->step};
 
   std::vector<std::vector<Summand>> summands;
   std::vector<size_t> of_operand;  // by entry of `summands`
@@ -112,7 +204,7 @@ Result<NodePtr> Constructions::make_sum(const Node& node, const std::vector<Node
       auto solid = grid_solid(*parts->solids[at], parts->step, !summand.is_convex);
       if (!solid) return solid.error();
       summand.solid = *std::move(solid);
-      summand.node = trees[at];
+      summand.node = parts->on_grid[at];
       if (all[at].node->kind() != NodeKind::kLeaf) rounded += summand.solid.rounded;
       list.push_back(std::move(summand));
     }
@@ -120,11 +212,16 @@ Result<NodePtr> Constructions::make_sum(const Node& node, const std::vector<Node
     summands.push_back(std::move(list));
     of_operand.push_back(i);
   }
-  if (summands.empty()) return Node::empty(node.where());
-  if (summands.size() == 1) return NodePtr(operands[of_operand[0]]);
-  if (rounded > 0) {
-    warnings_.add(node.where(), "minkowski: " + rounding_note(rounded, parts->step));
+  if (summands.empty()) return Outcome{};
+  const Affine outside = parted(task.place.map).outside;
+  if (summands.size() == 1) {
+    made.node =
+        task.under(std::isfinite(made.finest_mm) ? by_whole_steps(outside, parts->step) : outside,
+                   operands[of_operand[0]]);
+    return Outcome{};
   }
+  made.finest_mm = step_mm;
+  if (rounded > 0) made.note = "minkowski: " + rounding_note(rounded, parts->step);
   // Sums of convex solids are convex, and what is not makes many pieces: these come last.
   std::stable_partition(summands.begin(), summands.end(), [](const std::vector<Summand>& list) {
     return list.size() == 1 && list[0].is_convex;
@@ -145,115 +242,180 @@ Result<NodePtr> Constructions::make_sum(const Node& node, const std::vector<Node
                                "minkowski", node.where()));
   }
   NodePtr result = Node::boolean(BooleanOp::kUnion, std::move(pieces), node.where());
-  result = turned_forth(std::move(result), turn, node.where());
+  result = task.under(by_whole_steps(turned_forth(outside, turn), parts->step), std::move(result));
   // Pieces that are an operand may have colours of their own, which others of its faces have not.
-  return appearance != nullptr ? Node::painted(*appearance, std::move(result), node.where())
-                               : result;
+  if (appearance != nullptr) result = Node::painted(*appearance, std::move(result), node.where());
+  made.node = std::move(result);
+  return Outcome{};
 }
 
 /// The lengths of the bounding box of a solid; all 0 when it is empty. A union of leaves is not
 /// evaluated: it may be so long that its width is nothing on a grid that holds it.
-Result<std::array<double, 3>> Constructions::lengths(const NodePtr& operand) {
+Result<Constructions::Outcome> Constructions::measure(const Task& task, const NodePtr& operand,
+                                                      double finest_mm) {
   const std::vector<PlacedNode> members = union_members({operand});
   std::vector<glm::dvec3> points;
   if (std::all_of(members.begin(), members.end(), has_own_points)) {
     for (const PlacedNode& member : members) append_points(member, points);
   } else {
-    auto parts = evaluate_({operand}, false);
+    auto parts = evaluate_({operand}, false, task.inner);
     if (!parts) return parts.error();
+    if (parts->step.millimetres() > finest_mm) return Outcome{parts->step};
     points = parts->solids[0]->positions;
   }
   std::array<glm::dvec3, 2> box{};
   if (!points.empty()) box = {points[0], points[0]};
   for (const glm::dvec3& p : points) box = {glm::min(box[0], p), glm::max(box[1], p)};
-  return std::array<double, 3>{box[1].x - box[0].x, box[1].y - box[0].y, box[1].z - box[0].z};
-}
-
-Result<NodePtr> Constructions::make_resized(const Node& node, const NodePtr& operand) {
-  const auto length = lengths(operand);
-  if (!length) return length.error();
-  if (*std::min_element(length->begin(), length->end()) <= 0) return Node::empty(node.where());
-  const Resize& resize = node.resize();
+  std::optional<Affine>& map = resizing_[task.node.get()];
+  const glm::dvec3 length = box[1] - box[0];
+  if (!(std::min({length.x, length.y, length.z}) > 0)) return Outcome{};
+  const Resize& resize = task.node->resize();
   std::array<double, 3> factor{1, 1, 1};
   int largest = 0;
   for (int i = 0; i < 3; ++i) {
-    if (resize.size[i] > 0) factor[i] = resize.size[i] / (*length)[i];
+    if (resize.size[i] > 0) factor[i] = resize.size[i] / length[i];
     if (resize.size[i] > resize.size[largest]) largest = i;
   }
-  Affine map;
+  map.emplace();
   for (int i = 0; i < 3; ++i) {
-    map.m[i][i] = resize.size[i] > 0 || !resize.automatic[i] ? factor[i] : factor[largest];
+    map->m[i][i] = resize.size[i] > 0 || !resize.automatic[i] ? factor[i] : factor[largest];
   }
-  return Node::transformed(map, operand, node.where());
+  return Outcome{};
 }
 
-Result<NodePtr> Constructions::make(const Node& node, const std::vector<NodePtr>& operands) {
-  switch (node.construction()) {
-    case Construction::kConvexHull:
-      return make_hull(node, operands);
-    case Construction::kMinkowskiSum:
-      return make_sum(node, operands);
-    default:
-      return make_resized(node, operands[0]);
+/// What the children of a node are to be made under.
+Result<Constructions::Below> Constructions::below(const Task& task) const {
+  const Node& node = *task.node;
+  const Place& place = task.place;
+  if (node.kind() == NodeKind::kTransform) {
+    const Affine map = Affine::compose(place.map, node.transform());
+    if (is_finite(map)) return Below{map, place.least};
+    return Error{ErrorCode::kInvalidArgument, "a transform is not finite", node.where()};
   }
+  if (is_resizing(node)) {
+    const auto known = resizing_.find(&node);
+    // Its lengths are those that it has by itself.
+    if (known == resizing_.end()) return Below{Affine{}, task.inner};
+    return Below{Affine::compose(place.map, known->second.value_or(Affine{})), place.least};
+  }
+  if (node.kind() != NodeKind::kConstruction || (is_sum(node) && node.children().size() == 1)) {
+    return Below{place.map, place.least};
+  }
+  return Below{parted(place.map).inside, task.inner};
 }
 
-/// A node over other children.
-Result<NodePtr> Constructions::rebuilt(const Node& node, std::vector<NodePtr> children) {
+/// Makes a node of its children. Not done, but with a step, when these must be made again on a grid
+/// of this step.
+Result<Constructions::Outcome> Constructions::make(const Task& task, std::vector<NodePtr> children,
+                                                   Made& made) {
+  const Node& node = *task.node;
   switch (node.kind()) {
-    case NodeKind::kTransform:
-      return Node::transformed(node.transform(), std::move(children[0]), node.where());
     case NodeKind::kAppearance:
-      return Node::painted(node.appearance(), std::move(children[0]), node.where());
+      made.node = Node::painted(node.appearance(), std::move(children[0]), node.where());
+      return Outcome{};
     case NodeKind::kOuterHull:
-      return Node::outer_hull(node.outer_hull(), std::move(children[0]), node.where());
+      made.node = Node::outer_hull(node.outer_hull(), std::move(children[0]), node.where());
+      return Outcome{};
     case NodeKind::kBoolean:
-      return Node::boolean(node.op(), std::move(children), node.where());
-    default:
+      made.node = Node::boolean(node.op(), std::move(children), node.where());
+      return Outcome{};
+    case NodeKind::kConstruction:
       break;
+    default:  // a transform is in its child
+      made.node = std::move(children[0]);
+      return Outcome{};
   }
-  auto made = make(node, children);
-  if (made || made.error().where.line > 0) return made;
-  Error error = made.error();
-  error.where = node.where();
-  return error;
+  if (is_resizing(node)) {
+    made.node = resizing_.at(&node) ? std::move(children[0]) : Node::empty(node.where());
+    return Outcome{};
+  }
+  if (!is_sum(node)) return make_hull(task, children, made);
+  if (children.size() > 1) return make_sum(task, children, made);
+  made.node = std::move(children[0]);
+  return Outcome{};
 }
 
-Result<NodePtr> Constructions::expand(const NodePtr& root) {
-  if (!root || !root->has_constructions()) return NodePtr(root);
-  std::vector<const NodePtr*> stack{&root};
+/// Makes the node of a task if all is there that it needs; else puts that on the stack, above it.
+Result<bool> Constructions::advance(std::vector<Task>& stack) {
+  const Task task = stack.back();
+  const Node& node = *task.node;
+  const bool is_measuring = is_resizing(node) && !resizing_.contains(&node);
+  const auto under = below(task);
+  if (!under) return under.error();
+  const size_t before = stack.size();
+  std::vector<NodePtr> children;
+  Made made{nullptr, std::numeric_limits<double>::infinity(), {}, node.where(), {}};
+  for (const NodePtr& child : node.children()) {
+    Task next(child, under->map, under->least);
+    next.bent_by = task.bent_by;
+    next.bent = task.bent;
+    if (node.kind() == NodeKind::kTransform) {
+      const double square = std::fabs(split_linear(node.transform()).determinant);
+      if (square < next.bent) next.bent = square, next.bent_by = &node.where();
+    }
+    if (!child || !child->has_constructions()) {
+      children.push_back(next.under(under->map, child));
+    } else if (const auto found = made_.find(next.place); found != made_.end()) {
+      children.push_back(found->second.node);
+      made.finest_mm = std::min(made.finest_mm, found->second.finest_mm);
+      made.below.push_back(&found->second);
+    } else {
+      stack.push_back(std::move(next));
+    }
+  }
+  if (stack.size() > before) {
+    std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(before), stack.end());
+    return false;
+  }
+  auto outcome = is_measuring ? measure(task, children[0], made.finest_mm)
+                              : make(task, std::move(children), made);
+  if (!outcome) {
+    Error error = outcome.error();
+    if (error.where.line == 0) error.where = node.where();
+    return error;
+  }
+  if (is_measuring || outcome->again) {
+    if (outcome->again) stack.back().inner = *outcome->again;
+    return false;
+  }
+  alive_.push_back(task.node);
+  made_.emplace(task.place, std::move(made));
+  return true;
+}
+
+Result<Constructions::Expanded> Constructions::expand(const NodePtr& root, const GridStep& least) {
+  if (!root || !root->has_constructions()) {
+    return Expanded{root, std::numeric_limits<double>::infinity()};
+  }
+  std::vector<Task> stack{Task(root, Affine{}, least)};
   while (!stack.empty()) {
-    const NodePtr& node = *stack.back();
-    if (made_.contains(node.get())) {
-      stack.pop_back();
-      continue;
+    if (!made_.contains(stack.back().place)) {
+      const auto is_made = advance(stack);
+      if (!is_made) return is_made.error();
+      if (!*is_made) continue;
     }
-    const size_t before = stack.size();
-    std::vector<NodePtr> children;
-    for (const NodePtr& child : node->children()) {
-      if (!child || !child->has_constructions()) {
-        children.push_back(child);
-      } else if (const auto found = made_.find(child.get()); found != made_.end()) {
-        children.push_back(found->second);
-      } else {
-        stack.push_back(&child);
-      }
-    }
-    if (stack.size() > before) {
-      std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(before), stack.end());
-      continue;
-    }
-    auto made = rebuilt(*node, std::move(children));
-    if (!made) return made.error();
-    alive_.push_back(node);
-    made_.emplace(node.get(), *std::move(made));
     stack.pop_back();
   }
-  return NodePtr(made_.at(root.get()));
+  const Made& made = made_.at({root.get(), Affine{}, least});
+  return Expanded{made.node, made.finest_mm};
+}
+
+void Constructions::tell(const NodePtr& root, const GridStep& least) {
+  const auto found = made_.find({root.get(), Affine{}, least});
+  std::vector<Made*> stack;
+  if (found != made_.end()) stack.push_back(&found->second);
+  while (!stack.empty()) {
+    Made& made = *stack.back();
+    stack.pop_back();
+    if (std::exchange(made.is_told, true)) continue;
+    if (!made.note.empty()) warnings_.add(made.where, made.note);
+    stack.insert(stack.end(), made.below.rbegin(), made.below.rend());
+  }
 }
 
 void Constructions::clear() {
   made_.clear();
+  resizing_.clear();
   alive_.clear();
 }
 

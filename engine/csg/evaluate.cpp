@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <thread>
 #include <unordered_map>
@@ -13,6 +15,7 @@
 #include "engine/bsp/untouched.h"
 #include "engine/csg/constructions.h"
 #include "engine/csg/convexity.h"
+#include "engine/csg/grid_tree.h"
 #include "engine/csg/locate.h"
 #include "engine/csg/result_cache.h"
 #include "engine/csg/scene.h"
@@ -72,9 +75,11 @@ struct Evaluator::Impl {
         // Solids are a fraction of what led to them.
         solids(options.cache_bytes / 4),
         worlds(options.cache_bytes / 4),
-        constructions([this](const std::vector<NodePtr>& parts,
-                             bool ask_convex) { return evaluate_parts(parts, ask_convex); },
-                      warnings) {
+        constructions(
+            [this](const std::vector<NodePtr>& parts, bool ask_convex, const GridStep& least) {
+              return evaluate_parts(parts, ask_convex, least);
+            },
+            warnings) {
     threads = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
     if (threads == 0) threads = 1;
   }
@@ -84,8 +89,9 @@ struct Evaluator::Impl {
   }
   bool forget_if_full();
   Result<Scene> scene_of(const std::vector<NodePtr>& parts);
-  Result<Scene> scene_of_expanded(const std::vector<NodePtr>& parts);
-  Result<EvaluatedParts> evaluate_parts(const std::vector<NodePtr>& parts, bool ask_convex);
+  Result<Scene> scene_of_expanded(const std::vector<NodePtr>& parts, const GridStep& least);
+  Result<EvaluatedParts> evaluate_parts(const std::vector<NodePtr>& parts, bool ask_convex,
+                                        const GridStep& least);
   Result<bool> is_convex(const Scene& scene, uint32_t root);
   Result<BoundaryPtr> world_of(const Scene& scene, uint32_t root);
   Result<std::vector<SolidPtr>> evaluate(const Scene& scene);
@@ -120,18 +126,32 @@ bool Evaluator::Impl::forget_if_full() {
   return true;
 }
 
+/// What constructions made must be on the scene's grid: when that turns out to be coarser than the
+/// grids on which they were made, they are made again. So the step grows until it is coarse enough.
 Result<Scene> Evaluator::Impl::scene_of(const std::vector<NodePtr>& parts) {
   if (forget_if_full()) constructions.clear();
-  std::vector<NodePtr> expanded;
-  for (const NodePtr& part : parts) {
-    auto made = constructions.expand(part);
-    if (!made) return made.error();
-    expanded.push_back(*std::move(made));
+  GridStep least;
+  while (true) {
+    std::vector<NodePtr> expanded;
+    double finest_mm = std::numeric_limits<double>::infinity();
+    for (const NodePtr& part : parts) {
+      const auto made = constructions.expand(part, least);
+      if (!made) return made.error();
+      expanded.push_back(made->node);
+      finest_mm = std::min(finest_mm, made->finest_mm);
+    }
+    auto scene = scene_of_expanded(expanded, least);
+    if (!scene) return scene.error();
+    if (scene->step.millimetres() <= finest_mm) {
+      for (const NodePtr& part : parts) constructions.tell(part, least);
+      return scene;
+    }
+    least = scene->step;
   }
-  return scene_of_expanded(expanded);
 }
 
-Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& parts) {
+Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& parts,
+                                                 const GridStep& least) {
   const Stopwatch watch(stats.leaf_seconds);
   forget_if_full();
   std::vector<uint32_t> roots;
@@ -149,7 +169,7 @@ Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& par
   // Leaves are examined on the threads of the arena.
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, threads);
   tbb::task_arena arena(static_cast<int>(threads));
-  return arena.execute([&] { return build_scene(context, roots, options.grid); });
+  return arena.execute([&] { return build_scene(context, roots, options.grid, least); });
 }
 
 /// What the arrays of a root depend on: what it is, where it is in the world, and the step.
@@ -192,18 +212,23 @@ Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const std::vector<NodePt
 
 /// Solids for a construction: their trees have none left.
 Result<EvaluatedParts> Evaluator::Impl::evaluate_parts(const std::vector<NodePtr>& parts,
-                                                       bool ask_convex) {
-  auto scene = scene_of_expanded(parts);
+                                                       bool ask_convex, const GridStep& least) {
+  auto scene = scene_of_expanded(parts, least);
   if (!scene) return scene.error();
   auto solids_of_parts = evaluate(*scene);
   if (!solids_of_parts) return solids_of_parts.error();
-  EvaluatedParts result{scene->step, *std::move(solids_of_parts), {}};
+  EvaluatedParts result{scene->step, *std::move(solids_of_parts), {}, {}};
   result.is_convex.assign(parts.size(), 0);
+  result.on_grid.resize(parts.size());
   for (size_t i = 0; ask_convex && i < parts.size(); ++i) {
     if (result.solids[i]->empty()) continue;
     auto convex = is_convex(*scene, scene->roots[i]);
     if (!convex) return convex.error();
     result.is_convex[i] = *convex ? 1 : 0;
+    if (*convex) continue;
+    const auto root = form.add(parts[i]);
+    if (!root) return root.error();
+    result.on_grid[i] = tree_on_grid(form, store, appearances, *root, scene->step);
   }
   return result;
 }

@@ -70,11 +70,11 @@ class Builder {
   Builder(SceneContext& context, std::span<const uint32_t> roots)
       : context_(context), roots_(roots), order_(context.form.reachable(roots)) {}
 
-  Result<Scene> build(const GridStep& step);
+  Result<Scene> build(const GridStep& step, const GridStep& least);
 
  private:
   Status place_leaves();
-  Status choose(const GridStep& step);
+  Status choose(const GridStep& step, const GridStep& least);
   Result<SceneNode> make_leaf(uint32_t index);
   Status resolve_leaf(uint32_t index, const QuantisedLeaf& leaf, SceneNode& result);
   Status make_nodes();
@@ -177,10 +177,11 @@ Status Builder::place_leaves() {
   return std::monostate{};
 }
 
-Status Builder::choose(const GridStep& step) {
+Status Builder::choose(const GridStep& step, const GridStep& least) {
   const SceneReach reach = scene_reach(context_.form, order_, roots_, step_leaves_);
   if (step.automatic()) {
     scene_.step = choose_step(reach.reach, reach.far);
+    if (!least.automatic() && least.millimetres() > scene_.step.millimetres()) scene_.step = least;
     return std::monostate{};
   }
   scene_.step = step;
@@ -392,13 +393,13 @@ SceneNode Builder::make_hull(const NormalNode& node) const {
   return result;
 }
 
-Result<Scene> Builder::build(const GridStep& step) {
+Result<Scene> Builder::build(const GridStep& step, const GridStep& least) {
   scene_.frames.push_back(world_frame());
   frame_ids_.emplace(world_frame().matrix, 0);
   if (Status status = place_leaves(); !status) return status.error();
   do {
     is_step_too_small_ = false;
-    if (Status status = choose(step); !status) return status.error();
+    if (Status status = choose(step, least); !status) return status.error();
     if (Status status = make_nodes(); !status) return status.error();
     // Each time some more leaves count as a whole.
   } while (is_step_too_small_);
@@ -480,8 +481,8 @@ std::vector<uint32_t> Scene::leaves(uint32_t index) const {
 }
 
 Result<Scene> build_scene(SceneContext& context, std::span<const uint32_t> roots,
-                          const GridStep& step) {
-  return Builder(context, roots).build(step);
+                          const GridStep& step, const GridStep& least) {
+  return Builder(context, roots).build(step, least);
 }
 
 }  // namespace csgrun

@@ -97,10 +97,11 @@ struct SceneContext {
   Resolver resolve;
 };
 
-/// Chooses the step (unless `step` is given) and puts the subtrees of the normal form on the grid.
-/// Leaves that cross themselves are resolved, with a warning. Errors: kInvalidMesh (with the leaf's
-/// line), kOutOfRange when the scene does not fit the grid, kLimit, kCancelled, those of `resolve`.
+/// Chooses the step (unless `step` is given), not below `least` if there is one, and puts the
+/// subtrees of the normal form on the grid. Leaves that cross themselves are resolved, with a
+/// warning. Errors: kInvalidMesh (with the leaf's line), kOutOfRange when the scene does not fit
+/// the grid, kLimit, kCancelled, those of `resolve`.
 Result<Scene> build_scene(SceneContext& context, std::span<const uint32_t> roots,
-                          const GridStep& step);
+                          const GridStep& step, const GridStep& least = {});
 
 }  // namespace csgrun

@@ -179,7 +179,8 @@ void WholeOrder::order_faces(std::span<const LowestEdge> explicit_faces) {
   for_each_range(points_.size(), [&](size_t begin, size_t end) {
     for (size_t p = begin; p < end; ++p) {
       const size_t soon = by_from.starts[p] + kAhead;
-      if (soon < faces_.size() && faces_[soon] >= explicit_face_count_) {
+      // Beyond this range others sort.
+      if (soon < by_from.starts[end] && faces_[soon] >= explicit_face_count_) {
         __builtin_prefetch(&triangle(faces_[soon]));
       }
       sort_few(faces_.begin() + by_from.starts[p], faces_.begin() + by_from.starts[p + 1],

@@ -10,7 +10,9 @@ namespace csgrun {
 namespace {
 
 constexpr size_t kMostColours = 4096;  // each becomes a material of a written file
-constexpr float kFine = 255, kCoarse = 15;
+constexpr float kFine = 255;
+/// Steps of each channel, where there are more: the last of these is few enough for four channels.
+constexpr float kCoarser[] = {15, 7};
 
 Rgba rounded(const Rgba& colour, float steps) {
   Rgba result{};
@@ -32,7 +34,10 @@ Appearance appearance_of(const Rgba& colour) {
 
 std::optional<Rgba> FaceColours::of_corners(const PolygonMesh& mesh, size_t face) const {
   if (vertices_.empty()) return std::nullopt;
-  const auto corner = [&](uint32_t i) { return vertices_[mesh.corners[i]]; };
+  const auto corner = [&](uint32_t i) {
+    const uint32_t vertex = mesh.corners[i];
+    return vertex < vertices_.size() ? vertices_[vertex] : std::nullopt;
+  };
   const uint32_t begin = mesh.loop_starts[mesh.face_starts[face]];
   const uint32_t end = mesh.loop_starts[mesh.face_starts[face + 1]];
   Rgba sum{};
@@ -58,11 +63,15 @@ void FaceColours::apply(PolygonMesh& mesh, std::vector<std::string>* notes) cons
   if (numbers.empty()) return;
   if (numbers.size() > kMostColours) {
     const size_t before = numbers.size();
-    numbers.clear();
-    for (std::optional<Rgba>& colour : colours) {
-      if (!colour) continue;
-      colour = rounded(*colour, kCoarse);
-      numbers.emplace(*colour, 0);
+    const std::vector<std::optional<Rgba>> fine = colours;
+    for (const float steps : kCoarser) {
+      if (numbers.size() <= kMostColours) break;
+      numbers.clear();
+      for (size_t f = 0; f < fine.size(); ++f) {
+        if (!fine[f]) continue;
+        colours[f] = rounded(*fine[f], steps);
+        numbers.emplace(*colours[f], 0);
+      }
     }
     if (notes != nullptr) {
       notes->push_back(std::to_string(before) + " colours of faces were rounded to " +

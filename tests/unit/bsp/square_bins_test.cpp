@@ -60,9 +60,20 @@ TEST(SquareBins, FindNothingFarAway) {
   }
 }
 
-TEST(SquareBins, OfNoBoxesHoldNothing) {
-  EXPECT_TRUE(SquareBins({}, 1).at(3, -4).empty());
+// Boxes that all lie upon each other: 16 squares each, in four by four, and not one more.
+TEST(SquareBins, AreFewWhereBoxesAreWide) {
+  const std::vector<Box> wide(50, Box{{0, 0}, {100, 100}});
+  EXPECT_EQ(SquareBins(wide, 64).size(), 16 * wide.size());
+  EXPECT_EQ(SquareBins(wide, 4).size(), 16 * wide.size());
+  EXPECT_EQ(SquareBins(wide, 3).size(), 9 * wide.size());
+  // One of them alone is no reason for fewer squares.
+  std::vector<Box> boxes{wide[0]};
+  for (int i = 0; i < 99; ++i) boxes.push_back({{double(i), double(i)}, {i + 0.5, i + 0.5}});
+  boxes.push_back({{50, 50}, {40, 60}});  // nowhere
+  EXPECT_GT(SquareBins(boxes, 32).size(), 32u * 32);
 }
+
+TEST(SquareBins, OfNoBoxesHoldNothing) { EXPECT_TRUE(SquareBins({}, 1).at(3, -4).empty()); }
 
 }  // namespace
 }  // namespace csgrun
