@@ -199,11 +199,11 @@ class CsgBuilder {
     if (!import) return import.error();
     const std::string& path = import->file;
     const bool drawing = !flat_file_format_of(path).empty();
-    const bool archive = is_3mf_path(path);
+    const bool archive = is_3mf_path(path) || is_amf_path(path);
     if (!drawing && !archive && mesh_format_of(path).empty()) {
       return Error{ErrorCode::kInvalidArgument,
                    "import: " + quoted(path) +
-                       " has none of the endings .stl, .off, .obj, .ply, .3mf, .svg, .dxf",
+                       " has none of the endings .stl, .off, .obj, .ply, .3mf, .amf, .svg, .dxf",
                    {}};
     }
     if (!environment_.read) {
@@ -218,7 +218,9 @@ class CsgBuilder {
       return Item::of(std::move(file->shape));
     }
     std::vector<std::string> notes;
-    auto parts = archive ? parse_3mf(path, *bytes) : mesh_as_parts(path, *bytes, &notes);
+    auto parts = is_3mf_path(path)   ? parse_3mf(path, *bytes)
+                 : is_amf_path(path) ? parse_amf(path, *bytes, &notes)
+                                     : mesh_as_parts(path, *bytes, &notes);
     if (!parts) return Error{parts.error().code, "import: " + parts.error().message, {}};
     std::vector<NodePtr> solids;
     for (ModelPart& part : *parts) {

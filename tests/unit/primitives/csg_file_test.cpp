@@ -296,7 +296,7 @@ TEST(CsgFile, ImportsFilesOfTheirFolder) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().message, "import: cannot read it");
   EXPECT_EQ(import("file = \"b.nef3\"").error().message,
-            "import: \"b.nef3\" has none of the endings .stl, .off, .obj, .ply, .3mf, .svg, .dxf");
+            "import: \"b.nef3\" has none of the endings .stl, .off, .obj, .ply, .3mf, .amf, .svg, .dxf");
 }
 
 TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
