@@ -257,7 +257,9 @@ std::string api_help() {
   return text;
 }
 
-void fail_in(const FunctionSpec& spec, const std::string& message) {
+void fail_in(const FunctionSpec& spec, const std::string& message) { fail_as(spec.name, message); }
+
+void fail_making(const FunctionSpec& spec, const std::string& message) {
   // What a function makes with the help of another one is its own: "rect: r must be", not "rect:
   // square: r must be".
   const size_t end = message.find(": ");

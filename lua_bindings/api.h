@@ -69,10 +69,12 @@ std::string api_help();
 
 /// "cube: message" as a ScriptError.
 [[noreturn]] void fail_in(const FunctionSpec& spec, const std::string& message);
+/// The same, of what the primitives say: the name of the one that says it is left out.
+[[noreturn]] void fail_making(const FunctionSpec& spec, const std::string& message);
 /// The value, or a ScriptError that names the function.
 template <class V>
 V value_or_fail(const FunctionSpec& spec, Result<V> result) {
-  if (!result) fail_in(spec, result.error().message);
+  if (!result) fail_making(spec, result.error().message);
   return *std::move(result);
 }
 /// The shape at stack index 1, or an error that says what is wanted.

@@ -71,7 +71,7 @@ int surface(lua_State* L) {
   }
   HeightMap map;
   if (heights != 0) {
-    if (arguments.has("invert")) fail_in(kSurface, "option 'invert' is for files");
+    if (arguments.has("invert")) fail_in(kSurface, "option 'invert' is for a PNG");
     map = read_heights(L, heights);
   } else {
     Files::Opened file;
@@ -80,8 +80,12 @@ int surface(lua_State* L) {
     } catch (const ScriptError& error) {
       fail_in(kSurface, error.what());
     }
-    map = value_or_fail(
-        kSurface, parse_height_map(file.display, file.bytes, arguments.boolean("invert", false)));
+    if (arguments.has("invert") && !is_png(file.bytes)) {
+      fail_in(kSurface, "option 'invert' is for a PNG, and " + file.display + " is a text");
+    }
+    auto read = parse_height_map(file.display, file.bytes, arguments.boolean("invert", false));
+    if (!read) fail_in(kSurface, read.error().message);  // it begins with the file's name
+    map = *std::move(read);
   }
   push_leaf(L, value_or_fail(kSurface, make_surface(map, arguments.boolean("center", false))));
   return 1;

@@ -105,9 +105,13 @@ Result<HeightMap> parse_png(const std::string& name, std::string_view bytes, boo
 
 }  // namespace
 
-Result<HeightMap> parse_height_map(const std::string& name, std::string_view bytes, bool invert) {
+bool is_png(std::string_view bytes) {
   constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-  if (bytes.starts_with(kSignature)) return parse_png(name, bytes, invert);
+  return bytes.starts_with(kSignature);
+}
+
+Result<HeightMap> parse_height_map(const std::string& name, std::string_view bytes, bool invert) {
+  if (is_png(bytes)) return parse_png(name, bytes, invert);
   return parse_table(name, bytes);
 }
 

@@ -139,6 +139,20 @@ class Bounds(Case):
         self.write("model/model.lua", text)
         return self.run_csgrun("model/model.lua", *(arguments or ("--stats=json",)), env=env)
 
+    def test_named_as_a_function(self):
+        """Messages keep the file's name, also where a function of the language has it."""
+        self.write("points", "")
+        self.write("cube", "1 x\n2 3\n")
+        for script, message in (('read_csv("points", {header = true})', "read_csv: points: there is no line with names"),
+                                ('return surface("cube")', "surface: cube: ")):
+            outcome = self.run_script(script, "-o", "a.stl")
+            self.expect(outcome, 1, "model.lua:1: " + message)
+
+    def test_invert_of_a_text(self):
+        self.write("a.txt", "1 2\n3 4\n")
+        outcome = self.run_script('return surface{"a.txt", invert = true}', "-o", "a.stl")
+        self.expect(outcome, 1, "model.lua:1: surface: option 'invert' is for a PNG, and a.txt is a text")
+
     def test_out_of_the_folder(self):
         os.symlink("../secret.stl", self.path("model/link.stl"))
         os.symlink("..", self.path("model/up"))

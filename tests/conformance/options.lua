@@ -173,7 +173,7 @@ end
 -- Free forms.
 shows("surface.file", surface{file = "options/heights.txt"}:size()[1] == 2)
 shows("surface.center", low(surface{file = "options/heights.txt", center = true})[1] == -1)
-shows("surface.invert", surface{file = "options/heights.txt", invert = true} == surface("options/heights.txt"))
+shows("surface.invert", surface{file = "options/heights.png", invert = true} ~= surface("options/heights.png"))
 shows("surface.heights", surface{heights = {{0, 1}, {2, 3}}}:size()[3] == 4)
 shows("refine.length", #cube(4):refine{length = 1}:mesh().points > 100)
 shows("smooth.rounds", #cube(4):smooth{rounds = 2}:mesh().faces == 12 * 16)

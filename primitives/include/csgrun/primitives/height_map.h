@@ -15,6 +15,9 @@ struct HeightMap {
   std::vector<double> heights;  ///< mm, row by row; the first row is at y = 0
 };
 
+/// Whether these bytes are a picture, or seem to be one: else they are a text.
+bool is_png(std::string_view bytes);
+
 /// A text of numbers, one row a line, `#` before comments; short rows are filled with 0. Or a PNG:
 /// heights are 100/255 of the luminance of its 8 bits, 0.2126 red + 0.7152 green + 0.0722 blue, the
 /// lowest row of the picture is the first; with `invert` 100/255 of 1 less the luminance, as
