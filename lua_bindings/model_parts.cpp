@@ -89,7 +89,7 @@ Result<std::vector<ModelPart>> read_model_parts(const std::string& name, std::st
                                                 const ModelPartOptions& options,
                                                 std::vector<std::string>* notes) {
   const std::string format = model_file_format_of(name);
-  auto parts = format == "3mf"                       ? parse_3mf(name, bytes)
+  auto parts = format == "3mf"                       ? parse_3mf(name, bytes, notes)
                : format == "amf"                     ? parse_amf(name, bytes, notes)
                : format == "glb" || format == "gltf" ? read_gltf(name, bytes)
                                                      : read_mesh(name, bytes, options, notes);

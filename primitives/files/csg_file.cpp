@@ -15,6 +15,7 @@
 
 #include "primitives/files/csg_parser.h"
 #include "primitives/files/csg_shapes.h"
+#include "primitives/files/face_colours.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/read_file.h"
 
@@ -218,7 +219,7 @@ class CsgBuilder {
       return Item::of(std::move(file->shape));
     }
     std::vector<std::string> notes;
-    auto parts = is_3mf_path(path)   ? parse_3mf(path, *bytes)
+    auto parts = is_3mf_path(path)   ? parse_3mf(path, *bytes, &notes)
                  : is_amf_path(path) ? parse_amf(path, *bytes, &notes)
                                      : mesh_as_parts(path, *bytes, &notes);
     if (!parts) return Error{parts.error().code, "import: " + parts.error().message, {}};
@@ -404,10 +405,17 @@ class CsgBuilder {
     }
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
-    if (cut) return item_of(slice_solid(evaluator(), child->solid, 0));
-    const auto solid = evaluator().evaluate(child->solid);
+    const SourceRef place = where(frame);
+    Result<Shape2D> shape =
+        cut ? slice_solid(evaluator(), child->solid, 0, place) : shadow(child->solid);
+    if (!shape && environment_.evaluation_failed != nullptr) *environment_.evaluation_failed = true;
+    return item_of(std::move(shape));
+  }
+
+  Result<Shape2D> shadow(const NodePtr& node) {
+    const auto solid = evaluator().evaluate(node);
     if (!solid) return solid.error();
-    return item_of(project_solid(**solid));
+    return project_solid(**solid);
   }
 
   Evaluator& evaluator() {
@@ -480,12 +488,9 @@ class CsgBuilder {
     const bool unset = rgba[0] < 0;  // -1 in all four: color() without a colour
     if (!child || child->kind == Item::Kind::kEmpty || unset) return child;
     auto component = [](double v) { return static_cast<float>(v > 0 ? std::min(v, 1.0) : 0.0); };
-    Appearance appearance;
-    appearance.red = component(rgba[0]);
-    appearance.green = component(rgba[1]);
-    appearance.blue = component(rgba[2]);
-    appearance.alpha = rgba[3] < 0 ? 1.0f : component(rgba[3]);
-    appearance.is_default = false;
+    const Appearance appearance =
+        appearance_of({component(rgba[0]), component(rgba[1]), component(rgba[2]),
+                       rgba[3] < 0 ? 1.0f : component(rgba[3])});
     if (child->kind == Item::Kind::kFlat) {
       child->appearance = appearance;
       return child;

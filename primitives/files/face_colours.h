@@ -14,6 +14,19 @@ namespace csgrun {
 
 using Rgba = std::array<float, 4>;  ///< red, green, blue and alpha from 0 to 1
 
+/// What has that colour, and nothing else to tell.
+Appearance appearance_of(const Rgba& colour);
+
+/// An order of appearances, any.
+struct LookOrder {
+  bool operator()(const Appearance& a, const Appearance& b) const;
+};
+
+/// Each appearance becomes a material of a written file: where a mesh has more than a model would
+/// (4096), they are rounded to 16 steps of each channel, or fewer, and lose their names. `notes`,
+/// if given, gets what was done. O(faces log appearances).
+void limit_appearances(PolygonMesh& mesh, std::vector<std::string>* notes);
+
 class FaceColours {
  public:
   /// Of a vertex, or of a face, by its index in the mesh. Others have none.
@@ -21,8 +34,7 @@ class FaceColours {
   void set_face(size_t index, const Rgba& colour) { set(faces_, index, colour); }
 
   /// Gives the faces of the mesh their colours: their own, else the mean of those of their corners,
-  /// if all have one; nothing where no face has any. More colours than a model would have (4096)
-  /// are rounded to 16 steps of each channel, or fewer, and a note says so.
+  /// if all have one; nothing where no face has any. They are limited as above.
   void apply(PolygonMesh& mesh, std::vector<std::string>* notes) const;
 
  private:

@@ -33,6 +33,7 @@ struct CsgEnvironment {
   std::function<Result<std::string>(const std::string& path)> read;
   /// Evaluates what is projected; null: one with default options.
   Evaluator* evaluator = nullptr;
+  bool* evaluation_failed = nullptr;  ///< set when an error is one of that, and not of the file
 };
 
 /// Reads cube, sphere, cylinder, polyhedron, square, circle, polygon, text, import, surface,

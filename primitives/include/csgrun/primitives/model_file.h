@@ -19,8 +19,10 @@ struct ModelPart {
 
 /// The parts that a 3MF file builds, in its order: units, transforms, components, base materials
 /// and colours are understood. `name` stands in messages. Errors: kMalformedFile; kLimit for what
-/// unpacks, or multiplies by components, to more than a model would.
-Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes);
+/// unpacks, or multiplies by components, to more than a model would. `notes`, if given, gets what
+/// was done to a part with more colours than a model would have.
+Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes,
+                                         std::vector<std::string>* notes = nullptr);
 
 /// Whether a path ends in .3mf, in letters of any case.
 bool is_3mf_path(const std::string& path);
