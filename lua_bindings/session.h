@@ -70,11 +70,12 @@ class Session {
   Evaluator& evaluator();
   /// The solid of a tree, on the script's clock. Throws ScriptError, with the place of the node.
   SolidPtr evaluate(const NodePtr& node);
-  /// The same, kept with the value for as long as the grid and csg.contacts stay the same.
+  /// The same, kept with the value for as long as the grid and csg.contacts stay the same: who calls
+  /// Lua meanwhile holds `value.evaluated`.
+  const Solid& evaluated(SolidValue& value);
   /// Volume and box of a solid, without its triangles if these were not made yet. Fails as
   /// evaluated does.
   Extent extent(const SolidValue& value);
-  const Solid& evaluated(SolidValue& value);
   /// Whether the message is that of an evaluation that failed in a script: exit 3 rather than 1.
   [[nodiscard]] bool is_geometry_failure(const std::string& message) const;
   /// Throws ScriptError for an engine error.

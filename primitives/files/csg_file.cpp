@@ -178,7 +178,6 @@ class CsgBuilder {
     return Item();
   }
 
-  /// A mesh, or a drawing. A file that is not there is an error: nothing is dropped silently.
   Result<Item> surface(const Frame& frame) {
     CsgArguments arguments(frame.call);
     const std::string path = arguments.string("file", "");
@@ -195,6 +194,7 @@ class CsgBuilder {
     return leaf(frame, make_surface(*map, center), {});
   }
 
+  /// A mesh, or a drawing. A file that is not there is an error: nothing is dropped silently.
   Result<Item> import(const Frame& frame) {
     const Result<CsgImport> import = csg_import(frame.call);
     if (!import) return import.error();
