@@ -179,6 +179,32 @@ class Formats(Case):
             colours.add(tuple(numbers[1 + numbers[0]:]))
         self.assertEqual(colours, {RED[:3], BLUE, GOLD[:3], ()})
 
+    def test_off_by_geomview(self):
+        """Geomview's format, by its own reader: the area of each colour. (Why it is not asked for: decision 0073.)"""
+        if shutil.which("anytooff") is None:
+            raise unittest.SkipTest("geomview is not installed")
+        self.export("a.off")
+        told = subprocess.run(["anytooff", self.path("a.off")], capture_output=True, text=True, check=True).stdout
+        lines = [line.split() for line in told.strip().strip("{}").split("\n") if line.strip()]
+        self.assertEqual(lines[0], ["OFF"])
+        points, faces = (int(x) for x in lines[1][:2])
+        points, faces = [tuple(map(float, line)) for line in lines[2:2 + points]], lines[2 + points:2 + points + faces]
+        areas = {}
+        for face in faces:
+            corners = [int(x) for x in face[1:1 + int(face[0])]]
+            # Without an alpha the reader has one of its own.
+            colour = tuple(round(255 * float(x)) for x in face[1 + len(corners):4 + len(corners)])
+            twice = [0, 0, 0]
+            p = points[corners[0]]
+            for b, c in zip(corners[1:], corners[2:]):
+                u, v = ([x - y for x, y in zip(points[k], p)] for k in (b, c))
+                twice = [t + u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3] for i, t in enumerate(twice)]
+            areas[colour] = areas.get(colour, 0) + sum(t * t for t in twice) ** 0.5 / 2
+        gold = 2 * 3 ** 0.5 * 72
+        for colour, area in {RED[:3]: 2 * 400 + 4 * 200 - 2 * 64, BLUE[:3]: 4 * 80, GOLD[:3]: gold}.items():
+            self.assertAlmostEqual(areas.pop(colour), area, delta=1e-4 * area)
+        self.assertAlmostEqual(sum(areas.values()), 54, delta=1e-4)  # no colour: what the reader takes for one
+
     def test_stl(self):
         self.export("a.stl")
         ((got, _),) = self.assimp("a.stl").values()
