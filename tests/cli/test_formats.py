@@ -488,6 +488,45 @@ class ReadBack(Case):
             f'<!ENTITY {chr(98 + i)} "' + f"&{chr(97 + i)};" * 100 + '">' for i in range(8)) + "]><amf>&i;</amf>")
         self.refuse("has no faces", "a.amf")
 
+    def test_colours_survive_what_makes_new_faces(self):
+        """Hulls, sums and outlines have the colour of the first; shadows and sections that of a solid of one colour."""
+        parts = {
+            "hull": ("hull(color(cube(4), 'red'), color(sphere{r = 3, fn = 8}:right(6), 'blue'))", {RED[:3]}),
+            "sum": ("minkowski(color(cube(4), 'red'), color(sphere{r = 1, fn = 8}, 'blue'))", {RED[:3]}),
+            "hull2": ("hull(color(square(6), 'red'), circle(3)):linear_extrude(2)", {RED[:3]}),
+            "sum2": ("minkowski(color(square(6), 'red'), circle(1)):right(2):rotate_extrude()", {RED[:3]}),
+            "offset": ("color(square(6), 'red'):offset{r = 2}:linear_extrude(2)", {RED[:3]}),
+            "offset3": ("color(sphere{r = 2, fn = 8}, 'red'):offset{r = 1, fn = 8}", {RED[:3]}),
+            "text": ("color(text('a'), 'red'):linear_extrude(2)", {RED[:3]}),
+            "roof": ("color(square(6), 'red'):roof()", {RED[:3]}),
+            "fill": ("fill(color(square(6), 'red') - circle(1)):linear_extrude(1)", {RED[:3]}),
+            "resize": ("color(cube(2), 'red'):resize(3, 3, 3)", {RED[:3]}),
+            "round": ("color(cube(3), 'red'):fillet(1)", {RED[:3]}),
+            "cut": ("color(cube(4), 'red') - color(sphere(2), 'blue')", {RED[:3], BLUE[:3]}),
+            "shadow": ("color(cube(4) - sphere(2), 'red'):project():linear_extrude(1)", {RED[:3]}),
+            "section": ("(color(cube(4), 'red') + color(cube(9), 'red')):slice(3):linear_extrude(1)", {RED[:3]}),
+            "motley": ("(color(cube(4), 'red') + color(cube(9), 'blue')):project():linear_extrude(1)", {DEFAULT[:3]})}
+        script = "return {" + ", ".join(f"{name} = {model}" for name, (model, _) in parts.items()) + "}"
+        self.expect(self.run_script(script, "-o", "a.glb", "-o", "a.3mf"), 0)
+        gltf = self.glb("a.glb")
+        srgb = lambda x: round(255 * (12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055))
+        looks = [tuple(srgb(x) for x in m["pbrMetallicRoughness"].get("baseColorFactor", [1] * 4)[:3]) for m in gltf["materials"]]
+        for mesh in gltf["meshes"]:
+            self.assertEqual({looks[p["material"]] for p in mesh["primitives"]}, parts[mesh["name"]][1], mesh["name"])
+        self.assertEqual(len(gltf["meshes"]), len(parts))
+        model = xml.etree.ElementTree.fromstring(zipfile.ZipFile(self.path("a.3mf")).read("3D/3dmodel.model"))
+        bases = [b.get("displaycolor").upper()[:7] for b in model.iter(CORE + "base")]
+        for each in model.iter(CORE + "object"):
+            got = {each.get("pindex")} if each.get("pindex") else set()
+            got |= {t.get("p1") for t in each.iter(CORE + "triangle") if t.get("p1")}
+            self.assertEqual({bases[int(i)] for i in got}, {"#%02X%02X%02X" % c for c in parts[each.get("name")][1]})
+        # The same of a tree.
+        self.write("m.csg", "linear_extrude(height = 2) { projection(cut = false) { color([1, 0, 0, 1]) "
+                   "{ cube(size = [4, 4, 4], center = false); } } }")
+        self.expect(self.run_csgrun("m.csg", "-o", "b.glb"), 0)
+        (look,) = self.glb("b.glb")["materials"]
+        self.assertEqual(look["pbrMetallicRoughness"]["baseColorFactor"][:3], [1, 0, 0])
+
     def refuse(self, message, name="a.3mf"):
         for command in ((name, "--stats"), ("info", name)):
             outcome = self.run_csgrun(*command)
