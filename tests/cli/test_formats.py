@@ -478,7 +478,7 @@ class ReadBack(Case):
         for resources, build, message in (
                 ("", item, "there is no object 1"),
                 (f'<object id="1">{self.TETRAHEDRON}</object>', '<item objectid="1" transform="1 2 3"/>', "twelve finite numbers"),
-                (f'<object id="1">{self.TETRAHEDRON}</object>', '<item objectid="1" p:path="/x"/>', "in another file"),
+                (f'<object id="1">{self.TETRAHEDRON}</object>', '<item objectid="1" p:path="/x"/>', 'it has no "x"'),
                 (f'<object id="1">{self.TETRAHEDRON.replace(chr(34) + "3" + chr(34), chr(34) + "9" + chr(34))}</object>', item,
                  "corner 9"),
                 ('<object id="1"><components><component objectid="1"/></components></object>', item, "nest too deep"),

@@ -104,6 +104,15 @@ class Hostile(Case):
             f'<object id="{n}"><components>' + f'<component objectid="{n - 1}"/>' * 10 + "</components></object>"
             for n in range(1, 30))
         self.refuse("a.3mf", archive(model_3mf(tower, '<item objectid="29"/>')), "multiply to more than a model would")
+        # Documents that name each other, and more of them than a file of this size would have.
+        other = '<object id="1"><components><component objectid="1" p:path="/{}"/></components></object>'
+        self.refuse("a.3mf", archive(model_3mf(other.format("b.model")), **{"b.model": model_3mf(other.format("3D/m.model"))}),
+                    "nest too deep")
+        blanks = model_3mf(f'<object id="1">{TETRAHEDRON}</object>') + " " * 15_000_000
+        many = {f"{i}.model": blanks for i in range(3)}
+        self.refuse("a.3mf", archive(model_3mf("<object id='1'><components>" + "".join(
+            f"<component objectid='1' p:path='/{i}.model'/>" for i in range(3)) + "</components></object>"), **many),
+            "which no model does")
         self.refuse("a.3mf", archive("<model>" * 100_000), r"malformed XML|no resources|nested")
         self.refuse("a.3mf", archive("", relations=RELATIONS.replace("/3D/m.model", "../../secret.bin")), "a.3mf: ")
         self.refuse("a.3mf", archive(model_3mf(
