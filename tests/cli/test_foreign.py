@@ -1,4 +1,6 @@
 """Files as other programs write them: variants of the formats that csgrun itself never writes."""
+import base64
+import json
 import struct
 import zlib
 
@@ -40,6 +42,15 @@ def zip64(files, front=b"", wrong_checksum=False):
 def model(resources, build="", unit="millimeter"):
     return (f'<model unit="{unit}" xmlns="{CORE}" xmlns:p="{PRODUCTION}"><resources>{resources}</resources>'
             f"<build>{build}</build></model>")
+
+
+def gltf(primitives, accessors, data, **more):
+    """A document whose only mesh is at its root: views of the data are (offset, length) or (offset, length, stride)."""
+    views = more.pop("views", [(0, len(data))])
+    return {"asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data)}], "nodes": [{"mesh": 0}],
+            "bufferViews": [{"buffer": 0, "byteOffset": v[0], "byteLength": v[1], **({"byteStride": v[2]} if v[2:] else {})}
+                            for v in views],
+            "accessors": accessors, "meshes": [{"primitives": primitives}], **more}
 
 
 class Foreign(Case):
@@ -95,6 +106,82 @@ class Foreign(Case):
         self.assertEqual(self.warnings, [
             'a.3mf: object 1 "cage": its beams (beam lattice extension) are left out',
             'a.3mf: object 2 is left out: it is a "shape", which is not read'])
+
+    FLOATS = b"".join(struct.pack("<3f", *p) for p in POINTS)
+    CORNERS = [i for f in FACES for i in f]
+    # glTF is in metres with Y up.
+    THOUSAND = [("mesh", round(1e9 / 6, 9), [[0, -1000, 0], [1000, 0, 1000]])]
+
+    def test_gltf_with_its_buffers_beside_it(self):
+        document = gltf([{"attributes": {"POSITION": 0}, "indices": 1}],
+                        [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                         {"bufferView": 1, "componentType": 5121, "count": 12, "type": "SCALAR"}], b"",
+                        buffers=[{"byteLength": 48, "uri": "of%20it/points.bin"},
+                                 {"byteLength": 12, "uri": "data:;base64," + base64.b64encode(bytes(self.CORNERS)).decode()}],
+                        bufferViews=[{"buffer": 0, "byteLength": 48}, {"buffer": 1, "byteLength": 12}])
+        self.write("of it/points.bin", self.FLOATS)
+        self.assertEqual(self.parts_of("a.gltf", json.dumps(document)), self.THOUSAND)
+        self.expect(self.run_script("return import('a.gltf')", "--stats"), 0)
+        self.expect(self.run_csgrun("info", "a.gltf"), 0)
+        self.write("of it/points.bin", self.FLOATS[:-1])
+        self.refuse("a.gltf", json.dumps(document), "accessors[0] reaches beyond the end of the data")
+
+    def glb(self, primitives, accessors, data, **more):
+        text = json.dumps(gltf(primitives, accessors, data, **more)).encode()
+        text += b" " * (-len(text) % 4)
+        data += b"\0" * (-len(data) % 4)
+        body = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
+        return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
+
+    def test_strips_and_fans(self):
+        # The strip 0 1 2 3 0 1 goes around a tetrahedron: 012 132 230 (3 2 0 turned) 301; the fan has the faces at a corner.
+        positions = {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}
+        for mode, indices in ((5, [0, 2, 1, 3, 0, 2]), (5, [0, 2, 1, 3, 0, 2, 2, 2])):
+            data = self.FLOATS + bytes(indices)
+            accessors = [positions, {"bufferView": 1, "componentType": 5121, "count": len(indices), "type": "SCALAR"}]
+            self.assertEqual(self.parts_of("a.glb", self.glb(
+                [{"attributes": {"POSITION": 0}, "indices": 1, "mode": mode}], accessors, data,
+                views=[(0, 48), (48, len(indices))])), self.THOUSAND)
+        data = self.FLOATS + bytes([0, 2, 1, 3, 2]) + bytes([1, 2, 3]) + bytes([0, 1])
+        accessors = [positions] + [{"bufferView": v, "componentType": 5121, "count": n, "type": "SCALAR"}
+                                   for v, n in ((1, 5), (2, 3), (3, 2))]
+        primitives = [{"attributes": {"POSITION": 0}, "indices": i, "mode": m} for i, m in ((1, 6), (2, 4), (3, 1))]
+        views = [(0, 48), (48, 5), (53, 3), (56, 2)]
+        self.assertEqual(self.parts_of("a.glb", self.glb(primitives, accessors, data, views=views), 1), self.THOUSAND)
+        self.assertEqual(self.warnings, ["a.glb: points and lines are left out: 1 primitive"])
+        self.refuse("a.glb", self.glb([{"attributes": {"POSITION": 0}, "mode": 7}], accessors, data, views=views),
+                    "meshes[0].primitives[0].mode must be from 0 to 6")
+
+    def test_sparse_and_small_positions(self):
+        indices = {"bufferView": 1, "componentType": 5121, "count": 12, "type": "SCALAR"}
+        primitive = [{"attributes": {"POSITION": 0}, "indices": 1}]
+        # All points in the origin but those that the sparse part moves.
+        data = b"\1\2\3\0" + self.FLOATS[12:] + bytes(self.CORNERS)
+        sparse = {"count": 3, "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 2}}
+        views = [(0, 3), (40, 12), (4, 36)]
+        positions = {"componentType": 5126, "count": 4, "type": "VEC3", "sparse": sparse}
+        self.assertEqual(self.parts_of("a.glb", self.glb(primitive, [positions, indices], data, views=views)), self.THOUSAND)
+        for count, said in ((10**9, "accessors[0] has no data, and no end"), (3, "accessors[0].sparse: an index is out of range")):
+            self.refuse("a.glb", self.glb(primitive, [{**positions, "count": count}, indices], data, views=views), said)
+        # KHR_mesh_quantization: whole numbers, or fractions of the largest one; points begin at multiples of four bytes.
+        for kind, code, full in (("b", 5120, 127), ("B", 5121, 255), ("h", 5122, 32767), ("H", 5123, 65535)):
+            for normalized, unit in ((False, 1), (True, full)):
+                stride = 4 if code < 5122 else 8
+                points = b"".join(struct.pack("<3" + kind, *(c * unit for c in p)).ljust(stride, b"\xff") for p in POINTS)
+                data = points + bytes(self.CORNERS)
+                positions = {"bufferView": 0, "componentType": code, "normalized": normalized, "count": 4, "type": "VEC3"}
+                views = [(0, len(points), stride), (len(points), 12)]
+                self.assertEqual(self.parts_of("a.glb", self.glb(primitive, [positions, indices], data, views=views)),
+                                 self.THOUSAND, (kind, normalized))
+
+    def test_gltf_that_is_not_read_says_why(self):
+        positions = {"componentType": 5126, "count": 4, "type": "VEC3"}
+        draco = [{"attributes": {"POSITION": 0}, "extensions": {"KHR_draco_mesh_compression": {"bufferView": 0}}}]
+        self.refuse("a.glb", self.glb(draco, [positions], self.FLOATS), "its meshes are compressed (KHR_draco_mesh_compression)")
+        document = gltf([{"attributes": {"POSITION": 0}}], [{**positions, "bufferView": 0}], self.FLOATS)
+        document["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": {"buffer": 0}}
+        self.refuse("a.gltf", json.dumps(document), "its meshes are compressed (EXT_meshopt_compression)")
+        self.refuse("a.gltf", '{"asset": {"version": "1.0"}, "buffers": {}}', "only version 2 of glTF is read")
 
 
 if __name__ == "__main__":

@@ -221,7 +221,7 @@ class ReadBack(Case):
         outcome = self.run_csgrun("b.lua", "--stats=json")
         self.expect(outcome, 0)
         self.assertEqual(len(outcome.json()["warnings"]), 1)
-        self.assertIn("b.lua:1: import: no colours: cannot read 'a.mtl'", outcome.json()["warnings"][0])
+        self.assertIn("b.lua:1: import: a.obj: no colours: cannot read 'a.mtl'", outcome.json()["warnings"][0])
 
     def test_import(self):
         self.expect(self.run_csgrun("model.lua", "-o", "a.3mf", "-o", "a.glb"), 0)
