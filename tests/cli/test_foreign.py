@@ -183,6 +183,63 @@ class Foreign(Case):
         self.refuse("a.gltf", json.dumps(document), "its meshes are compressed (EXT_meshopt_compression)")
         self.refuse("a.gltf", '{"asset": {"version": "1.0"}, "buffers": {}}', "only version 2 of glTF is read")
 
+    OBJ = "".join("v %d %d %d\n" % p for p in POINTS) + "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in FACES)
+    OFF = "OFF\n4 4 0\n" + "".join("%d %d %d\n" % p for p in POINTS) + "".join("3 %d %d %d\n" % f for f in FACES)
+    STL = "solid x\n" + "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex %d %d %d\n" % POINTS[i] for i in f)
+                                + "endloop\nendfacet\n" for f in FACES) + "endsolid x\n"
+    PLY = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+           "element face 4\nproperty list uchar int vertex_indices\nend_header\n") + OFF.split("\n", 2)[2]
+
+    def good(self, name, data, *warnings):
+        self.assertEqual(self.parts_of(name, data, len(warnings)), [("part1", self.SIXTH, self.UNIT)])
+        self.assertEqual(self.warnings, [f"{name}: {w}" for w in warnings])
+
+    def test_line_ends_and_byte_order_marks(self):
+        for name, text in (("a.obj", self.OBJ), ("a.off", self.OFF), ("a.stl", self.STL), ("a.ply", self.PLY)):
+            for end in ("\n", "\r\n", "\r"):
+                for mark in ("", "\ufeff"):
+                    with self.subTest(f"{name} {end!r} {mark!r}"):
+                        self.good(name, mark + text.replace("\n", end))
+        # The header alone, before binary data with line feeds in it.
+        header = self.PLY[:self.PLY.index("end_header\n")].replace("ascii", "binary_little_endian").replace("float", "int")
+        points = b"".join(struct.pack("<3i", *(10 * c for c in p)) for p in POINTS)
+        faces = b"".join(struct.pack("<B3i", 3, *f) for f in FACES)
+        parts = self.parts_of("a.ply", (header + "end_header\n").replace("\n", "\r").encode() + points + faces)
+        self.assertEqual(parts, [("part1", round(1000 / 6, 9), [[0] * 3, [10] * 3])])
+
+    def test_obj(self):
+        self.good("a.obj", "vw 0 0 1.0\nt crease 1\n" + self.OBJ + "vw 1\n",
+                  '3 lines with statements that OBJ does not know passed over (first: line 1: "vw")')
+        self.good("a.obj", self.OBJ + "f 1 2\nf 3\n", "2 faces of fewer than three corners left out (first: line 9)")
+        self.good("a.obj", "mtllib C:\\Users\\me\\a.mtl\n" + self.OBJ,
+                  'line 1: no colours: mtllib "C:\\Users\\me\\a.mtl" leads out of the file\'s folder')
+        self.refuse("a.obj", "L\1\2\0.text", 'line 1: not an OBJ statement: "L???.text"')
+
+    def test_off(self):
+        self.good("a.off", self.OFF.replace("OFF\n", "OFF"))
+        self.good("a.off", self.OFF.replace("\n3 0 2 1\n", "\n3 0\n2 \n1\n"))
+        self.good("a.off", self.OFF.replace("4 4 0", "4 6 0") + "2 0 1\n1 3\n",
+                  "2 faces of fewer than three corners left out (first: face 4)")
+        self.refuse("a.off", "OFFSET 4 4 0", 'line 1: not an OFF file: it starts with "OFFSET"')
+
+    def test_stl(self):
+        binary = b"solid by nobody".ljust(80) + struct.pack("<I", 4) + b"".join(
+            struct.pack("<12fH", 0, 0, 0, *(c for i in f for c in POINTS[i]), 0) for f in FACES)
+        self.good("a.stl", binary)
+        self.good("a.stl", b"\0" * 80 + binary[80:] + b"more", "4 bytes after the last triangle passed over")
+        self.refuse("a.stl", b"\0" * 80 + binary[80:-1], "byte 80: not an STL file, or truncated")
+        self.refuse("a.stl", self.STL.replace("endsolid x\n", ""), "line 30: the file ends where")
+
+    def test_ply(self):
+        strips = self.PLY[:self.PLY.index("3 0 2 1")].replace("face 4", "tristrips 1").replace("uchar int", "int int")
+        self.good("a.ply", strips + "6 0 2 1 3 0 2\n")
+        # The same in two strips, with a triangle between that is none.
+        self.good("a.ply", strips + "10 0 2 1 3 -1 1 3 0 2 2\n")
+        self.good("a.ply", self.PLY.replace("face 4", "face 6") + "2 0 1\n0\n",
+                  "2 faces of fewer than three corners left out (first: face 4)")
+        cloud = self.PLY[:self.PLY.index("element face")] + "end_header\n0 0 0\n" * 1 + "0 0 1\n" * 3
+        self.refuse("a.ply", cloud, "has no faces: there are points only")
+
 
 if __name__ == "__main__":
     main()

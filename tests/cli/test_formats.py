@@ -516,8 +516,11 @@ class ReadBack(Case):
     def test_addresses_that_lead_out(self):
         off = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
         for address in ("../x.mtl", "/etc/passwd", "http://a.b/c.mtl", "a/../../x", "..\\x"):
-            self.write("a.obj", f"mtllib {address}\n" + off)
-            self.refuse("leads out of the file's folder", "a.obj")
+            self.write("a.obj", f"mtllib {address}\nusemtl x\n" + off)
+            outcome = self.run_csgrun("a.obj", "--stats=json")
+            self.expect(outcome, 0)
+            self.assertEqual(outcome.json()["warnings"],
+                             [f'a.obj: line 1: no colours: mtllib "{address}" leads out of the file\'s folder'])
         self.write("a.obj", "mtllib x.mtl\nusemtl a\n" + off)
         outcome = self.run_csgrun("a.obj", "--stats=json")
         self.expect(outcome, 0)
