@@ -21,6 +21,8 @@ using T = ArgumentType;
 
 constexpr double kDirectionDegrees = 0.01;  // as faces() has it
 constexpr double kNearPlane = 1e-6;         // mm, as faces() has it
+/// Deeper lists are taken for one that contains itself.
+constexpr int kDeepestList = 100;
 /// Edges that turn by less are facets of what is round.
 constexpr const char* kLeastTurn = "10";
 
@@ -147,8 +149,9 @@ class EdgeChoice {
     choose(filter, with_concave);
   }
 
-  /// What is at a stack index: any form of option 'edges'.
-  void add_value(int index) {
+  /// What is at a stack index: any form of option 'edges', `depth` lists deep.
+  void add_value(int index, int depth = 0) {
+    luaL_checkstack(L_, 16, "lists of edges are nested too deep");
     index = lua_absindex(L_, index);
     if (lua_type(L_, index) == LUA_TSTRING) {
       add_named(lua_tostring(L_, index));
@@ -160,10 +163,11 @@ class EdgeChoice {
     } else if (is_edge(index)) {
       add_edge(index);
     } else if (lua_rawlen(L_, index) > 0) {
+      if (depth == kDeepestList) fail_in(spec_, "the lists in option 'edges' are nested too deep");
       const auto length = static_cast<lua_Integer>(lua_rawlen(L_, index));
       for (lua_Integer i = 1; i <= length; ++i) {
         lua_rawgeti(L_, index, i);
-        add_value(-1);
+        add_value(-1, depth + 1);
         lua_pop(L_, 1);
       }
     } else if (is_empty(index)) {
@@ -216,16 +220,8 @@ class EdgeChoice {
     std::optional<glm::dvec3> found;
     if (lua_type(L_, index) == LUA_TSTRING) {
       found = named(names, lua_tostring(L_, index));
-    } else if (lua_istable(L_, index) && list_length(L_, index) == 3) {
-      glm::dvec3 v(0);
-      bool is_good = true;
-      for (int i = 0; i < 3; ++i) {
-        is_good &= lua_rawgeti(L_, index, i + 1) == LUA_TNUMBER;
-        v[i] = lua_tonumber(L_, -1);
-        is_good &= std::isfinite(v[i]);
-        lua_pop(L_, 1);
-      }
-      if (is_good) found = unit(v, option);
+    } else if (const auto v = three_numbers(index)) {
+      found = unit(*v, option);
     }
     if (!found) {
       fail_in(spec_, fmt::format("option '{}' must be {}, got {}", option, wanted,
@@ -293,33 +289,78 @@ class EdgeChoice {
     return has_ends;
   }
 
-  glm::dvec3 point_in(int table, const char* name) const {
-    glm::dvec3 p(0);
-    lua_getfield(L_, table, name);
-    for (int i = 0; lua_istable(L_, -1) && i < 3; ++i) {
-      lua_rawgeti(L_, -1, i + 1);
-      p[i] = lua_tonumber(L_, -1);
+  /// The list of three finite numbers at a stack index, if it is one.
+  [[nodiscard]] std::optional<glm::dvec3> three_numbers(int index) const {
+    index = lua_absindex(L_, index);
+    if (!lua_istable(L_, index) || list_length(L_, index) != 3) return std::nullopt;
+    glm::dvec3 v(0);
+    bool is_good = true;
+    for (int i = 0; i < 3; ++i) {
+      is_good &= lua_rawgeti(L_, index, i + 1) == LUA_TNUMBER;
+      v[i] = lua_tonumber(L_, -1);
+      is_good &= std::isfinite(v[i]);
       lua_pop(L_, 1);
     }
+    return is_good ? std::optional(v) : std::nullopt;
+  }
+
+  glm::dvec3 point_in(int table, const char* name) const {
+    lua_getfield(L_, table, name);
+    const auto p = three_numbers(-1);
     lua_pop(L_, 1);
-    return p;
+    if (!p) {
+      fail_in(spec_, fmt::format("'{}' of an edge must be a list of three finite numbers", name));
+    }
+    return *p;
+  }
+
+  /// The normals that an edge's table has, if it has them: where solids touch, several edges have
+  /// the same ends, and only these tell which one is meant.
+  [[nodiscard]] std::optional<std::array<glm::dvec3, 2>> normals_in(int table) const {
+    const int top = lua_gettop(L_);
+    if (lua_getfield(L_, table, "normals") == LUA_TNIL) {
+      lua_settop(L_, top);
+      return std::nullopt;
+    }
+    std::array<glm::dvec3, 2> result;
+    for (int k = 0; k < 2; ++k) {
+      std::optional<glm::dvec3> n;
+      if (lua_istable(L_, top + 1)) {
+        lua_rawgeti(L_, top + 1, k + 1);
+        n = three_numbers(-1);
+        lua_pop(L_, 1);
+      }
+      if (!n || *n == glm::dvec3(0)) {
+        fail_in(spec_, "'normals' of an edge must be two lists of three numbers");
+      }
+      result[static_cast<size_t>(k)] = glm::normalize(*n);
+    }
+    lua_settop(L_, top);
+    return result;
   }
 
   void add_edge(int table) {
     const glm::dvec3 from = point_in(table, "from"), to = point_in(table, "to");
-    bool is_there = false;
+    const auto normals = normals_in(table);
+    bool is_there = false, has_ends = false;
     for (size_t i = 0; i < edges_.size(); ++i) {
       const SolidEdge& e = edges_[i];
       const double apart = std::min(glm::length(e.from - from) + glm::length(e.to - to),
                                     glm::length(e.from - to) + glm::length(e.to - from));
-      if (apart > kNearPlane) continue;
+      if (!(apart <= kNearPlane)) continue;
+      has_ends = true;
+      const auto looks = [&](size_t a, size_t b) {
+        return is_parallel((*normals)[a], e.normals[0]) && is_parallel((*normals)[b], e.normals[1]);
+      };
+      if (normals && !looks(0, 1) && !looks(1, 0)) continue;
       is_chosen_[i] = 1;
       is_there = true;
     }
     if (!is_there) {
       fail_in(spec_, fmt::format("it has no edge from {{{:.6g}, {:.6g}, {:.6g}}} to {{{:.6g}, "
-                                 "{:.6g}, {:.6g}}}",
-                                 from.x, from.y, from.z, to.x, to.y, to.z));
+                                 "{:.6g}, {:.6g}}}{}",
+                                 from.x, from.y, from.z, to.x, to.y, to.z,
+                                 has_ends ? " with these normals" : ""));
     }
   }
 
@@ -407,13 +448,18 @@ int cut(lua_State* L) {
   const char* size = kRound ? "r" : "distance";
   if (!arguments.has(size)) fail_in(Spec, kRound ? "needs a radius" : "needs a distance");
   Session& session = session_of(L);
-  const Solid& solid = session.evaluated(value);
+  session.evaluated(value);
+  // Held: a function that chooses edges may measure the same value with other settings.
+  const SolidPtr held = value.evaluated;
+  const Solid& solid = *held;
   if (solid.empty()) fail_in(Spec, "there is nothing in it");
   const std::vector<uint32_t> chosen = chosen_edges(L, Spec, solid, arguments);
   const double mm = arguments.number(size, 0);
-  push_solid(L, value_or_fail(
-                    Spec, kRound ? fillet_edges(value.node, solid, chosen, mm, arguments.facets())
-                                 : chamfer_edges(value.node, solid, chosen, mm)));
+  session.extent(value);  // for the grid, which a function that chooses edges may have changed
+  const EdgeCut cut{value.node, solid, chosen, session.evaluator().stats().grid_mm,
+                    session.source_ref(L)};
+  push_solid(L, value_or_fail(Spec, kRound ? fillet_edges(cut, mm, arguments.facets())
+                                           : chamfer_edges(cut, mm)));
   keep_marks(L, 1);
   return 1;
 }

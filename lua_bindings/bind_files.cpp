@@ -273,13 +273,20 @@ int load_csg(lua_State* L) {
       return Error{ErrorCode::kMalformedFile, error.what(), {}};
     }
   };
+  bool evaluation_failed = false;
+  environment.evaluation_failed = &evaluation_failed;
   const auto model = [&] {
     const EvaluationScope scope(session.budget());
     return parse_csg(*where.file, file.bytes, environment);
   }();
   if (!model) {
     const std::string place = session.place_text(model.error().where);
-    fail_in(kLoadCsg, (place.empty() ? file.display : place) + ": " + model.error().message);
+    Error error = model.error();
+    error.message = (place.empty() ? file.display : place) + ": " + error.message;
+    if (!evaluation_failed) fail_in(kLoadCsg, error.message);
+    error.message = "load_csg: " + error.message;
+    error.where = {};
+    session.fail_evaluation(error);
   }
   for (const std::string& warning : model->warnings) session.warn(L, "load_csg: " + warning);
   if (model->is_2d) {

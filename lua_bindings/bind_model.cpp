@@ -23,7 +23,8 @@ using T = ArgumentType;
 
 constexpr Option kImportOptions[] = {
     {"file", T::kString, "",
-     "STL, OFF, OBJ, PLY, GLB, glTF, 3MF, SVG or DXF, relative to the file that calls, or else to "
+     "STL, OFF, OBJ, PLY, GLB, glTF, 3MF, AMF, SVG or DXF, relative to the file that calls, or "
+     "else to "
      "the\n          folders of -L and CSGRUN_PATH",
      true},
     {"parts", T::kBoolean, "false",
@@ -147,7 +148,7 @@ int import_file(lua_State* L) {
   if (model_file_format_of(path).empty()) {
     fail_in(kImport, "'" + path +
                          "' has none of the endings .stl, .off, .obj, .ply, .glb, .gltf, .3mf, "
-                         ".svg, .dxf");
+                         ".amf, .svg, .dxf");
   }
   for (const char* name : {"layer", "id", "dpi", "origin", "scale", "center", "fn", "fa", "fs"}) {
     if (arguments.has(name))

@@ -51,7 +51,9 @@ void push_shadow(lua_State* L, const FunctionSpec& spec, SolidValue& solid) {
 void push_section(lua_State* L, const NodePtr& solid, double z) {
   Session& session = session_of(L);
   const EvaluationScope scope(session.budget());
-  push_shape(L, made_or_fail(session, slice_solid(session.evaluator(), solid, z)), std::nullopt);
+  push_shape(
+      L, made_or_fail(session, slice_solid(session.evaluator(), solid, z, session.source_ref(L))),
+      std::nullopt);
 }
 
 int projection(lua_State* L) {
@@ -135,12 +137,12 @@ int cut(lua_State* L) {
   const Arguments arguments(L, Spec, 2);
   const CutPlane plane = plane_argument(arguments, Spec);
   Session& session = session_of(L);
+  const SourceRef where = session.source_ref(L);
   NodePtr front;
   {
     const EvaluationScope scope(session.budget());
-    front = made_or_fail(session, half_space(session.evaluator(), solid, plane));
+    front = made_or_fail(session, half_space(session.evaluator(), solid, plane, where));
   }
-  const SourceRef where = session.source_ref(L);
   push_solid(L, Node::boolean(BooleanOp::kIntersection, {solid, front}, where));
   keep_marks(L, 1);
   if (!kBoth) return 1;
@@ -176,7 +178,8 @@ int decompose(lua_State* L) {
   std::vector<NodePtr> pieces;
   {
     const EvaluationScope scope(session.budget());
-    pieces = made_or_fail(session, decompose_solid(session.evaluator(), solid));
+    pieces =
+        made_or_fail(session, decompose_solid(session.evaluator(), solid, session.source_ref(L)));
   }
   lua_newtable(L);
   for (NodePtr& piece : pieces) {

@@ -1,6 +1,7 @@
-// sweep, loft.
+// sweep, loft, roof.
 #include <fmt/format.h>
 
+#include <csgrun/primitives/roof.h>
 #include <csgrun/primitives/sweep.h>
 
 #include "lua_bindings/api.h"
@@ -115,9 +116,46 @@ int loft(lua_State* L) {
   return 1;
 }
 
+constexpr Option kRoofOptions[] = {
+    {"method", T::kString, "\"voronoi\"",
+     "\"voronoi\": as high as the outline is far, with cones around corners that point inwards; or "
+     "\"straight\": planes only",
+     true},
+};
+constexpr FunctionSpec kRoof{
+    "roof",
+    "A solid: a roof over the shape, with planes that rise inwards from its edges at 45 degrees.",
+    kRoofOptions,
+    true,
+    "square(30, 20):roof()",
+    "shape",
+    kShapeDoc};
+
+int roof(lua_State* L) {
+  take_subject_out_of_list(L);
+  const ShapeValue& shape = shape_argument(L, kRoof);
+  const Arguments arguments(L, kRoof, 2);
+  RoofOptions options;
+  const std::string method = arguments.string("method", "voronoi");
+  if (method != "voronoi" && method != "straight") {
+    fail_in(kRoof,
+            fmt::format("option 'method' must be \"voronoi\" or \"straight\", got \"{}\"", method));
+  }
+  if (method == "straight") options.method = RoofMethod::kStraight;
+  options.facets = arguments.facets();
+  if (shape.shape.empty()) {
+    push_solid(L, Node::empty(session_of(L).source_ref(L)));
+  } else {
+    push_leaf(L, value_or_fail(kRoof, make_roof(shape.shape, options)), shape.appearance);
+  }
+  keep_marks(L, 1);
+  return 1;
+}
+
 constexpr Binding kBindings[] = {
     {&kSweep, guarded<sweep>, nullptr, guarded<sweep>},
     {&kLoft, guarded<loft>, nullptr, nullptr},
+    {&kRoof, guarded<roof>, nullptr, guarded<roof>},
 };
 
 }  // namespace

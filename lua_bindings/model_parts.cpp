@@ -78,6 +78,7 @@ std::string model_file_format_of(const std::string& path) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   if (is_3mf_path(path)) return "3mf";
+  if (is_amf_path(path)) return "amf";
   for (const char* format : {"glb", "gltf"}) {
     if (lower.ends_with(std::string(".") + format)) return format;
   }
@@ -88,7 +89,8 @@ Result<std::vector<ModelPart>> read_model_parts(const std::string& name, std::st
                                                 const ModelPartOptions& options,
                                                 std::vector<std::string>* notes) {
   const std::string format = model_file_format_of(name);
-  auto parts = format == "3mf"                       ? parse_3mf(name, bytes)
+  auto parts = format == "3mf"                       ? parse_3mf(name, bytes, notes)
+               : format == "amf"                     ? parse_amf(name, bytes, notes)
                : format == "glb" || format == "gltf" ? read_gltf(name, bytes)
                                                      : read_mesh(name, bytes, options, notes);
   if (!parts) return parts;

@@ -26,7 +26,7 @@ Result<std::vector<ModelPart>> read_model_parts(const std::string& name, std::st
                                                 const ModelPartOptions& options,
                                                 std::vector<std::string>* notes);
 
-/// "stl", "off", "obj", "ply", "glb", "gltf", "3mf" or empty: the ending of what can be read.
+/// "stl", "off", "obj", "ply", "glb", "gltf", "3mf", "amf" or empty: the ending of what can be read.
 std::string model_file_format_of(const std::string& path);
 
 }  // namespace csgrun

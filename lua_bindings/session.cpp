@@ -90,6 +90,8 @@ Extent Session::extent(const SolidValue& value) {
 }
 
 void Session::fail_evaluation(const Error& error) {
+  if (error.code == ErrorCode::kCancelled && budget_.out_of_time())
+    throw ScriptError(budget_.time_message() + " in evaluation");
   std::string message = error.message;
   if (const std::string place = place_text(error.where); !place.empty())
     message += " (made at " + place + ")";

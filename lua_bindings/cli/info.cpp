@@ -71,8 +71,8 @@ std::vector<TriangleMesh> parts_of(const PolygonMesh& mesh, std::vector<MeshObje
 Result<std::vector<TriangleMesh>> read_meshes(const std::string& path, const std::string& bytes) {
   if (is_gltf(path)) return parse_glb(path, bytes);
   const std::string stem = std::filesystem::path(path).stem().string();
-  if (model_file_format_of(path) == "3mf") {
-    auto parts = parse_3mf(path, bytes);
+  if (is_3mf_path(path) || is_amf_path(path)) {
+    auto parts = is_3mf_path(path) ? parse_3mf(path, bytes) : parse_amf(path, bytes, nullptr);
     if (!parts) return parts.error();
     std::vector<TriangleMesh> meshes;
     for (const ModelPart& part : *parts) {

@@ -2,6 +2,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include <csgrun/engine/heap.h>
+
 #include "lua_bindings/api.h"
 #include "lua_bindings/api_docs.h"
 #include "lua_bindings/cli/exit_codes.h"
@@ -48,6 +50,7 @@ int info(const csgrun::CommandLine& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  csgrun::keep_freed_memory();
   // A file that grows over a limit is an error of that file, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
   const csgrun::CommandLine line = csgrun::parse_command_line(argc, argv);

@@ -71,10 +71,11 @@ void check_model(const std::string& model) {
     return;
   const std::string ending = ending_of(model);
   if (ending != ".lua" && ending != ".csg") {
-    throw UsageError{fmt::format(
-        "'{}': the model must end in .lua, .csg, .stl, .off, .obj, .ply, .glb, .gltf, .3mf, .svg "
-        "or .dxf, or be - for Lua from standard input",
-        model)};
+    throw UsageError{
+        fmt::format("'{}': the model must end in .lua, .csg, .stl, .off, .obj, .ply, .glb, .gltf, "
+                    ".3mf, .amf, .svg "
+                    "or .dxf, or be - for Lua from standard input",
+                    model)};
   }
 }
 
@@ -190,7 +191,7 @@ CommandLine parse_info(int argc, char** argv) {
   if (!is_info_path(line.model)) {
     std::fputs(
         fmt::format("csgrun info: '{}': the ending must be one of .stl, .off, .obj, .ply, .glb, "
-                    ".gltf, .3mf, .svg, .dxf\n",
+                    ".gltf, .3mf, .amf, .svg, .dxf\n",
                     line.model)
             .c_str(),
         stderr);

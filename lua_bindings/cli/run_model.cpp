@@ -128,12 +128,16 @@ class Run {
         return Error{ErrorCode::kMalformedFile, error.what(), {}};
       }
     };
+    bool evaluation_failed = false;
+    environment.evaluation_failed = &evaluation_failed;
     const EvaluationScope scope(session_.budget());
     auto model = parse_csg(*where.file, text, environment);
     if (!model) {
+      if (model.error().code == ErrorCode::kCancelled) return evaluation_failure(model.error());
       const std::string place = model.error().where.text();
-      return {kExitScript, (place.empty() ? line_.model : join_path(folder, place)) + ": " +
-                               model.error().message};
+      return {
+          evaluation_failed ? kExitGeometry : kExitScript,
+          (place.empty() ? line_.model : join_path(folder, place)) + ": " + model.error().message};
     }
     for (const std::string& warning : model->warnings)
       report_.warnings.push_back(join_path(folder, warning));

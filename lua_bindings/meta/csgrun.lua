@@ -671,6 +671,33 @@ function Shape:sweep(path, options) end
 function loft(outlines, heights, options) end
 csg.loft = loft
 
+---@class (exact) csgrun.roof
+---@field [integer] any
+---@field method? string "voronoi": as high as the outline is far, with cones around corners that point inwards; or "straight": planes only
+---@field fn? number number of facets of a full turn; 0: from fa and fs
+---@field segments? number the same as fn
+---@field fa? number smallest angle of a facet, degrees, at least 0.01
+---@field fs? number smallest length of a facet, mm, at least 0.01
+
+---A solid: a roof over the shape, with planes that rise inwards from its edges at 45 degrees.
+---
+---Example: `square(30, 20):roof()`
+---@param shape any the 2D shape; as a method, shape:f(...), it is left out
+---@param method? string "voronoi": as high as the outline is far, with cones around corners that point inwards; or "straight": planes only
+---@param options? csgrun.roof
+---@return Solid
+function roof(shape, method, options) end
+csg.roof = roof
+
+---A solid: a roof over the shape, with planes that rise inwards from its edges at 45 degrees.
+---
+---Example: `square(30, 20):roof()`
+---@overload fun(self: Shape, options: csgrun.roof): Solid
+---@param method? string "voronoi": as high as the outline is far, with cones around corners that point inwards; or "straight": planes only
+---@param options? csgrun.roof
+---@return Solid
+function Shape:roof(method, options) end
+
 ---@class (exact) csgrun.hull
 ---@field [integer] any
 ---@field operands? any solids or shapes, one after another or as lists
@@ -3331,7 +3358,7 @@ csg.load_csg = load_csg
 
 ---@class (exact) csgrun.import
 ---@field [integer] any
----@field file? string STL, OFF, OBJ, PLY, GLB, glTF, 3MF, SVG or DXF, relative to the file that calls, or else to the folders of -L and CSGRUN_PATH
+---@field file? string STL, OFF, OBJ, PLY, GLB, glTF, 3MF, AMF, SVG or DXF, relative to the file that calls, or else to the folders of -L and CSGRUN_PATH
 ---@field parts? boolean gives a list of its parts, which have the names that the file has for them, instead of their union
 ---@field fill? string what is inside where the surface crosses itself, by how often it wraps around a point, one way less the other: "nonzero" (wherever that is not 0: overlaps are united, but an inverted part cancels what it overlaps), "positive" (inverted parts are cut away), "evenodd" (an odd number: overlaps cancel)
 ---@field repair? any makes a broken mesh a closed one and warns of all it does: true, or a table of weld = MM (0: how far apart points of open edges may be that become one), fill_holes (false: closes what is open), orient (true: turns faces to agree, surfaces outwards), drop_degenerate (true: drops faces whose points lie on one line), drop_duplicates (true: of faces on the same points those that are too many)
@@ -3350,7 +3377,7 @@ csg.load_csg = load_csg
 ---
 ---Example: `import("scan.stl", {repair = {weld = 0.01, fill_holes = true}})`
 ---@overload fun(options: csgrun.import): Solid
----@param file? string STL, OFF, OBJ, PLY, GLB, glTF, 3MF, SVG or DXF, relative to the file that calls, or else to the folders of -L and CSGRUN_PATH
+---@param file? string STL, OFF, OBJ, PLY, GLB, glTF, 3MF, AMF, SVG or DXF, relative to the file that calls, or else to the folders of -L and CSGRUN_PATH
 ---@param options? csgrun.import
 ---@return Solid
 function import(file, options) end

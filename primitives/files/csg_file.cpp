@@ -15,6 +15,7 @@
 
 #include "primitives/files/csg_parser.h"
 #include "primitives/files/csg_shapes.h"
+#include "primitives/files/face_colours.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/read_file.h"
 
@@ -145,10 +146,7 @@ class CsgBuilder {
     if (name == "fill") return fill(frame);
     if (name == "resize") return resize(frame);
     if (name == "projection") return projection(frame);
-    if (name == "roof") {
-      if (!frame.children.empty()) return not_supported(frame);
-      return Item();
-    }
+    if (name == "roof") return roof(frame);
     return Error{ErrorCode::kMalformedFile, "unknown node " + name + "()", {}};
   }
 
@@ -202,11 +200,11 @@ class CsgBuilder {
     if (!import) return import.error();
     const std::string& path = import->file;
     const bool drawing = !flat_file_format_of(path).empty();
-    const bool archive = is_3mf_path(path);
+    const bool archive = is_3mf_path(path) || is_amf_path(path);
     if (!drawing && !archive && mesh_format_of(path).empty()) {
       return Error{ErrorCode::kInvalidArgument,
                    "import: " + quoted(path) +
-                       " has none of the endings .stl, .off, .obj, .ply, .3mf, .svg, .dxf",
+                       " has none of the endings .stl, .off, .obj, .ply, .3mf, .amf, .svg, .dxf",
                    {}};
     }
     if (!environment_.read) {
@@ -221,7 +219,9 @@ class CsgBuilder {
       return Item::of(std::move(file->shape));
     }
     std::vector<std::string> notes;
-    auto parts = archive ? parse_3mf(path, *bytes) : mesh_as_parts(path, *bytes, &notes);
+    auto parts = is_3mf_path(path)   ? parse_3mf(path, *bytes, &notes)
+                 : is_amf_path(path) ? parse_amf(path, *bytes, &notes)
+                                     : mesh_as_parts(path, *bytes, &notes);
     if (!parts) return Error{parts.error().code, "import: " + parts.error().message, {}};
     std::vector<NodePtr> solids;
     for (ModelPart& part : *parts) {
@@ -336,11 +336,6 @@ class CsgBuilder {
     return combine(BooleanOp::kUnion, frame);
   }
 
-  static Error not_supported(const Frame& frame) {
-    return Error{
-        ErrorCode::kInvalidArgument, frame.call.name + "() is not supported in .csg files", {}};
-  }
-
   Result<Item> offset(Frame& frame) {
     const Result<OffsetOptions> options = csg_offset(frame.call);
     if (!options) return options.error();
@@ -410,10 +405,17 @@ class CsgBuilder {
     }
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
-    if (cut) return item_of(slice_solid(evaluator(), child->solid, 0));
-    const auto solid = evaluator().evaluate(child->solid);
+    const SourceRef place = where(frame);
+    Result<Shape2D> shape =
+        cut ? slice_solid(evaluator(), child->solid, 0, place) : shadow(child->solid);
+    if (!shape && environment_.evaluation_failed != nullptr) *environment_.evaluation_failed = true;
+    return item_of(std::move(shape));
+  }
+
+  Result<Shape2D> shadow(const NodePtr& node) {
+    const auto solid = evaluator().evaluate(node);
     if (!solid) return solid.error();
-    return item_of(project_solid(**solid));
+    return project_solid(**solid);
   }
 
   Evaluator& evaluator() {
@@ -486,12 +488,9 @@ class CsgBuilder {
     const bool unset = rgba[0] < 0;  // -1 in all four: color() without a colour
     if (!child || child->kind == Item::Kind::kEmpty || unset) return child;
     auto component = [](double v) { return static_cast<float>(v > 0 ? std::min(v, 1.0) : 0.0); };
-    Appearance appearance;
-    appearance.red = component(rgba[0]);
-    appearance.green = component(rgba[1]);
-    appearance.blue = component(rgba[2]);
-    appearance.alpha = rgba[3] < 0 ? 1.0f : component(rgba[3]);
-    appearance.is_default = false;
+    const Appearance appearance =
+        appearance_of({component(rgba[0]), component(rgba[1]), component(rgba[2]),
+                       rgba[3] < 0 ? 1.0f : component(rgba[3])});
     if (child->kind == Item::Kind::kFlat) {
       child->appearance = appearance;
       return child;
@@ -502,9 +501,22 @@ class CsgBuilder {
   Result<Item> extrude(Frame& frame) {
     Result<Item> profile = combine_flat(frame);
     if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
-    Result<Item> solid = leaf(frame, extrude_csg(frame.call, profile->shape), {});
-    if (solid && solid->kind == Item::Kind::kSolid && profile->appearance)
-      solid->solid = Node::painted(*profile->appearance, std::move(solid->solid), where(frame));
+    return painted(frame, leaf(frame, extrude_csg(frame.call, profile->shape), {}), *profile);
+  }
+
+  Result<Item> roof(Frame& frame) {
+    std::vector<std::string> notes;
+    const Result<RoofOptions> options = csg_roof(frame.call, notes);
+    if (!options) return options.error();
+    Result<Item> profile = combine_flat(frame);
+    if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
+    return painted(frame, leaf(frame, make_roof(profile->shape, *options), notes), *profile);
+  }
+
+  /// A solid that was made of a shape has its colour.
+  Result<Item> painted(const Frame& frame, Result<Item> solid, const Item& shape) {
+    if (solid && solid->kind == Item::Kind::kSolid && shape.appearance)
+      solid->solid = Node::painted(*shape.appearance, std::move(solid->solid), where(frame));
     return solid;
   }
 

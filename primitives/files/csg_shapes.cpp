@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "primitives/base/text.h"
+#include "primitives/files/formats.h"
 
 namespace csgrun {
 namespace {
@@ -297,6 +298,21 @@ Result<CsgResize> csg_resize(const CsgCall& call) {
     resize.automatic[i] = automatic[i] != 0;
   }
   return resize;
+}
+
+Result<RoofOptions> csg_roof(const CsgCall& call, std::vector<std::string>& warnings) {
+  CsgArguments arguments(call);
+  RoofOptions options;
+  const std::string method = arguments.string("method", "voronoi");
+  options.facets = arguments.facets();
+  options.divide_between_corners = false;
+  if (arguments.error()) return *arguments.error();
+  if (method == "straight") {
+    options.method = RoofMethod::kStraight;
+  } else if (method != "voronoi") {
+    warnings.push_back("roof: there is no method " + quoted(method) + ", \"voronoi\" was taken");
+  }
+  return options;
 }
 
 MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape) {

@@ -9,6 +9,7 @@
 #include <csgrun/engine/csg_tree.h>
 #include <csgrun/primitives/flat_file.h>
 #include <csgrun/primitives/mesh_file.h>
+#include <csgrun/primitives/roof.h>
 #include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/shape_operations.h>
 #include <csgrun/primitives/solids.h>
@@ -84,6 +85,10 @@ struct CsgResize {
   std::array<bool, 3> automatic{};
 };
 Result<CsgResize> csg_resize(const CsgCall& call);
+
+/// The arguments of roof. OpenSCAD takes methods that it does not know for "voronoi": `warnings`
+/// says so.
+Result<RoofOptions> csg_roof(const CsgCall& call, std::vector<std::string>& warnings);
 
 /// linear_extrude and rotate_extrude.
 MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape);

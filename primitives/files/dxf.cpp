@@ -64,16 +64,18 @@ class DxfReader {
     return {r.number(x_code), r.number(x_code + 10)};
   }
 
+  Status count_entity() {
+    if (++entities_ <= kMostEntities) return std::monostate();
+    return Error{ErrorCode::kLimit,
+                 name_ + ": unfolds to more than " + std::to_string(kMostEntities) + " entities",
+                 {}};
+  }
+
   Status entities(const std::vector<DxfRecord>& list, const Placement& placement,
                   const std::string& block_layer, int depth) {
     for (size_t i = 0; i < list.size(); ++i) {
       const DxfRecord& r = list[i];
-      if (++entities_ > kMostEntities) {
-        return Error{
-            ErrorCode::kLimit,
-            name_ + ": unfolds to more than " + std::to_string(kMostEntities) + " entities",
-            {}};
-      }
+      if (auto status = count_entity(); !status) return status;
       // What is on layer 0 of a block is on the layer of its insertion.
       std::string layer = r.text(8);
       if (layer.empty()) layer = "0";
@@ -128,7 +130,7 @@ class DxfReader {
         total.at = outer.apply(inner.at);
         total.u = outer.apply(inner.u) - outer.at;
         total.v = outer.apply(inner.v) - outer.at;
-        if (++entities_ > kMostEntities) break;  // the next entity says so
+        if (auto status = count_entity(); !status) return status;  // blocks may be empty
         if (auto status = entities(block->second.entities, total, layer, depth + 1); !status)
           return status;
       }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "primitives/files/text_scanner.h"
 
@@ -10,13 +11,17 @@ namespace csgrun {
 namespace {
 
 constexpr size_t kMostColours = 4096;  // each becomes a material of a written file
-constexpr float kFine = 255, kCoarse = 15;
+constexpr float kFine = 255;
+/// Steps of each channel, where there are more: the last of these is few enough for six channels.
+constexpr float kCoarser[] = {15, 7, 3};
 
 Rgba rounded(const Rgba& colour, float steps) {
   Rgba result{};
   for (size_t i = 0; i < 4; ++i) result[i] = std::round(colour[i] * steps) / steps;
   return result;
 }
+
+}  // namespace
 
 Appearance appearance_of(const Rgba& colour) {
   Appearance look;
@@ -28,11 +33,52 @@ Appearance appearance_of(const Rgba& colour) {
   return look;
 }
 
-}  // namespace
+bool LookOrder::operator()(const Appearance& a, const Appearance& b) const {
+  const auto key = [](const Appearance& x) {
+    return std::tie(x.red, x.green, x.blue, x.alpha, x.metallic, x.roughness, x.name, x.is_default);
+  };
+  return key(a) < key(b);
+}
+
+void limit_appearances(PolygonMesh& mesh, std::vector<std::string>* notes) {
+  const std::vector<Appearance> fine = mesh.appearances;
+  const auto is_coloured = [](const Appearance& look) { return !look.is_default; };
+  const auto before = std::count_if(fine.begin(), fine.end(), is_coloured);
+  if (static_cast<size_t>(before) <= kMostColours) return;
+  std::vector<uint32_t> number(fine.size());
+  for (const float steps : kCoarser) {
+    std::map<Appearance, uint32_t, LookOrder> known;
+    mesh.appearances.clear();
+    for (size_t i = 0; i < fine.size(); ++i) {
+      Appearance look = fine[i];
+      if (is_coloured(look)) {
+        for (float* channel :
+             {&look.red, &look.green, &look.blue, &look.alpha, &look.metallic, &look.roughness}) {
+          *channel = std::round(*channel * steps) / steps;
+        }
+        look.name.clear();
+      }
+      const auto [entry, is_new] =
+          known.emplace(look, static_cast<uint32_t>(mesh.appearances.size()));
+      if (is_new) mesh.appearances.push_back(look);
+      number[i] = entry->second;
+    }
+    if (mesh.appearances.size() <= kMostColours + 1) break;
+  }
+  for (uint32_t& each : mesh.appearance_of) each = number[each];
+  const auto after = std::count_if(mesh.appearances.begin(), mesh.appearances.end(), is_coloured);
+  if (notes != nullptr) {
+    notes->push_back(std::to_string(before) + " colours of faces were rounded to " +
+                     std::to_string(after));
+  }
+}
 
 std::optional<Rgba> FaceColours::of_corners(const PolygonMesh& mesh, size_t face) const {
   if (vertices_.empty()) return std::nullopt;
-  const auto corner = [&](uint32_t i) { return vertices_[mesh.corners[i]]; };
+  const auto corner = [&](uint32_t i) {
+    const uint32_t vertex = mesh.corners[i];
+    return vertex < vertices_.size() ? vertices_[vertex] : std::nullopt;
+  };
   const uint32_t begin = mesh.loop_starts[mesh.face_starts[face]];
   const uint32_t end = mesh.loop_starts[mesh.face_starts[face + 1]];
   Rgba sum{};
@@ -56,19 +102,6 @@ void FaceColours::apply(PolygonMesh& mesh, std::vector<std::string>* notes) cons
     if (colours[f]) numbers.emplace(*colours[f], 0);
   }
   if (numbers.empty()) return;
-  if (numbers.size() > kMostColours) {
-    const size_t before = numbers.size();
-    numbers.clear();
-    for (std::optional<Rgba>& colour : colours) {
-      if (!colour) continue;
-      colour = rounded(*colour, kCoarse);
-      numbers.emplace(*colour, 0);
-    }
-    if (notes != nullptr) {
-      notes->push_back(std::to_string(before) + " colours of faces were rounded to " +
-                       std::to_string(numbers.size()));
-    }
-  }
   // Numbered as they first occur, and 0 for faces without one.
   mesh.appearances.assign(1, {});
   for (const std::optional<Rgba>& colour : colours) {
@@ -83,6 +116,7 @@ void FaceColours::apply(PolygonMesh& mesh, std::vector<std::string>* notes) cons
     }
     mesh.appearance_of.push_back(number);
   }
+  limit_appearances(mesh, notes);
 }
 
 std::optional<Rgba> colour_of_words(std::span<const std::string_view> words) {

@@ -14,6 +14,7 @@
 
 #include "primitives/files/formats.h"
 #include "primitives/files/read_file.h"
+#include "primitives/solids/bent_quads.h"
 #include "primitives/solids/finish_solid.h"
 
 namespace csgrun {
@@ -107,6 +108,7 @@ Result<PolygonMesh> repair_solid_mesh(PolygonMesh mesh, const RepairOptions& opt
     return Error{
         repaired.error().code, name + ": " + reason + repair_hint(mesh, name, options, reason), {}};
   }
+  cut_bent_quads(*repaired);
   for (const RepairStep& step : report.steps) notes->push_back(name + ": repair: " + step.text());
   return repaired;
 }

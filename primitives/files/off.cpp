@@ -108,7 +108,9 @@ class OffReader {
     mesh_.points.push_back(p);
     if (magic_.has_colours) {
       for (int n = 0; magic_.has_normals && n < 3; ++n) scanner_.word();
-      colours_.add_vertex(read_colour());
+      if (const auto colour = read_colour()) {
+        colours_.set_vertex(mesh_.points.size() - 1, *colour);
+      }
     }
     scanner_.next_line();
     return std::nullopt;
@@ -145,7 +147,7 @@ class OffReader {
       loop_.push_back(static_cast<uint32_t>(*index));
     }
     mesh_.add_face(loop_);
-    colours_.add_face(read_colour());
+    if (const auto colour = read_colour()) colours_.set_face(mesh_.face_count() - 1, *colour);
     scanner_.next_line();
     return std::nullopt;
   }

@@ -310,6 +310,7 @@ class BodyReader {
     glm::dvec3 point(0);
     Rgba colour{0, 0, 0, 1};
     bool is_point = false;
+    const size_t faces_before = mesh_.face_count();
     int channels = 0;
     for (const Property& property : element.properties) {
       if (property.is_list) {
@@ -336,9 +337,9 @@ class BodyReader {
     const bool has_colour = (channels & kRedGreenBlue) == kRedGreenBlue;
     if (is_point) {
       mesh_.points.push_back(point);
-      if (has_colour) colours_.add_vertex(colour);
-    } else if (has_colour) {
-      colours_.add_face(colour);
+      if (has_colour) colours_.set_vertex(mesh_.points.size() - 1, colour);
+    } else if (has_colour && mesh_.face_count() > faces_before) {
+      colours_.set_face(mesh_.face_count() - 1, colour);
     }
     return std::nullopt;
   }

@@ -14,6 +14,7 @@
 #include <csgrun/engine/csg_tree.h>
 #include <csgrun/primitives/model_file.h>
 
+#include "primitives/files/face_colours.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/text_scanner.h"
 #include "primitives/files/unzip.h"
@@ -95,7 +96,7 @@ Appearance colour_of(const char* text) {
   const std::string_view digits = text[0] == '#' ? std::string_view(text + 1) : "";
   if (digits.size() != 6 && digits.size() != 8)
     throw Fault{"a colour must be #RRGGBB or #RRGGBBAA, got " + quoted(text)};
-  float channels[4] = {0, 0, 0, 1};
+  Rgba channels{0, 0, 0, 1};
   for (size_t i = 0; i < digits.size(); ++i) {
     const char* place = std::strchr("0123456789abcdef", digits[i] | 0x20);
     if (place == nullptr || *place == '\0')
@@ -103,13 +104,7 @@ Appearance colour_of(const char* text) {
     const auto value = static_cast<float>(place - "0123456789abcdef");
     channels[i / 2] = i % 2 == 0 ? value * 16 : (channels[i / 2] + value) / 255;
   }
-  Appearance appearance;
-  appearance.red = channels[0];
-  appearance.green = channels[1];
-  appearance.blue = channels[2];
-  appearance.alpha = channels[3];
-  appearance.is_default = false;
-  return appearance;
+  return appearance_of(channels);
 }
 
 struct Object {
@@ -126,7 +121,8 @@ struct Object {
 
 class ModelReader {
  public:
-  explicit ModelReader(const pugi::xml_node& model) : model_(model), unit_(unit_of(model)) {}
+  ModelReader(const pugi::xml_node& model, std::vector<std::string>& notes)
+      : model_(model), unit_(unit_of(model)), notes_(notes) {}
 
   std::vector<ModelPart> read() {
     const pugi::xml_node resources = child(model_, "resources"), build = child(model_, "build");
@@ -151,12 +147,14 @@ class ModelReader {
       for (auto& row : map.m) {
         for (double& entry : row) entry *= unit_;
       }
+      numbers_.clear();
       add(id, map, part.mesh, 0);
       // What has no colour anywhere has no appearances either.
       if (part.mesh.appearances.size() == 1 && part.mesh.appearances[0].is_default) {
         part.mesh.appearances.clear();
         part.mesh.appearance_of.clear();
       }
+      limit_appearances(part.mesh, &notes_);
       if (part.mesh.face_count() > 0) parts.push_back(std::move(part));
     }
     return parts;
@@ -268,11 +266,10 @@ class ModelReader {
     } else if (&node != &owner && node != owner) {
       return look_number(mesh, owner, owner, "pindex");
     }
-    const auto known = std::find(mesh.appearances.begin(), mesh.appearances.end(), look);
-    if (known != mesh.appearances.end())
-      return static_cast<uint32_t>(known - mesh.appearances.begin());
-    mesh.appearances.push_back(look);
-    return static_cast<uint32_t>(mesh.appearances.size() - 1);
+    const auto [known, is_new] =
+        numbers_.emplace(look, static_cast<uint32_t>(mesh.appearances.size()));
+    if (is_new) mesh.appearances.push_back(look);
+    return known->second;
   }
 
   /// The object under a map, appended.
@@ -314,9 +311,11 @@ class ModelReader {
 
   pugi::xml_node model_;
   double unit_;
+  std::vector<std::string>& notes_;
   std::map<uint32_t, std::vector<std::array<float, 2>>> metals_;
   std::map<uint32_t, std::vector<Appearance>> looks_;
   std::map<uint32_t, Object> objects_;
+  std::map<Appearance, uint32_t, LookOrder> numbers_;  ///< of the part that is being made
 };
 
 /// The path of the model within the archive, without its first slash.
@@ -346,7 +345,8 @@ bool is_3mf_path(const std::string& path) {
   return ending == ".3mf";
 }
 
-Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes) {
+Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes,
+                                         std::vector<std::string>* notes) {
   const auto path = model_path(name, bytes);
   if (!path) return path.error();
   auto text = unzip_entry(name, bytes, *path);
@@ -363,7 +363,11 @@ Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_vi
   if (local(document.document_element().name()) != "model")
     return malformed(name, *path, "it is no 3MF model");
   try {
-    std::vector<ModelPart> parts = ModelReader(document.document_element()).read();
+    std::vector<std::string> own_notes;
+    std::vector<ModelPart> parts = ModelReader(document.document_element(), own_notes).read();
+    for (const std::string& note : own_notes) {
+      if (notes != nullptr) notes->push_back(name + ": " + note);
+    }
     if (parts.empty()) return malformed(name, *path, "has no faces");
     for (ModelPart& part : parts) {
       part.mesh.kind = name;

@@ -1,6 +1,7 @@
 #include "primitives/files/unzip.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include <minizip/unzip.h>
@@ -54,11 +55,7 @@ struct Archive {
   }
 };
 
-}  // namespace
-
-Result<std::optional<std::string>> unzip_entry(const std::string& name, std::string_view archive,
-                                               const std::string& entry) {
-  Memory memory{archive};
+unzFile open_archive(Memory& memory) {
   zlib_filefunc64_def functions{};
   functions.zopen64_file = open_memory;
   functions.zread_file = read_memory;
@@ -68,10 +65,12 @@ Result<std::optional<std::string>> unzip_entry(const std::string& name, std::str
   functions.zclose_file = close_memory;
   functions.zerror_file = no_error;
   functions.opaque = &memory;
-  const Archive zip{unzOpen2_64("model", &functions)};
-  if (zip.file == nullptr) return malformed(name, "", "it is no zip file, or a truncated one");
-  if (unzLocateFile(zip.file, entry.c_str(), kCaseCounts) != UNZ_OK)
-    return std::optional<std::string>();
+  return unzOpen2_64("model", &functions);
+}
+
+/// The bytes of the entry that the archive stands at.
+Result<std::optional<std::string>> unpack(const std::string& name, std::string_view archive,
+                                          const Archive& zip, const std::string& entry) {
   unz_file_info64 info{};
   if (unzGetCurrentFileInfo64(zip.file, &info, nullptr, 0, nullptr, 0, nullptr, 0) != UNZ_OK)
     return malformed(name, entry, "the zip file is damaged");
@@ -101,6 +100,34 @@ Result<std::optional<std::string>> unzip_entry(const std::string& name, std::str
   if (bytes.size() != promised || unzCloseCurrentFile(zip.file) != UNZ_OK)
     return malformed(name, entry, "the zip file is damaged");
   return std::optional(std::move(bytes));
+}
+
+}  // namespace
+
+Result<std::optional<std::string>> unzip_entry(const std::string& name, std::string_view archive,
+                                               const std::string& entry) {
+  Memory memory{archive};
+  const Archive zip{open_archive(memory)};
+  if (zip.file == nullptr) return malformed(name, "", "it is no zip file, or a truncated one");
+  if (unzLocateFile(zip.file, entry.c_str(), kCaseCounts) != UNZ_OK)
+    return std::optional<std::string>();
+  return unpack(name, archive, zip, entry);
+}
+
+Result<std::optional<std::string>> unzip_first(const std::string& name, std::string_view archive,
+                                               const std::string& ending) {
+  Memory memory{archive};
+  const Archive zip{open_archive(memory)};
+  if (zip.file == nullptr) return malformed(name, "", "it is no zip file, or a truncated one");
+  for (int at = unzGoToFirstFile(zip.file); at == UNZ_OK; at = unzGoToNextFile(zip.file)) {
+    std::array<char, 1024> entry{};
+    if (unzGetCurrentFileInfo64(zip.file, nullptr, entry.data(), entry.size() - 1, nullptr, 0,
+                                nullptr, 0) != UNZ_OK)
+      break;
+    if (std::string_view(entry.data()).ends_with(ending))
+      return unpack(name, archive, zip, entry.data());
+  }
+  return std::optional<std::string>();
 }
 
 }  // namespace csgrun

@@ -15,4 +15,8 @@ namespace csgrun {
 Result<std::optional<std::string>> unzip_entry(const std::string& name, std::string_view archive,
                                                const std::string& entry);
 
+/// The same of the first entry whose name ends so.
+Result<std::optional<std::string>> unzip_first(const std::string& name, std::string_view archive,
+                                               const std::string& ending);
+
 }  // namespace csgrun

@@ -20,6 +20,7 @@ struct Point2D {
   int64_t x = 0, y = 0;
   auto operator<=>(const Point2D&) const = default;
   friend Point2D operator-(const Point2D& a, const Point2D& b) { return {a.x - b.x, a.y - b.y}; }
+  friend Point2D operator-(const Point2D& a) { return {-a.x, -a.y}; }
 };
 
 inline int128 cross(const Point2D& a, const Point2D& b) {

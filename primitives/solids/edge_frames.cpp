@@ -7,6 +7,8 @@
 
 #include <csgrun/primitives/trig.h>
 
+#include "primitives/base/box_tree.h"
+
 namespace csgrun {
 namespace {
 
@@ -149,47 +151,95 @@ EdgeFrames::Strip EdgeFrames::strip(const EdgeFrame& f, int side) const {
   return result;
 }
 
-bool EdgeFrames::has_room(const EdgeFrame& f) const {
+std::array<glm::dvec3, 4> EdgeFrames::strip_in_space(const EdgeFrame& f, int side) const {
+  const Strip own = strip(f, side);
+  std::array<glm::dvec3, 4> result;
+  for (size_t i = 0; i < 4; ++i) {
+    result[i] = f.start + own[i][0] * f.along + own[i][1] * f.in[static_cast<size_t>(side)];
+  }
+  return result;
+}
+
+bool EdgeFrames::has_room_beside(const EdgeFrame& f, int side, uint32_t other_id) const {
   const double margin = kTouch * f.setback;
+  const Strip own = strip(f, side);
+  const auto clip = [&](Clipped& polygon) {
+    for (size_t i = 0; i < 4; ++i) polygon.keep_left(own[i], own[(i + 1) % 4], margin);
+  };
+  const auto seen = [&](const glm::dvec3& p) {
+    return Point{glm::dot(p - f.start, f.along), glm::dot(p - f.start, f.in[side])};
+  };
+  const EdgeGraph::Edge& other = graph_.edges()[other_id];
+  const std::array<Point, 2> ends{seen(other.line.from), seen(other.line.to)};
+  Clipped segment(ends);
+  clip(segment);
+  if (segment.size() > margin) return false;
+  const EdgeFrame* cut = frame_of(other_id);
+  if (cut == nullptr) return true;
+  const int its_side = other.side[0] == graph_.edges()[f.edge].side[side] ? 0 : 1;
+  std::array<Point, 4> corners;
+  const auto theirs = strip_in_space(*cut, its_side);
+  for (size_t i = 0; i < 4; ++i) corners[i] = seen(theirs[i]);
+  Clipped common(corners);
+  clip(common);
+  return common.area() <= margin * f.setback;
+}
+
+bool EdgeFrames::is_turned_over(const EdgeFrame& f, int side) const {
+  const Strip own = strip(f, side);
+  return own[3][0] > own[2][0] + kTouch * f.setback;
+}
+
+bool EdgeFrames::has_room(const EdgeFrame& f) const {
   for (int side = 0; side < 2; ++side) {
-    const Strip own = strip(f, side);
-    if (own[3][0] > own[2][0] + margin) return false;
-    const auto clip = [&](Clipped& polygon) {
-      for (size_t i = 0; i < 4; ++i) polygon.keep_left(own[i], own[(i + 1) % 4], margin);
-    };
-    const auto seen = [&](const glm::dvec3& p) {
-      return Point{glm::dot(p - f.start, f.along), glm::dot(p - f.start, f.in[side])};
-    };
-    const uint32_t plane = graph_.edges()[f.edge].side[side];
-    for (const uint32_t e : graph_.edges_of(plane)) {
-      if (e == f.edge) continue;
-      const EdgeGraph::Edge& other = graph_.edges()[e];
-      const std::array<Point, 2> ends{seen(other.line.from), seen(other.line.to)};
-      Clipped segment(ends);
-      clip(segment);
-      if (segment.size() > margin) return false;
-      const EdgeFrame* cut = frame_of(e);
-      if (cut == nullptr) continue;
-      const int its_side = other.side[0] == plane ? 0 : 1;
-      const Strip theirs = strip(*cut, its_side);
-      std::array<Point, 4> corners;
-      for (size_t i = 0; i < 4; ++i) {
-        corners[i] = seen(cut->start + theirs[i][0] * cut->along +
-                          theirs[i][1] * cut->in[static_cast<size_t>(its_side)]);
-      }
-      Clipped common(corners);
-      clip(common);
-      if (common.area() > margin * f.setback) return false;
+    if (is_turned_over(f, side)) return false;
+    for (const uint32_t e : graph_.edges_of(graph_.edges()[f.edge].side[side])) {
+      if (e != f.edge && !has_room_beside(f, side, e)) return false;
     }
   }
   return true;
 }
 
 std::optional<uint32_t> EdgeFrames::first_without_room() const {
+  // Around each edge its strips, if it has any: what is not near to another has room beside it.
+  std::vector<Box3> boxes(graph_.edges().size());
+  for (uint32_t e = 0; e < boxes.size(); ++e) {
+    boxes[e].add(graph_.edges()[e].line.from);
+    boxes[e].add(graph_.edges()[e].line.to);
+    const EdgeFrame* f = frame_of(e);
+    for (int side = 0; f != nullptr && side < 2; ++side) {
+      for (const glm::dvec3& p : strip_in_space(*f, side)) boxes[e].add(p);
+    }
+  }
+  const BoxTree tree(boxes);
   for (uint32_t i = 0; i < frames_.size(); ++i) {
-    if (!has_room(frames_[i])) return i;
+    const EdgeFrame& f = frames_[i];
+    bool has_room = !is_turned_over(f, 0) && !is_turned_over(f, 1);
+    tree.find(boxes[f.edge], [&](uint32_t e) {
+      for (int side = 0; e != f.edge && has_room && side < 2; ++side) {
+        const auto& theirs = graph_.edges()[e].side;
+        const uint32_t plane = graph_.edges()[f.edge].side[side];
+        if (theirs[0] == plane || theirs[1] == plane) has_room = has_room_beside(f, side, e);
+      }
+      return has_room;
+    });
+    if (!has_room) return i;
   }
   return std::nullopt;
+}
+
+double EdgeFrames::size_that_fits(uint32_t frame, double size, bool is_radius) {
+  double fits = 0, fails = size;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (fits + fails) / 2;
+    set_size(middle, is_radius);
+    (has_room(frames_[frame]) ? fits : fails) = middle;
+  }
+  // Rounded down to something short that fits.
+  const double unit = std::pow(10, std::floor(std::log10(fails)) - 3);
+  const double shown = std::floor(fits / unit * (1 + 1e-6)) * unit;
+  set_size(shown, is_radius);
+  return has_room(frames_[frame]) ? shown : fits;
 }
 
 }  // namespace csgrun

@@ -14,6 +14,10 @@ struct EdgeFrame {
   double length = 0;
   std::array<glm::dvec3, 2> in;  ///< into each side, across the edge, of length 1
   double setback = 0;            ///< how far the cut goes on both sides
+  double reach = 0;              ///< how far bodies reach into one another
+  bool is_flush = false;         ///< whether they end in the planes of the solid
+  /// How far bodies reach beyond the surface, so that no face of theirs lies in one of the solid's.
+  [[nodiscard]] double outwards() const { return is_flush ? 0 : reach; }
 };
 
 /// How a cut ends on one side of an edge.
@@ -27,11 +31,14 @@ enum class EdgeEnd : uint8_t {
 
 class EdgeFrames {
  public:
-  /// Setbacks of the chosen edges are `setback(edge)`.
   EdgeFrames(const EdgeGraph& graph, std::span<const uint32_t> chosen);
 
   /// Distance from the edge on both sides; for a fillet the radius, of which it follows.
   void set_size(double size, bool is_radius);
+  void set_reach(size_t frame, double reach, bool is_flush) {
+    frames_[frame].reach = reach;
+    frames_[frame].is_flush = is_flush;
+  }
 
   [[nodiscard]] const EdgeGraph& graph() const { return graph_; }
   [[nodiscard]] const std::vector<EdgeFrame>& frames() const { return frames_; }
@@ -54,7 +61,8 @@ class EdgeFrames {
 
   /// The first chosen edge whose cut leaves one of its sides or meets another cut on it.
   [[nodiscard]] std::optional<uint32_t> first_without_room() const;
-  [[nodiscard]] bool has_room(const EdgeFrame& f) const;
+  /// For such an edge, a size below `size` that fits, rounded down to something short. Sets sizes.
+  double size_that_fits(uint32_t frame, double size, bool is_radius);
 
  private:
   /// What the next edge does in the plane of the side: along the edge, away from it at the end (x),
@@ -64,9 +72,17 @@ class EdgeFrames {
     double x, y;
   };
   [[nodiscard]] Next next(const EdgeFrame& f, int end, int side) const;
-  /// The part of a side that goes: four corners, as {along the edge, into the side} of `seen_from`.
+  /// The part of a side that goes: four corners, as {along the edge, into the side}.
   using Strip = std::array<std::array<double, 2>, 4>;
   [[nodiscard]] Strip strip(const EdgeFrame& f, int side) const;
+
+  /// The corners of a strip in space.
+  [[nodiscard]] std::array<glm::dvec3, 4> strip_in_space(const EdgeFrame& f, int side) const;
+  [[nodiscard]] bool has_room(const EdgeFrame& f) const;
+  /// Whether a strip is too short for its mitres.
+  [[nodiscard]] bool is_turned_over(const EdgeFrame& f, int side) const;
+  /// Whether the strip of a side leaves another edge of that side alone, and the strip of that.
+  [[nodiscard]] bool has_room_beside(const EdgeFrame& f, int side, uint32_t other) const;
 
   const EdgeGraph& graph_;
   std::vector<EdgeFrame> frames_;

@@ -23,6 +23,8 @@ class EdgeGraph {
   [[nodiscard]] const std::vector<uint32_t>& edges_of(uint32_t side) const {
     return edges_of_[side];
   }
+  /// The side that a triangle of the solid is in.
+  [[nodiscard]] uint32_t side_of(uint32_t triangle) const { return side_[triangle]; }
   /// One of the solid's faces that make a side.
   [[nodiscard]] uint32_t face(uint32_t side) const { return face_of_[side]; }
   /// How many edges end at a vertex.

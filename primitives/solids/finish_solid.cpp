@@ -8,6 +8,7 @@
 #include <csgrun/engine/validate.h>
 
 #include "primitives/base/text.h"
+#include "primitives/solids/bent_quads.h"
 
 namespace csgrun {
 namespace {
@@ -108,6 +109,7 @@ Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std:
     }
     return Error{ErrorCode::kInvalidMesh, std::move(message), {}};
   }
+  cut_bent_quads(mesh);
   // With the rule `positive` what is inverted is meant to be nothing.
   if (mesh.fill != FillRule::kPositive && signed_volume(mesh) < 0) {
     reverse_faces(mesh);

@@ -153,7 +153,8 @@ MeshResult refine_mesh(PolygonMesh mesh, double length) {
 
 MeshResult smooth_mesh(PolygonMesh mesh, int rounds) {
   if (rounds < 1) return invalid_argument("smooth: rounds must be at least 1");
-  for (int round = 0; round < rounds; ++round) {
+  // Of nothing no number of rounds makes more, so the limit would never end them.
+  for (int round = 0; round < rounds && mesh.face_count() > 0; ++round) {
     const size_t count = mesh.points.size();
     if (static_cast<double>(mesh.points.size() + mesh.corners.size() / 2) > kMostPoints) {
       return Error{ErrorCode::kLimit, "smooth: makes more than 16777216 points", {}};

@@ -18,6 +18,8 @@ using Field = std::function<Result<double>(const glm::dvec3&)>;
 
 /// The most points of a lattice: minutes of calls of a script.
 constexpr double kMostLatticePoints = 0x1p28;
+/// And of two of its layers, all that is kept at a time: 700 MB.
+constexpr double kMostLayerPoints = 0x1p23;
 constexpr uint32_t kNone = ~0u;
 
 /// The six tetrahedra of a cell: on the way from its lowest corner to the greatest, along one axis
@@ -197,9 +199,11 @@ MeshResult make_level_set(const Field& function, const LevelSetOptions& options)
     // A side that is a whole number of steps long is not cut once more for the noise of doubles.
     const double count = std::ceil(length / options.step * (1 - 1e-12));
     points *= count + 3;
-    if (points > kMostLatticePoints) {
+    const double most = k < 2 ? kMostLayerPoints : kMostLatticePoints;
+    if (points > most) {
       return Error{ErrorCode::kLimit,
-                   "levelset: the bounds hold more than 268435456 samples at this step",
+                   std::string("levelset: the bounds hold more than ") + number_text(most) +
+                       " samples" + (k < 2 ? " of one height" : "") + " at this step",
                    {}};
     }
     parts[static_cast<size_t>(k)] = static_cast<size_t>(count);

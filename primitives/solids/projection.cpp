@@ -5,6 +5,7 @@
 #include <csgrun/primitives/projection.h>
 
 #include "primitives/shape2d/shape_factory.h"
+#include "primitives/solids/box_leaf.h"
 
 namespace csgrun {
 namespace {
@@ -16,17 +17,6 @@ Shape2D::Loop outline(const Solid& solid, uint32_t loop) {
     result.emplace_back(p.x, p.y);
   }
   return result;
-}
-
-NodePtr box_leaf(const glm::dvec3& low, const glm::dvec3& high, const SourceRef& where) {
-  auto mesh = std::make_shared<PolygonMesh>();
-  for (int i = 0; i < 8; ++i) {
-    mesh->points.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y,
-                              i & 4 ? high.z : low.z);
-  }
-  mesh->hull_of_points = true;
-  mesh->kind = "half-space";
-  return Node::leaf(std::move(mesh), where);
 }
 
 }  // namespace
@@ -51,10 +41,11 @@ Result<Shape2D> project_solid(const Solid& solid) {
                                   [](int32_t, int32_t rest) { return rest > 0; });
 }
 
-Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z) {
+Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z,
+                            const SourceRef& where) {
   Affine down;
   down.m[2][3] = -z;
-  const NodePtr moved = Node::transformed(down, solid, solid->where());
+  const NodePtr moved = Node::transformed(down, solid, where);
   const auto extent = evaluator.extent(moved);
   if (!extent) return extent.error();
   if (extent->empty || extent->bbox[0].z > 0 || extent->bbox[1].z <= 0) return Shape2D();
@@ -63,8 +54,8 @@ Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z
   glm::dvec3 low = extent->bbox[0] - glm::dvec3(margin),
              high = extent->bbox[1] + glm::dvec3(margin);
   low.z = 0;
-  const auto above = evaluator.evaluate(Node::boolean(
-      BooleanOp::kIntersection, {moved, box_leaf(low, high, solid->where())}, solid->where()));
+  const auto above = evaluator.evaluate(
+      Node::boolean(BooleanOp::kIntersection, {moved, box_leaf(low, high, where)}, where));
   if (!above) return above.error();
   std::vector<Shape2D::Loop> outlines;
   const Solid& part = **above;

@@ -15,15 +15,10 @@
 #include <csgrun/primitives/solids.h>
 
 #include "primitives/base/text.h"
+#include "primitives/solids/box_leaf.h"
 
 namespace csgrun {
 namespace {
-
-NodePtr box_leaf(const glm::dvec3& low, const glm::dvec3& high, const SourceRef& where) {
-  auto mesh = make_cube(high - low);
-  for (glm::dvec3& p : mesh->points) p += low;
-  return Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where);
-}
 
 /// Connected surfaces of a solid.
 struct Surface {
@@ -109,14 +104,15 @@ Result<CutPlane> make_cut_plane(const glm::dvec3& normal, double offset) {
   return CutPlane{normal / length, offset};
 }
 
-Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const CutPlane& plane) {
+Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const CutPlane& plane,
+                           const SourceRef& where) {
   const auto extent = evaluator.extent(solid);
   if (!extent) return extent.error();
-  if (extent->empty) return Node::empty(solid->where());
+  if (extent->empty) return Node::empty(where);
   const glm::dvec3 middle = (extent->bbox[0] + extent->bbox[1]) / 2.0;
   const double radius = glm::length(extent->bbox[1] - middle) * 1.125;
   const double height = glm::dot(plane.normal, middle);
-  if (height + radius <= plane.offset) return Node::empty(solid->where());
+  if (height + radius <= plane.offset) return Node::empty(where);
   // Axes with the normal as the third: the plane is where the third coordinate is the offset,
   // whatever the solid.
   int least = 0;
@@ -128,11 +124,13 @@ Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const Cut
   const glm::dvec3 v = glm::normalize(glm::cross(plane.normal, axis));
   const glm::dvec3 u = glm::cross(v, plane.normal);
   const double x = glm::dot(u, middle), y = glm::dot(v, middle);
-  const NodePtr box = box_leaf({x - radius, y - radius, plane.offset},
-                               {x + radius, y + radius, height + radius}, solid->where());
+  // No lower than it must be: what is far away would make the grid coarse.
+  const double low = std::max(plane.offset, height - radius);
+  const NodePtr box =
+      box_leaf({x - radius, y - radius, low}, {x + radius, y + radius, height + radius}, where);
   Affine turn;
   for (int i = 0; i < 3; ++i) turn.m[i] = {u[i], v[i], plane.normal[i], 0};
-  return Node::transformed(turn, box, solid->where());
+  return Node::transformed(turn, box, where);
 }
 
 Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const NodePtr& tool,
@@ -142,6 +140,14 @@ Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const N
   const auto extent = evaluator.extent(solid);
   if (!extent) return extent.error();
   if (extent->empty) return solid;
+  // The tool has no room in what is no larger, and a tool that is far larger would make the grid
+  // coarse.
+  const auto reach = evaluator.extent(tool);
+  if (!reach) return reach.error();
+  const glm::dvec3 room = extent->bbox[1] - extent->bbox[0];
+  for (int i = 0; i < 3; ++i) {
+    if (reach->bbox[1][i] - reach->bbox[0][i] >= room[i]) return Node::empty(where);
+  }
   // All that is outside of the solid and near to it.
   const glm::dvec3 margin(2 * std::fabs(distance));
   const NodePtr around = box_leaf(extent->bbox[0] - margin, extent->bbox[1] + margin, where);
@@ -150,7 +156,8 @@ Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const N
   return Node::boolean(BooleanOp::kDifference, {solid, gone}, where);
 }
 
-Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr& solid) {
+Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr& solid,
+                                             const SourceRef& where) {
   const auto evaluated = evaluator.evaluate(solid);
   if (!evaluated) return evaluated.error();
   const Solid& whole = **evaluated;
@@ -173,7 +180,7 @@ Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr
       if (is_void_of(whole, hole, outer[i])) innermost = i;
     }
     if (innermost == outer.size()) {
-      return Error{ErrorCode::kInternal, "a void lies in no component", solid->where()};
+      return Error{ErrorCode::kInternal, "a void lies in no component", where};
     }
     triangles[innermost].insert(triangles[innermost].end(), hole.triangles.begin(),
                                 hole.triangles.end());
@@ -188,13 +195,13 @@ Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr
     // Several steps of any grid on which the solid stands.
     const double reach = glm::length(glm::max(glm::abs(outer[i].low), glm::abs(outer[i].high)));
     if (margin > 1e-6 * reach) {
-      const NodePtr box = box_leaf(outer[i].low - glm::dvec3(margin),
-                                   outer[i].high + glm::dvec3(margin), solid->where());
-      result.push_back(Node::boolean(BooleanOp::kIntersection, {solid, box}, solid->where()));
+      const NodePtr box =
+          box_leaf(outer[i].low - glm::dvec3(margin), outer[i].high + glm::dvec3(margin), where);
+      result.push_back(Node::boolean(BooleanOp::kIntersection, {solid, box}, where));
     } else {
       result.push_back(Node::leaf(
           std::make_shared<const PolygonMesh>(mesh_of_solid(whole, triangles[i], "component")),
-          solid->where()));
+          where));
     }
   }
   return result;

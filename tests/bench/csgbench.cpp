@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <csgrun/engine/evaluate.h>
+#include <csgrun/engine/heap.h>
 
 #include "engine/base/parallel.h"
 #include "engine/bsp/kernel.h"
@@ -205,6 +206,7 @@ void run_once(const std::vector<std::string>& words, const Settings& settings) {
 }  // namespace csgrun::bench
 
 int main(int argc, char** argv) {
+  csgrun::keep_freed_memory();
   csgrun::bench::Settings settings;
   std::vector<std::string> words;
   for (int i = 1; i < argc; ++i) {

@@ -33,6 +33,21 @@ class Time(Case):
         self.assertIn("out of time (limit 1 s)", outcome.err)
         self.assertLess(outcome.seconds, 60 if SANITIZED else 8)
 
+    def test_what_a_tree_projects(self):
+        """Evaluated while the file is read: out of time, or a failure of geometry, as anywhere else."""
+        place = "multmatrix([[1, 0, 0, {}], [0, 1, 0, {}], [0, 0, 1, 0], [0, 0, 0, 1]])"
+        ball = "sphere($fn = 300, $fa = 12, $fs = 2, r = 10);"
+        slow = "".join(f"{place.format(i * 0.013, i * 0.017)} {{ {ball} }}\n" for i in range(100))
+        far = f"cube(size = [1, 1, 1], center = false); {place.format(1e300, 0)} {{ {ball} }}"
+        for inner, code, message in ((slow, 124, "out of time"), (far, 3, "tree.csg:1: ")):
+            self.write("tree.csg", f"projection(cut = false) {{ union() {{ {inner} }} }}")
+            self.write("model.lua", 'return load_csg("tree.csg")')
+            for model in ("tree.csg", "model.lua"):
+                with self.subTest(model=model, code=code):
+                    outcome = self.run_csgrun(model, "-o", "a.svg", "--timeout", "1", "--no-cache")
+                    self.expect(outcome, code, model)
+                    self.assertIn(message, outcome.err)
+
     def test_bad_values(self):
         for value in ("0", "-1", "nan", "inf", "x"):
             self.expect(self.run_script("return cube(1)", "--stats", "--timeout", value), 2)

@@ -195,8 +195,8 @@ class Trees(Case):
         self.expect(outcome, 0)
         self.assertEqual(outcome.json()["parts"][0]["volume"], 875)
 
-    def test_a_node_that_is_not_there_yet(self):
-        self.write("m.csg", "group() {\n\troof(method = \"voronoi\") {\n\t\tsquare(size = [1, 1], center = false);\n\t}\n}\n")
+    def test_a_node_that_does_not_exist(self):
+        self.write("m.csg", "group() {\n\tgable(method = \"voronoi\") {\n\t\tsquare(size = [1, 1], center = false);\n\t}\n}\n")
         self.expect(self.run_csgrun("m.csg", "--stats=json"), 1, "m.csg:2: ")
 
     def test_what_is_no_tree(self):

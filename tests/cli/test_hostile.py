@@ -112,6 +112,24 @@ class Hostile(Case):
         self.refuse("a.3mf", archive('<!DOCTYPE m [<!ENTITY x SYSTEM "../secret.bin">]><model>&x;</model>'), "no resources")
         self.refuse("a.3mf", b"PK\3\4" + b"\xff" * 10_000, "a.3mf: ")
 
+    def test_colours(self):
+        """Each triangle has its own: they are compared in no time, and rounded to what a file may have."""
+        count = 40_000
+        colours = "".join(f'<color color="#{i:06x}"/>' for i in range(count))
+        points = "".join(f'<vertex x="{x + 2 * i}" y="{y}" z="{z}"/>' for i in range(count // 4)
+                         for x, y, z in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)))
+        triangles = "".join(
+            f'<triangle v1="{4 * i + a}" v2="{4 * i + b}" v3="{4 * i + c}" pid="9" p1="{4 * i + k}"/>' for i in range(count // 4)
+            for k, (a, b, c) in enumerate(((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))))
+        self.write("a.3mf", archive(model_3mf(
+            f'<colorgroup id="9">{colours}</colorgroup><object id="1"><mesh><vertices>{points}</vertices>'
+            f'<triangles>{triangles}</triangles></mesh></object>')))
+        outcome = self.run_csgrun("a.3mf", "-o", "a.glb")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        self.assertRegex(outcome.err, "a.3mf: 40000 colours of faces were rounded to [0-9]+")
+        if not SANITIZED:
+            self.assertLess(outcome.cpu_seconds, 2)
+
     def test_pictures(self):
         script = 'return surface("a.png")'
         self.refuse("a.png", png(30_000, 30_000, zlib.compress(b"\0" * 1_000_000)), "a.png: ", script)

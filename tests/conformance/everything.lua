@@ -77,6 +77,8 @@ local spring = circle(1, {fn = 8}):sweep(path)
 local hopper = loft({square(16, true) - square(12, true), square(40, true) - square(36, true)}, {0, 30})
 local bell = polygon{{0, 0}, {10, 0}, {9, 4}, {5, 9}, {4, 16}, {0, 16}}:rotate_extrude()
 local handle = torus(20, 3) + sphere(5):right(20)
+local shed = (square(12, 6) + square(6, 12)):roof("straight")
+near(shed:area(), 108 * (1 + math.sqrt(2)), 1e-9)
 assert(hopper:genus() == 1 and spring:genus() == 0 and handle:genus() == 1)
 near(hopper:volume(), ((40 ^ 3 - 16 ^ 3) / 24 - (36 ^ 3 - 12 ^ 3) / 24) * 30 / 3, 1e-9)
 

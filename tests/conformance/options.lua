@@ -152,6 +152,12 @@ shows("sweep.closed", square(1, true):sweep({{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0
 shows("sweep.twist", square{4, 1, center = true}:sweep(path, {twist = 90}) ~= square{4, 1, center = true}:sweep(path))
 shows("sweep.scale", near(square(2, true):sweep(path, {scale = 2}):size()[1], 4))
 shows("sweep.up", square{4, 1, center = true}:sweep(path, {up = {1, 0, 0}}):size()[1] == 1)
+local ell = square(20, 10) + square(10, 20)
+local function roofed(o) return count(ell:roof(o)) end
+shows("roof.fn", roofed{fn = 80} > roofed{fn = 16} and roofed{segments = 16} == roofed{fn = 16})
+shows("roof.fa", roofed{fn = 0, fa = 3, fs = 100} > roofed{fn = 0, fa = 30, fs = 100})
+shows("roof.fs", roofed{fn = 0, fa = 100, fs = 0.5} > roofed{fn = 0, fa = 100, fs = 5})
+shows("roof.method", near(ell:roof("straight"):volume(), 2000 / 3) and ell:roof():volume() > 670)
 shows("loft.outlines", loft{outlines = {square(2), square(2)}, heights = {0, 3}}:volume() == 12)
 shows("loft.heights", loft({square(2), square(2)}, {1, 3}):volume() == 8 and loft({square(2), square(2)}, 5):volume() == 20)
 shows("hull.operands", hull{cube(1), cube(1):right(3)}:volume() == 4)

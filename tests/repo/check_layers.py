@@ -38,7 +38,8 @@ LIBRARIES = [
     (r"CLI/", ["lua_bindings/", "tests/"]),
     (r"minizip/", ["export/zip_file.cpp", "primitives/files/unzip.cpp"]),
     (r"(gmp|gmpxx)\.h$", ["tests/"]),
-    (r"boost/", ["tests/"]),
+    (r"boost/polygon/", ["primitives/shape2d/roof_voronoi.cpp"]),
+    (r"boost/(?!polygon/)", ["tests/"]),
     (r"CGAL/", ["tests/experiments/cgal_"]),  # GPL: a peer to compare with, no part of the product
     (r"(gtest|gmock|benchmark)/", ["tests/"]),
 ]

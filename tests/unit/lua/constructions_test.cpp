@@ -52,6 +52,31 @@ TEST(Sections, Mistakes) {
             "model.lua:1: decompose: takes no arguments");
 }
 
+TEST(Split, ByPlanesFarAwayAndWhereItIsCalled) {
+  expect_good(R"(
+    for k = 1, 9 do
+      local front, back = cube(10):split({0, 1, 1}, -10 ^ k)
+      assert(front:volume() == 1000 and #front:faces() == 6 and back:is_empty(), k)
+      local none, all = cube(10):split({0, 1, 1}, 10 ^ (k + 1))
+      assert(none:is_empty() and all:volume() == 1000)
+    end)");
+  const ScriptRun run("local c = cube(10)\nlocal d = c:split({0, 0, 1}, 5)\nreturn d");
+  ASSERT_EQ(run.outcome.status, ScriptStatus::kGood) << run.outcome.message;
+  const Node& half = *run.session.parts().at(0).solid;
+  ASSERT_EQ(half.children().size(), 2u);
+  EXPECT_EQ(half.children()[1]->where().line, 2);
+}
+
+TEST(Offset, InwardsByMoreThanThereIsLeavesNothing) {
+  expect_good(R"(
+    for _, d in ipairs{5, 6, 100, 1e4, 1e6} do
+      assert(cube(10, 20, 30):offset(-d, {fn = 8}):is_empty())
+      assert(cube(10, 20, 30):offset{delta = -d}:is_empty())
+    end
+    assert(cube(10, 20, 30):offset{delta = -4}:volume() == 2 * 12 * 22)
+    assert(cube(10, 20, 30):offset{delta = -4.999}:volume() > 0))");
+}
+
 TEST(Edges, Mistakes) {
   EXPECT_EQ(message_of("return cube(1):chamfer()"), "model.lua:1: chamfer: needs a distance");
   EXPECT_EQ(message_of("return cube(1):fillet()"), "model.lua:1: fillet: needs a radius");

@@ -27,7 +27,7 @@ TEST(TextInLua, Mistakes) {
 TEST(ImportInLua, OptionsOfOtherFormats) {
   EXPECT_EQ(message_of("return import('x.step')"),
             "model.lua:1: import: 'x.step' has none of the endings .stl, .off, .obj, .ply, .glb, "
-            ".gltf, .3mf, .svg, "
+            ".gltf, .3mf, .amf, .svg, "
             ".dxf");
   EXPECT_EQ(message_of("return import('x.svg', {fill = 'nonzero'})"),
             "model.lua:1: import: option 'fill' is for meshes, not for drawings");

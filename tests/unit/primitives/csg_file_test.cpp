@@ -296,7 +296,7 @@ TEST(CsgFile, ImportsFilesOfTheirFolder) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().message, "import: cannot read it");
   EXPECT_EQ(import("file = \"b.nef3\"").error().message,
-            "import: \"b.nef3\" has none of the endings .stl, .off, .obj, .ply, .3mf, .svg, .dxf");
+            "import: \"b.nef3\" has none of the endings .stl, .off, .obj, .ply, .3mf, .amf, .svg, .dxf");
 }
 
 TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
@@ -350,8 +350,8 @@ TEST(CsgFile, PointsThatAreNoneMakeNothing) {
 }
 
 TEST(CsgFile, ErrorsHaveTheirLine) {
-  EXPECT_EQ(error("group() {\n" + kCube + "\troof() {\n" + kSquare + "}\n}"),
-            "m.csg:3: roof() is not supported in .csg files");
+  EXPECT_EQ(error("group() {\n" + kCube + "\troof(method = 1) {\n" + kSquare + "}\n}"),
+            "m.csg:3: roof: method must be a string");
   EXPECT_EQ(error("\nsurface(file = \"x.png\", center = false);"),
             "m.csg:2: surface: there are no files here");
   EXPECT_EQ(sketch(parse("hull();\nminkowski(convexity = 0);\n").solid), "empty");

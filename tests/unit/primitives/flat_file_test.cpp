@@ -359,6 +359,14 @@ TEST(Dxf, HostileAndDamagedFiles) {
                               pairs({{0, "BLOCK"}, {2, "B"}}) + dxf_line(0, 0, 1, 1) +
                                   pairs({{0, "ENDBLK"}}))),
       "x.dxf: unfolds to more than 200000 entities");
+  // With a line before, it is an insertion and not an entity of the block that is one too many.
+  for (const std::string& line : {std::string(), dxf_line(0, 0, 1, 1)}) {
+    EXPECT_EQ(
+        error("x.dxf", entities(dxf_line(0, 0, 1, 1) +
+                                    pairs({{0, "INSERT"}, {2, "B"}, {70, "30000"}, {71, "30000"}}),
+                                pairs({{0, "BLOCK"}, {2, "B"}}) + line + pairs({{0, "ENDBLK"}}))),
+        "x.dxf: unfolds to more than 200000 entities");
+  }
   // Angles beyond all measure are angles all the same.
   EXPECT_NEAR(
       dxf(pairs({{0, "ELLIPSE"}, {11, "1"}, {21, "0"}, {40, "1"}, {41, "1e300"}, {42, "1e300"}}))

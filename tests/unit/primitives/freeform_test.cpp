@@ -75,6 +75,7 @@ TEST(Smooth, OfAnOctahedron) {
   EXPECT_TRUE(check_mesh(*again).ok());
   EXPECT_GT(signed_volume(*again), 0);
   EXPECT_LT(signed_volume(*again), signed_volume(mesh));
+  EXPECT_EQ(smooth_mesh({}, 1000000000)->face_count(), 0u);
   EXPECT_EQ(smooth_mesh(mesh, 0).error().message, "smooth: rounds must be at least 1");
 }
 
@@ -143,6 +144,9 @@ TEST(LevelSet, OfPlanesAndSamplesOnTheSurface) {
   const auto nothing = [](const glm::dvec3&) { return Result<double>(1.0); };
   EXPECT_EQ(make_level_set(nothing, options(2, 1))->face_count(), 0u);
   EXPECT_EQ(make_level_set(nothing, options(200, 0.01)).error().code, ErrorCode::kLimit);
+  // One flat layer alone would take gigabytes.
+  EXPECT_EQ(make_level_set(nothing, {{0, 0, 0}, {8000, 8000, 1}, 1}).error().message,
+            "levelset: the bounds hold more than 8388608 samples of one height at this step");
   EXPECT_EQ(make_level_set(nothing, options(2, -1)).error().message,
             "levelset: step must be positive, got -1");
 }

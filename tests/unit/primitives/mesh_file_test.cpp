@@ -207,6 +207,66 @@ TEST(MeshFile, WhatIsWrongIsSaidWithItsPlace) {
             "a.txt: not a mesh file: its name must end in .stl, .off, .obj or .ply");
 }
 
+/// A PLY of a tetrahedron whose points are in two elements: one, and three.
+std::string ply_of_two_elements(const std::string& first, const std::string& second,
+                                const std::string& points) {
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  const std::string rgb = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  return "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + (first.empty() ? "" : rgb) +
+         "element vertex 3\n" + xyz + (second.empty() ? "" : rgb) +
+         "element face 4\nproperty list uchar int vertex_index\nend_header\n" + points +
+         "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+}
+
+TEST(MeshFile, ColoursOfPlyAreThoseOfTheirVertices) {
+  // The last face has the last three points.
+  const auto second = parse_mesh("a.ply", ply_of_two_elements("", "rgb",
+                                                              "0 0 0\n1 0 0 255 0 0\n"
+                                                              "0 1 0 255 0 0\n0 0 1 255 0 0\n"));
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_EQ(second->appearance_of, (std::vector<uint32_t>{0, 0, 0, 1}));
+  ASSERT_EQ(second->appearances.size(), 2u);
+  EXPECT_EQ(second->appearances[1].red, 1);
+  EXPECT_EQ(second->appearances[1].green, 0);
+  const auto first =
+      parse_mesh("a.ply", ply_of_two_elements("rgb", "", "0 0 0 255 0 0\n1 0 0\n0 1 0\n0 0 1\n"));
+  ASSERT_TRUE(first) << first.error().message;
+  EXPECT_TRUE(first->appearance_of.empty());
+}
+
+TEST(MeshFile, ColoursOfPlyAreThoseOfTheirFaces) {
+  const auto mesh =
+      parse_mesh("a.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                 "property float z\nelement face 1\nproperty list uchar int vertex_index\n"
+                 "element face 1\nproperty list uchar int vertex_index\nproperty uchar red\n"
+                 "property uchar green\nproperty uchar blue\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+                 "3 0 1 2\n3 0 2 1 0 0 255\n");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->appearance_of, (std::vector<uint32_t>{0, 1}));
+}
+
+TEST(MeshFile, ColoursAreNotMoreThanAModelHas) {
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 6561\nproperty list uchar int vertex_index\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
+      "end_header\n0 0 0\n1 0 0\n0 1 0\n";
+  for (int i = 0; i < 6561; ++i) {
+    ply += "3 0 1 2";
+    for (int k = 0, rest = i; k < 4; ++k, rest /= 9) ply += " " + std::to_string(rest % 9 * 31);
+    ply += "\n";
+  }
+  std::vector<std::string> notes;
+  const auto mesh = parse_mesh("a.ply", ply, nullptr, nullptr, &notes);
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_LE(mesh->appearances.size(), 4097u);
+  EXPECT_GE(mesh->appearances.size(), 1000u);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0], "a.ply: 6561 colours of faces were rounded to " +
+                          std::to_string(mesh->appearances.size() - 1));
+}
+
 TEST(MeshFile, EveryTruncationIsAnErrorOrTheSameMesh) {
   const std::pair<const char*, std::string> files[] = {{"a.off", kOff},
                                                        {"a.obj", kObj},

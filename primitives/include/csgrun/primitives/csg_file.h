@@ -33,10 +33,11 @@ struct CsgEnvironment {
   std::function<Result<std::string>(const std::string& path)> read;
   /// Evaluates what is projected; null: one with default options.
   Evaluator* evaluator = nullptr;
+  bool* evaluation_failed = nullptr;  ///< set when an error is one of that, and not of the file
 };
 
 /// Reads cube, sphere, cylinder, polyhedron, square, circle, polygon, text, import, surface,
-/// linear_extrude, rotate_extrude, projection, multmatrix, resize, color, union, difference,
+/// linear_extrude, rotate_extrude, roof, projection, multmatrix, resize, color, union, difference,
 /// intersection, hull, minkowski, offset, fill, group and render, with the modifiers % (left out,
 /// not even an operand) and # (nothing). As in OpenSCAD, an empty node is an operand, primitives of
 /// impossible size are empty, and where 2D and 3D mix the first child that is not empty decides;
@@ -45,8 +46,7 @@ struct CsgEnvironment {
 /// matched by name.
 ///
 /// Errors have `where` set to the line and a message without it: kMalformedFile for what is not a
-/// .csg file, kInvalidArgument for nodes that csgrun does not build (roof; without
-/// children they are empty, and no error), kInvalidMesh for polyhedra that are not closed, and
+/// .csg file, kInvalidMesh for polyhedra that are not closed, and
 /// those of the evaluation of what is projected. Depth is limited by memory only.
 Result<CsgModel> parse_csg(const std::string& name, std::string_view text,
                            const CsgEnvironment& environment = {});

@@ -1,4 +1,4 @@
-// Model files of several parts: 3MF; and the materials of OBJ.
+// Model files of several parts: 3MF, AMF; and the materials of OBJ.
 #pragma once
 
 #include <string>
@@ -19,11 +19,22 @@ struct ModelPart {
 
 /// The parts that a 3MF file builds, in its order: units, transforms, components, base materials
 /// and colours are understood. `name` stands in messages. Errors: kMalformedFile; kLimit for what
-/// unpacks, or multiplies by components, to more than a model would.
-Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes);
+/// unpacks, or multiplies by components, to more than a model would. `notes`, if given, gets what
+/// was done to a part with more colours than a model would have.
+Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes,
+                                         std::vector<std::string>* notes = nullptr);
 
 /// Whether a path ends in .3mf, in letters of any case.
 bool is_3mf_path(const std::string& path);
+
+/// The parts of an AMF file, plain or in an archive: its objects and constellations, each object of
+/// a constellation in its place there; units and colours are understood. `name` stands in messages.
+/// `notes` (may be null) gets what was passed over. Errors as those of parse_3mf.
+Result<std::vector<ModelPart>> parse_amf(const std::string& name, std::string_view bytes,
+                                         std::vector<std::string>* notes);
+
+/// Whether a path ends in .amf, in letters of any case.
+bool is_amf_path(const std::string& path);
 
 /// Gives the appearances of an OBJ's mesh, which have the names of its materials, what a material
 /// file says of these: Kd, d or Tr, Pm, Pr. Others stay. Errors: kMalformedFile with the line.

@@ -30,24 +30,33 @@ struct SolidEdge {
 /// All edges, ordered by their ends.
 std::vector<SolidEdge> edges_of_solid(const Solid& solid);
 
+/// Which edges of which solid are to be cut.
+struct EdgeCut {
+  const NodePtr& solid;
+  const Solid& evaluated;            ///< the value of `solid`
+  std::span<const uint32_t> chosen;  ///< indices of edges_of_solid(evaluated)
+  double grid_step_mm = 0;           ///< of the grid that `solid` was evaluated on
+  SourceRef where;                   ///< of what is made
+};
+
 /// A solid less what is in front of planes through two lines on either side of each edge, at
-/// `distance` mm from it. `chosen` are indices of edges_of_solid(evaluated), which is the value of
-/// `solid`. Where all three edges of a corner are chosen, the corner is cut off as well, through
-/// the three points at which these lines meet on its sides.
+/// `distance` mm from it. Where all three edges of a corner are chosen, the corner is cut off as
+/// well, through the three points at which these lines meet on its sides.
 ///
 /// Edges are cut as far as their ends: at a side that bounds the solid there to its surface, at one
 /// that rises from the edge's end up to it, and where two chosen edges meet on a side in a mitre.
+/// Other material of the solid stays, also where it touches the edge.
 ///
-/// Errors: kInvalidArgument for an edge that is not convex, or for which that is too much: the
-/// message says where it is and what fits. O(edges^2) on each side.
-Result<NodePtr> chamfer_edges(const NodePtr& solid, const Solid& evaluated,
-                              std::span<const uint32_t> chosen, double distance);
+/// Errors: kInvalidArgument for an edge that is not convex, for which that is too much, or too
+/// little for the grid, and for one that other material touches or nearly touches, unless the sides
+/// around it are along the axes: the message says where it is. O(t log t) for t triangles where
+/// sides have few edges near to one another.
+Result<NodePtr> chamfer_edges(const EdgeCut& cut, double distance);
 
 /// A solid with edges rounded by a cylinder of radius `radius` that touches both sides. Its facets
 /// have their corners on the cylinder, as many as `facets` says for its part of a turn. Where all
 /// three edges of a corner are chosen, a ball of that radius rounds the corner. All else as
 /// chamfer_edges.
-Result<NodePtr> fillet_edges(const NodePtr& solid, const Solid& evaluated,
-                             std::span<const uint32_t> chosen, double radius, const Facets& facets);
+Result<NodePtr> fillet_edges(const EdgeCut& cut, double radius, const Facets& facets);
 
 }  // namespace csgrun

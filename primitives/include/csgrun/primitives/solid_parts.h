@@ -22,13 +22,15 @@ struct CutPlane {
 Result<CutPlane> make_cut_plane(const glm::dvec3& normal, double offset);
 
 /// A box whose face lies in the plane, large enough to hold all of `solid` that is in front of it;
-/// empty if that is nothing. What is cut with it keeps its exact planes. Errors: those of the
-/// evaluation.
-Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const CutPlane& plane);
+/// empty if that is nothing; made at `where`. What is cut with it keeps its exact planes. Errors:
+/// those of the evaluation.
+Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const CutPlane& plane,
+                           const SourceRef& where);
 
 /// A solid with its surface moved outwards by `tool`, a convex solid about the origin, or inwards
 /// when `distance`, which the tool reaches along each axis, is negative: then what the tool touches
-/// when it is moved over all that is outside goes. Exact on the grid, as minkowski_sum. Errors:
+/// when it is moved over all that is outside goes, which is all of it where the tool has no room.
+/// Exact on the grid, as minkowski_sum. Errors:
 /// those of the evaluation.
 Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const NodePtr& tool,
                              double distance);
@@ -37,6 +39,7 @@ Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const N
 /// to what is around them. Solids that touch in edges or corners are apart. A component whose box
 /// meets no other's is cut out exactly; others are made of its corners, which are rounded to the
 /// grid where they are not on it. Errors: those of the evaluation.
-Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr& solid);
+Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr& solid,
+                                             const SourceRef& where);
 
 }  // namespace csgrun

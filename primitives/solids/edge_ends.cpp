@@ -1,0 +1,176 @@
+#include "primitives/solids/edge_ends.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "primitives/base/text.h"
+
+namespace csgrun {
+namespace {
+
+std::string point_text(const glm::dvec3& p) {
+  return "{" + number_text(p.x) + ", " + number_text(p.y) + ", " + number_text(p.z) + "}";
+}
+
+}  // namespace
+
+bool is_along_axis(const glm::dvec3& unit) {
+  return std::fabs(unit.x) + std::fabs(unit.y) + std::fabs(unit.z) == 1;
+}
+
+std::string edge_text(const SolidEdge& edge) {
+  return "the edge from " + point_text(edge.from) + " to " + point_text(edge.to);
+}
+
+EdgeEnds::EdgeEnds(const Solid& solid, const EdgeFrames& frames, double radius)
+    : solid_(solid), frames_(frames), is_fillet_(radius > 0) {
+  find_corners(radius);
+}
+
+void EdgeEnds::find_corners(double radius) {
+  corner_of_.assign(solid_.positions.size(), UINT32_MAX);
+  std::vector<std::pair<uint32_t, uint32_t>> ends;
+  for (uint32_t i = 0; i < frames_.frames().size(); ++i) {
+    for (const uint32_t v : edge(frames_.frames()[i]).vertex) ends.emplace_back(v, i);
+  }
+  std::sort(ends.begin(), ends.end());
+  for (size_t i = 0; i + 2 < ends.size(); ++i) {
+    const uint32_t v = ends[i].first;
+    if (ends[i + 2].first != v || frames_.graph().degree(v) != 3) continue;
+    EdgeCorner corner{v, {ends[i].second, ends[i + 1].second, ends[i + 2].second}};
+    // Three convex edges may still turn inwards in one of the sides.
+    bool is_convex = true;
+    for (const uint32_t k : corner.frames) {
+      const EdgeFrame& f = frames_.frames()[k];
+      const int end = edge(f).vertex[0] == v ? 0 : 1;
+      for (int side = 0; side < 2; ++side) {
+        is_convex &= frames_.kind(f, end, side) == EdgeEnd::kMitre;
+      }
+    }
+    if (!is_convex) continue;
+    corner.centre = in_front(corner, -radius);
+    corner_of_[v] = static_cast<uint32_t>(corners_.size());
+    corners_.push_back(corner);
+  }
+}
+
+const EdgeCorner* EdgeEnds::corner_at(const EdgeFrame& f, int end) const {
+  const uint32_t place = corner_of_[edge(f).vertex[end]];
+  return place == UINT32_MAX ? nullptr : &corners_[place];
+}
+
+std::array<glm::dvec3, 3> EdgeEnds::normals_at(const EdgeCorner& corner) const {
+  const EdgeGraph::Edge& first = edge(frames_.frames()[corner.frames[0]]);
+  const EdgeGraph::Edge& second = edge(frames_.frames()[corner.frames[1]]);
+  const int other = second.side[0] == first.side[0] || second.side[0] == first.side[1] ? 1 : 0;
+  return {first.line.normals[0], first.line.normals[1], second.line.normals[other]};
+}
+
+glm::dvec3 EdgeEnds::in_front(const EdgeCorner& corner, double distance) const {
+  const auto n = normals_at(corner);
+  const double volume = glm::dot(n[0], glm::cross(n[1], n[2]));
+  const glm::dvec3 sum = glm::cross(n[1], n[2]) + glm::cross(n[2], n[0]) + glm::cross(n[0], n[1]);
+  return solid_.positions[corner.vertex] + distance / volume * sum;
+}
+
+EdgeEnds::Lines EdgeEnds::lines(const EdgeFrame& f) {
+  const double a = f.setback, out = f.outwards();
+  return {a * f.in[0] + out * (f.in[0] - f.in[1]), a * f.in[1] + out * (f.in[1] - f.in[0]),
+          -out * (f.in[0] + f.in[1])};
+}
+
+Result<EdgeEnds::PrismEnd> EdgeEnds::end_of(const EdgeFrame& f, int end) const {
+  const Lines offsets = lines(f);
+  PrismEnd result;
+  const double outwards = end == 0 ? -1 : 1;
+  // So much farther: within what other cuts take, and beyond the solid.
+  const double more = outwards * f.reach, beyond = outwards * f.outwards();
+  const auto farther = [&](double a, double b) {
+    return end == 0 ? std::min(a, b) : std::max(a, b);
+  };
+  const auto nearer = [&](double a, double b) {
+    return end == 0 ? std::max(a, b) : std::min(a, b);
+  };
+  if (const EdgeCorner* corner = corner_at(f, end); corner != nullptr && is_fillet_) {
+    result.at.fill(glm::dot(corner->centre - f.start, f.along) + more);
+    return result;
+  }
+  const double here = EdgeFrames::at_end(f, end);
+  std::array<EdgeEnd, 2> kinds;
+  for (int side = 0; side < 2; ++side) kinds[side] = frames_.kind(f, end, side);
+  if (kinds[0] == EdgeEnd::kInside || kinds[1] == EdgeEnd::kInside) {
+    if (frames_.graph().degree(edge(f).vertex[end]) != 3) {
+      return invalid_argument(fmt::format(
+          "the cuts of the edges that meet at {} cannot be joined: other edges end there, too",
+          point_text(solid_.positions[edge(f).vertex[end]])));
+    }
+    const int side = kinds[0] == EdgeEnd::kInside ? 0 : 1;
+    result.wall = mitre_at(f, end, side);
+    result.at.fill(frames_.at_next_cut(f, end, side) + 8 * more);
+    return result;
+  }
+  std::optional<double> cap, barrier;
+  double aslant = 0;
+  for (int side = 0; side < 2; ++side) {
+    double& at = result.at[side];
+    at = here;
+    if (kinds[side] == EdgeEnd::kGoesOn) continue;
+    if (kinds[side] == EdgeEnd::kMitre) {
+      at = frames_.at_next_cut(f, end, side) + more;
+    } else {
+      at = frames_.at_plane(f, end, side, offsets[side]);
+      if (kinds[side] == EdgeEnd::kCap) {
+        // Outside of the solid the plane may be met earlier than on the side.
+        at = farther(at, frames_.at_plane(f, end, side, f.in[side] * f.setback)) + beyond;
+      }
+    }
+    const double outer = frames_.at_plane(f, end, side, offsets[2]);
+    if (kinds[side] == EdgeEnd::kWall) {
+      barrier = barrier ? nearer(*barrier, outer) : outer;
+    } else {
+      cap = cap ? farther(*cap, outer) : outer;
+    }
+    // The plane of a mitre is farther out there by as much as it is farther in on the side.
+    aslant += f.outwards() / f.setback * std::fabs(at - here);
+  }
+  result.at[2] =
+      barrier ? *barrier : farther(cap.value_or(here), here) + beyond + outwards * aslant;
+  return result;
+}
+
+Mitre EdgeEnds::mitre_at(const EdgeFrame& f, int end, int side) const {
+  const uint32_t vertex = edge(f).vertex[end];
+  Mitre result;
+  result.corner = solid_.positions[vertex];
+  const double at = frames_.at_next_cut(f, end, side), here = EdgeFrames::at_end(f, end);
+  const glm::dvec3 inwards = (at - here) * f.along + f.setback * f.in[side];
+  const EdgeGraph::Edge& third = frames_.graph().edges()[edge(f).next[end][1 - side]];
+  result.normal = glm::normalize(glm::cross(inwards, third.line.to - third.line.from));
+  if (glm::dot(result.normal, f.along) * (end == 0 ? -1 : 1) < 0) result.normal = -result.normal;
+  const glm::dvec3& down = f.in[static_cast<size_t>(1 - side)];
+  const double below = frames_.at_plane(f, end, 1 - side, down * f.setback) - here;
+  result.reach =
+      1.25 * std::max(glm::length(inwards), glm::length(below * f.along + f.setback * down));
+  result.gap = f.reach / 4 * std::fabs(glm::dot(result.normal, f.along));
+  return result;
+}
+
+bool EdgeEnds::can_be_flush(const EdgeFrame& f) const {
+  for (const glm::dvec3& n : edge(f).line.normals) {
+    if (!is_along_axis(n)) return false;
+  }
+  for (int end = 0; end < 2; ++end) {
+    for (int side = 0; side < 2; ++side) {
+      if (frames_.kind(f, end, side) != EdgeEnd::kGoesOn &&
+          !is_along_axis(frames_.plane_normal(f, end, side))) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace csgrun

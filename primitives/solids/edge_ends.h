@@ -1,0 +1,75 @@
+// Where the bodies along chosen edges end: at other sides of the solid, and at one another.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <csgrun/engine/error.h>
+
+#include "primitives/solids/edge_frames.h"
+
+namespace csgrun {
+
+/// The plane in which the cuts of two edges meet at a corner that points inwards: through the
+/// corner, the point where their lines on the common side meet, and the third edge.
+struct Mitre {
+  glm::dvec3 corner{0}, normal{0};  ///< the normal points away from the edge
+  double reach = 0;                 ///< more than what the cuts need around the corner
+  double gap = 0;  ///< so far from the plane a cut ends, less than it reaches out of the solid
+};
+
+/// A vertex all three edges of which are chosen.
+struct EdgeCorner {
+  uint32_t vertex;
+  std::array<uint32_t, 3> frames;
+  glm::dvec3 centre{0};  ///< of the ball, for fillets
+};
+
+class EdgeEnds {
+ public:
+  /// `radius` of fillets, else 0.
+  EdgeEnds(const Solid& solid, const EdgeFrames& frames, double radius);
+
+  [[nodiscard]] const std::vector<EdgeCorner>& corners() const { return corners_; }
+  /// That at an end of an edge, or null.
+  [[nodiscard]] const EdgeCorner* corner_at(const EdgeFrame& f, int end) const;
+  /// The two sides of the first edge of a corner, and the one that both others have.
+  [[nodiscard]] std::array<glm::dvec3, 3> normals_at(const EdgeCorner& corner) const;
+  /// The point that is as far in front of all three sides at a corner.
+  [[nodiscard]] glm::dvec3 in_front(const EdgeCorner& corner, double distance) const;
+
+  /// The three lines along an edge between which its prism is, as offsets from the edge: those on
+  /// the sides and the one outside of the edge.
+  using Lines = std::array<glm::dvec3, 3>;
+  [[nodiscard]] static Lines lines(const EdgeFrame& f);
+  struct PrismEnd {
+    std::array<double, 3> at{};  ///< where these lines end
+    std::optional<Mitre> wall;   ///< the prism goes beyond it
+  };
+  /// Fails where edges that are not chosen come between those that are.
+  [[nodiscard]] Result<PrismEnd> end_of(const EdgeFrame& f, int end) const;
+  [[nodiscard]] Mitre mitre_at(const EdgeFrame& f, int end, int side) const;
+
+  /// Whether bodies along an edge can end in the very planes of the solid: where these are upright
+  /// on the axes, all that is on the grid is in them.
+  [[nodiscard]] bool can_be_flush(const EdgeFrame& f) const;
+
+ private:
+  void find_corners(double radius);
+  [[nodiscard]] const EdgeGraph::Edge& edge(const EdgeFrame& f) const {
+    return frames_.graph().edges()[f.edge];
+  }
+
+  const Solid& solid_;
+  const EdgeFrames& frames_;
+  const bool is_fillet_;
+  std::vector<EdgeCorner> corners_;
+  std::vector<uint32_t> corner_of_;  ///< by vertex of the solid: its place in corners_
+};
+
+bool is_along_axis(const glm::dvec3& unit);
+
+/// "the edge from {0, 0, 0} to {1, 0, 0}", for messages.
+std::string edge_text(const SolidEdge& edge);
+
+}  // namespace csgrun
