@@ -164,12 +164,11 @@ int import_file(lua_State* L) {
   ModelPartOptions options;
   options.fill = fill_argument(arguments, kImport);
   options.repair = repair_argument(L, arguments);
-  options.open_material_file = [&](const std::string& name) -> std::optional<std::string> {
+  options.open = [&](const std::string& name) -> Result<std::string> {
     try {
       return session.files().open(file.display, name).bytes;
     } catch (const ScriptError& error) {
-      session.warn(L, std::string("import: no colours: ") + error.what());
-      return std::nullopt;
+      return Error{ErrorCode::kCannotRead, error.what(), {}};
     }
   };
   const auto& parts = import_parts(L, file, options);

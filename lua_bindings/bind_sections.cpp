@@ -45,7 +45,8 @@ constexpr FunctionSpec kProject{"project",
                                 kSolidDoc};
 
 void push_shadow(lua_State* L, const FunctionSpec& spec, SolidValue& solid) {
-  push_shape(L, value_or_fail(spec, project_solid(session_of(L).evaluated(solid))), std::nullopt);
+  push_shape(L, value_or_fail(spec, project_solid(session_of(L).evaluated(solid))),
+             one_appearance_of(solid.node));
 }
 
 void push_section(lua_State* L, const NodePtr& solid, double z) {
@@ -53,7 +54,7 @@ void push_section(lua_State* L, const NodePtr& solid, double z) {
   const EvaluationScope scope(session.budget());
   push_shape(
       L, made_or_fail(session, slice_solid(session.evaluator(), solid, z, session.source_ref(L))),
-      std::nullopt);
+      one_appearance_of(solid));
 }
 
 int projection(lua_State* L) {

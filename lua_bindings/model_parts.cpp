@@ -25,9 +25,13 @@ PolygonMesh polygon_mesh(TriangleMesh triangles, const std::string& name) {
   return mesh;
 }
 
-Result<std::vector<ModelPart>> read_gltf(const std::string& name, std::string_view bytes) {
-  auto meshes = parse_glb(name, bytes, GltfFrame::kMillimetres);
+Result<std::vector<ModelPart>> read_gltf(const std::string& name, std::string_view bytes,
+                                         const ModelPartOptions& options,
+                                         std::vector<std::string>* notes) {
+  std::vector<std::string> own_notes;
+  auto meshes = parse_glb(name, bytes, {GltfFrame::kMillimetres, options.open, &own_notes});
   if (!meshes) return meshes.error();
+  for (const std::string& note : own_notes) notes->push_back(name + ": " + note);
   std::vector<ModelPart> parts;
   for (TriangleMesh& mesh : *meshes) {
     if (mesh.triangles.empty()) continue;
@@ -42,12 +46,14 @@ Result<std::vector<ModelPart>> read_mesh(const std::string& name, std::string_vi
                                          const ModelPartOptions& options,
                                          std::vector<std::string>* notes) {
   std::vector<std::string> material_files;
-  auto mesh = parse_mesh(name, bytes, nullptr,
-                         options.open_material_file ? &material_files : nullptr, notes);
+  auto mesh = parse_mesh(name, bytes, nullptr, options.open ? &material_files : nullptr, notes);
   if (!mesh) return mesh.error();
   for (const std::string& file : material_files) {
-    const auto text = options.open_material_file(file);
-    if (!text) continue;
+    const auto text = options.open(file);
+    if (!text) {
+      notes->push_back(name + ": no colours: " + text.error().message);
+      continue;
+    }
     if (Status applied = apply_materials(*mesh, file, *text); !applied) return applied.error();
   }
   const bool has_colours = std::any_of(mesh->appearances.begin(), mesh->appearances.end(),
@@ -91,7 +97,7 @@ Result<std::vector<ModelPart>> read_model_parts(const std::string& name, std::st
   const std::string format = model_file_format_of(name);
   auto parts = format == "3mf"                       ? parse_3mf(name, bytes, notes)
                : format == "amf"                     ? parse_amf(name, bytes, notes)
-               : format == "glb" || format == "gltf" ? read_gltf(name, bytes)
+               : format == "glb" || format == "gltf" ? read_gltf(name, bytes, options, notes)
                                                      : read_mesh(name, bytes, options, notes);
   if (!parts) return parts;
   for (ModelPart& part : *parts) {

@@ -14,9 +14,9 @@ namespace csgrun {
 struct ModelPartOptions {
   FillRule fill = FillRule::kNonZero;
   std::optional<RepairOptions> repair;
-  /// The bytes of a material file that an OBJ names; nothing, with a note of its own, when it
-  /// cannot be read. Empty: colours of OBJ files are not asked for.
-  std::function<std::optional<std::string>(const std::string&)> open_material_file;
+  /// The bytes of a file that the model names: an OBJ's materials, a glTF's buffer. Without the
+  /// first there are no colours, and a note. Empty: no such file is read.
+  std::function<Result<std::string>(const std::string&)> open;
 };
 
 /// The parts of a file, closed and oriented: one of a mesh file, those of a GLB, glTF or 3MF. Parts

@@ -165,7 +165,7 @@ void LoopPieces::take(size_t start, std::vector<Fragment>& pieces) {
   for (size_t i = start; i < corners_.size(); ++i) {
     const Corner& c = corners_[i];
     const Corner& before = i > start ? corners_[i - 1] : corners_.back();
-    if (c.turn == 0 && before.plane == c.plane) continue;
+    if (before.plane == c.plane) continue;  // straight on
     points_.push_back(c.point);
     edges_.push_back(c.plane);
   }

@@ -26,7 +26,7 @@ class PieceStore {
     uint32_t first, count;  ///< corners
     PlaneId support;        ///< invalid until it was made
     bool is_whole;          ///< all of a leaf's face
-    bool is_flipped;        ///< runs the other way round than the face
+    bool is_flipped;        ///< a whole one: runs the other way round than the face
     bool is_met = false;    ///< another operand's surface touched it
   };
 

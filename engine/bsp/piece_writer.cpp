@@ -51,13 +51,13 @@ bool PieceWriter::add_cut(const std::vector<FragmentSet>& sets) {
   points_.resize(sets.size());
   for (size_t i = 0, j = 0; i < loops.size(); i = j) {
     edges_.clear();
-    bool is_simple = true;
+    bool is_simple = false;
     for (j = i; j < loops.size() && loops[j].polygon == loops[i].polygon &&
                 loops[j].plane == loops[i].plane;
          ++j) {
-      is_simple = is_simple && j == i;
-      add_edges(sets[loops[j].set], loops[j].piece, points_[loops[j].set]);
-      is_simple = is_simple && !sets[loops[j].set].pieces[loops[j].piece].is_loose;
+      const FragmentSet& set = sets[loops[j].set];
+      add_edges(set, loops[j].piece, points_[loops[j].set]);
+      is_simple = j == i && !set.pieces[loops[j].piece].is_loose;
     }
     if (!add_region(loops[i].polygon, loops[i].plane, is_simple)) return false;
   }
@@ -127,8 +127,6 @@ bool PieceWriter::add_region(uint32_t polygon, PlaneId plane, bool is_simple) {
                    fragments_);
   PieceStore::Piece piece = origin_of(polygon);
   piece.is_whole = false;
-  // (Of a polygon in pieces the job has the support as the piece has it.)
-  piece.is_flipped = piece.is_flipped != (plane != job_.polygons()[polygon].support);
   piece.support = plane;
   for (const Fragment& f : fragments_) {
     piece.first = static_cast<uint32_t>(store_.corners().size());

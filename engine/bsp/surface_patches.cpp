@@ -62,25 +62,32 @@ class EdgeLines {
     });
   }
 
-  /// Whether no edge but `first` and the one after it reaches the places between their ends.
-  /// Conservative: by rounded coordinates.
+  /// Whether no edge but `first` and the one after it, which has the same ends, reaches far between
+  /// these: by rounded coordinates along one axis. What rounding hides at the ends leaves a part of
+  /// the edge to the two alone, and a part will do.
   [[nodiscard]] bool are_alone(uint32_t first) const {
+    const int axis = longest_axis(first);
+    const std::pair<double, double> own = range(first, axis);
+    if (own.first == own.second) return false;  // too short to tell
     const auto on_line =
         std::ranges::equal_range(order_, keys_[first], {}, [&](uint32_t i) { return keys_[i]; });
-    return std::ranges::none_of(
-        on_line, [&](uint32_t i) { return i != first && i != first + 1 && overlap(i, first); });
+    return std::ranges::none_of(on_line, [&](uint32_t i) {
+      const auto [a, b] = range(i, axis);
+      return i != first && i != first + 1 && a < own.second && own.first < b;
+    });
   }
 
  private:
-  [[nodiscard]] bool overlap(uint32_t i, uint32_t j) const {
-    const Edge &e = edges_[i], &f = edges_[j];
-    const bool share = e.low == f.low || e.low == f.high || e.high == f.low || e.high == f.high;
-    for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = range(i, k);
-      const auto [c, d] = range(j, k);
-      if (a > d || c > b || (share && a < b && (a == d || c == b))) return false;
+  [[nodiscard]] int longest_axis(uint32_t i) const {
+    const auto length = [&](int axis) {
+      const auto [lo, hi] = range(i, axis);
+      return hi - lo;
+    };
+    int longest = 0;
+    for (int k = 1; k < 3; ++k) {
+      if (length(k) > length(longest)) longest = k;
     }
-    return true;
+    return longest;
   }
   [[nodiscard]] std::pair<double, double> range(uint32_t i, int axis) const {
     const JobPolygon& p = job_.polygons()[edges_[i].polygon];

@@ -11,7 +11,7 @@ namespace csgrun {
 uint32_t TouchFinder::number(uint32_t point) {
   const uint32_t vertex = geometry_.point(point).vertex;
   if (vertex != kNone && !touched_[vertex]) return point;
-  if (point >= numbers_.size()) numbers_.resize(geometry_.point_count(), kNone);
+  numbers_.resize(geometry_.point_count(), kNone);
   if (numbers_[point] == kNone) numbers_[point] = index_.unique(point);
   return numbers_[point];
 }
@@ -63,10 +63,9 @@ bool TouchFinder::add_on_edge(uint32_t polygon, uint32_t point, bool flip) {
   return false;
 }
 
-/// Whether the edge after a corner starts towards a point. Edges of one line may be broken
-/// elsewhere on the other side.
+/// Whether the edge after a corner starts towards a point that it does not end in. Edges of one
+/// line may be broken elsewhere on the other side.
 bool TouchFinder::leads_to(const Corner& corner, uint32_t point) {
-  if (corner.after == point) return true;
   job_.ensure_support(corner.polygon);
   if (geometry_.side(job_.polygons()[corner.polygon].support.index(), point) != 0) return false;
   const uint32_t plane = corner.plane & CutLoops::kOwnEdge
@@ -112,7 +111,7 @@ std::vector<GridBox> TouchFinder::find() {
     for (uint32_t i = by_point.starts[p]; i < by_point.starts[p + 1]; ++i) {
       here.push_back(corners_[by_point.order[i]]);
     }
-    if (here.empty() || is_one_round(here)) continue;
+    if (is_one_round(here)) continue;
     for (const Corner& c : here) {
       add_edge(c.before, c.at);
       add_edge(c.at, c.after);

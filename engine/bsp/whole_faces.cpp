@@ -141,7 +141,7 @@ class FaceEvaluator {
       }
       const bool plain = list_segments(p);
       if (segments_.empty() && coplanar_.empty() && untouched_corner(p) != kNone) continue;
-      if (cut_.size() % 64 == 0 && is_cancelled()) return false;
+      if (is_cancelled()) return false;
       job_.ensure_support(p);
       is_cut_[p] = 1;
       bool is_done = plain && cutter.cut(p, segments_, loops_);
@@ -329,7 +329,6 @@ class FaceEvaluator {
   /// What becomes of the polygons that were not cut.
   void emit_whole() {
     const size_t count = job_.polygons().size();
-    const auto is_whole = [&](size_t p) { return !is_cut_[p] && !result_.general[p]; };
     const auto patch_of = [&](size_t p) {
       return patches_.root(untouched_corner(static_cast<uint32_t>(p)));
     };
@@ -339,7 +338,7 @@ class FaceEvaluator {
     for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
       uint32_t last = kNone;
       for (size_t p = begin; p < end; ++p) {
-        patch[p] = is_whole(p) ? patch_of(p) : kNone;
+        patch[p] = is_cut_[p] ? kNone : patch_of(p);
         if (patch[p] == kNone || patch[p] == last || patch_fates_[patch[p]] != kUnasked) continue;
         last = patch[p];
         unasked[part].push_back(last);

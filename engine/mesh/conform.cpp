@@ -438,6 +438,44 @@ class Conformer {
         number += count;
       }
     }
+    if (!inside.empty()) break_partners(inside);
+  }
+
+  /// Breaks the edges of faces that are not near where the faces that share them were broken.
+  void break_partners(std::span<const std::pair<uint32_t, uint32_t>> inside) {
+    std::vector<std::pair<Ends, uint32_t>> broken;
+    std::vector<uint8_t> is_end(geometry_.point_count(), 0);
+    for (const auto& [e, p] : inside) {
+      const Ends ends = std::minmax(edges_[e].edge.from, edges_[e].edge.to);
+      broken.emplace_back(ends, p);
+      is_end[ends.first] = 1;
+    }
+    std::sort(broken.begin(), broken.end());
+    broken.erase(std::unique(broken.begin(), broken.end()), broken.end());
+    std::vector<DirectedEdge> parts;
+    std::vector<uint32_t> points;
+    auto next_near = near_.begin();
+    for (uint32_t f = 0; f < faces_.size(); ++f) {
+      if (next_near != near_.end() && *next_near == f) {
+        ++next_near;
+        continue;
+      }
+      for (auto& loop : faces_[f].loops) {
+        parts.clear();
+        for (const DirectedEdge& e : loop) {
+          points.clear();
+          const Ends ends = std::minmax(e.from, e.to);
+          if (is_end[ends.first] != 0) {
+            for (auto at = std::lower_bound(broken.begin(), broken.end(), std::pair(ends, 0u));
+                 at != broken.end() && at->first == ends; ++at) {
+              points.push_back(at->second);
+            }
+          }
+          append_broken(geometry_, e, points, parts);
+        }
+        if (parts.size() != loop.size()) loop = parts;
+      }
+    }
   }
 
   /// The parts of lying edges that are inside their face.

@@ -69,7 +69,16 @@ std::vector<TriangleMesh> parts_of(const PolygonMesh& mesh, std::vector<MeshObje
 }
 
 Result<std::vector<TriangleMesh>> read_meshes(const std::string& path, const std::string& bytes) {
-  if (is_gltf(path)) return parse_glb(path, bytes);
+  if (is_gltf(path)) {
+    GltfOptions options;
+    options.open = [&](const std::string& name) -> Result<std::string> {
+      FileText text = read_whole_file(join_path(folder_of(path), name));
+      if (text.error.empty()) return std::move(text.bytes);
+      return Error{
+          ErrorCode::kCannotRead, fmt::format("cannot read '{}': {}", name, text.error), {}};
+    };
+    return parse_glb(path, bytes, options);
+  }
   const std::string stem = std::filesystem::path(path).stem().string();
   if (is_3mf_path(path) || is_amf_path(path)) {
     auto parts = is_3mf_path(path) ? parse_3mf(path, bytes) : parse_amf(path, bytes, nullptr);

@@ -170,12 +170,11 @@ class Run {
     if (Failure failure = refuse_definitions(); failure.failed()) return failure;
     ModelPartOptions options;
     std::vector<std::string> notes;
-    options.open_material_file = [&](const std::string& name) -> std::optional<std::string> {
-      const FileText text = read_whole_file(join_path(folder_of(line_.model), name));
-      if (text.error.empty()) return text.bytes;
-      notes.push_back(
-          fmt::format("{}: no colours: cannot read '{}': {}", line_.model, name, text.error));
-      return std::nullopt;
+    options.open = [&](const std::string& name) -> Result<std::string> {
+      FileText text = read_whole_file(join_path(folder_of(line_.model), name));
+      if (text.error.empty()) return std::move(text.bytes);
+      return Error{
+          ErrorCode::kCannotRead, fmt::format("cannot read '{}': {}", name, text.error), {}};
     };
     auto parts = read_model_parts(line_.model, bytes, options, &notes);
     if (!parts) {

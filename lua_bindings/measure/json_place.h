@@ -58,6 +58,12 @@ class JsonPlace {
   [[nodiscard]] std::string text(const char* key, const char* otherwise) const {
     return has(key) ? at(key).text() : otherwise;
   }
+  [[nodiscard]] bool truth(const char* key, bool otherwise) const {
+    if (!has(key)) return otherwise;
+    const JsonPlace value = at(key);
+    value.require(value.json_->is_boolean(), "true or false");
+    return value.json_->get<bool>();
+  }
   /// A list of indices; none when it is not there.
   [[nodiscard]] std::vector<size_t> indices(const char* key) const {
     std::vector<size_t> result;

@@ -11,7 +11,8 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 
-#include "lua_bindings/measure/embedded_buffer.h"
+#include "lua_bindings/measure/gltf_buffers.h"
+#include "lua_bindings/measure/gltf_data.h"
 #include "lua_bindings/measure/json_place.h"
 
 namespace csgrun {
@@ -21,10 +22,9 @@ static_assert(std::endian::native == std::endian::little, "GLB is read as it lie
 
 using Json = nlohmann::json;
 
-// Khronos glTF 2.0, section 4.4 (GLB) and 3.6 (accessors).
+// Khronos glTF 2.0, section 4.4 (GLB) and 3.7.2.1 (meshes).
 constexpr uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-constexpr size_t kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;
-constexpr size_t kTriangles = 4;
+constexpr size_t kTriangles = 4, kFan = 6;  // 5 is a strip
 constexpr size_t kLongestName = 4096;
 constexpr const char* kManifold = "EXT_mesh_manifold";
 
@@ -66,15 +66,18 @@ bool same_triangles(const TriangleMesh& a, const TriangleMesh& b) {
 
 class Reader {
  public:
-  Reader(Json json, std::string_view binary, GltfFrame frame)
-      : json_(std::move(json)), binary_(binary), frame_(frame) {
-    refuse_addresses();
+  /// `binary` is the data that follows the JSON in a GLB.
+  Reader(Json json, std::string_view binary, const GltfOptions& options)
+      : json_(std::move(json)),
+        options_(options),
+        buffers_(read_buffers(root(), binary, options.open)),
+        data_(root(), {buffers_.begin(), buffers_.end()}) {
     read_materials();
   }
 
   /// The meshes of all nodes where the nodes put them, in the order of the nodes. A node's name is
   /// that of its groups and its own, as in "legs/left".
-  std::vector<TriangleMesh> meshes() const {
+  std::vector<TriangleMesh> meshes() {
     std::vector<TriangleMesh> result;
     if (!root().has("nodes")) return result;
     const JsonPlace nodes = root().at("nodes");
@@ -86,6 +89,10 @@ class Reader {
       triangles.name = places[n].name.empty() ? mesh.text("name", "mesh") : places[n].name;
       put(triangles, places[n].map);
       result.push_back(std::move(triangles));
+    }
+    if (left_out_ > 0 && options_.notes != nullptr) {
+      options_.notes->push_back("points and lines are left out: " + std::to_string(left_out_) +
+                                (left_out_ == 1 ? " primitive" : " primitives"));
     }
     return result;
   }
@@ -99,25 +106,6 @@ class Reader {
   };
 
   [[nodiscard]] JsonPlace root() const { return {json_, ""}; }
-
-  /// Nothing outside of the file is read; a file that asks for it is told apart from one that is
-  /// merely without textures.
-  void refuse_addresses() const {
-    for (const char* list : {"buffers", "images"}) {
-      if (!root().has(list)) continue;
-      const JsonPlace entries = root().at(list);
-      for (size_t i = 0; i < entries.size(); ++i) {
-        const std::string address = entries.at(i).text("uri", "");
-        if (address.starts_with("data:")) continue;
-        const bool leads_out = address.find("..") != std::string::npos ||
-                               address.find(':') != std::string::npos || address.starts_with('/');
-        if (leads_out || (!address.empty() && std::string_view(list) == "buffers")) {
-          throw Malformed{entries.at(i).name() + " is at \"" + address.substr(0, 60) +
-                          "\", outside of the file: only data in the file itself is read"};
-        }
-      }
-    }
-  }
 
   /// sRGB of a linear component, in the bytes that it was very likely made of.
   static float srgb_from_linear(double c) {
@@ -174,7 +162,7 @@ class Reader {
 
   /// The triangles of all primitives. Vertices are one where the manifold that goes with them says
   /// so, or else where their coordinates are equal.
-  TriangleMesh triangles_of(const JsonPlace& mesh) const {
+  TriangleMesh triangles_of(const JsonPlace& mesh) {
     TriangleMesh drawn;
     const JsonPlace primitives = mesh.at("primitives");
     for (size_t p = 0; p < primitives.size(); ++p) add_primitive(primitives.at(p), drawn);
@@ -203,7 +191,7 @@ class Reader {
       Place& place = places[top];
       place.is_reached = true;
       const bool is_frame = stack.size() == 1 && !node.has("mesh");
-      if (frame_ == GltfFrame::kMillimetres) {
+      if (options_.frame == GltfFrame::kMillimetres) {
         place.map = without_noise(to_millimetres() * map_of(node));
       } else if (!is_frame) {
         place.map = map_of(node);
@@ -270,59 +258,59 @@ class Reader {
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   }
 
-  /// The bytes of an accessor's elements, each of `size`, `stride` apart.
-  struct Elements {
-    const char* data;
-    size_t count, stride;
-  };
-
-  /// `count` elements of a buffer view, from a byte on that `owner` names.
-  Elements elements(const JsonPlace& owner, size_t count, size_t size) const {
-    const JsonPlace view = root().at("bufferViews").at(owner.at("bufferView").whole());
-    if (view.at("buffer").whole() != 0) throw Malformed{"there is data outside of the file"};
-    const size_t stride = view.whole("byteStride", size);
-    const size_t start = view.whole("byteOffset", 0) + owner.whole("byteOffset", 0);
-    if (stride < size || start > binary_.size() ||
-        (count > 0 && (size > binary_.size() - start ||
-                       (count - 1) > (binary_.size() - start - size) / stride))) {
-      throw Malformed{owner.name() + " reaches beyond the end of the data"};
+  void add_primitive(const JsonPlace& primitive, TriangleMesh& mesh) {
+    const size_t mode = primitive.whole("mode", kTriangles);
+    if (mode < kTriangles) {
+      ++left_out_;
+      return;
     }
-    return {binary_.data() + start, count, stride};
-  }
-
-  void add_primitive(const JsonPlace& primitive, TriangleMesh& mesh) const {
-    if (primitive.whole("mode", kTriangles) != kTriangles)
-      throw Malformed{"only triangles are read, no strips, fans, lines or points"};
+    if (mode > kFan) throw Malformed{primitive.name() + ".mode must be from 0 to 6"};
+    refuse_compression(primitive);
     const JsonPlace accessors = root().at("accessors");
-    const JsonPlace positions = accessors.at(primitive.at("attributes").at("POSITION").whole());
-    if (positions.at("componentType").whole() != kFloat || positions.at("type").text() != "VEC3")
-      throw Malformed{positions.name() + ": positions must be three floats"};
-    if (positions.has("sparse"))
-      throw Malformed{positions.name() + ": sparse positions are not read"};
-    const auto first = static_cast<uint32_t>(mesh.points.size());
-    const Elements points = elements(positions, positions.at("count").whole(), 12);
-    for (size_t i = 0; i < points.count; ++i) {
-      float p[3];
-      std::memcpy(p, points.data + i * points.stride, sizeof p);
-      if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-        throw Malformed{"a position is not finite"};
-      mesh.points.emplace_back(p[0] + 0.0, p[1] + 0.0, p[2] + 0.0);
-    }
+    const std::vector<glm::dvec3> points =
+        data_.positions(accessors.at(primitive.at("attributes").at("POSITION").whole()));
     std::vector<uint32_t> indices;
     if (primitive.has("indices")) {
-      indices = read_indices(accessors.at(primitive.at("indices").whole()));
+      indices = data_.indices(accessors.at(primitive.at("indices").whole()));
     } else {
-      for (uint32_t i = 0; i < points.count; ++i) indices.push_back(i);
+      for (uint32_t i = 0; i < points.size(); ++i) indices.push_back(i);
     }
-    if (indices.size() % 3 != 0) throw Malformed{"the number of indices is no multiple of three"};
-    for (size_t i = 0; i < indices.size(); i += 3) {
-      for (size_t k = i; k < i + 3; ++k) {
-        if (indices[k] >= points.count) throw Malformed{"an index is out of range"};
+    for (const uint32_t index : indices) {
+      if (index >= points.size()) throw Malformed{"an index is out of range"};
+    }
+    if (mode == kTriangles && indices.size() % 3 != 0)
+      throw Malformed{"the number of indices is no multiple of three"};
+    const auto first = static_cast<uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), points.begin(), points.end());
+    const size_t before = mesh.triangles.size();
+    const auto add = [&](size_t a, size_t b, size_t c) {
+      mesh.triangles.push_back({first + indices[a], first + indices[b], first + indices[c]});
+    };
+    if (mode == kTriangles) {
+      for (size_t i = 0; i < indices.size(); i += 3) add(i, i + 1, i + 2);
+    } else {
+      for (size_t i = 0; i + 2 < indices.size(); ++i) {
+        const uint32_t a = mode == kFan ? indices[0] : indices[i];
+        // A strip goes on elsewhere by way of triangles that repeat a corner: these are none.
+        if (a == indices[i + 1] || a == indices[i + 2] || indices[i + 1] == indices[i + 2])
+          continue;
+        if (mode == kFan) {
+          add(i + 1, i + 2, 0);
+        } else {
+          add(i, i + 1 + i % 2, i + 2 - i % 2);
+        }
       }
-      mesh.triangles.push_back(
-          {first + indices[i], first + indices[i + 1], first + indices[i + 2]});
     }
-    add_look(primitive, indices.size() / 3, mesh);
+    add_look(primitive, mesh.triangles.size() - before, mesh);
+  }
+
+  static void refuse_compression(const JsonPlace& primitive) {
+    if (primitive.has("extensions") &&
+        primitive.at("extensions").has("KHR_draco_mesh_compression")) {
+      throw Malformed{
+          "its meshes are compressed (KHR_draco_mesh_compression), which is not read: "
+          "write it without"};
+    }
   }
 
   /// The appearance of the last `count` triangles, which are the primitive's.
@@ -340,38 +328,11 @@ class Reader {
     mesh.appearance_of.insert(mesh.appearance_of.end(), count, place);
   }
 
-  /// Unsigned integers, as `owner` describes them; their type stands with `typed`.
-  std::vector<uint32_t> read_integers(const JsonPlace& owner, const JsonPlace& typed,
-                                      size_t count) const {
-    const size_t type = typed.at("componentType").whole();
-    const size_t size = type == kByte ? 1 : type == kShort ? 2 : type == kInt ? 4 : 0;
-    if (size == 0) throw Malformed{typed.name() + ": indices must be unsigned integers"};
-    const Elements values = elements(owner, count, size);
-    std::vector<uint32_t> integers(count);
-    for (size_t i = 0; i < count; ++i)
-      std::memcpy(&integers[i], values.data + i * values.stride, size);
-    return integers;
-  }
-
-  /// The indices of an accessor, with what its sparse part puts in the place of some.
-  std::vector<uint32_t> read_indices(const JsonPlace& accessor) const {
-    std::vector<uint32_t> indices = read_integers(accessor, accessor, accessor.at("count").whole());
-    if (!accessor.has("sparse")) return indices;
-    const JsonPlace sparse = accessor.at("sparse");
-    const size_t count = sparse.at("count").whole();
-    const std::vector<uint32_t> at =
-        read_integers(sparse.at("indices"), sparse.at("indices"), count);
-    const std::vector<uint32_t> to = read_integers(sparse.at("values"), accessor, count);
-    for (size_t i = 0; i < count; ++i) {
-      if (at[i] >= indices.size()) throw Malformed{sparse.name() + ": an index is out of range"};
-      indices[at[i]] = to[i];
-    }
-    return indices;
-  }
-
   Json json_;
-  std::string_view binary_;
-  GltfFrame frame_;
+  const GltfOptions& options_;
+  std::vector<std::string> buffers_;
+  GltfData data_;
+  size_t left_out_ = 0;  ///< primitives of points and lines
   std::vector<Appearance> materials_;
 };
 
@@ -385,29 +346,22 @@ Json parse_json(std::string_view text) {
   }
 }
 
-/// A file of JSON alone, whose only buffer is in it.
-std::vector<TriangleMesh> read_text(std::string_view text, GltfFrame frame) {
+std::vector<TriangleMesh> read_document(std::string_view text, std::string_view binary,
+                                        const GltfOptions& options) {
   Json json = parse_json(text);
-  const JsonPlace root(json, "");
-  std::string binary;
-  if (root.has("buffers")) {
-    const JsonPlace buffers = root.at("buffers");
-    if (buffers.size() > 1) throw Malformed{"only one buffer is read"};
-    if (buffers.size() == 1) {
-      auto data = decode_data_address(buffers.at(size_t{0}).text("uri", ""));
-      if (!data) {
-        const Reader refusal(json, {}, frame);  // an address has a message of its own
-        throw Malformed{"its buffer is not in the file itself, as base64"};
-      }
-      binary = *std::move(data);
-    }
+  // Version 1 has objects where version 2 has lists: what it lacks would say nothing to anybody.
+  const Json* asset = json.is_object() && json.contains("asset") ? &json["asset"] : nullptr;
+  if (asset != nullptr && asset->is_object() && asset->contains("version") &&
+      (*asset)["version"].is_string() && (*asset)["version"].get<std::string>().starts_with("1.")) {
+    throw Malformed{"only version 2 of glTF is read"};
   }
-  return Reader(std::move(json), binary, frame).meshes();
+  return Reader(std::move(json), binary, options).meshes();
 }
 
-std::vector<TriangleMesh> read(std::string_view bytes, GltfFrame frame) {
+std::vector<TriangleMesh> read(std::string_view bytes, const GltfOptions& options) {
   const size_t start = bytes.find_first_not_of(" \t\r\n");
-  if (start != std::string_view::npos && bytes[start] == '{') return read_text(bytes, frame);
+  if (start != std::string_view::npos && bytes[start] == '{')
+    return read_document(bytes, {}, options);
   constexpr std::string_view kStart = "glTF";
   if (bytes.substr(0, kStart.size()) != kStart.substr(0, bytes.size()))
     throw Malformed{
@@ -426,15 +380,16 @@ std::vector<TriangleMesh> read(std::string_view bytes, GltfFrame frame) {
       throw Malformed{"the second chunk must be binary"};
     binary = bytes.substr(at + 8, size);
   }
-  return Reader(parse_json(text), binary, frame).meshes();
+  return read_document(text, binary, options);
 }
 
 }  // namespace
 
 Result<std::vector<TriangleMesh>> parse_glb(const std::string& name, std::string_view bytes,
-                                            GltfFrame frame) {
+                                            const GltfOptions& options) {
   try {
-    return read(bytes, frame);
+    std::vector<TriangleMesh> meshes = read(bytes, options);
+    return meshes;
   } catch (const Malformed& problem) {
     return Error{ErrorCode::kMalformedFile, name + ": " + problem.what, {}};
   }

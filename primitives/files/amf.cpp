@@ -262,7 +262,9 @@ Result<std::vector<ModelPart>> parse_amf(const std::string& name, std::string_vi
                                          std::vector<std::string>* notes) {
   std::string text;
   if (bytes.starts_with("PK")) {
-    auto unpacked = unzip_first(name, bytes, ".amf");
+    auto archive = ZipArchive::open(name, bytes);
+    if (!archive) return archive.error();
+    auto unpacked = archive->first(".amf");
     if (!unpacked) return unpacked.error();
     if (!*unpacked) return malformed(name, "", "its archive has no file that ends in .amf");
     text = **std::move(unpacked);

@@ -409,7 +409,7 @@ class CsgBuilder {
     Result<Shape2D> shape =
         cut ? slice_solid(evaluator(), child->solid, 0, place) : shadow(child->solid);
     if (!shape && environment_.evaluation_failed != nullptr) *environment_.evaluation_failed = true;
-    return item_of(std::move(shape));
+    return item_of(std::move(shape), one_appearance_of(child->solid));
   }
 
   Result<Shape2D> shadow(const NodePtr& node) {

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include <csgrun/engine/repair.h>
+
 #include "primitives/base/text.h"
 #include "primitives/files/formats.h"
 
@@ -134,8 +136,10 @@ std::optional<Affine> CsgArguments::matrix() {
 
 Result<PolygonMesh> repaired_or(Result<PolygonMesh> refused, PolygonMesh given,
                                 std::vector<std::string>& notes) {
+  const Result<RepairOptions> options = suggest_repair(given);
+  if (!options || options->fill_holes) return refused;
   std::vector<std::string> steps;
-  Result<PolygonMesh> mesh = repair_solid_mesh(std::move(given), RepairOptions{}, &steps);
+  Result<PolygonMesh> mesh = repair_solid_mesh(std::move(given), *options, &steps);
   if (!mesh) return refused;
   notes.insert(notes.end(), steps.begin(), steps.end());
   return mesh;

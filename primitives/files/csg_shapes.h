@@ -51,8 +51,8 @@ class CsgArguments {
   std::optional<Error> error_;
 };
 
-/// What a repair by default makes of a mesh that was refused, with what it did among the notes:
-/// nobody can ask for one in a .csg file. Where it does not help, the refusal.
+/// What the least repair that fills no hole makes of a mesh that was refused, with what it did
+/// among the notes: nobody can ask for one in a .csg file. Where none helps, the refusal.
 Result<PolygonMesh> repaired_or(Result<PolygonMesh> refused, PolygonMesh given,
                                 std::vector<std::string>& notes);
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <csgrun/engine/error.h>
@@ -13,14 +14,29 @@
 
 namespace csgrun {
 
-Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes);
+Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes,
+                              std::vector<std::string>* notes);
 Result<PolygonMesh> parse_off(const std::string& name, std::string_view bytes,
                               std::vector<std::string>* notes);
 Result<PolygonMesh> parse_obj(const std::string& name, std::string_view bytes,
                               std::vector<MeshObject>* objects,
-                              std::vector<std::string>* material_files);
+                              std::vector<std::string>* material_files,
+                              std::vector<std::string>* notes);
 Result<PolygonMesh> parse_ply(const std::string& name, std::string_view bytes,
                               std::vector<std::string>* notes);
+
+/// What is passed over: how often, and where it was first.
+struct PassedOver {
+  uint64_t count = 0;
+  std::string first;
+
+  void add(std::string place) {
+    if (count++ == 0) first = std::move(place);
+  }
+};
+
+/// Notes faces of fewer than three corners, if there were any: they bound nothing.
+void note_small_faces(const PassedOver& faces, std::vector<std::string>* notes);
 
 /// "part.obj: line 12: face index 9 is out of range, there are 8 points".
 Error malformed(const std::string& name, const std::string& place, const std::string& what);

@@ -42,6 +42,12 @@ Error malformed(const std::string& name, const std::string& place, const std::st
   return Error{ErrorCode::kMalformedFile, std::move(message), {}};
 }
 
+void note_small_faces(const PassedOver& faces, std::vector<std::string>* notes) {
+  if (faces.count == 0 || notes == nullptr) return;
+  const std::string which = faces.count == 1 ? "1 face" : std::to_string(faces.count) + " faces";
+  notes->push_back(which + " of fewer than three corners left out (first: " + faces.first + ")");
+}
+
 std::optional<Error> check_count(const std::string& name, const std::string& place,
                                  const std::string& what, uint64_t count, uint64_t bytes_each,
                                  uint64_t present) {
@@ -73,10 +79,13 @@ Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
   }
   if (bytes.empty()) return malformed(name, "", "the file is empty");
   std::vector<std::string> own_notes;
-  Result<PolygonMesh> mesh = format == "stl"   ? parse_stl(name, bytes)
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // before UTF-8, which all may be
+  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
+  Result<PolygonMesh> mesh = format == "stl"   ? parse_stl(name, bytes, &own_notes)
                              : format == "off" ? parse_off(name, bytes, &own_notes)
-                             : format == "obj" ? parse_obj(name, bytes, objects, material_files)
-                                               : parse_ply(name, bytes, &own_notes);
+                             : format == "obj"
+                                 ? parse_obj(name, bytes, objects, material_files, &own_notes)
+                                 : parse_ply(name, bytes, &own_notes);
   if (!mesh) return mesh;
   if (mesh->face_count() == 0) return malformed(name, "", "has no faces");
   mesh->kind = name;

@@ -1,6 +1,6 @@
 // Wavefront OBJ: points and polygons, and where objects begin. Texture coordinates, normals,
-// groups, materials, lines and the like are passed over; a statement that OBJ does not know is an
-// error.
+// groups, materials, lines and the like are passed over; so, with a note, are statements that OBJ
+// does not know, since programs have some of their own. What is no word at all is an error.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -23,9 +23,16 @@ bool is_passed_over(std::string_view word) {
   return std::binary_search(kPassedOver.begin(), kPassedOver.end(), word);
 }
 
+bool is_name(std::string_view word) {
+  return std::all_of(word.begin(), word.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
 class ObjReader {
  public:
-  ObjReader(const std::string& name, std::string_view text) : name_(name), scanner_(text, '#') {}
+  ObjReader(const std::string& name, std::string_view text, std::vector<std::string>* notes)
+      : name_(name), scanner_(text, '#'), notes_(notes) {}
 
   Result<PolygonMesh> read() {
     do {
@@ -38,17 +45,19 @@ class ObjReader {
       } else if (word == "o") {
         begin_object();
       } else if (word == "mtllib") {
-        error = read_material_file();
+        read_material_file();
       } else if (word == "usemtl") {
         material_ = scanner_.rest_of_line();
       } else if (!word.empty() && !is_passed_over(word)) {
-        error = here("not an OBJ statement: " + quoted(word));
+        if (!is_name(word)) return here("not an OBJ statement: " + quoted(word));
+        unknown_.add(scanner_.place() + ": " + quoted(word));
       }
       if (error) return *error;
     } while (scanner_.next_line());
     for (const Forward& f : forward_) {
       if (f.index >= mesh_.points.size()) return out_of_range(f.line, f.index + 1);
     }
+    note_what_was_passed_over();
     if (!objects_.empty() && objects_.back().first_face == mesh_.face_count()) objects_.pop_back();
     return std::move(mesh_);
   }
@@ -72,15 +81,26 @@ class ObjReader {
     return text;
   }
 
-  /// A model from somewhere must not make us read what lies beside it.
-  std::optional<Error> read_material_file() {
+  void note_what_was_passed_over() {
+    note_small_faces(small_faces_, notes_);
+    if (unknown_.count > 0 && notes_ != nullptr) {
+      notes_->push_back(
+          (unknown_.count == 1 ? "1 line" : std::to_string(unknown_.count) + " lines") +
+          " with statements that OBJ does not know passed over (first: " + unknown_.first + ")");
+    }
+  }
+
+  /// A model from somewhere must not make us read what lies elsewhere: it has no colours then.
+  void read_material_file() {
     const std::string path(scanner_.rest_of_line());
     const bool leads_out = path.starts_with('/') || path.find("..") != std::string::npos ||
                            path.find(':') != std::string::npos ||
                            path.find('\\') != std::string::npos;
-    if (leads_out) return here("mtllib " + quoted(path) + " leads out of the file's folder");
-    if (!path.empty()) material_files_.push_back(path);
-    return std::nullopt;
+    if (leads_out && notes_ != nullptr) {
+      notes_->push_back(scanner_.place() + ": no colours: mtllib " + quoted(path) +
+                        " leads out of the file's folder");
+    }
+    if (!leads_out && !path.empty()) material_files_.push_back(path);
   }
 
   /// The number of the appearance that stands for the material in use.
@@ -141,7 +161,8 @@ class ObjReader {
       loop_.push_back(static_cast<uint32_t>(zero_based));
     }
     if (loop_.size() < 3) {
-      return here("a face has " + std::to_string(loop_.size()) + " corners");
+      small_faces_.add(scanner_.place());
+      return std::nullopt;
     }
     mesh_.add_face(loop_);
     mesh_.appearance_of.push_back(appearance());
@@ -156,14 +177,17 @@ class ObjReader {
   std::vector<MeshObject> objects_;
   std::vector<std::string> material_files_;
   std::string material_;
+  std::vector<std::string>* notes_;
+  PassedOver unknown_, small_faces_;
 };
 
 }  // namespace
 
 Result<PolygonMesh> parse_obj(const std::string& name, std::string_view bytes,
                               std::vector<MeshObject>* objects,
-                              std::vector<std::string>* material_files) {
-  ObjReader reader(name, bytes);
+                              std::vector<std::string>* material_files,
+                              std::vector<std::string>* notes) {
+  ObjReader reader(name, bytes, notes);
   Result<PolygonMesh> mesh = reader.read();
   if (objects != nullptr) *objects = reader.take_objects();
   if (material_files != nullptr) *material_files = reader.take_material_files();

@@ -1,5 +1,5 @@
-// OFF in ASCII: [ST][C][N]OFF, three counts, a point a line, a face a line, each with a colour or
-// without. Normals and texture coordinates are passed over.
+// OFF in ASCII: [ST][C][N]OFF, three counts, points, faces, each with a colour or without on the
+// rest of its line. Normals and texture coordinates are passed over.
 #include <utility>
 #include <vector>
 
@@ -13,6 +13,8 @@ namespace {
 /// What a first word says, one of OFF's names for three-dimensional meshes, of the lines of points.
 struct Magic {
   bool has_colours = false, has_normals = false;
+  /// What follows without a blank: data sets have "OFF12 20 0", the number of points.
+  std::string_view rest;
 };
 std::optional<Magic> parse_magic(std::string_view word) {
   const auto take = [&](std::string_view part) {
@@ -24,7 +26,9 @@ std::optional<Magic> parse_magic(std::string_view word) {
   take("ST");
   magic.has_colours = take("C");
   magic.has_normals = take("N");
-  if (word != "OFF") return std::nullopt;
+  if (!take("OFF")) return std::nullopt;
+  magic.rest = word;
+  if (!word.empty() && !(word[0] >= '0' && word[0] <= '9')) return std::nullopt;
   return magic;
 }
 
@@ -39,8 +43,10 @@ class OffReader {
     if (!parsed) return here("not an OFF file: it starts with " + quoted(magic));
     magic_ = *parsed;
     uint64_t points = 0, faces = 0;
-    if (auto error = read_count("the number of points", points)) return *error;
-    if (auto error = read_count("the number of faces", faces)) return *error;
+    const std::string_view first = magic_.rest.empty() ? scanner_.word_anywhere() : magic_.rest;
+    if (auto error = read_count("the number of points", first, points)) return *error;
+    if (auto error = read_count("the number of faces", scanner_.word_anywhere(), faces))
+      return *error;
     scanner_.next_line();  // the number of edges is not used, and not always there
     // A point takes "0 0 0\n" at least, a face "3 0 1 2\n", without the line end of the last.
     if (auto error =
@@ -62,6 +68,7 @@ class OffReader {
     }
     const std::string_view rest = scanner_.word_anywhere();
     if (!rest.empty()) return here("more data after the last face: " + quoted(rest));
+    note_small_faces(small_faces_, notes_);
     colours_.apply(mesh_, notes_);
     return std::move(mesh_);
   }
@@ -81,8 +88,7 @@ class OffReader {
     return colour_of_words(words);
   }
 
-  std::optional<Error> read_count(const std::string& what, uint64_t& count) {
-    const std::string_view word = scanner_.word_anywhere();
+  std::optional<Error> read_count(const std::string& what, std::string_view word, uint64_t& count) {
     const auto value = parse_integer<uint64_t>(word);
     if (!value) {
       if (word == "BINARY") return here("binary OFF is not supported");
@@ -125,18 +131,17 @@ class OffReader {
                       ? "the file ends before " + which
                       : "expected the number of corners of " + which + ", got " + quoted(word));
     }
-    if (*count < 3) return here(which + " has " + std::to_string(*count) + " corners");
     if (auto error =
             check_count(name_, scanner_.place(), "corners", *count, 2, scanner_.remaining())) {
       return error;
     }
     loop_.clear();
     for (uint64_t k = 0; k < *count; ++k) {
-      const std::string_view index_word = scanner_.word();
+      const std::string_view index_word = scanner_.word_anywhere();
       const auto index = parse_integer<int64_t>(index_word);
       if (!index) {
         return here(index_word.empty()
-                        ? "the line ends in " + which
+                        ? "the file ends in " + which
                         : "expected an index in " + which + ", got " + quoted(index_word));
       }
       if (*index < 0 || static_cast<uint64_t>(*index) >= mesh_.points.size()) {
@@ -146,8 +151,12 @@ class OffReader {
       }
       loop_.push_back(static_cast<uint32_t>(*index));
     }
-    mesh_.add_face(loop_);
-    if (const auto colour = read_colour()) colours_.set_face(mesh_.face_count() - 1, *colour);
+    if (loop_.size() < 3) {
+      small_faces_.add(which);
+    } else {
+      mesh_.add_face(loop_);
+      if (const auto colour = read_colour()) colours_.set_face(mesh_.face_count() - 1, *colour);
+    }
     scanner_.next_line();
     return std::nullopt;
   }
@@ -158,6 +167,7 @@ class OffReader {
   Magic magic_;
   PolygonMesh mesh_;
   FaceColours colours_;
+  PassedOver small_faces_;
   std::vector<uint32_t> loop_;
   std::vector<std::string_view> words_;
 };

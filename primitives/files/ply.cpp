@@ -1,7 +1,8 @@
 // PLY: ASCII and binary of either byte order. Of the element "vertex" x, y and z are kept, of
-// "face" the list vertex_indices (or vertex_index), of both red, green, blue and alpha; everything
-// else is stepped over.
+// "face" and "tristrips" the list vertex_indices (or vertex_index), of vertices and faces red,
+// green, blue and alpha; everything else is stepped over.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -47,8 +48,8 @@ size_t size_of(Type type) {
 bool is_integer(Type type) { return type != Type::kFloat && type != Type::kDouble; }
 
 /// What a property means to us.
-enum class Role { kNone, kX, kY, kZ, kCorners, kRed, kGreen, kBlue, kAlpha };
-constexpr size_t kRoles = 9;
+enum class Role { kNone, kX, kY, kZ, kCorners, kStrip, kRed, kGreen, kBlue, kAlpha };
+constexpr size_t kRoles = 10;
 
 bool is_colour(Role role) { return role >= Role::kRed; }
 
@@ -82,7 +83,7 @@ struct Header {
 class HeaderReader {
  public:
   HeaderReader(const std::string& name, std::string_view bytes)
-      : name_(name), bytes_(bytes), scanner_(bytes) {}
+      : name_(name), bytes_(bytes), scanner_(bytes, '\0', line_end_of(bytes)) {}
 
   Result<Header> read() {
     if (scanner_.word() != "ply") return here("not a PLY file: it does not start with \"ply\"");
@@ -114,6 +115,11 @@ class HeaderReader {
 
  private:
   Error here(const std::string& what) { return malformed(name_, scanner_.place(), what); }
+
+  /// That of the header: what follows may be binary.
+  static char line_end_of(std::string_view bytes) {
+    return TextScanner::line_end_of(bytes.substr(0, bytes.find("end_header")));
+  }
 
   std::optional<Error> read_format() {
     const std::string_view word = scanner_.word();
@@ -170,10 +176,10 @@ class HeaderReader {
       if (property_name == "blue" || property_name == "diffuse_blue") property.role = Role::kBlue;
       if (property_name == "alpha") property.role = Role::kAlpha;
     }
-    if (element.name == "face" && property.is_list &&
+    if ((element.name == "face" || element.name == "tristrips") && property.is_list &&
         (property_name == "vertex_indices" || property_name == "vertex_index")) {
       if (!is_integer(property.type)) return here("vertex indices must be integers");
-      property.role = Role::kCorners;
+      property.role = element.name == "face" ? Role::kCorners : Role::kStrip;
     }
     element.properties.push_back(property);
     return std::nullopt;
@@ -283,6 +289,7 @@ class BodyReader {
                        "vertex index " + std::to_string(index) + " is out of range, there are " +
                            std::to_string(mesh_.points.size()) + " points");
     }
+    note_small_faces(small_faces_, notes);
     colours_.apply(mesh_, notes);
     return std::move(mesh_);
   }
@@ -300,8 +307,12 @@ class BodyReader {
         return malformed(name_, "", "the element \"vertex\" has no x, y and z");
       }
     }
-    if (!seen[static_cast<int>(Role::kCorners)]) {
-      return malformed(name_, "", "the element \"face\" has no list \"vertex_indices\"");
+    if (!seen[static_cast<int>(Role::kCorners)] && !seen[static_cast<int>(Role::kStrip)]) {
+      const bool has_faces = std::any_of(header_.elements.begin(), header_.elements.end(),
+                                         [](const Element& e) { return e.name == "face"; });
+      return malformed(name_, "",
+                       has_faces ? "the element \"face\" has no list \"vertex_indices\""
+                                 : "has no faces: there are points only");
     }
     return std::nullopt;
   }
@@ -358,24 +369,38 @@ class BodyReader {
     }
     loop_.clear();
     for (uint64_t k = 0; k < count; ++k) {
-      if (property.role != Role::kCorners) {
+      if (property.role == Role::kNone) {
         if (!source_.skip(property.type)) return bad_number(element, i);
         continue;
       }
       const std::optional<double> value = source_.number(property.type);
       if (!value) return bad_number(element, i);
+      if (property.role == Role::kStrip && *value == -1) {  // another strip begins
+        add_strip();
+        continue;
+      }
       if (!(*value >= 0 && *value < 4294967295.0) || *value != std::floor(*value)) {
-        return here("bad vertex index in face " + std::to_string(i));
+        return here("bad vertex index in " + element.name + " " + std::to_string(i));
       }
       loop_.push_back(static_cast<uint32_t>(*value));
     }
+    if (property.role == Role::kStrip) add_strip();
     if (property.role != Role::kCorners) return std::nullopt;
     if (loop_.size() < 3) {
-      return here("face " + std::to_string(i) + " has " + std::to_string(loop_.size()) +
-                  " corners");
+      small_faces_.add("face " + std::to_string(i));
+    } else {
+      mesh_.add_face(loop_);
     }
-    mesh_.add_face(loop_);
     return std::nullopt;
+  }
+
+  /// The triangles of a strip, every other one turned; those that repeat a corner only lead on.
+  void add_strip() {
+    for (size_t k = 0; k + 2 < loop_.size(); ++k) {
+      const uint32_t a = loop_[k], b = loop_[k + 1 + k % 2], c = loop_[k + 2 - k % 2];
+      if (a != b && b != c && c != a) mesh_.add_face(std::array<uint32_t, 3>{a, b, c});
+    }
+    loop_.clear();
   }
 
   Error bad_number(const Element& element, uint64_t i) {
@@ -389,6 +414,7 @@ class BodyReader {
   PolygonMesh mesh_;
   FaceColours colours_;
   std::vector<uint32_t> loop_;
+  PassedOver small_faces_;
 };
 
 }  // namespace

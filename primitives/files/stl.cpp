@@ -1,6 +1,6 @@
 // STL. Binary when the size is that of its count field (some binary files start with "solid"), else
-// ASCII. Triangles are welded by equal coordinates; normals are ignored, the order of corners
-// counts.
+// ASCII, else binary if there is more than its count says. Triangles are welded by equal
+// coordinates; normals are ignored, the order of corners counts.
 #include <array>
 #include <cmath>
 #include <utility>
@@ -126,23 +126,31 @@ class AsciiReader {
 
 }  // namespace
 
-Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes) {
+Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes,
+                              std::vector<std::string>* notes) {
   const bool has_header = bytes.size() >= kHeaderBytes;
   const uint64_t count = has_header ? read_unsigned<4>(bytes, 80, false) : 0;
-  const bool binary = has_header && bytes.size() == kHeaderBytes + kTriangleBytes * count;
+  const uint64_t binary_size = kHeaderBytes + kTriangleBytes * count;
+  bool binary = has_header && bytes.size() == binary_size;
   const bool ascii = !binary && equals_ignoring_case(TextScanner(bytes).word_anywhere(), "solid") &&
                      bytes.substr(0, kHeaderBytes).find('\0') == std::string_view::npos;
+  if (!binary && !ascii && has_header && count > 0 && bytes.size() > binary_size) {
+    binary = true;
+    if (notes != nullptr) {
+      notes->push_back(std::to_string(bytes.size() - binary_size) +
+                       " bytes after the last triangle passed over");
+    }
+  }
   if (!binary && !ascii) {
     if (!has_header) {
       return malformed(name, "byte 0",
                        "not an STL file: neither \"solid\" nor a header of 84 bytes");
     }
-    Error error =
-        malformed(name, "byte 80",
-                  "not an STL file, or truncated: " + std::to_string(count) + " triangles take " +
-                      std::to_string(kHeaderBytes + kTriangleBytes * count) +
-                      " bytes, the file has " + std::to_string(bytes.size()));
-    if (bytes.size() < kHeaderBytes + kTriangleBytes * count) error.code = ErrorCode::kLimit;
+    Error error = malformed(name, "byte 80",
+                            "not an STL file, or truncated: " + std::to_string(count) +
+                                " triangles take " + std::to_string(binary_size) +
+                                " bytes, the file has " + std::to_string(bytes.size()));
+    if (bytes.size() < binary_size) error.code = ErrorCode::kLimit;
     return error;
   }
   Result<PolygonMesh> mesh =

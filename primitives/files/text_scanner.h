@@ -14,18 +14,25 @@ namespace csgrun {
 /// Reads words separated by blanks. A comment character hides the rest of its line.
 class TextScanner {
  public:
+  /// Lines end in a line feed, or, in text that has none, in a carriage return, as of old Macs.
   explicit TextScanner(std::string_view text, char comment = '\0')
-      : at_(text.data()), end_(text.data() + text.size()), comment_(comment) {}
+      : TextScanner(text, comment, line_end_of(text)) {}
+  TextScanner(std::string_view text, char comment, char line_end)
+      : at_(text.data()), end_(text.data() + text.size()), comment_(comment), line_end_(line_end) {}
+
+  static char line_end_of(std::string_view text) {
+    return text.find('\n') == std::string_view::npos ? '\r' : '\n';
+  }
 
   /// The next word of this line; empty at the end of the line.
   std::string_view word() {
     while (at_ != end_ && is_blank(*at_)) ++at_;
     const char* begin = at_;
     if (at_ != end_ && *at_ == comment_ && comment_ != '\0') {
-      while (at_ != end_ && *at_ != '\n') ++at_;
+      while (at_ != end_ && *at_ != line_end_) ++at_;
       return {};
     }
-    while (at_ != end_ && !is_blank(*at_) && *at_ != '\n') ++at_;
+    while (at_ != end_ && !is_blank(*at_) && *at_ != line_end_) ++at_;
     return {begin, static_cast<size_t>(at_ - begin)};
   }
 
@@ -34,7 +41,7 @@ class TextScanner {
   std::string_view rest_of_line() {
     while (at_ != end_ && is_blank(*at_)) ++at_;
     const char* begin = at_;
-    while (at_ != end_ && *at_ != '\n') ++at_;
+    while (at_ != end_ && *at_ != line_end_) ++at_;
     const char* last = at_;
     while (last != begin && is_blank(last[-1])) --last;
     return {begin, static_cast<size_t>(last - begin)};
@@ -42,7 +49,7 @@ class TextScanner {
 
   /// Goes to the start of the next line; false at the end of the text.
   bool next_line() {
-    while (at_ != end_ && *at_ != '\n') ++at_;
+    while (at_ != end_ && *at_ != line_end_) ++at_;
     if (at_ == end_) return false;
     ++at_;
     ++line_;
@@ -64,14 +71,14 @@ class TextScanner {
   [[nodiscard]] size_t remaining() const { return static_cast<size_t>(end_ - at_); }
 
  private:
-  static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+  [[nodiscard]] bool is_blank(char c) const {
+    return c == ' ' || c == '\t' || (c == '\r' && c != line_end_) || c == '\f' || c == '\v';
   }
 
   const char* at_;
   const char* end_;
   size_t line_ = 1;
-  char comment_;
+  char comment_, line_end_;
 };
 
 /// A whole word as a finite number; numbers too small for a double are 0.

@@ -1,6 +1,7 @@
 #include "primitives/solids/finish_solid.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,23 @@ std::string options_text(const RepairOptions& options) {
   return "{" + text + "}";
 }
 
+/// Drops what has no area, where nothing else is wrong with the mesh of a file: programs write such
+/// faces by the thousand, and no point of the surface is missing without them. Nothing when that
+/// does not make it sound.
+std::optional<PolygonMesh> without_flat_faces(const PolygonMesh& mesh, const MeshReport& report,
+                                              std::string& done) {
+  MeshReport others = report;
+  others.degenerate_faces = 0;
+  if (!others.ok()) return std::nullopt;
+  RepairOptions options;
+  options.drop_duplicates = options.orient = false;
+  RepairReport steps;
+  Result<PolygonMesh> repaired = repair_mesh(mesh, options, &steps);
+  if (!repaired || !check_mesh(*repaired).ok()) return std::nullopt;
+  for (const RepairStep& step : steps.steps) done += (done.empty() ? "" : "; ") + step.text();
+  return *std::move(repaired);
+}
+
 /// What to do about faces that somebody wrote by hand.
 std::string advice(const PolygonMesh& mesh) {
   RepairReport report;
@@ -98,7 +116,12 @@ Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std:
     drop_repeated_corners(mesh);
   }
   const MeshReport report = check_mesh(mesh);
-  if (!report.ok()) {
+  std::string done;
+  std::optional<PolygonMesh> without;
+  if (is_file && report.degenerate_faces > 0) without = without_flat_faces(mesh, report, done);
+  if (without) {
+    mesh = *std::move(without);
+  } else if (!report.ok()) {
     std::string message = name + ": " + headline(report) + ": " + report.text();
     if (report.bad_indices == 0 && report.non_finite_points == 0) {
       if (report.open_edges > 0) {
@@ -113,8 +136,9 @@ Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std:
   // With the rule `positive` what is inverted is meant to be nothing.
   if (mesh.fill != FillRule::kPositive && signed_volume(mesh) < 0) {
     reverse_faces(mesh);
-    if (note != nullptr) *note = name + ": inside out, its faces were turned over";
+    done += std::string(done.empty() ? "" : "; ") + "inside out, its faces were turned over";
   }
+  if (note != nullptr && !done.empty()) *note = name + ": " + done;
   return mesh;
 }
 

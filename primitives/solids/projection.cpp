@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -69,6 +70,37 @@ Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z
     }
   }
   return Shape2D::from_outlines(outlines);
+}
+
+std::optional<Appearance> one_appearance_of(const NodePtr& root) {
+  std::optional<Appearance> found;
+  const auto add = [&](const Appearance& look) {
+    if (!found) found = look;
+    return *found == look;
+  };
+  std::vector<const Node*> open{root.get()};
+  std::set<const Node*> seen;
+  while (!open.empty()) {
+    const Node* node = open.back();
+    open.pop_back();
+    if (!seen.insert(node).second) continue;
+    if (node->kind() == NodeKind::kAppearance) {
+      if (!add(node->appearance())) return std::nullopt;
+    } else if (node->kind() == NodeKind::kLeaf) {
+      const PolygonMesh& mesh = *node->mesh();
+      if (mesh.appearances.empty() && !add(Appearance{})) return std::nullopt;
+      for (const Appearance& look : mesh.appearances) {
+        if (!add(look)) return std::nullopt;
+      }
+    } else if (!node->children().empty()) {
+      // Constructions have the appearance of their first operand, too.
+      const bool all = node->kind() == NodeKind::kBoolean && node->op() != BooleanOp::kDifference;
+      const size_t count = all ? node->children().size() : 1;
+      for (size_t i = 0; i < count; ++i) open.push_back(node->children()[i].get());
+    }
+  }
+  if (found && found->is_default) return std::nullopt;
+  return found;
 }
 
 }  // namespace csgrun

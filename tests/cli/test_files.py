@@ -43,9 +43,17 @@ class Meshes(Case):
         self.write("flipped.off", off(POINTS, FACES[:3] + [(1, 3, 2)]))
         self.check("flipped.off", "3 ", "edges")
 
-    def test_degenerate_face(self):
+    def test_faces_without_area_are_dropped_and_told(self):
         self.write("degenerate.off", off(POINTS, FACES + [(0, 0, 1)]))
-        self.check("degenerate.off", "degenerate.off: faces without area: 1 degenerate face")
+        # The edge from 1 to 2 has its middle on one side only, and a face without area closes what is between.
+        flat = FACES[:3] + [(1, 4, 3), (4, 2, 3), (1, 2, 4)]
+        self.write("flat.off", off(POINTS + [(0.5, 0.5, 0)], flat))
+        for name, place, triangles in (("degenerate.off", "(0, 0, 0)", 4), ("flat.off", "(1, 0, 0)", 6)):
+            outcome = self.run_csgrun(name, "--stats=json")
+            self.expect(outcome, 0)
+            self.assertEqual(outcome.json()["warnings"], [f"{name}: 1 face without area was dropped (at {place})"])
+            (part,) = outcome.json()["parts"]
+            self.assertEqual((part["volume"], part["triangles"], part["closed"]), (1 / 6, triangles, True))
 
     def test_inside_out_is_turned_and_named_once(self):
         self.write("inside.off", off(POINTS, [f[::-1] for f in FACES]))

@@ -104,6 +104,15 @@ class Hostile(Case):
             f'<object id="{n}"><components>' + f'<component objectid="{n - 1}"/>' * 10 + "</components></object>"
             for n in range(1, 30))
         self.refuse("a.3mf", archive(model_3mf(tower, '<item objectid="29"/>')), "multiply to more than a model would")
+        # Documents that name each other, and more of them than a file of this size would have.
+        other = '<object id="1"><components><component objectid="1" p:path="/{}"/></components></object>'
+        self.refuse("a.3mf", archive(model_3mf(other.format("b.model")), **{"b.model": model_3mf(other.format("3D/m.model"))}),
+                    "nest too deep")
+        blanks = model_3mf(f'<object id="1">{TETRAHEDRON}</object>') + " " * 15_000_000
+        many = {f"{i}.model": blanks for i in range(3)}
+        self.refuse("a.3mf", archive(model_3mf("<object id='1'><components>" + "".join(
+            f"<component objectid='1' p:path='/{i}.model'/>" for i in range(3)) + "</components></object>"), **many),
+            "which no model does")
         self.refuse("a.3mf", archive("<model>" * 100_000), r"malformed XML|no resources|nested")
         self.refuse("a.3mf", archive("", relations=RELATIONS.replace("/3D/m.model", "../../secret.bin")), "a.3mf: ")
         self.refuse("a.3mf", archive(model_3mf(
@@ -164,9 +173,15 @@ class Hostile(Case):
     def test_materials(self):
         mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
         for name in ("../secret.mtl", "/etc/passwd", "http://a.b/c.mtl", "file:///etc/passwd", "a/../../secret.mtl", "..\\secret.mtl"):
-            self.refuse("a.obj", f"mtllib {name}\n{mesh}", "leads out of the file's folder")
+            for command in ("a.obj", "model.lua"):
+                self.write("a.obj", f"mtllib {name}\nusemtl a\n{mesh}")
+                self.write("model.lua", "return import('a.obj')")
+                outcome = self.run_csgrun(command, "--stats")
+                self.expect(outcome, 0)
+                self.assertNotIn(SECRET, outcome.err)
+                self.assertRegex(outcome.err, "a.obj: line 1: no colours: mtllib .* leads out of the file's folder")
         self.refuse("a.obj", mesh.replace("f 1 3 2", "f 1 3 99999999999999999999"), "a.obj: line 5")
-        self.refuse("a.obj", mesh + "f" + " 1" * 2_000_000 + "\n", "a.obj: ")
+        self.refuse("a.obj", mesh + "f" + " 1" * 2_000_000 + "\n", "a.obj: 1 face without area was dropped", codes=(0,))
         os.symlink("../secret.mtl", self.path("x.mtl"))
         self.write("model.lua", "return import('a.obj')")
         self.write("a.obj", "mtllib x.mtl\nusemtl a\n" + mesh)

@@ -62,12 +62,18 @@ class Info(Case):
             if uri is None:
                 del document["buffers"][0]["uri"]
             self.write("bad.gltf", json.dumps(document))
-            self.expect(self.run_csgrun("info", "bad.gltf", "--json"), 1, "bad.gltf: its buffer is not in the file")
-        for uri in ("a.bin", "../a.bin", "http://a.b/c.bin", "/etc/passwd", "file:///etc/passwd"):
+            self.expect(self.run_csgrun("info", "bad.gltf", "--json"), 1, "bad.gltf: buffers[0] has " + (
+                "no data in the file, nor an address" if uri is None else "an address that is no base64"))
+        for uri in ("../a.bin", "%2e%2e/a.bin", "http://a.b/c.bin", "/etc/passwd", "%2Fetc/passwd", "file:///etc/passwd",
+                    "..\\a.bin"):
             document["buffers"][0]["uri"] = uri
             self.write("bad.gltf", json.dumps(document))
             for command in (("info", "bad.gltf"), ("bad.gltf", "--stats")):
-                self.expect(self.run_csgrun(*command), 1, f'bad.gltf: buffers[0] is at "{uri}", outside of the file')
+                self.expect(self.run_csgrun(*command), 1, f'bad.gltf: buffers[0] is at "{uri}", outside of the file\'s folder')
+        document["buffers"][0]["uri"] = "none.bin"
+        self.write("bad.gltf", json.dumps(document))
+        for command in (("info", "bad.gltf"), ("bad.gltf", "--stats")):
+            self.expect(self.run_csgrun(*command), 1, "bad.gltf: buffers[0]: cannot read 'none.bin': No such file")
         document["buffers"][0]["uri"] = "data:;base64,AAAA"
         self.write("bad.gltf", json.dumps(document))
         self.expect(self.run_csgrun("info", "bad.gltf"), 1, "bad.gltf: accessors[0] reaches beyond the end of the data")

@@ -238,7 +238,12 @@ TEST(LoopPieces, LinesThatEndInCorners) {
   const Loop2 stairs{{0, 0}, {4, 0}, {4, 1}, {3, 1}, {3, 2},
                      {2, 2}, {2, 3}, {1, 3}, {1, 4}, {0, 4}};
   const Loop2 hourglass{{0, 0}, {6, 0}, {4, 3}, {6, 6}, {0, 6}, {2, 3}};
-  for (const Loop2& loop : {cross, comb, stairs, hourglass}) {
+  // The line from (2, 5) ends in the tip of a spike, and on one side of it the tip still turns
+  // right.
+  const Loop2 spike_above{{0, 10}, {0, 5}, {2, 5},  {2, 0},  {10, 0},
+                          {10, 7}, {5, 5}, {10, 8}, {10, 10}},
+      spike_below{{0, 10}, {0, 5}, {2, 5}, {2, 0}, {10, 0}, {10, 2}, {5, 5}, {10, 3}, {10, 10}};
+  for (const Loop2& loop : {cross, comb, stairs, hourglass, spike_above, spike_below}) {
     for (size_t first = 0; first < loop.size(); ++first) {
       for (int turn = 0; turn < 6; ++turn) {
         Loop2 turned = loop;
@@ -329,6 +334,77 @@ TEST(LoopPieces, TurnsTooSmallForDoubles) {
       region.check();
     }
   }
+}
+
+// Corners at large coordinates that doubles round, of edges that are straight on but for angles of
+// 2^-30 to 2^-50: the turn is that of the exact points.
+TEST(LoopPieces, TurnsAreThoseOfExactPoints) {
+  test::Random random(94);
+  size_t left = 0, right = 0;
+  for (int i = 0; i < 4000; ++i) {
+    PlaneTable planes;
+    CellGeometry geometry(planes, nullptr);
+    const int axis = i % 3, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const auto plane = [&](Int128 a, Int128 b, Int128 c, Int128 d) {
+      std::array<Int128, 3> n{};
+      n[u] = a, n[v] = b, n[axis] = c;
+      return planes.intern({n[0], n[1], n[2], d}).index();
+    };
+    // Seen along the axis: the plane is u + 2 v + 3 w = 0.
+    const uint32_t support = plane(1, 2, 3, 0);
+    const int64_t reach = int64_t{1} << random.integer(4, 25);
+    const int64_t qu = 3 * random.integer(-reach, reach), qv = 3 * random.integer(-reach, reach);
+    // A line through that point along (b, -a), and one with nearly the same direction.
+    const int64_t size = int64_t{1} << random.integer(15, 25);
+    const int64_t a = random.integer(-size, size), b = random.integer(-size, size);
+    int64_t s = 0, t = 0;  // with a t - b s = 1 or so
+    for (int64_t x = a, y = b, s0 = 1, t0 = 0, s1 = 0, t1 = 1; y != 0;) {
+      const int64_t quotient = x / y, rest = x % y;
+      const int64_t s2 = s0 - quotient * s1, t2 = t0 - quotient * t1;
+      x = y, y = rest, s0 = s1, t0 = t1, s1 = s2, t1 = t2;
+      s = -t0, t = s0;
+    }
+    if (a == 0 || b == 0 || (s == 0 && t == 0)) continue;
+    const int64_t times = random.integer(0, 3), sign = random.integer(0, 1) ? 1 : -1;
+    const int64_t a2 = a * times + sign * s, b2 = b * times + sign * t;
+    if (a2 == 0 && b2 == 0) continue;
+    const auto line = [&](int64_t m, int64_t n) {
+      return plane(m, n, 0, -(static_cast<Int128>(m) * qu + static_cast<Int128>(n) * qv));
+    };
+    const uint32_t one = line(a, b), two = line(a2, b2);
+    if (one == two) continue;
+    // Points on the two, a third of a step off the grid along one axis.
+    const auto across = [&](bool along_u, int64_t away) {
+      return along_u ? plane(3, 0, 0, -(3 * static_cast<Int128>(qu + away) + 1))
+                     : plane(0, 3, 0, -(3 * static_cast<Int128>(qv + away) + 1));
+    };
+    const auto point_on = [&](uint32_t of, int64_t m, int64_t n) {
+      const int64_t most = random.integer(0, 1) ? 3 : 5000;
+      const int64_t away = random.integer(1, most) * (random.integer(0, 1) ? 1 : -1);
+      return geometry.add_point({support, of, across(std::abs(m) < std::abs(n), away)});
+    };
+    uint32_t p = point_on(one, a, b), r = point_on(two, a2, b2);
+    const uint32_t q = geometry.add_point({support, one, two});
+    const auto at = [&](uint32_t point) {
+      const test::GmpPoint x = test::to_gmp(geometry.exact(point));
+      const std::array<mpq_class, 3> c{mpq_class(x.x) / x.w, mpq_class(x.y) / x.w,
+                                       mpq_class(x.z) / x.w};
+      return std::array<mpq_class, 2>{c[u], c[v]};
+    };
+    const auto cross = [&](const auto& x, const auto& y, const auto& z) {
+      return mpq_class((y[0] - x[0]) * (z[1] - y[1]) - (y[1] - x[1]) * (z[0] - y[0]));
+    };
+    const int expected = sgn(cross(at(p), at(q), at(r)));
+    for (const bool flipped : {false, true}) {
+      LoopPieces loops(geometry, planes, PlaneId(support, flipped));
+      ASSERT_EQ(loops.turn({p, q, one}, {q, r, two}), flipped ? -expected : expected)
+          << "case " << i;
+      ASSERT_EQ(loops.turn({r, q, two}, {q, p, one}), flipped ? expected : -expected);
+    }
+    ++(expected > 0 ? left : right);
+  }
+  EXPECT_GT(left, 1000u);
+  EXPECT_GT(right, 1000u);
 }
 
 TEST(Convexify, OfNothingIsNothing) {

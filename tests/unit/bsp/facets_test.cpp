@@ -116,5 +116,54 @@ TEST(Facets, AreWholeOrCompleteWhenTheirAreaIs) {
   EXPECT_GT(both_sides, 20);
 }
 
+/// A cube whose sides are facets of n x n squares each, of two steps.
+Leaf cube_of_tiles(int64_t n) {
+  std::vector<Loop> loops;
+  std::vector<uint32_t> facet;
+  for (size_t side = 0; side < 6; ++side) {
+    const size_t axis = side / 2;
+    for (int64_t i = 0; i < n; ++i) {
+      for (int64_t j = 0; j < n; ++j) {
+        Loop& loop = loops.emplace_back();
+        for (const auto& [x, y] :
+             {std::pair<int64_t, int64_t>{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}) {
+          IVec3 p{};
+          p[axis] = side % 2 ? 2 * n : 0, p[(axis + 1) % 3] = 2 * x, p[(axis + 2) % 3] = 2 * y;
+          loop.push_back(p);
+        }
+        if (side % 2 == 0) std::reverse(loop.begin(), loop.end());
+        facet.push_back(static_cast<uint32_t>(side) + 1);
+      }
+    }
+  }
+  auto leaf = std::make_shared<LeafGeometry>(*make_leaf(loops, true));
+  leaf->facet = facet;
+  return leaf;
+}
+
+// However many polygons and corners they are made of, and cut by walls meanwhile.
+TEST(Facets, OfManyPolygonsAreWholeToo) {
+  const std::vector<Operand> leaves{operand_of(cube_of_tiles(5)),
+                                    operand_of(box_leaf({7, 7, 7}, {13, 14, 15})),
+                                    operand_of(box_leaf({1, 1, -1}, {2, 2, 1}))};
+  for (const bool whole_faces : {true, false}) {
+    for (const uint32_t limit : {1u, 17u}) {
+      KernelOptions options;
+      options.whole_faces = whole_faces;
+      options.cell_limit = limit;
+      int whole = 0, parts = 0, both_sides = 0;
+      for (const Tree& tree : {join({leaf(0), leaf(1), leaf(2)}), less({leaf(0), leaf(1), leaf(2)}),
+                               differ({leaf(0), leaf(1), leaf(2)})}) {
+        const auto made = evaluate(tree, leaves, options);
+        ASSERT_TRUE(made) << text(made.error());
+        ASSERT_EQ(wrong_flag(**made, leaves, whole, parts, both_sides), "") << tree.text();
+      }
+      EXPECT_EQ(whole, 6);  // two sides are not cut into, thrice
+      EXPECT_EQ(parts, 2 * 4);
+      EXPECT_EQ(both_sides, 4 + 4);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace csgrun

@@ -77,6 +77,7 @@ TEST(PieceStore, PointsAreThoseOfTheJob) {
         const uint32_t p = store.first_point(o) + v - job.vertex_start(o);
         ASSERT_EQ(store.rounded(p), job.rounded(v));
         ASSERT_EQ(store.operand_of(p), o);
+        ASSERT_EQ(store.exact(p).w.sign(), 1);  // its planes meet in one point
         ASSERT_EQ(compare(store.exact(p), job.exact(v)), 0) << "round " << round;
         ++(store.point_planes(p)[0] == PieceStore::kNoNumber ? on_grid : constructed);
       }

@@ -2,6 +2,7 @@
 #include "engine/bsp/regions.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -220,6 +221,34 @@ TEST(Regions, EdgesThatBoundNothingAreRefused) {
       }));
     }
   }
+}
+
+// Twice the same edge and nothing else: nothing of it is a boundary, and still it is refused.
+TEST(Regions, EdgesThatAreThereTwiceAreRefused) {
+  for (const bool flipped : {false, true}) {
+    for (const auto& [p, q] : {std::pair<Point2, Point2>{{0, 0}, {3, 1}}, {{3, 1}, {0, 0}}}) {
+      Grid grid(flipped);
+      grid.edges = {grid.edge(p, q), grid.edge(p, q)};
+      EXPECT_FALSE(grid.build());
+    }
+  }
+}
+
+// A triangle with one edge the wrong way round, whatever comes first.
+TEST(Regions, LoopsThatDoNotCloseAreRefused) {
+  const std::vector<Point2> corners{{0, 0}, {4, 1}, {1, 3}};
+  std::array<size_t, 3> order{0, 1, 2};
+  do {
+    for (size_t turned = 0; turned <= 3; ++turned) {
+      Grid grid;
+      for (const size_t i : order) {
+        const Point2 &p = corners[i], &q = corners[(i + 1) % 3];
+        grid.edges.push_back(i == turned ? grid.edge(q, p) : grid.edge(p, q));
+      }
+      EXPECT_EQ(grid.build_single(), turned == 3);
+      EXPECT_EQ(grid.build(), turned == 3);
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 }  // namespace

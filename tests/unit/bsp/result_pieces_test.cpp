@@ -5,6 +5,7 @@
 
 #include "engine/bsp/untouched.h"
 #include "engine/bsp/vertex_signs.h"
+#include "engine/mesh/opposite_edges.h"
 #include "tests/support/boundary_compare.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_trees.h"
@@ -19,19 +20,29 @@ struct Version {
   Expression expression;
 };
 
-/// The expression with one more node: the root before, and operands that are new.
-Expression continued(Expression e, BooleanOp op, uint32_t first, uint32_t count) {
+/// The expression with one more node: the root before, and operands that are new, or these first.
+Expression continued(Expression e, BooleanOp op, uint32_t first, uint32_t count,
+                     bool root_last = false) {
   Expression::Node root;
   root.is_operand = false;
   root.op = op;
   root.first_child = static_cast<uint32_t>(e.children.size());
   root.child_count = count + 1;
-  e.children.push_back(static_cast<uint32_t>(e.nodes.size()) - 1);
+  const auto before = static_cast<uint32_t>(e.nodes.size()) - 1;
+  if (!root_last) e.children.push_back(before);
   for (uint32_t o = first; o < first + count; ++o) {
     e.children.push_back(static_cast<uint32_t>(e.nodes.size()));
     e.nodes.emplace_back().operand = o;
   }
+  if (root_last) e.children.push_back(before);
   e.nodes.push_back(root);
+  return e;
+}
+
+/// One node over a version, operand 0, and others; or over these first.
+Expression step_of(BooleanOp op, uint32_t others, bool version_last) {
+  Expression e = test::flat_expression(op, others + 1);
+  if (version_last) std::rotate(e.children.begin(), e.children.begin() + 1, e.children.end());
   return e;
 }
 
@@ -39,8 +50,9 @@ class Chains {
  public:
   explicit Chains(uint64_t seed) : random_(seed), maker_(random_) {}
 
-  /// Starts from two operands and goes on for some steps; each version is looked at.
-  void run(const test::TreeShape& shape, int steps) {
+  /// Starts from two operands and goes on for some steps; each version is looked at. `turning`:
+  /// steps may take the version away from something.
+  void run(const test::TreeShape& shape, int steps, bool turning = false) {
     std::vector<Version> versions;
     const test::RandomTree leaves = maker_.make(shape);
     for (const Operand& o : leaves.operands) unused_.push_back(o);
@@ -67,14 +79,17 @@ class Chains {
       next.operands.insert(next.operands.end(), others.begin(), others.end());
       const auto count = static_cast<uint32_t>(others.size());
       const auto step = static_cast<BooleanOp>(random_.integer(0, 3));
-      next.expression = continued(next.expression, step, first, count);
-      auto changed =
-          change_pieces(*versions[from].pieces, others, test::flat_expression(step, count + 1),
-                        leaves.region, {}, stats_);
+      const bool is_last = turning && random_.integer(0, 1);
+      next.expression = continued(next.expression, step, first, count, is_last);
+      const PieceStore& store = *versions[from].pieces->store;
+      const size_t pieces_before = store.piece_count(), points_before = store.point_count();
+      auto changed = change_pieces(*versions[from].pieces, others, step_of(step, count, is_last),
+                                   leaves.region, {}, stats_);
       ASSERT_TRUE(changed) << changed.error().message;
       if (!*changed) continue;
       next.pieces = *changed;
-      EXPECT_GT(next.pieces->bytes, 0u);
+      check_bytes(*next.pieces, next.pieces->store.get() == &store ? pieces_before : 0,
+                  next.pieces->store.get() == &store ? points_before : 0);
       ASSERT_NO_FATAL_FAILURE(check(next, leaves.region)) << "step " << i;
       versions.push_back(next);
       ++steps_;
@@ -94,12 +109,26 @@ class Chains {
     }
   }
 
+  /// What is new takes its bytes, and not many times as many; what was there before is not counted.
+  static void check_bytes(const ResultPieces& pieces, size_t pieces_before, size_t points_before) {
+    const size_t more_pieces = pieces.store->piece_count() - pieces_before,
+                 more_points = pieces.store->point_count() - points_before;
+    EXPECT_GE(pieces.bytes,
+              more_pieces * (sizeof(PieceStore::Piece) + sizeof(PieceBox) + 6 * sizeof(uint32_t)) +
+                  more_points * (6 * sizeof(double)));
+    EXPECT_LE(pieces.bytes, 500 * (1 + more_pieces + more_points));
+  }
+  static bool may_touch_anywhere(const BoundaryMesh& mesh) {
+    return mesh.may_touch && mesh.touches.empty();
+  }
+
   void check(const Version& v, const GridBox& region) {
     const auto once = evaluate_boolean(v.operands, v.expression, region, {}, stats_);
     ASSERT_TRUE(once) << once.error().message;
     const auto assembled = assemble_pieces(*v.pieces, false);
     ASSERT_TRUE(assembled) << assembled.error().message;
     ASSERT_EQ(test::first_difference(**assembled, **once), "");
+    ASSERT_TRUE(may_touch_anywhere(**assembled) || !may_touch_anywhere(**once));
     const auto named = assemble_pieces(*v.pieces, true);
     ASSERT_TRUE(named) << named.error().message;
     ASSERT_EQ(test::first_difference(*expanded(*named), **once), "");
@@ -140,6 +169,142 @@ TEST(ResultPieces, OfCrossingLeaves) {
   EXPECT_GT(chains.steps(), 40);
 }
 
+TEST(ResultPieces, ThatAreTakenAway) {
+  Chains chains(525);
+  for (int i = 0; i < 30; ++i) {
+    const int64_t size = i % 3 ? 5 : 1000;
+    ASSERT_NO_FATAL_FAILURE(chains.run(
+        {.size = size, .operands = 8, .frames = i % 5 == 0, .known = i % 2 == 0}, 5, true))
+        << "chain " << i;
+  }
+  EXPECT_GT(chains.steps(), 60);
+}
+
+Operand octahedron(const IVec3& middle, int64_t radius) {
+  std::vector<IVec3> points;
+  for (size_t k = 0; k < 3; ++k) {
+    for (const int64_t r : {-radius, radius}) {
+      points.push_back(middle);
+      points.back()[k] += r;
+    }
+  }
+  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(test::hull_loops(points)));
+  leaf->opposite = pair_edges(*leaf).opposite;
+  leaf->convex = true;
+  leaf->may_touch = false;
+  return test::operand_of(std::move(leaf));
+}
+
+// Faces that nothing meets stay what they are when they are turned over, once and again: the
+// boundary names them by their leaf.
+TEST(ResultPieces, AreWholeWhenTheyAreTurnedOver) {
+  std::vector<Operand> operands{octahedron({-20, 0, 0}, 10), octahedron({20, 1, 2}, 10),
+                                test::operand_of(test::box_leaf({-50, -50, -50}, {50, 50, 50})),
+                                test::operand_of(test::box_leaf({-60, -60, -60}, {60, 60, 60})),
+                                octahedron({32, 1, 2}, 9)};
+  for (uint32_t o = 0; o < operands.size(); ++o) operands[o].first_source = o;
+  const GridBox region = test::region_of(operands);
+  EvaluateStats stats;
+  Expression all = test::flat_expression(BooleanOp::kUnion, 2);
+  auto version = evaluate_pieces({operands[0], operands[1]}, all, region, {}, stats);
+  for (uint32_t o = 2; o < operands.size(); ++o) {
+    ASSERT_TRUE(version && *version);
+    const auto named = assemble_pieces(**version, true);
+    ASSERT_TRUE(named);
+    size_t untouched = 0;
+    for (const UntouchedPart& part : (*named)->parts) {
+      EXPECT_EQ(part.flipped, o == 3);
+      untouched += part.faces.size();
+    }
+    EXPECT_EQ(untouched, 16u);
+    ASSERT_EQ((*named)->parts.size(), 2u);
+    EXPECT_LT((*named)->parts[0].source, (*named)->parts[1].source);
+    const auto once = evaluate_boolean(std::vector<Operand>(operands.begin(), operands.begin() + o),
+                                       all, region, {}, stats);
+    ASSERT_TRUE(once);
+    EXPECT_EQ(test::first_difference(*expanded(*named), **once), "");
+    all = continued(all, BooleanOp::kDifference, o, 1, o < 4);
+    version = change_pieces(**version, {operands[o]}, step_of(BooleanOp::kDifference, 1, o < 4),
+                            region, {}, stats);
+  }
+  // Into a corner of the second one another is cut.
+  ASSERT_TRUE(version && *version);
+  const auto assembled = assemble_pieces(**version, false);
+  const auto once = evaluate_boolean(operands, all, region, {}, stats);
+  ASSERT_TRUE(assembled && once);
+  EXPECT_EQ(test::first_difference(**assembled, **once), "");
+}
+
+// A leaf that was turned over by the first operation of all, where nothing met it, is cut by the
+// next one.
+TEST(ResultPieces, OfVoidsThatAreCutLater) {
+  std::vector<Operand> operands{test::operand_of(test::box_leaf({-50, -50, -50}, {50, 50, 50})),
+                                octahedron({3, 4, 5}, 20), octahedron({20, 11, 12}, 17),
+                                octahedron({-10, -15, 2}, 13)};
+  for (uint32_t o = 0; o < operands.size(); ++o) operands[o].first_source = o;
+  const GridBox region = test::region_of(operands);
+  EvaluateStats stats;
+  Expression all = test::flat_expression(BooleanOp::kDifference, 2);
+  auto version = evaluate_pieces({operands[0], operands[1]}, all, region, {}, stats);
+  for (uint32_t o = 2; o < operands.size(); ++o) {
+    ASSERT_TRUE(version && *version);
+    const auto op = o == 2 ? BooleanOp::kDifference : BooleanOp::kSymmetricDifference;
+    all = continued(all, op, o, 1);
+    version = change_pieces(**version, {operands[o]}, step_of(op, 1, false), region, {}, stats);
+    ASSERT_TRUE(version && *version);
+    const auto assembled = assemble_pieces(**version, false);
+    const auto once =
+        evaluate_boolean({operands.begin(), operands.begin() + o + 1}, all, region, {}, stats);
+    ASSERT_TRUE(assembled && once);
+    EXPECT_EQ(test::first_difference(**assembled, **once), "");
+  }
+}
+
+// What a later operation touches, without cutting it, is not named as untouched; and a leaf that
+// may touch itself makes the result one that may.
+TEST(ResultPieces, RememberWhatTouchedThem) {
+  std::vector<Operand> operands{octahedron({0, 0, 0}, 12), octahedron({50, 0, 0}, 12),
+                                octahedron({17, 4, 4}, 13), octahedron({0, 40, 0}, 3)};
+  for (uint32_t o = 0; o < operands.size(); ++o) operands[o].first_source = o;
+  // A corner of the third one, (4, 4, 4), is in a face of the first one.
+  const GridBox region = test::region_of(operands);
+  const Expression join = test::flat_expression(BooleanOp::kUnion, 2);
+  EvaluateStats stats;
+  auto version = evaluate_pieces({operands[0], operands[1]}, join, region, {}, stats);
+  ASSERT_TRUE(version && *version);
+  EXPECT_FALSE((*version)->touching.anywhere);
+  version = change_pieces(**version, {operands[2]}, join, region, {}, stats);
+  ASSERT_TRUE(version && *version);
+  EXPECT_FALSE((*version)->touching.anywhere);
+  // Once more, with something that meets nothing.
+  auto last = change_pieces(**version, {operands[3]}, join, region, {}, stats);
+  ASSERT_TRUE(last && *last);
+  EXPECT_FALSE((*last)->touching.anywhere);
+  KernelOptions options;
+  options.name_untouched = true;
+  const auto faces_of = [](const BoundaryMesh& mesh) {
+    std::vector<std::pair<uint32_t, uint32_t>> faces;
+    for (const UntouchedPart& part : mesh.parts) {
+      for (const uint32_t f : part.faces) faces.emplace_back(part.source, f);
+    }
+    return faces;
+  };
+  const auto once = evaluate_boolean(operands, test::flat_expression(BooleanOp::kUnion, 4), region,
+                                     options, stats);
+  const auto named = assemble_pieces(**last, true);
+  ASSERT_TRUE(once && named);
+  EXPECT_EQ(faces_of(**named), faces_of(**once));
+  EXPECT_LT(faces_of(**named).size(), 31u);
+  EXPECT_GT(faces_of(**named).size(), 20u);
+
+  auto unknown = std::make_shared<LeafGeometry>(*operands[3].leaf);
+  unknown->may_touch = true;
+  operands[3].leaf = unknown;
+  last = change_pieces(**version, {operands[3]}, join, region, {}, stats);
+  ASSERT_TRUE(last && *last);
+  EXPECT_TRUE((*last)->touching.anywhere);
+}
+
 TEST(ResultPieces, OfResults) {
   test::Random random(524);
   test::TreeMaker maker(random);
@@ -153,6 +318,7 @@ TEST(ResultPieces, OfResults) {
     for (uint32_t o = 0; o < 3; ++o) operands[o].first_source = 10 + o;
     operands[1] = {};
     operands[1].boundary = *result;
+    if (i % 2) operands[1].first_source = 20;  // after the leaves
     const GridBox region =
         test::TreeMaker::region_of({outer.operands[0], outer.operands[2], inner.operands[0],
                                     inner.operands[1], inner.operands[2]});

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/half_space.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/rational_polygons.h"
@@ -220,6 +221,44 @@ TEST(SurfacePatches, OfResults) {
   EXPECT_GT(seen.patches, 50u);
   EXPECT_GT(seen.junctions, 30u);
   EXPECT_GT(seen.parted, 50u);
+}
+
+// An edge is shorter than doubles tell, all of it on a long one of two other faces.
+TEST(SurfacePatches, OfAnEdgeShorterThanRounding) {
+  constexpr int64_t q = int64_t{1} << 23;  // heights 1000 - 1/q and 1000 - 1/(q + 1)
+  const std::vector<Operand> leaves{test::operand_of(test::box_leaf({0, 0, 900}, {8, 8, 1100})),
+                                    test::half_space(q, 1000, false),
+                                    test::half_space(q + 1, 1000, true),
+                                    test::operand_of(test::box_leaf({-8, -8, 900}, {0, 0, 1100}))};
+  const auto built =
+      test::evaluate(test::join({test::meet({test::leaf(0), test::leaf(1), test::leaf(2)}),
+                                 test::meet({test::leaf(3), test::leaf(1)})}),
+                     leaves);
+  ASSERT_TRUE(built) << test::text(built.error());
+  std::vector<Operand> operands(1);
+  operands[0].boundary = *built;
+  const Job job(operands);
+  // The two faces at the short edge.
+  std::vector<uint32_t> faces, others;
+  for (uint32_t p = 0; p < job.polygons().size(); ++p) {
+    const auto corners = job.corners(job.polygons()[p]);
+    bool is_short = false;
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const uint32_t a = corners[i], b = corners[(i + 1) % corners.size()];
+      if (job.rounded(a) != job.rounded(b)) continue;
+      ASSERT_NE(compare(job.exact(a), job.exact(b)), 0);
+      is_short = true;
+    }
+    (is_short ? faces : others).push_back(p);
+  }
+  ASSERT_EQ(faces.size(), 2u);
+  // They have nothing else in common, and all around them is said to cross.
+  std::vector<std::array<uint32_t, 2>> crossings;
+  for (size_t i = 1; i < others.size(); ++i) crossings.push_back({others[i - 1], others[i]});
+  Seen seen;
+  check(job, crossings, seen);
+  EXPECT_EQ(seen.patches, 2u);
+  EXPECT_GT(seen.parted, 0u);
 }
 
 }  // namespace

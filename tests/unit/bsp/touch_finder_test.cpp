@@ -101,5 +101,51 @@ TEST(TouchFinder, FindsAnEdgeOnAFace) {
   EXPECT_TRUE(holds(*on, {5, 3, 0}));
 }
 
+Operand known(const std::vector<test::Loop>& loops) {
+  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(loops));
+  leaf->opposite = pair_edges(*leaf).opposite;
+  leaf->may_touch = false;
+  return test::operand_of(std::move(leaf));
+}
+
+// Two wedges with an edge in common, or a part of one: all of that is told.
+TEST(TouchFinder, FindsEdgesThatMeet) {
+  const auto wedge = [](int64_t sign, int64_t from, int64_t to) {
+    std::vector<IVec3> points;
+    for (const int64_t z : {from, to}) {
+      for (const int64_t y : {1, 5}) points.push_back({sign * 10, sign * y, z});
+      points.push_back({0, 0, z});
+    }
+    return known(test::hull_loops(points));
+  };
+  const Operand around = known(test::box_loops({-90, -90, -90}, {90, 90, 90}));
+  for (const auto& [from, to] :
+       {std::pair<int64_t, int64_t>{0, 30}, {0, 20}, {10, 20}, {10, 40}, {-10, 40}, {30, 50}}) {
+    const Operand one = wedge(1, 0, 30), other = wedge(-1, from, to);
+    const auto both = evaluate(BooleanOp::kUnion, {one, other}),
+               voids = evaluate(BooleanOp::kDifference, {around, one, other});
+    for (int64_t z = std::max<int64_t>(from, 0); z <= std::min<int64_t>(to, 30); z += 5) {
+      EXPECT_TRUE(holds(*both, {0, 0, z})) << from << ' ' << to;
+      EXPECT_TRUE(holds(*voids, {0, 0, z})) << from << ' ' << to;
+    }
+    EXPECT_FALSE(evaluate(BooleanOp::kUnion, {one, wedge(-1, 31, 40)})->may_touch);
+  }
+}
+
+// Whether very many corners are one round nobody asks.
+TEST(TouchFinder, LooksAtSixtyFourCornersAtMost) {
+  for (const int64_t sides : {63, 64, 65, 70}) {
+    std::vector<test::Point2> base;
+    for (int64_t i = 0; i < sides; ++i) base.push_back({i, i * i});
+    const IVec3 apex{sides / 2, 3 * sides * sides / 8, 40};
+    const Operand cone = known(test::cone_loops(base, 0, apex, std::nullopt)),
+                  box = known(test::box_loops({-10, -10, -20}, {100, 5000, 40}));
+    const auto inside = evaluate(BooleanOp::kIntersection, {cone, box});
+    EXPECT_EQ(inside->faces.size(), static_cast<size_t>(sides) + 1);
+    EXPECT_EQ(inside->may_touch, sides > 64) << sides;
+    EXPECT_EQ(holds(*inside, apex), sides > 64) << sides;
+  }
+}
+
 }  // namespace
 }  // namespace csgrun

@@ -1,8 +1,11 @@
 // The fast way and the general one give the same value; and the fast one leaves little.
 #include "engine/bsp/whole_faces.h"
 
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <random>
+#include <thread>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -12,6 +15,7 @@
 #include "engine/bsp/kernel.h"
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/boundary_compare.h"
+#include "tests/support/half_space.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
@@ -371,6 +375,75 @@ TEST(WholeFaces, StopWhenCancelledBeforeAnythingIsCut) {
       evaluate_whole_faces(job, test::flat_expression(BooleanOp::kUnion, 2), options, stats);
   ASSERT_FALSE(faces);
   EXPECT_EQ(faces.error().code, ErrorCode::kCancelled);
+}
+
+// Somebody cancels at any time meanwhile: that ends it while polygons are cut, too, and what comes
+// out is all or nothing.
+TEST(WholeFaces, StopWhenCancelledWhileTheyCut) {
+  std::vector<Operand> plates;
+  for (int64_t i = 0; i < 24; ++i) {
+    IVec3 lo{-i, -i, -i}, hi{1000 + i, 1000 + i, 1000 + i};
+    lo[i % 3] = 10 * i + 5, hi[i % 3] = 10 * i + 8;
+    plates.push_back(test::operand_of(test::box_leaf(lo, hi)));
+  }
+  const Expression all = test::flat_expression(BooleanOp::kSymmetricDifference, 24);
+  EvaluateStats stats;
+  Job whole(plates), untouched(plates);
+  const auto expected = evaluate_whole_faces(whole, all, {}, stats);
+  ASSERT_TRUE(expected);
+  ASSERT_GT(expected->cut.pieces.size(), 1000u);
+  find_contacts(untouched, {}, {}, stats);
+  bool was_cutting = false;
+  for (int i = 0; i < 200 && !was_cutting; ++i) {
+    Job job(plates);
+    std::atomic<bool> found = false, cancel = false, done = false;
+    KernelOptions options;
+    options.cancel = &cancel;
+    options.progress = [&](uint64_t, uint64_t) { found = true; };
+    std::thread somebody([&] {
+      while (!found && !done) std::this_thread::yield();
+      std::this_thread::sleep_for(std::chrono::microseconds(200 * i));
+      cancel = true;
+    });
+    const auto faces = evaluate_whole_faces(job, all, options, stats);
+    done = true;
+    somebody.join();
+    if (faces) {
+      ASSERT_EQ(faces->cut.pieces.size(), expected->cut.pieces.size());
+      ASSERT_EQ(faces->whole.size(), expected->whole.size());
+    } else {
+      ASSERT_EQ(faces.error().code, ErrorCode::kCancelled);
+      // Planes are made after all contacts were found.
+      was_cutting = job.planes().size() > untouched.planes().size();
+    }
+  }
+  EXPECT_TRUE(was_cutting);
+}
+
+// A part of a face that has no corner of the face, and lies beside another surface by less than its
+// coordinates are rounded.
+TEST(WholeFaces, OfSurfacesCloserThanRounding) {
+  test::Random random(415);
+  for (int i = 0; i < 40; ++i) {
+    const int64_t q = (int64_t{1} << 22) + random.integer(0, int64_t{1} << 20),
+                  height = int64_t{1} << random.integer(10, 24);
+    const IVec3 lo{-random.integer(9, 19), -random.integer(9, 19), height - 30},
+        hi{lo[0] + random.integer(1, 9), lo[1] + random.integer(1, 9), height + 30};
+    test::RandomTree tree;
+    tree.operands = {test::half_space(q, height, true), test::half_space(q + 1, height, true),
+                     test::operand_of(test::box_leaf(lo, hi))};
+    if (i % 2) std::swap(tree.operands[0], tree.operands[1]);
+    for (uint32_t o = 0; o < 3; ++o) tree.operands[o].first_source = o;
+    tree.region = {{lo[0] - 1, lo[1] - 1, lo[2]}, {hi[0] + 1, hi[1] + 1, hi[2]}};
+    for (const BooleanOp op : {BooleanOp::kIntersection, BooleanOp::kSymmetricDifference}) {
+      tree.expression = test::flat_expression(op, 3);
+      if (op == BooleanOp::kSymmetricDifference) {
+        tree.region = test::TreeMaker::region_of(tree.operands);
+      }
+      ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
+          << "case " << i;
+    }
+  }
 }
 
 // What is too far away for boxes to tell is whole, and left to cells.

@@ -87,6 +87,67 @@ TEST(Work, OfLiteralCells) {
                  {574, 210, 170, 0, 36306, 3241, 2434});
 }
 
+/// Where somebody who presents results has to look for contacts.
+struct Places {
+  uint64_t boxes = 0;
+  int64_t extent = 0;  ///< the sum of the three lengths of all of them
+  uint64_t anywhere = 0;
+
+  void add(const BoundaryMesh& mesh) {
+    anywhere += mesh.may_touch && mesh.touches.empty();
+    boxes += mesh.touches.size();
+    for (const GridBox& b : mesh.touches) {
+      for (size_t k = 0; k < 3; ++k) extent += b.hi[k] - b.lo[k];
+    }
+  }
+};
+
+/// More of them cost time. Fewer may be fine, but then places may have been lost: look why.
+void expect_same(const Places& places, const Places& expected) {
+  EXPECT_EQ(places.boxes, expected.boxes);
+  EXPECT_EQ(places.extent, expected.extent);
+  EXPECT_EQ(places.anywhere, expected.anywhere);
+}
+
+/// Two boxes with a common edge, which is an edge of four faces of one leaf that crosses nothing.
+std::shared_ptr<LeafGeometry> boxes_sharing_an_edge() {
+  auto loops = test::box_loops({0, 0, 0}, {2, 2, 4});
+  const auto second = test::box_loops({2, 2, 0}, {4, 4, 4});
+  loops.insert(loops.end(), second.begin(), second.end());
+  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(loops));
+  leaf->may_touch = false;
+  return leaf;
+}
+
+/// `sharing`: some leaves have an edge of four faces, at which much is left to cells.
+Places places_of_trees(uint64_t seed, int count, const test::TreeShape& shape,
+                       bool sharing = false) {
+  test::Random random = test::Random::of_case(seed, 0);
+  test::TreeMaker maker(random);
+  EvaluateStats stats;
+  Places places;
+  for (int i = 0; i < count; ++i) {
+    auto tree = maker.make(shape);
+    if (sharing) tree.operands[static_cast<size_t>(i % 2)].leaf = boxes_sharing_an_edge();
+    const auto mesh = evaluate_boolean(tree.operands, tree.expression, tree.region, {}, stats);
+    EXPECT_TRUE(mesh);
+    if (mesh) places.add(**mesh);
+  }
+  return places;
+}
+
+// What is found about contacts when a result is made spares those who present it the search.
+TEST(Work, OfLookingForContacts) {
+  expect_same(places_of_trees(613, 150, {.size = 4, .operands = 3, .known = true}),
+              {1804, 13112, 0});
+  expect_same(places_of_trees(614, 60, {.size = 5, .operands = 4, .frames = true, .known = true}),
+              {751, 4667, 0});
+  expect_same(places_of_trees(615, 40, {.size = 1000, .operands = 4, .known = true}),
+              {48, 8128, 0});
+  expect_same(places_of_trees(617, 60, {.size = 5, .operands = 3, .known = true}, true),
+              {2255, 16040, 0});
+}
+
 /// Tetrahedra about as large as the distance between them.
 std::vector<Operand> cloud(test::Random& random, int count) {
   std::vector<Operand> operands;
@@ -192,6 +253,32 @@ TEST(Work, OfChains) {
   expect_at_most(stats, {133, 126, 45, 18, 3697, 60, 7});
   uint64_t bytes = (*version)->bytes;
   EXPECT_LE(bytes, 29872u);
+}
+
+// What is left of a polygon is cut into as few pieces as one region needs, whatever it was put
+// together from.
+TEST(Work, OfChainsThatTouch) {
+  test::Random random = test::Random::of_case(616, 0);
+  test::TreeMaker maker(random);
+  EvaluateStats stats;
+  size_t pieces = 0, points = 0;
+  for (int i = 0; i < 20; ++i) {
+    const auto tree = maker.make({.size = 4, .operands = 8, .known = true});
+    auto version =
+        evaluate_pieces({tree.operands[0], tree.operands[1]},
+                        test::flat_expression(BooleanOp::kUnion, 2), tree.region, {}, stats);
+    for (size_t o = 2; o < tree.operands.size() && version && *version; ++o) {
+      const auto op = o % 2 ? BooleanOp::kDifference : BooleanOp::kUnion;
+      version = change_pieces(**version, {tree.operands[o]}, test::flat_expression(op, 2),
+                              tree.region, {}, stats);
+    }
+    ASSERT_TRUE(version);
+    if (!*version) continue;
+    pieces += (*version)->store->piece_count();
+    points += (*version)->store->point_count();
+  }
+  EXPECT_LE(pieces, 1590u);
+  EXPECT_LE(points, 2205u);
 }
 
 }  // namespace

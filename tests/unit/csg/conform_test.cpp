@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -101,6 +102,59 @@ TEST(Conform, VoidsThatTouchTheSurface) {
                  "voids with a common edge");
   const Tetrahedron below = tetrahedron({{{3, 3, 10}, {6, 4, 10}, {4, 6, 6}, {6, 2, 6}}});
   expect_complex(subtract({cube(10), below.solid}), 1000 - below.volume, 2, "an edge below a face");
+}
+
+/// The surface of some cells of a lattice, as one mesh of squares: where cells touch along an edge
+/// it has edges of four faces.
+PolygonMesh surface_of(const std::set<std::array<int, 3>>& cells) {
+  PolygonMesh mesh;
+  std::map<std::array<int, 3>, uint32_t> number;
+  for (const auto& cell : cells) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      for (const int side : {0, 1}) {
+        std::array<int, 3> beyond = cell;
+        beyond[axis] += 2 * side - 1;
+        if (cells.contains(beyond)) continue;
+        std::vector<uint32_t> corners;
+        for (const auto& [u, v] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+          std::array<int, 3> p = cell;
+          p[axis] += side;
+          p[(axis + 1) % 3] += u;
+          p[(axis + 2) % 3] += v;
+          const auto [known, is_new] = number.try_emplace(p, number.size());
+          if (is_new) mesh.points.emplace_back(p[0], p[1], p[2]);
+          corners.push_back(known->second);
+        }
+        if (side == 0) std::reverse(corners.begin(), corners.end());
+        mesh.add_face(corners);
+      }
+    }
+  }
+  return mesh;
+}
+
+TEST(Conform, SurfacesThatTouchThemselvesAgainstTurnedCopies) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 40; ++round) {
+    const int size = 3 + round % 3;
+    std::set<std::array<int, 3>> cells;
+    for (int i = 0; i < size * size * size; ++i) {
+      if (random() % 3 == 0) cells.insert({i % size, i / size % size, i / size / size});
+    }
+    if (cells.empty()) continue;
+    PolygonMesh mesh = surface_of(cells);
+    mesh.keep_facets = round % 2 == 0;
+    const double middle = size / 2.0, volume = static_cast<double>(cells.size());
+    const NodePtr one = leaf(mesh, FillRule::kNonZero);
+    const NodePtr other =
+        moved(middle, middle, middle,
+              turned(40, {0, 0, 1}, turned(20, {1, 0, 0}, moved(-middle, -middle, -middle, one))));
+    for (const bool join : {false, true}) {
+      const SolidPtr both = solid_of(unite({one, other}), join);
+      const SolidPtr common = solid_of(intersect({one, other}), join);
+      EXPECT_NEAR(both->measures.volume + common->measures.volume, 2 * volume, 1e-9 * volume);
+    }
+  }
 }
 
 TEST(Conform, RandomBoxes) {

@@ -1,4 +1,5 @@
 // The exact arithmetic against GMP: signs in every tier, zeros among them, and correct rounding.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -114,6 +115,97 @@ TEST(Intersect, IsWhereThreePlanesMeet) {
     ASSERT_GT(exact.w, 0);
     for (const Plane& s : {p, q, r}) ASSERT_EQ(gmp_side(s, exact), 0);
     ASSERT_EQ(point.w_bits, static_cast<int>(mpz_sizeinbase(exact.w.get_mpz_t(), 2)));
+  }
+}
+
+// How wide the arithmetic must be follows from the widths of all three planes: one that is wide, or
+// far away, among narrow ones; and sums of widths around those that machine integers hold.
+TEST(Intersect, IsCramersRuleForPlanesOfAnyWidths) {
+  Random random(8);
+  size_t narrow = 0, middle = 0, wide = 0;
+  for (int i = 0; i < 40'000; ++i) {
+    std::array<Plane, 3> planes;
+    const int most = i % 3 == 0 ? widths::kMaxNormal : 66;
+    std::array<int, 3> normals{};
+    for (int& n : normals) n = static_cast<int>(random.integer(1, most));
+    for (size_t k = 0; k < 3; ++k) {
+      const int border = i % 2 == 0 ? 128 : 192;
+      const int others = normals[(k + 1) % 3] + normals[(k + 2) % 3];
+      const int offset =
+          static_cast<int>(random.integer(0, 2) == 0 ? border + random.integer(-8, 8) - others
+                                                     : random.integer(1, widths::kMaxOffset));
+      planes[k] = random_plane(random, normals[k], std::clamp(offset, 1, widths::kMaxOffset));
+    }
+    const Plane &p = planes[0], &q = planes[1], &r = planes[2];
+    if (!meet_in_a_point(p, q, r)) continue;
+    const auto determinant = [](const std::array<mpz_class, 3>& u,
+                                const std::array<mpz_class, 3>& v,
+                                const std::array<mpz_class, 3>& w) {
+      return mpz_class(u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
+                       u[2] * (v[0] * w[1] - v[1] * w[0]));
+    };
+    const auto column = [&](Int128 Plane::*of) {
+      return std::array<mpz_class, 3>{to_gmp(p.*of), to_gmp(q.*of), to_gmp(r.*of)};
+    };
+    const auto a = column(&Plane::a), b = column(&Plane::b), c = column(&Plane::c),
+               d = column(&Plane::d);
+    const mpz_class w = determinant(a, b, c), x = -determinant(d, b, c), y = -determinant(a, d, c),
+                    z = -determinant(a, b, d);
+    const Point point = intersect(p, q, r);
+    const auto exact = to_gmp(point);
+    ASSERT_GT(exact.w, 0);
+    ASSERT_EQ(exact.x * w, x * exact.w) << "case " << i;
+    ASSERT_EQ(exact.y * w, y * exact.w) << "case " << i;
+    ASSERT_EQ(exact.z * w, z * exact.w) << "case " << i;
+    const auto bits = [](const mpz_class& v) {
+      return v == 0 ? 0 : static_cast<int>(mpz_sizeinbase(v.get_mpz_t(), 2));
+    };
+    ASSERT_EQ(point.w_bits, bits(exact.w));
+    ASSERT_EQ(point.xyz_bits, std::max({bits(exact.x), bits(exact.y), bits(exact.z)}));
+    const int widest = std::max(point.w_bits, point.xyz_bits);
+    ++(widest < 127 ? narrow : widest < 192 ? middle : wide);
+  }
+  EXPECT_GT(narrow, 1000u);
+  EXPECT_GT(middle, 1000u);
+  EXPECT_GT(wide, 1000u);
+}
+
+/// That no double is nearer to a fraction than `got`.
+void expect_nearest(double got, const mpz_class& numerator, const mpz_class& denominator) {
+  mpq_class value(numerator, denominator);
+  value.canonicalize();
+  const mpq_class error = abs(mpq_class(got) - value);
+  for (const double other : {std::nextafter(got, -HUGE_VAL), std::nextafter(got, HUGE_VAL)}) {
+    ASSERT_LE(error, abs(mpq_class(other) - value));
+  }
+}
+
+// Coordinates of many bits over few and of few over many, and of just as many as the quick way
+// takes.
+TEST(Rounding, OfPointsOfAnyWidths) {
+  Random random(14);
+  for (int i = 0; i < 4'000; ++i) {
+    const auto number = [&](int bits) {
+      Int<kPointLimbs> v;
+      for (auto& limb : v.limb) limb = random.bits();
+      mpz_class exact = abs(to_gmp(v)) % (mpz_class(1) << (bits - 1));
+      exact += mpz_class(1) << (bits - 1);
+      return random.bits() & 1 ? mpz_class(-exact) : exact;
+    };
+    const auto width = [&](int most) {
+      return static_cast<int>(i % 2 ? random.integer(1, most) : random.integer(253, 258));
+    };
+    Point p;
+    p.x = test::from_gmp<kPointLimbs>(number(width(widths::kMaxPointXyz)));
+    p.y = test::from_gmp<kPointLimbs>(number(width(widths::kMaxPointXyz)));
+    p.z = test::from_gmp<kPointLimbs>(number(width(widths::kMaxPointXyz)));
+    p.w = test::from_gmp<kPointLimbs>(number(width(widths::kMaxPointW)));
+    normalise(p);
+    const auto exact = to_gmp(p);
+    const std::array<double, 3> got = rounded(p);
+    ASSERT_NO_FATAL_FAILURE(expect_nearest(got[0], exact.x, exact.w)) << "case " << i;
+    ASSERT_NO_FATAL_FAILURE(expect_nearest(got[1], exact.y, exact.w)) << "case " << i;
+    ASSERT_NO_FATAL_FAILURE(expect_nearest(got[2], exact.z, exact.w)) << "case " << i;
   }
 }
 

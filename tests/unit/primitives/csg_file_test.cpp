@@ -295,8 +295,9 @@ TEST(CsgFile, ImportsFilesOfTheirFolder) {
   const auto missing = import("file = \"b.svg\"");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().message, "import: cannot read it");
-  EXPECT_EQ(import("file = \"b.nef3\"").error().message,
-            "import: \"b.nef3\" has none of the endings .stl, .off, .obj, .ply, .3mf, .amf, .svg, .dxf");
+  EXPECT_EQ(
+      import("file = \"b.nef3\"").error().message,
+      "import: \"b.nef3\" has none of the endings .stl, .off, .obj, .ply, .3mf, .amf, .svg, .dxf");
 }
 
 TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
@@ -339,6 +340,20 @@ TEST(CsgFile, PolyhedraThatAreBrokenButClosedAreRepaired) {
                                "m.csg:1: polyhedron: repair: 1 face without area was dropped (at "
                                "(6, 0, 0))"});
   EXPECT_DOUBLE_EQ(testing::volume(*flat.solid->mesh()), 36);
+}
+
+// Points that arithmetic put beside one another are one; a hole stays an error.
+TEST(CsgFile, PolyhedraWithPointsTooNearToTellAreWelded) {
+  const std::string points =
+      "polyhedron(points = [[0, 0, 0], [6, 0, 0], [0, 6, 0], [0, 0, 6], [0, 0, 1e-14]], faces = ";
+  const CsgModel near = parse(points + "[[0, 1, 2], [4, 3, 1], [0, 2, 3], [1, 3, 2]]);");
+  ASSERT_EQ(near.warnings.size(), 1u);
+  EXPECT_EQ(near.warnings[0].rfind("m.csg:1: polyhedron: repair: 1 point ", 0), 0u)
+      << near.warnings[0];
+  EXPECT_DOUBLE_EQ(testing::volume(*near.solid->mesh()), 36);
+  const auto open = parse_csg("m.csg", points + "[[0, 1, 2], [4, 3, 1], [0, 2, 3]]);");
+  ASSERT_FALSE(open);
+  EXPECT_NE(open.error().message.find("not closed: "), std::string::npos);
 }
 
 TEST(CsgFile, PointsThatAreNoneMakeNothing) {

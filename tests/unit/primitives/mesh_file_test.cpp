@@ -163,7 +163,7 @@ TEST(MeshFile, WhatIsWrongIsSaidWithItsPlace) {
             "a.obj: line 2: face index -2 is out of range, there are 1 points");
   EXPECT_EQ(message("a.obj", "v 0 0 0\nf 1 0 1\n"),
             "a.obj: line 2: expected a face index, got \"0\"");
-  EXPECT_EQ(message("a.obj", "v 0 0 0\nf 1 1\n"), "a.obj: line 2: a face has 2 corners");
+  EXPECT_EQ(message("a.obj", "v 0 0 0\nf 1 1\n"), "a.obj: has no faces");
   EXPECT_EQ(message("a.obj", "PNG\x01\x02"), "a.obj: line 1: not an OBJ statement: \"PNG??\"");
   EXPECT_EQ(message("a.obj", "v 0 0 0\n"), "a.obj: has no faces");
   EXPECT_EQ(message("a.obj", ""), "a.obj: the file is empty");
@@ -378,6 +378,12 @@ TEST(MakeSolidMesh, ReportsTurnsAndWelds) {
   EXPECT_EQ(make_solid_mesh(mesh, &note).error().message.substr(0, 37),
             "part.obj: not consistently oriented: ");
   mesh = *parse_mesh("part.obj", kObj + "v 1 0 0\nf 2 5 3\n");
+  const auto without = make_solid_mesh(mesh, &note);
+  ASSERT_TRUE(without);
+  EXPECT_EQ(without->face_count(), 4u);
+  EXPECT_EQ(note, "part.obj: 1 face without area was dropped (at (1, 0, 0))");
+  // Other faults are not mended by the way.
+  mesh = *parse_mesh("part.obj", kObj + "v 1 0 0\nf 2 5 3\nv 2 2 2\nf 1 2 6\n");
   EXPECT_EQ(make_solid_mesh(mesh, &note).error().message.substr(0, 47),
             "part.obj: faces without area: 1 degenerate face");
 }

@@ -18,9 +18,10 @@ struct ModelPart {
 };
 
 /// The parts that a 3MF file builds, in its order: units, transforms, components, base materials
-/// and colours are understood. `name` stands in messages. Errors: kMalformedFile; kLimit for what
-/// unpacks, or multiplies by components, to more than a model would. `notes`, if given, gets what
-/// was done to a part with more colours than a model would have.
+/// and colours are understood, in one document or several. `name` stands in messages. `notes` gets
+/// what is not read, though it may be a solid, and when colours were rounded to 4096 at most.
+/// Errors: kMalformedFile; kLimit for what unpacks, or multiplies by components, to more than a
+/// model would.
 Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes,
                                          std::vector<std::string>* notes = nullptr);
 

@@ -1,6 +1,8 @@
 // From solids to 2D shapes: shadows and sections.
 #pragma once
 
+#include <optional>
+
 #include <csgrun/engine/csg_tree.h>
 #include <csgrun/engine/error.h>
 #include <csgrun/engine/evaluate.h>
@@ -17,5 +19,10 @@ Result<Shape2D> project_solid(const Solid& solid);
 /// finite. Errors: those of the evaluation, of what is made for it at `where`.
 Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z,
                             const SourceRef& where);
+
+/// The appearance that all of a tree has, as far as it tells without being evaluated: what its
+/// shadows and sections are painted with. Nothing where it is that of no colour, or where there are
+/// several; of a difference the first operand's counts. O(nodes).
+std::optional<Appearance> one_appearance_of(const NodePtr& root);
 
 }  // namespace csgrun

@@ -1,0 +1,245 @@
+"""Files as other programs write them: variants of the formats that csgrun itself never writes."""
+import base64
+import json
+import struct
+import zlib
+
+from support import Case, main
+
+CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+PRODUCTION = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
+RELATIONS = ('<Relationships><Relationship Target="/3D/m.model" Id="r" '
+             'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>')
+POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))  # a sixth of a unit cube
+FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
+MESH = ("<mesh><vertices>" + "".join('<vertex x="%d" y="%d" z="%d"/>' % p for p in POINTS) + "</vertices><triangles>"
+        + "".join('<triangle v1="%d" v2="%d" v3="%d"/>' % f for f in FACES) + "</triangles></mesh>")
+TETRAHEDRON = f'<object id="1">{MESH}</object>'
+
+
+def zip64(files, front=b"", wrong_checksum=False):
+    """A zip file all of whose sizes and offsets stand in the fields of Zip64, as some libraries write every one."""
+    data, directory = b"", b""
+    for name, text in files.items():
+        name, text = name.encode(), text.encode()
+        packer = zlib.compressobj(wbits=-15)
+        packed = packer.compress(text) + packer.flush()
+        check = zlib.crc32(text) ^ wrong_checksum
+        sizes = struct.pack("<QQ", len(text), len(packed))
+        extra = struct.pack("<HH", 1, 16) + sizes
+        offset = len(data)
+        common = struct.pack("<HHHHHIII", 45, 0, 8, 0, 0, check, 0xffffffff, 0xffffffff)
+        data += b"PK\3\4" + common + struct.pack("<HH", len(name), len(extra)) + name + extra + packed
+        extra = struct.pack("<HHB", 0x5455, 1, 7) + struct.pack("<HH", 1, 24) + sizes + struct.pack("<Q", offset)
+        directory += (b"PK\1\2" + struct.pack("<H", 45) + common + struct.pack("<HHHHHII", len(name), len(extra), 0, 0, 0, 0,
+                                                                                0xffffffff) + name + extra)
+    end = b"PK\6\6" + struct.pack("<QHHIIQQQQ", 44, 45, 45, 0, 0, len(files), len(files), len(directory), len(data))
+    locator = b"PK\6\7" + struct.pack("<IQI", 0, len(front) + len(data) + len(directory), 1)
+    last = b"PK\5\6" + struct.pack("<HHHHIIH", 0, 0, 0xffff, 0xffff, 0xffffffff, 0xffffffff, 4) + b"note"
+    return front + data + directory + end + locator + last
+
+
+def model(resources, build="", unit="millimeter"):
+    return (f'<model unit="{unit}" xmlns="{CORE}" xmlns:p="{PRODUCTION}"><resources>{resources}</resources>'
+            f"<build>{build}</build></model>")
+
+
+def gltf(primitives, accessors, data, **more):
+    """A document whose only mesh is at its root: views of the data are (offset, length) or (offset, length, stride)."""
+    views = more.pop("views", [(0, len(data))])
+    return {"asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data)}], "nodes": [{"mesh": 0}],
+            "bufferViews": [{"buffer": 0, "byteOffset": v[0], "byteLength": v[1], **({"byteStride": v[2]} if v[2:] else {})}
+                            for v in views],
+            "accessors": accessors, "meshes": [{"primitives": primitives}], **more}
+
+
+class Foreign(Case):
+    def parts_of(self, name, data, warnings=0):
+        self.write(name, data)
+        outcome = self.run_csgrun(name, "--stats=json")
+        self.expect(outcome, 0)
+        stats = outcome.json()
+        self.assertEqual(len(stats["warnings"]), warnings, stats["warnings"])
+        self.warnings = stats["warnings"]
+        return [(p["name"], round(p["volume"], 9), p["bbox"]) for p in stats["parts"]]
+
+    def refuse(self, name, data, message):
+        self.write(name, data)
+        self.expect(self.run_csgrun(name, "--stats"), 1, name + ": " + message)
+
+    UNIT = [[0, 0, 0], [1, 1, 1]]
+    SIXTH = round(1 / 6, 9)
+
+    def test_zip64(self):
+        files = {"3D/m.model": model(TETRAHEDRON, '<item objectid="1"/>'), "_rels/.rels": RELATIONS}
+        self.assertEqual(self.parts_of("a.3mf", zip64(files)), [("part1", self.SIXTH, self.UNIT)])
+        self.refuse("a.3mf", zip64(files, wrong_checksum=True), "_rels/.rels: the zip file is damaged")
+        self.refuse("a.3mf", zip64(files)[:-30], "it is no zip file, or a truncated one")
+
+    def test_paths_in_archives(self):
+        files = {"3d\\M.model": model(TETRAHEDRON, '<item objectid="1"/>'), "_RELS/.rels": RELATIONS}
+        self.assertEqual(self.parts_of("a.3mf", zip64(files)), [("part1", self.SIXTH, self.UNIT)])
+
+    def test_models_in_several_documents(self):
+        # What slicers write: objects stand in documents of their own, which number them anew and have their own units.
+        root = model('<object id="1" name="both"><components><component objectid="1" p:path="/3D/inner/a.model"/><component '
+                     'objectid="2" p:path="/3D/b.model" transform="1 0 0 0 1 0 0 0 1 5 0 0"/></components></object>',
+                     '<item objectid="1" transform="2 0 0 0 2 0 0 0 2 0 0 10"/><item objectid="2" p:path="/3D/b.model"/>')
+        inner = model('<object id="2" name="b"><components><component objectid="1"/></components></object>' + TETRAHEDRON,
+                      unit="centimeter")
+        files = {"_rels/.rels": RELATIONS, "3D/m.model": root, "3D/inner/a.model": model(TETRAHEDRON), "3D/b.model": inner}
+        self.assertEqual(self.parts_of("a.3mf", zip64(files)), [
+            ("both", round(8 / 6 + 8000 / 6, 9), [[0, 0, 10], [30, 20, 30]]), ("b", round(1000 / 6, 9), [[0, 0, 0], [10] * 3])])
+        files["3D/b.model"] = inner.replace('<object id="1"', '<object id="3"')
+        self.refuse("a.3mf", zip64(files), "3D/b.model: there is no object 1, which is used")
+        files["3D/b.model"] = "<model"
+        self.refuse("a.3mf", zip64(files), "3D/b.model: malformed XML")
+        del files["3D/b.model"]
+        self.refuse("a.3mf", zip64(files), 'it has no "3D/b.model"')
+
+    def test_what_of_3mf_is_left_out(self):
+        beams = MESH.replace("</mesh>", '<b:beamlattice radius="1"><b:beams/></b:beamlattice></mesh>')
+        files = {"_rels/.rels": RELATIONS, "3D/m.model": model(
+            f'<object id="1" name="cage">{beams}</object><object id="2"><s:shape/></object>',
+            '<item objectid="1"/><item objectid="2"/>')}
+        self.assertEqual(self.parts_of("a.3mf", zip64(files), 2), [("cage", self.SIXTH, self.UNIT)])
+        self.assertEqual(self.warnings, [
+            'a.3mf: object 1 "cage": its beams (beam lattice extension) are left out',
+            'a.3mf: object 2 is left out: it is a "shape", which is not read'])
+
+    FLOATS = b"".join(struct.pack("<3f", *p) for p in POINTS)
+    CORNERS = [i for f in FACES for i in f]
+    # glTF is in metres with Y up.
+    THOUSAND = [("mesh", round(1e9 / 6, 9), [[0, -1000, 0], [1000, 0, 1000]])]
+
+    def test_gltf_with_its_buffers_beside_it(self):
+        document = gltf([{"attributes": {"POSITION": 0}, "indices": 1}],
+                        [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                         {"bufferView": 1, "componentType": 5121, "count": 12, "type": "SCALAR"}], b"",
+                        buffers=[{"byteLength": 48, "uri": "of%20it/points.bin"},
+                                 {"byteLength": 12, "uri": "data:;base64," + base64.b64encode(bytes(self.CORNERS)).decode()}],
+                        bufferViews=[{"buffer": 0, "byteLength": 48}, {"buffer": 1, "byteLength": 12}])
+        self.write("of it/points.bin", self.FLOATS)
+        self.assertEqual(self.parts_of("a.gltf", json.dumps(document)), self.THOUSAND)
+        self.expect(self.run_script("return import('a.gltf')", "--stats"), 0)
+        self.expect(self.run_csgrun("info", "a.gltf"), 0)
+        self.write("of it/points.bin", self.FLOATS[:-1])
+        self.refuse("a.gltf", json.dumps(document), "accessors[0] reaches beyond the end of the data")
+
+    def glb(self, primitives, accessors, data, **more):
+        text = json.dumps(gltf(primitives, accessors, data, **more)).encode()
+        text += b" " * (-len(text) % 4)
+        data += b"\0" * (-len(data) % 4)
+        body = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
+        return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
+
+    def test_strips_and_fans(self):
+        # The strip 0 1 2 3 0 1 goes around a tetrahedron: 012 132 230 (3 2 0 turned) 301; the fan has the faces at a corner.
+        positions = {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}
+        for mode, indices in ((5, [0, 2, 1, 3, 0, 2]), (5, [0, 2, 1, 3, 0, 2, 2, 2])):
+            data = self.FLOATS + bytes(indices)
+            accessors = [positions, {"bufferView": 1, "componentType": 5121, "count": len(indices), "type": "SCALAR"}]
+            self.assertEqual(self.parts_of("a.glb", self.glb(
+                [{"attributes": {"POSITION": 0}, "indices": 1, "mode": mode}], accessors, data,
+                views=[(0, 48), (48, len(indices))])), self.THOUSAND)
+        data = self.FLOATS + bytes([0, 2, 1, 3, 2]) + bytes([1, 2, 3]) + bytes([0, 1])
+        accessors = [positions] + [{"bufferView": v, "componentType": 5121, "count": n, "type": "SCALAR"}
+                                   for v, n in ((1, 5), (2, 3), (3, 2))]
+        primitives = [{"attributes": {"POSITION": 0}, "indices": i, "mode": m} for i, m in ((1, 6), (2, 4), (3, 1))]
+        views = [(0, 48), (48, 5), (53, 3), (56, 2)]
+        self.assertEqual(self.parts_of("a.glb", self.glb(primitives, accessors, data, views=views), 1), self.THOUSAND)
+        self.assertEqual(self.warnings, ["a.glb: points and lines are left out: 1 primitive"])
+        self.refuse("a.glb", self.glb([{"attributes": {"POSITION": 0}, "mode": 7}], accessors, data, views=views),
+                    "meshes[0].primitives[0].mode must be from 0 to 6")
+
+    def test_sparse_and_small_positions(self):
+        indices = {"bufferView": 1, "componentType": 5121, "count": 12, "type": "SCALAR"}
+        primitive = [{"attributes": {"POSITION": 0}, "indices": 1}]
+        # All points in the origin but those that the sparse part moves.
+        data = b"\1\2\3\0" + self.FLOATS[12:] + bytes(self.CORNERS)
+        sparse = {"count": 3, "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 2}}
+        views = [(0, 3), (40, 12), (4, 36)]
+        positions = {"componentType": 5126, "count": 4, "type": "VEC3", "sparse": sparse}
+        self.assertEqual(self.parts_of("a.glb", self.glb(primitive, [positions, indices], data, views=views)), self.THOUSAND)
+        for count, said in ((10**9, "accessors[0] has no data, and no end"), (3, "accessors[0].sparse: an index is out of range")):
+            self.refuse("a.glb", self.glb(primitive, [{**positions, "count": count}, indices], data, views=views), said)
+        # KHR_mesh_quantization: whole numbers, or fractions of the largest one; points begin at multiples of four bytes.
+        for kind, code, full in (("b", 5120, 127), ("B", 5121, 255), ("h", 5122, 32767), ("H", 5123, 65535)):
+            for normalized, unit in ((False, 1), (True, full)):
+                stride = 4 if code < 5122 else 8
+                points = b"".join(struct.pack("<3" + kind, *(c * unit for c in p)).ljust(stride, b"\xff") for p in POINTS)
+                data = points + bytes(self.CORNERS)
+                positions = {"bufferView": 0, "componentType": code, "normalized": normalized, "count": 4, "type": "VEC3"}
+                views = [(0, len(points), stride), (len(points), 12)]
+                self.assertEqual(self.parts_of("a.glb", self.glb(primitive, [positions, indices], data, views=views)),
+                                 self.THOUSAND, (kind, normalized))
+
+    def test_gltf_that_is_not_read_says_why(self):
+        positions = {"componentType": 5126, "count": 4, "type": "VEC3"}
+        draco = [{"attributes": {"POSITION": 0}, "extensions": {"KHR_draco_mesh_compression": {"bufferView": 0}}}]
+        self.refuse("a.glb", self.glb(draco, [positions], self.FLOATS), "its meshes are compressed (KHR_draco_mesh_compression)")
+        document = gltf([{"attributes": {"POSITION": 0}}], [{**positions, "bufferView": 0}], self.FLOATS)
+        document["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": {"buffer": 0}}
+        self.refuse("a.gltf", json.dumps(document), "its meshes are compressed (EXT_meshopt_compression)")
+        self.refuse("a.gltf", '{"asset": {"version": "1.0"}, "buffers": {}}', "only version 2 of glTF is read")
+
+    OBJ = "".join("v %d %d %d\n" % p for p in POINTS) + "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in FACES)
+    OFF = "OFF\n4 4 0\n" + "".join("%d %d %d\n" % p for p in POINTS) + "".join("3 %d %d %d\n" % f for f in FACES)
+    STL = "solid x\n" + "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex %d %d %d\n" % POINTS[i] for i in f)
+                                + "endloop\nendfacet\n" for f in FACES) + "endsolid x\n"
+    PLY = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+           "element face 4\nproperty list uchar int vertex_indices\nend_header\n") + OFF.split("\n", 2)[2]
+
+    def good(self, name, data, *warnings):
+        self.assertEqual(self.parts_of(name, data, len(warnings)), [("part1", self.SIXTH, self.UNIT)])
+        self.assertEqual(self.warnings, [f"{name}: {w}" for w in warnings])
+
+    def test_line_ends_and_byte_order_marks(self):
+        for name, text in (("a.obj", self.OBJ), ("a.off", self.OFF), ("a.stl", self.STL), ("a.ply", self.PLY)):
+            for end in ("\n", "\r\n", "\r"):
+                for mark in ("", "\ufeff"):
+                    with self.subTest(f"{name} {end!r} {mark!r}"):
+                        self.good(name, mark + text.replace("\n", end))
+        # The header alone, before binary data with line feeds in it.
+        header = self.PLY[:self.PLY.index("end_header\n")].replace("ascii", "binary_little_endian").replace("float", "int")
+        points = b"".join(struct.pack("<3i", *(10 * c for c in p)) for p in POINTS)
+        faces = b"".join(struct.pack("<B3i", 3, *f) for f in FACES)
+        parts = self.parts_of("a.ply", (header + "end_header\n").replace("\n", "\r").encode() + points + faces)
+        self.assertEqual(parts, [("part1", round(1000 / 6, 9), [[0] * 3, [10] * 3])])
+
+    def test_obj(self):
+        self.good("a.obj", "vw 0 0 1.0\nt crease 1\n" + self.OBJ + "vw 1\n",
+                  '3 lines with statements that OBJ does not know passed over (first: line 1: "vw")')
+        self.good("a.obj", self.OBJ + "f 1 2\nf 3\n", "2 faces of fewer than three corners left out (first: line 9)")
+        self.good("a.obj", "mtllib C:\\Users\\me\\a.mtl\n" + self.OBJ,
+                  'line 1: no colours: mtllib "C:\\Users\\me\\a.mtl" leads out of the file\'s folder')
+        self.refuse("a.obj", "L\1\2\0.text", 'line 1: not an OBJ statement: "L???.text"')
+
+    def test_off(self):
+        self.good("a.off", self.OFF.replace("OFF\n", "OFF"))
+        self.good("a.off", self.OFF.replace("\n3 0 2 1\n", "\n3 0\n2 \n1\n"))
+        self.good("a.off", self.OFF.replace("4 4 0", "4 6 0") + "2 0 1\n1 3\n",
+                  "2 faces of fewer than three corners left out (first: face 4)")
+        self.refuse("a.off", "OFFSET 4 4 0", 'line 1: not an OFF file: it starts with "OFFSET"')
+
+    def test_stl(self):
+        binary = b"solid by nobody".ljust(80) + struct.pack("<I", 4) + b"".join(
+            struct.pack("<12fH", 0, 0, 0, *(c for i in f for c in POINTS[i]), 0) for f in FACES)
+        self.good("a.stl", binary)
+        self.good("a.stl", b"\0" * 80 + binary[80:] + b"more", "4 bytes after the last triangle passed over")
+        self.refuse("a.stl", b"\0" * 80 + binary[80:-1], "byte 80: not an STL file, or truncated")
+        self.refuse("a.stl", self.STL.replace("endsolid x\n", ""), "line 30: the file ends where")
+
+    def test_ply(self):
+        strips = self.PLY[:self.PLY.index("3 0 2 1")].replace("face 4", "tristrips 1").replace("uchar int", "int int")
+        self.good("a.ply", strips + "6 0 2 1 3 0 2\n")
+        # The same in two strips, with a triangle between that is none.
+        self.good("a.ply", strips + "10 0 2 1 3 -1 1 3 0 2 2\n")
+        self.good("a.ply", self.PLY.replace("face 4", "face 6") + "2 0 1\n0\n",
+                  "2 faces of fewer than three corners left out (first: face 4)")
+        cloud = self.PLY[:self.PLY.index("element face")] + "end_header\n0 0 0\n" * 1 + "0 0 1\n" * 3
+        self.refuse("a.ply", cloud, "has no faces: there are points only")
+
+
+if __name__ == "__main__":
+    main()
