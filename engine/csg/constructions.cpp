@@ -12,9 +12,9 @@
 
 #include "engine/csg/frames.h"
 #include "engine/csg/grid_solid.h"
-#include "engine/csg/grid_tree.h"
 #include "engine/csg/minkowski.h"
 #include "engine/csg/operand_leaves.h"
+#include "engine/csg/whole_steps.h"
 
 namespace csgrun {
 namespace {
@@ -27,6 +27,22 @@ NodePtr hull_leaf(std::vector<glm::dvec3> points, const Appearance* appearance, 
   mesh->hull_of_points = true;
   mesh->kind = kind;
   if (appearance != nullptr) mesh->appearances.push_back(*appearance);
+  return Node::leaf(std::move(mesh), where);
+}
+
+/// A solid as a leaf over its corners on the grid. Where they were rounded it may cross itself, and
+/// is what the fill rule makes of it.
+NodePtr rounded_leaf(const Solid& solid, const GridSolid& on_grid, const GridStep& step,
+                     const SourceRef& where) {
+  auto mesh = std::make_shared<PolygonMesh>();
+  mesh->points = to_millimetres(on_grid.points, step);
+  mesh->appearances = solid.appearances;
+  mesh->kind = "minkowski";
+  for (size_t t = 0; t < solid.triangles.size(); ++t) {
+    const Solid::Face& face = solid.faces[solid.triangle_face[t]];
+    mesh->add_face(solid.triangles[t], face.surface);
+    mesh->appearance_of.push_back(face.appearance);
+  }
   return Node::leaf(std::move(mesh), where);
 }
 
@@ -204,7 +220,9 @@ Result<Constructions::Outcome> Constructions::make_sum(const Task& task,
       auto solid = grid_solid(*parts->solids[at], parts->step, !summand.is_convex);
       if (!solid) return solid.error();
       summand.solid = *std::move(solid);
-      summand.node = parts->on_grid[at];
+      if (!summand.is_convex) {
+        summand.node = rounded_leaf(*parts->solids[at], summand.solid, parts->step, node.where());
+      }
       if (all[at].node->kind() != NodeKind::kLeaf) rounded += summand.solid.rounded;
       list.push_back(std::move(summand));
     }

@@ -1,9 +1,11 @@
 #include "engine/csg/convex_hull.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/csg/grid.h"
 #include "engine/csg/wide_cross.h"
 #include "engine/exact/fixed_int.h"
 #include "engine/mesh/opposite_edges.h"
@@ -276,6 +278,9 @@ LeafGeometry convex_hull(std::span<const IVec3> points) {
   std::vector<IVec3> sorted(points.begin(), points.end());
   std::sort(sorted.begin(), sorted.end());
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  assert(std::all_of(sorted.begin(), sorted.end(), [](const IVec3& p) {
+    return std::all_of(p.begin(), p.end(), [](int64_t x) { return std::abs(x) <= kFarLimit; });
+  }));
   Hull hull(std::move(sorted));
   if (!hull.build()) return {};
   return hull.faces();

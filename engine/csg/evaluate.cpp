@@ -7,15 +7,12 @@
 #include <unordered_map>
 #include <utility>
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <csgrun/engine/evaluate.h>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/untouched.h"
 #include "engine/csg/constructions.h"
 #include "engine/csg/convexity.h"
-#include "engine/csg/grid_tree.h"
 #include "engine/csg/locate.h"
 #include "engine/csg/result_cache.h"
 #include "engine/csg/scene.h"
@@ -59,7 +56,7 @@ void keep_used_appearances(Solid& solid) {
 }
 
 uint64_t bytes_of(const Solid& s) {
-  return sizeof(Solid) + s.positions.size() * 40 + s.triangles.size() * 16 +
+  return sizeof(Solid) + s.positions.size() * 41 + s.triangles.size() * 16 +
          s.faces.size() * (sizeof(Solid::Face) + sizeof(glm::dvec3)) + s.loop_vertices.size() * 4 +
          s.sources.size() * 96 + s.exact_points.size() * 256;
 }
@@ -166,10 +163,7 @@ Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& par
     return resolve_surface(surface, crossings, rule, kernel_options(options, threads), stats);
   };
   SceneContext context{form, store, appearances, warnings, [this] { return cancelled(); }, resolve};
-  // Leaves are examined on the threads of the arena.
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena arena(static_cast<int>(threads));
-  return arena.execute([&] { return build_scene(context, roots, options.grid, least); });
+  return build_scene(context, roots, options.grid, least);
 }
 
 /// What the arrays of a root depend on: what it is, where it is in the world, and the step.
@@ -217,18 +211,13 @@ Result<EvaluatedParts> Evaluator::Impl::evaluate_parts(const std::vector<NodePtr
   if (!scene) return scene.error();
   auto solids_of_parts = evaluate(*scene);
   if (!solids_of_parts) return solids_of_parts.error();
-  EvaluatedParts result{scene->step, *std::move(solids_of_parts), {}, {}};
+  EvaluatedParts result{scene->step, *std::move(solids_of_parts), {}};
   result.is_convex.assign(parts.size(), 0);
-  result.on_grid.resize(parts.size());
   for (size_t i = 0; ask_convex && i < parts.size(); ++i) {
     if (result.solids[i]->empty()) continue;
     auto convex = is_convex(*scene, scene->roots[i]);
     if (!convex) return convex.error();
     result.is_convex[i] = *convex ? 1 : 0;
-    if (*convex) continue;
-    const auto root = form.add(parts[i]);
-    if (!root) return root.error();
-    result.on_grid[i] = tree_on_grid(form, store, appearances, *root, scene->step);
   }
   return result;
 }
@@ -370,20 +359,22 @@ Evaluator::Evaluator(EvaluateOptions options) : impl_(std::make_unique<Impl>(std
 Evaluator::~Evaluator() = default;
 
 Result<std::vector<SolidPtr>> Evaluator::evaluate(const std::vector<NodePtr>& parts) {
-  return impl_->evaluate(parts);
+  return with_threads(impl_->threads, [&] { return impl_->evaluate(parts); });
 }
 
 Result<SolidPtr> Evaluator::evaluate(const NodePtr& root) {
-  auto solids = impl_->evaluate({root});
+  auto solids = evaluate(std::vector<NodePtr>{root});
   if (!solids) return solids.error();
   return solids->front();
 }
 
 Result<int> Evaluator::contains(const NodePtr& root, const glm::dvec3& point) {
-  return impl_->contains(root, point);
+  return with_threads(impl_->threads, [&] { return impl_->contains(root, point); });
 }
 
-Result<Extent> Evaluator::extent(const NodePtr& root) { return impl_->extent(root); }
+Result<Extent> Evaluator::extent(const NodePtr& root) {
+  return with_threads(impl_->threads, [&] { return impl_->extent(root); });
+}
 
 const EvaluateStats& Evaluator::stats() const { return impl_->stats; }
 const std::vector<std::string>& Evaluator::warnings() const { return impl_->warnings.lines(); }

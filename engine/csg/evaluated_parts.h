@@ -15,9 +15,6 @@ struct EvaluatedParts {
   std::vector<SolidPtr> solids;
   /// Whether each is convex; not known (false) unless that was asked for.
   std::vector<uint8_t> is_convex;
-  /// Those that are not convex, over leaves that are on the grid (see tree_on_grid); null unless
-  /// asked for as above.
-  std::vector<NodePtr> on_grid;
 };
 
 /// Evaluates trees without constructions on one common grid, whose step is chosen but is at least

@@ -1,6 +1,7 @@
 #include "engine/csg/grid_solid.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <unordered_map>
@@ -9,7 +10,7 @@
 
 #include "engine/bsp/union_find.h"
 #include "engine/csg/grid.h"
-#include "engine/exact/fixed_int.h"
+#include "engine/csg/wide_cross.h"
 #include "engine/mesh/to_millimetres.h"
 
 namespace csgrun {
@@ -24,8 +25,7 @@ class ConvexPatches {
   ConvexPatches(const Solid& solid, const std::vector<IVec3>& points)
       : solid_(solid), points_(points) {}
 
-  /// `is_rounded` is by point.
-  void make(const std::vector<uint8_t>& is_rounded, GridSolid& result) {
+  void make(GridSolid& result) {
     const size_t edges = solid_.triangles.size() * 3;
     next_.resize(edges);
     previous_.resize(edges);
@@ -49,7 +49,7 @@ class ConvexPatches {
       for (uint32_t at = e; patch_of_[at] == kNone; at = next_[at]) {
         patch_of_[at] = patch;
         made.corners.push_back(from(at));
-        made.is_exact = made.is_exact && is_rounded[from(at)] == 0;
+        made.is_exact = made.is_exact && solid_.on_grid[from(at)] != 0;
       }
     }
     for (uint32_t e = 0; e < edges; ++e) {
@@ -69,21 +69,10 @@ class ConvexPatches {
   [[nodiscard]] int side_of_apex(uint32_t edge, uint32_t twin) const {
     const uint32_t third = twin - twin % 3 + (twin % 3 + 2) % 3;
     const auto& t = solid_.triangles[edge / 3];
-    std::array<std::array<Int128, 3>, 3> d;
-    for (int i = 0; i < 3; ++i) {
-      const int64_t origin = points_[t[0]][i];
-      d[0][i] = points_[t[1]][i] - origin;
-      d[1][i] = points_[t[2]][i] - origin;
-      d[2][i] = points_[from(third)][i] - origin;
-    }
-    // Differences are at most 2^41, so this is below 2^126.
-    const Int128 value = d[2][0] * (d[0][1] * d[1][2] - d[0][2] * d[1][1]) +
-                         d[2][1] * (d[0][2] * d[1][0] - d[0][0] * d[1][2]) +
-                         d[2][2] * (d[0][0] * d[1][1] - d[0][1] * d[1][0]);
-    return value > 0 ? 1 : value < 0 ? -1 : 0;
+    return side(points_[t[0]], points_[t[1]], points_[t[2]], points_[from(third)]);
   }
 
-  /// The same edge as its other triangle runs it.
+  /// The same edge as its other triangle runs it: a solid is closed, so all have one.
   void find_twins() {
     twin_.assign(next_.size(), kNone);
     std::unordered_map<uint64_t, uint32_t> edge_at;
@@ -96,6 +85,7 @@ class ConvexPatches {
       twin_[e] = found->second;
       twin_[found->second] = e;
     }
+    assert(std::find(twin_.begin(), twin_.end(), kNone) == twin_.end());
   }
 
   /// Whether the way a, b, c does not turn right, seen from outside of a face: along the axis that
@@ -162,12 +152,7 @@ Result<GridSolid> grid_solid(const Solid& solid, const GridStep& step, bool with
       q[i] = *rounded;
     }
   }
-  const std::vector<glm::dvec3> back = to_millimetres(result.points, step);
-  std::vector<uint8_t> is_rounded(back.size());
-  for (size_t i = 0; i < back.size(); ++i) {
-    is_rounded[i] = back[i] != solid.positions[i] ? 1 : 0;
-    result.rounded += is_rounded[i];
-  }
+  result.rounded = static_cast<size_t>(std::count(solid.on_grid.begin(), solid.on_grid.end(), 0));
   if (!with_patches) return result;
 
   UnionFind surface(result.points.size());
@@ -178,7 +163,7 @@ Result<GridSolid> grid_solid(const Solid& solid, const GridStep& step, bool with
   for (uint32_t v = 0; v < result.points.size(); ++v) {
     if (surface.find(v) == v) result.anchors.push_back(v);
   }
-  ConvexPatches(solid, result.points).make(is_rounded, result);
+  ConvexPatches(solid, result.points).make(result);
   return result;
 }
 

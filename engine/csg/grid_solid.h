@@ -17,7 +17,7 @@ struct GridSolid {
     std::vector<uint32_t> corners;  ///< indices of points, counter-clockwise from outside
     uint32_t face;
     glm::dvec3 normal;     ///< unit, outwards, within 1e-15; that of the face
-    bool is_exact = true;  ///< no corner was rounded: all are in the plane of the face
+    bool is_exact = true;  ///< no corner was rounded: these are the solid's own, in one plane
   };
   /// An edge between two faces that are not in one plane.
   struct Rim {
@@ -37,7 +37,7 @@ struct GridSolid {
 /// kOutOfRange beyond.
 Result<GridSolid> grid_solid(const Solid& solid, const GridStep& step, bool with_patches);
 
-/// A note about corners that were rounded: "12 corners of its operands are not on the grid and were
+/// A note about corners that were rounded: "12 corners of its operands lie off the grid and were
 /// rounded to it, by up to half a step of 1.5625e-08 mm".
 std::string rounding_note(size_t corners, const GridStep& step);
 

@@ -1,10 +1,12 @@
 #include "engine/csg/minkowski.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <utility>
 
 #include "engine/csg/convex_hull.h"
+#include "engine/csg/grid.h"
 #include "engine/csg/outward_sums.h"
 
 namespace csgrun {
@@ -109,6 +111,17 @@ double count_sums(const Summand& a, const Summand& b) {
   return points(a) * points(b);
 }
 
+/// The largest coordinate.
+int64_t reach(const std::vector<Summand>& summands) {
+  int64_t result = 0;
+  for (const Summand& summand : summands) {
+    for (const IVec3& p : summand.solid.points) {
+      for (const int64_t x : p) result = std::max(result, std::abs(x));
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 Result<std::vector<Summand>> minkowski_sum(const std::vector<Summand>& a,
@@ -122,6 +135,10 @@ Result<std::vector<Summand>> minkowski_sum(const std::vector<Summand>& a,
                  "minkowski: the operands have too many faces, more than 2^26 pairs of corners "
                  "would be summed; sum rounder shapes with fewer facets",
                  {}};
+  }
+  // The hulls of sums are taken in widths that allow for no more (wide_cross.h).
+  if (reach(a) + reach(b) > kFarLimit) {
+    return Error{ErrorCode::kOutOfRange, "reaches too far from the origin for the grid", {}};
   }
   Sums sums(step);
   for (const Summand& x : a) {

@@ -11,20 +11,22 @@
 #include <glm/geometric.hpp>
 
 #include "engine/csg/convex_hull.h"
-#include "engine/exact/fixed_int.h"
+#include "engine/csg/wide_cross.h"
 
 namespace csgrun {
 namespace {
 
-/// Of products of unit normals and coordinates relative to the largest: far above their error.
-/// What is extreme up to this counts as extreme.
+/// Of products of unit normals and coordinates relative to the largest: far above their error. More
+/// is summed than needed where it is extreme only up to this; of what there must be one that is
+/// truly extreme, integers tell which.
 constexpr double kSlack = 0x1p-40;
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
-/// What of a convex solid is extreme along the normal of a face.
+/// What of a convex solid is extreme along the normal of a face, at least up to kSlack.
 struct Extreme {
   std::vector<uint32_t> corners;
-  IVec3 middle{};  ///< one of the corners, or a point between them in their plane
+  bool is_flat = true;  ///< they are all extreme alike, exactly; else they must all be summed with
+  IVec3 middle{};       ///< an extreme point: one of the corners, or between them in their plane
 };
 
 /// A convex solid as seen from a point inside of it, about one in size.
@@ -36,8 +38,8 @@ class ConvexBody {
   [[nodiscard]] const IVec3& centre() const { return centre_; }
   [[nodiscard]] size_t count() const { return corners_.size(); }
   [[nodiscard]] const IVec3& corner(uint32_t c) const { return hull_.vertices[c]; }
-  /// What is extreme along a unit vector.
-  [[nodiscard]] Extreme extreme(const glm::dvec3& direction) const;
+  /// What is extreme along a unit vector, which is that of an exact one.
+  [[nodiscard]] Extreme extreme(const glm::dvec3& direction, const Vec128& exact) const;
   /// Marks those of them that are farthest along another one.
   void mark_farthest(const Extreme& extreme, const glm::dvec3& direction,
                      std::vector<uint8_t>& marks) const;
@@ -48,8 +50,12 @@ class ConvexBody {
   void mark_away_from(const std::vector<glm::dvec3>& directions, std::vector<uint8_t>& marks) const;
 
  private:
-  [[nodiscard]] int height(uint32_t face, const IVec3& point) const;
-  [[nodiscard]] bool is_on_face(const IVec3& point, const glm::dvec3& normal) const;
+  /// The sign of how far a point is in front of a face.
+  [[nodiscard]] int height(uint32_t face, const IVec3& point) const {
+    const uint32_t* c = hull_.corners.data() + hull_.face_starts[face];
+    const auto& at = hull_.vertices;  // no three corners of a hull's face are in line
+    return side(at[c[0]], at[c[1]], at[c[2]], point);
+  }
   void find_normals();
 
   LeafGeometry hull_;
@@ -58,22 +64,6 @@ class ConvexBody {
   std::vector<glm::dvec3> face_normals_;
   std::vector<std::vector<uint32_t>> face_at_;  // the faces around a corner, in order
 };
-
-/// The sign of how far a point is in front of a face.
-int ConvexBody::height(uint32_t face, const IVec3& point) const {
-  const uint32_t* c = hull_.corners.data() + hull_.face_starts[face];
-  std::array<std::array<Int128, 3>, 3> d;  // no three corners of a hull's face are in line
-  for (int i = 0; i < 3; ++i) {
-    const int64_t origin = hull_.vertices[c[0]][i];
-    d[0][i] = hull_.vertices[c[1]][i] - origin;
-    d[1][i] = hull_.vertices[c[2]][i] - origin;
-    d[2][i] = point[i] - origin;
-  }
-  const Int128 value = d[2][0] * (d[0][1] * d[1][2] - d[0][2] * d[1][1]) +
-                       d[2][1] * (d[0][2] * d[1][0] - d[0][0] * d[1][2]) +
-                       d[2][2] * (d[0][0] * d[1][1] - d[0][1] * d[1][0]);
-  return value > 0 ? 1 : value < 0 ? -1 : 0;
-}
 
 bool ConvexBody::build(const std::vector<IVec3>& points) {
   hull_ = convex_hull(points);
@@ -104,12 +94,16 @@ void ConvexBody::find_normals() {
   face_normals_.resize(hull_.face_count());
   for (uint32_t f = 0; f < hull_.face_count(); ++f) {
     const uint32_t begin = hull_.face_starts[f], end = hull_.face_starts[f + 1];
-    const auto at = [&](uint32_t c) { return corners_[hull_.corners[c]]; };
+    const auto at = [&](uint32_t c) { return hull_.vertices[hull_.corners[c]]; };
+    Vec128 normal{};
     for (uint32_t c = begin; c < end; ++c) {
       face_of[c] = f;
       first[hull_.corners[c]] = c;
-      if (c > begin + 1) face_normals_[f] += glm::cross(at(c - 1) - at(begin), at(c) - at(begin));
+      if (c <= begin + 1) continue;
+      const Vec128 part = cross(at(begin), at(c - 1), at(c));
+      for (int i = 0; i < 3; ++i) normal[i] += part[i];
     }
+    for (int i = 0; i < 3; ++i) face_normals_[f][i] = static_cast<double>(normal[i]);
     face_normals_[f] = glm::normalize(face_normals_[f]);
   }
   face_at_.resize(count());
@@ -124,35 +118,39 @@ void ConvexBody::find_normals() {
   }
 }
 
-Extreme ConvexBody::extreme(const glm::dvec3& direction) const {
+Extreme ConvexBody::extreme(const glm::dvec3& direction, const Vec128& exact) const {
   double most = -HUGE_VAL;
   for (const glm::dvec3& c : corners_) most = std::max(most, glm::dot(direction, c));
   Extreme result;
-  std::array<Int128, 3> sum{};
   for (uint32_t i = 0; i < count(); ++i) {
-    if (glm::dot(direction, corners_[i]) < most - kSlack) continue;
-    result.corners.push_back(i);
-    for (int k = 0; k < 3; ++k) sum[k] += corner(i)[k];
+    if (glm::dot(direction, corners_[i]) >= most - kSlack) result.corners.push_back(i);
   }
-  const std::vector<uint32_t>& c = result.corners;
-  result.middle = corner(c[0]);
+  // Differences of coordinates are at most 2^41, so this is below 2^126.
+  const auto exact_height = [&](const IVec3& point) {
+    Int128 sum = 0;
+    for (int k = 0; k < 3; ++k) sum += exact[k] * (point[k] - centre_[k]);
+    return sum;
+  };
+  result.middle = corner(result.corners[0]);
+  Int128 highest = exact_height(result.middle);
+  for (const uint32_t c : result.corners) {
+    const Int128 here = exact_height(corner(c));
+    result.is_flat &= here == highest;
+    if (here > highest) highest = here, result.middle = corner(c);
+  }
+  if (!result.is_flat || result.corners.size() < 3) return result;
   IVec3 middle;
   for (int k = 0; k < 3; ++k) {
-    middle[k] = static_cast<int64_t>(sum[k] / static_cast<Int128>(c.size()));
+    Int128 sum = 0;
+    for (const uint32_t c : result.corners) sum += corner(c)[k];
+    middle[k] = static_cast<int64_t>(sum / static_cast<Int128>(result.corners.size()));
   }
-  if (c.size() > 2 && is_on_face(middle, direction)) result.middle = middle;
+  bool is_on_face = exact_height(middle) == highest;
+  for (uint32_t f = 0; is_on_face && f < hull_.face_count(); ++f) {
+    is_on_face = height(f, middle) <= 0;
+  }
+  if (is_on_face) result.middle = middle;
   return result;
-}
-
-/// Whether a point is on the face with this normal.
-bool ConvexBody::is_on_face(const IVec3& point, const glm::dvec3& normal) const {
-  bool is_in_plane = false;
-  for (uint32_t f = 0; f < hull_.face_count(); ++f) {
-    const int side = height(f, point);
-    if (side > 0) return false;
-    is_in_plane |= side == 0 && glm::dot(face_normals_[f], normal) >= 1 - kSlack;
-  }
-  return is_in_plane;
 }
 
 void ConvexBody::mark_farthest(const Extreme& extreme, const glm::dvec3& direction,
@@ -280,12 +278,30 @@ class Outward {
   }
 
   void list_extremes() {
+    std::vector<bool> is_known;
     for (uint32_t p = 0; p < a_.patches.size(); ++p) {
       const GridSolid::Patch& patch = a_.patches[p];
-      if (patch.face >= extreme_.size()) extreme_.resize(patch.face + 1);
+      if (patch.face >= extreme_.size()) {
+        extreme_.resize(patch.face + size_t{1});
+        is_known.resize(patch.face + size_t{1});
+      }
       Extreme& extreme = extreme_[patch.face];
-      if (extreme.corners.empty()) extreme = body_.extreme(patch.normal);
+      // One with rounded corners is summed with everything; its normal is not the face's.
+      if (patch.is_exact ? !is_known[patch.face] : extreme.corners.empty()) {
+        extreme = body_.extreme(patch.normal, exact_normal(patch));
+        is_known[patch.face] = patch.is_exact;
+      }
     }
+  }
+
+  /// Along the normal of a patch, exactly; null if it is rounded to nothing.
+  [[nodiscard]] Vec128 exact_normal(const GridSolid::Patch& patch) const {
+    Vec128 normal{};
+    for (size_t c = 2; c < patch.corners.size() && is_zero(normal); ++c) {
+      normal = cross(a_.points[patch.corners[0]], a_.points[patch.corners[c - 1]],
+                     a_.points[patch.corners[c]]);
+    }
+    return normal;
   }
 
   /// Corners with three convex edges or more go to one of the patches around, and to one of each
@@ -326,7 +342,7 @@ class Outward {
     const Extreme& extreme = extreme_[patch.face];
     marks_.assign(body_.count(), patch.is_exact ? 0 : 1);
     if (patch.is_exact) {
-      if (tasks.has_corner) {
+      if (tasks.has_corner || !extreme.is_flat) {
         for (const uint32_t c : extreme.corners) marks_[c] = 1;
       }
       for (const uint32_t r : tasks.sides) {

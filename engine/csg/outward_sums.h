@@ -29,8 +29,8 @@ struct OutwardSums {
 ///
 /// One body is made for each convex polygon of A's faces, with what its edges and corners need that
 /// no other one has. It may have more of B than it needs (signs are of doubles, with a bound); it
-/// is in A + B all the same. A polygon with corners that were rounded is summed with all of B, so
-/// that no gap opens between it and A.
+/// is in A + B all the same. A polygon with corners that were rounded need not be flat: it is
+/// summed with all of B, which has what its edges and corners need, whatever they are.
 ///
 /// `convex` are the corners of B, on the grid. No bodies and no centre (false) when no grid point
 /// is well inside of B: the caller sums whole faces then. O(|A| |B|).

@@ -1,6 +1,7 @@
 #include "engine/mesh/present.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <optional>
@@ -53,6 +54,17 @@ void count_topology(Solid& solid) {
   const auto euler = static_cast<int64_t>(parent.size()) - triangles * 3 / 2 + triangles;
   solid.measures.components = components;
   solid.measures.genus = components - euler / 2;
+}
+
+/// Whether a point is exactly one of the grid.
+bool is_whole(const Point& p) {
+  if (p.w_bits == 1) return true;
+  const std::array<double, 3> near = rounded(p);
+  for (const double x : near) {
+    if (std::fabs(x) >= 0x1p62 || x != std::trunc(x)) return false;
+  }
+  const auto whole = [&](int i) { return static_cast<int64_t>(near[i]); };
+  return compare(p, grid_point(whole(0), whole(1), whole(2))) == 0;
 }
 
 class Presenter {
@@ -187,6 +199,7 @@ class Presenter {
     solid.positions.resize(all);
     solid.positions_f32.resize(all);
     solid.point_of.resize(all);
+    solid.on_grid.assign(all, 1);
     first_vertex_.resize(points);
     number_of_own_.resize(fans_.point_of_vertex.size());
     for_each_part(points, each, [&](size_t part, size_t begin, size_t end) {
@@ -235,7 +248,9 @@ class Presenter {
       if (part.map.is_identity()) {
         to_mm.position(part.vertex(v), solid.positions[at], solid.positions_f32[at]);
       } else {
-        to_mm.position(part.point(v), solid.positions[at], solid.positions_f32[at]);
+        const Point point = part.point(v);
+        to_mm.position(point, solid.positions[at], solid.positions_f32[at]);
+        solid.on_grid[at] = is_whole(point) ? 1 : 0;
       }
       solid.point_of[at] = n;
       ++count.untouched;
@@ -255,12 +270,14 @@ class Presenter {
     glm::dvec3 mm;
     std::array<float, 3> single;
     to_mm.position(exact, mm, single);
+    const bool whole = is_whole(exact);
     for (; count.own < point_of_own.size() && point_of_own[count.own] == p; ++count.own) {
       const size_t at = count.untouched + count.own;
       number_of_own_[count.own] = static_cast<uint32_t>(at);
       solid.positions[at] = mm;
       solid.positions_f32[at] = single;
       solid.point_of[at] = number;
+      solid.on_grid[at] = whole ? 1 : 0;
     }
     if (context_.exact_points) {
       solid.exact_points.resize(number + size_t{1});

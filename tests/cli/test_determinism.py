@@ -1,8 +1,9 @@
 """The same bytes for any number of threads, in any folder, time zone and locale, on every run."""
 import hashlib
 import os
+import subprocess
 
-from support import Case, SOURCE, main
+from support import CSGRUN, Case, SANITIZED, SOURCE, main
 
 MODEL = """
 local parts = {}
@@ -39,6 +40,26 @@ class Bytes(Case):
 
     def test_a_script_that_tries(self):
         self.check(self.write("model.lua", MODEL.replace("os == nil", "rawget(_G, 'os') == nil")))
+
+    def most_threads(self, model, threads):
+        """How many threads were seen in a run."""
+        process = subprocess.Popen([CSGRUN, model, "-o", self.path("a.glb"), "-q", "--threads", threads])
+        most = 0
+        while process.poll() is None:
+            try:
+                most = max(most, len(os.listdir(f"/proc/{process.pid}/task")))
+            except FileNotFoundError:
+                break
+        self.assertEqual(process.wait(), 0)
+        return most
+
+    def test_one_thread_is_one(self):
+        if SANITIZED or not os.path.isdir("/proc/self/task"):
+            self.skipTest("threads cannot be counted")
+        # Leaves, sums and arrays large enough that threads would pay. One more thread looks at the clock.
+        model = self.write("model.lua", "emit(minkowski(cube(9) - cube(4), sphere(1)))\nemit(sphere{r = 5, fn = 300})")
+        self.assertLessEqual(self.most_threads(model, "1"), 2)
+        self.assertGreater(self.most_threads(model, "4"), 2)
 
     def test_examples(self):
         for name in ("bracket", "flush_assembly"):

@@ -65,6 +65,13 @@ expect(minkowski(minkowski(plate, cube(0.3)), sphere{r = 0.4, fn = 8}):translate
 expect(minkowski(plate:rotate(20), sphere{r = 0.7, fn = 10}:rotate(20)):translate(1 / 3, 0, 0), 1, 3, "both turned")
 expect(minkowski(plate:rotate(20), cube(1)):translate(1 / 3, 0, 0), 1, 3, "one turned")
 
+-- Two that are not convex, one with corners where planes of two frames meet: rounded for all of the sum alike.
+local cut = intersection(cube{40, 40, 40, center = true}, cube{45, 45, 45, center = true}:rotate(33, -21, 50))
+  - cube(5, 5, 5):translate(0, 0, 15) - cube{3, 3, 90, center = true}
+local notched = minkowski(cut, cube(2, 2, 2) - cube(1, 1, 1):translate(1, 1, 1))
+expect(notched, 1, 1, "neither convex")
+assert(outer_hull(notched):components() == 1)
+
 -- An operand that is moved, within the sum, or the sum as a whole: the same by whole steps.
 assert(minkowski(plate:translate(1, 2, 3), cube(1)) == minkowski(plate, cube(1)):translate(1, 2, 3))
 assert(minkowski(plate):translate(1 / 3, 0, 0) == plate:translate(1 / 3, 0, 0))

@@ -239,6 +239,101 @@ TEST(MinkowskiNode, OfWhatIsOffTheGrid) {
   EXPECT_EQ(sum.solid->measures.genus, truth.solid->measures.genus);
 }
 
+/// A corner so near to a grid point that its double is that of the point: exact fractions tell.
+TEST(MinkowskiNode, CornersThatAreNearlyOnTheGridAreOffIt) {
+  const auto prism = [](const std::vector<std::array<double, 2>>& base, double low, double high) {
+    std::vector<glm::dvec3> points;
+    for (const auto& [x, y] : base) {
+      points.emplace_back(x, y, low);
+      points.emplace_back(x, y, high);
+    }
+    return hull_at(points, {0, 0, 0});
+  };
+  // The side of the first from (134000000, 5000000) to (5066422, 133902997) passes the diagonal
+  // side of the second 3.9e-9 from (71428363, 67556796).
+  const NodePtr cut = subtract(
+      {prism({{134000000, 5000000}, {5066422, 133902997}, {5066422, 5000000}}, 0, 100000),
+       prism({{65428363, 61556796}, {74428363, 70556796}, {77428363, 67556796}}, -1000, 200000)});
+  EvaluateOptions options;
+  options.grid = *GridStep::parse("1");
+  options.exact_points = true;
+  Evaluator evaluator(options);
+  const SolidPtr solid = *evaluator.evaluate(cut);
+  size_t off = 0, hidden = 0;
+  for (size_t v = 0; v < solid->positions.size(); ++v) {
+    bool is_whole = true, looks_whole = true;
+    for (int i = 0; i < 3; ++i) {
+      is_whole &= solid->exact_points[solid->point_of[v]][i].find('/') == std::string::npos;
+      looks_whole &= solid->positions[v][i] == std::round(solid->positions[v][i]);
+    }
+    EXPECT_EQ(solid->on_grid[v] != 0, is_whole) << "vertex " << v;
+    off += is_whole ? 0 : 1;
+    hidden += looks_whole && !is_whole ? 1 : 0;
+  }
+  EXPECT_EQ(off, 4u);
+  EXPECT_EQ(hidden, 2u);
+  const Evaluated sum =
+      evaluated(Node::minkowski_sum({cut, box({-1000, -1000, -1000}, {1000, 1000, 1000})}), "1");
+  ASSERT_EQ(sum.warnings.size(), 1u);
+  EXPECT_NE(sum.warnings[0].find("4 corners"), std::string::npos) << sum.warnings[0];
+}
+
+/// Two corners of B that are all but equally far along the normal of A's face, which is slanted a
+/// little, with a hole. The truth is the union of the sums of A's convex parts.
+TEST(MinkowskiNode, WhatIsNearlyExtremeIsNotTakenForExtreme) {
+  constexpr int kSides = 24;
+  using Point = std::array<int, 2>;
+  const std::array<Point, 4> outer{{{400, 400}, {-400, 400}, {-400, -400}, {400, -400}}};
+  std::vector<Point> hole;
+  for (int k = 0; k < kSides; ++k) {
+    const double angle = 2 * M_PI * (k + 0.5) / kSides;
+    hole.push_back({static_cast<int>(std::lround(200 * std::cos(angle))),
+                    static_cast<int>(std::lround(200 * std::sin(angle)))});
+  }
+  // In the plane of (1000, 0, 1) and (0, 1001, 1).
+  const auto prism = [](const std::vector<Point>& base, double below, double above) {
+    std::vector<glm::dvec3> points;
+    for (const auto& [i, j] : base) {
+      points.emplace_back(1000. * i, 1001. * j, i + j + above);
+      points.emplace_back(1000. * i, 1001. * j, i + j - below);
+    }
+    return hull_at(points, {0, 0, 0});
+  };
+  const auto nearest = [&](const Point& p) {
+    size_t best = 0;
+    for (size_t o = 1; o < 4; ++o) {
+      const auto along = [&](size_t at) { return outer[at][0] * p[0] + outer[at][1] * p[1]; };
+      if (along(o) > along(best)) best = o;
+    }
+    return best;
+  };
+  const NodePtr plate =
+      subtract({prism({outer.begin(), outer.end()}, 3000, 0), prism(hole, 50000, 50000)});
+  for (const double sign : {1., -1.}) {
+    const double h = 4000000, r = 2000000;
+    const NodePtr convex = hull_at({{0, 0, h},
+                                    {sign * 999999, sign, h + sign * 1000},
+                                    {-r, -r, -h},
+                                    {r, -r, -h},
+                                    {r, r, -h},
+                                    {-r, r, -h}},
+                                   {0, 0, 0});
+    std::vector<NodePtr> sums;
+    for (int k = 0; k < kSides; ++k) {
+      const Point &a = hole[k], &b = hole[(k + 1) % kSides];
+      const size_t s = nearest(a), t = nearest(b);
+      sums.push_back(Node::minkowski_sum({prism({a, b, outer[s]}, 3000, 0), convex}));
+      if (s == t) continue;
+      sums.push_back(Node::minkowski_sum({prism({b, outer[s], outer[t]}, 3000, 0), convex}));
+    }
+    const NodePtr sum = Node::minkowski_sum({plate, convex}), truth = unite(sums);
+    EXPECT_EQ(evaluated(sum, "1").solid->canonical_hash,
+              evaluated(truth, "1").solid->canonical_hash);
+    EXPECT_TRUE(evaluated(subtract({truth, sum}), "1").solid->empty()) << sign;
+    EXPECT_TRUE(evaluated(subtract({sum, truth}), "1").solid->empty()) << sign;
+  }
+}
+
 TEST(ResizeNode, ScalesTheBox) {
   const auto volume = [](std::array<double, 3> size, std::array<bool, 3> automatic) {
     return evaluated(Node::resized({size, automatic}, moved(kBox, 1, 0, 0))).volume();

@@ -45,6 +45,7 @@ struct Solid {
   std::vector<glm::dvec3> positions;                ///< mm, correctly rounded
   std::vector<std::array<float, 3>> positions_f32;  ///< mm, correctly rounded from the exact value
   std::vector<uint32_t> point_of;  ///< per vertex: its geometric point; a number may be left out
+  std::vector<uint8_t> on_grid;    ///< per vertex: 1 if it is exactly a point of the grid, else 0
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise from outside
   std::vector<uint32_t> triangle_face;             ///< per triangle: its face
   std::vector<Face> faces;
