@@ -200,9 +200,27 @@ void expect_same(const Count& count, const Count& limit) {
   EXPECT_EQ(count.coplanar, limit.coplanar);
 }
 
+/// The same bodies on the other side of the origin.
+std::vector<Operand> mirrored(std::vector<Operand> operands) {
+  for (Operand& operand : operands) {
+    auto loops = test::loops_of(*operand.leaf);
+    test::turn_over(loops);
+    for (test::Loop& loop : loops) {
+      for (IVec3& p : loop) p = {-p[0], -p[1], -p[2]};
+    }
+    auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(loops));
+    leaf->may_touch = operand.leaf->may_touch;
+    leaf->convex = operand.leaf->convex;
+    if (!operand.leaf->opposite.empty()) leaf->opposite = pair_edges(*leaf).opposite;
+    operand.leaf = leaf;
+    for (int64_t& t : operand.translation) t = -t;
+  }
+  return operands;
+}
+
 TEST(FaceArrangement, OfConvexBodies) {
   test::Random random(981);
-  Count count;
+  Count count, mirror_count;
   for (int i = 0; i < 60; ++i) {
     std::vector<Operand> operands;
     for (int64_t o = random.integer(2, 4); o > 0; --o) {
@@ -210,14 +228,16 @@ TEST(FaceArrangement, OfConvexBodies) {
                                               : random_hull(random, i % 3 != 0));
     }
     ASSERT_NO_FATAL_FAILURE(Cuts(operands).check(count)) << "case " << i;
+    ASSERT_NO_FATAL_FAILURE(Cuts(mirrored(operands)).check(mirror_count)) << "case " << i;
   }
   expect_same(count, {749, 243, 0, 20261, 74});
+  expect_same(mirror_count, count);
 }
 
 // Of any bodies on a small grid, which may touch themselves as far as anybody knows, or do not.
 TEST(FaceArrangement, OfAnyBodies) {
   test::Random random(982);
-  Count count;
+  Count count, mirror_count;
   for (int i = 0; i < 40; ++i) {
     std::vector<Operand> operands;
     for (int64_t o = random.integer(2, 3); o > 0; --o) {
@@ -233,8 +253,10 @@ TEST(FaceArrangement, OfAnyBodies) {
       operands.push_back(operand);
     }
     ASSERT_NO_FATAL_FAILURE(Cuts(operands).check(count)) << "case " << i;
+    ASSERT_NO_FATAL_FAILURE(Cuts(mirrored(operands)).check(mirror_count)) << "case " << i;
   }
   expect_same(count, {948, 84, 44, 11613, 270});
+  expect_same(mirror_count, count);
 }
 
 }  // namespace
