@@ -69,9 +69,10 @@ class EdgeLines {
     const int axis = longest_axis(first);
     const std::pair<double, double> own = range(first, axis);
     if (own.first == own.second) return false;  // too short to tell
-    const auto on_line =
-        std::ranges::equal_range(order_, keys_[first], {}, [&](uint32_t i) { return keys_[i]; });
-    return std::ranges::none_of(on_line, [&](uint32_t i) {
+    const auto [begin, end] =
+        std::equal_range(order_.begin(), order_.end(), first,
+                         [&](uint32_t i, uint32_t j) { return keys_[i] < keys_[j]; });
+    return std::none_of(begin, end, [&](uint32_t i) {
       const auto [a, b] = range(i, axis);
       return i != first && i != first + 1 && a < own.second && own.first < b;
     });

@@ -309,8 +309,9 @@ std::optional<InsideLabels> label_by_reach(const Job& job, const std::vector<Sur
     while (!open.empty()) {
       const uint32_t from = open.back();
       open.pop_back();
-      for (const auto& [_, to] : std::ranges::equal_range(
-               free, from, {}, [](const std::array<uint32_t, 2>& way) { return way[0]; })) {
+      auto way = std::lower_bound(free.begin(), free.end(), std::array<uint32_t, 2>{from, 0});
+      for (; way != free.end() && (*way)[0] == from; ++way) {
+        const uint32_t to = (*way)[1];
         if (reached[to]) continue;
         reached[to] = 1;
         open.push_back(to);
