@@ -80,10 +80,11 @@ int surface(lua_State* L) {
     } catch (const ScriptError& error) {
       fail_in(kSurface, error.what());
     }
-    if (arguments.has("invert") && !is_png(file.bytes)) {
+    const bool invert = arguments.boolean("invert", false);
+    if (invert && !is_png(file.bytes)) {
       fail_in(kSurface, "option 'invert' is for a PNG, and " + file.display + " is a text");
     }
-    auto read = parse_height_map(file.display, file.bytes, arguments.boolean("invert", false));
+    auto read = parse_height_map(file.display, file.bytes, invert);
     if (!read) fail_in(kSurface, read.error().message);  // it begins with the file's name
     map = *std::move(read);
   }
