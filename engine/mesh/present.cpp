@@ -115,7 +115,8 @@ class Presenter {
   }
 
   Status make_vertices() {
-    const Contacts contacts = context_.join_contacts ? Contacts::kJoin : Contacts::kSeparate;
+    const ContactRule contacts =
+        context_.join_contacts ? ContactRule::kJoin : ContactRule::kSeparate;
     // Solids that are joined along an edge have it twice, mostly between the same two vertices:
     // with points in the middle the two are apart.
     std::vector<std::array<uint32_t, 2>> doubled;

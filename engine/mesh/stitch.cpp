@@ -228,9 +228,9 @@ void make_twins(std::vector<uint32_t>& twin, uint32_t a, uint32_t b) {
 /// partner the next backward one. A face that the edge only touches has no sheets here, and two
 /// backward ones may follow each other: then they pair as brackets do. REQUIRES: as many forward as
 /// backward ones.
-void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order, Contacts contacts,
+void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order, ContactRule contacts,
                  std::vector<uint32_t>& twin) {
-  const bool join = contacts == Contacts::kJoin;
+  const bool join = contacts == ContactRule::kJoin;
   // A face that the edge runs through, and that all others touch from one side, is not parted:
   // where its diagonals are must not matter.
   for (const Sheet& s : sheets) {
@@ -275,7 +275,7 @@ void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order, Contacts 
 /// what is untouched a half-edge has no twin.
 bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
                 CellGeometry& geometry, const PlaneTable& planes, const WholeOrder& whole,
-                Contacts contacts, std::vector<uint32_t>& twin,
+                ContactRule contacts, std::vector<uint32_t>& twin,
                 std::vector<std::vector<uint32_t>>& crowded) {
   std::vector<EdgeRef> refs;
   const auto half_edges = static_cast<uint32_t>(set.triangles.size() * 3);
@@ -399,7 +399,7 @@ bool part_double_edges(const std::vector<std::vector<uint32_t>>& crowded, const 
 
 bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
                 CellGeometry& geometry, const PlaneTable& planes, const WholeOrder& whole,
-                Contacts contacts, VertexFans& fans,
+                ContactRule contacts, VertexFans& fans,
                 std::vector<std::array<uint32_t, 2>>* doubled) {
   std::vector<uint32_t> twin;
   std::vector<std::vector<uint32_t>> crowded;

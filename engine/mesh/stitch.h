@@ -31,7 +31,7 @@ struct VertexFans {
 };
 
 /// What becomes of an edge where more than two faces meet, found by their exact radial order.
-enum class Contacts : uint8_t {
+enum class ContactRule : uint8_t {
   kSeparate,  ///< faces that bound the same wedge of material are neighbours
   kJoin,      ///< faces that bound the same wedge between the solids are neighbours
 };
@@ -44,7 +44,7 @@ enum class Contacts : uint8_t {
 /// reverse, neither in the set nor on the rim.
 bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
                 CellGeometry& geometry, const PlaneTable& planes, const WholeOrder& whole,
-                Contacts contacts, VertexFans& fans,
+                ContactRule contacts, VertexFans& fans,
                 std::vector<std::array<uint32_t, 2>>* doubled = nullptr);
 
 }  // namespace csgrun

@@ -7,7 +7,7 @@
 
 #include <csgrun/primitives/trig.h>
 
-#include "primitives/base/box_tree.h"
+#include "primitives/base/box3_tree.h"
 
 namespace csgrun {
 namespace {
@@ -211,7 +211,7 @@ std::optional<uint32_t> EdgeFrames::first_without_room() const {
       for (const glm::dvec3& p : strip_in_space(*f, side)) boxes[e].add(p);
     }
   }
-  const BoxTree tree(boxes);
+  const Box3Tree tree(boxes);
   for (uint32_t i = 0; i < frames_.size(); ++i) {
     const EdgeFrame& f = frames_[i];
     bool has_room = !is_turned_over(f, 0) && !is_turned_over(f, 1);

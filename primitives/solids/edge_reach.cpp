@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "primitives/base/box_tree.h"
+#include "primitives/base/box3_tree.h"
 #include "primitives/base/text.h"
 
 namespace csgrun {
@@ -165,7 +165,7 @@ class Surroundings {
   const EdgeFrames& frames_;
   const EdgeEnds& ends_;
   std::vector<uint32_t> triangles_;
-  const BoxTree tree_;
+  const Box3Tree tree_;
   std::vector<std::pair<uint32_t, uint32_t>> sides_at_;  ///< vertex and side
   mutable std::vector<glm::dvec3> polygon_, rest_;
 };

@@ -34,9 +34,9 @@ struct Box3 {
 
 /// A binary tree, halved at the median of the boxes' middles along their longest extent. Made in
 /// O(n log^2 n).
-class BoxTree {
+class Box3Tree {
  public:
-  explicit BoxTree(std::vector<Box3> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+  explicit Box3Tree(std::vector<Box3> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
     if (!boxes_.empty()) build(0, static_cast<uint32_t>(boxes_.size()));
   }
