@@ -50,6 +50,9 @@ LONGEST = 1000
 GENERATED = {"lua_bindings/meta/csgrun.lua"}  # by csgrun --help-api=luals
 SKIPPED = {".git", "build", "node_modules", ".cache"}
 
+# A type that headers define, by its first line; what is in a namespace of its own or in another type is
+# not at the start of a line, or is not ours to tell apart.
+TYPE = re.compile(r"^(?:class|struct|enum(?: class)?)\s+(\w+)(?:\s+final)?\s*(?::[^:]|\{)", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 # Spelled in pieces, so that this file does not find itself.
 STRAY = [
@@ -105,11 +108,18 @@ def files_of(root):
 
 def check(root):
     findings, count = [], 0
+    types = {}  # of the product: they are linked into one program
     for path in files_of(root):
         with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
             text = file.read()
         count += 1
         findings += [f"{path}:{line}: {what}" for line, what in text_findings(path, text)]
+        if path.endswith(".h") and not path.startswith("tests/"):
+            for match in TYPE.finditer(text):
+                other = types.setdefault(match.group(1), path)
+                if other != path:
+                    line = text.count("\n", 0, match.start()) + 1
+                    findings.append(f"{path}:{line}: {match.group(1)} is a type of {other}, too")
         if path.endswith((".h", ".hpp", ".cpp", ".cc")):
             for match in INCLUDE.finditer(text):
                 line = text.count("\n", 0, match.start(2)) + 1
@@ -124,6 +134,8 @@ def self_test():
         "engine/exact/point.h": '#include "engine/exact/plane.h"\n#include <array>\n',
         "engine/bsp/cell.cpp": '#include "engine/exact/plane.h"\n#include <csgrun/engine/solid.h>\n',
         "engine/mesh/openmesh_bridge.cpp": "#include <OpenMesh/Core/Mesh/Traits.hh>\n",
+        "engine/mesh/tree.h": "class Tree final : public Base {\n};\nclass Leaf;\n",
+        "primitives/leaf.h": "class Leaf;\nstruct Leaf::Data {\n};\n",
         "export/gltf.cpp": "#include <tiny_gltf.h>\n#include <csgrun/engine/solid.h>\n",
         "lua_bindings/bind.cpp": "#include <lua.hpp>\n#include <csgrun/export/write.h>\n",
         "tests/unit/exact/point_test.cpp": '#include <gmp.h>\n#include "engine/exact/plane.h"\n',
@@ -132,6 +144,7 @@ def self_test():
         "engine/exact/up.h": '#include "engine/bsp/cell.h"\n',
         "engine/exact/edge.h": "#include <csgrun/engine/solid.h>\n",
         "engine/bsp/side.cpp": '#include "engine/mesh/triangulate.h"\n',
+        "primitives/tree.h": "class Tree {\n};\n",  # one of the two of that name
         "engine/mesh/side.cpp": '#  include "engine/csg/scene.h"\n',
         "engine/csg/up.cpp": "#include <csgrun/primitives/solids.h>\n",
         "engine/include/csgrun/engine/leak.h": '#include "engine/csg/cache.h"\n',
