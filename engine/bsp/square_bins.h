@@ -24,9 +24,8 @@ class SquareBins {
   /// meet many squares each, so O(boxes) but for the boxes that one square holds.
   SquareBins(std::span<const Box> boxes, uint32_t per_side) {
     divide(boxes, per_side);
-    while (per_side_ > 1 && count_entries(boxes) > kMostEach * boxes.size()) {
-      divide(boxes, per_side_ / 2);
-    }
+    // Boxes meet one square each at last.
+    while (count_entries(boxes) > kMostEach * boxes.size()) divide(boxes, per_side_ / 2);
     std::vector<std::pair<uint32_t, uint32_t>> entries;  // square, box
     for (uint32_t i = 0; i < boxes.size(); ++i) {
       const Box& b = boxes[i];

@@ -70,6 +70,7 @@ TEST(SquareBins, AreFewWhereBoxesAreWide) {
   std::vector<Box> boxes{wide[0]};
   for (int i = 0; i < 99; ++i) boxes.push_back({{double(i), double(i)}, {i + 0.5, i + 0.5}});
   boxes.push_back({{50, 50}, {40, 60}});  // nowhere
+  boxes.push_back({{50, 60}, {60, 50}});
   EXPECT_GT(SquareBins(boxes, 32).size(), 32u * 32);
 }
 
