@@ -37,7 +37,7 @@ class PackedBoxes {
     size_t depth = 0;
     stack[depth++] = {static_cast<uint32_t>(levels_.size()) - 1, 0};
     while (depth > 0) {
-      const auto [level, group] = stack[--depth];
+      const uint32_t level = stack[--depth].level, group = stack[depth].group;
       uint32_t hits = overlapping(levels_[level][group], box);
       if (level == 0) {
         for_each_bit(hits, [&](uint32_t bit) { visit(8 * group + bit); });
