@@ -117,7 +117,7 @@ int anchor(lua_State* L) {
   if (to_shape(L, 1) != nullptr) {
     push_list(L, {p.x, p.y});
   } else {
-    push_list(L, {p.x, p.y, p.z});
+    push_point(L, p);
   }
   return 1;
 }

@@ -156,7 +156,7 @@ int times(lua_State* L) {
       p[i] = lua_tonumber(L, -1);
     }
     const glm::dvec3 q = map.apply(p);
-    push_list(L, {q.x, q.y, q.z});
+    push_point(L, q);
   } else {
     throw ScriptError("'*': a matrix moves a solid, a shape, a matrix or a point {x, y, z}, got " +
                       describe_value(L, 2));

@@ -13,14 +13,13 @@
 #include "lua_bindings/guard.h"
 #include "lua_bindings/operands.h"
 #include "lua_bindings/session.h"
+#include "lua_bindings/tolerances.h"
 
 namespace csgrun {
 namespace {
 
 using T = ArgumentType;
 
-constexpr double kDirectionDegrees = 0.01;  // as faces() has it
-constexpr double kNearPlane = 1e-6;         // mm, as faces() has it
 /// Deeper lists are taken for one that contains itself.
 constexpr int kDeepestList = 100;
 /// Edges that turn by less are facets of what is round.
@@ -373,8 +372,6 @@ class EdgeChoice {
   double scale_ = 0;
   size_t left_out_ = 0;  ///< concave ones that a choice would have had
 };
-
-void push_point(lua_State* L, const glm::dvec3& p) { push_list(L, {p.x, p.y, p.z}); }
 
 void push_edge(lua_State* L, const SolidEdge& e) {
   lua_createtable(L, 0, 6);

@@ -11,13 +11,12 @@
 #include "lua_bindings/guard.h"
 #include "lua_bindings/measure/triangle_distance.h"
 #include "lua_bindings/session.h"
+#include "lua_bindings/tolerances.h"
 
 namespace csgrun {
 namespace {
 
 using T = ArgumentType;
-
-void push_point(lua_State* L, const glm::dvec3& p) { push_list(L, {p.x, p.y, p.z}); }
 
 constexpr Option kFacesOptions[] = {
     {"normal", T::kVector3, "any", "which way they look, outwards", true},
@@ -59,12 +58,11 @@ void push_face(lua_State* L, const Solid& solid, const Solid::Face& face, const 
 }
 
 int faces(lua_State* L) {
-  constexpr double kNearPlane = 1e-6;  // mm
   SolidValue& value = solid_argument(L, kFaces);
   const Arguments arguments(L, kFaces, 2);
   const auto wanted = arguments.vector("normal"), through = arguments.vector("through");
   if (wanted && wanted->v == glm::dvec3(0, 0, 0)) fail_in(kFaces, "option 'normal' must not be 0");
-  const double angle = arguments.number("angle", 0.01);
+  const double angle = arguments.number("angle", kDirectionDegrees);
   if (angle > 180)
     fail_in(kFaces, fmt::format("option 'angle' must be at most 180, got {:.14g}", angle));
   const double least = cos_deg(angle);

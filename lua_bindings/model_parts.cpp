@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include <csgrun/primitives/file_ending.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/measure/read_glb.h"
@@ -79,14 +80,10 @@ void make_names_different(std::vector<ModelPart>& parts) {
 }  // namespace
 
 std::string model_file_format_of(const std::string& path) {
-  std::string lower = path;
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
   if (is_3mf_path(path)) return "3mf";
   if (is_amf_path(path)) return "amf";
   for (const char* format : {"glb", "gltf"}) {
-    if (lower.ends_with(std::string(".") + format)) return format;
+    if (has_ending(path, std::string(".") + format)) return format;
   }
   return mesh_format_of(path);
 }

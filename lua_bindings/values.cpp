@@ -181,4 +181,8 @@ void push_list(lua_State* L, std::initializer_list<double> numbers) {
   }
 }
 
+void push_point(lua_State* L, const glm::dvec3& point) {
+  push_list(L, {point.x, point.y, point.z});
+}
+
 }  // namespace csgrun

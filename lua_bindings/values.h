@@ -78,5 +78,7 @@ NodePtr counted_leaf(lua_State* L, PolygonMesh mesh);
 
 /// A list of numbers {a, b, c}.
 void push_list(lua_State* L, std::initializer_list<double> numbers);
+/// A list of its coordinates.
+void push_point(lua_State* L, const glm::dvec3& point);
 
 }  // namespace csgrun

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 
 #include "engine/csg/frames.h"
 #include "engine/csg/grid_solid.h"
+#include "engine/csg/hash_affine.h"
 #include "engine/csg/minkowski.h"
 #include "engine/csg/operand_leaves.h"
 #include "engine/csg/whole_steps.h"
@@ -128,19 +128,10 @@ struct Constructions::Task {
 };
 
 size_t Constructions::PlaceHash::operator()(const Place& place) const {
-  uint64_t h = reinterpret_cast<uintptr_t>(place.node) ^
-               static_cast<uint64_t>(place.least.exponent) << 48 ^
-               static_cast<uint64_t>(place.least.numerator);
-  for (const auto& row : place.map.m) {
-    for (double entry : row) {
-      uint64_t bits;
-      entry += 0.0;  // negative zero equals zero
-      std::memcpy(&bits, &entry, sizeof(bits));
-      h = (h ^ bits) * 0xff51afd7ed558ccdULL;
-      h ^= h >> 32;
-    }
-  }
-  return static_cast<size_t>(h);
+  const uint64_t h = reinterpret_cast<uintptr_t>(place.node) ^
+                     static_cast<uint64_t>(place.least.exponent) << 48 ^
+                     static_cast<uint64_t>(place.least.numerator);
+  return hash_affine(h, place.map);
 }
 
 Result<Constructions::Outcome> Constructions::make_hull(const Task& task,

@@ -6,6 +6,8 @@
 #include <optional>
 #include <unordered_set>
 
+#include "engine/csg/hash_affine.h"
+
 namespace csgrun {
 namespace {
 
@@ -85,17 +87,8 @@ struct NormalForm::Cluster {
 };
 
 size_t NormalForm::MemoHash::operator()(const Memo& memo) const {
-  uint64_t h = reinterpret_cast<uintptr_t>(memo.node) ^ (uint64_t{memo.paint} << 32);
-  for (const auto& row : memo.map.m) {
-    for (double entry : row) {
-      uint64_t bits;
-      entry += 0.0;  // negative zero equals zero
-      std::memcpy(&bits, &entry, sizeof(bits));
-      h = (h ^ bits) * 0xff51afd7ed558ccdULL;
-      h ^= h >> 32;
-    }
-  }
-  return static_cast<size_t>(h);
+  const uint64_t h = reinterpret_cast<uintptr_t>(memo.node) ^ (uint64_t{memo.paint} << 32);
+  return hash_affine(h, memo.map);
 }
 
 NormalForm::NormalForm(AppearanceTable& appearances) : appearances_(appearances) { clear(); }

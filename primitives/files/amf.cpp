@@ -13,6 +13,7 @@
 #include <pugixml.hpp>
 
 #include <csgrun/engine/csg_tree.h>
+#include <csgrun/primitives/file_ending.h>
 #include <csgrun/primitives/model_file.h>
 #include <csgrun/primitives/trig.h>
 
@@ -249,14 +250,7 @@ class AmfReader {
 
 }  // namespace
 
-bool is_amf_path(const std::string& path) {
-  if (path.size() < 4) return false;
-  std::string ending = path.substr(path.size() - 4);
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return ending == ".amf";
-}
+bool is_amf_path(const std::string& path) { return has_ending(path, ".amf"); }
 
 Result<std::vector<ModelPart>> parse_amf(const std::string& name, std::string_view bytes,
                                          std::vector<std::string>* notes) {

@@ -1,3 +1,4 @@
+#include <csgrun/primitives/file_ending.h>
 #include <csgrun/primitives/flat_file.h>
 
 #include "primitives/base/text.h"
@@ -7,12 +8,7 @@ namespace csgrun {
 
 std::string flat_file_format_of(const std::string& path) {
   for (const char* format : {"svg", "dxf"}) {
-    if (path.size() < 4 || path[path.size() - 4] != '.') continue;
-    std::string ending = path.substr(path.size() - 3);
-    for (char& c : ending) {
-      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    if (ending == format) return ending;
+    if (has_ending(path, std::string(".") + format)) return format;
   }
   return {};
 }

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <csgrun/primitives/file_ending.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "primitives/files/formats.h"
@@ -20,16 +21,8 @@
 namespace csgrun {
 
 std::string mesh_format_of(const std::string& path) {
-  const size_t slash = path.find_last_of('/');
-  const std::string file = slash == std::string::npos ? path : path.substr(slash + 1);
-  const size_t dot = file.find_last_of('.');
-  if (dot == std::string::npos) return {};
-  std::string ending = file.substr(dot + 1);
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
   for (const char* known : {"stl", "off", "obj", "ply"}) {
-    if (ending == known) return ending;
+    if (has_ending(path, std::string(".") + known)) return known;
   }
   return {};
 }

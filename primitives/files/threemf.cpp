@@ -12,6 +12,7 @@
 #include <pugixml.hpp>
 
 #include <csgrun/engine/csg_tree.h>
+#include <csgrun/primitives/file_ending.h>
 #include <csgrun/primitives/model_file.h>
 
 #include "primitives/files/formats.h"
@@ -191,14 +192,7 @@ class PackageReader {
 
 }  // namespace
 
-bool is_3mf_path(const std::string& path) {
-  if (path.size() < 4) return false;
-  std::string ending = path.substr(path.size() - 4);
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return ending == ".3mf";
-}
+bool is_3mf_path(const std::string& path) { return has_ending(path, ".3mf"); }
 
 Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes,
                                          std::vector<std::string>* notes) {

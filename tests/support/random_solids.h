@@ -69,6 +69,20 @@ inline std::vector<Loop> box_loops(const IVec3& lo, const IVec3& hi) {
           {at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0)},
           {at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)}};
 }
+/// A box with a corner in the middle of its edge upwards from `lo`, at which no face turns.
+/// REQUIRES: an even height.
+inline std::vector<Loop> box_with_middle(const IVec3& lo, const IVec3& hi) {
+  std::vector<Loop> loops = box_loops(lo, hi);
+  const IVec3 top{lo[0], lo[1], hi[2]}, middle{lo[0], lo[1], (lo[2] + hi[2]) / 2};
+  for (Loop& loop : loops) {
+    for (size_t i = 0; i < loop.size(); ++i) {
+      if (std::minmax(loop[i], loop[(i + 1) % loop.size()]) != std::minmax(lo, top)) continue;
+      loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
+      break;
+    }
+  }
+  return loops;
+}
 /// The loops with the middle of each edge as a corner, which is in line with its neighbours.
 /// REQUIRES: even coordinates.
 inline std::vector<Loop> with_middles(std::vector<Loop> loops) {

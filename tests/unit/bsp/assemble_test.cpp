@@ -10,27 +10,13 @@
 namespace csgrun {
 namespace {
 
-/// A box with a corner in the middle of an edge, at which no face turns.
-std::vector<test::Loop> box_with_middle() {
-  auto loops = test::box_loops({5, 0, 0}, {6, 1, 2});
-  const IVec3 a{5, 0, 0}, b{5, 0, 2}, middle{5, 0, 1};
-  for (test::Loop& loop : loops) {
-    for (size_t i = 0; i < loop.size(); ++i) {
-      const IVec3 &p = loop[i], &q = loop[(i + 1) % loop.size()];
-      if (std::minmax(p, q) != std::minmax(a, b)) continue;
-      loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
-      break;
-    }
-  }
-  return loops;
-}
-
 /// Two boxes that cross, cut, and one beside them.
 struct Parts {
   static std::vector<Operand> boxes() {
-    std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {4, 4, 4})),
-                                  test::operand_of(test::box_leaf({2, 2, 2}, {6, 7, 8})),
-                                  test::operand_of(test::make_leaf(box_with_middle()))};
+    std::vector<Operand> operands{
+        test::operand_of(test::box_leaf({0, 0, 0}, {4, 4, 4})),
+        test::operand_of(test::box_leaf({2, 2, 2}, {6, 7, 8})),
+        test::operand_of(test::make_leaf(test::box_with_middle({5, 0, 0}, {6, 1, 2})))};
     for (uint32_t o = 0; o < 3; ++o) operands[o].first_source = o;
     return operands;
   }

@@ -5,32 +5,15 @@
 
 #include "engine/bsp/find_contacts.h"
 #include "engine/bsp/grid_planes.h"
-#include "engine/mesh/opposite_edges.h"
+#include "tests/support/convex_operand.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {
 
-/// An operand that knows that it is convex.
-Operand convex(const std::vector<test::Loop>& loops) {
-  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(loops));
-  leaf->opposite = pair_edges(*leaf).opposite;
-  leaf->convex = true;
-  leaf->may_touch = false;
-  return test::operand_of(std::move(leaf));
-}
-
-Operand octahedron(const IVec3& middle, int64_t radius) {
-  std::vector<IVec3> points;
-  for (size_t k = 0; k < 3; ++k) {
-    for (const int64_t r : {-radius, radius}) {
-      points.push_back(middle);
-      points.back()[k] += r;
-    }
-  }
-  return convex(test::hull_loops(points));
-}
+using test::convex_operand;
+using test::octahedron;
 
 /// Whether a point is strictly inside an octahedron.
 bool is_inside(const IVec3& middle, int64_t radius, const std::array<double, 3>& p) {
@@ -127,7 +110,7 @@ Operand random_convex(test::Random& random, int64_t reach) {
       for (size_t k = 0; k < 3; ++k) p[k] += move[k];
     }
   }
-  return convex(loops);
+  return convex_operand(loops);
 }
 
 /// Some nodes over the operands, which may have several parents or none; a few are named at once.
@@ -295,7 +278,7 @@ TEST(CoveredPolygons, AreThoseInBallsAndBesideBoxes) {
 
 // A ball of radius 11 in a box, less a step: what is as far away as that is not in it.
 TEST(CoveredPolygons, AreNotThoseOnTheBallItself) {
-  const Operand box = convex(test::box_loops({-11, -11, -11}, {11, 11, 11}));
+  const Operand box = convex_operand(test::box_loops({-11, -11, -11}, {11, 11, 11}));
   const auto covered = [&](const IVec3& far) {
     const std::vector<Operand> operands{
         box, test::operand_of(test::make_leaf({{{0, 0, 0}, {1, 0, 0}, far}})),
@@ -360,7 +343,7 @@ TEST(CoveredPolygons, TouchFromWithin) {
         operands.push_back(octahedron({0, 0, 0}, random.integer(1, 5)));
       } else {
         const int64_t x = random.integer(1, 4), y = random.integer(1, 4);
-        operands.push_back(convex(test::box_loops({-x, -y, -2}, {x, y, 2})));
+        operands.push_back(convex_operand(test::box_loops({-x, -y, -2}, {x, y, 2})));
       }
       operands.back().translation = random_point(random, 2);
       if (random.integer(0, 3) == 0) operands.back() = test::operand_of(test::random_leaf(random));

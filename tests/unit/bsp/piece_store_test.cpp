@@ -35,21 +35,6 @@ std::vector<Loop> box_with_split_top(test::Random& random) {
   return loops;
 }
 
-/// A box with a corner in the middle of an edge, at which no face turns.
-std::vector<Loop> box_with_middle() {
-  auto loops = test::box_loops({0, 0, 0}, {2, 2, 2});
-  const IVec3 a{0, 0, 0}, b{0, 0, 2}, middle{0, 0, 1};
-  for (Loop& loop : loops) {
-    for (size_t i = 0; i < loop.size(); ++i) {
-      const IVec3 &p = loop[i], &q = loop[(i + 1) % loop.size()];
-      if (std::minmax(p, q) != std::minmax(a, b)) continue;
-      loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
-      break;
-    }
-  }
-  return loops;
-}
-
 TEST(PieceStore, PointsAreThoseOfTheJob) {
   test::Random random(991);
   size_t constructed = 0, on_grid = 0;
@@ -91,7 +76,7 @@ TEST(PieceStore, PointsAreThoseOfTheJob) {
 // In a frame a point needs three planes, of a face that turns there.
 TEST(PieceStore, RefusesVerticesAtWhichNoFaceTurns) {
   test::Random random(992);
-  Operand operand = test::operand_of(test::make_leaf(box_with_middle()));
+  Operand operand = test::operand_of(test::make_leaf(test::box_with_middle({0, 0, 0}, {2, 2, 2})));
   ASSERT_EQ(operand.leaf->vertices.size(), 9u);
   const auto number_of = [](const Operand& o) {
     const std::vector<Operand> operands{o};

@@ -5,8 +5,8 @@
 
 #include "engine/bsp/untouched.h"
 #include "engine/bsp/vertex_signs.h"
-#include "engine/mesh/opposite_edges.h"
 #include "tests/support/boundary_compare.h"
+#include "tests/support/convex_operand.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_trees.h"
 
@@ -180,20 +180,7 @@ TEST(ResultPieces, ThatAreTakenAway) {
   EXPECT_GT(chains.steps(), 60);
 }
 
-Operand octahedron(const IVec3& middle, int64_t radius) {
-  std::vector<IVec3> points;
-  for (size_t k = 0; k < 3; ++k) {
-    for (const int64_t r : {-radius, radius}) {
-      points.push_back(middle);
-      points.back()[k] += r;
-    }
-  }
-  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(test::hull_loops(points)));
-  leaf->opposite = pair_edges(*leaf).opposite;
-  leaf->convex = true;
-  leaf->may_touch = false;
-  return test::operand_of(std::move(leaf));
-}
+using test::octahedron;
 
 // Faces that nothing meets stay what they are when they are turned over, once and again: the
 // boundary names them by their leaf.

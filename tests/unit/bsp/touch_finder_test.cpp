@@ -5,30 +5,15 @@
 
 #include "engine/bsp/kernel.h"
 #include "engine/mesh/opposite_edges.h"
+#include "tests/support/convex_operand.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {
 
-Operand convex(const std::vector<IVec3>& points) {
-  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(test::hull_loops(points)));
-  leaf->opposite = pair_edges(*leaf).opposite;
-  leaf->convex = true;
-  leaf->may_touch = false;
-  return test::operand_of(std::move(leaf));
-}
-
-Operand octahedron(const IVec3& middle, int64_t radius) {
-  std::vector<IVec3> points;
-  for (size_t k = 0; k < 3; ++k) {
-    for (const int64_t r : {-radius, radius}) {
-      points.push_back(middle);
-      points.back()[k] += r;
-    }
-  }
-  return convex(points);
-}
+using test::convex_operand;
+using test::octahedron;
 
 /// The top of it is a polygon of its own that is no square.
 Operand block(int64_t reach, int64_t top) {
@@ -39,7 +24,7 @@ Operand block(int64_t reach, int64_t top) {
       points.push_back({x, y + x, top});
     }
   }
-  return convex(points);
+  return convex_operand(test::hull_loops(points));
 }
 
 test::Boundary evaluate(BooleanOp op, const std::vector<Operand>& operands) {
@@ -95,7 +80,8 @@ TEST(TouchFinder, FindsACornerOnAFace) {
 TEST(TouchFinder, FindsAnEdgeOnAFace) {
   const std::vector<IVec3> roof{{-30, -10, 20}, {-30, 10, 20}, {30, -10, 20},
                                 {30, 10, 20},   {-30, 3, 0},   {30, 3, 0}};
-  const auto on = evaluate(BooleanOp::kUnion, {block(100, 0), convex(roof)});
+  const auto on =
+      evaluate(BooleanOp::kUnion, {block(100, 0), convex_operand(test::hull_loops(roof))});
   EXPECT_TRUE(holds(*on, {-30, 3, 0}));
   EXPECT_TRUE(holds(*on, {30, 3, 0}));
   EXPECT_TRUE(holds(*on, {5, 3, 0}));
