@@ -1,6 +1,56 @@
 #include "engine/mesh/loop_faces.h"
 
+#include <numeric>
+#include <tuple>
+
 namespace csgrun {
+
+CollinearGroups::CollinearGroups(const std::vector<const std::vector<uint32_t>*>& loops) {
+  std::vector<uint32_t> parent(loops.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto find = [&](uint32_t l) {
+    while (parent[l] != l) l = parent[l] = parent[parent[l]];
+    return l;
+  };
+  for (uint32_t l = 0; l < loops.size(); ++l) {
+    const std::vector<uint32_t>& loop = *loops[l];
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const auto [a, b] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
+      edges_.push_back({a, b, l});
+    }
+  }
+  const auto key = [](const Edge& e) { return std::tie(e.a, e.b); };
+  std::sort(edges_.begin(), edges_.end(), [&](const Edge& e, const Edge& g) {
+    return std::tie(e.a, e.b, e.group) < std::tie(g.a, g.b, g.group);
+  });
+  for (size_t i = 1; i < edges_.size(); ++i) {
+    if (key(edges_[i]) == key(edges_[i - 1]))
+      parent[find(edges_[i].group)] = find(edges_[i - 1].group);
+  }
+  std::vector<int64_t> number(loops.size(), -1);
+  for (uint32_t l = 0; l < loops.size(); ++l) {
+    int64_t& group = number[find(l)];
+    if (group < 0) {
+      group = static_cast<int64_t>(vertices_.size());
+      vertices_.emplace_back();
+    }
+    auto& vertices = vertices_[static_cast<size_t>(group)];
+    vertices.insert(vertices.end(), loops[l]->begin(), loops[l]->end());
+  }
+  for (auto& vertices : vertices_) {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  }
+  for (Edge& edge : edges_) edge.group = static_cast<uint32_t>(number[find(edge.group)]);
+}
+
+int64_t CollinearGroups::group_of(uint32_t a, uint32_t b) const {
+  const auto found = std::lower_bound(
+      edges_.begin(), edges_.end(), std::tie(a, b),
+      [](const Edge& e, const auto& wanted) { return std::tie(e.a, e.b) < wanted; });
+  if (found == edges_.end() || found->a != a || found->b != b) return -1;
+  return found->group;
+}
 
 void clean_loop(std::vector<uint32_t>& loop) {
   bool changed = true;
