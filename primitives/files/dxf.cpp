@@ -1,8 +1,11 @@
-// DXF: entities become chains, chains that end in the same 1/1024 are joined to loops.
+// DXF: entities become chains on a grid of 1/1024, chains that end in the same point are joined to
+// loops.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -25,6 +28,44 @@ constexpr size_t kMostEntities = 200000;  // those of a block count for each tim
 struct Placement {
   glm::dvec2 u{1, 0}, v{0, 1}, at{0, 0};
   [[nodiscard]] glm::dvec2 apply(const glm::dvec2& p) const { return p.x * u + p.y * v + at; }
+};
+
+/// Takes points to the places, 1/1024 apart, that OpenSCAD takes them to: the nearest one, or,
+/// where that has no point yet, one of its eight neighbours that has.
+class PointGrid {
+ public:
+  using Key = std::pair<int64_t, int64_t>;
+  static Key key(const glm::dvec2& p) {
+    constexpr double kMost = 9e15;
+    return {std::llround(std::clamp(p.x * kSteps, -kMost, kMost)),
+            std::llround(std::clamp(p.y * kSteps, -kMost, kMost))};
+  }
+
+  glm::dvec2 aligned(const glm::dvec2& p) {
+    if (!(std::max(std::fabs(p.x), std::fabs(p.y)) < kFarthest)) return p;
+    Key place = key(p);
+    if (taken_.count(place) == 0) {
+      Key best = place;
+      int64_t least = 3;  // one step in each direction is two
+      for (int64_t x = place.first - 1; x <= place.first + 1; ++x) {
+        for (int64_t y = place.second - 1; y <= place.second + 1; ++y) {
+          const int64_t steps = std::abs(x - place.first) + std::abs(y - place.second);
+          if (steps >= least || taken_.count({x, y}) == 0) continue;
+          least = steps;
+          best = {x, y};
+        }
+      }
+      place = best;
+      taken_.insert(place);
+    }
+    return {static_cast<double>(place.first) / kSteps, static_cast<double>(place.second) / kSteps};
+  }
+
+ private:
+  static constexpr double kSteps = 1024;
+  static constexpr double kFarthest = 1e12;  ///< beyond, doubles have no such steps
+
+  std::set<Key> taken_;
 };
 
 class DxfReader {
@@ -89,9 +130,9 @@ class DxfReader {
       if (r.kind == "POLYLINE") {
         const size_t first = i + 1;
         while (i + 1 < list.size() && list[i + 1].kind == "VERTEX") ++i;
-        if (wanted) polyline(r, list, first, i + 1, placement);
+        if (wanted) polyline(r, list, first, i + 1, placement, depth > 0);
       } else if (wanted) {
-        draw(r, placement);
+        draw(r, placement, depth > 0);
       }
       if (points_ > kMostDrawingPoints) {
         return Error{
@@ -138,13 +179,19 @@ class DxfReader {
     return std::monostate();
   }
 
-  void add(Chain chain, const Placement& placement) {
-    for (glm::dvec2& p : chain.points) p = placement.apply(p);
+  /// Also the points of a block are on the grid before they are placed.
+  void add(Chain chain, const Placement& placement, bool in_block) {
+    for (glm::dvec2& p : chain.points) {
+      if (in_block) p = grid_.aligned(p);
+      p = grid_.aligned(placement.apply(p));
+    }
     points_ += chain.points.size();
+    auto& points = chain.points;
+    points.erase(std::unique(points.begin(), points.end()), points.end());
     if (chain.points.size() > 1) chains_.push_back(std::move(chain));
   }
 
-  void draw(const DxfRecord& r, const Placement& placement) {
+  void draw(const DxfRecord& r, const Placement& placement, bool in_block) {
     const std::string& kind = r.kind;
     // An arc of one unit of radius is so large in the drawing.
     const double scale =
@@ -183,7 +230,7 @@ class DxfReader {
       if (kind != "SEQEND" && kind != "POINT" && kind != "VIEWPORT") ++left_out_[kind];
       return;
     }
-    add(std::move(chain), placement);
+    add(std::move(chain), placement, in_block);
   }
 
   static bool is_closed(const DxfRecord& r) {
@@ -212,13 +259,13 @@ class DxfReader {
   }
 
   void polyline(const DxfRecord& r, const std::vector<DxfRecord>& list, size_t first, size_t last,
-                const Placement& placement) {
+                const Placement& placement, bool in_block) {
     std::vector<Vertex> vertices;
     for (size_t i = first; i < last; ++i)
       vertices.push_back({point(list[i], 10), list[i].number(42)});
     const double scale =
         std::sqrt(std::fabs(placement.u.x * placement.v.y - placement.u.y * placement.v.x));
-    add(bulged(vertices, is_closed(r), scale), placement);
+    add(bulged(vertices, is_closed(r), scale), placement, in_block);
   }
 
   void ellipse(const DxfRecord& r, double scale, Chain& chain) const {
@@ -304,12 +351,8 @@ class DxfReader {
 
   /// Closed chains are loops; open ones are joined end to end, from the first on.
   void join(std::vector<Shape2D::Loop>& loops) {
-    using Key = std::pair<int64_t, int64_t>;
-    const auto key = [](const glm::dvec2& p) {
-      constexpr double kMost = 9e15;
-      return Key(std::llround(std::clamp(p.x * 1024, -kMost, kMost)),
-                 std::llround(std::clamp(p.y * 1024, -kMost, kMost)));
-    };
+    using Key = PointGrid::Key;
+    const auto key = PointGrid::key;
     std::multimap<Key, size_t> ends;  // of open chains: equal keys stay in order
     std::vector<bool> used(chains_.size(), false);
     for (size_t i = 0; i < chains_.size(); ++i) {
@@ -358,6 +401,7 @@ class DxfReader {
   const std::string& name_;
   const FlatFileOptions& options_;
   const DxfRecords& records_;
+  PointGrid grid_;
   std::vector<Chain> chains_;
   std::map<std::string, size_t> left_out_;
   size_t entities_ = 0, points_ = 0, open_chains_ = 0;

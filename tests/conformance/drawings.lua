@@ -31,8 +31,18 @@ near(import("drawings/plate.svg", {layer = "slot", fa = 90, fs = 0.1}):area(), 1
 near(import("drawings/plate.svg", {center = true}):bbox().min[1], -20)
 near(import("drawings/plate.svg", {dpi = 300}):bbox().max[1], 40) -- the file has a size
 
-near(import("drawings/plate.dxf"):area(), 200 - circle(2):area())
-near(import("drawings/plate.dxf", {layer = "hole", fn = 12}):area(), polygon_area(12, 2))
+-- Points of a DXF go to the nearest 1/1024.
+local function area_on_grid(n, r)
+  local function place(c) return math.floor(c * r * 1024 + 0.5) / 1024 end
+  local sum = 0
+  for i = 0, n - 1 do
+    local a, b = 2 * math.pi * i / n, 2 * math.pi * (i + 1) / n
+    sum = sum + place(math.cos(a)) * place(math.sin(b)) - place(math.sin(a)) * place(math.cos(b))
+  end
+  return sum / 2
+end
+near(import("drawings/plate.dxf"):area(), 200 - circle(2):area(), 1e-5)
+near(import("drawings/plate.dxf", {layer = "hole", fn = 12}):area(), area_on_grid(12, 2))
 near(import("drawings/plate.dxf", {scale = 2}):bbox().max[1], 40)
 near(import("drawings/plate.dxf", {origin = {10, 5}}):bbox().min[2], -5)
 

@@ -1,6 +1,8 @@
 // Drawings against the areas that they show.
 #include <cmath>
+#include <vector>
 
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 #include <csgrun/primitives/flat_file.h>
@@ -12,6 +14,28 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 double ngon(int n, double r) { return n / 2.0 * std::sin(2 * kPi / n) * r * r; }
+
+/// Points of an arc of an n-gon of radius 1, from the X axis on.
+std::vector<glm::dvec2> arc_points(int n, int first, int last) {
+  std::vector<glm::dvec2> points;
+  for (int i = first; i <= last; ++i)
+    points.emplace_back(std::cos(2 * kPi * i / n), std::sin(2 * kPi * i / n));
+  return points;
+}
+
+/// The area of a polygon whose points go to the nearest of the places that are 1/1024 apart.
+double area_on_grid(std::vector<glm::dvec2> points, double scale) {
+  double twice = 0;
+  for (glm::dvec2& p : points)
+    p = {std::round(p.x * scale * 1024) / 1024, std::round(p.y * scale * 1024) / 1024};
+  for (size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec2 &a = points[i], &b = points[(i + 1) % points.size()];
+    twice += a.x * b.y - b.x * a.y;
+  }
+  return twice / 2;
+}
+
+double ngon_on_grid(int n, double r) { return area_on_grid(arc_points(n, 0, n - 1), r); }
 
 FlatFileOptions with_fn(double fn) {
   FlatFileOptions options;
@@ -248,12 +272,18 @@ TEST(Dxf, LinesAreJoined) {
   // A quarter of a disc of two lines and an arc.
   const std::string arc =
       pairs({{0, "ARC"}, {10, "0"}, {20, "0"}, {40, "5"}, {50, "0"}, {51, "90"}});
-  EXPECT_NEAR(dxf(dxf_line(0, 0, 5, 0) + dxf_line(0, 0, 0, 5) + arc).area(), ngon(32, 5) / 4, 1e-6);
+  std::vector<glm::dvec2> quarter = arc_points(32, 0, 8);
+  quarter.emplace_back(0, 0);
+  EXPECT_NEAR(dxf(dxf_line(0, 0, 5, 0) + dxf_line(0, 0, 0, 5) + arc).area(),
+              area_on_grid(quarter, 5), 1e-6);
 }
 
 TEST(Dxf, Curves) {
-  EXPECT_NEAR(dxf(pairs({{0, "CIRCLE"}, {10, "3"}, {20, "4"}, {40, "5"}})).area(), ngon(32, 5),
-              1e-6);
+  std::vector<glm::dvec2> ellipse;
+  for (const glm::dvec2& p : arc_points(32, 0, 31))
+    ellipse.push_back(p.x * glm::dvec2(3, 4) + p.y * glm::dvec2(-2, 1.5));
+  EXPECT_NEAR(dxf(pairs({{0, "CIRCLE"}, {10, "3"}, {20, "4"}, {40, "5"}})).area(),
+              ngon_on_grid(32, 5), 1e-6);
   EXPECT_NEAR(dxf(pairs({{0, "ELLIPSE"},
                          {10, "0"},
                          {20, "0"},
@@ -263,7 +293,7 @@ TEST(Dxf, Curves) {
                          {41, "0"},
                          {42, "6.283185307"}}))
                   .area(),
-              ngon(32, 5) / 2, 1e-6);
+              area_on_grid(ellipse, 1), 1e-6);
   // Two bulges of 1 are a disc; one and a chord are half of it.
   const auto polyline = [](const std::string& first, const std::string& second) {
     return pairs({{0, "LWPOLYLINE"},
@@ -276,8 +306,8 @@ TEST(Dxf, Curves) {
                   {20, "0"},
                   {42, second}});
   };
-  EXPECT_NEAR(dxf(polyline("1", "1")).area(), ngon(32, 5), 1e-6);
-  EXPECT_NEAR(dxf(polyline("1", "0")).area(), ngon(32, 5) / 2, 1e-6);
+  EXPECT_NEAR(dxf(polyline("1", "1")).area(), ngon_on_grid(32, 5), 1e-6);
+  EXPECT_NEAR(dxf(polyline("1", "0")).area(), ngon_on_grid(32, 5) / 2, 1e-6);
   EXPECT_EQ(dxf(polyline("1", "0")).bounds()[1].y,
             0);  // counter-clockwise from left to right: below
   EXPECT_EQ(dxf(polyline("-1", "0")).bounds()[0].y, 0);
@@ -310,6 +340,29 @@ TEST(Dxf, Curves) {
                                     {10, "20"},
                                     {20, "0"}});
   EXPECT_NEAR(dxf(spline + dxf_line(0, 0, 20, 0), with_fn(400)).area(), 2.0 / 3 * 200, 0.02);
+}
+
+TEST(Dxf, PointsGoToOpenScadsGrid) {
+  // 1.2345 is 1264.1 steps of 1/1024.
+  const auto triangle = [](double leg, double x) {
+    return dxf_line(x, 0, x + leg, 0) + dxf_line(x + leg, 0, x, leg) + dxf_line(x, leg, x, 0);
+  };
+  const double leg = 1264.0 / 1024;
+  EXPECT_EQ(dxf(triangle(1.2345, 0)).area(), leg * leg / 2);
+  EXPECT_EQ(dxf(triangle(1.2345, 0)).bounds()[1], glm::dvec2(leg, leg));
+  // One that is a step beside a point that is there already, becomes that.
+  const Shape2D two = dxf(triangle(1, 0) + triangle(1, 5) + dxf_line(5.0011, 0.0009, 4, 0.5) +
+                          dxf_line(4, 0.5, 5, 1));
+  EXPECT_EQ(two.bounds()[1].x, 6);
+  for (const auto& loop : two.loops()) {
+    for (const glm::dvec2& p : loop) EXPECT_EQ(p * 2.0, glm::round(p * 2.0)) << p.x << " " << p.y;
+  }
+  // In a block before it is placed, and there again.
+  const std::string block =
+      pairs({{0, "BLOCK"}, {2, "B"}}) + triangle(1.2345, 0) + pairs({{0, "ENDBLK"}});
+  const std::string insert = pairs({{0, "INSERT"}, {2, "B"}, {41, "10"}, {42, "10"}});
+  const double ten = std::round(leg * 10 * 1024) / 1024;
+  EXPECT_EQ(read("x.dxf", entities(insert, block), {}).shape.area(), ten * ten / 2);
 }
 
 TEST(Dxf, BlocksLayersAndPlacement) {
@@ -371,7 +424,7 @@ TEST(Dxf, HostileAndDamagedFiles) {
   EXPECT_NEAR(
       dxf(pairs({{0, "ELLIPSE"}, {11, "1"}, {21, "0"}, {40, "1"}, {41, "1e300"}, {42, "1e300"}}))
           .area(),
-      ngon(32, 1), 1e-6);
+      ngon(32, 1), 1e-3);
   dxf(pairs({{0, "ARC"}, {40, "1"}, {50, "1e300"}, {51, "-1e300"}}));
   dxf(pairs({{0, "ARC"}, {40, "1"}, {50, "1.7e308"}, {51, "-1.7e308"}}));
   EXPECT_EQ(error("x.dxf", "", with_fn(1e9)), "import: fn must be at most 131072, got 1e+09");
