@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include <csgrun/export/write_flat.h>
@@ -112,7 +113,8 @@ std::string encode_svg(const std::vector<FlatPart>& parts) {
   return text + "</svg>\n";
 }
 
-/// DXF as AutoCAD 2000 has it: the oldest that knows LWPOLYLINE, and what everybody reads.
+/// DXF as AutoCAD 2000 has it: the oldest that knows LWPOLYLINE, and what everybody reads; with
+/// colours as AutoCAD 2004 has it, the oldest that knows any colour but the numbered ones.
 class DxfWriter {
  public:
   std::string text;
@@ -161,14 +163,38 @@ std::vector<std::string> layer_names(const std::vector<FlatPart>& parts) {
   return names;
 }
 
+int byte_of(float channel) {
+  return static_cast<int>(std::lround(std::clamp(static_cast<double>(channel), 0.0, 1.0) * 255));
+}
+
+/// The nearest of the seven colours that every program knows by number: 1 red, 2 yellow, 3 green,
+/// 4 cyan, 5 blue, 6 magenta, 7 black or white.
+int colour_number(const std::array<float, 4>& colour) {
+  constexpr std::array<int, 8> kByBits{7, 1, 3, 2, 5, 6, 4, 7};  // red 1, green 2, blue 4
+  size_t bits = 0;
+  for (size_t i = 0; i < 3; ++i) bits |= static_cast<size_t>(colour[i] >= 0.5F) << i;
+  return kByBits[bits];
+}
+
+/// The colour of a layer, as a number and as it is.
+void append_colour(DxfWriter& w, const std::optional<std::array<float, 4>>& colour) {
+  w.group(62, colour ? colour_number(*colour) : 7);
+  w.group(6, std::string("CONTINUOUS"));
+  if (!colour) return;
+  w.group(420,
+          byte_of((*colour)[0]) * 0x10000 + byte_of((*colour)[1]) * 0x100 + byte_of((*colour)[2]));
+}
+
 std::string encode_dxf(const std::vector<FlatPart>& parts) {
   const std::vector<std::string> layers = layer_names(parts);
+  const bool has_colours = std::any_of(parts.begin(), parts.end(),
+                                       [](const FlatPart& part) { return part.color.has_value(); });
   const Bounds b = bounds_of(parts);
   DxfWriter w;
   const std::string empty;
   w.section("HEADER");
   w.group(9, std::string("$ACADVER"));
-  w.group(1, std::string("AC1015"));
+  w.group(1, std::string(has_colours ? "AC1018" : "AC1015"));
   w.group(9, std::string("$INSUNITS"));
   w.group(70, 4);  // millimetres
   w.group(9, std::string("$HANDSEED"));
@@ -186,15 +212,14 @@ std::string encode_dxf(const std::vector<FlatPart>& parts) {
   w.handle();
   w.group(100, std::string("AcDbSymbolTable"));
   w.group(70, static_cast<int>(layers.size()));
-  for (const std::string& layer : layers) {
+  for (size_t i = 0; i < parts.size(); ++i) {
     w.group(0, std::string("LAYER"));
     w.handle();
     w.group(100, std::string("AcDbSymbolTableRecord"));
     w.group(100, std::string("AcDbLayerTableRecord"));
-    w.group(2, layer);
+    w.group(2, layers[i]);
     w.group(70, 0);
-    w.group(62, 7);
-    w.group(6, std::string("CONTINUOUS"));
+    append_colour(w, parts[i].color);
   }
   w.group(0, std::string("ENDTAB"));
   w.end_section();
@@ -205,6 +230,9 @@ std::string encode_dxf(const std::vector<FlatPart>& parts) {
       w.handle();
       w.group(100, std::string("AcDbEntity"));
       w.group(8, layers[i]);
+      constexpr int kOpacity = 0x02000000;
+      if (parts[i].color && (*parts[i].color)[3] < 1)
+        w.group(440, kOpacity + byte_of((*parts[i].color)[3]));
       w.group(100, std::string("AcDbPolyline"));
       w.group(90, static_cast<int>(loop.size()));
       w.group(70, 1);  // closed

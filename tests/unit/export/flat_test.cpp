@@ -39,6 +39,21 @@ TEST(Dxf, ClosedPolylinesOnLayers) {
   EXPECT_TRUE(text.ends_with("0\nENDSEC\n0\nEOF\n"));
 }
 
+TEST(Dxf, ColoursOfLayers) {
+  const std::string plain = encoded("dxf", {{"a", {kTriangle}, {}}});
+  EXPECT_NE(plain.find("\n2\na\n70\n0\n62\n7\n6\nCONTINUOUS\n0\n"), std::string::npos) << plain;
+  EXPECT_NE(plain.find("$ACADVER\n1\nAC1015\n"), std::string::npos);
+  // 0xff8000 is 16744448; of the numbered colours yellow is the nearest by channels.
+  const std::string text = encoded(
+      "dxf", {{"a", {kTriangle}, {{1, 0.502F, 0, 1}}}, {"b", {kTriangle}, {{0, 0, 1, 0.5F}}}});
+  EXPECT_NE(text.find("$ACADVER\n1\nAC1018\n"), std::string::npos);
+  EXPECT_NE(text.find("\n2\na\n70\n0\n62\n2\n6\nCONTINUOUS\n420\n16744448\n0\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("\n2\nb\n70\n0\n62\n5\n6\nCONTINUOUS\n420\n255\n0\n"), std::string::npos);
+  EXPECT_NE(text.find("\n8\na\n100\n"), std::string::npos);
+  EXPECT_NE(text.find("\n8\nb\n440\n33554560\n100\n"), std::string::npos);
+}
+
 TEST(FlatFormat, ByEnding) {
   EXPECT_EQ(flat_format_of("a/B.SVG"), "svg");
   EXPECT_EQ(flat_format_of("x.dxf"), "dxf");
