@@ -1,12 +1,16 @@
 #include "lua_bindings/measure/gltf_buffers.h"
 
-#include <optional>
+#include <filesystem>
 #include <utility>
+
+#include <csgrun/primitives/file_path.h>
 
 #include "lua_bindings/measure/embedded_buffer.h"
 
 namespace csgrun {
 namespace {
+
+constexpr size_t kMostBytes = size_t{1} << 30;  // of all files together
 
 int hexadecimal(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -28,50 +32,70 @@ std::string decoded(std::string_view address) {
   return path;
 }
 
-bool leads_out(const std::string& path) {
-  return path.find("..") != std::string::npos || path.find(':') != std::string::npos ||
-         path.find('\\') != std::string::npos || path.find('\0') != std::string::npos ||
-         path.starts_with('/');
-}
-
 Malformed outside(const JsonPlace& entry, const std::string& address, const char* why) {
   return {entry.name() + " is at \"" + address.substr(0, 60) + "\", outside of the file" + why};
 }
 
-}  // namespace
-
-std::vector<std::string> read_buffers(
-    const JsonPlace& root, std::string_view binary,
-    const std::function<Result<std::string>(const std::string&)>& open) {
-  for (const char* list : {"buffers", "images"}) {
-    if (!root.has(list)) continue;
-    const JsonPlace entries = root.at(list);
-    for (size_t i = 0; i < entries.size(); ++i) {
-      const std::string address = entries.at(i).text("uri", "");
-      if (!address.starts_with("data:") && leads_out(decoded(address)))
-        throw outside(entries.at(i), address, "'s folder");
+/// By buffer: whether an accessor reaches it, through its view or those of its sparse part.
+std::vector<bool> reached_buffers(const JsonPlace& root, size_t count) {
+  std::vector<bool> reached(count, false);
+  if (!root.has("accessors") || !root.has("bufferViews")) return reached;
+  const JsonPlace accessors = root.at("accessors"), views = root.at("bufferViews");
+  const auto reach = [&](const JsonPlace& owner) {
+    if (!owner.has("bufferView")) return;
+    const size_t view = owner.at("bufferView").whole();
+    if (view >= views.size()) return;  // told when it is read
+    const size_t buffer = views.at(view).whole("buffer", count);
+    if (buffer < count) reached[buffer] = true;
+  };
+  for (size_t a = 0; a < accessors.size(); ++a) {
+    const JsonPlace accessor = accessors.at(a);
+    reach(accessor);
+    if (!accessor.has("sparse")) continue;
+    for (const char* list : {"indices", "values"}) {
+      if (accessor.at("sparse").has(list)) reach(accessor.at("sparse").at(list));
     }
   }
-  std::vector<std::string> result;
-  if (!root.has("buffers")) return result;
+  return reached;
+}
+
+}  // namespace
+
+GltfBuffers::GltfBuffers(const JsonPlace& root, std::string_view binary,
+                         const std::function<Result<std::string>(const std::string&)>& open) {
+  if (!root.has("buffers")) return;
   const JsonPlace buffers = root.at("buffers");
+  const std::vector<bool> reached = reached_buffers(root, buffers.size());
+  size_t total = 0;
   for (size_t i = 0; i < buffers.size(); ++i) {
     const JsonPlace buffer = buffers.at(i);
     const std::string address = buffer.text("uri", "");
+    const bool is_file = !address.empty() && !address.starts_with("data:");
+    const std::string path = is_file ? decoded(address) : "";
+    if (is_file && leads_out_of_folder(path)) throw outside(buffer, address, "'s folder");
+    bytes_.emplace_back();
+    if (!reached[i]) continue;
     if (address.empty()) {
-      result.emplace_back(i == 0 ? binary : std::string_view());
-    } else if (address.starts_with("data:")) {
+      if (i == 0) bytes_.back() = binary;
+    } else if (!is_file) {
       auto data = decode_data_address(address);
       if (!data) throw Malformed{buffer.name() + " has an address that is no base64"};
-      result.push_back(*std::move(data));
+      bytes_.back() = embedded_.emplace_back(*std::move(data));
     } else {
       if (!open) throw outside(buffer, address, ": only data in the file itself is read");
-      auto data = open(decoded(address));
-      if (!data) throw Malformed{buffer.name() + ": " + data.error().message};
-      result.push_back(*std::move(data));
+      const std::string key = std::filesystem::path(path).lexically_normal().string();
+      auto known = by_address_.find(key);
+      if (known == by_address_.end()) {
+        auto data = open(path);
+        if (!data) throw Malformed{buffer.name() + ": " + data.error().message};
+        total += data->size();
+        if (total > kMostBytes)
+          throw Malformed{"its buffers are more than " + std::to_string(kMostBytes) + " bytes"};
+        known = by_address_.emplace(key, *std::move(data)).first;
+      }
+      bytes_.back() = known->second;
     }
   }
-  return result;
 }
 
 }  // namespace csgrun

@@ -72,14 +72,19 @@ GltfData::Elements GltfData::elements(const JsonPlace& owner, size_t count, size
   return {bytes.data() + offset + more, count, stride};
 }
 
-/// An accessor without data is zeros: no more of them than there are bytes in all.
-void GltfData::refuse_endless_zeros(const JsonPlace& accessor, size_t count) const {
+size_t GltfData::size() const {
   size_t bytes = 0;
   for (const std::string_view buffer : buffers_) bytes += buffer.size();
-  if (count > bytes) throw Malformed{accessor.name() + " has no data, and no end"};
+  return bytes;
+}
+
+/// An accessor without data is zeros: no more of them than there are bytes in all.
+void GltfData::refuse_endless_zeros(const JsonPlace& accessor, size_t count) const {
+  if (count > size()) throw Malformed{accessor.name() + " has no data, and no end"};
 }
 
 void GltfData::read_positions(const JsonPlace& owner, const JsonPlace& typed, size_t count,
+                              const std::vector<uint32_t>* wanted,
                               std::vector<glm::dvec3>& points) const {
   const auto component = component_of(typed.at("componentType").whole());
   if (!component || typed.at("type").text() != "VEC3") {
@@ -89,8 +94,10 @@ void GltfData::read_positions(const JsonPlace& owner, const JsonPlace& typed, si
   }
   const bool are_fractions = typed.truth("normalized", false);
   const Elements values = elements(owner, count, 3 * component->size);
-  points.reserve(points.size() + count);
-  for (size_t i = 0; i < count; ++i) {
+  const size_t number_of_points = wanted == nullptr ? count : wanted->size();
+  points.reserve(number_of_points);
+  for (size_t n = 0; n < number_of_points; ++n) {
+    const size_t i = wanted == nullptr ? n : (*wanted)[n];
     glm::dvec3 p;
     for (int axis = 0; axis < 3; ++axis) {
       const size_t place = i * values.stride + static_cast<size_t>(axis) * component->size;
@@ -106,7 +113,7 @@ std::vector<glm::dvec3> GltfData::positions(const JsonPlace& accessor) const {
   const size_t count = accessor.at("count").whole();
   std::vector<glm::dvec3> points;
   if (accessor.has("bufferView")) {
-    read_positions(accessor, accessor, count, points);
+    read_positions(accessor, accessor, count, nullptr, points);
   } else {
     refuse_endless_zeros(accessor, count);
     points.assign(count, glm::dvec3(0));
@@ -117,11 +124,23 @@ std::vector<glm::dvec3> GltfData::positions(const JsonPlace& accessor) const {
   const std::vector<uint32_t> at =
       read_integers(sparse.at("indices"), sparse.at("indices"), changed);
   std::vector<glm::dvec3> to;
-  read_positions(sparse.at("values"), accessor, changed, to);
+  read_positions(sparse.at("values"), accessor, changed, nullptr, to);
   for (size_t i = 0; i < changed; ++i) {
     if (at[i] >= count) throw Malformed{sparse.name() + ": an index is out of range"};
     points[at[i]] = to[i];
   }
+  return points;
+}
+
+std::vector<glm::dvec3> GltfData::positions(const JsonPlace& accessor,
+                                            const std::vector<uint32_t>& wanted) const {
+  std::vector<glm::dvec3> points;
+  if (accessor.has("bufferView") && !accessor.has("sparse")) {
+    read_positions(accessor, accessor, count_of(accessor), &wanted, points);
+    return points;
+  }
+  const std::vector<glm::dvec3> all = positions(accessor);
+  for (const uint32_t i : wanted) points.push_back(all[i]);
   return points;
 }
 

@@ -19,8 +19,17 @@ class GltfData {
   GltfData(const JsonPlace& root, std::vector<std::string_view> buffers)
       : root_(root), buffers_(std::move(buffers)) {}
 
-  /// Three numbers an element.
-  [[nodiscard]] std::vector<glm::dvec3> positions(const JsonPlace& accessor) const;
+  /// How many elements there are.
+  [[nodiscard]] static size_t count_of(const JsonPlace& accessor) {
+    return accessor.at("count").whole();
+  }
+  /// Three numbers an element. Of an accessor that is not sparse only those elements are read whose
+  /// numbers are given; all must be of it.
+  std::vector<glm::dvec3> positions(const JsonPlace& accessor) const;
+  std::vector<glm::dvec3> positions(const JsonPlace& accessor,
+                                    const std::vector<uint32_t>& wanted) const;
+  /// How many bytes there are in all.
+  [[nodiscard]] size_t size() const;
   /// One unsigned integer an element.
   [[nodiscard]] std::vector<uint32_t> indices(const JsonPlace& accessor) const;
 
@@ -33,7 +42,7 @@ class GltfData {
 
   Elements elements(const JsonPlace& owner, size_t count, size_t size) const;
   void read_positions(const JsonPlace& owner, const JsonPlace& typed, size_t count,
-                      std::vector<glm::dvec3>& points) const;
+                      const std::vector<uint32_t>* wanted, std::vector<glm::dvec3>& points) const;
   std::vector<uint32_t> read_integers(const JsonPlace& owner, const JsonPlace& typed,
                                       size_t count) const;
   void refuse_endless_zeros(const JsonPlace& accessor, size_t count) const;

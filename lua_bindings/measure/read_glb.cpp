@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -26,7 +28,30 @@ using Json = nlohmann::json;
 constexpr uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr size_t kTriangles = 4, kFan = 6;  // 5 is a strip
 constexpr size_t kLongestName = 4096;
+constexpr uint64_t kManyCorners = 15'000'000, kMostCopies = 100, kEndless = uint64_t{1} << 40;
 constexpr const char* kManifold = "EXT_mesh_manifold";
+constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
+/// What is read, what says nothing of shapes, and what is refused with a word of its own.
+constexpr std::string_view kExtensions[] = {kManifold,
+                                            "KHR_mesh_quantization",
+                                            "KHR_draco_mesh_compression",
+                                            "EXT_meshopt_compression",
+                                            "KHR_meshopt_compression",
+                                            "KHR_lights_punctual",
+                                            "KHR_animation_pointer",
+                                            "KHR_xmp_json_ld"};
+
+/// Which number an appearance has in a mesh that is being made.
+struct AppearanceLess {
+  bool operator()(const Appearance& a, const Appearance& b) const {
+    const auto key = [](const Appearance& x) {
+      return std::tie(x.red, x.green, x.blue, x.alpha, x.metallic, x.roughness, x.name,
+                      x.is_default);
+    };
+    return key(a) < key(b);
+  }
+};
+using LookNumbers = std::map<Appearance, uint32_t, AppearanceLess>;
 
 uint32_t read_word(std::string_view bytes, size_t at) {
   if (at + 4 > bytes.size()) throw Malformed{"the file is truncated"};
@@ -70,8 +95,9 @@ class Reader {
   Reader(Json json, std::string_view binary, const GltfOptions& options)
       : json_(std::move(json)),
         options_(options),
-        buffers_(read_buffers(root(), binary, options.open)),
-        data_(root(), {buffers_.begin(), buffers_.end()}) {
+        buffers_(root(), binary, options.open),
+        data_(root(), buffers_.bytes()) {
+    refuse_required_extensions();
     read_materials();
   }
 
@@ -82,9 +108,11 @@ class Reader {
     if (!root().has("nodes")) return result;
     const JsonPlace nodes = root().at("nodes");
     const std::vector<Place> places = places_of(nodes);
+    refuse_many_copies(nodes, places);
     for (size_t n = 0; n < nodes.size(); ++n) {
       if (!places[n].is_reached || !nodes.at(n).has("mesh")) continue;
       const JsonPlace mesh = root().at("meshes").at(nodes.at(n).at("mesh").whole());
+      note_what_is_passed_over(nodes.at(n), mesh);
       TriangleMesh triangles = triangles_of(mesh);
       triangles.name = places[n].name.empty() ? mesh.text("name", "mesh") : places[n].name;
       put(triangles, places[n].map);
@@ -93,6 +121,11 @@ class Reader {
     if (left_out_ > 0 && options_.notes != nullptr) {
       options_.notes->push_back("points and lines are left out: " + std::to_string(left_out_) +
                                 (left_out_ == 1 ? " primitive" : " primitives"));
+    }
+    for (const auto& [what, count] : passed_over_) {
+      if (options_.notes != nullptr)
+        options_.notes->push_back(what + " (" + std::to_string(count) +
+                                  (count == 1 ? " node)" : " nodes)"));
     }
     return result;
   }
@@ -106,6 +139,71 @@ class Reader {
   };
 
   [[nodiscard]] JsonPlace root() const { return {json_, ""}; }
+
+  /// A document says without which extensions it is another one. What is packed is told apart where
+  /// a mesh is.
+  void refuse_required_extensions() const {
+    if (!root().has("extensionsRequired")) return;
+    const JsonPlace names = root().at("extensionsRequired");
+    for (size_t i = 0; i < names.size(); ++i) {
+      const std::string name = names.at(i).text();
+      const bool is_look =
+          name.starts_with("KHR_materials_") || name.find("_texture_") != std::string::npos;
+      if (!is_look &&
+          std::find(std::begin(kExtensions), std::end(kExtensions), name) == std::end(kExtensions))
+        throw Malformed{"it needs the extension \"" + name.substr(0, 60) + "\", which is not read"};
+    }
+  }
+
+  /// What would change the shape, and is told.
+  void note_what_is_passed_over(const JsonPlace& node, const JsonPlace& mesh) {
+    if (node.has("extensions") && node.at("extensions").has(kInstancing))
+      ++passed_over_[std::string("instances are left out, their mesh stands once: ") + kInstancing];
+    if (node.has("skin")) ++passed_over_["skins are passed over, their meshes are not bent"];
+    const JsonPlace& weighted = node.has("weights") ? node : mesh;
+    bool is_bent = false;
+    for (size_t i = 0; weighted.has("weights") && i < weighted.at("weights").size(); ++i)
+      is_bent = is_bent || weighted.at("weights").at(i).number() != 0;
+    if (is_bent) ++passed_over_["weights of morph targets are passed over"];
+  }
+
+  /// How many corners the triangles of a mesh have, of its accessors' word.
+  uint64_t weight_of(const JsonPlace& mesh) const {
+    uint64_t sum = 0;
+    const JsonPlace primitives = mesh.at("primitives");
+    for (size_t p = 0; p < primitives.size(); ++p) {
+      const JsonPlace primitive = primitives.at(p);
+      if (!primitive.has("indices") &&
+          !(primitive.has("attributes") && primitive.at("attributes").has("POSITION")))
+        continue;
+      const JsonPlace number = primitive.has("indices") ? primitive.at("indices")
+                                                        : primitive.at("attributes").at("POSITION");
+      const uint64_t count = GltfData::count_of(root().at("accessors").at(number.whole()));
+      sum = std::min(sum + std::min(count, kEndless), kEndless);
+    }
+    return sum;
+  }
+
+  /// Nodes multiply meshes: what they come to is counted before any is made.
+  void refuse_many_copies(const JsonPlace& nodes, const std::vector<Place>& places) const {
+    std::map<size_t, uint64_t> weights;
+    uint64_t own = nodes.size(), all = 0;
+    for (size_t n = 0; n < nodes.size(); ++n) {
+      if (!places[n].is_reached || !nodes.at(n).has("mesh")) continue;
+      const size_t mesh = nodes.at(n).at("mesh").whole();
+      const auto [known, is_new] = weights.emplace(mesh, 0);
+      if (is_new) {
+        known->second = weight_of(root().at("meshes").at(mesh));
+        own += known->second;
+      }
+      all = std::min(all + known->second, kEndless);
+    }
+    if (all > kManyCorners && all / kMostCopies > own) refuse_copies();
+  }
+
+  [[noreturn]] static void refuse_copies() {
+    throw Malformed{"its nodes and primitives multiply to more than a model would"};
+  }
 
   /// sRGB of a linear component, in the bytes that it was very likely made of.
   static float srgb_from_linear(double c) {
@@ -164,15 +262,18 @@ class Reader {
   /// so, or else where their coordinates are equal.
   TriangleMesh triangles_of(const JsonPlace& mesh) {
     TriangleMesh drawn;
+    LookNumbers look_numbers;
     const JsonPlace primitives = mesh.at("primitives");
-    for (size_t p = 0; p < primitives.size(); ++p) add_primitive(primitives.at(p), drawn);
+    for (size_t p = 0; p < primitives.size(); ++p)
+      add_primitive(primitives.at(p), drawn, look_numbers);
     if (!mesh.has("extensions") || !mesh.at("extensions").has(kManifold)) {
       weld(drawn);
       return drawn;
     }
     TriangleMesh manifold;
     const JsonPlace primitive = mesh.at("extensions").at(kManifold).at("manifoldPrimitive");
-    add_primitive(primitive, manifold);
+    look_numbers.clear();
+    add_primitive(primitive, manifold, look_numbers);
     if (!same_triangles(drawn, manifold))
       throw Malformed{primitive.name() + " has other triangles than the mesh"};
     drop_unused_points(manifold);
@@ -258,7 +359,7 @@ class Reader {
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   }
 
-  void add_primitive(const JsonPlace& primitive, TriangleMesh& mesh) {
+  void add_primitive(const JsonPlace& primitive, TriangleMesh& mesh, LookNumbers& look_numbers) {
     const size_t mode = primitive.whole("mode", kTriangles);
     if (mode < kTriangles) {
       ++left_out_;
@@ -267,17 +368,27 @@ class Reader {
     if (mode > kFan) throw Malformed{primitive.name() + ".mode must be from 0 to 6"};
     refuse_compression(primitive);
     const JsonPlace accessors = root().at("accessors");
-    const std::vector<glm::dvec3> points =
-        data_.positions(accessors.at(primitive.at("attributes").at("POSITION").whole()));
+    const JsonPlace positions = accessors.at(primitive.at("attributes").at("POSITION").whole());
+    const size_t count = GltfData::count_of(positions);
     std::vector<uint32_t> indices;
+    std::vector<glm::dvec3> points;
     if (primitive.has("indices")) {
+      if (!positions.has("sparse")) data_.positions(positions, {});  // is it there at all?
       indices = data_.indices(accessors.at(primitive.at("indices").whole()));
+      const bool fits = std::all_of(indices.begin(), indices.end(),
+                                    [&](uint32_t index) { return index < count; });
+      if (!fits) {
+        data_.positions(positions);  // says so if the points themselves are what is wrong
+        throw Malformed{"an index is out of range"};
+      }
+      points = used_points(positions, count, indices);
     } else {
+      points = data_.positions(positions);
       for (uint32_t i = 0; i < points.size(); ++i) indices.push_back(i);
     }
-    for (const uint32_t index : indices) {
-      if (index >= points.size()) throw Malformed{"an index is out of range"};
-    }
+    // Accessors may look at the same bytes.
+    corners_ += indices.size();
+    if (corners_ > kManyCorners && corners_ / kMostCopies > data_.size()) refuse_copies();
     if (mode == kTriangles && indices.size() % 3 != 0)
       throw Malformed{"the number of indices is no multiple of three"};
     const auto first = static_cast<uint32_t>(mesh.points.size());
@@ -301,7 +412,23 @@ class Reader {
         }
       }
     }
-    add_look(primitive, mesh.triangles.size() - before, mesh);
+    add_look(primitive, mesh.triangles.size() - before, mesh, look_numbers);
+  }
+
+  /// The points of an accessor: where primitives use few of many, only those that the indices have,
+  /// which are numbered anew.
+  std::vector<glm::dvec3> used_points(const JsonPlace& accessor, size_t count,
+                                      std::vector<uint32_t>& indices) const {
+    constexpr size_t kFew = 4;
+    if (count / kFew <= indices.size()) return data_.positions(accessor);
+    std::vector<uint32_t> used = indices;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (uint32_t& index : indices) {
+      const auto found = std::lower_bound(used.begin(), used.end(), index);
+      index = static_cast<uint32_t>(found - used.begin());
+    }
+    return data_.positions(accessor, used);
   }
 
   static void refuse_compression(const JsonPlace& primitive) {
@@ -314,7 +441,8 @@ class Reader {
   }
 
   /// The appearance of the last `count` triangles, which are the primitive's.
-  void add_look(const JsonPlace& primitive, size_t count, TriangleMesh& mesh) const {
+  void add_look(const JsonPlace& primitive, size_t count, TriangleMesh& mesh,
+                LookNumbers& look_numbers) const {
     Appearance look;
     if (primitive.has("material")) {
       const size_t number = primitive.at("material").whole();
@@ -322,17 +450,19 @@ class Reader {
         throw Malformed{primitive.name() + " has a material that is not there"};
       look = materials_[number];
     }
-    const auto known = std::find(mesh.appearances.begin(), mesh.appearances.end(), look);
-    const auto place = static_cast<uint32_t>(known - mesh.appearances.begin());
-    if (known == mesh.appearances.end()) mesh.appearances.push_back(look);
-    mesh.appearance_of.insert(mesh.appearance_of.end(), count, place);
+    const auto [known, is_new] =
+        look_numbers.emplace(look, static_cast<uint32_t>(mesh.appearances.size()));
+    if (is_new) mesh.appearances.push_back(look);
+    mesh.appearance_of.insert(mesh.appearance_of.end(), count, known->second);
   }
 
   Json json_;
   const GltfOptions& options_;
-  std::vector<std::string> buffers_;
+  GltfBuffers buffers_;
   GltfData data_;
-  size_t left_out_ = 0;  ///< primitives of points and lines
+  uint64_t corners_ = 0;                       ///< of the primitives that were read
+  std::map<std::string, size_t> passed_over_;  ///< what, and of how many nodes
+  size_t left_out_ = 0;                        ///< primitives of points and lines
   std::vector<Appearance> materials_;
 };
 

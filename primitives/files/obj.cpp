@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <csgrun/primitives/file_path.h>
+
 #include "primitives/files/formats.h"
 #include "primitives/files/text_scanner.h"
 
@@ -93,9 +95,7 @@ class ObjReader {
   /// A model from somewhere must not make us read what lies elsewhere: it has no colours then.
   void read_material_file() {
     const std::string path(scanner_.rest_of_line());
-    const bool leads_out = path.starts_with('/') || path.find("..") != std::string::npos ||
-                           path.find(':') != std::string::npos ||
-                           path.find('\\') != std::string::npos;
+    const bool leads_out = leads_out_of_folder(path);
     if (leads_out && notes_ != nullptr) {
       notes_->push_back(scanner_.place() + ": no colours: mtllib " + quoted(path) +
                         " leads out of the file's folder");
