@@ -88,8 +88,8 @@ std::optional<RepairOptions> repair_argument(lua_State* L, const Arguments& argu
 }
 
 /// The parts of a file as nodes; read once.
-const std::vector<Session::ImportedPart>& import_parts(lua_State* L, const Files::Opened& file,
-                                                       const ModelPartOptions& options) {
+const std::vector<SolidPart>& import_parts(lua_State* L, const Files::Opened& file,
+                                           const ModelPartOptions& options) {
   Session& session = session_of(L);
   auto& parts = session.imported[{file.real, options.fill, options.repair}];
   if (!parts.empty()) return parts;
@@ -98,11 +98,11 @@ const std::vector<Session::ImportedPart>& import_parts(lua_State* L, const Files
   std::vector<ModelPart> read =
       value_or_fail(kImport, read_model_parts(file.display, file.bytes, options, &notes));
   for (const std::string& note : notes) session.warn(L, "import: " + note);
-  for (ModelPart& part : read) {
-    part.mesh.kind = session.files().name_from_folder(file.display);  // what is written names it so
-    parts.push_back({part.name, counted_leaf(L, std::move(part.mesh))});
-  }
-  return parts;
+  return parts = solid_parts_of(std::move(read), session.source_ref(L), [&](PolygonMesh mesh) {
+           mesh.kind =
+               session.files().name_from_folder(file.display);  // what is written names it so
+           return counted_leaf(L, std::move(mesh));
+         });
 }
 
 /// A drawing as a shape.

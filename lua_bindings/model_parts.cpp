@@ -1,8 +1,11 @@
 #include "lua_bindings/model_parts.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
+#include <csgrun/engine/validate.h>
 #include <csgrun/primitives/file_ending.h>
 #include <csgrun/primitives/mesh_file.h>
 
@@ -43,11 +46,43 @@ Result<std::vector<ModelPart>> read_gltf(const std::string& name, std::string_vi
   return parts;
 }
 
+/// Whether a mesh is a solid by itself, and no void of another.
+bool is_solid(PolygonMesh mesh) {
+  weld_points(mesh);
+  const MeshReport report = check_mesh(mesh);
+  return report.open_edges == 0 && report.misoriented_edges == 0 && signed_volume(mesh) > 0;
+}
+
+/// The objects of a file as parts of their names, where each is a solid. Others are surfaces of one
+/// solid; and rules other than "nonzero" say what is inside of all objects together.
+std::vector<ModelPart> objects_of(PolygonMesh mesh, std::vector<MeshObject> objects,
+                                  FillRule fill) {
+  if (!objects.empty() && objects[0].first_face > 0) objects.insert(objects.begin(), {"", 0});
+  std::vector<ModelPart> parts;
+  if (objects.size() > 1 && fill == FillRule::kNonZero) {
+    std::vector<uint32_t> object_of;
+    for (uint32_t o = 0; o < objects.size(); ++o) {
+      const bool is_last = o + 1 == objects.size();
+      object_of.resize(is_last ? mesh.face_count() : objects[o + 1].first_face, o);
+    }
+    std::vector<PolygonMesh> meshes =
+        split_mesh(mesh, object_of, static_cast<uint32_t>(objects.size()));
+    if (std::all_of(meshes.begin(), meshes.end(), is_solid)) {
+      for (size_t o = 0; o < objects.size(); ++o)
+        parts.push_back({objects[o].name, std::move(meshes[o])});
+      return parts;
+    }
+  }
+  parts.push_back({objects.size() == 1 ? objects[0].name : "", std::move(mesh)});
+  return parts;
+}
+
 Result<std::vector<ModelPart>> read_mesh(const std::string& name, std::string_view bytes,
                                          const ModelPartOptions& options,
                                          std::vector<std::string>* notes) {
   std::vector<std::string> material_files;
-  auto mesh = parse_mesh(name, bytes, nullptr, options.open ? &material_files : nullptr, notes);
+  std::vector<MeshObject> objects;
+  auto mesh = parse_mesh(name, bytes, &objects, options.open ? &material_files : nullptr, notes);
   if (!mesh) return mesh.error();
   for (const std::string& file : material_files) {
     const auto text = options.open(file);
@@ -63,18 +98,63 @@ Result<std::vector<ModelPart>> read_mesh(const std::string& name, std::string_vi
     mesh->appearances.clear();
     mesh->appearance_of.clear();
   }
-  return std::vector<ModelPart>{{"", *std::move(mesh)}};
+  return objects_of(*std::move(mesh), objects, options.fill);
 }
 
 /// "a", "a", "b" become "a", "a_2", "b".
 void make_names_different(std::vector<ModelPart>& parts) {
   std::set<std::string> taken;
+  std::map<std::string, int> copies;  // by the wanted name: where to go on, for many of one name
   for (ModelPart& part : parts) {
-    if (part.name.empty()) continue;
+    if (part.name.empty() || part.goes_on) continue;
+    if (taken.insert(part.name).second) continue;
+    int& copy = copies.try_emplace(part.name, 2).first->second;
     const std::string wanted = part.name;
-    for (int copy = 2; !taken.insert(part.name).second; ++copy)
-      part.name = wanted + "_" + std::to_string(copy);
+    do {
+      part.name = wanted + "_" + std::to_string(copy++);
+    } while (!taken.insert(part.name).second);
   }
+}
+
+/// A name that a part can have: they become those of nodes and of files, where "/" makes groups.
+/// Empty when nothing is left of it.
+std::string clean_name(const std::string& name) {
+  constexpr size_t kLongest = 180;  // parts have 200 bytes, some of them for a number
+  std::string clean;
+  for (size_t start = 0; start <= name.size();) {
+    const size_t end = std::min(name.find('/', start), name.size());
+    std::string piece = name.substr(start, end - start);
+    start = end + 1;
+    if (piece.empty() || piece == "." || piece == "..") continue;
+    for (char& c : piece) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (byte < 32 || byte == 127 || c == '\\') c = '_';
+    }
+    clean += (clean.empty() ? "" : "/") + piece;
+  }
+  if (clean.size() <= kLongest) return clean;
+  size_t end = kLongest;  // not within a letter of UTF-8
+  while (end > 0 && (static_cast<unsigned char>(clean[end]) & 0xc0) == 0x80) --end;
+  clean.resize(end);
+  while (clean.ends_with('/')) clean.pop_back();
+  return clean;
+}
+
+void clean_names(const std::string& file, std::vector<ModelPart>& parts,
+                 std::vector<std::string>* notes) {
+  size_t count = 0;
+  std::string first;
+  for (ModelPart& part : parts) {
+    std::string clean = clean_name(part.name);
+    if (clean == part.name) continue;
+    if (count++ == 0) first = clean;
+    part.name = std::move(clean);
+  }
+  if (count == 0) return;
+  notes->push_back(
+      file + ": " +
+      (count == 1 ? "1 name of a part is" : std::to_string(count) + " names of parts are") +
+      " changed to what parts can be called" + (first.empty() ? "" : " (first: '" + first + "')"));
 }
 
 }  // namespace
@@ -86,6 +166,22 @@ std::string model_file_format_of(const std::string& path) {
     if (has_ending(path, std::string(".") + format)) return format;
   }
   return mesh_format_of(path);
+}
+
+std::vector<SolidPart> solid_parts_of(std::vector<ModelPart> parts, const SourceRef& where,
+                                      const std::function<NodePtr(PolygonMesh)>& leaf) {
+  std::vector<SolidPart> result;
+  std::vector<NodePtr> leaves;  // of the part that is being made
+  for (size_t i = 0; i < parts.size(); ++i) {
+    leaves.push_back(leaf(std::move(parts[i].mesh)));
+    if (i + 1 < parts.size() && parts[i + 1].goes_on) continue;
+    const bool is_one = leaves.size() == 1;
+    // Parts that go on have the name of the first of them, or none.
+    result.push_back({parts[i + 1 - leaves.size()].name,
+                      is_one ? leaves[0] : Node::boolean(BooleanOp::kUnion, leaves, where)});
+    leaves.clear();
+  }
+  return result;
 }
 
 Result<std::vector<ModelPart>> read_model_parts(const std::string& name, std::string_view bytes,
@@ -110,6 +206,7 @@ Result<std::vector<ModelPart>> read_model_parts(const std::string& name, std::st
     if (!note.empty()) notes->push_back(note);
     part.mesh = *std::move(solid);
   }
+  clean_names(name, *parts, notes);
   make_names_different(*parts);
   return parts;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <csgrun/engine/csg_tree.h>
 #include <csgrun/engine/error.h>
 #include <csgrun/engine/repair.h>
 #include <csgrun/primitives/model_file.h>
@@ -26,7 +27,17 @@ Result<std::vector<ModelPart>> read_model_parts(const std::string& name, std::st
                                                 const ModelPartOptions& options,
                                                 std::vector<std::string>* notes);
 
-/// "stl", "off", "obj", "ply", "glb", "gltf", "3mf", "amf" or empty: the ending of what can be read.
+struct SolidPart {
+  std::string name;
+  NodePtr node;
+};
+
+/// Parts as nodes, by `leaf`: what goes on is united with the part before it.
+std::vector<SolidPart> solid_parts_of(std::vector<ModelPart> parts, const SourceRef& where,
+                                      const std::function<NodePtr(PolygonMesh)>& leaf);
+
+/// "stl", "off", "obj", "ply", "glb", "gltf", "3mf", "amf" or empty: the ending of what can be
+/// read.
 std::string model_file_format_of(const std::string& path);
 
 }  // namespace csgrun

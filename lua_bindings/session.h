@@ -22,6 +22,7 @@
 
 #include "lua_bindings/budget.h"
 #include "lua_bindings/files.h"
+#include "lua_bindings/model_parts.h"
 #include "lua_bindings/parameters.h"
 #include "lua_bindings/values.h"
 
@@ -32,8 +33,8 @@ struct ScriptPart {
   std::string name;  ///< unique; groups are separated by '/'
   NodePtr solid;     ///< null for a shape
   Shape2D shape;
-  SourceRef where;                       ///< where it was emitted or made
-  bool only = false;                     ///< of a shape: it alone is to be in the result
+  SourceRef where;    ///< where it was emitted or made
+  bool only = false;  ///< of a shape: it alone is to be in the result
   std::optional<Appearance> appearance = std::nullopt;  ///< of a shape
 };
 
@@ -70,8 +71,8 @@ class Session {
   Evaluator& evaluator();
   /// The solid of a tree, on the script's clock. Throws ScriptError, with the place of the node.
   SolidPtr evaluate(const NodePtr& node);
-  /// The same, kept with the value for as long as the grid and csg.contacts stay the same: who calls
-  /// Lua meanwhile holds `value.evaluated`.
+  /// The same, kept with the value for as long as the grid and csg.contacts stay the same: who
+  /// calls Lua meanwhile holds `value.evaluated`.
   const Solid& evaluated(SolidValue& value);
   /// Volume and box of a solid, without its triangles if these were not made yet. Fails as
   /// evaluated does.
@@ -117,13 +118,8 @@ class Session {
       0;  ///< bytes outside of the Lua heap that the collector was not told of yet
 
   /// One part of a file that was imported.
-  struct ImportedPart {
-    std::string name;
-    NodePtr node;
-  };
   /// Files by their real path and how they were asked for: read once.
-  std::map<std::tuple<std::string, FillRule, std::optional<RepairOptions>>,
-           std::vector<ImportedPart>>
+  std::map<std::tuple<std::string, FillRule, std::optional<RepairOptions>>, std::vector<SolidPart>>
       imported;
 
  private:

@@ -30,45 +30,41 @@ bool is_gltf(const std::string& path) {
   return ending == ".glb" || ending == ".gltf";
 }
 
-/// The faces of a mesh from one on to before another, over the points that they use.
-PolygonMesh faces_of(const PolygonMesh& mesh, uint32_t begin, uint32_t end) {
-  const auto first = mesh.corners.begin() + mesh.loop_starts[mesh.face_starts[begin]];
-  const auto last = mesh.corners.begin() + mesh.loop_starts[mesh.face_starts[end]];
-  std::vector<uint32_t> used(first, last);
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  PolygonMesh part;
-  for (const uint32_t v : used) part.points.push_back(mesh.points[v]);
-  std::vector<uint32_t> loop;
-  for (uint32_t l = mesh.face_starts[begin]; l < mesh.face_starts[end]; ++l) {
-    loop.clear();
-    for (uint32_t i = mesh.loop_starts[l]; i < mesh.loop_starts[l + 1]; ++i) {
-      const auto found = std::lower_bound(used.begin(), used.end(), mesh.corners[i]);
-      loop.push_back(static_cast<uint32_t>(found - used.begin()));
-    }
-    part.add_face(loop);
-  }
-  return part;
-}
-
 /// The objects of a file as parts; what stands before the first, or has no name, is called as the
 /// file. A file of one object is one part of the file's name.
 std::vector<TriangleMesh> parts_of(const PolygonMesh& mesh, std::vector<MeshObject> objects,
                                    const std::string& stem, bool weld_points) {
   if (objects.size() == 1 && objects[0].first_face == 0) objects.clear();
   if (objects.empty() || objects[0].first_face > 0) objects.insert(objects.begin(), {"", 0});
+  std::vector<PolygonMesh> meshes;
+  if (objects.size() > 1) {
+    std::vector<uint32_t> object_of(mesh.face_count());
+    uint32_t o = 0;
+    for (uint32_t f = 0; f < object_of.size(); ++f) {
+      while (o + 1 < objects.size() && objects[o + 1].first_face <= f) ++o;
+      object_of[f] = o;
+    }
+    meshes = split_mesh(mesh, object_of, static_cast<uint32_t>(objects.size()));
+  } else {
+    meshes.push_back(mesh);
+  }
   std::vector<TriangleMesh> parts;
   for (size_t i = 0; i < objects.size(); ++i) {
-    const auto end = i + 1 < objects.size() ? objects[i + 1].first_face
-                                            : static_cast<uint32_t>(mesh.face_count());
-    parts.push_back(triangulated(
-        objects.size() == 1 ? mesh : faces_of(mesh, objects[i].first_face, end), weld_points));
+    parts.push_back(triangulated(meshes[i], weld_points));
     parts.back().name = objects[i].name.empty() ? stem : objects[i].name;
   }
   return parts;
 }
 
-Result<std::vector<TriangleMesh>> read_meshes(const std::string& path, const std::string& bytes) {
+/// What is measured has no colours.
+void append(const TriangleMesh& more, TriangleMesh& mesh) {
+  const auto first = static_cast<uint32_t>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), more.points.begin(), more.points.end());
+  for (auto [a, b, c] : more.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
+Result<std::vector<TriangleMesh>> read_meshes(const std::string& path, const std::string& bytes,
+                                              std::vector<std::string>& notes) {
   if (is_gltf(path)) {
     GltfOptions options;
     options.open = [&](const std::string& name) -> Result<std::string> {
@@ -77,21 +73,30 @@ Result<std::vector<TriangleMesh>> read_meshes(const std::string& path, const std
       return Error{
           ErrorCode::kCannotRead, fmt::format("cannot read '{}': {}", name, text.error), {}};
     };
-    return parse_glb(path, bytes, options);
+    std::vector<std::string> own_notes;
+    options.notes = &own_notes;
+    auto meshes = parse_glb(path, bytes, options);
+    for (const std::string& note : own_notes) notes.push_back(path + ": " + note);
+    return meshes;
   }
   const std::string stem = std::filesystem::path(path).stem().string();
   if (is_3mf_path(path) || is_amf_path(path)) {
-    auto parts = is_3mf_path(path) ? parse_3mf(path, bytes) : parse_amf(path, bytes, nullptr);
+    auto parts =
+        is_3mf_path(path) ? parse_3mf(path, bytes, &notes) : parse_amf(path, bytes, &notes);
     if (!parts) return parts.error();
     std::vector<TriangleMesh> meshes;
     for (const ModelPart& part : *parts) {
+      if (part.goes_on) {
+        append(triangulated(part.mesh, false), meshes.back());
+        continue;
+      }
       meshes.push_back(triangulated(part.mesh, false));
       meshes.back().name = part.name.empty() ? stem : part.name;
     }
     return meshes;
   }
   std::vector<MeshObject> objects;
-  auto mesh = parse_mesh(path, bytes, &objects);
+  auto mesh = parse_mesh(path, bytes, &objects, nullptr, &notes);
   if (!mesh) return mesh.error();
   // STL has no indices: equal coordinates are one point. The others say themselves what is one.
   return parts_of(*mesh, std::move(objects), stem, mesh_format_of(path) == "stl");
@@ -111,12 +116,13 @@ Failure measure_drawing(const std::string& path, const std::string& bytes, bool 
   return {};
 }
 
-Failure measure_file(const std::string& path, bool json, std::string& output) {
+Failure measure_file(const std::string& path, bool json, std::string& output,
+                     std::vector<std::string>& notes) {
   const FileText text = read_whole_file(path);
   if (!text.error.empty())
     return {kExitFiles, fmt::format("csgrun: cannot read '{}': {}", path, text.error)};
   if (!flat_file_format_of(path).empty()) return measure_drawing(path, text.bytes, json, output);
-  auto meshes = read_meshes(path, text.bytes);
+  auto meshes = read_meshes(path, text.bytes, notes);
   if (!meshes) return refused(path, meshes.error().message);
   std::vector<PartMeasures> parts;
   std::vector<std::string> warnings;
@@ -146,10 +152,11 @@ bool is_info_path(const std::string& path) {
   return !model_file_format_of(path).empty() || !flat_file_format_of(path).empty();
 }
 
-Failure run_info(const std::string& path, bool json, std::string& output) {
+Failure run_info(const std::string& path, bool json, std::string& output,
+                 std::vector<std::string>& notes) {
   limit_process_memory(default_process_memory());
   try {
-    return measure_file(path, json, output);
+    return measure_file(path, json, output, notes);
   } catch (const std::bad_alloc&) {
     return {kExitGeometry, path + ": not enough memory"};
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lua_bindings/cli/exit_codes.h"
 
@@ -10,7 +11,9 @@ namespace csgrun {
 /// Whether info reads files of this ending.
 bool is_info_path(const std::string& path);
 
-/// Measures the file and appends what is printed to `output`.
-Failure run_info(const std::string& path, bool json, std::string& output);
+/// Measures the file and appends what is printed to `output`; what of it was not read, or not as it
+/// stands, to `notes`.
+Failure run_info(const std::string& path, bool json, std::string& output,
+                 std::vector<std::string>& notes);
 
 }  // namespace csgrun

@@ -38,7 +38,9 @@ int run(const csgrun::CommandLine& line) {
 
 int info(const csgrun::CommandLine& line) {
   std::string output;
-  const csgrun::Failure failure = csgrun::run_info(line.model, line.info_json, output);
+  std::vector<std::string> notes;
+  const csgrun::Failure failure = csgrun::run_info(line.model, line.info_json, output, notes);
+  for (const std::string& note : notes) print(stderr, "warning: " + note + "\n");
   if (failure.failed()) {
     print(stderr, failure.message + "\n");
     return failure.code;

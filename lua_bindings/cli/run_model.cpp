@@ -187,11 +187,13 @@ class Run {
     // Notes begin with the file's name.
     report_.warnings.insert(report_.warnings.end(), notes.begin(), notes.end());
     const SourceRef where = session_.source_ref(line_.model, 1);
-    for (ModelPart& part : *parts) {
-      part.mesh.kind = session_.files().name_from_folder(line_.model);
-      const auto mesh = std::make_shared<const PolygonMesh>(std::move(part.mesh));
+    const auto leaf = [&](PolygonMesh mesh) {
+      mesh.kind = session_.files().name_from_folder(line_.model);
+      return Node::leaf(std::make_shared<const PolygonMesh>(std::move(mesh)), where);
+    };
+    for (const SolidPart& part : solid_parts_of(*std::move(parts), where, leaf)) {
       try {
-        session_.add_part({part.name, Node::leaf(mesh, where), {}, where}, "");
+        session_.add_part({part.name, part.node, {}, where}, "");
       } catch (const ScriptError& error) {
         return {kExitScript, line_.model + ": " + error.what()};
       }

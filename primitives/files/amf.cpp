@@ -13,7 +13,9 @@
 #include <pugixml.hpp>
 
 #include <csgrun/engine/csg_tree.h>
+#include <csgrun/engine/validate.h>
 #include <csgrun/primitives/file_ending.h>
+#include <csgrun/primitives/mesh_file.h>
 #include <csgrun/primitives/model_file.h>
 #include <csgrun/primitives/trig.h>
 
@@ -26,7 +28,8 @@ namespace csgrun {
 namespace {
 
 constexpr int kDeepest = 32;  // constellations in constellations beyond this contain themselves
-constexpr uint64_t kManyTriangles = 5'000'000, kMostCopies = 100;
+/// Of points and triangles.
+constexpr uint64_t kManyElements = 5'000'000, kMostCopies = 100;
 
 /// What is wrong, without the file's name.
 struct Fault {
@@ -109,50 +112,58 @@ class AmfReader {
   std::vector<ModelPart> read() {
     for (const pugi::xml_node& node : amf_.children("material"))
       materials_[node.attribute("id").value()] = colour_in(node);
+    std::vector<Thing*> things;  // in the order of the file
     std::set<std::string> used;
+    PassedOver passed_over;
     for (const pugi::xml_node& node : amf_.children()) {
-      const std::string kind = node.name();
-      if (kind != "object" && kind != "constellation") continue;
-      if (!things_.emplace(node.attribute("id").value(), Thing{node}).second)
+      if (!is(node, "object") && !is(node, "constellation")) continue;
+      const auto [entry, is_new] = things_.emplace(node.attribute("id").value(), Thing{node});
+      if (!is_new)
         throw Fault{"two objects have the same id " + quoted(node.attribute("id").value())};
-      for (const pugi::xml_node& instance : node.children("instance"))
+      things.push_back(&entry->second);
+      if (is(node, "object") && node.child("instance")) passed_over.add(quoted(entry->first));
+      for (const pugi::xml_node& instance : instances_of(node))
         used.insert(instance.attribute("objectid").value());
     }
-    // What no constellation has is a part of its own.
+    if (passed_over.count > 0) {
+      notes_->push_back("instances of " + std::to_string(passed_over.count) +
+                        (passed_over.count == 1 ? " object" : " objects") +
+                        " are left out: only constellations have some (first: object " +
+                        passed_over.first + ")");
+    }
+    // What no constellation has is a part of its own. All are counted: what contains itself is in
+    // none that is.
     std::vector<pugi::xml_node> tops;
     uint64_t own = 0, all = 0;
-    for (const pugi::xml_node& node : amf_.children()) {
-      const auto thing = things_.find(node.attribute("id").value());
-      if (thing == things_.end() || thing->second.node != node) continue;
-      if (std::string_view(node.name()) == "object") own += count(thing->first, 0);
-      if (used.count(thing->first) == 0) tops.push_back(node);
+    for (Thing* each : things) {
+      count(*each, 0);
+      own += each->own;
+      if (used.count(each->node.attribute("id").value()) != 0) continue;
+      all += each->with_instances;
+      tops.push_back(each->node);
     }
-    if (tops.empty() && !things_.empty()) count(things_.begin()->first, 0);
-    for (const pugi::xml_node& node : tops) {
-      all += count(node.attribute("id").value(), 0);
-      if (all > kManyTriangles && all / kMostCopies > own)
-        throw Fault{"its constellations multiply to more than a model would", ErrorCode::kLimit};
-    }
-    Affine scaled;
-    for (size_t i = 0; i < 3; ++i) scaled.m[i][i] = unit_;
+    if (all > kManyElements && all / kMostCopies > own)
+      throw Fault{"its constellations multiply to more than a model would", ErrorCode::kLimit};
     std::vector<ModelPart> parts;
-    for (const pugi::xml_node& node : tops) {
-      ModelPart part;
-      part.name = name_of(node);
-      FaceColours colours;
-      add(node.attribute("id").value(), scaled, part.mesh, colours);
-      if (part.mesh.face_count() == 0) continue;
-      colours.apply(part.mesh, notes_);
-      parts.push_back(std::move(part));
-    }
+    for (const pugi::xml_node& node : tops) append_part(node, parts);
     return parts;
   }
 
  private:
   struct Thing {
     pugi::xml_node node;
-    uint64_t triangles = 0;  ///< with those of its instances; 0: not counted yet
+    uint64_t own = 0;             ///< points, triangles and instances of its own
+    uint64_t with_instances = 0;  ///< with what they are made of; 0: not counted yet
+    int height = 0;               ///< how deep constellations nest in it
   };
+
+  static bool is(const pugi::xml_node& node, std::string_view kind) { return node.name() == kind; }
+
+  /// Those of a constellation: others have none.
+  static pugi::xml_object_range<pugi::xml_named_node_iterator> instances_of(
+      const pugi::xml_node& node) {
+    return node.children(is(node, "constellation") ? "instance" : "");
+  }
 
   Thing& thing(const std::string& id) {
     const auto found = things_.find(id);
@@ -160,21 +171,61 @@ class AmfReader {
     return found->second;
   }
 
-  /// Constellations multiply: how many triangles they come to is counted before any is made.
-  uint64_t count(const std::string& id, int depth) {
-    if (depth > kDeepest) throw Fault{"constellations nest too deep (does one contain itself?)"};
-    Thing& each = thing(id);
-    if (each.triangles > 0) return each.triangles;
-    uint64_t sum = 1;
-    for (const pugi::xml_node& volume : each.node.child("mesh").children("volume")) {
-      const auto triangles = volume.children("triangle");
-      sum += static_cast<uint64_t>(std::distance(triangles.begin(), triangles.end()));
+  static uint64_t length_of(const pugi::xml_node& node, const char* kind) {
+    const auto children = node.children(kind);
+    return static_cast<uint64_t>(std::distance(children.begin(), children.end()));
+  }
+
+  /// Constellations multiply: how many points and triangles they come to is counted before any is
+  /// made.
+  void count(Thing& each, int depth) {
+    if (each.with_instances == 0 && depth <= kDeepest) {
+      const pugi::xml_node mesh = each.node.child("mesh");
+      each.own = 1 + length_of(mesh.child("vertices"), "vertex");
+      for (const pugi::xml_node& volume : mesh.children("volume"))
+        each.own += length_of(volume, "triangle");
+      uint64_t sum = each.own;
+      for (const pugi::xml_node& instance : instances_of(each.node)) {
+        Thing& inner = thing(instance.attribute("objectid").value());
+        count(inner, depth + 1);
+        sum = std::min<uint64_t>(sum + inner.with_instances, uint64_t{1} << 40);
+        each.height = std::max(each.height, inner.height + 1);
+        ++each.own;
+      }
+      each.with_instances = sum;
     }
-    for (const pugi::xml_node& instance : each.node.children("instance")) {
-      sum = std::min<uint64_t>(sum + count(instance.attribute("objectid").value(), depth + 1),
-                               uint64_t{1} << 40);
+    if (depth + each.height > kDeepest)
+      throw Fault{"constellations nest too deep (does one contain itself?)"};
+  }
+
+  /// An object or constellation that is in no other.
+  void append_part(const pugi::xml_node& node, std::vector<ModelPart>& parts) {
+    Affine scaled;
+    for (size_t i = 0; i < 3; ++i) scaled.m[i][i] = unit_;
+    PolygonMesh mesh;
+    FaceColours colours;
+    volume_of_.clear();
+    add(node.attribute("id").value(), scaled, mesh, colours);
+    if (mesh.face_count() == 0) return;
+    colours.apply(mesh, notes_);
+    const uint32_t volumes = 1 + *std::max_element(volume_of_.begin(), volume_of_.end());
+    std::vector<PolygonMesh> pieces;
+    if (volumes > 1) pieces = split_mesh(mesh, volume_of_, volumes);
+    // Writers that mean colours by volumes close all of them together only.
+    const bool are_solids = std::all_of(pieces.begin(), pieces.end(), [](PolygonMesh piece) {
+      weld_points(piece);
+      const MeshReport report = check_mesh(piece);
+      return report.open_edges == 0 && report.misoriented_edges == 0;
+    });
+    if (volumes == 1 || !are_solids) {
+      parts.push_back({name_of(node), std::move(mesh)});
+      return;
     }
-    return each.triangles = sum;
+    const size_t first = parts.size();
+    for (PolygonMesh& piece : pieces) {
+      if (piece.face_count() > 0)
+        parts.push_back({name_of(node), std::move(piece), parts.size() > first});
+    }
   }
 
   /// Turned about X, then Y, then Z, and moved.
@@ -202,7 +253,7 @@ class AmfReader {
   /// The object or constellation under a map, appended.
   void add(const std::string& id, const Affine& map, PolygonMesh& mesh, FaceColours& colours) {
     const pugi::xml_node node = thing(id).node;
-    for (const pugi::xml_node& instance : node.children("instance")) {
+    for (const pugi::xml_node& instance : instances_of(node)) {
       add(instance.attribute("objectid").value(), Affine::compose(map, place_of(instance)), mesh,
           colours);
     }
@@ -219,6 +270,7 @@ class AmfReader {
       has_colour.push_back(colour.has_value());
     }
     const size_t count = mesh.points.size() - first;
+    uint32_t number = 0;
     for (const pugi::xml_node& volume : given.children("volume")) {
       std::optional<Rgba> colour = colour_in(volume);
       if (!colour) colour = colour_in(node);
@@ -234,16 +286,19 @@ class AmfReader {
           corners[i] += static_cast<uint32_t>(first);
         }
         mesh.add_face(corners);
+        volume_of_.push_back(number);
         std::optional<Rgba> shown = colour_in(triangle);
         if (!shown && !by_vertices) shown = colour;
         if (shown) colours.set_face(mesh.face_count() - 1, *shown);
       }
+      ++number;
     }
   }
 
   pugi::xml_node amf_;
   std::vector<std::string>* notes_;
   double unit_;
+  std::vector<uint32_t> volume_of_;  ///< by face of the part being made: which one of its object
   std::map<std::string, std::optional<Rgba>> materials_;
   std::map<std::string, Thing> things_;
 };
@@ -275,7 +330,11 @@ Result<std::vector<ModelPart>> parse_amf(const std::string& name, std::string_vi
   if (std::string_view(document.document_element().name()) != "amf")
     return malformed(name, "", "it is no AMF file");
   try {
-    std::vector<ModelPart> parts = AmfReader(document.document_element(), notes).read();
+    std::vector<std::string> own_notes;
+    std::vector<ModelPart> parts = AmfReader(document.document_element(), &own_notes).read();
+    if (notes != nullptr) {
+      for (const std::string& note : own_notes) notes->push_back(name + ": " + note);
+    }
     if (parts.empty()) return malformed(name, "", "has no faces");
     for (ModelPart& part : parts) {
       part.mesh.kind = name;

@@ -14,6 +14,9 @@
 
 namespace csgrun {
 
+/// What stands before UTF-8, which every text may be.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
 Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes,
                               std::vector<std::string>* notes);
 Result<PolygonMesh> parse_off(const std::string& name, std::string_view bytes,

@@ -72,8 +72,9 @@ Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
   }
   if (bytes.empty()) return malformed(name, "", "the file is empty");
   std::vector<std::string> own_notes;
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // before UTF-8, which all may be
-  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
+  // STL looks for it itself: a binary header is any 80 bytes.
+  if (format != "stl" && bytes.starts_with(kByteOrderMark))
+    bytes.remove_prefix(kByteOrderMark.size());
   Result<PolygonMesh> mesh = format == "stl"   ? parse_stl(name, bytes, &own_notes)
                              : format == "off" ? parse_off(name, bytes, &own_notes)
                              : format == "obj"

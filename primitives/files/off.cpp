@@ -48,13 +48,14 @@ class OffReader {
     if (auto error = read_count("the number of faces", scanner_.word_anywhere(), faces))
       return *error;
     scanner_.next_line();  // the number of edges is not used, and not always there
-    // A point takes "0 0 0\n" at least, a face "3 0 1 2\n", without the line end of the last.
+    // A point takes "0 0 0\n" at least, a face "0\n", without the line end of the last: faces
+    // of fewer than three corners are passed over, but may be there.
     if (auto error =
             check_count(name_, scanner_.place(), "points", points, 5, scanner_.remaining())) {
       return *error;
     }
     if (auto error =
-            check_count(name_, scanner_.place(), "faces", faces, 7, scanner_.remaining() + 1)) {
+            check_count(name_, scanner_.place(), "faces", faces, 2, scanner_.remaining() + 1)) {
       return *error;
     }
     mesh_.points.reserve(points);

@@ -132,7 +132,9 @@ Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes,
   const uint64_t count = has_header ? read_unsigned<4>(bytes, 80, false) : 0;
   const uint64_t binary_size = kHeaderBytes + kTriangleBytes * count;
   bool binary = has_header && bytes.size() == binary_size;
-  const bool ascii = !binary && equals_ignoring_case(TextScanner(bytes).word_anywhere(), "solid") &&
+  std::string_view text = bytes;
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const bool ascii = !binary && equals_ignoring_case(TextScanner(text).word_anywhere(), "solid") &&
                      bytes.substr(0, kHeaderBytes).find('\0') == std::string_view::npos;
   if (!binary && !ascii && has_header && count > 0 && bytes.size() > binary_size) {
     binary = true;
@@ -154,7 +156,7 @@ Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes,
     return error;
   }
   Result<PolygonMesh> mesh =
-      binary ? parse_binary(name, bytes, count) : AsciiReader(name, bytes).read();
+      binary ? parse_binary(name, bytes, count) : AsciiReader(name, text).read();
   if (mesh) weld_points(*mesh);
   return mesh;
 }

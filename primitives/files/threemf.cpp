@@ -24,7 +24,9 @@ namespace csgrun {
 namespace {
 
 constexpr int kDeepest = 32;  // components in components beyond this contain themselves
-constexpr uint64_t kManyTriangles = 5'000'000, kMostCopies = 100;
+constexpr size_t kMostDocuments = 10'000;  // each takes memory, however small it is
+/// Of points and triangles.
+constexpr uint64_t kManyElements = 5'000'000, kMostCopies = 100;
 
 /// The map of an object that is measured in another unit than what it stands in.
 Affine scaled_first(Affine map, double factor) {
@@ -102,6 +104,10 @@ class PackageReader {
     const std::string entry = path.starts_with('/') ? path.substr(1) : path;
     std::unique_ptr<Part>& known = parts_[entry];
     if (known) return *known;
+    if (parts_.size() > kMostDocuments) {
+      throw ModelFault{"it has more than " + std::to_string(kMostDocuments) + " documents",
+                       ErrorCode::kLimit};
+    }
     auto fresh = std::make_unique<Part>();
     fresh->path = entry;
     fresh->text = bytes_of(entry);
@@ -114,7 +120,7 @@ class PackageReader {
     }
     const pugi::xml_node model = fresh->xml.document_element();
     if (local_name(model.name()) != "model") throw ModelFault{"it is no 3MF model"};
-    fresh->model = std::make_unique<ModelDocument>(model, notes_);
+    fresh->model = std::make_unique<ModelDocument>(model);
     known = std::move(fresh);
     return *known;
   }
@@ -124,30 +130,37 @@ class PackageReader {
     return reference.path.empty() ? from : part(reference.path);
   }
 
-  /// Components multiply: how many triangles they come to is counted before any is made.
-  uint64_t count(Part& owner, uint32_t id, int depth) {
+  /// Components multiply: how many points and triangles they come to is counted before any is
+  /// made. Also adds up those of the objects that are reached, once each.
+  ModelObject& count(Part& owner, uint32_t id, int depth) {
     place_ = owner.path;
     ModelObject& each = owner.model->object(id);
-    if (depth > kDeepest)
-      throw ModelFault{"components nest too deep (does an object contain itself?)"};
-    if (each.expanded > 0) return each.expanded;
-    uint64_t sum = each.triangles + 1;
-    for (const ModelReference& component : each.components) {
-      const uint64_t more = count(part_of(owner, component), component.object, depth + 1);
-      sum = std::min<uint64_t>(sum + more, uint64_t{1} << 40);
+    if (each.expanded == 0 && depth <= kDeepest) {
+      ModelDocument::note_what_is_left_out(each, notes_);
+      uint64_t sum = each.elements + 1;
+      if (each.left_out.empty()) {
+        for (const ModelReference& component : each.components) {
+          const ModelObject& inner = count(part_of(owner, component), component.object, depth + 1);
+          sum = std::min<uint64_t>(sum + inner.expanded, uint64_t{1} << 40);
+          each.height = std::max(each.height, inner.height + 1);
+        }
+      }
+      each.expanded = sum;
+      own_ += each.elements + 1;
     }
-    return each.expanded = sum;
+    if (depth + each.height > kDeepest)
+      throw ModelFault{"components nest too deep (does an object contain itself?)"};
+    return each;
   }
 
   void count_all(Part& root, const pugi::xml_node& build) {
-    uint64_t own = 0, all = 0;
+    uint64_t all = 0;
     for (const pugi::xml_node& node : build.children()) {
       if (local_name(node.name()) != "item") continue;
       const ModelReference item = reference_of(node);
-      all += count(part_of(root, item), item.object, 0);
+      all += count(part_of(root, item), item.object, 0).expanded;
     }
-    for (const auto& [path, each] : parts_) own += each->model->own_triangles();
-    if (all > kManyTriangles && all / kMostCopies > own)
+    if (all > kManyElements && all / kMostCopies > own_)
       throw ModelFault{"its components multiply to more than a model would", ErrorCode::kLimit};
   }
 
@@ -177,6 +190,7 @@ class PackageReader {
     const double factor = owner.model->unit() / from.model->unit();
     const Affine placed = factor == 1 ? map : scaled_first(map, factor);
     const ModelObject& each = owner.model->object(reference.object);
+    if (!each.left_out.empty()) return;
     if (each.mesh) owner.model->add_mesh(each, placed, mesh, numbers_);
     for (const ModelReference& component : each.components)
       add(owner, component, Affine::compose(placed, component.map), mesh);
@@ -187,6 +201,7 @@ class PackageReader {
   std::vector<std::string>* notes_;  ///< never null
   std::string place_;                ///< which document is being read, for messages
   std::map<std::string, std::unique_ptr<Part>> parts_;
+  uint64_t own_ = 0;     ///< points, triangles and references of what is built, once each
   LookNumbers numbers_;  ///< of the part that is being made
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "primitives/files/formats.h"
+#include "primitives/files/text_scanner.h"
 #include "primitives/files/threemf_xml.h"
 
 namespace csgrun {
@@ -38,14 +39,38 @@ Appearance colour_of(const char* text) {
   return appearance_of(channels);
 }
 
+/// The extensions of which at least what solids are made of is read, by their namespaces.
+constexpr std::string_view kNamespaces[] = {
+    "http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
+    "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
+    "http://schemas.microsoft.com/3dmanufacturing/production/2015/06",
+    "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07",
+    "http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02"};
+
+/// A model says without which extensions it is another one.
+void refuse_required_extensions(const pugi::xml_node& model) {
+  TextScanner prefixes(find_attribute(model, "requiredextensions").value());
+  for (std::string_view prefix = prefixes.word_anywhere(); !prefix.empty();
+       prefix = prefixes.word_anywhere()) {
+    const std::string declared = "xmlns:" + std::string(prefix);
+    const std::string space = model.attribute(declared.c_str()).value();
+    if (std::find(std::begin(kNamespaces), std::end(kNamespaces), space) != std::end(kNamespaces))
+      continue;
+    std::string address = space.substr(0, 100);
+    for (char& c : address) c = c >= ' ' && c <= '~' ? c : '?';
+    throw ModelFault{"the model needs the extension " + quoted(prefix) +
+                     (address.empty() ? "" : " of " + address) + ", which is not read"};
+  }
+}
+
 std::string label_of(uint32_t id, const std::string& name) {
   return "object " + std::to_string(id) + (name.empty() ? "" : " " + quoted(name));
 }
 
 }  // namespace
 
-ModelDocument::ModelDocument(const pugi::xml_node& model, std::vector<std::string>* notes)
-    : unit_(unit_of(model)) {
+ModelDocument::ModelDocument(const pugi::xml_node& model) : unit_(unit_of(model)) {
+  refuse_required_extensions(model);
   const pugi::xml_node resources = find_child(model, "resources");
   if (!resources) throw ModelFault{"the model has no resources"};
   for (const pugi::xml_node& node : resources.children()) {
@@ -54,14 +79,8 @@ ModelDocument::ModelDocument(const pugi::xml_node& model, std::vector<std::strin
   for (const pugi::xml_node& node : resources.children()) {
     const std::string_view kind = local_name(node.name());
     if (kind == "basematerials" || kind == "colorgroup") read_looks(node);
-    if (kind == "object") read_object(node, notes);
+    if (kind == "object") read_object(node);
   }
-}
-
-uint64_t ModelDocument::own_triangles() const {
-  uint64_t sum = 0;
-  for (const auto& [id, each] : objects_) sum += each.triangles + 1;
-  return sum;
 }
 
 ModelObject& ModelDocument::object(uint32_t id) {
@@ -103,32 +122,44 @@ void ModelDocument::read_looks(const pugi::xml_node& group) {
   }
 }
 
-void ModelDocument::read_object(const pugi::xml_node& node, std::vector<std::string>* notes) {
+void ModelDocument::read_object(const pugi::xml_node& node) {
   const uint32_t id = index_of(node, "id");
   ModelObject& object = objects_[id];
   if (object.node) throw ModelFault{"two objects have the same id"};
   object.node = node;
   object.name = find_attribute(node, "name").value();
   object.mesh = find_child(node, "mesh");
-  if (object.mesh) {
-    for (const pugi::xml_node& triangle : find_child(object.mesh, "triangles").children())
-      object.triangles += local_name(triangle.name()) == "triangle" ? 1 : 0;
-  }
-  const pugi::xml_node components = find_child(node, "components");
-  for (const pugi::xml_node& component : components.children()) {
+  const auto count = [&](const char* list, std::string_view kind) {
+    for (const pugi::xml_node& each : find_child(object.mesh, list).children())
+      object.elements += local_name(each.name()) == kind ? 1 : 0;
+  };
+  count("vertices", "vertex");
+  count("triangles", "triangle");
+  for (const pugi::xml_node& component : find_child(node, "components").children()) {
     if (local_name(component.name()) == "component")
       object.components.push_back(reference_of(component));
   }
-  if (notes == nullptr) return;
+  object.elements += object.components.size();
+  const std::string type = find_attribute(node, "type").value();
+  // "solidsupport" is filled as a model is, but as little of what is made as "support".
+  if (!type.empty() && type != "model") object.left_out = "it is of the type " + quoted(type);
+}
+
+void ModelDocument::note_what_is_left_out(ModelObject& object, std::vector<std::string>* notes) {
+  if (object.is_noted) return;
+  object.is_noted = true;
+  const std::string label = label_of(index_of(object.node, "id"), object.name);
+  if (!object.left_out.empty()) {
+    notes->push_back(label + " is left out: " + object.left_out);
+    return;
+  }
   if (find_child(object.mesh, "beamlattice"))
-    notes->push_back(label_of(id, object.name) +
-                     ": its beams (beam lattice extension) are left out");
-  if (object.mesh || components) return;
-  for (const pugi::xml_node& shape : node.children()) {
+    notes->push_back(label + ": its beams (beam lattice extension) are left out");
+  if (object.mesh || find_child(object.node, "components")) return;
+  for (const pugi::xml_node& shape : object.node.children()) {
     const std::string_view kind = local_name(shape.name());
     if (kind == "metadatagroup") continue;
-    notes->push_back(label_of(id, object.name) + " is left out: it is a " + quoted(kind) +
-                     ", which is not read");
+    notes->push_back(label + " is left out: it is a " + quoted(kind) + ", which is not read");
   }
 }
 

@@ -27,8 +27,11 @@ struct ModelObject {
   pugi::xml_node node, mesh;
   std::string name;
   std::vector<ModelReference> components;
-  uint64_t triangles = 0;  ///< of its own mesh
-  uint64_t expanded = 0;   ///< with those of its components; 0: not counted yet
+  std::string left_out;   ///< why it is no solid of the model; empty: it is
+  uint64_t elements = 0;  ///< points and triangles of its own mesh, and components
+  uint64_t expanded = 0;  ///< with those of its components; 0: not counted yet
+  int height = 0;         ///< how deep components nest in it; known when `expanded` is
+  bool is_noted = false;  ///< what of it is not read was told
 };
 
 /// Which number an appearance has in a mesh that is being made.
@@ -37,13 +40,13 @@ using LookNumbers = std::map<Appearance, uint32_t, LookOrder>;
 /// What a document of 3MF says. All functions throw ModelFault.
 class ModelDocument {
  public:
-  /// Reads the resources of a <model>, whose document must outlive this. `notes` gets what of them
-  /// is not read, though it may have been a solid.
-  ModelDocument(const pugi::xml_node& model, std::vector<std::string>* notes);
+  /// Reads the resources of a <model>, whose document must outlive this.
+  explicit ModelDocument(const pugi::xml_node& model);
 
   /// How many millimetres its unit is.
   [[nodiscard]] double unit() const { return unit_; }
-  [[nodiscard]] uint64_t own_triangles() const;
+  /// Tells what of an object is not read, though it may have been a solid: once.
+  static void note_what_is_left_out(ModelObject& object, std::vector<std::string>* notes);
   ModelObject& object(uint32_t id);
 
   /// Appends an object's own mesh under a map, with its colours.
@@ -53,7 +56,7 @@ class ModelDocument {
  private:
   void read_metals(const pugi::xml_node& group);
   void read_looks(const pugi::xml_node& group);
-  void read_object(const pugi::xml_node& node, std::vector<std::string>* notes);
+  void read_object(const pugi::xml_node& node);
   [[nodiscard]] const Appearance* look_of(const pugi::xml_node& node, const pugi::xml_node& owner,
                                           const char* index) const;
 

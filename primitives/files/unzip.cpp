@@ -150,6 +150,7 @@ Result<ZipArchive> ZipArchive::open(std::string name, std::string_view bytes) {
       return archive.damaged("");
     }
     entry.offset += directory->shift;
+    archive.by_key_.emplace(entry.key, archive.entries_.size());
     archive.entries_.push_back(std::move(entry));
     rest.remove_prefix(size);
   }
@@ -157,10 +158,8 @@ Result<ZipArchive> ZipArchive::open(std::string name, std::string_view bytes) {
 }
 
 Result<std::optional<std::string>> ZipArchive::entry(const std::string& path) {
-  const std::string wanted = canonical(path);
-  for (const Entry& entry : entries_) {
-    if (entry.key == wanted) return unpack(entry);
-  }
+  const auto found = by_key_.find(canonical(path));
+  if (found != by_key_.end()) return unpack(entries_[found->second]);
   return std::optional<std::string>();
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <csgrun/engine/error.h>
@@ -20,7 +21,7 @@ class ZipArchive {
   /// The bytes of the entry of this path; nothing when the archive has none. Letters of any case
   /// are the same (Open Packaging Conventions, 6.3.5), as are both slashes. Errors: kMalformedFile;
   /// kLimit where the entries that were asked for unpack to far more than models do: told before
-  /// memory is taken.
+  /// memory is taken. O(1) in the number of entries.
   Result<std::optional<std::string>> entry(const std::string& path);
   /// The same of the first entry whose path ends so.
   Result<std::optional<std::string>> first(const std::string& ending);
@@ -40,6 +41,7 @@ class ZipArchive {
   std::string_view bytes_;
   uint64_t unpacked_ = 0;  ///< so far, of all entries
   std::vector<Entry> entries_;
+  std::unordered_map<std::string, size_t> by_key_;  ///< the first of each
 };
 
 }  // namespace csgrun

@@ -107,6 +107,58 @@ class Foreign(Case):
             'a.3mf: object 1 "cage": its beams (beam lattice extension) are left out',
             'a.3mf: object 2 is left out: it is a "shape", which is not read'])
 
+    def test_objects_of_3mf_that_are_no_model(self):
+        def files(resources, build, **attributes):
+            text = model(resources, build)
+            for name, value in attributes.items():
+                text = text.replace("<model ", f'<model {name.replace("_", ":")}="{value}" ', 1)
+            return zip64({"_rels/.rels": RELATIONS, "3D/m.model": text})
+        others = "".join(f'<object id="{n}" type="{t}">{MESH}</object>' for n, t in ((2, "support"), (3, "other"), (4, "solidsupport")))
+        moved = "".join(f'<component objectid="{n}" transform="1 0 0 0 1 0 0 0 1 {9 * n} 0 0"/>' for n in (2, 3, 4))
+        both = f'<object id="5" type="model"><components><component objectid="1"/>{moved}</components></object>'
+        # Nothing is said of what nothing refers to.
+        unused = '<object id="6"><s:shape/></object>'
+        self.assertEqual(self.parts_of("a.3mf", files(TETRAHEDRON + others + both + unused, '<item objectid="5"/>'), 3),
+                         [("part1", self.SIXTH, self.UNIT)])
+        self.assertEqual(self.warnings, [f'a.3mf: object {n} is left out: it is of the type "{t}"'
+                                         for n, t in ((2, "support"), (3, "other"), (4, "solidsupport"))])
+        self.refuse("a.3mf", files(others, '<item objectid="2"/>'),
+                    '3D/m.model: has no faces: object 2 is left out: it is of the type "support"')
+        item = '<item objectid="1"/>'
+        self.refuse("a.3mf", files(TETRAHEDRON, item, requiredextensions="p zz", xmlns_zz="http://a.b/secure"),
+                    '3D/m.model: the model needs the extension "zz" of http://a.b/secure, which is not read')
+        self.parts_of("a.3mf", files(TETRAHEDRON, item, requiredextensions="p"))
+
+    @staticmethod
+    def amf_mesh(points, *volumes):
+        return ("<mesh><vertices>" + "".join("<vertex><coordinates><x>%g</x><y>%g</y><z>%g</z></coordinates></vertex>" % tuple(p)
+                                             for p in points) + "</vertices>"
+                + "".join("<volume>" + "".join("<triangle><v1>%d</v1><v2>%d</v2><v3>%d</v3></triangle>" % f for f in faces)
+                          + "</volume>" for faces in volumes) + "</mesh>")
+
+    def test_volumes_of_amf(self):
+        # Two that have a face in common, and two that lie in each other in part.
+        beside = [(1, 3, 2), (1, 2, 4), (2, 3, 4), (3, 1, 4)]
+        data = "<amf><object id='1'>%s</object></amf>"
+        self.assertEqual(self.parts_of("a.amf", data % self.amf_mesh((*POINTS, (1, 1, 1)), FACES, beside)),
+                         [("part1", 0.5, self.UNIT)])
+        moved = [tuple(c / 2 for c in p) for p in POINTS]
+        moved = [(x + 0.25, y, z) for x, y, z in moved]
+        inside = [tuple(i + 4 for i in f) for f in FACES]
+        parts = self.parts_of("a.amf", data % self.amf_mesh((*POINTS, *moved), FACES, inside))
+        self.assertEqual(parts, [("part1", self.SIXTH, self.UNIT)])
+        # Volumes that are closed together only are colours of one solid.
+        parts = self.parts_of("a.amf", data % self.amf_mesh(POINTS, FACES[:2], FACES[2:]))
+        self.assertEqual(parts, [("part1", self.SIXTH, self.UNIT)])
+        outcome = self.run_script("local p = import('a.amf', {parts = true}) assert(#p == 1) return p[1]", "--stats")
+        self.expect(outcome, 0)
+
+    def test_info_tells_what_is_left_out(self):
+        self.write("a.amf", f"<amf><object id='1'>{self.amf_mesh(POINTS, FACES)}<instance objectid='1'/></object></amf>")
+        outcome = self.run_csgrun("info", "a.amf")
+        self.assertEqual((outcome.code, outcome.err), (0, (
+            'warning: a.amf: instances of 1 object are left out: only constellations have some (first: object "1")\n')))
+
     FLOATS = b"".join(struct.pack("<3f", *p) for p in POINTS)
     CORNERS = [i for f in FACES for i in f]
     # glTF is in metres with Y up.
@@ -132,6 +184,43 @@ class Foreign(Case):
         data += b"\0" * (-len(data) % 4)
         body = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
         return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
+
+    ACCESSORS = [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                 {"bufferView": 1, "componentType": 5121, "count": 12, "type": "SCALAR"}]
+
+    def simple_glb(self, **more):
+        return self.glb([{"attributes": {"POSITION": 0}, "indices": 1}], self.ACCESSORS, self.FLOATS + bytes(self.CORNERS),
+                        views=[(0, 48), (48, 12)], **more)
+
+    def test_gltf_reads_the_buffers_that_it_uses(self):
+        # One buffer is not there and not used; the others are one file, with dots in its name, by two names.
+        self.write("v1..2.bin", self.FLOATS + bytes(self.CORNERS))
+        document = gltf([{"attributes": {"POSITION": 0}, "indices": 1}], self.ACCESSORS, b"",
+                        buffers=[{"byteLength": 60, "uri": "v1..2.bin"}, {"byteLength": 9, "uri": "gone.bin"},
+                                 {"byteLength": 60, "uri": "./v1..2.bin"}],
+                        bufferViews=[{"buffer": 0, "byteLength": 48}, {"buffer": 2, "byteOffset": 48, "byteLength": 12}],
+                        images=[{"uri": "C:/textures/a.png"}, {"uri": "https://a.b/c.png"}, {"uri": "../d.png"}])
+        self.assertEqual(self.parts_of("a.gltf", json.dumps(document)), self.THOUSAND)
+
+    def test_gltf_extensions(self):
+        self.assertEqual(self.parts_of("a.glb", self.simple_glb(extensionsRequired=[
+            "KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit"])), self.THOUSAND)
+        for name in ("EXT_mesh_gpu_instancing", "FOO_bar"):
+            self.refuse("a.glb", self.simple_glb(extensionsRequired=[name]), f'it needs the extension "{name}", which is not read')
+        instances = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}
+        nodes = [{"mesh": 0, "skin": 0, "weights": [0.5], "extensions": instances}]
+        self.assertEqual(self.parts_of("a.glb", self.simple_glb(nodes=nodes), 3), self.THOUSAND)
+        self.assertEqual(sorted(self.warnings), [
+            "a.glb: instances are left out, their mesh stands once: EXT_mesh_gpu_instancing (1 node)",
+            "a.glb: skins are passed over, their meshes are not bent (1 node)",
+            "a.glb: weights of morph targets are passed over (1 node)"])
+        self.assertEqual(self.parts_of("a.glb", self.simple_glb(nodes=[{"mesh": 0, "weights": [0, 0]}])), self.THOUSAND)
+
+    def test_names_of_parts(self):
+        names = ["a", "..", "x/../y\\z", "a", "b\tc", "n" * 300]
+        parts = self.parts_of("a.glb", self.simple_glb(nodes=[{"mesh": 0, "name": n} for n in names]), 1)
+        self.assertEqual([p[0] for p in parts], ["a", "part1", "x/y_z", "a_2", "b_c", "n" * 180])
+        self.assertEqual(self.warnings, ["a.glb: 4 names of parts are changed to what parts can be called"])
 
     def test_strips_and_fans(self):
         # The strip 0 1 2 3 0 1 goes around a tetrahedron: 012 132 230 (3 2 0 turned) 301; the fan has the faces at a corner.
@@ -213,19 +302,44 @@ class Foreign(Case):
         self.good("a.obj", self.OBJ + "f 1 2\nf 3\n", "2 faces of fewer than three corners left out (first: line 9)")
         self.good("a.obj", "mtllib C:\\Users\\me\\a.mtl\n" + self.OBJ,
                   'line 1: no colours: mtllib "C:\\Users\\me\\a.mtl" leads out of the file\'s folder')
+        self.good("a.obj", "mtllib a..b.mtl\n" + self.OBJ, "no colours: cannot read 'a..b.mtl': No such file or directory")
         self.refuse("a.obj", "L\1\2\0.text", 'line 1: not an OBJ statement: "L???.text"')
+
+    def test_objects_of_obj(self):
+        def obj(name, place, side, first, turned=False):
+            points = "".join("v %g %g %g\n" % tuple(p + side * c for p, c in zip(place, q)) for q in POINTS)
+            return f"o {name}\n" + points + "".join("f %d %d %d\n" % tuple(first + i for i in (f[::-1] if turned else f))
+                                                    for f in FACES)
+        two = obj("one", (0, 0, 0), 1, 1) + obj("two", (5, 0, 0), 1, 5)
+        box = [[5, 0, 0], [6, 1, 1]]
+        self.assertEqual(self.parts_of("a.obj", two), [("one", self.SIXTH, self.UNIT), ("two", self.SIXTH, box)])
+        outcome = self.run_script("local p = import('a.obj', {parts = true}) assert(#p == 2) "
+                                  "assert(math.abs(import('a.obj'):volume() - 1 / 3) < 1e-9) return p[2]", "--stats=json")
+        self.expect(outcome, 0)
+        self.assertEqual(outcome.json()["parts"][0]["bbox"], box)
+        self.expect(self.run_csgrun("a.obj", "-o", "a.3mf"), 0)
+        outcome = self.run_csgrun("a.3mf", "--stats=json")
+        self.assertEqual([p["name"] for p in outcome.json()["parts"]], ["one", "two"])
+        # Objects that are closed together only are surfaces of one; so is a void of the other.
+        halves = self.OBJ.replace("f 1 4 3", "o rest\nf 1 4 3")
+        self.good("a.obj", halves)
+        parts = self.parts_of("a.obj", obj("outer", (0, 0, 0), 1, 1) + obj("void", (0.1, 0.1, 0.1), 0.2, 5, True))
+        self.assertEqual(parts, [("part1", round(1 / 6 - 0.008 / 6, 9), self.UNIT)])
 
     def test_off(self):
         self.good("a.off", self.OFF.replace("OFF\n", "OFF"))
         self.good("a.off", self.OFF.replace("\n3 0 2 1\n", "\n3 0\n2 \n1\n"))
         self.good("a.off", self.OFF.replace("4 4 0", "4 6 0") + "2 0 1\n1 3\n",
                   "2 faces of fewer than three corners left out (first: face 4)")
+        self.good("a.off", self.OFF.replace("4 4 0", "4 44 0") + "0\n" * 40,
+                  "40 faces of fewer than three corners left out (first: face 4)")
         self.refuse("a.off", "OFFSET 4 4 0", 'line 1: not an OFF file: it starts with "OFFSET"')
 
     def test_stl(self):
         binary = b"solid by nobody".ljust(80) + struct.pack("<I", 4) + b"".join(
             struct.pack("<12fH", 0, 0, 0, *(c for i in f for c in POINTS[i]), 0) for f in FACES)
         self.good("a.stl", binary)
+        self.good("a.stl", b"\xef\xbb\xbf".ljust(80) + binary[80:])
         self.good("a.stl", b"\0" * 80 + binary[80:] + b"more", "4 bytes after the last triangle passed over")
         self.refuse("a.stl", b"\0" * 80 + binary[80:-1], "byte 80: not an STL file, or truncated")
         self.refuse("a.stl", self.STL.replace("endsolid x\n", ""), "line 30: the file ends where")

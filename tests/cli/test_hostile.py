@@ -121,6 +121,45 @@ class Hostile(Case):
         self.refuse("a.3mf", archive('<!DOCTYPE m [<!ENTITY x SYSTEM "../secret.bin">]><model>&x;</model>'), "no resources")
         self.refuse("a.3mf", b"PK\3\4" + b"\xff" * 10_000, "a.3mf: ")
 
+    def test_components_that_multiply(self):
+        # Listed from the bottom, so that each is counted before what has it.
+        chain = f'<object id="1">{TETRAHEDRON}</object>' + "".join(
+            f'<object id="{n}"><components><component objectid="{n - 1}"/></components></object>' for n in range(2, 40_000))
+        self.refuse("a.3mf", archive(model_3mf(chain, "".join(f'<item objectid="{n}"/>' for n in range(32, 40_000, 32)))),
+                    "nest too deep")
+        tower = "".join(f'<object id="{n}"><components>' + f'<component objectid="{n - 1}"/>' * 10 + "</components></object>"
+                        for n in range(2, 6))
+        points = TETRAHEDRON.replace("</vertices>", '<vertex x="0" y="0" z="0"/>' * 50_000 + "</vertices>")
+        self.refuse("a.3mf", archive(model_3mf(f'<object id="1">{points}</object>{tower}', '<item objectid="5"/>')),
+                    "multiply to more than a model would")
+        # What is not built does not make the file a large model.
+        triangles = TETRAHEDRON.replace("</triangles>", '<triangle v1="0" v2="0" v3="0"/>' * 100_000 + "</triangles>")
+        tower += '<object id="6"><components>' + '<component objectid="5"/>' * 200 + "</components></object>"
+        self.refuse("a.3mf", archive(model_3mf(f'<object id="1">{TETRAHEDRON}</object>{tower}<object id="9">{triangles}</object>',
+                                               '<item objectid="6"/>')), "multiply to more than a model would")
+
+    def test_amf(self):
+        def mesh(more_points=0):
+            points = "".join(f"<vertex><coordinates><x>{x}</x><y>{y}</y><z>{z}</z></coordinates></vertex>"
+                             for x, y, z in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), *((0, 0, 0),) * more_points))
+            faces = "".join(f"<triangle><v1>{a}</v1><v2>{b}</v2><v3>{c}</v3></triangle>"
+                            for a, b, c in ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)))
+            return f"<mesh><vertices>{points}</vertices><volume>{faces}</volume></mesh>"
+
+        def things(kind, numbers, copies):
+            return "".join(f'<{kind} id="{n}">' + f'<instance objectid="{n - 1}"/>' * copies + f"</{kind}>" for n in numbers)
+        tetrahedron = f'<object id="0">{mesh()}</object>'
+        self.refuse("a.amf", f'<amf>{tetrahedron}{things("constellation", range(1, 40_000), 1)}</amf>', "nest too deep")
+        self.refuse("a.amf", f'<amf>{tetrahedron}{things("constellation", range(1, 10), 10)}</amf>', "multiply to more than")
+        self.refuse("a.amf", f'<amf><object id="0">{mesh(20_000)}</object>{things("constellation", range(1, 6), 10)}</amf>',
+                    "multiply to more than")
+        # Objects have no instances: only constellations do.
+        self.refuse("a.amf", f'<amf>{tetrahedron}{things("object", range(1, 10), 10)}</amf>',
+                    'a.amf: instances of 9 objects are left out: .*first: object "1"', codes=(0,))
+        # What contains itself is in nothing that is no part of it.
+        own = '<constellation id="8"><instance objectid="9"/></constellation><constellation id="9"><instance objectid="8"/></constellation>'
+        self.refuse("a.amf", f"<amf>{tetrahedron}{own}</amf>", "nest too deep")
+
     def test_colours(self):
         """Each triangle has its own: they are compared in no time, and rounded to what a file may have."""
         count = 40_000
@@ -169,6 +208,43 @@ class Hostile(Case):
         sparse = gltf(None, 36, 50_000_000)
         del sparse["accessors"][0]["bufferView"]
         self.refuse("a.glb", glb(sparse, b"\0" * 36), "a.glb: ")
+
+    def test_gltf_that_multiplies(self):
+        # A large file behind many buffers, and a large accessor behind many primitives: read once, and as far as used.
+        self.write("big.bin", struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0) + b"\0" * 12_000_000)
+        many = gltf("big.bin", 36)
+        many["buffers"] *= 2000
+        self.refuse("a.gltf", json.dumps(many), "not closed")
+        many["bufferViews"] = [{"buffer": n, "byteLength": 36} for n in range(1000)]
+        many["accessors"] = [{**many["accessors"][0], "bufferView": n} for n in range(1000)]
+        self.refuse("a.gltf", json.dumps(many), "not closed")
+        few = gltf("big.bin", 12_000_000, 1_000_000)
+        few["accessors"].append({"componentType": 5125, "count": 3, "type": "SCALAR", "bufferView": 0})
+        few["meshes"][0]["primitives"] = [{"attributes": {"POSITION": 0}, "indices": 1}] * 5000
+        self.refuse("a.gltf", json.dumps(few), "not closed|without area|has no")
+        # A mesh at many nodes, and its corners in many primitives.
+        del few["meshes"][0]["primitives"][1:]
+        few["accessors"][1]["count"] = 300_000
+        few["nodes"] = [{"mesh": 0}] * 40_000
+        few["scenes"] = [{"nodes": list(range(40_000))}]
+        self.refuse("a.gltf", json.dumps(few), "multiply to more than a model would")
+
+    def test_many_names(self):
+        """One name of all, looks of all, and entries of an archive: found in no time."""
+        count = 5000
+        points = b"".join(struct.pack("<3f", *p) for p in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)))
+        data = points + bytes([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3])
+        document = gltf(None, len(data), 4)
+        document["bufferViews"] = [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}]
+        document["accessors"].append({"bufferView": 1, "componentType": 5121, "count": 12, "type": "SCALAR"})
+        document["accessors"].append({"bufferView": 1, "componentType": 5121, "count": 0, "type": "SCALAR"})
+        document["materials"] = [{"name": f"m{n}"} for n in range(8 * count)]
+        document["meshes"][0]["primitives"] = [{"attributes": {"POSITION": 0}, "indices": 1}] + [
+            {"attributes": {"POSITION": 0}, "indices": 2, "material": n} for n in range(8 * count)]
+        self.refuse("a.glb", glb(document, data), "mesh: 4 triangles", codes=(0,))
+        archive_files = {f"{n:x}": '<model><resources><object id="1"/></resources></model>' for n in range(4 * count)}
+        build = "".join(f'<item objectid="1" p:path="/{n:x}"/>' for n in range(4 * count - 1, -1, -1))
+        self.refuse("a.3mf", archive(model_3mf("", build), **archive_files), "more than 10000 documents")
 
     def test_materials(self):
         mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"

@@ -33,6 +33,11 @@ Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
                                std::vector<std::string>* material_files = nullptr,
                                std::vector<std::string>* notes = nullptr);
 
+/// Faces apart, by the number of the piece of each, from 0 to before `count`: each piece has the
+/// points and the appearances that it uses, in the order in which it does. O(n + count).
+std::vector<PolygonMesh> split_mesh(const PolygonMesh& mesh,
+                                    const std::vector<uint32_t>& piece_of_face, uint32_t count);
+
 /// Reads a regular file (a FIFO, a directory or a device is refused) and parses it.
 Result<PolygonMesh> read_mesh_file(const std::string& path);
 

@@ -15,6 +15,7 @@ namespace csgrun {
 struct ModelPart {
   std::string name;  ///< may be empty, or that of another part as well
   PolygonMesh mesh;
+  bool goes_on = false;  ///< not a part of its own: united with the one before, of the same name
 };
 
 /// The parts that a 3MF file builds, in its order: units, transforms, components, base materials
@@ -29,7 +30,8 @@ Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_vi
 bool is_3mf_path(const std::string& path);
 
 /// The parts of an AMF file, plain or in an archive: its objects and constellations, each object of
-/// a constellation in its place there; units and colours are understood. `name` stands in messages.
+/// a constellation in its place there; units and colours are understood. Where an object has
+/// several volumes, each closed, these are meshes that go on. `name` stands in messages.
 /// `notes` (may be null) gets what was passed over. Errors as those of parse_3mf.
 Result<std::vector<ModelPart>> parse_amf(const std::string& name, std::string_view bytes,
                                          std::vector<std::string>* notes);
