@@ -107,6 +107,26 @@ lua_Integer count_entries(lua_State* L, int index, bool pass_over_texts) {
 
 lua_Integer list_length(lua_State* L, int index) { return count_entries(L, index, false); }
 
+lua_Integer missing_entry(lua_State* L, int index) {
+  index = lua_absindex(L, index);
+  lua_Integer last = 0;
+  lua_pushnil(L);
+  while (lua_next(L, index) != 0) {
+    lua_pop(L, 1);
+    if (lua_isinteger(L, -1) == 0 || lua_tointeger(L, -1) < 1) {
+      lua_pop(L, 1);
+      return 0;
+    }
+    last = std::max(last, lua_tointeger(L, -1));
+  }
+  for (lua_Integer i = 1; i < last; ++i) {
+    const bool is_missing = lua_rawgeti(L, index, i) == LUA_TNIL;
+    lua_pop(L, 1);
+    if (is_missing) return i;
+  }
+  return 0;
+}
+
 lua_Integer list_part_length(lua_State* L, int index) { return count_entries(L, index, true); }
 
 std::string describe_value(lua_State* L, int index) {
@@ -119,7 +139,10 @@ std::string describe_value(lua_State* L, int index) {
     }
     case LUA_TTABLE: {
       const lua_Integer length = list_length(L, index);
-      if (length < 0) return "table";
+      if (length < 0) {
+        const lua_Integer missing = missing_entry(L, index);
+        return missing == 0 ? "table" : fmt::format("a list whose entry {} is nil", missing);
+      }
       return length == 1 ? "a list of one value" : fmt::format("a list of {} values", length);
     }
     case LUA_TNONE:

@@ -97,15 +97,35 @@ std::vector<const Option*> Arguments::positional_options() const {
   return options;
 }
 
+/// cube(10, t.w, 5) where t.w is nil, translate(1, "a", 3): numbers were meant, and one of them is
+/// none. `count`: how many numbers there are from `first` on before that one; `is_only`: no other
+/// argument can stand after the vector.
+void Arguments::check_for_gap(const Option& option, int first, int count, int last,
+                              bool is_only) const {
+  const VectorRule rule = vector_rule(option.type);
+  const int gap = first + count;
+  if (gap > last || count >= rule.most) return;
+  const bool is_nil = lua_isnil(L_, gap);
+  // A list, or a value of the argument that follows the vector.
+  if (count == 0 && (lua_istable(L_, gap) || lua_isuserdata(L_, gap))) return;
+  if (count == 1 && rule.number_too && lua_isboolean(L_, gap)) return;
+  bool numbers_were_meant = count > 0 && (is_nil || is_only || (count == 1 && !rule.number_too));
+  for (int i = gap + 1; i <= std::min(last, first + rule.most - 1); ++i)
+    numbers_were_meant = numbers_were_meant || lua_type(L_, i) == LUA_TNUMBER;
+  if (!numbers_were_meant) return;
+  fail(fmt::format("option '{}' must be {}, but number {} is {}", option.name,
+                   describe_type(option.type), count + 1, describe_value(L_, gap)));
+}
+
 void Arguments::read_positional(int first, int last) {
   const auto options = positional_options();
   size_t next = 0;
   int index = first;
-  if (!options.empty() && vector_rule(options[0]->type).most > 1 &&
-      lua_type(L_, first) == LUA_TNUMBER) {
+  if (!options.empty() && vector_rule(options[0]->type).most > 1) {
     // Numbers one after another: the first vector.
-    int count = 1;
+    int count = 0;
     while (first + count <= last && lua_type(L_, first + count) == LUA_TNUMBER) ++count;
+    check_for_gap(*options[0], first, count, last, options.size() == 1);
     if (count > 1) {
       const VectorRule rule = vector_rule(options[0]->type);
       if (count > rule.most || count < rule.least) {

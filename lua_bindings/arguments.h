@@ -114,6 +114,7 @@ class Arguments {
   const Option* find_option(std::string_view name) const;
   [[nodiscard]] std::string unknown_option(std::string_view name) const;
   void read_positional(int first, int last);
+  void check_for_gap(const Option& option, int first, int count, int last, bool is_only) const;
   void read_table(int table);
   void read_list_part(int table, lua_Integer length);
   void set(const Option& option, int index);
@@ -147,6 +148,10 @@ std::string describe_value(lua_State* L, int index);
 
 /// Number of entries of a list; -1 when the table has other keys or holes.
 lua_Integer list_length(lua_State* L, int index);
+
+/// The first entry that is nil before others that are not: of {1, nil, 3} the second; 0 when there
+/// is none, or when the table has other keys.
+lua_Integer missing_entry(lua_State* L, int index);
 
 /// Number of entries of the list in a table that may have names too; -1 when there are holes in it
 /// or other keys.

@@ -27,7 +27,7 @@ constexpr int kHookInterval = 1000;
 /// How long a script may go on after its time: long enough to unwind, also on a busy machine.
 constexpr auto kScriptGrace = std::chrono::milliseconds(500);
 /// How long the engine, which polls between cells, may go on.
-constexpr auto kEvaluationGrace = std::chrono::seconds(3);
+constexpr auto kEvaluationGrace = std::chrono::milliseconds(800);
 /// How long the signal handler may take.
 constexpr auto kHandlerGrace = std::chrono::milliseconds(500);
 constexpr int kTimeoutExit = 124;

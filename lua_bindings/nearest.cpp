@@ -73,8 +73,10 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
     const auto known = std::find(names.begin(), names.end(), synonym.name);
     if (known != names.end()) return *known;
   }
-  // One edit in three letters, at least one: "cub" is cube, "box" is not "rx".
-  const int limit = 2 * std::max<int>(1, static_cast<int>(word.size() + 1) / 3);
+  // One edit in three letters, at least one: "cub" is cube, "box" is not "rx". Of a single letter
+  // nothing is left by an edit: "n" is not "d", but "R" is "r".
+  const int limit =
+      word.size() == 1 ? 1 : 2 * std::max<int>(1, static_cast<int>(word.size() + 1) / 3);
   std::string best;
   int best_distance = limit + 1;
   for (const std::string& name : names) {

@@ -61,6 +61,8 @@ void add_operands(lua_State* L, int index, const FunctionSpec& spec, int depth,
                   Operands& operands) {
   if (!lua_istable(L, index)) return operands.add(L, index, spec.name);
   const lua_Integer length = list_length(L, index);
+  if (length < 0 && missing_entry(L, index) != 0)
+    fail_in(spec, "an operand must be a solid or a shape, got " + describe_value(L, index));
   if (length < 0) fail_in(spec, "takes lists of solids or shapes without holes and names in them");
   if (depth == kDeepestList) fail_in(spec, "its lists are nested too deep");
   luaL_checkstack(L, 4, "lists are nested too deep");

@@ -523,31 +523,27 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
       return (kind == Kind::kLeft) != reversed(part) ? 1 : -1;
     };
     const int a = coplanar_side(*p);
-    if (count == 1 && a != 0 && job_.is_convex(o)) {  // beyond such a sheet one is outside
+    if (count == 1) {  // a face of a convex operand, of which nothing else is told: see build()
       const bool same = job_.polygons()[line.sheet].support == polygon_->support;
-      facts_.push_back({loop, {o, a > 0 && !same, a > 0 && same}, a < 0});
+      facts_.push_back({loop, {o, a > 0 && !same, a > 0 && same}, true});
       continue;
     }
     if (count != 2) return false;
+    // A closed surface has no sheet that ends beside one that goes through, and two coplanar ones
+    // are on either side and face the same way. Of two others the first one is not coplanar.
     const Line& other = lines_[second->line];
-    if (other.kind == Kind::kThrough) return false;
     const int b = coplanar_side(*second);
-    if (a != 0 && a == b) return false;
     if (a > 0 || b > 0) {
-      const bool same =
-          job_.polygons()[a > 0 ? line.sheet : other.sheet].support == polygon_->support;
+      const bool same = job_.polygons()[other.sheet].support == polygon_->support;
       facts_.push_back({loop, {o, !same, same}});
       continue;
     }
-    const bool convex = is_convex_edge(line.sheet, other.sheet);
-    bool inside;
-    if (a < 0 || b < 0) {
-      inside = !convex;
-    } else {
-      const bool behind = !reversed(*p), behind_other = !reversed(*second);
-      inside = convex ? behind && behind_other : behind || behind_other;
-    }
-    facts_.push_back({loop, {o, inside, inside}, a < 0 || b < 0});
+    // What is on the left is behind the first sheet alone, if the second one is coplanar: whichever
+    // way that one runs, it makes no difference here.
+    const bool behind = !reversed(*p), behind_other = !reversed(*second);
+    const bool inside =
+        is_convex_edge(line.sheet, other.sheet) ? behind && behind_other : behind || behind_other;
+    facts_.push_back({loop, {o, inside, inside}, b < 0});
   }
   return true;
 }

@@ -1,11 +1,14 @@
 #include "engine/bsp/self_resolution.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <vector>
 
 #include "engine/bsp/assemble.h"
+#include "engine/bsp/corner_walk.h"
+#include "engine/bsp/evaluate_job.h"
 #include "engine/bsp/surface_cells.h"
 #include "engine/bsp/surface_octree.h"
 #include "engine/bsp/surface_patches.h"
@@ -26,6 +29,7 @@ class Resolution {
         rule_(rule),
         options_(options),
         stats_(stats) {
+    find_touching(surface, crossings);
     if (is_hull() && !job_.is_leaf(0)) {
       // It may touch itself anywhere, and what touches parts volumes: every cell is solved.
       std::fill(crosses_.begin(), crosses_.end(), 1);
@@ -47,10 +51,41 @@ class Resolution {
                           : job_.is_leaf(0) ? solve_classes()
                                             : fill_voids();
     if (!status) return status.error();
-    return assemble(job_, sets_, whole_);
+    return assemble(job_, sets_, whole_, std::move(touching_));
   }
 
  private:
+  /// What is kept are parts of the polygons. They touch where these do, but for common corners and
+  /// edges; and at a corner of several fans, where the faces of one may become a face that has no
+  /// corner there.
+  void find_touching(const std::vector<Operand>& surface,
+                     std::span<const std::array<uint32_t, 2>> crossings) {
+    if (!job_.is_leaf(0)) {
+      touching_ = touching_before(surface);
+      return;
+    }
+    const LeafGeometry& leaf = *surface[0].leaf;
+    touching_.anywhere = leaf.opposite.empty();
+    if (touching_.anywhere) return;
+    for (const auto& [f, g] : crossings) {
+      const PolygonBox &a = job_.boxes()[f], &b = job_.boxes()[g];
+      GridBox& box = touching_.boxes.emplace_back();
+      for (size_t k = 0; k < 3; ++k) {
+        box.lo[k] = std::max(a.lo[k], b.lo[k]);
+        box.hi[k] = std::min(a.hi[k], b.hi[k]);
+      }
+    }
+    for (const uint32_t v : find_vertices_of_fans(leaf)) {
+      GridBox& box = touching_.boxes.emplace_back();
+      for (size_t k = 0; k < 3; ++k) {
+        const double p = job_.rounded(job_.vertex_start(0) + v)[k];
+        box.lo[k] = static_cast<int64_t>(std::floor(p));
+        box.hi[k] = static_cast<int64_t>(std::ceil(p));
+      }
+    }
+    keep_few(touching_.boxes);
+  }
+
   [[nodiscard]] std::vector<uint32_t> all_polygons() const {
     std::vector<uint32_t> all(job_.polygons().size());
     std::iota(all.begin(), all.end(), 0u);
@@ -160,6 +195,7 @@ class Resolution {
   const KernelOptions& options_;
   EvaluateStats& stats_;
   SurfacePatches patches_;
+  Touching touching_;
   std::vector<FragmentSet> sets_;
   std::vector<WholePolygon> whole_;
 };

@@ -7,6 +7,7 @@
 #include "engine/base/parallel.h"
 #include "engine/bsp/canonical_order.h"
 #include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/corner_walk.h"
 #include "engine/bsp/grid_planes.h"
 
 namespace csgrun {
@@ -14,35 +15,6 @@ namespace {
 
 /// What becomes of a face, or of all faces at a vertex.
 enum Fate : uint8_t { kMixed = 0, kKept = 1, kFlipped = 2, kUnseen = 3, kNoFan = 4 };
-
-/// The corners before and after a corner in its face.
-class CornerWalk {
- public:
-  explicit CornerWalk(const LeafGeometry& leaf) : leaf_(leaf) {
-    if (leaf.corners.size() == 3 * leaf.face_count()) return;
-    face_of_.resize(leaf.corners.size());
-    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-      std::fill(face_of_.begin() + leaf.face_starts[f], face_of_.begin() + leaf.face_starts[f + 1],
-                f);
-    }
-  }
-
-  [[nodiscard]] uint32_t before(uint32_t corner) const {
-    if (face_of_.empty()) return corner % 3 == 0 ? corner + 2 : corner - 1;
-    const uint32_t f = face_of_[corner];
-    return (corner == leaf_.face_starts[f] ? leaf_.face_starts[f + 1] : corner) - 1;
-  }
-  /// How many faces there are in the fan around the vertex of a corner.
-  [[nodiscard]] uint32_t fan(uint32_t corner) const {
-    uint32_t count = 0;
-    for (uint32_t c = corner; count == 0 || c != corner; ++count) c = leaf_.opposite[before(c)];
-    return count;
-  }
-
- private:
-  const LeafGeometry& leaf_;
-  std::vector<uint32_t> face_of_;  ///< per corner, unless all faces are triangles
-};
 
 /// Whether faces that are parts of one facet stand together.
 bool facets_ascend(const LeafGeometry& leaf) {

@@ -140,7 +140,7 @@ class FaceEvaluator {
         continue;
       }
       const bool plain = list_segments(p);
-      if (segments_.empty() && coplanar_.empty() && untouched_corner(p) != kNone) continue;
+      if (segments_.empty() && untouched_corner(p) != kNone) continue;
       if (is_cancelled()) return false;
       job_.ensure_support(p);
       is_cut_[p] = 1;
@@ -180,15 +180,16 @@ class FaceEvaluator {
 
   /// Whether a polygon is whole and one of its corners tells what becomes of it.
   [[nodiscard]] bool may_stay_whole(uint32_t polygon) const {
-    return is_met_on_rim_only(polygon) && untouched_corner(polygon) != kNone;
+    return untouched_corner(polygon) != kNone && is_met_on_rim_only(polygon);
   }
 
-  /// Whether nothing cuts a polygon: what meets it lies on one side, if anything does.
+  /// Whether nothing cuts a polygon: what meets it lies on one side, if anything does. REQUIRES:
+  /// nothing that meets it is coplanar.
   [[nodiscard]] bool is_met_on_rim_only(uint32_t polygon) const {
     for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
       const Contact& c = contacts_[contact_of_[i]];
       const bool is_p = c.p == polygon;
-      if (c.is_coplanar || (is_p ? c.p_front && c.p_back : c.q_front && c.q_back)) return false;
+      if (is_p ? c.p_front && c.p_back : c.q_front && c.q_back) return false;
     }
     return true;
   }
@@ -227,7 +228,8 @@ class FaceEvaluator {
     return plain;
   }
 
-  /// A corner that is on no other operand's surface.
+  /// A corner that is on no other operand's surface. There is none where something coplanar meets a
+  /// polygon.
   [[nodiscard]] uint32_t untouched_corner(uint32_t polygon) const {
     for (const uint32_t v : job_.corners(job_.polygons()[polygon])) {
       if (!touched_[v]) return v;
@@ -457,9 +459,9 @@ class FaceEvaluator {
     }
   }
 
-  /// Whether polygons touch in an edge or a corner, both of which leave something.
+  /// Whether both polygons leave something, and the contact has ends.
   [[nodiscard]] bool is_of_kept(const Contact& c) const {
-    return !c.is_plain && !c.is_coplanar && is_kept_[c.p] && is_kept_[c.q];
+    return !c.is_coplanar && is_kept_[c.p] && is_kept_[c.q];
   }
 
   /// Marks the contacts of a polygon that end where none of `corners_` is, nor an edge of it if it

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "engine/bsp/corner_walk.h"
 #include "engine/csg/convex_hull.h"
 #include "engine/csg/convex_leaf.h"
 #include "engine/csg/fine_triangles.h"
@@ -129,6 +130,14 @@ bool is_locally_convex(const LeafGeometry& leaf) {
   });
 }
 
+/// Whether faces at a corner may become a face that has no corner there, while other faces, which
+/// the edges there do not connect with them, keep theirs.
+bool may_lose_common_corners(const LeafGeometry& leaf) {
+  const bool keeps_facets = leaf.facet[0] != 0;
+  if (keeps_facets && consists_of_triangles(leaf)) return false;
+  return leaf.opposite.empty() || !find_vertices_of_fans(leaf).empty();
+}
+
 /// Checks what convex faces enclose. `box` is that of the leaf's vertices.
 PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridBox& box,
                      bool promised_convex) {
@@ -152,7 +161,7 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
     result.crossings = std::move(check.crossings);
     result.connected = check.connected;
   }
-  leaf->may_touch = !result.crossings.empty();
+  leaf->may_touch = !result.crossings.empty() || (!leaf->convex && may_lose_common_corners(*leaf));
   // Facets that are kept as they are have no others of their label.
   if (leaf->convex && !leaf->opposite.empty() && leaf->facet[0] == 0) join_flat_faces(*leaf);
   result.geometry = std::move(leaf);

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "engine/bsp/union_find.h"
+#include "engine/mesh/box_frame.h"
 #include "engine/mesh/edge_table.h"
 #include "engine/mesh/face_pair.h"
 #include "engine/mesh/leaf_shape.h"
@@ -21,26 +22,6 @@ constexpr size_t kTasks = 256;
 constexpr size_t kFewFaces = 2000;  ///< for which threads do not pay
 
 using Pairs = std::vector<std::array<uint32_t, 2>>;
-
-std::vector<FloatBox> boxes_of(const LeafGeometry& leaf) {
-  std::vector<FloatBox> boxes(leaf.face_count());
-  for (size_t f = 0; f < boxes.size(); ++f) {
-    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
-    IVec3 lo = leaf.vertices[leaf.corners[begin]], hi = lo;
-    for (uint32_t c = begin + 1; c < end; ++c) {
-      const IVec3& p = leaf.vertices[leaf.corners[c]];
-      for (size_t k = 0; k < 3; ++k) {
-        lo[k] = std::min(lo[k], p[k]);
-        hi[k] = std::max(hi[k], p[k]);
-      }
-    }
-    for (size_t k = 0; k < 3; ++k) {
-      boxes[f].lo[k] = static_cast<float>(lo[k]);
-      boxes[f].hi[k] = static_cast<float>(hi[k]);
-    }
-  }
-  return boxes;
-}
 
 Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree, bool is_balanced) {
   const std::vector<uint32_t>& order = tree.order();
@@ -110,18 +91,20 @@ std::vector<uint32_t> one_face_of_each_part(const LeafGeometry& leaf) {
 }  // namespace
 
 Pairs find_self_intersections(const LeafGeometry& leaf) {
-  return find_crossings(leaf, PackedBoxes(boxes_of(leaf)), false);
+  return find_crossings(leaf, PackedBoxes(face_boxes(leaf, find_box_frame(leaf))), false);
 }
 
 SurfaceCheck check_surface(const LeafGeometry& leaf) {
-  const PackedBoxes tree(boxes_of(leaf));
+  const auto frame = find_box_frame(leaf);
+  std::optional<PackedBoxes> tree(face_boxes(leaf, frame));
   SurfaceCheck result;
-  result.crossings = find_crossings(leaf, tree, true);
+  result.crossings = find_crossings(leaf, *tree, true);
   if (!result.crossings.empty()) return result;
+  if (frame) tree.emplace(face_boxes(leaf, std::nullopt));  // rays run along an axis
   const std::vector<uint32_t> parts = one_face_of_each_part(leaf);
   result.connected = parts.size() == 1;
   result.bounds_solid = std::all_of(parts.begin(), parts.end(), [&](uint32_t face) {
-    return winding_in_front(leaf, tree, face) == 0;
+    return winding_in_front(leaf, *tree, face) == 0;
   });
   return result;
 }

@@ -61,8 +61,10 @@ class Run {
       session_.budget().stop();
       return failure;
     }
+    if (!failure.failed()) failure = check_time();
     if (!failure.failed()) failure = check_dimensions();
     if (!failure.failed()) failure = is_flat() ? take_shapes() : evaluate();
+    if (!failure.failed()) failure = check_time();
     if (!failure.failed()) failure = write_all();
     session_.budget().stop();
     report_.stats = session_.evaluator().stats();
@@ -220,11 +222,15 @@ class Run {
                                     line_.definitions[0].origin, line_.definitions[0].name)};
   }
 
+  /// What ended before it looked at the clock again is late all the same.
+  Failure check_time() {
+    if (!session_.budget().out_of_time()) return {};
+    return {kExitTime, fmt::format("{}: {} in evaluation", session_.options().model,
+                                   session_.budget().time_message())};
+  }
+
   Failure evaluation_failure(const Error& error) {
-    if (error.code == ErrorCode::kCancelled) {
-      return {kExitTime, fmt::format("{}: {} in evaluation", session_.options().model,
-                                     session_.budget().time_message())};
-    }
+    if (error.code == ErrorCode::kCancelled) return check_time();
     std::string place = session_.place_text(error.where);
     // A mesh has no lines to speak of.
     if (place.empty() || !model_file_format_of(line_.model).empty())
@@ -470,7 +476,8 @@ class Run {
     return {};
   }
 
-  static Failure put(const std::vector<ModelFile>& files) {
+  Failure put(const std::vector<ModelFile>& files) {
+    if (Failure failure = check_time(); failure.failed()) return failure;
     if (const Status written = write_files(files); !written)
       return {kExitFiles, "csgrun: " + written.error().message};
     return {};

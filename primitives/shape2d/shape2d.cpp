@@ -228,7 +228,7 @@ Result<Shape2D> make_polygon(const std::vector<glm::dvec2>& points,
       if (index >= points.size()) {
         return invalid_argument("polygon: path " + std::to_string(i) + ": index " +
                                 std::to_string(index) + " is out of range, there are " +
-                                std::to_string(points.size()) + " points");
+                                std::to_string(points.size()) + " points; indices count from 0");
       }
       outline.push_back(points[index]);
     }

@@ -49,7 +49,7 @@ MeshResult make_polyhedron(const std::vector<glm::dvec3>& points,
       if (i >= points.size()) {
         return invalid_mesh("polyhedron: face " + std::to_string(f) + ": index " +
                             std::to_string(i) + " is out of range, there are " +
-                            std::to_string(points.size()) + " points");
+                            std::to_string(points.size()) + " points; indices count from 0");
       }
     }
     if (const size_t count = distinct_points(points, face); count < 3) {

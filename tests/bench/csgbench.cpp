@@ -129,6 +129,13 @@ void run_boxes(const std::string& name, const Settings& settings) {
                                     run.clock.op / kTimes * 1e6));
 }
 
+BooleanOp operation(const std::string& word) {
+  if (word == "union") return BooleanOp::kUnion;
+  if (word == "intersection") return BooleanOp::kIntersection;
+  if (word == "difference") return BooleanOp::kDifference;
+  fail(fmt::format("'{}' is no operation: union, intersection or difference", word));
+}
+
 constexpr const char* kUsage =
     "usage: csgbench WORKLOAD ARGS [--threads N] [--repeat R] [--cell-limit M] [--write OUT.off]\n"
     "                [--check] [--write-inputs PREFIX] [--write-steps PREFIX] [--write-cells OUT]\n"
@@ -144,6 +151,7 @@ constexpr const char* kUsage =
     "  roundtrip FILE       through planes and BSPs, and back to the same vertices\n"
     "  pair A B SEED        all four operations of two files, B turned at random; --check proves\n"
     "                       the results as GLB free of self-intersections\n"
+    "  pair A B SEED OP     only one: union, intersection or difference\n"
     "  hull FILE            the outer hull of a surface that crosses itself\n"
     "  front FILE STEPS     a surface moves along its normals, and splits and merges\n"
     "  model NAME FACES OUT.off\n"
@@ -190,6 +198,9 @@ void run_once(const std::vector<std::string>& words, const Settings& settings) {
     run_round_trip(name, settings, words[1]);
   } else if (workload == "pair" && words.size() == 4) {
     run_pair(name, settings, words[1], words[2], std::strtoull(words[3].c_str(), nullptr, 10));
+  } else if (workload == "pair" && words.size() == 5) {
+    run_pair_operation(name, settings, words[1], words[2],
+                       std::strtoull(words[3].c_str(), nullptr, 10), operation(words[4]));
   } else if (workload == "hull" && words.size() == 2) {
     run_hull(name, settings, words[1]);
   } else if (workload == "front" && words.size() == 3) {

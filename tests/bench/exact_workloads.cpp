@@ -196,11 +196,29 @@ void run_round_trip(const std::string& name, const Settings& settings, const std
                         snapped, distance));
 }
 
-void run_pair(const std::string& name, const Settings& settings, const std::string& a,
-              const std::string& b, uint64_t seed) {
+namespace {
+
+std::array<PolygonMesh, 2> read_pair(const std::string& a, const std::string& b, uint64_t seed) {
   std::array<PolygonMesh, 2> meshes{read_solid(a), read_solid(b)};
   for (PolygonMesh& mesh : meshes) scale_to_box(mesh);
   rotate_at_random(meshes[1], seed);
+  return meshes;
+}
+
+}  // namespace
+
+void run_pair_operation(const std::string& name, const Settings& settings, const std::string& a,
+                        const std::string& b, uint64_t seed, BooleanOp op) {
+  const auto meshes = read_pair(a, b, seed);
+  Run run(name, settings, std::max(reach_of(meshes[0]), reach_of(meshes[1])));
+  run.options.name_untouched = true;  // the result is only presented
+  const std::vector<Operand> operands{run.import(meshes[0]), run.import(meshes[1])};
+  run.finish(*run.evaluate(operands, op));
+}
+
+void run_pair(const std::string& name, const Settings& settings, const std::string& a,
+              const std::string& b, uint64_t seed) {
+  const auto meshes = read_pair(a, b, seed);
   Run run(name, settings, std::max(reach_of(meshes[0]), reach_of(meshes[1])));
   const std::vector<Operand> operands{run.import(meshes[0]), run.import(meshes[1])};
   struct Operation {

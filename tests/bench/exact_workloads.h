@@ -29,4 +29,8 @@ void run_round_trip(const std::string& name, const Settings& settings, const std
 void run_pair(const std::string& name, const Settings& settings, const std::string& a,
               const std::string& b, uint64_t seed);
 
+/// One operation of the same two, and nothing proved of it: for comparing times.
+void run_pair_operation(const std::string& name, const Settings& settings, const std::string& a,
+                        const std::string& b, uint64_t seed, BooleanOp op);
+
 }  // namespace csgrun::bench

@@ -33,6 +33,15 @@ class Time(Case):
         self.assertIn("out of time (limit 1 s)", outcome.err)
         self.assertLess(outcome.seconds, 60 if SANITIZED else 8)
 
+    def test_timeout_in_what_does_not_look_at_the_clock(self):
+        """A single sphere is made ready in one go: late is late, and no file is left."""
+        for arguments in (("--stats",), ("-o", "a.stl")):
+            outcome = self.run_script("return sphere{5, fn = 801}", *arguments, "--timeout", "0.1", "--no-cache")
+            self.expect(outcome, 124, "model.lua")
+            self.assertIn("out of time (limit 0.1 s)", outcome.err)
+            self.assertLess(outcome.seconds, 60 if SANITIZED else 2.5)
+            self.assertEqual(self.left_over(), [])
+
     def test_what_a_tree_projects(self):
         """Evaluated while the file is read: out of time, or a failure of geometry, as anywhere else."""
         place = "multmatrix([[1, 0, 0, {}], [0, 1, 0, {}], [0, 0, 1, 0], [0, 0, 0, 1]])"

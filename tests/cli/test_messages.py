@@ -306,7 +306,7 @@ class Messages(Case):
                            ("square(1, 2, 3)", "got 3 numbers"), ("cube(nil)", "cube: option 'size' must be .* got nil"),
                            ("cube(1):up(1, 2)", "up: too many arguments"), ("sin(1, 2)", "sin: too many arguments"),
                            ("cube(1):volume(2)", "volume: takes no arguments"),
-                           ("cube{[7] = 1}", "cube: option 'size' must be .* got table"),
+                           ("cube{[7] = 1}", "cube: option 'size' must be .* got a list whose entry 1 is nil"),
                            ("union(5)", "union: an operand must be a solid or a shape, got 5"),
                            ("union(cube(1), square(1))", "union: a solid and a 2D shape cannot be combined"),
                            ("hull()", "hull: needs a solid or a shape"), ("min()", "min: needs a number"),

@@ -2,7 +2,8 @@
 """csgrun beside its peers: CGAL's Nef polyhedra and its corefinement, OpenSCAD (all of Debian) and manifold-3d
 (npm), on the workloads of csgbench. Prints the table of docs/performance.md.
 
-usage: compare.py [--repeat N] [--patience S] [--timeout S] [--without PEER] [--also NAME=PROGRAM] [WORKLOAD...]
+usage: compare.py [--repeat N] [--patience S] [--timeout S] [--without PEER] [--also NAME=PROGRAM]
+                  [--pairs N --model FILE --model FILE...] [WORKLOAD...]
 
 Every peer is given the arrays that csgrun itself has, as OFF, and its result as OFF must have csgrun's volume.
 The runs of all peers take turns; the table has medians of CPU seconds (user and system), and ratios of medians:
@@ -10,10 +11,14 @@ how many times as long the peer takes as csgrun; below one, csgrun loses. A peer
 --patience CPU seconds is not run again, one that takes longer than --timeout seconds is given up.
 --also measures one more program: PROGRAM union|difference once|each OUT.off IN.off..., which prints a line of
 JSON with cpu_s; `each` makes one operation after the other, each result with box and volume.
+--pairs measures union, difference and intersection of N random pairs of the closed models, scaled to one box, the
+second turned at random: a row of geometric means.
 """
 import argparse
 import collections
+import itertools
 import json
+import math
 import os
 import pathlib
 import random
@@ -193,6 +198,28 @@ def measure(contenders, repeat, patience):
     return results
 
 
+def random_pairs(models, count):
+    """Names and workloads of all operations of pairs of different models, always the same."""
+    source = random.Random(count)
+    all_pairs = list(itertools.permutations(models, 2))
+    for seed in range(count):
+        a, b = source.choice(all_pairs)
+        for op in ("union", "difference", "intersection"):
+            yield f"pair {seed} {op}", Workload(("pair", a, b, str(seed), op), op, "once")
+
+
+def geometric_means(runs):
+    """One result in place of several: geometric means of medians, of those peers that had all volumes right. (Their
+    ratio is the geometric mean of the ratios.)"""
+    means = {}
+    for name in runs[0]:
+        results = [run[name] for run in runs]
+        failed = [result for result in results if isinstance(result, Failure)]
+        means[name] = Failure(f"{failed[0].reason} ({len(failed)} of {len(results)})") if failed else [
+            math.exp(statistics.fmean(math.log(statistics.median(result)) for result in results))]
+    return means
+
+
 # ---- the table
 
 
@@ -255,9 +282,13 @@ def main(words):
     parser.add_argument("--timeout", type=float, default=300)
     parser.add_argument("--without", action="append", default=[], metavar="PEER")
     parser.add_argument("--also", action="append", default=[], metavar="NAME=PROGRAM")
+    parser.add_argument("--pairs", type=int, default=0, metavar="N")
+    parser.add_argument("--model", action="append", default=[], metavar="FILE")
     parser.add_argument("names", nargs="*", metavar="WORKLOAD", help=", ".join(WORKLOADS))
     asked = parser.parse_args(words)
-    names = asked.names or [name for name in WORKLOADS if name not in LARGE]
+    names = asked.names or ([] if asked.pairs else [name for name in WORKLOADS if name not in LARGE])
+    if asked.pairs and len(asked.model) < 2:
+        sys.exit("--pairs needs models: two or more --model FILE")
     unknown = [name for name in names if name not in WORKLOADS]
     if unknown:
         sys.exit(f"there is no workload '{unknown[0]}'; there are {', '.join(WORKLOADS)}")
@@ -269,6 +300,12 @@ def main(words):
         contenders = runner.arrays(name, WORKLOADS[name], peers) if WORKLOADS[name] else runner.processes(openscad)
         results[name] = measure(contenders, asked.repeat, asked.patience)
         print(" ", results[name], file=sys.stderr, flush=True)
+    if asked.pairs:
+        runs = []
+        for name, workload in random_pairs(asked.model, asked.pairs):
+            runs.append(measure(runner.arrays(name, workload, peers), asked.repeat, asked.patience))
+            print(name, *workload.bench[1:3], runs[-1], file=sys.stderr, flush=True)
+        results[f"{asked.pairs} random pairs"] = geometric_means(runs)
     columns = [p.name for p in peers] + (["OpenSCAD"] if openscad else [])
     print(table(results, [c for c in columns if any(c in runs for runs in results.values())]))
     if any(isinstance(r, Failure) and r.reason.startswith("wrong") for runs in results.values() for r in runs.values()):

@@ -68,6 +68,19 @@ class Measure(unittest.TestCase):
         with self.assertRaises(Refused):
             compare.measure([self.contender(CSGRUN, (1, 2), (8, 8.0001))], 2, 10)
 
+    def test_geometric_means(self):
+        runs = [{CSGRUN: [1, 2, 3], "peer": [2], "wrong": [5]}, {CSGRUN: [8], "peer": [1, 1, 4], "wrong": Failure("no")}]
+        means = compare.geometric_means(runs)
+        self.assertAlmostEqual(means[CSGRUN][0], 4, 12)
+        self.assertAlmostEqual(means["peer"][0], 2 ** 0.5, 12)
+        self.assertEqual(means["wrong"], Failure("no (1 of 2)"))
+
+    def test_pairs_are_of_different_models(self):
+        pairs = list(compare.random_pairs(["a", "b", "c"], 20))
+        self.assertEqual(len(pairs), 60)
+        self.assertEqual(pairs, list(compare.random_pairs(["a", "b", "c"], 20)))
+        self.assertTrue(all(w.bench[1] != w.bench[2] and w.bench[4] == w.op for _, w in pairs))
+
     def test_a_program_that_fails(self):
         with tempfile.TemporaryDirectory() as folder:
             compare.BINARIES = pathlib.Path(folder)

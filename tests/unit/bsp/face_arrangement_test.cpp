@@ -113,6 +113,7 @@ class Cuts {
   }
 
   void check_loops(uint32_t polygon, const CutLoops& loops, Count& count) {
+    const uint32_t own = job_.polygons()[polygon].operand;
     std::vector<Query> outline;
     for (const uint32_t v : job_.corners(job_.polygons()[polygon])) {
       outline.push_back(job_.rounded(v));
@@ -143,6 +144,15 @@ class Cuts {
           ASSERT_EQ(fact.front, *front == 1) << "polygon " << polygon;
           ASSERT_EQ(fact.back, *back == 1) << "polygon " << polygon;
           ++count.facts;
+        }
+        // Of what has surface here, a fact says so.
+        for (uint32_t o = 0; o < oracles_.size(); ++o) {
+          const auto begin = loops.facts.begin() + loop.first_fact, end = begin + loop.fact_count;
+          if (o == own || std::any_of(begin, end, [&](const auto& f) { return f.operand == o; })) {
+            continue;
+          }
+          const auto front = oracles_[o].winding(before), back = oracles_[o].winding(behind);
+          ASSERT_TRUE(!front || !back || *front == *back) << "polygon " << polygon;
         }
       }
     }
@@ -257,6 +267,69 @@ TEST(FaceArrangement, OfAnyBodies) {
   }
   expect_same(count, {948, 84, 44, 11613, 270});
   expect_same(mirror_count, count);
+}
+
+Operand box(const IVec3& lo, const IVec3& hi) { return known(test::box_loops(lo, hi), true); }
+
+/// A double cone around a part of the plane z = 0.
+std::vector<test::Loop> double_cone(const std::vector<test::Point2>& base, const IVec3& middle) {
+  return test::cone_loops(base, 0, {middle[0], middle[1], 5}, IVec3{middle[0], middle[1], -5});
+}
+
+// The edge of one operand, all of whose corners are on edges of another's face, which covers what
+// is within: by no corner that can be told.
+TEST(FaceArrangement, LeavesWhatIsInscribedInAFace) {
+  Count count;
+  Cuts({box({-20, -20, -20}, {20, 20, 0}), box({-8, -8, -8}, {8, 8, 0}),
+        known(double_cone({{8, 0}, {0, 8}, {-8, 0}, {0, -8}}, {0, 0, 0}), true)})
+      .check(count);
+  EXPECT_EQ(count.left, 1u);
+  EXPECT_GT(count.cut, 10u);
+}
+
+// The same of one operand alone, which touches itself in corners: its edge tells what is within.
+TEST(FaceArrangement, OfASimpleOperandThatTouchesItselfInCorners) {
+  auto loops = double_cone({{0, 0}, {12, 0}, {0, 12}}, {4, 4, 0});
+  for (const std::vector<IVec3>& wing :
+       {std::vector<IVec3>{{0, 0, 0}, {-6, -1, 0}, {-1, -6, 0}, {-3, -3, -6}},
+        std::vector<IVec3>{{12, 0, 0}, {18, 1, 0}, {18, -3, 0}, {17, -1, -6}},
+        std::vector<IVec3>{{0, 12, 0}, {-3, 18, 0}, {1, 18, 0}, {-1, 17, -6}}}) {
+    const auto more = test::hull_loops(wing);
+    loops.insert(loops.end(), more.begin(), more.end());
+  }
+  const Operand winged = known(loops, false);
+  ASSERT_FALSE(winged.leaf->opposite.empty());
+  Count count;
+  Cuts({box({-40, -40, -10}, {40, 40, 0}), winged}).check(count);
+  EXPECT_EQ(count.left, 0u);
+  EXPECT_GT(count.coplanar, 3u);
+}
+
+// A void that touches a face from within says nothing of what that face covers.
+TEST(FaceArrangement, OfAFaceThatIsTouchedFromBehind) {
+  auto loops = test::box_loops({-8, -8, -8}, {8, 8, 0});
+  auto inner = test::hull_loops({{-2, 0, 0}, {2, 0, 0}, {0, -2, -4}, {0, 2, -4}});
+  test::turn_over(inner);
+  loops.insert(loops.end(), inner.begin(), inner.end());
+  Count count;
+  Cuts({box({-20, -20, -20}, {20, 20, 0}), test::operand_of(test::make_leaf(loops))}).check(count);
+  EXPECT_EQ(count.left, 0u);
+  EXPECT_GT(count.coplanar, 1u);
+}
+
+// Convex, but nobody knows which of its edges are opposite: around such a face it is outside, as
+// one knows without them.
+TEST(FaceArrangement, OfAConvexOperandWithoutOpposites) {
+  auto leaf = std::make_shared<LeafGeometry>(
+      *test::make_leaf(test::prism_loops({{-3, -3}, {3, -3}, {3, 3}, {-3, 3}}, 0, 5)));
+  leaf->convex = true;
+  ASSERT_EQ(leaf->face_count(), 8u);  // top and bottom are two triangles each
+  for (const IVec3& lo : {IVec3{-20, -20, -20}, {-20, -20, 0}, {-20, -20, -5}, {0, -20, -20}}) {
+    Count count;
+    Cuts({box(lo, {20, 20, lo[2] < 0 ? 0 : 9}), test::operand_of(leaf)}).check(count);
+    EXPECT_EQ(count.left, 0u);
+    EXPECT_GT(count.coplanar, 0u);
+  }
 }
 
 }  // namespace

@@ -466,6 +466,29 @@ TEST(WholeFaces, OfLeavesThatAreFarAway) {
   }
 }
 
+// Nor does what is left touch anything where it is plainly crossed.
+TEST(WholeFaces, FarLeavesThatAreCrossedTouchNothing) {
+  constexpr int64_t kFar = int64_t{1} << 33;
+  const IVec3 a{-kFar, -kFar, 1}, b{kFar, -kFar, 2}, c{0, kFar, -1}, d{0, 0, -kFar};
+  const Operand far =
+                    test::operand_of(test::make_leaf({{a, b, c}, {b, a, d}, {c, b, d}, {a, c, d}})),
+                near = test::operand_of(test::box_leaf({-5, -6, -7}, {5, 6, 7}));
+  for (const std::vector<Operand>& operands : {std::vector<Operand>{far, near}, {near, far}}) {
+    Job job(operands);
+    EvaluateStats stats;
+    const auto faces =
+        evaluate_whole_faces(job, test::flat_expression(BooleanOp::kUnion, 2), {}, stats);
+    ASSERT_TRUE(faces);
+    const auto contacts = find_contacts(job, {}, {}, stats).contacts;
+    ASSERT_EQ(contacts.size(), 4u);
+    for (const Contact& contact : contacts) {
+      EXPECT_TRUE(contact.is_plain);
+      EXPECT_NE(faces->general[contact.p], faces->general[contact.q]);
+    }
+    EXPECT_TRUE(faces->touching.empty());
+  }
+}
+
 // Plates that all cross each other: so many contacts are left to cells.
 TEST(WholeFaces, LeaveDenseContactsToCells) {
   const auto is_left = [](int64_t plates) {

@@ -157,6 +157,54 @@ TEST(Conform, SurfacesThatTouchThemselvesAgainstTurnedCopies) {
   }
 }
 
+// Squares that become one face lose corners that others, which touch there, keep.
+TEST(Conform, SurfacesThatTouchThemselves) {
+  std::mt19937 random(6);
+  for (int round = 0; round < 60; ++round) {
+    const int size = 2 + round % 3;
+    std::set<std::array<int, 3>> cells;
+    for (int i = 0; i < size * size * size; ++i) {
+      if (random() % 3 == 0) cells.insert({i % size, i / size % size, i / size / size});
+    }
+    if (cells.empty()) continue;
+    PolygonMesh mesh = surface_of(cells);
+    mesh.keep_facets = round % 2 == 0;
+    const NodePtr one = leaf(mesh, FillRule::kNonZero);
+    for (const bool join : {false, true}) {
+      for (const NodePtr& root : {one, unite({one, box({9, 9, 9}, {10, 10, 10})})}) {
+        const SolidPtr solid = solid_of(root, join);
+        EXPECT_EQ(crossings_by_place(*solid), 0u) << round;
+        const size_t beside = root == one ? 0 : 1;
+        EXPECT_EQ(solid->measures.volume, static_cast<double>(cells.size() + beside)) << round;
+      }
+    }
+  }
+}
+
+// The apex of a tetrahedron is a corner in the middle of an edge of a box; all edges have two
+// faces.
+TEST(Conform, AnApexOnAnEdgeOfTheSameLeaf) {
+  PolygonMesh mesh;
+  mesh.points = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2},
+                 {2, 2, 2}, {0, 2, 2}, {2, 2, 1}, {4, 4, 0}, {5, 4, 0}, {4, 5, 0}};
+  for (const std::vector<uint32_t>& face : std::vector<std::vector<uint32_t>>{{3, 2, 1, 0},
+                                                                              {4, 5, 6, 7},
+                                                                              {0, 1, 5, 4},
+                                                                              {1, 2, 8, 6, 5},
+                                                                              {2, 3, 7, 6, 8},
+                                                                              {3, 0, 4, 7},
+                                                                              {11, 10, 9},
+                                                                              {9, 10, 8},
+                                                                              {10, 11, 8},
+                                                                              {11, 9, 8}}) {
+    mesh.add_face(face);
+  }
+  for (const bool keep_facets : {false, true}) {
+    mesh.keep_facets = keep_facets;
+    expect_complex(leaf(mesh, FillRule::kNonZero), 8 + 1.0 / 6, 2, "apex on an edge");
+  }
+}
+
 TEST(Conform, RandomBoxes) {
   std::mt19937 random(11);
   const auto number = [&](int n) {

@@ -324,6 +324,9 @@ TEST(Nearest, NamesWithinOneEditInThreeLetters) {
   EXPECT_EQ(nearest_name("translation", names), "translate");
   EXPECT_EQ(nearest_name("banana", names), "");
   EXPECT_EQ(nearest_name("", names), "");
+  EXPECT_EQ(nearest_name("n", names), "");  // one edit of a letter is any other letter
+  EXPECT_EQ(nearest_name("x", names), "");
+  EXPECT_EQ(nearest_name("R", names), "r");
 }
 
 TEST(Colors, NamesAndHexadecimal) {

@@ -296,7 +296,7 @@ TEST(Shape2D, BadInputIsAnError) {
   EXPECT_EQ(message(make_polygon({{0, 0}, {1, 0}, {inf, 1}}, {})),
             "polygon: point 2 must be finite, got inf");
   EXPECT_EQ(message(make_polygon({{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 3}})),
-            "polygon: path 0: index 3 is out of range, there are 3 points");
+            "polygon: path 0: index 3 is out of range, there are 3 points; indices count from 0");
   EXPECT_EQ(message(make_polygon({{0, 0}, {1e13, 0}, {0, 1}}, {})),
             "2D shape: coordinates up to 1e+13 mm, the limit is 1e+12");
 }

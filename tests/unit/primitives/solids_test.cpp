@@ -173,8 +173,9 @@ TEST(Polyhedron, ErrorsSayWhatIsWrong) {
   };
   auto faces = kTetraFaces;
   faces[1][2] = 4;
-  EXPECT_EQ(message(kTetraPoints, faces),
-            "polyhedron: face 1: index 4 is out of range, there are 4 points");
+  EXPECT_EQ(
+      message(kTetraPoints, faces),
+      "polyhedron: face 1: index 4 is out of range, there are 4 points; indices count from 0");
   faces[1] = {0, 1, 1};
   EXPECT_EQ(message(kTetraPoints, faces),
             "polyhedron: face 1 is degenerate: it has 2 distinct points");

@@ -1,0 +1,58 @@
+// Walks around faces and vertices of a leaf.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "engine/bsp/operand.h"
+
+namespace csgrun {
+
+/// REQUIRES: the leaf outlives it.
+class CornerWalk {
+ public:
+  explicit CornerWalk(const LeafGeometry& leaf) : leaf_(leaf) {
+    if (leaf.corners.size() == 3 * leaf.face_count()) return;
+    face_of_.resize(leaf.corners.size());
+    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+      std::fill(face_of_.begin() + leaf.face_starts[f], face_of_.begin() + leaf.face_starts[f + 1],
+                f);
+    }
+  }
+
+  /// The corner before a corner in its face.
+  [[nodiscard]] uint32_t before(uint32_t corner) const {
+    if (face_of_.empty()) return corner % 3 == 0 ? corner + 2 : corner - 1;
+    const uint32_t f = face_of_[corner];
+    return (corner == leaf_.face_starts[f] ? leaf_.face_starts[f + 1] : corner) - 1;
+  }
+  /// How many faces there are in the fan around the vertex of a corner. REQUIRES: the leaf knows
+  /// its opposite edges.
+  [[nodiscard]] uint32_t fan(uint32_t corner) const {
+    uint32_t count = 0;
+    for (uint32_t c = corner; count == 0 || c != corner; ++count) c = leaf_.opposite[before(c)];
+    return count;
+  }
+
+ private:
+  const LeafGeometry& leaf_;
+  std::vector<uint32_t> face_of_;  ///< per corner, unless all faces are triangles
+};
+
+/// The vertices whose faces are more than one fan. REQUIRES: as CornerWalk::fan. O(n).
+inline std::vector<uint32_t> find_vertices_of_fans(const LeafGeometry& leaf) {
+  const CornerWalk walk(leaf);
+  std::vector<uint32_t> some_corner(leaf.vertices.size(), 0), faces(leaf.vertices.size(), 0);
+  for (uint32_t c = 0; c < leaf.corners.size(); ++c) {
+    some_corner[leaf.corners[c]] = c;
+    ++faces[leaf.corners[c]];
+  }
+  std::vector<uint32_t> found;
+  for (uint32_t v = 0; v < faces.size(); ++v) {
+    if (faces[v] != 0 && walk.fan(some_corner[v]) != faces[v]) found.push_back(v);
+  }
+  return found;
+}
+
+}  // namespace csgrun

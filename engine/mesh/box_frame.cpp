@@ -1,0 +1,185 @@
+#include "engine/mesh/box_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace csgrun {
+namespace {
+
+using Vec = std::array<double, 3>;
+
+constexpr size_t kSample = 512;
+/// Normals are gathered in this many classes for each coordinate from 0 to 1.
+constexpr double kClasses = 32;
+/// A frame must save so much to be worth the time that coordinates along it take.
+constexpr double kWorthwhile = 0.6;
+
+Vec minus(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec unit(const Vec& a) {
+  const double length = std::sqrt(dot(a, a));
+  return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+/// Of length 1, its largest coordinate positive; for directions that count the same both ways.
+Vec line_of(const Vec& a) {
+  const Vec d = unit(a);
+  size_t largest = 0;
+  for (size_t k = 1; k < 3; ++k) {
+    if (std::fabs(d[k]) > std::fabs(d[largest])) largest = k;
+  }
+  return d[largest] < 0 ? Vec{-d[0], -d[1], -d[2]} : d;
+}
+
+/// The first three corners of a face, relative to the first one.
+struct Sample {
+  std::array<Vec, 3> points;
+  Vec normal, longest;  ///< lines, the second along the longest edge
+  double weight;        ///< the square of that: what the box of a long triangle grows with
+};
+
+std::vector<Sample> sample_of(const LeafGeometry& leaf) {
+  std::vector<Sample> samples;
+  const size_t count = leaf.face_count(), step = count / kSample + 1;
+  samples.reserve(count / step + 1);
+  for (size_t f = 0; f < count; f += step) {
+    Sample s{};
+    const uint32_t* const corners = &leaf.corners[leaf.face_starts[f]];
+    const IVec3& origin = leaf.vertices[corners[0]];
+    for (size_t i = 1; i < 3; ++i) {
+      for (size_t k = 0; k < 3; ++k) {
+        s.points[i][k] = static_cast<double>(leaf.vertices[corners[i]][k] - origin[k]);
+      }
+    }
+    const Vec normal = cross(s.points[1], s.points[2]);
+    if (dot(normal, normal) == 0) continue;
+    s.normal = line_of(normal);
+    for (const Vec& edge : {s.points[1], s.points[2], minus(s.points[2], s.points[1])}) {
+      if (dot(edge, edge) <= s.weight) continue;
+      s.weight = dot(edge, edge);
+      s.longest = line_of(edge);
+    }
+    samples.push_back(s);
+  }
+  return samples;
+}
+
+struct Line {
+  Vec direction;
+  double weight;
+};
+
+/// Of the class of lines that weighs most, the line that does; of length 0 if there are none.
+Vec heaviest(std::vector<Line>& lines) {
+  const auto key = [](const Line& line) {
+    std::array<long, 3> classes{};
+    for (size_t k = 0; k < 3; ++k) classes[k] = std::lround(line.direction[k] * kClasses);
+    return classes;
+  };
+  std::stable_sort(lines.begin(), lines.end(),
+                   [&](const Line& a, const Line& b) { return key(a) < key(b); });
+  Vec best{};
+  double most = 0;
+  for (size_t i = 0; i < lines.size();) {
+    double weight = 0;
+    size_t j = i, large = i;
+    for (; j < lines.size() && key(lines[j]) == key(lines[i]); ++j) {
+      weight += lines[j].weight;
+      if (lines[j].weight > lines[large].weight) large = j;
+    }
+    if (weight > most) most = weight, best = lines[large].direction;
+    i = j;
+  }
+  return best;
+}
+
+/// What the boxes of the samples cost: a box meets others in proportion to its surface.
+template <class Project>
+double cost(std::span<const Sample> samples, Project project) {
+  double sum = 0;
+  for (const Sample& s : samples) {
+    Vec lo{}, hi{};
+    for (size_t i = 1; i < 3; ++i) {
+      const Vec p = project(s.points[i]);
+      for (size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], p[k]), hi[k] = std::max(hi[k], p[k]);
+    }
+    const Vec size = minus(hi, lo);
+    sum += size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+  }
+  return sum;
+}
+
+Vec along(const BoxFrame& frame, const Vec& p) {
+  return {dot(frame[0], p), dot(frame[1], p), dot(frame[2], p)};
+}
+
+}  // namespace
+
+std::optional<BoxFrame> find_box_frame(const LeafGeometry& leaf) {
+  const std::vector<Sample> samples = sample_of(leaf);
+  if (samples.empty()) return std::nullopt;
+  std::vector<Line> lines;
+  lines.reserve(samples.size());
+  for (const Sample& s : samples) lines.push_back({s.normal, s.weight});
+  BoxFrame frame{heaviest(lines)};
+  lines.clear();
+  for (const Sample& s : samples) {
+    if (std::fabs(dot(s.longest, frame[0])) < 1 / kClasses) lines.push_back({s.longest, s.weight});
+  }
+  // There are some: the edges of the triangle whose normal that is.
+  frame[2] = unit(cross(frame[0], heaviest(lines)));
+  frame[1] = cross(frame[2], frame[0]);
+  const double before = cost(samples, [](const Vec& p) { return p; });
+  const double after = cost(samples, [&](const Vec& p) { return along(frame, p); });
+  if (!(after < kWorthwhile * before)) return std::nullopt;
+  return frame;
+}
+
+std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, const std::optional<BoxFrame>& frame) {
+  using Bound = std::array<float, 3>;
+  std::vector<Bound> lower(leaf.vertices.size()), upper_in_frame;
+  double reach = 0;
+  for (size_t v = 0; v < lower.size(); ++v) {
+    for (size_t k = 0; k < 3; ++k) {
+      const auto p = static_cast<double>(leaf.vertices[v][k]);
+      lower[v][k] = static_cast<float>(p);
+      reach = std::max(reach, std::fabs(p));
+    }
+  }
+  if (frame) {
+    // A coordinate along a direction is off by less than 2^-49 of the largest one. Rounding to
+    // float is monotone.
+    const double slack = 0x1p-47 * reach;
+    upper_in_frame.resize(lower.size());
+    for (size_t v = 0; v < lower.size(); ++v) {
+      const IVec3& at = leaf.vertices[v];
+      const Vec p = along(*frame, {static_cast<double>(at[0]), static_cast<double>(at[1]),
+                                   static_cast<double>(at[2])});
+      for (size_t k = 0; k < 3; ++k) {
+        lower[v][k] = static_cast<float>(p[k] - slack);
+        upper_in_frame[v][k] = static_cast<float>(p[k] + slack);
+      }
+    }
+  }
+  const std::vector<Bound>& upper = frame ? upper_in_frame : lower;
+  std::vector<FloatBox> boxes(leaf.face_count());
+  for (size_t f = 0; f < boxes.size(); ++f) {
+    FloatBox& box = boxes[f];
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    box = {lower[leaf.corners[begin]], upper[leaf.corners[begin]]};
+    for (uint32_t c = begin + 1; c < end; ++c) {
+      const uint32_t v = leaf.corners[c];
+      for (size_t k = 0; k < 3; ++k) {
+        box.lo[k] = std::min(box.lo[k], lower[v][k]);
+        box.hi[k] = std::max(box.hi[k], upper[v][k]);
+      }
+    }
+  }
+  return boxes;
+}
+
+}  // namespace csgrun

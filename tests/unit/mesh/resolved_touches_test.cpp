@@ -1,0 +1,87 @@
+// Where a resolved surface says that it may touch itself: it is presented as if it could anywhere.
+#include <gtest/gtest.h>
+
+#include "engine/bsp/self_resolution.h"
+#include "engine/mesh/leaf_check.h"
+#include "engine/mesh/opposite_edges.h"
+#include "tests/support/kernel_case.h"
+#include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
+
+namespace csgrun {
+namespace {
+
+using namespace test;  // NOLINT: a test
+
+/// A leaf that knows its opposite edges, if each edge has two faces.
+Operand surface_of(const std::vector<Loop>& loops, bool keep_facets = false) {
+  auto leaf = std::make_shared<LeafGeometry>(*make_leaf(loops, keep_facets));
+  leaf->opposite = pair_edges(*leaf).opposite;
+  return operand_of(std::move(leaf));
+}
+
+BoundaryMesh resolved(const Operand& surface, InsideRule rule) {
+  EvaluateStats stats;
+  auto result = resolve_surface(surface, find_self_intersections(*surface.leaf), rule, {}, stats);
+  EXPECT_TRUE(result);
+  return **result;
+}
+
+/// Whether the mesh says where.
+bool expect_same_as_anywhere(const BoundaryMesh& mesh, const std::string& what) {
+  BoundaryMesh anywhere = mesh;
+  anywhere.touches.clear();
+  anywhere.may_touch = true;
+  for (const bool join : {false, true}) {
+    PresentContext context = test_context();
+    context.join_contacts = join;
+    const auto x = present(mesh, context), y = present(anywhere, context);
+    EXPECT_TRUE(x && y) << what;
+    if (x && y) {
+      EXPECT_EQ(difference_between(**x, **y), "") << what;
+    }
+  }
+  return !mesh.may_touch || !mesh.touches.empty();
+}
+
+TEST(ResolvedTouches, AreAllThereAre) {
+  int known = 0;
+  for (int round = 0; round < 60; ++round) {
+    Random random(7100 + round);
+    std::vector<Loop> loops;
+    for (int64_t i = random.integer(2, 4); i > 0; --i) {
+      const auto own = random_loops(random, 4);
+      loops.insert(loops.end(), own.begin(), own.end());
+    }
+    Operand surface = surface_of(loops, random.integer(0, 1) == 0);
+    if (random.integer(0, 2) == 0) surface.frame = random_frame(random);
+    surface.translation = {random.integer(-5, 5), random.integer(-5, 5), random.integer(-5, 5)};
+    for (const InsideRule rule : {InsideRule::kNonZero, InsideRule::kEvenOdd,
+                                  InsideRule::kOuterHull, InsideRule::kOrientedHull}) {
+      const std::string what =
+          std::to_string(round) + " by rule " + std::to_string(static_cast<int>(rule));
+      known += expect_same_as_anywhere(resolved(surface, rule), what) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(known, 90);
+}
+
+// Two boxes that cross, and a third that is far away: contacts are near the crossing.
+TEST(ResolvedTouches, AreWhereTheSurfaceCrossesItself) {
+  auto loops = box_loops({0, 0, 0}, {6, 6, 6});
+  for (const auto& other : {box_loops({4, 4, 4}, {9, 9, 9}), box_loops({50, 0, 0}, {56, 6, 6})}) {
+    loops.insert(loops.end(), other.begin(), other.end());
+  }
+  Operand surface = surface_of(loops);
+  surface.translation = {100, 0, 0};
+  const BoundaryMesh mesh = resolved(surface, InsideRule::kNonZero);
+  ASSERT_FALSE(mesh.touches.empty());
+  for (const GridBox& box : mesh.touches) {
+    EXPECT_GE(box.lo[0], 104);
+    EXPECT_LE(box.hi[0], 106);
+    EXPECT_LE(box.lo[0], box.hi[0]);
+  }
+}
+
+}  // namespace
+}  // namespace csgrun
