@@ -19,8 +19,8 @@
 namespace csgrun {
 namespace {
 
-/// With so many contacts a polygon, cells that prune the expression are less work than arrangements
-/// of all that meets a polygon, much of it inside what another one removes.
+/// With so many plain contacts a polygon, cells that prune the expression are less work than
+/// arrangements of all that meets a polygon, much of it inside what another one removes.
 constexpr size_t kDense = 16;
 
 class FaceEvaluator {
@@ -46,7 +46,7 @@ class FaceEvaluator {
     contacts_ = std::move(found.contacts);
     touched_ = std::move(found.touched);
     if (is_cancelled()) return cancelled();
-    if (contacts_.size() > kDense * job_.polygons().size()) {
+    if (is_dense()) {
       result_.general.assign(job_.polygons().size(), 1);
       result_.any_general = true;
       return std::move(result_);
@@ -82,6 +82,14 @@ class FaceEvaluator {
     return options_.cancel && options_.cancel->load(std::memory_order_relaxed);
   }
   static Error cancelled() { return {ErrorCode::kCancelled, "the evaluation was cancelled", {}}; }
+
+  /// Faces that touch count for less: those of parts that fit one another have many contacts in few
+  /// places.
+  [[nodiscard]] bool is_dense() const {
+    const auto plain = std::count_if(contacts_.begin(), contacts_.end(),
+                                     [](const Contact& c) { return c.is_plain; });
+    return static_cast<size_t>(plain) > kDense * job_.polygons().size();
+  }
 
   /// Leaves a polygon to the general way.
   void leave(uint32_t polygon) {
