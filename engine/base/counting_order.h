@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -16,7 +17,8 @@ namespace csgrun {
 struct CountingOrder {
   std::vector<uint32_t> starts, order;
 
-  /// Orders 0 .. count - 1 by key(i) < keys. O(count + keys).
+  /// Orders 0 .. count - 1 by key(i) < keys. REQUIRES: keys > 0, unless there is nothing to order.
+  /// O(count + keys).
   template <class Key>
   void sort(size_t count, size_t keys, Key key) {
     if (count >= kMany && tbb::this_task_arena::max_concurrency() > 1) {
@@ -40,6 +42,7 @@ struct CountingOrder {
   template <class Key>
   void sort_in_ranges(size_t count, size_t keys, Key key) {
     constexpr size_t kRanges = 4;
+    assert(keys > 0);  // each of the ranges has some
     RawVector<uint32_t> key_of(count);
     for_each_range(count, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) key_of[i] = static_cast<uint32_t>(key(i));

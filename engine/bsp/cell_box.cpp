@@ -54,8 +54,9 @@ bool separated(const Job& job, uint32_t polygon, const CellBox& cell) {
     // Left of the edge is inside: the cell is outside when its leftmost corner is right of it.
     const double left = sign * (du * (center[j] - p[j]) - dv * (center[i] - p[i]));
     const double spread = std::fabs(du) * (half[j] + 1) + std::fabs(dv) * (half[i] + 1);
-    const double margin =
-        (std::fabs(du) + std::fabs(dv)) * 0x1p-20 + 0x1p-20 * distance_to(center, p);
+    // The corner may be farther off than the center: cells may be long and thin.
+    const double margin = (std::fabs(du) + std::fabs(dv)) * 0x1p-20 +
+                          0x1p-20 * (distance_to(center, p) + reach_of_cell);
     if (left < -spread * (1 + 0x1p-40) - margin) return true;
   }
   return false;

@@ -321,7 +321,7 @@ Point Job::exact(uint32_t vertex) const {
 bool Job::is_below(uint32_t vertex, uint32_t other) const {
   // Rounding keeps the order along each axis.
   const double x = rounded_[vertex][0], y = rounded_[other][0];
-  return x != y ? x < y : vertex != other && compare(exact(vertex), exact(other)) < 0;
+  return x != y ? x < y : compare(exact(vertex), exact(other)) < 0;
 }
 
 Point Job::exact_of(uint32_t o, uint32_t local) const {
@@ -347,9 +347,7 @@ std::array<uint32_t, 3> Job::vertex_planes(uint32_t vertex) const {
 }
 
 FaceLabel Job::label(const JobPolygon& p) const {
-  const Operand& operand = (*operands_)[p.operand];
-  if (operand.pieces) return operand.pieces->store->label(pieces_[p.face]);
-  return label_of(operand, p.face);
+  return label_of((*operands_)[p.operand], p.face);
 }
 
 bool Job::is_of_complete_facet(const JobPolygon& p) const {

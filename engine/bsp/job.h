@@ -128,6 +128,7 @@ class Job {
   [[nodiscard]] bool is_below(uint32_t vertex, uint32_t other) const;
   /// Three planes of this job that meet in the vertex, or ~0 thrice for a vertex of a leaf.
   [[nodiscard]] std::array<uint32_t, 3> vertex_planes(uint32_t vertex) const;
+  /// The label of a polygon of a leaf or a boundary; so are the two below.
   [[nodiscard]] FaceLabel label(const JobPolygon& p) const;
   /// Whether the polygon is a part of a facet of a leaf whose facets are kept, and all of that
   /// facet is there, on either side of its plane; and whether all of it is there on the polygon's

@@ -77,11 +77,6 @@ uint32_t PieceStore::add_piece(const Piece& piece) {
   return piece_count() - 1;
 }
 
-FaceLabel PieceStore::label(uint32_t piece) const {
-  const Piece& p = pieces_[piece];
-  return label_of(operands_[p.operand], p.face);
-}
-
 Plane PieceStore::plane_of_corners(uint32_t piece) const {
   const Piece& p = pieces_[piece];
   return support_of_loop(p.count,

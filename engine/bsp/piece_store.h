@@ -55,7 +55,6 @@ class PieceStore {
     return {edges_.data() + pieces_[piece].first, pieces_[piece].count};
   }
   [[nodiscard]] const PieceBox& box(uint32_t piece) const { return boxes_[piece]; }
-  [[nodiscard]] FaceLabel label(uint32_t piece) const;
   void set_met(uint32_t piece) { pieces_[piece].is_met = true; }
   /// Makes the support, or the plane of an edge, of a piece over grid points, if it was not made.
   PlaneId ensure_support(uint32_t piece);

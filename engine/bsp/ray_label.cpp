@@ -60,7 +60,9 @@ class Ray {
     double most = 0;
     for (size_t i = 0; i < y_.size(); ++i)
       most = std::max({most, std::fabs(y_[i]), std::fabs(z_[i])});
-    const double bound = 5 * e * most + 2 * e * e + 0x1p-50 * most * most;
+    // A turn is off by 4 e most + 2 e e, and by its own three roundings, which are less than
+    // 2^-51 most most: most is below 2 reach, and e no less than 2^-50 reach.
+    const double bound = 5 * e * most + 2 * e * e;
     bool left = false, right = false, unsure = false;
     for (size_t i = 0; i < y_.size(); ++i) {
       const size_t j = i + 1 < y_.size() ? i + 1 : 0;

@@ -118,14 +118,9 @@ class Resolution {
     for (size_t c = 0; c < polygons.size(); ++c) {
       const uint32_t lowest = lowest_vertex(polygons[c]);
       job_.keep_walls_off({&lowest, 1});
-      std::vector<uint32_t> witnesses{lowest}, seen;
-      for (const uint32_t p : polygons[c]) {
-        if (patches_.patch_of[p] != kNone) seen.push_back(patches_.patch_of[p]);
-      }
-      std::sort(seen.begin(), seen.end());
-      seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-      for (const uint32_t patch : seen) witnesses.push_back(patches_.witness[patch]);
-      // Where patches touch, the volumes beside them may be one.
+      // Where patches touch, the volumes beside them may be one. A patch that is not all of its
+      // class has a vertex there, or one that a polygon has that crosses another: it is seen.
+      std::vector<uint32_t> witnesses{lowest};
       const auto& junctions = patches_.junctions[c];
       witnesses.insert(witnesses.end(), junctions.begin(), junctions.end());
       if (Status status = solve(polygons[c], witnesses, lowest); !status) return status;

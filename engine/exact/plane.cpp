@@ -15,7 +15,7 @@ UInt128 magnitude(Int128 v) { return v < 0 ? -static_cast<UInt128>(v) : static_c
 
 /// Stein's way.
 uint64_t gcd(uint64_t a, uint64_t b) {
-  if (a == 0 || b == 0) return a | b;
+  if (a == 0) return b;
   const int shift = std::countr_zero(a | b);
   a >>= std::countr_zero(a);
   while (b != 0) {

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/untouched.h"
+#include "tests/support/convex_operand.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/kernel_case.h"
+#include "tests/support/random_frames.h"
 
 namespace csgrun {
 namespace {
@@ -90,6 +93,39 @@ TEST(BoundaryMesh, BoundingBoxHoldsEveryPointAndLittleMore) {
   EXPECT_EQ(none.hi, fresh.hi);
 }
 
+// Of parts on the grid the translation is what moves; whole steps of the world are none in a frame,
+// so that parts in one are spelled out.
+TEST(BoundaryMesh, MovesPartsByWholeSteps) {
+  const IVec3 step{5, -6, 7};
+  const BoundaryMesh on_grid = translated(untouched_triangles({}), step);
+  ASSERT_EQ(on_grid.parts.size(), 1u);
+  EXPECT_EQ(on_grid.parts[0].translation, (IVec3{105, 194, 307}));
+  EXPECT_EQ(on_grid.parts[0].faces.size(), 2u);
+
+  Random random(43);
+  for (int i = 0; i < 10; ++i) {
+    Operand operand = octahedron({30, 20, 10}, 25);
+    do operand.frame = random_frame(random);
+    while (mirrors(operand.frame));
+    KernelOptions options;
+    options.name_untouched = true;
+    const auto built = evaluate(leaf(0), {operand}, options);
+    ASSERT_TRUE(built) << text(built.error());
+    ASSERT_EQ((*built)->parts.size(), 1u);
+    const ExactSolid from = exact_solid(*expanded(*built)),
+                     to = exact_solid(
+                         *expanded(std::make_shared<BoundaryMesh>(translated(**built, step))));
+    ASSERT_EQ(from.points.size(), 6u);
+    ASSERT_EQ(to.points.size(), 6u);
+    for (size_t p = 0; p < 6; ++p) {
+      for (size_t k = 0; k < 3; ++k) {
+        ASSERT_EQ(to.points[p][k], from.points[p][k] + static_cast<long>(step[k]));
+      }
+    }
+    EXPECT_EQ(to.faces.size(), 8u);
+  }
+}
+
 TEST(BoundaryMesh, OnlyAppearanceIsThatOfAllFaces) {
   EXPECT_EQ(only_appearance(untouched_triangles({})), std::nullopt);
   EXPECT_EQ(only_appearance(untouched_triangles(5)), 5u);
@@ -135,6 +171,8 @@ TEST(BoundaryMesh, MemoryGrowsByWhatIsAdded) {
   EXPECT_TRUE(grew_by(7 * sizeof mesh.parts[1].faces[0]));
   mesh.parts[0].shared.resize(7);
   EXPECT_TRUE(grew_by(7 * sizeof mesh.parts[0].shared[0]));
+  mesh.parts[1].world.resize(7);
+  EXPECT_TRUE(grew_by(7 * sizeof mesh.parts[1].world[0]));
 }
 
 }  // namespace

@@ -314,6 +314,137 @@ TEST(CellBox, MayMeetMissesNothingOfLongPolygonsWithATinyEdge) {
   EXPECT_GT(dropped, 20);
 }
 
+/// A frame that is turned and stretched by so little that far vertices move by a few steps, to
+/// places off the grid.
+Frame nearly_straight_frame(test::Random& random) {
+  Frame frame;
+  frame.is_identity = false;
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = 0; j < 3; ++j) {
+      frame.matrix[i][j] =
+          (i == j ? int64_t{1} << 40 : 0) + random.integer(-(1 << 18), int64_t{1} << 18);
+    }
+  }
+  return frame;
+}
+
+/// Whether the cell meets the only polygon of a job.
+bool truly_meets(const Job& job, const CellBox& cell) {
+  std::vector<Rational3> corners;
+  for (const uint32_t v : job.corners(job.polygons()[0])) {
+    const test::GmpPoint x = test::to_gmp(job.exact(v));
+    corners.push_back({mpq_class(x.x) / x.w, mpq_class(x.y) / x.w, mpq_class(x.z) / x.w});
+  }
+  const mpq_class shift(1, static_cast<unsigned long>(job.prime()));
+  Rational3 lo, hi;
+  for (int c = 0; c < 3; ++c) {
+    lo[c] = mpz_class(cell.lo[c]) + shift, hi[c] = mpz_class(cell.hi[c]) + shift;
+  }
+  return meets(corners, lo, hi);
+}
+
+// A cell may be long and thin. Where a polygon starts beside the middle of it, its plane and its
+// edges are known badly at the ends, however near that middle is.
+TEST(CellBox, MayMeetMissesNothingAtTheEndsOfLongCells) {
+  test::Random random(46);
+  int met = 0, dropped = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const bool is_fan = i % 2 != 0;
+    const size_t along = i / 2 % 3, across = (along + 1 + i / 6 % 2) % 3;
+    const int64_t far = random.integer(1 << 24, (1 << 27) - 1);
+    const auto at = [&](int64_t x, int64_t y) {
+      IVec3 p{0, 0, 0};
+      p[along] = x, p[across] = y;
+      return p;
+    };
+    // Tiny edges around the start: aslant, or in line with two long ones.
+    test::Loop loop = is_fan
+                          ? test::Loop{at(0, 0), at(1, -2), at(far, -far), at(far, far), at(1, 2)}
+                          : test::Loop{at(0, 0),    at(1, 0),    at(far, 0), at(far, 5),
+                                       at(-far, 5), at(-far, 0), at(-1, 0)};
+    if (i / 12 % 2) std::reverse(loop.begin(), loop.end());
+    const auto start = random.integer(0, static_cast<int64_t>(loop.size()) - 1);
+    std::rotate(loop.begin(), loop.begin() + start, loop.end());
+    Operand operand = test::operand_of(test::make_leaf({loop}));
+    operand.frame = nearly_straight_frame(random);
+    for (int64_t& t : operand.translation) {
+      t = random.integer(1 << 29, 7 << 27) * (random.integer(0, 1) ? 1 : -1);
+    }
+    const std::vector<Operand> operands{operand};
+    const Job job(operands);
+    const auto corners = job.corners(job.polygons()[0]);
+    const auto number = [&](const IVec3& p) {
+      return corners[std::find(loop.begin(), loop.end(), p) - loop.begin()];
+    };
+    const auto middle = job.rounded(number(at(0, 0)));
+    for (int trial = 0; trial < 4; ++trial) {
+      // Around a place far out, thin, and as long on either side of the start.
+      std::array<double, 3> p{};
+      if (is_fan) {
+        const auto &u = job.rounded(number(at(far, -far))), &v = job.rounded(number(at(far, far)));
+        for (size_t k = 0; k < 3; ++k) p[k] = (u[k] + v[k]) / 2;
+      } else {
+        p = job.rounded(number(at(trial % 2 ? far : -far, trial / 2 ? 5 : 0)));
+      }
+      const int64_t thin = random.integer(2, 8);
+      CellBox cell;
+      for (size_t k = 0; k < 3; ++k) {
+        cell.lo[k] = static_cast<int64_t>(p[k]) - random.integer(0, thin + 1);
+        cell.hi[k] = cell.lo[k] + thin;
+      }
+      cell.lo[along] = static_cast<int64_t>(middle[along]) - far - 9;
+      cell.hi[along] = cell.lo[along] + 2 * far + 18;
+      const bool kept = may_meet(job, 0, cell);
+      dropped += !kept;
+      if (!truly_meets(job, cell)) continue;
+      ++met;
+      EXPECT_TRUE(kept) << "case " << i;
+    }
+  }
+  EXPECT_GT(met, 2000);
+  EXPECT_GT(dropped, 20);
+}
+
+// Nor is it what the coordinates of the two ends add up to that counts: from one end of a polygon
+// to the other its edges run through zero.
+TEST(CellBox, MayMeetMissesNothingAtTheOtherEnd) {
+  test::Random random(47);
+  std::array<int, 3> met{};
+  for (int i = 0; i < 1200; ++i) {
+    const size_t along = i % 3, across = (along + 1 + i / 3 % 2) % 3;
+    const int64_t far = random.integer(1 << 25, (1 << 27) - 1);
+    const auto at = [&](int64_t x, int64_t y) {
+      IVec3 p{0, 0, 0};
+      p[along] = x, p[across] = y;
+      return p;
+    };
+    test::Loop loop{at(-far, 0), at(1 - far, 0), at(far, 0), at(far, 5), at(-far, 5)};
+    const bool is_reversed = random.integer(0, 1) != 0;
+    if (is_reversed) std::reverse(loop.begin(), loop.end());
+    Operand operand = test::operand_of(test::make_leaf({loop}));
+    operand.frame = nearly_straight_frame(random);
+    for (int64_t& t : operand.translation) {
+      t = random.integer(1 << 29, 7 << 27) * (random.integer(0, 1) ? 1 : -1);
+    }
+    operand.translation[along] = random.integer(-9, 9);
+    const std::vector<Operand> operands{operand};
+    const Job job(operands);
+    const auto& end = job.rounded(job.corners(job.polygons()[0])[2]);
+    for (int trial = 0; trial < 4; ++trial) {
+      CellBox cell;
+      const int64_t extent = random.integer(1, 8);
+      for (size_t k = 0; k < 3; ++k) {
+        cell.lo[k] = static_cast<int64_t>(end[k]) - random.integer(0, extent + 1);
+        cell.hi[k] = cell.lo[k] + extent;
+      }
+      if (!truly_meets(job, cell)) continue;
+      ++met[along];
+      EXPECT_TRUE(may_meet(job, 0, cell)) << "case " << i;
+    }
+  }
+  for (const int n : met) EXPECT_GT(n, 300);
+}
+
 TEST(CellBox, RoundedOutwardsHoldsTheWalls) {
   const GridBox box = CellBox{{-3, 4, 5}, {6, 7, 8}}.rounded_outwards();
   EXPECT_EQ(box.lo, (IVec3{-3, 4, 5}));  // -3 + 1/p and 6 + 1/p, rounded

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -338,6 +339,41 @@ TEST(CellGeometry, LineAxisOfNearlyParallelPlanes) {
     narrow += off < bits - 40;
   }
   EXPECT_GT(narrow, 300);
+}
+
+// As near each other as whole numbers allow: the cross product is that of two short vectors.
+TEST(CellGeometry, LineAxisOfPlanesWhoseCrossProductIsShort) {
+  test::Random random(1222);
+  std::array<int, 3> chosen{};
+  for (int i = 0; i < 2000; ++i) {
+    Int128 u[3], v[3];
+    for (int k = 0; k < 3; ++k) u[k] = random.integer(-1, 1), v[k] = random.integer(-1, 1);
+    std::array<Int128, 3> cross{};
+    size_t first = 0;
+    const auto size = [&](size_t k) { return cross[k] < 0 ? -cross[k] : cross[k]; };
+    for (size_t k = 0; k < 3; ++k) {
+      cross[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    }
+    for (size_t k = 1; k < 3; ++k) {
+      if (size(k) > size(first)) first = k;
+    }
+    if (cross[first] == 0) continue;
+    // p u + q v and r u + s v, of the determinant 1 or -1: doubles say nothing of their product.
+    Int128 p = 1, q = 0, r = 0, s = 1;
+    int determinant = 1;
+    while (p < Int128{1} << 40) {
+      const Int128 times = random.integer(1, 9);
+      std::tie(p, q, r, s) = std::tuple(times * p + r, times * q + s, p, q);
+      determinant = -determinant;
+    }
+    const Plane a{p * u[0] + q * v[0], p * u[1] + q * v[1], p * u[2] + q * v[2], 7},
+        b{r * u[0] + s * v[0], r * u[1] + s * v[1], r * u[2] + s * v[2], 5};
+    const LineAxis way = line_axis(a, b);
+    ASSERT_EQ(way.axis, static_cast<int>(first)) << i;
+    ASSERT_EQ(way.sign, (cross[first] > 0) == (determinant > 0) ? 1 : -1) << i;
+    ++chosen[first];
+  }
+  for (const int n : chosen) EXPECT_GT(n, 100);
 }
 
 }  // namespace

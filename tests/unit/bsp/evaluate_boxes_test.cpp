@@ -368,6 +368,19 @@ TEST(EvaluateBoxes, CountTheirWork) {
     row.push_back(test::operand_of(test::box_leaf({10 * x, 0, 0}, {10 * x + 1, 1, 1})));
   }
   EXPECT_LE(work(row), 8u);
+
+  // Along each axis the planes of four boxes on a diagonal are 0 to 7, and a window has three:
+  // the first one meets the second in the windows of planes 0 to 2, and the second the third in
+  // those of 3 to 5. The second one is in 2 x 2 x 2 windows, two of which are these.
+  EvaluateStats stats;
+  std::vector<Operand> diagonal;
+  for (int64_t at = 0; at < 40; at += 10) {
+    diagonal.push_back(test::operand_of(test::box_leaf({at, at, at}, {at + 1, at + 1, at + 1})));
+  }
+  ASSERT_TRUE(evaluate_boxes(diagonal, test::flat_expression(BooleanOp::kUnion, 4), {}, stats));
+  EXPECT_EQ(stats.surface_cells, 9u);
+  EXPECT_EQ(stats.solved_cells, 2u);
+  EXPECT_EQ(stats.critical_cells, 2u);
 }
 
 }  // namespace

@@ -33,5 +33,21 @@ TEST(LexicographicOrder, IsThatOfASort) {
   }
 }
 
+// As many buckets as there are whole x: threads share them out, and each sorts all of its own.
+TEST(LexicographicOrder, OfManyColumns) {
+  constexpr uint32_t kColumns = 3 * kFewForThreads, kEach = 3;
+  std::vector<std::array<double, 3>> points;
+  for (uint32_t x = 0; x < kColumns; ++x) {
+    for (uint32_t y = 0; y < kEach; ++y) points.push_back({1.0 * x, -1.0 * y, 0});
+  }
+  const auto order = lexicographic_order(
+      points.size(), [&](uint32_t i) -> const std::array<double, 3>& { return points[i]; },
+      [](uint32_t i, uint32_t j) { return i < j; });
+  ASSERT_EQ(order.size(), points.size());
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    ASSERT_EQ(order[i], i / kEach * kEach + kEach - 1 - i % kEach) << i;
+  }
+}
+
 }  // namespace
 }  // namespace csgrun

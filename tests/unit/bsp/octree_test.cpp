@@ -93,6 +93,21 @@ TEST(Octree, OfAnEmptyRegionHasNoCells) {
   EXPECT_TRUE(none.critical.empty());
 }
 
+// What one operand alone has in a cell is copied, and counted in cells of so many polygons.
+TEST(Octree, CountsWhatItCopies) {
+  const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {40, 40, 40}))};
+  const std::array<std::pair<uint32_t, uint64_t>, 6> expected{
+      {{1, 6}, {2, 3}, {3, 2}, {4, 2}, {6, 1}, {17, 1}}};
+  for (const auto& [limit, cells] : expected) {
+    KernelOptions options;
+    options.cell_limit = limit;
+    const Octree tree = octree_of(operands, test::region_of(operands), options);
+    EXPECT_EQ(tree.surface_cells, cells) << limit;
+    EXPECT_EQ(tree.cells, 1u);
+    EXPECT_EQ(tree.copied.size(), 6u);
+  }
+}
+
 TEST(Octree, IsNotDividedOnceCancelled) {
   const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {40, 40, 40})),
                                       test::operand_of(test::box_leaf({20, 20, 20}, {60, 60, 60}))};

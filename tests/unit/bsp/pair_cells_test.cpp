@@ -347,6 +347,20 @@ TEST(PairCells, LongPolygonsAreTooLargeForAGrid) {
   };
   EXPECT_GT(cells_beside(100), 1u);
   EXPECT_EQ(cells_beside(3000), 1u);
+
+  // Nor when the long one is covered, which is looked at last.
+  for (const int64_t length : {100, 3000}) {
+    const std::vector<Operand> operands{
+        test::operand_of(test::make_leaf(strip)),
+        test::operand_of(test::make_leaf({{{0, 0, 0}, {length, 0, 0}, {length, 1, 0}}}))};
+    const Job job(operands);
+    std::vector<uint8_t> covered(job.polygons().size(), 0);
+    covered.back() = 1;
+    const PairCells grid = find_coarse_cells(job, covered, 1);
+    EXPECT_EQ(visited(job, grid), all_pairs(job)) << length;
+    EXPECT_EQ(grid.cells.size() == 1, length == 3000);
+    EXPECT_EQ(grid.polygons.size() == job.polygons().size(), length == 3000);
+  }
 }
 
 // Large polygons that are in all cells each.

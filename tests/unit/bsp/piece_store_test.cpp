@@ -99,6 +99,45 @@ TEST(PieceStore, RefusesVerticesAtWhichNoFaceTurns) {
   EXPECT_FALSE(pieces_of(operand));
 }
 
+// Whatever way the face lies.
+TEST(PieceStore, TakesThePlanesOfFacesAlongAxes) {
+  const Frame frame = test::frame_of(test::turn_about(1, 30));
+  for (size_t axis = 0; axis < 3; ++axis) {
+    test::Loop loop{{3, 0, 0}, {3, 5, 0}, {3, 0, 5}};
+    for (IVec3& p : loop) std::rotate(p.begin(), p.end() - static_cast<long>(axis), p.end());
+    Operand operand = test::operand_of(test::make_leaf({loop}));
+    operand.frame = frame;
+    const std::vector<Operand> operands{operand};
+    PieceStore store;
+    Job job(operands, &store.planes);
+    ASSERT_EQ(store.add_operand(job, operands, 0), 0u) << axis;
+    for (uint32_t v = 0; v < 3; ++v) {
+      EXPECT_EQ(compare(store.exact(v), job.exact(v)), 0) << axis;
+    }
+  }
+}
+
+// Room for what others sum up, made when it is asked for first, and kept.
+TEST(PieceStore, KeepsWhatIsSaidOfPointsAndPieces) {
+  PieceStore store;
+  for (int i = 0; i < 4; ++i) store.add_point({0, 1, 2}, {1.0 * i, 0, 0});
+  for (uint32_t i = 0; i < 3; ++i) store.add_piece({0, i, 0, 0, {}, false, false});
+  EXPECT_FALSE(store.cut_point(2).is_known);
+  store.cut_point(2).is_known = true;
+  EXPECT_FALSE(store.cut_point(0).is_known);
+  store.cut_point(0).at[1] = Int<2>(5);
+  EXPECT_TRUE(store.cut_point(2).is_known);
+  EXPECT_TRUE(store.cut_point(2).at[1].is_zero());
+  EXPECT_EQ(store.cut_point(0).at[1], Int<2>(5));
+  store.piece_sum(1).sums.triangles = 7;
+  EXPECT_EQ(store.piece_sum(2).sums.triangles, 0u);
+  EXPECT_EQ(store.piece_sum(1).sums.triangles, 7u);
+  // More come later.
+  store.add_point({0, 1, 2}, {4, 0, 0});
+  EXPECT_FALSE(store.cut_point(4).is_known);
+  EXPECT_TRUE(store.cut_point(2).is_known);
+}
+
 TEST(PieceStore, HasItsOriginAtTheFirstVertex) {
   const auto origin = [](const std::vector<Operand>& operands) {
     PieceStore store;

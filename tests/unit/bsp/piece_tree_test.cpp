@@ -117,7 +117,13 @@ TEST_F(PieceTrees, UnchangedNodesAreShared) {
   const PieceTree empty = tree.changed(
       std::span(&all, 1), [](uint32_t) { return true; }, {}, box_of);
   EXPECT_EQ(empty.size(), 0u);
+  EXPECT_EQ(empty.root(), nullptr);
   EXPECT_EQ(tree.size(), 500u);
+  // Of nothing nothing can go; what is added is all there is.
+  const PieceTree one = empty.changed(
+      std::span(&all, 1), [](uint32_t) { return true; }, {7}, box_of);
+  EXPECT_EQ(one.size(), 1u);
+  EXPECT_EQ(one.box().lo, boxes_[7].lo);
 }
 
 TEST(PieceBox, MeetsWhatItTouches) {

@@ -119,5 +119,19 @@ TEST(PointIndex, FindsAllAfterItGrew) {
   }
 }
 
+// Zero has two doubles, which are one coordinate.
+TEST(PointIndex, KnowsZeroByEitherSign) {
+  PlaneTable planes;
+  CellGeometry geometry(planes, nullptr);
+  PointIndex index(geometry);
+  std::array<uint32_t, 3> walls{};
+  for (int k = 0; k < 3; ++k) walls[k] = planes.intern({k == 0, k == 1, k == 2, 0}).index();
+  const uint32_t first = index.unique(geometry.add_point(walls, {0.0, 0.0, 0.0}));
+  for (int signs = 0; signs < 8; ++signs) {
+    const auto zero = [&](int k) { return signs >> k & 1 ? -0.0 : 0.0; };
+    EXPECT_EQ(index.unique(geometry.add_point(walls, {zero(0), zero(1), zero(2)})), first);
+  }
+}
+
 }  // namespace
 }  // namespace csgrun

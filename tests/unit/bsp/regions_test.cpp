@@ -5,9 +5,12 @@
 #include <array>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/grid_planes.h"
+#include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"
 
 namespace csgrun {
@@ -249,6 +252,60 @@ TEST(Regions, LoopsThatDoNotCloseAreRefused) {
       EXPECT_EQ(grid.build(), turned == 3);
     }
   } while (std::next_permutation(order.begin(), order.end()));
+}
+
+// Two edges of a plane that nearly go one way: by as little as whole numbers allow.
+TEST(Regions, TurnsBetweenEdgesThatAreNearlyParallel) {
+  test::Random random(82);
+  std::array<int, 2> turns{};
+  for (int i = 0; i < 3000; ++i) {
+    const auto step = [&] {
+      return IVec3{random.integer(-2, 2), random.integer(-2, 2), random.integer(-2, 2)};
+    };
+    const IVec3 u = step(), v = step(), off = step();
+    const IVec3 normal = test::cross_of(u, v);
+    if (test::dot_of(normal, off) == 0) continue;
+    // p u + q v and r u + s v, of the determinant 1 or -1.
+    int64_t p = 1, q = 0, r = 0, s = 1;
+    int determinant = 1;
+    while (p < 1 << random.integer(14, 21)) {
+      const int64_t times = random.integer(1, 9);
+      std::tie(p, q, r, s) = std::tuple(times * p + r, times * q + s, p, q);
+      determinant = -determinant;
+    }
+    IVec3 from{}, a{}, b{}, above_a{}, above_b{};
+    for (size_t k = 0; k < 3; ++k) {
+      from[k] = random.integer(-99, 99);
+      a[k] = from[k] + p * u[k] + q * v[k];
+      b[k] = from[k] + r * u[k] + s * v[k];
+      above_a[k] = from[k] + 1000 * off[k] + random.integer(-9, 9);
+      above_b[k] = from[k] + 1000 * off[k] + random.integer(-9, 9);
+    }
+    PlaneTable planes;
+    CellGeometry geometry(planes, nullptr);
+    const auto point = [&](const IVec3& at) {
+      std::array<uint32_t, 3> walls{};
+      for (int k = 0; k < 3; ++k) {
+        walls[k] = planes.intern({k == 0, k == 1, k == 2, -at[k]}).index();
+      }
+      return geometry.add_point(walls);
+    };
+    // Counter-clockwise around the normal; or seen from the other side.
+    const IVec3 third{from[0] + u[0], from[1] + u[1], from[2] + u[2]},
+        fourth{from[0] + v[0], from[1] + v[1], from[2] + v[2]};
+    PlaneId support = planes.intern(plane_through(from, third, fourth));
+    bool is_left = determinant > 0;
+    if (random.integer(0, 1)) support = support.flip(), is_left = !is_left;
+    const uint32_t start = point(from);
+    DirectedEdge first{start, point(a), planes.intern(plane_through(from, a, above_a)).index()},
+        second{start, point(b), planes.intern(plane_through(from, b, above_b)).index()};
+    for (DirectedEdge* e : {&first, &second}) {
+      if (random.integer(0, 1)) std::swap(e->from, e->to), is_left = !is_left;
+    }
+    ASSERT_EQ(turn_between(geometry, planes, support, first, second), is_left ? 1 : -1) << i;
+    ++turns[is_left];
+  }
+  for (const int n : turns) EXPECT_GT(n, 500);
 }
 
 }  // namespace

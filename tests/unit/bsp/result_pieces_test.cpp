@@ -326,6 +326,54 @@ TEST(ResultPieces, OfResults) {
   }
 }
 
+/// A staircase seen from above, in quarters of a step, all of one source.
+Operand staircase(test::Random& random) {
+  std::vector<Operand> steps;
+  int64_t x = 1, y = 200;
+  for (int i = 0; i < 9; ++i) {
+    steps.push_back(test::operand_of(test::box_leaf({0, 0, 0}, {x, y, 40})));
+    x += random.integer(1, 12), y -= random.integer(1, 20);
+  }
+  EvaluateStats stats;
+  Operand operand;
+  operand.boundary = *evaluate_boolean(steps, test::flat_expression(BooleanOp::kUnion, 9),
+                                       test::region_of(steps), {}, stats);
+  operand.frame.is_identity = false;
+  for (size_t k = 0; k < 3; ++k) operand.frame.matrix[k][k] = int64_t{1} << 42;
+  return operand;
+}
+
+// Where the walls stand that make a face of a result convex depends on who else is there: on one
+// that has gone by the time the pieces are put together. Thirds of a step are no walls beside it.
+TEST(ResultPieces, OfResultsThatAreMadeConvexAnew) {
+  test::Random random(526);
+  EvaluateStats stats;
+  for (int i = 0; i < 30; ++i) {
+    std::vector<Operand> operands{
+        staircase(random), test::operand_of(test::box_leaf({800, 800, 800}, {900, 900, 900})),
+        octahedron({random.integer(0, 9), random.integer(0, 30), 10}, 90)};
+    operands[1].frame.is_identity = false;
+    operands[1].frame.matrix = {
+        {{int64_t{1} << 40, 0, 0}, {0, int64_t{3} << 38, 0}, {0, 0, int64_t{1} << 40}}};
+    operands[1].first_source = 100, operands[2].first_source = 101;
+    const GridBox region{{-200, -200, -200}, {2000, 2000, 2000}};
+    auto version = evaluate_pieces({operands[0], operands[1]},
+                                   test::flat_expression(BooleanOp::kUnion, 2), region, {}, stats);
+    ASSERT_TRUE(version && *version);
+    version = change_pieces(**version, {operands[2]},
+                            test::flat_expression(BooleanOp::kIntersection, 2), region, {}, stats);
+    ASSERT_TRUE(version && *version);
+    const auto assembled = assemble_pieces(**version, false);
+    ASSERT_TRUE(assembled) << i;
+    const auto once = evaluate_boolean(
+        operands,
+        continued(test::flat_expression(BooleanOp::kUnion, 2), BooleanOp::kIntersection, 2, 1),
+        region, {}, stats);
+    ASSERT_TRUE(once);
+    ASSERT_EQ(test::first_difference(**assembled, **once), "") << i;
+  }
+}
+
 // A job has the pieces near the others only, but the box of all; and what is in the midst of a
 // result is told from all pieces around.
 TEST(ResultPieces, AreOfOneBox) {

@@ -374,5 +374,57 @@ TEST(UntouchedFaces, AreNoneOfOtherOperands) {
   EXPECT_EQ(count({result, test::operand_of(good)}), good->face_count());
 }
 
+// Two tetrahedra with a corner in common, which any number may name: all their other faces are
+// apart.
+TEST(UntouchedFaces, AreNoneAtACornerWithTwoFans) {
+  const std::vector<Loop> one = test::hull_loops({{0, 0, 0}, {9, 1, 2}, {2, 9, 1}, {1, 2, 9}}),
+                          other =
+                              test::hull_loops({{0, 0, 0}, {-9, 1, -2}, {-2, 9, 1}, {-1, 2, -9}});
+  for (uint32_t turn = 0; turn < 7; ++turn) {
+    std::vector<Loop> loops = one;
+    loops.insert(loops.end(), other.begin(), other.end());
+    auto leaf = std::make_shared<LeafGeometry>(*leaf_of(loops, true));
+    ASSERT_EQ(leaf->vertices.size(), 7u);
+    ASSERT_FALSE(leaf->opposite.empty());
+    std::rotate(leaf->vertices.begin(), leaf->vertices.begin() + turn, leaf->vertices.end());
+    for (uint32_t& v : leaf->corners) v = (v + 7 - turn) % 7;
+    const std::vector<Operand> operands{test::operand_of(leaf)};
+    const Job job(operands);
+    std::vector<WholePolygon> whole;
+    for (uint32_t p = 0; p < 8; ++p) whole.push_back({p, false, false});
+    const auto parts = take_untouched(job, operands, whole);
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_EQ(parts[0].faces.size(), 2u) << turn;
+    for (const uint32_t f : parts[0].faces) {
+      for (const uint32_t v : parts[0].triangle(f)) {
+        EXPECT_NE(leaf->vertices[v], (IVec3{0, 0, 0})) << turn;
+      }
+    }
+  }
+}
+
+// A square of a facet that is kept may leave out its corners, so that nothing is apart there: also
+// where what is beside it became of different things, square and triangles in any order.
+TEST(UntouchedFaces, AreNoneBesideFacesThatMayHaveNoCorners) {
+  const std::vector<Loop> pyramid{{{0, 0, 0}, {0, 9, 0}, {9, 9, 0}, {9, 0, 0}},
+                                  {{0, 0, 0}, {9, 0, 0}, {4, 5, 7}},
+                                  {{9, 0, 0}, {9, 9, 0}, {4, 5, 7}},
+                                  {{9, 9, 0}, {0, 9, 0}, {4, 5, 7}},
+                                  {{0, 9, 0}, {0, 0, 0}, {4, 5, 7}}};
+  for (size_t turn = 0; turn < 5; ++turn) {
+    std::vector<Loop> loops = pyramid;
+    std::rotate(loops.begin(), loops.begin() + static_cast<long>(turn), loops.end());
+    for (uint32_t kept = 0; kept < 32; ++kept) {
+      const std::vector<Operand> operands{test::operand_of(leaf_of(loops, true))};
+      const Job job(operands);
+      std::vector<WholePolygon> whole;
+      for (uint32_t p = 0; p < 5; ++p) {
+        if (kept >> p & 1) whole.push_back({p, false, false});
+      }
+      EXPECT_TRUE(take_untouched(job, operands, whole).empty()) << turn << " kept " << kept;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace csgrun

@@ -312,6 +312,9 @@ TEST(FixedInt, MultipliesAddsAndShiftsAsGmpDoes) {
     const Int<4> u = Int<4>::from(a), v = Int<4>::from(b);
     ASSERT_EQ(to_gmp(u + v), x + y);
     ASSERT_EQ(to_gmp(u - v), x - y);
+    Int<4> updated = u;
+    ASSERT_EQ(to_gmp(updated += v), x + y);
+    ASSERT_EQ(to_gmp(updated -= v), x);
     ASSERT_EQ(compare(u, v), x < y ? -1 : x > y ? 1 : 0);
     const int shift = static_cast<int>(random.bits() % 256);
     ASSERT_EQ(to_gmp(u.shifted_left(shift)), wrap(x << shift));
