@@ -121,6 +121,19 @@ int refuse_call(lua_State* L) {
   const std::string kind = kind_name(L, 1);
   if (kind == MatrixValue::kName)
     throw ScriptError("a matrix stands before what it moves: M * part, or part:translate(...)");
+  // local cube = cube(5), and then cube(1).
+  lua_Debug call{};
+  if (lua_getstack(L, 0, &call) != 0 && lua_getinfo(L, "n", &call) != 0 && call.name != nullptr) {
+    const std::string name = call.name;
+    lua_getglobal(L, "csg");
+    if (lua_istable(L, -1)) {
+      lua_pushstring(L, name.c_str());
+      if (lua_rawget(L, -2) == LUA_TFUNCTION) {
+        throw ScriptError("the variable '" + name +
+                          "' hides the function of this name, which is csg." + name + " still");
+      }
+    }
+  }
   throw ScriptError("a " + kind +
                     " is no function: operands stand in the parentheses, "
                     "difference(a, b), or between them, a - b");

@@ -62,6 +62,17 @@ bool is_wrapped_list(lua_State* L, int index, const FunctionSpec& spec) {
   return wrapped;
 }
 
+/// Whether the value is the table csg.
+bool is_language(lua_State* L, int index) {
+  if (!lua_istable(L, index)) return false;
+  lua_pushglobaltable(L);
+  lua_pushliteral(L, "csg");
+  lua_rawget(L, -2);
+  const bool is_same = lua_rawequal(L, -1, index) != 0;
+  lua_pop(L, 2);
+  return is_same;
+}
+
 }  // namespace
 
 std::span<const Option> facet_options() { return kFacetOptions; }
@@ -69,6 +80,8 @@ std::span<const Option> facet_options() { return kFacetOptions; }
 Arguments::Arguments(lua_State* L, const FunctionSpec& spec, int first) : L_(L), spec_(spec) {
   luaL_checkstack(L, 32, "arguments");
   int last = lua_gettop(L);
+  if (is_language(L, first))
+    fail(fmt::format("is called with a dot: csg.{}(...), not csg:{}(...)", spec.name, spec.name));
   // f{...}: one table with names in it, or f(..., {names}).
   if (last >= first && lua_istable(L, last) && has_string_keys(L, last)) {
     if (last > first) read_positional(first, last - 1);
@@ -195,7 +208,6 @@ void Arguments::read_list_part(int table, lua_Integer length) {
 
 void Arguments::read_table(int table) {
   const auto length = static_cast<lua_Integer>(lua_rawlen(L_, table));
-  if (length > 0) read_list_part(table, length);
   // In the order of the table of options, so that of two mistakes always the same one is told.
   lua_pushnil(L_);
   std::string unknown;
@@ -217,6 +229,7 @@ void Arguments::read_table(int table) {
     }
   }
   if (!unknown.empty()) fail(unknown_option(unknown));
+  if (length > 0) read_list_part(table, length);
   const auto place = [&](const Option* option) {
     for (size_t i = 0; i < spec_.options.size(); ++i) {
       if (&spec_.options[i] == option) return i;

@@ -61,6 +61,11 @@ struct Option {
   const char* alias = nullptr;
 };
 
+/// OpenSCAD's number for its preview. Scripts that come from there have it, and it changes nothing.
+inline constexpr Option kConvexityOption{"convexity", ArgumentType::kInteger,
+                                         "",          "ignored: OpenSCAD needs it for its preview",
+                                         false,       Range::kNotNegative};
+
 struct FunctionSpec {
   const char* name;
   const char* doc;

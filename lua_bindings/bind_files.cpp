@@ -1,5 +1,6 @@
 // read_text, read_json, read_csv, load_csg: files below the model's folder, as values.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "lua_bindings/api.h"
 #include "lua_bindings/call_site.h"
 #include "lua_bindings/guard.h"
+#include "lua_bindings/json_fault.h"
 #include "lua_bindings/session.h"
 
 namespace csgrun {
@@ -117,11 +119,7 @@ int read_json(lua_State* L) {
       return true;
     });
   } catch (const Json::parse_error& error) {
-    const auto line = 1 + std::count(file.bytes.begin(),
-                                     file.bytes.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                                              error.byte, file.bytes.size())),
-                                     '\n');
-    fail_in(kReadJson, fmt::format("{}:{}: malformed JSON", file.display, line));
+    fail_in(kReadJson, file.display + ":" + json_fault(file.bytes, error));
   } catch (const Json::out_of_range&) {
     fail_in(kReadJson, file.display + ": a number is beyond the range of doubles");
   }
@@ -204,13 +202,18 @@ class CsvReader {
   std::vector<bool> quoted_;
 };
 
-void push_field(lua_State* L, const std::string& field, bool as_number) {
+/// `place`: the file and line, for messages.
+void push_field(lua_State* L, const std::string& field, bool as_number, const std::string& place) {
   // Only decimals: "0x10" and "nan" are words.
   const bool looks_like_number =
       as_number && !field.empty() &&
       field.find_first_not_of("0123456789+-.eE \t") == std::string::npos &&
       field.find_first_of("0123456789") != std::string::npos;
-  if (looks_like_number && lua_stringtonumber(L, field.c_str()) == field.size() + 1) return;
+  if (looks_like_number && lua_stringtonumber(L, field.c_str()) == field.size() + 1) {
+    if (!std::isfinite(lua_tonumber(L, -1)))
+      fail_in(kReadCsv, place + ": " + field + " is beyond the range of doubles");
+    return;
+  }
   lua_pushlstring(L, field.data(), field.size());
 }
 
@@ -226,6 +229,12 @@ int read_csv(lua_State* L) {
   if (arguments.boolean("header", false)) {
     if (reader.at_end()) fail_in(kReadCsv, file.display + ": there is no line with names");
     names = reader.row(file.display);
+    for (size_t i = 0; i < names.size(); ++i) {
+      if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+          names.begin() + static_cast<std::ptrdiff_t>(i))
+        fail_in(kReadCsv,
+                fmt::format("{}:1: two columns have the name '{}'", file.display, names[i]));
+    }
   }
   lua_newtable(L);
   lua_Integer count = 0;
@@ -237,14 +246,15 @@ int read_csv(lua_State* L) {
       fail_in(kReadCsv, fmt::format("{}:{}: {} fields under {} names", file.display, line,
                                     fields.size(), names.size()));
     }
+    const std::string place = fmt::format("{}:{}", file.display, line);
     lua_createtable(L, static_cast<int>(fields.size()), 0);
     for (size_t i = 0; i < fields.size(); ++i) {
       if (names.empty()) {
-        push_field(L, fields[i], as_numbers && !reader.was_quoted(i));
+        push_field(L, fields[i], as_numbers && !reader.was_quoted(i), place);
         lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
       } else {
         lua_pushlstring(L, names[i].data(), names[i].size());
-        push_field(L, fields[i], as_numbers && !reader.was_quoted(i));
+        push_field(L, fields[i], as_numbers && !reader.was_quoted(i), place);
         lua_rawset(L, -3);
       }
     }

@@ -25,6 +25,7 @@ constexpr Option kSurfaceOptions[] = {
     {"invert", T::kBoolean, "false", "of a PNG: what is dark is high", false},
     {"heights", T::kValue, "",
      "instead of a file: a list of rows, each a list of numbers; the first row is at y = 0", false},
+    kConvexityOption,
 };
 constexpr FunctionSpec kSurface{
     "surface",

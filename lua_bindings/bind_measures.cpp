@@ -32,21 +32,25 @@ const Shape2D& bare_shape(lua_State* L, const FunctionSpec& spec) {
 
 constexpr FunctionSpec kBbox{
     "bbox",
-    "The bounding box: {min = {x, y, z}, max = {x, y, z}}; two numbers each for a shape.",
+    "The bounding box: its corners .min and .max, vectors as of vec; two numbers each for a shape.",
     {},
     false,
-    "part:bbox().max[3]"};
+    "part:bbox().max.z"};
 constexpr FunctionSpec kSize{
-    "size", "The lengths of the bounding box.", {}, false, "part:size()[1]"};
+    "size",
+    "The lengths of the bounding box, a vector: .x, .y, .z or [1], [2], [3].",
+    {},
+    false,
+    "part:size().x"};
 constexpr FunctionSpec kVolume{
     "volume", "The volume in mm^3, rounded once from the exact value.", {}, false, "part:volume()"};
 constexpr FunctionSpec kArea{
     "area", "The area of the surface in mm^2; of a shape its own area.", {}, false, "part:area()"};
 constexpr FunctionSpec kCentroid{"centroid",
-                                 "The centre of mass, {x, y, z}; of a shape {x, y}.",
+                                 "The centre of mass, a vector {x, y, z}; of a shape {x, y}.",
                                  {},
                                  false,
-                                 "part:centroid()[1]"};
+                                 "part:centroid().x"};
 constexpr FunctionSpec kComponents{
     "components",
     "The number of connected surfaces; of a shape that of connected pieces.",
@@ -90,7 +94,7 @@ int solid_bbox(lua_State* L) {
       [](lua_State* state, const void* box, int i) {
         const glm::dvec3& p =
             (*static_cast<const std::array<glm::dvec3, 2>*>(box))[static_cast<size_t>(i)];
-        push_list(state, {p.x, p.y, p.z});
+        push_point(state, p);
       },
       &solid.bbox);
   return 1;
@@ -105,7 +109,7 @@ int shape_bbox(lua_State* L) {
       [](lua_State* state, const void* box, int i) {
         const glm::dvec2& p =
             (*static_cast<const std::array<glm::dvec2, 2>*>(box))[static_cast<size_t>(i)];
-        push_list(state, {p.x, p.y});
+        push_point(state, p);
       },
       &bounds);
   return 1;
@@ -115,7 +119,7 @@ int solid_size(lua_State* L) {
   const Extent solid = extent_of(L, kSize);
   fail_if_empty(solid.empty, kSize);
   const glm::dvec3 size = solid.bbox[1] - solid.bbox[0];
-  push_list(L, {size.x, size.y, size.z});
+  push_point(L, size);
   return 1;
 }
 
@@ -123,7 +127,7 @@ int shape_size(lua_State* L) {
   const Shape2D& shape = bare_shape(L, kSize);
   fail_if_empty(shape.empty(), kSize);
   const auto bounds = shape.bounds();
-  push_list(L, {bounds[1].x - bounds[0].x, bounds[1].y - bounds[0].y});
+  push_point(L, bounds[1] - bounds[0]);
   return 1;
 }
 
@@ -145,8 +149,7 @@ int shape_area(lua_State* L) {
 int solid_centroid(lua_State* L) {
   const Solid& solid = evaluated(L, kCentroid);
   fail_if_empty(solid.empty(), kCentroid);
-  const glm::dvec3& c = solid.measures.centroid;
-  push_list(L, {c.x, c.y, c.z});
+  push_point(L, solid.measures.centroid);
   return 1;
 }
 
@@ -165,7 +168,7 @@ int shape_centroid(lua_State* L) {
       moment += cross * (a + b);
     }
   }
-  push_list(L, {origin.x + moment.x / (3 * twice_area), origin.y + moment.y / (3 * twice_area)});
+  push_point(L, origin + moment / (3 * twice_area));
   return 1;
 }
 

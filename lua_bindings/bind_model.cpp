@@ -48,6 +48,7 @@ constexpr Option kImportOptions[] = {
     {"scale", T::kNumber, "1", "of a DXF: a factor", false, Range::kPositive},
     {"center", T::kBoolean, "false", "of a drawing: the middle of its box becomes the origin",
      false},
+    kConvexityOption,
 };
 constexpr FunctionSpec kImport{
     "import",

@@ -56,6 +56,16 @@ std::vector<ParameterValue> read_choices(lua_State* L, const Arguments& argument
   return choices;
 }
 
+/// In what two of one name differ, so that one value could not be meant for both; null if in
+/// nothing.
+const char* difference(const Parameter& a, const Parameter& b) {
+  if (a.fallback.index() != b.fallback.index()) return "types";
+  if (a.fallback != b.fallback) return "defaults";
+  if (a.min != b.min || a.max != b.max || a.step != b.step) return "ranges";
+  if (a.choices != b.choices) return "lists of choices";
+  return nullptr;
+}
+
 /// Pushes the value of a parameter whose default is at index `fallback`.
 void push_parameter(lua_State* L, const FunctionSpec& spec, Parameter parameter, int fallback) {
   if (const std::string problem = check_parameter(parameter, parameter.fallback);
@@ -63,10 +73,14 @@ void push_parameter(lua_State* L, const FunctionSpec& spec, Parameter parameter,
     fail_in(spec, "the default of '" + parameter.name + "' " + problem);
   }
   Session& session = session_of(L);
-  const bool is_known =
-      std::any_of(session.parameters.begin(), session.parameters.end(),
-                  [&](const Parameter& known) { return known.name == parameter.name; });
-  if (!is_known) session.parameters.push_back(parameter);
+  const auto known =
+      std::find_if(session.parameters.begin(), session.parameters.end(),
+                   [&](const Parameter& other) { return other.name == parameter.name; });
+  if (known == session.parameters.end()) {
+    session.parameters.push_back(parameter);
+  } else if (const char* what = difference(*known, parameter); what != nullptr) {
+    fail_in(spec, fmt::format("'{}' is asked for twice, with two {}", parameter.name, what));
+  }
   const Definition* definition = nullptr;  // the last of a name counts
   for (Definition& candidate : session.definitions) {
     if (candidate.name != parameter.name) continue;

@@ -28,6 +28,7 @@ V made_or_fail(Session& session, Result<V> result) {
 
 constexpr Option kProjectionOptions[] = {
     {"cut", T::kBoolean, "false", "the section at z = 0 instead of the shadow", true},
+    kConvexityOption,
 };
 constexpr FunctionSpec kProjection{"projection",
                                    "The shadow of a solid on the plane z = 0, a 2D shape.",

@@ -97,6 +97,7 @@ constexpr Option kPolygonOptions[] = {
     {"points", T::kPoints2, "", "the corners; the first is point 0, in paths and messages", true},
     {"paths", T::kIndexLists, "one outline of all points",
      "outlines and holes, as indices of points from 0", true},
+    kConvexityOption,
 };
 constexpr FunctionSpec kPolygon{"polygon",
                                 "A shape of its own outlines, filled by the even-odd rule.",
@@ -124,6 +125,7 @@ constexpr Option kLinearExtrudeOptions[] = {
     {"slices", T::kInteger, "from the facets", "number of layers", false, Range::kPositive},
     {"segments", T::kInteger, "from the facets", "number of pieces of the outline; 0: never split",
      false, Range::kNotNegative},
+    kConvexityOption,
 };
 constexpr FunctionSpec kLinearExtrude{"linear_extrude",
                                       "A solid: the shape moved along Z (or v).",
@@ -167,6 +169,7 @@ constexpr Option kRotateExtrudeOptions[] = {
     {"angle", T::kNumber, "360", "how far to turn, counter-clockwise seen from above, degrees",
      true, Range::kAny, "a"},
     {"start", T::kNumber, "0; 180 when no angle is given", "where to start, degrees from X", false},
+    kConvexityOption,
 };
 constexpr FunctionSpec kRotateExtrude{
     "rotate_extrude",

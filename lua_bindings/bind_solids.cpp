@@ -68,10 +68,17 @@ constexpr Option kCylinderOptions[] = {
      Range::kNotNegative},
 };
 constexpr FunctionSpec kCylinder{
-    "cylinder", "A cylinder along Z; cylinder(h, r1, r2) is a cone, cylinder(h, r) is not.",
+    "cylinder",
+    "A cylinder along Z; cylinder(h, r1, r2) is a cone, cylinder(h, r) is not; "
+    "cylinder(h, r, true) is centred.",
     kCylinderOptions, true, "cylinder{h = 20, r = 4, center = true, fn = 64}"};
 
 int cylinder(lua_State* L) {
+  // cylinder(h, r, center), as LuaCAD has it: the radius of the top is that of the bottom.
+  if (lua_gettop(L) >= 3 && lua_isnumber(L, 2) && lua_isboolean(L, 3)) {
+    lua_pushvalue(L, 2);
+    lua_insert(L, 3);
+  }
   const Arguments arguments(L, kCylinder, 1);
   const double both = radius(arguments, kCylinder, "r", "d", 1);
   double r1 = radius(arguments, kCylinder, "r1", "d1", both);
@@ -97,6 +104,7 @@ constexpr Option kPolyhedronOptions[] = {
     {"faces", T::kIndexLists, "",
      "corners of each face, clockwise seen from outside; the first is face 0 in messages", true},
     {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
+    kConvexityOption,
 };
 constexpr FunctionSpec kPolyhedron{"polyhedron",
                                    "A solid of its own corners and faces; it must be closed.",

@@ -121,6 +121,7 @@ constexpr Option kRoofOptions[] = {
      "\"voronoi\": as high as the outline is far, with cones around corners that point inwards; or "
      "\"straight\": planes only",
      true},
+    kConvexityOption,
 };
 constexpr FunctionSpec kRoof{
     "roof",

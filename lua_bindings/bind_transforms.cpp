@@ -153,16 +153,35 @@ Affine make_turn(const Arguments& arguments) {
   return axis_rotation(Axis, arguments.number("a", 0));
 }
 
+/// translate({1, 2, 3}, part), the order of JSCAD: the part goes to the front.
+void take_subject_from_the_end(lua_State* L) {
+  const int top = lua_gettop(L);
+  const auto is_subject = [&](int index) {
+    return to_solid(L, index) != nullptr || to_shape(L, index) != nullptr;
+  };
+  if (top < 2 || !is_subject(top)) return;
+  for (int index = 1; index < top; ++index) {
+    if (is_subject(index) || to_matrix(L, index) != nullptr) return;
+  }
+  lua_insert(L, 1);
+}
+
 template <const FunctionSpec& Spec, Affine (*Make)(const Arguments&), bool kMethod>
 int transform(lua_State* L) {
+  if (!kMethod) take_subject_from_the_end(L);
   if (const SolidValue* solid = to_solid(L, 1)) {
     const Arguments arguments(L, Spec, 2);
     push_solid(L, Node::transformed(Make(arguments), solid->node, session_of(L).source_ref(L)));
     keep_marks(L, 1);
   } else if (const ShapeValue* shape = to_shape(L, 1)) {
     const Arguments arguments(L, Spec, 2);
-    push_shape(L, value_or_fail(Spec, shape->shape.transformed(Make(arguments))),
-               shape->appearance);
+    const Affine map = Make(arguments);
+    if (map.m[2][0] != 0 || map.m[2][1] != 0 || map.m[2][3] != 0) {
+      session_of(L).warn(L, fmt::format("{}: a 2D shape stays in its plane, so what moves or turns "
+                                        "it out has no effect; extrude it first",
+                                        Spec.name));
+    }
+    push_shape(L, value_or_fail(Spec, shape->shape.transformed(map)), shape->appearance);
     keep_marks(L, 1);
   } else if (const MatrixValue* matrix = to_matrix(L, 1);
              matrix != nullptr && &Spec != &kMultmatrix) {

@@ -19,12 +19,17 @@ namespace {
 
 using T = ArgumentType;
 
-constexpr const char* kVectorName = "vector";
 constexpr lua_Integer kMostRandomNumbers = 10'000'000;
 
-void push_vector(lua_State* L, const glm::dvec3& v) {
-  push_list(L, {v.x, v.y, v.z});
-  luaL_setmetatable(L, kVectorName);
+/// Of vectors in a plane the result is one, too: `count` says how many numbers they have at most.
+void push_vector(lua_State* L, const glm::dvec3& v, lua_Integer count = 3) {
+  if (count == 2) return push_point(L, glm::dvec2(v.x, v.y));
+  push_point(L, v);
+}
+
+/// How many numbers the vector at `index` has.
+lua_Integer size_at(lua_State* L, int index) {
+  return static_cast<lua_Integer>(lua_rawlen(L, index));
 }
 
 double dot(const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -280,7 +285,8 @@ int vector_length(lua_State* L) {
 int vector_unit(lua_State* L) {
   const glm::dvec3 v = read_vector(L, 1, "vector:unit");
   const double length = std::sqrt(dot(v, v));
-  push_vector(L, length > 0 ? glm::dvec3(v.x / length, v.y / length, v.z / length) : v);
+  push_vector(L, length > 0 ? glm::dvec3(v.x / length, v.y / length, v.z / length) : v,
+              size_at(L, 1));
   return 1;
 }
 
@@ -321,14 +327,15 @@ int vector_rot(lua_State* L) {
 template <int Sign>
 int vector_sum(lua_State* L) {
   const char* name = Sign > 0 ? "'+'" : "'-'";
-  push_vector(L, read_vector(L, 1, name) + static_cast<double>(Sign) * read_vector(L, 2, name));
+  const glm::dvec3 a = read_vector(L, 1, name), b = read_vector(L, 2, name);
+  push_vector(L, a + static_cast<double>(Sign) * b, std::max(size_at(L, 1), size_at(L, 2)));
   return 1;
 }
 
 int vector_times(lua_State* L) {
   if (lua_type(L, 1) == LUA_TNUMBER) lua_rotate(L, 1, 1);  // factor * vector
   if (lua_type(L, 2) == LUA_TNUMBER) {
-    push_vector(L, lua_tonumber(L, 2) * read_vector(L, 1, "'*'"));
+    push_vector(L, lua_tonumber(L, 2) * read_vector(L, 1, "'*'"), size_at(L, 1));
   } else {
     lua_pushnumber(L, dot(read_vector(L, 1, "'*'"), read_vector(L, 2, "'*'")));
   }
@@ -341,13 +348,13 @@ int vector_divided(lua_State* L) {
                       describe_value(L, 2));
   const glm::dvec3 v = read_vector(L, 1, "'/'");
   const double x = lua_tonumber(L, 2);
-  push_vector(L, {v.x / x, v.y / x, v.z / x});
+  push_vector(L, {v.x / x, v.y / x, v.z / x}, size_at(L, 1));
   return 1;
 }
 
 int vector_minus(lua_State* L) {
   const glm::dvec3 v = read_vector(L, 1, "'-'");
-  push_vector(L, {0 - v.x, 0 - v.y, 0 - v.z});
+  push_vector(L, {0 - v.x, 0 - v.y, 0 - v.z}, size_at(L, 1));
   return 1;
 }
 
@@ -358,7 +365,9 @@ int vector_equal(lua_State* L) {
 
 int vector_text(lua_State* L) {
   const glm::dvec3 v = read_vector(L, 1, "tostring");
-  const std::string text = fmt::format("vec({:.14g}, {:.14g}, {:.14g})", v.x, v.y, v.z);
+  const std::string text = size_at(L, 1) == 2
+                               ? fmt::format("vec({:.14g}, {:.14g})", v.x, v.y)
+                               : fmt::format("vec({:.14g}, {:.14g}, {:.14g})", v.x, v.y, v.z);
   lua_pushlstring(L, text.data(), text.size());
   return 1;
 }

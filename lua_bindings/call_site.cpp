@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "lua_bindings/budget.h"
+#include "lua_bindings/openscad_hints.h"
 #include "lua_bindings/session.h"
 #include "lua_bindings/shipped_modules.h"
 #include "lua_bindings/text.h"
@@ -132,10 +133,46 @@ std::string with_whole_path(const std::string& message, const std::string& path)
   return message.rfind(cut + ":", 0) == 0 ? path + message.substr(cut.size()) : message;
 }
 
+namespace {
+
+/// How long "FILE:line: " at the begin of a message is; 0 when it begins otherwise.
+size_t length_of_place(std::string_view message) {
+  message = message.substr(0, message.find('\n'));
+  for (size_t colon = message.find(':'); colon != std::string_view::npos;
+       colon = message.find(':', colon + 1)) {
+    size_t end = colon + 1;
+    while (end < message.size() && message[end] >= '0' && message[end] <= '9') ++end;
+    if (end == colon + 1 || !message.substr(end).starts_with(": ")) continue;
+    const std::string_view file = message.substr(0, colon);
+    const bool is_file = file.ends_with(".lua") || file.ends_with("stdin") ||
+                         file.ends_with(".csg") || file.starts_with(kShippedPlace) ||
+                         file.starts_with("[string ");
+    return is_file ? end + 2 : 0;
+  }
+  return 0;
+}
+
+/// A message begins with its place once: error(text, 0) gives none, and what is raised in
+/// coroutine.wrap has that of the resume before its own.
+std::string with_place(lua_State* L, std::string message) {
+  const size_t first = length_of_place(message);
+  if (first == 0) {
+    const std::string place = place_of_call(L);
+    return place.empty() ? message : place + ": " + message;
+  }
+  const std::string rest = message.substr(first);
+  const size_t second = length_of_place(rest);
+  const bool is_script = second != 0 && rest.substr(0, second).find(".csg:") == std::string::npos;
+  return is_script ? rest : message;
+}
+
+}  // namespace
+
 int add_traceback(lua_State* L) {
   std::string message;
   if (lua_type(L, 1) == LUA_TSTRING || lua_type(L, 1) == LUA_TNUMBER) {
-    message = with_whole_path_of_stack(L, lua_tostring(L, 1));
+    message = with_place(L, with_whole_path_of_stack(L, lua_tostring(L, 1)));
+    message += run_time_hint(message);
   } else if (!session_of(L).budget().out_of_time() &&
              luaL_getmetafield(L, 1, "__tostring") != LUA_TNIL) {
     lua_pop(L, 1);

@@ -174,9 +174,10 @@ std::vector<std::string> fill_templates(const std::string& templates, const std:
 Files::Opened Files::open_module(const std::string& name, const std::string& search_path) const {
   const auto is_name_character = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-' || c == '.';
+           c == '-' || c == '.' || c == '/';
   };
   const bool plain = !name.empty() && name.front() != '.' && name.back() != '.' &&
+                     name.front() != '/' && name.back() != '/' &&
                      name.find("..") == std::string::npos &&
                      std::all_of(name.begin(), name.end(), is_name_character);
   if (!plain) {

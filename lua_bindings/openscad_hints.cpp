@@ -23,10 +23,37 @@ bool has_list_in_brackets(std::string_view line) {
   return false;
 }
 
+/// a += 1, a++.
+bool is_assignment_by(std::string_view line) {
+  for (const char* form : {"+=", "-=", "*=", "/=", "++"}) {
+    if (has(line, form)) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+std::string run_time_hint(std::string_view message) {
+  if (has(message, "attempt to call a table value") && has(message, "for iterator"))
+    return "; the entries of a list are gone through by: for _, x in ipairs(list) do";
+  if (has(message, "attempt to index a boolean value"))
+    return "; a module that ends without return gives true";
+  return {};
+}
 
 std::string syntax_hint(std::string_view line, std::string_view message) {
   line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  if (line.starts_with("%") || line.starts_with("!") || line.starts_with("#"))
+    return "; OpenSCAD's modifiers are not part of Lua: return the part that is to be seen alone";
+  if (line.starts_with("for (") || line.starts_with("for("))
+    return "; a loop is: for i = 0, 3 do ... end";
+  if (line.starts_with("if ") && has(message, "'then' expected") && has(line, "{"))
+    return "; a condition is: if a then ... else ... end";
+  if (line.starts_with("function ") && has(message, "near '='"))
+    return "; a function is: function f(x) return x * 2 end";
+  if (has(message, "'?'")) return "; a choice between two values is: condition and a or b";
+  if (is_assignment_by(line) && (has(message, "syntax error near") || has(message, "unexpected")))
+    return "; it is written out: a = a + 1";
   if (line.starts_with("module "))
     return "; a module is a function that returns a solid: local function name(...) ... end";
   if (line.starts_with("include <") || line.starts_with("use <"))

@@ -10,6 +10,9 @@ namespace csgrun {
 /// empty when the line has none of it.
 std::string syntax_hint(std::string_view line, std::string_view message);
 
+/// What a message of Lua's own about a mistake of many means, for the end of it; empty for others.
+std::string run_time_hint(std::string_view message);
+
 /// What stands for one of OpenSCAD's functions that there is under another name; null for others.
 const char* name_hint(std::string_view name);
 

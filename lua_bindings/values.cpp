@@ -183,6 +183,12 @@ void push_list(lua_State* L, std::initializer_list<double> numbers) {
 
 void push_point(lua_State* L, const glm::dvec3& point) {
   push_list(L, {point.x, point.y, point.z});
+  luaL_setmetatable(L, kVectorName);
+}
+
+void push_point(lua_State* L, const glm::dvec2& point) {
+  push_list(L, {point.x, point.y});
+  luaL_setmetatable(L, kVectorName);
 }
 
 }  // namespace csgrun

@@ -78,7 +78,10 @@ NodePtr counted_leaf(lua_State* L, PolygonMesh mesh);
 
 /// A list of numbers {a, b, c}.
 void push_list(lua_State* L, std::initializer_list<double> numbers);
-/// A list of its coordinates.
+/// The name of the metatable of vectors, as vec() makes them.
+constexpr const char* kVectorName = "vector";
+/// A vector: a list of its coordinates, with .x .y .z and operators. In a plane it has two.
 void push_point(lua_State* L, const glm::dvec3& point);
+void push_point(lua_State* L, const glm::dvec2& point);
 
 }  // namespace csgrun

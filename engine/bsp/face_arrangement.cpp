@@ -1,6 +1,7 @@
 #include "engine/bsp/face_arrangement.h"
 
 #include <algorithm>
+#include <cassert>
 #include <tuple>
 
 namespace csgrun {
@@ -524,6 +525,7 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
     };
     const int a = coplanar_side(*p);
     if (count == 1) {  // a face of a convex operand, of which nothing else is told: see build()
+      assert(a != 0 && job_.is_convex(o));
       const bool same = job_.polygons()[line.sheet].support == polygon_->support;
       facts_.push_back({loop, {o, a > 0 && !same, a > 0 && same}, true});
       continue;
@@ -533,6 +535,7 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
     // are on either side and face the same way. Of two others the first one is not coplanar.
     const Line& other = lines_[second->line];
     const int b = coplanar_side(*second);
+    assert(other.kind != Kind::kThrough && (a == 0 || a == -b));
     if (a > 0 || b > 0) {
       const bool same = job_.polygons()[other.sheet].support == polygon_->support;
       facts_.push_back({loop, {o, !same, same}});

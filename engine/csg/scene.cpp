@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <string>
@@ -75,6 +76,7 @@ class Builder {
  private:
   Status place_leaves();
   Status choose(const GridStep& step, const GridStep& least);
+  void warn_of_far_parts(const SceneReach& reach) const;
   Result<SceneNode> make_leaf(uint32_t index);
   Status resolve_leaf(uint32_t index, const QuantisedLeaf& leaf, SceneNode& result);
   Status make_nodes();
@@ -177,11 +179,46 @@ Status Builder::place_leaves() {
   return std::monostate{};
 }
 
+/// A small part that lies far away is on a grid for the distance, not for the part: when a step is
+/// more than 1e-4 of its size, its sides are visibly wrong, and it may be gone. Told of the first.
+void Builder::warn_of_far_parts(const SceneReach& reach) const {
+  constexpr double kCoarse = 1e-4;
+  const double step = scene_.step.millimetres();
+  const auto inside = [](const MmBox& a, const MmBox& b) {
+    bool is_inside = true;
+    for (int i = 0; i < 3; ++i) is_inside &= a.lo[i] >= b.lo[i] && a.hi[i] <= b.hi[i];
+    return is_inside;
+  };
+  const auto text = [](double x) {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.4g", x);
+    return std::string(digits);
+  };
+  for (const MmBox& box : reach.of_roots) {
+    double extent = 0, far = 0;
+    for (int i = 0; i < 3; ++i) {
+      extent = std::max(extent, box.hi[i] - box.lo[i]);
+      far = std::max({far, std::fabs(box.lo[i]), std::fabs(box.hi[i])});
+    }
+    if (!(extent > 0) || step <= kCoarse * extent) continue;
+    const auto leaf = std::find_if(order_.begin(), order_.end(), [&](uint32_t index) {
+      return normal(index).kind == NormalNode::Kind::kLeaf &&
+             inside(step_leaves_[index].world, box);
+    });
+    context_.warnings.add(leaf == order_.end() ? SourceRef{} : normal(*leaf).leaf->where(),
+                          "a part of " + text(extent) + " mm lies too far away for its size: " +
+                              text(far) + " mm from the origin points are rounded to " +
+                              text(step) + " mm; model it near the origin");
+    return;
+  }
+}
+
 Status Builder::choose(const GridStep& step, const GridStep& least) {
   const SceneReach reach = scene_reach(context_.form, order_, roots_, step_leaves_);
   if (step.automatic()) {
     scene_.step = choose_step(reach.reach, reach.far);
     if (!least.automatic() && least.millimetres() > scene_.step.millimetres()) scene_.step = least;
+    warn_of_far_parts(reach);
     return std::monostate{};
   }
   scene_.step = step;

@@ -81,7 +81,10 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
   }
   SceneReach result;
   std::vector<uint8_t> whole(nodes.size(), 0);
-  for (uint32_t root : roots) reach[root] = box[root];
+  for (uint32_t root : roots) {
+    reach[root] = box[root];
+    result.of_roots.push_back(box[root]);
+  }
   for (size_t i = order.size(); i-- > 0;) {
     const uint32_t index = order[i];
     const NormalNode& node = nodes[index];

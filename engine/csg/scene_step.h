@@ -29,6 +29,7 @@ struct StepLeaf {
 /// far leaves have no room for a frame (engine/exact/widths.h).
 struct SceneReach {
   double reach = 0, far = 0;
+  std::vector<MmBox> of_roots;  ///< around the result of each root
 };
 
 /// Interval bounds over the normal form: the box of a union is the hull of the boxes, of a

@@ -20,6 +20,7 @@
 #include "lua_bindings/cli/info.h"
 #include "lua_bindings/cli/parameter_file.h"
 #include "lua_bindings/model_parts.h"
+#include "lua_bindings/nearest.h"
 
 namespace csgrun {
 namespace {
@@ -70,6 +71,11 @@ void check_model(const std::string& model) {
   if (model == "-" || !model_file_format_of(model).empty() || !flat_file_format_of(model).empty())
     return;
   const std::string ending = ending_of(model);
+  if (ending == ".scad") {
+    throw UsageError{fmt::format(
+        "'{}' is OpenSCAD's language; OpenSCAD makes a tree of it: openscad '{}' -o out.csg", model,
+        model)};
+  }
   if (ending != ".lua" && ending != ".csg") {
     throw UsageError{
         fmt::format("'{}': the model must end in .lua, .csg, .stl, .off, .obj, .ply, .glb, .gltf, "
@@ -166,13 +172,27 @@ CommandLine finished(int code) {
   return line;
 }
 
+/// For the first option that there is not: the nearest of those that there are.
+std::string nearest_option(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (const std::string& word : app.remaining()) {
+    if (word.starts_with("--")) return did_you_mean(word.substr(0, word.find('=')), names);
+  }
+  return {};
+}
+
 /// Prints help or a usage error as CLI11 has it.
 CommandLine finish_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {
     app.exit(error);
     return finished(kExitGood);
   }
-  std::fputs(fmt::format("{}: {} (--help tells more)\n", app.get_name(), error.what()).c_str(),
+  std::fputs(fmt::format("{}: {}{} (--help tells more)\n", app.get_name(), error.what(),
+                         nearest_option(app))
+                 .c_str(),
              stderr);
   return finished(kExitUsage);
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lua_bindings/files.h"
+#include "lua_bindings/json_fault.h"
 #include "lua_bindings/nearest.h"
 
 namespace csgrun {
@@ -105,8 +106,14 @@ Result<std::vector<Definition>> read_parameter_file(const std::string& path,
   if (!text.error.empty())
     return fault(path, "cannot read it: " + text.error, ErrorCode::kCannotRead);
   if (text.bytes.size() > kMostBytes) return fault(path, "larger than 16 MB", ErrorCode::kLimit);
-  Json json = Json::parse(text.bytes, nullptr, false);
-  if (json.is_discarded()) return fault(path, "is not JSON");
+  Json json;
+  try {
+    json = Json::parse(text.bytes);
+  } catch (const Json::parse_error& error) {
+    return fault(path, "line " + json_fault(text.bytes, error));
+  } catch (const Json::out_of_range&) {
+    return fault(path, "a number is beyond the range of doubles");
+  }
   if (!json.is_object()) return fault(path, "must be a table of names and values");
   if (json.contains(kSets)) {
     Result<Json> chosen = choose_set(path, json[kSets], set);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <new>
 #include <thread>
@@ -54,7 +55,8 @@ class Run {
 
   Failure execute() {
     const auto start = Clock::now();
-    Failure failure = load();
+    Failure failure = check_folders();
+    if (!failure.failed()) failure = load();
     report_.script_seconds = seconds_since(start) - session_.budget().evaluation_seconds();
     if (line_.list_params) {
       if (!failure.failed()) report_.parameters = session_.parameters;
@@ -97,6 +99,20 @@ class Run {
     if (line.memory_bytes)
       options.limits.heap_bytes = std::min(options.limits.heap_bytes, *line.memory_bytes);
     return options;
+  }
+
+  /// Told before anything is evaluated: that there is no folder to write to.
+  Failure check_folders() const {
+    for (const std::string& output : line_.outputs) {
+      const std::string folder = std::filesystem::path(output).parent_path().string();
+      std::error_code ignored;
+      if (folder.empty() || folder.find("%s") != std::string::npos ||
+          std::filesystem::is_directory(folder, ignored))
+        continue;
+      return {kExitFiles,
+              fmt::format("csgrun: cannot write '{}': there is no folder '{}'", output, folder)};
+    }
+    return {};
   }
 
   /// MODEL to the parts of the session.

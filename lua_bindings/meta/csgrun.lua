@@ -105,7 +105,7 @@ csg.sphere = sphere
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
 ---@field fs? number smallest length of a facet, mm, at least 0.01
 
----A cylinder along Z; cylinder(h, r1, r2) is a cone, cylinder(h, r) is not.
+---A cylinder along Z; cylinder(h, r1, r2) is a cone, cylinder(h, r) is not; cylinder(h, r, true) is centred.
 ---
 ---Example: `cylinder{h = 20, r = 4, center = true, fn = 64}`
 ---@overload fun(options: csgrun.cylinder): Solid
@@ -123,6 +123,7 @@ csg.cylinder = cylinder
 ---@field points? number[][] the corners; the first is point 0, in faces and messages
 ---@field faces? integer[][] corners of each face, clockwise seen from outside; the first is face 0 in messages
 ---@field fill? string what is inside where the surface crosses itself, by how often it wraps around a point, one way less the other: "nonzero" (wherever that is not 0: overlaps are united, but an inverted part cancels what it overlaps), "positive" (inverted parts are cut away), "evenodd" (an odd number: overlaps cancel)
+---@field convexity? integer ignored: OpenSCAD needs it for its preview
 
 ---A solid of its own corners and faces; it must be closed.
 ---
@@ -318,6 +319,7 @@ csg.regular_polygon = regular_polygon
 ---@field [integer] any
 ---@field points? number[][] the corners; the first is point 0, in paths and messages
 ---@field paths? integer[][] outlines and holes, as indices of points from 0
+---@field convexity? integer ignored: OpenSCAD needs it for its preview
 
 ---A shape of its own outlines, filled by the even-odd rule.
 ---
@@ -340,6 +342,7 @@ csg.polygon = polygon
 ---@field scale? number|number[] factor at the top, or factors along X and Y; 0 gives a point or an edge
 ---@field slices? integer number of layers
 ---@field segments? integer number of pieces of the outline; 0: never split
+---@field convexity? integer ignored: OpenSCAD needs it for its preview
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
@@ -369,6 +372,7 @@ function Shape:linear_extrude(height, options) end
 ---@field angle? number how far to turn, counter-clockwise seen from above, degrees
 ---@field a? number the same as angle
 ---@field start? number where to start, degrees from X
+---@field convexity? integer ignored: OpenSCAD needs it for its preview
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
@@ -674,6 +678,7 @@ csg.loft = loft
 ---@class (exact) csgrun.roof
 ---@field [integer] any
 ---@field method? string "voronoi": as high as the outline is far, with cones around corners that point inwards; or "straight": planes only
+---@field convexity? integer ignored: OpenSCAD needs it for its preview
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
@@ -793,6 +798,7 @@ function Shape:resize(newsize, auto, options) end
 ---@class (exact) csgrun.projection
 ---@field [integer] any
 ---@field cut? boolean the section at z = 0 instead of the shadow
+---@field convexity? integer ignored: OpenSCAD needs it for its preview
 
 ---The shadow of a solid on the plane z = 0, a 2D shape.
 ---
@@ -1009,6 +1015,7 @@ function Solid:edges(on, options) end
 ---@field center? boolean the middle of the table stands on the Z axis
 ---@field invert? boolean of a PNG: what is dark is high
 ---@field heights? any instead of a file: a list of rows, each a list of numbers; the first row is at y = 0
+---@field convexity? integer ignored: OpenSCAD needs it for its preview
 
 ---The solid under heights 1 mm apart along X and Y, down to 1 mm below the least of them.
 ---
@@ -2651,27 +2658,27 @@ csg.d = d
 function t() end
 csg.t = t
 
----The bounding box: {min = {x, y, z}, max = {x, y, z}}; two numbers each for a shape.
+---The bounding box: its corners .min and .max, vectors as of vec; two numbers each for a shape.
 ---
----Example: `part:bbox().max[3]`
+---Example: `part:bbox().max.z`
 ---@return {min: number[], max: number[]}
 function Solid:bbox() end
 
----The bounding box: {min = {x, y, z}, max = {x, y, z}}; two numbers each for a shape.
+---The bounding box: its corners .min and .max, vectors as of vec; two numbers each for a shape.
 ---
----Example: `part:bbox().max[3]`
+---Example: `part:bbox().max.z`
 ---@return {min: number[], max: number[]}
 function Shape:bbox() end
 
----The lengths of the bounding box.
+---The lengths of the bounding box, a vector: .x, .y, .z or [1], [2], [3].
 ---
----Example: `part:size()[1]`
+---Example: `part:size().x`
 ---@return number[]
 function Solid:size() end
 
----The lengths of the bounding box.
+---The lengths of the bounding box, a vector: .x, .y, .z or [1], [2], [3].
 ---
----Example: `part:size()[1]`
+---Example: `part:size().x`
 ---@return number[]
 function Shape:size() end
 
@@ -2693,15 +2700,15 @@ function Solid:area() end
 ---@return number
 function Shape:area() end
 
----The centre of mass, {x, y, z}; of a shape {x, y}.
+---The centre of mass, a vector {x, y, z}; of a shape {x, y}.
 ---
----Example: `part:centroid()[1]`
+---Example: `part:centroid().x`
 ---@return number[]
 function Solid:centroid() end
 
----The centre of mass, {x, y, z}; of a shape {x, y}.
+---The centre of mass, a vector {x, y, z}; of a shape {x, y}.
 ---
----Example: `part:centroid()[1]`
+---Example: `part:centroid().x`
 ---@return number[]
 function Shape:centroid() end
 
@@ -3368,6 +3375,7 @@ csg.load_csg = load_csg
 ---@field origin? number[] of a DXF: this point becomes the origin
 ---@field scale? number of a DXF: a factor
 ---@field center? boolean of a drawing: the middle of its box becomes the origin
+---@field convexity? integer ignored: OpenSCAD needs it for its preview
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01

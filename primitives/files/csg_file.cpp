@@ -532,6 +532,7 @@ class CsgBuilder {
 
 Result<CsgModel> parse_csg(const std::string& name, std::string_view text,
                            const CsgEnvironment& environment) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // as editors of Windows write it
   return CsgBuilder(name, text, environment).build();
 }
 

@@ -23,6 +23,10 @@ std::optional<double> number_of(std::string_view word) {
   return tiny ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
+/// For what only a source can have: variables, modules, expressions.
+constexpr const char* kSourceHint =
+    "; a tree has calls and values only: openscad in.scad -o out.csg makes one of a source";
+
 }  // namespace
 
 const CsgValue* CsgCall::find(std::string_view key) const {
@@ -81,7 +85,11 @@ Result<CsgParser::Event> CsgParser::next() {
   call_.name = std::string(word());
   call_.line = line_;
   if (call_.name.empty()) return unexpected("a node");
-  if (!accept('(')) return unexpected("\"(\" after " + quoted(call_.name));
+  if (!accept('(')) {
+    Error fault = unexpected("\"(\" after " + quoted(call_.name));
+    if (at_ < text_.size()) fault.message += kSourceHint;
+    return fault;
+  }
   if (auto status = read_arguments(); !status) return status.error();
   if (accept(';')) return Event::kLeaf;
   if (accept('{')) return Event::kOpen;
@@ -137,7 +145,7 @@ Result<CsgValue> CsgParser::read_value(int depth) {
     return value;
   }
   const std::optional<double> number = number_of(text);
-  if (!number) return error("expected a value, got " + quoted(text));
+  if (!number) return error("expected a value, got " + quoted(text) + kSourceHint);
   value.kind = CsgValue::Kind::kNumber;
   value.number = *number;
   return value;

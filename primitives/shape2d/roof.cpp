@@ -122,6 +122,30 @@ Result<PolygonMesh> closed_roof(const RoofOutline& outline, PolygonMesh mesh) {
                {}};
 }
 
+namespace {
+
+bool is_convex(const RoofOutline& outline) {
+  for (uint32_t e = 0; e < outline.edge_count(); ++e) {
+    if (outline.is_reflex_end(e)) return false;
+  }
+  return true;
+}
+
+/// Where no corner points inwards the roof is the same by both methods. The wavefront takes all
+/// that happens at one time together, so a circle's roof has one top; in the diagram the top is as
+/// many vertices as there are edges, apart by its rounding only, and the faces between them turn
+/// over.
+MeshResult one_roof(const RoofOutline& outline, const RoofOptions& options) {
+  if (options.method == RoofMethod::kStraight) return straight_roof(outline);
+  if (is_convex(outline)) {
+    MeshResult roof = straight_roof(outline);
+    if (roof) return roof;
+  }
+  return voronoi_roof(outline, options);
+}
+
+}  // namespace
+
 MeshResult make_roof(const Shape2D& shape, const RoofOptions& options) {
   if (shape.empty()) return invalid_argument("roof: the shape is empty");
   const Facets& facets = options.facets;
@@ -135,8 +159,7 @@ MeshResult make_roof(const Shape2D& shape, const RoofOptions& options) {
     const Result<RoofOutline> outline = make_roof_outline(shape, bits);
     if (!outline) return outline.error();
     if (outline->loops.empty()) break;
-    roof = options.method == RoofMethod::kVoronoi ? voronoi_roof(*outline, options)
-                                                  : straight_roof(*outline);
+    roof = one_roof(*outline, options);
     if (roof || roof.error().code != ErrorCode::kInternal) break;
   }
   return roof;

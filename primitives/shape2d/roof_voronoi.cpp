@@ -16,6 +16,7 @@
 
 #include <csgrun/primitives/trig.h>
 
+#include "primitives/base/text.h"
 #include "primitives/shape2d/roof_outline.h"
 #include "primitives/solids/mesh_builder.h"
 
@@ -99,7 +100,12 @@ class VoronoiRoof {
       } else if (reflex_[point_of(cell)]) {
         add_cone(cell);
       }
-      if (points_ > kMostPoints) return too_many_points("roof", points_, points_);
+      if (points_ > kMostPoints) {
+        return Error{ErrorCode::kLimit,
+                     "roof: its curved faces would have more than " + number_text(kMostPoints) +
+                         " points, which is the limit; take fewer facets (fn, fa, fs)",
+                     {}};
+      }
     }
     return closed_roof(outline_, std::move(mesh_));
   }

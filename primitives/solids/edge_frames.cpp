@@ -229,7 +229,15 @@ std::optional<uint32_t> EdgeFrames::first_without_room() const {
 }
 
 double EdgeFrames::size_that_fits(uint32_t frame, double size, bool is_radius) {
-  double fits = 0, fails = size;
+  // Nothing that is larger than the solid fits, and sizes far beyond it would leave the search no
+  // digits to find the answer in.
+  Box3 box;
+  for (const EdgeGraph::Edge& edge : graph_.edges()) {
+    box.add(edge.line.from);
+    box.add(edge.line.to);
+  }
+  const glm::dvec3 extent = box.high - box.low;
+  double fits = 0, fails = std::min(size, std::max({extent.x, extent.y, extent.z}));
   for (int i = 0; i < 50; ++i) {
     const double middle = (fits + fails) / 2;
     set_size(middle, is_radius);

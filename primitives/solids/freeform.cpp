@@ -153,6 +153,13 @@ MeshResult refine_mesh(PolygonMesh mesh, double length) {
 
 MeshResult smooth_mesh(PolygonMesh mesh, int rounds) {
   if (rounds < 1) return invalid_argument("smooth: rounds must be at least 1");
+  // Each round adds a point for every two corners of triangles, and makes four corners of one: what
+  // will be too many in the end is told before the first takes its time.
+  const double corners_at_last =
+      static_cast<double>(mesh.corners.size()) * std::ldexp(1.0, 2 * std::min(rounds - 1, 500));
+  if (corners_at_last / 2 > kMostPoints) {
+    return Error{ErrorCode::kLimit, "smooth: makes more than 16777216 points", {}};
+  }
   // Of nothing no number of rounds makes more, so the limit would never end them.
   for (int round = 0; round < rounds && mesh.face_count() > 0; ++round) {
     const size_t count = mesh.points.size();

@@ -172,6 +172,23 @@ class Bounds(Case):
         self.expect(self.run_inside("return require '../secret'"), 1,
                     "model/model.lua:1: require: '../secret' is not a module's name")
 
+    def test_a_slash_opens_a_folder_too(self):
+        self.write("model/lib/p.lua", "return {size = 2}")
+        self.expect(self.run_inside("return cube(require('lib/p').size)"), 0)
+        self.expect(self.run_inside("assert(require('lib/p') == require('lib.p')) return cube(1)"), 0)
+        for name in ("/etc/passwd", "lib/../../secret", "lib/"):
+            self.expect(self.run_inside(f"return require '{name}'"), 1,
+                        f"model/model.lua:1: require: '{name}' is not a module's name")
+
+    def test_trees_of_editors_and_sources(self):
+        self.write("model/a.csg", b"\xef\xbb\xbfcube(size = [1, 1, 1], center = false);\n")
+        self.expect(self.run_csgrun("model/a.csg", "--stats"), 0)
+        hint = "; a tree has calls and values only: openscad in.scad -o out.csg makes one of a source"
+        for text, message in (("x = 5;", '1: expected "(" after "x", got "="'), ("module m() { }", '1: expected "(" after "module", got "m"'),
+                              ("cube(x);", '1: expected a value, got "x"')):
+            self.write("model/b.csg", text)
+            self.expect(self.run_csgrun("model/b.csg", "--stats"), 1, "model/b.csg:" + message + hint)
+
     def test_library_folders(self):
         self.expect(self.run_inside("return require 'shared'"), 1, "model/model.lua:1: require: module 'shared' not found:")
         self.expect(self.run_inside("return require 'shared'", "--stats=json", "-L", "library"), 0)

@@ -1,4 +1,5 @@
 """The command line: usage errors are exit code 2 and say what to do."""
+import os
 import re
 
 from support import Case, main
@@ -31,6 +32,10 @@ class Usage(Case):
     def test_options(self):
         self.check("csgrun: --check proves what is written: give an output with -o", "model.lua", "--stats", "--check")
         self.check("csgrun: The following argument was not expected: --bogus", "model.lua", "--stats", "--bogus")
+        self.check("csgrun: The following argument was not expected: --treads=3 (did you mean '--threads'?)",
+                   "model.lua", "--stats", "--treads=3")
+        self.check("csgrun: 'a.scad' is OpenSCAD's language; OpenSCAD makes a tree of it: openscad 'a.scad' -o out.csg",
+                   "a.scad", "--stats")
         self.check("csgrun: --stats can be =json or nothing", "model.lua", "--stats=xml")
         self.check("csgrun: --threads must be from 1 to", "model.lua", "--stats", "--threads", "0")
         self.check("csgrun: --grid x: ", "model.lua", "--stats", "--grid", "x")
@@ -46,6 +51,32 @@ class Usage(Case):
         self.check("csgrun: -D hole_radius=11: 'hole_radius' must be at most 10, got 11",
                    "model.lua", "--stats", "-D", "hole_radius=11")
         self.check("csgrun: -D hole_radius: write it as -D name=value", "model.lua", "--stats", "-D", "hole_radius")
+
+
+class Folders(Case):
+    def test_told_before_the_model_is_read(self):
+        for output in ("none/a.stl", "none/%s.stl", "model.lua/a.stl"):
+            outcome = self.run_script("print('it ran') return cube(1)", "-o", output)
+            self.expect(outcome, 4, f"csgrun: cannot write '{output}': there is no folder '{os.path.dirname(output)}'")
+            self.assertNotIn("it ran", outcome.err)
+
+
+class FarAway(Case):
+    WARNING = "lies too far away for its size"
+
+    def test_a_part_that_rounding_spoils(self):
+        outcome = self.run_script("\nreturn cube(1):translate(1e6, 0, 0)", "--stats")
+        self.expect(outcome, 0)
+        self.assertIn("model.lua:2: a part of 1 mm " + self.WARNING + ": 1e+06 mm from the origin points are rounded "
+                      "to 0.03277 mm", outcome.err)
+        outcome = self.run_script("return {cube(1), cube(1):translate(1e6, 0, 0)}", "--stats")
+        self.assertEqual(outcome.err.count(self.WARNING), 1)
+        self.assertIn(self.WARNING, self.run_script("return cube(1):translate(1e12, 0, 0)", "--stats").err)
+
+    def test_parts_that_are_well(self):
+        for model in ("cube(1):translate(1000, 0, 0)", "cube(1) - cube(1e6)", "cube(1e6)", "cube(1e-6)",
+                      "cube(1) - cube(1):translate(0.5, 0, 0)", "cube(1000) + cube(0.01):translate(999.995, 0, 0)"):
+            self.assertNotIn(self.WARNING, self.run_script(f"return {model}", "--stats").err, model)
 
 
 class Good(Case):

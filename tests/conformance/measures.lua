@@ -51,4 +51,21 @@ assert(cube(1):translate(1, 0, 0):translate(-1, 0, 0) == cube(1))
 assert(cube(1) ~= cube(1):color("red"))
 assert(square(2) * square(1) == square(1))
 
+-- What is measured is a vector, and a list all the same.
+do
+  local part = cube(1, 2, 3):translate(10, 20, 30)
+  local size, b, c = part:size(), part:bbox(), part:centroid()
+  assert(size.x == 1 and size.y == 2 and size.z == 3 and size[3] == 3 and #size == 3)
+  assert(size == vec(1, 2, 3) and b.max - b.min == size and b.min + size / 2 == c)
+  local sum = 0
+  for _, x in ipairs(size) do sum = sum + x end
+  assert(sum == 6 and tostring(size) == "vec(1, 2, 3)")
+  assert(part:translate(-b.min) == cube(1, 2, 3))
+  local flat = square(4, 2):translate(1, 1)
+  local s, f = flat:size(), flat:bbox()
+  assert(s.x == 4 and s.y == 2 and s.z == nil and #s == 2 and tostring(s) == "vec(4, 2)")
+  assert(f.max - f.min == s and #(f.min + s / 2) == 2 and f.min + s / 2 == flat:centroid())
+  assert(polygon{f.min, f.max, 2 * f.max}:area() >= 0)
+end
+
 return box

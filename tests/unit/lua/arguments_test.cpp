@@ -26,6 +26,8 @@ TEST(CallForms, Cylinders) {
   EXPECT_EQ(box_of("cylinder{height = 10, r = 2, fn = 4}"), "-2 -2 0 .. 2 2 10");
   EXPECT_EQ(box_of("cylinder(10, 1, 3, true, {fn = 4})"), "-3 -3 -5 .. 3 3 5");
   EXPECT_EQ(box_of("cylinder{h = 1, r1 = 0.5, fn = 4}"), "-1 -1 0 .. 1 1 1");
+  EXPECT_EQ(box_of("cylinder(10, 2, true, {fn = 4})"), "-2 -2 -5 .. 2 2 5");
+  EXPECT_EQ(box_of("cylinder(10, 2, false, {fn = 4})"), "-2 -2 0 .. 2 2 10");
 }
 
 TEST(CallForms, ListPartOfATableOfOptionsIsPositional) {
@@ -58,6 +60,16 @@ TEST(EmptyShapes, ExtrudeToEmptySolids) {
   }
   EXPECT_EQ(message_of("return (circle(1) - circle(1)):linear_extrude(0)"),
             "model.lua:1: linear_extrude: option 'height' must be positive, got 0");
+}
+
+TEST(CallForms, WhatIsMovedMayStandBehind) {
+  EXPECT_EQ(box_of("translate({1, 2, 3}, cube(1))"), "1 2 3 .. 2 3 4");
+  EXPECT_EQ(box_of("translate(1, 2, 3, cube(1))"), "1 2 3 .. 2 3 4");
+  EXPECT_EQ(box_of("rotate({0, 0, 90}, cube(1, 2, 3))"), "-2 0 0 .. 0 1 3");
+  EXPECT_EQ(box_of("scale(2, cube(1))"), "0 0 0 .. 2 2 2");
+  EXPECT_EQ(message_of("return translate({1, 2, 3}, cube(1), cube(2))"),
+            "model.lua:1: translate: too many arguments: after 'v' only {name = value} may follow, "
+            "got solid");
 }
 
 TEST(CallForms, Transforms) {
@@ -102,9 +114,11 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
        "cube: option 'size' must be a number or a list of three numbers, got a list of one value; "
        "write "
        "cube(10) without the list"},
-      {"cube{10, name = 'a', center = true}",
+      {"csg:cube(10)", "cube: is called with a dot: csg.cube(...), not csg:cube(...)"},
+      {"cube{10, centre = true}", "cube: unknown option 'centre' (did you mean 'center'?)"},
+      {"cube{10, r = 1, center = true}",
        "cube: option 'size' must be a number or a list of three numbers, got a list of one value; "
-       "write cube(10, {center = true, name = \"a\"})"},
+       "write cube(10, {center = true, r = 1})"},
       {"cylinder{20, 5}",
        "cylinder: option 'h' must be a number, got a list of 2 values; write cylinder(20, 5) "
        "without "
@@ -209,6 +223,59 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
               std::string("model.lua:2: ") + call.message)
         << call.text;
   }
+}
+
+TEST(Hints, OpenScadInALineThatIsNoLua) {
+  constexpr BadCall kLines[] = {
+      {"for (i=[0:3]) cube(i)", "a loop is: for i = 0, 3 do ... end"},
+      {"local a = b ? 1 : 2", "a choice between two values is: condition and a or b"},
+      {"local a = 1\na += 1", "it is written out: a = a + 1"},
+      {"function f(x) = x*2;", "a function is: function f(x) return x * 2 end"},
+      {"if (a) { }", "a condition is: if a then ... else ... end"},
+      {"%cube(1)", "OpenSCAD's modifiers are not part of Lua"},
+      {"!cube(1)", "OpenSCAD's modifiers are not part of Lua"},
+      {"for i in {1,2,3} do end",
+       "the entries of a list are gone through by: for _, x in ipairs(list) do"},
+      {"local cube = cube(5) return cube(1)",
+       "the variable 'cube' hides the function of this name, which is csg.cube still"},
+      {"local m = true return m.x", "a module that ends without return gives true"},
+  };
+  for (const BadCall& line : kLines)
+    EXPECT_NE(message_of(line.text).find(line.message), std::string::npos) << line.text << "\n"
+                                                                           << message_of(line.text);
+  // Nothing of this in mistakes of another kind.
+  EXPECT_EQ(message_of("local t = {} return t()").find(';'), std::string::npos);
+}
+
+TEST(Errors, BeginWithTheirPlaceOnce) {
+  EXPECT_EQ(message_of("\nerror('x', 0)"), "model.lua:2: x");
+  EXPECT_EQ(message_of("\nerror('x')"), "model.lua:2: x");
+  EXPECT_EQ(message_of("\nassert(false, 42)"), "model.lua:2: 42");
+  EXPECT_EQ(message_of("\nassert(false, 'ratio 3:4: bad')"), "model.lua:2: ratio 3:4: bad");
+  EXPECT_EQ(message_of("local f = coroutine.wrap(function()\nerror('x') end)\nf()"),
+            "model.lua:2: x");
+}
+
+TEST(Parameters, OfOneNameAreOne) {
+  expect_good("assert(param('a', 3, {min = 1}) == param('a', 3, {min = 1, doc = 'the same'}))");
+  EXPECT_EQ(message_of("param('a', 3) param('a', 'x')"),
+            "model.lua:1: param: 'a' is asked for twice, with two types");
+  EXPECT_EQ(message_of("param('a', 3) param('a', 4)"),
+            "model.lua:1: param: 'a' is asked for twice, with two defaults");
+  EXPECT_EQ(message_of("param('a', 3, {min = 1}) param('a', 3)"),
+            "model.lua:1: param: 'a' is asked for twice, with two ranges");
+  EXPECT_EQ(message_of("param('a', 3, {choices = {3, 4}}) param('a', 3)"),
+            "model.lua:1: param: 'a' is asked for twice, with two lists of choices");
+}
+
+TEST(Warnings, OfShapesThatWouldLeaveTheirPlane) {
+  for (const char* move : {"translate(0, 0, 5)", "up(1)", "rotate(90, 0, 0)"}) {
+    const ScriptRun run(std::string("return square(1):") + move);
+    ASSERT_EQ(run.session.warnings().size(), 1u) << move;
+    EXPECT_NE(run.session.warnings()[0].find("a 2D shape stays in its plane"), std::string::npos);
+  }
+  const ScriptRun flat("return square(1):translate(1, 2, 0):rotate(30):scale(2):mirror(1, 0, 0)");
+  EXPECT_TRUE(flat.session.warnings().empty());
 }
 
 TEST(ArgumentErrors, MixingDimensionsNamesTheExtrusions) {

@@ -188,7 +188,9 @@ TEST_F(ReadingTest, Json) {
                 "assert(j.on == true and j.none == nil and j.deep.a == 'ü')"),
             "good");
   write("bad.json", "{\"a\": 1,\n \"b\" 2}");
-  EXPECT_EQ(run("read_json('bad.json')"), "model.lua:1: read_json: bad.json:2: malformed JSON");
+  EXPECT_EQ(run("read_json('bad.json')"),
+            "model.lua:1: read_json: bad.json:2: malformed JSON: syntax error while parsing object "
+            "separator - unexpected number literal; expected ':'");
   write("null.json", "[1, null]");
   EXPECT_EQ(run("read_json('null.json')"),
             "model.lua:1: read_json: 'null.json': entry 2 of a list is null, which lists of Lua "
@@ -211,6 +213,12 @@ TEST_F(ReadingTest, Csv) {
                 "'hole' and t[2].y == 4)"),
             "good");
   EXPECT_EQ(run("assert(read_csv('a.csv', {numbers = false})[2][1] == '1')"), "good");
+  write("huge.csv", "x,y\n1,1e999\n");
+  EXPECT_EQ(run("read_csv('huge.csv')"),
+            "model.lua:1: read_csv: huge.csv:2: 1e999 is beyond the range of doubles");
+  write("twice.csv", "x,y,x\n1,2,3\n");
+  EXPECT_EQ(run("read_csv('twice.csv', {header = true})"),
+            "model.lua:1: read_csv: twice.csv:1: two columns have the name 'x'");
   write("b.csv", "1;0x10;nan;\"5\"");
   EXPECT_EQ(run("local r = read_csv('b.csv', {separator = ';'})[1] assert(r[1] == 1 and r[2] == "
                 "'0x10' and r[3] == 'nan' and r[4] == '5')"),

@@ -75,7 +75,9 @@ TEST(Shapes, Mistakes) {
   const std::pair<const char*, const char*> cases[] = {
       {"torus{R = 2, r = 3}",
        "torus: 'r', the radius of the tube, must not be larger than 'R', that of the ring"},
-      {"torus{R = 2, q = 3}", "torus: unknown option 'q' (did you mean 'R'?)"},
+      {"torus{R = 2, q = 3}",
+       "torus: unknown option 'q' (there are R, major, r, minor, segments_minor, fn, fa, "
+       "fs)"},
       {"torus{R = 'x'}", "torus: option 'R' must be a number, got string"},
       {"torus(0, 1)", "torus: option 'R' must be positive, got 0"},
       {"octahedron(0)", "octahedron: option 'r' must be positive, got 0"},
@@ -120,7 +122,8 @@ TEST(Vectors, Mistakes) {
   const std::pair<const char*, const char*> cases[] = {
       {"vec(1)", "vec: option 'v' must be a list of two or three numbers, got the number 1"},
       {"vec()", "vec: needs two or three numbers"},
-      {"vec(1, 'x')", "vec: option 'v' must be a list of two or three numbers, got the number 1"},
+      {"vec(1, 'x')",
+       "vec: option 'v' must be a list of two or three numbers, but number 2 is string"},
       {"cross({1, 0, 0})", "cross: needs two vectors"},
       {"norm(5)", "norm: option 'v' must be a list of two or three numbers, got the number 5"},
       {"return vec(1, 2) + 1", "'+': a vector is a list of two or three numbers, got 1"},

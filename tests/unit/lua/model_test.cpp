@@ -154,7 +154,8 @@ TEST(Parameters, OptionsMustFitTheDefault) {
 
 TEST(Parameters, AreKnownAfterTheRun) {
   const ScriptRun run = run_with(
-      "param('n', 4, {min = 1, max = 9, step = 0.5, doc = 'how many'}) param('n', 5)"
+      "param('n', 4, {min = 1, max = 9, step = 0.5, doc = 'how many'}) "
+      "param('n', 4, {min = 1, max = 9, step = 0.5}) "
       "param('on', true) param('size', {1, 2})",
       {{"n", "6"}});
   ASSERT_EQ(run.session.parameters.size(), 3u);

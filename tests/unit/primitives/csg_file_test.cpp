@@ -379,7 +379,9 @@ TEST(CsgFile, ErrorsHaveTheirLine) {
   EXPECT_EQ(error("group() {\n" + kCube), "m.csg:3: the file ends within group() of line 1");
   EXPECT_EQ(error(kCube + "}"), "m.csg:2: \"}\" without \"{\"");
   EXPECT_EQ(error("cube(size = [1, 2"), "m.csg:1: the file ends where \",\" or \"]\" should be");
-  EXPECT_EQ(error("cube(size = wide);"), "m.csg:1: expected a value, got \"wide\"");
+  EXPECT_EQ(error("cube(size = wide);"),
+            "m.csg:1: expected a value, got \"wide\"; a tree has calls and values only: openscad "
+            "in.scad -o out.csg makes one of a source");
   EXPECT_EQ(error("cube() + 1"), "m.csg:1: expected \";\" or \"{\", got \"+\"");
   EXPECT_EQ(error("!cube();"), "m.csg:1: expected a node, got \"!\"");
   EXPECT_EQ(error("cube(size = " + std::string(10000, '[')),
