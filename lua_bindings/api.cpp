@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "lua_bindings/guard.h"
+#include "lua_bindings/library_docs.h"
 #include "lua_bindings/nearest.h"
 #include "lua_bindings/session.h"
 #include "lua_bindings/text.h"
@@ -267,7 +268,7 @@ std::string api_help() {
       text += fmt::format("  It is {} of {}.\n", forms, of);
     }
   }
-  return text;
+  return text + library_docs(false);
 }
 
 void fail_in(const FunctionSpec& spec, const std::string& message) { fail_as(spec.name, message); }

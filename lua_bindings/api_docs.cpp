@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lua_bindings/api.h"
+#include "lua_bindings/library_docs.h"
 #include "lua_bindings/vector_rule.h"
 
 namespace csgrun {
@@ -274,7 +275,7 @@ std::string api_markdown() {
     page += fmt::format("\n## {}\n", group.title);
     for (const Binding& binding : group.bindings) append_function_page(page, binding);
   }
-  return page;
+  return page + library_docs(true);
 }
 
 std::string api_json() {

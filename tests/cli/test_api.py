@@ -72,6 +72,18 @@ class Examples(Case):
             self.assertEqual(outcome.json()["warnings"], [], f"{name}: {example}")
 
 
+class Library(Case):
+    def test_every_function_of_the_shipped_modules_is_told(self):
+        for form in ("markdown", "text"):
+            text = page(form)
+            for module in ("gears", "threads", "layout"):
+                with open(os.path.join(SOURCE, f"lua_bindings/library/csg/{module}.lua"), encoding="utf-8") as file:
+                    calls = re.findall(rf"^function ({module}\.\w+\(.*\))$", file.read(), re.MULTILINE)
+                self.assertGreater(len(calls), 4)
+                self.assertEqual([call for call in calls if f"`{call}`" not in text and f"\n{call}\n" not in text], [])
+            self.assertIn("csg.options", text)
+
+
 class Everything(Case):
     def test_the_model_of_everything_has_every_function(self):
         with open(os.path.join(SOURCE, "tests/conformance/everything.lua"), encoding="utf-8") as file:

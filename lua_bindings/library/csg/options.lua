@@ -7,6 +7,7 @@
 ---       radius = {type = "number", above = 0},         -- must be given
 ---       name   = {type = "string", optional = true},   -- nil when it is not given
 ---       finish = {"plain", choices = {"plain", "worn"}},
+---       facets = {36, alias = "fn"},                   -- has two names
 ---     })
 ---
 --- Gives a new table with the defaults filled in. What does not fit is an error at the place of the
@@ -85,17 +86,27 @@ return function(name, given, rules, level)
   if type(given) ~= "table" then
     error(name .. ": wants a table of options, got " .. shown(given), level)
   end
+  local aliases = {}
+  for key, rule in pairs(rules) do
+    if rule.alias then aliases[rule.alias] = key end
+  end
   for key in pairs(given) do
     if type(key) ~= "string" then
       error(name .. ": its options are named, got " .. shown(given[key]) .. " without a name", level)
     end
-    if rules[key] == nil then
+    if rules[key] == nil and aliases[key] == nil then
       error(name .. ": unknown option '" .. key .. "'" .. did_you_mean(key, rules), level)
     end
   end
   local result = {}
   for key, rule in pairs(rules) do
     local value = given[key]
+    if rule.alias and given[rule.alias] ~= nil then
+      if value ~= nil then
+        error(name .. ": option '" .. key .. "' (or '" .. rule.alias .. "') is given twice", level)
+      end
+      value = given[rule.alias]
+    end
     if value == nil then value = rule[1] end
     if value == nil then
       if not rule.optional then error(name .. ": option '" .. key .. "' is missing", level) end

@@ -76,7 +76,7 @@ local kThread = {
   starts = {1, min = 1, max = 16, whole = true},
   left = {false},
   clearance = {0, min = 0},
-  facets = {36, min = 8, max = 720, whole = true},
+  facets = {36, min = 8, max = 720, whole = true, alias = "fn"},
 }
 
 local function rules(more)
@@ -115,7 +115,8 @@ end
 --- A thread along Z from z = 0, as a solid: a rod to add, or with some clearance a tool to cut with.
 --- Options: size ["M8" and the like: gives d and pitch], d, pitch, length, profile ["metric" or
 --- "trapezoidal"], starts [1], left [false: left-handed], clearance [0 mm: added to the radius],
---- chamfer [false: both ends are cut by a cone of 45 degrees], facets [36: of a full turn].
+--- chamfer [false: both ends are cut by a cone of 45 degrees], facets or fn [36: of a
+--- full turn].
 function threads.thread(given)
   local o = options("threads.thread", given, rules{
     length = {type = "number", above = 0}, chamfer = {false},
@@ -141,7 +142,7 @@ end
 
 --- A bolt that points upwards: its head stands on z = 0, its shaft begins above the head. Options:
 --- size, length (of the shaft), threaded [all of the shaft], head ["hexagon", "socket" or "none"],
---- left, clearance [0: here taken from the radius], facets.
+--- left, clearance [0: here taken from the radius], facets or fn.
 function threads.bolt(given)
   local o = options("threads.bolt", given, {
     size = {type = "string", choices = kSizeNames}, length = {type = "number", above = 0},
@@ -167,7 +168,7 @@ function threads.bolt(given)
 end
 
 --- A hexagon nut on z = 0. Options: size, clearance [0 mm: added to the radius of its thread],
---- height [that of the size], left, facets.
+--- height [that of the size], left, facets or fn.
 function threads.nut(given)
   local o = options("threads.nut", given, {
     size = {type = "string", choices = kSizeNames}, height = kNumber,
@@ -197,13 +198,13 @@ end
 --- A tool for a hole that a bolt passes through: it reaches down from z = 0 to z = -depth. Options:
 --- size, depth, fit ["medium", "close" or "coarse"], head ["none"; "socket": a counterbore for a
 --- socket head; "hexagon": a pocket for a hexagon; "flat": a countersink of 90 degrees, twice as wide
---- as the size], facets [64].
+--- as the size], facets or fn [64].
 function threads.hole(given)
   local o = options("threads.hole", given, {
     size = {type = "string", choices = kSizeNames}, depth = {type = "number", above = 0},
     fit = {"medium", choices = {"close", "medium", "coarse"}},
     head = {"none", choices = {"none", "socket", "hexagon", "flat"}},
-    facets = {64, min = 8, max = 720, whole = true},
+    facets = {64, min = 8, max = 720, whole = true, alias = "fn"},
   })
   local size = kSizes[o.size]
   local d = size.holes[({close = 1, medium = 2, coarse = 3})[o.fit]]

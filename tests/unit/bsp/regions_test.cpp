@@ -268,7 +268,8 @@ TEST(Regions, TurnsBetweenEdgesThatAreNearlyParallel) {
     // p u + q v and r u + s v, of the determinant 1 or -1.
     int64_t p = 1, q = 0, r = 0, s = 1;
     int determinant = 1;
-    while (p < 1 << random.integer(14, 21)) {
+    const int64_t enough = int64_t{1} << random.integer(14, 32);
+    while (p < enough) {
       const int64_t times = random.integer(1, 9);
       std::tie(p, q, r, s) = std::tuple(times * p + r, times * q + s, p, q);
       determinant = -determinant;
@@ -278,8 +279,8 @@ TEST(Regions, TurnsBetweenEdgesThatAreNearlyParallel) {
       from[k] = random.integer(-99, 99);
       a[k] = from[k] + p * u[k] + q * v[k];
       b[k] = from[k] + r * u[k] + s * v[k];
-      above_a[k] = from[k] + 1000 * off[k] + random.integer(-9, 9);
-      above_b[k] = from[k] + 1000 * off[k] + random.integer(-9, 9);
+      above_a[k] = from[k] + (i % 3 + 1) * off[k];
+      above_b[k] = from[k] + (i % 5 + 1) * off[k];
     }
     PlaneTable planes;
     CellGeometry geometry(planes, nullptr);

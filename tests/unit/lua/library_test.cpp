@@ -162,6 +162,15 @@ TEST(Threads, BoltAndNutFit) {
 
 // The section at any height is the outline: the volume is its area times the length, less what the
 // facets of the helix cut off: one of them turns by three degrees.
+TEST(Threads, FnIsAnotherNameOfFacets) {
+  expect_good(
+      "local threads = require 'csg.threads' local bolt = {size = 'M8', length = 10} "
+      "local function with(key) return threads.bolt{size = 'M8', length = 10, [key] = 12} end "
+      "assert(with('fn') == with('facets') and with('fn') ~= threads.bolt(bolt))");
+  EXPECT_EQ(message_of("require('csg.threads').hole{size = 'M8', depth = 5, fn = 8, facets = 8}"),
+            "model.lua:1: threads.hole: option 'facets' (or 'fn') is given twice");
+}
+
 TEST(Threads, Volume) {
   expect_good(
       kThreads + kNear +
@@ -235,9 +244,10 @@ TEST(Layout, Mistakes) {
   EXPECT_EQ(message("layout.line(cube(1), 3, {})"),
             "model.lua:1: layout.line: wants either step = {x, y, z} or to = {x, y, z}");
   // What a built-in function says of a call inside the library stands at the model's line.
-  EXPECT_EQ(message("layout.line(cube(1), 3, {step = {1, 2, 'z'}})"),
-            "model.lua:1: linear_array: option 'v' must be a list of two or three numbers, but entry 3 "
-            "is string");
+  EXPECT_EQ(
+      message("layout.line(cube(1), 3, {step = {1, 2, 'z'}})"),
+      "model.lua:1: linear_array: option 'v' must be a list of two or three numbers, but entry 3 "
+      "is string");
   EXPECT_EQ(message("layout.at(cube(1), {3})"),
             "model.lua:1: layout.at: point 1 must be {x, y, z}, got 3");
 }

@@ -1,0 +1,13 @@
+// The functions of the shipped library, from the comments that stand in its modules.
+#pragma once
+
+#include <string>
+
+namespace csgrun {
+
+/// Each module with what it is for and what its functions take: a section of the page of functions,
+/// or plain text for --help-api. A comment of three dashes is for users; that before the code is
+/// about the module, and the others are about the function that follows.
+std::string library_docs(bool markdown);
+
+}  // namespace csgrun
