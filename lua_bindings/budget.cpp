@@ -28,8 +28,8 @@ constexpr int kHookInterval = 1000;
 constexpr auto kScriptGrace = std::chrono::milliseconds(500);
 /// How long the engine, which polls between cells, may go on.
 constexpr auto kEvaluationGrace = std::chrono::milliseconds(800);
-/// How long the signal handler may take.
-constexpr auto kHandlerGrace = std::chrono::milliseconds(500);
+/// How long the signal handler may take: on a busy machine its thread may not run at once.
+constexpr auto kHandlerGrace = std::chrono::seconds(2);
 constexpr int kTimeoutExit = 124;
 constexpr size_t kMegabyte = size_t{1} << 20;
 
