@@ -305,12 +305,13 @@ std::optional<InsideLabels> label_by_reach(const Job& job, const std::vector<Sur
     }
     std::sort(free.begin(), free.end());
     free.erase(std::unique(free.begin(), free.end()), free.end());
+    free.push_back({kNone, kNone});  // of no volume: ends what the last one's ways are
     std::vector<uint32_t> open{start};
     while (!open.empty()) {
       const uint32_t from = open.back();
       open.pop_back();
       auto way = std::lower_bound(free.begin(), free.end(), std::array<uint32_t, 2>{from, 0});
-      for (; way != free.end() && (*way)[0] == from; ++way) {
+      for (; (*way)[0] == from; ++way) {
         const uint32_t to = (*way)[1];
         if (reached[to]) continue;
         reached[to] = 1;
