@@ -83,7 +83,7 @@ class Unwritable(Case):
         return outcome
 
     def test_no_such_folder(self):
-        self.assertIn("No such file or directory", self.check("none/a.stl").err)
+        self.assertIn("there is no folder 'none'", self.check("none/a.stl").err)
 
     def test_a_folder_of_that_name(self):
         os.mkdir(self.path("a.stl"))
