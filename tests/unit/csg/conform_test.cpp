@@ -133,14 +133,20 @@ PolygonMesh surface_of(const std::set<std::array<int, 3>>& cells) {
   return mesh;
 }
 
+/// About a third of those of a cube.
+std::set<std::array<int, 3>> random_cells(std::mt19937& random, int size) {
+  std::set<std::array<int, 3>> cells;
+  for (int i = 0; i < size * size * size; ++i) {
+    if (random() % 3 == 0) cells.insert({i % size, i / size % size, i / size / size});
+  }
+  return cells;
+}
+
 TEST(Conform, SurfacesThatTouchThemselvesAgainstTurnedCopies) {
   std::mt19937 random(5);
   for (int round = 0; round < 40; ++round) {
     const int size = 3 + round % 3;
-    std::set<std::array<int, 3>> cells;
-    for (int i = 0; i < size * size * size; ++i) {
-      if (random() % 3 == 0) cells.insert({i % size, i / size % size, i / size / size});
-    }
+    const auto cells = random_cells(random, size);
     if (cells.empty()) continue;
     PolygonMesh mesh = surface_of(cells);
     mesh.keep_facets = round % 2 == 0;
@@ -162,10 +168,7 @@ TEST(Conform, SurfacesThatTouchThemselves) {
   std::mt19937 random(6);
   for (int round = 0; round < 60; ++round) {
     const int size = 2 + round % 3;
-    std::set<std::array<int, 3>> cells;
-    for (int i = 0; i < size * size * size; ++i) {
-      if (random() % 3 == 0) cells.insert({i % size, i / size % size, i / size / size});
-    }
+    const auto cells = random_cells(random, size);
     if (cells.empty()) continue;
     PolygonMesh mesh = surface_of(cells);
     mesh.keep_facets = round % 2 == 0;
