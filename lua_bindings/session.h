@@ -117,7 +117,6 @@ class Session {
   size_t collector_debt =
       0;  ///< bytes outside of the Lua heap that the collector was not told of yet
 
-  /// One part of a file that was imported.
   /// Files by their real path and how they were asked for: read once.
   std::map<std::tuple<std::string, FillRule, std::optional<RepairOptions>>, std::vector<SolidPart>>
       imported;

@@ -1,17 +1,13 @@
 #include "engine/mesh/loop_faces.h"
 
-#include <numeric>
 #include <tuple>
+
+#include "engine/bsp/union_find.h"
 
 namespace csgrun {
 
 CollinearGroups::CollinearGroups(const std::vector<const std::vector<uint32_t>*>& loops) {
-  std::vector<uint32_t> parent(loops.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto find = [&](uint32_t l) {
-    while (parent[l] != l) l = parent[l] = parent[parent[l]];
-    return l;
-  };
+  UnionFind joined(loops.size());
   for (uint32_t l = 0; l < loops.size(); ++l) {
     const std::vector<uint32_t>& loop = *loops[l];
     for (size_t i = 0; i < loop.size(); ++i) {
@@ -24,12 +20,11 @@ CollinearGroups::CollinearGroups(const std::vector<const std::vector<uint32_t>*>
     return std::tie(e.a, e.b, e.group) < std::tie(g.a, g.b, g.group);
   });
   for (size_t i = 1; i < edges_.size(); ++i) {
-    if (key(edges_[i]) == key(edges_[i - 1]))
-      parent[find(edges_[i].group)] = find(edges_[i - 1].group);
+    if (key(edges_[i]) == key(edges_[i - 1])) joined.join(edges_[i].group, edges_[i - 1].group);
   }
   std::vector<int64_t> number(loops.size(), -1);
   for (uint32_t l = 0; l < loops.size(); ++l) {
-    int64_t& group = number[find(l)];
+    int64_t& group = number[joined.find(l)];
     if (group < 0) {
       group = static_cast<int64_t>(vertices_.size());
       vertices_.emplace_back();
@@ -41,7 +36,7 @@ CollinearGroups::CollinearGroups(const std::vector<const std::vector<uint32_t>*>
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   }
-  for (Edge& edge : edges_) edge.group = static_cast<uint32_t>(number[find(edge.group)]);
+  for (Edge& edge : edges_) edge.group = static_cast<uint32_t>(number[joined.find(edge.group)]);
 }
 
 int64_t CollinearGroups::group_of(uint32_t a, uint32_t b) const {

@@ -241,14 +241,14 @@ class Run {
   }
 
   /// What ended before it looked at the clock again is late all the same.
-  Failure check_time() {
-    if (!session_.budget().out_of_time()) return {};
+  Failure check_time() { return session_.budget().out_of_time() ? late() : Failure{}; }
+  Failure late() {
     return {kExitTime, fmt::format("{}: {} in evaluation", session_.options().model,
                                    session_.budget().time_message())};
   }
 
   Failure evaluation_failure(const Error& error) {
-    if (error.code == ErrorCode::kCancelled) return check_time();
+    if (error.code == ErrorCode::kCancelled) return late();
     std::string place = session_.place_text(error.where);
     // A mesh has no lines to speak of.
     if (place.empty() || !model_file_format_of(line_.model).empty())

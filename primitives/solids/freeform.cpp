@@ -157,15 +157,13 @@ MeshResult smooth_mesh(PolygonMesh mesh, int rounds) {
   // will be too many in the end is told before the first takes its time.
   const double corners_at_last =
       static_cast<double>(mesh.corners.size()) * std::ldexp(1.0, 2 * std::min(rounds - 1, 500));
-  if (corners_at_last / 2 > kMostPoints) {
-    return Error{ErrorCode::kLimit, "smooth: makes more than 16777216 points", {}};
-  }
+  const Error too_many{ErrorCode::kLimit, "smooth: makes more than 16777216 points", {}};
+  if (corners_at_last / 2 > kMostPoints) return too_many;
   // Of nothing no number of rounds makes more, so the limit would never end them.
   for (int round = 0; round < rounds && mesh.face_count() > 0; ++round) {
     const size_t count = mesh.points.size();
-    if (static_cast<double>(mesh.points.size() + mesh.corners.size() / 2) > kMostPoints) {
-      return Error{ErrorCode::kLimit, "smooth: makes more than 16777216 points", {}};
-    }
+    if (static_cast<double>(mesh.points.size() + mesh.corners.size() / 2) > kMostPoints)
+      return too_many;
     PolygonMesh next = without_faces(mesh);
     // An edge's point: three eighths of both ends and an eighth of both corners beside it. A
     // corner's: itself and the mean of its neighbours, by how many these are (Warren's weights).
