@@ -13,6 +13,7 @@ uint32_t add_node(test::Random& random, Expression& e, uint32_t operands, int de
   Expression::Node node;
   if (depth == 0 || random.integer(0, 5) == 0) {
     node.operand = static_cast<uint32_t>(random.integer(0, operands - 1));
+    node.op = static_cast<BooleanOp>(random.integer(0, 3));  // means nothing here
   } else {
     node.is_operand = false;
     node.op = static_cast<BooleanOp>(random.integer(0, 3));
