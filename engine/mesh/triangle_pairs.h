@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/bsp/operand.h"
-#include "engine/mesh/slabs.h"
+#include "engine/bsp/slabs.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>

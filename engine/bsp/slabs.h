@@ -5,8 +5,6 @@
 #include <array>
 #include <cstdint>
 
-#include "engine/bsp/operand.h"
-
 namespace csgrun {
 
 /// The corners of eight triangles, in floats: [corner][axis][lane].
@@ -24,15 +22,25 @@ class Slabs {
   Slabs(const std::array<std::array<double, 3>, 3>& corners, double reach);
   Slabs() = default;
 
-  /// A bit for each of the eight that is apart, of those in `which`; others may have one, too.
+  /// A bit for each of the eight that is apart, of those in `which`.
   [[nodiscard]] uint32_t apart(const EightTriangles& others, uint32_t which) const;
+  /// The same but for those that may be in the plane of this one.
+  [[nodiscard]] uint32_t apart_in_space(const EightTriangles& others, uint32_t which) const;
 
  private:
   struct Slab {
     std::array<float, 3> along{};
     float lo = 0, hi = 0;
   };
-  std::array<Slab, 4> slabs_;
+  /// Which of the eight are beyond a slab, and which in it.
+  struct Places {
+    uint32_t beyond = 0, inside = 0;
+  };
+  static Places places(const Slab& slab, const EightTriangles& others, uint32_t which);
+  /// Those that are beyond one of the slabs across the sides.
+  [[nodiscard]] uint32_t beyond_sides(const EightTriangles& others, uint32_t which) const;
+
+  std::array<Slab, 4> slabs_;  ///< the first along the normal
 };
 
 }  // namespace csgrun

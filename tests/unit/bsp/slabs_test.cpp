@@ -1,6 +1,6 @@
 // One triangle against eight: what is said to be apart is, and what is clearly beyond one of the
 // four slabs is said to be.
-#include "engine/mesh/slabs.h"
+#include "engine/bsp/slabs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +85,7 @@ Triangle scaled(Triangle t, double factor, const Vec& move) {
 }
 
 TEST(Slabs, SeeWhatIsClearlyBeyondOneOfThemAndNothingElse) {
-  size_t found = 0, touching = 0;
+  size_t found = 0, touching = 0, coplanar = 0;
   for (int i = 0; i < 3000; ++i) {
     test::Random random(3100 + i);
     const int64_t size = random.integer(2, 9);
@@ -99,11 +99,23 @@ TEST(Slabs, SeeWhatIsClearlyBeyondOneOfThemAndNothingElse) {
         const auto a = static_cast<double>(random.integer(-1, 2));
         for (size_t k = 0; k < 3; ++k) t[2][k] = own[0][k] + a * edge(own, 1)[k];
       }
+      if (random.integer(0, 3) > 0) continue;
+      do {
+        for (Vec& p : t) {
+          const auto a = static_cast<double>(random.integer(-3, 3)),
+                     b = static_cast<double>(random.integer(-3, 3));
+          for (size_t k = 0; k < 3; ++k) {
+            p[k] = own[0][k] + a * edge(own, 0)[k] + b * edge(own, 1)[k];
+          }
+        }
+      } while (normal(t) == Vec{});
     }
-    const auto reach = static_cast<double>(3 * size);
+    const auto reach = static_cast<double>(20 * size);
     const auto which = static_cast<uint32_t>(random.integer(0, 255));
-    const uint32_t apart = Slabs(own, reach).apart(packed(others), which);
+    const uint32_t apart = Slabs(own, reach).apart(packed(others), which),
+                   in_space = Slabs(own, reach).apart_in_space(packed(others), which);
     EXPECT_EQ(apart & ~which, 0u);
+    EXPECT_EQ(in_space & ~apart, 0u);
     for (uint32_t lane = 0; lane < 8; ++lane) {
       if ((which >> lane & 1) == 0) continue;
       const bool is_apart = (apart >> lane & 1) != 0;
@@ -111,12 +123,19 @@ TEST(Slabs, SeeWhatIsClearlyBeyondOneOfThemAndNothingElse) {
       // The slack, and what rounding adds to it.
       EXPECT_TRUE(is_apart || room <= 0x1p-18 * reach) << i << ' ' << lane;
       EXPECT_TRUE(!is_apart || are_apart(own, others[lane])) << i << ' ' << lane;
+      const bool is_coplanar =
+          std::all_of(others[lane].begin(), others[lane].end(),
+                      [&](const Vec& p) { return dot(normal(own), minus(p, own[0])) == 0; });
+      // Small coordinates: others are clearly off the plane.
+      EXPECT_EQ((in_space >> lane & 1) != 0, is_apart && !is_coplanar) << i << ' ' << lane;
+      coplanar += is_apart && is_coplanar;
       found += is_apart;
       touching += !are_apart(own, others[lane]);
     }
   }
   EXPECT_GT(found, 3000u);
   EXPECT_GT(touching, 3000u);
+  EXPECT_GT(coplanar, 100u);
 }
 
 // Far from the middle floats do not have all bits of the points: what touches is never apart.
