@@ -1,7 +1,6 @@
 #include "engine/mesh/triangle_pairs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "engine/mesh/leaf_shape.h"
@@ -12,9 +11,6 @@ namespace {
 
 /// No vertices, and not the same one.
 constexpr uint32_t kNone = UINT32_MAX, kOther = UINT32_MAX - 1;
-
-/// Fewer pairs are tested one by one.
-constexpr int kFewPairs = 3;
 
 }  // namespace
 
@@ -73,13 +69,9 @@ void TrianglePairs::load(uint32_t group, Near& near) const {
   }
 }
 
-uint32_t TrianglePairs::plainly_apart(uint32_t place, uint32_t group, uint32_t hits,
-                                      Near& near) const {
-  if (near.group_ != group) {
-    // Loading them costs about as much as testing two pairs one by one.
-    if (std::popcount(hits) < kFewPairs) return 0;
-    load(group, near);
-  }
+uint32_t TrianglePairs::beyond_slabs(uint32_t place, uint32_t group, uint32_t hits,
+                                     Near& near) const {
+  if (near.group_ != group) load(group, near);
   hits &= near.triangles_;
   const Group& own = corners_[place / 8];
   if (hits == 0 || own.corners[0][place % 8] == kNone) return 0;

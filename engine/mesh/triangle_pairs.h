@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -76,7 +77,11 @@ class TrianglePairs {
   /// Of the triangles at places 8 group .. 8 group + 7, as bits, those of `hits` that certainly
   /// have no point in common with the one at `place`.
   [[nodiscard]] uint32_t plainly_apart(uint32_t place, uint32_t group, uint32_t hits,
-                                       Near& near) const;
+                                       Near& near) const {
+    // To get them at hand costs about as much as to test two pairs one by one.
+    if (near.group_ != group && std::popcount(hits) < kFewPairs) return 0;
+    return beyond_slabs(place, group, hits, near);
+  }
 
   /// True only when two faces are triangles that meet nowhere but in corners and edges that both
   /// have. False says nothing.
@@ -92,6 +97,10 @@ class TrianglePairs {
     return leaf_.face_starts[f + 1] - leaf_.face_starts[f] == 3;
   }
 
+  static constexpr int kFewPairs = 3;
+
+  [[nodiscard]] uint32_t beyond_slabs(uint32_t place, uint32_t group, uint32_t hits,
+                                      Near& near) const;
   void load(uint32_t group, Near& near) const;
   [[nodiscard]] std::array<double, 3> from_middle(uint32_t vertex) const;
 
