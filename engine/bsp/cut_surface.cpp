@@ -295,16 +295,16 @@ class SurfaceCutter {
   bool join_over_edges(uint32_t i, OffsetSets& windings) {
     const uint32_t polygon = partners_.polygons()[i];
     const JobPolygon& p = job_.polygons()[polygon];
-    const auto join = [&](const PieceEdge& edge, uint32_t k, const PieceEdge& back) {
-      return runs_along(i, edge) || runs_along(k, back) ||
-             windings.join(number(edge.piece), number(back.piece), 0);
+    // What runs along the edge crosses both.
+    const auto join = [&](const PieceEdge& edge, const PieceEdge& back) {
+      return runs_along(i, edge) || windings.join(number(edge.piece), number(back.piece), 0);
     };
     for (uint32_t e = 0; e < p.count; ++e) {
       const uint32_t back = leaf_.opposite[p.first + e], other = face_of(back);
       if (!crosses_[other] || other < polygon) continue;
       const uint32_t k = partners_.place(other), b = back - leaf_.face_starts[other];
       const Cut &own = cuts_[i], &its = cuts_[k];
-      if (!join(own.at_start[e], k, its.at_end[b]) || !join(own.at_end[e], k, its.at_start[b])) {
+      if (!join(own.at_start[e], its.at_end[b]) || !join(own.at_end[e], its.at_start[b])) {
         return false;
       }
     }
