@@ -1,6 +1,7 @@
 #include "engine/bsp/pair_cells.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/bsp/coarse_cells.h"
 
@@ -204,6 +205,47 @@ void CellPairs::load(const Job& job, const PairCells& all, const PairCells::Cell
       hi_[k][i] = box.hi[k];
       if (box.lo[k] >= cell.lo[k]) starts_[i] |= 1u << k;
     }
+  }
+  corners_.clear();
+  if (cell.count >= kCrowd) load_corners(job, cell.count);
+}
+
+void CellPairs::load_corners(const Job& job, uint32_t count) {
+  corners_.resize((count + 7) / 8);
+  triangles_.assign(corners_.size(), 0);
+  reach_ = 0;
+  slabs_of_ = ~0u;
+  for (uint32_t i = 0; i < count; ++i) {
+    const auto corners = job.corners(job.polygons()[polygons_[i]]);
+    if (corners.size() != 3) continue;
+    triangles_[i / 8] |= static_cast<uint8_t>(1u << i % 8);
+    for (size_t c = 0; c < 3; ++c) {
+      const std::array<double, 3>& p = job.rounded(corners[c]);
+      for (size_t k = 0; k < 3; ++k) {
+        corners_[i / 8].at[c][k][i % 8] = static_cast<float>(p[k]);
+        reach_ = std::max(reach_, std::fabs(p[k]));
+      }
+    }
+  }
+}
+
+void CellPairs::sift(const Job& job, uint32_t first, uint32_t count, uint32_t j,
+                     std::array<uint32_t, kAtOnce>& meets) {
+  if ((triangles_[j / 8] >> j % 8 & 1) == 0) return;
+  for (uint32_t begin = 0; begin < count; begin += 8) {
+    const uint32_t group = (first + begin) / 8, lanes = std::min(8u, count - begin);
+    uint32_t which = 0;
+    for (uint32_t i = 0; i < lanes; ++i) which |= meets[begin + i] << i;
+    which &= triangles_[group];
+    if (which == 0) continue;
+    if (slabs_of_ != j) {
+      slabs_of_ = j;
+      const auto corners = job.corners(job.polygons()[polygons_[j]]);
+      slabs_ = Slabs({job.rounded(corners[0]), job.rounded(corners[1]), job.rounded(corners[2])},
+                     reach_);
+    }
+    const uint32_t apart = slabs_.apart_in_space(corners_[group], which);
+    for (uint32_t i = 0; i < lanes; ++i) meets[begin + i] &= ~(apart >> i);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "engine/bsp/job.h"
 #include "engine/bsp/operand.h"
+#include "engine/bsp/slabs.h"
 
 namespace csgrun {
 
@@ -40,7 +41,8 @@ class CellPairs {
   explicit CellPairs(std::span<const uint8_t> covered) : covered_(covered) {}
 
   /// Calls visit(p, q), p < q, for each pair of different operands that belongs to the cell, but
-  /// for those of two covered polygons.
+  /// for those of two covered polygons, and in a cell of kCrowd polygons for triangles of different
+  /// planes that are seen to be apart at a glance.
   template <class Visit>
   void visit(const Job& job, const PairCells& all, const PairCells::Cell& cell, Visit&& visit) {
     load(job, all, cell);
@@ -51,8 +53,9 @@ class CellPairs {
         const uint32_t count = std::min(kAtOnce, own_start - first);
         std::array<uint32_t, kAtOnce> meets;
         compare(first, count, j, meets);
+        if (!corners_.empty()) sift(job, first, count, j, meets);
         for (uint32_t i = 0; i < count; ++i) {
-          if (meets[i] && !are_covered(polygons_[first + i], polygons_[j])) {
+          if (meets[i] != 0 && !are_covered(polygons_[first + i], polygons_[j])) {
             visit(polygons_[first + i], polygons_[j]);
           }
         }
@@ -71,6 +74,10 @@ class CellPairs {
   /// Whether the boxes of so many polygons overlap that of polygon j, with an overlap that starts
   /// in the cell.
   void compare(uint32_t first, uint32_t count, uint32_t j, std::array<uint32_t, kAtOnce>& meets);
+  /// Takes away triangles that are plainly apart from polygon j.
+  void sift(const Job& job, uint32_t first, uint32_t count, uint32_t j,
+            std::array<uint32_t, kAtOnce>& meets);
+  void load_corners(const Job& job, uint32_t count);
 
   std::span<const uint8_t> covered_;
   const uint32_t* polygons_ = nullptr;
@@ -78,6 +85,15 @@ class CellPairs {
   std::array<std::vector<int32_t>, 3> lo_, hi_;
   std::vector<uint32_t> starts_;  ///< along which axes the box has its lower end in the cell
   std::vector<uint32_t> operands_;
+  /// In a crowd: the corners of all of them, eight by eight, and which are triangles.
+  std::vector<EightTriangles> corners_;
+  std::vector<uint8_t> triangles_;
+  double reach_ = 0;         ///< of the corners
+  uint32_t slabs_of_ = ~0u;  ///< the polygon, by its place
+  Slabs slabs_;
 };
+
+/// So many polygons of a cell are worth the time to pack their corners.
+constexpr uint32_t kCrowd = 128;
 
 }  // namespace csgrun

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/corner_walk.h"
+#include "engine/bsp/cut_surface.h"
 #include "engine/bsp/evaluate_job.h"
 #include "engine/bsp/surface_cells.h"
 #include "engine/bsp/surface_octree.h"
@@ -24,12 +26,14 @@ class Resolution {
   Resolution(const std::vector<Operand>& surface,
              std::span<const std::array<uint32_t, 2>> crossings, InsideRule rule,
              const KernelOptions& options, EvaluateStats& stats)
-      : job_(surface),
+      : surface_(surface[0]),
+        crossings_(crossings),
+        job_(surface),
         crosses_(job_.polygons().size(), 0),
         rule_(rule),
         options_(options),
         stats_(stats) {
-    find_touching(surface, crossings);
+    find_touching(surface);
     if (is_hull() && !job_.is_leaf(0)) {
       // It may touch itself anywhere, and what touches parts volumes: every cell is solved.
       std::fill(crosses_.begin(), crosses_.end(), 1);
@@ -37,7 +41,6 @@ class Resolution {
       return;
     }
     for (const auto& [f, g] : crossings) crosses_[f] = crosses_[g] = 1;
-    patches_ = find_patches(job_, crossings, crosses_);
   }
 
   [[nodiscard]] bool is_hull() const {
@@ -47,19 +50,55 @@ class Resolution {
   [[nodiscard]] bool may_be_nested() const { return is_hull() && patches_.class_count != 1; }
 
   Result<BoundaryPtr> run() {
-    const Status status = !is_hull()        ? solve(all_polygons(), patches_.witness, kNone)
-                          : job_.is_leaf(0) ? solve_classes()
-                                            : fill_voids();
+    const Status status = keep_all();
     if (!status) return status.error();
     return assemble(job_, sets_, whole_, std::move(touching_));
   }
 
  private:
+  Status keep_all() {
+    if (is_hull() && !job_.is_leaf(0)) return fill_voids();
+    if (may_cut_whole()) {
+      auto cut = cut_surface(job_, *surface_.leaf, crossings_, crosses_, options_, stats_);
+      if (!cut) return cut.error();
+      if (*cut) {
+        keep_cut(std::move(**cut));
+        return std::monostate{};
+      }
+    }
+    patches_ = find_patches(job_, crossings_, crosses_);
+    return is_hull() ? solve_classes() : solve(all_polygons(), patches_.witness, kNone);
+  }
+
+  [[nodiscard]] bool may_cut_whole() const {
+    return options_.whole_faces && !is_hull() && job_.is_leaf(0) && surface_.frame.is_identity &&
+           !surface_.leaf->opposite.empty();
+  }
+
+  void keep_cut(CutSurface&& cut) {
+    FragmentSet& set = sets_.emplace_back(std::move(cut.pieces));
+    size_t kept = 0;
+    for (size_t i = 0; i < set.pieces.size(); ++i) {
+      const auto [before, behind] = cut.windings_of_piece[i];
+      const bool front = is_inside(before, rule_), back = is_inside(behind, rule_);
+      if (front == back) continue;
+      set.pieces[kept] = set.pieces[i];
+      if (front) set.flip(set.pieces[kept]);
+      ++kept;
+    }
+    set.pieces.resize(kept);
+    for (uint32_t p = 0; p < crosses_.size(); ++p) {
+      if (crosses_[p]) continue;
+      const int32_t winding = cut.winding_of_polygon[p];
+      const bool front = is_inside(winding, rule_), back = is_inside(winding + 1, rule_);
+      if (front != back) whole_.push_back({p, front});
+    }
+  }
+
   /// What is kept are parts of the polygons. They touch where these do, but for common corners and
   /// edges; and at a corner of several fans, where the faces of one may become a face that has no
   /// corner there.
-  void find_touching(const std::vector<Operand>& surface,
-                     std::span<const std::array<uint32_t, 2>> crossings) {
+  void find_touching(const std::vector<Operand>& surface) {
     if (!job_.is_leaf(0)) {
       touching_ = touching_before(surface);
       return;
@@ -67,7 +106,7 @@ class Resolution {
     const LeafGeometry& leaf = *surface[0].leaf;
     touching_.anywhere = leaf.opposite.empty();
     if (touching_.anywhere) return;
-    for (const auto& [f, g] : crossings) {
+    for (const auto& [f, g] : crossings_) {
       const PolygonBox &a = job_.boxes()[f], &b = job_.boxes()[g];
       GridBox& box = touching_.boxes.emplace_back();
       for (size_t k = 0; k < 3; ++k) {
@@ -189,6 +228,8 @@ class Resolution {
     sets_.push_back(std::move(set));
   }
 
+  const Operand& surface_;
+  std::span<const std::array<uint32_t, 2>> crossings_;
   Job job_;
   std::vector<uint8_t> crosses_;
   const InsideRule rule_;

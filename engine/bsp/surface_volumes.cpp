@@ -10,17 +10,6 @@
 namespace csgrun {
 namespace {
 
-bool is_inside(int32_t winding, InsideRule rule) {
-  switch (rule) {
-    case InsideRule::kNonZero:
-      return winding != 0;
-    case InsideRule::kPositive:
-      return winding > 0;
-    default:
-      return winding % 2 != 0;
-  }
-}
-
 /// Sees to it that all that is said of a patch agrees.
 bool label_patches(const std::vector<SurfaceCells>& runs, InsideLabels& labels) {
   for (size_t r = 0; r < runs.size(); ++r) {
@@ -194,6 +183,17 @@ class VolumeSets {
 };
 
 }  // namespace
+
+bool is_inside(int32_t winding, InsideRule rule) {
+  switch (rule) {
+    case InsideRule::kNonZero:
+      return winding != 0;
+    case InsideRule::kPositive:
+      return winding > 0;
+    default:
+      return winding % 2 != 0;
+  }
+}
 
 std::optional<InsideLabels> label_by_winding(const std::vector<SurfaceCells>& runs,
                                              size_t patch_count, InsideRule rule) {

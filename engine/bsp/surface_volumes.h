@@ -20,6 +20,9 @@ struct InsideLabels {
   std::vector<Patch> patches;  ///< per patch of the surface; known for those that were seen
 };
 
+/// Whether a place of some winding number is inside by kNonZero, kPositive or kEvenOdd.
+bool is_inside(int32_t winding, InsideRule rule);
+
 /// By kNonZero, kPositive or kEvenOdd. std::nullopt when a patch has two labels on one side: an
 /// invariant of ours is broken.
 std::optional<InsideLabels> label_by_winding(const std::vector<SurfaceCells>& runs,

@@ -30,8 +30,12 @@ Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree, bool is_
   if (TrianglePairs::covers(leaf)) triangles.emplace(leaf, order, is_balanced);
   const auto search = [&](const PackedBoxes::Task& task, FacePairs::Scratch& scratch,
                           Pairs& found) {
+    TrianglePairs::Near near;
     tree.visit_rows(task, [&](uint32_t place, uint32_t group, uint32_t hits) {
-      if (triangles) hits &= ~triangles->spread_neighbours(place, group);
+      if (triangles) {
+        hits &= ~triangles->spread_neighbours(place, group);
+        if (hits != 0) hits &= ~triangles->plainly_apart(place, group, hits, near);
+      }
       PackedBoxes::for_each_bit(hits, [&](uint32_t bit) {
         const auto [f, g] = std::minmax({order[place], order[8 * group + bit]});
         if (triangles && triangles->apart(f, g)) return;

@@ -23,6 +23,11 @@ TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t>
     : leaf_(leaf),
       corners_((order.size() + 7) / 8),
       spread_(8 * corners_.size(), {kOther, kOther, kOther}) {
+  const GridBox box = box_of_points(leaf.vertices);
+  for (size_t k = 0; k < 3; ++k) {
+    middle_[k] = (box.lo[k] + box.hi[k]) / 2;
+    reach_ = std::max(reach_, static_cast<double>(box.hi[k] - box.lo[k]) / 2 + 1);
+  }
   const std::vector<uint8_t> is_spread =
       is_balanced ? find_spread_vertices(leaf) : std::vector<uint8_t>(leaf.vertices.size(), 0);
   if (!corners_.empty()) {
@@ -37,6 +42,47 @@ TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t>
       if (is_spread[corner] != 0) spread_[place][i] = corner;
     }
   }
+}
+
+std::array<double, 3> TrianglePairs::from_middle(uint32_t vertex) const {
+  std::array<double, 3> p{};
+  for (size_t k = 0; k < 3; ++k) {
+    p[k] = static_cast<double>(leaf_.vertices[vertex][k] - middle_[k]);
+  }
+  return p;
+}
+
+void TrianglePairs::load(uint32_t group, Near& near) const {
+  near.group_ = group;
+  near.triangles_ = 0;
+  for (uint32_t lane = 0; lane < 8; ++lane) {
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t vertex = corners_[group].corners[i][lane];
+      if (vertex == kNone) {
+        for (auto& lanes : near.corners_.at[i]) lanes[lane] = 0;
+        continue;
+      }
+      near.triangles_ |= 1u << lane;
+      const std::array<double, 3> p = from_middle(vertex);
+      for (size_t k = 0; k < 3; ++k) near.corners_.at[i][k][lane] = static_cast<float>(p[k]);
+    }
+  }
+}
+
+uint32_t TrianglePairs::beyond_slabs(uint32_t place, uint32_t group, uint32_t hits,
+                                     Near& near) const {
+  if (near.group_ != group) load(group, near);
+  hits &= near.triangles_;
+  const Group& own = corners_[place / 8];
+  if (hits == 0 || own.corners[0][place % 8] == kNone) return 0;
+  Slabs& slabs = near.slabs_[place % 8];
+  if (near.slabs_of_[place % 8] != place) {
+    near.slabs_of_[place % 8] = place;
+    slabs = Slabs({from_middle(own.corners[0][place % 8]), from_middle(own.corners[1][place % 8]),
+                   from_middle(own.corners[2][place % 8])},
+                  reach_);
+  }
+  return slabs.apart(near.corners_, hits);
 }
 
 namespace {

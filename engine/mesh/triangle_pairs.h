@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/bsp/operand.h"
+#include "engine/bsp/slabs.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -59,6 +61,28 @@ class TrianglePairs {
 #endif
   }
 
+  /// What is at hand while rows of groups are held against other groups; for one thread.
+  class Near {
+   public:
+    Near() { slabs_of_.fill(UINT32_MAX); }
+
+   private:
+    friend class TrianglePairs;
+    uint32_t group_ = UINT32_MAX;  ///< whose corners these are
+    uint32_t triangles_ = 0;       ///< which of the eight are triangles
+    EightTriangles corners_;
+    std::array<uint32_t, 8> slabs_of_;  ///< places
+    std::array<Slabs, 8> slabs_;
+  };
+  /// Of the triangles at places 8 group .. 8 group + 7, as bits, those of `hits` that certainly
+  /// have no point in common with the one at `place`.
+  [[nodiscard]] uint32_t plainly_apart(uint32_t place, uint32_t group, uint32_t hits,
+                                       Near& near) const {
+    // To get them at hand costs about as much as to test two pairs one by one.
+    if (near.group_ != group && std::popcount(hits) < kFewPairs) return 0;
+    return beyond_slabs(place, group, hits, near);
+  }
+
   /// True only when two faces are triangles that meet nowhere but in corners and edges that both
   /// have. False says nothing.
   [[nodiscard]] bool apart(uint32_t f, uint32_t g) const;
@@ -73,7 +97,16 @@ class TrianglePairs {
     return leaf_.face_starts[f + 1] - leaf_.face_starts[f] == 3;
   }
 
+  static constexpr int kFewPairs = 3;
+
+  [[nodiscard]] uint32_t beyond_slabs(uint32_t place, uint32_t group, uint32_t hits,
+                                      Near& near) const;
+  void load(uint32_t group, Near& near) const;
+  [[nodiscard]] std::array<double, 3> from_middle(uint32_t vertex) const;
+
   const LeafGeometry& leaf_;
+  IVec3 middle_{};                               ///< of the box of all vertices
+  double reach_ = 0;                             ///< no vertex is further from it along an axis
   std::vector<Group> corners_;                   ///< by place; lanes without a triangle hold kNone
   std::vector<std::array<uint32_t, 3>> spread_;  ///< by place: corners that are spread, else kOther
 };

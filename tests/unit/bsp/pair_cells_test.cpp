@@ -377,5 +377,95 @@ TEST(PairCells, LargePolygonsAreNotPutIntoAGrid) {
   EXPECT_EQ(find_coarse_cells(job, {}, 1).cells.size(), 1u);
 }
 
+using Corners = std::vector<IVec3>;
+
+IVec3 minus(const IVec3& a, const IVec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+/// Exactly: some plane along a side or across two sides parts them.
+bool are_apart(const Corners& s, const Corners& t) {
+  std::vector<IVec3> sides_of_s, sides_of_t;
+  for (size_t i = 0; i < 3; ++i) {
+    sides_of_s.push_back(minus(s[(i + 1) % 3], s[i]));
+    sides_of_t.push_back(minus(t[(i + 1) % 3], t[i]));
+  }
+  const IVec3 s_normal = test::cross_of(sides_of_s[0], sides_of_s[1]),
+              t_normal = test::cross_of(sides_of_t[0], sides_of_t[1]);
+  std::vector<IVec3> ways{s_normal, t_normal};
+  for (size_t i = 0; i < 3; ++i) {
+    ways.push_back(test::cross_of(sides_of_s[i], s_normal));
+    ways.push_back(test::cross_of(sides_of_t[i], t_normal));
+    for (const IVec3& side : sides_of_t) ways.push_back(test::cross_of(sides_of_s[i], side));
+  }
+  return std::any_of(ways.begin(), ways.end(), [&](const IVec3& way) {
+    const auto range = [&](const Corners& x) {
+      return std::minmax(
+          {test::dot_of(x[0], way), test::dot_of(x[1], way), test::dot_of(x[2], way)});
+    };
+    return range(s).second < range(t).first || range(t).second < range(s).first;
+  });
+}
+
+bool are_coplanar(const Corners& s, const Corners& t) {
+  const IVec3 normal = test::cross_of(minus(s[1], s[0]), minus(s[2], s[0]));
+  return std::all_of(t.begin(), t.end(),
+                     [&](const IVec3& p) { return test::dot_of(normal, minus(p, s[0])) == 0; });
+}
+
+/// So many slivers and some squares, anywhere: not a closed surface, which nobody asks for.
+test::Leaf random_faces(test::Random& random, size_t count) {
+  const auto at = [&] { return random.integer(-100, 100); };
+  std::vector<test::Loop> faces;
+  while (faces.size() < count) {
+    IVec3 a{at(), at(), at()}, b{at(), at(), at()}, c{a[0] + at() / 9, a[1] + at() / 9, a[2]};
+    if (random.integer(0, 9) == 0) a[2] = b[2] = c[2] = 0;
+    if (test::cross_of(minus(b, a), minus(c, a)) == IVec3{}) continue;
+    faces.push_back({a, b, c});
+    if (random.integer(0, 7) > 0) continue;
+    const IVec3 d{b[0] + c[0] - a[0], b[1] + c[1] - a[1], b[2] + c[2] - a[2]};
+    faces.back() = {a, b, d, c};
+  }
+  return test::make_leaf(faces);
+}
+
+// In a crowd, triangles that are plainly apart are no pairs; all others are, once.
+TEST(PairCells, CrowdsAreSifted) {
+  size_t left_out = 0, apart = 0, coplanar = 0;
+  for (int i = 0; i < 20; ++i) {
+    test::Random random(8800 + i);
+    // One fewer than a crowd, a crowd, and more.
+    const auto count = static_cast<size_t>(i < 4 ? kCrowd - 1 : kCrowd + random.integer(0, 90));
+    const auto first = static_cast<size_t>(random.integer(20, 100));
+    std::vector<Operand> operands{test::operand_of(random_faces(random, first)),
+                                  test::operand_of(random_faces(random, count - first))};
+    const Job job(operands);
+    PairCells cells;
+    for (uint32_t p = 0; p < count; ++p) cells.polygons.push_back(p);
+    cells.cells.push_back({{-200, -200, -200}, {200, 200, 200}, 0, static_cast<uint32_t>(count)});
+    const Pairs found = visited(job, cells), all = all_pairs(job);
+    for (const auto& [pair, times] : found) EXPECT_TRUE(all.contains(pair) && times == 1);
+    for (const auto& [pair, times] : all) {
+      const auto corners = [&](uint32_t p) {
+        Corners result;
+        for (const uint32_t v : job.corners(job.polygons()[p])) {
+          const auto& x = job.rounded(v);
+          result.push_back(
+              {static_cast<int64_t>(x[0]), static_cast<int64_t>(x[1]), static_cast<int64_t>(x[2])});
+        }
+        return result;
+      };
+      const Corners s = corners(pair.first), t = corners(pair.second);
+      const bool may_be_out = count >= kCrowd && s.size() == 3 && t.size() == 3 &&
+                              !are_coplanar(s, t) && are_apart(s, t);
+      coplanar += count >= kCrowd && are_coplanar(s, t);
+      EXPECT_TRUE(found.contains(pair) || may_be_out) << i;
+      left_out += !found.contains(pair);
+      apart += may_be_out;
+    }
+  }
+  EXPECT_GT(left_out, apart / 2);
+  EXPECT_GT(apart, 10000u);
+  EXPECT_GT(coplanar, 100u);
+}
+
 }  // namespace
 }  // namespace csgrun

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/mesh/leaf_check.h"
+#include "engine/mesh/opposite_edges.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
@@ -59,7 +60,9 @@ Merged random_case(Random& random, bool turn_second) {
     if (turn_second && i == 1) turn_over(own);
     loops.insert(loops.end(), own.begin(), own.end());
   }
-  m.all = operand_of(make_leaf(loops));
+  auto all = std::make_shared<LeafGeometry>(*make_leaf(loops));
+  all->opposite = pair_edges(*all).opposite;
+  m.all = operand_of(all);
   m.all.frame = frame;
   return m;
 }
@@ -68,6 +71,7 @@ KernelOptions random_options(Random& random) {
   KernelOptions options;
   options.cell_limit = static_cast<uint32_t>(random.integer(1, 40));
   for (auto& s : options.octree_shift) s = static_cast<uint32_t>(random.integer(0, 5));
+  options.whole_faces = random.integer(0, 3) > 0;
   return options;
 }
 

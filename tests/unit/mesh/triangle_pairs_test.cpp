@@ -157,6 +157,50 @@ TEST(TrianglePairs, TrianglesThatRestOnAPlaneBesideATriangle) {
   EXPECT_FALSE(is_apart({{{kBig, kBig + 1, 1}, p, q}}));
 }
 
+// A stack of triangles, of which one in four is a quadrilateral, far from the origin.
+TEST(TrianglePairs, ManyOfAGroupAreTestedAtOnce) {
+  LeafGeometry leaf;
+  constexpr int64_t kFar = int64_t{1} << 35;
+  for (int64_t i = 0; i < 24; ++i) {
+    const int64_t z = kFar + 100 * i;
+    const auto first = static_cast<uint32_t>(leaf.vertices.size());
+    leaf.vertices.insert(leaf.vertices.end(),
+                         {{0, kFar, z}, {1000, kFar, z + 3}, {0, kFar + 1000, z}});
+    add_triangle(leaf, first, first + 1, first + 2);
+    if (i % 4 != 3) continue;
+    leaf.vertices.push_back({-1000, kFar, z - 3});
+    leaf.corners.push_back(first + 3);
+    ++leaf.face_starts.back();
+  }
+  std::vector<uint32_t> order(leaf.face_count());
+  std::iota(order.begin(), order.end(), 0u);
+  const TrianglePairs pairs(leaf, order, false);
+  constexpr uint32_t kTriangles = 0b01110111;
+  for (uint32_t place = 0; place < 24; ++place) {
+    TrianglePairs::Near near;
+    const auto apart = [&](uint32_t group, uint32_t hits) {
+      return pairs.plainly_apart(place, group, hits, near);
+    };
+    const uint32_t expected = place % 4 == 3 ? 0 : kTriangles;
+    const uint32_t own = expected & ~(1u << place % 8);
+    // Few of a group that is not at hand are left to others.
+    EXPECT_EQ(apart(0, 0b11), 0u);
+    EXPECT_EQ(apart(0, 0xff), place / 8 == 0 ? own : expected);
+    EXPECT_EQ(apart(0, 0b10010) & ~0b10010u, 0u);
+    EXPECT_EQ(apart(1, 0b1), 0u);
+    EXPECT_EQ(apart(1, 0xff), place / 8 == 1 ? own : expected);
+    EXPECT_EQ(apart(2, 0b01100101), (place / 8 == 2 ? own : expected) & 0b01100101);
+    EXPECT_EQ(apart(2, 0b1), (place / 8 == 2 ? own : expected) & 0b1);
+  }
+  // The slabs at hand are those of the place.
+  TrianglePairs::Near near;
+  for (const uint32_t place : {0u, 8u, 16u, 8u, 0u}) {
+    TrianglePairs::Near fresh;
+    EXPECT_EQ(pairs.plainly_apart(place, 1, 0xff, near),
+              pairs.plainly_apart(place, 1, 0xff, fresh));
+  }
+}
+
 TEST(TrianglePairs, PolygonsAreLeftToOthersAndFarLeavesToo) {
   LeafGeometry leaf = octahedron();
   EXPECT_TRUE(TrianglePairs::covers(leaf));

@@ -1,0 +1,434 @@
+#include "engine/bsp/cut_surface.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "engine/bsp/offset_sets.h"
+#include "engine/bsp/point_index.h"
+#include "engine/bsp/surface_cells.h"
+#include "engine/bsp/surface_octree.h"
+
+namespace csgrun {
+namespace {
+
+/// Polygons that cross others, and these.
+class Partners {
+ public:
+  Partners(std::span<const std::array<uint32_t, 2>> crossings, std::span<const uint8_t> crosses)
+      : place_(crosses.size(), kNone) {
+    for (uint32_t p = 0; p < crosses.size(); ++p) {
+      if (!crosses[p]) continue;
+      place_[p] = static_cast<uint32_t>(polygons_.size());
+      polygons_.push_back(p);
+    }
+    of_.resize(polygons_.size());
+    for (const auto& [f, g] : crossings) {
+      of_[place_[f]].push_back(g);
+      of_[place_[g]].push_back(f);
+    }
+  }
+  [[nodiscard]] const std::vector<uint32_t>& polygons() const { return polygons_; }
+  /// Where a polygon stands among these; kNone for one that crosses nothing.
+  [[nodiscard]] uint32_t place(uint32_t polygon) const { return place_[polygon]; }
+  /// Those that cross the i-th of the polygons.
+  [[nodiscard]] const std::vector<uint32_t>& of(uint32_t i) const { return of_[i]; }
+
+ private:
+  std::vector<uint32_t> place_, polygons_;
+  std::vector<std::vector<uint32_t>> of_;
+};
+
+/// A directed edge of a piece, by unique points.
+struct PieceEdge {
+  uint32_t low, high;
+  bool rises;  ///< runs from the lower number to the higher one
+  uint32_t piece;
+
+  [[nodiscard]] uint32_t from() const { return rises ? low : high; }
+  [[nodiscard]] uint32_t to() const { return rises ? high : low; }
+};
+
+class SurfaceCutter {
+ public:
+  SurfaceCutter(Job& job, const LeafGeometry& leaf,
+                std::span<const std::array<uint32_t, 2>> crossings,
+                std::span<const uint8_t> crosses, const KernelOptions& options)
+      : job_(job),
+        leaf_(leaf),
+        crosses_(crosses),
+        options_(options),
+        partners_(crossings, crosses),
+        geometry_(job.planes(), &job),
+        index_(geometry_) {}
+
+  Result<std::optional<CutSurface>> run(EvaluateStats& stats) {
+    if (!cut_all()) return std::optional<CutSurface>();
+    // Polygons, pieces, and what is at infinity.
+    const auto polygons = static_cast<uint32_t>(job_.polygons().size());
+    infinity_ = polygons + static_cast<uint32_t>(pieces_.size());
+    OffsetSets windings(infinity_ + 1);
+    bool agrees = join_polygons(windings);
+    for (uint32_t i = 0; i < partners_.polygons().size() && agrees; ++i) {
+      agrees = join_pieces(i, windings);
+    }
+    for (uint32_t i = 0; i < partners_.polygons().size() && agrees; ++i) {
+      agrees = join_over_edges(i, windings);
+    }
+    if (!agrees) return std::optional<CutSurface>();
+    const auto known = join_with_infinity(windings, stats);
+    if (!known) return known.error();
+    if (!*known) return std::optional<CutSurface>();
+    return labelled(windings);
+  }
+
+ private:
+  /// What is known of the i-th polygon that crosses others.
+  struct Cut {
+    uint32_t first_piece, end_piece;
+    std::vector<uint32_t> crossing, coplanar;  ///< the polygons that it has contact with
+    /// Per edge of the polygon: the edges of pieces at its start and at its end.
+    std::vector<PieceEdge> at_start, at_end;
+  };
+
+  [[nodiscard]] uint32_t number(uint32_t piece) const {
+    return static_cast<uint32_t>(job_.polygons().size()) + piece;
+  }
+  [[nodiscard]] bool is_cancelled() const {
+    return options_.cancel && options_.cancel->load(std::memory_order_relaxed);
+  }
+  uint32_t unique(uint32_t point) {
+    unique_.resize(geometry_.point_count(), kNone);
+    if (unique_[point] == kNone) unique_[point] = index_.unique(point);
+    return unique_[point];
+  }
+
+  bool cut_all() {
+    for (const uint32_t p : partners_.polygons()) job_.ensure_planes(p);
+    for (uint32_t i = 0; i < partners_.polygons().size(); ++i) {
+      if (is_cancelled() || !cut(i)) return false;
+    }
+    return true;
+  }
+
+  bool cut(uint32_t i) {
+    const uint32_t polygon = partners_.polygons()[i];
+    const uint32_t support = job_.polygons()[polygon].support.index();
+    Cut& cut = cuts_.emplace_back();
+    std::vector<uint32_t> planes;
+    for (const uint32_t other : partners_.of(i)) {
+      const JobPolygon& p = job_.polygons()[other];
+      const bool is_coplanar = p.support.index() == support;
+      (is_coplanar ? cut.coplanar : cut.crossing).push_back(other);
+      if (is_coplanar) {
+        const auto edges = job_.edge_planes(p);
+        planes.insert(planes.end(), edges.begin(), edges.end());
+      } else {
+        planes.push_back(p.support.index());
+      }
+    }
+    if (planes.size() > kMostCuts) return false;
+    cut.first_piece = static_cast<uint32_t>(pieces_.size());
+    pieces_.push_back(geometry_.load(polygon));
+    for (const uint32_t plane : planes) {
+      for (size_t k = cut.first_piece, end = pieces_.size(); k < end; ++k) {
+        Fragment front, back;
+        if (geometry_.split(pieces_[k], plane, front, back) != Side::kSplit) continue;
+        pieces_[k] = front;
+        pieces_.push_back(back);
+      }
+    }
+    cut.end_piece = static_cast<uint32_t>(pieces_.size());
+    return true;
+  }
+
+  /// Over the edges of polygons that cross nothing, winding numbers stay.
+  bool join_polygons(OffsetSets& windings) {
+    bool agrees = true;
+    for (uint32_t p = 0; p < crosses_.size(); ++p) {
+      const JobPolygon& polygon = job_.polygons()[p];
+      for (uint32_t c = polygon.first; c < polygon.first + polygon.count; ++c) {
+        const uint32_t other = face_of(leaf_.opposite[c]);
+        if (!crosses_[p] && !crosses_[other] && p < other) agrees &= windings.join(p, other, 0);
+      }
+    }
+    return agrees;
+  }
+
+  [[nodiscard]] uint32_t face_of(uint32_t corner) {
+    if (face_of_.empty()) {
+      face_of_.resize(leaf_.corners.size());
+      for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
+        std::fill(face_of_.begin() + leaf_.face_starts[f],
+                  face_of_.begin() + leaf_.face_starts[f + 1], f);
+      }
+    }
+    return face_of_[corner];
+  }
+
+  /// From piece to piece of a polygon. False where that cannot be told.
+  bool join_pieces(uint32_t i, OffsetSets& windings) {
+    std::vector<PieceEdge> edges;
+    for (uint32_t k = cuts_[i].first_piece; k < cuts_[i].end_piece; ++k) {
+      const Fragment& piece = pieces_[k];
+      for (uint32_t c = 0; c < piece.count; ++c) {
+        const uint32_t a = unique(geometry_.corners(piece)[c]),
+                       b = unique(geometry_.corners(piece)[c + 1 < piece.count ? c + 1 : 0]);
+        edges.push_back({std::min(a, b), std::max(a, b), a < b, k});
+      }
+    }
+    std::sort(edges.begin(), edges.end(), [](const PieceEdge& a, const PieceEdge& b) {
+      return std::tie(a.low, a.high, a.rises) < std::tie(b.low, b.high, b.rises);
+    });
+    std::vector<PieceEdge> rim;  // of the polygon
+    for (size_t e = 0; e < edges.size(); ++e) {
+      const PieceEdge& edge = edges[e];
+      if (e + 1 == edges.size() || edges[e + 1].low != edge.low || edges[e + 1].high != edge.high) {
+        rim.push_back(edge);
+        continue;
+      }
+      ++e;
+      const auto step = winding_step(i, edge);
+      if (!step || !windings.join(number(edge.piece), number(edges[e].piece), *step)) return false;
+    }
+    return join_along_rim(i, rim, windings);
+  }
+
+  /// By how much the winding number just in front of a polygon changes over an edge between two of
+  /// its pieces, from the given one to the other: by the polygons that stand there.
+  std::optional<int32_t> winding_step(uint32_t i, const PieceEdge& edge) {
+    const PlaneId support = job_.polygons()[partners_.polygons()[i]].support;
+    int32_t step = 0;
+    for (const uint32_t other : cuts_[i].crossing) {
+      const PlaneId wall = job_.polygons()[other].support;
+      if (geometry_.side(wall.index(), edge.low) != 0) continue;
+      if (geometry_.side(wall.index(), edge.high) != 0) continue;
+      const auto holds = holds_segment(other, edge.low, edge.high);
+      if (!holds) return std::nullopt;
+      if (!*holds || !reaches_front(other, support)) continue;
+      step += side_of_piece(wall, pieces_[edge.piece]);
+    }
+    return step;
+  }
+
+  /// Whether a segment on a polygon's plane is in the polygon, boundary included; none where a part
+  /// of it is.
+  std::optional<bool> holds_segment(uint32_t polygon, uint32_t a, uint32_t b) {
+    const JobPolygon& p = job_.polygons()[polygon];
+    bool ends_inside = true;
+    bool beyond = false;
+    for (uint32_t e = 0; e < p.count; ++e) {
+      const uint32_t plane = job_.edge_planes(p)[e];
+      const int inner = inner_side(p, e);
+      const int at_a = geometry_.side(plane, a) * inner, at_b = geometry_.side(plane, b) * inner;
+      if (at_a >= 0 && at_b >= 0) continue;
+      ends_inside = false;
+      beyond |= at_a <= 0 && at_b <= 0;
+    }
+    if (ends_inside) return true;
+    return beyond ? std::optional(false) : std::nullopt;
+  }
+
+  /// The side of an edge's plane on which a polygon lies.
+  int inner_side(const JobPolygon& p, uint32_t edge) {
+    for (uint32_t k = 2; k < p.count; ++k) {
+      const uint32_t corner = job_.corners(p)[(edge + k) % p.count];
+      const int side = geometry_.side(job_.edge_planes(p)[edge], geometry_.vertex_point(corner));
+      if (side != 0) return side;
+    }
+    return 0;  // not reached: the corners of a polygon are not on one line
+  }
+
+  /// Whether a polygon has a corner in front of a plane.
+  bool reaches_front(uint32_t polygon, PlaneId plane) {
+    const auto corners = job_.corners(job_.polygons()[polygon]);
+    return std::any_of(corners.begin(), corners.end(), [&](uint32_t v) {
+      return oriented_side(plane, geometry_.vertex_point(v)) > 0;
+    });
+  }
+  int oriented_side(PlaneId plane, uint32_t point) {
+    const int side = geometry_.side(plane.index(), point);
+    return plane.flipped() ? -side : side;
+  }
+  /// Of a piece that the plane was used to cut.
+  int side_of_piece(PlaneId plane, const Fragment& piece) {
+    for (uint32_t c = 0; c < piece.count; ++c) {
+      const int side = oriented_side(plane, geometry_.corners(piece)[c]);
+      if (side != 0) return side;
+    }
+    return 0;  // not reached: the piece does not lie in the plane
+  }
+
+  /// Follows the rim of a polygon from edge to edge of it. Where the neighbour crosses nothing, all
+  /// pieces along the edge have its winding number.
+  bool join_along_rim(uint32_t i, std::vector<PieceEdge>& rim, OffsetSets& windings) {
+    const auto before = [](const PieceEdge& a, const PieceEdge& b) { return a.from() < b.from(); };
+    std::sort(rim.begin(), rim.end(), before);
+    const uint32_t polygon = partners_.polygons()[i];
+    const JobPolygon& p = job_.polygons()[polygon];
+    Cut& cut = cuts_[i];
+    size_t seen = 0;
+    for (uint32_t e = 0; e < p.count; ++e) {
+      const uint32_t neighbour = face_of(leaf_.opposite[p.first + e]);
+      uint32_t at = corner_point(p, e);
+      const uint32_t end = corner_point(p, e + 1 < p.count ? e + 1 : 0);
+      for (bool is_first = true; at != end || is_first; is_first = false) {
+        const auto edge =
+            std::lower_bound(rim.begin(), rim.end(), PieceEdge{at, at, true, 0}, before);
+        if (edge == rim.end() || edge->from() != at || seen++ == rim.size()) return false;
+        if (is_first) cut.at_start.push_back(*edge);
+        if (edge->to() == end) cut.at_end.push_back(*edge);
+        if (!crosses_[neighbour] && !windings.join(neighbour, number(edge->piece), 0)) {
+          return false;
+        }
+        at = edge->to();
+      }
+    }
+    return seen == rim.size();
+  }
+  uint32_t corner_point(const JobPolygon& p, uint32_t corner) {
+    return unique(geometry_.vertex_point(job_.corners(p)[corner]));
+  }
+
+  /// Near a corner, polygons that both cross others hang together over the edge that they share,
+  /// unless a third one runs along it.
+  bool join_over_edges(uint32_t i, OffsetSets& windings) {
+    const uint32_t polygon = partners_.polygons()[i];
+    const JobPolygon& p = job_.polygons()[polygon];
+    // What runs along the edge crosses both.
+    const auto join = [&](const PieceEdge& edge, const PieceEdge& back) {
+      return runs_along(i, edge) || windings.join(number(edge.piece), number(back.piece), 0);
+    };
+    for (uint32_t e = 0; e < p.count; ++e) {
+      const uint32_t back = leaf_.opposite[p.first + e], other = face_of(back);
+      if (!crosses_[other] || other < polygon) continue;
+      const uint32_t k = partners_.place(other), b = back - leaf_.face_starts[other];
+      const Cut &own = cuts_[i], &its = cuts_[k];
+      if (!join(own.at_start[e], its.at_end[b]) || !join(own.at_end[e], its.at_start[b])) {
+        return false;
+      }
+    }
+    return true;
+  }
+  /// Whether one of those that cross the i-th polygon may hold an edge of a piece of it.
+  bool runs_along(uint32_t i, const PieceEdge& edge) {
+    const auto& others = partners_.of(i);
+    return std::any_of(others.begin(), others.end(), [&](uint32_t other) {
+      const uint32_t plane = job_.polygons()[other].support.index();
+      return geometry_.side(plane, edge.low) == 0 && geometry_.side(plane, edge.high) == 0 &&
+             holds_segment(other, edge.low, edge.high).value_or(true);
+    });
+  }
+
+  /// One cell for all that hangs together says what its winding numbers are. False where something
+  /// hangs together with no polygon that crosses nothing.
+  Result<bool> join_with_infinity(OffsetSets& windings, EvaluateStats& stats) {
+    const std::vector<uint32_t> witnesses = choose_witnesses(windings);
+    std::vector<uint32_t> all(crosses_.size());
+    std::iota(all.begin(), all.end(), 0u);
+    const std::vector<uint8_t> nothing_crosses(crosses_.size(), 0);
+    const SurfaceOctree tree =
+        build_surface_octree(job_, all, nothing_crosses, witnesses, options_);
+    SurfacePatches each;  // polygon as a patch of its own
+    each.patch_of = std::move(all);
+    for (const uint32_t p : partners_.polygons()) each.patch_of[p] = kNone;
+    const auto runs = solve_surface_cells(job_, tree, each, {}, options_, stats);
+    if (!runs) return runs.error();
+    for (const SurfaceCells& run : *runs) {
+      for (const SurfaceCells::PatchSides& s : run.patches) {
+        if (!windings.join(infinity_, s.patch, run.windings[s.front])) return false;
+      }
+    }
+    for (uint32_t k = 0; k < infinity_; ++k) {
+      const bool is_cut = k < crosses_.size() && crosses_[k];
+      if (!is_cut && windings.find(k).root != windings.find(infinity_).root) return false;
+    }
+    return true;
+  }
+
+  /// For each set a vertex of few polygons, of one that crosses nothing.
+  std::vector<uint32_t> choose_witnesses(OffsetSets& windings) {
+    std::vector<uint32_t> uses(leaf_.vertices.size(), 0);
+    for (const uint32_t v : leaf_.corners) ++uses[v];
+    std::vector<uint32_t> best(crosses_.size(), kNone);  // per root
+    for (uint32_t p = 0; p < crosses_.size(); ++p) {
+      if (crosses_[p]) continue;
+      uint32_t& chosen = best[windings.find(p).root];
+      for (const uint32_t v : job_.corners(job_.polygons()[p])) {
+        if (chosen == kNone || uses[v] < uses[chosen]) chosen = v;
+      }
+    }
+    best.erase(std::remove(best.begin(), best.end(), kNone), best.end());
+    return best;
+  }
+
+  /// By how much the winding number behind a piece, and all that lies upon it, is above that in
+  /// front; none where a polygon of a lower number lies there, which has it.
+  std::optional<int32_t> layers_at(const Fragment& piece, const std::vector<uint32_t>& coplanar) {
+    int32_t layers = 1;
+    for (const uint32_t other : coplanar) {
+      if (!lies_in(piece, other)) continue;
+      if (other < piece.polygon) return std::nullopt;
+      layers += job_.polygons()[other].support == piece.support ? 1 : -1;
+    }
+    return layers;
+  }
+  /// Whether a piece that was cut along the edges of a polygon of its plane is inside of it.
+  bool lies_in(const Fragment& piece, uint32_t polygon) {
+    const JobPolygon& p = job_.polygons()[polygon];
+    for (uint32_t e = 0; e < p.count; ++e) {
+      const int inner = inner_side(p, e);
+      for (uint32_t c = 0; c < piece.count; ++c) {
+        if (geometry_.side(job_.edge_planes(p)[e], geometry_.corners(piece)[c]) * inner < 0) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  std::optional<CutSurface> labelled(OffsetSets& windings) {
+    CutSurface result;
+    const int32_t zero = windings.find(infinity_).offset;
+    const auto winding = [&](uint32_t k) { return windings.find(k).offset - zero; };
+    result.winding_of_polygon.resize(crosses_.size(), 0);
+    for (uint32_t p = 0; p < crosses_.size(); ++p) {
+      if (!crosses_[p]) result.winding_of_polygon[p] = winding(p);
+    }
+    std::vector<uint32_t> numbers;
+    for (const Cut& cut : cuts_) {
+      for (uint32_t k = cut.first_piece; k < cut.end_piece; ++k) {
+        const auto layers = layers_at(pieces_[k], cut.coplanar);
+        if (!layers) continue;
+        result.pieces.add(geometry_, pieces_[k], false, numbers);
+        const int32_t front = winding(number(k));
+        result.windings_of_piece.push_back({front, front + *layers});
+      }
+    }
+    return result;
+  }
+
+  Job& job_;
+  const LeafGeometry& leaf_;
+  std::span<const uint8_t> crosses_;
+  const KernelOptions& options_;
+  const Partners partners_;
+  CellGeometry geometry_;
+  PointIndex index_;
+  std::vector<uint32_t> unique_;   ///< per point of the geometry
+  std::vector<uint32_t> face_of_;  ///< per corner
+  std::vector<Fragment> pieces_;
+  std::vector<Cut> cuts_;  ///< as the partners' polygons
+  uint32_t infinity_ = 0;
+};
+
+}  // namespace
+
+Result<std::optional<CutSurface>> cut_surface(Job& job, const LeafGeometry& leaf,
+                                              std::span<const std::array<uint32_t, 2>> crossings,
+                                              std::span<const uint8_t> crosses,
+                                              const KernelOptions& options, EvaluateStats& stats) {
+  return SurfaceCutter(job, leaf, crossings, crosses, options).run(stats);
+}
+
+}  // namespace csgrun

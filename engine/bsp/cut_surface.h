@@ -1,0 +1,52 @@
+// The faces of a leaf that cross others, cut whole, and the winding number in front of everything:
+// what a surface that crosses itself in few places costs is told by these places.
+//
+// A face is cut along the planes of all faces that it crosses or touches, or along their edges if
+// they lie in its own, so that no other face meets the inside of a piece without holding all of it.
+// From one piece of a face to the next the winding number changes by the faces that stand between
+// them, and over an edge of two faces that no other one touches it stays. One solved cell for all
+// that hangs together in this way says what it is.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <csgrun/engine/error.h>
+#include <csgrun/engine/evaluate.h>
+
+#include "engine/bsp/fragment_set.h"
+#include "engine/bsp/job.h"
+#include "engine/bsp/operand.h"
+
+namespace csgrun {
+
+struct CutSurface {
+  /// Per polygon that crosses nothing: the winding number in front of it. Behind it is one more.
+  std::vector<int32_t> winding_of_polygon;
+  /// The polygons that cross others, in pieces, seen from their fronts. Where several lie upon one
+  /// another the first one has the pieces.
+  FragmentSet pieces;
+  /// One for one: the winding numbers in front of all that lies there and behind it.
+  std::vector<std::array<int32_t, 2>> windings_of_piece;
+};
+
+/// Cuts the only operand of a job, a leaf in no frame of its own that knows its opposite edges.
+/// `crossings` as resolve_surface has them; `crosses` says for each polygon whether it is in one of
+/// them.
+///
+/// std::nullopt where cells are needed: there are more than kMostCuts planes to cut a polygon with;
+/// what crosses one ends at no corner of a piece, or hides how parts hang together; or the
+/// evaluation was cancelled. O(n) and, for a polygon that k planes cut, O(k^3). `stats` is added
+/// to. Errors: those of solve_surface_cells.
+Result<std::optional<CutSurface>> cut_surface(Job& job, const LeafGeometry& leaf,
+                                              std::span<const std::array<uint32_t, 2>> crossings,
+                                              std::span<const uint8_t> crosses,
+                                              const KernelOptions& options, EvaluateStats& stats);
+
+/// So many planes may cut one polygon.
+constexpr size_t kMostCuts = 48;
+
+}  // namespace csgrun

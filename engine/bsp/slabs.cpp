@@ -1,0 +1,101 @@
+#include "engine/bsp/slabs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace csgrun {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+}  // namespace
+
+Slabs::Slabs(const std::array<Point, 3>& corners, double reach) {
+  // With u = 2^-24: rounding a point moves it by u of the reach along each axis, three products and
+  // two sums add as much as that each, and so does a bound: below 16 u, as directions have
+  // length 1.
+  const double slack = 0x1p-19 * reach;
+  const Point normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+  for (size_t i = 0; i < slabs_.size(); ++i) {
+    const Point way = i == 0 ? normal : cross(minus(corners[i % 3], corners[i - 1]), normal);
+    const double length = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    Slab& slab = slabs_[i];
+    for (size_t k = 0; k < 3; ++k) slab.along[k] = static_cast<float>(way[k] / length);
+    Point place{};
+    for (size_t c = 0; c < 3; ++c) {
+      // Whatever direction that is: these are where the corners stand along it.
+      for (size_t k = 0; k < 3; ++k) place[c] += double{slab.along[k]} * corners[c][k];
+    }
+    const auto [least, most] = std::minmax_element(place.begin(), place.end());
+    slab.lo = static_cast<float>(*least - slack);
+    slab.hi = static_cast<float>(*most + slack);
+  }
+}
+
+// Where a direction is not a number, no comparison holds.
+Slabs::Places Slabs::places(const Slab& slab, const EightTriangles& others, uint32_t which) {
+  Places result;
+#if defined(__SSE2__)
+  const __m128 x = _mm_set1_ps(slab.along[0]), y = _mm_set1_ps(slab.along[1]),
+               z = _mm_set1_ps(slab.along[2]), lo = _mm_set1_ps(slab.lo), hi = _mm_set1_ps(slab.hi);
+  for (size_t half = 0; half < 8; half += 4) {
+    if ((which >> half & 0xf) == 0) continue;
+    const auto place = [&](size_t corner) {
+      const auto& at = others.at[corner];
+      return _mm_add_ps(_mm_add_ps(_mm_mul_ps(_mm_load_ps(&at[0][half]), x),
+                                   _mm_mul_ps(_mm_load_ps(&at[1][half]), y)),
+                        _mm_mul_ps(_mm_load_ps(&at[2][half]), z));
+    };
+    const __m128 a = place(0), b = place(1), c = place(2);
+    const __m128 least = _mm_min_ps(_mm_min_ps(a, b), c), most = _mm_max_ps(_mm_max_ps(a, b), c);
+    const __m128 beyond = _mm_or_ps(_mm_cmpgt_ps(least, hi), _mm_cmplt_ps(most, lo)),
+                 inside = _mm_and_ps(_mm_cmpge_ps(least, lo), _mm_cmple_ps(most, hi));
+    result.beyond |= static_cast<uint32_t>(_mm_movemask_ps(beyond)) << half;
+    result.inside |= static_cast<uint32_t>(_mm_movemask_ps(inside)) << half;
+  }
+#else
+  for (uint32_t lane = 0; lane < 8; ++lane) {
+    bool above = true, below = true, inside = true;
+    for (const auto& at : others.at) {
+      const float place =
+          at[0][lane] * slab.along[0] + at[1][lane] * slab.along[1] + at[2][lane] * slab.along[2];
+      above = above & (place > slab.hi);
+      below = below & (place < slab.lo);
+      inside = inside & (place >= slab.lo) & (place <= slab.hi);
+    }
+    result.beyond |= static_cast<uint32_t>(above | below) << lane;
+    result.inside |= static_cast<uint32_t>(inside) << lane;
+  }
+#endif
+  return result;
+}
+
+uint32_t Slabs::beyond_sides(const EightTriangles& others, uint32_t which) const {
+  uint32_t left = which;
+  for (size_t i = 1; i < slabs_.size() && left != 0; ++i) {
+    left &= ~places(slabs_[i], others, left).beyond;
+  }
+  return which & ~left;
+}
+
+uint32_t Slabs::apart(const EightTriangles& others, uint32_t which) const {
+  const uint32_t beyond = which & places(slabs_[0], others, which).beyond;
+  return beyond | beyond_sides(others, which & ~beyond);
+}
+
+uint32_t Slabs::apart_in_space(const EightTriangles& others, uint32_t which) const {
+  const Places along_normal = places(slabs_[0], others, which);
+  const uint32_t beyond = which & along_normal.beyond;
+  return beyond | beyond_sides(others, which & ~beyond & ~along_normal.inside);
+}
+
+}  // namespace csgrun

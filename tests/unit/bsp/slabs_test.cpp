@@ -1,0 +1,176 @@
+// One triangle against eight: what is said to be apart is, and what is clearly beyond one of the
+// four slabs is said to be.
+#include "engine/bsp/slabs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/seeded.h"
+
+namespace csgrun {
+namespace {
+
+using Vec = std::array<double, 3>;  // whole numbers
+using Triangle = std::array<Vec, 3>;
+
+Vec minus(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec edge(const Triangle& t, size_t i) { return minus(t[(i + 1) % 3], t[i]); }
+Vec normal(const Triangle& t) { return cross(edge(t, 0), edge(t, 1)); }
+
+/// The room between two triangles along a direction, times its length; negative where they overlap.
+double gap(const Triangle& s, const Triangle& t, const Vec& way) {
+  const auto range = [&](const Triangle& x) {
+    return std::minmax({dot(x[0], way), dot(x[1], way), dot(x[2], way)});
+  };
+  const auto [s_lo, s_hi] = range(s);
+  const auto [t_lo, t_hi] = range(t);
+  return std::max(t_lo - s_hi, s_lo - t_hi);
+}
+
+/// Exactly, for small coordinates: convex sets are apart when one of these directions parts them.
+bool are_apart(const Triangle& s, const Triangle& t) {
+  std::vector<Vec> ways{normal(s), normal(t)};
+  for (size_t i = 0; i < 3; ++i) {
+    ways.push_back(cross(edge(s, i), normal(s)));
+    ways.push_back(cross(edge(t, i), normal(t)));
+    for (size_t k = 0; k < 3; ++k) ways.push_back(cross(edge(s, i), edge(t, k)));
+  }
+  return std::any_of(ways.begin(), ways.end(), [&](const Vec& way) { return gap(s, t, way) > 0; });
+}
+
+/// The most room that the slabs of s leave to t.
+double most_room(const Triangle& s, const Triangle& t) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < 4; ++i) {
+    const Vec way = i == 3 ? normal(s) : cross(edge(s, i), normal(s));
+    most = std::max(most, gap(s, t, way) / std::sqrt(dot(way, way)));
+  }
+  return most;
+}
+
+Triangle random_triangle(test::Random& random, int64_t reach) {
+  Triangle t;
+  do {
+    for (Vec& p : t) {
+      for (double& c : p) c = static_cast<double>(random.integer(-reach, reach));
+    }
+  } while (normal(t) == Vec{});
+  return t;
+}
+
+EightTriangles packed(const std::array<Triangle, 8>& triangles) {
+  EightTriangles eight{};
+  for (size_t lane = 0; lane < 8; ++lane) {
+    for (size_t i = 0; i < 3; ++i) {
+      for (size_t k = 0; k < 3; ++k) {
+        eight.at[i][k][lane] = static_cast<float>(triangles[lane][i][k]);
+      }
+    }
+  }
+  return eight;
+}
+
+Triangle scaled(Triangle t, double factor, const Vec& move) {
+  for (Vec& p : t) {
+    for (size_t k = 0; k < 3; ++k) p[k] = p[k] * factor + move[k];
+  }
+  return t;
+}
+
+TEST(Slabs, SeeWhatIsClearlyBeyondOneOfThemAndNothingElse) {
+  size_t found = 0, touching = 0, coplanar = 0;
+  for (int i = 0; i < 3000; ++i) {
+    test::Random random(3100 + i);
+    const int64_t size = random.integer(2, 9);
+    const Triangle own = random_triangle(random, size);
+    std::array<Triangle, 8> others;
+    for (Triangle& t : others) {
+      t = random_triangle(random, size);
+      // Some are slivers nearly along a side, some of the same plane.
+      if (random.integer(0, 2) == 0) t[0] = own[1], t[1] = own[2];
+      if (random.integer(0, 3) == 0) {
+        const auto a = static_cast<double>(random.integer(-1, 2));
+        for (size_t k = 0; k < 3; ++k) t[2][k] = own[0][k] + a * edge(own, 1)[k];
+      }
+      if (random.integer(0, 3) > 0) continue;
+      do {
+        for (Vec& p : t) {
+          const auto a = static_cast<double>(random.integer(-3, 3)),
+                     b = static_cast<double>(random.integer(-3, 3));
+          for (size_t k = 0; k < 3; ++k) {
+            p[k] = own[0][k] + a * edge(own, 0)[k] + b * edge(own, 1)[k];
+          }
+        }
+      } while (normal(t) == Vec{});
+    }
+    const auto reach = static_cast<double>(20 * size);
+    const auto which = static_cast<uint32_t>(random.integer(0, 255));
+    const uint32_t apart = Slabs(own, reach).apart(packed(others), which),
+                   in_space = Slabs(own, reach).apart_in_space(packed(others), which);
+    EXPECT_EQ(apart & ~which, 0u);
+    EXPECT_EQ(in_space & ~apart, 0u);
+    for (uint32_t lane = 0; lane < 8; ++lane) {
+      if ((which >> lane & 1) == 0) continue;
+      const bool is_apart = (apart >> lane & 1) != 0;
+      const double room = most_room(own, others[lane]);
+      // The slack, and what rounding adds to it.
+      EXPECT_TRUE(is_apart || room <= 0x1p-18 * reach) << i << ' ' << lane;
+      EXPECT_TRUE(!is_apart || are_apart(own, others[lane])) << i << ' ' << lane;
+      const bool is_coplanar =
+          std::all_of(others[lane].begin(), others[lane].end(),
+                      [&](const Vec& p) { return dot(normal(own), minus(p, own[0])) == 0; });
+      // Small coordinates: others are clearly off the plane.
+      EXPECT_EQ((in_space >> lane & 1) != 0, is_apart && !is_coplanar) << i << ' ' << lane;
+      coplanar += is_apart && is_coplanar;
+      found += is_apart;
+      touching += !are_apart(own, others[lane]);
+    }
+  }
+  EXPECT_GT(found, 3000u);
+  EXPECT_GT(touching, 3000u);
+  EXPECT_GT(coplanar, 100u);
+}
+
+// Far from the middle floats do not have all bits of the points: what touches is never apart.
+TEST(Slabs, RoundedCornersNeverPartWhatTouches) {
+  constexpr double kReach = 0x1p29;
+  for (int i = 0; i < 3000; ++i) {
+    test::Random random(9100 + i);
+    const Triangle own = random_triangle(random, 400);
+    std::array<Triangle, 8> others;
+    Vec move{};
+    for (double& m : move)
+      m = static_cast<double>(random.integer(-(int64_t{1} << 28), int64_t{1} << 28));
+    for (Triangle& t : others) {
+      // With a corner of `own`, or one inside of it.
+      t = random_triangle(random, 400);
+      const auto corner = static_cast<size_t>(random.integer(0, 2));
+      t[corner] = own[static_cast<size_t>(random.integer(0, 2))];
+      t = scaled(t, 3, move);
+      if (random.integer(0, 1)) {
+        for (size_t k = 0; k < 3; ++k) t[corner][k] = own[0][k] + own[1][k] + own[2][k] + move[k];
+      }
+    }
+    EXPECT_EQ(Slabs(scaled(own, 3, move), kReach).apart(packed(others), 0xff), 0u) << i;
+  }
+}
+
+TEST(Slabs, ATriangleWithoutAreaIsApartFromNothing) {
+  std::array<Triangle, 8> others;
+  others.fill({{{90, 90, 90}, {91, 90, 90}, {90, 91, 90}}});
+  const Triangle line{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}}, good{{{0, 0, 0}, {1, 1, 1}, {2, 3, 2}}};
+  EXPECT_EQ(Slabs(line, 100).apart(packed(others), 0xff), 0u);
+  EXPECT_EQ(Slabs(good, 100).apart(packed(others), 0xff), 0xffu);
+  // A reach beyond all measure leaves no room.
+  EXPECT_EQ(Slabs(good, 0x1p40).apart(packed(others), 0xff), 0u);
+}
+
+}  // namespace
+}  // namespace csgrun
