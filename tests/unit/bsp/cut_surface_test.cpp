@@ -306,20 +306,28 @@ std::vector<Solid> random_solids(Random& random) {
   return solids;
 }
 
-/// The faces of all of them. Which comes first, and where it starts, is no matter: any does.
-std::vector<Loop> shuffled_loops(Random& random, const std::vector<Solid>& solids) {
+std::vector<Loop> loops_of(const std::vector<Solid>& solids) {
   std::vector<Loop> loops;
   for (const Solid& solid : solids) {
     auto own = solid.loops;
     if (solid.is_turned) turn_over(own);
-    for (Loop& loop : own) {
-      for (IVec3& p : loop) {
-        for (auto& c : p) c *= kScale;
-      }
-      const auto start = random.integer(0, static_cast<int64_t>(loop.size()) - 1);
-      std::rotate(loop.begin(), loop.begin() + start, loop.end());
-      loops.insert(loops.begin() + random.integer(0, static_cast<int64_t>(loops.size())), loop);
+    loops.insert(loops.end(), own.begin(), own.end());
+  }
+  for (Loop& loop : loops) {
+    for (IVec3& p : loop) {
+      for (auto& c : p) c *= kScale;
     }
+  }
+  return loops;
+}
+
+/// The same. Which comes first, and where it starts, is no matter: any does.
+std::vector<Loop> shuffled_loops(Random& random, const std::vector<Solid>& solids) {
+  std::vector<Loop> loops;
+  for (Loop loop : loops_of(solids)) {
+    const auto start = random.integer(0, static_cast<int64_t>(loop.size()) - 1);
+    std::rotate(loop.begin(), loop.begin() + start, loop.end());
+    loops.insert(loops.begin() + random.integer(0, static_cast<int64_t>(loops.size())), loop);
   }
   return loops;
 }
@@ -418,6 +426,50 @@ TEST(CutSurface, StopsWhenCancelled) {
   EXPECT_TRUE(Surface(kTwo).cut(options));
   cancel = true;
   EXPECT_FALSE(Surface(kTwo).cut(options));
+}
+
+// Nothing crosses: it is told where the one cell is solved.
+TEST(CutSurface, StopsWhenCancelledBeforeItsCellIsSolved) {
+  Surface surface(std::vector<Box>{kTwo[0]});
+  std::atomic<bool> cancel = true;
+  KernelOptions options;
+  options.cancel = &cancel;
+  const auto result = cut_surface(*surface.job, *surface.operands[0].leaf, surface.crossings,
+                                  surface.crosses, options, surface.stats);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
+}
+
+/// With one of the faces as two triangles.
+std::vector<Loop> with_triangles(std::vector<Loop> loops, size_t face) {
+  const Loop q = loops[face];
+  loops[face] = {q[0], q[1], q[2]};
+  loops.push_back({q[0], q[2], q[3]});
+  return loops;
+}
+
+// Where the edge of two polygons of one plane stands in the middle of a piece's edge.
+TEST(CutSurface, LeavesWhatIsCrossedByAPartOfAPlane) {
+  for (size_t face = 0; face < 6; ++face) {
+    const bool is_wall = face < 4;  // else an end, which crosses nothing
+    Surface surface(loops_of({{box_loops({0, 0, 0}, {6, 6, 6}), false},
+                              {box_loops({1, 4, 2}, {2, 9, 3}), false},
+                              {with_triangles(box_loops({3, 2, 1}, {9, 5, 4}), face), false}}));
+    EXPECT_EQ(surface.cut().has_value(), !is_wall) << face;
+  }
+}
+
+// The diagonal of a bottom that stands on a top cuts it as well, though nothing rises from there.
+TEST(CutSurface, LayersAreToldPolygonByPolygon) {
+  for (const bool is_turned : {false, true}) {
+    const std::vector<Solid> solids{
+        {box_loops({0, 0, 0}, {6, 6, 6}), false},
+        {with_triangles(box_loops({2, 2, 6}, {8, 4, 8}), 0), is_turned}};
+    Surface surface(loops_of(solids));
+    const auto result = surface.cut();
+    ASSERT_TRUE(result);
+    check(solids, surface, *result);
+  }
 }
 
 /// A slab that n posts pierce, each with four planes; all of them stand in lines of their own.
