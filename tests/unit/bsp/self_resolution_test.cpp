@@ -262,16 +262,16 @@ TEST(SelfResolution, CutsFacesWholeWhereItMay) {
     return stats.solved_cells;
   };
   const Operand plain = paired(pierced_box()), unpaired = operand_of(make_leaf(pierced_box()));
-  Operand mirrored = plain;
-  mirrored.frame.is_identity = false;
+  Operand turned = plain;
+  turned.frame.is_identity = false;
   for (size_t k = 0; k < 3; ++k) {
-    mirrored.frame.matrix[k][k] = (k == 0 ? -1 : 1) * (int64_t{1} << Frame::kShift);
+    turned.frame.matrix[k][k] = (k < 2 ? -1 : 1) * (int64_t{1} << Frame::kShift);
   }
   for (const InsideRule rule :
        {InsideRule::kNonZero, InsideRule::kPositive, InsideRule::kEvenOdd}) {
     EXPECT_EQ(cells(plain, rule, true), 2u);  // one for each box
     EXPECT_GT(cells(plain, rule, false), 4u);
-    for (const Operand* other : std::array<const Operand*, 2>{&unpaired, &mirrored}) {
+    for (const Operand* other : std::array<const Operand*, 2>{&unpaired, &turned}) {
       EXPECT_EQ(cells(*other, rule, true), cells(*other, rule, false));
     }
   }
