@@ -50,6 +50,16 @@ GridLoop snap_loop(const Grid2D& grid, const Shape2D::Loop& loop) {
   return snapped;
 }
 
+const Shape2D::Turn* Shape2DFactory::turn_of(const Shape2D& shape) {
+  return shape.data_ ? shape.data_->turn.get() : nullptr;
+}
+
+Shape2D Shape2DFactory::base_of(const Turn& turn) {
+  Shape2D base;
+  base.data_ = turn.base;
+  return base;
+}
+
 Shape2D Shape2DFactory::from_grid(const Grid2D& grid, const GridRegions& regions) {
   std::vector<Loop> loops;
   for (const GridLoop& grid_loop : regions.loops) {
@@ -59,7 +69,8 @@ Shape2D Shape2DFactory::from_grid(const Grid2D& grid, const GridRegions& regions
   return canonical(std::move(loops), regions.outer_of);
 }
 
-Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of) {
+Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of,
+                                  std::shared_ptr<const Turn> turn) {
   if (loops.empty()) return {};
   for (Loop& loop : loops) {
     for (glm::dvec2& p : loop) p += 0.0;  // no negative zeros
@@ -73,6 +84,7 @@ Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uin
                                         loops[j].end(), lexicographic_less);
   });
   auto data = std::make_shared<Shape2D::Data>();
+  data->turn = std::move(turn);
   for (uint32_t k = 0; k < order.size(); ++k) {
     rank[order[k]] = k;
     data->loops.push_back(std::move(loops[order[k]]));
