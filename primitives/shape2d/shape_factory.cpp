@@ -17,6 +17,10 @@ bool lexicographic_less(const glm::dvec2& p, const glm::dvec2& q) {
 
 }  // namespace
 
+bool is_before(const Shape2D::Loop& a, const Shape2D::Loop& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), lexicographic_less);
+}
+
 double extent_of(const std::vector<Shape2D::Loop>& loops) {
   double extent = 0;
   for (const Shape2D::Loop& loop : loops) {
@@ -79,10 +83,8 @@ Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uin
   }
   std::vector<uint32_t> order(loops.size()), rank(loops.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
-    return std::lexicographical_compare(loops[i].begin(), loops[i].end(), loops[j].begin(),
-                                        loops[j].end(), lexicographic_less);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t i, uint32_t j) { return is_before(loops[i], loops[j]); });
   auto data = std::make_shared<Shape2D::Data>();
   data->turn = std::move(turn);
   for (uint32_t k = 0; k < order.size(); ++k) {

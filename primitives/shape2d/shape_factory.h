@@ -13,6 +13,8 @@
 
 namespace csgrun {
 
+/// The order of the loops of a shape: by their points, from the first on.
+bool is_before(const Shape2D::Loop& a, const Shape2D::Loop& b);
 /// The largest coordinate, in absolute value.
 double extent_of(const std::vector<Shape2D::Loop>& loops);
 bool all_finite(const std::vector<Shape2D::Loop>& loops);
