@@ -108,21 +108,22 @@ TEST(TurnedShapes, ManyWaysLeadToOneFrame) {
   const Shape2D tile = good(make_square({4, 3})), upright = good(make_square({3, 4}));
   const Shape2D flat = good(make_square({8, 1.5}));
   for (const double angle : angles()) {
-    const Shape2D whole = mapped(good(make_square({12, 3})), turn(angle));
-    // 4 x 3 at 0, 4 and 8, each made in a way of its own.
+    const Shape2D whole = mapped(good(make_square({16, 3})), turn(angle));
+    // 4 x 3 at 0, 4, 8 and 12, each made in a way of its own.
     std::vector<Shape2D> turns{tile};
     for (int i = 0; i < 9; ++i) turns[0] = mapped(turns[0], turn(angle / 9));
     const double c = std::cos(angle * kPi / 180), s = std::sin(angle * kPi / 180);
     turns.push_back(mapped(upright, turn(90 + angle), move(8 * c, 8 * s)));
     turns.push_back(mapped(flat, scale(-0.5, 2), move(12, 0), turn(angle + 720)));
+    turns.push_back(mapped(tile, move(12, -3), turn(-angle), scale(1, -1)));
     std::vector<Shape2D> all{whole};
     all.insert(all.end(), turns.begin(), turns.end());
     EXPECT_TRUE(boolean(kDifference, all).empty()) << angle;
     EXPECT_TRUE(boolean(kXor, all).empty()) << angle;
-    expect_turned_box(boolean(kUnion, turns), {0, 0, 12, 3}, angle, {0, 0}, "union");
+    expect_turned_box(boolean(kUnion, turns), {0, 0, 16, 3}, angle, {0, 0}, "union");
     EXPECT_TRUE(boolean(kDifference, {whole, boolean(kUnion, turns)}).empty()) << angle;
     Shape2D rest = whole;
-    for (const Shape2D& one : {turns[1], turns[2], turns[0]}) {
+    for (const Shape2D& one : {turns[1], turns[3], turns[2], turns[0]}) {
       rest = boolean(kDifference, {rest, one});
       // Later moves stay in the frame, when all take part in them.
       if (rest.empty()) break;
