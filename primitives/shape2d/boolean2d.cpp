@@ -1,5 +1,6 @@
 // Booleans of 2D shapes: each on one grid, in the axes that its operands share.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -55,16 +56,19 @@ Loops loops_in_frame(const Shape2DFactory::Turn& turn, const Frame2D& frame,
   return loops;
 }
 
-/// The operation on the grid. Each operand is clean, and winds counter-clockwise.
-Result<Shape2D> on_grid(BooleanOp op, const std::vector<const Loops*>& operands) {
+Result<Grid2D> grid_of(const std::vector<const Loops*>& operands) {
   double extent = 0;
   for (const Loops* loops : operands) extent = std::max(extent, extent_of(*loops));
-  const Result<Grid2D> grid = grid_for(extent);
-  if (!grid) return grid.error();
+  return grid_for(extent);
+}
+
+/// The operation on the grid. Each operand is clean, and winds counter-clockwise.
+Result<Shape2D> on_grid(BooleanOp op, const Grid2D& grid,
+                        const std::vector<const Loops*>& operands) {
   std::vector<Segment2D> segments;
   for (size_t i = 0; i < operands.size(); ++i) {
     for (const Shape2D::Loop& loop : *operands[i]) {
-      add_outline(snap_loop(*grid, loop), i == 0, segments);
+      add_outline(snap_loop(grid, loop), i == 0, segments);
     }
   }
   // Each operand winds around a point once or not at all, so sums tell how many of them hold it.
@@ -85,13 +89,42 @@ Result<Shape2D> on_grid(BooleanOp op, const std::vector<const Loops*>& operands)
       inside = [](int32_t first, int32_t rest) { return (first + rest) % 2 != 0; };
       break;
   }
-  return Shape2DFactory::arranged(*grid, std::move(segments), inside);
+  return Shape2DFactory::arranged(grid, std::move(segments), inside);
 }
 
 Result<Shape2D> in_world(BooleanOp op, const std::vector<Shape2D>& shapes) {
   std::vector<const Loops*> operands;
   for (const Shape2D& shape : shapes) operands.push_back(&shape.loops());
-  return on_grid(op, operands);
+  const Result<Grid2D> grid = grid_of(operands);
+  return grid ? on_grid(op, *grid, operands) : grid.error();
+}
+
+/// The result with the corners of its operands where they were before they were rounded, but for
+/// the noise that the grid forgives. So they are rounded once, wherever the result goes: to the
+/// grid of another origin, or to that of the world, where a turned edge may well be upright.
+Shape2D with_corners(const Shape2D& result, const Grid2D& grid,
+                     const std::vector<const Loops*>& operands) {
+  std::vector<std::pair<Point2D, glm::dvec2>> corners;
+  for (const Loops* loops : operands) {
+    for (const Shape2D::Loop& loop : *loops) {
+      for (const glm::dvec2& p : loop) corners.emplace_back(grid.snap(p), p);
+    }
+  }
+  const auto by_place = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::stable_sort(corners.begin(), corners.end(), by_place);  // the first operand's corner counts
+  const double noise = 0x1p-12 * grid.unsnap({1, 1}).x;
+  Loops loops = result.loops();
+  for (Shape2D::Loop& loop : loops) {
+    for (glm::dvec2& p : loop) {
+      const std::pair<Point2D, glm::dvec2> place(grid.snap(p), p);
+      const auto corner = std::lower_bound(corners.begin(), corners.end(), place, by_place);
+      if (corner == corners.end() || corner->first != place.first) continue;  // a crossing
+      for (int i = 0; i < 2; ++i) {
+        if (std::fabs(corner->second[i] - p[i]) > noise) p[i] = corner->second[i];
+      }
+    }
+  }
+  return Shape2DFactory::canonical(std::move(loops), Shape2DFactory::outer_of(result));
 }
 
 /// The operation on shapes that share a frame; the result has it too.
@@ -105,9 +138,12 @@ Result<Shape2D> in_frame(BooleanOp op, const FrameGroup& group) {
   }
   std::vector<const Loops*> operands;
   for (const Loops& loops : local) operands.push_back(&loops);
-  const Result<Shape2D> base = on_grid(op, operands);
+  const Result<Grid2D> grid = grid_of(operands);
+  if (!grid) return grid.error();
+  const Result<Shape2D> base = on_grid(op, *grid, operands);
   if (!base || base->empty()) return base;
-  return Shape2DFactory::turned(*base, group.frame.map(origin), {group.frame, {1, 1}});
+  return Shape2DFactory::turned(with_corners(*base, *grid, operands), group.frame.map(origin),
+                                {group.frame, {1, 1}});
 }
 
 /// What is left to be done in the world, after each frame's own part: one shape, or more.

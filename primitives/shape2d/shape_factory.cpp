@@ -64,6 +64,15 @@ Shape2D Shape2DFactory::base_of(const Turn& turn) {
   return base;
 }
 
+std::vector<uint32_t> Shape2DFactory::outer_of(const Shape2D& shape) {
+  std::vector<uint32_t> outer_of(shape.loops().size());
+  for (const Shape2D::Region& region : shape.regions()) {
+    outer_of[region.outer] = region.outer;
+    for (const uint32_t hole : region.holes) outer_of[hole] = region.outer;
+  }
+  return outer_of;
+}
+
 Shape2D Shape2DFactory::from_grid(const Grid2D& grid, const GridRegions& regions) {
   std::vector<Loop> loops;
   for (const GridLoop& grid_loop : regions.loops) {

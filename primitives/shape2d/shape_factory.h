@@ -38,6 +38,8 @@ class Shape2DFactory {
   static const Turn* turn_of(const Shape2D& shape);
   static Shape2D base_of(const Turn& turn);
 
+  /// For each loop the outer loop of its region, as in GridRegions.
+  static std::vector<uint32_t> outer_of(const Shape2D& shape);
   static Shape2D from_grid(const Grid2D& grid, const GridRegions& regions);
   /// Loops with the right directions, in any order and from any start; outer_of as in GridRegions.
   static Shape2D canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of,

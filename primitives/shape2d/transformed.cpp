@@ -45,12 +45,8 @@ Result<Shape2D> mapped(const Shape2D& shape, const Affine& map,
     if (m[0][0] * m[1][1] - m[0][1] * m[1][0] < 0) std::reverse(loop.begin(), loop.end());
   }
   if (!all_finite(result)) return invalid_argument("a coordinate of the shape would not be finite");
-  std::vector<uint32_t> outer_of(result.size());
-  for (const Shape2D::Region& region : shape.regions()) {
-    outer_of[region.outer] = region.outer;
-    for (const uint32_t hole : region.holes) outer_of[hole] = region.outer;
-  }
-  return Shape2DFactory::canonical(std::move(result), outer_of, std::move(turn));
+  return Shape2DFactory::canonical(std::move(result), Shape2DFactory::outer_of(shape),
+                                   std::move(turn));
 }
 
 }  // namespace

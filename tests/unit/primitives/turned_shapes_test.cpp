@@ -311,6 +311,50 @@ TEST(TurnedShapes, EachFrameOfSeveralIsFlush) {
   }
 }
 
+TEST(TurnedShapes, EdgesThatTheTurnMakesUprightMeetTheWorld) {
+  for (const int n : {3, 6, 8, 12}) {
+    for (int tenth = 31; tenth < 60; ++tenth) {
+      // Flat at the right, where x is `side`.
+      const double side = tenth / 10.0, r = side / std::cos(kPi / n);
+      const Shape2D even = mapped(good(make_circle(r, Facets{1.0 * n, 12, 2})), turn(180.0 / n));
+      const double area = n * r * r * std::sin(2 * kPi / n) / 2;
+      const Shape2D pair =
+          boolean(kUnion, {mapped(even, move(0, 1.0 / 3)), mapped(even, move(0, 30))});
+      const Shape2D wall = box(side, -20, side + 1, 50);
+      const Shape2D all = boolean(kUnion, {pair, wall});
+      ASSERT_EQ(all.loops().size(), 1u) << n << ", " << side;
+      EXPECT_EQ(all.loops()[0].size(), 4u + 2 * n) << n << ", " << side;
+      EXPECT_NEAR(all.area(), 2 * area + 70, 1e-6) << n << ", " << side;
+      EXPECT_TRUE(boolean(kIntersection, {pair, wall}).empty()) << n << ", " << side;
+    }
+  }
+}
+
+TEST(TurnedShapes, NestingDoesNotMatterBetweenManyPlaces) {
+  std::mt19937 random(15);
+  std::uniform_real_distribution<double> place(-3, 3), angle(0, 360);
+  for (int round = 0; round < 100; ++round) {
+    const Affine turned = turn(angle(random));
+    const auto at = [&](const Shape2D& shape, double x) {
+      return mapped(shape, turned, move(x + place(random), place(random)));
+    };
+    const Shape2D disc = good(make_circle(3.5, Facets{17, 12, 2}));
+    const Shape2D plate = at(good(make_square({100, 60}, {true, true})), 0);
+    const Shape2D a = at(disc, -14), b = at(disc, 0), c = at(disc, 14);
+    const Shape2D discs = boolean(kUnion, {boolean(kUnion, {b, c}), a});
+    Shape2D rest = plate;
+    for (const Shape2D& s : {a, b, c}) rest = boolean(kDifference, {rest, s});
+    ASSERT_EQ(rest.loops().size(), 4u);
+    for (const Shape2D& filled : {boolean(kUnion, {discs, rest}), boolean(kUnion, {rest, discs}),
+                                  boolean(kXor, {b, rest, boolean(kUnion, {c, a})})}) {
+      ASSERT_EQ(filled.loops().size(), 1u);
+      EXPECT_EQ(filled.loops()[0].size(), 4u);
+    }
+    EXPECT_TRUE(boolean(kDifference, {plate, discs, rest}).empty());
+    EXPECT_TRUE(boolean(kXor, {boolean(kDifference, {plate, discs}), rest}).empty());
+  }
+}
+
 TEST(TurnedShapes, EmptyAndFlatOnes) {
   const Shape2D a = mapped(box(0, 0, 1, 1), turn(10)), far = mapped(box(5, 5, 6, 6), turn(10));
   EXPECT_EQ(boolean(kUnion, {Shape2D(), a}).loops(), a.loops());
