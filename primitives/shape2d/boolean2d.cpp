@@ -18,7 +18,7 @@ using Loops = std::vector<Shape2D::Loop>;
 /// Operands that one grid serves.
 struct FrameGroup {
   Frame2D frame;          ///< that of the first
-  bool in_world = false;  ///< the frame is the world's
+  bool in_world = false;  ///< the frame is the world's, or the world serves better
   std::vector<Shape2D> shapes;
 };
 
@@ -37,6 +37,9 @@ std::vector<FrameGroup> group_by_frame(const std::vector<Shape2D>& shapes) {
       group = groups.end() - 1;
     }
     group->shapes.push_back(shape);
+  }
+  for (FrameGroup& group : groups) {
+    if (!group.in_world) group.in_world = Shape2DFactory::are_upright(group.shapes);
   }
   return groups;
 }

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include <csgrun/primitives/shape2d.h>
@@ -37,6 +39,16 @@ class Shape2DFactory {
   /// Null for the world's frame.
   static const Turn* turn_of(const Shape2D& shape);
   static Shape2D base_of(const Turn& turn);
+  /// Whether edges along the axes of the world are as long in all as those along the turned axes,
+  /// and there are any: then what is flush is so in the world. REQUIRES: turned shapes.
+  static bool are_upright(const std::vector<Shape2D>& shapes);
+  /// What a turned shape was before its last rigid motion; nothing for a shape without a turn, one
+  /// that was sheared, and one that is upright.
+  struct BeforeTurn {
+    Shape2D shape;
+    Affine motion;
+  };
+  static std::optional<BeforeTurn> before_turn(const Shape2D& shape);
 
   /// For each loop the outer loop of its region, as in GridRegions.
   static std::vector<uint32_t> outer_of(const Shape2D& shape);

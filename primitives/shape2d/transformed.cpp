@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <glm/common.hpp>
+
 #include <csgrun/primitives/shape2d.h>
 
 #include "primitives/base/text.h"
@@ -49,6 +51,24 @@ Result<Shape2D> mapped(const Shape2D& shape, const Affine& map,
                                    std::move(turn));
 }
 
+/// Of edges along X or Y, but for the noise of a turn; `scale` stretches them.
+double length_along_axes(const std::vector<Shape2D::Loop>& loops,
+                         const std::array<double, 2>& scale = {1, 1}) {
+  const double noise = 0x1p-44 * extent_of(loops);
+  double sum = 0;
+  for (const Shape2D::Loop& loop : loops) {
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const glm::dvec2 edge = glm::abs(loop[(i + 1) % loop.size()] - loop[i]);
+      if (edge.y <= noise) {
+        sum += edge.x * scale[0];
+      } else if (edge.x <= noise) {
+        sum += edge.y * scale[1];
+      }
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 Result<Shape2D> Shape2DFactory::turned(const Shape2D& base, const Affine& map,
@@ -67,14 +87,24 @@ Result<Shape2D> Shape2D::transformed(const Affine& map) const {
   return mapped(base, before == nullptr ? total : without_noise(total));
 }
 
-std::optional<Shape2D::BeforeTurn> Shape2D::before_turn() const {
-  const Turn* turn = Shape2DFactory::turn_of(*this);
-  if (turn == nullptr || !turn->split.frame.is_rigid()) return std::nullopt;
+bool Shape2DFactory::are_upright(const std::vector<Shape2D>& shapes) {
+  double world = 0, turned = 0;
+  for (const Shape2D& shape : shapes) {
+    world += length_along_axes(shape.loops());
+    turned += length_along_axes(turn_of(shape)->base->loops, turn_of(shape)->split.scale);
+  }
+  // Equal sums may differ by noise: then the world is meant.
+  return world > 0 && world >= turned * (1 - 0x1p-20);
+}
+
+std::optional<Shape2DFactory::BeforeTurn> Shape2DFactory::before_turn(const Shape2D& shape) {
+  const Turn* turn = turn_of(shape);
+  if (turn == nullptr || !turn->split.frame.is_rigid() || are_upright({shape})) return std::nullopt;
   Affine stretch;
   for (int i = 0; i < 2; ++i) stretch.m[i][i] = turn->split.scale[i];
-  Result<Shape2D> shape = mapped(Shape2DFactory::base_of(*turn), stretch);
-  if (!shape) return std::nullopt;
-  return BeforeTurn{*std::move(shape),
+  Result<Shape2D> before = mapped(base_of(*turn), stretch);
+  if (!before) return std::nullopt;
+  return BeforeTurn{*std::move(before),
                     turn->split.frame.map({turn->map.m[0][3], turn->map.m[1][3]})};
 }
 

@@ -8,6 +8,7 @@
 
 #include <csgrun/primitives/shape_operations.h>
 
+#include "primitives/shape2d/shape_factory.h"
 #include "tests/unit/primitives/outlines.h"
 
 namespace csgrun {
@@ -203,7 +204,7 @@ TEST(TurnedShapes, WithoutATurnTheWorldsGridDecides) {
     for (const Affine& map : {scale(-1.1, 0.7), linear(0, -1, 1, 0), linear(c, 1, 1, -c),
                               linear(-1, c, -c, -1), move(1.0 / 3, 0.1)}) {
       const Shape2D x = mapped(a, map, move(0.1, 1.0 / 3)), y = mapped(b, map);
-      EXPECT_FALSE(x.before_turn());
+      EXPECT_EQ(Shape2DFactory::turn_of(x), nullptr);
       // The same loops from a drawing, which remembers nothing.
       const std::vector<Shape2D> drawn{outlines(x.loops()), outlines(y.loops())};
       for (const BooleanOp op : {kUnion, kIntersection, kDifference, kXor}) {
@@ -220,7 +221,7 @@ TEST(TurnedShapes, ATurnBackIsNone) {
     EXPECT_EQ(back.loops(), disc.loops()) << angle;
     EXPECT_TRUE(boolean(kXor, {back, disc}).empty());
     const Shape2D quarter = mapped(disc, turn(angle), turn(90 - angle));
-    EXPECT_FALSE(quarter.before_turn());
+    EXPECT_EQ(Shape2DFactory::turn_of(quarter), nullptr);
     EXPECT_TRUE(boolean(kXor, {quarter, mapped(disc, linear(0, -1, 1, 0))}).empty());
   }
 }
@@ -330,6 +331,35 @@ TEST(TurnedShapes, EdgesThatTheTurnMakesUprightMeetTheWorld) {
   }
 }
 
+TEST(TurnedShapes, SidesThatTheTurnMakesUprightAreFlush) {
+  for (int tenth = 31; tenth < 60; ++tenth) {
+    const double side = tenth / 10.0, r = side / std::cos(kPi / 6), length = 3;
+    const Shape2D nut = mapped(good(make_circle(r, Facets{6, 12, 2})), turn(30));
+    const auto slot = [&](const std::vector<Shape2D>& nuts, double wider) {
+      const Shape2D all = boolean(kUnion, nuts);
+      ASSERT_EQ(all.loops().size(), 1u) << side;
+      EXPECT_EQ(all.loops()[0].size(), 6u) << side;
+      const double flat = side + wider;
+      EXPECT_NEAR(all.area(), 6 * flat * flat * std::tan(kPi / 6) + 2 * flat * length, 1e-6);
+      EXPECT_NEAR(all.bounds()[1].x, flat, 1e-12);
+      EXPECT_TRUE(boolean(kIntersection, {all, box(flat, -9, 9, 9)}).empty()) << side;
+    };
+    const Shape2D up = mapped(nut, move(0, length));
+    slot({nut, up}, 0);
+    slot({nut, mapped(nut, move(0, 1.7)), up}, 0);
+    for (const double distance : {1.5, -0.4}) {
+      const OffsetOptions options{distance, OffsetJoin::kMitre, Facets{32, 12, 2}};
+      slot({good(offset_shape(nut, options)), good(offset_shape(up, options))}, distance);
+    }
+    // Among boxes of that turn, the boxes are more.
+    const auto bar = [&](double x) { return mapped(box(x, -1, x + 10.5, 1), turn(30)); };
+    const Shape2D bars = boolean(kDifference, {boolean(kUnion, {bar(0), bar(10.5), nut}), nut});
+    ASSERT_EQ(bars.regions().size(), 1u) << side;
+    EXPECT_EQ(boolean(kUnion, {bars, nut}).loops()[0].size(), 9u) << side;
+    EXPECT_TRUE(boolean(kDifference, {bars, bar(10.5), bar(0)}).empty()) << side;
+  }
+}
+
 TEST(TurnedShapes, NestingDoesNotMatterBetweenManyPlaces) {
   std::mt19937 random(15);
   std::uniform_real_distribution<double> place(-3, 3), angle(0, 360);
@@ -365,7 +395,7 @@ TEST(TurnedShapes, EmptyAndFlatOnes) {
   // Nearly singular: the shape stays, without a frame.
   const Shape2D thin = mapped(a, linear(1, 1, 1, 1 + 1e-7));
   EXPECT_NEAR(thin.area(), 1e-7, 1e-12);
-  EXPECT_FALSE(thin.before_turn());
+  EXPECT_EQ(Shape2DFactory::turn_of(thin), nullptr);
   const double huge = std::numeric_limits<double>::max();
   EXPECT_FALSE(a.transformed(move(huge, 0))->transformed(scale(2, 2)));
   EXPECT_FALSE(Shape2D::boolean(kUnion, {mapped(a, move(2e12, 0)), mapped(far, move(2e12, 0))}));
@@ -400,14 +430,14 @@ TEST(TurnedShapes, BeforeTurnGivesTheShapeBack) {
   const Shape2D ring = boolean(kDifference, {box(0, 0, 4, 2), box(1, 0.5, 2, 1.5)});
   for (const double angle : angles()) {
     const Shape2D turned = mapped(ring, scale(2, 1), turn(angle), move(1, 2), scale(-3, 3));
-    const auto before = turned.before_turn();
+    const auto before = Shape2DFactory::before_turn(turned);
     ASSERT_TRUE(before) << angle;
     EXPECT_NEAR(before->shape.area(), 9 * 14, 1e-9);
     EXPECT_NEAR(before->shape.bounds()[1].x, 24, 1e-12);
     const auto& m = before->motion.m;
     EXPECT_NEAR(m[0][0] * m[1][1] - m[0][1] * m[1][0], -1, 1e-14);
     expect_same(mapped(before->shape, before->motion), turned, 1e-12, "there and back");
-    EXPECT_FALSE(mapped(ring, turn(angle), scale(1, 2)).before_turn() &&
+    EXPECT_FALSE(Shape2DFactory::before_turn(mapped(ring, turn(angle), scale(1, 2))) &&
                  std::fabs(std::sin(angle * kPi / 90)) > 1e-6)
         << "sheared";
   }

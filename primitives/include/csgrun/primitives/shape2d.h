@@ -29,8 +29,10 @@ namespace csgrun {
 /// A shape remembers what it was before it was turned, and its turn: the frame. Booleans combine
 /// shapes of one frame there, on a grid of its axes from the first shape's origin on, so what was
 /// flush stays flush and `T(a) - T(b)` is `T(a - b)`. Frames that differ by quarter turns and
-/// mirrors along the axes are one. Shapes of several frames meet in the world, those of each frame
-/// combined first where the operation lets them.
+/// mirrors along the axes are one. Where more of the outlines runs along the world's axes than
+/// along the turned ones (a hexagon that was turned by 30 degrees), the world decides as it does
+/// without a turn. Shapes of several frames meet in the world, those of each frame combined first
+/// where the operation lets them.
 class Shape2D {
  public:
   using Loop = std::vector<glm::dvec2>;
@@ -65,10 +67,6 @@ class Shape2D {
   /// the empty shape. Errors: kInvalidArgument when the result is not finite.
   [[nodiscard]] Result<Shape2D> transformed(const Affine& map) const;
 
-  struct BeforeTurn;
-  /// What a turned shape was before its last rigid motion; nothing for a shape whose axes are those
-  /// of the world but for quarter turns, or were sheared.
-  [[nodiscard]] std::optional<BeforeTurn> before_turn() const;
   /// The memory of the loops, and of those that it remembers.
   [[nodiscard]] size_t bytes() const;
 
@@ -81,12 +79,6 @@ class Shape2D {
   };
   friend class Shape2DFactory;
   std::shared_ptr<const Data> data_;
-};
-
-/// `shape` moved by `motion`, which is rigid (it may mirror) and leaves z alone, is the shape.
-struct Shape2D::BeforeTurn {
-  Shape2D shape;
-  Affine motion;
 };
 
 /// Errors: kInvalidArgument for sizes that are not positive and finite.
