@@ -25,6 +25,14 @@ namespace csgrun {
 /// coordinates of 17 m, then 2^-3 nm, 2^0 nm and so on by eights. On that grid everything is exact
 /// but the points where edges cross, which are rounded to it. A lone square or circle, and
 /// transforms of any shape, keep their doubles.
+///
+/// A shape remembers what it was before it was turned, and its turn: the frame. Booleans combine
+/// shapes of one frame there, on a grid of its axes from the first shape's origin on, so what was
+/// flush stays flush and `T(a) - T(b)` is `T(a - b)`. Frames that differ by quarter turns and
+/// mirrors along the axes are one. Where more of the outlines runs along the world's axes than
+/// along the turned ones (a hexagon that was turned by 30 degrees), the world decides as it does
+/// without a turn. Shapes of several frames meet in the world, those of each frame combined first
+/// where the operation lets them.
 class Shape2D {
  public:
   using Loop = std::vector<glm::dvec2>;
@@ -52,16 +60,22 @@ class Shape2D {
   /// Whether p, rounded to the 2D grid, is inside or on the boundary.
   [[nodiscard]] bool contains(const glm::dvec2& p) const;
 
-  /// A difference is the first operand less all others. One operand comes back as it is.
+  /// A difference is the first operand less all others. One operand comes back as it is. Errors:
+  /// kOutOfRange beyond 1e12 mm.
   static Result<Shape2D> boolean(BooleanOp op, const std::vector<Shape2D>& operands);
   /// Uses the entries (0,0) (0,1) (0,3) (1,0) (1,1) (1,3) of the map. A map of determinant 0 gives
   /// the empty shape. Errors: kInvalidArgument when the result is not finite.
   [[nodiscard]] Result<Shape2D> transformed(const Affine& map) const;
 
+  /// The memory of the loops, and of those that it remembers.
+  [[nodiscard]] size_t bytes() const;
+
  private:
+  struct Turn;
   struct Data {
     std::vector<Loop> loops;
     std::vector<Region> regions;
+    std::shared_ptr<const Turn> turn;  ///< null: the frame is the world's
   };
   friend class Shape2DFactory;
   std::shared_ptr<const Data> data_;
