@@ -13,46 +13,16 @@
 #include <csgrun/primitives/projection.h>
 #include <csgrun/primitives/shape_operations.h>
 
+#include "primitives/files/csg_items.h"
 #include "primitives/files/csg_parser.h"
 #include "primitives/files/csg_shapes.h"
+#include "primitives/files/csg_sheets.h"
 #include "primitives/files/face_colours.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/read_file.h"
 
 namespace csgrun {
 namespace {
-
-/// What a node came to. Empty ones have no dimension. A shape has one colour: that of the first of
-/// those that it was made of.
-struct Item {
-  enum class Kind { kEmpty, kFlat, kSolid };
-  Kind kind = Kind::kEmpty;
-  Shape2D shape;
-  std::optional<Appearance> appearance;  ///< of the shape; faces of solids have their own
-  NodePtr solid;
-
-  static Item of(Shape2D shape, const std::optional<Appearance>& appearance = {}) {
-    Item item;
-    if (shape.empty()) return item;
-    item.kind = Kind::kFlat;
-    item.shape = std::move(shape);
-    item.appearance = appearance;
-    return item;
-  }
-  static Item of(NodePtr solid) {
-    Item item;
-    if (solid->kind() == NodeKind::kEmpty) return item;
-    item.kind = Kind::kSolid;
-    item.solid = std::move(solid);
-    return item;
-  }
-};
-
-struct Frame {
-  CsgCall call;
-  bool background = false;  ///< it, or a node around it, is marked with %
-  std::vector<Item> children;
-};
 
 class CsgBuilder {
  public:
@@ -75,9 +45,12 @@ class CsgBuilder {
         continue;
       }
       const bool background = stack_.back().background || parser_.call().background;
+      const OfSheets asked = stack_.back().asks;
       Frame& frame = stack_.emplace_back();
       frame.call = std::move(parser_.call());
       frame.background = background;
+      frame.asked = asked;
+      frame.asks = asked_of_children(frame.call, asked);
       if (*event == CsgParser::Event::kOpen) continue;
       if (auto status = close(); !status) return status.error();
     }
@@ -133,8 +106,12 @@ class CsgBuilder {
     if (name == "linear_extrude" || name == "rotate_extrude") return extrude(frame);
     if (is_solid_primitive(name)) {
       std::vector<std::string> notes;
-      MeshResult mesh = make_csg_solid(frame.call, notes);
-      return leaf(frame, std::move(mesh), notes);
+      PolygonMesh open;
+      MeshResult mesh =
+          make_csg_solid(frame.call, notes, frame.asked == OfSheets::kNothing ? nullptr : &open);
+      if (mesh || open.corners.empty()) return leaf(frame, std::move(mesh), notes);
+      for (const std::string& note : notes) warn(frame, note);
+      return open_item(frame, open);
     }
     if (is_flat_primitive(name)) return flat_primitive(frame);
     if (name == "text") return text(frame);
@@ -160,6 +137,12 @@ class CsgBuilder {
     if (mesh.error().code != ErrorCode::kInvalidArgument) return mesh.error();
     warn(frame, mesh.error().message);
     return Item();
+  }
+
+  /// A mesh that is not closed, where that does not matter.
+  [[nodiscard]] Item open_item(const Frame& frame, const PolygonMesh& mesh) const {
+    if (frame.asked == OfSheets::kCorners) return Item::of(leaf_of_corners(mesh, where(frame)));
+    return Item::with_sheet(Item(), sheet_of(mesh), {});
   }
 
   Result<Item> flat_primitive(const Frame& frame) {
@@ -224,10 +207,17 @@ class CsgBuilder {
                                      : mesh_as_parts(path, *bytes, &notes);
     if (!parts) return Error{parts.error().code, "import: " + parts.error().message, {}};
     std::vector<NodePtr> solids;
+    CsgSheet sheet;
     for (ModelPart& part : *parts) {
       std::string note;
       part.mesh.kind = path;
       Result<PolygonMesh> mesh = make_solid_mesh(part.mesh, &note);
+      if (!mesh && frame.asked != OfSheets::kNothing && is_sheet(part.mesh)) {
+        Item item = open_item(frame, part.mesh);
+        sheet.append(std::move(item.sheet));
+        solids.push_back(std::move(item.solid));
+        continue;
+      }
       if (!mesh) mesh = repaired_or(std::move(mesh), std::move(part.mesh), notes);
       if (!mesh) return Error{mesh.error().code, "import: " + mesh.error().message, {}};
       if (!note.empty()) notes.push_back(note);
@@ -235,8 +225,10 @@ class CsgBuilder {
           Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where(frame)));
     }
     for (const std::string& note : notes) warn(frame, "import: " + note);
-    if (solids.size() == 1) return Item::of(solids[0]);
-    return Item::of(Node::boolean(BooleanOp::kUnion, std::move(solids), where(frame)));
+    NodePtr all = solids.size() == 1
+                      ? solids[0]
+                      : Node::boolean(BooleanOp::kUnion, std::move(solids), where(frame));
+    return Item::with_sheet(Item::of(std::move(all)), std::move(sheet), {});
   }
 
   static Result<std::vector<ModelPart>> mesh_as_parts(const std::string& path,
@@ -323,7 +315,14 @@ class CsgBuilder {
       const auto colour = colour_of_first(frame);
       return item_of(Shape2D::boolean(op, take_shapes(frame)), colour);
     }
-    return Item::of(combine_solids(op, frame));
+    CsgSheet sheet;
+    std::optional<Appearance> colour;
+    for (Item& child : frame.children) {
+      if (child.sheet.empty()) continue;
+      if (sheet.empty()) colour = child.appearance;
+      sheet.append(std::move(child.sheet));
+    }
+    return Item::with_sheet(Item::of(combine_solids(op, frame)), std::move(sheet), colour);
   }
 
   /// The union of the 2D children; solids are left out, with a warning.
@@ -406,16 +405,28 @@ class CsgBuilder {
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
     const SourceRef place = where(frame);
-    Result<Shape2D> shape =
-        cut ? slice_solid(evaluator(), child->solid, 0, place) : shadow(child->solid);
-    if (!shape && environment_.evaluation_failed != nullptr) *environment_.evaluation_failed = true;
-    return item_of(std::move(shape), one_appearance_of(child->solid));
+    Result<Shape2D> shape = cut ? slice_solid(evaluator(), child->solid, 0, place) : shadow(*child);
+    if (!shape) return failed(shape.error());
+    const bool is_sheet_only = child->solid->kind() == NodeKind::kEmpty;
+    return Item::of(*std::move(shape),
+                    is_sheet_only ? child->appearance : one_appearance_of(child->solid));
   }
 
-  Result<Shape2D> shadow(const NodePtr& node) {
-    const auto solid = evaluator().evaluate(node);
+  /// Of a solid and of the sheet beside it.
+  Result<Shape2D> shadow(const Item& item) {
+    const auto solid = evaluator().evaluate(item.solid);
     if (!solid) return solid.error();
-    return project_solid(**solid);
+    Result<Shape2D> shape = project_solid(**solid);
+    if (!shape || item.sheet.empty()) return shape;
+    const Result<Shape2D> more = shadow_of(item.sheet);
+    if (!more) return more.error();
+    return Shape2D::boolean(BooleanOp::kUnion, {*shape, *more});
+  }
+
+  /// An error of an evaluation.
+  [[nodiscard]] Error failed(const Error& error) const {
+    if (environment_.evaluation_failed != nullptr) *environment_.evaluation_failed = true;
+    return error;
   }
 
   Evaluator& evaluator() {
@@ -428,7 +439,8 @@ class CsgBuilder {
     std::vector<NodePtr> operands;
     bool first = true;
     for (Item& child : frame.children) {
-      const bool empty = child.kind == Item::Kind::kEmpty;
+      const bool empty =
+          child.kind == Item::Kind::kEmpty || child.solid->kind() == NodeKind::kEmpty;
       if (empty && (op == BooleanOp::kIntersection || (op == BooleanOp::kDifference && first))) {
         return Node::empty(where(frame));
       }
@@ -460,11 +472,32 @@ class CsgBuilder {
     const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
                                m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    if (determinant == 0) {
+    if (determinant == 0) return flattened(frame, *map, *std::move(child));
+    NodePtr moved = child->solid->kind() == NodeKind::kEmpty
+                        ? child->solid
+                        : Node::transformed(*map, child->solid, where(frame));
+    return Item::with_sheet(Item::of(std::move(moved)), mapped(std::move(child->sheet), *map),
+                            child->appearance);
+  }
+
+  /// What a matrix makes flat is empty, but in a hull or a shadow.
+  Result<Item> flattened(const Frame& frame, const Affine& map, Item child) {
+    if (frame.asked == OfSheets::kNothing) {
       warn_flattened(frame);
       return Item();
     }
-    return Item::of(Node::transformed(*map, std::move(child->solid), where(frame)));
+    if (frame.asked == OfSheets::kCorners) {
+      Result<NodePtr> corners = flattened_corners(child.solid, map, evaluator(), where(frame));
+      if (!corners) return failed(corners.error());
+      return Item::of(*std::move(corners));
+    }
+    const auto solid = evaluator().evaluate(child.solid);
+    if (!solid) return failed(solid.error());
+    CsgSheet sheet = mapped(std::move(child.sheet), map);
+    sheet.append(sheet_of(**solid, map));
+    const auto colour =
+        child.solid->kind() == NodeKind::kEmpty ? child.appearance : one_appearance_of(child.solid);
+    return Item::with_sheet(Item(), std::move(sheet), colour);
   }
 
   void warn_flattened(const Frame& frame) {
@@ -495,7 +528,10 @@ class CsgBuilder {
       child->appearance = appearance;
       return child;
     }
-    return Item::of(Node::painted(appearance, std::move(child->solid), where(frame)));
+    NodePtr painted = child->solid->kind() == NodeKind::kEmpty
+                          ? child->solid
+                          : Node::painted(appearance, child->solid, where(frame));
+    return Item::with_sheet(Item::of(std::move(painted)), std::move(child->sheet), appearance);
   }
 
   Result<Item> extrude(Frame& frame) {

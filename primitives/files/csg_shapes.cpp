@@ -155,7 +155,15 @@ bool is_flat_primitive(std::string_view name) {
 
 namespace {
 
-MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>& warnings) {
+/// How many points of a face differ.
+size_t different_points(const std::vector<glm::dvec3>& points, const std::vector<uint32_t>& face) {
+  std::set<std::tuple<double, double, double>> different;
+  for (const uint32_t i : face) different.insert({points[i].x, points[i].y, points[i].z});
+  return different.size();
+}
+
+MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>& warnings,
+                               PolygonMesh* open) {
   std::vector<glm::dvec3> points;
   for (const std::vector<double>& row : arguments.rows("points", 3)) {
     points.emplace_back(row[0], row[1], row[2]);
@@ -165,26 +173,33 @@ MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>
       arguments.index_lists("faces", points.size(), warnings);
   if (arguments.error()) return *arguments.error();
   const std::string bad_index = warnings.size() > before ? warnings[before] : "";
-  // Six digits make short edges vanish; a face of fewer than three different points is then
-  // nothing.
-  std::erase_if(faces, [&](const std::vector<uint32_t>& face) {
-    std::set<std::tuple<double, double, double>> different;
-    for (const uint32_t i : face) different.insert({points[i].x, points[i].y, points[i].z});
-    if (different.size() >= 3) return false;
-    warnings.push_back("polyhedron: a face of fewer than three different points was left out");
-    return true;
-  });
-  std::string note;
-  MeshResult mesh = make_polyhedron(points, faces, &note);
-  if (!note.empty()) warnings.push_back(note);
-  if (!mesh && mesh.error().code == ErrorCode::kInvalidMesh) {
+  const auto as_given = [&] {
     PolygonMesh given;
     given.kind = "polyhedron";
     given.points = points;
     for (const auto& face : faces)
       given.add_face(std::vector<uint32_t>(face.rbegin(), face.rend()));
-    mesh = repaired_or(std::move(mesh), std::move(given), warnings);
+    return given;
+  };
+  std::string note;
+  if (open != nullptr) {
+    // Of a face that is nothing the points count all the same.
+    std::erase_if(faces, [](const std::vector<uint32_t>& face) { return face.size() < 3; });
+    MeshResult mesh = make_polyhedron(points, faces, &note);
+    if (!mesh && mesh.error().code == ErrorCode::kInvalidMesh) *open = as_given();
+    return mesh;
   }
+  // Six digits make short edges vanish; a face of fewer than three different points is then
+  // nothing.
+  std::erase_if(faces, [&](const std::vector<uint32_t>& face) {
+    if (different_points(points, face) >= 3) return false;
+    warnings.push_back("polyhedron: a face of fewer than three different points was left out");
+    return true;
+  });
+  MeshResult mesh = make_polyhedron(points, faces, &note);
+  if (!note.empty()) warnings.push_back(note);
+  if (!mesh && mesh.error().code == ErrorCode::kInvalidMesh)
+    mesh = repaired_or(std::move(mesh), as_given(), warnings);
   // Without the index the rest is hardly a solid: what is to be said is the index.
   if (!mesh && !bad_index.empty()) {
     return Error{mesh.error().code, bad_index + ", and then " + mesh.error().message, {}};
@@ -194,9 +209,10 @@ MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>
 
 }  // namespace
 
-MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings) {
+MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings,
+                          PolygonMesh* open) {
   CsgArguments arguments(call);
-  if (call.name == "polyhedron") return make_csg_polyhedron(arguments, warnings);
+  if (call.name == "polyhedron") return make_csg_polyhedron(arguments, warnings, open);
   const bool center = arguments.boolean("center", false);
   if (call.name == "cube") {
     const std::vector<double> size = arguments.numbers("size", 3, {1, 1, 1});

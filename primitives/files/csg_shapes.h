@@ -59,8 +59,11 @@ Result<PolygonMesh> repaired_or(Result<PolygonMesh> refused, PolygonMesh given,
 bool is_solid_primitive(std::string_view name);
 bool is_flat_primitive(std::string_view name);
 
-/// `warnings` gets what was left out. An impossible size is a kInvalidArgument.
-MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings);
+/// `warnings` gets what was left out. An impossible size is a kInvalidArgument. With `open`, the
+/// faces of a polyhedron that is refused (kInvalidMesh) go there as they are given, where they are
+/// not repaired.
+MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings,
+                          PolygonMesh* open = nullptr);
 Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& warnings);
 /// The arguments of import.
 struct CsgImport {

@@ -41,7 +41,8 @@ struct CsgEnvironment {
 /// intersection, hull, minkowski, offset, fill, group and render, with the modifiers % (left out,
 /// not even an operand) and # (nothing). As in OpenSCAD, an empty node is an operand, primitives of
 /// impossible size are empty, and where 2D and 3D mix the first child that is not empty decides;
-/// each is said in a warning. A shape has one colour, that of the first of the shapes it is made
+/// each is said in a warning. Meshes that are open or flat have points for a hull and faces for a
+/// projection without a cut. A shape has one colour, that of the first of the shapes it is made
 /// of, and an extrusion has that of its shape. Unknown arguments are passed over; arguments are
 /// matched by name.
 ///
