@@ -17,6 +17,7 @@
 #include "primitives/files/csg_parser.h"
 #include "primitives/files/csg_shapes.h"
 #include "primitives/files/csg_sheets.h"
+#include "primitives/files/csg_signatures.h"
 #include "primitives/files/face_colours.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/read_file.h"
@@ -50,6 +51,11 @@ class CsgBuilder {
       frame.call = std::move(parser_.call());
       frame.background = background;
       frame.asked = asked;
+      if (!background) {
+        std::vector<std::string> notes;
+        name_arguments(frame.call, notes);
+        for (const std::string& note : notes) warn(frame, note);
+      }
       frame.asks = asked_of_children(frame.call, asked);
       if (*event == CsgParser::Event::kOpen) continue;
       if (auto status = close(); !status) return status.error();
@@ -134,8 +140,13 @@ class CsgBuilder {
       return Item::of(
           Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where(frame)));
     }
-    if (mesh.error().code != ErrorCode::kInvalidArgument) return mesh.error();
-    warn(frame, mesh.error().message);
+    return empty_if_impossible(frame, mesh.error());
+  }
+
+  /// Impossible numbers make nothing, as in OpenSCAD; any other error is one.
+  Result<Item> empty_if_impossible(const Frame& frame, const Error& error) {
+    if (error.code != ErrorCode::kInvalidArgument) return error;
+    warn(frame, error.message);
     return Item();
   }
 
@@ -153,12 +164,11 @@ class CsgBuilder {
 
   /// A shape; impossible arguments make it empty.
   Result<Item> flat_leaf(const Frame& frame, Result<Shape2D> shape,
-                         const std::vector<std::string>& notes) {
+                         const std::vector<std::string>& notes,
+                         const std::optional<Appearance>& appearance = {}) {
     for (const std::string& note : notes) warn(frame, note);
-    if (shape) return Item::of(*std::move(shape));
-    if (shape.error().code != ErrorCode::kInvalidArgument) return shape.error();
-    warn(frame, shape.error().message);
-    return Item();
+    if (shape) return Item::of(*std::move(shape), appearance);
+    return empty_if_impossible(frame, shape.error());
   }
 
   Result<Item> surface(const Frame& frame) {
@@ -240,7 +250,8 @@ class CsgBuilder {
   }
 
   Result<Item> text(const Frame& frame) {
-    const Result<CsgText> text = csg_text(frame.call);
+    std::vector<std::string> notes;
+    const Result<CsgText> text = csg_text(frame.call, notes);
     if (!text) return text.error();
     FontBook shipped;
     FontBook& fonts = environment_.fonts != nullptr ? *environment_.fonts : shipped;
@@ -248,7 +259,6 @@ class CsgBuilder {
     if (!choice) {
       return Error{choice.error().code, "text: " + choice.error().message, {}};
     }
-    std::vector<std::string> notes;
     if (!choice->note.empty()) notes.push_back("text: " + choice->note);
     std::string note;
     Result<Shape2D> shape = make_text(text->options, choice->font, &note);
@@ -340,7 +350,7 @@ class CsgBuilder {
     if (!options) return options.error();
     Result<Item> child = combine_flat(frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
-    return item_of(offset_shape(child->shape, *options), child->appearance);
+    return flat_leaf(frame, offset_shape(child->shape, *options), {}, child->appearance);
   }
 
   Result<Item> hull(Frame& frame) {
@@ -376,7 +386,7 @@ class CsgBuilder {
 
   Result<Item> resize(Frame& frame) {
     const Result<CsgResize> wanted = csg_resize(frame.call);
-    if (!wanted) return wanted.error();
+    if (!wanted) return empty_if_impossible(frame, wanted.error());
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
     if (child->kind == Item::Kind::kSolid) {
@@ -390,7 +400,7 @@ class CsgBuilder {
     Affine map;
     map.m[0][0] = factors[0];
     map.m[1][1] = factors[1];
-    return item_of(child->shape.transformed(map), child->appearance);
+    return flat_leaf(frame, child->shape.transformed(map), {}, child->appearance);
   }
 
   Result<Item> projection(Frame& frame) {
@@ -464,9 +474,8 @@ class CsgBuilder {
     }
     if (child->kind == Item::Kind::kFlat) {
       Result<Shape2D> shape = child->shape.transformed(*map);
-      if (!shape) return shape.error();
-      if (shape->empty()) warn_flattened(frame);
-      return Item::of(*std::move(shape), child->appearance);
+      if (shape && shape->empty()) warn_flattened(frame);
+      return flat_leaf(frame, std::move(shape), {}, child->appearance);
     }
     const auto& m = map->m;
     const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
@@ -505,8 +514,7 @@ class CsgBuilder {
   }
 
   Result<Item> paint(Frame& frame) {
-    const CsgValue* value =
-        frame.call.arguments.empty() ? nullptr : &frame.call.arguments[0].second;
+    const CsgValue* value = frame.call.find("c");
     if (value == nullptr || value->kind != CsgValue::Kind::kList || value->list.size() != 4) {
       return Error{ErrorCode::kMalformedFile, "color: expected a list of 4 numbers", {}};
     }
