@@ -97,10 +97,31 @@ class DxfReader {
           " ends were joined; the first begins at (" + number_text(first_open_.x) + ", " +
           number_text(first_open_.y) + ")");
     }
+    if (tilted_ > 0) {
+      file.notes.push_back(name_ + ": " + std::to_string(tilted_) +
+                           (tilted_ == 1 ? " entity lies" : " entities lie") +
+                           " in a plane that is not level (line " + std::to_string(first_tilted_) +
+                           "); taken as if in the drawing's");
+    }
     return file;
   }
 
  private:
+  /// Whether what is given in coordinates of the entity's own is seen from behind: then its X axis
+  /// runs to the left (by the arbitrary axis algorithm, for the extrusion direction 0, 0, -1).
+  bool is_seen_from_behind(const DxfRecord& r) {
+    constexpr double kLevel = 1e-9;
+    const double up = r.number(230, 1);
+    if (std::max(std::fabs(r.number(210)), std::fabs(r.number(220))) <= kLevel * std::fabs(up))
+      return up < 0;
+    if (tilted_++ == 0) first_tilted_ = r.line;
+    return false;
+  }
+
+  static void mirror(Chain& chain) {
+    for (glm::dvec2& p : chain.points) p.x = -p.x;
+  }
+
   static glm::dvec2 point(const DxfRecord& r, int x_code) {
     return {r.number(x_code), r.number(x_code + 10)};
   }
@@ -158,6 +179,7 @@ class DxfReader {
     }
     const double c = cos_deg(r.number(50)), s = sin_deg(r.number(50));
     const double sx = r.number(41, 1), sy = r.number(42, 1);
+    const double side = is_seen_from_behind(r) ? -1 : 1;
     const auto count = [&](int code) { return std::clamp(r.number(code, 1), 1.0, 1e6); };
     for (double row = 0; row < count(71); ++row) {
       for (double column = 0; column < count(70); ++column) {
@@ -167,6 +189,7 @@ class DxfReader {
         inner.v = glm::dvec2(-s, c) * sy;
         inner.at = point(r, 10) + glm::dvec2(c * step.x - s * step.y, s * step.x + c * step.y) -
                    block->second.x * inner.u - block->second.y * inner.v;
+        for (glm::dvec2* axis : {&inner.u, &inner.v, &inner.at}) axis->x *= side;
         Placement total;
         total.at = outer.apply(inner.at);
         total.u = outer.apply(inner.u) - outer.at;
@@ -212,6 +235,7 @@ class DxfReader {
       append_ellipse(point(r, 10), {radius, 0}, {0, radius},
                      kind == "ARC" ? std::fmod(r.number(50), 360) : 0, sweep,
                      options_.facets.fragments(radius * scale, sweep), chain.points);
+      if (is_seen_from_behind(r)) mirror(chain);
     } else if (kind == "ELLIPSE") {
       ellipse(r, scale, chain);
     } else if (kind == "LWPOLYLINE") {
@@ -224,6 +248,7 @@ class DxfReader {
         if (code == 42 && !vertices.empty()) vertices.back().bulge = one.number(42);
       }
       chain = bulged(vertices, is_closed(r), scale);
+      if (is_seen_from_behind(r)) mirror(chain);
     } else if (kind == "SPLINE") {
       spline(r, scale, chain);
     } else {
@@ -233,9 +258,10 @@ class DxfReader {
     add(std::move(chain), placement, in_block);
   }
 
-  static bool is_closed(const DxfRecord& r) {
-    return (static_cast<int>(std::clamp(r.number(70), 0.0, 65535.0)) & 1) != 0;
+  static int flags(const DxfRecord& r) {
+    return static_cast<int>(std::clamp(r.number(70), 0.0, 65535.0));
   }
+  static bool is_closed(const DxfRecord& r) { return (flags(r) & 1) != 0; }
 
   struct Vertex {
     glm::dvec2 at;
@@ -265,10 +291,15 @@ class DxfReader {
       vertices.push_back({point(list[i], 10), list[i].number(42)});
     const double scale =
         std::sqrt(std::fabs(placement.u.x * placement.v.y - placement.u.y * placement.v.x));
-    add(bulged(vertices, is_closed(r), scale), placement, in_block);
+    Chain chain = bulged(vertices, is_closed(r), scale);
+    constexpr int kIn3D = 8;  // its points are in world coordinates
+    if ((flags(r) & kIn3D) == 0 && is_seen_from_behind(r)) mirror(chain);
+    add(std::move(chain), placement, in_block);
   }
 
-  void ellipse(const DxfRecord& r, double scale, Chain& chain) const {
+  /// Its centre and its axis are in world coordinates; it runs counter-clockwise as seen from the
+  /// side that it looks to.
+  void ellipse(const DxfRecord& r, double scale, Chain& chain) {
     constexpr double kDegrees = 180 / 3.14159265358979323846;
     const glm::dvec2 major = point(r, 11);
     const double ratio = r.number(40, 1), radius = std::sqrt(glm::dot(major, major));
@@ -281,7 +312,8 @@ class DxfReader {
     if (sweep > 360 - kNoise) sweep = 360;
     if (!std::isfinite(sweep)) return;
     chain.closed = sweep == 360;
-    append_ellipse(point(r, 10), major, ratio * glm::dvec2(-major.y, major.x), from, sweep,
+    const double turn = is_seen_from_behind(r) ? -ratio : ratio;
+    append_ellipse(point(r, 10), major, turn * glm::dvec2(-major.y, major.x), from, sweep,
                    options_.facets.fragments(radius * std::max(ratio, 1.0) * scale, sweep),
                    chain.points);
   }
@@ -404,7 +436,7 @@ class DxfReader {
   PointGrid grid_;
   std::vector<Chain> chains_;
   std::map<std::string, size_t> left_out_;
-  size_t entities_ = 0, points_ = 0, open_chains_ = 0;
+  size_t entities_ = 0, points_ = 0, open_chains_ = 0, tilted_ = 0, first_tilted_ = 0;
   glm::dvec2 first_open_{};
   bool found_layer_ = false;
 };

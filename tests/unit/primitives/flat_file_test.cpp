@@ -397,6 +397,73 @@ TEST(Dxf, BlocksLayersAndPlacement) {
   EXPECT_EQ(scaled.bounds()[0], glm::dvec2(0, 0));
 }
 
+// What is drawn from behind has its X axis to the left; lines, and the axes of ellipses, are in the
+// coordinates of the world.
+TEST(Dxf, EntitiesSeenFromBehind) {
+  using Groups = std::vector<std::pair<int, std::string>>;
+  const auto behind = [](Groups groups) {
+    groups.insert(groups.begin() + 1, {{210, "0.0"}, {220, "0.0"}, {230, "-1.0"}});
+    return pairs(groups);
+  };
+  const auto is_closed = [](const std::string& content, const std::string& blocks = "") {
+    const FlatFile file = read("x.dxf", entities(content, blocks), with_fn(32));
+    EXPECT_EQ(file.notes, std::vector<std::string>{});
+    return file.shape;
+  };
+  std::vector<glm::dvec2> quarter = arc_points(32, 0, 8);
+  quarter.emplace_back(0, 0);
+  const double area = area_on_grid(quarter, 5);
+  // A quarter of a turn about (-10, 2), from its left to its top.
+  const Groups arc{{0, "ARC"}, {10, "10"}, {20, "2"}, {40, "5"}, {50, "0"}, {51, "90"}};
+  const Shape2D left = is_closed(behind(arc) + dxf_line(-10, 2, -15, 2) + dxf_line(-10, 2, -10, 7));
+  EXPECT_NEAR(left.area(), area, 1e-6);
+  EXPECT_EQ(left.bounds()[0], glm::dvec2(-15, 2));
+  EXPECT_EQ(left.bounds()[1], glm::dvec2(-10, 7));
+  // The same of an ellipse about (-10, 2): from its left, over its top.
+  const Groups ellipse{{0, "ELLIPSE"}, {10, "-10"}, {20, "2"}, {11, "-5"},
+                       {21, "0"},      {40, "1"},   {41, "0"}, {42, "1.5707963"}};
+  EXPECT_NEAR(
+      is_closed(behind(ellipse) + dxf_line(-10, 2, -15, 2) + dxf_line(-10, 2, -10, 7)).area(), area,
+      1e-6);
+  const Groups circle{{0, "CIRCLE"}, {10, "3"}, {20, "4"}, {40, "5"}};
+  EXPECT_EQ(is_closed(behind(circle)).bounds()[0], glm::dvec2(-8, -1));
+  // A half disc over a chord from (5, 1) to (11, 1), below it as it is given: below in the mirror.
+  const Groups half{{0, "LWPOLYLINE"}, {90, "2"},  {70, "1"}, {10, "5"}, {20, "1"},
+                    {42, "1"},         {10, "11"}, {20, "1"}, {42, "0"}};
+  EXPECT_EQ(is_closed(behind(half)).bounds()[0], glm::dvec2(-11, -2));
+  EXPECT_EQ(is_closed(behind(half)).bounds()[1], glm::dvec2(-5, 1));
+  const auto old = [&](const std::string& flags) {
+    return behind({{0, "POLYLINE"}, {70, flags}}) + pairs({{0, "VERTEX"},
+                                                           {10, "1"},
+                                                           {20, "0"},
+                                                           {0, "VERTEX"},
+                                                           {10, "5"},
+                                                           {20, "0"},
+                                                           {0, "VERTEX"},
+                                                           {10, "5"},
+                                                           {20, "4"},
+                                                           {0, "SEQEND"}});
+  };
+  EXPECT_EQ(is_closed(old("1")).bounds()[0], glm::dvec2(-5, 0));
+  EXPECT_EQ(is_closed(old("9")).bounds()[0], glm::dvec2(1, 0));
+  // A block is mirrored where it is put; an entity from behind in it is itself again.
+  const std::string block = pairs({{0, "BLOCK"}, {2, "B"}, {10, "1"}, {20, "1"}}) +
+                            dxf_line(1, 1, 3, 1) + dxf_line(3, 1, 3, 2) + dxf_line(3, 2, 1, 1) +
+                            pairs({{0, "ENDBLK"}, {0, "BLOCK"}, {2, "C"}}) + behind(half) +
+                            pairs({{0, "ENDBLK"}});
+  const Shape2D turned = is_closed(
+      behind({{0, "INSERT"}, {2, "B"}, {10, "7"}, {20, "0"}, {50, "90"}, {41, "2"}}), block);
+  EXPECT_EQ(turned.bounds()[0], glm::dvec2(-7, 0));  // turned, it would reach from 6 to 7
+  EXPECT_EQ(turned.bounds()[1], glm::dvec2(-6, 4));
+  EXPECT_EQ(is_closed(behind({{0, "INSERT"}, {2, "C"}}), block).bounds()[0], glm::dvec2(5, -2));
+  // What is tilted is said to be.
+  const FlatFile tilted =
+      read("x.dxf", entities(pairs({{0, "CIRCLE"}, {40, "5"}, {210, "1"}, {230, "0"}})), {});
+  EXPECT_EQ(tilted.notes,
+            std::vector<std::string>{"x.dxf: 1 entity lies in a plane that is not level (line 12); "
+                                     "taken as if in the drawing's"});
+}
+
 TEST(Dxf, HostileAndDamagedFiles) {
   EXPECT_EQ(error("x.dxf", "hello\nworld\n"),
             "x.dxf: line 1: expected a group code, got \"hello\"");
