@@ -47,7 +47,7 @@ class CsgBuilder {
       }
       const bool background = stack_.back().background || parser_.call().background;
       const OfSheets asked = stack_.back().asks;
-      Frame& frame = stack_.emplace_back();
+      CsgFrame& frame = stack_.emplace_back();
       frame.call = std::move(parser_.call());
       frame.background = background;
       frame.asked = asked;
@@ -77,17 +77,17 @@ class CsgBuilder {
   }
 
  private:
-  [[nodiscard]] SourceRef where(const Frame& frame) const {
+  [[nodiscard]] SourceRef where(const CsgFrame& frame) const {
     return SourceRef{file_, frame.call.line};
   }
 
-  void warn(const Frame& frame, const std::string& what) {
+  void warn(const CsgFrame& frame, const std::string& what) {
     warnings_.push_back(where(frame).text() + ": " + what);
   }
 
   /// Builds the innermost open call and hands it to the one around it.
   Status close() {
-    Frame frame = std::move(stack_.back());
+    CsgFrame frame = std::move(stack_.back());
     stack_.pop_back();
     if (frame.background) return std::monostate();
     Result<Item> item = build(frame);
@@ -100,7 +100,7 @@ class CsgBuilder {
     return std::monostate();
   }
 
-  Result<Item> build(Frame& frame) {
+  Result<Item> build(CsgFrame& frame) {
     const std::string& name = frame.call.name;
     if (name == "union" || name == "group" || name == "render") {
       return combine(BooleanOp::kUnion, frame);
@@ -134,7 +134,7 @@ class CsgBuilder {
   }
 
   /// A leaf of the mesh; impossible arguments make it empty.
-  Result<Item> leaf(const Frame& frame, MeshResult mesh, const std::vector<std::string>& notes) {
+  Result<Item> leaf(const CsgFrame& frame, MeshResult mesh, const std::vector<std::string>& notes) {
     for (const std::string& note : notes) warn(frame, note);
     if (mesh) {
       return Item::of(
@@ -144,26 +144,26 @@ class CsgBuilder {
   }
 
   /// Impossible numbers make nothing, as in OpenSCAD; any other error is one.
-  Result<Item> empty_if_impossible(const Frame& frame, const Error& error) {
+  Result<Item> empty_if_impossible(const CsgFrame& frame, const Error& error) {
     if (error.code != ErrorCode::kInvalidArgument) return error;
     warn(frame, error.message);
     return Item();
   }
 
   /// A mesh that is not closed, where that does not matter.
-  [[nodiscard]] Item open_item(const Frame& frame, const PolygonMesh& mesh) const {
+  [[nodiscard]] Item open_item(const CsgFrame& frame, const PolygonMesh& mesh) const {
     if (frame.asked == OfSheets::kCorners) return Item::of(leaf_of_corners(mesh, where(frame)));
     return Item::with_sheet(Item(), sheet_of(mesh), {});
   }
 
-  Result<Item> flat_primitive(const Frame& frame) {
+  Result<Item> flat_primitive(const CsgFrame& frame) {
     std::vector<std::string> notes;
     Result<Shape2D> shape = make_csg_shape(frame.call, notes);
     return flat_leaf(frame, std::move(shape), notes);
   }
 
   /// A shape; impossible arguments make it empty.
-  Result<Item> flat_leaf(const Frame& frame, Result<Shape2D> shape,
+  Result<Item> flat_leaf(const CsgFrame& frame, Result<Shape2D> shape,
                          const std::vector<std::string>& notes,
                          const std::optional<Appearance>& appearance = {}) {
     for (const std::string& note : notes) warn(frame, note);
@@ -171,7 +171,7 @@ class CsgBuilder {
     return empty_if_impossible(frame, shape.error());
   }
 
-  Result<Item> surface(const Frame& frame) {
+  Result<Item> surface(const CsgFrame& frame) {
     CsgArguments arguments(frame.call);
     const std::string path = arguments.string("file", "");
     const bool center = arguments.boolean("center", false);
@@ -188,7 +188,7 @@ class CsgBuilder {
   }
 
   /// A mesh, or a drawing. A file that is not there is an error: nothing is dropped silently.
-  Result<Item> import(const Frame& frame) {
+  Result<Item> import(const CsgFrame& frame) {
     const Result<CsgImport> import = csg_import(frame.call);
     if (!import) return import.error();
     const std::string& path = import->file;
@@ -249,7 +249,7 @@ class CsgBuilder {
     return std::vector<ModelPart>{{"", *std::move(mesh)}};
   }
 
-  Result<Item> text(const Frame& frame) {
+  Result<Item> text(const CsgFrame& frame) {
     std::vector<std::string> notes;
     const Result<CsgText> text = csg_text(frame.call, notes);
     if (!text) return text.error();
@@ -268,7 +268,7 @@ class CsgBuilder {
 
   /// The first child that is not empty decides between 2D and 3D; children of the other kind
   /// become empty. kEmpty when all are.
-  Item::Kind settle_kind(Frame& frame) {
+  Item::Kind settle_kind(CsgFrame& frame) {
     const auto first = std::find_if(frame.children.begin(), frame.children.end(),
                                     [](const Item& i) { return i.kind != Item::Kind::kEmpty; });
     if (first == frame.children.end()) return Item::Kind::kEmpty;
@@ -282,7 +282,7 @@ class CsgBuilder {
     return kind;
   }
 
-  static std::vector<Shape2D> take_shapes(Frame& frame) {
+  static std::vector<Shape2D> take_shapes(CsgFrame& frame) {
     std::vector<Shape2D> shapes;
     for (Item& child : frame.children) shapes.push_back(std::move(child.shape));
     return shapes;
@@ -290,7 +290,7 @@ class CsgBuilder {
 
   /// The colour of the first shape among the children; that others are lost is said where they
   /// would be seen.
-  std::optional<Appearance> colour_of_first(const Frame& frame) {
+  std::optional<Appearance> colour_of_first(const CsgFrame& frame) {
     const Item* first = nullptr;
     for (const Item& child : frame.children) {
       if (child.kind != Item::Kind::kFlat) continue;
@@ -303,7 +303,7 @@ class CsgBuilder {
   }
 
   /// Those that are not empty.
-  static std::vector<NodePtr> take_solids(Frame& frame) {
+  static std::vector<NodePtr> take_solids(CsgFrame& frame) {
     std::vector<NodePtr> solids;
     for (Item& child : frame.children) {
       if (child.kind == Item::Kind::kSolid) solids.push_back(std::move(child.solid));
@@ -318,7 +318,7 @@ class CsgBuilder {
   }
 
   /// The children under a Boolean.
-  Result<Item> combine(BooleanOp op, Frame& frame) {
+  Result<Item> combine(BooleanOp op, CsgFrame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
     if (kind == Item::Kind::kFlat) {
@@ -336,7 +336,7 @@ class CsgBuilder {
   }
 
   /// The union of the 2D children; solids are left out, with a warning.
-  Result<Item> combine_flat(Frame& frame) {
+  Result<Item> combine_flat(CsgFrame& frame) {
     for (Item& child : frame.children) {
       if (child.kind != Item::Kind::kSolid) continue;
       warn(frame, frame.call.name + ": a 3D child was left out");
@@ -345,7 +345,7 @@ class CsgBuilder {
     return combine(BooleanOp::kUnion, frame);
   }
 
-  Result<Item> offset(Frame& frame) {
+  Result<Item> offset(CsgFrame& frame) {
     const Result<OffsetOptions> options = csg_offset(frame.call);
     if (!options) return options.error();
     Result<Item> child = combine_flat(frame);
@@ -353,7 +353,7 @@ class CsgBuilder {
     return flat_leaf(frame, offset_shape(child->shape, *options), {}, child->appearance);
   }
 
-  Result<Item> hull(Frame& frame) {
+  Result<Item> hull(CsgFrame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
     if (kind == Item::Kind::kFlat) {
@@ -363,7 +363,7 @@ class CsgBuilder {
     return Item::of(Node::convex_hull(take_solids(frame), where(frame)));
   }
 
-  Result<Item> minkowski(Frame& frame) {
+  Result<Item> minkowski(CsgFrame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
     if (kind == Item::Kind::kFlat) {
@@ -375,7 +375,7 @@ class CsgBuilder {
     return Item::of(Node::minkowski_sum(std::move(solids), where(frame)));
   }
 
-  Result<Item> fill(Frame& frame) {
+  Result<Item> fill(CsgFrame& frame) {
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
     if (child->kind == Item::Kind::kFlat)
@@ -384,7 +384,7 @@ class CsgBuilder {
     return child;
   }
 
-  Result<Item> resize(Frame& frame) {
+  Result<Item> resize(CsgFrame& frame) {
     const Result<CsgResize> wanted = csg_resize(frame.call);
     if (!wanted) return empty_if_impossible(frame, wanted.error());
     Result<Item> child = combine(BooleanOp::kUnion, frame);
@@ -403,7 +403,7 @@ class CsgBuilder {
     return flat_leaf(frame, child->shape.transformed(map), {}, child->appearance);
   }
 
-  Result<Item> projection(Frame& frame) {
+  Result<Item> projection(CsgFrame& frame) {
     CsgArguments arguments(frame.call);
     const bool cut = arguments.boolean("cut", false);
     if (arguments.error()) return *arguments.error();
@@ -445,7 +445,7 @@ class CsgBuilder {
     return *own_evaluator_;
   }
 
-  NodePtr combine_solids(BooleanOp op, Frame& frame) {
+  NodePtr combine_solids(BooleanOp op, CsgFrame& frame) {
     std::vector<NodePtr> operands;
     bool first = true;
     for (Item& child : frame.children) {
@@ -461,7 +461,7 @@ class CsgBuilder {
     return Node::boolean(op, std::move(operands), where(frame));
   }
 
-  Result<Item> transform(Frame& frame) {
+  Result<Item> transform(CsgFrame& frame) {
     CsgArguments arguments(frame.call);
     const std::optional<Affine> map = arguments.matrix();
     if (arguments.error()) return *arguments.error();
@@ -490,7 +490,7 @@ class CsgBuilder {
   }
 
   /// What a matrix makes flat is empty, but in a hull or a shadow.
-  Result<Item> flattened(const Frame& frame, const Affine& map, Item child) {
+  Result<Item> flattened(const CsgFrame& frame, const Affine& map, Item child) {
     if (frame.asked == OfSheets::kNothing) {
       warn_flattened(frame);
       return Item();
@@ -509,11 +509,11 @@ class CsgBuilder {
     return Item::with_sheet(Item(), std::move(sheet), colour);
   }
 
-  void warn_flattened(const Frame& frame) {
+  void warn_flattened(const CsgFrame& frame) {
     warn(frame, "multmatrix: the matrix flattens its children, they were left out");
   }
 
-  Result<Item> paint(Frame& frame) {
+  Result<Item> paint(CsgFrame& frame) {
     const CsgValue* value = frame.call.find("c");
     if (value == nullptr || value->kind != CsgValue::Kind::kList || value->list.size() != 4) {
       return Error{ErrorCode::kMalformedFile, "color: expected a list of 4 numbers", {}};
@@ -542,13 +542,13 @@ class CsgBuilder {
     return Item::with_sheet(Item::of(std::move(painted)), std::move(child->sheet), appearance);
   }
 
-  Result<Item> extrude(Frame& frame) {
+  Result<Item> extrude(CsgFrame& frame) {
     Result<Item> profile = combine_flat(frame);
     if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
     return painted(frame, leaf(frame, extrude_csg(frame.call, profile->shape), {}), *profile);
   }
 
-  Result<Item> roof(Frame& frame) {
+  Result<Item> roof(CsgFrame& frame) {
     std::vector<std::string> notes;
     const Result<RoofOptions> options = csg_roof(frame.call, notes);
     if (!options) return options.error();
@@ -558,7 +558,7 @@ class CsgBuilder {
   }
 
   /// A solid that was made of a shape has its colour.
-  Result<Item> painted(const Frame& frame, Result<Item> solid, const Item& shape) {
+  Result<Item> painted(const CsgFrame& frame, Result<Item> solid, const Item& shape) {
     if (solid && solid->kind == Item::Kind::kSolid && shape.appearance)
       solid->solid = Node::painted(*shape.appearance, std::move(solid->solid), where(frame));
     return solid;
@@ -568,7 +568,7 @@ class CsgBuilder {
   CsgParser parser_;
   const CsgEnvironment& environment_;
   std::unique_ptr<Evaluator> own_evaluator_;
-  std::vector<Frame> stack_;
+  std::vector<CsgFrame> stack_;
   std::vector<std::string> warnings_;
 };
 

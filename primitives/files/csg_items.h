@@ -59,7 +59,7 @@ enum class OfSheets {
 };
 
 /// A call that is open, and what its children came to so far.
-struct Frame {
+struct CsgFrame {
   CsgCall call;
   bool background = false;              ///< it, or a node around it, is marked with %
   OfSheets asked = OfSheets::kNothing;  ///< by the node around it
