@@ -82,11 +82,18 @@ class DxfReader {
     if (!options_.layer.empty() && !found_layer_) {
       return invalid_argument(name_ + ": there is no layer " + csgrun::quoted(options_.layer));
     }
-    std::vector<Shape2D::Loop> loops;
-    join(loops);
-    Result<Shape2D> shape = Shape2D::from_outlines(loops);
-    if (!shape) return Error{shape.error().code, name_ + ": " + shape.error().message, {}};
-    FlatFile file{*std::move(shape), {}};
+    FlatFile file;
+    for (auto& [layer, chains] : chains_) {
+      std::vector<Shape2D::Loop> loops;
+      join(chains, loops);
+      Result<Shape2D> shape = Shape2D::from_outlines(loops);
+      if (!shape) return Error{shape.error().code, name_ + ": " + shape.error().message, {}};
+      if (!options_.parts) {
+        file.shape = *std::move(shape);
+      } else if (!shape->empty()) {
+        file.parts.push_back({layer, *std::move(shape)});
+      }
+    }
     for (const auto& [kind, count] : left_out_) {
       file.notes.push_back(name_ + ": " + kind + " left out (" + std::to_string(count) + ")");
     }
@@ -143,6 +150,7 @@ class DxfReader {
       if (layer.empty()) layer = "0";
       if (layer == "0" && !block_layer.empty()) layer = block_layer;
       const bool wanted = options_.layer.empty() || layer == options_.layer;
+      if (options_.parts) layer_ = layer;
       if (wanted) found_layer_ = true;
       if (r.kind == "INSERT") {
         if (auto status = insert(r, placement, layer, depth); !status) return status;
@@ -211,7 +219,13 @@ class DxfReader {
     points_ += chain.points.size();
     auto& points = chain.points;
     points.erase(std::unique(points.begin(), points.end()), points.end());
-    if (chain.points.size() > 1) chains_.push_back(std::move(chain));
+    if (chain.points.size() > 1) chains_of_layer().push_back(std::move(chain));
+  }
+
+  std::vector<Chain>& chains_of_layer() {
+    const auto [known, is_new] = place_of_layer_.try_emplace(layer_, chains_.size());
+    if (is_new) chains_.emplace_back(layer_, std::vector<Chain>());
+    return chains_[known->second].second;
   }
 
   void draw(const DxfRecord& r, const Placement& placement, bool in_block) {
@@ -382,13 +396,13 @@ class DxfReader {
   }
 
   /// Closed chains are loops; open ones are joined end to end, from the first on.
-  void join(std::vector<Shape2D::Loop>& loops) {
+  void join(std::vector<Chain>& chains, std::vector<Shape2D::Loop>& loops) {
     using Key = PointGrid::Key;
     const auto key = PointGrid::key;
     std::multimap<Key, size_t> ends;  // of open chains: equal keys stay in order
-    std::vector<bool> used(chains_.size(), false);
-    for (size_t i = 0; i < chains_.size(); ++i) {
-      Chain& chain = chains_[i];
+    std::vector<bool> used(chains.size(), false);
+    for (size_t i = 0; i < chains.size(); ++i) {
+      Chain& chain = chains[i];
       if (chain.closed || key(chain.points.front()) == key(chain.points.back())) {
         used[i] = true;
         loops.push_back(std::move(chain.points));
@@ -404,17 +418,17 @@ class DxfReader {
       }
       return std::nullopt;
     };
-    for (size_t i = 0; i < chains_.size(); ++i) {
+    for (size_t i = 0; i < chains.size(); ++i) {
       if (used[i]) continue;
       used[i] = true;
-      Shape2D::Loop line = chains_[i].points;
+      Shape2D::Loop line = chains[i].points;
       // Both ways, so that it does not matter where in an open line the first chain lies.
       for (int side = 0; side < 2; ++side) {
         while (key(line.front()) != key(line.back())) {
           const auto next = find_next(line.back());
           if (!next) break;
           used[*next] = true;
-          Shape2D::Loop& more = chains_[*next].points;
+          Shape2D::Loop& more = chains[*next].points;
           if (key(more.front()) != key(line.back())) std::reverse(more.begin(), more.end());
           line.insert(line.end(), more.begin() + 1, more.end());
         }
@@ -434,7 +448,9 @@ class DxfReader {
   const FlatFileOptions& options_;
   const DxfRecords& records_;
   PointGrid grid_;
-  std::vector<Chain> chains_;
+  std::vector<std::pair<std::string, std::vector<Chain>>> chains_;  ///< of each layer
+  std::map<std::string, size_t> place_of_layer_;
+  std::string layer_;  ///< of what is read; empty for all where no parts are asked for
   std::map<std::string, size_t> left_out_;
   size_t entities_ = 0, points_ = 0, open_chains_ = 0, tilted_ = 0, first_tilted_ = 0;
   glm::dvec2 first_open_{};

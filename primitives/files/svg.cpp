@@ -59,19 +59,31 @@ class SvgReader {
     SvgMap map;
     Style style;
     if (auto status = page(root, map, style.viewport); !status) return status.error();
-    if (auto status = children(root, map, style, options_.id.empty() && options_.layer.empty(), 0);
-        !status) {
-      return status.error();
+    const bool all = options_.id.empty() && options_.layer.empty();
+    for (const pugi::xml_node& child : root.children()) {
+      if (child.type() != pugi::node_element) continue;
+      if (auto status = element(child, map, style, all, 0); !status) return status.error();
+      if (options_.parts && !shapes_.empty()) {
+        std::vector<Shape2D>& part = part_named(name_of(child));
+        part.insert(part.end(), shapes_.begin(), shapes_.end());
+        shapes_.clear();
+      }
     }
-    if (!found_) {
+    if (!all && !found_) {
       const bool by_id = !options_.id.empty();
       return invalid_argument(name_ + ": there is no " +
                               (by_id ? "element of id " + csgrun::quoted(options_.id)
                                      : "layer " + csgrun::quoted(options_.layer)));
     }
-    Result<Shape2D> all = Shape2D::boolean(BooleanOp::kUnion, shapes_);
-    if (!all) return all.error();
-    FlatFile file{*std::move(all), {}};
+    FlatFile file;
+    for (auto& [part, shapes] : parts_) {
+      Result<Shape2D> shape = Shape2D::boolean(BooleanOp::kUnion, shapes);
+      if (!shape) return shape.error();
+      if (!shape->empty()) file.parts.push_back({part, *std::move(shape)});
+    }
+    Result<Shape2D> rest = Shape2D::boolean(BooleanOp::kUnion, shapes_);
+    if (!rest) return rest.error();
+    file.shape = *std::move(rest);
     for (const auto& [what, count] : left_out_) {
       file.notes.push_back(name_ + ": " + what + " left out (" + std::to_string(count) + ")");
     }
@@ -91,6 +103,23 @@ class SvgReader {
     const char* name = node.name();
     const char* colon = std::strrchr(name, ':');
     return colon != nullptr ? colon + 1 : name;
+  }
+
+  std::vector<Shape2D>& part_named(const std::string& part) {
+    for (auto& [known, shapes] : parts_) {
+      if (known == part) return shapes;
+    }
+    return parts_.emplace_back(part, std::vector<Shape2D>()).second;
+  }
+
+  static std::string name_of(const pugi::xml_node& node) {
+    for (const pugi::xml_node& child : node.children()) {
+      if (plain_name(child) != "title") continue;
+      const std::string title = trimmed(child.text().get());
+      if (!title.empty()) return title;
+    }
+    const std::string label = node.attribute("inkscape:label").value();
+    return label.empty() ? node.attribute("id").value() : label;
   }
 
   void leave_out(const std::string& what) { ++left_out_[what]; }
@@ -514,7 +543,8 @@ class SvgReader {
   const std::string& name_;
   const FlatFileOptions& options_;
   std::map<std::string, pugi::xml_node, std::less<>> by_id_;
-  std::vector<Shape2D> shapes_;
+  std::vector<Shape2D> shapes_;  ///< that belong to no part yet
+  std::vector<std::pair<std::string, std::vector<Shape2D>>> parts_;
   std::map<std::string, size_t> left_out_;
   /// The user units of an inch: a px is one of them, and where nothing says how large the page is,
   /// there are `dpi`.

@@ -254,6 +254,31 @@ TEST(Dxf, EntitiesSeenFromBehind) {
                                      "taken as if in the drawing's"});
 }
 
+TEST(Dxf, Parts) {
+  FlatFileOptions options;
+  options.parts = true;
+  const auto triangle = [](double x, const std::string& layer) {
+    return dxf_line(x, 0, x + 2, 0, layer) + dxf_line(x + 2, 0, x, 2, layer) +
+           dxf_line(x, 2, x, 0, layer);
+  };
+  // Layers on one another take nothing away; what a block has on layer 0 is on that of its
+  // insertion.
+  const std::string block = pairs({{0, "BLOCK"}, {2, "B"}}) + triangle(0, "0") + triangle(9, "b") +
+                            pairs({{0, "ENDBLK"}});
+  const std::string content = triangle(0, "a") + triangle(0, "b") + triangle(4, "a") +
+                              pairs({{0, "INSERT"}, {8, "c"}, {2, "B"}, {10, "20"}});
+  const FlatFile file = read("x.dxf", entities(content, block), options);
+  EXPECT_EQ(file.notes, std::vector<std::string>{});
+  EXPECT_TRUE(file.shape.empty());
+  ASSERT_EQ(file.parts.size(), 3u);
+  const std::vector<std::pair<std::string, double>> expected{{"a", 4}, {"b", 4}, {"c", 2}};
+  for (size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(file.parts[i].name, expected[i].first);
+    EXPECT_NEAR(file.parts[i].shape.area(), expected[i].second, 1e-9);
+  }
+  EXPECT_EQ(file.parts[1].shape.bounds()[1], glm::dvec2(31, 2));
+}
+
 TEST(Dxf, HostileAndDamagedFiles) {
   EXPECT_EQ(error("x.dxf", "hello\nworld\n"),
             "x.dxf: line 1: expected a group code, got \"hello\"");

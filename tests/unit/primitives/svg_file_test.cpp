@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -276,6 +277,34 @@ TEST(Svg, LayersAndIds) {
   options.center = true;
   EXPECT_EQ(svg("<rect x='3' y='3' width='2' height='2'/>", options).bounds()[0],
             glm::dvec2(-1, -1));
+}
+
+TEST(Svg, Parts) {
+  FlatFileOptions options;
+  options.parts = true;
+  const std::string content =
+      "<title>a drawing</title><defs><rect id='r' width='1' height='1'/></defs>"
+      "<path id='lid_2' d='M0 0h4v4h-4z'><title>lid 2</title></path>"
+      "<g id='g7' inkscape:label='holes'><title> </title><rect width='2' height='2'/>"
+      "<rect id='inner' x='1' width='2' height='2'/></g>"
+      "<g id='nothing'/><rect id='box' width='3' height='1'/><use href='#r'/>"
+      "<circle id='holes' cx='9' cy='9' r='0'/><rect id='holes' y='9' width='1' height='1'/>"
+      "<rect width='5' height='1'/>";
+  FlatFile file = read("x.svg", page(content), options);
+  EXPECT_TRUE(file.shape.empty());
+  const std::vector<std::pair<std::string, double>> expected{
+      {"lid 2", 16}, {"holes", 6 + 1}, {"box", 3}, {"", 5}};
+  ASSERT_EQ(file.parts.size(), expected.size());
+  for (size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(file.parts[i].name, expected[i].first);
+    EXPECT_NEAR(file.parts[i].shape.area(), expected[i].second, 1e-9) << expected[i].first;
+  }
+  // The middle of all goes to the origin, not that of each.
+  options.center = true;
+  file = read("x.svg", page(content), options);
+  EXPECT_EQ(file.parts[0].shape.bounds()[0], glm::dvec2(-2.5, 1));
+  EXPECT_TRUE(read("x.svg", "<svg/>", options).parts.empty());
+  EXPECT_TRUE(read("x.svg", "<svg/>", {}).shape.empty());
 }
 
 TEST(Svg, HostileAndDamagedFiles) {
