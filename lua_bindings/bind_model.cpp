@@ -29,7 +29,7 @@ constexpr Option kImportOptions[] = {
      true},
     {"parts", T::kBoolean, "false",
      "gives a list of its parts, which have the names that the file has for them, instead of their "
-     "union",
+     "union;\n          of a drawing: the outermost elements of an SVG, the layers of a DXF",
      false},
     {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
     {"repair", T::kValue, "false",
@@ -109,7 +109,7 @@ const std::vector<SolidPart>& import_parts(lua_State* L, const Files::Opened& fi
 /// A drawing as a shape.
 int import_drawing(lua_State* L, const Arguments& arguments, const std::string& path) {
   const std::string format = flat_file_format_of(path);
-  for (const char* name : {"fill", "repair", "parts"}) {
+  for (const char* name : {"fill", "repair"}) {
     if (arguments.has(name))
       fail_in(kImport, fmt::format("option '{}' is for meshes, not for drawings", name));
   }
@@ -123,6 +123,10 @@ int import_drawing(lua_State* L, const Arguments& arguments, const std::string& 
   options.id = arguments.string("id", "");
   if (!options.layer.empty() && !options.id.empty())
     fail_in(kImport, "give either 'layer' or 'id', not both");
+  options.parts = arguments.boolean("parts", false);
+  if (options.parts && (!options.layer.empty() || !options.id.empty()))
+    fail_in(kImport,
+            "option 'parts' gives all parts of a drawing: it goes with neither 'layer' nor 'id'");
   options.dpi = arguments.number("dpi", 72);
   options.scale = arguments.number("scale", 1);
   if (const auto origin = arguments.vector("origin")) options.origin = {origin->v.x, origin->v.y};
@@ -137,7 +141,16 @@ int import_drawing(lua_State* L, const Arguments& arguments, const std::string& 
   }
   FlatFile drawing = value_or_fail(kImport, parse_flat(file.display, file.bytes, options));
   for (const std::string& note : drawing.notes) session.warn(L, "import: " + note);
-  push_shape(L, std::move(drawing.shape), {});
+  if (!options.parts) {
+    push_shape(L, std::move(drawing.shape), {});
+    return 1;
+  }
+  lua_createtable(L, static_cast<int>(drawing.parts.size()), 0);
+  for (size_t i = 0; i < drawing.parts.size(); ++i) {
+    push_shape(L, std::move(drawing.parts[i].shape), {});
+    marks_of(L, -1)->name = drawing.parts[i].name;
+    lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
+  }
   return 1;
 }
 
