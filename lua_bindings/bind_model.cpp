@@ -15,6 +15,8 @@
 #include "lua_bindings/parts.h"
 #include "lua_bindings/sandbox.h"
 #include "lua_bindings/session.h"
+#include "lua_bindings/shipped_calls.h"
+#include "lua_bindings/shipped_modules.h"
 
 namespace csgrun {
 namespace {
@@ -236,6 +238,7 @@ int require_module(lua_State* L) {
   load_chunk(L, file.display, file.bytes);
   lua_pushstring(L, name.c_str());
   lua_call(L, 1, 1);
+  if (file.real.starts_with(kShippedPlace)) guard_shipped_module(L);
   if (lua_isnil(L, -1)) {
     lua_pop(L, 1);
     lua_pushboolean(L, 1);

@@ -14,11 +14,18 @@ local layout = {}
 
 local kAxes = {x = 1, y = 2, z = 3}
 
+local function solid_of(name, part)
+  if type(part) ~= "userdata" then error(name .. ": wants a solid, got " .. tostring(part), 3) end
+end
+
 local function list_of(name, parts)
   if type(parts) ~= "table" then
     error(name .. ": wants a list of solids, got " .. tostring(parts), 3)
   end
   for i, part in ipairs(parts) do
+    if type(part) ~= "userdata" then
+      error(name .. ": part " .. i .. " must be a solid, got " .. tostring(part), 3)
+    end
     if part:is_empty() then error(name .. ": part " .. i .. " is empty", 3) end
   end
   return parts
@@ -37,6 +44,10 @@ layout.anchor, layout.attach, layout.align, layout.centered = anchor, attach, al
 --- The part, moved so that its anchor ("top left", "center"; sides as anchor() has them) lies in a
 --- point {x, y, z}.
 function layout.place(part, where, point)
+  solid_of("layout.place", part)
+  if type(point) ~= "table" then
+    error("layout.place: wants a point {x, y, z}, got " .. tostring(point), 2)
+  end
   local from = anchor(part, where)
   return part:translate(point[1] - from[1], point[2] - from[2], (point[3] or 0) - (from[3] or 0))
 end
@@ -111,6 +122,7 @@ end
 --- `count` copies, each moved by `step` {x, y, z} from the one before; or, with the option to =
 --- {x, y, z}, evenly from where the part is to there.
 function layout.line(part, count, given)
+  solid_of("layout.line", part)
   count_of("layout.line", count)
   local o = options("layout.line", given, {
     step = {type = "table", optional = true}, to = {type = "table", optional = true},
@@ -127,6 +139,7 @@ end
 --- [360: of the whole; less than a full turn has a copy at each end], start [0 degrees], turn
 --- [true: the copies turn along; false: they keep their direction].
 function layout.ring(part, count, given)
+  solid_of("layout.ring", part)
   count_of("layout.ring", count)
   local o = options("layout.ring", given or {}, {
     radius = {0}, angle = {360, min = -360, max = 360}, start = {0}, turn = {true},
@@ -145,6 +158,7 @@ end
 
 --- A copy at each point {x, y, z} of a list.
 function layout.at(part, points)
+  solid_of("layout.at", part)
   if type(points) ~= "table" then
     error("layout.at: wants a list of points {x, y, z}, got " .. tostring(points), 2)
   end
