@@ -212,9 +212,8 @@ MeshResult warp_mesh(PolygonMesh mesh,
     }
     p = *moved;
   }
-  const double volume = signed_volume(mesh);
-  if (volume == 0) return invalid_argument("warp: the moved points enclose no volume");
-  if (volume < 0) reverse_faces(mesh);
+  // A volume of 0 says nothing: parts that are turned over count against the others.
+  if (signed_volume(mesh) < 0) reverse_faces(mesh);
   return mesh;
 }
 

@@ -160,6 +160,8 @@ TEST(Freeform, Mistakes) {
             "model.lua:1: warp: the function must give three numbers, got 2 values");
   EXPECT_EQ(message_of("return cube(1):warp(function(x, y) return x, y, 0 end)"),
             "model.lua:1: warp: the moved points enclose no volume");
+  EXPECT_EQ(message_of("return cube(1):warp(function(x, y, z) return x, y, x + y / 3 end)"),
+            "model.lua:1: warp: the moved points enclose no volume");
   EXPECT_EQ(message_of("return cube(1):warp(function(x, y, z) return x, y, 1/0 end)"),
             "model.lua:1: warp: a moved point must be finite, got inf");
   EXPECT_EQ(message_of("return levelset(function() return 0 end)"),

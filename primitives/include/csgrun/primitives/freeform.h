@@ -28,8 +28,9 @@ MeshResult refine_mesh(PolygonMesh mesh, double length);
 /// `mesh` is of triangles, closed, with two at each edge. Errors: kInvalidArgument, kLimit.
 MeshResult smooth_mesh(PolygonMesh mesh, int rounds);
 
-/// Moves every point. What is turned inside out is turned over. Errors: those of `move`;
-/// kInvalidArgument when points become infinite or all lie in one plane.
+/// Moves every point. What is turned inside out, all in all, is turned over. What is left may cross
+/// itself, and may enclose nothing. Errors: those of `move`; kInvalidArgument when points become
+/// infinite.
 MeshResult warp_mesh(PolygonMesh mesh,
                      const std::function<Result<glm::dvec3>(const glm::dvec3&)>& move);
 
