@@ -45,6 +45,9 @@ TEST(Refine, DividesAndKeepsTheSolid) {
   EXPECT_EQ(refine_mesh(box(8, 4, 2), 20)->face_count(), 12u);
   EXPECT_EQ(refine_mesh(box(1, 1, 1), 0).error().message, "refine: length must be positive, got 0");
   EXPECT_EQ(refine_mesh(box(1, 1, 1), 1e-6).error().code, ErrorCode::kLimit);
+  // Ten halvings of ten millimetres, each with four triangles for one: 12 x 4^10 / 2 points.
+  EXPECT_EQ(refine_mesh(box(10, 10, 10), 0.01).error().message,
+            "refine: makes more than 4194304 points");
 }
 
 /// An octahedron: each corner has four neighbours whose mean is the centre, each edge two corners

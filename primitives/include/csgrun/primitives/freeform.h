@@ -20,7 +20,7 @@ PolygonMesh mesh_of_solid(const Solid& solid, std::span<const uint32_t> triangle
                           std::string kind);
 
 /// Halves edges until none is longer than `length`, triangles with them; facets are kept.
-/// `mesh` is of triangles. Errors: kInvalidArgument, kLimit above 2^24 points.
+/// `mesh` is of triangles. Errors: kInvalidArgument, kLimit above 2^22 points.
 MeshResult refine_mesh(PolygonMesh mesh, double length);
 
 /// Rounds of subdivision after Loop (1987), each with four triangles for one: the surface draws
