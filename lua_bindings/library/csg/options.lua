@@ -81,6 +81,11 @@ end
 
 --- `level`: whose call the error names; 1 is the caller of the function that checks.
 -- Its own frame and the one before it (lua_bindings/shipped_calls.cpp) come on top of these.
+---@param name string
+---@param given table
+---@param rules table
+---@param level? integer
+---@return table
 return function(name, given, rules, level)
   level = (level or 1) + 3
   if type(given) ~= "table" then
