@@ -15,6 +15,8 @@
 #include "lua_bindings/parts.h"
 #include "lua_bindings/sandbox.h"
 #include "lua_bindings/session.h"
+#include "lua_bindings/shipped_calls.h"
+#include "lua_bindings/shipped_modules.h"
 
 namespace csgrun {
 namespace {
@@ -249,6 +251,7 @@ int require_module(lua_State* L) {
   load_chunk(L, file.display, file.bytes);
   lua_pushstring(L, name.c_str());
   lua_call(L, 1, 1);
+  if (file.real.starts_with(kShippedPlace)) guard_shipped_module(L);
   if (lua_isnil(L, -1)) {
     lua_pop(L, 1);
     lua_pushboolean(L, 1);
@@ -261,7 +264,8 @@ int require_module(lua_State* L) {
 constexpr Option kEmitOptions[] = {
     {"name", T::kString, "part1, part2, ...", "name of the part, or of the group", false},
 };
-constexpr const char* kPartDoc = "a solid, a shape, or a table of them";
+constexpr const char* kPartDoc =
+    "a solid, a shape, or a table of them; several may stand one after another";
 constexpr FunctionSpec kEmit{
     "emit",
     "Adds a part, or a table of parts, to the result, beside what the script returns.",
@@ -278,9 +282,24 @@ constexpr FunctionSpec kRender{"render",
                                "part",
                                kPartDoc};
 
+/// render(a, b, c): several parts one after another are a table of them.
+void pack_parts(lua_State* L) {
+  int count = 1;
+  while (count < lua_gettop(L) && marks_of(L, count + 1) != nullptr) ++count;
+  if (count == 1 || lua_istable(L, 1)) return;
+  lua_createtable(L, count, 0);
+  for (int i = 1; i <= count; ++i) {
+    lua_pushvalue(L, i);
+    lua_rawseti(L, -2, i);
+  }
+  lua_replace(L, 1);
+  for (; count > 1; --count) lua_remove(L, 2);
+}
+
 template <const FunctionSpec& Spec>
 int emit(lua_State* L) {
   if (lua_gettop(L) == 0) fail_in(Spec, "needs a part");
+  pack_parts(L);
   // The first argument may be a table of parts, so it is not read as options: emit{lid = a, box =
   // b}.
   const Arguments arguments(L, Spec, 2);

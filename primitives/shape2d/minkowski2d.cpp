@@ -180,22 +180,25 @@ Result<Shape2D> minkowski_of_shapes(const std::vector<Shape2D>& shapes) {
   return result;
 }
 
-Result<Shape2D> hull_of_shapes(const std::vector<Shape2D>& shapes) {
-  double extent = 0;
-  for (const Shape2D& shape : shapes) extent = std::max(extent, extent_of(shape.loops()));
-  const Result<Grid2D> grid = grid_for(extent);
+Result<Shape2D> hull_of_points(const std::vector<glm::dvec2>& points) {
+  const Result<Grid2D> grid = grid_for(extent_of({points}));
   if (!grid) return grid.error();
-  GridLoop points;
-  for (const Shape2D& shape : shapes) {
-    for (const Shape2D::Loop& loop : shape.loops()) {
-      for (const glm::dvec2& p : loop) points.push_back(grid->snap(p));
-    }
-  }
+  GridLoop snapped;
+  for (const glm::dvec2& p : points) snapped.push_back(grid->snap(p));
   GridRegions regions;
-  regions.loops.push_back(convex_hull(std::move(points)));
+  regions.loops.push_back(convex_hull(std::move(snapped)));
   if (regions.loops[0].size() < 3) return Shape2D();
   regions.outer_of = {0};
   return Shape2DFactory::from_grid(*grid, regions);
+}
+
+Result<Shape2D> hull_of_shapes(const std::vector<Shape2D>& shapes) {
+  std::vector<glm::dvec2> points;
+  for (const Shape2D& shape : shapes) {
+    for (const Shape2D::Loop& loop : shape.loops())
+      points.insert(points.end(), loop.begin(), loop.end());
+  }
+  return hull_of_points(points);
 }
 
 }  // namespace csgrun

@@ -98,17 +98,23 @@ struct LinearExtrudeOptions {
   double height = 100;                  ///< mm; not used when only `direction` is given
   std::optional<glm::dvec3> direction;  ///< OpenSCAD's `v`; normalised when `height_given`
   bool height_given = false;
-  bool center = false;          ///< moves the solid by half its height vector
-  glm::dvec2 scale{1, 1};       ///< of the top; 0 makes a point or an edge there
-  double twist = 0;             ///< degrees over the whole height, clockwise seen from above
-  std::optional<int> slices;    ///< at least 1
+  bool center = false;        ///< moves the solid by half its height vector
+  glm::dvec2 scale{1, 1};     ///< of the top; 0 makes a point or an edge there
+  double twist = 0;           ///< degrees over the whole height, clockwise seen from above
+  std::optional<int> slices;  ///< at least 1
+  /// Radii of the bottom's and of the top's edges, mm; 0 leaves them sharp. Not with a twist, a
+  /// scale or a direction aslant.
+  std::array<double, 2> round{0, 0};
   std::optional<int> segments;  ///< target number of vertices a loop; 0: edges are never split
   Facets facets;
 };
 /// The bottom is at z = 0 (or -height/2). Faces: caps (flat), sides as quads where they are planar,
 /// else two triangles, cut along the shorter diagonal (below a top that is an edge: cut alike). A
 /// loop of 12 vertices or more that turns by less than 40 degrees everywhere is one curved surface;
-/// with a twist every chain of such turns is. Errors: kInvalidArgument, kLimit.
+/// with a twist every chain of such turns is. Rounded edges run in quarters of a circle of
+/// ceil(fragments(r) / 4) steps; corners of the outline stay sharp. A radius at which an edge of
+/// the outline would vanish, or walls meet, is refused, but a piece may come down to a point or a
+/// ridge at it. Errors: kInvalidArgument, kLimit.
 MeshResult linear_extrude(const Shape2D& shape, const LinearExtrudeOptions& options);
 
 struct RotateExtrudeOptions {
