@@ -34,8 +34,10 @@ bool is_name(std::string_view word) {
 /// "C:\\models\\a.mtl", without a way upwards in it.
 bool is_on_a_drive(std::string_view path) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  return path.size() > 2 && is_letter(path[0]) && path[1] == ':' &&
-         (path[2] == '\\' || path[2] == '/') && path.find("..") == std::string_view::npos;
+  if (path.size() < 3 || !is_letter(path[0]) || path[1] != ':') return false;
+  std::string rest(path.substr(2));
+  std::replace(rest.begin(), rest.end(), '\\', '/');
+  return rest[0] == '/' && !leads_out_of_folder(std::string_view(rest).substr(1));
 }
 
 class ObjReader {
