@@ -13,7 +13,8 @@ namespace csgrun {
 
 Result<Shape2D> fill_shape(const Shape2D& shape) {
   if (shape.regions().size() == shape.loops().size()) return shape;
-  if (const auto* turn = Shape2DFactory::turn_of(shape)) {
+  if (const auto* turn = Shape2DFactory::turn_of(shape);
+      turn != nullptr && !Shape2DFactory::are_upright({shape})) {
     const Result<Shape2D> filled = fill_shape(Shape2DFactory::base_of(*turn));
     return filled ? filled->transformed(turn->map) : filled;
   }

@@ -29,7 +29,7 @@ namespace csgrun {
 /// A shape remembers what it was before it was turned, and its turn: the frame. Booleans combine
 /// shapes of one frame there, on a grid of its axes from the first shape's origin on, so what was
 /// flush stays flush and `T(a) - T(b)` is `T(a - b)`. Frames that differ by quarter turns and
-/// mirrors along the axes are one. Where more of the outlines runs along the world's axes than
+/// mirrors along the axes are one. Where as much of the outlines runs along the world's axes as
 /// along the turned ones (a hexagon that was turned by 30 degrees), the world decides as it does
 /// without a turn. Shapes of several frames meet in the world, those of each frame combined first
 /// where the operation lets them.
