@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -79,6 +80,16 @@ std::vector<const Option*> options_of(const FunctionSpec& spec) {
   return options;
 }
 
+/// The other name of an option, or null: an option of the function's own may have that name (the
+/// segments of linear_extrude are not fn).
+const char* alias_of(const FunctionSpec& spec, const Option& option) {
+  if (option.alias == nullptr) return nullptr;
+  for (const Option& own : spec.options) {
+    if (std::string_view(own.name) == option.alias) return nullptr;
+  }
+  return option.alias;
+}
+
 std::string positional_of(const FunctionSpec& spec) {
   std::string text = spec.subject;
   for (const Option& option : spec.options) {
@@ -117,9 +128,9 @@ void append_function_page(std::string& page, const Binding& binding) {
     if (spec.subject[0] != '\0')
       page += fmt::format("| `{}` | | | {} |\n", spec.subject, in_table(spec.subject_doc));
     for (const Option* option : options) {
-      const std::string names = option->alias != nullptr
-                                    ? fmt::format("`{}`, `{}`", option->name, option->alias)
-                                    : fmt::format("`{}`", option->name);
+      const char* const alias = alias_of(spec, *option);
+      const std::string names = alias != nullptr ? fmt::format("`{}`, `{}`", option->name, alias)
+                                                 : fmt::format("`{}`", option->name);
       const std::string fallback =
           option->fallback[0] != '\0' ? fmt::format("{}", option->fallback) : "";
       page += fmt::format("| {} | {} | {} | {} |\n", names, in_table(describe_type(option->type)),
@@ -154,9 +165,9 @@ void append_options_class(std::string& text, const FunctionSpec& spec) {
   for (const Option* option : options) {
     text += fmt::format("---@field {}? {} {}\n", option->name, type_name(option->type),
                         one_line_of(option->doc));
-    if (option->alias != nullptr)
-      text += fmt::format("---@field {}? {} the same as {}\n", option->alias,
-                          type_name(option->type), option->name);
+    if (const char* const alias = alias_of(spec, *option))
+      text += fmt::format("---@field {}? {} the same as {}\n", alias, type_name(option->type),
+                          option->name);
   }
 }
 
@@ -209,7 +220,7 @@ void append_definition(std::string& text, const Binding& binding, const char* ow
 /// What a function gives when it is not what its group gives.
 std::string result_of(const Binding& binding, const BindingGroup& group, const char* owner) {
   static const std::map<std::string, std::string> kResults = {
-      {"bbox", "{min: number[], max: number[]}"},
+      {"bbox", "{min: number[], max: number[], size: number[], center: number[]}"},
       {"edges",
        "{from: number[], to: number[], length: number, turn: number, convex: boolean, normals: "
        "number[][]}[]"},
@@ -286,8 +297,9 @@ std::string api_json() {
       const FunctionSpec& spec = *binding.spec;
       Json options = Json::array();
       for (const Option* option : options_of(spec)) {
+        const char* const alias = alias_of(spec, *option);
         options.push_back({{"name", option->name},
-                           {"alias", option->alias != nullptr ? Json(option->alias) : Json()},
+                           {"alias", alias != nullptr ? Json(alias) : Json()},
                            {"takes", describe_type(option->type)},
                            {"range", range_name(option->range)},
                            {"default", option->fallback},

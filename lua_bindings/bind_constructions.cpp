@@ -1,4 +1,9 @@
 // What is made of whole solids or shapes: hull, minkowski, resize.
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
 #include <csgrun/primitives/shape_operations.h>
 
 #include "lua_bindings/api.h"
@@ -14,8 +19,14 @@ using T = ArgumentType;
 constexpr Option kOperandOptions[] = {
     {"operands", T::kValue, "", "solids or shapes, one after another or as lists", true},
 };
+constexpr Option kHullOptions[] = {
+    {"operands", T::kValue, "",
+     "solids or shapes, one after another or as lists; or a list of points {x, y, z} (a solid) or "
+     "{x, y}\n          (a shape)",
+     true},
+};
 constexpr FunctionSpec kHull{"hull", "The least convex solid or shape that contains all of them.",
-                             kOperandOptions, false, "hull(sphere(4), cube(2):up(10))"};
+                             kHullOptions, false, "hull(sphere(4), cube(2):up(10))"};
 constexpr FunctionSpec kMinkowski{
     "minkowski",
     "All sums of a point of each: the first, swept by the others. Empty ones count for nothing.",
@@ -33,6 +44,61 @@ int combine(lua_State* L) {
     fail_in(Spec, "needs a solid or a shape");
   }
   marks_of(L, -1)->name = operands.name;
+  return 1;
+}
+
+/// Whether the only argument is a list of lists of numbers: of points.
+bool is_list_of_points(lua_State* L) {
+  if (lua_gettop(L) != 1 || !lua_istable(L, 1)) return false;
+  const bool is_point = lua_rawgeti(L, 1, 1) == LUA_TTABLE && lua_rawgeti(L, -1, 1) == LUA_TNUMBER;
+  lua_settop(L, 1);
+  return is_point;
+}
+
+/// The points of the list at index 1, all with as many numbers as the first.
+std::vector<glm::dvec3> hull_points(lua_State* L, lua_Integer& numbers) {
+  const lua_Integer count = list_length(L, 1);
+  if (count < 0) fail_in(kHull, "takes lists of points without holes and names in them");
+  std::vector<glm::dvec3> points;
+  for (lua_Integer i = 1; i <= count; ++i) {
+    lua_rawgeti(L, 1, i);
+    const lua_Integer length = lua_istable(L, -1) ? list_length(L, -1) : -1;
+    if (i == 1) numbers = length == 2 ? 2 : 3;
+    bool good = length == numbers;
+    glm::dvec3 p(0);
+    for (int k = 0; good && k < length; ++k) {
+      good = lua_rawgeti(L, -1, k + 1) == LUA_TNUMBER && std::isfinite(lua_tonumber(L, -1));
+      p[k] = lua_tonumber(L, -1);
+      lua_pop(L, 1);
+    }
+    if (!good) {
+      fail_in(kHull, fmt::format("point {} must be {} finite numbers{}, got {}", i,
+                                 numbers == 2 ? "two" : "three", i == 1 ? "" : " as the first",
+                                 describe_value(L, -1)));
+    }
+    points.push_back(p);
+    lua_pop(L, 1);
+  }
+  return points;
+}
+
+int hull(lua_State* L) {
+  if (!is_list_of_points(L)) return combine<kHull, Node::convex_hull, hull_of_shapes>(L);
+  lua_Integer numbers = 3;
+  const std::vector<glm::dvec3> points = hull_points(L, numbers);
+  if (numbers == 2) {
+    const std::vector<glm::dvec2> flat(points.begin(), points.end());
+    Shape2D shape = value_or_fail(kHull, hull_of_points(flat));
+    if (shape.empty()) fail_in(kHull, "the points lie on one line");
+    push_shape(L, std::move(shape), {});
+    return 1;
+  }
+  PolygonMesh mesh;
+  mesh.kind = "hull";
+  mesh.hull_of_points = true;
+  mesh.points = points;
+  push_leaf(L, std::move(mesh));
+  if (session_of(L).extent(*to_solid(L, -1)).empty) fail_in(kHull, "the points lie in one plane");
   return 1;
 }
 
@@ -86,7 +152,7 @@ int resize(lua_State* L) {
   return 1;
 }
 
-constexpr lua_CFunction kHullFunction = guarded<combine<kHull, Node::convex_hull, hull_of_shapes>>;
+constexpr lua_CFunction kHullFunction = guarded<hull>;
 constexpr lua_CFunction kMinkowskiFunction =
     guarded<combine<kMinkowski, Node::minkowski_sum, minkowski_of_shapes>>;
 

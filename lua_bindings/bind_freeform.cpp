@@ -1,8 +1,12 @@
 // Solids of free form: surface, refine, smooth, warp, levelset.
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
+#include <csgrun/engine/validate.h>
 #include <csgrun/primitives/freeform.h>
 #include <csgrun/primitives/height_map.h>
 
@@ -173,6 +177,20 @@ constexpr FunctionSpec kWarp{
     "solid",
     kSolidDoc};
 
+/// Whether what a mesh encloses, parts that are turned over taken off, is little beside its box.
+bool is_almost_nothing(const PolygonMesh& mesh) {
+  glm::dvec3 low = mesh.points[0], high = low;
+  for (const glm::dvec3& p : mesh.points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const glm::dvec3 size = high - low;
+  constexpr double kLittle =
+      1e-6;  // rounding leaves 1e-15; a thin sheet is evaluated here, not later
+  const double side = std::max({size.x, size.y, size.z});
+  return std::fabs(signed_volume(mesh)) <= kLittle * side * side * side;
+}
+
 int warp(lua_State* L) {
   SolidValue& solid = solid_argument(L, kWarp);
   const Arguments arguments(L, kWarp, 2);
@@ -200,7 +218,12 @@ int warp(lua_State* L) {
     return moved;
   };
   PolygonMesh mesh = value_or_fail(kWarp, warp_mesh(mesh_of_solid(evaluated, "warp"), move));
+  const bool may_be_flat = is_almost_nothing(mesh);
   push_leaf(L, std::move(mesh));
+  // Lobes on both sides of where it crosses itself may cancel in the sum, and are there all the
+  // same.
+  if (may_be_flat && session_of(L).evaluated(*to_solid(L, -1)).empty())
+    fail_in(kWarp, "the moved points enclose no volume");
   keep_marks(L, 1);
   return 1;
 }

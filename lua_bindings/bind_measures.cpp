@@ -30,12 +30,13 @@ const Shape2D& bare_shape(lua_State* L, const FunctionSpec& spec) {
   return value.shape;
 }
 
-constexpr FunctionSpec kBbox{
-    "bbox",
-    "The bounding box: its corners .min and .max, vectors as of vec; two numbers each for a shape.",
-    {},
-    false,
-    "part:bbox().max.z"};
+constexpr FunctionSpec kBbox{"bbox",
+                             "The bounding box: its corners .min and .max, .size and .center, "
+                             "vectors as of vec; two numbers "
+                             "each for a shape.",
+                             {},
+                             false,
+                             "part:bbox().max.z"};
 constexpr FunctionSpec kSize{
     "size",
     "The lengths of the bounding box, a vector: .x, .y, .z or [1], [2], [3].",
@@ -78,41 +79,31 @@ void fail_if_empty(bool empty, const FunctionSpec& spec) {
   if (empty) fail_in(spec, "there is nothing in it, so it has no place");
 }
 
-void push_box(lua_State* L, void (*push)(lua_State*, const void*, int), const void* box) {
-  lua_createtable(L, 0, 2);
-  push(L, box, 0);
+/// `Point`: glm::dvec3 of solids, glm::dvec2 of shapes.
+template <class Point>
+int push_box(lua_State* L, const std::array<Point, 2>& box) {
+  lua_createtable(L, 0, 4);
+  push_point(L, box[0]);
   lua_setfield(L, -2, "min");
-  push(L, box, 1);
+  push_point(L, box[1]);
   lua_setfield(L, -2, "max");
+  push_point(L, box[1] - box[0]);
+  lua_setfield(L, -2, "size");
+  push_point(L, box[0] + (box[1] - box[0]) * 0.5);
+  lua_setfield(L, -2, "center");
+  return 1;
 }
 
 int solid_bbox(lua_State* L) {
   const Extent solid = extent_of(L, kBbox);
   fail_if_empty(solid.empty, kBbox);
-  push_box(
-      L,
-      [](lua_State* state, const void* box, int i) {
-        const glm::dvec3& p =
-            (*static_cast<const std::array<glm::dvec3, 2>*>(box))[static_cast<size_t>(i)];
-        push_point(state, p);
-      },
-      &solid.bbox);
-  return 1;
+  return push_box(L, solid.bbox);
 }
 
 int shape_bbox(lua_State* L) {
   const Shape2D& shape = bare_shape(L, kBbox);
   fail_if_empty(shape.empty(), kBbox);
-  const auto bounds = shape.bounds();
-  push_box(
-      L,
-      [](lua_State* state, const void* box, int i) {
-        const glm::dvec2& p =
-            (*static_cast<const std::array<glm::dvec2, 2>*>(box))[static_cast<size_t>(i)];
-        push_point(state, p);
-      },
-      &bounds);
-  return 1;
+  return push_box(L, shape.bounds());
 }
 
 int solid_size(lua_State* L) {

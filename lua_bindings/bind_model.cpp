@@ -15,6 +15,8 @@
 #include "lua_bindings/parts.h"
 #include "lua_bindings/sandbox.h"
 #include "lua_bindings/session.h"
+#include "lua_bindings/shipped_calls.h"
+#include "lua_bindings/shipped_modules.h"
 
 namespace csgrun {
 namespace {
@@ -29,7 +31,7 @@ constexpr Option kImportOptions[] = {
      true},
     {"parts", T::kBoolean, "false",
      "gives a list of its parts, which have the names that the file has for them, instead of their "
-     "union",
+     "union;\n          of a drawing: the outermost elements of an SVG, the layers of a DXF",
      false},
     {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
     {"repair", T::kValue, "false",
@@ -109,7 +111,7 @@ const std::vector<SolidPart>& import_parts(lua_State* L, const Files::Opened& fi
 /// A drawing as a shape.
 int import_drawing(lua_State* L, const Arguments& arguments, const std::string& path) {
   const std::string format = flat_file_format_of(path);
-  for (const char* name : {"fill", "repair", "parts"}) {
+  for (const char* name : {"fill", "repair"}) {
     if (arguments.has(name))
       fail_in(kImport, fmt::format("option '{}' is for meshes, not for drawings", name));
   }
@@ -123,6 +125,10 @@ int import_drawing(lua_State* L, const Arguments& arguments, const std::string& 
   options.id = arguments.string("id", "");
   if (!options.layer.empty() && !options.id.empty())
     fail_in(kImport, "give either 'layer' or 'id', not both");
+  options.parts = arguments.boolean("parts", false);
+  if (options.parts && (!options.layer.empty() || !options.id.empty()))
+    fail_in(kImport,
+            "option 'parts' gives all parts of a drawing: it goes with neither 'layer' nor 'id'");
   options.dpi = arguments.number("dpi", 72);
   options.scale = arguments.number("scale", 1);
   if (const auto origin = arguments.vector("origin")) options.origin = {origin->v.x, origin->v.y};
@@ -137,7 +143,16 @@ int import_drawing(lua_State* L, const Arguments& arguments, const std::string& 
   }
   FlatFile drawing = value_or_fail(kImport, parse_flat(file.display, file.bytes, options));
   for (const std::string& note : drawing.notes) session.warn(L, "import: " + note);
-  push_shape(L, std::move(drawing.shape), {});
+  if (!options.parts) {
+    push_shape(L, std::move(drawing.shape), {});
+    return 1;
+  }
+  lua_createtable(L, static_cast<int>(drawing.parts.size()), 0);
+  for (size_t i = 0; i < drawing.parts.size(); ++i) {
+    push_shape(L, std::move(drawing.parts[i].shape), {});
+    marks_of(L, -1)->name = drawing.parts[i].name;
+    lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
+  }
   return 1;
 }
 
@@ -236,6 +251,7 @@ int require_module(lua_State* L) {
   load_chunk(L, file.display, file.bytes);
   lua_pushstring(L, name.c_str());
   lua_call(L, 1, 1);
+  if (file.real.starts_with(kShippedPlace)) guard_shipped_module(L);
   if (lua_isnil(L, -1)) {
     lua_pop(L, 1);
     lua_pushboolean(L, 1);
@@ -248,7 +264,8 @@ int require_module(lua_State* L) {
 constexpr Option kEmitOptions[] = {
     {"name", T::kString, "part1, part2, ...", "name of the part, or of the group", false},
 };
-constexpr const char* kPartDoc = "a solid, a shape, or a table of them";
+constexpr const char* kPartDoc =
+    "a solid, a shape, or a table of them; several may stand one after another";
 constexpr FunctionSpec kEmit{
     "emit",
     "Adds a part, or a table of parts, to the result, beside what the script returns.",
@@ -265,9 +282,24 @@ constexpr FunctionSpec kRender{"render",
                                "part",
                                kPartDoc};
 
+/// render(a, b, c): several parts one after another are a table of them.
+void pack_parts(lua_State* L) {
+  int count = 1;
+  while (count < lua_gettop(L) && marks_of(L, count + 1) != nullptr) ++count;
+  if (count == 1 || lua_istable(L, 1)) return;
+  lua_createtable(L, count, 0);
+  for (int i = 1; i <= count; ++i) {
+    lua_pushvalue(L, i);
+    lua_rawseti(L, -2, i);
+  }
+  lua_replace(L, 1);
+  for (; count > 1; --count) lua_remove(L, 2);
+}
+
 template <const FunctionSpec& Spec>
 int emit(lua_State* L) {
   if (lua_gettop(L) == 0) fail_in(Spec, "needs a part");
+  pack_parts(L);
   // The first argument may be a table of parts, so it is not read as options: emit{lid = a, box =
   // b}.
   const Arguments arguments(L, Spec, 2);

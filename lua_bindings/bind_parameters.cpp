@@ -66,6 +66,19 @@ const char* difference(const Parameter& a, const Parameter& b) {
   return nullptr;
 }
 
+/// What is wrong with a value from outside. A model that names the entries of a list (x, y, z)
+/// would fail over a shorter one far from here; one of none may be of any length.
+std::string check_given(const Parameter& parameter, const ParameterValue& value) {
+  const auto* list = std::get_if<std::vector<double>>(&value);
+  const auto* fallback = std::get_if<std::vector<double>>(&parameter.fallback);
+  if (list != nullptr && fallback != nullptr && !fallback->empty() &&
+      list->size() != fallback->size()) {
+    return fmt::format("must be a list of {} numbers, as its default is, got {}", fallback->size(),
+                       list->size());
+  }
+  return check_parameter(parameter, value);
+}
+
 /// Pushes the value of a parameter whose default is at index `fallback`.
 void push_parameter(lua_State* L, const FunctionSpec& spec, Parameter parameter, int fallback) {
   if (const std::string problem = check_parameter(parameter, parameter.fallback);
@@ -93,7 +106,7 @@ void push_parameter(lua_State* L, const FunctionSpec& spec, Parameter parameter,
   }
   const auto value = parse_definition(L, parameter.fallback, *definition);
   const std::string problem =
-      value ? check_parameter(parameter, *value) : "must be " + parameter_type(parameter.fallback);
+      value ? check_given(parameter, *value) : "must be " + parameter_type(parameter.fallback);
   if (!problem.empty()) {
     session.definition_error = fmt::format("{} {}={}: '{}' {}", definition->origin, parameter.name,
                                            definition->text, parameter.name, problem);

@@ -37,25 +37,56 @@ constexpr FunctionSpec kProjection{"projection",
                                    "part:projection{cut = true}",
                                    "solid",
                                    kSolidDoc};
+constexpr Option kProjectOptions[] = {
+    {"direction", T::kVector3, "{0, 0, 1}",
+     "where the shadow is looked at from, of any length: it falls on the plane across it through "
+     "the "
+     "origin,\n          with axes as slice has them",
+     true, Range::kAny, "normal"},
+};
 constexpr FunctionSpec kProject{"project",
-                                "The shadow of a solid on the plane z = 0, a 2D shape.",
-                                {},
+                                "The shadow of a solid on a plane, z = 0 by default, a 2D shape.",
+                                kProjectOptions,
                                 false,
                                 "linear_extrude(part:project(), 2)",
                                 "solid",
                                 kSolidDoc};
+
+/// The solid with a plane laid onto z = 0: its normal onto Z, the point of it that is nearest to
+/// the origin onto the origin, and upwards (of a plane that lies flat: Y) onto Y.
+NodePtr laid_flat(const NodePtr& solid, const CutPlane& plane, const SourceRef& where) {
+  const glm::dvec3 z = plane.normal;
+  if (z == glm::dvec3(0, 0, 1) && plane.offset == 0) return solid;
+  const bool is_flat = z.x == 0 && z.y == 0;
+  const glm::dvec3 up = is_flat ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+  const glm::dvec3 across = up - z * glm::dot(up, z);
+  const glm::dvec3 y = is_flat ? up : across / std::sqrt(glm::dot(across, across));
+  const glm::dvec3 x = glm::cross(y, z);
+  Affine map;
+  for (int i = 0; i < 3; ++i) {
+    map.m[0][i] = x[i];
+    map.m[1][i] = y[i];
+    map.m[2][i] = z[i];
+  }
+  map.m[2][3] = -plane.offset;
+  return Node::transformed(map, solid, where);
+}
 
 void push_shadow(lua_State* L, const FunctionSpec& spec, SolidValue& solid) {
   push_shape(L, value_or_fail(spec, project_solid(session_of(L).evaluated(solid))),
              one_appearance_of(solid.node));
 }
 
-void push_section(lua_State* L, const NodePtr& solid, double z) {
+void push_section(lua_State* L, const NodePtr& solid, const CutPlane& plane) {
   Session& session = session_of(L);
+  const SourceRef where = session.source_ref(L);
   const EvaluationScope scope(session.budget());
-  push_shape(
-      L, made_or_fail(session, slice_solid(session.evaluator(), solid, z, session.source_ref(L))),
-      one_appearance_of(solid));
+  const bool is_level = plane.normal == glm::dvec3(0, 0, 1);
+  push_shape(L,
+             made_or_fail(session, slice_solid(session.evaluator(),
+                                               is_level ? solid : laid_flat(solid, plane, where),
+                                               is_level ? plane.offset : 0, where)),
+             one_appearance_of(solid));
 }
 
 int projection(lua_State* L) {
@@ -63,7 +94,7 @@ int projection(lua_State* L) {
   SolidValue& solid = solid_argument(L, kProjection);
   const Arguments arguments(L, kProjection, 2);
   if (arguments.boolean("cut", false)) {
-    push_section(L, solid.node, 0);
+    push_section(L, solid.node, CutPlane{});
   } else {
     push_shadow(L, kProjection, solid);
   }
@@ -71,30 +102,23 @@ int projection(lua_State* L) {
 }
 
 int project(lua_State* L) {
-  SolidValue& solid = solid_argument(L, kProject);
-  if (lua_gettop(L) > 1) fail_in(kProject, "takes no arguments; slice(z) cuts");
-  push_shadow(L, kProject, solid);
-  return 1;
-}
-
-constexpr Option kSliceOptions[] = {
-    {"z", T::kNumber, "0", "the height of the cut", true},
-};
-constexpr FunctionSpec kSlice{
-    "slice",
-    "What a horizontal plane cuts of a solid, a 2D shape. Where the solid has a face in the "
-    "plane, what is above it counts.",
-    kSliceOptions,
-    false,
-    "sphere(10):slice(5):area()",
-    "solid",
-    kSolidDoc};
-
-int slice(lua_State* L) {
   take_subject_out_of_list(L);
-  const SolidValue& solid = solid_argument(L, kSlice);
-  const Arguments arguments(L, kSlice, 2);
-  push_section(L, solid.node, arguments.number("z", 0));
+  SolidValue& solid = solid_argument(L, kProject);
+  if (lua_type(L, 2) == LUA_TNUMBER || lua_type(L, 2) == LUA_TBOOLEAN)
+    fail_in(kProject,
+            "wants a direction {x, y, z}, got " + describe_value(L, 2) + "; slice(z) cuts");
+  const Arguments arguments(L, kProject, 2);
+  const auto direction = arguments.vector("direction");
+  const CutPlane plane =
+      value_or_fail(kProject, make_cut_plane(direction ? direction->v : glm::dvec3(0, 0, 1), 0));
+  if (plane.normal == glm::dvec3(0, 0, 1)) {
+    push_shadow(L, kProject, solid);
+    return 1;
+  }
+  Session& session = session_of(L);
+  const NodePtr laid = laid_flat(solid.node, plane, session.source_ref(L));
+  push_shape(L, value_or_fail(kProject, project_solid(*session.evaluate(laid))),
+             one_appearance_of(solid.node));
   return 1;
 }
 
@@ -104,6 +128,62 @@ constexpr Option kPlaneOptions[] = {
      true},
     {"point", T::kVector3, "", "instead of the offset: a point of the plane", false},
 };
+constexpr FunctionSpec kSlicePlane{"slice", "", kPlaneOptions, false, ""};
+
+CutPlane plane_argument(const Arguments& arguments, const FunctionSpec& spec) {
+  const auto given = arguments.vector("normal");
+  const glm::dvec3 normal = given ? given->v : glm::dvec3(0, 0, 1);
+  CutPlane plane = value_or_fail(spec, make_cut_plane(normal, arguments.number("offset", 0)));
+  if (const auto point = arguments.vector("point")) {
+    if (arguments.has("offset")) fail_in(spec, "give either 'offset' or 'point', not both");
+    plane.offset = glm::dot(plane.normal, point->v);
+  }
+  return plane;
+}
+
+constexpr Option kSliceOptions[] = {
+    {"z", T::kNumber, "0", "the height of the cut", true},
+    {"normal", T::kVector3, "{0, 0, 1}",
+     "instead of a height: a direction across the plane, of any length; slice({1, 0, 0}, 5) as "
+     "well",
+     false},
+    {"offset", T::kNumber, "0", "where the plane is: its distance from the origin along the normal",
+     false},
+    {"point", T::kVector3, "", "instead of the offset: a point of the plane", false},
+};
+constexpr FunctionSpec kSlice{
+    "slice",
+    "What a plane cuts of a solid, a 2D shape, seen from where the normal points: its Y is upwards "
+    "(Z; Y where the normal is along Z), its origin the point of the plane nearest to the origin. "
+    "Where the solid has a face in the plane, what is in front of it counts.",
+    kSliceOptions,
+    false,
+    "sphere(10):slice(5):area()",
+    "solid",
+    kSolidDoc};
+
+/// slice({1, 0, 0}, 5): as split and trim are called.
+bool is_called_with_normal(lua_State* L) {
+  return lua_istable(L, 2) && lua_rawlen(L, 2) == 3 && list_length(L, 2) == 3;
+}
+
+int slice(lua_State* L) {
+  take_subject_out_of_list(L);
+  const SolidValue& solid = solid_argument(L, kSlice);
+  if (is_called_with_normal(L)) {
+    push_section(L, solid.node, plane_argument(Arguments(L, kSlicePlane, 2), kSlice));
+    return 1;
+  }
+  const Arguments arguments(L, kSlice, 2);
+  const CutPlane plane = plane_argument(arguments, kSlice);
+  if (arguments.has("z") &&
+      (arguments.has("normal") || arguments.has("offset") || arguments.has("point")))
+    fail_in(kSlice, "give either the height 'z' or a plane, not both");
+  push_section(L, solid.node,
+               arguments.has("z") ? CutPlane{{0, 0, 1}, arguments.number("z", 0)} : plane);
+  return 1;
+}
+
 constexpr FunctionSpec kSplit{
     "split",
     "The two parts of a solid on either side of a plane: first what is in front of it, where the "
@@ -120,17 +200,6 @@ constexpr FunctionSpec kTrim{"trim",
                              "part:trim{normal = {1, 0, 1}, point = {0, 0, 5}}",
                              "solid",
                              kSolidDoc};
-
-CutPlane plane_argument(const Arguments& arguments, const FunctionSpec& spec) {
-  const auto given = arguments.vector("normal");
-  const glm::dvec3 normal = given ? given->v : glm::dvec3(0, 0, 1);
-  CutPlane plane = value_or_fail(spec, make_cut_plane(normal, arguments.number("offset", 0)));
-  if (const auto point = arguments.vector("point")) {
-    if (arguments.has("offset")) fail_in(spec, "give either 'offset' or 'point', not both");
-    plane.offset = glm::dot(plane.normal, point->v);
-  }
-  return plane;
-}
 
 template <const FunctionSpec& Spec, bool kBoth>
 int cut(lua_State* L) {

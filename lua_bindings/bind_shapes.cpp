@@ -114,7 +114,9 @@ int polygon(lua_State* L) {
 }
 
 constexpr Option kLinearExtrudeOptions[] = {
-    {"height", T::kNumber, "100, or the length of v", "height", true, Range::kPositive, "h"},
+    {"height", T::kNumber, "100, or the length of v",
+     "height; or a vector {x, y, z}: where the shape is moved, as v alone says it", true,
+     Range::kPositive, "h"},
     {"v", T::kVector3, "{0, 0, 1}", "direction", false},
     {"center", T::kBoolean, "false", "centred along the direction", false},
     {"twist", T::kNumber, "0", "turn over the whole height, clockwise seen from above, degrees",
@@ -122,6 +124,11 @@ constexpr Option kLinearExtrudeOptions[] = {
     {"scale", T::kSize2, "1",
      "factor at the top, or factors along X and Y; 0 gives a point or an edge", false,
      Range::kNotNegative},
+    {"round", T::kSize2, "0",
+     "radius of the edges at the bottom and at the top, or {bottom, top}, mm: as far as the "
+     "outline "
+     "can\n          move inwards and keep its form",
+     false, Range::kNotNegative},
     {"slices", T::kInteger, "from the facets", "number of layers", false, Range::kPositive},
     {"segments", T::kInteger, "from the facets", "number of pieces of the outline; 0: never split",
      false, Range::kNotNegative},
@@ -135,9 +142,73 @@ constexpr FunctionSpec kLinearExtrude{"linear_extrude",
                                       "shape",
                                       kShapeDoc};
 
+bool is_vector(lua_State* L, int index) {
+  bool good = lua_istable(L, index) && lua_rawlen(L, index) == 3;
+  for (lua_Integer i = 1; good && i <= 3; ++i) {
+    good = lua_rawgeti(L, index, i) == LUA_TNUMBER;
+    lua_pop(L, 1);
+  }
+  return good;
+}
+
+/// Pushes the vector that stands where the height would, and says under which name; false when
+/// there is none.
+bool push_vector_for_height(lua_State* L, int table, const char*& name) {
+  name = "";
+  lua_pushvalue(L, table);
+  if (is_vector(L, lua_gettop(L))) return true;
+  lua_pop(L, 1);
+  if (lua_rawlen(L, table) == 1 && lua_rawgeti(L, table, 1) == LUA_TTABLE)
+    return is_vector(L, lua_gettop(L));
+  for (const char* const height : {"height", "h"}) {
+    name = height;
+    lua_getfield(L, table, name);
+    if (is_vector(L, lua_gettop(L))) return true;
+  }
+  return false;
+}
+
+/// A vector where the height stands is option v: linear_extrude(shape, {0, 3, 10}), {{0, 3, 10},
+/// ...}, {height = {0, 3, 10}}. The arguments from stack index 2 on become one table of options
+/// then.
+void take_vector_for_height(lua_State* L) {
+  constexpr int kGiven = 2;
+  const int last = lua_gettop(L);
+  if (last < kGiven || !lua_istable(L, kGiven)) return;
+  const char* name = "";
+  const bool found = push_vector_for_height(L, kGiven, name);
+  const bool is_alone = found && lua_rawequal(L, -1, kGiven) != 0;
+  const int options = is_alone && last > kGiven && lua_istable(L, last) ? last : kGiven;
+  if (!found || last > (is_alone ? kGiven + 1 : kGiven)) {
+    lua_settop(L, last);
+    return;
+  }
+  const int vector = lua_gettop(L);
+  lua_createtable(L, 0, 4);
+  lua_createtable(L, 3, 0);
+  for (lua_Integer i = 1; i <= 3; ++i) {
+    lua_rawgeti(L, vector, i);
+    lua_rawseti(L, -2, i);
+  }
+  lua_setfield(L, -2, "v");
+  lua_pushnil(L);
+  while (lua_next(L, options) != 0) {
+    const std::string key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "";
+    if (key == "v") fail_in(kLinearExtrude, "a vector as the height is option 'v', given as well");
+    if (key.empty() || key == name) {
+      lua_pop(L, 1);
+      continue;
+    }
+    lua_setfield(L, -3, key.c_str());
+  }
+  lua_replace(L, kGiven);
+  lua_settop(L, kGiven);
+}
+
 int linear_extrude_shape(lua_State* L) {
   take_subject_out_of_list(L);
   const ShapeValue& shape = shape_argument(L, kLinearExtrude);
+  take_vector_for_height(L);
   const Arguments arguments(L, kLinearExtrude, 2);
   LinearExtrudeOptions options;
   options.height_given = arguments.has("height");
@@ -155,6 +226,8 @@ int linear_extrude_shape(lua_State* L) {
   if (arguments.has("slices")) options.slices = static_cast<int>(arguments.number("slices", 1));
   if (arguments.has("segments"))
     options.segments = static_cast<int>(arguments.number("segments", 0));
+  if (const auto round = arguments.vector("round"))
+    options.round = {round->v.x, round->count == 1 ? round->v.x : round->v.y};
   options.facets = arguments.facets();
   if (shape.shape.empty()) {
     push_solid(L, Node::empty(session_of(L).source_ref(L)));  // what a Boolean may well give

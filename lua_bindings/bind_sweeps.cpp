@@ -19,8 +19,9 @@ constexpr Option kSweepOptions[] = {
     {"closed", T::kBoolean, "false", "joins the last point to the first", false},
     {"twist", T::kNumber, "0",
      "turn over the whole path, counter-clockwise seen against it, degrees", false},
-    {"scale", T::kSize2, "1", "factor at the end, or factors along X and Y of the shape", false,
-     Range::kPositive},
+    {"scale", T::kSize2, "1",
+     "factor at the end, or factors along X and Y of the shape; 0 comes to a point", false,
+     Range::kNotNegative},
     {"up", T::kVector3, "{0, 0, 1}; {0, 1, 0} where the path starts along Z",
      "where the shape's Y points to at the start", false},
 };
@@ -41,6 +42,9 @@ int sweep(lua_State* L) {
   SweepOptions options;
   options.path = arguments.points3("path");
   options.closed = arguments.boolean("closed", false);
+  // A path that comes home ends in two caps on each other where a ring was meant.
+  if (!options.closed && options.path.size() > 3 && options.path.front() == options.path.back())
+    session_of(L).warn(L, "sweep: the path ends where it begins; closed = true joins the ends");
   options.twist = arguments.number("twist", 0);
   if (const auto scale = arguments.vector("scale")) {
     options.scale = scale->count == 1 ? glm::dvec2(scale->v.x) : glm::dvec2(scale->v.x, scale->v.y);
@@ -60,7 +64,8 @@ int sweep(lua_State* L) {
 }
 
 constexpr Option kLoftOptions[] = {
-    {"outlines", T::kValue, "", "a list of shapes, from the lowest on", true},
+    {"outlines", T::kValue, "",
+     "a list of shapes, from the lowest on; the first or the last may be a point {x, y}", true},
     {"heights", T::kValue, "", "where each lies along Z, a list; or one number: all in even steps",
      true},
 };
@@ -68,6 +73,19 @@ constexpr FunctionSpec kLoft{
     "loft",
     "A solid between shapes, each flat at its height, with straight walls from one to the next.",
     kLoftOptions, false, "loft({square(20, true), circle(6)}, {0, 15})"};
+
+/// A list of two numbers.
+std::optional<glm::dvec2> point_of_list(lua_State* L, int index) {
+  if (!lua_istable(L, index) || list_length(L, index) != 2) return std::nullopt;
+  glm::dvec2 point(0);
+  bool good = true;
+  for (int i = 0; i < 2; ++i) {
+    good = lua_rawgeti(L, index, i + 1) == LUA_TNUMBER && good;
+    point[i] = lua_tonumber(L, -1);
+    lua_pop(L, 1);
+  }
+  return good ? std::optional(point) : std::nullopt;
+}
 
 int loft(lua_State* L) {
   const Arguments arguments(L, kLoft, 1);
@@ -78,17 +96,20 @@ int loft(lua_State* L) {
     fail_in(kLoft, "option 'outlines' must be a list of two or more shapes, got " +
                        describe_value(L, outlines));
   }
-  std::vector<Shape2D> shapes;
+  std::vector<LoftOutline> shapes;
   std::optional<Appearance> appearance;
   for (lua_Integer i = 1; i <= count; ++i) {
     lua_rawgeti(L, outlines, i);
     const ShapeValue* shape = to_shape(L, -1);
-    if (shape == nullptr) {
-      fail_in(kLoft,
-              fmt::format("outline {} must be a 2D shape, got {}", i, describe_value(L, -1)));
+    if (const auto point = point_of_list(L, lua_gettop(L))) {
+      shapes.emplace_back(*point);
+    } else if (shape == nullptr) {
+      fail_in(kLoft, fmt::format("outline {} must be a 2D shape or a point {{x, y}}, got {}", i,
+                                 describe_value(L, -1)));
+    } else {
+      if (shapes.empty() || (i == 2 && shapes[0].point)) appearance = shape->appearance;
+      shapes.emplace_back(shape->shape);
     }
-    if (i == 1) appearance = shape->appearance;
-    shapes.push_back(shape->shape);
     lua_pop(L, 1);
   }
   std::vector<double> heights;

@@ -39,9 +39,11 @@ constexpr Option kTextOptions[] = {
 constexpr FunctionSpec kText{"text", "Text as a 2D shape: one line or several.", kTextOptions, true,
                              "text(\"csgrun\", {size = 8, halign = \"center\"})"};
 constexpr auto kText3dOptions = [] {
-  std::array<Option, std::size(kTextOptions) + 1> options{};
+  std::array<Option, std::size(kTextOptions) + 2> options{};
   std::copy(std::begin(kTextOptions), std::end(kTextOptions), options.begin());
-  options.back() = {"depth", T::kNumber, "1", "how thick, along Z", false, Range::kPositive};
+  options.end()[-2] = {"depth", T::kNumber, "1", "how thick, along Z", false, Range::kPositive};
+  options.back() = {"height", T::kNumber,       "1", "the same, as linear_extrude calls it",
+                    false,    Range::kPositive, "h"};
   return options;
 }();
 constexpr FunctionSpec kText3d{"text3d", "Text as a solid: one line or several.", kText3dOptions,
@@ -125,7 +127,9 @@ int text3d(lua_State* L) {
       value_or_fail(kText3d, make_text(options, font_of(L, arguments, kText3d), &note));
   if (!note.empty()) session_of(L).warn(L, note);
   LinearExtrudeOptions extrusion;
-  extrusion.height = arguments.number("depth", 1);
+  if (arguments.has("depth") && arguments.has("height"))
+    fail_in(kText3d, "'depth' and 'height' are the same; give one of them");
+  extrusion.height = arguments.number("height", arguments.number("depth", 1));
   extrusion.height_given = true;
   if (shape.empty()) {
     push_solid(L, Node::empty(session_of(L).source_ref(L)));  // a text of blanks

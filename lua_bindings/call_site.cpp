@@ -6,6 +6,7 @@
 #include "lua_bindings/budget.h"
 #include "lua_bindings/openscad_hints.h"
 #include "lua_bindings/session.h"
+#include "lua_bindings/shipped_calls.h"
 #include "lua_bindings/shipped_modules.h"
 #include "lua_bindings/text.h"
 
@@ -83,14 +84,12 @@ std::string traceback(lua_State* L) {
       level = last - kBottomFrames;
     }
     lua_getstack(L, level, &frame);
-    lua_getinfo(L, "Slnt", &frame);
-    text += describe_frame(frame);
+    lua_getinfo(L, "Slntf", &frame);
+    const bool is_unseen = is_shipped_call(L, -1);
+    lua_pop(L, 1);
+    if (!is_unseen) text += describe_frame(frame);
   }
   return text;
-}
-
-bool is_shipped(const lua_Debug& frame) {
-  return frame.source[0] == '@' && std::string_view(frame.source + 1).starts_with(kShippedPlace);
 }
 
 }  // namespace
@@ -153,7 +152,8 @@ size_t length_of_place(std::string_view message) {
 }
 
 /// A message begins with its place once: error(text, 0) gives none, and what is raised in
-/// coroutine.wrap has that of the resume before its own.
+/// coroutine.wrap has that of the resume before its own. What Lua itself says in the program's own
+/// library gets the place of the call in the model; the traceback has the other.
 std::string with_place(lua_State* L, std::string message) {
   const size_t first = length_of_place(message);
   if (first == 0) {
@@ -161,6 +161,10 @@ std::string with_place(lua_State* L, std::string message) {
     return place.empty() ? message : place + ": " + message;
   }
   const std::string rest = message.substr(first);
+  if (message.starts_with(kShippedPlace)) {
+    const std::string place = place_of_call(L);
+    return place.empty() ? message : place + ": " + rest;
+  }
   const size_t second = length_of_place(rest);
   const bool is_script = second != 0 && rest.substr(0, second).find(".csg:") == std::string::npos;
   return is_script ? rest : message;

@@ -10,7 +10,8 @@
 namespace csgrun {
 namespace {
 
-constexpr std::string_view kForUsers = "---", kFunction = "function ";
+constexpr std::string_view kForUsers = "---", kForEditors = "---@", kFunction = "function ",
+                           kOnlyFunction = "return function(";
 
 /// A line of a comment without its dashes. On a page an example is indented as code.
 std::string comment_text(std::string_view line, bool markdown) {
@@ -28,6 +29,7 @@ std::string module_docs(const ShippedModule& module, bool markdown) {
   for (std::string_view rest = module.text; !rest.empty();) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    if (line.starts_with(kForEditors)) continue;
     if (line.starts_with(kForUsers)) {
       comment += comment_text(line, markdown);
       continue;
@@ -45,7 +47,49 @@ std::string module_docs(const ShippedModule& module, bool markdown) {
   return docs;
 }
 
+/// A module for the Lua language server: its comments, and its functions without what they do.
+std::string module_definitions(const ShippedModule& module) {
+  const std::string_view name = module.name.substr(module.name.rfind('.') + 1);
+  std::string text = fmt::format(
+      "---@meta {}\n-- From the library in csgrun; do not edit. `csgrun --init` puts it where the "
+      "Lua\n"
+      "-- language server finds it.\n\n",
+      module.name);
+  std::string comment;
+  bool is_head = true;
+  for (std::string_view rest = module.text; !rest.empty();) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    if (line.starts_with(kForUsers)) {
+      comment += std::string(line) + "\n";
+      continue;
+    }
+    if (!comment.empty() && is_head) {
+      text += comment;
+      if (module.text.find(kOnlyFunction) == std::string_view::npos)
+        text += fmt::format("---@class {}\nlocal {} = {{}}\n", module.name, name);
+      is_head = false;
+    } else if (line.starts_with(kFunction) || line.starts_with(kOnlyFunction)) {
+      text += "\n" + comment + std::string(line) + " end\n";
+    } else if (comment.empty() && line == fmt::format("return {}", name)) {
+      text += "\n" + std::string(line) + "\n";
+    }
+    comment.clear();
+  }
+  return text;
+}
+
 }  // namespace
+
+std::vector<LibraryDefinitions> library_definitions() {
+  std::vector<LibraryDefinitions> modules;
+  for (const ShippedModule& module : shipped_modules()) {
+    std::string file(module.name);
+    std::replace(file.begin(), file.end(), '.', '/');
+    modules.push_back({file + ".lua", module_definitions(module)});
+  }
+  return modules;
+}
 
 std::string library_docs(bool markdown) {
   std::string docs;

@@ -34,6 +34,7 @@ struct Synonym {
 constexpr Synonym kSynonyms[] = {
     {"add", "union"},
     {"angle", "a"},
+    {"bevel", "chamfer"},
     {"bounding_box", "bbox"},
     {"boundingbox", "bbox"},
     {"bounds", "bbox"},
@@ -53,6 +54,8 @@ constexpr Synonym kSynonyms[] = {
     {"plus", "union"},
     {"radius", "r"},
     {"revolve", "rotate_extrude"},
+    {"round", "fillet"},
+    {"roundededges", "fillet"},
     {"splitbyplane", "split"},
     {"subtract", "difference"},
     {"surface_area", "area"},

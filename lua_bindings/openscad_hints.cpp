@@ -51,6 +51,11 @@ std::string syntax_hint(std::string_view line, std::string_view message) {
     return "; a condition is: if a then ... else ... end";
   if (line.starts_with("function ") && has(message, "near '='"))
     return "; a function is: function f(x) return x * 2 end";
+  for (const char* form : {"let(", "let (", "assign(", "assign ("}) {
+    if (has(line, form)) return "; a name for a value is: local a = 1";
+  }
+  if (has(line, "each ") && has(message, "near"))
+    return "; a list in a list, entry for entry, is: {1, 2, table.unpack(list)}";
   if (has(message, "'?'")) return "; a choice between two values is: condition and a or b";
   if (is_assignment_by(line) && (has(message, "syntax error near") || has(message, "unexpected")))
     return "; it is written out: a = a + 1";
@@ -100,6 +105,16 @@ const char* name_hint(std::string_view name) {
       {"include", "it is require \"name\""},
       {"children", "a function takes what it works on as an argument"},
       {"intersection_for", "it is intersection(list), of a list that a loop fills"},
+      {"search", "it is a loop: for i, x in ipairs(list) do ... end"},
+      {"each", "it is table.unpack(list), at the end of a list"},
+      {"let", "it is local a = 1, before what uses it"},
+      {"assign", "it is local a = 1, before what uses it"},
+      {"parent_module", "there is none: a function is told what it needs by its arguments"},
+      {"cuboid", "it is cube{20, 10, 5}"},
+      {"roundedCuboid", "it is cube{{20, 10, 5}, r = 2}"},
+      {"roundedCube", "it is cube{{20, 10, 5}, r = 2}"},
+      {"roundedcube", "it is cube{{20, 10, 5}, r = 2}"},
+      {"rounded_cube", "it is cube{{20, 10, 5}, r = 2}"},
       {"version", "csgrun --version tells"},
   };
   const auto* hint = std::find_if(std::begin(kHints), std::end(kHints),

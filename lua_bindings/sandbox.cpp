@@ -11,6 +11,7 @@
 #include "lua_bindings/nearest.h"
 #include "lua_bindings/openscad_hints.h"
 #include "lua_bindings/ordered.h"
+#include "lua_bindings/shipped_calls.h"
 #include "lua_bindings/text.h"
 
 namespace csgrun {
@@ -153,6 +154,7 @@ void open_sandbox(lua_State* L, Session& session) {
   lua_pushglobaltable(L);
   set_field(L, "dofile", nullptr);
   set_field(L, "loadfile", nullptr);
+  set_field(L, "error", guarded<lua_error_at_model>);
   set_field(L, "print", guarded<lua_print_to_stderr>);
   set_field(L, "tostring", guarded<lua_tostring_without_addresses>);
   set_field(L, "pairs", guarded<ordered_pairs>);

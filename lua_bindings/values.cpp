@@ -77,8 +77,7 @@ void push_solid(lua_State* L, NodePtr node) {
 }
 
 void push_shape(lua_State* L, Shape2D shape, std::optional<Appearance> appearance) {
-  size_t bytes = kNodeBytes;
-  for (const auto& loop : shape.loops()) bytes += loop.size() * sizeof(loop[0]);
+  const size_t bytes = kNodeBytes + shape.bytes();
   ShapeValue value;
   value.shape = std::move(shape);
   value.appearance = std::move(appearance);

@@ -1,11 +1,15 @@
 #include "lua_bindings/cli/init.h"
 
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <csgrun/export/write.h>
 
 #include "lua_bindings/api_docs.h"
 #include "lua_bindings/files.h"
+#include "lua_bindings/library_docs.h"
 
 namespace csgrun {
 namespace {
@@ -29,11 +33,14 @@ Failure init_folder() {
                             "workspace.library, or remove it"};
   }
   std::error_code error;
-  std::filesystem::create_directories(kLibrary, error);
+  std::filesystem::create_directories(std::string(kLibrary) + "/csg", error);
   if (error)
     return {kExitFiles, std::string("csgrun: cannot make ") + kLibrary + ": " + error.message()};
-  const Status written = write_files(
-      {{std::string(kLibrary) + "/csgrun.lua", api_definitions()}, {kSettings, kSettingsText}});
+  std::vector<ModelFile> files{{std::string(kLibrary) + "/csgrun.lua", api_definitions()},
+                               {kSettings, kSettingsText}};
+  for (LibraryDefinitions& module : library_definitions())
+    files.push_back({std::string(kLibrary) + "/" + module.file, std::move(module.text)});
+  const Status written = write_files(files);
   if (!written) return {kExitFiles, "csgrun: " + written.error().message};
   return {};
 }

@@ -92,6 +92,10 @@ Definition split_definition(const std::string& text) {
   }
   Definition definition;
   definition.name = text.substr(0, equals);
+  if (definition.name == "$fn" || definition.name == "$fa" || definition.name == "$fs") {
+    throw UsageError{fmt::format("-D {}: the facets are not a parameter; write --{} {}", text,
+                                 definition.name.substr(1), text.substr(equals + 1))};
+  }
   definition.text = text.substr(equals + 1);
   return definition;
 }

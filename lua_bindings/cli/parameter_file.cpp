@@ -91,6 +91,8 @@ Json schema_of(const Parameter& parameter) {
   } else {
     schema["type"] = "array";
     schema["items"] = range;
+    if (const size_t size = std::get<std::vector<double>>(parameter.fallback).size(); size > 0)
+      schema["minItems"] = schema["maxItems"] = size;
   }
   schema["default"] = json_of(parameter.fallback);
   for (const ParameterValue& choice : parameter.choices) schema["enum"].push_back(json_of(choice));

@@ -334,17 +334,17 @@ csg.polygon = polygon
 
 ---@class (exact) csgrun.linear_extrude
 ---@field [integer] any
----@field height? number height
+---@field height? number height; or a vector {x, y, z}: where the shape is moved, as v alone says it
 ---@field h? number the same as height
 ---@field v? number[] direction
 ---@field center? boolean centred along the direction
 ---@field twist? number turn over the whole height, clockwise seen from above, degrees
 ---@field scale? number|number[] factor at the top, or factors along X and Y; 0 gives a point or an edge
+---@field round? number|number[] radius of the edges at the bottom and at the top, or {bottom, top}, mm: as far as the outline can move inwards and keep its form
 ---@field slices? integer number of layers
 ---@field segments? integer number of pieces of the outline; 0: never split
 ---@field convexity? integer ignored: OpenSCAD needs it for its preview
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
----@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
 ---@field fs? number smallest length of a facet, mm, at least 0.01
 
@@ -352,7 +352,7 @@ csg.polygon = polygon
 ---
 ---Example: `circle(5):linear_extrude(20, {twist = 90})`
 ---@param shape any the 2D shape; as a method, shape:f(...), it is left out
----@param height? number height
+---@param height? number height; or a vector {x, y, z}: where the shape is moved, as v alone says it
 ---@param options? csgrun.linear_extrude
 ---@return Solid
 function linear_extrude(shape, height, options) end
@@ -362,7 +362,7 @@ csg.linear_extrude = linear_extrude
 ---
 ---Example: `circle(5):linear_extrude(20, {twist = 90})`
 ---@overload fun(self: Shape, options: csgrun.linear_extrude): Solid
----@param height? number height
+---@param height? number height; or a vector {x, y, z}: where the shape is moved, as v alone says it
 ---@param options? csgrun.linear_extrude
 ---@return Solid
 function Shape:linear_extrude(height, options) end
@@ -517,6 +517,8 @@ csg.text = text
 ---@field language? string language, for the font's rules
 ---@field script? string script: "latin", "arabic" ..., or a code: "Latn"
 ---@field depth? number how thick, along Z
+---@field height? number the same, as linear_extrude calls it
+---@field h? number the same as height
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
@@ -633,7 +635,7 @@ csg.fontmetrics = fontmetrics
 ---@field path? number[][] the points that it goes along
 ---@field closed? boolean joins the last point to the first
 ---@field twist? number turn over the whole path, counter-clockwise seen against it, degrees
----@field scale? number|number[] factor at the end, or factors along X and Y of the shape
+---@field scale? number|number[] factor at the end, or factors along X and Y of the shape; 0 comes to a point
 ---@field up? number[] where the shape's Y points to at the start
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
@@ -661,14 +663,14 @@ function Shape:sweep(path, options) end
 
 ---@class (exact) csgrun.loft
 ---@field [integer] any
----@field outlines? any a list of shapes, from the lowest on
+---@field outlines? any a list of shapes, from the lowest on; the first or the last may be a point {x, y}
 ---@field heights? any where each lies along Z, a list; or one number: all in even steps
 
 ---A solid between shapes, each flat at its height, with straight walls from one to the next.
 ---
 ---Example: `loft({square(20, true), circle(6)}, {0, 15})`
 ---@overload fun(options: csgrun.loft): Solid
----@param outlines? any a list of shapes, from the lowest on
+---@param outlines? any a list of shapes, from the lowest on; the first or the last may be a point {x, y}
 ---@param heights? any where each lies along Z, a list; or one number: all in even steps
 ---@param options? csgrun.loft
 ---@return Solid
@@ -705,12 +707,12 @@ function Shape:roof(method, options) end
 
 ---@class (exact) csgrun.hull
 ---@field [integer] any
----@field operands? any solids or shapes, one after another or as lists
+---@field operands? any solids or shapes, one after another or as lists; or a list of points {x, y, z} (a solid) or {x, y} (a shape)
 
 ---The least convex solid or shape that contains all of them.
 ---
 ---Example: `hull(sphere(4), cube(2):up(10))`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists; or a list of points {x, y, z} (a solid) or {x, y} (a shape)
 ---@return any
 function hull(...) end
 csg.hull = hull
@@ -718,14 +720,14 @@ csg.hull = hull
 ---The least convex solid or shape that contains all of them.
 ---
 ---Example: `hull(sphere(4), cube(2):up(10))`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists; or a list of points {x, y, z} (a solid) or {x, y} (a shape)
 ---@return Solid
 function Solid:hull(...) end
 
 ---The least convex solid or shape that contains all of them.
 ---
 ---Example: `hull(sphere(4), cube(2):up(10))`
----@param ... any solids or shapes, one after another or as lists
+---@param ... any solids or shapes, one after another or as lists; or a list of points {x, y, z} (a solid) or {x, y} (a shape)
 ---@return Shape
 function Shape:hull(...) end
 
@@ -819,25 +821,40 @@ csg.projection = projection
 ---@return Shape
 function Solid:projection(cut, options) end
 
----The shadow of a solid on the plane z = 0, a 2D shape.
+---@class (exact) csgrun.project
+---@field [integer] any
+---@field direction? number[] where the shadow is looked at from, of any length: it falls on the plane across it through the origin, with axes as slice has them
+---@field normal? number[] the same as direction
+
+---The shadow of a solid on a plane, z = 0 by default, a 2D shape.
 ---
 ---Example: `linear_extrude(part:project(), 2)`
+---@overload fun(x: number, y: number, z?: number, ...): Shape
 ---@param solid any the solid; as a method, solid:f(...), it is left out
+---@param direction? number[] where the shadow is looked at from, of any length: it falls on the plane across it through the origin, with axes as slice has them
+---@param options? csgrun.project
 ---@return Shape
-function project(solid) end
+function project(solid, direction, options) end
 csg.project = project
 
----The shadow of a solid on the plane z = 0, a 2D shape.
+---The shadow of a solid on a plane, z = 0 by default, a 2D shape.
 ---
 ---Example: `linear_extrude(part:project(), 2)`
+---@overload fun(self: Solid, options: csgrun.project): Shape
+---@overload fun(self: Solid, x: number, y: number, z?: number, ...): Shape
+---@param direction? number[] where the shadow is looked at from, of any length: it falls on the plane across it through the origin, with axes as slice has them
+---@param options? csgrun.project
 ---@return Shape
-function Solid:project() end
+function Solid:project(direction, options) end
 
 ---@class (exact) csgrun.slice
 ---@field [integer] any
 ---@field z? number the height of the cut
+---@field normal? number[] instead of a height: a direction across the plane, of any length; slice({1, 0, 0}, 5) as well
+---@field offset? number where the plane is: its distance from the origin along the normal
+---@field point? number[] instead of the offset: a point of the plane
 
----What a horizontal plane cuts of a solid, a 2D shape. Where the solid has a face in the plane, what is above it counts.
+---What a plane cuts of a solid, a 2D shape, seen from where the normal points: its Y is upwards (Z; Y where the normal is along Z), its origin the point of the plane nearest to the origin. Where the solid has a face in the plane, what is in front of it counts.
 ---
 ---Example: `sphere(10):slice(5):area()`
 ---@param solid any the solid; as a method, solid:f(...), it is left out
@@ -847,7 +864,7 @@ function Solid:project() end
 function slice(solid, z, options) end
 csg.slice = slice
 
----What a horizontal plane cuts of a solid, a 2D shape. Where the solid has a face in the plane, what is above it counts.
+---What a plane cuts of a solid, a 2D shape, seen from where the normal points: its Y is upwards (Z; Y where the normal is along Z), its origin the point of the plane nearest to the origin. Where the solid has a face in the plane, what is in front of it counts.
 ---
 ---Example: `sphere(10):slice(5):area()`
 ---@overload fun(self: Solid, options: csgrun.slice): Shape
@@ -2658,16 +2675,16 @@ csg.d = d
 function t() end
 csg.t = t
 
----The bounding box: its corners .min and .max, vectors as of vec; two numbers each for a shape.
+---The bounding box: its corners .min and .max, .size and .center, vectors as of vec; two numbers each for a shape.
 ---
 ---Example: `part:bbox().max.z`
----@return {min: number[], max: number[]}
+---@return {min: number[], max: number[], size: number[], center: number[]}
 function Solid:bbox() end
 
----The bounding box: its corners .min and .max, vectors as of vec; two numbers each for a shape.
+---The bounding box: its corners .min and .max, .size and .center, vectors as of vec; two numbers each for a shape.
 ---
 ---Example: `part:bbox().max.z`
----@return {min: number[], max: number[]}
+---@return {min: number[], max: number[], size: number[], center: number[]}
 function Shape:bbox() end
 
 ---The lengths of the bounding box, a vector: .x, .y, .z or [1], [2], [3].
@@ -3366,7 +3383,7 @@ csg.load_csg = load_csg
 ---@class (exact) csgrun.import
 ---@field [integer] any
 ---@field file? string STL, OFF, OBJ, PLY, GLB, glTF, 3MF, AMF, SVG or DXF, relative to the file that calls, or else to the folders of -L and CSGRUN_PATH
----@field parts? boolean gives a list of its parts, which have the names that the file has for them, instead of their union
+---@field parts? boolean gives a list of its parts, which have the names that the file has for them, instead of their union; of a drawing: the outermost elements of an SVG, the layers of a DXF
 ---@field fill? string what is inside where the surface crosses itself, by how often it wraps around a point, one way less the other: "nonzero" (wherever that is not 0: overlaps are united, but an inverted part cancels what it overlaps), "positive" (inverted parts are cut away), "evenodd" (an odd number: overlaps cancel)
 ---@field repair? any makes a broken mesh a closed one and warns of all it does: true, or a table of weld = MM (0: how far apart points of open edges may be that become one), fill_holes (false: closes what is open), orient (true: turns faces to agree, surfaces outwards), drop_degenerate (true: drops faces whose points lie on one line), drop_duplicates (true: of faces on the same points those that are too many)
 ---@field layer? string of a drawing: only this layer (in an SVG one of Inkscape)
@@ -3412,7 +3429,7 @@ csg.require = require
 ---Adds a part, or a table of parts, to the result, beside what the script returns.
 ---
 ---Example: `emit(lid, {name = "lid"})`
----@param part any a solid, a shape, or a table of them
+---@param part any a solid, a shape, or a table of them; several may stand one after another
 ---@param options? csgrun.emit
 function emit(part, options) end
 csg.emit = emit
@@ -3424,7 +3441,7 @@ csg.emit = emit
 ---Adds a part to the result: another name of emit.
 ---
 ---Example: `render(lid, {name = "lid"})`
----@param part any a solid, a shape, or a table of them
+---@param part any a solid, a shape, or a table of them; several may stand one after another
 ---@param options? csgrun.render
 function render(part, options) end
 csg.render = render

@@ -13,46 +13,17 @@
 #include <csgrun/primitives/projection.h>
 #include <csgrun/primitives/shape_operations.h>
 
+#include "primitives/files/csg_items.h"
 #include "primitives/files/csg_parser.h"
 #include "primitives/files/csg_shapes.h"
+#include "primitives/files/csg_sheets.h"
+#include "primitives/files/csg_signatures.h"
 #include "primitives/files/face_colours.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/read_file.h"
 
 namespace csgrun {
 namespace {
-
-/// What a node came to. Empty ones have no dimension. A shape has one colour: that of the first of
-/// those that it was made of.
-struct Item {
-  enum class Kind { kEmpty, kFlat, kSolid };
-  Kind kind = Kind::kEmpty;
-  Shape2D shape;
-  std::optional<Appearance> appearance;  ///< of the shape; faces of solids have their own
-  NodePtr solid;
-
-  static Item of(Shape2D shape, const std::optional<Appearance>& appearance = {}) {
-    Item item;
-    if (shape.empty()) return item;
-    item.kind = Kind::kFlat;
-    item.shape = std::move(shape);
-    item.appearance = appearance;
-    return item;
-  }
-  static Item of(NodePtr solid) {
-    Item item;
-    if (solid->kind() == NodeKind::kEmpty) return item;
-    item.kind = Kind::kSolid;
-    item.solid = std::move(solid);
-    return item;
-  }
-};
-
-struct Frame {
-  CsgCall call;
-  bool background = false;  ///< it, or a node around it, is marked with %
-  std::vector<Item> children;
-};
 
 class CsgBuilder {
  public:
@@ -75,9 +46,17 @@ class CsgBuilder {
         continue;
       }
       const bool background = stack_.back().background || parser_.call().background;
-      Frame& frame = stack_.emplace_back();
+      const OfSheets asked = stack_.back().asks;
+      CsgFrame& frame = stack_.emplace_back();
       frame.call = std::move(parser_.call());
       frame.background = background;
+      frame.asked = asked;
+      if (!background) {
+        std::vector<std::string> notes;
+        name_arguments(frame.call, notes);
+        for (const std::string& note : notes) warn(frame, note);
+      }
+      frame.asks = asked_of_children(frame.call, asked);
       if (*event == CsgParser::Event::kOpen) continue;
       if (auto status = close(); !status) return status.error();
     }
@@ -98,17 +77,17 @@ class CsgBuilder {
   }
 
  private:
-  [[nodiscard]] SourceRef where(const Frame& frame) const {
+  [[nodiscard]] SourceRef where(const CsgFrame& frame) const {
     return SourceRef{file_, frame.call.line};
   }
 
-  void warn(const Frame& frame, const std::string& what) {
+  void warn(const CsgFrame& frame, const std::string& what) {
     warnings_.push_back(where(frame).text() + ": " + what);
   }
 
   /// Builds the innermost open call and hands it to the one around it.
   Status close() {
-    Frame frame = std::move(stack_.back());
+    CsgFrame frame = std::move(stack_.back());
     stack_.pop_back();
     if (frame.background) return std::monostate();
     Result<Item> item = build(frame);
@@ -121,7 +100,7 @@ class CsgBuilder {
     return std::monostate();
   }
 
-  Result<Item> build(Frame& frame) {
+  Result<Item> build(CsgFrame& frame) {
     const std::string& name = frame.call.name;
     if (name == "union" || name == "group" || name == "render") {
       return combine(BooleanOp::kUnion, frame);
@@ -133,8 +112,12 @@ class CsgBuilder {
     if (name == "linear_extrude" || name == "rotate_extrude") return extrude(frame);
     if (is_solid_primitive(name)) {
       std::vector<std::string> notes;
-      MeshResult mesh = make_csg_solid(frame.call, notes);
-      return leaf(frame, std::move(mesh), notes);
+      PolygonMesh open;
+      MeshResult mesh =
+          make_csg_solid(frame.call, notes, frame.asked == OfSheets::kNothing ? nullptr : &open);
+      if (mesh || open.corners.empty()) return leaf(frame, std::move(mesh), notes);
+      for (const std::string& note : notes) warn(frame, note);
+      return open_item(frame, open);
     }
     if (is_flat_primitive(name)) return flat_primitive(frame);
     if (name == "text") return text(frame);
@@ -151,34 +134,44 @@ class CsgBuilder {
   }
 
   /// A leaf of the mesh; impossible arguments make it empty.
-  Result<Item> leaf(const Frame& frame, MeshResult mesh, const std::vector<std::string>& notes) {
+  Result<Item> leaf(const CsgFrame& frame, MeshResult mesh, const std::vector<std::string>& notes) {
     for (const std::string& note : notes) warn(frame, note);
     if (mesh) {
       return Item::of(
           Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where(frame)));
     }
-    if (mesh.error().code != ErrorCode::kInvalidArgument) return mesh.error();
-    warn(frame, mesh.error().message);
+    return empty_if_impossible(frame, mesh.error());
+  }
+
+  /// Impossible numbers make nothing, as in OpenSCAD; any other error is one.
+  Result<Item> empty_if_impossible(const CsgFrame& frame, const Error& error) {
+    if (error.code != ErrorCode::kInvalidArgument) return error;
+    warn(frame, error.message);
     return Item();
   }
 
-  Result<Item> flat_primitive(const Frame& frame) {
+  /// A mesh that is not closed, where that does not matter.
+  [[nodiscard]] Item open_item(const CsgFrame& frame, const PolygonMesh& mesh) const {
+    if (frame.asked == OfSheets::kCorners) return Item::of(leaf_of_corners(mesh, where(frame)));
+    return Item::with_sheet(Item(), sheet_of(mesh), {});
+  }
+
+  Result<Item> flat_primitive(const CsgFrame& frame) {
     std::vector<std::string> notes;
     Result<Shape2D> shape = make_csg_shape(frame.call, notes);
     return flat_leaf(frame, std::move(shape), notes);
   }
 
   /// A shape; impossible arguments make it empty.
-  Result<Item> flat_leaf(const Frame& frame, Result<Shape2D> shape,
-                         const std::vector<std::string>& notes) {
+  Result<Item> flat_leaf(const CsgFrame& frame, Result<Shape2D> shape,
+                         const std::vector<std::string>& notes,
+                         const std::optional<Appearance>& appearance = {}) {
     for (const std::string& note : notes) warn(frame, note);
-    if (shape) return Item::of(*std::move(shape));
-    if (shape.error().code != ErrorCode::kInvalidArgument) return shape.error();
-    warn(frame, shape.error().message);
-    return Item();
+    if (shape) return Item::of(*std::move(shape), appearance);
+    return empty_if_impossible(frame, shape.error());
   }
 
-  Result<Item> surface(const Frame& frame) {
+  Result<Item> surface(const CsgFrame& frame) {
     CsgArguments arguments(frame.call);
     const std::string path = arguments.string("file", "");
     const bool center = arguments.boolean("center", false);
@@ -195,7 +188,7 @@ class CsgBuilder {
   }
 
   /// A mesh, or a drawing. A file that is not there is an error: nothing is dropped silently.
-  Result<Item> import(const Frame& frame) {
+  Result<Item> import(const CsgFrame& frame) {
     const Result<CsgImport> import = csg_import(frame.call);
     if (!import) return import.error();
     const std::string& path = import->file;
@@ -224,10 +217,17 @@ class CsgBuilder {
                                      : mesh_as_parts(path, *bytes, &notes);
     if (!parts) return Error{parts.error().code, "import: " + parts.error().message, {}};
     std::vector<NodePtr> solids;
+    CsgSheet sheet;
     for (ModelPart& part : *parts) {
       std::string note;
       part.mesh.kind = path;
       Result<PolygonMesh> mesh = make_solid_mesh(part.mesh, &note);
+      if (!mesh && frame.asked != OfSheets::kNothing && is_sheet(part.mesh)) {
+        Item item = open_item(frame, part.mesh);
+        sheet.append(std::move(item.sheet));
+        solids.push_back(std::move(item.solid));
+        continue;
+      }
       if (!mesh) mesh = repaired_or(std::move(mesh), std::move(part.mesh), notes);
       if (!mesh) return Error{mesh.error().code, "import: " + mesh.error().message, {}};
       if (!note.empty()) notes.push_back(note);
@@ -235,8 +235,10 @@ class CsgBuilder {
           Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where(frame)));
     }
     for (const std::string& note : notes) warn(frame, "import: " + note);
-    if (solids.size() == 1) return Item::of(solids[0]);
-    return Item::of(Node::boolean(BooleanOp::kUnion, std::move(solids), where(frame)));
+    NodePtr all = solids.size() == 1
+                      ? solids[0]
+                      : Node::boolean(BooleanOp::kUnion, std::move(solids), where(frame));
+    return Item::with_sheet(Item::of(std::move(all)), std::move(sheet), {});
   }
 
   static Result<std::vector<ModelPart>> mesh_as_parts(const std::string& path,
@@ -247,8 +249,9 @@ class CsgBuilder {
     return std::vector<ModelPart>{{"", *std::move(mesh)}};
   }
 
-  Result<Item> text(const Frame& frame) {
-    const Result<CsgText> text = csg_text(frame.call);
+  Result<Item> text(const CsgFrame& frame) {
+    std::vector<std::string> notes;
+    const Result<CsgText> text = csg_text(frame.call, notes);
     if (!text) return text.error();
     FontBook shipped;
     FontBook& fonts = environment_.fonts != nullptr ? *environment_.fonts : shipped;
@@ -256,7 +259,6 @@ class CsgBuilder {
     if (!choice) {
       return Error{choice.error().code, "text: " + choice.error().message, {}};
     }
-    std::vector<std::string> notes;
     if (!choice->note.empty()) notes.push_back("text: " + choice->note);
     std::string note;
     Result<Shape2D> shape = make_text(text->options, choice->font, &note);
@@ -266,7 +268,7 @@ class CsgBuilder {
 
   /// The first child that is not empty decides between 2D and 3D; children of the other kind
   /// become empty. kEmpty when all are.
-  Item::Kind settle_kind(Frame& frame) {
+  Item::Kind settle_kind(CsgFrame& frame) {
     const auto first = std::find_if(frame.children.begin(), frame.children.end(),
                                     [](const Item& i) { return i.kind != Item::Kind::kEmpty; });
     if (first == frame.children.end()) return Item::Kind::kEmpty;
@@ -280,7 +282,7 @@ class CsgBuilder {
     return kind;
   }
 
-  static std::vector<Shape2D> take_shapes(Frame& frame) {
+  static std::vector<Shape2D> take_shapes(CsgFrame& frame) {
     std::vector<Shape2D> shapes;
     for (Item& child : frame.children) shapes.push_back(std::move(child.shape));
     return shapes;
@@ -288,7 +290,7 @@ class CsgBuilder {
 
   /// The colour of the first shape among the children; that others are lost is said where they
   /// would be seen.
-  std::optional<Appearance> colour_of_first(const Frame& frame) {
+  std::optional<Appearance> colour_of_first(const CsgFrame& frame) {
     const Item* first = nullptr;
     for (const Item& child : frame.children) {
       if (child.kind != Item::Kind::kFlat) continue;
@@ -301,7 +303,7 @@ class CsgBuilder {
   }
 
   /// Those that are not empty.
-  static std::vector<NodePtr> take_solids(Frame& frame) {
+  static std::vector<NodePtr> take_solids(CsgFrame& frame) {
     std::vector<NodePtr> solids;
     for (Item& child : frame.children) {
       if (child.kind == Item::Kind::kSolid) solids.push_back(std::move(child.solid));
@@ -316,18 +318,25 @@ class CsgBuilder {
   }
 
   /// The children under a Boolean.
-  Result<Item> combine(BooleanOp op, Frame& frame) {
+  Result<Item> combine(BooleanOp op, CsgFrame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
     if (kind == Item::Kind::kFlat) {
       const auto colour = colour_of_first(frame);
       return item_of(Shape2D::boolean(op, take_shapes(frame)), colour);
     }
-    return Item::of(combine_solids(op, frame));
+    CsgSheet sheet;
+    std::optional<Appearance> colour;
+    for (Item& child : frame.children) {
+      if (child.sheet.empty()) continue;
+      if (sheet.empty()) colour = child.appearance;
+      sheet.append(std::move(child.sheet));
+    }
+    return Item::with_sheet(Item::of(combine_solids(op, frame)), std::move(sheet), colour);
   }
 
   /// The union of the 2D children; solids are left out, with a warning.
-  Result<Item> combine_flat(Frame& frame) {
+  Result<Item> combine_flat(CsgFrame& frame) {
     for (Item& child : frame.children) {
       if (child.kind != Item::Kind::kSolid) continue;
       warn(frame, frame.call.name + ": a 3D child was left out");
@@ -336,15 +345,15 @@ class CsgBuilder {
     return combine(BooleanOp::kUnion, frame);
   }
 
-  Result<Item> offset(Frame& frame) {
+  Result<Item> offset(CsgFrame& frame) {
     const Result<OffsetOptions> options = csg_offset(frame.call);
     if (!options) return options.error();
     Result<Item> child = combine_flat(frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
-    return item_of(offset_shape(child->shape, *options), child->appearance);
+    return flat_leaf(frame, offset_shape(child->shape, *options), {}, child->appearance);
   }
 
-  Result<Item> hull(Frame& frame) {
+  Result<Item> hull(CsgFrame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
     if (kind == Item::Kind::kFlat) {
@@ -354,7 +363,7 @@ class CsgBuilder {
     return Item::of(Node::convex_hull(take_solids(frame), where(frame)));
   }
 
-  Result<Item> minkowski(Frame& frame) {
+  Result<Item> minkowski(CsgFrame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
     if (kind == Item::Kind::kFlat) {
@@ -366,7 +375,7 @@ class CsgBuilder {
     return Item::of(Node::minkowski_sum(std::move(solids), where(frame)));
   }
 
-  Result<Item> fill(Frame& frame) {
+  Result<Item> fill(CsgFrame& frame) {
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
     if (child->kind == Item::Kind::kFlat)
@@ -375,9 +384,9 @@ class CsgBuilder {
     return child;
   }
 
-  Result<Item> resize(Frame& frame) {
+  Result<Item> resize(CsgFrame& frame) {
     const Result<CsgResize> wanted = csg_resize(frame.call);
-    if (!wanted) return wanted.error();
+    if (!wanted) return empty_if_impossible(frame, wanted.error());
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
     if (child->kind == Item::Kind::kSolid) {
@@ -391,10 +400,10 @@ class CsgBuilder {
     Affine map;
     map.m[0][0] = factors[0];
     map.m[1][1] = factors[1];
-    return item_of(child->shape.transformed(map), child->appearance);
+    return flat_leaf(frame, child->shape.transformed(map), {}, child->appearance);
   }
 
-  Result<Item> projection(Frame& frame) {
+  Result<Item> projection(CsgFrame& frame) {
     CsgArguments arguments(frame.call);
     const bool cut = arguments.boolean("cut", false);
     if (arguments.error()) return *arguments.error();
@@ -406,16 +415,28 @@ class CsgBuilder {
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child || child->kind == Item::Kind::kEmpty) return child;
     const SourceRef place = where(frame);
-    Result<Shape2D> shape =
-        cut ? slice_solid(evaluator(), child->solid, 0, place) : shadow(child->solid);
-    if (!shape && environment_.evaluation_failed != nullptr) *environment_.evaluation_failed = true;
-    return item_of(std::move(shape), one_appearance_of(child->solid));
+    Result<Shape2D> shape = cut ? slice_solid(evaluator(), child->solid, 0, place) : shadow(*child);
+    if (!shape) return failed(shape.error());
+    const bool is_sheet_only = child->solid->kind() == NodeKind::kEmpty;
+    return Item::of(*std::move(shape),
+                    is_sheet_only ? child->appearance : one_appearance_of(child->solid));
   }
 
-  Result<Shape2D> shadow(const NodePtr& node) {
-    const auto solid = evaluator().evaluate(node);
+  /// Of a solid and of the sheet beside it.
+  Result<Shape2D> shadow(const Item& item) {
+    const auto solid = evaluator().evaluate(item.solid);
     if (!solid) return solid.error();
-    return project_solid(**solid);
+    Result<Shape2D> shape = project_solid(**solid);
+    if (!shape || item.sheet.empty()) return shape;
+    const Result<Shape2D> more = shadow_of(item.sheet);
+    if (!more) return more.error();
+    return Shape2D::boolean(BooleanOp::kUnion, {*shape, *more});
+  }
+
+  /// An error of an evaluation.
+  [[nodiscard]] Error failed(const Error& error) const {
+    if (environment_.evaluation_failed != nullptr) *environment_.evaluation_failed = true;
+    return error;
   }
 
   Evaluator& evaluator() {
@@ -424,11 +445,12 @@ class CsgBuilder {
     return *own_evaluator_;
   }
 
-  NodePtr combine_solids(BooleanOp op, Frame& frame) {
+  NodePtr combine_solids(BooleanOp op, CsgFrame& frame) {
     std::vector<NodePtr> operands;
     bool first = true;
     for (Item& child : frame.children) {
-      const bool empty = child.kind == Item::Kind::kEmpty;
+      const bool empty =
+          child.kind == Item::Kind::kEmpty || child.solid->kind() == NodeKind::kEmpty;
       if (empty && (op == BooleanOp::kIntersection || (op == BooleanOp::kDifference && first))) {
         return Node::empty(where(frame));
       }
@@ -439,7 +461,7 @@ class CsgBuilder {
     return Node::boolean(op, std::move(operands), where(frame));
   }
 
-  Result<Item> transform(Frame& frame) {
+  Result<Item> transform(CsgFrame& frame) {
     CsgArguments arguments(frame.call);
     const std::optional<Affine> map = arguments.matrix();
     if (arguments.error()) return *arguments.error();
@@ -452,28 +474,47 @@ class CsgBuilder {
     }
     if (child->kind == Item::Kind::kFlat) {
       Result<Shape2D> shape = child->shape.transformed(*map);
-      if (!shape) return shape.error();
-      if (shape->empty()) warn_flattened(frame);
-      return Item::of(*std::move(shape), child->appearance);
+      if (shape && shape->empty()) warn_flattened(frame);
+      return flat_leaf(frame, std::move(shape), {}, child->appearance);
     }
     const auto& m = map->m;
     const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
                                m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    if (determinant == 0) {
+    if (determinant == 0) return flattened(frame, *map, *std::move(child));
+    NodePtr moved = child->solid->kind() == NodeKind::kEmpty
+                        ? child->solid
+                        : Node::transformed(*map, child->solid, where(frame));
+    return Item::with_sheet(Item::of(std::move(moved)), mapped(std::move(child->sheet), *map),
+                            child->appearance);
+  }
+
+  /// What a matrix makes flat is empty, but in a hull or a shadow.
+  Result<Item> flattened(const CsgFrame& frame, const Affine& map, Item child) {
+    if (frame.asked == OfSheets::kNothing) {
       warn_flattened(frame);
       return Item();
     }
-    return Item::of(Node::transformed(*map, std::move(child->solid), where(frame)));
+    if (frame.asked == OfSheets::kCorners) {
+      Result<NodePtr> corners = flattened_corners(child.solid, map, evaluator(), where(frame));
+      if (!corners) return failed(corners.error());
+      return Item::of(*std::move(corners));
+    }
+    const auto solid = evaluator().evaluate(child.solid);
+    if (!solid) return failed(solid.error());
+    CsgSheet sheet = mapped(std::move(child.sheet), map);
+    sheet.append(sheet_of(**solid, map));
+    const auto colour =
+        child.solid->kind() == NodeKind::kEmpty ? child.appearance : one_appearance_of(child.solid);
+    return Item::with_sheet(Item(), std::move(sheet), colour);
   }
 
-  void warn_flattened(const Frame& frame) {
+  void warn_flattened(const CsgFrame& frame) {
     warn(frame, "multmatrix: the matrix flattens its children, they were left out");
   }
 
-  Result<Item> paint(Frame& frame) {
-    const CsgValue* value =
-        frame.call.arguments.empty() ? nullptr : &frame.call.arguments[0].second;
+  Result<Item> paint(CsgFrame& frame) {
+    const CsgValue* value = frame.call.find("c");
     if (value == nullptr || value->kind != CsgValue::Kind::kList || value->list.size() != 4) {
       return Error{ErrorCode::kMalformedFile, "color: expected a list of 4 numbers", {}};
     }
@@ -495,16 +536,19 @@ class CsgBuilder {
       child->appearance = appearance;
       return child;
     }
-    return Item::of(Node::painted(appearance, std::move(child->solid), where(frame)));
+    NodePtr painted = child->solid->kind() == NodeKind::kEmpty
+                          ? child->solid
+                          : Node::painted(appearance, child->solid, where(frame));
+    return Item::with_sheet(Item::of(std::move(painted)), std::move(child->sheet), appearance);
   }
 
-  Result<Item> extrude(Frame& frame) {
+  Result<Item> extrude(CsgFrame& frame) {
     Result<Item> profile = combine_flat(frame);
     if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
     return painted(frame, leaf(frame, extrude_csg(frame.call, profile->shape), {}), *profile);
   }
 
-  Result<Item> roof(Frame& frame) {
+  Result<Item> roof(CsgFrame& frame) {
     std::vector<std::string> notes;
     const Result<RoofOptions> options = csg_roof(frame.call, notes);
     if (!options) return options.error();
@@ -514,7 +558,7 @@ class CsgBuilder {
   }
 
   /// A solid that was made of a shape has its colour.
-  Result<Item> painted(const Frame& frame, Result<Item> solid, const Item& shape) {
+  Result<Item> painted(const CsgFrame& frame, Result<Item> solid, const Item& shape) {
     if (solid && solid->kind == Item::Kind::kSolid && shape.appearance)
       solid->solid = Node::painted(*shape.appearance, std::move(solid->solid), where(frame));
     return solid;
@@ -524,7 +568,7 @@ class CsgBuilder {
   CsgParser parser_;
   const CsgEnvironment& environment_;
   std::unique_ptr<Evaluator> own_evaluator_;
-  std::vector<Frame> stack_;
+  std::vector<CsgFrame> stack_;
   std::vector<std::string> warnings_;
 };
 

@@ -71,6 +71,17 @@ std::vector<double> CsgArguments::numbers(std::string_view name, size_t size,
   return otherwise;
 }
 
+std::vector<double> CsgArguments::size(std::string_view name, size_t size) {
+  const CsgValue* value = call_.find(name);
+  if (value != nullptr && value->kind == Kind::kNumber)
+    return std::vector<double>(size, value->number);
+  return numbers(name, size, std::vector<double>(size, 1));
+}
+
+double CsgArguments::radius(std::string_view r, std::string_view d, double otherwise) {
+  return has(d) ? number(d, 0) / 2 : number(r, otherwise);
+}
+
 std::vector<std::vector<double>> CsgArguments::rows(std::string_view name, size_t row_size) {
   std::vector<std::vector<double>> result;
   const CsgValue* value = call_.find(name);
@@ -118,7 +129,7 @@ Facets CsgArguments::facets() {
 }
 
 std::optional<Affine> CsgArguments::matrix() {
-  const CsgValue* value = call_.arguments.empty() ? nullptr : &call_.arguments[0].second;
+  const CsgValue* value = call_.find("m");
   const bool good = value != nullptr && value->kind == Kind::kList && value->list.size() == 4 &&
                     std::all_of(value->list.begin(), value->list.end(),
                                 [](const CsgValue& row) { return is_number_list(row, 4); });
@@ -155,7 +166,15 @@ bool is_flat_primitive(std::string_view name) {
 
 namespace {
 
-MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>& warnings) {
+/// How many points of a face differ.
+size_t different_points(const std::vector<glm::dvec3>& points, const std::vector<uint32_t>& face) {
+  std::set<std::tuple<double, double, double>> different;
+  for (const uint32_t i : face) different.insert({points[i].x, points[i].y, points[i].z});
+  return different.size();
+}
+
+MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>& warnings,
+                               PolygonMesh* open) {
   std::vector<glm::dvec3> points;
   for (const std::vector<double>& row : arguments.rows("points", 3)) {
     points.emplace_back(row[0], row[1], row[2]);
@@ -165,26 +184,33 @@ MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>
       arguments.index_lists("faces", points.size(), warnings);
   if (arguments.error()) return *arguments.error();
   const std::string bad_index = warnings.size() > before ? warnings[before] : "";
-  // Six digits make short edges vanish; a face of fewer than three different points is then
-  // nothing.
-  std::erase_if(faces, [&](const std::vector<uint32_t>& face) {
-    std::set<std::tuple<double, double, double>> different;
-    for (const uint32_t i : face) different.insert({points[i].x, points[i].y, points[i].z});
-    if (different.size() >= 3) return false;
-    warnings.push_back("polyhedron: a face of fewer than three different points was left out");
-    return true;
-  });
-  std::string note;
-  MeshResult mesh = make_polyhedron(points, faces, &note);
-  if (!note.empty()) warnings.push_back(note);
-  if (!mesh && mesh.error().code == ErrorCode::kInvalidMesh) {
+  const auto as_given = [&] {
     PolygonMesh given;
     given.kind = "polyhedron";
     given.points = points;
     for (const auto& face : faces)
       given.add_face(std::vector<uint32_t>(face.rbegin(), face.rend()));
-    mesh = repaired_or(std::move(mesh), std::move(given), warnings);
+    return given;
+  };
+  std::string note;
+  if (open != nullptr) {
+    // Of a face that is nothing the points count all the same.
+    std::erase_if(faces, [](const std::vector<uint32_t>& face) { return face.size() < 3; });
+    MeshResult mesh = make_polyhedron(points, faces, &note);
+    if (!mesh && mesh.error().code == ErrorCode::kInvalidMesh) *open = as_given();
+    return mesh;
   }
+  // Six digits make short edges vanish; a face of fewer than three different points is then
+  // nothing.
+  std::erase_if(faces, [&](const std::vector<uint32_t>& face) {
+    if (different_points(points, face) >= 3) return false;
+    warnings.push_back("polyhedron: a face of fewer than three different points was left out");
+    return true;
+  });
+  MeshResult mesh = make_polyhedron(points, faces, &note);
+  if (!note.empty()) warnings.push_back(note);
+  if (!mesh && mesh.error().code == ErrorCode::kInvalidMesh)
+    mesh = repaired_or(std::move(mesh), as_given(), warnings);
   // Without the index the rest is hardly a solid: what is to be said is the index.
   if (!mesh && !bad_index.empty()) {
     return Error{mesh.error().code, bad_index + ", and then " + mesh.error().message, {}};
@@ -194,23 +220,24 @@ MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>
 
 }  // namespace
 
-MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings) {
+MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings,
+                          PolygonMesh* open) {
   CsgArguments arguments(call);
-  if (call.name == "polyhedron") return make_csg_polyhedron(arguments, warnings);
+  if (call.name == "polyhedron") return make_csg_polyhedron(arguments, warnings, open);
   const bool center = arguments.boolean("center", false);
   if (call.name == "cube") {
-    const std::vector<double> size = arguments.numbers("size", 3, {1, 1, 1});
+    const std::vector<double> size = arguments.size("size", 3);
     if (arguments.error()) return *arguments.error();
     return make_cube({size[0], size[1], size[2]}, {center, center, center});
   }
   const Facets facets = arguments.facets();
   if (call.name == "sphere") {
-    const double r = arguments.number("r", 1);
+    const double r = arguments.radius("r", "d", 1);
     if (arguments.error()) return *arguments.error();
     return make_sphere(r, facets);
   }
-  const double h = arguments.number("h", 1), r1 = arguments.number("r1", 1),
-               r2 = arguments.number("r2", 1);
+  const double r = arguments.radius("r", "d", 1), h = arguments.number("h", 1),
+               r1 = arguments.radius("r1", "d1", r), r2 = arguments.radius("r2", "d2", r);
   if (arguments.error()) return *arguments.error();
   return make_cylinder(h, r1, r2, center, facets);
 }
@@ -218,13 +245,13 @@ MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warning
 Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& warnings) {
   CsgArguments arguments(call);
   if (call.name == "square") {
-    const std::vector<double> size = arguments.numbers("size", 2, {1, 1});
+    const std::vector<double> size = arguments.size("size", 2);
     const bool center = arguments.boolean("center", false);
     if (arguments.error()) return *arguments.error();
     return make_square({size[0], size[1]}, {center, center});
   }
   if (call.name == "circle") {
-    const double r = arguments.number("r", 1);
+    const double r = arguments.radius("r", "d", 1);
     const Facets facets = arguments.facets();
     if (arguments.error()) return *arguments.error();
     return make_circle(r, facets);
@@ -260,7 +287,7 @@ Result<CsgImport> csg_import(const CsgCall& call) {
   return import;
 }
 
-Result<CsgText> csg_text(const CsgCall& call) {
+Result<CsgText> csg_text(const CsgCall& call, std::vector<std::string>& warnings) {
   CsgArguments arguments(call);
   CsgText text;
   TextOptions& o = text.options;
@@ -275,6 +302,16 @@ Result<CsgText> csg_text(const CsgCall& call) {
   o.facets = arguments.facets();
   text.font = arguments.string("font", "");
   if (arguments.error()) return *arguments.error();
+  const auto keep_known = [&](const char* name, std::string& value, const std::string& otherwise,
+                              std::initializer_list<std::string_view> known) {
+    if (std::find(known.begin(), known.end(), value) != known.end()) return;
+    warnings.push_back("text: there is no " + std::string(name) + " " + quoted(value) +
+                       ", the default was taken");
+    value = otherwise;
+  };
+  keep_known("direction", o.direction, "", {"", "ltr", "rtl", "ttb", "btt"});
+  keep_known("halign", o.halign, "default", {"default", "left", "center", "right"});
+  keep_known("valign", o.valign, "default", {"default", "baseline", "bottom", "center", "top"});
   return text;
 }
 

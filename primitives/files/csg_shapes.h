@@ -30,12 +30,16 @@ class CsgArguments {
   std::string string(std::string_view name, const std::string& otherwise);
   /// Exactly `size` numbers.
   std::vector<double> numbers(std::string_view name, size_t size, std::vector<double> otherwise);
+  /// The same, or one number that is all of them.
+  std::vector<double> size(std::string_view name, size_t size);
+  /// A radius, or half a diameter, which counts before it.
+  double radius(std::string_view r, std::string_view d, double otherwise);
   std::vector<std::vector<double>> rows(std::string_view name, size_t row_size);
   /// Lists of indices; those that are not below `limit` are left out, with a warning.
   std::vector<std::vector<uint32_t>> index_lists(std::string_view name, size_t limit,
                                                  std::vector<std::string>& warnings);
   Facets facets();
-  /// The first argument, by position, as a 4x4 matrix.
+  /// The argument m as a 4x4 matrix.
   std::optional<Affine> matrix();
   [[nodiscard]] bool has(std::string_view name) const { return call_.find(name) != nullptr; }
 
@@ -59,8 +63,11 @@ Result<PolygonMesh> repaired_or(Result<PolygonMesh> refused, PolygonMesh given,
 bool is_solid_primitive(std::string_view name);
 bool is_flat_primitive(std::string_view name);
 
-/// `warnings` gets what was left out. An impossible size is a kInvalidArgument.
-MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings);
+/// `warnings` gets what was left out. An impossible size is a kInvalidArgument. With `open`, the
+/// faces of a polyhedron that is refused (kInvalidMesh) go there as they are given, where they are
+/// not repaired.
+MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings,
+                          PolygonMesh* open = nullptr);
 Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& warnings);
 /// The arguments of import.
 struct CsgImport {
@@ -74,7 +81,9 @@ struct CsgText {
   TextOptions options;
   std::string font;
 };
-Result<CsgText> csg_text(const CsgCall& call);
+/// Alignments and directions that there are not are those of no argument, as in OpenSCAD:
+/// `warnings` says so.
+Result<CsgText> csg_text(const CsgCall& call, std::vector<std::string>& warnings);
 
 /// The arguments of offset: `r` counts before `delta`.
 Result<OffsetOptions> csg_offset(const CsgCall& call);

@@ -82,11 +82,18 @@ class DxfReader {
     if (!options_.layer.empty() && !found_layer_) {
       return invalid_argument(name_ + ": there is no layer " + csgrun::quoted(options_.layer));
     }
-    std::vector<Shape2D::Loop> loops;
-    join(loops);
-    Result<Shape2D> shape = Shape2D::from_outlines(loops);
-    if (!shape) return Error{shape.error().code, name_ + ": " + shape.error().message, {}};
-    FlatFile file{*std::move(shape), {}};
+    FlatFile file;
+    for (auto& [layer, chains] : chains_) {
+      std::vector<Shape2D::Loop> loops;
+      join(chains, loops);
+      Result<Shape2D> shape = Shape2D::from_outlines(loops);
+      if (!shape) return Error{shape.error().code, name_ + ": " + shape.error().message, {}};
+      if (!options_.parts) {
+        file.shape = *std::move(shape);
+      } else if (!shape->empty()) {
+        file.parts.push_back({layer, *std::move(shape)});
+      }
+    }
     for (const auto& [kind, count] : left_out_) {
       file.notes.push_back(name_ + ": " + kind + " left out (" + std::to_string(count) + ")");
     }
@@ -97,10 +104,31 @@ class DxfReader {
           " ends were joined; the first begins at (" + number_text(first_open_.x) + ", " +
           number_text(first_open_.y) + ")");
     }
+    if (tilted_ > 0) {
+      file.notes.push_back(name_ + ": " + std::to_string(tilted_) +
+                           (tilted_ == 1 ? " entity lies" : " entities lie") +
+                           " in a plane that is not level (line " + std::to_string(first_tilted_) +
+                           "); taken as if in the drawing's");
+    }
     return file;
   }
 
  private:
+  /// Whether what is given in coordinates of the entity's own is seen from behind: then its X axis
+  /// runs to the left (by the arbitrary axis algorithm, for the extrusion direction 0, 0, -1).
+  bool is_seen_from_behind(const DxfRecord& r) {
+    constexpr double kLevel = 1e-9;
+    const double up = r.number(230, 1);
+    if (std::max(std::fabs(r.number(210)), std::fabs(r.number(220))) <= kLevel * std::fabs(up))
+      return up < 0;
+    if (tilted_++ == 0) first_tilted_ = r.line;
+    return false;
+  }
+
+  static void mirror(Chain& chain) {
+    for (glm::dvec2& p : chain.points) p.x = -p.x;
+  }
+
   static glm::dvec2 point(const DxfRecord& r, int x_code) {
     return {r.number(x_code), r.number(x_code + 10)};
   }
@@ -122,6 +150,7 @@ class DxfReader {
       if (layer.empty()) layer = "0";
       if (layer == "0" && !block_layer.empty()) layer = block_layer;
       const bool wanted = options_.layer.empty() || layer == options_.layer;
+      if (options_.parts) layer_ = layer;
       if (wanted) found_layer_ = true;
       if (r.kind == "INSERT") {
         if (auto status = insert(r, placement, layer, depth); !status) return status;
@@ -158,6 +187,7 @@ class DxfReader {
     }
     const double c = cos_deg(r.number(50)), s = sin_deg(r.number(50));
     const double sx = r.number(41, 1), sy = r.number(42, 1);
+    const double side = is_seen_from_behind(r) ? -1 : 1;
     const auto count = [&](int code) { return std::clamp(r.number(code, 1), 1.0, 1e6); };
     for (double row = 0; row < count(71); ++row) {
       for (double column = 0; column < count(70); ++column) {
@@ -167,6 +197,7 @@ class DxfReader {
         inner.v = glm::dvec2(-s, c) * sy;
         inner.at = point(r, 10) + glm::dvec2(c * step.x - s * step.y, s * step.x + c * step.y) -
                    block->second.x * inner.u - block->second.y * inner.v;
+        for (glm::dvec2* axis : {&inner.u, &inner.v, &inner.at}) axis->x *= side;
         Placement total;
         total.at = outer.apply(inner.at);
         total.u = outer.apply(inner.u) - outer.at;
@@ -188,7 +219,13 @@ class DxfReader {
     points_ += chain.points.size();
     auto& points = chain.points;
     points.erase(std::unique(points.begin(), points.end()), points.end());
-    if (chain.points.size() > 1) chains_.push_back(std::move(chain));
+    if (chain.points.size() > 1) chains_of_layer().push_back(std::move(chain));
+  }
+
+  std::vector<Chain>& chains_of_layer() {
+    const auto [known, is_new] = place_of_layer_.try_emplace(layer_, chains_.size());
+    if (is_new) chains_.emplace_back(layer_, std::vector<Chain>());
+    return chains_[known->second].second;
   }
 
   void draw(const DxfRecord& r, const Placement& placement, bool in_block) {
@@ -212,6 +249,7 @@ class DxfReader {
       append_ellipse(point(r, 10), {radius, 0}, {0, radius},
                      kind == "ARC" ? std::fmod(r.number(50), 360) : 0, sweep,
                      options_.facets.fragments(radius * scale, sweep), chain.points);
+      if (is_seen_from_behind(r)) mirror(chain);
     } else if (kind == "ELLIPSE") {
       ellipse(r, scale, chain);
     } else if (kind == "LWPOLYLINE") {
@@ -224,6 +262,7 @@ class DxfReader {
         if (code == 42 && !vertices.empty()) vertices.back().bulge = one.number(42);
       }
       chain = bulged(vertices, is_closed(r), scale);
+      if (is_seen_from_behind(r)) mirror(chain);
     } else if (kind == "SPLINE") {
       spline(r, scale, chain);
     } else {
@@ -233,9 +272,10 @@ class DxfReader {
     add(std::move(chain), placement, in_block);
   }
 
-  static bool is_closed(const DxfRecord& r) {
-    return (static_cast<int>(std::clamp(r.number(70), 0.0, 65535.0)) & 1) != 0;
+  static int flags(const DxfRecord& r) {
+    return static_cast<int>(std::clamp(r.number(70), 0.0, 65535.0));
   }
+  static bool is_closed(const DxfRecord& r) { return (flags(r) & 1) != 0; }
 
   struct Vertex {
     glm::dvec2 at;
@@ -265,10 +305,15 @@ class DxfReader {
       vertices.push_back({point(list[i], 10), list[i].number(42)});
     const double scale =
         std::sqrt(std::fabs(placement.u.x * placement.v.y - placement.u.y * placement.v.x));
-    add(bulged(vertices, is_closed(r), scale), placement, in_block);
+    Chain chain = bulged(vertices, is_closed(r), scale);
+    constexpr int kIn3D = 8;  // its points are in world coordinates
+    if ((flags(r) & kIn3D) == 0 && is_seen_from_behind(r)) mirror(chain);
+    add(std::move(chain), placement, in_block);
   }
 
-  void ellipse(const DxfRecord& r, double scale, Chain& chain) const {
+  /// Its centre and its axis are in world coordinates; it runs counter-clockwise as seen from the
+  /// side that it looks to.
+  void ellipse(const DxfRecord& r, double scale, Chain& chain) {
     constexpr double kDegrees = 180 / 3.14159265358979323846;
     const glm::dvec2 major = point(r, 11);
     const double ratio = r.number(40, 1), radius = std::sqrt(glm::dot(major, major));
@@ -281,7 +326,8 @@ class DxfReader {
     if (sweep > 360 - kNoise) sweep = 360;
     if (!std::isfinite(sweep)) return;
     chain.closed = sweep == 360;
-    append_ellipse(point(r, 10), major, ratio * glm::dvec2(-major.y, major.x), from, sweep,
+    const double turn = is_seen_from_behind(r) ? -ratio : ratio;
+    append_ellipse(point(r, 10), major, turn * glm::dvec2(-major.y, major.x), from, sweep,
                    options_.facets.fragments(radius * std::max(ratio, 1.0) * scale, sweep),
                    chain.points);
   }
@@ -350,13 +396,13 @@ class DxfReader {
   }
 
   /// Closed chains are loops; open ones are joined end to end, from the first on.
-  void join(std::vector<Shape2D::Loop>& loops) {
+  void join(std::vector<Chain>& chains, std::vector<Shape2D::Loop>& loops) {
     using Key = PointGrid::Key;
     const auto key = PointGrid::key;
     std::multimap<Key, size_t> ends;  // of open chains: equal keys stay in order
-    std::vector<bool> used(chains_.size(), false);
-    for (size_t i = 0; i < chains_.size(); ++i) {
-      Chain& chain = chains_[i];
+    std::vector<bool> used(chains.size(), false);
+    for (size_t i = 0; i < chains.size(); ++i) {
+      Chain& chain = chains[i];
       if (chain.closed || key(chain.points.front()) == key(chain.points.back())) {
         used[i] = true;
         loops.push_back(std::move(chain.points));
@@ -372,17 +418,17 @@ class DxfReader {
       }
       return std::nullopt;
     };
-    for (size_t i = 0; i < chains_.size(); ++i) {
+    for (size_t i = 0; i < chains.size(); ++i) {
       if (used[i]) continue;
       used[i] = true;
-      Shape2D::Loop line = chains_[i].points;
+      Shape2D::Loop line = chains[i].points;
       // Both ways, so that it does not matter where in an open line the first chain lies.
       for (int side = 0; side < 2; ++side) {
         while (key(line.front()) != key(line.back())) {
           const auto next = find_next(line.back());
           if (!next) break;
           used[*next] = true;
-          Shape2D::Loop& more = chains_[*next].points;
+          Shape2D::Loop& more = chains[*next].points;
           if (key(more.front()) != key(line.back())) std::reverse(more.begin(), more.end());
           line.insert(line.end(), more.begin() + 1, more.end());
         }
@@ -402,9 +448,11 @@ class DxfReader {
   const FlatFileOptions& options_;
   const DxfRecords& records_;
   PointGrid grid_;
-  std::vector<Chain> chains_;
+  std::vector<std::pair<std::string, std::vector<Chain>>> chains_;  ///< of each layer
+  std::map<std::string, size_t> place_of_layer_;
+  std::string layer_;  ///< of what is read; empty for all where no parts are asked for
   std::map<std::string, size_t> left_out_;
-  size_t entities_ = 0, points_ = 0, open_chains_ = 0;
+  size_t entities_ = 0, points_ = 0, open_chains_ = 0, tilted_ = 0, first_tilted_ = 0;
   glm::dvec2 first_open_{};
   bool found_layer_ = false;
 };

@@ -1,3 +1,5 @@
+#include <glm/common.hpp>
+
 #include <csgrun/primitives/file_ending.h>
 #include <csgrun/primitives/flat_file.h>
 
@@ -25,14 +27,24 @@ Result<FlatFile> parse_flat(const std::string& name, std::string_view bytes,
   }
   Result<FlatFile> file =
       format == "svg" ? parse_svg(name, bytes, options) : parse_dxf(name, bytes, options);
-  if (!file || !options.center || file->shape.empty()) return file;
-  const auto [low, high] = file->shape.bounds();
+  if (!file || !options.center) return file;
+  std::vector<Shape2D*> shapes;
+  if (!file->shape.empty()) shapes.push_back(&file->shape);
+  for (FlatFilePart& part : file->parts) shapes.push_back(&part.shape);
+  if (shapes.empty()) return file;
+  auto [low, high] = shapes[0]->bounds();
+  for (const Shape2D* shape : shapes) {
+    low = glm::min(low, shape->bounds()[0]);
+    high = glm::max(high, shape->bounds()[1]);
+  }
   Affine map;
   map.m[0][3] = -(low.x + high.x) / 2;
   map.m[1][3] = -(low.y + high.y) / 2;
-  Result<Shape2D> moved = file->shape.transformed(map);
-  if (!moved) return moved.error();
-  file->shape = *std::move(moved);
+  for (Shape2D* shape : shapes) {
+    Result<Shape2D> moved = shape->transformed(map);
+    if (!moved) return moved.error();
+    *shape = *std::move(moved);
+  }
   return file;
 }
 

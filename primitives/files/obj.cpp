@@ -31,6 +31,15 @@ bool is_name(std::string_view word) {
   });
 }
 
+/// "C:\\models\\a.mtl", without a way upwards in it.
+bool is_on_a_drive(std::string_view path) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  if (path.size() < 3 || !is_letter(path[0]) || path[1] != ':') return false;
+  std::string rest(path.substr(2));
+  std::replace(rest.begin(), rest.end(), '\\', '/');
+  return rest[0] == '/' && !leads_out_of_folder(std::string_view(rest).substr(1));
+}
+
 class ObjReader {
  public:
   ObjReader(const std::string& name, std::string_view text, std::vector<std::string>* notes)
@@ -47,7 +56,7 @@ class ObjReader {
       } else if (word == "o") {
         begin_object();
       } else if (word == "mtllib") {
-        read_material_file();
+        error = read_material_file();
       } else if (word == "usemtl") {
         material_ = scanner_.rest_of_line();
       } else if (!word.empty() && !is_passed_over(word)) {
@@ -92,15 +101,24 @@ class ObjReader {
     }
   }
 
-  /// A model from somewhere must not make us read what lies elsewhere: it has no colours then.
-  void read_material_file() {
+  /// A model from somewhere must not make us read what lies elsewhere. One that tries is refused;
+  /// but a place on the disk of who wrote it ("C:\\models\\a.mtl") is what exporters write by
+  /// habit: no colours.
+  std::optional<Error> read_material_file() {
     const std::string path(scanner_.rest_of_line());
-    const bool leads_out = leads_out_of_folder(path);
-    if (leads_out && notes_ != nullptr) {
-      notes_->push_back(scanner_.place() + ": no colours: mtllib " + quoted(path) +
-                        " leads out of the file's folder");
+    if (path.empty()) return std::nullopt;
+    if (!leads_out_of_folder(path)) {
+      material_files_.push_back(path);
+      return std::nullopt;
     }
-    if (!leads_out && !path.empty()) material_files_.push_back(path);
+    const std::string what = "mtllib " + quoted(path) + " leads out of the file's folder";
+    if (!is_on_a_drive(path)) {
+      return here(what +
+                  ": put that file beside the mesh and name it without a path, or take the "
+                  "line out");
+    }
+    if (notes_ != nullptr) notes_->push_back(scanner_.place() + ": no colours: " + what);
+    return std::nullopt;
   }
 
   /// The number of the appearance that stands for the material in use.

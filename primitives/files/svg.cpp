@@ -2,7 +2,7 @@
 //
 // Every element gives a shape of its own by its own fill rule, and the result is their union: the
 // order of painting has no meaning for area. Sizes follow OpenSCAD: with a viewBox its width is the
-// page's; else a user unit is 1/dpi inch.
+// page's; else a user unit, and a px, is 1/dpi inch.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -26,6 +26,11 @@ namespace {
 constexpr int kDeepest = 200;             // groups in groups
 constexpr size_t kMostElements = 200000;  // a `use` counts what it shows
 constexpr double kMmPerInch = 25.4;
+constexpr double kPxPerInch = 96;
+
+/// Properties that matter for what is area (`fill` begins that of its rule, `stroke` those of its
+/// width and form).
+constexpr const char* kHeeded[] = {"display", "visibility", "fill", "stroke", "clip-path", "mask"};
 
 /// What an element hands down to those in it.
 struct Style {
@@ -33,6 +38,7 @@ struct Style {
   std::string cap = "butt", join = "miter";
   double stroke_width = 1, mitre_limit = 4;
   bool visible = true;
+  glm::dvec2 viewport{0, 0};  ///< what percentages are of, in user units; 0: not known
 };
 
 class SvgReader {
@@ -51,21 +57,33 @@ class SvgReader {
     if (plain_name(root) != "svg") return malformed(name_, "", "the root element is not <svg>");
     if (auto status = index(root); !status) return status.error();
     SvgMap map;
-    if (auto status = page(root, map); !status) return status.error();
-    if (auto status =
-            children(root, map, Style(), options_.id.empty() && options_.layer.empty(), 0);
-        !status) {
-      return status.error();
+    Style style;
+    if (auto status = page(root, map, style.viewport); !status) return status.error();
+    const bool all = options_.id.empty() && options_.layer.empty();
+    for (const pugi::xml_node& child : root.children()) {
+      if (child.type() != pugi::node_element) continue;
+      if (auto status = element(child, map, style, all, 0); !status) return status.error();
+      if (options_.parts && !shapes_.empty()) {
+        std::vector<Shape2D>& part = part_named(name_of(child));
+        part.insert(part.end(), shapes_.begin(), shapes_.end());
+        shapes_.clear();
+      }
     }
-    if (!found_) {
+    if (!all && !found_) {
       const bool by_id = !options_.id.empty();
       return invalid_argument(name_ + ": there is no " +
                               (by_id ? "element of id " + csgrun::quoted(options_.id)
                                      : "layer " + csgrun::quoted(options_.layer)));
     }
-    Result<Shape2D> all = Shape2D::boolean(BooleanOp::kUnion, shapes_);
-    if (!all) return all.error();
-    FlatFile file{*std::move(all), {}};
+    FlatFile file;
+    for (auto& [part, shapes] : parts_) {
+      Result<Shape2D> shape = Shape2D::boolean(BooleanOp::kUnion, shapes);
+      if (!shape) return shape.error();
+      if (!shape->empty()) file.parts.push_back({part, *std::move(shape)});
+    }
+    Result<Shape2D> rest = Shape2D::boolean(BooleanOp::kUnion, shapes_);
+    if (!rest) return rest.error();
+    file.shape = *std::move(rest);
     for (const auto& [what, count] : left_out_) {
       file.notes.push_back(name_ + ": " + what + " left out (" + std::to_string(count) + ")");
     }
@@ -87,9 +105,26 @@ class SvgReader {
     return colon != nullptr ? colon + 1 : name;
   }
 
+  std::vector<Shape2D>& part_named(const std::string& part) {
+    for (auto& [known, shapes] : parts_) {
+      if (known == part) return shapes;
+    }
+    return parts_.emplace_back(part, std::vector<Shape2D>()).second;
+  }
+
+  static std::string name_of(const pugi::xml_node& node) {
+    for (const pugi::xml_node& child : node.children()) {
+      if (plain_name(child) != "title") continue;
+      const std::string title = trimmed(child.text().get());
+      if (!title.empty()) return title;
+    }
+    const std::string label = node.attribute("inkscape:label").value();
+    return label.empty() ? node.attribute("id").value() : label;
+  }
+
   void leave_out(const std::string& what) { ++left_out_[what]; }
 
-  /// Elements by id, for `use`.
+  /// Elements by id, for `use`; style sheets, which stand anywhere, are noted.
   Status index(const pugi::xml_node& root) {
     size_t count = 0;
     // In the order of the document, without recursion.
@@ -97,6 +132,8 @@ class SvgReader {
       if (node.type() == pugi::node_element) {
         if (++count > kMostElements) return limit("elements", kMostElements);
         if (const char* id = node.attribute("id").value(); *id != '\0') by_id_.emplace(id, node);
+        if (plain_name(node) == "style" && has_rules_for_areas(node))
+          leave_out("rules of a <style>");
       }
       if (node.first_child()) {
         node = node.first_child();
@@ -114,7 +151,8 @@ class SvgReader {
                  {}};
   }
 
-  /// Millimetres; percentages are of `whole`, in user units.
+  /// Millimetres; percentages are of `whole`, in user units. Without it there is no viewBox, and px
+  /// are user units.
   std::optional<double> to_mm(const char* text, std::optional<double> whole) const {
     const auto length = parse_svg_length(text);
     if (!length) return std::nullopt;
@@ -125,22 +163,46 @@ class SvgReader {
     if (length->unit == "in") return n * kMmPerInch;
     if (length->unit == "pt") return n * kMmPerInch / 72;
     if (length->unit == "pc") return n * kMmPerInch / 6;
-    if (length->unit == "px") return n * kMmPerInch / 96;
+    if (length->unit == "px") return n * kMmPerInch / (whole ? kPxPerInch : options_.dpi);
     if (length->unit == "%" && whole) return n / 100 * *whole * kMmPerInch / options_.dpi;
     return std::nullopt;
   }
 
-  /// From user units to mm, with Y upwards.
-  Status page(const pugi::xml_node& root, SvgMap& map) {
-    std::vector<double> box;
-    if (const pugi::xml_attribute view = root.attribute("viewBox")) {
-      box = parse_svg_numbers(view.value()).value_or(std::vector<double>());
-      if (box.size() != 4 || !(box[2] > 0) || !(box[3] > 0)) {
-        return malformed(name_, "",
-                         "viewBox must be four numbers with a positive size, got " +
-                             csgrun::quoted(view.value()));
-      }
+  /// A viewBox; empty when there is none.
+  Result<std::vector<double>> view_box(const pugi::xml_node& node) const {
+    const pugi::xml_attribute view = node.attribute("viewBox");
+    if (!view) return std::vector<double>();
+    auto box = parse_svg_numbers(view.value());
+    if (box && box->size() == 4 && (*box)[2] > 0 && (*box)[3] > 0) return *std::move(box);
+    return malformed(
+        name_, "",
+        "viewBox must be four numbers with a positive size, got " + csgrun::quoted(view.value()));
+  }
+
+  /// From a viewBox to a viewport at the origin, as preserveAspectRatio has it.
+  static SvgMap fitted(const pugi::xml_node& node, const std::vector<double>& box,
+                       const glm::dvec2& size) {
+    double sx = size.x / box[2], sy = size.y / box[3];
+    glm::dvec2 align(0);
+    const std::string keep = node.attribute("preserveAspectRatio").as_string("xMidYMid");
+    if (keep.find("none") == std::string::npos) {
+      sx = sy = keep.find("slice") != std::string::npos ? std::max(sx, sy) : std::min(sx, sy);
+      const auto part = [&](const char* low, const char* high) {
+        return keep.find(low) != std::string::npos    ? 0.0
+               : keep.find(high) != std::string::npos ? 1.0
+                                                      : 0.5;
+      };
+      align = {part("xMin", "xMax") * (size.x - sx * box[2]),
+               part("YMin", "YMax") * (size.y - sy * box[3])};
     }
+    return {sx, 0, 0, sy, align.x - sx * box[0], align.y - sy * box[1]};
+  }
+
+  /// From user units to mm, with Y upwards.
+  Status page(const pugi::xml_node& root, SvgMap& map, glm::dvec2& viewport) {
+    const Result<std::vector<double>> view = view_box(root);
+    if (!view) return view.error();
+    const std::vector<double>& box = *view;
     const auto size = [&](const char* side, size_t i) -> Result<std::optional<double>> {
       const pugi::xml_attribute attribute = root.attribute(side);
       if (!attribute) return std::optional<double>();
@@ -161,29 +223,44 @@ class SvgReader {
     if (!height) return height.error();
     const double unit = kMmPerInch / options_.dpi;
     if (box.empty()) {
+      viewport = {width->value_or(0) / unit, height->value_or(0) / unit};
       map = {unit, 0, 0, -unit, 0, height->value_or(0)};
       return std::monostate();
     }
+    viewport = {box[2], box[3]};
+    if (width->has_value() || height->has_value()) units_per_inch_ = kPxPerInch;
     double sx = width->has_value() ? **width / box[2] : unit;
     double sy = height->has_value() ? **height / box[3] : unit;
     if (!width->has_value() && height->has_value()) sx = sy;
     if (width->has_value() && !height->has_value()) sy = sx;
-    const double page_height = height->has_value() ? **height : sy * box[3];
-    const double page_width = width->has_value() ? **width : sx * box[2];
-    glm::dvec2 align(0);
-    const std::string keep = root.attribute("preserveAspectRatio").as_string("xMidYMid");
-    if (keep.find("none") == std::string::npos) {
-      sx = sy = keep.find("slice") != std::string::npos ? std::max(sx, sy) : std::min(sx, sy);
-      const auto part = [&](const char* low, const char* high) {
-        return keep.find(low) != std::string::npos    ? 0.0
-               : keep.find(high) != std::string::npos ? 1.0
-                                                      : 0.5;
-      };
-      align = {part("xMin", "xMax") * (page_width - sx * box[2]),
-               part("YMin", "YMax") * (page_height - sy * box[3])};
-    }
-    map = {sx, 0, 0, -sy, align.x - sx * box[0], page_height - align.y + sy * box[1]};
+    const glm::dvec2 paper(width->has_value() ? **width : sx * box[2],
+                           height->has_value() ? **height : sy * box[3]);
+    map = SvgMap{1, 0, 0, -1, 0, paper.y}.after(fitted(root, box, paper));
     return std::monostate();
+  }
+
+  /// What stands in a viewport of its own: an <svg>, or a <symbol> that is used. `user` is the
+  /// <use> that may give it another size, or null.
+  Status viewport(const pugi::xml_node& node, const pugi::xml_node& user, SvgMap map, Style style,
+                  bool shown, int depth) {
+    const Result<std::vector<double>> box = view_box(node);
+    if (!box) return box.error();
+    // As large as what it stands in, or, where that has no size, as its viewBox.
+    const auto side = [&](const char* name, double whole, size_t i) {
+      const bool by_user = user && user.attribute(name);
+      if (!(whole > 0) && !box->empty()) whole = (*box)[i];
+      return number(by_user ? user : node, name, style, whole);
+    };
+    const glm::dvec2 size(side("width", style.viewport.x, 2), side("height", style.viewport.y, 3));
+    if (plain_name(node) == "svg")
+      map = map.after({1, 0, 0, 1, number(node, "x", style), number(node, "y", style)});
+    style.viewport = size;
+    if (!box->empty()) {
+      if (!(size.x > 0) || !(size.y > 0)) return std::monostate();
+      map = map.after(fitted(node, *box, size));
+      style.viewport = {(*box)[2], (*box)[3]};
+    }
+    return children(node, map, style, shown, depth + 1);
   }
 
   Status children(const pugi::xml_node& parent, const SvgMap& map, const Style& style, bool shown,
@@ -203,13 +280,15 @@ class SvgReader {
            options_.layer == node.attribute("inkscape:label").value();
   }
 
+  [[nodiscard]] Error too_deep() const {
+    return Error{ErrorCode::kLimit,
+                 name_ + ": elements are nested deeper than " + std::to_string(kDeepest),
+                 {}};
+  }
+
   Status element(const pugi::xml_node& node, const SvgMap& outer, const Style& inherited,
                  bool shown, int depth) {
-    if (depth > kDeepest) {
-      return Error{ErrorCode::kLimit,
-                   name_ + ": elements are nested deeper than " + std::to_string(kDeepest),
-                   {}};
-    }
+    if (depth > kDeepest) return too_deep();
     if (++elements_ > kMostElements) return limit("elements", kMostElements);
     const std::string kind = plain_name(node);
     if (kind == "defs" || kind == "symbol" || kind == "clipPath" || kind == "mask" ||
@@ -235,16 +314,26 @@ class SvgReader {
     if (hidden && !is_wanted(node)) return std::monostate();
     if (is_wanted(node)) shown = true;
     if (shown) found_ = true;
+    for (const char* cut : {"clip-path", "mask"}) {
+      const std::string by = property(node, cut);
+      if (shown && !by.empty() && by != "none") leave_out(cut);
+    }
     if (kind == "g" || kind == "a" || kind == "switch") {
       return children(node, map, style, shown, depth + 1);
     }
-    if (kind == "svg") {
-      map = map.after({1, 0, 0, 1, number(node, "x"), number(node, "y")});
-      return children(node, map, style, shown, depth + 1);
-    }
+    if (kind == "svg") return viewport(node, {}, map, style, shown, depth);
     if (kind == "use") return use(node, map, style, shown, depth);
     if (!shown || !style.visible) return std::monostate();
     return draw(node, kind, map, style);
+  }
+
+  /// Whether a style sheet says what this reader would heed as an attribute.
+  static bool has_rules_for_areas(const pugi::xml_node& node) {
+    std::string text;
+    for (const pugi::xml_node& part : node.children()) text += part.value();
+    return std::any_of(std::begin(kHeeded), std::end(kHeeded), [&](const char* property) {
+      return text.find(property) != std::string::npos;
+    });
   }
 
   Status use(const pugi::xml_node& node, const SvgMap& outer, const Style& style, bool shown,
@@ -262,9 +351,14 @@ class SvgReader {
       leave_out("a <use> of " + csgrun::quoted(text) + ", which is not there,");
       return std::monostate();
     }
-    const SvgMap map = outer.after({1, 0, 0, 1, number(node, "x"), number(node, "y")});
-    if (plain_name(target->second) == "symbol") {
-      return children(target->second, map, style, shown, depth + 1);
+    const SvgMap map =
+        outer.after({1, 0, 0, 1, number(node, "x", style), number(node, "y", style)});
+    const std::string kind = plain_name(target->second);
+    if (kind == "symbol" || kind == "svg") {
+      if (depth > kDeepest) return too_deep();
+      Style own = style;
+      read_style(target->second, own);
+      return viewport(target->second, node, map, own, shown, depth);
     }
     return element(target->second, map, style, shown, depth + 1);
   }
@@ -289,7 +383,7 @@ class SvgReader {
     return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
   }
 
-  static void read_style(const pugi::xml_node& node, Style& style) {
+  void read_style(const pugi::xml_node& node, Style& style) const {
     const auto take = [&](const char* name, std::string& value) {
       const std::string given = property(node, name);
       if (!given.empty() && given != "inherit") value = given;
@@ -301,7 +395,8 @@ class SvgReader {
     take("stroke-linejoin", style.join);
     std::string text;
     take("stroke-width", text);
-    if (const auto width = parse_svg_length(text)) style.stroke_width = width->number;
+    if (const auto width = parse_svg_length(text))
+      style.stroke_width = user_units(*width, diagonal(style.viewport));
     text.clear();
     take("stroke-miterlimit", text);
     if (const auto limit = parse_svg_length(text)) style.mitre_limit = limit->number;
@@ -310,16 +405,33 @@ class SvgReader {
     if (!text.empty()) style.visible = text == "visible";
   }
 
+  /// User units; `whole` is what percentages are of.
+  [[nodiscard]] double user_units(const SvgLength& length, double whole) const {
+    const auto& unit = length.unit;
+    const double per_inch = unit == "mm"   ? 1 / kMmPerInch
+                            : unit == "cm" ? 10 / kMmPerInch
+                            : unit == "in" ? 1
+                            : unit == "pt" ? 1 / 72.0
+                            : unit == "pc" ? 1 / 6.0
+                                           : 0;
+    if (per_inch > 0) return length.number * per_inch * units_per_inch_;
+    return unit == "%" && whole > 0 ? length.number / 100 * whole : length.number;
+  }
+
+  static double diagonal(const glm::dvec2& viewport) {
+    return std::sqrt((viewport.x * viewport.x + viewport.y * viewport.y) / 2);
+  }
+
   /// A length in user units.
-  double number(const pugi::xml_node& node, const char* name, double otherwise = 0) const {
-    const auto length = parse_svg_length(node.attribute(name).value());
+  double number(const pugi::xml_node& node, std::string_view name, const Style& style,
+                double otherwise = 0) const {
+    const auto length = parse_svg_length(node.attribute(name.data()).value());
     if (!length) return otherwise;
-    const auto& unit = length->unit;
-    const double per_mm = options_.dpi / kMmPerInch;
-    return unit == "mm"   ? length->number * per_mm
-           : unit == "cm" ? length->number * per_mm * 10
-           : unit == "in" ? length->number * options_.dpi
-                          : length->number;
+    const bool across = name == "width" || name.find('x') != name.npos;
+    const bool along = name == "height" || name.find('y') != name.npos;
+    return user_units(*length, across  ? style.viewport.x
+                               : along ? style.viewport.y
+                                       : diagonal(style.viewport));
   }
 
   Status draw(const pugi::xml_node& node, const std::string& kind, const SvgMap& map,
@@ -330,11 +442,12 @@ class SvgReader {
     if (kind == "path") {
       chains = parse_svg_path(node.attribute("d").value(), mm, options_.facets, good);
     } else if (kind == "rect") {
-      rectangle(node, mm, chains);
+      rectangle(node, style, mm, chains);
     } else if (kind == "circle" || kind == "ellipse") {
       const bool circle = kind == "circle";
-      const double rx = number(node, circle ? "r" : "rx"), ry = circle ? rx : number(node, "ry");
-      const glm::dvec2 center(number(node, "cx"), number(node, "cy"));
+      const double rx = number(node, circle ? "r" : "rx", style),
+                   ry = circle ? rx : number(node, "ry", style);
+      const glm::dvec2 center(number(node, "cx", style), number(node, "cy", style));
       if (rx > 0 && ry > 0) {
         Chain& chain = chains.emplace_back();
         chain.closed = true;
@@ -342,9 +455,9 @@ class SvgReader {
                        options_.facets.fragments(std::max(rx, ry) * mm), chain.points);
       }
     } else if (kind == "line") {
-      chains.push_back(
-          {{{number(node, "x1"), number(node, "y1")}, {number(node, "x2"), number(node, "y2")}},
-           false});
+      chains.push_back({{{number(node, "x1", style), number(node, "y1", style)},
+                         {number(node, "x2", style), number(node, "y2", style)}},
+                        false});
     } else if (kind == "polyline" || kind == "polygon") {
       const auto numbers = parse_svg_numbers(node.attribute("points").value());
       good = numbers.has_value();
@@ -361,11 +474,12 @@ class SvgReader {
     return add(chains, map, style);
   }
 
-  void rectangle(const pugi::xml_node& node, double mm, std::vector<Chain>& chains) const {
-    const double x = number(node, "x"), y = number(node, "y");
-    const double w = number(node, "width"), h = number(node, "height");
+  void rectangle(const pugi::xml_node& node, const Style& style, double mm,
+                 std::vector<Chain>& chains) const {
+    const double x = number(node, "x", style), y = number(node, "y", style);
+    const double w = number(node, "width", style), h = number(node, "height", style);
     if (!(w > 0) || !(h > 0)) return;
-    double rx = number(node, "rx", -1), ry = number(node, "ry", -1);
+    double rx = number(node, "rx", style, -1), ry = number(node, "ry", style, -1);
     if (rx < 0) rx = ry;
     if (ry < 0) ry = rx;
     rx = std::clamp(rx, 0.0, w / 2);
@@ -429,8 +543,12 @@ class SvgReader {
   const std::string& name_;
   const FlatFileOptions& options_;
   std::map<std::string, pugi::xml_node, std::less<>> by_id_;
-  std::vector<Shape2D> shapes_;
+  std::vector<Shape2D> shapes_;  ///< that belong to no part yet
+  std::vector<std::pair<std::string, std::vector<Shape2D>>> parts_;
   std::map<std::string, size_t> left_out_;
+  /// The user units of an inch: a px is one of them, and where nothing says how large the page is,
+  /// there are `dpi`.
+  double units_per_inch_ = options_.dpi;
   size_t elements_ = 0, points_ = 0;
   bool found_ = false;
 };

@@ -158,10 +158,14 @@ std::vector<Segment2D> apply_cuts(const std::vector<Segment2D>& segments, std::v
 
 }  // namespace
 
+void add_segment(const Point2D& from, const Point2D& to, bool is_first,
+                 std::vector<Segment2D>& segments) {
+  push_segment(from, to, is_first ? 1 : 0, is_first ? 0 : 1, segments);
+}
+
 void add_outline(const GridLoop& loop, bool is_first, std::vector<Segment2D>& segments) {
   for (size_t i = 0; i < loop.size(); ++i) {
-    push_segment(loop[i], loop[(i + 1) % loop.size()], is_first ? 1 : 0, is_first ? 0 : 1,
-                 segments);
+    add_segment(loop[i], loop[(i + 1) % loop.size()], is_first, segments);
   }
 }
 

@@ -20,6 +20,10 @@ struct Segment2D {
   int32_t first = 0, rest = 0;
 };
 
+/// Appends the segment from one point to another, as part of a closed outline of the first operand
+/// or of the others; nothing where they are equal.
+void add_segment(const Point2D& from, const Point2D& to, bool is_first,
+                 std::vector<Segment2D>& segments);
 /// Appends the segments of a closed outline.
 void add_outline(const GridLoop& loop, bool is_first, std::vector<Segment2D>& segments);
 

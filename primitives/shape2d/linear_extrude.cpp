@@ -3,6 +3,7 @@
 // All bands share points by index, so the result is closed by construction, also where loops touch
 // and where the top collapses to a point or an edge: bands end in triangles there.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -16,6 +17,7 @@
 #include "primitives/shape2d/edge_top.h"
 #include "primitives/shape2d/extrude_facets.h"
 #include "primitives/shape2d/profile.h"
+#include "primitives/shape2d/rounded_extrude.h"
 #include "primitives/solids/mesh_builder.h"
 
 namespace csgrun {
@@ -50,6 +52,11 @@ std::optional<Error> check(const LinearExtrudeOptions& o) {
   if (o.segments && *o.segments < 0) {
     return invalid_argument("linear_extrude: segments must not be negative, got " +
                             std::to_string(*o.segments));
+  }
+  for (const double r : o.round) {
+    if (!std::isfinite(r)) return not_finite(kName, "round", r);
+    if (r < 0)
+      return invalid_argument("linear_extrude: round must not be negative, got " + number_text(r));
   }
   for (const auto& [name, value] :
        {std::pair{"fn", o.facets.fn}, std::pair{"fa", o.facets.fa}, std::pair{"fs", o.facets.fs}}) {
@@ -201,6 +208,7 @@ MeshResult linear_extrude(const Shape2D& shape, const LinearExtrudeOptions& opti
   if (auto error = check(options)) return *error;
   const Result<glm::dvec3> height = height_vector(options);
   if (!height) return height.error();
+  if (options.round != std::array<double, 2>{0, 0}) return rounded_extrude(shape, options, *height);
   const bool straight = options.twist == 0 && options.scale.x == options.scale.y;
   // Slices of planar sides would be pieces of the same faces.
   const double slices =

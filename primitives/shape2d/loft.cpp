@@ -145,14 +145,18 @@ std::vector<uint32_t> pair_loops(const Shape2D& a, const Shape2D& b) {
 
 class Lofter {
  public:
-  Lofter(const std::vector<Shape2D>& shapes, const std::vector<double>& heights)
-      : shapes_(shapes), heights_(heights) {}
+  Lofter(const std::vector<LoftOutline>& outlines, const std::vector<double>& heights)
+      : outlines_(outlines), heights_(heights) {}
 
   MeshResult build() {
     mesh_.kind = kName;
-    for (size_t i = 0; i < shapes_.size(); ++i) add_level(i);
-    for (size_t i = 0; i + 1 < shapes_.size(); ++i) {
-      const std::vector<uint32_t> partner = pair_loops(shapes_[i], shapes_[i + 1]);
+    for (size_t i = 0; i < outlines_.size(); ++i) add_level(i);
+    for (size_t i = 0; i + 1 < outlines_.size(); ++i) {
+      if (outlines_[i].point || outlines_[i + 1].point) {
+        add_cone(i);
+        continue;
+      }
+      const std::vector<uint32_t> partner = pair_loops(shape(i), shape(i + 1));
       if (partner.empty()) {
         return invalid_argument("loft: outlines " + std::to_string(i + 1) + " and " +
                                 std::to_string(i + 2) +
@@ -161,11 +165,13 @@ class Lofter {
       for (uint32_t l = 0; l < partner.size(); ++l) add_strip(i, l, partner[l]);
     }
     add_cap(0, true);
-    add_cap(shapes_.size() - 1, false);
+    add_cap(outlines_.size() - 1, false);
     return std::move(mesh_);
   }
 
  private:
+  [[nodiscard]] const Shape2D& shape(size_t level) const { return outlines_[level].shape; }
+
   struct Level {
     Profile profile;
     std::vector<uint32_t> points;  ///< of the mesh, per point of the profile
@@ -173,7 +179,12 @@ class Lofter {
 
   void add_level(size_t i) {
     Level& level = levels_.emplace_back();
-    level.profile = make_profile(shapes_[i], shapes_[i].loops());
+    if (const auto& apex = outlines_[i].point) {
+      level.points.push_back(static_cast<uint32_t>(mesh_.points.size()));
+      mesh_.points.emplace_back(apex->x, apex->y, heights_[i]);
+      return;
+    }
+    level.profile = make_profile(shape(i), shape(i).loops());
     for (const glm::dvec2& p : level.profile.points) {
       level.points.push_back(static_cast<uint32_t>(mesh_.points.size()));
       mesh_.points.emplace_back(p.x, p.y, heights_[i]);
@@ -185,8 +196,21 @@ class Lofter {
     return levels_[level].points[indices[k % indices.size()]];
   }
 
+  /// From a level to the next, one of which is a point: pieces have it in common, and nothing else.
+  void add_cone(size_t level) {
+    const bool is_upwards = !outlines_[level].point;
+    const size_t base = is_upwards ? level : level + 1;
+    const uint32_t apex = levels_[is_upwards ? level + 1 : level].points[0];
+    for (uint32_t l = 0; l < shape(base).loops().size(); ++l) {
+      for (size_t k = 0; k < shape(base).loops()[l].size(); ++k) {
+        const uint32_t p = corner(base, l, k), q = corner(base, l, k + 1);
+        mesh_.add_face(std::array<uint32_t, 3>{is_upwards ? p : q, is_upwards ? q : p, apex}, 0);
+      }
+    }
+  }
+
   void add_strip(size_t level, uint32_t lower, uint32_t upper) {
-    const Outline a(shapes_[level].loops()[lower]), b(shapes_[level + 1].loops()[upper]);
+    const Outline a(shape(level).loops()[lower]), b(shape(level + 1).loops()[upper]);
     const auto [i0, j0] = best_start(a, b);
     const size_t first = i0, second = j0;
     walk_strip(a, first, b, second, [&](bool on_first, size_t i, size_t j) {
@@ -198,11 +222,11 @@ class Lofter {
   }
 
   void add_cap(size_t at, bool backwards) {
-    for (const Shape2D::Region& region : shapes_[at].regions()) {
+    for (const Shape2D::Region& region : shape(at).regions()) {
       std::vector<std::vector<uint32_t>> loops;
       auto add = [&](uint32_t l) {
         std::vector<uint32_t>& loop = loops.emplace_back();
-        for (size_t k = 0; k < shapes_[at].loops()[l].size(); ++k) loop.push_back(corner(at, l, k));
+        for (size_t k = 0; k < shape(at).loops()[l].size(); ++k) loop.push_back(corner(at, l, k));
         if (backwards) std::reverse(loop.begin(), loop.end());
       };
       add(region.outer);
@@ -211,7 +235,7 @@ class Lofter {
     }
   }
 
-  const std::vector<Shape2D>& shapes_;
+  const std::vector<LoftOutline>& outlines_;
   const std::vector<double>& heights_;
   std::vector<Level> levels_;
   PolygonMesh mesh_;
@@ -219,16 +243,30 @@ class Lofter {
 
 }  // namespace
 
-MeshResult loft_shapes(const std::vector<Shape2D>& shapes, const std::vector<double>& heights) {
-  if (shapes.size() < 2) return invalid_argument("loft: needs at least two outlines");
-  if (heights.size() != shapes.size()) {
-    return invalid_argument("loft: " + std::to_string(shapes.size()) +
+MeshResult loft_shapes(const std::vector<LoftOutline>& outlines,
+                       const std::vector<double>& heights) {
+  if (outlines.size() < 2) return invalid_argument("loft: needs at least two outlines");
+  if (heights.size() != outlines.size()) {
+    return invalid_argument("loft: " + std::to_string(outlines.size()) +
                             " outlines need as many heights, got " +
                             std::to_string(heights.size()));
   }
   double points = 0;
-  for (size_t i = 0; i < shapes.size(); ++i) {
-    if (shapes[i].empty()) {
+  for (size_t i = 0; i < outlines.size(); ++i) {
+    const Shape2D& shape = outlines[i].shape;
+    if (const auto& apex = outlines[i].point) {
+      if (i > 0 && i + 1 < outlines.size()) {
+        return invalid_argument(
+            "loft: only the first or the last outline may be a point, not number " +
+            std::to_string(i + 1));
+      }
+      if (i > 0 && outlines[i - 1].point)
+        return invalid_argument("loft: needs an outline between two points");
+      for (int k = 0; k < 2; ++k) {
+        if (!std::isfinite((*apex)[k])) return not_finite(kName, "a point", (*apex)[k]);
+      }
+      points += 1;
+    } else if (shape.empty()) {
       return invalid_argument("loft: outline " + std::to_string(i + 1) + " is empty");
     }
     if (!std::isfinite(heights[i])) return not_finite(kName, "a height", heights[i]);
@@ -236,10 +274,10 @@ MeshResult loft_shapes(const std::vector<Shape2D>& shapes, const std::vector<dou
       return invalid_argument("loft: heights must increase, got " + number_text(heights[i]) +
                               " after " + number_text(heights[i - 1]));
     }
-    for (const Shape2D::Loop& loop : shapes[i].loops()) points += static_cast<double>(loop.size());
+    for (const Shape2D::Loop& loop : shape.loops()) points += static_cast<double>(loop.size());
   }
   if (points > kMostPoints) return too_many_points(kName, points, points);
-  return Lofter(shapes, heights).build();
+  return Lofter(outlines, heights).build();
 }
 
 }  // namespace csgrun

@@ -5,7 +5,10 @@
 // (B's boundary between the two farthest vertices). As with an offset, all of this is one closed
 // curve for each loop whose winding number is positive exactly in the union.
 //
-// Where neither is convex: the sum of A with B's boundary is the union of the sums with B's edges,
+// Where neither is convex, and neither has holes, their convolution is such a curve, with few
+// edges.
+//
+// Where one has holes: the sum of A with B's boundary is the union of the sums with B's edges,
 // each of which is convex; what is missing are the places where all of a piece of B lies inside A,
 // or the reverse, and these are covered by one copy of each at a point of the other.
 #include <algorithm>
@@ -15,6 +18,7 @@
 #include <csgrun/primitives/shape_operations.h>
 
 #include "primitives/base/text.h"
+#include "primitives/shape2d/convolution.h"
 #include "primitives/shape2d/shape_factory.h"
 #include "primitives/solids/mesh_builder.h"
 
@@ -127,6 +131,32 @@ void add_shifted(const GridLoop& loop, const Point2D& shift, std::vector<Segment
   add_outline(moved, false, segments);
 }
 
+/// A shape as it is on a grid that may be coarser than its own.
+Result<Shape2D> cleaned_on(const Grid2D& grid, const Shape2D& shape) {
+  std::vector<Segment2D> segments;
+  for (const GridLoop& loop : snapped_loops(grid, shape)) add_outline(loop, false, segments);
+  return Shape2DFactory::arranged(grid, std::move(segments),
+                                  [](int32_t, int32_t winding) { return winding > 0; });
+}
+
+bool has_holes(const Shape2D& shape) { return shape.regions().size() != shape.loops().size(); }
+
+/// The sum of the shape `a`, whose loops on the grid are these, with the edges of b and with b as
+/// it is.
+void sweep_over_edges(const Shape2D& a_shape, const std::vector<GridLoop>& a,
+                      const std::vector<GridLoop>& b, std::vector<Segment2D>& segments) {
+  for (const GridLoop& outline : b) {
+    for (size_t i = 0; i < outline.size(); ++i) {
+      const ConvexTool edge({outline[i], outline[(i + 1) % outline.size()]});
+      for (const GridLoop& loop : a) edge.sweep(loop, outline[i], segments);
+    }
+  }
+  for (const Shape2D::Region& region : a_shape.regions()) {
+    if (a[region.outer].empty()) continue;
+    for (const GridLoop& loop : b) add_shifted(loop, a[region.outer][0], segments);
+  }
+}
+
 Result<Shape2D> sum_of_two(const Shape2D& first, const Shape2D& second) {
   const Result<Grid2D> grid = grid_for(extent_of(first.loops()) + extent_of(second.loops()));
   if (!grid) return grid.error();
@@ -148,15 +178,15 @@ Result<Shape2D> sum_of_two(const Shape2D& first, const Shape2D& second) {
     const ConvexTool tool(corners);
     for (const GridLoop& loop : a) tool.sweep(loop, corners[0], segments);
   } else {
-    for (const GridLoop& outline : b) {
-      for (size_t i = 0; i < outline.size(); ++i) {
-        const ConvexTool edge({outline[i], outline[(i + 1) % outline.size()]});
-        for (const GridLoop& loop : a) edge.sweep(loop, outline[i], segments);
+    const Result<Shape2D> one = cleaned_on(*grid, first), other = cleaned_on(*grid, second);
+    if (!one) return one.error();
+    if (!other) return other.error();
+    if (has_holes(*one) || has_holes(*other)) {
+      sweep_over_edges(*a_shape, a, b, segments);
+    } else {
+      for (const GridLoop& p : snapped_loops(*grid, *one)) {
+        for (const GridLoop& q : snapped_loops(*grid, *other)) add_convolution(p, q, segments);
       }
-    }
-    for (const Shape2D::Region& region : a_shape->regions()) {
-      if (a[region.outer].empty()) continue;
-      for (const GridLoop& loop : b) add_shifted(loop, a[region.outer][0], segments);
     }
   }
   return Shape2DFactory::arranged(*grid, std::move(segments),
@@ -180,22 +210,25 @@ Result<Shape2D> minkowski_of_shapes(const std::vector<Shape2D>& shapes) {
   return result;
 }
 
-Result<Shape2D> hull_of_shapes(const std::vector<Shape2D>& shapes) {
-  double extent = 0;
-  for (const Shape2D& shape : shapes) extent = std::max(extent, extent_of(shape.loops()));
-  const Result<Grid2D> grid = grid_for(extent);
+Result<Shape2D> hull_of_points(const std::vector<glm::dvec2>& points) {
+  const Result<Grid2D> grid = grid_for(extent_of({points}));
   if (!grid) return grid.error();
-  GridLoop points;
-  for (const Shape2D& shape : shapes) {
-    for (const Shape2D::Loop& loop : shape.loops()) {
-      for (const glm::dvec2& p : loop) points.push_back(grid->snap(p));
-    }
-  }
+  GridLoop snapped;
+  for (const glm::dvec2& p : points) snapped.push_back(grid->snap(p));
   GridRegions regions;
-  regions.loops.push_back(convex_hull(std::move(points)));
+  regions.loops.push_back(convex_hull(std::move(snapped)));
   if (regions.loops[0].size() < 3) return Shape2D();
   regions.outer_of = {0};
   return Shape2DFactory::from_grid(*grid, regions);
+}
+
+Result<Shape2D> hull_of_shapes(const std::vector<Shape2D>& shapes) {
+  std::vector<glm::dvec2> points;
+  for (const Shape2D& shape : shapes) {
+    for (const Shape2D::Loop& loop : shape.loops())
+      points.insert(points.end(), loop.begin(), loop.end());
+  }
+  return hull_of_points(points);
 }
 
 }  // namespace csgrun

@@ -156,6 +156,10 @@ Result<Shape2D> united(const std::vector<Shape2D::Loop>& curves, const char* fun
 Result<Shape2D> offset_shape(const Shape2D& shape, const OffsetOptions& options) {
   if (!std::isfinite(options.distance)) return not_finite("offset", "distance", options.distance);
   if (shape.empty() || options.distance == 0) return shape;
+  if (const auto before = Shape2DFactory::before_turn(shape)) {
+    const Result<Shape2D> result = offset_shape(before->shape, options);
+    return result ? result->transformed(before->motion) : result;
+  }
   const bool inwards = options.distance < 0;
   const OffsetCurve maker(std::fabs(options.distance), options.join, kMitreLimit, options.facets);
   std::vector<Shape2D::Loop> curves;

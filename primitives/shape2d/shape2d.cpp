@@ -2,7 +2,6 @@
 // segments.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include <csgrun/primitives/shape2d.h>
@@ -34,69 +33,6 @@ Result<Shape2D> Shape2D::from_outlines(const std::vector<Loop>& outlines, FillRu
            : fill == FillRule::kNonZero ? rest != 0
                                         : rest > 0;
   });
-}
-
-Result<Shape2D> Shape2D::boolean(BooleanOp op, const std::vector<Shape2D>& operands) {
-  if (operands.empty()) return Shape2D();
-  const auto some = [](const Shape2D& s) { return !s.empty(); };
-  const bool first_empty = operands[0].empty();
-  if (op == BooleanOp::kDifference && first_empty) return Shape2D();
-  if (op == BooleanOp::kIntersection && !std::all_of(operands.begin(), operands.end(), some)) {
-    return Shape2D();
-  }
-  const auto count = std::count_if(operands.begin(), operands.end(), some);
-  if (count == 0) return Shape2D();
-  if (count == 1) return *std::find_if(operands.begin(), operands.end(), some);
-
-  double extent = 0;
-  for (const Shape2D& s : operands) extent = std::max(extent, extent_of(s.loops()));
-  const Result<Grid2D> grid = grid_for(extent);
-  if (!grid) return grid.error();
-  std::vector<Segment2D> segments;
-  for (size_t i = 0; i < operands.size(); ++i) {
-    for (const Loop& loop : operands[i].loops()) {
-      add_outline(snap_loop(*grid, loop), i == 0, segments);
-    }
-  }
-  // Each operand winds around a point once or not at all, so sums tell how many of them hold it.
-  // (Snapping may turn a sliver over, hence "greater than" and never "not 0".)
-  const auto all = static_cast<int32_t>(operands.size());
-  std::function<bool(int32_t, int32_t)> inside;
-  switch (op) {
-    case BooleanOp::kUnion:
-      inside = [](int32_t first, int32_t rest) { return first + rest > 0; };
-      break;
-    case BooleanOp::kIntersection:
-      inside = [all](int32_t first, int32_t rest) { return first + rest >= all; };
-      break;
-    case BooleanOp::kDifference:
-      inside = [](int32_t first, int32_t rest) { return first > 0 && rest <= 0; };
-      break;
-    case BooleanOp::kSymmetricDifference:
-      inside = [](int32_t first, int32_t rest) { return (first + rest) % 2 != 0; };
-      break;
-  }
-  return Shape2DFactory::arranged(*grid, std::move(segments), inside);
-}
-
-Result<Shape2D> Shape2D::transformed(const Affine& map) const {
-  const auto& m = map.m;
-  const double determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-  if (empty() || determinant == 0) return Shape2D();
-  std::vector<Loop> result = loops();
-  for (Loop& loop : result) {
-    for (glm::dvec2& p : loop) {
-      p = {m[0][0] * p.x + m[0][1] * p.y + m[0][3], m[1][0] * p.x + m[1][1] * p.y + m[1][3]};
-    }
-    if (determinant < 0) std::reverse(loop.begin(), loop.end());
-  }
-  if (!all_finite(result)) return invalid_argument("a coordinate of the shape would not be finite");
-  std::vector<uint32_t> outer_of(result.size());
-  for (const Region& region : regions()) {
-    outer_of[region.outer] = region.outer;
-    for (const uint32_t hole : region.holes) outer_of[hole] = region.outer;
-  }
-  return Shape2DFactory::canonical(std::move(result), outer_of);
 }
 
 double Shape2D::area() const {

@@ -17,6 +17,10 @@ bool lexicographic_less(const glm::dvec2& p, const glm::dvec2& q) {
 
 }  // namespace
 
+bool is_before(const Shape2D::Loop& a, const Shape2D::Loop& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), lexicographic_less);
+}
+
 double extent_of(const std::vector<Shape2D::Loop>& loops) {
   double extent = 0;
   for (const Shape2D::Loop& loop : loops) {
@@ -50,6 +54,25 @@ GridLoop snap_loop(const Grid2D& grid, const Shape2D::Loop& loop) {
   return snapped;
 }
 
+const Shape2D::Turn* Shape2DFactory::turn_of(const Shape2D& shape) {
+  return shape.data_ ? shape.data_->turn.get() : nullptr;
+}
+
+Shape2D Shape2DFactory::base_of(const Turn& turn) {
+  Shape2D base;
+  base.data_ = turn.base;
+  return base;
+}
+
+std::vector<uint32_t> Shape2DFactory::outer_of(const Shape2D& shape) {
+  std::vector<uint32_t> outer_of(shape.loops().size());
+  for (const Shape2D::Region& region : shape.regions()) {
+    outer_of[region.outer] = region.outer;
+    for (const uint32_t hole : region.holes) outer_of[hole] = region.outer;
+  }
+  return outer_of;
+}
+
 Shape2D Shape2DFactory::from_grid(const Grid2D& grid, const GridRegions& regions) {
   std::vector<Loop> loops;
   for (const GridLoop& grid_loop : regions.loops) {
@@ -59,7 +82,8 @@ Shape2D Shape2DFactory::from_grid(const Grid2D& grid, const GridRegions& regions
   return canonical(std::move(loops), regions.outer_of);
 }
 
-Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of) {
+Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of,
+                                  std::shared_ptr<const Turn> turn) {
   if (loops.empty()) return {};
   for (Loop& loop : loops) {
     for (glm::dvec2& p : loop) p += 0.0;  // no negative zeros
@@ -68,11 +92,10 @@ Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uin
   }
   std::vector<uint32_t> order(loops.size()), rank(loops.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) {
-    return std::lexicographical_compare(loops[i].begin(), loops[i].end(), loops[j].begin(),
-                                        loops[j].end(), lexicographic_less);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t i, uint32_t j) { return is_before(loops[i], loops[j]); });
   auto data = std::make_shared<Shape2D::Data>();
+  data->turn = std::move(turn);
   for (uint32_t k = 0; k < order.size(); ++k) {
     rank[order[k]] = k;
     data->loops.push_back(std::move(loops[order[k]]));

@@ -3,15 +3,20 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include <csgrun/primitives/shape2d.h>
 
+#include "primitives/shape2d/frame2d.h"
 #include "primitives/shape2d/grid2d.h"
 #include "primitives/shape2d/regions.h"
 
 namespace csgrun {
 
+/// The order of the loops of a shape: by their points, from the first on.
+bool is_before(const Shape2D::Loop& a, const Shape2D::Loop& b);
 /// The largest coordinate, in absolute value.
 double extent_of(const std::vector<Shape2D::Loop>& loops);
 bool all_finite(const std::vector<Shape2D::Loop>& loops);
@@ -19,13 +24,41 @@ bool all_finite(const std::vector<Shape2D::Loop>& loops);
 Result<Grid2D> grid_for(double extent);
 GridLoop snap_loop(const Grid2D& grid, const Shape2D::Loop& loop);
 
+/// A shape under a map that turns: its loops are those of `base`, mapped.
+struct Shape2D::Turn {
+  std::shared_ptr<const Data> base;  ///< has no turn
+  Affine map;                        ///< its entries for z are the identity's
+  Split2D split;                     ///< of the map
+};
+
 class Shape2DFactory {
  public:
   using Loop = Shape2D::Loop;
+  using Turn = Shape2D::Turn;
 
+  /// Null for the world's frame.
+  static const Turn* turn_of(const Shape2D& shape);
+  static Shape2D base_of(const Turn& turn);
+  /// Whether edges along the axes of the world are as long in all as those along the turned axes,
+  /// and there are any: then what is flush is so in the world. REQUIRES: turned shapes.
+  static bool are_upright(const std::vector<Shape2D>& shapes);
+  /// What a turned shape was before its last rigid motion; nothing for a shape without a turn, one
+  /// that was sheared, and one that is upright.
+  struct BeforeTurn {
+    Shape2D shape;
+    Affine motion;
+  };
+  static std::optional<BeforeTurn> before_turn(const Shape2D& shape);
+
+  /// For each loop the outer loop of its region, as in GridRegions.
+  static std::vector<uint32_t> outer_of(const Shape2D& shape);
   static Shape2D from_grid(const Grid2D& grid, const GridRegions& regions);
   /// Loops with the right directions, in any order and from any start; outer_of as in GridRegions.
-  static Shape2D canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of);
+  static Shape2D canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of,
+                           std::shared_ptr<const Turn> turn = nullptr);
+  /// `base`, which has no turn, under a map that turns, and that map's split. Errors:
+  /// kInvalidArgument when the result is not finite.
+  static Result<Shape2D> turned(const Shape2D& base, const Affine& map, const Split2D& split);
   /// Where inside(first, rest) holds, as in extract_regions. Errors: kInternal.
   static Result<Shape2D> arranged(const Grid2D& grid, std::vector<Segment2D> segments,
                                   const std::function<bool(int32_t, int32_t)>& inside);

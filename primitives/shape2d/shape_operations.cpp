@@ -13,6 +13,11 @@ namespace csgrun {
 
 Result<Shape2D> fill_shape(const Shape2D& shape) {
   if (shape.regions().size() == shape.loops().size()) return shape;
+  if (const auto* turn = Shape2DFactory::turn_of(shape);
+      turn != nullptr && !Shape2DFactory::are_upright({shape})) {
+    const Result<Shape2D> filled = fill_shape(Shape2DFactory::base_of(*turn));
+    return filled ? filled->transformed(turn->map) : filled;
+  }
   const Result<Grid2D> grid = grid_for(extent_of(shape.loops()));
   if (!grid) return grid.error();
   std::vector<Segment2D> segments;
@@ -48,6 +53,15 @@ double perimeter_of(const Shape2D& shape) {
 
 std::vector<Shape2D> pieces_of_shape(const Shape2D& shape) {
   std::vector<Shape2D> pieces;
+  if (const auto* turn = Shape2DFactory::turn_of(shape)) {
+    for (const Shape2D& piece : pieces_of_shape(Shape2DFactory::base_of(*turn))) {
+      pieces.push_back(*Shape2DFactory::turned(piece, turn->map, turn->split));
+    }
+    std::sort(pieces.begin(), pieces.end(), [](const Shape2D& a, const Shape2D& b) {
+      return is_before(a.loops()[a.regions()[0].outer], b.loops()[b.regions()[0].outer]);
+    });
+    return pieces;
+  }
   for (const Shape2D::Region& region : shape.regions()) {
     std::vector<Shape2D::Loop> loops{shape.loops()[region.outer]};
     for (const uint32_t hole : region.holes) loops.push_back(shape.loops()[hole]);

@@ -125,12 +125,14 @@ class Sweeper {
     }
     if (!options_.closed) {
       add_cap(0, true);
-      add_cap(path_.size() - 1, false);
+      if (!ends_in_point()) add_cap(path_.size() - 1, false);
     }
     return std::move(mesh_);
   }
 
  private:
+  [[nodiscard]] bool ends_in_point() const { return options_.scale == glm::dvec2(0); }
+
   void walk() {
     along_.push_back(0);
     for (size_t i = 0; i < frames_.size(); ++i)
@@ -162,6 +164,11 @@ class Sweeper {
     const double c = cos_deg(angle), s = sin_deg(angle);
     const glm::dvec2 scale = glm::dvec2(1) + (options_.scale - glm::dvec2(1)) * part;
     std::vector<uint32_t>& ring = rings_.emplace_back();
+    if (ends_in_point() && i + 1 == n) {
+      ring.assign(profile_.points.size(), static_cast<uint32_t>(mesh_.points.size()));
+      mesh_.points.push_back(path_[i]);
+      return;
+    }
     for (const glm::dvec2& p : profile_.points) {
       const glm::dvec2 q = p * scale;
       const glm::dvec3 across = frame.x * (c * q.x - s * q.y) + frame.y * (s * q.x + c * q.y);
@@ -174,6 +181,10 @@ class Sweeper {
   void add_side(size_t piece, uint32_t p, uint32_t q, uint32_t surface) {
     const std::vector<uint32_t>&ring = rings_[piece], &next = rings_[(piece + 1) % rings_.size()];
     const uint32_t a = ring[p], b = ring[q], c = next[q], d = next[p];
+    if (c == d) {
+      mesh_.add_face(std::array<uint32_t, 3>{a, b, c}, surface);
+      return;
+    }
     // Rounded quadrilaterals are planar only along the axes: triangles are what they say.
     const auto& points = mesh_.points;
     const glm::dvec3 ac = points[c] - points[a], bd = points[d] - points[b];
@@ -214,7 +225,10 @@ std::optional<Error> check(const SweepOptions& o) {
   if (!std::isfinite(o.facets.fa)) return not_finite(kName, "fa", o.facets.fa);
   for (int i = 0; i < 2; ++i) {
     if (!std::isfinite(o.scale[i])) return not_finite(kName, "scale", o.scale[i]);
-    if (!(o.scale[i] > 0)) return not_positive(kName, "scale", o.scale[i]);
+    if (o.scale[i] < 0 || (o.scale[i] == 0 && o.scale != glm::dvec2(0))) {
+      return invalid_argument("sweep: scale must be positive, or 0 both ways, got " +
+                              number_text(o.scale[i]));
+    }
   }
   if (o.closed && o.twist != 360 * std::round(o.twist / 360)) {
     return invalid_argument("sweep: the twist of a closed path must be a multiple of 360, got " +

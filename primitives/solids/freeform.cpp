@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -37,6 +38,26 @@ class EdgeNumbers {
 
 Triangle triangle(const PolygonMesh& mesh, size_t face) {
   return {mesh.corners[3 * face], mesh.corners[3 * face + 1], mesh.corners[3 * face + 2]};
+}
+
+/// Refining makes no more points than this: with their triangles they take a minute to be evaluated.
+constexpr double kMostRefined = 1 << 22;
+
+/// Whether halving edges until none is longer makes more than kMostRefined: each triangle is divided
+/// as often as its shortest edge must be halved, at least, and each time all three are it has four
+/// for one.
+bool halvings_make_too_many(const PolygonMesh& mesh, double length) {
+  double triangles = 0;
+  for (size_t f = 0; f < mesh.face_count(); ++f) {
+    const Triangle t = triangle(mesh, f);
+    double shortest = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < 3; ++i)
+      shortest = std::min(shortest, glm::length(mesh.points[t[(i + 1) % 3]] - mesh.points[t[i]]));
+    double parts = 1;
+    for (; shortest > length; shortest /= 2) parts *= 4;
+    triangles += parts;
+  }
+  return triangles / 2 > kMostRefined;  // a closed mesh has half as many points as triangles
 }
 
 /// The mesh without its faces.
@@ -90,7 +111,7 @@ MeshResult refine_mesh(PolygonMesh mesh, double length) {
   if (!std::isfinite(length)) return not_finite("refine", "length", length);
   if (!(length > 0)) return not_positive("refine", "length", length);
   mesh.keep_facets = true;
-  const Error too_many{ErrorCode::kLimit, "refine: makes more than 16777216 points", {}};
+  const Error too_many{ErrorCode::kLimit, "refine: makes more than 4194304 points", {}};
   // A triangle without longer edges has at most the area of the one with all edges of that length.
   double area = 0;
   for (size_t f = 0; f < mesh.face_count(); ++f) {
@@ -99,7 +120,8 @@ MeshResult refine_mesh(PolygonMesh mesh, double length) {
                                    mesh.points[t[2]] - mesh.points[t[0]])) /
             2;
   }
-  if (area / (std::sqrt(3.0) / 4 * length * length) > 2 * kMostPoints) return too_many;
+  if (area / (std::sqrt(3.0) / 4 * length * length) > 2 * kMostRefined) return too_many;
+  if (halvings_make_too_many(mesh, length)) return too_many;
   while (true) {
     PolygonMesh next = without_faces(mesh);
     bool is_done = true;
@@ -146,7 +168,7 @@ MeshResult refine_mesh(PolygonMesh mesh, double length) {
       }
     }
     if (is_done) return mesh;
-    if (static_cast<double>(next.points.size()) > kMostPoints) return too_many;
+    if (static_cast<double>(next.points.size()) > kMostRefined) return too_many;
     mesh = std::move(next);
   }
 }
@@ -212,9 +234,8 @@ MeshResult warp_mesh(PolygonMesh mesh,
     }
     p = *moved;
   }
-  const double volume = signed_volume(mesh);
-  if (volume == 0) return invalid_argument("warp: the moved points enclose no volume");
-  if (volume < 0) reverse_faces(mesh);
+  // A volume of 0 says nothing: parts that are turned over count against the others.
+  if (signed_volume(mesh) < 0) reverse_faces(mesh);
   return mesh;
 }
 

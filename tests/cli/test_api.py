@@ -101,6 +101,21 @@ class Init(Case):
         self.assertEqual(settings["workspace.library"], [".csgrun/library"])
         with open(self.path(".csgrun/library/csgrun.lua"), encoding="utf-8") as file:
             self.assertEqual(file.read(), page("luals"))
+        # The modules that a model may require, with what they take, give and mean; they are Lua.
+        for module in ("gears", "threads", "layout", "options"):
+            with open(self.path(f".csgrun/library/csg/{module}.lua"), encoding="utf-8") as file:
+                text = file.read()
+            self.assertTrue(text.startswith(f"---@meta csg.{module}\n"), module)
+            with open(os.path.join(SOURCE, f"lua_bindings/library/csg/{module}.lua"), encoding="utf-8") as file:
+                calls = re.findall(rf"^(?:return )?function (?:{module}\.\w+)?\(.*\)$", file.read(), re.MULTILINE)
+            calls = calls or ["return function(name, given, rules, level)"]
+            for call in calls:
+                self.assertRegex(text, r"---@return .*\n" + re.escape(call) + " end\n", module)
+                for name in re.findall(r"\w+", call[call.index("("):]):
+                    self.assertRegex(text, rf"---@param {name}\?? ", call)
+            if module != "options":
+                self.assertTrue(text.endswith(f"\nreturn {module}\n"))
+            self.expect(self.run_script(f"local module = (function()\n{text}\nend)()\nemit(cube(1))"), 0)
         self.expect(self.run_csgrun("--init"), 0)  # again: nothing is another one
         self.write(".luarc.json", "{}")
         self.expect(self.run_csgrun("--init"), 4, "csgrun: .luarc.json is there already")

@@ -5,7 +5,7 @@ import re
 import shutil
 import subprocess
 
-from support import SOURCE, Case, main
+from support import SOURCE, TETRAHEDRON, Case, main, stl
 
 FOLDER = os.path.join(SOURCE, "docs", "cookbook")
 
@@ -33,6 +33,11 @@ class Cookbook(Case):
                 before = text if language == "openscad" else None
 
     def test_blocks(self):
+        # What the pages read: a mesh, heights, a module of each language.
+        self.write("part.stl", stl(TETRAHEDRON))
+        self.write("heights.dat", "0 1 2\n1 3 1\n0 2 5\n")
+        self.write("sizes.scad", "width = 3; function area(x) = x * x;")
+        self.write("sizes.lua", "local width = 3 local function area(x) return x * x end return {width = width, area = area}")
         count = 0
         for name, scad, lua in self.pairs():
             count += 1

@@ -64,6 +64,22 @@ class Drawings(Case):
             self.assertAlmostEqual(model.json()["parts"][0]["perimeter"], ring["perimeter"] + dot["perimeter"],
                                    delta=delta)
 
+    def test_parts_have_their_names_again(self):
+        outcome = self.run_script(RING + "return {ring = s, ['the dot'] = circle(1):translate(30, 3), "
+                                  "box = {lid = square(3):translate(3, 2)}}",
+                                  "-o", "a.svg", "-o", "a.dxf", "--stats=json")
+        parts = {part["name"]: part for part in outcome.json()["parts"]}
+        self.assertEqual(sorted(parts), ["box/lid", "ring", "the dot"])
+        for file, spelt in [("a.svg", str), ("a.dxf", lambda name: re.sub("[ /]", "_", name))]:
+            again = self.run_script(f"return import('{file}', {{parts = true}})", "-o", "b.svg", "--stats=json")
+            self.expect(again, 0)
+            self.assertEqual([p["name"] for p in again.json()["parts"]], [spelt(name) for name in parts])
+            for part, given in zip(again.json()["parts"], parts.values()):
+                self.assertAlmostEqual(part["area"], given["area"], delta=1e-6 if file == "a.svg" else 0.02)
+                for corner, wanted in zip(part["bbox"], given["bbox"]):
+                    for value, coordinate in zip(corner, wanted):
+                        self.assertAlmostEqual(value, coordinate, delta=1e-3)
+
     def test_one_file_a_part(self):
         self.expect(self.run_script("return {a = square(1), b = {c = circle(2)}}", "-o", "%s.svg"), 0)
         self.assertEqual(sorted(n for n in os.listdir(self.folder) if n.endswith(".svg")), ["a.svg", "b-c.svg"])

@@ -253,9 +253,16 @@ class Hostile(Case):
                 self.write("a.obj", f"mtllib {name}\nusemtl a\n{mesh}")
                 self.write("model.lua", "return import('a.obj')")
                 outcome = self.run_csgrun(command, "--stats")
-                self.expect(outcome, 0)
+                self.assertNotIn(outcome.code, (0, 124))
                 self.assertNotIn(SECRET, outcome.err)
-                self.assertRegex(outcome.err, "a.obj: line 1: no colours: mtllib .* leads out of the file's folder")
+                self.assertRegex(outcome.err, "a.obj: line 1: mtllib .* leads out of the file's folder: put that file "
+                                              "beside the mesh and name it without a path, or take the line out")
+        for name in ("C:\\models\\part.mtl", "d:/models/part.mtl"):  # exporters write these by habit
+            self.write("a.obj", f"mtllib {name}\nusemtl a\n{mesh}")
+            outcome = self.run_csgrun("a.obj", "--stats")
+            self.expect(outcome, 0)
+            self.assertRegex(outcome.err, "a.obj: line 1: no colours: mtllib .* leads out of the file's folder")
+        self.refuse("a.obj", f"mtllib C:\\models\\..\\part.mtl\nusemtl a\n{mesh}", "leads out of the file's folder: put")
         self.refuse("a.obj", mesh.replace("f 1 3 2", "f 1 3 99999999999999999999"), "a.obj: line 5")
         self.refuse("a.obj", mesh + "f" + " 1" * 2_000_000 + "\n", "a.obj: 1 face without area was dropped", codes=(0,))
         os.symlink("../secret.mtl", self.path("x.mtl"))

@@ -232,7 +232,7 @@ class Messages(Case):
 
     def test_vectors_of_nothing_and_less(self):
         refused = {("polar_array", "axis"), ("mirror_copy", "v"), ("linear_array", "v"), ("split", "normal"),
-                   ("trim", "normal"), ("faces", "normal"), ("ray", "direction"), ("linear_extrude", "v"), ("scale", "v"),
+                   ("trim", "normal"), ("slice", "normal"), ("project", "direction"), ("faces", "normal"), ("ray", "direction"), ("linear_extrude", "v"), ("scale", "v"),
                    ("grid_array", "step"), ("grid_array", "n"), ("sweep", "up"), ("edges", "normal")}
         for function in self.each():
             for option in function["options"]:
@@ -295,7 +295,7 @@ class Messages(Case):
             needs = NEEDS.get(function["name"], {})
             for option in function["options"]:
                 if option["alias"] and option["name"] != "fn":
-                    value = needs.get(option["name"], "1")
+                    value = needs.get(option["name"], "{0, 0, 1}" if option["takes"] == "a list of three numbers" else "1")
                     both = {option["name"]: value, option["alias"]: value}
                     self.try_call("twice", self.call(function, **both), rf"^{function['name']}: ", "is given twice")
                     self.try_call("alias", self.call(function, **{option["name"]: None, option["alias"]: value}), "good")

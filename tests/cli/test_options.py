@@ -50,6 +50,9 @@ class Usage(Case):
         self.check("csgrun: -D hole_radius=x: 'hole_radius' must be a number", "model.lua", "--stats", "-D", "hole_radius=x")
         self.check("csgrun: -D hole_radius=11: 'hole_radius' must be at most 10, got 11",
                    "model.lua", "--stats", "-D", "hole_radius=11")
+        for name, value in (("fn", "30"), ("fa", "5"), ("fs", "0.5")):
+            self.check(f"csgrun: -D ${name}={value}: the facets are not a parameter; write --{name} {value}",
+                       "model.lua", "--stats", "-D", f"${name}={value}")
         self.check("csgrun: -D hole_radius: write it as -D name=value", "model.lua", "--stats", "-D", "hole_radius")
 
 

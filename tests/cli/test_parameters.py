@@ -34,6 +34,14 @@ class Files(Case):
         self.assertEqual(self.volume("-p", "p.json", "-D", "n=5"), 40)  # -D has the last word
         self.assertEqual(self.volume(), 8)
 
+    def test_lists_are_as_long_as_their_defaults(self):
+        for value, count in (("[1, 2]", 2), ("{1,2,3,4}", 4), ("[]", 0)):
+            self.refuse(f"csgrun: -D size={value}: 'size' must be a list of 3 numbers, as its default is, got {count}",
+                        "-D", f"size={value}")
+        self.assertEqual(self.volume("-D", "size=[2, 3, 2]"), 12)
+        outcome = self.run_script("local list = param('list', {}, {doc = 'any'}) return cube(#list + 1)", "-D", "list=[1, 2]", "--stats=json")
+        self.assertEqual(outcome.json()["parts"][0]["volume"], 27)  # one of none may be of any length
+
     def test_sets_as_openscad_writes_them(self):
         self.write("p.json", json.dumps({"parameterSets": {
             "long": {"n": "10", "label": "b", "size": "[1, 2, 3]", "on": "true"}, "short": {"n": "1"}},
@@ -52,7 +60,7 @@ class Files(Case):
                 ({"n": 1.25}, "n=1.25: 'n' must be a whole number of steps of 0.5 from 1, got 1.25"),
                 ({"n": "x"}, "n=x: 'n' must be a number"),
                 ({"label": "c"}, "label=c: 'label' must be one of a, b"),
-                ({"size": [1, 0]}, "size=[1,0]: 'size' entry 2 must be at least 0.5, got 0"),
+                ({"size": [1, 0, 1]}, "size=[1,0,1]: 'size' entry 2 must be at least 0.5, got 0"),
                 ({"on": 1}, "on=1: 'on' must be true or false"),
                 ({"m": 1}, "m: the model has no such parameter")):
             self.write("p.json", json.dumps(values))
@@ -89,7 +97,8 @@ class Schema(Case):
             "n": {"type": "number", "minimum": 1, "maximum": 10, "multipleOf": 0.5, "default": 4,
                   "description": "how long"},
             "label": {"type": "string", "default": "a", "enum": ["a", "b"]},
-            "size": {"type": "array", "items": {"type": "number", "minimum": 0.5}, "default": [1, 2, 3]},
+            "size": {"type": "array", "items": {"type": "number", "minimum": 0.5}, "minItems": 3, "maxItems": 3,
+                     "default": [1, 2, 3]},
             "on": {"type": "boolean", "default": True},
             "Radius of the hole": {"type": "number", "default": 3, "description": "Radius of the hole"}})
 

@@ -11,6 +11,8 @@ assert(smooth(cube(10), 1):volume() > cube(10):smooth{rounds = 3}:volume())
 local bent = cube{40, 4, 4}:refine(2):warp(function(x, y, z) return x, y, z + 5 * sin(9 * x) end)
 near(bent:volume(), 640, 1e-2)
 assert(cube(2):warp(function(x, y, z) return {-x, y, 3 * z} end) == cube(2, 2, 6):left(2))
+-- Two lobes, one of them turned over: each is a wedge of 50 x 5 / 2 x 10.
+assert(cube(10):warp(function(x, y, z) return x * (z - 5), y, z end):volume() == 2500)
 
 local function ball(x, y, z) return norm{x, y, z} - 8 end
 local all = levelset(ball, {min = {-9, -9, -9}, max = {9, 9, 9}}, 0.5)

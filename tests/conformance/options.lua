@@ -106,6 +106,9 @@ shows("linear_extrude.v", high(L:linear_extrude{v = {1, 0, 2}})[1] == 5)
 shows("linear_extrude.center", low(L:linear_extrude{height = 3, center = true})[3] == -1.5)
 shows("linear_extrude.twist", near(low(L:linear_extrude{height = 3, twist = 90})[2], -4))
 shows("linear_extrude.scale", high(L:linear_extrude{height = 3, scale = {2, 1}})[1] == 8)
+local dome, pill = square(4):linear_extrude{height = 4, round = {0, 2}}, square(4):linear_extrude{height = 4, round = 1}
+shows("linear_extrude.round", dome:contains(2, 2, 4) and not dome:contains(1, 1, 4) and dome:contains(0, 0, 0) and
+      pill:contains(1, 1, 0) and not pill:contains(0.1, 2, 0.1) and not pill:contains(0.1, 2, 3.9))
 shows("linear_extrude.slices", #L:linear_extrude{height = 4, twist = 8, slices = 4, segments = 0}:mesh().points == 30)
 shows("linear_extrude.segments", #square(2):linear_extrude{height = 4, twist = 8, slices = 1, segments = 8}:mesh().points == 16)
 local ring = square(2):translate(5, 0)
@@ -142,6 +145,7 @@ for name, box in pairs{
   shows(name .. ".script", near(height{text = "I", script = "latin"}, height{text = "I"}))
 end
 shows("text3d.depth", text3d{text = "I", depth = 3}:size()[3] == 3)
+shows("text3d.height", text3d{text = "I", height = 3} == text3d{text = "I", depth = 3} and text3d{"I", h = 3}:size()[3] == 3)
 for name, measure in pairs{text_metrics = text_metrics, textmetrics = textmetrics} do  -- of the curve, not of its steps
   for _, facet in ipairs{"fn", "fa", "fs"} do
     shows(name .. "." .. facet, near(measure{text = "O", [facet] = 7}.advance[1], measure{text = "O"}.advance[1]))
@@ -167,11 +171,17 @@ shows("roof.fa", roofed{fn = 0, fa = 3, fs = 100} > roofed{fn = 0, fa = 30, fs =
 shows("roof.fs", roofed{fn = 0, fa = 100, fs = 0.5} > roofed{fn = 0, fa = 100, fs = 5})
 shows("roof.method", near(ell:roof("straight"):volume(), 2000 / 3) and ell:roof():volume() > 670)
 shows("loft.outlines", loft{outlines = {square(2), square(2)}, heights = {0, 3}}:volume() == 12)
+shows("loft.outlines", loft({square(2), {5, 5}}, 3):volume() == 4)
 shows("loft.heights", loft({square(2), square(2)}, {1, 3}):volume() == 8 and loft({square(2), square(2)}, 5):volume() == 20)
 shows("hull.operands", hull{cube(1), cube(1):right(3)}:volume() == 4)
 shows("minkowski.operands", minkowski(cube(1), {cube(2)}):volume() == 27)
 shows("projection.cut", (cube(4):down(1) + cube(9):up(1)):projection{cut = true}:area() == 16)
 shows("slice.z", (cube(4) + cube(9):up(5)):slice{z = 6}:area() == 81)
+shows("slice.normal", cube(2, 4, 8):slice{normal = {3, 0, 0}, offset = 1}:size() == vec(4, 8))
+shows("slice.offset", (cube(4) + cube(9):right(5)):slice({1, 0, 0}, 6):area() == 81)
+shows("slice.point", (cube(4) + cube(9):right(5)):slice{normal = {1, 0, 0}, point = {6, 99, 99}}:area() == 81)
+shows("project.direction", cube(2, 4, 8):project{direction = {0, 2, 0}}:area() == 16 and
+      cube(2, 4, 8):project{normal = {1, 0, 0}} == cube(2, 4, 8):project({1, 0, 0}))
 for name, cut in pairs{split = function(o) return (cube(4):split(o)) end, trim = function(o) return cube(4):trim(o) end} do
   shows(name .. ".normal", low(cut{normal = {1, 0, 0}, offset = 1})[1] == 1)
   shows(name .. ".offset", low(cut{normal = {0, 0, 2}, offset = 3})[3] == 3)

@@ -88,11 +88,15 @@ local function outline_of(name, o, internal)
 end
 
 --- The radii of the circles {pitch, tip, root, base} of a gear; options: those of the teeth.
+---@param given table
+---@return {pitch: number, tip: number, root: number, base: number}
 function gears.radii(given)
   return radii_of(options("gears.radii", given, kTeeth), false)
 end
 
 --- The outline of a gear, a shape. Options: those of the teeth.
+---@param given table
+---@return Shape
 function gears.outline(given)
   return polygon(outline_of("gears.outline", options("gears.outline", given, kTeeth), false))
 end
@@ -119,6 +123,8 @@ end
 --- A spur gear, or a helical one. Options: those of the teeth, and width, bore [0: its diameter],
 --- helix [0 degrees at the pitch circle; a positive one is right-handed], herringbone [false: the
 --- upper half of the teeth leans the other way].
+---@param given table
+---@return Solid
 function gears.spur(given)
   local o = options("gears.spur", given, with_body{bore = {0, min = 0}})
   local outline = outline_of("gears.spur", o, false)
@@ -135,6 +141,8 @@ end
 --- A ring gear: the teeth point inwards. Options: those of the teeth, and width, rim [3 modules:
 --- between the roots of the teeth and the outside], helix, herringbone. A gear meshes with it that
 --- has the same helix angle and hand.
+---@param given table
+---@return Solid
 function gears.ring(given)
   local o = options("gears.ring", given, with_body{rim = {type = "number", above = 0, optional = true}})
   local outline = outline_of("gears.ring", o, true)
@@ -146,6 +154,8 @@ end
 --- A rack along X: its pitch line lies on X, a tooth stands about x = 0, in Y; it is extruded along
 --- Z. Options: teeth, module, pressure, backlash, clearance, width, and height [2 modules: below the
 --- roots].
+---@param given table
+---@return Solid
 function gears.rack(given)
   local o = options("gears.rack", given, {
     teeth = {type = "number", min = 1, whole = true}, module = kTeeth.module,
@@ -183,6 +193,10 @@ end
 
 --- How far apart the axes of two gears stand: of `first` and `second` teeth, neither shifted or
 --- shifted by opposite amounts. Options: module, internal [false: the first is a ring gear].
+---@param first integer
+---@param second integer
+---@param given table
+---@return number
 function gears.distance(first, second, given)
   local o = options("gears.distance", given, {module = kTeeth.module, internal = {false}})
   local distance = distance_of("gears.distance", first, second, o)
@@ -192,6 +206,11 @@ end
 --- The second gear of `second` teeth, turned and moved to mesh with a gear of `first` teeth that
 --- stands at the origin. Options: module, internal [false: the first is a ring gear], at [0 degrees:
 --- in which direction from the first].
+---@param gear Solid
+---@param first integer
+---@param second integer
+---@param given table
+---@return Solid
 function gears.meshed(gear, first, second, given)
   local o = options("gears.meshed", given, {
     module = kTeeth.module, internal = {false}, at = {0},

@@ -14,11 +14,18 @@ local layout = {}
 
 local kAxes = {x = 1, y = 2, z = 3}
 
+local function solid_of(name, part)
+  if type(part) ~= "userdata" then error(name .. ": wants a solid, got " .. tostring(part), 3) end
+end
+
 local function list_of(name, parts)
   if type(parts) ~= "table" then
     error(name .. ": wants a list of solids, got " .. tostring(parts), 3)
   end
   for i, part in ipairs(parts) do
+    if type(part) ~= "userdata" then
+      error(name .. ": part " .. i .. " must be a solid, got " .. tostring(part), 3)
+    end
     if part:is_empty() then error(name .. ": part " .. i .. " is empty", 3) end
   end
   return parts
@@ -36,7 +43,15 @@ layout.anchor, layout.attach, layout.align, layout.centered = anchor, attach, al
 
 --- The part, moved so that its anchor ("top left", "center"; sides as anchor() has them) lies in a
 --- point {x, y, z}.
+---@param part Solid
+---@param where string
+---@param point number[]
+---@return Solid
 function layout.place(part, where, point)
+  solid_of("layout.place", part)
+  if type(point) ~= "table" then
+    error("layout.place: wants a point {x, y, z}, got " .. tostring(point), 2)
+  end
   local from = anchor(part, where)
   return part:translate(point[1] - from[1], point[2] - from[2], (point[3] or 0) - (from[3] or 0))
 end
@@ -68,6 +83,9 @@ local kAlign = {"none", choices = {"none", "min", "center", "max"}}
 --- The parts one after another along an axis; the first stays where it is. Options: gap [5 mm],
 --- axis ["x"], align ["none"; "min", "center" or "max": where they stand across the row, as the
 --- first].
+---@param parts Solid[]
+---@param given? table
+---@return Solid[]
 function layout.row(parts, given)
   list_of("layout.row", parts)
   return row(parts, options("layout.row", given or {}, {
@@ -77,6 +95,9 @@ end
 
 --- The parts on top of one another, with their middles above the middle of the first. Options: gap
 --- [0 mm], align ["center"].
+---@param parts Solid[]
+---@param given? table
+---@return Solid[]
 function layout.stack(parts, given)
   list_of("layout.stack", parts)
   local o = options("layout.stack", given or {}, {
@@ -88,6 +109,9 @@ end
 
 --- The parts in rows along X, rows along -Y, each in a cell as large as the largest part. Options:
 --- columns [as many as make a square], gap [5 mm]. The first part stays where it is.
+---@param parts Solid[]
+---@param given? table
+---@return Solid[]
 function layout.grid(parts, given)
   list_of("layout.grid", parts)
   local o = options("layout.grid", given or {}, {
@@ -110,7 +134,12 @@ end
 
 --- `count` copies, each moved by `step` {x, y, z} from the one before; or, with the option to =
 --- {x, y, z}, evenly from where the part is to there.
+---@param part Solid
+---@param count integer
+---@param given table
+---@return Solid[]
 function layout.line(part, count, given)
+  solid_of("layout.line", part)
   count_of("layout.line", count)
   local o = options("layout.line", given, {
     step = {type = "table", optional = true}, to = {type = "table", optional = true},
@@ -126,7 +155,12 @@ end
 --- `count` copies around Z. Options: radius [0: how far along X the part is moved first], angle
 --- [360: of the whole; less than a full turn has a copy at each end], start [0 degrees], turn
 --- [true: the copies turn along; false: they keep their direction].
+---@param part Solid
+---@param count integer
+---@param given? table
+---@return Solid[]
 function layout.ring(part, count, given)
+  solid_of("layout.ring", part)
   count_of("layout.ring", count)
   local o = options("layout.ring", given or {}, {
     radius = {0}, angle = {360, min = -360, max = 360}, start = {0}, turn = {true},
@@ -144,7 +178,11 @@ function layout.ring(part, count, given)
 end
 
 --- A copy at each point {x, y, z} of a list.
+---@param part Solid
+---@param points number[][]
+---@return Solid[]
 function layout.at(part, points)
+  solid_of("layout.at", part)
   if type(points) ~= "table" then
     error("layout.at: wants a list of points {x, y, z}, got " .. tostring(points), 2)
   end

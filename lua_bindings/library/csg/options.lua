@@ -11,8 +11,7 @@
 ---     })
 ---
 --- Gives a new table with the defaults filled in. What does not fit is an error at the place of the
---- call of `wheel` (which must not be a tail call, `return options(...)`: it would leave no place): an
---- unknown name (with the nearest one that there is), a missing or a wrong value.
+--- call of `wheel`: an unknown name (with the nearest one that there is), a missing or a wrong value.
 
 -- How many letters must be put in, taken out or replaced to get from one word to the other.
 local function distance(a, b)
@@ -81,8 +80,14 @@ local function fault(value, rule)
 end
 
 --- `level`: whose call the error names; 1 is the caller of the function that checks.
+-- Its own frame and the one before it (lua_bindings/shipped_calls.cpp) come on top of these.
+---@param name string
+---@param given table
+---@param rules table
+---@param level? integer
+---@return table
 return function(name, given, rules, level)
-  level = (level or 1) + 2
+  level = (level or 1) + 3
   if type(given) ~= "table" then
     error(name .. ": wants a table of options, got " .. shown(given), level)
   end

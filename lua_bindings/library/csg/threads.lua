@@ -48,6 +48,8 @@ local kProfiles = {
 
 --- The table of a metric size ("M8"): d, pitch, flats, head, nut, socket {diameter, hexagon, depth},
 --- holes {close, medium, coarse}.
+---@param name string
+---@return table
 function threads.size(name)
   local size = kSizes[name]
   if not size then
@@ -117,6 +119,8 @@ end
 --- "trapezoidal"], starts [1], left [false: left-handed], clearance [0 mm: added to the radius],
 --- chamfer [false: both ends are cut by a cone of 45 degrees], facets or fn [36: of a
 --- full turn].
+---@param given table
+---@return Solid
 function threads.thread(given)
   local o = options("threads.thread", given, rules{
     length = {type = "number", above = 0}, chamfer = {false},
@@ -143,6 +147,8 @@ end
 --- A bolt that points upwards: its head stands on z = 0, its shaft begins above the head. Options:
 --- size, length (of the shaft), threaded [all of the shaft], head ["hexagon", "socket" or "none"],
 --- left, clearance [0: here taken from the radius], facets or fn.
+---@param given table
+---@return Solid
 function threads.bolt(given)
   local o = options("threads.bolt", given, {
     size = {type = "string", choices = kSizeNames}, length = {type = "number", above = 0},
@@ -169,6 +175,8 @@ end
 
 --- A hexagon nut on z = 0. Options: size, clearance [0 mm: added to the radius of its thread],
 --- height [that of the size], left, facets or fn.
+---@param given table
+---@return Solid
 function threads.nut(given)
   local o = options("threads.nut", given, {
     size = {type = "string", choices = kSizeNames}, height = kNumber,
@@ -183,6 +191,8 @@ end
 
 --- A washer (ISO 7089 in its proportions) on z = 0. Options: size, d [twice the size: outside],
 --- thickness [0.2 of the size].
+---@param given table
+---@return Solid
 function threads.washer(given)
   local o = options("threads.washer", given, {
     size = {type = "string", choices = kSizeNames}, d = kNumber, thickness = kNumber,
@@ -199,6 +209,8 @@ end
 --- size, depth, fit ["medium", "close" or "coarse"], head ["none"; "socket": a counterbore for a
 --- socket head; "hexagon": a pocket for a hexagon; "flat": a countersink of 90 degrees, twice as wide
 --- as the size], facets or fn [64].
+---@param given table
+---@return Solid
 function threads.hole(given)
   local o = options("threads.hole", given, {
     size = {type = "string", choices = kSizeNames}, depth = {type = "number", above = 0},

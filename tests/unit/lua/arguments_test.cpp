@@ -225,6 +225,33 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
   }
 }
 
+TEST(Hints, NamesOfOtherPrograms) {
+  EXPECT_EQ(message_of("return cube(1):bevel(1)"),
+            "model.lua:1: a solid has no method 'bevel' (did you mean 'chamfer'?)");
+  EXPECT_EQ(message_of("return cube(1):round(1)"),
+            "model.lua:1: a solid has no method 'round' (did you mean 'fillet'?)");
+  for (const std::string name : {"roundedCuboid", "roundedCube", "rounded_cube"}) {
+    EXPECT_EQ(
+        message_of("return " + name + "{1, 2, 3}"),
+        "model.lua:1: undefined variable '" + name + "' (in Lua it is cube{{20, 10, 5}, r = 2})");
+  }
+  EXPECT_EQ(message_of("return cuboid{1, 2, 3}"),
+            "model.lua:1: undefined variable 'cuboid' (in Lua it is cube{20, 10, 5})");
+  EXPECT_EQ(message_of("return search(1, {1})"),
+            "model.lua:1: undefined variable 'search' (in Lua it is a loop: for i, x in "
+            "ipairs(list) do ... end)");
+  for (const std::string name : {"let", "assign"}) {
+    EXPECT_EQ(message_of("return " + name + "(1)"),
+              "model.lua:1: undefined variable '" + name +
+                  "' (in Lua it is local a = 1, before what uses it)");
+    const std::string line = message_of(name + "(a = 1) cube(a)");
+    EXPECT_TRUE(line.ends_with("; a name for a value is: local a = 1")) << line;
+  }
+  EXPECT_EQ(message_of("return each({1})"),
+            "model.lua:1: undefined variable 'each' (in Lua it is table.unpack(list), at the end "
+            "of a list)");
+}
+
 TEST(Hints, OpenScadInALineThatIsNoLua) {
   constexpr BadCall kLines[] = {
       {"for (i=[0:3]) cube(i)", "a loop is: for i = 0, 3 do ... end"},

@@ -34,7 +34,7 @@ TEST(Sections, Mistakes) {
   EXPECT_EQ(message_of("return cube(1):projection{cut = 1}"),
             "model.lua:1: projection: option 'cut' must be true or false, got the number 1");
   EXPECT_EQ(message_of("return cube(1):project(1)"),
-            "model.lua:1: project: takes no arguments; slice(z) cuts");
+            "model.lua:1: project: wants a direction {x, y, z}, got 1; slice(z) cuts");
   EXPECT_EQ(message_of("return cube(1):slice('a')"),
             "model.lua:1: slice: option 'z' must be a number, got string");
   EXPECT_EQ(message_of("return cube(1):slice(0/0)"),
@@ -50,6 +50,100 @@ TEST(Sections, Mistakes) {
             "values");
   EXPECT_EQ(message_of("return cube(1):decompose(1)"),
             "model.lua:1: decompose: takes no arguments");
+}
+
+// Planes laid flat by hand, by a rotation that does the same.
+TEST(Sections, AtAnyPlane) {
+  const std::string part =
+      "local part = (cube(10) - cylinder{h = 30, r = 2, fn = 24}:translate(4, 9, 0)):rotate(0, 0, "
+      "30):translate(3, 4, 5) local box = cube(10, 20, 30) local function near(a, b) "
+      "assert(math.abs(a - b) <= 1e-6 * math.max(1, math.abs(b)), a .. ' ' .. b) end ";
+  expect_good(
+      part +
+      "assert(part:slice(7) == part:slice{normal = {0, 0, 2}, offset = 7} and part:slice(7) "
+      "== part:slice({0, 0, 1}, 7) and part:slice(7) == part:slice{normal = {0, 0, 1}, "
+      "point = {9, 9, 7}})");
+  // Seen against the normal, upwards is Y; X is to the right.
+  expect_good(
+      part +
+      "local b = box:slice({1, 0, 0}, 4):bbox() assert(b.min == vec(0, 0) and b.max == "
+      "vec(20, 30)) b = box:slice({0, -1, 0}, -4):bbox() assert(b.min == vec(0, 0) and "
+      "b.max == vec(10, 30)) b = box:slice({0, 1, 0}, 4):bbox() assert(b.min == vec(-10, 0) "
+      "and b.max == vec(0, 30)) b = box:slice({0, 0, -1}, -3):bbox() assert(b.min == "
+      "vec(-10, 0) and b.max == vec(0, 20))");
+  expect_good(part +
+              "near(box:slice({1, 1, 0}, 5 * sqrt(2)):area(), 300 * sqrt(2)) local six = cube(10, "
+              "true):slice{1, 1, 1} near(six:area(), 75 * sqrt(3)) assert(#six:points() == 6)");
+  // What is cut, laid back into its plane, lies in both halves: prism by prism.
+  expect_good(part +
+              "local cut = part:slice({1, 0, 0}, 2) local prism = "
+              "cut:linear_extrude(1):multmatrix{{0, 0, 1, 2}, {1, 0, 0}, {0, 1, 0}} "
+              "near((prism * part:trim({1, 0, 0}, 2)):volume() > 0 and 1 or 0, 1)");
+  expect_good(
+      part +
+      "assert(box:project() == square(10, 20) and box:project({0, -1, 0}) == square(10, 30) "
+      "and box:project{normal = {1, 0, 0}} == square(20, 30)) near(cube(10, "
+      "true):project{1, 1, 1}:area(), 100 * sqrt(3))");
+  EXPECT_EQ(message_of("return cube(1):slice{z = 1, normal = {1, 0, 0}}"),
+            "model.lua:1: slice: give either the height 'z' or a plane, not both");
+  EXPECT_EQ(message_of("return cube(1):slice{normal = {0, 0, 0}}"),
+            "model.lua:1: slice: the normal must be finite and not 0");
+  EXPECT_EQ(message_of("return cube(1):slice({1, 0, 0}, 1, 2)"),
+            "model.lua:1: slice: too many arguments: after 'offset' only {name = value} may "
+            "follow, got 2");
+  EXPECT_EQ(message_of("return cube(1):project(5)"),
+            "model.lua:1: project: wants a direction {x, y, z}, got 5; slice(z) cuts");
+}
+
+TEST(Extrusions, TakeAVectorForTheHeight) {
+  expect_good(
+      "local v = square(2):linear_extrude{v = {1, 2, 3}} for _, same in "
+      "ipairs{square(2):linear_extrude({1, 2, 3}), square(2):linear_extrude{1, 2, 3}, "
+      "square(2):linear_extrude{{1, 2, 3}}, square(2):linear_extrude{height = {1, 2, 3}}, "
+      "linear_extrude(square(2), {1, 2, 3}), linear_extrude{square(2), h = {1, 2, 3}}, "
+      "square(2):linear_extrude(vec(1, 2, 3), {twist = 0})} do assert(same == v) end "
+      "assert(square(2):linear_extrude({1, 2, 3}, {center = true}) == v:translate(-0.5, -1, "
+      "-1.5))");
+  EXPECT_EQ(message_of("return square(2):linear_extrude({1, 2, 3}, {v = {1, 1, 1}})"),
+            "model.lua:1: linear_extrude: a vector as the height is option 'v', given as well");
+  EXPECT_EQ(message_of("return square(2):linear_extrude{1, 2, -3}"),
+            "model.lua:1: linear_extrude: option 'v' must point upwards (z positive)");
+  EXPECT_EQ(message_of("return square(2):linear_extrude{1, 2}").substr(0, 28),
+            "model.lua:1: linear_extrude:");
+  EXPECT_EQ(
+      message_of("return square(2):linear_extrude{height = {1, 2}}"),
+      "model.lua:1: linear_extrude: option 'height' must be a number, got a list of 2 values");
+}
+
+TEST(Apexes, OfSweepsAndLofts) {
+  expect_good(
+      "assert(square(4, true):sweep({{0, 0, 0}, {0, 0, 6}}, {scale = 0}):volume() == 32) "
+      "assert(loft({square(4, true), {0, 0}}, {0, 6}):volume() == 32) assert(loft({{5, 5}, "
+      "square(4, true) - square(2, true), {0, 0}}, {-6, 0, 6}):volume() == 48)");
+  EXPECT_EQ(message_of("return loft({square(1), {1, 'x'}}, 5)"),
+            "model.lua:1: loft: outline 2 must be a 2D shape or a point {x, y}, got a list of 2 "
+            "values");
+  const ScriptRun run("return square(1):sweep{{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 0, 0}}");
+  EXPECT_EQ(run.session.warnings(),
+            std::vector<std::string>{"model.lua:1: sweep: the path ends where it begins; closed = "
+                                     "true joins the ends"});
+}
+
+TEST(Hull, OfPoints) {
+  expect_good(
+      "assert(hull{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {0, 0, 6}, {1, 1, 1}}:volume() == 36) "
+      "assert(hull(cube(3):mesh().points) == cube(3)) assert(hull{{0, 0}, {4, 0}, {4, 3}, {2, 1}, "
+      "{0, 0}}:area() == 6) assert(hull{vec(0, 0, 0), vec(6, 0, 0), vec(0, 6, 0), vec(0, 0, "
+      "6)}:volume() == 36)");
+  EXPECT_EQ(message_of("return hull{{0, 0, 0}, {1, 0}}"),
+            "model.lua:1: hull: point 2 must be three finite numbers as the first, got a list of 2 "
+            "values");
+  EXPECT_EQ(message_of("return hull{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}"),
+            "model.lua:1: hull: the points lie in one plane");
+  EXPECT_EQ(message_of("return hull{{0, 0}, {1, 1}, {2, 2}}"),
+            "model.lua:1: hull: the points lie on one line");
+  EXPECT_EQ(message_of("return hull{{0, 0, 0/0}}"),
+            "model.lua:1: hull: point 1 must be three finite numbers, got a list of 3 values");
 }
 
 TEST(Split, ByPlanesFarAwayAndWhereItIsCalled) {
@@ -159,6 +253,8 @@ TEST(Freeform, Mistakes) {
   EXPECT_EQ(message_of("return cube(1):warp(function() return 1, 2 end)"),
             "model.lua:1: warp: the function must give three numbers, got 2 values");
   EXPECT_EQ(message_of("return cube(1):warp(function(x, y) return x, y, 0 end)"),
+            "model.lua:1: warp: the moved points enclose no volume");
+  EXPECT_EQ(message_of("return cube(1):warp(function(x, y, z) return x, y, x + y / 3 end)"),
             "model.lua:1: warp: the moved points enclose no volume");
   EXPECT_EQ(message_of("return cube(1):warp(function(x, y, z) return x, y, 1/0 end)"),
             "model.lua:1: warp: a moved point must be finite, got inf");

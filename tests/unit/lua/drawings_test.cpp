@@ -39,6 +39,10 @@ TEST(ImportInLua, OptionsOfOtherFormats) {
             "model.lua:1: import: option 'scale' is for .dxf files");
   EXPECT_EQ(message_of("return import('x.svg', {layer = 'a', id = 'b'})"),
             "model.lua:1: import: give either 'layer' or 'id', not both");
+  EXPECT_EQ(
+      message_of("return import('x.svg', {parts = true, id = 'b'})"),
+      "model.lua:1: import: option 'parts' gives all parts of a drawing: it goes with neither "
+      "'layer' nor 'id'");
   EXPECT_EQ(message_of("return import('x.svg', {dpi = 0})"),
             "model.lua:1: import: option 'dpi' must be positive, got 0");
 }

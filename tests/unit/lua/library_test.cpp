@@ -65,6 +65,82 @@ TEST(Library, OptionsAreChecked) {
             "model.lua:1: wheel: its options are named, got 7 without a name");
 }
 
+// A call that a model makes last leaves its line, though Lua gives up the frame of one that does
+// so.
+TEST(Library, MistakesAreNamedInTheModel) {
+  const auto first_lines = [](const std::string& text) {
+    const std::string message = ScriptRun(text).outcome.message;
+    return message.substr(0, message.find('\n'));
+  };
+  const auto expect_place = [&](const std::string& text, const std::string& place) {
+    const std::string message = first_lines(text);
+    EXPECT_EQ(message.substr(0, place.size()), place) << text << "\n" << message;
+  };
+  for (const std::string call : {
+           "spur{teeths = 20, module = 1, width = 3}",
+           "spur{teeth = 20, module = 1, width = 3, bore = 99}",
+           "spur{teeth = 4, module = 1, width = 3, pressure = 45}",
+           "outline{teeth = 20}",
+           "ring{teeth = 20, module = 1, width = -1}",
+           "rack{teeth = 20, module = 1, width = 3, pressure = 45, clearance = 1}",
+           "distance(20.5, 10, {module = 1})",
+           "meshed(cube(1), 20, 10, {})",
+       }) {
+    expect_place(kGears + "\n\nreturn gears." + call, "model.lua:3: gears.");
+    expect_place(kGears + "\nlocal g = gears." + call + "\nreturn g", "model.lua:2: gears.");
+    expect_place(kGears + "\nlocal function f()\nreturn gears." + call + "\nend\nreturn f()",
+                 "model.lua:3: gears.");
+    expect_place(kGears + "\nlocal ok, message = pcall(function()\nreturn gears." + call +
+                     " end)\nerror(message, 0)",
+                 "model.lua:3: gears.");
+    expect_place(kGears + "\nlocal make = coroutine.wrap(function()\nreturn gears." + call +
+                     " end)\nreturn make()",
+                 "model.lua:3: gears.");
+  }
+  for (const std::string call :
+       {"row{cube(1), cube(1):skip()}", "row(5)", "row({cube(1)}, {gaps = 1})", "row{1}",
+        "stack({cube(1)}, {align = 'top'})", "line(cube(1), 0, {})", "line(cube(1), 2, {})",
+        "line(1, 2, {step = {1}})", "ring(cube(1), 'x')", "at(cube(1), 5)", "at(cube(1), {5})",
+        "place(cube(1), 'top')"}) {
+    expect_place(kLayout + "\n\nreturn layout." + call, "model.lua:3: layout.");
+  }
+  for (const std::string call : {"size('M99')", "bolt{size = 'M8', lenght = 3}", "nut{}"})
+    expect_place(kThreads + "\n\nreturn threads." + call, "model.lua:3: threads.");
+  // Whoever uses csg.options may return what it gives.
+  expect_place(
+      "local options = require 'csg.options'\nlocal function wheel(given)\nreturn "
+      "options('wheel', given, {spokes = {5}})\nend\nlocal o = wheel{spoke = 4}",
+      "model.lua:5: wheel: unknown option");
+  // What Lua says inside of the library, and what built-in functions say there.
+  expect_place(kLayout + "\n\nreturn layout.at(cube(1), {{'x'}})", "model.lua:3: translate: ");
+  expect_place(kLayout + "\n\nreturn layout.line(cube(1), 2, {to = {cube(1)}})",
+               "model.lua:3: attempt to perform arithmetic");
+}
+
+TEST(Library, ErrorHasItsLevelsInModels) {
+  const std::string at =
+      "local function f(level) error('x', level) end\nlocal function g(level) f(level) end\n";
+  const auto message = [&](const std::string& level) {
+    return message_of(at + "local ok, m = pcall(function()\ng(" + level +
+                      ")\nend)\nerror(m == 'x' and 'bare' or m, 0)");
+  };
+  EXPECT_EQ(message("1"), "model.lua:1: x");
+  EXPECT_EQ(message("2"), "model.lua:2: x");
+  EXPECT_EQ(message("3"), "model.lua:4: x");
+  EXPECT_EQ(message("0").substr(message("0").size() - 4), "bare");
+  expect_good("local ok, m = pcall(error, 'x') assert(not ok and m == 'x')");
+  expect_good("local t = {} local ok, m = pcall(error, t, 2) assert(m == t)");
+  expect_good("local ok, m = pcall(error) assert(not ok and m == nil)");
+}
+
+// The nodes that it makes stand where the model called it, and its callbacks may yield.
+TEST(Library, PartsStandInTheModel) {
+  const ScriptRun run(kLayout + "\n\nreturn layout.row{cube(1), cube(2)}");
+  ASSERT_EQ(run.outcome.status, ScriptStatus::kGood) << run.outcome.message;
+  for (const ScriptPart& part : run.session.parts())
+    EXPECT_EQ(part.solid->where().text(), "model.lua:3") << part.name;
+}
+
 // Teeth in mesh leave each other alone, whatever the pair; without backlash and half a pitch off
 // they collide.
 TEST(Gears, Mesh) {

@@ -181,6 +181,22 @@ TEST(Numbers, RandomOnesAreTheSameOnEveryRun) {
             "model.lua:1: rands: 'n' must be at most 10000000, got 1000000000");
 }
 
+TEST(Names, RenderTakesSeveralParts) {
+  const auto names = [](const std::string& script) {
+    std::string all;
+    const ScriptRun run(script);
+    EXPECT_EQ(run.outcome.status, ScriptStatus::kGood) << run.outcome.message;
+    for (const ScriptPart& part : run.session.parts()) all += part.name + " ";
+    return all;
+  };
+  EXPECT_EQ(names("render(cube(1), cube(2):name('lid'), cube(3)) render(cube(4))"),
+            "part1 lid part2 part3 ");
+  EXPECT_EQ(names("render(cube(1), cube(2), {name = 'pair'})"), "pair/part1 pair/part2 ");
+  EXPECT_EQ(names("emit(square(1), circle(2))"), "part1 part2 ");
+  EXPECT_EQ(message_of("render(cube(1), 5)").substr(0, 21), "model.lua:1: render: ");
+  EXPECT_EQ(message_of("render(5, cube(1))").substr(0, 21), "model.lua:1: render: ");
+}
+
 TEST(Names, StayWithTheirPart) {
   EXPECT_EQ(names_of("render(cube(1):name('a'):translate(1, 0, 0):color('red'):rotate(5)) "
                      "render(sphere(1):name('b') - cube(1)) render(cube(2))"),

@@ -30,6 +30,14 @@ TriangleMesh boxes(const std::vector<std::array<glm::dvec3, 2>>& corners) {
   return mesh;
 }
 
+TEST(Boxes, HaveASizeAndACentre) {
+  expect_good(
+      "local b = cube(2, 4, 6):translate(1, 1, 1):bbox() assert(b.size == vec(2, 4, 6) and "
+      "b.center "
+      "== vec(2, 3, 4) and b.min + b.size == b.max) b = square(2, 4):translate(1, 1):bbox() "
+      "assert(b.size == vec(2, 4) and b.center == vec(2, 3))");
+}
+
 TEST(Measure, ABox) {
   const TriangleMesh mesh = boxes({{glm::dvec3(0.1, 0.2, 0.3), glm::dvec3(1.1, 2.2, 3.3)}});
   const PartMeasures m = measure(mesh);

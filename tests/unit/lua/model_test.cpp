@@ -91,7 +91,8 @@ TEST(Parameters, TakeTheTypeOfTheirDefault) {
   good("assert(param('p', 'x') == 'hello world')", "hello world");
   good("assert(param('p', 'x') == 'hello')", "\"hello\"");
   good("assert(param('p', 'x') == '5')", "5");
-  good("local v = param('p', {1, 2}) assert(#v == 3 and v[3] == 7)", "[5, 6, 7]");
+  good("local v = param('p', {1, 2, 3}) assert(#v == 3 and v[3] == 7)", "[5, 6, 7]");
+  good("local v = param('p', {}, {doc = 'any'}) assert(#v == 3 and v[3] == 7)", "[5, 6, 7]");
   good("local v = param('p', {1, 2}) assert(#v == 2 and v[1] == 0.5)", "{0.5,1e1}");
   good("assert(param('p', 'b', {choices = {'a', 'b'}}) == 'a')", "a");
 }
@@ -108,6 +109,7 @@ TEST(Parameters, ThatDoNotFitAreUsageErrors) {
   bad("param('p', 4)", "inf", "must be a number");
   bad("param('p', true)", "1", "must be true or false");
   bad("param('p', {1})", "1", "must be a list of numbers");
+  bad("param('p', {1, 2, 3})", "[1, 2]", "must be a list of 3 numbers, as its default is, got 2");
   bad("param('p', 4, {min = 1, max = 10})", "11", "must be at most 10, got 11");
   bad("param('p', 4, {min = 1, max = 10})", "0", "must be at least 1, got 0");
   bad("param('p', 4, {step = 2})", "5", "must be a whole number of steps of 2 from 0, got 5");

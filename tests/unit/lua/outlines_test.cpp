@@ -46,14 +46,14 @@ TEST(Sweeps, Mistakes) {
             "model.lua:1: sweep: point 0 must be a list of three numbers, got a list of 2 values");
   EXPECT_EQ(message_of("return square(1):sweep({{0, 0, 0}, {0, 0, 1}}, {twits = 3})"),
             "model.lua:1: sweep: unknown option 'twits' (did you mean 'twist'?)");
-  EXPECT_EQ(message_of("return square(1):sweep({{0, 0, 0}, {0, 0, 1}}, {scale = 0})"),
-            "model.lua:1: sweep: option 'scale' must be positive, got 0");
+  EXPECT_EQ(message_of("return square(1):sweep({{0, 0, 0}, {0, 0, 1}}, {scale = {1, 0}})"),
+            "model.lua:1: sweep: scale must be positive, or 0 both ways, got 0");
   EXPECT_EQ(message_of("return square(1):sweep{{0, 0, 0}, {0, 0, 0}}"),
             "model.lua:1: sweep: the path needs at least 2 different points, got 1");
   EXPECT_EQ(message_of("return loft(square(1), 2)"),
             "model.lua:1: loft: option 'outlines' must be a list of two or more shapes, got shape");
   EXPECT_EQ(message_of("return loft({square(1), cube(1)}, 2)"),
-            "model.lua:1: loft: outline 2 must be a 2D shape, got solid");
+            "model.lua:1: loft: outline 2 must be a 2D shape or a point {x, y}, got solid");
   EXPECT_EQ(message_of("return loft({square(1), square(1)})"),
             "model.lua:1: loft: needs a list of shapes and their heights");
   EXPECT_EQ(message_of("return loft({square(1), square(1)}, {0, 'x'})"),

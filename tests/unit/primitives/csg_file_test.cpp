@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 #include <csgrun/primitives/csg_file.h>
@@ -155,7 +156,19 @@ TEST(CsgFile, ImpossiblePrimitivesAreEmptyWithAWarning) {
       kSquare +
       "}\n"
       "linear_extrude(height = 1, segments = -nan) {\n" +
-      kSquare + "}\n");
+      kSquare +
+      "}\n"
+      "linear_extrude(height = 1) { offset(r = nan) {\n" +
+      kSquare +
+      "}}\n"
+      "linear_extrude(height = 1) { offset(delta = -inf) {\n" +
+      kSquare +
+      "}}\n"
+      "resize(newsize = [inf, 0, 0], auto = [0, 0, 0]) {\n" +
+      kCube +
+      "}\n"
+      "resize(newsize = [0, -nan, 0], auto = [0, 0, 0]) {\n" +
+      kCube + "}\n");
   EXPECT_EQ(sketch(model.solid), "empty");
   const std::vector<std::string> expected{
       "m.csg:1: cube: size.x must be finite, got inf",
@@ -168,7 +181,11 @@ TEST(CsgFile, ImpossiblePrimitivesAreEmptyWithAWarning) {
       "m.csg:14: rotate_extrude: the shape must lie on one side of the Y axis, its x runs from -1 "
       "to 1",
       "m.csg:17: linear_extrude: slices must be finite, got nan",
-      "m.csg:20: linear_extrude: segments must be finite, got nan"};
+      "m.csg:20: linear_extrude: segments must be finite, got nan",
+      "m.csg:23: offset: distance must be finite, got nan",
+      "m.csg:26: offset: distance must be finite, got -inf",
+      "m.csg:29: resize: newsize must be finite, got inf",
+      "m.csg:32: resize: newsize must be finite, got nan"};
   EXPECT_EQ(model.warnings, expected);
 }
 
@@ -197,6 +214,57 @@ TEST(CsgFile, ArgumentsGoByNameAndHaveDefaults) {
       parse("multmatrix([[1,0,0,4],[0,1,0,0],[0,0,1,0],[0,0,0,2]]) {" + kCube + "}");
   EXPECT_EQ(scaled.solid->transform().m[0][0], 0.5);
   EXPECT_EQ(scaled.solid->transform().m[0][3], 2);
+}
+
+/// The lengths of the box of a leaf.
+glm::dvec3 lengths(const std::string& text) {
+  const CsgModel model = parse(text);
+  EXPECT_EQ(model.warnings, std::vector<std::string>{}) << text;
+  const auto& points = model.solid->mesh()->points;
+  glm::dvec3 low = points[0], high = points[0];
+  for (const glm::dvec3& p : points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  return high - low;
+}
+
+// OpenSCAD never writes them so, but people do.
+TEST(CsgFile, ArgumentsWithoutANameGoByOrder) {
+  EXPECT_EQ(lengths("cube([1, 2, 3], true);"), glm::dvec3(1, 2, 3));
+  EXPECT_EQ(parse("cube([1, 2, 3], true);").solid->mesh()->points[0].z, -1.5);
+  EXPECT_EQ(lengths("cube(4);"), glm::dvec3(4));
+  EXPECT_EQ(lengths("cylinder(7, 3, 2, $fn = 4);"), glm::dvec3(6, 6, 7));
+  EXPECT_EQ(lengths("cylinder(7, d1 = 2, 5, $fn = 4);"), glm::dvec3(2, 2, 7));
+  EXPECT_EQ(lengths("cylinder(h = 7, 3, 2, true, $fn = 4);"), glm::dvec3(6, 6, 7));
+  EXPECT_EQ(lengths("cylinder(h = 7, d = 4, $fn = 4);"), glm::dvec3(4, 4, 7));
+  EXPECT_EQ(lengths("sphere($fn = 4, d = 8);"), lengths("sphere($fn = 4, 4);"));
+  EXPECT_EQ(parse("square([3, 2]);").shape.area(), 6);
+  EXPECT_EQ(parse("circle(3, $fn = 4);").shape.area(), 18);
+  EXPECT_EQ(parse("polygon([[0, 0], [4, 0], [4, 4], [0, 4]], [[0, 1, 2]]);").shape.area(), 8);
+  const std::string points = "[[0, 0, 0], [6, 0, 0], [0, 6, 0], [0, 0, 6]]";
+  const std::string faces = "[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]";
+  EXPECT_EQ(lengths("polyhedron(" + points + ", " + faces + ");"), glm::dvec3(6));
+  EXPECT_EQ(lengths("polyhedron(points = " + points + ", triangles = " + faces + ");"),
+            glm::dvec3(6));
+  EXPECT_EQ(lengths("linear_extrude(5) { square(2); }"), glm::dvec3(2, 2, 5));
+  EXPECT_EQ(parse("projection(true) { cube([2, 3, 4], true); }").shape.area(), 6);
+}
+
+TEST(CsgFile, ArgumentsThatAreNotThereAreSaidSo) {
+  const auto warnings = [](const std::string& text) { return parse(text).warnings; };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(warnings("\ncube(siez = [1, 2, 3]);"),
+            Lines{"m.csg:2: cube: there is no argument \"siez\", it was left out"});
+  EXPECT_EQ(warnings("cube([1, 2, 3], true, 5);"),
+            Lines{"m.csg:1: cube: 1 value without a name is too many and left out"});
+  EXPECT_EQ(warnings("cube(size = [1, 1, 1], size = [2, 2, 2]);"),
+            Lines{"m.csg:1: cube: size is given twice, the last one counts"});
+  EXPECT_EQ(parse("cube(size = [1, 1, 1], size = [2, 2, 2]);").solid->mesh()->points[6].z, 2);
+  EXPECT_EQ(warnings("group() {\nhull(convex = true) {" + kCube + "}}"),
+            Lines{"m.csg:2: hull: there is no argument \"convex\", it was left out"});
+  EXPECT_EQ(warnings("%cube(siez = 1);" + kCube), Lines{});
+  EXPECT_EQ(warnings("cube(size = [1, 1, 1], $fn = 3, $preview = true);"), Lines{});
 }
 
 TEST(CsgFile, ExtrusionsAndPolygons) {
@@ -237,8 +305,6 @@ TEST(CsgFile, OutlinesOfShapes) {
   EXPECT_EQ(
       parse("fill() {" + kCube + "}").warnings,
       std::vector<std::string>{"m.csg:1: fill: has no meaning for 3D children, they were united"});
-  EXPECT_EQ(error("offset(r = nan) {" + kSquare + "}"),
-            "m.csg:1: offset: distance must be finite, got nan");
   EXPECT_EQ(error("resize(newsize = 3) {" + kSquare + "}"),
             "m.csg:1: resize: newsize must be a list of 3 numbers");
 }
@@ -261,6 +327,17 @@ TEST(CsgFile, TextIsNotEscaped) {
                                      "Regular is used instead"});
   EXPECT_EQ(parse("text(text = \"I\", size = -1);").warnings,
             std::vector<std::string>{"m.csg:1: text: size must be positive, got -1"});
+  // Alignments that there are not, are none.
+  const CsgModel odd = parse(
+      "text(text = \"I\", size = 10, halign = \"middle\", valign = \"up\", "
+      "direction = \"around\");");
+  EXPECT_EQ(odd.shape.bounds(), parse("text(text = \"I\", size = 10);").shape.bounds());
+  EXPECT_GT(odd.shape.area(), 10);
+  EXPECT_EQ(odd.warnings,
+            (std::vector<std::string>{
+                "m.csg:1: text: there is no direction \"around\", the default was taken",
+                "m.csg:1: text: there is no halign \"middle\", the default was taken",
+                "m.csg:1: text: there is no valign \"up\", the default was taken"}));
   FontOptions strict;
   strict.strict = true;
   FontBook fonts(strict);

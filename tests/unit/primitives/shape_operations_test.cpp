@@ -180,9 +180,11 @@ TEST(Minkowski2D, SumsOfRectanglesAreUnionsOfSums) {
 TEST(Minkowski2D, AgreesWithIntersections) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> place(-14, 14);
-  for (int run = 0; run < 6; ++run) {
-    const Shape2D a = good(Shape2D::boolean(BooleanOp::kDifference,
-                                            {star(random, 11, 2, 8), star(random, 5, 0.3, 1.8)}));
+  for (int run = 0; run < 12; ++run) {
+    // Half of the time there is no hole.
+    const Shape2D outline = star(random, 11, 2, 8), hole = star(random, 5, 0.3, 1.8);
+    const Shape2D a =
+        run < 6 ? good(Shape2D::boolean(BooleanOp::kDifference, {outline, hole})) : outline;
     const Shape2D b = moved(star(random, run % 2 == 0 ? 8 : 3, 0.5, 4), 1.25, -0.5);
     const Shape2D total = minkowski(a, b);
     const Shape2D turned = moved(b, 0, 0, -1);
@@ -198,6 +200,47 @@ TEST(Minkowski2D, AgreesWithIntersections) {
       }
     }
   }
+}
+
+/// A random shape of unit squares: many edges run the same way, and corners touch.
+Shape2D random_squares(std::mt19937& random, int size, int count) {
+  std::vector<Shape2D> squares;
+  for (int i = 0; i < count; ++i) {
+    const auto x = static_cast<double>(random() % static_cast<unsigned>(size)),
+               y = static_cast<double>(random() % static_cast<unsigned>(size));
+    squares.push_back(box(x, y, x + 1, y + 1));
+  }
+  return good(Shape2D::boolean(BooleanOp::kUnion, squares));
+}
+
+TEST(Minkowski2D, SumsOfSquaresAreUnionsOfSums) {
+  std::mt19937 random(29);
+  int without_holes = 0;
+  for (int run = 0; run < 60; ++run) {
+    std::vector<Shape2D> parts;
+    const Shape2D a = random_squares(random, 5, 9), b = random_squares(random, 4, 5);
+    without_holes += a.loops().size() == a.regions().size();
+    // Each square of one with the other, which is convex then.
+    for (int x = 0; x < 4; ++x) {
+      for (int y = 0; y < 4; ++y) {
+        if (b.contains({x + 0.5, y + 0.5})) parts.push_back(minkowski(a, box(x, y, x + 1, y + 1)));
+      }
+    }
+    const Shape2D total = minkowski(a, b);
+    EXPECT_EQ(total.loops(), good(Shape2D::boolean(BooleanOp::kUnion, parts)).loops()) << run;
+    EXPECT_EQ(minkowski(b, a).loops(), total.loops()) << run;
+  }
+  EXPECT_GT(without_holes, 30);
+}
+
+// Each edge of one swept along each edge of the other would make millions of crossings.
+TEST(Minkowski2D, OfManyCornersIsTheBoundaryOfAFewCurves) {
+  std::mt19937 random(5);
+  const Shape2D a = star(random, 61, 5, 8), b = star(random, 51, 3, 5);
+  const Shape2D total = minkowski(a, b);
+  const Shape2D hull = good(hull_of_shapes({total}));
+  EXPECT_EQ(hull.loops(), minkowski(good(hull_of_shapes({a})), good(hull_of_shapes({b}))).loops());
+  EXPECT_LT(total.area(), hull.area());
 }
 
 TEST(Minkowski2D, EmptyOperandsCountForNothing) {

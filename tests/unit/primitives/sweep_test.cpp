@@ -143,6 +143,22 @@ TEST(Sweep, HelixHasTheVolumeOfItsLength) {
   EXPECT_NEAR(volume(swept(wire, path)) / (wire.area() * length), 1, 1e-3);
 }
 
+// A pyramid has a third of the prism, holes or not, and one point on top.
+TEST(Sweep, MayEndInAPoint) {
+  SweepOptions options;
+  options.scale = {0, 0};
+  const PolygonMesh pyramid = swept(box(-2, -2, 2, 2), {{0, 0, 0}, {0, 0, 9}}, options);
+  EXPECT_NEAR(volume(pyramid), 16 * 9 / 3.0, 1e-9);
+  EXPECT_EQ(pyramid.points.size(), 5u);
+  EXPECT_EQ(pyramid.face_count(), 5u);
+  const Shape2D ring = outlines({disc(5, 12).loops()[0], disc(2, 12).loops()[0]});
+  EXPECT_NEAR(volume(swept(ring, {{0, 0, 0}, {9, 0, 0}}, options)), ring.area() * 9 / 3, 1e-9);
+  // Around a corner: pieces are frusta and a pyramid of a middle along the path.
+  EXPECT_EQ(euler_number(swept(kSquare, {{0, 0, 0}, {0, 0, 9}, {9, 0, 18}}, options)), 2);
+  options.twist = 90;
+  EXPECT_EQ(euler_number(swept(kSquare, {{0, 0, 0}, {0, 0, 9}}, options)), 2);
+}
+
 TEST(Sweep, BadInputIsAnError) {
   const auto message = [](std::vector<glm::dvec3> path, bool closed = false, double twist = 0,
                           glm::dvec2 scale = {1, 1}, std::optional<glm::dvec3> up = {}) {
@@ -168,7 +184,7 @@ TEST(Sweep, BadInputIsAnError) {
   EXPECT_EQ(message({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}}, true, 0, {2, 1}),
             "sweep: a closed path ends as it begins, without a scale");
   EXPECT_EQ(message({{0, 0, 0}, {0, 0, 1}}, false, 0, {0, 1}),
-            "sweep: scale must be positive, got 0");
+            "sweep: scale must be positive, or 0 both ways, got 0");
   EXPECT_EQ(message({{0, 0, 0}, {0, 0, 1}}, false, 0, {1, 1}, glm::dvec3(0, 0, 2)),
             "sweep: up must not point along the start of the path");
   EXPECT_EQ(error(sweep_shape(Shape2D(), SweepOptions())), "sweep: the shape is empty");
@@ -208,6 +224,27 @@ TEST(Loft, OutlinesOfOtherForms) {
   const Shape2D two = outlines({box(0, 0, 1, 1).loops()[0], box(5, 0, 6, 1).loops()[0]});
   const Shape2D wide = outlines({box(8, 0, 9, 1).loops()[0], box(-3, 0, -2, 1).loops()[0]});
   EXPECT_NEAR(volume(good(loft_shapes({two, wide}, {0, 4}))), 8, 1e-9);
+}
+
+TEST(Loft, MayBeginAndEndInPoints) {
+  const Shape2D square = box(-2, -2, 2, 2);
+  const auto point = [](double x, double y) { return LoftOutline(glm::dvec2(x, y)); };
+  const PolygonMesh pyramid = good(loft_shapes({square, point(7, -3)}, {1, 7}));
+  EXPECT_NEAR(volume(pyramid), 16 * 6 / 3.0, 1e-9);
+  EXPECT_EQ(pyramid.points.size(), 5u);
+  EXPECT_NEAR(volume(good(loft_shapes({point(1, 1), square, point(0, 0)}, {-3, 0, 6}))),
+              16 * 9 / 3.0, 1e-9);
+  // A hole comes to the same point, and so do two pieces.
+  const Shape2D ring = outlines({disc(5, 12).loops()[0], disc(2, 12).loops()[0]});
+  EXPECT_NEAR(volume(good(loft_shapes({point(0, 0), ring}, {0, 6}))), ring.area() * 2, 1e-9);
+  const Shape2D two = outlines({box(0, 0, 1, 1).loops()[0], box(5, 0, 6, 1).loops()[0]});
+  EXPECT_NEAR(volume(good(loft_shapes({two, point(3, 0)}, {0, 6}))), 4, 1e-9);
+  EXPECT_EQ(error(loft_shapes({point(0, 0), point(1, 0)}, {0, 6})),
+            "loft: needs an outline between two points");
+  EXPECT_EQ(error(loft_shapes({square, point(0, 0), square}, {0, 6, 9})),
+            "loft: only the first or the last outline may be a point, not number 2");
+  EXPECT_EQ(error(loft_shapes({square, point(std::nan(""), 0)}, {0, 6})),
+            "loft: a point must be finite, got nan");
 }
 
 TEST(Loft, BadInputIsAnError) {

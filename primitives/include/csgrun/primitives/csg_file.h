@@ -41,13 +41,14 @@ struct CsgEnvironment {
 /// intersection, hull, minkowski, offset, fill, group and render, with the modifiers % (left out,
 /// not even an operand) and # (nothing). As in OpenSCAD, an empty node is an operand, primitives of
 /// impossible size are empty, and where 2D and 3D mix the first child that is not empty decides;
-/// each is said in a warning. A shape has one colour, that of the first of the shapes it is made
-/// of, and an extrusion has that of its shape. Unknown arguments are passed over; arguments are
-/// matched by name.
+/// each is said in a warning. Meshes that are open or flat have points for a hull and faces for a
+/// projection without a cut. A shape has one colour, that of the first of the shapes it is made of,
+/// and an extrusion has that of its shape. Arguments are matched by name, or by OpenSCAD's order;
+/// unknown ones are left out with a warning.
 ///
 /// Errors have `where` set to the line and a message without it: kMalformedFile for what is not a
-/// .csg file, kInvalidMesh for polyhedra that are not closed, and
-/// those of the evaluation of what is projected. Depth is limited by memory only.
+/// .csg file, kInvalidMesh for polyhedra that are not closed, and those of the evaluation of what
+/// is projected. Depth is limited by memory only.
 Result<CsgModel> parse_csg(const std::string& name, std::string_view text,
                            const CsgEnvironment& environment = {});
 

@@ -21,11 +21,20 @@ struct FlatFileOptions {
   double scale = 1;     ///< DXF
   bool center = false;  ///< the middle of the bounding box becomes (0, 0)
   Facets facets;        ///< of arcs and curves
+  bool parts = false;   ///< fills FlatFile::parts, and not its shape; not with a layer or an id
+};
+
+/// What has a name in a drawing: in an SVG an element of the outermost level (its title, else the
+/// label that Inkscape gives it, else its id), in a DXF a layer.
+struct FlatFilePart {
+  std::string name;  ///< may be empty
+  Shape2D shape;     ///< not empty
 };
 
 struct FlatFile {
   Shape2D shape;
-  std::vector<std::string> notes;  ///< what was left out, counted
+  std::vector<FlatFilePart> parts;  ///< each name once, in the order of the file
+  std::vector<std::string> notes;   ///< what was left out, counted
 };
 
 /// An SVG in mm, its page's lower left corner in the origin: paths, basic shapes, groups, use,

@@ -20,7 +20,7 @@ PolygonMesh mesh_of_solid(const Solid& solid, std::span<const uint32_t> triangle
                           std::string kind);
 
 /// Halves edges until none is longer than `length`, triangles with them; facets are kept.
-/// `mesh` is of triangles. Errors: kInvalidArgument, kLimit above 2^24 points.
+/// `mesh` is of triangles. Errors: kInvalidArgument, kLimit above 2^22 points.
 MeshResult refine_mesh(PolygonMesh mesh, double length);
 
 /// Rounds of subdivision after Loop (1987), each with four triangles for one: the surface draws
@@ -28,8 +28,9 @@ MeshResult refine_mesh(PolygonMesh mesh, double length);
 /// `mesh` is of triangles, closed, with two at each edge. Errors: kInvalidArgument, kLimit.
 MeshResult smooth_mesh(PolygonMesh mesh, int rounds);
 
-/// Moves every point. What is turned inside out is turned over. Errors: those of `move`;
-/// kInvalidArgument when points become infinite or all lie in one plane.
+/// Moves every point. What is turned inside out, all in all, is turned over. What is left may cross
+/// itself, and may enclose nothing. Errors: those of `move`; kInvalidArgument when points become
+/// infinite.
 MeshResult warp_mesh(PolygonMesh mesh,
                      const std::function<Result<glm::dvec3>(const glm::dvec3&)>& move);
 

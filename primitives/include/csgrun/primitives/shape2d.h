@@ -25,6 +25,14 @@ namespace csgrun {
 /// coordinates of 17 m, then 2^-3 nm, 2^0 nm and so on by eights. On that grid everything is exact
 /// but the points where edges cross, which are rounded to it. A lone square or circle, and
 /// transforms of any shape, keep their doubles.
+///
+/// A shape remembers what it was before it was turned, and its turn: the frame. Booleans combine
+/// shapes of one frame there, on a grid of its axes from the first shape's origin on, so what was
+/// flush stays flush and `T(a) - T(b)` is `T(a - b)`. Frames that differ by quarter turns and
+/// mirrors along the axes are one. Where as much of the outlines runs along the world's axes as
+/// along the turned ones (a hexagon that was turned by 30 degrees), the world decides as it does
+/// without a turn. Shapes of several frames meet in the world, those of each frame combined first
+/// where the operation lets them.
 class Shape2D {
  public:
   using Loop = std::vector<glm::dvec2>;
@@ -52,16 +60,22 @@ class Shape2D {
   /// Whether p, rounded to the 2D grid, is inside or on the boundary.
   [[nodiscard]] bool contains(const glm::dvec2& p) const;
 
-  /// A difference is the first operand less all others. One operand comes back as it is.
+  /// A difference is the first operand less all others. One operand comes back as it is. Errors:
+  /// kOutOfRange beyond 1e12 mm.
   static Result<Shape2D> boolean(BooleanOp op, const std::vector<Shape2D>& operands);
   /// Uses the entries (0,0) (0,1) (0,3) (1,0) (1,1) (1,3) of the map. A map of determinant 0 gives
   /// the empty shape. Errors: kInvalidArgument when the result is not finite.
   [[nodiscard]] Result<Shape2D> transformed(const Affine& map) const;
 
+  /// The memory of the loops, and of those that it remembers.
+  [[nodiscard]] size_t bytes() const;
+
  private:
+  struct Turn;
   struct Data {
     std::vector<Loop> loops;
     std::vector<Region> regions;
+    std::shared_ptr<const Turn> turn;  ///< null: the frame is the world's
   };
   friend class Shape2DFactory;
   std::shared_ptr<const Data> data_;
@@ -84,17 +98,23 @@ struct LinearExtrudeOptions {
   double height = 100;                  ///< mm; not used when only `direction` is given
   std::optional<glm::dvec3> direction;  ///< OpenSCAD's `v`; normalised when `height_given`
   bool height_given = false;
-  bool center = false;          ///< moves the solid by half its height vector
-  glm::dvec2 scale{1, 1};       ///< of the top; 0 makes a point or an edge there
-  double twist = 0;             ///< degrees over the whole height, clockwise seen from above
-  std::optional<int> slices;    ///< at least 1
+  bool center = false;        ///< moves the solid by half its height vector
+  glm::dvec2 scale{1, 1};     ///< of the top; 0 makes a point or an edge there
+  double twist = 0;           ///< degrees over the whole height, clockwise seen from above
+  std::optional<int> slices;  ///< at least 1
+  /// Radii of the bottom's and of the top's edges, mm; 0 leaves them sharp. Not with a twist, a
+  /// scale or a direction aslant.
+  std::array<double, 2> round{0, 0};
   std::optional<int> segments;  ///< target number of vertices a loop; 0: edges are never split
   Facets facets;
 };
 /// The bottom is at z = 0 (or -height/2). Faces: caps (flat), sides as quads where they are planar,
 /// else two triangles, cut along the shorter diagonal (below a top that is an edge: cut alike). A
 /// loop of 12 vertices or more that turns by less than 40 degrees everywhere is one curved surface;
-/// with a twist every chain of such turns is. Errors: kInvalidArgument, kLimit.
+/// with a twist every chain of such turns is. Rounded edges run in quarters of a circle of
+/// ceil(fragments(r) / 4) steps; corners of the outline stay sharp. A radius at which an edge of
+/// the outline would vanish, or walls meet, is refused, but a piece may come down to a point or a
+/// ridge at it. Errors: kInvalidArgument, kLimit.
 MeshResult linear_extrude(const Shape2D& shape, const LinearExtrudeOptions& options);
 
 struct RotateExtrudeOptions {

@@ -50,6 +50,8 @@ Result<Shape2D> stroke_shape(const Shape2D::Loop& line, const StrokeOptions& opt
 
 /// The smallest convex shape that contains all of them; empty ones count for nothing.
 Result<Shape2D> hull_of_shapes(const std::vector<Shape2D>& shapes);
+/// The convex hull of finite points, on the 2D grid; empty when they lie on one line.
+Result<Shape2D> hull_of_points(const std::vector<glm::dvec2>& points);
 
 /// All sums of a point of each. Empty shapes are left out, as in OpenSCAD, and a single one comes
 /// back as it is. Exact on the grid also where nothing is convex. O((n + m) log) edges where one of

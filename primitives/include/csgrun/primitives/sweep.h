@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <csgrun/engine/error.h>
@@ -16,12 +18,12 @@ struct SweepOptions {
   std::vector<glm::dvec3> path;  ///< at least two points, three of a closed one; mm
   bool closed = false;           ///< the last point is joined to the first; no caps
   double twist = 0;  ///< degrees over the whole path, counter-clockwise seen against its direction
-  glm::dvec2 scale{1, 1};  ///< of the outline at the end; 0 is not allowed
+  glm::dvec2 scale{1, 1};  ///< of the outline at the end; 0 both ways: a point
   /// Where the outline's Y points to, as far as it is across the path there, at its start; Z, or Y
   /// where the path starts along Z.
   std::optional<glm::dvec3> up = std::nullopt;
-  /// With a twist, pieces are divided so that none turns by more than a facet of a circle through the
-  /// farthest point of the outline.
+  /// With a twist, pieces are divided so that none turns by more than a facet of a circle through
+  /// the farthest point of the outline.
   Facets facets = {};
 };
 
@@ -33,10 +35,21 @@ struct SweepOptions {
 /// multiple of 360. Equal points one after another count once. Errors: kInvalidArgument, kLimit.
 MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options);
 
+/// What lies at a height of a loft: a shape, or a point of which the walls rise or to which they
+/// come together.
+struct LoftOutline {
+  LoftOutline(Shape2D outline) : shape(std::move(outline)) {}
+  LoftOutline(const glm::dvec2& apex) : point(apex) {}
+  Shape2D shape;
+  std::optional<glm::dvec2> point = std::nullopt;
+};
+
 /// A solid between outlines, each flat at its height: straight walls from each to the next. All
 /// must have the same numbers of pieces and of holes in them; these are paired by the places of
 /// their middles. Points are paired by how far along their outline they lie, from that pair of
-/// corners on which gives the shortest walls. Heights increase. Errors: kInvalidArgument, kLimit.
-MeshResult loft_shapes(const std::vector<Shape2D>& shapes, const std::vector<double>& heights);
+/// corners on which gives the shortest walls. Only the first or the last may be a point, which all
+/// pieces and holes share. Heights increase. Errors: kInvalidArgument, kLimit.
+MeshResult loft_shapes(const std::vector<LoftOutline>& outlines,
+                       const std::vector<double>& heights);
 
 }  // namespace csgrun

@@ -1,0 +1,77 @@
+#include "lua_bindings/shipped_calls.h"
+
+#include <string_view>
+
+#include "lua_bindings/guard.h"
+#include "lua_bindings/shipped_modules.h"
+
+namespace csgrun {
+namespace {
+
+/// The call may yield: a callback of the model may be what does.
+int finish_call(lua_State* L, int /*status*/, lua_KContext /*context*/) { return lua_gettop(L); }
+
+/// Upvalue 1: the function of the library.
+int call_shipped(lua_State* L) {
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_callk(L, lua_gettop(L) - 1, LUA_MULTRET, 0, finish_call);
+  return finish_call(L, LUA_OK, 0);
+}
+
+/// Pushes "FILE:line: " of the frame at the level, or an empty string; in the library that of the
+/// model's frame below.
+void push_place_of_level(lua_State* L, int level) {
+  lua_Debug frame{};
+  for (bool in_library = false; lua_getstack(L, level, &frame) != 0; ++level) {
+    lua_getinfo(L, "Slf", &frame);
+    const bool is_of_library = is_shipped(frame) || is_shipped_call(L, -1);
+    lua_pop(L, 1);
+    in_library |= is_of_library;
+    if (is_of_library || (in_library && frame.currentline <= 0)) continue;
+    if (frame.currentline <= 0) break;
+    lua_pushfstring(L, "%s:%d: ", frame.short_src, frame.currentline);
+    return;
+  }
+  lua_pushliteral(L, "");
+}
+
+}  // namespace
+
+bool is_shipped(const lua_Debug& frame) {
+  return frame.source[0] == '@' && std::string_view(frame.source + 1).starts_with(kShippedPlace);
+}
+
+bool is_shipped_call(lua_State* L, int index) { return lua_tocfunction(L, index) == call_shipped; }
+
+void guard_shipped_module(lua_State* L) {
+  if (lua_isfunction(L, -1)) {
+    lua_pushcclosure(L, call_shipped, 1);
+    return;
+  }
+  if (!lua_istable(L, -1)) return;
+  lua_pushnil(L);
+  while (lua_next(L, -2) != 0) {
+    if (!lua_isfunction(L, -1) || lua_iscfunction(L, -1)) {
+      lua_pop(L, 1);
+      continue;
+    }
+    lua_pushcclosure(L, call_shipped, 1);
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    lua_rawset(L, -4);  // of a key that is there: lua_next may go on
+  }
+}
+
+int lua_error_at_model(lua_State* L) {
+  const int level = static_cast<int>(luaL_optinteger(L, 2, 1));
+  lua_settop(L, 1);
+  if (lua_type(L, 1) == LUA_TSTRING && level > 0) {
+    push_place_of_level(L, level);
+    lua_insert(L, 1);
+    lua_concat(L, 2);
+  }
+  return raise_pushed_error(L);
+}
+
+}  // namespace csgrun

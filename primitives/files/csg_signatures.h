@@ -1,0 +1,19 @@
+// The names of the arguments of .csg nodes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "primitives/files/csg_parser.h"
+
+namespace csgrun {
+
+/// Gives the arguments of a call their names, as OpenSCAD does: what stands without a name takes
+/// those of the node in order, but for those that were given by name before; other spellings get
+/// the one that is read. Of a name that comes twice the last counts. `warnings` gets what is left
+/// out: unknown names, and more values than names. $-variables are always known; so is what
+/// OpenSCAD writes and nothing needs here (convexity, timestamp). Nodes that are not known stay as
+/// they are.
+void name_arguments(CsgCall& call, std::vector<std::string>& warnings);
+
+}  // namespace csgrun
