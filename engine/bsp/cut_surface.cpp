@@ -1,6 +1,7 @@
 #include "engine/bsp/cut_surface.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <tuple>
 
@@ -267,15 +268,14 @@ class SurfaceCutter {
     const uint32_t polygon = partners_.polygons()[i];
     const JobPolygon& p = job_.polygons()[polygon];
     Cut& cut = cuts_[i];
-    size_t seen = 0;
     for (uint32_t e = 0; e < p.count; ++e) {
       const uint32_t neighbour = face_of(leaf_.opposite[p.first + e]);
       uint32_t at = corner_point(p, e);
       const uint32_t end = corner_point(p, e + 1 < p.count ? e + 1 : 0);
-      for (bool is_first = true; at != end || is_first; is_first = false) {
+      for (bool is_first = true; at != end; is_first = false) {
         const auto edge =
             std::lower_bound(rim.begin(), rim.end(), PieceEdge{at, at, true, 0}, before);
-        if (edge == rim.end() || edge->from() != at || seen++ == rim.size()) return false;
+        assert(edge != rim.end() && edge->from() == at);  // pieces fill the polygon
         if (is_first) cut.at_start.push_back(*edge);
         if (edge->to() == end) cut.at_end.push_back(*edge);
         if (!crosses_[neighbour] && !windings.join(neighbour, number(edge->piece), 0)) {
@@ -284,7 +284,7 @@ class SurfaceCutter {
         at = edge->to();
       }
     }
-    return seen == rim.size();
+    return true;
   }
   uint32_t corner_point(const JobPolygon& p, uint32_t corner) {
     return unique(geometry_.vertex_point(job_.corners(p)[corner]));
@@ -339,11 +339,13 @@ class SurfaceCutter {
         if (!windings.join(infinity_, s.patch, run.windings[s.front])) return false;
       }
     }
-    for (uint32_t k = 0; k < infinity_; ++k) {
-      const bool is_cut = k < crosses_.size() && crosses_[k];
-      if (!is_cut && windings.find(k).root != windings.find(infinity_).root) return false;
-    }
-    return true;
+    // Its pieces hang together.
+    return std::all_of(cuts_.begin(), cuts_.end(),
+                       [&](const Cut& cut) { return is_known(number(cut.first_piece), windings); });
+  }
+
+  bool is_known(uint32_t k, OffsetSets& windings) {
+    return windings.find(k).root == windings.find(infinity_).root;
   }
 
   /// For each set a vertex of few polygons, of one that crosses nothing.
@@ -390,7 +392,10 @@ class SurfaceCutter {
   std::optional<CutSurface> labelled(OffsetSets& windings) {
     CutSurface result;
     const int32_t zero = windings.find(infinity_).offset;
-    const auto winding = [&](uint32_t k) { return windings.find(k).offset - zero; };
+    const auto winding = [&](uint32_t k) {
+      assert(is_known(k, windings));
+      return windings.find(k).offset - zero;
+    };
     result.winding_of_polygon.resize(crosses_.size(), 0);
     for (uint32_t p = 0; p < crosses_.size(); ++p) {
       if (!crosses_[p]) result.winding_of_polygon[p] = winding(p);

@@ -1,4 +1,5 @@
-// Faces that cross others, cut whole: winding numbers of boxes are counted by hand.
+// Faces that cross others, cut whole: winding numbers are counted, of boxes and of other convex
+// solids.
 #include "engine/bsp/cut_surface.h"
 
 #include <atomic>
@@ -8,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/union_find.h"
 #include "engine/mesh/leaf_check.h"
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/kernel_case.h"
@@ -22,20 +24,20 @@ struct Box {
 };
 using Spot = std::array<double, 3>;
 
+std::vector<Loop> loops_of(const std::vector<Box>& boxes) {
+  std::vector<Loop> loops;
+  for (const Box& box : boxes) {
+    auto own = box_loops(box.lo, box.hi);
+    if (box.is_turned) turn_over(own);
+    loops.insert(loops.end(), own.begin(), own.end());
+  }
+  return loops;
+}
+
 /// The surface of several boxes, and what there is to know to cut it.
 struct Surface {
-  explicit Surface(const std::vector<Box>& boxes) {
-    std::vector<Loop> loops;
-    for (const Box& box : boxes) {
-      auto own = box_loops(box.lo, box.hi);
-      if (box.is_turned) turn_over(own);
-      loops.insert(loops.end(), own.begin(), own.end());
-    }
-    init(loops);
-  }
-  explicit Surface(const std::vector<Loop>& loops) { init(loops); }
-
-  void init(const std::vector<Loop>& loops) {
+  explicit Surface(const std::vector<Box>& boxes) : Surface(loops_of(boxes)) {}
+  explicit Surface(const std::vector<Loop>& loops) {
     auto leaf = std::make_shared<LeafGeometry>(*make_leaf(loops));
     leaf->opposite = pair_edges(*leaf).opposite;
     operands.push_back(operand_of(leaf));
@@ -151,34 +153,258 @@ void check(const std::vector<Box>& boxes, Surface& surface, const CutSurface& cu
   EXPECT_EQ(area, static_cast<double>(covered_squares(boxes)));
 }
 
+/// On grids of all sizes: of few steps, most faces lie in the planes of others.
 std::vector<Box> random_boxes(Random& random) {
   std::vector<Box> boxes(static_cast<size_t>(random.integer(1, 4)));
+  const int64_t size = random.integer(2, 8);
   for (Box& b : boxes) {
     for (size_t k = 0; k < 3; ++k) {
-      b.lo[k] = random.integer(0, 8);
-      b.hi[k] = b.lo[k] + random.integer(1, 9);
+      b.lo[k] = random.integer(0, size);
+      b.hi[k] = b.lo[k] + random.integer(1, size + 1);
     }
     b.is_turned = random.integer(0, 2) == 0;
   }
   return boxes;
 }
 
-TEST(CutSurface, WindingNumbersOfBoxesAreCounted) {
-  size_t cut = 0, crossing = 0;
-  for (int i = 0; i < 600; ++i) {
-    Random random(20000 + i);
-    const std::vector<Box> boxes = random_boxes(random);
-    Surface surface(boxes);
-    if (!surface.is_paired()) continue;
-    const auto result = surface.cut();
-    if (!result) continue;
-    ++cut;
-    crossing += !surface.crossings.empty();
-    SCOPED_TRACE(i);
-    check(boxes, surface, *result);
+/// So many random cases, in parts that are quick.
+class RandomCuts : public ::testing::TestWithParam<int> {
+ protected:
+  static constexpr int kCases = 100;
+  static int first() { return GetParam() * kCases; }
+};
+INSTANTIATE_TEST_SUITE_P(Parts, RandomCuts, ::testing::Range(0, 8));
+
+/// Convex.
+struct Solid {
+  std::vector<Loop> loops;  ///< counter-clockwise from outside
+  bool is_turned = false;   ///< inside out
+};
+
+Spot spot(const IVec3& p) {
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+Spot minus(const Spot& a, const Spot& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Spot cross(const Spot& a, const Spot& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Spot& a, const Spot& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+/// As long as twice the area.
+Spot normal_of(const std::vector<Spot>& p) {
+  Spot n{};
+  for (size_t i = 1; i + 1 < p.size(); ++i) {
+    const Spot part = cross(minus(p[i], p[0]), minus(p[i + 1], p[0]));
+    for (size_t k = 0; k < 3; ++k) n[k] += part[k];
   }
-  EXPECT_GT(cut, 400u);
-  EXPECT_GT(crossing, 200u);
+  return n;
+}
+Spot middle_of(const std::vector<Spot>& p) {
+  Spot m{};
+  for (const Spot& corner : p) {
+    for (size_t k = 0; k < 3; ++k) m[k] += corner[k] / static_cast<double>(p.size());
+  }
+  return m;
+}
+/// Of what is rounded: all that is not zero is far greater, on grids of few steps.
+constexpr double kNothing = 1e-9;
+
+/// Just beside a point, on the side that `way` points to.
+int32_t winding_beside(const std::vector<Solid>& solids, const Spot& p, const Spot& way) {
+  int32_t winding = 0;
+  for (const Solid& s : solids) {
+    const bool is_inside = std::all_of(s.loops.begin(), s.loops.end(), [&](const Loop& loop) {
+      std::vector<Spot> corners;
+      for (const IVec3& v : loop) corners.push_back(spot(v));
+      const Spot n = normal_of(corners);
+      const double above = dot(n, minus(p, corners[0]));
+      return std::fabs(above) > kNothing ? above < 0 : dot(n, way) < 0;
+    });
+    if (is_inside) winding += s.is_turned ? -1 : 1;
+  }
+  return winding;
+}
+
+/// So that vertices are in cells of their own, each in one.
+constexpr int64_t kScale = 1009;
+
+Spot scaled(const Spot& p) { return {p[0] / kScale, p[1] / kScale, p[2] / kScale}; }
+
+double length(const Spot& p) { return std::sqrt(dot(p, p)); }
+
+std::vector<std::vector<Spot>> polygons_of(const Job& job) {
+  std::vector<std::vector<Spot>> polygons;
+  for (const JobPolygon& polygon : job.polygons()) {
+    auto& corners = polygons.emplace_back();
+    for (const uint32_t v : job.corners(polygon)) corners.push_back(scaled(job.rounded(v)));
+  }
+  return polygons;
+}
+
+/// Whether a point is in a polygon, so far from its edges at least.
+bool holds(const std::vector<Spot>& polygon, const Spot& p, double inside) {
+  const Spot n = normal_of(polygon);
+  if (std::fabs(dot(n, minus(p, polygon[0]))) > kNothing) return false;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Spot along = minus(polygon[(i + 1) % polygon.size()], polygon[i]);
+    if (dot(n, cross(along, minus(p, polygon[i]))) < inside) return false;
+  }
+  return true;
+}
+
+/// What is wrong with a surface of convex solids that was cut. With what lies upon them, the pieces
+/// make up all that the polygons cover.
+void check(const std::vector<Solid>& solids, Surface& surface, const CutSurface& cut) {
+  const Job& job = *surface.job;
+  const auto polygons = polygons_of(job);
+  double covered = 0, found = 0;
+  for (const auto& corners : polygons) covered += length(normal_of(corners));
+  const auto look = [&](const std::vector<Spot>& corners, uint32_t polygon, int32_t front,
+                        int32_t back) {
+    const Spot n = normal_of(corners), middle = middle_of(corners);
+    EXPECT_GT(dot(n, normal_of(polygons[polygon])), 0);
+    EXPECT_EQ(front, winding_beside(solids, middle, n)) << polygon;
+    EXPECT_EQ(back, winding_beside(solids, middle, {-n[0], -n[1], -n[2]})) << polygon;
+    for (uint32_t p = 0; p < polygons.size(); ++p) {
+      if (!holds(polygons[p], middle, kNothing)) continue;
+      EXPECT_GE(p, polygon);  // the first one has the pieces
+      EXPECT_TRUE(p == polygon || surface.crosses[polygon]);
+      found += length(n);
+    }
+  };
+  ASSERT_EQ(cut.winding_of_polygon.size(), polygons.size());
+  for (uint32_t p = 0; p < polygons.size(); ++p) {
+    if (surface.crosses[p]) continue;
+    look(polygons[p], p, cut.winding_of_polygon[p], cut.winding_of_polygon[p] + 1);
+  }
+  ASSERT_EQ(cut.pieces.pieces.size(), cut.windings_of_piece.size());
+  for (size_t i = 0; i < cut.pieces.pieces.size(); ++i) {
+    const FragmentSet::Piece& piece = cut.pieces.pieces[i];
+    EXPECT_TRUE(surface.crosses[piece.polygon]);
+    std::vector<Spot> corners;
+    for (uint32_t c = piece.first; c < piece.first + piece.count; ++c) {
+      corners.push_back(scaled(cut.pieces.points[cut.pieces.corner_point[c]].rounded));
+    }
+    look(corners, piece.polygon, cut.windings_of_piece[i][0], cut.windings_of_piece[i][1]);
+  }
+  EXPECT_NEAR(found, covered, kNothing * covered);
+}
+
+/// On a grid of few steps: corners on edges and faces, edges along others, and common planes.
+std::vector<Solid> random_solids(Random& random) {
+  std::vector<Solid> solids(static_cast<size_t>(random.integer(1, 3)));
+  const int64_t size = random.integer(2, 5);
+  for (Solid& s : solids) {
+    while (s.loops.empty()) {
+      std::vector<IVec3> points(static_cast<size_t>(random.integer(4, 7)));
+      for (IVec3& p : points) {
+        for (auto& c : p) c = random.integer(0, size);
+      }
+      s.loops = hull_loops(points);
+    }
+    s.is_turned = random.integer(0, 2) == 0;
+  }
+  return solids;
+}
+
+std::vector<Loop> loops_of(const std::vector<Solid>& solids) {
+  std::vector<Loop> loops;
+  for (const Solid& solid : solids) {
+    auto own = solid.loops;
+    if (solid.is_turned) turn_over(own);
+    loops.insert(loops.end(), own.begin(), own.end());
+  }
+  for (Loop& loop : loops) {
+    for (IVec3& p : loop) {
+      for (auto& c : p) c *= kScale;
+    }
+  }
+  return loops;
+}
+
+/// The same. Which comes first, and where it starts, is no matter: any does.
+std::vector<Loop> shuffled_loops(Random& random, const std::vector<Solid>& solids) {
+  std::vector<Loop> loops;
+  for (Loop loop : loops_of(solids)) {
+    const auto start = random.integer(0, static_cast<int64_t>(loop.size()) - 1);
+    std::rotate(loop.begin(), loop.begin() + start, loop.end());
+    loops.insert(loops.begin() + random.integer(0, static_cast<int64_t>(loops.size())), loop);
+  }
+  return loops;
+}
+
+/// How polygons hang together: over edges, near the ends of which there is no third polygon where
+/// both cross others.
+struct Connection {
+  explicit Connection(const Surface& surface) : sets(surface.crosses.size()) {
+    const auto polygons = polygons_of(*surface.job);
+    const LeafGeometry& leaf = *surface.operands[0].leaf;
+    std::vector<uint32_t> face_of(leaf.corners.size());
+    for (uint32_t f = 0; f < polygons.size(); ++f) {
+      for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) face_of[c] = f;
+    }
+    for (uint32_t c = 0; c < face_of.size(); ++c) {
+      const uint32_t f = face_of[c], g = face_of[leaf.opposite[c]];
+      const size_t edge = c - leaf.face_starts[f], count = polygons[f].size();
+      const Spot &from = polygons[f][edge], &to = polygons[f][(edge + 1) % count];
+      const bool both_cross = surface.crosses[f] && surface.crosses[g];
+      if (!both_cross || !has_third(polygons, f, g, from, to)) sets.join(f, g);
+    }
+    for (uint32_t f = 0; f < polygons.size(); ++f) {
+      all.insert(sets.find(f));
+      if (!surface.crosses[f]) known.insert(sets.find(f));
+    }
+  }
+  static bool has_third(const std::vector<std::vector<Spot>>& polygons, uint32_t f, uint32_t g,
+                        const Spot& from, const Spot& to) {
+    constexpr double kNear = 1e-4;
+    Spot p = from;
+    for (size_t k = 0; k < 3; ++k) p[k] += kNear * (to[k] - from[k]);
+    for (uint32_t h = 0; h < polygons.size(); ++h) {
+      if (h != f && h != g && holds(polygons[h], p, -kNothing)) return true;
+    }
+    return false;
+  }
+  UnionFind sets;
+  std::set<uint32_t> all, known;  ///< sets, and those with a polygon that crosses nothing
+};
+
+/// What has to be cut is cut, and with one cell for each part.
+bool look(Random& random, const std::vector<Solid>& solids) {
+  Surface surface(shuffled_loops(random, solids));
+  if (!surface.is_paired()) return false;
+  KernelOptions options;
+  options.cell_limit = 4;
+  const auto result = surface.cut(options);
+  const Connection connection(surface);
+  EXPECT_EQ(result.has_value(), connection.known == connection.all);
+  // Two parts may have one vertex in common.
+  EXPECT_LE(surface.stats.solved_cells, connection.known.size());
+  if (result) check(solids, surface, *result);
+  return result && !surface.crossings.empty();
+}
+
+TEST_P(RandomCuts, WindingNumbersOfBoxesAreCounted) {
+  int crossing = 0;
+  for (int i = first(); i < first() + kCases; ++i) {
+    SCOPED_TRACE(i);
+    auto random = Random::of_case(20000, static_cast<uint64_t>(i));
+    std::vector<Solid> solids;
+    for (const Box& b : random_boxes(random)) {
+      solids.push_back({box_loops(b.lo, b.hi), b.is_turned});
+    }
+    crossing += look(random, solids);
+  }
+  EXPECT_GT(crossing, kCases / 4);
+}
+
+TEST_P(RandomCuts, WindingNumbersOfConvexSolidsAreCounted) {
+  int crossing = 0;
+  for (int i = first(); i < first() + kCases; ++i) {
+    SCOPED_TRACE(i);
+    auto random = Random::of_case(30000, static_cast<uint64_t>(i));
+    crossing += look(random, random_solids(random));
+  }
+  EXPECT_GT(crossing, kCases / 6);
 }
 
 const std::vector<Box> kTwo{{{0, 0, 0}, {6, 6, 6}, false}, {{3, 2, 1}, {9, 5, 4}, false}};
@@ -200,6 +426,50 @@ TEST(CutSurface, StopsWhenCancelled) {
   EXPECT_TRUE(Surface(kTwo).cut(options));
   cancel = true;
   EXPECT_FALSE(Surface(kTwo).cut(options));
+}
+
+// Nothing crosses: it is told where the one cell is solved.
+TEST(CutSurface, StopsWhenCancelledBeforeItsCellIsSolved) {
+  Surface surface(std::vector<Box>{kTwo[0]});
+  std::atomic<bool> cancel = true;
+  KernelOptions options;
+  options.cancel = &cancel;
+  const auto result = cut_surface(*surface.job, *surface.operands[0].leaf, surface.crossings,
+                                  surface.crosses, options, surface.stats);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
+}
+
+/// With one of the faces as two triangles.
+std::vector<Loop> with_triangles(std::vector<Loop> loops, size_t face) {
+  const Loop q = loops[face];
+  loops[face] = {q[0], q[1], q[2]};
+  loops.push_back({q[0], q[2], q[3]});
+  return loops;
+}
+
+// Where the edge of two polygons of one plane stands in the middle of a piece's edge.
+TEST(CutSurface, LeavesWhatIsCrossedByAPartOfAPlane) {
+  for (size_t face = 0; face < 6; ++face) {
+    const bool is_wall = face < 4;  // else an end, which crosses nothing
+    Surface surface(loops_of({{box_loops({0, 0, 0}, {6, 6, 6}), false},
+                              {box_loops({1, 4, 2}, {2, 9, 3}), false},
+                              {with_triangles(box_loops({3, 2, 1}, {9, 5, 4}), face), false}}));
+    EXPECT_EQ(surface.cut().has_value(), !is_wall) << face;
+  }
+}
+
+// The diagonal of a bottom that stands on a top cuts it as well, though nothing rises from there.
+TEST(CutSurface, LayersAreToldPolygonByPolygon) {
+  for (const bool is_turned : {false, true}) {
+    const std::vector<Solid> solids{
+        {box_loops({0, 0, 0}, {6, 6, 6}), false},
+        {with_triangles(box_loops({2, 2, 6}, {8, 4, 8}), 0), is_turned}};
+    Surface surface(loops_of(solids));
+    const auto result = surface.cut();
+    ASSERT_TRUE(result);
+    check(solids, surface, *result);
+  }
 }
 
 /// A slab that n posts pierce, each with four planes; all of them stand in lines of their own.

@@ -226,6 +226,76 @@ TEST(SelfResolution, StopsWhenCancelled) {
   }
 }
 
+/// A leaf that knows its opposite edges.
+Operand paired(const std::vector<Loop>& loops) {
+  auto leaf = std::make_shared<LeafGeometry>(*make_leaf(loops));
+  leaf->opposite = pair_edges(*leaf).opposite;
+  return operand_of(leaf);
+}
+
+// Where nothing crosses, the cell of a surface that is cut whole is where it is told.
+TEST(SelfResolution, StopsWhenCancelledInItsOnlyCell) {
+  std::atomic<bool> cancel = true;
+  KernelOptions options;
+  options.cancel = &cancel;
+  const auto stopped =
+      resolved(paired(box_loops({0, 0, 0}, {6, 6, 6})), InsideRule::kNonZero, options);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::kCancelled);
+}
+
+const std::vector<Loop>& pierced_box() {
+  static const std::vector<Loop> loops =
+      boxes({{IVec3{0, 0, 0}, {60, 60, 60}}, {IVec3{30, 20, 10}, {90, 50, 40}}}, {false, false});
+  return loops;
+}
+
+// One cell tells all, where faces may be cut whole.
+TEST(SelfResolution, CutsFacesWholeWhereItMay) {
+  const auto cells = [](const Operand& operand, InsideRule rule, bool whole_faces) {
+    KernelOptions options;
+    options.cell_limit = 4;
+    options.whole_faces = whole_faces;
+    EvaluateStats stats;
+    const auto crossings = find_self_intersections(*operand.leaf);
+    EXPECT_TRUE(resolve_surface(operand, crossings, rule, options, stats));
+    return stats.solved_cells;
+  };
+  const Operand plain = paired(pierced_box()), unpaired = operand_of(make_leaf(pierced_box()));
+  Operand turned = plain;
+  turned.frame.is_identity = false;
+  for (size_t k = 0; k < 3; ++k) {
+    turned.frame.matrix[k][k] = (k < 2 ? -1 : 1) * (int64_t{1} << Frame::kShift);
+  }
+  for (const InsideRule rule :
+       {InsideRule::kNonZero, InsideRule::kPositive, InsideRule::kEvenOdd}) {
+    EXPECT_EQ(cells(plain, rule, true), 2u);  // one for each box
+    EXPECT_GT(cells(plain, rule, false), 4u);
+    for (const Operand* other : std::array<const Operand*, 2>{&unpaired, &turned}) {
+      EXPECT_EQ(cells(*other, rule, true), cells(*other, rule, false));
+    }
+  }
+  EXPECT_EQ(cells(plain, InsideRule::kOuterHull, true),
+            cells(plain, InsideRule::kOuterHull, false));
+}
+
+// What is kept touches where faces cross, and nowhere else.
+TEST(SelfResolution, TouchesWhereFacesCross) {
+  const auto result = resolved(paired(pierced_box()), InsideRule::kNonZero);
+  ASSERT_TRUE(result);
+  ASSERT_FALSE((*result)->touches.empty());
+  GridBox all = (*result)->touches[0];
+  for (const GridBox& box : (*result)->touches) {
+    for (size_t k = 0; k < 3; ++k) {
+      all.lo[k] = std::min(all.lo[k], box.lo[k]);
+      all.hi[k] = std::max(all.hi[k], box.hi[k]);
+    }
+  }
+  // One face of the first box and four of the second.
+  EXPECT_EQ(all.lo, (IVec3{60, 20, 10}));
+  EXPECT_EQ(all.hi, (IVec3{60, 50, 40}));
+}
+
 // Work is added to what was counted before.
 TEST(SelfResolution, CountsItsWork) {
   auto loops = box_loops({0, 0, 0}, {60, 60, 60});
