@@ -5,21 +5,21 @@
 // (B's boundary between the two farthest vertices). As with an offset, all of this is one closed
 // curve for each loop whose winding number is positive exactly in the union.
 //
-// Where neither is convex, and neither has holes, their convolution is such a curve, with few
-// edges.
-//
-// Where one has holes: the sum of A with B's boundary is the union of the sums with B's edges,
-// each of which is convex; what is missing are the places where all of a piece of B lies inside A,
-// or the reverse, and these are covered by one copy of each at a point of the other.
+// Where neither is convex, their convolution is such a curve, with few edges: of regions without
+// holes, to which those with holes are cut open along slits.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <variant>
 
 #include <csgrun/primitives/shape_operations.h>
 
 #include "primitives/base/text.h"
 #include "primitives/shape2d/convolution.h"
 #include "primitives/shape2d/shape_factory.h"
+#include "primitives/shape2d/slits.h"
 #include "primitives/solids/mesh_builder.h"
 
 namespace csgrun {
@@ -71,7 +71,7 @@ GridLoop convex_corners(const std::vector<GridLoop>& loops) {
   return corners.size() >= 3 ? corners : GridLoop();
 }
 
-/// A convex polygon, or a segment, with its first vertex as the origin.
+/// A convex polygon with its first vertex as the origin.
 class ConvexTool {
  public:
   explicit ConvexTool(GridLoop corners) : corners_(std::move(corners)) {
@@ -125,12 +125,6 @@ double edge_count(const std::vector<GridLoop>& loops) {
   return count;
 }
 
-void add_shifted(const GridLoop& loop, const Point2D& shift, std::vector<Segment2D>& segments) {
-  GridLoop moved;
-  for (const Point2D& p : loop) moved.push_back(sum(p, shift));
-  add_outline(moved, false, segments);
-}
-
 /// A shape as it is on a grid that may be coarser than its own.
 Result<Shape2D> cleaned_on(const Grid2D& grid, const Shape2D& shape) {
   std::vector<Segment2D> segments;
@@ -139,36 +133,44 @@ Result<Shape2D> cleaned_on(const Grid2D& grid, const Shape2D& shape) {
                                   [](int32_t, int32_t winding) { return winding > 0; });
 }
 
-bool has_holes(const Shape2D& shape) { return shape.regions().size() != shape.loops().size(); }
+/// Loops of which each has a region without holes on its left; all together have the shape.
+Result<std::vector<GridLoop>> loops_without_holes(const Grid2D& grid, const Shape2D& shape) {
+  const std::vector<GridLoop> all = snapped_loops(grid, shape);
+  std::vector<GridLoop> open;
+  for (const Shape2D::Region& region : shape.regions()) {
+    std::vector<GridLoop> loops{all[region.outer]};
+    for (const uint32_t hole : region.holes) loops.push_back(all[hole]);
+    std::optional<GridLoop> loop = cut_open(loops);
+    if (!loop) return Error{ErrorCode::kInternal, "a hole of a shape sees no corner of it", {}};
+    open.push_back(*std::move(loop));
+  }
+  return open;
+}
 
-/// The sum of the shape `a`, whose loops on the grid are these, with the edges of b and with b as
-/// it is.
-void sweep_over_edges(const Shape2D& a_shape, const std::vector<GridLoop>& a,
-                      const std::vector<GridLoop>& b, std::vector<Segment2D>& segments) {
-  for (const GridLoop& outline : b) {
-    for (size_t i = 0; i < outline.size(); ++i) {
-      const ConvexTool edge({outline[i], outline[(i + 1) % outline.size()]});
-      for (const GridLoop& loop : a) edge.sweep(loop, outline[i], segments);
-    }
+Status convolve(const Grid2D& grid, const Shape2D& first, const Shape2D& second,
+                std::vector<Segment2D>& segments) {
+  std::array<std::vector<GridLoop>, 2> loops;
+  for (size_t i = 0; i < 2; ++i) {
+    const Result<Shape2D> clean = cleaned_on(grid, i == 0 ? first : second);
+    if (!clean) return clean.error();
+    auto open = loops_without_holes(grid, *clean);
+    if (!open) return open.error();
+    loops[i] = *std::move(open);
   }
-  for (const Shape2D::Region& region : a_shape.regions()) {
-    if (a[region.outer].empty()) continue;
-    for (const GridLoop& loop : b) add_shifted(loop, a[region.outer][0], segments);
+  for (const GridLoop& p : loops[0]) {
+    for (const GridLoop& q : loops[1]) add_convolution(p, q, segments);
   }
+  return std::monostate{};
 }
 
 Result<Shape2D> sum_of_two(const Shape2D& first, const Shape2D& second) {
   const Result<Grid2D> grid = grid_for(extent_of(first.loops()) + extent_of(second.loops()));
   if (!grid) return grid.error();
-  const Shape2D* a_shape = &first;
   std::vector<GridLoop> a = snapped_loops(*grid, first), b = snapped_loops(*grid, second);
   GridLoop corners = convex_corners(b);
-  if (corners.empty()) {  // a convex first operand is the tool as well; else the smaller one is
+  if (corners.empty()) {  // a convex first operand is the tool as well
     corners = convex_corners(a);
-    if (!corners.empty() || edge_count(a) < edge_count(b)) {
-      std::swap(a, b);
-      a_shape = &second;
-    }
+    if (!corners.empty()) std::swap(a, b);
   }
   const bool convex = !corners.empty();
   const double pieces = convex ? edge_count(a) * 3 + edge_count(b) : edge_count(a) * edge_count(b);
@@ -178,16 +180,7 @@ Result<Shape2D> sum_of_two(const Shape2D& first, const Shape2D& second) {
     const ConvexTool tool(corners);
     for (const GridLoop& loop : a) tool.sweep(loop, corners[0], segments);
   } else {
-    const Result<Shape2D> one = cleaned_on(*grid, first), other = cleaned_on(*grid, second);
-    if (!one) return one.error();
-    if (!other) return other.error();
-    if (has_holes(*one) || has_holes(*other)) {
-      sweep_over_edges(*a_shape, a, b, segments);
-    } else {
-      for (const GridLoop& p : snapped_loops(*grid, *one)) {
-        for (const GridLoop& q : snapped_loops(*grid, *other)) add_convolution(p, q, segments);
-      }
-    }
+    if (auto status = convolve(*grid, first, second, segments); !status) return status.error();
   }
   return Shape2DFactory::arranged(*grid, std::move(segments),
                                   [](int32_t, int32_t winding) { return winding > 0; });

@@ -243,6 +243,28 @@ TEST(Minkowski2D, OfManyCornersIsTheBoundaryOfAFewCurves) {
   EXPECT_LT(total.area(), hull.area());
 }
 
+// Holes that touch one another and the outline, or see few corners, and islands in them.
+TEST(Minkowski2D, HolesOfAllKindsAreUnionsOfSums) {
+  std::mt19937 random(31);
+  size_t holes = 0;
+  for (int run = 0; run < 60; ++run) {
+    const auto plate = good(
+        Shape2D::boolean(BooleanOp::kDifference, {box(0, 0, 9, 9), random_squares(random, 9, 26)}));
+    const Shape2D a = good(Shape2D::boolean(BooleanOp::kUnion, {plate, box(-1, -1, 1, 1)}));
+    const Shape2D b = random_squares(random, 3, 4);
+    holes += a.loops().size() - a.regions().size();
+    std::vector<Shape2D> parts;
+    for (int x = 0; x < 3; ++x) {
+      for (int y = 0; y < 3; ++y) {
+        if (b.contains({x + 0.5, y + 0.5})) parts.push_back(minkowski(a, box(x, y, x + 1, y + 1)));
+      }
+    }
+    EXPECT_EQ(minkowski(a, b).loops(), good(Shape2D::boolean(BooleanOp::kUnion, parts)).loops())
+        << run;
+  }
+  EXPECT_GT(holes, 100u);
+}
+
 TEST(Minkowski2D, EmptyOperandsCountForNothing) {
   const Shape2D square = box(0, 0, 3, 3);
   EXPECT_EQ(good(minkowski_of_shapes({Shape2D(), square, Shape2D()})).loops(), square.loops());
