@@ -3,34 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/vec3d.h"
+
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif
 
 namespace csgrun {
-namespace {
 
-using Point = std::array<double, 3>;
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-}  // namespace
-
-Slabs::Slabs(const std::array<Point, 3>& corners, double reach) {
+Slabs::Slabs(const std::array<Vec3d, 3>& corners, double reach) {
   // With u = 2^-24: rounding a point moves it by u of the reach along each axis, three products and
   // two sums add as much as that each, and so does a bound: below 16 u, as directions have
   // length 1.
   const double slack = 0x1p-19 * reach;
-  const Point normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+  const Vec3d normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
   for (size_t i = 0; i < slabs_.size(); ++i) {
-    const Point way = i == 0 ? normal : cross(minus(corners[i % 3], corners[i - 1]), normal);
-    const double length = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    const Vec3d way = i == 0 ? normal : cross(minus(corners[i % 3], corners[i - 1]), normal);
+    const double length = std::sqrt(dot(way, way));
     Slab& slab = slabs_[i];
     for (size_t k = 0; k < 3; ++k) slab.along[k] = static_cast<float>(way[k] / length);
-    Point place{};
+    Vec3d place{};
     for (size_t c = 0; c < 3; ++c) {
       // Whatever direction that is: these are where the corners stand along it.
       for (size_t k = 0; k < 3; ++k) place[c] += double{slab.along[k]} * corners[c][k];

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <span>
 
+#include "engine/base/vec3d.h"
+
 namespace csgrun {
 namespace {
 
-using Vec = std::array<double, 3>;
+using Vec = Vec3d;
 
 constexpr size_t kSample = 512;
 /// Normals are gathered in this many classes for each coordinate from 0 to 1.
@@ -15,11 +17,6 @@ constexpr double kClasses = 32;
 /// A frame must save so much to be worth the time that coordinates along it take.
 constexpr double kWorthwhile = 0.6;
 
-Vec minus(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vec unit(const Vec& a) {
   const double length = std::sqrt(dot(a, a));
   return {a[0] / length, a[1] / length, a[2] / length};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/vec3d.h"
 #include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/spread_vertices.h"
 
@@ -87,14 +88,9 @@ uint32_t TrianglePairs::beyond_slabs(uint32_t place, uint32_t group, uint32_t hi
 
 namespace {
 
-using Point = std::array<double, 3>;
+using Point = Vec3d;
 using Triangle = std::array<Point, 3>;
 
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point normal_of(const Triangle& t) { return cross(minus(t[1], t[0]), minus(t[2], t[0])); }
 
 /// Where the corners of a triangle are that are not common, against a plane; as bits. (Common ones

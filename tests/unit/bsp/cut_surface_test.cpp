@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/vec3d.h"
 #include "engine/bsp/union_find.h"
 #include "engine/mesh/leaf_check.h"
 #include "engine/mesh/opposite_edges.h"
@@ -22,7 +23,10 @@ struct Box {
   IVec3 lo, hi;
   bool is_turned;  ///< inside out
 };
-using Spot = std::array<double, 3>;
+using Spot = Vec3d;
+using csgrun::cross;  // beside those of rational vectors
+using csgrun::dot;
+using csgrun::minus;
 
 std::vector<Loop> loops_of(const std::vector<Box>& boxes) {
   std::vector<Loop> loops;
@@ -60,6 +64,14 @@ struct Surface {
   std::optional<Job> job;
   EvaluateStats stats;
 };
+
+std::vector<Spot> corners_of(const CutSurface& cut, const FragmentSet::Piece& piece) {
+  std::vector<Spot> corners;
+  for (uint32_t c = piece.first; c < piece.first + piece.count; ++c) {
+    corners.push_back(cut.pieces.points[cut.pieces.corner_point[c]].rounded);
+  }
+  return corners;
+}
 
 int32_t winding_at(const std::vector<Box>& boxes, const Spot& p) {
   int32_t winding = 0;
@@ -144,10 +156,7 @@ void check(const std::vector<Box>& boxes, Surface& surface, const CutSurface& cu
   for (size_t i = 0; i < cut.pieces.pieces.size(); ++i) {
     const FragmentSet::Piece& piece = cut.pieces.pieces[i];
     EXPECT_TRUE(surface.crosses[piece.polygon]);
-    std::vector<Spot> corners;
-    for (uint32_t c = piece.first; c < piece.first + piece.count; ++c) {
-      corners.push_back(cut.pieces.points[cut.pieces.corner_point[c]].rounded);
-    }
+    const std::vector<Spot> corners = corners_of(cut, piece);
     look(corners, piece.plane, cut.windings_of_piece[i][0], cut.windings_of_piece[i][1], i);
   }
   EXPECT_EQ(area, static_cast<double>(covered_squares(boxes)));
@@ -184,11 +193,6 @@ struct Solid {
 Spot spot(const IVec3& p) {
   return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
-Spot minus(const Spot& a, const Spot& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Spot cross(const Spot& a, const Spot& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Spot& a, const Spot& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 /// As long as twice the area.
 Spot normal_of(const std::vector<Spot>& p) {
   Spot n{};
@@ -280,10 +284,8 @@ void check(const std::vector<Solid>& solids, Surface& surface, const CutSurface&
   for (size_t i = 0; i < cut.pieces.pieces.size(); ++i) {
     const FragmentSet::Piece& piece = cut.pieces.pieces[i];
     EXPECT_TRUE(surface.crosses[piece.polygon]);
-    std::vector<Spot> corners;
-    for (uint32_t c = piece.first; c < piece.first + piece.count; ++c) {
-      corners.push_back(scaled(cut.pieces.points[cut.pieces.corner_point[c]].rounded));
-    }
+    std::vector<Spot> corners = corners_of(cut, piece);
+    for (Spot& corner : corners) corner = scaled(corner);
     look(corners, piece.polygon, cut.windings_of_piece[i][0], cut.windings_of_piece[i][1]);
   }
   EXPECT_NEAR(found, covered, kNothing * covered);

@@ -8,19 +8,15 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/vec3d.h"
 #include "tests/support/seeded.h"
 
 namespace csgrun {
 namespace {
 
-using Vec = std::array<double, 3>;  // whole numbers
+using Vec = Vec3d;  // whole numbers
 using Triangle = std::array<Vec, 3>;
 
-Vec minus(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vec edge(const Triangle& t, size_t i) { return minus(t[(i + 1) % 3], t[i]); }
 Vec normal(const Triangle& t) { return cross(edge(t, 0), edge(t, 1)); }
 
