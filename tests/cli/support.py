@@ -3,6 +3,7 @@ import json
 import os
 import resource
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -87,6 +88,15 @@ class Case(unittest.TestCase):
         self.assertEqual(outcome.code, code, outcome.err)
         if start is not None:
             self.assertTrue(outcome.err.startswith(start), f"{outcome.err!r} does not start with {start!r}")
+
+    def read_glb(self, name):
+        """The JSON of a GLB, without the lengths of its buffers."""
+        with open(self.path(name), "rb") as file:
+            data = file.read()
+        gltf = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+        for buffer in gltf["buffers"]:
+            buffer.pop("byteLength")
+        return gltf
 
     def left_over(self):
         """Temporary files that a run should have removed."""

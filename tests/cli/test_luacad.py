@@ -1,6 +1,5 @@
 """A project as LuaCAD's users have them: twenty files, forty-three coloured parts, called by their names."""
-import json
-import struct
+import math
 
 from support import Case, main
 
@@ -121,7 +120,7 @@ class Project(Case):
         self.assertEqual(len(parts), 43)
         self.assertTrue(all(part["closed"] for part in parts.values()))
         self.assertEqual({name for name in parts if name.startswith("plate-")}, {f"plate-{i}" for i in range(1, 19)})
-        gon = FN / 2 * __import__("math").sin(2 * __import__("math").pi / FN)  # of radius 1
+        gon = FN / 2 * math.sin(2 * math.pi / FN)  # of radius 1
         for i in range(1, 19):
             r = 1 + i % 3 * 0.25
             self.assertAlmostEqual(parts[f"plate-{i}"]["volume"], (10 + i) * 6 * 4 - gon * r * r * 4, delta=1e-3)
@@ -130,9 +129,7 @@ class Project(Case):
         self.assertAlmostEqual(parts["tip"]["volume"], 48, delta=1e-6)
         self.assertAlmostEqual(parts["wing"]["volume"], 50, delta=1e-9)
 
-        with open(self.path("out.glb"), "rb") as file:
-            data = file.read()
-        gltf = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+        gltf = self.read_glb("out.glb")
         nodes = {node["name"]: node for node in gltf["nodes"] if "mesh" in node}
         self.assertEqual(set(nodes), set(parts))
 
