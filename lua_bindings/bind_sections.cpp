@@ -56,7 +56,6 @@ constexpr FunctionSpec kProject{"project",
 /// the origin onto the origin, and upwards (of a plane that lies flat: Y) onto Y.
 NodePtr laid_flat(const NodePtr& solid, const CutPlane& plane, const SourceRef& where) {
   const glm::dvec3 z = plane.normal;
-  if (z == glm::dvec3(0, 0, 1) && plane.offset == 0) return solid;
   const bool is_flat = z.x == 0 && z.y == 0;
   const glm::dvec3 up = is_flat ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
   const glm::dvec3 across = up - z * glm::dot(up, z);
