@@ -184,6 +184,29 @@ TEST(SelfResolution, HullsOfNestedAndInvertedBoxes) {
   EXPECT_TRUE((*resolved(twice, InsideRule::kEvenOdd))->faces.empty());
 }
 
+/// The faces of a pyramid over a square, seen from outside, and then its base.
+std::vector<Loop> pyramid(const IVec3& apex) {
+  const IVec3 a{2, 2, 4}, b{10, 2, 4}, c{10, 10, 4}, d{2, 10, 4};
+  return {{a, b, apex}, {b, c, apex}, {c, d, apex}, {d, a, apex}, {a, d, c, b}};
+}
+
+TEST(SelfResolution, HullOfAResultFillsWhatTouchingPartsEnclose) {
+  // A tent stands on a plate, and touches it along its sharp rim alone: no face ends there.
+  auto tent = pyramid({6, 6, 10}), space = pyramid({6, 6, 8});
+  tent.pop_back();
+  space.pop_back();
+  turn_over(space);
+  tent.insert(tent.end(), space.begin(), space.end());
+  const Operand plate = operand_of(box_leaf({0, 0, 0}, {12, 12, 4}));
+  const Operand full = operand_of(make_leaf(pyramid({6, 6, 10})));
+  Operand both;
+  both.boundary = *combined({plate, operand_of(make_leaf(tent))}, BooleanOp::kUnion);
+  const auto filled = combined({plate, full}, BooleanOp::kUnion);
+  for (const InsideRule rule : {InsideRule::kOuterHull, InsideRule::kOrientedHull}) {
+    EXPECT_EQ(difference_of(resolved(both, rule), filled), "");
+  }
+}
+
 constexpr InsideRule kRules[] = {InsideRule::kNonZero, InsideRule::kPositive, InsideRule::kEvenOdd,
                                  InsideRule::kOuterHull, InsideRule::kOrientedHull};
 
