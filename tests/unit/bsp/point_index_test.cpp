@@ -88,7 +88,8 @@ TEST(PointIndex, ComparesVerticesByValue) {
     const uint32_t c = geometry.vertex_point(vertex(2, {0, 5, 1}));
     const uint32_t d = geometry.vertex_point(vertex(3, {0, 5, 1}));
     ASSERT_EQ(geometry.point(c).rounded, geometry.point(d).rounded);
-    ASSERT_NE(compare(geometry.exact(c), geometry.exact(d)), 0);
+    const Point at_c = geometry.exact(c), at_d = geometry.exact(d);
+    ASSERT_NE(compare(at_c, at_d), 0);
     EXPECT_EQ(index.unique(c), c);
     EXPECT_EQ(index.unique(d), d);
     EXPECT_EQ(index.unique(c), c);
