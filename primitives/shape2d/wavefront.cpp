@@ -107,7 +107,7 @@ class Wavefront {
     } else {
       // Near a spike the sum of the normals is noise, their difference is not.
       double sine = a.along.x * b.along.y - a.along.y * b.along.x;
-      if ((sine > 0) != (turn > 0)) {
+      if (sine == 0 || (sine > 0) != (turn > 0)) {
         sine = static_cast<double>(turn) /
                std::sqrt(static_cast<double>(dot(a.direction, a.direction)) *
                          static_cast<double>(dot(b.direction, b.direction)));
