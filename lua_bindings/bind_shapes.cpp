@@ -125,9 +125,8 @@ constexpr Option kLinearExtrudeOptions[] = {
      "factor at the top, or factors along X and Y; 0 gives a point or an edge", false,
      Range::kNotNegative},
     {"round", T::kSize2, "0",
-     "radius of the edges at the bottom and at the top, or {bottom, top}, mm: as far as the "
-     "outline "
-     "can\n          move inwards and keep its form",
+     "radius of the edges at the bottom and at the top, or {bottom, top}, mm: at most what the\n"
+     "          widest place of each piece has room for",
      false, Range::kNotNegative},
     {"slices", T::kInteger, "from the facets", "number of layers", false, Range::kPositive},
     {"segments", T::kInteger, "from the facets", "number of pieces of the outline; 0: never split",

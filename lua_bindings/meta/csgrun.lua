@@ -340,7 +340,7 @@ csg.polygon = polygon
 ---@field center? boolean centred along the direction
 ---@field twist? number turn over the whole height, clockwise seen from above, degrees
 ---@field scale? number|number[] factor at the top, or factors along X and Y; 0 gives a point or an edge
----@field round? number|number[] radius of the edges at the bottom and at the top, or {bottom, top}, mm: as far as the outline can move inwards and keep its form
+---@field round? number|number[] radius of the edges at the bottom and at the top, or {bottom, top}, mm: at most what the widest place of each piece has room for
 ---@field slices? integer number of layers
 ---@field segments? integer number of pieces of the outline; 0: never split
 ---@field convexity? integer ignored: OpenSCAD needs it for its preview

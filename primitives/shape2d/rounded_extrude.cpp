@@ -10,6 +10,7 @@
 #include <csgrun/primitives/trig.h>
 
 #include "primitives/base/text.h"
+#include "primitives/shape2d/inset_bands.h"
 #include "primitives/shape2d/profile.h"
 #include "primitives/solids/mesh_builder.h"
 
@@ -224,15 +225,17 @@ class RoundedExtruder {
   PolygonMesh mesh_;
 };
 
-/// The largest radius that fits, to some digits below it; `too_much` does not.
-double largest_fitting(const ShrinkingOutlines& outlines, double too_much) {
-  double low = 0, high = too_much;
-  constexpr int kSteps = 20;
-  for (int i = 0; i < kSteps; ++i) {
-    const double middle = (low + high) / 2;
-    (outlines.fits(middle) ? low : high) = middle;
+/// The layers of the bottom's end or of the top's, from the outline inwards.
+InsetEnd end_of(const std::vector<Layer>& layers, uint32_t end, double bottom) {
+  InsetEnd result;
+  for (const Layer& layer : layers) {
+    const bool is_outline = layer.inset == 0;
+    if (layer.end != end && !(is_outline && end == 1)) continue;
+    if (is_outline && end == 1) result.clear();  // the wall's upper edge is the last of them
+    result.push_back({layer.inset, bottom + layer.z});
   }
-  return low;
+  if (end == 0) std::reverse(result.begin(), result.end());
+  return result;
 }
 
 }  // namespace
@@ -256,15 +259,13 @@ MeshResult rounded_extrude(const Shape2D& shape, const LinearExtrudeOptions& opt
   if (steps * outline > kMostPoints) return too_many_points(kName, steps, steps * outline);
   const ShrinkingOutlines outlines(shape);
   const std::vector<Layer> layers = layers_of(options, height.z);
-  for (const Layer& layer : layers) {
-    if (layer.inset == 0 || outlines.fits(layer.inset)) continue;
-    const double wanted = std::max(low, high);
-    return invalid_argument(
-        "linear_extrude: round must leave the outline its form: " + number_text(wanted) +
-        " does not fit, the most that does is about " +
-        number_text(std::floor(largest_fitting(outlines, wanted) * 1000) / 1000));
-  }
-  return RoundedExtruder(shape, outlines, layers, options.center ? height.z / -2 : 0).build();
+  const double bottom = options.center ? height.z / -2 : 0;
+  const bool fits = std::all_of(layers.begin(), layers.end(), [&](const Layer& layer) {
+    return layer.inset == 0 || outlines.fits(layer.inset);
+  });
+  if (!fits)
+    return extrude_inset_bands(shape, end_of(layers, 0, bottom), end_of(layers, 1, bottom));
+  return RoundedExtruder(shape, outlines, layers, bottom).build();
 }
 
 }  // namespace csgrun

@@ -4,8 +4,7 @@
 // with its edges moved inwards, sharp corners staying sharp, so every corner runs along the
 // bisector of its two edges, concave ones and those of holes too. As long as no edge vanishes and
 // no walls meet the layers have the outline's own points, and bands between them are trapezoids:
-// closed by construction. A radius beyond that is refused. One at which a piece comes down to a
-// point or a ridge just there is the largest that fits.
+// closed by construction. Beyond that the bands are cut from the outline's roof (inset_bands.h).
 #pragma once
 
 #include <csgrun/primitives/shape2d.h>
@@ -13,7 +12,8 @@
 namespace csgrun {
 
 /// REQUIRES: a shape that is not empty, options that linear_extrude has checked, one of the radii
-/// `round` not 0. Errors: kInvalidArgument when the radii do not fit, kLimit. O(layers x points).
+/// `round` not 0. Errors: kInvalidArgument when the radii do not fit, kLimit, kInternal. O(layers x
+/// points) as long as the outline keeps its form.
 MeshResult rounded_extrude(const Shape2D& shape, const LinearExtrudeOptions& options,
                            const glm::dvec3& height);
 

@@ -48,5 +48,15 @@ assert(two:components() == 2 and #two:decompose() == 2)
 near(two:decompose()[2]:area(), 16)
 assert(s:color("red"):offset(1):linear_extrude(1):volume() > 100)
 
+-- Rounded edges run together where lines are thin; fonts have edges that vanish at once.
+local word = text("R&B", 20)
+local worn = word:linear_extrude{5, round = {0.4, 1}}
+assert(worn:genus() == word:linear_extrude(5):genus() and worn:bbox().size[3] == 5)
+assert((worn - word:linear_extrude(5)):volume() < 1e-3)
+-- Some edges of this one are opposite but for the last digit: the corner between them runs far.
+local wide, parts = text("4O", 20):rotate(330.92064456686541):offset{r = 1.197413979769101}, 0
+for _, part in ipairs(wide:decompose()) do parts = parts + part:roof("straight"):volume() end
+near(wide:roof("straight"):volume(), parts, 1e-4)
+
 -- What is made of them is a solid like any other.
 return two:offset{delta = 0.5}:linear_extrude(3)
