@@ -1,6 +1,7 @@
 #include "primitives/shape2d/inset_bands.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -332,7 +333,12 @@ MeshResult extrude_inset_bands(const Shape2D& shape, const InsetEnd& bottom, con
   RoofOptions straight;
   straight.method = RoofMethod::kStraight;
   const MeshResult mesh = make_roof(shape, straight);
-  if (!mesh) return mesh.error();
+  if (!mesh) {
+    Error error = mesh.error();
+    error.message =
+        "linear_extrude: round changes the form of this outline, which takes its " + error.message;
+    return error;
+  }
   const Roof roof = take_apart(*mesh);
   const std::map<Edge, Eaves> eaves = find_eaves(roof);
   const double wanted = std::max(bottom.back().inset, top.back().inset);

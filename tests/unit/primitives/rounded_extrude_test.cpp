@@ -206,6 +206,14 @@ TEST(RoundedExtrude, WhatDoesNotFitIsAnError) {
   const Shape2D frame = outlines({box(0, 0, 20, 20).loops()[0], box(6, 6, 14, 14).loops()[0]});
   EXPECT_EQ(message(frame, rounded(20, 4, 0)),
             too_wide + "4 does not fit, the most that does is about 3");
+  std::vector<Shape2D::Loop> saw(1);
+  for (int i = 0; i < 12000; ++i) {
+    const double r = i % 2 == 0 ? 20 : 20.5, angle = 2 * M_PI * (i + 0.2 * (i % 2)) / 12000;
+    saw[0].emplace_back(r * std::cos(angle), r * std::sin(angle));
+  }
+  EXPECT_EQ(message(outlines(saw), rounded(20, 0, 1)),
+            "linear_extrude: round changes the form of this outline, which takes its roof: method "
+            "\"straight\" takes up to 10000 edges, got 12000");
   EXPECT_EQ(message(box(0, 0, 9, 9), rounded(5, 3, 3)),
             "linear_extrude: round must leave room at the bottom and at the top: 3 and 3 are more "
             "than the height of 5");
