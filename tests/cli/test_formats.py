@@ -135,10 +135,6 @@ class Formats(Case):
         self.assertIn("newmtl metal\nKd 1 0.843137 0\nd 1\nPm 1\nPr 0.25\n", mtl)
         self.assertIn("newmtl #0000ff\nKd 0 0 1\nd 0.4\n", mtl)
 
-    def face_colours(self, faces):
-        """How much area there is of a colour: faces as (points, colour)."""
-        return {colour for _, colour in faces}
-
     def test_ply(self):
         self.export("a.ply")
         total = sum(VOLUMES.values())

@@ -2,7 +2,6 @@
 """Trees that OpenSCAD wrote, against the volumes, areas and boxes that it gives for them."""
 import csv
 import json
-import unittest
 
 import support
 

@@ -118,10 +118,6 @@ def table(head, rows):
     return "\n".join(lines) + "\n"
 
 
-def own_name(path):
-    return pathlib.Path(path).stem
-
-
 # ---- 1. round trip
 
 
