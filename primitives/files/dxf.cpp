@@ -14,6 +14,7 @@
 #include <csgrun/primitives/trig.h>
 
 #include "primitives/base/text.h"
+#include "primitives/files/drawn_shape.h"
 #include "primitives/files/dxf_records.h"
 #include "primitives/files/flat_curves.h"
 #include "primitives/files/flat_formats.h"
@@ -86,7 +87,7 @@ class DxfReader {
     for (auto& [layer, chains] : chains_) {
       std::vector<Shape2D::Loop> loops;
       join(chains, loops);
-      Result<Shape2D> shape = Shape2D::from_outlines(loops);
+      Result<Shape2D> shape = drawn_shape(loops, FillRule::kEvenOdd);
       if (!shape) return Error{shape.error().code, name_ + ": " + shape.error().message, {}};
       if (!options_.parts) {
         file.shape = *std::move(shape);

@@ -16,6 +16,7 @@
 #include <csgrun/primitives/shape_operations.h>
 
 #include "primitives/base/text.h"
+#include "primitives/files/drawn_shape.h"
 #include "primitives/files/flat_formats.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/svg_path.h"
@@ -515,8 +516,8 @@ class SvgReader {
       }
     }
     if (loops.empty()) return std::monostate();
-    Result<Shape2D> shape = Shape2D::from_outlines(
-        loops, style.fill_rule == "evenodd" ? FillRule::kEvenOdd : FillRule::kNonZero);
+    Result<Shape2D> shape =
+        drawn_shape(loops, style.fill_rule == "evenodd" ? FillRule::kEvenOdd : FillRule::kNonZero);
     if (!shape) return Error{shape.error().code, name_ + ": " + shape.error().message, {}};
     shapes_.push_back(*std::move(shape));
     return std::monostate();

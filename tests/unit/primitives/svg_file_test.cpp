@@ -98,6 +98,24 @@ TEST(Svg, GroupsUseAndTransforms) {
       1, 1e-9);
 }
 
+TEST(Svg, LinesThereAndBackEncloseNothing) {
+  // Under the transform their corners are off the line by rounding.
+  const std::string there_and_back = "M6 0H1 2 3 4 5 0";
+  const auto shape = [](const std::string& d) {
+    return read("a.svg",
+                "<svg width='40mm' height='40mm' viewBox='0 0 40 40'><path "
+                "transform='rotate(10) skewX(3)' d='" +
+                    d + "'/></svg>",
+                {})
+        .shape;
+  };
+  EXPECT_TRUE(shape(there_and_back).empty());
+  EXPECT_EQ(shape(there_and_back + "M20 0h10v10h-10z").loops().size(), 1u);
+  EXPECT_EQ(shape(there_and_back + "M-1-1h9v2h-9z").loops().size(), 1u);  // holes neither
+  // What is thin is there.
+  EXPECT_NEAR(shape("M0 0h10v1e-6h-10z").area(), 1e-5, 1e-6);
+}
+
 TEST(Svg, SizesFollowThePage) {
   const std::string rect = "<rect width='10' height='10'/>";
   const auto area = [&](const std::string& attributes, double dpi = 72) {
