@@ -69,7 +69,6 @@ void each_edge(const Polygon& loop, Visit visit) {
 
 /// By edges as the faces of the roof have them.
 std::map<Edge, Eaves> find_eaves(const Roof& roof) {
-  constexpr size_t kLeastRound = 12;  // as the walls of a plain extrusion
   std::map<Edge, Eaves> eaves;
   uint32_t surface = 0;
   for (size_t region = 0; region < roof.floors.size(); ++region) {
@@ -79,7 +78,7 @@ std::map<Edge, Eaves> find_eaves(const Roof& roof) {
       for (const uint32_t p : loop) places.emplace_back(roof.points[p].x, roof.points[p].y);
       uint32_t chains = 0;
       const std::vector<uint32_t> chain = smooth_chains(places, chains);
-      const bool is_round = chains == 1 && loop.size() >= kLeastRound;
+      const bool is_round = is_round_loop(loop.size(), chains);
       each_edge(loop, [&](size_t i, const Edge& edge) {
         const uint32_t top = surface + 1 + chain[i];
         eaves[edge] = is_round ? Eaves{region, top, top, top} : Eaves{region, top, top + chains, 0};
@@ -248,8 +247,7 @@ double height_at(const InsetEnd& end, double inset) {
 
 class BandExtruder {
  public:
-  explicit BandExtruder(const Roof& roof, const std::map<Edge, Eaves>& eaves)
-      : roof_(roof), eaves_(eaves) {
+  BandExtruder(const Roof& roof, const std::map<Edge, Eaves>& eaves) : roof_(roof), eaves_(eaves) {
     mesh_.kind = "linear_extrude";
   }
 

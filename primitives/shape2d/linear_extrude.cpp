@@ -146,12 +146,11 @@ class LinearExtruder {
 
   /// `surface` is the last number given to a curved surface.
   void add_sides(size_t l, uint32_t& surface) {
-    constexpr size_t kLeastRound = 12;  // vertices: a dodecagon is round, an octagon is not
     const std::vector<uint32_t>& loop = profile_.loops[l];
     const size_t n = loop.size();
     uint32_t chains = 0;
     std::vector<uint32_t> chain = smooth_chains(loops_[l], chains);
-    const bool round = !planar_sides() || (chains == 1 && n >= kLeastRound);
+    const bool round = !planar_sides() || is_round_loop(n, chains);
     for (int i = 0; i < slices_; ++i) {
       for (size_t k = 0; k < n; ++k) {
         add_side(i, loop[k], loop[(k + 1) % n], profile_.is_hole[l],

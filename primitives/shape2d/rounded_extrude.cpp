@@ -182,11 +182,10 @@ class RoundedExtruder {
 
   /// `surface` is the last number given to a curved surface.
   void add_bands(size_t l, const std::vector<std::vector<uint32_t>>& rings, uint32_t& surface) {
-    constexpr size_t kLeastRound = 12;  // as the walls of a plain extrusion
     uint32_t chains = 0;
     const std::vector<uint32_t> chain = smooth_chains(shape_.loops()[l], chains);
     const size_t n = chain.size();
-    const bool is_round = chains == 1 && n >= kLeastRound;
+    const bool is_round = is_round_loop(n, chains);
     for (size_t i = 0; i + 1 < rings.size(); ++i) {
       const bool is_wall = layers_[i].inset == 0 && layers_[i + 1].inset == 0;
       const uint32_t own = is_round ? 1
