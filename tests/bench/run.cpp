@@ -31,12 +31,6 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
 }
 
-double own_cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
-}
-
 double resident_mb() {
   std::FILE* f = std::fopen("/proc/self/statm", "r");
   unsigned long pages = 0, ignored = 0;
@@ -129,7 +123,7 @@ Operand Run::import(const PolygonMesh& mesh, const std::vector<IVec3>& points) {
 }
 
 std::vector<Operand> Run::import(const std::vector<RawMesh>& meshes, bool keep_facets) {
-  if (!settings_.write_inputs.empty() || settings_.threads == 1) {
+  if (!settings_.write_inputs.empty()) {
     std::vector<Operand> operands;
     for (const RawMesh& m : meshes) operands.push_back(import(m, keep_facets));
     return operands;
@@ -187,15 +181,13 @@ std::shared_ptr<const BoundaryMesh> Run::evaluate(const std::vector<Operand>& op
 
 PiecesPtr Run::evaluate_next(const PiecesPtr& before, const std::vector<Operand>& operands,
                              BooleanOp op) {
-  return clock.timed(clock.op, [&] {
-    const size_t count = operands.size() + (before ? 1 : 0);
-    const Expression expression = one_operation(count, op);
-    PiecesPtr pieces =
-        take(before ? change_pieces(*before, operands, expression, region_, options, stats_)
-                    : evaluate_pieces(operands, expression, region_, options, stats_));
-    if (!pieces) fail("a result cannot be in pieces");
-    return pieces;
-  });
+  const size_t count = operands.size() + (before ? 1 : 0);
+  const Expression expression = one_operation(count, op);
+  PiecesPtr pieces =
+      take(before ? change_pieces(*before, operands, expression, region_, options, stats_)
+                  : evaluate_pieces(operands, expression, region_, options, stats_));
+  if (!pieces) fail("a result cannot be in pieces");
+  return pieces;
 }
 
 void Run::write_cells(const std::vector<Operand>& operands, const Expression& expression) const {
@@ -235,10 +227,9 @@ void Run::finish(const BoundaryMesh& boundary, const std::string& extra) {
   arrays(boundary);
   const double rss = rss_mb();
   print(*measured(boundary), rss, stats_,
-        fmt::format(R"(,"import_cpu_s":{:.6f},"op_cpu_s":{:.6f},"export_cpu_s":{:.6f},)"
-                    R"("own_cpu_s":{:.6f}{})",
+        fmt::format(R"(,"import_cpu_s":{:.6f},"op_cpu_s":{:.6f},"export_cpu_s":{:.6f}{})",
                     clock.import_cpu, clock.op_cpu, clock.cpu - clock.import_cpu - clock.op_cpu,
-                    clock.own_cpu, extra));
+                    extra));
 }
 
 void Run::print(const Solid& solid, double rss, const EvaluateStats& s,

@@ -24,8 +24,6 @@ namespace csgrun::bench {
 double wall_seconds();
 /// CPU seconds of all threads of the process.
 double cpu_seconds();
-/// CPU seconds of the calling thread: what a run takes if there is a core for each of the others.
-double own_cpu_seconds();
 /// What the process holds now, and the most that it held, in MB.
 double resident_mb();
 double peak_mb();
@@ -39,20 +37,19 @@ T take(Result<T> r) {
   return std::move(*r);
 }
 
-/// The three clocks of a run: wall seconds, and the CPU seconds of all threads.
+/// The three clocks of a run: wall seconds, and the CPU seconds of all threads. To ask for the
+/// latter takes a microsecond or two on some machines: what takes some 100 is timed many at once.
 struct Clock {
   double import = 0, op = 0, exporting = 0, cpu = 0;
   double import_cpu = 0, op_cpu = 0;  ///< shares of `cpu`
-  double own_cpu = 0;                 ///< that of the calling thread
 
   template <class F>
   auto timed(double& seconds, F&& f) {
-    const double w = wall_seconds(), c = cpu_seconds(), own = own_cpu_seconds();
+    const double w = wall_seconds(), c = cpu_seconds();
     auto result = f();
     seconds += wall_seconds() - w;
     const double used = cpu_seconds() - c;
     cpu += used;
-    own_cpu += own_cpu_seconds() - own;
     if (&seconds == &import) import_cpu += used;
     if (&seconds == &op) op_cpu += used;
     return result;
@@ -94,6 +91,7 @@ class Run {
   /// One n-ary operation: union of all, or the first less the rest.
   std::shared_ptr<const BoundaryMesh> evaluate(const std::vector<Operand>& operands, BooleanOp op);
   /// The same with results in pieces, from one operation to the next; `before` is null at first.
+  /// Not on the clock.
   PiecesPtr evaluate_next(const PiecesPtr& before, const std::vector<Operand>& operands,
                           BooleanOp op);
   /// The arrays of a result, on the clock; `measured` asks for volume, area and the rest, off it.
