@@ -30,12 +30,10 @@ uint32_t CellGeometry::vertex_point(uint32_t vertex) {
 }
 
 uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes) {
-  const auto p = static_cast<uint32_t>(points_.size());
-  exact_.push_back(
-      intersect(planes_->plane(planes[0]), planes_->plane(planes[1]), planes_->plane(planes[2])));
-  points_.push_back(
-      {csgrun::rounded(exact_.back()), planes, kNone, static_cast<uint32_t>(exact_.size() - 1)});
-  return p;
+  // The exact point is 200 bytes and seldom asked for: to make it again is less than to store it.
+  return add_point(planes,
+                   csgrun::rounded(intersect(planes_->plane(planes[0]), planes_->plane(planes[1]),
+                                             planes_->plane(planes[2]))));
 }
 
 uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes,

@@ -98,11 +98,6 @@ class SurfaceCutter {
   [[nodiscard]] bool is_cancelled() const {
     return options_.cancel && options_.cancel->load(std::memory_order_relaxed);
   }
-  uint32_t unique(uint32_t point) {
-    unique_.resize(geometry_.point_count(), kNone);
-    if (unique_[point] == kNone) unique_[point] = index_.unique(point);
-    return unique_[point];
-  }
 
   bool cut_all() {
     for (const uint32_t p : partners_.polygons()) job_.ensure_planes(p);
@@ -173,8 +168,8 @@ class SurfaceCutter {
     for (uint32_t k = cuts_[i].first_piece; k < cuts_[i].end_piece; ++k) {
       const Fragment& piece = pieces_[k];
       for (uint32_t c = 0; c < piece.count; ++c) {
-        const uint32_t a = unique(geometry_.corners(piece)[c]),
-                       b = unique(geometry_.corners(piece)[c + 1 < piece.count ? c + 1 : 0]);
+        const uint32_t a = index_.unique(geometry_.corners(piece)[c]),
+                       b = index_.unique(geometry_.corners(piece)[c + 1 < piece.count ? c + 1 : 0]);
         edges.push_back({std::min(a, b), std::max(a, b), a < b, k});
       }
     }
@@ -287,7 +282,7 @@ class SurfaceCutter {
     return true;
   }
   uint32_t corner_point(const JobPolygon& p, uint32_t corner) {
-    return unique(geometry_.vertex_point(job_.corners(p)[corner]));
+    return index_.unique(geometry_.vertex_point(job_.corners(p)[corner]));
   }
 
   /// Near a corner, polygons that both cross others hang together over the edge that they share,
@@ -420,7 +415,6 @@ class SurfaceCutter {
   const Partners partners_;
   CellGeometry geometry_;
   PointIndex index_;
-  std::vector<uint32_t> unique_;   ///< per point of the geometry
   std::vector<uint32_t> face_of_;  ///< per corner
   std::vector<Fragment> pieces_;
   std::vector<Cut> cuts_;  ///< as the partners' polygons

@@ -269,6 +269,7 @@ void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
         vertex_of[point] = static_cast<uint32_t>(rounded_.size());
         rounded_.push_back(store.rounded(point));
         piece_points_.push_back(point);
+        are_pieces_on_grid_ &= store.is_on_grid(point);
       }
       corners_.push_back(vertex_of[point]);
     }
@@ -389,7 +390,10 @@ uint32_t Job::edge_plane(uint32_t polygon, uint32_t edge) {
   const uint32_t i =
       sources_[p.operand].map.is_mirrored() ? (2 * p.count - 2 - edge) % p.count : edge;
   const uint32_t* corners = leaf.corners.data() + leaf.face_starts[p.face];
-  const int axis = dominant_axis(support_of(leaf, p.face));
+  // That of the support, which is the leaf's own but for its length and sign if no frame turns it.
+  const bool is_known = p.support.valid() && operand.frame.is_identity;
+  const int axis =
+      dominant_axis(is_known ? planes_.plane(p.support.index()) : support_of(leaf, p.face));
   return plane = intern_for(p.operand,
                             csgrun::edge_plane(leaf.vertices[corners[i]],
                                                leaf.vertices[corners[(i + 1) % p.count]], axis))

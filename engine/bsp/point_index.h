@@ -12,27 +12,37 @@ namespace csgrun {
 
 class PointIndex {
  public:
-  explicit PointIndex(CellGeometry& geometry) : geometry_(geometry), slots_(1024, kNone) {}
+  explicit PointIndex(CellGeometry& geometry) : geometry_(geometry), slots_(1024) {}
 
   /// The first point that equals `p`; `p` itself when it is new. `p` must be in the geometry.
   uint32_t unique(uint32_t p) {
-    size_t s = hash(p) & (slots_.size() - 1);
-    for (; slots_[s] != kNone; s = (s + 1) & (slots_.size() - 1)) {
-      if (equal(slots_[s], p)) return slots_[s];
-    }
-    slots_[s] = p;
-    if (++count_ * 2 > slots_.size()) grow();
-    return p;
+    if (p < known_.size() && known_[p] != kNone) return known_[p];
+    if (p >= known_.size()) known_.resize(geometry_.point_count(), kNone);
+    return known_[p] = find_or_add(p);
   }
 
  private:
-  [[nodiscard]] uint64_t hash(uint32_t p) const {
+  struct Slot {
+    uint32_t hash = 0, point = kNone;
+  };
+
+  uint32_t find_or_add(uint32_t p) {
+    const uint32_t own = hash(p);
+    size_t s = own & (slots_.size() - 1);
+    for (; slots_[s].point != kNone; s = (s + 1) & (slots_.size() - 1)) {
+      if (slots_[s].hash == own && equal(slots_[s].point, p)) return slots_[s].point;
+    }
+    slots_[s] = {own, p};
+    if (++count_ * 2 > slots_.size()) grow();
+    return p;
+  }
+  [[nodiscard]] uint32_t hash(uint32_t p) const {
     uint64_t h = 0;
     for (const double c : geometry_.point(p).rounded) {
       h = (h ^ std::bit_cast<uint64_t>(c + 0.0)) * 0x9fb21c651e98df25ull;  // -0 + 0 = 0
       h ^= h >> 32;
     }
-    return h;
+    return static_cast<uint32_t>(h);
   }
   bool equal(uint32_t p, uint32_t q) {
     const auto a = geometry_.point(p), b = geometry_.point(q);
@@ -49,18 +59,19 @@ class PointIndex {
            geometry_.side(planes[2], p) == 0;
   }
   void grow() {
-    std::vector<uint32_t> old(slots_.size() * 2, kNone);
+    std::vector<Slot> old(slots_.size() * 2);
     std::swap(old, slots_);
-    for (const uint32_t p : old) {
-      if (p == kNone) continue;
-      size_t s = hash(p) & (slots_.size() - 1);
-      while (slots_[s] != kNone) s = (s + 1) & (slots_.size() - 1);
-      slots_[s] = p;
+    for (const Slot& slot : old) {
+      if (slot.point == kNone) continue;
+      size_t s = slot.hash & (slots_.size() - 1);
+      while (slots_[s].point != kNone) s = (s + 1) & (slots_.size() - 1);
+      slots_[s] = slot;
     }
   }
 
   CellGeometry& geometry_;
-  std::vector<uint32_t> slots_;
+  std::vector<Slot> slots_;
+  std::vector<uint32_t> known_;  ///< per point of the geometry that was asked for: its number
   size_t count_ = 0;
 };
 

@@ -11,9 +11,7 @@ namespace csgrun {
 uint32_t TouchFinder::number(uint32_t point) {
   const uint32_t vertex = geometry_.point(point).vertex;
   if (vertex != kNone && !touched_[vertex]) return point;
-  numbers_.resize(geometry_.point_count(), kNone);
-  if (numbers_[point] == kNone) numbers_[point] = index_.unique(point);
-  return numbers_[point];
+  return index_.unique(point);
 }
 
 void TouchFinder::examine(uint32_t point) {

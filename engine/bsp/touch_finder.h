@@ -51,7 +51,6 @@ class TouchFinder {
   CellGeometry& geometry_;
   PointIndex& index_;
   const std::vector<uint8_t>& touched_;
-  std::vector<uint32_t> numbers_;     ///< per point, see number; kNone: not asked yet
   std::vector<uint8_t> is_examined_;  ///< per point
   std::vector<Corner> corners_;
   std::vector<GridBox> boxes_;
