@@ -70,8 +70,7 @@ KernelOptions second_half(KernelOptions options) {
 }  // namespace
 
 void keep_few(std::vector<GridBox>& boxes) {
-  constexpr size_t kMost = 4096;
-  while (boxes.size() > kMost) {
+  while (boxes.size() > kMostTouches) {
     size_t kept = 0;
     for (size_t i = 0; i < boxes.size(); i += 2) {
       GridBox hull = boxes[i];

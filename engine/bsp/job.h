@@ -91,9 +91,10 @@ class Job {
   [[nodiscard]] uint32_t piece_point(uint32_t vertex) const;
   [[nodiscard]] size_t operand_count() const { return operands_->size(); }
   [[nodiscard]] uint32_t operand_of_vertex(uint32_t vertex) const;
-  /// Whether the vertices of an operand are grid points, so that their doubles are exact.
+  /// Whether the vertices that the job has of an operand are grid points, so that their doubles are
+  /// exact.
   [[nodiscard]] bool has_grid_vertices(size_t o) const {
-    return is_leaf(o) && (*operands_)[o].frame.is_identity;
+    return is_leaf(o) ? (*operands_)[o].frame.is_identity : pieces(o) && are_pieces_on_grid_;
   }
   [[nodiscard]] const RawVector<JobPolygon>& polygons() const { return polygons_; }
   [[nodiscard]] const RawVector<PolygonBox>& boxes() const { return boxes_; }
@@ -191,6 +192,7 @@ class Job {
   /// Planes of boundary operands, by their number in the boundary.
   std::vector<std::vector<PlaneId>> boundary_planes_;
   std::vector<uint32_t> pieces_, piece_points_;  ///< of the operand in pieces
+  bool are_pieces_on_grid_ = true;               ///< all of these points
   int64_t prime_ = 3;
 };
 

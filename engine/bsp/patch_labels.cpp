@@ -35,7 +35,7 @@ uint32_t squares_per_side(size_t operands) {
 PatchLabels::PatchLabels(const Job& job, const Expression& expression)
     : job_(job),
       boundary_(expression),
-      signs_(job),
+      signs_(job, true),  // rays meet pieces that the job does not have
       bins_(boxes_of_operands(job), squares_per_side(job.operand_count())) {}
 
 PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, double error,

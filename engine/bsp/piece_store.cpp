@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/bsp/grid_planes.h"
+#include "engine/exact/grid_meeting.h"
 
 namespace csgrun {
 namespace {
@@ -30,6 +31,8 @@ uint32_t PieceStore::add_operand(Job& job, const std::vector<Operand>& operands,
   for (uint32_t v = begin; v < end; ++v) {
     rounded_.push_back(job.rounded(v));
     point_planes_.push_back(job.vertex_planes(v));
+    is_on_grid_.push_back(operand.leaf ? operand.frame.is_identity
+                                       : meet_on_grid_at(point_planes_.back(), rounded_.back()));
   }
   point_operand_.resize(rounded_.size(), number);
   const uint32_t first_polygon = job.polygon_start(o), end_polygon = job.polygon_start(o + 1);
@@ -66,7 +69,14 @@ uint32_t PieceStore::add_point(const std::array<uint32_t, 3>& meeting,
   rounded_.push_back(at);
   point_planes_.push_back(meeting);
   point_operand_.push_back(kNoNumber);
+  is_on_grid_.push_back(meet_on_grid_at(meeting, at));
   return static_cast<uint32_t>(rounded_.size() - 1);
+}
+
+bool PieceStore::meet_on_grid_at(const std::array<uint32_t, 3>& meeting,
+                                 const std::array<double, 3>& at) const {
+  return meet_on_grid(planes.plane(meeting[0]), planes.plane(meeting[1]), planes.plane(meeting[2]),
+                      at);
 }
 
 uint32_t PieceStore::add_piece(const Piece& piece) {
@@ -109,11 +119,12 @@ uint32_t PieceStore::ensure_edge(uint32_t piece, uint32_t edge) {
 }
 
 Point PieceStore::exact(uint32_t point) const {
+  if (is_on_grid(point)) {
+    const IVec3 at = on_grid(point);
+    return grid_point(at[0], at[1], at[2]);
+  }
   const auto& t = point_planes_[point];
-  if (t[0] != kNoNumber)
-    return intersect(planes.plane(t[0]), planes.plane(t[1]), planes.plane(t[2]));
-  const IVec3 at = on_grid(point);
-  return grid_point(at[0], at[1], at[2]);
+  return intersect(planes.plane(t[0]), planes.plane(t[1]), planes.plane(t[2]));
 }
 
 }  // namespace csgrun

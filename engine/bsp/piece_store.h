@@ -68,6 +68,8 @@ class PieceStore {
   [[nodiscard]] const std::array<uint32_t, 3>& point_planes(uint32_t point) const {
     return point_planes_[point];
   }
+  /// Whether the exact point is known to be on the grid: then rounded() is the point.
+  [[nodiscard]] bool is_on_grid(uint32_t point) const { return is_on_grid_[point] != 0; }
   [[nodiscard]] Point exact(uint32_t point) const;
 
   [[nodiscard]] const std::vector<Operand>& operands() const { return operands_; }
@@ -116,6 +118,8 @@ class PieceStore {
     return entries[number[i]];
   }
 
+  [[nodiscard]] bool meet_on_grid_at(const std::array<uint32_t, 3>& meeting,
+                                     const std::array<double, 3>& at) const;
   [[nodiscard]] IVec3 on_grid(uint32_t point) const;
   [[nodiscard]] Plane plane_of_corners(uint32_t piece) const;
 
@@ -124,6 +128,7 @@ class PieceStore {
   std::vector<std::array<double, 3>> rounded_;
   std::vector<std::array<uint32_t, 3>> point_planes_;
   std::vector<uint32_t> point_operand_;
+  std::vector<uint8_t> is_on_grid_;
   std::vector<Piece> pieces_;
   std::vector<PieceBox> boxes_;
   std::vector<uint32_t> corners_, edges_;

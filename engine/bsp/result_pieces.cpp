@@ -74,7 +74,8 @@ Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& operands,
   if (!writer.add_operands()) return PiecesPtr();
   for (const WholePolygon& w : evaluated->whole) writer.add_whole(w);
   if (!writer.add_cut(evaluated->sets)) return not_closed();
-  result->touching = std::move(evaluated->touching);
+  result->touches_anywhere = evaluated->touching.anywhere;
+  result->touches = TouchList().with(std::move(evaluated->touching.boxes));
   result->bytes = bytes_of(store.piece_count(), store.point_count());
   result->tree = PieceTree().changed(
       {}, [](uint32_t) { return false; }, std::move(writer.added),
@@ -129,11 +130,9 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   result->store = version.store;
   result->bytes =
       bytes_of(store.piece_count() - pieces_before, store.point_count() - points_before);
-  result->touching = version.touching;
   Touching more = touching_before(others);
-  result->touching.anywhere |= more.anywhere;
-  add_touching(result->touching, more.boxes);
-  add_touching(result->touching, faces->touching);
+  result->touches_anywhere = version.touches_anywhere || more.anywhere;
+  result->touches = version.touches.with(std::move(more.boxes)).with(std::move(faces->touching));
   const auto box_of = [&](uint32_t p) -> const PieceBox& { return store.box(p); };
   if (outside == Outside::kDropped) {
     kept.insert(kept.end(), writer.added.begin(), writer.added.end());
@@ -225,7 +224,8 @@ Result<std::shared_ptr<const BoundaryMesh>> assemble_pieces(const ResultPieces& 
   for (const FragmentSet::Piece& p : set.pieces) job.ensure_planes(p.polygon);
   std::vector<UntouchedPart> parts;
   if (name_untouched) parts = take_untouched(job, operands, whole);
-  return assemble(job, sets, whole, version.touching, std::move(parts));
+  return assemble(job, sets, whole, {version.touches_anywhere, version.touches.boxes()},
+                  std::move(parts));
 }
 
 }  // namespace csgrun

@@ -16,13 +16,15 @@
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/kernel.h"
 #include "engine/bsp/piece_store.h"
+#include "engine/bsp/touch_list.h"
 
 namespace csgrun {
 
 struct ResultPieces {
   std::shared_ptr<PieceStore> store;
   PieceTree tree;
-  Touching touching;
+  bool touches_anywhere = false;  ///< it may touch itself anywhere, not only in `touches`
+  TouchList touches;
   size_t bytes = 0;  ///< about what this version has that the one before had not
 };
 using PiecesPtr = std::shared_ptr<const ResultPieces>;

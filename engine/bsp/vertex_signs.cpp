@@ -4,12 +4,13 @@
 
 namespace csgrun {
 
-VertexSigns::VertexSigns(const Job& job) : errors_(job.operand_count(), 0) {
+VertexSigns::VertexSigns(const Job& job, bool whole_results) : errors_(job.operand_count(), 0) {
   for (uint32_t o = 0; o < job.operand_count(); ++o) {
-    if (job.has_grid_vertices(o)) continue;
+    const PieceOperand* const whole = whole_results ? job.pieces(o) : nullptr;
+    if (!whole && job.has_grid_vertices(o)) continue;
     double largest = 0;
-    if (const PieceOperand* all = job.pieces(o)) {  // rays meet others than the job has
-      const PieceBox box = all->pieces.box();
+    if (whole) {
+      const PieceBox box = whole->pieces.box();
       for (size_t k = 0; k < 3; ++k) {
         largest = std::max({largest, std::fabs(box.lo[k]), std::fabs(box.hi[k])});
       }

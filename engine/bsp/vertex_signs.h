@@ -18,7 +18,9 @@ constexpr int kUnsure = 2;
 
 class VertexSigns {
  public:
-  explicit VertexSigns(const Job& job);
+  /// `whole_results`: of an operand in pieces, those that the job does not have are asked about,
+  /// too.
+  VertexSigns(const Job& job, bool whole_results);
 
   /// How far the coordinates that the job has for an operand's vertices may be from the true ones;
   /// 0 for those on the grid.

@@ -1,6 +1,7 @@
 // Points of a store of pieces are those of the jobs that they come from.
 #include "engine/bsp/piece_store.h"
 
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -117,10 +118,61 @@ TEST(PieceStore, TakesThePlanesOfFacesAlongAxes) {
   }
 }
 
+// A point made of planes is the grid point that its coordinates name, or it is none.
+TEST(PieceStore, TellsWhichPointsAreOnTheGrid) {
+  test::Random random(993);
+  PieceStore store;
+  size_t on_grid = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::array<uint32_t, 3> meeting{};
+    std::array<Plane, 3> planes;
+    // Offsets that are large beside the normals: some points are near the grid, and not on it.
+    const int64_t reach = i % 3 == 0 ? 3 : int64_t{1} << 20;
+    for (size_t k = 0; k < 3; ++k) {
+      Plane& p = planes[k];
+      p.a = random.integer(-reach, reach), p.b = random.integer(-reach, reach);
+      p.c = random.integer(-reach, reach);
+      p.d = i % 2 == 0
+                ? -(p.a * 7 + p.b * 8 + p.c * (i % 5)) + (i % 4 == 0 ? 0 : random.integer(0, 1))
+                : random.integer(-reach, reach);
+    }
+    const Int128 determinant =
+        planes[0].a * (planes[1].b * planes[2].c - planes[1].c * planes[2].b) -
+        planes[0].b * (planes[1].a * planes[2].c - planes[1].c * planes[2].a) +
+        planes[0].c * (planes[1].a * planes[2].b - planes[1].b * planes[2].a);
+    if (determinant == 0) continue;
+    for (size_t k = 0; k < 3; ++k) meeting[k] = store.planes.intern(planes[k]).index();
+    const Point exact = intersect(planes[0], planes[1], planes[2]);
+    const std::array<double, 3> at = rounded(exact);
+    const uint32_t point = store.add_point(meeting, at);
+    bool is_whole = true;
+    for (const double c : at) is_whole &= c == std::floor(c);
+    const bool is_on_grid =
+        is_whole &&
+        compare(exact, grid_point(static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]),
+                                  static_cast<int64_t>(at[2]))) == 0;
+    EXPECT_EQ(store.is_on_grid(point), is_on_grid);
+    EXPECT_EQ(compare(store.exact(point), exact), 0);
+    on_grid += is_on_grid;
+  }
+  EXPECT_GT(on_grid, 500u);
+  // So near to the grid that doubles do not tell.
+  const Int128 large = Int128{1} << 60;
+  const uint32_t near = store.planes.intern({large, 0, 0, -7 * large - 1}).index(),
+                 y = store.planes.intern({0, 1, 0, -5}).index(),
+                 z = store.planes.intern({0, 0, 1, 4}).index(),
+                 x = store.planes.intern({1, 0, 0, -7}).index();
+  EXPECT_FALSE(store.is_on_grid(store.add_point({near, y, z}, {7, 5, -4})));
+  EXPECT_TRUE(store.is_on_grid(store.add_point({x, y, z}, {7, 5, -4})));
+}
+
 // Room for what others sum up, made when it is asked for first, and kept.
 TEST(PieceStore, KeepsWhatIsSaidOfPointsAndPieces) {
   PieceStore store;
-  for (int i = 0; i < 4; ++i) store.add_point({0, 1, 2}, {1.0 * i, 0, 0});
+  for (const Plane& p : {Plane{1, 0, 0, 0}, Plane{0, 1, 0, 0}, Plane{0, 0, 1, 0}}) {
+    store.planes.intern(p);
+  }
+  for (int i = 0; i < 4; ++i) store.add_point({0, 1, 2}, {0, 0, 0});
   for (uint32_t i = 0; i < 3; ++i) store.add_piece({0, i, 0, 0, {}, false, false});
   EXPECT_FALSE(store.cut_point(2).is_known);
   store.cut_point(2).is_known = true;

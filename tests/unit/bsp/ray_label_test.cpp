@@ -23,7 +23,7 @@ constexpr double kDirections[3][2] = {
 
 struct Operands {
   explicit Operands(const Operand& operand)
-      : list{operand}, job(list), signs(job), oracle(test::exact_solid(operand)) {}
+      : list{operand}, job(list), signs(job, true), oracle(test::exact_solid(operand)) {}
   explicit Operands(const std::vector<test::Loop>& loops)
       : Operands(test::operand_of(test::make_leaf(loops))) {}
 
@@ -297,7 +297,7 @@ TEST(RayLabel, CountsNothingThatRaysMissBarely) {
     operand.translation = middle;
     const std::vector<Operand> operands{operand};
     const Job job(operands);
-    VertexSigns signs(job);
+    VertexSigns signs(job, true);
     ASSERT_EQ(ray_label(job, signs, 0, {0, 0, 0}, 0), Inside::kNo) << i;
   }
   for (const int n : missed) EXPECT_GT(n, 1000);

@@ -259,14 +259,14 @@ TEST(ResultPieces, RememberWhatTouchedThem) {
   EvaluateStats stats;
   auto version = evaluate_pieces({operands[0], operands[1]}, join, region, {}, stats);
   ASSERT_TRUE(version && *version);
-  EXPECT_FALSE((*version)->touching.anywhere);
+  EXPECT_FALSE((*version)->touches_anywhere);
   version = change_pieces(**version, {operands[2]}, join, region, {}, stats);
   ASSERT_TRUE(version && *version);
-  EXPECT_FALSE((*version)->touching.anywhere);
+  EXPECT_FALSE((*version)->touches_anywhere);
   // Once more, with something that meets nothing.
   auto last = change_pieces(**version, {operands[3]}, join, region, {}, stats);
   ASSERT_TRUE(last && *last);
-  EXPECT_FALSE((*last)->touching.anywhere);
+  EXPECT_FALSE((*last)->touches_anywhere);
   KernelOptions options;
   options.name_untouched = true;
   const auto faces_of = [](const BoundaryMesh& mesh) {
@@ -289,7 +289,7 @@ TEST(ResultPieces, RememberWhatTouchedThem) {
   operands[3].leaf = unknown;
   last = change_pieces(**version, {operands[3]}, join, region, {}, stats);
   ASSERT_TRUE(last && *last);
-  EXPECT_TRUE((*last)->touching.anywhere);
+  EXPECT_TRUE((*last)->touches_anywhere);
 }
 
 TEST(ResultPieces, OfResults) {
@@ -406,7 +406,7 @@ TEST(ResultPieces, AreOfOneBox) {
     }
     EXPECT_LT(job.polygons().size(), 18u);
     // Rays meet all of them: the largest coordinate counts, and rounding.
-    EXPECT_EQ(VertexSigns(job).error(1), 51 * 0x1p-53);
+    EXPECT_EQ(VertexSigns(job, true).error(1), 51 * 0x1p-53);
     for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kDifference, BooleanOp::kIntersection,
                                BooleanOp::kSymmetricDifference}) {
       const auto next =

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/bsp/grid_planes.h"
+#include "engine/bsp/piece_store.h"
+#include "engine/bsp/result_pieces.h"
 #include "tests/support/exact_solid.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
@@ -55,7 +57,7 @@ std::array<IVec3, 4> random_points(test::Random& random, const std::array<int, 3
 TEST(VertexSigns, OnTheGridAreExact) {
   test::Random random(51);
   const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {1, 1, 1}))};
-  VertexSigns signs{Job(operands)};
+  VertexSigns signs(Job(operands), false);
   EXPECT_EQ(signs.error(0), 0);
   size_t zeros = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -79,7 +81,7 @@ TEST(VertexSigns, OnTheGridAreExact) {
 
 TEST(VertexSigns, OfFarPointsAreToldByDoublesOrNotAtAll) {
   const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {1, 1, 1}))};
-  VertexSigns signs{Job(operands)};
+  VertexSigns signs(Job(operands), false);
   const double far = 0x1p40;
   // In one plane: exact below 2^40 only.
   EXPECT_EQ(signs.orient({0, 0, 0}, {far - 1, 0, 0}, {0, 1, 0}, {5, 5, 0}, 0), 0);
@@ -94,7 +96,7 @@ TEST(VertexSigns, OfFarPointsAreToldByDoublesOrNotAtAll) {
 TEST(VertexSigns, OfRoundedPointsAreNeverWrong) {
   test::Random random(52);
   const std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {1, 1, 1}))};
-  VertexSigns signs{Job(operands)};
+  VertexSigns signs(Job(operands), false);
   size_t told = 0, unsure = 0;
   for (int i = 0; i < 20000; ++i) {
     std::array<int, 3> bits;
@@ -128,7 +130,7 @@ TEST(VertexSigns, ErrorsAreHalfAUnitInTheLastPlaceOfTheLargestCoordinate) {
       if (random.integer(0, 2)) operands.back().frame = test::random_frame(random);
     }
     const Job job(operands);
-    const VertexSigns signs(job);
+    const VertexSigns signs(job, false);
     for (uint32_t o = 0; o < operands.size(); ++o) {
       double largest = 0;
       for (const Rational3& p : test::exact_solid(operands[o]).points) {
@@ -150,7 +152,32 @@ TEST(VertexSigns, OfResultsAreRoundedEvenOnTheGrid) {
   ASSERT_TRUE(result);
   std::vector<Operand> operands(1);
   operands[0].boundary = *result;
-  EXPECT_GE(VertexSigns(Job(operands)).error(0), 8 * 0x1p-53);
+  EXPECT_GE(VertexSigns(Job(operands), false).error(0), 8 * 0x1p-53);
+}
+
+// Pieces near the tool may all be on the grid when others, which rays meet, are not.
+TEST(VertexSigns, OfPiecesAreExactWhereTheJobHasThemOnTheGrid) {
+  // A box less one that leans: corners off the grid at one end only.
+  std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {60, 10, 10})),
+                                test::operand_of(test::box_leaf({50, 3, 3}, {64, 7, 8}))};
+  operands[1].frame = test::frame_of(test::turn_about(0, 1));
+  const GridBox region{{-99, -99, -99}, {99, 99, 99}};
+  EvaluateStats stats;
+  const auto version = evaluate_pieces(operands, test::flat_expression(BooleanOp::kDifference, 2),
+                                       region, {}, stats);
+  ASSERT_TRUE(version && *version);
+  const auto error = [&](const IVec3& lo, const IVec3& hi, bool whole_results) {
+    Operand pieces;
+    pieces.pieces =
+        std::make_shared<PieceOperand>(PieceOperand{(*version)->store, (*version)->tree});
+    const std::vector<Operand> both{test::operand_of(test::box_leaf(lo, hi)), pieces};
+    const Job job(both, &(*version)->store->planes);
+    EXPECT_GT(job.polygon_start(2), job.polygon_start(1));
+    return VertexSigns(job, whole_results).error(1);
+  };
+  EXPECT_EQ(error({-1, 2, 2}, {3, 4, 4}, false), 0);
+  EXPECT_GT(error({-1, 2, 2}, {3, 4, 4}, true), 0);
+  EXPECT_GT(error({55, 2, 2}, {70, 4, 4}, false), 0);
 }
 
 TEST(GridPlanes, PassThroughTheirPointsAndHaveALongestAxis) {
