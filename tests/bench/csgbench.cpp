@@ -56,7 +56,7 @@ void run_chain(const std::string& name, const Settings& settings,
                const std::vector<RawMesh>& meshes, BooleanOp op) {
   Run run(name, settings, reach_of(meshes));
   const std::vector<Operand> tools = run.import(meshes, false);
-  const size_t steps = tools.size() - 1, tenth = std::max<size_t>(1, steps / 10);
+  const size_t steps = tools.size() - 1, tenth = std::min(steps, std::max<size_t>(1, steps / 10));
   double asked = 0;
   PiecesPtr result = run.clock.timed(
       run.clock.op, [&] { return run.evaluate_next(nullptr, {tools[0]}, BooleanOp::kUnion); });
@@ -88,7 +88,7 @@ void run_chain(const std::string& name, const Settings& settings,
   const Tenth first = make_tenth(1, tenth + 1);
   make_steps(tenth + 1, last_begin);
   const Tenth last = make_tenth(last_begin, steps + 1);
-  if (!(asked > 0)) fail("a result of the chain has no volume");
+  if (steps > 0 && !(asked > 0)) fail("a result of the chain has no volume");
   const auto boundary =
       run.clock.timed(run.clock.exporting, [&] { return take(assemble_pieces(*result, true)); });
   run.finish(*boundary, fmt::format(R"(,"first_tenth_s":{:.6f},"last_tenth_s":{:.6f})"
@@ -162,6 +162,7 @@ constexpr const char* kUsage =
     "  menger K             a Menger sponge of level K\n"
     "  grid N               union of N x N cylinders\n"
     "  cubegrid N           N^3 touching unit cubes, one after another\n"
+    "  dome N               a sphere minus N small ones on it, one after another\n"
     "  boxes                two boxes, repeated\n"
     "  ulp FILE             less a copy shifted by one float32 unit in the last place\n"
     "  roundtrip FILE       through planes and BSPs, and back to the same vertices\n"
@@ -206,6 +207,8 @@ void run_once(const std::vector<std::string>& words, const Settings& settings) {
     run_nary(name, settings, cylinder_grid(number(1)), BooleanOp::kUnion, false);
   } else if (workload == "cubegrid" && words.size() == 2) {
     run_chain(name, settings, cube_grid(number(1)), BooleanOp::kUnion);
+  } else if (workload == "dome" && words.size() == 2) {
+    run_chain(name, settings, joined(dome(), dome_spheres(number(1))), BooleanOp::kDifference);
   } else if (workload == "boxes" && words.size() == 1) {
     run_boxes(name, settings);
   } else if (workload == "ulp" && words.size() == 2) {

@@ -8,6 +8,8 @@
 namespace csgrun::bench {
 namespace {
 
+constexpr double kDome = 50;  ///< the radius
+
 /// Donald Knuth's MMIX generator; the upper 53 bits make a number in [0, 1).
 class Generator {
  public:
@@ -188,6 +190,21 @@ std::vector<RawMesh> drill_spheres(int n) {
   }
   return spheres;
 }
+
+std::vector<RawMesh> dome_spheres(int n) {
+  const RawMesh sphere = octahedron_sphere(2, 32);
+  Generator random(12345);
+  std::vector<RawMesh> spheres;
+  for (int i = 0; i < n; ++i) {
+    const double z = 2 * random.next() - 1, angle = 2 * M_PI * random.next();
+    const double r = std::sqrt(1 - z * z);
+    spheres.push_back(
+        moved(sphere, kDome * r * std::cos(angle), kDome * r * std::sin(angle), kDome * z));
+  }
+  return spheres;
+}
+
+RawMesh dome() { return octahedron_sphere(kDome, 128); }
 
 RawMesh block() { return box(0, 0, 0, 100, 100, 20); }
 

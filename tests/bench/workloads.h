@@ -35,6 +35,11 @@ RawMesh rotated_z(const RawMesh& mesh, double degrees);
 /// block(), at places drawn from a linear congruential generator.
 std::vector<RawMesh> drill_spheres(int n);
 RawMesh block();
+/// The tools of `dome`: n spheres of radius 2 (512 triangles) whose middles lie on dome(), in
+/// directions drawn from the same generator: z first, then the angle about it.
+std::vector<RawMesh> dome_spheres(int n);
+/// A sphere of radius 50 (8192 triangles).
+RawMesh dome();
 /// The bars to be taken out of the cube [0, 3^k]^3 for a Menger sponge of level k, for one axis
 /// after the other (x, y, z): none inside a larger one, sticking out by 1 at both ends.
 std::vector<RawMesh> menger_bars(int k);

@@ -47,6 +47,8 @@ WORKLOADS = {
     "menger 3": Workload(("menger", "3"), "difference", "once"),
     "grid 20": Workload(("grid", "20"), "union", "once"),
     "grid 40": Workload(("grid", "40"), "union", "once"),
+    "cubegrid 10": Workload(("cubegrid", "10"), "union", "each"),
+    "dome 300": Workload(("dome", "300"), "difference", "each"),
     "process": None,  # a block less 100 spheres: from a script to an STL file
 }
 LARGE = ("rot 800K",)  # only when asked for

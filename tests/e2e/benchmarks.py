@@ -4,6 +4,7 @@ it takes is no matter of tests.
 """
 import csv
 import json
+import math
 import os
 
 import support
@@ -53,6 +54,17 @@ class Benchmarks(support.Case):
         self.assertEqual((result["volume"], result["area"], result["n_out_tris"]), (125, 150, 12))
         result = self.bench("boxes")
         self.assertEqual((result["volume"], result["area"]), (15, 42))
+
+    def test_a_chain_on_a_sphere_is_one_difference(self):
+        result = self.bench("dome", 30, "--write-inputs", self.folder / "tool")
+        self.assertEqual(result["n_in_tris"], 8192 + 30 * 512)
+        # Every tool is centred on the surface: a little less than half of it is taken, less what they share.
+        ball, tool = 4 / 3 * math.pi * 50 ** 3, 4 / 3 * math.pi * 2 ** 3
+        self.assertTrue(0.99 * ball - 15 * tool < result["volume"] < ball - 10 * tool, result["volume"])
+        part, = self.script("local s = import('tool0.off') for i = 1, 30 do s = s - import('tool' .. i .. '.off') end "
+                            "return s", "-o", self.folder / "x.stl")["parts"]
+        self.assert_relative(part["volume"], result["volume"], 1e-9)
+        self.assert_relative(part["area"], result["area"], 1e-9)
 
     @support.needs_shared("bench")
     def test_a_statue_and_its_turned_copy(self):
