@@ -51,7 +51,6 @@ class PointIndex {
     // p is q when it lies on three planes that meet in q only.
     if (b.planes[0] != kNone) return on_planes(p, b.planes);
     if (a.planes[0] != kNone) return on_planes(q, a.planes);
-    geometry_.exact(p), geometry_.exact(q);
     return compare(geometry_.exact(p), geometry_.exact(q)) == 0;
   }
   bool on_planes(uint32_t p, const std::array<uint32_t, 3>& planes) {

@@ -100,12 +100,20 @@ class FaceEvaluator {
   void gather_contacts() {
     const size_t n = job_.polygons().size();
     contact_starts_.assign(n + 1, 0);
+    for (const Contact& c : contacts_) ++contact_starts_[c.p + 1], ++contact_starts_[c.q + 1];
+    size_t met = 0;  // polygons
+    for (size_t i = 0; i < n; ++i) {
+      met += contact_starts_[i + 1] > 0;
+      contact_starts_[i + 1] += contact_starts_[i];
+    }
+    // Of a polygon its support and the planes of three edges, mostly; an edge of one that passes
+    // through another one is in two contacts.
+    job_.planes().reserve(4 * met);
+    geometry_.reserve(contacts_.size() + 2 * met);
     for (const Contact& c : contacts_) {
       job_.ensure_support(c.p);
       job_.ensure_support(c.q);
-      ++contact_starts_[c.p + 1], ++contact_starts_[c.q + 1];
     }
-    for (size_t i = 0; i < n; ++i) contact_starts_[i + 1] += contact_starts_[i];
     contact_of_.resize(2 * contacts_.size());
     std::vector<uint32_t> next = contact_starts_;
     for (uint32_t i = 0; i < contacts_.size(); ++i) {
@@ -293,11 +301,31 @@ class FaceEvaluator {
         facts_.push_back({patch, loops_.facts[f]});
       }
     }
+    for (const Contact& c : contacts_) add_rim_facts(c);
     std::sort(facts_.begin(), facts_.end());
     facts_.erase(std::unique(facts_.begin(), facts_.end()), facts_.end());
     return std::adjacent_find(facts_.begin(), facts_.end(), [](const auto& a, const auto& b) {
              return a.patch == b.patch && a.fact.operand == b.fact.operand;
            }) == facts_.end();
+  }
+
+  /// A polygon that touches another operand's surface from one side, and in one polygon only, is
+  /// inside the operand if it is behind that polygon: then its patch needs no ray. (On an edge of
+  /// that polygon it would touch the next one, too.)
+  void add_rim_facts(const Contact& c) {
+    if (c.is_plain || c.is_coplanar) return;
+    if (c.p_front != c.p_back) add_rim_fact(c.p, c.q, c.p_back);
+    if (c.q_front != c.q_back) add_rim_fact(c.q, c.p, c.q_back);
+  }
+  void add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind) {
+    if (is_cut_[polygon]) return;
+    const uint32_t operand = job_.polygons()[other].operand;
+    for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
+      const Contact& c = contacts_[contact_of_[i]];
+      const uint32_t third = c.p == polygon ? c.q : c.p;
+      if (third != other && job_.polygons()[third].operand == operand) return;
+    }
+    facts_.push_back({patches_.find(untouched_corner(polygon)), {operand, is_behind, is_behind}});
   }
 
   PatchFate fate_of_patch(uint32_t vertex, uint32_t own) {

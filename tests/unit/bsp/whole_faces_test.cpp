@@ -262,6 +262,50 @@ TEST(WholeFaces, OfLeavesThatTouchThemselves) {
   EXPECT_TRUE(boxes_sharing_an_edge()->opposite.empty());
 }
 
+// A body stands with an edge on a face of a leaf, where a body of the same leaf may stand as well:
+// then the face alone does not tell what the first one is inside of.
+TEST(WholeFaces, OfEdgesOnFacesAreWhatCellsGive) {
+  test::Random random(414);
+  test::TreeMaker maker(random);
+  for (int i = 0; i < 300; ++i) {
+    auto tree = maker.make({.size = 6, .operands = 2, .depth = 1, .frames = false, .known = true});
+    const int64_t y = random.integer(1, 3), from = random.integer(0, 2),
+                  to = random.integer(from + 1, 4);
+    const auto body = [&](int64_t first, int64_t last) {
+      std::vector<test::Loop> loops;
+      while (loops.empty()) {
+        const auto beyond = [&] {
+          return IVec3{random.integer(0, 9), random.integer(-2, 6), random.integer(-1, 5)};
+        };
+        loops = test::hull_loops({{4, y, first}, {4, y, last}, beyond(), beyond(), beyond()});
+      }
+      return loops;
+    };
+    auto loops = test::box_loops({0, 0, -2}, {4, 4, 6});
+    if (i % 3 != 0) {
+      std::vector<test::Loop> second;
+      while (second.empty()) {
+        second = test::hull_loops({{4, y, -1},
+                                   {4, y, 5},
+                                   {9, random.integer(2, 8), 5},
+                                   {9, random.integer(-4, 2), -1},
+                                   {9, 2, random.integer(0, 4)}});
+      }
+      loops.insert(loops.end(), second.begin(), second.end());
+    }
+    auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(loops));
+    leaf->opposite = pair_edges(*leaf).opposite;
+    tree.operands[0].leaf = leaf;
+    auto other = std::make_shared<LeafGeometry>(*test::make_leaf(body(from, to)));
+    other->opposite = pair_edges(*other).opposite;
+    tree.operands[1].leaf = other;
+    for (Operand& operand : tree.operands) operand.translation = {0, 0, 0};
+    tree.region = test::TreeMaker::region_of(tree.operands);
+    ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
+        << "tree " << i;
+  }
+}
+
 size_t count_general(const test::RandomTree& tree, size_t& polygons) {
   Job job(tree.operands);
   EvaluateStats stats;
