@@ -225,7 +225,8 @@ void FaceArrangement::add_collinear(const Line& on, uint32_t line, uint32_t poin
 
 void FaceArrangement::break_lines() {
   parts_.clear();
-  asked_ = kNone;
+  ++build_;
+  beyond_.resize(geometry_.point_count(), 0);
   std::sort(stops_.begin(), stops_.end());
   stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
   for (size_t begin = 0; begin < stops_.size();) {
@@ -254,16 +255,16 @@ bool FaceArrangement::is_outside(const Part& part) {
          is_beyond(part.backwards ? part.low : part.high);
 }
 
-/// Whether a point is outside the polygon. Parts that follow one another ask the same.
+/// Whether a point is outside the polygon. Parts that share one ask the same.
 bool FaceArrangement::is_beyond(uint32_t point) {
-  if (point == asked_) return was_beyond_;
-  asked_ = point;
+  if (beyond_[point] / 2 == build_) return beyond_[point] % 2 == 1;
   const auto& at = geometry_.point(point).rounded;
-  was_beyond_ = !box_.holds({at, at});
-  for (uint32_t e = 0; e < polygon_->count && !was_beyond_; ++e) {
-    was_beyond_ = geometry_.side(lines_[e].plane, point) * lines_[e].left < 0;
+  bool is_beyond = !box_.holds({at, at});
+  for (uint32_t e = 0; e < polygon_->count && !is_beyond; ++e) {
+    is_beyond = geometry_.side(lines_[e].plane, point) * lines_[e].left < 0;
   }
-  return was_beyond_;
+  beyond_[point] = 2 * build_ + (is_beyond ? 1 : 0);
+  return is_beyond;
 }
 
 void FaceArrangement::join_parts() {
