@@ -10,6 +10,7 @@
 #include "engine/bsp/cut_polygon.h"
 #include "engine/bsp/face_arrangement.h"
 #include "engine/bsp/find_contacts.h"
+#include "engine/bsp/patch_facts.h"
 #include "engine/bsp/patch_labels.h"
 #include "engine/bsp/point_index.h"
 #include "engine/bsp/sign_stats.h"
@@ -70,12 +71,6 @@ class FaceEvaluator {
  private:
   struct CutPolygon {
     uint32_t polygon, first_loop, end_loop;
-  };
-  struct PatchFact {
-    uint32_t patch;
-    CutLoops::Fact fact;
-    bool operator==(const PatchFact&) const = default;
-    auto operator<=>(const PatchFact&) const = default;
   };
 
   [[nodiscard]] bool is_cancelled() const {
@@ -298,15 +293,11 @@ class FaceEvaluator {
       if (loop.vertex == kNone) continue;
       const uint32_t patch = patches_.find(loop.vertex);
       for (uint32_t f = loop.first_fact; f < loop.first_fact + loop.fact_count; ++f) {
-        facts_.push_back({patch, loops_.facts[f]});
+        facts_.add(patch, loops_.facts[f]);
       }
     }
     for (const Contact& c : contacts_) add_rim_facts(c);
-    std::sort(facts_.begin(), facts_.end());
-    facts_.erase(std::unique(facts_.begin(), facts_.end()), facts_.end());
-    return std::adjacent_find(facts_.begin(), facts_.end(), [](const auto& a, const auto& b) {
-             return a.patch == b.patch && a.fact.operand == b.fact.operand;
-           }) == facts_.end();
+    return facts_.finish();
   }
 
   /// A polygon that touches another operand's surface from one side, and in one polygon only, is
@@ -325,17 +316,14 @@ class FaceEvaluator {
       const uint32_t third = c.p == polygon ? c.q : c.p;
       if (third != other && job_.polygons()[third].operand == operand) return;
     }
-    facts_.push_back({patches_.find(untouched_corner(polygon)), {operand, is_behind, is_behind}});
+    facts_.add(patches_.find(untouched_corner(polygon)), {operand, is_behind, is_behind});
   }
 
   PatchFate fate_of_patch(uint32_t vertex, uint32_t own) {
     const uint32_t patch = patches_.find(vertex);
     if (patch_fates_[patch] == kUnasked) {
-      auto at = std::lower_bound(facts_.begin(), facts_.end(), PatchFact{patch, {0, false, false}});
-      own_facts_.clear();
-      for (; at != facts_.end() && at->patch == patch; ++at) own_facts_.push_back(at->fact);
       patch_fates_[patch] = static_cast<uint8_t>(
-          labels_.fate(own, job_.rounded(patch), labels_.error(own), own_facts_));
+          labels_.fate(own, job_.rounded(patch), labels_.error(own), facts_.of(patch)));
     }
     return static_cast<PatchFate>(patch_fates_[patch]);
   }
@@ -566,8 +554,7 @@ class FaceEvaluator {
   CutLoops loops_;
   std::vector<CutPolygon> cut_;
   UnionFind patches_;
-  std::vector<PatchFact> facts_;
-  std::vector<CutLoops::Fact> own_facts_;
+  PatchFacts facts_;
   std::vector<uint8_t> patch_fates_;           ///< per vertex that stands for a patch: a PatchFate
   std::vector<PatchFate> loop_fates_;          ///< of the polygon at hand
   std::vector<PatchFate> fate_of_loop_;        ///< per loop
