@@ -144,10 +144,9 @@ class FaceArrangement {
   std::vector<uint32_t> sheets_;  ///< coplanar ones that are not clearly apart
   std::vector<SheetEdge> sheet_edges_;
   size_t first_coplanar_line_ = 0;
-  SheetBox box_;        ///< of the polygon
-  uint32_t build_ = 0;  ///< the number of the polygon at hand
-  std::vector<uint32_t>
-      beyond_;  ///< per point: 2 x the last such number it was asked for, + the answer
+  SheetBox box_;                  ///< of the polygon
+  uint32_t build_ = 0;            ///< the number of the polygon at hand
+  std::vector<uint32_t> beyond_;  ///< per point, of is_beyond: 2 x build_ when asked, + the answer
   std::vector<SheetBox> loop_boxes_;
   std::vector<LoopFact> covered_;  ///< not told by arcs
 };

@@ -35,7 +35,8 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     return assemble(job, evaluated->sets, evaluated->whole, std::move(evaluated->touching),
                     std::move(parts));
   };
-  return faces > kFewForThreads ? with_threads(std::max(1u, options.threads), evaluate) : evaluate();
+  return faces > kFewForThreads ? with_threads(std::max(1u, options.threads), evaluate)
+                                : evaluate();
 }
 
 }  // namespace csgrun

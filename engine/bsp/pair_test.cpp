@@ -28,7 +28,8 @@ std::array<uint32_t, 3> base_corners(const Job& job, const JobPolygon& polygon) 
 
 }  // namespace
 
-PairTest::PairTest(const Job& job) : job_(job), signs_(job, false), planes_only_(forced_tier >= 0) {}
+PairTest::PairTest(const Job& job)
+    : job_(job), signs_(job, false), planes_only_(forced_tier >= 0) {}
 
 /// Pairs come by the second polygon, and the first one's neighbours follow each other.
 const PairTest::Base& PairTest::base_of(uint32_t polygon) {

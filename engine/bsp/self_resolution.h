@@ -34,8 +34,8 @@ enum class InsideRule : uint8_t {
 ///
 /// The cost is that of the places where the surface crosses itself, and O(n log n) to tell the
 /// parts that are left inside from those that are not. By a fill rule polygons are cut whole where
-/// `options.whole_faces` allows it (cut_surface.h), else by cells. `stats` is added to. Errors: kCancelled,
-/// kInternal.
+/// `options.whole_faces` allows it (cut_surface.h), else by cells. `stats` is added to. Errors:
+/// kCancelled, kInternal.
 Result<std::shared_ptr<const BoundaryMesh>> resolve_surface(
     const Operand& surface, std::span<const std::array<uint32_t, 2>> crossings, InsideRule rule,
     const KernelOptions& options, EvaluateStats& stats);
