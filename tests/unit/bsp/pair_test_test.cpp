@@ -376,6 +376,48 @@ TEST(PairTest, OfResultsOfBoxesWithoutPlanes) {
   }
 }
 
+// A face that leans by less than rounding shows is not level, though its corners are as doubles.
+TEST(PairTest, OfFacesThatLeanByLessThanRounding) {
+  const int64_t height = int64_t{1} << 22;
+  int undecided = 0, contacts = 0;
+  for (int i = 0; i < 6; ++i) {
+    const size_t axis = i / 2;
+    IVec3 lo{0, 0, 0}, hi{8, 8, 8}, far_lo{4, 4, 4}, far_hi{12, 12, 12};
+    hi[axis] = far_lo[axis] = height;
+    far_hi[axis] = height + 8;
+    std::vector<Operand> operands{operand_of(box_leaf(lo, hi)),
+                                  operand_of(box_leaf(far_lo, far_hi))};
+    Frame& frame = operands[0].frame;
+    frame.is_identity = false;
+    for (size_t k = 0; k < 3; ++k) {
+      frame.matrix[k] = {0, 0, 0};
+      frame.matrix[k][k] = int64_t{1} << Frame::kShift;
+    }
+    frame.matrix[axis][(axis + 1) % 3] = i % 2 ? 1 : -1;
+    const Job job(operands);
+    PairTest test(job);
+    for (uint32_t p = 0; p < job.polygon_start(1); ++p) {
+      for (uint32_t q = job.polygon_start(1); q < job.polygons().size(); ++q) {
+        Contact contact;
+        const Meeting met = test.run(p, q, nullptr, contact);
+        undecided += met == Meeting::kUndecided;
+        if (met != Meeting::kContact) continue;
+        ++contacts;
+        const Corners a = corners_of(job, p), b = corners_of(job, q);
+        const Rational3 d = cross(normal_of(a), normal_of(b));
+        EXPECT_EQ(contact.is_coplanar, dot(d, d) == 0);
+        if (contact.is_coplanar) continue;
+        const Sides of_p = sides_of(a, b), of_q = sides_of(b, a);
+        EXPECT_EQ(contact.p_front, of_p.front > 0);
+        EXPECT_EQ(contact.p_back, of_p.back > 0);
+        EXPECT_EQ(contact.q_front, of_q.front > 0) << axis;
+        EXPECT_EQ(contact.q_back, of_q.back > 0) << axis;
+      }
+    }
+  }
+  EXPECT_GT(undecided + contacts, 12);
+}
+
 // A square clearly in front of another one: four signs say so.
 TEST(PairTest, CountsItsSigns) {
   const std::vector<Operand> operands{
