@@ -7,9 +7,9 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
-#include "engine/base/stable_vector.h"
 #include "engine/bsp/job.h"
 #include "engine/exact/predicates.h"
 
@@ -57,8 +57,6 @@ class CellGeometry {
   uint32_t add_point(const std::array<uint32_t, 3>& planes);
   uint32_t add_point(const std::array<uint32_t, 3>& planes, const std::array<double, 3>& rounded);
   [[nodiscard]] const StoredPoint& point(uint32_t p) const { return points_[p]; }
-  /// Makes room for so many more points.
-  void reserve(size_t more) { points_.reserve(points_.size() + more); }
   [[nodiscard]] size_t point_count() const { return points_.size(); }
   /// Valid until clear().
   const Point& exact(uint32_t p);
@@ -98,7 +96,7 @@ class CellGeometry {
   const PlaneTable* planes_;
   const Job* job_;
   std::vector<StoredPoint> points_;
-  StableVector<Point> exact_;
+  std::deque<Point> exact_;  ///< large: growing moves none, and references stay
   std::vector<uint32_t> corners_, edges_;
   std::vector<uint32_t> vertex_stamp_, vertex_point_;
   uint32_t stamp_ = 1;

@@ -95,20 +95,12 @@ class FaceEvaluator {
   void gather_contacts() {
     const size_t n = job_.polygons().size();
     contact_starts_.assign(n + 1, 0);
-    for (const Contact& c : contacts_) ++contact_starts_[c.p + 1], ++contact_starts_[c.q + 1];
-    size_t met = 0;  // polygons
-    for (size_t i = 0; i < n; ++i) {
-      met += contact_starts_[i + 1] > 0;
-      contact_starts_[i + 1] += contact_starts_[i];
-    }
-    // Of a polygon its support and the planes of three edges, mostly; an edge of one that passes
-    // through another one is in two contacts.
-    job_.planes().reserve(4 * met);
-    geometry_.reserve(contacts_.size() + 2 * met);
     for (const Contact& c : contacts_) {
       job_.ensure_support(c.p);
       job_.ensure_support(c.q);
+      ++contact_starts_[c.p + 1], ++contact_starts_[c.q + 1];
     }
+    for (size_t i = 0; i < n; ++i) contact_starts_[i + 1] += contact_starts_[i];
     contact_of_.resize(2 * contacts_.size());
     std::vector<uint32_t> next = contact_starts_;
     for (uint32_t i = 0; i < contacts_.size(); ++i) {

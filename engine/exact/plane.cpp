@@ -99,14 +99,6 @@ void PlaneTable::add(const Plane& p) {
   bits_.push_back({static_cast<uint8_t>(normal), static_cast<uint8_t>(offset)});
 }
 
-void PlaneTable::reserve(size_t more) {
-  if (more < planes_.size()) return;  // so that a table that is asked often grows by a factor
-  const size_t all = planes_.size() + more;
-  planes_.reserve(all);
-  approximate_.reserve(all);
-  bits_.reserve(all);
-}
-
 void PlaneTable::adopt(const std::vector<Plane>& planes) {
   assert(planes_.empty());
   planes_.reserve(planes.size());

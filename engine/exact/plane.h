@@ -65,9 +65,6 @@ class PlaneTable {
   PlaneId intern(const Plane& plane);
   /// The same for a plane whose four coefficients have no common divisor: a few times quicker.
   PlaneId intern_reduced(const Plane& plane);
-  /// Makes room for so many more planes: growing from one to twice as many costs the system's pages
-  /// twice. Does nothing when they are few beside those that are there.
-  void reserve(size_t more);
   /// Takes over the planes of another table, as they stand there, under their numbers. REQUIRES:
   /// the table is empty; each plane is there once.
   void adopt(const std::vector<Plane>& planes);
