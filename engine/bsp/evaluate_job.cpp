@@ -7,6 +7,7 @@
 #include "engine/bsp/octree.h"
 #include "engine/bsp/parallel_runs.h"
 #include "engine/bsp/sign_stats.h"
+#include "engine/bsp/touch_list.h"
 #include "engine/bsp/whole_faces.h"
 
 namespace csgrun {
@@ -67,28 +68,13 @@ KernelOptions second_half(KernelOptions options) {
   return options;
 }
 
-}  // namespace
-
-void keep_few(std::vector<GridBox>& boxes) {
-  while (boxes.size() > kMostTouches) {
-    size_t kept = 0;
-    for (size_t i = 0; i < boxes.size(); i += 2) {
-      GridBox hull = boxes[i];
-      const GridBox& other = boxes[std::min(i + 1, boxes.size() - 1)];
-      for (size_t k = 0; k < 3; ++k) {
-        hull.lo[k] = std::min(hull.lo[k], other.lo[k]);
-        hull.hi[k] = std::max(hull.hi[k], other.hi[k]);
-      }
-      boxes[kept++] = hull;
-    }
-    boxes.resize(kept);
-  }
-}
-
+/// Adds boxes, and keeps few.
 void add_touching(Touching& touching, const std::vector<GridBox>& more) {
   touching.boxes.insert(touching.boxes.end(), more.begin(), more.end());
   keep_few(touching.boxes);
 }
+
+}  // namespace
 
 Touching touching_before(const std::vector<Operand>& operands) {
   Touching result{false, {}};

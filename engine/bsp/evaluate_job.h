@@ -28,11 +28,4 @@ Result<EvaluatedJob> evaluate_job(Job& job, const std::vector<Operand>& operands
 /// Where single operands may touch themselves; those in pieces are left out.
 Touching touching_before(const std::vector<Operand>& operands);
 
-/// Neighbours in the list are near each other mostly; a result has no use for a box a contact, and
-/// one of a long chain does not carry all of those before. Leaves kMostTouches at most.
-constexpr size_t kMostTouches = 4096;
-void keep_few(std::vector<GridBox>& boxes);
-/// Adds boxes, and keeps few.
-void add_touching(Touching& touching, const std::vector<GridBox>& more);
-
 }  // namespace csgrun

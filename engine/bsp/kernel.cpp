@@ -7,6 +7,7 @@
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/evaluate_boxes.h"
 #include "engine/bsp/evaluate_job.h"
+#include "engine/bsp/touch_list.h"
 #include "engine/bsp/untouched.h"
 
 namespace csgrun {

@@ -15,6 +15,7 @@
 #include "engine/bsp/surface_octree.h"
 #include "engine/bsp/surface_patches.h"
 #include "engine/bsp/surface_volumes.h"
+#include "engine/bsp/touch_list.h"
 
 namespace csgrun {
 namespace {

@@ -1,10 +1,25 @@
 #include "engine/bsp/touch_list.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "engine/bsp/evaluate_job.h"
-
 namespace csgrun {
+
+void keep_few(std::vector<GridBox>& boxes) {
+  while (boxes.size() > kMostTouches) {
+    size_t kept = 0;
+    for (size_t i = 0; i < boxes.size(); i += 2) {
+      GridBox hull = boxes[i];
+      const GridBox& other = boxes[std::min(i + 1, boxes.size() - 1)];
+      for (size_t k = 0; k < 3; ++k) {
+        hull.lo[k] = std::min(hull.lo[k], other.lo[k]);
+        hull.hi[k] = std::max(hull.hi[k], other.hi[k]);
+      }
+      boxes[kept++] = hull;
+    }
+    boxes.resize(kept);
+  }
+}
 
 TouchList TouchList::with(std::vector<GridBox> more) const {
   if (more.empty()) return *this;

@@ -1,5 +1,5 @@
-// Where versions of a result may touch themselves: a list that they share, so that one more
-// operation costs what it adds.
+// Where results may touch themselves, as boxes: few of them, and a list that versions of a result
+// share, so that one more operation costs what it adds.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,12 @@
 #include "engine/bsp/operand.h"
 
 namespace csgrun {
+
+/// So many boxes say well enough where a result may touch itself.
+constexpr size_t kMostTouches = 4096;
+/// Leaves kMostTouches at most, around what there was. Neighbours in the list are near each other
+/// mostly; a result has no use for a box a contact.
+void keep_few(std::vector<GridBox>& boxes);
 
 class TouchList {
  public:

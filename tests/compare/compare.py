@@ -258,7 +258,8 @@ def find_peers(also):
     peers, openscad, cgal = [], shutil.which("openscad"), BINARIES / "cgal_boolean"
     if cgal.exists():
         # Nef polyhedra have no volume to ask for; corefinement takes one operation after the other anyway.
-        peers += [Peer("CGAL Nef", [cgal, "nef"], 1e-9, ("chain", "batch", "menger", "grid")),
+        peers += [Peer("CGAL Nef", [cgal, "nef"], 1e-9,
+                       ("chain", "batch", "menger", "grid", "cubegrid", "dome")),
                   Peer("CGAL corefinement", [cgal, "corefine"], 1e-9)]
         print("CGAL", first_line("dpkg-query", "-W", "-f=${Version}", "libcgal-dev"), file=sys.stderr)
     else:

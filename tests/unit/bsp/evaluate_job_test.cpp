@@ -23,45 +23,6 @@ bool holds(const GridBox& outer, const GridBox& inner) {
   return true;
 }
 
-TEST(EvaluateJob, ManyBoxesBecomeFewThatHoldThem) {
-  test::Random random(701);
-  for (const size_t count : {size_t{0}, size_t{1}, size_t{4096}, size_t{4097}, size_t{20001}}) {
-    std::vector<GridBox> all;
-    for (size_t i = 0; i < count; ++i) {
-      GridBox& box = all.emplace_back();
-      for (size_t k = 0; k < 3; ++k) {
-        box.lo[k] = random.integer(-1000, 1000);
-        box.hi[k] = box.lo[k] + random.integer(0, 9);
-      }
-    }
-    std::vector<GridBox> few = all;
-    keep_few(few);
-    if (count <= 4096) {
-      ASSERT_EQ(few.size(), count);
-      continue;
-    }
-    ASSERT_LE(few.size(), 4096u);
-    ASSERT_GT(few.size(), 2048u);
-    // Neighbours stay together.
-    size_t share = 1;
-    while ((count + share - 1) / share > 4096) share *= 2;
-    ASSERT_EQ(few.size(), (count + share - 1) / share);
-    for (size_t i = 0; i < count; ++i) ASSERT_TRUE(holds(few[i / share], all[i])) << i;
-    // And no box is larger than they ask for.
-    for (size_t i = 0; i < few.size(); ++i) {
-      GridBox hull = all[i * share];
-      for (size_t j = i * share; j < std::min(count, (i + 1) * share); ++j) {
-        for (size_t k = 0; k < 3; ++k) {
-          hull.lo[k] = std::min(hull.lo[k], all[j].lo[k]);
-          hull.hi[k] = std::max(hull.hi[k], all[j].hi[k]);
-        }
-      }
-      ASSERT_EQ(few[i].lo, hull.lo);
-      ASSERT_EQ(few[i].hi, hull.hi);
-    }
-  }
-}
-
 TEST(EvaluateJob, OperandsThatTouchThemselvesSayWhere) {
   auto apart = std::make_shared<LeafGeometry>(*test::box_leaf({0, 0, 0}, {1, 1, 1}));
   auto leaf = std::make_shared<LeafGeometry>(*apart);
@@ -97,9 +58,6 @@ TEST(EvaluateJob, OperandsThatTouchThemselvesSayWhere) {
   EXPECT_EQ(places.boxes[0].lo, (IVec3{1, 2, 3}));
   EXPECT_EQ(places.boxes[1].lo, (IVec3{11, 22, 33}));
   EXPECT_EQ(places.boxes[1].hi, (IVec3{14, 25, 36}));
-  Touching more{false, {{{0, 0, 0}, {1, 1, 1}}}};
-  add_touching(more, places.boxes);
-  EXPECT_EQ(more.boxes.size(), 3u);
 }
 
 /// Two boxes that share an edge, or whose corners are apart.

@@ -5,14 +5,60 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/bsp/evaluate_job.h"
+#include "tests/support/kernel_case.h"
 
 namespace csgrun {
 namespace {
 
 GridBox box_at(int64_t i) { return {{i, 2 * i, -i}, {i + 1, 2 * i + 1, 1 - i}}; }
 
+bool holds(const GridBox& outer, const GridBox& inner) {
+  for (size_t k = 0; k < 3; ++k) {
+    if (outer.lo[k] > inner.lo[k] || outer.hi[k] < inner.hi[k]) return false;
+  }
+  return true;
+}
+
 bool same(const GridBox& a, const GridBox& b) { return a.lo == b.lo && a.hi == b.hi; }
+
+TEST(TouchList, ManyBoxesBecomeFewThatHoldThem) {
+  test::Random random(701);
+  for (const size_t count : {size_t{0}, size_t{1}, size_t{4096}, size_t{4097}, size_t{20001}}) {
+    std::vector<GridBox> all;
+    for (size_t i = 0; i < count; ++i) {
+      GridBox& box = all.emplace_back();
+      for (size_t k = 0; k < 3; ++k) {
+        box.lo[k] = random.integer(-1000, 1000);
+        box.hi[k] = box.lo[k] + random.integer(0, 9);
+      }
+    }
+    std::vector<GridBox> few = all;
+    keep_few(few);
+    if (count <= 4096) {
+      ASSERT_EQ(few.size(), count);
+      continue;
+    }
+    ASSERT_LE(few.size(), 4096u);
+    ASSERT_GT(few.size(), 2048u);
+    // Neighbours stay together.
+    size_t share = 1;
+    while ((count + share - 1) / share > 4096) share *= 2;
+    ASSERT_EQ(few.size(), (count + share - 1) / share);
+    for (size_t i = 0; i < count; ++i) ASSERT_TRUE(holds(few[i / share], all[i])) << i;
+    // And no box is larger than they ask for.
+    for (size_t i = 0; i < few.size(); ++i) {
+      GridBox hull = all[i * share];
+      for (size_t j = i * share; j < std::min(count, (i + 1) * share); ++j) {
+        for (size_t k = 0; k < 3; ++k) {
+          hull.lo[k] = std::min(hull.lo[k], all[j].lo[k]);
+          hull.hi[k] = std::max(hull.hi[k], all[j].hi[k]);
+        }
+      }
+      ASSERT_EQ(few[i].lo, hull.lo);
+      ASSERT_EQ(few[i].hi, hull.hi);
+    }
+  }
+}
 
 TEST(TouchList, KeepsTheOrderAndEachVersion) {
   std::vector<TouchList> versions(1);
@@ -49,9 +95,7 @@ TEST(TouchList, StaysShortAndHoldsAll) {
   for (int64_t i = 0; i < kSteps; i += 37) {
     const GridBox own = box_at(i);
     EXPECT_TRUE(std::any_of(boxes.begin(), boxes.end(), [&](const GridBox& b) {
-      bool holds = true;
-      for (size_t k = 0; k < 3; ++k) holds &= b.lo[k] <= own.lo[k] && own.hi[k] <= b.hi[k];
-      return holds;
+      return holds(b, own);
     })) << i;
   }
 }
