@@ -1,11 +1,21 @@
 #include "engine/bsp/cell_geometry.h"
 
+#include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 
 #include "engine/exact/grid_meeting.h"
 
 namespace csgrun {
+namespace {
+
+IVec3 on_grid(const std::array<double, 3>& p) {
+  return {static_cast<int64_t>(p[0]), static_cast<int64_t>(p[1]), static_cast<int64_t>(p[2])};
+}
+
+}  // namespace
+
 CellGeometry::CellGeometry(const PlaneTable& planes, const Job* job) : planes_(&planes), job_(job) {
   if (job) {
     vertex_stamp_.assign(job->vertex_count(), 0);
@@ -25,7 +35,8 @@ uint32_t CellGeometry::vertex_point(uint32_t vertex) {
   if (vertex_stamp_[vertex] == stamp_) return vertex_point_[vertex];
   vertex_stamp_[vertex] = stamp_;
   const auto p = static_cast<uint32_t>(points_.size());
-  points_.push_back({job_->rounded(vertex), job_->vertex_planes(vertex), vertex, kNone});
+  const Job::VertexName name = job_->vertex_name(vertex);
+  points_.push_back({job_->rounded(vertex), name.planes, vertex, kNone, name.is_on_grid});
   return vertex_point_[vertex] = p;
 }
 
@@ -38,19 +49,23 @@ uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes) {
 
 uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes,
                                  const std::array<double, 3>& rounded) {
-  points_.push_back({rounded, planes, kNone, kNone});
+  points_.push_back({rounded, planes, kNone, kNone, false});
   return static_cast<uint32_t>(points_.size() - 1);
 }
 
 Point CellGeometry::value(uint32_t p) const {
   const StoredPoint& s = points_[p];
   if (s.exact != kNone) return exact_[s.exact];
+  if (s.is_on_grid) {
+    const auto at = on_grid(s.rounded);
+    return grid_point(at[0], at[1], at[2]);
+  }
   if (s.vertex != kNone) return job_->exact(s.vertex);
   const Plane &p0 = planes_->plane(s.planes[0]), &p1 = planes_->plane(s.planes[1]),
               &p2 = planes_->plane(s.planes[2]);
-  const auto whole = [&s](int k) { return static_cast<int64_t>(s.rounded[k]); };
-  return meet_on_grid(p0, p1, p2, s.rounded) ? grid_point(whole(0), whole(1), whole(2))
-                                             : intersect(p0, p1, p2);
+  if (!meet_on_grid(p0, p1, p2, s.rounded)) return intersect(p0, p1, p2);
+  const auto at = on_grid(s.rounded);
+  return grid_point(at[0], at[1], at[2]);
 }
 
 const Point& CellGeometry::exact(uint32_t p) {
@@ -88,14 +103,28 @@ int CellGeometry::side(uint32_t plane, uint32_t p) {
     ++counters.filter;
     return sign;
   }
+  return exact_side_of(plane, p);
+}
+
+int CellGeometry::exact_side_of(uint32_t plane, uint32_t p) {
+  const auto tier_for = [&](int xyz_bits, int w_bits) {
+    const int bits =
+        widths::side(xyz_bits, w_bits, planes_->normal_bits(plane), planes_->offset_bits(plane)) +
+        1;
+    int tier = 0;
+    while (bits > kTierBits[tier]) ++tier;
+    ++counters.exact[tier];
+    return tier;
+  };
+  if (points_[p].is_on_grid) {
+    const auto at = on_grid(points_[p].rounded);
+    const auto magnitudes = static_cast<uint64_t>(std::abs(at[0])) |
+                            static_cast<uint64_t>(std::abs(at[1])) |
+                            static_cast<uint64_t>(std::abs(at[2]));
+    return exact_side(planes_->plane(plane), at, tier_for(std::bit_width(magnitudes), 1));
+  }
   const Point& x = exact(p);
-  const int bits =
-      widths::side(x.xyz_bits, x.w_bits, planes_->normal_bits(plane), planes_->offset_bits(plane)) +
-      1;
-  int tier = 0;
-  while (bits > kTierBits[tier]) ++tier;
-  ++counters.exact[tier];
-  return exact_side(planes_->plane(plane), x, tier);
+  return exact_side(planes_->plane(plane), x, tier_for(x.xyz_bits, x.w_bits));
 }
 
 Side CellGeometry::classify(const Fragment& f, uint32_t plane) {

@@ -49,6 +49,7 @@ class CellGeometry {
     std::array<uint32_t, 3> planes;  ///< kNone thrice for a vertex of the job
     uint32_t vertex;                 ///< of the job, or kNone
     uint32_t exact;                  ///< index into exact_, or kNone until asked for
+    bool is_on_grid;                 ///< known to be: then `rounded` is exact
   };
 
   /// The point of a vertex of the job.
@@ -101,6 +102,8 @@ class CellGeometry {
   std::vector<uint32_t> vertex_stamp_, vertex_point_;
   uint32_t stamp_ = 1;
   std::vector<int8_t> signs_;
+
+  int exact_side_of(uint32_t plane, uint32_t p);
 };
 
 /// The direction of the line where two planes meet, as far as ordering points needs it: the axis on

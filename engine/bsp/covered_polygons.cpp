@@ -192,27 +192,27 @@ std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expr
 }
 
 std::vector<uint8_t> find_covered(const Job& job, const Expression& expression,
-                                  std::span<const Contact> contacts,
-                                  std::span<const uint32_t> starts,
-                                  std::span<const uint32_t> contact_of) {
+                                  const ContactTable& contacts) {
   std::vector<uint8_t> is_covered(job.polygons().size(), 0);
   const std::vector<uint8_t> removes = find_removers(job, expression);
-  std::vector<uint32_t> touched_by, crossed_by;
-  for (uint32_t p = 0; p < is_covered.size(); ++p) {
-    touched_by.clear();
-    crossed_by.clear();
-    for (uint32_t i = starts[p]; i < starts[p + 1]; ++i) {
-      const Contact& c = contacts[contact_of[i]];
-      const uint32_t o = job.polygons()[c.p == p ? c.q : c.p].operand;
-      if (!removes[o]) continue;
-      // What meets a convex body and is not within it goes to the front of a face that it meets.
-      const bool leaves = c.is_coplanar || (c.p == p ? c.p_front : c.q_front);
-      (leaves ? crossed_by : touched_by).push_back(o);
+  for_each_range(is_covered.size(), [&](size_t begin, size_t end) {
+    std::vector<uint32_t> touched_by, crossed_by;
+    for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
+      touched_by.clear();
+      crossed_by.clear();
+      for (const uint32_t i : contacts.of(p)) {
+        const Contact& c = contacts[i];
+        const uint32_t o = job.polygons()[c.p == p ? c.q : c.p].operand;
+        if (!removes[o]) continue;
+        // What meets a convex body and is not within it goes to the front of a face that it meets.
+        const bool leaves = c.is_coplanar || (c.p == p ? c.p_front : c.q_front);
+        (leaves ? crossed_by : touched_by).push_back(o);
+      }
+      is_covered[p] = std::any_of(touched_by.begin(), touched_by.end(), [&](uint32_t o) {
+        return std::find(crossed_by.begin(), crossed_by.end(), o) == crossed_by.end();
+      });
     }
-    is_covered[p] = std::any_of(touched_by.begin(), touched_by.end(), [&](uint32_t o) {
-      return std::find(crossed_by.begin(), crossed_by.end(), o) == crossed_by.end();
-    });
-  }
+  });
   return is_covered;
 }
 

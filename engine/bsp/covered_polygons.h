@@ -3,11 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "engine/bsp/contact_table.h"
 #include "engine/bsp/operand.h"
-#include "engine/bsp/pair_test.h"
 
 namespace csgrun {
 
@@ -18,11 +17,8 @@ namespace csgrun {
 std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expression);
 
 /// Per polygon of the job, whether it touches the surface of a convex operand of that kind from
-/// within. Contacts of polygon p are contacts[contact_of[i]] for i in [starts[p], starts[p + 1]):
-/// all that it has with polygons that are not plainly covered, or all.
+/// within. The contacts are all, or all that are not of two plainly covered polygons.
 std::vector<uint8_t> find_covered(const Job& job, const Expression& expression,
-                                  std::span<const Contact> contacts,
-                                  std::span<const uint32_t> starts,
-                                  std::span<const uint32_t> contact_of);
+                                  const ContactTable& contacts);
 
 }  // namespace csgrun

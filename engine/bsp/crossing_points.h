@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/point_index.h"
 
 namespace csgrun {
@@ -16,23 +17,40 @@ class CrossingPoints {
   CrossingPoints(Job& job, CellGeometry& geometry, PointIndex& index)
       : job_(job), geometry_(geometry), index_(index), slots_(1024) {}
 
-  /// The number in the geometry. The supports of both polygons must have been made.
-  uint32_t point(uint32_t polygon, uint32_t edge, uint32_t through) {
+  /// The number of a crossing, from 0 on.
+  uint32_t number(uint32_t polygon, uint32_t edge, uint32_t through) {
     const JobPolygon& p = job_.polygons()[polygon];
     const auto corners = job_.corners(p);
     const uint32_t a = corners[edge], b = corners[edge + 1 < p.count ? edge + 1 : 0];
     const Name name{std::min(a, b), std::max(a, b), through};
     size_t s = hash(name) & (slots_.size() - 1);
-    for (; slots_[s].point != kNone; s = (s + 1) & (slots_.size() - 1)) {
-      if (slots_[s].name == name) return slots_[s].point;
+    for (; slots_[s].crossing != kNone; s = (s + 1) & (slots_.size() - 1)) {
+      if (slots_[s].name == name) return slots_[s].crossing;
     }
-    const uint32_t x =
-        index_.unique(geometry_.add_point({p.support.index(), job_.edge_plane(polygon, edge),
-                                           job_.polygons()[through].support.index()}));
-    slots_[s] = {name, x};
-    if (++count_ * 2 > slots_.size()) grow();
-    return x;
+    const auto number = static_cast<uint32_t>(crossings_.size());
+    slots_[s] = {name, number};
+    crossings_.push_back({{polygon, edge}, through});
+    if (crossings_.size() * 2 > slots_.size()) grow();
+    return number;
   }
+
+  /// Makes the points of all crossings that have none, on several threads. The supports of all of
+  /// their polygons must have been made.
+  void make_points() {
+    const size_t first = points_.size(), count = crossings_.size() - first;
+    std::vector<PolygonEdge> edges;
+    edges.reserve(count);
+    for (size_t i = first; i < crossings_.size(); ++i) edges.push_back(crossings_[i].edge);
+    job_.ensure_edges(edges);
+    make_and_take(
+        count, [&](size_t i) { return NamedPoint(job_, crossings_[first + i]); },
+        [&](size_t, const NamedPoint& p) {
+          points_.push_back(index_.unique(geometry_.add_point(p.planes, p.rounded)));
+        });
+  }
+
+  /// The number in the geometry of a crossing's point, which must have been made.
+  [[nodiscard]] uint32_t point(uint32_t crossing) const { return points_[crossing]; }
 
  private:
   struct Name {
@@ -41,7 +59,22 @@ class CrossingPoints {
   };
   struct Slot {
     Name name;
-    uint32_t point = kNone;
+    uint32_t crossing = kNone;
+  };
+  struct Crossing {
+    PolygonEdge edge;
+    uint32_t through;
+  };
+  struct NamedPoint {
+    NamedPoint(Job& job, const Crossing& c)
+        : planes{job.polygons()[c.edge.polygon].support.index(),
+                 job.edge_planes(job.polygons()[c.edge.polygon])[c.edge.edge],
+                 job.polygons()[c.through].support.index()},
+          rounded(csgrun::rounded(intersect(job.planes().plane(planes[0]),
+                                            job.planes().plane(planes[1]),
+                                            job.planes().plane(planes[2])))) {}
+    std::array<uint32_t, 3> planes;
+    std::array<double, 3> rounded;
   };
 
   static size_t hash(const Name& n) {
@@ -53,9 +86,9 @@ class CrossingPoints {
     std::vector<Slot> old(slots_.size() * 2);
     std::swap(old, slots_);
     for (const Slot& slot : old) {
-      if (slot.point == kNone) continue;
+      if (slot.crossing == kNone) continue;
       size_t s = hash(slot.name) & (slots_.size() - 1);
-      while (slots_[s].point != kNone) s = (s + 1) & (slots_.size() - 1);
+      while (slots_[s].crossing != kNone) s = (s + 1) & (slots_.size() - 1);
       slots_[s] = slot;
     }
   }
@@ -64,7 +97,8 @@ class CrossingPoints {
   CellGeometry& geometry_;
   PointIndex& index_;
   std::vector<Slot> slots_;
-  size_t count_ = 0;
+  std::vector<Crossing> crossings_;
+  std::vector<uint32_t> points_;  ///< of the crossings, as far as they were made
 };
 
 }  // namespace csgrun

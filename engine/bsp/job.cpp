@@ -339,12 +339,17 @@ Point Job::exact_of(uint32_t o, uint32_t local) const {
   return source.map.point(moved);
 }
 
-std::array<uint32_t, 3> Job::vertex_planes(uint32_t vertex) const {
+Job::VertexName Job::vertex_name(uint32_t vertex) const {
   const uint32_t o = operand_of_vertex(vertex);
   const Operand& operand = (*operands_)[o];
-  if (operand.leaf) return {kNoVertexPlanes, kNoVertexPlanes, kNoVertexPlanes};
-  if (operand.pieces) return operand.pieces->store->point_planes(piece_point(vertex));
-  return boundary_vertices_[o][vertex - sources_[o].first_vertex];
+  if (operand.leaf) {
+    return {{kNoVertexPlanes, kNoVertexPlanes, kNoVertexPlanes}, operand.frame.is_identity};
+  }
+  if (operand.pieces) {
+    const PieceStore& store = *operand.pieces->store;
+    return {store.point_planes(piece_point(vertex)), store.is_on_grid(piece_point(vertex))};
+  }
+  return {boundary_vertices_[o][vertex - sources_[o].first_vertex], false};
 }
 
 FaceLabel Job::label(const JobPolygon& p) const {
@@ -363,28 +368,16 @@ bool Job::is_of_whole_facet(const JobPolygon& p) const {
   return operand.boundary->faces[p.face].whole;
 }
 
-PlaneId Job::intern_for(uint32_t operand, const Plane& plane) {
-  return planes_.intern(
-      sources_[operand].map.plane(translate_plane(plane, (*operands_)[operand].translation)));
-}
-
-void Job::ensure_support(uint32_t polygon) {
-  JobPolygon& p = polygons_[polygon];
-  if (p.support.valid()) return;
-  const Operand& operand = (*operands_)[p.operand];
-  if (operand.pieces) {
-    p.support = operand.pieces->store->ensure_support(pieces_[p.face]);
-    return;
-  }
-  p.support = intern_for(p.operand, support_of(*operand.leaf, p.face));
-}
-
-uint32_t Job::edge_plane(uint32_t polygon, uint32_t edge) {
+ReducedPlane Job::reduced_support(uint32_t polygon) const {
   const JobPolygon& p = polygons_[polygon];
-  uint32_t& plane = edge_planes_[p.first + edge];
-  if (plane != kNone) return plane;
   const Operand& operand = (*operands_)[p.operand];
-  if (operand.pieces) return plane = operand.pieces->store->ensure_edge(pieces_[p.face], edge);
+  return reduce(sources_[p.operand].map.plane(
+      translate_plane(support_of(*operand.leaf, p.face), operand.translation)));
+}
+
+ReducedPlane Job::reduced_edge(uint32_t polygon, uint32_t edge) const {
+  const JobPolygon& p = polygons_[polygon];
+  const Operand& operand = (*operands_)[p.operand];
   const LeafGeometry& leaf = *operand.leaf;
   // A mirrored loop runs backwards: its edge from corner j to j + 1 is the leaf's edge n - 2 - j.
   const uint32_t i =
@@ -394,10 +387,65 @@ uint32_t Job::edge_plane(uint32_t polygon, uint32_t edge) {
   const bool is_known = p.support.valid() && operand.frame.is_identity;
   const int axis =
       dominant_axis(is_known ? planes_.plane(p.support.index()) : support_of(leaf, p.face));
-  return plane = intern_for(p.operand,
-                            csgrun::edge_plane(leaf.vertices[corners[i]],
-                                               leaf.vertices[corners[(i + 1) % p.count]], axis))
-                     .index();
+  return reduce(sources_[p.operand].map.plane(
+      translate_plane(csgrun::edge_plane(leaf.vertices[corners[i]],
+                                         leaf.vertices[corners[(i + 1) % p.count]], axis),
+                      operand.translation)));
+}
+
+void Job::ensure_support(uint32_t polygon) {
+  JobPolygon& p = polygons_[polygon];
+  if (p.support.valid()) return;
+  const auto& pieces = (*operands_)[p.operand].pieces;
+  p.support = pieces ? pieces->store->ensure_support(pieces_[p.face])
+                     : planes_.intern_computed(reduced_support(polygon));
+}
+
+uint32_t Job::edge_plane(uint32_t polygon, uint32_t edge) {
+  const JobPolygon& p = polygons_[polygon];
+  uint32_t& plane = edge_planes_[p.first + edge];
+  if (plane != kNone) return plane;
+  const auto& pieces = (*operands_)[p.operand].pieces;
+  return plane = pieces ? pieces->store->ensure_edge(pieces_[p.face], edge)
+                        : planes_.intern_computed(reduced_edge(polygon, edge)).index();
+}
+
+void Job::ensure_supports(std::span<const uint32_t> polygons) {
+  std::vector<uint32_t> lacking;
+  for (const uint32_t p : polygons) {
+    if (polygons_[p].support.valid()) continue;
+    if (is_leaf(polygons_[p].operand)) {
+      lacking.push_back(p);
+    } else {
+      ensure_support(p);
+    }
+  }
+  make_and_take(
+      lacking.size(), [&](size_t i) { return reduced_support(lacking[i]); },
+      [&](size_t i, const ReducedPlane& plane) {
+        polygons_[lacking[i]].support = planes_.intern_computed(plane);
+      });
+}
+
+void Job::ensure_edges(std::span<const PolygonEdge> edges) {
+  constexpr uint32_t kAsked = kNone - 1;  // stands in for a plane until it is made
+  std::vector<PolygonEdge> lacking;
+  for (const PolygonEdge& e : edges) {
+    const JobPolygon& p = polygons_[e.polygon];
+    if (edge_planes_[p.first + e.edge] != kNone) continue;
+    if (is_leaf(p.operand)) {
+      edge_planes_[p.first + e.edge] = kAsked;
+      lacking.push_back(e);
+    } else {
+      edge_plane(e.polygon, e.edge);
+    }
+  }
+  make_and_take(
+      lacking.size(), [&](size_t i) { return reduced_edge(lacking[i].polygon, lacking[i].edge); },
+      [&](size_t i, const ReducedPlane& plane) {
+        edge_planes_[polygons_[lacking[i].polygon].first + lacking[i].edge] =
+            planes_.intern_computed(plane).index();
+      });
 }
 
 void Job::ensure_planes(uint32_t polygon) {

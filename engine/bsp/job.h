@@ -53,6 +53,10 @@ struct PolygonBox {
   }
   [[nodiscard]] bool is_empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
 };
+struct PolygonEdge {
+  uint32_t polygon, edge;
+};
+
 struct PieceBox;
 /// The box around one of correctly rounded coordinates, which may stand on either side of the true
 /// ones.
@@ -127,8 +131,11 @@ class Job {
   [[nodiscard]] Point exact(uint32_t vertex) const;
   /// Whether one vertex comes before another in the exact lexicographic order of their points.
   [[nodiscard]] bool is_below(uint32_t vertex, uint32_t other) const;
-  /// Three planes of this job that meet in the vertex, or ~0 thrice for a vertex of a leaf.
-  [[nodiscard]] std::array<uint32_t, 3> vertex_planes(uint32_t vertex) const;
+  struct VertexName {
+    std::array<uint32_t, 3> planes;  ///< of this job, that meet in it; ~0 thrice if it is a leaf's
+    bool is_on_grid;                 ///< known to be: then its doubles are exact
+  };
+  [[nodiscard]] VertexName vertex_name(uint32_t vertex) const;
   /// The label of a polygon of a leaf or a boundary; so are the two below.
   [[nodiscard]] FaceLabel label(const JobPolygon& p) const;
   /// Whether the polygon is a part of a facet of a leaf whose facets are kept, and all of that
@@ -144,6 +151,9 @@ class Job {
   void ensure_support(uint32_t polygon);
   /// The plane of one edge, which is made now if it was not.
   uint32_t edge_plane(uint32_t polygon, uint32_t edge);
+  /// The same for many, computed on several threads.
+  void ensure_supports(std::span<const uint32_t> polygons);
+  void ensure_edges(std::span<const PolygonEdge> edges);
   /// The wall x_axis = m + 1/prime as a plane index.
   uint32_t wall(int axis, int64_t m);
   /// Smallest odd prime that divides no frame's determinant, and such that no plane of a boundary
@@ -172,7 +182,9 @@ class Job {
   /// The exact position of vertex `local` of operand `o`.
   [[nodiscard]] Point exact_of(uint32_t o, uint32_t local) const;
   [[nodiscard]] bool is_good_prime(int64_t p) const;
-  [[nodiscard]] PlaneId intern_for(uint32_t operand, const Plane& plane);
+  /// Planes of polygons of leaves.
+  [[nodiscard]] ReducedPlane reduced_support(uint32_t polygon) const;
+  [[nodiscard]] ReducedPlane reduced_edge(uint32_t polygon, uint32_t edge) const;
 
   const std::vector<Operand>* operands_;
   std::optional<PlaneTable> own_planes_;

@@ -30,7 +30,7 @@ uint32_t PieceStore::add_operand(Job& job, const std::vector<Operand>& operands,
   }
   for (uint32_t v = begin; v < end; ++v) {
     rounded_.push_back(job.rounded(v));
-    point_planes_.push_back(job.vertex_planes(v));
+    point_planes_.push_back(job.vertex_name(v).planes);
     is_on_grid_.push_back(operand.leaf ? operand.frame.is_identity
                                        : meet_on_grid_at(point_planes_.back(), rounded_.back()));
   }

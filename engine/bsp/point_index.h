@@ -12,7 +12,14 @@ namespace csgrun {
 
 class PointIndex {
  public:
-  explicit PointIndex(CellGeometry& geometry) : geometry_(geometry), slots_(1024) {}
+  explicit PointIndex(CellGeometry& geometry) : geometry_(geometry), slots_(kFewSlots) {}
+
+  /// Forgets all points.
+  void clear() {
+    slots_.assign(kFewSlots, {});
+    known_.clear();
+    count_ = 0;
+  }
 
   /// The first point that equals `p`; `p` itself when it is new. `p` must be in the geometry.
   uint32_t unique(uint32_t p) {
@@ -22,6 +29,7 @@ class PointIndex {
   }
 
  private:
+  static constexpr size_t kFewSlots = 64;  // a power of two
   struct Slot {
     uint32_t hash = 0, point = kNone;
   };
@@ -48,6 +56,7 @@ class PointIndex {
     const auto a = geometry_.point(p), b = geometry_.point(q);
     if (a.rounded != b.rounded) return false;
     if (a.vertex != kNone && a.vertex == b.vertex) return true;
+    if (a.is_on_grid && b.is_on_grid) return true;
     // p is q when it lies on three planes that meet in q only.
     if (b.planes[0] != kNone) return on_planes(p, b.planes);
     if (a.planes[0] != kNone) return on_planes(q, a.planes);

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
+#include "engine/bsp/contact_table.h"
 #include "engine/bsp/covered_polygons.h"
-#include "engine/bsp/crossing_points.h"
-#include "engine/bsp/cut_polygon.h"
-#include "engine/bsp/face_arrangement.h"
-#include "engine/bsp/find_contacts.h"
+#include "engine/bsp/cut_faces.h"
 #include "engine/bsp/patch_facts.h"
 #include "engine/bsp/patch_labels.h"
 #include "engine/bsp/point_index.h"
@@ -34,26 +33,23 @@ class FaceEvaluator {
         stats_(stats),
         geometry_(job.planes(), &job),
         index_(geometry_),
-        points_(job, geometry_, index_),
         labels_(job, expression) {
-    is_flat_.assign(job.operand_count(), 0);
     result_.general.assign(job.polygons().size(), 0);
     is_cut_.assign(job.polygons().size(), 0);
   }
 
   Result<WholeFaces> run() {
     plainly_covered_ = find_plainly_covered(job_, expression_);
-    Contacts found = find_contacts(job_, plainly_covered_, options_, stats_);
-    contacts_ = std::move(found.contacts);
-    touched_ = std::move(found.touched);
+    contacts_ = ContactTable(find_contacts(job_, plainly_covered_, options_, stats_),
+                             job_.polygons().size());
     if (is_cancelled()) return cancelled();
     if (is_dense()) {
       result_.general.assign(job_.polygons().size(), 1);
       result_.any_general = true;
       return std::move(result_);
     }
-    gather_contacts();
-    is_covered_ = find_covered(job_, expression_, contacts_, contact_starts_, contact_of_);
+    ends_.emplace(contacts_, job_, geometry_, index_);
+    is_covered_ = find_covered(job_, expression_, contacts_);
     for (size_t p = 0; p < plainly_covered_.size(); ++p) is_covered_[p] |= plainly_covered_[p];
     find_suspects();
     if (!cut_polygons()) return cancelled();
@@ -69,10 +65,6 @@ class FaceEvaluator {
   }
 
  private:
-  struct CutPolygon {
-    uint32_t polygon, first_loop, end_loop;
-  };
-
   [[nodiscard]] bool is_cancelled() const {
     return options_.cancel && options_.cancel->load(std::memory_order_relaxed);
   }
@@ -81,7 +73,7 @@ class FaceEvaluator {
   /// Faces that touch count for less: those of parts that fit one another have many contacts in few
   /// places.
   [[nodiscard]] bool is_dense() const {
-    const auto plain = std::count_if(contacts_.begin(), contacts_.end(),
+    const auto plain = std::count_if(contacts_.all().begin(), contacts_.all().end(),
                                      [](const Contact& c) { return c.is_plain; });
     return static_cast<size_t>(plain) > kDense * job_.polygons().size();
   }
@@ -92,73 +84,30 @@ class FaceEvaluator {
     result_.any_general = true;
   }
 
-  void gather_contacts() {
-    const size_t n = job_.polygons().size();
-    contact_starts_.assign(n + 1, 0);
-    for (const Contact& c : contacts_) {
-      job_.ensure_support(c.p);
-      job_.ensure_support(c.q);
-      ++contact_starts_[c.p + 1], ++contact_starts_[c.q + 1];
-    }
-    for (size_t i = 0; i < n; ++i) contact_starts_[i + 1] += contact_starts_[i];
-    contact_of_.resize(2 * contacts_.size());
-    std::vector<uint32_t> next = contact_starts_;
-    for (uint32_t i = 0; i < contacts_.size(); ++i) {
-      contact_of_[next[contacts_[i].p]++] = i;
-      contact_of_[next[contacts_[i].q]++] = i;
-    }
-    ends_.assign(contacts_.size(), {kNone, kNone});
-  }
-
   /// Polygons that something touches.
   void find_suspects() {
     is_suspect_.assign(job_.polygons().size(), 0);
-    for (const Contact& c : contacts_) {
+    for (const Contact& c : contacts_.all()) {
       if (!c.is_plain) is_suspect_[c.p] = is_suspect_[c.q] = 1;
     }
   }
 
-  /// The points at the ends of a contact, lower and upper.
-  const std::array<uint32_t, 2>& ends(uint32_t contact) {
-    std::array<uint32_t, 2>& ends = ends_[contact];
-    if (ends[0] != kNone) return ends;
-    const Contact& c = contacts_[contact];
-    const auto point = [&](const Contact::End& end) {
-      if (end.vertex != kNone) return index_.unique(geometry_.vertex_point(end.vertex));
-      return end.on_p ? points_.point(c.p, end.edge, c.q) : points_.point(c.q, end.edge, c.p);
-    };
-    return ends = {point(c.lower), point(c.upper)};
-  }
-
   /// False when the evaluation is cancelled.
   bool cut_polygons() {
-    PolygonCutter cutter(job_, geometry_);
-    FaceArrangement arrangement(job_, geometry_, index_, touched_);
-    for (const uint32_t p :
-         polygons_where([&](uint32_t q) { return is_covered_[q] || !may_stay_whole(q); })) {
-      const auto loops = static_cast<uint32_t>(loops_.loops.size());
-      if (is_covered_[p]) {
-        is_cut_[p] = 1;
-        cut_.push_back({p, loops, loops});
-        continue;
-      }
-      const bool plain = list_segments(p);
-      if (segments_.empty() && untouched_corner(p) != kNone) continue;
-      if (is_cancelled()) return false;
-      job_.ensure_support(p);
+    job_.ensure_supports(polygons_where([&](uint32_t p) { return !contacts_.of(p).empty(); }));
+    for (const uint32_t p : polygons_where([&](uint32_t q) { return is_covered_[q] != 0; })) {
+      is_cut_[p] = 1;  // into nothing
+    }
+    const auto polygons =
+        polygons_where([&](uint32_t p) { return !is_covered_[p] && !may_stay_whole(p); });
+    job_.ensure_supports(polygons);
+    cut_ = cut_faces(job_, polygons, contacts_, *ends_, geometry_, index_, options_, stats_);
+    if (is_cancelled()) return false;
+    for (const CutFaces::Face& face : cut_.faces) is_cut_[face.polygon] = 1;
+    for (const uint32_t p : cut_.by_value) is_suspect_[p] = 1;
+    for (const uint32_t p : cut_.left) {
       is_cut_[p] = 1;
-      bool is_done = plain && cutter.cut(p, segments_, loops_);
-      if (!is_done) {
-        job_.ensure_planes(p);
-        for (const uint32_t q : coplanar_) job_.ensure_planes(q);
-        is_done = arrangement.build(p, sheets_, coplanar_, loops_);
-        is_suspect_[p] = 1;
-      }
-      if (is_done) {
-        cut_.push_back({p, loops, static_cast<uint32_t>(loops_.loops.size())});
-      } else {
-        leave(p);
-      }
+      leave(p);
     }
     return true;
   }
@@ -189,53 +138,19 @@ class FaceEvaluator {
   /// Whether nothing cuts a polygon: what meets it lies on one side, if anything does. REQUIRES:
   /// nothing that meets it is coplanar.
   [[nodiscard]] bool is_met_on_rim_only(uint32_t polygon) const {
-    for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
-      const Contact& c = contacts_[contact_of_[i]];
+    for (const uint32_t i : contacts_.of(polygon)) {
+      const Contact& c = contacts_[i];
       const bool is_p = c.p == polygon;
       if (is_p ? c.p_front && c.p_back : c.q_front && c.q_back) return false;
     }
     return true;
   }
 
-  /// Lists what is on a polygon; whether all of it is plain.
-  bool list_segments(uint32_t polygon) {
-    segments_.clear();
-    sheets_.clear();
-    coplanar_.clear();
-    bool plain = true;
-    for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
-      const Contact& c = contacts_[contact_of_[i]];
-      plain &= c.is_plain;
-      if (!c.is_coplanar) continue;
-      coplanar_.push_back(c.p == polygon ? c.q : c.p);
-      const uint32_t o = job_.polygons()[coplanar_.back()].operand;
-      is_flat_[o] = job_.is_convex(o);
-    }
-    for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
-      const Contact& c = contacts_[contact_of_[i]];
-      const bool is_p = c.p == polygon;
-      const uint32_t other = is_p ? c.q : c.p;
-      if (c.is_coplanar || is_flat_[job_.polygons()[other].operand]) continue;
-      const auto& [lower, upper] = ends(contact_of_[i]);
-      if (lower == upper) continue;
-      const auto edge = [&](const Contact::End& e) { return e.on_p == is_p ? e.edge : kNone; };
-      if (is_p) {
-        segments_.push_back({lower, upper, other, edge(c.lower), edge(c.upper)});
-        sheets_.push_back({lower, upper, other, c.q_front, c.q_back});
-      } else {
-        segments_.push_back({upper, lower, other, edge(c.upper), edge(c.lower)});
-        sheets_.push_back({upper, lower, other, c.p_front, c.p_back});
-      }
-    }
-    for (const uint32_t q : coplanar_) is_flat_[job_.polygons()[q].operand] = 0;
-    return plain;
-  }
-
   /// A corner that is on no other operand's surface. There is none where something coplanar meets a
   /// polygon.
   [[nodiscard]] uint32_t untouched_corner(uint32_t polygon) const {
     for (const uint32_t v : job_.corners(job_.polygons()[polygon])) {
-      if (!touched_[v]) return v;
+      if (!contacts_.touched()[v]) return v;
     }
     return kNone;
   }
@@ -251,14 +166,14 @@ class FaceEvaluator {
         if (is_cut_[p]) continue;
         uint32_t patch = patches_.find(untouched_corner(p));
         for (const uint32_t v : job_.corners(job_.polygons()[p])) {
-          if (!touched_[v]) patch = patches_.join_with(patch, v);
+          if (!contacts_.touched()[v]) patch = patches_.join_with(patch, v);
         }
       }
     });
-    for (const CutLoops::Loop& loop : loops_.loops) {
+    for (const CutLoops::Loop& loop : cut_.loops.loops) {
       for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
-        const uint32_t v = geometry_.point(loops_.corner_point[c]).vertex;
-        if (v != kNone && !touched_[v]) patches_.join(loop.vertex, v);  // so it has one
+        const uint32_t v = geometry_.point(cut_.loops.corner_point[c]).vertex;
+        if (v != kNone && !contacts_.touched()[v]) patches_.join(loop.vertex, v);  // so it has one
       }
     }
     for_each_alone(job_.operand_count(), much, [&](size_t o) {
@@ -272,7 +187,7 @@ class FaceEvaluator {
     for (uint32_t p = 0; p < plainly_covered_.size(); ++p) {
       if (!plainly_covered_[p]) continue;
       for (const uint32_t v : job_.corners(job_.polygons()[p])) {
-        if (!touched_[v]) {
+        if (!contacts_.touched()[v]) {
           patch_fates_[patches_.find(v)] = static_cast<uint8_t>(PatchFate::kDrop);
         }
       }
@@ -281,14 +196,14 @@ class FaceEvaluator {
 
   /// What the loops of each patch say of it; false if they disagree.
   bool gather_facts() {
-    for (const CutLoops::Loop& loop : loops_.loops) {
+    for (const CutLoops::Loop& loop : cut_.loops.loops) {
       if (loop.vertex == kNone) continue;
       const uint32_t patch = patches_.find(loop.vertex);
       for (uint32_t f = loop.first_fact; f < loop.first_fact + loop.fact_count; ++f) {
-        facts_.add(patch, loops_.facts[f]);
+        facts_.add(patch, cut_.loops.facts[f]);
       }
     }
-    for (const Contact& c : contacts_) add_rim_facts(c);
+    for (const Contact& c : contacts_.all()) add_rim_facts(c);
     return facts_.finish();
   }
 
@@ -303,8 +218,8 @@ class FaceEvaluator {
   void add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind) {
     if (is_cut_[polygon]) return;
     const uint32_t operand = job_.polygons()[other].operand;
-    for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
-      const Contact& c = contacts_[contact_of_[i]];
+    for (const uint32_t i : contacts_.of(polygon)) {
+      const Contact& c = contacts_[i];
       const uint32_t third = c.p == polygon ? c.q : c.p;
       if (third != other && job_.polygons()[third].operand == operand) return;
     }
@@ -322,9 +237,21 @@ class FaceEvaluator {
 
   PatchFate fate_of_loop(const CutLoops::Loop& loop, uint32_t own) {
     if (loop.vertex != kNone) return fate_of_patch(loop.vertex, own);
-    // The middle of an edge is on no operand's surface that has none along the edge.
-    const auto& a = geometry_.point(loops_.corner_point[loop.first_corner]).rounded;
-    const auto& b = geometry_.point(loops_.corner_point[loop.first_corner + 1]).rounded;
+    // The middle of an edge is on no operand's surface that has none along the edge. Where it is in
+    // line with too much, another one may do.
+    constexpr uint32_t kMostTries = 4;
+    PatchFate fate = PatchFate::kUnknown;
+    for (uint32_t i = 0; i < std::min(loop.corner_count, kMostTries); ++i) {
+      fate = fate_at_edge(loop, i, own);
+      if (fate != PatchFate::kUnknown) break;
+    }
+    return fate;
+  }
+
+  PatchFate fate_at_edge(const CutLoops::Loop& loop, uint32_t edge, uint32_t own) {
+    const uint32_t next = edge + 1 < loop.corner_count ? edge + 1 : 0;
+    const auto& a = geometry_.point(cut_.loops.corner_point[loop.first_corner + edge]).rounded;
+    const auto& b = geometry_.point(cut_.loops.corner_point[loop.first_corner + next]).rounded;
     std::array<double, 3> middle{};
     double largest = 0;
     for (int k = 0; k < 3; ++k) {
@@ -332,13 +259,13 @@ class FaceEvaluator {
       largest = std::max({largest, std::fabs(a[k]), std::fabs(b[k])});
     }
     return labels_.fate(own, middle, largest * 0x1p-52,
-                        {loops_.facts.data() + loop.first_fact, loop.fact_count});
+                        {cut_.loops.facts.data() + loop.first_fact, loop.fact_count});
   }
 
   void emit() {
     is_kept_.assign(job_.polygons().size(), 0);
-    fate_of_loop_.assign(loops_.loops.size(), PatchFate::kDrop);
-    for (const CutPolygon& cut : cut_) {
+    fate_of_loop_.assign(cut_.loops.loops.size(), PatchFate::kDrop);
+    for (const CutFaces::Face& cut : cut_.faces) {
       if (!result_.general[cut.polygon]) emit_loops(cut);
     }
     emit_whole();
@@ -374,8 +301,7 @@ class FaceEvaluator {
         if (fate == PatchFate::kUnknown) left[part].push_back(p);
         if (fate != PatchFate::kKeep && fate != PatchFate::kFlip) continue;
         is_kept_[p] = 1;
-        kept[part].push_back(
-            {p, fate == PatchFate::kFlip, contact_starts_[p] < contact_starts_[p + 1]});
+        kept[part].push_back({p, fate == PatchFate::kFlip, !contacts_.of(p).empty()});
       }
     });
     size_t total = 0;
@@ -387,11 +313,11 @@ class FaceEvaluator {
     }
   }
 
-  void emit_loops(const CutPolygon& cut) {
+  void emit_loops(const CutFaces::Face& cut) {
     const uint32_t own = job_.polygons()[cut.polygon].operand;
     loop_fates_.clear();
     for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-      loop_fates_.push_back(fate_of_loop(loops_.loops[l], own));
+      loop_fates_.push_back(fate_of_loop(cut_.loops.loops[l], own));
       if (loop_fates_.back() == PatchFate::kUnknown) return leave(cut.polygon);
     }
     for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
@@ -399,7 +325,7 @@ class FaceEvaluator {
       if (fate != PatchFate::kDrop) {
         is_kept_[cut.polygon] = 1;
         fate_of_loop_[l] = fate;
-        emit_loop(loops_.loops[l], cut.polygon, fate == PatchFate::kFlip);
+        emit_loop(cut_.loops.loops[l], cut.polygon, fate == PatchFate::kFlip);
       }
     }
   }
@@ -414,14 +340,14 @@ class FaceEvaluator {
     numbers_.resize(geometry_.point_count(), kNone);
     const auto first = static_cast<uint32_t>(out.corner_point.size());
     for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
-      const uint32_t p = loops_.corner_point[c];
+      const uint32_t p = cut_.loops.corner_point[c];
       if (numbers_[p] == kNone) {
         numbers_[p] = static_cast<uint32_t>(out.points.size());
         const auto& s = geometry_.point(p);
         out.points.push_back({s.rounded, s.planes, s.vertex});
       }
       out.corner_point.push_back(numbers_[p]);
-      out.corner_plane.push_back(plane(loops_.corner_plane[c]));
+      out.corner_plane.push_back(plane(cut_.loops.corner_plane[c]));
     }
     out.pieces.push_back({support, polygon, first, loop.corner_count, loop.is_loose});
     if (flip) out.flip(out.pieces.back());
@@ -430,19 +356,21 @@ class FaceEvaluator {
   /// Where what is kept may touch itself: where no corner is at an end of a contact, and where
   /// corners are not one round.
   void find_touching() {
-    TouchFinder finder(job_, geometry_, index_, touched_);
-    std::vector<uint8_t> is_open(contacts_.size(), 0);
-    for (uint32_t i = 0; i < contacts_.size(); ++i) {
+    TouchFinder finder(job_, geometry_, index_, contacts_.touched());
+    const auto count = static_cast<uint32_t>(contacts_.all().size());
+    std::vector<uint8_t> is_open(count, 0);
+    for (uint32_t i = 0; i < count; ++i) {
       const Contact& c = contacts_[i];
       is_open[i] =
           (result_.general[c.p] && is_suspect_[c.p]) || (result_.general[c.q] && is_suspect_[c.q]);
-      if (is_of_kept(c)) ends(i);
+      if (is_of_kept(c)) ends_->ask(i);
     }
-    for (const CutPolygon& cut : cut_) {
+    ends_->make();
+    for (const CutFaces::Face& cut : cut_.faces) {
       if (!is_suspect_[cut.polygon] || !is_kept_[cut.polygon]) continue;
       corners_.clear();
       for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-        for (const uint32_t p : points_of(loops_.loops[l])) {
+        for (const uint32_t p : points_of(cut_.loops.loops[l])) {
           corners_.push_back(p);
           if (fate_of_loop_[l] != PatchFate::kDrop) finder.examine(p);
         }
@@ -455,12 +383,12 @@ class FaceEvaluator {
       for (const uint32_t p : corners_) finder.examine(p);
       find_open(w.polygon, finder, is_open, &w);
     }
-    for (const CutPolygon& cut : cut_) {
+    for (const CutFaces::Face& cut : cut_.faces) {
       for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
         if (fate_of_loop_[l] == PatchFate::kDrop) continue;
-        const CutLoops::Loop& loop = loops_.loops[l];
+        const CutLoops::Loop& loop = cut_.loops.loops[l];
         finder.add_outline(cut.polygon, points_of(loop),
-                           {loops_.corner_plane.data() + loop.first_corner, loop.corner_count},
+                           {cut_.loops.corner_plane.data() + loop.first_corner, loop.corner_count},
                            fate_of_loop_[l] == PatchFate::kFlip);
       }
     }
@@ -470,7 +398,7 @@ class FaceEvaluator {
       finder.add_outline(w.polygon, corners_, {}, w.flip);
     }
     result_.touching = finder.find();
-    for (uint32_t i = 0; i < contacts_.size(); ++i) {
+    for (uint32_t i = 0; i < count; ++i) {
       if (is_open[i]) add_touching(job_.boxes()[contacts_[i].p], job_.boxes()[contacts_[i].q]);
     }
   }
@@ -486,10 +414,9 @@ class FaceEvaluator {
                  const WholePolygon* whole) {
     corner_of_.resize(geometry_.point_count(), kNone);
     for (const uint32_t p : corners_) corner_of_[finder.number(p)] = polygon;
-    for (uint32_t i = contact_starts_[polygon]; i < contact_starts_[polygon + 1]; ++i) {
-      const uint32_t contact = contact_of_[i];
+    for (const uint32_t contact : contacts_.of(polygon)) {
       if (!is_of_kept(contacts_[contact])) continue;
-      for (const uint32_t end : ends_[contact]) {
+      for (const uint32_t end : ends_->of(contact)) {
         if (corner_of_[end] == polygon) continue;
         if (whole && finder.add_on_edge(polygon, end, whole->flip)) {
           corner_of_[end] = polygon;
@@ -516,7 +443,7 @@ class FaceEvaluator {
   }
 
   [[nodiscard]] std::span<const uint32_t> points_of(const CutLoops::Loop& loop) const {
-    return {loops_.corner_point.data() + loop.first_corner, loop.corner_count};
+    return {cut_.loops.corner_point.data() + loop.first_corner, loop.corner_count};
   }
 
   static constexpr uint8_t kUnasked = 0xff;
@@ -527,24 +454,16 @@ class FaceEvaluator {
   EvaluateStats& stats_;
   CellGeometry geometry_;
   PointIndex index_;
-  CrossingPoints points_;
   PatchLabels labels_;
   WholeFaces result_;
-  std::vector<Contact> contacts_;
-  std::vector<std::array<uint32_t, 2>> ends_;          ///< of the contacts: lower and upper point
-  std::vector<uint32_t> contact_starts_, contact_of_;  ///< per polygon
-  std::vector<uint8_t> plainly_covered_;               ///< see find_plainly_covered
-  std::vector<uint8_t> is_covered_;                    ///< per polygon, see find_covered
-  std::vector<uint8_t> is_suspect_;   ///< per polygon: something touches it, maybe by chance
-  std::vector<uint8_t> is_kept_;      ///< per polygon: it leaves something, whole or in loops
-  std::vector<uint8_t> is_flat_;      ///< per operand: convex, with a face in the plane at hand
-  std::vector<uint8_t> touched_;      ///< per vertex: may be on another surface
-  std::vector<uint8_t> is_cut_;       ///< per polygon: has loops, or is left
-  std::vector<CutSegment> segments_;  ///< of the polygon at hand
-  std::vector<SheetSegment> sheets_;
-  std::vector<uint32_t> coplanar_;
-  CutLoops loops_;
-  std::vector<CutPolygon> cut_;
+  ContactTable contacts_;
+  std::optional<ContactEnds> ends_;
+  std::vector<uint8_t> plainly_covered_;  ///< see find_plainly_covered
+  std::vector<uint8_t> is_covered_;       ///< per polygon, see find_covered
+  std::vector<uint8_t> is_suspect_;       ///< per polygon: something touches it, maybe by chance
+  std::vector<uint8_t> is_kept_;          ///< per polygon: it leaves something, whole or in loops
+  std::vector<uint8_t> is_cut_;           ///< per polygon: has loops, or is left
+  CutFaces cut_;
   UnionFind patches_;
   PatchFacts facts_;
   std::vector<uint8_t> patch_fates_;           ///< per vertex that stands for a patch: a PatchFate

@@ -61,7 +61,24 @@ uint32_t hash(const Plane& p) {
   return static_cast<uint32_t>(h ^ (h >> 32));
 }
 
+/// For a plane without a common divisor.
+ReducedPlane with_hash(const Plane& plane) {
+  assert(plane.a != 0 || plane.b != 0 || plane.c != 0);
+  const bool flipped =
+      plane.a < 0 || (plane.a == 0 && (plane.b < 0 || (plane.b == 0 && plane.c < 0)));
+  ReducedPlane reduced{flipped ? plane.reversed() : plane, 0, flipped};
+  reduced.hash = hash(reduced.plane);
+  return reduced;
+}
+
 }  // namespace
+
+ReducedPlane reduce(const Plane& plane) {
+  const UInt128 g = divisor(plane);
+  if (g == 1) return with_hash(plane);
+  const auto whole = static_cast<Int128>(g);
+  return with_hash({plane.a / whole, plane.b / whole, plane.c / whole, plane.d / whole});
+}
 
 int bit_width(Int128 v) {
   const UInt128 m = magnitude(v);
@@ -107,34 +124,28 @@ void PlaneTable::adopt(const std::vector<Plane>& planes) {
   for (const Plane& p : planes) add(p);
 }
 
-PlaneId PlaneTable::intern(const Plane& plane) {
-  const UInt128 g = divisor(plane);
-  if (g == 1) return intern_reduced(plane);
-  const auto whole = static_cast<Int128>(g);
-  return intern_reduced({plane.a / whole, plane.b / whole, plane.c / whole, plane.d / whole});
-}
+PlaneId PlaneTable::intern(const Plane& plane) { return intern_computed(reduce(plane)); }
 
-PlaneId PlaneTable::intern_reduced(const Plane& plane) {
+PlaneId PlaneTable::intern_reduced(const Plane& plane) { return intern_computed(with_hash(plane)); }
+
+PlaneId PlaneTable::intern_computed(const ReducedPlane& reduced) {
   constexpr size_t kFewSlots = 64;
-  assert(plane.a != 0 || plane.b != 0 || plane.c != 0);
-  const bool flipped =
-      plane.a < 0 || (plane.a == 0 && (plane.b < 0 || (plane.b == 0 && plane.c < 0)));
-  const Plane p = flipped ? plane.reversed() : plane;
   // (After adopt there are no slots.)
   if (planes_.size() * 2 >= slots_.size()) {
     enter_all(std::bit_ceil(std::max(kFewSlots, planes_.size() * 4)));
   }
-  const uint32_t own = hash(p);
   const size_t mask = slots_.size() - 1;
-  for (size_t s = own & mask; slots_[s].plane; s = (s + 1) & mask) {
+  for (size_t s = reduced.hash & mask; slots_[s].plane; s = (s + 1) & mask) {
     const uint32_t index = slots_[s].plane - 1;
-    if (slots_[s].hash == own && planes_[index] == p) return {index, flipped};
+    if (slots_[s].hash == reduced.hash && planes_[index] == reduced.plane) {
+      return {index, reduced.flipped};
+    }
   }
   const auto index = static_cast<uint32_t>(planes_.size());
-  add(p);
+  add(reduced.plane);
   ++entered_;
-  enter(own, index);
-  return {index, flipped};
+  enter(reduced.hash, index);
+  return {index, reduced.flipped};
 }
 
 }  // namespace csgrun

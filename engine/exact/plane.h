@@ -56,6 +56,16 @@ class PlaneId {
   uint32_t value_ = ~0u;
 };
 
+/// A plane as a table stores it, with its hash: what takes time of entering it, and may be done on
+/// any thread.
+struct ReducedPlane {
+  Plane plane;
+  uint32_t hash;
+  bool flipped;  ///< `plane` is the reverse
+};
+/// REQUIRES: the normal is not zero, widths as in widths.h.
+ReducedPlane reduce(const Plane& plane);
+
 /// All planes of one evaluation. Each is stored once: reduced by the greatest common divisor of its
 /// four coefficients, with the first non-zero normal component positive.
 class PlaneTable {
@@ -63,6 +73,7 @@ class PlaneTable {
   /// The id of a plane; its flipped() bit is set when the stored orientation is the reverse.
   /// REQUIRES: the normal is not zero, widths as in widths.h.
   PlaneId intern(const Plane& plane);
+  PlaneId intern_computed(const ReducedPlane& plane);
   /// The same for a plane whose four coefficients have no common divisor: a few times quicker.
   PlaneId intern_reduced(const Plane& plane);
   /// Takes over the planes of another table, as they stand there, under their numbers. REQUIRES:

@@ -51,4 +51,18 @@ int exact_side(const Plane& plane, const Point& p, int tier) {
   }
 }
 
+int exact_side(const Plane& plane, const std::array<int64_t, 3>& p, int tier) {
+  if (std::max(tier, forced_tier) > 1) {
+    return exact_side(plane, grid_point(p[0], p[1], p[2]), tier);
+  }
+  if (tier == 0) {
+    const auto low = [](Int128 v) { return static_cast<int64_t>(v); };
+    const int64_t value =
+        low(plane.a) * p[0] + low(plane.b) * p[1] + low(plane.c) * p[2] + low(plane.d);
+    return value > 0 ? 1 : value < 0 ? -1 : 0;
+  }
+  const Int128 value = plane.a * p[0] + plane.b * p[1] + plane.c * p[2] + plane.d;
+  return value > 0 ? 1 : value < 0 ? -1 : 0;
+}
+
 }  // namespace csgrun

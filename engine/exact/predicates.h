@@ -38,6 +38,8 @@ int exact_tier(const Plane& plane, const Point& point);
 /// The sign of plane at point, exactly: +1 on the side that the normal points to. Computed in the
 /// given tier, which must be at least exact_tier(plane, point).
 int exact_side(const Plane& plane, const Point& point, int tier);
+/// The same for a point of the grid.
+int exact_side(const Plane& plane, const std::array<int64_t, 3>& point, int tier);
 inline int exact_side(const Plane& plane, const Point& point) {
   return exact_side(plane, point, exact_tier(plane, point));
 }

@@ -52,6 +52,36 @@ TEST(Parallel, RangesAndSinglesMakeUpEverything) {
   }
 }
 
+TEST(Parallel, WhatIsMadeIsTakenInOrder) {
+  for (const unsigned threads : {1u, 2u, 4u}) {
+    for (const size_t count : {0, 1, 511, 512, 513, 8192, 8193, 40000}) {
+      std::vector<std::atomic<int>> made(count);
+      std::atomic<int> making = 0;
+      std::vector<size_t> taken;
+      with_threads(threads, [&] {
+        make_and_take(
+            count,
+            [&](size_t i) {
+              ++making;
+              ++made[i];
+              --making;
+              return std::array<size_t, 2>{i, 3 * i};
+            },
+            [&](size_t i, const std::array<size_t, 2>& what) {
+              EXPECT_EQ(making, 0);
+              EXPECT_EQ(what, (std::array<size_t, 2>{i, 3 * i}));
+              taken.push_back(i);
+            });
+      });
+      ASSERT_EQ(taken.size(), count);
+      for (size_t i = 0; i < count; ++i) {
+        EXPECT_EQ(taken[i], i);
+        EXPECT_EQ(made[i], 1);
+      }
+    }
+  }
+}
+
 TEST(Parallel, ThreadsAreAsManyAsAskedFor) {
   for (const int threads : {1, 2, 5}) {
     EXPECT_EQ(with_threads(static_cast<unsigned>(threads),

@@ -297,8 +297,7 @@ TEST(CoveredPolygons, AreNotThoseOnTheBallItself) {
 TEST(CoveredPolygons, OfNothing) {
   const std::vector<Operand> none;
   EXPECT_TRUE(find_plainly_covered(Job(none), {}).empty());
-  const std::vector<uint32_t> no_contacts{0};
-  EXPECT_TRUE(find_covered(Job(none), {}, {}, no_contacts, {}).empty());
+  EXPECT_TRUE(find_covered(Job(none), {}, ContactTable()).empty());
   auto empty = std::make_shared<LeafGeometry>();
   empty->convex = true;
   const std::vector<Operand> operands{test::operand_of(empty), octahedron({0, 0, 0}, 9),
@@ -353,15 +352,8 @@ TEST(CoveredPolygons, TouchFromWithin) {
                        : test::flat_expression(static_cast<BooleanOp>(round % 4), count);
     Job job(operands);
     EvaluateStats stats;
-    const std::vector<Contact> contacts = find_contacts(job, {}, {}, stats).contacts;
-    std::vector<uint32_t> starts{0}, contact_of;
-    for (uint32_t p = 0; p < job.polygons().size(); ++p) {
-      for (uint32_t i = 0; i < contacts.size(); ++i) {
-        if (contacts[i].p == p || contacts[i].q == p) contact_of.push_back(i);
-      }
-      starts.push_back(static_cast<uint32_t>(contact_of.size()));
-    }
-    const auto found = find_covered(job, expression, contacts, starts, contact_of);
+    const ContactTable contacts(find_contacts(job, {}, {}, stats), job.polygons().size());
+    const auto found = find_covered(job, expression, contacts);
     ASSERT_EQ(found.size(), job.polygons().size());
     for (uint32_t p = 0; p < found.size(); ++p) {
       bool expected = false;

@@ -1,7 +1,9 @@
 // Points by name: the same for an edge from either face, by value where names differ, however many.
 #include "engine/bsp/crossing_points.h"
 
+#include <array>
 #include <map>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -26,7 +28,7 @@ TEST(CrossingPoints, HaveOneNumberEach) {
         test::operand_of(test::box_leaf({10 * i, 10 * i, -5}, {10 * i + 4, 10 * i + 4, 200})));
   }
   Job job(operands);
-  for (uint32_t p = 0; p < job.polygons().size(); ++p) job.ensure_planes(p);
+  for (uint32_t p = 0; p < job.polygons().size(); ++p) job.ensure_support(p);
   CellGeometry geometry(job.planes(), &job);
   PointIndex index(geometry);
   CrossingPoints points(job, geometry, index);
@@ -34,8 +36,25 @@ TEST(CrossingPoints, HaveOneNumberEach) {
     const Plane& plane = job.planes().plane(job.polygons()[p].support.index());
     return plane.a == 0 && plane.b == 0;
   };
+  // Names first, points after each few poles.
+  struct Expected {
+    uint32_t crossing;
+    std::array<double, 3> at;
+  };
   std::map<test::Rational3, uint32_t> number;
   for (int round = 0; round < 2; ++round) {
+    std::vector<Expected> expected;
+    const auto check = [&] {
+      points.make_points();
+      for (const Expected& e : expected) {
+        const uint32_t x = points.point(e.crossing);
+        const test::GmpPoint g = test::to_gmp(geometry.exact(x));
+        const test::Rational3 at{mpq_class(g.x) / g.w, mpq_class(g.y) / g.w, mpq_class(g.z) / g.w};
+        for (size_t k = 0; k < 3; ++k) ASSERT_EQ(at[k], e.at[k]);
+        ASSERT_EQ(number.emplace(at, x).first->second, x);
+      }
+      expected.clear();
+    };
     for (uint32_t p = job.polygon_start(kPlates); p < job.polygons().size(); ++p) {
       if (is_level(p)) continue;
       const auto corners = job.corners(job.polygons()[p]);
@@ -45,17 +64,15 @@ TEST(CrossingPoints, HaveOneNumberEach) {
         if (a[2] == b[2]) continue;  // along the plates
         for (uint32_t q = 0; q < job.polygon_start(kPlates); ++q) {
           if (!is_level(q)) continue;
-          const uint32_t x = points.point(p, e, q);
-          const test::GmpPoint g = test::to_gmp(geometry.exact(x));
-          const test::Rational3 at{mpq_class(g.x) / g.w, mpq_class(g.y) / g.w,
-                                   mpq_class(g.z) / g.w};
-          ASSERT_EQ(at[0], a[0]);
-          ASSERT_EQ(at[1], a[1]);
-          ASSERT_EQ(at[2], job.rounded(job.corners(job.polygons()[q])[0])[2]);
-          ASSERT_EQ(number.emplace(at, x).first->second, x);
+          expected.push_back({points.number(p, e, q),
+                              {a[0], a[1], job.rounded(job.corners(job.polygons()[q])[0])[2]}});
         }
       }
+      if (p % 17 == 0) {
+        ASSERT_NO_FATAL_FAILURE(check());
+      }
     }
+    ASSERT_NO_FATAL_FAILURE(check());
     // Made once: four edges of a pole, seen from two faces each, through two faces of a plate.
     EXPECT_EQ(number.size(), size_t{kPoles * 4 * kPlates * 2});
     EXPECT_EQ(geometry.point_count(), number.size());

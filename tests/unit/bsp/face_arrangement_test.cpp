@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/bsp/crossing_points.h"
-#include "engine/bsp/find_contacts.h"
+#include "engine/bsp/contact_table.h"
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/oracle.h"
@@ -46,16 +45,20 @@ class Cuts {
  public:
   explicit Cuts(const std::vector<Operand>& operands)
       : job_(operands),
-        contacts_(find_contacts(job_, {}, {}, stats_)),
+        contacts_(find_contacts(job_, {}, {}, stats_), job_.polygons().size()),
         geometry_(job_.planes(), &job_),
         index_(geometry_),
-        points_(job_, geometry_, index_) {
+        ends_(contacts_, job_, geometry_, index_) {
     for (const Operand& o : operands) oracles_.emplace_back(test::exact_solid(o));
     for (uint32_t p = 0; p < job_.polygons().size(); ++p) job_.ensure_planes(p);
+    for (uint32_t i = 0; i < contacts_.all().size(); ++i) {
+      if (!contacts_[i].is_coplanar) ends_.ask(i);
+    }
+    ends_.make();
   }
 
   void check(Count& count) {
-    FaceArrangement arrangement(job_, geometry_, index_, contacts_.touched);
+    FaceArrangement arrangement(job_, geometry_, index_, contacts_.touched());
     PolygonCutter cutter(job_, geometry_);
     for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
       const bool is_plain = list(p);
@@ -86,28 +89,26 @@ class Cuts {
     bool is_plain = true;
     std::vector<uint8_t> is_flat(job_.operand_count(), 0);
     const auto other_of = [&](const Contact& c) { return c.p == polygon ? c.q : c.p; };
-    for (const Contact& c : contacts_.contacts) {
-      if (c.p != polygon && c.q != polygon) continue;
+    for (const uint32_t i : contacts_.of(polygon)) {
+      const Contact& c = contacts_[i];
       is_plain = is_plain && c.is_plain;
       if (!c.is_coplanar) continue;
       coplanar_.push_back(other_of(c));
       const uint32_t o = job_.polygons()[coplanar_.back()].operand;
       is_flat[o] = job_.is_convex(o);
     }
-    for (const Contact& c : contacts_.contacts) {
+    for (const uint32_t i : contacts_.of(polygon)) {
+      const Contact& c = contacts_[i];
+      if (c.is_coplanar || is_flat[job_.polygons()[other_of(c)].operand]) continue;
       const bool is_p = c.p == polygon;
-      if (c.is_coplanar || (!is_p && c.q != polygon)) continue;
-      if (is_flat[job_.polygons()[other_of(c)].operand]) continue;
-      const auto point = [&](const Contact::End& end) {
-        if (end.vertex != kNone) return index_.unique(geometry_.vertex_point(end.vertex));
-        return end.on_p ? points_.point(c.p, end.edge, c.q) : points_.point(c.q, end.edge, c.p);
-      };
+      const auto& [lower, upper] = ends_.of(i);
+      if (lower == upper) continue;
       const auto edge = [&](const Contact::End& e) { return e.on_p == is_p ? e.edge : kNone; };
-      const Contact::End &from = is_p ? c.lower : c.upper, &to = is_p ? c.upper : c.lower;
-      if (point(from) == point(to)) continue;
-      sheets_.push_back({point(from), point(to), other_of(c), is_p ? c.q_front : c.p_front,
-                         is_p ? c.q_back : c.p_back});
-      segments_.push_back({point(from), point(to), other_of(c), edge(from), edge(to)});
+      const uint32_t from = is_p ? lower : upper, to = is_p ? upper : lower;
+      sheets_.push_back(
+          {from, to, other_of(c), is_p ? c.q_front : c.p_front, is_p ? c.q_back : c.p_back});
+      segments_.push_back(
+          {from, to, other_of(c), edge(is_p ? c.lower : c.upper), edge(is_p ? c.upper : c.lower)});
     }
     return is_plain;
   }
@@ -161,10 +162,10 @@ class Cuts {
 
   Job job_;
   EvaluateStats stats_;
-  Contacts contacts_;
+  ContactTable contacts_;
   CellGeometry geometry_;
   PointIndex index_;
-  CrossingPoints points_;
+  ContactEnds ends_;
   std::vector<test::Oracle> oracles_;
   std::vector<SheetSegment> sheets_;
   std::vector<CutSegment> segments_;

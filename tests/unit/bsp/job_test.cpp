@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/piece_store.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/kernel_case.h"
@@ -79,7 +80,7 @@ TEST(Job, PolygonsAreThoseOfTheOperands) {
             ASSERT_LE(box.lo[k], points.back()[k]);
             ASSERT_GE(box.hi[k], points.back()[k]);
           }
-          const auto planes = job.vertex_planes(v);
+          const auto planes = job.vertex_name(v).planes;
           ASSERT_EQ(planes[0] == ~0u, operand.leaf != nullptr);
           for (const uint32_t s : planes) {
             if (s != ~0u) {
@@ -143,6 +144,40 @@ TEST(Job, PolygonsAreThoseOfTheOperands) {
   EXPECT_GT(mirrored, 10);
 }
 
+// Planes that are asked for together have the numbers that they get one after another.
+TEST(Job, ManyPlanesAreMadeAsOneByOne) {
+  Random random(103);
+  for (int i = 0; i < 40; ++i) {
+    const auto operands = random_operands(random);
+    Job single(operands), many(operands);
+    std::vector<uint32_t> polygons;
+    std::vector<PolygonEdge> edges;
+    for (uint32_t p = 0; p < single.polygons().size(); ++p) {
+      if (random.integer(0, 2) == 0) continue;
+      polygons.push_back(p);
+    }
+    for (int k = 0; k < 50 && !polygons.empty(); ++k) {  // some of them twice
+      const uint32_t p = polygons[random.bits() % polygons.size()];
+      edges.push_back({p, static_cast<uint32_t>(random.bits() % single.polygons()[p].count)});
+    }
+    for (const uint32_t p : polygons) single.ensure_support(p);
+    for (const PolygonEdge& e : edges) single.edge_plane(e.polygon, e.edge);
+    with_threads(3, [&] {
+      many.ensure_supports(polygons);
+      many.ensure_edges(edges);
+    });
+    ASSERT_EQ(many.planes().size(), single.planes().size());
+    for (uint32_t p = 0; p < single.planes().size(); ++p) {
+      ASSERT_EQ(many.planes().plane(p), single.planes().plane(p));
+    }
+    for (uint32_t p = 0; p < single.polygons().size(); ++p) {
+      const JobPolygon &a = single.polygons()[p], &b = many.polygons()[p];
+      ASSERT_EQ(a.support, b.support);
+      ASSERT_TRUE(std::ranges::equal(single.edge_planes(a), many.edge_planes(b)));
+    }
+  }
+}
+
 TEST(Job, WallsHoldNoVertex) {
   Random random(102);
   for (int i = 0; i < 60; ++i) {
@@ -150,7 +185,8 @@ TEST(Job, WallsHoldNoVertex) {
     Job job(operands);
     const mpq_class step(1, static_cast<unsigned long>(job.prime()));
     for (uint32_t v = 0; v < job.vertex_count(); ++v) {
-      if (job.vertex_planes(v)[0] != ~0u) continue;  // of a result: three planes may meet on a wall
+      if (job.vertex_name(v).planes[0] != ~0u)
+        continue;  // of a result: three planes may meet on a wall
       for (const mpq_class& c : value_of(job.exact(v))) {
         ASSERT_NE(mpq_class(c - step).get_den(), 1) << "a wall at " << c;
       }

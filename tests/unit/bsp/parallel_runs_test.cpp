@@ -88,6 +88,7 @@ TEST(Kernel, IsCancelledBeforeAndBetweenRuns) {
   for (uint64_t cells = 0; cells < 200;) {
     tree = maker.make({.size = 9, .operands = 9, .depth = 3});
     KernelOptions options;
+    options.whole_faces = false;
     options.cell_limit = 2;
     stats = {};
     ASSERT_TRUE(evaluate_boolean(tree.operands, tree.expression, tree.region, options, stats));
@@ -95,6 +96,7 @@ TEST(Kernel, IsCancelledBeforeAndBetweenRuns) {
   }
   std::atomic<bool> cancel = true;
   KernelOptions options;
+  options.whole_faces = false;
   options.cell_limit = 2;
   options.cancel = &cancel;
   size_t calls = 0;

@@ -15,6 +15,8 @@
 #include "engine/mesh/opposite_edges.h"
 #include "engine/mesh/present.h"
 #include "tests/support/boundary_compare.h"
+#include "tests/support/kernel_case.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {
@@ -147,6 +149,59 @@ TEST(Threads, AreNotSeenInNamedFacesAndCounts) {
     EXPECT_EQ(stats.surface_cells, one.surface_cells);
     EXPECT_EQ(stats.solved_cells, one.solved_cells);
     EXPECT_EQ(stats.sign_filter, one.sign_filter);
+  }
+}
+
+/// Bodies on a coarse lattice, so that most of what meets touches: more polygons than one thread
+/// cuts at a time.
+std::vector<Operand> touching_bodies(uint64_t seed) {
+  test::Random random(seed);
+  std::vector<Operand> operands;
+  for (size_t polygons = 0; polygons < 1200;) {
+    Operand operand;
+    if (random.integer(0, 1)) {
+      operand = test::operand_of(test::random_leaf(random));
+    } else {
+      IVec3 hi{};
+      for (int64_t& h : hi) h = random.integer(1, 4);
+      auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(test::box_loops({0, 0, 0}, hi)));
+      leaf->opposite = pair_edges(*leaf).opposite;
+      leaf->may_touch = false;
+      leaf->convex = random.integer(0, 1) == 0;
+      operand = test::operand_of(std::move(leaf));
+    }
+    operand.translation = {random.integer(-12, 12), random.integer(-12, 12),
+                           random.integer(-12, 12)};
+    polygons += operand.leaf->face_count();
+    operands.push_back(std::move(operand));
+  }
+  return operands;
+}
+
+TEST(Threads, CutWhatTouchesAsCellsDo) {
+  for (const uint64_t seed : {871u, 872u, 873u}) {
+    std::vector<Operand> operands = touching_bodies(seed);
+    for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kDifference}) {
+      if (op == BooleanOp::kDifference) {
+        operands.insert(operands.begin(),
+                        test::operand_of(test::box_leaf({-13, -13, -13}, {15, 15, 15})));
+      }
+      KernelOptions options;
+      options.whole_faces = false;
+      EvaluateStats ignored;
+      const auto slow = evaluate(operands, op, options, ignored);
+      ASSERT_GT(slow->faces.size(), 300u);
+      options.whole_faces = true;
+      std::vector<EvaluateStats> stats;
+      for (const unsigned threads : {1u, 2u, 5u}) {
+        options.threads = threads;
+        const auto fast = evaluate(operands, op, options, stats.emplace_back());
+        ASSERT_EQ(test::first_difference(*fast, *slow), "") << threads << " threads, " << seed;
+        ASSERT_EQ(stats.back().sign_filter, stats[0].sign_filter);
+        ASSERT_EQ(stats.back().sign_symbolic, stats[0].sign_symbolic);
+        ASSERT_EQ(stats.back().sign_exact, stats[0].sign_exact);
+      }
+    }
   }
 }
 

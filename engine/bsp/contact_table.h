@@ -1,0 +1,95 @@
+// The contacts of each polygon, and the points at their ends.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/bsp/crossing_points.h"
+#include "engine/bsp/find_contacts.h"
+
+namespace csgrun {
+
+class ContactTable {
+ public:
+  ContactTable() = default;
+  ContactTable(Contacts found, size_t polygon_count)
+      : contacts_(std::move(found.contacts)),
+        touched_(std::move(found.touched)),
+        starts_(polygon_count + 1, 0),
+        numbers_(2 * contacts_.size()) {
+    for (const Contact& c : contacts_) ++starts_[c.p + 1], ++starts_[c.q + 1];
+    for (size_t p = 0; p < polygon_count; ++p) starts_[p + 1] += starts_[p];
+    std::vector<uint32_t> next = starts_;
+    for (uint32_t i = 0; i < contacts_.size(); ++i) {
+      numbers_[next[contacts_[i].p]++] = i;
+      numbers_[next[contacts_[i].q]++] = i;
+    }
+  }
+
+  [[nodiscard]] const std::vector<Contact>& all() const { return contacts_; }
+  [[nodiscard]] const Contact& operator[](uint32_t contact) const { return contacts_[contact]; }
+  [[nodiscard]] size_t polygon_count() const { return starts_.size() - 1; }
+  /// The numbers of a polygon's contacts.
+  [[nodiscard]] std::span<const uint32_t> of(uint32_t polygon) const {
+    return {numbers_.data() + starts_[polygon], starts_[polygon + 1] - starts_[polygon]};
+  }
+  /// Per vertex of the job, whether it may be on another operand's surface.
+  [[nodiscard]] const std::vector<uint8_t>& touched() const { return touched_; }
+
+ private:
+  std::vector<Contact> contacts_;
+  std::vector<uint8_t> touched_;
+  std::vector<uint32_t> starts_{0}, numbers_;
+};
+
+/// Names for the ends of contacts, as they are asked for.
+class ContactEnds {
+ public:
+  ContactEnds(const ContactTable& contacts, Job& job, CellGeometry& geometry, PointIndex& index)
+      : contacts_(contacts),
+        geometry_(geometry),
+        index_(index),
+        crossings_(job, geometry, index),
+        ends_(contacts.all().size(), {kNone, kNone}) {}
+
+  /// Asks for the ends of a contact that is not coplanar.
+  void ask(uint32_t contact) {
+    if (ends_[contact][0] != kNone) return;
+    const Contact& c = contacts_[contact];
+    const auto end = [&](const Contact::End& e) {
+      if (e.vertex != kNone) return index_.unique(geometry_.vertex_point(e.vertex));
+      return kIsCrossing |
+             (e.on_p ? crossings_.number(c.p, e.edge, c.q) : crossings_.number(c.q, e.edge, c.p));
+    };
+    ends_[contact] = {end(c.lower), end(c.upper)};
+    asked_.push_back(contact);
+  }
+  /// Makes all points that were asked for, on several threads. The supports of all polygons in
+  /// contact must have been made.
+  void make() {
+    crossings_.make_points();
+    for (const uint32_t contact : asked_) {
+      for (uint32_t& end : ends_[contact]) {
+        if (end & kIsCrossing) end = crossings_.point(end & ~kIsCrossing);
+      }
+    }
+    asked_.clear();
+  }
+  /// The points at the ends of a contact, lower and upper, in the geometry: those of the index.
+  [[nodiscard]] const std::array<uint32_t, 2>& of(uint32_t contact) const { return ends_[contact]; }
+
+ private:
+  static constexpr uint32_t kIsCrossing = 1u << 31;
+
+  const ContactTable& contacts_;
+  CellGeometry& geometry_;
+  PointIndex& index_;
+  CrossingPoints crossings_;
+  std::vector<std::array<uint32_t, 2>> ends_;
+  std::vector<uint32_t> asked_;
+};
+
+}  // namespace csgrun

@@ -1,0 +1,345 @@
+#include "engine/bsp/cut_faces.h"
+
+#include <algorithm>
+
+#include "engine/bsp/face_arrangement.h"
+#include "engine/bsp/parallel_runs.h"
+#include "engine/bsp/sign_stats.h"
+
+namespace csgrun {
+namespace {
+
+/// So many polygons are cut by one thread.
+constexpr size_t kPolygonsPerPart = 256;
+
+/// Corners of the loops of a part are points of the geometry by their numbers, vertices of the job
+/// (kVertex + number), or new points of the part (kNew + number).
+constexpr uint32_t kVertex = 1u << 30, kNew = 1u << 31;
+
+/// Some of the polygons, what meets them, and what comes of it.
+struct Part {
+  struct Polygon {
+    uint32_t number;
+    uint32_t first_contact, end_contact, first_coplanar, end_coplanar;
+    bool is_plain;  ///< all contacts are
+  };
+  struct Point {
+    std::array<double, 3> rounded;
+    std::array<uint32_t, 3> planes;
+  };
+
+  std::vector<Polygon> polygons;
+  std::vector<uint32_t> contacts;  ///< of the polygons; of operands that bound them otherwise none
+  std::vector<uint32_t> coplanar;  ///< polygons
+  std::vector<Polygon> again;      ///< not cut by name after all
+  CutLoops loops;
+  std::vector<Point> points;
+  std::vector<CutFaces::Face> faces;
+  std::vector<uint32_t> left, by_value;
+  SignCounters counters;
+};
+
+/// Lists what is on polygons.
+void list(const Job& job, std::span<const uint32_t> polygons, const ContactTable& contacts,
+          Part& part) {
+  std::vector<uint32_t> flat;  // convex operands with a face in the polygon's plane
+  for (const uint32_t p : polygons) {
+    Part::Polygon& polygon = part.polygons.emplace_back();
+    polygon = {p, static_cast<uint32_t>(part.contacts.size()),
+               0, static_cast<uint32_t>(part.coplanar.size()),
+               0, true};
+    flat.clear();
+    const auto operand = [&](const Contact& c) {
+      return job.polygons()[c.p == p ? c.q : c.p].operand;
+    };
+    for (const uint32_t i : contacts.of(p)) {
+      const Contact& c = contacts[i];
+      polygon.is_plain &= c.is_plain;
+      if (!c.is_coplanar) continue;
+      part.coplanar.push_back(c.p == p ? c.q : c.p);
+      if (job.is_convex(operand(c))) flat.push_back(operand(c));
+    }
+    for (const uint32_t i : contacts.of(p)) {
+      const Contact& c = contacts[i];
+      if (c.is_coplanar) continue;
+      if (!flat.empty() && std::find(flat.begin(), flat.end(), operand(c)) != flat.end()) continue;
+      part.contacts.push_back(i);
+    }
+    polygon.end_contact = static_cast<uint32_t>(part.contacts.size());
+    polygon.end_coplanar = static_cast<uint32_t>(part.coplanar.size());
+  }
+}
+
+/// Cuts one polygon after another, each in a geometry that holds nothing else.
+class Worker {
+ public:
+  Worker(const Job& job, const ContactTable& contacts, const ContactEnds& ends,
+         const CellGeometry& shared)
+      : job_(job),
+        contacts_(contacts),
+        ends_(ends),
+        shared_(shared),
+        geometry_(job.planes(), &job),
+        index_(geometry_),
+        cutter_(job, geometry_),
+        arrangement_(job, geometry_, index_, contacts.touched()),
+        stamp_of_(shared.point_count(), 0),
+        local_(shared.point_count()) {}
+
+  /// Cuts by name, or by value if that does not do and its planes are there.
+  void cut(const Part::Polygon& polygon, bool has_planes, Part& part) {
+    geometry_.clear();
+    codes_.clear();
+    ++stamp_;
+    const auto first_loop = static_cast<uint32_t>(part.loops.loops.size());
+    const size_t first_corner = part.loops.corner_point.size();
+    bool is_done = false;
+    if (polygon.is_plain && !has_planes) {
+      list_segments(polygon, part);
+      is_done = cutter_.cut(polygon.number, segments_, part.loops);
+      if (!is_done) {
+        part.again.push_back(polygon);
+        return;
+      }
+    } else {
+      index_.clear();
+      list_sheets(polygon, part);
+      is_done = arrangement_.build(polygon.number, sheets_, coplanar(polygon, part), part.loops);
+      part.by_value.push_back(polygon.number);
+    }
+    if (!is_done) {
+      part.left.push_back(polygon.number);
+      return;
+    }
+    for (size_t c = first_corner; c < part.loops.corner_point.size(); ++c) {
+      part.loops.corner_point[c] = code(part.loops.corner_point[c], part);
+    }
+    part.faces.push_back(
+        {polygon.number, first_loop, static_cast<uint32_t>(part.loops.loops.size())});
+  }
+
+  [[nodiscard]] const SignCounters& counters() const { return geometry_.counters; }
+
+ private:
+  static std::span<const uint32_t> coplanar(const Part::Polygon& polygon, const Part& part) {
+    return {part.coplanar.data() + polygon.first_coplanar,
+            polygon.end_coplanar - polygon.first_coplanar};
+  }
+
+  /// Calls add(contact, whether the polygon is its p, start, end) for the segments on a polygon.
+  template <class Add>
+  void for_each_segment(const Part::Polygon& polygon, const Part& part, Add&& add) {
+    for (uint32_t i = polygon.first_contact; i < polygon.end_contact; ++i) {
+      const Contact& c = contacts_[part.contacts[i]];
+      const auto& [lower, upper] = ends_.of(part.contacts[i]);
+      if (lower == upper) continue;
+      const bool is_p = c.p == polygon.number;
+      add(c, is_p, own_point(is_p ? lower : upper), own_point(is_p ? upper : lower));
+    }
+  }
+  void list_segments(const Part::Polygon& polygon, const Part& part) {
+    segments_.clear();
+    for_each_segment(polygon, part, [&](const Contact& c, bool is_p, uint32_t from, uint32_t to) {
+      const auto edge = [&](const Contact::End& e) { return e.on_p == is_p ? e.edge : kNone; };
+      segments_.push_back({from, to, is_p ? c.q : c.p, edge(is_p ? c.lower : c.upper),
+                           edge(is_p ? c.upper : c.lower)});
+    });
+  }
+  void list_sheets(const Part::Polygon& polygon, const Part& part) {
+    sheets_.clear();
+    for_each_segment(polygon, part, [&](const Contact& c, bool is_p, uint32_t from, uint32_t to) {
+      sheets_.push_back({index_.unique(from), index_.unique(to), is_p ? c.q : c.p,
+                         is_p ? c.q_front : c.p_front, is_p ? c.q_back : c.p_back});
+    });
+  }
+
+  /// The number here of a point of the shared geometry.
+  uint32_t own_point(uint32_t shared) {
+    if (stamp_of_[shared] == stamp_) return local_[shared];
+    stamp_of_[shared] = stamp_;
+    const CellGeometry::StoredPoint& s = shared_.point(shared);
+    const uint32_t own = s.vertex != kNone ? geometry_.vertex_point(s.vertex)
+                                           : geometry_.add_point(s.planes, s.rounded);
+    code_of(own) = shared;
+    return local_[shared] = own;
+  }
+
+  uint32_t& code_of(uint32_t own) {
+    if (own >= codes_.size()) codes_.resize(geometry_.point_count(), kNone);
+    return codes_[own];
+  }
+  /// What stands for a point in the loops of a part.
+  uint32_t code(uint32_t own, Part& part) {
+    uint32_t& code = code_of(own);
+    if (code != kNone) return code;
+    const CellGeometry::StoredPoint& s = geometry_.point(own);
+    if (s.vertex != kNone) return code = kVertex | s.vertex;
+    part.points.push_back({s.rounded, s.planes});
+    return code = kNew | static_cast<uint32_t>(part.points.size() - 1);
+  }
+
+  const Job& job_;
+  const ContactTable& contacts_;
+  const ContactEnds& ends_;
+  const CellGeometry& shared_;
+  CellGeometry geometry_;
+  PointIndex index_;
+  PolygonCutter cutter_;
+  FaceArrangement arrangement_;
+  std::vector<CutSegment> segments_;
+  std::vector<SheetSegment> sheets_;
+  /// Per point of the shared geometry: the polygon for which it has a number here, and that one.
+  std::vector<uint32_t> stamp_of_;
+  RawVector<uint32_t> local_;
+  uint32_t stamp_ = 0;
+  std::vector<uint32_t> codes_;  ///< per own point, or kNone
+};
+
+class FaceCutter {
+ public:
+  FaceCutter(Job& job, const ContactTable& contacts, ContactEnds& ends, CellGeometry& geometry,
+             PointIndex& index, const KernelOptions& options)
+      : job_(job),
+        contacts_(contacts),
+        ends_(ends),
+        geometry_(geometry),
+        index_(index),
+        options_(options) {
+    options_.progress = nullptr;
+  }
+
+  CutFaces run(std::span<const uint32_t> polygons, EvaluateStats& stats) {
+    parts_.resize(part_count(polygons.size(), kPolygonsPerPart));
+    for_each_part(polygons.size(), kPolygonsPerPart, [&](size_t part, size_t begin, size_t end) {
+      list(job_, polygons.subspan(begin, end - begin), contacts_, parts_[part]);
+    });
+    for (const Part& part : parts_) {
+      for (const uint32_t contact : part.contacts) ends_.ask(contact);
+    }
+    ends_.make();
+    for (Part& part : parts_) {
+      std::erase_if(part.polygons, [&](const Part::Polygon& p) { return stays_whole(p, part); });
+    }
+    make_planes(
+        [](const Part& part) -> const auto& { return part.polygons; },
+        [](const Part::Polygon& polygon) { return !polygon.is_plain; });
+    cut_all(
+        [](const Part& part) -> const auto& { return part.polygons; }, false);
+    if (std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return !p.again.empty(); })) {
+      make_planes(
+          [](const Part& part) -> const auto& { return part.again; },
+          [](const Part::Polygon&) { return true; });
+      cut_all(
+          [](const Part& part) -> const auto& { return part.again; }, true);
+    }
+    CutFaces result;
+    for (const Part& part : parts_) {
+      add(part, result);
+      add_signs(stats, part.counters);
+    }
+    return result;
+  }
+
+ private:
+  /// Whether nothing cuts a polygon, and one of its corners tells what becomes of it.
+  [[nodiscard]] bool stays_whole(const Part::Polygon& polygon, const Part& part) const {
+    for (uint32_t i = polygon.first_contact; i < polygon.end_contact; ++i) {
+      const auto& [lower, upper] = ends_.of(part.contacts[i]);
+      if (lower != upper) return false;
+    }
+    const auto corners = job_.corners(job_.polygons()[polygon.number]);
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](uint32_t v) { return !contacts_.touched()[v]; });
+  }
+
+  /// All planes of some polygons and of what is coplanar with them.
+  template <class List, class Wanted>
+  void make_planes(List&& list_of, Wanted&& is_wanted) {
+    std::vector<PolygonEdge> edges;
+    const auto add = [&](uint32_t polygon) {
+      for (uint32_t e = 0; e < job_.polygons()[polygon].count; ++e) edges.push_back({polygon, e});
+    };
+    for (const Part& part : parts_) {
+      for (const Part::Polygon& polygon : list_of(part)) {
+        if (!is_wanted(polygon)) continue;
+        add(polygon.number);
+        for (uint32_t i = polygon.first_coplanar; i < polygon.end_coplanar; ++i) {
+          add(part.coplanar[i]);
+        }
+      }
+    }
+    job_.ensure_edges(edges);
+  }
+
+  template <class List>
+  void cut_all(List&& list_of, bool has_planes) {
+    for_each_run(
+        parts_.size(), options_, [&] { return Worker(job_, contacts_, ends_, geometry_); },
+        [&](Worker& worker, size_t run) {
+          const SignCounters before = worker.counters();
+          for (const Part::Polygon& polygon : list_of(parts_[run])) {
+            worker.cut(polygon, has_planes, parts_[run]);
+          }
+          SignCounters own = worker.counters();
+          own.subtract(before);
+          parts_[run].counters.add(own);
+        });
+  }
+
+  /// Adds what came of a part, with points of the shared geometry.
+  void add(const Part& part, CutFaces& out) {
+    CutLoops& all = out.loops;
+    const auto first_loop = static_cast<uint32_t>(all.loops.size()),
+               first_corner = static_cast<uint32_t>(all.corner_point.size()),
+               first_fact = static_cast<uint32_t>(all.facts.size());
+    numbers_.assign(part.points.size(), kNone);
+    for (CutLoops::Loop loop : part.loops.loops) {
+      for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
+        all.corner_point.push_back(number(part.loops.corner_point[c], loop.is_loose, part));
+      }
+      loop.first_corner += first_corner;
+      loop.first_fact += first_fact;
+      all.loops.push_back(loop);
+    }
+    all.corner_plane.insert(all.corner_plane.end(), part.loops.corner_plane.begin(),
+                            part.loops.corner_plane.end());
+    all.facts.insert(all.facts.end(), part.loops.facts.begin(), part.loops.facts.end());
+    for (const CutFaces::Face& f : part.faces) {
+      out.faces.push_back({f.polygon, f.first_loop + first_loop, f.end_loop + first_loop});
+    }
+    out.left.insert(out.left.end(), part.left.begin(), part.left.end());
+    out.by_value.insert(out.by_value.end(), part.by_value.begin(), part.by_value.end());
+  }
+
+  uint32_t number(uint32_t code, bool by_value, const Part& part) {
+    if (code & kNew) {
+      uint32_t& number = numbers_[code & ~kNew];
+      if (number != kNone) return number;
+      const Part::Point& p = part.points[code & ~kNew];
+      number = geometry_.add_point(p.planes, p.rounded);
+      return number = by_value ? index_.unique(number) : number;
+    }
+    if (!(code & kVertex)) return code;
+    const uint32_t vertex = code & ~kVertex, point = geometry_.vertex_point(vertex);
+    return by_value && contacts_.touched()[vertex] ? index_.unique(point) : point;
+  }
+
+  Job& job_;
+  const ContactTable& contacts_;
+  ContactEnds& ends_;
+  CellGeometry& geometry_;
+  PointIndex& index_;
+  KernelOptions options_;
+  std::vector<Part> parts_;
+  std::vector<uint32_t> numbers_;  ///< of the points of the part at hand, or kNone
+};
+
+}  // namespace
+
+CutFaces cut_faces(Job& job, std::span<const uint32_t> polygons, const ContactTable& contacts,
+                   ContactEnds& ends, CellGeometry& geometry, PointIndex& index,
+                   const KernelOptions& options, EvaluateStats& stats) {
+  return FaceCutter(job, contacts, ends, geometry, index, options).run(polygons, stats);
+}
+
+}  // namespace csgrun

@@ -1,0 +1,36 @@
+// Polygons cut along what other operands' polygons have in common with them: each by itself, with
+// points of its own, so that several can be cut at the same time.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <csgrun/engine/evaluate.h>
+
+#include "engine/bsp/contact_table.h"
+#include "engine/bsp/cut_polygon.h"
+
+namespace csgrun {
+
+struct CutFaces {
+  struct Face {
+    uint32_t polygon, first_loop, end_loop;
+  };
+  CutLoops loops;
+  std::vector<Face> faces;
+  std::vector<uint32_t> left;      ///< polygons that could not be cut this way
+  std::vector<uint32_t> by_value;  ///< where names did not do; of the others, or of those left
+};
+
+/// Cuts polygons along the segments at which they have contacts: by name (cut_polygon.h) where all
+/// of these are plain and no points coincide, else by value (face_arrangement.h). What nothing
+/// cuts, and has a corner that is not touched, stays whole and is not mentioned. Points of the
+/// loops are in the geometry; equal ones have one number in loops that are loose. The supports of
+/// `polygons`, and of all that have contacts, must have been made. `stats` is added to. Parallel;
+/// incomplete when cancelled.
+CutFaces cut_faces(Job& job, std::span<const uint32_t> polygons, const ContactTable& contacts,
+                   ContactEnds& ends, CellGeometry& geometry, PointIndex& index,
+                   const KernelOptions& options, EvaluateStats& stats);
+
+}  // namespace csgrun
