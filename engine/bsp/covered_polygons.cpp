@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/grid_planes.h"
 #include "engine/bsp/square_bins.h"
 
@@ -137,12 +138,12 @@ class Balls {
 
  private:
   static std::vector<Ball> find(const Job& job, const std::vector<uint8_t>& operands) {
-    std::vector<Ball> balls;
-    for (uint32_t o = 0; o < operands.size(); ++o) {
-      if (!operands[o] || !job.has_grid_vertices(o)) continue;
-      const Ball ball = Ball::within(job, o);
-      if (ball.radius > 0) balls.push_back(ball);
-    }
+    std::vector<Ball> balls(operands.size());
+    for_each_alone(operands.size(), job.polygons().size() > kFewForThreads, [&](size_t o) {
+      const auto operand = static_cast<uint32_t>(o);
+      if (operands[o] && job.has_grid_vertices(operand)) balls[o] = Ball::within(job, operand);
+    });
+    std::erase_if(balls, [](const Ball& ball) { return ball.radius <= 0; });
     return balls;
   }
 
@@ -177,18 +178,19 @@ std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expr
   const std::vector<uint8_t> removes = find_removers(job, expression);
   // With two operands, what is inside one meets nothing at all.
   const Balls balls(job, job.operand_count() > 2 ? removes : std::vector<uint8_t>());
-  std::vector<uint8_t> is_covered(job.polygons().size(), 0);
-  bool any = false;
-  for (uint32_t o = 0; o < job.operand_count(); ++o) {
-    if (balls.empty() && live[o].holds(job.operand_box(o))) continue;
+  std::vector<uint8_t> is_covered(job.polygons().size(), 0), any(job.operand_count(), 0);
+  for_each_alone(job.operand_count(), job.polygons().size() > kFewForThreads, [&](size_t operand) {
+    const auto o = static_cast<uint32_t>(operand);
+    if (balls.empty() && live[o].holds(job.operand_box(o))) return;
     const bool is_live = !live[o].is_empty();
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
       is_covered[p] =
           !is_live || !live[o].meets(job.boxes()[p]) || balls.hold(job, job.polygons()[p]);
-      any |= is_covered[p] != 0;
+      any[o] |= is_covered[p];
     }
-  }
-  return any ? std::move(is_covered) : std::vector<uint8_t>();
+  });
+  const bool some = std::find(any.begin(), any.end(), 1) != any.end();
+  return some ? std::move(is_covered) : std::vector<uint8_t>();
 }
 
 std::vector<uint8_t> find_covered(const Job& job, const Expression& expression,

@@ -23,13 +23,16 @@ class CrossingPoints {
     const auto corners = job_.corners(p);
     const uint32_t a = corners[edge], b = corners[edge + 1 < p.count ? edge + 1 : 0];
     const Name name{std::min(a, b), std::max(a, b), through};
-    size_t s = hash(name) & (slots_.size() - 1);
+    const uint32_t own = hash(name);
+    size_t s = own & (slots_.size() - 1);
     for (; slots_[s].crossing != kNone; s = (s + 1) & (slots_.size() - 1)) {
-      if (slots_[s].name == name) return slots_[s].crossing;
+      if (slots_[s].hash == own && crossings_[slots_[s].crossing].name == name) {
+        return slots_[s].crossing;
+      }
     }
     const auto number = static_cast<uint32_t>(crossings_.size());
-    slots_[s] = {name, number};
-    crossings_.push_back({{polygon, edge}, through});
+    slots_[s] = {own, number};
+    crossings_.push_back({name, {polygon, edge}});
     if (crossings_.size() * 2 > slots_.size()) grow();
     return number;
   }
@@ -46,7 +49,8 @@ class CrossingPoints {
         count, [&](size_t i) { return NamedPoint(job_, crossings_[first + i]); },
         [&](size_t, const NamedPoint& p) {
           points_.push_back(index_.unique(geometry_.add_point(p.planes, p.rounded)));
-        });
+        },
+        [&](const NamedPoint& p) { index_.expect(p.rounded); });
   }
 
   /// The number in the geometry of a crossing's point, which must have been made.
@@ -58,18 +62,17 @@ class CrossingPoints {
     bool operator==(const Name&) const = default;
   };
   struct Slot {
-    Name name;
-    uint32_t crossing = kNone;
+    uint32_t hash = 0, crossing = kNone;
   };
   struct Crossing {
+    Name name;
     PolygonEdge edge;
-    uint32_t through;
   };
   struct NamedPoint {
     NamedPoint(Job& job, const Crossing& c)
         : planes{job.polygons()[c.edge.polygon].support.index(),
                  job.edge_planes(job.polygons()[c.edge.polygon])[c.edge.edge],
-                 job.polygons()[c.through].support.index()},
+                 job.polygons()[c.name.through].support.index()},
           rounded(csgrun::rounded(intersect(job.planes().plane(planes[0]),
                                             job.planes().plane(planes[1]),
                                             job.planes().plane(planes[2])))) {}
@@ -77,17 +80,17 @@ class CrossingPoints {
     std::array<double, 3> rounded;
   };
 
-  static size_t hash(const Name& n) {
+  static uint32_t hash(const Name& n) {
     uint64_t h = (static_cast<uint64_t>(n.low) << 32 | n.high) * 0x9fb21c651e98df25ull;
     h = (h ^ (h >> 32) ^ n.through) * 0x9fb21c651e98df25ull;
-    return static_cast<size_t>(h ^ (h >> 32));
+    return static_cast<uint32_t>(h ^ (h >> 32));
   }
   void grow() {
     std::vector<Slot> old(slots_.size() * 2);
     std::swap(old, slots_);
     for (const Slot& slot : old) {
       if (slot.crossing == kNone) continue;
-      size_t s = hash(slot.name) & (slots_.size() - 1);
+      size_t s = slot.hash & (slots_.size() - 1);
       while (slots_[s].crossing != kNone) s = (s + 1) & (slots_.size() - 1);
       slots_[s] = slot;
     }

@@ -424,7 +424,8 @@ void Job::ensure_supports(std::span<const uint32_t> polygons) {
       lacking.size(), [&](size_t i) { return reduced_support(lacking[i]); },
       [&](size_t i, const ReducedPlane& plane) {
         polygons_[lacking[i]].support = planes_.intern_computed(plane);
-      });
+      },
+      [&](const ReducedPlane& plane) { planes_.expect(plane); });
 }
 
 void Job::ensure_edges(std::span<const PolygonEdge> edges) {
@@ -445,7 +446,8 @@ void Job::ensure_edges(std::span<const PolygonEdge> edges) {
       [&](size_t i, const ReducedPlane& plane) {
         edge_planes_[polygons_[lacking[i].polygon].first + lacking[i].edge] =
             planes_.intern_computed(plane).index();
-      });
+      },
+      [&](const ReducedPlane& plane) { planes_.expect(plane); });
 }
 
 void Job::ensure_planes(uint32_t polygon) {

@@ -2,6 +2,7 @@
 // doubles: a hash of these finds the candidates, exact signs confirm.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,10 @@ class PointIndex {
  public:
   explicit PointIndex(CellGeometry& geometry) : geometry_(geometry), slots_(kFewSlots) {}
 
+  /// Fetches what unique() of a point of such coordinates will look at, soon.
+  void expect(const std::array<double, 3>& rounded) const {
+    __builtin_prefetch(&slots_[hash(rounded) & (slots_.size() - 1)]);
+  }
   /// Forgets all points.
   void clear() {
     slots_.assign(kFewSlots, {});
@@ -24,7 +29,7 @@ class PointIndex {
   /// The first point that equals `p`; `p` itself when it is new. `p` must be in the geometry.
   uint32_t unique(uint32_t p) {
     if (p < known_.size() && known_[p] != kNone) return known_[p];
-    if (p >= known_.size()) known_.resize(geometry_.point_count(), kNone);
+    if (p >= known_.size()) known_.resize(geometry_.point_count() + kFewSlots, kNone);
     return known_[p] = find_or_add(p);
   }
 
@@ -35,7 +40,7 @@ class PointIndex {
   };
 
   uint32_t find_or_add(uint32_t p) {
-    const uint32_t own = hash(p);
+    const uint32_t own = hash(geometry_.point(p).rounded);
     size_t s = own & (slots_.size() - 1);
     for (; slots_[s].point != kNone; s = (s + 1) & (slots_.size() - 1)) {
       if (slots_[s].hash == own && equal(slots_[s].point, p)) return slots_[s].point;
@@ -44,9 +49,9 @@ class PointIndex {
     if (++count_ * 2 > slots_.size()) grow();
     return p;
   }
-  [[nodiscard]] uint32_t hash(uint32_t p) const {
+  static uint32_t hash(const std::array<double, 3>& rounded) {
     uint64_t h = 0;
-    for (const double c : geometry_.point(p).rounded) {
+    for (const double c : rounded) {
       h = (h ^ std::bit_cast<uint64_t>(c + 0.0)) * 0x9fb21c651e98df25ull;  // -0 + 0 = 0
       h ^= h >> 32;
     }

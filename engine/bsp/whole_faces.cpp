@@ -9,6 +9,7 @@
 #include "engine/bsp/contact_table.h"
 #include "engine/bsp/covered_polygons.h"
 #include "engine/bsp/cut_faces.h"
+#include "engine/bsp/parallel_runs.h"
 #include "engine/bsp/patch_facts.h"
 #include "engine/bsp/patch_labels.h"
 #include "engine/bsp/point_index.h"
@@ -226,29 +227,60 @@ class FaceEvaluator {
     facts_.add(patches_.find(untouched_corner(polygon)), {operand, is_behind, is_behind});
   }
 
-  PatchFate fate_of_patch(uint32_t vertex, uint32_t own) {
-    const uint32_t patch = patches_.find(vertex);
-    if (patch_fates_[patch] == kUnasked) {
-      patch_fates_[patch] = static_cast<uint8_t>(
-          labels_.fate(own, job_.rounded(patch), labels_.error(own), facts_.of(patch)));
-    }
-    return static_cast<PatchFate>(patch_fates_[patch]);
+  /// A patch, by the vertex that stands for it, or a loop that passes no vertex.
+  struct Question {
+    uint32_t own;  ///< operand
+    uint32_t patch, loop;
+  };
+
+  /// Asks what becomes of a patch, once.
+  void ask(uint32_t patch, uint32_t own) {
+    if (patch_fates_[patch] != kUnasked) return;
+    patch_fates_[patch] = kAsked;
+    questions_.push_back({own, patch, kNone});
   }
 
-  PatchFate fate_of_loop(const CutLoops::Loop& loop, uint32_t own) {
-    if (loop.vertex != kNone) return fate_of_patch(loop.vertex, own);
+  /// Answers all questions, on several threads if they may be much work.
+  void answer() {
+    if (job_.polygons().size() <= kFewForThreads) {
+      for (const Question& q : questions_) answer(q, labels_);
+      return;
+    }
+    KernelOptions options = options_;
+    options.progress = nullptr;
+    constexpr size_t kEach = 16;
+    for_each_run(
+        part_count(questions_.size(), kEach), options, [&] { return labels_; },
+        [&](PatchLabels& labels, size_t run) {
+          const size_t end = std::min(questions_.size(), (run + 1) * kEach);
+          for (size_t i = run * kEach; i < end; ++i) answer(questions_[i], labels);
+        });
+  }
+
+  void answer(const Question& q, PatchLabels& labels) {
+    if (q.patch == kNone) {
+      fate_of_loop_[q.loop] = fate_of_loop(cut_.loops.loops[q.loop], q.own, labels);
+    } else {
+      patch_fates_[q.patch] = static_cast<uint8_t>(
+          labels.fate(q.own, job_.rounded(q.patch), labels.error(q.own), facts_.of(q.patch)));
+    }
+  }
+
+  /// That of one that passes no vertex.
+  PatchFate fate_of_loop(const CutLoops::Loop& loop, uint32_t own, PatchLabels& labels) const {
     // The middle of an edge is on no operand's surface that has none along the edge. Where it is in
     // line with too much, another one may do.
     constexpr uint32_t kMostTries = 4;
     PatchFate fate = PatchFate::kUnknown;
     for (uint32_t i = 0; i < std::min(loop.corner_count, kMostTries); ++i) {
-      fate = fate_at_edge(loop, i, own);
+      fate = fate_at_edge(loop, i, own, labels);
       if (fate != PatchFate::kUnknown) break;
     }
     return fate;
   }
 
-  PatchFate fate_at_edge(const CutLoops::Loop& loop, uint32_t edge, uint32_t own) {
+  PatchFate fate_at_edge(const CutLoops::Loop& loop, uint32_t edge, uint32_t own,
+                         PatchLabels& labels) const {
     const uint32_t next = edge + 1 < loop.corner_count ? edge + 1 : 0;
     const auto& a = geometry_.point(cut_.loops.corner_point[loop.first_corner + edge]).rounded;
     const auto& b = geometry_.point(cut_.loops.corner_point[loop.first_corner + next]).rounded;
@@ -258,42 +290,57 @@ class FaceEvaluator {
       middle[k] = (a[k] + b[k]) / 2;
       largest = std::max({largest, std::fabs(a[k]), std::fabs(b[k])});
     }
-    return labels_.fate(own, middle, largest * 0x1p-52,
-                        {cut_.loops.facts.data() + loop.first_fact, loop.fact_count});
+    return labels.fate(own, middle, largest * 0x1p-52,
+                       {cut_.loops.facts.data() + loop.first_fact, loop.fact_count});
   }
 
   void emit() {
     is_kept_.assign(job_.polygons().size(), 0);
     fate_of_loop_.assign(cut_.loops.loops.size(), PatchFate::kDrop);
     for (const CutFaces::Face& cut : cut_.faces) {
-      if (!result_.general[cut.polygon]) emit_loops(cut);
+      const uint32_t own = job_.polygons()[cut.polygon].operand;
+      for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+        const uint32_t vertex = cut_.loops.loops[l].vertex;
+        if (vertex == kNone) {
+          questions_.push_back({own, kNone, l});
+        } else {
+          ask(patches_.root(vertex), own);
+        }
+      }
     }
-    emit_whole();
+    const RawVector<uint32_t> patches = patches_of_whole();
+    answer();
+    for (const CutFaces::Face& cut : cut_.faces) emit_loops(cut);
+    emit_whole(patches);
   }
 
-  /// What becomes of the polygons that were not cut.
-  void emit_whole() {
+  /// Per polygon that was not cut, its patch, about which is asked; kNone for the others.
+  RawVector<uint32_t> patches_of_whole() {
     const size_t count = job_.polygons().size();
-    const auto patch_of = [&](size_t p) {
-      return patches_.root(untouched_corner(static_cast<uint32_t>(p)));
-    };
-    // Patches are asked about one after another, and only those of which there is a polygon.
-    RawVector<uint32_t> patch(count);
+    RawVector<uint32_t> patches(count);
     std::vector<std::vector<uint32_t>> unasked(part_count(count, kFewForThreads));
     for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
       uint32_t last = kNone;
-      for (size_t p = begin; p < end; ++p) {
-        patch[p] = is_cut_[p] ? kNone : patch_of(p);
-        if (patch[p] == kNone || patch[p] == last || patch_fates_[patch[p]] != kUnasked) continue;
-        last = patch[p];
+      for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
+        patches[p] = is_cut_[p] ? kNone : patches_.root(untouched_corner(p));
+        if (patches[p] == kNone || patches[p] == last || patch_fates_[patches[p]] != kUnasked) {
+          continue;
+        }
+        last = patches[p];
         unasked[part].push_back(last);
       }
     });
     for (const auto& part : unasked) {
-      for (const uint32_t vertex : part) fate_of_patch(vertex, job_.operand_of_vertex(vertex));
+      for (const uint32_t patch : part) ask(patch, job_.operand_of_vertex(patch));
     }
-    std::vector<std::vector<WholePolygon>> kept(unasked.size());
-    std::vector<std::vector<uint32_t>> left(unasked.size());
+    return patches;
+  }
+
+  /// What becomes of the polygons that were not cut.
+  void emit_whole(const RawVector<uint32_t>& patch) {
+    const size_t count = job_.polygons().size();
+    std::vector<std::vector<WholePolygon>> kept(part_count(count, kFewForThreads));
+    std::vector<std::vector<uint32_t>> left(kept.size());
     for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
       for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
         if (patch[p] == kNone) continue;
@@ -314,19 +361,21 @@ class FaceEvaluator {
   }
 
   void emit_loops(const CutFaces::Face& cut) {
-    const uint32_t own = job_.polygons()[cut.polygon].operand;
-    loop_fates_.clear();
+    const auto begin = fate_of_loop_.begin() + cut.first_loop,
+               end = fate_of_loop_.begin() + cut.end_loop;
     for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-      loop_fates_.push_back(fate_of_loop(cut_.loops.loops[l], own));
-      if (loop_fates_.back() == PatchFate::kUnknown) return leave(cut.polygon);
+      const uint32_t vertex = cut_.loops.loops[l].vertex;
+      if (vertex == kNone) continue;
+      fate_of_loop_[l] = static_cast<PatchFate>(patch_fates_[patches_.root(vertex)]);
+    }
+    if (std::find(begin, end, PatchFate::kUnknown) != end) {
+      std::fill(begin, end, PatchFate::kDrop);
+      return leave(cut.polygon);
     }
     for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-      const PatchFate fate = loop_fates_[l - cut.first_loop];
-      if (fate != PatchFate::kDrop) {
-        is_kept_[cut.polygon] = 1;
-        fate_of_loop_[l] = fate;
-        emit_loop(cut_.loops.loops[l], cut.polygon, fate == PatchFate::kFlip);
-      }
+      if (fate_of_loop_[l] == PatchFate::kDrop) continue;
+      is_kept_[cut.polygon] = 1;
+      emit_loop(cut_.loops.loops[l], cut.polygon, fate_of_loop_[l] == PatchFate::kFlip);
     }
   }
 
@@ -446,7 +495,7 @@ class FaceEvaluator {
     return {cut_.loops.corner_point.data() + loop.first_corner, loop.corner_count};
   }
 
-  static constexpr uint8_t kUnasked = 0xff;
+  static constexpr uint8_t kUnasked = 0xff, kAsked = 0xfe;
 
   Job& job_;
   const Expression& expression_;
@@ -466,9 +515,9 @@ class FaceEvaluator {
   CutFaces cut_;
   UnionFind patches_;
   PatchFacts facts_;
-  std::vector<uint8_t> patch_fates_;           ///< per vertex that stands for a patch: a PatchFate
-  std::vector<PatchFate> loop_fates_;          ///< of the polygon at hand
-  std::vector<PatchFate> fate_of_loop_;        ///< per loop
+  std::vector<uint8_t> patch_fates_;     ///< per vertex that stands for a patch: a PatchFate
+  std::vector<PatchFate> fate_of_loop_;  ///< per loop; kDrop where its polygon is left
+  std::vector<Question> questions_;
   std::vector<uint32_t> corners_, corner_of_;  ///< see find_open
   std::vector<uint32_t> numbers_;
 };

@@ -74,6 +74,10 @@ class PlaneTable {
   /// REQUIRES: the normal is not zero, widths as in widths.h.
   PlaneId intern(const Plane& plane);
   PlaneId intern_computed(const ReducedPlane& plane);
+  /// Fetches what it will look at, soon.
+  void expect(const ReducedPlane& plane) const {
+    if (!slots_.empty()) __builtin_prefetch(&slots_[plane.hash & (slots_.size() - 1)]);
+  }
   /// The same for a plane whose four coefficients have no common divisor: a few times quicker.
   PlaneId intern_reduced(const Plane& plane);
   /// Takes over the planes of another table, as they stand there, under their numbers. REQUIRES:

@@ -1,6 +1,7 @@
 // Loops on several threads: everything is done once, in parts that do not depend on the threads.
 #include "engine/base/parallel.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <vector>
@@ -57,7 +58,7 @@ TEST(Parallel, WhatIsMadeIsTakenInOrder) {
     for (const size_t count : {0, 1, 511, 512, 513, 8192, 8193, 40000}) {
       std::vector<std::atomic<int>> made(count);
       std::atomic<int> making = 0;
-      std::vector<size_t> taken;
+      std::vector<size_t> taken, expected;
       with_threads(threads, [&] {
         make_and_take(
             count,
@@ -71,8 +72,14 @@ TEST(Parallel, WhatIsMadeIsTakenInOrder) {
               EXPECT_EQ(making, 0);
               EXPECT_EQ(what, (std::array<size_t, 2>{i, 3 * i}));
               taken.push_back(i);
+            },
+            [&](const std::array<size_t, 2>& what) {
+              expected.push_back(what[0]);
+              EXPECT_GT(what[0], taken.size());
             });
       });
+      EXPECT_TRUE(std::is_sorted(expected.begin(), expected.end()));
+      EXPECT_EQ(expected.size() * 2 > taken.size(), count > 500);
       ASSERT_EQ(taken.size(), count);
       for (size_t i = 0; i < count; ++i) {
         EXPECT_EQ(taken[i], i);
