@@ -10,6 +10,7 @@
 #include <deque>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/job.h"
 #include "engine/exact/predicates.h"
 
@@ -99,7 +100,8 @@ class CellGeometry {
   std::vector<StoredPoint> points_;
   std::deque<Point> exact_;  ///< large: growing moves none, and references stay
   std::vector<uint32_t> corners_, edges_;
-  std::vector<uint32_t> vertex_stamp_, vertex_point_;
+  std::vector<uint32_t> vertex_stamp_;
+  RawVector<uint32_t> vertex_point_;  ///< where the stamp is this one
   uint32_t stamp_ = 1;
   std::vector<int8_t> signs_;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/coarse_cells.h"
 
 namespace csgrun {
@@ -52,16 +53,13 @@ struct List {
 
 class CellFinder {
  public:
-  CellFinder(const Job& job, std::span<const uint8_t> covered, const KernelOptions& options)
-      : job_(job),
-        covered_(covered),
-        limit_(std::max<uint32_t>(1, options.cell_limit)),
-        cancel_(options.cancel) {}
+  CellFinder(const Job& job, std::span<const uint8_t> covered, uint32_t limit,
+             const std::atomic<bool>* cancel)
+      : job_(job), covered_(covered), limit_(limit), cancel_(cancel) {}
 
-  PairCells run() {
-    const PairCells coarse = find_coarse_cells(job_, covered_, limit_);
-    result_.surface = coarse.surface;
-    for (const PairCells::Cell& cell : coarse.cells) {
+  /// Divides coarse cells [begin, end).
+  PairCells run(const PairCells& coarse, size_t begin, size_t end) {
+    for (const PairCells::Cell& cell : std::span(coarse.cells).subspan(begin, end - begin)) {
       const uint32_t* polygons = coarse.polygons.data() + cell.first;
       if (coarse.cells.size() > 1 && cell.count <= kPatientLimit * limit_) {
         ++result_.visited, ++result_.surface;
@@ -266,7 +264,27 @@ void CellPairs::compare(uint32_t first, uint32_t count, uint32_t j,
 
 PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,
                           const KernelOptions& options) {
-  return CellFinder(job, covered, options).run();
+  constexpr size_t kEach = 64;
+  const uint32_t limit = std::max<uint32_t>(1, options.cell_limit);
+  const PairCells coarse = find_coarse_cells(job, covered, limit);
+  std::vector<PairCells> parts(part_count(coarse.cells.size(), kEach));
+  for_each_part(coarse.cells.size(), kEach, [&](size_t part, size_t begin, size_t end) {
+    parts[part] = CellFinder(job, covered, limit, options.cancel).run(coarse, begin, end);
+  });
+  PairCells all;
+  if (parts.size() == 1) all = std::move(parts[0]);
+  for (size_t part = 0; parts.size() > 1 && part < parts.size(); ++part) all.append(parts[part]);
+  all.surface += coarse.surface;
+  return all;
+}
+
+void PairCells::append(const PairCells& more) {
+  const auto offset = static_cast<uint32_t>(polygons.size());
+  polygons.insert(polygons.end(), more.polygons.begin(), more.polygons.end());
+  cells.insert(cells.end(), more.cells.begin(), more.cells.end());
+  for (size_t c = cells.size() - more.cells.size(); c < cells.size(); ++c) cells[c].first += offset;
+  visited += more.visited;
+  surface += more.surface;
 }
 
 }  // namespace csgrun

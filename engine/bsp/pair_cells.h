@@ -27,6 +27,8 @@ struct PairCells {
   /// Cells that hold surface; where only one operand has some, as many as it would fill with
   /// `cell_limit` polygons each.
   uint64_t surface = 0;
+
+  void append(const PairCells& more);
 };
 
 /// Cells with polygons of at least two operands, not all of which are in `covered` (per polygon;

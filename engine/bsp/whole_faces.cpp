@@ -36,7 +36,6 @@ class FaceEvaluator {
         index_(geometry_),
         labels_(job, expression) {
     result_.general.assign(job.polygons().size(), 0);
-    is_cut_.assign(job.polygons().size(), 0);
   }
 
   Result<WholeFaces> run() {
@@ -96,9 +95,7 @@ class FaceEvaluator {
   /// False when the evaluation is cancelled.
   bool cut_polygons() {
     job_.ensure_supports(polygons_where([&](uint32_t p) { return !contacts_.of(p).empty(); }));
-    for (const uint32_t p : polygons_where([&](uint32_t q) { return is_covered_[q] != 0; })) {
-      is_cut_[p] = 1;  // into nothing
-    }
+    is_cut_ = is_covered_;  // into nothing
     const auto polygons =
         polygons_where([&](uint32_t p) { return !is_covered_[p] && !may_stay_whole(p); });
     job_.ensure_supports(polygons);
@@ -310,7 +307,16 @@ class FaceEvaluator {
     }
     const RawVector<uint32_t> patches = patches_of_whole();
     answer();
-    for (const CutFaces::Face& cut : cut_.faces) emit_loops(cut);
+    for (const CutFaces::Face& cut : cut_.faces) settle(cut);
+    make_edge_planes();
+    for (const CutFaces::Face& cut : cut_.faces) {
+      for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+        const PatchFate fate = fate_of_loop_[l];
+        if (fate != PatchFate::kDrop) {
+          emit_loop(cut_.loops.loops[l], cut.polygon, fate == PatchFate::kFlip);
+        }
+      }
+    }
     emit_whole(patches);
   }
 
@@ -360,7 +366,8 @@ class FaceEvaluator {
     }
   }
 
-  void emit_loops(const CutFaces::Face& cut) {
+  /// What becomes of the loops of a polygon: it is left if that of any is not known.
+  void settle(const CutFaces::Face& cut) {
     const auto begin = fate_of_loop_.begin() + cut.first_loop,
                end = fate_of_loop_.begin() + cut.end_loop;
     for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
@@ -370,13 +377,26 @@ class FaceEvaluator {
     }
     if (std::find(begin, end, PatchFate::kUnknown) != end) {
       std::fill(begin, end, PatchFate::kDrop);
-      return leave(cut.polygon);
+      leave(cut.polygon);
     }
-    for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-      if (fate_of_loop_[l] == PatchFate::kDrop) continue;
-      is_kept_[cut.polygon] = 1;
-      emit_loop(cut_.loops.loops[l], cut.polygon, fate_of_loop_[l] == PatchFate::kFlip);
+    const auto is_kept = [](PatchFate fate) { return fate != PatchFate::kDrop; };
+    is_kept_[cut.polygon] = std::any_of(begin, end, is_kept);
+  }
+
+  /// Of the polygons' own edges that loops run along.
+  void make_edge_planes() {
+    std::vector<PolygonEdge> edges;
+    for (const CutFaces::Face& cut : cut_.faces) {
+      for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+        if (fate_of_loop_[l] == PatchFate::kDrop) continue;
+        for (const uint32_t plane : planes_of(cut_.loops.loops[l])) {
+          if (plane & CutLoops::kOwnEdge) {
+            edges.push_back({cut.polygon, plane & ~CutLoops::kOwnEdge});
+          }
+        }
+      }
     }
+    job_.ensure_edges(edges);
   }
 
   void emit_loop(const CutLoops::Loop& loop, uint32_t polygon, bool flip) {
@@ -436,8 +456,7 @@ class FaceEvaluator {
       for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
         if (fate_of_loop_[l] == PatchFate::kDrop) continue;
         const CutLoops::Loop& loop = cut_.loops.loops[l];
-        finder.add_outline(cut.polygon, points_of(loop),
-                           {cut_.loops.corner_plane.data() + loop.first_corner, loop.corner_count},
+        finder.add_outline(cut.polygon, points_of(loop), planes_of(loop),
                            fate_of_loop_[l] == PatchFate::kFlip);
       }
     }
@@ -493,6 +512,10 @@ class FaceEvaluator {
 
   [[nodiscard]] std::span<const uint32_t> points_of(const CutLoops::Loop& loop) const {
     return {cut_.loops.corner_point.data() + loop.first_corner, loop.corner_count};
+  }
+
+  [[nodiscard]] std::span<const uint32_t> planes_of(const CutLoops::Loop& loop) const {
+    return {cut_.loops.corner_plane.data() + loop.first_corner, loop.corner_count};
   }
 
   static constexpr uint8_t kUnasked = 0xff, kAsked = 0xfe;
