@@ -29,7 +29,9 @@ struct Part {
   };
 
   std::vector<Polygon> polygons;
-  std::vector<uint32_t> contacts;  ///< of the polygons; of operands that bound them otherwise none
+  /// Of the polygons, but for those with convex operands that have a face in the polygon's plane:
+  /// that one tells all.
+  std::vector<uint32_t> contacts;
   std::vector<uint32_t> coplanar;  ///< polygons
   std::vector<Polygon> again;      ///< not cut by name after all
   CutLoops loops;
@@ -86,7 +88,8 @@ class Worker {
         stamp_of_(shared.point_count(), 0),
         local_(shared.point_count()) {}
 
-  /// Cuts by name, or by value if that does not do and its planes are there.
+  /// Cuts by name if that may do and the planes for more are not there (or did not do before), else
+  /// by value.
   void cut(const Part::Polygon& polygon, bool has_planes, Part& part) {
     geometry_.clear();
     codes_.clear();
@@ -278,6 +281,7 @@ class FaceCutter {
         [&](Worker& worker, size_t run) {
           const SignCounters before = worker.counters();
           for (const Part::Polygon& polygon : list_of(parts_[run])) {
+            if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) break;
             worker.cut(polygon, has_planes, parts_[run]);
           }
           SignCounters own = worker.counters();
