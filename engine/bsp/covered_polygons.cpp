@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/bsp/contact_table.h"
 #include "engine/bsp/grid_planes.h"
 #include "engine/bsp/square_bins.h"
 

@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/bsp/contact_table.h"
-#include "engine/bsp/operand.h"
+#include "engine/bsp/job.h"
 
 namespace csgrun {
+
+class ContactTable;
 
 /// Per polygon of the job, whether it is easily seen to be of that kind, so that nobody looks at
 /// what two of them have in common: it is beside the boxes of what it would be taken away from, or

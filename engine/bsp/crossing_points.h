@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/parallel.h"
 #include "engine/bsp/point_index.h"
 
 namespace csgrun {
@@ -39,19 +38,7 @@ class CrossingPoints {
 
   /// Makes the points of all crossings that have none, on several threads. The supports of all of
   /// their polygons must have been made.
-  void make_points() {
-    const size_t first = points_.size(), count = crossings_.size() - first;
-    std::vector<PolygonEdge> edges;
-    edges.reserve(count);
-    for (size_t i = first; i < crossings_.size(); ++i) edges.push_back(crossings_[i].edge);
-    job_.ensure_edges(edges);
-    make_and_take(
-        count, [&](size_t i) { return NamedPoint(job_, crossings_[first + i]); },
-        [&](size_t, const NamedPoint& p) {
-          points_.push_back(index_.unique(geometry_.add_point(p.planes, p.rounded)));
-        },
-        [&](const NamedPoint& p) { index_.expect(p.rounded); });
-  }
+  void make_points();
 
   /// The number in the geometry of a crossing's point, which must have been made.
   [[nodiscard]] uint32_t point(uint32_t crossing) const { return points_[crossing]; }
@@ -68,18 +55,6 @@ class CrossingPoints {
     Name name;
     PolygonEdge edge;
   };
-  struct NamedPoint {
-    NamedPoint(Job& job, const Crossing& c)
-        : planes{job.polygons()[c.edge.polygon].support.index(),
-                 job.edge_planes(job.polygons()[c.edge.polygon])[c.edge.edge],
-                 job.polygons()[c.name.through].support.index()},
-          rounded(csgrun::rounded(intersect(job.planes().plane(planes[0]),
-                                            job.planes().plane(planes[1]),
-                                            job.planes().plane(planes[2])))) {}
-    std::array<uint32_t, 3> planes;
-    std::array<double, 3> rounded;
-  };
-
   static uint32_t hash(const Name& n) {
     uint64_t h = (static_cast<uint64_t>(n.low) << 32 | n.high) * 0x9fb21c651e98df25ull;
     h = (h ^ (h >> 32) ^ n.through) * 0x9fb21c651e98df25ull;

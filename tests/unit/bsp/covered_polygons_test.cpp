@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/bsp/find_contacts.h"
+#include "engine/bsp/contact_table.h"
 #include "engine/bsp/grid_planes.h"
 #include "tests/support/convex_operand.h"
 #include "tests/support/kernel_case.h"
