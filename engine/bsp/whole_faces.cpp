@@ -269,16 +269,15 @@ class FaceEvaluator {
     // line with too much, another one may do.
     constexpr uint32_t kMostTries = 4;
     PatchFate fate = PatchFate::kUnknown;
-    for (uint32_t i = 0; i < std::min(loop.corner_count, kMostTries); ++i) {
-      fate = fate_at_edge(loop, i, own, labels);
-      if (fate != PatchFate::kUnknown) break;
+    for (uint32_t i = 0; i < kMostTries && fate == PatchFate::kUnknown; ++i) {
+      fate = fate_at_edge(loop, i % loop.corner_count, own, labels);
     }
     return fate;
   }
 
   PatchFate fate_at_edge(const CutLoops::Loop& loop, uint32_t edge, uint32_t own,
                          PatchLabels& labels) const {
-    const uint32_t next = edge + 1 < loop.corner_count ? edge + 1 : 0;
+    const uint32_t next = (edge + 1) % loop.corner_count;
     const auto& a = geometry_.point(cut_.loops.corner_point[loop.first_corner + edge]).rounded;
     const auto& b = geometry_.point(cut_.loops.corner_point[loop.first_corner + next]).rounded;
     std::array<double, 3> middle{};

@@ -8,6 +8,7 @@
 #include "engine/bsp/result_pieces.h"
 #include "engine/bsp/self_resolution.h"
 #include "engine/mesh/leaf_check.h"
+#include "tests/support/convex_operand.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_trees.h"
 
@@ -209,6 +210,29 @@ TEST(Work, OfBoxes) {
     expect_at_most(stats, op == BooleanOp::kUnion ? Work{167, 84, 81, 40, 7348, 1164, 1056}
                                                   : Work{15, 37, 1, 0, 0, 0, 0});
   }
+}
+
+// Of a convex body with a face in a polygon's plane, that face alone is asked.
+TEST(Work, OfCapsInOnePlane) {
+  std::vector<Operand> prisms;
+  for (int64_t x = 0; x < 5; ++x) {
+    for (int64_t y = 0; y < 5; ++y) {
+      std::vector<IVec3> corners;
+      for (const int64_t z : {0, 1000}) {
+        for (const int64_t s : {-1, 1}) {
+          for (const int64_t t : {-1, 1}) {
+            corners.push_back({1000 * x + 600 * s, 1000 * y + 250 * t, z});
+            corners.push_back({1000 * x + 250 * s, 1000 * y + 600 * t, z});
+          }
+        }
+      }
+      prisms.push_back(test::convex_operand(test::hull_loops(corners)));
+    }
+  }
+  EvaluateStats stats;
+  EXPECT_TRUE(evaluate_boolean(prisms, test::flat_expression(BooleanOp::kUnion, 25),
+                               test::TreeMaker::region_of(prisms), {}, stats));
+  expect_at_most(stats, {95, 48, 48, 48, 30471, 2555, 910});
 }
 
 TEST(Work, OfSurfacesThatCrossThemselves) {

@@ -41,7 +41,8 @@ bool meet_in_a_point(const Plane& p, const Plane& q, const Plane& r) {
   return det != 0;
 }
 
-// Planes through grid points and a step beside them, in every tier that holds the value.
+// Planes through grid points and beside them, by one unit or by many, in every tier that holds the
+// value.
 TEST(ExactSide, OfGridPointsAgreesWithGmp) {
   Random random(20260102);
   std::array<int, 6> seen{};
@@ -52,13 +53,15 @@ TEST(ExactSide, OfGridPointsAgreesWithGmp) {
     };
     const std::array<int64_t, 3> at{coordinate(), coordinate(), coordinate()};
     Plane s = random_plane(random, static_cast<int>(random.integer(1, widths::kMaxNormal - 40)), 1);
-    s.d = -(s.a * at[0] + s.b * at[1] + s.c * at[2]) + random.integer(-1, 1);
+    const int shift = random.integer(0, 1) ? static_cast<int>(random.integer(0, 80)) : 0;
+    s.d = -(s.a * at[0] + s.b * at[1] + s.c * at[2]) + (Int128{1} << shift) * random.integer(-1, 1);
+    if (i % 4 == 0) s = random_plane(random, widths::kMaxNormal - 1, widths::kMaxOffset - 1);
     const Point point = grid_point(at[0], at[1], at[2]);
     const int expected = gmp_side(s, to_gmp(point)), tier = exact_tier(s, point);
     for (int wider = tier; wider < 6; ++wider) ASSERT_EQ(exact_side(s, at, wider), expected);
     ++seen[static_cast<size_t>(tier)];
   }
-  for (size_t t = 0; t < 2; ++t) EXPECT_GT(seen[t], 1000);
+  for (size_t t = 0; t < 3; ++t) EXPECT_GT(seen[t], 1000);
 }
 
 // Planes of all widths that occur, from boxes to sheared frames; a third of the planes pass through
