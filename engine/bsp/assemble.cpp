@@ -88,26 +88,15 @@ class Assembler {
         }
       }
     }
-    make_planes(whole);
+    std::vector<uint32_t> polygons;
+    for (const WholePolygon& w : whole) polygons.push_back(w.polygon);
+    job_.ensure_planes(polygons);
     for (const WholePolygon& w : whole) {
       const JobPolygon& p = job_.polygons()[w.polygon];
       pieces_.push_back({w.flip ? p.support.flip() : p.support, job_.label(p), w.polygon,
                          static_cast<uint32_t>(corners_.size()), p.count, true});
       add_polygon(p, w.flip);
     }
-  }
-
-  void make_planes(const std::vector<WholePolygon>& whole) {
-    std::vector<uint32_t> polygons;
-    std::vector<PolygonEdge> edges;
-    for (const WholePolygon& w : whole) {
-      polygons.push_back(w.polygon);
-      for (uint32_t e = 0; e < job_.polygons()[w.polygon].count; ++e) {
-        edges.push_back({w.polygon, e});
-      }
-    }
-    job_.ensure_supports(polygons);
-    job_.ensure_edges(edges);
   }
 
   void add_polygon(const JobPolygon& p, bool flip) {

@@ -95,6 +95,8 @@ class CellGeometry {
   bool met_plane = false;
 
  private:
+  int exact_side_of(uint32_t plane, uint32_t p);
+
   const PlaneTable* planes_;
   const Job* job_;
   std::vector<StoredPoint> points_;
@@ -104,8 +106,6 @@ class CellGeometry {
   RawVector<uint32_t> vertex_point_;  ///< where the stamp is this one
   uint32_t stamp_ = 1;
   std::vector<int8_t> signs_;
-
-  int exact_side_of(uint32_t plane, uint32_t p);
 };
 
 /// The direction of the line where two planes meet, as far as ordering points needs it: the axis on

@@ -21,7 +21,7 @@ struct Part {
   struct Polygon {
     uint32_t number;
     uint32_t first_contact, end_contact, first_coplanar, end_coplanar;
-    bool is_plain;  ///< all contacts are
+    bool is_plain;  ///< all contacts are, and names may do
   };
   struct Point {
     std::array<double, 3> rounded;
@@ -88,20 +88,20 @@ class Worker {
         stamp_of_(shared.point_count(), 0),
         local_(shared.point_count()) {}
 
-  /// Cuts by name if that may do and the planes for more are not there (or did not do before), else
-  /// by value.
-  void cut(const Part::Polygon& polygon, bool has_planes, Part& part) {
+  /// Cuts by name, or by value, for which the planes must have been made.
+  void cut(const Part::Polygon& polygon, Part& part) {
     geometry_.clear();
     codes_.clear();
     ++stamp_;
     const auto first_loop = static_cast<uint32_t>(part.loops.loops.size());
     const size_t first_corner = part.loops.corner_point.size();
     bool is_done = false;
-    if (polygon.is_plain && !has_planes) {
+    if (polygon.is_plain) {
       list_segments(polygon, part);
       is_done = cutter_.cut(polygon.number, segments_, part.loops);
       if (!is_done) {
         part.again.push_back(polygon);
+        part.again.back().is_plain = false;
         return;
       }
     } else {
@@ -223,17 +223,9 @@ class FaceCutter {
     for (Part& part : parts_) {
       std::erase_if(part.polygons, [&](const Part::Polygon& p) { return stays_whole(p, part); });
     }
-    make_planes(
-        [](const Part& part) -> const auto& { return part.polygons; },
-        [](const Part::Polygon& polygon) { return !polygon.is_plain; });
-    cut_all(
-        [](const Part& part) -> const auto& { return part.polygons; }, false);
+    cut_all(&Part::polygons);
     if (std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return !p.again.empty(); })) {
-      make_planes(
-          [](const Part& part) -> const auto& { return part.again; },
-          [](const Part::Polygon&) { return true; });
-      cut_all(
-          [](const Part& part) -> const auto& { return part.again; }, true);
+      cut_all(&Part::again);
     }
     CutFaces result;
     for (const Part& part : parts_) {
@@ -255,34 +247,32 @@ class FaceCutter {
                        [&](uint32_t v) { return !contacts_.touched()[v]; });
   }
 
-  /// All planes of some polygons and of what is coplanar with them.
-  template <class List, class Wanted>
-  void make_planes(List&& list_of, Wanted&& is_wanted) {
-    std::vector<PolygonEdge> edges;
-    const auto add = [&](uint32_t polygon) {
-      for (uint32_t e = 0; e < job_.polygons()[polygon].count; ++e) edges.push_back({polygon, e});
-    };
+  using List = std::vector<Part::Polygon> Part::*;
+
+  /// All planes of those polygons in the lists of the parts that are cut by value, and of what is
+  /// coplanar with them.
+  void make_planes(List list) {
+    std::vector<uint32_t> polygons;
     for (const Part& part : parts_) {
-      for (const Part::Polygon& polygon : list_of(part)) {
-        if (!is_wanted(polygon)) continue;
-        add(polygon.number);
-        for (uint32_t i = polygon.first_coplanar; i < polygon.end_coplanar; ++i) {
-          add(part.coplanar[i]);
-        }
+      for (const Part::Polygon& p : part.*list) {
+        if (p.is_plain) continue;
+        polygons.push_back(p.number);
+        polygons.insert(polygons.end(), part.coplanar.begin() + p.first_coplanar,
+                        part.coplanar.begin() + p.end_coplanar);
       }
     }
-    job_.ensure_edges(edges);
+    job_.ensure_planes(polygons);
   }
 
-  template <class List>
-  void cut_all(List&& list_of, bool has_planes) {
+  void cut_all(List list) {
+    make_planes(list);
     for_each_run(
         parts_.size(), options_, [&] { return Worker(job_, contacts_, ends_, geometry_); },
         [&](Worker& worker, size_t run) {
           const SignCounters before = worker.counters();
-          for (const Part::Polygon& polygon : list_of(parts_[run])) {
+          for (const Part::Polygon& polygon : parts_[run].*list) {
             if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) break;
-            worker.cut(polygon, has_planes, parts_[run]);
+            worker.cut(polygon, parts_[run]);
           }
           SignCounters own = worker.counters();
           own.subtract(before);

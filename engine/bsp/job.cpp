@@ -450,6 +450,15 @@ void Job::ensure_edges(std::span<const PolygonEdge> edges) {
       [&](const ReducedPlane& plane) { planes_.expect(plane); });
 }
 
+void Job::ensure_planes(std::span<const uint32_t> polygons) {
+  ensure_supports(polygons);
+  std::vector<PolygonEdge> edges;
+  for (const uint32_t p : polygons) {
+    for (uint32_t e = 0; e < polygons_[p].count; ++e) edges.push_back({p, e});
+  }
+  ensure_edges(edges);
+}
+
 void Job::ensure_planes(uint32_t polygon) {
   ensure_support(polygon);
   for (uint32_t i = 0; i < polygons_[polygon].count; ++i) edge_plane(polygon, i);

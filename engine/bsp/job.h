@@ -53,6 +53,7 @@ struct PolygonBox {
   }
   [[nodiscard]] bool is_empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
 };
+/// An edge of a polygon of a job, by its first corner.
 struct PolygonEdge {
   uint32_t polygon, edge;
 };
@@ -154,6 +155,7 @@ class Job {
   /// The same for many, computed on several threads.
   void ensure_supports(std::span<const uint32_t> polygons);
   void ensure_edges(std::span<const PolygonEdge> edges);
+  void ensure_planes(std::span<const uint32_t> polygons);
   /// The wall x_axis = m + 1/prime as a plane index.
   uint32_t wall(int axis, int64_t m);
   /// Smallest odd prime that divides no frame's determinant, and such that no plane of a boundary

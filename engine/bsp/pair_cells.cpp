@@ -271,9 +271,9 @@ PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,
   for_each_part(coarse.cells.size(), kEach, [&](size_t part, size_t begin, size_t end) {
     parts[part] = CellFinder(job, covered, limit, options.cancel).run(coarse, begin, end);
   });
-  PairCells all;
-  if (parts.size() == 1) all = std::move(parts[0]);
-  for (size_t part = 0; parts.size() > 1 && part < parts.size(); ++part) all.append(parts[part]);
+  if (parts.empty()) parts.emplace_back();
+  PairCells all = std::move(parts[0]);
+  for (size_t part = 1; part < parts.size(); ++part) all.append(parts[part]);
   all.surface += coarse.surface;
   return all;
 }

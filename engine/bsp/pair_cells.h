@@ -28,6 +28,7 @@ struct PairCells {
   /// `cell_limit` polygons each.
   uint64_t surface = 0;
 
+  /// Adds the cells of another part of space.
   void append(const PairCells& more);
 };
 

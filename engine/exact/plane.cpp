@@ -126,8 +126,6 @@ void PlaneTable::adopt(const std::vector<Plane>& planes) {
 
 PlaneId PlaneTable::intern(const Plane& plane) { return intern_computed(reduce(plane)); }
 
-PlaneId PlaneTable::intern_reduced(const Plane& plane) { return intern_computed(with_hash(plane)); }
-
 PlaneId PlaneTable::intern_computed(const ReducedPlane& reduced) {
   constexpr size_t kFewSlots = 64;
   // (After adopt there are no slots.)

@@ -73,13 +73,12 @@ class PlaneTable {
   /// The id of a plane; its flipped() bit is set when the stored orientation is the reverse.
   /// REQUIRES: the normal is not zero, widths as in widths.h.
   PlaneId intern(const Plane& plane);
+  /// The same, for what was computed before.
   PlaneId intern_computed(const ReducedPlane& plane);
   /// Fetches what it will look at, soon.
   void expect(const ReducedPlane& plane) const {
     if (!slots_.empty()) __builtin_prefetch(&slots_[plane.hash & (slots_.size() - 1)]);
   }
-  /// The same for a plane whose four coefficients have no common divisor: a few times quicker.
-  PlaneId intern_reduced(const Plane& plane);
   /// Takes over the planes of another table, as they stand there, under their numbers. REQUIRES:
   /// the table is empty; each plane is there once.
   void adopt(const std::vector<Plane>& planes);

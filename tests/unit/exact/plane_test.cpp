@@ -118,10 +118,10 @@ TEST(PlaneTable, TakesOverPlanesOfAnother) {
   EXPECT_EQ(fresh, PlaneId(static_cast<uint32_t>(planes.size()), false));
   for (const Plane& p : given) ASSERT_EQ(other.intern(p), table.intern(p));
   for (uint32_t i = 0; i < planes.size(); ++i) {
-    ASSERT_EQ(other.intern_reduced(planes[i]), PlaneId(i, false));
-    ASSERT_EQ(other.intern_reduced(planes[i].reversed()), PlaneId(i, true));
+    ASSERT_EQ(other.intern_computed(reduce(planes[i])), PlaneId(i, false));
+    ASSERT_EQ(other.intern_computed(reduce(planes[i].reversed())), PlaneId(i, true));
   }
-  EXPECT_EQ(other.intern_reduced({-1, -2, -3, -1000001}), fresh.flip());
+  EXPECT_EQ(other.intern_computed(reduce({-1, -2, -3, -1000001})), fresh.flip());
 }
 
 // Of so many planes some have equal hashes of 32 bits.
