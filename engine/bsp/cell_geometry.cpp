@@ -56,16 +56,26 @@ uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes,
 Point CellGeometry::value(uint32_t p) const {
   const StoredPoint& s = points_[p];
   if (s.exact != kNone) return exact_[s.exact];
-  if (s.is_on_grid) {
+  if (is_found_on_grid(p)) {
     const auto at = on_grid(s.rounded);
     return grid_point(at[0], at[1], at[2]);
   }
   if (s.vertex != kNone) return job_->exact(s.vertex);
-  const Plane &p0 = planes_->plane(s.planes[0]), &p1 = planes_->plane(s.planes[1]),
-              &p2 = planes_->plane(s.planes[2]);
-  if (!meet_on_grid(p0, p1, p2, s.rounded)) return intersect(p0, p1, p2);
-  const auto at = on_grid(s.rounded);
-  return grid_point(at[0], at[1], at[2]);
+  return intersect(planes_->plane(s.planes[0]), planes_->plane(s.planes[1]),
+                   planes_->plane(s.planes[2]));
+}
+
+bool CellGeometry::is_found_on_grid(uint32_t p) const {
+  const StoredPoint& s = points_[p];
+  if (s.is_on_grid || s.is_looked_at || s.vertex != kNone) return s.is_on_grid;
+  return meet_on_grid(planes_->plane(s.planes[0]), planes_->plane(s.planes[1]),
+                      planes_->plane(s.planes[2]), s.rounded);
+}
+
+bool CellGeometry::find_on_grid(uint32_t p) {
+  points_[p].is_on_grid = is_found_on_grid(p);
+  points_[p].is_looked_at = true;
+  return points_[p].is_on_grid;
 }
 
 const Point& CellGeometry::exact(uint32_t p) {
@@ -198,7 +208,7 @@ Side CellGeometry::split(const Fragment& f, uint32_t plane, Fragment& front, Fra
 int CellGeometry::compare_along(uint32_t p, uint32_t q, int axis) {
   const double a = points_[p].rounded[axis], b = points_[q].rounded[axis];
   if (a != b) return a < b ? -1 : 1;
-  if (p == q) return 0;
+  if (p == q || (find_on_grid(p) && find_on_grid(q))) return 0;
   exact(p);  // both first: the reference to one must survive the other's construction
   exact(q);
   return csgrun::compare_along(exact(p), exact(q), axis);

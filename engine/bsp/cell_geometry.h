@@ -51,6 +51,7 @@ class CellGeometry {
     uint32_t vertex;                 ///< of the job, or kNone
     uint32_t exact;                  ///< index into exact_, or kNone until asked for
     bool is_on_grid;                 ///< known to be: then `rounded` is exact
+    bool is_looked_at = false;       ///< whether it is on the grid, by find_on_grid
   };
 
   /// The point of a vertex of the job.
@@ -64,6 +65,9 @@ class CellGeometry {
   const Point& exact(uint32_t p);
   /// The same, not kept for the next time: may be asked on several threads.
   [[nodiscard]] Point value(uint32_t p) const;
+  /// Whether the point is found to be one of the grid: then its doubles are exact. Far ones and
+  /// those of planes of very many bits are not found.
+  [[nodiscard]] bool is_found_on_grid(uint32_t p) const;
 
   /// The whole polygon of the job.
   Fragment load(uint32_t polygon);
@@ -95,6 +99,8 @@ class CellGeometry {
   bool met_plane = false;
 
  private:
+  /// The same, remembered.
+  bool find_on_grid(uint32_t p);
   int exact_side_of(uint32_t plane, uint32_t p);
 
   const PlaneTable* planes_;

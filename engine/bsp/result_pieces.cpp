@@ -220,8 +220,6 @@ Result<std::shared_ptr<const BoundaryMesh>> assemble_pieces(const ResultPieces& 
     }
   }
   for (const uint32_t point : named) number_of[point] = kNone;
-  // A piece is at most a part of its polygon; its planes stand for all of it.
-  for (const FragmentSet::Piece& p : set.pieces) job.ensure_planes(p.polygon);
   std::vector<UntouchedPart> parts;
   if (name_untouched) parts = take_untouched(job, operands, whole);
   return assemble(job, sets, whole, {version.touches_anywhere, version.touches.boxes()},

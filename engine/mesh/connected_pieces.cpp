@@ -45,32 +45,86 @@ struct Interval {
   uint32_t piece;
 };
 
-/// Joins the pieces of the intervals that overlap; none overlaps another of its own list.
-void join_overlapping(std::vector<Interval>& up, std::vector<Interval>& down, int axis,
-                      CellGeometry& geometry, UnionFind& pieces) {
-  const auto before = [&](uint32_t p, uint32_t q) {
-    return p != q && geometry.compare_along(p, q, axis) < 0;
-  };
-  const auto by_start = [&](const Interval& a, const Interval& b) {
-    return before(a.from, b.from);
-  };
-  std::sort(up.begin(), up.end(), by_start);
-  std::sort(down.begin(), down.end(), by_start);
-  for (size_t u = 0, d = 0; u < up.size() && d < down.size();) {
-    if (before(up[u].from, down[d].to) && before(down[d].from, up[u].to)) {
-      pieces.join(up[u].piece, down[d].piece);
-    }
-    if (before(up[u].to, down[d].to)) {
-      ++u;
+/// One line of a plane: the stretches that some pieces have on their left and others on their right.
+class LineOfPieces {
+ public:
+  LineOfPieces(CellGeometry& geometry, UnionFind& pieces, std::vector<PieceEdge>& boundary)
+      : geometry_(geometry), pieces_(pieces), boundary_(boundary) {}
+
+  /// Begins with the line in which `plane` meets that of the pieces; `axis` orders its points.
+  void begin(uint32_t plane, int axis) {
+    plane_ = plane;
+    axis_ = axis;
+    up_.clear();
+    down_.clear();
+  }
+
+  void add(const PieceEdge& e) {
+    if (geometry_.compare_along(e.edge.from, e.edge.to, axis_) < 0) {
+      up_.push_back({e.edge.from, e.edge.to, e.piece});
     } else {
-      ++d;
+      down_.push_back({e.edge.to, e.edge.from, e.piece});
     }
   }
-}
+
+  /// Joins pieces on either side of a stretch, and appends the stretches with a piece on one side
+  /// to the boundary. No interval overlaps another of its own direction.
+  void finish() {
+    if (!up_.empty() && !down_.empty()) {
+      const auto by_start = [this](const Interval& a, const Interval& b) {
+        return before(a.from, b.from);
+      };
+      std::sort(up_.begin(), up_.end(), by_start);
+      std::sort(down_.begin(), down_.end(), by_start);
+    }
+    size_t u = 0, d = 0;
+    while (u < up_.size() && d < down_.size()) {
+      Interval &up = up_[u], &down = down_[d];
+      if (up.from == down.from) {
+        pieces_.join(up.piece, down.piece);
+        const bool is_one_end = up.to == down.to, is_up_first = before(up.to, down.to);
+        if (is_one_end || is_up_first) down.from = up.to, ++u;
+        if (is_one_end || !is_up_first) up.from = down.to, ++d;
+      } else if (before(up.from, down.from)) {
+        if (keep_up_to(down.from, up, true)) ++u;
+      } else {
+        if (keep_up_to(up.from, down, false)) ++d;
+      }
+    }
+    for (; u < up_.size(); ++u) keep(up_[u], up_[u].to, true);
+    for (; d < down_.size(); ++d) keep(down_[d], down_[d].to, false);
+  }
+
+ private:
+  [[nodiscard]] bool before(uint32_t p, uint32_t q) const {
+    return p != q && geometry_.compare_along(p, q, axis_) < 0;
+  }
+
+  void keep(const Interval& i, uint32_t to, bool is_up) {
+    boundary_.push_back(
+        {is_up ? DirectedEdge{i.from, to, plane_} : DirectedEdge{to, i.from, plane_}, i.piece});
+  }
+
+  /// Keeps what of an interval is before a point, and leaves the rest. True if that is nothing.
+  bool keep_up_to(uint32_t point, Interval& i, bool is_up) {
+    const bool is_all = !before(point, i.to);
+    const uint32_t to = is_all ? i.to : point;
+    keep(i, to, is_up);
+    i.from = to;
+    return is_all;
+  }
+
+  CellGeometry& geometry_;
+  UnionFind& pieces_;
+  std::vector<PieceEdge>& boundary_;
+  uint32_t plane_ = kNone;
+  int axis_ = 0;
+  std::vector<Interval> up_, down_;
+};
 
 }  // namespace
 
-bool join_neighbours(PlaneId support, std::vector<PieceEdge> edges, CellGeometry& geometry,
+bool join_neighbours(PlaneId support, std::vector<PieceEdge>& edges, CellGeometry& geometry,
                      const PlaneTable& planes, UnionFind& pieces) {
   join_reversed(edges, pieces);
   // By the planes that hold them, and these by the lines that they name.
@@ -90,27 +144,23 @@ bool join_neighbours(PlaneId support, std::vector<PieceEdge> edges, CellGeometry
   for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(),
             [&](uint32_t a, uint32_t b) { return std::tie(keys[a], a) < std::tie(keys[b], b); });
-  std::vector<Interval> up, down;
+  std::vector<PieceEdge> boundary;
+  LineOfPieces line(geometry, pieces, boundary);
   for (size_t i = 0, j = 0; i < order.size(); i = j) {
     const uint32_t plane = lines[order[i]].q;
-    const int axis = line_axis(planes.plane(support.index()), planes.plane(plane)).axis;
-    up.clear();
-    down.clear();
+    line.begin(plane, line_axis(planes.plane(support.index()), planes.plane(plane)).axis);
     for (; j < order.size() && keys[order[j]] == keys[order[i]]; ++j) {
       for (uint32_t k = starts[order[j]]; k < starts[order[j] + 1]; ++k) {
-        const auto& [e, piece] = edges[k];
+        const DirectedEdge& e = edges[k].edge;
         if (e.plane != plane && (geometry.side(plane, e.from) || geometry.side(plane, e.to))) {
           return false;
         }
-        if (geometry.compare_along(e.from, e.to, axis) < 0) {
-          up.push_back({e.from, e.to, piece});
-        } else {
-          down.push_back({e.to, e.from, piece});
-        }
+        line.add(edges[k]);
       }
     }
-    if (!up.empty() && !down.empty()) join_overlapping(up, down, axis, geometry, pieces);
+    line.finish();
   }
+  edges = std::move(boundary);
   return true;
 }
 

@@ -112,7 +112,9 @@ class FaceMerger {
   bool add_as_one(std::span<const Group> group) {
     edges_.clear();
     for (const Group& g : group) append_edges(boundary_.faces[g.face], edges_);
-    return add_region(group[0], boundary_.faces[group[0].face].label);
+    if (!builder_.build(group[0].plane, edges_, loops_)) return false;
+    add_region(group[0], boundary_.faces[group[0].face].label);
+    return true;
   }
 
   /// Pieces that do not hang together are different faces, each from the lowest label within it.
@@ -130,12 +132,12 @@ class FaceMerger {
       }
     }
     UnionFind connected(pieces.size());
-    if (!join_neighbours(group[0].plane, std::move(edges), geometry_, planes_, connected)) {
-      return false;
-    }
-    CountingOrder by_root;
+    if (!join_neighbours(group[0].plane, edges, geometry_, planes_, connected)) return false;
+    CountingOrder by_root, edges_by_root;
     by_root.sort(pieces.size(), pieces.size(),
                  [&](size_t p) { return connected.find(static_cast<uint32_t>(p)); });
+    edges_by_root.sort(edges.size(), pieces.size(),
+                       [&](size_t e) { return connected.find(edges[e].piece); });
     for (size_t root = 0; root < pieces.size(); ++root) {
       const uint32_t begin = by_root.starts[root], end = by_root.starts[root + 1];
       if (begin == end) continue;
@@ -144,24 +146,24 @@ class FaceMerger {
         add_face(group[0], lowest, pieces[root].loops);
         continue;
       }
-      edges_.clear();
       for (uint32_t i = begin; i < end; ++i) {
-        const Piece& piece = pieces[by_root.order[i]];
-        lowest = std::min(lowest, piece.label);
-        for (const auto& loop : piece.loops) edges_.insert(edges_.end(), loop.begin(), loop.end());
+        lowest = std::min(lowest, pieces[by_root.order[i]].label);
       }
-      if (!add_region(group[0], lowest)) return false;
+      edges_.clear();
+      for (uint32_t i = edges_by_root.starts[root]; i < edges_by_root.starts[root + 1]; ++i) {
+        edges_.push_back(edges[edges_by_root.order[i]].edge);
+      }
+      if (!builder_.build_single(group[0].plane, edges_, loops_)) return false;
+      add_region(group[0], lowest);
     }
     return true;
   }
 
-  /// The region that `edges_` bounds, of several pieces.
-  bool add_region(const Group& group, const FaceLabel& label) {
-    if (!builder_.build(group.plane, edges_, loops_)) return false;
+  /// The region that `loops_` bound, of several pieces.
+  void add_region(const Group& group, const FaceLabel& label) {
     for (auto& nested : nest_loops(group.plane, loops_, geometry_, planes_)) {
       add_face(group, label, nested);
     }
-    return true;
   }
 
   void add_face(const Group& group, const FaceLabel& label,

@@ -4,8 +4,9 @@
 
 namespace csgrun {
 
-PlaneOracle::PlaneOracle(CellGeometry& geometry, const PlaneTable& planes, PlaneId support)
-    : geometry_(geometry) {
+PlaneOracle::PlaneOracle(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
+                         size_t in_order)
+    : geometry_(geometry), in_order_(in_order) {
   const Plane n = planes.oriented(support);
   const auto size = [](Int128 v) { return v < 0 ? -v : v; };
   const int axis = size(n.a) >= size(n.b) && size(n.a) >= size(n.c) ? 0
@@ -60,6 +61,8 @@ int PlaneOracle::exact_orient(uint32_t a, uint32_t b, uint32_t c) const {
 }
 
 int PlaneOracle::compare(uint32_t a, uint32_t b) const {
+  // By x and y, two different points of the plane cannot agree in both.
+  if (u_ == 0 && v_ == 1 && a < in_order_ && b < in_order_) return a < b ? -1 : a > b ? 1 : 0;
   const int by_u = geometry_.compare_along(a, b, u_);
   return by_u ? by_u : geometry_.compare_along(a, b, v_);
 }

@@ -9,8 +9,10 @@ namespace csgrun {
 
 class PlaneOracle final : public PlanarOracle {
  public:
-  /// `support` faces outwards.
-  PlaneOracle(CellGeometry& geometry, const PlaneTable& planes, PlaneId support);
+  /// `support` faces outwards. The first `in_order` points of the geometry are numbered in
+  /// lexicographic order.
+  PlaneOracle(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
+              size_t in_order = 0);
 
   int orient(uint32_t a, uint32_t b, uint32_t c) const override;
   int compare(uint32_t a, uint32_t b) const override;
@@ -19,6 +21,7 @@ class PlaneOracle final : public PlanarOracle {
   int exact_orient(uint32_t a, uint32_t b, uint32_t c) const;
 
   CellGeometry& geometry_;
+  size_t in_order_;
   int u_, v_;  ///< the axes of the projection
   int sign_;   ///< +1 when (u, v) is right-handed seen from outside
 };

@@ -150,7 +150,8 @@ class Presenter {
         for (const DirectedEdge& e : face.loops[l]) loops[l].push_back(e.from);
       }
       for (const auto& [p, q] : face.slits) loops.push_back({p, q});
-      const PlaneOracle oracle(geometry_, planes_, faces_[f].plane);
+      const PlaneOracle oracle(geometry_, planes_, faces_[f].plane,
+                               boundary_.point_planes.size());
       auto triangles = triangulate_face(loops, oracle);
       if (!triangles) return triangles.error();
       if (!insert_points(faces_[f].points, oracle, *triangles)) return not_closed("contacts");
@@ -267,11 +268,19 @@ class Presenter {
     const std::vector<uint32_t>& point_of_own = fans_.point_of_vertex;
     const ToMillimetres to_mm(context_.step);
     const uint32_t p = point_of_own[count.own];
-    const Point exact = geometry_.value(p);
     glm::dvec3 mm;
     std::array<float, 3> single;
-    to_mm.position(exact, mm, single);
-    const bool whole = is_whole(exact);
+    bool whole = geometry_.is_found_on_grid(p);
+    if (whole) {
+      const std::array<double, 3>& at = geometry_.point(p).rounded;
+      to_mm.position(IVec3{static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]),
+                           static_cast<int64_t>(at[2])},
+                     mm, single);
+    } else {
+      const Point exact = geometry_.value(p);
+      to_mm.position(exact, mm, single);
+      whole = is_whole(exact);
+    }
     for (; count.own < point_of_own.size() && point_of_own[count.own] == p; ++count.own) {
       const size_t at = count.untouched + count.own;
       number_of_own_[count.own] = static_cast<uint32_t>(at);
@@ -282,7 +291,7 @@ class Presenter {
     }
     if (context_.exact_points) {
       solid.exact_points.resize(number + size_t{1});
-      solid.exact_points[number] = to_mm.text(exact);
+      solid.exact_points[number] = to_mm.text(geometry_.value(p));
     }
   }
 
