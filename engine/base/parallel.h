@@ -11,8 +11,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "engine/base/raw_vector.h"
-
 namespace csgrun {
 
 /// Below so many things of a few nanoseconds each threads do not pay.
@@ -49,26 +47,6 @@ void for_each_part(size_t count, size_t each, Work&& work) {
 template <class Work>
 void for_each_range(size_t count, Work&& work) {
   for_each_part(count, kFewForThreads, [&](size_t, size_t begin, size_t end) { work(begin, end); });
-}
-
-/// Calls take(i, make(i)) for i below count: takes one after another, in this order, what was made
-/// at the same time. Nothing is made while something is taken. `expect(made)` comes some steps
-/// before it is taken, time enough to fetch memory.
-template <class Make, class Take, class Expect>
-void make_and_take(size_t count, Make&& make, Take&& take, Expect&& expect) {
-  constexpr size_t kEach = 512, kParts = 16, kAhead = 12;
-  const size_t block = tbb::this_task_arena::max_concurrency() == 1 ? kEach : kEach * kParts;
-  RawVector<decltype(make(size_t{0}))> made(std::min(count, block));
-  for (size_t first = 0; first < count; first += block) {
-    const size_t here = std::min(block, count - first);
-    for_each_part(here, kEach, [&](size_t, size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) made[i] = make(first + i);
-    });
-    for (size_t i = 0; i < here; ++i) {
-      if (i + kAhead < here) expect(made[i + kAhead]);
-      take(first + i, made[i]);
-    }
-  }
 }
 
 /// Calls work(i) for i below count, at the same time if all of it is `much`: each i by itself.

@@ -65,17 +65,9 @@ Point CellGeometry::value(uint32_t p) const {
                    planes_->plane(s.planes[2]));
 }
 
-bool CellGeometry::is_found_on_grid(uint32_t p) const {
-  const StoredPoint& s = points_[p];
-  if (s.is_on_grid || s.is_looked_at || s.vertex != kNone) return s.is_on_grid;
+bool CellGeometry::meets_on_grid(const StoredPoint& s) const {
   return meet_on_grid(planes_->plane(s.planes[0]), planes_->plane(s.planes[1]),
                       planes_->plane(s.planes[2]), s.rounded);
-}
-
-bool CellGeometry::find_on_grid(uint32_t p) {
-  points_[p].is_on_grid = is_found_on_grid(p);
-  points_[p].is_looked_at = true;
-  return points_[p].is_on_grid;
 }
 
 const Point& CellGeometry::exact(uint32_t p) {

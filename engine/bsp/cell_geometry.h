@@ -67,7 +67,16 @@ class CellGeometry {
   [[nodiscard]] Point value(uint32_t p) const;
   /// Whether the point is found to be one of the grid: then its doubles are exact. Far ones and
   /// those of planes of very many bits are not found.
-  [[nodiscard]] bool is_found_on_grid(uint32_t p) const;
+  [[nodiscard]] bool is_found_on_grid(uint32_t p) const {
+    const StoredPoint& s = points_[p];
+    return s.is_on_grid || (!s.is_looked_at && s.vertex == kNone && meets_on_grid(s));
+  }
+  /// The same, remembered. Different points may be asked for on several threads.
+  bool find_on_grid(uint32_t p) {
+    points_[p].is_on_grid = is_found_on_grid(p);
+    points_[p].is_looked_at = true;
+    return points_[p].is_on_grid;
+  }
 
   /// The whole polygon of the job.
   Fragment load(uint32_t polygon);
@@ -99,8 +108,7 @@ class CellGeometry {
   bool met_plane = false;
 
  private:
-  /// The same, remembered.
-  bool find_on_grid(uint32_t p);
+  [[nodiscard]] bool meets_on_grid(const StoredPoint& point) const;
   int exact_side_of(uint32_t plane, uint32_t p);
 
   const PlaneTable* planes_;

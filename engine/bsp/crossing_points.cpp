@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "engine/base/parallel.h"
+#include "engine/base/in_order.h"
 
 namespace csgrun {
 

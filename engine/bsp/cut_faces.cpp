@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/base/in_order.h"
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/face_arrangement.h"
 #include "engine/bsp/parallel_runs.h"
 #include "engine/bsp/sign_stats.h"
@@ -213,12 +215,16 @@ class FaceCutter {
 
   CutFaces run(std::span<const uint32_t> polygons, EvaluateStats& stats) {
     parts_.resize(part_count(polygons.size(), kPolygonsPerPart));
-    for_each_part(polygons.size(), kPolygonsPerPart, [&](size_t part, size_t begin, size_t end) {
-      list(job_, polygons.subspan(begin, end - begin), contacts_, parts_[part]);
-    });
-    for (const Part& part : parts_) {
-      for (const uint32_t contact : part.contacts) ends_.ask(contact);
-    }
+    make_parts_in_order(
+        parts_.size(),
+        [&](size_t part) {
+          const size_t begin = part * kPolygonsPerPart,
+                       end = std::min(polygons.size(), begin + kPolygonsPerPart);
+          list(job_, polygons.subspan(begin, end - begin), contacts_, parts_[part]);
+        },
+        [&](size_t part) {
+          for (const uint32_t contact : parts_[part].contacts) ends_.ask(contact);
+        });
     ends_.make();
     for (Part& part : parts_) {
       std::erase_if(part.polygons, [&](const Part::Polygon& p) { return stays_whole(p, part); });

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/base/in_order.h"
 #include "engine/base/parallel.h"
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/convexify.h"
@@ -383,10 +384,7 @@ ReducedPlane Job::reduced_edge(uint32_t polygon, uint32_t edge) const {
   const uint32_t i =
       sources_[p.operand].map.is_mirrored() ? (2 * p.count - 2 - edge) % p.count : edge;
   const uint32_t* corners = leaf.corners.data() + leaf.face_starts[p.face];
-  // That of the support, which is the leaf's own but for its length and sign if no frame turns it.
-  const bool is_known = p.support.valid() && operand.frame.is_identity;
-  const int axis =
-      dominant_axis(is_known ? planes_.plane(p.support.index()) : support_of(leaf, p.face));
+  const int axis = dominant_axis(support_of(leaf, p.face));
   return reduce(sources_[p.operand].map.plane(
       translate_plane(csgrun::edge_plane(leaf.vertices[corners[i]],
                                          leaf.vertices[corners[(i + 1) % p.count]], axis),

@@ -4,9 +4,9 @@
 
 namespace csgrun {
 
-PlaneOracle::PlaneOracle(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
+PlaneOracle::PlaneOracle(PointView& points, const PlaneTable& planes, PlaneId support,
                          size_t in_order)
-    : geometry_(geometry), in_order_(in_order) {
+    : points_(points), in_order_(in_order) {
   const Plane n = planes.oriented(support);
   const auto size = [](Int128 v) { return v < 0 ? -v : v; };
   const int axis = size(n.a) >= size(n.b) && size(n.a) >= size(n.c) ? 0
@@ -19,8 +19,7 @@ PlaneOracle::PlaneOracle(CellGeometry& geometry, const PlaneTable& planes, Plane
 }
 
 int PlaneOracle::orient(uint32_t a, uint32_t b, uint32_t c) const {
-  const auto &p = geometry_.point(a).rounded, &q = geometry_.point(b).rounded,
-             &r = geometry_.point(c).rounded;
+  const auto &p = points_.rounded(a), &q = points_.rounded(b), &r = points_.rounded(c);
   const double qu = q[u_] - p[u_], qv = q[v_] - p[v_], ru = r[u_] - p[u_], rv = r[v_] - p[v_];
   const double left = qu * rv, right = qv * ru;
   const double value = left - right;
@@ -38,8 +37,7 @@ int PlaneOracle::orient(uint32_t a, uint32_t b, uint32_t c) const {
 
 int PlaneOracle::exact_orient(uint32_t a, uint32_t b, uint32_t c) const {
   // det [ua va wa; ub vb wb; uc vc wc], all w positive.
-  geometry_.exact(a), geometry_.exact(b), geometry_.exact(c);
-  const Point &p = geometry_.exact(a), &q = geometry_.exact(b), &r = geometry_.exact(c);
+  const Point &p = points_.exact(a), &q = points_.exact(b), &r = points_.exact(c);
   const auto at = [](const Point& x, int axis) -> const Int<kPointLimbs>& {
     return axis == 0 ? x.x : axis == 1 ? x.y : x.z;
   };
@@ -63,8 +61,8 @@ int PlaneOracle::exact_orient(uint32_t a, uint32_t b, uint32_t c) const {
 int PlaneOracle::compare(uint32_t a, uint32_t b) const {
   // By x and y, two different points of the plane cannot agree in both.
   if (u_ == 0 && v_ == 1 && a < in_order_ && b < in_order_) return a < b ? -1 : a > b ? 1 : 0;
-  const int by_u = geometry_.compare_along(a, b, u_);
-  return by_u ? by_u : geometry_.compare_along(a, b, v_);
+  const int by_u = points_.compare_along(a, b, u_);
+  return by_u ? by_u : points_.compare_along(a, b, v_);
 }
 
 }  // namespace csgrun

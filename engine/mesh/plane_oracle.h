@@ -2,17 +2,15 @@
 // which the face's normal is longest, doubles first and integers where they are unsure.
 #pragma once
 
-#include "engine/bsp/cell_geometry.h"
+#include "engine/mesh/point_view.h"
 #include "engine/mesh/triangulate.h"
 
 namespace csgrun {
 
 class PlaneOracle final : public PlanarOracle {
  public:
-  /// `support` faces outwards. The first `in_order` points of the geometry are numbered in
-  /// lexicographic order.
-  PlaneOracle(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
-              size_t in_order = 0);
+  /// `support` faces outwards. The first `in_order` points are numbered in lexicographic order.
+  PlaneOracle(PointView& points, const PlaneTable& planes, PlaneId support, size_t in_order);
 
   int orient(uint32_t a, uint32_t b, uint32_t c) const override;
   int compare(uint32_t a, uint32_t b) const override;
@@ -20,7 +18,7 @@ class PlaneOracle final : public PlanarOracle {
  private:
   int exact_orient(uint32_t a, uint32_t b, uint32_t c) const;
 
-  CellGeometry& geometry_;
+  PointView& points_;
   size_t in_order_;
   int u_, v_;  ///< the axes of the projection
   int sign_;   ///< +1 when (u, v) is right-handed seen from outside

@@ -13,17 +13,14 @@
 #include "engine/mesh/conform.h"
 #include "engine/mesh/cut_contacts.h"
 #include "engine/mesh/divide_edges.h"
-#include "engine/mesh/improve_triangles.h"
-#include "engine/mesh/insert_points.h"
 #include "engine/mesh/measure.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/near_contacts.h"
-#include "engine/mesh/plane_oracle.h"
 #include "engine/mesh/self_contact.h"
 #include "engine/mesh/stitch.h"
 #include "engine/mesh/to_millimetres.h"
 #include "engine/mesh/triangle_normals.h"
-#include "engine/mesh/triangulate.h"
+#include "engine/mesh/triangulate_faces.h"
 #include "engine/mesh/whole_order.h"
 
 namespace csgrun {
@@ -77,6 +74,9 @@ class Presenter {
     for (size_t p = 0; p < boundary_.point_planes.size(); ++p) {
       geometry_.add_point(boundary_.point_planes[p], boundary_.point_rounded[p]);
     }
+    for_each_range(geometry_.point_count(), [&](size_t begin, size_t end) {
+      for (size_t p = begin; p < end; ++p) geometry_.find_on_grid(static_cast<uint32_t>(p));
+    });
     const WholeOrder& whole = whole_.emplace(boundary_, geometry_);
     if (!merge_faces(boundary_, geometry_, planes_, faces_)) return not_closed("faces");
     std::vector<LowestEdge> lowest = lowest_edges();
@@ -131,40 +131,10 @@ class Presenter {
   }
 
   Status triangulate_all() {
-    set_ = {};
-    const RoundedPosition position = [this](uint32_t p) -> const std::array<double, 3>& {
-      return geometry_.point(p).rounded;
-    };
-    std::vector<std::vector<uint32_t>> loops;
-    for (uint32_t f = 0; f < faces_.size(); ++f) {
-      const MergedFace& face = faces_[f];
-      if (face.loops.size() == 1 && face.loops[0].size() == 3 && face.points.empty() &&
-          face.slits.empty()) {
-        add_triangle({face.loops[0][0].from, face.loops[0][1].from, face.loops[0][2].from}, f);
-        continue;
-      }
-      // The memory of loops is kept.
-      loops.resize(face.loops.size());
-      for (size_t l = 0; l < loops.size(); ++l) {
-        loops[l].clear();
-        for (const DirectedEdge& e : face.loops[l]) loops[l].push_back(e.from);
-      }
-      for (const auto& [p, q] : face.slits) loops.push_back({p, q});
-      const PlaneOracle oracle(geometry_, planes_, faces_[f].plane,
-                               boundary_.point_planes.size());
-      auto triangles = triangulate_face(loops, oracle);
-      if (!triangles) return triangles.error();
-      if (!insert_points(faces_[f].points, oracle, *triangles)) return not_closed("contacts");
-      improve_triangles(loops, oracle, position, *triangles);
-      for (const auto& t : *triangles) add_triangle(t, f);
-    }
+    auto set = triangulate_faces(faces_, geometry_, planes_, boundary_.point_planes.size());
+    if (!set) return set.error();
+    set_ = std::move(*set);
     return std::monostate();
-  }
-
-  void add_triangle(std::array<uint32_t, 3> t, uint32_t face) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    set_.triangles.push_back(t);
-    set_.face.push_back(face);
   }
 
   void fill(Solid& solid) {

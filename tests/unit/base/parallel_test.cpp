@@ -1,4 +1,5 @@
 // Loops on several threads: everything is done once, in parts that do not depend on the threads.
+#include "engine/base/in_order.h"
 #include "engine/base/parallel.h"
 
 #include <algorithm>
@@ -57,21 +58,20 @@ TEST(Parallel, WhatIsMadeIsTakenInOrder) {
   for (const unsigned threads : {1u, 2u, 4u}) {
     for (const size_t count : {0, 1, 511, 512, 513, 8192, 8193, 40000}) {
       std::vector<std::atomic<int>> made(count);
-      std::atomic<int> making = 0;
+      std::atomic<int> taking = 0;
       std::vector<size_t> taken, expected;
       with_threads(threads, [&] {
         make_and_take(
             count,
             [&](size_t i) {
-              ++making;
               ++made[i];
-              --making;
               return std::array<size_t, 2>{i, 3 * i};
             },
             [&](size_t i, const std::array<size_t, 2>& what) {
-              EXPECT_EQ(making, 0);
+              EXPECT_EQ(++taking, 1);
               EXPECT_EQ(what, (std::array<size_t, 2>{i, 3 * i}));
               taken.push_back(i);
+              --taking;
             },
             [&](const std::array<size_t, 2>& what) {
               expected.push_back(what[0]);
@@ -86,6 +86,24 @@ TEST(Parallel, WhatIsMadeIsTakenInOrder) {
         EXPECT_EQ(made[i], 1);
       }
     }
+  }
+}
+
+TEST(Parallel, PartsWaitWhileTooManyAreAhead) {
+  for (const unsigned threads : {1u, 2u, 5u}) {
+    constexpr size_t kParts = 500;
+    std::atomic<size_t> taken = 0;
+    std::vector<size_t> order;
+    with_threads(threads, [&] {
+      make_parts_in_order(
+          kParts, [&](size_t part) { EXPECT_LT(part, taken + parts_ahead()); },
+          [&](size_t part) {
+            order.push_back(part);
+            ++taken;
+          });
+    });
+    ASSERT_EQ(order.size(), kParts);
+    for (size_t part = 0; part < kParts; ++part) EXPECT_EQ(order[part], part);
   }
 }
 

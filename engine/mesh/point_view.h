@@ -1,0 +1,39 @@
+// The points of a geometry for one of several threads that read it: what has to be known exactly is
+// worked out, and kept, by each for itself.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+
+#include "engine/bsp/cell_geometry.h"
+
+namespace csgrun {
+
+class PointView {
+ public:
+  /// The geometry does not change while there are views of it.
+  explicit PointView(const CellGeometry& geometry) : geometry_(&geometry) {}
+
+  [[nodiscard]] const std::array<double, 3>& rounded(uint32_t p) const {
+    return geometry_->point(p).rounded;
+  }
+  /// Valid as long as the view.
+  const Point& exact(uint32_t p) {
+    const auto found = exact_.find(p);
+    return found != exact_.end() ? found->second : exact_.emplace(p, geometry_->value(p)).first->second;
+  }
+  /// -1, 0, +1: the order of two points along an axis. Exact.
+  int compare_along(uint32_t p, uint32_t q, int axis) {
+    const double a = rounded(p)[axis], b = rounded(q)[axis];
+    if (a != b) return a < b ? -1 : 1;
+    if (p == q || (geometry_->is_found_on_grid(p) && geometry_->is_found_on_grid(q))) return 0;
+    return csgrun::compare_along(exact(p), exact(q), axis);
+  }
+
+ private:
+  const CellGeometry* geometry_;
+  std::unordered_map<uint32_t, Point> exact_;
+};
+
+}  // namespace csgrun

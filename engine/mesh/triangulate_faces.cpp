@@ -1,0 +1,96 @@
+#include "engine/mesh/triangulate_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/mesh/improve_triangles.h"
+#include "engine/mesh/insert_points.h"
+#include "engine/mesh/plane_oracle.h"
+#include "engine/mesh/point_view.h"
+#include "engine/mesh/triangulate.h"
+
+namespace csgrun {
+namespace {
+
+/// So many faces are triangulated by one thread.
+constexpr size_t kFacesPerPart = 1024;
+
+class FaceTriangulator {
+ public:
+  FaceTriangulator(const std::vector<MergedFace>& faces, const CellGeometry& geometry,
+                   const PlaneTable& planes, size_t in_order)
+      : faces_(faces), points_(geometry), planes_(planes), in_order_(in_order) {}
+
+  Status add(uint32_t f, TriangleSet& set) {
+    const MergedFace& face = faces_[f];
+    if (face.loops.size() == 1 && face.loops[0].size() == 3 && face.points.empty() &&
+        face.slits.empty()) {
+      add_triangle({face.loops[0][0].from, face.loops[0][1].from, face.loops[0][2].from}, f, set);
+      return std::monostate();
+    }
+    loops_.resize(face.loops.size());
+    for (size_t l = 0; l < loops_.size(); ++l) {
+      loops_[l].clear();
+      for (const DirectedEdge& e : face.loops[l]) loops_[l].push_back(e.from);
+    }
+    for (const auto& [p, q] : face.slits) loops_.push_back({p, q});
+    const PlaneOracle oracle(points_, planes_, face.plane, in_order_);
+    auto triangles = triangulate_face(loops_, oracle);
+    if (!triangles) return triangles.error();
+    if (!insert_points(face.points, oracle, *triangles)) {
+      return Error{ErrorCode::kInternal, "the boundary of a result is not closed (contacts)", {}};
+    }
+    improve_triangles(loops_, oracle, position_, *triangles);
+    for (const auto& t : *triangles) add_triangle(t, f, set);
+    return std::monostate();
+  }
+
+ private:
+  static void add_triangle(std::array<uint32_t, 3> t, uint32_t face, TriangleSet& set) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    set.triangles.push_back(t);
+    set.face.push_back(face);
+  }
+
+  const std::vector<MergedFace>& faces_;
+  PointView points_;
+  const PlaneTable& planes_;
+  size_t in_order_;
+  const RoundedPosition position_ = [this](uint32_t p) -> const std::array<double, 3>& {
+    return points_.rounded(p);
+  };
+  std::vector<std::vector<uint32_t>> loops_;  ///< of the face at hand
+};
+
+}  // namespace
+
+Result<TriangleSet> triangulate_faces(const std::vector<MergedFace>& faces,
+                                      const CellGeometry& geometry, const PlaneTable& planes,
+                                      size_t in_order) {
+  const size_t parts = part_count(faces.size(), kFacesPerPart);
+  std::vector<TriangleSet> sets(parts);
+  std::vector<std::optional<Error>> errors(parts);
+  for_each_part(faces.size(), kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
+    FaceTriangulator triangulator(faces, geometry, planes, in_order);
+    for (size_t f = begin; f < end && !errors[part]; ++f) {
+      if (auto status = triangulator.add(static_cast<uint32_t>(f), sets[part]); !status) {
+        errors[part] = status.error();
+      }
+    }
+  });
+  for (const auto& error : errors) {
+    if (error) return *error;
+  }
+  if (parts == 1) return std::move(sets[0]);
+  TriangleSet all;
+  for (const TriangleSet& set : sets) {
+    all.triangles.insert(all.triangles.end(), set.triangles.begin(), set.triangles.end());
+    all.face.insert(all.face.end(), set.face.begin(), set.face.end());
+  }
+  return all;
+}
+
+}  // namespace csgrun
