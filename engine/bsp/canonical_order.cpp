@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "engine/base/counting_order.h"
+#include "engine/base/parallel.h"
 #include "engine/base/sort_few.h"
 #include "engine/bsp/lexicographic.h"
 
@@ -77,6 +78,7 @@ std::vector<uint32_t> face_order(const DraftBoundary& draft, const PlaneTable& p
 
 BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBoundary draft,
                        std::vector<uint32_t>* number_of_point) {
+  constexpr size_t kAhead = 8;  // faces and planes stand anywhere: their memory is asked for
   BoundaryMesh mesh;
   const std::vector<uint32_t> used = used_points(draft, geometry.point_count());
   const std::vector<uint32_t> points = lexicographic_order(
@@ -92,15 +94,22 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
     number[used[points[i]]] = i;
     mesh.point_rounded.push_back(geometry.point(used[points[i]]).rounded);
   }
-  for (DirectedEdge& e : draft.edges) e.from = number[e.from], e.to = number[e.to];
-  for (DraftBoundary::Face& face : draft.faces) sort_loops(face, draft);
+  for_each_range(draft.edges.size(), [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      DirectedEdge& e = draft.edges[i];
+      e.from = number[e.from], e.to = number[e.to];
+    }
+  });
+  for_each_range(draft.faces.size(), [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) sort_loops(draft.faces[f], draft);
+  });
   const std::vector<uint32_t> order = face_order(draft, planes, points.size());
 
-  std::vector<uint32_t> plane_number(planes.size(), kNone);
+  std::vector<uint32_t> plane_number(planes.size(), kNone), used_planes;
   const auto local_plane = [&](uint32_t index) {
     if (plane_number[index] == kNone) {
-      plane_number[index] = static_cast<uint32_t>(mesh.planes.size());
-      mesh.planes.push_back(planes.plane(index));
+      plane_number[index] = static_cast<uint32_t>(used_planes.size());
+      used_planes.push_back(index);
     }
     return plane_number[index];
   };
@@ -108,8 +117,12 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
   mesh.faces.reserve(order.size());
   mesh.loop_starts.reserve(draft.loop_starts.size());
   mesh.corners.reserve(draft.edges.size());
-  for (const uint32_t f : order) {
-    const DraftBoundary::Face& face = draft.faces[f];
+  for (size_t n = 0; n < order.size(); ++n) {
+    if (n + kAhead < order.size()) {
+      const DraftBoundary::Face& soon = draft.faces[order[n + kAhead]];
+      __builtin_prefetch(&draft.edges[draft.loop_starts[soon.first_loop]]);
+    }
+    const DraftBoundary::Face& face = draft.faces[order[n]];
     const uint32_t support = local_plane(face.plane.index());
     mesh.faces.push_back({PlaneId(support, face.plane.flipped()), face.label, face.whole,
                           static_cast<uint32_t>(mesh.loop_starts.size() - 1), face.loop_count,
@@ -127,6 +140,13 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
       }
       mesh.loop_starts.push_back(static_cast<uint32_t>(mesh.corners.size()));
     }
+  }
+  mesh.planes.reserve(used_planes.size());
+  for (size_t p = 0; p < used_planes.size(); ++p) {
+    if (p + kAhead < used_planes.size()) {
+      __builtin_prefetch(&planes.plane(used_planes[p + kAhead]));
+    }
+    mesh.planes.push_back(planes.plane(used_planes[p]));
   }
   if (number_of_point != nullptr) *number_of_point = std::move(number);
   return mesh;

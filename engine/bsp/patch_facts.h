@@ -13,7 +13,10 @@ namespace csgrun {
 
 class PatchFacts {
  public:
-  void add(uint32_t patch, const CutLoops::Fact& fact) { entries_.push_back({patch, fact}); }
+  void add(uint32_t patch, const CutLoops::Fact& fact) {
+    const Entry entry{patch, fact};
+    if (entries_.empty() || entries_.back() != entry) entries_.push_back(entry);
+  }
 
   /// To be called after all were added; false if two contradict one another. O(n log n).
   [[nodiscard]] bool finish() {
