@@ -37,15 +37,15 @@ void make_parts_in_order(size_t count, Make&& make, Take&& take) {
     return part;
   };
   using tbb::filter_mode;
-  tbb::parallel_pipeline(
-      parts_ahead(), tbb::make_filter<void, size_t>(filter_mode::serial_in_order, hand_out) &
-                         tbb::make_filter<size_t, size_t>(filter_mode::parallel, make_one) &
-                         tbb::make_filter<size_t, void>(filter_mode::serial_in_order, take));
+  tbb::parallel_pipeline(parts_ahead(),
+                         tbb::make_filter<void, size_t>(filter_mode::serial_in_order, hand_out) &
+                             tbb::make_filter<size_t, size_t>(filter_mode::parallel, make_one) &
+                             tbb::make_filter<size_t, void>(filter_mode::serial_in_order, take));
 }
 
-/// Calls take(i, make(i)) for i below count: takes one after another, in this order, what is made at
-/// the same time, see make_parts_in_order. `expect(made)` comes some steps before it is taken, time
-/// enough to fetch memory.
+/// Calls take(i, make(i)) for i below count: takes one after another, in this order, what is made
+/// at the same time, see make_parts_in_order. `expect(made)` comes some steps before it is taken,
+/// time enough to fetch memory.
 template <class Make, class Take, class Expect>
 void make_and_take(size_t count, Make&& make, Take&& take, Expect&& expect) {
   constexpr size_t kEach = 512, kAhead = 12;

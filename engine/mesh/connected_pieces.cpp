@@ -45,7 +45,8 @@ struct Interval {
   uint32_t piece;
 };
 
-/// One line of a plane: the stretches that some pieces have on their left and others on their right.
+/// One line of a plane: the stretches that some pieces have on their left and others on their
+/// right.
 class LineOfPieces {
  public:
   LineOfPieces(CellGeometry& geometry, UnionFind& pieces, std::vector<PieceEdge>& boundary)

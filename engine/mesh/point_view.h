@@ -21,7 +21,8 @@ class PointView {
   /// Valid as long as the view.
   const Point& exact(uint32_t p) {
     const auto found = exact_.find(p);
-    return found != exact_.end() ? found->second : exact_.emplace(p, geometry_->value(p)).first->second;
+    return found != exact_.end() ? found->second
+                                 : exact_.emplace(p, geometry_->value(p)).first->second;
   }
   /// -1, 0, +1: the order of two points along an axis. Exact.
   int compare_along(uint32_t p, uint32_t q, int axis) {

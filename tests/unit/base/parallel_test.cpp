@@ -1,5 +1,4 @@
 // Loops on several threads: everything is done once, in parts that do not depend on the threads.
-#include "engine/base/in_order.h"
 #include "engine/base/parallel.h"
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/in_order.h"
 #include "engine/base/raw_vector.h"
 
 namespace csgrun {
