@@ -1,10 +1,13 @@
 // Where a triangle mesh over doubles crosses itself: a tree of boxes finds the pairs that may, and
 // signs of determinants decide.
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <optional>
 
 #include <csgrun/engine/exact_triangles.h>
 
+#include "engine/base/parallel.h"
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/triangle_shape.h"
 
@@ -13,6 +16,39 @@ namespace {
 
 using Triangle = std::array<uint32_t, 3>;
 
+/// The plane of a triangle, that tells quickly on which side of it most points are.
+class QuickPlane {
+ public:
+  explicit QuickPlane(const std::array<glm::dvec3, 3>& t) : origin_(t[0]) {
+    const glm::dvec3 u = t[1] - t[0], v = t[2] - t[0];
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      const double plus = u[i] * v[j], minus = u[j] * v[i];
+      normal_[k] = plus - minus;
+      size_[k] = std::fabs(plus) + std::fabs(minus);
+      if (is_tiny(u[k]) || is_tiny(v[k])) size_[k] = HUGE_VAL;
+    }
+  }
+
+  /// +1 or -1, or 0 where doubles do not tell. With e = 2^-53: sides and the way to the point are
+  /// off by e of them each, so products of the normal by less than 4 e of theirs, those with the
+  /// way by 2 e more, and sums by 4 e: less than 16 e of all sizes. (Digits that tiny sides
+  /// would lose are not looked at, those that products with the way lose are below the rest.)
+  [[nodiscard]] int side(const glm::dvec3& p) const {
+    const glm::dvec3 way = p - origin_;
+    const double value = normal_.x * way.x + normal_.y * way.y + normal_.z * way.z;
+    const double bound = 0x1p-49 * (size_.x * std::fabs(way.x) + size_.y * std::fabs(way.y) +
+                                    size_.z * std::fabs(way.z)) +
+                         0x1p-1000;
+    return value > bound ? 1 : value < -bound ? -1 : 0;
+  }
+
+ private:
+  static bool is_tiny(double x) { return x != 0 && std::fabs(x) < 0x1p-400; }
+
+  glm::dvec3 origin_, normal_, size_;
+};
+
 /// A point that two triangles have, as doubles tell it; none when they do not meet.
 using Meeting = std::optional<glm::dvec3>;
 
@@ -20,8 +56,11 @@ class CrossingTest {
  public:
   explicit CrossingTest(const TriangleView& mesh) : p_(mesh.points), triangles_(mesh.triangles) {
     views_.reserve(triangles_.size());
-    for (uint32_t t = 0; t < triangles_.size(); ++t)
+    planes_.reserve(triangles_.size());
+    for (uint32_t t = 0; t < triangles_.size(); ++t) {
       views_.push_back(aspect_of(corners_of(mesh, t)));
+      planes_.emplace_back(corners_of(mesh, t));
+    }
   }
 
   [[nodiscard]] bool has_area(uint32_t triangle) const { return views_[triangle].sign != 0; }
@@ -38,6 +77,7 @@ class CrossingTest {
         ++shared;
       }
     }
+    if (shared < 3 && (is_clear_of(s, in_s, second) || is_clear_of(t, in_t, first))) return {};
     switch (shared) {
       case 0:
         return without_common_corner(first, second);
@@ -57,6 +97,20 @@ class CrossingTest {
 
   [[nodiscard]] glm::dvec3 middle(const Triangle& t) const {
     return p_[t[0]] / 3.0 + p_[t[1]] / 3.0 + p_[t[2]] / 3.0;
+  }
+
+  /// Whether the corners of a triangle that another one has not are plainly on one side of that
+  /// one's plane: then it has nothing of the plane but the others.
+  [[nodiscard]] bool is_clear_of(const Triangle& t, const std::array<bool, 3>& is_shared,
+                                 uint32_t other) const {
+    int all = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      if (is_shared[i]) continue;
+      const int side = planes_[other].side(p_[t[i]]);
+      if (side == 0 || side == -all) return false;
+      all = side;
+    }
+    return true;
   }
 
   [[nodiscard]] int side(const Triangle& t, uint32_t point) const {
@@ -200,6 +254,7 @@ class CrossingTest {
   std::span<const glm::dvec3> p_;
   std::span<const Triangle> triangles_;
   std::vector<TriangleAspect> views_;
+  std::vector<QuickPlane> planes_;
 };
 
 }  // namespace
@@ -214,20 +269,32 @@ std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t 
     boxes.push_back(box_of(corners_of(mesh, t)));
   }
   const BoxTree tree(boxes);
-  std::vector<TriangleCrossing> found;
-  std::vector<uint32_t> near;
-  for (uint32_t i = 0; i < boxes.size() && found.size() < most; ++i) {
-    near.clear();
-    tree.visit_later(i, [&](uint32_t j) { near.push_back(j); });
-    std::sort(near.begin(), near.end());
-    for (const uint32_t j : near) {
-      const Meeting meeting = test.crossing(with_area[i], with_area[j]);
-      if (!meeting) continue;
-      found.push_back({{with_area[i], with_area[j]}, *meeting});
-      if (found.size() == most) break;
+  constexpr size_t kEach = 256;
+  std::vector<std::vector<TriangleCrossing>> parts(part_count(boxes.size(), kEach));
+  std::atomic<size_t> enough = parts.size();  // a part with as many: what comes after is not needed
+  for_each_part(boxes.size(), kEach, [&](size_t part, size_t begin, size_t end) {
+    std::vector<TriangleCrossing>& found = parts[part];
+    for (auto i = static_cast<uint32_t>(begin); i < end && part <= enough; ++i) {
+      const size_t before = found.size();
+      tree.visit_later(i, [&](uint32_t j) {
+        if (const Meeting meeting = test.crossing(with_area[i], with_area[j])) {
+          found.push_back({{with_area[i], with_area[j]}, *meeting});
+        }
+      });
+      std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(),
+                [](const auto& a, const auto& b) { return a.triangles < b.triangles; });
+      if (found.size() < most) continue;
+      for (size_t at = enough; part < at && !enough.compare_exchange_weak(at, part);) {
+      }
+      break;
     }
+  });
+  std::vector<TriangleCrossing> all;
+  for (const auto& part : parts) {
+    const size_t wanted = std::min<size_t>(part.size(), most - all.size());
+    all.insert(all.end(), part.begin(), part.begin() + static_cast<std::ptrdiff_t>(wanted));
   }
-  return found;
+  return all;
 }
 
 }  // namespace csgrun

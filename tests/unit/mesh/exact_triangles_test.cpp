@@ -7,6 +7,7 @@
 
 #include <csgrun/engine/exact_triangles.h>
 
+#include "engine/base/parallel.h"
 #include "engine/mesh/exact_sum.h"
 #include "tests/support/rationals.h"
 
@@ -223,6 +224,50 @@ TEST(Crossings, OfRandomSoupsAgreeWithRationalClipping) {
   }
   EXPECT_GT(crossings, pairs / 5);
   EXPECT_LT(crossings, pairs * 4 / 5);
+}
+
+/// Many triangles, searched in parts: the pairs are those of any two by themselves, in order, on
+/// any number of threads, and what is left out beyond a limit comes last.
+TEST(Crossings, OfManyAreThoseOfTwoByTwo) {
+  std::mt19937_64 random(9);
+  constexpr uint32_t kCount = 900;
+  std::vector<glm::dvec3> points;
+  std::vector<Triangle> triangles;
+  const auto coordinate = [&](int range) { return 0.25 * static_cast<double>(random() % range); };
+  for (uint32_t t = 0; t < kCount; ++t) {
+    const glm::dvec3 at(coordinate(40), coordinate(40), coordinate(40));
+    for (int k = 0; k < 3; ++k) {
+      points.push_back(at + glm::dvec3(coordinate(9), coordinate(9), coordinate(9)));
+    }
+    // Some have a corner of the one before.
+    const uint32_t first = t > 0 && random() % 3 == 0 ? 3 * t - 1 : 3 * t;
+    triangles.push_back({first, 3 * t + 1, 3 * t + 2});
+  }
+  std::vector<std::array<uint32_t, 2>> expected;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    for (uint32_t j = i + 1; j < kCount; ++j) {
+      const std::array<Triangle, 2> both{triangles[i], triangles[j]};
+      if (!find_crossings({points, both}, 1).empty()) expected.push_back({i, j});
+    }
+  }
+  EXPECT_GT(expected.size(), 500u);
+  const auto pairs = [&](uint64_t most, unsigned threads) {
+    const auto found = with_threads(threads, [&] {
+      return find_crossings({points, triangles}, most);
+    });
+    std::vector<std::array<uint32_t, 2>> result;
+    for (const TriangleCrossing& c : found) result.push_back(c.triangles);
+    return result;
+  };
+  for (const unsigned threads : {1u, 2u, 5u}) {
+    EXPECT_EQ(pairs(1000000, threads), expected);
+    for (const size_t most : {size_t{0}, size_t{1}, size_t{17}, expected.size() / 2,
+                              expected.size() - 1, expected.size()}) {
+      const std::vector<std::array<uint32_t, 2>> wanted(expected.begin(),
+                                                        expected.begin() + static_cast<long>(most));
+      EXPECT_EQ(pairs(most, threads), wanted);
+    }
+  }
 }
 
 TEST(Facing, AgreesWithRationals) {
