@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "engine/bsp/point_index.h"
-#include "engine/exact/predicates.h"
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/face_location.h"
+#include "engine/mesh/met_edges.h"
 #include "engine/mesh/self_contact.h"
 
 namespace csgrun {
@@ -32,28 +32,17 @@ class Conformer {
         lying_(faces.size()) {}
 
   void run() {
-    uint32_t first_edge = 0;
-    std::vector<uint32_t> met;
-    for (const uint32_t f : near_) {
-      face_boxes_[f] = mark_face(f, first_edge);
-      met.clear();
-      const std::array<double, 4>& plane = planes_.approximate(faces_[f].plane.index());
-      tree_.visit_all(face_boxes_[f], [&](uint32_t e) {
-        const FaceEdge& met_edge = edges_[e];
-        if (met_edge.face == f) return;
-        const int from = filter_side(plane, geometry_.point(met_edge.edge.from).rounded);
-        const int to = filter_side(plane, geometry_.point(met_edge.edge.to).rounded);
-        if (from == 0 || to == 0) {
-          met.push_back(e);
-        } else {
-          note_sides(f, met_edge.face, from,
-                     to);  // in any order: most of them, in long faces' boxes
-        }
-      });
-      // In the order of edges: which points are made first must not depend on the tree.
-      std::sort(met.begin(), met.end());
-      for (const uint32_t e : met) look_at(f, edges_[e].face, edges_[e].edge);
+    const MetEdges near(edges_, boxes_, tree_, geometry_);
+    for (size_t place = 0; place < near.face_count(); ++place) {
+      face_boxes_[near.face(place)] = near.box(place);
     }
+    near.each([&](uint32_t f) { return planes_.approximate(faces_[f].plane.index()); },
+              [&](size_t place, std::span<const MetEdges::Met> met) {
+                const uint32_t f = near.face(place);
+                mark_face(f, near.start(place), near.start(place + 1));
+                for (const MetEdges::Met& m : met) look_at(f, m);
+              },
+              straddling_);
     std::sort(straddling_.begin(), straddling_.end());
     straddling_.erase(std::unique(straddling_.begin(), straddling_.end()), straddling_.end());
     for (const auto& [f, g] : straddling_) {
@@ -81,15 +70,11 @@ class Conformer {
     uint32_t other;
   };
 
-  struct FaceEdge {
-    DirectedEdge edge;
-    uint32_t face;
-  };
   using Ends = std::pair<uint32_t, uint32_t>;
   /// On which sides of a face's plane edges of another face were seen.
   struct Sides {
     uint32_t of = kNone;
-    bool front = false, back = false;
+    SidesOfPlane sides;
   };
 
   /// In the order of faces and their loops.
@@ -120,26 +105,22 @@ class Conformer {
     return boxes;
   }
 
-  /// Marks the corners and the rim of the face that is looked at from now on; returns its box.
-  Box mark_face(uint32_t f, uint32_t& first_edge) {
-    Box box = boxes_[first_edge];
+  /// Marks the corners and the rim of the face that is looked at from now on.
+  void mark_face(uint32_t f, uint32_t begin, uint32_t end) {
     rim_.clear();
     bool is_simple = true;
-    const uint32_t begin = first_edge;
-    for (; first_edge < edges_.size() && edges_[first_edge].face == f; ++first_edge) {
-      const DirectedEdge& e = edges_[first_edge].edge;
+    for (uint32_t i = begin; i < end; ++i) {
+      const DirectedEdge& e = edges_[i].edge;
       is_simple = is_simple && corner_of_[e.from] != f;
       corner_of_[e.from] = f;
       next_[e.from] = e.to;
       previous_[e.to] = e.from;
-      box.include(boxes_[first_edge]);
     }
-    if (is_simple) return box;
-    for (uint32_t i = begin; i < first_edge; ++i) {
+    if (is_simple) return;
+    for (uint32_t i = begin; i < end; ++i) {
       rim_.push_back(std::minmax(edges_[i].edge.from, edges_[i].edge.to));
     }
     std::sort(rim_.begin(), rim_.end());
-    return box;
   }
 
   /// Whether an edge between corners of the face that is marked is one of its own.
@@ -149,28 +130,30 @@ class Conformer {
            std::binary_search(rim_.begin(), rim_.end(), Ends(std::minmax(e.from, e.to)));
   }
 
-  /// What an edge of face g does to face f, which is marked.
-  void look_at(uint32_t f, uint32_t g, const DirectedEdge& e) {
+  /// What an edge of another face does to face f, which is marked.
+  void look_at(uint32_t f, const MetEdges::Met& met) {
+    const uint32_t g = edges_[met.edge].face;
+    const DirectedEdge& e = edges_[met.edge].edge;
     const uint32_t support = faces_[f].plane.index();
     const bool from_shared = corner_of_[e.from] == f, to_shared = corner_of_[e.to] == f;
     const int from = from_shared ? 0 : geometry_.side(support, e.from);
     const int to = to_shared ? 0 : geometry_.side(support, e.to);
     if (from == 0 && !from_shared && in_box(f, e.from)) touch(f, e.from);
-    note_sides(f, g, from, to);
+    note_sides(f, g, met.sides, from, to);
     if (from != 0 || to != 0 || faces_[g].plane.index() == support) return;
     // An edge of f itself is none that may run through it.
     if (from_shared && to_shared && is_marked_rim(e)) return;
     add_lying(f, {{e.from, e.to, e.plane == support ? faces_[g].plane.index() : e.plane}, kNone});
   }
 
-  /// Notes the pair when edges of g near f lie on both sides of f's plane.
-  void note_sides(uint32_t f, uint32_t g, int from, int to) {
-    Sides& sides = sides_[g];
-    if (sides.of != f) sides = {f, false, false};
-    if (sides.front && sides.back) return;
-    sides.front |= from > 0 || to > 0;
-    sides.back |= from < 0 || to < 0;
-    if (sides.front && sides.back) straddling_.push_back(std::minmax(f, g));
+  /// Notes the pair when edges of g near f lie on both sides of f's plane; `known` are those of
+  /// edges that do not touch it.
+  void note_sides(uint32_t f, uint32_t g, SidesOfPlane known, int from, int to) {
+    Sides& seen = sides_[g];
+    if (seen.of != f) seen = {f, known};
+    if (seen.sides.both()) return;
+    seen.sides.note(from, to);
+    if (seen.sides.both()) straddling_.push_back(std::minmax(f, g));
   }
 
   [[nodiscard]] bool in_box(uint32_t f, uint32_t p) const {

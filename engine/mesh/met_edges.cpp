@@ -1,0 +1,55 @@
+#include "engine/mesh/met_edges.h"
+
+#include <algorithm>
+
+#include "engine/exact/predicates.h"
+
+namespace csgrun {
+
+MetEdges::MetEdges(std::span<const FaceEdge> edges, const std::vector<Box>& boxes,
+                   const BoxTree& tree, const CellGeometry& geometry)
+    : edges_(edges), tree_(tree) {
+  ends_.reserve(edges.size());
+  for (uint32_t e = 0; e < edges.size(); ++e) {
+    const DirectedEdge& edge = edges[e].edge;
+    ends_.push_back({geometry.point(edge.from).rounded, geometry.point(edge.to).rounded});
+    if (e == 0 || edges[e].face != edges[e - 1].face) {
+      starts_.push_back(e);
+      face_boxes_.push_back(boxes[e]);
+    }
+    face_boxes_.back().include(boxes[e]);
+    faces_ = std::max(faces_, edges[e].face + 1);
+  }
+  starts_.push_back(static_cast<uint32_t>(edges.size()));
+}
+
+void MetEdges::find(size_t place, const std::array<double, 4>& plane, Part& part,
+                    Seen& seen) const {
+  seen.entries.resize(faces_);
+  const uint32_t f = face(place);
+  const size_t first = part.met.size();
+  tree_.visit_all(face_boxes_[place], [&](uint32_t e) {
+    const uint32_t g = edges_[e].face;
+    if (g == f) return;
+    const int from = filter_side(plane, ends_[e][0]), to = filter_side(plane, ends_[e][1]);
+    if (from == 0 || to == 0) {
+      part.met.push_back({e, {}});
+      return;
+    }
+    Seen::Entry& entry = seen.entries[g];
+    if (entry.of != place) entry = {static_cast<uint32_t>(place), {}};
+    if (entry.sides.both()) return;
+    entry.sides.note(from, to);
+    if (entry.sides.both()) part.straddling.push_back(std::minmax(f, g));
+  });
+  // In the order of edges: nothing may depend on the tree.
+  std::sort(part.met.begin() + static_cast<long>(first), part.met.end(),
+            [](const Met& a, const Met& b) { return a.edge < b.edge; });
+  for (size_t i = first; i < part.met.size(); ++i) {
+    const Seen::Entry& entry = seen.entries[edges_[part.met[i].edge].face];
+    if (entry.of == place) part.met[i].sides = entry.sides;
+  }
+  part.ends.push_back(part.met.size());
+}
+
+}  // namespace csgrun
