@@ -283,9 +283,11 @@ class Presenter {
 
   /// Triangles of explicit faces stand in the order of faces, and so do these faces in the whole.
   void fill_faces(Solid& solid) {
-    for (const UntouchedPart& part : boundary_.parts) common_labels_.push_back(common_label(part));
     const uint32_t own_count = whole_->explicit_face_count();
     const size_t count = whole_->faces().size();
+    common_labels_.resize(boundary_.parts.size());
+    for_each_alone(boundary_.parts.size(), count > kFewForThreads,
+                   [&](size_t p) { common_labels_[p] = common_label(boundary_.parts[p]); });
     // Where each explicit face begins, were there no others.
     std::vector<FacePlace> own(own_count + size_t{1});
     for (uint32_t f = 0; f < own_count; ++f) {
