@@ -1,0 +1,218 @@
+#include "engine/bsp/patch_fates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/parallel.h"
+#include "engine/bsp/parallel_runs.h"
+
+namespace csgrun {
+
+uint32_t untouched_corner(const Job& job, const ContactTable& contacts, uint32_t polygon) {
+  for (const uint32_t v : job.corners(job.polygons()[polygon])) {
+    if (!contacts.touched()[v]) return v;
+  }
+  return kNone;
+}
+
+PatchFates::PatchFates(const Job& job, const Expression& expression, const KernelOptions& options,
+                       const ContactTable& contacts, const CutFaces& cut,
+                       const CellGeometry& geometry, const std::vector<uint8_t>& is_cut)
+    : job_(job),
+      options_(options),
+      contacts_(contacts),
+      cut_(cut),
+      geometry_(geometry),
+      is_cut_(is_cut),
+      labels_(job, expression) {}
+
+bool PatchFates::find(std::span<const uint8_t> plainly_covered) {
+  join_patches();
+  if (!gather_facts()) return false;
+  drop_covered(plainly_covered);
+  ask_about_loops();
+  ask_about_whole();
+  answer();
+  for (uint32_t l = 0; l < cut_.loops.loops.size(); ++l) {
+    const uint32_t vertex = cut_.loops.loops[l].vertex;
+    if (vertex != kNone) {
+      fate_of_loop_[l] = static_cast<PatchFate>(patch_fates_[patches_.root(vertex)]);
+    }
+  }
+  return true;
+}
+
+/// Patches by the vertices that they hold: polygons that share a vertex, and parts of cut ones
+/// around it, are inside the same operands, as no other surface passes there.
+void PatchFates::join_patches() {
+  patches_.reset(job_.vertex_count());
+  // Operands have no vertices in common.
+  const bool much = job_.polygons().size() > kFewForThreads;
+  for_each_alone(job_.operand_count(), much, [&](size_t o) {
+    for (uint32_t p = job_.polygon_start(o); p < job_.polygon_start(o + 1); ++p) {
+      if (is_cut_[p]) continue;
+      uint32_t patch = patches_.find(untouched_corner(job_, contacts_, p));
+      for (const uint32_t v : job_.corners(job_.polygons()[p])) {
+        if (!contacts_.touched()[v]) patch = patches_.join_with(patch, v);
+      }
+    }
+  });
+  for (const CutLoops::Loop& loop : cut_.loops.loops) {
+    for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
+      const uint32_t v = geometry_.point(cut_.loops.corner_point[c]).vertex;
+      if (v != kNone && !contacts_.touched()[v]) patches_.join(loop.vertex, v);  // so it has one
+    }
+  }
+  for_each_alone(job_.operand_count(), much, [&](size_t o) {
+    patches_.flatten(job_.vertex_start(o), job_.vertex_start(o + 1));
+  });
+}
+
+/// What the loops of each patch say of it; false if they disagree.
+bool PatchFates::gather_facts() {
+  for (const CutLoops::Loop& loop : cut_.loops.loops) {
+    if (loop.vertex == kNone) continue;
+    const uint32_t patch = patches_.find(loop.vertex);
+    for (uint32_t f = loop.first_fact; f < loop.first_fact + loop.fact_count; ++f) {
+      facts_.add(patch, cut_.loops.facts[f]);
+    }
+  }
+  for (const Contact& c : contacts_.all()) add_rim_facts(c);
+  return facts_.finish();
+}
+
+/// A polygon that touches another operand's surface from one side, and in one polygon only, is
+/// inside the operand if it is behind that polygon: then its patch needs no ray. (On an edge of
+/// that polygon it would touch the next one, too.)
+void PatchFates::add_rim_facts(const Contact& c) {
+  if (c.is_plain || c.is_coplanar) return;
+  if (c.p_front != c.p_back) add_rim_fact(c.p, c.q, c.p_back);
+  if (c.q_front != c.q_back) add_rim_fact(c.q, c.p, c.q_back);
+}
+
+void PatchFates::add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind) {
+  if (is_cut_[polygon]) return;
+  const uint32_t operand = job_.polygons()[other].operand;
+  for (const uint32_t i : contacts_.of(polygon)) {
+    const Contact& c = contacts_[i];
+    const uint32_t third = c.p == polygon ? c.q : c.p;
+    if (third != other && job_.polygons()[third].operand == operand) return;
+  }
+  facts_.add(patches_.find(untouched_corner(job_, contacts_, polygon)),
+             {operand, is_behind, is_behind});
+}
+
+/// Patches that hold a corner of a polygon that is seen to be boundary of nothing, as they are.
+void PatchFates::drop_covered(std::span<const uint8_t> plainly_covered) {
+  patch_fates_.assign(job_.vertex_count(), kUnasked);
+  for (uint32_t p = 0; p < plainly_covered.size(); ++p) {
+    if (!plainly_covered[p]) continue;
+    for (const uint32_t v : job_.corners(job_.polygons()[p])) {
+      if (!contacts_.touched()[v]) {
+        patch_fates_[patches_.find(v)] = static_cast<uint8_t>(PatchFate::kDrop);
+      }
+    }
+  }
+}
+
+void PatchFates::ask_about_loops() {
+  fate_of_loop_.assign(cut_.loops.loops.size(), PatchFate::kDrop);
+  for (const CutFaces::Face& cut : cut_.faces) {
+    const uint32_t own = job_.polygons()[cut.polygon].operand;
+    for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+      const uint32_t vertex = cut_.loops.loops[l].vertex;
+      if (vertex == kNone) {
+        questions_.push_back({own, kNone, l});
+      } else {
+        ask(patches_.root(vertex), own);
+      }
+    }
+  }
+}
+
+/// Asks about the patches of polygons that were not cut.
+void PatchFates::ask_about_whole() {
+  const size_t count = job_.polygons().size();
+  patch_of_polygon_.resize(count);
+  std::vector<std::vector<uint32_t>> unasked(part_count(count, kFewForThreads));
+  for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+    uint32_t last = kNone;
+    for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
+      const uint32_t patch =
+          is_cut_[p] ? kNone : patches_.root(untouched_corner(job_, contacts_, p));
+      patch_of_polygon_[p] = patch;
+      if (patch == kNone || patch == last || patch_fates_[patch] != kUnasked) {
+        continue;
+      }
+      last = patch;
+      unasked[part].push_back(last);
+    }
+  });
+  for (const auto& part : unasked) {
+    for (const uint32_t patch : part) ask(patch, job_.operand_of_vertex(patch));
+  }
+}
+
+/// Asks what becomes of a patch, once.
+void PatchFates::ask(uint32_t patch, uint32_t own) {
+  if (patch_fates_[patch] != kUnasked) return;
+  patch_fates_[patch] = kAsked;
+  questions_.push_back({own, patch, kNone});
+}
+
+/// Answers all questions, on several threads if they may be much work.
+void PatchFates::answer() {
+  if (job_.polygons().size() <= kFewForThreads) {
+    for (const Question& q : questions_) answer(q, labels_);
+    return;
+  }
+  KernelOptions options = options_;
+  options.progress = nullptr;
+  constexpr size_t kEach = 16;
+  for_each_run(
+      part_count(questions_.size(), kEach), options, [&] { return labels_; },
+      [&](PatchLabels& labels, size_t run) {
+        const size_t end = std::min(questions_.size(), (run + 1) * kEach);
+        for (size_t i = run * kEach; i < end; ++i) answer(questions_[i], labels);
+      });
+}
+
+void PatchFates::answer(const Question& q, PatchLabels& labels) {
+  if (q.patch == kNone) {
+    fate_of_loop_[q.loop] = fate_of_loop(cut_.loops.loops[q.loop], q.own, labels);
+  } else {
+    patch_fates_[q.patch] = static_cast<uint8_t>(
+        labels.fate(q.own, job_.rounded(q.patch), labels.error(q.own), facts_.of(q.patch)));
+  }
+}
+
+/// That of one that passes no vertex.
+PatchFate PatchFates::fate_of_loop(const CutLoops::Loop& loop, uint32_t own,
+                                   PatchLabels& labels) const {
+  // The middle of an edge is on no operand's surface that has none along the edge. Where it is in
+  // line with too much, another one may do.
+  constexpr uint32_t kMostTries = 4;
+  PatchFate fate = PatchFate::kUnknown;
+  for (uint32_t i = 0; i < kMostTries && fate == PatchFate::kUnknown; ++i) {
+    fate = fate_at_edge(loop, i % loop.corner_count, own, labels);
+  }
+  return fate;
+}
+
+PatchFate PatchFates::fate_at_edge(const CutLoops::Loop& loop, uint32_t edge, uint32_t own,
+                                   PatchLabels& labels) const {
+  const uint32_t next = (edge + 1) % loop.corner_count;
+  const auto& a = geometry_.point(cut_.loops.corner_point[loop.first_corner + edge]).rounded;
+  const auto& b = geometry_.point(cut_.loops.corner_point[loop.first_corner + next]).rounded;
+  std::array<double, 3> middle{};
+  double largest = 0;
+  for (int k = 0; k < 3; ++k) {
+    middle[k] = (a[k] + b[k]) / 2;
+    largest = std::max({largest, std::fabs(a[k]), std::fabs(b[k])});
+  }
+  return labels.fate(own, middle, largest * 0x1p-52,
+                     {cut_.loops.facts.data() + loop.first_fact, loop.fact_count});
+}
+
+}  // namespace csgrun
