@@ -36,6 +36,9 @@ struct Lattice {
 constexpr std::array<std::array<double, 3>, 4> kOrigins{
     {{0, 0, 0}, {0.5, 0.5, 0.5}, {0.5, 0, 0}, {0, 0.5, 0.5}}};
 
+/// Crossings that union and rounding make anew may need a few rounds more to go away.
+constexpr int kPatience = 4;
+
 bool precedes(const glm::dvec3& a, const glm::dvec3& b) {
   return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
 }
@@ -64,25 +67,28 @@ class Repair {
   }
 
   Status run() {
-    while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty()) {
-      if (lattice_ > 0 && lattice_exponent() > coarsest_exponent()) {
-        lattice_ = 1;
-        ++origin_;
-      }
-      if (origin_ == kOrigins.size()) break;
+    State best = state();
+    int worse = 0;  // rounds since then
+    while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty() &&
+           choose_lattice()) {
       ++check_.rounds;
-      const State before{mesh_, faces_, left_, check_.moved, moves_};
       if (Status status = run_round(); !status) return status;
       breach_ = fidelity_.breach(mesh_, original_faces(), moves_);
-      if (breach_.empty() && left_.fewer_than(before.left)) continue;
-      // A round that makes it worse is undone: what it moved would be in the way of the next.
+      if (breach_.empty() && left_.fewer_than(best.left)) {
+        best = state();
+        worse = 0;
+        continue;
+      }
+      may_get_better_ |= breach_.empty();
+      if (is_patient_ && breach_.empty() && ++worse < kPatience && !is_far_worse(best.left)) {
+        continue;
+      }
+      // Rounds that make it worse are undone: what they moved would be in the way of the next.
       ++lattice_;
-      mesh_ = before.mesh;
-      faces_ = before.faces;
-      left_ = before.left;
-      check_.moved = before.moved;
-      moves_ = before.moves;
+      worse = 0;
+      restore(best);
     }
+    if (worse > 0) restore(best);
     mesh_.triangle_face = original_faces();
     check_.distance = moves_.distance;
     if (!left_.none() && check_.problem.empty()) check_.problem = breach_;
@@ -97,6 +103,35 @@ class Repair {
     uint64_t moved;
     Moves moves;
   };
+
+  [[nodiscard]] State state() const { return {mesh_, faces_, left_, check_.moved, moves_}; }
+  void restore(const State& before) {
+    mesh_ = before.mesh;
+    faces_ = before.faces;
+    left_ = before.left;
+    check_.moved = before.moved;
+    moves_ = before.moves;
+  }
+
+  /// Takes the next origin where all lattices were tried from one, and begins again, with patience,
+  /// where all origins were. False when that was done, or no round left the model what it is.
+  bool choose_lattice() {
+    if (lattice_ > 0 && lattice_exponent() > coarsest_exponent()) {
+      lattice_ = 1;
+      ++origin_;
+    }
+    if (origin_ < kOrigins.size()) return true;
+    if (is_patient_ || !may_get_better_) return false;
+    is_patient_ = true;
+    origin_ = 0;
+    return true;
+  }
+
+  /// Whether so much is wrong that more rounds would only make it more.
+  [[nodiscard]] bool is_far_worse(const Defects& best) const {
+    constexpr size_t kTimes = 5, kFew = 5;
+    return left_.crossings.size() > kTimes * (best.crossings.size() + kFew);
+  }
 
   Status run_round() {
     turn_edges();
@@ -196,9 +231,11 @@ class Repair {
   Defects& left_;
   MeshCheck& check_;
   Moves moves_;
-  std::string breach_;  ///< why the last round was undone, if the mesh became another
-  int lattice_ = 0;     ///< the number of the lattice; 0: nothing is snapped yet
-  size_t origin_ = 0;   ///< into kOrigins
+  std::string breach_;           ///< why the last round was undone, if the mesh became another
+  int lattice_ = 0;              ///< the number of the lattice; 0: nothing is snapped yet
+  size_t origin_ = 0;            ///< into kOrigins
+  bool is_patient_ = false;      ///< rounds that make it worse are not undone at once
+  bool may_get_better_ = false;  ///< some round was undone only because it left more wrong
 };
 
 }  // namespace

@@ -8,9 +8,10 @@
 // one, before the union, the corners of what is wrong, with all that shares their cells of a
 // lattice, are snapped to it, so that what rounding brought too near becomes one (Valque & Lazard
 // 2025). The lattice is coarser with each such round, up to a bound: what is coarser would be
-// another model, not the same rounded. Then all are tried again from other origins. For the same
-// reason a round is undone after which the mesh differs from the solid by more than all moves of
-// its vertices explain (fidelity.h).
+// another model, not the same rounded. Then all are tried again from other origins, and at last once
+// more with patience: up to four rounds may leave more wrong than before until one leaves less. A
+// round is undone, too, after which the mesh differs from the solid by more than all moves of its
+// vertices explain (fidelity.h).
 #pragma once
 
 #include <csgrun/engine/error.h>
@@ -22,7 +23,7 @@
 
 namespace csgrun {
 
-constexpr unsigned kMostRounds = 32;
+constexpr unsigned kMostRounds = 128;
 /// The coarsest lattice, as a power of two of the finest that the engine takes at the mesh's
 /// extent: 2^10 units in the last place of floats there; for doubles one unit of floats.
 constexpr int kCoarsestFloatLattice = 13, kCoarsestDoubleLattice = 3;
