@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/counting_order.h"
 #include "engine/base/parallel.h"
 #include "engine/bsp/parallel_runs.h"
 
@@ -47,9 +48,11 @@ bool PatchFates::find(std::span<const uint8_t> plainly_covered) {
 /// around it, are inside the same operands, as no other surface passes there.
 void PatchFates::join_patches() {
   patches_.reset(job_.vertex_count());
+  CountingOrder cut;
+  cut.sort(cut_.faces.size(), job_.operand_count(),
+           [&](size_t f) { return job_.polygons()[cut_.faces[f].polygon].operand; });
   // Operands have no vertices in common.
-  const bool much = job_.polygons().size() > kFewForThreads;
-  for_each_alone(job_.operand_count(), much, [&](size_t o) {
+  for_each_alone(job_.operand_count(), job_.polygons().size() > kFewForThreads, [&](size_t o) {
     for (uint32_t p = job_.polygon_start(o); p < job_.polygon_start(o + 1); ++p) {
       if (is_cut_[p]) continue;
       uint32_t patch = patches_.find(untouched_corner(job_, contacts_, p));
@@ -57,23 +60,27 @@ void PatchFates::join_patches() {
         if (!contacts_.touched()[v]) patch = patches_.join_with(patch, v);
       }
     }
+    for (uint32_t i = cut.starts[o]; i < cut.starts[o + 1]; ++i)
+      join_loops(cut_.faces[cut.order[i]]);
+    patches_.flatten(job_.vertex_start(o), job_.vertex_start(o + 1));
   });
-  for (const CutLoops::Loop& loop : cut_.loops.loops) {
+}
+
+void PatchFates::join_loops(const CutFaces::Face& face) {
+  for (uint32_t l = face.first_loop; l < face.end_loop; ++l) {
+    const CutLoops::Loop& loop = cut_.loops.loops[l];
     for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
       const uint32_t v = geometry_.point(cut_.loops.corner_point[c]).vertex;
       if (v != kNone && !contacts_.touched()[v]) patches_.join(loop.vertex, v);  // so it has one
     }
   }
-  for_each_alone(job_.operand_count(), much, [&](size_t o) {
-    patches_.flatten(job_.vertex_start(o), job_.vertex_start(o + 1));
-  });
 }
 
 /// What the loops of each patch say of it; false if they disagree.
 bool PatchFates::gather_facts() {
   for (const CutLoops::Loop& loop : cut_.loops.loops) {
     if (loop.vertex == kNone) continue;
-    const uint32_t patch = patches_.find(loop.vertex);
+    const uint32_t patch = patches_.root(loop.vertex);
     for (uint32_t f = loop.first_fact; f < loop.first_fact + loop.fact_count; ++f) {
       facts_.add(patch, cut_.loops.facts[f]);
     }
@@ -99,7 +106,7 @@ void PatchFates::add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind) 
     const uint32_t third = c.p == polygon ? c.q : c.p;
     if (third != other && job_.polygons()[third].operand == operand) return;
   }
-  facts_.add(patches_.find(untouched_corner(job_, contacts_, polygon)),
+  facts_.add(patches_.root(untouched_corner(job_, contacts_, polygon)),
              {operand, is_behind, is_behind});
 }
 
@@ -110,7 +117,7 @@ void PatchFates::drop_covered(std::span<const uint8_t> plainly_covered) {
     if (!plainly_covered[p]) continue;
     for (const uint32_t v : job_.corners(job_.polygons()[p])) {
       if (!contacts_.touched()[v]) {
-        patch_fates_[patches_.find(v)] = static_cast<uint8_t>(PatchFate::kDrop);
+        patch_fates_[patches_.root(v)] = static_cast<uint8_t>(PatchFate::kDrop);
       }
     }
   }

@@ -54,6 +54,7 @@ class PatchFates {
   };
 
   void join_patches();
+  void join_loops(const CutFaces::Face& face);
   bool gather_facts();
   void add_rim_facts(const Contact& c);
   void add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind);
