@@ -10,6 +10,7 @@
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
 #include "lua_bindings/operands.h"
+#include "lua_bindings/repaint.h"
 #include "lua_bindings/session.h"
 
 namespace csgrun {
@@ -132,12 +133,12 @@ constexpr FunctionSpec kSlicePlane{"slice", "", kPlaneOptions, false, ""};
 CutPlane plane_argument(const Arguments& arguments, const FunctionSpec& spec) {
   const auto given = arguments.vector("normal");
   const glm::dvec3 normal = given ? given->v : glm::dvec3(0, 0, 1);
-  CutPlane plane = value_or_fail(spec, make_cut_plane(normal, arguments.number("offset", 0)));
-  if (const auto point = arguments.vector("point")) {
-    if (arguments.has("offset")) fail_in(spec, "give either 'offset' or 'point', not both");
-    plane.offset = glm::dot(plane.normal, point->v);
+  const auto point = arguments.vector("point");
+  if (point && arguments.has("offset")) {
+    fail_in(spec, "give either 'offset' or 'point', not both");
   }
-  return plane;
+  return value_or_fail(spec, point ? make_cut_plane(normal, point->v)
+                                   : make_cut_plane(normal, arguments.number("offset", 0)));
 }
 
 constexpr Option kSliceOptions[] = {
@@ -179,21 +180,26 @@ int slice(lua_State* L) {
       (arguments.has("normal") || arguments.has("offset") || arguments.has("point")))
     fail_in(kSlice, "give either the height 'z' or a plane, not both");
   push_section(L, solid.node,
-               arguments.has("z") ? CutPlane{{0, 0, 1}, arguments.number("z", 0)} : plane);
+               arguments.has("z")
+                   ? value_or_fail(kSlice, make_cut_plane({0, 0, 1}, arguments.number("z", 0)))
+                   : plane);
   return 1;
 }
 
 constexpr FunctionSpec kSplit{
     "split",
     "The two parts of a solid on either side of a plane: first what is in front of it, where the "
-    "normal points, then what is behind.",
+    "normal points, then what is behind. The cut has the colour of the solid (of its first leaf, "
+    "where it has several). It lies in the plane exactly where the normal is a multiple of small "
+    "whole numbers and the point one of the grid.",
     kPlaneOptions,
     false,
     "local top, bottom = part:split({0, 0, 1}, 5)",
     "solid",
     kSolidDoc};
 constexpr FunctionSpec kTrim{"trim",
-                             "What of a solid is in front of a plane, where the normal points.",
+                             "What of a solid is in front of a plane, where the normal points; as "
+                             "split.",
                              kPlaneOptions,
                              false,
                              "part:trim{normal = {1, 0, 1}, point = {0, 0, 5}}",
@@ -213,6 +219,9 @@ int cut(lua_State* L) {
     const EvaluationScope scope(session.budget());
     front = made_or_fail(session, half_space(session.evaluator(), solid, plane, where));
   }
+  // Nobody gave the half-space a colour.
+  const Appearance body = first_appearance(solid);
+  if (!body.is_default) front = Node::painted(body, front, where);
   push_solid(L, Node::boolean(BooleanOp::kIntersection, {solid, front}, where));
   keep_marks(L, 1);
   if (!kBoth) return 1;

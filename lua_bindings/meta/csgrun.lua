@@ -879,7 +879,7 @@ function Solid:slice(z, options) end
 ---@field offset? number where the plane is: its distance from the origin along the normal
 ---@field point? number[] instead of the offset: a point of the plane
 
----The two parts of a solid on either side of a plane: first what is in front of it, where the normal points, then what is behind.
+---The two parts of a solid on either side of a plane: first what is in front of it, where the normal points, then what is behind. The cut has the colour of the solid (of its first leaf, where it has several). It lies in the plane exactly where the normal is a multiple of small whole numbers and the point one of the grid.
 ---
 ---Example: `local top, bottom = part:split({0, 0, 1}, 5)`
 ---@overload fun(x: number, y: number, z?: number, ...): Solid, Solid
@@ -891,7 +891,7 @@ function Solid:slice(z, options) end
 function split(solid, normal, offset, options) end
 csg.split = split
 
----The two parts of a solid on either side of a plane: first what is in front of it, where the normal points, then what is behind.
+---The two parts of a solid on either side of a plane: first what is in front of it, where the normal points, then what is behind. The cut has the colour of the solid (of its first leaf, where it has several). It lies in the plane exactly where the normal is a multiple of small whole numbers and the point one of the grid.
 ---
 ---Example: `local top, bottom = part:split({0, 0, 1}, 5)`
 ---@overload fun(self: Solid, options: csgrun.split): Solid, Solid
@@ -908,7 +908,7 @@ function Solid:split(normal, offset, options) end
 ---@field offset? number where the plane is: its distance from the origin along the normal
 ---@field point? number[] instead of the offset: a point of the plane
 
----What of a solid is in front of a plane, where the normal points.
+---What of a solid is in front of a plane, where the normal points; as split.
 ---
 ---Example: `part:trim{normal = {1, 0, 1}, point = {0, 0, 5}}`
 ---@overload fun(x: number, y: number, z?: number, ...): Solid
@@ -920,7 +920,7 @@ function Solid:split(normal, offset, options) end
 function trim(solid, normal, offset, options) end
 csg.trim = trim
 
----What of a solid is in front of a plane, where the normal points.
+---What of a solid is in front of a plane, where the normal points; as split.
 ---
 ---Example: `part:trim{normal = {1, 0, 1}, point = {0, 0, 5}}`
 ---@overload fun(self: Solid, options: csgrun.trim): Solid

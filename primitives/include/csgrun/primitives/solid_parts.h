@@ -13,17 +13,22 @@ namespace csgrun {
 
 /// The plane of the points p with normal . p = offset.
 struct CutPlane {
-  glm::dvec3 normal{0, 0, 1};  ///< of length 1
-  double offset = 0;           ///< mm
+  glm::dvec3 normal{0, 0, 1};     ///< of length 1
+  double offset = 0;              ///< mm
+  glm::dvec3 direction{0, 0, 1};  ///< the normal as it was given, of any length
+  glm::dvec3 point{0};            ///< mm: one of its points, as it was given
 };
 
-/// The plane with a normal of any length but 0, at a distance from the origin along it. Errors:
-/// kInvalidArgument.
+/// The plane with a normal of any length but 0, at a distance from the origin along it, or through
+/// a point. Errors: kInvalidArgument.
 Result<CutPlane> make_cut_plane(const glm::dvec3& normal, double offset);
+Result<CutPlane> make_cut_plane(const glm::dvec3& normal, const glm::dvec3& point);
 
 /// A box whose face lies in the plane, large enough to hold all of `solid` that is in front of it;
-/// empty if that is nothing; made at `where`. What is cut with it keeps its exact planes. Errors:
-/// those of the evaluation.
+/// empty if that is nothing; made at `where`. What is cut with it keeps its exact planes. The face
+/// lies in the plane exactly if the normal is a multiple of small whole numbers and the point is
+/// one of the grid; else corners of the face are rounded to the grid. Errors: those of the
+/// evaluation.
 Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const CutPlane& plane,
                            const SourceRef& where);
 
