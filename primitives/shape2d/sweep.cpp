@@ -14,6 +14,7 @@
 #include <csgrun/primitives/trig.h>
 
 #include "primitives/base/text.h"
+#include "primitives/shape2d/extrude_facets.h"
 #include "primitives/shape2d/profile.h"
 #include "primitives/solids/mesh_builder.h"
 
@@ -30,30 +31,42 @@ glm::dvec3 direction_of(const std::vector<glm::dvec3>& path, size_t i) {
   return way / length_of(way);
 }
 
-/// The path with more points, so that a twist turns in steps as small as those of a circle through
-/// the farthest point of the shape.
+/// What linear_extrude is asked for with such a twist.
+LinearExtrudeOptions twisted_extrusion(const SweepOptions& o) {
+  LinearExtrudeOptions extrusion;
+  extrusion.twist = -o.twist;
+  extrusion.scale = o.scale;
+  extrusion.facets = o.facets;
+  return extrusion;
+}
+
+/// The path with more points, so that a twist turns in steps as small as linear_extrude's.
 std::vector<glm::dvec3> divided(const std::vector<glm::dvec3>& path, const Shape2D& shape,
                                 const SweepOptions& o) {
   const size_t n = path.size(), pieces = o.closed ? n : n - 1;
   double total = 0;
   for (size_t i = 0; i < pieces; ++i) total += length_of(path[(i + 1) % n] - path[i]);
-  double radius = 0;
-  for (const Shape2D::Loop& loop : shape.loops()) {
-    for (const glm::dvec2& p : loop) radius = std::max(radius, std::sqrt(glm::dot(p, p)));
-  }
-  const double step = 360.0 / o.facets.fragments(radius);
+  const double slices = slices_of(shape, twisted_extrusion(o), total);
   std::vector<glm::dvec3> result;
   for (size_t i = 0; i < pieces; ++i) {
     const glm::dvec3 a = path[i], way = path[(i + 1) % n] - a;
     // A turn of whole steps must not get one more by rounding.
     constexpr double kNoise = 1e-9;
-    const double turn = std::fabs(o.twist) * length_of(way) / total;
-    const double parts = std::clamp(std::ceil(turn / step - kNoise), 1.0, kMostPoints);
+    const double steps = slices * length_of(way) / total;
+    const double parts = std::clamp(std::ceil(steps - kNoise), 1.0, kMostPoints);
     for (double k = 0; k < parts && static_cast<double>(result.size()) <= kMostPoints; ++k)
       result.push_back(a + way * (k / parts));
   }
   if (!o.closed) result.push_back(path.back());
   return result;
+}
+
+/// The loops of the shape, for a twist with points on long edges, as linear_extrude has them: walls
+/// over straight edges bulge.
+std::vector<Shape2D::Loop> divided_loops(const Shape2D& shape, const SweepOptions& o,
+                                         size_t pieces) {
+  if (o.twist == 0) return shape.loops();
+  return split_outlines(shape, twisted_extrusion(o), static_cast<int>(pieces));
 }
 
 /// Directions across a piece of the path: x of the outline, y, and the way forward.
@@ -97,12 +110,13 @@ double angle_between(const Frame& a, const Frame& b) {
 
 class Sweeper {
  public:
-  Sweeper(const Shape2D& shape, const SweepOptions& options, std::vector<glm::dvec3> path,
-          std::vector<Frame> frames)
+  /// `loops` are those of the shape, perhaps with more points on edges.
+  Sweeper(const Shape2D& shape, std::vector<Shape2D::Loop> loops, const SweepOptions& options,
+          std::vector<glm::dvec3> path, std::vector<Frame> frames)
       : options_(options),
         path_(std::move(path)),
         frames_(std::move(frames)),
-        loops_(shape.loops()),
+        loops_(std::move(loops)),
         profile_(make_profile(shape, loops_)) {}
 
   PolygonMesh build() {
@@ -117,7 +131,7 @@ class Sweeper {
       const std::vector<uint32_t>& loop = profile_.loops[l];
       for (size_t k = 0; k < loop.size(); ++k) {
         for (size_t j = 0; j < pieces; ++j) {
-          add_side(j, loop[k], loop[(k + 1) % loop.size()],
+          add_side(j, loop[k], loop[(k + 1) % loop.size()], profile_.is_hole[l],
                    surface + 1 + chain[k] + chains * bend_[j]);
         }
       }
@@ -178,7 +192,7 @@ class Sweeper {
     }
   }
 
-  void add_side(size_t piece, uint32_t p, uint32_t q, uint32_t surface) {
+  void add_side(size_t piece, uint32_t p, uint32_t q, bool hole, uint32_t surface) {
     const std::vector<uint32_t>&ring = rings_[piece], &next = rings_[(piece + 1) % rings_.size()];
     const uint32_t a = ring[p], b = ring[q], c = next[q], d = next[p];
     if (c == d) {
@@ -188,7 +202,10 @@ class Sweeper {
     // Rounded quadrilaterals are planar only along the axes: triangles are what they say.
     const auto& points = mesh_.points;
     const glm::dvec3 ac = points[c] - points[a], bd = points[d] - points[b];
-    const bool from_a = glm::dot(ac, ac) <= glm::dot(bd, bd);
+    // Of two equal diagonals the one that the twist leans to, as linear_extrude has it.
+    const double to_c = glm::dot(ac, ac), to_d = glm::dot(bd, bd);
+    const bool is_one_shorter = std::fabs(to_c - to_d) > 1e-5 * std::max(to_c, to_d);
+    const bool from_a = is_one_shorter ? to_c < to_d : (options_.twist < 0) != hole;
     mesh_.add_face(std::array<uint32_t, 3>{a, b, from_a ? c : d}, surface);
     mesh_.add_face(std::array<uint32_t, 3>{c, d, from_a ? a : b}, surface);
   }
@@ -210,7 +227,7 @@ class Sweeper {
   const SweepOptions& options_;
   std::vector<glm::dvec3> path_;
   std::vector<Frame> frames_;  // of each piece
-  const std::vector<Shape2D::Loop>& loops_;
+  const std::vector<Shape2D::Loop> loops_;
   Profile profile_;
   std::vector<double> along_;   // how far each point of the path lies from its start
   std::vector<uint32_t> bend_;  // per piece: how many sharp turns lie before it
@@ -276,10 +293,13 @@ MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
   if (auto error = check_turns(path, options.closed)) return *error;
   if (options.twist != 0) path = divided(path, shape, options);
   const size_t pieces = options.closed ? path.size() : path.size() - 1;
+  const double rings = static_cast<double>(path.size());
+  if (rings > kMostPoints) return too_many_points(kName, rings, rings);
+  std::vector<Shape2D::Loop> loops = divided_loops(shape, options, pieces);
   size_t outline = 0;
-  for (const Shape2D::Loop& loop : shape.loops()) outline += loop.size();
-  const double points = static_cast<double>(path.size()) * static_cast<double>(outline);
-  if (points > kMostPoints) return too_many_points(kName, static_cast<double>(path.size()), points);
+  for (const Shape2D::Loop& loop : loops) outline += loop.size();
+  const double points = rings * static_cast<double>(outline);
+  if (points > kMostPoints) return too_many_points(kName, rings, points);
   std::vector<Frame> frames;
   for (size_t i = 0; i < pieces; ++i) {
     const glm::dvec3 forward = direction_of(path, i);
@@ -291,7 +311,7 @@ MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
     }
     frames.push_back(carried(frames.back(), forward));
   }
-  return Sweeper(shape, options, std::move(path), std::move(frames)).build();
+  return Sweeper(shape, std::move(loops), options, std::move(path), std::move(frames)).build();
 }
 
 }  // namespace csgrun

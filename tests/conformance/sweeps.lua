@@ -15,7 +15,10 @@ assert(frame:genus() == 1)
 assert(s:sweep({{0, 0, 0}, {20, 0, 0}, {20, 10, 0}, {0, 10, 0}}, {closed = true, twist = 360}):genus() == 1)
 local slat = square(6, 1)
 near(slat:sweep({{0, 0, 0}, {0, 0, 10}}, {up = {1, 0, 0}}):size()[2], 6)
-near(s:sweep({{0, 0, 0}, {0, 0, 10}}, {twist = 90, fn = 80}):volume(), s:linear_extrude(10, {twist = -90, slices = 20, segments = 0}):volume())
+for _, o in ipairs{{twist = 90}, {twist = 90, fn = 80}, {twist = -200, fn = 30}} do
+  local ring = square(4, true) - square(2, true):translate(0.3, 0)
+  near(ring:sweep({{0, 0, 0}, {0, 0, 10}}, o):volume(), ring:linear_extrude(10, {twist = -o.twist, fn = o.fn}):volume())
+end
 assert((square(1) - square(1)):sweep{{0, 0, 0}, {0, 0, 1}}:is_empty())
 
 near(loft({square(10, true), square(4, true)}, {0, 6}):volume(), (100 + 16 + 40) * 2)

@@ -22,8 +22,8 @@ struct SweepOptions {
   /// Where the outline's Y points to, as far as it is across the path there, at its start; Z, or Y
   /// where the path starts along Z.
   std::optional<glm::dvec3> up = std::nullopt;
-  /// With a twist, pieces are divided so that none turns by more than a facet of a circle through
-  /// the farthest point of the outline.
+  /// With a twist, the path and long edges of the outline are divided as finely as linear_extrude
+  /// divides its height and its outline.
   Facets facets = {};
 };
 
