@@ -1,6 +1,8 @@
 // OBJ with its material file: vertices are numbered from 1 through the whole file.
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string>
 
 #include "export/encoders.h"
 #include "export/palette.h"
@@ -10,12 +12,15 @@
 namespace csgrun {
 namespace {
 
-/// "case/lid" is the object "case/lid" in the groups "case" and "lid".
-void append_names(std::string& text, const std::string& name) {
-  text += "o " + one_word(name) + '\n';
-  const size_t slash = name.find('/');
+/// "case/lid" is the object "case/lid" in the groups "case" and "lid". Names that differ only in
+/// what a word cannot have get numbers.
+void append_names(std::string& text, const std::string& name, std::set<std::string>& taken) {
+  std::string word = one_word(name);
+  for (int i = 2; !taken.insert(word).second; ++i) word = one_word(name) + "_" + std::to_string(i);
+  text += "o " + word + '\n';
+  const size_t slash = word.find('/');
   if (slash == std::string::npos) return;
-  std::string groups = one_word(name);
+  std::string groups = word;
   std::replace(groups.begin(), groups.end(), '/', ' ');
   text += "g " + groups + '\n';
 }
@@ -89,11 +94,12 @@ Result<ObjFiles> encode_obj(const Parts& parts, const std::string& mtl_name, Mes
   files.obj = "# csgrun " CSGRUN_VERSION ", millimetres, Z up\n";
   if (!mtl_name.empty()) files.obj += "mtllib " + one_line(mtl_name) + '\n';
   uint64_t first_vertex = 1;
+  std::set<std::string> taken;
   for (const Part& part : parts) {
     const Solid& solid = *part.solid;
     Result<RoundedMesh> mesh = maker.make(part, part.placement, Precision::kDouble, true);
     if (!mesh) return mesh.error();
-    append_names(files.obj, part.name);
+    append_names(files.obj, part.name, taken);
     append_vertices(files.obj, *mesh);
     append_faces(files.obj, solid, *mesh, palette.add(solid), mtl_name.empty() ? nullptr : &palette,
                  first_vertex);

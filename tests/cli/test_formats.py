@@ -221,6 +221,15 @@ class ReadBack(Case):
             self.assertEqual({p["name"]: p["volume"] for p in again.json()["parts"]}, VOLUMES)
             self.assertEqual(self.read_glb("again.glb")["materials"], self.read_glb("direct.glb")["materials"])
 
+    def test_obj_names_each_part_once(self):
+        self.write("b.lua", """return {["g_x"] = cube(1), ["g x"] = cube(2):right(9), ["a/b c"] = cube(1):right(20),
+                                        ["a/b_c"] = cube(1):right(30)}""")
+        self.expect(self.run_csgrun("b.lua", "-o", "b.obj"), 0)
+        with open(self.path("b.obj")) as file:
+            lines = file.read().split("\n")
+        self.assertEqual([line for line in lines if line.startswith(("o ", "g "))],
+                         ["o a/b_c", "g a b_c", "o a/b_c_2", "g a b_c_2", "o g_x", "o g_x_2"])
+
     def test_obj_with_its_materials(self):
         self.expect(self.run_csgrun("model.lua", "-o", "a.obj"), 0)
         self.write("b.lua", "return import('a.obj')")
