@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <csgrun/primitives/csg_file.h>
@@ -65,6 +66,7 @@ class CsgBuilder {
                                   "() of line " + std::to_string(stack_.back().call.line));
       return error;
     }
+    if (root_) stack_.back().children.assign(1, *std::move(root_));
     Result<Item> all = combine(BooleanOp::kUnion, stack_.back());
     if (!all) return all.error();
     CsgModel model;
@@ -96,6 +98,7 @@ class CsgBuilder {
       error.where = where(frame);
       return error;
     }
+    if (frame.call.root && !root_) root_ = *item;
     stack_.back().children.push_back(*std::move(item));
     return std::monostate();
   }
@@ -569,6 +572,7 @@ class CsgBuilder {
   const CsgEnvironment& environment_;
   std::unique_ptr<Evaluator> own_evaluator_;
   std::vector<CsgFrame> stack_;
+  std::optional<Item> root_;  ///< what is marked with !, the first of it
   std::vector<std::string> warnings_;
 };
 

@@ -1,6 +1,8 @@
 #include "primitives/files/csg_parser.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <limits>
 
 #include "primitives/files/formats.h"
@@ -50,10 +52,28 @@ void CsgParser::skip_blanks() {
     const char c = text_[at_];
     if (c == '\n') {
       ++line_;
-    } else if (c != ' ' && c != '\t' && c != '\r') {
+    } else if (c == '/' && !skip_comment()) {
+      return;
+    } else if (c != '/' && c != ' ' && c != '\t' && c != '\r') {
       return;
     }
   }
+}
+
+/// Goes to the last character of a comment, or to where the file ends. OpenSCAD writes none, people
+/// do.
+bool CsgParser::skip_comment() {
+  const char next = at_ + 1 < text_.size() ? text_[at_ + 1] : '\0';
+  if (next != '/' && next != '*') return false;
+  if (next == '/') {
+    at_ = std::min(text_.find('\n', at_), text_.size()) - 1;  // the line ends after it
+    return true;
+  }
+  const size_t end = std::min(text_.find("*/", at_ + 2), text_.size());
+  line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
+                                       text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+  at_ = std::min(end + 1, text_.size() - 1);
+  return true;
 }
 
 bool CsgParser::accept(char c) {
@@ -76,8 +96,10 @@ Result<CsgParser::Event> CsgParser::next() {
   if (accept('}')) return Event::kClose;
   call_ = CsgCall();
   for (;;) {
-    if (accept('%')) {
+    if (accept('%') || accept('*')) {
       call_.background = true;
+    } else if (accept('!')) {
+      call_.root = true;
     } else if (!accept('#')) {
       break;
     }

@@ -24,7 +24,8 @@ struct CsgCall {
   std::string name;
   std::vector<std::pair<std::string, CsgValue>> arguments;  ///< an empty name: positional
   int line = 0;
-  bool background = false;  ///< marked with %
+  bool background = false;  ///< marked with % or *: no part of the model
+  bool root = false;        ///< marked with !: all of the model
 
   /// The argument of that name; null when there is none or it is undef.
   [[nodiscard]] const CsgValue* find(std::string_view key) const;
@@ -53,6 +54,7 @@ class CsgParser {
  private:
   [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
   void skip_blanks();
+  bool skip_comment();
   bool accept(char c);
   Error unexpected(const std::string& wanted) const;
   std::string_view word();

@@ -121,6 +121,21 @@ TEST(CsgFile, BackgroundIsNoOperandAndHighlightIsNothing) {
   EXPECT_EQ(sketch(parse("%group(){text(text = \"a\"b) {\", size = 10);}" + kCube).solid), "cube");
 }
 
+/// OpenSCAD writes neither, people do.
+TEST(CsgFile, CommentsAndModifiersOfSources) {
+  EXPECT_EQ(
+      sketch(parse("difference() {\n*\t" + kSphere + kCube + "*%" + kCube + kSphere + "}").solid),
+      "D(cube sphere)");
+  EXPECT_EQ(sketch(parse("// one\n" + kCube + "//").solid), "cube");
+  EXPECT_EQ(sketch(parse("/* " + kSphere + "*/" + kCube + "/**/ // " + kSphere).solid), "cube");
+  EXPECT_EQ(sketch(parse(kCube + "/* " + kSphere).solid), "cube");
+  EXPECT_EQ(sketch(parse(kSphere + "difference() {" + kSphere + "!" + kCube + "}").solid), "cube");
+  EXPECT_EQ(sketch(parse("!" + kCube + "!" + kSphere).solid), "cube");
+  EXPECT_EQ(sketch(parse("%!" + kSphere + kCube).solid), "cube");
+  EXPECT_EQ(error("/* 1\n2\n*/ // 3\n\nnone();"), "m.csg:5: unknown node none()");
+  EXPECT_EQ(error("cube(size = 1)/;"), "m.csg:1: expected \";\" or \"{\", got \"/\"");
+}
+
 TEST(CsgFile, FirstChildThatIsNotEmptyDecidesTheDimension) {
   CsgModel model = parse(kNothing + kCube + kSquare);
   EXPECT_EQ(sketch(model.solid), "cube");
@@ -460,7 +475,7 @@ TEST(CsgFile, ErrorsHaveTheirLine) {
             "m.csg:1: expected a value, got \"wide\"; a tree has calls and values only: openscad "
             "in.scad -o out.csg makes one of a source");
   EXPECT_EQ(error("cube() + 1"), "m.csg:1: expected \";\" or \"{\", got \"+\"");
-  EXPECT_EQ(error("!cube();"), "m.csg:1: expected a node, got \"!\"");
+  EXPECT_EQ(error("?cube();"), "m.csg:1: expected a node, got \"?\"");
   EXPECT_EQ(error("cube(size = " + std::string(10000, '[')),
             "m.csg:1: lists are nested too deeply");
   EXPECT_EQ(error("difference"),
