@@ -37,6 +37,7 @@ template <const FunctionSpec& Spec, NodePtr (*OfSolids)(std::vector<NodePtr>, So
 int combine(lua_State* L) {
   Operands operands = read_operands(L, Spec);
   if (operands.has_shapes) {
+    operands.warn_of_colours(L, Spec.name);
     push_shape(L, value_or_fail(Spec, OfShapes(operands.shapes)), operands.appearance);
   } else if (operands.has_solids) {
     push_solid(L, OfSolids(std::move(operands.solids), session_of(L).source_ref(L)));

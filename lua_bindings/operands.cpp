@@ -16,7 +16,11 @@ void Operands::add(lua_State* L, int index, const std::string& function) {
     if (!solid->marks.absent) solids.push_back(solid->node);
   } else if (const ShapeValue* shape = to_shape(L, index)) {
     has_shapes = true;
-    if (shapes.empty()) appearance = shape->appearance;
+    if (shapes.empty()) {
+      appearance = shape->appearance;
+    } else if (shape->appearance && shape->appearance != appearance) {
+      drops_colour = true;
+    }
     if (!shape->marks.absent) shapes.push_back(shape->shape);
   } else {
     throw ScriptError(fmt::format("{}: an operand must be a solid or a shape, got {}", function,
@@ -38,6 +42,13 @@ void Operands::paint_tools_as_body() {
     solids[i] = Node::painted(body, solids[i], solids[i]->where());
 }
 
+void Operands::warn_of_colours(lua_State* L, const std::string& function) const {
+  if (!drops_colour) return;
+  session_of(L).warn(L, function +
+                            ": a 2D shape has one colour, that of the first; to keep the colours "
+                            "of all, combine what is extruded from them");
+}
+
 void Operands::push_result(lua_State* L, BooleanOp op, const std::string& function) const {
   if (!has_shapes) {
     push_solid(L, Node::boolean(op, solids, session_of(L).source_ref(L)));
@@ -46,6 +57,7 @@ void Operands::push_result(lua_State* L, BooleanOp op, const std::string& functi
   } else {
     auto shape = Shape2D::boolean(op, shapes);
     if (!shape) throw ScriptError(function + ": " + shape.error().message);
+    if (op != BooleanOp::kDifference) warn_of_colours(L, function);
     push_shape(L, *std::move(shape), appearance);
   }
   marks_of(L, -1)->name = name;

@@ -21,11 +21,14 @@ struct Operands {
   std::optional<Appearance> appearance;         ///< of the first shape
   std::string name;                             ///< of the first operand
   bool has_solids = false, has_shapes = false;  ///< skipped ones count here, and are not listed
+  bool drops_colour = false;                    ///< a later shape has another colour than the first
 
   /// Takes the value at `index`. Throws ScriptError that begins with `function`.
   void add(lua_State* L, int index, const std::string& function);
   /// Cut faces will have the appearance of what is cut, instead of the tools'.
   void paint_tools_as_body();
+  /// Warns if the one shape that comes of them has not the colours of all.
+  void warn_of_colours(lua_State* L, const std::string& function) const;
   /// The result has the name of the first operand.
   void push_result(lua_State* L, BooleanOp op, const std::string& function) const;
 };

@@ -113,6 +113,20 @@ class Geometry(Case):
             self.expect(outcome, 3, "model.lua:2: the result is empty\nwarning: model.lua:2: 'cube' encloses no volume")
             self.assertEqual(outcome.out, "")
 
+    def test_colours_that_a_shape_cannot_keep_are_a_warning(self):
+        """A 2D shape has one colour; solids of several keep them all."""
+        for text, function in (("red + blue", "'+'"), ("red:union(plain, blue)", "union"), ("plain & red", "'&'"),
+                               ("hull(red, blue)", "hull"), ("minkowski{red, blue}", "minkowski"),
+                               ("red + plain", ""), ("red + red:right(9)", ""), ("red - blue", ""), ("blue - red - plain", ""),
+                               ("red:linear_extrude(1) + blue:linear_extrude(2)", "")):
+            outcome = self.run_script(f"""local plain = square(4)
+                local red, blue = plain:color("red"), plain:color("blue"):right(2)
+                return {text}""")
+            self.expect(outcome, 0)
+            expected = [f"model.lua:3: {function}: a 2D shape has one colour, that of the first; to keep the colours of all, "
+                        "combine what is extruded from them"] if function else []
+            self.assertEqual(outcome.json()["warnings"], expected, text)
+
     def test_an_empty_part_is_a_warning(self):
         outcome = self.run_script("return {a = cube(1), b = cube(1) - cube(2)}")
         self.expect(outcome, 0)
