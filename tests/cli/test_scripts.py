@@ -127,6 +127,16 @@ class Geometry(Case):
                         "combine what is extruded from them"] if function else []
             self.assertEqual(outcome.json()["warnings"], expected, text)
 
+    def test_colours_that_a_hull_cannot_keep_are_a_warning(self):
+        for text, is_warned in (("hull(red, blue)", True), ("minkowski{plain, blue}", True), ("hull(red, plain, red)", False),
+                                ("minkowski(red, sphere(1))", False), ("red + blue", False), ("hull(red - blue)", False)):
+            outcome = self.run_script(f"""local plain = cube(4)
+                local red, blue = plain:color("red"), plain:color("blue"):up(2)
+                return {text}""")
+            self.expect(outcome, 0)
+            expected = [f"model.lua:3: {text.split('(')[0].split('{')[0]}: the result has one colour, that of the first"]
+            self.assertEqual(outcome.json()["warnings"], expected if is_warned else [], text)
+
     def test_an_empty_part_is_a_warning(self):
         outcome = self.run_script("return {a = cube(1), b = cube(1) - cube(2)}")
         self.expect(outcome, 0)
