@@ -137,6 +137,13 @@ class Geometry(Case):
             expected = [f"model.lua:3: {text.split('(')[0].split('{')[0]}: the result has one colour, that of the first"]
             self.assertEqual(outcome.json()["warnings"], expected if is_warned else [], text)
 
+    def test_libraries_say_what_they_want(self):
+        for call, message in (("csg.gears').meshed(5, 9, 8, {module = 1})", "gears.meshed: wants a solid, got 5"),
+                              ("csg.gears').meshed(cube(1), cube(1), 8, {module = 1})", "gears.meshed: wants two numbers of teeth"),
+                              ("csg.threads').bolt{size = 'M8', length = 30, threaded = 50}",
+                               "threads.bolt: option 'threaded' must not be greater than the length, 30, got 50")):
+            self.expect(self.run_script("return require('" + call), 1, "model.lua:1: " + message)
+
     def test_an_empty_part_is_a_warning(self):
         outcome = self.run_script("return {a = cube(1), b = cube(1) - cube(2)}")
         self.expect(outcome, 0)

@@ -140,7 +140,8 @@ end
 
 --- A ring gear: the teeth point inwards. Options: those of the teeth, and width, rim [3 modules:
 --- between the roots of the teeth and the outside], helix, herringbone. A gear meshes with it that
---- has the same helix angle and hand.
+--- has the same helix angle and hand, and fewer teeth by some ten or more: with nearly as many, tips
+--- of teeth meet beside the place where they mesh.
 ---@param given table
 ---@return Solid
 function gears.ring(given)
@@ -215,6 +216,7 @@ function gears.meshed(gear, first, second, given)
   local o = options("gears.meshed", given, {
     module = kTeeth.module, internal = {false}, at = {0},
   })
+  if type(gear) ~= "userdata" then error("gears.meshed: wants a solid, got " .. tostring(gear), 2) end
   local distance = distance_of("gears.meshed", first, second, o)
   -- Along the line of the axes, the first has its phase at o.at; there the second must have a gap.
   local phase = o.at * first / second

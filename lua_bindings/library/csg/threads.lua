@@ -156,7 +156,10 @@ function threads.bolt(given)
     left = kThread.left, clearance = kThread.clearance, facets = kThread.facets,
   })
   local size = kSizes[o.size]
-  local threaded = math.min(o.threaded or o.length, o.length)
+  local threaded = o.threaded or o.length
+  if threaded > o.length then
+    error("threads.bolt: option 'threaded' must not be greater than the length, " .. o.length .. ", got " .. threaded, 2)
+  end
   local plain = o.length - threaded
   o.profile, o.starts, o.clearance = "metric", 1, -o.clearance
   local rod, inner, outer = thread_of("threads.bolt", o, size.d, size.pitch, threaded)
