@@ -1,6 +1,8 @@
 // Solids cut by planes of any direction: volumes that are known, and parts that fit one another.
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <vector>
+#include <memory>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -23,8 +25,9 @@ NodePtr cube(double side) {
 
 /// What is in front of the plane, and behind it.
 std::array<SolidPtr, 2> split(const NodePtr& solid, const glm::dvec3& normal,
-                              const glm::dvec3& point) {
-  Evaluator evaluator{EvaluateOptions()};
+                              const glm::dvec3& point,
+                              const EvaluateOptions& options = EvaluateOptions()) {
+  Evaluator evaluator{options};
   const auto plane = make_cut_plane(normal, point);
   EXPECT_TRUE(plane);
   const auto front = half_space(evaluator, solid, *plane, {});
@@ -79,6 +82,23 @@ TEST(HalfSpace, OfAnyDirection) {
     }
     EXPECT_TRUE(front->measures.closed);
     EXPECT_TRUE(back->measures.closed);
+  }
+}
+
+/// On a grid that has not the points that the plane would need the cut is flat all the same.
+TEST(HalfSpace, OnACoarseGrid) {
+  EvaluateOptions options;
+  options.grid = *GridStep::parse("0.003");
+  for (const glm::dvec3& normal :
+       {glm::dvec3(1, 0, 1), glm::dvec3(1, 2, 3), glm::dvec3(-3, 1, 7), glm::dvec3(0.3, 0.7, 0)}) {
+    for (const double side : {0.06, 0.4, 10.0, 1000.0}) {
+      for (const SolidPtr& part : split(cube(side), normal, glm::dvec3(side / 3), options)) {
+        const auto slanting =
+            std::count_if(part->face_normals.begin(), part->face_normals.end(),
+                          [](const auto& n) { return (n.x != 0) + (n.y != 0) + (n.z != 0) > 1; });
+        EXPECT_EQ(slanting, 1) << normal.x << " " << normal.y << " " << normal.z << ", " << side;
+      }
+    }
   }
 }
 

@@ -24,11 +24,12 @@ struct CutPlane {
 Result<CutPlane> make_cut_plane(const glm::dvec3& normal, double offset);
 Result<CutPlane> make_cut_plane(const glm::dvec3& normal, const glm::dvec3& point);
 
-/// A box whose face lies in the plane, large enough to hold all of `solid` that is in front of it;
-/// empty if that is nothing; made at `where`. What is cut with it keeps its exact planes. The face
-/// lies in the plane exactly if the normal is a multiple of small whole numbers and the point is
-/// one of the grid; else corners of the face are rounded to the grid. Errors: those of the
-/// evaluation.
+/// A box or a prism whose face lies in the plane, large enough to hold all of `solid` that is in
+/// front of it; empty if that is nothing; made at `where`. What is cut with it keeps its exact
+/// planes. The face lies in the plane exactly if the normal is a multiple of small whole numbers
+/// and the point is one of the grid (whose step is not larger than a part of 1 mm that such a
+/// plane needs for so small a solid); else its corners, or its offset, are rounded to the grid.
+/// Errors: those of the evaluation.
 Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const CutPlane& plane,
                            const SourceRef& where);
 
