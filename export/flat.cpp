@@ -156,9 +156,7 @@ std::vector<std::string> layer_names(const std::vector<FlatPart>& parts) {
       if (std::string("<>/\\\":;?*|=,`").find(c) != std::string::npos) c = '_';
     }
     if (name.empty()) name = "part";
-    std::string unique = name;
-    for (int i = 2; !taken.insert(unique).second; ++i) unique = name + "_" + std::to_string(i);
-    names.push_back(unique);
+    names.push_back(distinct(name, taken));
   }
   return names;
 }

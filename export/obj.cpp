@@ -15,8 +15,7 @@ namespace {
 /// "case/lid" is the object "case/lid" in the groups "case" and "lid". Names that differ only in
 /// what a word cannot have get numbers.
 void append_names(std::string& text, const std::string& name, std::set<std::string>& taken) {
-  std::string word = one_word(name);
-  for (int i = 2; !taken.insert(word).second; ++i) word = one_word(name) + "_" + std::to_string(i);
+  const std::string word = distinct(one_word(name), taken);
   text += "o " + word + '\n';
   const size_t slash = word.find('/');
   if (slash == std::string::npos) return;

@@ -54,6 +54,12 @@ std::string one_word(std::string_view name) { return with_controls_replaced(name
 
 std::string one_line(std::string_view text) { return with_controls_replaced(text, ' ', false); }
 
+std::string distinct(const std::string& name, std::set<std::string>& taken) {
+  std::string unique = name;
+  for (int i = 2; !taken.insert(unique).second; ++i) unique = name + "_" + std::to_string(i);
+  return unique;
+}
+
 std::string source_text(const Solid& solid, uint32_t source) {
   if (source >= solid.sources.size()) return {};
   const Solid::Source& s = solid.sources[source];

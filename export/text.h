@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -28,6 +29,9 @@ std::string valid_utf8(std::string_view name);
 
 /// The name as one word of a line: white space and control characters become '_'.
 std::string one_word(std::string_view name);
+
+/// The name, with _2, _3 and so on behind it if it is taken already; it is taken then.
+std::string distinct(const std::string& name, std::set<std::string>& taken);
 
 /// The leaf with this number in the solid's sources, on one line: "cube, model.lua:3"; empty if
 /// there is none.

@@ -1,7 +1,5 @@
 // What is made of whole solids or shapes: hull, minkowski, resize.
-#include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,7 +9,6 @@
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
 #include "lua_bindings/operands.h"
-#include "lua_bindings/repaint.h"
 #include "lua_bindings/session.h"
 
 namespace csgrun {
@@ -35,27 +32,14 @@ constexpr FunctionSpec kMinkowski{
     "All sums of a point of each: the first, swept by the others. Empty ones count for nothing.",
     kOperandOptions, false, "minkowski{cube{20, 20, 5}, sphere(1)}"};
 
-/// No face of such a solid is one of an operand: all have the colour of the first.
-void warn_of_colours(lua_State* L, const std::vector<NodePtr>& solids, const char* function) {
-  if (solids.empty()) return;
-  const Appearance kept = first_appearance(solids[0]);
-  const auto is_lost = [&](const NodePtr& solid) {
-    const Appearance own = first_appearance(solid);
-    return !own.is_default && own != kept;
-  };
-  if (std::none_of(solids.begin(), solids.end(), is_lost)) return;
-  session_of(L).warn(L, std::string(function) + ": the result has one colour, that of the first");
-}
-
 template <const FunctionSpec& Spec, NodePtr (*OfSolids)(std::vector<NodePtr>, SourceRef),
           Result<Shape2D> (*OfShapes)(const std::vector<Shape2D>&)>
 int combine(lua_State* L) {
   Operands operands = read_operands(L, Spec);
+  operands.warn_of_colours(L, Spec.name);
   if (operands.has_shapes) {
-    operands.warn_of_colours(L, Spec.name);
     push_shape(L, value_or_fail(Spec, OfShapes(operands.shapes)), operands.appearance);
   } else if (operands.has_solids) {
-    warn_of_colours(L, operands.solids, Spec.name);
     push_solid(L, OfSolids(std::move(operands.solids), session_of(L).source_ref(L)));
   } else {
     fail_in(Spec, "needs a solid or a shape");

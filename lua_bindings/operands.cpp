@@ -1,5 +1,7 @@
 #include "lua_bindings/operands.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "lua_bindings/api.h"
@@ -43,10 +45,19 @@ void Operands::paint_tools_as_body() {
 }
 
 void Operands::warn_of_colours(lua_State* L, const std::string& function) const {
-  if (!drops_colour) return;
-  session_of(L).warn(L, function +
-                            ": a 2D shape has one colour, that of the first; to keep the colours "
-                            "of all, combine what is extruded from them");
+  if (drops_colour) {
+    session_of(L).warn(L, function +
+                              ": a 2D shape has one colour, that of the first; to keep the colours "
+                              "of all, combine what is extruded from them");
+  }
+  if (solids.empty()) return;
+  const Appearance kept = first_appearance(solids[0]);
+  const auto is_lost = [&](const NodePtr& solid) {
+    const Appearance own = first_appearance(solid);
+    return !own.is_default && own != kept;
+  };
+  if (std::none_of(solids.begin(), solids.end(), is_lost)) return;
+  session_of(L).warn(L, function + ": the result has one colour, that of the first");
 }
 
 void Operands::push_result(lua_State* L, BooleanOp op, const std::string& function) const {

@@ -27,7 +27,8 @@ struct Operands {
   void add(lua_State* L, int index, const std::string& function);
   /// Cut faces will have the appearance of what is cut, instead of the tools'.
   void paint_tools_as_body();
-  /// Warns if the one shape that comes of them has not the colours of all.
+  /// Warns if what comes of them has one colour, that of the first, and others have other ones: a
+  /// 2D shape, a hull or a sum.
   void warn_of_colours(lua_State* L, const std::string& function) const;
   /// The result has the name of the first operand.
   void push_result(lua_State* L, BooleanOp op, const std::string& function) const;

@@ -8,13 +8,6 @@
 #include "engine/exact/grid_meeting.h"
 
 namespace csgrun {
-namespace {
-
-IVec3 on_grid(const std::array<double, 3>& p) {
-  return {static_cast<int64_t>(p[0]), static_cast<int64_t>(p[1]), static_cast<int64_t>(p[2])};
-}
-
-}  // namespace
 
 CellGeometry::CellGeometry(const PlaneTable& planes, const Job* job) : planes_(&planes), job_(job) {
   if (job) {
@@ -57,7 +50,7 @@ Point CellGeometry::value(uint32_t p) const {
   const StoredPoint& s = points_[p];
   if (s.exact != kNone) return exact_[s.exact];
   if (is_found_on_grid(p)) {
-    const auto at = on_grid(s.rounded);
+    const IVec3 at = s.on_grid();
     return grid_point(at[0], at[1], at[2]);
   }
   if (s.vertex != kNone) return job_->exact(s.vertex);
@@ -119,7 +112,7 @@ int CellGeometry::exact_side_of(uint32_t plane, uint32_t p) {
     return tier;
   };
   if (points_[p].is_on_grid) {
-    const auto at = on_grid(points_[p].rounded);
+    const IVec3 at = points_[p].on_grid();
     const auto magnitudes = static_cast<uint64_t>(std::abs(at[0])) |
                             static_cast<uint64_t>(std::abs(at[1])) |
                             static_cast<uint64_t>(std::abs(at[2]));

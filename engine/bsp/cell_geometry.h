@@ -52,6 +52,12 @@ class CellGeometry {
     uint32_t exact;                  ///< index into exact_, or kNone until asked for
     bool is_on_grid;                 ///< known to be: then `rounded` is exact
     bool is_looked_at = false;       ///< whether it is on the grid, by find_on_grid
+
+    /// REQUIRES: it is there.
+    [[nodiscard]] IVec3 on_grid() const {
+      return {static_cast<int64_t>(rounded[0]), static_cast<int64_t>(rounded[1]),
+              static_cast<int64_t>(rounded[2])};
+    }
   };
 
   /// The point of a vertex of the job.

@@ -234,16 +234,6 @@ class FaceCutter {
       cut_all(&Part::again);
     }
     CutFaces result;
-    size_t loops = 0, corners = 0, facts = 0;
-    for (const Part& part : parts_) {
-      loops += part.loops.loops.size();
-      corners += part.loops.corner_point.size();
-      facts += part.loops.facts.size();
-    }
-    result.loops.loops.reserve(loops);
-    result.loops.corner_point.reserve(corners);
-    result.loops.corner_plane.reserve(corners);
-    result.loops.facts.reserve(facts);
     for (const Part& part : parts_) {
       add(part, result);
       add_signs(stats, part.counters);

@@ -48,8 +48,8 @@ class RegionBuilder {
   /// False when the edges do not bound a region (some net multiplicity is not 0 or 1): the input
   /// was not a set of disjoint pieces.
   bool build(PlaneId support, const std::vector<DirectedEdge>& edges, RegionLoops& loops);
-  /// The same for edges of which none overlaps another: one piece, or one region of before. An edge
-  /// may be there in both directions: a slit.
+  /// The same for edges of which none overlaps another: one piece, one region of before, or what is
+  /// left of pieces that were joined. An edge may be there in both directions: a slit.
   bool build_single(PlaneId support, const std::vector<DirectedEdge>& edges, RegionLoops& loops);
 
  private:

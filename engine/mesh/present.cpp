@@ -242,10 +242,7 @@ class Presenter {
     std::array<float, 3> single;
     bool whole = geometry_.is_found_on_grid(p);
     if (whole) {
-      const std::array<double, 3>& at = geometry_.point(p).rounded;
-      to_mm.position(IVec3{static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]),
-                           static_cast<int64_t>(at[2])},
-                     mm, single);
+      to_mm.position(geometry_.point(p).on_grid(), mm, single);
     } else {
       const Point exact = geometry_.value(p);
       to_mm.position(exact, mm, single);

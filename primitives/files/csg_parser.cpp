@@ -52,9 +52,9 @@ void CsgParser::skip_blanks() {
     const char c = text_[at_];
     if (c == '\n') {
       ++line_;
-    } else if (c == '/' && !skip_comment()) {
-      return;
-    } else if (c != '/' && c != ' ' && c != '\t' && c != '\r') {
+    } else if (c == '/') {
+      if (!skip_comment()) return;
+    } else if (c != ' ' && c != '\t' && c != '\r') {
       return;
     }
   }

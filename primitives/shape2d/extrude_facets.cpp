@@ -170,6 +170,12 @@ double slices_of(const Shape2D& shape, const LinearExtrudeOptions& options, doub
                                    : conical_helix_length(radius, options, height));
 }
 
+bool is_cut_from_first(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                       const glm::dvec3& d, bool of_equal) {
+  const double to_c = glm::dot(c - a, c - a), to_d = glm::dot(d - b, d - b);
+  return std::fabs(to_c - to_d) > 1e-5 * std::max(to_c, to_d) ? to_c < to_d : of_equal;
+}
+
 std::vector<Shape2D::Loop> split_outlines(const Shape2D& shape, const LinearExtrudeOptions& options,
                                           int slices) {
   const bool bends = options.twist != 0 || options.scale.x != options.scale.y;

@@ -13,6 +13,11 @@ double slices_of(const Shape2D& shape, const LinearExtrudeOptions& options, doub
 std::vector<Shape2D::Loop> split_outlines(const Shape2D& shape, const LinearExtrudeOptions& options,
                                           int slices);
 
+/// Whether the quadrilateral a b c d of a wall is cut from a to c: along the shorter diagonal, or,
+/// of two that are equal but for rounding, as `of_equal` says.
+bool is_cut_from_first(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                       const glm::dvec3& d, bool of_equal);
+
 /// Where the points of slice i of n go: turned first, then scaled. The sines are those of the
 /// slice, not of each of its points.
 class Slice {

@@ -183,10 +183,8 @@ class LinearExtruder {
   /// ones the one that the twist leans to.
   [[nodiscard]] bool cut_from_a(uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool hole) const {
     const auto& points = mesh_.points;
-    const glm::dvec3 ac = points[c] - points[a], bd = points[d] - points[b];
-    const double to_c = glm::dot(ac, ac), to_d = glm::dot(bd, bd);
-    if (std::fabs(to_c - to_d) > 1e-5 * std::max(to_c, to_d)) return to_c < to_d;
-    return ((options_.twist > 0) != hole) != top_collapses();
+    const bool leans_to_c = ((options_.twist > 0) != hole) != top_collapses();
+    return is_cut_from_first(points[a], points[b], points[c], points[d], leans_to_c);
   }
 
   const LinearExtrudeOptions& options_;

@@ -201,11 +201,9 @@ class Sweeper {
     }
     // Rounded quadrilaterals are planar only along the axes: triangles are what they say.
     const auto& points = mesh_.points;
-    const glm::dvec3 ac = points[c] - points[a], bd = points[d] - points[b];
     // Of two equal diagonals the one that the twist leans to, as linear_extrude has it.
-    const double to_c = glm::dot(ac, ac), to_d = glm::dot(bd, bd);
-    const bool is_one_shorter = std::fabs(to_c - to_d) > 1e-5 * std::max(to_c, to_d);
-    const bool from_a = is_one_shorter ? to_c < to_d : (options_.twist < 0) != hole;
+    const bool leans_to_c = (options_.twist < 0) != hole;
+    const bool from_a = is_cut_from_first(points[a], points[b], points[c], points[d], leans_to_c);
     mesh_.add_face(std::array<uint32_t, 3>{a, b, from_a ? c : d}, surface);
     mesh_.add_face(std::array<uint32_t, 3>{c, d, from_a ? a : b}, surface);
   }
