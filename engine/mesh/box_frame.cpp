@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <ranges>
 
 #include "engine/base/vec3d.h"
 
@@ -114,6 +114,58 @@ Vec along(const BoxFrame& frame, const Vec& p) {
   return {dot(frame[0], p), dot(frame[1], p), dot(frame[2], p)};
 }
 
+using Bound = std::array<float, 3>;
+
+/// The box of each of the faces, from lower and upper bounds of vertices.
+template <class Faces, class Bounds>
+std::vector<FloatBox> boxes_of(const LeafGeometry& leaf, const Faces& faces, Bounds bounds) {
+  std::vector<FloatBox> boxes;
+  boxes.reserve(std::size(faces));
+  for (const uint32_t f : faces) {
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    FloatBox box = bounds(leaf.corners[begin]);
+    for (uint32_t c = begin + 1; c < end; ++c) {
+      const FloatBox at = bounds(leaf.corners[c]);
+      for (size_t k = 0; k < 3; ++k) {
+        box.lo[k] = std::min(box.lo[k], at.lo[k]);
+        box.hi[k] = std::max(box.hi[k], at.hi[k]);
+      }
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+template <class Faces>
+std::vector<FloatBox> boxes_of(const LeafGeometry& leaf, const Faces& faces,
+                               const std::optional<BoxFrame>& frame) {
+  if (!frame) {
+    return boxes_of(leaf, faces, [&](uint32_t v) {
+      const IVec3& p = leaf.vertices[v];
+      const Bound at{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+      return FloatBox{at, at};
+    });
+  }
+  double reach = 0;
+  for (const IVec3& p : leaf.vertices) {
+    for (size_t k = 0; k < 3; ++k) reach = std::max(reach, std::fabs(static_cast<double>(p[k])));
+  }
+  // A coordinate along a direction is off by less than 2^-49 of the largest one. Rounding to float
+  // is monotone.
+  const double slack = 0x1p-47 * reach;
+  std::vector<FloatBox> bounds(leaf.vertices.size());
+  for (size_t v = 0; v < bounds.size(); ++v) {
+    const IVec3& at = leaf.vertices[v];
+    const Vec p = along(*frame, {static_cast<double>(at[0]), static_cast<double>(at[1]),
+                                 static_cast<double>(at[2])});
+    for (size_t k = 0; k < 3; ++k) {
+      bounds[v].lo[k] = static_cast<float>(p[k] - slack);
+      bounds[v].hi[k] = static_cast<float>(p[k] + slack);
+    }
+  }
+  return boxes_of(leaf, faces, [&](uint32_t v) { return bounds[v]; });
+}
+
 }  // namespace
 
 std::optional<BoxFrame> find_box_frame(const LeafGeometry& leaf) {
@@ -137,46 +189,12 @@ std::optional<BoxFrame> find_box_frame(const LeafGeometry& leaf) {
 }
 
 std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, const std::optional<BoxFrame>& frame) {
-  using Bound = std::array<float, 3>;
-  std::vector<Bound> lower(leaf.vertices.size()), upper_in_frame;
-  double reach = 0;
-  for (size_t v = 0; v < lower.size(); ++v) {
-    for (size_t k = 0; k < 3; ++k) {
-      const auto p = static_cast<double>(leaf.vertices[v][k]);
-      lower[v][k] = static_cast<float>(p);
-      reach = std::max(reach, std::fabs(p));
-    }
-  }
-  if (frame) {
-    // A coordinate along a direction is off by less than 2^-49 of the largest one. Rounding to
-    // float is monotone.
-    const double slack = 0x1p-47 * reach;
-    upper_in_frame.resize(lower.size());
-    for (size_t v = 0; v < lower.size(); ++v) {
-      const IVec3& at = leaf.vertices[v];
-      const Vec p = along(*frame, {static_cast<double>(at[0]), static_cast<double>(at[1]),
-                                   static_cast<double>(at[2])});
-      for (size_t k = 0; k < 3; ++k) {
-        lower[v][k] = static_cast<float>(p[k] - slack);
-        upper_in_frame[v][k] = static_cast<float>(p[k] + slack);
-      }
-    }
-  }
-  const std::vector<Bound>& upper = frame ? upper_in_frame : lower;
-  std::vector<FloatBox> boxes(leaf.face_count());
-  for (size_t f = 0; f < boxes.size(); ++f) {
-    FloatBox& box = boxes[f];
-    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
-    box = {lower[leaf.corners[begin]], upper[leaf.corners[begin]]};
-    for (uint32_t c = begin + 1; c < end; ++c) {
-      const uint32_t v = leaf.corners[c];
-      for (size_t k = 0; k < 3; ++k) {
-        box.lo[k] = std::min(box.lo[k], lower[v][k]);
-        box.hi[k] = std::max(box.hi[k], upper[v][k]);
-      }
-    }
-  }
-  return boxes;
+  return boxes_of(leaf, std::views::iota(0u, static_cast<uint32_t>(leaf.face_count())), frame);
+}
+
+std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, std::span<const uint32_t> faces,
+                                 const std::optional<BoxFrame>& frame) {
+  return boxes_of(leaf, faces, frame);
 }
 
 }  // namespace csgrun

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/bsp/operand.h"
@@ -21,8 +23,10 @@ using BoxFrame = std::array<std::array<double, 3>, 3>;
 /// Looks at a sample of the faces: O(1).
 std::optional<BoxFrame> find_box_frame(const LeafGeometry& leaf);
 
-/// A box for each face, along the axes or those of the frame, so that the boxes of faces that have
-/// a point in common overlap. O(n).
+/// A box for each face, or each of some, along the axes or those of the frame, so that the boxes of
+/// faces that have a point in common overlap. O(n).
 std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, const std::optional<BoxFrame>& frame);
+std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, std::span<const uint32_t> faces,
+                                 const std::optional<BoxFrame>& frame);
 
 }  // namespace csgrun

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/mesh/face_normal.h"
+
 namespace csgrun {
 namespace {
 
@@ -17,8 +19,6 @@ constexpr size_t kManyCorners = 12;
 constexpr double kUlp = 0x1p-53;
 
 int sign(__int128 x) { return (x > 0) - (x < 0); }
-
-IVec3 difference(const IVec3& a, const IVec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 }  // namespace
 

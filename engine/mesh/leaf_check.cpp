@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -12,6 +13,7 @@
 #include "engine/mesh/face_pair.h"
 #include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/packed_boxes.h"
+#include "engine/mesh/single_sheets.h"
 #include "engine/mesh/triangle_pairs.h"
 #include "engine/mesh/winding.h"
 
@@ -20,11 +22,13 @@ namespace {
 
 constexpr size_t kTasks = 256;
 constexpr size_t kFewFaces = 2000;  ///< for which threads do not pay
+constexpr size_t kFewRays = 8;      ///< for which a tree does not pay
 
 using Pairs = std::vector<std::array<uint32_t, 2>>;
 
-Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree, bool is_balanced) {
-  const std::vector<uint32_t>& order = tree.order();
+/// Of the faces at the places of the tree, which `order` names.
+Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree,
+                     std::span<const uint32_t> order, bool is_balanced) {
   const FacePairs faces(leaf);
   std::optional<TrianglePairs> triangles;
   if (TrianglePairs::covers(leaf)) triangles.emplace(leaf, order, is_balanced);
@@ -95,20 +99,30 @@ std::vector<uint32_t> one_face_of_each_part(const LeafGeometry& leaf) {
 }  // namespace
 
 Pairs find_self_intersections(const LeafGeometry& leaf) {
-  return find_crossings(leaf, PackedBoxes(face_boxes(leaf, find_box_frame(leaf))), false);
+  const PackedBoxes tree(face_boxes(leaf, find_box_frame(leaf)));
+  return find_crossings(leaf, tree, tree.order(), false);
 }
 
 SurfaceCheck check_surface(const LeafGeometry& leaf) {
-  const auto frame = find_box_frame(leaf);
-  std::optional<PackedBoxes> tree(face_boxes(leaf, frame));
   SurfaceCheck result;
-  result.crossings = find_crossings(leaf, *tree, true);
+  std::optional<PackedBoxes> tree;  // of all faces along the axes, if there is one
+  if (const auto faces = faces_off_single_sheets(leaf)) {
+    const PackedBoxes some(face_boxes(leaf, *faces, find_box_frame(leaf)));
+    std::vector<uint32_t> order = some.order();
+    for (uint32_t& face : order) face = (*faces)[face];
+    result.crossings = find_crossings(leaf, some, order, true);
+  } else {
+    const auto frame = find_box_frame(leaf);
+    tree.emplace(face_boxes(leaf, frame));
+    result.crossings = find_crossings(leaf, *tree, tree->order(), true);
+    if (frame) tree.reset();
+  }
   if (!result.crossings.empty()) return result;
-  if (frame) tree.emplace(face_boxes(leaf, std::nullopt));  // rays run along an axis
   const std::vector<uint32_t> parts = one_face_of_each_part(leaf);
   result.connected = parts.size() == 1;
+  if (!tree && parts.size() > kFewRays) tree.emplace(face_boxes(leaf, std::nullopt));
   result.bounds_solid = std::all_of(parts.begin(), parts.end(), [&](uint32_t face) {
-    return winding_in_front(leaf, *tree, face) == 0;
+    return winding_in_front(leaf, tree ? &*tree : nullptr, face) == 0;
   });
   return result;
 }

@@ -4,6 +4,9 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <ranges>
+
+#include "engine/mesh/face_normal.h"
 
 namespace csgrun {
 namespace {
@@ -27,9 +30,6 @@ constexpr std::array<Up, 7> kUps{
 constexpr int64_t height(const Up& up, const IVec3& p) {
   return p[up.axis] + up.times * p[up.other];
 }
-constexpr IVec3 cross(const IVec3& a, const IVec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 constexpr int64_t dot(const IVec3& a, const IVec3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -41,21 +41,6 @@ constexpr bool are_across() {
   return true;
 }
 static_assert(are_across());
-
-IVec3 difference(const IVec3& a, const IVec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-/// Twice the vector area of a convex face, which fits as it stays within the box of the leaf.
-IVec3 normal_of(const LeafGeometry& leaf, uint32_t begin, uint32_t end) {
-  const IVec3& origin = leaf.vertices[leaf.corners[begin]];
-  IVec3 to_next = difference(leaf.vertices[leaf.corners[begin + 1]], origin), normal{0, 0, 0};
-  for (uint32_t c = begin + 2; c < end; ++c) {
-    const IVec3 from = to_next;
-    to_next = difference(leaf.vertices[leaf.corners[c]], origin);
-    const IVec3 part = cross(from, to_next);
-    for (size_t k = 0; k < 3; ++k) normal[k] += part[k];
-  }
-  return normal;
-}
 
 bool is_straight(const LeafGeometry& leaf, uint32_t a, uint32_t b, uint32_t c) {
   const IVec3& origin = leaf.vertices[b];
@@ -78,22 +63,24 @@ uint16_t facing(const IVec3& normal) {
 
 /// For each vertex a direction that all its triangles face, one of an axis if there is one; as half
 /// the number of its bit.
-std::vector<uint8_t> common_directions(const LeafGeometry& leaf, uint8_t none) {
-  const size_t count = leaf.vertices.size(), faces = leaf.face_count();
+template <class Faces>
+std::vector<uint8_t> common_directions(const LeafGeometry& leaf, const Faces& faces, uint8_t none) {
+  const size_t count = leaf.vertices.size();
   std::vector<uint16_t> common(count, kAll);
-  for (size_t f = 0; f < faces; ++f) {
+  for (const uint32_t f : faces) {
     const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
-    const uint16_t bits = facing<0, kAxes>(normal_of(leaf, begin, end));
+    const uint16_t bits = facing<0, kAxes>(face_normal(leaf, begin, end));
     for (uint32_t c = begin; c < end; ++c) common[leaf.corners[c]] &= bits;
   }
   const auto is_open = [&](uint32_t v) { return (common[v] & kAlongAxes) == 0; };
   std::vector<uint8_t> direction(count);
   bool any_open = false;
   for (uint32_t v = 0; v < count; ++v) any_open |= is_open(v);
-  for (size_t f = 0; any_open && f < faces; ++f) {
+  for (const uint32_t f : faces) {
+    if (!any_open) break;
     const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
     if (std::none_of(&leaf.corners[begin], &leaf.corners[end - 1] + 1, is_open)) continue;
-    const uint16_t bits = facing<kAxes, kDirections.size()>(normal_of(leaf, begin, end));
+    const uint16_t bits = facing<kAxes, kDirections.size()>(face_normal(leaf, begin, end));
     for (uint32_t c = begin; c < end; ++c) common[leaf.corners[c]] &= bits;
   }
   for (size_t v = 0; v < count; ++v) {
@@ -103,11 +90,10 @@ std::vector<uint8_t> common_directions(const LeafGeometry& leaf, uint8_t none) {
   return direction;
 }
 
-}  // namespace
-
-std::vector<uint8_t> find_spread_vertices(const LeafGeometry& leaf) {
+template <class Faces>
+std::vector<uint8_t> spread_among(const LeafGeometry& leaf, const Faces& faces) {
   constexpr uint8_t kNone = 255, kMany = 2;
-  const std::vector<uint8_t> direction = common_directions(leaf, kNone);
+  const std::vector<uint8_t> direction = common_directions(leaf, faces, kNone);
   // Each corner is a sector of less than half a turn, all in the same sense. So none leads past the
   // upper half plane, and together they surround the vertex as often as one of them enters it.
   std::vector<uint8_t> turns(leaf.vertices.size(), 0);
@@ -125,7 +111,7 @@ std::vector<uint8_t> find_spread_vertices(const LeafGeometry& leaf) {
     }
     turns[vertex] = static_cast<uint8_t>(std::min<int>(turns[vertex] + (enters ? 1 : 0), kMany));
   };
-  for (size_t f = 0; f < leaf.face_count(); ++f) {
+  for (const uint32_t f : faces) {
     const uint32_t begin = leaf.face_starts[f], count = leaf.face_starts[f + 1] - begin;
     const uint32_t* const loop = &leaf.corners[begin];
     if (count == 3) {
@@ -142,6 +128,17 @@ std::vector<uint8_t> find_spread_vertices(const LeafGeometry& leaf) {
   }
   for (uint8_t& known : turns) known = known == 1;
   return turns;
+}
+
+}  // namespace
+
+std::vector<uint8_t> find_spread_vertices(const LeafGeometry& leaf) {
+  return spread_among(leaf, std::views::iota(0u, static_cast<uint32_t>(leaf.face_count())));
+}
+
+std::vector<uint8_t> find_spread_vertices(const LeafGeometry& leaf,
+                                          std::span<const uint32_t> faces) {
+  return spread_among(leaf, faces);
 }
 
 }  // namespace csgrun

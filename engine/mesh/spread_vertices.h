@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/bsp/operand.h"
@@ -18,5 +19,10 @@ namespace csgrun {
 /// corners of 180 degrees given up. REQUIRES: planar convex faces, none degenerate; every directed
 /// edge as often as its reverse; coordinates less than 2^30 apart. O(n).
 std::vector<uint8_t> find_spread_vertices(const LeafGeometry& leaf);
+
+/// The same, looking at some faces only. REQUIRES: vertices that have others too are spread; they
+/// may be told to be or not.
+std::vector<uint8_t> find_spread_vertices(const LeafGeometry& leaf,
+                                          std::span<const uint32_t> faces);
 
 }  // namespace csgrun

@@ -24,8 +24,8 @@ class TrianglePairs {
   static bool covers(const LeafGeometry& leaf);
 
   /// REQUIRES: covers(leaf), and no face is degenerate; the leaf outlives this. `order` lists
-  /// all faces; `is_balanced` says that every directed edge occurs as often as its reverse (else no
-  /// vertex is taken for spread). O(n).
+  /// the faces, all or all but those of single_sheets.h; `is_balanced` says that every directed
+  /// edge occurs as often as its reverse (else no vertex is taken for spread). O(n).
   TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order, bool is_balanced);
 
   /// A bit for each triangle at places 8 group .. 8 group + 7 in the order that has a spread vertex

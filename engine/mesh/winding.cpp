@@ -36,7 +36,7 @@ SpannedPlane plane_of(const LeafGeometry& leaf, std::span<const uint32_t> loop) 
 
 }  // namespace
 
-int winding_in_front(const LeafGeometry& leaf, const PackedBoxes& tree, uint32_t face) {
+int winding_in_front(const LeafGeometry& leaf, const PackedBoxes* tree, uint32_t face) {
   const auto loop_of = [&](uint32_t f) {
     return std::span(leaf.corners)
         .subspan(leaf.face_starts[f], leaf.face_starts[f + 1] - leaf.face_starts[f]);
@@ -54,16 +54,8 @@ int winding_in_front(const LeafGeometry& leaf, const PackedBoxes& tree, uint32_t
   for (const uint32_t corner : own.corners) {
     for (int k = 0; k < 3; ++k) middle[k] += leaf.vertices[corner][k];
   }
-  FloatBox ray;
-  for (int k = 0; k < 3; ++k) {
-    ray.lo[k] = static_cast<float>(std::floor(static_cast<double>(middle[k]) / 3) - 1);
-    ray.hi[k] = static_cast<float>(std::ceil(static_cast<double>(middle[k]) / 3) + 1);
-  }
-  ray.hi[axis] = std::numeric_limits<float>::max();
-
   int ahead = 0;  // the winding number on the side of the face that the ray leaves to
-  tree.visit_all(ray, [&](uint32_t place) {
-    const uint32_t f = tree.order()[place];
+  const auto pass = [&](uint32_t f) {
     if (f == face) return;
     const std::span<const uint32_t> loop = loop_of(f);
     int turns = 0;  // of the loop around the ray, seen from where the ray goes
@@ -88,7 +80,18 @@ int winding_in_front(const LeafGeometry& leaf, const PackedBoxes& tree, uint32_t
     // Faces that face the way of the ray are left through their fronts: they count when the ray
     // starts behind them.
     if (value.sign() * turns < 0) ahead += turns;
-  });
+  };
+  if (tree != nullptr) {
+    FloatBox ray;
+    for (int k = 0; k < 3; ++k) {
+      ray.lo[k] = static_cast<float>(std::floor(static_cast<double>(middle[k]) / 3) - 1);
+      ray.hi[k] = static_cast<float>(std::ceil(static_cast<double>(middle[k]) / 3) + 1);
+    }
+    ray.hi[axis] = std::numeric_limits<float>::max();
+    tree->visit_all(ray, [&](uint32_t place) { pass(tree->order()[place]); });
+  } else {
+    for (uint32_t f = 0; f < leaf.face_count(); ++f) pass(f);
+  }
   return own.normal[axis] > 0 ? ahead : ahead - 1;
 }
 

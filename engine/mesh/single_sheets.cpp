@@ -1,0 +1,278 @@
+#include "engine/mesh/single_sheets.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <memory>
+
+#include "engine/base/parallel.h"
+#include "engine/mesh/face_normal.h"
+#include "engine/mesh/leaf_shape.h"
+
+namespace csgrun {
+namespace {
+
+/// Fewer faces are compared with each other sooner.
+constexpr size_t kFewFaces = 2000;
+constexpr size_t kSample = 1024;
+/// A cube is at least so many times as wide as a face on average,
+constexpr double kLeastWidth = 2;
+/// and the whole surface at least so many times: in coarser ones every column has an edge or a
+/// bend.
+constexpr double kLeastExtent = 40;
+/// Cubes for each face, at most, and cubes that the box of a face reaches, on average over a part
+/// and for one.
+constexpr size_t kMostCubes = 16, kMostReached = 8, kMostReachedByOne = 4096;
+constexpr size_t kFacesPerPart = 16384;
+/// No longer column is looked at.
+constexpr size_t kLongestColumn = 16;
+
+/// What is known of a cube, as bits.
+using Cube = uint16_t;
+constexpr Cube kReached = 1, kSingle = 2;
+/// A face that reaches the cube does not face up, or down, along the axis.
+constexpr Cube not_up(size_t axis) { return static_cast<Cube>(1u << (4 + 4 * axis)); }
+constexpr Cube not_down(size_t axis) { return static_cast<Cube>(1u << (5 + 4 * axis)); }
+/// The line of the cube along the axis crosses faces here: any, more than one.
+constexpr Cube crossed(size_t axis) { return static_cast<Cube>(1u << (6 + 4 * axis)); }
+constexpr Cube crossed_again(size_t axis) { return static_cast<Cube>(1u << (7 + 4 * axis)); }
+
+/// The cubes that the box of a face reaches.
+struct Reach {
+  uint32_t first;
+  std::array<uint8_t, 3> more;  ///< how many after the first one along each axis
+};
+
+GridBox box_of_face(const LeafGeometry& leaf, uint32_t begin, uint32_t end) {
+  GridBox box;
+  box.lo = box.hi = leaf.vertices[leaf.corners[begin]];
+  for (uint32_t c = begin + 1; c < end; ++c) {
+    const IVec3& p = leaf.vertices[leaf.corners[c]];
+    for (size_t k = 0; k < 3; ++k) {
+      box.lo[k] = std::min(box.lo[k], p[k]);
+      box.hi[k] = std::max(box.hi[k], p[k]);
+    }
+  }
+  return box;
+}
+
+/// The mean extent along the axes of the boxes of some faces.
+double mean_extent(const LeafGeometry& leaf) {
+  double sum = 0, count = 0;
+  for (size_t f = 0, step = leaf.face_count() / kSample + 1; f < leaf.face_count(); f += step) {
+    const GridBox box = box_of_face(leaf, leaf.face_starts[f], leaf.face_starts[f + 1]);
+    for (size_t k = 0; k < 3; ++k) sum += static_cast<double>(box.hi[k] - box.lo[k]);
+    ++count;
+  }
+  return sum / (3 * count);
+}
+
+class SheetFinder {
+ public:
+  SheetFinder(const LeafGeometry& leaf, const GridBox& box, double extent)
+      : leaf_(leaf), origin_(box.lo) {
+    while (static_cast<double>(width()) < kLeastWidth * extent) ++shift_;
+    while (lay_out(box) > kMostCubes * leaf.face_count()) ++shift_;
+    cubes_ = std::make_unique<std::atomic<Cube>[]>(lay_out(box));
+    reach_.resize(leaf.face_count());
+    reached_.resize(part_count(leaf.face_count(), kFacesPerPart));
+  }
+
+  /// False if faces reach too many cubes.
+  bool enter_faces() {
+    std::atomic<bool> are_few = true;
+    for_each_part(leaf_.face_count(), kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
+      size_t left = kMostReached * (end - begin) + kMostReachedByOne;
+      for (size_t f = begin; f < end; ++f) {
+        const size_t count = enter(static_cast<uint32_t>(f), left, reached_[part]);
+        if (count == 0) {
+          are_few = false;
+          return;
+        }
+        left -= count;
+      }
+    });
+    return are_few;
+  }
+
+  void find_sheets() {
+    for_each_part(reached_.size(), 1, [&](size_t part, size_t, size_t) {
+      for (const uint32_t cube : reached_[part]) {
+        for (size_t axis = 0; axis < 3 && (load(cube) & kSingle) == 0; ++axis) look(cube, axis);
+      }
+    });
+  }
+
+  [[nodiscard]] std::vector<uint32_t> faces_elsewhere() const {
+    std::vector<std::vector<uint32_t>> found(reached_.size());
+    for_each_part(leaf_.face_count(), kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
+      for (size_t f = begin; f < end; ++f) {
+        Cube all = kSingle;
+        for_each_cube(reach_[f], [&](uint32_t cube) { all &= load(cube); });
+        if (all == 0) found[part].push_back(static_cast<uint32_t>(f));
+      }
+    });
+    std::vector<uint32_t> faces;
+    for (const auto& some : found) faces.insert(faces.end(), some.begin(), some.end());
+    return faces;
+  }
+
+ private:
+  [[nodiscard]] int64_t width() const { return int64_t{1} << shift_; }
+
+  /// The number of cubes that fill the box, with an empty one at either end of each row.
+  size_t lay_out(const GridBox& box) {
+    size_t count = 1;
+    for (size_t k = 0; k < 3; ++k) {
+      stride_[k] = count;
+      count *= static_cast<size_t>((box.hi[k] - box.lo[k]) >> shift_) + 3;
+    }
+    return count;
+  }
+
+  // Several threads set bits of a cube; the order makes no difference.
+  [[nodiscard]] Cube load(size_t cube) const {
+    return cubes_[cube].load(std::memory_order_relaxed);
+  }
+  /// What was known before.
+  Cube set(size_t cube, Cube bits) {
+    const Cube known = load(cube);
+    if ((known & bits) == bits) return known;
+    return cubes_[cube].fetch_or(bits, std::memory_order_relaxed);
+  }
+
+  template <class Visit>
+  void for_each_cube(const Reach& reach, Visit visit) const {
+    for (size_t z = 0; z <= reach.more[2]; ++z) {
+      for (size_t y = 0; y <= reach.more[1]; ++y) {
+        const size_t row = reach.first + y * stride_[1] + z * stride_[2];
+        for (size_t x = 0; x <= reach.more[0]; ++x) visit(static_cast<uint32_t>(row + x));
+      }
+    }
+  }
+
+  /// The number of cubes that the face reaches, or 0 and nothing done if it is more than `most`.
+  size_t enter(uint32_t face, size_t most, std::vector<uint32_t>& reached) {
+    const uint32_t begin = leaf_.face_starts[face], end = leaf_.face_starts[face + 1];
+    const IVec3 normal = face_normal(leaf_, begin, end);
+    GridBox box = box_of_face(leaf_, begin, end);
+    Reach& reach = reach_[face];
+    reach.first = 0;
+    size_t count = 1;
+    Cube bits = kReached;
+    for (size_t k = 0; k < 3; ++k) {
+      box.lo[k] -= origin_[k];
+      box.hi[k] -= origin_[k];
+      const auto first = static_cast<size_t>(box.lo[k] >> shift_) + 1;
+      const auto more = static_cast<size_t>(box.hi[k] >> shift_) + 1 - first;
+      count *= more + 1;
+      if (more > UINT8_MAX || count > kMostReachedByOne) return 0;
+      reach.first += static_cast<uint32_t>(first * stride_[k]);
+      reach.more[k] = static_cast<uint8_t>(more);
+      if (normal[k] <= 0) bits |= not_up(k);
+      if (normal[k] >= 0) bits |= not_down(k);
+    }
+    if (count > most) return 0;
+    for_each_cube(reach, [&](uint32_t cube) {
+      if (set(cube, bits) == 0) reached.push_back(cube);
+    });
+    for (size_t k = 0; k < 3; ++k) {
+      if (normal[k] != 0) cross_lines(face, k, normal[k] > 0, box);
+    }
+    return count;
+  }
+
+  /// Crosses the lines along an axis with a face that faces up or down there; `box` is the face's,
+  /// from the origin. Each row of cubes has a line, half a step off all vertices, and off the
+  /// diagonals of squares that divide the cubes.
+  void cross_lines(uint32_t face, size_t axis, bool is_up, const GridBox& box) {
+    const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const int64_t in_u = width() / 2, in_v = 3 * width() / 8;
+    const auto first = [&](size_t k, int64_t in) {
+      return (box.lo[k] - in + width() - 1) >> shift_;
+    };
+    const auto last = [&](size_t k, int64_t in) { return (box.hi[k] - in - 1) >> shift_; };
+    for (int64_t i = first(u, in_u); i <= last(u, in_u); ++i) {
+      for (int64_t j = first(v, in_v); j <= last(v, in_v); ++j) {
+        const int64_t at_u = 2 * ((i << shift_) + in_u) + 1;
+        const int64_t at_v = 2 * ((j << shift_) + in_v) + 1;
+        if (!is_crossed(face, u, v, is_up, at_u, at_v)) continue;
+        const size_t cube = static_cast<size_t>(i + 1) * stride_[u] +
+                            static_cast<size_t>(j + 1) * stride_[v] +
+                            (static_cast<size_t>(box.lo[axis] >> shift_) + 1) * stride_[axis];
+        const Cube known = set(cube, crossed(axis));
+        if ((known & crossed(axis)) != 0) set(cube, crossed_again(axis));
+      }
+    }
+  }
+
+  /// Whether a line runs through a face or its rim: through an edge it crosses both faces, which is
+  /// no less often than lines beside it do. It is given by twice its coordinates from the origin.
+  /// Differences of coordinates are below 2^30, of twice the coordinates within the face's box
+  /// below 2^31: a product fits 61 bits.
+  [[nodiscard]] bool is_crossed(uint32_t face, size_t u, size_t v, bool is_up, int64_t at_u,
+                                int64_t at_v) const {
+    const uint32_t begin = leaf_.face_starts[face], end = leaf_.face_starts[face + 1];
+    for (uint32_t c = begin; c < end; ++c) {
+      const IVec3& a = leaf_.vertices[leaf_.corners[c]];
+      const IVec3& b = leaf_.vertices[leaf_.corners[c + 1 < end ? c + 1 : begin]];
+      const int64_t left = (b[u] - a[u]) * (at_v - 2 * (a[v] - origin_[v])) -
+                           (b[v] - a[v]) * (at_u - 2 * (a[u] - origin_[u]));
+      if (is_up ? left < 0 : left > 0) return false;
+    }
+    return true;
+  }
+
+  /// Marks the column of a cube along an axis if the surface is a single sheet there.
+  void look(size_t cube, size_t axis) {
+    const size_t step = stride_[axis];
+    const Cube both = not_up(axis) | not_down(axis);
+    Cube faced = 0;
+    size_t crossings = 0;
+    const auto add = [&](Cube known) {
+      faced |= known & both;
+      crossings += ((known & crossed(axis)) != 0) + ((known & crossed_again(axis)) != 0);
+    };
+    add(load(cube));
+    size_t begin = cube, end = cube + step;
+    for (Cube known = 0; faced != both && crossings <= 1 && (known = load(begin - step)) != 0;) {
+      begin -= step;
+      if (end - begin > kLongestColumn * step) return;
+      add(known);
+    }
+    for (Cube known = 0; faced != both && crossings <= 1 && (known = load(end)) != 0;) {
+      end += step;
+      if (end - begin > kLongestColumn * step) return;
+      add(known);
+    }
+    if (faced == both || crossings > 1) return;
+    for (; begin < end; begin += step) set(begin, kSingle);
+  }
+
+  const LeafGeometry& leaf_;
+  IVec3 origin_;
+  int shift_ = 0;                   ///< the cubes are 2^shift steps wide
+  std::array<size_t, 3> stride_{};  ///< from a cube to the next one along each axis
+  std::unique_ptr<std::atomic<Cube>[]> cubes_;
+  std::vector<Reach> reach_;                    ///< by face
+  std::vector<std::vector<uint32_t>> reached_;  ///< cubes, by the part of the face that came first
+};
+
+}  // namespace
+
+std::optional<std::vector<uint32_t>> faces_off_single_sheets(const LeafGeometry& leaf) {
+  if (leaf.face_count() < kFewFaces) return std::nullopt;
+  const GridBox box = box_of_points(leaf.vertices);
+  if (!is_compact(box)) return std::nullopt;
+  const double extent = mean_extent(leaf);
+  int64_t longest = 0;
+  for (size_t k = 0; k < 3; ++k) longest = std::max(longest, box.hi[k] - box.lo[k]);
+  if (static_cast<double>(longest) < kLeastExtent * extent) return std::nullopt;
+  SheetFinder finder(leaf, box, extent);
+  if (!finder.enter_faces()) return std::nullopt;
+  finder.find_sheets();
+  return finder.faces_elsewhere();
+}
+
+}  // namespace csgrun
