@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/mesh/face_normal.h"
 #include "engine/mesh/leaf_shape.h"
 
@@ -21,9 +22,9 @@ constexpr double kLeastWidth = 2;
 /// and the whole surface at least so many times: in coarser ones every column has an edge or a
 /// bend.
 constexpr double kLeastExtent = 40;
-/// Cubes for each face, at most, and cubes that the box of a face reaches, on average over a part
-/// and for one.
-constexpr size_t kMostCubes = 16, kMostReached = 8, kMostReachedByOne = 4096;
+/// Cubes for each face, at most; in a row; and cubes that the box of a face reaches, on average
+/// over a part and for one.
+constexpr size_t kMostCubes = 16, kMostInRow = 4000, kMostReached = 8, kMostReachedByOne = 4096;
 constexpr size_t kFacesPerPart = 16384;
 /// No longer column is looked at.
 constexpr size_t kLongestColumn = 16;
@@ -37,6 +38,18 @@ constexpr Cube not_down(size_t axis) { return static_cast<Cube>(1u << (5 + 4 * a
 /// The line of the cube along the axis crosses faces here: any, more than one.
 constexpr Cube crossed(size_t axis) { return static_cast<Cube>(1u << (6 + 4 * axis)); }
 constexpr Cube crossed_again(size_t axis) { return static_cast<Cube>(1u << (7 + 4 * axis)); }
+
+/// Where a point is along each axis, in eighths of cubes; the fourth number makes it one word.
+using Place = std::array<int16_t, 4>;
+constexpr int kEighths = 3;  ///< the binary logarithm
+/// The lines along an axis stand at so many eighths of a cube along the next axis, and along the
+/// one after that, each half a step before: off all points, and off the diagonals of squares that
+/// divide the cubes.
+constexpr int kNext = 4, kAfterNext = 3;
+
+constexpr size_t cube_of(int place) { return static_cast<size_t>(place) >> kEighths; }
+/// The number of lines, which stand at so many eighths, before a place.
+constexpr int lines_before(int place, int at) { return (place + (1 << kEighths) - at) >> kEighths; }
 
 /// The cubes that the box of a face reaches.
 struct Reach {
@@ -75,6 +88,10 @@ class SheetFinder {
     while (static_cast<double>(width()) < kLeastWidth * extent) ++shift_;
     while (lay_out(box) > kMostCubes * leaf.face_count()) ++shift_;
     cubes_ = std::make_unique<std::atomic<Cube>[]>(lay_out(box));
+    places_.resize(leaf.vertices.size());
+    for_each_range(places_.size(), [&](size_t begin, size_t end) {
+      for (size_t v = begin; v < end; ++v) places_[v] = place_of(leaf.vertices[v]);
+    });
     reach_.resize(leaf.face_count());
     reached_.resize(part_count(leaf.face_count(), kFacesPerPart));
   }
@@ -126,9 +143,19 @@ class SheetFinder {
     size_t count = 1;
     for (size_t k = 0; k < 3; ++k) {
       stride_[k] = count;
-      count *= static_cast<size_t>((box.hi[k] - box.lo[k]) >> shift_) + 3;
+      const auto in_row = static_cast<size_t>((box.hi[k] - box.lo[k]) >> shift_) + 3;
+      if (in_row > kMostInRow) return SIZE_MAX;
+      count *= in_row;
     }
     return count;
+  }
+
+  [[nodiscard]] Place place_of(const IVec3& p) const {
+    Place place{};
+    for (size_t k = 0; k < 3; ++k) {
+      place[k] = static_cast<int16_t>(((p[k] - origin_[k] + width()) << kEighths) >> shift_);
+    }
+    return place;
   }
 
   // Several threads set bits of a cube; the order makes no difference.
@@ -144,6 +171,7 @@ class SheetFinder {
 
   template <class Visit>
   void for_each_cube(const Reach& reach, Visit visit) const {
+    if (reach.more == std::array<uint8_t, 3>{}) return visit(reach.first);
     for (size_t z = 0; z <= reach.more[2]; ++z) {
       for (size_t y = 0; y <= reach.more[1]; ++y) {
         const size_t row = reach.first + y * stride_[1] + z * stride_[2];
@@ -155,64 +183,72 @@ class SheetFinder {
   /// The number of cubes that the face reaches, or 0 and nothing done if it is more than `most`.
   size_t enter(uint32_t face, size_t most, std::vector<uint32_t>& reached) {
     const uint32_t begin = leaf_.face_starts[face], end = leaf_.face_starts[face + 1];
+    Place lo = places_[leaf_.corners[begin]], hi = lo;
+    for (uint32_t c = begin + 1; c < end; ++c) {
+      const Place& at = places_[leaf_.corners[c]];
+      for (size_t k = 0; k < 4; ++k) {
+        lo[k] = std::min(lo[k], at[k]);
+        hi[k] = std::max(hi[k], at[k]);
+      }
+    }
+    Reach reach{};
+    size_t first = 0, count = 1, most_more = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t more = cube_of(hi[k]) - cube_of(lo[k]);
+      first += cube_of(lo[k]) * stride_[k];
+      count *= more + 1;
+      most_more = std::max(most_more, more);
+      reach.more[k] = static_cast<uint8_t>(more);
+    }
+    if (most_more > UINT8_MAX || count > most) return 0;
+    reach.first = static_cast<uint32_t>(first);
+    reach_[face] = reach;
     const IVec3 normal = face_normal(leaf_, begin, end);
-    GridBox box = box_of_face(leaf_, begin, end);
-    Reach& reach = reach_[face];
-    reach.first = 0;
-    size_t count = 1;
     Cube bits = kReached;
     for (size_t k = 0; k < 3; ++k) {
-      box.lo[k] -= origin_[k];
-      box.hi[k] -= origin_[k];
-      const auto first = static_cast<size_t>(box.lo[k] >> shift_) + 1;
-      const auto more = static_cast<size_t>(box.hi[k] >> shift_) + 1 - first;
-      count *= more + 1;
-      if (more > UINT8_MAX || count > kMostReachedByOne) return 0;
-      reach.first += static_cast<uint32_t>(first * stride_[k]);
-      reach.more[k] = static_cast<uint8_t>(more);
-      if (normal[k] <= 0) bits |= not_up(k);
-      if (normal[k] >= 0) bits |= not_down(k);
+      bits |=
+          static_cast<Cube>((normal[k] <= 0 ? not_up(k) : 0) | (normal[k] >= 0 ? not_down(k) : 0));
     }
-    if (count > most) return 0;
     for_each_cube(reach, [&](uint32_t cube) {
       if (set(cube, bits) == 0) reached.push_back(cube);
     });
-    for (size_t k = 0; k < 3; ++k) {
-      if (normal[k] != 0) cross_lines(face, k, normal[k] > 0, box);
-    }
+    cross_lines<0>(face, normal, lo, hi);
+    cross_lines<1>(face, normal, lo, hi);
+    cross_lines<2>(face, normal, lo, hi);
     return count;
   }
 
-  /// Crosses the lines along an axis with a face that faces up or down there; `box` is the face's,
-  /// from the origin. Each row of cubes has a line, half a step off all vertices, and off the
-  /// diagonals of squares that divide the cubes.
-  void cross_lines(uint32_t face, size_t axis, bool is_up, const GridBox& box) {
-    const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const int64_t in_u = width() / 2, in_v = 3 * width() / 8;
-    const auto first = [&](size_t k, int64_t in) {
-      return (box.lo[k] - in + width() - 1) >> shift_;
-    };
-    const auto last = [&](size_t k, int64_t in) { return (box.hi[k] - in - 1) >> shift_; };
-    for (int64_t i = first(u, in_u); i <= last(u, in_u); ++i) {
-      for (int64_t j = first(v, in_v); j <= last(v, in_v); ++j) {
-        const int64_t at_u = 2 * ((i << shift_) + in_u) + 1;
-        const int64_t at_v = 2 * ((j << shift_) + in_v) + 1;
-        if (!is_crossed(face, u, v, is_up, at_u, at_v)) continue;
-        const size_t cube = static_cast<size_t>(i + 1) * stride_[u] +
-                            static_cast<size_t>(j + 1) * stride_[v] +
-                            (static_cast<size_t>(box.lo[axis] >> shift_) + 1) * stride_[axis];
+  /// Crosses the lines along an axis with a face that faces up or down there; `lo` and `hi` are the
+  /// ends of its box.
+  template <size_t axis>
+  void cross_lines(uint32_t face, const IVec3& normal, const Place& lo, const Place& hi) {
+    constexpr size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    if (normal[axis] == 0) return;
+    const int end_u = lines_before(hi[u], kNext), end_v = lines_before(hi[v], kAfterNext);
+    for (int i = lines_before(lo[u], kNext); i < end_u; ++i) {
+      for (int j = lines_before(lo[v], kAfterNext); j < end_v; ++j) {
+        if (!is_crossed<u, v>(face, normal[axis] > 0, line_at(i, kNext), line_at(j, kAfterNext)))
+          continue;
+        const size_t cube = static_cast<size_t>(i) * stride_[u] +
+                            static_cast<size_t>(j) * stride_[v] + cube_of(lo[axis]) * stride_[axis];
         const Cube known = set(cube, crossed(axis));
         if ((known & crossed(axis)) != 0) set(cube, crossed_again(axis));
       }
     }
+  }
+  /// Twice the coordinate, from the origin, of the line in a cube: half a step before the first
+  /// points that are at its place.
+  [[nodiscard]] int64_t line_at(int cube, int eighths) const {
+    const int64_t place = (int64_t{cube - 1} << kEighths) + eighths;
+    return 2 * ((place * width() + (1 << kEighths) - 1) >> kEighths) - 1;
   }
 
   /// Whether a line runs through a face or its rim: through an edge it crosses both faces, which is
   /// no less often than lines beside it do. It is given by twice its coordinates from the origin.
   /// Differences of coordinates are below 2^30, of twice the coordinates within the face's box
   /// below 2^31: a product fits 61 bits.
-  [[nodiscard]] bool is_crossed(uint32_t face, size_t u, size_t v, bool is_up, int64_t at_u,
-                                int64_t at_v) const {
+  template <size_t u, size_t v>
+  [[nodiscard]] bool is_crossed(uint32_t face, bool is_up, int64_t at_u, int64_t at_v) const {
     const uint32_t begin = leaf_.face_starts[face], end = leaf_.face_starts[face + 1];
     for (uint32_t c = begin; c < end; ++c) {
       const IVec3& a = leaf_.vertices[leaf_.corners[c]];
@@ -255,7 +291,8 @@ class SheetFinder {
   int shift_ = 0;                   ///< the cubes are 2^shift steps wide
   std::array<size_t, 3> stride_{};  ///< from a cube to the next one along each axis
   std::unique_ptr<std::atomic<Cube>[]> cubes_;
-  std::vector<Reach> reach_;                    ///< by face
+  RawVector<Place> places_;                     ///< by vertex
+  RawVector<Reach> reach_;                      ///< by face
   std::vector<std::vector<uint32_t>> reached_;  ///< cubes, by the part of the face that came first
 };
 
