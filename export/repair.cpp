@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "export/edge_flips.h"
+#include "export/edge_splits.h"
 #include "export/self_union.h"
 
 namespace csgrun {
@@ -39,6 +40,9 @@ constexpr std::array<std::array<double, 3>, 4> kOrigins{
 /// Crossings that union and rounding make anew may need a few rounds more to go away.
 constexpr int kPatience = 4;
 
+/// More triangles with something wrong are not divided: a union leaves fewer.
+constexpr size_t kMostDivided = 20000;
+
 bool precedes(const glm::dvec3& a, const glm::dvec3& b) {
   return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
 }
@@ -49,6 +53,10 @@ std::vector<uint32_t> bad_triangles(const Defects& defects) {
              defects.flipped.end(), std::back_inserter(bad));
   return bad;
 }
+
+/// All lattices are tried three times: as they are; from the beginning again, dividing what runs
+/// beside other things before it is snapped; and with patience, on what had least wrong.
+enum class Pass { kPlain, kDivided, kPatient };
 
 class Repair {
  public:
@@ -67,28 +75,38 @@ class Repair {
   }
 
   Status run() {
-    State best = state();
+    const State first = state();
+    State best = first, best_of_pass = first;
     int worse = 0;  // rounds since then
-    while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty() &&
-           choose_lattice()) {
+    while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty()) {
+      if (all_lattices_tried()) {
+        if (!may_get_better_ || pass_ == Pass::kPatient) break;
+        pass_ = pass_ == Pass::kPlain ? Pass::kDivided : Pass::kPatient;
+        restore(pass_ == Pass::kDivided ? first : best);
+        best_of_pass = state();
+        lattice_ = pass_ == Pass::kDivided ? 0 : 1;
+        origin_ = 0;
+      }
       ++check_.rounds;
       if (Status status = run_round(); !status) return status;
       breach_ = fidelity_.breach(mesh_, original_faces(), moves_);
-      if (breach_.empty() && left_.fewer_than(best.left)) {
-        best = state();
+      if (breach_.empty() && left_.fewer_than(best_of_pass.left)) {
+        best_of_pass = state();
+        if (left_.fewer_than(best.left)) best = best_of_pass;
         worse = 0;
         continue;
       }
       may_get_better_ |= breach_.empty();
-      if (is_patient_ && breach_.empty() && ++worse < kPatience && !is_far_worse(best.left)) {
+      if (pass_ == Pass::kPatient && breach_.empty() && ++worse < kPatience &&
+          !is_far_worse(best_of_pass.left)) {
         continue;
       }
       // Rounds that make it worse are undone: what they moved would be in the way of the next.
       ++lattice_;
       worse = 0;
-      restore(best);
+      restore(best_of_pass);
     }
-    if (worse > 0) restore(best);
+    if (best.left.fewer_than(left_)) restore(best);
     mesh_.triangle_face = original_faces();
     check_.distance = moves_.distance;
     if (!left_.none() && check_.problem.empty()) check_.problem = breach_;
@@ -113,18 +131,13 @@ class Repair {
     moves_ = before.moves;
   }
 
-  /// Takes the next origin where all lattices were tried from one, and begins again, with patience,
-  /// where all origins were. False when that was done, or no round left the model what it is.
-  bool choose_lattice() {
+  /// Takes the next origin where all lattices were tried from one; true when all were from all.
+  bool all_lattices_tried() {
     if (lattice_ > 0 && lattice_exponent() > coarsest_exponent()) {
       lattice_ = 1;
       ++origin_;
     }
-    if (origin_ < kOrigins.size()) return true;
-    if (is_patient_ || !may_get_better_) return false;
-    is_patient_ = true;
-    origin_ = 0;
-    return true;
+    return origin_ == kOrigins.size();
   }
 
   /// Whether so much is wrong that more rounds would only make it more.
@@ -137,6 +150,9 @@ class Repair {
     turn_edges();
     if (left_.none()) return std::monostate{};
     if (lattice_ > 0) {
+      if (pass_ != Pass::kPlain) {
+        if (Status status = divide(); !status) return status;
+      }
       if (Status status = snap(); !status) return status;
       examine();
       turn_edges();
@@ -190,20 +206,38 @@ class Repair {
            (precision_ == Precision::kFloat ? kCoarsestFloatLattice : kCoarsestDoubleLattice);
   }
 
+  /// The triangles of which something is wrong.
+  [[nodiscard]] std::vector<uint32_t> offenders() const {
+    std::vector<uint32_t> wrong = bad_triangles(left_);
+    for (const TriangleCrossing& crossing : left_.crossings) {
+      wrong.insert(wrong.end(), crossing.triangles.begin(), crossing.triangles.end());
+    }
+    wrong.insert(wrong.end(), left_.inverted.begin(), left_.inverted.end());
+    std::sort(wrong.begin(), wrong.end());
+    wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
+    return wrong;
+  }
+
+  [[nodiscard]] double lattice_step() const { return std::ldexp(1.0, lattice_exponent()); }
+
+  /// Gives layers that run beside one another corners in common.
+  Status divide() {
+    const std::vector<uint32_t> wrong = offenders();
+    if (wrong.size() > kMostDivided) return std::monostate{};
+    if (divide_at_near_corners(mesh_, wrong, lattice_step()) == 0) return std::monostate{};
+    moves_.add(mesh_.positions, mesh_.triangles, kGenerations * lattice_step());
+    if (Status status = move_vertices(mesh_, std::vector(mesh_.positions)); !status) return status;
+    examine();
+    return std::monostate{};
+  }
+
   Status snap() {
-    Lattice lattice{std::ldexp(1.0, lattice_exponent()), kOrigins[origin_]};
+    Lattice lattice{lattice_step(), kOrigins[origin_]};
     for (double& o : lattice.origin) o *= lattice.step;
     std::vector<bool> offends(mesh_.positions.size(), false);
-    const auto mark = [&](uint32_t triangle) {
-      for (const uint32_t v : mesh_.triangles[triangle]) offends[v] = true;
-    };
-    for (const TriangleCrossing& crossing : left_.crossings) {
-      mark(crossing.triangles[0]);
-      mark(crossing.triangles[1]);
+    for (const uint32_t t : offenders()) {
+      for (const uint32_t v : mesh_.triangles[t]) offends[v] = true;
     }
-    for (const uint32_t t : bad_triangles(left_)) mark(t);
-    for (const uint32_t t : left_.inverted) mark(t);
-
     std::vector<glm::dvec3> cells;
     for (size_t v = 0; v < offends.size(); ++v) {
       if (offends[v]) cells.push_back(lattice.snapped(mesh_.positions[v]));
@@ -231,10 +265,10 @@ class Repair {
   Defects& left_;
   MeshCheck& check_;
   Moves moves_;
-  std::string breach_;           ///< why the last round was undone, if the mesh became another
-  int lattice_ = 0;              ///< the number of the lattice; 0: nothing is snapped yet
-  size_t origin_ = 0;            ///< into kOrigins
-  bool is_patient_ = false;      ///< rounds that make it worse are not undone at once
+  std::string breach_;  ///< why the last round was undone, if the mesh became another
+  int lattice_ = 0;     ///< the number of the lattice; 0: nothing is snapped yet
+  size_t origin_ = 0;   ///< into kOrigins
+  Pass pass_ = Pass::kPlain;
   bool may_get_better_ = false;  ///< some round was undone only because it left more wrong
 };
 
