@@ -11,7 +11,6 @@ namespace {
 
 using Vec = Vec3d;
 
-constexpr size_t kSample = 512;
 /// Normals are gathered in this many classes for each coordinate from 0 to 1.
 constexpr double kClasses = 32;
 /// A frame must save so much to be worth the time that coordinates along it take.
@@ -39,19 +38,12 @@ struct Sample {
   double weight;        ///< the square of that: what the box of a long triangle grows with
 };
 
-std::vector<Sample> sample_of(const LeafGeometry& leaf) {
+std::vector<Sample> samples_of(std::span<const std::array<Vec, 3>> triangles) {
   std::vector<Sample> samples;
-  const size_t count = leaf.face_count(), step = count / kSample + 1;
-  samples.reserve(count / step + 1);
-  for (size_t f = 0; f < count; f += step) {
+  samples.reserve(triangles.size());
+  for (const std::array<Vec, 3>& triangle : triangles) {
     Sample s{};
-    const uint32_t* const corners = &leaf.corners[leaf.face_starts[f]];
-    const IVec3& origin = leaf.vertices[corners[0]];
-    for (size_t i = 1; i < 3; ++i) {
-      for (size_t k = 0; k < 3; ++k) {
-        s.points[i][k] = static_cast<double>(leaf.vertices[corners[i]][k] - origin[k]);
-      }
-    }
+    for (size_t i = 1; i < 3; ++i) s.points[i] = minus(triangle[i], triangle[0]);
     const Vec normal = cross(s.points[1], s.points[2]);
     if (dot(normal, normal) == 0) continue;
     s.normal = line_of(normal);
@@ -114,6 +106,10 @@ Vec along(const BoxFrame& frame, const Vec& p) {
   return {dot(frame[0], p), dot(frame[1], p), dot(frame[2], p)};
 }
 
+/// Twice what rounding may do to coordinates along a frame of points, themselves correctly rounded,
+/// whose coordinates are at most `reach`: they are off by less than 2^-49 of that.
+double slack_of(double reach) { return 0x1p-47 * reach; }
+
 using Bound = std::array<float, 3>;
 
 /// The box of each of the faces, from lower and upper bounds of vertices.
@@ -150,9 +146,7 @@ std::vector<FloatBox> boxes_of(const LeafGeometry& leaf, const Faces& faces,
   for (const IVec3& p : leaf.vertices) {
     for (size_t k = 0; k < 3; ++k) reach = std::max(reach, std::fabs(static_cast<double>(p[k])));
   }
-  // A coordinate along a direction is off by less than 2^-49 of the largest one. Rounding to float
-  // is monotone.
-  const double slack = 0x1p-47 * reach;
+  const double slack = slack_of(reach);  // rounding to float is monotone
   std::vector<FloatBox> bounds(leaf.vertices.size());
   for (size_t v = 0; v < bounds.size(); ++v) {
     const IVec3& at = leaf.vertices[v];
@@ -168,8 +162,8 @@ std::vector<FloatBox> boxes_of(const LeafGeometry& leaf, const Faces& faces,
 
 }  // namespace
 
-std::optional<BoxFrame> find_box_frame(const LeafGeometry& leaf) {
-  const std::vector<Sample> samples = sample_of(leaf);
+std::optional<BoxFrame> find_box_frame(std::span<const std::array<Vec3d, 3>> sample) {
+  const std::vector<Sample> samples = samples_of(sample);
   if (samples.empty()) return std::nullopt;
   std::vector<Line> lines;
   lines.reserve(samples.size());
@@ -184,8 +178,41 @@ std::optional<BoxFrame> find_box_frame(const LeafGeometry& leaf) {
   frame[1] = cross(frame[2], frame[0]);
   const double before = cost(samples, [](const Vec& p) { return p; });
   const double after = cost(samples, [&](const Vec& p) { return along(frame, p); });
-  if (!(after < kWorthwhile * before)) return std::nullopt;
+  // (Where squares overflow, or lose digits at the low end, there is none.)
+  const bool is_sound = std::all_of(frame.begin(), frame.end(), [](const Vec& axis) {
+    return std::fabs(dot(axis, axis) - 1) < 0x1p-40;
+  });
+  if (!is_sound || !std::isfinite(before) || !(after < kWorthwhile * before)) return std::nullopt;
   return frame;
+}
+
+std::optional<BoxFrame> find_box_frame(const LeafGeometry& leaf) {
+  std::vector<std::array<Vec, 3>> sample;
+  const size_t count = leaf.face_count(), step = count / kFrameSample + 1;
+  sample.reserve(count / step + 1);
+  for (size_t f = 0; f < count; f += step) {
+    std::array<Vec, 3>& triangle = sample.emplace_back();
+    for (size_t i = 0; i < 3; ++i) {
+      const IVec3& p = leaf.vertices[leaf.corners[leaf.face_starts[f] + i]];
+      for (size_t k = 0; k < 3; ++k) triangle[i][k] = static_cast<double>(p[k]);
+    }
+  }
+  return find_box_frame(sample);
+}
+
+Box box_along(const BoxFrame& frame, std::span<const Vec3d> points, double reach) {
+  const Vec first = along(frame, points[0]);
+  Box box{first, first};
+  for (const Vec3d& point : points.subspan(1)) {
+    const Vec p = along(frame, point);
+    box.include({p, p});
+  }
+  const double slack = slack_of(reach);
+  for (size_t k = 0; k < 3; ++k) {
+    box.lo[k] -= slack;
+    box.hi[k] += slack;
+  }
+  return box;
 }
 
 std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, const std::optional<BoxFrame>& frame) {

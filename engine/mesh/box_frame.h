@@ -10,7 +10,9 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/vec3d.h"
 #include "engine/bsp/operand.h"
+#include "engine/mesh/box_tree.h"
 #include "engine/mesh/packed_boxes.h"
 
 namespace csgrun {
@@ -19,9 +21,16 @@ namespace csgrun {
 using BoxFrame = std::array<std::array<double, 3>, 3>;
 
 /// The normal of much of the surface and the direction of long edges there, if boxes along them are
-/// much smaller than along the axes.
-/// Looks at a sample of the faces: O(1).
+/// much smaller than along the axes. Looks at a sample of the faces, each given by three corners,
+/// for which so many are enough: O(n).
+std::optional<BoxFrame> find_box_frame(std::span<const std::array<Vec3d, 3>> sample);
+constexpr size_t kFrameSample = 512;
+/// The same for a leaf: O(1).
 std::optional<BoxFrame> find_box_frame(const LeafGeometry& leaf);
+
+/// The box along a frame that holds points whose coordinates are at most `reach`, and what rounding
+/// to doubles may have moved them.
+Box box_along(const BoxFrame& frame, std::span<const Vec3d> points, double reach);
 
 /// A box for each face, or each of some, along the axes or those of the frame, so that the boxes of
 /// faces that have a point in common overlap. O(n).

@@ -1,6 +1,7 @@
 // Where a triangle mesh over doubles crosses itself: a tree of boxes finds the pairs that may, and
 // signs of determinants decide.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <csgrun/engine/exact_triangles.h>
 
 #include "engine/base/parallel.h"
+#include "engine/mesh/box_frame.h"
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/triangle_shape.h"
 
@@ -257,17 +259,42 @@ class CrossingTest {
   std::vector<QuickPlane> planes_;
 };
 
+/// A box for each of the triangles, so that the boxes of those that meet overlap.
+std::vector<Box> boxes_of(const TriangleView& mesh, std::span<const uint32_t> triangles) {
+  const auto corners = [&](uint32_t t) {
+    std::array<Vec3d, 3> result{};
+    for (size_t i = 0; i < 3; ++i) {
+      const glm::dvec3& p = mesh.points[mesh.triangles[t][i]];
+      result[i] = {p.x, p.y, p.z};
+    }
+    return result;
+  };
+  std::vector<std::array<Vec3d, 3>> sample;
+  for (size_t i = 0, step = triangles.size() / kFrameSample + 1; i < triangles.size(); i += step) {
+    sample.push_back(corners(triangles[i]));
+  }
+  const std::optional<BoxFrame> frame = find_box_frame(sample);
+  double reach = 0;
+  for (const glm::dvec3& p : mesh.points) {
+    reach = std::max({reach, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  }
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  for (const uint32_t t : triangles) {
+    boxes.push_back(frame ? box_along(*frame, corners(t), reach) : box_of(corners_of(mesh, t)));
+  }
+  return boxes;
+}
+
 }  // namespace
 
 std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most) {
   const CrossingTest test(mesh);
   std::vector<uint32_t> with_area;
-  std::vector<Box> boxes;
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!test.has_area(t)) continue;
-    with_area.push_back(t);
-    boxes.push_back(box_of(corners_of(mesh, t)));
+    if (test.has_area(t)) with_area.push_back(t);
   }
+  const std::vector<Box> boxes = boxes_of(mesh, with_area);
   const BoxTree tree(boxes);
   constexpr size_t kEach = 256;
   std::vector<std::vector<TriangleCrossing>> parts(part_count(boxes.size(), kEach));

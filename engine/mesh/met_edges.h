@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -43,6 +44,8 @@ class MetEdges {
   /// Edges of faces together, face after face, with their boxes and a tree of these.
   MetEdges(std::span<const FaceEdge> edges, const std::vector<Box>& boxes, const BoxTree& tree,
            const CellGeometry& geometry);
+  MetEdges(const MetEdges&) = delete;
+  MetEdges& operator=(const MetEdges&) = delete;
 
   [[nodiscard]] size_t face_count() const { return starts_.size() - 1; }
   [[nodiscard]] uint32_t face(size_t place) const { return edges_[starts_[place]].face; }
@@ -52,9 +55,11 @@ class MetEdges {
 
   /// Calls take(place, met) for one face after another, while others are looked at: what was met,
   /// by edges. Pairs of faces of which one is known to have edges on both sides of the other's
-  /// plane are appended to `straddling`, the lower first, some twice. `plane_of(face)` is the
-  /// approximate plane; it must not change. O(n log n) and the pairs of faces and edges whose boxes
-  /// meet.
+  /// plane are appended to `straddling`, the lower first, some twice: at least those that pass
+  /// through each other, as an edge of one crosses the other there, or ends on it. `plane_of(face)`
+  /// is the approximate plane; it must not change. O(n log n) and the pairs of faces and edges
+  /// whose boxes meet, along the axes and along the directions of a part that stands aslant
+  /// (box_frame.h).
   template <class PlaneOf, class Take>
   void each(PlaneOf&& plane_of, Take&& take,
             std::vector<std::pair<uint32_t, uint32_t>>& straddling) const {
@@ -98,10 +103,18 @@ class MetEdges {
     std::vector<Entry> entries;
   };
 
+  void find_frame();
   void find(size_t place, const std::array<double, 4>& plane, Part& part, Seen& seen) const;
+  [[nodiscard]] Box box_of_edge(uint32_t e) const;
 
   std::span<const FaceEdge> edges_;
   const BoxTree& tree_;
+  /// Boxes along a frame, if there is one that makes them small.
+  struct Framed {
+    std::vector<Box> edges, faces;
+    std::optional<BoxTree> tree;
+  };
+  std::optional<Framed> framed_;
   std::vector<std::array<std::array<double, 3>, 2>> ends_;  ///< of edges, rounded
   std::vector<uint32_t> starts_;
   std::vector<Box> face_boxes_;

@@ -10,6 +10,7 @@
 #include <csgrun/engine/evaluate.h>
 #include <csgrun/engine/exact_triangles.h>
 
+#include "engine/mesh/box_frame.h"
 #include "test_meshes.h"
 
 namespace csgrun {
@@ -102,6 +103,64 @@ TEST(Conform, VoidsThatTouchTheSurface) {
                  "voids with a common edge");
   const Tetrahedron below = tetrahedron({{{3, 3, 10}, {6, 4, 10}, {4, 6, 6}, {6, 2, 6}}});
   expect_complex(subtract({cube(10), below.solid}), 1000 - below.volume, 2, "an edge below a face");
+}
+
+/// Long, and aslant: the directions are (2, 14, 5), (10, -5, 10) and (11, 2, -10).
+glm::dvec3 aslant(const glm::dvec3& p) {
+  const double x = 12 * p.x;
+  return {2 * x + 10 * p.y + 11 * p.z, 14 * x - 5 * p.y + 2 * p.z, 5 * x + 10 * p.y - 10 * p.z};
+}
+
+Tetrahedron tetrahedron_aslant(std::array<glm::dvec3, 4> p) {
+  for (glm::dvec3& q : p) q = aslant(q);
+  return tetrahedron(p);
+}
+
+NodePtr block_aslant(double size) {
+  PolygonMesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.points.push_back(aslant({size * (i & 1), size * (i >> 1 & 1), size * (i >> 2)}));
+  }
+  for (const std::array<uint32_t, 4>& face : std::initializer_list<std::array<uint32_t, 4>>{
+           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    mesh.add_face(face);
+  }
+  return leaf(mesh, FillRule::kNonZero);
+}
+
+TEST(Conform, LongPartsAslant) {
+  const double volume = 12.0 * 3375 * 1728;
+  const auto stands = [&](const std::vector<Tetrahedron>& on, const std::string& what) {
+    std::vector<NodePtr> parts{block_aslant(12)};
+    double all = volume;
+    for (const Tetrahedron& t : on) parts.push_back(t.solid), all += t.volume;
+    const NodePtr root = unite(parts);
+    expect_complex(root, all, static_cast<int64_t>(parts.size()), what);
+    std::vector<std::array<Vec3d, 3>> triangles;
+    const SolidPtr solid = solid_of(root, false);
+    for (const auto& t : solid->triangles) {
+      auto& corners = triangles.emplace_back();
+      for (size_t i = 0; i < 3; ++i) {
+        const glm::dvec3& p = solid->positions[t[i]];
+        corners[i] = {p.x, p.y, p.z};
+      }
+    }
+    EXPECT_TRUE(find_box_frame(triangles)) << what;
+  };
+  const Tetrahedron apex = tetrahedron_aslant({{{4, 4, 12}, {3, 3, 15}, {6, 3, 15}, {3, 6, 15}}});
+  stands({apex}, "an apex on a face");
+  const Tetrahedron ridge =
+      tetrahedron_aslant({{{7, 7, 12}, {11, 8, 12}, {7, 11, 15}, {9, 6, 15}}});
+  stands({ridge}, "an edge on a face");
+  stands({apex, ridge}, "both");
+  stands({tetrahedron_aslant({{{4, 4, 12}, {20, 5, 12}, {4, 8, 15}, {6, 3, 15}}})}, "over the rim");
+  stands({tetrahedron_aslant({{{-3, 5, 12}, {15, 5, 12}, {2, 9, 15}, {2, 2, 15}}})},
+         "from rim to rim");
+  stands({tetrahedron_aslant({{{-4, 4, 12}, {4, -4, 12}, {9, 9, 15}, {2, 2, 15}}})},
+         "through a corner");
+  const Tetrahedron below = tetrahedron_aslant({{{3, 3, 12}, {6, 4, 12}, {4, 6, 6}, {6, 2, 6}}});
+  expect_complex(subtract({block_aslant(12), below.solid}), volume - below.volume, 2,
+                 "an edge below a face");
 }
 
 /// The surface of some cells of a lattice, as one mesh of squares: where cells touch along an edge

@@ -87,7 +87,7 @@ TEST(BoxFrame, IsAlongTheNormalsOfFlatSides) {
 
 TEST(BoxFrame, IsNoneWhereNothingIsGained) {
   EXPECT_FALSE(find_box_frame(plate(200, kUpright)));
-  EXPECT_FALSE(find_box_frame({}));
+  EXPECT_FALSE(find_box_frame(LeafGeometry{}));
   LeafGeometry needle;  // without area
   needle.vertices = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
   needle.corners = {0, 1, 2};

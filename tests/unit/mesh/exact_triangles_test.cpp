@@ -270,6 +270,33 @@ TEST(Crossings, OfManyAreThoseOfTwoByTwo) {
   }
 }
 
+/// Long triangles side by side, and the same turned: by whole numbers, so that nothing is rounded.
+TEST(Crossings, OfLongTrianglesAreTheSameAslant) {
+  std::mt19937_64 random(2);
+  const auto whole = [&](int range) { return static_cast<double>(random() % range); };
+  std::vector<glm::dvec3> upright, aslant;
+  std::vector<Triangle> triangles;
+  for (uint32_t t = 0; t < 700; ++t) {
+    const double y = whole(60), z = whole(60);
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 p(whole(4000), y + whole(3), z + whole(3));
+      upright.push_back(p);
+      aslant.emplace_back(2 * p.x + 10 * p.y + 11 * p.z, 14 * p.x - 5 * p.y + 2 * p.z,
+                          5 * p.x + 10 * p.y - 10 * p.z);
+    }
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  const auto pairs = [&](std::span<const glm::dvec3> points) {
+    std::vector<std::array<uint32_t, 2>> result;
+    for (const TriangleCrossing& c : find_crossings({points, triangles}, 1000000)) {
+      result.push_back(c.triangles);
+    }
+    return result;
+  };
+  EXPECT_GT(pairs(upright).size(), 100u);
+  EXPECT_EQ(pairs(aslant), pairs(upright));
+}
+
 TEST(Facing, AgreesWithRationals) {
   std::mt19937_64 random(4);
   int zeros = 0;
