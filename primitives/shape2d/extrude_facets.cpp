@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
-#include <tuple>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -101,30 +100,36 @@ std::vector<double> longest_lengths(const LinearExtrudeOptions& o, const Shape2D
   return lengths;
 }
 
-/// Pieces for each edge, so that there are `count` in all: again and again one more for the edge
-/// whose pieces are longest.
+/// Pieces for each edge, at most `count` in all: again and again one more for the edges whose
+/// pieces are longest, as long as all of those can have one. What is compared lies between the
+/// length of the pieces and their length with one more; edges within a thousandth of one another
+/// are alike, so that a regular outline stays regular.
 std::vector<int> pieces_by_count(const std::vector<double>& lengths, double count) {
+  constexpr double kAlike = 0.999;
   std::vector<int> pieces(lengths.size(), 1);
-  using Entry =
-      std::tuple<double, size_t>;  // length of a piece; the first of equal edges is on top
-  auto lower = [](const Entry& e, const Entry& f) {
-    return std::get<0>(e) < std::get<0>(f) ||
-           (std::get<0>(e) == std::get<0>(f) && std::get<1>(e) > std::get<1>(f));
-  };
-  std::priority_queue<Entry, std::vector<Entry>, decltype(lower)> longest(lower);
-  for (size_t i = 0; i < lengths.size(); ++i) longest.push({lengths[i], i});
-  for (double total = static_cast<double>(lengths.size()); total < count; ++total) {
-    const size_t i = std::get<1>(longest.top());
-    longest.pop();
-    ++pieces[i];
-    longest.push({lengths[i] / pieces[i], i});
+  using Entry = std::pair<double, size_t>;
+  std::priority_queue<Entry> longest;
+  const auto push = [&](size_t i) { longest.emplace(lengths[i] / (pieces[i] + 0.5), i); };
+  for (size_t i = 0; i < lengths.size(); ++i) push(i);
+  std::vector<size_t> alike;
+  for (auto total = static_cast<double>(lengths.size()); total < count;) {
+    const double least = longest.top().first * kAlike;
+    for (alike.clear(); !longest.empty() && longest.top().first >= least; longest.pop())
+      alike.push_back(longest.top().second);
+    total += static_cast<double>(alike.size());
+    if (total > count) break;
+    for (const size_t i : alike) {
+      ++pieces[i];
+      push(i);
+    }
   }
   return pieces;
 }
 
 std::vector<int> pieces_of(const std::vector<double>& lengths, const LinearExtrudeOptions& o) {
   if (o.segments) return pieces_by_count(lengths, *o.segments);
-  if (o.facets.fn > 0) return pieces_by_count(lengths, std::min(o.facets.fn, kMostPoints));
+  if (o.facets.fn > 0)
+    return pieces_by_count(lengths, std::min(std::floor(o.facets.fn), kMostPoints));
   const double most = std::ceil(360 / fa_of(o));
   std::vector<int> pieces(lengths.size());
   double total = 0;
@@ -135,7 +140,7 @@ std::vector<int> pieces_of(const std::vector<double>& lengths, const LinearExtru
     total += wanted;
     pieces[i] = static_cast<int>(std::min(wanted, kMostPoints));
   }
-  return total > most ? pieces_by_count(lengths, most) : pieces;
+  return total >= most ? pieces_by_count(lengths, most) : pieces;
 }
 
 }  // namespace
@@ -172,8 +177,8 @@ double slices_of(const Shape2D& shape, const LinearExtrudeOptions& options, doub
 
 bool is_cut_from_first(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                        const glm::dvec3& d, bool of_equal) {
-  const double to_c = glm::dot(c - a, c - a), to_d = glm::dot(d - b, d - b);
-  return std::fabs(to_c - to_d) > 1e-5 * std::max(to_c, to_d) ? to_c < to_d : of_equal;
+  const double to_c = std::sqrt(glm::dot(c - a, c - a)), to_d = std::sqrt(glm::dot(d - b, d - b));
+  return std::fabs(to_c - to_d) > 1e-5 * (to_c + to_d) / 2 ? to_c < to_d : of_equal;
 }
 
 std::vector<Shape2D::Loop> split_outlines(const Shape2D& shape, const LinearExtrudeOptions& options,

@@ -5,8 +5,8 @@
 
 namespace csgrun {
 
-/// The number of slices as a double, at least 1 and perhaps absurdly large. `height` is the length
-/// of the height vector.
+/// The number of slices as a double, at least 1 and perhaps absurdly large. `height` is what
+/// the top is above the bottom.
 double slices_of(const Shape2D& shape, const LinearExtrudeOptions& options, double height);
 
 /// The loops with vertices added on long edges, for twists and uneven scales.

@@ -105,8 +105,13 @@ class LinearExtruder {
     return options_.twist == 0 && options_.scale.x == options_.scale.y;
   }
 
+  /// Where the axis is at slice i.
+  [[nodiscard]] glm::dvec3 height_of(int i) const {
+    return i == slices_ ? top_ : bottom_ + (top_ - bottom_) * (double(i) / slices_);
+  }
+
   void add_ring(int i) {
-    const glm::dvec3 at = i == slices_ ? top_ : bottom_ + (top_ - bottom_) * (double(i) / slices_);
+    const glm::dvec3 at = height_of(i);
     const Slice slice(options_, i, slices_);
     std::vector<uint32_t>& ring = rings_.emplace_back();
     for (const glm::dvec2& p : profile_.points) {
@@ -172,19 +177,31 @@ class LinearExtruder {
       mesh_.add_face(std::array<uint32_t, 4>{a, b, c, d}, surface);
       return;
     }
+    // Where an extent goes to nothing the longer diagonal is taken: the shorter ones would make
+    // walls of no thickness there.
     const bool at_edge = edge_top_ && i + 1 == slices_;
-    const bool from_a = at_edge ? edge_top_->cut_at_from(d - top_first_, c - top_first_)
-                                : cut_from_a(a, b, c, d, hole);
+    const bool from_a = at_edge != cut_from_a(i, {a, b, c, d}, hole);
     mesh_.add_face(std::array<uint32_t, 3>{a, b, from_a ? c : d}, surface);
-    mesh_.add_face(std::array<uint32_t, 3>{c, d, from_a ? a : b}, surface);
+    const uint32_t foot = from_a ? a : b;
+    if (!at_edge) {
+      mesh_.add_face(std::array<uint32_t, 3>{c, d, foot}, surface);
+      return;
+    }
+    const uint32_t step = c < d ? 1 : UINT32_MAX;  // from place to place along the edge
+    for (uint32_t from = c; from != d; from += step)
+      mesh_.add_face(std::array<uint32_t, 3>{from, from + step, foot}, surface);
   }
 
-  /// Whether the quadrilateral a b c d is cut from a to c: along the shorter diagonal; of two equal
-  /// ones the one that the twist leans to.
-  [[nodiscard]] bool cut_from_a(uint32_t a, uint32_t b, uint32_t c, uint32_t d, bool hole) const {
-    const auto& points = mesh_.points;
-    const bool leans_to_c = ((options_.twist > 0) != hole) != top_collapses();
-    return is_cut_from_first(points[a], points[b], points[c], points[d], leans_to_c);
+  /// Whether the quadrilateral a b c d above slice i is cut from a to c: along the diagonal that is
+  /// shorter seen from above, were the extrusion upright; of two equal ones the one that the twist
+  /// leans to.
+  [[nodiscard]] bool cut_from_a(int i, const std::array<uint32_t, 4>& abcd, bool hole) const {
+    std::array<glm::dvec3, 4> flat;
+    for (size_t k = 0; k < 4; ++k) {
+      flat[k] = mesh_.points[abcd[k]] - height_of(k < 2 ? i : i + 1);
+      flat[k].z = 0;
+    }
+    return is_cut_from_first(flat[0], flat[1], flat[2], flat[3], (options_.twist > 0) != hole);
   }
 
   const LinearExtrudeOptions& options_;
@@ -208,8 +225,7 @@ MeshResult linear_extrude(const Shape2D& shape, const LinearExtrudeOptions& opti
   if (options.round != std::array<double, 2>{0, 0}) return rounded_extrude(shape, options, *height);
   const bool straight = options.twist == 0 && options.scale.x == options.scale.y;
   // Slices of planar sides would be pieces of the same faces.
-  const double slices =
-      straight ? 1 : slices_of(shape, options, std::sqrt(glm::dot(*height, *height)));
+  const double slices = straight ? 1 : slices_of(shape, options, height->z);
   if (slices > kMostPoints) return too_many_points(kName, slices, slices);
   if (options.segments && *options.segments > kMostPoints) {
     return too_many_points(kName, *options.segments, *options.segments);
