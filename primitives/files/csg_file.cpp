@@ -366,11 +366,23 @@ class CsgBuilder {
     return Item::of(Node::convex_hull(take_solids(frame), where(frame)));
   }
 
+  /// OpenSCAD's rule for 2D children that are empty: later ones are left out, but for the sum of
+  /// one shape and nothing else. (Of solids all empty ones are left out.)
+  static bool sum_of_shapes_is_empty(const std::vector<Item>& children) {
+    const auto is_shape = [](const Item& i) { return i.kind == Item::Kind::kFlat; };
+    const auto shapes = std::count_if(children.begin(), children.end(), is_shape);
+    return children.size() > 1 && (!is_shape(children.front()) || shapes == 1);
+  }
+
   Result<Item> minkowski(CsgFrame& frame) {
     const Item::Kind kind = settle_kind(frame);
     if (kind == Item::Kind::kEmpty) return Item();
     if (kind == Item::Kind::kFlat) {
       const auto colour = colour_of_first(frame);
+      if (sum_of_shapes_is_empty(frame.children)) {
+        warn(frame, "minkowski: the sum of a shape and an empty one is empty");
+        return Item();
+      }
       return item_of(minkowski_of_shapes(take_shapes(frame)), colour);
     }
     std::vector<NodePtr> solids = take_solids(frame);

@@ -312,6 +312,16 @@ TEST(CsgFile, OutlinesOfShapes) {
   EXPECT_NEAR(area("hull() {" + ring + kSquare + "}"), 16, 1e-9);
   EXPECT_NEAR(area("fill() {" + ring + "}"), 16, 1e-9);
   EXPECT_NEAR(area("minkowski(convexity = 0) {" + ring + kNothing + kSquare + "}"), 6 * 5, 1e-9);
+  // As OpenSCAD has it: nothing is left of a sum that begins with an empty shape, or has one
+  // besides.
+  const std::string unit = "square(size = [1, 1], center = false);\n";
+  for (const std::string& operands :
+       {kNothing + kSquare, kSquare + kNothing, kNothing + kSquare + kSquare,
+        kSquare + kNothing + kNothing}) {
+    EXPECT_NEAR(area("minkowski(convexity = 0) {" + operands + "}" + unit), 1, 1e-9) << operands;
+  }
+  EXPECT_NEAR(area("minkowski(convexity = 0) {" + kSquare + kSquare + kNothing + "}"), 8, 1e-9);
+  EXPECT_NEAR(area("minkowski(convexity = 0) {" + kSquare + "}"), 2, 1e-9);
   EXPECT_NEAR(area("resize(newsize = [8, 0, 0], auto = [0, 1, 0], convexity = 0) {" + ring + "}"),
               48, 1e-9);
   EXPECT_NEAR(area("resize(newsize = [8, -1, 5], auto = [0, 0, 0]) {" + ring + "}"), 24, 1e-9);
