@@ -33,7 +33,8 @@ constexpr Option kSurfaceOptions[] = {
 };
 constexpr FunctionSpec kSurface{
     "surface",
-    "The solid under heights 1 mm apart along X and Y, down to 1 mm below the least of them.",
+    "The solid under heights 1 mm apart along X and Y, down to 1 mm below the least of them; of a "
+    "text file down to 0 at least.",
     kSurfaceOptions, false, "surface{heights = {{0, 1, 0}, {1, 3, 1}, {0, 1, 0}}, center = true}"};
 
 HeightMap read_heights(lua_State* L, int index) {

@@ -1034,7 +1034,7 @@ function Solid:edges(on, options) end
 ---@field heights? any instead of a file: a list of rows, each a list of numbers; the first row is at y = 0
 ---@field convexity? integer ignored: OpenSCAD needs it for its preview
 
----The solid under heights 1 mm apart along X and Y, down to 1 mm below the least of them.
+---The solid under heights 1 mm apart along X and Y, down to 1 mm below the least of them; of a text file down to 0 at least.
 ---
 ---Example: `surface{heights = {{0, 1, 0}, {1, 3, 1}, {0, 1, 0}}, center = true}`
 ---@overload fun(options: csgrun.surface): Solid

@@ -26,6 +26,7 @@ Result<HeightMap> parse_table(const std::string& name, std::string_view bytes) {
   std::vector<std::vector<double>> rows;
   TextScanner scanner(bytes, '#');
   size_t columns = 0, count = 0;
+  double least = 1;
   do {
     std::vector<double> row;
     for (auto word = scanner.word(); !word.empty(); word = scanner.word()) {
@@ -34,6 +35,7 @@ Result<HeightMap> parse_table(const std::string& name, std::string_view bytes) {
         return malformed(name, scanner.place(), "expected a number, got " + quoted(word));
       }
       row.push_back(*value);
+      least = std::min(least, *value);
     }
     if (row.empty()) continue;
     columns = std::max(columns, row.size());
@@ -41,7 +43,7 @@ Result<HeightMap> parse_table(const std::string& name, std::string_view bytes) {
     rows.push_back(std::move(row));
     if (count > kMostHeights || rows.size() > kMostHeights / columns) return too_many(name);
   } while (scanner.next_line());
-  HeightMap map{columns, rows.size(), {}};
+  HeightMap map{columns, rows.size(), {}, least - 1};
   map.heights.reserve(columns * rows.size());
   for (std::vector<double>& row : rows) {
     row.resize(columns, 0);
@@ -124,7 +126,8 @@ MeshResult make_surface(const HeightMap& map, bool center) {
   for (const double h : map.heights) {
     if (!std::isfinite(h)) return not_finite("surface", "a height", h);
   }
-  const double floor = *std::min_element(map.heights.begin(), map.heights.end()) - 1;
+  const double floor =
+      map.floor.value_or(*std::min_element(map.heights.begin(), map.heights.end()) - 1);
   const double x0 = center ? -static_cast<double>(columns - 1) / 2 : 0;
   const double y0 = center ? -static_cast<double>(rows - 1) / 2 : 0;
   PolygonMesh mesh;

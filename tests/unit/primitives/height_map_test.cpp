@@ -90,6 +90,22 @@ TEST(Surface, IsClosedAndHasItsVolume) {
   EXPECT_EQ(centred->points[0], glm::dvec3(-1, -0.5, 0));
 }
 
+TEST(Surface, OfATextStandsOnZeroUnlessItGoesBelow) {
+  const auto bottom = [](const std::string& text) {
+    const auto map = parse_height_map("h.dat", text, false);
+    EXPECT_TRUE(map);
+    const auto mesh = make_surface(*map, false);
+    EXPECT_TRUE(mesh);
+    return mesh->points.back().z;
+  };
+  EXPECT_EQ(bottom("9 6 7\n6 8 9\n5 3 2\n"), 0);
+  EXPECT_EQ(bottom("1 6\n6 8\n"), 0);
+  EXPECT_EQ(bottom("9 6\n0.5 8\n"), -0.5);
+  EXPECT_EQ(bottom("9 -6\n5 8\n"), -7);
+  // What a short row lacks has the height 0, and moves no floor.
+  EXPECT_EQ(bottom("9 6 7\n6 8 9\n2\n"), 0);
+}
+
 TEST(Surface, Mistakes) {
   EXPECT_EQ(make_surface({3, 1, {1, 2, 3}}, false).error().message,
             "surface: needs at least 2 rows and 2 columns of heights, got 1 and 3");
