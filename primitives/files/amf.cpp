@@ -106,8 +106,8 @@ std::string name_of(const pugi::xml_node& node) {
 
 class AmfReader {
  public:
-  AmfReader(const pugi::xml_node& amf, std::vector<std::string>* notes)
-      : amf_(amf), notes_(notes), unit_(unit_of(amf)) {}
+  AmfReader(const pugi::xml_node& amf, std::vector<std::string>* notes, FileUnit unit)
+      : amf_(amf), notes_(notes), unit_(unit == FileUnit::kNamed ? unit_of(amf) : 1) {}
 
   std::vector<ModelPart> read() {
     for (const pugi::xml_node& node : amf_.children("material"))
@@ -308,7 +308,7 @@ class AmfReader {
 bool is_amf_path(const std::string& path) { return has_ending(path, ".amf"); }
 
 Result<std::vector<ModelPart>> parse_amf(const std::string& name, std::string_view bytes,
-                                         std::vector<std::string>* notes) {
+                                         std::vector<std::string>* notes, FileUnit unit) {
   std::string text;
   if (bytes.starts_with("PK")) {
     auto archive = ZipArchive::open(name, bytes);
@@ -331,7 +331,7 @@ Result<std::vector<ModelPart>> parse_amf(const std::string& name, std::string_vi
     return malformed(name, "", "it is no AMF file");
   try {
     std::vector<std::string> own_notes;
-    std::vector<ModelPart> parts = AmfReader(document.document_element(), &own_notes).read();
+    std::vector<ModelPart> parts = AmfReader(document.document_element(), &own_notes, unit).read();
     if (notes != nullptr) {
       for (const std::string& note : own_notes) notes->push_back(name + ": " + note);
     }

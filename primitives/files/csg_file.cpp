@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
+
+#include <glm/common.hpp>
 
 #include <csgrun/primitives/csg_file.h>
 #include <csgrun/primitives/height_map.h>
@@ -180,6 +183,7 @@ class CsgBuilder {
     const bool center = arguments.boolean("center", false);
     const bool invert = arguments.boolean("invert", false);
     if (arguments.error()) return *arguments.error();
+    if (path.empty()) return without_file(frame);
     if (!environment_.read) {
       return Error{ErrorCode::kInvalidArgument, "surface: there are no files here", {}};
     }
@@ -190,11 +194,18 @@ class CsgBuilder {
     return leaf(frame, make_surface(*map, center), {});
   }
 
+  /// What a call without a name, or with one that is no string, is written as.
+  Result<Item> without_file(const CsgFrame& frame) {
+    warn(frame, frame.call.name + ": names no file, it is empty");
+    return Item();
+  }
+
   /// A mesh, or a drawing. A file that is not there is an error: nothing is dropped silently.
   Result<Item> import(const CsgFrame& frame) {
     const Result<CsgImport> import = csg_import(frame.call);
     if (!import) return import.error();
     const std::string& path = import->file;
+    if (path.empty()) return without_file(frame);
     const bool drawing = !flat_file_format_of(path).empty();
     const bool archive = is_3mf_path(path) || is_amf_path(path);
     if (!drawing && !archive && mesh_format_of(path).empty()) {
@@ -215,10 +226,11 @@ class CsgBuilder {
       return Item::of(std::move(file->shape));
     }
     std::vector<std::string> notes;
-    auto parts = is_3mf_path(path)   ? parse_3mf(path, *bytes, &notes)
-                 : is_amf_path(path) ? parse_amf(path, *bytes, &notes)
+    auto parts = is_3mf_path(path)   ? parse_3mf(path, *bytes, &notes, FileUnit::kMillimetre)
+                 : is_amf_path(path) ? parse_amf(path, *bytes, &notes, FileUnit::kMillimetre)
                                      : mesh_as_parts(path, *bytes, &notes);
     if (!parts) return Error{parts.error().code, "import: " + parts.error().message, {}};
+    if (import->options.center) move_to_the_middle(*parts);
     std::vector<NodePtr> solids;
     CsgSheet sheet;
     for (ModelPart& part : *parts) {
@@ -242,6 +254,21 @@ class CsgBuilder {
                       ? solids[0]
                       : Node::boolean(BooleanOp::kUnion, std::move(solids), where(frame));
     return Item::with_sheet(Item::of(std::move(all)), std::move(sheet), {});
+  }
+
+  /// The middle of the box of all parts goes to the origin.
+  static void move_to_the_middle(std::vector<ModelPart>& parts) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const ModelPart& part : parts) {
+      for (const uint32_t corner : part.mesh.corners) {
+        low = glm::min(low, part.mesh.points[corner]);
+        high = glm::max(high, part.mesh.points[corner]);
+      }
+    }
+    if (!(low.x <= high.x)) return;
+    for (ModelPart& part : parts) {
+      for (glm::dvec3& point : part.mesh.points) point -= (low + high) / 2.0;
+    }
   }
 
   static Result<std::vector<ModelPart>> mesh_as_parts(const std::string& path,

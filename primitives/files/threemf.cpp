@@ -45,8 +45,9 @@ struct Part {
 
 class PackageReader {
  public:
-  PackageReader(const std::string& name, ZipArchive archive, std::vector<std::string>* notes)
-      : name_(name), archive_(std::move(archive)), notes_(notes) {}
+  PackageReader(const std::string& name, ZipArchive archive, std::vector<std::string>* notes,
+                FileUnit unit)
+      : name_(name), archive_(std::move(archive)), notes_(notes), unit_(unit) {}
 
   Result<std::vector<ModelPart>> read() {
     try {
@@ -164,13 +165,18 @@ class PackageReader {
       throw ModelFault{"its components multiply to more than a model would", ErrorCode::kLimit};
   }
 
+  /// How many millimetres a unit of a document is.
+  [[nodiscard]] double unit_of(const Part& part) const {
+    return unit_ == FileUnit::kNamed ? part.model->unit() : 1;
+  }
+
   ModelPart built(Part& root, const ModelReference& item) {
     Part& owner = part_of(root, item);
     ModelPart result;
     result.name = owner.model->object(item.object).name;
     Affine map = item.map;
     for (auto& row : map.m) {
-      for (double& entry : row) entry *= root.model->unit();
+      for (double& entry : row) entry *= unit_of(root);
     }
     numbers_.clear();
     add(root, item, map, result.mesh);
@@ -187,7 +193,7 @@ class PackageReader {
   void add(Part& from, const ModelReference& reference, const Affine& map, PolygonMesh& mesh) {
     Part& owner = part_of(from, reference);
     place_ = owner.path;
-    const double factor = owner.model->unit() / from.model->unit();
+    const double factor = unit_of(owner) / unit_of(from);
     const Affine placed = factor == 1 ? map : scaled_first(map, factor);
     const ModelObject& each = owner.model->object(reference.object);
     if (!each.left_out.empty()) return;
@@ -199,7 +205,8 @@ class PackageReader {
   const std::string& name_;
   ZipArchive archive_;
   std::vector<std::string>* notes_;  ///< never null
-  std::string place_;                ///< which document is being read, for messages
+  FileUnit unit_;
+  std::string place_;  ///< which document is being read, for messages
   std::map<std::string, std::unique_ptr<Part>> parts_;
   uint64_t own_ = 0;     ///< points, triangles and references of what is built, once each
   LookNumbers numbers_;  ///< of the part that is being made
@@ -210,11 +217,11 @@ class PackageReader {
 bool is_3mf_path(const std::string& path) { return has_ending(path, ".3mf"); }
 
 Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes,
-                                         std::vector<std::string>* notes) {
+                                         std::vector<std::string>* notes, FileUnit unit) {
   auto archive = ZipArchive::open(name, bytes);
   if (!archive) return archive.error();
   std::vector<std::string> own_notes;
-  auto parts = PackageReader(name, *std::move(archive), &own_notes).read();
+  auto parts = PackageReader(name, *std::move(archive), &own_notes, unit).read();
   if (!parts) return parts;
   for (ModelPart& part : *parts) {
     part.mesh.kind = name;

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -380,6 +381,19 @@ TEST(CsgFile, ImportsFilesOfTheirFolder) {
     if (path == "a.off")
       return std::string(
           "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    if (path == "a.amf") {
+      std::string vertices, triangles;
+      for (const char* v : {"0 0 0", "1 0 0", "0 1 0", "0 0 1"}) {
+        vertices += std::string("<vertex><coordinates><x>") + v[0] + "</x><y>" + v[2] + "</y><z>" +
+                    v[4] + "</z></coordinates></vertex>";
+      }
+      for (const char* t : {"0 2 1", "0 1 3", "0 3 2", "1 2 3"}) {
+        triangles += std::string("<triangle><v1>") + t[0] + "</v1><v2>" + t[2] + "</v2><v3>" +
+                     t[4] + "</v3></triangle>";
+      }
+      return "<amf unit='inch'><object id='1'><mesh><vertices>" + vertices + "</vertices><volume>" +
+             triangles + "</volume></mesh></object></amf>";
+    }
     return Error{ErrorCode::kMalformedFile, "cannot read it", {}};
   };
   const auto import = [&](const std::string& text) {
@@ -394,6 +408,27 @@ TEST(CsgFile, ImportsFilesOfTheirFolder) {
   const auto mesh = import("file = \"a.off\"");
   ASSERT_TRUE(mesh);
   EXPECT_EQ(mesh->solid->mesh()->face_count(), 4u);
+  // The middle of a mesh's box, and AMF's numbers as millimetres whatever unit it names.
+  const auto extent = [&](const std::string& text) {
+    const auto model = import(text);
+    EXPECT_TRUE(model) << (model ? "" : model.error().message);
+    std::array<glm::dvec3, 2> box{glm::dvec3(1e9), glm::dvec3(-1e9)};
+    for (const glm::dvec3& p : model->solid->mesh()->points)
+      box = {glm::min(box[0], p), glm::max(box[1], p)};
+    return box;
+  };
+  using Box = std::array<glm::dvec3, 2>;
+  EXPECT_EQ(extent("file = \"a.off\", center = false"), (Box{glm::dvec3(0), glm::dvec3(1)}));
+  EXPECT_EQ(extent("file = \"a.off\", center = true"), (Box{glm::dvec3(-0.5), glm::dvec3(0.5)}));
+  EXPECT_EQ(extent("file = \"a.amf\", center = false"), (Box{glm::dvec3(0), glm::dvec3(1)}));
+  EXPECT_EQ(extent("file = \"a.amf\", center = true"), (Box{glm::dvec3(-0.5), glm::dvec3(0.5)}));
+  // What import() and surface() without a file are written as.
+  for (const char* nothing :
+       {"import(file = \"\", origin = [0, 0]);", "surface(file = \"\", center = false);"}) {
+    const CsgModel rest = parse(nothing + kCube);
+    EXPECT_EQ(sketch(rest.solid), "cube");
+    EXPECT_EQ(rest.warnings.size(), 1u);
+  }
   const auto missing = import("file = \"b.svg\"");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().message, "import: cannot read it");

@@ -18,13 +18,18 @@ struct ModelPart {
   bool goes_on = false;  ///< not a part of its own: united with the one before, of the same name
 };
 
+/// Whether the numbers of a file are in the unit that it names, or millimetres whatever it names,
+/// as OpenSCAD takes them.
+enum class FileUnit { kNamed, kMillimetre };
+
 /// The parts that a 3MF file builds, in its order: units, transforms, components, base materials
 /// and colours are understood, in one document or several. `name` stands in messages. `notes` gets
 /// what is not read, though it may be a solid, and when colours were rounded to 4096 at most.
 /// Errors: kMalformedFile; kLimit for what unpacks, or multiplies by components, to more than a
 /// model would.
 Result<std::vector<ModelPart>> parse_3mf(const std::string& name, std::string_view bytes,
-                                         std::vector<std::string>* notes = nullptr);
+                                         std::vector<std::string>* notes = nullptr,
+                                         FileUnit unit = FileUnit::kNamed);
 
 /// Whether a path ends in .3mf, in letters of any case.
 bool is_3mf_path(const std::string& path);
@@ -34,7 +39,8 @@ bool is_3mf_path(const std::string& path);
 /// several volumes, each closed, these are meshes that go on. `name` stands in messages.
 /// `notes` (may be null) gets what was passed over. Errors as those of parse_3mf.
 Result<std::vector<ModelPart>> parse_amf(const std::string& name, std::string_view bytes,
-                                         std::vector<std::string>* notes);
+                                         std::vector<std::string>* notes,
+                                         FileUnit unit = FileUnit::kNamed);
 
 /// Whether a path ends in .amf, in letters of any case.
 bool is_amf_path(const std::string& path);
