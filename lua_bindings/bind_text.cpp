@@ -35,6 +35,8 @@ constexpr Option kTextOptions[] = {
     {"language", T::kString, "\"en\"", "language, for the font's rules", false},
     {"script", T::kString, "that of the characters",
      "script: \"latin\", \"arabic\" ..., or a code: \"Latn\"", false},
+    {"as_openscad", T::kBoolean, "false",
+     "rounded as in OpenSCAD: letters 6e-5 smaller, ink aligned to within 6e-4 of the size", false},
 };
 constexpr FunctionSpec kText{"text", "Text as a 2D shape: one line or several.", kTextOptions, true,
                              "text(\"csgrun\", {size = 8, halign = \"center\"})"};
@@ -89,6 +91,7 @@ TextOptions text_options(const Arguments& arguments, const FunctionSpec& spec) {
   options.direction = arguments.string("direction", "");
   options.language = arguments.string("language", "en");
   options.script = arguments.string("script", "");
+  options.as_openscad_rounds = arguments.boolean("as_openscad", false);
   options.facets = arguments.facets();
   return options;
 }

@@ -486,6 +486,7 @@ function Shape:outlines() end
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
 ---@field language? string language, for the font's rules
 ---@field script? string script: "latin", "arabic" ..., or a code: "Latn"
+---@field as_openscad? boolean rounded as in OpenSCAD: letters 6e-5 smaller, ink aligned to within 6e-4 of the size
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
@@ -516,6 +517,7 @@ csg.text = text
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
 ---@field language? string language, for the font's rules
 ---@field script? string script: "latin", "arabic" ..., or a code: "Latn"
+---@field as_openscad? boolean rounded as in OpenSCAD: letters 6e-5 smaller, ink aligned to within 6e-4 of the size
 ---@field depth? number how thick, along Z
 ---@field height? number the same, as linear_extrude calls it
 ---@field h? number the same as height
@@ -549,6 +551,7 @@ csg.text3d = text3d
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
 ---@field language? string language, for the font's rules
 ---@field script? string script: "latin", "arabic" ..., or a code: "Latn"
+---@field as_openscad? boolean rounded as in OpenSCAD: letters 6e-5 smaller, ink aligned to within 6e-4 of the size
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
@@ -579,6 +582,7 @@ csg.text_metrics = text_metrics
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
 ---@field language? string language, for the font's rules
 ---@field script? string script: "latin", "arabic" ..., or a code: "Latn"
+---@field as_openscad? boolean rounded as in OpenSCAD: letters 6e-5 smaller, ink aligned to within 6e-4 of the size
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01

@@ -300,6 +300,7 @@ Result<CsgText> csg_text(const CsgCall& call, std::vector<std::string>& warnings
   o.halign = arguments.string("halign", "default");
   o.valign = arguments.string("valign", "default");
   o.facets = arguments.facets();
+  o.as_openscad_rounds = true;
   text.font = arguments.string("font", "");
   if (arguments.error()) return *arguments.error();
   const auto keep_known = [&](const char* name, std::string& value, const std::string& otherwise,

@@ -2,9 +2,12 @@
 // conversion to mm, the lines, the alignment and the curves are ours.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
+
+#include <glm/common.hpp>
 
 #include "primitives/base/text.h"
 #include "primitives/files/formats.h"
@@ -17,10 +20,33 @@ namespace {
 /// OpenSCAD sets type at 100 dpi for a point of 1/72 inch: an em is size * 100 / 72.
 constexpr double kEmPerSize = 100.0 / 72;
 
-/// The outline of one glyph, in units.
+/// OpenSCAD's font library scales the points of a font to whole type units before anything else.
+class TypeUnits {
+ public:
+  /// `outline_em` type units for the font's units of an em.
+  TypeUnits(int outline_em, double units_per_em)
+      : factor_(std::llround(outline_em * kOne / units_per_em)) {}
+
+  [[nodiscard]] glm::dvec2 of(const glm::dvec2& p) const { return {of(p.x), of(p.y)}; }
+
+  /// Where a font leaves out the point between two control points.
+  static glm::dvec2 between(const glm::dvec2& a, const glm::dvec2& b) {
+    return {std::trunc((a.x + b.x) / 2), std::trunc((a.y + b.y) / 2)};
+  }
+
+ private:
+  static constexpr double kOne = 65536;
+  [[nodiscard]] double of(double units) const {
+    return static_cast<double>(std::llround(units * static_cast<double>(factor_) / kOne));
+  }
+  int64_t factor_;  ///< type units per unit, in 65536ths
+};
+
+/// The outline of one glyph, in units, or in type units.
 class GlyphPen {
  public:
-  explicit GlyphPen(int steps) : steps_(steps) {}
+  GlyphPen(int steps, std::optional<TypeUnits> type_units)
+      : steps_(steps), type_units_(type_units) {}
 
   std::vector<Shape2D::Loop> loops;
   glm::dvec2 low{std::numeric_limits<double>::infinity()};
@@ -33,9 +59,17 @@ class GlyphPen {
 #else
     hb_font_get_glyph_shape(font, glyph, functions, this);
 #endif
+    end_contour();
   }
 
  private:
+  /// From the end of the one before, with as many control points as `count` says.
+  struct Stroke {
+    int count = 0;
+    glm::dvec2 control[2]{};
+    glm::dvec2 end{};
+  };
+
   static hb_draw_funcs_t* make_functions() {
     hb_draw_funcs_t* f = hb_draw_funcs_create();
     hb_draw_funcs_set_move_to_func(
@@ -47,25 +81,60 @@ class GlyphPen {
     hb_draw_funcs_set_line_to_func(
         f,
         [](hb_draw_funcs_t*, void* pen, hb_draw_state_t*, float x, float y, void*) {
-          static_cast<GlyphPen*>(pen)->line_to({x, y});
+          static_cast<GlyphPen*>(pen)->strokes_.push_back({0, {}, {x, y}});
         },
         nullptr, nullptr);
     hb_draw_funcs_set_quadratic_to_func(
         f,
         [](hb_draw_funcs_t*, void* pen, hb_draw_state_t*, float cx, float cy, float x, float y,
            void*) {
-          static_cast<GlyphPen*>(pen)->quadratic_to({cx, cy}, {x, y});
+          static_cast<GlyphPen*>(pen)->strokes_.push_back({1, {{cx, cy}, {}}, {x, y}});
         },
         nullptr, nullptr);
     hb_draw_funcs_set_cubic_to_func(
         f,
         [](hb_draw_funcs_t*, void* pen, hb_draw_state_t*, float ax, float ay, float bx, float by,
            float x, float y, void*) {
-          static_cast<GlyphPen*>(pen)->cubic_to({ax, ay}, {bx, by}, {x, y});
+          static_cast<GlyphPen*>(pen)->strokes_.push_back({2, {{ax, ay}, {bx, by}}, {x, y}});
         },
         nullptr, nullptr);
     hb_draw_funcs_make_immutable(f);
     return f;
+  }
+
+  void move_to(const glm::dvec2& p) {
+    end_contour();
+    start_ = p;
+  }
+
+  void end_contour() {
+    if (strokes_.empty()) return;
+    if (type_units_) round_strokes();
+    loops.emplace_back();
+    add(start_);
+    for (const Stroke& stroke : strokes_) append(stroke);
+    strokes_.clear();
+  }
+
+  void round_strokes() {
+    const size_t n = strokes_.size();
+    std::vector<Stroke> rounded = strokes_;
+    for (Stroke& stroke : rounded) {
+      for (int k = 0; k < stroke.count; ++k) stroke.control[k] = type_units_->of(stroke.control[k]);
+      stroke.end = type_units_->of(stroke.end);
+    }
+    const bool closed = start_ == strokes_.back().end;
+    start_ = type_units_->of(start_);
+    for (size_t i = 0; i < n; ++i) {
+      const size_t next = (i + 1) % n;
+      if ((next == 0 && !closed) || strokes_[i].count != 1 || strokes_[next].count != 1) continue;
+      const bool left_out =
+          2.0 * strokes_[i].end == strokes_[i].control[0] + strokes_[next].control[0];
+      if (!left_out) continue;
+      rounded[i].end = TypeUnits::between(rounded[i].control[0], rounded[next].control[0]);
+      if (next == 0) start_ = rounded[i].end;
+    }
+    strokes_ = std::move(rounded);
   }
 
   void meet(const glm::dvec2& p) {
@@ -73,41 +142,28 @@ class GlyphPen {
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
 
-  void move_to(const glm::dvec2& p) {
-    loops.emplace_back();
-    line_to(p);
-  }
-
-  void line_to(const glm::dvec2& p) {
-    if (loops.empty()) loops.emplace_back();
+  void add(const glm::dvec2& p) {
     meet(p);
     loops.back().push_back(p);
   }
 
-  void quadratic_to(const glm::dvec2& c, const glm::dvec2& p) {
-    if (loops.empty() || loops.back().empty()) return;
-    const glm::dvec2 a = loops.back().back();
-    meet(c);
-    for (int i = 1; i < steps_; ++i) {
+  void append(const Stroke& stroke) {
+    const glm::dvec2 a = loops.back().back(), &c = stroke.control[0], &d = stroke.control[1],
+                     &p = stroke.end;
+    for (int k = 0; k < stroke.count; ++k) meet(stroke.control[k]);
+    for (int i = 1; i < steps_ && stroke.count > 0; ++i) {
       const double t = double(i) / steps_, s = 1 - t;
-      line_to(s * s * a + 2 * s * t * c + t * t * p);
+      add(stroke.count == 1
+              ? s * s * a + 2 * s * t * c + t * t * p
+              : s * s * s * a + 3 * s * s * t * c + 3 * s * t * t * d + t * t * t * p);
     }
-    line_to(p);
-  }
-
-  void cubic_to(const glm::dvec2& c, const glm::dvec2& d, const glm::dvec2& p) {
-    if (loops.empty() || loops.back().empty()) return;
-    const glm::dvec2 a = loops.back().back();
-    meet(c);
-    meet(d);
-    for (int i = 1; i < steps_; ++i) {
-      const double t = double(i) / steps_, s = 1 - t;
-      line_to(s * s * s * a + 3 * s * s * t * c + 3 * s * t * t * d + t * t * t * p);
-    }
-    line_to(p);
+    add(p);
   }
 
   int steps_;
+  std::optional<TypeUnits> type_units_;
+  glm::dvec2 start_{};
+  std::vector<Stroke> strokes_;  ///< of the contour that is being drawn
 };
 
 /// Lines of text as outlines, in units, from the origin of the first glyph of the first line.
@@ -177,6 +233,11 @@ std::optional<hb_script_t> script_of(const std::string& name) {
   return hb_script_from_string(lower.data(), static_cast<int>(lower.size()));
 }
 
+/// With units as the places of glyphs have.
+hb_font_t* shaping_font(const TextOptions& o, const Font& font) {
+  return (o.as_openscad_rounds ? font.data().in_type_units : font.data().font).get();
+}
+
 /// The glyphs of one line and their places.
 Result<HarfbuzzPtr<hb_buffer_t>> shape(const TextOptions& o, std::string_view text,
                                        const Font& font) {
@@ -206,7 +267,7 @@ Result<HarfbuzzPtr<hb_buffer_t>> shape(const TextOptions& o, std::string_view te
   }
   hb_buffer_set_language(buffer.get(), language_of(o.language));
   hb_buffer_guess_segment_properties(buffer.get());
-  hb_shape(font.data().font.get(), buffer.get(), nullptr, 0);
+  hb_shape(shaping_font(o, font), buffer.get(), nullptr, 0);
   return buffer;
 }
 
@@ -242,9 +303,9 @@ double offset_across(const TextOptions& o, bool horizontal, const Block& block) 
 }
 
 /// From one line to the next, in units: what the font says of its lines.
-double line_distance(const Font& font) {
+double line_distance(hb_font_t* font) {
   hb_font_extents_t extents{};
-  hb_font_get_h_extents(font.data().font.get(), &extents);
+  hb_font_get_h_extents(font, &extents);
   return double(extents.ascender) - extents.descender + extents.line_gap;
 }
 
@@ -271,6 +332,8 @@ std::optional<Error> add_line(const TextOptions& o, std::string_view text, const
   const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer, nullptr);
   const hb_glyph_position_t* places = hb_buffer_get_glyph_positions(buffer, nullptr);
   horizontal = HB_DIRECTION_IS_HORIZONTAL(hb_buffer_get_direction(buffer));
+  std::optional<TypeUnits> type_units;
+  if (o.as_openscad_rounds) type_units.emplace(font.data().outline_em, font.data().units_per_em);
   glm::dvec2 advance(0);
   for (unsigned i = 0; i < count; ++i)
     advance += o.spacing * glm::dvec2(places[i].x_advance, places[i].y_advance);
@@ -283,7 +346,7 @@ std::optional<Error> add_line(const TextOptions& o, std::string_view text, const
   glm::dvec2 pen_at = start;
   for (unsigned i = 0; i < count; ++i) {
     if (infos[i].codepoint == 0) block.missing.push_back(code_point_at(text, infos[i].cluster));
-    GlyphPen pen(steps);
+    GlyphPen pen(steps, type_units);
     pen.draw(font.data().font.get(), infos[i].codepoint);
     const glm::dvec2 at = pen_at + glm::dvec2(places[i].x_offset, places[i].y_offset);
     for (Shape2D::Loop& loop : pen.loops) {
@@ -291,10 +354,16 @@ std::optional<Error> add_line(const TextOptions& o, std::string_view text, const
       block.loops.push_back(std::move(loop));
     }
     if (pen.low.x <= pen.high.x) {
-      block.low = {std::min(block.low.x, pen.low.x + at.x),
-                   std::min(block.low.y, pen.low.y + at.y)};
-      block.high = {std::max(block.high.x, pen.high.x + at.x),
-                    std::max(block.high.y, pen.high.y + at.y)};
+      glm::dvec2 low = pen.low, high = pen.high, ink_at = at;
+      if (o.as_openscad_rounds) {
+        // Whole pixels, and marks where they are in their glyphs.
+        constexpr double kPixel = kTypeUnitsOfPixel;
+        low = glm::floor(low / kPixel) * kPixel;
+        high = glm::ceil(high / kPixel) * kPixel;
+        if (horizontal) ink_at.y = pen_at.y;
+      }
+      block.low = glm::min(block.low, low + ink_at);
+      block.high = glm::max(block.high, high + ink_at);
     }
     pen_at += o.spacing * glm::dvec2(places[i].x_advance, places[i].y_advance);
   }
@@ -314,10 +383,11 @@ Result<Block> lay_out(const TextOptions& o, const Font& font) {
                             std::to_string(kMostSteps));
   }
   Block block;
-  block.scale = o.size * kEmPerSize / font.data().units_per_em;
+  block.scale = o.as_openscad_rounds ? o.size / kTypeUnitsOfSize
+                                     : o.size * kEmPerSize / font.data().units_per_em;
   block.low = glm::dvec2(std::numeric_limits<double>::infinity());
   block.high = -block.low;
-  const double distance = o.line_spacing * line_distance(font);
+  const double distance = o.line_spacing * line_distance(shaping_font(o, font));
   const std::vector<std::string_view> lines = lines_of(o);
   bool horizontal = true;  // as the last line that has a direction of its own
   for (size_t i = 0; i < lines.size(); ++i) {
@@ -378,7 +448,7 @@ Result<FontMetrics> measure_font(double size, const Font& font) {
   FontMetrics metrics;
   metrics.ascent = extents.ascender * scale;
   metrics.descent = extents.descender * scale;
-  metrics.interline = line_distance(font) * scale;
+  metrics.interline = line_distance(font.data().font.get()) * scale;
   // The box of all glyphs: yMin and yMax of the table "head", signed words of 16 bits.
   const HarfbuzzPtr<hb_blob_t> head(
       hb_face_reference_table(font.data().face.get(), HB_TAG('h', 'e', 'a', 'd')));

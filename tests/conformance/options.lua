@@ -142,6 +142,8 @@ for name, box in pairs{
   shows(name .. ".line_spacing", height{text = "I\nI", line_spacing = 2} > height{text = "I\nI"})
   shows(name .. ".direction", height{text = "II", direction = "ttb"} > height{text = "II"})
   shows(name .. ".language", near(height{text = "I", language = "tr"}, height{text = "I"}))
+  local rounded, exact = height{text = "I", size = 1000, as_openscad = true}, height{text = "I", size = 1000}
+  shows(name .. ".as_openscad", rounded < exact and rounded > exact - 0.1)
   shows(name .. ".script", near(height{text = "I", script = "latin"}, height{text = "I"}))
 end
 shows("text3d.depth", text3d{text = "I", depth = 3}:size()[3] == 3)

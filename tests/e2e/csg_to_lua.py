@@ -234,7 +234,7 @@ def text(node):
     names = ("text", "size", "font", "halign", "valign", "spacing", "direction", "language", "script")
     given = {name: node.get(name) for name in names}
     given = {name: value for name, value in given.items() if value not in ("", "default")}
-    return f"text{options(**given, **facets(node))}"
+    return f"text{options(as_openscad=Word('true'), **given, **facets(node))}"
 
 
 def file_node(node):

@@ -208,6 +208,42 @@ TEST(Text, SpacingAndDirection) {
   EXPECT_EQ(column.advance.x, 0);
 }
 
+TEST(Text, CellsOfColumnsAreAscentAndDescent) {
+  // The font has no table of columns: a cell is 1491 + 431 high, and ink stands in its middle.
+  TextOptions options = line("II");
+  options.direction = "ttb";
+  const TextMetrics column = metrics(options);
+  EXPECT_NEAR(column.advance.y, -2 * 1922 * kUnit, 1e-9);
+  EXPECT_NEAR(column.size.y, (1409 + 1922) * kUnit, 1e-9);
+  EXPECT_NEAR(column.position.y + column.size.y, -(1922 - 1409) / 2 * kUnit, 1e-9);
+  EXPECT_NEAR(column.position.x, (189 - 569 / 2) * kUnit, 1e-9);
+}
+
+TEST(Text, OfTreesIsRoundedAsByOpenScad) {
+  // What OpenSCAD 2025.07 writes for these, to a hundredth: all its places are hundredths here.
+  struct Case {
+    const char *text, *align;
+    glm::dvec2 low, high;
+  };
+  for (const Case& c : {Case{"H", "default", {113.93, 0}, {889.7, 955.48}},
+                        Case{"%", "default", {49.5, -8.14}, {1185.36, 963.62}},
+                        Case{"AAVo", "center", {-1683.22, -484.28}, {1627.57, 484.76}}}) {
+    TextOptions options = line(c.text);
+    options.size = 1000;
+    options.as_openscad_rounds = true;
+    options.halign = options.valign = c.align;
+    const auto [low, high] = drawn(options).bounds();
+    for (const int i : {0, 1}) {
+      EXPECT_NEAR(low[i], c.low[i], 1e-6) << c.text;
+      EXPECT_NEAR(high[i], c.high[i], 1e-6) << c.text;
+    }
+    // Of the em's 138889 units letters get 138880, whole pixels.
+    const double area = drawn(options).area();
+    options.as_openscad_rounds = false;
+    EXPECT_NEAR(area / drawn(options).area(), std::pow(138880 * 72 / 1e7, 2), 2e-5) << c.text;
+  }
+}
+
 TEST(Text, WhatIsMissingIsSaid) {
   std::string note;
   drawn(line("a\xf0\x9f\x98\x80"), &note);

@@ -76,6 +76,9 @@ struct TextOptions {
   std::string valign = "default";  ///< "baseline", "bottom", "center", "top", by ink
   double spacing = 1;              ///< factor of all advances
   Facets facets;                   ///< a curve has max(fragments(size) / 8 + 1, 2) steps
+  /// All places are rounded as OpenSCAD's font library rounds them, to 10^-5 of the size and ink
+  /// that is aligned to 64 times that: for OpenSCAD's trees.
+  bool as_openscad_rounds = false;
 };
 
 /// In mm, with the alignments applied to `position` and `offset`; OpenSCAD's textmetrics. Of
