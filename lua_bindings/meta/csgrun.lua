@@ -3392,7 +3392,7 @@ csg.load_csg = load_csg
 ---@field repair? any makes a broken mesh a closed one and warns of all it does: true, or a table of weld = MM (0: how far apart points of open edges may be that become one), fill_holes (false: closes what is open), orient (true: turns faces to agree, surfaces outwards), drop_degenerate (true: drops faces whose points lie on one line), drop_duplicates (true: of faces on the same points those that are too many)
 ---@field layer? string of a drawing: only this layer (in an SVG one of Inkscape)
 ---@field id? string of an SVG: only the element of this id, with what is in it
----@field dpi? number of an SVG: user units an inch, where it gives no size
+---@field dpi? number of an SVG with a viewBox: user units an inch, where its size has no unit
 ---@field origin? number[] of a DXF: this point becomes the origin
 ---@field scale? number of a DXF: a factor
 ---@field center? boolean of a drawing: the middle of its box becomes the origin

@@ -2,7 +2,7 @@
 //
 // Every element gives a shape of its own by its own fill rule, and the result is their union: the
 // order of painting has no meaning for area. Sizes follow OpenSCAD: with a viewBox its width is the
-// page's; else a user unit, and a px, is 1/dpi inch.
+// page's; else a user unit is 1 mm.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -152,8 +152,7 @@ class SvgReader {
                  {}};
   }
 
-  /// Millimetres; percentages are of `whole`, in user units. Without it there is no viewBox, and px
-  /// are user units.
+  /// Millimetres; percentages are of `whole`, in user units.
   std::optional<double> to_mm(const char* text, std::optional<double> whole) const {
     const auto length = parse_svg_length(text);
     if (!length) return std::nullopt;
@@ -164,7 +163,7 @@ class SvgReader {
     if (length->unit == "in") return n * kMmPerInch;
     if (length->unit == "pt") return n * kMmPerInch / 72;
     if (length->unit == "pc") return n * kMmPerInch / 6;
-    if (length->unit == "px") return n * kMmPerInch / (whole ? kPxPerInch : options_.dpi);
+    if (length->unit == "px") return n * kMmPerInch / kPxPerInch;
     if (length->unit == "%" && whole) return n / 100 * *whole * kMmPerInch / options_.dpi;
     return std::nullopt;
   }
@@ -224,8 +223,15 @@ class SvgReader {
     if (!height) return height.error();
     const double unit = kMmPerInch / options_.dpi;
     if (box.empty()) {
-      viewport = {width->value_or(0) / unit, height->value_or(0) / unit};
-      map = {unit, 0, 0, -unit, 0, height->value_or(0)};
+      const auto in_user_units = [&](const char* side) {
+        const auto length = parse_svg_length(root.attribute(side).value());
+        if (!length) return 0.0;
+        const bool is_px = length->unit.empty() || length->unit == "px";
+        return is_px ? length->number : to_mm(root.attribute(side).value(), {}).value_or(0);
+      };
+      viewport = {in_user_units("width"), in_user_units("height")};
+      units_per_inch_ = kMmPerInch;
+      map = {1, 0, 0, -1, 0, height->value_or(0)};
       return std::monostate();
     }
     viewport = {box[2], box[3]};
@@ -547,8 +553,8 @@ class SvgReader {
   std::vector<Shape2D> shapes_;  ///< that belong to no part yet
   std::vector<std::pair<std::string, std::vector<Shape2D>>> parts_;
   std::map<std::string, size_t> left_out_;
-  /// The user units of an inch: a px is one of them, and where nothing says how large the page is,
-  /// there are `dpi`.
+  /// The user units of an inch: a px is one of them, and where only a viewBox says how large the
+  /// page is, there are `dpi`.
   double units_per_inch_ = options_.dpi;
   size_t elements_ = 0, points_ = 0;
   bool found_ = false;

@@ -124,7 +124,7 @@ TEST(Svg, SizesFollowThePage) {
     return read("x.svg", "<svg " + attributes + ">" + rect + "</svg>", options).shape.area();
   };
   const double unit = 25.4 / 72;
-  EXPECT_NEAR(area(""), 100 * unit * unit, 1e-6);
+  EXPECT_NEAR(area(""), 100, 1e-9);
   EXPECT_NEAR(area("", 25.4), 100, 1e-9);
   EXPECT_NEAR(area("width='20mm' height='20mm' viewBox='0 0 10 10'"), 400, 1e-9);
   EXPECT_NEAR(area("width='2in' height='2in' viewBox='0 0 10 10'"), 50.8 * 50.8, 1e-6);
@@ -139,8 +139,8 @@ TEST(Svg, SizesFollowThePage) {
   EXPECT_NEAR(area("width='100%' height='100%' viewBox='0 0 10 10'", 25.4), 100, 1e-9);
 }
 
-// Of a page without a viewBox a user unit, and a px, is 1/dpi inch; a rectangle over all of the
-// page begins in the origin whatever the unit.
+// Of a page without a viewBox a user unit is 1 mm, as OpenSCAD has it, and its top is as far above
+// the origin as its height says, where a px is 1/96 inch and a number without a unit 1/dpi.
 TEST(Svg, PagesWithoutAViewBox) {
   for (const double dpi : {72.0, 96.0, 25.4}) {
     FlatFileOptions options;
@@ -150,16 +150,17 @@ TEST(Svg, PagesWithoutAViewBox) {
       for (const std::string& rect : {sides, std::string("width='100%' height='100%'")}) {
         const auto box =
             read("x.svg", "<svg " + sides + "><rect " + rect + "/></svg>", options).shape.bounds();
-        EXPECT_NEAR(box[0].x, 0, 1e-7) << size;
-        EXPECT_NEAR(box[0].y, 0, 1e-7) << size;
         const double mm = size == "10mm"   ? 10
                           : size == "2in"  ? 50.8
                           : size == "3cm"  ? 30
                           : size == "50pt" ? 50 * 25.4 / 72
                           : size == "7pc"  ? 7 * 25.4 / 6
-                                           : 96 * 25.4 / dpi;
+                                           : 96;
+        const double top = size == "96px" ? 25.4 : size == "96" ? 96 * 25.4 / dpi : mm;
+        EXPECT_NEAR(box[0].x, 0, 1e-7) << size;
         EXPECT_NEAR(box[1].x, mm, 1e-6) << size;
-        EXPECT_NEAR(box[1].y, mm, 1e-6) << size;
+        EXPECT_NEAR(box[0].y, top - mm, 1e-6) << size;
+        EXPECT_NEAR(box[1].y, top, 1e-6) << size;
       }
     }
   }

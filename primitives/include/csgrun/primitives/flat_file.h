@@ -16,7 +16,7 @@ namespace csgrun {
 struct FlatFileOptions {
   std::string layer;    ///< only this layer; empty: all
   std::string id;       ///< SVG: only the element of that id, and what is in it
-  double dpi = 72;      ///< SVG: user units an inch where the file gives no size
+  double dpi = 72;      ///< SVG: user units an inch, where a viewBox has a size without a unit
   glm::dvec2 origin{};  ///< DXF: this point of the drawing becomes (0, 0)
   double scale = 1;     ///< DXF
   bool center = false;  ///< the middle of the bounding box becomes (0, 0)
