@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "engine/base/vec3d.h"
 
@@ -112,13 +111,14 @@ double slack_of(double reach) { return 0x1p-47 * reach; }
 
 using Bound = std::array<float, 3>;
 
-/// The box of each of the faces, from lower and upper bounds of vertices.
-template <class Faces, class Bounds>
-std::vector<FloatBox> boxes_of(const LeafGeometry& leaf, const Faces& faces, Bounds bounds) {
+/// The boxes of `faces` many faces, which face_at(i) names, from bounds of vertices.
+template <class FaceAt, class Bounds>
+std::vector<FloatBox> boxes_from(const LeafGeometry& leaf, size_t faces, FaceAt face_at,
+                                 Bounds bounds) {
   std::vector<FloatBox> boxes;
-  boxes.reserve(std::size(faces));
-  for (const uint32_t f : faces) {
-    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+  boxes.reserve(faces);
+  for (size_t i = 0; i < faces; ++i) {
+    const uint32_t f = face_at(i), begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
     FloatBox box = bounds(leaf.corners[begin]);
     for (uint32_t c = begin + 1; c < end; ++c) {
       const FloatBox at = bounds(leaf.corners[c]);
@@ -132,11 +132,11 @@ std::vector<FloatBox> boxes_of(const LeafGeometry& leaf, const Faces& faces, Bou
   return boxes;
 }
 
-template <class Faces>
-std::vector<FloatBox> boxes_of(const LeafGeometry& leaf, const Faces& faces,
+template <class FaceAt>
+std::vector<FloatBox> boxes_of(const LeafGeometry& leaf, size_t faces, FaceAt face_at,
                                const std::optional<BoxFrame>& frame) {
   if (!frame) {
-    return boxes_of(leaf, faces, [&](uint32_t v) {
+    return boxes_from(leaf, faces, face_at, [&](uint32_t v) {
       const IVec3& p = leaf.vertices[v];
       const Bound at{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
       return FloatBox{at, at};
@@ -157,7 +157,7 @@ std::vector<FloatBox> boxes_of(const LeafGeometry& leaf, const Faces& faces,
       bounds[v].hi[k] = static_cast<float>(p[k] + slack);
     }
   }
-  return boxes_of(leaf, faces, [&](uint32_t v) { return bounds[v]; });
+  return boxes_from(leaf, faces, face_at, [&](uint32_t v) { return bounds[v]; });
 }
 
 }  // namespace
@@ -216,12 +216,14 @@ Box box_along(const BoxFrame& frame, std::span<const Vec3d> points, double reach
 }
 
 std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, const std::optional<BoxFrame>& frame) {
-  return boxes_of(leaf, std::views::iota(0u, static_cast<uint32_t>(leaf.face_count())), frame);
+  return boxes_of(
+      leaf, leaf.face_count(), [](size_t i) { return static_cast<uint32_t>(i); }, frame);
 }
 
 std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, std::span<const uint32_t> faces,
                                  const std::optional<BoxFrame>& frame) {
-  return boxes_of(leaf, faces, frame);
+  return boxes_of(
+      leaf, faces.size(), [&](size_t i) { return faces[i]; }, frame);
 }
 
 }  // namespace csgrun

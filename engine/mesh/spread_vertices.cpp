@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <ranges>
 
 #include "engine/mesh/face_normal.h"
 
@@ -63,12 +62,14 @@ uint16_t facing(const IVec3& normal) {
 
 /// For each vertex a direction that all its triangles face, one of an axis if there is one; as half
 /// the number of its bit.
-template <class Faces>
-std::vector<uint8_t> common_directions(const LeafGeometry& leaf, const Faces& faces, uint8_t none) {
+/// Looks at `faces` many faces, which face_at(i) names.
+template <class FaceAt>
+std::vector<uint8_t> common_directions(const LeafGeometry& leaf, size_t faces, FaceAt face_at,
+                                       uint8_t none) {
   const size_t count = leaf.vertices.size();
   std::vector<uint16_t> common(count, kAll);
-  for (const uint32_t f : faces) {
-    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+  for (size_t i = 0; i < faces; ++i) {
+    const uint32_t f = face_at(i), begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
     const uint16_t bits = facing<0, kAxes>(face_normal(leaf, begin, end));
     for (uint32_t c = begin; c < end; ++c) common[leaf.corners[c]] &= bits;
   }
@@ -76,9 +77,8 @@ std::vector<uint8_t> common_directions(const LeafGeometry& leaf, const Faces& fa
   std::vector<uint8_t> direction(count);
   bool any_open = false;
   for (uint32_t v = 0; v < count; ++v) any_open |= is_open(v);
-  for (const uint32_t f : faces) {
-    if (!any_open) break;
-    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+  for (size_t i = 0; any_open && i < faces; ++i) {
+    const uint32_t f = face_at(i), begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
     if (std::none_of(&leaf.corners[begin], &leaf.corners[end - 1] + 1, is_open)) continue;
     const uint16_t bits = facing<kAxes, kDirections.size()>(face_normal(leaf, begin, end));
     for (uint32_t c = begin; c < end; ++c) common[leaf.corners[c]] &= bits;
@@ -90,10 +90,10 @@ std::vector<uint8_t> common_directions(const LeafGeometry& leaf, const Faces& fa
   return direction;
 }
 
-template <class Faces>
-std::vector<uint8_t> spread_among(const LeafGeometry& leaf, const Faces& faces) {
+template <class FaceAt>
+std::vector<uint8_t> spread_among(const LeafGeometry& leaf, size_t faces, FaceAt face_at) {
   constexpr uint8_t kNone = 255, kMany = 2;
-  const std::vector<uint8_t> direction = common_directions(leaf, faces, kNone);
+  const std::vector<uint8_t> direction = common_directions(leaf, faces, face_at, kNone);
   // Each corner is a sector of less than half a turn, all in the same sense. So none leads past the
   // upper half plane, and together they surround the vertex as often as one of them enters it.
   std::vector<uint8_t> turns(leaf.vertices.size(), 0);
@@ -111,7 +111,8 @@ std::vector<uint8_t> spread_among(const LeafGeometry& leaf, const Faces& faces) 
     }
     turns[vertex] = static_cast<uint8_t>(std::min<int>(turns[vertex] + (enters ? 1 : 0), kMany));
   };
-  for (const uint32_t f : faces) {
+  for (size_t k = 0; k < faces; ++k) {
+    const uint32_t f = face_at(k);
     const uint32_t begin = leaf.face_starts[f], count = leaf.face_starts[f + 1] - begin;
     const uint32_t* const loop = &leaf.corners[begin];
     if (count == 3) {
@@ -133,12 +134,12 @@ std::vector<uint8_t> spread_among(const LeafGeometry& leaf, const Faces& faces) 
 }  // namespace
 
 std::vector<uint8_t> find_spread_vertices(const LeafGeometry& leaf) {
-  return spread_among(leaf, std::views::iota(0u, static_cast<uint32_t>(leaf.face_count())));
+  return spread_among(leaf, leaf.face_count(), [](size_t i) { return static_cast<uint32_t>(i); });
 }
 
 std::vector<uint8_t> find_spread_vertices(const LeafGeometry& leaf,
                                           std::span<const uint32_t> faces) {
-  return spread_among(leaf, faces);
+  return spread_among(leaf, faces.size(), [&](size_t i) { return faces[i]; });
 }
 
 }  // namespace csgrun
