@@ -135,7 +135,8 @@ void FaceArrangement::add_coplanar(std::span<const uint32_t> coplanar) {
   }
 }
 
-/// Lines of one operand with the same ends: the two sheets of an edge in the polygon's plane.
+/// Lines of one operand with the same ends: the two sheets of an edge in the polygon's plane. One
+/// in front and one behind are as good as a sheet that goes through.
 void FaceArrangement::find_same_lines() {
   line_ends_.clear();
   for (uint32_t l = 0; l < lines_.size(); ++l) {
@@ -144,17 +145,53 @@ void FaceArrangement::find_same_lines() {
         {std::min(line.from, line.to), std::max(line.from, line.to), line.operand, l});
   }
   std::sort(line_ends_.begin(), line_ends_.end());
+  for (size_t begin = 0, end = 1; begin < line_ends_.size(); begin = end++) {
+    while (end < line_ends_.size() && have_same_ends(end - 1, end)) ++end;
+    if (end - begin != 2) continue;
+    Line &first = lines_[line_ends_[begin][3]], &second = lines_[line_ends_[begin + 1][3]];
+    const bool are_opposite = (first.kind == Kind::kFront && second.kind == Kind::kBack) ||
+                              (first.kind == Kind::kBack && second.kind == Kind::kFront);
+    if (!are_opposite || first.from != second.from) continue;
+    first.kind = Kind::kThrough;
+    second.kind = Kind::kGone;
+  }
+  drop_gone_lines();
   swept_.clear();
   next_same_.assign(lines_.size(), kNone);
   for (size_t i = 0; i < line_ends_.size(); ++i) {
-    const auto &own = line_ends_[i], &before = line_ends_[i > 0 ? i - 1 : 0];
-    if (i > 0 && own[2] != kNone && std::equal(own.begin(), own.begin() + 3, before.begin())) {
-      next_same_[before[3]] = own[3];
+    if (i > 0 && have_same_ends(i - 1, i)) {
+      next_same_[line_ends_[i - 1][3]] = line_ends_[i][3];
     } else {
-      swept_.push_back(own[3]);
+      swept_.push_back(line_ends_[i][3]);
     }
   }
   std::sort(swept_.begin(), swept_.end());
+}
+
+/// Whether two entries of line_ends_ are of lines of one operand with the same ends.
+bool FaceArrangement::have_same_ends(size_t i, size_t j) const {
+  const auto &a = line_ends_[i], &b = line_ends_[j];
+  return a[2] != kNone && std::equal(a.begin(), a.begin() + 3, b.begin());
+}
+
+/// None of them is coplanar.
+void FaceArrangement::drop_gone_lines() {
+  numbers_.clear();
+  uint32_t left = 0;
+  for (uint32_t l = 0; l < lines_.size(); ++l) {
+    const bool is_gone = lines_[l].kind == Kind::kGone;
+    numbers_.push_back(is_gone ? kNone : left);
+    if (!is_gone) lines_[left++] = lines_[l];
+  }
+  first_coplanar_line_ -= lines_.size() - left;
+  lines_.resize(left);
+  size_t kept = 0;
+  for (const auto& ends : line_ends_) {
+    if (numbers_[ends[3]] == kNone) continue;
+    line_ends_[kept] = ends;
+    line_ends_[kept++][3] = numbers_[ends[3]];
+  }
+  line_ends_.resize(kept);
 }
 
 /// The points in which lines meet.

@@ -48,6 +48,7 @@ class FaceArrangement {
     kBack,
     kLeft,  ///< an edge of a coplanar sheet on the left
     kRight,
+    kGone,  ///< one with another one
   };
   static bool is_coplanar(Kind kind) { return kind == Kind::kLeft || kind == Kind::kRight; }
   struct Line {
@@ -99,6 +100,8 @@ class FaceArrangement {
   [[nodiscard]] bool is_far(uint32_t vertex, uint32_t other) const;
   void find_stops();
   void find_same_lines();
+  [[nodiscard]] bool have_same_ends(size_t i, size_t j) const;
+  void drop_gone_lines();
   void meet(uint32_t s, uint32_t t);
   void add_collinear(const Line& on, uint32_t line, uint32_t point);
   void break_lines();
@@ -132,6 +135,7 @@ class FaceArrangement {
   std::vector<Line> lines_;
   SegmentSweep sweep_;
   std::vector<std::array<uint32_t, 4>> line_ends_;    ///< lower, higher, operand, line
+  std::vector<uint32_t> numbers_;                     ///< of lines, once some are gone
   std::vector<uint32_t> swept_;                       ///< lines, of those with equal ends one
   std::vector<uint32_t> next_same_;                   ///< per line: the next one of these, or kNone
   std::vector<std::pair<uint32_t, uint32_t>> stops_;  ///< (line, point)
