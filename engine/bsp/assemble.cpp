@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "engine/base/in_order.h"
+#include "engine/base/parallel.h"
 #include "engine/bsp/canonical_order.h"
 #include "engine/bsp/point_index.h"
 #include "engine/bsp/regions.h"
@@ -29,19 +31,18 @@ class Assembler {
       return std::tie(a.plane, a.label, a.polygon, a.first) <
              std::tie(b.plane, b.label, b.polygon, b.first);
     });
-    for (size_t i = 0; i < pieces_.size();) {
-      size_t j = i + 1;
-      while (j < pieces_.size() && pieces_[j].plane == pieces_[i].plane &&
-             pieces_[j].label == pieces_[i].label) {
-        ++j;
-      }
-      if (!add_face(i, j)) {
-        return Error{ErrorCode::kInternal,
-                     "the pieces of a face do not close up (plane " +
-                         std::to_string(pieces_[i].plane.index()) + ")",
-                     {}};
-      }
-      i = j;
+    find_groups();
+    const uint32_t open = make_faces();
+    if (open != kNone) {
+      return Error{ErrorCode::kInternal,
+                   "the pieces of a face do not close up (plane " +
+                       std::to_string(pieces_[groups_[open]].plane.index()) + ")",
+                   {}};
+    }
+    for (uint32_t g = 0; g < face_of_group_.size(); ++g) {
+      if (face_of_group_[g] == kNone) continue;
+      const JobPolygon& polygon = job_.polygons()[pieces_[groups_[g]].polygon];
+      if (job_.is_of_complete_facet(polygon)) find_completeness(g);
     }
     std::vector<uint32_t> number;
     auto mesh = std::make_shared<BoundaryMesh>(
@@ -121,37 +122,104 @@ class Assembler {
     }
   }
 
-  /// Makes one face of pieces [begin, end), which share plane, side and label.
-  bool add_face(size_t begin, size_t end) {
-    edges_.clear();
-    for (size_t i = begin; i < end; ++i) edges_of(pieces_[i], edges_);
-    const Piece first = pieces_[begin];
-    const bool is_triangle = end - begin == 1 && first.whole && first.count == 3;
-    if (is_triangle) {
-      // All its corners are true ones.
-      draft_.begin_face(first.plane, first.label, false, false);
-      draft_.edges.insert(draft_.edges.end(), edges_.begin(), edges_.end());
-      draft_.end_loop();
-    } else {
+  /// Pieces that share plane, side and label stand together.
+  void find_groups() {
+    for (size_t i = 0; i < pieces_.size(); ++i) {
+      if (i > 0 && pieces_[i].plane == pieces_[i - 1].plane &&
+          pieces_[i].label == pieces_[i - 1].label) {
+        continue;
+      }
+      groups_.push_back(static_cast<uint32_t>(i));
+    }
+    face_of_group_.resize(groups_.size());
+    groups_.push_back(static_cast<uint32_t>(pieces_.size()));
+  }
+
+  /// Makes a face of each group that leaves one, on several threads. Returns the first group whose
+  /// pieces do not close up, or kNone.
+  uint32_t make_faces() {
+    constexpr size_t kGroupsPerPart = 512;
+    const size_t count = face_of_group_.size();
+    if (count <= kGroupsPerPart) return FaceMaker(*this).make(0, count, draft_);
+    for_each_range(geometry_.point_count(), [&](size_t begin, size_t end) {
+      for (size_t p = begin; p < end; ++p) geometry_.find_on_grid(static_cast<uint32_t>(p));
+    });
+    std::vector<DraftBoundary> drafts(part_count(count, kGroupsPerPart));
+    std::vector<uint32_t> open(drafts.size(), kNone);
+    const auto first_of = [&](size_t part) { return std::min(count, part * kGroupsPerPart); };
+    make_parts_in_order(
+        drafts.size(),
+        [&](size_t part) {
+          open[part] = FaceMaker(*this).make(first_of(part), first_of(part + 1), drafts[part]);
+        },
+        [&](size_t part) {
+          const auto before = static_cast<uint32_t>(draft_.faces.size());
+          for (size_t g = first_of(part); g < first_of(part + 1); ++g) {
+            if (face_of_group_[g] != kNone) face_of_group_[g] += before;
+          }
+          draft_.append(drafts[part]);
+          drafts[part] = {};
+        });
+    const auto first_open =
+        std::find_if(open.begin(), open.end(), [](uint32_t g) { return g != kNone; });
+    return first_open == open.end() ? kNone : *first_open;
+  }
+
+  /// Makes faces for one thread; reads what was gathered.
+  class FaceMaker {
+   public:
+    explicit FaceMaker(Assembler& all) : all_(all), builder_(all.geometry_, all.job_.planes()) {}
+
+    /// Adds the faces of groups [begin, end) to `draft` and notes their numbers there. Returns the
+    /// first group whose pieces do not close up, or kNone.
+    uint32_t make(size_t begin, size_t end, DraftBoundary& draft) {
+      for (size_t g = begin; g < end; ++g) {
+        const size_t before = draft.faces.size();
+        if (!add_face(all_.groups_[g], all_.groups_[g + 1], draft)) return static_cast<uint32_t>(g);
+        all_.face_of_group_[g] =
+            draft.faces.size() > before ? static_cast<uint32_t>(before) : kNone;
+      }
+      return kNone;
+    }
+
+   private:
+    /// Makes one face of pieces [begin, end), if they leave one; false if they do not close up.
+    bool add_face(size_t begin, size_t end, DraftBoundary& draft) {
+      edges_.clear();
+      for (size_t i = begin; i < end; ++i) all_.edges_of(all_.pieces_[i], edges_);
+      const Piece& first = all_.pieces_[begin];
+      if (end - begin == 1 && first.whole && first.count == 3) {
+        // All its corners are true ones.
+        draft.begin_face(first.plane, first.label, false, false);
+        draft.edges.insert(draft.edges.end(), edges_.begin(), edges_.end());
+        draft.end_loop();
+        return true;
+      }
       const bool built = end - begin == 1 && !first.is_loose
                              ? builder_.build_single(first.plane, edges_, loops_)
                              : builder_.build(first.plane, edges_, loops_);
       if (!built) return false;
       if (loops_.loop_count() == 0) return true;
-      draft_.begin_face(first.plane, first.label, false, false);
+      draft.begin_face(first.plane, first.label, false, false);
       for (size_t l = 0; l < loops_.loop_count(); ++l) {
-        draft_.edges.insert(draft_.edges.end(), loops_.edges.begin() + loops_.starts[l],
-                            loops_.edges.begin() + loops_.starts[l + 1]);
-        draft_.end_loop();
+        draft.edges.insert(draft.edges.end(), loops_.edges.begin() + loops_.starts[l],
+                           loops_.edges.begin() + loops_.starts[l + 1]);
+        draft.end_loop();
       }
+      return true;
     }
-    if (job_.is_of_complete_facet(job_.polygons()[first.polygon])) find_completeness(begin, end);
-    return true;
-  }
 
-  /// Whether the face just made is the whole facet that its pieces come from, alone or together
+    Assembler& all_;
+    RegionBuilder builder_;
+    std::vector<DirectedEdge> edges_;
+    RegionLoops loops_;
+  };
+
+  /// Whether the face of a group is the whole facet that its pieces come from, alone or together
   /// with the pieces on the other side of the plane.
-  void find_completeness(size_t begin, size_t end) {
+  void find_completeness(uint32_t group) {
+    const size_t begin = groups_[group], end = groups_[group + 1];
+    DraftBoundary::Face& face = draft_.faces[face_of_group_[group]];
     const Piece first = pieces_[begin];
     // The pieces of a plane stand together: mostly there is no other side, or no other label.
     auto other_begin = pieces_.begin() + end, other_end = other_begin;
@@ -169,7 +237,7 @@ class Assembler {
     bool complete = polygons.size() == end - begin &&
                     std::all_of(pieces_.begin() + begin, pieces_.begin() + end,
                                 [](const Piece& p) { return p.whole; });
-    if (!complete && !(alone && has_new_corner(polygons))) {
+    if (!complete && !(alone && has_new_corner(face, polygons))) {
       facet_.clear();
       const size_t mark = corners_.size();
       for (const uint32_t q : polygons) {
@@ -182,6 +250,8 @@ class Assembler {
       }
       corners_.resize(mark);
       planes_.resize(mark);
+      edges_.clear();
+      for (size_t i = begin; i < end; ++i) edges_of(pieces_[i], edges_);
       for (auto p = other_begin; p != other_end; ++p) {
         const size_t at = edges_.size();
         edges_of(*p, edges_);
@@ -191,21 +261,22 @@ class Assembler {
                  builder_.build(first.plane, edges_, both_sides_) &&
                  same_loops(facet_loops_, both_sides_);
     }
-    draft_.faces.back().complete = complete;
-    draft_.faces.back().whole = complete && alone;
+    face.complete = complete;
+    face.whole = complete && alone;
   }
 
-  /// Whether the face made last has a corner that none of the polygons has.
-  bool has_new_corner(const std::vector<uint32_t>& polygons) {
+  /// Whether a face has a corner that none of the polygons has.
+  bool has_new_corner(const DraftBoundary::Face& face, const std::vector<uint32_t>& polygons) {
     constexpr size_t kFew = 16;
     old_corners_.clear();
     for (const uint32_t q : polygons) {
       for (const uint32_t v : job_.corners(job_.polygons()[q])) old_corners_.push_back(vertex(v));
       if (old_corners_.size() > kFew) return false;
     }
-    const uint32_t first = draft_.loop_starts[draft_.faces.back().first_loop];
+    const uint32_t first = draft_.loop_starts[face.first_loop],
+                   last = draft_.loop_starts[face.first_loop + face.loop_count];
     return std::any_of(
-        draft_.edges.begin() + first, draft_.edges.end(), [&](const DirectedEdge& e) {
+        draft_.edges.begin() + first, draft_.edges.begin() + last, [&](const DirectedEdge& e) {
           return std::find(old_corners_.begin(), old_corners_.end(), e.from) == old_corners_.end();
         });
   }
@@ -265,8 +336,10 @@ class Assembler {
   std::vector<uint32_t> vertex_number_;
   std::vector<Piece> pieces_;
   std::vector<uint32_t> corners_, planes_;
+  std::vector<uint32_t> groups_;         ///< the first piece of each, and the end
+  std::vector<uint32_t> face_of_group_;  ///< in the draft, or kNone
   std::vector<DirectedEdge> edges_, facet_;
-  RegionLoops loops_, facet_loops_, both_sides_;
+  RegionLoops facet_loops_, both_sides_;
   std::vector<uint32_t> facet_polygons_, old_corners_;
   std::map<uint32_t, std::vector<uint32_t>> by_label_;  ///< per operand
   DraftBoundary draft_;

@@ -31,6 +31,19 @@ struct DraftBoundary {
     loop_starts.push_back(static_cast<uint32_t>(edges.size()));
     ++faces.back().loop_count;
   }
+  /// Adds the faces of another one over the same points.
+  void append(const DraftBoundary& more) {
+    const auto first_loop = static_cast<uint32_t>(loop_starts.size() - 1),
+               first_edge = static_cast<uint32_t>(edges.size());
+    for (Face face : more.faces) {
+      face.first_loop += first_loop;
+      faces.push_back(face);
+    }
+    for (size_t l = 1; l < more.loop_starts.size(); ++l) {
+      loop_starts.push_back(first_edge + more.loop_starts[l]);
+    }
+    edges.insert(edges.end(), more.edges.begin(), more.edges.end());
+  }
 };
 
 /// The same faces with numbers of their own, in canonical order; `number`, if it is given, tells

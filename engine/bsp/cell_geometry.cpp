@@ -8,6 +8,34 @@
 #include "engine/exact/grid_meeting.h"
 
 namespace csgrun {
+namespace {
+
+int tier_for(const PlaneTable& planes, uint32_t plane, int xyz_bits, int w_bits,
+             SignCounters& counters) {
+  const int bits =
+      widths::side(xyz_bits, w_bits, planes.normal_bits(plane), planes.offset_bits(plane)) + 1;
+  int tier = 0;
+  while (bits > kTierBits[tier]) ++tier;
+  ++counters.exact[tier];
+  return tier;
+}
+
+}  // namespace
+
+int exact_side_of(const PlaneTable& planes, uint32_t plane, const IVec3& point,
+                  SignCounters& counters) {
+  const auto magnitudes = static_cast<uint64_t>(std::abs(point[0])) |
+                          static_cast<uint64_t>(std::abs(point[1])) |
+                          static_cast<uint64_t>(std::abs(point[2]));
+  return exact_side(planes.plane(plane), point,
+                    tier_for(planes, plane, std::bit_width(magnitudes), 1, counters));
+}
+
+int exact_side_of(const PlaneTable& planes, uint32_t plane, const Point& point,
+                  SignCounters& counters) {
+  return exact_side(planes.plane(plane), point,
+                    tier_for(planes, plane, point.xyz_bits, point.w_bits, counters));
+}
 
 CellGeometry::CellGeometry(const PlaneTable& planes, const Job* job) : planes_(&planes), job_(job) {
   if (job) {
@@ -89,37 +117,7 @@ Fragment CellGeometry::make_fragment(PlaneId support, const std::vector<uint32_t
 }
 
 int CellGeometry::side(uint32_t plane, uint32_t p) {
-  const StoredPoint& s = points_[p];
-  if (s.planes[0] == plane || s.planes[1] == plane || s.planes[2] == plane) {
-    ++counters.symbolic;
-    return 0;
-  }
-  if (const int sign = filter_side(planes_->approximate(plane), s.rounded)) {
-    ++counters.filter;
-    return sign;
-  }
-  return exact_side_of(plane, p);
-}
-
-int CellGeometry::exact_side_of(uint32_t plane, uint32_t p) {
-  const auto tier_for = [&](int xyz_bits, int w_bits) {
-    const int bits =
-        widths::side(xyz_bits, w_bits, planes_->normal_bits(plane), planes_->offset_bits(plane)) +
-        1;
-    int tier = 0;
-    while (bits > kTierBits[tier]) ++tier;
-    ++counters.exact[tier];
-    return tier;
-  };
-  if (points_[p].is_on_grid) {
-    const IVec3 at = points_[p].on_grid();
-    const auto magnitudes = static_cast<uint64_t>(std::abs(at[0])) |
-                            static_cast<uint64_t>(std::abs(at[1])) |
-                            static_cast<uint64_t>(std::abs(at[2]));
-    return exact_side(planes_->plane(plane), at, tier_for(std::bit_width(magnitudes), 1));
-  }
-  const Point& x = exact(p);
-  return exact_side(planes_->plane(plane), x, tier_for(x.xyz_bits, x.w_bits));
+  return side_of(*planes_, plane, points_[p], counters, [&]() -> const Point& { return exact(p); });
 }
 
 Side CellGeometry::classify(const Fragment& f, uint32_t plane) {

@@ -115,7 +115,6 @@ class CellGeometry {
 
  private:
   [[nodiscard]] bool meets_on_grid(const StoredPoint& point) const;
-  int exact_side_of(uint32_t plane, uint32_t p);
 
   const PlaneTable* planes_;
   const Job* job_;
@@ -127,6 +126,29 @@ class CellGeometry {
   uint32_t stamp_ = 1;
   std::vector<int8_t> signs_;
 };
+
+/// Sign of the stored plane `plane` at a point, by integers; `counters` note the integers' width.
+int exact_side_of(const PlaneTable& planes, uint32_t plane, const IVec3& point,
+                  SignCounters& counters);
+int exact_side_of(const PlaneTable& planes, uint32_t plane, const Point& point,
+                  SignCounters& counters);
+
+/// Sign of the stored plane `plane` at a point: symbolic, by filter, else exact, for which
+/// `exact()` gives the point if it is not known to be on the grid.
+template <class Exact>
+int side_of(const PlaneTable& planes, uint32_t plane, const CellGeometry::StoredPoint& s,
+            SignCounters& counters, Exact&& exact) {
+  if (s.planes[0] == plane || s.planes[1] == plane || s.planes[2] == plane) {
+    ++counters.symbolic;
+    return 0;
+  }
+  if (const int sign = filter_side(planes.approximate(plane), s.rounded)) {
+    ++counters.filter;
+    return sign;
+  }
+  return s.is_on_grid ? exact_side_of(planes, plane, s.on_grid(), counters)
+                      : exact_side_of(planes, plane, exact(), counters);
+}
 
 /// The direction of the line where two planes meet, as far as ordering points needs it: the axis on
 /// which the cross product of the normals is largest, and its sign there.

@@ -10,7 +10,8 @@ namespace {
 
 /// The direction of an edge as a multiple of n x t, n the outward normal of the support and t the
 /// normal of the edge's plane: its sign.
-int direction_sign(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
+template <class Geometry>
+int direction_sign(Geometry& geometry, const PlaneTable& planes, PlaneId support,
                    const DirectedEdge& e) {
   const LineAxis line = line_axis(planes.oriented(support), planes.plane(e.plane));
   return geometry.compare_along(e.to, e.from, line.axis) * line.sign;

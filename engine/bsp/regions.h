@@ -11,6 +11,7 @@
 
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/line_key.h"
+#include "engine/bsp/point_view.h"
 
 namespace csgrun {
 
@@ -39,8 +40,9 @@ int turn_between(CellGeometry& geometry, const PlaneTable& planes, PlaneId suppo
 
 class RegionBuilder {
  public:
-  /// Points that are equal must have equal numbers in `geometry`.
-  RegionBuilder(CellGeometry& geometry, const PlaneTable& planes)
+  /// Points that are equal must have equal numbers in `geometry`, which is only read: several
+  /// builders may do so on several threads.
+  RegionBuilder(const CellGeometry& geometry, const PlaneTable& planes)
       : geometry_(geometry), planes_(planes), namer_(planes) {}
 
   /// The boundary of the union of pieces that do not overlap, given by all their edges. Loops touch
@@ -61,7 +63,7 @@ class RegionBuilder {
   [[nodiscard]] bool straight(const DirectedEdge& in, const DirectedEdge& out);
   void pair_wedges(PlaneId support, std::vector<uint32_t>& incident);
 
-  CellGeometry& geometry_;
+  PointView geometry_;
   const PlaneTable& planes_;
   LineNamer namer_;
   std::vector<LineNamer::PlanePair> lines_;

@@ -1,5 +1,5 @@
-// Pairs of segments whose boxes meet, by a sweep along the axis on which they are shortest, in strips
-// across it.
+// Pairs of segments whose boxes meet, by a sweep along the axis on which they are shortest, in
+// strips across it.
 #pragma once
 
 #include <algorithm>

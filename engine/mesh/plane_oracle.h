@@ -2,7 +2,7 @@
 // which the face's normal is longest, doubles first and integers where they are unsure.
 #pragma once
 
-#include "engine/mesh/point_view.h"
+#include "engine/bsp/point_view.h"
 #include "engine/mesh/triangulate.h"
 
 namespace csgrun {

@@ -9,7 +9,7 @@
 #include "engine/mesh/improve_triangles.h"
 #include "engine/mesh/insert_points.h"
 #include "engine/mesh/plane_oracle.h"
-#include "engine/mesh/point_view.h"
+#include "engine/bsp/point_view.h"
 #include "engine/mesh/triangulate.h"
 
 namespace csgrun {

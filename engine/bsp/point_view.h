@@ -12,7 +12,7 @@ namespace csgrun {
 
 class PointView {
  public:
-  /// The geometry does not change while there are views of it.
+  /// While there are views of it the geometry forgets no point; none is added while it is read.
   explicit PointView(const CellGeometry& geometry) : geometry_(&geometry) {}
 
   [[nodiscard]] const std::array<double, 3>& rounded(uint32_t p) const {
@@ -24,6 +24,11 @@ class PointView {
     return found != exact_.end() ? found->second
                                  : exact_.emplace(p, geometry_->value(p)).first->second;
   }
+  /// Sign of the stored plane `plane` at a point, as CellGeometry::side.
+  int side(uint32_t plane, uint32_t p) {
+    return side_of(geometry_->planes(), plane, geometry_->point(p), counters,
+                   [&]() -> const Point& { return exact(p); });
+  }
   /// -1, 0, +1: the order of two points along an axis. Exact.
   int compare_along(uint32_t p, uint32_t q, int axis) {
     const double a = rounded(p)[axis], b = rounded(q)[axis];
@@ -31,6 +36,8 @@ class PointView {
     if (p == q || (geometry_->is_found_on_grid(p) && geometry_->is_found_on_grid(q))) return 0;
     return csgrun::compare_along(exact(p), exact(q), axis);
   }
+
+  SignCounters counters;
 
  private:
   const CellGeometry* geometry_;
