@@ -38,14 +38,6 @@ bool is_prime(int64_t p) {
   return true;
 }
 
-/// The plane of a face of a leaf, outwards.
-Plane support_of(const LeafGeometry& leaf, uint32_t face) {
-  const uint32_t begin = leaf.face_starts[face], count = leaf.face_starts[face + 1] - begin;
-  return support_of_loop(count, [&](uint32_t i) -> const IVec3& {
-    return leaf.vertices[leaf.corners[begin + i % count]];
-  });
-}
-
 }  // namespace
 
 PolygonBox rounded_outwards(const PieceBox& box) {
@@ -369,26 +361,33 @@ bool Job::is_of_whole_facet(const JobPolygon& p) const {
   return operand.boundary->faces[p.face].whole;
 }
 
+/// A corner of a polygon of a leaf, as the leaf counts, at the operand's place in its frame.
+IVec3 Job::leaf_corner(const JobPolygon& p, uint32_t i) const {
+  const Operand& operand = (*operands_)[p.operand];
+  const LeafGeometry& leaf = *operand.leaf;
+  const IVec3& at =
+      leaf.vertices[leaf.corners[leaf.face_starts[p.face] + (i < p.count ? i : i - p.count)]];
+  const IVec3& t = operand.translation;
+  return {at[0] + t[0], at[1] + t[1], at[2] + t[2]};
+}
+
 ReducedPlane Job::reduced_support(uint32_t polygon) const {
   const JobPolygon& p = polygons_[polygon];
-  const Operand& operand = (*operands_)[p.operand];
-  return reduce(sources_[p.operand].map.plane(
-      translate_plane(support_of(*operand.leaf, p.face), operand.translation)));
+  const Plane own = support_of_loop(p.count, [&](uint32_t i) { return leaf_corner(p, i); });
+  const FrameMap& map = sources_[p.operand].map;
+  return reduce(map.is_identity() ? own : map.plane(own));
 }
 
 ReducedPlane Job::reduced_edge(uint32_t polygon, uint32_t edge) const {
   const JobPolygon& p = polygons_[polygon];
-  const Operand& operand = (*operands_)[p.operand];
-  const LeafGeometry& leaf = *operand.leaf;
+  const FrameMap& map = sources_[p.operand].map;
+  const auto corner = [&](uint32_t i) { return leaf_corner(p, i); };
   // A mirrored loop runs backwards: its edge from corner j to j + 1 is the leaf's edge n - 2 - j.
-  const uint32_t i =
-      sources_[p.operand].map.is_mirrored() ? (2 * p.count - 2 - edge) % p.count : edge;
-  const uint32_t* corners = leaf.corners.data() + leaf.face_starts[p.face];
-  const int axis = dominant_axis(support_of(leaf, p.face));
-  return reduce(sources_[p.operand].map.plane(
-      translate_plane(csgrun::edge_plane(leaf.vertices[corners[i]],
-                                         leaf.vertices[corners[(i + 1) % p.count]], axis),
-                      operand.translation)));
+  const uint32_t i = map.is_mirrored() ? (2 * p.count - 2 - edge) % p.count : edge;
+  const uint32_t turn = p.count == 3 ? 0 : turning_corner(p.count, corner);
+  const int axis = dominant_axis(normal_through(corner(turn), corner(turn + 1), corner(turn + 2)));
+  const Plane own = csgrun::edge_plane(corner(i), corner(i + 1), axis);
+  return reduce(map.is_identity() ? own : map.plane(own));
 }
 
 void Job::ensure_support(uint32_t polygon) {

@@ -184,6 +184,7 @@ class Job {
   /// The exact position of vertex `local` of operand `o`.
   [[nodiscard]] Point exact_of(uint32_t o, uint32_t local) const;
   [[nodiscard]] bool is_good_prime(int64_t p) const;
+  [[nodiscard]] IVec3 leaf_corner(const JobPolygon& p, uint32_t i) const;
   /// Planes of polygons of leaves.
   [[nodiscard]] ReducedPlane reduced_support(uint32_t polygon) const;
   [[nodiscard]] ReducedPlane reduced_edge(uint32_t polygon, uint32_t edge) const;
