@@ -52,8 +52,10 @@ PolygonBox rounded_outwards(const PieceBox& box) {
   return result;
 }
 
-Job::Job(const std::vector<Operand>& operands, PlaneTable* planes)
-    : operands_(&operands), planes_(planes ? *planes : own_planes_.emplace()) {
+Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_boxes)
+    : operands_(&operands),
+      with_boxes_(with_boxes),
+      planes_(planes ? *planes : own_planes_.emplace()) {
   sources_.resize(operands.size());
   boundary_vertices_.resize(operands.size());
   for (size_t o = 0; o < operands.size(); ++o) sources_[o].map = FrameMap(operands[o].frame);
@@ -75,10 +77,10 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes)
   }
   rounded_.reserve(vertices);
   polygons_.reserve(polygons);
-  boxes_.reserve(polygons);
+  if (with_boxes_) boxes_.reserve(polygons);
   corners_.reserve(corners);
   edge_planes_.reserve(corners);
-  operand_boxes_.assign(operands.size(), PolygonBox::none());
+  if (with_boxes_) operand_boxes_.assign(operands.size(), PolygonBox::none());
   leaf_corner_starts_.resize(operands.size());
   for (uint32_t o = 0; o < operands.size(); ++o) {
     sources_[o].first_vertex = static_cast<uint32_t>(rounded_.size());
@@ -87,7 +89,7 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes)
       make_room(*operands[o].leaf);
     } else if (operands[o].boundary) {
       add_boundary(o, operands[o]);
-      for (size_t p = polygon_starts_.back(); p < polygons_.size(); ++p) {
+      for (size_t p = polygon_starts_.back(); p < boxes_.size(); ++p) {
         operand_boxes_[o].include(boxes_[p]);
       }
     }
@@ -140,7 +142,7 @@ void Job::move_walls() {
 void Job::make_room(const LeafGeometry& leaf) {
   rounded_.resize(rounded_.size() + leaf.vertices.size());
   polygons_.resize(polygons_.size() + leaf.face_count());
-  boxes_.resize(boxes_.size() + leaf.face_count());
+  if (with_boxes_) boxes_.resize(boxes_.size() + leaf.face_count());
   corners_.resize(corners_.size() + leaf.corners.size());
   edge_planes_.resize(edge_planes_.size() + leaf.corners.size());
 }
@@ -174,11 +176,13 @@ void Job::add_leaf(uint32_t o, const Operand& operand) {
         std::reverse(corners_.begin() + first, corners_.begin() + last);
       JobPolygon& polygon = polygons_[first_polygon + f];
       polygon = {o, static_cast<uint32_t>(f), first, last - first, PlaneId()};
+      if (!with_boxes_) continue;
       PolygonBox& box = boxes_[first_polygon + f];
       box = on_grid ? grid_box_of(polygon) : box_of(polygon);
       boxes[part].include(box);
     }
   });
+  if (!with_boxes_) return;
   for (const PolygonBox& box : boxes) operand_boxes_[o].include(box);
 }
 
@@ -236,7 +240,7 @@ void Job::add_boundary(uint32_t o, const Operand& operand) {
     rounded_.push_back(geometry.point(p).rounded);
     boundary_vertices_[o].push_back(geometry.point(p).planes);
   }
-  for (uint32_t p = polygon_starts_.back(); p < polygons_.size(); ++p) {
+  for (uint32_t p = polygon_starts_.back(); with_boxes_ && p < polygons_.size(); ++p) {
     boxes_.push_back(box_of(polygons_[p]));
   }
 }

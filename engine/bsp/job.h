@@ -84,7 +84,9 @@ constexpr uint32_t edge_place(uint32_t i, uint32_t count, bool flip) {
 class Job {
  public:
   /// Planes go into `planes`, if a table is given: that of the operand in pieces, if there is one.
-  explicit Job(const std::vector<Operand>& operands, PlaneTable* planes = nullptr);
+  /// Without boxes there are no boxes() and no operand_box().
+  explicit Job(const std::vector<Operand>& operands, PlaneTable* planes = nullptr,
+               bool with_boxes = true);
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
@@ -190,6 +192,7 @@ class Job {
   [[nodiscard]] ReducedPlane reduced_edge(uint32_t polygon, uint32_t edge) const;
 
   const std::vector<Operand>* operands_;
+  const bool with_boxes_;
   std::optional<PlaneTable> own_planes_;
   PlaneTable& planes_;
   std::vector<Source> sources_;

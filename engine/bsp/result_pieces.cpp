@@ -186,7 +186,7 @@ Result<std::shared_ptr<const BoundaryMesh>> assemble_pieces(const ResultPieces& 
     number[o] = static_cast<uint32_t>(operands.size());
     operands.push_back(store.operands()[o]);
   }
-  Job job(operands, &store.planes);
+  Job job(operands, &store.planes, false);
   std::vector<WholePolygon> whole;
   std::vector<FragmentSet> sets(1);
   FragmentSet& set = sets.front();
