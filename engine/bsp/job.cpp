@@ -62,9 +62,13 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_box
   boundary_planes_.resize(operands.size());
   for (size_t o = 0; o < operands.size(); ++o) {
     if (!operands[o].boundary) continue;
+    // A plane that is moved by whole steps has the common divisors that it had.
+    const FrameMap& map = sources_[o].map;
+    boundary_planes_[o].reserve(operands[o].boundary->planes.size());
     for (const Plane& plane : operands[o].boundary->planes) {
-      boundary_planes_[o].push_back(
-          planes_.intern(sources_[o].map.plane(translate_plane(plane, operands[o].translation))));
+      const Plane moved = translate_plane(plane, operands[o].translation);
+      boundary_planes_[o].push_back(map.is_identity() ? planes_.intern_stored(moved)
+                                                      : planes_.intern(map.plane(moved)));
     }
   }
   while (!is_good_prime(prime_)) prime_ += 2;

@@ -126,6 +126,11 @@ void PlaneTable::adopt(const std::vector<Plane>& planes) {
 
 PlaneId PlaneTable::intern(const Plane& plane) { return intern_computed(reduce(plane)); }
 
+PlaneId PlaneTable::intern_stored(const Plane& plane) {
+  assert(reduce(plane).plane == plane);
+  return intern_computed({plane, hash(plane), false});
+}
+
 PlaneId PlaneTable::intern_computed(const ReducedPlane& reduced) {
   constexpr size_t kFewSlots = 64;
   // (After adopt there are no slots.)

@@ -75,6 +75,8 @@ class PlaneTable {
   PlaneId intern(const Plane& plane);
   /// The same, for what was computed before.
   PlaneId intern_computed(const ReducedPlane& plane);
+  /// The same, for a plane as a table stores it.
+  PlaneId intern_stored(const Plane& plane);
   /// Fetches what it will look at, soon.
   void expect(const ReducedPlane& plane) const {
     if (!slots_.empty()) __builtin_prefetch(&slots_[plane.hash & (slots_.size() - 1)]);

@@ -198,5 +198,26 @@ TEST(ExactTier, IsTheLowestThatHoldsTheBound) {
   for (const int n : seen) EXPECT_GT(n, 10);
 }
 
+TEST(PlaneTable, TakesMovedPlanesOfATableAsTheyAre) {
+  test::Random random(72);
+  PlaneTable first, as_stored, as_any;
+  size_t shared = 0;  // planes whose coefficients had a divisor in common
+  for (int i = 0; i < 2000; ++i) {
+    const auto component = [&] { return Int128{random.integer(-12, 12)} * 6; };
+    Plane p{component(), component(), component(), component()};
+    if (p.a == 0 && p.b == 0 && p.c == 0) continue;
+    const Plane& stored = first.plane(first.intern(p).index());
+    shared += gcd_of({stored.a, stored.b, stored.c, 0}) > 1;
+    const Int128 x = random.integer(-9, 9), y = random.integer(-9, 9), z = random.integer(-9, 9);
+    Plane moved = stored;
+    moved.d -= stored.a * x + stored.b * y + stored.c * z;
+    const PlaneId id = as_stored.intern_stored(moved);
+    ASSERT_EQ(id, as_any.intern(moved));
+    ASSERT_EQ(as_stored.plane(id.index()), as_any.plane(id.index()));
+    ASSERT_EQ(as_stored.intern(moved), id);
+  }
+  EXPECT_GT(shared, 100u);
+}
+
 }  // namespace
 }  // namespace csgrun
