@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/bsp/operand.h"
@@ -12,7 +13,10 @@ namespace csgrun {
 /// REQUIRES: the leaf outlives it.
 class CornerWalk {
  public:
-  explicit CornerWalk(const LeafGeometry& leaf) : leaf_(leaf) {
+  explicit CornerWalk(const LeafGeometry& leaf) : CornerWalk(leaf, leaf.opposite) {}
+  /// With opposite edges other than the leaf's, which outlive it, too.
+  CornerWalk(const LeafGeometry& leaf, std::span<const uint32_t> opposite)
+      : leaf_(leaf), opposite_(opposite) {
     if (leaf.corners.size() == 3 * leaf.face_count()) return;
     face_of_.resize(leaf.corners.size());
     for (uint32_t f = 0; f < leaf.face_count(); ++f) {
@@ -27,22 +31,26 @@ class CornerWalk {
     const uint32_t f = face_of_[corner];
     return (corner == leaf_.face_starts[f] ? leaf_.face_starts[f + 1] : corner) - 1;
   }
-  /// How many faces there are in the fan around the vertex of a corner. REQUIRES: the leaf knows
-  /// its opposite edges.
+  /// How many faces there are in the fan around the vertex of a corner. REQUIRES: the opposites of
+  /// all edges there are known.
   [[nodiscard]] uint32_t fan(uint32_t corner) const {
     uint32_t count = 0;
-    for (uint32_t c = corner; count == 0 || c != corner; ++count) c = leaf_.opposite[before(c)];
+    for (uint32_t c = corner; count == 0 || c != corner; ++count) c = opposite_[before(c)];
     return count;
   }
 
  private:
   const LeafGeometry& leaf_;
+  const std::span<const uint32_t> opposite_;
   std::vector<uint32_t> face_of_;  ///< per corner, unless all faces are triangles
 };
 
-/// The vertices whose faces are more than one fan. REQUIRES: as CornerWalk::fan. O(n).
-inline std::vector<uint32_t> find_vertices_of_fans(const LeafGeometry& leaf) {
-  const CornerWalk walk(leaf);
+/// The vertices whose faces are more than one fan, of those that are not `skipped`. REQUIRES: as
+/// CornerWalk::fan. O(n).
+inline std::vector<uint32_t> find_vertices_of_fans(const LeafGeometry& leaf,
+                                                   std::span<const uint32_t> opposite,
+                                                   std::span<const uint8_t> skipped) {
+  const CornerWalk walk(leaf, opposite);
   std::vector<uint32_t> some_corner(leaf.vertices.size(), 0), faces(leaf.vertices.size(), 0);
   for (uint32_t c = 0; c < leaf.corners.size(); ++c) {
     some_corner[leaf.corners[c]] = c;
@@ -50,9 +58,14 @@ inline std::vector<uint32_t> find_vertices_of_fans(const LeafGeometry& leaf) {
   }
   std::vector<uint32_t> found;
   for (uint32_t v = 0; v < faces.size(); ++v) {
-    if (faces[v] != 0 && walk.fan(some_corner[v]) != faces[v]) found.push_back(v);
+    if (faces[v] == 0 || (!skipped.empty() && skipped[v] != 0)) continue;
+    if (walk.fan(some_corner[v]) != faces[v]) found.push_back(v);
   }
   return found;
+}
+/// The same for all vertices, by the leaf's own opposite edges.
+inline std::vector<uint32_t> find_vertices_of_fans(const LeafGeometry& leaf) {
+  return find_vertices_of_fans(leaf, leaf.opposite, {});
 }
 
 }  // namespace csgrun

@@ -11,6 +11,7 @@
 #include "engine/bsp/corner_walk.h"
 #include "engine/bsp/cut_surface.h"
 #include "engine/bsp/evaluate_job.h"
+#include "engine/bsp/non_manifold.h"
 #include "engine/bsp/surface_cells.h"
 #include "engine/bsp/surface_octree.h"
 #include "engine/bsp/surface_patches.h"
@@ -97,15 +98,15 @@ class Resolution {
   }
 
   /// What is kept are parts of the polygons. They touch where these do, but for common corners and
-  /// edges; and at a corner of several fans, where the faces of one may become a face that has no
-  /// corner there.
+  /// edges; and where these are no manifold: the faces of one fan at a corner may become a face
+  /// that has no corner there.
   void find_touching(const std::vector<Operand>& surface) {
     if (!job_.is_leaf(0)) {
       touching_ = touching_before(surface);
       return;
     }
     const LeafGeometry& leaf = *surface[0].leaf;
-    touching_.anywhere = leaf.opposite.empty();
+    touching_.anywhere = leaf.opposite.empty() && is_hull();
     if (touching_.anywhere) return;
     for (const auto& [f, g] : crossings_) {
       const PolygonBox &a = job_.boxes()[f], &b = job_.boxes()[g];
@@ -115,15 +116,25 @@ class Resolution {
         box.hi[k] = std::min(a.hi[k], b.hi[k]);
       }
     }
-    for (const uint32_t v : find_vertices_of_fans(leaf)) {
-      GridBox& box = touching_.boxes.emplace_back();
-      for (size_t k = 0; k < 3; ++k) {
-        const double p = job_.rounded(job_.vertex_start(0) + v)[k];
-        box.lo[k] = static_cast<int64_t>(std::floor(p));
-        box.hi[k] = static_cast<int64_t>(std::ceil(p));
-      }
+    if (leaf.opposite.empty()) {
+      const NonManifold places = find_non_manifold(leaf);
+      for (const auto& [v, w] : places.edges) add_touching(v, w);
+      for (const uint32_t v : places.vertices) add_touching(v, v);
+    } else {
+      for (const uint32_t v : find_vertices_of_fans(leaf)) add_touching(v, v);
     }
     keep_few(touching_.boxes);
+  }
+
+  /// Between two vertices of the leaf.
+  void add_touching(uint32_t v, uint32_t w) {
+    const auto &a = job_.rounded(job_.vertex_start(0) + v),
+               &b = job_.rounded(job_.vertex_start(0) + w);
+    GridBox& box = touching_.boxes.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      box.lo[k] = static_cast<int64_t>(std::floor(std::min(a[k], b[k])));
+      box.hi[k] = static_cast<int64_t>(std::ceil(std::max(a[k], b[k])));
+    }
   }
 
   [[nodiscard]] std::vector<uint32_t> all_polygons() const {

@@ -45,7 +45,7 @@ bool expect_same_as_anywhere(const BoundaryMesh& mesh, const std::string& what) 
 }
 
 TEST(ResolvedTouches, AreAllThereAre) {
-  int known = 0;
+  int known = 0, paired = 0;
   for (int round = 0; round < 60; ++round) {
     Random random(7100 + round);
     std::vector<Loop> loops;
@@ -60,10 +60,16 @@ TEST(ResolvedTouches, AreAllThereAre) {
                                   InsideRule::kOuterHull, InsideRule::kOrientedHull}) {
       const std::string what =
           std::to_string(round) + " by rule " + std::to_string(static_cast<int>(rule));
-      known += expect_same_as_anywhere(resolved(surface, rule), what) ? 1 : 0;
+      const bool is_known = expect_same_as_anywhere(resolved(surface, rule), what);
+      known += is_known ? 1 : 0;
+      paired += surface.leaf->opposite.empty() ? 0 : 1;
+      const bool is_hull = rule == InsideRule::kOuterHull || rule == InsideRule::kOrientedHull;
+      if (!is_hull) EXPECT_TRUE(is_known) << what;
     }
   }
-  EXPECT_GT(known, 90);
+  EXPECT_GT(known, 160);
+  EXPECT_GT(paired, 80);
+  EXPECT_LT(paired, 160);
 }
 
 // Two boxes that cross, and a third that is far away: contacts are near the crossing.
@@ -81,6 +87,25 @@ TEST(ResolvedTouches, AreWhereTheSurfaceCrossesItself) {
     EXPECT_LE(box.hi[0], 106);
     EXPECT_LE(box.lo[0], box.hi[0]);
   }
+}
+
+// Two boxes with an edge in common, which four faces have, and two tetrahedra with a corner.
+TEST(ResolvedTouches, AreWhereTheSurfaceIsNoManifold) {
+  auto loops = box_loops({0, 0, 0}, {6, 6, 6});
+  for (const auto& other : {box_loops({6, 6, 0}, {9, 9, 6}),
+                            hull_loops({{30, 0, 0}, {33, 0, 0}, {30, 3, 0}, {30, 0, 3}}),
+                            hull_loops({{30, 0, 0}, {27, 0, 0}, {30, -3, 0}, {30, 0, -3}})}) {
+    loops.insert(loops.end(), other.begin(), other.end());
+  }
+  Operand surface = surface_of(loops);
+  ASSERT_TRUE(surface.leaf->opposite.empty());
+  surface.translation = {100, 0, 0};
+  const BoundaryMesh mesh = resolved(surface, InsideRule::kNonZero);
+  ASSERT_EQ(mesh.touches.size(), 2u);
+  EXPECT_EQ(mesh.touches[0].lo, (IVec3{106, 6, 0}));
+  EXPECT_EQ(mesh.touches[0].hi, (IVec3{106, 6, 6}));
+  EXPECT_EQ(mesh.touches[1].lo, (IVec3{130, 0, 0}));
+  EXPECT_EQ(mesh.touches[1].hi, (IVec3{130, 0, 0}));
 }
 
 }  // namespace

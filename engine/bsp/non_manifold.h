@@ -1,0 +1,23 @@
+// Where a closed surface is no manifold.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/bsp/operand.h"
+
+namespace csgrun {
+
+struct NonManifold {
+  /// Edges, by their vertices, that are not those of two faces which run them in opposite
+  /// directions.
+  std::vector<std::array<uint32_t, 2>> edges;
+  /// Vertices whose faces are more than one fan, but for the ends of these edges.
+  std::vector<uint32_t> vertices;
+};
+
+/// Needs no opposite edges of the leaf. Ascending. O(n).
+NonManifold find_non_manifold(const LeafGeometry& leaf);
+
+}  // namespace csgrun
