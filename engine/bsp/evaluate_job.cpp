@@ -4,6 +4,7 @@
 
 #include "engine/bsp/cell_solver.h"
 #include "engine/bsp/literal_cell.h"
+#include "engine/bsp/non_manifold.h"
 #include "engine/bsp/octree.h"
 #include "engine/bsp/parallel_runs.h"
 #include "engine/bsp/sign_stats.h"
@@ -68,6 +69,22 @@ KernelOptions second_half(KernelOptions options) {
   return options;
 }
 
+/// Where a leaf without crossings may touch itself.
+std::vector<GridBox> touches_of(const LeafGeometry& leaf) {
+  std::vector<GridBox> boxes;
+  const auto add = [&](uint32_t v, uint32_t w) {
+    GridBox& box = boxes.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      const auto [lo, hi] = std::minmax(leaf.vertices[v][k], leaf.vertices[w][k]);
+      box.lo[k] = lo, box.hi[k] = hi;
+    }
+  };
+  const NonManifold places = find_non_manifold(leaf);
+  for (const auto& [v, w] : places.edges) add(v, w);
+  for (const uint32_t v : places.vertices) add(v, v);
+  return boxes;
+}
+
 /// Adds boxes, and keeps few.
 void add_touching(Touching& touching, const std::vector<GridBox>& more) {
   touching.boxes.insert(touching.boxes.end(), more.begin(), more.end());
@@ -80,14 +97,14 @@ Touching touching_before(const std::vector<Operand>& operands) {
   Touching result{false, {}};
   for (const Operand& o : operands) {
     if (o.pieces || (o.leaf ? !o.leaf->may_touch : !o.boundary->may_touch)) continue;
-    if (o.leaf || o.boundary->touches.empty() || !o.frame.is_identity) {
+    const std::vector<GridBox> boxes = o.leaf ? touches_of(*o.leaf) : o.boundary->touches;
+    if (boxes.empty() || !o.frame.is_identity) {
       result.anywhere = true;
       continue;
     }
-    for (const GridBox& box : o.boundary->touches) {
-      result.boxes.push_back(box.moved(o.translation));
-    }
+    for (const GridBox& box : boxes) result.boxes.push_back(box.moved(o.translation));
   }
+  keep_few(result.boxes);
   return result;
 }
 

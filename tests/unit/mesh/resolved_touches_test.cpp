@@ -108,5 +108,70 @@ TEST(ResolvedTouches, AreWhereTheSurfaceIsNoManifold) {
   EXPECT_EQ(mesh.touches[1].hi, (IVec3{130, 0, 0}));
 }
 
+// Cubes in every other cell of a small grid are a leaf that touches itself in edges and corners
+// only: so does what is left of it.
+TEST(ResolvedTouches, OfALeafAreWhereItIsNoManifold) {
+  size_t touching = 0;
+  for (int round = 0; round < 60; ++round) {
+    Random random(7300 + round);
+    std::vector<Loop> loops;
+    for (int64_t cell = 0; cell < 27; ++cell) {
+      const IVec3 lo{cell % 3 * 2, cell / 3 % 3 * 2, cell / 9 * 2};
+      if (cell % 2 != 0 || random.integer(0, 1) == 0) continue;
+      const auto cube = box_loops(lo, {lo[0] + 2, lo[1] + 2, lo[2] + 2});
+      loops.insert(loops.end(), cube.begin(), cube.end());
+    }
+    if (loops.empty()) continue;
+    std::vector<Operand> operands{surface_of(loops), surface_of(random_loops(random, 6))};
+    operands[0].translation = operands[1].translation = {random.integer(-5, 5), 0, 7};
+    auto tool = std::make_shared<LeafGeometry>(*operands[1].leaf);
+    tool->may_touch = !find_self_intersections(*tool).empty();
+    ASSERT_FALSE(tool->may_touch) << round;
+    operands[1].leaf = tool;
+    EvaluateStats stats;
+    const auto result = evaluate_boolean(operands, flat_expression(BooleanOp::kDifference, 2),
+                                         region_of(operands), {}, stats);
+    ASSERT_TRUE(result) << round;
+    expect_same_as_anywhere(**result, std::to_string(round));
+    touching += (*result)->touches.empty() ? 0 : 1;
+  }
+  EXPECT_GT(touching, 40u);
+}
+
+// A tetrahedron stands on its tip in the middle of a box's top, where four triangles of that meet.
+// They become one face, which has no corner there.
+TEST(ResolvedTouches, AreWhereACornerGoes) {
+  for (const bool has_edge : {false, true}) {
+    const IVec3 tip{3, 3, 6};
+    std::vector<Loop> loops;
+    for (const Loop& face : box_loops({0, 0, 0}, {6, 6, 6})) {
+      const bool is_top =
+          std::all_of(face.begin(), face.end(), [](const IVec3& p) { return p[2] == 6; });
+      if (!is_top) loops.push_back(face);
+      for (size_t i = 0; is_top && i < face.size(); ++i) {
+        loops.push_back({face[i], face[(i + 1) % face.size()], tip});
+      }
+    }
+    std::vector<std::vector<Loop>> others{hull_loops({tip, {2, 2, 9}, {4, 2, 9}, {3, 5, 9}})};
+    if (has_edge) {
+      others.push_back(box_loops({20, 0, 0}, {23, 3, 3}));
+      others.push_back(box_loops({23, 3, 0}, {26, 6, 3}));
+    }
+    for (const auto& other : others) loops.insert(loops.end(), other.begin(), other.end());
+    const Operand surface = surface_of(loops);
+    ASSERT_EQ(surface.leaf->opposite.empty(), has_edge);
+    EXPECT_TRUE(expect_same_as_anywhere(resolved(surface, InsideRule::kNonZero), "resolved"));
+    auto tool = std::make_shared<LeafGeometry>(*make_leaf(box_loops({-1, -1, -1}, {1, 1, 1})));
+    tool->may_touch = false;
+    const std::vector<Operand> operands{surface, operand_of(tool)};
+    EvaluateStats stats;
+    const auto result = evaluate_boolean(operands, flat_expression(BooleanOp::kDifference, 2),
+                                         region_of(operands), {}, stats);
+    ASSERT_TRUE(result);
+    EXPECT_FALSE((*result)->touches.empty());
+    expect_same_as_anywhere(**result, "cut");
+  }
+}
+
 }  // namespace
 }  // namespace csgrun
