@@ -272,11 +272,22 @@ class Convexifier {
   const bool positive_;
 };
 
+/// Whether three edges follow each other.
+bool is_triangle(const std::vector<BoundaryEdge>& edges) {
+  return edges.size() == 3 && edges[0].to == edges[1].from && edges[1].to == edges[2].from &&
+         edges[2].to == edges[0].from;
+}
+
 }  // namespace
 
 void convexify(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
                std::vector<BoundaryEdge> edges, const std::function<uint32_t(int, int64_t)>& wall,
                std::vector<Fragment>& pieces) {
+  if (is_triangle(edges)) {
+    pieces.push_back(geometry.make_fragment(support, {edges[0].from, edges[1].from, edges[2].from},
+                                            {edges[0].plane, edges[1].plane, edges[2].plane}));
+    return;
+  }
   Convexifier(geometry, planes, support, wall, pieces).run(std::move(edges));
 }
 
