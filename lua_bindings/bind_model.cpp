@@ -51,6 +51,10 @@ constexpr Option kImportOptions[] = {
     {"scale", T::kNumber, "1", "of a DXF: a factor", false, Range::kPositive},
     {"center", T::kBoolean, "false", "of a drawing: the middle of its box becomes the origin",
      false},
+    {"as_openscad", T::kBoolean, "false",
+     "of a drawing: by OpenSCAD's rules of what is area and how many pieces curves have;\n"
+     "          a layer or an id that is not there is empty",
+     false},
     kConvexityOption,
 };
 constexpr FunctionSpec kImport{
@@ -122,14 +126,22 @@ int import_drawing(lua_State* L, const Arguments& arguments, const std::string& 
       fail_in(kImport, fmt::format("option '{}' is for .{} files", name, of));
   }
   FlatFileOptions options;
-  options.layer = arguments.string("layer", "");
-  options.id = arguments.string("id", "");
-  if (!options.layer.empty() && !options.id.empty())
+  const auto given = [&](const char* name) -> std::optional<std::string> {
+    std::string text = arguments.string(name, "");
+    if (text.empty()) return std::nullopt;
+    return text;
+  };
+  options.layer = given("layer");
+  options.id = given("id");
+  options.as_openscad = arguments.boolean("as_openscad", false);
+  if (options.layer && options.id && !options.as_openscad)
     fail_in(kImport, "give either 'layer' or 'id', not both");
   options.parts = arguments.boolean("parts", false);
-  if (options.parts && (!options.layer.empty() || !options.id.empty()))
+  if (options.parts && (options.layer || options.id))
     fail_in(kImport,
             "option 'parts' gives all parts of a drawing: it goes with neither 'layer' nor 'id'");
+  if (options.parts && options.as_openscad)
+    fail_in(kImport, "option 'parts' does not go with 'as_openscad'");
   options.dpi = arguments.number("dpi", 72);
   options.scale = arguments.number("scale", 1);
   if (const auto origin = arguments.vector("origin")) options.origin = {origin->v.x, origin->v.y};
@@ -167,7 +179,8 @@ int import_file(lua_State* L) {
                          "' has none of the endings .stl, .off, .obj, .ply, .glb, .gltf, .3mf, "
                          ".amf, .svg, .dxf");
   }
-  for (const char* name : {"layer", "id", "dpi", "origin", "scale", "center", "fn", "fa", "fs"}) {
+  for (const char* name :
+       {"layer", "id", "dpi", "origin", "scale", "center", "as_openscad", "fn", "fa", "fs"}) {
     if (arguments.has(name))
       fail_in(kImport, fmt::format("option '{}' is for drawings, not for meshes", name));
   }

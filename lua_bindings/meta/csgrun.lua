@@ -3396,6 +3396,7 @@ csg.load_csg = load_csg
 ---@field origin? number[] of a DXF: this point becomes the origin
 ---@field scale? number of a DXF: a factor
 ---@field center? boolean of a drawing: the middle of its box becomes the origin
+---@field as_openscad? boolean of a drawing: by OpenSCAD's rules of what is area and how many pieces curves have; a layer or an id that is not there is empty
 ---@field convexity? integer ignored: OpenSCAD needs it for its preview
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn

@@ -275,8 +275,11 @@ Result<CsgImport> csg_import(const CsgCall& call) {
   CsgImport import;
   FlatFileOptions& o = import.options;
   import.file = arguments.string("file", "");
-  o.layer = arguments.string("layer", "");
-  o.id = arguments.string("id", "");
+  o.as_openscad = true;
+  if (arguments.has("id")) o.id = arguments.string("id", "");
+  // OpenSCAD 2021.01 writes `layer = ""` where no layer was asked for.
+  std::string layer = arguments.string("layer", "");
+  if (arguments.has("layer") && (!layer.empty() || o.id)) o.layer = std::move(layer);
   o.dpi = arguments.number("dpi", 72);
   o.scale = arguments.number("scale", 1);
   const std::vector<double> origin = arguments.numbers("origin", 2, {0, 0});

@@ -80,10 +80,12 @@ class DxfReader {
     placement.v *= options_.scale;
     placement.at = -options_.scale * options_.origin;
     if (auto status = entities(records_.entities, placement, "", 0); !status) return status.error();
-    if (!options_.layer.empty() && !found_layer_) {
-      return invalid_argument(name_ + ": there is no layer " + csgrun::quoted(options_.layer));
-    }
     FlatFile file;
+    if (options_.layer && !found_layer_) {
+      const std::string none = name_ + ": there is no layer " + csgrun::quoted(*options_.layer);
+      if (!options_.as_openscad) return invalid_argument(none);
+      file.notes.push_back(none);
+    }
     for (auto& [layer, chains] : chains_) {
       std::vector<Shape2D::Loop> loops;
       join(chains, loops);
@@ -150,7 +152,7 @@ class DxfReader {
       std::string layer = r.text(8);
       if (layer.empty()) layer = "0";
       if (layer == "0" && !block_layer.empty()) layer = block_layer;
-      const bool wanted = options_.layer.empty() || layer == options_.layer;
+      const bool wanted = !options_.layer || layer == *options_.layer;
       if (options_.parts) layer_ = layer;
       if (wanted) found_layer_ = true;
       if (r.kind == "INSERT") {

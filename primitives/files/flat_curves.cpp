@@ -14,6 +14,24 @@ int curve_steps(double length, const Facets& facets) {
   return std::max((facets.fragments(length / kQuarterControlLength) + 3) / 4, 2);
 }
 
+int SvgSteps::of_bezier(double length) const {
+  if (!as_openscad) return curve_steps(length * mm_per_unit, facets);
+  constexpr double kFewest = 20;
+  return static_cast<int>(std::max(std::isfinite(facets.fn) ? facets.fn : 0, kFewest));
+}
+
+int SvgSteps::of_arc(double radius, double degrees) const {
+  if (!as_openscad) return facets.fragments(radius * mm_per_unit, degrees);
+  const int fewest = static_cast<int>(std::fabs(degrees) / 18 + 4);
+  return std::max(facets.fragments(radius, degrees), fewest);
+}
+
+int SvgSteps::of_ellipse(double radius) const {
+  if (!as_openscad) return facets.fragments(radius * mm_per_unit);
+  constexpr int kFewest = 40;
+  return std::max(facets.fragments(radius), kFewest);
+}
+
 void append_bezier(const std::vector<glm::dvec2>& control, int steps,
                    std::vector<glm::dvec2>& points) {
   for (int i = 1; i < steps; ++i) {

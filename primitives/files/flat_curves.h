@@ -23,6 +23,17 @@ constexpr size_t kMostDrawingPoints = 1 << 20;
 /// length would have.
 int curve_steps(double length, const Facets& facets);
 
+/// How many steps the curves of an SVG have. Lengths and radii are in user units.
+struct SvgSteps {
+  Facets facets;
+  double mm_per_unit = 1;
+  bool as_openscad = false;  ///< by its floors, and by user units as if they were millimetres
+
+  [[nodiscard]] int of_bezier(double length) const;
+  [[nodiscard]] int of_arc(double radius, double degrees) const;
+  [[nodiscard]] int of_ellipse(double radius) const;
+};
+
 /// The points after the first of a Bezier curve of two, three or four control points.
 void append_bezier(const std::vector<glm::dvec2>& control, int steps,
                    std::vector<glm::dvec2>& points);

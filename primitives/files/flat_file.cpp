@@ -25,6 +25,7 @@ Result<FlatFile> parse_flat(const std::string& name, std::string_view bytes,
     return invalid_argument("import: fn must be at most " + number_text(kMostFragments) + ", got " +
                             number_text(options.facets.fn));
   }
+  if (format == "svg" && options.as_openscad) return parse_svg_as_openscad(name, bytes, options);
   Result<FlatFile> file =
       format == "svg" ? parse_svg(name, bytes, options) : parse_dxf(name, bytes, options);
   if (!file || !options.center) return file;

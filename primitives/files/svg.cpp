@@ -19,13 +19,12 @@
 #include "primitives/files/drawn_shape.h"
 #include "primitives/files/flat_formats.h"
 #include "primitives/files/formats.h"
+#include "primitives/files/svg_document.h"
 #include "primitives/files/svg_path.h"
 
 namespace csgrun {
 namespace {
 
-constexpr int kDeepest = 200;             // groups in groups
-constexpr size_t kMostElements = 200000;  // a `use` counts what it shows
 constexpr double kMmPerInch = 25.4;
 constexpr double kPxPerInch = 96;
 
@@ -48,19 +47,15 @@ class SvgReader {
       : name_(name), options_(options) {}
 
   Result<FlatFile> read(std::string_view bytes) {
-    if (bytes.find("<!ENTITY") != std::string_view::npos) {
-      return malformed(name_, "", "entities are refused: <!ENTITY> in a drawing is of no good");
-    }
     pugi::xml_document document;
-    const pugi::xml_parse_result parsed = document.load_buffer(bytes.data(), bytes.size());
-    if (!parsed) return malformed(name_, place(bytes, parsed.offset), parsed.description());
-    const pugi::xml_node root = document.document_element();
-    if (plain_name(root) != "svg") return malformed(name_, "", "the root element is not <svg>");
+    const Result<pugi::xml_node> parsed = parse_svg_document(name_, bytes, document);
+    if (!parsed) return parsed.error();
+    const pugi::xml_node root = *parsed;
     if (auto status = index(root); !status) return status.error();
     SvgMap map;
     Style style;
     if (auto status = page(root, map, style.viewport); !status) return status.error();
-    const bool all = options_.id.empty() && options_.layer.empty();
+    const bool all = !options_.id && !options_.layer;
     for (const pugi::xml_node& child : root.children()) {
       if (child.type() != pugi::node_element) continue;
       if (auto status = element(child, map, style, all, 0); !status) return status.error();
@@ -71,10 +66,9 @@ class SvgReader {
       }
     }
     if (!all && !found_) {
-      const bool by_id = !options_.id.empty();
       return invalid_argument(name_ + ": there is no " +
-                              (by_id ? "element of id " + csgrun::quoted(options_.id)
-                                     : "layer " + csgrun::quoted(options_.layer)));
+                              (options_.id ? "element of id " + csgrun::quoted(*options_.id)
+                                           : "layer " + csgrun::quoted(*options_.layer)));
     }
     FlatFile file;
     for (auto& [part, shapes] : parts_) {
@@ -92,20 +86,6 @@ class SvgReader {
   }
 
  private:
-  /// The line of a byte. Bytes are counted in UTF-8, to which other encodings are converted first,
-  /// so the count can lie behind the end of the file.
-  static std::string place(std::string_view bytes, ptrdiff_t offset) {
-    const auto end = std::clamp<ptrdiff_t>(offset, 0, static_cast<ptrdiff_t>(bytes.size()));
-    return "line " + std::to_string(1 + std::count(bytes.begin(), bytes.begin() + end, '\n'));
-  }
-
-  /// The name without its namespace.
-  static std::string plain_name(const pugi::xml_node& node) {
-    const char* name = node.name();
-    const char* colon = std::strrchr(name, ':');
-    return colon != nullptr ? colon + 1 : name;
-  }
-
   std::vector<Shape2D>& part_named(const std::string& part) {
     for (auto& [known, shapes] : parts_) {
       if (known == part) return shapes;
@@ -115,7 +95,7 @@ class SvgReader {
 
   static std::string name_of(const pugi::xml_node& node) {
     for (const pugi::xml_node& child : node.children()) {
-      if (plain_name(child) != "title") continue;
+      if (svg_name(child) != "title") continue;
       const std::string title = trimmed(child.text().get());
       if (!title.empty()) return title;
     }
@@ -131,10 +111,9 @@ class SvgReader {
     // In the order of the document, without recursion.
     for (pugi::xml_node node = root; node;) {
       if (node.type() == pugi::node_element) {
-        if (++count > kMostElements) return limit("elements", kMostElements);
+        if (++count > kMostSvgElements) return too_many_in_svg(name_, "elements", kMostSvgElements);
         if (const char* id = node.attribute("id").value(); *id != '\0') by_id_.emplace(id, node);
-        if (plain_name(node) == "style" && has_rules_for_areas(node))
-          leave_out("rules of a <style>");
+        if (svg_name(node) == "style" && has_rules_for_areas(node)) leave_out("rules of a <style>");
       }
       if (node.first_child()) {
         node = node.first_child();
@@ -144,12 +123,6 @@ class SvgReader {
       node = !node || node == root ? pugi::xml_node() : node.next_sibling();
     }
     return std::monostate();
-  }
-
-  [[nodiscard]] Error limit(const char* what, size_t most) const {
-    return Error{ErrorCode::kLimit,
-                 name_ + ": unfolds to more than " + std::to_string(most) + " " + what,
-                 {}};
   }
 
   /// Millimetres; percentages are of `whole`, in user units.
@@ -259,7 +232,7 @@ class SvgReader {
       return number(by_user ? user : node, name, style, whole);
     };
     const glm::dvec2 size(side("width", style.viewport.x, 2), side("height", style.viewport.y, 3));
-    if (plain_name(node) == "svg")
+    if (svg_name(node) == "svg")
       map = map.after({1, 0, 0, 1, number(node, "x", style), number(node, "y", style)});
     style.viewport = size;
     if (!box->empty()) {
@@ -281,23 +254,17 @@ class SvgReader {
 
   /// Whether an element is the one asked for by id or layer.
   bool is_wanted(const pugi::xml_node& node) const {
-    if (!options_.id.empty()) return options_.id == node.attribute("id").value();
-    return !options_.layer.empty() &&
+    if (options_.id) return *options_.id == node.attribute("id").value();
+    return options_.layer &&
            std::strcmp(node.attribute("inkscape:groupmode").value(), "layer") == 0 &&
-           options_.layer == node.attribute("inkscape:label").value();
-  }
-
-  [[nodiscard]] Error too_deep() const {
-    return Error{ErrorCode::kLimit,
-                 name_ + ": elements are nested deeper than " + std::to_string(kDeepest),
-                 {}};
+           *options_.layer == node.attribute("inkscape:label").value();
   }
 
   Status element(const pugi::xml_node& node, const SvgMap& outer, const Style& inherited,
                  bool shown, int depth) {
-    if (depth > kDeepest) return too_deep();
-    if (++elements_ > kMostElements) return limit("elements", kMostElements);
-    const std::string kind = plain_name(node);
+    if (depth > kDeepestSvg) return too_deep_svg(name_);
+    if (++elements_ > kMostSvgElements) return too_many_in_svg(name_, "elements", kMostSvgElements);
+    const std::string kind = svg_name(node);
     if (kind == "defs" || kind == "symbol" || kind == "clipPath" || kind == "mask" ||
         kind == "marker" || kind == "pattern" || kind == "style" || kind == "metadata" ||
         kind == "namedview" || kind == "title" || kind == "desc" || kind == "script") {
@@ -360,9 +327,9 @@ class SvgReader {
     }
     const SvgMap map =
         outer.after({1, 0, 0, 1, number(node, "x", style), number(node, "y", style)});
-    const std::string kind = plain_name(target->second);
+    const std::string kind = svg_name(target->second);
     if (kind == "symbol" || kind == "svg") {
-      if (depth > kDeepest) return too_deep();
+      if (depth > kDeepestSvg) return too_deep_svg(name_);
       Style own = style;
       read_style(target->second, own);
       return viewport(target->second, node, map, own, shown, depth);
@@ -372,22 +339,9 @@ class SvgReader {
 
   /// A property of the attribute `style`, or an attribute of that name.
   static std::string property(const pugi::xml_node& node, const std::string& name) {
-    const std::string style = node.attribute("style").value();
-    for (size_t begin = 0; begin < style.size();) {
-      const size_t end = std::min(style.find(';', begin), style.size());
-      const size_t colon = style.find(':', begin);
-      if (colon < end && trimmed(style.substr(begin, colon - begin)) == name)
-        return trimmed(style.substr(colon + 1, end - colon - 1));
-      begin = end + 1;
-    }
+    const std::string styled = svg_style(node, name);
+    if (!styled.empty()) return styled;
     return trimmed(node.attribute(name.c_str()).value());
-  }
-
-  static std::string trimmed(const std::string& text) {
-    constexpr const char* kBlanks = " \t\n\r";
-    const size_t begin = text.find_first_not_of(kBlanks);
-    if (begin == std::string::npos) return {};
-    return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
   }
 
   void read_style(const pugi::xml_node& node, Style& style) const {
@@ -443,13 +397,13 @@ class SvgReader {
 
   Status draw(const pugi::xml_node& node, const std::string& kind, const SvgMap& map,
               const Style& style) {
-    const double mm = map.scale();
+    const SvgSteps steps{options_.facets, map.scale()};
     std::vector<Chain> chains;
     bool good = true;
     if (kind == "path") {
-      chains = parse_svg_path(node.attribute("d").value(), mm, options_.facets, good);
+      chains = parse_svg_path(node.attribute("d").value(), steps, good);
     } else if (kind == "rect") {
-      rectangle(node, style, mm, chains);
+      rectangle(node, style, steps, chains);
     } else if (kind == "circle" || kind == "ellipse") {
       const bool circle = kind == "circle";
       const double rx = number(node, circle ? "r" : "rx", style),
@@ -458,8 +412,8 @@ class SvgReader {
       if (rx > 0 && ry > 0) {
         Chain& chain = chains.emplace_back();
         chain.closed = true;
-        append_ellipse(center, {rx, 0}, {0, ry}, 0, 360,
-                       options_.facets.fragments(std::max(rx, ry) * mm), chain.points);
+        append_ellipse(center, {rx, 0}, {0, ry}, 0, 360, steps.of_ellipse(std::max(rx, ry)),
+                       chain.points);
       }
     } else if (kind == "line") {
       chains.push_back({{{number(node, "x1", style), number(node, "y1", style)},
@@ -481,7 +435,7 @@ class SvgReader {
     return add(chains, map, style);
   }
 
-  void rectangle(const pugi::xml_node& node, const Style& style, double mm,
+  void rectangle(const pugi::xml_node& node, const Style& style, const SvgSteps& curve_steps,
                  std::vector<Chain>& chains) const {
     const double x = number(node, "x", style), y = number(node, "y", style);
     const double w = number(node, "width", style), h = number(node, "height", style);
@@ -497,7 +451,7 @@ class SvgReader {
       chain.points = {{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}};
       return;
     }
-    const int steps = (options_.facets.fragments(std::max(rx, ry) * mm) + 3) / 4;
+    const int steps = (curve_steps.of_ellipse(std::max(rx, ry)) + 3) / 4;
     for (int corner = 0; corner < 4; ++corner) {
       const glm::dvec2 center(corner == 1 || corner == 2 ? x + rx : x + w - rx,
                               corner >= 2 ? y + ry : y + h - ry);
@@ -511,7 +465,7 @@ class SvgReader {
       Shape2D::Loop loop;
       for (const glm::dvec2& p : chain.points) loop.push_back(map.apply(p));
       points_ += loop.size();
-      if (points_ > kMostDrawingPoints) return limit("points", kMostDrawingPoints);
+      if (points_ > kMostDrawingPoints) return too_many_in_svg(name_, "points", kMostDrawingPoints);
       // An open line without a fill is area by its stroke only.
       const bool ends_meet = loop.size() > 2 && loop.front() == loop.back();
       if (!chain.closed && !ends_meet && (style.fill == "none" || loop.size() < 3)) {

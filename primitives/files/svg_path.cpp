@@ -69,8 +69,7 @@ double length_of(const glm::dvec2& v) { return std::sqrt(glm::dot(v, v)); }
 
 class PathReader {
  public:
-  PathReader(std::string_view data, double mm_per_unit, const Facets& facets)
-      : scan_(data), mm_(mm_per_unit), facets_(facets) {}
+  PathReader(std::string_view data, const SvgSteps& steps) : scan_(data), steps_(steps) {}
 
   std::vector<Chain> chains;
 
@@ -173,7 +172,7 @@ class PathReader {
     }
     double length = 0;
     for (size_t i = 1; i < control.size(); ++i) length += length_of(control[i] - control[i - 1]);
-    const int steps = curve_steps(length * mm_, facets_);
+    const int steps = steps_.of_bezier(length);
     append_bezier(control, steps, current());
     total_ += static_cast<size_t>(steps);
     at_ = control.back();
@@ -215,7 +214,7 @@ class PathReader {
     double angle = atan2_deg((-p.y - q.y) / b, (-p.x - q.x) / a) - first;
     if (*sweep && angle <= 0) angle += 360;
     if (!*sweep && angle >= 0) angle -= 360;
-    const int steps = facets_.fragments(std::max(a, b) * mm_, angle);
+    const int steps = steps_.of_arc(std::max(a, b), angle);
     std::vector<glm::dvec2> points;
     append_ellipse(center, {c * a, s * a}, {-s * b, c * b}, first, angle, steps, points);
     std::vector<glm::dvec2>& chain = current();
@@ -226,8 +225,7 @@ class PathReader {
   }
 
   Scanner scan_;
-  double mm_;
-  const Facets& facets_;
+  const SvgSteps& steps_;
   glm::dvec2 at_{}, start_{}, cubic_handle_{}, quadratic_handle_{};
   size_t total_ = 0;
 };
@@ -314,9 +312,8 @@ std::optional<SvgLength> parse_svg_length(std::string_view text) {
   return length;
 }
 
-std::vector<Chain> parse_svg_path(std::string_view data, double mm_per_unit, const Facets& facets,
-                                  bool& good) {
-  PathReader reader(data, mm_per_unit, facets);
+std::vector<Chain> parse_svg_path(std::string_view data, const SvgSteps& steps, bool& good) {
+  PathReader reader(data, steps);
   good = reader.read();
   return std::move(reader.chains);
 }

@@ -38,9 +38,8 @@ struct SvgLength {
 };
 std::optional<SvgLength> parse_svg_length(std::string_view text);
 
-/// The subpaths of path data, with curves in steps for lengths times `mm_per_unit`. As SVG wants,
-/// what stands before a mistake is drawn; `good` then is false.
-std::vector<Chain> parse_svg_path(std::string_view data, double mm_per_unit, const Facets& facets,
-                                  bool& good);
+/// The subpaths of path data, with curves in steps. As SVG wants, what stands before a mistake is
+/// drawn; `good` then is false.
+std::vector<Chain> parse_svg_path(std::string_view data, const SvgSteps& steps, bool& good);
 
 }  // namespace csgrun

@@ -31,6 +31,12 @@ class OffsetCurve {
         distance_(distance),
         mitre_limit_(mitre_limit),
         fragments_(facets.fragments(distance_)) {}
+  explicit OffsetCurve(const StrokeOptions& pen)
+      : join_(pen.join),
+        bevels_long_mitres_(!pen.cut_square),
+        distance_(pen.width / 2),
+        mitre_limit_(std::max(pen.mitre_limit, 1.0)),
+        fragments_(pen.facets.fragments(distance_)) {}
 
   /// Forth along a line and back, with caps where it turns.
   [[nodiscard]] Shape2D::Loop along(const Shape2D::Loop& line, StrokeCap cap) const {
@@ -103,7 +109,7 @@ class OffsetCurve {
     }
     if (join_ == OffsetJoin::kRound) {
       add_arc(p, a, atan2_deg(sine, cosine), curve);
-    } else if (join_ == OffsetJoin::kBevel || mitre_limit_ < kMitreLimit) {
+    } else if (join_ == OffsetJoin::kBevel || bevels_long_mitres_) {
       add(a);
     } else {
       // The line at the distance, square to the bisector: tan(turn / 4) beyond both moved edges.
@@ -129,6 +135,7 @@ class OffsetCurve {
   }
 
   OffsetJoin join_;
+  bool bevels_long_mitres_ = false;
   double distance_, mitre_limit_;
   int fragments_;
 };
@@ -179,8 +186,7 @@ Result<Shape2D> stroke_shape(const Shape2D::Loop& line, const StrokeOptions& opt
     if (points.empty() || p != points.back()) points.push_back(p);
   }
   if (points.size() < 2) return Shape2D();
-  const OffsetCurve maker(options.width / 2, options.join, std::max(options.mitre_limit, 1.0),
-                          options.facets);
+  const OffsetCurve maker(options);
   return united({maker.along(points, options.cap)}, "stroke", false);
 }
 

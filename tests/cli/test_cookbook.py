@@ -36,6 +36,9 @@ class Cookbook(Case):
         # What the pages read: a mesh, heights, a module of each language.
         self.write("part.stl", stl(TETRAHEDRON))
         self.write("heights.dat", "0 1 2\n1 3 1\n0 2 5\n")
+        self.write("logo.svg", '<svg width="20mm" height="20mm" viewBox="0 0 20 20"><circle cx="10" cy="10" r="9"/>'
+                   '<path d="M 1 1 L 19 19" stroke-width="3" stroke-linecap="butt"/>'
+                   '</svg>')
         self.write("sizes.scad", "width = 3; function area(x) = x * x;")
         self.write("sizes.lua", "local width = 3 local function area(x) return x * x end return {width = width, area = area}")
         count = 0

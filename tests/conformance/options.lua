@@ -355,6 +355,7 @@ shows("import.id", near(import("options/a.svg", {id = "box"}):size()[1], 4 * 25.
 shows("import.dpi", near(import("options/a.svg", {id = "box", dpi = 25.4}):area(), 8))
 shows("import.origin", low(import("options/a.dxf", {layer = "holes", origin = {1, 0}}))[1] == -2)
 shows("import.scale", import("options/a.dxf", {layer = "holes", scale = 3}):size()[1] == 6)
+shows("import.as_openscad", import("options/a.svg", {id = "none", as_openscad = true}):is_empty())
 shows("import.center", near(low(import("options/a.svg", {id = "box", dpi = 25.4, center = true}))[1], -2))
 shows("require.name", require{name = "csg.gears"} == require "csg.gears")
 emit(cube(1), {name = "emitted"})

@@ -242,6 +242,8 @@ def file_node(node):
     given = {name: node.get(name) for name in names.get(node.get("file")[-4:].lower(), ())}
     more = facets(node) if given else {}
     given = {name: value for name, value in given.items() if value not in ("", "false")}
+    if node.get("file")[-4:].lower() == ".svg":
+        more["as_openscad"] = Word("true")
     return f"import({lua(node.get('file'))}, {options(**given, **more)})"
 
 

@@ -33,6 +33,7 @@ inline void expect_shape(const Result<Shape2D>& shape) {
 inline int read_drawing(const std::string& name, const uint8_t* data, size_t size) {
   FlatFileOptions options;
   options.center = size % 2 == 1;
+  options.as_openscad = size % 4 >= 2;
   const auto file = parse_flat(name, text_of(data, size), options);
   if (!file) {
     expect_users_fault(file.error());

@@ -43,6 +43,10 @@ TEST(ImportInLua, OptionsOfOtherFormats) {
       message_of("return import('x.svg', {parts = true, id = 'b'})"),
       "model.lua:1: import: option 'parts' gives all parts of a drawing: it goes with neither "
       "'layer' nor 'id'");
+  EXPECT_EQ(message_of("return import('x.svg', {parts = true, as_openscad = true})"),
+            "model.lua:1: import: option 'parts' does not go with 'as_openscad'");
+  EXPECT_EQ(message_of("return import('x.stl', {as_openscad = true})"),
+            "model.lua:1: import: option 'as_openscad' is for drawings, not for meshes");
   EXPECT_EQ(message_of("return import('x.svg', {dpi = 0})"),
             "model.lua:1: import: option 'dpi' must be positive, got 0");
 }

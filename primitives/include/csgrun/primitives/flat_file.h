@@ -1,6 +1,7 @@
 // 2D shapes from files: SVG and DXF.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,14 +15,17 @@
 namespace csgrun {
 
 struct FlatFileOptions {
-  std::string layer;    ///< only this layer; empty: all
-  std::string id;       ///< SVG: only the element of that id, and what is in it
+  std::optional<std::string> layer;  ///< only this layer
+  std::optional<std::string> id;     ///< SVG: only the element of that id, and what is in it
   double dpi = 72;      ///< SVG: user units an inch, where a viewBox has a size without a unit
   glm::dvec2 origin{};  ///< DXF: this point of the drawing becomes (0, 0)
   double scale = 1;     ///< DXF
   bool center = false;  ///< the middle of the bounding box becomes (0, 0)
   Facets facets;        ///< of arcs and curves
   bool parts = false;   ///< fills FlatFile::parts, and not its shape; not with a layer or an id
+  /// As an OpenSCAD tree means it: an SVG is drawn by OpenSCAD's rules, and a layer or id that is
+  /// not there is an empty shape with a note.
+  bool as_openscad = false;
 };
 
 /// What has a name in a drawing: in an SVG an element of the outermost level (its title, else the

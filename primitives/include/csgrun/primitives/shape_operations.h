@@ -40,8 +40,9 @@ struct StrokeOptions {
   double width = 1;  ///< mm
   StrokeCap cap = StrokeCap::kButt;
   OffsetJoin join = OffsetJoin::kMitre;
-  double mitre_limit = 4;  ///< of half widths; beyond it a bevel
-  Facets facets;           ///< of round joins and caps
+  double mitre_limit = 4;   ///< of half widths; beyond it a bevel
+  bool cut_square = false;  ///< beyond it cut as with kChamfer, as OpenSCAD does
+  Facets facets;            ///< of round joins and caps
 };
 
 /// The area that a pen of this width covers along an open line; empty for a line of no length.
