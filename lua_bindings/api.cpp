@@ -8,6 +8,7 @@
 #include "lua_bindings/guard.h"
 #include "lua_bindings/library_docs.h"
 #include "lua_bindings/nearest.h"
+#include "lua_bindings/operands.h"
 #include "lua_bindings/session.h"
 #include "lua_bindings/text.h"
 
@@ -285,6 +286,7 @@ void fail_making(const FunctionSpec& spec, const std::string& message) {
 }
 
 ShapeValue& shape_argument(lua_State* L, const FunctionSpec& spec) {
+  bring_subject_to_front(L);
   if (ShapeValue* shape = to_shape(L, 1)) return *shape;
   fail_in(
       spec,
@@ -294,11 +296,20 @@ ShapeValue& shape_argument(lua_State* L, const FunctionSpec& spec) {
 }
 
 SolidValue& solid_argument(lua_State* L, const FunctionSpec& spec) {
+  bring_subject_to_front(L);
   if (SolidValue* solid = to_solid(L, 1)) return *solid;
   fail_in(spec,
           fmt::format("the first argument must be a solid, got {}; as a method it is called with a "
                       "colon, solid:{}(...)",
                       describe_value(L, 1), spec.name));
+}
+
+void part_argument(lua_State* L, const FunctionSpec& spec) {
+  bring_subject_to_front(L);
+  if (to_solid(L, 1) != nullptr || to_shape(L, 1) != nullptr) return;
+  fail_in(spec, fmt::format("the first argument must be a solid or a shape, got {}; as a method it "
+                            "is called with a colon, part:{}(...)",
+                            describe_value(L, 1), spec.name));
 }
 
 FillRule fill_argument(const Arguments& arguments, const FunctionSpec& spec) {

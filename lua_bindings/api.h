@@ -80,6 +80,8 @@ V value_or_fail(const FunctionSpec& spec, Result<V> result) {
 /// The shape at stack index 1, or an error that says what is wanted.
 ShapeValue& shape_argument(lua_State* L, const FunctionSpec& spec);
 SolidValue& solid_argument(lua_State* L, const FunctionSpec& spec);
+/// Sees to it that a solid or a shape is at stack index 1.
+void part_argument(lua_State* L, const FunctionSpec& spec);
 /// What option "fill" says (nonzero when it was not given), or an error that lists the rules.
 FillRule fill_argument(const Arguments& arguments, const FunctionSpec& spec);
 /// The meaning of option "fill", for tables of options.

@@ -38,12 +38,6 @@ std::array<glm::dvec3, 2> box_of(lua_State* L, int index, const FunctionSpec& sp
   return {glm::dvec3(bounds[0].x, bounds[0].y, 0), glm::dvec3(bounds[1].x, bounds[1].y, 0)};
 }
 
-void require_part(lua_State* L, const FunctionSpec& spec) {
-  if (to_solid(L, 1) != nullptr || to_shape(L, 1) != nullptr) return;
-  fail_in(spec, fmt::format("the first argument must be a solid or a shape, got {}",
-                            describe_value(L, 1)));
-}
-
 /// Pushes the part at index 1 under a map, with its marks.
 void push_moved(lua_State* L, const FunctionSpec& spec, const Affine& map) {
   if (const SolidValue* solid = to_solid(L, 1)) {
@@ -110,7 +104,7 @@ constexpr FunctionSpec kAnchor{"anchor", "A point of the bounding box, {x, y, z}
                                kPartDoc};
 
 int anchor(lua_State* L) {
-  require_part(L, kAnchor);
+  part_argument(L, kAnchor);
   const Arguments arguments(L, kAnchor, 2);
   const Anchor at = parse_anchor(kAnchor, "at", arguments.string("at", "center"));
   const glm::dvec3 p = point_of(box_of(L, 1, kAnchor), at);
@@ -137,7 +131,7 @@ constexpr FunctionSpec kAttach{"attach",
                                kPartDoc};
 
 int attach(lua_State* L) {
-  require_part(L, kAttach);
+  part_argument(L, kAttach);
   const Arguments arguments(L, kAttach, 2);
   const int to = arguments.stack_index("to");
   if (to == 0) fail_in(kAttach, "needs the part to attach it to");
@@ -169,7 +163,7 @@ constexpr FunctionSpec kAlign{"align",
                               kPartDoc};
 
 int align(lua_State* L) {
-  require_part(L, kAlign);
+  part_argument(L, kAlign);
   const Arguments arguments(L, kAlign, 2);
   const auto box = box_of(L, 1, kAlign);
   std::array<glm::dvec3, 2> target{};
@@ -220,7 +214,7 @@ constexpr FunctionSpec kCentered{"centered",
                                  kPartDoc};
 
 int centered(lua_State* L) {
-  require_part(L, kCentered);
+  part_argument(L, kCentered);
   const Arguments arguments(L, kCentered, 2);
   const auto axes =
       arguments.has("axes") ? arguments.booleans("axes") : std::array<bool, 3>{true, true, true};
@@ -271,7 +265,7 @@ constexpr FunctionSpec kMirrorCopy{
     kPartDoc};
 
 int mirror_copy(lua_State* L) {
-  require_part(L, kMirrorCopy);
+  part_argument(L, kMirrorCopy);
   const Arguments arguments(L, kMirrorCopy, 2);
   const auto v = arguments.vector("v");
   if (v && v->v == glm::dvec3(0, 0, 0)) fail_in(kMirrorCopy, "option 'v' must not be 0");
@@ -304,7 +298,7 @@ constexpr FunctionSpec kLinearArray{"linear_array",
                                     kPartDoc};
 
 int linear_array(lua_State* L) {
-  require_part(L, kLinearArray);
+  part_argument(L, kLinearArray);
   const Arguments arguments(L, kLinearArray, 2);
   const int n = copies_argument(arguments, kLinearArray, "n");
   const auto v = arguments.vector("v");
@@ -330,7 +324,7 @@ constexpr FunctionSpec kGridArray{
     kPartDoc};
 
 int grid_array(lua_State* L) {
-  require_part(L, kGridArray);
+  part_argument(L, kGridArray);
   const Arguments arguments(L, kGridArray, 2);
   const auto n = arguments.vector("n"), step = arguments.vector("step");
   if (!n || !step) fail_in(kGridArray, "needs how many, {nx, ny}, and how far apart, {x, y}");
@@ -383,7 +377,7 @@ constexpr FunctionSpec kPolarArray{"polar_array",
                                    kPartDoc};
 
 int polar_array(lua_State* L) {
-  require_part(L, kPolarArray);
+  part_argument(L, kPolarArray);
   const Arguments arguments(L, kPolarArray, 2);
   const int n = copies_argument(arguments, kPolarArray, "n");
   const double angle = arguments.number("angle", 360);

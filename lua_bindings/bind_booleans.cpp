@@ -31,6 +31,10 @@ constexpr FunctionSpec kSub{"sub",
                             "What is in the first and in none of the others: another name of "
                             "difference.",
                             kDifferenceOptions, false, "plate:sub(hole, {cut = \"body\"})"};
+constexpr FunctionSpec kSubtract{"subtract",
+                                 "What is in the first and in none of the others: another name of "
+                                 "difference.",
+                                 kDifferenceOptions, false, "plate:subtract(hole)"};
 constexpr FunctionSpec kIntersection{"intersection", "What is in all of them.", kOperandOptions,
                                      false, "a:intersection(b)"};
 constexpr FunctionSpec kIntersect{"intersect",
@@ -202,6 +206,7 @@ constexpr Binding kBindings[] = {
     boolean_binding<kSymmetricDifference, BooleanOp::kSymmetricDifference>(),
     boolean_method<kAdd, BooleanOp::kUnion>(),
     boolean_method<kSub, BooleanOp::kDifference>(),
+    boolean_method<kSubtract, BooleanOp::kDifference>(),
     boolean_method<kIntersect, BooleanOp::kIntersection>(),
     {&kOuterHull, guarded<outer_hull>, guarded<outer_hull>, nullptr},
 };

@@ -93,6 +93,7 @@ void push_changed(lua_State* L, const std::function<Appearance(const Appearance&
 
 template <const FunctionSpec& Spec>
 int color(lua_State* L) {
+  part_argument(L, Spec);
   // color(part, r, g, b): three numbers stand for the list.
   if (lua_gettop(L) >= 4 && lua_type(L, 2) == LUA_TNUMBER && lua_type(L, 3) == LUA_TNUMBER &&
       lua_type(L, 4) == LUA_TNUMBER) {
@@ -101,7 +102,6 @@ int color(lua_State* L) {
     lua_remove(L, 4);
     lua_remove(L, 3);
   }
-  if (to_solid(L, 1) == nullptr && to_shape(L, 1) == nullptr) solid_argument(L, Spec);
   const Arguments arguments(L, Spec, 2);
   if (!arguments.has("c")) fail_in(Spec, "needs a colour");
   Appearance painted;
@@ -188,7 +188,7 @@ const Preset& find_preset(const std::string& kind) {
 }
 
 int material(lua_State* L) {
-  if (to_solid(L, 1) == nullptr && to_shape(L, 1) == nullptr) solid_argument(L, kMaterial);
+  part_argument(L, kMaterial);
   const Arguments arguments(L, kMaterial, 2);
   if (lua_gettop(L) < 2) fail_in(kMaterial, "needs the name of a material, or options");
   const std::string kind = arguments.string("kind", "plastic");

@@ -135,10 +135,9 @@ void resize_shape(lua_State* L, const ShapeValue& shape, const glm::dvec3& size,
 }
 
 int resize(lua_State* L) {
-  take_subject_out_of_list(L);
+  part_argument(L, kResize);
   const ShapeValue* shape = to_shape(L, 1);
   const SolidValue* solid = to_solid(L, 1);
-  if (shape == nullptr && solid == nullptr) solid_argument(L, kResize);
   const Arguments arguments(L, kResize, 2);
   const auto wanted = arguments.vector("newsize");
   if (!wanted) fail_in(kResize, "needs the new lengths: (20, 10), or 0 where nothing changes");

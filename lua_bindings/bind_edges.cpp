@@ -439,7 +439,6 @@ std::vector<uint32_t> chosen_edges(lua_State* L, const FunctionSpec& spec, const
 
 template <const FunctionSpec& Spec, bool kRound>
 int cut(lua_State* L) {
-  take_subject_out_of_list(L);
   SolidValue& value = solid_argument(L, Spec);
   const Arguments arguments(L, Spec, 2);
   const char* size = kRound ? "r" : "distance";

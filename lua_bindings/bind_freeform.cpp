@@ -111,7 +111,6 @@ constexpr FunctionSpec kRefine{
     kSolidDoc};
 
 int refine(lua_State* L) {
-  take_subject_out_of_list(L);
   SolidValue& solid = solid_argument(L, kRefine);
   const Arguments arguments(L, kRefine, 2);
   if (!arguments.has("length")) fail_in(kRefine, "needs the length of the longest edge");
@@ -135,7 +134,6 @@ constexpr FunctionSpec kSmooth{
     kSolidDoc};
 
 int smooth(lua_State* L) {
-  take_subject_out_of_list(L);
   SolidValue& solid = solid_argument(L, kSmooth);
   const Arguments arguments(L, kSmooth, 2);
   PolygonMesh mesh = mesh_of_solid(session_of(L).evaluated(solid), "smooth");

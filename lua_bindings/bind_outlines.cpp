@@ -61,7 +61,7 @@ int offset_of_solid(lua_State* L, const SolidValue& solid) {
 }
 
 int offset(lua_State* L) {
-  take_subject_out_of_list(L);
+  bring_subject_to_front(L);
   if (const SolidValue* solid = to_solid(L, 1)) return offset_of_solid(L, *solid);
   const ShapeValue& shape = shape_argument(L, kOffset);
   const Arguments arguments(L, kOffset, 2);
@@ -84,7 +84,6 @@ constexpr FunctionSpec kFill{"fill",   "The shape without its holes.",   {},
                              kShapeDoc};
 
 int fill(lua_State* L) {
-  take_subject_out_of_list(L);
   const ShapeValue& shape = shape_argument(L, kFill);
   const Arguments arguments(L, kFill, 2);
   push_shape(L, value_or_fail(kFill, fill_shape(shape.shape)), shape.appearance);

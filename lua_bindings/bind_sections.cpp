@@ -90,7 +90,6 @@ void push_section(lua_State* L, const NodePtr& solid, const CutPlane& plane) {
 }
 
 int projection(lua_State* L) {
-  take_subject_out_of_list(L);
   SolidValue& solid = solid_argument(L, kProjection);
   const Arguments arguments(L, kProjection, 2);
   if (arguments.boolean("cut", false)) {
@@ -102,7 +101,6 @@ int projection(lua_State* L) {
 }
 
 int project(lua_State* L) {
-  take_subject_out_of_list(L);
   SolidValue& solid = solid_argument(L, kProject);
   if (lua_type(L, 2) == LUA_TNUMBER || lua_type(L, 2) == LUA_TBOOLEAN)
     fail_in(kProject,
@@ -168,7 +166,6 @@ bool is_called_with_normal(lua_State* L) {
 }
 
 int slice(lua_State* L) {
-  take_subject_out_of_list(L);
   const SolidValue& solid = solid_argument(L, kSlice);
   if (is_called_with_normal(L)) {
     push_section(L, solid.node, plane_argument(Arguments(L, kSlicePlane, 2), kSlice));
@@ -208,7 +205,6 @@ constexpr FunctionSpec kTrim{"trim",
 
 template <const FunctionSpec& Spec, bool kBoth>
 int cut(lua_State* L) {
-  take_subject_out_of_list(L);
   const NodePtr solid = solid_argument(L, Spec).node;
   const Arguments arguments(L, Spec, 2);
   const CutPlane plane = plane_argument(arguments, Spec);
@@ -240,8 +236,8 @@ constexpr FunctionSpec kDecompose{
     "a solid or a shape; part:decompose() leaves it out"};
 
 int decompose(lua_State* L) {
+  part_argument(L, kDecompose);
   const ShapeValue* shape = to_shape(L, 1);
-  if (shape == nullptr) solid_argument(L, kDecompose);
   if (lua_gettop(L) > 1) fail_in(kDecompose, "takes no arguments");
   lua_Integer count = 0;
   if (shape != nullptr) {

@@ -205,7 +205,6 @@ void take_vector_for_height(lua_State* L) {
 }
 
 int linear_extrude_shape(lua_State* L) {
-  take_subject_out_of_list(L);
   const ShapeValue& shape = shape_argument(L, kLinearExtrude);
   take_vector_for_height(L);
   const Arguments arguments(L, kLinearExtrude, 2);
@@ -253,7 +252,6 @@ constexpr FunctionSpec kRotateExtrude{
     kShapeDoc};
 
 int rotate_extrude_shape(lua_State* L) {
-  take_subject_out_of_list(L);
   const ShapeValue& shape = shape_argument(L, kRotateExtrude);
   const Arguments arguments(L, kRotateExtrude, 2);
   RotateExtrudeOptions options;

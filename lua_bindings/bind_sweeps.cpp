@@ -35,7 +35,6 @@ constexpr FunctionSpec kSweep{
     kShapeDoc};
 
 int sweep(lua_State* L) {
-  take_subject_out_of_list(L);
   const ShapeValue& shape = shape_argument(L, kSweep);
   const Arguments arguments(L, kSweep, 2);
   if (!arguments.has("path")) fail_in(kSweep, "needs a path, a list of points {x, y, z}");
@@ -154,7 +153,6 @@ constexpr FunctionSpec kRoof{
     kShapeDoc};
 
 int roof(lua_State* L) {
-  take_subject_out_of_list(L);
   const ShapeValue& shape = shape_argument(L, kRoof);
   const Arguments arguments(L, kRoof, 2);
   RoofOptions options;

@@ -9,6 +9,7 @@
 #include "lua_bindings/affine_maps.h"
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
+#include "lua_bindings/operands.h"
 #include "lua_bindings/session.h"
 
 namespace csgrun {
@@ -153,22 +154,17 @@ Affine make_turn(const Arguments& arguments) {
   return axis_rotation(Axis, arguments.number("a", 0));
 }
 
-/// translate({1, 2, 3}, part), the order of JSCAD: the part goes to the front.
-void take_subject_from_the_end(lua_State* L) {
-  const int top = lua_gettop(L);
-  const auto is_subject = [&](int index) {
-    return to_solid(L, index) != nullptr || to_shape(L, index) != nullptr;
-  };
-  if (top < 2 || !is_subject(top)) return;
-  for (int index = 1; index < top; ++index) {
-    if (is_subject(index) || to_matrix(L, index) != nullptr) return;
+/// translate({1, 2, 3}, part), as OpenSCAD and JSCAD have it. A matrix that is moved is no part.
+void take_subject_from_the_end(lua_State* L, bool is_of_matrix) {
+  for (int index = 1; !is_of_matrix && index <= lua_gettop(L); ++index) {
+    if (to_matrix(L, index) != nullptr) return;
   }
-  lua_insert(L, 1);
+  bring_subject_to_front(L);
 }
 
 template <const FunctionSpec& Spec, Affine (*Make)(const Arguments&), bool kMethod>
 int transform(lua_State* L) {
-  if (!kMethod) take_subject_from_the_end(L);
+  if (!kMethod) take_subject_from_the_end(L, &Spec == &kMultmatrix);
   if (const SolidValue* solid = to_solid(L, 1)) {
     const Arguments arguments(L, Spec, 2);
     push_solid(L, Node::transformed(Make(arguments), solid->node, session_of(L).source_ref(L)));

@@ -116,6 +116,9 @@ const char* name_hint(std::string_view name) {
       {"roundedcube", "it is cube{{20, 10, 5}, r = 2}"},
       {"rounded_cube", "it is cube{{20, 10, 5}, r = 2}"},
       {"version", "csgrun --version tells"},
+      {"hullChain", "it is union{hull(a, b), hull(b, c)}"},
+      {"Manifold", "its functions are globals: cube, sphere, union"},
+      {"CrossSection", "its functions are globals: square, circle, polygon"},
   };
   const auto* hint = std::find_if(std::begin(kHints), std::end(kHints),
                                   [&](const Hint& each) { return each.name == name; });

@@ -105,13 +105,31 @@ Operands read_operands(lua_State* L, const FunctionSpec& spec) {
   return operands;
 }
 
-void take_subject_out_of_list(lua_State* L) {
-  if (lua_gettop(L) != 1 || !lua_istable(L, 1)) return;
-  lua_rawgeti(L, 1, 1);
-  if (to_shape(L, -1) == nullptr && to_solid(L, -1) == nullptr) {
+namespace {
+
+bool is_subject(lua_State* L, int index) {
+  return to_shape(L, index) != nullptr || to_solid(L, index) != nullptr;
+}
+
+/// The place of the only solid or shape in the list at the top of the stack; 0 if there is not one.
+lua_Integer place_of_subject(lua_State* L) {
+  lua_Integer found = 0;
+  const auto length = static_cast<lua_Integer>(lua_rawlen(L, -1));
+  for (lua_Integer place = 1; place <= length; ++place) {
+    lua_rawgeti(L, -1, place);
+    const bool here = is_subject(L, lua_gettop(L));
     lua_pop(L, 1);
-    return;
+    if (here && found != 0) return 0;
+    if (here) found = place;
   }
+  return found;
+}
+
+/// f{shape, 16, twist = 90}: the subject comes to stack index 1, what is left of the table to 2.
+void take_subject_out_of_list(lua_State* L) {
+  const lua_Integer subject = place_of_subject(L);
+  if (subject == 0) return;
+  lua_rawgeti(L, 1, subject);
   lua_insert(L, 1);  // subject, table
   lua_newtable(L);
   lua_pushnil(L);
@@ -120,16 +138,37 @@ void take_subject_out_of_list(lua_State* L) {
     if (lua_isinteger(L, -1) != 0) {
       const lua_Integer place = lua_tointeger(L, -1);
       lua_pop(L, 1);
-      if (place == 1) {
+      if (place == subject) {
         lua_pop(L, 1);
         continue;
       }
-      lua_pushinteger(L, place - 1);
+      lua_pushinteger(L, place > subject ? place - 1 : place);
     }
     lua_insert(L, -2);
     lua_rawset(L, 3);
   }
   lua_replace(L, 2);
+}
+
+}  // namespace
+
+void bring_subject_to_front(lua_State* L) {
+  const int top = lua_gettop(L);
+  if (top == 0 || is_subject(L, 1)) return;
+  if (top == 1) {
+    if (lua_istable(L, 1)) take_subject_out_of_list(L);
+    return;
+  }
+  int found = 0;
+  for (int index = 2; index <= top; ++index) {
+    if (!is_subject(L, index)) continue;
+    if (found != 0) return;
+    found = index;
+  }
+  if (found == 0) return;
+  lua_pushvalue(L, found);
+  lua_remove(L, found);
+  lua_insert(L, 1);
 }
 
 }  // namespace csgrun

@@ -37,9 +37,10 @@ struct Operands {
 /// The arguments one after another, or as lists: f(a, b), f{a, b}, a:f(b). Throws ScriptError.
 Operands read_operands(lua_State* L, const FunctionSpec& spec);
 
-/// f{shape, 16, twist = 90}: the shape or solid comes out of the list to stack index 1, and the
-/// rest stays a table of options behind it. Anything else stays as it is.
-void take_subject_out_of_list(lua_State* L);
+/// The solid or shape that a function works on may stand anywhere among its values, as in
+/// f(20, shape), OpenSCAD's order, and in f{shape, 16, twist = 90}: it goes to stack index 1, and
+/// the rest stays behind it. Where there is none, or more than one, everything stays as it is.
+void bring_subject_to_front(lua_State* L);
 
 /// What stands for the subject in tables of options.
 constexpr const char* kShapeDoc = "the 2D shape; as a method, shape:f(...), it is left out";

@@ -2401,6 +2401,25 @@ function Solid:sub(...) end
 ---@return Shape
 function Shape:sub(...) end
 
+---@class (exact) csgrun.subtract
+---@field [integer] any
+---@field operands? any solids or shapes, one after another or as lists (of lists)
+---@field cut? string which colour cut faces have: "tool", that of what cuts, or "body", that of the first solid (of its first leaf, where it has several)
+
+---What is in the first and in none of the others: another name of difference.
+---
+---Example: `plate:subtract(hole)`
+---@param ... any solids or shapes, one after another or as lists (of lists)
+---@return Solid
+function Solid:subtract(...) end
+
+---What is in the first and in none of the others: another name of difference.
+---
+---Example: `plate:subtract(hole)`
+---@param ... any solids or shapes, one after another or as lists (of lists)
+---@return Shape
+function Shape:subtract(...) end
+
 ---@class (exact) csgrun.intersect
 ---@field [integer] any
 ---@field operands? any solids or shapes, one after another or as lists (of lists)

@@ -40,8 +40,8 @@ NEEDS = {
 INSTEAD = {("split", "point"): "offset", ("trim", "point"): "offset", ("translate", "x"): "v", ("move", "x"): "v",
            ("rotate", "x"): "a", ("scale", "x"): "v", ("surface", "file"): "heights"}
 # Their arguments are solids, shapes or numbers in any number, not options.
-OPEN = {"union", "difference", "intersection", "symmetric_difference", "add", "sub", "intersect", "hull", "minkowski",
-        "min", "max"}
+OPEN = {"union", "difference", "intersection", "symmetric_difference", "add", "sub", "subtract", "intersect", "hull",
+        "minkowski", "min", "max"}
 # What is wrong with a value of a kind: none of these may pass.
 WRONG = {
     "a number": ['"x"', "true", "{}", "{1, 2}", "cube(1)"],

@@ -175,7 +175,7 @@ near(cube(4):chamfer(1, "z"):volume(), 4 ^ 3 - 8, 1e-12)
 assert(#cube(4):edges("top") == 4 and cube(4):fillet(1, {fn = 8}) == cube(4, {r = 1, fn = 8}))
 
 -- Booleans as methods, and modifiers: what is skipped is not there.
-assert(a:union(b) == a:add(b) and a:difference(b) == a:sub(b) and a:intersection(b) == a:intersect(b))
+assert(a:union(b) == a:add(b) and a:difference(b) == a:sub(b) and a:sub(b) == a:subtract(b) and a:intersection(b) == a:intersect(b))
 assert(a:symmetric_difference(b):volume() == (a ~ b):volume() and a:clone() == a and a:copy() == a)
 assert((a - s(b)):volume() == 1000 and (a - b:skip() - t(b)):volume() == 1000 and (a - b:transparent()) == a)
 assert((a - d(b)) == (a - b:debug()) and o(a) == a:only())

@@ -268,7 +268,7 @@ local a, b = cube(2), cube(2):right(1)
 for name, volume in pairs{union = 12, intersection = 4, symmetric_difference = 8, add = 12, intersect = 4} do
   shows(name .. ".operands", a[name](a, {b}):volume() == volume)
 end
-for name, reduce in pairs{difference = a.difference, sub = a.sub} do
+for name, reduce in pairs{difference = a.difference, sub = a.sub, subtract = a.subtract} do
   shows(name .. ".operands", reduce(a, b):volume() == 4)
   local red, blue = a:color("red"), b:color("blue")
   shows(name .. ".cut", reduce(red, blue, {cut = "body"}) ~= reduce(red, blue) and

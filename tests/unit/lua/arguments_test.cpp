@@ -95,6 +95,44 @@ TEST(CallForms, Transforms) {
   EXPECT_EQ(box_of("square(2, 3):translate(1, 1):linear_extrude(4)"), "1 1 0 .. 3 4 4");
 }
 
+TEST(CallForms, ThePartMayStandAnywhere) {
+  // OpenSCAD's order, for whatever takes one part: box as of the other order.
+  for (const auto& [text, same] : {
+           std::pair{"linear_extrude(3, square(2))", "square(2):linear_extrude(3)"},
+           {"linear_extrude({height = 3, center = true}, square(2))",
+            "square(2):linear_extrude{height = 3, center = true}"},
+           {"linear_extrude(3, square(2), {center = true})",
+            "square(2):linear_extrude(3, {center = true})"},
+           {"rotate_extrude({angle = 90}, square(2))", "square(2):rotate_extrude{angle = 90}"},
+           {"resize({10, 0, 0}, cube(1), {auto = true})",
+            "cube(1):resize({10, 0, 0}, {auto = true})"},
+           {"color('red', cube(1))", "cube(1)"},
+           {"color({1, 0, 0}, cube(1))", "cube(1)"},
+           {"color(1, 0, 0, cube(1))", "cube(1)"},
+           {"color('red', 0.5, cube(1))", "cube(1)"},
+           {"material('steel', cube(1))", "cube(1)"},
+           {"multmatrix(translate(1, 2, 3), cube(1))", "cube(1):translate(1, 2, 3)"},
+           {"multmatrix({{1, 0, 0, 5}}, cube(1))", "cube(1):translate(5, 0, 0)"},
+           {"linear_extrude(1, offset(2, square(1)))", "square(1):offset(2):linear_extrude(1)"},
+           {"sweep({{0, 0, 0}, {0, 0, 9}}, circle(2))", "circle(2):sweep{{0, 0, 0}, {0, 0, 9}}"},
+           {"linear_array(3, {2, 0, 0}, cube(1))", "cube(1):linear_array(3, {2, 0, 0})"},
+           {"polar_array(3, cube(1))", "cube(1):polar_array(3)"},
+           {"trim({0, 0, 1}, 0.5, cube(1))", "cube(1):trim({0, 0, 1}, 0.5)"},
+           {"chamfer(0.25, cube(1))", "cube(1):chamfer(0.25)"},
+           {"warp(function(x, y, z) return 2 * x, y, z end, cube(1))", "cube(2, 1, 1)"},
+       }) {
+    EXPECT_EQ(box_of(text), box_of(same)) << text;
+  }
+  expect_good("assert(color('red', cube(1)) == cube(1):color('red'))");
+  // Two parts, or one of the wrong kind, are not put in order.
+  EXPECT_EQ(message_of("return color('red', cube(1), cube(2))"),
+            "model.lua:1: color: the first argument must be a solid or a shape, got string; as a "
+            "method it is called with a colon, part:color(...)");
+  EXPECT_EQ(message_of("return linear_extrude(3, cube(2))"),
+            "model.lua:1: linear_extrude: the first argument must be a 2D shape, got solid; as a "
+            "method it is called with a colon, shape:linear_extrude(...)");
+}
+
 TEST(Matrices, MovePointsAndCompareByValue) {
   expect_good(
       "local p = translate(1, 2, 3) * {1, 1, 1} assert(p[1] == 2 and p[2] == 3 and p[3] == 4)");

@@ -75,7 +75,10 @@ TEST(Copies, Mistakes) {
        "front, back, bottom, top, center, as in \"top-left\""},
       {"cube(1):anchor('left-right')", "anchor: option 'at': 'left-right' has opposite sides"},
       {"(cube(1) - cube(1)):anchor()", "anchor: there is nothing in it, so it has no place"},
-      {"anchor(5)", "anchor: the first argument must be a solid or a shape, got 5"},
+      {"anchor(5)",
+       "anchor: the first argument must be a solid or a shape, got 5; as a method it is called "
+       "with "
+       "a colon, part:anchor(...)"},
       {"cube(1):attach()", "attach: needs the part to attach it to"},
       {"cube(1):attach(5)", "attach: option 'to' must be a solid or a shape, got 5"},
       {"cube(1):attach(cube(1), {gpa = 1})", "attach: unknown option 'gpa' (did you mean 'gap'?)"},

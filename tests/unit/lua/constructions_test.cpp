@@ -24,8 +24,8 @@ TEST(Constructions, Mistakes) {
             "model.lua:1: resize: option 'newsize' must be finite, got inf");
   EXPECT_EQ(message_of("return cube(1):resize(1, -1, 1)"),
             "model.lua:1: resize: option 'newsize' must not be negative, got -1");
-  EXPECT_EQ(message_of("return resize(7)").substr(0, 60),
-            "model.lua:1: resize: the first argument must be a solid, got");
+  EXPECT_EQ(message_of("return resize(7)").substr(0, 71),
+            "model.lua:1: resize: the first argument must be a solid or a shape, got");
 }
 
 TEST(Sections, Mistakes) {

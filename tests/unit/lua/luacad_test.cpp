@@ -300,6 +300,7 @@ TEST(Booleans, LuaCadsNames) {
   EXPECT_EQ(volume_of("cube(2):intersect(cube(1), cube(3))"), 1);
   EXPECT_EQ(volume_of("cube(2):add(cube(1):translate(5, 0, 0))"), 9);
   EXPECT_EQ(volume_of("cube(2):sub(cube(1))"), 7);
+  EXPECT_EQ(volume_of("cube(2):subtract(cube(1))"), 7);
   EXPECT_EQ(message_of("cube(1):intersect(5)"),
             "model.lua:1: intersect: an operand must be a solid or a shape, got 5");
 }
