@@ -132,7 +132,19 @@ Parameter read_parameter(lua_State* L, const Arguments& arguments, const Functio
   return parameter;
 }
 
+/// param("holes", {}): an empty list behind a name is the default, and no table of options.
+void take_empty_default(lua_State* L) {
+  if (lua_gettop(L) != 2 || !lua_istable(L, 2)) return;
+  lua_pushnil(L);
+  if (lua_next(L, 2) != 0) {
+    lua_pop(L, 2);
+    return;
+  }
+  lua_newtable(L);
+}
+
 int param(lua_State* L) {
+  take_empty_default(L);
   const Arguments arguments(L, kParam, 1);
   Parameter parameter = read_parameter(L, arguments, kParam, "name");
   const bool is_text = std::holds_alternative<bool>(parameter.fallback) ||
@@ -153,6 +165,7 @@ int param(lua_State* L) {
 }
 
 int var(lua_State* L) {
+  take_empty_default(L);
   const Arguments arguments(L, kVar, 1);
   Parameter parameter = read_parameter(L, arguments, kVar, "doc");
   parameter.doc = parameter.name;

@@ -41,6 +41,11 @@ class Files(Case):
         self.assertEqual(self.volume("-D", "size=[2, 3, 2]"), 12)
         outcome = self.run_script("local list = param('list', {}, {doc = 'any'}) return cube(#list + 1)", "-D", "list=[1, 2]", "--stats=json")
         self.assertEqual(outcome.json()["parts"][0]["volume"], 27)  # one of none may be of any length
+        for asks in ('param("sizes", {})', 'param("sizes", {}, {doc = "edges"})', 'var("sizes", {})'):
+            script = f"local sizes = {asks} local all = cube(2) for _, x in ipairs(sizes) do all = all + cube(x) end return all"
+            self.assertEqual(self.run_script(script).json()["parts"][0]["volume"], 8, asks)
+            outcome = self.run_script(script, "-D", "sizes={1,3}", "--stats=json")
+            self.assertEqual(outcome.json()["parts"][0]["volume"], 27, asks)
 
     def test_sets_as_openscad_writes_them(self):
         self.write("p.json", json.dumps({"parameterSets": {
