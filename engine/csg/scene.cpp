@@ -55,6 +55,12 @@ GridBox permuted_box(const SignedPermutation& permutation, const GridBox& box,
   return r;
 }
 
+std::string text(double x) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.4g", x);
+  return digits;
+}
+
 }  // namespace
 
 bool fits_grid(const GridBox& box) {
@@ -76,7 +82,8 @@ class Builder {
  private:
   Status place_leaves();
   Status choose(const GridStep& step, const GridStep& least);
-  void warn_of_far_parts(const SceneReach& reach) const;
+  [[nodiscard]] bool warns_of_far_parts(const SceneReach& reach) const;
+  void warn_of_thin_leaves(const SceneReach& reach) const;
   Result<SceneNode> make_leaf(uint32_t index);
   Status resolve_leaf(uint32_t index, const QuantisedLeaf& leaf, SceneNode& result);
   Status make_nodes();
@@ -181,18 +188,13 @@ Status Builder::place_leaves() {
 
 /// A small part that lies far away is on a grid for the distance, not for the part: when a step is
 /// more than 1e-4 of its size, its sides are visibly wrong, and it may be gone. Told of the first.
-void Builder::warn_of_far_parts(const SceneReach& reach) const {
+bool Builder::warns_of_far_parts(const SceneReach& reach) const {
   constexpr double kCoarse = 1e-4;
   const double step = scene_.step.millimetres();
   const auto inside = [](const MmBox& a, const MmBox& b) {
     bool is_inside = true;
     for (int i = 0; i < 3; ++i) is_inside &= a.lo[i] >= b.lo[i] && a.hi[i] <= b.hi[i];
     return is_inside;
-  };
-  const auto text = [](double x) {
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.4g", x);
-    return std::string(digits);
   };
   for (const MmBox& box : reach.of_roots) {
     double extent = 0, far = 0;
@@ -209,6 +211,27 @@ void Builder::warn_of_far_parts(const SceneReach& reach) const {
                           "a part of " + text(extent) + " mm lies too far away for its size: " +
                               text(far) + " mm from the origin points are rounded to " +
                               text(step) + " mm; model it near the origin");
+    return true;
+  }
+  return false;
+}
+
+/// A leaf that is thin for the grid of a very large scene loses of its thickness. Told of the first
+/// whose step is more than 1e-2 of its shortest side.
+void Builder::warn_of_thin_leaves(const SceneReach& reach) const {
+  constexpr double kCoarse = 1e-2;
+  const double step = scene_.step.millimetres();
+  for (const uint32_t index : order_) {
+    if (normal(index).kind != NormalNode::Kind::kLeaf) continue;
+    const MmBox& box = step_leaves_[index].local;
+    double thickness = box.hi[0] - box.lo[0];
+    for (int i = 1; i < 3; ++i) thickness = std::min(thickness, box.hi[i] - box.lo[i]);
+    if (!(thickness > 0) || step <= kCoarse * thickness) continue;
+    const NodePtr& leaf = normal(index).leaf;
+    context_.warnings.add(leaf->where(),
+                          "'" + leaf->mesh()->kind + "' is " + text(thickness) +
+                              " mm thin: in a scene that reaches " + text(reach.reach) +
+                              " mm from the origin points are rounded to " + text(step) + " mm");
     return;
   }
 }
@@ -218,17 +241,17 @@ Status Builder::choose(const GridStep& step, const GridStep& least) {
   if (step.automatic()) {
     scene_.step = choose_step(reach.reach, reach.far);
     if (!least.automatic() && least.millimetres() > scene_.step.millimetres()) scene_.step = least;
-    warn_of_far_parts(reach);
+    if (!warns_of_far_parts(reach)) warn_of_thin_leaves(reach);
     return std::monostate{};
   }
   scene_.step = step;
   if (step_fits(step, reach.reach, reach.far)) return std::monostate{};
-  const auto text = [](double x) {
+  const auto all_digits = [](double x) {
     std::string digits = std::to_string(x);
     return digits.size() > 24 ? std::string("more than 1e17") : digits;
   };
   return Error{ErrorCode::kOutOfRange,
-               "the model reaches " + text(std::max(reach.reach, reach.far)) +
+               "the model reaches " + all_digits(std::max(reach.reach, reach.far)) +
                    " mm from the origin, too far for the grid step that was asked for; leave the "
                    "step to the program or ask for a larger one",
                {}};

@@ -79,7 +79,18 @@ class FarAway(Case):
     def test_parts_that_are_well(self):
         for model in ("cube(1):translate(1000, 0, 0)", "cube(1) - cube(1e6)", "cube(1e6)", "cube(1e-6)",
                       "cube(1) - cube(1):translate(0.5, 0, 0)", "cube(1000) + cube(0.01):translate(999.995, 0, 0)"):
-            self.assertNotIn(self.WARNING, self.run_script(f"return {model}", "--stats").err, model)
+            outcome = self.run_script(f"return {model}", "--stats")
+            self.assertNotIn(self.WARNING, outcome.err, model)
+            self.assertNotIn("mm thin", outcome.err, model)
+
+    def test_a_thickness_that_rounding_spoils(self):
+        # 2^27 steps reach 1e7 mm from 2^18 nm on: 0.26 mm is one of them.
+        said = " mm thin: in a scene that reaches 1e+07 mm from the origin points are rounded to 0.2621 mm"
+        self.write("m.csg", "cube(size = [1e7, 1e7, 0.26]);")
+        self.assertIn("m.csg:1: 'cube' is 0.26" + said, self.run_csgrun("m.csg", "--stats").err)
+        outcome = self.run_script("return cube(1e7, 100, 100) +\n\ncube(10):rotate(0, 0, 30)", "--stats")
+        self.assertIn("model.lua:3: 'cube' is 10" + said, outcome.err)
+        self.assertNotIn("mm thin", self.run_script("return cube(1e7, 100, 100)", "--stats").err)
 
 
 class Good(Case):
