@@ -21,7 +21,8 @@ constexpr Option kTextOptions[] = {
     {"size", T::kNumber, "10", "height of capitals, roughly; the em is size / 0.72", true,
      Range::kPositive},
     {"font", T::kString, "\"Liberation Sans\"",
-     "a font file beside the model (.ttf, .otf), or a family: \"Liberation Sans:style=Bold\"",
+     "a font file beside the model (.ttf, .otf), or a family: \"Liberation Sans:style=Bold\";\n"
+     "          behind either its features: \"Liberation Sans:fontfeatures=-kern;-liga\"",
      true},
     {"em", T::kNumber, "", "the em itself, instead of size", false, Range::kPositive},
     {"halign", T::kString, "\"left\"", "\"left\", \"center\" or \"right\", by advance width",
@@ -93,12 +94,15 @@ TextOptions text_options(const Arguments& arguments, const FunctionSpec& spec) {
   options.script = arguments.string("script", "");
   options.as_openscad_rounds = arguments.boolean("as_openscad", false);
   options.facets = arguments.facets();
+  FontFeatures font = split_font_features(arguments.string("font", ""));
+  if (!font.note.empty()) fail_in(spec, font.note);
+  options.features = std::move(font.features);
   return options;
 }
 
 Font font_of(lua_State* L, const Arguments& arguments, const FunctionSpec& spec) {
   Session& session = session_of(L);
-  const std::string name = arguments.string("font", "");
+  const std::string name = split_font_features(arguments.string("font", "")).font;
   if (is_font_path(name)) {
     try {
       const Files::Opened file = session.files().open(calling_file(L), name);

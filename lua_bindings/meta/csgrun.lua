@@ -477,7 +477,7 @@ function Shape:outlines() end
 ---@field [integer] any
 ---@field text? string in UTF-8; a newline begins a line
 ---@field size? number height of capitals, roughly; the em is size / 0.72
----@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@field em? number the em itself, instead of size
 ---@field halign? string "left", "center" or "right", by advance width
 ---@field valign? string "baseline", "bottom", "center" or "top", by the ink
@@ -498,7 +498,7 @@ function Shape:outlines() end
 ---@overload fun(options: csgrun.text): Shape
 ---@param text? string in UTF-8; a newline begins a line
 ---@param size? number height of capitals, roughly; the em is size / 0.72
----@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@param options? csgrun.text
 ---@return Shape
 function text(text, size, font, options) end
@@ -508,7 +508,7 @@ csg.text = text
 ---@field [integer] any
 ---@field text? string in UTF-8; a newline begins a line
 ---@field size? number height of capitals, roughly; the em is size / 0.72
----@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@field em? number the em itself, instead of size
 ---@field halign? string "left", "center" or "right", by advance width
 ---@field valign? string "baseline", "bottom", "center" or "top", by the ink
@@ -532,7 +532,7 @@ csg.text = text
 ---@overload fun(options: csgrun.text3d): Solid
 ---@param text? string in UTF-8; a newline begins a line
 ---@param size? number height of capitals, roughly; the em is size / 0.72
----@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@param options? csgrun.text3d
 ---@return Solid
 function text3d(text, size, font, options) end
@@ -542,7 +542,7 @@ csg.text3d = text3d
 ---@field [integer] any
 ---@field text? string in UTF-8; a newline begins a line
 ---@field size? number height of capitals, roughly; the em is size / 0.72
----@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@field em? number the em itself, instead of size
 ---@field halign? string "left", "center" or "right", by advance width
 ---@field valign? string "baseline", "bottom", "center" or "top", by the ink
@@ -563,7 +563,7 @@ csg.text3d = text3d
 ---@overload fun(options: csgrun.text_metrics): table
 ---@param text? string in UTF-8; a newline begins a line
 ---@param size? number height of capitals, roughly; the em is size / 0.72
----@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@param options? csgrun.text_metrics
 ---@return table
 function text_metrics(text, size, font, options) end
@@ -573,7 +573,7 @@ csg.text_metrics = text_metrics
 ---@field [integer] any
 ---@field text? string in UTF-8; a newline begins a line
 ---@field size? number height of capitals, roughly; the em is size / 0.72
----@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@field em? number the em itself, instead of size
 ---@field halign? string "left", "center" or "right", by advance width
 ---@field valign? string "baseline", "bottom", "center" or "top", by the ink
@@ -594,7 +594,7 @@ csg.text_metrics = text_metrics
 ---@overload fun(options: csgrun.textmetrics): table
 ---@param text? string in UTF-8; a newline begins a line
 ---@param size? number height of capitals, roughly; the em is size / 0.72
----@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@param options? csgrun.textmetrics
 ---@return table
 function textmetrics(text, size, font, options) end
@@ -603,7 +603,7 @@ csg.textmetrics = textmetrics
 ---@class (exact) csgrun.font_metrics
 ---@field [integer] any
 ---@field size? number height of capitals, roughly; the em is size / 0.72
----@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@field em? number the em itself, instead of size
 
 ---What a font measures: {nominal = {ascent, descent}, max = {ascent, descent}, interline, font = {family, style}}, in mm: what it keeps for a line, its tallest and deepest glyph, from a baseline to the next.
@@ -611,7 +611,7 @@ csg.textmetrics = textmetrics
 ---Example: `font_metrics(10).interline`
 ---@overload fun(options: csgrun.font_metrics): table
 ---@param size? number height of capitals, roughly; the em is size / 0.72
----@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@param options? csgrun.font_metrics
 ---@return table
 function font_metrics(size, font, options) end
@@ -620,7 +620,7 @@ csg.font_metrics = font_metrics
 ---@class (exact) csgrun.fontmetrics
 ---@field [integer] any
 ---@field size? number height of capitals, roughly; the em is size / 0.72
----@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@field em? number the em itself, instead of size
 
 ---OpenSCAD's name of font_metrics.
@@ -628,7 +628,7 @@ csg.font_metrics = font_metrics
 ---Example: `fontmetrics(10, "Liberation Sans:style=Bold").nominal.ascent`
 ---@overload fun(options: csgrun.fontmetrics): table
 ---@param size? number height of capitals, roughly; the em is size / 0.72
----@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"
+---@param font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@param options? csgrun.fontmetrics
 ---@return table
 function fontmetrics(size, font, options) end

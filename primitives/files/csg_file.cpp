@@ -285,13 +285,17 @@ class CsgBuilder {
     if (!text) return text.error();
     FontBook shipped;
     FontBook& fonts = environment_.fonts != nullptr ? *environment_.fonts : shipped;
-    const Result<FontChoice> choice = fonts.find(text->font);
+    FontFeatures font = split_font_features(text->font);
+    if (!font.note.empty()) notes.push_back("text: " + font.note);
+    TextOptions options = text->options;
+    options.features = std::move(font.features);
+    const Result<FontChoice> choice = fonts.find(font.font);
     if (!choice) {
       return Error{choice.error().code, "text: " + choice.error().message, {}};
     }
     if (!choice->note.empty()) notes.push_back("text: " + choice->note);
     std::string note;
-    Result<Shape2D> shape = make_text(text->options, choice->font, &note);
+    Result<Shape2D> shape = make_text(options, choice->font, &note);
     if (!note.empty()) notes.push_back(note);
     return flat_leaf(frame, std::move(shape), notes);
   }

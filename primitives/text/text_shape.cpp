@@ -239,18 +239,18 @@ hb_font_t* shaping_font(const TextOptions& o, const Font& font) {
 }
 
 /// The glyphs of one line and their places.
-Result<HarfbuzzPtr<hb_buffer_t>> shape(const TextOptions& o, std::string_view text,
+Result<HarfbuzzPtr<hb_buffer_t>> shape(const TextOptions& o, std::string_view line,
                                        const Font& font) {
   constexpr hb_codepoint_t kBroken = ~hb_codepoint_t(0);  // where there is no character
   HarfbuzzPtr<hb_buffer_t> buffer(hb_buffer_create());
   hb_buffer_set_replacement_codepoint(buffer.get(), kBroken);
-  hb_buffer_add_utf8(buffer.get(), text.data(), static_cast<int>(text.size()), 0,
-                     static_cast<int>(text.size()));
+  hb_buffer_add_utf8(buffer.get(), line.data(), static_cast<int>(line.size()), 0,
+                     static_cast<int>(line.size()));
   const hb_glyph_info_t* characters = hb_buffer_get_glyph_infos(buffer.get(), nullptr);
   for (unsigned i = 0; i < hb_buffer_get_length(buffer.get()); ++i) {
     if (characters[i].codepoint != kBroken) continue;
     return invalid_argument("text: it is not in UTF-8: byte " +
-                            std::to_string(characters[i].cluster + 1) + " of " + quoted(text));
+                            std::to_string(characters[i].cluster + 1) + " of " + quoted(line));
   }
   if (!o.direction.empty()) {
     hb_buffer_set_direction(buffer.get(), hb_direction_from_string(o.direction.c_str(), -1));
@@ -267,7 +267,14 @@ Result<HarfbuzzPtr<hb_buffer_t>> shape(const TextOptions& o, std::string_view te
   }
   hb_buffer_set_language(buffer.get(), language_of(o.language));
   hb_buffer_guess_segment_properties(buffer.get());
-  hb_shape(shaping_font(o, font), buffer.get(), nullptr, 0);
+  std::vector<hb_feature_t> features;
+  for (const std::string& text : o.features) {
+    hb_feature_t feature;
+    const int length = static_cast<int>(text.size());
+    if (hb_feature_from_string(text.data(), length, &feature) != 0) features.push_back(feature);
+  }
+  hb_shape(shaping_font(o, font), buffer.get(), features.data(),
+           static_cast<unsigned>(features.size()));
   return buffer;
 }
 

@@ -244,6 +244,35 @@ TEST(Text, OfTreesIsRoundedAsByOpenScad) {
   }
 }
 
+TEST(Text, FeaturesOfTheFont) {
+  // A and V are 1366 wide each, and kerned.
+  TextOptions pair = line("AV");
+  EXPECT_LT(metrics(pair).advance.x, 2 * 1366 * kUnit - 1);
+  pair.features = {"-kern"};
+  EXPECT_NEAR(metrics(pair).advance.x, 2 * 1366 * kUnit, 1e-9);
+  // The ligature of f and i is one glyph, as wide as both: 569 + 455.
+  const TextOptions ligature = line("fi");
+  TextOptions letters = ligature;
+  letters.features = {"-liga"};
+  EXPECT_NE(drawn(ligature).area(), drawn(letters).area());
+  EXPECT_NEAR(drawn(letters).area(), drawn(line("f")).area() + drawn(line("i")).area(), 1e-9);
+}
+
+TEST(Fonts, FeaturesStandBehindTheName) {
+  const auto all = [](const FontFeatures& font) {
+    std::string text = font.font;
+    for (const std::string& feature : font.features) text += " [" + feature + "]";
+    return text + (font.note.empty() ? "" : " " + font.note);
+  };
+  EXPECT_EQ(all(split_font_features("A:style=Bold")), "A:style=Bold");
+  EXPECT_EQ(all(split_font_features("A:fontfeatures=+smcp;-liga:style=Bold")),
+            "A:style=Bold [+smcp] [-liga]");
+  EXPECT_EQ(all(split_font_features("a.ttf:fontfeatures=ss01=2,-kern;")), "a.ttf [ss01=2] [-kern]");
+  EXPECT_EQ(all(split_font_features("A:fontfeatures=-no feature;kern")),
+            "A [kern] there is no font feature \"-no feature\": one is written as \"+liga\", "
+            "\"-kern\" or \"ss01=2\"");
+}
+
 TEST(Text, WhatIsMissingIsSaid) {
   std::string note;
   drawn(line("a\xf0\x9f\x98\x80"), &note);

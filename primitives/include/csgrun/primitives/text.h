@@ -46,6 +46,15 @@ struct FontChoice {
   std::string note;  ///< "there is no font 'Arial'; the shipped Liberation Sans is used instead"
 };
 
+/// A font's description without its features, as in "Amiri:style=Bold:fontfeatures=+smcp;-liga",
+/// and they; what is none is left out with a note.
+struct FontFeatures {
+  std::string font;
+  std::vector<std::string> features;
+  std::string note;
+};
+FontFeatures split_font_features(const std::string& description);
+
 /// Fonts by OpenSCAD's descriptions: "Liberation Sans", "Liberation Sans:style=Bold Italic".
 class FontBook {
  public:
@@ -75,7 +84,8 @@ struct TextOptions {
   std::string halign = "default";  ///< "left", "center", "right", by advance widths
   std::string valign = "default";  ///< "baseline", "bottom", "center", "top", by ink
   double spacing = 1;              ///< factor of all advances
-  Facets facets;                   ///< a curve has max(fragments(size) / 8 + 1, 2) steps
+  std::vector<std::string> features;  ///< of the font, as split_font_features gives them
+  Facets facets;                      ///< a curve has max(fragments(size) / 8 + 1, 2) steps
   /// All places are rounded as OpenSCAD's font library rounds them, to 10^-5 of the size and ink
   /// that is aligned to 64 times that: for OpenSCAD's trees.
   bool as_openscad_rounds = false;
