@@ -226,7 +226,8 @@ void Builder::warn_of_thin_leaves(const SceneReach& reach) const {
     const MmBox& box = step_leaves_[index].local;
     double thickness = box.hi[0] - box.lo[0];
     for (int i = 1; i < 3; ++i) thickness = std::min(thickness, box.hi[i] - box.lo[i]);
-    if (!(thickness > 0) || step <= kCoarse * thickness) continue;
+    // What is thinner than half a step is likely to vanish, and that is told where it does.
+    if (!(2 * thickness >= step) || step <= kCoarse * thickness) continue;
     const NodePtr& leaf = normal(index).leaf;
     context_.warnings.add(leaf->where(),
                           "'" + leaf->mesh()->kind + "' is " + text(thickness) +
