@@ -31,8 +31,12 @@ constexpr FunctionSpec kFaces{
 
 struct FaceSum {
   double area = 0;
-  glm::dvec3 moment{0, 0, 0};
+  glm::dvec3 moment{0, 0, 0};  ///< about the first corner of the face: 0 across what is flat there
 };
+
+const glm::dvec3& first_corner(const Solid& solid, const Solid::Face& face) {
+  return solid.positions[solid.loop_vertices[solid.loop_starts[face.first_loop]]];
+}
 
 void push_face(lua_State* L, const Solid& solid, const Solid::Face& face, const glm::dvec3& normal,
                const FaceSum& sum) {
@@ -41,7 +45,7 @@ void push_face(lua_State* L, const Solid& solid, const Solid::Face& face, const 
   lua_setfield(L, -2, "normal");
   lua_pushnumber(L, sum.area);
   lua_setfield(L, -2, "area");
-  push_point(L, sum.moment / sum.area);
+  push_point(L, first_corner(solid, face) + sum.moment / sum.area);
   lua_setfield(L, -2, "center");
   lua_createtable(L, static_cast<int>(face.loop_count), 0);
   for (uint32_t l = 0; l < face.loop_count; ++l) {
@@ -74,7 +78,8 @@ int faces(lua_State* L) {
                      &c = solid.positions[corners[2]];
     const double area = glm::length(glm::cross(b - a, c - a)) / 2;
     sums[solid.triangle_face[t]].area += area;
-    sums[solid.triangle_face[t]].moment += area / 3 * (a + b + c);
+    const glm::dvec3 corner = first_corner(solid, solid.faces[solid.triangle_face[t]]);
+    sums[solid.triangle_face[t]].moment += area / 3 * ((a - corner) + (b - corner) + (c - corner));
   }
   lua_newtable(L);
   lua_Integer count = 0;
@@ -82,8 +87,7 @@ int faces(lua_State* L) {
     if (!(sums[f].area > 0)) continue;
     const glm::dvec3 normal = glm::normalize(solid.face_normals[f]);
     if (wanted && glm::dot(normal, glm::normalize(wanted->v)) < least) continue;
-    const glm::dvec3& corner =
-        solid.positions[solid.loop_vertices[solid.loop_starts[solid.faces[f].first_loop]]];
+    const glm::dvec3& corner = first_corner(solid, solid.faces[f]);
     if (through && std::abs(glm::dot(normal, through->v - corner)) > kNearPlane) continue;
     push_face(L, solid, solid.faces[f], normal, sums[f]);
     lua_rawseti(L, -2, ++count);

@@ -11,6 +11,12 @@ TEST(Faces, ByDirectionAndPlane) {
       "f[1].normal[3] == 1)\n"
       "assert(f[1].center[1] == 1 and f[1].center[2] == 1.5 and f[1].center[3] == 4)\n"
       "assert(#f[1].loops == 1 and #f[1].loops[1] == 4 and f[1].loops[1][1][3] == 4)");
+  // What is flat across an axis has its centre there, to the last bit.
+  expect_good(
+      "local f = cube(10):faces({0, 0, 1})[1].center assert(f.x == 5 and f.z == 10)\n"
+      "for _, f in ipairs(cube(0.1, 0.2, 0.3):translate(0.7, 0.7, 0.7):faces()) do\n"
+      "  local n, p = f.normal, f.loops[1][1]\n"
+      "  for i = 1, 3 do assert(n[i] == 0 or f.center[i] == p[i]) end\nend");
   // A step: two faces look up, one of them through a point.
   expect_good(
       "local s, up = cube(4) - cube(2, 4, 2):up(2), {0, 0, 1}\n"
