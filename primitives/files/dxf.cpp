@@ -398,53 +398,147 @@ class DxfReader {
     return d[p].p / d[p].w;
   }
 
+  /// The ends of open chains that are not part of a line yet. Those in one place stay in order.
+  class FreeEnds {
+   public:
+    explicit FreeEnds(std::vector<Chain>& chains) : chains_(chains), used_(chains.size(), true) {}
+
+    void add(size_t chain) {
+      used_[chain] = false;
+      for (const glm::dvec2& end : {chains_[chain].points.front(), chains_[chain].points.back()})
+        ends_[PointGrid::key(end)].push_back(chain);
+    }
+    [[nodiscard]] bool is_used(size_t chain) const { return used_[chain]; }
+
+    /// The first chain that ends in p, turned so that it begins there; it is used then.
+    std::optional<Shape2D::Loop> take(const glm::dvec2& p) {
+      const std::vector<size_t>& here = at(p);
+      if (here.empty()) return std::nullopt;
+      const size_t chain = here.front();
+      Shape2D::Loop points = take(chain);
+      if (PointGrid::key(points.front()) != PointGrid::key(p))
+        std::reverse(points.begin(), points.end());
+      return points;
+    }
+    Shape2D::Loop take(size_t chain) {
+      used_[chain] = true;
+      alone_.erase(chain);
+      Shape2D::Loop points = std::move(chains_[chain].points);
+      for (const glm::dvec2& end : {points.front(), points.back()}) {
+        std::vector<size_t>& here = ends_[PointGrid::key(end)];
+        here.erase(std::find(here.begin(), here.end(), chain));
+        if (here.size() == 1) alone_.insert(here.front());
+      }
+      return points;
+    }
+
+    /// Notes chains of which an end is the only one in its place.
+    void look_for_lone_ends() {
+      for (const auto& [key, here] : ends_) {
+        if (here.size() == 1) alone_.insert(here.front());
+      }
+    }
+    /// The first of them, turned so that it begins there; it is used then.
+    std::optional<Shape2D::Loop> take_with_lone_end() {
+      if (alone_.empty()) return std::nullopt;
+      const size_t chain = *alone_.begin();
+      const bool begins_there = at(chains_[chain].points.front()).size() == 1;
+      Shape2D::Loop points = take(chain);
+      if (!begins_there) std::reverse(points.begin(), points.end());
+      return points;
+    }
+
+   private:
+    const std::vector<size_t>& at(const glm::dvec2& p) const {
+      static const std::vector<size_t> kNone;
+      const auto here = ends_.find(PointGrid::key(p));
+      return here != ends_.end() ? here->second : kNone;
+    }
+    std::vector<Chain>& chains_;
+    std::vector<bool> used_;
+    std::map<PointGrid::Key, std::vector<size_t>> ends_;
+    std::set<size_t> alone_;
+  };
+
+  static bool is_closed(const Shape2D::Loop& line) {
+    return PointGrid::key(line.front()) == PointGrid::key(line.back());
+  }
+
+  static void append(const Shape2D::Loop& more, Shape2D::Loop& line) {
+    line.insert(line.end(), more.begin() + 1, more.end());
+  }
+
   /// Closed chains are loops; open ones are joined end to end, from the first on.
   void join(std::vector<Chain>& chains, std::vector<Shape2D::Loop>& loops) {
-    using Key = PointGrid::Key;
-    const auto key = PointGrid::key;
-    std::multimap<Key, size_t> ends;  // of open chains: equal keys stay in order
-    std::vector<bool> used(chains.size(), false);
+    FreeEnds ends(chains);
     for (size_t i = 0; i < chains.size(); ++i) {
-      Chain& chain = chains[i];
-      if (chain.closed || key(chain.points.front()) == key(chain.points.back())) {
-        used[i] = true;
-        loops.push_back(std::move(chain.points));
-        continue;
+      if (chains[i].closed || is_closed(chains[i].points)) {
+        loops.push_back(std::move(chains[i].points));
+      } else {
+        ends.add(i);
       }
-      ends.emplace(key(chain.points.front()), i);
-      ends.emplace(key(chain.points.back()), i);
     }
-    const auto find_next = [&](const glm::dvec2& p) -> std::optional<size_t> {
-      const auto [begin, end] = ends.equal_range(key(p));
-      for (auto e = begin; e != end; ++e) {
-        if (!used[e->second]) return e->second;
-      }
-      return std::nullopt;
-    };
+    if (options_.as_openscad) return join_as_openscad(chains, ends, loops);
     for (size_t i = 0; i < chains.size(); ++i) {
-      if (used[i]) continue;
-      used[i] = true;
-      Shape2D::Loop line = chains[i].points;
+      if (ends.is_used(i)) continue;
+      Shape2D::Loop line = ends.take(i);
       // Both ways, so that it does not matter where in an open line the first chain lies.
       for (int side = 0; side < 2; ++side) {
-        while (key(line.front()) != key(line.back())) {
-          const auto next = find_next(line.back());
-          if (!next) break;
-          used[*next] = true;
-          Shape2D::Loop& more = chains[*next].points;
-          if (key(more.front()) != key(line.back())) std::reverse(more.begin(), more.end());
-          line.insert(line.end(), more.begin() + 1, more.end());
+        while (!is_closed(line)) {
+          const auto more = ends.take(line.back());
+          if (!more) break;
+          append(*more, line);
         }
         std::reverse(line.begin(), line.end());
       }
-      if (key(line.front()) == key(line.back())) {
-        line.pop_back();
-        loops.push_back(std::move(line));
-      } else {
-        if (open_chains_++ == 0) first_open_ = line.front();
-        loops.push_back(std::move(line));
-      }
+      add_line(std::move(line), loops);
     }
+  }
+
+  /// Where more than two chains meet, OpenSCAD's order decides: first lines from ends that no other
+  /// chain has, then the rest from the first on; each goes on for as long as there is a chain, also
+  /// beyond its own start. It takes the latter for closed, and drops the first point of those that
+  /// are not, of the way round in which it puts them unless there are lines of the former kind.
+  void join_as_openscad(const std::vector<Chain>& chains, FreeEnds& ends,
+                        std::vector<Shape2D::Loop>& loops) {
+    const auto walk = [&](Shape2D::Loop line) {
+      while (const auto more = ends.take(line.back())) append(*more, line);
+      return line;
+    };
+    ends.look_for_lone_ends();
+    bool has_open_lines = false;
+    while (auto line = ends.take_with_lone_end()) {
+      has_open_lines = true;
+      add_line(walk(*std::move(line)), loops);
+    }
+    for (size_t i = 0; i < chains.size(); ++i) {
+      if (ends.is_used(i)) continue;
+      Shape2D::Loop line = walk(ends.take(i));
+      const bool closed = is_closed(line);
+      if (!closed && !has_open_lines && is_turned_by_openscad(line))
+        std::reverse(line.begin(), line.end());
+      add_line(std::move(line), loops);
+      if (!closed) loops.back().erase(loops.back().begin());
+    }
+  }
+
+  /// By the directions to the neighbours of the first of its leftmost points.
+  static bool is_turned_by_openscad(const Shape2D::Loop& line) {
+    const auto left_of = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x; };
+    const auto b =
+        static_cast<size_t>(std::min_element(line.begin(), line.end(), left_of) - line.begin());
+    const glm::dvec2 before = line[b == 0 ? line.size() - 2 : b - 1] - line[b];
+    const glm::dvec2 after = line[b + 1 == line.size() ? 1 : b + 1] - line[b];
+    return atan2_deg(before.x, before.y) < atan2_deg(after.x, after.y);
+  }
+
+  void add_line(Shape2D::Loop line, std::vector<Shape2D::Loop>& loops) {
+    if (is_closed(line)) {
+      line.pop_back();
+    } else if (open_chains_++ == 0) {
+      first_open_ = line.front();
+    }
+    loops.push_back(std::move(line));
   }
 
   const std::string& name_;

@@ -1,4 +1,5 @@
 // DXF drawings against the areas that they show.
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -66,6 +67,55 @@ TEST(Dxf, LinesAreJoined) {
   quarter.emplace_back(0, 0);
   EXPECT_NEAR(dxf(dxf_line(0, 0, 5, 0) + dxf_line(0, 0, 0, 5) + arc).area(),
               area_on_grid(quarter, 5), 1e-6);
+}
+
+TEST(Dxf, WhereManyLinesMeetTreesFollowOpenScad) {
+  FlatFileOptions tree;
+  tree.as_openscad = true;
+  const auto area = [&](const std::vector<std::array<int, 4>>& lines) {
+    std::string text;
+    for (const auto& [x0, y0, x1, y1] : lines) text += dxf_line(x0, y0, x1, y1);
+    return read("x.dxf", entities(text), tree).shape.area();
+  };
+  // A tail's free end comes first, whatever stands before it.
+  EXPECT_NEAR(area({{0, 0, 10, 0}, {10, 0, 10, 10}, {10, 10, 0, 0}, {0, 0, -5, -5}}), 50, 1e-9);
+  // Areas by OpenSCAD, to the digits that it writes: which line goes on where is its choice.
+  EXPECT_NEAR(area({{11, 15, 11, 20},
+                    {14, 7, 20, 1},
+                    {19, 8, 20, 1},
+                    {11, 20, 19, 8},
+                    {5, 3, 11, 20},
+                    {14, 7, 16, 0},
+                    {11, 20, 14, 7},
+                    {11, 20, 20, 1},
+                    {19, 8, 11, 15},
+                    {16, 0, 11, 15},
+                    {5, 3, 11, 15}}),
+              42.0, 2e-4);
+  EXPECT_NEAR(area({{20, 13, 19, 11},
+                    {4, 11, 11, 7},
+                    {4, 11, 20, 13},
+                    {9, 10, 20, 9},
+                    {9, 10, 12, 12},
+                    {11, 7, 20, 13},
+                    {9, 10, 20, 13},
+                    {9, 10, 11, 7},
+                    {12, 12, 20, 13},
+                    {20, 9, 19, 11},
+                    {11, 7, 12, 12}}),
+              33.0, 2e-4);
+  EXPECT_NEAR(area({{15, 12, 18, 11},
+                    {18, 11, 7, 15},
+                    {15, 12, 2, 15},
+                    {2, 15, 7, 15},
+                    {20, 1, 18, 11},
+                    {18, 11, 3, 2},
+                    {3, 2, 20, 1},
+                    {1, 7, 20, 1},
+                    {2, 15, 3, 2},
+                    {1, 7, 3, 2},
+                    {18, 11, 1, 7}}),
+              80.0747, 2e-4);
 }
 
 TEST(Dxf, Curves) {
