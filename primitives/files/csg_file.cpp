@@ -3,20 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include <glm/common.hpp>
-
 #include <csgrun/primitives/csg_file.h>
 #include <csgrun/primitives/height_map.h>
 #include <csgrun/primitives/mesh_file.h>
-#include <csgrun/primitives/model_file.h>
 #include <csgrun/primitives/projection.h>
 #include <csgrun/primitives/shape_operations.h>
 
+#include "primitives/files/csg_import.h"
 #include "primitives/files/csg_items.h"
 #include "primitives/files/csg_parser.h"
 #include "primitives/files/csg_shapes.h"
@@ -65,9 +62,8 @@ class CsgBuilder {
       if (auto status = close(); !status) return status.error();
     }
     if (stack_.size() > 1) {
-      Error error = parser_.error("the file ends within " + stack_.back().call.name +
-                                  "() of line " + std::to_string(stack_.back().call.line));
-      return error;
+      return parser_.error("the file ends within " + stack_.back().call.name + "() of line " +
+                           std::to_string(stack_.back().call.line));
     }
     if (root_) stack_.back().children.assign(1, *std::move(root_));
     Result<Item> all = combine(BooleanOp::kUnion, stack_.back());
@@ -226,11 +222,8 @@ class CsgBuilder {
       return Item::of(std::move(file->shape));
     }
     std::vector<std::string> notes;
-    auto parts = is_3mf_path(path)   ? parse_3mf(path, *bytes, &notes, FileUnit::kMillimetre)
-                 : is_amf_path(path) ? parse_amf(path, *bytes, &notes, FileUnit::kMillimetre)
-                                     : mesh_as_parts(path, *bytes, &notes);
+    auto parts = csg_import_parts(path, *bytes, import->options.center, notes);
     if (!parts) return Error{parts.error().code, "import: " + parts.error().message, {}};
-    if (import->options.center) move_to_the_middle(*parts);
     std::vector<NodePtr> solids;
     CsgSheet sheet;
     for (ModelPart& part : *parts) {
@@ -256,46 +249,19 @@ class CsgBuilder {
     return Item::with_sheet(Item::of(std::move(all)), std::move(sheet), {});
   }
 
-  /// The middle of the box of all parts goes to the origin.
-  static void move_to_the_middle(std::vector<ModelPart>& parts) {
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-    for (const ModelPart& part : parts) {
-      for (const uint32_t corner : part.mesh.corners) {
-        low = glm::min(low, part.mesh.points[corner]);
-        high = glm::max(high, part.mesh.points[corner]);
-      }
-    }
-    if (!(low.x <= high.x)) return;
-    for (ModelPart& part : parts) {
-      for (glm::dvec3& point : part.mesh.points) point -= (low + high) / 2.0;
-    }
-  }
-
-  static Result<std::vector<ModelPart>> mesh_as_parts(const std::string& path,
-                                                      const std::string& bytes,
-                                                      std::vector<std::string>* notes) {
-    Result<PolygonMesh> mesh = parse_mesh(path, bytes, nullptr, nullptr, notes);
-    if (!mesh) return mesh.error();
-    return std::vector<ModelPart>{{"", *std::move(mesh)}};
-  }
-
   Result<Item> text(const CsgFrame& frame) {
     std::vector<std::string> notes;
     const Result<CsgText> text = csg_text(frame.call, notes);
     if (!text) return text.error();
     FontBook shipped;
     FontBook& fonts = environment_.fonts != nullptr ? *environment_.fonts : shipped;
-    FontFeatures font = split_font_features(text->font);
-    if (!font.note.empty()) notes.push_back("text: " + font.note);
-    TextOptions options = text->options;
-    options.features = std::move(font.features);
-    const Result<FontChoice> choice = fonts.find(font.font);
+    const Result<FontChoice> choice = fonts.find(text->font);
     if (!choice) {
       return Error{choice.error().code, "text: " + choice.error().message, {}};
     }
     if (!choice->note.empty()) notes.push_back("text: " + choice->note);
     std::string note;
-    Result<Shape2D> shape = make_text(options, choice->font, &note);
+    Result<Shape2D> shape = make_text(text->options, choice->font, &note);
     if (!note.empty()) notes.push_back(note);
     return flat_leaf(frame, std::move(shape), notes);
   }

@@ -316,6 +316,10 @@ Result<CsgText> csg_text(const CsgCall& call, std::vector<std::string>& warnings
   keep_known("direction", o.direction, "", {"", "ltr", "rtl", "ttb", "btt"});
   keep_known("halign", o.halign, "default", {"default", "left", "center", "right"});
   keep_known("valign", o.valign, "default", {"default", "baseline", "bottom", "center", "top"});
+  FontFeatures font = split_font_features(text.font);
+  if (!font.note.empty()) warnings.push_back("text: " + font.note);
+  text.font = std::move(font.font);
+  o.features = std::move(font.features);
   return text;
 }
 

@@ -76,7 +76,7 @@ struct CsgImport {
 };
 Result<CsgImport> csg_import(const CsgCall& call);
 
-/// The arguments of text, and the description of its font.
+/// The arguments of text, and the description of its font, without its features.
 struct CsgText {
   TextOptions options;
   std::string font;
