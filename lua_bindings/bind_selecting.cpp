@@ -31,7 +31,9 @@ constexpr FunctionSpec kFaces{
 
 struct FaceSum {
   double area = 0;
-  glm::dvec3 moment{0, 0, 0};  ///< about the first corner of the face: 0 across what is flat there
+  /// About the first corner of the face, where it is 0 across what is flat; thrice, which needs no
+  /// thirds.
+  glm::dvec3 moments{0, 0, 0};
 };
 
 const glm::dvec3& first_corner(const Solid& solid, const Solid::Face& face) {
@@ -45,7 +47,7 @@ void push_face(lua_State* L, const Solid& solid, const Solid::Face& face, const 
   lua_setfield(L, -2, "normal");
   lua_pushnumber(L, sum.area);
   lua_setfield(L, -2, "area");
-  push_point(L, first_corner(solid, face) + sum.moment / sum.area);
+  push_point(L, first_corner(solid, face) + sum.moments / (3 * sum.area));
   lua_setfield(L, -2, "center");
   lua_createtable(L, static_cast<int>(face.loop_count), 0);
   for (uint32_t l = 0; l < face.loop_count; ++l) {
@@ -79,7 +81,7 @@ int faces(lua_State* L) {
     const double area = glm::length(glm::cross(b - a, c - a)) / 2;
     sums[solid.triangle_face[t]].area += area;
     const glm::dvec3 corner = first_corner(solid, solid.faces[solid.triangle_face[t]]);
-    sums[solid.triangle_face[t]].moment += area / 3 * ((a - corner) + (b - corner) + (c - corner));
+    sums[solid.triangle_face[t]].moments += area * ((a - corner) + (b - corner) + (c - corner));
   }
   lua_newtable(L);
   lua_Integer count = 0;
