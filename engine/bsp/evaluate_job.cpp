@@ -1,6 +1,7 @@
 #include "engine/bsp/evaluate_job.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "engine/bsp/cell_solver.h"
 #include "engine/bsp/literal_cell.h"
@@ -72,16 +73,12 @@ KernelOptions second_half(KernelOptions options) {
 /// Where a leaf without crossings may touch itself.
 std::vector<GridBox> touches_of(const LeafGeometry& leaf) {
   std::vector<GridBox> boxes;
-  const auto add = [&](uint32_t v, uint32_t w) {
+  find_non_manifold(leaf).each([&](uint32_t v, uint32_t w) {
     GridBox& box = boxes.emplace_back();
     for (size_t k = 0; k < 3; ++k) {
-      const auto [lo, hi] = std::minmax(leaf.vertices[v][k], leaf.vertices[w][k]);
-      box.lo[k] = lo, box.hi[k] = hi;
+      std::tie(box.lo[k], box.hi[k]) = std::minmax(leaf.vertices[v][k], leaf.vertices[w][k]);
     }
-  };
-  const NonManifold places = find_non_manifold(leaf);
-  for (const auto& [v, w] : places.edges) add(v, w);
-  for (const uint32_t v : places.vertices) add(v, v);
+  });
   return boxes;
 }
 

@@ -21,6 +21,7 @@ struct Use {
 }  // namespace
 
 NonManifold find_non_manifold(const LeafGeometry& leaf) {
+  if (!leaf.opposite.empty()) return {{}, find_vertices_of_fans(leaf)};
   const std::vector<uint32_t>& corners = leaf.corners;
   std::vector<uint32_t> end(corners.size());  // of each edge
   for (size_t f = 0; f < leaf.face_count(); ++f) {

@@ -15,9 +15,16 @@ struct NonManifold {
   std::vector<std::array<uint32_t, 2>> edges;
   /// Vertices whose faces are more than one fan, but for the ends of these edges.
   std::vector<uint32_t> vertices;
+
+  /// Calls visit(v, w) for each edge, and visit(v, v) for each vertex.
+  template <class Visit>
+  void each(Visit&& visit) const {
+    for (const auto& [v, w] : edges) visit(v, w);
+    for (const uint32_t v : vertices) visit(v, v);
+  }
 };
 
-/// Needs no opposite edges of the leaf. Ascending. O(n).
+/// Ascending. A leaf whose opposite edges are known has no such edges. O(n).
 NonManifold find_non_manifold(const LeafGeometry& leaf);
 
 }  // namespace csgrun

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/bsp/assemble.h"
-#include "engine/bsp/corner_walk.h"
 #include "engine/bsp/cut_surface.h"
 #include "engine/bsp/evaluate_job.h"
 #include "engine/bsp/non_manifold.h"
@@ -116,13 +115,7 @@ class Resolution {
         box.hi[k] = std::min(a.hi[k], b.hi[k]);
       }
     }
-    if (leaf.opposite.empty()) {
-      const NonManifold places = find_non_manifold(leaf);
-      for (const auto& [v, w] : places.edges) add_touching(v, w);
-      for (const uint32_t v : places.vertices) add_touching(v, v);
-    } else {
-      for (const uint32_t v : find_vertices_of_fans(leaf)) add_touching(v, v);
-    }
+    find_non_manifold(leaf).each([&](uint32_t v, uint32_t w) { add_touching(v, w); });
     keep_few(touching_.boxes);
   }
 

@@ -256,9 +256,7 @@ class CsgBuilder {
     FontBook shipped;
     FontBook& fonts = environment_.fonts != nullptr ? *environment_.fonts : shipped;
     const Result<FontChoice> choice = fonts.find(text->font);
-    if (!choice) {
-      return Error{choice.error().code, "text: " + choice.error().message, {}};
-    }
+    if (!choice) return Error{choice.error().code, "text: " + choice.error().message, {}};
     if (!choice->note.empty()) notes.push_back("text: " + choice->note);
     std::string note;
     Result<Shape2D> shape = make_text(text->options, choice->font, &note);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/bsp/union_find.h"
+#include "engine/mesh/opposite_edges.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
@@ -71,6 +72,9 @@ TEST(NonManifold, IsFoundInSolidsSideBySide) {
     const NonManifold found = find_non_manifold(leaf), expected = by_counting(leaf);
     ASSERT_EQ(found.edges, expected.edges) << round;
     ASSERT_EQ(found.vertices, expected.vertices) << round;
+    leaf.opposite = pair_edges(leaf).opposite;
+    ASSERT_EQ(leaf.opposite.empty(), !expected.edges.empty()) << round;
+    ASSERT_EQ(find_non_manifold(leaf).vertices, expected.vertices) << round;
     edges += found.edges.size();
     vertices += found.vertices.size();
     clean += found.edges.empty() && found.vertices.empty();
