@@ -120,6 +120,14 @@ int CellGeometry::side(uint32_t plane, uint32_t p) {
   return side_of(*planes_, plane, points_[p], counters, [&]() -> const Point& { return exact(p); });
 }
 
+int CellGeometry::side_of_vertex(uint32_t plane, uint32_t vertex) {
+  if (const int sign = filter_side(planes_->approximate(plane), job_->rounded(vertex))) {
+    ++counters.filter;
+    return sign;
+  }
+  return side(plane, vertex_point(vertex));
+}
+
 Side CellGeometry::classify(const Fragment& f, uint32_t plane) {
   if (f.support.index() == plane) return Side::kOn;
   bool front = false, back = false;

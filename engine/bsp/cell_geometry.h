@@ -95,6 +95,8 @@ class CellGeometry {
 
   /// Sign of the stored plane `plane` at a point: symbolic, by filter, else exact.
   int side(uint32_t plane, uint32_t p);
+  /// The same at a vertex of the job, which becomes a point only if the filter does not tell.
+  int side_of_vertex(uint32_t plane, uint32_t vertex);
 
   /// Where a fragment lies relative to a plane; kSplit: `front` and `back` are the two pieces,
   /// which inherit support and polygon. Front is the positive side of the stored plane. kOn only

@@ -229,7 +229,7 @@ class SurfaceCutter {
   int inner_side(const JobPolygon& p, uint32_t edge) {
     for (uint32_t k = 2; k < p.count; ++k) {
       const uint32_t corner = job_.corners(p)[(edge + k) % p.count];
-      const int side = geometry_.side(job_.edge_planes(p)[edge], geometry_.vertex_point(corner));
+      const int side = geometry_.side_of_vertex(job_.edge_planes(p)[edge], corner);
       if (side != 0) return side;
     }
     return 0;  // not reached: the corners of a polygon are not on one line

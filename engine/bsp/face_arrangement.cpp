@@ -18,7 +18,7 @@ int FaceArrangement::inner_sign(const JobPolygon& polygon, uint32_t edge) {
   // The corners after those of the edge are off it, but for straight angles.
   for (uint32_t i = 2; i < polygon.count; ++i) {
     const uint32_t v = corners[(edge + i) % polygon.count];
-    if (const int s = geometry_.side(plane, geometry_.vertex_point(v))) return s;
+    if (const int s = geometry_.side_of_vertex(plane, v)) return s;
   }
   return 0;
 }
@@ -81,7 +81,7 @@ bool FaceArrangement::is_apart(uint32_t sheet) {
   for (uint32_t e = 0; e < polygon_->count; ++e) {
     const Line& edge = lines_[e];
     const auto is_beyond = [&](size_t c) {
-      return geometry_.side(edge.plane, geometry_.vertex_point(corners[c])) * edge.left < 0;
+      return geometry_.side_of_vertex(edge.plane, corners[c]) * edge.left < 0;
     };
     if (!is_beyond(inner)) continue;
     size_t c = 0;
@@ -521,7 +521,7 @@ bool FaceArrangement::write_facts(CutLoops& out, uint32_t first_loop) {
 bool FaceArrangement::is_convex_edge(uint32_t p, uint32_t q) {
   const PlaneId support = job_.polygons()[p].support;
   for (const uint32_t v : job_.corners(job_.polygons()[q])) {
-    const int s = geometry_.side(support.index(), geometry_.vertex_point(v));
+    const int s = geometry_.side_of_vertex(support.index(), v);
     if (s != 0) return support.flipped() ? s > 0 : s < 0;
   }
   return true;

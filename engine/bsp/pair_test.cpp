@@ -105,7 +105,7 @@ int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
     }
     if (s == kUnsure) {
       if (!planes_) return kUnsure;
-      s = planes_->side(other.support.index(), planes_->vertex_point(v));
+      s = planes_->side_of_vertex(other.support.index(), v);
       if (other.support.flipped()) s = -s;
     }
     sides[i] = static_cast<int8_t>(s);
@@ -145,7 +145,7 @@ int PairTest::inside(uint32_t p, uint32_t i, bool falls, uint32_t q, uint32_t j)
   const uint32_t x =
       planes_->add_point({own.support.index(), job_.edge_planes(own)[i], other.support.index()});
   for (const uint32_t v : of_q) {
-    const int inner = planes_->side(edge, planes_->vertex_point(v));
+    const int inner = planes_->side_of_vertex(edge, v);
     if (inner != 0) return planes_->side(edge, x) * inner;
   }
   assert(false);
