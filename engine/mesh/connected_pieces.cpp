@@ -148,10 +148,16 @@ bool join_neighbours(PlaneId support, std::vector<PieceEdge>& edges, CellGeometr
   std::vector<PieceEdge> boundary;
   LineOfPieces line(geometry, pieces, boundary);
   for (size_t i = 0, j = 0; i < order.size(); i = j) {
+    while (j < order.size() && keys[order[j]] == keys[order[i]]) ++j;
+    const uint32_t first = starts[order[i]];
+    if (j - i == 1 && starts[order[i] + 1] - first == 1) {
+      boundary.push_back(edges[first]);  // alone on its line
+      continue;
+    }
     const uint32_t plane = lines[order[i]].q;
     line.begin(plane, line_axis(planes.plane(support.index()), planes.plane(plane)).axis);
-    for (; j < order.size() && keys[order[j]] == keys[order[i]]; ++j) {
-      for (uint32_t k = starts[order[j]]; k < starts[order[j] + 1]; ++k) {
+    for (size_t l = i; l < j; ++l) {
+      for (uint32_t k = starts[order[l]]; k < starts[order[l] + 1]; ++k) {
         const DirectedEdge& e = edges[k].edge;
         if (e.plane != plane && (geometry.side(plane, e.from) || geometry.side(plane, e.to))) {
           return false;
