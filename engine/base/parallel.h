@@ -9,6 +9,7 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 namespace csgrun {
@@ -57,6 +58,17 @@ void for_each_alone(size_t count, bool much, Work&& work) {
     return;
   }
   for_each_part(count, 1, [&](size_t, size_t i, size_t) { work(i); });
+}
+
+/// Calls both, at the same time if they are `much`: neither may look at what the other changes.
+template <class First, class Second>
+void run_both(bool much, First&& first, Second&& second) {
+  if (!much || tbb::this_task_arena::max_concurrency() == 1) {
+    first();
+    second();
+  } else {
+    tbb::parallel_invoke(std::forward<First>(first), std::forward<Second>(second));
+  }
 }
 
 }  // namespace csgrun

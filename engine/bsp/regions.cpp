@@ -55,11 +55,16 @@ int turn(const PlaneTable& planes, PlaneId support, uint32_t plane_a, int sign_a
 
 }  // namespace
 
-int turn_between(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
-                 const DirectedEdge& a, const DirectedEdge& b) {
-  return turn(planes, support, a.plane, direction_sign(geometry, planes, support, a), b.plane,
-              direction_sign(geometry, planes, support, b));
+template <class Points>
+int turn_between(Points& points, const PlaneTable& planes, PlaneId support, const DirectedEdge& a,
+                 const DirectedEdge& b) {
+  return turn(planes, support, a.plane, direction_sign(points, planes, support, a), b.plane,
+              direction_sign(points, planes, support, b));
 }
+template int turn_between(CellGeometry&, const PlaneTable&, PlaneId, const DirectedEdge&,
+                          const DirectedEdge&);
+template int turn_between(PointView&, const PlaneTable&, PlaneId, const DirectedEdge&,
+                          const DirectedEdge&);
 
 bool RegionBuilder::build(PlaneId support, const std::vector<DirectedEdge>& edges,
                           RegionLoops& loops) {

@@ -34,9 +34,11 @@ struct RegionLoops {
 };
 
 /// Exact sign of the turn from the direction of edge `a` to that of edge `b` in the plane
-/// `support`, seen from outside: +1 left, -1 right, 0 straight on or straight back.
-int turn_between(CellGeometry& geometry, const PlaneTable& planes, PlaneId support,
-                 const DirectedEdge& a, const DirectedEdge& b);
+/// `support`, seen from outside: +1 left, -1 right, 0 straight on or straight back. `Points` is a
+/// CellGeometry or a PointView.
+template <class Points>
+int turn_between(Points& points, const PlaneTable& planes, PlaneId support, const DirectedEdge& a,
+                 const DirectedEdge& b);
 
 class RegionBuilder {
  public:

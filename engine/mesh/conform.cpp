@@ -20,6 +20,7 @@ class Conformer {
       : faces_(faces),
         near_(near),
         geometry_(geometry),
+        view_(geometry),
         planes_(planes),
         edges_(edges_of(faces, near)),
         boxes_(boxes_of(edges_, geometry)),
@@ -164,7 +165,7 @@ class Conformer {
   /// FaceLocator::locate, with those of the face's edges alone that a ray from the point may meet.
   int locate(uint32_t f, uint32_t p) {
     constexpr size_t kFew = 16;
-    FaceLocator locator(faces_[f].plane, geometry_, planes_);
+    FaceLocator locator(faces_[f].plane, view_, planes_);
     const auto& loops = faces_[f].loops;
     if (loops.size() == 1 && loops[0].size() <= kFew) return locator.locate(loops, p);
     const auto& at = geometry_.point(p).rounded;
@@ -314,8 +315,7 @@ class Conformer {
     std::sort(on_line_.begin(), on_line_.end(),
               [&](uint32_t p, uint32_t q) { return geometry_.compare_along(p, q, line.axis) < 0; });
     on_line_.erase(std::unique(on_line_.begin(), on_line_.end()), on_line_.end());
-    FaceLocator in_f(faces_[f].plane, geometry_, planes_),
-        in_g(faces_[g].plane, geometry_, planes_);
+    FaceLocator in_f(faces_[f].plane, view_, planes_), in_g(faces_[g].plane, view_, planes_);
     for (size_t i = 1; i < on_line_.size(); ++i) {
       const uint32_t p = on_line_[i - 1], q = on_line_[i];
       if (in_f.locate(faces_[f].loops, p) < 0 || in_f.locate(faces_[f].loops, q) < 0) continue;
@@ -505,7 +505,7 @@ class Conformer {
     if (from != 0) return from > 0;
     const int to = locate(f, e.to);
     if (to != 0) return to > 0;
-    FaceLocator locator(faces_[f].plane, geometry_, planes_);
+    FaceLocator locator(faces_[f].plane, view_, planes_);
     return locator.starts_inside(faces_[f].loops, e);
   }
 
@@ -525,6 +525,7 @@ class Conformer {
   std::vector<MergedFace>& faces_;
   std::span<const uint32_t> near_;
   CellGeometry& geometry_;
+  PointView view_;
   const PlaneTable& planes_;
   const std::vector<FaceEdge> edges_;  ///< as they were given
   const std::vector<Box> boxes_;       ///< of the edges

@@ -49,8 +49,8 @@ struct Interval {
 /// right.
 class LineOfPieces {
  public:
-  LineOfPieces(CellGeometry& geometry, UnionFind& pieces, std::vector<PieceEdge>& boundary)
-      : geometry_(geometry), pieces_(pieces), boundary_(boundary) {}
+  LineOfPieces(PointView& points, UnionFind& pieces, std::vector<PieceEdge>& boundary)
+      : points_(points), pieces_(pieces), boundary_(boundary) {}
 
   /// Begins with the line in which `plane` meets that of the pieces; `axis` orders its points.
   void begin(uint32_t plane, int axis) {
@@ -61,7 +61,7 @@ class LineOfPieces {
   }
 
   void add(const PieceEdge& e) {
-    if (geometry_.compare_along(e.edge.from, e.edge.to, axis_) < 0) {
+    if (points_.compare_along(e.edge.from, e.edge.to, axis_) < 0) {
       up_.push_back({e.edge.from, e.edge.to, e.piece});
     } else {
       down_.push_back({e.edge.to, e.edge.from, e.piece});
@@ -98,7 +98,7 @@ class LineOfPieces {
 
  private:
   [[nodiscard]] bool before(uint32_t p, uint32_t q) const {
-    return p != q && geometry_.compare_along(p, q, axis_) < 0;
+    return p != q && points_.compare_along(p, q, axis_) < 0;
   }
 
   void keep(const Interval& i, uint32_t to, bool is_up) {
@@ -115,7 +115,7 @@ class LineOfPieces {
     return is_all;
   }
 
-  CellGeometry& geometry_;
+  PointView& points_;
   UnionFind& pieces_;
   std::vector<PieceEdge>& boundary_;
   uint32_t plane_ = kNone;
@@ -125,7 +125,7 @@ class LineOfPieces {
 
 }  // namespace
 
-bool join_neighbours(PlaneId support, std::vector<PieceEdge>& edges, CellGeometry& geometry,
+bool join_neighbours(PlaneId support, std::vector<PieceEdge>& edges, PointView& points,
                      const PlaneTable& planes, UnionFind& pieces) {
   join_reversed(edges, pieces);
   // By the planes that hold them, and these by the lines that they name.
@@ -146,7 +146,7 @@ bool join_neighbours(PlaneId support, std::vector<PieceEdge>& edges, CellGeometr
   std::sort(order.begin(), order.end(),
             [&](uint32_t a, uint32_t b) { return std::tie(keys[a], a) < std::tie(keys[b], b); });
   std::vector<PieceEdge> boundary;
-  LineOfPieces line(geometry, pieces, boundary);
+  LineOfPieces line(points, pieces, boundary);
   for (size_t i = 0, j = 0; i < order.size(); i = j) {
     while (j < order.size() && keys[order[j]] == keys[order[i]]) ++j;
     const uint32_t first = starts[order[i]];
@@ -159,7 +159,7 @@ bool join_neighbours(PlaneId support, std::vector<PieceEdge>& edges, CellGeometr
     for (size_t l = i; l < j; ++l) {
       for (uint32_t k = starts[order[l]]; k < starts[order[l] + 1]; ++k) {
         const DirectedEdge& e = edges[k].edge;
-        if (e.plane != plane && (geometry.side(plane, e.from) || geometry.side(plane, e.to))) {
+        if (e.plane != plane && (points.side(plane, e.from) || points.side(plane, e.to))) {
           return false;
         }
         line.add(edges[k]);

@@ -18,7 +18,7 @@ struct PieceEdge {
 /// their corners on it are, and takes these stretches out of the edges: those left of the pieces
 /// that hang together bound their union, broken where neighbours have corners. The pieces do not
 /// overlap. Exact. False when two lines have one key, see LineKey. O(n log n).
-bool join_neighbours(PlaneId support, std::vector<PieceEdge>& edges, CellGeometry& geometry,
+bool join_neighbours(PlaneId support, std::vector<PieceEdge>& edges, PointView& points,
                      const PlaneTable& planes, UnionFind& pieces);
 
 }  // namespace csgrun

@@ -23,7 +23,7 @@ class ContactCutter {
  public:
   ContactCutter(std::vector<MergedFace>& faces, std::span<const uint32_t> near,
                 CellGeometry& geometry, const PlaneTable& planes)
-      : faces_(faces), near_(near), geometry_(geometry), planes_(planes) {
+      : faces_(faces), near_(near), geometry_(geometry), view_(geometry), planes_(planes) {
     index_edges();
     first_corner_.assign(geometry_.point_count(), kNone);
   }
@@ -188,7 +188,7 @@ class ContactCutter {
   /// Whether the line, from a point on the rim or inside of face f, goes on inside it.
   [[nodiscard]] bool starts_inside(uint32_t f, const DirectedEdge& line) {
     if (!rim_.count(line.from)) return true;
-    FaceLocator locator(faces_[f].plane, geometry_, planes_);
+    FaceLocator locator(faces_[f].plane, view_, planes_);
     for (uint32_t c = first_corner_[line.from]; c != kNone; c = corners_[c].next) {
       if (locator.is_in_wedge(corners_[c].arriving, corners_[c].leaving, line)) return true;
     }
@@ -229,7 +229,7 @@ class ContactCutter {
     RegionBuilder builder(geometry_, planes_);
     RegionLoops loops;
     if (!builder.build_single(faces_[f].plane, edges, loops)) return false;
-    auto parts = nest_loops(faces_[f].plane, loops, geometry_, planes_);
+    auto parts = nest_loops(faces_[f].plane, loops, view_, planes_);
     for (size_t i = 1; i < parts.size(); ++i) {
       MergedFace part = faces_[f];
       part.loops = std::move(parts[i]);
@@ -242,6 +242,7 @@ class ContactCutter {
   std::vector<MergedFace>& faces_;
   std::span<const uint32_t> near_;
   CellGeometry& geometry_;
+  PointView view_;
   const PlaneTable& planes_;
   std::vector<uint32_t> starts_;
   std::vector<FaceEdge> edges_;

@@ -4,8 +4,8 @@
 
 namespace csgrun {
 
-FaceLocator::FaceLocator(PlaneId support, CellGeometry& geometry, const PlaneTable& planes)
-    : support_(support), geometry_(geometry), planes_(planes) {
+FaceLocator::FaceLocator(PlaneId support, PointView& points, const PlaneTable& planes)
+    : support_(support), points_(points), planes_(planes) {
   const Plane& n = planes.plane(support.index());
   const auto size = [](Int128 v) { return v < 0 ? -v : v; };
   const int normal = size(n.a) >= size(n.b) && size(n.a) >= size(n.c) ? 0
@@ -16,8 +16,8 @@ FaceLocator::FaceLocator(PlaneId support, CellGeometry& geometry, const PlaneTab
 }
 
 bool FaceLocator::before(uint32_t p, uint32_t q) const {
-  const int by_v = geometry_.compare_along(p, q, v_);
-  return by_v ? by_v < 0 : geometry_.compare_along(p, q, u_) < 0;
+  const int by_v = points_.compare_along(p, q, v_);
+  return by_v ? by_v < 0 : points_.compare_along(p, q, u_) < 0;
 }
 
 /// Parity of the edges that a ray towards -u meets.
@@ -26,10 +26,10 @@ int FaceLocator::locate(std::span<const std::vector<DirectedEdge>> loops, uint32
   for (const auto& loop : loops) {
     for (const DirectedEdge& e : loop) {
       if (e.from == p || e.to == p) return 0;
-      const int from_v = geometry_.compare_along(e.from, p, v_);
-      const int to_v = geometry_.compare_along(e.to, p, v_);
-      const int from_u = geometry_.compare_along(e.from, p, u_);
-      const int to_u = geometry_.compare_along(e.to, p, u_);
+      const int from_v = points_.compare_along(e.from, p, v_);
+      const int to_v = points_.compare_along(e.to, p, v_);
+      const int from_u = points_.compare_along(e.from, p, u_);
+      const int to_u = points_.compare_along(e.to, p, u_);
       // The ray does not meet an edge along it, but p may lie on one.
       if (from_v == 0 && to_v == 0 && from_u * to_u < 0) return 0;
       if ((from_v > 0) == (to_v > 0)) continue;
@@ -60,16 +60,16 @@ int FaceLocator::side_towards_u(const DirectedEdge& e, uint32_t p) {
                      multiply<4>(component(t, w), component(s, u_));
   const int along_u = slope.sign() * component(s, w).sign();
   assert(along_u != 0);  // the edge is not parallel to u: its ends differ along v
-  return geometry_.side(e.plane, p) * along_u;
+  return points_.side(e.plane, p) * along_u;
 }
 
 bool FaceLocator::is_in_wedge(const DirectedEdge& arriving, const DirectedEdge& leaving,
                               const DirectedEdge& line) {
   // The wedge of the interior runs counter-clockwise from the edge that leaves to the one that
   // arrives (seen from the point).
-  const int from_leaving = turn_between(geometry_, planes_, support_, leaving, line);
-  const int to_arriving = turn_between(geometry_, planes_, support_, arriving, line);
-  const int corner = turn_between(geometry_, planes_, support_, arriving, leaving);
+  const int from_leaving = turn_between(points_, planes_, support_, leaving, line);
+  const int to_arriving = turn_between(points_, planes_, support_, arriving, line);
+  const int corner = turn_between(points_, planes_, support_, arriving, leaving);
   // Left of both at a convex corner, left of one of them at a reflex one.
   return corner > 0 ? from_leaving > 0 && to_arriving > 0 : from_leaving > 0 || to_arriving > 0;
 }

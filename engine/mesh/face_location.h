@@ -11,7 +11,7 @@ namespace csgrun {
 /// Answers for one plane. Exact; O(edges) a question.
 class FaceLocator {
  public:
-  FaceLocator(PlaneId support, CellGeometry& geometry, const PlaneTable& planes);
+  FaceLocator(PlaneId support, PointView& points, const PlaneTable& planes);
 
   /// +1 when a point of the plane is inside loops that do not cross (by their parity), 0 on them,
   /// -1 outside.
@@ -32,7 +32,7 @@ class FaceLocator {
   int side_towards_u(const DirectedEdge& e, uint32_t p);
 
   PlaneId support_;
-  CellGeometry& geometry_;
+  PointView& points_;
   const PlaneTable& planes_;
   int u_, v_;
 };

@@ -1,10 +1,14 @@
 #include "engine/mesh/merge_faces.h"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <tuple>
 
 #include "engine/base/counting_order.h"
+#include "engine/base/in_order.h"
+#include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/base/sort_few.h"
 #include "engine/mesh/connected_pieces.h"
 #include "engine/mesh/nest_loops.h"
@@ -55,10 +59,10 @@ struct Group {
 
 class FaceMerger {
  public:
-  FaceMerger(const BoundaryMesh& boundary, CellGeometry& geometry, const PlaneTable& planes,
+  FaceMerger(const BoundaryMesh& boundary, const CellGeometry& geometry, const PlaneTable& planes,
              std::vector<MergedFace>& faces)
       : boundary_(boundary),
-        geometry_(geometry),
+        points_(geometry),
         planes_(planes),
         faces_(faces),
         builder_(geometry, planes) {}
@@ -132,7 +136,7 @@ class FaceMerger {
       }
     }
     UnionFind connected(pieces.size());
-    if (!join_neighbours(group[0].plane, edges, geometry_, planes_, connected)) return false;
+    if (!join_neighbours(group[0].plane, edges, points_, planes_, connected)) return false;
     CountingOrder by_root, edges_by_root;
     by_root.sort(pieces.size(), pieces.size(),
                  [&](size_t p) { return connected.find(static_cast<uint32_t>(p)); });
@@ -161,7 +165,7 @@ class FaceMerger {
 
   /// The region that `loops_` bound, of several pieces.
   void add_region(const Group& group, const FaceLabel& label) {
-    for (auto& nested : nest_loops(group.plane, loops_, geometry_, planes_)) {
+    for (auto& nested : nest_loops(group.plane, loops_, points_, planes_)) {
       add_face(group, label, nested);
     }
   }
@@ -192,11 +196,11 @@ class FaceMerger {
     for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
       loops_.starts.push_back(b.loop_starts[l + 1] - b.loop_starts[face.first_loop]);
     }
-    return nest_loops(group.plane, loops_, geometry_, planes_);
+    return nest_loops(group.plane, loops_, points_, planes_);
   }
 
   const BoundaryMesh& boundary_;
-  CellGeometry& geometry_;
+  PointView points_;
   const PlaneTable& planes_;
   std::vector<MergedFace>& faces_;
   RegionBuilder builder_;
@@ -204,40 +208,72 @@ class FaceMerger {
   std::vector<DirectedEdge> edges_;
 };
 
-}  // namespace
-
-bool merge_faces(const BoundaryMesh& b, CellGeometry& geometry, const PlaneTable& planes,
-                 std::vector<MergedFace>& faces) {
+/// The faces of a boundary by what they may be merged with.
+RawVector<Group> group_faces(const BoundaryMesh& b, const PlaneTable& planes) {
   const std::vector<uint32_t> state = sources_at_points(b);
   const auto plane = [&](size_t i) { return b.faces[i].plane; };
   CountingOrder by_plane;
   by_plane.sort(b.faces.size(), planes.size(), [&](size_t i) { return plane(i).index(); });
-  std::vector<Group> groups;
-  groups.reserve(b.faces.size());
-  for (size_t p = 0; p < planes.size(); ++p) {
-    const auto first = static_cast<long>(groups.size());
-    for (uint32_t k = by_plane.starts[p]; k < by_plane.starts[p + 1]; ++k) {
-      const uint32_t i = by_plane.order[k];
-      const BoundaryMesh::Face& f = b.faces[i];
-      groups.push_back({plane(i), f.label.appearance, f.label.surface != 0,
-                        untouched(b, f, state) ? i + 1 : 0, i});
+  RawVector<Group> groups(b.faces.size());
+  for_each_range(planes.size(), [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) {
+      const uint32_t first = by_plane.starts[p], last = by_plane.starts[p + 1];
+      for (uint32_t k = first; k < last; ++k) {
+        const uint32_t i = by_plane.order[k];
+        const BoundaryMesh::Face& f = b.faces[i];
+        groups[k] = {plane(i), f.label.appearance, f.label.surface != 0,
+                     untouched(b, f, state) ? i + 1 : 0, i};
+      }
+      sort_few(groups.begin() + first, groups.begin() + last, [](const Group& x, const Group& y) {
+        return std::tie(x.plane, x.appearance, x.curved, x.keep, x.face) <
+               std::tie(y.plane, y.appearance, y.curved, y.keep, y.face);
+      });
     }
-    sort_few(groups.begin() + first, groups.end(), [](const Group& x, const Group& y) {
-      return std::tie(x.plane, x.appearance, x.curved, x.keep, x.face) <
-             std::tie(y.plane, y.appearance, y.curved, y.keep, y.face);
-    });
+  });
+  return groups;
+}
+
+}  // namespace
+
+bool merge_faces(const BoundaryMesh& b, const CellGeometry& geometry, const PlaneTable& planes,
+                 std::vector<MergedFace>& faces) {
+  constexpr size_t kFacesPerPart = 4096;
+  const RawVector<Group> groups = group_faces(b, planes);
+  const auto end_of = [&](size_t i) {  // of the group that begins there
+    size_t end = i;
+    while (end < groups.size() && groups[end].goes_with(groups[i])) ++end;
+    return end;
+  };
+  std::vector<size_t> starts;  // of parts with whole groups
+  for (size_t i = 0, next = 0; i < groups.size(); i = end_of(i)) {
+    if (i < next) continue;
+    starts.push_back(i);
+    next = i + kFacesPerPart;
   }
-  FaceMerger merger(b, geometry, planes, faces);
-  for (size_t i = 0, j = 0; i < groups.size(); i = j) {
-    while (j < groups.size() && groups[j].goes_with(groups[i])) ++j;
-    if (!merger.add({groups.data() + i, j - i})) return false;
-  }
+  const size_t parts = starts.size();
+  starts.push_back(groups.size());
+  std::vector<std::vector<MergedFace>> made(parts);
+  std::vector<uint8_t> is_open(parts, 0);
+  make_parts_in_order(
+      parts,
+      [&](size_t part) {
+        FaceMerger merger(b, geometry, planes, made[part]);
+        for (size_t i = starts[part], j = i; i < starts[part + 1]; i = j) {
+          j = end_of(i);
+          if (!merger.add({groups.data() + i, j - i})) is_open[part] = 1;
+        }
+      },
+      [&](size_t part) {
+        std::move(made[part].begin(), made[part].end(), std::back_inserter(faces));
+        made[part] = {};
+      });
+  if (std::find(is_open.begin(), is_open.end(), 1) != is_open.end()) return false;
   sort_faces(faces, planes);
   return true;
 }
 
 void sort_faces(std::vector<MergedFace>& faces, const PlaneTable& planes) {
-  for (MergedFace& f : faces) {
+  const auto begin_at_lowest = [](MergedFace& f) {
     for (auto& loop : f.loops) {
       std::rotate(loop.begin(),
                   std::min_element(loop.begin(), loop.end(),
@@ -249,7 +285,10 @@ void sort_faces(std::vector<MergedFace>& faces, const PlaneTable& planes) {
     std::sort(f.loops.begin() + 1, f.loops.end(), [](const auto& x, const auto& y) {
       return std::tie(x[0].from, x[0].to) < std::tie(y[0].from, y[0].to);
     });
-  }
+  };
+  for_each_range(faces.size(), [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) begin_at_lowest(faces[f]);
+  });
   uint32_t last_point = 0;
   for (const MergedFace& f : faces) last_point = std::max(last_point, f.loops[0][0].from);
   CountingOrder by_point;
@@ -263,10 +302,12 @@ void sort_faces(std::vector<MergedFace>& faces, const PlaneTable& planes) {
     return std::tie(p.a, p.b, p.c, p.d, x.appearance, x.surface) <
            std::tie(q.a, q.b, q.c, q.d, y.appearance, y.surface);
   };
-  for (size_t p = 0; p <= last_point; ++p) {
-    sort_few(by_point.order.begin() + by_point.starts[p],
-             by_point.order.begin() + by_point.starts[p + 1], before);
-  }
+  for_each_range(size_t{last_point} + 1, [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) {
+      sort_few(by_point.order.begin() + by_point.starts[p],
+               by_point.order.begin() + by_point.starts[p + 1], before);
+    }
+  });
   std::vector<MergedFace> sorted;
   sorted.reserve(faces.size());
   for (const uint32_t f : by_point.order) sorted.push_back(std::move(faces[f]));

@@ -26,8 +26,9 @@ struct MergedFace {
 /// numbers, `planes` its planes under theirs. A facet counts as touched when some face
 /// at one of its corners is not a whole facet of the same leaf. The source and surface of a face
 /// are those of the lowest label within it. Canonical order. False when a region does not close.
-bool merge_faces(const BoundaryMesh& boundary, CellGeometry& geometry, const PlaneTable& planes,
-                 std::vector<MergedFace>& faces);
+/// Parallel; reads the geometry only.
+bool merge_faces(const BoundaryMesh& boundary, const CellGeometry& geometry,
+                 const PlaneTable& planes, std::vector<MergedFace>& faces);
 
 /// Brings faces into canonical order: loops from their lowest edge, faces by their lowest loop.
 /// Points must be numbered in canonical order.

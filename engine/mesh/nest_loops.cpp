@@ -13,11 +13,8 @@ using Loop = std::vector<DirectedEdge>;
 
 class Nester {
  public:
-  Nester(PlaneId support, CellGeometry& geometry, const PlaneTable& planes)
-      : support_(support),
-        geometry_(geometry),
-        planes_(planes),
-        locator_(support, geometry, planes) {}
+  Nester(PlaneId support, PointView& points, const PlaneTable& planes)
+      : support_(support), points_(points), planes_(planes), locator_(support, points, planes) {}
 
   /// Seen from outside: an outer loop turns left at its lowest corner, a hole right. A loop that
   /// touches itself there passes it several times: a hole turns left between two of its lobes, but
@@ -30,7 +27,7 @@ class Nester {
     }
     for (size_t i = 0; i < loop.size(); ++i) {
       const DirectedEdge& in = loop[(i + loop.size() - 1) % loop.size()];
-      if (loop[i].from == low && turn_between(geometry_, planes_, support_, in, loop[i]) < 0) {
+      if (loop[i].from == low && turn_between(points_, planes_, support_, in, loop[i]) < 0) {
         return false;
       }
     }
@@ -58,7 +55,7 @@ class Nester {
     const auto axes = locator_.axes();
     Box b;
     for (const DirectedEdge& e : loop) {
-      const auto& p = geometry_.point(e.from).rounded;
+      const auto& p = points_.rounded(e.from);
       for (int k = 0; k < 2; ++k) {
         b.lo[k] = std::min(b.lo[k], p[axes[k]]), b.hi[k] = std::max(b.hi[k], p[axes[k]]);
       }
@@ -70,10 +67,10 @@ class Nester {
   /// Whether a loop clearly goes around on the left (+1) or on the right (-1), by its area.
   [[nodiscard]] int clear_turn(const Loop& loop) const {
     const auto [u, v] = locator_.axes();
-    const auto& origin = geometry_.point(loop[0].from).rounded;
+    const auto& origin = points_.rounded(loop[0].from);
     double area = 0, size = 0, largest = 0, extent = 0;
     for (const DirectedEdge& e : loop) {
-      const auto &p = geometry_.point(e.from).rounded, &q = geometry_.point(e.to).rounded;
+      const auto &p = points_.rounded(e.from), &q = points_.rounded(e.to);
       const double pu = p[u] - origin[u], pv = p[v] - origin[v];
       const double qu = q[u] - origin[u], qv = q[v] - origin[v];
       area += pu * qv - pv * qu;
@@ -93,7 +90,7 @@ class Nester {
   }
 
   PlaneId support_;
-  CellGeometry& geometry_;
+  PointView& points_;
   const PlaneTable& planes_;
   FaceLocator locator_;
 };
@@ -101,10 +98,10 @@ class Nester {
 }  // namespace
 
 std::vector<std::vector<Loop>> nest_loops(PlaneId support, const RegionLoops& loops,
-                                          CellGeometry& geometry, const PlaneTable& planes) {
+                                          PointView& points, const PlaneTable& planes) {
   std::vector<std::vector<Loop>> faces;
   std::vector<Loop> holes;
-  Nester nester(support, geometry, planes);
+  Nester nester(support, points, planes);
   for (size_t l = 0; l < loops.loop_count(); ++l) {
     Loop loop(loops.edges.begin() + loops.starts[l], loops.edges.begin() + loops.starts[l + 1]);
     if (loops.loop_count() == 1 || nester.is_outer(loop)) {

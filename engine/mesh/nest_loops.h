@@ -11,7 +11,7 @@ namespace csgrun {
 /// O(outer loops x holes) box tests, and a ray for each that passes.
 std::vector<std::vector<std::vector<DirectedEdge>>> nest_loops(PlaneId support,
                                                                const RegionLoops& loops,
-                                                               CellGeometry& geometry,
+                                                               PointView& points,
                                                                const PlaneTable& planes);
 
 }  // namespace csgrun

@@ -77,8 +77,12 @@ class Presenter {
     for_each_range(geometry_.point_count(), [&](size_t begin, size_t end) {
       for (size_t p = begin; p < end; ++p) geometry_.find_on_grid(static_cast<uint32_t>(p));
     });
-    const WholeOrder& whole = whole_.emplace(boundary_, geometry_);
-    if (!merge_faces(boundary_, geometry_, planes_, faces_)) return not_closed("faces");
+    bool is_merged = false;
+    run_both(
+        boundary_.faces.size() > kFewForThreads, [&] { whole_.emplace(boundary_, geometry_); },
+        [&] { is_merged = merge_faces(boundary_, geometry_, planes_, faces_); });
+    if (!is_merged) return not_closed("faces");
+    const WholeOrder& whole = *whole_;
     std::vector<LowestEdge> lowest = lowest_edges();
     std::vector<uint32_t> near;
     if (boundary_.may_touch) near = faces_near(boundary_.touches, faces_, geometry_);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "engine/base/counting_order.h"
+#include "engine/base/parallel.h"
 #include "engine/base/sort_few.h"
 
 namespace csgrun {
@@ -403,10 +404,17 @@ bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
                 std::vector<std::array<uint32_t, 2>>* doubled) {
   std::vector<uint32_t> twin;
   std::vector<std::vector<uint32_t>> crowded;
-  if (!find_twins(set, faces, geometry, planes, whole, contacts, twin, crowded)) return false;
+  const size_t corners = 3 * set.triangles.size();
   CountingOrder by_point;
-  by_point.sort(twin.size(), geometry.point_count(),
-                [&](size_t corner) { return set.triangles[corner / 3][corner % 3]; });
+  bool is_closed = false;
+  run_both(
+      corners > kFewForThreads,
+      [&] { is_closed = find_twins(set, faces, geometry, planes, whole, contacts, twin, crowded); },
+      [&] {
+        by_point.sort(corners, geometry.point_count(),
+                      [&](size_t corner) { return set.triangles[corner / 3][corner % 3]; });
+      });
+  if (!is_closed) return false;
   const std::vector<uint32_t>& order = by_point.order;
   walk_fans(set, order, twin, whole, fans);
   if (doubled != nullptr) {

@@ -147,8 +147,8 @@ TEST(ConnectedPieces, AreThoseOfTheirSquares) {
         if (y > 0 && of[y - 1][x] != kNone) expected.join(of[y][x], of[y - 1][x]);
       }
     }
-    ASSERT_TRUE(
-        join_neighbours(lattice.support, pieces.edges, lattice.geometry, lattice.planes, joined));
+    PointView points(lattice.geometry);
+    ASSERT_TRUE(join_neighbours(lattice.support, pieces.edges, points, lattice.planes, joined));
     for (uint32_t p = 0; p < pieces.count; ++p) {
       ASSERT_EQ(joined.find(p), expected.find(p)) << "round " << round;
       ++(joined.find(p) == p ? apart : together);
