@@ -29,7 +29,7 @@ class ContactTable {
     }
   }
 
-  [[nodiscard]] const std::vector<Contact>& all() const { return contacts_; }
+  [[nodiscard]] const RawVector<Contact>& all() const { return contacts_; }
   [[nodiscard]] const Contact& operator[](uint32_t contact) const { return contacts_[contact]; }
   [[nodiscard]] size_t polygon_count() const { return starts_.size() - 1; }
   /// The numbers of a polygon's contacts.
@@ -40,7 +40,7 @@ class ContactTable {
   [[nodiscard]] const std::vector<uint8_t>& touched() const { return touched_; }
 
  private:
-  std::vector<Contact> contacts_;
+  RawVector<Contact> contacts_;
   std::vector<uint8_t> touched_;
   std::vector<uint32_t> starts_{0}, numbers_;
 };

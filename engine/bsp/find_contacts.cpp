@@ -1,5 +1,6 @@
 #include "engine/bsp/find_contacts.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -9,6 +10,9 @@
 
 namespace csgrun {
 namespace {
+
+/// The contacts of so many runs are copied by one thread.
+constexpr size_t kRunsAtOnce = 32;
 
 /// What one run of cells gives.
 struct Found {
@@ -98,11 +102,19 @@ Contacts find_contacts(Job& job, std::span<const uint8_t> covered, const KernelO
   stats.surface_cells += cells.surface;
   Contacts result;
   result.touched.assign(job.vertex_count(), 0);
+  std::vector<size_t> starts(found.size());  // of the contacts of each run
   size_t total = 0;
-  for (const Found& f : found) total += f.contacts.size();
-  result.contacts.reserve(total);
+  for (size_t run = 0; run < found.size(); ++run) {
+    starts[run] = std::exchange(total, total + found[run].contacts.size());
+  }
+  result.contacts.resize(total);
+  for_each_part(found.size(), kRunsAtOnce, [&](size_t, size_t begin, size_t end) {
+    for (size_t run = begin; run < end; ++run) {
+      std::copy(found[run].contacts.begin(), found[run].contacts.end(),
+                result.contacts.begin() + static_cast<long>(starts[run]));
+    }
+  });
   for (const Found& f : found) {
-    result.contacts.insert(result.contacts.end(), f.contacts.begin(), f.contacts.end());
     for (const uint32_t v : f.touching) result.touched[v] = 1;
     stats.critical_cells += f.critical;
     stats.sign_filter += f.filtered;

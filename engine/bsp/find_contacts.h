@@ -7,12 +7,13 @@
 
 #include <csgrun/engine/evaluate.h>
 
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/pair_test.h"
 
 namespace csgrun {
 
 struct Contacts {
-  std::vector<Contact> contacts;  ///< in no order that means anything, the same on every run
+  RawVector<Contact> contacts;  ///< in no order that means anything, the same on every run
   /// Per vertex of the job: it may be on another operand's surface.
   std::vector<uint8_t> touched;
 };

@@ -1,7 +1,10 @@
 #include "engine/bsp/pair_cells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "engine/base/parallel.h"
 #include "engine/bsp/coarse_cells.h"
@@ -184,6 +187,33 @@ class CellFinder {
   std::vector<Entry> stack_;
 };
 
+/// The cells of all parts of space.
+PairCells join(std::vector<PairCells> parts) {
+  if (parts.size() == 1) return std::move(parts[0]);
+  PairCells all;
+  std::vector<std::array<size_t, 2>> starts;  // of the cells and polygons of each
+  size_t cells = 0, polygons = 0;
+  for (const PairCells& part : parts) {
+    starts.push_back({cells, polygons});
+    cells += part.cells.size();
+    polygons += part.polygons.size();
+    all.visited += part.visited;
+    all.surface += part.surface;
+  }
+  all.cells.resize(cells);
+  all.polygons.resize(polygons);
+  for_each_part(parts.size(), 1, [&](size_t p, size_t, size_t) {
+    const auto [first_cell, first_polygon] = starts[p];
+    for (size_t c = 0; c < parts[p].cells.size(); ++c) {
+      all.cells[first_cell + c] = parts[p].cells[c];
+      all.cells[first_cell + c].first += static_cast<uint32_t>(first_polygon);
+    }
+    std::copy(parts[p].polygons.begin(), parts[p].polygons.end(),
+              all.polygons.begin() + static_cast<long>(first_polygon));
+  });
+  return all;
+}
+
 }  // namespace
 
 /// All of them meet the cell, so the overlap of two starts in it where either of them does.
@@ -271,20 +301,9 @@ PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,
   for_each_part(coarse.cells.size(), kEach, [&](size_t part, size_t begin, size_t end) {
     parts[part] = CellFinder(job, covered, limit, options.cancel).run(coarse, begin, end);
   });
-  if (parts.empty()) parts.emplace_back();
-  PairCells all = std::move(parts[0]);
-  for (size_t part = 1; part < parts.size(); ++part) all.append(parts[part]);
+  PairCells all = join(std::move(parts));
   all.surface += coarse.surface;
   return all;
-}
-
-void PairCells::append(const PairCells& more) {
-  const auto offset = static_cast<uint32_t>(polygons.size());
-  polygons.insert(polygons.end(), more.polygons.begin(), more.polygons.end());
-  cells.insert(cells.end(), more.cells.begin(), more.cells.end());
-  for (size_t c = cells.size() - more.cells.size(); c < cells.size(); ++c) cells[c].first += offset;
-  visited += more.visited;
-  surface += more.surface;
 }
 
 }  // namespace csgrun

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/job.h"
 #include "engine/bsp/operand.h"
 #include "engine/bsp/slabs.h"
@@ -21,15 +22,12 @@ struct PairCells {
     std::array<int32_t, 3> lo, hi;
     uint32_t first, count;
   };
-  std::vector<Cell> cells;
-  std::vector<uint32_t> polygons;
+  RawVector<Cell> cells;
+  RawVector<uint32_t> polygons;
   uint64_t visited = 0;
   /// Cells that hold surface; where only one operand has some, as many as it would fill with
   /// `cell_limit` polygons each.
   uint64_t surface = 0;
-
-  /// Adds the cells of another part of space.
-  void append(const PairCells& more);
 };
 
 /// Cells with polygons of at least two operands, not all of which are in `covered` (per polygon;

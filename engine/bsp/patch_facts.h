@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/parallel_sort.h"
 #include "engine/bsp/cut_polygon.h"
 
 namespace csgrun {
@@ -18,9 +19,14 @@ class PatchFacts {
     if (entries_.empty() || entries_.back() != entry) entries_.push_back(entry);
   }
 
+  /// Adds what others were told.
+  void add(const PatchFacts& more) {
+    entries_.insert(entries_.end(), more.entries_.begin(), more.entries_.end());
+  }
+
   /// To be called after all were added; false if two contradict one another. O(n log n).
   [[nodiscard]] bool finish() {
-    std::sort(entries_.begin(), entries_.end());
+    sort_all(entries_.begin(), entries_.end());
     entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
     facts_.reserve(entries_.size());
     for (const Entry& e : entries_) facts_.push_back(e.fact);

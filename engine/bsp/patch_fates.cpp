@@ -85,20 +85,26 @@ bool PatchFates::gather_facts() {
       facts_.add(patch, cut_.loops.facts[f]);
     }
   }
-  for (const Contact& c : contacts_.all()) add_rim_facts(c);
+  const size_t count = contacts_.all().size();
+  std::vector<PatchFacts> parts(part_count(count, kFewForThreads));
+  for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+    for (size_t c = begin; c < end; ++c) add_rim_facts(contacts_.all()[c], parts[part]);
+  });
+  for (const PatchFacts& part : parts) facts_.add(part);
   return facts_.finish();
 }
 
 /// A polygon that touches another operand's surface from one side, and in one polygon only, is
 /// inside the operand if it is behind that polygon: then its patch needs no ray. (On an edge of
 /// that polygon it would touch the next one, too.)
-void PatchFates::add_rim_facts(const Contact& c) {
+void PatchFates::add_rim_facts(const Contact& c, PatchFacts& facts) const {
   if (c.is_plain || c.is_coplanar) return;
-  if (c.p_front != c.p_back) add_rim_fact(c.p, c.q, c.p_back);
-  if (c.q_front != c.q_back) add_rim_fact(c.q, c.p, c.q_back);
+  if (c.p_front != c.p_back) add_rim_fact(c.p, c.q, c.p_back, facts);
+  if (c.q_front != c.q_back) add_rim_fact(c.q, c.p, c.q_back, facts);
 }
 
-void PatchFates::add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind) {
+void PatchFates::add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind,
+                              PatchFacts& facts) const {
   if (is_cut_[polygon]) return;
   const uint32_t operand = job_.polygons()[other].operand;
   for (const uint32_t i : contacts_.of(polygon)) {
@@ -106,8 +112,8 @@ void PatchFates::add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind) 
     const uint32_t third = c.p == polygon ? c.q : c.p;
     if (third != other && job_.polygons()[third].operand == operand) return;
   }
-  facts_.add(patches_.root(untouched_corner(job_, contacts_, polygon)),
-             {operand, is_behind, is_behind});
+  facts.add(patches_.root(untouched_corner(job_, contacts_, polygon)),
+            {operand, is_behind, is_behind});
 }
 
 /// Patches that hold a corner of a polygon that is seen to be boundary of nothing, as they are.

@@ -56,8 +56,8 @@ class PatchFates {
   void join_patches();
   void join_loops(const CutFaces::Face& face);
   bool gather_facts();
-  void add_rim_facts(const Contact& c);
-  void add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind);
+  void add_rim_facts(const Contact& c, PatchFacts& facts) const;
+  void add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind, PatchFacts& facts) const;
   void drop_covered(std::span<const uint8_t> plainly_covered);
   void ask_about_loops();
   void ask_about_whole();

@@ -1,5 +1,6 @@
 #include "engine/bsp/touch_finder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/base/counting_order.h"
@@ -20,6 +21,13 @@ void TouchFinder::examine(uint32_t point) {
   if (vertex != kNone && !touched_[vertex]) return;
   is_examined_.resize(geometry_.point_count(), 0);
   is_examined_[number(point)] = 1;
+}
+
+bool TouchFinder::may_pass_examined(std::span<const uint32_t> points) const {
+  return std::any_of(points.begin(), points.end(), [&](uint32_t p) {
+    const uint32_t vertex = geometry_.point(p).vertex;
+    return vertex == kNone ? p < is_examined_.size() && is_examined_[p] : touched_[vertex] != 0;
+  });
 }
 
 void TouchFinder::add_outline(uint32_t polygon, std::span<const uint32_t> points,

@@ -24,6 +24,11 @@ class TouchFinder {
 
   /// Has a point of the geometry examined.
   void examine(uint32_t point);
+  /// Whether there is any point to be examined.
+  [[nodiscard]] bool has_examined() const { return !is_examined_.empty(); }
+  /// Whether an outline may pass a point to be examined. All of these must be known. Several
+  /// threads may ask at the same time.
+  [[nodiscard]] bool may_pass_examined(std::span<const uint32_t> points) const;
   /// Adds an outline of what is kept of a polygon, `flip`: run backwards. `planes`: through the
   /// edge that starts at each point, as CutLoops::corner_plane has it; none, if the points are the
   /// polygon's corners. All points to be examined must be known.

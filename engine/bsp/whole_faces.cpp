@@ -239,7 +239,7 @@ class FaceEvaluator {
       const Contact& c = contacts_[i];
       is_open[i] =
           (result_.general[c.p] && is_suspect_[c.p]) || (result_.general[c.q] && is_suspect_[c.q]);
-      if (is_of_kept(c)) ends_->ask(i);
+      if ((is_suspect_[c.p] || is_suspect_[c.q]) && is_of_kept(c)) ends_->ask(i);
     }
     ends_->make();
     for (const CutFaces::Face& cut : cut_.faces) {
@@ -259,22 +259,44 @@ class FaceEvaluator {
       for (const uint32_t p : corners_) finder.examine(p);
       find_open(w.polygon, finder, is_open, &w);
     }
-    for (const CutFaces::Face& cut : cut_.faces) {
-      for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-        if (fates_->of_loop(l) == PatchFate::kDrop) continue;
-        const CutLoops::Loop& loop = cut_.loops.loops[l];
-        finder.add_outline(cut.polygon, points_of(loop), planes_of(loop),
-                           fates_->of_loop(l) == PatchFate::kFlip);
+    if (finder.has_examined()) {
+      add_outlines(finder);
+      result_.touching = finder.find();
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+      if (is_open[i]) add_touching(job_.boxes()[contacts_[i].p], job_.boxes()[contacts_[i].q]);
+    }
+  }
+
+  /// Adds what is kept to the finder, once it knows all points to be examined.
+  void add_outlines(TouchFinder& finder) {
+    struct Outline {
+      uint32_t polygon, loop;
+    };
+    constexpr size_t kFacesPerPart = 2048;
+    std::vector<std::vector<Outline>> parts(part_count(cut_.faces.size(), kFacesPerPart));
+    for_each_part(cut_.faces.size(), kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
+      for (size_t f = begin; f < end; ++f) {
+        const CutFaces::Face& cut = cut_.faces[f];
+        for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+          if (fates_->of_loop(l) != PatchFate::kDrop &&
+              finder.may_pass_examined(points_of(cut_.loops.loops[l]))) {
+            parts[part].push_back({cut.polygon, l});
+          }
+        }
+      }
+    });
+    for (const auto& part : parts) {
+      for (const Outline& o : part) {
+        const CutLoops::Loop& loop = cut_.loops.loops[o.loop];
+        finder.add_outline(o.polygon, points_of(loop), planes_of(loop),
+                           fates_->of_loop(o.loop) == PatchFate::kFlip);
       }
     }
     for (const WholePolygon& w : result_.whole) {
       if (!w.is_met) continue;
       list_corners(w.polygon);
       finder.add_outline(w.polygon, corners_, {}, w.flip);
-    }
-    result_.touching = finder.find();
-    for (uint32_t i = 0; i < count; ++i) {
-      if (is_open[i]) add_touching(job_.boxes()[contacts_[i].p], job_.boxes()[contacts_[i].q]);
     }
   }
 

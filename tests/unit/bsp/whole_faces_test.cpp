@@ -338,7 +338,7 @@ TEST(WholeFaces, ThatTouchNothingAreCutByNames) {
         {.size = 1000, .operands = 4, .depth = 2, .frames = i % 3 == 0, .known = i % 2 == 0});
     Job job(tree.operands);
     EvaluateStats stats;
-    const std::vector<Contact> contacts = find_contacts(job, {}, {}, stats).contacts;
+    const auto contacts = find_contacts(job, {}, {}, stats).contacts;
     const auto is_plain = [](const Contact& c) { return c.is_plain; };
     if (!std::all_of(contacts.begin(), contacts.end(), is_plain)) continue;
     const auto faces = evaluate_whole_faces(job, tree.expression, {}, stats);
