@@ -6,6 +6,7 @@
 
 #include "engine/base/counting_order.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/base/sort_few.h"
 
 namespace csgrun {
@@ -20,24 +21,46 @@ struct EdgeRef {
 bool same_ends(const EdgeRef& a, const EdgeRef& b) { return a.lo == b.lo && a.hi == b.hi; }
 
 /// By ends, then by index. They come by index.
-void sort_refs(std::vector<EdgeRef>& refs, size_t point_count) {
+void sort_refs(RawVector<EdgeRef>& refs, size_t point_count) {
   CountingOrder by_low;
   by_low.sort(refs.size(), point_count, [&](size_t i) { return refs[i].lo; });
-  std::vector<EdgeRef> sorted;
-  sorted.reserve(refs.size());
-  for (size_t p = 0; p < point_count; ++p) {
-    const size_t begin = sorted.size();
-    for (uint32_t i = by_low.starts[p]; i < by_low.starts[p + 1]; ++i) {
-      sorted.push_back(refs[by_low.order[i]]);
+  RawVector<EdgeRef> sorted(refs.size());
+  for_each_range(point_count, [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) {
+      const uint32_t first = by_low.starts[p], last = by_low.starts[p + 1];
+      for (uint32_t i = first; i < last; ++i) sorted[i] = refs[by_low.order[i]];
+      sort_few(sorted.begin() + first, sorted.begin() + last,
+               [](const EdgeRef& a, const EdgeRef& b) { return a.hi < b.hi; });
     }
-    sort_few(sorted.begin() + static_cast<long>(begin), sorted.end(),
-             [](const EdgeRef& a, const EdgeRef& b) { return a.hi < b.hi; });
-  }
+  });
   refs = std::move(sorted);
 }
 
 EdgeRef make_ref(uint32_t from, uint32_t to, uint32_t index) {
   return {std::min(from, to), std::max(from, to), from < to, index};
+}
+
+/// The indices of sorted edges of which more run one way than the other.
+std::vector<uint32_t> find_unbalanced(const RawVector<EdgeRef>& refs) {
+  std::vector<std::vector<uint32_t>> parts(part_count(refs.size(), kFewForThreads));
+  for_each_part(refs.size(), kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+    size_t i = begin;
+    while (i > 0 && i < end && same_ends(refs[i - 1], refs[i])) ++i;  // those of the part before
+    while (i < end) {
+      size_t j = i;
+      int balance = 0;
+      for (; j < refs.size() && same_ends(refs[i], refs[j]); ++j) {
+        balance += refs[j].forward ? 1 : -1;
+      }
+      if (balance != 0) {
+        for (size_t k = i; k < j; ++k) parts[part].push_back(refs[k].index);
+      }
+      i = j;
+    }
+  });
+  std::vector<uint32_t> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 struct LooseEdge {
@@ -86,43 +109,42 @@ bool break_line(LooseEdge* begin, LooseEdge* end, CellGeometry& geometry,
 
 bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry, PlaneTable& planes,
                          const WholeOrder& whole) {
-  std::vector<DirectedEdge*> edges;
-  std::vector<PlaneId> support;
-  for (MergedFace& f : faces) {
-    for (auto& loop : f.loops) {
-      for (DirectedEdge& e : loop) {
-        edges.push_back(&e);
-        support.push_back(f.plane);
-      }
+  // Edges are numbered face by face, and then those of the rim.
+  std::vector<uint32_t> first_edge(faces.size() + 1, 0);
+  for (size_t f = 0; f < faces.size(); ++f) {
+    first_edge[f + 1] = first_edge[f];
+    for (const auto& loop : faces[f].loops) {
+      first_edge[f + 1] += static_cast<uint32_t>(loop.size());
     }
   }
-  const auto own_edges = static_cast<uint32_t>(edges.size());
+  const uint32_t own_edges = first_edge.back();
+  RawVector<DirectedEdge*> edges(own_edges + whole.rim().size());
+  RawVector<PlaneId> support(edges.size());
+  for_each_range(faces.size(), [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      uint32_t i = first_edge[f];
+      for (auto& loop : faces[f].loops) {
+        for (DirectedEdge& e : loop) support[i] = faces[f].plane, edges[i++] = &e;
+      }
+    }
+  });
   std::vector<DirectedEdge> rim;
   rim.reserve(whole.rim().size());
   for (const RimEdge& e : whole.rim()) {
     rim.push_back({e.from, e.to, kNone});
-    edges.push_back(&rim.back());
-    support.emplace_back();
+    edges[own_edges + rim.size() - 1] = &rim.back();
   }
-  std::vector<EdgeRef> refs;
-  refs.reserve(edges.size());
-  for (uint32_t i = 0; i < edges.size(); ++i)
-    refs.push_back(make_ref(edges[i]->from, edges[i]->to, i));
-  sort_refs(refs, geometry.point_count());
-  std::vector<LooseEdge> loose;
-  std::vector<std::vector<uint32_t>> inserted;
-  std::vector<uint32_t> loose_edges;
-  for (size_t i = 0; i < refs.size();) {
-    size_t j = i;
-    int balance = 0;
-    for (; j < refs.size() && same_ends(refs[i], refs[j]); ++j) balance += refs[j].forward ? 1 : -1;
-    if (balance != 0) {
-      for (size_t k = i; k < j; ++k) loose_edges.push_back(refs[k].index);
+  RawVector<EdgeRef> refs(edges.size());
+  for_each_range(edges.size(), [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      refs[i] = make_ref(edges[i]->from, edges[i]->to, static_cast<uint32_t>(i));
     }
-    i = j;
-  }
+  });
+  sort_refs(refs, geometry.point_count());
+  const std::vector<uint32_t> loose_edges = find_unbalanced(refs);
   if (loose_edges.empty()) return true;
-  inserted.resize(loose_edges.size());
+  std::vector<LooseEdge> loose;
+  std::vector<std::vector<uint32_t>> inserted(loose_edges.size());
   for (const uint32_t e : loose_edges) {
     if (e < own_edges) continue;
     const auto [face, edge] = whole.planes_of(whole.rim()[e - own_edges], planes);
@@ -278,16 +300,19 @@ bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
                 CellGeometry& geometry, const PlaneTable& planes, const WholeOrder& whole,
                 ContactRule contacts, std::vector<uint32_t>& twin,
                 std::vector<std::vector<uint32_t>>& crowded) {
-  std::vector<EdgeRef> refs;
   const auto half_edges = static_cast<uint32_t>(set.triangles.size() * 3);
-  refs.reserve(half_edges + whole.rim().size());
-  for (uint32_t t = 0; t < set.triangles.size(); ++t) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      refs.push_back(make_ref(set.triangles[t][k], set.triangles[t][(k + 1) % 3], 3 * t + k));
+  RawVector<EdgeRef> refs(half_edges + whole.rim().size());
+  for_each_range(set.triangles.size(), [&](size_t begin, size_t end) {
+    for (auto t = static_cast<uint32_t>(begin); t < end; ++t) {
+      for (uint32_t k = 0; k < 3; ++k) {
+        refs[3 * t + k] = make_ref(set.triangles[t][k], set.triangles[t][(k + 1) % 3], 3 * t + k);
+      }
     }
-  }
+  });
+  uint32_t next = half_edges;
   for (const RimEdge& e : whole.rim()) {
-    refs.push_back(make_ref(e.from, e.to, static_cast<uint32_t>(refs.size())));
+    refs[next] = make_ref(e.from, e.to, next);
+    ++next;
   }
   sort_refs(refs, geometry.point_count());
   twin.assign(half_edges, kNone);
