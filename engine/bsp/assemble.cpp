@@ -1,12 +1,14 @@
 #include "engine/bsp/assemble.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <map>
 #include <numeric>
 
 #include "engine/base/in_order.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/canonical_order.h"
 #include "engine/bsp/point_index.h"
 #include "engine/bsp/regions.h"
@@ -63,6 +65,8 @@ class Assembler {
   }
 
  private:
+  static constexpr uint32_t kNamed = 1u << 31;  ///< see gather
+
   struct Piece {
     PlaneId plane;
     FaceLabel label;
@@ -71,14 +75,16 @@ class Assembler {
     bool is_loose = false;
   };
 
+  /// Lists pieces and their corners: at first vertices of the job by their numbers, other points by
+  /// kNamed + number.
   void gather(const std::vector<FragmentSet>& sets, const std::vector<WholePolygon>& whole) {
     std::vector<uint32_t> number;
     for (const FragmentSet& set : sets) {
       number.clear();
       for (const FragmentSet::NamedPoint& p : set.points) {
         number.push_back(p.vertex != kNone
-                             ? vertex(p.vertex)
-                             : index_.unique(geometry_.add_point(p.planes, p.rounded)));
+                             ? p.vertex
+                             : kNamed | index_.unique(geometry_.add_point(p.planes, p.rounded)));
       }
       for (const FragmentSet::Piece& p : set.pieces) {
         pieces_.push_back({p.plane, job_.label(job_.polygons()[p.polygon]), p.polygon,
@@ -89,15 +95,60 @@ class Assembler {
         }
       }
     }
-    std::vector<uint32_t> polygons;
-    for (const WholePolygon& w : whole) polygons.push_back(w.polygon);
-    job_.ensure_planes(polygons);
-    for (const WholePolygon& w : whole) {
-      const JobPolygon& p = job_.polygons()[w.polygon];
-      pieces_.push_back({w.flip ? p.support.flip() : p.support, job_.label(p), w.polygon,
-                         static_cast<uint32_t>(corners_.size()), p.count, true});
-      add_polygon(p, w.flip);
+    gather_whole(whole);
+    number_corners();
+  }
+
+  void gather_whole(const std::vector<WholePolygon>& whole) {
+    std::vector<uint32_t> polygons(whole.size()), first(whole.size() + 1);
+    first[0] = static_cast<uint32_t>(corners_.size());
+    for (size_t w = 0; w < whole.size(); ++w) {
+      polygons[w] = whole[w].polygon;
+      first[w + 1] = first[w] + job_.polygons()[polygons[w]].count;
     }
+    job_.ensure_planes(polygons);
+    const size_t before = pieces_.size();
+    pieces_.resize(before + whole.size());
+    corners_.resize(first.back());
+    planes_.resize(first.back());
+    for_each_range(whole.size(), [&](size_t begin, size_t end) {
+      for (size_t w = begin; w < end; ++w) {
+        const JobPolygon& p = job_.polygons()[polygons[w]];
+        const bool flip = whole[w].flip;
+        pieces_[before + w] = {flip ? p.support.flip() : p.support,
+                               job_.label(p),
+                               polygons[w],
+                               first[w],
+                               p.count,
+                               true};
+        const auto corners = job_.corners(p);
+        const auto edges = job_.edge_planes(p);
+        for (uint32_t i = 0; i < p.count; ++i) {
+          corners_[first[w] + i] = corners[corner_place(i, p.count, flip)];
+          planes_[first[w] + i] = edges[edge_place(i, p.count, flip)];
+        }
+      }
+    });
+  }
+
+  /// Makes points of all corners.
+  void number_corners() {
+    std::vector<uint8_t> is_used(job_.vertex_count(), 0);
+    for_each_range(corners_.size(), [&](size_t begin, size_t end) {
+      for (size_t c = begin; c < end; ++c) {
+        if (corners_[c] & kNamed) continue;
+        std::atomic_ref(is_used[corners_[c]]).store(1, std::memory_order_relaxed);
+      }
+    });
+    for (uint32_t v = 0; v < is_used.size(); ++v) {
+      if (is_used[v]) vertex(v);
+    }
+    for_each_range(corners_.size(), [&](size_t begin, size_t end) {
+      for (size_t c = begin; c < end; ++c) {
+        uint32_t& corner = corners_[c];
+        corner = corner & kNamed ? corner & ~kNamed : vertex_number_[corner];
+      }
+    });
   }
 
   void add_polygon(const JobPolygon& p, bool flip) {
@@ -334,8 +385,8 @@ class Assembler {
   PointIndex index_;
   RegionBuilder builder_;
   std::vector<uint32_t> vertex_number_;
-  std::vector<Piece> pieces_;
-  std::vector<uint32_t> corners_, planes_;
+  RawVector<Piece> pieces_;
+  RawVector<uint32_t> corners_, planes_;
   std::vector<uint32_t> groups_;         ///< the first piece of each, and the end
   std::vector<uint32_t> face_of_group_;  ///< in the draft, or kNone
   std::vector<DirectedEdge> edges_, facet_;
