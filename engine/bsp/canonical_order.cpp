@@ -74,11 +74,89 @@ std::vector<uint32_t> face_order(const DraftBoundary& draft, const PlaneTable& p
   return std::move(by_point.order);
 }
 
+/// What is needed so many steps later is asked for now: in its order it stands anywhere.
+constexpr size_t kAhead = 8;
+
+/// Lines up the faces and their corners. Planes keep their numbers.
+void fill_faces(const DraftBoundary& draft, const std::vector<uint32_t>& order,
+                BoundaryMesh& mesh) {
+  struct Place {
+    uint32_t loop, corner;
+  };
+  RawVector<Place> places(order.size());
+  Place next{0, 0};
+  for (size_t n = 0; n < order.size(); ++n) {
+    const DraftBoundary::Face& face = draft.faces[order[n]];
+    places[n] = next;
+    next.loop += face.loop_count;
+    next.corner +=
+        draft.loop_starts[face.first_loop + face.loop_count] - draft.loop_starts[face.first_loop];
+  }
+  mesh.faces.resize(order.size());
+  mesh.loop_starts.resize(next.loop + size_t{1});
+  mesh.corners.resize(next.corner);
+  for_each_range(order.size(), [&](size_t begin, size_t end) {
+    for (size_t n = begin; n < end; ++n) {
+      if (n + kAhead < end) {
+        const DraftBoundary::Face& soon = draft.faces[order[n + kAhead]];
+        __builtin_prefetch(&draft.edges[draft.loop_starts[soon.first_loop]]);
+      }
+      const DraftBoundary::Face& face = draft.faces[order[n]];
+      auto [loop, corner] = places[n];
+      mesh.faces[n] = {face.plane, face.label, face.whole, loop, face.loop_count, face.complete};
+      for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
+        for (uint32_t c = draft.loop_starts[l]; c < draft.loop_starts[l + 1]; ++c) {
+          mesh.corners[corner++] = {draft.edges[c].from, draft.edges[c].plane};
+        }
+        mesh.loop_starts[++loop] = corner;
+      }
+    }
+  });
+}
+
+/// Numbers the planes as faces and their corners come to them, and names points by three.
+void name_by_planes(const PlaneTable& planes, size_t point_count, BoundaryMesh& mesh) {
+  std::vector<uint32_t> plane_number(planes.size(), kNone), used_planes;
+  const auto local_plane = [&](uint32_t index) {
+    if (plane_number[index] == kNone) {
+      plane_number[index] = static_cast<uint32_t>(used_planes.size());
+      used_planes.push_back(index);
+    }
+    return plane_number[index];
+  };
+  mesh.point_planes.assign(point_count, {kNone, kNone, kNone});
+  for (BoundaryMesh::Face& face : mesh.faces) {
+    const uint32_t support = local_plane(face.plane.index());
+    face.plane = PlaneId(support, face.plane.flipped());
+    for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
+      const uint32_t begin = mesh.loop_starts[l], end = mesh.loop_starts[l + 1];
+      uint32_t before = kNone;  // the plane before the first one is met last
+      for (uint32_t c = begin; c < end; ++c) {
+        BoundaryMesh::Corner& corner = mesh.corners[c];
+        const uint32_t edge_plane = local_plane(corner.edge_plane);
+        auto& named = mesh.point_planes[corner.point];
+        // A true corner: the planes of its two edges and of the face meet in it alone.
+        if (named[0] == kNone) {
+          named = {support, c > begin ? before : local_plane(mesh.corners[end - 1].edge_plane),
+                   edge_plane};
+        }
+        before = corner.edge_plane = edge_plane;
+      }
+    }
+  }
+  mesh.planes.reserve(used_planes.size());
+  for (size_t p = 0; p < used_planes.size(); ++p) {
+    if (p + kAhead < used_planes.size()) {
+      __builtin_prefetch(&planes.plane(used_planes[p + kAhead]));
+    }
+    mesh.planes.push_back(planes.plane(used_planes[p]));
+  }
+}
+
 }  // namespace
 
 BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBoundary draft,
                        std::vector<uint32_t>* number_of_point) {
-  constexpr size_t kAhead = 8;  // faces and planes stand anywhere: their memory is asked for
   BoundaryMesh mesh;
   const std::vector<uint32_t> used = used_points(draft, geometry.point_count());
   const std::vector<uint32_t> points = lexicographic_order(
@@ -89,11 +167,13 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
         return compare(geometry.value(used[i]), geometry.value(used[j])) < 0;
       });
   std::vector<uint32_t> number(geometry.point_count(), kNone);
-  mesh.point_rounded.reserve(points.size());
-  for (uint32_t i = 0; i < points.size(); ++i) {
-    number[used[points[i]]] = i;
-    mesh.point_rounded.push_back(geometry.point(used[points[i]]).rounded);
-  }
+  mesh.point_rounded.resize(points.size());
+  for_each_range(points.size(), [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      number[used[points[i]]] = static_cast<uint32_t>(i);
+      mesh.point_rounded[i] = geometry.point(used[points[i]]).rounded;
+    }
+  });
   for_each_range(draft.edges.size(), [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       DirectedEdge& e = draft.edges[i];
@@ -103,51 +183,8 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
   for_each_range(draft.faces.size(), [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) sort_loops(draft.faces[f], draft);
   });
-  const std::vector<uint32_t> order = face_order(draft, planes, points.size());
-
-  std::vector<uint32_t> plane_number(planes.size(), kNone), used_planes;
-  const auto local_plane = [&](uint32_t index) {
-    if (plane_number[index] == kNone) {
-      plane_number[index] = static_cast<uint32_t>(used_planes.size());
-      used_planes.push_back(index);
-    }
-    return plane_number[index];
-  };
-  mesh.point_planes.assign(points.size(), {kNone, kNone, kNone});
-  mesh.faces.reserve(order.size());
-  mesh.loop_starts.reserve(draft.loop_starts.size());
-  mesh.corners.reserve(draft.edges.size());
-  for (size_t n = 0; n < order.size(); ++n) {
-    if (n + kAhead < order.size()) {
-      const DraftBoundary::Face& soon = draft.faces[order[n + kAhead]];
-      __builtin_prefetch(&draft.edges[draft.loop_starts[soon.first_loop]]);
-    }
-    const DraftBoundary::Face& face = draft.faces[order[n]];
-    const uint32_t support = local_plane(face.plane.index());
-    mesh.faces.push_back({PlaneId(support, face.plane.flipped()), face.label, face.whole,
-                          static_cast<uint32_t>(mesh.loop_starts.size() - 1), face.loop_count,
-                          face.complete});
-    for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
-      const uint32_t begin = draft.loop_starts[l], end = draft.loop_starts[l + 1];
-      for (uint32_t c = begin; c < end; ++c) {
-        const DirectedEdge& e = draft.edges[c];
-        const uint32_t edge_plane = local_plane(e.plane);
-        const DirectedEdge& before = draft.edges[c > begin ? c - 1 : end - 1];
-        auto& named = mesh.point_planes[e.from];
-        // A true corner: the planes of its two edges and of the face meet in it alone.
-        if (named[0] == kNone) named = {support, local_plane(before.plane), edge_plane};
-        mesh.corners.push_back({e.from, edge_plane});
-      }
-      mesh.loop_starts.push_back(static_cast<uint32_t>(mesh.corners.size()));
-    }
-  }
-  mesh.planes.reserve(used_planes.size());
-  for (size_t p = 0; p < used_planes.size(); ++p) {
-    if (p + kAhead < used_planes.size()) {
-      __builtin_prefetch(&planes.plane(used_planes[p + kAhead]));
-    }
-    mesh.planes.push_back(planes.plane(used_planes[p]));
-  }
+  fill_faces(draft, face_order(draft, planes, points.size()), mesh);
+  name_by_planes(planes, points.size(), mesh);
   if (number_of_point != nullptr) *number_of_point = std::move(number);
   return mesh;
 }
