@@ -62,6 +62,8 @@ class CellGeometry {
 
   /// The point of a vertex of the job.
   uint32_t vertex_point(uint32_t vertex);
+  /// The same of a vertex that has a point. Several threads may ask.
+  [[nodiscard]] uint32_t made_vertex_point(uint32_t vertex) const { return vertex_point_[vertex]; }
   /// The point where three planes meet.
   uint32_t add_point(const std::array<uint32_t, 3>& planes);
   uint32_t add_point(const std::array<uint32_t, 3>& planes, const std::array<double, 3>& rounded);

@@ -1,6 +1,8 @@
 #include "engine/bsp/cut_faces.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
 
 #include "engine/base/in_order.h"
 #include "engine/base/raw_vector.h"
@@ -28,6 +30,7 @@ struct Part {
   struct Point {
     std::array<double, 3> rounded;
     std::array<uint32_t, 3> planes;
+    bool is_loose;  ///< of loops that are
   };
 
   std::vector<Polygon> polygons;
@@ -117,7 +120,7 @@ class Worker {
       return;
     }
     for (size_t c = first_corner; c < part.loops.corner_point.size(); ++c) {
-      part.loops.corner_point[c] = code(part.loops.corner_point[c], part);
+      part.loops.corner_point[c] = code(part.loops.corner_point[c], !polygon.is_plain, part);
     }
     part.faces.push_back(
         {polygon.number, first_loop, static_cast<uint32_t>(part.loops.loops.size())});
@@ -174,12 +177,12 @@ class Worker {
     return codes_[own];
   }
   /// What stands for a point in the loops of a part.
-  uint32_t code(uint32_t own, Part& part) {
+  uint32_t code(uint32_t own, bool is_loose, Part& part) {
     uint32_t& code = code_of(own);
     if (code != kNone) return code;
     const CellGeometry::StoredPoint& s = geometry_.point(own);
     if (s.vertex != kNone) return code = kVertex | s.vertex;
-    part.points.push_back({s.rounded, s.planes});
+    part.points.push_back({s.rounded, s.planes, is_loose});
     return code = kNew | static_cast<uint32_t>(part.points.size() - 1);
   }
 
@@ -198,6 +201,132 @@ class Worker {
   RawVector<uint32_t> local_;
   uint32_t stamp_ = 0;
   std::vector<uint32_t> codes_;  ///< per own point, or kNone
+};
+
+/// Puts together what came of the parts, with points of the shared geometry.
+class PartJoiner {
+ public:
+  PartJoiner(const Job& job, const ContactTable& contacts, CellGeometry& geometry,
+             PointIndex& index)
+      : job_(job), contacts_(contacts), geometry_(geometry), index_(index) {}
+
+  CutFaces join(const std::vector<Part>& parts) {
+    std::vector<Place> places;
+    Place end;
+    for (const Part& part : parts) {
+      places.push_back(end);
+      end.loop += part.loops.loops.size();
+      end.corner += part.loops.corner_point.size();
+      end.fact += part.loops.facts.size();
+      end.face += part.faces.size();
+    }
+    make_points(parts);
+    CutFaces all;
+    all.loops.loops.resize(end.loop);
+    all.loops.corner_point.resize(end.corner);
+    all.loops.corner_plane.resize(end.corner);
+    all.loops.facts.resize(end.fact);
+    all.faces.resize(end.face);
+    for_each_part(parts.size(), kAtOnce, [&](size_t, size_t first, size_t last) {
+      for (size_t p = first; p < last; ++p) copy(parts[p], points_[p], places[p], all);
+    });
+    for (const Part& part : parts) {
+      all.left.insert(all.left.end(), part.left.begin(), part.left.end());
+      all.by_value.insert(all.by_value.end(), part.by_value.begin(), part.by_value.end());
+    }
+    return all;
+  }
+
+ private:
+  static constexpr size_t kAtOnce = 8;  ///< parts
+  /// What the loops need of a vertex.
+  static constexpr uint8_t kPoint = 1, kUnique = 2;
+
+  /// Where what comes of a part stands.
+  struct Place {
+    size_t loop = 0, corner = 0, fact = 0, face = 0;
+  };
+
+  [[nodiscard]] bool is_by_value(uint32_t vertex, bool is_loose) const {
+    return is_loose && contacts_.touched()[vertex];
+  }
+
+  void make_points(const std::vector<Part>& parts) {
+    std::vector<uint8_t> needs(job_.vertex_count(), 0);
+    for_each_part(parts.size(), kAtOnce, [&](size_t, size_t first, size_t last) {
+      for (size_t p = first; p < last; ++p) note_needs(parts[p].loops, needs);
+    });
+    for (uint32_t v = 0; v < needs.size(); ++v) {
+      if (needs[v] == 0) continue;
+      const uint32_t point = geometry_.vertex_point(v);
+      if (needs[v] & kUnique) index_.unique(point);
+    }
+    for (const Part& part : parts) {
+      std::vector<uint32_t>& numbers = points_.emplace_back();
+      numbers.reserve(part.points.size());
+      for (const Part::Point& p : part.points) {
+        const uint32_t number = geometry_.add_point(p.planes, p.rounded);
+        numbers.push_back(p.is_loose ? index_.unique(number) : number);
+      }
+    }
+  }
+
+  void note_needs(const CutLoops& loops, std::vector<uint8_t>& needs) const {
+    for (const CutLoops::Loop& loop : loops.loops) {
+      for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
+        const uint32_t code = loops.corner_point[c];
+        if (code & kNew || !(code & kVertex)) continue;
+        const uint32_t vertex = code & ~kVertex;
+        const uint8_t need = is_by_value(vertex, loop.is_loose) ? kPoint | kUnique : kPoint;
+        const std::atomic_ref<uint8_t> shared(needs[vertex]);
+        if ((shared.load(std::memory_order_relaxed) & need) != need) {
+          shared.fetch_or(need, std::memory_order_relaxed);
+        }
+      }
+    }
+  }
+
+  void copy(const Part& part, const std::vector<uint32_t>& points, const Place& place,
+            CutFaces& all) const {
+    const auto at = [](auto& list, size_t first) {
+      return list.begin() + static_cast<std::ptrdiff_t>(first);
+    };
+    const auto moved = [](uint32_t number, size_t by) {
+      return number + static_cast<uint32_t>(by);
+    };
+    for (size_t l = 0; l < part.loops.loops.size(); ++l) {
+      CutLoops::Loop loop = part.loops.loops[l];
+      for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
+        all.loops.corner_point[place.corner + c] =
+            number(part.loops.corner_point[c], loop.is_loose, points);
+      }
+      loop.first_corner = moved(loop.first_corner, place.corner);
+      loop.first_fact = moved(loop.first_fact, place.fact);
+      all.loops.loops[place.loop + l] = loop;
+    }
+    std::copy(part.loops.corner_plane.begin(), part.loops.corner_plane.end(),
+              at(all.loops.corner_plane, place.corner));
+    std::copy(part.loops.facts.begin(), part.loops.facts.end(), at(all.loops.facts, place.fact));
+    for (size_t f = 0; f < part.faces.size(); ++f) {
+      const CutFaces::Face& face = part.faces[f];
+      all.faces[place.face + f] = {face.polygon, moved(face.first_loop, place.loop),
+                                   moved(face.end_loop, place.loop)};
+    }
+  }
+
+  [[nodiscard]] uint32_t number(uint32_t code, bool is_loose,
+                                const std::vector<uint32_t>& points) const {
+    if (code & kNew) return points[code & ~kNew];
+    if (!(code & kVertex)) return code;
+    const uint32_t vertex = code & ~kVertex, point = geometry_.made_vertex_point(vertex);
+    return is_by_value(vertex, is_loose) ? index_.known(point) : point;
+  }
+
+  const Job& job_;
+  const ContactTable& contacts_;
+  CellGeometry& geometry_;
+  PointIndex& index_;
+  std::vector<std::vector<uint32_t>> points_;  ///< per part: of its new points, in the geometry
 };
 
 class FaceCutter {
@@ -233,12 +362,8 @@ class FaceCutter {
     if (std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return !p.again.empty(); })) {
       cut_all(&Part::again);
     }
-    CutFaces result;
-    for (const Part& part : parts_) {
-      add(part, result);
-      add_signs(stats, part.counters);
-    }
-    return result;
+    for (const Part& part : parts_) add_signs(stats, part.counters);
+    return PartJoiner(job_, contacts_, geometry_, index_).join(parts_);
   }
 
  private:
@@ -286,44 +411,6 @@ class FaceCutter {
         });
   }
 
-  /// Adds what came of a part, with points of the shared geometry.
-  void add(const Part& part, CutFaces& out) {
-    CutLoops& all = out.loops;
-    const auto first_loop = static_cast<uint32_t>(all.loops.size()),
-               first_corner = static_cast<uint32_t>(all.corner_point.size()),
-               first_fact = static_cast<uint32_t>(all.facts.size());
-    numbers_.assign(part.points.size(), kNone);
-    for (CutLoops::Loop loop : part.loops.loops) {
-      for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
-        all.corner_point.push_back(number(part.loops.corner_point[c], loop.is_loose, part));
-      }
-      loop.first_corner += first_corner;
-      loop.first_fact += first_fact;
-      all.loops.push_back(loop);
-    }
-    all.corner_plane.insert(all.corner_plane.end(), part.loops.corner_plane.begin(),
-                            part.loops.corner_plane.end());
-    all.facts.insert(all.facts.end(), part.loops.facts.begin(), part.loops.facts.end());
-    for (const CutFaces::Face& f : part.faces) {
-      out.faces.push_back({f.polygon, f.first_loop + first_loop, f.end_loop + first_loop});
-    }
-    out.left.insert(out.left.end(), part.left.begin(), part.left.end());
-    out.by_value.insert(out.by_value.end(), part.by_value.begin(), part.by_value.end());
-  }
-
-  uint32_t number(uint32_t code, bool by_value, const Part& part) {
-    if (code & kNew) {
-      uint32_t& number = numbers_[code & ~kNew];
-      if (number != kNone) return number;
-      const Part::Point& p = part.points[code & ~kNew];
-      number = geometry_.add_point(p.planes, p.rounded);
-      return number = by_value ? index_.unique(number) : number;
-    }
-    if (!(code & kVertex)) return code;
-    const uint32_t vertex = code & ~kVertex, point = geometry_.vertex_point(vertex);
-    return by_value && contacts_.touched()[vertex] ? index_.unique(point) : point;
-  }
-
   Job& job_;
   const ContactTable& contacts_;
   ContactEnds& ends_;
@@ -331,7 +418,6 @@ class FaceCutter {
   PointIndex& index_;
   KernelOptions options_;
   std::vector<Part> parts_;
-  std::vector<uint32_t> numbers_;  ///< of the points of the part at hand, or kNone
 };
 
 }  // namespace

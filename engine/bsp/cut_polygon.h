@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/segment_sweep.h"
 
@@ -42,10 +43,10 @@ struct CutLoops {
   /// been made.
   static constexpr uint32_t kOwnEdge = 1u << 31;
 
-  std::vector<Loop> loops;
-  std::vector<uint32_t> corner_point;  ///< of the geometry
-  std::vector<uint32_t> corner_plane;  ///< of the edge to the next corner
-  std::vector<Fact> facts;             ///< of a loop: sorted, each once
+  RawVector<Loop> loops;
+  RawVector<uint32_t> corner_point;  ///< of the geometry
+  RawVector<uint32_t> corner_plane;  ///< of the edge to the next corner
+  RawVector<Fact> facts;             ///< of a loop: sorted, each once
 
   /// Sorts the facts of a loop, which are the last ones, and drops repetitions; false when they
   /// contradict one another.

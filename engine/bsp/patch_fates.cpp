@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "engine/base/counting_order.h"
@@ -119,14 +120,16 @@ void PatchFates::add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind,
 /// Patches that hold a corner of a polygon that is seen to be boundary of nothing, as they are.
 void PatchFates::drop_covered(std::span<const uint8_t> plainly_covered) {
   patch_fates_.assign(job_.vertex_count(), kUnasked);
-  for (uint32_t p = 0; p < plainly_covered.size(); ++p) {
-    if (!plainly_covered[p]) continue;
-    for (const uint32_t v : job_.corners(job_.polygons()[p])) {
-      if (!contacts_.touched()[v]) {
-        patch_fates_[patches_.root(v)] = static_cast<uint8_t>(PatchFate::kDrop);
+  for_each_range(plainly_covered.size(), [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) {
+      if (!plainly_covered[p]) continue;
+      for (const uint32_t v : job_.corners(job_.polygons()[p])) {
+        if (contacts_.touched()[v]) continue;
+        std::atomic_ref(patch_fates_[patches_.root(v)])
+            .store(static_cast<uint8_t>(PatchFate::kDrop), std::memory_order_relaxed);
       }
     }
-  }
+  });
 }
 
 void PatchFates::ask_about_loops() {

@@ -33,6 +33,9 @@ class PointIndex {
     return known_[p] = find_or_add(p);
   }
 
+  /// The same of a point for which it was asked before. Several threads may ask.
+  [[nodiscard]] uint32_t known(uint32_t p) const { return known_[p]; }
+
  private:
   static constexpr size_t kFewSlots = 64;  // a power of two
   struct Slot {

@@ -294,10 +294,16 @@ class FaceEvaluator {
       }
     }
     for (const WholePolygon& w : result_.whole) {
-      if (!w.is_met) continue;
+      if (!w.is_met || !has_touched_corner(w.polygon)) continue;
       list_corners(w.polygon);
       finder.add_outline(w.polygon, corners_, {}, w.flip);
     }
+  }
+
+  [[nodiscard]] bool has_touched_corner(uint32_t polygon) const {
+    const auto corners = job_.corners(job_.polygons()[polygon]);
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](uint32_t v) { return contacts_.touched()[v] != 0; });
   }
 
   /// Whether both polygons leave something, and the contact has ends.
@@ -309,9 +315,14 @@ class FaceEvaluator {
   /// is whole.
   void find_open(uint32_t polygon, TouchFinder& finder, std::vector<uint8_t>& is_open,
                  const WholePolygon* whole) {
+    const auto contacts = contacts_.of(polygon);
+    if (std::none_of(contacts.begin(), contacts.end(),
+                     [&](uint32_t c) { return is_of_kept(contacts_[c]); })) {
+      return;
+    }
     corner_of_.resize(geometry_.point_count(), kNone);
     for (const uint32_t p : corners_) corner_of_[finder.number(p)] = polygon;
-    for (const uint32_t contact : contacts_.of(polygon)) {
+    for (const uint32_t contact : contacts) {
       if (!is_of_kept(contacts_[contact])) continue;
       for (const uint32_t end : ends_->of(contact)) {
         if (corner_of_[end] == polygon) continue;

@@ -70,16 +70,20 @@ class Presenter {
       : boundary_(boundary), context_(context), geometry_(planes_, nullptr) {}
 
   Result<SolidPtr> run() {
-    planes_.adopt(boundary_.planes);
-    for (size_t p = 0; p < boundary_.point_planes.size(); ++p) {
-      geometry_.add_point(boundary_.point_planes[p], boundary_.point_rounded[p]);
-    }
+    const bool is_large = boundary_.faces.size() > kFewForThreads;
+    run_both(
+        is_large, [&] { planes_.adopt(boundary_.planes); },
+        [&] {
+          for (size_t p = 0; p < boundary_.point_planes.size(); ++p) {
+            geometry_.add_point(boundary_.point_planes[p], boundary_.point_rounded[p]);
+          }
+        });
     for_each_range(geometry_.point_count(), [&](size_t begin, size_t end) {
       for (size_t p = begin; p < end; ++p) geometry_.find_on_grid(static_cast<uint32_t>(p));
     });
     bool is_merged = false;
     run_both(
-        boundary_.faces.size() > kFewForThreads, [&] { whole_.emplace(boundary_, geometry_); },
+        is_large, [&] { whole_.emplace(boundary_, geometry_); },
         [&] { is_merged = merge_faces(boundary_, geometry_, planes_, faces_); });
     if (!is_merged) return not_closed("faces");
     const WholeOrder& whole = *whole_;
