@@ -140,8 +140,14 @@ class Assembler {
         std::atomic_ref(is_used[corners_[c]]).store(1, std::memory_order_relaxed);
       }
     });
+    std::vector<uint32_t> used;
     for (uint32_t v = 0; v < is_used.size(); ++v) {
-      if (is_used[v]) vertex(v);
+      if (is_used[v]) used.push_back(v);
+    }
+    constexpr size_t kAhead = 12;  // looked up by hashes
+    for (size_t i = 0; i < used.size(); ++i) {
+      if (i + kAhead < used.size()) index_.expect(job_.rounded(used[i + kAhead]));
+      vertex(used[i]);
     }
     for_each_range(corners_.size(), [&](size_t begin, size_t end) {
       for (size_t c = begin; c < end; ++c) {

@@ -247,6 +247,7 @@ class FaceEvaluator {
       corners_.clear();
       for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
         for (const uint32_t p : points_of(cut_.loops.loops[l])) {
+          if (!may_be_end(p)) continue;
           corners_.push_back(p);
           if (fates_->of_loop(l) != PatchFate::kDrop) finder.examine(p);
         }
@@ -255,8 +256,12 @@ class FaceEvaluator {
     }
     for (const WholePolygon& w : result_.whole) {
       if (!is_suspect_[w.polygon]) continue;
-      list_corners(w.polygon);
-      for (const uint32_t p : corners_) finder.examine(p);
+      corners_.clear();
+      for (const uint32_t v : job_.corners(job_.polygons()[w.polygon])) {
+        if (!contacts_.touched()[v]) continue;
+        corners_.push_back(geometry_.vertex_point(v));
+        finder.examine(corners_.back());
+      }
       find_open(w.polygon, finder, is_open, &w);
     }
     if (finder.has_examined()) {
@@ -298,6 +303,12 @@ class FaceEvaluator {
       list_corners(w.polygon);
       finder.add_outline(w.polygon, corners_, {}, w.flip);
     }
+  }
+
+  /// Whether a contact may end in a point: in no vertex that is not touched.
+  [[nodiscard]] bool may_be_end(uint32_t point) const {
+    const uint32_t vertex = geometry_.point(point).vertex;
+    return vertex == kNone || contacts_.touched()[vertex];
   }
 
   [[nodiscard]] bool has_touched_corner(uint32_t polygon) const {
