@@ -13,10 +13,10 @@ namespace csgrun {
 
 /// A polygon that belongs to the result as a whole, as it is or turned over. Nothing of another
 /// operand that is in the result touches it.
-struct WholePolygon {
-  uint32_t polygon;
-  bool flip;
-  bool is_met = false;  ///< another operand's surface touches it
+struct WholePolygon {  // small: there may be one for each polygon of the operands
+  uint32_t polygon : 30;
+  bool flip : 1;
+  bool is_met : 1 = false;  ///< another operand's surface touches it
 };
 
 /// BoundaryMesh::may_touch and ::touches.

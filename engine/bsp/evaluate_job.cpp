@@ -178,9 +178,9 @@ Result<EvaluatedJob> evaluate_job(Job& job, const std::vector<Operand>& operands
   for (const auto& boxes : touches) add_touching(result.touching, boxes);
   add_touching(result.touching, faces.touching);
   sets.push_back(std::move(faces.cut));
-  work.whole.insert(work.whole.end(), faces.whole.begin(), faces.whole.end());
   result.sets = std::move(sets);
-  result.whole = std::move(work.whole);
+  result.whole = std::move(faces.whole);
+  result.whole.insert(result.whole.end(), work.whole.begin(), work.whole.end());
   return result;
 }
 

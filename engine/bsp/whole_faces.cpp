@@ -141,6 +141,12 @@ class FaceEvaluator {
     is_kept_.assign(job_.polygons().size(), 0);
     for (const CutFaces::Face& cut : cut_.faces) settle(cut);
     make_edge_planes();
+    run_both(
+        job_.polygons().size() > kFewForThreads, [&] { emit_loops(); }, [&] { emit_whole(); });
+  }
+
+  void emit_loops() {
+    numbers_.assign(geometry_.point_count(), kNone);
     for (const CutFaces::Face& cut : cut_.faces) {
       for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
         const PatchFate fate = fates_->of_loop(l);
@@ -149,7 +155,6 @@ class FaceEvaluator {
         }
       }
     }
-    emit_whole();
   }
 
   /// What becomes of the polygons that were not cut.
@@ -213,7 +218,6 @@ class FaceEvaluator {
       return named & CutLoops::kOwnEdge ? job_.edge_plane(polygon, named & ~CutLoops::kOwnEdge)
                                         : named;
     };
-    numbers_.resize(geometry_.point_count(), kNone);
     const auto first = static_cast<uint32_t>(out.corner_point.size());
     for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
       const uint32_t p = cut_.loops.corner_point[c];
