@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -58,6 +59,24 @@ void for_each_alone(size_t count, bool much, Work&& work) {
     return;
   }
   for_each_part(count, 1, [&](size_t, size_t i, size_t) { work(i); });
+}
+
+/// The numbers below count for which `is_wanted` says so, ascending; it is asked on several
+/// threads.
+template <class Wanted>
+std::vector<uint32_t> numbers_where(size_t count, Wanted&& is_wanted) {
+  std::vector<std::vector<uint32_t>> parts(part_count(count, kFewForThreads));
+  for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+    std::vector<uint32_t> wanted;
+    for (auto i = static_cast<uint32_t>(begin); i < end; ++i) {
+      if (is_wanted(i)) wanted.push_back(i);
+    }
+    parts[part] = std::move(wanted);
+  });
+  if (parts.size() == 1) return std::move(parts[0]);
+  std::vector<uint32_t> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 /// Calls both, at the same time if they are `much`: neither may look at what the other changes.

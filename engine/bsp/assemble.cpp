@@ -41,10 +41,12 @@ class Assembler {
                        std::to_string(pieces_[groups_[open]].plane.index()) + ")",
                    {}};
     }
-    for (uint32_t g = 0; g < face_of_group_.size(); ++g) {
-      if (face_of_group_[g] == kNone) continue;
-      const JobPolygon& polygon = job_.polygons()[pieces_[groups_[g]].polygon];
-      if (job_.is_of_complete_facet(polygon)) find_completeness(g);
+    const auto may_be_complete = [&](uint32_t group) {
+      return face_of_group_[group] != kNone &&
+             job_.is_of_complete_facet(job_.polygons()[pieces_[groups_[group]].polygon]);
+    };
+    for (const uint32_t group : numbers_where(face_of_group_.size(), may_be_complete)) {
+      find_completeness(group);
     }
     std::vector<uint32_t> number;
     auto mesh = std::make_shared<BoundaryMesh>(

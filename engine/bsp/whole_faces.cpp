@@ -103,22 +103,10 @@ class FaceEvaluator {
     return true;
   }
 
-  /// The polygons for which `is_wanted` says so, ascending; it is asked on several threads.
+  /// The polygons for which `is_wanted` says so, ascending.
   template <class Wanted>
   [[nodiscard]] std::vector<uint32_t> polygons_where(Wanted&& is_wanted) const {
-    const size_t count = job_.polygons().size();
-    std::vector<std::vector<uint32_t>> parts(part_count(count, kFewForThreads));
-    for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
-      std::vector<uint32_t> wanted;
-      for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
-        if (is_wanted(p)) wanted.push_back(p);
-      }
-      parts[part] = std::move(wanted);
-    });
-    if (parts.size() == 1) return std::move(parts[0]);
-    std::vector<uint32_t> all;
-    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-    return all;
+    return numbers_where(job_.polygons().size(), is_wanted);
   }
 
   /// Whether a polygon is whole and one of its corners tells what becomes of it.

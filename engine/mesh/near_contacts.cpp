@@ -24,28 +24,20 @@ std::vector<uint32_t> faces_near(std::span<const GridBox> touches,
     }
   }
   const BoxTree tree(boxes);
-  std::vector<uint8_t> is_near(faces.size());
-  for_each_range(faces.size(), [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) {
-      // Rounding is monotone, and whole numbers are not rounded: boxes that overlap still do.
-      const auto& first = geometry.point(faces[f].loops[0][0].from).rounded;
-      Box box{first, first};
-      for (const auto& loop : faces[f].loops) {
-        for (const DirectedEdge& e : loop) {
-          const auto& p = geometry.point(e.from).rounded;
-          box.include({p, p});
-        }
+  return numbers_where(faces.size(), [&](uint32_t f) {
+    // Rounding is monotone, and whole numbers are not rounded: boxes that overlap still do.
+    const auto& first = geometry.point(faces[f].loops[0][0].from).rounded;
+    Box box{first, first};
+    for (const auto& loop : faces[f].loops) {
+      for (const DirectedEdge& e : loop) {
+        const auto& p = geometry.point(e.from).rounded;
+        box.include({p, p});
       }
-      bool meets = false;
-      tree.visit_all(box, [&](uint32_t) { meets = true; });
-      is_near[f] = meets ? 1 : 0;
     }
+    bool meets = false;
+    tree.visit_all(box, [&](uint32_t) { meets = true; });
+    return meets;
   });
-  std::vector<uint32_t> near;
-  for (uint32_t f = 0; f < faces.size(); ++f) {
-    if (is_near[f]) near.push_back(f);
-  }
-  return near;
 }
 
 }  // namespace csgrun
