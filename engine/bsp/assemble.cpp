@@ -68,6 +68,7 @@ class Assembler {
 
  private:
   static constexpr uint32_t kNamed = 1u << 31;  ///< see gather
+  static constexpr size_t kAhead = 12;          ///< points are looked up by hashes
 
   struct Piece {
     PlaneId plane;
@@ -83,7 +84,9 @@ class Assembler {
     std::vector<uint32_t> number;
     for (const FragmentSet& set : sets) {
       number.clear();
-      for (const FragmentSet::NamedPoint& p : set.points) {
+      for (size_t i = 0; i < set.points.size(); ++i) {
+        const FragmentSet::NamedPoint& p = set.points[i];
+        if (i + kAhead < set.points.size()) index_.expect(set.points[i + kAhead].rounded);
         number.push_back(p.vertex != kNone
                              ? p.vertex
                              : kNamed | index_.unique(geometry_.add_point(p.planes, p.rounded)));
@@ -146,7 +149,6 @@ class Assembler {
     for (uint32_t v = 0; v < is_used.size(); ++v) {
       if (is_used[v]) used.push_back(v);
     }
-    constexpr size_t kAhead = 12;  // looked up by hashes
     for (size_t i = 0; i < used.size(); ++i) {
       if (i + kAhead < used.size()) index_.expect(job_.rounded(used[i + kAhead]));
       vertex(used[i]);

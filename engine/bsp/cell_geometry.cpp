@@ -53,12 +53,17 @@ void CellGeometry::clear() {
 }
 
 uint32_t CellGeometry::vertex_point(uint32_t vertex) {
-  if (vertex_stamp_[vertex] == stamp_) return vertex_point_[vertex];
+  if (has_vertex_point(vertex)) return vertex_point_[vertex];
+  const uint32_t p = add_points(1);
+  set_vertex_point(p, vertex);
+  return p;
+}
+
+void CellGeometry::set_vertex_point(uint32_t p, uint32_t vertex) {
   vertex_stamp_[vertex] = stamp_;
-  const auto p = static_cast<uint32_t>(points_.size());
+  vertex_point_[vertex] = p;
   const Job::VertexName name = job_->vertex_name(vertex);
-  points_.push_back({job_->rounded(vertex), name.planes, vertex, kNone, name.is_on_grid});
-  return vertex_point_[vertex] = p;
+  points_[p] = {job_->rounded(vertex), name.planes, vertex, kNone, name.is_on_grid};
 }
 
 uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes) {

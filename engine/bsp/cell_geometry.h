@@ -67,6 +67,21 @@ class CellGeometry {
   /// The point where three planes meet.
   uint32_t add_point(const std::array<uint32_t, 3>& planes);
   uint32_t add_point(const std::array<uint32_t, 3>& planes, const std::array<double, 3>& rounded);
+  /// Makes room for so many points and returns the number of the first; each is to be set before it
+  /// is looked at. Several threads may set different ones.
+  uint32_t add_points(size_t count) {
+    points_.resize(points_.size() + count);
+    return static_cast<uint32_t>(points_.size() - count);
+  }
+  void set_point(uint32_t p, const std::array<uint32_t, 3>& planes,
+                 const std::array<double, 3>& rounded) {
+    points_[p] = {rounded, planes, kNone, kNone, false};
+  }
+  /// REQUIRES: the vertex has no point.
+  void set_vertex_point(uint32_t p, uint32_t vertex);
+  [[nodiscard]] bool has_vertex_point(uint32_t vertex) const {
+    return vertex_stamp_[vertex] == stamp_;
+  }
   [[nodiscard]] const StoredPoint& point(uint32_t p) const { return points_[p]; }
   [[nodiscard]] size_t point_count() const { return points_.size(); }
   /// Valid until clear().
@@ -122,7 +137,7 @@ class CellGeometry {
 
   const PlaneTable* planes_;
   const Job* job_;
-  std::vector<StoredPoint> points_;
+  RawVector<StoredPoint> points_;
   std::deque<Point> exact_;  ///< large: growing moves none, and references stay
   std::vector<uint32_t> corners_, edges_;
   std::vector<uint32_t> vertex_stamp_;

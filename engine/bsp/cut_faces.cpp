@@ -256,17 +256,42 @@ class PartJoiner {
     for_each_part(parts.size(), kAtOnce, [&](size_t, size_t first, size_t last) {
       for (size_t p = first; p < last; ++p) note_needs(parts[p].loops, needs);
     });
-    for (uint32_t v = 0; v < needs.size(); ++v) {
-      if (needs[v] == 0) continue;
-      const uint32_t point = geometry_.vertex_point(v);
-      if (needs[v] & kUnique) index_.unique(point);
-    }
+    const std::vector<uint32_t> vertices = numbers_where(
+        needs.size(), [&](uint32_t v) { return needs[v] != 0 && !geometry_.has_vertex_point(v); });
+    size_t count = vertices.size();
+    std::vector<size_t> starts;  // of the points of each part
     for (const Part& part : parts) {
-      std::vector<uint32_t>& numbers = points_.emplace_back();
-      numbers.reserve(part.points.size());
-      for (const Part::Point& p : part.points) {
-        const uint32_t number = geometry_.add_point(p.planes, p.rounded);
-        numbers.push_back(p.is_loose ? index_.unique(number) : number);
+      starts.push_back(count);
+      count += part.points.size();
+    }
+    const uint32_t first = geometry_.add_points(count);
+    for_each_range(vertices.size(), [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        geometry_.set_vertex_point(first + static_cast<uint32_t>(i), vertices[i]);
+      }
+    });
+    points_.resize(parts.size());
+    for_each_part(parts.size(), kAtOnce, [&](size_t, size_t begin, size_t end) {
+      for (size_t p = begin; p < end; ++p) {
+        auto number = first + static_cast<uint32_t>(starts[p]);
+        for (const Part::Point& point : parts[p].points) {
+          geometry_.set_point(number, point.planes, point.rounded);
+          points_[p].push_back(number++);
+        }
+      }
+    });
+    make_unique(parts, needs);
+  }
+
+  /// Equal points of loose loops get one number.
+  void make_unique(const std::vector<Part>& parts, const std::vector<uint8_t>& needs) {
+    for (const uint32_t v :
+         numbers_where(needs.size(), [&](uint32_t v) { return (needs[v] & kUnique) != 0; })) {
+      index_.unique(geometry_.made_vertex_point(v));
+    }
+    for (size_t p = 0; p < parts.size(); ++p) {
+      for (size_t i = 0; i < points_[p].size(); ++i) {
+        if (parts[p].points[i].is_loose) points_[p][i] = index_.unique(points_[p][i]);
       }
     }
   }
