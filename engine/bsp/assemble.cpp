@@ -145,10 +145,7 @@ class Assembler {
         std::atomic_ref(is_used[corners_[c]]).store(1, std::memory_order_relaxed);
       }
     });
-    std::vector<uint32_t> used;
-    for (uint32_t v = 0; v < is_used.size(); ++v) {
-      if (is_used[v]) used.push_back(v);
-    }
+    const auto used = numbers_where(is_used.size(), [&](uint32_t v) { return is_used[v] != 0; });
     for (size_t i = 0; i < used.size(); ++i) {
       if (i + kAhead < used.size()) index_.expect(job_.rounded(used[i + kAhead]));
       vertex(used[i]);

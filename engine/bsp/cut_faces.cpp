@@ -1,11 +1,10 @@
 #include "engine/bsp/cut_faces.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cstddef>
 
 #include "engine/base/in_order.h"
 #include "engine/base/raw_vector.h"
+#include "engine/bsp/cut_parts.h"
 #include "engine/bsp/face_arrangement.h"
 #include "engine/bsp/parallel_runs.h"
 #include "engine/bsp/sign_stats.h"
@@ -16,42 +15,12 @@ namespace {
 /// So many polygons are cut by one thread.
 constexpr size_t kPolygonsPerPart = 256;
 
-/// Corners of the loops of a part are points of the geometry by their numbers, vertices of the job
-/// (kVertex + number), or new points of the part (kNew + number).
-constexpr uint32_t kVertex = 1u << 30, kNew = 1u << 31;
-
-/// Some of the polygons, what meets them, and what comes of it.
-struct Part {
-  struct Polygon {
-    uint32_t number;
-    uint32_t first_contact, end_contact, first_coplanar, end_coplanar;
-    bool is_plain;  ///< all contacts are, and names may do
-  };
-  struct Point {
-    std::array<double, 3> rounded;
-    std::array<uint32_t, 3> planes;
-    bool is_loose;  ///< of loops that are
-  };
-
-  std::vector<Polygon> polygons;
-  /// Of the polygons, but for those with convex operands that have a face in the polygon's plane:
-  /// that one tells all.
-  std::vector<uint32_t> contacts;
-  std::vector<uint32_t> coplanar;  ///< polygons
-  std::vector<Polygon> again;      ///< not cut by name after all
-  CutLoops loops;
-  std::vector<Point> points;
-  std::vector<CutFaces::Face> faces;
-  std::vector<uint32_t> left, by_value;
-  SignCounters counters;
-};
-
 /// Lists what is on polygons.
 void list(const Job& job, std::span<const uint32_t> polygons, const ContactTable& contacts,
-          Part& part) {
+          CutPart& part) {
   std::vector<uint32_t> flat;  // convex operands with a face in the polygon's plane
   for (const uint32_t p : polygons) {
-    Part::Polygon& polygon = part.polygons.emplace_back();
+    CutPart::Polygon& polygon = part.polygons.emplace_back();
     polygon = {p, static_cast<uint32_t>(part.contacts.size()),
                0, static_cast<uint32_t>(part.coplanar.size()),
                0, true};
@@ -94,7 +63,7 @@ class Worker {
         local_(shared.point_count()) {}
 
   /// Cuts by name, or by value, for which the planes must have been made.
-  void cut(const Part::Polygon& polygon, Part& part) {
+  void cut(const CutPart::Polygon& polygon, CutPart& part) {
     geometry_.clear();
     codes_.clear();
     ++stamp_;
@@ -129,14 +98,14 @@ class Worker {
   [[nodiscard]] const SignCounters& counters() const { return geometry_.counters; }
 
  private:
-  static std::span<const uint32_t> coplanar(const Part::Polygon& polygon, const Part& part) {
+  static std::span<const uint32_t> coplanar(const CutPart::Polygon& polygon, const CutPart& part) {
     return {part.coplanar.data() + polygon.first_coplanar,
             polygon.end_coplanar - polygon.first_coplanar};
   }
 
   /// Calls add(contact, whether the polygon is its p, start, end) for the segments on a polygon.
   template <class Add>
-  void for_each_segment(const Part::Polygon& polygon, const Part& part, Add&& add) {
+  void for_each_segment(const CutPart::Polygon& polygon, const CutPart& part, Add&& add) {
     for (uint32_t i = polygon.first_contact; i < polygon.end_contact; ++i) {
       const Contact& c = contacts_[part.contacts[i]];
       const auto& [lower, upper] = ends_.of(part.contacts[i]);
@@ -145,7 +114,7 @@ class Worker {
       add(c, is_p, own_point(is_p ? lower : upper), own_point(is_p ? upper : lower));
     }
   }
-  void list_segments(const Part::Polygon& polygon, const Part& part) {
+  void list_segments(const CutPart::Polygon& polygon, const CutPart& part) {
     segments_.clear();
     for_each_segment(polygon, part, [&](const Contact& c, bool is_p, uint32_t from, uint32_t to) {
       const auto edge = [&](const Contact::End& e) { return e.on_p == is_p ? e.edge : kNone; };
@@ -153,7 +122,7 @@ class Worker {
                            edge(is_p ? c.upper : c.lower)});
     });
   }
-  void list_sheets(const Part::Polygon& polygon, const Part& part) {
+  void list_sheets(const CutPart::Polygon& polygon, const CutPart& part) {
     sheets_.clear();
     for_each_segment(polygon, part, [&](const Contact& c, bool is_p, uint32_t from, uint32_t to) {
       sheets_.push_back({index_.unique(from), index_.unique(to), is_p ? c.q : c.p,
@@ -177,13 +146,13 @@ class Worker {
     return codes_[own];
   }
   /// What stands for a point in the loops of a part.
-  uint32_t code(uint32_t own, bool is_loose, Part& part) {
+  uint32_t code(uint32_t own, bool is_loose, CutPart& part) {
     uint32_t& code = code_of(own);
     if (code != kNone) return code;
     const CellGeometry::StoredPoint& s = geometry_.point(own);
-    if (s.vertex != kNone) return code = kVertex | s.vertex;
+    if (s.vertex != kNone) return code = CutPart::kVertex | s.vertex;
     part.points.push_back({s.rounded, s.planes, is_loose});
-    return code = kNew | static_cast<uint32_t>(part.points.size() - 1);
+    return code = CutPart::kNew | static_cast<uint32_t>(part.points.size() - 1);
   }
 
   const Job& job_;
@@ -201,157 +170,6 @@ class Worker {
   RawVector<uint32_t> local_;
   uint32_t stamp_ = 0;
   std::vector<uint32_t> codes_;  ///< per own point, or kNone
-};
-
-/// Puts together what came of the parts, with points of the shared geometry.
-class PartJoiner {
- public:
-  PartJoiner(const Job& job, const ContactTable& contacts, CellGeometry& geometry,
-             PointIndex& index)
-      : job_(job), contacts_(contacts), geometry_(geometry), index_(index) {}
-
-  CutFaces join(const std::vector<Part>& parts) {
-    std::vector<Place> places;
-    Place end;
-    for (const Part& part : parts) {
-      places.push_back(end);
-      end.loop += part.loops.loops.size();
-      end.corner += part.loops.corner_point.size();
-      end.fact += part.loops.facts.size();
-      end.face += part.faces.size();
-    }
-    make_points(parts);
-    CutFaces all;
-    all.loops.loops.resize(end.loop);
-    all.loops.corner_point.resize(end.corner);
-    all.loops.corner_plane.resize(end.corner);
-    all.loops.facts.resize(end.fact);
-    all.faces.resize(end.face);
-    for_each_part(parts.size(), kAtOnce, [&](size_t, size_t first, size_t last) {
-      for (size_t p = first; p < last; ++p) copy(parts[p], points_[p], places[p], all);
-    });
-    for (const Part& part : parts) {
-      all.left.insert(all.left.end(), part.left.begin(), part.left.end());
-      all.by_value.insert(all.by_value.end(), part.by_value.begin(), part.by_value.end());
-    }
-    return all;
-  }
-
- private:
-  static constexpr size_t kAtOnce = 8;  ///< parts
-  /// What the loops need of a vertex.
-  static constexpr uint8_t kPoint = 1, kUnique = 2;
-
-  /// Where what comes of a part stands.
-  struct Place {
-    size_t loop = 0, corner = 0, fact = 0, face = 0;
-  };
-
-  [[nodiscard]] bool is_by_value(uint32_t vertex, bool is_loose) const {
-    return is_loose && contacts_.touched()[vertex];
-  }
-
-  void make_points(const std::vector<Part>& parts) {
-    std::vector<uint8_t> needs(job_.vertex_count(), 0);
-    for_each_part(parts.size(), kAtOnce, [&](size_t, size_t first, size_t last) {
-      for (size_t p = first; p < last; ++p) note_needs(parts[p].loops, needs);
-    });
-    const std::vector<uint32_t> vertices = numbers_where(
-        needs.size(), [&](uint32_t v) { return needs[v] != 0 && !geometry_.has_vertex_point(v); });
-    size_t count = vertices.size();
-    std::vector<size_t> starts;  // of the points of each part
-    for (const Part& part : parts) {
-      starts.push_back(count);
-      count += part.points.size();
-    }
-    const uint32_t first = geometry_.add_points(count);
-    for_each_range(vertices.size(), [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) {
-        geometry_.set_vertex_point(first + static_cast<uint32_t>(i), vertices[i]);
-      }
-    });
-    points_.resize(parts.size());
-    for_each_part(parts.size(), kAtOnce, [&](size_t, size_t begin, size_t end) {
-      for (size_t p = begin; p < end; ++p) {
-        auto number = first + static_cast<uint32_t>(starts[p]);
-        for (const Part::Point& point : parts[p].points) {
-          geometry_.set_point(number, point.planes, point.rounded);
-          points_[p].push_back(number++);
-        }
-      }
-    });
-    make_unique(parts, needs);
-  }
-
-  /// Equal points of loose loops get one number.
-  void make_unique(const std::vector<Part>& parts, const std::vector<uint8_t>& needs) {
-    for (const uint32_t v :
-         numbers_where(needs.size(), [&](uint32_t v) { return (needs[v] & kUnique) != 0; })) {
-      index_.unique(geometry_.made_vertex_point(v));
-    }
-    for (size_t p = 0; p < parts.size(); ++p) {
-      for (size_t i = 0; i < points_[p].size(); ++i) {
-        if (parts[p].points[i].is_loose) points_[p][i] = index_.unique(points_[p][i]);
-      }
-    }
-  }
-
-  void note_needs(const CutLoops& loops, std::vector<uint8_t>& needs) const {
-    for (const CutLoops::Loop& loop : loops.loops) {
-      for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
-        const uint32_t code = loops.corner_point[c];
-        if (code & kNew || !(code & kVertex)) continue;
-        const uint32_t vertex = code & ~kVertex;
-        const uint8_t need = is_by_value(vertex, loop.is_loose) ? kPoint | kUnique : kPoint;
-        const std::atomic_ref<uint8_t> shared(needs[vertex]);
-        if ((shared.load(std::memory_order_relaxed) & need) != need) {
-          shared.fetch_or(need, std::memory_order_relaxed);
-        }
-      }
-    }
-  }
-
-  void copy(const Part& part, const std::vector<uint32_t>& points, const Place& place,
-            CutFaces& all) const {
-    const auto at = [](auto& list, size_t first) {
-      return list.begin() + static_cast<std::ptrdiff_t>(first);
-    };
-    const auto moved = [](uint32_t number, size_t by) {
-      return number + static_cast<uint32_t>(by);
-    };
-    for (size_t l = 0; l < part.loops.loops.size(); ++l) {
-      CutLoops::Loop loop = part.loops.loops[l];
-      for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
-        all.loops.corner_point[place.corner + c] =
-            number(part.loops.corner_point[c], loop.is_loose, points);
-      }
-      loop.first_corner = moved(loop.first_corner, place.corner);
-      loop.first_fact = moved(loop.first_fact, place.fact);
-      all.loops.loops[place.loop + l] = loop;
-    }
-    std::copy(part.loops.corner_plane.begin(), part.loops.corner_plane.end(),
-              at(all.loops.corner_plane, place.corner));
-    std::copy(part.loops.facts.begin(), part.loops.facts.end(), at(all.loops.facts, place.fact));
-    for (size_t f = 0; f < part.faces.size(); ++f) {
-      const CutFaces::Face& face = part.faces[f];
-      all.faces[place.face + f] = {face.polygon, moved(face.first_loop, place.loop),
-                                   moved(face.end_loop, place.loop)};
-    }
-  }
-
-  [[nodiscard]] uint32_t number(uint32_t code, bool is_loose,
-                                const std::vector<uint32_t>& points) const {
-    if (code & kNew) return points[code & ~kNew];
-    if (!(code & kVertex)) return code;
-    const uint32_t vertex = code & ~kVertex, point = geometry_.made_vertex_point(vertex);
-    return is_by_value(vertex, is_loose) ? index_.known(point) : point;
-  }
-
-  const Job& job_;
-  const ContactTable& contacts_;
-  CellGeometry& geometry_;
-  PointIndex& index_;
-  std::vector<std::vector<uint32_t>> points_;  ///< per part: of its new points, in the geometry
 };
 
 class FaceCutter {
@@ -380,20 +198,21 @@ class FaceCutter {
           for (const uint32_t contact : parts_[part].contacts) ends_.ask(contact);
         });
     ends_.make();
-    for (Part& part : parts_) {
-      std::erase_if(part.polygons, [&](const Part::Polygon& p) { return stays_whole(p, part); });
+    for (CutPart& part : parts_) {
+      std::erase_if(part.polygons, [&](const CutPart::Polygon& p) { return stays_whole(p, part); });
     }
-    cut_all(&Part::polygons);
-    if (std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return !p.again.empty(); })) {
-      cut_all(&Part::again);
+    cut_all(&CutPart::polygons);
+    if (std::any_of(parts_.begin(), parts_.end(),
+                    [](const CutPart& p) { return !p.again.empty(); })) {
+      cut_all(&CutPart::again);
     }
-    for (const Part& part : parts_) add_signs(stats, part.counters);
-    return PartJoiner(job_, contacts_, geometry_, index_).join(parts_);
+    for (const CutPart& part : parts_) add_signs(stats, part.counters);
+    return join_parts(job_, contacts_, parts_, geometry_, index_);
   }
 
  private:
   /// Whether nothing cuts a polygon, and one of its corners tells what becomes of it.
-  [[nodiscard]] bool stays_whole(const Part::Polygon& polygon, const Part& part) const {
+  [[nodiscard]] bool stays_whole(const CutPart::Polygon& polygon, const CutPart& part) const {
     for (uint32_t i = polygon.first_contact; i < polygon.end_contact; ++i) {
       const auto& [lower, upper] = ends_.of(part.contacts[i]);
       if (lower != upper) return false;
@@ -403,14 +222,14 @@ class FaceCutter {
                        [&](uint32_t v) { return !contacts_.touched()[v]; });
   }
 
-  using List = std::vector<Part::Polygon> Part::*;
+  using List = std::vector<CutPart::Polygon> CutPart::*;
 
   /// All planes of those polygons in the lists of the parts that are cut by value, and of what is
   /// coplanar with them.
   void make_planes(List list) {
     std::vector<uint32_t> polygons;
-    for (const Part& part : parts_) {
-      for (const Part::Polygon& p : part.*list) {
+    for (const CutPart& part : parts_) {
+      for (const CutPart::Polygon& p : part.*list) {
         if (p.is_plain) continue;
         polygons.push_back(p.number);
         polygons.insert(polygons.end(), part.coplanar.begin() + p.first_coplanar,
@@ -426,7 +245,7 @@ class FaceCutter {
         parts_.size(), options_, [&] { return Worker(job_, contacts_, ends_, geometry_); },
         [&](Worker& worker, size_t run) {
           const SignCounters before = worker.counters();
-          for (const Part::Polygon& polygon : parts_[run].*list) {
+          for (const CutPart::Polygon& polygon : parts_[run].*list) {
             if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) break;
             worker.cut(polygon, parts_[run]);
           }
@@ -442,7 +261,7 @@ class FaceCutter {
   CellGeometry& geometry_;
   PointIndex& index_;
   KernelOptions options_;
-  std::vector<Part> parts_;
+  std::vector<CutPart> parts_;
 };
 
 }  // namespace
