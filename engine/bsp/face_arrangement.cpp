@@ -171,7 +171,7 @@ void FaceArrangement::find_same_lines() {
 /// Whether two entries of line_ends_ are of lines of one operand with the same ends.
 bool FaceArrangement::have_same_ends(size_t i, size_t j) const {
   const auto &a = line_ends_[i], &b = line_ends_[j];
-  return a[2] != kNone && std::equal(a.begin(), a.begin() + 3, b.begin());
+  return a[2] != kNone && a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
 /// None of them is coplanar.

@@ -171,7 +171,7 @@ class SheetFinder {
 
   template <class Visit>
   void for_each_cube(const Reach& reach, Visit visit) const {
-    if (reach.more == std::array<uint8_t, 3>{}) return visit(reach.first);
+    if ((reach.more[0] | reach.more[1] | reach.more[2]) == 0) return visit(reach.first);
     for (size_t z = 0; z <= reach.more[2]; ++z) {
       for (size_t y = 0; y <= reach.more[1]; ++y) {
         const size_t row = reach.first + y * stride_[1] + z * stride_[2];
