@@ -29,8 +29,9 @@ TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t>
     middle_[k] = (box.lo[k] + box.hi[k]) / 2;
     reach_ = std::max(reach_, static_cast<double>(box.hi[k] - box.lo[k]) / 2 + 1);
   }
-  const std::vector<uint8_t> is_spread =
-      is_balanced ? find_spread_vertices(leaf, order) : std::vector<uint8_t>(leaf.vertices.size(), 0);
+  const std::vector<uint8_t> is_spread = is_balanced
+                                             ? find_spread_vertices(leaf, order)
+                                             : std::vector<uint8_t>(leaf.vertices.size(), 0);
   if (!corners_.empty()) {
     for (auto& lanes : corners_.back().corners) lanes.fill(kNone);
   }

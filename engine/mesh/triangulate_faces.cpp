@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/bsp/point_view.h"
 #include "engine/mesh/improve_triangles.h"
 #include "engine/mesh/insert_points.h"
 #include "engine/mesh/plane_oracle.h"
-#include "engine/bsp/point_view.h"
 #include "engine/mesh/triangulate.h"
 
 namespace csgrun {
