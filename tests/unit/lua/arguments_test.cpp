@@ -273,6 +273,11 @@ TEST(Hints, NamesOfOtherPrograms) {
         message_of("return " + name + "{1, 2, 3}"),
         "model.lua:1: undefined variable '" + name + "' (in Lua it is cube{{20, 10, 5}, r = 2})");
   }
+  for (const std::string name : {"roundedRectangle", "rounded_rect", "rounded_square"}) {
+    EXPECT_EQ(
+        message_of("return " + name + "({20, 10}, 2)"),
+        "model.lua:1: undefined variable '" + name + "' (in Lua it is rect{{20, 10}, r = 2})");
+  }
   EXPECT_EQ(message_of("return cuboid{1, 2, 3}"),
             "model.lua:1: undefined variable 'cuboid' (in Lua it is cube{20, 10, 5})");
   EXPECT_EQ(message_of("return search(1, {1})"),
