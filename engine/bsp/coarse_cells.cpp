@@ -58,7 +58,10 @@ class Grid {
       count_[k] = before;
       break;
     }
-    cells_.assign(count_[0] * count_[1] * count_[2], kNobody);
+    cells_.resize(count_[0] * count_[1] * count_[2]);
+    for_each_range(cells_.size(), [&](size_t begin, size_t end) {
+      std::fill(cells_.data() + begin, cells_.data() + end, kNobody);
+    });
   }
 
   /// The cells that a box meets: in rows of `count[0]`, from `first` on.
@@ -130,7 +133,7 @@ class Grid {
   const PolygonBox bounds_;
   std::array<unsigned, 3> shift_{};
   std::array<size_t, 3> count_{};
-  std::vector<uint32_t> cells_;
+  RawVector<uint32_t> cells_;
 };
 
 uint64_t cells_for(uint64_t polygons, uint32_t limit) { return (polygons + limit - 1) / limit; }
