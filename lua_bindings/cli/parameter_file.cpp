@@ -112,7 +112,7 @@ Result<std::vector<Definition>> read_parameter_file(const std::string& path,
   try {
     json = Json::parse(text.bytes);
   } catch (const Json::parse_error& error) {
-    return fault(path, "line " + json_fault(text.bytes, error));
+    return Error{ErrorCode::kMalformedFile, "-p " + path + ":" + json_fault(text.bytes, error), {}};
   } catch (const Json::out_of_range&) {
     return fault(path, "a number is beyond the range of doubles");
   }

@@ -184,7 +184,7 @@ class DxfReader {
     }
     if (depth >= kDeepestInsert) {
       return Error{ErrorCode::kLimit,
-                   name_ + ": line " + std::to_string(r.line) + ": blocks are nested deeper than " +
+                   name_ + ":" + std::to_string(r.line) + ": blocks are nested deeper than " +
                        std::to_string(kDeepestInsert) + " (does one contain itself?)",
                    {}};
     }

@@ -41,7 +41,8 @@ struct PassedOver {
 /// Notes faces of fewer than three corners, if there were any: they bound nothing.
 void note_small_faces(const PassedOver& faces, std::vector<std::string>* notes);
 
-/// "part.obj: line 12: face index 9 is out of range, there are 8 points".
+/// "part.obj:12: face index 9 is out of range, there are 8 points" for the place "line 12";
+/// "part.stl: facet 3: ..." for any other.
 Error malformed(const std::string& name, const std::string& place, const std::string& what);
 
 /// An error if `count` records of at least `bytes_each` cannot be in the `present` bytes that are

@@ -28,10 +28,14 @@ std::string mesh_format_of(const std::string& path) {
 }
 
 Error malformed(const std::string& name, const std::string& place, const std::string& what) {
+  constexpr std::string_view kLine = "line ";
   std::string message = name;
-  message += ": ";
-  if (!place.empty()) message += place + ": ";
-  message += what;
+  if (place.starts_with(kLine)) {
+    message += ":" + place.substr(kLine.size());
+  } else if (!place.empty()) {
+    message += ": " + place;
+  }
+  message += ": " + what;
   return Error{ErrorCode::kMalformedFile, std::move(message), {}};
 }
 

@@ -152,7 +152,7 @@ class Bounds(Case):
         self.write("points", "")
         self.write("cube", "1 x\n2 3\n")
         for script, message in (('read_csv("points", {header = true})', "read_csv: points: there is no line with names"),
-                                ('return surface("cube")', "surface: cube: ")):
+                                ('return surface("cube")', "surface: cube:1: ")):
             outcome = self.run_script(script, "-o", "a.stl")
             self.expect(outcome, 1, "model.lua:1: " + message)
 

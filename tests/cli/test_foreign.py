@@ -65,7 +65,8 @@ class Foreign(Case):
 
     def refuse(self, name, data, message):
         self.write(name, data)
-        self.expect(self.run_csgrun(name, "--stats"), 1, name + ": " + message)
+        start = message if message.startswith(name) else name + ": " + message
+        self.expect(self.run_csgrun(name, "--stats"), 1, start)
 
     UNIT = [[0, 0, 0], [1, 1, 1]]
     SIXTH = round(1 / 6, 9)
@@ -303,7 +304,7 @@ class Foreign(Case):
         self.good("a.obj", "mtllib C:\\Users\\me\\a.mtl\n" + self.OBJ,
                   'line 1: no colours: mtllib "C:\\Users\\me\\a.mtl" leads out of the file\'s folder')
         self.good("a.obj", "mtllib a..b.mtl\n" + self.OBJ, "no colours: cannot read 'a..b.mtl': No such file or directory")
-        self.refuse("a.obj", "L\1\2\0.text", 'line 1: not an OBJ statement: "L???.text"')
+        self.refuse("a.obj", "L\1\2\0.text", 'a.obj:1: not an OBJ statement: "L???.text"')
 
     def test_objects_of_obj(self):
         def obj(name, place, side, first, turned=False):
@@ -333,7 +334,7 @@ class Foreign(Case):
                   "2 faces of fewer than three corners left out (first: face 4)")
         self.good("a.off", self.OFF.replace("4 4 0", "4 44 0") + "0\n" * 40,
                   "40 faces of fewer than three corners left out (first: face 4)")
-        self.refuse("a.off", "OFFSET 4 4 0", 'line 1: not an OFF file: it starts with "OFFSET"')
+        self.refuse("a.off", "OFFSET 4 4 0", 'a.off:1: not an OFF file: it starts with "OFFSET"')
 
     def test_stl(self):
         binary = b"solid by nobody".ljust(80) + struct.pack("<I", 4) + b"".join(
@@ -342,7 +343,7 @@ class Foreign(Case):
         self.good("a.stl", b"\xef\xbb\xbf".ljust(80) + binary[80:])
         self.good("a.stl", b"\0" * 80 + binary[80:] + b"more", "4 bytes after the last triangle passed over")
         self.refuse("a.stl", b"\0" * 80 + binary[80:-1], "byte 80: not an STL file, or truncated")
-        self.refuse("a.stl", self.STL.replace("endsolid x\n", ""), "line 30: the file ends where")
+        self.refuse("a.stl", self.STL.replace("endsolid x\n", ""), "a.stl:30: the file ends where")
 
     def test_ply(self):
         strips = self.PLY[:self.PLY.index("3 0 2 1")].replace("face 4", "tristrips 1").replace("uchar int", "int int")

@@ -401,7 +401,7 @@ class ReadBack(Case):
         for address in ("../x.mtl", "/etc/passwd", "http://a.b/c.mtl", "a/../../x", "..\\x"):
             self.write("a.obj", f"mtllib {address}\nusemtl x\n" + off)
             outcome = self.run_csgrun("a.obj", "--stats=json")
-            self.expect(outcome, 1, f'a.obj: line 1: mtllib "{address}" leads out of the file\'s folder: put that file beside the '
+            self.expect(outcome, 1, f'a.obj:1: mtllib "{address}" leads out of the file\'s folder: put that file beside the '
                                     "mesh and name it without a path, or take the line out")
             self.assertEqual(outcome.out, "")
         for address in ("C:\\a\\x.mtl", "d:/a..b/x.mtl"):  # by habit of exporters

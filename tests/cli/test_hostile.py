@@ -255,7 +255,7 @@ class Hostile(Case):
                 outcome = self.run_csgrun(command, "--stats")
                 self.assertNotIn(outcome.code, (0, 124))
                 self.assertNotIn(SECRET, outcome.err)
-                self.assertRegex(outcome.err, "a.obj: line 1: mtllib .* leads out of the file's folder: put that file "
+                self.assertRegex(outcome.err, "a.obj:1: mtllib .* leads out of the file's folder: put that file "
                                               "beside the mesh and name it without a path, or take the line out")
         for name in ("C:\\models\\part.mtl", "d:/models/part.mtl"):  # exporters write these by habit
             self.write("a.obj", f"mtllib {name}\nusemtl a\n{mesh}")
@@ -263,7 +263,7 @@ class Hostile(Case):
             self.expect(outcome, 0)
             self.assertRegex(outcome.err, "a.obj: line 1: no colours: mtllib .* leads out of the file's folder")
         self.refuse("a.obj", f"mtllib C:\\models\\..\\part.mtl\nusemtl a\n{mesh}", "leads out of the file's folder: put")
-        self.refuse("a.obj", mesh.replace("f 1 3 2", "f 1 3 99999999999999999999"), "a.obj: line 5")
+        self.refuse("a.obj", mesh.replace("f 1 3 2", "f 1 3 99999999999999999999"), "a.obj:5")
         self.refuse("a.obj", mesh + "f" + " 1" * 2_000_000 + "\n", "a.obj: 1 face without area was dropped", codes=(0,))
         os.symlink("../secret.mtl", self.path("x.mtl"))
         self.write("model.lua", "return import('a.obj')")
@@ -274,40 +274,40 @@ class Hostile(Case):
 
     def test_counts(self):
         for vertices, faces in ((2**62, 1), (3, 2**62), (2**64 - 1, 2**64 - 1), (10**30, 1)):
-            self.refuse("a.ply", ply(vertices, faces) + b"\0" * 200, "a.ply: ")
-            self.refuse("a.ply", ply(vertices, faces, "ascii") + b"0 0 0\n" * 20, "a.ply: ")
-            self.refuse("a.off", f"OFF\n{vertices} {faces} 0\n" + "0 0 0\n" * 20, "a.off: ")
-        self.refuse("a.ply", ply(3, 1) + b"\0" * 36 + b"\xff" + b"\0" * 12, "a.ply: ")
-        self.refuse("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n", "a.off: ")
-        self.refuse("a.stl", b"\0" * 80 + struct.pack("<I", 0xffffffff) + b"\0" * 100, "a.stl: ")
-        self.refuse("a.stl", b"solid" + b" " * 75 + struct.pack("<I", 0x7fffffff) + b"\0" * 50, "a.stl: ")
-        self.refuse("a.stl", b"\0" * 80 + struct.pack("<I", 1) + struct.pack("<12fH", *[float("nan")] * 12, 0), "a.stl: ")
+            self.refuse("a.ply", ply(vertices, faces) + b"\0" * 200, "a.ply:")
+            self.refuse("a.ply", ply(vertices, faces, "ascii") + b"0 0 0\n" * 20, "a.ply:")
+            self.refuse("a.off", f"OFF\n{vertices} {faces} 0\n" + "0 0 0\n" * 20, "a.off:")
+        self.refuse("a.ply", ply(3, 1) + b"\0" * 36 + b"\xff" + b"\0" * 12, "a.ply:")
+        self.refuse("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n", "a.off:")
+        self.refuse("a.stl", b"\0" * 80 + struct.pack("<I", 0xffffffff) + b"\0" * 100, "a.stl:")
+        self.refuse("a.stl", b"solid" + b" " * 75 + struct.pack("<I", 0x7fffffff) + b"\0" * 50, "a.stl:")
+        self.refuse("a.stl", b"\0" * 80 + struct.pack("<I", 1) + struct.pack("<12fH", *[float("nan")] * 12, 0), "a.stl:")
 
     def test_drawings(self):
         script = 'return import("a.svg"):linear_extrude(1)'
         for entity in ("../secret.bin", "file:///etc/passwd", "http://a.b/c"):
             self.refuse("a.svg", f'<!DOCTYPE svg [<!ENTITY x SYSTEM "{entity}">]><svg><text>&x;</text><path d="&x;"/></svg>',
-                        "a.svg: ", script)
+                        "a.svg:", script)
         laughs = '<!DOCTYPE svg [<!ENTITY a "' + "x" * 1000 + '">' + "".join(
             f'<!ENTITY {chr(98 + i)} "' + f"&{chr(97 + i)};" * 100 + '">' for i in range(8)) + ']><svg><path d="&i;"/></svg>'
-        self.refuse("a.svg", laughs, "a.svg: ", script)
+        self.refuse("a.svg", laughs, "a.svg:", script)
         uses = "".join(f"<g id='n{i}'>" + (f"<use href='#n{i - 1}'/>" * 10 if i else "<rect width='1' height='1'/>") + "</g>"
                        for i in range(12))
         self.refuse("a.svg", f"<svg>{uses}</svg>", "unfolds to more than", script)
-        self.refuse("a.svg", "<svg><g id='a'><use href='#a'/></g></svg>", "a.svg: ", script)
-        self.refuse("a.svg", "<g>" * 300_000, "a.svg: ", script)
-        self.refuse("a.svg", "<svg>" + "<g>" * 100_000 + "</g>" * 100_000 + "</svg>", "a.svg: ", script)
+        self.refuse("a.svg", "<svg><g id='a'><use href='#a'/></g></svg>", "a.svg:", script)
+        self.refuse("a.svg", "<g>" * 300_000, "a.svg:", script)
+        self.refuse("a.svg", "<svg>" + "<g>" * 100_000 + "</g>" * 100_000 + "</svg>", "a.svg:", script)
         self.refuse("a.svg", "<svg><path d='" + "M0 0" + "h1e300" * 3 + "v1z'/></svg>", "a.svg: |import: ", script)
         for href in ("../secret.bin#a", "http://a.b/c#a"):
-            self.refuse("a.svg", f"<svg><use href='{href}'/><image href='{href}'/></svg>", "a.svg: ", script)
+            self.refuse("a.svg", f"<svg><use href='{href}'/><image href='{href}'/></svg>", "a.svg:", script)
         dxf = "0\nSECTION\n2\nENTITIES\n{}0\nENDSEC\n0\nEOF\n"
         block = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\na\n0\nINSERT\n2\na\n10\n0\n20\n0\n0\nENDBLK\n0\nENDSEC\n"
-        self.refuse("a.dxf", block + dxf.format("0\nINSERT\n2\na\n10\n0\n20\n0\n"), "a.dxf: ", script.replace("svg", "dxf"))
+        self.refuse("a.dxf", block + dxf.format("0\nINSERT\n2\na\n10\n0\n20\n0\n"), "a.dxf:", script.replace("svg", "dxf"))
         blocks = "0\nSECTION\n2\nBLOCKS\n" + "".join(
             f"0\nBLOCK\n2\nb{i}\n" + (f"0\nINSERT\n2\nb{i - 1}\n" * 10 if i else "0\nCIRCLE\n10\n0\n20\n0\n40\n1\n") + "0\nENDBLK\n"
             for i in range(12)) + "0\nENDSEC\n"
-        self.refuse("a.dxf", blocks + dxf.format("0\nINSERT\n2\nb11\n"), "a.dxf: ", script.replace("svg", "dxf"))
-        self.refuse("a.dxf", blocks + dxf.format("0\nINSERT\n2\nb0\n70\n30000\n71\n30000\n"), "a.dxf: ", script.replace("svg", "dxf"))
+        self.refuse("a.dxf", blocks + dxf.format("0\nINSERT\n2\nb11\n"), "a.dxf:", script.replace("svg", "dxf"))
+        self.refuse("a.dxf", blocks + dxf.format("0\nINSERT\n2\nb0\n70\n30000\n71\n30000\n"), "a.dxf:", script.replace("svg", "dxf"))
         self.refuse("a.dxf", dxf.format("0\nLWPOLYLINE\n90\n2000000000\n70\n1\n10\n0\n20\n0\n"), "empty",
                     script.replace("svg", "dxf"), codes=(3,))
 

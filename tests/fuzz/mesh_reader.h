@@ -29,7 +29,7 @@ inline int read_mesh(const std::string& name, const uint8_t* data, size_t size) 
   auto mesh = parse_mesh(name, text_of(data, size));
   if (!mesh) {
     expect_users_fault(mesh.error());
-    expect(mesh.error().message.rfind(name + ": ", 0) == 0, "an error that names no file");
+    expect(mesh.error().message.rfind(name + ":", 0) == 0, "an error that names no file");
     return 0;
   }
   for (const glm::dvec3& p : mesh->points) {

@@ -331,10 +331,10 @@ TEST(Dxf, Parts) {
 
 TEST(Dxf, HostileAndDamagedFiles) {
   EXPECT_EQ(error("x.dxf", "hello\nworld\n"),
-            "x.dxf: line 1: expected a group code, got \"hello\"");
+            "x.dxf:1: expected a group code, got \"hello\"");
   EXPECT_EQ(error("x.dxf", "AutoCAD Binary DXF\r\n\x1a"),
             "x.dxf: this is a binary DXF, and only the text form is read");
-  EXPECT_EQ(error("x.dxf", "0\nSECTION\n2"), "x.dxf: line 3: the file ends within a group");
+  EXPECT_EQ(error("x.dxf", "0\nSECTION\n2"), "x.dxf:3: the file ends within a group");
   const std::string loop =
       pairs({{0, "BLOCK"}, {2, "B"}}) + pairs({{0, "INSERT"}, {2, "B"}}) + pairs({{0, "ENDBLK"}});
   EXPECT_NE(error("x.dxf", entities(pairs({{0, "INSERT"}, {2, "B"}}), loop)).find("nested deeper"),

@@ -19,7 +19,7 @@ TEST(HeightMap, OfText) {
   EXPECT_EQ(map->rows, 2u);
   EXPECT_EQ(map->heights, (std::vector<double>{1, 2.5, 3, -4, 0.5, 0}));
   EXPECT_EQ(message(parse_height_map("h.dat", "1 2\n3 x\n", false)),
-            "h.dat: line 2: expected a number, got \"x\"");
+            "h.dat:2: expected a number, got \"x\"");
   // Short rows after a long one: few numbers, many points.
   std::string comb(8000, ' ');
   for (size_t i = 0; i < comb.size(); i += 2) comb[i] = '1';
