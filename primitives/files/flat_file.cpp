@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <glm/common.hpp>
 
 #include <csgrun/primitives/file_ending.h>
@@ -25,6 +27,8 @@ Result<FlatFile> parse_flat(const std::string& name, std::string_view bytes,
     return invalid_argument("import: fn must be at most " + number_text(kMostFragments) + ", got " +
                             number_text(options.facets.fn));
   }
+  if (format == "svg" && (!(options.dpi > 0) || !std::isfinite(options.dpi)))
+    return not_positive("import", "dpi", options.dpi);
   if (format == "svg" && options.as_openscad) return parse_svg_as_openscad(name, bytes, options);
   Result<FlatFile> file =
       format == "svg" ? parse_svg(name, bytes, options) : parse_dxf(name, bytes, options);

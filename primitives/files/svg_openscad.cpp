@@ -425,9 +425,6 @@ class SvgTreeReader {
 
 Result<FlatFile> parse_svg_as_openscad(const std::string& name, std::string_view bytes,
                                        const FlatFileOptions& options) {
-  if (!(options.dpi > 0) || !std::isfinite(options.dpi)) {
-    return not_positive("import", "dpi", options.dpi);
-  }
   return SvgTreeReader(name, options).read(bytes);
 }
 
