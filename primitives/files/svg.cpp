@@ -21,6 +21,7 @@
 #include "primitives/files/formats.h"
 #include "primitives/files/svg_document.h"
 #include "primitives/files/svg_path.h"
+#include "primitives/files/svg_style_sheet.h"
 
 namespace csgrun {
 namespace {
@@ -28,9 +29,14 @@ namespace {
 constexpr double kMmPerInch = 25.4;
 constexpr double kPxPerInch = 96;
 
-/// Properties that matter for what is area (`fill` begins that of its rule, `stroke` those of its
-/// width and form).
-constexpr const char* kHeeded[] = {"display", "visibility", "fill", "stroke", "clip-path", "mask"};
+/// The properties that say what is area.
+bool is_heeded(std::string_view property) {
+  constexpr std::string_view kHeeded[] = {
+      "display",   "visibility",        "fill",         "fill-rule",
+      "stroke",    "stroke-linecap",    "stroke-width", "stroke-linejoin",
+      "clip-path", "stroke-miterlimit", "mask"};
+  return std::find(std::begin(kHeeded), std::end(kHeeded), property) != std::end(kHeeded);
+}
 
 /// What an element hands down to those in it.
 struct Style {
@@ -55,6 +61,7 @@ class SvgReader {
     SvgMap map;
     Style style;
     if (auto status = page(root, map, style.viewport); !status) return status.error();
+    read_style(root, style);
     const bool all = !options_.id && !options_.layer;
     for (const pugi::xml_node& child : root.children()) {
       if (child.type() != pugi::node_element) continue;
@@ -113,7 +120,7 @@ class SvgReader {
       if (node.type() == pugi::node_element) {
         if (++count > kMostSvgElements) return too_many_in_svg(name_, "elements", kMostSvgElements);
         if (const char* id = node.attribute("id").value(); *id != '\0') by_id_.emplace(id, node);
-        if (svg_name(node) == "style" && has_rules_for_areas(node)) leave_out("rules of a <style>");
+        if (svg_name(node) == "style") sheet_.add(text_of(node), is_heeded);
       }
       if (node.first_child()) {
         node = node.first_child();
@@ -122,6 +129,7 @@ class SvgReader {
       while (node && node != root && !node.next_sibling()) node = node.parent();
       node = !node || node == root ? pugi::xml_node() : node.next_sibling();
     }
+    if (sheet_.unknown_rules() > 0) left_out_["rules of a <style>"] += sheet_.unknown_rules();
     return std::monostate();
   }
 
@@ -264,6 +272,8 @@ class SvgReader {
                  bool shown, int depth) {
     if (depth > kDeepestSvg) return too_deep_svg(name_);
     if (++elements_ > kMostSvgElements) return too_many_in_svg(name_, "elements", kMostSvgElements);
+    if (sheet_.is_exhausted())
+      return Error{ErrorCode::kLimit, name_ + ": too many rules of a <style> for its elements", {}};
     const std::string kind = svg_name(node);
     if (kind == "defs" || kind == "symbol" || kind == "clipPath" || kind == "mask" ||
         kind == "marker" || kind == "pattern" || kind == "style" || kind == "metadata" ||
@@ -301,13 +311,10 @@ class SvgReader {
     return draw(node, kind, map, style);
   }
 
-  /// Whether a style sheet says what this reader would heed as an attribute.
-  static bool has_rules_for_areas(const pugi::xml_node& node) {
+  static std::string text_of(const pugi::xml_node& node) {
     std::string text;
     for (const pugi::xml_node& part : node.children()) text += part.value();
-    return std::any_of(std::begin(kHeeded), std::end(kHeeded), [&](const char* property) {
-      return text.find(property) != std::string::npos;
-    });
+    return text;
   }
 
   Status use(const pugi::xml_node& node, const SvgMap& outer, const Style& style, bool shown,
@@ -337,10 +344,12 @@ class SvgReader {
     return element(target->second, map, style, shown, depth + 1);
   }
 
-  /// A property of the attribute `style`, or an attribute of that name.
-  static std::string property(const pugi::xml_node& node, const std::string& name) {
+  /// A property of the attribute `style`, of the style sheets, or an attribute of that name.
+  std::string property(const pugi::xml_node& node, const std::string& name) const {
     const std::string styled = svg_style(node, name);
     if (!styled.empty()) return styled;
+    const std::string by_rule = sheet_.property(node, name);
+    if (!by_rule.empty()) return by_rule;
     return trimmed(node.attribute(name.c_str()).value());
   }
 
@@ -507,6 +516,7 @@ class SvgReader {
   std::vector<Shape2D> shapes_;  ///< that belong to no part yet
   std::vector<std::pair<std::string, std::vector<Shape2D>>> parts_;
   std::map<std::string, size_t> left_out_;
+  SvgStyleSheet sheet_;
   /// The user units of an inch: a px is one of them, and where only a viewBox says how large the
   /// page is, there are `dpi`.
   double units_per_inch_ = options_.dpi;
@@ -518,9 +528,6 @@ class SvgReader {
 
 Result<FlatFile> parse_svg(const std::string& name, std::string_view bytes,
                            const FlatFileOptions& options) {
-  if (!(options.dpi > 0) || !std::isfinite(options.dpi)) {
-    return not_positive("import", "dpi", options.dpi);
-  }
   return SvgReader(name, options).read(bytes);
 }
 

@@ -249,11 +249,71 @@ TEST(Svg, WhatIsNotHeededIsSaid) {
   EXPECT_EQ(notes("<g clip-path='url(#c)'><rect width='1' height='1' mask='url(#m)'/></g>"
                   "<g style='clip-path: url(#c)'/><g clip-path='none'/>"),
             (Notes{"x.svg: clip-path left out (2)", "x.svg: mask left out (1)"}));
-  EXPECT_EQ(notes("<defs><style>.a { display : none }</style></defs>"),
+  EXPECT_EQ(notes("<defs><style>g .a { display : none }</style></defs>"),
             Notes{"x.svg: rules of a <style> left out (1)"});
-  EXPECT_EQ(notes("<style><![CDATA[.a{fill-rule:evenodd}]]></style>"),
-            Notes{"x.svg: rules of a <style> left out (1)"});
-  EXPECT_EQ(notes("<style>.a { font-size: 3px }</style><style/>"), Notes{});
+  EXPECT_EQ(notes("<style><![CDATA[a:hover{fill-rule:evenodd}]]></style>"
+                  "<style>@media print { .a { fill: none } }</style>"),
+            Notes{"x.svg: rules of a <style> left out (2)"});
+  EXPECT_EQ(notes("<style>.a { font-size: 3px } @media print { .a { color: red } }</style><style/>"
+                  "<style>@import url(x.css); @font-face { src: url(fill:x) }</style>"),
+            Notes{});
+}
+
+// Rules of CSS, against the areas that they leave of an open path: the triangle that it fills, or
+// the area of its stroke.
+TEST(Svg, StyleSheets) {
+  const auto area = [](const std::string& rules, const std::string& attributes) {
+    return svg("<style>" + rules + "</style><path d='M10 10h8v8' " + attributes + "/>").area();
+  };
+  // Of strokes of the widths 1 and 2; at the corner the mitre makes up for what overlaps.
+  const double kFilled = 32, kStroked = 16, kThick = 32;
+  ASSERT_NEAR(area("", ""), kFilled, 1e-9);
+  ASSERT_NEAR(area("", "fill='none' stroke='red'"), kStroked, 1e-9);
+  EXPECT_NEAR(area(".a { display: none }", "class='a'"), 0, 1e-9);
+  EXPECT_NEAR(area(".a,.b{fill:none;stroke:#000;stroke-width:2}", "class='x b'"), kThick, 1e-9);
+  EXPECT_NEAR(area(".a{display:none}", "class='ab'"), kFilled, 1e-9);
+  EXPECT_NEAR(area("<![CDATA[ /* .c { fill: red } */ .a { display: none } ]]>", "class='a'"), 0,
+              1e-9);
+  EXPECT_NEAR(area("path { display: none !important }", ""), 0, 1e-9);
+  EXPECT_NEAR(area("* { display: none }", ""), 0, 1e-9);
+  EXPECT_NEAR(area("circle { display: none }", ""), kFilled, 1e-9);
+  EXPECT_NEAR(area("#r { display: none }", "id='r'"), 0, 1e-9);
+  EXPECT_NEAR(area("path.a.b { visibility: hidden }", "class='b a'"), 0, 1e-9);
+  EXPECT_NEAR(area("path.a.b { visibility: hidden }", "class='b'"), kFilled, 1e-9);
+  // What is more specific counts, of equal rules the last; a rule more than an attribute, the
+  // attribute `style` more than a rule.
+  const std::string stroked = " stroke='red'";
+  EXPECT_NEAR(area("#r{fill:red} .a{fill:none}", "id='r' class='a'" + stroked), kFilled, 1e-9);
+  EXPECT_NEAR(area(".a{fill:none} path{fill:red} *{fill:red}", "class='a'" + stroked), kStroked,
+              1e-9);
+  EXPECT_NEAR(area(".a{fill:none} .b{fill:red}", "class='b a'" + stroked), kFilled, 1e-9);
+  EXPECT_NEAR(area(".b{fill:red} .a{fill:none}", "class='b a'" + stroked), kStroked, 1e-9);
+  EXPECT_NEAR(area(".a{fill:none}", "class='a' fill='red'" + stroked), kStroked, 1e-9);
+  EXPECT_NEAR(area(".a{fill:none}", "class='a' style='fill:red'" + stroked), kFilled, 1e-9);
+  // Behind what it is for, and handed down.
+  EXPECT_NEAR(svg("<g class='a'><path d='M10 10h8v8'/></g>"
+                  "<style>.a{fill:none;stroke:red}</style>")
+                  .area(),
+              kStroked, 1e-9);
+}
+
+// Icons are drawn with strokes that the root asks for.
+TEST(Svg, TheRootHasAStyle) {
+  const Shape2D icon =
+      read("x.svg",
+           "<svg viewBox='0 0 24 24' width='24mm' height='24mm' fill='none' stroke='currentColor' "
+           "stroke-width='2'><path d='M5 12h14v5'/></svg>",
+           with_fn(32))
+          .shape;
+  EXPECT_NEAR(icon.area(), 15 * 2 + 4 * 2, 1e-9);
+}
+
+TEST(Svg, RulesWithoutEndAreRefused) {
+  std::string rules, rects;
+  for (int i = 0; i < 20000; ++i) rules += ".a" + std::to_string(i) + "{fill:red}";
+  for (int i = 0; i < 20000; ++i) rects += "<rect class='b' width='1' height='1'/>";
+  EXPECT_EQ(error("x.svg", page("<style>" + rules + "</style>" + rects)),
+            "x.svg: too many rules of a <style> for its elements");
 }
 
 TEST(Svg, StrokesOfOpenLines) {
