@@ -130,17 +130,24 @@ Facets CsgArguments::facets() {
 
 std::optional<Affine> CsgArguments::matrix() {
   const CsgValue* value = call_.find("m");
-  const bool good = value != nullptr && value->kind == Kind::kList && value->list.size() == 4 &&
-                    std::all_of(value->list.begin(), value->list.end(),
-                                [](const CsgValue& row) { return is_number_list(row, 4); });
+  const auto is_row = [](const CsgValue& row) {
+    return row.kind == Kind::kList && row.list.size() <= 4 && is_number_list(row, row.list.size());
+  };
+  const bool good = value != nullptr && value->kind == Kind::kList && value->list.size() <= 4 &&
+                    std::all_of(value->list.begin(), value->list.end(), is_row);
   if (!good) {
-    wrong_type("its argument", "a matrix of 4 x 4 numbers");
+    wrong_type("its argument", "a matrix of 4 x 4 numbers, or of fewer");
     return std::nullopt;
   }
-  const double divisor = value->list[3].list[3].number;
+  // What OpenSCAD writes is whole; what others write may lack entries, which are the identity's.
+  double m[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  for (size_t i = 0; i < value->list.size(); ++i) {
+    const std::vector<CsgValue>& row = value->list[i].list;
+    for (size_t j = 0; j < row.size(); ++j) m[i][j] = row[j].number;
+  }
   Affine map;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 4; ++j) map.m[i][j] = value->list[i].list[j].number / divisor;
+    for (int j = 0; j < 4; ++j) map.m[i][j] = m[i][j] / m[3][3];
   }
   return map;
 }

@@ -1,4 +1,4 @@
-#include <array>
+// Trees of .csg files: their nodes, arguments, warnings and errors.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,57 +11,20 @@
 #include <csgrun/primitives/csg_file.h>
 
 #include "tests/support/source_folder.h"
+#include "tests/unit/primitives/csg_trees.h"
 #include "tests/unit/primitives/mesh_measures.h"
 
 namespace csgrun {
 namespace {
 
-CsgModel parse(const std::string& text) {
-  auto model = parse_csg("m.csg", text);
-  EXPECT_TRUE(model) << (model ? "" : model.error().where.text() + model.error().message);
-  return model ? *model : CsgModel{Node::empty(), {}, false, {}};
-}
-
-std::string error(const std::string& text) {
-  const auto model = parse_csg("m.csg", text);
-  return model ? "no error" : model.error().where.text() + ": " + model.error().message;
-}
-
-/// The tree in one line.
-std::string sketch(const NodePtr& node) {
-  auto children = [&] {
-    std::string out;
-    for (const NodePtr& c : node->children()) {
-      if (!out.empty()) out += ' ';
-      out += sketch(c);
-    }
-    return out;
-  };
-  switch (node->kind()) {
-    case NodeKind::kEmpty:
-      return "empty";
-    case NodeKind::kLeaf:
-      return node->mesh()->kind;
-    case NodeKind::kTransform:
-      return "T(" + children() + ")";
-    case NodeKind::kAppearance:
-      return "C(" + children() + ")";
-    case NodeKind::kOuterHull:
-      return "H(" + children() + ")";
-    case NodeKind::kConstruction:
-      return std::string(1, "HMR"[static_cast<int>(node->construction())]) + "(" + children() + ")";
-    case NodeKind::kBoolean:
-      break;
-  }
-  constexpr const char* kOps[] = {"U(", "I(", "D(", "X("};
-  return kOps[static_cast<int>(node->op())] + children() + ")";
-}
-
-const std::string kCube = "cube(size = [1, 2, 3], center = false);\n";
-const std::string kSphere = "sphere($fn = 8, $fa = 12, $fs = 2, r = 1);\n";
-const std::string kSquare = "square(size = [2, 1], center = true);\n";
-const std::string kNothing = "group();\n";
-const std::string kMove = "multmatrix([[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, -0], [0, 0, 0, 1]])";
+using testing::error;
+using testing::kCube;
+using testing::kMove;
+using testing::kNothing;
+using testing::kSphere;
+using testing::kSquare;
+using testing::parse;
+using testing::sketch;
 
 TEST(CsgFile, ShapesHaveColours) {
   const std::string red = "color([1, 0, 0, 0.5]) { square(size = [2, 1], center = false); }";
@@ -245,6 +208,19 @@ glm::dvec3 lengths(const std::string& text) {
   return high - low;
 }
 
+// Entries that a matrix lacks are the identity's, as in OpenSCAD.
+TEST(CsgFile, MatricesMayBeIncomplete) {
+  const auto matrix = [](const std::string& rows) {
+    return parse("multmatrix([" + rows + "]) {" + kCube + "}").solid->transform().m;
+  };
+  const auto whole = matrix("[2, 0, 0, 5], [0, 3, 0, 6], [0, 0, 1, 0], [0, 0, 0, 1]");
+  EXPECT_EQ(matrix("[2, 0, 0, 5], [0, 3, 0, 6], [0, 0, 1, 0]"), whole);
+  EXPECT_EQ(matrix("[2, 0, 0, 5], [0, 3, 0, 6]"), whole);
+  EXPECT_EQ(matrix("[2, 0, 0, 5], [0, 3, 0, 6], []"), whole);
+  EXPECT_EQ(matrix("[2], [0, 3]")[1][1], 3);
+  EXPECT_EQ(matrix("[2], [0, 3]")[1][3], 0);
+}
+
 // OpenSCAD never writes them so, but people do.
 TEST(CsgFile, ArgumentsWithoutANameGoByOrder) {
   EXPECT_EQ(lengths("cube([1, 2, 3], true);"), glm::dvec3(1, 2, 3));
@@ -283,224 +259,6 @@ TEST(CsgFile, ArgumentsThatAreNotThereAreSaidSo) {
   EXPECT_EQ(warnings("cube(size = [1, 1, 1], $fn = 3, $preview = true);"), Lines{});
 }
 
-TEST(CsgFile, ExtrusionsAndPolygons) {
-  const CsgModel wedge = parse(
-      "linear_extrude(height = 3, v = [ 0, 0.6, 0.8 ], center = true, scale = [1, -2], slices = 1, "
-      "segments = 0) {" +
-      kSquare + "}");
-  ASSERT_EQ(sketch(wedge.solid), "linear_extrude");
-  EXPECT_NEAR(testing::volume(*wedge.solid->mesh()), 2 * 2.4 / 2, 1e-12);
-  const CsgModel holed = parse(
-      "polygon(points = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 1], [2, 1], [2, 2]], paths = [[0, 1, "
-      "2, 3], "
-      "[4, 5, 6], [5, 6, 99]], convexity = 1);");
-  EXPECT_TRUE(holed.is_2d);
-  EXPECT_EQ(holed.shape.area(), 15.5);
-  EXPECT_EQ(holed.warnings.size(), 1u);
-}
-
-TEST(CsgFile, OutlinesOfShapes) {
-  const auto area = [](const std::string& text) { return parse(text).shape.area(); };
-  const std::string ring =
-      "difference() { square(size = [4, 4], center = true); square(size = [2, 2], center = true); "
-      "}";
-  EXPECT_NEAR(area("offset(r = 1, $fn = 8, $fa = 12, $fs = 2) {" + kSquare + "}"),
-              2 + 2 * 3 + 4 * std::sqrt(0.5), 1e-6);
-  EXPECT_NEAR(area("offset(delta = 1, chamfer = false, $fn = 0) {" + kSquare + "}"), 12, 1e-9);
-  EXPECT_NEAR(area("offset(delta = -0.25, chamfer = true) {" + kSquare + "}"), 1.5 * 0.5, 1e-9);
-  EXPECT_NEAR(area("offset() {" + kSquare + kCube + "}"), 2 + 6 + 2.5 * std::sin(2 * M_PI / 5),
-              0.7);
-  EXPECT_NEAR(area("hull() {" + ring + kSquare + "}"), 16, 1e-9);
-  EXPECT_NEAR(area("fill() {" + ring + "}"), 16, 1e-9);
-  EXPECT_NEAR(area("minkowski(convexity = 0) {" + ring + kNothing + kSquare + "}"), 6 * 5, 1e-9);
-  // As OpenSCAD has it: nothing is left of a sum that begins with an empty shape, or has one
-  // besides.
-  const std::string unit = "square(size = [1, 1], center = false);\n";
-  for (const std::string& operands :
-       {kNothing + kSquare, kSquare + kNothing, kNothing + kSquare + kSquare,
-        kSquare + kNothing + kNothing}) {
-    EXPECT_NEAR(area("minkowski(convexity = 0) {" + operands + "}" + unit), 1, 1e-9) << operands;
-  }
-  EXPECT_NEAR(area("minkowski(convexity = 0) {" + kSquare + kSquare + kNothing + "}"), 8, 1e-9);
-  EXPECT_NEAR(area("minkowski(convexity = 0) {" + kSquare + "}"), 2, 1e-9);
-  EXPECT_NEAR(area("resize(newsize = [8, 0, 0], auto = [0, 1, 0], convexity = 0) {" + ring + "}"),
-              48, 1e-9);
-  EXPECT_NEAR(area("resize(newsize = [8, -1, 5], auto = [0, 0, 0]) {" + ring + "}"), 24, 1e-9);
-  EXPECT_EQ(parse("offset(r = 1) {" + kCube + "}").warnings,
-            std::vector<std::string>{"m.csg:1: offset: a 3D child was left out"});
-  EXPECT_EQ(
-      parse("fill() {" + kCube + "}").warnings,
-      std::vector<std::string>{"m.csg:1: fill: has no meaning for 3D children, they were united"});
-  EXPECT_EQ(error("resize(newsize = 3) {" + kSquare + "}"),
-            "m.csg:1: resize: newsize must be a list of 3 numbers");
-}
-
-TEST(CsgFile, TextIsNotEscaped) {
-  const auto width = [](const std::string& string) {
-    const CsgModel model = parse("text(text = \"" + string +
-                                 "\", size = 10, spacing = 1, font = \"\", direction = \"ltr\", "
-                                 "language = \"en\", script = \"Latn\", halign = \"left\", "
-                                 "valign = \"baseline\", $fn = 0, $fa = 12, $fs = 2);");
-    EXPECT_TRUE(model.warnings.empty());
-    return model.shape.bounds()[1].x;
-  };
-  EXPECT_GT(width("\""), 0);
-  EXPECT_GT(width("a\"b\\n\", size"), width("a\"b"));
-  const CsgModel other = parse("text(text = \"I\", size = 10, font = \"Arial\");");
-  EXPECT_GT(other.shape.area(), 10);
-  EXPECT_EQ(other.warnings,
-            std::vector<std::string>{"m.csg:1: text: there is no font \"Arial\"; Liberation Sans "
-                                     "Regular is used instead"});
-  EXPECT_EQ(parse("text(text = \"I\", size = -1);").warnings,
-            std::vector<std::string>{"m.csg:1: text: size must be positive, got -1"});
-  // Alignments that there are not, are none.
-  const CsgModel odd = parse(
-      "text(text = \"I\", size = 10, halign = \"middle\", valign = \"up\", "
-      "direction = \"around\");");
-  EXPECT_EQ(odd.shape.bounds(), parse("text(text = \"I\", size = 10);").shape.bounds());
-  EXPECT_GT(odd.shape.area(), 10);
-  EXPECT_EQ(odd.warnings,
-            (std::vector<std::string>{
-                "m.csg:1: text: there is no direction \"around\", the default was taken",
-                "m.csg:1: text: there is no halign \"middle\", the default was taken",
-                "m.csg:1: text: there is no valign \"up\", the default was taken"}));
-  FontOptions strict;
-  strict.strict = true;
-  FontBook fonts(strict);
-  const auto refused =
-      parse_csg("m.csg", "text(text = \"I\", size = 10, font = \"Arial\");", {&fonts, nullptr});
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().where.line, 1);
-}
-
-TEST(CsgFile, ImportsFilesOfTheirFolder) {
-  CsgEnvironment environment;
-  environment.read = [](const std::string& path) -> Result<std::string> {
-    if (path == "a.svg")
-      return std::string("<svg viewBox='0 0 9 9'><rect width='3' height='2'/></svg>");
-    if (path == "a.off")
-      return std::string(
-          "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
-    if (path == "a.amf") {
-      std::string vertices, triangles;
-      for (const char* v : {"0 0 0", "1 0 0", "0 1 0", "0 0 1"}) {
-        vertices += std::string("<vertex><coordinates><x>") + v[0] + "</x><y>" + v[2] + "</y><z>" +
-                    v[4] + "</z></coordinates></vertex>";
-      }
-      for (const char* t : {"0 2 1", "0 1 3", "0 3 2", "1 2 3"}) {
-        triangles += std::string("<triangle><v1>") + t[0] + "</v1><v2>" + t[2] + "</v2><v3>" +
-                     t[4] + "</v3></triangle>";
-      }
-      return "<amf unit='inch'><object id='1'><mesh><vertices>" + vertices + "</vertices><volume>" +
-             triangles + "</volume></mesh></object></amf>";
-    }
-    return Error{ErrorCode::kMalformedFile, "cannot read it", {}};
-  };
-  const auto import = [&](const std::string& text) {
-    return parse_csg("m.csg", "import(" + text + ");", environment);
-  };
-  const auto drawing = import(
-      "file = \"a.svg\", origin = [0, 0], dpi = 25.4, scale = 1, "
-      "center = true, convexity = 1, timestamp = -5");
-  ASSERT_TRUE(drawing);
-  EXPECT_NEAR(drawing->shape.area(), 6, 1e-9);
-  EXPECT_EQ(drawing->shape.bounds()[0], glm::dvec2(-1.5, -1));
-  const auto mesh = import("file = \"a.off\"");
-  ASSERT_TRUE(mesh);
-  EXPECT_EQ(mesh->solid->mesh()->face_count(), 4u);
-  // The middle of a mesh's box, and AMF's numbers as millimetres whatever unit it names.
-  const auto extent = [&](const std::string& text) {
-    const auto model = import(text);
-    EXPECT_TRUE(model) << (model ? "" : model.error().message);
-    std::array<glm::dvec3, 2> box{glm::dvec3(1e9), glm::dvec3(-1e9)};
-    for (const glm::dvec3& p : model->solid->mesh()->points)
-      box = {glm::min(box[0], p), glm::max(box[1], p)};
-    return box;
-  };
-  using Box = std::array<glm::dvec3, 2>;
-  EXPECT_EQ(extent("file = \"a.off\", center = false"), (Box{glm::dvec3(0), glm::dvec3(1)}));
-  EXPECT_EQ(extent("file = \"a.off\", center = true"), (Box{glm::dvec3(-0.5), glm::dvec3(0.5)}));
-  EXPECT_EQ(extent("file = \"a.amf\", center = false"), (Box{glm::dvec3(0), glm::dvec3(1)}));
-  EXPECT_EQ(extent("file = \"a.amf\", center = true"), (Box{glm::dvec3(-0.5), glm::dvec3(0.5)}));
-  // What import() and surface() without a file are written as.
-  for (const char* nothing :
-       {"import(file = \"\", origin = [0, 0]);", "surface(file = \"\", center = false);"}) {
-    const CsgModel rest = parse(nothing + kCube);
-    EXPECT_EQ(sketch(rest.solid), "cube");
-    EXPECT_EQ(rest.warnings.size(), 1u);
-  }
-  const auto missing = import("file = \"b.svg\"");
-  ASSERT_FALSE(missing);
-  EXPECT_EQ(missing.error().message, "import: cannot read it");
-  EXPECT_EQ(
-      import("file = \"b.nef3\"").error().message,
-      "import: \"b.nef3\" has none of the endings .stl, .off, .obj, .ply, .3mf, .amf, .svg, .dxf");
-}
-
-TEST(CsgFile, PolyhedraAreWeldedAndChecked) {
-  const std::string tetra =
-      "polyhedron(points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]], ";
-  EXPECT_EQ(
-      sketch(
-          parse(tetra +
-                "faces = [[0, 1, 2], [0, 3, 4], [0, 2, 3], [1, 3, 2], [1, 4, 2]], convexity = 1);")
-              .solid),
-      "polyhedron");
-  EXPECT_EQ(error("\n" + tetra + "faces = [[0, 1, 2], [0, 3, 4], [0, 2, 3]]);").substr(0, 45),
-            "m.csg:2: polyhedron: not closed: 3 open edges");
-  EXPECT_EQ(
-      error(tetra + "faces = [[0, 1, 2], [0, 3, 7], [0, 2, 3], [1, 3, 2]]);").substr(0, 119),
-      "m.csg:1: polyhedron: index 7 in faces is out of range, there are 5 points; it was left "
-      "out, and then polyhedron: not cl");
-  EXPECT_EQ(parse("polyhedron(points = [], faces = []);").warnings,
-            std::vector<std::string>{"m.csg:1: polyhedron: has no faces"});
-  const CsgModel inside_out =
-      parse(tetra + "faces = [[2, 1, 0], [1, 3, 0], [3, 2, 0], [2, 3, 1]]);");
-  EXPECT_EQ(
-      inside_out.warnings,
-      std::vector<std::string>{"m.csg:1: polyhedron: inside out, its faces were turned over"});
-}
-
-// OpenSCAD draws them, so trees have them; there is no place in a .csg file to ask for a repair.
-TEST(CsgFile, PolyhedraThatAreBrokenButClosedAreRepaired) {
-  const std::string points =
-      "polyhedron(points = [[0, 0, 0], [6, 0, 0], [0, 6, 0], [0, 0, 6], [3, 0, 0]], faces = ";
-  const CsgModel turned = parse(points + "[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 2, 3]]);");
-  EXPECT_EQ(turned.warnings,
-            std::vector<std::string>{"m.csg:1: polyhedron: repair: 1 face was turned to agree with "
-                                     "its neighbours (at (0, 0, 6))"});
-  EXPECT_DOUBLE_EQ(testing::volume(*turned.solid->mesh()), 36);
-  // A face on a line closes what would be a gap.
-  const CsgModel flat =
-      parse(points + "[[0, 1, 2], [0, 3, 4], [4, 3, 1], [0, 4, 1], [0, 2, 3], [1, 3, 2]]);");
-  EXPECT_EQ(flat.warnings, std::vector<std::string>{
-                               "m.csg:1: polyhedron: repair: 1 face without area was dropped (at "
-                               "(6, 0, 0))"});
-  EXPECT_DOUBLE_EQ(testing::volume(*flat.solid->mesh()), 36);
-}
-
-// Points that arithmetic put beside one another are one; a hole stays an error.
-TEST(CsgFile, PolyhedraWithPointsTooNearToTellAreWelded) {
-  const std::string points =
-      "polyhedron(points = [[0, 0, 0], [6, 0, 0], [0, 6, 0], [0, 0, 6], [0, 0, 1e-14]], faces = ";
-  const CsgModel near = parse(points + "[[0, 1, 2], [4, 3, 1], [0, 2, 3], [1, 3, 2]]);");
-  ASSERT_EQ(near.warnings.size(), 1u);
-  EXPECT_EQ(near.warnings[0].rfind("m.csg:1: polyhedron: repair: 1 point ", 0), 0u)
-      << near.warnings[0];
-  EXPECT_DOUBLE_EQ(testing::volume(*near.solid->mesh()), 36);
-  const auto open = parse_csg("m.csg", points + "[[0, 1, 2], [4, 3, 1], [0, 2, 3]]);");
-  ASSERT_FALSE(open);
-  EXPECT_NE(open.error().message.find("not closed: "), std::string::npos);
-}
-
-TEST(CsgFile, PointsThatAreNoneMakeNothing) {
-  for (const std::string list : {"[[], []]", "[[[]]]", "[[0, 0], [1, 0], [1]]"}) {
-    EXPECT_EQ(parse("polygon(points = " + list + ", paths = undef);").warnings,
-              std::vector<std::string>{"m.csg:1: polygon: points must be a list of lists of 2 "
-                                       "numbers"});
-  }
-}
-
 TEST(CsgFile, ErrorsHaveTheirLine) {
   EXPECT_EQ(error("group() {\n" + kCube + "\troof(method = 1) {\n" + kSquare + "}\n}"),
             "m.csg:3: roof: method must be a string");
@@ -512,7 +270,11 @@ TEST(CsgFile, ErrorsHaveTheirLine) {
             "m.csg:1: cube: size must be a list of 3 numbers");
   EXPECT_EQ(error("sphere(r = \"big\");"), "m.csg:1: sphere: r must be a number");
   EXPECT_EQ(error("multmatrix() {}"),
-            "m.csg:1: multmatrix: its argument must be a matrix of 4 x 4 numbers");
+            "m.csg:1: multmatrix: its argument must be a matrix of 4 x 4 numbers, or of fewer");
+  EXPECT_EQ(error("multmatrix([[1, 0, 0, 0, 0]]) {}"),
+            "m.csg:1: multmatrix: its argument must be a matrix of 4 x 4 numbers, or of fewer");
+  EXPECT_EQ(error("multmatrix([[1, true]]) {}"),
+            "m.csg:1: multmatrix: its argument must be a matrix of 4 x 4 numbers, or of fewer");
   EXPECT_EQ(error("group() {\n" + kCube), "m.csg:3: the file ends within group() of line 1");
   EXPECT_EQ(error(kCube + "}"), "m.csg:2: \"}\" without \"{\"");
   EXPECT_EQ(error("cube(size = [1, 2"), "m.csg:1: the file ends where \",\" or \"]\" should be");
