@@ -97,6 +97,16 @@ int write_setting(lua_State* L) {
   return 0;
 }
 
+/// Which values have a method that solids or shapes lack; null when there are none.
+const char* other_owner(const std::string& kind, const std::string& name) {
+  for (const Binding& binding : all_bindings()) {
+    if (name != binding.spec->name) continue;
+    if (kind == SolidValue::kName && binding.shape_method != nullptr) return "2D shapes";
+    if (kind == ShapeValue::kName && binding.solid_method != nullptr) return "solids";
+  }
+  return nullptr;
+}
+
 /// Upvalue 1: the table of methods; upvalue 2: "solid" or "shape".
 int find_method(lua_State* L) {
   lua_pushvalue(L, 2);
@@ -111,6 +121,8 @@ int find_method(lua_State* L) {
     names.emplace_back(lua_tostring(L, -1));
   }
   const std::string name = lua_tostring(L, 2);
+  if (const char* owner = other_owner(kind, name))
+    throw ScriptError("a " + kind + " has no method '" + name + "', which is one of " + owner);
   throw ScriptError("a " + kind + " has no method '" + name + "'" + did_you_mean(name, names));
 }
 

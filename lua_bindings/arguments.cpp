@@ -51,7 +51,7 @@ bool is_wrapped_list(lua_State* L, int index, const FunctionSpec& spec) {
   if (spec.options.empty() || !lua_istable(L, index) || list_length(L, index) != 1) return false;
   const T type = spec.options[0].type;
   const bool of_lists = takes_lists(type);
-  if (!of_lists && vector_rule(type).most == 0) return false;
+  if (!of_lists && vector_rule(type).most == 0 && type != T::kColor) return false;
   lua_rawgeti(L, index, 1);
   bool wrapped = lua_istable(L, -1);
   if (wrapped && of_lists) {
@@ -60,6 +60,16 @@ bool is_wrapped_list(lua_State* L, int index, const FunctionSpec& spec) {
   }
   lua_pop(L, 1);
   return wrapped;
+}
+
+/// Whether the table at `index` is a list that begins with a colour's name, where the first option
+/// is a colour: {"red"} and {"red", 0.5} stand for what is in them.
+bool is_list_from_color_name(lua_State* L, int index, const FunctionSpec& spec) {
+  if (spec.options.empty() || spec.options[0].type != T::kColor || !lua_istable(L, index))
+    return false;
+  const bool is_name = lua_rawgeti(L, index, 1) == LUA_TSTRING;
+  lua_pop(L, 1);
+  return is_name && list_length(L, index) > 0;
 }
 
 /// Whether the value is the table csg.
@@ -89,12 +99,16 @@ Arguments::Arguments(lua_State* L, const FunctionSpec& spec, int first) : L_(L),
   } else if (last >= first) {
     // An empty table is an empty table of options.
     if (lua_istable(L, last) && list_length(L, last) == 0) --last;
-    // f{value}: the list in a list is the value, as it would be with options beside it.
-    if (last == first && is_wrapped_list(L, last, spec)) {
-      lua_rawgeti(L, last, 1);
-      lua_replace(L, last);
+    if (last == first && is_list_from_color_name(L, last, spec)) {
+      read_list_part(last, list_length(L, last));
+    } else {
+      // f{value}: the list in a list is the value, as it would be with options beside it.
+      if (last == first && is_wrapped_list(L, last, spec)) {
+        lua_rawgeti(L, last, 1);
+        lua_replace(L, last);
+      }
+      read_positional(first, last);
     }
-    read_positional(first, last);
   }
   // Facets that cannot be are told also where nothing is round.
   if (has("fn") || has("fa") || has("fs")) static_cast<void>(facets());

@@ -24,7 +24,9 @@ using T = ArgumentType;
 constexpr const char* kSolidDoc = "the solid; as a method, solid:f(...), it is left out";
 
 constexpr Option kSurfaceOptions[] = {
-    {"file", T::kString, "", "a PNG, or a text of numbers with one row a line", true},
+    {"file", T::kValue, "",
+     "the name of a PNG, or of a text of numbers with one row a line; or heights, as that option",
+     true},
     {"center", T::kBoolean, "false", "the middle of the table stands on the Z axis", true},
     {"invert", T::kBoolean, "false", "of a PNG: what is dark is high", false},
     {"heights", T::kValue, "",
@@ -35,14 +37,14 @@ constexpr FunctionSpec kSurface{
     "surface",
     "The solid under heights 1 mm apart along X and Y, down to 1 mm below the least of them; of a "
     "text file down to 0 at least.",
-    kSurfaceOptions, false, "surface{heights = {{0, 1, 0}, {1, 3, 1}, {0, 1, 0}}, center = true}"};
+    kSurfaceOptions, false, "surface({{0, 1, 0}, {1, 3, 1}, {0, 1, 0}}, true)"};
 
-HeightMap read_heights(lua_State* L, int index) {
+HeightMap read_heights(lua_State* L, int index, const char* option) {
   HeightMap map;
   const lua_Integer rows = lua_istable(L, index) ? list_length(L, index) : -1;
   if (rows < 2) {
-    fail_in(kSurface,
-            "option 'heights' must be a list of two or more rows, got " + describe_value(L, index));
+    fail_in(kSurface, fmt::format("option '{}' must be a list of two or more rows, got {}", option,
+                                  describe_value(L, index)));
   }
   map.rows = static_cast<size_t>(rows);
   for (lua_Integer r = 1; r <= rows; ++r) {
@@ -50,14 +52,14 @@ HeightMap read_heights(lua_State* L, int index) {
     const lua_Integer columns = lua_istable(L, -1) ? list_length(L, -1) : -1;
     if (r == 1 && columns >= 2) map.columns = static_cast<size_t>(columns);
     if (columns != static_cast<lua_Integer>(map.columns)) {
-      fail_in(kSurface, fmt::format("row {} of option 'heights' must be a list of {}, got {}", r,
+      fail_in(kSurface, fmt::format("row {} of option '{}' must be a list of {}, got {}", r, option,
                                     r == 1 ? std::string("two or more numbers")
                                            : fmt::format("{} numbers, as the first", map.columns),
                                     describe_value(L, -1)));
     }
     for (lua_Integer c = 1; c <= columns; ++c) {
       if (lua_rawgeti(L, -1, c) != LUA_TNUMBER) {
-        fail_in(kSurface, fmt::format("row {} of option 'heights' must be numbers, got {}", r,
+        fail_in(kSurface, fmt::format("row {} of option '{}' must be numbers, got {}", r, option,
                                       describe_value(L, -1)));
       }
       map.heights.push_back(lua_tonumber(L, -1));
@@ -69,20 +71,26 @@ HeightMap read_heights(lua_State* L, int index) {
 }
 
 int surface(lua_State* L) {
+  name_list_part(L, "heights");
   const Arguments arguments(L, kSurface, 1);
-  const int heights = arguments.stack_index("heights");
-  if (arguments.has("file") == (heights != 0)) {
-    fail_in(kSurface, heights != 0 ? "give either 'file' or 'heights', not both"
-                                   : "needs a file, or 'heights'");
+  const int named = arguments.stack_index("heights"), first = arguments.stack_index("file");
+  if ((first != 0) == (named != 0)) {
+    fail_in(kSurface, named != 0 ? "give either 'file' or 'heights', not both"
+                                 : "needs a file, or 'heights'");
   }
+  if (first != 0 && lua_type(L, first) != LUA_TSTRING && !lua_istable(L, first)) {
+    fail_in(kSurface, "option 'file' must be a string, or a list of rows of heights, got " +
+                          describe_value(L, first));
+  }
+  const int heights = first != 0 && lua_istable(L, first) ? first : named;
   HeightMap map;
   if (heights != 0) {
     if (arguments.has("invert")) fail_in(kSurface, "option 'invert' is for a PNG");
-    map = read_heights(L, heights);
+    map = read_heights(L, heights, heights == named ? "heights" : "file");
   } else {
     Files::Opened file;
     try {
-      file = session_of(L).files().open(calling_file(L), arguments.string("file", ""));
+      file = session_of(L).files().open(calling_file(L), lua_tostring(L, first));
     } catch (const ScriptError& error) {
       fail_in(kSurface, error.what());
     }

@@ -8,6 +8,7 @@
 
 #include <csgrun/primitives/flat_file.h>
 
+#include "lua_bindings/affine_maps.h"
 #include "lua_bindings/api.h"
 #include "lua_bindings/call_site.h"
 #include "lua_bindings/guard.h"
@@ -49,8 +50,7 @@ constexpr Option kImportOptions[] = {
      Range::kPositive},
     {"origin", T::kVector2, "{0, 0}", "of a DXF: this point becomes the origin", false},
     {"scale", T::kNumber, "1", "of a DXF: a factor", false, Range::kPositive},
-    {"center", T::kBoolean, "false", "of a drawing: the middle of its box becomes the origin",
-     false},
+    {"center", T::kBoolean, "false", "the middle of its box becomes the origin", false},
     {"as_openscad", T::kBoolean, "false",
      "of a drawing: by OpenSCAD's rules of what is area and how many pieces curves have;\n"
      "          a layer or an id that is not there is empty",
@@ -111,6 +111,18 @@ const std::vector<SolidPart>& import_parts(lua_State* L, const Files::Opened& fi
                session.files().name_from_folder(file.display);  // what is written names it so
            return counted_leaf(L, std::move(mesh));
          });
+}
+
+/// The parts moved together, so that the middle of their box lies in the origin.
+void center_parts(Session& session, const SourceRef& where, std::vector<SolidPart>& parts) {
+  std::vector<NodePtr> nodes;
+  for (const SolidPart& part : parts) nodes.push_back(part.node);
+  const Extent extent =
+      session.extent(SolidValue(Node::boolean(BooleanOp::kUnion, std::move(nodes), where)));
+  if (extent.empty) return;
+  const glm::dvec3 middle = (extent.bbox[0] + extent.bbox[1]) / 2.0;
+  for (SolidPart& part : parts)
+    part.node = Node::transformed(translation(-middle), part.node, where);
 }
 
 /// A drawing as a shape.
@@ -180,7 +192,7 @@ int import_file(lua_State* L) {
                          ".amf, .svg, .dxf");
   }
   for (const char* name :
-       {"layer", "id", "dpi", "origin", "scale", "center", "as_openscad", "fn", "fa", "fs"}) {
+       {"layer", "id", "dpi", "origin", "scale", "as_openscad", "fn", "fa", "fs"}) {
     if (arguments.has(name))
       fail_in(kImport, fmt::format("option '{}' is for drawings, not for meshes", name));
   }
@@ -201,7 +213,8 @@ int import_file(lua_State* L) {
       return Error{ErrorCode::kCannotRead, error.what(), {}};
     }
   };
-  const auto& parts = import_parts(L, file, options);
+  std::vector<SolidPart> parts = import_parts(L, file, options);
+  if (arguments.boolean("center", false)) center_parts(session, session.source_ref(L), parts);
   if (arguments.boolean("parts", false)) {
     lua_createtable(L, static_cast<int>(parts.size()), 0);
     for (size_t i = 0; i < parts.size(); ++i) {
@@ -276,7 +289,7 @@ int require_module(lua_State* L) {
 }
 
 constexpr Option kEmitOptions[] = {
-    {"name", T::kString, "part1, part2, ...", "name of the part, or of the group", false},
+    {"name", T::kString, "part1, part2, ...", "name of the part, or of the group", true},
 };
 constexpr const char* kPartDoc =
     "a solid, a shape, or a table of them; several may stand one after another";
@@ -285,7 +298,7 @@ constexpr FunctionSpec kEmit{
     "Adds a part, or a table of parts, to the result, beside what the script returns.",
     kEmitOptions,
     false,
-    "emit(lid, {name = \"lid\"})",
+    "emit(lid, \"lid\")",
     "part",
     kPartDoc};
 constexpr FunctionSpec kRender{"render",

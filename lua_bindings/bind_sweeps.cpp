@@ -66,7 +66,7 @@ constexpr Option kLoftOptions[] = {
     {"outlines", T::kValue, "",
      "a list of shapes, from the lowest on; the first or the last may be a point {x, y}", true},
     {"heights", T::kValue, "", "where each lies along Z, a list; or one number: all in even steps",
-     true},
+     true, Range::kAny, "height"},
 };
 constexpr FunctionSpec kLoft{
     "loft",
@@ -87,6 +87,7 @@ std::optional<glm::dvec2> point_of_list(lua_State* L, int index) {
 }
 
 int loft(lua_State* L) {
+  name_list_part(L, "outlines");
   const Arguments arguments(L, kLoft, 1);
   const int outlines = arguments.stack_index("outlines"), given = arguments.stack_index("heights");
   if (outlines == 0 || given == 0) fail_in(kLoft, "needs a list of shapes and their heights");

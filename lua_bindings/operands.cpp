@@ -1,6 +1,7 @@
 #include "lua_bindings/operands.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -169,6 +170,35 @@ void bring_subject_to_front(lua_State* L) {
   lua_pushvalue(L, found);
   lua_remove(L, found);
   lua_insert(L, 1);
+}
+
+void name_list_part(lua_State* L, const char* option) {
+  if (lua_gettop(L) != 1 || !lua_istable(L, 1) || lua_rawlen(L, 1) < 2) return;
+  bool has_names = false;
+  lua_pushnil(L);
+  while (lua_next(L, 1) != 0) {
+    lua_pop(L, 1);
+    if (lua_type(L, -1) != LUA_TSTRING) continue;
+    has_names = true;
+    if (std::string_view(lua_tostring(L, -1)) == option) {
+      lua_pop(L, 1);
+      return;
+    }
+  }
+  lua_rawgeti(L, 1, 1);
+  const bool is_list = lua_istable(L, -1) || lua_isuserdata(L, -1);
+  lua_pop(L, 1);
+  if (!has_names || !is_list) return;
+  lua_newtable(L);  // 2: the options
+  lua_newtable(L);  // 3: the list
+  lua_pushnil(L);
+  while (lua_next(L, 1) != 0) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    lua_rawset(L, lua_type(L, -2) == LUA_TSTRING ? 2 : 3);
+  }
+  lua_setfield(L, 2, option);
+  lua_replace(L, 1);
 }
 
 }  // namespace csgrun

@@ -42,6 +42,10 @@ Operands read_operands(lua_State* L, const FunctionSpec& spec);
 /// the rest stays behind it. Where there is none, or more than one, everything stays as it is.
 void bring_subject_to_front(lua_State* L);
 
+/// f{a, b, x = 1}, where the list is itself the value of `option`: it goes to that name. Nothing
+/// happens to one value, to a list that begins with a number or a string, or without names beside.
+void name_list_part(lua_State* L, const char* option);
+
 /// What stands for the subject in tables of options.
 constexpr const char* kShapeDoc = "the 2D shape; as a method, shape:f(...), it is left out";
 

@@ -44,6 +44,7 @@ void add_table(lua_State* L, int table, const std::string& group, int depth) {
   }
   std::sort(names.begin(), names.end());
   for (const std::string& name : names) {
+    if (name.empty()) throw ScriptError("'' cannot be a part's name: leave it out, or say one");
     lua_pushlstring(L, name.data(), name.size());
     lua_rawget(L, table);
     add(L, lua_gettop(L), group, name, depth);
@@ -72,7 +73,8 @@ void add(lua_State* L, int index, const std::string& group, const std::string& n
     add_table(L, index, inner, depth + 1);
   } else {
     throw ScriptError("a part must be a solid, a shape or a table of them, got " +
-                      describe_value(L, index) + (name.empty() ? "" : " for '" + name + "'"));
+                      describe_value(L, index) + (name.empty() ? "" : " for '" + name + "'") +
+                      (lua_isfunction(L, index) ? "; what it returns is a part: call it" : ""));
   }
 }
 

@@ -669,6 +669,7 @@ function Shape:sweep(path, options) end
 ---@field [integer] any
 ---@field outlines? any a list of shapes, from the lowest on; the first or the last may be a point {x, y}
 ---@field heights? any where each lies along Z, a list; or one number: all in even steps
+---@field height? any the same as heights
 
 ---A solid between shapes, each flat at its height, with straight walls from one to the next.
 ---
@@ -1032,7 +1033,7 @@ function Solid:edges(on, options) end
 
 ---@class (exact) csgrun.surface
 ---@field [integer] any
----@field file? string a PNG, or a text of numbers with one row a line
+---@field file? any the name of a PNG, or of a text of numbers with one row a line; or heights, as that option
 ---@field center? boolean the middle of the table stands on the Z axis
 ---@field invert? boolean of a PNG: what is dark is high
 ---@field heights? any instead of a file: a list of rows, each a list of numbers; the first row is at y = 0
@@ -1040,9 +1041,9 @@ function Solid:edges(on, options) end
 
 ---The solid under heights 1 mm apart along X and Y, down to 1 mm below the least of them; of a text file down to 0 at least.
 ---
----Example: `surface{heights = {{0, 1, 0}, {1, 3, 1}, {0, 1, 0}}, center = true}`
+---Example: `surface({{0, 1, 0}, {1, 3, 1}, {0, 1, 0}}, true)`
 ---@overload fun(options: csgrun.surface): Solid
----@param file? string a PNG, or a text of numbers with one row a line
+---@param file? any the name of a PNG, or of a text of numbers with one row a line; or heights, as that option
 ---@param center? boolean the middle of the table stands on the Z axis
 ---@param options? csgrun.surface
 ---@return Solid
@@ -3414,7 +3415,7 @@ csg.load_csg = load_csg
 ---@field dpi? number of an SVG with a viewBox: user units an inch, where its size has no unit
 ---@field origin? number[] of a DXF: this point becomes the origin
 ---@field scale? number of a DXF: a factor
----@field center? boolean of a drawing: the middle of its box becomes the origin
+---@field center? boolean the middle of its box becomes the origin
 ---@field as_openscad? boolean of a drawing: by OpenSCAD's rules of what is area and how many pieces curves have; a layer or an id that is not there is empty
 ---@field convexity? integer ignored: OpenSCAD needs it for its preview
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
@@ -3452,10 +3453,11 @@ csg.require = require
 
 ---Adds a part, or a table of parts, to the result, beside what the script returns.
 ---
----Example: `emit(lid, {name = "lid"})`
+---Example: `emit(lid, "lid")`
 ---@param part any a solid, a shape, or a table of them; several may stand one after another
+---@param name? string name of the part, or of the group
 ---@param options? csgrun.emit
-function emit(part, options) end
+function emit(part, name, options) end
 csg.emit = emit
 
 ---@class (exact) csgrun.render
@@ -3466,6 +3468,7 @@ csg.emit = emit
 ---
 ---Example: `render(lid, {name = "lid"})`
 ---@param part any a solid, a shape, or a table of them; several may stand one after another
+---@param name? string name of the part, or of the group
 ---@param options? csgrun.render
-function render(part, options) end
+function render(part, name, options) end
 csg.render = render

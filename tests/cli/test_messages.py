@@ -72,6 +72,7 @@ WRONG_VALUES = {  # of what a function looks at itself
     "edges": ["5", '"up"', "true", '{"x", 5}', "{{}}"], "on": ["5", '"x"', "{1, 2}", "{1, 2, true}"],
     "along": ["5", '"top"', "{1, 2}", "{0, 0, 1/0}"],
     "repair": ["5", '"x"', "{weeld = 1}", "{weld = -1}", '{orient = "yes"}'],
+    "file": ["5", "true", "{}", "{1, 2}"],
 }
 NUMBERS = ("a number", "a whole number")
 VECTORS = re.compile(r"list of (two|three|two or three|up to three) numbers$")

@@ -92,6 +92,22 @@ class ModelFiles(Case):
         looks = sorted(m["pbrMetallicRoughness"].get("baseColorFactor", [1] * 4)[:3] for m in self.read_glb("a.glb")["materials"])
         self.assertEqual(looks, [[0, 0, 1], [0, 1, 0], [1, 0, 0]])
 
+    def test_centered(self):
+        # The middle of the box of all parts, as OpenSCAD has it, and as a tree says it.
+        self.amf(f'<object id="1"><mesh>{self.VERTICES}{self.VOLUME}</mesh></object><object id="2"><mesh>{self.VERTICES}'
+                 f'{self.VOLUME}</mesh></object><constellation id="3"><instance objectid="1"><deltax>7</deltax></instance>'
+                 '<instance objectid="2"/></constellation>')
+        self.write("m.csg", 'import(file = "a.amf", origin = [0, 0], scale = 1, center = true, convexity = 1, timestamp = 0);')
+        box = [[-4, -0.5, -0.5], [4, 0.5, 0.5]]
+        tree = self.run_csgrun("m.csg", "--stats=json")
+        whole = self.run_script('return import("a.amf", {center = true})', "--stats=json")
+        parts = self.run_script('return union(import("a.amf", {center = true, parts = true}))', "--stats=json")
+        for outcome in (tree, whole, parts):
+            self.expect(outcome, 0)
+            (part,) = outcome.json()["parts"]
+            self.assertEqual(part["bbox"], box)
+            self.assertAlmostEqual(part["volume"], 1 / 3, delta=1e-12)
+
     def test_zipped_amf(self):
         self.amf(f'<object id="1"><mesh>{self.VERTICES}{self.VOLUME}</mesh></object>', name="plain.amf")
         text = io.BytesIO()

@@ -225,6 +225,9 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
       {"cube(1):rotate({1, 2}, {0, 0, 1})",
        "rotate: an axis 'v' goes with one angle, not with a list"},
       {"cube(1).translate(1, 2, 3)", "translate: is called with a colon: part:translate(...)"},
+      {"cube(1):linear_extrude(1)",
+       "a solid has no method 'linear_extrude', which is one of 2D shapes"},
+      {"square(1):volume()", "a shape has no method 'volume', which is one of solids"},
       {"cube(1):tranlate(1)", "a solid has no method 'tranlate' (did you mean 'translate'?)"},
       {"cube(1) + 5", "'+' needs two solids, or two shapes, got solid and number"},
       {"5 * cube(1)", "'*' needs two solids, or two shapes, got number and solid"},
@@ -365,8 +368,9 @@ TEST(Help, ListsEveryFunctionAndOption) {
     EXPECT_NE(doc, "") << binding.spec->name;
     EXPECT_EQ(doc.find('\n'), std::string::npos) << binding.spec->name;
   }
-  for (const char* text : {"emit(part)", "render(part)", "linear_extrude(shape, height)",
-                           "Example: render(lid", "solids or shapes, one after another"}) {
+  for (const char* text :
+       {"emit(part, name)", "render(part, name)", "linear_extrude(shape, height)",
+        "Example: render(lid", "solids or shapes, one after another"}) {
     EXPECT_NE(help.find(text), std::string::npos) << text;
   }
 }

@@ -129,6 +129,23 @@ TEST(Apexes, OfSweepsAndLofts) {
                                      "true joins the ends"});
 }
 
+// A list with a name beside it is the list that the function is about.
+TEST(ListsBesideNames, OfSurfacesAndLofts) {
+  expect_good(
+      "local s = surface{heights = {{0, 1, 2}, {1, 2, 3}}} "
+      "assert(surface{{0, 1, 2}, {1, 2, 3}} == s) assert(surface({{0, 1, 2}, {1, 2, 3}}) == s) "
+      "assert(surface({{0, 1, 2}, {1, 2, 3}}, true) == surface{{0, 1, 2}, {1, 2, 3}, center = "
+      "true}) "
+      "assert(surface{{0, 1, 2}, {1, 2, 3}, center = true}:bbox().min.x == -1)");
+  expect_good(
+      "local l = loft({square(4), square(2), square(1)}, {0, 2, 6}) "
+      "assert(loft{square(4), square(2), square(1), heights = {0, 2, 6}} == l) "
+      "assert(loft{outlines = {square(4), square(2), square(1)}, heights = {0, 2, 6}} == l) "
+      "assert(loft{square(4), {0, 0}, height = 6}:volume() == 32)");
+  EXPECT_EQ(message_of("return loft{square(1), cube(1), heights = 2}"),
+            "model.lua:1: loft: outline 2 must be a 2D shape or a point {x, y}, got solid");
+}
+
 TEST(Hull, OfPoints) {
   expect_good(
       "assert(hull{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {0, 0, 6}, {1, 1, 1}}:volume() == 36) "
@@ -265,6 +282,9 @@ TEST(Freeform, Mistakes) {
   EXPECT_EQ(message_of("return levelset(function() return 0 end, {{0, 0, 0}, {1, 0, 1}})"),
             "model.lua:1: levelset: the bounds must be finite and increase along each axis");
   EXPECT_EQ(message_of("return surface()"), "model.lua:1: surface: needs a file, or 'heights'");
+  EXPECT_EQ(message_of("return surface(5)"),
+            "model.lua:1: surface: option 'file' must be a string, or a list of rows of heights, "
+            "got 5");
   EXPECT_EQ(message_of("return surface{heights = {{1, 2}, {3}}}"),
             "model.lua:1: surface: row 2 of option 'heights' must be a list of 2 numbers, as the "
             "first, got a list of one value");

@@ -248,6 +248,9 @@ TEST(Modifiers, OnlyLeavesNothingElse) {
 
 TEST(Materials, LeaveColoursAlone) {
   EXPECT_EQ(looks_of("cube(1):color('red'):material('rubber')"), "ff0000 0 0.7 rubber");
+  for (const char* red : {"cube(1):color{'red'}", "color{'red', cube(1)}", "color{cube(1), 'red'}",
+                          "cube(1):color{{1, 0, 0}}", "cube(1):color{'red', 1}"})
+    EXPECT_EQ(looks_of(red), "ff0000 0 0.6") << red;
   EXPECT_EQ(looks_of("cube(1):material('rubber'):color('red')"), "ff0000 0 0.7 rubber");
   EXPECT_EQ(looks_of("cube(1):material('gold')"), "ffd66b 1 0.25 gold");
   EXPECT_EQ(looks_of("cube(1):material{kind = 'metal', roughness = 0.5}"), "none metal");

@@ -32,6 +32,7 @@ TEST(Parts, ComeInADefinedOrder) {
   EXPECT_EQ(part_names("return cube(1), cube(2)"), "part1 part2");
   EXPECT_EQ(part_names("emit{lid = cube(1), box = cube(1)}"), "box lid");
   EXPECT_EQ(part_names("emit({cube(1), cube(2)}, {name = 'g'})"), "g/part1 g/part2");
+  EXPECT_EQ(part_names("emit(cube(1), 'x') render(cube(2), cube(3), 'g')"), "x g/part1 g/part2");
 }
 
 TEST(Parts, Mistakes) {
@@ -41,6 +42,11 @@ TEST(Parts, Mistakes) {
             "model.lua:2: a part must be a solid, a shape or a table of them, got 5");
   EXPECT_EQ(message_of("return {a = 5}"),
             "model.lua:1: a part must be a solid, a shape or a table of them, got 5 for 'a'");
+  EXPECT_EQ(message_of("return function() return cube(1) end"),
+            "model.lua:1: a part must be a solid, a shape or a table of them, got function; what "
+            "it returns is a part: call it");
+  EXPECT_EQ(message_of("return {[''] = cube(1)}"),
+            "model.lua:1: '' cannot be a part's name: leave it out, or say one");
   EXPECT_EQ(message_of("emit(cube(1), {name = 'a'}) return {a = cube(2)}"),
             "model.lua:1: there are two parts named 'a'");
   EXPECT_NE(message_of("return {['../x'] = cube(1)}").find("cannot be a part's name"),
