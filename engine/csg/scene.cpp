@@ -72,6 +72,13 @@ bool fits_grid(const GridBox& box) {
 
 namespace {
 
+/// The largest coordinate of a box.
+double distance_of(const MmBox& box) {
+  double far = 0;
+  for (int i = 0; i < 3; ++i) far = std::max({far, std::fabs(box.lo[i]), std::fabs(box.hi[i])});
+  return far;
+}
+
 class Builder {
  public:
   Builder(SceneContext& context, std::span<const uint32_t> roots)
@@ -82,6 +89,7 @@ class Builder {
  private:
   Status place_leaves();
   Status choose(const GridStep& step, const GridStep& least);
+  [[nodiscard]] uint32_t farthest_leaf() const;
   [[nodiscard]] bool warns_of_far_parts(const SceneReach& reach) const;
   void warn_of_thin_leaves(const SceneReach& reach) const;
   Result<SceneNode> make_leaf(uint32_t index);
@@ -186,8 +194,24 @@ Status Builder::place_leaves() {
   return std::monostate{};
 }
 
+/// The leaf that reaches farthest from the origin; there is one.
+uint32_t Builder::farthest_leaf() const {
+  uint32_t farthest = 0;
+  double distance = -1;
+  for (const uint32_t index : order_) {
+    if (normal(index).kind != NormalNode::Kind::kLeaf) continue;
+    const double own = distance_of(step_leaves_[index].world);
+    if (own <= distance) continue;
+    farthest = index;
+    distance = own;
+  }
+  return farthest;
+}
+
 /// A small part that lies far away is on a grid for the distance, not for the part: when a step is
-/// more than 1e-4 of its size, its sides are visibly wrong, and it may be gone. Told of the first.
+/// more than 1e-4 of its size, its sides are visibly wrong, and it may be gone. Told of the first;
+/// where it is another leaf that makes the grid coarse, such as a tool that is far too large, of
+/// that one.
 bool Builder::warns_of_far_parts(const SceneReach& reach) const {
   constexpr double kCoarse = 1e-4;
   const double step = scene_.step.millimetres();
@@ -197,12 +221,20 @@ bool Builder::warns_of_far_parts(const SceneReach& reach) const {
     return is_inside;
   };
   for (const MmBox& box : reach.of_roots) {
-    double extent = 0, far = 0;
-    for (int i = 0; i < 3; ++i) {
-      extent = std::max(extent, box.hi[i] - box.lo[i]);
-      far = std::max({far, std::fabs(box.lo[i]), std::fabs(box.hi[i])});
-    }
+    const double far = distance_of(box);
+    double extent = 0;
+    for (int i = 0; i < 3; ++i) extent = std::max(extent, box.hi[i] - box.lo[i]);
     if (!(extent > 0) || step <= kCoarse * extent) continue;
+    if (choose_step(far, far).millimetres() <= kCoarse * extent) {
+      const uint32_t index = farthest_leaf();
+      const NodePtr& leaf = normal(index).leaf;
+      context_.warnings.add(
+          leaf->where(),
+          "'" + leaf->mesh()->kind + "' reaches " + text(distance_of(step_leaves_[index].world)) +
+              " mm from the origin: beside it points of a part of " + text(extent) +
+              " mm are rounded to " + text(step) + " mm; make it smaller, or move it nearer");
+      return true;
+    }
     const auto leaf = std::find_if(order_.begin(), order_.end(), [&](uint32_t index) {
       return normal(index).kind == NormalNode::Kind::kLeaf &&
              inside(step_leaves_[index].world, box);

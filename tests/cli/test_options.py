@@ -73,8 +73,18 @@ class FarAway(Case):
         self.assertIn("model.lua:2: a part of 1 mm " + self.WARNING + ": 1e+06 mm from the origin points are rounded "
                       "to 0.03277 mm", outcome.err)
         outcome = self.run_script("return {cube(1), cube(1):translate(1e6, 0, 0)}", "--stats")
+        self.assertEqual(outcome.err.count(" of a part of 1 mm are rounded to 0.03277 mm"), 1)
+        outcome = self.run_script("return {cube(1):translate(1e6, 0, 0), cube(1):translate(2e6, 0, 0)}", "--stats")
         self.assertEqual(outcome.err.count(self.WARNING), 1)
         self.assertIn(self.WARNING, self.run_script("return cube(1):translate(1e12, 0, 0)", "--stats").err)
+
+    def test_a_tool_that_spoils_the_part(self):
+        said = " mm from the origin: beside it points of a part of 1 mm are rounded to "
+        for tool, reach in (("cube(1):translate(1e9, 0, 0)", "1e+09"), ("cube(1e9):translate(0.5, -5e8, -5e8)", "1e+09")):
+            outcome = self.run_script(f"return cube(1) -\n\n{tool}", "--stats")
+            self.expect(outcome, 0)
+            self.assertIn(f"model.lua:3: 'cube' reaches {reach}{said}", outcome.err)
+            self.assertNotIn(self.WARNING, outcome.err)
 
     def test_parts_that_are_well(self):
         for model in ("cube(1):translate(1000, 0, 0)", "cube(1) - cube(1e6)", "cube(1e6)", "cube(1e-6)",
