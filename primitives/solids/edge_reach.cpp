@@ -12,8 +12,11 @@
 namespace csgrun {
 namespace {
 
-/// The usual reach, as a part of the setback.
+/// The usual reach is about this part of the setback.
 constexpr double kReach = 1e-3;
+/// And it is this many mm times a power of two, 200 nm = 25 * 2^3 nm: so it is on every grid that
+/// the model's decimals are on, also where the scene is large and steps are 2^3 nm and more.
+constexpr double kReachUnit = 2e-4;
 /// Grid steps by which corners of bodies may be off, with those of the solid, and more.
 constexpr double kLeastSteps = 8;
 /// The setback is so many times the reach at least: what is made of it is small beside the cut.
@@ -30,6 +33,12 @@ struct HalfSpace {
 HalfSpace half_space(const glm::dvec3& outwards, const glm::dvec3& point) {
   const glm::dvec3 n = glm::normalize(outwards);
   return {n, glm::dot(n, point)};
+}
+
+double usual_reach(double setback) {
+  double reach = kReachUnit;
+  while (reach < kReach * setback) reach *= 2;
+  return reach;
 }
 
 /// A convex body around an edge with its surroundings.
@@ -176,7 +185,7 @@ std::optional<Error> choose_reaches(const Solid& solid, EdgeFrames& frames, cons
                                     double grid_step_mm) {
   const double least = kLeastSteps * grid_step_mm;
   for (size_t i = 0; i < frames.frames().size(); ++i) {
-    frames.set_reach(i, std::max(kReach * frames.frames()[i].setback, least), false);
+    frames.set_reach(i, std::max(usual_reach(frames.frames()[i].setback), least), false);
   }
   const Surroundings surroundings(solid, frames, ends);
   for (size_t i = 0; i < frames.frames().size(); ++i) {

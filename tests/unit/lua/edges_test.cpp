@@ -115,6 +115,21 @@ TEST(EdgeCuts, SayWhereTheyCannotLeaveWhatTouches) {
   EXPECT_NE(said.find("before it is turned"), std::string::npos) << said;
 }
 
+TEST(EdgeCuts, AreTheSameFarFromTheOrigin) {
+  // On coarser grids, which a scene beyond 134 mm has, as many points as beside the origin: a
+  // rounded cube's, and three at each corner of a chamfered one.
+  expect_good(R"(
+    for _, x in ipairs{0, 20.5, 200, 351.5, 1000} do
+      for _, r in ipairs{0.25, 0.5, 1, 1.5, 2.5} do
+        local moved = translate(x, 0, 0)
+        assert(#(moved * cube(10):chamfer(r)):mesh().points == 24, x .. " " .. r)
+        local rounded = cube{10, 10, 10, r = r, fn = 16}
+        assert(#(moved * cube(10):fillet(r, {fn = 16})):mesh().points == #rounded:mesh().points,
+               x .. " " .. r)
+      end
+    end)");
+}
+
 TEST(EdgeCuts, HaveNoMorePointsThanASolidMay) {
   EXPECT_EQ(message_of("cube(10):fillet(1, {fn = 20000})"),
             "model.lua:1: fillet: 20000 fragments make 200120000 points, the limit is 16777216");
