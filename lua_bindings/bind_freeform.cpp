@@ -151,12 +151,25 @@ int smooth(lua_State* L) {
   return 1;
 }
 
+/// Whether the function at `index` has one parameter: function(p), where others have x, y, z.
+bool takes_a_vector(lua_State* L, int index) {
+  lua_Debug facts;
+  lua_pushvalue(L, index);
+  lua_getinfo(L, ">u", &facts);
+  return facts.nparams == 1 && facts.isvararg == 0;
+}
+
 /// Calls the function at `index` with a point; its results are left on the stack.
 int call_with_point(lua_State* L, int index, const glm::dvec3& p) {
   const int top = lua_gettop(L);
+  const bool as_vector = takes_a_vector(L, index);
   lua_pushvalue(L, index);
-  for (int i = 0; i < 3; ++i) lua_pushnumber(L, p[i]);
-  lua_call(L, 3, LUA_MULTRET);
+  if (as_vector) {
+    push_point(L, p);
+  } else {
+    for (int i = 0; i < 3; ++i) lua_pushnumber(L, p[i]);
+  }
+  lua_call(L, as_vector ? 1 : 3, LUA_MULTRET);
   return lua_gettop(L) - top;
 }
 
@@ -172,7 +185,8 @@ int function_argument(lua_State* L, const Arguments& arguments, const FunctionSp
 }
 
 constexpr Option kWarpOptions[] = {
-    {"f", T::kValue, "", "a function of x, y, z that gives the three of the moved point, or a list",
+    {"f", T::kValue, "",
+     "a function of x, y, z, or of one vector, that gives the three of the moved point, or a list",
      true},
 };
 constexpr FunctionSpec kWarp{
@@ -236,7 +250,7 @@ int warp(lua_State* L) {
 }
 
 constexpr Option kLevelsetOptions[] = {
-    {"f", T::kValue, "", "a function of x, y, z: at most the level inside", true},
+    {"f", T::kValue, "", "a function of x, y, z, or of one vector: at most the level inside", true},
     {"bounds", T::kValue, "", "{min = {x, y, z}, max = {x, y, z}}, as bbox() gives them", true},
     {"step", T::kNumber, "1", "mm between samples", true, Range::kPositive},
     {"level", T::kNumber, "0", "the value at the surface", false},

@@ -37,6 +37,8 @@ constexpr FunctionSpec kBbox{"bbox",
                              {},
                              false,
                              "part:bbox().max.z"};
+constexpr FunctionSpec kBounds{
+    "bounds", "The bounding box: another name of bbox.", {}, false, "part:bounds().min.x"};
 constexpr FunctionSpec kSize{
     "size",
     "The lengths of the bounding box, a vector: .x, .y, .z or [1], [2], [3].",
@@ -94,15 +96,17 @@ int push_box(lua_State* L, const std::array<Point, 2>& box) {
   return 1;
 }
 
+template <const FunctionSpec& Spec>
 int solid_bbox(lua_State* L) {
-  const Extent solid = extent_of(L, kBbox);
-  fail_if_empty(solid.empty, kBbox);
+  const Extent solid = extent_of(L, Spec);
+  fail_if_empty(solid.empty, Spec);
   return push_box(L, solid.bbox);
 }
 
+template <const FunctionSpec& Spec>
 int shape_bbox(lua_State* L) {
-  const Shape2D& shape = bare_shape(L, kBbox);
-  fail_if_empty(shape.empty(), kBbox);
+  const Shape2D& shape = bare_shape(L, Spec);
+  fail_if_empty(shape.empty(), Spec);
   return push_box(L, shape.bounds());
 }
 
@@ -235,7 +239,8 @@ int shape_contains(lua_State* L) {
 }
 
 constexpr Binding kBindings[] = {
-    {&kBbox, nullptr, guarded<solid_bbox>, guarded<shape_bbox>},
+    {&kBbox, nullptr, guarded<solid_bbox<kBbox>>, guarded<shape_bbox<kBbox>>},
+    {&kBounds, nullptr, guarded<solid_bbox<kBounds>>, guarded<shape_bbox<kBounds>>},
     {&kSize, nullptr, guarded<solid_size>, guarded<shape_size>},
     {&kVolume, nullptr, guarded<solid_volume>, nullptr},
     {&kArea, nullptr, guarded<solid_area>, guarded<shape_area>},

@@ -1098,13 +1098,13 @@ function Solid:smooth(rounds, options) end
 
 ---@class (exact) csgrun.warp
 ---@field [integer] any
----@field f? any a function of x, y, z that gives the three of the moved point, or a list
+---@field f? any a function of x, y, z, or of one vector, that gives the three of the moved point, or a list
 
 ---Moves every corner by a function. Edges stay straight: refine the solid first.
 ---
 ---Example: `cube{40, 4, 4}:refine(2):warp(function(x, y, z) return x, y, z + 5 * sin(9 * x) end)`
 ---@param solid any the solid; as a method, solid:f(...), it is left out
----@param f? any a function of x, y, z that gives the three of the moved point, or a list
+---@param f? any a function of x, y, z, or of one vector, that gives the three of the moved point, or a list
 ---@param options? csgrun.warp
 ---@return Solid
 function warp(solid, f, options) end
@@ -1114,14 +1114,14 @@ csg.warp = warp
 ---
 ---Example: `cube{40, 4, 4}:refine(2):warp(function(x, y, z) return x, y, z + 5 * sin(9 * x) end)`
 ---@overload fun(self: Solid, options: csgrun.warp): Solid
----@param f? any a function of x, y, z that gives the three of the moved point, or a list
+---@param f? any a function of x, y, z, or of one vector, that gives the three of the moved point, or a list
 ---@param options? csgrun.warp
 ---@return Solid
 function Solid:warp(f, options) end
 
 ---@class (exact) csgrun.levelset
 ---@field [integer] any
----@field f? any a function of x, y, z: at most the level inside
+---@field f? any a function of x, y, z, or of one vector: at most the level inside
 ---@field bounds? any {min = {x, y, z}, max = {x, y, z}}, as bbox() gives them
 ---@field step? number mm between samples
 ---@field level? number the value at the surface
@@ -1130,7 +1130,7 @@ function Solid:warp(f, options) end
 ---
 ---Example: `levelset(function(x, y, z) return norm{x, y, z} - 8 end, {{-9, -9, -9}, {9, 9, 9}}, 1)`
 ---@overload fun(options: csgrun.levelset): Solid
----@param f? any a function of x, y, z: at most the level inside
+---@param f? any a function of x, y, z, or of one vector: at most the level inside
 ---@param bounds? any {min = {x, y, z}, max = {x, y, z}}, as bbox() gives them
 ---@param step? number mm between samples
 ---@param options? csgrun.levelset
@@ -2710,6 +2710,18 @@ function Solid:bbox() end
 ---Example: `part:bbox().max.z`
 ---@return {min: number[], max: number[], size: number[], center: number[]}
 function Shape:bbox() end
+
+---The bounding box: another name of bbox.
+---
+---Example: `part:bounds().min.x`
+---@return number
+function Solid:bounds() end
+
+---The bounding box: another name of bbox.
+---
+---Example: `part:bounds().min.x`
+---@return number
+function Shape:bounds() end
 
 ---The lengths of the bounding box, a vector: .x, .y, .z or [1], [2], [3].
 ---

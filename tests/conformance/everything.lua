@@ -106,7 +106,7 @@ local relief = surface{heights = {{0, 1, 0, 1}, {1, 3, 2, 0}, {0, 1, 1, 1}}, cen
 
 -- Transforms as values, short forms, anchors, copies, arrays.
 local tab = cube(6, 2, 1):multmatrix{{0, -1, 0, 5}, {1, 0, 0, 0}, {0, 0, 1, 2}}
-assert(tab:bbox().min[3] == 2 and tab:bbox().max[1] == 5)
+assert(tab:bbox().min[3] == 2 and tab:bounds().max[1] == 5)
 local ears = tab:mirror_copy(1, 0, 0)
 local upright = cylinder(5, 2):attach(cube(10), "top"):align{x = "center"}
 assert(upright:anchor("bottom")[3] == 10)

@@ -146,6 +146,20 @@ TEST(ListsBesideNames, OfSurfacesAndLofts) {
             "model.lua:1: loft: outline 2 must be a 2D shape or a point {x, y}, got solid");
 }
 
+// function(p) gets a vector, function(x, y, z) three numbers.
+TEST(Freeform, FunctionsOfOneVector) {
+  expect_good(
+      "local bar = cube{6, 2, 2}:refine(2) "
+      "local bent = bar:warp(function(x, y, z) return x, y, z + x * x end) "
+      "assert(bar:warp(function(p) return {p.x, p[2], p.z + p.x * p.x} end) == bent) "
+      "assert(bar:warp(function(p) p.z = p.z + p.x ^ 2 return p end) == bent) "
+      "assert(bar:warp(function(...) local x, y, z = ... return x, y, z + x * x end) == bent)");
+  expect_good(
+      "local box = {{-3, -3, -3}, {3, 3, 3}} "
+      "local ball = levelset(function(x, y, z) return norm{x, y, z} - 2 end, box, 1) "
+      "assert(levelset(function(p) return norm(p) - 2 end, box, 1) == ball)");
+}
+
 TEST(Hull, OfPoints) {
   expect_good(
       "assert(hull{{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {0, 0, 6}, {1, 1, 1}}:volume() == 36) "

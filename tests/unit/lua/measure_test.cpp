@@ -34,7 +34,7 @@ TEST(Boxes, HaveASizeAndACentre) {
   expect_good(
       "local b = cube(2, 4, 6):translate(1, 1, 1):bbox() assert(b.size == vec(2, 4, 6) and "
       "b.center "
-      "== vec(2, 3, 4) and b.min + b.size == b.max) b = square(2, 4):translate(1, 1):bbox() "
+      "== vec(2, 3, 4) and b.min + b.size == b.max) b = square(2, 4):translate(1, 1):bounds() "
       "assert(b.size == vec(2, 4) and b.center == vec(2, 3))");
 }
 
