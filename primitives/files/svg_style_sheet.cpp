@@ -92,22 +92,21 @@ bool SvgStyleSheet::matches(const Selector& selector, const pugi::xml_node& node
 void SvgStyleSheet::add(std::string_view text, bool (*heeded)(std::string_view property)) {
   const std::string plain = without_comments(text);
   for (size_t at = 0; at < plain.size();) {
-    const size_t open = plain.find('{', at);
-    const std::string head =
-        trimmed(plain.substr(at, std::min(open, plain.size()) - std::min(at, plain.size())));
-    if (head.starts_with("@") && head.find(';') != std::string::npos) {
-      at = plain.find(';', at) + 1;  // @import, @charset: no block of their own
+    const size_t open = plain.find_first_of(";{}", at);
+    if (open == std::string::npos) break;
+    if (plain[open] != '{') {  // @import, @charset: no block of their own
+      at = open + 1;
       continue;
     }
-    if (open == std::string::npos) break;
+    const std::string head = trimmed(plain.substr(at, open - at));
     const size_t end = end_of_block(plain, open);
     at = end;
     const std::string body = plain.substr(open + 1, end - open - (plain[end - 1] == '}' ? 2 : 1));
     const size_t first = declarations_.size();
     for (size_t begin = 0; begin < body.size();) {
       const size_t stop = std::min(body.find_first_of(";{}", begin), body.size());
-      const size_t colon = body.find(':', begin);
-      if (colon < stop) {
+      const size_t colon = body.find_first_of(":;{}", begin);
+      if (colon < stop && body[colon] == ':') {
         const std::string property = trimmed(body.substr(begin, colon - begin));
         std::string value = trimmed(body.substr(colon + 1, stop - colon - 1));
         value = trimmed(value.substr(0, value.find("!important")));
@@ -138,9 +137,12 @@ void SvgStyleSheet::add(std::string_view text, bool (*heeded)(std::string_view p
 std::string SvgStyleSheet::property(const pugi::xml_node& node, std::string_view name) const {
   size_t rank = 0;
   std::string value;
+  const size_t length = std::string_view(node.attribute("class").value()).size();
   for (const Rule& rule : rules_) {
-    if (++tried_ > kMostTrials) return {};
+    if (tried_ > kMostTrials) return {};
+    tried_ += 1 + rule.selector.classes.size() * (length / 64);
     if (rule.selector.rank < rank || !matches(rule.selector, node)) continue;
+    tried_ += (rule.last - rule.first) / 8;
     for (size_t i = rule.first; i < rule.last; ++i) {
       if (declarations_[i].property != name) continue;
       rank = rule.selector.rank;
