@@ -123,7 +123,7 @@ std::vector<std::vector<uint32_t>> CsgArguments::index_lists(std::string_view na
 }
 
 Facets CsgArguments::facets() {
-  Facets facets{number("$fn", 0), number("$fa", 12), number("$fs", 2)};
+  Facets facets{number("$fn", 0), number("$fa", 12), number("$fs", 2), number("$fe", 0)};
   if (!std::isfinite(facets.fn)) facets.fn = 3;  // as OpenSCAD has it
   return facets;
 }

@@ -291,6 +291,7 @@ class DxfReader {
     if (vertices.empty()) return chain;
     Facets facets = options_.facets;
     facets.fs /= scale;  // the arc is measured before it is scaled
+    facets.fe /= scale;
     chain.points.push_back(vertices[0].at);
     const size_t n = vertices.size();
     for (size_t i = 0; i + 1 < n || (closed && i + 1 == n); ++i) {

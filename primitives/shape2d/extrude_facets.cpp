@@ -56,6 +56,14 @@ double diagonal_slices(const Shape2D& shape, const LinearExtrudeOptions& o, doub
   return std::max(std::ceil(std::sqrt(squared + height * height) / fs_of(o)), 1.0);
 }
 
+/// Slices for a twist so that the way of a point at that radius stays within fe of its helix.
+double helix_slices_by_error(const LinearExtrudeOptions& o, double radius) {
+  const double twist = std::fabs(o.twist);
+  const double least = std::max(std::ceil(twist / 120), 1.0);
+  if (o.facets.fe >= radius) return least;
+  return std::max(std::ceil(twist / (2 * acos_deg(1 - o.facets.fe / radius))), least);
+}
+
 /// Slices for a twist, along a helix of the given length.
 double helix_slices(const LinearExtrudeOptions& o, double length) {
   const double twist = std::fabs(o.twist);
@@ -166,13 +174,12 @@ double slices_of(const Shape2D& shape, const LinearExtrudeOptions& options, doub
   const bool even = options.scale.x == options.scale.y;
   if (options.twist == 0) return even ? 1 : diagonal_slices(shape, options, height);
   const double radius = farthest_radius(shape);
-  if (!even) {
-    return std::max(diagonal_slices(shape, options, height),
-                    helix_slices(options, helix_length(radius, options, height)));
-  }
-  return helix_slices(options, options.scale.x == 1
-                                   ? helix_length(radius, options, height)
-                                   : conical_helix_length(radius, options, height));
+  if (even && options.scale.x != 1)
+    return helix_slices(options, conical_helix_length(radius, options, height));
+  const double slices = options.facets.by_error()
+                            ? helix_slices_by_error(options, radius)
+                            : helix_slices(options, helix_length(radius, options, height));
+  return even ? slices : std::max(diagonal_slices(shape, options, height), slices);
 }
 
 bool is_cut_from_first(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,

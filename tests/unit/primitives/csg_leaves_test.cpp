@@ -37,6 +37,24 @@ TEST(CsgLeaves, ExtrusionsAndPolygons) {
   EXPECT_EQ(holed.warnings.size(), 1u);
 }
 
+// What OpenSCAD writes where its experimental discretization-by-error is on.
+TEST(CsgLeaves, MayHaveTheirFacetsByError) {
+  const std::string by_error = "$fn = 0, $fe = 0.1, $fa = 12, $fs = 2";
+  const auto points = [](const std::string& text) {
+    return parse(text).solid->mesh()->points.size();
+  };
+  EXPECT_EQ(points("cylinder(" + by_error + ", h = 1, r1 = 20, r2 = 20, center = false);"), 64u);
+  EXPECT_EQ(parse("circle(" + by_error + ", r = 20);").shape.loops()[0].size(), 32u);
+  // A corner is sqrt(2) from the axis: 43.5 degrees of its helix are 0.1 mm from the straight line.
+  EXPECT_EQ(points("linear_extrude(height = 9, twist = 180, " + by_error + ", convexity = 1) {" +
+                   "square(size = [2, 2], center = true); }"),
+            6 * 4u);
+  // With a scale $fe does not count.
+  const std::string cone = "linear_extrude(height = 9, twist = 180, scale = 2, ";
+  EXPECT_EQ(points(cone + by_error + ") {" + kSquare + "}"),
+            points(cone + "$fn = 0, $fa = 12, $fs = 2) {" + kSquare + "}"));
+}
+
 TEST(CsgLeaves, OutlinesOfShapes) {
   const auto area = [](const std::string& text) { return parse(text).shape.area(); };
   const std::string ring =

@@ -40,6 +40,30 @@ TEST(Facets, FollowOpenScad) {
   EXPECT_EQ((Facets{0, 0.001, 0.001}.fragments(1e6)), 36000);
 }
 
+// OpenSCAD's $fe: as few sides as stay so near to the circle.
+TEST(Facets, ByError) {
+  const auto with = [](double fe) { return Facets{0, 12, 2, fe}; };
+  for (const double r : {0.7, 5.0, 100.0}) {
+    for (const double fe : {0.001, 0.01, 0.1}) {
+      const auto error = [&](int n) { return r * (1 - std::cos(kPi / n)); };
+      const int n = with(fe).fragments(r);
+      EXPECT_LE(error(n), fe) << r << ' ' << fe;
+      EXPECT_TRUE(n == 5 || error(n - 1) > fe) << r << ' ' << fe;
+    }
+  }
+  EXPECT_EQ(with(0.01).fragments(5), 50);
+  EXPECT_EQ(with(0.01).fragments(5, 90), 13);
+  EXPECT_EQ(with(0.01).fragments(5, 36), 5);
+  EXPECT_EQ(with(1).fragments(1), 5);
+  EXPECT_EQ(with(3).fragments(1, 144), 2);
+  EXPECT_EQ(with(1e-6).fragments(100), 22215);
+  EXPECT_EQ(with(1e-6).fragments(1000), 36000);  // what the least $fa gives
+  EXPECT_EQ(with(1e-7).fragments(5), 16);        // too little to count
+  EXPECT_EQ(with(-1).fragments(5), 16);
+  EXPECT_EQ(with(kInf).fragments(5), 3);
+  EXPECT_EQ((Facets{7, 12, 2, 0.01}.fragments(5)), 7);
+}
+
 TEST(Cube, HasItsCornersAndOutwardFaces) {
   const auto cube = make_cube({1, 2, 3});
   ASSERT_TRUE(cube);

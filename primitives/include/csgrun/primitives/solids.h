@@ -12,9 +12,12 @@
 
 namespace csgrun {
 
-/// How round things become polygons: OpenSCAD's $fn, $fa, $fs.
+/// How round things become polygons: OpenSCAD's $fn, $fa, $fs, and its experimental $fe.
 struct Facets {
   double fn = 0, fa = 12, fs = 2;
+  double fe = 0;  ///< mm between a circle and its sides; fa and fs do not count then. 0: not asked
+  /// Whether fe says how many fragments there are; it is finite then.
+  [[nodiscard]] bool by_error() const;
   /// Number of fragments of a full (or partial) turn of radius r.
   [[nodiscard]] int fragments(double r, double angle_deg = 360) const;
 };
