@@ -105,7 +105,7 @@ class PartJoiner {
     for (const CutLoops::Loop& loop : loops.loops) {
       for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
         const uint32_t code = loops.corner_point[c];
-        if (code & CutPart::kNew || !(code & CutPart::kVertex)) continue;
+        if (!(code & CutPart::kVertex)) continue;
         const uint32_t vertex = code & ~CutPart::kVertex;
         const uint8_t need = is_by_value(vertex, loop.is_loose) ? kPoint | kUnique : kPoint;
         const std::atomic_ref<uint8_t> shared(needs[vertex]);
