@@ -94,7 +94,8 @@ class SegmentSweep {
     per_step_ = count > 1 ? count / (hi[across_] - lo_) : 0;
     strips_ = count;
     if (active_.size() < count) active_.resize(count);
-    for (std::vector<Active>& active : active_) active.clear();
+    // Others are cleared when they are in use: after a large face they are many.
+    for (uint32_t i = 0; i < count; ++i) active_[i].clear();
   }
 
   /// Monotone.
