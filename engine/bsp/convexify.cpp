@@ -225,7 +225,9 @@ class Convexifier {
     Fragment front, back;
     if (geometry_.split(cell, plane, front, back) != Side::kSplit) return false;
     Halves halves = distribute(edges, plane);
-    // A cut must make progress; so either side has edges, which say what it is.
+    // What a side is its edges say: where a wall holds edges there may be none left on one side.
+    if (halves.front.empty() || halves.back.empty()) return false;
+    // A cut must make progress.
     if (std::max(halves.front.size(), halves.back.size()) + 3 > edges.size()) return false;
     cut(front, std::move(halves.front));
     cut(back, std::move(halves.back));

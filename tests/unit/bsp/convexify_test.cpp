@@ -50,9 +50,10 @@ class Region {
     }
   }
 
-  void run() {
-    const auto wall = [this](int axis, int64_t m) {
-      Plane p{0, 0, 0, -(3 * static_cast<Int128>(m) + 1)};
+  /// `thirds`: how far walls are beside whole numbers.
+  void run(int thirds = 1) {
+    const auto wall = [this, thirds](int axis, int64_t m) {
+      Plane p{0, 0, 0, -(3 * static_cast<Int128>(m) + thirds)};
       (axis == 0 ? p.a : axis == 1 ? p.b : p.c) = 3;
       return planes_.intern(p).index();
     };
@@ -405,6 +406,28 @@ TEST(LoopPieces, TurnsAreThoseOfExactPoints) {
   }
   EXPECT_GT(left, 1000u);
   EXPECT_GT(right, 1000u);
+}
+
+// Most edges begin in one line, in which there is a wall: the others are all on one side of it.
+TEST(Convexify, NothingIsDividedByAWallThatHoldsEdges) {
+  for (int turn = 0; turn < 6; ++turn) {
+    for (const bool mirrored : {false, true}) {
+      std::vector<Loop2> loops{{{300, 0}, {400, 0}, {400, 50}, {300, 50}},
+                               {{310, 10}, {310, 20}, {320, 20}, {320, 10}}};
+      for (int64_t i = 0; i < 20; ++i) {
+        loops.push_back({{0, 12 * i}, {7, 12 * i + 4}, {0, 12 * i + 9}});
+      }
+      if (mirrored) {
+        for (Loop2& loop : loops) {
+          for (auto& p : loop) p[0] = -p[0];
+          std::reverse(loop.begin(), loop.end());
+        }
+      }
+      Region region(turn % 3, turn / 3 != 0, loops);
+      region.run(0);
+      region.check();
+    }
+  }
 }
 
 TEST(Convexify, OfNothingIsNothing) {
