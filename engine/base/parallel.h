@@ -61,22 +61,31 @@ void for_each_alone(size_t count, bool much, Work&& work) {
   for_each_part(count, 1, [&](size_t, size_t i, size_t) { work(i); });
 }
 
+/// Calls list(begin, end, out) for the parts of [0, count), at the same time, and returns what they
+/// append to `out`, in the order of the parts.
+template <class T, class List>
+std::vector<T> list_in_parts(size_t count, size_t each, List&& list) {
+  std::vector<std::vector<T>> parts(part_count(count, each));
+  for_each_part(count, each, [&](size_t part, size_t begin, size_t end) {
+    std::vector<T> own;  // not beside those of other threads while it grows
+    list(begin, end, own);
+    parts[part] = std::move(own);
+  });
+  if (parts.size() == 1) return std::move(parts[0]);
+  std::vector<T> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 /// The numbers below count for which `is_wanted` says so, ascending; it is asked on several
 /// threads.
 template <class Wanted>
 std::vector<uint32_t> numbers_where(size_t count, Wanted&& is_wanted) {
-  std::vector<std::vector<uint32_t>> parts(part_count(count, kFewForThreads));
-  for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
-    std::vector<uint32_t> wanted;
+  return list_in_parts<uint32_t>(count, kFewForThreads, [&](size_t begin, size_t end, auto& out) {
     for (auto i = static_cast<uint32_t>(begin); i < end; ++i) {
-      if (is_wanted(i)) wanted.push_back(i);
+      if (is_wanted(i)) out.push_back(i);
     }
-    parts[part] = std::move(wanted);
   });
-  if (parts.size() == 1) return std::move(parts[0]);
-  std::vector<uint32_t> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
 }
 
 /// Calls both, at the same time if they are `much`: neither may look at what the other changes.

@@ -126,12 +126,10 @@ class Assembler {
                                first[w],
                                p.count,
                                true};
-        const auto corners = job_.corners(p);
-        const auto edges = job_.edge_planes(p);
-        for (uint32_t i = 0; i < p.count; ++i) {
-          corners_[first[w] + i] = corners[corner_place(i, p.count, flip)];
-          planes_[first[w] + i] = edges[edge_place(i, p.count, flip)];
-        }
+        each_corner(p, flip, [&, next = first[w]](uint32_t vertex, uint32_t plane) mutable {
+          corners_[next] = vertex;
+          planes_[next++] = plane;
+        });
       }
     });
   }
@@ -159,11 +157,19 @@ class Assembler {
   }
 
   void add_polygon(const JobPolygon& p, bool flip) {
+    each_corner(p, flip, [&](uint32_t v, uint32_t plane) {
+      corners_.push_back(vertex(v));
+      planes_.push_back(plane);
+    });
+  }
+
+  /// Calls visit(vertex of the job, plane of the edge that leaves it) round a polygon.
+  template <class Visit>
+  void each_corner(const JobPolygon& p, bool flip, Visit&& visit) const {
     const auto corners = job_.corners(p);
     const auto edges = job_.edge_planes(p);
     for (uint32_t i = 0; i < p.count; ++i) {
-      corners_.push_back(vertex(corners[corner_place(i, p.count, flip)]));
-      planes_.push_back(edges[edge_place(i, p.count, flip)]);
+      visit(corners[corner_place(i, p.count, flip)], edges[edge_place(i, p.count, flip)]);
     }
   }
 

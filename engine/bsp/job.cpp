@@ -62,18 +62,18 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_box
   boundary_planes_.resize(operands.size());
   for (size_t o = 0; o < operands.size(); ++o) {
     if (!operands[o].boundary) continue;
-    const std::vector<Plane>& planes = operands[o].boundary->planes;
+    const std::vector<Plane>& of_operand = operands[o].boundary->planes;
     const IVec3& moved = operands[o].translation;
     const FrameMap& map = sources_[o].map;
     std::vector<PlaneId>& ids = boundary_planes_[o];
-    ids.reserve(planes.size());
+    ids.reserve(of_operand.size());
     if (planes_.size() == 0 && map.is_identity() && moved == IVec3{0, 0, 0}) {
-      planes_.adopt(planes);
-      for (uint32_t p = 0; p < planes.size(); ++p) ids.emplace_back(p, false);
+      planes_.adopt(of_operand);
+      for (uint32_t p = 0; p < of_operand.size(); ++p) ids.emplace_back(p, false);
       continue;
     }
     // A plane that is moved by whole steps has the common divisors that it had.
-    for (const Plane& plane : planes) {
+    for (const Plane& plane : of_operand) {
       const Plane there = translate_plane(plane, moved);
       ids.push_back(map.is_identity() ? planes_.intern_stored(there)
                                       : planes_.intern(map.plane(there)));

@@ -151,8 +151,7 @@ void PatchFates::ask_about_loops() {
 void PatchFates::ask_about_whole() {
   const size_t count = job_.polygons().size();
   patch_of_polygon_.resize(count);
-  std::vector<std::vector<uint32_t>> unasked(part_count(count, kFewForThreads));
-  for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+  const auto list = [&](size_t begin, size_t end, std::vector<uint32_t>& unasked) {
     uint32_t last = kNone;
     for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
       const uint32_t patch =
@@ -162,11 +161,11 @@ void PatchFates::ask_about_whole() {
         continue;
       }
       last = patch;
-      unasked[part].push_back(last);
+      unasked.push_back(last);
     }
-  });
-  for (const auto& part : unasked) {
-    for (const uint32_t patch : part) ask(patch, job_.operand_of_vertex(patch));
+  };
+  for (const uint32_t patch : list_in_parts<uint32_t>(count, kFewForThreads, list)) {
+    ask(patch, job_.operand_of_vertex(patch));
   }
 }
 

@@ -10,15 +10,11 @@
 namespace csgrun {
 
 uint32_t TouchFinder::number(uint32_t point) {
-  const uint32_t vertex = geometry_.point(point).vertex;
-  if (vertex != kNone && !touched_[vertex]) return point;
-  return index_.unique(point);
+  return may_be_met(point) ? index_.unique(point) : point;
 }
 
 void TouchFinder::examine(uint32_t point) {
-  // Nothing passes a vertex that is not touched.
-  const uint32_t vertex = geometry_.point(point).vertex;
-  if (vertex != kNone && !touched_[vertex]) return;
+  if (!may_be_met(point)) return;
   is_examined_.resize(geometry_.point_count(), 0);
   is_examined_[number(point)] = 1;
 }

@@ -22,6 +22,11 @@ class TouchFinder {
               const std::vector<uint8_t>& touched)
       : job_(job), geometry_(geometry), index_(index), touched_(touched) {}
 
+  /// Whether another operand's surface may pass a point: no vertex that is not touched.
+  [[nodiscard]] bool may_be_met(uint32_t point) const {
+    const uint32_t vertex = geometry_.point(point).vertex;
+    return vertex == kNone || touched_[vertex] != 0;
+  }
   /// Has a point of the geometry examined.
   void examine(uint32_t point);
   /// Whether there is any point to be examined.

@@ -239,7 +239,7 @@ class FaceEvaluator {
       corners_.clear();
       for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
         for (const uint32_t p : points_of(cut_.loops.loops[l])) {
-          if (!may_be_end(p)) continue;
+          if (!finder.may_be_met(p)) continue;
           corners_.push_back(p);
           if (fates_->of_loop(l) != PatchFate::kDrop) finder.examine(p);
         }
@@ -271,36 +271,27 @@ class FaceEvaluator {
       uint32_t polygon, loop;
     };
     constexpr size_t kFacesPerPart = 2048;
-    std::vector<std::vector<Outline>> parts(part_count(cut_.faces.size(), kFacesPerPart));
-    for_each_part(cut_.faces.size(), kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
+    const auto list = [&](size_t begin, size_t end, std::vector<Outline>& out) {
       for (size_t f = begin; f < end; ++f) {
         const CutFaces::Face& cut = cut_.faces[f];
         for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
           if (fates_->of_loop(l) != PatchFate::kDrop &&
               finder.may_pass_examined(points_of(cut_.loops.loops[l]))) {
-            parts[part].push_back({cut.polygon, l});
+            out.push_back({cut.polygon, l});
           }
         }
       }
-    });
-    for (const auto& part : parts) {
-      for (const Outline& o : part) {
-        const CutLoops::Loop& loop = cut_.loops.loops[o.loop];
-        finder.add_outline(o.polygon, points_of(loop), planes_of(loop),
-                           fates_->of_loop(o.loop) == PatchFate::kFlip);
-      }
+    };
+    for (const Outline& o : list_in_parts<Outline>(cut_.faces.size(), kFacesPerPart, list)) {
+      const CutLoops::Loop& loop = cut_.loops.loops[o.loop];
+      finder.add_outline(o.polygon, points_of(loop), planes_of(loop),
+                         fates_->of_loop(o.loop) == PatchFate::kFlip);
     }
     for (const WholePolygon& w : result_.whole) {
       if (!w.is_met || !has_touched_corner(w.polygon)) continue;
       list_corners(w.polygon);
       finder.add_outline(w.polygon, corners_, {}, w.flip);
     }
-  }
-
-  /// Whether a contact may end in a point: in no vertex that is not touched.
-  [[nodiscard]] bool may_be_end(uint32_t point) const {
-    const uint32_t vertex = geometry_.point(point).vertex;
-    return vertex == kNone || contacts_.touched()[vertex];
   }
 
   [[nodiscard]] bool has_touched_corner(uint32_t polygon) const {

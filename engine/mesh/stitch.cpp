@@ -42,8 +42,7 @@ EdgeRef make_ref(uint32_t from, uint32_t to, uint32_t index) {
 
 /// The indices of sorted edges of which more run one way than the other.
 std::vector<uint32_t> find_unbalanced(const RawVector<EdgeRef>& refs) {
-  std::vector<std::vector<uint32_t>> parts(part_count(refs.size(), kFewForThreads));
-  for_each_part(refs.size(), kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+  const auto list = [&](size_t begin, size_t end, std::vector<uint32_t>& out) {
     size_t i = begin;
     while (i > 0 && i < end && same_ends(refs[i - 1], refs[i])) ++i;  // those of the part before
     while (i < end) {
@@ -53,14 +52,12 @@ std::vector<uint32_t> find_unbalanced(const RawVector<EdgeRef>& refs) {
         balance += refs[j].forward ? 1 : -1;
       }
       if (balance != 0) {
-        for (size_t k = i; k < j; ++k) parts[part].push_back(refs[k].index);
+        for (size_t k = i; k < j; ++k) out.push_back(refs[k].index);
       }
       i = j;
     }
-  });
-  std::vector<uint32_t> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
+  };
+  return list_in_parts<uint32_t>(refs.size(), kFewForThreads, list);
 }
 
 struct LooseEdge {
