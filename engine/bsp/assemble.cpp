@@ -68,7 +68,6 @@ class Assembler {
 
  private:
   static constexpr uint32_t kNamed = 1u << 31;  ///< see gather
-  static constexpr size_t kAhead = 12;          ///< points are looked up by hashes
 
   struct Piece {
     PlaneId plane;
@@ -81,27 +80,65 @@ class Assembler {
   /// Lists pieces and their corners: at first vertices of the job by their numbers, other points by
   /// kNamed + number.
   void gather(const std::vector<FragmentSet>& sets, const std::vector<WholePolygon>& whole) {
-    std::vector<uint32_t> number;
-    for (const FragmentSet& set : sets) {
-      number.clear();
-      for (size_t i = 0; i < set.points.size(); ++i) {
-        const FragmentSet::NamedPoint& p = set.points[i];
-        if (i + kAhead < set.points.size()) index_.expect(set.points[i + kAhead].rounded);
-        number.push_back(p.vertex != kNone
-                             ? p.vertex
-                             : kNamed | index_.unique(geometry_.add_point(p.planes, p.rounded)));
-      }
-      for (const FragmentSet::Piece& p : set.pieces) {
-        pieces_.push_back({p.plane, job_.label(job_.polygons()[p.polygon]), p.polygon,
-                           static_cast<uint32_t>(corners_.size()), p.count, false, p.is_loose});
-        for (uint32_t i = 0; i < p.count; ++i) {
-          corners_.push_back(number[set.corner_point[p.first + i]]);
-          planes_.push_back(set.corner_plane[p.first + i]);
-        }
-      }
-    }
+    for (const FragmentSet& set : sets) gather_cut(set);
     gather_whole(whole);
     number_corners();
+  }
+
+  void gather_cut(const FragmentSet& set) {
+    const std::vector<uint32_t> number = number_points(set);
+    std::vector<uint32_t> first(set.pieces.size() + 1);
+    first[0] = static_cast<uint32_t>(corners_.size());
+    for (size_t i = 0; i < set.pieces.size(); ++i) first[i + 1] = first[i] + set.pieces[i].count;
+    const size_t before = pieces_.size();
+    pieces_.resize(before + set.pieces.size());
+    corners_.resize(first.back());
+    planes_.resize(first.back());
+    for_each_range(set.pieces.size(), [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        const FragmentSet::Piece& p = set.pieces[i];
+        pieces_[before + i] = {
+            p.plane,   job_.label(job_.polygons()[p.polygon]), p.polygon, first[i], p.count, false,
+            p.is_loose};
+        for (uint32_t c = 0; c < p.count; ++c) {
+          corners_[first[i] + c] = number[set.corner_point[p.first + c]];
+          planes_[first[i] + c] = set.corner_plane[p.first + c];
+        }
+      }
+    });
+  }
+
+  /// Makes points of those of a set that are no vertices. What corners are to be, see gather.
+  std::vector<uint32_t> number_points(const FragmentSet& set) {
+    const std::vector<uint32_t> made =
+        numbers_where(set.points.size(), [&](uint32_t i) { return set.points[i].vertex == kNone; });
+    const std::vector<uint32_t> points = add_points(made.size(), [&](size_t i, uint32_t p) {
+      geometry_.set_point(p, set.points[made[i]].planes, set.points[made[i]].rounded);
+    });
+    std::vector<uint32_t> number(set.points.size());
+    for_each_range(number.size(), [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) number[i] = set.points[i].vertex;
+    });
+    for_each_range(made.size(), [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) number[made[i]] = kNamed | points[i];
+    });
+    return number;
+  }
+
+  /// Adds points, of which set(i, number) sets one, and returns what they are in the index.
+  template <class Set>
+  std::vector<uint32_t> add_points(size_t count, Set&& set) {
+    std::vector<uint32_t> points(count);
+    const uint32_t first = geometry_.add_points(count);
+    for_each_range(count, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        points[i] = first + static_cast<uint32_t>(i);
+        set(i, points[i]);
+      }
+    });
+    index_.make_unique(points);
+    for (uint32_t& p : points) p = index_.known(p);
+    return points;
   }
 
   void gather_whole(const std::vector<WholePolygon>& whole) {
@@ -144,10 +181,10 @@ class Assembler {
       }
     });
     const auto used = numbers_where(is_used.size(), [&](uint32_t v) { return is_used[v] != 0; });
-    for (size_t i = 0; i < used.size(); ++i) {
-      if (i + kAhead < used.size()) index_.expect(job_.rounded(used[i + kAhead]));
-      vertex(used[i]);
-    }
+    const std::vector<uint32_t> points = add_points(
+        used.size(), [&](size_t i, uint32_t p) { geometry_.set_vertex_point(p, used[i]); });
+    vertex_number_.assign(job_.vertex_count(), kNone);
+    for (size_t i = 0; i < used.size(); ++i) vertex_number_[used[i]] = points[i];
     for_each_range(corners_.size(), [&](size_t begin, size_t end) {
       for (size_t c = begin; c < end; ++c) {
         uint32_t& corner = corners_[c];
@@ -174,7 +211,6 @@ class Assembler {
   }
 
   uint32_t vertex(uint32_t v) {
-    if (vertex_number_.empty()) vertex_number_.assign(job_.vertex_count(), kNone);
     if (vertex_number_[v] == kNone) vertex_number_[v] = index_.unique(geometry_.vertex_point(v));
     return vertex_number_[v];
   }

@@ -1,36 +1,37 @@
 #include "engine/bsp/crossing_points.h"
 
 #include <array>
+#include <span>
 
-#include "engine/base/in_order.h"
+#include "engine/base/parallel.h"
 
 namespace csgrun {
 
 void CrossingPoints::make_points() {
-  struct Made {
-    std::array<uint32_t, 3> planes;
-    std::array<double, 3> rounded;
-  };
-  const size_t first = points_.size(), count = crossings_.size() - first;
+  const size_t before = points_.size(), count = crossings_.size() - before;
   std::vector<PolygonEdge> edges;
   edges.reserve(count);
-  for (size_t i = first; i < crossings_.size(); ++i) edges.push_back(crossings_[i].edge);
+  for (size_t i = before; i < crossings_.size(); ++i) edges.push_back(crossings_[i].edge);
   job_.ensure_edges(edges);
   const auto& polygons = job_.polygons();
+  const uint32_t first_point = geometry_.add_points(count);
+  points_.resize(crossings_.size());
   const auto make = [&](size_t i) {
-    const Crossing& c = crossings_[first + i];
+    const Crossing& c = crossings_[before + i];
     const JobPolygon& own = polygons[c.edge.polygon];
     const std::array<uint32_t, 3> planes{own.support.index(), job_.edge_planes(own)[c.edge.edge],
                                          polygons[c.name.through].support.index()};
     const auto plane = [&](int k) -> const Plane& { return job_.planes().plane(planes[k]); };
-    return Made{planes, rounded(intersect(plane(0), plane(1), plane(2)))};
+    points_[before + i] = first_point + static_cast<uint32_t>(i);
+    geometry_.set_point(points_[before + i], planes,
+                        rounded(intersect(plane(0), plane(1), plane(2))));
   };
-  make_and_take(
-      count, make,
-      [&](size_t, const Made& p) {
-        points_.push_back(index_.unique(geometry_.add_point(p.planes, p.rounded)));
-      },
-      [&](const Made& p) { index_.expect(p.rounded); });
+  constexpr size_t kEach = 512;
+  for_each_part(count, kEach, [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) make(i);
+  });
+  index_.make_unique(std::span(points_).subspan(before));
+  for (size_t i = before; i < points_.size(); ++i) points_[i] = index_.known(points_[i]);
 }
 
 }  // namespace csgrun

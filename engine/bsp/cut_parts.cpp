@@ -90,15 +90,19 @@ class PartJoiner {
 
   /// Equal points of loose loops get one number.
   void make_unique(const std::vector<CutPart>& parts, const std::vector<uint8_t>& needs) {
-    for (const uint32_t v :
-         numbers_where(needs.size(), [&](uint32_t v) { return (needs[v] & kUnique) != 0; })) {
-      index_.unique(geometry_.made_vertex_point(v));
-    }
-    for (size_t p = 0; p < parts.size(); ++p) {
-      for (size_t i = 0; i < points_[p].size(); ++i) {
-        if (parts[p].points[i].is_loose) points_[p][i] = index_.unique(points_[p][i]);
+    std::vector<uint32_t> asked =
+        numbers_where(needs.size(), [&](uint32_t v) { return (needs[v] & kUnique) != 0; });
+    for (uint32_t& v : asked) v = geometry_.made_vertex_point(v);
+    const auto each_loose_point = [&](auto&& visit) {
+      for (size_t p = 0; p < parts.size(); ++p) {
+        for (size_t i = 0; i < points_[p].size(); ++i) {
+          if (parts[p].points[i].is_loose) visit(points_[p][i]);
+        }
       }
-    }
+    };
+    each_loose_point([&](uint32_t point) { asked.push_back(point); });
+    index_.make_unique(asked);
+    each_loose_point([&](uint32_t& point) { point = index_.known(point); });
   }
 
   void note_needs(const CutLoops& loops, std::vector<uint8_t>& needs) const {

@@ -2,9 +2,11 @@
 // doubles: a hash of these finds the candidates, exact signs confirm.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/bsp/cell_geometry.h"
@@ -15,10 +17,6 @@ class PointIndex {
  public:
   explicit PointIndex(CellGeometry& geometry) : geometry_(geometry), slots_(kFewSlots) {}
 
-  /// Fetches what unique() of a point of such coordinates will look at, soon.
-  void expect(const std::array<double, 3>& rounded) const {
-    __builtin_prefetch(&slots_[hash(rounded) & (slots_.size() - 1)]);
-  }
   /// Forgets all points.
   void clear() {
     slots_.assign(kFewSlots, {});
@@ -32,8 +30,10 @@ class PointIndex {
     if (p >= known_.size()) known_.resize(geometry_.point_count() + kFewSlots, kNone);
     return known_[p] = find_or_add(p);
   }
+  /// Asks for many, one after another or, with the same outcome, on several threads.
+  void make_unique(std::span<const uint32_t> points);
 
-  /// The same of a point for which it was asked before. Several threads may ask.
+  /// What unique() said of a point. Several threads may ask.
   [[nodiscard]] uint32_t known(uint32_t p) const { return known_[p]; }
 
  private:
@@ -43,15 +43,17 @@ class PointIndex {
   };
 
   uint32_t find_or_add(uint32_t p) {
-    const uint32_t own = hash(geometry_.point(p).rounded);
-    size_t s = own & (slots_.size() - 1);
-    for (; slots_[s].point != kNone; s = (s + 1) & (slots_.size() - 1)) {
-      if (slots_[s].hash == own && equal(slots_[s].point, p)) return slots_[s].point;
+    const uint32_t own = hash(p);
+    const size_t last = slots_.size() - 1;
+    size_t s = own & last;
+    for (; slots_[s].point != kNone; s = (s + 1) & last) {
+      if (slots_[s].hash == own && equal(geometry_, slots_[s].point, p)) return slots_[s].point;
     }
     slots_[s] = {own, p};
-    if (++count_ * 2 > slots_.size()) grow();
+    make_room(++count_);
     return p;
   }
+  [[nodiscard]] uint32_t hash(uint32_t p) const { return hash(geometry_.point(p).rounded); }
   static uint32_t hash(const std::array<double, 3>& rounded) {
     uint64_t h = 0;
     for (const double c : rounded) {
@@ -60,22 +62,29 @@ class PointIndex {
     }
     return static_cast<uint32_t>(h);
   }
-  bool equal(uint32_t p, uint32_t q) {
+  /// `exactly`: the geometry, or a view of it.
+  template <class Exactly>
+  bool equal(Exactly& exactly, uint32_t p, uint32_t q) const {
     const auto a = geometry_.point(p), b = geometry_.point(q);
     if (a.rounded != b.rounded) return false;
     if (a.vertex != kNone && a.vertex == b.vertex) return true;
     if (a.is_on_grid && b.is_on_grid) return true;
     // p is q when it lies on three planes that meet in q only.
+    const auto on_planes = [&](uint32_t point, const std::array<uint32_t, 3>& planes) {
+      return std::all_of(planes.begin(), planes.end(),
+                         [&](uint32_t plane) { return exactly.side(plane, point) == 0; });
+    };
     if (b.planes[0] != kNone) return on_planes(p, b.planes);
     if (a.planes[0] != kNone) return on_planes(q, a.planes);
-    return compare(geometry_.exact(p), geometry_.exact(q)) == 0;
+    // Both first: the reference to one must survive the other's construction.
+    exactly.exact(p);
+    exactly.exact(q);
+    return compare(exactly.exact(p), exactly.exact(q)) == 0;
   }
-  bool on_planes(uint32_t p, const std::array<uint32_t, 3>& planes) {
-    return geometry_.side(planes[0], p) == 0 && geometry_.side(planes[1], p) == 0 &&
-           geometry_.side(planes[2], p) == 0;
-  }
-  void grow() {
-    std::vector<Slot> old(slots_.size() * 2);
+  /// For so many points in all: half of the slots stay empty.
+  void make_room(size_t count) {
+    if (count * 2 <= slots_.size()) return;
+    std::vector<Slot> old(std::bit_ceil(count * 2));
     std::swap(old, slots_);
     for (const Slot& slot : old) {
       if (slot.point == kNone) continue;
@@ -84,6 +93,7 @@ class PointIndex {
       slots_[s] = slot;
     }
   }
+  void make_unique_in_shards(std::span<const uint32_t> points);
 
   CellGeometry& geometry_;
   std::vector<Slot> slots_;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/parallel.h"
 #include "tests/support/exact_solid.h"
 #include "tests/support/random_solids.h"
 
@@ -117,6 +118,55 @@ TEST(PointIndex, FindsAllAfterItGrew) {
       }
     }
     ASSERT_EQ(expected, 4913u);  // many more than the table began with
+  }
+}
+
+// Many at once, on any number of threads: what asking one after another says, for points that were
+// there before, twice in the list, under other names, or only round alike.
+TEST(PointIndex, SaysTheSameOfManyAtOnce) {
+  constexpr int kSide = 32;
+  PlaneTable planes;
+  std::vector<uint32_t> wall[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int64_t at = -kSide / 2; at < kSide / 2; ++at) {
+      wall[axis].push_back(planes.intern({axis == 0, axis == 1, axis == 2, -at}).index());
+    }
+    wall[axis][0] = near_third(planes, axis, 0);
+    wall[axis][1] = near_third(planes, axis, 1);
+  }
+  const auto add_points = [&](CellGeometry& geometry) {
+    std::vector<uint32_t> points;
+    for (int round = 0; round < 2; ++round) {
+      for (const uint32_t x : wall[0]) {
+        for (const uint32_t y : wall[1]) {
+          for (const uint32_t z : wall[2]) {
+            if ((x + y + z) % 3 == 0 || round == 0) points.push_back(geometry.add_point({z, y, x}));
+            if (points.size() % 7 == 0) points.push_back(points[points.size() / 2]);
+          }
+        }
+      }
+    }
+    return points;
+  };
+  CellGeometry geometry(planes, nullptr);
+  PointIndex index(geometry);
+  std::vector<uint32_t> expected;
+  for (const uint32_t p : add_points(geometry)) expected.push_back(index.unique(p));
+  ASSERT_GT(expected.size(), kFewForThreads);
+  size_t distinct = 0;
+  for (uint32_t p = 0; p < geometry.point_count(); ++p) distinct += index.unique(p) == p;
+  EXPECT_EQ(distinct, size_t{kSide} * kSide * kSide);
+  for (const unsigned threads : {1u, 2u, 4u}) {
+    CellGeometry own(planes, nullptr);
+    PointIndex many(own);
+    const std::vector<uint32_t> points = add_points(own);
+    // Some are known before, others come after.
+    const std::span<const uint32_t> all(points);
+    const size_t first = 100, last = points.size() - 100;
+    for (const uint32_t p : all.first(first)) many.unique(p);
+    with_threads(threads, [&] { many.make_unique(all.subspan(first, last - first)); });
+    for (size_t i = 0; i < last; ++i) ASSERT_EQ(many.known(points[i]), expected[i]) << i;
+    for (size_t i = last; i < points.size(); ++i) ASSERT_EQ(many.unique(points[i]), expected[i]);
   }
 }
 
