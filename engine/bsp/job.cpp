@@ -305,16 +305,30 @@ PolygonBox Job::box_of(const JobPolygon& polygon) const {
 
 /// Where vertices are whole numbers.
 PolygonBox Job::grid_box_of(const JobPolygon& polygon) const {
-  std::array<double, 3> lo = rounded_[corners_[polygon.first]], hi = lo;
-  for (const uint32_t v : corners(polygon)) {
-    for (size_t k = 0; k < 3; ++k) {
-      lo[k] = std::min(lo[k], rounded_[v][k]);
-      hi[k] = std::max(hi[k], rounded_[v][k]);
-    }
+  // Coordinates x, y and y, z: pairs, which the processor compares at once.
+  using Pair = double __attribute__((vector_size(16)));
+  struct Pairs {
+    Pair xy, yz;
+  };
+  const auto load = [&](uint32_t v) {
+    const std::array<double, 3>& at = rounded_[v];
+    return Pairs{{at[0], at[1]}, {at[1], at[2]}};
+  };
+  const auto corners = this->corners(polygon);
+  Pairs lo = load(corners[0]), hi = lo;
+  for (const uint32_t v : corners.subspan(1)) {
+    const Pairs at = load(v);
+    lo.xy = at.xy < lo.xy ? at.xy : lo.xy;
+    lo.yz = at.yz < lo.yz ? at.yz : lo.yz;
+    hi.xy = at.xy > hi.xy ? at.xy : hi.xy;
+    hi.yz = at.yz > hi.yz ? at.yz : hi.yz;
   }
-  PolygonBox box;
-  for (size_t k = 0; k < 3; ++k) box.lo[k] = clamp_to_box(lo[k]), box.hi[k] = clamp_to_box(hi[k]);
-  return box;
+  const auto whole = [](const Pairs& pairs) {
+    const auto coordinate = [](double v) { return static_cast<int32_t>(clamp_to_box(v)); };
+    return std::array<int32_t, 3>{coordinate(pairs.xy[0]), coordinate(pairs.xy[1]),
+                                  coordinate(pairs.yz[1])};
+  };
+  return {whole(lo), whole(hi)};
 }
 
 uint32_t Job::operand_of_vertex(uint32_t vertex) const {
@@ -379,12 +393,18 @@ bool Job::is_of_whole_facet(const JobPolygon& p) const {
 
 /// A corner of a polygon of a leaf, as the leaf counts, at the operand's place in its frame.
 IVec3 Job::leaf_corner(const JobPolygon& p, uint32_t i) const {
+  const uint32_t at = i < p.count ? i : i - p.count;
   const Operand& operand = (*operands_)[p.operand];
+  if (operand.frame.is_identity) {
+    // The same, from what those who ask for planes have looked at.
+    const std::array<double, 3>& exact = rounded_[corners_[p.first + at]];
+    return {static_cast<int64_t>(exact[0]), static_cast<int64_t>(exact[1]),
+            static_cast<int64_t>(exact[2])};
+  }
   const LeafGeometry& leaf = *operand.leaf;
-  const IVec3& at =
-      leaf.vertices[leaf.corners[leaf.face_starts[p.face] + (i < p.count ? i : i - p.count)]];
+  const IVec3& local = leaf.vertices[leaf.corners[leaf.face_starts[p.face] + at]];
   const IVec3& t = operand.translation;
-  return {at[0] + t[0], at[1] + t[1], at[2] + t[2]};
+  return {local[0] + t[0], local[1] + t[1], local[2] + t[2]};
 }
 
 ReducedPlane Job::reduced_support(uint32_t polygon) const {

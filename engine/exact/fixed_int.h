@@ -84,7 +84,17 @@ struct Int {
     }
     return r;
   }
-  [[nodiscard]] Int magnitude() const { return negative() ? -*this : *this; }
+  [[nodiscard]] Int magnitude() const {
+    // Signs are as good as random: no branch on them.
+    const uint64_t sign = -static_cast<uint64_t>(negative());
+    Int r;
+    uint64_t carry = sign & 1;
+    for (int i = 0; i < N; ++i) {
+      r.limb[i] = (limb[i] ^ sign) + carry;
+      carry &= static_cast<uint64_t>(r.limb[i] == 0);
+    }
+    return r;
+  }
   /// Number of bits of the magnitude: 0 for zero.
   [[nodiscard]] int bit_width() const {
     const Int m = magnitude();

@@ -22,10 +22,7 @@ inline bool meet_on_grid(const Plane& p, const Plane& q, const Plane& r,
     at[k] = static_cast<int64_t>(rounded[k]);
   }
   const auto holds = [&](const Plane& s) {
-    if (bit_width(s.a) > kNormalBits || bit_width(s.b) > kNormalBits ||
-        bit_width(s.c) > kNormalBits) {
-      return false;
-    }
+    if (bit_width(s.a, s.b, s.c) > kNormalBits) return false;
     return s.a * at[0] + s.b * at[1] + s.c * at[2] + s.d == 0;
   };
   return holds(p) && holds(q) && holds(r);

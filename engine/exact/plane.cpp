@@ -11,19 +11,17 @@
 namespace csgrun {
 namespace {
 
-UInt128 magnitude(Int128 v) { return v < 0 ? -static_cast<UInt128>(v) : static_cast<UInt128>(v); }
-
-/// Stein's way.
+/// Stein's way. Which of two is less is as good as random: no branch on it.
 uint64_t gcd(uint64_t a, uint64_t b) {
-  if (a == 0) return b;
+  if (a == 0 || b == 0) return a | b;
   const int shift = std::countr_zero(a | b);
   a >>= std::countr_zero(a);
-  while (b != 0) {
+  do {
     b >>= std::countr_zero(b);
-    const uint64_t less = std::min(a, b);
-    b = a > b ? a - b : b - a;
-    a = less;
-  }
+    const uint64_t difference = a - b, is_less = -static_cast<uint64_t>(a < b);
+    a = b + (difference & is_less);  // the lesser one
+    b = (difference ^ is_less) - is_less;
+  } while (b != 0);
   return a << shift;
 }
 
@@ -80,12 +78,6 @@ ReducedPlane reduce(const Plane& plane) {
   return with_hash({plane.a / whole, plane.b / whole, plane.c / whole, plane.d / whole});
 }
 
-int bit_width(Int128 v) {
-  const UInt128 m = magnitude(v);
-  const auto high = static_cast<uint64_t>(m >> 64);
-  return high ? 128 - std::countl_zero(high) : 64 - std::countl_zero(static_cast<uint64_t>(m));
-}
-
 void PlaneTable::enter(uint32_t hash, uint32_t index) {
   const size_t mask = slots_.size() - 1;
   size_t s = hash & mask;
@@ -106,7 +98,7 @@ void PlaneTable::enter_all(size_t slots) {
 }
 
 void PlaneTable::add(const Plane& p) {
-  const int normal = std::max({bit_width(p.a), bit_width(p.b), bit_width(p.c)});
+  const int normal = bit_width(p.a, p.b, p.c);
   const int offset = bit_width(p.d);
   assert(normal <= widths::kMaxNormal && offset <= widths::kMaxOffset);
   planes_.push_back(p);

@@ -79,7 +79,7 @@ Point cramer_narrow(const Plane& p, const Plane& q, const Plane& r) {
   result.y = Coordinate::from_int128(y);
   result.z = Coordinate::from_int128(z);
   result.w = Coordinate::from_int128(whole);
-  result.xyz_bits = std::max({bit_width(x), bit_width(y), bit_width(z)});
+  result.xyz_bits = bit_width(x, y, z);
   result.w_bits = bit_width(whole);
   return result;
 }
@@ -106,9 +106,7 @@ void normalise(Point& p) {
 }
 
 Point intersect(const Plane& p, const Plane& q, const Plane& r) {
-  const auto normal_bits = [](const Plane& s) {
-    return std::max({bit_width(s.a), bit_width(s.b), bit_width(s.c)});
-  };
+  const auto normal_bits = [](const Plane& s) { return bit_width(s.a, s.b, s.c); };
   const int n0 = normal_bits(p), n1 = normal_bits(q), n2 = normal_bits(r);
   const int xyz =
       std::max({n0 + n1 + bit_width(r.d), n0 + n2 + bit_width(q.d), n1 + n2 + bit_width(p.d)}) +

@@ -25,7 +25,7 @@ int side(const Plane& plane, const Point& p) {
 }  // namespace
 
 int exact_tier(const Plane& plane, const Point& p) {
-  const int normal = std::max({bit_width(plane.a), bit_width(plane.b), bit_width(plane.c)});
+  const int normal = bit_width(plane.a, plane.b, plane.c);
   const int bits = widths::side(p.xyz_bits, p.w_bits, normal, bit_width(plane.d)) + 1;
   for (int t = 0; t < static_cast<int>(kTierBits.size()); ++t) {
     if (bits <= kTierBits[t]) return t;
