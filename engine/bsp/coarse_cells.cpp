@@ -7,6 +7,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
+#include "engine/base/subsets.h"
 
 namespace csgrun {
 namespace {
@@ -58,6 +59,10 @@ class Grid {
       count_[k] = before;
       break;
     }
+    for (size_t axes = 0; axes < second_.size(); ++axes) {
+      second_[axes] =
+          (axes & 1) + (axes >> 1 & 1) * count_[0] + (axes >> 2) * count_[0] * count_[1];
+    }
     cells_.resize(count_[0] * count_[1] * count_[2]);
     for_each_range(cells_.size(), [&](size_t begin, size_t end) {
       std::fill(cells_.data() + begin, cells_.data() + end, kNobody);
@@ -70,6 +75,7 @@ class Grid {
     std::array<uint8_t, 3> more;  ///< along each axis, so many more than one
     bool any;
   };
+
   /// False when there are too many to name.
   bool find_cells(const PolygonBox& box, Cells& cells) const {
     constexpr uint32_t kMostMore = 255;
@@ -92,6 +98,14 @@ class Grid {
   template <class Visit>
   void each_cell(const Cells& cells, Visit&& visit) {
     if (!cells.any) return;
+    const uint32_t more =
+        cells.more[0] | uint32_t{cells.more[1]} << 8 | uint32_t{cells.more[2]} << 16;
+    if ((more & ~0x010101u) == 0) {
+      // Two along some axes: a bit for each of these. Nearly all are of this kind.
+      const uint32_t axes = (more | more >> 7 | more >> 14) & 7;
+      for_each_subset(axes, [&](uint32_t some) { visit(cells_[cells.first + second_[some]]); });
+      return;
+    }
     uint32_t* layer = cells_.data() + cells.first;
     for (size_t z = 0; z <= cells.more[2]; ++z, layer += count_[0] * count_[1]) {
       uint32_t* row = layer;
@@ -133,6 +147,7 @@ class Grid {
   const PolygonBox bounds_;
   std::array<unsigned, 3> shift_{};
   std::array<size_t, 3> count_{};
+  std::array<size_t, 8> second_{};  ///< from a cell to the next along several axes, a bit for each
   RawVector<uint32_t> cells_;
 };
 

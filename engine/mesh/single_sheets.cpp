@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <memory>
 
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
+#include "engine/base/subsets.h"
 #include "engine/mesh/face_normal.h"
 #include "engine/mesh/leaf_shape.h"
 
@@ -39,22 +41,26 @@ constexpr Cube not_down(size_t axis) { return static_cast<Cube>(1u << (5 + 4 * a
 constexpr Cube crossed(size_t axis) { return static_cast<Cube>(1u << (6 + 4 * axis)); }
 constexpr Cube crossed_again(size_t axis) { return static_cast<Cube>(1u << (7 + 4 * axis)); }
 
-/// Where a point is along each axis, in eighths of cubes; the fourth number makes it one word.
-using Place = std::array<int16_t, 4>;
+/// Where a point is along each axis, in eighths of cubes: a vector, of which the processor compares
+/// all numbers at once; the fourth is not used.
+using Place = int16_t __attribute__((vector_size(8)));
 constexpr int kEighths = 3;  ///< the binary logarithm
 /// The lines along an axis stand at so many eighths of a cube along the next axis, and along the
 /// one after that, each half a step before: off all points, and off the diagonals of squares that
 /// divide the cubes.
 constexpr int kNext = 4, kAfterNext = 3;
 
-constexpr size_t cube_of(int place) { return static_cast<size_t>(place) >> kEighths; }
+/// The cube of a place along each axis.
+inline Place cubes_of(Place place) { return place >> kEighths; }
 /// The number of lines, which stand at so many eighths, before a place.
-constexpr int lines_before(int place, int at) { return (place + (1 << kEighths) - at) >> kEighths; }
+inline Place lines_before(Place place, int at) {
+  return (place + static_cast<int16_t>((1 << kEighths) - at)) >> kEighths;
+}
 
 /// The cubes that the box of a face reaches.
 struct Reach {
   uint32_t first;
-  std::array<uint8_t, 3> more;  ///< how many after the first one along each axis
+  std::array<uint8_t, 4> more;  ///< how many after the first one along each axis; 0
 };
 
 GridBox box_of_face(const LeafGeometry& leaf, uint32_t begin, uint32_t end) {
@@ -88,6 +94,11 @@ class SheetFinder {
     while (static_cast<double>(width()) < kLeastWidth * extent) ++shift_;
     while (lay_out(box) > kMostCubes * leaf.face_count()) ++shift_;
     cubes_ = std::make_unique<std::atomic<Cube>[]>(lay_out(box));
+    for (size_t axes = 0; axes < second_.size(); ++axes) {
+      for (size_t k = 0; k < 3; ++k) {
+        if (axes >> k & 1) second_[axes] += static_cast<uint32_t>(stride_[k]);
+      }
+    }
     places_.resize(leaf.vertices.size());
     for_each_range(places_.size(), [&](size_t begin, size_t end) {
       for (size_t v = begin; v < end; ++v) places_[v] = place_of(leaf.vertices[v]);
@@ -166,12 +177,22 @@ class SheetFinder {
   Cube set(size_t cube, Cube bits) {
     const Cube known = load(cube);
     if ((known & bits) == bits) return known;
+    if (is_alone_) {
+      cubes_[cube].store(known | bits, std::memory_order_relaxed);
+      return known;
+    }
     return cubes_[cube].fetch_or(bits, std::memory_order_relaxed);
   }
 
   template <class Visit>
   void for_each_cube(const Reach& reach, Visit visit) const {
-    if ((reach.more[0] | reach.more[1] | reach.more[2]) == 0) return visit(reach.first);
+    const auto more = std::bit_cast<uint32_t>(reach.more);
+    if ((more & ~0x010101u) == 0) {
+      // Two along some axes: a bit for each of these. Nearly all are of this kind.
+      const uint32_t axes = (more | more >> 7 | more >> 14) & 7;
+      for_each_subset(axes, [&](uint32_t some) { visit(reach.first + second_[some]); });
+      return;
+    }
     for (size_t z = 0; z <= reach.more[2]; ++z) {
       for (size_t y = 0; y <= reach.more[1]; ++y) {
         const size_t row = reach.first + y * stride_[1] + z * stride_[2];
@@ -185,17 +206,16 @@ class SheetFinder {
     const uint32_t begin = leaf_.face_starts[face], end = leaf_.face_starts[face + 1];
     Place lo = places_[leaf_.corners[begin]], hi = lo;
     for (uint32_t c = begin + 1; c < end; ++c) {
-      const Place& at = places_[leaf_.corners[c]];
-      for (size_t k = 0; k < 4; ++k) {
-        lo[k] = std::min(lo[k], at[k]);
-        hi[k] = std::max(hi[k], at[k]);
-      }
+      const Place at = places_[leaf_.corners[c]];
+      lo = at < lo ? at : lo;
+      hi = at > hi ? at : hi;
     }
+    const Place cubes = cubes_of(lo), all_more = cubes_of(hi) - cubes;
     Reach reach{};
     size_t first = 0, count = 1, most_more = 0;
     for (size_t k = 0; k < 3; ++k) {
-      const size_t more = cube_of(hi[k]) - cube_of(lo[k]);
-      first += cube_of(lo[k]) * stride_[k];
+      const auto more = static_cast<size_t>(all_more[k]);
+      first += static_cast<size_t>(cubes[k]) * stride_[k];
       count *= more + 1;
       most_more = std::max(most_more, more);
       reach.more[k] = static_cast<uint8_t>(more);
@@ -206,31 +226,41 @@ class SheetFinder {
     const IVec3 normal = face_normal(leaf_, begin, end);
     Cube bits = kReached;
     for (size_t k = 0; k < 3; ++k) {
-      bits |=
-          static_cast<Cube>((normal[k] <= 0 ? not_up(k) : 0) | (normal[k] >= 0 ? not_down(k) : 0));
+      bits |= static_cast<Cube>(not_up(k) * static_cast<Cube>(normal[k] <= 0) |
+                                not_down(k) * static_cast<Cube>(normal[k] >= 0));
     }
     for_each_cube(reach, [&](uint32_t cube) {
       if (set(cube, bits) == 0) reached.push_back(cube);
     });
-    cross_lines<0>(face, normal, lo, hi);
-    cross_lines<1>(face, normal, lo, hi);
-    cross_lines<2>(face, normal, lo, hi);
+    const Lines next{lines_before(lo, kNext), lines_before(hi, kNext)},
+        after_next{lines_before(lo, kAfterNext), lines_before(hi, kAfterNext)};
+    const Place any = next.begin < next.end, any_after = after_next.begin < after_next.end;
+    const auto may_cross = [&](size_t axis) {
+      return (any[(axis + 1) % 3] & any_after[(axis + 2) % 3]) != 0 && normal[axis] != 0;
+    };
+    if (may_cross(0)) cross_lines<0>(face, normal, cubes, next, after_next);
+    if (may_cross(1)) cross_lines<1>(face, normal, cubes, next, after_next);
+    if (may_cross(2)) cross_lines<2>(face, normal, cubes, next, after_next);
     return count;
   }
 
-  /// Crosses the lines along an axis with a face that faces up or down there; `lo` and `hi` are the
-  /// ends of its box.
+  /// The lines that pass through the box of a face, by their numbers along each axis.
+  struct Lines {
+    Place begin, end;
+  };
+  /// Crosses the lines along an axis with a face that faces up or down there; `cubes`: of the lower
+  /// end of its box.
   template <size_t axis>
-  void cross_lines(uint32_t face, const IVec3& normal, const Place& lo, const Place& hi) {
+  void cross_lines(uint32_t face, const IVec3& normal, Place cubes, const Lines& next,
+                   const Lines& after_next) {
     constexpr size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    if (normal[axis] == 0) return;
-    const int end_u = lines_before(hi[u], kNext), end_v = lines_before(hi[v], kAfterNext);
-    for (int i = lines_before(lo[u], kNext); i < end_u; ++i) {
-      for (int j = lines_before(lo[v], kAfterNext); j < end_v; ++j) {
+    for (int i = next.begin[u]; i < next.end[u]; ++i) {
+      for (int j = after_next.begin[v]; j < after_next.end[v]; ++j) {
         if (!is_crossed<u, v>(face, normal[axis] > 0, line_at(i, kNext), line_at(j, kAfterNext)))
           continue;
         const size_t cube = static_cast<size_t>(i) * stride_[u] +
-                            static_cast<size_t>(j) * stride_[v] + cube_of(lo[axis]) * stride_[axis];
+                            static_cast<size_t>(j) * stride_[v] +
+                            static_cast<size_t>(cubes[axis]) * stride_[axis];
         const Cube known = set(cube, crossed(axis));
         if ((known & crossed(axis)) != 0) set(cube, crossed_again(axis));
       }
@@ -287,9 +317,11 @@ class SheetFinder {
   }
 
   const LeafGeometry& leaf_;
+  const bool is_alone_ = tbb::this_task_arena::max_concurrency() == 1;
   IVec3 origin_;
-  int shift_ = 0;                   ///< the cubes are 2^shift steps wide
-  std::array<size_t, 3> stride_{};  ///< from a cube to the next one along each axis
+  int shift_ = 0;                     ///< the cubes are 2^shift steps wide
+  std::array<size_t, 3> stride_{};    ///< from a cube to the next one along each axis
+  std::array<uint32_t, 8> second_{};  ///< the same along several, by a bit for each axis
   std::unique_ptr<std::atomic<Cube>[]> cubes_;
   RawVector<Place> places_;                     ///< by vertex
   RawVector<Reach> reach_;                      ///< by face
