@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "engine/base/sort_few.h"
 #include "engine/mesh/canonical_hash.h"
 #include "engine/mesh/conform.h"
 #include "engine/mesh/cut_contacts.h"
@@ -63,6 +62,42 @@ bool is_whole(const Point& p) {
   const auto whole = [&](int i) { return static_cast<int64_t>(near[i]); };
   return compare(p, grid_point(whole(0), whole(1), whole(2))) == 0;
 }
+
+/// Finds the corners of triangles that edges leave, by the ends of the edges.
+class EdgeCorners {
+ public:
+  void clear() { all_.clear(); }
+  /// Corners are added in ascending order.
+  void add(uint32_t from, uint32_t to, uint32_t corner) {
+    all_.push_back({ends(from, to), corner});
+  }
+  /// To be called after the last add().
+  void prepare() {
+    if (all_.size() > kFew) std::stable_sort(all_.begin(), all_.end(), is_less);
+  }
+  /// The lowest one. REQUIRES: there is one.
+  [[nodiscard]] uint32_t find(uint32_t from, uint32_t to) const {
+    const Edge edge{ends(from, to), 0};
+    if (all_.size() > kFew) {
+      return std::lower_bound(all_.begin(), all_.end(), edge, is_less)->corner;
+    }
+    return std::find_if(all_.begin(), all_.end(),
+                        [&](const Edge& e) { return e.ends == edge.ends; })
+        ->corner;
+  }
+
+ private:
+  /// Of so many, all are looked at sooner than sorted.
+  static constexpr size_t kFew = 36;
+  struct Edge {
+    uint64_t ends;
+    uint32_t corner;
+  };
+  static uint64_t ends(uint32_t from, uint32_t to) { return uint64_t{from} << 32 | to; }
+  static bool is_less(const Edge& a, const Edge& b) { return a.ends < b.ends; }
+
+  std::vector<Edge> all_;
+};
 
 class Presenter {
  public:
@@ -319,7 +354,7 @@ class Presenter {
     solid.loop_vertices.resize(own[own_count].corner + 3 * others);
     for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
       uint32_t next_own = own_before[part];
-      std::vector<std::array<uint32_t, 3>> edges;
+      EdgeCorners edges;
       for (size_t n = begin; n < end; ++n) {
         fetch_ahead(n);
         const uint32_t f = whole_->faces()[n];
@@ -350,7 +385,7 @@ class Presenter {
 
   /// An explicit face and its triangles, from number t on. `edges` is working memory.
   void add_face(Solid& solid, uint32_t f, size_t t, FacePlace at, uint32_t number,
-                std::vector<std::array<uint32_t, 3>>& edges) const {
+                EdgeCorners& edges) const {
     const auto vertex = [&](size_t corner) {
       return number_of_own_[fans_.vertex_of_corner[corner]];
     };
@@ -360,20 +395,18 @@ class Presenter {
       solid.triangles[at.triangle] = {vertex(3 * t), vertex(3 * t + 1), vertex(3 * t + 2)};
       solid.triangle_face[at.triangle] = number;
       for (uint32_t k = 0; k < 3; ++k) {
-        edges.push_back({set_.triangles[t][k], set_.triangles[t][(k + 1) % 3],
-                         static_cast<uint32_t>(3 * t + k)});
+        edges.add(set_.triangles[t][k], set_.triangles[t][(k + 1) % 3],
+                  static_cast<uint32_t>(3 * t + k));
       }
     }
-    sort_few(edges.begin(), edges.end(), std::less<>());
+    edges.prepare();
     const MergedFace& face = faces_[f];
     solid.faces[number] = {static_cast<uint32_t>(at.loop), static_cast<uint32_t>(face.loops.size()),
                            face.appearance, face.surface, face.source};
     solid.face_normals[number] = direction(planes_.oriented(face.plane));
     for (const auto& loop : face.loops) {
       for (const DirectedEdge& e : loop) {
-        const auto edge =
-            std::lower_bound(edges.begin(), edges.end(), std::array<uint32_t, 3>{e.from, e.to, 0});
-        solid.loop_vertices[at.corner++] = vertex((*edge)[2]);
+        solid.loop_vertices[at.corner++] = vertex(edges.find(e.from, e.to));
       }
       solid.loop_starts[++at.loop] = static_cast<uint32_t>(at.corner);
     }
