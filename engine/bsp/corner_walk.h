@@ -31,12 +31,23 @@ class CornerWalk {
     const uint32_t f = face_of_[corner];
     return (corner == leaf_.face_starts[f] ? leaf_.face_starts[f + 1] : corner) - 1;
   }
-  /// How many faces there are in the fan around the vertex of a corner. REQUIRES: the opposites of
-  /// all edges there are known.
-  [[nodiscard]] uint32_t fan(uint32_t corner) const {
+  [[nodiscard]] uint32_t face(uint32_t corner) const {
+    return face_of_.empty() ? corner / 3 : face_of_[corner];
+  }
+  /// Calls `visit(corner)` for the corners of the faces in the fan around the vertex of a corner,
+  /// and returns how many these are. REQUIRES: the opposites of all edges there are known.
+  template <class Visit>
+  uint32_t each_in_fan(uint32_t corner, Visit&& visit) const {
     uint32_t count = 0;
-    for (uint32_t c = corner; count == 0 || c != corner; ++count) c = opposite_[before(c)];
+    for (uint32_t c = corner; count == 0 || c != corner; ++count) {
+      c = opposite_[before(c)];
+      visit(c);
+    }
     return count;
+  }
+  /// How many there are.
+  [[nodiscard]] uint32_t fan(uint32_t corner) const {
+    return each_in_fan(corner, [](uint32_t) {});
   }
 
  private:

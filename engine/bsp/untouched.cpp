@@ -90,27 +90,28 @@ class UntouchedFaces {
   /// The common fate of the faces at each vertex, or kMixed; kNoFan where they are more than one
   /// fan, and where a facet may have no corner: one in several pieces, or with a straight corner.
   void look_at_vertices() {
-    of_vertex_.assign(leaf_.vertices.size(), kUnseen);
-    std::vector<uint32_t> some_corner(leaf_.vertices.size(), 0), faces(leaf_.vertices.size(), 0);
-    for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
-      const bool has_corners =
-          !keeps_facets_ ||
-          (leaf_.face_starts[f + 1] - leaf_.face_starts[f] == 3 && is_own_facet(leaf_, f));
-      for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
-        uint8_t& around = of_vertex_[leaf_.corners[c]];
-        if (!has_corners) {
-          around = kNoFan;
-        } else if (around == kUnseen) {
-          around = fate_[f];
-        } else if (around != fate_[f] && around != kNoFan) {
-          around = kMixed;
-        }
-        some_corner[leaf_.corners[c]] = c;
-        ++faces[leaf_.corners[c]];
-      }
+    const size_t vertices = leaf_.vertices.size();
+    std::vector<uint32_t> some_corner(vertices, kNone);
+    for (uint32_t c = 0; c < leaf_.corners.size(); ++c) some_corner[leaf_.corners[c]] = c;
+    of_vertex_.assign(vertices, kUnseen);
+    size_t in_fans = 0;
+    for (uint32_t v = 0; v < vertices; ++v) {
+      if (some_corner[v] == kNone) continue;
+      const uint8_t first = fate_[walk_.face(some_corner[v])];
+      bool all_same = true;
+      in_fans += walk_.each_in_fan(some_corner[v],
+                                   [&](uint32_t c) { all_same &= fate_[walk_.face(c)] == first; });
+      of_vertex_[v] = all_same ? first : static_cast<uint8_t>(kMixed);
     }
-    for (uint32_t v = 0; v < of_vertex_.size(); ++v) {
-      if (walk_.fan(some_corner[v]) != faces[v]) of_vertex_[v] = kNoFan;
+    // Fans have no corner in common: they have all corners only if each vertex has one.
+    if (in_fans != leaf_.corners.size()) {
+      for (const uint32_t v : find_vertices_of_fans(leaf_)) of_vertex_[v] = kNoFan;
+    }
+    if (!keeps_facets_) return;
+    for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
+      const uint32_t begin = leaf_.face_starts[f], end = leaf_.face_starts[f + 1];
+      if (end - begin == 3 && is_own_facet(leaf_, f)) continue;
+      for (uint32_t c = begin; c < end; ++c) of_vertex_[leaf_.corners[c]] = kNoFan;
     }
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -88,6 +89,20 @@ bool has_area(const IVec3& a, const IVec3& b, const IVec3& c) {
   return u[1] * v[2] != u[2] * v[1] || u[2] * v[0] != u[0] * v[2] || u[0] * v[1] != u[1] * v[0];
 }
 
+/// Leaves out what stands at some places, given in ascending order.
+void leave_out(std::vector<uint32_t>& list, std::span<const uint32_t> places) {
+  if (places.empty()) return;
+  size_t kept = places[0], next = 0;
+  for (size_t i = kept; i < list.size(); ++i) {
+    if (next < places.size() && places[next] == i) {
+      ++next;
+    } else {
+      list[kept++] = list[i];
+    }
+  }
+  list.resize(kept);
+}
+
 /// Leaves out vertices that no face uses, and puts the others in the order of their first use.
 void renumber(LeafGeometry& leaf) {
   std::vector<uint32_t> number(leaf.vertices.size(), kNone);
@@ -114,23 +129,21 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
   std::optional<ConvexFaces> result(std::in_place);
   LeafGeometry& leaf = result->leaf;
   const size_t faces = mesh.face_count();
-  leaf.corners.reserve(mesh.corners.size());
+  leaf.corners.resize(mesh.corners.size());
   leaf.face_starts.reserve(faces + 1);
-  for (auto* labels : {&leaf.facet, &leaf.surface, &leaf.appearance}) labels->reserve(faces);
+  std::vector<uint32_t> dropped;
   Numbering number(points);
-  bool dropped = false;
+  uint32_t next = 0;
   for (uint32_t f = 0; f < faces; ++f) {
     if (mesh.face_starts[f] != f) return std::nullopt;  // not one loop
     const uint32_t begin = mesh.loop_starts[f], end = mesh.loop_starts[f + 1], count = end - begin;
-    const size_t first = leaf.corners.size();
+    uint32_t* const loop = leaf.corners.data() + next;
     for (uint32_t i = 0; i < count; ++i) {
-      leaf.corners.push_back(number(mesh.corners[turn ? end - 1 - i : begin + i]));
+      loop[i] = number(mesh.corners[turn ? end - 1 - i : begin + i]);
     }
-    const uint32_t* const loop = leaf.corners.data() + first;
     if (count == 3) {
       if (loop[0] == loop[1] || loop[1] == loop[2] || loop[2] == loop[0]) {
-        leaf.corners.resize(first);
-        dropped = true;
+        dropped.push_back(f);
         continue;
       }
       const auto& v = number.vertices();
@@ -138,14 +151,19 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
     } else if (!is_convex_polygon(number.vertices(), {loop, count})) {
       return std::nullopt;
     }
-    leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()));
-    leaf.facet.push_back(mesh.keep_facets ? f + 1 : 0);
-    leaf.surface.push_back(mesh.surface.empty() ? 0 : mesh.surface[f]);
-    leaf.appearance.push_back(appearance[f]);
+    next += count;
+    leaf.face_starts.push_back(next);
   }
+  leaf.corners.resize(next);
+  leaf.facet.assign(faces, 0);
+  if (mesh.keep_facets) std::iota(leaf.facet.begin(), leaf.facet.end(), 1u);
+  leaf.surface = mesh.surface;
+  leaf.surface.resize(faces, 0);
+  leaf.appearance = appearance;
+  for (auto* labels : {&leaf.facet, &leaf.surface, &leaf.appearance}) leave_out(*labels, dropped);
   leaf.vertices = number.take_vertices();
-  if (dropped) renumber(leaf);
-  result->merged = dropped || number.merges(mesh.corners);
+  if (!dropped.empty()) renumber(leaf);
+  result->merged = !dropped.empty() || number.merges(mesh.corners);
   result->box = box_of_points(leaf.vertices);
   return result;
 }
