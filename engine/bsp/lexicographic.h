@@ -38,6 +38,7 @@ std::vector<uint32_t> lexicographic_order(size_t count, At at, Before before) {
       sort_few(by_x.order.begin() + by_x.starts[b], by_x.order.begin() + by_x.starts[b + 1],
                [&](uint32_t i, uint32_t j) {
                  const std::array<double, 3>&p = at(i), &q = at(j);
+                 if (p[0] != q[0]) return p[0] < q[0];
                  return p != q ? p < q : before(i, j);
                });
     }

@@ -62,9 +62,11 @@ uint32_t hash(const Plane& p) {
 /// For a plane without a common divisor.
 ReducedPlane with_hash(const Plane& plane) {
   assert(plane.a != 0 || plane.b != 0 || plane.c != 0);
-  const bool flipped =
-      plane.a < 0 || (plane.a == 0 && (plane.b < 0 || (plane.b == 0 && plane.c < 0)));
-  ReducedPlane reduced{flipped ? plane.reversed() : plane, 0, flipped};
+  const Int128 first = plane.a != 0 ? plane.a : plane.b != 0 ? plane.b : plane.c;
+  const Int128 sign = first >> 127;
+  const auto turned = [&](Int128 v) { return (v ^ sign) - sign; };
+  ReducedPlane reduced{
+      {turned(plane.a), turned(plane.b), turned(plane.c), turned(plane.d)}, 0, sign != 0};
   reduced.hash = hash(reduced.plane);
   return reduced;
 }

@@ -29,16 +29,15 @@ inline UInt128 magnitude(Int128 v) {
   const auto sign = static_cast<UInt128>(v >> 127);
   return (static_cast<UInt128>(v) ^ sign) - sign;
 }
-/// Number of bits.
-inline int bit_width(UInt128 v) {
+inline int width_of_magnitude(UInt128 v) {
   const auto high = static_cast<uint64_t>(v >> 64);
   const uint64_t word = high != 0 ? high : static_cast<uint64_t>(v);
   return (high != 0 ? 128 : 64) - std::countl_zero(word | 1) - static_cast<int>(word == 0);
 }
 /// Number of bits of the magnitude, and of the largest one of three.
-inline int bit_width(Int128 v) { return bit_width(magnitude(v)); }
+inline int bit_width(Int128 v) { return width_of_magnitude(magnitude(v)); }
 inline int bit_width(Int128 a, Int128 b, Int128 c) {
-  return bit_width(magnitude(a) | magnitude(b) | magnitude(c));
+  return width_of_magnitude(magnitude(a) | magnitude(b) | magnitude(c));
 }
 
 /// The nearest double. Nearly all coefficients fit 64 bits, which convert at once.

@@ -23,11 +23,20 @@ constexpr size_t kFewCorners = 12;
 
 using Triangle = std::array<uint32_t, 3>;
 
+/// Two numbers that compare as one.
+uint64_t together(uint32_t high, uint32_t low) { return uint64_t{high} << 32 | low; }
+
+/// Each from its lowest point on, and by their points.
 void sort_canonically(std::vector<Triangle>& triangles) {
   for (Triangle& t : triangles) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    const uint32_t second_is_less = t[1] < t[0] ? 1 : 0;
+    const uint32_t lowest = t[2] < t[second_is_less] ? 2 : second_is_less;
+    t = {t[lowest], t[lowest == 2 ? 0 : lowest + 1], t[lowest == 0 ? 2 : lowest - 1]};
   }
-  std::sort(triangles.begin(), triangles.end());
+  sort_few(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) {
+    const uint64_t of_a = together(a[0], a[1]), of_b = together(b[0], b[1]);
+    return of_a != of_b ? of_a < of_b : a[2] < b[2];
+  });
 }
 
 /// Kept from one face to the next: most are small.
@@ -51,21 +60,26 @@ class Flipper {
     pair_diagonals();
   }
 
-  void run() {
+  /// Whether anything was flipped.
+  bool run() {
+    bool any = false;
     size_t left = kFlipsPerTriangle * triangles_.size();
     for (size_t next = 0; next < queue_.size() && left > 0; ++next) {
       const uint32_t h = queue_[next];
       queued_[h] = false;
       if (twin_[h] == kNoTwin || !flip_if_better(h)) continue;
+      any = true;
       --left;
     }
+    return any;
   }
 
  private:
   using Edge = Memory::Edge;
 
   static uint32_t next(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-  uint32_t& origin(uint32_t h) { return triangles_[h / 3][h % 3]; }
+  // (Triangles stand without gaps.)
+  uint32_t& origin(uint32_t h) { return triangles_.data()->data()[h]; }
 
   /// Edges of the loops that occur in both directions: both sides have triangles, which are not
   /// neighbours there.
@@ -122,10 +136,13 @@ class Flipper {
     twin_.assign(count, kNoTwin);
     queued_.assign(count, false);
     std::vector<std::pair<Edge, uint32_t>>& diagonals = memory_.edges;
+    std::array<uint64_t, 3 * kFewCorners> reverse;  // the ends of half-edges, the second one first
+    for (uint32_t h = 0; h < count; ++h) reverse[h] = together(origin(next(h)), origin(h));
     for (uint32_t h = 0; h < count; ++h) {
       const uint32_t from = origin(h), to = origin(next(h));
+      const uint64_t own = together(from, to);
       for (uint32_t g = h / 3 * 3 + 3; g < count; ++g) {
-        if (origin(g) != to || origin(next(g)) != from) continue;
+        if (reverse[g] != own) continue;
         link(h, g);
         diagonals.push_back({std::minmax({from, to}), h});
       }
@@ -145,23 +162,32 @@ class Flipper {
     queue_.push_back(h);
   }
 
-  struct Angle {
-    double dot, cross;  ///< of the two sides: cosine and sine, but for a common factor
+  /// Two sides of a triangle, from one corner.
+  struct Sides {
+    double px, py, pz, qx, qy, qz;
+
+    [[nodiscard]] double dot() const { return px * qx + py * qy + pz * qz; }
+    [[nodiscard]] double cross() const {
+      const double x = py * qz - pz * qy, y = pz * qx - px * qz, z = px * qy - py * qx;
+      return std::sqrt(x * x + y * y + z * z);
+    }
   };
 
-  Angle angle(uint32_t apex, uint32_t a, uint32_t b) const {
+  [[nodiscard]] Sides sides(uint32_t apex, uint32_t a, uint32_t b) const {
     const std::array<double, 3>&o = position_(apex), &p = position_(a), &q = position_(b);
-    const double px = p[0] - o[0], py = p[1] - o[1], pz = p[2] - o[2];
-    const double qx = q[0] - o[0], qy = q[1] - o[1], qz = q[2] - o[2];
-    const double x = py * qz - pz * qy, y = pz * qx - px * qz, z = px * qy - py * qx;
-    return {px * qx + py * qy + pz * qz, std::sqrt(x * x + y * y + z * z)};
+    return {p[0] - o[0], p[1] - o[1], p[2] - o[2], q[0] - o[0], q[1] - o[1], q[2] - o[2]};
   }
 
-  /// Whether the angles opposite to a diagonal add up to clearly more than 180 degrees: then those
-  /// opposite to the other diagonal add up to less. Cotangents, multiplied by both sines.
-  static bool clearly_obtuse(const Angle& a, const Angle& b) {
-    const double left = a.dot * b.cross, right = b.dot * a.cross;
-    return left + right < -kMargin * (std::fabs(left) + std::fabs(right) + a.cross * b.cross);
+  /// Whether the angles opposite to a diagonal a b, at c and d, add up to clearly more than 180
+  /// degrees: then those opposite to the other diagonal add up to less. Cotangents, multiplied by
+  /// both sines.
+  [[nodiscard]] bool clearly_obtuse(uint32_t c, uint32_t d, uint32_t a, uint32_t b) const {
+    const Sides at_c = sides(c, a, b), at_d = sides(d, a, b);
+    const double dot_c = at_c.dot(), dot_d = at_d.dot();
+    if (dot_c >= 0 && dot_d >= 0) return false;  // both are acute, or right
+    const double cross_c = at_c.cross(), cross_d = at_d.cross();
+    const double left = dot_c * cross_d, right = dot_d * cross_c;
+    return left + right < -kMargin * (std::fabs(left) + std::fabs(right) + cross_c * cross_d);
   }
 
   /// Replaces diagonal a b of the quadrilateral a d b c by d c.
@@ -169,7 +195,7 @@ class Flipper {
     const uint32_t h1 = next(h), h2 = next(h1);
     const uint32_t g = twin_[h], g1 = next(g), g2 = next(g1);
     const uint32_t a = origin(h), b = origin(h1), c = origin(h2), d = origin(g2);
-    if (!clearly_obtuse(angle(c, a, b), angle(d, a, b))) return false;
+    if (!clearly_obtuse(c, d, a, b)) return false;
     if (oracle_.orient(a, d, c) <= 0 || oracle_.orient(d, b, c) <= 0) return false;
     origin(h1) = d;  // the first triangle is a d c now
     origin(g1) = c;  // and the second one b c d
@@ -198,8 +224,7 @@ void improve_triangles(std::span<const std::vector<uint32_t>> loops, const Plana
   sort_canonically(triangles);
   if (triangles.size() < 2) return;
   thread_local Memory memory;
-  Flipper(loops, oracle, position, triangles, memory).run();
-  sort_canonically(triangles);
+  if (Flipper(loops, oracle, position, triangles, memory).run()) sort_canonically(triangles);
 }
 
 }  // namespace csgrun
