@@ -65,13 +65,17 @@ void for_each_alone(size_t count, bool much, Work&& work) {
 /// append to `out`, in the order of the parts.
 template <class T, class List>
 std::vector<T> list_in_parts(size_t count, size_t each, List&& list) {
+  if (count <= each) {
+    std::vector<T> all;
+    list(size_t{0}, count, all);
+    return all;
+  }
   std::vector<std::vector<T>> parts(part_count(count, each));
   for_each_part(count, each, [&](size_t part, size_t begin, size_t end) {
     std::vector<T> own;  // not beside those of other threads while it grows
     list(begin, end, own);
     parts[part] = std::move(own);
   });
-  if (parts.size() == 1) return std::move(parts[0]);
   std::vector<T> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;

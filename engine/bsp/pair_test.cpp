@@ -38,6 +38,8 @@ const PairTest::Base& PairTest::base_of(uint32_t polygon) {
     known = {};
     known.polygon = polygon;
     known.corners = base_corners(job_, job_.polygons()[polygon]);
+    known.signs = VertexSigns::base(job_.rounded(known.corners[0]), job_.rounded(known.corners[1]),
+                                    job_.rounded(known.corners[2]));
     if (!planes_only_) find_level(known);
   }
   return known;
@@ -81,13 +83,7 @@ void PairTest::find_level(Base& base) const {
 /// or kUnsure.
 int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
   const JobPolygon &own = job_.polygons()[p], &other = job_.polygons()[q];
-  const Base& base = base_of(q);
-  // Copies: what is written to `sides` might be them.
-  const auto a = job_.rounded(base.corners[0]), b = job_.rounded(base.corners[1]),
-             c = job_.rounded(base.corners[2]);
-  const bool is_level = base.is_level, grows = base.grows;
-  const size_t axis = base.axis;
-  const double level = base.level;
+  const Base base = base_of(q);  // a copy: what is written to `sides` might be it
   const double error = std::max(signs_.error(own.operand), signs_.error(other.operand));
   const bool is_exact = signs_.error(own.operand) == 0;
   sides.resize(own.count);
@@ -95,13 +91,17 @@ int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
   for (uint32_t i = 0; i < own.count; ++i) {
     const uint32_t v = job_.corners(own)[i];
     int s = kUnsure;
-    if (is_level) {
+    if (base.is_level) {
       // Whole numbers are not rounded, and what is rounded keeps the order, but for ties.
-      const double above = job_.rounded(v)[axis] - level;
-      if (above != 0 || is_exact) s = above == 0 ? 0 : (above > 0) == grows ? 1 : -1;
+      const double above = job_.rounded(v)[base.axis] - base.level;
+      if (above != 0 || is_exact) s = above == 0 ? 0 : (above > 0) == base.grows ? 1 : -1;
       ++signs_.filtered;
-    } else {
-      s = orient(a, b, c, job_.rounded(v), error);
+    } else if (!planes_only_) {
+      s = signs_.filter(base.signs, job_.rounded(v), error);
+      if (s == 0) {
+        s = signs_.orient(job_.rounded(base.corners[0]), job_.rounded(base.corners[1]),
+                          job_.rounded(base.corners[2]), job_.rounded(v), error);
+      }
     }
     if (s == kUnsure) {
       if (!planes_) return kUnsure;

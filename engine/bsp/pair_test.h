@@ -66,6 +66,7 @@ class PairTest {
   struct Base {
     uint32_t polygon = kNone;
     std::array<uint32_t, 3> corners{};
+    VertexSigns::Base signs;  ///< set with the polygon
     /// If the plane is one of a coordinate along an axis: that one, and whether it grows to the
     /// front.
     bool is_level = false, grows = false;
@@ -83,7 +84,7 @@ class PairTest {
 
   const Job& job_;
   VertexSigns signs_;
-  std::array<Base, 256> bases_;  ///< of the polygons that were asked for last
+  std::array<Base, 128> bases_;  ///< of the polygons that were asked for last
   const bool planes_only_;       ///< tests want to see that
   CellGeometry* planes_ = nullptr;
   std::vector<int8_t> sides_p_, sides_q_;

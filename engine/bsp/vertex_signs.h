@@ -26,38 +26,61 @@ class VertexSigns {
   /// 0 for those on the grid.
   [[nodiscard]] double error(uint32_t operand) const { return errors_[operand]; }
 
+  using Position = std::array<double, 3>;
+  /// What the filter needs of three vertices.
+  struct Base {
+    Position origin, normal;
+    Position reach;  ///< how far the others are from the first one along each axis, at most
+  };
+  static Base base(const Position& a, const Position& b, const Position& c) {
+    const double bx = b[0] - a[0], by = b[1] - a[1], bz = b[2] - a[2];
+    const double cx = c[0] - a[0], cy = c[1] - a[1], cz = c[2] - a[2];
+    return {a,
+            {by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx},
+            {std::max(std::fabs(bx), std::fabs(cx)), std::max(std::fabs(by), std::fabs(cy)),
+             std::max(std::fabs(bz), std::fabs(cz))}};
+  }
+
   /// The sign of det(b - a, c - a, d - a): +1 when d is on the side of a b c from which they run
   /// counter-clockwise. `error` bounds the error of each coordinate. kUnsure only when that is not
   /// 0 or coordinates are 2^40 steps apart.
+  [[nodiscard]] int orient(const Position& a, const Position& b, const Position& c,
+                           const Position& d, double error) {
+    if (const int sign = filter(base(a, b, c), d, error)) return sign;
+    Position u{}, v{}, w{};
+    double most = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      u[k] = b[k] - a[k], v[k] = c[k] - a[k], w[k] = d[k] - a[k];
+      most = std::max({most, std::fabs(u[k]), std::fabs(v[k]), std::fabs(w[k])});
+    }
+    if (error > 0 || most >= 0x1p40) {
+      ++filtered;
+      return kUnsure;
+    }
+    ++exact;
+    const auto whole = [](double x) { return static_cast<Int128>(static_cast<int64_t>(x)); };
+    const Int128 value = whole(u[0]) * (whole(v[1]) * whole(w[2]) - whole(v[2]) * whole(w[1])) -
+                         whole(u[1]) * (whole(v[0]) * whole(w[2]) - whole(v[2]) * whole(w[0])) +
+                         whole(u[2]) * (whole(v[0]) * whole(w[1]) - whole(v[1]) * whole(w[0]));
+    return value > 0 ? 1 : value < 0 ? -1 : 0;
+  }
+  /// The same, or 0 if doubles do not tell.
   ///
   /// Error bound of the determinant: with exact coordinates 5.2e-15 X Y Z, for X, Y, Z the largest
   /// differences along the axes (Shewchuk's bound with these put in). An error of 2 e in each
   /// difference changes it by less than 44 e M^2 for M the largest and e < M / 10; for greater e
   /// the bound exceeds 6 M^3, and nothing is decided.
-  [[nodiscard]] int orient(const std::array<double, 3>& a, const std::array<double, 3>& b,
-                           const std::array<double, 3>& c, const std::array<double, 3>& d,
-                           double error) {
-    const double bx = b[0] - a[0], by = b[1] - a[1], bz = b[2] - a[2];
-    const double cx = c[0] - a[0], cy = c[1] - a[1], cz = c[2] - a[2];
-    const double dx = d[0] - a[0], dy = d[1] - a[1], dz = d[2] - a[2];
-    const double det =
-        bx * (cy * dz - cz * dy) - by * (cx * dz - cz * dx) + bz * (cx * dy - cy * dx);
-    const double x = std::max({std::fabs(bx), std::fabs(cx), std::fabs(dx)});
-    const double y = std::max({std::fabs(by), std::fabs(cy), std::fabs(dy)});
-    const double z = std::max({std::fabs(bz), std::fabs(cz), std::fabs(dz)});
+  [[nodiscard]] int filter(const Base& base, const Position& d, double error) {
+    const double dx = d[0] - base.origin[0], dy = d[1] - base.origin[1], dz = d[2] - base.origin[2];
+    const double det = dx * base.normal[0] + dy * base.normal[1] + dz * base.normal[2];
+    const double x = std::max(base.reach[0], std::fabs(dx)),
+                 y = std::max(base.reach[1], std::fabs(dy)),
+                 z = std::max(base.reach[2], std::fabs(dz));
     const double most = std::max({x, y, z});
     const double bound = 5.2e-15 * x * y * z + 64 * error * most * most;
+    if (!(std::fabs(det) > bound)) return 0;
     ++filtered;
-    if (det > bound) return 1;
-    if (det < -bound) return -1;
-    if (error > 0 || most >= 0x1p40) return kUnsure;
-    --filtered;
-    ++exact;
-    const auto whole = [](double v) { return static_cast<Int128>(static_cast<int64_t>(v)); };
-    const Int128 value = whole(bx) * (whole(cy) * whole(dz) - whole(cz) * whole(dy)) -
-                         whole(by) * (whole(cx) * whole(dz) - whole(cz) * whole(dx)) +
-                         whole(bz) * (whole(cx) * whole(dy) - whole(cy) * whole(dx));
-    return value > 0 ? 1 : value < 0 ? -1 : 0;
+    return det > 0 ? 1 : -1;
   }
 
   uint64_t filtered = 0, exact = 0;  ///< how often either decided
