@@ -75,7 +75,6 @@ class Grid {
     std::array<uint8_t, 3> more;  ///< along each axis, so many more than one
     bool any;
   };
-
   /// False when there are too many to name.
   bool find_cells(const PolygonBox& box, Cells& cells) const {
     constexpr uint32_t kMostMore = 255;

@@ -76,9 +76,6 @@ class PointIndex {
     };
     if (b.planes[0] != kNone) return on_planes(p, b.planes);
     if (a.planes[0] != kNone) return on_planes(q, a.planes);
-    // Both first: the reference to one must survive the other's construction.
-    exactly.exact(p);
-    exactly.exact(q);
     return compare(exactly.exact(p), exactly.exact(q)) == 0;
   }
   /// For so many points in all: half of the slots stay empty.
