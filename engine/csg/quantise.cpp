@@ -106,24 +106,41 @@ LeafGeometry pack(const std::vector<IVec3>& vertices, const std::vector<LoopFace
   return leaf;
 }
 
-/// Whether no face has a neighbour in front of it. For the surface of one body of genus 0, which a
-/// mesh that promises to be convex is, this is convexity.
+/// Whether two planes of corners, which are one plane, look to opposite sides.
+bool are_back_to_back(const CornerPlane& a, const CornerPlane& b) {
+  for (size_t k = 0; k < 3; ++k) {
+    if (a.normal[k] != 0) return (a.normal[k] > 0) != (b.normal[k] > 0);
+  }
+  return false;
+}
+
+/// Whether no face has a neighbour in front of it, or on its back: a thin body becomes a sheet that
+/// is folded there. For the surface of one body of genus 0, which a mesh that promises to be convex
+/// is, this is convexity.
 bool is_locally_convex(const LeafGeometry& leaf) {
   if (leaf.opposite.empty()) return false;
+  const auto find_plane = [&](size_t f, CornerPlane& plane) {
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    return corner_plane(leaf.vertices, &leaf.corners[begin], end - begin, plane);
+  };
   return with_face_of(leaf, [&](auto face_of) {
     for (size_t f = 0; f < leaf.face_count(); ++f) {
-      const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
-      CornerPlane plane;
-      if (!corner_plane(leaf.vertices, &leaf.corners[begin], end - begin, plane)) return false;
-      for (uint32_t edge = begin; edge < end; ++edge) {
+      CornerPlane plane, back;
+      if (!find_plane(f, plane)) return false;
+      for (uint32_t edge = leaf.face_starts[f]; edge < leaf.face_starts[f + 1]; ++edge) {
         // The neighbour's corners but for those of the edge, which are in the plane.
         const uint32_t start = leaf.opposite[edge], other = face_of(start);
         const uint32_t first = leaf.face_starts[other], last = leaf.face_starts[other + 1] - 1;
         const uint32_t stop = start < last ? start + 1 : first;
+        int least = 0;
         for (uint32_t c = first; c <= last; ++c) {
           if (c == start || c == stop) continue;
-          if (plane.side(leaf.vertices[leaf.corners[c]]) > 0) return false;
+          const int side = plane.side(leaf.vertices[leaf.corners[c]]);
+          if (side > 0) return false;
+          least = std::min(least, side);
         }
+        if (least != 0) continue;
+        if (!find_plane(other, back) || are_back_to_back(plane, back)) return false;
       }
     }
     return true;
@@ -138,6 +155,13 @@ bool may_lose_common_corners(const LeafGeometry& leaf) {
   return leaf.opposite.empty() || !find_vertices_of_fans(leaf).empty();
 }
 
+/// Whether all points lie in a plane across an axis.
+bool is_pressed_flat(const GridBox& box) {
+  bool any = false;
+  for (size_t k = 0; k < 3; ++k) any = any || box.lo[k] == box.hi[k];
+  return any;
+}
+
 /// Checks what convex faces enclose. `box` is that of the leaf's vertices.
 PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridBox& box,
                      bool promised_convex) {
@@ -147,6 +171,7 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
     result.status = PreparedLeaf::Status::kOpen;
     return result;
   }
+  if (is_pressed_flat(box)) return result;
   auto leaf = std::make_shared<LeafGeometry>(std::move(geometry));
   leaf->opposite = std::move(pairing.opposite);
   // Rounding can close a gap that is narrower than a step, whatever was promised of the original

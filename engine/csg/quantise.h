@@ -41,7 +41,7 @@ struct PreparedLeaf {
     kGood,     ///< the boundary of a solid
     kTangled,  ///< crosses itself, or its shells do not fit together: a fill rule says what is
                ///< inside
-    kFlat,     ///< no face is left on the grid
+    kFlat,     ///< no face is left on the grid, or all lie in a plane across an axis
     kOpen,     ///< a directed edge without its reverse
   };
   Status status = Status::kFlat;

@@ -303,6 +303,23 @@ TEST(PrepareLeaf, WhatIsThinnerThanTheGridIsFlat) {
   EXPECT_EQ(prepare(PolygonMesh{}).status, Status::kFlat);
 }
 
+TEST(PrepareLeaf, WhatIsPressedFlatIsFlat) {
+  // The faces of a frustum that is lower than a step are two sheets that are not each other's
+  // reverse, face by face; in a plane across an axis, and in one that is not.
+  for (const bool slanted : {false, true}) {
+    PolygonMesh frustum = box_mesh({-50, -50, 0}, {50, 50, 1});
+    for (const int corner : {4, 5, 6, 7}) frustum.points[corner] *= glm::dvec3(0.1, 0.1, 0);
+    if (slanted) {
+      for (glm::dvec3& p : frustum.points) p.z = p.x + 2 * p.y;
+    }
+    const PreparedLeaf leaf = prepare(frustum);
+    EXPECT_EQ(leaf.status, slanted ? Status::kTangled : Status::kFlat);
+    if (leaf.geometry) {
+      EXPECT_FALSE(leaf.geometry->convex);
+    }
+  }
+}
+
 TEST(PrepareLeaf, FaultsAreFound) {
   auto open = mesh_of(box_mesh({0, 0, 0}, {100, 100, 100}).points,
                       {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}});
