@@ -278,7 +278,7 @@ int require_module(lua_State* L) {
   load_chunk(L, file.display, file.bytes);
   lua_pushstring(L, name.c_str());
   lua_call(L, 1, 1);
-  if (file.real.starts_with(kShippedPlace)) guard_shipped_module(L);
+  if (file.real.starts_with(kShippedPlace)) guard_shipped_module(L, name);
   if (lua_isnil(L, -1)) {
     lua_pop(L, 1);
     lua_pushboolean(L, 1);

@@ -200,11 +200,19 @@ Files::Opened Files::open_module(const std::string& name, const std::string& sea
         paths.push_back(std::move(path));
     }
   }
+  constexpr std::string_view kOfLibrary = "csg.";
+  const bool is_of_library = name.starts_with(kOfLibrary);
+  const std::string_view word =
+      std::string_view(name).substr(is_of_library ? kOfLibrary.size() : 0);
+  std::vector<std::string> shipped;
+  for (const ShippedModule& module : shipped_modules()) {
+    shipped.emplace_back(std::string_view(module.name).substr(kOfLibrary.size()));
+  }
+  const std::string nearest = nearest_name(word, shipped);
   std::string tried;
-  if (name.rfind("csg.", 0) == 0) {
-    std::vector<std::string> shipped;
-    for (const ShippedModule& module : shipped_modules()) shipped.emplace_back(module.name);
-    tried += "\n\tnot in the library of csgrun" + did_you_mean(name, shipped);
+  if (is_of_library || !nearest.empty()) tried += "\n\tnot in the library of csgrun";
+  if (!nearest.empty()) {
+    tried += " (did you mean '" + std::string(kOfLibrary) + nearest + "'?)";
   }
   for (size_t i = 0; i < paths.size(); ++i) {
     const std::string& path = paths[i];

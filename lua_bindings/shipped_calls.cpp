@@ -1,8 +1,11 @@
 #include "lua_bindings/shipped_calls.h"
 
+#include <algorithm>
 #include <string_view>
+#include <vector>
 
 #include "lua_bindings/guard.h"
+#include "lua_bindings/nearest.h"
 #include "lua_bindings/shipped_modules.h"
 
 namespace csgrun {
@@ -36,6 +39,18 @@ void push_place_of_level(lua_State* L, int level) {
   lua_pushliteral(L, "");
 }
 
+/// Upvalue 1: the module's name.
+int fail_on_missing(lua_State* L) {
+  if (lua_type(L, 2) != LUA_TSTRING) return 0;  // a list ends in nil: ipairs needs it
+  std::vector<std::string> names;
+  for (lua_pushnil(L); lua_next(L, 1) != 0; lua_pop(L, 1)) {
+    if (lua_type(L, -2) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -2));
+  }
+  std::sort(names.begin(), names.end());
+  throw ScriptError(std::string(lua_tostring(L, lua_upvalueindex(1))) + " has no '" +
+                    lua_tostring(L, 2) + "'" + did_you_mean(lua_tostring(L, 2), names));
+}
+
 }  // namespace
 
 bool is_shipped(const lua_Debug& frame) {
@@ -44,7 +59,7 @@ bool is_shipped(const lua_Debug& frame) {
 
 bool is_shipped_call(lua_State* L, int index) { return lua_tocfunction(L, index) == call_shipped; }
 
-void guard_shipped_module(lua_State* L) {
+void guard_shipped_module(lua_State* L, const std::string& name) {
   if (lua_isfunction(L, -1)) {
     lua_pushcclosure(L, call_shipped, 1);
     return;
@@ -61,6 +76,17 @@ void guard_shipped_module(lua_State* L) {
     lua_insert(L, -2);
     lua_rawset(L, -4);  // of a key that is there: lua_next may go on
   }
+  if (lua_getmetatable(L, -1) != 0) {
+    lua_pop(L, 1);
+    return;
+  }
+  lua_createtable(L, 0, 2);
+  lua_pushstring(L, name.c_str());
+  lua_pushcclosure(L, guarded<fail_on_missing>, 1);
+  lua_setfield(L, -2, "__index");
+  lua_pushboolean(L, 0);
+  lua_setfield(L, -2, "__metatable");
+  lua_setmetatable(L, -2);
 }
 
 int lua_error_at_model(lua_State* L) {

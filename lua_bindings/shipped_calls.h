@@ -6,6 +6,8 @@
 // module stands behind one.
 #pragma once
 
+#include <string>
+
 #include <lua.hpp>
 
 namespace csgrun {
@@ -17,8 +19,9 @@ bool is_shipped(const lua_Debug& frame);
 bool is_shipped_call(lua_State* L, int index);
 
 /// Replaces what a shipped module returned (on the top of the stack) by what models get: the
-/// function, or each function of the table, behind one of C.
-void guard_shipped_module(lua_State* L);
+/// function, or each function of the table, behind one of C; a name that the table lacks is an
+/// error, as with csg.
+void guard_shipped_module(lua_State* L, const std::string& name);
 
 /// error(message, level) as Lua has it, but levels that are frames of the library mean the place in
 /// the model from which it was called.

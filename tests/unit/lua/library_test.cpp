@@ -27,6 +27,24 @@ TEST(Library, ModulesAreFoundByNameOnly) {
       << message;
 }
 
+TEST(Library, NamesThatAreNotThere) {
+  for (const std::string name : {"threads", "thread", "csg.thread"}) {
+    const std::string message = ScriptRun("require '" + name + "'").outcome.message;
+    EXPECT_NE(message.find("\n\tnot in the library of csgrun (did you mean 'csg.threads'?)\n"),
+              std::string::npos)
+        << message;
+  }
+  const std::string other = ScriptRun("require 'wheel'").outcome.message;
+  EXPECT_EQ(other.find("library"), std::string::npos) << other;
+  EXPECT_EQ(message_of(kThreads + "threads.bold{size = 'M8', length = 9}"),
+            "model.lua:1: csg.threads has no 'bold' (did you mean 'bolt'?)");
+  EXPECT_EQ(message_of(kGears + "return gears.crown"), "model.lua:1: csg.gears has no 'crown'");
+  expect_good(kLayout +
+              "local n = 0 for name in pairs(layout) do n = n + 1 end assert(n > 5) "
+              "assert(#layout == 0 and layout[1] == nil and not getmetatable(layout))"
+              "layout.own = 3 assert(layout.own == 3)");
+}
+
 TEST(Library, OptionsAreChecked) {
   const std::string wheel =
       "local options = require 'csg.options' local function wheel(given) local o = "
