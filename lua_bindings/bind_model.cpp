@@ -330,6 +330,8 @@ int emit(lua_State* L) {
   // The first argument may be a table of parts, so it is not read as options: emit{lid = a, box =
   // b}.
   const Arguments arguments(L, Spec, 2);
+  if (arguments.has("name") && arguments.string("name", "").empty())
+    fail_in(Spec, "option 'name' must not be empty");
   try {
     add_parts(L, 1, arguments.string("name", ""));
   } catch (const ScriptError& error) {

@@ -49,6 +49,12 @@ TEST(Parts, Mistakes) {
             "model.lua:1: '' cannot be a part's name: leave it out, or say one");
   EXPECT_EQ(message_of("emit(cube(1), {name = 'a'}) return {a = cube(2)}"),
             "model.lua:1: there are two parts named 'a'");
+  for (const std::string call : {"emit", "render"}) {
+    for (const std::string name : {"''", "{name = ''}"}) {
+      EXPECT_EQ(message_of(call + "(cube(1), " + name + ")"),
+                "model.lua:1: " + call + ": option 'name' must not be empty");
+    }
+  }
   EXPECT_NE(message_of("return {['../x'] = cube(1)}").find("cannot be a part's name"),
             std::string::npos);
   EXPECT_NE(message_of("return {['a\\1b'] = cube(1)}").find("cannot be a part's name"),
