@@ -59,8 +59,12 @@ int PlaneOracle::exact_orient(uint32_t a, uint32_t b, uint32_t c) const {
 }
 
 int PlaneOracle::compare(uint32_t a, uint32_t b) const {
-  // By x and y, two different points of the plane cannot agree in both.
-  if (u_ == 0 && v_ == 1 && a < in_order_ && b < in_order_) return a < b ? -1 : a > b ? 1 : 0;
+  // By x and y, two different points of the plane cannot agree in both. The numbers follow the
+  // rounded coordinates: where those along x are equal, the exact ones may be the other way round.
+  if (u_ == 0 && v_ == 1 && a < in_order_ && b < in_order_ &&
+      points_.rounded(a)[0] != points_.rounded(b)[0]) {
+    return a < b ? -1 : 1;
+  }
   const int by_u = points_.compare_along(a, b, u_);
   return by_u ? by_u : points_.compare_along(a, b, v_);
 }

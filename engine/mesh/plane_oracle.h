@@ -9,7 +9,8 @@ namespace csgrun {
 
 class PlaneOracle final : public PlanarOracle {
  public:
-  /// `support` faces outwards. The first `in_order` points are numbered in lexicographic order.
+  /// `support` faces outwards. The first `in_order` points are numbered in lexicographic order of
+  /// their rounded coordinates.
   PlaneOracle(PointView& points, const PlaneTable& planes, PlaneId support, size_t in_order);
 
   int orient(uint32_t a, uint32_t b, uint32_t c) const override;
