@@ -13,9 +13,10 @@ uint32_t TouchFinder::number(uint32_t point) {
   return may_be_met(point) ? index_.unique(point) : point;
 }
 
-void TouchFinder::examine(uint32_t number) {
+void TouchFinder::examine(uint32_t point) {
+  if (!may_be_met(point)) return;
   is_examined_.resize(geometry_.point_count(), 0);
-  is_examined_[number] = 1;
+  is_examined_[number(point)] = 1;
 }
 
 bool TouchFinder::may_pass_examined(std::span<const uint32_t> points) const {
@@ -56,10 +57,9 @@ bool TouchFinder::add_on_edge(uint32_t polygon, uint32_t point, bool flip) {
         geometry_.compare_along(b, point, way.axis) * way.sign < 0) {
       continue;
     }
-    const uint32_t at = number(point);
-    corners_.push_back(
-        {number(flip ? b : a), at, number(flip ? a : b), polygon, CutLoops::kOwnEdge | e});
-    if (may_be_met(point)) examine(at);
+    corners_.push_back({number(flip ? b : a), number(point), number(flip ? a : b), polygon,
+                        CutLoops::kOwnEdge | e});
+    examine(point);
     return true;
   }
   return false;

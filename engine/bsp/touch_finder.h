@@ -27,8 +27,8 @@ class TouchFinder {
     const uint32_t vertex = geometry_.point(point).vertex;
     return vertex == kNone || touched_[vertex] != 0;
   }
-  /// Has a point examined that may be met, by its number.
-  void examine(uint32_t number);
+  /// Has a point of the geometry examined.
+  void examine(uint32_t point);
   /// Whether there is any point to be examined.
   [[nodiscard]] bool has_examined() const { return !is_examined_.empty(); }
   /// Whether an outline may pass a point to be examined. All of these must be known. Several

@@ -227,16 +227,35 @@ class FaceEvaluator {
     TouchFinder finder(job_, geometry_, index_, contacts_.touched());
     const auto count = static_cast<uint32_t>(contacts_.all().size());
     std::vector<uint8_t> is_open(count, 0);
-    for_each_range(count, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) {
-        const Contact& c = contacts_.all()[i];
-        is_open[i] = (result_.general[c.p] && is_suspect_[c.p]) ||
-                     (result_.general[c.q] && is_suspect_[c.q]);
+    for (uint32_t i = 0; i < count; ++i) {
+      const Contact& c = contacts_[i];
+      is_open[i] =
+          (result_.general[c.p] && is_suspect_[c.p]) || (result_.general[c.q] && is_suspect_[c.q]);
+      if ((is_suspect_[c.p] || is_suspect_[c.q]) && is_of_kept(c)) ends_->ask(i);
+    }
+    ends_->make();
+    for (const CutFaces::Face& cut : cut_.faces) {
+      if (!is_suspect_[cut.polygon] || !is_kept_[cut.polygon]) continue;
+      corners_.clear();
+      for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+        for (const uint32_t p : points_of(cut_.loops.loops[l])) {
+          if (!finder.may_be_met(p)) continue;
+          corners_.push_back(p);
+          if (fates_->of_loop(l) != PatchFate::kDrop) finder.examine(p);
+        }
       }
-    });
-    ask_for_ends();
-    examine_cut(finder, is_open);
-    examine_whole(finder, is_open);
+      find_open(cut.polygon, finder, is_open, nullptr);
+    }
+    for (const WholePolygon& w : result_.whole) {
+      if (!is_suspect_[w.polygon]) continue;
+      corners_.clear();
+      for (const uint32_t v : job_.corners(job_.polygons()[w.polygon])) {
+        if (!contacts_.touched()[v]) continue;
+        corners_.push_back(geometry_.vertex_point(v));
+        finder.examine(corners_.back());
+      }
+      find_open(w.polygon, finder, is_open, &w);
+    }
     if (finder.has_examined()) {
       add_outlines(finder);
       result_.touching = finder.find();
@@ -246,97 +265,12 @@ class FaceEvaluator {
     }
   }
 
-  /// Of contacts between what is kept of suspects.
-  void ask_for_ends() {
-    const auto is_asked_for = [&](uint32_t i) {
-      const Contact& c = contacts_[i];
-      return (is_suspect_[c.p] || is_suspect_[c.q]) && is_of_kept(c);
-    };
-    for (const uint32_t i : numbers_where(contacts_.all().size(), is_asked_for)) ends_->ask(i);
-    ends_->make();
-  }
-
-  /// A corner that something may touch.
-  struct MetCorner {
-    uint32_t face;  ///< of cut_.faces, or of result_.whole
-    uint32_t
-        point;  ///< or the vertex of a whole one; kNone, before those of a face: it may be open
-    bool is_kept;
-  };
-  static constexpr size_t kFacesPerPart = 2048;
-
-  /// Has the corners of suspects that were cut examined, and finds their contacts that are open.
-  void examine_cut(TouchFinder& finder, std::vector<uint8_t>& is_open) {
-    const auto list = [&](size_t begin, size_t end, std::vector<MetCorner>& out) {
-      for (auto f = static_cast<uint32_t>(begin); f < end; ++f) {
-        const CutFaces::Face& cut = cut_.faces[f];
-        if (!is_suspect_[cut.polygon] || !is_kept_[cut.polygon]) continue;
-        const bool may_be_open = has_contact_of_kept(cut.polygon);
-        if (may_be_open) out.push_back({f, kNone, false});
-        for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-          const bool is_kept = fates_->of_loop(l) != PatchFate::kDrop;
-          if (!is_kept && !may_be_open) continue;
-          for (const uint32_t p : points_of(cut_.loops.loops[l])) {
-            if (finder.may_be_met(p)) out.push_back({f, p, is_kept});
-          }
-        }
-      }
-    };
-    auto met = list_in_parts<MetCorner>(cut_.faces.size(), kFacesPerPart, list);
-    examine(met, finder, [&](uint32_t face, std::span<const MetCorner> corners) {
-      find_open(cut_.faces[face].polygon, corners, finder, is_open, nullptr);
-    });
-  }
-
-  /// The same of those that are whole.
-  void examine_whole(TouchFinder& finder, std::vector<uint8_t>& is_open) {
-    const auto list = [&](size_t begin, size_t end, std::vector<MetCorner>& out) {
-      for (auto w = static_cast<uint32_t>(begin); w < end; ++w) {
-        const uint32_t polygon = result_.whole[w].polygon;
-        if (!is_suspect_[polygon]) continue;
-        if (has_contact_of_kept(polygon)) out.push_back({w, kNone, false});
-        for (const uint32_t v : job_.corners(job_.polygons()[polygon])) {
-          if (contacts_.touched()[v]) out.push_back({w, v, true});
-        }
-      }
-    };
-    auto met = list_in_parts<MetCorner>(result_.whole.size(), kFacesPerPart, list);
-    for (MetCorner& corner : met) {
-      if (corner.point != kNone) corner.point = geometry_.vertex_point(corner.point);
-    }
-    examine(met, finder, [&](uint32_t face, std::span<const MetCorner> corners) {
-      const WholePolygon& w = result_.whole[face];
-      find_open(w.polygon, corners, finder, is_open, &w);
-    });
-  }
-
-  /// Has the kept corners examined, whose points become those of the index, and calls
-  /// visit(face, its corners) for faces that may be open.
-  template <class Visit>
-  void examine(std::vector<MetCorner>& met, TouchFinder& finder, Visit&& visit) {
-    std::vector<uint32_t> points;
-    for (const MetCorner& corner : met) {
-      if (corner.point != kNone) points.push_back(corner.point);
-    }
-    index_.make_unique(points);
-    for (MetCorner& corner : met) {
-      if (corner.point == kNone) continue;
-      corner.point = index_.known(corner.point);
-      if (corner.is_kept) finder.examine(corner.point);
-    }
-    for (size_t begin = 0, end = 0; begin < met.size(); begin = end) {
-      while (end < met.size() && met[end].face == met[begin].face) ++end;
-      if (met[begin].point == kNone) {
-        visit(met[begin].face, std::span(met).subspan(begin + 1, end - begin - 1));
-      }
-    }
-  }
-
   /// Adds what is kept to the finder, once it knows all points to be examined.
   void add_outlines(TouchFinder& finder) {
     struct Outline {
       uint32_t polygon, loop;
     };
+    constexpr size_t kFacesPerPart = 2048;
     const auto list = [&](size_t begin, size_t end, std::vector<Outline>& out) {
       for (size_t f = begin; f < end; ++f) {
         const CutFaces::Face& cut = cut_.faces[f];
@@ -371,19 +305,18 @@ class FaceEvaluator {
     return !c.is_coplanar && is_kept_[c.p] && is_kept_[c.q];
   }
 
-  [[nodiscard]] bool has_contact_of_kept(uint32_t polygon) const {
-    const auto contacts = contacts_.of(polygon);
-    return std::any_of(contacts.begin(), contacts.end(),
-                       [&](uint32_t c) { return is_of_kept(contacts_[c]); });
-  }
-
-  /// Marks the contacts of a polygon that end where none of its corners is, nor an edge of it if it
+  /// Marks the contacts of a polygon that end where none of `corners_` is, nor an edge of it if it
   /// is whole.
-  void find_open(uint32_t polygon, std::span<const MetCorner> corners, TouchFinder& finder,
-                 std::vector<uint8_t>& is_open, const WholePolygon* whole) {
+  void find_open(uint32_t polygon, TouchFinder& finder, std::vector<uint8_t>& is_open,
+                 const WholePolygon* whole) {
+    const auto contacts = contacts_.of(polygon);
+    if (std::none_of(contacts.begin(), contacts.end(),
+                     [&](uint32_t c) { return is_of_kept(contacts_[c]); })) {
+      return;
+    }
     corner_of_.resize(geometry_.point_count(), kNone);
-    for (const MetCorner& corner : corners) corner_of_[corner.point] = polygon;
-    for (const uint32_t contact : contacts_.of(polygon)) {
+    for (const uint32_t p : corners_) corner_of_[finder.number(p)] = polygon;
+    for (const uint32_t contact : contacts) {
       if (!is_of_kept(contacts_[contact])) continue;
       for (const uint32_t end : ends_->of(contact)) {
         if (corner_of_[end] == polygon) continue;
