@@ -78,8 +78,7 @@ class Flipper {
   using Edge = Memory::Edge;
 
   static uint32_t next(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-  // (Triangles stand without gaps.)
-  uint32_t& origin(uint32_t h) { return triangles_.data()->data()[h]; }
+  uint32_t& origin(uint32_t h) { return triangles_[h / 3][h % 3]; }
 
   /// Edges of the loops that occur in both directions: both sides have triangles, which are not
   /// neighbours there.

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include "engine/base/parallel.h"
@@ -45,6 +46,7 @@ constexpr Cube crossed_again(size_t axis) { return static_cast<Cube>(1u << (7 + 
 /// all numbers at once; the fourth is not used.
 using Place = int16_t __attribute__((vector_size(8)));
 constexpr int kEighths = 3;  ///< the binary logarithm
+static_assert((kMostInRow + 1) << kEighths <= INT16_MAX, "places and numbers of lines must fit");
 /// The lines along an axis stand at so many eighths of a cube along the next axis, and along the
 /// one after that, each half a step before: off all points, and off the diagonals of squares that
 /// divide the cubes.
