@@ -5,7 +5,9 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
+#include <variant>
 
 #include <glm/common.hpp>
 
@@ -30,20 +32,32 @@ NodePtr hull_leaf(std::vector<glm::dvec3> points, const Appearance* appearance, 
   return Node::leaf(std::move(mesh), where);
 }
 
-/// A solid as a leaf over its corners on the grid. Where they were rounded it may cross itself, and
-/// is what the fill rule makes of it.
-NodePtr rounded_leaf(const Solid& solid, const GridSolid& on_grid, const GridStep& step,
+/// The surface of a sum as a leaf.
+NodePtr surface_leaf(const SumSurface& surface, const Appearance* appearance, const GridStep& step,
                      const SourceRef& where) {
   auto mesh = std::make_shared<PolygonMesh>();
-  mesh->points = to_millimetres(on_grid.points, step);
-  mesh->appearances = solid.appearances;
-  mesh->kind = "minkowski";
-  for (size_t t = 0; t < solid.triangles.size(); ++t) {
-    const Solid::Face& face = solid.faces[solid.triangle_face[t]];
-    mesh->add_face(solid.triangles[t], face.surface);
-    mesh->appearance_of.push_back(face.appearance);
+  mesh->points = to_millimetres(surface.points, step);
+  for (size_t f = 0; f + 1 < surface.face_starts.size(); ++f) {
+    mesh->add_face(
+        std::span(surface.corners)
+            .subspan(surface.face_starts[f], surface.face_starts[f + 1] - surface.face_starts[f]));
   }
+  if (appearance != nullptr) {
+    mesh->appearances.push_back(*appearance);
+    mesh->appearance_of.assign(mesh->face_count(), 0);
+  }
+  mesh->overlaps = true;
+  mesh->kind = "minkowski";
   return Node::leaf(std::move(mesh), where);
+}
+
+/// A solid as a summand over its corners on the grid. Where they were rounded it may cross itself,
+/// and is what the fill rule makes of it.
+Summand rounded_summand(const Solid& solid, const GridSolid& on_grid, const GridStep& step,
+                        const SourceRef& where) {
+  auto mesh = std::make_shared<PolygonMesh>(patch_mesh(solid, on_grid, step));
+  mesh->kind = "minkowski";
+  return solid_summand(*mesh, on_grid.points, Node::leaf(mesh, where));
 }
 
 /// Whether the corners of a member are its mesh's points.
@@ -160,7 +174,7 @@ Result<Constructions::Outcome> Constructions::make_hull(const Task& task,
     made.finest_mm = step_mm;
     size_t rounded = 0;
     for (const SolidPtr& solid : parts->solids) {
-      auto corners = grid_solid(*solid, parts->step, false);
+      auto corners = grid_solid(*solid, parts->step);
       if (!corners) return corners.error();
       rounded += corners->rounded;
       points.insert(points.end(), solid->positions.begin(), solid->positions.end());
@@ -206,16 +220,15 @@ Result<Constructions::Outcome> Constructions::make_sum(const Task& task,
     for (size_t k = 0; k < unions[i].size(); ++k, ++at) {
       if (parts->solids[at]->empty()) continue;
       if (appearance == nullptr) appearance = first_appearance(all[at]);
-      Summand summand;
-      summand.is_convex = parts->is_convex[at] != 0;
-      auto solid = grid_solid(*parts->solids[at], parts->step, !summand.is_convex);
+      auto solid = grid_solid(*parts->solids[at], parts->step);
       if (!solid) return solid.error();
-      summand.solid = *std::move(solid);
-      if (!summand.is_convex) {
-        summand.node = rounded_leaf(*parts->solids[at], summand.solid, parts->step, node.where());
+      if (all[at].node->kind() != NodeKind::kLeaf) rounded += solid->rounded;
+      if (parts->is_convex[at] != 0) {
+        list.push_back(convex_summand(std::move(solid->points)));
+      } else {
+        Summand solid_part = rounded_summand(*parts->solids[at], *solid, parts->step, node.where());
+        if (solid_part.boundary.face_count() > 0) list.push_back(std::move(solid_part));
       }
-      if (all[at].node->kind() != NodeKind::kLeaf) rounded += summand.solid.rounded;
-      list.push_back(std::move(summand));
     }
     if (list.empty()) continue;
     summands.push_back(std::move(list));
@@ -231,24 +244,18 @@ Result<Constructions::Outcome> Constructions::make_sum(const Task& task,
   }
   made.finest_mm = step_mm;
   if (rounded > 0) made.note = "minkowski: " + rounding_note(rounded, parts->step);
-  // Sums of convex solids are convex, and what is not makes many pieces: these come last.
-  std::stable_partition(summands.begin(), summands.end(), [](const std::vector<Summand>& list) {
-    return list.size() == 1 && list[0].is_convex;
-  });
-  std::vector<Summand> sum = std::move(summands[0]);
-  for (size_t i = 1; i < summands.size(); ++i) {
-    auto next = minkowski_sum(sum, summands[i], parts->step);
-    if (!next) return next.error();
-    sum = *std::move(next);
-  }
+  auto sum = minkowski_sum(std::move(summands), parts->step);
+  if (!sum) return sum.error();
   std::vector<NodePtr> pieces;
-  for (Summand& summand : sum) {
-    if (!summand.is_convex) {
-      pieces.push_back(std::move(summand.node));
-      continue;
+  for (SumPart& part : *sum) {
+    if (const auto* points = std::get_if<std::vector<IVec3>>(&part)) {
+      pieces.push_back(
+          hull_leaf(to_millimetres(*points, parts->step), appearance, "minkowski", node.where()));
+    } else if (const auto* surface = std::get_if<SumSurface>(&part)) {
+      pieces.push_back(surface_leaf(*surface, appearance, parts->step, node.where()));
+    } else {
+      pieces.push_back(std::get<NodePtr>(part));
     }
-    pieces.push_back(hull_leaf(to_millimetres(summand.solid.points, parts->step), appearance,
-                               "minkowski", node.where()));
   }
   NodePtr result = Node::boolean(BooleanOp::kUnion, std::move(pieces), node.where());
   result = task.under(by_whole_steps(turned_forth(outside, turn), parts->step), std::move(result));

@@ -6,11 +6,8 @@
 #include <cstdio>
 #include <unordered_map>
 
-#include <glm/geometric.hpp>
-
 #include "engine/bsp/union_find.h"
 #include "engine/csg/grid.h"
-#include "engine/csg/wide_cross.h"
 #include "engine/mesh/to_millimetres.h"
 
 namespace csgrun {
@@ -20,12 +17,14 @@ constexpr uint32_t kNone = UINT32_MAX;
 
 /// Joins the triangles of a face to convex polygons, by leaving out edges between them where that
 /// makes no corner that turns right (Hertel & Mehlhorn 1983): at most four times as many as needed.
+/// Triangles with a corner that was rounded stay alone: with others they need not be flat.
 class ConvexPatches {
  public:
   ConvexPatches(const Solid& solid, const std::vector<IVec3>& points)
       : solid_(solid), points_(points) {}
 
-  void make(GridSolid& result) {
+  /// Adds the polygons to `mesh`, whose points are the solid's vertices.
+  void make(PolygonMesh& mesh) {
     const size_t edges = solid_.triangles.size() * 3;
     next_.resize(edges);
     previous_.resize(edges);
@@ -39,25 +38,16 @@ class ConvexPatches {
     for (uint32_t e = 0; e < edges; ++e) {
       if (e < twin_[e] && face(e) == face(twin_[e])) drop(e, twin_[e]);
     }
-    patch_of_.assign(edges, kNone);
+    std::vector<uint32_t> loop;
     for (uint32_t e = 0; e < edges; ++e) {
-      if (is_gone_[e] != 0 || patch_of_[e] != kNone) continue;
-      const auto patch = static_cast<uint32_t>(result.patches.size());
-      GridSolid::Patch& made = result.patches.emplace_back();
-      made.face = face(e);
-      made.normal = glm::normalize(solid_.face_normals[face(e)]);
-      for (uint32_t at = e; patch_of_[at] == kNone; at = next_[at]) {
-        patch_of_[at] = patch;
-        made.corners.push_back(from(at));
-        made.is_exact = made.is_exact && solid_.on_grid[from(at)] != 0;
+      if (is_gone_[e] != 0) continue;
+      loop.clear();
+      for (uint32_t at = e; is_gone_[at] == 0; at = next_[at]) {
+        is_gone_[at] = 1;
+        loop.push_back(from(at));
       }
-    }
-    for (uint32_t e = 0; e < edges; ++e) {
-      const uint32_t twin = twin_[e];
-      if (e > twin || face(e) == face(twin)) continue;
-      const int side = side_of_apex(e, twin);
-      if (side == 0) continue;
-      result.rims.push_back({from(e), from(twin), patch_of_[e], patch_of_[twin], side < 0});
+      mesh.add_face(loop, solid_.faces[face(e)].surface);
+      mesh.appearance_of.push_back(solid_.faces[face(e)].appearance);
     }
   }
 
@@ -65,11 +55,9 @@ class ConvexPatches {
   [[nodiscard]] uint32_t from(uint32_t edge) const { return solid_.triangles[edge / 3][edge % 3]; }
   [[nodiscard]] uint32_t face(uint32_t edge) const { return solid_.triangle_face[edge / 3]; }
 
-  /// On which side of the triangle of an edge the third corner of its neighbour is: +1 in front.
-  [[nodiscard]] int side_of_apex(uint32_t edge, uint32_t twin) const {
-    const uint32_t third = twin - twin % 3 + (twin % 3 + 2) % 3;
-    const auto& t = solid_.triangles[edge / 3];
-    return side(points_[t[0]], points_[t[1]], points_[t[2]], points_[from(third)]);
+  [[nodiscard]] bool is_exact(uint32_t triangle) const {
+    const auto& t = solid_.triangles[triangle];
+    return solid_.on_grid[t[0]] != 0 && solid_.on_grid[t[1]] != 0 && solid_.on_grid[t[2]] != 0;
   }
 
   /// The same edge as its other triangle runs it: a solid is closed, so all have one.
@@ -105,6 +93,7 @@ class ConvexPatches {
 
   void drop(uint32_t edge, uint32_t twin) {
     const uint32_t face = solid_.triangle_face[edge / 3];
+    if (!is_exact(edge / 3) || !is_exact(twin / 3)) return;
     if (polygon_.find(edge / 3) == polygon_.find(twin / 3)) return;
     const uint32_t a = from(edge), b = from(twin);
     if (!turns_left(face, from(previous_[edge]), a, from(next_[next_[twin]])) ||
@@ -123,7 +112,7 @@ class ConvexPatches {
 
   const Solid& solid_;
   const std::vector<IVec3>& points_;
-  std::vector<uint32_t> next_, previous_, twin_, patch_of_;
+  std::vector<uint32_t> next_, previous_, twin_;
   std::vector<uint8_t> is_gone_;
   UnionFind polygon_;
 };
@@ -138,7 +127,7 @@ std::vector<glm::dvec3> to_millimetres(const std::vector<IVec3>& points, const G
   return result;
 }
 
-Result<GridSolid> grid_solid(const Solid& solid, const GridStep& step, bool with_patches) {
+Result<GridSolid> grid_solid(const Solid& solid, const GridStep& step) {
   GridSolid result;
   const Quantiser quantiser(step);
   result.points.reserve(solid.positions.size());
@@ -153,18 +142,15 @@ Result<GridSolid> grid_solid(const Solid& solid, const GridStep& step, bool with
     }
   }
   result.rounded = static_cast<size_t>(std::count(solid.on_grid.begin(), solid.on_grid.end(), 0));
-  if (!with_patches) return result;
-
-  UnionFind surface(result.points.size());
-  for (const auto& t : solid.triangles) {
-    surface.join(t[0], t[1]);
-    surface.join(t[0], t[2]);
-  }
-  for (uint32_t v = 0; v < result.points.size(); ++v) {
-    if (surface.find(v) == v) result.anchors.push_back(v);
-  }
-  ConvexPatches(solid, result.points).make(result);
   return result;
+}
+
+PolygonMesh patch_mesh(const Solid& solid, const GridSolid& on_grid, const GridStep& step) {
+  PolygonMesh mesh;
+  mesh.points = to_millimetres(on_grid.points, step);
+  mesh.appearances = solid.appearances;
+  ConvexPatches(solid, on_grid.points).make(mesh);
+  return mesh;
 }
 
 std::string rounding_note(size_t corners, const GridStep& step) {

@@ -5,118 +5,169 @@
 #include <memory>
 #include <utility>
 
+#include "engine/bsp/union_find.h"
 #include "engine/csg/convex_hull.h"
 #include "engine/csg/grid.h"
-#include "engine/csg/outward_sums.h"
+#include "engine/csg/grid_solid.h"
+#include "engine/csg/quantise.h"
+#include "engine/csg/sum_cells.h"
 
 namespace csgrun {
 namespace {
 
 /// So many points are kept at most before their hull is taken.
 constexpr size_t kMostWaiting = size_t{1} << 20;
-constexpr double kMostSums = 0x1p26;
+/// Pairs of corners: so many are summed at most, or looked at for cells.
+constexpr double kMostSums = 0x1p26, kMostPairs = 0x1p30;
 
 IVec3 sum(const IVec3& a, const IVec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 
-/// The extreme points of all sums; none when they lie in one plane.
-std::vector<IVec3> hull_of_sums(const std::vector<IVec3>& a, const std::vector<IVec3>& b) {
-  std::vector<IVec3> waiting;
-  for (const IVec3& p : a) {
-    for (const IVec3& q : b) waiting.push_back(sum(p, q));
-    if (waiting.size() < kMostWaiting) continue;
-    // What is flat so far stays as it is: it may become a body.
-    std::vector<IVec3> extreme = convex_hull(waiting).vertices;
-    if (!extreme.empty()) waiting = std::move(extreme);
-  }
-  return convex_hull(waiting).vertices;
-}
-
-std::vector<IVec3> corners(const GridSolid& solid, const GridSolid::Patch& patch) {
+std::vector<IVec3> sums(const std::vector<IVec3>& a, const std::vector<IVec3>& b) {
   std::vector<IVec3> result;
-  for (const uint32_t v : patch.corners) result.push_back(solid.points[v]);
+  for (const IVec3& p : a) {
+    for (const IVec3& q : b) result.push_back(sum(p, q));
+    if (result.size() < kMostWaiting) continue;
+    // What is flat so far stays as it is: it may become a body.
+    std::vector<IVec3> extreme = convex_hull(result).vertices;
+    if (!extreme.empty()) result = std::move(extreme);
+  }
   return result;
 }
 
+std::vector<IVec3> corners(const LeafGeometry& boundary, uint32_t face) {
+  std::vector<IVec3> result;
+  for (uint32_t c = boundary.face_starts[face]; c < boundary.face_starts[face + 1]; ++c) {
+    result.push_back(boundary.vertices[boundary.corners[c]]);
+  }
+  return result;
+}
+
+/// A vertex of each connected surface.
+std::vector<IVec3> anchors(const LeafGeometry& boundary) {
+  UnionFind surface(boundary.vertices.size());
+  for (uint32_t f = 0; f < boundary.face_count(); ++f) {
+    const uint32_t first = boundary.face_starts[f];
+    for (uint32_t c = first; c < boundary.face_starts[f + 1]; ++c) {
+      surface.join(boundary.corners[first], boundary.corners[c]);
+    }
+  }
+  std::vector<IVec3> result;
+  for (uint32_t v = 0; v < boundary.vertices.size(); ++v) {
+    if (surface.find(v) == v) result.push_back(boundary.vertices[v]);
+  }
+  return result;
+}
+
+/// The sum of unions of two operands: as parts if it is the last one, else as summands.
 class Sums {
  public:
-  explicit Sums(const GridStep& step) : step_(step) {}
+  Sums(const GridStep& step, bool is_last) : step_(step), is_last_(is_last) {}
 
-  void add(const Summand& a, const Summand& b) {
+  /// False if there are too many cells.
+  bool add(const Summand& a, const Summand& b) {
+    if (a.is_simple && b.is_simple) return add_cells(a, b);
     if (a.is_convex && b.is_convex) {
-      add_hull(a.solid.points, b.solid.points);
+      add_hull(sums(a.points, b.points));
     } else if (b.is_convex) {
-      add_convex(a, b);
+      add_faces(a, b);
     } else if (a.is_convex) {
-      add_convex(b, a);
+      add_faces(b, a);
     } else {
-      for (const uint32_t anchor : b.solid.anchors) add_moved(a, b.solid.points[anchor]);
-      for (const uint32_t anchor : a.solid.anchors) add_moved(b, a.solid.points[anchor]);
-      for (const auto& f : a.solid.patches) {
-        const std::vector<IVec3> face = corners(a.solid, f);
-        for (const auto& g : b.solid.patches) add_hull(face, corners(b.solid, g));
+      for (const IVec3& anchor : anchors(b.boundary)) add_moved(a, anchor);
+      for (const IVec3& anchor : anchors(a.boundary)) add_moved(b, anchor);
+      for (uint32_t f = 0; f < a.boundary.face_count(); ++f) {
+        const std::vector<IVec3> face = corners(a.boundary, f);
+        for (uint32_t g = 0; g < b.boundary.face_count(); ++g) {
+          add_hull(sums(face, corners(b.boundary, g)));
+        }
       }
     }
+    return true;
   }
-  std::vector<Summand> take() { return std::move(result_); }
+
+  std::vector<SumPart> parts;
+  std::vector<Summand> summands;
 
  private:
-  void add_hull(const std::vector<IVec3>& a, const std::vector<IVec3>& b) {
-    add_body(hull_of_sums(a, b));
-  }
-
-  void add_body(std::vector<IVec3> points) {
-    if (points.empty()) return;
-    Summand summand;
-    summand.solid.points = std::move(points);
-    summand.is_convex = true;
-    result_.push_back(std::move(summand));
-  }
-
-  void add_convex(const Summand& a, const Summand& convex) {
-    OutwardSums outward;
-    if (outward_sums(a.solid, convex.solid.points, outward)) {
-      add_moved(a, outward.centre);
-      for (const std::vector<IVec3>& body : outward.bodies) {
-        add_body(convex_hull(body).vertices);
+  bool add_cells(const Summand& a, const Summand& b) {
+    const SumCells cells = sum_cells(a.boundary, b.boundary);
+    if (is_last_ || (a.is_convex && b.is_convex)) {
+      auto surface = sum_surface(a.boundary, b.boundary, cells);
+      if (!surface) return false;
+      if (a.is_convex && b.is_convex) {
+        add_hull(std::move(surface->points));
+      } else {
+        parts.emplace_back(*std::move(surface));
       }
-      return;
+      return true;
     }
-    add_moved(a, convex.solid.points[0]);
-    for (const auto& f : a.solid.patches) add_hull(corners(a.solid, f), convex.solid.points);
+    for (const uint32_t v : cells.peaks) add_moved(b, a.boundary.vertices[v]);
+    for (const uint32_t w : cells.pits) add_moved(a, b.boundary.vertices[w]);
+    for (const SumPrism& prism : cells.a_edges) add_prism(a.boundary, prism, b.boundary);
+    for (const SumPrism& prism : cells.b_edges) add_prism(b.boundary, prism, a.boundary);
+    return true;
+  }
+
+  void add_prism(const LeafGeometry& edges, const SumPrism& prism, const LeafGeometry& faces) {
+    add_hull(
+        sums({edges.vertices[prism.low], edges.vertices[prism.high]}, corners(faces, prism.face)));
+  }
+
+  void add_hull(const std::vector<IVec3>& points) {
+    std::vector<IVec3> extreme = convex_hull(points).vertices;
+    if (extreme.empty()) return;
+    if (is_last_) {
+      parts.emplace_back(std::move(extreme));
+    } else {
+      summands.push_back(convex_summand(std::move(extreme)));
+    }
+  }
+
+  void add_faces(const Summand& a, const Summand& convex) {
+    add_moved(a, convex.points[0]);
+    for (uint32_t f = 0; f < a.boundary.face_count(); ++f) {
+      add_hull(sums(corners(a.boundary, f), convex.points));
+    }
   }
 
   void add_moved(const Summand& a, const IVec3& by) {
-    Summand moved = a;
-    for (IVec3& p : moved.solid.points) p = sum(p, by);
+    if (a.is_convex) {
+      add_hull(sums(a.points, {by}));
+      return;
+    }
     const glm::dvec3 mm = to_millimetres({by}, step_)[0];
     Affine map;
     for (int i = 0; i < 3; ++i) map.m[i][3] = mm[i];
-    moved.node = Node::transformed(map, a.node, a.node->where());
-    result_.push_back(std::move(moved));
+    NodePtr node = Node::transformed(map, a.node, a.node->where());
+    if (is_last_) {
+      parts.emplace_back(std::move(node));
+      return;
+    }
+    Summand& moved = summands.emplace_back(a);
+    for (IVec3& p : moved.boundary.vertices) p = sum(p, by);
+    moved.node = std::move(node);
   }
 
   const GridStep& step_;
-  std::vector<Summand> result_;
+  const bool is_last_;
 };
 
-/// How many points are summed for a pair, roughly.
-double count_sums(const Summand& a, const Summand& b) {
-  const auto points = [](const Summand& s) {
-    size_t count = s.solid.points.size();
-    if (s.is_convex) return static_cast<double>(count);
-    count = 0;
-    for (const auto& patch : s.solid.patches) count += patch.corners.size();
-    return static_cast<double>(count);
+/// Whether no more is looked at, or summed, for a pair than is allowed.
+bool are_few_enough(const Summand& a, const Summand& b) {
+  const auto count = [](const Summand& s) {
+    return static_cast<double>(std::max(s.points.size(), s.boundary.corners.size()));
   };
-  return points(a) * points(b);
+  return count(a) * count(b) <= (a.is_simple && b.is_simple ? kMostPairs : kMostSums);
 }
 
 /// The largest coordinate.
 int64_t reach(const std::vector<Summand>& summands) {
   int64_t result = 0;
   for (const Summand& summand : summands) {
-    for (const IVec3& p : summand.solid.points) {
-      for (const int64_t x : p) result = std::max(result, std::abs(x));
+    for (const auto& points : {summand.points, summand.boundary.vertices}) {
+      for (const IVec3& p : points) {
+        for (const int64_t x : p) result = std::max(result, std::abs(x));
+      }
     }
   }
   return result;
@@ -124,27 +175,51 @@ int64_t reach(const std::vector<Summand>& summands) {
 
 }  // namespace
 
-Result<std::vector<Summand>> minkowski_sum(const std::vector<Summand>& a,
-                                           const std::vector<Summand>& b, const GridStep& step) {
-  double count = 0;
-  for (const Summand& x : a) {
-    for (const Summand& y : b) count += count_sums(x, y);
+Summand convex_summand(std::vector<IVec3> points) {
+  Summand result;
+  result.boundary = convex_hull(points);
+  result.is_simple = result.boundary.face_count() > 0;
+  if (result.is_simple) points = result.boundary.vertices;
+  result.points = std::move(points);
+  result.is_convex = true;
+  return result;
+}
+
+Summand solid_summand(const PolygonMesh& mesh, const std::vector<IVec3>& points, NodePtr node) {
+  Summand result;
+  const PreparedLeaf leaf =
+      prepare_leaf(mesh, points, false, std::vector<uint32_t>(mesh.face_count(), 0));
+  if (leaf.geometry) result.boundary = *leaf.geometry;
+  result.is_simple = leaf.status == PreparedLeaf::Status::kGood;
+  result.node = std::move(node);
+  return result;
+}
+
+Result<std::vector<SumPart>> minkowski_sum(std::vector<std::vector<Summand>> operands,
+                                           const GridStep& step) {
+  // Sums of convex solids are convex, and what is not makes many pieces: these come last.
+  std::stable_partition(operands.begin(), operands.end(), [](const std::vector<Summand>& list) {
+    return list.size() == 1 && list[0].is_convex;
+  });
+  const Error too_many{ErrorCode::kLimit,
+                       "minkowski: the operands have too many faces to be summed; sum rounder "
+                       "shapes with fewer facets",
+                       {}};
+  for (size_t i = 1;; ++i) {
+    const std::vector<Summand>&first = operands[0], &second = operands[i];
+    // Signs and hulls of sums are taken in widths that allow for no more (wide_cross.h).
+    if (reach(first) + reach(second) > kFarLimit) {
+      return Error{ErrorCode::kOutOfRange, "reaches too far from the origin for the grid", {}};
+    }
+    Sums sums(step, i + 1 == operands.size());
+    for (const Summand& a : first) {
+      for (const Summand& b : second) {
+        if (!are_few_enough(a, b) || !sums.add(a, b)) return too_many;
+      }
+    }
+    if (i + 1 == operands.size()) return std::move(sums.parts);
+    operands[0] = std::move(sums.summands);
   }
-  if (count > kMostSums) {
-    return Error{ErrorCode::kLimit,
-                 "minkowski: the operands have too many faces, more than 2^26 pairs of corners "
-                 "would be summed; sum rounder shapes with fewer facets",
-                 {}};
-  }
-  // The hulls of sums are taken in widths that allow for no more (wide_cross.h).
-  if (reach(a) + reach(b) > kFarLimit) {
-    return Error{ErrorCode::kOutOfRange, "reaches too far from the origin for the grid", {}};
-  }
-  Sums sums(step);
-  for (const Summand& x : a) {
-    for (const Summand& y : b) sums.add(x, y);
-  }
-  return sums.take();
 }
 
 }  // namespace csgrun

@@ -1,38 +1,53 @@
 // Minkowski sums of solids, on the grid.
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include <csgrun/engine/csg_tree.h>
+#include <csgrun/engine/evaluate.h>
 
-#include "engine/csg/evaluated_parts.h"
-#include "engine/csg/grid_solid.h"
+#include "engine/bsp/operand.h"
+#include "engine/csg/sum_surface.h"
 
 namespace csgrun {
 
 /// One operand of a sum, or a part of one that is a union.
 struct Summand {
-  GridSolid solid;
-  bool is_convex = false;  ///< then its points are all that counts
-  NodePtr node;            ///< the solid as a leaf over the points; not needed of a convex one
+  std::vector<IVec3> points;  ///< of a convex one: it is their hull
+  bool is_convex = false;
+  /// The boundary, over points of the grid; of a convex one that of its hull, without faces if that
+  /// is flat.
+  LeafGeometry boundary;
+  bool is_simple = false;  ///< the boundary crosses nothing and bounds a solid
+  NodePtr node;            ///< the solid as a leaf over these points; not needed of a convex one
 };
 
-/// The sum of unions of summands, as summands: their union is the sum.
+/// The hull of points.
+Summand convex_summand(std::vector<IVec3> points);
+/// A solid as a mesh over points of the grid, which is `node`; without faces if the mesh is flat.
+Summand solid_summand(const PolygonMesh& mesh, const std::vector<IVec3>& points, NodePtr node);
+
+/// The hull of points; a surface that wraps a solid once or more; a solid.
+using SumPart = std::variant<std::vector<IVec3>, SumSurface, NodePtr>;
+
+/// The sum of operands, each a union of summands, as parts whose union it is.
 ///
-/// Convex and convex: the hull of the sums of their points. Else, for solids A and B that are
-/// regular closed sets, with a point b of each connected surface of B, a of each of A, and faces f,
-/// g of their boundaries:
+/// Two convex summands make the hull of the sums of their points. Others are cut into cells (see
+/// sum_cells). The surface of these is one part; if more is to be summed with them, each cell is a
+/// summand.
+///
+/// A boundary that crosses itself, as it may where its corners were rounded, has no such cells. For
+/// solids A and B that are regular closed sets, with a point b of each connected surface of B, a of
+/// each of A, and faces f, g of their boundaries:
 ///   A + B  =  union of A + b, of B + a, and of all f + g,
 /// for where x - B moves away from x - b, which is in A, without leaving A for good, it crosses the
 /// boundary of A; and there the boundary of B does, or lies within A altogether. If B is convex the
-/// last two are f + B. Faces are convex polygons, so f + g is the hull of sums of their corners;
-/// what is flat of these bounds others. A and B are the solids over their points on the grid: were
-/// those that were rounded in the faces alone, gaps would open between these and A + b. Cost: a
-/// hull for each pair of faces.
+/// last two are f + B. A hull for each pair of faces.
 ///
-/// Errors: kLimit when that is more than 2^26 pairs of points, kOutOfRange when sums of points are
-/// beyond 2^40 steps.
-Result<std::vector<Summand>> minkowski_sum(const std::vector<Summand>& a,
-                                           const std::vector<Summand>& b, const GridStep& step);
+/// REQUIRES: two operands or more, none without summands. Errors: kLimit when there are too many
+/// cells or hulls, kOutOfRange when sums of points are beyond 2^40 steps.
+Result<std::vector<SumPart>> minkowski_sum(std::vector<std::vector<Summand>> operands,
+                                           const GridStep& step);
 
 }  // namespace csgrun

@@ -12,6 +12,7 @@
 #include "engine/csg/fine_triangles.h"
 #include "engine/csg/flat_sides.h"
 #include "engine/csg/leaf_faces.h"
+#include "engine/csg/point_hash.h"
 #include "engine/mesh/convex_surface.h"
 #include "engine/mesh/leaf_check.h"
 #include "engine/mesh/leaf_shape.h"
@@ -19,17 +20,6 @@
 
 namespace csgrun {
 namespace {
-
-struct PointHash {
-  size_t operator()(const IVec3& p) const {
-    uint64_t h = 0;
-    for (int64_t c : p) {
-      h = (h ^ static_cast<uint64_t>(c)) * 0xff51afd7ed558ccdULL;
-      h ^= h >> 32;
-    }
-    return static_cast<size_t>(h);
-  }
-};
 
 /// Vertices without repetition, and the faces over them.
 struct Merged {

@@ -307,7 +307,7 @@ Status Builder::resolve_leaf(uint32_t index, const QuantisedLeaf& leaf, SceneNod
     if (error.where.line == 0) error.where = node.leaf->where();
     return error;
   }
-  if (!node.hull && context_.store.is_news(mesh, rule)) {
+  if (!node.hull && !mesh.overlaps && context_.store.is_news(mesh, rule)) {
     context_.warnings.add(node.leaf->where(),
                           "'" + mesh.kind + "' " +
                               describe_tangle(leaf, rounding_[index], scene_.step) +

@@ -118,6 +118,7 @@ TEST(MinkowskiNode, OfWhatIsNotConvex) {
   expect_same(Node::minkowski_sum({frame, frame}), box({0, 0, 0}, {20, 20, 4}), "two frames");
   const NodePtr corner = subtract({box({0, 0, 0}, {10, 10, 2}), box({-1, -1, -1}, {5, 5, 3})});
   EXPECT_EQ(evaluated(Node::minkowski_sum({corner, corner})).volume(), (400 - 75) * 4);
+  EXPECT_EQ(evaluated(Node::minkowski_sum({corner, corner, corner})).volume(), (900 - 150) * 6);
   // A void that the cube does not fill, and one that it does.
   const NodePtr hollow = subtract({box({0, 0, 0}, {9, 9, 9}), box({2, 2, 2}, {7, 7, 7})});
   expect_same(Node::minkowski_sum({hollow, cube}),
@@ -214,6 +215,36 @@ TEST(MinkowskiNode, OfRandomUnionsWithAConvexSolid) {
     EXPECT_TRUE(sum.warnings.empty()) << "round " << round;
     EXPECT_EQ(sum.volume(), truth.volume()) << "round " << round;
     EXPECT_EQ(sum.solid->measures.bbox, truth.solid->measures.bbox) << "round " << round;
+  }
+}
+
+/// The sum of two unions is the union of the sums of their members.
+TEST(MinkowskiNode, OfRandomUnionsWithEachOther) {
+  const std::vector<glm::dvec3> octahedron{{4, 0, 0},  {-4, 0, 0}, {0, 4, 0},
+                                           {0, -4, 0}, {0, 0, 4},  {0, 0, -4}};
+  std::vector<glm::dvec3> cube;
+  for (int i = 0; i < 8; ++i) cube.emplace_back(i & 1 ? 3 : -1, i & 2 ? 2 : -2, i & 4 ? 3 : -2);
+  std::mt19937 random(13);
+  const auto coordinate = [&] { return static_cast<double>(random() % 11); };
+  const NodePtr far = box({90, 90, 90}, {91, 91, 91});
+  for (int round = 0; round < 30; ++round) {
+    std::array<std::vector<NodePtr>, 2> members;
+    for (auto& list : members) {
+      for (size_t i = 0; i < 2 + random() % 4; ++i) {
+        list.push_back(hull_at(random() % 2 == 0 ? cube : octahedron,
+                               {coordinate(), coordinate(), coordinate()}));
+      }
+    }
+    std::vector<NodePtr> sums;
+    for (const NodePtr& a : members[0]) {
+      for (const NodePtr& b : members[1]) sums.push_back(Node::minkowski_sum({a, b}));
+    }
+    // Under a difference each is one operand that is not convex.
+    const NodePtr sum = Node::minkowski_sum(
+        {subtract({unite(members[0]), far}), subtract({unite(members[1]), far})});
+    const Evaluated made = evaluated(sum, "0.000001"), truth = evaluated(unite(sums), "0.000001");
+    EXPECT_TRUE(made.warnings.empty()) << "round " << round;
+    EXPECT_EQ(made.solid->canonical_hash, truth.solid->canonical_hash) << "round " << round;
   }
 }
 

@@ -48,6 +48,8 @@ struct PolygonMesh {
   bool keep_facets = false;
   /// What is inside where the surface crosses itself. No matter for a surface that does not.
   FillRule fill = FillRule::kNonZero;
+  /// It is meant to cross itself: there is no note about it.
+  bool overlaps = false;
   /// Known to be convex; verified after rounding.
   bool convex = false;
   /// The solid is the convex hull of `points`, which is made of them on the grid; there are no

@@ -1,0 +1,163 @@
+#include "engine/csg/sum_surface.h"
+
+#include <algorithm>
+#include <compare>
+#include <cstdlib>
+#include <span>
+#include <unordered_map>
+#include <utility>
+
+#include "engine/csg/point_hash.h"
+
+namespace csgrun {
+namespace {
+
+constexpr size_t kMostParts = size_t{1} << 24;
+
+/// A face of a cell, but for its sense.
+struct Part {
+  enum Kind : uint32_t { kVertexAndFace, kFaceAndVertex, kEdges };
+  Kind kind;
+  /// A vertex and a face, of A and B in the order of the kind; or the ends of an edge of A and
+  /// those of an edge of B, the lower number first.
+  std::array<uint32_t, 4> names{};
+  auto operator<=>(const Part&) const = default;
+};
+
+struct CountedPart {
+  Part part;
+  int32_t count;
+};
+
+class Parts {
+ public:
+  Parts(const LeafGeometry& a, const LeafGeometry& b) : a_(a), b_(b) {}
+
+  void add(const SumCells& cells) {
+    for (const uint32_t v : cells.peaks) {
+      for (uint32_t g = 0; g < b_.face_count(); ++g) add_vertex_and_face(v, g, 1);
+    }
+    for (const uint32_t w : cells.pits) {
+      for (uint32_t f = 0; f < a_.face_count(); ++f) add_face_and_vertex(f, w, 1);
+    }
+    // The face is the top of its prism at the lower end of an edge of A, at the higher one of B.
+    for (const SumPrism& prism : cells.a_edges) {
+      add_vertex_and_face(prism.low, prism.face, 1);
+      add_vertex_and_face(prism.high, prism.face, -1);
+      each_edge(b_, prism.face, [&](uint32_t from, uint32_t to) {
+        add_edges(prism.high, prism.low, from, to, -1);
+      });
+    }
+    for (const SumPrism& prism : cells.b_edges) {
+      add_face_and_vertex(prism.face, prism.high, 1);
+      add_face_and_vertex(prism.face, prism.low, -1);
+      each_edge(a_, prism.face,
+                [&](uint32_t from, uint32_t to) { add_edges(from, to, prism.low, prism.high, 1); });
+    }
+  }
+
+  /// The parts that are left, each once, and how often it is there.
+  std::vector<CountedPart> left() {
+    std::sort(parts_.begin(), parts_.end(),
+              [](const CountedPart& p, const CountedPart& q) { return p.part < q.part; });
+    std::vector<CountedPart> result;
+    for (size_t i = 0; i < parts_.size();) {
+      CountedPart sum{parts_[i].part, 0};
+      for (; i < parts_.size() && parts_[i].part == sum.part; ++i) sum.count += parts_[i].count;
+      if (sum.count != 0) result.push_back(sum);
+    }
+    return result;
+  }
+
+  template <class Visit>
+  static void each_edge(const LeafGeometry& leaf, uint32_t face, Visit visit) {
+    const uint32_t begin = leaf.face_starts[face], end = leaf.face_starts[face + 1];
+    for (uint32_t c = begin; c < end; ++c) {
+      visit(leaf.corners[c], leaf.corners[c + 1 < end ? c + 1 : begin]);
+    }
+  }
+
+ private:
+  void add_vertex_and_face(uint32_t v, uint32_t g, int32_t count) {
+    parts_.push_back({{Part::kVertexAndFace, {v, g, 0, 0}}, count});
+  }
+  void add_face_and_vertex(uint32_t f, uint32_t w, int32_t count) {
+    parts_.push_back({{Part::kFaceAndVertex, {f, w, 0, 0}}, count});
+  }
+  /// The parallelogram that runs first along an edge of A, then along one of B.
+  void add_edges(uint32_t a_from, uint32_t a_to, uint32_t b_from, uint32_t b_to, int32_t count) {
+    if (a_from > a_to) std::swap(a_from, a_to), count = -count;
+    if (b_from > b_to) std::swap(b_from, b_to), count = -count;
+    parts_.push_back({{Part::kEdges, {a_from, a_to, b_from, b_to}}, count});
+  }
+
+  const LeafGeometry &a_, &b_;
+  std::vector<CountedPart> parts_;
+};
+
+class Surface {
+ public:
+  Surface(const LeafGeometry& a, const LeafGeometry& b) : a_(a), b_(b) {}
+
+  void add(const CountedPart& counted) {
+    const auto& n = counted.part.names;
+    loop_.clear();
+    switch (counted.part.kind) {
+      case Part::kVertexAndFace:
+        Parts::each_edge(b_, n[1], [&](uint32_t w, uint32_t) { loop_.push_back(point(n[0], w)); });
+        break;
+      case Part::kFaceAndVertex:
+        Parts::each_edge(a_, n[0], [&](uint32_t v, uint32_t) { loop_.push_back(point(v, n[1])); });
+        break;
+      case Part::kEdges:
+        loop_ = {point(n[0], n[2]), point(n[1], n[2]), point(n[1], n[3]), point(n[0], n[3])};
+        break;
+    }
+    if (counted.count < 0) std::reverse(loop_.begin(), loop_.end());
+    for (int32_t i = 0; i < std::abs(counted.count); ++i) {
+      made.corners.insert(made.corners.end(), loop_.begin(), loop_.end());
+      made.face_starts.push_back(static_cast<uint32_t>(made.corners.size()));
+    }
+  }
+
+  SumSurface made;
+
+ private:
+  uint32_t point(uint32_t v, uint32_t w) {
+    IVec3 sum;
+    for (int i = 0; i < 3; ++i) sum[i] = a_.vertices[v][i] + b_.vertices[w][i];
+    const auto [found, is_new] =
+        number_.try_emplace(sum, static_cast<uint32_t>(made.points.size()));
+    if (is_new) made.points.push_back(sum);
+    return found->second;
+  }
+
+  const LeafGeometry &a_, &b_;
+  std::unordered_map<IVec3, uint32_t, PointHash> number_;
+  std::vector<uint32_t> loop_;
+};
+
+/// How many faces the cells have.
+size_t count_faces(const LeafGeometry& a, const LeafGeometry& b, const SumCells& cells) {
+  const auto corners = [](const LeafGeometry& leaf, const SumPrism& prism) {
+    return leaf.face_starts[prism.face + 1] - leaf.face_starts[prism.face];
+  };
+  size_t count = cells.peaks.size() * b.face_count() + cells.pits.size() * a.face_count();
+  for (const SumPrism& prism : cells.a_edges) count += 2 + corners(b, prism);
+  for (const SumPrism& prism : cells.b_edges) count += 2 + corners(a, prism);
+  return count;
+}
+
+}  // namespace
+
+std::optional<SumSurface> sum_surface(const LeafGeometry& a, const LeafGeometry& b,
+                                      const SumCells& cells) {
+  if (count_faces(a, b, cells) > kMostParts) return std::nullopt;
+  Parts parts(a, b);
+  parts.add(cells);
+  Surface surface(a, b);
+  for (const CountedPart& part : parts.left()) surface.add(part);
+  return std::move(surface.made);
+}
+
+}  // namespace csgrun

@@ -1,0 +1,29 @@
+// The surface of all cells of a Minkowski sum.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/bsp/operand.h"
+#include "engine/csg/sum_cells.h"
+
+namespace csgrun {
+
+/// Closed, crossing itself where cells overlap: a point is wrapped by it as often as there are
+/// cells that hold it. Faces are planar and convex.
+struct SumSurface {
+  std::vector<IVec3> points;  ///< distinct
+  std::vector<uint32_t> corners;
+  std::vector<uint32_t> face_starts{0};
+};
+
+/// The boundaries of the cells, less what two of them have in common, once with each sense. Each
+/// is a vertex of one operand and a face of the other, or an edge of each, so names tell what is
+/// the same. (This is a part of the convolution of the two surfaces, where not the least number of
+/// times that each of its faces counts is taken but that by which the number of cells changes.)
+///
+/// Nothing if there were more than 2^24 before. O(n log n) for n of them.
+std::optional<SumSurface> sum_surface(const LeafGeometry& a, const LeafGeometry& b,
+                                      const SumCells& cells);
+
+}  // namespace csgrun
