@@ -202,8 +202,9 @@ Result<std::vector<SumPart>> minkowski_sum(std::vector<std::vector<Summand>> ope
     return list.size() == 1 && list[0].is_convex;
   });
   const Error too_many{ErrorCode::kLimit,
-                       "minkowski: the operands have too many faces to be summed; sum rounder "
-                       "shapes with fewer facets",
+                       "minkowski: the operands have too many faces: more than 2^30 pairs of "
+                       "corners, or pieces with more than 2^24 faces; sum rounder shapes with "
+                       "fewer facets",
                        {}};
   for (size_t i = 1;; ++i) {
     const std::vector<Summand>&first = operands[0], &second = operands[i];

@@ -248,6 +248,28 @@ TEST(MinkowskiNode, OfRandomUnionsWithEachOther) {
   }
 }
 
+/// Two balls of 20,000 corners: 10^10 pairs.
+TEST(MinkowskiNode, OfTooManyFacesIsAnError) {
+  std::mt19937 random(17);
+  std::normal_distribution<double> normal;
+  std::vector<glm::dvec3> ball;
+  for (int i = 0; i < 20000; ++i) {
+    const glm::dvec3 p(normal(random), normal(random), normal(random));
+    ball.push_back(p * (1000 / std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z)));
+  }
+  const NodePtr node = hull_at(ball, {0, 0, 0});
+  const SourceRef where{std::make_shared<const std::string>("ball.lua"), 7};
+  Evaluator evaluator{EvaluateOptions()};
+  const auto result = evaluator.evaluate(Node::minkowski_sum({node, node}, where));
+  ASSERT_FALSE(result.has_value());
+  EXPECT_EQ(result.error().code, ErrorCode::kLimit);
+  EXPECT_NE(result.error().message.find("too many faces: more than 2^30 pairs"), std::string::npos)
+      << result.error().message;
+  EXPECT_EQ(result.error().where.line, 7);
+  // With one that has a few facets it is no trouble.
+  EXPECT_GT(evaluated(Node::minkowski_sum({node, box({0, 0, 0}, {1, 1, 1})})).volume(), 0);
+}
+
 /// Corners that were rounded: no gap opens, and the volume is right to the width of a step.
 TEST(MinkowskiNode, OfWhatIsOffTheGrid) {
   std::vector<glm::dvec3> ball;

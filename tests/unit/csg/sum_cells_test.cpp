@@ -137,8 +137,34 @@ TEST(SumCells, TileTheSumOfConvexSolids) {
   EXPECT_GT(tested, 200);
 }
 
-/// Coordinates near 2^39: signs that doubles cannot tell.
-TEST(SumCells, OfHugeNearlyParallelFaces) {
+/// Two directions by neighbours of Fibonacci numbers turn by 1 in 2^73: no double can tell.
+TEST(SumCells, OfNearlyParallelSides) {
+  std::array<int64_t, 56> fibonacci{0, 1};
+  for (size_t i = 2; i < fibonacci.size(); ++i) fibonacci[i] = fibonacci[i - 1] + fibonacci[i - 2];
+  const auto wedge = [&](size_t i, int axis) {
+    std::vector<IVec3> points;
+    for (const int64_t high : {0, 5}) {
+      for (const auto& [x, y] : std::array<std::array<int64_t, 2>, 3>{
+               {{0, 0}, {fibonacci[i], fibonacci[i - 1]}, {0, fibonacci[40]}}}) {
+        IVec3& p = points.emplace_back();
+        p[axis] = x, p[(axis + 1) % 3] = y, p[(axis + 2) % 3] = high;
+      }
+    }
+    return convex_hull(points);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    for (size_t i = 50; i < 55; ++i) {
+      const LeafGeometry a = wedge(i, axis), b = wedge(i + 1, axis);
+      const auto surface = sum_surface(a, b, sum_cells(a, b));
+      ASSERT_TRUE(surface.has_value());
+      EXPECT_TRUE(is_balanced(*surface));
+      EXPECT_EQ(extreme(surface->points), extreme(all_sums(a.vertices, b.vertices)));
+    }
+  }
+}
+
+/// Coordinates near 2^39.
+TEST(SumCells, OfHugeBoxesNearlyAlike) {
   constexpr int64_t kHuge = int64_t{1} << 38;
   std::mt19937 random(9);
   const auto nearly_box = [&] {
