@@ -40,6 +40,38 @@ class Partners {
   std::vector<std::vector<uint32_t>> of_;
 };
 
+/// Per edge of a leaf the same edge as its other face runs it; kNone where more than two faces
+/// meet.
+std::vector<uint32_t> opposite_edges(const LeafGeometry& leaf) {
+  if (!leaf.opposite.empty()) return leaf.opposite;
+  struct Run {
+    uint32_t low, high, corner;
+    bool rises;
+  };
+  std::vector<Run> runs;
+  runs.reserve(leaf.corners.size());
+  for (size_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    for (uint32_t c = begin; c < end; ++c) {
+      const uint32_t a = leaf.corners[c], b = leaf.corners[c + 1 < end ? c + 1 : begin];
+      runs.push_back({std::min(a, b), std::max(a, b), c, a < b});
+    }
+  }
+  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
+    return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
+  });
+  std::vector<uint32_t> result(leaf.corners.size(), kNone);
+  for (size_t i = 0, end = 0; i < runs.size(); i = end) {
+    while (end < runs.size() && runs[end].low == runs[i].low && runs[end].high == runs[i].high) {
+      ++end;
+    }
+    if (end - i != 2 || runs[i].rises == runs[i + 1].rises) continue;
+    result[runs[i].corner] = runs[i + 1].corner;
+    result[runs[i + 1].corner] = runs[i].corner;
+  }
+  return result;
+}
+
 /// A directed edge of a piece, by unique points.
 struct PieceEdge {
   uint32_t low, high;
@@ -57,9 +89,11 @@ class SurfaceCutter {
                 std::span<const uint8_t> crosses, const KernelOptions& options)
       : job_(job),
         leaf_(leaf),
+        opposite_(opposite_edges(leaf)),
         crosses_(crosses),
         options_(options),
         partners_(crossings, crosses),
+        is_left_(partners_.polygons().size(), 0),
         geometry_(job.planes(), &job),
         index_(geometry_) {}
 
@@ -71,16 +105,24 @@ class SurfaceCutter {
     OffsetSets windings(infinity_ + 1);
     bool agrees = join_polygons(windings);
     for (uint32_t i = 0; i < partners_.polygons().size() && agrees; ++i) {
-      agrees = join_pieces(i, windings);
+      agrees = is_left_[i] || join_pieces(i, windings);
     }
     for (uint32_t i = 0; i < partners_.polygons().size() && agrees; ++i) {
-      agrees = join_over_edges(i, windings);
+      agrees = is_left_[i] || join_over_edges(i, windings);
     }
     if (!agrees) return std::optional<CutSurface>();
-    const auto known = join_with_infinity(windings, stats);
-    if (!known) return known.error();
-    if (!*known) return std::optional<CutSurface>();
-    return labelled(windings);
+    leave_what_hangs_together(windings);
+    leave_what_lies_upon();
+    auto runs = solve_cells(windings, stats);
+    if (!runs) return runs.error();
+    for (const SurfaceCells& run : *runs) {
+      for (const SurfaceCells::PatchSides& s : run.patches) {
+        if (!windings.join(infinity_, s.patch, run.windings[s.front])) {
+          return std::optional<CutSurface>();
+        }
+      }
+    }
+    return labelled(windings, std::move(*runs));
   }
 
  private:
@@ -99,15 +141,17 @@ class SurfaceCutter {
     return options_.cancel && options_.cancel->load(std::memory_order_relaxed);
   }
 
+  /// False when it was cancelled.
   bool cut_all() {
     for (const uint32_t p : partners_.polygons()) job_.ensure_planes(p);
     for (uint32_t i = 0; i < partners_.polygons().size(); ++i) {
-      if (is_cancelled() || !cut(i)) return false;
+      if (is_cancelled()) return false;
+      cut(i);
     }
     return true;
   }
 
-  bool cut(uint32_t i) {
+  void cut(uint32_t i) {
     const uint32_t polygon = partners_.polygons()[i];
     const uint32_t support = job_.polygons()[polygon].support.index();
     Cut& cut = cuts_.emplace_back();
@@ -123,8 +167,11 @@ class SurfaceCutter {
         planes.push_back(p.support.index());
       }
     }
-    if (planes.size() > kMostCuts) return false;
-    cut.first_piece = static_cast<uint32_t>(pieces_.size());
+    cut.first_piece = cut.end_piece = static_cast<uint32_t>(pieces_.size());
+    if (planes.size() > kMostCuts) {
+      is_left_[i] = 1;
+      return;
+    }
     pieces_.push_back(geometry_.load(polygon));
     for (const uint32_t plane : planes) {
       for (size_t k = cut.first_piece, end = pieces_.size(); k < end; ++k) {
@@ -135,7 +182,6 @@ class SurfaceCutter {
       }
     }
     cut.end_piece = static_cast<uint32_t>(pieces_.size());
-    return true;
   }
 
   /// Over the edges of polygons that cross nothing, winding numbers stay.
@@ -144,13 +190,18 @@ class SurfaceCutter {
     for (uint32_t p = 0; p < crosses_.size(); ++p) {
       const JobPolygon& polygon = job_.polygons()[p];
       for (uint32_t c = polygon.first; c < polygon.first + polygon.count; ++c) {
-        const uint32_t other = face_of(leaf_.opposite[c]);
+        const uint32_t other = neighbour(c);
+        if (other == kNone) continue;
         if (!crosses_[p] && !crosses_[other] && p < other) agrees &= windings.join(p, other, 0);
       }
     }
     return agrees;
   }
 
+  /// The polygon on the other side of an edge; kNone where there are more than one.
+  [[nodiscard]] uint32_t neighbour(uint32_t edge) {
+    return opposite_[edge] == kNone ? kNone : face_of(opposite_[edge]);
+  }
   [[nodiscard]] uint32_t face_of(uint32_t corner) {
     if (face_of_.empty()) {
       face_of_.resize(leaf_.corners.size());
@@ -162,7 +213,7 @@ class SurfaceCutter {
     return face_of_[corner];
   }
 
-  /// From piece to piece of a polygon. False where that cannot be told.
+  /// From piece to piece of a polygon; it is left where that cannot be told.
   bool join_pieces(uint32_t i, OffsetSets& windings) {
     std::vector<PieceEdge> edges;
     for (uint32_t k = cuts_[i].first_piece; k < cuts_[i].end_piece; ++k) {
@@ -185,7 +236,11 @@ class SurfaceCutter {
       }
       ++e;
       const auto step = winding_step(i, edge);
-      if (!step || !windings.join(number(edge.piece), number(edges[e].piece), *step)) return false;
+      if (!step) {
+        is_left_[i] = 1;
+        return true;
+      }
+      if (!windings.join(number(edge.piece), number(edges[e].piece), *step)) return false;
     }
     return join_along_rim(i, rim, windings);
   }
@@ -264,7 +319,7 @@ class SurfaceCutter {
     const JobPolygon& p = job_.polygons()[polygon];
     Cut& cut = cuts_[i];
     for (uint32_t e = 0; e < p.count; ++e) {
-      const uint32_t neighbour = face_of(leaf_.opposite[p.first + e]);
+      const uint32_t other = neighbour(p.first + e);
       uint32_t at = corner_point(p, e);
       const uint32_t end = corner_point(p, e + 1 < p.count ? e + 1 : 0);
       for (bool is_first = true; at != end; is_first = false) {
@@ -273,7 +328,7 @@ class SurfaceCutter {
         assert(edge != rim.end() && edge->from() == at);  // pieces fill the polygon
         if (is_first) cut.at_start.push_back(*edge);
         if (edge->to() == end) cut.at_end.push_back(*edge);
-        if (!crosses_[neighbour] && !windings.join(neighbour, number(edge->piece), 0)) {
+        if (other != kNone && !crosses_[other] && !windings.join(other, number(edge->piece), 0)) {
           return false;
         }
         at = edge->to();
@@ -295,9 +350,12 @@ class SurfaceCutter {
       return runs_along(i, edge) || windings.join(number(edge.piece), number(back.piece), 0);
     };
     for (uint32_t e = 0; e < p.count; ++e) {
-      const uint32_t back = leaf_.opposite[p.first + e], other = face_of(back);
+      const uint32_t back = opposite_[p.first + e];
+      if (back == kNone) continue;
+      const uint32_t other = face_of(back);
       if (!crosses_[other] || other < polygon) continue;
       const uint32_t k = partners_.place(other), b = back - leaf_.face_starts[other];
+      if (is_left_[k]) continue;
       const Cut &own = cuts_[i], &its = cuts_[k];
       if (!join(own.at_start[e], its.at_end[b]) || !join(own.at_end[e], its.at_start[b])) {
         return false;
@@ -315,28 +373,51 @@ class SurfaceCutter {
     });
   }
 
-  /// One cell for all that hangs together says what its winding numbers are. False where something
-  /// hangs together with no polygon that crosses nothing.
-  Result<bool> join_with_infinity(OffsetSets& windings, EvaluateStats& stats) {
+  /// What hangs together with no polygon that crosses nothing is left.
+  void leave_what_hangs_together(OffsetSets& windings) {
+    std::vector<uint8_t> has_whole(infinity_ + 1, 0);
+    for (uint32_t p = 0; p < crosses_.size(); ++p) {
+      if (!crosses_[p]) has_whole[windings.find(p).root] = 1;
+    }
+    for (uint32_t i = 0; i < cuts_.size(); ++i) {
+      for (uint32_t k = cuts_[i].first_piece; k < cuts_[i].end_piece; ++k) {
+        if (!has_whole[windings.find(number(k)).root]) is_left_[i] = 1;
+      }
+    }
+  }
+
+  /// What lies upon a polygon that is left is left, too: cells find all layers of a place at once.
+  void leave_what_lies_upon() {
+    std::vector<uint32_t> open;
+    for (uint32_t i = 0; i < cuts_.size(); ++i) {
+      if (is_left_[i]) open.push_back(i);
+    }
+    while (!open.empty()) {
+      const uint32_t i = open.back();
+      open.pop_back();
+      for (const uint32_t other : cuts_[i].coplanar) {
+        const uint32_t k = partners_.place(other);
+        if (is_left_[k]) continue;
+        is_left_[k] = 1;
+        open.push_back(k);
+      }
+    }
+  }
+
+  /// The cells of all that is left, and one for all that hangs together.
+  Result<std::vector<SurfaceCells>> solve_cells(OffsetSets& windings, EvaluateStats& stats) {
     const std::vector<uint32_t> witnesses = choose_witnesses(windings);
     std::vector<uint32_t> all(crosses_.size());
     std::iota(all.begin(), all.end(), 0u);
-    const std::vector<uint8_t> nothing_crosses(crosses_.size(), 0);
-    const SurfaceOctree tree =
-        build_surface_octree(job_, all, nothing_crosses, witnesses, options_);
+    std::vector<uint8_t> is_solved(crosses_.size(), 0);
+    for (uint32_t i = 0; i < is_left_.size(); ++i) {
+      is_solved[partners_.polygons()[i]] = is_left_[i];
+    }
+    const SurfaceOctree tree = build_surface_octree(job_, all, is_solved, witnesses, options_);
     SurfacePatches each;  // polygon as a patch of its own
     each.patch_of = std::move(all);
     for (const uint32_t p : partners_.polygons()) each.patch_of[p] = kNone;
-    const auto runs = solve_surface_cells(job_, tree, each, {}, options_, stats);
-    if (!runs) return runs.error();
-    for (const SurfaceCells& run : *runs) {
-      for (const SurfaceCells::PatchSides& s : run.patches) {
-        if (!windings.join(infinity_, s.patch, run.windings[s.front])) return false;
-      }
-    }
-    // Its pieces hang together.
-    return std::all_of(cuts_.begin(), cuts_.end(),
-                       [&](const Cut& cut) { return is_known(number(cut.first_piece), windings); });
+    return solve_surface_cells(job_, tree, each, {}, options_, stats);
   }
 
   bool is_known(uint32_t k, OffsetSets& windings) {
@@ -384,7 +465,7 @@ class SurfaceCutter {
     return true;
   }
 
-  std::optional<CutSurface> labelled(OffsetSets& windings) {
+  std::optional<CutSurface> labelled(OffsetSets& windings, std::vector<SurfaceCells> runs) {
     CutSurface result;
     const int32_t zero = windings.find(infinity_).offset;
     const auto winding = [&](uint32_t k) {
@@ -396,23 +477,43 @@ class SurfaceCutter {
       if (!crosses_[p]) result.winding_of_polygon[p] = winding(p);
     }
     std::vector<uint32_t> numbers;
-    for (const Cut& cut : cuts_) {
-      for (uint32_t k = cut.first_piece; k < cut.end_piece; ++k) {
-        const auto layers = layers_at(pieces_[k], cut.coplanar);
+    CutSurface::Pieces& cut_pieces = result.pieces.emplace_back();
+    for (uint32_t i = 0; i < cuts_.size(); ++i) {
+      if (is_left_[i]) continue;
+      for (uint32_t k = cuts_[i].first_piece; k < cuts_[i].end_piece; ++k) {
+        const auto layers = layers_at(pieces_[k], cuts_[i].coplanar);
         if (!layers) continue;
-        result.pieces.add(geometry_, pieces_[k], false, numbers);
+        cut_pieces.set.add(geometry_, pieces_[k], false, numbers);
         const int32_t front = winding(number(k));
-        result.windings_of_piece.push_back({front, front + *layers});
+        cut_pieces.windings.push_back({front, front + *layers});
       }
     }
+    for (SurfaceCells& run : runs) result.pieces.push_back(pieces_left(run));
+    return result;
+  }
+
+  /// The pieces in cells of polygons that are left.
+  CutSurface::Pieces pieces_left(SurfaceCells& run) const {
+    CutSurface::Pieces result{std::move(run.set), {}};
+    std::vector<FragmentSet::Piece>& pieces = result.set.pieces;
+    size_t kept = 0;
+    for (size_t i = 0; i < pieces.size(); ++i) {
+      if (!is_left_[partners_.place(pieces[i].polygon)]) continue;
+      pieces[kept++] = pieces[i];
+      result.windings.push_back(
+          {run.windings[run.sides[i].front], run.windings[run.sides[i].back]});
+    }
+    pieces.resize(kept);
     return result;
   }
 
   Job& job_;
   const LeafGeometry& leaf_;
+  const std::vector<uint32_t> opposite_;
   std::span<const uint8_t> crosses_;
   const KernelOptions& options_;
   const Partners partners_;
+  std::vector<uint8_t> is_left_;  ///< as the partners' polygons: to cells
   CellGeometry geometry_;
   PointIndex index_;
   std::vector<uint32_t> face_of_;  ///< per corner

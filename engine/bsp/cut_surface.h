@@ -5,7 +5,8 @@
 // they lie in its own, so that no other face meets the inside of a piece without holding all of it.
 // From one piece of a face to the next the winding number changes by the faces that stand between
 // them, and over an edge of two faces that no other one touches it stays. One solved cell for all
-// that hangs together in this way says what it is.
+// that hangs together in this way says what it is. Faces of which that cannot be told, or that too
+// many cross, are left to the cells that they are in.
 #pragma once
 
 #include <array>
@@ -26,21 +27,25 @@ namespace csgrun {
 struct CutSurface {
   /// Per polygon that crosses nothing: the winding number in front of it. Behind it is one more.
   std::vector<int32_t> winding_of_polygon;
-  /// The polygons that cross others, in pieces, seen from their fronts. Where several lie upon one
-  /// another the first one has the pieces.
-  FragmentSet pieces;
-  /// One for one: the winding numbers in front of all that lies there and behind it.
-  std::vector<std::array<int32_t, 2>> windings_of_piece;
+  /// Polygons that cross others, seen from their fronts. Where several lie upon one another one of
+  /// them has the pieces.
+  struct Pieces {
+    FragmentSet set;
+    /// One for one: the winding numbers in front of all that lies there and behind it.
+    std::vector<std::array<int32_t, 2>> windings;
+  };
+  std::vector<Pieces> pieces;  ///< cut whole, and of cells
 };
 
-/// Cuts the only operand of a job, a leaf in no frame of its own that knows its opposite edges.
-/// `crossings` as resolve_surface has them; `crosses` says for each polygon whether it is in one of
-/// them.
+/// Cuts the only operand of a job, a leaf in no frame of its own. `crossings` as resolve_surface
+/// has them; `crosses` says for each polygon whether it is in one of them.
 ///
-/// std::nullopt where cells are needed: there are more than kMostCuts planes to cut a polygon with;
-/// what crosses one ends at no corner of a piece, or hides how parts hang together; or the
-/// evaluation was cancelled. O(n) and, for a polygon that k planes cut, O(k^3). `stats` is added
-/// to. Errors: those of solve_surface_cells.
+/// To cells go polygons that more than kMostCuts planes would cut, or that something crosses which
+/// ends at no corner of a piece; and what hangs together with no polygon that crosses nothing.
+///
+/// std::nullopt where the parts contradict each other, or the evaluation was cancelled. O(n log n)
+/// and, for a polygon that k planes cut, O(k^3). `stats` is added to. Errors: those of
+/// solve_surface_cells.
 Result<std::optional<CutSurface>> cut_surface(Job& job, const LeafGeometry& leaf,
                                               std::span<const std::array<uint32_t, 2>> crossings,
                                               std::span<const uint8_t> crosses,

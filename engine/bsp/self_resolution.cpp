@@ -72,22 +72,23 @@ class Resolution {
   }
 
   [[nodiscard]] bool may_cut_whole() const {
-    return options_.whole_faces && !is_hull() && job_.is_leaf(0) && surface_.frame.is_identity &&
-           !surface_.leaf->opposite.empty();
+    return options_.whole_faces && !is_hull() && job_.is_leaf(0) && surface_.frame.is_identity;
   }
 
   void keep_cut(CutSurface&& cut) {
-    FragmentSet& set = sets_.emplace_back(std::move(cut.pieces));
-    size_t kept = 0;
-    for (size_t i = 0; i < set.pieces.size(); ++i) {
-      const auto [before, behind] = cut.windings_of_piece[i];
-      const bool front = is_inside(before, rule_), back = is_inside(behind, rule_);
-      if (front == back) continue;
-      set.pieces[kept] = set.pieces[i];
-      if (front) set.flip(set.pieces[kept]);
-      ++kept;
+    for (CutSurface::Pieces& part : cut.pieces) {
+      FragmentSet& set = sets_.emplace_back(std::move(part.set));
+      size_t kept = 0;
+      for (size_t i = 0; i < set.pieces.size(); ++i) {
+        const auto [before, behind] = part.windings[i];
+        const bool front = is_inside(before, rule_), back = is_inside(behind, rule_);
+        if (front == back) continue;
+        set.pieces[kept] = set.pieces[i];
+        if (front) set.flip(set.pieces[kept]);
+        ++kept;
+      }
+      set.pieces.resize(kept);
     }
-    set.pieces.resize(kept);
     for (uint32_t p = 0; p < crosses_.size(); ++p) {
       if (crosses_[p]) continue;
       const int32_t winding = cut.winding_of_polygon[p];

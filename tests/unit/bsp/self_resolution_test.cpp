@@ -294,9 +294,8 @@ TEST(SelfResolution, CutsFacesWholeWhereItMay) {
        {InsideRule::kNonZero, InsideRule::kPositive, InsideRule::kEvenOdd}) {
     EXPECT_EQ(cells(plain, rule, true), 2u);  // one for each box
     EXPECT_GT(cells(plain, rule, false), 4u);
-    for (const Operand* other : std::array<const Operand*, 2>{&unpaired, &turned}) {
-      EXPECT_EQ(cells(*other, rule, true), cells(*other, rule, false));
-    }
+    EXPECT_EQ(cells(unpaired, rule, true), 2u);
+    EXPECT_EQ(cells(turned, rule, true), cells(turned, rule, false));
   }
   EXPECT_EQ(cells(plain, InsideRule::kOuterHull, true),
             cells(plain, InsideRule::kOuterHull, false));
