@@ -27,11 +27,11 @@ namespace csgrun {
 struct CutSurface {
   /// Per polygon that crosses nothing: the winding number in front of it. Behind it is one more.
   std::vector<int32_t> winding_of_polygon;
-  /// Polygons that cross others, seen from their fronts. Where several lie upon one another one of
-  /// them has the pieces.
+  /// Of polygons that cross others. Where several lie upon one another one of them has the pieces.
   struct Pieces {
     FragmentSet set;
-    /// One for one: the winding numbers in front of all that lies there and behind it.
+    /// One for one: the winding numbers in front of all that lies there, from where the piece is
+    /// seen, and behind it.
     std::vector<std::array<int32_t, 2>> windings;
   };
   std::vector<Pieces> pieces;  ///< cut whole, and of cells
