@@ -40,38 +40,6 @@ class Partners {
   std::vector<std::vector<uint32_t>> of_;
 };
 
-/// Per edge of a leaf the same edge as its other face runs it; kNone where more than two faces
-/// meet.
-std::vector<uint32_t> opposite_edges(const LeafGeometry& leaf) {
-  if (!leaf.opposite.empty()) return leaf.opposite;
-  struct Run {
-    uint32_t low, high, corner;
-    bool rises;
-  };
-  std::vector<Run> runs;
-  runs.reserve(leaf.corners.size());
-  for (size_t f = 0; f < leaf.face_count(); ++f) {
-    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
-    for (uint32_t c = begin; c < end; ++c) {
-      const uint32_t a = leaf.corners[c], b = leaf.corners[c + 1 < end ? c + 1 : begin];
-      runs.push_back({std::min(a, b), std::max(a, b), c, a < b});
-    }
-  }
-  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
-    return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
-  });
-  std::vector<uint32_t> result(leaf.corners.size(), kNone);
-  for (size_t i = 0, end = 0; i < runs.size(); i = end) {
-    while (end < runs.size() && runs[end].low == runs[i].low && runs[end].high == runs[i].high) {
-      ++end;
-    }
-    if (end - i != 2 || runs[i].rises == runs[i + 1].rises) continue;
-    result[runs[i].corner] = runs[i + 1].corner;
-    result[runs[i + 1].corner] = runs[i].corner;
-  }
-  return result;
-}
-
 /// A directed edge of a piece, by unique points.
 struct PieceEdge {
   uint32_t low, high;
@@ -84,12 +52,12 @@ struct PieceEdge {
 
 class SurfaceCutter {
  public:
-  SurfaceCutter(Job& job, const LeafGeometry& leaf,
+  SurfaceCutter(Job& job, const LeafGeometry& leaf, std::span<const uint32_t> opposite,
                 std::span<const std::array<uint32_t, 2>> crossings,
                 std::span<const uint8_t> crosses, const KernelOptions& options)
       : job_(job),
         leaf_(leaf),
-        opposite_(opposite_edges(leaf)),
+        opposite_(opposite),
         crosses_(crosses),
         options_(options),
         partners_(crossings, crosses),
@@ -509,7 +477,7 @@ class SurfaceCutter {
 
   Job& job_;
   const LeafGeometry& leaf_;
-  const std::vector<uint32_t> opposite_;
+  const std::span<const uint32_t> opposite_;
   std::span<const uint8_t> crosses_;
   const KernelOptions& options_;
   const Partners partners_;
@@ -525,10 +493,11 @@ class SurfaceCutter {
 }  // namespace
 
 Result<std::optional<CutSurface>> cut_surface(Job& job, const LeafGeometry& leaf,
+                                              std::span<const uint32_t> opposite,
                                               std::span<const std::array<uint32_t, 2>> crossings,
                                               std::span<const uint8_t> crosses,
                                               const KernelOptions& options, EvaluateStats& stats) {
-  return SurfaceCutter(job, leaf, crossings, crosses, options).run(stats);
+  return SurfaceCutter(job, leaf, opposite, crossings, crosses, options).run(stats);
 }
 
 }  // namespace csgrun

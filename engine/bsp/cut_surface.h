@@ -37,8 +37,9 @@ struct CutSurface {
   std::vector<Pieces> pieces;  ///< cut whole, and of cells
 };
 
-/// Cuts the only operand of a job, a leaf in no frame of its own. `crossings` as resolve_surface
-/// has them; `crosses` says for each polygon whether it is in one of them.
+/// Cuts the only operand of a job, a leaf in no frame of its own. `opposite` are its own opposite
+/// edges, or NonManifold's. `crossings` as resolve_surface has them; `crosses` says for each
+/// polygon whether it is in one of them.
 ///
 /// To cells go polygons that more than kMostCuts planes would cut, or that something crosses which
 /// ends at no corner of a piece; and what hangs together with no polygon that crosses nothing.
@@ -47,6 +48,7 @@ struct CutSurface {
 /// and, for a polygon that k planes cut, O(k^3). `stats` is added to. Errors: those of
 /// solve_surface_cells.
 Result<std::optional<CutSurface>> cut_surface(Job& job, const LeafGeometry& leaf,
+                                              std::span<const uint32_t> opposite,
                                               std::span<const std::array<uint32_t, 2>> crossings,
                                               std::span<const uint8_t> crosses,
                                               const KernelOptions& options, EvaluateStats& stats);

@@ -21,7 +21,7 @@ struct Use {
 }  // namespace
 
 NonManifold find_non_manifold(const LeafGeometry& leaf) {
-  if (!leaf.opposite.empty()) return {{}, find_vertices_of_fans(leaf)};
+  if (!leaf.opposite.empty()) return {{}, find_vertices_of_fans(leaf), {}};
   const std::vector<uint32_t>& corners = leaf.corners;
   std::vector<uint32_t> end(corners.size());  // of each edge
   for (size_t f = 0; f < leaf.face_count(); ++f) {
@@ -33,7 +33,8 @@ NonManifold find_non_manifold(const LeafGeometry& leaf) {
   by_low.sort(corners.size(), leaf.vertices.size(),
               [&](size_t e) { return std::min(corners[e], end[e]); });
   NonManifold found;
-  std::vector<uint32_t> opposite(corners.size(), kNone);
+  std::vector<uint32_t>& opposite = found.opposite;
+  opposite.assign(corners.size(), kNone);
   std::vector<uint8_t> is_at_edge(leaf.vertices.size(), 0);
   std::vector<Use> uses;
   for (uint32_t low = 0; low < leaf.vertices.size(); ++low) {

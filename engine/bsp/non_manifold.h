@@ -15,6 +15,9 @@ struct NonManifold {
   std::vector<std::array<uint32_t, 2>> edges;
   /// Vertices whose faces are more than one fan, but for the ends of these edges.
   std::vector<uint32_t> vertices;
+  /// As LeafGeometry::opposite, of all other edges; UINT32_MAX for these. Empty for a leaf whose
+  /// own are known.
+  std::vector<uint32_t> opposite;
 
   /// Calls visit(v, w) for each edge, and visit(v, v) for each vertex.
   template <class Visit>

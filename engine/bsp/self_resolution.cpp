@@ -60,7 +60,9 @@ class Resolution {
   Status keep_all() {
     if (is_hull() && !job_.is_leaf(0)) return fill_voids();
     if (may_cut_whole()) {
-      auto cut = cut_surface(job_, *surface_.leaf, crossings_, crosses_, options_, stats_);
+      const LeafGeometry& leaf = *surface_.leaf;
+      const auto& opposite = leaf.opposite.empty() ? opposite_ : leaf.opposite;
+      auto cut = cut_surface(job_, leaf, opposite, crossings_, crosses_, options_, stats_);
       if (!cut) return cut.error();
       if (*cut) {
         keep_cut(std::move(**cut));
@@ -116,7 +118,9 @@ class Resolution {
         box.hi[k] = std::min(a.hi[k], b.hi[k]);
       }
     }
-    find_non_manifold(leaf).each([&](uint32_t v, uint32_t w) { add_touching(v, w); });
+    NonManifold non_manifold = find_non_manifold(leaf);
+    non_manifold.each([&](uint32_t v, uint32_t w) { add_touching(v, w); });
+    opposite_ = std::move(non_manifold.opposite);
     keep_few(touching_.boxes);
   }
 
@@ -242,6 +246,7 @@ class Resolution {
   const KernelOptions& options_;
   EvaluateStats& stats_;
   SurfacePatches patches_;
+  std::vector<uint32_t> opposite_;  ///< NonManifold::opposite
   Touching touching_;
   std::vector<FragmentSet> sets_;
   std::vector<WholePolygon> whole_;

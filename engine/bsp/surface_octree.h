@@ -30,8 +30,8 @@ struct SurfaceOctree {
 };
 
 /// Builds the octree of the job's polygons `polygons`. `crosses` says for each polygon of the job
-/// whether it crosses another; `witnesses` are vertices of the job: the cell of each is solved.
-/// O((n + k) log) for n polygons, k of them in solved cells.
+/// whether it crosses another and all of its cells are to be solved; `witnesses` are vertices of
+/// the job: the cell of each is solved. O((n + k) log) for n polygons, k of them in solved cells.
 SurfaceOctree build_surface_octree(Job& job, std::span<const uint32_t> polygons,
                                    std::span<const uint8_t> crosses,
                                    std::span<const uint32_t> witnesses,

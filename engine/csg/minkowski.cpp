@@ -164,8 +164,8 @@ bool are_few_enough(const Summand& a, const Summand& b) {
 int64_t reach(const std::vector<Summand>& summands) {
   int64_t result = 0;
   for (const Summand& summand : summands) {
-    for (const auto& points : {summand.points, summand.boundary.vertices}) {
-      for (const IVec3& p : points) {
+    for (const auto* points : {&summand.points, &summand.boundary.vertices}) {
+      for (const IVec3& p : *points) {
         for (const int64_t x : p) result = std::max(result, std::abs(x));
       }
     }

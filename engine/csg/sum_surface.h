@@ -19,8 +19,8 @@ struct SumSurface {
 
 /// The boundaries of the cells, less what two of them have in common, once with each sense. Each
 /// is a vertex of one operand and a face of the other, or an edge of each, so names tell what is
-/// the same. (This is a part of the convolution of the two surfaces, where not the least number of
-/// times that each of its faces counts is taken but that by which the number of cells changes.)
+/// the same. (These are the kinds of faces that the convolution of the two surfaces has; each
+/// counts by how the number of cells changes across it, not by an Euler number.)
 ///
 /// Nothing if there were more than 2^24 before. O(n log n) for n of them.
 std::optional<SumSurface> sum_surface(const LeafGeometry& a, const LeafGeometry& b,

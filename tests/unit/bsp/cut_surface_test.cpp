@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/vec3d.h"
+#include "engine/bsp/non_manifold.h"
 #include "engine/bsp/union_find.h"
 #include "engine/mesh/leaf_check.h"
 #include "engine/mesh/opposite_edges.h"
@@ -53,7 +54,10 @@ struct Surface {
   /// Edges that several boxes have are no pairs.
   [[nodiscard]] bool is_paired() const { return !operands[0].leaf->opposite.empty(); }
   std::optional<CutSurface> cut(const KernelOptions& options = {}) {
-    auto result = cut_surface(*job, *operands[0].leaf, crossings, crosses, options, stats);
+    const LeafGeometry& leaf = *operands[0].leaf;
+    if (!is_paired()) opposite = find_non_manifold(leaf).opposite;
+    auto result = cut_surface(*job, leaf, is_paired() ? leaf.opposite : opposite, crossings,
+                              crosses, options, stats);
     EXPECT_TRUE(result);
     return result ? std::move(*result) : std::nullopt;
   }
@@ -61,6 +65,7 @@ struct Surface {
   std::vector<Operand> operands;
   std::vector<std::array<uint32_t, 2>> crossings;
   std::vector<uint8_t> crosses;
+  std::vector<uint32_t> opposite;  ///< unless the leaf is paired
   std::optional<Job> job;
   EvaluateStats stats;
 };
@@ -455,7 +460,8 @@ TEST(CutSurface, StopsWhenCancelledBeforeItsCellIsSolved) {
   std::atomic<bool> cancel = true;
   KernelOptions options;
   options.cancel = &cancel;
-  const auto result = cut_surface(*surface.job, *surface.operands[0].leaf, surface.crossings,
+  const LeafGeometry& leaf = *surface.operands[0].leaf;
+  const auto result = cut_surface(*surface.job, leaf, leaf.opposite, surface.crossings,
                                   surface.crosses, options, surface.stats);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
