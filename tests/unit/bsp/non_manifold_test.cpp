@@ -18,26 +18,31 @@ namespace {
 
 using Edge = std::array<uint32_t, 2>;
 
-/// Calls visit(face, from, to) for all directed edges.
+/// Calls visit(face, corner, from, to) for all directed edges.
 template <class Visit>
 void for_each_edge(const LeafGeometry& leaf, Visit visit) {
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
     const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
     for (uint32_t c = begin; c < end; ++c) {
-      visit(f, leaf.corners[c], leaf.corners[c + 1 < end ? c + 1 : begin]);
+      visit(f, c, leaf.corners[c], leaf.corners[c + 1 < end ? c + 1 : begin]);
     }
   }
 }
 
 NonManifold by_counting(const LeafGeometry& leaf) {
-  std::map<Edge, std::vector<uint32_t>> faces;  // of directed edges
-  for_each_edge(leaf, [&](uint32_t f, uint32_t a, uint32_t b) { faces[{a, b}].push_back(f); });
+  std::map<Edge, std::vector<uint32_t>> faces, corners;  // of directed edges
+  for_each_edge(leaf, [&](uint32_t f, uint32_t c, uint32_t a, uint32_t b) {
+    faces[{a, b}].push_back(f);
+    corners[{a, b}].push_back(c);
+  });
   NonManifold result;
+  result.opposite.assign(leaf.corners.size(), UINT32_MAX);
   std::set<uint32_t> ends;
   std::map<uint32_t, std::vector<Edge>> joined;  // faces, by vertex
-  for_each_edge(leaf, [&](uint32_t, uint32_t a, uint32_t b) {
+  for_each_edge(leaf, [&](uint32_t, uint32_t c, uint32_t a, uint32_t b) {
     const auto own = faces[{a, b}], reverse = faces[{b, a}];
     if (own.size() == 1 && reverse.size() == 1) {
+      result.opposite[c] = corners[{b, a}][0];
       for (const uint32_t v : {a, b}) joined[v].push_back({own[0], reverse[0]});
       return;
     }
@@ -72,6 +77,7 @@ TEST(NonManifold, IsFoundInSolidsSideBySide) {
     const NonManifold found = find_non_manifold(leaf), expected = by_counting(leaf);
     ASSERT_EQ(found.edges, expected.edges) << round;
     ASSERT_EQ(found.vertices, expected.vertices) << round;
+    ASSERT_EQ(found.opposite, expected.opposite) << round;
     leaf.opposite = pair_edges(leaf).opposite;
     ASSERT_EQ(leaf.opposite.empty(), !expected.edges.empty()) << round;
     ASSERT_EQ(find_non_manifold(leaf).vertices, expected.vertices) << round;
