@@ -75,7 +75,12 @@ uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes) {
 
 uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes,
                                  const std::array<double, 3>& rounded) {
-  points_.push_back({rounded, planes, kNone, kNone, false});
+  return add_point(planes, rounded, false);
+}
+
+uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes,
+                                 const std::array<double, 3>& rounded, bool is_on_grid) {
+  points_.push_back({rounded, planes, kNone, kNone, is_on_grid});
   return static_cast<uint32_t>(points_.size() - 1);
 }
 

@@ -67,6 +67,9 @@ class CellGeometry {
   /// The point where three planes meet.
   uint32_t add_point(const std::array<uint32_t, 3>& planes);
   uint32_t add_point(const std::array<uint32_t, 3>& planes, const std::array<double, 3>& rounded);
+  /// A point that is known: where three planes meet, or, where these are kNone, a grid point.
+  uint32_t add_point(const std::array<uint32_t, 3>& planes, const std::array<double, 3>& rounded,
+                     bool is_on_grid);
   /// Makes room for so many points and returns the number of the first; each is to be set before it
   /// is looked at. Several threads may set different ones.
   uint32_t add_points(size_t count) {

@@ -40,26 +40,45 @@ class Convexifier {
   }
 
   void run_within(Fragment cell, const std::vector<BoundaryEdge>& edges) {
-    if (edges.empty()) return;
-    if (is_convex_loop(edges)) return take(edges);
-    std::vector<BoundaryEdge> rim, inner;
-    const uint32_t* planes = geometry_.edges(cell);
-    for (const BoundaryEdge& e : edges) {
-      const bool is_rim = std::find(planes, planes + cell.count, e.plane) != planes + cell.count;
-      (is_rim ? rim : inner).push_back(e);
-    }
-    if (inner.empty()) {
-      pieces_.push_back(cell);
-      return;
-    }
-    const Extent busy = extent_of(inner);
+    if (!begin_within(cell, edges)) return;
+    const Extent busy = extent_of(inner_);
     if (!is_far_beside(cell, busy) && divide_loops(edges)) return;
-    while (cut_off(cell, busy, rim)) {
+    while (cut_off(cell, busy)) {
     }
-    cut(cell, std::move(inner));
+    cut(cell, std::move(inner_));
+  }
+
+  bool cut_off_within(const Fragment& cell, const std::vector<BoundaryEdge>& edges,
+                      RegionRest& rest) {
+    if (!begin_within(cell, edges)) return false;
+    rest = {cell, edges, false};
+    const Extent busy = extent_of(inner_);
+    if (!is_far_beside(cell, busy)) return true;
+    while (cut_off(rest.cell, busy)) rest.is_cut_off = true;
+    rest.edges = inner_;
+    rest.edges.insert(rest.edges.end(), rim_.begin(), rim_.end());
+    return true;
   }
 
  private:
+  /// Makes a piece of what is convex; else lists the edges of the region on the rim of the cell and
+  /// the others, and returns true.
+  bool begin_within(const Fragment& cell, const std::vector<BoundaryEdge>& edges) {
+    if (edges.empty()) return false;
+    if (is_convex_loop(edges)) {
+      take(edges);
+      return false;
+    }
+    const uint32_t* planes = geometry_.edges(cell);
+    for (const BoundaryEdge& e : edges) {
+      const bool is_rim = std::find(planes, planes + cell.count, e.plane) != planes + cell.count;
+      (is_rim ? rim_ : inner_).push_back(e);
+    }
+    if (!inner_.empty()) return true;
+    pieces_.push_back(cell);
+    return false;
+  }
+
   /// Whether the edges are one loop, in its order, that turns left at every corner. It does not
   /// cross itself.
   bool is_convex_loop(const std::vector<BoundaryEdge>& edges) {
@@ -194,9 +213,8 @@ class Convexifier {
   }
 
   /// Cuts off what of a cell is furthest beside all of its edges, if that is far more than these,
-  /// by a wall; `rim` are the edges of the region on the rim of the whole cell. False when nothing
-  /// is.
-  bool cut_off(Fragment& cell, const Extent& busy, const std::vector<BoundaryEdge>& rim) {
+  /// by a wall. False when nothing is.
+  bool cut_off(Fragment& cell, const Extent& busy) {
     const auto [axis, above, most] = find_beside(cell, busy);
     if (most == 0) return false;
     const double at = above ? std::ceil(busy.hi[axis]) : std::floor(busy.lo[axis]) - 1;
@@ -205,12 +223,33 @@ class Convexifier {
     if (geometry_.split(cell, plane, front, back) != Side::kSplit) return false;
     // No edge of the region is there but on the rim: it is all or nothing.
     const int outer = above ? 1 : -1;
-    const bool inside = std::any_of(rim.begin(), rim.end(), [&](const BoundaryEdge& e) {
+    const bool inside = std::any_of(rim_.begin(), rim_.end(), [&](const BoundaryEdge& e) {
       return geometry_.side(plane, e.from) == outer || geometry_.side(plane, e.to) == outer;
     });
     if (inside) pieces_.push_back(above ? front : back);
     cell = above ? back : front;
+    cut_rim(cell, plane, outer, inside);
     return true;
+  }
+
+  /// Takes away what of the rim lies on the side `outer` of a wall that is an edge of the cell now,
+  /// and adds that edge if the region is `inside` there.
+  void cut_rim(const Fragment& cell, uint32_t wall, int outer, bool inside) {
+    const uint32_t* planes = geometry_.edges(cell);
+    const auto i = static_cast<uint32_t>(std::find(planes, planes + cell.count, wall) - planes);
+    const uint32_t* corners = geometry_.corners(cell);
+    const uint32_t start = corners[i], end = corners[i + 1 < cell.count ? i + 1 : 0];
+    std::vector<BoundaryEdge> left;
+    for (BoundaryEdge e : rim_) {
+      const int s = geometry_.side(wall, e.from) * outer, t = geometry_.side(wall, e.to) * outer;
+      if (s >= 0 && t >= 0) continue;
+      // Edges on the rim run as the cell's do, which come to the wall where its edge starts.
+      if (s >= 0) e.from = end;
+      if (t >= 0) e.to = start;
+      left.push_back(e);
+    }
+    if (inside) left.push_back({start, end, wall});
+    rim_ = std::move(left);
   }
 
   bool cut_by_wall(const Fragment& cell, const std::vector<BoundaryEdge>& edges) {
@@ -272,6 +311,7 @@ class Convexifier {
   LoopPieces loops_;
   const std::array<int, 2> axes_;
   const bool positive_;
+  std::vector<BoundaryEdge> rim_, inner_;  ///< of a region within a cell
 };
 
 /// Whether three edges follow each other.
@@ -298,6 +338,14 @@ void convexify_within(CellGeometry& geometry, const PlaneTable& planes, const Fr
                       const std::function<uint32_t(int, int64_t)>& wall,
                       std::vector<Fragment>& pieces) {
   Convexifier(geometry, planes, cell.support, wall, pieces).run_within(cell, edges);
+}
+
+bool cut_off_within(CellGeometry& geometry, const PlaneTable& planes, const Fragment& cell,
+                    const std::vector<BoundaryEdge>& edges,
+                    const std::function<uint32_t(int, int64_t)>& wall,
+                    std::vector<Fragment>& pieces, RegionRest& rest) {
+  return Convexifier(geometry, planes, cell.support, wall, pieces)
+      .cut_off_within(cell, edges, rest);
 }
 
 }  // namespace csgrun

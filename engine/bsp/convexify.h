@@ -30,4 +30,19 @@ void convexify_within(CellGeometry& geometry, const PlaneTable& planes, const Fr
                       const std::function<uint32_t(int, int64_t)>& wall,
                       std::vector<Fragment>& pieces);
 
+/// What of a region within a cell is not convex: its edges, in no order if `is_cut_off`.
+struct RegionRest {
+  Fragment cell;
+  std::vector<BoundaryEdge> edges;
+  bool is_cut_off = false;
+};
+
+/// The beginning of that: makes pieces of a convex region, or of what lies far beside all edges
+/// that are not on the rim of the cell. Returns whether there is a rest, which convexify_within is
+/// for.
+bool cut_off_within(CellGeometry& geometry, const PlaneTable& planes, const Fragment& cell,
+                    const std::vector<BoundaryEdge>& edges,
+                    const std::function<uint32_t(int, int64_t)>& wall,
+                    std::vector<Fragment>& pieces, RegionRest& rest);
+
 }  // namespace csgrun

@@ -10,6 +10,7 @@
 #include "engine/bsp/convexify.h"
 #include "engine/bsp/grid_planes.h"
 #include "engine/bsp/piece_store.h"
+#include "engine/bsp/region_parts.h"
 
 namespace csgrun {
 namespace {
@@ -268,8 +269,9 @@ void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
   }
   operand.pieces.each([&](const PieceBox& box) { return box.meets_any(boxes); },
                       [&](uint32_t piece) {
-                        if (store.box(piece).meets_any(boxes)) pieces_.push_back(piece);
+                        if (store.box(piece).meets_any(boxes)) version_pieces_.push_back(piece);
                       });
+  take_parts(store, boxes);
   std::vector<uint32_t>& vertex_of = store.scratch();
   for (uint32_t i = 0; i < pieces_.size(); ++i) {
     const auto first = static_cast<uint32_t>(corners_.size());
@@ -291,7 +293,31 @@ void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
   for (const uint32_t point : piece_points_) vertex_of[point] = kNone;
 }
 
+/// Lists the pieces that regions near the boxes are made of.
+void Job::take_parts(PieceStore& store, std::span<const PieceBox> boxes) {
+  RegionParts parts(store, [this](int axis, int64_t m) { return wall(axis, m); });
+  std::vector<uint32_t> met;
+  met.swap(version_pieces_);
+  for (const uint32_t piece : met) {
+    if (!store.is_region(piece)) {
+      pieces_.push_back(piece);
+      version_pieces_.push_back(piece);
+      continue;
+    }
+    const auto [begin, end] = parts.of(piece);
+    for (uint32_t part = begin; part < end; ++part) {
+      if (!store.box(part).meets_any(boxes)) continue;
+      pieces_.push_back(part);
+      version_pieces_.push_back(piece);
+    }
+  }
+}
+
 uint32_t Job::piece(uint32_t polygon) const { return pieces_[polygons_[polygon].face]; }
+
+uint32_t Job::version_piece(uint32_t polygon) const {
+  return version_pieces_[polygons_[polygon].face];
+}
 
 uint32_t Job::piece_point(uint32_t vertex) const {
   return piece_points_[vertex - sources_.back().first_vertex];

@@ -59,6 +59,7 @@ struct PolygonEdge {
 };
 
 struct PieceBox;
+class PieceStore;
 /// The box around one of correctly rounded coordinates, which may stand on either side of the true
 /// ones.
 PolygonBox rounded_outwards(const PieceBox& box);
@@ -95,6 +96,8 @@ class Job {
   [[nodiscard]] const PieceOperand* pieces(size_t o) const { return (*operands_)[o].pieces.get(); }
   /// The piece that a polygon of such an operand is, and the point that a vertex of it is.
   [[nodiscard]] uint32_t piece(uint32_t polygon) const;
+  /// The piece of the version that it comes from: that one, or the region that it is a part of.
+  [[nodiscard]] uint32_t version_piece(uint32_t polygon) const;
   [[nodiscard]] uint32_t piece_point(uint32_t vertex) const;
   [[nodiscard]] size_t operand_count() const { return operands_->size(); }
   [[nodiscard]] uint32_t operand_of_vertex(uint32_t vertex) const;
@@ -181,6 +184,7 @@ class Job {
   void add_leaf(uint32_t o, const Operand& operand);
   void add_boundary(uint32_t o, const Operand& operand);
   void add_pieces(uint32_t o, const PieceOperand& operand);
+  void take_parts(PieceStore& store, std::span<const PieceBox> boxes);
   [[nodiscard]] PolygonBox box_of(const JobPolygon& polygon) const;
   [[nodiscard]] PolygonBox grid_box_of(const JobPolygon& polygon) const;
   /// The exact position of vertex `local` of operand `o`.
@@ -209,8 +213,8 @@ class Job {
   std::vector<std::vector<std::array<uint32_t, 3>>> boundary_vertices_;
   /// Planes of boundary operands, by their number in the boundary.
   std::vector<std::vector<PlaneId>> boundary_planes_;
-  std::vector<uint32_t> pieces_, piece_points_;  ///< of the operand in pieces
-  bool are_pieces_on_grid_ = true;               ///< all of these points
+  std::vector<uint32_t> pieces_, version_pieces_, piece_points_;  ///< of the operand in pieces
+  bool are_pieces_on_grid_ = true;                                ///< all of these points
   int64_t prime_ = 3;
 };
 

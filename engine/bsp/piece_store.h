@@ -1,5 +1,8 @@
-// Convex pieces of results over common planes and points. A store only grows: all versions of a
-// result, from operation to operation, name their pieces in one store (result_pieces.h).
+// Pieces of results over common planes and points. A store only grows: all versions of a result,
+// from operation to operation, name their pieces in one store (result_pieces.h).
+//
+// A piece is a convex polygon, or a region: loops within a convex polygon, which become convex
+// pieces of their own when an operation comes near (region_parts.h).
 #pragma once
 
 #include <array>
@@ -28,6 +31,15 @@ class PieceStore {
     bool is_whole;          ///< all of a leaf's face
     bool is_flipped;        ///< a whole one: runs the other way round than the face
     bool is_met = false;    ///< another operand's surface touched it
+    uint32_t region = ~0u;  ///< number of the region, if it is one
+  };
+
+  /// What else is known of a region.
+  struct Region {
+    uint32_t first_end, loop_count;   ///< where loops end, counted from the piece's first corner
+    uint32_t first_cell, cell_count;  ///< corners of the convex polygon that it is within
+    uint32_t first_part = ~0u;        ///< pieces, when they were made
+    uint32_t part_count = 0;
   };
 
   PlaneTable planes;
@@ -42,6 +54,9 @@ class PieceStore {
   /// A piece whose corners and edge planes were appended to corners() and edges() last. Returns its
   /// number.
   uint32_t add_piece(const Piece& piece);
+  /// A region, the loops of which end at `ends`, counted from its first corner. The corners and
+  /// edges of the convex polygon around it, so many, were appended after its own.
+  uint32_t add_region(Piece piece, std::span<const uint32_t> ends, uint32_t cell_count);
   std::vector<uint32_t>& corners() { return corners_; }
   std::vector<uint32_t>& edges() { return edges_; }
 
@@ -53,6 +68,20 @@ class PieceStore {
   /// Planes of the edges: edge i runs from corner i to the next. kNone where they were not made.
   [[nodiscard]] std::span<const uint32_t> edges(uint32_t piece) const {
     return {edges_.data() + pieces_[piece].first, pieces_[piece].count};
+  }
+  [[nodiscard]] bool is_region(uint32_t piece) const { return pieces_[piece].region != kNoNumber; }
+  [[nodiscard]] Region& region(uint32_t piece) { return regions_[pieces_[piece].region]; }
+  /// Calls f(begin, end) for the loops of a piece, counted from its first corner.
+  template <class F>
+  void each_loop(uint32_t piece, F&& f) const {
+    const Piece& p = pieces_[piece];
+    if (p.region == kNoNumber) return f(0u, p.count);
+    const Region& region = regions_[p.region];
+    for (uint32_t l = 0, begin = 0; l < region.loop_count; ++l) {
+      const uint32_t end = loop_ends_[region.first_end + l];
+      f(begin, end);
+      begin = end;
+    }
   }
   [[nodiscard]] const PieceBox& box(uint32_t piece) const { return boxes_[piece]; }
   void set_met(uint32_t piece) { pieces_[piece].is_met = true; }
@@ -130,6 +159,8 @@ class PieceStore {
   std::vector<uint32_t> point_operand_;
   std::vector<uint8_t> is_on_grid_;
   std::vector<Piece> pieces_;
+  std::vector<Region> regions_;
+  std::vector<uint32_t> loop_ends_;
   std::vector<PieceBox> boxes_;
   std::vector<uint32_t> corners_, edges_;
   std::vector<uint32_t> scratch_;

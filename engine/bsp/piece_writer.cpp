@@ -114,30 +114,50 @@ Fragment PieceWriter::cell_of(uint32_t polygon, PlaneId plane) {
 }
 
 bool PieceWriter::add_region(uint32_t polygon, PlaneId plane, bool is_simple) {
-  std::vector<DirectedEdge>* outline = &edges_;
-  if (!is_simple) {
-    if (!regions_.build(plane, edges_, loops_)) return false;
-    outline = &loops_.edges;
+  const RegionLoops* loops = &loops_;
+  if (is_simple) {
+    loops_.clear();
+    loops_.edges = edges_;
+    loops_.starts.push_back(static_cast<uint32_t>(edges_.size()));
+  } else if (!regions_.build(plane, edges_, loops_)) {
+    return false;
   }
   job_.ensure_planes(polygon);
   boundary_.clear();
-  for (const DirectedEdge& e : *outline) boundary_.push_back({e.from, e.to, e.plane});
+  for (const DirectedEdge& e : loops_.edges) boundary_.push_back({e.from, e.to, e.plane});
   fragments_.clear();
-  convexify_within(geometry_, job_.planes(), cell_of(polygon, plane), boundary_, wall_of_,
-                   fragments_);
+  const bool any_rest = cut_off_within(geometry_, job_.planes(), cell_of(polygon, plane), boundary_,
+                                       wall_of_, fragments_, rest_);
   PieceStore::Piece piece = origin_of(polygon);
   piece.is_whole = false;
   piece.support = plane;
   for (const Fragment& f : fragments_) {
     piece.first = static_cast<uint32_t>(store_.corners().size());
     piece.count = f.count;
-    for (uint32_t i = 0; i < f.count; ++i) {
-      store_.corners().push_back(store_point(geometry_.corners(f)[i]));
-      store_.edges().push_back(geometry_.edges(f)[i]);
-    }
+    for (uint32_t i = 0; i < f.count; ++i)
+      add_corner(geometry_.corners(f)[i], geometry_.edges(f)[i]);
     added.push_back(store_.add_piece(piece));
   }
+  if (!any_rest) return true;
+  if (rest_.is_cut_off) {
+    edges_.clear();
+    for (const BoundaryEdge& e : rest_.edges) edges_.push_back({e.from, e.to, e.plane});
+    if (!regions_.build_single(plane, edges_, rest_loops_)) return false;
+    loops = &rest_loops_;
+  }
+  add_loops(piece, *loops, rest_.cell);
   return true;
+}
+
+void PieceWriter::add_loops(PieceStore::Piece piece, const RegionLoops& loops,
+                            const Fragment& cell) {
+  piece.first = static_cast<uint32_t>(store_.corners().size());
+  piece.count = static_cast<uint32_t>(loops.edges.size());
+  for (const DirectedEdge& e : loops.edges) add_corner(e.from, e.plane);
+  for (uint32_t i = 0; i < cell.count; ++i) {
+    add_corner(geometry_.corners(cell)[i], geometry_.edges(cell)[i]);
+  }
+  added.push_back(store_.add_region(piece, std::span(loops.starts).subspan(1), cell.count));
 }
 
 }  // namespace csgrun

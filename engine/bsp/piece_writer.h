@@ -53,6 +53,14 @@ class PieceWriter {
   /// What is left of a polygon on one side of its plane, given by edges_.
   bool add_region(uint32_t polygon, PlaneId plane, bool is_simple);
 
+  void add_corner(uint32_t point, uint32_t edge) {
+    store_.corners().push_back(store_point(point));
+    store_.edges().push_back(edge);
+  }
+
+  /// Puts loops within a cell into the store.
+  void add_loops(PieceStore::Piece piece, const RegionLoops& loops, const Fragment& cell);
+
   Job& job_;
   const std::vector<Operand>& operands_;
   PieceStore& store_;
@@ -66,7 +74,8 @@ class PieceWriter {
   std::vector<DirectedEdge> edges_;
   std::vector<BoundaryEdge> boundary_;
   std::vector<Fragment> fragments_;
-  RegionLoops loops_;
+  RegionLoops loops_, rest_loops_;
+  RegionRest rest_;
   std::vector<uint32_t> cell_points_, cell_edges_;
 };
 

@@ -39,30 +39,14 @@ class Ray {
   /// Whether the ray meets a convex polygon, the corners of which are as wrong as `error` at most.
   Inside meets(std::span<const Position> corners, double polygon_error) {
     const double error = std::max(error_, polygon_error);
-    // Corners relative to the start, sheared so that the ray is the first axis.
-    y_.resize(corners.size());
-    z_.resize(corners.size());
-    double reach = 0;
-    for (size_t i = 0; i < corners.size(); ++i) {
-      const Position& c = corners[i];
-      const double dx = c[0] - from_[0], dy = c[1] - from_[1], dz = c[2] - from_[2];
-      y_[i] = dy - direction_.y * dx;
-      z_[i] = dz - direction_.z * dx;
-      reach = std::max({reach, std::fabs(dx), std::fabs(dy), std::fabs(dz)});
-    }
-    // Of each: two rounded coordinates, three roundings of values below 2 reach.
-    const double e = 4 * error + 0x1p-50 * reach;
+    const double e = shear(corners, error);
     const auto beside = [&](const std::vector<double>& v) {
       return std::all_of(v.begin(), v.end(), [&](double x) { return x > e; }) ||
              std::all_of(v.begin(), v.end(), [&](double x) { return x < -e; });
     };
     if (beside(y_) || beside(z_)) return Inside::kNo;
-    double most = 0;
-    for (size_t i = 0; i < y_.size(); ++i)
-      most = std::max({most, std::fabs(y_[i]), std::fabs(z_[i])});
-    // A turn is off by 4 e most + 2 e e, and by its own three roundings, which are less than
-    // 2^-51 most most: most is below 2 reach, and e no less than 2^-50 reach.
-    const double bound = 5 * e * most + 2 * e * e;
+    const double most = most_beside();
+    const double bound = turn_bound(e, most);
     bool left = false, right = false, unsure = false;
     for (size_t i = 0; i < y_.size(); ++i) {
       const size_t j = i + 1 < y_.size() ? i + 1 : 0;
@@ -78,7 +62,70 @@ class Ray {
     return side == (left ? -1 : 1) ? Inside::kYes : Inside::kNo;
   }
 
+  /// The same of a polygon of loops, which end at `ends`: where an odd number of edges cross the
+  /// half line y > 0, z = 0, as the ray is seen.
+  Inside meets_loops(std::span<const Position> corners, std::span<const uint32_t> ends,
+                     double polygon_error) {
+    const double error = std::max(error_, polygon_error);
+    const double e = shear(corners, error);
+    const double most = most_beside();
+    const double bound = turn_bound(e, most);
+    bool inside = false;
+    for (size_t l = 0, begin = 0; l < ends.size(); begin = ends[l++]) {
+      for (size_t i = begin; i < ends[l]; ++i) {
+        const size_t j = i + 1 < ends[l] ? i + 1 : begin;
+        if ((z_[i] > e && z_[j] > e) || (z_[i] < -e && z_[j] < -e)) continue;
+        if (y_[i] < -e && y_[j] < -e) continue;
+        if (std::fabs(z_[i]) <= e || std::fabs(z_[j]) <= e) return Inside::kUnknown;
+        const double turn = y_[i] * z_[j] - z_[i] * y_[j];
+        if (std::fabs(turn) <= bound) return Inside::kUnknown;
+        inside ^= (turn > 0) == (z_[j] > 0);
+      }
+    }
+    if (!inside) return Inside::kNo;
+    // Any three corners that turn, as they are seen and in space, tell on which side the ray
+    // starts. Differences are off by 2 e, so is a turn by 8 e most + 8 e e, and by its roundings.
+    const double corner_bound = 16 * e * most + 16 * e * e;
+    for (size_t i = 2; i < corners.size(); ++i) {
+      const double turn = (y_[i - 1] - y_[i - 2]) * (z_[i] - z_[i - 2]) -
+                          (z_[i - 1] - z_[i - 2]) * (y_[i] - y_[i - 2]);
+      if (std::fabs(turn) <= corner_bound) continue;
+      const int side = signs_.orient(corners[i - 2], corners[i - 1], corners[i], from_, error);
+      if (side == 0 || side == kUnsure) continue;
+      return side == (turn > 0 ? -1 : 1) ? Inside::kYes : Inside::kNo;
+    }
+    return Inside::kUnknown;
+  }
+
  private:
+  /// Notes corners relative to the start, sheared so that the ray is the first axis. Returns by how
+  /// much a coordinate may be wrong.
+  double shear(std::span<const Position> corners, double error) {
+    y_.resize(corners.size());
+    z_.resize(corners.size());
+    double reach = 0;
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const Position& c = corners[i];
+      const double dx = c[0] - from_[0], dy = c[1] - from_[1], dz = c[2] - from_[2];
+      y_[i] = dy - direction_.y * dx;
+      z_[i] = dz - direction_.z * dx;
+      reach = std::max({reach, std::fabs(dx), std::fabs(dy), std::fabs(dz)});
+    }
+    // Of each: two rounded coordinates, three roundings of values below 2 reach.
+    return 4 * error + 0x1p-50 * reach;
+  }
+
+  [[nodiscard]] double most_beside() const {
+    double most = 0;
+    for (size_t i = 0; i < y_.size(); ++i)
+      most = std::max({most, std::fabs(y_[i]), std::fabs(z_[i])});
+    return most;
+  }
+
+  /// A turn is off by 4 e most + 2 e e, and by its own three roundings, which are less than
+  /// 2^-51 most most: most is below 2 reach, and e no less than 2^-50 reach.
+  static double turn_bound(double e, double most) { return 5 * e * most + 2 * e * e; }
+
   int side_of_start(std::span<const Position> c, double error) {
     // Corners may stand in line: any three that turn will do.
     for (size_t i = 1; i + 1 < c.size(); ++i) {
@@ -104,11 +151,11 @@ Inside ray_label(const Job& job, VertexSigns& signs, uint32_t operand, const Pos
   }
   const double operand_error = signs.error(operand);
   std::vector<Position> corners;
+  std::vector<uint32_t> ends;
   for (const Direction& direction : kDirections) {
     Ray ray(signs, point, error, direction);
     bool inside = false, unsure = false;
-    const auto look_at = [&] {
-      const Inside met = ray.meets(corners, operand_error);
+    const auto look_at = [&](Inside met) {
       unsure |= met == Inside::kUnknown;
       inside ^= met == Inside::kYes;
     };
@@ -120,7 +167,10 @@ Inside ray_label(const Job& job, VertexSigns& signs, uint32_t operand, const Pos
             if (unsure || !ray.may_meet(rounded_outwards(store.box(piece)))) return;
             corners.clear();
             for (const uint32_t p : store.corners(piece)) corners.push_back(store.rounded(p));
-            look_at();
+            ends.clear();
+            store.each_loop(piece, [&](uint32_t, uint32_t end) { ends.push_back(end); });
+            look_at(store.is_region(piece) ? ray.meets_loops(corners, ends, operand_error)
+                                           : ray.meets(corners, operand_error));
           });
     } else {
       for (uint32_t p = job.polygon_start(operand); p < job.polygon_start(operand + 1) && !unsure;
@@ -128,7 +178,7 @@ Inside ray_label(const Job& job, VertexSigns& signs, uint32_t operand, const Pos
         if (!ray.may_meet(job.boxes()[p])) continue;
         corners.clear();
         for (const uint32_t v : job.corners(job.polygons()[p])) corners.push_back(job.rounded(v));
-        look_at();
+        look_at(ray.meets(corners, operand_error));
       }
     }
     if (!unsure) return inside ? Inside::kYes : Inside::kNo;

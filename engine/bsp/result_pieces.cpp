@@ -96,6 +96,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   operands.back().pieces =
       std::make_shared<PieceOperand>(PieceOperand{version.store, version.tree});
   PieceStore& store = *version.store;
+  const size_t pieces_before = store.piece_count(), points_before = store.point_count();
   Job job(operands, &store.planes);
   auto faces = evaluate_whole_faces(job, own_last, options, stats);
   if (!faces) return faces.error();
@@ -109,7 +110,6 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
     return evaluate_pieces(operands, expression, region, options, stats);
   }
 
-  const size_t pieces_before = store.piece_count(), points_before = store.point_count();
   PieceWriter writer(job, operands, store);
   if (!writer.add_operands()) return PiecesPtr();
   const uint32_t first = job.polygon_start(own);
@@ -140,18 +140,30 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
         {}, [](uint32_t) { return false; }, std::move(kept), box_of);
     return PiecesPtr(std::move(result));
   }
-  // Gone are the pieces of the job that were not kept.
+  // Gone are the pieces of the job that were not kept, and regions with such parts.
   std::sort(kept.begin(), kept.end());
-  std::vector<uint32_t> gone;
-  PieceBox gone_box;
+  const auto is_in = [](const std::vector<uint32_t>& sorted, uint32_t p) {
+    return std::binary_search(sorted.begin(), sorted.end(), p);
+  };
+  std::vector<uint32_t> lost, gone;
   for (uint32_t p = first; p < job.polygons().size(); ++p) {
-    const uint32_t piece = job.piece(p);
-    if (std::binary_search(kept.begin(), kept.end(), piece)) continue;
-    gone.push_back(piece);
-    gone_box.add(store.box(piece));
+    if (is_in(kept, job.piece(p))) continue;
+    lost.push_back(job.piece(p));
+    gone.push_back(job.version_piece(p));
   }
+  std::sort(lost.begin(), lost.end());
   std::sort(gone.begin(), gone.end());
-  const auto is_gone = [&](uint32_t p) { return std::binary_search(gone.begin(), gone.end(), p); };
+  gone.erase(std::unique(gone.begin(), gone.end()), gone.end());
+  PieceBox gone_box;
+  for (const uint32_t p : gone) {
+    gone_box.add(store.box(p));
+    if (!store.is_region(p)) continue;
+    const PieceStore::Region& region = store.region(p);
+    for (uint32_t part = region.first_part; part < region.first_part + region.part_count; ++part) {
+      if (!is_in(lost, part)) writer.added.push_back(part);
+    }
+  }
+  const auto is_gone = [&](uint32_t p) { return is_in(gone, p); };
   result->tree = version.tree.changed(
       gone.empty() ? std::span<const PieceBox>() : std::span<const PieceBox>(&gone_box, 1), is_gone,
       std::move(writer.added), box_of);
@@ -199,8 +211,10 @@ Result<std::shared_ptr<const BoundaryMesh>> assemble_pieces(const ResultPieces& 
       whole.push_back({polygon, piece.is_flipped, piece.is_met});
       continue;
     }
-    set.pieces.push_back({piece.support, polygon, static_cast<uint32_t>(set.corner_point.size()),
-                          piece.count, false});
+    const auto first_corner = static_cast<uint32_t>(set.corner_point.size());
+    store.each_loop(p, [&](uint32_t begin, uint32_t end) {
+      set.pieces.push_back({piece.support, polygon, first_corner + begin, end - begin, false});
+    });
     const auto corners = store.corners(p);
     const auto edges = store.edges(p);
     for (uint32_t i = 0; i < piece.count; ++i) {

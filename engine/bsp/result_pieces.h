@@ -1,11 +1,11 @@
 // Results that the next operation changes where it touches them: what a chain of operations, each
 // of whose results is looked at, goes from one to the next by.
 //
-// A version is a set of convex pieces in a store that all versions share (piece_store.h), found by
-// a tree that versions share too. An operation takes the pieces in its tools' boxes, cuts them as
-// it would cut whole faces, and makes convex what is left of them; all else stays. Pieces keep the
-// polygon of the operand that they come from, so that in the end they are assembled as if all
-// operations had been one: into the same boundary, to the last bit.
+// A version is a set of pieces in a store that all versions share (piece_store.h), found by a tree
+// that versions share too. An operation takes the pieces in its tools' boxes, makes them convex,
+// and cuts them as it would cut whole faces; all else stays. Pieces keep the polygon of the operand
+// that they come from, so that in the end they are assembled as if all operations had been one:
+// into the same boundary, to the last bit.
 //
 // (Nehring-Wirxel et al. 2021 keep an octree of plane-based pieces; here cells cut nothing.)
 #pragma once

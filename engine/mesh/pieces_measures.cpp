@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "engine/mesh/boundary_volume.h"
 #include "engine/mesh/fixed_sums.h"
@@ -31,7 +32,8 @@ class Summer {
     Int128 near_sum = 0;  // a few determinants of less than 93 bits
     for (const uint32_t p : node.pieces) {
       if (find_near(p)) {
-        near_sum += near_determinant();
+        store_.each_loop(
+            p, [&](uint32_t begin, uint32_t end) { near_sum += near_determinant(begin, end); });
       } else if (const PieceSums* cut = cut_sums(p)) {
         add(*cut, own);
       } else {
@@ -74,12 +76,12 @@ class Summer {
     return true;
   }
 
-  /// Of a fan from the first corner.
-  [[nodiscard]] Int128 near_determinant() const {
+  /// Of a fan from the first corner of a loop.
+  [[nodiscard]] Int128 near_determinant(size_t begin, size_t end) const {
     Int128 sum = 0;
-    for (size_t i = 1; i + 1 < near_.size(); ++i) {
-      const auto n = normal_of(near_[0], near_[i], near_[i + 1]);
-      for (size_t k = 0; k < 3; ++k) sum += static_cast<Int128>(n[k]) * near_[0][k];
+    for (size_t i = begin + 1; i + 1 < end; ++i) {
+      const auto n = normal_of(near_[begin], near_[i], near_[i + 1]);
+      for (size_t k = 0; k < 3; ++k) sum += static_cast<Int128>(n[k]) * near_[begin][k];
     }
     return sum;
   }
@@ -94,7 +96,6 @@ class Summer {
     return &known.sums;
   }
 
-  /// A fan from the first corner, the normals of which add up before they meet that corner.
   bool find_cut(uint32_t piece, PieceSums& out) {
     const auto corners = store_.corners(piece);
     bool cut = false;
@@ -102,30 +103,35 @@ class Summer {
     for (size_t i = 0; i < corners.size(); ++i) {
       if (!take(corners[i], fixed_[i], cut)) return false;
     }
-    const Fixed& a = fixed_[0];
+    store_.each_loop(piece, [&](uint32_t begin, uint32_t end) {
+      add_fan(std::span(fixed_).subspan(begin, end - begin), out);
+    });
+    if (cut) out.triangles += corners.size();
+    return true;
+  }
+
+  /// A fan from the first corner of a loop, the normals of which add up before they meet that
+  /// corner.
+  static void add_fan(std::span<const Fixed> corners, PieceSums& out) {
+    const Fixed& a = corners[0];
     std::array<Int<4>, 3> normal;
     double edges = 0;
     for (size_t i = 1; i + 1 < corners.size(); ++i) {
       Fixed b, c;
       for (size_t k = 0; k < 3; ++k) {
-        b[k] = fixed_[i][k] - a[k];
-        c[k] = fixed_[i + 1][k] - a[k];
+        b[k] = corners[i][k] - a[k];
+        c[k] = corners[i + 1][k] - a[k];
         edges += std::fabs(to_double(b[k])) + std::fabs(to_double(c[k]));
       }
       for (size_t k = 0; k < 3; ++k) {
         const size_t x = (k + 1) % 3, y = (k + 2) % 3;
-        normal[k] += full_product(b[x], c[y]) - full_product(b[y], c[x]);
+        const Int<4> n = full_product(b[x], c[y]) - full_product(b[y], c[x]);
+        normal[k] += n;
+        out.twice_area += std::ldexp(std::fabs(to_double(n)), -2 * kFraction);
       }
     }
-    for (size_t k = 0; k < 3; ++k) {
-      out.six_volumes += full_product(normal[k], a[k]);
-      // A convex piece's triangles are all on one side: the sum's magnitude is that of magnitudes,
-      // up to digits that were cut, which are bounded with the edges.
-      out.twice_area += std::ldexp(std::fabs(to_double(normal[k])), -2 * kFraction);
-    }
+    for (size_t k = 0; k < 3; ++k) out.six_volumes += full_product(normal[k], a[k]);
     out.edges += std::ldexp(edges, -kFraction);
-    if (cut) out.triangles += corners.size() - 2;
-    return true;
   }
 
   /// Where a point is, cut to the fraction; the store keeps it.

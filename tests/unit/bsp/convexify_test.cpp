@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/regions.h"
 #include "tests/support/rational_polygons.h"
 #include "tests/support/seeded.h"
 
@@ -26,11 +27,7 @@ class Region {
     for (const Loop2& loop : loops) {
       const size_t n = loop.size();
       std::vector<uint32_t> edges, points;
-      for (size_t i = 0; i < n; ++i) {
-        const auto &p = loop[i], &q = loop[(i + 1) % n];
-        const int64_t a = q[1] - p[1], b = p[0] - q[0];
-        edges.push_back(planes_.intern(plane(a, b, 0, -(a * p[0] + b * p[1]))).index());
-      }
+      for (size_t i = 0; i < n; ++i) edges.push_back(edge_plane(loop[i], loop[(i + 1) % n]));
       for (size_t i = 0; i < n; ++i) {
         uint32_t other = edges[(i + n - 1) % n];
         if (other == edges[i]) {  // straight on: a plane across the line
@@ -52,12 +49,51 @@ class Region {
 
   /// `thirds`: how far walls are beside whole numbers.
   void run(int thirds = 1) {
-    const auto wall = [this, thirds](int axis, int64_t m) {
-      Plane p{0, 0, 0, -(3 * static_cast<Int128>(m) + thirds)};
-      (axis == 0 ? p.a : axis == 1 ? p.b : p.c) = 3;
-      return planes_.intern(p).index();
-    };
+    const auto wall = [this, thirds](int axis, int64_t m) { return wall_at(axis, m, thirds); };
     convexify(geometry_, planes_, support_, edges_, wall, pieces_);
+  }
+
+  /// The same in two steps, within a convex polygon: what is left after the first has the area of
+  /// what the second makes of it. Returns whether anything was cut off.
+  bool run_within(const Loop2& cell) {
+    std::vector<uint32_t> planes, points;
+    const size_t n = cell.size();
+    for (size_t i = 0; i < n; ++i) planes.push_back(edge_plane(cell[i], cell[(i + 1) % n]));
+    for (size_t i = 0; i < n; ++i) {
+      points.push_back(geometry_.add_point({support_.index(), planes[(i + n - 1) % n], planes[i]}));
+    }
+    if (support_.flipped()) {
+      std::reverse(points.begin(), points.end());
+      std::reverse(planes.begin(), planes.end() - 1);
+    }
+    RegionRest rest;
+    const auto wall = [this](int axis, int64_t m) { return wall_at(axis, m, 1); };
+    if (!cut_off_within(geometry_, planes_, geometry_.make_fragment(support_, points, planes),
+                        edges_, wall, pieces_, rest)) {
+      return false;
+    }
+    std::vector<DirectedEdge> edges;
+    Rational3 area{0, 0, 0};
+    for (const BoundaryEdge& e : rest.edges) {
+      edges.push_back({e.from, e.to, e.plane});
+      area = test::sum(area, test::cross(at(e.from), at(e.to)), 1);
+    }
+    RegionLoops loops;
+    EXPECT_TRUE(RegionBuilder(geometry_, planes_).build_single(support_, edges, loops));
+    rest.edges.clear();
+    for (const DirectedEdge& e : loops.edges) rest.edges.push_back({e.from, e.to, e.plane});
+    const size_t before = pieces_.size();
+    convexify_within(geometry_, planes_, rest.cell, rest.edges, wall, pieces_);
+    for (size_t f = before; f < pieces_.size(); ++f) {
+      std::vector<Rational3> outline;
+      for (uint32_t c = 0; c < pieces_[f].count; ++c) {
+        outline.push_back(at(geometry_.corners(pieces_[f])[c]));
+      }
+      area = test::sum(area, test::area_of(outline), -1);
+    }
+    EXPECT_EQ(area, (Rational3{0, 0, 0}));
+    EXPECT_EQ(rest.is_cut_off, before > 0);
+    return rest.is_cut_off;
   }
 
   /// Divides one loop by itself.
@@ -121,6 +157,17 @@ class Region {
   }
 
  private:
+  uint32_t wall_at(int axis, int64_t m, int thirds) {
+    Plane p{0, 0, 0, -(3 * static_cast<Int128>(m) + thirds)};
+    (axis == 0 ? p.a : axis == 1 ? p.b : p.c) = 3;
+    return planes_.intern(p).index();
+  }
+
+  uint32_t edge_plane(const std::array<int64_t, 2>& p, const std::array<int64_t, 2>& q) {
+    const int64_t a = q[1] - p[1], b = p[0] - q[0];
+    return planes_.intern(plane(a, b, 0, -(a * p[0] + b * p[1]))).index();
+  }
+
   /// With coefficients of u, v and w, where w is along the axis.
   [[nodiscard]] Plane plane(int64_t u, int64_t v, int64_t w, int64_t d) const {
     std::array<Int128, 3> n{};
@@ -175,6 +222,40 @@ TEST(Convexify, PiecesFillTheRegion) {
     region.check();
     EXPECT_LE(region.pieces().size(), 3 * region.edges().size()) << "case " << i;
   }
+}
+
+// A hole in a plate, or a notch in its rim, small beside it or not.
+TEST(Convexify, WhatIsCutOffAndTheRestFillTheRegion) {
+  test::Random random(92);
+  int cut_off = 0, all = 0;
+  for (int i = 0; i < 120 && !testing::Test::HasFailure(); ++i) {
+    const int64_t size = i % 2 ? 20000 : 1500;
+    Loop2 cell{{-size, -size}, {size + 3, -size}, {size, size}, {-size, size + 7}};
+    if (i % 5 == 0) cell.pop_back();
+    std::rotate(cell.begin(), cell.begin() + random.integer(0, 2), cell.end());
+    std::vector<Loop2> loops{cell};
+    if (i % 3 == 0) {
+      // In the side along -size.
+      const auto side = std::find(cell.begin(), cell.end(), std::array<int64_t, 2>{-size, -size});
+      const auto at = side - cell.begin() + 1;
+      const int64_t left = random.integer(-900, 0), right = left + random.integer(30, 300);
+      loops[0].insert(loops[0].begin() + at, {{left, -size},
+                                              {left + random.integer(-9, 9), 90 - size},
+                                              {right, 40 - size},
+                                              {right + 1, -size}});
+    } else {
+      Loop2 hole = star(random, static_cast<int>(random.integer(4, 14)));
+      for (auto& p : hole) p = {p[0] + 500, p[1] - 500};
+      std::reverse(hole.begin(), hole.end());
+      loops.push_back(hole);
+    }
+    Region region(i % 3, i / 3 % 2 != 0, loops);
+    cut_off += region.run_within(cell);
+    ++all;
+    region.check();
+  }
+  EXPECT_GT(cut_off, 30);
+  EXPECT_LT(cut_off, all - 20);
 }
 
 TEST(Convexify, ConvexLoopsStayAsTheyAre) {

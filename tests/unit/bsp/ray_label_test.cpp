@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/result_pieces.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/oracle.h"
 #include "tests/support/random_frames.h"
@@ -245,6 +246,56 @@ TEST(RayLabel, OfFacesThatStartWithCornersInLine) {
     }
     for (test::Loop& loop : loops) std::rotate(loop.begin(), loop.begin() + 1, loop.end());
   }
+}
+
+// Regions of a result in pieces have holes and corners that turn right.
+TEST(RayLabel, OfRegions) {
+  test::Random random(508);
+  int inside = 0, outside = 0;
+  size_t regions = 0, loops = 0;
+  for (int i = 0; i < 150; ++i) {
+    // A box with holes and notches.
+    std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {5, 5, 5}))};
+    for (int k = 0; k < 2; ++k) {
+      operands.push_back(test::operand_of(test::make_leaf(test::random_loops(random, 4))));
+      for (int64_t& t : operands.back().translation) t = random.integer(-1, 3);
+    }
+    if (i % 3 == 0) operands[1].frame = test::random_frame(random);
+    EvaluateStats stats;
+    const auto made = evaluate_pieces(operands, test::flat_expression(BooleanOp::kDifference, 3),
+                                      test::region_of(operands), {}, stats);
+    ASSERT_TRUE(made);
+    if (!*made) continue;
+    PieceStore& store = *(*made)->store;
+    (*made)->tree.each([](const PieceBox&) { return true; },
+                       [&](uint32_t p) {
+                         regions += store.is_region(p);
+                         store.each_loop(p, [&](uint32_t, uint32_t) { ++loops; });
+                         if (!store.is_region(p)) --loops;
+                       });
+    std::vector<Operand> list{test::operand_of(test::box_leaf({50, 50, 50}, {51, 51, 51})), {}};
+    list[1].pieces = std::make_shared<PieceOperand>(PieceOperand{(*made)->store, (*made)->tree});
+    const Job job(list, &store.planes);
+    VertexSigns signs(job, true);
+    std::vector<test::Oracle> oracles;
+    for (const Operand& o : operands) oracles.emplace_back(test::exact_solid(o));
+    for (int k = 0; k < 60; ++k) {
+      Query at;
+      for (double& c : at) c = static_cast<double>(random.integer(-2, 24)) / 4 + 1. / 64;
+      std::array<std::optional<int>, 3> windings;
+      for (size_t o = 0; o < 3; ++o) windings[o] = oracles[o].winding(at);
+      if (!windings[0] || !windings[1] || !windings[2]) continue;
+      const bool truth = *windings[0] == 1 && *windings[1] == 0 && *windings[2] == 0;
+      const Inside label = ray_label(job, signs, 1, at, 0);
+      if (label == Inside::kUnknown) continue;
+      ASSERT_EQ(label == Inside::kYes, truth) << i << ": " << at[0] << ' ' << at[1] << ' ' << at[2];
+      ++(truth ? inside : outside);
+    }
+  }
+  EXPECT_GT(inside, 1000);
+  EXPECT_GT(outside, 3000);
+  EXPECT_GT(regions, 300u);
+  EXPECT_GT(loops, regions + 10);
 }
 
 /// Whether a ray from the origin meets a polygon ahead, its edges included.
