@@ -9,6 +9,7 @@
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/convexify.h"
 #include "engine/bsp/grid_planes.h"
+#include "engine/bsp/operand_reach.h"
 #include "engine/bsp/piece_store.h"
 #include "engine/bsp/region_parts.h"
 
@@ -258,20 +259,42 @@ void Job::add_boundary(uint32_t o, const Operand& operand) {
   }
 }
 
-void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
-  PieceStore& store = *operand.store;
-  std::vector<PieceBox> boxes;
-  for (uint32_t other = 0; other < o; ++other) {
-    boxes.emplace_back();
-    for (uint32_t v = vertex_start(other); v < vertex_start(other + 1); ++v) {
-      boxes.back().add(rounded_[v]);
+/// Lists the pieces of the version, of regions their parts, that others may meet.
+template <class MayMeet>
+void Job::take_parts(PieceStore& store, MayMeet&& may_meet) {
+  RegionParts parts(store, [this](int axis, int64_t m) { return wall(axis, m); });
+  std::vector<uint32_t> met;
+  met.swap(version_pieces_);
+  for (const uint32_t piece : met) {
+    if (!store.is_region(piece)) {
+      pieces_.push_back(piece);
+      version_pieces_.push_back(piece);
+      continue;
+    }
+    const auto [begin, end] = parts.of(piece);
+    for (uint32_t part = begin; part < end; ++part) {
+      if (!may_meet(store.box(part))) continue;
+      pieces_.push_back(part);
+      version_pieces_.push_back(piece);
     }
   }
-  operand.pieces.each([&](const PieceBox& box) { return box.meets_any(boxes); },
-                      [&](uint32_t piece) {
-                        if (store.box(piece).meets_any(boxes)) version_pieces_.push_back(piece);
-                      });
-  take_parts(store, boxes);
+}
+
+void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
+  PieceStore& store = *operand.store;
+  std::vector<OperandReach> others;
+  for (uint32_t other = 0; other < o; ++other) {
+    others.emplace_back(std::span(rounded_).subspan(vertex_start(other),
+                                                    vertex_start(other + 1) - vertex_start(other)));
+  }
+  const auto may_meet = [&](const PieceBox& box) {
+    return std::any_of(others.begin(), others.end(),
+                       [&](const OperandReach& other) { return other.may_meet(box); });
+  };
+  operand.pieces.each(may_meet, [&](uint32_t piece) {
+    if (may_meet(store.box(piece))) version_pieces_.push_back(piece);
+  });
+  take_parts(store, may_meet);
   std::vector<uint32_t>& vertex_of = store.scratch();
   for (uint32_t i = 0; i < pieces_.size(); ++i) {
     const auto first = static_cast<uint32_t>(corners_.size());
@@ -291,26 +314,6 @@ void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
     boxes_.push_back(box_of(polygons_.back()));
   }
   for (const uint32_t point : piece_points_) vertex_of[point] = kNone;
-}
-
-/// Lists the pieces that regions near the boxes are made of.
-void Job::take_parts(PieceStore& store, std::span<const PieceBox> boxes) {
-  RegionParts parts(store, [this](int axis, int64_t m) { return wall(axis, m); });
-  std::vector<uint32_t> met;
-  met.swap(version_pieces_);
-  for (const uint32_t piece : met) {
-    if (!store.is_region(piece)) {
-      pieces_.push_back(piece);
-      version_pieces_.push_back(piece);
-      continue;
-    }
-    const auto [begin, end] = parts.of(piece);
-    for (uint32_t part = begin; part < end; ++part) {
-      if (!store.box(part).meets_any(boxes)) continue;
-      pieces_.push_back(part);
-      version_pieces_.push_back(piece);
-    }
-  }
 }
 
 uint32_t Job::piece(uint32_t polygon) const { return pieces_[polygons_[polygon].face]; }

@@ -184,7 +184,8 @@ class Job {
   void add_leaf(uint32_t o, const Operand& operand);
   void add_boundary(uint32_t o, const Operand& operand);
   void add_pieces(uint32_t o, const PieceOperand& operand);
-  void take_parts(PieceStore& store, std::span<const PieceBox> boxes);
+  template <class MayMeet>
+  void take_parts(PieceStore& store, MayMeet&& may_meet);
   [[nodiscard]] PolygonBox box_of(const JobPolygon& polygon) const;
   [[nodiscard]] PolygonBox grid_box_of(const JobPolygon& polygon) const;
   /// The exact position of vertex `local` of operand `o`.

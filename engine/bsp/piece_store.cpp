@@ -89,8 +89,11 @@ uint32_t PieceStore::add_piece(const Piece& piece) {
 
 uint32_t PieceStore::add_region(Piece piece, std::span<const uint32_t> ends, uint32_t cell_count) {
   piece.region = static_cast<uint32_t>(regions_.size());
-  regions_.push_back({static_cast<uint32_t>(loop_ends_.size()), static_cast<uint32_t>(ends.size()),
-                      piece.first + piece.count, cell_count});
+  regions_.push_back({static_cast<uint32_t>(loop_ends_.size()),
+                      static_cast<uint32_t>(ends.size()),
+                      piece.first + piece.count,
+                      cell_count,
+                      {}});
   loop_ends_.insert(loop_ends_.end(), ends.begin(), ends.end());
   return add_piece(piece);
 }

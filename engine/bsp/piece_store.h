@@ -38,8 +38,9 @@ class PieceStore {
   struct Region {
     uint32_t first_end, loop_count;   ///< where loops end, counted from the piece's first corner
     uint32_t first_cell, cell_count;  ///< corners of the convex polygon that it is within
-    uint32_t first_part = ~0u;        ///< pieces, when they were made
-    uint32_t part_count = 0;
+    struct Parts {
+      uint32_t first = ~0u, count = 0;
+    } parts;  ///< pieces, when they were made
   };
 
   PlaneTable planes;

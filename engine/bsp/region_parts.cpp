@@ -3,9 +3,9 @@
 namespace csgrun {
 
 std::pair<uint32_t, uint32_t> RegionParts::of(uint32_t region) {
-  if (store_.region(region).first_part == kNone) make(region);
-  const PieceStore::Region& r = store_.region(region);
-  return {r.first_part, r.first_part + r.part_count};
+  if (store_.region(region).parts.first == kNone) make(region);
+  const auto [first, count] = store_.region(region).parts;
+  return {first, first + count};
 }
 
 uint32_t RegionParts::point_of(uint32_t stored) {
@@ -56,8 +56,7 @@ void RegionParts::make(uint32_t region) {
     }
     store_.add_piece(part);
   }
-  store_.region(region).first_part = first_part;
-  store_.region(region).part_count = store_.piece_count() - first_part;
+  store_.region(region).parts = {first_part, store_.piece_count() - first_part};
 }
 
 }  // namespace csgrun

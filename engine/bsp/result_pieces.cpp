@@ -158,8 +158,8 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   for (const uint32_t p : gone) {
     gone_box.add(store.box(p));
     if (!store.is_region(p)) continue;
-    const PieceStore::Region& region = store.region(p);
-    for (uint32_t part = region.first_part; part < region.first_part + region.part_count; ++part) {
+    const auto& [first_part, part_count] = store.region(p).parts;
+    for (uint32_t part = first_part; part < first_part + part_count; ++part) {
       if (!is_in(lost, part)) writer.added.push_back(part);
     }
   }
