@@ -19,9 +19,12 @@ TEST(OperandReach, HoldsAllPointsOfTheOperand) {
   for (int i = 0; i < 2000; ++i) {
     // Points of hulls lie between vertices.
     const double far = std::ldexp(random.unit() - 0.5, static_cast<int>(random.integer(1, 40)));
-    std::vector<Position> vertices(static_cast<size_t>(random.integer(1, 9)));
+    // Some of them are round.
+    std::vector<Position> vertices(static_cast<size_t>(random.integer(1, i % 2 ? 9 : 60)));
     for (Position& v : vertices) {
-      for (double& c : v) c = std::round(far + 1000 * (random.unit() - 0.5));
+      for (double& c : v) c = random.unit() - 0.5;
+      const double length = i % 2 ? 1 : 2 * std::hypot(v[0], v[1], v[2]);
+      for (double& c : v) c = std::round(far + 1000 * c / length);
     }
     const OperandReach reach(vertices);
     const auto any = [&] {
@@ -39,7 +42,7 @@ TEST(OperandReach, HoldsAllPointsOfTheOperand) {
         beside[c] = far + 1500 * (random.unit() - 0.5);
       }
       box.add(at);
-      if (k < 2) other.add(beside);
+      if (k < 1 + i % 2) other.add(beside);
     }
     ASSERT_TRUE(reach.may_meet(box)) << i;
     // Beside the box of the vertices there is nothing.
