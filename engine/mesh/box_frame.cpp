@@ -46,11 +46,13 @@ std::vector<Sample> samples_of(std::span<const std::array<Vec, 3>> triangles) {
     const Vec normal = cross(s.points[1], s.points[2]);
     if (dot(normal, normal) == 0) continue;
     s.normal = line_of(normal);
+    Vec longest{};
     for (const Vec& edge : {s.points[1], s.points[2], minus(s.points[2], s.points[1])}) {
       if (dot(edge, edge) <= s.weight) continue;
       s.weight = dot(edge, edge);
-      s.longest = line_of(edge);
+      longest = edge;
     }
+    s.longest = line_of(longest);
     samples.push_back(s);
   }
   return samples;
@@ -61,26 +63,38 @@ struct Line {
   double weight;
 };
 
+/// A number for the class of a direction of length 1.
+uint32_t class_of(const Vec& direction) {
+  static_assert(2 * kClasses + 1 < 128);
+  uint32_t number = 0;
+  for (const double c : direction) {
+    const double place = (c + 1) * kClasses + 0.5;
+    number = number << 7 | (place >= 0 && place < 128 ? static_cast<uint32_t>(place) : 0);
+  }
+  return number;
+}
+
 /// Of the class of lines that weighs most, the line that does; of length 0 if there are none.
-Vec heaviest(std::vector<Line>& lines) {
-  const auto key = [](const Line& line) {
-    std::array<long, 3> classes{};
-    for (size_t k = 0; k < 3; ++k) classes[k] = std::lround(line.direction[k] * kClasses);
-    return classes;
+Vec heaviest(const std::vector<Line>& lines) {
+  struct Keyed {
+    uint32_t key, line;
   };
-  std::stable_sort(lines.begin(), lines.end(),
-                   [&](const Line& a, const Line& b) { return key(a) < key(b); });
+  std::vector<Keyed> order(lines.size());
+  for (uint32_t i = 0; i < order.size(); ++i) order[i] = {class_of(lines[i].direction), i};
+  std::sort(order.begin(), order.end(), [](const Keyed& a, const Keyed& b) {
+    return a.key != b.key ? a.key < b.key : a.line < b.line;
+  });
   Vec best{};
   double most = 0;
-  for (size_t i = 0; i < lines.size();) {
+  for (size_t i = 0, j = 0; i < order.size(); i = j) {
     double weight = 0;
-    size_t j = i, large = i;
-    for (; j < lines.size() && key(lines[j]) == key(lines[i]); ++j) {
-      weight += lines[j].weight;
-      if (lines[j].weight > lines[large].weight) large = j;
+    uint32_t large = order[i].line;
+    for (; j < order.size() && order[j].key == order[i].key; ++j) {
+      const Line& line = lines[order[j].line];
+      weight += line.weight;
+      if (line.weight > lines[large].weight) large = order[j].line;
     }
     if (weight > most) most = weight, best = lines[large].direction;
-    i = j;
   }
   return best;
 }
