@@ -281,8 +281,13 @@ TEST(Hints, NamesOfOtherPrograms) {
         message_of("return " + name + "({20, 10}, 2)"),
         "model.lua:1: undefined variable '" + name + "' (in Lua it is rect{{20, 10}, r = 2})");
   }
-  EXPECT_EQ(message_of("return cuboid{1, 2, 3}"),
-            "model.lua:1: undefined variable 'cuboid' (in Lua it is cube{20, 10, 5})");
+  for (const std::string name : {"cuboid", "box"}) {
+    EXPECT_EQ(message_of("return " + name + "{1, 2, 3}"),
+              "model.lua:1: undefined variable '" + name + "' (in Lua it is cube{20, 10, 5})");
+  }
+  EXPECT_EQ(message_of("return tube{h = 3, od = 4, id = 2}"),
+            "model.lua:1: undefined variable 'tube' (in Lua it is cylinder{h = 10, r = 5} - "
+            "cylinder{h = 10, r = 4})");
   EXPECT_EQ(message_of("return search(1, {1})"),
             "model.lua:1: undefined variable 'search' (in Lua it is a loop: for i, x in "
             "ipairs(list) do ... end)");
