@@ -29,7 +29,7 @@ class Summer {
   const PieceSums* sums(const PieceTree::Node& node) {
     if (node.has_sums) return &node.sums;
     PieceSums own;
-    Int128 near_sum = 0;  // a few determinants of less than 93 bits
+    Int128 near_sum = 0;  // less than 2^34 determinants of less than 93 bits
     for (const uint32_t p : node.pieces) {
       if (find_near(p)) {
         store_.each_loop(
@@ -115,7 +115,7 @@ class Summer {
   static void add_fan(std::span<const Fixed> corners, PieceSums& out) {
     const Fixed& a = corners[0];
     std::array<Int<4>, 3> normal;
-    double edges = 0;
+    double edges = 0, area = 0;
     for (size_t i = 1; i + 1 < corners.size(); ++i) {
       Fixed b, c;
       for (size_t k = 0; k < 3; ++k) {
@@ -127,11 +127,12 @@ class Summer {
         const size_t x = (k + 1) % 3, y = (k + 2) % 3;
         const Int<4> n = full_product(b[x], c[y]) - full_product(b[y], c[x]);
         normal[k] += n;
-        out.twice_area += std::ldexp(std::fabs(to_double(n)), -2 * kFraction);
+        area += std::fabs(to_double(n));
       }
     }
     for (size_t k = 0; k < 3; ++k) out.six_volumes += full_product(normal[k], a[k]);
     out.edges += std::ldexp(edges, -kFraction);
+    out.twice_area += std::ldexp(area, -2 * kFraction);
   }
 
   /// Where a point is, cut to the fraction; the store keeps it.
