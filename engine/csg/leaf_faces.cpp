@@ -236,6 +236,10 @@ bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, b
   std::vector<LoopFace> result;
   result.reserve(faces.size());
   for (LoopFace& face : faces) {
+    if (face.loops.size() == 1 && face.loops[0].size() == 3) {  // not collinear, by now
+      result.push_back(std::move(face));
+      continue;
+    }
     const bool planar = is_planar(vertices, face);
     if (planar && face.loops.size() == 1 && is_planar_convex(vertices, face.loops[0])) {
       result.push_back(std::move(face));

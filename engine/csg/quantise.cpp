@@ -40,6 +40,7 @@ Merged merge_points(const PolygonMesh& mesh, const std::vector<IVec3>& points, b
   result.faces.reserve(mesh.face_count());
   const auto merged_loop = [&](std::span<const uint32_t> corners) {
     std::vector<uint32_t> loop;
+    loop.reserve(corners.size());
     for (const uint32_t point : corners) {
       if (vertex_of[point] == kNone) {
         const auto [found, is_new] =

@@ -48,6 +48,8 @@ int64_t CollinearGroups::group_of(uint32_t a, uint32_t b) const {
 }
 
 void clean_loop(std::vector<uint32_t>& loop) {
+  const bool is_triangle = loop.size() == 3;
+  if (is_triangle && loop[0] != loop[1] && loop[1] != loop[2] && loop[2] != loop[0]) return;
   bool changed = true;
   while (changed && !loop.empty()) {
     changed = false;
@@ -85,6 +87,13 @@ void drop_empty_loops(std::vector<LoopFace>& faces) {
 }
 
 void apply_splits(const EdgeSplits& splits, std::vector<uint32_t>& loop) {
+  const auto is_split = [&](size_t i) {
+    const uint32_t a = loop[i], b = loop[i + 1 < loop.size() ? i + 1 : 0];
+    return splits.contains({std::min(a, b), std::max(a, b)});
+  };
+  size_t first = 0;
+  while (first < loop.size() && !is_split(first)) ++first;
+  if (first == loop.size()) return;
   std::vector<uint32_t> result;
   for (size_t i = 0; i < loop.size(); ++i) {
     const uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
