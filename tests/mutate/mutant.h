@@ -85,7 +85,7 @@ struct Left {
   A a;
 };
 
-// Comparisons: mutant N moves the border, mutant N + 1 turns the comparison round. At the end of a
+// Comparisons, of vectors too, whose result is one: mutant N moves the border, mutant N + 1 turns the comparison round. At the end of a
 // loop (Last): mutant N leaves out the last round.
 #define CSGRUN_MUTANT_COMPARISON(NAME, OP, BORDER, TURNED)   \
   template <int N>                                           \
@@ -95,14 +95,14 @@ struct Left {
     return {std::forward<A>(a)};                             \
   }                                                          \
   template <class A, int N, class B>                         \
-  constexpr bool operator OP(Left<A, NAME<N>> l, B&& b) {    \
+  constexpr auto operator OP(Left<A, NAME<N>> l, B&& b) {    \
     int m = mutant();                                        \
     if (m == N) return l.a BORDER b;                         \
     if (m == N + 1) return l.a TURNED b;                     \
-    const bool written = l.a OP b;                           \
+    const auto written = l.a OP b;                           \
     if (m == kTracing) {                                     \
-      compare<N, bool>(written, l.a BORDER b);               \
-      compare<N + 1, bool>(written, l.a TURNED b);           \
+      compare<N>(written, l.a BORDER b);                     \
+      compare<N + 1>(written, l.a TURNED b);                 \
     }                                                        \
     return written;                                          \
   }
