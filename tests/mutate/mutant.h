@@ -85,8 +85,8 @@ struct Left {
   A a;
 };
 
-// Comparisons, of vectors too, whose result is one: mutant N moves the border, mutant N + 1 turns the comparison round. At the end of a
-// loop (Last): mutant N leaves out the last round.
+// Comparisons, of vectors too, whose result is one: mutant N moves the border, mutant N + 1 turns the
+// comparison round. At the end of a loop (Last): mutant N leaves out the last round.
 #define CSGRUN_MUTANT_COMPARISON(NAME, OP, BORDER, TURNED)   \
   template <int N>                                           \
   struct NAME {};                                            \
