@@ -87,11 +87,10 @@ class FaceEvaluator {
 
   /// False when the evaluation is cancelled.
   bool cut_polygons() {
-    job_.ensure_supports(polygons_where([&](uint32_t p) { return !contacts_.of(p).empty(); }));
     is_cut_ = is_covered_;  // into nothing
     const auto polygons =
         polygons_where([&](uint32_t p) { return !is_covered_[p] && !may_stay_whole(p); });
-    job_.ensure_supports(polygons);
+    job_.ensure_supports(with_what_cuts(polygons));
     cut_ = cut_faces(job_, polygons, contacts_, *ends_, geometry_, index_, options_, stats_);
     if (is_cancelled()) return false;
     for (const CutFaces::Face& face : cut_.faces) is_cut_[face.polygon] = 1;
@@ -101,6 +100,20 @@ class FaceEvaluator {
       leave(p);
     }
     return true;
+  }
+
+  /// Polygons and all that has more than a corner of its own in common with them, ascending. Most of
+  /// what rests on a face cuts nothing, and needs no plane.
+  [[nodiscard]] std::vector<uint32_t> with_what_cuts(std::span<const uint32_t> polygons) const {
+    std::vector<uint8_t> is_wanted(job_.polygons().size(), 0);
+    for (const uint32_t p : polygons) {
+      is_wanted[p] = 1;
+      for (const uint32_t i : contacts_.of(p)) {
+        const Contact& c = contacts_[i];
+        if (!c.is_corner()) is_wanted[c.p == p ? c.q : c.p] = 1;
+      }
+    }
+    return polygons_where([&](uint32_t p) { return is_wanted[p] != 0; });
   }
 
   /// The polygons for which `is_wanted` says so, ascending.
