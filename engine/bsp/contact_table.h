@@ -67,8 +67,7 @@ class ContactEnds {
     ends_[contact] = {end(c.lower), end(c.upper)};
     asked_.push_back(contact);
   }
-  /// Makes all points that were asked for, on several threads. The supports of all polygons in
-  /// contact must have been made.
+  /// Makes all points that were asked for, on several threads.
   void make() {
     crossings_.make_points();
     for (const uint32_t contact : asked_) {

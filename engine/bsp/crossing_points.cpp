@@ -10,8 +10,14 @@ namespace csgrun {
 void CrossingPoints::make_points() {
   const size_t before = points_.size(), count = crossings_.size() - before;
   std::vector<PolygonEdge> edges;
+  std::vector<uint32_t> met;
   edges.reserve(count);
-  for (size_t i = before; i < crossings_.size(); ++i) edges.push_back(crossings_[i].edge);
+  met.reserve(2 * count);
+  for (size_t i = before; i < crossings_.size(); ++i) {
+    edges.push_back(crossings_[i].edge);
+    met.insert(met.end(), {crossings_[i].edge.polygon, crossings_[i].name.through});
+  }
+  job_.ensure_supports(met);
   job_.ensure_edges(edges);
   const auto& polygons = job_.polygons();
   const uint32_t first_point = geometry_.add_points(count);

@@ -36,8 +36,7 @@ class CrossingPoints {
     return number;
   }
 
-  /// Makes the points of all crossings that have none, on several threads. The supports of all of
-  /// their polygons must have been made.
+  /// Makes the points of all crossings that have none, on several threads.
   void make_points();
 
   /// The number in the geometry of a crossing's point, which must have been made.

@@ -27,8 +27,8 @@ struct CutFaces {
 /// of these are plain and no points coincide, else by value (face_arrangement.h). What nothing
 /// cuts, and has a corner that is not touched, stays whole and is not mentioned. Points of the
 /// loops are in the geometry; equal ones have one number in loops that are loose. The supports of
-/// `polygons`, and of all that have contacts, must have been made. `stats` is added to. Parallel;
-/// incomplete when cancelled.
+/// `polygons`, and of all that have more than a corner of their own in common with these, must have
+/// been made. `stats` is added to. Parallel; incomplete when cancelled.
 CutFaces cut_faces(Job& job, std::span<const uint32_t> polygons, const ContactTable& contacts,
                    ContactEnds& ends, CellGeometry& geometry, PointIndex& index,
                    const KernelOptions& options, EvaluateStats& stats);

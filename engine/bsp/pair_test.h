@@ -31,6 +31,11 @@ struct Contact {
   /// Whether p has corners in front of q's plane and behind it, and the reverse.
   bool p_front, p_back, q_front, q_back;
   End lower, upper;
+
+  /// Whether all that they have in common is a corner of one of them.
+  [[nodiscard]] bool is_corner() const {
+    return !is_coplanar && lower.vertex != kNone && lower.vertex == upper.vertex;
+  }
 };
 
 enum class Meeting : uint8_t {
