@@ -55,8 +55,8 @@ class Assembler {
     if (!touching.anywhere) mesh->touches = std::move(touching.boxes);
     for (UntouchedPart& part : parts) {
       for (UntouchedPart::Shared& s : part.shared) {
-        const uint32_t point = s.point < vertex_number_.size() ? vertex_number_[s.point] : kNone;
-        if (point == kNone || number[point] == kNone) {
+        const uint32_t point = s.point < vertex_number_.size() ? vertex(s.point) : kNone;
+        if (point >= number.size() || number[point] == kNone) {
           return Error{ErrorCode::kInternal, "an untouched face shares a corner with no other", {}};
         }
         s.point = number[point];

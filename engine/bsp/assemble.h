@@ -16,7 +16,7 @@ namespace csgrun {
 struct WholePolygon {  // small: there may be one for each polygon of the operands
   uint32_t polygon : 30;
   bool flip : 1;
-  bool is_met : 1 = false;  ///< another operand's surface touches it
+  bool is_met : 1 = false;  ///< another operand's surface touches it, and see rim_faces.h
 };
 
 /// BoundaryMesh::may_touch and ::touches.

@@ -91,7 +91,9 @@ class Job {
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  [[nodiscard]] bool is_leaf(size_t o) const { return (*operands_)[o].leaf != nullptr; }
+  [[nodiscard]] bool is_leaf(size_t o) const { return leaf(o) != nullptr; }
+  /// The leaf that an operand is, or null.
+  [[nodiscard]] const LeafGeometry* leaf(size_t o) const { return (*operands_)[o].leaf.get(); }
   /// The version of a result that an operand is, or null.
   [[nodiscard]] const PieceOperand* pieces(size_t o) const { return (*operands_)[o].pieces.get(); }
   /// The piece that a polygon of such an operand is, and the point that a vertex of it is.

@@ -38,8 +38,12 @@ void TouchFinder::add_outline(uint32_t polygon, std::span<const uint32_t> points
     if (!is_examined_[at]) continue;
     const size_t last = i > 0 ? i - 1 : count - 1, next = i + 1 < count ? i + 1 : 0,
                  edge = flip ? last : i;
-    Corner corner{number(points[last]), at, number(points[next]), polygon,
-                  planes.empty() ? CutLoops::kOwnEdge | static_cast<uint32_t>(edge) : planes[edge]};
+    Corner corner{number(points[last]),
+                  at,
+                  number(points[next]),
+                  polygon,
+                  planes.empty() ? CutLoops::kOwnEdge | static_cast<uint32_t>(edge) : planes[edge],
+                  planes.empty()};
     if (flip) std::swap(corner.before, corner.after);
     corners_.push_back(corner);
   }
@@ -58,7 +62,7 @@ bool TouchFinder::add_on_edge(uint32_t polygon, uint32_t point, bool flip) {
       continue;
     }
     corners_.push_back({number(flip ? b : a), number(point), number(flip ? a : b), polygon,
-                        CutLoops::kOwnEdge | e});
+                        CutLoops::kOwnEdge | e, true});
     examine(point);
     return true;
   }
@@ -104,7 +108,21 @@ void TouchFinder::add_edge(uint32_t a, uint32_t b) {
   for (size_t k = 0; k < 3; ++k) added.lo[k] = around.lo[k], added.hi[k] = around.hi[k];
 }
 
+uint32_t TouchFinder::operand_beside_cuts(std::span<const Corner> corners) const {
+  uint32_t operand = kNone;
+  bool any_cut = false;
+  for (const Corner& c : corners) {
+    const uint32_t own = job_.polygons()[c.polygon].operand;
+    any_cut |= !c.is_whole;
+    if (!c.is_whole || own == operand) continue;
+    if (operand != kNone) return kNone;
+    operand = own;
+  }
+  return any_cut ? operand : kNone;
+}
+
 std::vector<GridBox> TouchFinder::find() {
+  beside_cuts_.assign(is_examined_.size(), kNone);
   CountingOrder by_point;
   by_point.sort(corners_.size(), is_examined_.size(), [&](size_t c) { return corners_[c].at; });
   std::vector<Corner> here;
@@ -113,7 +131,10 @@ std::vector<GridBox> TouchFinder::find() {
     for (uint32_t i = by_point.starts[p]; i < by_point.starts[p + 1]; ++i) {
       here.push_back(corners_[by_point.order[i]]);
     }
-    if (is_one_round(here)) continue;
+    if (is_one_round(here)) {
+      beside_cuts_[p] = operand_beside_cuts(here);
+      continue;
+    }
     for (const Corner& c : here) {
       add_edge(c.before, c.at);
       add_edge(c.at, c.after);

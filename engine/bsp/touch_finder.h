@@ -44,6 +44,18 @@ class TouchFinder {
   bool add_on_edge(uint32_t polygon, uint32_t point, bool flip);
   /// Boxes around the edges at all points that were examined and are not as above. O(n).
   std::vector<GridBox> find();
+  /// After find(): the operand all of whose outlines at a point may be named without being spelled
+  /// out, or kNone. The point was examined and is as above, parts of cut polygons have corners
+  /// there, and all polygons that are kept whole are of this operand.
+  [[nodiscard]] uint32_t operand_beside_cuts(uint32_t point) {
+    const uint32_t n = number(point);
+    return n < beside_cuts_.size() ? beside_cuts_[n] : kNone;
+  }
+  /// After find(): something kept passes a point without a corner there.
+  void note_passage(uint32_t point) {
+    const uint32_t n = number(point);
+    if (n < beside_cuts_.size()) beside_cuts_[n] = kNone;
+  }
 
   /// The number of a point: that of all equal ones.
   uint32_t number(uint32_t point);
@@ -52,7 +64,9 @@ class TouchFinder {
   struct Corner {
     uint32_t before, at, after;
     uint32_t polygon, plane;  ///< that hold the edge to the next corner
+    bool is_whole;            ///< of a polygon that was not cut
   };
+  [[nodiscard]] uint32_t operand_beside_cuts(std::span<const Corner> corners) const;
   bool is_one_round(std::span<const Corner> corners);
   bool leads_to(const Corner& corner, uint32_t point);
   void add_edge(uint32_t a, uint32_t b);
@@ -64,6 +78,7 @@ class TouchFinder {
   std::vector<uint8_t> is_examined_;  ///< per point
   std::vector<Corner> corners_;
   std::vector<GridBox> boxes_;
+  std::vector<uint32_t> beside_cuts_;  ///< per point, see operand_beside_cuts
 };
 
 }  // namespace csgrun

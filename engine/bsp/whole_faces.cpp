@@ -9,6 +9,7 @@
 #include "engine/bsp/cut_faces.h"
 #include "engine/bsp/patch_fates.h"
 #include "engine/bsp/point_index.h"
+#include "engine/bsp/rim_faces.h"
 #include "engine/bsp/sign_stats.h"
 #include "engine/bsp/touch_finder.h"
 
@@ -102,8 +103,8 @@ class FaceEvaluator {
     return true;
   }
 
-  /// Polygons and all that has more than a corner of its own in common with them, ascending. Most of
-  /// what rests on a face cuts nothing, and needs no plane.
+  /// Polygons and all that has more than a corner of its own in common with them, ascending. Most
+  /// of what rests on a face cuts nothing, and needs no plane.
   [[nodiscard]] std::vector<uint32_t> with_what_cuts(std::span<const uint32_t> polygons) const {
     std::vector<uint8_t> is_wanted(job_.polygons().size(), 0);
     for (const uint32_t p : polygons) {
@@ -274,8 +275,12 @@ class FaceEvaluator {
       result_.touching = finder.find();
     }
     for (uint32_t i = 0; i < count; ++i) {
-      if (is_open[i]) add_touching(job_.boxes()[contacts_[i].p], job_.boxes()[contacts_[i].q]);
+      if (!is_open[i]) continue;
+      add_touching(job_.boxes()[contacts_[i].p], job_.boxes()[contacts_[i].q]);
+      if (result_.any_general) continue;
+      for (const uint32_t end : ends_->of(i)) finder.note_passage(end);
     }
+    if (!result_.any_general) release_rims(job_, contacts_, geometry_, finder, result_.whole);
   }
 
   /// Adds what is kept to the finder, once it knows all points to be examined.

@@ -2,12 +2,14 @@
 // be one value, and present as the same arrays to the last bit.
 #include "engine/bsp/untouched.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
 
 #include "engine/mesh/boundary_volume.h"
+#include "engine/mesh/convex_surface.h"
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
@@ -83,7 +85,8 @@ std::vector<Loop> bumpy_torus(Random& random, const IVec3& center, double size) 
   return loops;
 }
 
-/// A ball of triangles without facets of their own; some lie in one plane with a neighbour.
+/// A ball of triangles without facets of their own; some lie in one plane with a neighbour. (Small
+/// ones of many triangles are not convex: 12 steps allow 3 an edge of an octant.)
 std::shared_ptr<LeafGeometry> ball(int64_t radius, int n) {
   std::vector<Loop> loops;
   for (int octant = 0; octant < 8; ++octant) {
@@ -112,7 +115,8 @@ std::shared_ptr<LeafGeometry> ball(int64_t radius, int n) {
   auto leaf = std::make_shared<LeafGeometry>(*make_leaf(loops, false, 1));
   leaf->opposite = pair_edges(*leaf).opposite;
   leaf->may_touch = false;
-  leaf->convex = true;
+  leaf->convex = is_convex_surface(*leaf);
+  EXPECT_TRUE(leaf->convex);
   return leaf;
 }
 
@@ -303,8 +307,11 @@ TEST(Untouched, Balls) {
     std::vector<Operand> operands;
     const int64_t radius = round % 2 ? 1 << 20 : 12;
     for (int i = 0; i < 4; ++i) {
-      const auto move = [&] { return random.integer(-2 * radius, 2 * radius); };
-      operands.push_back(placed(ball(radius, round % 2 ? 8 : 4), {move(), move(), move()}));
+      const int64_t step = round % 2 ? 1 : 3;
+      const auto move = [&] {
+        return step * random.integer(-2 * radius / step, 2 * radius / step);
+      };
+      operands.push_back(placed(ball(radius, round % 2 ? 8 : 3), {move(), move(), move()}));
     }
     const Tree tree = random_tree(random, 0, 4);
     const Pair pair = evaluate_both(tree, operands);
@@ -313,7 +320,64 @@ TEST(Untouched, Balls) {
     ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, std::to_string(round) + tree.text()));
   }
   EXPECT_GT(total, 500u);
-  EXPECT_GT(contacts, 3u);
+  EXPECT_GT(contacts, 0u);
+}
+
+// A hole whose rim is edges of the ball that made it: the faces at the rim are met there, and
+// named.
+TEST(Untouched, WhatOthersOnlyRestOn) {
+  const int64_t radius = 1 << 20;
+  const auto tool = ball(radius, 8);
+  size_t below = 0;
+  for (size_t f = 0; f < tool->face_count(); ++f) {
+    below += std::all_of(tool->corners.begin() + tool->face_starts[f],
+                         tool->corners.begin() + tool->face_starts[f + 1],
+                         [&](uint32_t v) { return tool->vertices[v][2] <= 0; });
+  }
+  ASSERT_EQ(2 * below, tool->face_count());
+  const auto block = std::make_shared<LeafGeometry>(
+      *box_leaf({-3 * radius, -3 * radius, -3 * radius}, {3 * radius, 3 * radius, 0}));
+  block->may_touch = false;
+  std::vector<Operand> operands{operand_of(block), placed(tool, {5, 7, 0})};
+  const Pair hole = evaluate_both(less({leaf(0), leaf(1)}), operands);
+  EXPECT_EQ(named(*hole.naming), below);
+  EXPECT_FALSE(hole.naming->may_touch);
+  expect_one_value(hole, "a hole");
+  const Pair bump = evaluate_both(join({leaf(0), leaf(1)}), operands);
+  EXPECT_EQ(named(*bump.naming), below);
+  expect_one_value(bump, "a bump");
+  // Another ball that rests on the first one's rim with a corner: there, two fans meet.
+  operands.push_back(placed(tool, {5 + 2 * radius, 7, 0}));
+  const Pair both = evaluate_both(less({leaf(0), leaf(1), leaf(2)}), operands);
+  EXPECT_LT(named(*both.naming), 2 * below);
+  EXPECT_GT(named(*both.naming), 2 * below - 20);
+  expect_one_value(both, "two holes");
+}
+
+// Balls and blocks that share corners, edges and planes everywhere.
+TEST(Untouched, RimsOfBallsOnBlocks) {
+  Random random(1207);
+  constexpr int64_t kRadius = 12;
+  size_t total = 0, contacts = 0;
+  for (int round = 0; round < 150; ++round) {
+    std::vector<Operand> operands;
+    for (int i = 0; i < 4; ++i) {
+      const auto move = [&] { return kRadius / 2 * random.integer(-2, 2); };
+      const IVec3 at{move(), move(), random.integer(0, 3) == 0 ? move() : 0};
+      if (random.integer(0, 2) == 0) {
+        operands.push_back(placed(box_leaf({-20, -20, -20}, {20, 20, 0}), at));
+      } else {
+        operands.push_back(placed(ball(kRadius, static_cast<int>(random.integer(1, 3))), at));
+      }
+    }
+    const Tree tree = random_tree(random, 0, 4);
+    const Pair pair = evaluate_both(tree, operands);
+    total += named(*pair.naming);
+    contacts += pair.naming->may_touch;
+    ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, std::to_string(round) + tree.text()));
+  }
+  EXPECT_GT(total, 500u);
+  EXPECT_GT(contacts, 20u);
 }
 
 TEST(Untouched, MovedAndTurnedOver) {

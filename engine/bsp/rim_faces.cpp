@@ -1,0 +1,114 @@
+#include "engine/bsp/rim_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "engine/bsp/corner_walk.h"
+
+namespace csgrun {
+namespace {
+
+class RimFaces {
+ public:
+  RimFaces(const Job& job, const ContactTable& contacts, CellGeometry& geometry,
+           TouchFinder& finder)
+      : job_(job),
+        contacts_(contacts),
+        geometry_(geometry),
+        finder_(finder),
+        is_free_(job.vertex_count(), kUnknown) {}
+
+  /// Whether a polygon that is met is as good as untouched.
+  bool is_rim(uint32_t polygon) {
+    const JobPolygon& p = job_.polygons()[polygon];
+    if (p.count != 3 || !job_.is_convex(p.operand)) return false;
+    const LeafGeometry& leaf = *job_.leaf(p.operand);
+    // Facets that are kept may be merged with neighbours in their plane once they are touched.
+    if (leaf.facet.back() != 0 || leaf.opposite.empty()) return false;
+    for (const uint32_t i : contacts_.of(polygon)) {
+      if (!ends_in_corners(contacts_[i], contacts_[i].p == polygon)) return false;
+    }
+    for (const uint32_t v : job_.corners(p)) {
+      if (contacts_.touched()[v] && !is_free(v, p, leaf)) return false;
+    }
+    return true;
+  }
+
+ private:
+  enum State : uint8_t { kUnknown, kFree, kBound };
+
+  /// Whether all that two polygons have in common is a corner or an edge of one of them.
+  static bool ends_in_corners(const Contact& c, bool of_p) {
+    const auto is_corner = [&](const Contact::End& end) {
+      return end.on_p == of_p && end.vertex != kNone;
+    };
+    return !c.is_coplanar && is_corner(c.lower) && is_corner(c.upper);
+  }
+
+  bool is_free(uint32_t v, const JobPolygon& p, const LeafGeometry& leaf) {
+    uint8_t& state = is_free_[v];
+    if (state == kUnknown) {
+      const bool is_beside_cuts =
+          finder_.operand_beside_cuts(geometry_.vertex_point(v)) == p.operand;
+      state = is_beside_cuts && !has_straight_edges(v, p, leaf) ? kFree : kBound;
+    }
+    return state == kFree;
+  }
+
+  /// Whether two edges of the leaf at a corner of a face lead straight on; also where there are too
+  /// many to compare.
+  bool has_straight_edges(uint32_t v, const JobPolygon& p, const LeafGeometry& leaf) {
+    if (walked_ != p.operand) {
+      walk_ = std::make_unique<CornerWalk>(leaf);
+      walked_ = p.operand;
+    }
+    const uint32_t local = v - job_.vertex_start(p.operand);
+    uint32_t corner = leaf.face_starts[p.face];
+    while (leaf.corners[corner] != local) ++corner;
+    std::array<std::array<Int128, 3>, 16> edges;
+    size_t count = 0;
+    bool are_few = true;
+    walk_->each_in_fan(corner, [&](uint32_t c) {
+      are_few = are_few && count < edges.size();
+      if (!are_few) return;
+      const IVec3 &from = leaf.vertices[local], &to = leaf.vertices[leaf.corners[walk_->before(c)]];
+      for (size_t k = 0; k < 3; ++k) edges[count][k] = to[k] - from[k];
+      ++count;
+    });
+    if (!are_few) return true;
+    for (size_t i = 0; i < count; ++i) {
+      for (size_t j = i + 1; j < count; ++j) {
+        if (are_opposite(edges[i], edges[j])) return true;
+      }
+    }
+    return false;
+  }
+
+  static bool are_opposite(const std::array<Int128, 3>& a, const std::array<Int128, 3>& b) {
+    for (size_t k = 0; k < 3; ++k) {
+      if ((a[k] > 0 && b[k] > 0) || (a[k] < 0 && b[k] < 0)) return false;
+    }
+    return a[1] * b[2] == a[2] * b[1] && a[2] * b[0] == a[0] * b[2] && a[0] * b[1] == a[1] * b[0];
+  }
+
+  const Job& job_;
+  const ContactTable& contacts_;
+  CellGeometry& geometry_;
+  TouchFinder& finder_;
+  std::vector<uint8_t> is_free_;  ///< per vertex, a State
+  std::unique_ptr<CornerWalk> walk_;
+  uint32_t walked_ = kNone;  ///< the operand that it is on
+};
+
+}  // namespace
+
+void release_rims(const Job& job, const ContactTable& contacts, CellGeometry& geometry,
+                  TouchFinder& finder, std::vector<WholePolygon>& whole) {
+  RimFaces faces(job, contacts, geometry, finder);
+  for (WholePolygon& w : whole) {
+    if (w.is_met && faces.is_rim(w.polygon)) w.is_met = false;
+  }
+}
+
+}  // namespace csgrun
