@@ -73,6 +73,17 @@ std::vector<PolygonBox> find_live_boxes(const Job& job, const Expression& expres
   return of_operand;
 }
 
+/// Whether a polygon in one box is beside another one, but for its rim at most: they have nothing in
+/// common, or part of a plane that the polygon goes across, or up to.
+bool is_beside(const PolygonBox& box, const PolygonBox& other) {
+  bool beside = false;
+  for (size_t k = 0; k < 3; ++k) {
+    const int32_t lo = std::max(box.lo[k], other.lo[k]), hi = std::min(box.hi[k], other.hi[k]);
+    beside |= lo > hi || (lo == hi && box.lo[k] < box.hi[k]);
+  }
+  return beside;
+}
+
 /// A ball inside a convex operand.
 struct Ball {
   std::array<double, 3> middle{};
@@ -186,7 +197,7 @@ std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expr
     const bool is_live = !live[o].is_empty();
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
       is_covered[p] =
-          !is_live || !live[o].meets(job.boxes()[p]) || balls.hold(job, job.polygons()[p]);
+          !is_live || is_beside(job.boxes()[p], live[o]) || balls.hold(job, job.polygons()[p]);
       any[o] |= is_covered[p];
     }
   });
