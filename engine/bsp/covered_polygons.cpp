@@ -73,8 +73,8 @@ std::vector<PolygonBox> find_live_boxes(const Job& job, const Expression& expres
   return of_operand;
 }
 
-/// Whether a polygon in one box is beside another one, but for its rim at most: they have nothing in
-/// common, or part of a plane that the polygon goes across, or up to.
+/// Whether a polygon in one box is beside another one, but for its rim at most: they have nothing
+/// in common, or part of a plane that the polygon goes across, or up to.
 bool is_beside(const PolygonBox& box, const PolygonBox& other) {
   bool beside = false;
   for (size_t k = 0; k < 3; ++k) {

@@ -22,8 +22,8 @@ bool is_inside(const IVec3& middle, int64_t radius, const std::array<double, 3>&
   return sum < static_cast<double>(radius);
 }
 
-/// Whether no point of a polygon but those of its rim is in a box: all corners are beyond a side, or
-/// in it, but not all of them. (Or the box is flat, and the corners on either side.)
+/// Whether no point of a polygon but those of its rim is in a box: all corners are beyond a side,
+/// or in it, but not all of them. (Or the box is flat, and the corners on either side.)
 bool is_beside(const Job& job, uint32_t p, const PolygonBox& box) {
   const PolygonBox& own = job.boxes()[p];
   bool beside = !box.meets(own);
