@@ -66,7 +66,7 @@ class RimFaces {
     const uint32_t local = v - job_.vertex_start(p.operand);
     uint32_t corner = leaf.face_starts[p.face];
     while (leaf.corners[corner] != local) ++corner;
-    std::array<std::array<Int128, 3>, 16> edges;
+    std::array<IVec3, 16> edges;
     size_t count = 0;
     bool are_few = true;
     walk_->each_in_fan(corner, [&](uint32_t c) {
@@ -85,11 +85,16 @@ class RimFaces {
     return false;
   }
 
-  static bool are_opposite(const std::array<Int128, 3>& a, const std::array<Int128, 3>& b) {
+  static bool are_opposite(const IVec3& a, const IVec3& b) {
     for (size_t k = 0; k < 3; ++k) {
       if ((a[k] > 0 && b[k] > 0) || (a[k] < 0 && b[k] < 0)) return false;
     }
-    return a[1] * b[2] == a[2] * b[1] && a[2] * b[0] == a[0] * b[2] && a[0] * b[1] == a[1] * b[0];
+    const auto product = [](int64_t x, int64_t y) { return static_cast<Int128>(x) * y; };
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+      if (product(a[i], b[j]) != product(a[j], b[i])) return false;
+    }
+    return true;
   }
 
   const Job& job_;
