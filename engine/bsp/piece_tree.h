@@ -89,9 +89,7 @@ class PieceTree {
                                   std::vector<uint32_t> added, BoxOf&& box_of) const;
 
  private:
-  /// Nodes are made for every operation, of the size of a few boxes: many pieces are compared with
-  /// a tool one by one sooner than they are put into a deeper tree.
-  static constexpr size_t kLeafSize = 64;
+  static constexpr size_t kLeafSize = 16;
 
   template <class MayMeet, class F>
   static void each_below(const Node& node, MayMeet& may_meet, F& f) {
