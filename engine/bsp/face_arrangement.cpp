@@ -271,11 +271,15 @@ void FaceArrangement::break_lines() {
     const Line& line = lines_[l];
     size_t end = begin;
     while (end < stops_.size() && stops_[end].first == l) ++end;
-    const LineAxis way = geometry_.axis_between(line.from, line.to);
-    std::sort(stops_.begin() + static_cast<long>(begin), stops_.begin() + static_cast<long>(end),
-              [&](const auto& p, const auto& q) {
-                return geometry_.compare_along(p.second, q.second, way.axis) * way.sign < 0;
-              });
+    if (end - begin == 2) {
+      stops_[begin].second = line.from, stops_[begin + 1].second = line.to;
+    } else {
+      const LineAxis way = geometry_.axis_between(line.from, line.to);
+      std::sort(stops_.begin() + static_cast<long>(begin), stops_.begin() + static_cast<long>(end),
+                [&](const auto& p, const auto& q) {
+                  return geometry_.compare_along(p.second, q.second, way.axis) * way.sign < 0;
+                });
+    }
     for (size_t i = begin; i + 1 < end; ++i) {
       const uint32_t p = stops_[i].second, q = stops_[i + 1].second;
       const Part part{std::min(p, q), std::max(p, q), l, p > q};

@@ -21,10 +21,11 @@ class SegmentSweep {
     for (int k = 0; k < 3; ++k) box[k] = {std::min(a[k], b[k]), std::max(a[k], b[k])};
     boxes_.push_back(box);
   }
-  /// Calls visit(s, t) once for each pair that is near, in the order of the later one. O(n log n),
-  /// and the pairs that meet along the axis in one strip.
+  /// Calls visit(s, t) once for each pair that is near. O(n log n), and the pairs that meet along
+  /// the axis in one strip.
   template <class Visit>
   void for_each_pair(Visit&& visit) {
+    if (boxes_.size() <= kFewSegments) return for_each_of_few(visit);
     lay_strips();
     order_.clear();
     for (uint32_t s = 0; s < boxes_.size(); ++s) order_.push_back(s);
@@ -57,6 +58,17 @@ class SegmentSweep {
     uint32_t first;  ///< strip
     uint32_t number;
   };
+
+  /// Of so many, each is compared with each.
+  static constexpr size_t kFewSegments = 16;
+  template <class Visit>
+  void for_each_of_few(Visit& visit) {
+    for (uint32_t t = 1; t < boxes_.size(); ++t) {
+      for (uint32_t s = 0; s < t; ++s) {
+        if (are_near(boxes_[s], boxes_[t])) visit(s, t);
+      }
+    }
+  }
 
   static bool are_near(const Box& a, const Box& b) {
     bool near = true;
