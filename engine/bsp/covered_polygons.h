@@ -14,7 +14,8 @@ class ContactTable;
 /// Per polygon of the job, whether it is easily seen to be of that kind, so that nobody looks at
 /// what two of them have in common: it is beside the boxes of what it would be taken away from, or
 /// cut with, or inside a ball in such an operand. Only its rim may be on these boxes, in a side of
-/// them: so what goes on beyond it is met there as well. Empty if there are none. O(n) for operands of bounded depth.
+/// them: so what goes on beyond it is met there as well. Empty if there are none. O(n) for operands
+/// of bounded depth.
 std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expression);
 
 /// Per polygon of the job, whether it touches the surface of a convex operand of that kind from

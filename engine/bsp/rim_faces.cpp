@@ -110,6 +110,7 @@ class RimFaces {
 
 void release_rims(const Job& job, const ContactTable& contacts, CellGeometry& geometry,
                   TouchFinder& finder, std::vector<WholePolygon>& whole) {
+  if (!finder.has_examined()) return;
   RimFaces faces(job, contacts, geometry, finder);
   for (WholePolygon& w : whole) {
     if (w.is_met && faces.is_rim(w.polygon)) w.is_met = false;
