@@ -15,7 +15,8 @@ namespace csgrun {
 /// - Whatever meets one ends in corners of its own, and is not in its plane. So no edge of it is
 ///   broken, and it is not merged with another operand's face.
 /// - At each of these corners, what is kept is one round of outlines (`finder`, after find()):
-///   whole ones of this leaf alone, and parts of cut polygons, which are spelled out.
+///   whole ones of this leaf alone, and parts of cut polygons, which are spelled out. Nothing else
+///   that is kept passes the corner (TouchFinder::note_passage).
 /// - No two edges of the leaf lead straight on there. Say that all faces spelled out at the corner
 ///   had a straight angle: each edge between two of them would be the reverse of the one before it,
 ///   and the last, an edge of the leaf, the first one or its reverse. So one of them has a true
