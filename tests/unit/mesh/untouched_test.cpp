@@ -278,10 +278,26 @@ TEST(Untouched, InFrames) {
   EXPECT_GT(in_frames, 500u);
 }
 
+/// Random trees over what `make(round)` gives. Many faces must be named, and more than so many
+/// results touch themselves, or nothing was tested.
+template <class Make>
+void expect_one_value_of_trees(Random& random, int rounds, size_t least_contacts, Make&& make) {
+  size_t total = 0, contacts = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<Operand> operands = make(round);
+    const Tree tree = random_tree(random, 0, static_cast<int>(operands.size()));
+    const Pair pair = evaluate_both(tree, operands);
+    total += named(*pair.naming);
+    contacts += pair.naming->may_touch;
+    ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, std::to_string(round) + tree.text()));
+  }
+  EXPECT_GT(total, 500u);
+  EXPECT_GT(contacts, least_contacts);
+}
+
 TEST(Untouched, ContactsOfTiledBoxes) {
   Random random(1202);
-  size_t total = 0, contacts = 0;
-  for (int round = 0; round < 60; ++round) {
+  expect_one_value_of_trees(random, 60, 20, [&](int) {
     std::vector<Operand> operands;
     for (int i = 0; i < 3; ++i) {
       const auto move = [&] { return random.integer(-6, 6); };
@@ -290,37 +306,23 @@ TEST(Untouched, ContactsOfTiledBoxes) {
           leaf_of_triangles(tiled_box(random, {0, 0, 0}, random.integer(4, 12) / step, step));
       operands.push_back(placed(box, {move(), move(), move()}));
     }
-    const Tree tree = random_tree(random, 0, 3);
-    const Pair pair = evaluate_both(tree, operands);
-    total += named(*pair.naming);
-    contacts += pair.naming->may_touch;
-    ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, std::to_string(round) + tree.text()));
-  }
-  EXPECT_GT(total, 500u);
-  EXPECT_GT(contacts, 20u);
+    return operands;
+  });
 }
 
 TEST(Untouched, Balls) {
   Random random(1205);
-  size_t total = 0, contacts = 0;
-  for (int round = 0; round < 40; ++round) {
+  expect_one_value_of_trees(random, 120, 3, [&](int round) {
+    const int64_t radius = round % 2 ? 1 << 20 : 12, step = round % 2 ? 1 : 3;
     std::vector<Operand> operands;
-    const int64_t radius = round % 2 ? 1 << 20 : 12;
     for (int i = 0; i < 4; ++i) {
-      const int64_t step = round % 2 ? 1 : 3;
       const auto move = [&] {
         return step * random.integer(-2 * radius / step, 2 * radius / step);
       };
       operands.push_back(placed(ball(radius, round % 2 ? 8 : 3), {move(), move(), move()}));
     }
-    const Tree tree = random_tree(random, 0, 4);
-    const Pair pair = evaluate_both(tree, operands);
-    total += named(*pair.naming);
-    contacts += pair.naming->may_touch;
-    ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, std::to_string(round) + tree.text()));
-  }
-  EXPECT_GT(total, 500u);
-  EXPECT_GT(contacts, 0u);
+    return operands;
+  });
 }
 
 // A hole whose rim is edges of the ball that made it: the faces at the rim are met there, and
@@ -358,8 +360,7 @@ TEST(Untouched, WhatOthersOnlyRestOn) {
 TEST(Untouched, RimsOfBallsOnBlocks) {
   Random random(1207);
   constexpr int64_t kRadius = 12;
-  size_t total = 0, contacts = 0;
-  for (int round = 0; round < 150; ++round) {
+  expect_one_value_of_trees(random, 150, 20, [&](int) {
     std::vector<Operand> operands;
     for (int i = 0; i < 4; ++i) {
       const auto move = [&] { return kRadius / 2 * random.integer(-2, 2); };
@@ -370,14 +371,8 @@ TEST(Untouched, RimsOfBallsOnBlocks) {
         operands.push_back(placed(ball(kRadius, static_cast<int>(random.integer(1, 3))), at));
       }
     }
-    const Tree tree = random_tree(random, 0, 4);
-    const Pair pair = evaluate_both(tree, operands);
-    total += named(*pair.naming);
-    contacts += pair.naming->may_touch;
-    ASSERT_NO_FATAL_FAILURE(expect_one_value(pair, std::to_string(round) + tree.text()));
-  }
-  EXPECT_GT(total, 500u);
-  EXPECT_GT(contacts, 20u);
+    return operands;
+  });
 }
 
 TEST(Untouched, MovedAndTurnedOver) {
