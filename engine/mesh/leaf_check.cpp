@@ -14,6 +14,7 @@
 #include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/packed_boxes.h"
 #include "engine/mesh/single_sheets.h"
+#include "engine/mesh/star_surface.h"
 #include "engine/mesh/triangle_pairs.h"
 #include "engine/mesh/winding.h"
 
@@ -105,6 +106,10 @@ Pairs find_self_intersections(const LeafGeometry& leaf) {
 
 SurfaceCheck check_surface(const LeafGeometry& leaf) {
   SurfaceCheck result;
+  if (is_star_surface(leaf)) {
+    result.bounds_solid = result.connected = true;
+    return result;
+  }
   std::optional<PackedBoxes> tree;  // of all faces along the axes, if there is one
   if (const auto faces = faces_off_single_sheets(leaf)) {
     const PackedBoxes some(face_boxes(leaf, *faces, find_box_frame(leaf)));
