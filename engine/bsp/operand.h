@@ -39,6 +39,8 @@ struct LeafGeometry {
   /// too.
   std::vector<uint32_t> opposite;
   bool convex = false;
+  /// True when the faces at each vertex are known to be one fan.
+  bool has_single_fans = false;
   /// False when the faces are known to meet in corners and edges that both have, or nowhere.
   bool may_touch = true;
 

@@ -1,6 +1,7 @@
 #include "engine/bsp/untouched.h"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <utility>
 
@@ -14,7 +15,7 @@ namespace csgrun {
 namespace {
 
 /// What becomes of a face, or of all faces at a vertex.
-enum Fate : uint8_t { kMixed = 0, kKept = 1, kFlipped = 2, kUnseen = 3, kNoFan = 4 };
+enum Fate : uint8_t { kMixed = 0, kKept = 1, kFlipped = 2, kNoFan = 3 };
 
 /// Whether faces that are parts of one facet stand together.
 bool facets_ascend(const LeafGeometry& leaf) {
@@ -90,21 +91,18 @@ class UntouchedFaces {
   /// The common fate of the faces at each vertex, or kMixed; kNoFan where they are more than one
   /// fan, and where a facet may have no corner: one in several pieces, or with a straight corner.
   void look_at_vertices() {
-    const size_t vertices = leaf_.vertices.size();
-    std::vector<uint32_t> some_corner(vertices, kNone);
-    for (uint32_t c = 0; c < leaf_.corners.size(); ++c) some_corner[leaf_.corners[c]] = c;
-    of_vertex_.assign(vertices, kUnseen);
-    size_t in_fans = 0;
-    for (uint32_t v = 0; v < vertices; ++v) {
-      if (some_corner[v] == kNone) continue;
-      const uint8_t first = fate_[walk_.face(some_corner[v])];
-      bool all_same = true;
-      in_fans += walk_.each_in_fan(some_corner[v],
-                                   [&](uint32_t c) { all_same &= fate_[walk_.face(c)] == first; });
-      of_vertex_[v] = all_same ? first : static_cast<uint8_t>(kMixed);
+    of_vertex_.assign(leaf_.vertices.size(), 0);
+    for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
+      const auto own = static_cast<uint8_t>(1u << fate_[f]);
+      for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
+        of_vertex_[leaf_.corners[c]] |= own;
+      }
     }
-    // Fans have no corner in common: they have all corners only if each vertex has one.
-    if (in_fans != leaf_.corners.size()) {
+    for (uint8_t& fates : of_vertex_) {
+      const bool all_same = std::has_single_bit(fates);
+      fates = all_same ? static_cast<uint8_t>(std::countr_zero(fates)) : uint8_t{kMixed};
+    }
+    if (!leaf_.has_single_fans) {
       for (const uint32_t v : find_vertices_of_fans(leaf_)) of_vertex_[v] = kNoFan;
     }
     if (!keeps_facets_) return;

@@ -142,8 +142,7 @@ bool is_locally_convex(const LeafGeometry& leaf) {
 /// the edges there do not connect with them, keep theirs.
 bool may_lose_common_corners(const LeafGeometry& leaf) {
   const bool keeps_facets = leaf.facet[0] != 0;
-  if (keeps_facets && consists_of_triangles(leaf)) return false;
-  return leaf.opposite.empty() || !find_vertices_of_fans(leaf).empty();
+  return !leaf.has_single_fans && !(keeps_facets && consists_of_triangles(leaf));
 }
 
 /// Whether all points lie in a plane across an axis.
@@ -167,7 +166,8 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
   leaf->opposite = std::move(pairing.opposite);
   // Rounding can close a gap that is narrower than a step, whatever was promised of the original
   // mesh; convexity is seen from the faces themselves.
-  leaf->convex = is_convex_surface(*leaf) || (promised_convex && is_locally_convex(*leaf));
+  leaf->has_single_fans = is_convex_surface(*leaf);
+  leaf->convex = leaf->has_single_fans || (promised_convex && is_locally_convex(*leaf));
   result.status = PreparedLeaf::Status::kGood;
   if (!leaf->convex) {
     SurfaceCheck check = check_surface(*leaf);
@@ -176,6 +176,8 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
     }
     result.crossings = std::move(check.crossings);
     result.connected = check.connected;
+    leaf->has_single_fans =
+        check.is_star || (!leaf->opposite.empty() && find_vertices_of_fans(*leaf).empty());
   }
   leaf->may_touch = !result.crossings.empty() || (!leaf->convex && may_lose_common_corners(*leaf));
   // Facets that are kept as they are have no others of their label.

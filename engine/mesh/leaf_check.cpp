@@ -107,7 +107,7 @@ Pairs find_self_intersections(const LeafGeometry& leaf) {
 SurfaceCheck check_surface(const LeafGeometry& leaf) {
   SurfaceCheck result;
   if (is_star_surface(leaf)) {
-    result.bounds_solid = result.connected = true;
+    result.bounds_solid = result.connected = result.is_star = true;
     return result;
   }
   std::optional<PackedBoxes> tree;  // of all faces along the axes, if there is one
