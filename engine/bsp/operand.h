@@ -11,6 +11,8 @@
 
 #include <csgrun/engine/csg_tree.h>
 
+#include "engine/bsp/face_numbers.h"
+
 namespace csgrun {
 
 /// Integer grid coordinates, in steps.
@@ -31,9 +33,9 @@ struct LeafGeometry {
   /// Per face. Coplanar faces of one leaf with equal facet, surface and appearance are parts of one
   /// face. 0 for primitives; the number of the original face, from 1, for meshes whose facets are
   /// kept.
-  std::vector<uint32_t> facet;
-  std::vector<uint32_t> surface;     ///< per face: PolygonMesh::surface
-  std::vector<uint32_t> appearance;  ///< per face: kernel-wide appearance id
+  FaceNumbers facet;
+  FaceNumbers surface;     ///< per face: PolygonMesh::surface
+  FaceNumbers appearance;  ///< per face: kernel-wide appearance id
   /// Per edge, which has the index (in `corners`) of the corner that it leaves: the same edge as
   /// its neighbour runs it, back. Empty unless each directed edge is there once and its reverse
   /// too.
@@ -45,6 +47,8 @@ struct LeafGeometry {
   bool may_touch = true;
 
   [[nodiscard]] size_t face_count() const { return face_starts.size() - 1; }
+  /// REQUIRES: there is a face.
+  [[nodiscard]] bool keeps_facets() const { return facet[0] != 0; }
 };
 
 /// The frame of a leaf: world -> frame is B = matrix / 2^40 (Numbers: docs/numerics.md). A point q

@@ -25,7 +25,7 @@ class RimFaces {
     if (p.count != 3 || !job_.is_convex(p.operand)) return false;
     const LeafGeometry& leaf = *job_.leaf(p.operand);
     // Facets that are kept may be merged with neighbours in their plane once they are touched.
-    if (leaf.facet.back() != 0 || leaf.opposite.empty()) return false;
+    if (leaf.keeps_facets() || leaf.opposite.empty()) return false;
     for (const uint32_t i : contacts_.of(polygon)) {
       if (!ends_in_corners(contacts_[i], contacts_[i].p == polygon)) return false;
     }

@@ -17,15 +17,10 @@ namespace {
 /// What becomes of a face, or of all faces at a vertex.
 enum Fate : uint8_t { kMixed = 0, kKept = 1, kFlipped = 2, kNoFan = 3 };
 
-/// Whether faces that are parts of one facet stand together.
-bool facets_ascend(const LeafGeometry& leaf) {
-  return std::is_sorted(leaf.facet.begin(), leaf.facet.end());
-}
-
 bool is_own_facet(const LeafGeometry& leaf, uint32_t f) {
-  const std::vector<uint32_t>& facet = leaf.facet;
+  const FaceNumbers& facet = leaf.facet;
   return (f == 0 || facet[f - 1] != facet[f]) &&
-         (f + 1 == facet.size() || facet[f + 1] != facet[f]);
+         (f + 1 == leaf.face_count() || facet[f + 1] != facet[f]);
 }
 
 /// Whether no neighbour of a face of a convex leaf lies in its plane. REQUIRES: a triangle.
@@ -53,7 +48,7 @@ class UntouchedFaces {
  public:
   /// `fate`: of each face.
   UntouchedFaces(const LeafGeometry& leaf, const uint8_t* fate)
-      : leaf_(leaf), fate_(fate), walk_(leaf), keeps_facets_(leaf.facet.back() != 0) {
+      : leaf_(leaf), fate_(fate), walk_(leaf), keeps_facets_(leaf.keeps_facets()) {
     look_at_vertices();
   }
 
@@ -203,10 +198,11 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
     const FrameMap map(operand.frame);
     if (map.is_mirrored()) return;
     const LeafGeometry& leaf = *operand.leaf;
-    if (leaf.may_touch || leaf.opposite.empty() || !facets_ascend(leaf)) return;
+    // Faces that are parts of one facet must stand together.
+    if (leaf.may_touch || leaf.opposite.empty() || !leaf.facet.ascend()) return;
     // Without facets of its own a face must be alone in its plane; that is easily told of convex
     // leaves.
-    if (leaf.facet.back() == 0 && !leaf.convex) return;
+    if (!leaf.keeps_facets() && !leaf.convex) return;
     const uint32_t start = job.polygon_start(o);
     const auto begin = fate.begin() + start, end = begin + static_cast<long>(leaf.face_count());
     bool any[3] = {false, false, false};

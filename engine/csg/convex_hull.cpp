@@ -263,9 +263,6 @@ LeafGeometry Hull::faces() const {
     }
     leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()));
   }
-  leaf.facet.assign(leaf.face_count(), 0);
-  leaf.surface.assign(leaf.face_count(), 0);
-  leaf.appearance.assign(leaf.face_count(), 0);
   leaf.opposite = pair_edges(leaf).opposite;
   leaf.convex = true;
   leaf.may_touch = false;

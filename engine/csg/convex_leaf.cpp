@@ -89,18 +89,19 @@ bool has_area(const IVec3& a, const IVec3& b, const IVec3& c) {
   return u[1] * v[2] != u[2] * v[1] || u[2] * v[0] != u[0] * v[2] || u[0] * v[1] != u[1] * v[0];
 }
 
-/// Leaves out what stands at some places, given in ascending order.
-void leave_out(std::vector<uint32_t>& list, std::span<const uint32_t> places) {
-  if (places.empty()) return;
-  size_t kept = places[0], next = 0;
-  for (size_t i = kept; i < list.size(); ++i) {
-    if (next < places.size() && places[next] == i) {
+/// The numbers of the first `count` faces but for some, given in ascending order.
+std::vector<uint32_t> numbers_without(const FaceNumbers& numbers, size_t count,
+                                      std::span<const uint32_t> dropped) {
+  std::vector<uint32_t> kept;
+  kept.reserve(count - dropped.size());
+  for (size_t f = 0, next = 0; f < count; ++f) {
+    if (next < dropped.size() && dropped[next] == f) {
       ++next;
     } else {
-      list[kept++] = list[i];
+      kept.push_back(numbers[f]);
     }
   }
-  list.resize(kept);
+  return kept;
 }
 
 /// Leaves out vertices that no face uses, and puts the others in the order of their first use.
@@ -123,7 +124,7 @@ void renumber(LeafGeometry& leaf) {
 
 std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
                                              const std::vector<IVec3>& points, bool turn,
-                                             const std::vector<uint32_t>& appearance) {
+                                             const FaceNumbers& appearance) {
   if (mesh.loop_count() != mesh.face_count() || !is_compact(box_of_points(points)))
     return std::nullopt;
   std::optional<ConvexFaces> result(std::in_place);
@@ -155,12 +156,14 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
     leaf.face_starts.push_back(next);
   }
   leaf.corners.resize(next);
-  leaf.facet.assign(faces, 0);
-  if (mesh.keep_facets) std::iota(leaf.facet.begin(), leaf.facet.end(), 1u);
-  leaf.surface = mesh.surface;
-  leaf.surface.resize(faces, 0);
+  if (mesh.keep_facets) leaf.facet = FaceNumbers::ascending(1);
+  if (!mesh.surface.empty()) leaf.surface = mesh.surface;
   leaf.appearance = appearance;
-  for (auto* labels : {&leaf.facet, &leaf.surface, &leaf.appearance}) leave_out(*labels, dropped);
+  if (!dropped.empty()) {
+    for (FaceNumbers* numbers : {&leaf.facet, &leaf.surface, &leaf.appearance}) {
+      if (!numbers->common()) *numbers = numbers_without(*numbers, faces, dropped);
+    }
+  }
   leaf.vertices = number.take_vertices();
   if (!dropped.empty()) renumber(leaf);
   result->merged = !dropped.empty() || number.merges(mesh.corners);

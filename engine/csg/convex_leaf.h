@@ -26,7 +26,7 @@ struct ConvexFaces {
 /// convex, or has its corners on a line, or when points are 2^30 steps or more apart. O(n).
 std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
                                              const std::vector<IVec3>& points, bool turn,
-                                             const std::vector<uint32_t>& appearance);
+                                             const FaceNumbers& appearance);
 
 /// Whether some face has one other face for all its neighbours and is thus its reverse. `opposite`
 /// as in LeafGeometry, not empty.

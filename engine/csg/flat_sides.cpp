@@ -150,6 +150,7 @@ class FaceJoiner {
     std::vector<uint32_t> faces_at(leaf_.vertices.size(), 0), number(leaf_.vertices.size(), kNew);
     for (const uint32_t v : corners_) ++faces_at[v];
     LeafGeometry made;
+    std::vector<uint32_t> facet, surface, appearance;
     for (size_t i = 0; i < faces_.size(); ++i) {
       for (uint32_t c = starts_[i]; c < starts_[i + 1]; ++c) {
         const uint32_t v = corners_[c];
@@ -161,12 +162,16 @@ class FaceJoiner {
         made.corners.push_back(number[v]);
       }
       made.face_starts.push_back(static_cast<uint32_t>(made.corners.size()));
-      made.facet.push_back(leaf_.facet[faces_[i]]);
-      made.surface.push_back(leaf_.surface[faces_[i]]);
-      made.appearance.push_back(leaf_.appearance[faces_[i]]);
+      facet.push_back(leaf_.facet[faces_[i]]);
+      surface.push_back(leaf_.surface[faces_[i]]);
+      appearance.push_back(leaf_.appearance[faces_[i]]);
     }
+    made.facet = std::move(facet);
+    made.surface = std::move(surface);
+    made.appearance = std::move(appearance);
     made.opposite = pair_edges(made).opposite;
     made.convex = leaf_.convex;
+    made.has_single_fans = leaf_.has_single_fans;
     made.may_touch = leaf_.may_touch;
     leaf_ = std::move(made);
   }

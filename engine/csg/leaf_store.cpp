@@ -57,7 +57,10 @@ std::optional<Error> find_fault(const PolygonMesh& mesh) {
 }
 
 size_t memory_of(const LeafGeometry& leaf) {
-  return leaf.vertices.size() * sizeof(IVec3) + leaf.corners.size() * 4 + leaf.face_count() * 16 +
+  return leaf.vertices.size() * sizeof(IVec3) + leaf.corners.size() * 4 +
+         (leaf.face_count() + leaf.facet.stored() + leaf.surface.stored() +
+          leaf.appearance.stored()) *
+             4 +
          256;
 }
 
@@ -93,22 +96,20 @@ const MeshFacts& LeafStore::facts(const std::shared_ptr<const PolygonMesh>& mesh
       facts.hi[i] = std::max(facts.hi[i], mesh->points[p][i]);
     }
   }
-  facts.appearance.resize(mesh->face_count());
   if (mesh->appearance_of.empty()) {
-    std::fill(facts.appearance.begin(), facts.appearance.end(), appearances_.intern(Appearance{}));
+    facts.appearance = FaceNumbers::all(appearances_.intern(Appearance{}));
   } else {
-    for (size_t f = 0; f < facts.appearance.size(); ++f) {
-      facts.appearance[f] = appearances_.intern(mesh->appearances[mesh->appearance_of[f]]);
+    std::vector<uint32_t> ids(mesh->face_count());
+    for (size_t f = 0; f < ids.size(); ++f) {
+      ids[f] = appearances_.intern(mesh->appearances[mesh->appearance_of[f]]);
     }
+    facts.appearance = std::move(ids);
   }
   if (mesh->hull_of_points) {
     facts.paint =
         appearances_.intern(mesh->appearances.empty() ? Appearance{} : mesh->appearances[0]);
-  }
-  if (std::adjacent_find(facts.appearance.begin(), facts.appearance.end(), std::not_equal_to<>()) ==
-          facts.appearance.end() &&
-      !facts.appearance.empty()) {
-    facts.paint = facts.appearance[0];
+  } else if (const auto common = facts.appearance.common(); common && mesh->face_count() > 0) {
+    facts.paint = *common;
   }
   return facts;
 }
@@ -181,7 +182,9 @@ std::optional<QuantisedLeaf> LeafStore::quantise(uint32_t index, const NormalNod
   builder.number(kKernelVersion).numbers(mesh_facts.topology).number(turn);
   builder.number(result.paint != kUnpainted);
   if (result.paint == kUnpainted) {
-    for (uint32_t id : mesh_facts.appearance) builder.numbers(appearances_.key(id));
+    for (size_t f = 0; f < mesh.face_count(); ++f) {
+      builder.numbers(appearances_.key(mesh_facts.appearance[f]));
+    }
   }
   builder.number(static_cast<uint64_t>(mesh.corners.size()));
   // Points that no face uses do not count; they all stand at minus the origin.
@@ -194,9 +197,9 @@ std::optional<QuantisedLeaf> LeafStore::quantise(uint32_t index, const NormalNod
 
   auto& prepared = prepared_[result.key];
   if (!prepared) {
-    const std::vector<uint32_t> plain(result.paint == kUnpainted ? 0 : mesh.face_count(), 0);
-    auto made = std::make_shared<PreparedLeaf>(prepare_leaf(
-        mesh, *points, turn, result.paint == kUnpainted ? mesh_facts.appearance : plain));
+    auto made = std::make_shared<PreparedLeaf>(
+        prepare_leaf(mesh, *points, turn,
+                     result.paint == kUnpainted ? mesh_facts.appearance : FaceNumbers::all(0)));
     if (made->geometry) bytes_ += memory_of(*made->geometry);
     prepared = std::move(made);
   }

@@ -28,7 +28,7 @@ struct MeshFacts {
   std::optional<Error> error;        ///< indices out of range, points that are not finite
   Key topology{};                    ///< everything but points and appearances
   std::array<double, 3> lo{}, hi{};  ///< of the points that faces use
-  std::vector<uint32_t> appearance;  ///< id per face
+  FaceNumbers appearance;            ///< id per face
   uint32_t paint = kUnpainted;       ///< the only appearance of the mesh, if there is one
   uint32_t told = 0;                 ///< bits by InsideRule: see LeafStore::is_news
 };

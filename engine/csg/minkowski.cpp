@@ -187,8 +187,7 @@ Summand convex_summand(std::vector<IVec3> points) {
 
 Summand solid_summand(const PolygonMesh& mesh, const std::vector<IVec3>& points, NodePtr node) {
   Summand result;
-  const PreparedLeaf leaf =
-      prepare_leaf(mesh, points, false, std::vector<uint32_t>(mesh.face_count(), 0));
+  const PreparedLeaf leaf = prepare_leaf(mesh, points, false, FaceNumbers::all(0));
   if (leaf.geometry) result.boundary = *leaf.geometry;
   result.is_simple = leaf.status == PreparedLeaf::Status::kGood;
   result.node = std::move(node);

@@ -30,7 +30,7 @@ struct Merged {
 
 /// `triangles`, if there are any, take the places of faces (see fine_triangles).
 Merged merge_points(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
-                    const std::vector<uint32_t>& appearance,
+                    const FaceNumbers& appearance,
                     std::span<const std::vector<std::array<uint32_t, 3>>> triangles = {}) {
   constexpr uint32_t kNone = UINT32_MAX;
   Merged result;
@@ -80,6 +80,8 @@ Merged merge_points(const PolygonMesh& mesh, const std::vector<IVec3>& points, b
 LeafGeometry pack(const std::vector<IVec3>& vertices, const std::vector<LoopFace>& faces) {
   constexpr uint32_t kNone = UINT32_MAX;
   LeafGeometry leaf;
+  std::vector<uint32_t> facet, surface, appearance;
+  for (auto* numbers : {&facet, &surface, &appearance}) numbers->reserve(faces.size());
   std::vector<uint32_t> number(vertices.size(), kNone);
   for (const LoopFace& face : faces) {
     for (uint32_t v : face.loops[0]) {
@@ -90,10 +92,13 @@ LeafGeometry pack(const std::vector<IVec3>& vertices, const std::vector<LoopFace
       leaf.corners.push_back(number[v]);
     }
     leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()));
-    leaf.facet.push_back(face.facet);
-    leaf.surface.push_back(face.surface);
-    leaf.appearance.push_back(face.appearance);
+    facet.push_back(face.facet);
+    surface.push_back(face.surface);
+    appearance.push_back(face.appearance);
   }
+  leaf.facet = std::move(facet);
+  leaf.surface = std::move(surface);
+  leaf.appearance = std::move(appearance);
   return leaf;
 }
 
@@ -141,8 +146,7 @@ bool is_locally_convex(const LeafGeometry& leaf) {
 /// Whether faces at a corner may become a face that has no corner there, while other faces, which
 /// the edges there do not connect with them, keep theirs.
 bool may_lose_common_corners(const LeafGeometry& leaf) {
-  const bool keeps_facets = leaf.facet[0] != 0;
-  return !leaf.has_single_fans && !(keeps_facets && consists_of_triangles(leaf));
+  return !leaf.has_single_fans && !(leaf.keeps_facets() && consists_of_triangles(leaf));
 }
 
 /// Whether all points lie in a plane across an axis.
@@ -181,7 +185,7 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
   }
   leaf->may_touch = !result.crossings.empty() || (!leaf->convex && may_lose_common_corners(*leaf));
   // Facets that are kept as they are have no others of their label.
-  if (leaf->convex && !leaf->opposite.empty() && leaf->facet[0] == 0) join_flat_faces(*leaf);
+  if (leaf->convex && !leaf->opposite.empty() && !leaf->keeps_facets()) join_flat_faces(*leaf);
   result.geometry = std::move(leaf);
   return result;
 }
@@ -232,7 +236,7 @@ std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh,
 }
 
 PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
-                          const std::vector<uint32_t>& appearance) {
+                          const FaceNumbers& appearance) {
   if (mesh.hull_of_points) return hull_leaf(points);
   if (auto taken = take_convex_faces(mesh, points, turn, appearance)) {
     if (taken->leaf.face_count() == 0) return {};

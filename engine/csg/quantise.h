@@ -56,7 +56,7 @@ struct PreparedLeaf {
 /// (see LeafGeometry). `turn` reverses every loop. `appearance` has an id per face. The mesh's
 /// promise to be convex is verified.
 PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
-                          const std::vector<uint32_t>& appearance);
+                          const FaceNumbers& appearance);
 
 /// The geometry in other axes. A mirroring permutation reverses every loop.
 LeafGeometry permuted(const LeafGeometry& leaf, const SignedPermutation& permutation);

@@ -312,12 +312,8 @@ class Presenter {
 
   /// The label, but for the facet, that all faces of a leaf have, if they do.
   static std::optional<FaceLabel> common_label(const UntouchedPart& part) {
-    const auto all_equal = [](const std::vector<uint32_t>& numbers) {
-      return std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) ==
-             numbers.end();
-    };
-    if (!all_equal(part.leaf->surface)) return std::nullopt;
-    if (!part.appearance && !all_equal(part.leaf->appearance)) return std::nullopt;
+    if (!part.leaf->surface.common()) return std::nullopt;
+    if (!part.appearance && !part.leaf->appearance.common()) return std::nullopt;
     return part.label(0);
   }
 

@@ -76,8 +76,7 @@ std::vector<IVec3> Run::on_grid(const PolygonMesh& mesh) const {
 namespace {
 
 PreparedLeaf prepared(const PolygonMesh& mesh, const std::vector<IVec3>& points) {
-  const std::vector<uint32_t> appearance(mesh.face_count(), 0);
-  PreparedLeaf leaf = prepare_leaf(mesh, points, false, appearance);
+  PreparedLeaf leaf = prepare_leaf(mesh, points, false, FaceNumbers::all(0));
   using Status = PreparedLeaf::Status;
   if (leaf.status != Status::kGood && leaf.status != Status::kTangled) {
     fail("not a solid after quantisation");

@@ -41,10 +41,10 @@ inline Leaf make_leaf(const std::vector<Loop>& faces, bool keep_facets = false,
       leaf->corners.push_back(at->second);
     }
     leaf->face_starts.push_back(static_cast<uint32_t>(leaf->corners.size()));
-    leaf->facet.push_back(keep_facets ? static_cast<uint32_t>(leaf->face_count()) : 0);
-    leaf->surface.push_back(surface);
-    leaf->appearance.push_back(appearance);
   }
+  if (keep_facets) leaf->facet = FaceNumbers::ascending(1);
+  leaf->surface = FaceNumbers::all(surface);
+  leaf->appearance = FaceNumbers::all(appearance);
   return leaf;
 }
 

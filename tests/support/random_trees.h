@@ -224,12 +224,7 @@ class TreeMaker {
       *leaf = LeafGeometry();
       fill(*leaf);
     }
-    const bool keep_facets = one_in(2);
-    for (uint32_t f = 0; f < leaf->face_count(); ++f) {
-      leaf->facet.push_back(keep_facets ? f + 1 : 0);
-      leaf->surface.push_back(0);
-      leaf->appearance.push_back(0);
-    }
+    if (one_in(2)) leaf->facet = FaceNumbers::ascending(1);
     if (shape_.known) {
       leaf->opposite = pair_edges(*leaf).opposite;
       leaf->convex = is_convex(*leaf);

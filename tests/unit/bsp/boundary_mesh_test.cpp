@@ -48,7 +48,7 @@ TEST(BoundaryMesh, MovesByWholeSteps) {
 BoundaryMesh untouched_triangles(std::optional<uint32_t> appearance) {
   auto leaf = std::make_shared<LeafGeometry>(
       *make_leaf({{{0, 0, 0}, {9, 1, 0}, {2, 8, 3}}, {{1, 1, 1}, {5, 5, 5}, {0, -4, 7}}}));
-  leaf->appearance = {3, 4};
+  leaf->appearance = std::vector<uint32_t>{3, 4};
   BoundaryMesh mesh;
   UntouchedPart& part = mesh.parts.emplace_back();
   part.leaf = leaf;

@@ -58,7 +58,9 @@ RandomTree random_boxes(test::Random& random, uint32_t count, int64_t size) {
     }
     auto leaf = std::make_shared<LeafGeometry>(*test::box_leaf(lo, hi));
     // Sides of several kinds, so that labels tell which side of which operand was taken.
-    for (uint32_t f = 0; f < 6; ++f) leaf->surface[f] = static_cast<uint32_t>(random.integer(0, 2));
+    std::vector<uint32_t> kinds(6);
+    for (uint32_t& kind : kinds) kind = static_cast<uint32_t>(random.integer(0, 2));
+    leaf->surface = kinds;
     Operand& operand = tree.operands.emplace_back();
     operand.leaf = leaf;
     operand.first_source = o;
@@ -254,7 +256,7 @@ TEST(EvaluateBoxes, IsForBoxesOnly) {
   auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(halved));
   EXPECT_TRUE(applies(with_leaf(leaf)));
   leaf = std::make_shared<LeafGeometry>(*leaf);
-  leaf->surface[6] = 1;
+  leaf->surface = std::vector<uint32_t>{0, 0, 0, 0, 0, 0, 1};
   EXPECT_FALSE(applies(with_leaf(leaf)));
   RandomTree other = tree;
   other.operands[2].frame.is_identity = false;

@@ -41,7 +41,6 @@ std::shared_ptr<const LeafGeometry> bumpy_sphere(int n, double radius, double ph
     leaf->corners.insert(leaf->corners.end(),
                          {vertex(a), vertex(turned ? c : b), vertex(turned ? b : c)});
     leaf->face_starts.push_back(static_cast<uint32_t>(leaf->corners.size()));
-    leaf->facet.push_back(static_cast<uint32_t>(leaf->face_count()));
   };
   for (const int sx : {-1, 1}) {
     for (const int sy : {-1, 1}) {
@@ -59,8 +58,7 @@ std::shared_ptr<const LeafGeometry> bumpy_sphere(int n, double radius, double ph
       }
     }
   }
-  leaf->surface.assign(leaf->face_count(), 0);
-  leaf->appearance.assign(leaf->face_count(), 0);
+  leaf->facet = FaceNumbers::ascending(1);
   leaf->opposite = pair_edges(*leaf).opposite;
   leaf->may_touch = false;
   return leaf;

@@ -111,8 +111,12 @@ std::shared_ptr<LeafGeometry> any_leaf(test::Random& random) {
   }
   auto leaf = leaf_of(loops, true);
   // A few facets of several faces.
-  for (size_t f = 1; kind == 3 && f < leaf->face_count(); ++f) {
-    if (random.integer(0, 20) == 0) leaf->facet[f] = leaf->facet[f - 1];
+  if (kind == 3) {
+    std::vector<uint32_t> facets = leaf->facet.list(leaf->face_count());
+    for (size_t f = 1; f < facets.size(); ++f) {
+      if (random.integer(0, 20) == 0) facets[f] = facets[f - 1];
+    }
+    leaf->facet = facets;
   }
   return leaf;
 }
@@ -341,10 +345,12 @@ TEST(UntouchedFaces, AreNoneOfOtherOperands) {
   EXPECT_EQ(changed([](LeafGeometry&) {}), good->face_count());
   EXPECT_EQ(changed([](LeafGeometry& leaf) { leaf.may_touch = true; }), 0u);
   EXPECT_EQ(changed([](LeafGeometry& leaf) { leaf.opposite.clear(); }), 0u);
-  EXPECT_EQ(changed([](LeafGeometry& leaf) { std::swap(leaf.facet[4], leaf.facet[9]); }), 0u);
+  std::vector<uint32_t> mixed = good->facet.list(good->face_count());
+  std::swap(mixed[4], mixed[9]);
+  EXPECT_EQ(changed([&](LeafGeometry& leaf) { leaf.facet = mixed; }), 0u);
   // Bent, without facets: none is level with another, but they are not known to be convex.
   const auto no_facets = [](LeafGeometry& leaf) {
-    std::fill(leaf.facet.begin(), leaf.facet.end(), 0u);
+    leaf.facet = FaceNumbers();
     for (size_t v = 0; v < leaf.vertices.size(); ++v) {
       IVec3& p = leaf.vertices[v];
       p[0] = 1000 * p[0] - p[1] * p[1] - p[2] * p[2];

@@ -356,9 +356,9 @@ TEST(PrepareLeaf, FacesTooManyOrTurnedAreFoundWhereverTheyStand) {
 
 TEST(PrepareLeaf, FacetsOfImportsAreKeptApart) {
   auto mesh = box_mesh({0, 0, 0}, {100, 100, 100});
-  EXPECT_EQ(prepare(mesh).geometry->facet, std::vector<uint32_t>(6, 0));
+  EXPECT_EQ(prepare(mesh).geometry->facet.list(6), std::vector<uint32_t>(6, 0));
   mesh.keep_facets = true;
-  EXPECT_EQ(prepare(mesh).geometry->facet, (std::vector<uint32_t>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(prepare(mesh).geometry->facet.list(6), (std::vector<uint32_t>{1, 2, 3, 4, 5, 6}));
 }
 
 TEST(PrepareLeaf, RandomPointsOnCoarseGridsStayClosed) {

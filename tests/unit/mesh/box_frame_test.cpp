@@ -29,8 +29,6 @@ LeafGeometry plate(int count, const std::array<IVec3, 3>& map, const IVec3& move
   const auto face = [&](uint32_t a, uint32_t b, uint32_t c) {
     leaf.corners.insert(leaf.corners.end(), {a, b, c});
     leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()));
-    leaf.facet.push_back(0);
-    leaf.appearance.push_back(0);
   };
   const auto n = static_cast<uint32_t>(count);
   const auto both = [&](uint32_t a, uint32_t b, uint32_t c) {
@@ -128,8 +126,6 @@ LeafGeometry together(LeafGeometry a, const LeafGeometry& b) {
   for (size_t f = 1; f < b.face_starts.size(); ++f) {
     a.face_starts.push_back(first + b.face_starts[f]);
   }
-  a.facet.insert(a.facet.end(), b.facet.begin(), b.facet.end());
-  a.appearance.insert(a.appearance.end(), b.appearance.begin(), b.appearance.end());
   return a;
 }
 

@@ -18,9 +18,6 @@ std::shared_ptr<LeafGeometry> prism(const std::vector<std::array<int, 2>>& outli
   const auto add = [&](const std::vector<uint32_t>& face) {
     leaf->corners.insert(leaf->corners.end(), face.begin(), face.end());
     leaf->face_starts.push_back(static_cast<uint32_t>(leaf->corners.size()));
-    leaf->facet.push_back(0);
-    leaf->surface.push_back(0);
-    leaf->appearance.push_back(0);
   };
   std::vector<uint32_t> top, bottom;
   for (uint32_t i = 0; i < n; ++i) top.push_back(n + i), bottom.push_back(n - 1 - i);

@@ -223,8 +223,13 @@ TEST(Untouched, RandomTreesOfBumpySurfaces) {
     const auto once = leaf_of_triangles(bumpy_torus(random, origin, kSize));
     const auto twice = leaf_of_triangles(bumpy_torus(random, origin, kSize) +
                                          bumpy_torus(random, {0, 0, kSize}, kSize));
-    for (uint32_t& a : once->appearance) a = static_cast<uint32_t>(random.integer(0, 2));
-    for (uint32_t& s : twice->surface) s = static_cast<uint32_t>(random.integer(0, 2));
+    const auto numbers = [&](size_t count) {
+      std::vector<uint32_t> list(count);
+      for (uint32_t& n : list) n = static_cast<uint32_t>(random.integer(0, 2));
+      return list;
+    };
+    once->appearance = numbers(once->face_count());
+    twice->surface = numbers(twice->face_count());
     std::vector<Operand> operands;
     for (int i = 0; i < 4; ++i) {
       const auto move = [&] { return random.integer(-kSize, kSize); };
@@ -412,19 +417,22 @@ TEST(Untouched, WhatCannotBeNamed) {
   };
   EXPECT_EQ(changed([](LeafGeometry& l) { l.may_touch = true; }), 0u);
   EXPECT_EQ(changed([](LeafGeometry& l) { l.opposite.clear(); }), 0u);
-  EXPECT_EQ(changed([](LeafGeometry& l) { std::fill(l.facet.begin(), l.facet.end(), 0u); }), 0u);
+  EXPECT_EQ(changed([](LeafGeometry& l) { l.facet = FaceNumbers(); }), 0u);
   EXPECT_EQ(changed([](LeafGeometry& l) {
-              std::fill(l.facet.begin(), l.facet.end(), 0u);
+              l.facet = FaceNumbers();
               l.convex = true;
             }),
             0u);
   // Two triangles that are one facet; they lie in one plane. Nor are those at its corners named.
-  const size_t others = changed([](LeafGeometry& l) { l.facet[1] = l.facet[0]; });
+  std::vector<uint32_t> facets = plain->facet.list(plain->face_count());
+  facets[1] = facets[0];
+  const size_t others = changed([&](LeafGeometry& l) { l.facet = facets; });
   EXPECT_LT(others, plain->face_count() - 2);
   EXPECT_GT(others, plain->face_count() - 30);
   // Several in a row: the facet runs straight past corners of its neighbours.
   auto row = std::make_shared<LeafGeometry>(*plain);
-  std::fill(row->facet.begin(), row->facet.begin() + 8, row->facet[0]);
+  std::fill(facets.begin(), facets.begin() + 8, facets[0]);
+  row->facet = facets;
   const Pair straight = evaluate_both(leaf(0), {operand_of(row)});
   EXPECT_GT(named(*straight.naming), plain->face_count() / 2);
   expect_one_value(straight, "a row of triangles");
