@@ -49,14 +49,17 @@ bool PatchFates::find(std::span<const uint8_t> plainly_covered) {
 /// around it, are inside the same operands, as no other surface passes there.
 void PatchFates::join_patches() {
   patches_.reset(job_.vertex_count());
+  vertex_of_polygon_.resize(job_.polygons().size());
   CountingOrder cut;
   cut.sort(cut_.faces.size(), job_.operand_count(),
            [&](size_t f) { return job_.polygons()[cut_.faces[f].polygon].operand; });
   // Operands have no vertices in common.
   for_each_alone(job_.operand_count(), job_.polygons().size() > kFewForThreads, [&](size_t o) {
     for (uint32_t p = job_.polygon_start(o); p < job_.polygon_start(o + 1); ++p) {
-      if (is_cut_[p]) continue;
-      uint32_t patch = patches_.find(untouched_corner(job_, contacts_, p));
+      uint32_t& vertex = vertex_of_polygon_[p];
+      vertex = is_cut_[p] ? kNone : untouched_corner(job_, contacts_, p);
+      if (vertex == kNone) continue;
+      uint32_t patch = patches_.find(vertex);
       for (const uint32_t v : job_.corners(job_.polygons()[p])) {
         if (!contacts_.touched()[v]) patch = patches_.join_with(patch, v);
       }
@@ -113,8 +116,7 @@ void PatchFates::add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind,
     const uint32_t third = c.p == polygon ? c.q : c.p;
     if (third != other && job_.polygons()[third].operand == operand) return;
   }
-  facts.add(patches_.root(untouched_corner(job_, contacts_, polygon)),
-            {operand, is_behind, is_behind});
+  facts.add(patches_.root(vertex_of_polygon_[polygon]), {operand, is_behind, is_behind});
 }
 
 /// Patches that hold a corner of a polygon that is seen to be boundary of nothing, as they are.
@@ -149,22 +151,17 @@ void PatchFates::ask_about_loops() {
 
 /// Asks about the patches of polygons that were not cut.
 void PatchFates::ask_about_whole() {
-  const size_t count = job_.polygons().size();
-  patch_of_polygon_.resize(count);
   const auto list = [&](size_t begin, size_t end, std::vector<uint32_t>& unasked) {
     uint32_t last = kNone;
     for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
-      const uint32_t patch =
-          is_cut_[p] ? kNone : patches_.root(untouched_corner(job_, contacts_, p));
-      patch_of_polygon_[p] = patch;
-      if (patch == kNone || patch == last || patch_fates_[patch] != kUnasked) {
-        continue;
-      }
+      if (vertex_of_polygon_[p] == kNone) continue;
+      const uint32_t patch = patches_.root(vertex_of_polygon_[p]);
+      if (patch == last || patch_fates_[patch] != kUnasked) continue;
       last = patch;
       unasked.push_back(last);
     }
   };
-  for (const uint32_t patch : list_in_parts<uint32_t>(count, kFewForThreads, list)) {
+  for (const uint32_t patch : list_in_parts<uint32_t>(vertex_of_polygon_.size(), kFewForThreads, list)) {
     ask(patch, job_.operand_of_vertex(patch));
   }
 }

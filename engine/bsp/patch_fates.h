@@ -37,8 +37,9 @@ class PatchFates {
   [[nodiscard]] PatchFate of_loop(uint32_t loop) const { return fate_of_loop_[loop]; }
   /// That of a polygon that was not cut; kDrop for the others.
   [[nodiscard]] PatchFate of_polygon(uint32_t polygon) const {
-    const uint32_t patch = patch_of_polygon_[polygon];
-    return patch == kNone ? PatchFate::kDrop : static_cast<PatchFate>(patch_fates_[patch]);
+    const uint32_t vertex = vertex_of_polygon_[polygon];
+    return vertex == kNone ? PatchFate::kDrop
+                           : static_cast<PatchFate>(patch_fates_[patches_.root(vertex)]);
   }
   /// From now on nothing is left of the loops of a polygon.
   void drop_loops(const CutFaces::Face& cut) {
@@ -79,8 +80,8 @@ class PatchFates {
   PatchLabels labels_;
   UnionFind patches_;  ///< of vertices
   PatchFacts facts_;
-  std::vector<uint8_t> patch_fates_;      ///< per vertex that stands for a patch: a PatchFate
-  RawVector<uint32_t> patch_of_polygon_;  ///< kNone: it was cut
+  RawVector<uint32_t> vertex_of_polygon_;  ///< an untouched one; kNone: it was cut
+  std::vector<uint8_t> patch_fates_;       ///< per vertex that stands for a patch: a PatchFate
   std::vector<PatchFate> fate_of_loop_;
   std::vector<Question> questions_;
 };

@@ -125,8 +125,8 @@ void renumber(LeafGeometry& leaf) {
 std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
                                              const std::vector<IVec3>& points, bool turn,
                                              const FaceNumbers& appearance) {
-  if (mesh.loop_count() != mesh.face_count() || !is_compact(box_of_points(points)))
-    return std::nullopt;
+  const GridBox box = box_of_points(points);
+  if (mesh.loop_count() != mesh.face_count() || !is_compact(box)) return std::nullopt;
   std::optional<ConvexFaces> result(std::in_place);
   LeafGeometry& leaf = result->leaf;
   const size_t faces = mesh.face_count();
@@ -167,7 +167,7 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
   leaf.vertices = number.take_vertices();
   if (!dropped.empty()) renumber(leaf);
   result->merged = !dropped.empty() || number.merges(mesh.corners);
-  result->box = box_of_points(leaf.vertices);
+  result->box = leaf.vertices.size() == points.size() ? box : box_of_points(leaf.vertices);
   return result;
 }
 

@@ -170,7 +170,7 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
   leaf->opposite = std::move(pairing.opposite);
   // Rounding can close a gap that is narrower than a step, whatever was promised of the original
   // mesh; convexity is seen from the faces themselves.
-  leaf->has_single_fans = is_convex_surface(*leaf);
+  leaf->has_single_fans = is_convex_surface(*leaf, box);
   leaf->convex = leaf->has_single_fans || (promised_convex && is_locally_convex(*leaf));
   result.status = PreparedLeaf::Status::kGood;
   if (!leaf->convex) {

@@ -60,9 +60,9 @@ bool is_connected(const LeafGeometry& leaf) {
 
 }  // namespace
 
-bool is_convex_surface(const LeafGeometry& leaf) {
+bool is_convex_surface(const LeafGeometry& leaf, const GridBox& box) {
   if (leaf.opposite.empty() || !consists_of_triangles(leaf)) return false;
-  if (!is_compact(box_of_points(leaf.vertices)) || has_neighbour_in_front(leaf)) return false;
+  if (!is_compact(box) || has_neighbour_in_front(leaf)) return false;
   const std::vector<uint8_t> is_spread = find_spread_vertices(leaf);
   return std::all_of(is_spread.begin(), is_spread.end(), [](uint8_t s) { return s != 0; }) &&
          is_connected(leaf);

@@ -12,8 +12,8 @@ namespace csgrun {
 /// might wind around itself, as the great icosahedron does. False for leaves that are not of
 /// triangles, and where a vertex was not seen to be spread.
 ///
-/// REQUIRES: opposite edges, or none known (then false); no degenerate face. O(n); where it is not
-/// convex it mostly ends after a few faces.
-bool is_convex_surface(const LeafGeometry& leaf);
+/// `box` is that of the vertices. REQUIRES: opposite edges, or none known (then false); no
+/// degenerate face. O(n); where it is not convex it mostly ends after a few faces.
+bool is_convex_surface(const LeafGeometry& leaf, const GridBox& box);
 
 }  // namespace csgrun

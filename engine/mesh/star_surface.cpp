@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "engine/base/parallel.h"
@@ -35,7 +34,7 @@ class Star {
   /// Moves the centre until it is behind all faces. False if it was not found.
   bool find_centre() {
     const size_t count = leaf_.face_count(), step = count / kSample + 1;
-    for (size_t look = 0; look < kMostLooks; ++look) {
+    for (size_t looks = 0; looks < kMostLooks; ++looks) {
       size_t behind = 0;  // so many faces of the sample, the last ones that were looked at
       for (size_t f = 0; behind * step < count; f = f + step < count ? f + step : 0) {
         if (has_behind(f)) {
@@ -45,24 +44,19 @@ class Star {
         if (!reflect(f)) return false;
         behind = 0;
       }
-      const std::optional<size_t> face = face_without();
-      if (!face) return true;
-      if (!reflect(*face)) return false;
+      const Look all = look_at_all();
+      if (all.face_without == count) {
+        ray_crossings_ = all.ray_crossings;
+        return true;
+      }
+      if (!reflect(all.face_without)) return false;
     }
     return false;
   }
 
-  /// How many faces a ray from the centre, which is behind all, crosses; through an edge it crosses
-  /// one of its faces.
-  [[nodiscard]] size_t ray_crossings() const {
-    std::vector<size_t> crossings(part_count(leaf_.face_count(), kFacesPerPart), 0);
-    for_each_part(leaf_.face_count(), kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
-      for (size_t f = begin; f < end; ++f) crossings[part] += is_crossed(f) ? 1 : 0;
-    });
-    size_t sum = 0;
-    for (const size_t some : crossings) sum += some;
-    return sum;
-  }
+  /// How many faces a ray from the centre that was found crosses; through an edge it crosses one of
+  /// its faces.
+  [[nodiscard]] size_t ray_crossings() const { return ray_crossings_; }
 
  private:
   static int64_t odd(double x) { return 2 * static_cast<int64_t>(std::floor(x / 2)) + 1; }
@@ -107,17 +101,30 @@ class Star {
     return true;
   }
 
-  /// The first face that does not have the centre behind it.
-  [[nodiscard]] std::optional<size_t> face_without() const {
+  struct Look {
+    size_t face_without;   ///< the first face that does not have the centre behind it, or the count
+    size_t ray_crossings;  ///< if there is no such face
+  };
+  [[nodiscard]] Look look_at_all() const {
     const size_t count = leaf_.face_count();
-    std::vector<size_t> first(part_count(count, kFacesPerPart), count);
+    std::vector<Look> parts(part_count(count, kFacesPerPart));
     for_each_part(count, kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
-      size_t f = begin;
-      while (f < end && has_behind(f)) ++f;
-      if (f < end) first[part] = f;
+      Look own{count, 0};
+      for (size_t f = begin; f < end; ++f) {
+        if (!has_behind(f)) {
+          own.face_without = f;
+          break;
+        }
+        own.ray_crossings += is_crossed(f) ? 1 : 0;
+      }
+      parts[part] = own;
     });
-    const size_t face = *std::min_element(first.begin(), first.end());
-    return face < count ? std::optional(face) : std::nullopt;
+    Look all{count, 0};
+    for (const Look& own : parts) {
+      all.face_without = std::min(all.face_without, own.face_without);
+      all.ray_crossings += own.ray_crossings;
+    }
+    return all;
   }
 
   /// Whether the ray from the centre along the first axis crosses a face. As the centre is behind
@@ -142,7 +149,7 @@ class Star {
   IVec3 origin_, lo_{}, hi_{};  ///< a vertex; from there the box
   /// From the origin in halves of steps; odd: a line through it along an axis misses all vertices.
   IVec3 centre_{};
-  size_t reflections_ = 0;
+  size_t reflections_ = 0, ray_crossings_ = 0;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "engine/mesh/boundary_volume.h"
 #include "engine/mesh/convex_surface.h"
+#include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
@@ -115,7 +116,7 @@ std::shared_ptr<LeafGeometry> ball(int64_t radius, int n) {
   auto leaf = std::make_shared<LeafGeometry>(*make_leaf(loops, false, 1));
   leaf->opposite = pair_edges(*leaf).opposite;
   leaf->may_touch = false;
-  leaf->convex = is_convex_surface(*leaf);
+  leaf->convex = is_convex_surface(*leaf, box_of_points(leaf->vertices));
   EXPECT_TRUE(leaf->convex);
   return leaf;
 }
