@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/counting_order.h"
 #include "engine/bsp/crossing_points.h"
 #include "engine/bsp/find_contacts.h"
 
@@ -16,25 +17,20 @@ class ContactTable {
  public:
   ContactTable() = default;
   ContactTable(Contacts found, size_t polygon_count)
-      : contacts_(std::move(found.contacts)),
-        touched_(std::move(found.touched)),
-        starts_(polygon_count + 1, 0),
-        numbers_(2 * contacts_.size()) {
-    for (const Contact& c : contacts_) ++starts_[c.p + 1], ++starts_[c.q + 1];
-    for (size_t p = 0; p < polygon_count; ++p) starts_[p + 1] += starts_[p];
-    std::vector<uint32_t> next = starts_;
-    for (uint32_t i = 0; i < contacts_.size(); ++i) {
-      numbers_[next[contacts_[i].p]++] = i;
-      numbers_[next[contacts_[i].q]++] = i;
-    }
+      : contacts_(std::move(found.contacts)), touched_(std::move(found.touched)) {
+    by_polygon_.sort(2 * contacts_.size(), polygon_count, [&](size_t side) {
+      const Contact& c = contacts_[side / 2];
+      return side % 2 == 0 ? c.p : c.q;
+    });
+    for (uint32_t& side : by_polygon_.order) side /= 2;
   }
 
   [[nodiscard]] const RawVector<Contact>& all() const { return contacts_; }
   [[nodiscard]] const Contact& operator[](uint32_t contact) const { return contacts_[contact]; }
-  [[nodiscard]] size_t polygon_count() const { return starts_.size() - 1; }
   /// The numbers of a polygon's contacts.
   [[nodiscard]] std::span<const uint32_t> of(uint32_t polygon) const {
-    return {numbers_.data() + starts_[polygon], starts_[polygon + 1] - starts_[polygon]};
+    const std::vector<uint32_t>& starts = by_polygon_.starts;
+    return {by_polygon_.order.data() + starts[polygon], starts[polygon + 1] - starts[polygon]};
   }
   /// Per vertex of the job, whether it may be on another operand's surface.
   [[nodiscard]] const std::vector<uint8_t>& touched() const { return touched_; }
@@ -42,7 +38,7 @@ class ContactTable {
  private:
   RawVector<Contact> contacts_;
   std::vector<uint8_t> touched_;
-  std::vector<uint32_t> starts_{0}, numbers_;
+  CountingOrder by_polygon_;  ///< of the contacts' sides, two each
 };
 
 /// Names for the ends of contacts, as they are asked for.

@@ -211,10 +211,13 @@ class Presenter {
       starts[part].own = std::min(starts[part].own, starts[part + 1].own);
     }
     const size_t all = fans_.point_of_vertex.size() + untouched;
-    solid.positions.resize(all);
-    solid.positions_f32.resize(all);
-    solid.point_of.resize(all);
-    solid.on_grid.assign(all, 1);
+    run_both(
+        all > kFewForThreads, [&] { solid.positions.resize(all); },
+        [&] {
+          solid.positions_f32.resize(all);
+          solid.point_of.resize(all);
+          solid.on_grid.assign(all, 1);
+        });
     first_vertex_.resize(points);
     number_of_own_.resize(fans_.point_of_vertex.size());
     for_each_part(points, each, [&](size_t part, size_t begin, size_t end) {
@@ -342,12 +345,19 @@ class Presenter {
     });
     for (size_t part = 0; part < parts; ++part) own_before[part + 1] += own_before[part];
     const size_t others = count - own_count, triangles = own[own_count].triangle + others;
-    solid.triangles.resize(triangles);
-    solid.triangle_face.resize(triangles);
-    solid.faces.resize(count);
-    solid.face_normals.resize(count);
-    solid.loop_starts.resize(own[own_count].loop + others + 1);
-    solid.loop_vertices.resize(own[own_count].corner + 3 * others);
+    // Fresh memory takes time, about as much in either half.
+    run_both(
+        count > kFewForThreads,
+        [&] {
+          solid.triangles.resize(triangles);
+          solid.triangle_face.resize(triangles);
+          solid.faces.resize(count);
+        },
+        [&] {
+          solid.face_normals.resize(count);
+          solid.loop_starts.resize(own[own_count].loop + others + 1);
+          solid.loop_vertices.resize(own[own_count].corner + 3 * others);
+        });
     for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
       uint32_t next_own = own_before[part];
       EdgeCorners edges;
