@@ -118,6 +118,11 @@ Result<EvaluatedJob> evaluate_job(Job& job, const std::vector<Operand>& operands
     if (!evaluated) return evaluated.error();
     faces = std::move(*evaluated);
   }
+  if (job.near_faces() && faces.any_general) {
+    EvaluatedJob none;
+    none.needs_all_faces = true;
+    return none;
+  }
   Octree tree;
   if (!is_fast || faces.any_general) {
     tree = build_octree(job, expression, region, options, is_fast ? &faces.general : nullptr);
@@ -180,6 +185,7 @@ Result<EvaluatedJob> evaluate_job(Job& job, const std::vector<Operand>& operands
   sets.push_back(std::move(faces.cut));
   result.sets = std::move(sets);
   result.whole = std::move(faces.whole);
+  result.far = std::move(faces.far);
   result.whole.insert(result.whole.end(), work.whole.begin(), work.whole.end());
   return result;
 }

@@ -9,13 +9,17 @@
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/fragment_set.h"
 #include "engine/bsp/job.h"
+#include "engine/bsp/patch_labels.h"
 
 namespace csgrun {
 
 struct EvaluatedJob {
   std::vector<FragmentSet> sets;
   std::vector<WholePolygon> whole;
+  std::vector<std::vector<PatchFate>> far;  ///< see WholeFaces::far
   Touching touching;
+  /// Nothing was evaluated, as the job does not have all faces, and must.
+  bool needs_all_faces = false;
 };
 
 /// Evaluates `expression` over a job of `operands`, none of them in pieces, as evaluate_boolean

@@ -42,6 +42,8 @@ class FaceNumbers {
   }
   /// Whether none is less than that of the face before. O(n).
   [[nodiscard]] bool ascend() const { return std::is_sorted(each_.begin(), each_.end()); }
+  /// Whether each face has the number of the one before and one. False where they are listed.
+  [[nodiscard]] bool count_up() const { return each_.empty() && step_ == 1; }
   /// Those of the first `count` faces.
   [[nodiscard]] std::vector<uint32_t> list(size_t count) const {
     std::vector<uint32_t> numbers(count);

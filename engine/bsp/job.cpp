@@ -55,7 +55,15 @@ PolygonBox rounded_outwards(const PieceBox& box) {
 }
 
 Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_boxes)
+    : Job(operands, planes, with_boxes, nullptr) {}
+
+Job::Job(const std::vector<Operand>& operands, const NearFaces& near)
+    : Job(operands, nullptr, true, &near) {}
+
+Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_boxes,
+         const NearFaces* near)
     : operands_(&operands),
+      near_(near),
       with_boxes_(with_boxes),
       planes_(planes ? *planes : own_planes_.emplace()) {
   sources_.resize(operands.size());
@@ -83,11 +91,11 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_box
   }
   while (!is_good_prime(prime_)) prime_ += 2;
   size_t vertices = 0, polygons = 0, corners = 0;
-  for (const Operand& operand : operands) {
-    if (!operand.leaf) continue;
-    vertices += operand.leaf->vertices.size();
-    polygons += operand.leaf->face_count();
-    corners += operand.leaf->corners.size();
+  for (size_t o = 0; o < operands.size(); ++o) {
+    if (!operands[o].leaf) continue;
+    vertices += operands[o].leaf->vertices.size();
+    polygons += face_count(o);
+    corners += near_ ? 3 * face_count(o) : operands[o].leaf->corners.size();
   }
   rounded_.reserve(vertices);
   polygons_.reserve(polygons);
@@ -100,7 +108,7 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_box
     sources_[o].first_vertex = static_cast<uint32_t>(rounded_.size());
     if (operands[o].leaf) {
       leaf_corner_starts_[o] = static_cast<uint32_t>(corners_.size());
-      make_room(*operands[o].leaf);
+      make_room(o);
     } else if (operands[o].boundary) {
       add_boundary(o, operands[o]);
       for (size_t p = polygon_starts_.back(); p < boxes_.size(); ++p) {
@@ -152,18 +160,24 @@ void Job::move_walls() {
   while (!is_good_prime(prime_));
 }
 
+/// How many polygons the job has of a leaf.
+size_t Job::face_count(size_t o) const {
+  return near_ ? near_->faces[o].size() : (*operands_)[o].leaf->face_count();
+}
+
 /// For what add_leaf sets.
-void Job::make_room(const LeafGeometry& leaf) {
+void Job::make_room(size_t o) {
+  const LeafGeometry& leaf = *(*operands_)[o].leaf;
   rounded_.resize(rounded_.size() + leaf.vertices.size());
-  polygons_.resize(polygons_.size() + leaf.face_count());
-  if (with_boxes_) boxes_.resize(boxes_.size() + leaf.face_count());
-  corners_.resize(corners_.size() + leaf.corners.size());
-  edge_planes_.resize(edge_planes_.size() + leaf.corners.size());
+  polygons_.resize(polygons_.size() + face_count(o));
+  if (with_boxes_) boxes_.resize(boxes_.size() + face_count(o));
+  corners_.resize(corners_.size() + (near_ ? 3 * face_count(o) : leaf.corners.size()));
+  edge_planes_.resize(corners_.size());
 }
 
 void Job::add_leaf(uint32_t o, const Operand& operand) {
   const LeafGeometry& leaf = *operand.leaf;
-  const uint32_t first_vertex = sources_[o].first_vertex, first_polygon = polygon_starts_[o];
+  const uint32_t first_vertex = sources_[o].first_vertex;
   const bool on_grid = operand.frame.is_identity;
   for_each_range(leaf.vertices.size(), [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
@@ -176,6 +190,17 @@ void Job::add_leaf(uint32_t o, const Operand& operand) {
       for (size_t k = 0; k < 3; ++k) at[k] = static_cast<double>(q[k] + operand.translation[k]);
     }
   });
+  if (near_) {
+    add_near_faces(o, leaf);
+  } else {
+    add_all_faces(o, operand);
+  }
+}
+
+void Job::add_all_faces(uint32_t o, const Operand& operand) {
+  const LeafGeometry& leaf = *operand.leaf;
+  const uint32_t first_vertex = sources_[o].first_vertex, first_polygon = polygon_starts_[o];
+  const bool on_grid = operand.frame.is_identity;
   const uint32_t first_corner = leaf_corner_starts_[o];
   std::vector<PolygonBox> boxes(part_count(leaf.face_count(), kFewForThreads), PolygonBox::none());
   for_each_part(leaf.face_count(), kFewForThreads, [&](size_t part, size_t begin, size_t end) {
@@ -198,6 +223,25 @@ void Job::add_leaf(uint32_t o, const Operand& operand) {
   });
   if (!with_boxes_) return;
   for (const PolygonBox& box : boxes) operand_boxes_[o].include(box);
+}
+
+/// Triangles on the grid.
+void Job::add_near_faces(uint32_t o, const LeafGeometry& leaf) {
+  const uint32_t first_vertex = sources_[o].first_vertex, first_polygon = polygon_starts_[o],
+                 first_corner = leaf_corner_starts_[o];
+  const std::vector<uint32_t>& faces = near_->faces[o];
+  for_each_range(faces.size(), [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const auto first = static_cast<uint32_t>(first_corner + 3 * i);
+      for (uint32_t c = 0; c < 3; ++c) {
+        corners_[first + c] = first_vertex + leaf.corners[3 * faces[i] + c];
+        edge_planes_[first + c] = kNone;
+      }
+      polygons_[first_polygon + i] = {o, faces[i], first, 3, PlaneId()};
+      boxes_[first_polygon + i] = grid_box_of(polygons_[first_polygon + i]);
+    }
+  });
+  operand_boxes_[o] = near_->boxes[o];
 }
 
 void Job::add_boundary(uint32_t o, const Operand& operand) {

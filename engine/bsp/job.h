@@ -12,47 +12,14 @@
 #include "engine/base/raw_vector.h"
 #include "engine/bsp/boundary_mesh.h"
 #include "engine/bsp/frame_map.h"
+#include "engine/bsp/near_faces.h"
 #include "engine/bsp/operand.h"
+#include "engine/bsp/polygon_box.h"
 #include "engine/exact/plane.h"
 #include "engine/exact/point.h"
 
 namespace csgrun {
 
-/// Small box for culling: outward rounded grid coordinates, clamped to +-2^30.
-struct PolygonBox {
-  std::array<int32_t, 3> lo, hi;
-
-  /// One that holds nothing.
-  static PolygonBox none() {
-    constexpr int32_t lo = std::numeric_limits<int32_t>::min(),
-                      hi = std::numeric_limits<int32_t>::max();
-    return {{hi, hi, hi}, {lo, lo, lo}};
-  }
-  void include(const PolygonBox& o) {
-    for (size_t k = 0; k < 3; ++k) {
-      lo[k] = std::min(lo[k], o.lo[k]);
-      hi[k] = std::max(hi[k], o.hi[k]);
-    }
-  }
-  /// Leaves what another one has, too.
-  void clip(const PolygonBox& o) {
-    for (size_t k = 0; k < 3; ++k) {
-      lo[k] = std::max(lo[k], o.lo[k]);
-      hi[k] = std::min(hi[k], o.hi[k]);
-    }
-  }
-  [[nodiscard]] bool meets(const PolygonBox& o) const {
-    bool all = true;
-    for (size_t k = 0; k < 3; ++k) all &= o.lo[k] <= hi[k] && o.hi[k] >= lo[k];
-    return all;
-  }
-  [[nodiscard]] bool holds(const PolygonBox& o) const {
-    bool all = true;
-    for (size_t k = 0; k < 3; ++k) all &= lo[k] <= o.lo[k] && o.hi[k] <= hi[k];
-    return all;
-  }
-  [[nodiscard]] bool is_empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
-};
 /// An edge of a polygon of a job, by its first corner.
 struct PolygonEdge {
   uint32_t polygon, edge;
@@ -88,6 +55,9 @@ class Job {
   /// Without boxes there are no boxes() and no operand_box().
   explicit Job(const std::vector<Operand>& operands, PlaneTable* planes = nullptr,
                bool with_boxes = true);
+  /// Only these faces of the operands, which are leaves, are polygons of the job; it has all their
+  /// vertices, and operand_box() is of all faces. `near` must outlive it.
+  Job(const std::vector<Operand>& operands, const NearFaces& near);
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
@@ -101,6 +71,8 @@ class Job {
   /// The piece of the version that it comes from: that one, or the region that it is a part of.
   [[nodiscard]] uint32_t version_piece(uint32_t polygon) const;
   [[nodiscard]] uint32_t piece_point(uint32_t vertex) const;
+  /// The faces that the job has of its operands, if it does not have all.
+  [[nodiscard]] const NearFaces* near_faces() const { return near_; }
   [[nodiscard]] size_t operand_count() const { return operands_->size(); }
   [[nodiscard]] uint32_t operand_of_vertex(uint32_t vertex) const;
   /// Whether the vertices that the job has of an operand are grid points, so that their doubles are
@@ -110,7 +82,7 @@ class Job {
   }
   [[nodiscard]] const RawVector<JobPolygon>& polygons() const { return polygons_; }
   [[nodiscard]] const RawVector<PolygonBox>& boxes() const { return boxes_; }
-  /// That of all polygons of an operand; empty (lo > hi) if it has none.
+  /// That of all faces of an operand; empty (lo > hi) if it has none.
   [[nodiscard]] const PolygonBox& operand_box(size_t o) const { return operand_boxes_[o]; }
   /// Polygons of operand o are [polygon_start(o), polygon_start(o + 1)).
   [[nodiscard]] uint32_t polygon_start(size_t o) const { return polygon_starts_[o]; }
@@ -182,8 +154,13 @@ class Job {
     FrameMap map;  ///< one that mirrors turns loops round
   };
 
-  void make_room(const LeafGeometry& leaf);
+  Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_boxes,
+      const NearFaces* near);
+  [[nodiscard]] size_t face_count(size_t o) const;
+  void make_room(size_t o);
   void add_leaf(uint32_t o, const Operand& operand);
+  void add_all_faces(uint32_t o, const Operand& operand);
+  void add_near_faces(uint32_t o, const LeafGeometry& leaf);
   void add_boundary(uint32_t o, const Operand& operand);
   void add_pieces(uint32_t o, const PieceOperand& operand);
   template <class MayMeet>
@@ -199,6 +176,7 @@ class Job {
   [[nodiscard]] ReducedPlane reduced_edge(uint32_t polygon, uint32_t edge) const;
 
   const std::vector<Operand>* operands_;
+  const NearFaces* const near_;
   const bool with_boxes_;
   std::optional<PlaneTable> own_planes_;
   PlaneTable& planes_;

@@ -296,7 +296,10 @@ PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,
                           const KernelOptions& options) {
   constexpr size_t kEach = 64;
   const uint32_t limit = std::max<uint32_t>(1, options.cell_limit);
-  const PairCells coarse = find_coarse_cells(job, covered, limit);
+  const NearFaces* const near = job.near_faces();
+  PairCells found;
+  if (!near) found = find_coarse_cells(job, covered, limit);
+  const PairCells& coarse = near ? *near->cells : found;
   std::vector<PairCells> parts(part_count(coarse.cells.size(), kEach));
   for_each_part(coarse.cells.size(), kEach, [&](size_t part, size_t begin, size_t end) {
     parts[part] = CellFinder(job, covered, limit, options.cancel).run(coarse, begin, end);

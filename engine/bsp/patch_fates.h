@@ -34,6 +34,10 @@ class PatchFates {
   /// are dropped unasked. False if what bounds a patch contradicts itself. Parallel.
   [[nodiscard]] bool find(std::span<const uint8_t> plainly_covered);
 
+  /// That of a face of an operand that the job does not have: see Job::near_faces.
+  [[nodiscard]] PatchFate of_far_face(size_t operand, uint32_t face) const {
+    return static_cast<PatchFate>(patch_fates_[patches_.root(vertex_of_far_face(operand, face))]);
+  }
   [[nodiscard]] PatchFate of_loop(uint32_t loop) const { return fate_of_loop_[loop]; }
   /// That of a polygon that was not cut; kDrop for the others.
   [[nodiscard]] PatchFate of_polygon(uint32_t polygon) const {
@@ -55,6 +59,7 @@ class PatchFates {
   };
 
   void join_patches();
+  void join_far_faces(size_t operand);
   void join_loops(const CutFaces::Face& face);
   bool gather_facts();
   void add_rim_facts(const Contact& c, PatchFacts& facts) const;
@@ -62,6 +67,10 @@ class PatchFates {
   void drop_covered(std::span<const uint8_t> plainly_covered);
   void ask_about_loops();
   void ask_about_whole();
+  void ask_about_far_faces();
+  [[nodiscard]] uint32_t vertex_of_far_face(size_t operand, uint32_t face) const {
+    return job_.vertex_start(operand) + job_.leaf(operand)->corners[3 * face];
+  }
   void ask(uint32_t patch, uint32_t own);
   void answer();
   void answer(const Question& q, PatchLabels& labels);

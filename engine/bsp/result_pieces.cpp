@@ -235,7 +235,7 @@ Result<std::shared_ptr<const BoundaryMesh>> assemble_pieces(const ResultPieces& 
   }
   for (const uint32_t point : named) number_of[point] = kNone;
   std::vector<UntouchedPart> parts;
-  if (name_untouched) parts = take_untouched(job, operands, whole);
+  if (name_untouched) parts = take_untouched(job, operands, {}, whole);
   return assemble(job, sets, whole, {version.touches_anywhere, version.touches.boxes()},
                   std::move(parts));
 }

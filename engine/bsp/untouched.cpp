@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -115,6 +116,16 @@ class UntouchedFaces {
   std::vector<uint8_t> of_vertex_;
 };
 
+/// The fates of faces that the job does not have, none of which is met.
+std::vector<uint8_t> fates_of(const std::vector<PatchFate>& far) {
+  std::vector<uint8_t> fates(far.size(), kMixed);
+  for (size_t f = 0; f < far.size(); ++f) {
+    if (far[f] == PatchFate::kKeep) fates[f] = kKept;
+    if (far[f] == PatchFate::kFlip) fates[f] = kFlipped;
+  }
+  return fates;
+}
+
 /// Points and planes of a boundary, with its untouched faces, as they would be in a job.
 class Expander {
  public:
@@ -185,6 +196,7 @@ class Expander {
 }  // namespace
 
 std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Operand>& operands,
+                                          const std::vector<std::vector<PatchFate>>& far,
                                           std::vector<WholePolygon>& whole) {
   std::vector<UntouchedPart> parts;
   std::vector<uint8_t> fate(job.polygons().size(), kMixed), taken(job.polygons().size(), 0);
@@ -203,12 +215,18 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
     // Without facets of its own a face must be alone in its plane; that is easily told of convex
     // leaves.
     if (!leaf.keeps_facets() && !leaf.convex) return;
-    const uint32_t start = job.polygon_start(o);
-    const auto begin = fate.begin() + start, end = begin + static_cast<long>(leaf.face_count());
+    const uint32_t start = job.polygon_start(o), end = job.polygon_start(o + 1);
+    std::vector<uint8_t> of_face;
+    if (!far.empty()) {
+      of_face = fates_of(far[o]);
+      for (uint32_t p = start; p < end; ++p) of_face[job.polygons()[p].face] = fate[p];
+    }
+    const std::span<const uint8_t> fates(far.empty() ? fate.data() + start : of_face.data(),
+                                         leaf.face_count());
     bool any[3] = {false, false, false};
-    for (auto f = begin; f != end; ++f) any[*f] = true;
+    for (const uint8_t f : fates) any[f] = true;
     if (!any[kKept] && !any[kFlipped]) return;
-    const UntouchedFaces faces(leaf, fate.data() + start);
+    const UntouchedFaces faces(leaf, fates.data());
     std::vector<uint8_t> of_leaf(leaf.face_count(), 0);
     for (const Fate side : {kKept, kFlipped}) {
       if (!any[side]) continue;
@@ -223,8 +241,7 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
                          {}};
       faces.collect(side, part, of_leaf);
       // The vertices of an operand stand together, in the order of the leaf.
-      const uint32_t first_vertex =
-          job.corners(job.polygons()[start])[0] - leaf.corners[leaf.face_starts[0]];
+      const uint32_t first_vertex = job.vertex_start(o);
       for (UntouchedPart::Shared& s : part.shared) s.point += first_vertex;
       if (part.faces.empty()) continue;
       for (uint32_t v = 0; !map.is_identity() && v < leaf.vertices.size(); ++v) {
@@ -232,7 +249,7 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
       }
       of_operand[o].push_back(std::move(part));
     }
-    std::copy(of_leaf.begin(), of_leaf.end(), taken.begin() + start);
+    for (uint32_t p = start; p < end; ++p) taken[p] = of_leaf[job.polygons()[p].face];
   });
   for (auto& some : of_operand) {
     std::move(some.begin(), some.end(), std::back_inserter(parts));

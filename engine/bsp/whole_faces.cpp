@@ -53,6 +53,7 @@ class FaceEvaluator {
       return Error{ErrorCode::kInternal, "the labels of a patch contradict one another", {}};
     }
     emit();
+    if (job_.near_faces()) emit_far();
     find_touching();
     add_signs(stats_, geometry_.counters);
     return std::move(result_);
@@ -179,6 +180,21 @@ class FaceEvaluator {
     for (size_t part = 0; part < kept.size(); ++part) {
       result_.whole.insert(result_.whole.end(), kept[part].begin(), kept[part].end());
       for (const uint32_t p : left[part]) leave(p);
+    }
+  }
+
+  void emit_far() {
+    result_.far.resize(job_.operand_count());
+    for_each_alone(job_.operand_count(), true, [&](size_t o) {
+      const LeafGeometry& leaf = *job_.leaf(o);
+      std::vector<PatchFate> fates(leaf.face_count(), PatchFate::kDrop);
+      for_each_far_face(leaf, job_.near_faces()->faces[o],
+                        [&](uint32_t f) { fates[f] = fates_->of_far_face(o, f); });
+      result_.far[o] = std::move(fates);
+    });
+    for (const auto& fates : result_.far) {
+      result_.any_general |=
+          std::find(fates.begin(), fates.end(), PatchFate::kUnknown) != fates.end();
     }
   }
 

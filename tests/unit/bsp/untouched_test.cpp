@@ -291,7 +291,7 @@ TEST(UntouchedFaces, AreWhatTheirDefinitionSays) {
       }
     }
     std::vector<WholePolygon> left = whole;
-    const auto parts = take_untouched(job, operands, left);
+    const auto parts = take_untouched(job, operands, {}, left);
     ASSERT_EQ(parts.size(), expected.size()) << round;
     for (size_t i = 0; i < parts.size(); ++i) {
       const Operand& operand = operands[expected[i].source];
@@ -332,7 +332,7 @@ TEST(UntouchedFaces, AreNoneOfOtherOperands) {
     std::vector<WholePolygon> whole;
     for (uint32_t p = 0; p < job.polygons().size(); ++p) whole.push_back({p, false, false});
     size_t faces = 0;
-    for (const UntouchedPart& part : take_untouched(job, operands, whole)) {
+    for (const UntouchedPart& part : take_untouched(job, operands, {}, whole)) {
       faces += part.faces.size();
     }
     return faces;
@@ -370,7 +370,7 @@ TEST(UntouchedFaces, AreNoneOfOtherOperands) {
   const Job job(one);
   const auto last = static_cast<uint32_t>(job.polygons().size() - 1);
   std::vector<WholePolygon> whole{{last, false, false}};
-  const auto parts = take_untouched(job, one, whole);
+  const auto parts = take_untouched(job, one, {}, whole);
   ASSERT_EQ(parts.size(), 1u);
   EXPECT_EQ(parts[0].faces, std::vector<uint32_t>{last});
   EXPECT_EQ(parts[0].shared.size(), 3u);
@@ -398,7 +398,7 @@ TEST(UntouchedFaces, AreNoneAtACornerWithTwoFans) {
     const Job job(operands);
     std::vector<WholePolygon> whole;
     for (uint32_t p = 0; p < 8; ++p) whole.push_back({p, false, false});
-    const auto parts = take_untouched(job, operands, whole);
+    const auto parts = take_untouched(job, operands, {}, whole);
     ASSERT_EQ(parts.size(), 1u);
     EXPECT_EQ(parts[0].faces.size(), 2u) << turn;
     for (const uint32_t f : parts[0].faces) {
@@ -427,7 +427,7 @@ TEST(UntouchedFaces, AreNoneBesideFacesThatMayHaveNoCorners) {
       for (uint32_t p = 0; p < 5; ++p) {
         if (kept >> p & 1) whole.push_back({p, false, false});
       }
-      EXPECT_TRUE(take_untouched(job, operands, whole).empty()) << turn << " kept " << kept;
+      EXPECT_TRUE(take_untouched(job, operands, {}, whole).empty()) << turn << " kept " << kept;
     }
   }
 }

@@ -1,0 +1,157 @@
+#include "engine/bsp/near_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+
+#include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
+#include "engine/bsp/coarse_cells.h"
+#include "engine/bsp/coarse_grid.h"
+
+namespace csgrun {
+namespace {
+
+/// Boxes of polygons are clamped beyond.
+constexpr int64_t kFarthest = int64_t{1} << 30;
+
+/// Whether all faces that nothing meets can be named, wherever they are.
+bool can_be_named(const Operand& operand) {
+  if (!operand.leaf || !operand.frame.is_identity) return false;
+  const LeafGeometry& leaf = *operand.leaf;
+  return leaf.face_count() > 0 && leaf.has_single_fans && !leaf.may_touch &&
+         !leaf.opposite.empty() && leaf.keeps_facets() && leaf.facet.count_up() &&
+         leaf.corners.size() == 3 * leaf.face_count();
+}
+
+/// One leaf and its place.
+class Leaf {
+ public:
+  explicit Leaf(const Operand& operand)
+      : leaf_(*operand.leaf), translation_(operand.translation), cells_(leaf_.face_count()) {}
+
+  [[nodiscard]] size_t face_count() const { return leaf_.face_count(); }
+
+  /// None if it is too far out.
+  [[nodiscard]] std::optional<PolygonBox> box() const {
+    GridBox all;
+    all.lo = all.hi = leaf_.vertices[leaf_.corners[0]];
+    for (const IVec3& v : leaf_.vertices) {
+      for (size_t k = 0; k < 3; ++k) {
+        all.lo[k] = std::min(all.lo[k], v[k]);
+        all.hi[k] = std::max(all.hi[k], v[k]);
+      }
+    }
+    all = all.moved(translation_);
+    PolygonBox box{};
+    for (size_t k = 0; k < 3; ++k) {
+      if (all.lo[k] < -kFarthest || all.hi[k] > kFarthest) return std::nullopt;
+      box.lo[k] = static_cast<int32_t>(all.lo[k]);
+      box.hi[k] = static_cast<int32_t>(all.hi[k]);
+    }
+    return box;
+  }
+
+  /// Marks the cells that faces reach; `own` names the operand. False if they are more than `most`.
+  bool mark(CoarseGrid& grid, uint32_t own, size_t most) {
+    std::atomic<size_t> all = 0;
+    std::atomic<bool> failed = false;
+    for_each_range(face_count(), [&](size_t begin, size_t end) {
+      size_t sum = 0;
+      for (size_t f = begin; f < end; ++f) {
+        CoarseGrid::Cells& cells = cells_[f];
+        if (sum + all.load(std::memory_order_relaxed) > most ||
+            !grid.find_cells(box_of_face(f), cells)) {
+          failed = true;
+          return;
+        }
+        sum += cells.count();
+        grid.each_cell(cells, [&](uint32_t& cell) { CoarseGrid::mark(cell, own, false); });
+      }
+      all += sum;
+    });
+    return !failed;
+  }
+
+  /// Those of some faces.
+  void copy_cells(const std::vector<uint32_t>& faces, CoarseGrid::Cells* to) const {
+    for_each_range(faces.size(), [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) to[i] = cells_[faces[i]];
+    });
+  }
+
+  /// The faces around vertices of those that reach a cell of several operands.
+  std::vector<uint32_t> near(CoarseGrid& grid) const {
+    std::vector<uint8_t> is_near(leaf_.vertices.size(), 0);
+    for_each_range(face_count(), [&](size_t begin, size_t end) {
+      for (size_t f = begin; f < end; ++f) {
+        bool is_shared = false;
+        grid.each_cell(cells_[f],
+                       [&](uint32_t cell) { is_shared |= cell == CoarseGrid::kSeveral; });
+        if (!is_shared) continue;
+        for (const uint32_t v : corners(f)) {
+          std::atomic_ref(is_near[v]).store(1, std::memory_order_relaxed);
+        }
+      }
+    });
+    return numbers_where(face_count(), [&](uint32_t f) {
+      const auto [a, b, c] = corners(f);
+      return (is_near[a] | is_near[b] | is_near[c]) != 0;
+    });
+  }
+
+ private:
+  [[nodiscard]] std::array<uint32_t, 3> corners(size_t face) const {
+    const uint32_t* const c = leaf_.corners.data() + 3 * face;
+    return {c[0], c[1], c[2]};
+  }
+
+  [[nodiscard]] PolygonBox box_of_face(size_t face) const {
+    const auto [a, b, c] = corners(face);
+    const IVec3 &p = leaf_.vertices[a], &q = leaf_.vertices[b], &r = leaf_.vertices[c];
+    PolygonBox box{};
+    for (size_t k = 0; k < 3; ++k) {
+      box.lo[k] = static_cast<int32_t>(std::min({p[k], q[k], r[k]}) + translation_[k]);
+      box.hi[k] = static_cast<int32_t>(std::max({p[k], q[k], r[k]}) + translation_[k]);
+    }
+    return box;
+  }
+
+  const LeafGeometry& leaf_;
+  const IVec3 translation_;
+  RawVector<CoarseGrid::Cells> cells_;  ///< per face
+};
+
+}  // namespace
+
+std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, uint32_t limit) {
+  limit = std::max<uint32_t>(1, limit);
+  if (operands.size() != 2 || !can_be_named(operands[0]) || !can_be_named(operands[1])) {
+    return std::nullopt;
+  }
+  Leaf first(operands[0]), second(operands[1]);
+  const size_t count = first.face_count() + second.face_count();
+  const std::optional<PolygonBox> box = first.box(), other = second.box();
+  if (!box || !other) return std::nullopt;
+  PolygonBox common = *box;
+  common.clip(*other);
+  NearFaces near{{{}, {}}, {*box, *other}, {}};
+  if (common.is_empty()) {
+    near.cells = std::make_shared<PairCells>(no_shared_cells(count, limit));
+    return near;
+  }
+  CoarseGrid grid(common, CoarseGrid::most_cells(count, limit));
+  const size_t most = CoarseGrid::kMostCellsEach * count;
+  if (!first.mark(grid, 1, most) || !second.mark(grid, 2, most)) return std::nullopt;
+  near.faces = {first.near(grid), second.near(grid)};
+  const size_t near_count = near.faces[0].size() + near.faces[1].size();
+  RawVector<CoarseGrid::Cells> cells(near_count);
+  first.copy_cells(near.faces[0], cells.data());
+  second.copy_cells(near.faces[1], cells.data() + near.faces[0].size());
+  near.cells =
+      std::make_shared<PairCells>(list_shared_cells(grid, cells, count - near_count, limit));
+  return near;
+}
+
+}  // namespace csgrun

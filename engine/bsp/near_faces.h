@@ -1,0 +1,42 @@
+// The faces of large leaves that a job needs: those near another operand. What is beyond is only
+// asked for its fate, and named in the result (bsp/untouched).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/bsp/operand.h"
+#include "engine/bsp/polygon_box.h"
+
+namespace csgrun {
+
+struct PairCells;
+
+struct NearFaces {
+  std::vector<std::vector<uint32_t>> faces;  ///< per operand those that are near, ascending
+  std::vector<PolygonBox> boxes;             ///< per operand, around all faces
+  /// What find_coarse_cells would find of the faces, which are numbered in this order.
+  std::shared_ptr<const PairCells> cells;
+};
+
+/// The faces that share a cell of a coarse grid with another operand, and all that share a vertex
+/// with these: no other face is met, and what is around a vertex of one was not met either. Nothing
+/// when it is not worth the while, or when faces that are not met may have to be spelled out: only
+/// for two leaves on the grid of triangles that each are a facet of its own, with one fan around
+/// each vertex. O(n), parallel.
+std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, uint32_t limit);
+
+/// Calls visit(face) for the faces of a leaf that are not in a list, which ascends.
+template <class Visit>
+void for_each_far_face(const LeafGeometry& leaf, const std::vector<uint32_t>& near, Visit&& visit) {
+  uint32_t next = 0;
+  for (const uint32_t face : near) {
+    for (; next < face; ++next) visit(next);
+    next = face + 1;
+  }
+  for (; next < leaf.face_count(); ++next) visit(next);
+}
+
+}  // namespace csgrun
