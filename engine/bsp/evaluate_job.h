@@ -9,14 +9,14 @@
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/fragment_set.h"
 #include "engine/bsp/job.h"
-#include "engine/bsp/patch_labels.h"
+#include "engine/bsp/near_faces.h"
 
 namespace csgrun {
 
 struct EvaluatedJob {
   std::vector<FragmentSet> sets;
   std::vector<WholePolygon> whole;
-  std::vector<std::vector<PatchFate>> far;  ///< see WholeFaces::far
+  std::vector<FarFaces> far;  ///< see WholeFaces::far
   Touching touching;
   /// Nothing was evaluated, as the job does not have all faces, and must.
   bool needs_all_faces = false;

@@ -21,6 +21,11 @@ struct NearFaces {
   std::shared_ptr<const PairCells> cells;
 };
 
+/// Of one operand the faces that are not near and are left, ascending: as they are, or turned over.
+struct FarFaces {
+  std::vector<uint32_t> kept, flipped;
+};
+
 /// The faces that share a cell of a coarse grid with another operand, and all that share a vertex
 /// with these: no other face is met, and what is around a vertex of one was not met either. Nothing
 /// when it is not worth the while, or when faces that are not met may have to be spelled out: only

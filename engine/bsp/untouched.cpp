@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
-#include <span>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -44,32 +43,58 @@ bool is_alone(const LeafGeometry& leaf, const CornerWalk& walk, uint32_t f) {
   return true;
 }
 
-/// Finds the untouched faces of one leaf.
+/// Finds the untouched faces of one leaf among those that a job has.
 class UntouchedFaces {
  public:
-  /// `fate`: of each face.
-  UntouchedFaces(const LeafGeometry& leaf, const uint8_t* fate)
-      : leaf_(leaf), fate_(fate), walk_(leaf), keeps_facets_(leaf.keeps_facets()) {
+  /// `near`: the faces; null: all. `fate`: of each of them. The other faces around a vertex of one
+  /// have the same fate as these.
+  UntouchedFaces(const LeafGeometry& leaf, const std::vector<uint32_t>* near, const uint8_t* fate)
+      : leaf_(leaf),
+        near_(near),
+        count_(near ? near->size() : leaf.face_count()),
+        fate_(fate),
+        walk_(leaf),
+        keeps_facets_(leaf.keeps_facets()) {
     look_at_vertices();
   }
 
-  /// Those of one fate, marked in `taken`, with their corners as vertices of the leaf.
-  void collect(Fate fate, UntouchedPart& part, std::vector<uint8_t>& taken) const {
+  /// Those of one fate, marked in `taken` by their places, and `far`, which are faces that the job
+  /// does not have; with their corners as vertices of the leaf.
+  void collect(Fate fate, const std::vector<uint32_t>& far, UntouchedPart& part,
+               uint8_t* taken) const {
     std::vector<uint8_t> met(leaf_.vertices.size(), 0);  // 1: by such a face, 2: by others
-    for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
-      const bool is_untouched = fate_[f] == fate && stays_apart(f);
-      if (is_untouched) part.faces.push_back(f);
-      taken[f] |= static_cast<uint8_t>(is_untouched);
+    std::vector<uint32_t> found;
+    for (size_t i = 0; i < count_; ++i) {
+      const uint32_t f = face(i);
+      const bool is_untouched = fate_[i] == fate && stays_apart(f);
+      if (is_untouched) found.push_back(f);
+      taken[i] |= static_cast<uint8_t>(is_untouched);
       for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
         met[leaf_.corners[c]] |= is_untouched ? 1 : 2;
+      }
+    }
+    for (const uint32_t f : far) {
+      for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
+        uint8_t& by = met[leaf_.corners[c]];
+        if (by == 2) by = 3;
       }
     }
     for (uint32_t v = 0; v < met.size(); ++v) {
       if (met[v] == 3) part.shared.push_back({v, v});
     }
+    if (far.empty()) {
+      part.faces = std::move(found);
+      return;
+    }
+    part.faces.resize(found.size() + far.size());
+    std::merge(found.begin(), found.end(), far.begin(), far.end(), part.faces.begin());
   }
 
  private:
+  [[nodiscard]] uint32_t face(size_t place) const {
+    return near_ ? (*near_)[place] : static_cast<uint32_t>(place);
+  }
+
   /// Whether a face that nothing met is a triangle that no other face is merged with, and shares
   /// each corner with one fan of faces.
   [[nodiscard]] bool stays_apart(uint32_t f) const {
@@ -88,8 +113,9 @@ class UntouchedFaces {
   /// fan, and where a facet may have no corner: one in several pieces, or with a straight corner.
   void look_at_vertices() {
     of_vertex_.assign(leaf_.vertices.size(), 0);
-    for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
-      const auto own = static_cast<uint8_t>(1u << fate_[f]);
+    for (size_t i = 0; i < count_; ++i) {
+      const uint32_t f = face(i);
+      const auto own = static_cast<uint8_t>(1u << fate_[i]);
       for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
         of_vertex_[leaf_.corners[c]] |= own;
       }
@@ -110,21 +136,13 @@ class UntouchedFaces {
   }
 
   const LeafGeometry& leaf_;
+  const std::vector<uint32_t>* const near_;
+  const size_t count_;
   const uint8_t* fate_;
   const CornerWalk walk_;
   const bool keeps_facets_;
   std::vector<uint8_t> of_vertex_;
 };
-
-/// The fates of faces that the job does not have, none of which is met.
-std::vector<uint8_t> fates_of(const std::vector<PatchFate>& far) {
-  std::vector<uint8_t> fates(far.size(), kMixed);
-  for (size_t f = 0; f < far.size(); ++f) {
-    if (far[f] == PatchFate::kKeep) fates[f] = kKept;
-    if (far[f] == PatchFate::kFlip) fates[f] = kFlipped;
-  }
-  return fates;
-}
 
 /// Points and planes of a boundary, with its untouched faces, as they would be in a job.
 class Expander {
@@ -196,7 +214,7 @@ class Expander {
 }  // namespace
 
 std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Operand>& operands,
-                                          const std::vector<std::vector<PatchFate>>& far,
+                                          const std::vector<FarFaces>& far,
                                           std::vector<WholePolygon>& whole) {
   std::vector<UntouchedPart> parts;
   std::vector<uint8_t> fate(job.polygons().size(), kMixed), taken(job.polygons().size(), 0);
@@ -216,18 +234,15 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
     // leaves.
     if (!leaf.keeps_facets() && !leaf.convex) return;
     const uint32_t start = job.polygon_start(o), end = job.polygon_start(o + 1);
-    std::vector<uint8_t> of_face;
-    if (!far.empty()) {
-      of_face = fates_of(far[o]);
-      for (uint32_t p = start; p < end; ++p) of_face[job.polygons()[p].face] = fate[p];
-    }
-    const std::span<const uint8_t> fates(far.empty() ? fate.data() + start : of_face.data(),
-                                         leaf.face_count());
     bool any[3] = {false, false, false};
-    for (const uint8_t f : fates) any[f] = true;
+    for (uint32_t p = start; p < end; ++p) any[fate[p]] = true;
+    const FarFaces none;
+    const FarFaces& own_far = far.empty() ? none : far[o];
+    any[kKept] |= !own_far.kept.empty();
+    any[kFlipped] |= !own_far.flipped.empty();
     if (!any[kKept] && !any[kFlipped]) return;
-    const UntouchedFaces faces(leaf, fates.data());
-    std::vector<uint8_t> of_leaf(leaf.face_count(), 0);
+    const UntouchedFaces faces(leaf, job.near_faces() ? &job.near_faces()->faces[o] : nullptr,
+                               fate.data() + start);
     for (const Fate side : {kKept, kFlipped}) {
       if (!any[side]) continue;
       UntouchedPart part{operand.leaf,
@@ -239,7 +254,8 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
                          {},
                          {},
                          {}};
-      faces.collect(side, part, of_leaf);
+      faces.collect(side, side == kKept ? own_far.kept : own_far.flipped, part,
+                    taken.data() + start);
       // The vertices of an operand stand together, in the order of the leaf.
       const uint32_t first_vertex = job.vertex_start(o);
       for (UntouchedPart::Shared& s : part.shared) s.point += first_vertex;
@@ -249,7 +265,6 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
       }
       of_operand[o].push_back(std::move(part));
     }
-    for (uint32_t p = start; p < end; ++p) taken[p] = of_leaf[job.polygons()[p].face];
   });
   for (auto& some : of_operand) {
     std::move(some.begin(), some.end(), std::back_inserter(parts));

@@ -14,18 +14,16 @@
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/boundary_mesh.h"
 #include "engine/bsp/job.h"
-#include "engine/bsp/patch_labels.h"
+#include "engine/bsp/near_faces.h"
 
 namespace csgrun {
 
-/// Takes the untouched triangles of the operands out of `whole`, and all of `far` that is kept (see
-/// WholeFaces::far); their corners that other faces
-/// have too are named by the job's vertices in UntouchedPart::shared. A leaf counts if its
-/// frame does not mirror, it touches itself nowhere, and its edges are paired; a face if it is a
-/// triangle.
-/// O(faces of such leaves).
+/// Takes the untouched triangles of the operands out of `whole`, and all of `far` (see WholeFaces);
+/// their corners that other faces have too are named by the job's vertices in
+/// UntouchedPart::shared. A leaf counts if its frame does not mirror, it touches itself nowhere,
+/// and its edges are paired; a face if it is a triangle. O(faces of such leaves).
 std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Operand>& operands,
-                                          const std::vector<std::vector<PatchFate>>& far,
+                                          const std::vector<FarFaces>& far,
                                           std::vector<WholePolygon>& whole);
 
 /// The same boundary with all faces spelled out; the mesh itself if they are.

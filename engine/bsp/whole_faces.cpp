@@ -185,17 +185,18 @@ class FaceEvaluator {
 
   void emit_far() {
     result_.far.resize(job_.operand_count());
+    std::vector<uint8_t> is_unknown(job_.operand_count(), 0);
     for_each_alone(job_.operand_count(), true, [&](size_t o) {
-      const LeafGeometry& leaf = *job_.leaf(o);
-      std::vector<PatchFate> fates(leaf.face_count(), PatchFate::kDrop);
-      for_each_far_face(leaf, job_.near_faces()->faces[o],
-                        [&](uint32_t f) { fates[f] = fates_->of_far_face(o, f); });
-      result_.far[o] = std::move(fates);
+      FarFaces far;
+      for_each_far_face(*job_.leaf(o), job_.near_faces()->faces[o], [&](uint32_t f) {
+        const PatchFate fate = fates_->of_far_face(o, f);
+        if (fate == PatchFate::kKeep) far.kept.push_back(f);
+        if (fate == PatchFate::kFlip) far.flipped.push_back(f);
+        is_unknown[o] |= fate == PatchFate::kUnknown ? 1 : 0;
+      });
+      result_.far[o] = std::move(far);
     });
-    for (const auto& fates : result_.far) {
-      result_.any_general |=
-          std::find(fates.begin(), fates.end(), PatchFate::kUnknown) != fates.end();
-    }
+    for (const uint8_t unknown : is_unknown) result_.any_general |= unknown != 0;
   }
 
   /// Leaves a polygon if it is not known what becomes of one of its loops.

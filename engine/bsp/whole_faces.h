@@ -16,18 +16,16 @@
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/fragment_set.h"
 #include "engine/bsp/job.h"
-#include "engine/bsp/patch_labels.h"
+#include "engine/bsp/near_faces.h"
 
 namespace csgrun {
 
 struct WholeFaces {
   FragmentSet cut;                  ///< what is kept of polygons that were cut
   std::vector<WholePolygon> whole;  ///< what is kept as it is
-  /// Per operand and face what becomes of those that the job does not have (see Job::near_faces);
-  /// kDrop for the others. Empty if it has all.
-  std::vector<std::vector<PatchFate>> far;
-  std::vector<uint8_t> general;  ///< per polygon: left to the general way
-  bool any_general = false;      ///< or a face that the job does not have
+  std::vector<FarFaces> far;        ///< per operand; empty if the job has all faces
+  std::vector<uint8_t> general;     ///< per polygon: left to the general way
+  bool any_general = false;         ///< or a face that the job does not have
   /// Where what is kept, here or in the general way, may touch itself; see BoundaryMesh::touches.
   std::vector<GridBox> touching;
 };
