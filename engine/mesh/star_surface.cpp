@@ -157,7 +157,8 @@ class Star {
 bool is_star_surface(const LeafGeometry& leaf) {
   if (leaf.face_count() < kFewFaces) return false;
   const GridBox box = box_of_points(leaf.vertices);
-  if (!is_compact(box)) return false;
+  const auto is_flat = [&](size_t k) { return box.lo[k] == box.hi[k]; };
+  if (!is_compact(box) || is_flat(0) || is_flat(1) || is_flat(2)) return false;
   Star star(leaf, box);
   return star.find_centre() && star.ray_crossings() == 1;
 }
