@@ -49,7 +49,7 @@ struct PreparedLeaf {
   GridBox box;                                     ///< of the geometry
   std::vector<std::array<uint32_t, 2>> crossings;  ///< see find_self_intersections
   bool by_rounding = false;  ///< a face's loops cross only since they were rounded
-  bool connected = true;  ///< one shell, without edges of more than two faces
+  bool connected = true;     ///< one shell, without edges of more than two faces
 };
 
 /// Makes the faces of `mesh` over integer `points` planar and convex, and checks what they enclose
