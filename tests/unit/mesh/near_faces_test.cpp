@@ -136,12 +136,18 @@ TEST(NearFaces, AreFoundOfLeavesThatCanBeNamed) {
   const auto torus = leaf_of_triangles(bumpy_torus(random, {0, 0, 0}, 1 << 20));
   const std::vector<Operand> good{placed(torus, {0, 0, 0}), placed(torus, {9, 9, 1 << 19})};
   ASSERT_TRUE(find_near_faces(good, 17));
+  // Of either operand.
   const auto refused = [&](auto change) {
-    auto leaf = std::make_shared<LeafGeometry>(*torus);
-    std::vector<Operand> operands = good;
-    change(*leaf, operands[1]);
-    operands[1].leaf = leaf;
-    return !find_near_faces(operands, 17);
+    size_t count = 0;
+    for (size_t o = 0; o < 2; ++o) {
+      auto leaf = std::make_shared<LeafGeometry>(*torus);
+      std::vector<Operand> operands = good;
+      change(*leaf, operands[o]);
+      operands[o].leaf = leaf;
+      count += find_near_faces(operands, 17) ? 0 : 1;
+    }
+    EXPECT_NE(count, 1u);
+    return count == 2;
   };
   EXPECT_FALSE(refused([](LeafGeometry&, Operand&) {}));
   EXPECT_TRUE(refused([](LeafGeometry& l, Operand&) { l.has_single_fans = false; }));
@@ -150,6 +156,7 @@ TEST(NearFaces, AreFoundOfLeavesThatCanBeNamed) {
   EXPECT_TRUE(refused([](LeafGeometry& l, Operand&) { l.facet = FaceNumbers(); }));
   EXPECT_TRUE(refused(
       [](LeafGeometry& l, Operand&) { l.facet = std::vector<uint32_t>(l.face_count(), 1); }));
+  EXPECT_TRUE(refused([](LeafGeometry&, Operand& o) { o.translation[2] = -(int64_t{1} << 30); }));
   EXPECT_TRUE(refused([](LeafGeometry&, Operand& o) { o.translation[1] = int64_t{1} << 30; }));
   EXPECT_TRUE(refused([](LeafGeometry&, Operand& o) { o.frame.is_identity = false; }));
   std::vector<Operand> three = good;
