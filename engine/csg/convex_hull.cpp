@@ -264,7 +264,7 @@ LeafGeometry Hull::faces() const {
     leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()));
   }
   leaf.opposite = pair_edges(leaf).opposite;
-  leaf.convex = true;
+  leaf.convex = leaf.has_single_fans = true;
   leaf.may_touch = false;
   return leaf;
 }

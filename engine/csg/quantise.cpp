@@ -170,8 +170,14 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
   leaf->opposite = std::move(pairing.opposite);
   // Rounding can close a gap that is narrower than a step, whatever was promised of the original
   // mesh; convexity is seen from the faces themselves.
-  leaf->has_single_fans = is_convex_surface(*leaf, box);
-  leaf->convex = leaf->has_single_fans || (promised_convex && is_locally_convex(*leaf));
+  const auto walk_fans = [&] {
+    return !leaf->opposite.empty() && find_vertices_of_fans(*leaf).empty();
+  };
+  leaf->convex = leaf->has_single_fans = is_convex_surface(*leaf, box);
+  if (!leaf->convex && promised_convex && is_locally_convex(*leaf)) {
+    // Where a thin body was pinched to a point it is two.
+    leaf->convex = leaf->has_single_fans = walk_fans();
+  }
   result.status = PreparedLeaf::Status::kGood;
   if (!leaf->convex) {
     SurfaceCheck check = check_surface(*leaf);
@@ -180,8 +186,7 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
     }
     result.crossings = std::move(check.crossings);
     result.connected = check.connected;
-    leaf->has_single_fans =
-        check.is_star || (!leaf->opposite.empty() && find_vertices_of_fans(*leaf).empty());
+    leaf->has_single_fans = check.is_star || walk_fans();
   }
   leaf->may_touch = !result.crossings.empty() || (!leaf->convex && may_lose_common_corners(*leaf));
   // Facets that are kept as they are have no others of their label.

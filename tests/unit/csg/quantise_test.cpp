@@ -228,6 +228,43 @@ TEST(PrepareLeaf, AFalsePromiseOfConvexityIsNotBelieved) {
   EXPECT_EQ(volume6(*leaf.geometry), 6.0 * 30000 * 100);
 }
 
+TEST(PrepareLeaf, APinchedBodyIsNotConvex) {
+  // Two square pyramids with one apex, as rounding may leave a thin body: every edge is convex.
+  auto mesh = mesh_of({{0, 0, 0},
+                       {-100, -100, -200},
+                       {100, -100, -200},
+                       {100, 100, -200},
+                       {-100, 100, -200},
+                       {-100, -100, 200},
+                       {100, -100, 200},
+                       {100, 100, 200},
+                       {-100, 100, 200}},
+                      {{4, 3, 2, 1},
+                       {0, 1, 2},
+                       {0, 2, 3},
+                       {0, 3, 4},
+                       {0, 4, 1},
+                       {5, 6, 7, 8},
+                       {0, 6, 5},
+                       {0, 7, 6},
+                       {0, 8, 7},
+                       {0, 5, 8}});
+  mesh.convex = true;
+  const auto leaf = prepare(mesh);
+  ASSERT_EQ(leaf.status, Status::kGood);
+  EXPECT_FALSE(leaf.geometry->convex);
+  EXPECT_FALSE(leaf.geometry->has_single_fans);
+  EXPECT_TRUE(leaf.geometry->may_touch);
+  EXPECT_FALSE(leaf.connected);
+  // One of the two is, although a side of it is no triangle.
+  mesh = mesh_of(
+      {{0, 0, 0}, {-100, -100, -200}, {100, -100, -200}, {100, 100, -200}, {-100, 100, -200}},
+      {{4, 3, 2, 1}, {0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}});
+  mesh.convex = true;
+  EXPECT_TRUE(prepare(mesh).geometry->convex);
+  EXPECT_TRUE(prepare(mesh).geometry->has_single_fans);
+}
+
 TEST(PrepareLeaf, FacesWithHoles) {
   // A square frame: outer 0..3, inner 4..7 at the bottom, 8..15 at the top.
   PolygonMesh mesh;
