@@ -35,13 +35,7 @@ std::optional<PlainBox> plain_box(const Operand& operand) {
   const LeafGeometry& leaf = *operand.leaf;
   if (leaf.face_count() == 0) return std::nullopt;
   PlainBox result;
-  result.box.lo = result.box.hi = leaf.vertices[0];
-  for (const IVec3& v : leaf.vertices) {
-    for (size_t k = 0; k < 3; ++k) {
-      result.box.lo[k] = std::min(result.box.lo[k], v[k]);
-      result.box.hi[k] = std::max(result.box.hi[k], v[k]);
-    }
-  }
+  result.box = box_of_points(leaf.vertices);
   std::array<bool, 6> seen{};
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
     const int side = leaf.facet[f] == 0 ? side_of(leaf, f, result.box) : -1;

@@ -61,6 +61,7 @@ class Job {
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
+  [[nodiscard]] const Operand& operand(size_t o) const { return (*operands_)[o]; }
   [[nodiscard]] bool is_leaf(size_t o) const { return leaf(o) != nullptr; }
   /// The leaf that an operand is, or null.
   [[nodiscard]] const LeafGeometry* leaf(size_t o) const { return (*operands_)[o].leaf.get(); }

@@ -21,8 +21,7 @@ bool can_be_named(const Operand& operand) {
   if (!operand.leaf || !operand.frame.is_identity) return false;
   const LeafGeometry& leaf = *operand.leaf;
   return leaf.face_count() > 0 && leaf.has_single_fans && !leaf.may_touch &&
-         !leaf.opposite.empty() && leaf.keeps_facets() && leaf.facet.count_up() &&
-         leaf.corners.size() == 3 * leaf.face_count();
+         !leaf.opposite.empty() && leaf.has_triangles_as_facets();
 }
 
 /// One leaf and its place.
@@ -35,15 +34,7 @@ class Leaf {
 
   /// None if it is too far out.
   [[nodiscard]] std::optional<PolygonBox> box() const {
-    GridBox all;
-    all.lo = all.hi = leaf_.vertices[leaf_.corners[0]];
-    for (const IVec3& v : leaf_.vertices) {
-      for (size_t k = 0; k < 3; ++k) {
-        all.lo[k] = std::min(all.lo[k], v[k]);
-        all.hi[k] = std::max(all.hi[k], v[k]);
-      }
-    }
-    all = all.moved(translation_);
+    const GridBox all = box_of_points(leaf_.vertices).moved(translation_);
     PolygonBox box{};
     for (size_t k = 0; k < 3; ++k) {
       if (all.lo[k] < -kFarthest || all.hi[k] > kFarthest) return std::nullopt;
@@ -62,7 +53,7 @@ class Leaf {
       for (size_t f = begin; f < end; ++f) {
         CoarseGrid::Cells& cells = cells_[f];
         if (sum + all.load(std::memory_order_relaxed) > most ||
-            !grid.find_cells(box_of_face(f), cells)) {
+            !grid.find_cells(box_of_triangle(leaf_, f, translation_), cells)) {
           failed = true;
           return;
         }
@@ -107,23 +98,23 @@ class Leaf {
     return {c[0], c[1], c[2]};
   }
 
-  [[nodiscard]] PolygonBox box_of_face(size_t face) const {
-    const auto [a, b, c] = corners(face);
-    const IVec3 &p = leaf_.vertices[a], &q = leaf_.vertices[b], &r = leaf_.vertices[c];
-    PolygonBox box{};
-    for (size_t k = 0; k < 3; ++k) {
-      box.lo[k] = static_cast<int32_t>(std::min({p[k], q[k], r[k]}) + translation_[k]);
-      box.hi[k] = static_cast<int32_t>(std::max({p[k], q[k], r[k]}) + translation_[k]);
-    }
-    return box;
-  }
-
   const LeafGeometry& leaf_;
   const IVec3 translation_;
   RawVector<CoarseGrid::Cells> cells_;  ///< per face
 };
 
 }  // namespace
+
+PolygonBox box_of_triangle(const LeafGeometry& leaf, size_t face, const IVec3& translation) {
+  const uint32_t* const c = leaf.corners.data() + 3 * face;
+  const IVec3 &p = leaf.vertices[c[0]], &q = leaf.vertices[c[1]], &r = leaf.vertices[c[2]];
+  PolygonBox box{};
+  for (size_t k = 0; k < 3; ++k) {
+    box.lo[k] = static_cast<int32_t>(std::min({p[k], q[k], r[k]}) + translation[k]);
+    box.hi[k] = static_cast<int32_t>(std::max({p[k], q[k], r[k]}) + translation[k]);
+  }
+  return box;
+}
 
 std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, uint32_t limit) {
   limit = std::max<uint32_t>(1, limit);

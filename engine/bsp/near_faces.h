@@ -33,6 +33,9 @@ struct FarFaces {
 /// each vertex. O(n), parallel.
 std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, uint32_t limit);
 
+/// The box of a face of such a leaf, moved by whole steps.
+PolygonBox box_of_triangle(const LeafGeometry& leaf, size_t face, const IVec3& translation);
+
 /// Calls visit(face) for the faces of a leaf that are not in a list, which ascends.
 template <class Visit>
 void for_each_far_face(const LeafGeometry& leaf, const std::vector<uint32_t>& near, Visit&& visit) {

@@ -1,6 +1,7 @@
 // What the kernel is given: operands in plane form and the Boolean expression over them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -49,6 +50,11 @@ struct LeafGeometry {
   [[nodiscard]] size_t face_count() const { return face_starts.size() - 1; }
   /// REQUIRES: there is a face.
   [[nodiscard]] bool keeps_facets() const { return facet[0] != 0; }
+  /// Whether each face is a triangle and known to be a facet of its own that is kept. REQUIRES: as
+  /// above.
+  [[nodiscard]] bool has_triangles_as_facets() const {
+    return keeps_facets() && facet.count_up() && corners.size() == 3 * face_count();
+  }
 };
 
 /// The frame of a leaf: world -> frame is B = matrix / 2^40 (Numbers: docs/numerics.md). A point q
@@ -113,5 +119,19 @@ struct GridBox {
     return {{lo[0] + t[0], lo[1] + t[1], lo[2] + t[2]}, {hi[0] + t[0], hi[1] + t[1], hi[2] + t[2]}};
   }
 };
+
+/// Empty for no points.
+inline GridBox box_of_points(const std::vector<IVec3>& points) {
+  GridBox box;
+  if (points.empty()) return box;
+  box.lo = box.hi = points[0];
+  for (const IVec3& p : points) {
+    for (size_t k = 0; k < 3; ++k) {
+      box.lo[k] = std::min(box.lo[k], p[k]);
+      box.hi[k] = std::max(box.hi[k], p[k]);
+    }
+  }
+  return box;
+}
 
 }  // namespace csgrun

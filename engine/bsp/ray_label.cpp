@@ -175,18 +175,13 @@ Inside ray_label(const Job& job, VertexSigns& signs, uint32_t operand, const Pos
     } else if (job.near_faces()) {
       // The job does not have all of its triangles.
       const LeafGeometry& leaf = *job.leaf(operand);
-      corners.resize(3);
       for (size_t f = 0; f < leaf.face_count() && !unsure; ++f) {
-        PolygonBox box = PolygonBox::none();
-        for (size_t i = 0; i < 3; ++i) {
-          corners[i] = job.rounded(job.vertex_start(operand) + leaf.corners[3 * f + i]);
-          PolygonBox corner{};
-          for (size_t k = 0; k < 3; ++k) {
-            corner.lo[k] = corner.hi[k] = static_cast<int32_t>(corners[i][k]);
-          }
-          box.include(corner);
+        if (!ray.may_meet(box_of_triangle(leaf, f, job.operand(operand).translation))) continue;
+        corners.clear();
+        for (size_t c = 3 * f; c < 3 * f + 3; ++c) {
+          corners.push_back(job.rounded(job.vertex_start(operand) + leaf.corners[c]));
         }
-        if (ray.may_meet(box)) look_at(ray.meets(corners, operand_error));
+        look_at(ray.meets(corners, operand_error));
       }
     } else {
       for (uint32_t p = job.polygon_start(operand); p < job.polygon_start(operand + 1) && !unsure;

@@ -127,7 +127,7 @@ class UntouchedFaces {
     if (!leaf_.has_single_fans) {
       for (const uint32_t v : find_vertices_of_fans(leaf_)) of_vertex_[v] = kNoFan;
     }
-    if (!keeps_facets_) return;
+    if (!keeps_facets_ || leaf_.has_triangles_as_facets()) return;
     for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
       const uint32_t begin = leaf_.face_starts[f], end = leaf_.face_starts[f + 1];
       if (end - begin == 3 && is_own_facet(leaf_, f)) continue;
