@@ -48,8 +48,9 @@ PairCells whole(const Job& job, const PolygonBox& all) {
 /// Marks the cells by the operands of those polygons that are covered, or of those that are not,
 /// and lists those of each. Covered ones mark only what others have. False when there are more than
 /// `left`, which is lowered.
-bool mark(const Job& job, std::span<const uint8_t> covered, bool are_covered, CoarseGrid& grid,
-          RawVector<CoarseGrid::Cells>& cells, size_t& left) {
+bool mark(const Job& job, std::span<const uint8_t> covered, bool are_covered,
+          std::span<const uint8_t> left_out, CoarseGrid& grid, RawVector<CoarseGrid::Cells>& cells,
+          size_t& left) {
   const size_t count = job.polygons().size();
   std::atomic<size_t> all = 0;
   std::atomic<bool> failed = false;
@@ -59,6 +60,10 @@ bool mark(const Job& job, std::span<const uint8_t> covered, bool are_covered, Co
     for (size_t p = begin; p < end; ++p) {
       while (p >= job.polygon_start(own)) ++own;
       if ((!covered.empty() && covered[p] != 0) != are_covered) continue;
+      if (!left_out.empty() && left_out[p] != 0) {
+        cells[p] = {};
+        continue;
+      }
       if (sum + all.load(std::memory_order_relaxed) > left ||
           !grid.find_cells(job.boxes()[p], cells[p])) {
         failed = true;
@@ -76,7 +81,8 @@ bool mark(const Job& job, std::span<const uint8_t> covered, bool are_covered, Co
 
 }  // namespace
 
-PairCells find_coarse_cells(const Job& job, std::span<const uint8_t> covered, uint32_t limit) {
+PairCells find_coarse_cells(const Job& job, std::span<const uint8_t> covered, uint32_t limit,
+                            std::span<const uint8_t> left_out) {
   const size_t count = job.polygons().size();
   const Bounds bounds = bounds_of(job);
   const size_t most_cells = CoarseGrid::most_cells(count, limit);
@@ -85,8 +91,8 @@ PairCells find_coarse_cells(const Job& job, std::span<const uint8_t> covered, ui
   CoarseGrid grid(bounds.common, most_cells);
   RawVector<CoarseGrid::Cells> cells(count);
   size_t left = CoarseGrid::kMostCellsEach * count;
-  if (!mark(job, covered, false, grid, cells, left) ||
-      (!covered.empty() && !mark(job, covered, true, grid, cells, left))) {
+  if (!mark(job, covered, false, left_out, grid, cells, left) ||
+      (!covered.empty() && !mark(job, covered, true, left_out, grid, cells, left))) {
     return whole(job, bounds.all);
   }
 

@@ -7,6 +7,7 @@
 #include "engine/bsp/pair_cells.h"
 #include "engine/bsp/parallel_runs.h"
 #include "engine/bsp/sign_stats.h"
+#include "engine/bsp/wide_triangles.h"
 
 namespace csgrun {
 namespace {
@@ -29,12 +30,12 @@ struct Looker {
   CellPairs pairs;
 };
 
-void look_at(const Job& job, Looker& looker, const PairCells& cells, const PairCells::Cell& cell,
-             Found& out) {
+/// Tests the pairs of a cell, or of a wide triangle, which each(visit) calls visit(p, q) for.
+template <class Each>
+void look_at(PairTest& test, Each&& each, Found& out) {
   bool critical = false;
   Contact contact;
-  PairTest& test = looker.test;
-  looker.pairs.visit(job, cells, cell, [&](uint32_t p, uint32_t q) {
+  each([&](uint32_t p, uint32_t q) {
     const Meeting meeting = test.run(p, q, nullptr, contact);
     if (meeting == Meeting::kApart) return;
     critical = true;
@@ -79,8 +80,14 @@ void decide_unsure(Job& job, const std::vector<Found>& found, Contacts& result,
 
 Contacts find_contacts(Job& job, std::span<const uint8_t> covered, const KernelOptions& options,
                        EvaluateStats& stats) {
-  const PairCells cells = find_pair_cells(job, covered, options);
-  std::vector<Found> found(run_count(cells.cells.size()));
+  const WideTriangles wide(job);
+  const PairCells cells = find_pair_cells(job, covered, options, wide.is_wide());
+  const size_t cell_runs = run_count(cells.cells.size()), wide_runs = run_count(wide.list().size());
+  std::vector<Found> found(cell_runs + wide_runs);
+  const auto each_of_run = [](size_t count, size_t run, auto&& visit) {
+    const size_t end = std::min(count, (run + 1) * kCellsPerRun);
+    for (size_t i = run * kCellsPerRun; i < end; ++i) visit(i);
+  };
   for_each_run(
       found.size(), options,
       [&] {
@@ -88,18 +95,27 @@ Contacts find_contacts(Job& job, std::span<const uint8_t> covered, const KernelO
       },
       [&](Looker& looker, size_t run) {
         Found& out = found[run];
-        const PairTest& test = looker.test;
+        PairTest& test = looker.test;
         const uint64_t filtered = test.signs().filtered, exact = test.signs().exact;
-        const size_t end = std::min(cells.cells.size(), (run + 1) * kCellsPerRun);
-        for (size_t c = run * kCellsPerRun; c < end; ++c) {
-          look_at(job, looker, cells, cells.cells[c], out);
+        if (run < cell_runs) {
+          each_of_run(cells.cells.size(), run, [&](size_t c) {
+            look_at(
+                test, [&](auto visit) { looker.pairs.visit(job, cells, cells.cells[c], visit); },
+                out);
+          });
+        } else {
+          each_of_run(wide.list().size(), run - cell_runs, [&](size_t i) {
+            look_at(
+                test, [&](auto visit) { wide.visit_pairs(job, covered, wide.list()[i], visit); },
+                out);
+          });
         }
         out.filtered = test.signs().filtered - filtered;
         out.exact = test.signs().exact - exact;
       });
-  stats.cells += cells.visited;
-  stats.solved_cells += cells.cells.size();
-  stats.surface_cells += cells.surface;
+  stats.cells += cells.visited + wide.list().size();
+  stats.solved_cells += cells.cells.size() + wide.list().size();
+  stats.surface_cells += cells.surface + wide.list().size();
   Contacts result;
   result.touched.assign(job.vertex_count(), 0);
   std::vector<size_t> starts(found.size());  // of the contacts of each run

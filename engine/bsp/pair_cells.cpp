@@ -56,25 +56,27 @@ struct List {
 
 class CellFinder {
  public:
-  CellFinder(const Job& job, std::span<const uint8_t> covered, uint32_t limit,
-             const std::atomic<bool>* cancel)
-      : job_(job), covered_(covered), limit_(limit), cancel_(cancel) {}
+  CellFinder(const Job& job, std::span<const uint8_t> covered, std::span<const uint8_t> left_out,
+             uint32_t limit, const std::atomic<bool>* cancel)
+      : job_(job), covered_(covered), left_out_(left_out), limit_(limit), cancel_(cancel) {}
 
   /// Divides coarse cells [begin, end).
   PairCells run(const PairCells& coarse, size_t begin, size_t end) {
     for (const PairCells::Cell& cell : std::span(coarse.cells).subspan(begin, end - begin)) {
-      const uint32_t* polygons = coarse.polygons.data() + cell.first;
-      if (coarse.cells.size() > 1 && cell.count <= kPatientLimit * limit_) {
+      const std::span<const uint32_t> polygons =
+          wanted({coarse.polygons.data() + cell.first, cell.count});
+      if (polygons.empty()) continue;
+      const auto count = static_cast<uint32_t>(polygons.size());
+      if (coarse.cells.size() > 1 && count <= kPatientLimit * limit_) {
         ++result_.visited, ++result_.surface;
         result_.cells.push_back(
-            {cell.lo, cell.hi, static_cast<uint32_t>(result_.polygons.size()), cell.count});
-        result_.polygons.insert(result_.polygons.end(), polygons, polygons + cell.count);
+            {cell.lo, cell.hi, static_cast<uint32_t>(result_.polygons.size()), count});
+        result_.polygons.insert(result_.polygons.end(), polygons.begin(), polygons.end());
         continue;
       }
       List list;
       stack_.clear();
-      for (uint32_t i = 0; i < cell.count; ++i) {
-        const uint32_t p = polygons[i];
+      for (const uint32_t p : polygons) {
         stack_.push_back({job_.boxes()[p], p, job_.polygons()[p].operand, is_covered(p)});
         list.add(stack_.back());
       }
@@ -84,6 +86,18 @@ class CellFinder {
   }
 
  private:
+  /// Those that are not left out, unless they are of one operand.
+  std::span<const uint32_t> wanted(std::span<const uint32_t> polygons) {
+    if (left_out_.empty()) return polygons;
+    wanted_.clear();
+    for (const uint32_t p : polygons) {
+      if (!left_out_[p]) wanted_.push_back(p);
+    }
+    const auto operand = [&](uint32_t p) { return job_.polygons()[p].operand; };
+    if (!wanted_.empty() && operand(wanted_.front()) == operand(wanted_.back())) wanted_.clear();
+    return wanted_;
+  }
+
   /// Of two operands, only what is in the box of the other one matters; of one, nothing.
   List keep_near(const List& list) {
     PolygonBox common = list.of_lowest;
@@ -180,11 +194,12 @@ class CellFinder {
   void leave_alone(uint32_t count) { result_.surface += (count + limit_ - 1) / limit_; }
 
   const Job& job_;
-  const std::span<const uint8_t> covered_;  ///< per polygon, or empty
+  const std::span<const uint8_t> covered_, left_out_;  ///< per polygon, or empty
   const uint32_t limit_;
   const std::atomic<bool>* cancel_;
   PairCells result_;
   std::vector<Entry> stack_;
+  std::vector<uint32_t> wanted_;
 };
 
 /// The cells of all parts of space.
@@ -216,6 +231,29 @@ PairCells join(std::vector<PairCells> parts) {
 
 }  // namespace
 
+/// Of the polygons those that are held against others: not of the first operand.
+void add_slabs(const Job& job, PairCells& all) {
+  std::vector<uint32_t> triangles;
+  for (const PairCells::Cell& cell : all.cells) {
+    if (cell.count < kCrowd) continue;
+    if (all.slabs_at.empty()) all.slabs_at.assign(job.polygons().size(), PairCells::kNoSlabs);
+    for (uint32_t i = 0; i < cell.count; ++i) {
+      const uint32_t p = all.polygons[cell.first + i];
+      const JobPolygon& polygon = job.polygons()[p];
+      uint32_t& at = all.slabs_at[p];
+      if (polygon.operand == 0 || polygon.count != 3 || at != PairCells::kNoSlabs) continue;
+      at = static_cast<uint32_t>(triangles.size());
+      triangles.push_back(p);
+    }
+  }
+  if (triangles.empty()) return;
+  const double reach = reach_of(job);
+  all.slabs.resize(triangles.size());
+  for_each_range(triangles.size(), [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) all.slabs[i] = slabs_of(job, triangles[i], reach);
+  });
+}
+
 /// All of them meet the cell, so the overlap of two starts in it where either of them does.
 void CellPairs::load(const Job& job, const PairCells& all, const PairCells::Cell& cell) {
   polygons_ = all.polygons.data() + cell.first;
@@ -234,45 +272,25 @@ void CellPairs::load(const Job& job, const PairCells& all, const PairCells::Cell
       if (box.lo[k] >= cell.lo[k]) starts_[i] |= 1u << k;
     }
   }
-  corners_.clear();
-  if (cell.count >= kCrowd) load_corners(job, cell.count);
-}
-
-void CellPairs::load_corners(const Job& job, uint32_t count) {
-  corners_.resize((count + 7) / 8);
-  triangles_.assign(corners_.size(), 0);
-  reach_ = 0;
-  slabs_of_ = ~0u;
-  for (uint32_t i = 0; i < count; ++i) {
-    const auto corners = job.corners(job.polygons()[polygons_[i]]);
-    if (corners.size() != 3) continue;
-    triangles_[i / 8] |= static_cast<uint8_t>(1u << i % 8);
-    for (size_t c = 0; c < 3; ++c) {
-      const std::array<double, 3>& p = job.rounded(corners[c]);
-      for (size_t k = 0; k < 3; ++k) {
-        corners_[i / 8].at[c][k][i % 8] = static_cast<float>(p[k]);
-        reach_ = std::max(reach_, std::fabs(p[k]));
-      }
-    }
+  triangles_.clear();
+  if (all.slabs.empty() || cell.count < kCrowd) return;
+  for (uint32_t i = 0; i < cell.count; i += 8) {
+    triangles_.emplace_back(job, std::span(polygons_ + i, std::min(8u, cell.count - i)));
   }
 }
 
-void CellPairs::sift(const Job& job, uint32_t first, uint32_t count, uint32_t j,
-                     std::array<uint32_t, kAtOnce>& meets) {
-  if ((triangles_[j / 8] >> j % 8 & 1) == 0) return;
+void CellPairs::sift(const PairCells& all, uint32_t first, uint32_t count, uint32_t j,
+                     std::array<uint32_t, kAtOnce>& meets) const {
+  const uint32_t slabs = all.slabs_at[polygons_[j]];
+  if (slabs == PairCells::kNoSlabs) return;
   for (uint32_t begin = 0; begin < count; begin += 8) {
-    const uint32_t group = (first + begin) / 8, lanes = std::min(8u, count - begin);
+    const JobTriangles& triangles = triangles_[(first + begin) / 8];
+    const uint32_t lanes = std::min(8u, count - begin);
     uint32_t which = 0;
     for (uint32_t i = 0; i < lanes; ++i) which |= meets[begin + i] << i;
-    which &= triangles_[group];
+    which &= triangles.which;
     if (which == 0) continue;
-    if (slabs_of_ != j) {
-      slabs_of_ = j;
-      const auto corners = job.corners(job.polygons()[polygons_[j]]);
-      slabs_ = Slabs({job.rounded(corners[0]), job.rounded(corners[1]), job.rounded(corners[2])},
-                     reach_);
-    }
-    const uint32_t apart = slabs_.apart_in_space(corners_[group], which);
+    const uint32_t apart = all.slabs[slabs].apart_in_space(triangles.corners, which);
     for (uint32_t i = 0; i < lanes; ++i) meets[begin + i] &= ~(apart >> i);
   }
 }
@@ -293,19 +311,20 @@ void CellPairs::compare(uint32_t first, uint32_t count, uint32_t j,
 }
 
 PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,
-                          const KernelOptions& options) {
+                          const KernelOptions& options, std::span<const uint8_t> left_out) {
   constexpr size_t kEach = 64;
   const uint32_t limit = std::max<uint32_t>(1, options.cell_limit);
   const NearFaces* const near = job.near_faces();
   PairCells found;
-  if (!near) found = find_coarse_cells(job, covered, limit);
+  if (!near) found = find_coarse_cells(job, covered, limit, left_out);
   const PairCells& coarse = near ? *near->cells : found;
   std::vector<PairCells> parts(part_count(coarse.cells.size(), kEach));
   for_each_part(coarse.cells.size(), kEach, [&](size_t part, size_t begin, size_t end) {
-    parts[part] = CellFinder(job, covered, limit, options.cancel).run(coarse, begin, end);
+    parts[part] = CellFinder(job, covered, left_out, limit, options.cancel).run(coarse, begin, end);
   });
   PairCells all = join(std::move(parts));
   all.surface += coarse.surface;
+  add_slabs(job, all);
   return all;
 }
 

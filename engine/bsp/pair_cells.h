@@ -11,6 +11,7 @@
 
 #include "engine/base/raw_vector.h"
 #include "engine/bsp/job.h"
+#include "engine/bsp/job_triangles.h"
 #include "engine/bsp/operand.h"
 #include "engine/bsp/slabs.h"
 
@@ -28,12 +29,23 @@ struct PairCells {
   /// Cells that hold surface; where only one operand has some, as many as it would fill with
   /// `cell_limit` polygons each.
   uint64_t surface = 0;
+  /// The slabs of triangles in crowds, each made once, and per polygon its place there, or
+  /// kNoSlabs; both empty if there is no crowd.
+  static constexpr uint32_t kNoSlabs = ~0u;
+  std::vector<Slabs> slabs;
+  std::vector<uint32_t> slabs_at;
 };
 
+/// So many polygons of a cell are a crowd: worth the time to pack their corners.
+constexpr uint32_t kCrowd = 128;
+
 /// Cells with polygons of at least two operands, not all of which are in `covered` (per polygon;
-/// empty: none is). O(n log n) for n polygons of bounded size.
+/// empty: none is), and none in `left_out`; with slabs. O(n log n) for n polygons of bounded size.
 PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,
-                          const KernelOptions& options);
+                          const KernelOptions& options, std::span<const uint8_t> left_out = {});
+
+/// Makes the slabs of the triangles in crowds.
+void add_slabs(const Job& job, PairCells& cells);
 
 /// The pairs of a cell. Keeps its working memory from one cell to the next.
 class CellPairs {
@@ -42,8 +54,8 @@ class CellPairs {
   explicit CellPairs(std::span<const uint8_t> covered) : covered_(covered) {}
 
   /// Calls visit(p, q), p < q, for each pair of different operands that belongs to the cell, but
-  /// for those of two covered polygons, and in a cell of kCrowd polygons for triangles of different
-  /// planes that are seen to be apart at a glance.
+  /// for those of two covered polygons, and in a crowd for triangles of different planes that are
+  /// seen to be apart at a glance.
   template <class Visit>
   void visit(const Job& job, const PairCells& all, const PairCells::Cell& cell, Visit&& visit) {
     load(job, all, cell);
@@ -54,7 +66,7 @@ class CellPairs {
         const uint32_t count = std::min(kAtOnce, own_start - first);
         std::array<uint32_t, kAtOnce> meets;
         compare(first, count, j, meets);
-        if (!corners_.empty()) sift(job, first, count, j, meets);
+        if (!triangles_.empty()) sift(all, first, count, j, meets);
         for (uint32_t i = 0; i < count; ++i) {
           if (meets[i] != 0 && !are_covered(polygons_[first + i], polygons_[j])) {
             visit(polygons_[first + i], polygons_[j]);
@@ -76,9 +88,8 @@ class CellPairs {
   /// in the cell.
   void compare(uint32_t first, uint32_t count, uint32_t j, std::array<uint32_t, kAtOnce>& meets);
   /// Takes away triangles that are plainly apart from polygon j.
-  void sift(const Job& job, uint32_t first, uint32_t count, uint32_t j,
-            std::array<uint32_t, kAtOnce>& meets);
-  void load_corners(const Job& job, uint32_t count);
+  void sift(const PairCells& all, uint32_t first, uint32_t count, uint32_t j,
+            std::array<uint32_t, kAtOnce>& meets) const;
 
   std::span<const uint8_t> covered_;
   const uint32_t* polygons_ = nullptr;
@@ -86,15 +97,7 @@ class CellPairs {
   std::array<std::vector<int32_t>, 3> lo_, hi_;
   std::vector<uint32_t> starts_;  ///< along which axes the box has its lower end in the cell
   std::vector<uint32_t> operands_;
-  /// In a crowd: the corners of all of them, eight by eight, and which are triangles.
-  std::vector<EightTriangles> corners_;
-  std::vector<uint8_t> triangles_;
-  double reach_ = 0;         ///< of the corners
-  uint32_t slabs_of_ = ~0u;  ///< the polygon, by its place
-  Slabs slabs_;
+  std::vector<JobTriangles> triangles_;  ///< in a crowd all of them, eight by eight
 };
-
-/// So many polygons of a cell are worth the time to pack their corners.
-constexpr uint32_t kCrowd = 128;
 
 }  // namespace csgrun

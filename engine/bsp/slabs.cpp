@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/vec3d.h"
 
@@ -69,6 +70,48 @@ Slabs::Places Slabs::places(const Slab& slab, const EightTriangles& others, uint
   }
 #endif
   return result;
+}
+
+// The corners of a box that are the least and the most along a direction. Those that are not there
+// give no number or an infinite one: whatever is said of them is not asked for.
+uint32_t Slabs::beyond(const Slab& slab, const EightBoxes& boxes) {
+  std::array<const std::array<float, 8>*, 3> least{}, most{};
+  for (size_t k = 0; k < 3; ++k) {
+    least[k] = &boxes.lo[k], most[k] = &boxes.hi[k];
+    if (slab.along[k] < 0) std::swap(least[k], most[k]);
+  }
+  uint32_t bits = 0;
+#if defined(__SSE2__)
+  for (size_t half = 0; half < 8; half += 4) {
+    const auto place = [&](const auto& corner) {
+      __m128 sum = _mm_setzero_ps();
+      for (size_t k = 0; k < 3; ++k) {
+        const __m128 at = _mm_load_ps(corner[k]->data() + half);
+        sum = _mm_add_ps(sum, _mm_mul_ps(at, _mm_set1_ps(slab.along[k])));
+      }
+      return sum;
+    };
+    const __m128 out = _mm_or_ps(_mm_cmpgt_ps(place(least), _mm_set1_ps(slab.hi)),
+                                 _mm_cmplt_ps(place(most), _mm_set1_ps(slab.lo)));
+    bits |= static_cast<uint32_t>(_mm_movemask_ps(out)) << half;
+  }
+#else
+  for (uint32_t lane = 0; lane < 8; ++lane) {
+    float from = 0, to = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      from += (*least[k])[lane] * slab.along[k];
+      to += (*most[k])[lane] * slab.along[k];
+    }
+    bits |= static_cast<uint32_t>((from > slab.hi) | (to < slab.lo)) << lane;
+  }
+#endif
+  return bits;
+}
+
+uint32_t Slabs::apart(const EightBoxes& boxes, uint32_t which) const {
+  uint32_t left = which;
+  for (size_t i = 0; i < slabs_.size() && left != 0; ++i) left &= ~beyond(slabs_[i], boxes);
+  return which & ~left;
 }
 
 uint32_t Slabs::beyond_sides(const EightTriangles& others, uint32_t which) const {

@@ -1,9 +1,11 @@
-// One triangle against eight at once: which are certainly apart from it along one of its own
-// directions.
+// One triangle against eight, or eight boxes, at once: which are certainly apart from it along one
+// of its own directions.
 #pragma once
 
 #include <array>
 #include <cstdint>
+
+#include "engine/bsp/packed_boxes.h"
 
 namespace csgrun {
 
@@ -26,6 +28,9 @@ class Slabs {
   [[nodiscard]] uint32_t apart(const EightTriangles& others, uint32_t which) const;
   /// The same but for those that may be in the plane of this one.
   [[nodiscard]] uint32_t apart_in_space(const EightTriangles& others, uint32_t which) const;
+  /// A bit for each of eight boxes that is apart, of those in `which`; their bounds are rounded to
+  /// floats too.
+  [[nodiscard]] uint32_t apart(const EightBoxes& boxes, uint32_t which) const;
 
  private:
   struct Slab {
@@ -37,6 +42,7 @@ class Slabs {
     uint32_t beyond = 0, inside = 0;
   };
   static Places places(const Slab& slab, const EightTriangles& others, uint32_t which);
+  static uint32_t beyond(const Slab& slab, const EightBoxes& boxes);
   /// Those that are beyond one of the slabs across the sides.
   [[nodiscard]] uint32_t beyond_sides(const EightTriangles& others, uint32_t which) const;
 

@@ -12,8 +12,8 @@
 
 #include "engine/base/vec3d.h"
 #include "engine/bsp/operand.h"
+#include "engine/bsp/packed_boxes.h"
 #include "engine/mesh/box_tree.h"
-#include "engine/mesh/packed_boxes.h"
 
 namespace csgrun {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/mesh/packed_boxes.h"
+#include "engine/bsp/packed_boxes.h"
 
 namespace csgrun {
 

@@ -7,12 +7,12 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "engine/bsp/packed_boxes.h"
 #include "engine/bsp/union_find.h"
 #include "engine/mesh/box_frame.h"
 #include "engine/mesh/edge_table.h"
 #include "engine/mesh/face_pair.h"
 #include "engine/mesh/leaf_shape.h"
-#include "engine/mesh/packed_boxes.h"
 #include "engine/mesh/single_sheets.h"
 #include "engine/mesh/star_surface.h"
 #include "engine/mesh/triangle_pairs.h"

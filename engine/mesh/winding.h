@@ -5,7 +5,7 @@
 #include <span>
 
 #include "engine/bsp/operand.h"
-#include "engine/mesh/packed_boxes.h"
+#include "engine/bsp/packed_boxes.h"
 
 namespace csgrun {
 

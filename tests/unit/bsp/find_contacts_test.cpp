@@ -3,12 +3,15 @@
 #include "engine/bsp/find_contacts.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "engine/bsp/pair_cells.h"
 #include "engine/bsp/sign_stats.h"
+#include "engine/bsp/wide_triangles.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
 
@@ -138,6 +141,147 @@ TEST(FindContacts, GivesAndCountsWhatPairsDo) {
   EXPECT_GT(contacts, 1000u);
   EXPECT_GT(sifted, 1u);
   EXPECT_LT(sifted, 30u);
+}
+
+/// A closed surface of small triangles: a ball of so many rings, with bumps.
+LeafGeometry bumpy_ball(test::Random& random, int64_t radius, uint32_t rings) {
+  LeafGeometry leaf;
+  const uint32_t around = 2 * rings;
+  const auto add = [&](double polar, double turn) {
+    const double r = static_cast<double>(radius + random.integer(-radius / 50, radius / 50));
+    leaf.vertices.push_back({std::llround(r * std::sin(polar) * std::cos(turn)),
+                             std::llround(r * std::sin(polar) * std::sin(turn)),
+                             std::llround(r * std::cos(polar))});
+  };
+  constexpr double kPi = 3.14159265358979;
+  for (uint32_t ring = 1; ring < rings; ++ring) {
+    for (uint32_t i = 0; i < around; ++i) add(kPi * ring / rings, 2 * kPi * i / around);
+  }
+  add(0, 0);
+  add(kPi, 0);
+  const uint32_t top = (rings - 1) * around, bottom = top + 1;
+  const auto triangle = [&](uint32_t a, uint32_t b, uint32_t c) {
+    leaf.corners.insert(leaf.corners.end(), {a, b, c});
+    leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()));
+  };
+  for (uint32_t i = 0; i < around; ++i) {
+    const uint32_t next = (i + 1) % around;
+    triangle(top, i, next);
+    for (uint32_t ring = 0; ring + 2 < rings; ++ring) {
+      const uint32_t a = ring * around, b = a + around;
+      triangle(a + i, b + i, b + next);
+      triangle(a + i, b + next, a + next);
+    }
+    triangle(bottom, top - around + next, top - around + i);
+  }
+  return leaf;
+}
+
+/// A cone from a ring, aslant: triangles as long as the whole, to the tip and to the middle below.
+LeafGeometry slanting_cone(test::Random& random, int64_t radius, uint32_t around) {
+  LeafGeometry leaf;
+  const int64_t a = random.integer(1, radius), b = random.integer(1, radius);
+  for (uint32_t i = 0; i < around; ++i) {
+    const double turn = 6.28318530717959 * i / around;
+    const double x = std::cos(turn) * static_cast<double>(radius),
+                 y = std::sin(turn) * static_cast<double>(radius);
+    leaf.vertices.push_back({std::llround(x), std::llround(y), std::llround(x / 2 - y / 3)});
+  }
+  leaf.vertices.push_back({a, b, 2 * radius});
+  leaf.vertices.push_back({0, 0, 0});
+  for (uint32_t i = 0; i < around; ++i) {
+    const uint32_t next = (i + 1) % around;
+    for (const auto& t : {std::array{i, next, around}, std::array{next, i, around + 1}}) {
+      leaf.corners.insert(leaf.corners.end(), t.begin(), t.end());
+      leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()));
+    }
+  }
+  return leaf;
+}
+
+// Long triangles that stand aslant have much of the other surface in their boxes: they are held
+// against it one by one.
+TEST(FindContacts, WideTrianglesMeetWhatPairsDo) {
+  uint64_t wide_ones = 0, visited = 0, overlaps = 0, both = 0, contacts = 0;
+  for (int i = 0; i < 24; ++i) {
+    test::Random random(5600 + i);
+    const int64_t radius = random.integer(1000, 100000000);
+    std::vector<LeafGeometry> leaves{bumpy_ball(random, radius, 16),
+                                     slanting_cone(random, radius, 60)};
+    if (i % 3 == 2) leaves[0] = slanting_cone(random, radius, 90);
+    if (i % 2 == 1) std::swap(leaves[0], leaves[1]);
+    std::vector<Operand> operands;
+    for (LeafGeometry& leaf : leaves) {
+      operands.push_back(test::operand_of(std::make_shared<LeafGeometry>(std::move(leaf))));
+      for (int64_t& t : operands.back().translation) t = random.integer(-radius / 4, radius / 4);
+    }
+    const OneByOne expected(operands);
+    Job job(operands);
+    const WideTriangles wide(job);
+    std::vector<uint8_t> covered(job.polygons().size());
+    for (uint8_t& c : covered) c = random.integer(0, 1) != 0;
+    std::array<Pairs, 2> pairs;
+    for (const bool with_covered : {false, true}) {
+      for (const uint32_t p : wide.list()) {
+        wide.visit_pairs(job, with_covered ? covered : std::vector<uint8_t>(), p,
+                         [&](uint32_t first, uint32_t second) {
+                           EXPECT_LT(first, second);
+                           pairs[with_covered].emplace_back(first, second);
+                         });
+      }
+      std::sort(pairs[with_covered].begin(), pairs[with_covered].end());
+      // Each of them once.
+      EXPECT_EQ(std::unique(pairs[with_covered].begin(), pairs[with_covered].end()),
+                pairs[with_covered].end());
+    }
+    std::erase_if(pairs[0], [&](const auto& p) { return covered[p.first] && covered[p.second]; });
+    EXPECT_EQ(pairs[0], pairs[1]);
+    for (const uint32_t p : wide.list()) {
+      for (uint32_t q = 0; q < job.polygons().size(); ++q) {
+        overlaps += job.polygons()[q].operand != job.polygons()[p].operand &&
+                    overlap(job.boxes()[p], job.boxes()[q]);
+      }
+    }
+    for (const auto& covering : {std::vector<uint8_t>(), covered}) {
+      Pairs meeting = expected.contacts;
+      if (!covering.empty()) {
+        std::erase_if(meeting,
+                      [&](const auto& p) { return covered[p.first] && covered[p.second]; });
+      }
+      EvaluateStats stats;
+      Pairs found;
+      for (const Contact& c : find_contacts(job, covering, {}, stats).contacts) {
+        found.emplace_back(c.p, c.q);
+      }
+      std::sort(found.begin(), found.end());
+      ASSERT_EQ(found, meeting) << i;
+    }
+    contacts += expected.contacts.size();
+    visited += pairs[1].size();
+    wide_ones += wide.list().size();
+    both += !wide.list().empty() && wide.list().front() < job.polygon_start(1) &&
+            wide.list().back() >= job.polygon_start(1);
+  }
+  EXPECT_GT(wide_ones, 500u);
+  EXPECT_GT(both, 1u);
+  EXPECT_GT(contacts, 1000u);
+  EXPECT_GT(overlaps, 5 * visited);
+}
+
+TEST(FindContacts, NoTriangleIsWideAmongFewOrBeyondWhatBoxesTell) {
+  test::Random random(77);
+  const auto cone = std::make_shared<LeafGeometry>(slanting_cone(random, 100000, 60));
+  const auto ball = std::make_shared<LeafGeometry>(bumpy_ball(random, 100000, 16));
+  std::vector<Operand> operands{test::operand_of(ball), test::operand_of(cone)};
+  EXPECT_FALSE(WideTriangles(Job(operands)).list().empty());
+  EXPECT_TRUE(WideTriangles(Job({operands[1], operands[1], operands[0]})).list().empty());
+  EXPECT_TRUE(WideTriangles(Job({operands[1]})).list().empty());
+  for (Operand& o : operands) o.translation = {int64_t{1} << 30, 0, 0};
+  EXPECT_TRUE(WideTriangles(Job(operands)).list().empty());
+  for (Operand& o : operands) o.translation = {0, -(int64_t{1} << 30), 0};
+  EXPECT_TRUE(WideTriangles(Job(operands)).list().empty());
+  operands[0].translation = {0, 0, 0};
+  EXPECT_TRUE(WideTriangles(Job(operands)).list().empty());
 }
 
 }  // namespace

@@ -460,6 +460,9 @@ TEST(PairCells, CrowdsAreSifted) {
     PairCells cells;
     for (uint32_t p = 0; p < count; ++p) cells.polygons.push_back(p);
     cells.cells.push_back({{-200, -200, -200}, {200, 200, 200}, 0, static_cast<uint32_t>(count)});
+    EXPECT_EQ(visited(job, cells), all_pairs(job));  // without slabs all are
+    add_slabs(job, cells);
+    EXPECT_EQ(cells.slabs.empty(), count < kCrowd);
     const Pairs found = visited(job, cells), all = all_pairs(job);
     for (const auto& [pair, times] : found) EXPECT_TRUE(all.contains(pair) && times == 1);
     for (const auto& [pair, times] : all) {

@@ -158,12 +158,77 @@ TEST(Slabs, RoundedCornersNeverPartWhatTouches) {
   }
 }
 
+EightBoxes boxes_of(const std::array<Triangle, 8>& triangles) {
+  EightBoxes boxes{};
+  for (size_t lane = 0; lane < 8; ++lane) {
+    for (size_t k = 0; k < 3; ++k) {
+      const auto [lo, hi] =
+          std::minmax({triangles[lane][0][k], triangles[lane][1][k], triangles[lane][2][k]});
+      boxes.lo[k][lane] = static_cast<float>(lo);
+      boxes.hi[k][lane] = static_cast<float>(hi);
+    }
+  }
+  return boxes;
+}
+
+/// The most room that the slabs of s leave to a box.
+double most_room(const Triangle& s, const Vec& lo, const Vec& hi) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < 4; ++i) {
+    const Vec way = i == 3 ? normal(s) : cross(edge(s, i), normal(s));
+    double room = std::numeric_limits<double>::infinity();  // to one side and to the other
+    for (const double sense : {1.0, -1.0}) {
+      const auto along = [&](const Vec& p) { return sense * dot(p, way); };
+      Vec least{};
+      for (size_t k = 0; k < 3; ++k) least[k] = sense * way[k] > 0 ? lo[k] : hi[k];
+      const double gap = along(least) - std::max({along(s[0]), along(s[1]), along(s[2])});
+      room = sense > 0 ? gap : std::max(room, gap);
+    }
+    most = std::max(most, room / std::sqrt(dot(way, way)));
+  }
+  return most;
+}
+
+TEST(Slabs, SeeWhichBoxesAreBeyondOneOfThemAndNoOther) {
+  size_t found = 0, left = 0;
+  for (int i = 0; i < 3000; ++i) {
+    test::Random random(4700 + i);
+    const int64_t size = random.integer(2, 9);
+    const Triangle own = random_triangle(random, size);
+    std::array<Triangle, 8> inside;  // of the boxes
+    for (Triangle& t : inside) {
+      t = scaled(random_triangle(random, size), 0.5,
+                 own[static_cast<size_t>(random.integer(0, 2))]);
+    }
+    const EightBoxes boxes = boxes_of(inside);
+    const auto reach = static_cast<double>(20 * size);
+    const auto which = static_cast<uint32_t>(random.integer(0, 255));
+    const uint32_t apart = Slabs(own, reach).apart(boxes, which);
+    EXPECT_EQ(apart & ~which, 0u);
+    for (uint32_t lane = 0; lane < 8; ++lane) {
+      if ((which >> lane & 1) == 0) continue;
+      const auto corner = [&](const auto& bounds) {
+        return Vec{bounds[0][lane], bounds[1][lane], bounds[2][lane]};
+      };
+      const double room = most_room(own, corner(boxes.lo), corner(boxes.hi));
+      const bool is_apart = (apart >> lane & 1) != 0;
+      // Where there is room at all it is more than the slack: coordinates are small.
+      EXPECT_EQ(is_apart, room > 0x1p-18 * reach) << i << ' ' << lane;
+      ++(is_apart ? found : left);
+    }
+  }
+  EXPECT_GT(found, 1000u);
+  EXPECT_GT(left, 1000u);
+}
+
 TEST(Slabs, ATriangleWithoutAreaIsApartFromNothing) {
   std::array<Triangle, 8> others;
   others.fill({{{90, 90, 90}, {91, 90, 90}, {90, 91, 90}}});
   const Triangle line{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}}, good{{{0, 0, 0}, {1, 1, 1}, {2, 3, 2}}};
   EXPECT_EQ(Slabs(line, 100).apart(packed(others), 0xff), 0u);
   EXPECT_EQ(Slabs(good, 100).apart(packed(others), 0xff), 0xffu);
+  EXPECT_EQ(Slabs(line, 100).apart(boxes_of(others), 0xff), 0u);
+  EXPECT_EQ(Slabs(good, 100).apart(boxes_of(others), 0xff), 0xffu);
   // A reach beyond all measure leaves no room.
   EXPECT_EQ(Slabs(good, 0x1p40).apart(packed(others), 0xff), 0u);
 }

@@ -21,6 +21,11 @@ struct FloatBox {
   std::array<float, 3> lo, hi;
 };
 
+/// Eight boxes: [axis][lane]. Lanes that hold none are inside out: they overlap nothing.
+struct alignas(16) EightBoxes {
+  std::array<std::array<float, 8>, 3> lo, hi;
+};
+
 class PackedBoxes {
  public:
   /// O(n). Boxes are ordered by their middles along a space-filling curve.
@@ -32,6 +37,18 @@ class PackedBoxes {
   /// Calls `visit(place)` for every box that overlaps `box`, in their order.
   template <class Visit>
   void visit_all(const FloatBox& box, Visit visit) const {
+    visit_groups(
+        box, [](const EightBoxes&, uint32_t hits) { return hits; },
+        [&](uint32_t group, uint32_t hits) {
+          for_each_bit(hits, [&](uint32_t bit) { visit(8 * group + bit); });
+        });
+  }
+
+  /// Calls `visit(group, hits)` for groups with boxes that overlap `box`, in their order, with a
+  /// bit of `hits` for each: at the places 8 group + bit. `sift(boxes, hits)` says which of the
+  /// boxes, and of those around groups, are still of interest.
+  template <class Sift, class Visit>
+  void visit_groups(const FloatBox& box, Sift sift, Visit visit) const {
     if (levels_.empty()) return;
     std::array<Step, kMostLevels * 8> stack;
     size_t depth = 0;
@@ -39,8 +56,9 @@ class PackedBoxes {
     while (depth > 0) {
       const uint32_t level = stack[--depth].level, group = stack[depth].group;
       uint32_t hits = overlapping(levels_[level][group], box);
+      if (hits != 0) hits = sift(levels_[level][group], hits);
       if (level == 0) {
-        for_each_bit(hits, [&](uint32_t bit) { visit(8 * group + bit); });
+        if (hits != 0) visit(group, hits);
         continue;
       }
       for (; hits != 0; hits ^= std::bit_floor(hits)) {
@@ -89,10 +107,7 @@ class PackedBoxes {
   struct Step {
     uint32_t level, group;
   };
-  /// Lanes that hold no box are inside out: they overlap nothing.
-  struct alignas(16) Group {
-    std::array<std::array<float, 8>, 3> lo, hi;
-  };
+  using Group = EightBoxes;
 
   /// A bit for each of the eight that overlaps the box.
   static uint32_t overlapping(const Group& group, const FloatBox& box) {

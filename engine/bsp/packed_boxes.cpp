@@ -1,4 +1,4 @@
-#include "engine/mesh/packed_boxes.h"
+#include "engine/bsp/packed_boxes.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // Trees of boxes against a look at all boxes.
-#include "engine/mesh/packed_boxes.h"
+#include "engine/bsp/packed_boxes.h"
 
 #include <algorithm>
 #include <limits>
