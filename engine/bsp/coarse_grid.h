@@ -21,6 +21,8 @@ class CoarseGrid {
   static constexpr uint32_t kNobody = 0, kSeveral = ~0u;
   /// Polygons that are in more cells than this on the average are too large for a grid.
   static constexpr size_t kMostCellsEach = 16;
+  /// Along an axis: places are 16-bit integers.
+  static constexpr size_t kMostInRow = 32000;
 
   /// So many are of use for so many polygons, of which `limit` in a cell are few.
   static size_t most_cells(size_t polygons, uint32_t limit) {
@@ -41,7 +43,7 @@ class CoarseGrid {
       --shift_[k];
       const size_t before = count_[k];
       count_[k] = place(k, bounds.hi[k]) + 1;
-      if (count_[0] * count_[1] * count_[2] <= most_cells) continue;
+      if (count_[k] <= kMostInRow && count_[0] * count_[1] * count_[2] <= most_cells) continue;
       ++shift_[k];
       count_[k] = before;
       break;
@@ -50,6 +52,8 @@ class CoarseGrid {
       second_[axes] =
           (axes & 1) + (axes >> 1 & 1) * count_[0] + (axes >> 2) * count_[0] * count_[1];
     }
+    for (size_t k = 0; k < 3; ++k) end_[k] = static_cast<int16_t>(count_[k]);
+    stride_ = {1, static_cast<int>(count_[0]), static_cast<int>(count_[0] * count_[1])};
     cells_.resize(count_[0] * count_[1] * count_[2]);
     for_each_range(cells_.size(), [&](size_t begin, size_t end) {
       std::fill(cells_.data() + begin, cells_.data() + end, kNobody);
@@ -59,14 +63,33 @@ class CoarseGrid {
   /// Marks a cell with the surface of an operand (its number and one); of polygons
   /// that are covered only where others have some. What is there after all of them does not depend
   /// on who comes first. Several threads may mark at the same time.
-  static void mark(uint32_t& cell, uint32_t own, bool are_covered) {
+  /// Returns whether the cell has several then.
+  static bool mark(uint32_t& cell, uint32_t own, bool are_covered) {
     const std::atomic_ref<uint32_t> shared(cell);
     uint32_t known = shared.load(std::memory_order_relaxed);
     while (known != own && known != kSeveral) {
-      if (known == kNobody && are_covered) return;
+      if (known == kNobody && are_covered) return false;
       const uint32_t then = known == kNobody ? own : kSeveral;
-      if (shared.compare_exchange_weak(known, then, std::memory_order_relaxed)) return;
+      if (shared.compare_exchange_weak(known, then, std::memory_order_relaxed)) {
+        return then == kSeveral;
+      }
     }
+    return known == kSeveral;
+  }
+
+  /// The cell of a point along each axis: one before the first or one after the last where it is
+  /// not in the box. A vector, of which the processor compares all numbers at once; the fourth is
+  /// not used.
+  using Place = int16_t __attribute__((vector_size(8)));
+  template <class Coordinate>
+  [[nodiscard]] Place place_of(const std::array<Coordinate, 3>& point) const {
+    Place place{};
+    for (size_t k = 0; k < 3; ++k) {
+      const int64_t from = std::max<int64_t>(int64_t{point[k]} - bounds_.lo[k], -1);
+      const int64_t length = int64_t{bounds_.hi[k]} - bounds_.lo[k];
+      place[k] = static_cast<int16_t>(from > length ? int64_t{end_[k]} : from >> shift_[k]);
+    }
+    return place;
   }
 
   /// The cells that a box meets: in rows of `count[0]`, from `first` on.
@@ -79,23 +102,20 @@ class CoarseGrid {
       return any ? (more[0] + size_t{1}) * (more[1] + size_t{1}) * (more[2] + size_t{1}) : 0;
     }
   };
-  /// False when there are too many to name.
+  /// Those of the box between two places. False when there are too many to name.
+  bool find_cells(Place lo, Place hi, Cells& cells) const {
+    constexpr int kMostMore = 255;
+    const Place none{}, last = end_ - 1;
+    lo = lo > none ? lo : none;
+    hi = hi < last ? hi : last;
+    const Place more = hi - lo;
+    cells.any = more[0] >= 0 && more[1] >= 0 && more[2] >= 0;
+    cells.first = static_cast<uint32_t>(lo[0] + lo[1] * stride_[1] + lo[2] * stride_[2]);
+    for (size_t k = 0; k < 3; ++k) cells.more[k] = static_cast<uint8_t>(more[k]);
+    return !cells.any || std::max({more[0], more[1], more[2]}) <= kMostMore;
+  }
   bool find_cells(const PolygonBox& box, Cells& cells) const {
-    constexpr uint32_t kMostMore = 255;
-    uint32_t stride = 1, most = 0;
-    cells = {0, {}, true};
-    for (size_t k = 0; k < 3; ++k) {
-      const int32_t lo = std::max(box.lo[k], bounds_.lo[k]),
-                    hi = std::min(box.hi[k], bounds_.hi[k]);
-      cells.any &= lo <= hi;
-      const auto first = static_cast<uint32_t>(place(k, lo)),
-                 more = static_cast<uint32_t>(place(k, hi)) - first;
-      cells.first += stride * first;
-      cells.more[k] = static_cast<uint8_t>(more);
-      most = std::max(most, more);
-      stride *= static_cast<uint32_t>(count_[k]);
-    }
-    return !cells.any || most <= kMostMore;
+    return find_cells(place_of(box.lo), place_of(box.hi), cells);
   }
   /// Calls visit(cell) for each.
   template <class Visit>
@@ -150,6 +170,8 @@ class CoarseGrid {
   const PolygonBox bounds_;
   std::array<unsigned, 3> shift_{};
   std::array<size_t, 3> count_{};
+  Place end_{};  ///< after the last along each axis
+  std::array<int, 3> stride_{};
   std::array<size_t, 8> second_{};  ///< from a cell to the next along several axes, a bit for each
   RawVector<uint32_t> cells_;
 };

@@ -28,7 +28,10 @@ bool can_be_named(const Operand& operand) {
 class Leaf {
  public:
   explicit Leaf(const Operand& operand)
-      : leaf_(*operand.leaf), translation_(operand.translation), cells_(leaf_.face_count()) {}
+      : leaf_(*operand.leaf),
+        translation_(operand.translation),
+        cells_(leaf_.face_count()),
+        is_near_(leaf_.vertices.size(), 0) {}
 
   [[nodiscard]] size_t face_count() const { return leaf_.face_count(); }
 
@@ -45,24 +48,51 @@ class Leaf {
   }
 
   /// Marks the cells that faces reach; `own` names the operand. False if they are more than `most`.
-  bool mark(CoarseGrid& grid, uint32_t own, size_t most) {
+  /// After the cells of all others have been marked it also notes the faces that share one.
+  bool mark(CoarseGrid& grid, uint32_t own, size_t most, bool is_last) {
+    RawVector<CoarseGrid::Place> places(leaf_.vertices.size());
+    for_each_range(places.size(), [&](size_t begin, size_t end) {
+      for (size_t v = begin; v < end; ++v) {
+        const IVec3& p = leaf_.vertices[v];
+        places[v] = grid.place_of(
+            IVec3{p[0] + translation_[0], p[1] + translation_[1], p[2] + translation_[2]});
+      }
+    });
     std::atomic<size_t> all = 0;
     std::atomic<bool> failed = false;
     for_each_range(face_count(), [&](size_t begin, size_t end) {
       size_t sum = 0;
       for (size_t f = begin; f < end; ++f) {
         CoarseGrid::Cells& cells = cells_[f];
+        const auto [a, b, c] = corners(f);
+        const CoarseGrid::Place p = places[a], q = places[b], r = places[c];
+        const CoarseGrid::Place pq_lo = p < q ? p : q, pq_hi = p < q ? q : p;
         if (sum + all.load(std::memory_order_relaxed) > most ||
-            !grid.find_cells(box_of_triangle(leaf_, f, translation_), cells)) {
+            !grid.find_cells(pq_lo < r ? pq_lo : r, pq_hi > r ? pq_hi : r, cells)) {
           failed = true;
           return;
         }
         sum += cells.count();
-        grid.each_cell(cells, [&](uint32_t& cell) { CoarseGrid::mark(cell, own, false); });
+        bool is_shared = false;
+        grid.each_cell(cells,
+                       [&](uint32_t& cell) { is_shared |= CoarseGrid::mark(cell, own, false); });
+        if (is_last && is_shared) note_near(f);
       }
       all += sum;
     });
     return !failed;
+  }
+
+  /// Notes the faces that reach a cell of several operands.
+  void find_shared(CoarseGrid& grid) {
+    for_each_range(face_count(), [&](size_t begin, size_t end) {
+      for (size_t f = begin; f < end; ++f) {
+        bool is_shared = false;
+        grid.each_cell(cells_[f],
+                       [&](uint32_t cell) { is_shared |= cell == CoarseGrid::kSeveral; });
+        if (is_shared) note_near(f);
+      }
+    });
   }
 
   /// Those of some faces.
@@ -72,23 +102,11 @@ class Leaf {
     });
   }
 
-  /// The faces around vertices of those that reach a cell of several operands.
-  std::vector<uint32_t> near(CoarseGrid& grid) const {
-    std::vector<uint8_t> is_near(leaf_.vertices.size(), 0);
-    for_each_range(face_count(), [&](size_t begin, size_t end) {
-      for (size_t f = begin; f < end; ++f) {
-        bool is_shared = false;
-        grid.each_cell(cells_[f],
-                       [&](uint32_t cell) { is_shared |= cell == CoarseGrid::kSeveral; });
-        if (!is_shared) continue;
-        for (const uint32_t v : corners(f)) {
-          std::atomic_ref(is_near[v]).store(1, std::memory_order_relaxed);
-        }
-      }
-    });
+  /// The faces around vertices of those that were noted.
+  [[nodiscard]] std::vector<uint32_t> near() const {
     return numbers_where(face_count(), [&](uint32_t f) {
       const auto [a, b, c] = corners(f);
-      return (is_near[a] | is_near[b] | is_near[c]) != 0;
+      return (is_near_[a] | is_near_[b] | is_near_[c]) != 0;
     });
   }
 
@@ -98,9 +116,16 @@ class Leaf {
     return {c[0], c[1], c[2]};
   }
 
+  void note_near(size_t face) {
+    for (const uint32_t v : corners(face)) {
+      std::atomic_ref(is_near_[v]).store(1, std::memory_order_relaxed);
+    }
+  }
+
   const LeafGeometry& leaf_;
   const IVec3 translation_;
   RawVector<CoarseGrid::Cells> cells_;  ///< per face
+  std::vector<uint8_t> is_near_;        ///< per vertex: a face around it was noted
 };
 
 }  // namespace
@@ -134,8 +159,9 @@ std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, u
   }
   CoarseGrid grid(common, CoarseGrid::most_cells(count, limit));
   const size_t most = CoarseGrid::kMostCellsEach * count;
-  if (!first.mark(grid, 1, most) || !second.mark(grid, 2, most)) return std::nullopt;
-  near.faces = {first.near(grid), second.near(grid)};
+  if (!first.mark(grid, 1, most, false) || !second.mark(grid, 2, most, true)) return std::nullopt;
+  first.find_shared(grid);
+  near.faces = {first.near(), second.near()};
   const size_t near_count = near.faces[0].size() + near.faces[1].size();
   RawVector<CoarseGrid::Cells> cells(near_count);
   first.copy_cells(near.faces[0], cells.data());

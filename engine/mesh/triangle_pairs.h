@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -79,7 +78,7 @@ class TrianglePairs {
   [[nodiscard]] uint32_t plainly_apart(uint32_t place, uint32_t group, uint32_t hits,
                                        Near& near) const {
     // To get them at hand costs about as much as to test two pairs one by one.
-    if (near.group_ != group && std::popcount(hits) < kFewPairs) return 0;
+    if (near.group_ != group && has_two_at_most(hits)) return 0;
     return beyond_slabs(place, group, hits, near);
   }
 
@@ -97,7 +96,10 @@ class TrianglePairs {
     return leaf_.face_starts[f + 1] - leaf_.face_starts[f] == 3;
   }
 
-  static constexpr int kFewPairs = 3;
+  static bool has_two_at_most(uint32_t bits) {
+    const uint32_t but_one = bits & (bits - 1);
+    return (but_one & (but_one - 1)) == 0;
+  }
 
   [[nodiscard]] uint32_t beyond_slabs(uint32_t place, uint32_t group, uint32_t hits,
                                       Near& near) const;
