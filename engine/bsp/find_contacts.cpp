@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
+#include "engine/bsp/near_faces.h"
+#include "engine/bsp/near_pairs.h"
 #include "engine/bsp/pair_cells.h"
 #include "engine/bsp/parallel_runs.h"
 #include "engine/bsp/sign_stats.h"
@@ -80,13 +83,29 @@ void decide_unsure(Job& job, const std::vector<Found>& found, Contacts& result,
 
 Contacts find_contacts(Job& job, std::span<const uint8_t> covered, const KernelOptions& options,
                        EvaluateStats& stats) {
-  const WideTriangles wide(job);
-  const PairCells cells = find_pair_cells(job, covered, options, wide.is_wide());
-  const size_t cell_runs = run_count(cells.cells.size()), wide_runs = run_count(wide.list().size());
-  std::vector<Found> found(cell_runs + wide_runs);
-  const auto each_of_run = [](size_t count, size_t run, auto&& visit) {
-    const size_t end = std::min(count, (run + 1) * kCellsPerRun);
-    for (size_t i = run * kCellsPerRun; i < end; ++i) visit(i);
+  const NearPairs* const near = job.near_faces() ? job.near_faces()->pairs.get() : nullptr;
+  std::optional<WideTriangles> wide;
+  PairCells cells;
+  if (!near) {
+    wide.emplace(job);
+    cells = find_pair_cells(job, covered, options, wide->is_wide());
+  }
+  // What is looked at: cells of polygons, wide triangles, cells of pairs.
+  const std::array<size_t, 3> counts{cells.cells.size(), wide ? wide->list().size() : 0,
+                                     near ? near->starts.size() - 1 : 0};
+  std::array<size_t, 4> first_run{};
+  for (size_t k = 0; k < 3; ++k) first_run[k + 1] = first_run[k] + run_count(counts[k]);
+  std::vector<Found> found(first_run[3]);
+  const auto look = [&](Looker& looker, size_t kind, size_t i, Found& out) {
+    const auto each = [&](auto visit) {
+      if (kind == 0) return looker.pairs.visit(job, cells, cells.cells[i], visit);
+      if (kind == 1) return wide->visit_pairs(job, covered, wide->list()[i], visit);
+      for (uint32_t p = near->starts[i]; p < near->starts[i + 1]; ++p) {
+        const auto [first, second] = near->pairs[p];
+        if (covered.empty() || !covered[first] || !covered[second]) visit(first, second);
+      }
+    };
+    look_at(looker.test, each, out);
   };
   for_each_run(
       found.size(), options,
@@ -95,27 +114,19 @@ Contacts find_contacts(Job& job, std::span<const uint8_t> covered, const KernelO
       },
       [&](Looker& looker, size_t run) {
         Found& out = found[run];
-        PairTest& test = looker.test;
+        const PairTest& test = looker.test;
         const uint64_t filtered = test.signs().filtered, exact = test.signs().exact;
-        if (run < cell_runs) {
-          each_of_run(cells.cells.size(), run, [&](size_t c) {
-            look_at(
-                test, [&](auto visit) { looker.pairs.visit(job, cells, cells.cells[c], visit); },
-                out);
-          });
-        } else {
-          each_of_run(wide.list().size(), run - cell_runs, [&](size_t i) {
-            look_at(
-                test, [&](auto visit) { wide.visit_pairs(job, covered, wide.list()[i], visit); },
-                out);
-          });
-        }
+        size_t kind = 0;
+        while (run >= first_run[kind + 1]) ++kind;
+        const size_t begin = (run - first_run[kind]) * kCellsPerRun,
+                     end = std::min(counts[kind], begin + kCellsPerRun);
+        for (size_t i = begin; i < end; ++i) look(looker, kind, i, out);
         out.filtered = test.signs().filtered - filtered;
         out.exact = test.signs().exact - exact;
       });
-  stats.cells += cells.visited + wide.list().size();
-  stats.solved_cells += cells.cells.size() + wide.list().size();
-  stats.surface_cells += cells.surface + wide.list().size();
+  stats.cells += cells.visited + counts[1] + (near ? near->visited : 0);
+  stats.solved_cells += counts[0] + counts[1] + counts[2];
+  stats.surface_cells += cells.surface + counts[1] + (near ? near->surface : 0);
   Contacts result;
   result.touched.assign(job.vertex_count(), 0);
   std::vector<size_t> starts(found.size());  // of the contacts of each run

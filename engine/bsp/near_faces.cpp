@@ -9,6 +9,7 @@
 #include "engine/base/raw_vector.h"
 #include "engine/bsp/coarse_cells.h"
 #include "engine/bsp/coarse_grid.h"
+#include "engine/bsp/near_pairs.h"
 
 namespace csgrun {
 namespace {
@@ -31,7 +32,7 @@ class Leaf {
       : leaf_(*operand.leaf),
         translation_(operand.translation),
         cells_(leaf_.face_count()),
-        is_near_(leaf_.vertices.size(), 0) {}
+        is_shared_(leaf_.face_count()) {}
 
   [[nodiscard]] size_t face_count() const { return leaf_.face_count(); }
 
@@ -48,7 +49,7 @@ class Leaf {
   }
 
   /// Marks the cells that faces reach; `own` names the operand. False if they are more than `most`.
-  /// After the cells of all others have been marked it also notes the faces that share one.
+  /// After the cells of all others have been marked it also tells which faces share one.
   bool mark(CoarseGrid& grid, uint32_t own, size_t most, bool is_last) {
     RawVector<CoarseGrid::Place> places(leaf_.vertices.size());
     for_each_range(places.size(), [&](size_t begin, size_t end) {
@@ -76,23 +77,27 @@ class Leaf {
         bool is_shared = false;
         grid.each_cell(cells,
                        [&](uint32_t& cell) { is_shared |= CoarseGrid::mark(cell, own, false); });
-        if (is_last && is_shared) note_near(f);
+        if (is_last) is_shared_[f] = is_shared ? 1 : 0;
       }
       all += sum;
     });
     return !failed;
   }
 
-  /// Notes the faces that reach a cell of several operands.
+  /// Finds the faces that reach a cell of several operands.
   void find_shared(CoarseGrid& grid) {
     for_each_range(face_count(), [&](size_t begin, size_t end) {
       for (size_t f = begin; f < end; ++f) {
         bool is_shared = false;
         grid.each_cell(cells_[f],
                        [&](uint32_t cell) { is_shared |= cell == CoarseGrid::kSeveral; });
-        if (is_shared) note_near(f);
+        is_shared_[f] = is_shared ? 1 : 0;
       }
     });
+  }
+  /// In ascending order.
+  [[nodiscard]] std::vector<uint32_t> shared() const {
+    return numbers_where(face_count(), [&](uint32_t f) { return is_shared_[f] != 0; });
   }
 
   /// Those of some faces.
@@ -102,11 +107,28 @@ class Leaf {
     });
   }
 
-  /// The faces around vertices of those that were noted.
-  [[nodiscard]] std::vector<uint32_t> near() const {
+  /// The faces around vertices of those that are chosen, which are some of a list.
+  template <class Chosen>
+  [[nodiscard]] std::vector<uint32_t> around(const std::vector<uint32_t>& faces,
+                                             Chosen&& is_chosen) const {
+    std::vector<uint8_t> is_near(leaf_.vertices.size(), 0);
+    for_each_range(faces.size(), [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        if (!is_chosen(i)) continue;
+        for (const uint32_t v : corners(faces[i])) {
+          std::atomic_ref(is_near[v]).store(1, std::memory_order_relaxed);
+        }
+      }
+    });
     return numbers_where(face_count(), [&](uint32_t f) {
       const auto [a, b, c] = corners(f);
-      return (is_near_[a] | is_near_[b] | is_near_[c]) != 0;
+      return (is_near[a] | is_near[b] | is_near[c]) != 0;
+    });
+  }
+
+  void copy_boxes(const std::vector<uint32_t>& faces, PolygonBox* to) const {
+    for_each_range(faces.size(), [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) to[i] = box_of_triangle(leaf_, faces[i], translation_);
     });
   }
 
@@ -116,17 +138,22 @@ class Leaf {
     return {c[0], c[1], c[2]};
   }
 
-  void note_near(size_t face) {
-    for (const uint32_t v : corners(face)) {
-      std::atomic_ref(is_near_[v]).store(1, std::memory_order_relaxed);
-    }
-  }
-
   const LeafGeometry& leaf_;
   const IVec3 translation_;
   RawVector<CoarseGrid::Cells> cells_;  ///< per face
-  std::vector<uint8_t> is_near_;        ///< per vertex: a face around it was noted
+  RawVector<uint8_t> is_shared_;        ///< per face: it reaches a cell of several operands
 };
+
+/// The places of some faces in a list, both ascending, counted from `first`; those of faces that it
+/// does not have mean nothing.
+void number_among(const std::vector<uint32_t>& faces, const std::vector<uint32_t>& list,
+                  size_t first, uint32_t* numbers) {
+  size_t at = 0;
+  for (size_t i = 0; i < faces.size(); ++i) {
+    while (at < list.size() && list[at] < faces[i]) ++at;
+    numbers[i] = static_cast<uint32_t>(first + at);
+  }
+}
 
 }  // namespace
 
@@ -146,28 +173,53 @@ std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, u
   if (operands.size() != 2 || !can_be_named(operands[0]) || !can_be_named(operands[1])) {
     return std::nullopt;
   }
-  Leaf first(operands[0]), second(operands[1]);
-  const size_t count = first.face_count() + second.face_count();
-  const std::optional<PolygonBox> box = first.box(), other = second.box();
+  std::array<Leaf, 2> leaves{Leaf(operands[0]), Leaf(operands[1])};
+  const size_t count = leaves[0].face_count() + leaves[1].face_count();
+  const std::optional<PolygonBox> box = leaves[0].box(), other = leaves[1].box();
   if (!box || !other) return std::nullopt;
   PolygonBox common = *box;
   common.clip(*other);
-  NearFaces near{{{}, {}}, {*box, *other}, {}};
+  NearFaces near{{{}, {}}, {*box, *other}, {}, {}};
   if (common.is_empty()) {
     near.cells = std::make_shared<PairCells>(no_shared_cells(count, limit));
     return near;
   }
   CoarseGrid grid(common, CoarseGrid::most_cells(count, limit));
   const size_t most = CoarseGrid::kMostCellsEach * count;
-  if (!first.mark(grid, 1, most, false) || !second.mark(grid, 2, most, true)) return std::nullopt;
-  first.find_shared(grid);
-  near.faces = {first.near(), second.near()};
-  const size_t near_count = near.faces[0].size() + near.faces[1].size();
-  RawVector<CoarseGrid::Cells> cells(near_count);
-  first.copy_cells(near.faces[0], cells.data());
-  second.copy_cells(near.faces[1], cells.data() + near.faces[0].size());
-  near.cells =
-      std::make_shared<PairCells>(list_shared_cells(grid, cells, count - near_count, limit));
+  if (!leaves[0].mark(grid, 1, most, false) || !leaves[1].mark(grid, 2, most, true)) {
+    return std::nullopt;
+  }
+  leaves[0].find_shared(grid);
+  const std::array<std::vector<uint32_t>, 2> shared{leaves[0].shared(), leaves[1].shared()};
+  const auto second = static_cast<uint32_t>(shared[0].size());
+  const size_t total = second + shared[1].size();
+  RawVector<CoarseGrid::Cells> cells(total);
+  leaves[0].copy_cells(shared[0], cells.data());
+  leaves[1].copy_cells(shared[1], cells.data() + second);
+  PairCells found = list_shared_cells(grid, cells, count - total, limit);
+  RawVector<PolygonBox> boxes(total);
+  leaves[0].copy_boxes(shared[0], boxes.data());
+  leaves[1].copy_boxes(shared[1], boxes.data() + second);
+  auto pairs = find_near_pairs(found, boxes, second);
+  std::vector<uint8_t> is_chosen(total, pairs ? 0 : 1);
+  if (pairs) {
+    for (const auto& [f, g] : pairs->pairs) is_chosen[f] = is_chosen[g] = 1;
+  }
+  std::vector<uint32_t> number(total);  // of each shared face among the near ones
+  for (size_t o = 0; o < 2; ++o) {
+    const size_t first = o == 0 ? 0 : second;
+    near.faces[o] =
+        leaves[o].around(shared[o], [&](size_t i) { return is_chosen[first + i] != 0; });
+    number_among(shared[o], near.faces[o], o == 0 ? 0 : near.faces[0].size(),
+                 number.data() + first);
+  }
+  if (pairs) {
+    for (auto& [f, g] : pairs->pairs) f = number[f], g = number[g];
+    near.pairs = std::make_shared<NearPairs>(*std::move(pairs));
+  } else {
+    for (uint32_t& face : found.polygons) face = number[face];
+    near.cells = std::make_shared<PairCells>(std::move(found));
+  }
   return near;
 }
 

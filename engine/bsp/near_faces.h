@@ -12,12 +12,15 @@
 
 namespace csgrun {
 
+struct NearPairs;
 struct PairCells;
 
 struct NearFaces {
   std::vector<std::vector<uint32_t>> faces;  ///< per operand those that are near, ascending
   std::vector<PolygonBox> boxes;             ///< per operand, around all faces
-  /// What find_coarse_cells would find of the faces, which are numbered in this order.
+  /// One of these, of the faces as they are numbered in this order: pairs whose boxes overlap, or
+  /// what find_coarse_cells would find.
+  std::shared_ptr<const NearPairs> pairs;
   std::shared_ptr<const PairCells> cells;
 };
 
@@ -26,11 +29,11 @@ struct FarFaces {
   std::vector<uint32_t> kept, flipped;
 };
 
-/// The faces that share a cell of a coarse grid with another operand, and all that share a vertex
-/// with these: no other face is met, and what is around a vertex of one was not met either. Nothing
-/// when it is not worth the while, or when faces that are not met may have to be spelled out: only
-/// for two leaves on the grid of triangles that each are a facet of its own, with one fan around
-/// each vertex. O(n), parallel.
+/// The faces whose boxes overlap some of another operand, or, where too many do, that share a cell
+/// of a coarse grid with it; and all that share a vertex with these: no other face is met, and what
+/// is around a vertex of one was not met either. Nothing when it is not worth the while, or when
+/// faces that are not met may have to be spelled out: only for two leaves on the grid of triangles
+/// that each are a facet of its own, with one fan around each vertex. O(n), parallel.
 std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, uint32_t limit);
 
 /// The box of a face of such a leaf, moved by whole steps.

@@ -254,23 +254,13 @@ void add_slabs(const Job& job, PairCells& all) {
   });
 }
 
-/// All of them meet the cell, so the overlap of two starts in it where either of them does.
 void CellPairs::load(const Job& job, const PairCells& all, const PairCells::Cell& cell) {
   polygons_ = all.polygons.data() + cell.first;
-  for (int k = 0; k < 3; ++k) {
-    lo_[k].resize(cell.count);
-    hi_[k].resize(cell.count);
-  }
-  starts_.assign(cell.count, 0);
+  boxes_.load(cell.lo, cell.count,
+              [&](uint32_t i) -> const PolygonBox& { return job.boxes()[polygons_[i]]; });
   operands_.resize(cell.count);
   for (uint32_t i = 0; i < cell.count; ++i) {
-    const PolygonBox& box = job.boxes()[polygons_[i]];
     operands_[i] = job.polygons()[polygons_[i]].operand;
-    for (int k = 0; k < 3; ++k) {
-      lo_[k][i] = box.lo[k];
-      hi_[k][i] = box.hi[k];
-      if (box.lo[k] >= cell.lo[k]) starts_[i] |= 1u << k;
-    }
   }
   triangles_.clear();
   if (all.slabs.empty() || cell.count < kCrowd) return;
@@ -280,7 +270,7 @@ void CellPairs::load(const Job& job, const PairCells& all, const PairCells::Cell
 }
 
 void CellPairs::sift(const PairCells& all, uint32_t first, uint32_t count, uint32_t j,
-                     std::array<uint32_t, kAtOnce>& meets) const {
+                     Meets& meets) const {
   const uint32_t slabs = all.slabs_at[polygons_[j]];
   if (slabs == PairCells::kNoSlabs) return;
   for (uint32_t begin = 0; begin < count; begin += 8) {
@@ -293,21 +283,6 @@ void CellPairs::sift(const PairCells& all, uint32_t first, uint32_t count, uint3
     const uint32_t apart = all.slabs[slabs].apart_in_space(triangles.corners, which);
     for (uint32_t i = 0; i < lanes; ++i) meets[begin + i] &= ~(apart >> i);
   }
-}
-
-void CellPairs::compare(uint32_t first, uint32_t count, uint32_t j,
-                        std::array<uint32_t, kAtOnce>& meets) {
-  std::array<uint32_t, kAtOnce> all;  // on the stack: nothing else can be there
-  const uint32_t own_starts = starts_[j], *starts = starts_.data() + first;
-  for (uint32_t i = 0; i < count; ++i) all[i] = (starts[i] | own_starts) == kAllAxes ? 1 : 0;
-  for (int k = 0; k < 3; ++k) {
-    const int32_t own_lo = lo_[k][j], own_hi = hi_[k][j];
-    const int32_t *lo = lo_[k].data() + first, *hi = hi_[k].data() + first;
-    for (uint32_t i = 0; i < count; ++i) {
-      all[i] &= static_cast<uint32_t>(lo[i] <= own_hi) & static_cast<uint32_t>(hi[i] >= own_lo);
-    }
-  }
-  meets = all;
 }
 
 PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/raw_vector.h"
+#include "engine/bsp/cell_boxes.h"
 #include "engine/bsp/job.h"
 #include "engine/bsp/job_triangles.h"
 #include "engine/bsp/operand.h"
@@ -62,10 +63,10 @@ class CellPairs {
     uint32_t own_start = 0;  // the first of the polygons that are of the same operand
     for (uint32_t j = 1; j < cell.count; ++j) {
       if (operands_[j] != operands_[j - 1]) own_start = j;
-      for (uint32_t first = 0; first < own_start; first += kAtOnce) {
-        const uint32_t count = std::min(kAtOnce, own_start - first);
-        std::array<uint32_t, kAtOnce> meets;
-        compare(first, count, j, meets);
+      for (uint32_t first = 0; first < own_start; first += CellBoxes::kAtOnce) {
+        const uint32_t count = std::min(CellBoxes::kAtOnce, own_start - first);
+        Meets meets;
+        boxes_.compare(first, count, j, meets);
         if (!triangles_.empty()) sift(all, first, count, j, meets);
         for (uint32_t i = 0; i < count; ++i) {
           if (meets[i] != 0 && !are_covered(polygons_[first + i], polygons_[j])) {
@@ -77,25 +78,19 @@ class CellPairs {
   }
 
  private:
-  static constexpr uint32_t kAllAxes = 7, kAtOnce = 32;
+  using Meets = std::array<uint32_t, CellBoxes::kAtOnce>;
 
   [[nodiscard]] bool are_covered(uint32_t p, uint32_t q) const {
     return !covered_.empty() && covered_[p] && covered_[q];
   }
 
   void load(const Job& job, const PairCells& all, const PairCells::Cell& cell);
-  /// Whether the boxes of so many polygons overlap that of polygon j, with an overlap that starts
-  /// in the cell.
-  void compare(uint32_t first, uint32_t count, uint32_t j, std::array<uint32_t, kAtOnce>& meets);
   /// Takes away triangles that are plainly apart from polygon j.
-  void sift(const PairCells& all, uint32_t first, uint32_t count, uint32_t j,
-            std::array<uint32_t, kAtOnce>& meets) const;
+  void sift(const PairCells& all, uint32_t first, uint32_t count, uint32_t j, Meets& meets) const;
 
   std::span<const uint8_t> covered_;
   const uint32_t* polygons_ = nullptr;
-  /// By the place in the cell, axis by axis, so that many boxes are compared at once.
-  std::array<std::vector<int32_t>, 3> lo_, hi_;
-  std::vector<uint32_t> starts_;  ///< along which axes the box has its lower end in the cell
+  CellBoxes boxes_;  ///< by the place in the cell
   std::vector<uint32_t> operands_;
   std::vector<JobTriangles> triangles_;  ///< in a crowd all of them, eight by eight
 };

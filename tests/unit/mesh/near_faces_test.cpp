@@ -14,7 +14,7 @@ using namespace test;  // NOLINT: a test
 
 TEST(NearFaces, GiveWhatAllGive) {
   Random random(1208);
-  size_t far = 0, dropped = 0, rounds = 0, touching = 0;
+  size_t far = 0, dropped = 0, by_pairs = 0, by_cells = 0, touching = 0;
   for (int round = 0; round < 160; ++round) {
     const int64_t size = round % 4 < 2 ? 1 << 20 : 24;
     const auto torus = [&](double part) {
@@ -62,7 +62,8 @@ TEST(NearFaces, GiveWhatAllGive) {
         expect_one_value({evaluate_both(tree, operands).spelled, *some}, tree.text()));
     const auto near = find_near_faces(operands, options.cell_limit);
     ASSERT_TRUE(near);
-    ++rounds;
+    ASSERT_NE(near->pairs == nullptr, near->cells == nullptr);
+    ++(near->pairs ? by_pairs : by_cells);
     for (size_t o = 0; o < 2; ++o) {
       for_each_far_face(*leaves[o], near->faces[o], [&](uint32_t f) {
         ++far;
@@ -76,6 +77,8 @@ TEST(NearFaces, GiveWhatAllGive) {
   EXPECT_GT(dropped, 2000u);
   EXPECT_LT(dropped, far);
   EXPECT_GT(touching, 10u);
+  EXPECT_GT(by_pairs, 20u);
+  EXPECT_GT(by_cells, 20u);
 }
 
 /// A slab with a top of so many ridges along an axis, each of four long triangles; `up`: or its
@@ -119,6 +122,7 @@ TEST(NearFaces, DoNotDoForACrowd) {
   const auto near = find_near_faces(operands, 17);
   ASSERT_TRUE(near);
   EXPECT_LT(near->faces[0].size(), slab->face_count() - 500);
+  EXPECT_TRUE(near->cells);
   for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kDifference}) {
     const Tree tree = op == BooleanOp::kUnion ? join({leaf(0), leaf(1)}) : less({leaf(0), leaf(1)});
     KernelOptions options;
