@@ -83,10 +83,25 @@ void PairTest::find_level(Base& base) const {
 /// or kUnsure.
 int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
   const JobPolygon &own = job_.polygons()[p], &other = job_.polygons()[q];
-  const Base base = base_of(q);  // a copy: what is written to `sides` might be it
+  const Base& known = base_of(q);
   const double error = std::max(signs_.error(own.operand), signs_.error(other.operand));
-  const bool is_exact = signs_.error(own.operand) == 0;
   sides.resize(own.count);
+  if (own.count == 3 && !known.is_level && !planes_only_) {
+    // Nearly all are of this kind, and told at once.
+    const uint64_t filtered = signs_.filtered;
+    const uint32_t* const corners = job_.corners(own).data();
+    const int a = signs_.filter(known.signs, job_.rounded(corners[0]), error),
+              b = signs_.filter(known.signs, job_.rounded(corners[1]), error),
+              c = signs_.filter(known.signs, job_.rounded(corners[2]), error);
+    if (a != 0 && b != 0 && c != 0) {
+      sides[0] = static_cast<int8_t>(a), sides[1] = static_cast<int8_t>(b);
+      sides[2] = static_cast<int8_t>(c);
+      return a == b && b == c ? a : 0;
+    }
+    signs_.filtered = filtered;  // they are counted below
+  }
+  const Base base = known;  // what is written to `sides` might be it
+  const bool is_exact = signs_.error(own.operand) == 0;
   int all = 0;
   for (uint32_t i = 0; i < own.count; ++i) {
     const uint32_t v = job_.corners(own)[i];
