@@ -64,12 +64,13 @@ inline std::vector<uint32_t> find_vertices_of_fans(const LeafGeometry& leaf,
   const CornerWalk walk(leaf, opposite);
   std::vector<uint32_t> some_corner(leaf.vertices.size(), 0), faces(leaf.vertices.size(), 0);
   for (uint32_t c = 0; c < leaf.corners.size(); ++c) {
+    if (!skipped.empty() && skipped[leaf.corners[c]] != 0) continue;
     some_corner[leaf.corners[c]] = c;
     ++faces[leaf.corners[c]];
   }
   std::vector<uint32_t> found;
   for (uint32_t v = 0; v < faces.size(); ++v) {
-    if (faces[v] == 0 || (!skipped.empty() && skipped[v] != 0)) continue;
+    if (faces[v] == 0) continue;
     if (walk.fan(some_corner[v]) != faces[v]) found.push_back(v);
   }
   return found;

@@ -186,7 +186,7 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
     }
     result.crossings = std::move(check.crossings);
     result.connected = check.connected;
-    leaf->has_single_fans = check.is_star || walk_fans();
+    leaf->has_single_fans = check.has_single_fans || (!result.crossings.empty() && walk_fans());
   }
   leaf->may_touch = !result.crossings.empty() || (!leaf->convex && may_lose_common_corners(*leaf));
   // Facets that are kept as they are have no others of their label.

@@ -7,6 +7,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "engine/bsp/corner_walk.h"
 #include "engine/bsp/packed_boxes.h"
 #include "engine/bsp/union_find.h"
 #include "engine/mesh/box_frame.h"
@@ -14,6 +15,7 @@
 #include "engine/mesh/face_pair.h"
 #include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/single_sheets.h"
+#include "engine/mesh/spread_vertices.h"
 #include "engine/mesh/star_surface.h"
 #include "engine/mesh/triangle_pairs.h"
 #include "engine/mesh/winding.h"
@@ -27,12 +29,12 @@ constexpr size_t kFewRays = 8;      ///< for which a tree does not pay
 
 using Pairs = std::vector<std::array<uint32_t, 2>>;
 
-/// Of the faces at the places of the tree, which `order` names.
+/// Of the faces at the places of the tree, which `order` names; see TrianglePairs.
 Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree,
-                     std::span<const uint32_t> order, bool is_balanced) {
+                     std::span<const uint32_t> order, std::span<const uint8_t> is_spread) {
   const FacePairs faces(leaf);
   std::optional<TrianglePairs> triangles;
-  if (TrianglePairs::covers(leaf)) triangles.emplace(leaf, order, is_balanced);
+  if (TrianglePairs::covers(leaf)) triangles.emplace(leaf, order, is_spread);
   const auto search = [&](const PackedBoxes::Task& task, FacePairs::Scratch& scratch,
                           Pairs& found) {
     TrianglePairs::Near near;
@@ -88,41 +90,81 @@ void for_each_neighbours(const LeafGeometry& leaf, Visit visit) {
 /// One face of each part of the surface that is connected by edges of two faces: within a part the
 /// winding numbers in front of faces, and those behind, are the same.
 std::vector<uint32_t> one_face_of_each_part(const LeafGeometry& leaf) {
-  UnionFind parts(leaf.face_count());
-  for_each_neighbours(leaf, [&](uint32_t f, uint32_t g) { parts.join(f, g); });
+  constexpr uint32_t kNone = UINT32_MAX;
+  // Most faces take the label of a neighbour; few labels are joined.
+  std::vector<uint32_t> label(leaf.face_count(), kNone);
+  UnionFind labels(leaf.face_count());
+  for_each_neighbours(leaf, [&](uint32_t f, uint32_t g) {
+    if (label[f] == kNone) label[f] = f;
+    if (label[g] == kNone) {
+      label[g] = label[f];
+    } else if (label[g] != label[f]) {
+      labels.join(label[g], label[f]);
+    }
+  });
   std::vector<uint32_t> faces;
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    if (parts.find(f) == f) faces.push_back(f);
+    if (label[f] == kNone || (label[f] == f && labels.find(f) == f)) faces.push_back(f);
   }
   return faces;
+}
+
+/// Whether the faces at each vertex are one fan, of a surface with opposite edges. A vertex that is
+/// spread is surrounded once, and so is one of a single sheet: where all faces face one way, two
+/// fans would be crossed twice. `off_sheets`: the faces of all others; nothing: these are all.
+bool have_single_fans(const LeafGeometry& leaf,
+                      const std::optional<std::vector<uint32_t>>& off_sheets,
+                      std::span<const uint8_t> is_spread) {
+  if (is_spread.empty()) return find_vertices_of_fans(leaf).empty();
+  std::vector<uint8_t> is_known(is_spread.begin(), is_spread.end());
+  if (off_sheets) {
+    size_t next = 0;
+    for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+      if (next < off_sheets->size() && (*off_sheets)[next] == f) {
+        ++next;
+        continue;
+      }
+      for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) {
+        is_known[leaf.corners[c]] = 1;
+      }
+    }
+  }
+  if (std::find(is_known.begin(), is_known.end(), 0) == is_known.end()) return true;
+  return find_vertices_of_fans(leaf, leaf.opposite, is_known).empty();
 }
 
 }  // namespace
 
 Pairs find_self_intersections(const LeafGeometry& leaf) {
   const PackedBoxes tree(face_boxes(leaf, find_box_frame(leaf)));
-  return find_crossings(leaf, tree, tree.order(), false);
+  return find_crossings(leaf, tree, tree.order(), {});
 }
 
 SurfaceCheck check_surface(const LeafGeometry& leaf) {
   SurfaceCheck result;
   if (is_star_surface(leaf)) {
-    result.bounds_solid = result.connected = result.is_star = true;
+    result.bounds_solid = result.connected = result.has_single_fans = true;
     return result;
   }
   std::optional<PackedBoxes> tree;  // of all faces along the axes, if there is one
-  if (const auto faces = faces_off_single_sheets(leaf)) {
+  const auto faces = faces_off_single_sheets(leaf);
+  std::vector<uint8_t> is_spread;
+  if (TrianglePairs::covers(leaf)) {
+    is_spread = faces ? find_spread_vertices(leaf, *faces) : find_spread_vertices(leaf);
+  }
+  if (faces) {
     const PackedBoxes some(face_boxes(leaf, *faces, find_box_frame(leaf)));
     std::vector<uint32_t> order = some.order();
     for (uint32_t& face : order) face = (*faces)[face];
-    result.crossings = find_crossings(leaf, some, order, true);
+    result.crossings = find_crossings(leaf, some, order, is_spread);
   } else {
     const auto frame = find_box_frame(leaf);
     tree.emplace(face_boxes(leaf, frame));
-    result.crossings = find_crossings(leaf, *tree, tree->order(), true);
+    result.crossings = find_crossings(leaf, *tree, tree->order(), is_spread);
     if (frame) tree.reset();
   }
   if (!result.crossings.empty()) return result;
+  result.has_single_fans = !leaf.opposite.empty() && have_single_fans(leaf, faces, is_spread);
   const std::vector<uint32_t> parts = one_face_of_each_part(leaf);
   result.connected = parts.size() == 1;
   if (!tree && parts.size() > kFewRays) tree.emplace(face_boxes(leaf, std::nullopt));

@@ -27,8 +27,9 @@ struct SurfaceCheck {
   bool bounds_solid = false;
   /// Without crossings: all faces are connected by edges of two faces each.
   bool connected = false;
-  /// Seen to be star-shaped: also, the faces at each vertex are one fan.
-  bool is_star = false;
+  /// Without crossings: the faces at each vertex are one fan. False where LeafGeometry::opposite
+  /// is empty.
+  bool has_single_fans = false;
 };
 
 /// Examines a surface exactly; one ray for each connected part finds its winding number. REQUIRES:

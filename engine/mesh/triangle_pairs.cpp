@@ -5,7 +5,6 @@
 
 #include "engine/base/vec3d.h"
 #include "engine/mesh/leaf_shape.h"
-#include "engine/mesh/spread_vertices.h"
 
 namespace csgrun {
 namespace {
@@ -20,7 +19,7 @@ bool TrianglePairs::covers(const LeafGeometry& leaf) {
 }
 
 TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order,
-                             bool is_balanced)
+                             std::span<const uint8_t> is_spread)
     : leaf_(leaf),
       corners_((order.size() + 7) / 8),
       spread_(8 * corners_.size(), {kOther, kOther, kOther}) {
@@ -29,9 +28,6 @@ TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t>
     middle_[k] = (box.lo[k] + box.hi[k]) / 2;
     reach_ = std::max(reach_, static_cast<double>(box.hi[k] - box.lo[k]) / 2 + 1);
   }
-  const std::vector<uint8_t> is_spread = is_balanced
-                                             ? find_spread_vertices(leaf, order)
-                                             : std::vector<uint8_t>(leaf.vertices.size(), 0);
   if (!corners_.empty()) {
     for (auto& lanes : corners_.back().corners) lanes.fill(kNone);
   }
@@ -41,7 +37,7 @@ TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t>
       corner = kNone;
       if (!is_triangle(order[place])) continue;
       corner = leaf.corners[leaf.face_starts[order[place]] + i];
-      if (is_spread[corner] != 0) spread_[place][i] = corner;
+      if (!is_spread.empty() && is_spread[corner] != 0) spread_[place][i] = corner;
     }
   }
 }

@@ -23,9 +23,10 @@ class TrianglePairs {
   static bool covers(const LeafGeometry& leaf);
 
   /// REQUIRES: covers(leaf), and no face is degenerate; the leaf outlives this. `order` lists
-  /// the faces, all or all but those of single_sheets.h; `is_balanced` says that every directed
-  /// edge occurs as often as its reverse (else no vertex is taken for spread). O(n).
-  TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order, bool is_balanced);
+  /// the faces, all or all but those of single_sheets.h; `is_spread` is of its vertices as
+  /// find_spread_vertices tells, or empty: then none is taken for spread. O(n).
+  TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order,
+                std::span<const uint8_t> is_spread);
 
   /// A bit for each triangle at places 8 group .. 8 group + 7 in the order that has a spread vertex
   /// in common with the one at `place`.

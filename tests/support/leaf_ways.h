@@ -3,11 +3,13 @@
 // every pair of near faces decided by signs. All but the coordinates must be the same.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/corner_walk.h"
 #include "engine/csg/convex_leaf.h"
 #include "engine/csg/flat_sides.h"
 #include "engine/csg/leaf_faces.h"
@@ -68,6 +70,10 @@ inline void expect_same_both_ways(const PolygonMesh& mesh, const std::vector<IVe
             (std::vector<IVec3>{slow.box.lo, slow.box.hi}));
   const LeafGeometry& a = *quick.geometry;
   LeafGeometry b = *slow.geometry;
+  for (const LeafGeometry* leaf : std::array<const LeafGeometry*, 2>{&a, &b}) {
+    if (leaf->opposite.empty()) continue;
+    EXPECT_EQ(leaf->has_single_fans, find_vertices_of_fans(*leaf).empty());
+  }
   // The general way believes no mesh that does not promise to be convex; sides of convex bodies are
   // one face.
   EXPECT_TRUE(a.convex || !b.convex);

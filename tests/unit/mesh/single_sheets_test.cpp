@@ -12,7 +12,9 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include "engine/bsp/corner_walk.h"
 #include "engine/mesh/leaf_check.h"
+#include "engine/mesh/opposite_edges.h"
 
 namespace csgrun {
 namespace {
@@ -93,6 +95,39 @@ size_t expect_named(const LeafGeometry& leaf) {
     EXPECT_TRUE(std::includes(named->begin(), named->end(), met.begin(), met.end()));
   }
   return met.size();
+}
+
+// Two spheres that share a vertex have two fans there.
+TEST(SingleSheets, PinchedVerticesAreSeen) {
+  constexpr int64_t kRadius = 1 << 24;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (const int64_t apart : {0, 1}) {
+      LeafGeometry leaf;
+      add_cube(leaf, 40, [](const auto& p) { return on_sphere(p, kRadius); });
+      add_cube(leaf, 20, [&](const auto& p) {
+        auto q = on_sphere(p, kRadius);
+        q[axis] += static_cast<double>(2 * kRadius + apart);
+        return q;
+      });
+      IVec3 pole{0, 0, 0};
+      pole[axis] = kRadius;
+      std::vector<uint32_t> there;
+      for (uint32_t v = 0; v < leaf.vertices.size(); ++v) {
+        if (leaf.vertices[v] == pole) there.push_back(v);
+      }
+      ASSERT_EQ(there.size(), apart == 0 ? 2u : 1u);
+      std::replace(leaf.corners.begin(), leaf.corners.end(), there.back(), there.front());
+      leaf.opposite = pair_edges(leaf).opposite;
+      ASSERT_FALSE(leaf.opposite.empty());
+      EXPECT_TRUE(faces_off_single_sheets(leaf));
+      const SurfaceCheck check = check_surface(leaf);
+      EXPECT_TRUE(check.crossings.empty());
+      EXPECT_TRUE(check.bounds_solid);
+      EXPECT_FALSE(check.connected);
+      EXPECT_EQ(check.has_single_fans, apart == 1);
+      EXPECT_EQ(find_vertices_of_fans(leaf).empty(), apart == 1);
+    }
+  }
 }
 
 TEST(SingleSheets, MostOfASphereIsOne) {

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/mesh/spread_vertices.h"
+
 namespace csgrun {
 namespace {
 
@@ -73,7 +75,7 @@ TEST(TrianglePairs, VerticesOfAClosedSurfaceAreSpread) {
   const LeafGeometry leaf = octahedron();
   ASSERT_TRUE(TrianglePairs::covers(leaf));
   const std::vector<uint32_t> order = any_order(leaf);
-  const TrianglePairs known(leaf, order, true), unknown(leaf, order, false);
+  const TrianglePairs known(leaf, order, find_spread_vertices(leaf)), unknown(leaf, order, {});
   for (uint32_t place = 0; place < order.size(); ++place) {
     const uint32_t neighbours = known.spread_neighbours(place, 0);
     EXPECT_EQ(unknown.spread_neighbours(place, 0), 0u);
@@ -89,7 +91,7 @@ TEST(TrianglePairs, InnerVerticesOfAHeightFieldAreSpread) {
   const uint32_t size = 9;
   const LeafGeometry leaf = terrain(size, 90);
   const std::vector<uint32_t> order = any_order(leaf);
-  const TrianglePairs pairs(leaf, order, true);
+  const TrianglePairs pairs(leaf, order, find_spread_vertices(leaf, order));
   const auto is_inner = [&](uint32_t v) {
     const uint32_t x = v % (size + 1), y = v / (size + 1);
     return x > 0 && y > 0 && x < size && y < size;
@@ -113,7 +115,7 @@ TEST(TrianglePairs, InnerVerticesOfAHeightFieldAreSpread) {
 
 TEST(TrianglePairs, TrianglesOfAPlaneAreApartBySides) {
   const LeafGeometry leaf = terrain(5, 0);
-  const TrianglePairs pairs(leaf, any_order(leaf), false);
+  const TrianglePairs pairs(leaf, any_order(leaf), {});
   size_t neighbours = 0;
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
     EXPECT_FALSE(pairs.apart(f, f));
@@ -136,7 +138,7 @@ TEST(TrianglePairs, TrianglesThatRestOnAPlaneBesideATriangle) {
     leaf.vertices = {base[0], base[1], base[2], t[0], t[1], t[2]};
     add_triangle(leaf, 0, 1, 2);
     add_triangle(leaf, 3, 4, 5);
-    const TrianglePairs pairs(leaf, std::vector<uint32_t>{0, 1}, false);
+    const TrianglePairs pairs(leaf, std::vector<uint32_t>{0, 1}, {});
     EXPECT_EQ(pairs.apart(0, 1), pairs.apart(1, 0));
     return pairs.apart(0, 1);
   };
@@ -174,7 +176,7 @@ TEST(TrianglePairs, ManyOfAGroupAreTestedAtOnce) {
   }
   std::vector<uint32_t> order(leaf.face_count());
   std::iota(order.begin(), order.end(), 0u);
-  const TrianglePairs pairs(leaf, order, false);
+  const TrianglePairs pairs(leaf, order, {});
   constexpr uint32_t kTriangles = 0b01110111;
   for (uint32_t place = 0; place < 24; ++place) {
     TrianglePairs::Near near;
@@ -212,7 +214,8 @@ TEST(TrianglePairs, PolygonsAreLeftToOthersAndFarLeavesToo) {
   pyramid.corners = {0, 3, 2, 1};
   pyramid.face_starts = {0, 4};
   for (uint32_t i = 0; i < 4; ++i) add_triangle(pyramid, i, (i + 1) % 4, 4);
-  const TrianglePairs pairs(pyramid, std::vector<uint32_t>{0, 1, 2, 3, 4}, true);
+  const TrianglePairs pairs(pyramid, std::vector<uint32_t>{0, 1, 2, 3, 4},
+                            find_spread_vertices(pyramid));
   EXPECT_EQ(pairs.spread_neighbours(0, 0), 0u);
   for (uint32_t place = 1; place < 5; ++place) {
     EXPECT_EQ(pairs.spread_neighbours(place, 0), 0b11110u);
