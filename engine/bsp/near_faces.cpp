@@ -205,16 +205,24 @@ std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, u
   if (pairs) {
     for (const auto& [f, g] : pairs->pairs) is_chosen[f] = is_chosen[g] = 1;
   }
-  std::vector<uint32_t> number(total);  // of each shared face among the near ones
   for (size_t o = 0; o < 2; ++o) {
     const size_t first = o == 0 ? 0 : second;
     near.faces[o] =
         leaves[o].around(shared[o], [&](size_t i) { return is_chosen[first + i] != 0; });
-    number_among(shared[o], near.faces[o], o == 0 ? 0 : near.faces[0].size(),
-                 number.data() + first);
   }
+  RawVector<uint32_t> number(total);  // of each shared face among the near ones
+  run_both(
+      total > kFewForThreads, [&] { number_among(shared[0], near.faces[0], 0, number.data()); },
+      [&] {
+        number_among(shared[1], near.faces[1], near.faces[0].size(), number.data() + second);
+      });
   if (pairs) {
-    for (auto& [f, g] : pairs->pairs) f = number[f], g = number[g];
+    for_each_range(pairs->pairs.size(), [&](size_t begin, size_t end) {
+      for (size_t p = begin; p < end; ++p) {
+        auto& [f, g] = pairs->pairs[p];
+        f = number[f], g = number[g];
+      }
+    });
     near.pairs = std::make_shared<NearPairs>(*std::move(pairs));
   } else {
     for (uint32_t& face : found.polygons) face = number[face];
