@@ -1,7 +1,6 @@
 #include "engine/bsp/find_contacts.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -33,12 +32,56 @@ struct Looker {
   CellPairs pairs;
 };
 
-/// Tests the pairs of a cell, or of a wide triangle, which each(visit) calls visit(p, q) for.
-template <class Each>
-void look_at(PairTest& test, Each&& each, Found& out) {
+/// The pairs that may meet, in lots: of a cell of polygons, of a wide triangle, or of a cell for
+/// which they were found before there was a job.
+class Candidates {
+ public:
+  Candidates(const Job& job, std::span<const uint8_t> covered, const KernelOptions& options)
+      : job_(job), covered_(covered) {
+    if (job.near_faces()) near_ = job.near_faces()->pairs.get();
+    if (near_) {
+      near_cells_ = near_->starts.size() - 1;
+      return;
+    }
+    wide_.emplace(job);
+    cells_ = find_pair_cells(job, covered, options, wide_->is_wide());
+  }
+
+  [[nodiscard]] size_t lots() const { return cells_.cells.size() + wide_count() + near_cells_; }
+  /// Calls visit(p, q), p < q, for the pairs of a lot, but for those of two covered polygons.
+  template <class Visit>
+  void visit_lot(size_t lot, CellPairs& pairs, Visit&& visit) const {
+    if (lot < cells_.cells.size()) return pairs.visit(job_, cells_, cells_.cells[lot], visit);
+    lot -= cells_.cells.size();
+    if (lot < wide_count()) return wide_->visit_pairs(job_, covered_, wide_->list()[lot], visit);
+    lot -= wide_count();
+    for (uint32_t i = near_->starts[lot]; i < near_->starts[lot + 1]; ++i) {
+      const auto [p, q] = near_->pairs[i];
+      if (covered_.empty() || !covered_[p] || !covered_[q]) visit(p, q);
+    }
+  }
+  void count(EvaluateStats& stats) const {
+    stats.cells += cells_.visited + wide_count() + (near_ ? near_->visited : 0);
+    stats.solved_cells += lots();
+    stats.surface_cells += cells_.surface + wide_count() + (near_ ? near_->surface : 0);
+  }
+
+ private:
+  [[nodiscard]] size_t wide_count() const { return wide_ ? wide_->list().size() : 0; }
+
+  const Job& job_;
+  const std::span<const uint8_t> covered_;
+  const NearPairs* near_ = nullptr;
+  size_t near_cells_ = 0;
+  std::optional<WideTriangles> wide_;
+  PairCells cells_;
+};
+
+void look_at(const Candidates& candidates, size_t lot, Looker& looker, Found& out) {
   bool critical = false;
   Contact contact;
-  each([&](uint32_t p, uint32_t q) {
+  PairTest& test = looker.test;
+  candidates.visit_lot(lot, looker.pairs, [&](uint32_t p, uint32_t q) {
     const Meeting meeting = test.run(p, q, nullptr, contact);
     if (meeting == Meeting::kApart) return;
     critical = true;
@@ -83,30 +126,9 @@ void decide_unsure(Job& job, const std::vector<Found>& found, Contacts& result,
 
 Contacts find_contacts(Job& job, std::span<const uint8_t> covered, const KernelOptions& options,
                        EvaluateStats& stats) {
-  const NearPairs* const near = job.near_faces() ? job.near_faces()->pairs.get() : nullptr;
-  std::optional<WideTriangles> wide;
-  PairCells cells;
-  if (!near) {
-    wide.emplace(job);
-    cells = find_pair_cells(job, covered, options, wide->is_wide());
-  }
-  // What is looked at: cells of polygons, wide triangles, cells of pairs.
-  const std::array<size_t, 3> counts{cells.cells.size(), wide ? wide->list().size() : 0,
-                                     near ? near->starts.size() - 1 : 0};
-  std::array<size_t, 4> first_run{};
-  for (size_t k = 0; k < 3; ++k) first_run[k + 1] = first_run[k] + run_count(counts[k]);
-  std::vector<Found> found(first_run[3]);
-  const auto look = [&](Looker& looker, size_t kind, size_t i, Found& out) {
-    const auto each = [&](auto visit) {
-      if (kind == 0) return looker.pairs.visit(job, cells, cells.cells[i], visit);
-      if (kind == 1) return wide->visit_pairs(job, covered, wide->list()[i], visit);
-      for (uint32_t p = near->starts[i]; p < near->starts[i + 1]; ++p) {
-        const auto [first, second] = near->pairs[p];
-        if (covered.empty() || !covered[first] || !covered[second]) visit(first, second);
-      }
-    };
-    look_at(looker.test, each, out);
-  };
+  const Candidates candidates(job, covered, options);
+  const size_t lots = candidates.lots();
+  std::vector<Found> found(run_count(lots));
   for_each_run(
       found.size(), options,
       [&] {
@@ -116,17 +138,14 @@ Contacts find_contacts(Job& job, std::span<const uint8_t> covered, const KernelO
         Found& out = found[run];
         const PairTest& test = looker.test;
         const uint64_t filtered = test.signs().filtered, exact = test.signs().exact;
-        size_t kind = 0;
-        while (run >= first_run[kind + 1]) ++kind;
-        const size_t begin = (run - first_run[kind]) * kCellsPerRun,
-                     end = std::min(counts[kind], begin + kCellsPerRun);
-        for (size_t i = begin; i < end; ++i) look(looker, kind, i, out);
+        const size_t end = std::min(lots, (run + 1) * kCellsPerRun);
+        for (size_t lot = run * kCellsPerRun; lot < end; ++lot) {
+          look_at(candidates, lot, looker, out);
+        }
         out.filtered = test.signs().filtered - filtered;
         out.exact = test.signs().exact - exact;
       });
-  stats.cells += cells.visited + counts[1] + (near ? near->visited : 0);
-  stats.solved_cells += counts[0] + counts[1] + counts[2];
-  stats.surface_cells += cells.surface + counts[1] + (near ? near->surface : 0);
+  candidates.count(stats);
   Contacts result;
   result.touched.assign(job.vertex_count(), 0);
   std::vector<size_t> starts(found.size());  // of the contacts of each run

@@ -155,6 +155,63 @@ void number_among(const std::vector<uint32_t>& faces, const std::vector<uint32_t
   }
 }
 
+/// The faces of both leaves that share cells, those of the second after those of the first, their
+/// boxes, and the cells.
+struct SharedFaces {
+  std::array<std::vector<uint32_t>, 2> faces;
+  RawVector<PolygonBox> boxes;
+  PairCells cells;
+
+  [[nodiscard]] size_t first(size_t o) const { return o == 0 ? 0 : faces[0].size(); }
+};
+
+SharedFaces list_shared(const std::array<Leaf, 2>& leaves, CoarseGrid& grid, uint32_t limit) {
+  SharedFaces shared{{leaves[0].shared(), leaves[1].shared()}, {}, {}};
+  const size_t total = shared.faces[0].size() + shared.faces[1].size();
+  RawVector<CoarseGrid::Cells> cells(total);
+  shared.boxes.resize(total);
+  for (size_t o = 0; o < 2; ++o) {
+    leaves[o].copy_cells(shared.faces[o], cells.data() + shared.first(o));
+    leaves[o].copy_boxes(shared.faces[o], shared.boxes.data() + shared.first(o));
+  }
+  const size_t far = leaves[0].face_count() + leaves[1].face_count() - total;
+  shared.cells = list_shared_cells(grid, cells, far, limit);
+  return shared;
+}
+
+/// The near faces, by pairs if boxes tell enough, else all that share cells.
+void add_faces(const std::array<Leaf, 2>& leaves, SharedFaces&& shared, NearFaces& near) {
+  const size_t total = shared.boxes.size();
+  auto pairs = find_near_pairs(shared.cells, shared.boxes, static_cast<uint32_t>(shared.first(1)));
+  std::vector<uint8_t> is_chosen(total, pairs ? 0 : 1);
+  if (pairs) {
+    for (const auto& [f, g] : pairs->pairs) is_chosen[f] = is_chosen[g] = 1;
+  }
+  for (size_t o = 0; o < 2; ++o) {
+    near.faces[o] = leaves[o].around(shared.faces[o],
+                                     [&](size_t i) { return is_chosen[shared.first(o) + i] != 0; });
+  }
+  RawVector<uint32_t> number(total);  // of each shared face among the near ones
+  const auto number_those_of = [&](size_t o) {
+    number_among(shared.faces[o], near.faces[o], o == 0 ? 0 : near.faces[0].size(),
+                 number.data() + shared.first(o));
+  };
+  run_both(
+      total > kFewForThreads, [&] { number_those_of(0); }, [&] { number_those_of(1); });
+  if (pairs) {
+    for_each_range(pairs->pairs.size(), [&](size_t begin, size_t end) {
+      for (size_t p = begin; p < end; ++p) {
+        auto& [f, g] = pairs->pairs[p];
+        f = number[f], g = number[g];
+      }
+    });
+    near.pairs = std::make_shared<NearPairs>(*std::move(pairs));
+  } else {
+    for (uint32_t& face : shared.cells.polygons) face = number[face];
+    near.cells = std::make_shared<PairCells>(std::move(shared.cells));
+  }
+}
+
 }  // namespace
 
 PolygonBox box_of_triangle(const LeafGeometry& leaf, size_t face, const IVec3& translation) {
@@ -190,44 +247,7 @@ std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, u
     return std::nullopt;
   }
   leaves[0].find_shared(grid);
-  const std::array<std::vector<uint32_t>, 2> shared{leaves[0].shared(), leaves[1].shared()};
-  const auto second = static_cast<uint32_t>(shared[0].size());
-  const size_t total = second + shared[1].size();
-  RawVector<CoarseGrid::Cells> cells(total);
-  leaves[0].copy_cells(shared[0], cells.data());
-  leaves[1].copy_cells(shared[1], cells.data() + second);
-  PairCells found = list_shared_cells(grid, cells, count - total, limit);
-  RawVector<PolygonBox> boxes(total);
-  leaves[0].copy_boxes(shared[0], boxes.data());
-  leaves[1].copy_boxes(shared[1], boxes.data() + second);
-  auto pairs = find_near_pairs(found, boxes, second);
-  std::vector<uint8_t> is_chosen(total, pairs ? 0 : 1);
-  if (pairs) {
-    for (const auto& [f, g] : pairs->pairs) is_chosen[f] = is_chosen[g] = 1;
-  }
-  for (size_t o = 0; o < 2; ++o) {
-    const size_t first = o == 0 ? 0 : second;
-    near.faces[o] =
-        leaves[o].around(shared[o], [&](size_t i) { return is_chosen[first + i] != 0; });
-  }
-  RawVector<uint32_t> number(total);  // of each shared face among the near ones
-  run_both(
-      total > kFewForThreads, [&] { number_among(shared[0], near.faces[0], 0, number.data()); },
-      [&] {
-        number_among(shared[1], near.faces[1], near.faces[0].size(), number.data() + second);
-      });
-  if (pairs) {
-    for_each_range(pairs->pairs.size(), [&](size_t begin, size_t end) {
-      for (size_t p = begin; p < end; ++p) {
-        auto& [f, g] = pairs->pairs[p];
-        f = number[f], g = number[g];
-      }
-    });
-    near.pairs = std::make_shared<NearPairs>(*std::move(pairs));
-  } else {
-    for (uint32_t& face : found.polygons) face = number[face];
-    near.cells = std::make_shared<PairCells>(std::move(found));
-  }
+  add_faces(leaves, list_shared(leaves, grid, limit), near);
   return near;
 }
 

@@ -33,7 +33,10 @@ std::optional<NearPairs> find_near_pairs(const PairCells& cells, std::span<const
     Pairs found;  // not beside those of other threads while it grows
     for (size_t c = begin; c < end && !failed.load(std::memory_order_relaxed); ++c) {
       const PairCells::Cell& cell = cells.cells[c];
-      if (cell.count > kMostInCell) failed = true;
+      if (cell.count > kMostInCell) {
+        failed = true;
+        break;
+      }
       const size_t before = found.size();
       // Of either leaf, what is in the box of the other one.
       const std::span all(cells.polygons.data() + cell.first, cell.count);

@@ -30,7 +30,7 @@ class WideTriangles {
 
   /// Calls visit(p, q), p < q, for pairs of the polygon, which is wide, and others that may meet
   /// it, but for those of two that are covered; the pair of two wide ones is visited once, for the
-  /// first of them. Thread-safe.
+  /// first of them. (Coplanar ones that are apart may be left out, or not.) Thread-safe.
   template <class Visit>
   void visit_pairs(const Job& job, std::span<const uint8_t> covered, uint32_t polygon,
                    Visit&& visit) const {
