@@ -10,8 +10,9 @@
 namespace csgrun {
 namespace {
 
-/// A cell with more is divided, which takes a job.
-constexpr uint32_t kMostInCell = 4 * kCrowd;
+/// When all that is in a cell with a face is more, on average, cells must be divided, which takes a
+/// job.
+constexpr uint64_t kMostBeside = 512;
 /// With more pairs a face, on average, they are better looked at as they are found.
 constexpr size_t kMostPairsEach = 2;
 constexpr size_t kCellsPerPart = 64;
@@ -22,6 +23,9 @@ std::optional<NearPairs> find_near_pairs(const PairCells& cells, std::span<const
                                          uint32_t second) {
   using Pairs = std::vector<std::array<uint32_t, 2>>;
   const size_t count = cells.cells.size(), most = kMostPairsEach * boxes.size();
+  uint64_t beside = 0;
+  for (const PairCells::Cell& cell : cells.cells) beside += uint64_t{cell.count} * cell.count;
+  if (beside > kMostBeside * boxes.size()) return std::nullopt;
   NearPairs result;
   result.starts.assign(count + 1, 0);  // the number of pairs first
   std::vector<Pairs> parts(part_count(count, kCellsPerPart));
@@ -33,10 +37,6 @@ std::optional<NearPairs> find_near_pairs(const PairCells& cells, std::span<const
     Pairs found;  // not beside those of other threads while it grows
     for (size_t c = begin; c < end && !failed.load(std::memory_order_relaxed); ++c) {
       const PairCells::Cell& cell = cells.cells[c];
-      if (cell.count > kMostInCell) {
-        failed = true;
-        break;
-      }
       const size_t before = found.size();
       // Of either leaf, what is in the box of the other one.
       const std::span all(cells.polygons.data() + cell.first, cell.count);

@@ -102,18 +102,22 @@ TEST(NearPairs, AreAllThatOverlapEachOnce) {
   EXPECT_GT(split, 2u);
 }
 
-TEST(NearPairs, AreNotLookedForInACrowd) {
+TEST(NearPairs, AreNotLookedForInCrowds) {
   for (const uint32_t crowd : {512u, 513u}) {
     // Side by side, so that none overlap.
     std::vector<PolygonBox> boxes;
-    for (int32_t x = 0; x < static_cast<int32_t>(crowd); ++x)
+    for (int32_t x = 0; x < static_cast<int32_t>(crowd); ++x) {
       boxes.push_back({{x, 0, 0}, {x, 9, 9}});
+    }
     PairCells cells;
     for (uint32_t f = 0; f < crowd; ++f) cells.polygons.push_back(f);
     cells.cells.push_back({{0, 0, 0}, {600, 10, 10}, 0, crowd});
     const auto found = find_near_pairs(cells, boxes, 100);
     EXPECT_EQ(found.has_value(), crowd == 512);
     EXPECT_TRUE(!found || found->pairs.empty());
+    // One crowd among many others that are none does no harm.
+    boxes.resize(2 * crowd, {{1000, 0, 0}, {1000, 0, 0}});
+    EXPECT_TRUE(find_near_pairs(cells, boxes, 100));
   }
 }
 
