@@ -42,16 +42,19 @@ class Density {
     for (size_t k = 0; k < 3; ++k) {
       at[k] = place(k, static_cast<int32_t>((int64_t{box.lo[k]} + box.hi[k]) / 2)) + 1;
     }
-    ++sum(at[0], at[1], at[2]);
+    ++sums_[corner(at[0], at[1], at[2])];
   }
   /// After all were added.
   void add_up() {
     for (int32_t z = 1; z <= kPlaces; ++z) {
       for (int32_t y = 1; y <= kPlaces; ++y) {
         for (int32_t x = 1; x <= kPlaces; ++x) {
-          sum(x, y, z) += sum(x - 1, y, z) + sum(x, y - 1, z) + sum(x, y, z - 1) -
-                          sum(x - 1, y - 1, z) - sum(x - 1, y, z - 1) - sum(x, y - 1, z - 1) +
-                          sum(x - 1, y - 1, z - 1);
+          const auto before = [&](int32_t dx, int32_t dy, int32_t dz) {
+            return sums_[corner(x - dx, y - dy, z - dz)];
+          };
+          sums_[corner(x, y, z)] += before(1, 0, 0) + before(0, 1, 0) + before(0, 0, 1) -
+                                    before(1, 1, 0) - before(1, 0, 1) - before(0, 1, 1) +
+                                    before(1, 1, 1);
         }
       }
     }
@@ -61,10 +64,10 @@ class Density {
     std::array<int32_t, 3> lo{}, hi{};
     for (size_t k = 0; k < 3; ++k) lo[k] = place(k, box.lo[k]), hi[k] = place(k, box.hi[k]) + 1;
     uint32_t result = 0;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      const auto end = [&](size_t k) { return corner >> k & 1 ? lo[k] : hi[k]; };
-      const uint32_t part = sum(end(0), end(1), end(2));
-      const bool is_odd = ((corner ^ corner >> 1 ^ corner >> 2) & 1) != 0;
+    for (unsigned ends = 0; ends < 8; ++ends) {
+      const auto end = [&](size_t k) { return ends >> k & 1 ? lo[k] : hi[k]; };
+      const uint32_t part = sums_[corner(end(0), end(1), end(2))];
+      const bool is_odd = ((ends ^ ends >> 1 ^ ends >> 2) & 1) != 0;
       result += is_odd ? 0 - part : part;
     }
     return result;
@@ -75,13 +78,10 @@ class Density {
     const int64_t from = std::clamp(at, bounds_.lo[k], bounds_.hi[k]) - int64_t{bounds_.lo[k]};
     return static_cast<int32_t>(from / side_);
   }
-  [[nodiscard]] const uint32_t& sum(int32_t x, int32_t y, int32_t z) const {
+  /// The corner of a place.
+  static size_t corner(int32_t x, int32_t y, int32_t z) {
     constexpr size_t kRow = kPlaces + 1;
-    return sums_[(static_cast<size_t>(z) * kRow + static_cast<size_t>(y)) * kRow +
-                 static_cast<size_t>(x)];
-  }
-  uint32_t& sum(int32_t x, int32_t y, int32_t z) {
-    return const_cast<uint32_t&>(std::as_const(*this).sum(x, y, z));
+    return (static_cast<size_t>(z) * kRow + static_cast<size_t>(y)) * kRow + static_cast<size_t>(x);
   }
 
   const PolygonBox bounds_;
