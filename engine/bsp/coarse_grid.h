@@ -52,7 +52,7 @@ class CoarseGrid {
       second_[axes] =
           (axes & 1) + (axes >> 1 & 1) * count_[0] + (axes >> 2) * count_[0] * count_[1];
     }
-    for (size_t k = 0; k < 3; ++k) end_[k] = static_cast<int16_t>(count_[k]);
+    for (size_t k = 0; k < 3; ++k) last_[k] = static_cast<int16_t>(count_[k] - 1);
     stride_ = {1, static_cast<int>(count_[0]), static_cast<int>(count_[0] * count_[1])};
     cells_.resize(count_[0] * count_[1] * count_[2]);
     for_each_range(cells_.size(), [&](size_t begin, size_t end) {
@@ -87,7 +87,7 @@ class CoarseGrid {
     for (size_t k = 0; k < 3; ++k) {
       const int64_t from = std::max<int64_t>(int64_t{point[k]} - bounds_.lo[k], -1);
       const int64_t length = int64_t{bounds_.hi[k]} - bounds_.lo[k];
-      place[k] = static_cast<int16_t>(from > length ? int64_t{end_[k]} : from >> shift_[k]);
+      place[k] = static_cast<int16_t>(from > length ? int64_t{last_[k]} + 1 : from >> shift_[k]);
     }
     return place;
   }
@@ -105,9 +105,9 @@ class CoarseGrid {
   /// Those of the box between two places. False when there are too many to name.
   bool find_cells(Place lo, Place hi, Cells& cells) const {
     constexpr int kMostMore = 255;
-    const Place none{}, last = end_ - 1;
+    const Place none{};
     lo = lo > none ? lo : none;
-    hi = hi < last ? hi : last;
+    hi = hi < last_ ? hi : last_;
     const Place more = hi - lo;
     cells.any = more[0] >= 0 && more[1] >= 0 && more[2] >= 0;
     cells.first = static_cast<uint32_t>(lo[0] + lo[1] * stride_[1] + lo[2] * stride_[2]);
@@ -170,7 +170,7 @@ class CoarseGrid {
   const PolygonBox bounds_;
   std::array<unsigned, 3> shift_{};
   std::array<size_t, 3> count_{};
-  Place end_{};  ///< after the last along each axis
+  Place last_{};  ///< the last along each axis
   std::array<int, 3> stride_{};
   std::array<size_t, 8> second_{};  ///< from a cell to the next along several axes, a bit for each
   RawVector<uint32_t> cells_;

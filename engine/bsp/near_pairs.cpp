@@ -30,12 +30,11 @@ std::optional<NearPairs> find_near_pairs(const PairCells& cells, std::span<const
   result.starts.assign(count + 1, 0);  // the number of pairs first
   std::vector<Pairs> parts(part_count(count, kCellsPerPart));
   std::atomic<size_t> total = 0;
-  std::atomic<bool> failed = false;
   for_each_part(count, kCellsPerPart, [&](size_t part, size_t begin, size_t end) {
     CellBoxes own;
     std::vector<uint32_t> faces;
     Pairs found;  // not beside those of other threads while it grows
-    for (size_t c = begin; c < end && !failed.load(std::memory_order_relaxed); ++c) {
+    for (size_t c = begin; c < end && total.load(std::memory_order_relaxed) <= most; ++c) {
       const PairCells::Cell& cell = cells.cells[c];
       const size_t before = found.size();
       // Of either leaf, what is in the box of the other one.
@@ -65,10 +64,10 @@ std::optional<NearPairs> find_near_pairs(const PairCells& cells, std::span<const
       }
       result.starts[c + 1] = static_cast<uint32_t>(found.size() - before);
     }
-    if (total += found.size(); total > most) failed = true;
+    total += found.size();
     parts[part] = std::move(found);
   });
-  if (failed || total > most) return std::nullopt;
+  if (total > most) return std::nullopt;
   for (size_t c = 0; c < count; ++c) result.starts[c + 1] += result.starts[c];
   result.pairs.reserve(total);
   for (const Pairs& part : parts) {

@@ -102,6 +102,20 @@ TEST(NearPairs, AreAllThatOverlapEachOnce) {
   EXPECT_GT(split, 2u);
 }
 
+TEST(NearPairs, AreAtMostTwiceAsManyAsFaces) {
+  for (const uint32_t seconds : {4u, 5u}) {
+    const std::vector<PolygonBox> boxes(4 + seconds, PolygonBox{{1, 1, 1}, {2, 2, 2}});
+    PairCells cells;
+    for (uint32_t f = 0; f < boxes.size(); ++f) cells.polygons.push_back(f);
+    cells.cells.push_back({{0, 0, 0}, {9, 9, 9}, 0, static_cast<uint32_t>(boxes.size())});
+    const auto found = find_near_pairs(cells, boxes, 4);
+    ASSERT_EQ(found.has_value(), seconds == 4);
+    if (found) {
+      EXPECT_EQ(found->pairs.size(), 16u);
+    }
+  }
+}
+
 TEST(NearPairs, AreNotLookedForInCrowds) {
   for (const uint32_t crowd : {512u, 513u}) {
     // Side by side, so that none overlap.
