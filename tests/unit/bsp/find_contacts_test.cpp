@@ -276,12 +276,17 @@ TEST(FindContacts, NoTriangleIsWideAmongFewOrBeyondWhatBoxesTell) {
   EXPECT_FALSE(WideTriangles(Job(operands)).list().empty());
   EXPECT_TRUE(WideTriangles(Job({operands[1], operands[1], operands[0]})).list().empty());
   EXPECT_TRUE(WideTriangles(Job({operands[1]})).list().empty());
-  for (Operand& o : operands) o.translation = {int64_t{1} << 30, 0, 0};
-  EXPECT_TRUE(WideTriangles(Job(operands)).list().empty());
-  for (Operand& o : operands) o.translation = {0, -(int64_t{1} << 30), 0};
-  EXPECT_TRUE(WideTriangles(Job(operands)).list().empty());
-  operands[0].translation = {0, 0, 0};
-  EXPECT_TRUE(WideTriangles(Job(operands)).list().empty());
+  // Boxes end there, on either side; what is of one operand only does no good, either.
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (const int64_t far : {int64_t{1} << 30, -(int64_t{1} << 30)}) {
+      for (const bool both : {true, false}) {
+        operands[0].translation = operands[1].translation = {0, 0, 0};
+        operands[1].translation[axis] = far;
+        if (both) operands[0].translation[axis] = far;
+        EXPECT_TRUE(WideTriangles(Job(operands)).list().empty());
+      }
+    }
+  }
 }
 
 }  // namespace
