@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -290,6 +290,7 @@ PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,
   constexpr size_t kEach = 64;
   const uint32_t limit = std::max<uint32_t>(1, options.cell_limit);
   const NearFaces* const near = job.near_faces();
+  assert(!near || near->cells);
   PairCells found;
   if (!near) found = find_coarse_cells(job, covered, limit, left_out);
   const PairCells& coarse = near ? *near->cells : found;

@@ -42,6 +42,7 @@ constexpr uint32_t kCrowd = 128;
 
 /// Cells with polygons of at least two operands, not all of which are in `covered` (per polygon;
 /// empty: none is), and none in `left_out`; with slabs. O(n log n) for n polygons of bounded size.
+/// REQUIRES: the job was not given pairs (NearFaces::pairs).
 PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,
                           const KernelOptions& options, std::span<const uint8_t> left_out = {});
 

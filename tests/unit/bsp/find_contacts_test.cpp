@@ -268,7 +268,7 @@ TEST(FindContacts, WideTrianglesMeetWhatPairsDo) {
   EXPECT_GT(overlaps, 5 * visited);
 }
 
-TEST(FindContacts, NoTriangleIsWideAmongFewOrBeyondWhatBoxesTell) {
+TEST(FindContacts, WideTrianglesNeedOneOtherOperandAndBoxesThatEnd) {
   test::Random random(77);
   const auto cone = std::make_shared<LeafGeometry>(slanting_cone(random, 100000, 60));
   const auto ball = std::make_shared<LeafGeometry>(bumpy_ball(random, 100000, 16));
