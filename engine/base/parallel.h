@@ -51,6 +51,21 @@ void for_each_range(size_t count, Work&& work) {
   for_each_part(count, kFewForThreads, [&](size_t, size_t begin, size_t end) { work(begin, end); });
 }
 
+/// Where parts of [0, count) begin that weigh `most` at most, and at last count: part i is
+/// [starts[i], starts[i + 1]). What weighs more than that by itself is a part. O(count).
+template <class Weight>
+std::vector<size_t> part_starts(size_t count, size_t most, Weight&& weight) {
+  std::vector<size_t> starts;
+  size_t sum = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t own = weight(i);
+    if (i == 0 || sum + own > most) starts.push_back(i), sum = 0;
+    sum += own;
+  }
+  starts.push_back(count);
+  return starts;
+}
+
 /// Calls work(i) for i below count, at the same time if all of it is `much`: each i by itself.
 template <class Work>
 void for_each_alone(size_t count, bool much, Work&& work) {

@@ -238,23 +238,27 @@ class Assembler {
   /// Makes a face of each group that leaves one, on several threads. Returns the first group whose
   /// pieces do not close up, or kNone.
   uint32_t make_faces() {
-    constexpr size_t kGroupsPerPart = 512;
+    constexpr size_t kCornersPerPart = 4096;  // if they are not of one face
     const size_t count = face_of_group_.size();
-    if (count <= kGroupsPerPart) return FaceMaker(*this).make(0, count, draft_);
+    const std::vector<size_t> starts = part_starts(count, kCornersPerPart, [&](size_t g) {
+      size_t corners = 0;
+      for (uint32_t i = groups_[g]; i < groups_[g + 1]; ++i) corners += pieces_[i].count;
+      return corners;
+    });
+    if (starts.size() <= 2) return FaceMaker(*this).make(0, count, draft_);
     for_each_range(geometry_.point_count(), [&](size_t begin, size_t end) {
       for (size_t p = begin; p < end; ++p) geometry_.find_on_grid(static_cast<uint32_t>(p));
     });
-    std::vector<DraftBoundary> drafts(part_count(count, kGroupsPerPart));
+    std::vector<DraftBoundary> drafts(starts.size() - 1);
     std::vector<uint32_t> open(drafts.size(), kNone);
-    const auto first_of = [&](size_t part) { return std::min(count, part * kGroupsPerPart); };
     make_parts_in_order(
         drafts.size(),
         [&](size_t part) {
-          open[part] = FaceMaker(*this).make(first_of(part), first_of(part + 1), drafts[part]);
+          open[part] = FaceMaker(*this).make(starts[part], starts[part + 1], drafts[part]);
         },
         [&](size_t part) {
           const auto before = static_cast<uint32_t>(draft_.faces.size());
-          for (size_t g = first_of(part); g < first_of(part + 1); ++g) {
+          for (size_t g = starts[part]; g < starts[part + 1]; ++g) {
             if (face_of_group_[g] != kNone) face_of_group_[g] += before;
           }
           draft_.append(drafts[part]);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/base/parallel.h"
 #include "engine/exact/grid_meeting.h"
 
 namespace csgrun {
@@ -57,6 +58,16 @@ uint32_t CellGeometry::vertex_point(uint32_t vertex) {
   const uint32_t p = add_points(1);
   set_vertex_point(p, vertex);
   return p;
+}
+
+uint32_t CellGeometry::add_vertex_points(std::span<const uint32_t> vertices) {
+  const uint32_t first = add_points(vertices.size());
+  for_each_range(vertices.size(), [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      set_vertex_point(first + static_cast<uint32_t>(i), vertices[i]);
+    }
+  });
+  return first;
 }
 
 void CellGeometry::set_vertex_point(uint32_t p, uint32_t vertex) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "engine/base/raw_vector.h"
@@ -80,6 +81,9 @@ class CellGeometry {
                  const std::array<double, 3>& rounded) {
     points_[p] = {rounded, planes, kNone, kNone, false};
   }
+  /// Makes the points of vertices that have none, on several threads; returns the first one's
+  /// number: the others follow in the same order.
+  uint32_t add_vertex_points(std::span<const uint32_t> vertices);
   /// REQUIRES: the vertex has no point.
   void set_vertex_point(uint32_t p, uint32_t vertex);
   [[nodiscard]] bool has_vertex_point(uint32_t vertex) const {

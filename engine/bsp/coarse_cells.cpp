@@ -1,8 +1,10 @@
 #include "engine/bsp/coarse_cells.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <numeric>
+#include <utility>
 
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
@@ -119,39 +121,54 @@ PairCells list_shared_cells(CoarseGrid& grid, std::span<const CoarseGrid::Cells>
     uint32_t cell, polygon;
   };
   const auto shared = static_cast<uint32_t>(result.cells.size());
+  // Each slice of the cells is filled by one thread.
+  constexpr size_t kSlices = 8;
+  const size_t slices = tbb::this_task_arena::max_concurrency() > 1 ? kSlices : 1;
+  unsigned shift = 0;
+  while (shared >> shift >= slices) ++shift;
   struct Part {
-    std::vector<Entry> entries;
+    std::array<std::vector<Entry>, kSlices> entries;
     uint64_t alone = 0;
   };
   std::vector<Part> parts(part_count(count, kFewForThreads));
   for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
-    std::vector<Entry> entries;
-    uint64_t alone = 0;
+    Part own;
     for (size_t p = begin; p < end; ++p) {
-      const size_t before = entries.size();
+      bool is_alone = true;
       grid.each_cell(cells[p], [&](uint32_t cell) {
-        if (number(cell) < shared) entries.push_back({number(cell), static_cast<uint32_t>(p)});
+        const uint32_t n = number(cell);
+        if (n >= shared) return;
+        own.entries[n >> shift].push_back({n, static_cast<uint32_t>(p)});
+        is_alone = false;
       });
-      alone += entries.size() == before;
+      own.alone += is_alone ? 1 : 0;
     }
-    parts[part] = {std::move(entries), alone};
+    parts[part] = std::move(own);
   });
-  const auto each_entry = [&](auto&& visit) {
-    for (const Part& part : parts) {
-      for (const Entry& e : part.entries) visit(e);
-    }
-  };
-  each_entry([&](const Entry& e) { ++result.cells[e.cell].count; });
+  std::array<uint32_t, kSlices> starts{};  // of the polygons of each slice
   uint32_t total = 0;
-  for (PairCells::Cell& cell : result.cells) {
-    cell.first = total;
-    total += cell.count;
-    cell.count = 0;
+  for (size_t slice = 0; slice < kSlices; ++slice) {
+    starts[slice] = total;
+    for (const Part& part : parts) total += static_cast<uint32_t>(part.entries[slice].size());
   }
   result.polygons.resize(total);
-  each_entry([&](const Entry& e) {
-    PairCells::Cell& cell = result.cells[e.cell];
-    result.polygons[cell.first + cell.count++] = e.polygon;
+  for_each_alone(kSlices, total > kFewForThreads, [&](size_t slice) {
+    const auto each_entry = [&](auto&& visit) {
+      for (const Part& part : parts) {
+        for (const Entry& e : part.entries[slice]) visit(result.cells[e.cell], e.polygon);
+      }
+    };
+    each_entry([](PairCells::Cell& cell, uint32_t) { ++cell.count; });
+    uint32_t next = starts[slice];
+    const size_t end = std::min<size_t>(shared, (slice + 1) << shift);
+    for (size_t c = slice << shift; c < end; ++c) {
+      PairCells::Cell& cell = result.cells[c];
+      cell.first = next;
+      next += std::exchange(cell.count, 0);
+    }
+    each_entry([&](PairCells::Cell& cell, uint32_t polygon) {
+      result.polygons[cell.first + cell.count++] = polygon;
+    });
   });
   uint64_t alone = far;
   for (const Part& part : parts) alone += part.alone;

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "engine/base/counting_order.h"
+#include "engine/base/parallel.h"
 #include "engine/bsp/crossing_points.h"
 #include "engine/bsp/find_contacts.h"
 
@@ -49,8 +51,18 @@ class ContactEnds {
         geometry_(geometry),
         index_(index),
         crossings_(job, geometry, index),
-        ends_(contacts.all().size(), {kNone, kNone}) {}
+        ends_(contacts.all().size(), {kNone, kNone}) {
+    name_vertices();
+  }
 
+  /// Fetches what ask() will look at, soon.
+  void expect(uint32_t contact) const {
+    const Contact& c = contacts_[contact];
+    for (const Contact::End& e : {c.lower, c.upper}) {
+      if (e.vertex != kNone) continue;
+      e.on_p ? crossings_.expect(c.p, e.edge, c.q) : crossings_.expect(c.q, e.edge, c.p);
+    }
+  }
   /// Asks for the ends of a contact that is not coplanar.
   void ask(uint32_t contact) {
     if (ends_[contact][0] != kNone) return;
@@ -78,6 +90,15 @@ class ContactEnds {
 
  private:
   static constexpr uint32_t kIsCrossing = 1u << 31;
+
+  /// Most vertices that are touched are at the ends of contacts.
+  void name_vertices() {
+    const std::vector<uint32_t> vertices = numbers_where(
+        contacts_.touched().size(), [&](uint32_t v) { return contacts_.touched()[v] != 0; });
+    std::vector<uint32_t> points(vertices.size());
+    std::iota(points.begin(), points.end(), geometry_.add_vertex_points(vertices));
+    index_.make_unique(points);
+  }
 
   const ContactTable& contacts_;
   CellGeometry& geometry_;

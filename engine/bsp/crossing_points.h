@@ -16,12 +16,13 @@ class CrossingPoints {
   CrossingPoints(Job& job, CellGeometry& geometry, PointIndex& index)
       : job_(job), geometry_(geometry), index_(index), slots_(1024) {}
 
+  /// Fetches what number() will look at, soon.
+  void expect(uint32_t polygon, uint32_t edge, uint32_t through) const {
+    __builtin_prefetch(&slots_[hash(name_of(polygon, edge, through)) & (slots_.size() - 1)]);
+  }
   /// The number of a crossing, from 0 on.
   uint32_t number(uint32_t polygon, uint32_t edge, uint32_t through) {
-    const JobPolygon& p = job_.polygons()[polygon];
-    const auto corners = job_.corners(p);
-    const uint32_t a = corners[edge], b = corners[edge + 1 < p.count ? edge + 1 : 0];
-    const Name name{std::min(a, b), std::max(a, b), through};
+    const Name name = name_of(polygon, edge, through);
     const uint32_t own = hash(name);
     size_t s = own & (slots_.size() - 1);
     for (; slots_[s].crossing != kNone; s = (s + 1) & (slots_.size() - 1)) {
@@ -54,6 +55,12 @@ class CrossingPoints {
     Name name;
     PolygonEdge edge;
   };
+  [[nodiscard]] Name name_of(uint32_t polygon, uint32_t edge, uint32_t through) const {
+    const JobPolygon& p = job_.polygons()[polygon];
+    const auto corners = job_.corners(p);
+    const uint32_t a = corners[edge], b = corners[edge + 1 < p.count ? edge + 1 : 0];
+    return {std::min(a, b), std::max(a, b), through};
+  }
   static uint32_t hash(const Name& n) {
     uint64_t h = (static_cast<uint64_t>(n.low) << 32 | n.high) * 0x9fb21c651e98df25ull;
     h = (h ^ (h >> 32) ^ n.through) * 0x9fb21c651e98df25ull;

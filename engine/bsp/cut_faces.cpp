@@ -12,8 +12,9 @@
 namespace csgrun {
 namespace {
 
-/// So many polygons are cut by one thread.
-constexpr size_t kPolygonsPerPart = 256;
+/// Polygons and their contacts, so many of both, are cut by one thread, if they are not of one
+/// polygon.
+constexpr size_t kWorkPerPart = 2048;
 
 /// Lists what is on polygons.
 void list(const Job& job, std::span<const uint32_t> polygons, const ContactTable& contacts,
@@ -186,16 +187,23 @@ class FaceCutter {
   }
 
   CutFaces run(std::span<const uint32_t> polygons, EvaluateStats& stats) {
-    parts_.resize(part_count(polygons.size(), kPolygonsPerPart));
+    const std::vector<size_t> starts = part_starts(polygons.size(), kWorkPerPart, [&](size_t i) {
+      return 1 + contacts_.of(polygons[i]).size();
+    });
+    parts_.resize(starts.size() - 1);
     make_parts_in_order(
         parts_.size(),
         [&](size_t part) {
-          const size_t begin = part * kPolygonsPerPart,
-                       end = std::min(polygons.size(), begin + kPolygonsPerPart);
-          list(job_, polygons.subspan(begin, end - begin), contacts_, parts_[part]);
+          const size_t count = starts[part + 1] - starts[part];
+          list(job_, polygons.subspan(starts[part], count), contacts_, parts_[part]);
         },
         [&](size_t part) {
-          for (const uint32_t contact : parts_[part].contacts) ends_.ask(contact);
+          constexpr size_t kAhead = 8;
+          const std::vector<uint32_t>& all = parts_[part].contacts;
+          for (size_t i = 0; i < all.size(); ++i) {
+            if (i + kAhead < all.size()) ends_.expect(all[i + kAhead]);
+            ends_.ask(all[i]);
+          }
         });
     ends_.make();
     for (CutPart& part : parts_) {

@@ -526,6 +526,7 @@ void Job::ensure_supports(std::span<const uint32_t> polygons) {
       ensure_support(p);
     }
   }
+  planes_.make_room(lacking.size());
   make_and_take(
       lacking.size(), [&](size_t i) { return reduced_support(lacking[i]); },
       [&](size_t i, const ReducedPlane& plane) {
@@ -547,6 +548,7 @@ void Job::ensure_edges(std::span<const PolygonEdge> edges) {
       edge_plane(e.polygon, e.edge);
     }
   }
+  planes_.make_room(lacking.size());
   make_and_take(
       lacking.size(), [&](size_t i) { return reduced_edge(lacking[i].polygon, lacking[i].edge); },
       [&](size_t i, const ReducedPlane& plane) {

@@ -47,6 +47,8 @@ UInt128 divisor(const Plane& p) {
   return g;
 }
 
+constexpr size_t kFewSlots = 64;
+
 uint64_t mix(uint64_t h, Int128 v) {
   h ^= static_cast<uint64_t>(v) + 0x9e3779b97f4a7c15ull + (h << 6) + (h >> 2);
   h *= 0xff51afd7ed558ccdull;
@@ -112,10 +114,25 @@ void PlaneTable::add(const Plane& p) {
 
 void PlaneTable::adopt(const std::vector<Plane>& planes) {
   assert(planes_.empty());
-  planes_.reserve(planes.size());
-  approximate_.reserve(planes.size());
-  bits_.reserve(planes.size());
+  reserve(planes.size());
   for (const Plane& p : planes) add(p);
+}
+
+void PlaneTable::reserve(size_t count) {
+  planes_.reserve(count);
+  approximate_.reserve(count);
+  bits_.reserve(count);
+}
+
+void PlaneTable::make_slots(size_t count) {
+  if (count * 2 >= slots_.size()) enter_all(std::bit_ceil(std::max(kFewSlots, count * 4)));
+}
+
+void PlaneTable::make_room(size_t more) {
+  const size_t count = planes_.size() + more;
+  // Twice as much: others come mostly, and little by little it takes linear time.
+  if (count > planes_.capacity()) reserve(2 * count);
+  make_slots(count);
 }
 
 PlaneId PlaneTable::intern(const Plane& plane) { return intern_computed(reduce(plane)); }
@@ -126,11 +143,7 @@ PlaneId PlaneTable::intern_stored(const Plane& plane) {
 }
 
 PlaneId PlaneTable::intern_computed(const ReducedPlane& reduced) {
-  constexpr size_t kFewSlots = 64;
-  // (After adopt there are no slots.)
-  if (planes_.size() * 2 >= slots_.size()) {
-    enter_all(std::bit_ceil(std::max(kFewSlots, planes_.size() * 4)));
-  }
+  make_slots(planes_.size());  // after adopt there are none
   const size_t mask = slots_.size() - 1;
   for (size_t s = reduced.hash & mask; slots_[s].plane; s = (s + 1) & mask) {
     const uint32_t index = slots_[s].plane - 1;

@@ -91,6 +91,8 @@ class PlaneTable {
   PlaneId intern_computed(const ReducedPlane& plane);
   /// The same, for a plane as a table stores it.
   PlaneId intern_stored(const Plane& plane);
+  /// Makes room for so many more planes at once; without it the table grows by doubling.
+  void make_room(size_t more);
   /// Fetches what it will look at, soon.
   void expect(const ReducedPlane& plane) const {
     if (!slots_.empty()) __builtin_prefetch(&slots_[plane.hash & (slots_.size() - 1)]);
@@ -119,6 +121,8 @@ class PlaneTable {
   };
 
   void add(const Plane& plane);
+  void reserve(size_t count);
+  void make_slots(size_t count);
   void enter_all(size_t slots);
   void enter(uint32_t hash, uint32_t index);
 

@@ -15,8 +15,8 @@
 namespace csgrun {
 namespace {
 
-/// So many faces are triangulated by one thread.
-constexpr size_t kFacesPerPart = 1024;
+/// So many corners are triangulated by one thread, if they are not of one face.
+constexpr size_t kCornersPerPart = 4096;
 
 class FaceTriangulator {
  public:
@@ -70,12 +70,17 @@ class FaceTriangulator {
 Result<TriangleSet> triangulate_faces(const std::vector<MergedFace>& faces,
                                       const CellGeometry& geometry, const PlaneTable& planes,
                                       size_t in_order) {
-  const size_t parts = part_count(faces.size(), kFacesPerPart);
+  const std::vector<size_t> starts = part_starts(faces.size(), kCornersPerPart, [&](size_t f) {
+    size_t corners = 0;
+    for (const auto& loop : faces[f].loops) corners += loop.size();
+    return corners;
+  });
+  const size_t parts = starts.size() - 1;
   std::vector<TriangleSet> sets(parts);
   std::vector<std::optional<Error>> errors(parts);
-  for_each_part(faces.size(), kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
+  for_each_alone(parts, true, [&](size_t part) {
     FaceTriangulator triangulator(faces, geometry, planes, in_order);
-    for (size_t f = begin; f < end && !errors[part]; ++f) {
+    for (size_t f = starts[part]; f < starts[part + 1] && !errors[part]; ++f) {
       if (auto status = triangulator.add(static_cast<uint32_t>(f), sets[part]); !status) {
         errors[part] = status.error();
       }

@@ -54,6 +54,27 @@ TEST(Parallel, RangesAndSinglesMakeUpEverything) {
   }
 }
 
+// Every part is as long as its weight allows, and what is too heavy has one of its own.
+TEST(Parallel, PartsAreOfOneWeight) {
+  constexpr size_t kMost = 10;
+  const std::vector<size_t> weights{3, 3, 4, 0, 1, 25, 0, 1, 9, 10, 11, 2, 0, 0, 8, 1};
+  for (size_t count = 0; count <= weights.size(); ++count) {
+    const auto starts = part_starts(count, kMost, [&](size_t i) { return weights[i]; });
+    ASSERT_EQ(starts.back(), count);
+    EXPECT_EQ(starts.size() == 1, count == 0);
+    EXPECT_EQ(starts[0], 0);
+    for (size_t part = 0; part + 1 < starts.size(); ++part) {
+      ASSERT_LT(starts[part], starts[part + 1]);
+      size_t sum = 0;
+      for (size_t i = starts[part]; i < starts[part + 1]; ++i) sum += weights[i];
+      EXPECT_TRUE(sum <= kMost || starts[part + 1] == starts[part] + 1);
+      EXPECT_TRUE(starts[part + 1] == count || sum + weights[starts[part + 1]] > kMost);
+    }
+  }
+  const auto all = part_starts(weights.size(), kMost, [&](size_t i) { return weights[i]; });
+  EXPECT_EQ(all, (std::vector<size_t>{0, 4, 5, 6, 9, 10, 11, 15, 16}));
+}
+
 TEST(Parallel, WhatIsMadeIsTakenInOrder) {
   for (const unsigned threads : {1u, 2u, 4u}) {
     for (const size_t count : {0, 1, 511, 512, 513, 8192, 8193, 40000}) {

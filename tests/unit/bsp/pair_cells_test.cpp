@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/coarse_cells.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/seeded.h"
@@ -216,6 +217,48 @@ TEST(PairCells, GridsHoldWhatIsShared) {
 }
 
 // Cells of a grid with few polygons are taken as they are, those with more are divided.
+// Slices of the cells are filled at the same time, each with what it has with one thread.
+TEST(PairCells, SharedCellsAreTheSameOnAnyThreads) {
+  const PolygonBox all{{0, 0, 0}, {1023, 1023, 255}};
+  for (const size_t count : {3, 400, 40000}) {
+    const auto listed = [&](unsigned threads) {
+      return with_threads(threads, [&] {
+        test::Random random(static_cast<uint64_t>(count));
+        CoarseGrid grid(all, CoarseGrid::most_cells(count, 1));
+        std::vector<CoarseGrid::Cells> cells(count);
+        for (size_t p = 0; p < count; ++p) {
+          PolygonBox box{};
+          for (size_t k = 0; k < 3; ++k) {
+            box.lo[k] = static_cast<int32_t>(random.integer(-20, 1040));
+            box.hi[k] = box.lo[k] + static_cast<int32_t>(random.integer(0, 12));
+          }
+          EXPECT_TRUE(grid.find_cells(box, cells[p]));
+          const auto own = static_cast<uint32_t>(1 + p % 2);
+          grid.each_cell(cells[p], [&](uint32_t& c) { CoarseGrid::mark(c, own, false); });
+        }
+        return list_shared_cells(grid, cells, 5, 2);
+      });
+    };
+    const PairCells one = listed(1), three = listed(3);
+    EXPECT_EQ(one.cells.empty(), count == 3);
+    EXPECT_EQ(one.surface, three.surface);
+    ASSERT_EQ(one.polygons, three.polygons);
+    ASSERT_EQ(one.cells.size(), three.cells.size());
+    uint32_t next = 0;
+    for (size_t c = 0; c < one.cells.size(); ++c) {
+      const auto &a = one.cells[c], &b = three.cells[c];
+      EXPECT_EQ(a.lo, b.lo);
+      EXPECT_EQ(a.first, b.first);
+      ASSERT_EQ(a.first, next);
+      ASSERT_EQ(a.count, b.count);
+      next += a.count;
+      const auto begin = one.polygons.begin() + a.first;
+      EXPECT_TRUE(std::is_sorted(begin, begin + a.count));
+    }
+    EXPECT_EQ(next, one.polygons.size());
+  }
+}
+
 TEST(PairCells, CellsOfAGridAreDividedIfTheyHoldMany) {
   test::Random random(507);
   size_t as_they_are = 0, at_the_limit = 0, divided = 0;

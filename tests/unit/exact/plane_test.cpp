@@ -124,6 +124,31 @@ TEST(PlaneTable, TakesOverPlanesOfAnother) {
   EXPECT_EQ(other.intern_computed(reduce({-1, -2, -3, -1000001})), fresh.flip());
 }
 
+// Room that is made beforehand, for none, few or all, changes no number.
+TEST(PlaneTable, RoomMadeBeforehandChangesNothing) {
+  test::Random random(74);
+  std::vector<Plane> planes;
+  while (planes.size() < 3000) {
+    const auto component = [&] { return Int128{random.integer(-6, 6)}; };
+    const Plane p{component(), component(), component(), component()};
+    if (p.a != 0 || p.b != 0 || p.c != 0) planes.push_back(p);
+  }
+  PlaneTable plain, at_once, in_steps, adopted;
+  adopted.adopt({{1, 0, 0, 7}, {0, 1, 0, 7}});
+  at_once.make_room(planes.size());
+  for (size_t i = 0; i < planes.size(); ++i) {
+    if (i % 7 == 0) in_steps.make_room(i % 5 * 40);
+    if (i == 0) adopted.make_room(20000);
+    const PlaneId known = plain.intern(planes[i]);
+    ASSERT_EQ(at_once.intern(planes[i]), known);
+    ASSERT_EQ(in_steps.intern(planes[i]), known);
+    ASSERT_EQ(adopted.oriented(adopted.intern(planes[i])), plain.oriented(known));
+  }
+  EXPECT_EQ(at_once.size(), plain.size());
+  EXPECT_EQ(in_steps.size(), plain.size());
+  EXPECT_EQ(adopted.intern({0, -1, 0, -7}), PlaneId(1, true));
+}
+
 // Of so many planes some have equal hashes of 32 bits.
 TEST(PlaneTable, EqualHashesAreNotEqualPlanes) {
   PlaneTable table;
