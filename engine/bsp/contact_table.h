@@ -63,9 +63,10 @@ class ContactEnds {
       e.on_p ? crossings_.expect(c.p, e.edge, c.q) : crossings_.expect(c.q, e.edge, c.p);
     }
   }
+  [[nodiscard]] bool is_asked(uint32_t contact) const { return ends_[contact][0] != kNone; }
   /// Asks for the ends of a contact that is not coplanar.
   void ask(uint32_t contact) {
-    if (ends_[contact][0] != kNone) return;
+    if (is_asked(contact)) return;
     const Contact& c = contacts_[contact];
     const auto end = [&](const Contact::End& e) {
       if (e.vertex != kNone) return index_.unique(geometry_.vertex_point(e.vertex));

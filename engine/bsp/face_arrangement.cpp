@@ -144,7 +144,9 @@ void FaceArrangement::find_same_lines() {
     line_ends_.push_back(
         {std::min(line.from, line.to), std::max(line.from, line.to), line.operand, l});
   }
-  std::sort(line_ends_.begin(), line_ends_.end());
+  sort_line_ends_.sort(
+      line_ends_, geometry_.point_count(), [](const auto& ends) { return ends[0]; },
+      [](const auto& a, const auto& b) { return a < b; });
   for (size_t begin = 0, end = 1; begin < line_ends_.size(); begin = end++) {
     while (end < line_ends_.size() && have_same_ends(end - 1, end)) ++end;
     if (end - begin != 2) continue;
@@ -156,16 +158,17 @@ void FaceArrangement::find_same_lines() {
     second.kind = Kind::kGone;
   }
   drop_gone_lines();
-  swept_.clear();
   next_same_.assign(lines_.size(), kNone);
-  for (size_t i = 0; i < line_ends_.size(); ++i) {
-    if (i > 0 && have_same_ends(i - 1, i)) {
-      next_same_[line_ends_[i - 1][3]] = line_ends_[i][3];
-    } else {
-      swept_.push_back(line_ends_[i][3]);
-    }
+  is_swept_.assign(lines_.size(), 1);
+  for (size_t i = 1; i < line_ends_.size(); ++i) {
+    if (!have_same_ends(i - 1, i)) continue;
+    next_same_[line_ends_[i - 1][3]] = line_ends_[i][3];
+    is_swept_[line_ends_[i][3]] = 0;
   }
-  std::sort(swept_.begin(), swept_.end());
+  swept_.clear();
+  for (uint32_t l = 0; l < lines_.size(); ++l) {
+    if (is_swept_[l]) swept_.push_back(l);
+  }
 }
 
 /// Whether two entries of line_ends_ are of lines of one operand with the same ends.
@@ -264,7 +267,9 @@ void FaceArrangement::break_lines() {
   parts_.clear();
   ++build_;
   beyond_.resize(geometry_.point_count(), 0);
-  std::sort(stops_.begin(), stops_.end());
+  sort_pairs_.sort(
+      stops_, lines_.size(), [](const auto& stop) { return stop.first; },
+      [](const auto& a, const auto& b) { return a.second < b.second; });
   stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
   for (size_t begin = 0; begin < stops_.size();) {
     const uint32_t l = stops_[begin].first;
@@ -310,9 +315,11 @@ bool FaceArrangement::is_beyond(uint32_t point) {
 
 void FaceArrangement::join_parts() {
   arcs_.clear();
-  std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
-    return std::tie(a.low, a.high, a.line) < std::tie(b.low, b.high, b.line);
-  });
+  sort_parts_.sort(
+      parts_, geometry_.point_count(), [](const Part& part) { return part.low; },
+      [](const Part& a, const Part& b) {
+        return std::tie(a.high, a.line) < std::tie(b.high, b.line);
+      });
   for (uint32_t i = 0; i < parts_.size(); ++i) {
     if (!arcs_.empty() && arcs_.back().low == parts_[i].low &&
         arcs_.back().high == parts_[i].high) {
@@ -334,7 +341,9 @@ int FaceArrangement::left_of(uint32_t half, uint32_t point) {
 void FaceArrangement::sort_around_points() {
   around_.clear();
   for (uint32_t h = 0; h < 2 * arcs_.size(); ++h) around_.emplace_back(from(h), h);
-  std::sort(around_.begin(), around_.end());
+  sort_pairs_.sort(
+      around_, geometry_.point_count(), [](const auto& half) { return half.first; },
+      [](const auto& a, const auto& b) { return a.second < b.second; });
   for (size_t begin = 0; begin < around_.size();) {
     size_t end = begin + 1;
     while (end < around_.size() && around_[end].first == around_[begin].first) ++end;
@@ -496,7 +505,9 @@ uint32_t FaceArrangement::sheet_at(std::span<const uint32_t> sheets, uint32_t po
 
 /// Gives each loop its facts; false when they contradict one another.
 bool FaceArrangement::write_facts(CutLoops& out, uint32_t first_loop) {
-  std::sort(facts_.begin(), facts_.end());
+  sort_facts_.sort(
+      facts_, out.loops.size() - first_loop, [](const LoopFact& f) { return f.loop; },
+      [](const LoopFact& a, const LoopFact& b) { return a < b; });
   facts_.erase(std::unique(facts_.begin(), facts_.end()), facts_.end());
   size_t at = 0;
   for (uint32_t l = 0; first_loop + l < out.loops.size(); ++l) {

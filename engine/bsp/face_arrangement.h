@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/sort_by_key.h"
 #include "engine/bsp/cut_polygon.h"
 #include "engine/bsp/point_index.h"
 
@@ -134,17 +135,22 @@ class FaceArrangement {
   const JobPolygon* polygon_ = nullptr;
   std::vector<Line> lines_;
   SegmentSweep sweep_;
-  std::vector<std::array<uint32_t, 4>> line_ends_;    ///< lower, higher, operand, line
+  std::vector<std::array<uint32_t, 4>> line_ends_;  ///< lower, higher, operand, line
+  SortByKey<std::array<uint32_t, 4>> sort_line_ends_;
   std::vector<uint32_t> numbers_;                     ///< of lines, once some are gone
+  std::vector<uint8_t> is_swept_;                     ///< per line, whether it is in:
   std::vector<uint32_t> swept_;                       ///< lines, of those with equal ends one
   std::vector<uint32_t> next_same_;                   ///< per line: the next one of these, or kNone
   std::vector<std::pair<uint32_t, uint32_t>> stops_;  ///< (line, point)
+  SortByKey<std::pair<uint32_t, uint32_t>> sort_pairs_;
   std::vector<Part> parts_;
+  SortByKey<Part> sort_parts_;
   std::vector<Arc> arcs_;
   std::vector<std::pair<uint32_t, uint32_t>> around_;  ///< (point, half-edge that leaves it)
   std::vector<uint32_t> place_;                        ///< of a half-edge in around_
   std::vector<uint32_t> loop_of_;  ///< per half-edge: number within the polygon, or kNone
   std::vector<LoopFact> facts_;
+  SortByKey<LoopFact> sort_facts_;
   std::vector<uint32_t> sheets_;  ///< coplanar ones that are not clearly apart
   std::vector<SheetEdge> sheet_edges_;
   size_t first_coplanar_line_ = 0;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <memory>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/corner_walk.h"
 
 namespace csgrun {
@@ -11,13 +13,10 @@ namespace {
 
 class RimFaces {
  public:
-  RimFaces(const Job& job, const ContactTable& contacts, CellGeometry& geometry,
-           TouchFinder& finder)
-      : job_(job),
-        contacts_(contacts),
-        geometry_(geometry),
-        finder_(finder),
-        is_free_(job.vertex_count(), kUnknown) {}
+  /// `is_free`: per vertex, what any of several finds out.
+  RimFaces(const Job& job, const ContactTable& contacts, const CellGeometry& geometry,
+           const TouchFinder& finder, std::vector<uint8_t>& is_free)
+      : job_(job), contacts_(contacts), geometry_(geometry), finder_(finder), is_free_(is_free) {}
 
   /// Whether a polygon that is met is as good as untouched.
   bool is_rim(uint32_t polygon) {
@@ -36,7 +35,7 @@ class RimFaces {
   }
 
  private:
-  enum State : uint8_t { kUnknown, kFree, kBound };
+  enum State : uint8_t { kUnknown = 0, kFree, kBound };
 
   /// Whether all that two polygons have in common is a corner or an edge of one of them.
   static bool ends_in_corners(const Contact& c, bool of_p) {
@@ -47,11 +46,13 @@ class RimFaces {
   }
 
   bool is_free(uint32_t v, const JobPolygon& p, const LeafGeometry& leaf) {
-    uint8_t& state = is_free_[v];
+    const std::atomic_ref<uint8_t> shared(is_free_[v]);
+    uint8_t state = shared.load(std::memory_order_relaxed);
     if (state == kUnknown) {
       const bool is_beside_cuts =
-          finder_.operand_beside_cuts(geometry_.vertex_point(v)) == p.operand;
+          finder_.operand_beside_cuts(geometry_.made_vertex_point(v)) == p.operand;
       state = is_beside_cuts && !has_straight_edges(v, p, leaf) ? kFree : kBound;
+      shared.store(state, std::memory_order_relaxed);
     }
     return state == kFree;
   }
@@ -99,22 +100,26 @@ class RimFaces {
 
   const Job& job_;
   const ContactTable& contacts_;
-  CellGeometry& geometry_;
-  TouchFinder& finder_;
-  std::vector<uint8_t> is_free_;  ///< per vertex, a State
+  const CellGeometry& geometry_;
+  const TouchFinder& finder_;
+  std::vector<uint8_t>& is_free_;  ///< per vertex, a State
   std::unique_ptr<CornerWalk> walk_;
   uint32_t walked_ = kNone;  ///< the operand that it is on
 };
 
 }  // namespace
 
-void release_rims(const Job& job, const ContactTable& contacts, CellGeometry& geometry,
-                  TouchFinder& finder, std::vector<WholePolygon>& whole) {
+void release_rims(const Job& job, const ContactTable& contacts, const CellGeometry& geometry,
+                  const TouchFinder& finder, std::vector<WholePolygon>& whole) {
   if (!finder.has_examined()) return;
-  RimFaces faces(job, contacts, geometry, finder);
-  for (WholePolygon& w : whole) {
-    if (w.is_met && faces.is_rim(w.polygon)) w.is_met = false;
-  }
+  constexpr size_t kPolygonsPerPart = 2048;
+  std::vector<uint8_t> is_free(job.vertex_count(), 0);
+  for_each_part(whole.size(), kPolygonsPerPart, [&](size_t, size_t begin, size_t end) {
+    RimFaces faces(job, contacts, geometry, finder, is_free);
+    for (size_t i = begin; i < end; ++i) {
+      if (whole[i].is_met && faces.is_rim(whole[i].polygon)) whole[i].is_met = false;
+    }
+  });
 }
 
 }  // namespace csgrun

@@ -22,8 +22,9 @@ namespace csgrun {
 ///   and the last, an edge of the leaf, the first one or its reverse. So one of them has a true
 ///   corner, and the point is one of the boundary's.
 ///
-/// REQUIRES: nothing was left to cells. O(contacts of such polygons).
-void release_rims(const Job& job, const ContactTable& contacts, CellGeometry& geometry,
-                  TouchFinder& finder, std::vector<WholePolygon>& whole);
+/// REQUIRES: nothing was left to cells; the touched vertices have points, which are in the finder's
+/// index. O(contacts of such polygons), parallel.
+void release_rims(const Job& job, const ContactTable& contacts, const CellGeometry& geometry,
+                  const TouchFinder& finder, std::vector<WholePolygon>& whole);
 
 }  // namespace csgrun

@@ -17,6 +17,7 @@ void TouchFinder::examine(uint32_t point) {
   if (!may_be_met(point)) return;
   is_examined_.resize(geometry_.point_count(), 0);
   is_examined_[number(point)] = 1;
+  has_examined_ = true;
 }
 
 bool TouchFinder::may_pass_examined(std::span<const uint32_t> points) const {

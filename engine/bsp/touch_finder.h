@@ -6,6 +6,8 @@
 // each goes on to the next one through an edge that both have, and all are one round.
 #pragma once
 
+#include <atomic>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,8 +31,22 @@ class TouchFinder {
   }
   /// Has a point of the geometry examined.
   void examine(uint32_t point);
+  /// Has points that may be met examined, which are in the index: each(mark) calls mark(point) for
+  /// them, maybe on several threads.
+  template <class Each>
+  void examine_known(Each&& each) {
+    is_examined_.resize(geometry_.point_count(), 0);
+    std::atomic<bool> any = false;
+    each([&](uint32_t point) {
+      assert(index_.known(point) != kNone);
+      const std::atomic_ref<uint8_t> shared(is_examined_[index_.known(point)]);
+      shared.store(1, std::memory_order_relaxed);
+      any.store(true, std::memory_order_relaxed);
+    });
+    has_examined_ |= any;
+  }
   /// Whether there is any point to be examined.
-  [[nodiscard]] bool has_examined() const { return !is_examined_.empty(); }
+  [[nodiscard]] bool has_examined() const { return has_examined_; }
   /// Whether an outline may pass a point to be examined. All of these must be known. Several
   /// threads may ask at the same time.
   [[nodiscard]] bool may_pass_examined(std::span<const uint32_t> points) const;
@@ -47,8 +63,9 @@ class TouchFinder {
   /// After find(): the operand all of whose outlines at a point may be named without being spelled
   /// out, or kNone. The point was examined and is as above, parts of cut polygons have corners
   /// there, and all polygons that are kept whole are of this operand.
-  [[nodiscard]] uint32_t operand_beside_cuts(uint32_t point) {
-    const uint32_t n = number(point);
+  /// Several threads may ask. REQUIRES: as for known_number.
+  [[nodiscard]] uint32_t operand_beside_cuts(uint32_t point) const {
+    const uint32_t n = known_number(point);
     return n < beside_cuts_.size() ? beside_cuts_[n] : kNone;
   }
   /// After find(): something kept passes a point without a corner there.
@@ -59,6 +76,10 @@ class TouchFinder {
 
   /// The number of a point: that of all equal ones.
   uint32_t number(uint32_t point);
+  /// The same. REQUIRES: the point is in the index, if it may be met.
+  [[nodiscard]] uint32_t known_number(uint32_t point) const {
+    return may_be_met(point) ? index_.known(point) : point;
+  }
 
  private:
   struct Corner {
@@ -76,6 +97,7 @@ class TouchFinder {
   PointIndex& index_;
   const std::vector<uint8_t>& touched_;
   std::vector<uint8_t> is_examined_;  ///< per point
+  bool has_examined_ = false;
   std::vector<Corner> corners_;
   std::vector<GridBox> boxes_;
   std::vector<uint32_t> beside_cuts_;  ///< per point, see operand_beside_cuts

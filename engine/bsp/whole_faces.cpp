@@ -1,7 +1,10 @@
 #include "engine/bsp/whole_faces.h"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
+
+#include <tbb/enumerable_thread_specific.h>
 
 #include "engine/base/parallel.h"
 #include "engine/bsp/contact_table.h"
@@ -258,25 +261,15 @@ class FaceEvaluator {
     TouchFinder finder(job_, geometry_, index_, contacts_.touched());
     const auto count = static_cast<uint32_t>(contacts_.all().size());
     std::vector<uint8_t> is_open(count, 0);
-    for (uint32_t i = 0; i < count; ++i) {
+    const std::vector<uint32_t> asked = numbers_where(count, [&](uint32_t i) {
       const Contact& c = contacts_[i];
       is_open[i] =
           (result_.general[c.p] && is_suspect_[c.p]) || (result_.general[c.q] && is_suspect_[c.q]);
-      if ((is_suspect_[c.p] || is_suspect_[c.q]) && is_of_kept(c)) ends_->ask(i);
-    }
+      return (is_suspect_[c.p] || is_suspect_[c.q]) && is_of_kept(c) && !ends_->is_asked(i);
+    });
+    for (const uint32_t i : asked) ends_->ask(i);
     ends_->make();
-    for (const CutFaces::Face& cut : cut_.faces) {
-      if (!is_suspect_[cut.polygon] || !is_kept_[cut.polygon]) continue;
-      corners_.clear();
-      for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-        for (const uint32_t p : points_of(cut_.loops.loops[l])) {
-          if (!finder.may_be_met(p)) continue;
-          corners_.push_back(p);
-          if (fates_->of_loop(l) != PatchFate::kDrop) finder.examine(p);
-        }
-      }
-      find_open(cut.polygon, finder, is_open, nullptr);
-    }
+    examine_cut(finder, is_open);
     for (const WholePolygon& w : result_.whole) {
       if (!is_suspect_[w.polygon]) continue;
       corners_.clear();
@@ -285,7 +278,7 @@ class FaceEvaluator {
         corners_.push_back(geometry_.vertex_point(v));
         finder.examine(corners_.back());
       }
-      find_open(w.polygon, finder, is_open, &w);
+      find_open(w.polygon, corners_, finder, corner_of_, is_open, &w);
     }
     if (finder.has_examined()) {
       add_outlines(finder);
@@ -298,6 +291,32 @@ class FaceEvaluator {
       for (const uint32_t end : ends_->of(i)) finder.note_passage(end);
     }
     if (!result_.any_general) release_rims(job_, contacts_, geometry_, finder, result_.whole);
+  }
+
+  /// Has the corners examined of cut polygons that something touches, and marks the contacts of
+  /// these that end elsewhere. Such polygons were cut by value: their corners are in the index.
+  void examine_cut(TouchFinder& finder, std::vector<uint8_t>& is_open) {
+    constexpr size_t kFacesPerPart = 2048;
+    tbb::enumerable_thread_specific<std::vector<uint32_t>> corner_of;
+    finder.examine_known([&](auto&& mark) {
+      for_each_part(cut_.faces.size(), kFacesPerPart, [&](size_t, size_t begin, size_t end) {
+        std::vector<uint32_t> corners;
+        for (size_t f = begin; f < end; ++f) {
+          const CutFaces::Face& cut = cut_.faces[f];
+          if (!is_suspect_[cut.polygon] || !is_kept_[cut.polygon]) continue;
+          corners.clear();
+          for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+            const bool is_dropped = fates_->of_loop(l) == PatchFate::kDrop;
+            for (const uint32_t p : points_of(cut_.loops.loops[l])) {
+              if (!finder.may_be_met(p)) continue;
+              corners.push_back(p);
+              if (!is_dropped) mark(p);
+            }
+          }
+          find_open(cut.polygon, corners, finder, corner_of.local(), is_open, nullptr);
+        }
+      });
+    });
   }
 
   /// Adds what is kept to the finder, once it knows all points to be examined.
@@ -322,10 +341,13 @@ class FaceEvaluator {
       finder.add_outline(o.polygon, points_of(loop), planes_of(loop),
                          fates_->of_loop(o.loop) == PatchFate::kFlip);
     }
-    for (const WholePolygon& w : result_.whole) {
-      if (!w.is_met || !has_touched_corner(w.polygon)) continue;
-      list_corners(w.polygon);
-      finder.add_outline(w.polygon, corners_, {}, w.flip);
+    const std::vector<WholePolygon>& whole = result_.whole;
+    const auto is_met = [&](uint32_t i) {
+      return whole[i].is_met && has_touched_corner(whole[i].polygon);
+    };
+    for (const uint32_t i : numbers_where(whole.size(), is_met)) {
+      list_corners(whole[i].polygon);
+      finder.add_outline(whole[i].polygon, corners_, {}, whole[i].flip);
     }
   }
 
@@ -340,25 +362,27 @@ class FaceEvaluator {
     return !c.is_coplanar && is_kept_[c.p] && is_kept_[c.q];
   }
 
-  /// Marks the contacts of a polygon that end where none of `corners_` is, nor an edge of it if it
-  /// is whole.
-  void find_open(uint32_t polygon, TouchFinder& finder, std::vector<uint8_t>& is_open,
+  /// Marks the contacts of a polygon that end where none of its corners is, nor an edge of it if it
+  /// is whole. `corners`: those that may be met, which are in the index. `corner_of`: working
+  /// memory, for any polygons. Several threads may ask about cut ones.
+  void find_open(uint32_t polygon, std::span<const uint32_t> corners, TouchFinder& finder,
+                 std::vector<uint32_t>& corner_of, std::vector<uint8_t>& is_open,
                  const WholePolygon* whole) {
     const auto contacts = contacts_.of(polygon);
     if (std::none_of(contacts.begin(), contacts.end(),
                      [&](uint32_t c) { return is_of_kept(contacts_[c]); })) {
       return;
     }
-    corner_of_.resize(geometry_.point_count(), kNone);
-    for (const uint32_t p : corners_) corner_of_[finder.number(p)] = polygon;
+    corner_of.resize(geometry_.point_count(), kNone);
+    for (const uint32_t p : corners) corner_of[finder.known_number(p)] = polygon;
     for (const uint32_t contact : contacts) {
       if (!is_of_kept(contacts_[contact])) continue;
       for (const uint32_t end : ends_->of(contact)) {
-        if (corner_of_[end] == polygon) continue;
+        if (corner_of[end] == polygon) continue;
         if (whole && finder.add_on_edge(polygon, end, whole->flip)) {
-          corner_of_[end] = polygon;
+          corner_of[end] = polygon;
         } else {
-          is_open[contact] = 1;
+          std::atomic_ref<uint8_t>(is_open[contact]).store(1, std::memory_order_relaxed);
         }
       }
     }

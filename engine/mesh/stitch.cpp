@@ -1,6 +1,7 @@
 #include "engine/mesh/stitch.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <numeric>
 
@@ -313,41 +314,53 @@ bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
   }
   sort_refs(refs, geometry.point_count());
   twin.assign(half_edges, kNone);
-  std::vector<Sheet> sheets;
-  for (size_t i = 0; i < refs.size();) {
-    size_t j = i;
-    size_t forward = 0;
-    for (; j < refs.size() && same_ends(refs[i], refs[j]); ++j) forward += refs[j].forward;
-    if (2 * forward != j - i) return false;
-    const bool is_rim = refs[j - 1].index >= half_edges;
-    if (j - i == 2) {
-      if (!is_rim) make_twins(twin, refs[i].index, refs[i + 1].index);
-    } else if (is_rim) {
-      return false;
-    } else {
-      // A diagonal of one face may run along other faces' edge: both its sides lie in one plane,
-      // and the order below treats it like any other pair of sheets.
-      sheets.clear();
-      LineAxis along;
-      for (size_t k = i; k < j; ++k) {
-        const uint32_t face = set.face[refs[k].index / 3];
-        const Plane normal = planes.oriented(faces[face].plane);
-        sheets.push_back(
-            {refs[k].index, face, refs[k].forward, refs[k].forward ? normal : normal.reversed()});
-      }
-      for (int axis = 0; axis < 3; ++axis) {
-        if (const int s = geometry.compare_along(refs[i].hi, refs[i].lo, axis)) {
-          along = {axis, s};
-          break;
-        }
-      }
-      pair_sheets(sheets, RadialOrder(along), contacts, twin);
-      crowded.emplace_back();
-      for (const Sheet& s : sheets) {
-        if (s.forward) crowded.back().push_back(s.half_edge);
+  const auto end_of = [&](size_t i) {  // of those with the same ends
+    size_t end = i;
+    while (end < refs.size() && same_ends(refs[i], refs[end])) ++end;
+    return end;
+  };
+  // Two are paired at once; where several edges meet, the first of them is listed.
+  std::atomic<bool> is_closed = true;
+  const auto pair = [&](size_t begin, size_t end, std::vector<size_t>& several) {
+    while (begin > 0 && begin < end && same_ends(refs[begin - 1], refs[begin])) ++begin;
+    for (size_t i = begin, j = i; i < end; i = j) {
+      j = end_of(i);
+      size_t forward = 0;
+      for (size_t k = i; k < j; ++k) forward += refs[k].forward;
+      const bool is_rim = refs[j - 1].index >= half_edges;
+      if (2 * forward != j - i || (is_rim && j - i != 2)) is_closed = false;
+      if (j - i != 2) {
+        several.push_back(i);
+      } else if (!is_rim) {
+        make_twins(twin, refs[i].index, refs[i + 1].index);
       }
     }
-    i = j;
+  };
+  const std::vector<size_t> several = list_in_parts<size_t>(refs.size(), kFewForThreads, pair);
+  if (!is_closed) return false;
+  std::vector<Sheet> sheets;
+  for (const size_t i : several) {
+    // A diagonal of one face may run along other faces' edge: both its sides lie in one plane,
+    // and the order below treats it like any other pair of sheets.
+    sheets.clear();
+    LineAxis along;
+    for (size_t k = i; k < end_of(i); ++k) {
+      const uint32_t face = set.face[refs[k].index / 3];
+      const Plane normal = planes.oriented(faces[face].plane);
+      sheets.push_back(
+          {refs[k].index, face, refs[k].forward, refs[k].forward ? normal : normal.reversed()});
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      if (const int s = geometry.compare_along(refs[i].hi, refs[i].lo, axis)) {
+        along = {axis, s};
+        break;
+      }
+    }
+    pair_sheets(sheets, RadialOrder(along), contacts, twin);
+    crowded.emplace_back();
+    for (const Sheet& s : sheets) {
+      if (s.forward) crowded.back().push_back(s.half_edge);
+    }
   }
   return true;
 }
