@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -435,17 +436,17 @@ class Presenter {
 
   /// Curved surfaces are numbered from 1 in the order of their first faces.
   static void number_surfaces(Solid& solid) {
-    std::vector<std::pair<uint32_t, uint32_t>> surfaces;  // of a source, by their numbers
-    uint32_t last = 0;
+    std::unordered_map<uint64_t, uint32_t> numbers;  // of the surfaces of each source
+    uint64_t last = 0;
+    uint32_t number = 0;
     for (Solid::Face& face : solid.faces) {
       if (face.surface == 0) continue;
-      const std::pair<uint32_t, uint32_t> key{face.source, face.surface};
-      if (last == 0 || surfaces[last - 1] != key) {
-        const auto at = std::find(surfaces.begin(), surfaces.end(), key);
-        last = static_cast<uint32_t>(at - surfaces.begin()) + 1;
-        if (at == surfaces.end()) surfaces.push_back(key);
+      const uint64_t key = uint64_t{face.source} << 32 | face.surface;
+      if (key != last) {
+        number = numbers.try_emplace(key, static_cast<uint32_t>(numbers.size()) + 1).first->second;
+        last = key;
       }
-      face.surface = last;
+      face.surface = number;
     }
   }
 
