@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/frame_map.h"
 #include "engine/bsp/operand.h"
 #include "engine/exact/plane.h"
@@ -92,7 +93,7 @@ struct BoundaryMesh {
   bool may_touch = true;
   /// If they may touch, boxes in which all places are where they do; none: it can be anywhere.
   std::vector<GridBox> touches;
-  std::vector<Plane> planes;
+  RawVector<Plane> planes;
   std::vector<std::array<uint32_t, 3>> point_planes;  ///< each point: three planes that meet in it
   std::vector<std::array<double, 3>> point_rounded;   ///< and its coordinates, correctly rounded
   std::vector<Face> faces;

@@ -1,6 +1,7 @@
 #include "engine/bsp/canonical_order.h"
 
 #include <algorithm>
+#include <atomic>
 #include <tuple>
 
 #include "engine/base/counting_order.h"
@@ -13,12 +14,12 @@ namespace {
 
 std::vector<uint32_t> used_points(const DraftBoundary& draft, size_t point_count) {
   std::vector<uint8_t> used(point_count, 0);
-  for (const DirectedEdge& e : draft.edges) used[e.from] = 1;
-  std::vector<uint32_t> points;
-  for (uint32_t p = 0; p < point_count; ++p) {
-    if (used[p]) points.push_back(p);
-  }
-  return points;
+  for_each_range(draft.edges.size(), [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      std::atomic_ref(used[draft.edges[i].from]).store(1, std::memory_order_relaxed);
+    }
+  });
+  return numbers_where(point_count, [&](uint32_t p) { return used[p] != 0; });
 }
 
 /// The loops of a face, each from its lowest corner, by these.
@@ -61,16 +62,19 @@ std::vector<uint32_t> face_order(const DraftBoundary& draft, const PlaneTable& p
   };
   CountingOrder by_point;
   by_point.sort(draft.faces.size(), point_count, [&](size_t f) { return lowest(f).from; });
-  for (size_t point = 0; point < point_count; ++point) {
-    sort_few(by_point.order.begin() + by_point.starts[point],
-             by_point.order.begin() + by_point.starts[point + 1], [&](uint32_t i, uint32_t j) {
-               const DirectedEdge &u = lowest(i), &v = lowest(j);
-               if (u.to != v.to) return u.to < v.to;
-               const auto &a = draft.faces[i], &b = draft.faces[j];
-               const Plane p = planes.oriented(a.plane), q = planes.oriented(b.plane);
-               return std::tie(p.a, p.b, p.c, p.d, a.label) < std::tie(q.a, q.b, q.c, q.d, b.label);
-             });
-  }
+  const auto before = [&](uint32_t i, uint32_t j) {
+    const DirectedEdge &u = lowest(i), &v = lowest(j);
+    if (u.to != v.to) return u.to < v.to;
+    const auto &a = draft.faces[i], &b = draft.faces[j];
+    const Plane p = planes.oriented(a.plane), q = planes.oriented(b.plane);
+    return std::tie(p.a, p.b, p.c, p.d, a.label) < std::tie(q.a, q.b, q.c, q.d, b.label);
+  };
+  for_each_range(point_count, [&](size_t begin, size_t end) {
+    for (size_t point = begin; point < end; ++point) {
+      sort_few(by_point.order.begin() + by_point.starts[point],
+               by_point.order.begin() + by_point.starts[point + 1], before);
+    }
+  });
   return std::move(by_point.order);
 }
 
@@ -144,13 +148,13 @@ void name_by_planes(const PlaneTable& planes, size_t point_count, BoundaryMesh& 
       }
     }
   }
-  mesh.planes.reserve(used_planes.size());
-  for (size_t p = 0; p < used_planes.size(); ++p) {
-    if (p + kAhead < used_planes.size()) {
-      __builtin_prefetch(&planes.plane(used_planes[p + kAhead]));
+  mesh.planes.resize(used_planes.size());
+  for_each_range(used_planes.size(), [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) {
+      if (p + kAhead < end) __builtin_prefetch(&planes.plane(used_planes[p + kAhead]));
+      mesh.planes[p] = planes.plane(used_planes[p]);
     }
-    mesh.planes.push_back(planes.plane(used_planes[p]));
-  }
+  });
 }
 
 }  // namespace

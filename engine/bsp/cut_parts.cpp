@@ -63,18 +63,14 @@ class PartJoiner {
     });
     const std::vector<uint32_t> vertices = numbers_where(
         needs.size(), [&](uint32_t v) { return needs[v] != 0 && !geometry_.has_vertex_point(v); });
-    size_t count = vertices.size();
+    geometry_.add_vertex_points(vertices);
+    size_t count = 0;
     std::vector<size_t> starts;  // of the points of each part
     for (const CutPart& part : parts) {
       starts.push_back(count);
       count += part.points.size();
     }
     const uint32_t first = geometry_.add_points(count);
-    for_each_range(vertices.size(), [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) {
-        geometry_.set_vertex_point(first + static_cast<uint32_t>(i), vertices[i]);
-      }
-    });
     points_.resize(parts.size());
     for_each_part(parts.size(), kAtOnce, [&](size_t, size_t begin, size_t end) {
       for (size_t p = begin; p < end; ++p) {

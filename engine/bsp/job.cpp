@@ -72,7 +72,7 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_box
   boundary_planes_.resize(operands.size());
   for (size_t o = 0; o < operands.size(); ++o) {
     if (!operands[o].boundary) continue;
-    const std::vector<Plane>& of_operand = operands[o].boundary->planes;
+    const RawVector<Plane>& of_operand = operands[o].boundary->planes;
     const IVec3& moved = operands[o].translation;
     const FrameMap& map = sources_[o].map;
     std::vector<PlaneId>& ids = boundary_planes_[o];

@@ -41,7 +41,7 @@ class TouchFinder {
       assert(index_.known(point) != kNone);
       const std::atomic_ref<uint8_t> shared(is_examined_[index_.known(point)]);
       shared.store(1, std::memory_order_relaxed);
-      any.store(true, std::memory_order_relaxed);
+      if (!any.load(std::memory_order_relaxed)) any.store(true, std::memory_order_relaxed);
     });
     has_examined_ |= any;
   }

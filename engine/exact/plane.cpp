@@ -112,7 +112,7 @@ void PlaneTable::add(const Plane& p) {
   bits_.push_back({static_cast<uint8_t>(normal), static_cast<uint8_t>(offset)});
 }
 
-void PlaneTable::adopt(const std::vector<Plane>& planes) {
+void PlaneTable::adopt(std::span<const Plane> planes) {
   assert(planes_.empty());
   reserve(planes.size());
   for (const Plane& p : planes) add(p);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/exact/fixed_int.h"
@@ -99,7 +100,7 @@ class PlaneTable {
   }
   /// Takes over the planes of another table, as they stand there, under their numbers. REQUIRES:
   /// the table is empty; each plane is there once.
-  void adopt(const std::vector<Plane>& planes);
+  void adopt(std::span<const Plane> planes);
 
   [[nodiscard]] const Plane& plane(uint32_t index) const { return planes_[index]; }
   /// The plane with the orientation of the id.

@@ -225,7 +225,7 @@ TEST(Job, WallsAreNoPlanesOfTheOperands) {
 /// A result that is nothing but a plane.
 Operand plane_operand(const std::vector<Plane>& planes) {
   auto mesh = std::make_shared<BoundaryMesh>();
-  mesh->planes = planes;
+  mesh->planes.assign(planes.begin(), planes.end());
   Operand operand;
   operand.boundary = mesh;
   return operand;

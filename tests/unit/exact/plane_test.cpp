@@ -134,7 +134,7 @@ TEST(PlaneTable, RoomMadeBeforehandChangesNothing) {
     if (p.a != 0 || p.b != 0 || p.c != 0) planes.push_back(p);
   }
   PlaneTable plain, at_once, in_steps, adopted;
-  adopted.adopt({{1, 0, 0, 7}, {0, 1, 0, 7}});
+  adopted.adopt(std::vector<Plane>{{1, 0, 0, 7}, {0, 1, 0, 7}});
   at_once.make_room(planes.size());
   for (size_t i = 0; i < planes.size(); ++i) {
     if (i % 7 == 0) in_steps.make_room(i % 5 * 40);
