@@ -114,6 +114,7 @@ void PlaneTable::add(const Plane& p) {
 
 void PlaneTable::adopt(std::span<const Plane> planes) {
   assert(planes_.empty());
+  slots_.clear();  // room may have been made; the planes get theirs once one is looked for
   reserve(planes.size());
   for (const Plane& p : planes) add(p);
 }
@@ -129,6 +130,7 @@ void PlaneTable::make_slots(size_t count) {
 }
 
 void PlaneTable::make_room(size_t more) {
+  if (more == 0) return;
   const size_t count = planes_.size() + more;
   // Twice as much: others come mostly, and little by little it takes linear time.
   if (count > planes_.capacity()) reserve(2 * count);

@@ -149,6 +149,21 @@ TEST(PlaneTable, RoomMadeBeforehandChangesNothing) {
   EXPECT_EQ(adopted.intern({0, -1, 0, -7}), PlaneId(1, true));
 }
 
+// Planes that are taken over where room was made before are found as elsewhere.
+TEST(PlaneTable, TakesOverPlanesWhereRoomWasMade) {
+  std::vector<Plane> planes;
+  for (int i = 0; i < 20; ++i) planes.push_back({1, 0, 0, i});
+  for (const size_t room : {0u, 1u, 20u, 1000u}) {
+    PlaneTable table;
+    table.make_room(room);
+    table.adopt(planes);
+    for (uint32_t i = 0; i < planes.size(); ++i) {
+      ASSERT_EQ(table.intern(planes[i]), PlaneId(i, false)) << "room for " << room;
+    }
+    EXPECT_EQ(table.size(), planes.size());
+  }
+}
+
 // Of so many planes some have equal hashes of 32 bits.
 TEST(PlaneTable, EqualHashesAreNotEqualPlanes) {
   PlaneTable table;
