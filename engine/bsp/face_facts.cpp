@@ -1,0 +1,204 @@
+// What lies on either side of the loops of an arrangement: facts that arcs tell, and those of
+// coplanar sheets that no arc is of.
+#include <algorithm>
+#include <cassert>
+
+#include "engine/bsp/face_arrangement.h"
+
+namespace csgrun {
+
+/// Adds what coplanar sheets cover beyond what arcs say; false if that cannot be told.
+bool FaceArrangement::find_covered(const CutLoops& out, uint32_t first_loop) {
+  if (sheets_.empty()) return true;
+  loop_boxes_.clear();
+  for (uint32_t l = first_loop; l < out.loops.size(); ++l) {
+    const CutLoops::Loop& loop = out.loops[l];
+    SheetBox box;
+    for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
+      box.include(geometry_.point(out.corner_point[c]).rounded);
+    }
+    loop_boxes_.push_back(box);
+  }
+  std::sort(facts_.begin(), facts_.end());
+  std::sort(sheets_.begin(), sheets_.end());
+  for (size_t begin = 0; begin < sheets_.size();) {
+    const uint32_t operand = job_.polygons()[sheets_[begin]].operand;
+    size_t end = begin;
+    SheetBox box;
+    for (; end < sheets_.size() && job_.polygons()[sheets_[end]].operand == operand; ++end) {
+      for (const uint32_t v : job_.corners(job_.polygons()[sheets_[end]])) {
+        box.include(job_.rounded(v));
+      }
+    }
+    // What is covered is within the box of what covers it, corner by corner.
+    for (uint32_t l = 0; l < loop_boxes_.size(); ++l) {
+      if (box.holds(loop_boxes_[l]) &&
+          !find_covered_loop(out.loops[first_loop + l], l, {sheets_.data() + begin, end - begin},
+                             out)) {
+        return false;
+      }
+    }
+    begin = end;
+  }
+  facts_.insert(facts_.end(), covered_.begin(), covered_.end());
+  return true;
+}
+
+/// The same for one loop and the sheets of one operand.
+bool FaceArrangement::find_covered_loop(const CutLoops::Loop& loop, uint32_t number,
+                                        std::span<const uint32_t> sheets, const CutLoops& out) {
+  const uint32_t operand = job_.polygons()[sheets[0]].operand;
+  const auto begin = std::lower_bound(facts_.begin(), facts_.end(),
+                                      LoopFact{number, {operand, false, false}, false});
+  for (auto f = begin; f != facts_.end() && f->loop == number && f->fact.operand == operand; ++f) {
+    // A sheet that ends there tells; so does any other, unless the operand may touch itself: then
+    // what touches a covering sheet from behind says as little as what is behind it.
+    const bool is_covered = f->fact.front != f->fact.back;
+    if (is_covered || f->beside_coplanar || job_.has_simple_edges(operand)) return true;
+  }
+  // No edge of a covering sheet is along the region: any of its points tells that is not on one.
+  for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
+    const uint32_t point = out.corner_point[c];
+    if (is_on_sheet_edge(operand, point)) continue;
+    const uint32_t sheet = sheet_at(sheets, point);
+    if (sheet == kNone) return true;
+    const bool same = job_.polygons()[sheet].support == polygon_->support;
+    covered_.push_back({number, {operand, !same, same}, false});
+    return true;
+  }
+  return false;
+}
+
+/// Whether a point is on an edge of the operand's coplanar sheets; lines have all points at which
+/// they meet others as stops.
+bool FaceArrangement::is_on_sheet_edge(uint32_t operand, uint32_t point) const {
+  // Lines of coplanar sheets come last, by ascending operands; stops are in the order of lines.
+  const auto first =
+      std::lower_bound(lines_.begin() + static_cast<long>(first_coplanar_line_), lines_.end(),
+                       operand, [](const Line& line, uint32_t o) { return line.operand < o; });
+  auto stop = std::lower_bound(
+      stops_.begin(), stops_.end(), static_cast<uint32_t>(first - lines_.begin()),
+      [](const std::pair<uint32_t, uint32_t>& s, uint32_t line) { return s.first < line; });
+  for (; stop != stops_.end() && lines_[stop->first].operand == operand; ++stop) {
+    if (stop->second == point) return true;
+  }
+  return false;
+}
+
+uint32_t FaceArrangement::sheet_at(std::span<const uint32_t> sheets, uint32_t point) {
+  for (const uint32_t q : sheets) {
+    const JobPolygon& sheet = job_.polygons()[q];
+    const auto planes = job_.edge_planes(sheet);
+    bool holds = true;
+    for (uint32_t e = 0; e < sheet.count && holds; ++e) {
+      holds = geometry_.side(planes[e], point) * inner_sign(sheet, e) >= 0;
+    }
+    if (holds) {
+      return q;
+    }
+  }
+  return kNone;
+}
+
+/// Gives each loop its facts; false when they contradict one another.
+bool FaceArrangement::write_facts(CutLoops& out, uint32_t first_loop) {
+  sort_facts_.sort(
+      facts_, out.loops.size() - first_loop, [](const LoopFact& f) { return f.loop; },
+      [](const LoopFact& a, const LoopFact& b) { return a < b; });
+  facts_.erase(std::unique(facts_.begin(), facts_.end()), facts_.end());
+  size_t at = 0;
+  for (uint32_t l = 0; first_loop + l < out.loops.size(); ++l) {
+    CutLoops::Loop& loop = out.loops[first_loop + l];
+    loop.first_fact = static_cast<uint32_t>(out.facts.size());
+    while (at < facts_.size() && facts_[at].loop == l) {
+      // Of an operand that covers the region, only that counts.
+      size_t end = at;
+      bool is_covered = false;
+      for (; end < facts_.size() && facts_[end].loop == l &&
+             facts_[end].fact.operand == facts_[at].fact.operand;
+           ++end) {
+        is_covered |= facts_[end].fact.front != facts_[end].fact.back;
+      }
+      for (; at < end; ++at) {
+        const CutLoops::Fact& fact = facts_[at].fact;
+        if (!is_covered || fact.front != fact.back) out.facts.push_back(fact);
+      }
+    }
+    if (!out.finish_facts(loop)) return false;
+  }
+  return true;
+}
+
+/// Whether the solid's edge between two polygons is convex: q goes behind p, or straight on.
+bool FaceArrangement::is_convex_edge(uint32_t p, uint32_t q) {
+  const PlaneId support = job_.polygons()[p].support;
+  for (const uint32_t v : job_.corners(job_.polygons()[q])) {
+    const int s = geometry_.side_of_vertex(support.index(), v);
+    if (s != 0) return support.flipped() ? s > 0 : s < 0;
+  }
+  return true;
+}
+
+/// What is on the left of a half-edge, for each operand that has sheets there.
+bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
+  const Arc& arc = arcs_[half / 2];
+  const Part* begin = parts_.data() + arc.first_part;
+  const Part* end = begin + arc.part_count;
+  const auto operand = [&](const Part& p) { return lines_[p.line].operand; };
+  const auto reversed = [&](const Part& p) { return p.backwards != (half % 2 == 1); };
+  // Parts ascend by lines, but coplanar sheets come after the others: few, so look for each.
+  for (const Part* p = begin; p < end; ++p) {
+    const uint32_t o = operand(*p);
+    if (o == kNone) continue;
+    const Part* second = nullptr;
+    uint32_t count = 0;
+    bool is_first = true;
+    for (const Part* q = begin; q < end; ++q) {
+      if (operand(*q) != o) continue;
+      if (q < p) is_first = false;
+      if (q > p && !second) second = q;
+      ++count;
+    }
+    if (!is_first) continue;
+    const Line& line = lines_[p->line];
+    if (line.kind == Kind::kThrough) {
+      if (count != 1) return false;
+      const bool inside = !reversed(*p);
+      facts_.push_back({loop, {o, inside, inside}});
+      continue;
+    }
+    // A coplanar sheet on this half-edge's left covers what is there.
+    const auto coplanar_side = [&](const Part& part) {  // 1: left, -1: right, 0: not coplanar
+      const Kind kind = lines_[part.line].kind;
+      if (!is_coplanar(kind)) return 0;
+      return (kind == Kind::kLeft) != reversed(part) ? 1 : -1;
+    };
+    const int a = coplanar_side(*p);
+    if (count == 1) {  // a face of a convex operand, of which nothing else is told: see build()
+      assert(a != 0 && job_.is_convex(o));
+      const bool same = job_.polygons()[line.sheet].support == polygon_->support;
+      facts_.push_back({loop, {o, a > 0 && !same, a > 0 && same}, true});
+      continue;
+    }
+    if (count != 2) return false;
+    // A closed surface has no sheet that ends beside one that goes through, and two coplanar ones
+    // are on either side and face the same way. Of two others the first one is not coplanar.
+    const Line& other = lines_[second->line];
+    const int b = coplanar_side(*second);
+    assert(other.kind != Kind::kThrough && (a == 0 || a == -b));
+    if (a > 0 || b > 0) {
+      const bool same = job_.polygons()[other.sheet].support == polygon_->support;
+      facts_.push_back({loop, {o, !same, same}});
+      continue;
+    }
+    // What is on the left is behind the first sheet alone, if the second one is coplanar: whichever
+    // way that one runs, it makes no difference here.
+    const bool behind = !reversed(*p), behind_other = !reversed(*second);
+    const bool inside =
+        is_convex_edge(line.sheet, other.sheet) ? behind && behind_other : behind || behind_other;
+    facts_.push_back({loop, {o, inside, inside}, b < 0});
+  }
+  return true;
+}
+
+}  // namespace csgrun
