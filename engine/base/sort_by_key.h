@@ -1,4 +1,5 @@
-// Sorting things by small whole numbers first, on one thread.
+// Sorting things by small whole numbers first, on one thread: CountingOrder is for all of them, and
+// one that waits there may begin another task, which would find the working memory of this one.
 #pragma once
 
 #include <algorithm>
