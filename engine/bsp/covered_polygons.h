@@ -6,21 +6,42 @@
 #include <vector>
 
 #include "engine/bsp/job.h"
+#include "engine/bsp/operand_balls.h"
 
 namespace csgrun {
 
 class ContactTable;
 
-/// Per polygon of the job, whether it is easily seen to be of that kind, so that nobody looks at
-/// what two of them have in common: it is beside the boxes of what it would be taken away from, or
-/// cut with, or inside a ball in such an operand. Only its rim may be on these boxes, in a side of
-/// them: so what goes on beyond it is met there as well. Empty if there are none. O(n) for operands
-/// of bounded depth.
-std::vector<uint8_t> find_plainly_covered(const Job& job, const Expression& expression);
+/// Per operand, whether it is convex and nothing inside of it is boundary: it is added to all else,
+/// or taken away from it.
+std::vector<uint8_t> find_removers(const Job& job, const Expression& expression);
 
-/// Per polygon of the job, whether it touches the surface of a convex operand of that kind from
-/// within. The contacts are all, or all that are not of two plainly covered polygons.
-std::vector<uint8_t> find_covered(const Job& job, const Expression& expression,
+/// Polygons that are easily seen to be boundary of nothing. Those of the job come by their numbers.
+struct PlainlyCovered {
+  /// Whether it is one: it is beside the boxes of what it would be taken away from, or cut with, or
+  /// inside a ball in a remover. Nobody looks at what two of these have in common. Only the rim of
+  /// one may be on these boxes, in a side of them: so what goes on beyond it is met there as well.
+  /// Empty if there are none.
+  std::vector<uint8_t> polygons;
+  /// Those of them that are inside a ball. What meets one is there inside of a remover, on both
+  /// sides of the polygon, and the polygon divides nothing that is boundary of something: nobody
+  /// looks at what anything has in common with it. Empty if there are none.
+  std::vector<uint8_t> hidden;
+  /// Per operand, whether one of its polygons is hidden. The outlines in which it is seen to meet
+  /// others may have ends, and a part of another surface that these do not divide may be inside of
+  /// it here and outside there. What becomes of the part is the same everywhere.
+  std::vector<uint8_t> is_open;
+  std::vector<uint8_t> removes;  ///< see find_removers
+  OperandBalls balls;            ///< of removers; none if there are two operands or less
+};
+
+/// O(n) for operands of bounded depth. Parallel.
+PlainlyCovered find_plainly_covered(const Job& job, const Expression& expression);
+
+/// Per polygon of the job, whether it touches the surface of a remover that is not open from
+/// within. The contacts are all, or all that are not of two plainly covered polygons or a hidden
+/// one.
+std::vector<uint8_t> find_covered(const Job& job, const PlainlyCovered& plainly,
                                   const ContactTable& contacts);
 
 }  // namespace csgrun

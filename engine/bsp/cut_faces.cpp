@@ -51,15 +51,15 @@ void list(const Job& job, std::span<const uint32_t> polygons, const ContactTable
 class Worker {
  public:
   Worker(const Job& job, const ContactTable& contacts, const ContactEnds& ends,
-         const CellGeometry& shared)
+         std::span<const uint8_t> is_open, const CellGeometry& shared)
       : job_(job),
         contacts_(contacts),
         ends_(ends),
         shared_(shared),
         geometry_(job.planes(), &job),
         index_(geometry_),
-        cutter_(job, geometry_),
-        arrangement_(job, geometry_, index_, contacts.touched()),
+        cutter_(job, geometry_, is_open),
+        arrangement_(job, geometry_, index_, contacts.touched(), is_open),
         stamp_of_(shared.point_count(), 0),
         local_(shared.point_count()) {}
 
@@ -175,11 +175,13 @@ class Worker {
 
 class FaceCutter {
  public:
-  FaceCutter(Job& job, const ContactTable& contacts, ContactEnds& ends, CellGeometry& geometry,
-             PointIndex& index, const KernelOptions& options)
+  FaceCutter(Job& job, const ContactTable& contacts, ContactEnds& ends,
+             std::span<const uint8_t> is_open, CellGeometry& geometry, PointIndex& index,
+             const KernelOptions& options)
       : job_(job),
         contacts_(contacts),
         ends_(ends),
+        is_open_(is_open),
         geometry_(geometry),
         index_(index),
         options_(options) {
@@ -250,7 +252,8 @@ class FaceCutter {
   void cut_all(List list) {
     make_planes(list);
     for_each_run(
-        parts_.size(), options_, [&] { return Worker(job_, contacts_, ends_, geometry_); },
+        parts_.size(), options_,
+        [&] { return Worker(job_, contacts_, ends_, is_open_, geometry_); },
         [&](Worker& worker, size_t run) {
           const SignCounters before = worker.counters();
           for (const CutPart::Polygon& polygon : parts_[run].*list) {
@@ -266,6 +269,7 @@ class FaceCutter {
   Job& job_;
   const ContactTable& contacts_;
   ContactEnds& ends_;
+  const std::span<const uint8_t> is_open_;
   CellGeometry& geometry_;
   PointIndex& index_;
   KernelOptions options_;
@@ -275,9 +279,9 @@ class FaceCutter {
 }  // namespace
 
 CutFaces cut_faces(Job& job, std::span<const uint32_t> polygons, const ContactTable& contacts,
-                   ContactEnds& ends, CellGeometry& geometry, PointIndex& index,
-                   const KernelOptions& options, EvaluateStats& stats) {
-  return FaceCutter(job, contacts, ends, geometry, index, options).run(polygons, stats);
+                   ContactEnds& ends, std::span<const uint8_t> is_open, CellGeometry& geometry,
+                   PointIndex& index, const KernelOptions& options, EvaluateStats& stats) {
+  return FaceCutter(job, contacts, ends, is_open, geometry, index, options).run(polygons, stats);
 }
 
 }  // namespace csgrun

@@ -28,9 +28,10 @@ struct CutFaces {
 /// cuts, and has a corner that is not touched, stays whole and is not mentioned. Points of the
 /// loops are in the geometry; equal ones have one number in loops that are loose. The supports of
 /// `polygons`, and of all that have more than a corner of their own in common with these, must have
-/// been made. `stats` is added to. Parallel; incomplete when cancelled.
+/// been made. `is_open`: see PlainlyCovered. `stats` is added to. Parallel; incomplete when
+/// cancelled.
 CutFaces cut_faces(Job& job, std::span<const uint32_t> polygons, const ContactTable& contacts,
-                   ContactEnds& ends, CellGeometry& geometry, PointIndex& index,
-                   const KernelOptions& options, EvaluateStats& stats);
+                   ContactEnds& ends, std::span<const uint8_t> is_open, CellGeometry& geometry,
+                   PointIndex& index, const KernelOptions& options, EvaluateStats& stats);
 
 }  // namespace csgrun

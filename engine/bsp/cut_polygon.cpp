@@ -154,23 +154,33 @@ bool PolygonCutter::add_boundary(std::span<const CutSegment> segments) {
 }
 
 /// Two segments share each end that is not on the boundary: there an edge of the other operand
-/// passes, and both of its faces cross the polygon.
+/// passes, and both of its faces cross the polygon. Unless one of these is hidden.
 bool PolygonCutter::link_inner(std::span<const CutSegment> segments) {
   inner_ends_.clear();
   for (uint32_t s = 0; s < segments.size(); ++s) {
     if (segments[s].from_edge == kNone) inner_ends_.push_back({segments[s].from, s, 0});
     if (segments[s].to_edge == kNone) inner_ends_.push_back({segments[s].to, s, 1});
   }
-  if (inner_ends_.size() % 2 != 0) return false;
   std::sort(inner_ends_.begin(), inner_ends_.end());
-  for (size_t i = 0; i < inner_ends_.size(); i += 2) {
-    const auto &a = inner_ends_[i], &b = inner_ends_[i + 1];
-    if (a[0] != b[0]) return false;
-    if (i + 2 < inner_ends_.size() && inner_ends_[i + 2][0] == a[0]) return false;
-    const auto arc_at = [&](const std::array<uint32_t, 3>& end) {
-      return end[2] ? first_arc_[end[1] + 1] - 1 : first_arc_[end[1]];
-    };
-    const uint32_t arc_a = arc_at(a), arc_b = arc_at(b);
+  const auto arc_at = [&](const std::array<uint32_t, 3>& end) {
+    return end[2] ? first_arc_[end[1] + 1] - 1 : first_arc_[end[1]];
+  };
+  const auto are_together = [&](size_t i, size_t j) {
+    return j < inner_ends_.size() && inner_ends_[i][0] == inner_ends_[j][0];
+  };
+  for (size_t i = 0; i < inner_ends_.size();) {
+    const auto& a = inner_ends_[i];
+    const uint32_t arc_a = arc_at(a);
+    if (!are_together(i, i + 1)) {
+      if (!is_open_[job_.polygons()[segments[a[1]].other].operand]) return false;
+      arcs_[arc_a].next[a[2] ? 0 : 1] = half(arc_a, a[2]);
+      ++i;
+      continue;
+    }
+    if (are_together(i, i + 2)) return false;
+    const auto& b = inner_ends_[i + 1];
+    const uint32_t arc_b = arc_at(b);
+    i += 2;
     // Arriving at a's end, one goes on from b's end, and the other way round.
     arcs_[arc_a].next[a[2] ? 0 : 1] = half(arc_b, b[2]);
     arcs_[arc_b].next[b[2] ? 0 : 1] = half(arc_a, a[2]);
@@ -204,8 +214,16 @@ bool PolygonCutter::trace(std::span<const CutSegment> segments, CutLoops& out) {
   seen_.assign(2 * arcs_.size(), 0);
   for (uint32_t start = 0; start < seen_.size(); ++start) {
     if (seen_[start] || (arcs_[start / 2].segment == kNone && start % 2)) continue;
-    CutLoops::Loop loop{static_cast<uint32_t>(out.corner_point.size()), 0,
-                        static_cast<uint32_t>(out.facts.size()), 0, kNone};
+    CutLoops::Loop loop{static_cast<uint32_t>(out.corner_point.size()),
+                        0,
+                        static_cast<uint32_t>(out.facts.size()),
+                        0,
+                        kNone,
+                        0,
+                        kNone};
+    if (arcs_[start / 2].segment != kNone) {
+      loop.sure_operand = job_.polygons()[segments[arcs_[start / 2].segment].other].operand;
+    }
     uint32_t h = start;
     do {
       if (h == kNone || seen_[h]) return fail();
@@ -226,19 +244,19 @@ bool PolygonCutter::trace(std::span<const CutSegment> segments, CutLoops& out) {
       h = arc.next[h % 2];
     } while (h != start);
     loop.corner_count = static_cast<uint32_t>(out.corner_point.size()) - loop.first_corner;
-    if (!out.finish_facts(loop)) return fail();
+    if (!out.finish_facts(loop, is_open_)) return fail();
     out.loops.push_back(loop);
   }
   return true;
 }
 
-bool CutLoops::finish_facts(Loop& loop) {
+bool CutLoops::finish_facts(Loop& loop, std::span<const uint8_t> is_open) {
   const auto begin = facts.begin() + loop.first_fact;
   std::sort(begin, facts.end());
   facts.erase(std::unique(begin, facts.end()), facts.end());
   loop.fact_count = static_cast<uint32_t>(facts.size()) - loop.first_fact;
-  return std::adjacent_find(begin, facts.end(), [](const Fact& a, const Fact& b) {
-           return a.operand == b.operand;
+  return std::adjacent_find(begin, facts.end(), [&](const Fact& a, const Fact& b) {
+           return a.operand == b.operand && !may_contradict(a, b, is_open);
          }) == facts.end();
 }
 

@@ -28,7 +28,10 @@ struct CutLoops {
   struct Loop {
     uint32_t first_corner, corner_count;
     uint32_t first_fact, fact_count;
-    uint32_t vertex;        ///< a vertex of the polygon that it passes, or kNone
+    uint32_t vertex;  ///< a vertex of the polygon that it passes, or kNone
+    /// An edge (by its place in the loop) along which one operand has surface, which the facts tell
+    /// there, or none has (kNone); kNone if there is no such edge.
+    uint32_t sure_edge, sure_operand;
     bool is_loose = false;  ///< see FragmentSet::Piece
   };
   /// Whether what is in front of the region at the loop, and behind it, is inside an operand that
@@ -49,15 +52,24 @@ struct CutLoops {
   RawVector<Fact> facts;             ///< of a loop: sorted, each once
 
   /// Sorts the facts of a loop, which are the last ones, and drops repetitions; false when they
-  /// contradict one another.
-  bool finish_facts(Loop& loop);
+  /// contradict one another, but for those of open operands: see may_contradict.
+  bool finish_facts(Loop& loop, std::span<const uint8_t> is_open);
+
+  /// Whether two different facts of an operand may be of one region: part of it is inside, and the
+  /// surface that divides it is hidden (see PlainlyCovered).
+  static bool may_contradict(const Fact& a, const Fact& b, std::span<const uint8_t> is_open) {
+    return is_open[a.operand] && a.front == a.back && b.front == b.back;
+  }
 };
 
 class PolygonCutter {
  public:
-  PolygonCutter(const Job& job, CellGeometry& geometry) : job_(job), geometry_(geometry) {}
+  /// `is_open`: see PlainlyCovered.
+  PolygonCutter(const Job& job, CellGeometry& geometry, std::span<const uint8_t> is_open)
+      : job_(job), geometry_(geometry), is_open_(is_open) {}
 
-  /// Appends the loops of a polygon. False, with nothing appended, when points coincide: then more
+  /// Appends the loops of a polygon. One that comes to where the segments of an open operand end
+  /// goes back on their other side. False, with nothing appended, when points coincide: then more
   /// than names is needed. The supports of all polygons must have been made. O(n log n) for n
   /// segments of one operand, and the pairs of segments of different ones whose boxes meet.
   bool cut(uint32_t polygon, std::span<const CutSegment> segments, CutLoops& out);
@@ -92,6 +104,7 @@ class PolygonCutter {
 
   const Job& job_;
   CellGeometry& geometry_;
+  const std::span<const uint8_t> is_open_;
   const JobPolygon* polygon_ = nullptr;
   std::vector<Meet> meets_;
   std::vector<Arc> arcs_;

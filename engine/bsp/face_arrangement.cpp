@@ -382,11 +382,15 @@ bool FaceArrangement::trace(CutLoops& out) {
   uint32_t number = 0;
   for (uint32_t start = 0; start < loop_of_.size(); ++start) {
     if (loop_of_[start] != kNone || is_outer(start)) continue;
-    CutLoops::Loop loop{static_cast<uint32_t>(out.corner_point.size()), 0, 0, 0, kNone, true};
+    CutLoops::Loop loop{
+        static_cast<uint32_t>(out.corner_point.size()), 0, 0, 0, kNone, kNone, kNone, true};
     uint32_t h = start;
     do {
       if (loop_of_[h] != kNone || is_outer(h)) return false;
       loop_of_[h] = number;
+      if (loop.sure_edge == kNone && is_sure(h, loop.sure_operand)) {
+        loop.sure_edge = static_cast<uint32_t>(out.corner_point.size()) - loop.first_corner;
+      }
       const uint32_t point = from(h);
       out.corner_point.push_back(point);
       out.corner_plane.push_back(lines_[parts_[arcs_[h / 2].first_part].line].plane);

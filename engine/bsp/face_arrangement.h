@@ -28,10 +28,11 @@ struct SheetSegment {
 
 class FaceArrangement {
  public:
-  /// `touched`: per vertex of the job, whether it may be on another operand's surface.
+  /// `touched`: per vertex of the job, whether it may be on another operand's surface. `is_open`:
+  /// see PlainlyCovered.
   FaceArrangement(const Job& job, CellGeometry& geometry, PointIndex& index,
-                  const std::vector<uint8_t>& touched)
-      : job_(job), geometry_(geometry), index_(index), touched_(touched) {}
+                  const std::vector<uint8_t>& touched, std::span<const uint8_t> is_open)
+      : job_(job), geometry_(geometry), index_(index), touched_(touched), is_open_(is_open) {}
 
   /// Appends the loops of a polygon that meets `segments` and polygons of its own plane; a convex
   /// operand that has one of these needs no segments. False,
@@ -112,6 +113,7 @@ class FaceArrangement {
   void sort_around_points();
   bool trace(CutLoops& out);
   bool add_facts(uint32_t half, uint32_t loop);
+  [[nodiscard]] bool is_sure(uint32_t half, uint32_t& operand) const;
   bool find_covered(const CutLoops& out, uint32_t first_loop);
   bool find_covered_loop(const CutLoops::Loop& loop, uint32_t number,
                          std::span<const uint32_t> sheets, const CutLoops& out);
@@ -132,6 +134,7 @@ class FaceArrangement {
   CellGeometry& geometry_;
   PointIndex& index_;
   const std::vector<uint8_t>& touched_;
+  const std::span<const uint8_t> is_open_;
   const JobPolygon* polygon_ = nullptr;
   std::vector<Line> lines_;
   SegmentSweep sweep_;

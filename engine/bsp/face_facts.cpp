@@ -124,7 +124,7 @@ bool FaceArrangement::write_facts(CutLoops& out, uint32_t first_loop) {
         if (!is_covered || fact.front != fact.back) out.facts.push_back(fact);
       }
     }
-    if (!out.finish_facts(loop)) return false;
+    if (!out.finish_facts(loop, is_open_)) return false;
   }
   return true;
 }
@@ -137,6 +137,15 @@ bool FaceArrangement::is_convex_edge(uint32_t p, uint32_t q) {
     if (s != 0) return support.flipped() ? s > 0 : s < 0;
   }
   return true;
+}
+
+/// Whether no operand has surface along a half-edge, or one that passes through.
+bool FaceArrangement::is_sure(uint32_t half, uint32_t& operand) const {
+  const Arc& arc = arcs_[half / 2];
+  if (arc.part_count > 1) return false;
+  const Line& line = lines_[parts_[arc.first_part].line];
+  operand = line.operand;
+  return line.kind == Kind::kBoundary || line.kind == Kind::kThrough;
 }
 
 /// What is on the left of a half-edge, for each operand that has sheets there.
@@ -174,8 +183,11 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
       return (kind == Kind::kLeft) != reversed(part) ? 1 : -1;
     };
     const int a = coplanar_side(*p);
+    if (count == 1 && (a == 0 || !job_.is_convex(o))) {
+      assert(is_open_[o]);  // the other sheet of that edge is hidden: so nothing is boundary there
+      continue;
+    }
     if (count == 1) {  // a face of a convex operand, of which nothing else is told: see build()
-      assert(a != 0 && job_.is_convex(o));
       const bool same = job_.polygons()[line.sheet].support == polygon_->support;
       facts_.push_back({loop, {o, a > 0 && !same, a > 0 && same}, true});
       continue;

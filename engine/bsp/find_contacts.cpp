@@ -36,15 +36,17 @@ struct Looker {
 /// which they were found before there was a job.
 class Candidates {
  public:
-  Candidates(const Job& job, std::span<const uint8_t> covered, const KernelOptions& options)
-      : job_(job), covered_(covered) {
+  Candidates(const Job& job, const PlainlyCovered& plainly, const KernelOptions& options)
+      : job_(job), covered_(plainly.polygons) {
     if (job.near_faces()) near_ = job.near_faces()->pairs.get();
     if (near_) {
       near_cells_ = near_->starts.size() - 1;
       return;
     }
     wide_.emplace(job);
-    cells_ = find_pair_cells(job, covered, options, wide_->is_wide());
+    // There are no wide triangles but among two operands, and nothing is hidden there.
+    cells_ = find_pair_cells(job, covered_, options,
+                             plainly.hidden.empty() ? wide_->is_wide() : plainly.hidden);
   }
 
   [[nodiscard]] size_t lots() const { return cells_.cells.size() + wide_count() + near_cells_; }
@@ -124,15 +126,15 @@ void decide_unsure(Job& job, const std::vector<Found>& found, Contacts& result,
 
 }  // namespace
 
-Contacts find_contacts(Job& job, std::span<const uint8_t> covered, const KernelOptions& options,
+Contacts find_contacts(Job& job, const PlainlyCovered& plainly, const KernelOptions& options,
                        EvaluateStats& stats) {
-  const Candidates candidates(job, covered, options);
+  const Candidates candidates(job, plainly, options);
   const size_t lots = candidates.lots();
   std::vector<Found> found(run_count(lots));
   for_each_run(
       found.size(), options,
       [&] {
-        return Looker{PairTest(job), CellPairs(covered)};
+        return Looker{PairTest(job), CellPairs(plainly.polygons)};
       },
       [&](Looker& looker, size_t run) {
         Found& out = found[run];

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <csgrun/engine/evaluate.h>
 
 #include "engine/base/raw_vector.h"
+#include "engine/bsp/covered_polygons.h"
 #include "engine/bsp/pair_test.h"
 
 namespace csgrun {
@@ -19,9 +19,9 @@ struct Contacts {
 };
 
 /// Divides space into cells of pairs and looks at each pair; planes are made where doubles and
-/// 128-bit integers do not tell. Pairs of polygons both of which are in `covered` (empty: none is)
-/// are left out. `stats` is added to. Parallel; incomplete when cancelled.
-Contacts find_contacts(Job& job, std::span<const uint8_t> covered, const KernelOptions& options,
+/// 128-bit integers do not tell. Pairs of two covered polygons, or of a hidden one, are left out.
+/// `stats` is added to. Parallel; incomplete when cancelled.
+Contacts find_contacts(Job& job, const PlainlyCovered& plainly, const KernelOptions& options,
                        EvaluateStats& stats);
 
 }  // namespace csgrun

@@ -24,15 +24,18 @@ class PatchFacts {
     entries_.insert(entries_.end(), more.entries_.begin(), more.entries_.end());
   }
 
-  /// To be called after all were added; false if two contradict one another. O(n log n).
-  [[nodiscard]] bool finish() {
+  /// To be called after all were added; false if two contradict one another, but for those that may
+  /// (see CutLoops::may_contradict). O(n log n).
+  [[nodiscard]] bool finish(std::span<const uint8_t> is_open) {
     sort_all(entries_.begin(), entries_.end());
     entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
     facts_.reserve(entries_.size());
     for (const Entry& e : entries_) facts_.push_back(e.fact);
-    return std::adjacent_find(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-             return a.patch == b.patch && a.fact.operand == b.fact.operand;
-           }) == entries_.end();
+    const auto contradict = [&](const Entry& a, const Entry& b) {
+      return a.patch == b.patch && a.fact.operand == b.fact.operand &&
+             !CutLoops::may_contradict(a.fact, b.fact, is_open);
+    };
+    return std::adjacent_find(entries_.begin(), entries_.end(), contradict) == entries_.end();
   }
 
   /// Those of a patch, by ascending operands. O(log n).

@@ -18,21 +18,23 @@ uint32_t untouched_corner(const Job& job, const ContactTable& contacts, uint32_t
   return kNone;
 }
 
-PatchFates::PatchFates(const Job& job, const Expression& expression, const KernelOptions& options,
-                       const ContactTable& contacts, const CutFaces& cut,
-                       const CellGeometry& geometry, const std::vector<uint8_t>& is_cut)
+PatchFates::PatchFates(const Job& job, const Expression& expression, const PlainlyCovered& plainly,
+                       const KernelOptions& options, const ContactTable& contacts,
+                       const CutFaces& cut, const CellGeometry& geometry,
+                       const std::vector<uint8_t>& is_cut)
     : job_(job),
+      plainly_(plainly),
       options_(options),
       contacts_(contacts),
       cut_(cut),
       geometry_(geometry),
       is_cut_(is_cut),
-      labels_(job, expression) {}
+      labels_(job, expression, plainly) {}
 
-bool PatchFates::find(std::span<const uint8_t> plainly_covered) {
+bool PatchFates::find() {
   join_patches();
   if (!gather_facts()) return false;
-  drop_covered(plainly_covered);
+  drop_covered();
   ask_about_loops();
   ask_about_whole();
   answer();
@@ -108,7 +110,7 @@ bool PatchFates::gather_facts() {
     for (size_t c = begin; c < end; ++c) add_rim_facts(contacts_.all()[c], parts[part]);
   });
   for (const PatchFacts& part : parts) facts_.add(part);
-  return facts_.finish();
+  return facts_.finish(plainly_.is_open);
 }
 
 /// A polygon that touches another operand's surface from one side, and in one polygon only, is
@@ -133,7 +135,8 @@ void PatchFates::add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind,
 }
 
 /// Patches that hold a corner of a polygon that is seen to be boundary of nothing, as they are.
-void PatchFates::drop_covered(std::span<const uint8_t> plainly_covered) {
+void PatchFates::drop_covered() {
+  const std::vector<uint8_t>& plainly_covered = plainly_.polygons;
   patch_fates_.assign(job_.vertex_count(), kUnasked);
   for_each_range(plainly_covered.size(), [&](size_t begin, size_t end) {
     for (size_t p = begin; p < end; ++p) {
@@ -227,7 +230,7 @@ void PatchFates::answer(const Question& q, PatchLabels& labels) {
     fate_of_loop_[q.loop] = fate_of_loop(cut_.loops.loops[q.loop], q.own, labels);
   } else {
     patch_fates_[q.patch] = static_cast<uint8_t>(
-        labels.fate(q.own, job_.rounded(q.patch), labels.error(q.own), facts_.of(q.patch)));
+        labels.fate(q.own, job_.rounded(q.patch), labels.error(q.own), facts_.of(q.patch), kNone));
   }
 }
 
@@ -238,8 +241,9 @@ PatchFate PatchFates::fate_of_loop(const CutLoops::Loop& loop, uint32_t own,
   // line with too much, another one may do.
   constexpr uint32_t kMostTries = 4;
   PatchFate fate = PatchFate::kUnknown;
+  const uint32_t first = loop.sure_edge == kNone ? 0 : loop.sure_edge;
   for (uint32_t i = 0; i < kMostTries && fate == PatchFate::kUnknown; ++i) {
-    fate = fate_at_edge(loop, i % loop.corner_count, own, labels);
+    fate = fate_at_edge(loop, (first + i) % loop.corner_count, own, labels);
   }
   return fate;
 }
@@ -256,7 +260,8 @@ PatchFate PatchFates::fate_at_edge(const CutLoops::Loop& loop, uint32_t edge, ui
     largest = std::max({largest, std::fabs(a[k]), std::fabs(b[k])});
   }
   return labels.fate(own, middle, largest * 0x1p-52,
-                     {cut_.loops.facts.data() + loop.first_fact, loop.fact_count});
+                     {cut_.loops.facts.data() + loop.first_fact, loop.fact_count},
+                     edge == loop.sure_edge ? loop.sure_operand : kNone);
 }
 
 }  // namespace csgrun

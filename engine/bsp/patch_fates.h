@@ -24,15 +24,15 @@ uint32_t untouched_corner(const Job& job, const ContactTable& contacts, uint32_t
 
 class PatchFates {
  public:
+  /// Patches with a corner of a polygon that is plainly covered are dropped unasked.
   /// `cut` are the polygons that were cut; `is_cut` says it of each, also of those that were cut
   /// into nothing or left. All are kept by reference.
-  PatchFates(const Job& job, const Expression& expression, const KernelOptions& options,
-             const ContactTable& contacts, const CutFaces& cut, const CellGeometry& geometry,
-             const std::vector<uint8_t>& is_cut);
+  PatchFates(const Job& job, const Expression& expression, const PlainlyCovered& plainly,
+             const KernelOptions& options, const ContactTable& contacts, const CutFaces& cut,
+             const CellGeometry& geometry, const std::vector<uint8_t>& is_cut);
 
-  /// Finds what becomes of everything; patches with a corner of a polygon that is plainly covered
-  /// are dropped unasked. False if what bounds a patch contradicts itself. Parallel.
-  [[nodiscard]] bool find(std::span<const uint8_t> plainly_covered);
+  /// Finds what becomes of everything. False if what bounds a patch contradicts itself. Parallel.
+  [[nodiscard]] bool find();
 
   /// That of a face of an operand that the job does not have: see Job::near_faces.
   [[nodiscard]] PatchFate of_far_face(size_t operand, uint32_t face) const {
@@ -64,7 +64,7 @@ class PatchFates {
   bool gather_facts();
   void add_rim_facts(const Contact& c, PatchFacts& facts) const;
   void add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind, PatchFacts& facts) const;
-  void drop_covered(std::span<const uint8_t> plainly_covered);
+  void drop_covered();
   void ask_about_loops();
   void ask_about_whole();
   void ask_about_far_faces();
@@ -81,6 +81,7 @@ class PatchFates {
   static constexpr uint8_t kUnasked = 0xff, kAsked = 0xfe;
 
   const Job& job_;
+  const PlainlyCovered& plainly_;
   const KernelOptions& options_;
   const ContactTable& contacts_;
   const CutFaces& cut_;

@@ -32,20 +32,37 @@ uint32_t squares_per_side(size_t operands) {
 
 }  // namespace
 
-PatchLabels::PatchLabels(const Job& job, const Expression& expression)
+PatchLabels::PatchLabels(const Job& job, const Expression& expression,
+                         const PlainlyCovered& plainly)
     : job_(job),
+      plainly_(plainly),
       boundary_(expression),
       signs_(job, true),  // rays meet pieces that the job does not have
       bins_(boxes_of_operands(job), squares_per_side(job.operand_count())) {}
 
+/// Whether they tell that nothing there is boundary, whatever else there is: part of the patch is
+/// inside of a remover, or hidden surface passes through it, which is inside of one.
+bool PatchLabels::are_decisive(std::span<const CutLoops::Fact> facts) const {
+  for (size_t f = 0; f < facts.size(); ++f) {
+    if (facts[f].front && facts[f].back && plainly_.removes[facts[f].operand]) return true;
+    if (f > 0 && facts[f - 1].operand == facts[f].operand) return true;
+  }
+  return false;
+}
+
 PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, double error,
-                            std::span<const CutLoops::Fact> facts) {
+                            std::span<const CutLoops::Fact> facts, uint32_t local) {
+  if (are_decisive(facts)) return PatchFate::kDrop;
   // Boxes are clamped; what is beyond is not told by them.
   for (const double c : point) {
     if (std::fabs(c) >= 0x1p30 || error >= 1) return PatchFate::kUnknown;
   }
+  const auto is_known = [&](const CutLoops::Fact& f) {
+    return !plainly_.is_open[f.operand] || f.front != f.back || f.operand == local;
+  };
   inside_.clear();
   for (const CutLoops::Fact& f : facts) {
+    if (!is_known(f)) continue;
     if (f.front) inside_.push_back(2 * uint64_t{f.operand});
     if (f.back) inside_.push_back(2 * uint64_t{f.operand} + 1);
   }
@@ -56,9 +73,12 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
       may_hold &= point[k] + error >= box.lo[k] && point[k] - error <= box.hi[k];
     }
     if (!may_hold || std::any_of(facts.begin(), facts.end(),
-                                 [&](const CutLoops::Fact& f) { return f.operand == o; })) {
+                                 [&](const auto& f) { return f.operand == o && is_known(f); })) {
       continue;
     }
+    const OperandBalls::Side side = plainly_.balls.side(o, point);
+    if (side == OperandBalls::Side::kInside) return PatchFate::kDrop;
+    if (side == OperandBalls::Side::kOutside) continue;
     const Inside label = ray_label(job_, signs_, o, point, error);
     if (label == Inside::kUnknown) return PatchFate::kUnknown;
     if (label == Inside::kYes)

@@ -3,6 +3,9 @@
 // A patch is a part of the surface that no other operand's surface meets, so that all of it is
 // inside the same operands. What bounds it says so for those that cut it there; for the others one
 // point of it is looked at.
+//
+// But for open operands (see PlainlyCovered), whose hidden surface may pass through it: of these
+// the same point tells, unless what bounds it decides that all of it is boundary of nothing.
 #pragma once
 
 #include <array>
@@ -10,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/bsp/covered_polygons.h"
 #include "engine/bsp/cut_polygon.h"
 #include "engine/bsp/sparse_boundary.h"
 #include "engine/bsp/square_bins.h"
@@ -21,13 +25,15 @@ enum class PatchFate : uint8_t { kDrop, kKeep, kFlip, kUnknown };
 
 class PatchLabels {
  public:
-  PatchLabels(const Job& job, const Expression& expression);
+  /// `plainly` is kept by reference.
+  PatchLabels(const Job& job, const Expression& expression, const PlainlyCovered& plainly);
 
   /// What becomes of a patch of operand `own`, of which `point` is a point (each coordinate as
-  /// wrong as `error` at most) on no operand but its own and those of the facts. kUnknown when
-  /// doubles do not tell. O(operands), and O(n) for each of them whose box holds the point.
+  /// wrong as `error` at most) on no operand but its own and those of the facts. What the facts
+  /// tell of `local`, an operand or kNone, is so at the point. kUnknown when doubles do not tell.
+  /// O(operands), and O(n) for each of them whose box holds the point.
   PatchFate fate(uint32_t own, const std::array<double, 3>& point, double error,
-                 std::span<const CutLoops::Fact> facts);
+                 std::span<const CutLoops::Fact> facts, uint32_t local);
 
   [[nodiscard]] double error(uint32_t operand) const { return signs_.error(operand); }
 
@@ -36,8 +42,10 @@ class PatchLabels {
   /// those that stand here are inside.
   using Sides = std::vector<uint64_t>;
   PatchFate evaluate(uint32_t own, const Sides& inside);
+  [[nodiscard]] bool are_decisive(std::span<const CutLoops::Fact> facts) const;
 
   const Job& job_;
+  const PlainlyCovered& plainly_;
   SparseBoundary boundary_;
   VertexSigns signs_;
   const SquareBins bins_;  ///< of the operands

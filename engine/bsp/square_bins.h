@@ -20,6 +20,8 @@ class SquareBins {
     std::array<double, 2> lo, hi;
   };
 
+  /// Of no boxes. REQUIRES: nobody asks for any.
+  SquareBins() = default;
   /// `per_side`: so many squares along either axis at most, at least one. Fewer where boxes would
   /// meet many squares each, so O(boxes) but for the boxes that one square holds.
   SquareBins(std::span<const Box> boxes, uint32_t per_side) {

@@ -37,9 +37,9 @@ class FaceEvaluator {
   }
 
   Result<WholeFaces> run() {
-    plainly_covered_ = find_plainly_covered(job_, expression_);
-    contacts_ = ContactTable(find_contacts(job_, plainly_covered_, options_, stats_),
-                             job_.polygons().size());
+    plainly_ = find_plainly_covered(job_, expression_);
+    contacts_ =
+        ContactTable(find_contacts(job_, plainly_, options_, stats_), job_.polygons().size());
     if (is_cancelled()) return cancelled();
     if (is_dense()) {
       result_.general.assign(job_.polygons().size(), 1);
@@ -47,12 +47,12 @@ class FaceEvaluator {
       return std::move(result_);
     }
     ends_.emplace(contacts_, job_, geometry_, index_);
-    is_covered_ = find_covered(job_, expression_, contacts_);
-    for (size_t p = 0; p < plainly_covered_.size(); ++p) is_covered_[p] |= plainly_covered_[p];
+    is_covered_ = find_covered(job_, plainly_, contacts_);
+    for (size_t p = 0; p < plainly_.polygons.size(); ++p) is_covered_[p] |= plainly_.polygons[p];
     find_suspects();
     if (!cut_polygons()) return cancelled();
-    fates_.emplace(job_, expression_, options_, contacts_, cut_, geometry_, is_cut_);
-    if (!fates_->find(plainly_covered_)) {
+    fates_.emplace(job_, expression_, plainly_, options_, contacts_, cut_, geometry_, is_cut_);
+    if (!fates_->find()) {
       return Error{ErrorCode::kInternal, "the labels of a patch contradict one another", {}};
     }
     emit();
@@ -96,7 +96,8 @@ class FaceEvaluator {
     const auto polygons =
         polygons_where([&](uint32_t p) { return !is_covered_[p] && !may_stay_whole(p); });
     job_.ensure_supports(with_what_cuts(polygons));
-    cut_ = cut_faces(job_, polygons, contacts_, *ends_, geometry_, index_, options_, stats_);
+    cut_ = cut_faces(job_, polygons, contacts_, *ends_, plainly_.is_open, geometry_, index_,
+                     options_, stats_);
     if (is_cancelled()) return false;
     for (const CutFaces::Face& face : cut_.faces) is_cut_[face.polygon] = 1;
     for (const uint32_t p : cut_.by_value) is_suspect_[p] = 1;
@@ -420,11 +421,11 @@ class FaceEvaluator {
   WholeFaces result_;
   ContactTable contacts_;
   std::optional<ContactEnds> ends_;
-  std::vector<uint8_t> plainly_covered_;  ///< see find_plainly_covered
-  std::vector<uint8_t> is_covered_;       ///< per polygon, see find_covered
-  std::vector<uint8_t> is_suspect_;       ///< per polygon: something touches it, maybe by chance
-  std::vector<uint8_t> is_kept_;          ///< per polygon: it leaves something, whole or in loops
-  std::vector<uint8_t> is_cut_;           ///< per polygon: has loops, or is left
+  PlainlyCovered plainly_;
+  std::vector<uint8_t> is_covered_;  ///< per polygon, see find_covered
+  std::vector<uint8_t> is_suspect_;  ///< per polygon: something touches it, maybe by chance
+  std::vector<uint8_t> is_kept_;     ///< per polygon: it leaves something, whole or in loops
+  std::vector<uint8_t> is_cut_;      ///< per polygon: has loops, or is left
   CutFaces cut_;
   std::optional<PatchFates> fates_;
   std::vector<uint32_t> corners_, corner_of_;  ///< see find_open

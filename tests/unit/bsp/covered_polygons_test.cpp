@@ -50,7 +50,7 @@ TEST(CoveredPolygons, AreInsideOfAnotherOrBesideTheFirst) {
       operands.push_back(octahedron(middle, made.back().second));
     }
     const Job job(operands);
-    const auto found = find_plainly_covered(job, test::flat_expression(op, 12));
+    const auto found = find_plainly_covered(job, test::flat_expression(op, 12)).polygons;
     for (uint32_t p = 0; p < found.size(); ++p) {
       if (!found[p]) {
         ++left;
@@ -79,8 +79,8 @@ TEST(CoveredPolygons, AreNotLookedForWhereAllCount) {
   std::vector<Operand> operands{octahedron({0, 0, 0}, 50), octahedron({3, 0, 0}, 5)};
   const auto covered = [&](BooleanOp op) {
     const Job job(operands);
-    const auto found = find_plainly_covered(
-        job, test::flat_expression(op, static_cast<uint32_t>(operands.size())));
+    const auto expression = test::flat_expression(op, static_cast<uint32_t>(operands.size()));
+    const auto found = find_plainly_covered(job, expression).polygons;
     return std::count(found.begin(), found.end(), 1);
   };
   EXPECT_EQ(covered(BooleanOp::kUnion), 0);  // two that do not meet at all
@@ -258,31 +258,45 @@ TEST(CoveredPolygons, AreThoseInBallsAndBesideBoxes) {
         round % 2 ? random_expression(random, count)
                   : test::flat_expression(static_cast<BooleanOp>(round / 2 % 4), count);
     const Job job(operands);
-    const auto found = find_plainly_covered(job, expression);
+    const PlainlyCovered plainly = find_plainly_covered(job, expression);
+    const auto& found = plainly.polygons;
     const Boxes boxes{job, expression};
     const auto root = static_cast<uint32_t>(expression.nodes.size() - 1);
-    size_t covered = 0;
+    size_t covered = 0, hidden = 0;
     for (uint32_t o = 0; o < count; ++o) {
+      bool is_open = false, may_be_open = false;
       PolygonBox live = PolygonBox::none();
       boxes.add_live(root, kEverywhere, o, live);
       for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
         bool expected = live.is_empty() || is_beside(job, p, live), is_close = false;
+        bool is_hidden = false;
         beside += expected;
         for (const uint32_t r : removers(operands, expression)) {
           if (count < 3 || !job.has_grid_vertices(r)) continue;
           const double beyond = beyond_ball(job, r, operands[r], job.polygons()[p]);
           is_close |= std::fabs(beyond) < 1e-6;
           in_balls += !expected && beyond < 0;
-          expected |= beyond < 0;
+          is_hidden |= beyond < 0;
         }
+        expected |= is_hidden;
         covered += expected;
+        hidden += is_hidden;
+        may_be_open |= is_close;
+        is_open |= is_hidden;
         if (is_close) continue;
         ASSERT_EQ(!found.empty() && found[p], expected) << "round " << round << ", polygon " << p;
+        ASSERT_EQ(!plainly.hidden.empty() && plainly.hidden[p], is_hidden) << "polygon " << p;
         left += !expected;
+      }
+      if (!may_be_open) {
+        ASSERT_EQ(plainly.is_open[o] != 0, is_open) << "operand " << o;
       }
     }
     if (covered == 0) {
       ASSERT_TRUE(found.empty());
+    }
+    if (hidden == 0) {
+      ASSERT_TRUE(plainly.hidden.empty());
     }
   }
   EXPECT_GT(in_balls, 200u);
@@ -297,7 +311,8 @@ TEST(CoveredPolygons, AreNotThoseOnTheBallItself) {
     const std::vector<Operand> operands{
         box, test::operand_of(test::make_leaf({{{0, 0, 0}, {1, 0, 0}, far}})),
         test::operand_of(test::box_leaf({50, 0, 0}, {60, 9, 9}))};
-    return find_plainly_covered(Job(operands), test::flat_expression(BooleanOp::kUnion, 3));
+    const auto expression = test::flat_expression(BooleanOp::kUnion, 3);
+    return find_plainly_covered(Job(operands), expression).polygons;
   };
   EXPECT_TRUE(covered({6, 8, 0}).empty());
   EXPECT_TRUE(covered({0, 6, -8}).empty());
@@ -310,14 +325,14 @@ TEST(CoveredPolygons, AreNotThoseOnTheBallItself) {
 // Of nothing, and of bodies without faces.
 TEST(CoveredPolygons, OfNothing) {
   const std::vector<Operand> none;
-  EXPECT_TRUE(find_plainly_covered(Job(none), {}).empty());
+  EXPECT_TRUE(find_plainly_covered(Job(none), {}).polygons.empty());
   EXPECT_TRUE(find_covered(Job(none), {}, ContactTable()).empty());
   auto empty = std::make_shared<LeafGeometry>();
   empty->convex = true;
   const std::vector<Operand> operands{test::operand_of(empty), octahedron({0, 0, 0}, 9),
                                       octahedron({0, 0, 0}, 5)};
-  EXPECT_TRUE(
-      find_plainly_covered(Job(operands), test::flat_expression(BooleanOp::kUnion, 3)).empty());
+  const auto expression = test::flat_expression(BooleanOp::kUnion, 3);
+  EXPECT_TRUE(find_plainly_covered(Job(operands), expression).polygons.empty());
 }
 
 /// The sides of a polygon's corners on the planes of a leaf.
@@ -367,13 +382,18 @@ TEST(CoveredPolygons, TouchFromWithin) {
     Job job(operands);
     EvaluateStats stats;
     const ContactTable contacts(find_contacts(job, {}, {}, stats), job.polygons().size());
-    const auto found = find_covered(job, expression, contacts);
+    PlainlyCovered plainly;
+    plainly.removes = find_removers(job, expression);
+    plainly.is_open.assign(count, 0);
+    const bool is_one_open = round % 4 == 3;
+    if (is_one_open) plainly.is_open[1] = 1;
+    const auto found = find_covered(job, plainly, contacts);
     ASSERT_EQ(found.size(), job.polygons().size());
     for (uint32_t p = 0; p < found.size(); ++p) {
       bool expected = false;
       for (const uint32_t r : removers(operands, expression)) {
         const JobPolygon& polygon = job.polygons()[p];
-        if (r == polygon.operand) continue;
+        if (r == polygon.operand || (is_one_open && r == 1)) continue;
         const SidesOfLeaf sides = sides_of(job, polygon, operands[r]);
         expected |= !sides.in_front && sides.on && !sides.in_plane;
         in_plane += !sides.in_front && sides.in_plane;

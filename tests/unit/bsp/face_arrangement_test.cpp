@@ -58,8 +58,9 @@ class Cuts {
   }
 
   void check(Count& count) {
-    FaceArrangement arrangement(job_, geometry_, index_, contacts_.touched());
-    PolygonCutter cutter(job_, geometry_);
+    const std::vector<uint8_t> is_open(job_.operand_count(), 0);
+    FaceArrangement arrangement(job_, geometry_, index_, contacts_.touched(), is_open);
+    PolygonCutter cutter(job_, geometry_, is_open);
     for (uint32_t p = 0; p < job_.polygons().size(); ++p) {
       const bool is_plain = list(p);
       if (sheets_.empty() && coplanar_.empty()) continue;

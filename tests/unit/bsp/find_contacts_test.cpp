@@ -250,7 +250,9 @@ TEST(FindContacts, WideTrianglesMeetWhatPairsDo) {
       }
       EvaluateStats stats;
       Pairs found;
-      for (const Contact& c : find_contacts(job, covering, {}, stats).contacts) {
+      PlainlyCovered plainly;
+      plainly.polygons = covering;
+      for (const Contact& c : find_contacts(job, plainly, {}, stats).contacts) {
         found.emplace_back(c.p, c.q);
       }
       std::sort(found.begin(), found.end());

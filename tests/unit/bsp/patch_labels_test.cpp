@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/convex_operand.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/oracle.h"
 #include "tests/support/random_solids.h"
@@ -41,8 +42,8 @@ test::Tree flat_tree(BooleanOp op, int count) {
 // Few operands and many, near each other and far apart, all or some of them named by facts.
 TEST(PatchLabels, FatesAreWhatTheExpressionSays) {
   test::Random random(511);
-  size_t fates[3] = {}, unknown = 0;
-  for (int i = 0; i < 120; ++i) {
+  size_t fates[3] = {}, unknown = 0, lies = 0;
+  for (int i = 0; i < 160; ++i) {
     const int count = i % 4 == 0 ? static_cast<int>(random.integer(17, 80))
                                  : static_cast<int>(random.integer(1, 16));
     const int64_t spread = random.integer(0, 3) * random.integer(0, 12);
@@ -61,7 +62,10 @@ TEST(PatchLabels, FatesAreWhatTheExpressionSays) {
     }
     const Job job(operands);
     const auto op = static_cast<BooleanOp>(random.integer(0, 3));
-    PatchLabels labels(job, test::flat_expression(op, static_cast<uint32_t>(count)));
+    PlainlyCovered plainly;  // of some, what facts tell is not relied on
+    plainly.removes.assign(operands.size(), 0);
+    for (int o = 0; o < count; ++o) plainly.is_open.push_back(random.integer(0, 3) == 0);
+    PatchLabels labels(job, test::flat_expression(op, static_cast<uint32_t>(count)), plainly);
     const test::Tree tree = flat_tree(op, count);
     for (int k = 0; k < 30; ++k) {
       const JobPolygon& p = job.polygons()[static_cast<size_t>(
@@ -77,9 +81,14 @@ TEST(PatchLabels, FatesAreWhatTheExpressionSays) {
       auto inside = inside_of(oracles, p.operand, at);
       if (!inside) continue;
       std::vector<CutLoops::Fact> facts;
+      uint32_t local = kNone;
       for (uint32_t o = 0; o < operands.size(); ++o) {
-        const bool is = (*inside)[o];
-        if (o != p.operand && random.integer(0, 5) == 0) facts.push_back({o, is, is});
+        if (o == p.operand || random.integer(0, 5) != 0) continue;
+        if (plainly.is_open[o] && random.integer(0, 2) == 0) local = o;
+        const bool is_so = !plainly.is_open[o] || o == local || random.integer(0, 1) == 0;
+        lies += !is_so;
+        const bool is = (*inside)[o] == is_so;
+        facts.push_back({o, is, is});
       }
       // As if the boundary of one ran along the patch: lower ones count.
       if (random.integer(0, 3) == 0 && p.operand > 0 && facts.empty()) {
@@ -91,7 +100,7 @@ TEST(PatchLabels, FatesAreWhatTheExpressionSays) {
         behind[p.operand] = true;
         // Then the patch is the other's, if what is before and behind differs by it.
         before[p.operand] = false;
-        const PatchFate got = labels.fate(p.operand, at, 0, facts);
+        const PatchFate got = labels.fate(p.operand, at, 0, facts, local);
         if (got == PatchFate::kUnknown) {
           ++unknown;
         } else if (tree.inside(before) == tree.inside(behind)) {
@@ -106,7 +115,7 @@ TEST(PatchLabels, FatesAreWhatTheExpressionSays) {
       (*inside)[p.operand] = false;
       const PatchFate fate = fate_of(tree.inside(*inside), back);
       for (const double error : {0.0, 0x1p-40}) {
-        const PatchFate got = labels.fate(p.operand, at, error, facts);
+        const PatchFate got = labels.fate(p.operand, at, error, facts, local);
         if (got == PatchFate::kUnknown) {
           ++unknown;
         } else {
@@ -117,6 +126,7 @@ TEST(PatchLabels, FatesAreWhatTheExpressionSays) {
     }
   }
   for (const size_t n : fates) EXPECT_GT(n, 50u);
+  EXPECT_GT(lies, 500u);
   EXPECT_LT(unknown * 5, fates[0]);  // points in line with an edge
 }
 
@@ -125,31 +135,68 @@ TEST(PatchLabels, WhatAPointCannotTellIsUnknown) {
   std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {10, 10, 10})),
                                 test::operand_of(test::box_leaf({20, 20, 20}, {30, 30, 30}))};
   const Job job(operands);
-  PatchLabels labels(job, test::flat_expression(BooleanOp::kUnion, 2));
+  const PlainlyCovered none{{}, {}, {0, 0}, {0, 0}, {}};
+  PatchLabels labels(job, test::flat_expression(BooleanOp::kUnion, 2), none);
   for (int k = 0; k < 3; ++k) {
     for (const double side : {20.0, 30.0}) {
       const double outwards = side == 20 ? -1 : 1;
       Query at{25, 25, 25};
       // May be inside the second: by no more than it may be wrong.
       at[k] = side + outwards * 0.25;
-      EXPECT_EQ(labels.fate(0, at, 0.5, {}), PatchFate::kUnknown) << k << ' ' << side;
-      EXPECT_EQ(labels.fate(0, at, 0.25, {}), PatchFate::kUnknown) << k << ' ' << side;
-      EXPECT_EQ(labels.fate(0, at, 0.125, {}), PatchFate::kKeep) << k << ' ' << side;
+      EXPECT_EQ(labels.fate(0, at, 0.5, {}, kNone), PatchFate::kUnknown) << k << ' ' << side;
+      EXPECT_EQ(labels.fate(0, at, 0.25, {}, kNone), PatchFate::kUnknown) << k << ' ' << side;
+      EXPECT_EQ(labels.fate(0, at, 0.125, {}, kNone), PatchFate::kKeep) << k << ' ' << side;
       at[k] = side - outwards;
-      EXPECT_EQ(labels.fate(0, at, 0.01, {}), PatchFate::kDrop) << k << ' ' << side;
+      EXPECT_EQ(labels.fate(0, at, 0.01, {}, kNone), PatchFate::kDrop) << k << ' ' << side;
     }
-    EXPECT_EQ(labels.fate(0, {5, 5, 5}, 0.5, {}), PatchFate::kKeep);
-    EXPECT_EQ(labels.fate(0, {5, 5, 5}, 1, {}), PatchFate::kUnknown);
+    EXPECT_EQ(labels.fate(0, {5, 5, 5}, 0.5, {}, kNone), PatchFate::kKeep);
+    EXPECT_EQ(labels.fate(0, {5, 5, 5}, 1, {}, kNone), PatchFate::kUnknown);
     for (const double far : {0x1p30, -0x1p30, 0x1p40}) {
       Query at{25, 25, 25};
       at[k] = far;
-      EXPECT_EQ(labels.fate(0, at, 0, {}), PatchFate::kUnknown);
+      EXPECT_EQ(labels.fate(0, at, 0, {}, kNone), PatchFate::kUnknown);
       at[k] = far / 2;
       if (std::fabs(far) == 0x1p30) {
-        EXPECT_EQ(labels.fate(0, at, 0, {}), PatchFate::kKeep);
+        EXPECT_EQ(labels.fate(0, at, 0, {}, kNone), PatchFate::kKeep);
       }
     }
   }
+}
+
+// A block less three bodies, the second of which is open: what decides is relied on, wherever it
+// is.
+TEST(PatchLabels, OfOpenOperandsOnlyWhatDecidesIsReliedOn) {
+  const std::vector<Operand> operands{
+      test::operand_of(test::box_leaf({0, 0, 0}, {40, 40, 40})), test::octahedron({10, 10, 10}, 9),
+      test::octahedron({20, 20, 20}, 9), test::octahedron({30, 30, 30}, 9)};
+  const Job job(operands);
+  const Expression expression = test::flat_expression(BooleanOp::kDifference, 4);
+  PlainlyCovered plainly = find_plainly_covered(job, expression);
+  ASSERT_EQ(plainly.removes, (std::vector<uint8_t>{0, 1, 1, 1}));
+  plainly.is_open[2] = 1;
+  PatchLabels labels(job, expression, plainly);
+  using Facts = std::vector<CutLoops::Fact>;
+  const auto fate = [&](const Query& at, const Facts& facts, uint32_t local) {
+    return labels.fate(1, at, 0, facts, local);
+  };
+  const Query beside{5, 10, 11}, within{20, 21, 20}, near_surface{20, 24, 22};
+  EXPECT_EQ(fate(beside, {}, kNone), PatchFate::kFlip);
+  EXPECT_EQ(fate(beside, {{2, true, true}}, kNone), PatchFate::kDrop);
+  EXPECT_EQ(fate(beside, {{2, false, false}}, kNone), PatchFate::kFlip);
+  // Inside the open one, or said not to be, where that is not known or known.
+  for (const Query& at : {within, near_surface}) {
+    EXPECT_EQ(fate(at, {}, kNone), PatchFate::kDrop);
+    EXPECT_EQ(fate(at, {{2, false, false}}, kNone), PatchFate::kDrop);
+    EXPECT_EQ(fate(at, {{2, false, false}}, 2), PatchFate::kFlip);
+    EXPECT_EQ(fate(at, {{2, false, true}}, kNone), PatchFate::kFlip);
+  }
+  // Its hidden surface passes through the patch.
+  EXPECT_EQ(fate(beside, {{2, false, false}, {2, true, true}}, kNone), PatchFate::kDrop);
+  // The block is open: outside of it nothing is left, and outside is not relied on.
+  plainly.is_open[0] = 1;
+  EXPECT_EQ(fate(beside, {{0, false, false}}, kNone), PatchFate::kFlip);
+  EXPECT_EQ(fate(beside, {{0, false, false}}, 0), PatchFate::kDrop);
+  EXPECT_EQ(fate(beside, {{0, false, false}, {0, true, true}}, kNone), PatchFate::kDrop);
 }
 
 }  // namespace

@@ -1,0 +1,49 @@
+// Balls inside and around convex operands: most points and polygons are plainly in one, or beside
+// the other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/bsp/job.h"
+#include "engine/bsp/square_bins.h"
+
+namespace csgrun {
+
+class OperandBalls {
+ public:
+  /// None.
+  OperandBalls() = default;
+  /// Of those of some operands (a byte for each) that are convex leaves on the grid. O(n),
+  /// parallel.
+  OperandBalls(const Job& job, const std::vector<uint8_t>& operands);
+
+  [[nodiscard]] bool empty() const { return balls_.empty(); }
+
+  /// Whether all of a polygon is strictly inside of one of the operands, as an inner ball tells.
+  [[nodiscard]] bool hold(const Job& job, const JobPolygon& polygon) const;
+
+  enum class Side : uint8_t { kInside, kOutside, kUnknown };
+  /// Where a point is that is wrong by less than a step along each axis.
+  [[nodiscard]] Side side(uint32_t operand, const std::array<double, 3>& point) const;
+
+ private:
+  struct Ball {
+    std::array<double, 3> middle{};
+    double inner = 0, outer = 0;  ///< squares of the radii; inner: 0 if there is none
+
+    static Ball of(const Job& job, uint32_t operand);
+    [[nodiscard]] double square_from(const std::array<double, 3>& p) const {
+      const double x = p[0] - middle[0], y = p[1] - middle[1], z = p[2] - middle[2];
+      return x * x + y * y + z * z;
+    }
+  };
+  static constexpr uint32_t kNoBall = ~0u;
+
+  std::vector<Ball> balls_;
+  std::vector<uint32_t> ball_of_;  ///< per operand, or kNoBall
+  SquareBins bins_;                ///< of the inner balls
+};
+
+}  // namespace csgrun
