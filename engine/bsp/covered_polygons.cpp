@@ -24,33 +24,38 @@ std::vector<uint8_t> find_removers(const Job& job, const Expression& expression)
 
 namespace {
 
-/// Per operand, a box beside which its surface bounds nothing, whatever it is.
-std::vector<PolygonBox> find_live_boxes(const Job& job, const Expression& expression) {
-  PolygonBox everywhere = PolygonBox::none();
-  std::swap(everywhere.lo, everywhere.hi);
-  // Boxes that hold what a node is, from the operands up.
+/// Per node, a box that holds what it is.
+std::vector<PolygonBox> find_bounds(const Job& job, const Expression& expression) {
   std::vector<PolygonBox> bounds(expression.nodes.size(), PolygonBox::none());
-  const auto child = [&](const Expression::Node& node, uint32_t c) {
-    return expression.children[node.first_child + c];
-  };
+  // From the operands up.
   for (size_t n = 0; n < expression.nodes.size(); ++n) {
     const Expression::Node& node = expression.nodes[n];
     if (node.is_operand) {
       bounds[n] = job.operand_box(node.operand);  // and there are no children
     }
-    if (node.op == BooleanOp::kIntersection) bounds[n] = everywhere;
+    if (node.op == BooleanOp::kIntersection) bounds[n] = PolygonBox::everywhere();
     for (uint32_t c = 0; c < node.child_count; ++c) {
+      const PolygonBox& child = bounds[expression.children[node.first_child + c]];
       if (node.op == BooleanOp::kIntersection) {
-        bounds[n].clip(bounds[child(node, c)]);
+        bounds[n].clip(child);
       } else if (c == 0 || node.op != BooleanOp::kDifference) {
-        bounds[n].include(bounds[child(node, c)]);
+        bounds[n].include(child);
       }
     }
   }
-  // And where they matter, from the root down; a node may have several parents.
+  return bounds;
+}
+
+/// Per operand, a box beside which its surface bounds nothing, whatever it is. `bounds`: of nodes.
+std::vector<PolygonBox> find_live_boxes(const Job& job, const Expression& expression,
+                                        const std::vector<PolygonBox>& bounds) {
+  const auto child = [&](const Expression::Node& node, uint32_t c) {
+    return expression.children[node.first_child + c];
+  };
+  // From the root down; a node may have several parents.
   std::vector<PolygonBox> live(expression.nodes.size(), PolygonBox::none());
   std::vector<PolygonBox> of_operand(job.operand_count(), PolygonBox::none());
-  live.back() = everywhere;
+  live.back() = PolygonBox::everywhere();
   for (size_t n = expression.nodes.size(); n-- > 0;) {
     const Expression::Node& node = expression.nodes[n];
     if (node.is_operand) {
@@ -87,18 +92,24 @@ PlainlyCovered find_plainly_covered(const Job& job, const Expression& expression
   found.is_open.assign(job.operand_count(), 0);
   found.removes = find_removers(job, expression);
   if (expression.nodes.empty()) return found;
-  const std::vector<PolygonBox> live = find_live_boxes(job, expression);
-  // With two operands, what is inside one meets nothing at all.
-  found.balls = OperandBalls(job, job.operand_count() > 2 ? found.removes : std::vector<uint8_t>());
-  const bool any_balls = !found.balls.empty();
+  const std::vector<PolygonBox> bounds = find_bounds(job, expression);
+  const std::vector<PolygonBox> live = find_live_boxes(job, expression, bounds);
+  found.result_box = bounds.back();
+  // With two operands, what would be hidden meets nothing at all.
+  const bool may_hide = job.operand_count() > 2;
+  found.balls = OperandBalls(job, may_hide ? found.removes : std::vector<uint8_t>());
+  const auto is_hidden_one = [&](uint32_t p) {
+    return !found.result_box.meets(job.boxes()[p]) ||
+           (!found.balls.empty() && found.balls.hold(job, job.polygons()[p]));
+  };
   std::vector<uint8_t> is_covered(job.polygons().size(), 0), any(job.operand_count(), 0);
-  std::vector<uint8_t> is_hidden(any_balls ? job.polygons().size() : 0, 0);
+  std::vector<uint8_t> is_hidden(may_hide ? job.polygons().size() : 0, 0);
   for_each_alone(job.operand_count(), job.polygons().size() > kFewForThreads, [&](size_t operand) {
     const auto o = static_cast<uint32_t>(operand);
-    if (!any_balls && live[o].holds(job.operand_box(o))) return;
+    if (found.balls.empty() && live[o].holds(job.operand_box(o))) return;
     const bool is_live = !live[o].is_empty();
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
-      if (any_balls && found.balls.hold(job, job.polygons()[p])) {
+      if (may_hide && is_hidden_one(p)) {
         is_covered[p] = is_hidden[p] = found.is_open[o] = 1;
       } else {
         is_covered[p] = !is_live || is_beside(job.boxes()[p], live[o]);

@@ -23,9 +23,9 @@ struct PlainlyCovered {
   /// one may be on these boxes, in a side of them: so what goes on beyond it is met there as well.
   /// Empty if there are none.
   std::vector<uint8_t> polygons;
-  /// Those of them that are inside a ball. What meets one is there inside of a remover, on both
-  /// sides of the polygon, and the polygon divides nothing that is boundary of something: nobody
-  /// looks at what anything has in common with it. Empty if there are none.
+  /// Those of them that are inside a ball, or beside the box of the result. No point of what meets
+  /// one there is boundary of anything, on whichever side of the polygon it is: nobody looks at
+  /// what anything has in common with it. Empty if there are none, as with two operands or less.
   std::vector<uint8_t> hidden;
   /// Per operand, whether one of its polygons is hidden. The outlines in which it is seen to meet
   /// others may have ends, and a part of another surface that these do not divide may be inside of
@@ -33,6 +33,7 @@ struct PlainlyCovered {
   std::vector<uint8_t> is_open;
   std::vector<uint8_t> removes;  ///< see find_removers
   OperandBalls balls;            ///< of removers; none if there are two operands or less
+  PolygonBox result_box = PolygonBox::everywhere();  ///< holds what the expression is
 };
 
 /// O(n) for operands of bounded depth. Parallel.

@@ -214,16 +214,8 @@ bool PolygonCutter::trace(std::span<const CutSegment> segments, CutLoops& out) {
   seen_.assign(2 * arcs_.size(), 0);
   for (uint32_t start = 0; start < seen_.size(); ++start) {
     if (seen_[start] || (arcs_[start / 2].segment == kNone && start % 2)) continue;
-    CutLoops::Loop loop{static_cast<uint32_t>(out.corner_point.size()),
-                        0,
-                        static_cast<uint32_t>(out.facts.size()),
-                        0,
-                        kNone,
-                        0,
-                        kNone};
-    if (arcs_[start / 2].segment != kNone) {
-      loop.sure_operand = job_.polygons()[segments[arcs_[start / 2].segment].other].operand;
-    }
+    CutLoops::Loop loop{static_cast<uint32_t>(out.corner_point.size()), 0,
+                        static_cast<uint32_t>(out.facts.size()), 0, kNone};
     uint32_t h = start;
     do {
       if (h == kNone || seen_[h]) return fail();
@@ -234,7 +226,8 @@ bool PolygonCutter::trace(std::span<const CutSegment> segments, CutLoops& out) {
       out.corner_plane.push_back(arc.plane);
       if (arc.segment != kNone) {
         const bool inside = h % 2 == 0;
-        out.facts.push_back({job_.polygons()[segments[arc.segment].other].operand, inside, inside});
+        const uint32_t operand = job_.polygons()[segments[arc.segment].other].operand;
+        out.facts.push_back({operand, inside, inside, h != start});
       } else if (loop.vertex == kNone) {
         // A crossing may have the number of a vertex elsewhere, where an operand touches itself.
         const uint32_t v = geometry_.point(from).vertex;
@@ -253,7 +246,8 @@ bool PolygonCutter::trace(std::span<const CutSegment> segments, CutLoops& out) {
 bool CutLoops::finish_facts(Loop& loop, std::span<const uint8_t> is_open) {
   const auto begin = facts.begin() + loop.first_fact;
   std::sort(begin, facts.end());
-  facts.erase(std::unique(begin, facts.end()), facts.end());
+  const auto says_the_same = [](const Fact& a, const Fact& b) { return a.says_the_same(b); };
+  facts.erase(std::unique(begin, facts.end(), says_the_same), facts.end());
   loop.fact_count = static_cast<uint32_t>(facts.size()) - loop.first_fact;
   return std::adjacent_find(begin, facts.end(), [&](const Fact& a, const Fact& b) {
            return a.operand == b.operand && !may_contradict(a, b, is_open);

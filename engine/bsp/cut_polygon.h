@@ -28,10 +28,7 @@ struct CutLoops {
   struct Loop {
     uint32_t first_corner, corner_count;
     uint32_t first_fact, fact_count;
-    uint32_t vertex;  ///< a vertex of the polygon that it passes, or kNone
-    /// An edge (by its place in the loop) along which one operand has surface, which the facts tell
-    /// there, or none has (kNone); kNone if there is no such edge.
-    uint32_t sure_edge, sure_operand;
+    uint32_t vertex;        ///< a vertex of the polygon that it passes, or kNone
     bool is_loose = false;  ///< see FragmentSet::Piece
   };
   /// Whether what is in front of the region at the loop, and behind it, is inside an operand that
@@ -39,6 +36,11 @@ struct CutLoops {
   struct Fact {
     uint32_t operand;
     bool front, back;
+    bool is_elsewhere = true;  ///< the first edge of the loop does not tell it
+
+    [[nodiscard]] bool says_the_same(const Fact& o) const {
+      return operand == o.operand && front == o.front && back == o.back;
+    }
     bool operator==(const Fact&) const = default;
     auto operator<=>(const Fact&) const = default;
   };
@@ -49,7 +51,7 @@ struct CutLoops {
   RawVector<Loop> loops;
   RawVector<uint32_t> corner_point;  ///< of the geometry
   RawVector<uint32_t> corner_plane;  ///< of the edge to the next corner
-  RawVector<Fact> facts;             ///< of a loop: sorted, each once
+  RawVector<Fact> facts;             ///< of a loop: sorted, each once, from the first edge if so
 
   /// Sorts the facts of a loop, which are the last ones, and drops repetitions; false when they
   /// contradict one another, but for those of open operands: see may_contradict.

@@ -382,21 +382,17 @@ bool FaceArrangement::trace(CutLoops& out) {
   uint32_t number = 0;
   for (uint32_t start = 0; start < loop_of_.size(); ++start) {
     if (loop_of_[start] != kNone || is_outer(start)) continue;
-    CutLoops::Loop loop{
-        static_cast<uint32_t>(out.corner_point.size()), 0, 0, 0, kNone, kNone, kNone, true};
+    CutLoops::Loop loop{static_cast<uint32_t>(out.corner_point.size()), 0, 0, 0, kNone, true};
     uint32_t h = start;
     do {
       if (loop_of_[h] != kNone || is_outer(h)) return false;
       loop_of_[h] = number;
-      if (loop.sure_edge == kNone && is_sure(h, loop.sure_operand)) {
-        loop.sure_edge = static_cast<uint32_t>(out.corner_point.size()) - loop.first_corner;
-      }
       const uint32_t point = from(h);
       out.corner_point.push_back(point);
       out.corner_plane.push_back(lines_[parts_[arcs_[h / 2].first_part].line].plane);
       const uint32_t v = geometry_.point(point).vertex;
       if (v != kNone && !touched_[v]) loop.vertex = v;
-      if (!add_facts(h, number)) return false;
+      if (!add_facts(h, number, h == start)) return false;
       // The next half-edge is the one before this one's reverse, counter-clockwise.
       uint32_t at = place_[h ^ 1];
       if (at > 0 && around_[at - 1].first == around_[at].first) {

@@ -112,8 +112,7 @@ class FaceArrangement {
   [[nodiscard]] bool is_beyond(uint32_t point);
   void sort_around_points();
   bool trace(CutLoops& out);
-  bool add_facts(uint32_t half, uint32_t loop);
-  [[nodiscard]] bool is_sure(uint32_t half, uint32_t& operand) const;
+  bool add_facts(uint32_t half, uint32_t loop, bool is_first_edge);
   bool find_covered(const CutLoops& out, uint32_t first_loop);
   bool find_covered_loop(const CutLoops::Loop& loop, uint32_t number,
                          std::span<const uint32_t> sheets, const CutLoops& out);

@@ -139,17 +139,8 @@ bool FaceArrangement::is_convex_edge(uint32_t p, uint32_t q) {
   return true;
 }
 
-/// Whether no operand has surface along a half-edge, or one that passes through.
-bool FaceArrangement::is_sure(uint32_t half, uint32_t& operand) const {
-  const Arc& arc = arcs_[half / 2];
-  if (arc.part_count > 1) return false;
-  const Line& line = lines_[parts_[arc.first_part].line];
-  operand = line.operand;
-  return line.kind == Kind::kBoundary || line.kind == Kind::kThrough;
-}
-
 /// What is on the left of a half-edge, for each operand that has sheets there.
-bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
+bool FaceArrangement::add_facts(uint32_t half, uint32_t loop, bool is_first_edge) {
   const Arc& arc = arcs_[half / 2];
   const Part* begin = parts_.data() + arc.first_part;
   const Part* end = begin + arc.part_count;
@@ -173,7 +164,7 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
     if (line.kind == Kind::kThrough) {
       if (count != 1) return false;
       const bool inside = !reversed(*p);
-      facts_.push_back({loop, {o, inside, inside}});
+      facts_.push_back({loop, {o, inside, inside, !is_first_edge}});
       continue;
     }
     // A coplanar sheet on this half-edge's left covers what is there.
@@ -189,7 +180,7 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
     }
     if (count == 1) {  // a face of a convex operand, of which nothing else is told: see build()
       const bool same = job_.polygons()[line.sheet].support == polygon_->support;
-      facts_.push_back({loop, {o, a > 0 && !same, a > 0 && same}, true});
+      facts_.push_back({loop, {o, a > 0 && !same, a > 0 && same, !is_first_edge}, true});
       continue;
     }
     if (count != 2) return false;
@@ -200,7 +191,7 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
     assert(other.kind != Kind::kThrough && (a == 0 || a == -b));
     if (a > 0 || b > 0) {
       const bool same = job_.polygons()[other.sheet].support == polygon_->support;
-      facts_.push_back({loop, {o, !same, same}});
+      facts_.push_back({loop, {o, !same, same, !is_first_edge}});
       continue;
     }
     // What is on the left is behind the first sheet alone, if the second one is coplanar: whichever
@@ -208,7 +199,7 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop) {
     const bool behind = !reversed(*p), behind_other = !reversed(*second);
     const bool inside =
         is_convex_edge(line.sheet, other.sheet) ? behind && behind_other : behind || behind_other;
-    facts_.push_back({loop, {o, inside, inside}, b < 0});
+    facts_.push_back({loop, {o, inside, inside, !is_first_edge}, b < 0});
   }
   return true;
 }

@@ -65,7 +65,10 @@ class CellFinder {
     for (const PairCells::Cell& cell : std::span(coarse.cells).subspan(begin, end - begin)) {
       const std::span<const uint32_t> polygons =
           wanted({coarse.polygons.data() + cell.first, cell.count});
-      if (polygons.empty()) continue;
+      if (polygons.empty()) {
+        ++result_.visited;
+        continue;
+      }
       const auto count = static_cast<uint32_t>(polygons.size());
       if (coarse.cells.size() > 1 && count <= kPatientLimit * limit_) {
         ++result_.visited, ++result_.surface;

@@ -15,7 +15,7 @@ namespace csgrun {
 class PatchFacts {
  public:
   void add(uint32_t patch, const CutLoops::Fact& fact) {
-    const Entry entry{patch, fact};
+    const Entry entry{patch, {fact.operand, fact.front, fact.back}};
     if (entries_.empty() || entries_.back() != entry) entries_.push_back(entry);
   }
 

@@ -230,7 +230,7 @@ void PatchFates::answer(const Question& q, PatchLabels& labels) {
     fate_of_loop_[q.loop] = fate_of_loop(cut_.loops.loops[q.loop], q.own, labels);
   } else {
     patch_fates_[q.patch] = static_cast<uint8_t>(
-        labels.fate(q.own, job_.rounded(q.patch), labels.error(q.own), facts_.of(q.patch), kNone));
+        labels.fate(q.own, job_.rounded(q.patch), labels.error(q.own), facts_.of(q.patch), false));
   }
 }
 
@@ -241,9 +241,8 @@ PatchFate PatchFates::fate_of_loop(const CutLoops::Loop& loop, uint32_t own,
   // line with too much, another one may do.
   constexpr uint32_t kMostTries = 4;
   PatchFate fate = PatchFate::kUnknown;
-  const uint32_t first = loop.sure_edge == kNone ? 0 : loop.sure_edge;
   for (uint32_t i = 0; i < kMostTries && fate == PatchFate::kUnknown; ++i) {
-    fate = fate_at_edge(loop, (first + i) % loop.corner_count, own, labels);
+    fate = fate_at_edge(loop, i % loop.corner_count, own, labels);
   }
   return fate;
 }
@@ -260,8 +259,7 @@ PatchFate PatchFates::fate_at_edge(const CutLoops::Loop& loop, uint32_t edge, ui
     largest = std::max({largest, std::fabs(a[k]), std::fabs(b[k])});
   }
   return labels.fate(own, middle, largest * 0x1p-52,
-                     {cut_.loops.facts.data() + loop.first_fact, loop.fact_count},
-                     edge == loop.sure_edge ? loop.sure_operand : kNone);
+                     {cut_.loops.facts.data() + loop.first_fact, loop.fact_count}, edge == 0);
 }
 
 }  // namespace csgrun

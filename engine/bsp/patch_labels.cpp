@@ -41,7 +41,7 @@ PatchLabels::PatchLabels(const Job& job, const Expression& expression,
       bins_(boxes_of_operands(job), squares_per_side(job.operand_count())) {}
 
 /// Whether they tell that nothing there is boundary, whatever else there is: part of the patch is
-/// inside of a remover, or hidden surface passes through it, which is inside of one.
+/// inside of a remover, or hidden surface passes through it.
 bool PatchLabels::are_decisive(std::span<const CutLoops::Fact> facts) const {
   for (size_t f = 0; f < facts.size(); ++f) {
     if (facts[f].front && facts[f].back && plainly_.removes[facts[f].operand]) return true;
@@ -51,14 +51,19 @@ bool PatchLabels::are_decisive(std::span<const CutLoops::Fact> facts) const {
 }
 
 PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, double error,
-                            std::span<const CutLoops::Fact> facts, uint32_t local) {
+                            std::span<const CutLoops::Fact> facts, bool is_at_first) {
   if (are_decisive(facts)) return PatchFate::kDrop;
   // Boxes are clamped; what is beyond is not told by them.
   for (const double c : point) {
     if (std::fabs(c) >= 0x1p30 || error >= 1) return PatchFate::kUnknown;
   }
+  for (int k = 0; k < 3; ++k) {
+    if (point[k] + error < plainly_.result_box.lo[k] ||
+        point[k] - error > plainly_.result_box.hi[k])
+      return PatchFate::kDrop;
+  }
   const auto is_known = [&](const CutLoops::Fact& f) {
-    return !plainly_.is_open[f.operand] || f.front != f.back || f.operand == local;
+    return !plainly_.is_open[f.operand] || f.front != f.back || (is_at_first && !f.is_elsewhere);
   };
   inside_.clear();
   for (const CutLoops::Fact& f : facts) {

@@ -29,11 +29,11 @@ class PatchLabels {
   PatchLabels(const Job& job, const Expression& expression, const PlainlyCovered& plainly);
 
   /// What becomes of a patch of operand `own`, of which `point` is a point (each coordinate as
-  /// wrong as `error` at most) on no operand but its own and those of the facts. What the facts
-  /// tell of `local`, an operand or kNone, is so at the point. kUnknown when doubles do not tell.
+  /// wrong as `error` at most) on no operand but its own and those of the facts. `is_at_first`:
+  /// it is on the first edge of the loop that the facts are of. kUnknown when doubles do not tell.
   /// O(operands), and O(n) for each of them whose box holds the point.
   PatchFate fate(uint32_t own, const std::array<double, 3>& point, double error,
-                 std::span<const CutLoops::Fact> facts, uint32_t local);
+                 std::span<const CutLoops::Fact> facts, bool is_at_first);
 
   [[nodiscard]] double error(uint32_t operand) const { return signs_.error(operand); }
 

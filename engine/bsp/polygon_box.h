@@ -19,6 +19,10 @@ struct PolygonBox {
                       hi = std::numeric_limits<int32_t>::max();
     return {{hi, hi, hi}, {lo, lo, lo}};
   }
+  static PolygonBox everywhere() {
+    const PolygonBox inside_out = none();
+    return {inside_out.hi, inside_out.lo};
+  }
   void include(const PolygonBox& o) {
     for (size_t k = 0; k < 3; ++k) {
       lo[k] = std::min(lo[k], o.lo[k]);

@@ -262,6 +262,7 @@ TEST(CoveredPolygons, AreThoseInBallsAndBesideBoxes) {
     const auto& found = plainly.polygons;
     const Boxes boxes{job, expression};
     const auto root = static_cast<uint32_t>(expression.nodes.size() - 1);
+    const PolygonBox result = boxes.around(root);
     size_t covered = 0, hidden = 0;
     for (uint32_t o = 0; o < count; ++o) {
       bool is_open = false, may_be_open = false;
@@ -269,7 +270,7 @@ TEST(CoveredPolygons, AreThoseInBallsAndBesideBoxes) {
       boxes.add_live(root, kEverywhere, o, live);
       for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
         bool expected = live.is_empty() || is_beside(job, p, live), is_close = false;
-        bool is_hidden = false;
+        bool is_hidden = count > 2 && !result.meets(job.boxes()[p]);
         beside += expected;
         for (const uint32_t r : removers(operands, expression)) {
           if (count < 3 || !job.has_grid_vertices(r)) continue;

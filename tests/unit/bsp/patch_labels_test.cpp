@@ -81,14 +81,15 @@ TEST(PatchLabels, FatesAreWhatTheExpressionSays) {
       auto inside = inside_of(oracles, p.operand, at);
       if (!inside) continue;
       std::vector<CutLoops::Fact> facts;
-      uint32_t local = kNone;
+      const bool at_first = random.integer(0, 1) == 1;
       for (uint32_t o = 0; o < operands.size(); ++o) {
         if (o == p.operand || random.integer(0, 5) != 0) continue;
-        if (plainly.is_open[o] && random.integer(0, 2) == 0) local = o;
-        const bool is_so = !plainly.is_open[o] || o == local || random.integer(0, 1) == 0;
+        const bool is_elsewhere = random.integer(0, 2) > 0;
+        const bool is_so =
+            !plainly.is_open[o] || (at_first && !is_elsewhere) || random.integer(0, 1) == 0;
         lies += !is_so;
         const bool is = (*inside)[o] == is_so;
-        facts.push_back({o, is, is});
+        facts.push_back({o, is, is, is_elsewhere});
       }
       // As if the boundary of one ran along the patch: lower ones count.
       if (random.integer(0, 3) == 0 && p.operand > 0 && facts.empty()) {
@@ -100,7 +101,7 @@ TEST(PatchLabels, FatesAreWhatTheExpressionSays) {
         behind[p.operand] = true;
         // Then the patch is the other's, if what is before and behind differs by it.
         before[p.operand] = false;
-        const PatchFate got = labels.fate(p.operand, at, 0, facts, local);
+        const PatchFate got = labels.fate(p.operand, at, 0, facts, at_first);
         if (got == PatchFate::kUnknown) {
           ++unknown;
         } else if (tree.inside(before) == tree.inside(behind)) {
@@ -115,7 +116,7 @@ TEST(PatchLabels, FatesAreWhatTheExpressionSays) {
       (*inside)[p.operand] = false;
       const PatchFate fate = fate_of(tree.inside(*inside), back);
       for (const double error : {0.0, 0x1p-40}) {
-        const PatchFate got = labels.fate(p.operand, at, error, facts, local);
+        const PatchFate got = labels.fate(p.operand, at, error, facts, at_first);
         if (got == PatchFate::kUnknown) {
           ++unknown;
         } else {
@@ -135,7 +136,8 @@ TEST(PatchLabels, WhatAPointCannotTellIsUnknown) {
   std::vector<Operand> operands{test::operand_of(test::box_leaf({0, 0, 0}, {10, 10, 10})),
                                 test::operand_of(test::box_leaf({20, 20, 20}, {30, 30, 30}))};
   const Job job(operands);
-  const PlainlyCovered none{{}, {}, {0, 0}, {0, 0}, {}};
+  PlainlyCovered none;
+  none.is_open = none.removes = {0, 0};
   PatchLabels labels(job, test::flat_expression(BooleanOp::kUnion, 2), none);
   for (int k = 0; k < 3; ++k) {
     for (const double side : {20.0, 30.0}) {
@@ -143,21 +145,21 @@ TEST(PatchLabels, WhatAPointCannotTellIsUnknown) {
       Query at{25, 25, 25};
       // May be inside the second: by no more than it may be wrong.
       at[k] = side + outwards * 0.25;
-      EXPECT_EQ(labels.fate(0, at, 0.5, {}, kNone), PatchFate::kUnknown) << k << ' ' << side;
-      EXPECT_EQ(labels.fate(0, at, 0.25, {}, kNone), PatchFate::kUnknown) << k << ' ' << side;
-      EXPECT_EQ(labels.fate(0, at, 0.125, {}, kNone), PatchFate::kKeep) << k << ' ' << side;
+      EXPECT_EQ(labels.fate(0, at, 0.5, {}, false), PatchFate::kUnknown) << k << ' ' << side;
+      EXPECT_EQ(labels.fate(0, at, 0.25, {}, false), PatchFate::kUnknown) << k << ' ' << side;
+      EXPECT_EQ(labels.fate(0, at, 0.125, {}, false), PatchFate::kKeep) << k << ' ' << side;
       at[k] = side - outwards;
-      EXPECT_EQ(labels.fate(0, at, 0.01, {}, kNone), PatchFate::kDrop) << k << ' ' << side;
+      EXPECT_EQ(labels.fate(0, at, 0.01, {}, false), PatchFate::kDrop) << k << ' ' << side;
     }
-    EXPECT_EQ(labels.fate(0, {5, 5, 5}, 0.5, {}, kNone), PatchFate::kKeep);
-    EXPECT_EQ(labels.fate(0, {5, 5, 5}, 1, {}, kNone), PatchFate::kUnknown);
+    EXPECT_EQ(labels.fate(0, {5, 5, 5}, 0.5, {}, false), PatchFate::kKeep);
+    EXPECT_EQ(labels.fate(0, {5, 5, 5}, 1, {}, false), PatchFate::kUnknown);
     for (const double far : {0x1p30, -0x1p30, 0x1p40}) {
       Query at{25, 25, 25};
       at[k] = far;
-      EXPECT_EQ(labels.fate(0, at, 0, {}, kNone), PatchFate::kUnknown);
+      EXPECT_EQ(labels.fate(0, at, 0, {}, false), PatchFate::kUnknown);
       at[k] = far / 2;
       if (std::fabs(far) == 0x1p30) {
-        EXPECT_EQ(labels.fate(0, at, 0, {}, kNone), PatchFate::kKeep);
+        EXPECT_EQ(labels.fate(0, at, 0, {}, false), PatchFate::kKeep);
       }
     }
   }
@@ -176,27 +178,29 @@ TEST(PatchLabels, OfOpenOperandsOnlyWhatDecidesIsReliedOn) {
   plainly.is_open[2] = 1;
   PatchLabels labels(job, expression, plainly);
   using Facts = std::vector<CutLoops::Fact>;
-  const auto fate = [&](const Query& at, const Facts& facts, uint32_t local) {
-    return labels.fate(1, at, 0, facts, local);
+  const auto fate = [&](const Query& at, const Facts& facts, bool is_at_first = false) {
+    return labels.fate(1, at, 0, facts, is_at_first);
   };
   const Query beside{5, 10, 11}, within{20, 21, 20}, near_surface{20, 24, 22};
-  EXPECT_EQ(fate(beside, {}, kNone), PatchFate::kFlip);
-  EXPECT_EQ(fate(beside, {{2, true, true}}, kNone), PatchFate::kDrop);
-  EXPECT_EQ(fate(beside, {{2, false, false}}, kNone), PatchFate::kFlip);
+  EXPECT_EQ(fate(beside, {}, false), PatchFate::kFlip);
+  EXPECT_EQ(fate(beside, {{2, true, true}}), PatchFate::kDrop);
+  EXPECT_EQ(fate(beside, {{2, false, false}}), PatchFate::kFlip);
   // Inside the open one, or said not to be, where that is not known or known.
   for (const Query& at : {within, near_surface}) {
-    EXPECT_EQ(fate(at, {}, kNone), PatchFate::kDrop);
-    EXPECT_EQ(fate(at, {{2, false, false}}, kNone), PatchFate::kDrop);
-    EXPECT_EQ(fate(at, {{2, false, false}}, 2), PatchFate::kFlip);
-    EXPECT_EQ(fate(at, {{2, false, true}}, kNone), PatchFate::kFlip);
+    EXPECT_EQ(fate(at, {}, false), PatchFate::kDrop);
+    EXPECT_EQ(fate(at, {{2, false, false}}), PatchFate::kDrop);
+    EXPECT_EQ(fate(at, {{2, false, false}}, true), PatchFate::kDrop);
+    EXPECT_EQ(fate(at, {{2, false, false, false}}), PatchFate::kDrop);
+    EXPECT_EQ(fate(at, {{2, false, false, false}}, true), PatchFate::kFlip);
+    EXPECT_EQ(fate(at, {{2, false, true}}), PatchFate::kFlip);
   }
   // Its hidden surface passes through the patch.
-  EXPECT_EQ(fate(beside, {{2, false, false}, {2, true, true}}, kNone), PatchFate::kDrop);
+  EXPECT_EQ(fate(beside, {{2, false, false}, {2, true, true}}), PatchFate::kDrop);
   // The block is open: outside of it nothing is left, and outside is not relied on.
   plainly.is_open[0] = 1;
-  EXPECT_EQ(fate(beside, {{0, false, false}}, kNone), PatchFate::kFlip);
-  EXPECT_EQ(fate(beside, {{0, false, false}}, 0), PatchFate::kDrop);
-  EXPECT_EQ(fate(beside, {{0, false, false}, {0, true, true}}, kNone), PatchFate::kDrop);
+  EXPECT_EQ(fate(beside, {{0, false, false}}), PatchFate::kFlip);
+  EXPECT_EQ(fate(beside, {{0, false, false, false}}, true), PatchFate::kDrop);
+  EXPECT_EQ(fate(beside, {{0, false, false}, {0, true, true}}), PatchFate::kDrop);
 }
 
 }  // namespace
