@@ -1,60 +1,25 @@
 #include "engine/bsp/covered_polygons.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "engine/base/parallel.h"
 #include "engine/bsp/contact_table.h"
+#include "engine/bsp/live_faces.h"
 
 namespace csgrun {
-namespace {}  // namespace
-
-std::vector<uint8_t> find_removers(const Job& job, const Expression& expression) {
-  std::vector<uint8_t> removes(job.operand_count(), 0);
-  if (expression.nodes.empty()) return removes;
-  const Expression::Node& root = expression.nodes.back();
-  const bool is_union = root.op == BooleanOp::kUnion;
-  if (!is_union && root.op != BooleanOp::kDifference) return removes;
-  for (uint32_t c = is_union ? 0 : 1; c < root.child_count; ++c) {
-    const Expression::Node& child = expression.nodes[expression.children[root.first_child + c]];
-    if (child.is_operand && job.is_convex(child.operand)) removes[child.operand] = 1;
-  }
-  return removes;
-}
-
 namespace {
 
-/// Per node, a box that holds what it is.
-std::vector<PolygonBox> find_bounds(const Job& job, const Expression& expression) {
-  std::vector<PolygonBox> bounds(expression.nodes.size(), PolygonBox::none());
-  // From the operands up.
-  for (size_t n = 0; n < expression.nodes.size(); ++n) {
-    const Expression::Node& node = expression.nodes[n];
-    if (node.is_operand) {
-      bounds[n] = job.operand_box(node.operand);  // and there are no children
-    }
-    if (node.op == BooleanOp::kIntersection) bounds[n] = PolygonBox::everywhere();
-    for (uint32_t c = 0; c < node.child_count; ++c) {
-      const PolygonBox& child = bounds[expression.children[node.first_child + c]];
-      if (node.op == BooleanOp::kIntersection) {
-        bounds[n].clip(child);
-      } else if (c == 0 || node.op != BooleanOp::kDifference) {
-        bounds[n].include(child);
-      }
-    }
-  }
-  return bounds;
-}
-
 /// Per operand, a box beside which its surface bounds nothing, whatever it is. `bounds`: of nodes.
-std::vector<PolygonBox> find_live_boxes(const Job& job, const Expression& expression,
-                                        const std::vector<PolygonBox>& bounds) {
+std::vector<PolygonBox> find_live_boxes(size_t operands, const Expression& expression,
+                                        std::span<const PolygonBox> bounds) {
   const auto child = [&](const Expression::Node& node, uint32_t c) {
     return expression.children[node.first_child + c];
   };
   // From the root down; a node may have several parents.
   std::vector<PolygonBox> live(expression.nodes.size(), PolygonBox::none());
-  std::vector<PolygonBox> of_operand(job.operand_count(), PolygonBox::none());
+  std::vector<PolygonBox> of_operand(operands, PolygonBox::none());
   live.back() = PolygonBox::everywhere();
   for (size_t n = expression.nodes.size(); n-- > 0;) {
     const Expression::Node& node = expression.nodes[n];
@@ -89,28 +54,33 @@ bool is_beside(const PolygonBox& box, const PolygonBox& other) {
 
 PlainlyCovered find_plainly_covered(const Job& job, const Expression& expression) {
   PlainlyCovered found;
-  found.is_open.assign(job.operand_count(), 0);
-  found.removes = find_removers(job, expression);
+  const LiveFaces* const chosen = job.live_faces();
+  found.is_open = chosen ? chosen->is_partial : std::vector<uint8_t>(job.operand_count(), 0);
   if (expression.nodes.empty()) return found;
-  const std::vector<PolygonBox> bounds = find_bounds(job, expression);
-  const std::vector<PolygonBox> live = find_live_boxes(job, expression, bounds);
-  found.result_box = bounds.back();
-  // With two operands, what would be hidden meets nothing at all.
+  if (chosen) {
+    found.dead = chosen->dead;
+  } else {
+    std::vector<PolygonBox> boxes;
+    for (size_t o = 0; o < job.operand_count(); ++o) boxes.push_back(job.operand_box(o));
+    found.dead = std::make_shared<DeadSpace>(job.operands(), expression, std::move(boxes));
+  }
+  const DeadSpace& dead = *found.dead;
+  const std::vector<PolygonBox> live =
+      find_live_boxes(job.operand_count(), expression, dead.node_boxes());
   const bool may_hide = job.operand_count() > 2;
-  found.balls = OperandBalls(job, may_hide ? found.removes : std::vector<uint8_t>());
-  const auto is_hidden_one = [&](uint32_t p) {
-    return !found.result_box.meets(job.boxes()[p]) ||
-           (!found.balls.empty() && found.balls.hold(job, job.polygons()[p]));
-  };
   std::vector<uint8_t> is_covered(job.polygons().size(), 0), any(job.operand_count(), 0);
-  std::vector<uint8_t> is_hidden(may_hide ? job.polygons().size() : 0, 0);
+  std::vector<uint8_t> is_hidden(may_hide ? job.polygons().size() : 0, 0), any_hidden(any);
   for_each_alone(job.operand_count(), job.polygons().size() > kFewForThreads, [&](size_t operand) {
     const auto o = static_cast<uint32_t>(operand);
-    if (found.balls.empty() && live[o].holds(job.operand_box(o))) return;
+    const bool may_hide_some =
+        may_hide && dead.may_hold_part(job.operand_box(o)) && !(chosen && chosen->is_looked_at[o]);
+    if (!may_hide_some && live[o].holds(job.operand_box(o))) return;
     const bool is_live = !live[o].is_empty();
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
-      if (may_hide && is_hidden_one(p)) {
-        is_covered[p] = is_hidden[p] = found.is_open[o] = 1;
+      const auto corners = job.corners(job.polygons()[p]);
+      const auto at = [&](uint32_t i) -> const auto& { return job.rounded(corners[i]); };
+      if (may_hide_some && dead.holds(job.boxes()[p], job.polygons()[p].count, at)) {
+        is_covered[p] = is_hidden[p] = any_hidden[o] = 1;
       } else {
         is_covered[p] = !is_live || is_beside(job.boxes()[p], live[o]);
       }
@@ -121,7 +91,8 @@ PlainlyCovered find_plainly_covered(const Job& job, const Expression& expression
     return std::find(list.begin(), list.end(), 1) != list.end();
   };
   if (has_some(any)) found.polygons = std::move(is_covered);
-  if (has_some(found.is_open)) found.hidden = std::move(is_hidden);
+  if (has_some(any_hidden)) found.hidden = std::move(is_hidden);
+  for (size_t o = 0; o < any_hidden.size(); ++o) found.is_open[o] |= any_hidden[o];
   return found;
 }
 
@@ -136,7 +107,7 @@ std::vector<uint8_t> find_covered(const Job& job, const PlainlyCovered& plainly,
       for (const uint32_t i : contacts.of(p)) {
         const Contact& c = contacts[i];
         const uint32_t o = job.polygons()[c.p == p ? c.q : c.p].operand;
-        if (!plainly.removes[o] || plainly.is_open[o]) continue;
+        if (!plainly.dead->is_remover(o) || plainly.is_open[o]) continue;
         // What meets a convex body and is not within it goes to the front of a face that it meets.
         const bool leaves = c.is_coplanar || (c.p == p ? c.p_front : c.q_front);
         (leaves ? crossed_by : touched_by).push_back(o);

@@ -3,37 +3,33 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "engine/bsp/dead_space.h"
 #include "engine/bsp/job.h"
-#include "engine/bsp/operand_balls.h"
 
 namespace csgrun {
 
 class ContactTable;
 
-/// Per operand, whether it is convex and nothing inside of it is boundary: it is added to all else,
-/// or taken away from it.
-std::vector<uint8_t> find_removers(const Job& job, const Expression& expression);
-
 /// Polygons that are easily seen to be boundary of nothing. Those of the job come by their numbers.
 struct PlainlyCovered {
   /// Whether it is one: it is beside the boxes of what it would be taken away from, or cut with, or
-  /// inside a ball in a remover. Nobody looks at what two of these have in common. Only the rim of
+  /// in dead space. Nobody looks at what two of these have in common. Only the rim of
   /// one may be on these boxes, in a side of them: so what goes on beyond it is met there as well.
   /// Empty if there are none.
   std::vector<uint8_t> polygons;
-  /// Those of them that are inside a ball, or beside the box of the result. No point of what meets
-  /// one there is boundary of anything, on whichever side of the polygon it is: nobody looks at
-  /// what anything has in common with it. Empty if there are none, as with two operands or less.
+  /// Those of them that are in dead space. No point of what meets one there is boundary of
+  /// anything, on whichever side of the polygon it is: nobody looks at what anything has in common
+  /// with it. Empty if there are none, as with two operands or less.
   std::vector<uint8_t> hidden;
-  /// Per operand, whether one of its polygons is hidden. The outlines in which it is seen to meet
-  /// others may have ends, and a part of another surface that these do not divide may be inside of
-  /// it here and outside there. What becomes of the part is the same everywhere.
+  /// Per operand, whether one of its polygons is hidden, or not in the job for that reason. The
+  /// outlines in which it is seen to meet others may have ends, and a part of another surface that
+  /// these do not divide may be inside of it here and outside there. What becomes of the part is
+  /// the same everywhere.
   std::vector<uint8_t> is_open;
-  std::vector<uint8_t> removes;  ///< see find_removers
-  OperandBalls balls;            ///< of removers; none if there are two operands or less
-  PolygonBox result_box = PolygonBox::everywhere();  ///< holds what the expression is
+  std::shared_ptr<const DeadSpace> dead = std::make_shared<DeadSpace>();  ///< never null
 };
 
 /// O(n) for operands of bounded depth. Parallel.

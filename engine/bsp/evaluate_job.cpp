@@ -118,7 +118,7 @@ Result<EvaluatedJob> evaluate_job(Job& job, const std::vector<Operand>& operands
     if (!evaluated) return evaluated.error();
     faces = std::move(*evaluated);
   }
-  if (job.near_faces() && faces.any_general) {
+  if (!job.has_all_faces() && faces.any_general) {
     EvaluatedJob none;
     none.needs_all_faces = true;
     return none;

@@ -4,11 +4,9 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/base/in_order.h"
 #include "engine/base/parallel.h"
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/convexify.h"
-#include "engine/bsp/grid_planes.h"
 #include "engine/bsp/operand_reach.h"
 #include "engine/bsp/piece_store.h"
 #include "engine/bsp/region_parts.h"
@@ -55,15 +53,19 @@ PolygonBox rounded_outwards(const PieceBox& box) {
 }
 
 Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_boxes)
-    : Job(operands, planes, with_boxes, nullptr) {}
+    : Job(operands, planes, with_boxes, nullptr, nullptr) {}
 
 Job::Job(const std::vector<Operand>& operands, const NearFaces& near)
-    : Job(operands, nullptr, true, &near) {}
+    : Job(operands, nullptr, true, &near, nullptr) {}
+
+Job::Job(const std::vector<Operand>& operands, const LiveFaces& live)
+    : Job(operands, nullptr, true, nullptr, &live) {}
 
 Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_boxes,
-         const NearFaces* near)
+         const NearFaces* near, const LiveFaces* live)
     : operands_(&operands),
       near_(near),
+      live_(live),
       with_boxes_(with_boxes),
       planes_(planes ? *planes : own_planes_.emplace()) {
   sources_.resize(operands.size());
@@ -95,7 +97,7 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_box
     if (!operands[o].leaf) continue;
     vertices += operands[o].leaf->vertices.size();
     polygons += face_count(o);
-    corners += near_ ? 3 * face_count(o) : operands[o].leaf->corners.size();
+    corners += corner_count(o);
   }
   rounded_.reserve(vertices);
   polygons_.reserve(polygons);
@@ -162,7 +164,19 @@ void Job::move_walls() {
 
 /// How many polygons the job has of a leaf.
 size_t Job::face_count(size_t o) const {
-  return near_ ? near_->faces[o].size() : (*operands_)[o].leaf->face_count();
+  const std::vector<uint32_t>* const some = some_faces(o);
+  return some ? some->size() : (*operands_)[o].leaf->face_count();
+}
+
+/// How many corners these have.
+size_t Job::corner_count(size_t o) const {
+  const LeafGeometry& leaf = *(*operands_)[o].leaf;
+  const std::vector<uint32_t>* const some = some_faces(o);
+  if (!some) return leaf.corners.size();
+  if (leaf.corners.size() == 3 * leaf.face_count()) return 3 * some->size();
+  size_t count = 0;
+  for (const uint32_t f : *some) count += leaf.face_starts[f + 1] - leaf.face_starts[f];
+  return count;
 }
 
 /// For what add_leaf sets.
@@ -171,7 +185,7 @@ void Job::make_room(size_t o) {
   rounded_.resize(rounded_.size() + leaf.vertices.size());
   polygons_.resize(polygons_.size() + face_count(o));
   if (with_boxes_) boxes_.resize(boxes_.size() + face_count(o));
-  corners_.resize(corners_.size() + (near_ ? 3 * face_count(o) : leaf.corners.size()));
+  corners_.resize(corners_.size() + corner_count(o));
   edge_planes_.resize(corners_.size());
 }
 
@@ -190,8 +204,8 @@ void Job::add_leaf(uint32_t o, const Operand& operand) {
       for (size_t k = 0; k < 3; ++k) at[k] = static_cast<double>(q[k] + operand.translation[k]);
     }
   });
-  if (near_) {
-    add_near_faces(o, leaf);
+  if (const std::vector<uint32_t>* const some = some_faces(o)) {
+    add_some_faces(o, leaf, *some);
   } else {
     add_all_faces(o, operand);
   }
@@ -225,23 +239,30 @@ void Job::add_all_faces(uint32_t o, const Operand& operand) {
   for (const PolygonBox& box : boxes) operand_boxes_[o].include(box);
 }
 
-/// Triangles on the grid.
-void Job::add_near_faces(uint32_t o, const LeafGeometry& leaf) {
+/// Of a leaf on the grid.
+void Job::add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector<uint32_t>& faces) {
   const uint32_t first_vertex = sources_[o].first_vertex, first_polygon = polygon_starts_[o],
                  first_corner = leaf_corner_starts_[o];
-  const std::vector<uint32_t>& faces = near_->faces[o];
-  for_each_range(faces.size(), [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      const auto first = static_cast<uint32_t>(first_corner + 3 * i);
-      for (uint32_t c = 0; c < 3; ++c) {
-        corners_[first + c] = first_vertex + leaf.corners[3 * faces[i] + c];
-        edge_planes_[first + c] = kNone;
-      }
-      polygons_[first_polygon + i] = {o, faces[i], first, 3, PlaneId()};
-      boxes_[first_polygon + i] = grid_box_of(polygons_[first_polygon + i]);
+  const auto add = [&](size_t i, uint32_t first) {
+    const uint32_t f = faces[i], begin = leaf.face_starts[f],
+                   count = leaf.face_starts[f + 1] - begin;
+    for (uint32_t c = 0; c < count; ++c) {
+      corners_[first + c] = first_vertex + leaf.corners[begin + c];
+      edge_planes_[first + c] = kNone;
     }
-  });
-  operand_boxes_[o] = near_->boxes[o];
+    polygons_[first_polygon + i] = {o, f, first, count, PlaneId()};
+    boxes_[first_polygon + i] = grid_box_of(polygons_[first_polygon + i]);
+    return first + count;
+  };
+  if (leaf.corners.size() == 3 * leaf.face_count()) {
+    for_each_range(faces.size(), [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) add(i, static_cast<uint32_t>(first_corner + 3 * i));
+    });
+  } else {
+    uint32_t next = first_corner;
+    for (size_t i = 0; i < faces.size(); ++i) next = add(i, next);
+  }
+  operand_boxes_[o] = near_ ? near_->boxes[o] : live_->dead->operand_box(o);
 }
 
 void Job::add_boundary(uint32_t o, const Operand& operand) {
@@ -462,114 +483,6 @@ bool Job::is_of_whole_facet(const JobPolygon& p) const {
   const Operand& operand = (*operands_)[p.operand];
   if (operand.leaf) return operand.leaf->facet[p.face] != 0;
   return operand.boundary->faces[p.face].whole;
-}
-
-/// A corner of a polygon of a leaf, as the leaf counts, at the operand's place in its frame.
-IVec3 Job::leaf_corner(const JobPolygon& p, uint32_t i) const {
-  const uint32_t at = i < p.count ? i : i - p.count;
-  const Operand& operand = (*operands_)[p.operand];
-  if (operand.frame.is_identity) {
-    // The same, from what those who ask for planes have looked at.
-    const std::array<double, 3>& exact = rounded_[corners_[p.first + at]];
-    return {static_cast<int64_t>(exact[0]), static_cast<int64_t>(exact[1]),
-            static_cast<int64_t>(exact[2])};
-  }
-  const LeafGeometry& leaf = *operand.leaf;
-  const IVec3& local = leaf.vertices[leaf.corners[leaf.face_starts[p.face] + at]];
-  const IVec3& t = operand.translation;
-  return {local[0] + t[0], local[1] + t[1], local[2] + t[2]};
-}
-
-ReducedPlane Job::reduced_support(uint32_t polygon) const {
-  const JobPolygon& p = polygons_[polygon];
-  const Plane own = support_of_loop(p.count, [&](uint32_t i) { return leaf_corner(p, i); });
-  const FrameMap& map = sources_[p.operand].map;
-  return reduce(map.is_identity() ? own : map.plane(own));
-}
-
-ReducedPlane Job::reduced_edge(uint32_t polygon, uint32_t edge) const {
-  const JobPolygon& p = polygons_[polygon];
-  const FrameMap& map = sources_[p.operand].map;
-  const auto corner = [&](uint32_t i) { return leaf_corner(p, i); };
-  // A mirrored loop runs backwards: its edge from corner j to j + 1 is the leaf's edge n - 2 - j.
-  const uint32_t i = map.is_mirrored() ? (2 * p.count - 2 - edge) % p.count : edge;
-  const uint32_t turn = p.count == 3 ? 0 : turning_corner(p.count, corner);
-  const int axis = dominant_axis(normal_through(corner(turn), corner(turn + 1), corner(turn + 2)));
-  const Plane own = csgrun::edge_plane(corner(i), corner(i + 1), axis);
-  return reduce(map.is_identity() ? own : map.plane(own));
-}
-
-void Job::ensure_support(uint32_t polygon) {
-  JobPolygon& p = polygons_[polygon];
-  if (p.support.valid()) return;
-  const auto& pieces = (*operands_)[p.operand].pieces;
-  p.support = pieces ? pieces->store->ensure_support(pieces_[p.face])
-                     : planes_.intern_computed(reduced_support(polygon));
-}
-
-uint32_t Job::edge_plane(uint32_t polygon, uint32_t edge) {
-  const JobPolygon& p = polygons_[polygon];
-  uint32_t& plane = edge_planes_[p.first + edge];
-  if (plane != kNone) return plane;
-  const auto& pieces = (*operands_)[p.operand].pieces;
-  return plane = pieces ? pieces->store->ensure_edge(pieces_[p.face], edge)
-                        : planes_.intern_computed(reduced_edge(polygon, edge)).index();
-}
-
-void Job::ensure_supports(std::span<const uint32_t> polygons) {
-  std::vector<uint32_t> lacking;
-  for (const uint32_t p : polygons) {
-    if (polygons_[p].support.valid()) continue;
-    if (is_leaf(polygons_[p].operand)) {
-      lacking.push_back(p);
-    } else {
-      ensure_support(p);
-    }
-  }
-  planes_.make_room(lacking.size());
-  make_and_take(
-      lacking.size(), [&](size_t i) { return reduced_support(lacking[i]); },
-      [&](size_t i, const ReducedPlane& plane) {
-        polygons_[lacking[i]].support = planes_.intern_computed(plane);
-      },
-      [&](const ReducedPlane& plane) { planes_.expect(plane); });
-}
-
-void Job::ensure_edges(std::span<const PolygonEdge> edges) {
-  constexpr uint32_t kAsked = kNone - 1;  // stands in for a plane until it is made
-  std::vector<PolygonEdge> lacking;
-  for (const PolygonEdge& e : edges) {
-    const JobPolygon& p = polygons_[e.polygon];
-    if (edge_planes_[p.first + e.edge] != kNone) continue;
-    if (is_leaf(p.operand)) {
-      edge_planes_[p.first + e.edge] = kAsked;
-      lacking.push_back(e);
-    } else {
-      edge_plane(e.polygon, e.edge);
-    }
-  }
-  planes_.make_room(lacking.size());
-  make_and_take(
-      lacking.size(), [&](size_t i) { return reduced_edge(lacking[i].polygon, lacking[i].edge); },
-      [&](size_t i, const ReducedPlane& plane) {
-        edge_planes_[polygons_[lacking[i].polygon].first + lacking[i].edge] =
-            planes_.intern_computed(plane).index();
-      },
-      [&](const ReducedPlane& plane) { planes_.expect(plane); });
-}
-
-void Job::ensure_planes(std::span<const uint32_t> polygons) {
-  ensure_supports(polygons);
-  std::vector<PolygonEdge> edges;
-  for (const uint32_t p : polygons) {
-    for (uint32_t e = 0; e < polygons_[p].count; ++e) edges.push_back({p, e});
-  }
-  ensure_edges(edges);
-}
-
-void Job::ensure_planes(uint32_t polygon) {
-  ensure_support(polygon);
-  for (uint32_t i = 0; i < polygons_[polygon].count; ++i) edge_plane(polygon, i);
 }
 
 uint32_t Job::wall(int axis, int64_t m) {

@@ -12,6 +12,7 @@
 #include "engine/base/raw_vector.h"
 #include "engine/bsp/boundary_mesh.h"
 #include "engine/bsp/frame_map.h"
+#include "engine/bsp/live_faces.h"
 #include "engine/bsp/near_faces.h"
 #include "engine/bsp/operand.h"
 #include "engine/bsp/polygon_box.h"
@@ -58,9 +59,12 @@ class Job {
   /// Only these faces of the operands, which are leaves, are polygons of the job; it has all their
   /// vertices, and operand_box() is of all faces. `near` must outlive it.
   Job(const std::vector<Operand>& operands, const NearFaces& near);
+  /// The same of operands that are partial; all of the others.
+  Job(const std::vector<Operand>& operands, const LiveFaces& live);
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
+  [[nodiscard]] const std::vector<Operand>& operands() const { return *operands_; }
   [[nodiscard]] const Operand& operand(size_t o) const { return (*operands_)[o]; }
   [[nodiscard]] bool is_leaf(size_t o) const { return leaf(o) != nullptr; }
   /// The leaf that an operand is, or null.
@@ -72,8 +76,16 @@ class Job {
   /// The piece of the version that it comes from: that one, or the region that it is a part of.
   [[nodiscard]] uint32_t version_piece(uint32_t polygon) const;
   [[nodiscard]] uint32_t piece_point(uint32_t vertex) const;
-  /// The faces that the job has of its operands, if it does not have all.
+  /// The faces that the job has of its operands, if it does not have all: the others are far, or
+  /// in dead space.
   [[nodiscard]] const NearFaces* near_faces() const { return near_; }
+  [[nodiscard]] const LiveFaces* live_faces() const { return live_; }
+  [[nodiscard]] bool has_all_faces() const { return !near_ && !live_; }
+  /// Those of one operand, ascending; null: all.
+  [[nodiscard]] const std::vector<uint32_t>* some_faces(size_t o) const {
+    if (near_) return &near_->faces[o];
+    return live_ && live_->is_partial[o] ? &live_->faces[o] : nullptr;
+  }
   [[nodiscard]] size_t operand_count() const { return operands_->size(); }
   [[nodiscard]] uint32_t operand_of_vertex(uint32_t vertex) const;
   /// Whether the vertices that the job has of an operand are grid points, so that their doubles are
@@ -156,12 +168,13 @@ class Job {
   };
 
   Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_boxes,
-      const NearFaces* near);
+      const NearFaces* near, const LiveFaces* live);
   [[nodiscard]] size_t face_count(size_t o) const;
+  [[nodiscard]] size_t corner_count(size_t o) const;
   void make_room(size_t o);
   void add_leaf(uint32_t o, const Operand& operand);
   void add_all_faces(uint32_t o, const Operand& operand);
-  void add_near_faces(uint32_t o, const LeafGeometry& leaf);
+  void add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector<uint32_t>& faces);
   void add_boundary(uint32_t o, const Operand& operand);
   void add_pieces(uint32_t o, const PieceOperand& operand);
   template <class MayMeet>
@@ -178,6 +191,7 @@ class Job {
 
   const std::vector<Operand>* operands_;
   const NearFaces* const near_;
+  const LiveFaces* const live_;
   const bool with_boxes_;
   std::optional<PlaneTable> own_planes_;
   PlaneTable& planes_;

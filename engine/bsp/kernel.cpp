@@ -8,6 +8,7 @@
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/evaluate_boxes.h"
 #include "engine/bsp/evaluate_job.h"
+#include "engine/bsp/live_faces.h"
 #include "engine/bsp/near_faces.h"
 #include "engine/bsp/touch_list.h"
 #include "engine/bsp/untouched.h"
@@ -38,14 +39,9 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
                     std::move(parts));
   };
   // With the faces that matter alone, if that does.
-  const auto evaluate_near = [&]() -> std::optional<Outcome> {
-    if (!options.name_untouched || !options.whole_faces || options.literal_cells ||
-        faces < options.faces_for_near) {
-      return std::nullopt;
-    }
-    const auto near = find_near_faces(operands, options.cell_limit);
-    if (!near) return std::nullopt;
-    Job job(operands, *near);
+  const auto evaluate_some = [&](const auto& some) -> std::optional<Outcome> {
+    if (!some) return std::nullopt;
+    Job job(operands, *some);
     EvaluateStats own = stats;
     auto evaluated = evaluate_job(job, operands, expression, region, options, own);
     if (evaluated && evaluated->needs_all_faces) return std::nullopt;
@@ -54,7 +50,15 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     return assembled(job, std::move(*evaluated));
   };
   const auto evaluate = [&]() -> Outcome {
-    if (auto outcome = evaluate_near()) return *std::move(outcome);
+    if (options.whole_faces && !options.literal_cells && faces >= options.faces_for_near) {
+      if (options.name_untouched) {
+        const auto near = find_near_faces(operands, options.cell_limit);
+        if (auto outcome = evaluate_some(near)) return *std::move(outcome);
+      }
+      if (auto outcome = evaluate_some(find_live_faces(operands, expression))) {
+        return *std::move(outcome);
+      }
+    }
     Job job(operands);
     auto evaluated = evaluate_job(job, operands, expression, region, options, stats);
     if (!evaluated) return evaluated.error();

@@ -128,7 +128,7 @@ class Leaf {
 
   void copy_boxes(const std::vector<uint32_t>& faces, PolygonBox* to) const {
     for_each_range(faces.size(), [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) to[i] = box_of_triangle(leaf_, faces[i], translation_);
+      for (size_t i = begin; i < end; ++i) to[i] = box_of_face(leaf_, faces[i], translation_);
     });
   }
 
@@ -214,13 +214,18 @@ void add_faces(const std::array<Leaf, 2>& leaves, SharedFaces&& shared, NearFace
 
 }  // namespace
 
-PolygonBox box_of_triangle(const LeafGeometry& leaf, size_t face, const IVec3& translation) {
-  const uint32_t* const c = leaf.corners.data() + 3 * face;
-  const IVec3 &p = leaf.vertices[c[0]], &q = leaf.vertices[c[1]], &r = leaf.vertices[c[2]];
+PolygonBox box_of_face(const LeafGeometry& leaf, size_t face, const IVec3& translation) {
+  const uint32_t* const begin = leaf.corners.data() + leaf.face_starts[face];
+  const uint32_t* const end = leaf.corners.data() + leaf.face_starts[face + 1];
+  IVec3 lo = leaf.vertices[*begin], hi = lo;
+  for (const uint32_t* c = begin + 1; c < end; ++c) {
+    const IVec3& p = leaf.vertices[*c];
+    for (size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], p[k]), hi[k] = std::max(hi[k], p[k]);
+  }
   PolygonBox box{};
   for (size_t k = 0; k < 3; ++k) {
-    box.lo[k] = static_cast<int32_t>(std::min({p[k], q[k], r[k]}) + translation[k]);
-    box.hi[k] = static_cast<int32_t>(std::max({p[k], q[k], r[k]}) + translation[k]);
+    box.lo[k] = static_cast<int32_t>(lo[k] + translation[k]);
+    box.hi[k] = static_cast<int32_t>(hi[k] + translation[k]);
   }
   return box;
 }

@@ -36,8 +36,8 @@ struct FarFaces {
 /// that each are a facet of its own, with one fan around each vertex. O(n), parallel.
 std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, uint32_t limit);
 
-/// The box of a face of such a leaf, moved by whole steps.
-PolygonBox box_of_triangle(const LeafGeometry& leaf, size_t face, const IVec3& translation);
+/// The box of a face of a leaf on the grid, moved by whole steps.
+PolygonBox box_of_face(const LeafGeometry& leaf, size_t face, const IVec3& translation);
 
 /// Calls visit(face) for the faces of a leaf that are not in a list, which ascends.
 template <class Visit>

@@ -104,8 +104,8 @@ struct KernelOptions {
   bool whole_faces = true;  ///< cut faces whole (whole_faces.h); false: cells for all
   /// Faces of leaves that nothing touched are named instead of spelled out (BoundaryMesh::parts).
   bool name_untouched = false;
-  /// With name_untouched: operands of so many faces leave those out of the job that are near no
-  /// other operand (near_faces.h).
+  /// Operands of so many faces leave those out of the job that are near no other operand
+  /// (near_faces.h; with name_untouched only), or where nothing is boundary (live_faces.h).
   uint32_t faces_for_near = 4096;
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(uint64_t, uint64_t)> progress;

@@ -9,13 +9,22 @@
 namespace csgrun {
 namespace {
 
-/// How far half of a point is behind the plane of a polygon of a leaf on the grid.
-double depth(const Job& job, const JobPolygon& polygon, const IVec3& twice) {
-  const auto corners = job.corners(polygon);
-  const Plane plane = support_of_loop(polygon.count, [&](uint32_t i) {
-    const auto& v = job.rounded(corners[i % polygon.count]);
-    return IVec3{static_cast<int64_t>(v[0]), static_cast<int64_t>(v[1]),
-                 static_cast<int64_t>(v[2])};
+/// Boxes of operands are clamped beyond.
+constexpr int32_t kFarthest = int32_t{1} << 30;
+
+bool is_far_out(const PolygonBox& box) {
+  bool far = false;
+  for (size_t k = 0; k < 3; ++k) far |= box.lo[k] <= -kFarthest || box.hi[k] >= kFarthest;
+  return far;
+}
+
+/// How far half of a point is behind the plane of a face.
+double depth(const Operand& operand, size_t face, const IVec3& twice) {
+  const LeafGeometry& leaf = *operand.leaf;
+  const uint32_t first = leaf.face_starts[face], count = leaf.face_starts[face + 1] - first;
+  const Plane plane = support_of_loop(count, [&](uint32_t i) {
+    const IVec3 &v = leaf.vertices[leaf.corners[first + i % count]], &t = operand.translation;
+    return IVec3{v[0] + t[0], v[1] + t[1], v[2] + t[2]};
   });
   const Int128 above = plane.a * twice[0] + plane.b * twice[1] + plane.c * twice[2] + 2 * plane.d;
   return static_cast<double>(-above) /
@@ -33,8 +42,7 @@ uint32_t squares_per_side(size_t balls) {
 
 /// The largest one inside, around the middle, and the smallest one around: less a step, and more by
 /// two, as points of other operands are rounded, and so is all this, by less than a step.
-OperandBalls::Ball OperandBalls::Ball::of(const Job& job, uint32_t operand) {
-  const PolygonBox& box = job.operand_box(operand);
+OperandBalls::Ball OperandBalls::Ball::of(const Operand& operand, const PolygonBox& box) {
   IVec3 twice{};
   Ball ball;
   for (size_t k = 0; k < 3; ++k) {
@@ -42,24 +50,33 @@ OperandBalls::Ball OperandBalls::Ball::of(const Job& job, uint32_t operand) {
     ball.middle[k] = static_cast<double>(twice[k]) / 2;
   }
   double radius = (static_cast<double>(box.hi[0]) - box.lo[0]) / 2;
-  for (uint32_t q = job.polygon_start(operand); q < job.polygon_start(operand + 1); ++q) {
-    radius = std::min(radius, depth(job, job.polygons()[q], twice));
+  for (size_t f = 0; f < operand.leaf->face_count(); ++f) {
+    radius = std::min(radius, depth(operand, f, twice));
   }
   radius = std::max(radius - 1, 0.0);
   ball.inner = radius * radius;
-  for (uint32_t v = job.vertex_start(operand); v < job.vertex_start(operand + 1); ++v) {
-    ball.outer = std::max(ball.outer, ball.square_from(job.rounded(v)));
+  for (const IVec3& v : operand.leaf->vertices) {
+    std::array<double, 3> at{};
+    for (size_t k = 0; k < 3; ++k) at[k] = static_cast<double>(v[k] + operand.translation[k]);
+    ball.outer = std::max(ball.outer, ball.square_from(at));
   }
   const double around = std::sqrt(ball.outer) + 2;
   ball.outer = around * around;
   return ball;
 }
 
-OperandBalls::OperandBalls(const Job& job, const std::vector<uint8_t>& operands) {
+OperandBalls::OperandBalls(const std::vector<Operand>& operands,
+                           const std::vector<PolygonBox>& operand_boxes,
+                           const std::vector<uint8_t>& chosen) {
   std::vector<Ball> all(operands.size());
-  for_each_alone(operands.size(), job.polygons().size() > kFewForThreads, [&](size_t o) {
-    const auto operand = static_cast<uint32_t>(o);
-    if (operands[o] && job.has_grid_vertices(operand)) all[o] = Ball::of(job, operand);
+  size_t faces = 0;
+  for (const Operand& operand : operands) faces += operand.leaf ? operand.leaf->face_count() : 0;
+  for_each_alone(operands.size(), faces > kFewForThreads, [&](size_t o) {
+    const Operand& operand = operands[o];
+    if (chosen[o] && operand.leaf && operand.leaf->face_count() > 0 && operand.frame.is_identity &&
+        !is_far_out(operand_boxes[o])) {
+      all[o] = Ball::of(operand, operand_boxes[o]);
+    }
   });
   std::vector<SquareBins::Box> boxes;
   ball_of_.assign(operands.size(), kNoBall);
@@ -75,17 +92,6 @@ OperandBalls::OperandBalls(const Job& job, const std::vector<uint8_t>& operands)
     }
   }
   bins_ = SquareBins(boxes, squares_per_side(boxes.size()));
-}
-
-bool OperandBalls::hold(const Job& job, const JobPolygon& polygon) const {
-  const auto corners = job.corners(polygon);
-  const auto& first = job.rounded(corners[0]);
-  const auto near = bins_.at(first[0], first[1]);
-  return std::any_of(near.begin(), near.end(), [&](uint32_t i) {
-    const Ball& ball = balls_[i];
-    return std::all_of(corners.begin(), corners.end(),
-                       [&](uint32_t v) { return ball.square_from(job.rounded(v)) < ball.inner; });
-  });
 }
 
 OperandBalls::Side OperandBalls::side(uint32_t operand, const std::array<double, 3>& point) const {

@@ -2,11 +2,13 @@
 // the other.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "engine/bsp/job.h"
+#include "engine/bsp/operand.h"
+#include "engine/bsp/polygon_box.h"
 #include "engine/bsp/square_bins.h"
 
 namespace csgrun {
@@ -15,14 +17,28 @@ class OperandBalls {
  public:
   /// None.
   OperandBalls() = default;
-  /// Of those of some operands (a byte for each) that are convex leaves on the grid. O(n),
-  /// parallel.
-  OperandBalls(const Job& job, const std::vector<uint8_t>& operands);
+  /// Of those of some operands (a byte for each) that are convex leaves on the grid and not far
+  /// out. `boxes`: of the operands. O(n), parallel.
+  OperandBalls(const std::vector<Operand>& operands, const std::vector<PolygonBox>& boxes,
+               const std::vector<uint8_t>& chosen);
 
   [[nodiscard]] bool empty() const { return balls_.empty(); }
 
-  /// Whether all of a polygon is strictly inside of one of the operands, as an inner ball tells.
-  [[nodiscard]] bool hold(const Job& job, const JobPolygon& polygon) const;
+  /// Whether all of a polygon is strictly inside of one of the operands, as an inner ball tells:
+  /// at(i) is corner i of `count`, wrong by less than a step along each axis.
+  template <class At>
+  [[nodiscard]] bool hold(uint32_t count, At&& at) const {
+    if (balls_.empty()) return false;
+    const std::array<double, 3>& first = at(0);
+    const auto near = bins_.at(first[0], first[1]);
+    return std::any_of(near.begin(), near.end(), [&](uint32_t i) {
+      const Ball& ball = balls_[i];
+      for (uint32_t c = 0; c < count; ++c) {
+        if (ball.square_from(at(c)) >= ball.inner) return false;
+      }
+      return true;
+    });
+  }
 
   enum class Side : uint8_t { kInside, kOutside, kUnknown };
   /// Where a point is that is wrong by less than a step along each axis.
@@ -33,7 +49,7 @@ class OperandBalls {
     std::array<double, 3> middle{};
     double inner = 0, outer = 0;  ///< squares of the radii; inner: 0 if there is none
 
-    static Ball of(const Job& job, uint32_t operand);
+    static Ball of(const Operand& operand, const PolygonBox& box);
     [[nodiscard]] double square_from(const std::array<double, 3>& p) const {
       const double x = p[0] - middle[0], y = p[1] - middle[1], z = p[2] - middle[2];
       return x * x + y * y + z * z;

@@ -44,7 +44,7 @@ PatchLabels::PatchLabels(const Job& job, const Expression& expression,
 /// inside of a remover, or hidden surface passes through it.
 bool PatchLabels::are_decisive(std::span<const CutLoops::Fact> facts) const {
   for (size_t f = 0; f < facts.size(); ++f) {
-    if (facts[f].front && facts[f].back && plainly_.removes[facts[f].operand]) return true;
+    if (facts[f].front && facts[f].back && plainly_.dead->is_remover(facts[f].operand)) return true;
     if (f > 0 && facts[f - 1].operand == facts[f].operand) return true;
   }
   return false;
@@ -57,11 +57,7 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
   for (const double c : point) {
     if (std::fabs(c) >= 0x1p30 || error >= 1) return PatchFate::kUnknown;
   }
-  for (int k = 0; k < 3; ++k) {
-    if (point[k] + error < plainly_.result_box.lo[k] ||
-        point[k] - error > plainly_.result_box.hi[k])
-      return PatchFate::kDrop;
-  }
+  if (plainly_.dead->is_beside_result(point, error)) return PatchFate::kDrop;
   const auto is_known = [&](const CutLoops::Fact& f) {
     return !plainly_.is_open[f.operand] || f.front != f.back || (is_at_first && !f.is_elsewhere);
   };
@@ -81,7 +77,7 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
                                  [&](const auto& f) { return f.operand == o && is_known(f); })) {
       continue;
     }
-    const OperandBalls::Side side = plainly_.balls.side(o, point);
+    const OperandBalls::Side side = plainly_.dead->balls().side(o, point);
     if (side == OperandBalls::Side::kInside) return PatchFate::kDrop;
     if (side == OperandBalls::Side::kOutside) continue;
     const Inside label = ray_label(job_, signs_, o, point, error);

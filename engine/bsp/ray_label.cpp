@@ -172,13 +172,13 @@ Inside ray_label(const Job& job, VertexSigns& signs, uint32_t operand, const Pos
             look_at(store.is_region(piece) ? ray.meets_loops(corners, ends, operand_error)
                                            : ray.meets(corners, operand_error));
           });
-    } else if (job.near_faces()) {
-      // The job does not have all of its triangles.
+    } else if (job.some_faces(operand)) {
+      // The job does not have all of them.
       const LeafGeometry& leaf = *job.leaf(operand);
       for (size_t f = 0; f < leaf.face_count() && !unsure; ++f) {
-        if (!ray.may_meet(box_of_triangle(leaf, f, job.operand(operand).translation))) continue;
+        if (!ray.may_meet(box_of_face(leaf, f, job.operand(operand).translation))) continue;
         corners.clear();
-        for (size_t c = 3 * f; c < 3 * f + 3; ++c) {
+        for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) {
           corners.push_back(job.rounded(job.vertex_start(operand) + leaf.corners[c]));
         }
         look_at(ray.meets(corners, operand_error));

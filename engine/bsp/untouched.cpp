@@ -241,8 +241,7 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
     any[kKept] |= !own_far.kept.empty();
     any[kFlipped] |= !own_far.flipped.empty();
     if (!any[kKept] && !any[kFlipped]) return;
-    const UntouchedFaces faces(leaf, job.near_faces() ? &job.near_faces()->faces[o] : nullptr,
-                               fate.data() + start);
+    const UntouchedFaces faces(leaf, job.some_faces(o), fate.data() + start);
     for (const Fate side : {kKept, kFlipped}) {
       if (!any[side]) continue;
       UntouchedPart part{operand.leaf,

@@ -95,7 +95,11 @@ class FaceEvaluator {
     is_cut_ = is_covered_;  // into nothing
     const auto polygons =
         polygons_where([&](uint32_t p) { return !is_covered_[p] && !may_stay_whole(p); });
-    job_.ensure_supports(with_what_cuts(polygons));
+    const auto supports = with_what_cuts(polygons);
+    // Of the planes that come of it most are of edges, two or three a polygon.
+    constexpr size_t kPlanesEach = 2;
+    job_.planes().make_room(kPlanesEach * supports.size());
+    job_.ensure_supports(supports);
     cut_ = cut_faces(job_, polygons, contacts_, *ends_, plainly_.is_open, geometry_, index_,
                      options_, stats_);
     if (is_cancelled()) return false;

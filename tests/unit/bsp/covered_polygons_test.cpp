@@ -212,6 +212,12 @@ Plane plane_of(const test::Loop& loop) {
 
 double length(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
 
+std::vector<PolygonBox> boxes_of(const Job& job) {
+  std::vector<PolygonBox> boxes;
+  for (size_t o = 0; o < job.operand_count(); ++o) boxes.push_back(job.operand_box(o));
+  return boxes;
+}
+
 /// How far the corner of a polygon that is farthest from the middle of an operand's box is from
 /// there, less the radius of the ball around it in all planes; a step is left.
 double beyond_ball(const Job& job, uint32_t o, const Operand& operand, const JobPolygon& polygon) {
@@ -384,7 +390,7 @@ TEST(CoveredPolygons, TouchFromWithin) {
     EvaluateStats stats;
     const ContactTable contacts(find_contacts(job, {}, {}, stats), job.polygons().size());
     PlainlyCovered plainly;
-    plainly.removes = find_removers(job, expression);
+    plainly.dead = std::make_shared<DeadSpace>(operands, expression, boxes_of(job));
     plainly.is_open.assign(count, 0);
     const bool is_one_open = round % 4 == 3;
     if (is_one_open) plainly.is_open[1] = 1;

@@ -63,7 +63,6 @@ TEST(PatchLabels, FatesAreWhatTheExpressionSays) {
     const Job job(operands);
     const auto op = static_cast<BooleanOp>(random.integer(0, 3));
     PlainlyCovered plainly;  // of some, what facts tell is not relied on
-    plainly.removes.assign(operands.size(), 0);
     for (int o = 0; o < count; ++o) plainly.is_open.push_back(random.integer(0, 3) == 0);
     PatchLabels labels(job, test::flat_expression(op, static_cast<uint32_t>(count)), plainly);
     const test::Tree tree = flat_tree(op, count);
@@ -137,7 +136,7 @@ TEST(PatchLabels, WhatAPointCannotTellIsUnknown) {
                                 test::operand_of(test::box_leaf({20, 20, 20}, {30, 30, 30}))};
   const Job job(operands);
   PlainlyCovered none;
-  none.is_open = none.removes = {0, 0};
+  none.is_open = {0, 0};
   PatchLabels labels(job, test::flat_expression(BooleanOp::kUnion, 2), none);
   for (int k = 0; k < 3; ++k) {
     for (const double side : {20.0, 30.0}) {
@@ -174,7 +173,7 @@ TEST(PatchLabels, OfOpenOperandsOnlyWhatDecidesIsReliedOn) {
   const Job job(operands);
   const Expression expression = test::flat_expression(BooleanOp::kDifference, 4);
   PlainlyCovered plainly = find_plainly_covered(job, expression);
-  ASSERT_EQ(plainly.removes, (std::vector<uint8_t>{0, 1, 1, 1}));
+  for (uint32_t o = 0; o < 4; ++o) ASSERT_EQ(plainly.dead->is_remover(o), o > 0);
   plainly.is_open[2] = 1;
   PatchLabels labels(job, expression, plainly);
   using Facts = std::vector<CutLoops::Fact>;

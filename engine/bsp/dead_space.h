@@ -1,0 +1,64 @@
+// Where nothing is boundary, as is easily told: inside of balls in what is added to all else, or
+// taken away from it, and beside the box of the result.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/bsp/operand.h"
+#include "engine/bsp/operand_balls.h"
+#include "engine/bsp/polygon_box.h"
+
+namespace csgrun {
+
+class DeadSpace {
+ public:
+  /// Nothing is known: all may be boundary.
+  DeadSpace() = default;
+  /// `boxes`: around all of each operand. With two operands or less there are no balls: what is
+  /// inside of one meets nothing at all. O(n), parallel.
+  DeadSpace(const std::vector<Operand>& operands, const Expression& expression,
+            std::vector<PolygonBox> boxes);
+
+  /// Whether an operand is convex and nothing inside of it is boundary: it is a remover.
+  [[nodiscard]] bool is_remover(uint32_t operand) const {
+    return !removes_.empty() && removes_[operand] != 0;
+  }
+  /// Of removers.
+  [[nodiscard]] const OperandBalls& balls() const { return balls_; }
+  [[nodiscard]] const PolygonBox& operand_box(size_t operand) const { return boxes_[operand]; }
+  /// Per node of the expression, a box that holds what it is.
+  [[nodiscard]] std::span<const PolygonBox> node_boxes() const { return node_boxes_; }
+  /// Whether a point is beside the result, each coordinate being as wrong as `error` at most.
+  [[nodiscard]] bool is_beside_result(const std::array<double, 3>& point, double error) const {
+    bool beside = false;
+    for (size_t k = 0; k < 3; ++k) {
+      beside |= point[k] + error < result_.lo[k] || point[k] - error > result_.hi[k];
+    }
+    return beside;
+  }
+  /// Whether all of a polygon is in there, in one ball or beside the result: at(i) is corner i of
+  /// `count`, correctly rounded.
+  template <class At>
+  [[nodiscard]] bool holds(const PolygonBox& box, uint32_t count, At&& at) const {
+    return !result_.meets(box) || balls_.hold(count, at);
+  }
+  /// Whether an operand with this box may have a polygon there.
+  [[nodiscard]] bool may_hold_part(const PolygonBox& box) const {
+    return !balls_.empty() || !result_.holds(box);
+  }
+
+ private:
+  std::vector<uint8_t> removes_;  ///< per operand
+  std::vector<PolygonBox> boxes_, node_boxes_;
+  PolygonBox result_ = PolygonBox::everywhere();
+  OperandBalls balls_;
+};
+
+/// See DeadSpace::is_remover: a byte for each operand.
+std::vector<uint8_t> find_removers(const std::vector<Operand>& operands,
+                                   const Expression& expression);
+
+}  // namespace csgrun

@@ -1,0 +1,90 @@
+#include "engine/bsp/live_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/bsp/near_faces.h"
+
+namespace csgrun {
+namespace {
+
+/// If it is on the grid and boxes are not clamped there.
+std::optional<PolygonBox> box_of(const Operand& operand) {
+  constexpr int64_t kFarthest = int64_t{1} << 30;
+  if (!operand.leaf || operand.leaf->face_count() == 0 || !operand.frame.is_identity) {
+    return std::nullopt;
+  }
+  const GridBox all = box_of_points(operand.leaf->vertices).moved(operand.translation);
+  PolygonBox box{};
+  for (size_t k = 0; k < 3; ++k) {
+    if (all.lo[k] < -kFarthest || all.hi[k] > kFarthest) return std::nullopt;
+    box.lo[k] = static_cast<int32_t>(all.lo[k]);
+    box.hi[k] = static_cast<int32_t>(all.hi[k]);
+  }
+  return box;
+}
+
+/// Whether a job may have some of its faces. Where facets of several faces are kept, who asks for
+/// one looks for all of these.
+bool can_be_partial(const Operand& operand) {
+  return box_of(operand) &&
+         (!operand.leaf->keeps_facets() || operand.leaf->has_triangles_as_facets());
+}
+
+/// The faces of a leaf on the grid that are not in dead space.
+std::vector<uint32_t> live_faces_of(const Operand& operand, const DeadSpace& dead) {
+  const LeafGeometry& leaf = *operand.leaf;
+  std::vector<std::array<double, 3>> points;
+  points.reserve(leaf.vertices.size());
+  for (const IVec3& v : leaf.vertices) {
+    auto& p = points.emplace_back();
+    for (size_t k = 0; k < 3; ++k) p[k] = static_cast<double>(v[k] + operand.translation[k]);
+  }
+  std::vector<uint32_t> live;
+  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t first = leaf.face_starts[f], count = leaf.face_starts[f + 1] - first;
+    const auto at = [&](uint32_t i) -> const auto& { return points[leaf.corners[first + i]]; };
+    const PolygonBox box = box_of_face(leaf, f, operand.translation);
+    if (!dead.holds(box, count, at)) live.push_back(f);
+  }
+  return live;
+}
+
+}  // namespace
+
+std::optional<LiveFaces> find_live_faces(const std::vector<Operand>& operands,
+                                         const Expression& expression) {
+  if (operands.size() <= 2 || expression.nodes.empty()) return std::nullopt;
+  std::vector<PolygonBox> boxes;
+  for (const Operand& operand : operands) {
+    boxes.push_back(box_of(operand).value_or(PolygonBox::everywhere()));
+  }
+  LiveFaces live;
+  live.dead = std::make_shared<DeadSpace>(operands, expression, std::move(boxes));
+  live.is_looked_at.assign(operands.size(), 0);
+  live.is_partial = live.is_looked_at;
+  live.faces.resize(operands.size());
+  size_t faces = 0;
+  for (const Operand& operand : operands) faces += operand.leaf ? operand.leaf->face_count() : 0;
+  std::atomic<size_t> hidden = 0;
+  for_each_alone(operands.size(), faces > kFewForThreads, [&](size_t o) {
+    if (!can_be_partial(operands[o])) return;
+    live.is_looked_at[o] = 1;
+    if (!live.dead->may_hold_part(live.dead->operand_box(o))) return;
+    std::vector<uint32_t> own = live_faces_of(operands[o], *live.dead);
+    const size_t gone = operands[o].leaf->face_count() - own.size();
+    if (gone == 0) return;
+    live.is_partial[o] = 1;
+    live.faces[o] = std::move(own);
+    hidden += gone;
+  });
+  // If what is left asks for cells, all is done again with all faces.
+  constexpr size_t kWorthIt = 8;
+  if (hidden * kWorthIt < faces) return std::nullopt;
+  return live;
+}
+
+}  // namespace csgrun
