@@ -16,7 +16,7 @@
 namespace csgrun {
 
 /// Below so many things of a few nanoseconds each threads do not pay.
-constexpr size_t kFewForThreads = 16384;
+constexpr size_t kFewForThreads = 8192;
 
 /// Returns work(), in which the loops below use so many threads.
 template <class Work>

@@ -27,11 +27,10 @@ std::optional<PolygonBox> box_of(const Operand& operand) {
   return box;
 }
 
-/// Whether a job may have some of its faces. Where facets of several faces are kept, who asks for
-/// one looks for all of these.
-bool can_be_partial(const Operand& operand) {
-  return box_of(operand) &&
-         (!operand.leaf->keeps_facets() || operand.leaf->has_triangles_as_facets());
+/// Whether a job may have some faces of a leaf. Where facets of several faces are kept, who asks
+/// for one looks for all of these.
+bool can_be_partial(const LeafGeometry& leaf) {
+  return !leaf.keeps_facets() || leaf.has_triangles_as_facets();
 }
 
 /// The faces of a leaf on the grid that are not in dead space.
@@ -58,21 +57,23 @@ std::vector<uint32_t> live_faces_of(const Operand& operand, const DeadSpace& dea
 std::optional<LiveFaces> find_live_faces(const std::vector<Operand>& operands,
                                          const Expression& expression) {
   if (operands.size() <= 2 || expression.nodes.empty()) return std::nullopt;
-  std::vector<PolygonBox> boxes;
-  for (const Operand& operand : operands) {
-    boxes.push_back(box_of(operand).value_or(PolygonBox::everywhere()));
-  }
+  size_t faces = 0;
+  for (const Operand& operand : operands) faces += operand.leaf ? operand.leaf->face_count() : 0;
   LiveFaces live;
-  live.dead = std::make_shared<DeadSpace>(operands, expression, std::move(boxes));
   live.is_looked_at.assign(operands.size(), 0);
   live.is_partial = live.is_looked_at;
   live.faces.resize(operands.size());
-  size_t faces = 0;
-  for (const Operand& operand : operands) faces += operand.leaf ? operand.leaf->face_count() : 0;
+  std::vector<PolygonBox> boxes(operands.size(), PolygonBox::everywhere());
+  for_each_alone(operands.size(), faces > kFewForThreads, [&](size_t o) {
+    const std::optional<PolygonBox> box = box_of(operands[o]);
+    if (!box) return;
+    boxes[o] = *box;
+    live.is_looked_at[o] = can_be_partial(*operands[o].leaf) ? 1 : 0;
+  });
+  live.dead = std::make_shared<DeadSpace>(operands, expression, std::move(boxes));
   std::atomic<size_t> hidden = 0;
   for_each_alone(operands.size(), faces > kFewForThreads, [&](size_t o) {
-    if (!can_be_partial(operands[o])) return;
-    live.is_looked_at[o] = 1;
+    if (!live.is_looked_at[o]) return;
     if (!live.dead->may_hold_part(live.dead->operand_box(o))) return;
     std::vector<uint32_t> own = live_faces_of(operands[o], *live.dead);
     const size_t gone = operands[o].leaf->face_count() - own.size();

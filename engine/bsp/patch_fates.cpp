@@ -97,19 +97,25 @@ void PatchFates::join_loops(const CutFaces::Face& face) {
 
 /// What the loops of each patch say of it; false if they disagree.
 bool PatchFates::gather_facts() {
-  for (const CutLoops::Loop& loop : cut_.loops.loops) {
-    if (loop.vertex == kNone) continue;
+  const auto gather = [&](size_t count, auto&& add) {
+    std::vector<PatchFacts> parts(part_count(count, kFewForThreads));
+    for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+      PatchFacts own;
+      for (size_t i = begin; i < end; ++i) add(i, own);
+      parts[part] = std::move(own);
+    });
+    for (const PatchFacts& part : parts) facts_.add(part);
+  };
+  gather(cut_.loops.loops.size(), [&](size_t l, PatchFacts& facts) {
+    const CutLoops::Loop& loop = cut_.loops.loops[l];
+    if (loop.vertex == kNone) return;
     const uint32_t patch = patches_.root(loop.vertex);
     for (uint32_t f = loop.first_fact; f < loop.first_fact + loop.fact_count; ++f) {
-      facts_.add(patch, cut_.loops.facts[f]);
+      facts.add(patch, cut_.loops.facts[f]);
     }
-  }
-  const size_t count = contacts_.all().size();
-  std::vector<PatchFacts> parts(part_count(count, kFewForThreads));
-  for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
-    for (size_t c = begin; c < end; ++c) add_rim_facts(contacts_.all()[c], parts[part]);
   });
-  for (const PatchFacts& part : parts) facts_.add(part);
+  gather(contacts_.all().size(),
+         [&](size_t c, PatchFacts& facts) { add_rim_facts(contacts_.all()[c], facts); });
   return facts_.finish(plainly_.is_open);
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/counting_order.h"
+#include "engine/base/parallel.h"
 #include "engine/bsp/cut_polygon.h"
 #include "engine/bsp/piece_tree.h"
 
@@ -83,7 +84,9 @@ bool TouchFinder::leads_to(const Corner& corner, uint32_t point) {
   return geometry_.compare_along(point, corner.at, way.axis) * way.sign > 0;
 }
 
-bool TouchFinder::is_one_round(std::span<const Corner> corners) {
+/// `leads_to(corner, point)`: whether one goes on to an edge that ends elsewhere.
+template <class LeadsTo>
+bool TouchFinder::is_one_round(std::span<const Corner> corners, LeadsTo&& leads_to) {
   constexpr size_t kMost = 64;  // all are compared with all
   if (corners.size() > kMost) return false;
   size_t at = 0;
@@ -126,13 +129,30 @@ std::vector<GridBox> TouchFinder::find() {
   beside_cuts_.assign(is_examined_.size(), kNone);
   CountingOrder by_point;
   by_point.sort(corners_.size(), is_examined_.size(), [&](size_t c) { return corners_[c].at; });
-  std::vector<Corner> here;
-  for (size_t p = 0; p < is_examined_.size(); ++p) {
+  const auto list = [&](size_t point, std::vector<Corner>& here) {
     here.clear();
-    for (uint32_t i = by_point.starts[p]; i < by_point.starts[p + 1]; ++i) {
+    for (uint32_t i = by_point.starts[point]; i < by_point.starts[point + 1]; ++i) {
       here.push_back(corners_[by_point.order[i]]);
     }
-    if (is_one_round(here)) {
+  };
+  // Nearly all are told without a plane, which may have to be made.
+  const std::vector<uint32_t> open = list_in_parts<uint32_t>(
+      is_examined_.size(), kFewForThreads, [&](size_t begin, size_t end, auto& out) {
+        std::vector<Corner> here;
+        for (size_t p = begin; p < end; ++p) {
+          if (by_point.starts[p] == by_point.starts[p + 1]) continue;
+          list(p, here);
+          if (is_one_round(here, [](const Corner&, uint32_t) { return false; })) {
+            beside_cuts_[p] = operand_beside_cuts(here);
+          } else {
+            out.push_back(static_cast<uint32_t>(p));
+          }
+        }
+      });
+  std::vector<Corner> here;
+  for (const uint32_t p : open) {
+    list(p, here);
+    if (is_one_round(here, [&](const Corner& c, uint32_t point) { return leads_to(c, point); })) {
       beside_cuts_[p] = operand_beside_cuts(here);
       continue;
     }

@@ -88,7 +88,8 @@ class TouchFinder {
     bool is_whole;            ///< of a polygon that was not cut
   };
   [[nodiscard]] uint32_t operand_beside_cuts(std::span<const Corner> corners) const;
-  bool is_one_round(std::span<const Corner> corners);
+  template <class LeadsTo>
+  static bool is_one_round(std::span<const Corner> corners, LeadsTo&& leads_to);
   bool leads_to(const Corner& corner, uint32_t point);
   void add_edge(uint32_t a, uint32_t b);
 

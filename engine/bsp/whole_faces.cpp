@@ -23,6 +23,9 @@ namespace {
 /// arrangements of all that meets a polygon, much of it inside what another one removes.
 constexpr size_t kDense = 16;
 
+/// The loops of so many cut faces are looked at by one thread.
+constexpr size_t kFacesPerPart = 2048;
+
 class FaceEvaluator {
  public:
   FaceEvaluator(Job& job, const Expression& expression, const KernelOptions& options,
@@ -116,13 +119,18 @@ class FaceEvaluator {
   /// of what rests on a face cuts nothing, and needs no plane.
   [[nodiscard]] std::vector<uint32_t> with_what_cuts(std::span<const uint32_t> polygons) const {
     std::vector<uint8_t> is_wanted(job_.polygons().size(), 0);
-    for (const uint32_t p : polygons) {
-      is_wanted[p] = 1;
-      for (const uint32_t i : contacts_.of(p)) {
-        const Contact& c = contacts_[i];
-        if (!c.is_corner()) is_wanted[c.p == p ? c.q : c.p] = 1;
+    const auto want = [&](uint32_t p) {
+      std::atomic_ref(is_wanted[p]).store(1, std::memory_order_relaxed);
+    };
+    for_each_range(polygons.size(), [&](size_t begin, size_t end) {
+      for (const uint32_t p : polygons.subspan(begin, end - begin)) {
+        want(p);
+        for (const uint32_t i : contacts_.of(p)) {
+          const Contact& c = contacts_[i];
+          if (!c.is_corner()) want(c.p == p ? c.q : c.p);
+        }
       }
-    }
+    });
     return polygons_where([&](uint32_t p) { return is_wanted[p] != 0; });
   }
 
@@ -224,18 +232,20 @@ class FaceEvaluator {
 
   /// Of the polygons' own edges that loops run along.
   void make_edge_planes() {
-    std::vector<PolygonEdge> edges;
-    for (const CutFaces::Face& cut : cut_.faces) {
-      for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-        if (fates_->of_loop(l) == PatchFate::kDrop) continue;
-        for (const uint32_t plane : planes_of(cut_.loops.loops[l])) {
-          if (plane & CutLoops::kOwnEdge) {
-            edges.push_back({cut.polygon, plane & ~CutLoops::kOwnEdge});
+    const auto list = [&](size_t begin, size_t end, std::vector<PolygonEdge>& edges) {
+      for (size_t f = begin; f < end; ++f) {
+        const CutFaces::Face& cut = cut_.faces[f];
+        for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+          if (fates_->of_loop(l) == PatchFate::kDrop) continue;
+          for (const uint32_t plane : planes_of(cut_.loops.loops[l])) {
+            if (plane & CutLoops::kOwnEdge) {
+              edges.push_back({cut.polygon, plane & ~CutLoops::kOwnEdge});
+            }
           }
         }
       }
-    }
-    job_.ensure_edges(edges);
+    };
+    job_.ensure_edges(list_in_parts<PolygonEdge>(cut_.faces.size(), kFacesPerPart, list));
   }
 
   void emit_loop(const CutLoops::Loop& loop, uint32_t polygon, bool flip) {
@@ -275,8 +285,11 @@ class FaceEvaluator {
     for (const uint32_t i : asked) ends_->ask(i);
     ends_->make();
     examine_cut(finder, is_open);
-    for (const WholePolygon& w : result_.whole) {
-      if (!is_suspect_[w.polygon]) continue;
+    const std::vector<uint32_t> suspects = numbers_where(result_.whole.size(), [&](uint32_t i) {
+      return is_suspect_[result_.whole[i].polygon] != 0;
+    });
+    for (const uint32_t i : suspects) {
+      const WholePolygon& w = result_.whole[i];
       corners_.clear();
       for (const uint32_t v : job_.corners(job_.polygons()[w.polygon])) {
         if (!contacts_.touched()[v]) continue;
@@ -301,7 +314,6 @@ class FaceEvaluator {
   /// Has the corners examined of cut polygons that something touches, and marks the contacts of
   /// these that end elsewhere. Such polygons were cut by value: their corners are in the index.
   void examine_cut(TouchFinder& finder, std::vector<uint8_t>& is_open) {
-    constexpr size_t kFacesPerPart = 2048;
     tbb::enumerable_thread_specific<std::vector<uint32_t>> corner_of;
     finder.examine_known([&](auto&& mark) {
       for_each_part(cut_.faces.size(), kFacesPerPart, [&](size_t, size_t begin, size_t end) {
@@ -329,7 +341,6 @@ class FaceEvaluator {
     struct Outline {
       uint32_t polygon, loop;
     };
-    constexpr size_t kFacesPerPart = 2048;
     const auto list = [&](size_t begin, size_t end, std::vector<Outline>& out) {
       for (size_t f = begin; f < end; ++f) {
         const CutFaces::Face& cut = cut_.faces[f];
@@ -350,10 +361,25 @@ class FaceEvaluator {
     const auto is_met = [&](uint32_t i) {
       return whole[i].is_met && has_touched_corner(whole[i].polygon);
     };
-    for (const uint32_t i : numbers_where(whole.size(), is_met)) {
+    const std::vector<uint32_t> met = numbers_where(whole.size(), is_met);
+    name_corners(met);
+    for (const uint32_t i : met) {
       list_corners(whole[i].polygon);
       finder.add_outline(whole[i].polygon, corners_, {}, whole[i].flip);
     }
+  }
+
+  /// Makes points of the corners of polygons that are kept whole.
+  void name_corners(std::span<const uint32_t> whole) {
+    std::vector<uint8_t> is_wanted(job_.vertex_count(), 0);
+    for (const uint32_t i : whole) {
+      for (const uint32_t v : job_.corners(job_.polygons()[result_.whole[i].polygon])) {
+        is_wanted[v] = 1;
+      }
+    }
+    geometry_.add_vertex_points(numbers_where(is_wanted.size(), [&](uint32_t v) {
+      return is_wanted[v] != 0 && !geometry_.has_vertex_point(v);
+    }));
   }
 
   [[nodiscard]] bool has_touched_corner(uint32_t polygon) const {

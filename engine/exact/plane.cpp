@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/parallel.h"
 #include "engine/exact/forced_tier.h"
 
 namespace csgrun {
@@ -91,7 +92,10 @@ void PlaneTable::enter(uint32_t hash, uint32_t index) {
 
 /// Gives all planes places among so many slots, a power of two.
 void PlaneTable::enter_all(size_t slots) {
-  std::vector<Slot> old(slots);
+  RawVector<Slot> old(slots);
+  for_each_range(slots, [&](size_t begin, size_t end) {
+    std::fill(old.begin() + static_cast<long>(begin), old.begin() + static_cast<long>(end), Slot{});
+  });
   std::swap(old, slots_);
   for (const Slot& slot : old) {
     if (slot.plane) enter(slot.hash, slot.plane - 1);
@@ -134,7 +138,7 @@ void PlaneTable::make_room(size_t more) {
   const size_t count = planes_.size() + more;
   // Twice as much: others come mostly, and little by little it takes linear time.
   if (count > planes_.capacity()) reserve(2 * count);
-  make_slots(count);
+  if (count * 2 >= slots_.size()) enter_all(std::bit_ceil(std::max(kFewSlots, count * 2 + 1)));
 }
 
 PlaneId PlaneTable::intern(const Plane& plane) { return intern_computed(reduce(plane)); }

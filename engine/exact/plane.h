@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/exact/fixed_int.h"
 #include "engine/exact/widths.h"
 
@@ -117,8 +118,8 @@ class PlaneTable {
 
  private:
   struct Slot {
-    uint32_t hash;
-    uint32_t plane;  ///< index + 1, or 0
+    uint32_t hash = 0;
+    uint32_t plane = 0;  ///< index + 1, or 0
   };
 
   void add(const Plane& plane);
@@ -130,8 +131,8 @@ class PlaneTable {
   std::vector<Plane> planes_;
   std::vector<std::array<double, 4>> approximate_;
   std::vector<std::array<uint8_t, 2>> bits_;
-  std::vector<Slot> slots_;  ///< open addressing
-  size_t entered_ = 0;  ///< so many planes have slots: none of those taken over until asked for
+  RawVector<Slot> slots_;  ///< open addressing
+  size_t entered_ = 0;     ///< so many planes have slots: none of those taken over until asked for
 };
 
 }  // namespace csgrun

@@ -330,20 +330,25 @@ class Presenter {
                    [&](size_t p) { common_labels_[p] = common_label(boundary_.parts[p]); });
     // Where each explicit face begins, were there no others.
     std::vector<FacePlace> own(own_count + size_t{1});
-    for (uint32_t f = 0; f < own_count; ++f) {
-      FacePlace& next = own[f + 1];
-      next = own[f];
-      while (next.triangle < set_.face.size() && set_.face[next.triangle] == f) ++next.triangle;
-      next.loop += faces_[f].loops.size();
-      for (const auto& loop : faces_[f].loops) next.corner += loop.size();
-    }
+    const auto place_own = [&] {
+      for (uint32_t f = 0; f < own_count; ++f) {
+        FacePlace& next = own[f + 1];
+        next = own[f];
+        while (next.triangle < set_.face.size() && set_.face[next.triangle] == f) ++next.triangle;
+        next.loop += faces_[f].loops.size();
+        for (const auto& loop : faces_[f].loops) next.corner += loop.size();
+      }
+    };
     const size_t parts = part_count(count, kFewForThreads);
     std::vector<uint32_t> own_before(parts + 1, 0);
-    for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
-      for (size_t n = begin; n < end; ++n) {
-        own_before[part + 1] += static_cast<uint32_t>(whole_->faces()[n] < own_count);
-      }
-    });
+    const auto count_own = [&] {
+      for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+        for (size_t n = begin; n < end; ++n) {
+          own_before[part + 1] += static_cast<uint32_t>(whole_->faces()[n] < own_count);
+        }
+      });
+    };
+    run_both(count > kFewForThreads, place_own, count_own);
     for (size_t part = 0; part < parts; ++part) own_before[part + 1] += own_before[part];
     const size_t others = count - own_count, triangles = own[own_count].triangle + others;
     // Fresh memory takes time, about as much in either half.

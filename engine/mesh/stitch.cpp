@@ -365,33 +365,61 @@ bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
   return true;
 }
 
-/// One vertex for each fan of triangles that are joined across edges, and for each point that
-/// untouched triangles share. `order`: corners by their points.
-void walk_fans(const TriangleSet& set, const std::vector<uint32_t>& order,
-               const std::vector<uint32_t>& twin, const WholeOrder& whole, VertexFans& fans) {
-  fans.vertex_of_corner.assign(twin.size(), kNone);
-  fans.point_of_vertex.clear();
-  for (const uint32_t start : order) {
-    if (fans.vertex_of_corner[start] != kNone) continue;
+/// The fans around points [begin, end): vertices are numbered from 0, and their points appended.
+void walk_fans(const TriangleSet& set, const CountingOrder& by_point, size_t begin, size_t end,
+               const std::vector<uint32_t>& twin, const WholeOrder& whole,
+               std::vector<uint32_t>& vertex_of_corner, std::vector<uint32_t>& point_of_vertex) {
+  for (uint32_t i = by_point.starts[begin]; i < by_point.starts[end]; ++i) {
+    const uint32_t start = by_point.order[i];
+    if (vertex_of_corner[start] != kNone) continue;
     const uint32_t point = set.triangles[start / 3][start % 3];
     if (whole.is_shared(point)) {
-      if (fans.point_of_vertex.empty() || fans.point_of_vertex.back() != point) {
-        fans.point_of_vertex.push_back(point);
+      if (point_of_vertex.empty() || point_of_vertex.back() != point) {
+        point_of_vertex.push_back(point);
       }
-      fans.vertex_of_corner[start] = static_cast<uint32_t>(fans.point_of_vertex.size() - 1);
+      vertex_of_corner[start] = static_cast<uint32_t>(point_of_vertex.size() - 1);
       continue;
     }
-    const auto vertex = static_cast<uint32_t>(fans.point_of_vertex.size());
-    fans.point_of_vertex.push_back(point);
+    const auto vertex = static_cast<uint32_t>(point_of_vertex.size());
+    point_of_vertex.push_back(point);
     // Walk around the vertex: the twin of the edge that leaves corner c arrives at it in the next
     // triangle; the corner there is the one after that edge.
     uint32_t c = start;
     do {
-      fans.vertex_of_corner[c] = vertex;
+      vertex_of_corner[c] = vertex;
       const uint32_t across = twin[c];
       c = across % 3 == 2 ? across - 2 : across + 1;
     } while (c != start);
   }
+}
+
+/// One vertex for each fan of triangles that are joined across edges, and for each point that
+/// untouched triangles share. `by_point`: corners by their points.
+void walk_fans(const TriangleSet& set, const CountingOrder& by_point,
+               const std::vector<uint32_t>& twin, const WholeOrder& whole, VertexFans& fans) {
+  fans.vertex_of_corner.assign(twin.size(), kNone);
+  const size_t points = by_point.starts.size() - 1;
+  // Fans do not leave a point. Numbers are made anew if there is more than one part.
+  const bool is_alone = tbb::this_task_arena::max_concurrency() == 1;
+  const size_t each = is_alone ? std::max<size_t>(1, points) : kFewForThreads;
+  std::vector<std::vector<uint32_t>> parts(part_count(points, each));
+  for_each_part(points, each, [&](size_t part, size_t begin, size_t end) {
+    std::vector<uint32_t> own;
+    walk_fans(set, by_point, begin, end, twin, whole, fans.vertex_of_corner, own);
+    parts[part] = std::move(own);
+  });
+  std::vector<uint32_t> firsts;  // vertices of the parts
+  fans.point_of_vertex.clear();
+  for (const auto& part : parts) {
+    firsts.push_back(static_cast<uint32_t>(fans.point_of_vertex.size()));
+    fans.point_of_vertex.insert(fans.point_of_vertex.end(), part.begin(), part.end());
+  }
+  if (parts.size() <= 1) return;
+  for_each_part(points, each, [&](size_t part, size_t begin, size_t end) {
+    for (uint32_t i = by_point.starts[begin]; i < by_point.starts[end]; ++i) {
+      fans.vertex_of_corner[by_point.order[i]] += firsts[part];
+    }
+  });
 }
 
 /// Calls `visit(i, j)` for half-edges that run between the same two vertices.
@@ -450,8 +478,7 @@ bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
                       [&](size_t corner) { return set.triangles[corner / 3][corner % 3]; });
       });
   if (!is_closed) return false;
-  const std::vector<uint32_t>& order = by_point.order;
-  walk_fans(set, order, twin, whole, fans);
+  walk_fans(set, by_point, twin, whole, fans);
   if (doubled != nullptr) {
     doubled->clear();
     for_each_double_edge(crowded, fans, [&](uint32_t h, uint32_t) {
@@ -462,7 +489,7 @@ bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
     doubled->erase(std::unique(doubled->begin(), doubled->end()), doubled->end());
     return true;
   }
-  while (part_double_edges(crowded, fans, twin)) walk_fans(set, order, twin, whole, fans);
+  while (part_double_edges(crowded, fans, twin)) walk_fans(set, by_point, twin, whole, fans);
   return true;
 }
 
