@@ -1,5 +1,6 @@
 #include "engine/bsp/dead_space.h"
 
+#include <array>
 #include <utility>
 
 namespace csgrun {
@@ -25,20 +26,48 @@ std::vector<PolygonBox> find_node_boxes(const Expression& expression,
   return of_node;
 }
 
+/// Finds the operands that decide what the root is where one is inside of them, from the root down.
+class Deciders {
+ public:
+  explicit Deciders(const Expression& expression, size_t operands)
+      : expression_(expression), decides_(operands, 0), seen_(expression.nodes.size(), {0, 0}) {
+    const auto root = static_cast<uint32_t>(expression.nodes.size() - 1);
+    visit(root, true);
+    visit(root, false);
+  }
+  [[nodiscard]] bool decides(uint32_t operand) const { return decides_[operand] != 0; }
+
+ private:
+  /// Those that make a node full, or empty.
+  void visit(uint32_t n, bool is_full) {
+    if (std::exchange(seen_[n][is_full], 1) != 0) return;
+    const Expression::Node& node = expression_.nodes[n];
+    if (node.is_operand) {
+      decides_[node.operand] |= is_full;
+      return;
+    }
+    for (uint32_t c = 0; c < node.child_count; ++c) {
+      const uint32_t child = expression_.children[node.first_child + c];
+      if (node.op == BooleanOp::kUnion && is_full) visit(child, true);
+      if (node.op == BooleanOp::kIntersection && !is_full) visit(child, false);
+      if (node.op == BooleanOp::kDifference && !is_full) visit(child, c > 0);
+    }
+  }
+
+  const Expression& expression_;
+  std::vector<uint8_t> decides_;
+  std::vector<std::array<uint8_t, 2>> seen_;  ///< per node
+};
+
 }  // namespace
 
 std::vector<uint8_t> find_removers(const std::vector<Operand>& operands,
                                    const Expression& expression) {
   std::vector<uint8_t> removes(operands.size(), 0);
   if (expression.nodes.empty()) return removes;
-  const Expression::Node& root = expression.nodes.back();
-  const bool is_union = root.op == BooleanOp::kUnion;
-  if (!is_union && root.op != BooleanOp::kDifference) return removes;
-  for (uint32_t c = is_union ? 0 : 1; c < root.child_count; ++c) {
-    const Expression::Node& child = expression.nodes[expression.children[root.first_child + c]];
-    if (!child.is_operand) continue;
-    const auto& leaf = operands[child.operand].leaf;
-    if (leaf && leaf->convex) removes[child.operand] = 1;
+  const Deciders deciders(expression, operands.size());
+  for (uint32_t o = 0; o < operands.size(); ++o) {
+    removes[o] = operands[o].leaf && operands[o].leaf->convex && deciders.decides(o);
   }
   return removes;
 }

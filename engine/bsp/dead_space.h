@@ -1,5 +1,5 @@
 // Where nothing is boundary, as is easily told: inside of balls in what is added to all else, or
-// taken away from it, and beside the box of the result.
+// taken away from it, alone or among others, and beside the box of the result.
 #pragma once
 
 #include <array>
@@ -22,7 +22,8 @@ class DeadSpace {
   DeadSpace(const std::vector<Operand>& operands, const Expression& expression,
             std::vector<PolygonBox> boxes);
 
-  /// Whether an operand is convex and nothing inside of it is boundary: it is a remover.
+  /// Whether an operand is convex and the expression is the same everywhere inside of it, so that
+  /// nothing is boundary there: it is a remover.
   [[nodiscard]] bool is_remover(uint32_t operand) const {
     return !removes_.empty() && removes_[operand] != 0;
   }
@@ -45,9 +46,12 @@ class DeadSpace {
   [[nodiscard]] bool holds(const PolygonBox& box, uint32_t count, At&& at) const {
     return !result_.meets(box) || balls_.hold(count, at);
   }
-  /// Whether an operand with this box may have a polygon there.
-  [[nodiscard]] bool may_hold_part(const PolygonBox& box) const {
-    return !balls_.empty() || !result_.holds(box);
+  /// Whether an operand with this box and so many faces may have polygons there that are left out.
+  /// What is inside of it is asked of many points then (see PlainlyCovered::is_open): those that
+  /// take a ray through many faces have all their polygons looked at instead.
+  [[nodiscard]] bool may_hold_part(uint32_t operand, const PolygonBox& box, size_t faces) const {
+    constexpr size_t kFew = 64;
+    return (faces <= kFew || balls_.has(operand)) && (!balls_.empty() || !result_.holds(box));
   }
 
  private:

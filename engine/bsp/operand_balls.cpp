@@ -95,7 +95,7 @@ OperandBalls::OperandBalls(const std::vector<Operand>& operands,
 }
 
 OperandBalls::Side OperandBalls::side(uint32_t operand, const std::array<double, 3>& point) const {
-  if (ball_of_.empty() || ball_of_[operand] == kNoBall) return Side::kUnknown;
+  if (!has(operand)) return Side::kUnknown;
   const Ball& ball = balls_[ball_of_[operand]];
   const double square = ball.square_from(point);
   return square < ball.inner   ? Side::kInside

@@ -23,6 +23,10 @@ class OperandBalls {
                const std::vector<uint8_t>& chosen);
 
   [[nodiscard]] bool empty() const { return balls_.empty(); }
+  /// Whether an operand has one: then it is a convex leaf on the grid, not far out.
+  [[nodiscard]] bool has(uint32_t operand) const {
+    return !ball_of_.empty() && ball_of_[operand] != kNoBall;
+  }
 
   /// Whether all of a polygon is strictly inside of one of the operands, as an inner ball tells:
   /// at(i) is corner i of `count`, wrong by less than a step along each axis.

@@ -62,6 +62,7 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
     return !plainly_.is_open[f.operand] || f.front != f.back || (is_at_first && !f.is_elsewhere);
   };
   inside_.clear();
+  asked_.clear();
   for (const CutLoops::Fact& f : facts) {
     if (!is_known(f)) continue;
     if (f.front) inside_.push_back(2 * uint64_t{f.operand});
@@ -79,12 +80,19 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
     }
     const OperandBalls::Side side = plainly_.dead->balls().side(o, point);
     if (side == OperandBalls::Side::kInside) return PatchFate::kDrop;
-    if (side == OperandBalls::Side::kOutside) continue;
-    const Inside label = ray_label(job_, signs_, o, point, error);
-    if (label == Inside::kUnknown) return PatchFate::kUnknown;
-    if (label == Inside::kYes)
-      inside_.insert(inside_.end(), {2 * uint64_t{o}, 2 * uint64_t{o} + 1});
+    if (side == OperandBalls::Side::kUnknown) asked_.push_back(o);
   }
+  bool is_unsure = false;
+  for (const uint32_t o : asked_) {
+    Inside label = Inside::kUnknown;
+    if (plainly_.dead->balls().has(o)) label = convex_sides_.side(job_.operands(), o, point);
+    if (label == Inside::kUnknown) label = ray_label(job_, signs_, o, point, error);
+    is_unsure |= label == Inside::kUnknown;
+    if (label != Inside::kYes) continue;
+    if (plainly_.dead->is_remover(o)) return PatchFate::kDrop;
+    inside_.insert(inside_.end(), {2 * uint64_t{o}, 2 * uint64_t{o} + 1});
+  }
+  if (is_unsure) return PatchFate::kUnknown;
   std::sort(inside_.begin(), inside_.end());
   const auto [known, is_new] = known_.try_emplace({own, inside_}, PatchFate::kDrop);
   if (is_new) known->second = evaluate(own, known->first.second);

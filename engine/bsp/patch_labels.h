@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/bsp/convex_sides.h"
 #include "engine/bsp/covered_polygons.h"
 #include "engine/bsp/cut_polygon.h"
 #include "engine/bsp/sparse_boundary.h"
@@ -50,6 +51,9 @@ class PatchLabels {
   VertexSigns signs_;
   const SquareBins bins_;  ///< of the operands
   Sides inside_;           ///< of the patch at hand
+  /// Operands that balls do not tell of: rays are sent only if none of these decides.
+  std::vector<uint32_t> asked_;
+  ConvexSides convex_sides_;
   /// By the operand and those that it is inside of: few differ.
   std::map<std::pair<uint32_t, Sides>, PatchFate> known_;
   std::vector<SparseBoundary::Sides> sides_;

@@ -1,0 +1,44 @@
+#include "engine/bsp/convex_sides.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/bsp/grid_planes.h"
+
+namespace csgrun {
+namespace {
+
+/// The plane of a face, with a normal of length one, about.
+std::array<double, 4> unit_plane(const Operand& operand, size_t face) {
+  const LeafGeometry& leaf = *operand.leaf;
+  const uint32_t first = leaf.face_starts[face], count = leaf.face_starts[face + 1] - first;
+  const Plane plane = support_of_loop(count, [&](uint32_t i) {
+    const IVec3 &v = leaf.vertices[leaf.corners[first + i % count]], &t = operand.translation;
+    return IVec3{v[0] + t[0], v[1] + t[1], v[2] + t[2]};
+  });
+  const double a = static_cast<double>(plane.a), b = static_cast<double>(plane.b),
+               c = static_cast<double>(plane.c);
+  const double length = std::hypot(a, b, c);
+  return {a / length, b / length, c / length, static_cast<double>(plane.d) / length};
+}
+
+}  // namespace
+
+Inside ConvexSides::side(const std::vector<Operand>& operands, uint32_t operand,
+                         const std::array<double, 3>& point) {
+  const auto [known, is_new] = planes_.try_emplace(operand);
+  if (is_new) {
+    const Operand& leaf = operands[operand];
+    for (size_t f = 0; f < leaf.leaf->face_count(); ++f) {
+      known->second.push_back(unit_plane(leaf, f));
+    }
+  }
+  constexpr double kMargin = 2;
+  double farthest = -HUGE_VAL;
+  for (const UnitPlane& p : known->second) {
+    farthest = std::max(farthest, p[0] * point[0] + p[1] * point[1] + p[2] * point[2] + p[3]);
+  }
+  return farthest > kMargin ? Inside::kNo : farthest < -kMargin ? Inside::kYes : Inside::kUnknown;
+}
+
+}  // namespace csgrun
