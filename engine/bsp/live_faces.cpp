@@ -11,22 +11,6 @@
 namespace csgrun {
 namespace {
 
-/// If it is on the grid and boxes are not clamped there.
-std::optional<PolygonBox> box_of(const Operand& operand) {
-  constexpr int64_t kFarthest = int64_t{1} << 30;
-  if (!operand.leaf || operand.leaf->face_count() == 0 || !operand.frame.is_identity) {
-    return std::nullopt;
-  }
-  const GridBox all = box_of_points(operand.leaf->vertices).moved(operand.translation);
-  PolygonBox box{};
-  for (size_t k = 0; k < 3; ++k) {
-    if (all.lo[k] < -kFarthest || all.hi[k] > kFarthest) return std::nullopt;
-    box.lo[k] = static_cast<int32_t>(all.lo[k]);
-    box.hi[k] = static_cast<int32_t>(all.hi[k]);
-  }
-  return box;
-}
-
 /// Whether a job may have some faces of a leaf. Where facets of several faces are kept, who asks
 /// for one looks for all of these.
 bool can_be_partial(const LeafGeometry& leaf) {
@@ -65,10 +49,12 @@ std::optional<LiveFaces> find_live_faces(const std::vector<Operand>& operands,
   live.faces.resize(operands.size());
   std::vector<PolygonBox> boxes(operands.size(), PolygonBox::everywhere());
   for_each_alone(operands.size(), faces > kFewForThreads, [&](size_t o) {
-    const std::optional<PolygonBox> box = box_of(operands[o]);
+    const auto& leaf = operands[o].leaf;
+    if (!leaf || leaf->face_count() == 0 || !operands[o].frame.is_identity) return;
+    const std::optional<PolygonBox> box = box_of_leaf(*leaf, operands[o].translation);
     if (!box) return;
     boxes[o] = *box;
-    live.is_looked_at[o] = can_be_partial(*operands[o].leaf) ? 1 : 0;
+    live.is_looked_at[o] = can_be_partial(*leaf) ? 1 : 0;
   });
   live.dead = std::make_shared<DeadSpace>(operands, expression, std::move(boxes));
   std::atomic<size_t> hidden = 0;

@@ -14,9 +14,6 @@
 namespace csgrun {
 namespace {
 
-/// Boxes of polygons are clamped beyond.
-constexpr int64_t kFarthest = int64_t{1} << 30;
-
 /// Whether all faces that nothing meets can be named, wherever they are.
 bool can_be_named(const Operand& operand) {
   if (!operand.leaf || !operand.frame.is_identity) return false;
@@ -37,16 +34,7 @@ class Leaf {
   [[nodiscard]] size_t face_count() const { return leaf_.face_count(); }
 
   /// None if it is too far out.
-  [[nodiscard]] std::optional<PolygonBox> box() const {
-    const GridBox all = box_of_points(leaf_.vertices).moved(translation_);
-    PolygonBox box{};
-    for (size_t k = 0; k < 3; ++k) {
-      if (all.lo[k] < -kFarthest || all.hi[k] > kFarthest) return std::nullopt;
-      box.lo[k] = static_cast<int32_t>(all.lo[k]);
-      box.hi[k] = static_cast<int32_t>(all.hi[k]);
-    }
-    return box;
-  }
+  [[nodiscard]] std::optional<PolygonBox> box() const { return box_of_leaf(leaf_, translation_); }
 
   /// Marks the cells that faces reach; `own` names the operand. False if they are more than `most`.
   /// After the cells of all others have been marked it also tells which faces share one.
@@ -213,6 +201,18 @@ void add_faces(const std::array<Leaf, 2>& leaves, SharedFaces&& shared, NearFace
 }
 
 }  // namespace
+
+std::optional<PolygonBox> box_of_leaf(const LeafGeometry& leaf, const IVec3& translation) {
+  constexpr int64_t kFarthest = int64_t{1} << 30;  // boxes of polygons are clamped beyond
+  const GridBox all = box_of_points(leaf.vertices).moved(translation);
+  PolygonBox box{};
+  for (size_t k = 0; k < 3; ++k) {
+    if (all.lo[k] < -kFarthest || all.hi[k] > kFarthest) return std::nullopt;
+    box.lo[k] = static_cast<int32_t>(all.lo[k]);
+    box.hi[k] = static_cast<int32_t>(all.hi[k]);
+  }
+  return box;
+}
 
 PolygonBox box_of_face(const LeafGeometry& leaf, size_t face, const IVec3& translation) {
   const uint32_t* const begin = leaf.corners.data() + leaf.face_starts[face];

@@ -36,6 +36,9 @@ struct FarFaces {
 /// that each are a facet of its own, with one fan around each vertex. O(n), parallel.
 std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, uint32_t limit);
 
+/// The box of a leaf on the grid, moved by whole steps; none if it is too far out. O(vertices).
+std::optional<PolygonBox> box_of_leaf(const LeafGeometry& leaf, const IVec3& translation);
+
 /// The box of a face of a leaf on the grid, moved by whole steps.
 PolygonBox box_of_face(const LeafGeometry& leaf, size_t face, const IVec3& translation);
 
