@@ -6,23 +6,19 @@
 #include "engine/bsp/grid_planes.h"
 
 namespace csgrun {
-namespace {
 
-/// The plane of a face, with a normal of length one, about.
-std::array<double, 4> unit_plane(const Operand& operand, size_t face) {
+UnitPlane unit_plane(const Operand& operand, size_t face) {
   const LeafGeometry& leaf = *operand.leaf;
   const uint32_t first = leaf.face_starts[face], count = leaf.face_starts[face + 1] - first;
   const Plane plane = support_of_loop(count, [&](uint32_t i) {
     const IVec3 &v = leaf.vertices[leaf.corners[first + i % count]], &t = operand.translation;
     return IVec3{v[0] + t[0], v[1] + t[1], v[2] + t[2]};
   });
-  const double a = static_cast<double>(plane.a), b = static_cast<double>(plane.b),
-               c = static_cast<double>(plane.c);
+  const auto a = static_cast<double>(plane.a), b = static_cast<double>(plane.b),
+             c = static_cast<double>(plane.c);
   const double length = std::hypot(a, b, c);
   return {a / length, b / length, c / length, static_cast<double>(plane.d) / length};
 }
-
-}  // namespace
 
 Inside ConvexSides::side(const std::vector<Operand>& operands, uint32_t operand,
                          const std::array<double, 3>& point) {
@@ -33,10 +29,10 @@ Inside ConvexSides::side(const std::vector<Operand>& operands, uint32_t operand,
       known->second.push_back(unit_plane(leaf, f));
     }
   }
-  constexpr double kMargin = 2;
+  constexpr double kMargin = 2;  // a step along each axis is less than that together
   double farthest = -HUGE_VAL;
   for (const UnitPlane& p : known->second) {
-    farthest = std::max(farthest, p[0] * point[0] + p[1] * point[1] + p[2] * point[2] + p[3]);
+    farthest = std::max(farthest, above(p, point));
   }
   return farthest > kMargin ? Inside::kNo : farthest < -kMargin ? Inside::kYes : Inside::kUnknown;
 }

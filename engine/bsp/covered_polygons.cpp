@@ -73,21 +73,16 @@ PlainlyCovered find_plainly_covered(const Job& job, const Expression& expression
   for_each_alone(job.operand_count(), job.polygons().size() > kFewForThreads, [&](size_t operand) {
     const auto o = static_cast<uint32_t>(operand);
     const bool is_looked_at = chosen && chosen->is_looked_at[o] != 0;
-    const bool may_be_held = may_hide && !is_looked_at;
-    const bool may_hide_some =
-        may_be_held &&
-        dead.may_hold_part(o, job.operand_box(o), job.polygon_start(o + 1) - job.polygon_start(o));
-    if (live[o].holds(job.operand_box(o)) && !may_hide_some &&
-        !(may_be_held && !dead.balls().empty())) {
-      return;
-    }
+    const bool may_be_held = may_hide && !is_looked_at && dead.may_hold_part(job.operand_box(o));
+    if (!may_be_held && live[o].holds(job.operand_box(o))) return;
+    const bool may_be_open = dead.may_be_open(o, job.polygon_start(o + 1) - job.polygon_start(o));
     const bool is_live = !live[o].is_empty();
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
       const auto corners = job.corners(job.polygons()[p]);
       const auto at = [&](uint32_t i) -> const auto& { return job.rounded(corners[i]); };
       const bool is_held = may_be_held && dead.holds(job.boxes()[p], job.polygons()[p].count, at);
       is_covered[p] = is_held || !is_live || is_beside(job.boxes()[p], live[o]);
-      if (is_held && may_hide_some) is_hidden[p] = any_hidden[o] = 1;
+      if (is_held && may_be_open) is_hidden[p] = any_hidden[o] = 1;
       any[o] |= is_covered[p];
     }
   });

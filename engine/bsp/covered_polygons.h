@@ -16,13 +16,13 @@ class ContactTable;
 /// Polygons that are easily seen to be boundary of nothing. Those of the job come by their numbers.
 struct PlainlyCovered {
   /// Whether it is one: it is beside the boxes of what it would be taken away from, or cut with, or
-  /// in dead space. Nobody looks at what two of these have in common. Only the rim of
-  /// one may be on these boxes, in a side of them: so what goes on beyond it is met there as well.
-  /// Empty if there are none.
+  /// in dead space. Nobody looks at what two of these have in common. Only the rim of one may be on
+  /// these boxes, in a side of them: so what goes on beyond it is met there as well. Empty if there
+  /// are none.
   std::vector<uint8_t> polygons;
-  /// Those of them that are in dead space. No point of what meets one there is boundary of
-  /// anything, on whichever side of the polygon it is: nobody looks at what anything has in common
-  /// with it. Empty if there are none, as with two operands or less.
+  /// Those of them that are in dead space, of operands that may be open. No point of what meets one
+  /// there is boundary of anything, on whichever side of the polygon it is: nobody looks at what
+  /// anything has in common with it. Empty if there are none, as with two operands or less.
   std::vector<uint8_t> hidden;
   /// Per operand, whether one of its polygons is hidden, or not in the job for that reason. The
   /// outlines in which it is seen to meet others may have ends, and a part of another surface that

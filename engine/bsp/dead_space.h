@@ -46,12 +46,15 @@ class DeadSpace {
   [[nodiscard]] bool holds(const PolygonBox& box, uint32_t count, At&& at) const {
     return !result_.meets(box) || balls_.hold(count, at);
   }
-  /// Whether an operand with this box and so many faces may have polygons there that are left out.
-  /// What is inside of it is asked of many points then (see PlainlyCovered::is_open): those that
-  /// take a ray through many faces have all their polygons looked at instead.
-  [[nodiscard]] bool may_hold_part(uint32_t operand, const PolygonBox& box, size_t faces) const {
+  /// Whether an operand with this box may have polygons there.
+  [[nodiscard]] bool may_hold_part(const PolygonBox& box) const {
+    return !balls_.empty() || !result_.holds(box);
+  }
+  /// Whether an operand of so many faces may be open (see PlainlyCovered::is_open): many points are
+  /// asked whether they are inside of it then, which must not take a ray through many faces.
+  [[nodiscard]] bool may_be_open(uint32_t operand, size_t faces) const {
     constexpr size_t kFew = 64;
-    return (faces <= kFew || balls_.has(operand)) && (!balls_.empty() || !result_.holds(box));
+    return faces <= kFew || balls_.has(operand);
   }
 
  private:

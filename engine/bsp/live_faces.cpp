@@ -61,11 +61,11 @@ std::optional<LiveFaces> find_live_faces(const std::vector<Operand>& operands,
   for_each_alone(operands.size(), faces > kFewForThreads, [&](size_t o) {
     if (!live.is_looked_at[o]) return;
     const auto operand = static_cast<uint32_t>(o);
-    if (!live.dead->may_hold_part(operand, live.dead->operand_box(o),
-                                  operands[o].leaf->face_count())) {
+    if (!live.dead->may_be_open(operand, operands[o].leaf->face_count())) {
       live.is_looked_at[o] = 0;
       return;
     }
+    if (!live.dead->may_hold_part(live.dead->operand_box(o))) return;
     std::vector<uint32_t> own = live_faces_of(operands[o], *live.dead);
     const size_t gone = operands[o].leaf->face_count() - own.size();
     if (gone == 0) return;

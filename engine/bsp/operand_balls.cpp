@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/base/parallel.h"
-#include "engine/bsp/grid_planes.h"
+#include "engine/bsp/convex_sides.h"
 
 namespace csgrun {
 namespace {
@@ -18,20 +18,6 @@ bool is_far_out(const PolygonBox& box) {
   return far;
 }
 
-/// How far half of a point is behind the plane of a face.
-double depth(const Operand& operand, size_t face, const IVec3& twice) {
-  const LeafGeometry& leaf = *operand.leaf;
-  const uint32_t first = leaf.face_starts[face], count = leaf.face_starts[face + 1] - first;
-  const Plane plane = support_of_loop(count, [&](uint32_t i) {
-    const IVec3 &v = leaf.vertices[leaf.corners[first + i % count]], &t = operand.translation;
-    return IVec3{v[0] + t[0], v[1] + t[1], v[2] + t[2]};
-  });
-  const Int128 above = plane.a * twice[0] + plane.b * twice[1] + plane.c * twice[2] + 2 * plane.d;
-  return static_cast<double>(-above) /
-         (2 * std::hypot(static_cast<double>(plane.a), static_cast<double>(plane.b),
-                         static_cast<double>(plane.c)));
-}
-
 /// Several squares a ball.
 uint32_t squares_per_side(size_t balls) {
   constexpr double kMost = 256;
@@ -40,18 +26,16 @@ uint32_t squares_per_side(size_t balls) {
 
 }  // namespace
 
-/// The largest one inside, around the middle, and the smallest one around: less a step, and more by
-/// two, as points of other operands are rounded, and so is all this, by less than a step.
+/// The largest one inside, around the middle, and the smallest one around, less a step and more by
+/// one: points may be wrong, and so is all this, by less than a step together.
 OperandBalls::Ball OperandBalls::Ball::of(const Operand& operand, const PolygonBox& box) {
-  IVec3 twice{};
   Ball ball;
   for (size_t k = 0; k < 3; ++k) {
-    twice[k] = int64_t{box.lo[k]} + box.hi[k];
-    ball.middle[k] = static_cast<double>(twice[k]) / 2;
+    ball.middle[k] = static_cast<double>(int64_t{box.lo[k]} + box.hi[k]) / 2;
   }
   double radius = (static_cast<double>(box.hi[0]) - box.lo[0]) / 2;
   for (size_t f = 0; f < operand.leaf->face_count(); ++f) {
-    radius = std::min(radius, depth(operand, f, twice));
+    radius = std::min(radius, -above(unit_plane(operand, f), ball.middle));
   }
   radius = std::max(radius - 1, 0.0);
   ball.inner = radius * radius;
@@ -60,7 +44,7 @@ OperandBalls::Ball OperandBalls::Ball::of(const Operand& operand, const PolygonB
     for (size_t k = 0; k < 3; ++k) at[k] = static_cast<double>(v[k] + operand.translation[k]);
     ball.outer = std::max(ball.outer, ball.square_from(at));
   }
-  const double around = std::sqrt(ball.outer) + 2;
+  const double around = std::sqrt(ball.outer) + 1;
   ball.outer = around * around;
   return ball;
 }

@@ -28,8 +28,10 @@ class OperandBalls {
     return !ball_of_.empty() && ball_of_[operand] != kNoBall;
   }
 
+  /// What may be wrong by less than this many steps along each axis is less than a step away.
+  static constexpr double kMostWrong = 0.5;
   /// Whether all of a polygon is strictly inside of one of the operands, as an inner ball tells:
-  /// at(i) is corner i of `count`, wrong by less than a step along each axis.
+  /// at(i) is corner i of `count`, wrong by less than kMostWrong.
   template <class At>
   [[nodiscard]] bool hold(uint32_t count, At&& at) const {
     if (balls_.empty()) return false;
@@ -45,7 +47,7 @@ class OperandBalls {
   }
 
   enum class Side : uint8_t { kInside, kOutside, kUnknown };
-  /// Where a point is that is wrong by less than a step along each axis.
+  /// Where a point is that is wrong by less than kMostWrong.
   [[nodiscard]] Side side(uint32_t operand, const std::array<double, 3>& point) const;
 
  private:

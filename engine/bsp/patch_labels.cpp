@@ -78,7 +78,9 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
                                  [&](const auto& f) { return f.operand == o && is_known(f); })) {
       continue;
     }
-    const OperandBalls::Side side = plainly_.dead->balls().side(o, point);
+    const OperandBalls::Side side = error < OperandBalls::kMostWrong
+                                        ? plainly_.dead->balls().side(o, point)
+                                        : OperandBalls::Side::kUnknown;
     if (side == OperandBalls::Side::kInside) return PatchFate::kDrop;
     if (side == OperandBalls::Side::kUnknown) asked_.push_back(o);
   }

@@ -99,7 +99,8 @@ class FaceEvaluator {
     const auto polygons =
         polygons_where([&](uint32_t p) { return !is_covered_[p] && !may_stay_whole(p); });
     const auto supports = with_what_cuts(polygons);
-    // Of the planes that come of it most are of edges, two or three a polygon.
+    // Edges, which come later, have two or three times as many; room is made for twice as many as
+    // one says.
     constexpr size_t kPlanesEach = 2;
     job_.planes().make_room(kPlanesEach * supports.size());
     job_.ensure_supports(supports);

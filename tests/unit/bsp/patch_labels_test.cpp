@@ -193,6 +193,8 @@ TEST(PatchLabels, OfOpenOperandsOnlyWhatDecidesIsReliedOn) {
     EXPECT_EQ(fate(at, {{2, false, false, false}}, true), PatchFate::kFlip);
     EXPECT_EQ(fate(at, {{2, false, true}}), PatchFate::kFlip);
   }
+  // A point that may be wrong by more than balls allow for is told by planes.
+  EXPECT_EQ(labels.fate(1, within, 0.75, {}, false), PatchFate::kDrop);
   // Its hidden surface passes through the patch.
   EXPECT_EQ(fate(beside, {{2, false, false}, {2, true, true}}), PatchFate::kDrop);
   // The block is open: outside of it nothing is left, and outside is not relied on.

@@ -1,0 +1,118 @@
+// What balls and planes in doubles say of points, against convex bodies in rational arithmetic.
+#include "engine/bsp/operand_balls.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/bsp/convex_sides.h"
+#include "tests/support/convex_operand.h"
+#include "tests/support/oracle.h"
+
+namespace csgrun {
+namespace {
+
+using test::Query;
+using Side = OperandBalls::Side;
+
+PolygonBox box_of(const Operand& operand) {
+  const GridBox all = box_of_points(operand.leaf->vertices).moved(operand.translation);
+  PolygonBox box{};
+  for (size_t k = 0; k < 3; ++k) {
+    box.lo[k] = static_cast<int32_t>(all.lo[k]);
+    box.hi[k] = static_cast<int32_t>(all.hi[k]);
+  }
+  return box;
+}
+
+Operand random_body(test::Random& random, int64_t reach) {
+  const auto point = [&](int64_t most) {
+    return IVec3{random.integer(-most, most), random.integer(-most, most),
+                 random.integer(-most, most)};
+  };
+  std::vector<test::Loop> loops;
+  if (random.integer(0, 2) == 0) {
+    const int64_t size = random.integer(1, reach);
+    loops = test::box_loops({-size, -size, -size}, {size, size, size});
+  }
+  while (loops.empty()) {
+    std::vector<IVec3> points(static_cast<size_t>(random.integer(4, 14)));
+    for (IVec3& p : points) p = point(reach);
+    loops = test::hull_loops(points);
+  }
+  Operand operand = test::convex_operand(loops);
+  operand.translation = point(2 * reach);
+  return operand;
+}
+
+// Whatever they say holds of all points that are as near as points may be wrong: half a step along
+// each axis for balls, one for planes. And they do say it of most points.
+TEST(OperandBalls, TellOfPointsWhatIsSo) {
+  test::Random random(971);
+  size_t by_ball[3] = {}, by_planes[3] = {};
+  for (int round = 0; round < 120; ++round) {
+    const int64_t reach = round % 2 == 0 ? 12 : 3000;
+    const std::vector<Operand> operands{random_body(random, reach), random_body(random, reach)};
+    const std::vector<PolygonBox> boxes{box_of(operands[0]), box_of(operands[1])};
+    const OperandBalls balls(operands, boxes, {1, 1});
+    ConvexSides sides;
+    for (uint32_t o = 0; o < 2; ++o) {
+      const test::Oracle oracle(test::exact_solid(operands[o]));
+      for (int i = 0; i < 40; ++i) {
+        const auto& vertices = operands[o].leaf->vertices;
+        const IVec3& corner =
+            vertices[random.integer(0, static_cast<int64_t>(vertices.size()) - 1)];
+        Query at{}, near{}, next{};
+        for (size_t k = 0; k < 3; ++k) {
+          const int64_t lo = boxes[o].lo[k] - 4, hi = boxes[o].hi[k] + 4;
+          at[k] = static_cast<double>(random.integer(8 * lo, 8 * hi)) / 8 + 0.0625;
+          if (i % 2 == 0) {  // at a corner, where the outer ball is close
+            at[k] = static_cast<double>(corner[k] + operands[o].translation[k]) +
+                    static_cast<double>(random.integer(-8, 8)) / 16 + 0.0078125;
+          }
+          const double away = static_cast<double>(random.integer(-127, 127)) / 128;
+          near[k] = at[k] + away / 2;
+          next[k] = at[k] + away;
+        }
+        const auto near_winding = oracle.winding(near), next_winding = oracle.winding(next);
+        if (!near_winding || !next_winding) continue;
+        const Side ball = balls.side(o, at);
+        if (ball != Side::kUnknown) {
+          ASSERT_EQ(ball == Side::kInside, *near_winding == 1) << round;
+        }
+        const Inside side = sides.side(operands, o, at);
+        if (side != Inside::kUnknown) {
+          ASSERT_EQ(side == Inside::kYes, *next_winding == 1) << round;
+        }
+        ++by_ball[static_cast<size_t>(ball)];
+        ++by_planes[static_cast<size_t>(side)];
+      }
+    }
+  }
+  for (const size_t n : {by_ball[static_cast<size_t>(Side::kInside)],
+                         by_ball[static_cast<size_t>(Side::kOutside)]}) {
+    EXPECT_GT(n, 100u);
+  }
+  for (const Inside side : {Inside::kYes, Inside::kNo}) {
+    EXPECT_GT(by_planes[static_cast<size_t>(side)], 700u);
+  }
+}
+
+// Only convex leaves on the grid that were chosen have one, and not those of which too little is
+// left.
+TEST(OperandBalls, AreOfChosenOnes) {
+  std::vector<Operand> operands{test::octahedron({0, 0, 0}, 50), test::octahedron({9, 0, 0}, 50),
+                                test::octahedron({0, 9, 0}, 50), test::octahedron({0, 0, 9}, 1)};
+  operands[2].frame.is_identity = false;
+  std::vector<PolygonBox> boxes;
+  for (const Operand& operand : operands) boxes.push_back(box_of(operand));
+  const OperandBalls balls(operands, boxes, {1, 0, 1, 1});
+  EXPECT_FALSE(balls.empty());
+  for (uint32_t o = 0; o < 4; ++o) EXPECT_EQ(balls.has(o), o == 0) << o;
+  for (uint32_t o = 1; o < 4; ++o) EXPECT_EQ(balls.side(o, {0, 0, 0}), Side::kUnknown);
+  EXPECT_TRUE(OperandBalls().empty());
+  EXPECT_FALSE(OperandBalls().has(0));
+  boxes[0].hi[0] = int32_t{1} << 30;  // as of one that reaches too far out
+  EXPECT_FALSE(OperandBalls(operands, boxes, {1, 0, 0, 0}).has(0));
+}
+
+}  // namespace
+}  // namespace csgrun
