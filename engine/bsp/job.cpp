@@ -324,20 +324,20 @@ void Job::add_boundary(uint32_t o, const Operand& operand) {
   }
 }
 
-/// Lists the pieces of the version, of regions their parts, that others may meet.
+/// Lists the pieces of the version, of regions and groups their parts, that others may meet.
 template <class MayMeet>
 void Job::take_parts(PieceStore& store, MayMeet&& may_meet) {
   RegionParts parts(store, [this](int axis, int64_t m) { return wall(axis, m); });
   std::vector<uint32_t> met;
   met.swap(version_pieces_);
   for (const uint32_t piece : met) {
-    if (!store.is_region(piece)) {
+    if (!store.is_region(piece) && !store.is_group(piece)) {
       pieces_.push_back(piece);
       version_pieces_.push_back(piece);
       continue;
     }
-    const auto [begin, end] = parts.of(piece);
-    for (uint32_t part = begin; part < end; ++part) {
+    const auto [first, count] = store.is_group(piece) ? store.group_parts(piece) : parts.of(piece);
+    for (uint32_t part = first; part < first + count; ++part) {
       if (!may_meet(store.box(part))) continue;
       pieces_.push_back(part);
       version_pieces_.push_back(piece);

@@ -98,6 +98,38 @@ uint32_t PieceStore::add_region(Piece piece, std::span<const uint32_t> ends, uin
   return add_piece(piece);
 }
 
+uint32_t PieceStore::add_group(Piece piece, std::span<const uint32_t> faces) {
+  piece.group = static_cast<uint32_t>(groups_.size());
+  groups_.push_back(
+      {static_cast<uint32_t>(group_faces_.size()), static_cast<uint32_t>(faces.size()), {}});
+  group_faces_.insert(group_faces_.end(), faces.begin(), faces.end());
+  pieces_.push_back(piece);
+  PieceBox box;
+  each_face(piece_count() - 1, [&](std::span<const uint32_t> corners) {
+    for (const uint32_t p : corners) box.add(rounded_[p]);
+  });
+  boxes_.push_back(box);
+  return piece_count() - 1;
+}
+
+const PieceStore::Parts& PieceStore::group_parts(uint32_t piece) {
+  const uint32_t number = pieces_[piece].group;
+  if (groups_[number].parts.were_made()) return groups_[number].parts;
+  const auto [first_face, face_count, none] = groups_[number];
+  groups_[number].parts = {piece_count(), face_count};
+  Piece part = pieces_[piece];
+  part.group = kNoNumber;
+  for (uint32_t i = first_face; i < first_face + face_count; ++i) {
+    part.face = group_faces_[i];
+    part.first = static_cast<uint32_t>(corners_.size());
+    append_corners(part, part.face, corners_);
+    part.count = static_cast<uint32_t>(corners_.size()) - part.first;
+    edges_.resize(corners_.size(), kNoNumber);
+    add_piece(part);
+  }
+  return groups_[number].parts;
+}
+
 Plane PieceStore::plane_of_corners(uint32_t piece) const {
   const Piece& p = pieces_[piece];
   return support_of_loop(p.count,

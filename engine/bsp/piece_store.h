@@ -1,8 +1,9 @@
 // Pieces of results over common planes and points. A store only grows: all versions of a result,
 // from operation to operation, name their pieces in one store (result_pieces.h).
 //
-// A piece is a convex polygon, or a region: loops within a convex polygon, which become convex
-// pieces of their own when an operation comes near (region_parts.h).
+// A piece is a convex polygon, or stands for several, its parts, which are made when an operation
+// comes near: a region is loops within a convex polygon (region_parts.h), a group is faces of a
+// leaf that nothing met.
 #pragma once
 
 #include <array>
@@ -32,15 +33,20 @@ class PieceStore {
     bool is_flipped;        ///< a whole one: runs the other way round than the face
     bool is_met = false;    ///< another operand's surface touched it
     uint32_t region = ~0u;  ///< number of the region, if it is one
+    uint32_t group = ~0u;  ///< number of the group, if it is one: then it has no corners of its own
+  };
+
+  /// The pieces [first, first + count) that stand for a region or a group, when they were made.
+  struct Parts {
+    uint32_t first = ~0u, count = 0;
+    [[nodiscard]] bool were_made() const { return first != ~0u; }
   };
 
   /// What else is known of a region.
   struct Region {
     uint32_t first_end, loop_count;   ///< where loops end, counted from the piece's first corner
     uint32_t first_cell, cell_count;  ///< corners of the convex polygon that it is within
-    struct Parts {
-      uint32_t first = ~0u, count = 0;
-    } parts;  ///< pieces, when they were made
+    Parts parts;
   };
 
   PlaneTable planes;
@@ -58,6 +64,9 @@ class PieceStore {
   /// A region, the loops of which end at `ends`, counted from its first corner. The corners and
   /// edges of the convex polygon around it, so many, were appended after its own.
   uint32_t add_region(Piece piece, std::span<const uint32_t> ends, uint32_t cell_count);
+  /// Faces of a leaf on the grid, all of them whole, that nothing met, and which are turned over if
+  /// `piece` is.
+  uint32_t add_group(Piece piece, std::span<const uint32_t> faces);
   std::vector<uint32_t>& corners() { return corners_; }
   std::vector<uint32_t>& edges() { return edges_; }
 
@@ -72,7 +81,31 @@ class PieceStore {
   }
   [[nodiscard]] bool is_region(uint32_t piece) const { return pieces_[piece].region != kNoNumber; }
   [[nodiscard]] Region& region(uint32_t piece) { return regions_[pieces_[piece].region]; }
-  /// Calls f(begin, end) for the loops of a piece, counted from its first corner.
+  [[nodiscard]] bool is_group(uint32_t piece) const { return pieces_[piece].group != kNoNumber; }
+  [[nodiscard]] std::span<const uint32_t> group_faces(uint32_t piece) const {
+    const Group& group = groups_[pieces_[piece].group];
+    return {group_faces_.data() + group.first_face, group.face_count};
+  }
+  /// A piece for each face of a group, in their order. They are made when they are asked for first.
+  const Parts& group_parts(uint32_t piece);
+  /// The parts of a piece that were made; none of one that has none.
+  [[nodiscard]] Parts parts(uint32_t piece) const {
+    const Piece& p = pieces_[piece];
+    if (p.region != kNoNumber) return regions_[p.region].parts;
+    return p.group != kNoNumber ? groups_[p.group].parts : Parts{};
+  }
+  /// Calls f(corners) for each face of a group, or once for all corners of another piece.
+  template <class F>
+  void each_face(uint32_t piece, F&& f) const {
+    if (!is_group(piece)) return f(corners(piece));
+    std::vector<uint32_t> corners;
+    for (const uint32_t face : group_faces(piece)) {
+      corners.clear();
+      append_corners(pieces_[piece], face, corners);
+      f(std::span<const uint32_t>(corners));
+    }
+  }
+  /// Calls f(begin, end) for the loops of a piece that is no group, counted from its first corner.
   template <class F>
   void each_loop(uint32_t piece, F&& f) const {
     const Piece& p = pieces_[piece];
@@ -152,6 +185,20 @@ class PieceStore {
                                      const std::array<double, 3>& at) const;
   [[nodiscard]] IVec3 on_grid(uint32_t point) const;
   [[nodiscard]] Plane plane_of_corners(uint32_t piece) const;
+  /// Appends the corners of a face of a leaf as a piece of it has them.
+  void append_corners(const Piece& piece, uint32_t face, std::vector<uint32_t>& out) const {
+    const LeafGeometry& leaf = *operands_[piece.operand].leaf;
+    const uint32_t begin = leaf.face_starts[face], count = leaf.face_starts[face + 1] - begin;
+    for (uint32_t i = 0; i < count; ++i) {
+      out.push_back(first_point_[piece.operand] +
+                    leaf.corners[begin + corner_place(i, count, piece.is_flipped)]);
+    }
+  }
+
+  struct Group {
+    uint32_t first_face, face_count;  ///< in group_faces_
+    Parts parts;
+  };
 
   std::vector<Operand> operands_;
   std::vector<uint32_t> first_point_;
@@ -162,6 +209,8 @@ class PieceStore {
   std::vector<Piece> pieces_;
   std::vector<Region> regions_;
   std::vector<uint32_t> loop_ends_;
+  std::vector<Group> groups_;
+  std::vector<uint32_t> group_faces_;
   std::vector<PieceBox> boxes_;
   std::vector<uint32_t> corners_, edges_;
   std::vector<uint32_t> scratch_;

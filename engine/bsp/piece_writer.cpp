@@ -4,6 +4,13 @@
 #include <utility>
 
 namespace csgrun {
+namespace {
+
+/// Of fewer faces a group costs what they do; the more there are, the more are made pieces of when
+/// an operation comes near one of them.
+constexpr size_t kLeastOfGroup = 8, kMostOfGroup = 64;
+
+}  // namespace
 
 bool PieceWriter::add_operands() {
   for (uint32_t o = 0; o < operands_.size(); ++o) {
@@ -15,14 +22,71 @@ bool PieceWriter::add_operands() {
   return true;
 }
 
-void PieceWriter::add_whole(const WholePolygon& w) {
+void PieceWriter::add_whole(std::span<const WholePolygon> whole) {
+  std::array<std::vector<uint32_t>, 2> grouped;  // of one operand: kept as they are, or flipped
+  for (size_t i = 0; i < whole.size(); ++i) {
+    const WholePolygon& w = whole[i];
+    const uint32_t o = job_.polygons()[w.polygon].operand;
+    if (w.is_met || !operands_[o].leaf || !operands_[o].frame.is_identity) {
+      add_single(w);
+    } else {
+      grouped[w.flip].push_back(w.polygon);
+    }
+    if (i + 1 < whole.size() && job_.polygons()[whole[i + 1].polygon].operand == o) continue;
+    for (const bool flip : {false, true}) {
+      add_groups(grouped[flip], flip);
+      grouped[flip].clear();
+    }
+  }
+}
+
+void PieceWriter::add_groups(std::span<uint32_t> polygons, bool flip) {
+  if (polygons.size() < kLeastOfGroup) {
+    for (const uint32_t p : polygons) add_single({p, flip, false});
+    return;
+  }
+  if (polygons.size() <= kMostOfGroup) {
+    PieceStore::Piece piece = origin_of(polygons[0]);
+    piece.is_whole = true;
+    piece.is_flipped = flip;
+    faces_.clear();
+    for (const uint32_t p : polygons) faces_.push_back(job_.polygons()[p].face);
+    added.push_back(store_.add_group(piece, faces_));
+    return;
+  }
+  // By the octants around the middle of where they are.
+  const auto at = [&](uint32_t p) -> const std::array<double, 3>& {
+    return job_.rounded(job_.corners(job_.polygons()[p])[0]);
+  };
+  PieceBox box;
+  for (const uint32_t p : polygons) box.add(at(p));
+  std::array<std::vector<uint32_t>, 8> octants;
+  for (const uint32_t p : polygons) {
+    size_t octant = 0;
+    for (size_t k = 0; k < 3; ++k)
+      octant |= size_t{at(p)[k] - box.lo[k] > box.hi[k] - at(p)[k]} << k;
+    octants[octant].push_back(p);
+  }
+  for (auto& octant : octants) {
+    if (octant.size() < polygons.size()) {
+      add_groups(octant, flip);
+      continue;
+    }
+    // All of them begin at one point.
+    for (size_t i = 0; i < octant.size(); i += kMostOfGroup) {
+      add_groups(std::span(octant).subspan(i, std::min(kMostOfGroup, octant.size() - i)), flip);
+    }
+  }
+}
+
+void PieceWriter::add_single(const WholePolygon& w) {
   const JobPolygon& p = job_.polygons()[w.polygon];
   const auto corners = job_.corners(p);
   const auto edges = job_.edge_planes(p);
   PieceStore::Piece piece = origin_of(w.polygon);
   piece.is_whole = piece.is_whole || operands_[p.operand].leaf;
   piece.is_flipped = piece.is_flipped != w.flip;
-  piece.is_met = w.is_met;
+  piece.is_met = piece.is_met || w.is_met;  // one in pieces may have been before
   piece.first = static_cast<uint32_t>(store_.corners().size());
   piece.count = p.count;
   piece.support = p.support.valid() && w.flip ? p.support.flip() : p.support;

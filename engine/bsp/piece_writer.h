@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "engine/bsp/assemble.h"
@@ -29,8 +30,9 @@ class PieceWriter {
   /// Tells the store of operands that are not in pieces; false if one cannot be.
   bool add_operands();
 
-  /// A polygon that is kept. One in pieces must be turned over; others are there already.
-  void add_whole(const WholePolygon& w);
+  /// Polygons that are kept, those of an operand together. Ones in pieces must be turned over;
+  /// others are there already. Of a leaf on the grid those that nothing met become groups.
+  void add_whole(std::span<const WholePolygon> whole);
 
   /// Pieces of polygons that were cut; false if they do not close up.
   bool add_cut(const std::vector<FragmentSet>& sets);
@@ -38,6 +40,10 @@ class PieceWriter {
   std::vector<uint32_t> added;  ///< pieces
 
  private:
+  void add_single(const WholePolygon& w);
+  /// Polygons of one operand that are kept on one side, which end up in groups of what is together.
+  void add_groups(std::span<uint32_t> polygons, bool flip);
+
   /// Where a polygon of the job comes from.
   PieceStore::Piece origin_of(uint32_t polygon) const;
 
@@ -77,6 +83,7 @@ class PieceWriter {
   RegionLoops loops_, rest_loops_;
   RegionRest rest_;
   std::vector<uint32_t> cell_points_, cell_edges_;
+  std::vector<uint32_t> faces_;
 };
 
 }  // namespace csgrun

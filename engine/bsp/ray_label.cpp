@@ -165,12 +165,17 @@ Inside ray_label(const Job& job, VertexSigns& signs, uint32_t operand, const Pos
           [&](const PieceBox& box) { return !unsure && ray.may_meet(rounded_outwards(box)); },
           [&](uint32_t piece) {
             if (unsure || !ray.may_meet(rounded_outwards(store.box(piece)))) return;
-            corners.clear();
-            for (const uint32_t p : store.corners(piece)) corners.push_back(store.rounded(p));
-            ends.clear();
-            store.each_loop(piece, [&](uint32_t, uint32_t end) { ends.push_back(end); });
-            look_at(store.is_region(piece) ? ray.meets_loops(corners, ends, operand_error)
-                                           : ray.meets(corners, operand_error));
+            store.each_face(piece, [&](std::span<const uint32_t> points) {
+              if (unsure) return;
+              corners.clear();
+              PieceBox box;
+              for (const uint32_t p : points) box.add(corners.emplace_back(store.rounded(p)));
+              if (!ray.may_meet(rounded_outwards(box))) return;
+              if (!store.is_region(piece)) return look_at(ray.meets(corners, operand_error));
+              ends.clear();
+              store.each_loop(piece, [&](uint32_t, uint32_t end) { ends.push_back(end); });
+              look_at(ray.meets_loops(corners, ends, operand_error));
+            });
           });
     } else if (job.some_faces(operand)) {
       // The job does not have all of them.

@@ -2,10 +2,9 @@
 
 namespace csgrun {
 
-std::pair<uint32_t, uint32_t> RegionParts::of(uint32_t region) {
-  if (store_.region(region).parts.first == kNone) make(region);
-  const auto [first, count] = store_.region(region).parts;
-  return {first, first + count};
+const PieceStore::Parts& RegionParts::of(uint32_t region) {
+  if (!store_.region(region).parts.were_made()) make(region);
+  return store_.region(region).parts;
 }
 
 uint32_t RegionParts::point_of(uint32_t stored) {

@@ -19,9 +19,9 @@ class RegionParts {
   RegionParts(PieceStore& store, std::function<uint32_t(int, int64_t)> wall)
       : store_(store), wall_(std::move(wall)), geometry_(store.planes, nullptr) {}
 
-  /// The convex pieces [first, end) of a region, which the store keeps. They stand in its place: of
-  /// the same face, and together as large.
-  std::pair<uint32_t, uint32_t> of(uint32_t region);
+  /// The convex pieces of a region, which the store keeps. They stand in its place: of the same
+  /// face, and together as large.
+  const PieceStore::Parts& of(uint32_t region);
 
  private:
   uint32_t point_of(uint32_t stored);

@@ -72,7 +72,7 @@ Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& operands,
   if (!evaluated) return evaluated.error();
   PieceWriter writer(job, operands, store);
   if (!writer.add_operands()) return PiecesPtr();
-  for (const WholePolygon& w : evaluated->whole) writer.add_whole(w);
+  writer.add_whole(evaluated->whole);
   if (!writer.add_cut(evaluated->sets)) return not_closed();
   result->touches_anywhere = evaluated->touching.anywhere;
   result->touches = TouchList().with(std::move(evaluated->touching.boxes));
@@ -114,14 +114,13 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   if (!writer.add_operands()) return PiecesPtr();
   const uint32_t first = job.polygon_start(own);
   std::vector<uint32_t> kept;
-  for (const WholePolygon& w : faces->whole) {
-    if (w.polygon < first || w.flip) {
-      writer.add_whole(w);
-      continue;
-    }
+  std::erase_if(faces->whole, [&](const WholePolygon& w) {
+    if (w.polygon < first || w.flip) return false;
     kept.push_back(job.piece(w.polygon));
     if (w.is_met) store.set_met(kept.back());
-  }
+    return true;
+  });
+  writer.add_whole(faces->whole);
   std::vector<FragmentSet> cut;
   cut.push_back(std::move(faces->cut));
   if (!writer.add_cut(cut)) return not_closed();
@@ -140,7 +139,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
         {}, [](uint32_t) { return false; }, std::move(kept), box_of);
     return PiecesPtr(std::move(result));
   }
-  // Gone are the pieces of the job that were not kept, and regions with such parts.
+  // Gone are the pieces of the job that were not kept, and regions and groups with such parts.
   std::sort(kept.begin(), kept.end());
   const auto is_in = [](const std::vector<uint32_t>& sorted, uint32_t p) {
     return std::binary_search(sorted.begin(), sorted.end(), p);
@@ -157,8 +156,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   PieceBox gone_box;
   for (const uint32_t p : gone) {
     gone_box.add(store.box(p));
-    if (!store.is_region(p)) continue;
-    const auto& [first_part, part_count] = store.region(p).parts;
+    const auto [first_part, part_count] = store.parts(p);
     for (uint32_t part = first_part; part < first_part + part_count; ++part) {
       if (!is_in(lost, part)) writer.added.push_back(part);
     }
@@ -206,6 +204,17 @@ Result<std::shared_ptr<const BoundaryMesh>> assemble_pieces(const ResultPieces& 
   std::vector<uint32_t> named;
   for (const uint32_t p : pieces) {
     const PieceStore::Piece& piece = store.piece(p);
+    if (store.is_group(p)) {
+      // What is known of its faces is known of their pieces, if they were made.
+      const auto faces = store.group_faces(p);
+      const PieceStore::Parts parts = store.parts(p);
+      const uint32_t start = job.polygon_start(number[piece.operand]);
+      for (uint32_t i = 0; i < faces.size(); ++i) {
+        whole.push_back({start + faces[i], piece.is_flipped,
+                         parts.were_made() && store.piece(parts.first + i).is_met});
+      }
+      continue;
+    }
     const uint32_t polygon = first_polygon(job, number[piece.operand], piece.face);
     if (piece.is_whole) {
       whole.push_back({polygon, piece.is_flipped, piece.is_met});

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "engine/mesh/boundary_volume.h"
@@ -31,9 +32,8 @@ class Summer {
     PieceSums own;
     Int128 near_sum = 0;  // less than 2^34 determinants of less than 93 bits
     for (const uint32_t p : node.pieces) {
-      if (find_near(p)) {
-        store_.each_loop(
-            p, [&](uint32_t begin, uint32_t end) { near_sum += near_determinant(begin, end); });
+      if (const auto near = near_determinant(p)) {
+        near_sum += *near;
       } else if (const PieceSums* cut = cut_sums(p)) {
         add(*cut, own);
       } else {
@@ -62,16 +62,49 @@ class Summer {
     sums.triangles += more.triangles;
   }
 
-  /// Lists the corners of a piece all of which are whole and near the origin; false for others.
-  bool find_near(uint32_t piece) {
+  /// Of a piece all of whose corners are whole and near the origin; nothing for others.
+  std::optional<Int128> near_determinant(uint32_t piece) {
+    if (store_.is_group(piece)) return near_determinant_of_group(piece);
     near_.clear();
     for (const uint32_t point : store_.corners(piece)) {
-      if (store_.point_planes(point)[0] != PieceStore::kNoNumber) return false;
-      Near& near = near_.emplace_back();
-      for (size_t k = 0; k < 3; ++k) {
-        near[k] = static_cast<int64_t>(store_.rounded(point)[k]) - store_.origin()[k];
-        if (std::abs(near[k]) >= kNearLimit) return false;
+      if (store_.point_planes(point)[0] != PieceStore::kNoNumber) return std::nullopt;
+      const auto& at = store_.rounded(point);
+      if (!add_near({static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]),
+                     static_cast<int64_t>(at[2])},
+                    store_.origin())) {
+        return std::nullopt;
       }
+    }
+    Int128 sum = 0;
+    store_.each_loop(piece,
+                     [&](uint32_t begin, uint32_t end) { sum += near_determinant(begin, end); });
+    return sum;
+  }
+
+  /// Straight from the leaf.
+  std::optional<Int128> near_determinant_of_group(uint32_t piece) {
+    const PieceStore::Piece& group = store_.piece(piece);
+    const Operand& operand = store_.operands()[group.operand];
+    const LeafGeometry& leaf = *operand.leaf;
+    IVec3 origin = store_.origin();
+    for (size_t k = 0; k < 3; ++k) origin[k] -= operand.translation[k];
+    Int128 sum = 0;
+    for (const uint32_t f : store_.group_faces(piece)) {
+      near_.clear();
+      for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) {
+        if (!add_near(leaf.vertices[leaf.corners[c]], origin)) return std::nullopt;
+      }
+      sum += near_determinant(0, near_.size());
+    }
+    return group.is_flipped ? -sum : sum;
+  }
+
+  /// Appends a grid point relative to the origin; false if it is too far from there.
+  bool add_near(const IVec3& at, const IVec3& origin) {
+    Near& near = near_.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      near[k] = at[k] - origin[k];
+      if (std::abs(near[k]) >= kNearLimit) return false;
     }
     return true;
   }
@@ -97,17 +130,24 @@ class Summer {
   }
 
   bool find_cut(uint32_t piece, PieceSums& out) {
-    const auto corners = store_.corners(piece);
-    bool cut = false;
-    fixed_.resize(corners.size());
-    for (size_t i = 0; i < corners.size(); ++i) {
-      if (!take(corners[i], fixed_[i], cut)) return false;
-    }
-    store_.each_loop(piece, [&](uint32_t begin, uint32_t end) {
-      add_fan(std::span(fixed_).subspan(begin, end - begin), out);
+    bool is_in_range = true;
+    store_.each_face(piece, [&](std::span<const uint32_t> corners) {
+      bool cut = false;
+      fixed_.resize(corners.size());
+      for (size_t i = 0; i < corners.size() && is_in_range; ++i) {
+        is_in_range = take(corners[i], fixed_[i], cut);
+      }
+      if (!is_in_range) return;
+      if (store_.is_group(piece)) {
+        add_fan(fixed_, out);
+      } else {
+        store_.each_loop(piece, [&](uint32_t begin, uint32_t end) {
+          add_fan(std::span(fixed_).subspan(begin, end - begin), out);
+        });
+      }
+      if (cut) out.triangles += corners.size();
     });
-    if (cut) out.triangles += corners.size();
-    return true;
+    return is_in_range;
   }
 
   /// A fan from the first corner of a loop, the normals of which add up before they meet that
@@ -179,19 +219,23 @@ void find_extent(const PieceTree::Node& node, const PieceStore& store, const Gri
     for (size_t k = 0; k < 3; ++k) add(k, child->extent[0][k], child->extent[1][k]);
   }
   for (const uint32_t piece : node.pieces) {
-    for (const uint32_t p : store.corners(piece)) {
-      // Rounding is monotone: what is furthest has the furthest rounded coordinate.
-      const auto& at = store.rounded(p);
-      std::array<bool, 3> is_end{};
-      for (size_t k = 0; k < 3; ++k) is_end[k] = at[k] == node.box.lo[k] || at[k] == node.box.hi[k];
-      if (!is_end[0] && !is_end[1] && !is_end[2]) continue;
-      glm::dvec3 mm;
-      std::array<float, 3> single{};
-      to_millimetres.position(store.exact(p), mm, single);
-      for (size_t k = 0; k < 3; ++k) {
-        if (is_end[k]) add(k, mm[static_cast<int>(k)], mm[static_cast<int>(k)]);
+    store.each_face(piece, [&](std::span<const uint32_t> corners) {
+      for (const uint32_t p : corners) {
+        // Rounding is monotone: what is furthest has the furthest rounded coordinate.
+        const auto& at = store.rounded(p);
+        std::array<bool, 3> is_end{};
+        for (size_t k = 0; k < 3; ++k) {
+          is_end[k] = at[k] == node.box.lo[k] || at[k] == node.box.hi[k];
+        }
+        if (!is_end[0] && !is_end[1] && !is_end[2]) continue;
+        glm::dvec3 mm;
+        std::array<float, 3> single{};
+        to_millimetres.position(store.exact(p), mm, single);
+        for (size_t k = 0; k < 3; ++k) {
+          if (is_end[k]) add(k, mm[static_cast<int>(k)], mm[static_cast<int>(k)]);
+        }
       }
-    }
+    });
   }
 }
 

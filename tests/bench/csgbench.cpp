@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,13 @@ size_t touched_faces(const ResultPieces& result, const Operand& tool) {
   }
   size_t count = tool.leaf->face_count();
   result.tree.each([&](const PieceBox& node) { return node.meets(box); },
-                   [&](uint32_t piece) { count += result.store->box(piece).meets(box); });
+                   [&](uint32_t piece) {
+                     result.store->each_face(piece, [&](std::span<const uint32_t> corners) {
+                       PieceBox own;
+                       for (const uint32_t p : corners) own.add(result.store->rounded(p));
+                       count += own.meets(box);
+                     });
+                   });
   return count;
 }
 

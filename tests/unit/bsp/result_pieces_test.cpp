@@ -2,14 +2,18 @@
 #include "engine/bsp/result_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "engine/bsp/untouched.h"
 #include "engine/bsp/vertex_signs.h"
+#include "engine/mesh/boundary_volume.h"
+#include "engine/mesh/pieces_measures.h"
 #include "tests/support/boundary_compare.h"
 #include "tests/support/convex_operand.h"
 #include "tests/support/kernel_case.h"
+#include "tests/support/random_frames.h"
 #include "tests/support/random_trees.h"
 
 namespace csgrun {
@@ -55,18 +59,23 @@ class Chains {
   /// Starts from two operands and goes on for some steps; each version is looked at. `turning`:
   /// steps may take the version away from something.
   void run(const test::TreeShape& shape, int steps, bool turning = false) {
-    std::vector<Version> versions;
     const test::RandomTree leaves = maker_.make(shape);
-    for (const Operand& o : leaves.operands) unused_.push_back(o);
+    run_with(leaves.operands, leaves.region, steps, turning);
+  }
+
+  void run_with(const std::vector<Operand>& leaves, const GridBox& region, int steps,
+                bool turning) {
+    std::vector<Version> versions;
+    for (const Operand& o : leaves) unused_.push_back(o);
     Version start;
     take(start.operands, 2);
     const auto op = static_cast<BooleanOp>(random_.integer(0, 3));
     start.expression = test::flat_expression(op, 2);
-    auto made = evaluate_pieces(start.operands, start.expression, leaves.region, {}, stats_);
+    auto made = evaluate_pieces(start.operands, start.expression, region, {}, stats_);
     ASSERT_TRUE(made) << made.error().message;
     if (!*made) return;
     start.pieces = *made;
-    ASSERT_NO_FATAL_FAILURE(check(start, leaves.region));
+    ASSERT_NO_FATAL_FAILURE(check(start, region));
     versions.push_back(start);
     for (int i = 0; i < steps && !unused_.empty(); ++i) {
       // Now and then from a version that others went on from already.
@@ -86,22 +95,25 @@ class Chains {
       const PieceStore& store = *versions[from].pieces->store;
       const size_t pieces_before = store.piece_count(), points_before = store.point_count();
       auto changed = change_pieces(*versions[from].pieces, others, step_of(step, count, is_last),
-                                   leaves.region, {}, stats_);
+                                   region, {}, stats_);
       ASSERT_TRUE(changed) << changed.error().message;
       if (!*changed) continue;
       next.pieces = *changed;
       check_bytes(*next.pieces, next.pieces->store.get() == &store ? pieces_before : 0,
                   next.pieces->store.get() == &store ? points_before : 0);
-      ASSERT_NO_FATAL_FAILURE(check(next, leaves.region)) << "step " << i;
+      ASSERT_NO_FATAL_FAILURE(check(next, region)) << "step " << i;
       versions.push_back(next);
       ++steps_;
     }
     // What came later did not change any of them.
-    for (const Version& v : versions) ASSERT_NO_FATAL_FAILURE(check(v, leaves.region));
+    for (const Version& v : versions) ASSERT_NO_FATAL_FAILURE(check(v, region));
     unused_.clear();
   }
 
   [[nodiscard]] int steps() const { return steps_; }
+  /// Groups in all versions that were looked at, and those that an operation looked into.
+  [[nodiscard]] size_t groups() const { return groups_; }
+  [[nodiscard]] size_t expanded_groups() const { return expanded_groups_; }
 
  private:
   void take(std::vector<Operand>& to, size_t count) {
@@ -134,6 +146,27 @@ class Chains {
     const auto named = assemble_pieces(*v.pieces, true);
     ASSERT_TRUE(named) << named.error().message;
     ASSERT_EQ(test::first_difference(*expanded(*named), **once), "");
+    const GridStep step{1, 1, 0};
+    const auto volume = pieces_volume(*v.pieces, step), truth = boundary_volume(**once, step);
+    ASSERT_TRUE(volume && truth);
+    ASSERT_EQ(*volume, *truth);
+    const auto box = pieces_box(*v.pieces, step);
+    ASSERT_EQ(box.has_value(), !(*once)->faces.empty());
+    for (int k = 0; box && k < 3; ++k) {
+      double lo = HUGE_VAL, hi = -HUGE_VAL;
+      for (const auto& p : (*once)->point_rounded) {
+        lo = std::min(lo, p[static_cast<size_t>(k)]);
+        hi = std::max(hi, p[static_cast<size_t>(k)]);
+      }
+      ASSERT_EQ((*box)[0][k], lo);
+      ASSERT_EQ((*box)[1][k], hi);
+    }
+    const PieceStore& store = *v.pieces->store;
+    v.pieces->tree.each([](const PieceBox&) { return true; },
+                        [&](uint32_t p) {
+                          groups_ += store.is_group(p);
+                          expanded_groups_ += store.is_group(p) && store.parts(p).were_made();
+                        });
   }
 
   test::Random random_;
@@ -141,6 +174,7 @@ class Chains {
   std::vector<Operand> unused_;
   EvaluateStats stats_;
   int steps_ = 0;
+  size_t groups_ = 0, expanded_groups_ = 0;
 };
 
 TEST(ResultPieces, OfTouchingLeaves) {
@@ -180,6 +214,62 @@ TEST(ResultPieces, ThatAreTakenAway) {
         << "chain " << i;
   }
   EXPECT_GT(chains.steps(), 60);
+}
+
+/// A convex body of so many corners or somewhat fewer, near a sphere.
+Operand round_body(test::Random& random, const IVec3& middle, double radius, int corners) {
+  std::vector<IVec3> points;
+  while (static_cast<int>(points.size()) < corners) {
+    const double z = static_cast<double>(random.integer(-1000, 1000)) / 1000,
+                 turn = static_cast<double>(random.integer(0, 999)) * 2 * M_PI / 1000,
+                 across = std::sqrt(1 - z * z) * radius;
+    points.push_back({std::lround(across * std::cos(turn)), std::lround(across * std::sin(turn)),
+                      std::lround(z * radius)});
+  }
+  Operand body = test::convex_operand(test::hull_loops(points));
+  body.translation = middle;
+  return body;
+}
+
+/// The vertex that is furthest along a direction, moved as the operand is.
+IVec3 furthest(const Operand& o, const IVec3& direction) {
+  const IVec3 v = *std::max_element(
+      o.leaf->vertices.begin(), o.leaf->vertices.end(), [&](const IVec3& a, const IVec3& b) {
+        return test::dot_of(a, direction) < test::dot_of(b, direction);
+      });
+  return {v[0] + o.translation[0], v[1] + o.translation[1], v[2] + o.translation[2]};
+}
+
+// Faces that nothing met are in groups, until an operation comes near; also where they are so far
+// from the first vertex that sums need more bits, of leaves in a frame, and where another one
+// touches a corner and no more.
+TEST(ResultPieces, OfLeavesOfManyFaces) {
+  test::Random random(529);
+  Chains chains(530);
+  for (int i = 0; i < 24; ++i) {
+    const int64_t apart = i % 4 == 3 ? 1 << 29 : 0;
+    std::vector<Operand> bodies;
+    for (uint32_t o = 0; o < 7; ++o) {
+      const IVec3 middle{random.integer(-160, 160) + apart * (o % 3), random.integer(-160, 160),
+                         random.integer(-60, 60)};
+      bodies.push_back(round_body(random, middle, 60 + static_cast<double>(random.integer(0, 90)),
+                                  static_cast<int>(random.integer(8, 60))));
+      bodies.back().first_source = o;
+      if (o > 0 && random.integer(0, 2) == 0) {
+        const Operand& before = bodies[static_cast<size_t>(random.integer(0, o - 1))];
+        const IVec3 way{random.integer(-9, 9), random.integer(-9, 9), random.integer(-9, 9)};
+        const IVec3 to = furthest(before, way),
+                    from = furthest(bodies.back(), {-way[0], -way[1], -way[2]});
+        for (size_t k = 0; k < 3; ++k) bodies.back().translation[k] += to[k] - from[k];
+      }
+      if (i % 5 == 4 && o % 3 == 1) bodies.back().frame = test::random_frame(random);
+    }
+    ASSERT_NO_FATAL_FAILURE(chains.run_with(bodies, test::region_of(bodies), 6, i % 2 == 1))
+        << "chain " << i;
+  }
+  EXPECT_GT(chains.steps(), 60);
+  EXPECT_GT(chains.groups(), 300u);
+  EXPECT_GT(chains.expanded_groups(), 100u);
 }
 
 using test::octahedron;
