@@ -52,20 +52,24 @@ PolygonBox rounded_outwards(const PieceBox& box) {
   return result;
 }
 
-Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_boxes)
-    : Job(operands, planes, with_boxes, nullptr, nullptr) {}
+Job::Job(const std::vector<Operand>& operands, PlaneTable* planes)
+    : Job(operands, planes, true, nullptr, nullptr, nullptr) {}
 
 Job::Job(const std::vector<Operand>& operands, const NearFaces& near)
-    : Job(operands, nullptr, true, &near, nullptr) {}
+    : Job(operands, nullptr, true, &near, nullptr, nullptr) {}
 
 Job::Job(const std::vector<Operand>& operands, const LiveFaces& live)
-    : Job(operands, nullptr, true, nullptr, &live) {}
+    : Job(operands, nullptr, true, nullptr, &live, &live) {}
+
+Job::Job(const std::vector<Operand>& operands, PlaneTable& planes, const SomeFaces& some)
+    : Job(operands, &planes, false, nullptr, nullptr, &some) {}
 
 Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_boxes,
-         const NearFaces* near, const LiveFaces* live)
+         const NearFaces* near, const LiveFaces* live, const SomeFaces* some)
     : operands_(&operands),
       near_(near),
       live_(live),
+      some_(some),
       with_boxes_(with_boxes),
       planes_(planes ? *planes : own_planes_.emplace()) {
   sources_.resize(operands.size());
@@ -251,7 +255,7 @@ void Job::add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector
       edge_planes_[first + c] = kNone;
     }
     polygons_[first_polygon + i] = {o, f, first, count, PlaneId()};
-    boxes_[first_polygon + i] = grid_box_of(polygons_[first_polygon + i]);
+    if (with_boxes_) boxes_[first_polygon + i] = grid_box_of(polygons_[first_polygon + i]);
     return first + count;
   };
   if (leaf.corners.size() == 3 * leaf.face_count()) {
@@ -262,7 +266,7 @@ void Job::add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector
     uint32_t next = first_corner;
     for (size_t i = 0; i < faces.size(); ++i) next = add(i, next);
   }
-  operand_boxes_[o] = near_ ? near_->boxes[o] : live_->dead->operand_box(o);
+  if (with_boxes_) operand_boxes_[o] = near_ ? near_->boxes[o] : live_->dead->operand_box(o);
 }
 
 void Job::add_boundary(uint32_t o, const Operand& operand) {

@@ -53,14 +53,15 @@ constexpr uint32_t edge_place(uint32_t i, uint32_t count, bool flip) {
 class Job {
  public:
   /// Planes go into `planes`, if a table is given: that of the operand in pieces, if there is one.
-  /// Without boxes there are no boxes() and no operand_box().
-  explicit Job(const std::vector<Operand>& operands, PlaneTable* planes = nullptr,
-               bool with_boxes = true);
+  explicit Job(const std::vector<Operand>& operands, PlaneTable* planes = nullptr);
   /// Only these faces of the operands, which are leaves, are polygons of the job; it has all their
   /// vertices, and operand_box() is of all faces. `near` must outlive it.
   Job(const std::vector<Operand>& operands, const NearFaces& near);
   /// The same of operands that are partial; all of the others.
   Job(const std::vector<Operand>& operands, const LiveFaces& live);
+  /// The same over a table of planes, for those who only put a result together: there are no
+  /// boxes() and no operand_box().
+  Job(const std::vector<Operand>& operands, PlaneTable& planes, const SomeFaces& some);
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
@@ -80,11 +81,11 @@ class Job {
   /// in dead space.
   [[nodiscard]] const NearFaces* near_faces() const { return near_; }
   [[nodiscard]] const LiveFaces* live_faces() const { return live_; }
-  [[nodiscard]] bool has_all_faces() const { return !near_ && !live_; }
+  [[nodiscard]] bool has_all_faces() const { return !near_ && !some_; }
   /// Those of one operand, ascending; null: all.
   [[nodiscard]] const std::vector<uint32_t>* some_faces(size_t o) const {
     if (near_) return &near_->faces[o];
-    return live_ && live_->is_partial[o] ? &live_->faces[o] : nullptr;
+    return some_ && some_->is_partial[o] ? &some_->faces[o] : nullptr;
   }
   [[nodiscard]] size_t operand_count() const { return operands_->size(); }
   [[nodiscard]] uint32_t operand_of_vertex(uint32_t vertex) const;
@@ -168,7 +169,7 @@ class Job {
   };
 
   Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_boxes,
-      const NearFaces* near, const LiveFaces* live);
+      const NearFaces* near, const LiveFaces* live, const SomeFaces* some);
   [[nodiscard]] size_t face_count(size_t o) const;
   [[nodiscard]] size_t corner_count(size_t o) const;
   void make_room(size_t o);
@@ -192,6 +193,7 @@ class Job {
   const std::vector<Operand>* operands_;
   const NearFaces* const near_;
   const LiveFaces* const live_;
+  const SomeFaces* const some_;  ///< the live ones, or others
   const bool with_boxes_;
   std::optional<PlaneTable> own_planes_;
   PlaneTable& planes_;

@@ -11,12 +11,6 @@
 namespace csgrun {
 namespace {
 
-/// Whether a job may have some faces of a leaf. Where facets of several faces are kept, who asks
-/// for one looks for all of these.
-bool can_be_partial(const LeafGeometry& leaf) {
-  return !leaf.keeps_facets() || leaf.has_triangles_as_facets();
-}
-
 /// The faces of a leaf on the grid that are not in dead space.
 std::vector<uint32_t> live_faces_of(const Operand& operand, const DeadSpace& dead) {
   const LeafGeometry& leaf = *operand.leaf;
@@ -54,7 +48,7 @@ std::optional<LiveFaces> find_live_faces(const std::vector<Operand>& operands,
     const std::optional<PolygonBox> box = box_of_leaf(*leaf, operands[o].translation);
     if (!box) return;
     boxes[o] = *box;
-    live.is_looked_at[o] = can_be_partial(*leaf) ? 1 : 0;
+    live.is_looked_at[o] = can_be_partial(operands[o]) ? 1 : 0;
   });
   live.dead = std::make_shared<DeadSpace>(operands, expression, std::move(boxes));
   std::atomic<size_t> hidden = 0;

@@ -9,14 +9,12 @@
 
 #include "engine/bsp/dead_space.h"
 #include "engine/bsp/operand.h"
+#include "engine/bsp/some_faces.h"
 
 namespace csgrun {
 
-struct LiveFaces {
-  /// Per operand, whether its faces were looked at, and whether some of them are in dead space.
-  std::vector<uint8_t> is_looked_at, is_partial;
-  /// Of each that is: the others, ascending.
-  std::vector<std::vector<uint32_t>> faces;
+struct LiveFaces : SomeFaces {
+  std::vector<uint8_t> is_looked_at;  ///< per operand, whether its faces were
   std::shared_ptr<const DeadSpace> dead;
 };
 

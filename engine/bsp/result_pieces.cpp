@@ -6,7 +6,6 @@
 #include "engine/bsp/evaluate_job.h"
 #include "engine/bsp/piece_writer.h"
 #include "engine/bsp/pruned_expression.h"
-#include "engine/bsp/untouched.h"
 #include "engine/bsp/whole_faces.h"
 
 namespace csgrun {
@@ -27,24 +26,6 @@ Expression renumbered(Expression expression, Number&& number) {
 size_t bytes_of(size_t pieces, size_t points) {
   constexpr size_t kPiece = 300, kPoint = 250;  // with their planes and their share of nodes
   return sizeof(ResultPieces) + pieces * kPiece + points * kPoint;
-}
-
-/// The first polygon of a job that is of a face of an operand.
-uint32_t first_polygon(const Job& job, uint32_t operand, uint32_t face) {
-  const uint32_t begin = job.polygon_start(operand), end = job.polygon_start(operand + 1);
-  if (job.is_leaf(operand)) return begin + face;
-  // How a boundary's face is made convex depends on the other operands of a job.
-  const auto first = job.polygons().begin();
-  const auto found = std::lower_bound(first + begin, first + end, face,
-                                      [](const JobPolygon& p, uint32_t f) { return p.face < f; });
-  return static_cast<uint32_t>(found - first);
-}
-
-/// Whether a point is named by a leaf. (How many vertices a boundary has in a job depends on the
-/// job; its points are named by their planes.)
-bool is_leaf_vertex(const PieceStore& store, uint32_t point) {
-  const uint32_t o = store.operand_of(point);
-  return o != kNone && store.operands()[o].leaf;
 }
 
 enum class Outside : uint8_t { kKept, kDropped, kTurned };
@@ -166,87 +147,6 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
       gone.empty() ? std::span<const PieceBox>() : std::span<const PieceBox>(&gone_box, 1), is_gone,
       std::move(writer.added), box_of);
   return PiecesPtr(std::move(result));
-}
-
-Result<std::shared_ptr<const BoundaryMesh>> assemble_pieces(const ResultPieces& version,
-                                                            bool name_untouched) {
-  PieceStore& store = *version.store;
-  std::vector<uint32_t> pieces;
-  version.tree.each([](const PieceBox&) { return true; }, [&](uint32_t p) { pieces.push_back(p); });
-  std::sort(pieces.begin(), pieces.end());
-  // The operands that have pieces or corners of pieces, in the order of their sources, as one
-  // operation would have them.
-  std::vector<uint32_t> order;
-  std::vector<uint8_t> is_used(store.operands().size(), 0);
-  for (const uint32_t p : pieces) {
-    is_used[store.piece(p).operand] = 1;
-    for (const uint32_t point : store.corners(p)) {
-      if (is_leaf_vertex(store, point)) is_used[store.operand_of(point)] = 1;
-    }
-  }
-  for (uint32_t o = 0; o < is_used.size(); ++o) {
-    if (is_used[o]) order.push_back(o);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    return store.operands()[a].first_source < store.operands()[b].first_source;
-  });
-  std::vector<Operand> operands;
-  std::vector<uint32_t> number(store.operands().size(), kNone);
-  for (const uint32_t o : order) {
-    number[o] = static_cast<uint32_t>(operands.size());
-    operands.push_back(store.operands()[o]);
-  }
-  Job job(operands, &store.planes, false);
-  std::vector<WholePolygon> whole;
-  std::vector<FragmentSet> sets(1);
-  FragmentSet& set = sets.front();
-  std::vector<uint32_t>& number_of = store.scratch();
-  std::vector<uint32_t> named;
-  for (const uint32_t p : pieces) {
-    const PieceStore::Piece& piece = store.piece(p);
-    if (store.is_group(p)) {
-      // What is known of its faces is known of their pieces, if they were made.
-      const auto faces = store.group_faces(p);
-      const PieceStore::Parts parts = store.parts(p);
-      const uint32_t start = job.polygon_start(number[piece.operand]);
-      for (uint32_t i = 0; i < faces.size(); ++i) {
-        whole.push_back({start + faces[i], piece.is_flipped,
-                         parts.were_made() && store.piece(parts.first + i).is_met});
-      }
-      continue;
-    }
-    const uint32_t polygon = first_polygon(job, number[piece.operand], piece.face);
-    if (piece.is_whole) {
-      whole.push_back({polygon, piece.is_flipped, piece.is_met});
-      continue;
-    }
-    const auto first_corner = static_cast<uint32_t>(set.corner_point.size());
-    store.each_loop(p, [&](uint32_t begin, uint32_t end) {
-      set.pieces.push_back({piece.support, polygon, first_corner + begin, end - begin, false});
-    });
-    const auto corners = store.corners(p);
-    const auto edges = store.edges(p);
-    for (uint32_t i = 0; i < piece.count; ++i) {
-      const uint32_t point = corners[i];
-      if (number_of[point] == kNone) {
-        number_of[point] = static_cast<uint32_t>(set.points.size());
-        named.push_back(point);
-        uint32_t vertex = kNone;
-        if (is_leaf_vertex(store, point)) {
-          const uint32_t o = store.operand_of(point);
-          vertex = job.vertex_start(number[o]) + point - store.first_point(o);
-        }
-        set.points.push_back({store.rounded(point), store.point_planes(point), vertex});
-      }
-      set.corner_point.push_back(number_of[point]);
-      set.corner_plane.push_back(edges[i]);
-    }
-  }
-  for (const uint32_t point : named) number_of[point] = kNone;
-  std::vector<UntouchedPart> parts;
-  if (name_untouched) parts = take_untouched(job, operands, {}, whole);
-  return assemble(job, sets, whole, {version.touches_anywhere, version.touches.boxes()},
-                  std::move(parts));
 }
 
 }  // namespace csgrun

@@ -14,8 +14,9 @@
 namespace csgrun {
 namespace {
 
-/// What becomes of a face, or of all faces at a vertex.
-enum Fate : uint8_t { kMixed = 0, kKept = 1, kFlipped = 2, kNoFan = 3 };
+/// Of a vertex at which faces are not one fan, instead of their common fate.
+constexpr uint8_t kNoFan = 3;
+constexpr auto kMixedAround = static_cast<uint8_t>(FaceFate::kMixed);
 
 bool is_own_facet(const LeafGeometry& leaf, uint32_t f) {
   const FaceNumbers& facet = leaf.facet;
@@ -48,7 +49,7 @@ class UntouchedFaces {
  public:
   /// `near`: the faces; null: all. `fate`: of each of them. The other faces around a vertex of one
   /// have the same fate as these.
-  UntouchedFaces(const LeafGeometry& leaf, const std::vector<uint32_t>* near, const uint8_t* fate)
+  UntouchedFaces(const LeafGeometry& leaf, const std::vector<uint32_t>* near, const FaceFate* fate)
       : leaf_(leaf),
         near_(near),
         count_(near ? near->size() : leaf.face_count()),
@@ -60,7 +61,7 @@ class UntouchedFaces {
 
   /// Those of one fate, marked in `taken` by their places, and `far`, which are faces that the job
   /// does not have; with their corners as vertices of the leaf.
-  void collect(Fate fate, const std::vector<uint32_t>& far, UntouchedPart& part,
+  void collect(FaceFate fate, const std::vector<uint32_t>& far, UntouchedPart& part,
                uint8_t* taken) const {
     std::vector<uint8_t> met(leaf_.vertices.size(), 0);  // 1: by such a face, 2: by others
     std::vector<uint32_t> found;
@@ -104,7 +105,7 @@ class UntouchedFaces {
     for (uint32_t c = begin; c < end; ++c) {
       const uint8_t around = of_vertex_[leaf_.corners[c]];
       if (around == kNoFan) return false;
-      all_whole = all_whole && around != kMixed;
+      all_whole = all_whole && around != kMixedAround;
     }
     return (keeps_facets_ && all_whole) || is_alone(leaf_, walk_, f);
   }
@@ -115,14 +116,14 @@ class UntouchedFaces {
     of_vertex_.assign(leaf_.vertices.size(), 0);
     for (size_t i = 0; i < count_; ++i) {
       const uint32_t f = face(i);
-      const auto own = static_cast<uint8_t>(1u << fate_[i]);
+      const auto own = static_cast<uint8_t>(1u << static_cast<unsigned>(fate_[i]));
       for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
         of_vertex_[leaf_.corners[c]] |= own;
       }
     }
     for (uint8_t& fates : of_vertex_) {
       const bool all_same = std::has_single_bit(fates);
-      fates = all_same ? static_cast<uint8_t>(std::countr_zero(fates)) : uint8_t{kMixed};
+      fates = all_same ? static_cast<uint8_t>(std::countr_zero(fates)) : kMixedAround;
     }
     if (!leaf_.has_single_fans) {
       for (const uint32_t v : find_vertices_of_fans(leaf_)) of_vertex_[v] = kNoFan;
@@ -138,7 +139,7 @@ class UntouchedFaces {
   const LeafGeometry& leaf_;
   const std::vector<uint32_t>* const near_;
   const size_t count_;
-  const uint8_t* fate_;
+  const FaceFate* fate_;
   const CornerWalk walk_;
   const bool keeps_facets_;
   std::vector<uint8_t> of_vertex_;
@@ -213,57 +214,68 @@ class Expander {
 
 }  // namespace
 
+std::vector<UntouchedPart> untouched_parts(const Operand& operand,
+                                           const std::vector<uint32_t>* faces, const FaceFate* fate,
+                                           const FarFaces& far, uint8_t* taken) {
+  std::vector<UntouchedPart> parts;
+  if (!operand.leaf) return parts;
+  const FrameMap map(operand.frame);
+  if (map.is_mirrored()) return parts;
+  const LeafGeometry& leaf = *operand.leaf;
+  // Faces that are parts of one facet must stand together.
+  if (leaf.may_touch || leaf.opposite.empty() || !leaf.facet.ascend()) return parts;
+  // Without facets of its own a face must be alone in its plane; that is easily told of convex
+  // leaves.
+  if (!leaf.keeps_facets() && !leaf.convex) return parts;
+  const FaceFate* const end = fate + (faces ? faces->size() : leaf.face_count());
+  const auto any = [&](FaceFate f) { return std::find(fate, end, f) != end; };
+  const bool any_kept = !far.kept.empty() || any(FaceFate::kKept),
+             any_flipped = !far.flipped.empty() || any(FaceFate::kFlipped);
+  if (!any_kept && !any_flipped) return parts;
+  const UntouchedFaces untouched(leaf, faces, fate);
+  for (const FaceFate side : {FaceFate::kKept, FaceFate::kFlipped}) {
+    const bool is_flipped = side == FaceFate::kFlipped;
+    if (!(is_flipped ? any_flipped : any_kept)) continue;
+    UntouchedPart part{operand.leaf,
+                       operand.translation,
+                       map,
+                       operand.first_source,
+                       operand.appearance,
+                       is_flipped,
+                       {},
+                       {},
+                       {}};
+    untouched.collect(side, is_flipped ? far.flipped : far.kept, part, taken);
+    if (!part.faces.empty()) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+void place_in_job(UntouchedPart& part, const Job& job, size_t o) {
+  // The vertices of an operand stand together, in the order of the leaf.
+  const uint32_t first_vertex = job.vertex_start(o);
+  for (UntouchedPart::Shared& s : part.shared) s.point = first_vertex + s.vertex;
+  for (uint32_t v = 0; !part.map.is_identity() && v < part.leaf->vertices.size(); ++v) {
+    part.world.push_back(job.rounded(first_vertex + v));
+  }
+}
+
 std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Operand>& operands,
                                           const std::vector<FarFaces>& far,
                                           std::vector<WholePolygon>& whole) {
   std::vector<UntouchedPart> parts;
-  std::vector<uint8_t> fate(job.polygons().size(), kMixed), taken(job.polygons().size(), 0);
+  std::vector<FaceFate> fate(job.polygons().size(), FaceFate::kMixed);
+  std::vector<uint8_t> taken(job.polygons().size(), 0);
   for (const WholePolygon& w : whole) {
-    if (!w.is_met) fate[w.polygon] = w.flip ? kFlipped : kKept;
+    if (!w.is_met) fate[w.polygon] = w.flip ? FaceFate::kFlipped : FaceFate::kKept;
   }
   std::vector<std::vector<UntouchedPart>> of_operand(operands.size());
   for_each_alone(operands.size(), job.polygons().size() > kFewForThreads, [&](size_t o) {
-    const Operand& operand = operands[o];
-    if (!operand.leaf) return;
-    const FrameMap map(operand.frame);
-    if (map.is_mirrored()) return;
-    const LeafGeometry& leaf = *operand.leaf;
-    // Faces that are parts of one facet must stand together.
-    if (leaf.may_touch || leaf.opposite.empty() || !leaf.facet.ascend()) return;
-    // Without facets of its own a face must be alone in its plane; that is easily told of convex
-    // leaves.
-    if (!leaf.keeps_facets() && !leaf.convex) return;
-    const uint32_t start = job.polygon_start(o), end = job.polygon_start(o + 1);
-    bool any[3] = {false, false, false};
-    for (uint32_t p = start; p < end; ++p) any[fate[p]] = true;
     const FarFaces none;
-    const FarFaces& own_far = far.empty() ? none : far[o];
-    any[kKept] |= !own_far.kept.empty();
-    any[kFlipped] |= !own_far.flipped.empty();
-    if (!any[kKept] && !any[kFlipped]) return;
-    const UntouchedFaces faces(leaf, job.some_faces(o), fate.data() + start);
-    for (const Fate side : {kKept, kFlipped}) {
-      if (!any[side]) continue;
-      UntouchedPart part{operand.leaf,
-                         operand.translation,
-                         map,
-                         operand.first_source,
-                         operand.appearance,
-                         side == kFlipped,
-                         {},
-                         {},
-                         {}};
-      faces.collect(side, side == kKept ? own_far.kept : own_far.flipped, part,
-                    taken.data() + start);
-      // The vertices of an operand stand together, in the order of the leaf.
-      const uint32_t first_vertex = job.vertex_start(o);
-      for (UntouchedPart::Shared& s : part.shared) s.point += first_vertex;
-      if (part.faces.empty()) continue;
-      for (uint32_t v = 0; !map.is_identity() && v < leaf.vertices.size(); ++v) {
-        part.world.push_back(job.rounded(first_vertex + v));
-      }
-      of_operand[o].push_back(std::move(part));
-    }
+    const uint32_t start = job.polygon_start(o);
+    of_operand[o] = untouched_parts(operands[o], job.some_faces(o), fate.data() + start,
+                                    far.empty() ? none : far[o], taken.data() + start);
+    for (UntouchedPart& part : of_operand[o]) place_in_job(part, job, o);
   });
   for (auto& some : of_operand) {
     std::move(some.begin(), some.end(), std::back_inserter(parts));

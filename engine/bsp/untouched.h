@@ -8,6 +8,7 @@
 // is kept, as all faces at its corners are.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,24 @@
 #include "engine/bsp/near_faces.h"
 
 namespace csgrun {
+
+/// What became of a face, as far as its boundary goes.
+enum class FaceFate : uint8_t {
+  kMixed,    ///< none of it is left, or not all, or something met it
+  kKept,     ///< all of it
+  kFlipped,  ///< all of it, turned over
+};
+
+/// The untouched triangles of a leaf, of each side that has some. `fate` is that of `faces`, which
+/// ascend (null: all of the leaf), and `taken` is set where one is untouched; all of `far` are,
+/// which are not among these. For which leaves and faces, see take_untouched. The parts lack what a
+/// job knows. O(faces).
+std::vector<UntouchedPart> untouched_parts(const Operand& operand,
+                                           const std::vector<uint32_t>* faces, const FaceFate* fate,
+                                           const FarFaces& far, uint8_t* taken);
+
+/// Tells a part of operand `o` what the job knows of its vertices.
+void place_in_job(UntouchedPart& part, const Job& job, size_t o);
 
 /// Takes the untouched triangles of the operands out of `whole`, and all of `far` (see WholeFaces);
 /// their corners that other faces have too are named by the job's vertices in

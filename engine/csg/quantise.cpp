@@ -173,7 +173,8 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
   const auto walk_fans = [&] {
     return !leaf->opposite.empty() && find_vertices_of_fans(*leaf).empty();
   };
-  leaf->convex = leaf->has_single_fans = is_convex_surface(*leaf, box);
+  const ConvexSurface surface = find_convex_surface(*leaf, box);
+  leaf->convex = leaf->has_single_fans = surface.is_convex;
   if (!leaf->convex && promised_convex && is_locally_convex(*leaf)) {
     // Where a thin body was pinched to a point it is two.
     leaf->convex = leaf->has_single_fans = walk_fans();
@@ -190,7 +191,10 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
   }
   leaf->may_touch = !result.crossings.empty() || (!leaf->convex && may_lose_common_corners(*leaf));
   // Facets that are kept as they are have no others of their label.
-  if (leaf->convex && !leaf->opposite.empty() && !leaf->keeps_facets()) join_flat_faces(*leaf);
+  const bool is_minimal = surface.is_convex && !surface.has_flat_edges;
+  if (leaf->convex && !is_minimal && !leaf->opposite.empty() && !leaf->keeps_facets()) {
+    join_flat_faces(*leaf);
+  }
   result.geometry = std::move(leaf);
   return result;
 }

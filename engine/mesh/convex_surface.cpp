@@ -1,42 +1,40 @@
 #include "engine/mesh/convex_surface.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "engine/mesh/face_normal.h"
 #include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/spread_vertices.h"
 
 namespace csgrun {
 namespace {
 
-/// Whether d is in front of the plane of a, b, c. Coordinates are less than 2^30 apart.
-bool is_in_front(const IVec3& a, const IVec3& b, const IVec3& c, const IVec3& d) {
-  IVec3 u, v, w;
-  for (size_t k = 0; k < 3; ++k) u[k] = b[k] - a[k], v[k] = c[k] - a[k], w[k] = d[k] - a[k];
-  __int128 sum = 0;
-  for (size_t k = 0; k < 3; ++k) {
-    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
-    sum += static_cast<__int128>(u[i] * v[j] - u[j] * v[i]) * w[k];
-  }
-  return sum > 0;
-}
+enum class Bend : uint8_t { kBack, kFlat, kFront };
 
-uint32_t next(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-
-bool has_neighbour_in_front(const LeafGeometry& leaf) {
+/// The neighbour that bends forward most as seen from any face: kFront, if one is in front. (Then
+/// no more are looked at.) REQUIRES: triangles; coordinates are less than 2^30 apart.
+Bend foremost_neighbour(const LeafGeometry& leaf) {
   const auto point = [&](uint32_t corner) -> const IVec3& {
     return leaf.vertices[leaf.corners[corner]];
   };
-  for (uint32_t edge = 0; edge < leaf.corners.size(); ++edge) {
-    const uint32_t back = leaf.opposite[edge];
-    if (back < edge) continue;
-    const uint32_t end = next(edge);
-    if (is_in_front(point(edge), point(end), point(next(end)), point(next(next(back))))) {
-      return true;
+  Bend most = Bend::kBack;
+  for (uint32_t first = 0; first < leaf.corners.size(); first += 3) {
+    const IVec3& origin = point(first);
+    const IVec3 normal =
+        cross(difference(point(first + 1), origin), difference(point(first + 2), origin));
+    for (uint32_t edge = first; edge < first + 3; ++edge) {
+      const uint32_t back = leaf.opposite[edge];
+      if (back < edge) continue;
+      const uint32_t apex = back % 3 == 0 ? back + 2 : back - 1;
+      const IVec3 to_apex = difference(point(apex), origin);
+      __int128 height = 0;
+      for (size_t k = 0; k < 3; ++k) height += static_cast<__int128>(normal[k]) * to_apex[k];
+      if (height > 0) return Bend::kFront;
+      if (height == 0) most = Bend::kFlat;
     }
   }
-  return false;
+  return most;
 }
 
 bool is_connected(const LeafGeometry& leaf) {
@@ -60,12 +58,14 @@ bool is_connected(const LeafGeometry& leaf) {
 
 }  // namespace
 
-bool is_convex_surface(const LeafGeometry& leaf, const GridBox& box) {
-  if (leaf.opposite.empty() || !consists_of_triangles(leaf)) return false;
-  if (!is_compact(box) || has_neighbour_in_front(leaf)) return false;
+ConvexSurface find_convex_surface(const LeafGeometry& leaf, const GridBox& box) {
+  if (leaf.opposite.empty() || !consists_of_triangles(leaf) || !is_compact(box)) return {};
+  const Bend most = foremost_neighbour(leaf);
+  if (most == Bend::kFront) return {};
   const std::vector<uint8_t> is_spread = find_spread_vertices(leaf);
-  return std::all_of(is_spread.begin(), is_spread.end(), [](uint8_t s) { return s != 0; }) &&
-         is_connected(leaf);
+  const bool all_spread =
+      std::all_of(is_spread.begin(), is_spread.end(), [](uint8_t s) { return s != 0; });
+  return {all_spread && is_connected(leaf), most == Bend::kFlat};
 }
 
 }  // namespace csgrun

@@ -68,11 +68,10 @@ class Summer {
     near_.clear();
     for (const uint32_t point : store_.corners(piece)) {
       if (store_.point_planes(point)[0] != PieceStore::kNoNumber) return std::nullopt;
-      const auto& at = store_.rounded(point);
-      if (!add_near({static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]),
-                     static_cast<int64_t>(at[2])},
-                    store_.origin())) {
-        return std::nullopt;
+      Near& near = near_.emplace_back();
+      for (size_t k = 0; k < 3; ++k) {
+        near[k] = static_cast<int64_t>(store_.rounded(point)[k]) - store_.origin()[k];
+        if (std::abs(near[k]) >= kNearLimit) return std::nullopt;
       }
     }
     Int128 sum = 0;
@@ -82,39 +81,49 @@ class Summer {
   }
 
   /// Straight from the leaf.
-  std::optional<Int128> near_determinant_of_group(uint32_t piece) {
+  [[nodiscard]] std::optional<Int128> near_determinant_of_group(uint32_t piece) const {
     const PieceStore::Piece& group = store_.piece(piece);
+    const PieceBox& box = store_.box(piece);  // exact: of grid points
+    for (size_t k = 0; k < 3; ++k) {
+      const auto origin = static_cast<double>(store_.origin()[k]);
+      if (box.lo[k] - origin <= -kNearLimit || box.hi[k] - origin >= kNearLimit) {
+        return std::nullopt;
+      }
+    }
     const Operand& operand = store_.operands()[group.operand];
     const LeafGeometry& leaf = *operand.leaf;
     IVec3 origin = store_.origin();
     for (size_t k = 0; k < 3; ++k) origin[k] -= operand.translation[k];
+    const auto at = [&](uint32_t corner) {
+      const IVec3& v = leaf.vertices[leaf.corners[corner]];
+      return Near{v[0] - origin[0], v[1] - origin[1], v[2] - origin[2]};
+    };
     Int128 sum = 0;
     for (const uint32_t f : store_.group_faces(piece)) {
-      near_.clear();
-      for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) {
-        if (!add_near(leaf.vertices[leaf.corners[c]], origin)) return std::nullopt;
+      const uint32_t first = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+      const Near a = at(first);
+      Near b = at(first + 1);
+      for (uint32_t i = first + 2; i < end; ++i) {
+        const Near c = at(i);
+        sum += determinant(a, b, c);
+        b = c;
       }
-      sum += near_determinant(0, near_.size());
     }
     return group.is_flipped ? -sum : sum;
   }
 
-  /// Appends a grid point relative to the origin; false if it is too far from there.
-  bool add_near(const IVec3& at, const IVec3& origin) {
-    Near& near = near_.emplace_back();
-    for (size_t k = 0; k < 3; ++k) {
-      near[k] = at[k] - origin[k];
-      if (std::abs(near[k]) >= kNearLimit) return false;
-    }
-    return true;
+  static Int128 determinant(const Near& a, const Near& b, const Near& c) {
+    const auto n = normal_of(a, b, c);
+    Int128 sum = 0;
+    for (size_t k = 0; k < 3; ++k) sum += static_cast<Int128>(n[k]) * a[k];
+    return sum;
   }
 
   /// Of a fan from the first corner of a loop.
   [[nodiscard]] Int128 near_determinant(size_t begin, size_t end) const {
     Int128 sum = 0;
     for (size_t i = begin + 1; i + 1 < end; ++i) {
-      const auto n = normal_of(near_[begin], near_[i], near_[i + 1]);
-      for (size_t k = 0; k < 3; ++k) sum += static_cast<Int128>(n[k]) * near_[begin][k];
+      sum += determinant(near_[begin], near_[i], near_[i + 1]);
     }
     return sum;
   }

@@ -295,7 +295,7 @@ TEST(ConvexLeaf, WhatIsConvexNearItselfMayStillWindAroundItself) {
   ASSERT_EQ(wound.status, Status::kTangled);
   EXPECT_EQ(wound.geometry->face_count(), 20u);
   EXPECT_EQ(wound.geometry->opposite.size(), 60u);
-  EXPECT_FALSE(is_convex_surface(*wound.geometry, wound.box));
+  EXPECT_FALSE(find_convex_surface(*wound.geometry, wound.box).is_convex);
   EXPECT_FALSE(wound.crossings.empty());
 
   // Two bodies, each of them convex.

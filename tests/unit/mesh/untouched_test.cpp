@@ -48,7 +48,7 @@ std::shared_ptr<LeafGeometry> ball(int64_t radius, int n) {
   auto leaf = std::make_shared<LeafGeometry>(*make_leaf(loops, false, 1));
   leaf->opposite = pair_edges(*leaf).opposite;
   leaf->may_touch = false;
-  leaf->convex = is_convex_surface(*leaf, box_of_points(leaf->vertices));
+  leaf->convex = find_convex_surface(*leaf, box_of_points(leaf->vertices)).is_convex;
   EXPECT_TRUE(leaf->convex);
   return leaf;
 }
