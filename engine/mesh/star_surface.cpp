@@ -1,11 +1,12 @@
 #include "engine/mesh/star_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "engine/base/parallel.h"
-#include "engine/mesh/face_normal.h"
+#include "engine/mesh/centre_view.h"
 #include "engine/mesh/leaf_shape.h"
 
 namespace csgrun {
@@ -22,12 +23,10 @@ constexpr size_t kFacesPerPart = 16384;
 
 class Star {
  public:
-  Star(const LeafGeometry& leaf, const GridBox& box)
-      : leaf_(leaf), origin_(leaf.vertices[leaf.corners[0]]) {
+  Star(const LeafGeometry& leaf, const GridBox& box) : leaf_(leaf), view_(leaf, box) {
     for (size_t k = 0; k < 3; ++k) {
-      lo_[k] = box.lo[k] - origin_[k];
-      hi_[k] = box.hi[k] - origin_[k];
-      centre_[k] = odd(static_cast<double>(lo_[k] + hi_[k]));
+      lo_[k] = box.lo[k] - view_.origin()[k];
+      hi_[k] = box.hi[k] - view_.origin()[k];
     }
   }
 
@@ -37,7 +36,7 @@ class Star {
     for (size_t looks = 0; looks < kMostLooks; ++looks) {
       size_t behind = 0;  // so many faces of the sample, the last ones that were looked at
       for (size_t f = 0; behind * step < count; f = f + step < count ? f + step : 0) {
-        if (has_behind(f)) {
+        if (view_.has_behind(f, view_.normal(f))) {
           ++behind;
           continue;
         }
@@ -54,50 +53,28 @@ class Star {
     return false;
   }
 
-  /// How many faces a ray from the centre that was found crosses; through an edge it crosses one of
-  /// its faces.
+  /// How many faces a ray from the centre that was found crosses.
   [[nodiscard]] size_t ray_crossings() const { return ray_crossings_; }
 
  private:
-  static int64_t odd(double x) { return 2 * static_cast<int64_t>(std::floor(x / 2)) + 1; }
-
-  /// The way from the centre to a corner, in halves of steps: below 2^32.
-  [[nodiscard]] IVec3 way_to(uint32_t corner) const {
-    const IVec3& p = leaf_.vertices[leaf_.corners[corner]];
-    IVec3 way;
-    for (size_t k = 0; k < 3; ++k) way[k] = 2 * (p[k] - origin_[k]) - centre_[k];
-    return way;
-  }
-
-  [[nodiscard]] IVec3 normal(size_t face) const {
-    return face_normal(leaf_, leaf_.face_starts[face], leaf_.face_starts[face + 1]);
-  }
-
-  /// Whether a face has the centre behind it. The sum fits 97 bits.
-  [[nodiscard]] bool has_behind(size_t face) const {
-    const IVec3 n = normal(face), way = way_to(leaf_.face_starts[face]);
-    __int128 sum = 0;
-    for (size_t k = 0; k < 3; ++k) sum += static_cast<__int128>(n[k]) * way[k];
-    return sum > 0;
-  }
-
   /// Puts the centre as far behind a face as it is in front, and a bit further, within the box.
   bool reflect(size_t face) {
     if (++reflections_ > std::min(kMostReflections, leaf_.face_count() / kFacesForEach)) {
       return false;
     }
-    const IVec3 n = normal(face), way = way_to(leaf_.face_starts[face]);
+    const IVec3 n = view_.normal(face), way = view_.way_to(leaf_.face_starts[face]);
     double height = 0, square = 0;
     for (size_t k = 0; k < 3; ++k) {
       height -= static_cast<double>(n[k]) * static_cast<double>(way[k]);
       square += static_cast<double>(n[k]) * static_cast<double>(n[k]);
     }
     const double back = (2 * height + std::sqrt(square)) / square;
+    std::array<double, 3> to{};
     for (size_t k = 0; k < 3; ++k) {
-      const double to = static_cast<double>(centre_[k]) - back * static_cast<double>(n[k]);
-      centre_[k] =
-          odd(std::clamp(to, static_cast<double>(2 * lo_[k]), static_cast<double>(2 * hi_[k] - 1)));
+      to[k] = std::clamp(static_cast<double>(view_.centre()[k]) - back * static_cast<double>(n[k]),
+                         static_cast<double>(2 * lo_[k]), static_cast<double>(2 * hi_[k] - 1));
     }
+    view_.move_to(to);
     return true;
   }
 
@@ -111,11 +88,12 @@ class Star {
     for_each_part(count, kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
       Look own{count, 0};
       for (size_t f = begin; f < end; ++f) {
-        if (!has_behind(f)) {
+        const IVec3 normal = view_.normal(f);
+        if (!view_.has_behind(f, normal)) {
           own.face_without = f;
           break;
         }
-        own.ray_crossings += is_crossed(f) ? 1 : 0;
+        own.ray_crossings += view_.is_crossed(f, normal) ? 1 : 0;
       }
       parts[part] = own;
     });
@@ -127,28 +105,9 @@ class Star {
     return all;
   }
 
-  /// Whether the ray from the centre along the first axis crosses a face. As the centre is behind
-  /// it, the ray does not cross one that faces the other way. A product is below 2^64.
-  [[nodiscard]] bool is_crossed(size_t face) const {
-    const uint32_t begin = leaf_.face_starts[face], end = leaf_.face_starts[face + 1];
-    IVec3 from = way_to(end - 1);
-    for (uint32_t c = begin; c < end; ++c) {
-      const IVec3 to = way_to(c);
-      const auto left =
-          static_cast<__int128>(from[1]) * to[2] - static_cast<__int128>(from[2]) * to[1];
-      // A ray through an edge is moved a little, so that it crosses the one that runs this way.
-      if (left < 0 || (left == 0 && (from[1] != to[1] ? from[1] > to[1] : from[2] > to[2]))) {
-        return false;
-      }
-      from = to;
-    }
-    return normal(face)[0] > 0;
-  }
-
   const LeafGeometry& leaf_;
-  IVec3 origin_, lo_{}, hi_{};  ///< a vertex; from there the box
-  /// From the origin in halves of steps; odd: a line through it along an axis misses all vertices.
-  IVec3 centre_{};
+  CentreView view_;
+  IVec3 lo_{}, hi_{};  ///< the box, from the view's origin
   size_t reflections_ = 0, ray_crossings_ = 0;
 };
 
