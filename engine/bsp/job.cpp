@@ -215,48 +215,47 @@ void Job::add_leaf(uint32_t o, const Operand& operand) {
   }
 }
 
+/// Sets polygon number `polygon`, a face of a leaf, whose corners stand from `first` on.
+inline void Job::add_face(uint32_t polygon, uint32_t o, const LeafGeometry& leaf, uint32_t face,
+                          uint32_t first) {
+  const uint32_t begin = leaf.face_starts[face], count = leaf.face_starts[face + 1] - begin,
+                 first_vertex = sources_[o].first_vertex;
+  const uint32_t* const from = leaf.corners.data() + begin;
+  uint32_t* const to = corners_.data() + first;
+  uint32_t* const edges = edge_planes_.data() + first;
+  if (count == 3) {
+    for (size_t c = 0; c < 3; ++c) to[c] = first_vertex + from[c], edges[c] = kNone;
+  } else {
+    for (size_t c = 0; c < count; ++c) to[c] = first_vertex + from[c], edges[c] = kNone;
+  }
+  if (sources_[o].map.is_mirrored()) std::reverse(to, to + count);
+  JobPolygon& made = polygons_[polygon];
+  made = {o, face, first, count, PlaneId()};
+  if (!with_boxes_) return;
+  boxes_[polygon] = (*operands_)[o].frame.is_identity ? grid_box_of(made) : box_of(made);
+}
+
 void Job::add_all_faces(uint32_t o, const Operand& operand) {
   const LeafGeometry& leaf = *operand.leaf;
-  const uint32_t first_vertex = sources_[o].first_vertex, first_polygon = polygon_starts_[o];
-  const bool on_grid = operand.frame.is_identity;
-  const uint32_t first_corner = leaf_corner_starts_[o];
+  const uint32_t first_polygon = polygon_starts_[o], first_corner = leaf_corner_starts_[o];
   std::vector<PolygonBox> boxes(part_count(leaf.face_count(), kFewForThreads), PolygonBox::none());
   for_each_part(leaf.face_count(), kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+    PolygonBox around = PolygonBox::none();
     for (size_t f = begin; f < end; ++f) {
-      const uint32_t first = first_corner + leaf.face_starts[f],
-                     last = first_corner + leaf.face_starts[f + 1];
-      for (uint32_t c = first; c < last; ++c) {
-        corners_[c] = first_vertex + leaf.corners[c - first_corner];
-        edge_planes_[c] = kNone;
-      }
-      if (sources_[o].map.is_mirrored())
-        std::reverse(corners_.begin() + first, corners_.begin() + last);
-      JobPolygon& polygon = polygons_[first_polygon + f];
-      polygon = {o, static_cast<uint32_t>(f), first, last - first, PlaneId()};
-      if (!with_boxes_) continue;
-      PolygonBox& box = boxes_[first_polygon + f];
-      box = on_grid ? grid_box_of(polygon) : box_of(polygon);
-      boxes[part].include(box);
+      const uint32_t polygon = first_polygon + static_cast<uint32_t>(f);
+      add_face(polygon, o, leaf, static_cast<uint32_t>(f), first_corner + leaf.face_starts[f]);
+      if (with_boxes_) around.include(boxes_[polygon]);
     }
+    boxes[part] = around;
   });
   if (!with_boxes_) return;
   for (const PolygonBox& box : boxes) operand_boxes_[o].include(box);
 }
 
-/// Of a leaf on the grid.
 void Job::add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector<uint32_t>& faces) {
-  const uint32_t first_vertex = sources_[o].first_vertex, first_polygon = polygon_starts_[o],
-                 first_corner = leaf_corner_starts_[o];
+  const uint32_t first_polygon = polygon_starts_[o], first_corner = leaf_corner_starts_[o];
   const auto add = [&](size_t i, uint32_t first) {
-    const uint32_t f = faces[i], begin = leaf.face_starts[f],
-                   count = leaf.face_starts[f + 1] - begin;
-    for (uint32_t c = 0; c < count; ++c) {
-      corners_[first + c] = first_vertex + leaf.corners[begin + c];
-      edge_planes_[first + c] = kNone;
-    }
-    polygons_[first_polygon + i] = {o, f, first, count, PlaneId()};
-    if (with_boxes_) boxes_[first_polygon + i] = grid_box_of(polygons_[first_polygon + i]);
-    return first + count;
+    add_face(first_polygon + static_cast<uint32_t>(i), o, leaf, faces[i], first);
   };
   if (leaf.corners.size() == 3 * leaf.face_count()) {
     for_each_range(faces.size(), [&](size_t begin, size_t end) {
@@ -264,7 +263,10 @@ void Job::add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector
     });
   } else {
     uint32_t next = first_corner;
-    for (size_t i = 0; i < faces.size(); ++i) next = add(i, next);
+    for (size_t i = 0; i < faces.size(); ++i) {
+      add(i, next);
+      next += polygons_[first_polygon + i].count;
+    }
   }
   if (with_boxes_) operand_boxes_[o] = near_ ? near_->boxes[o] : live_->dead->operand_box(o);
 }

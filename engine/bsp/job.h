@@ -175,6 +175,8 @@ class Job {
   void make_room(size_t o);
   void add_leaf(uint32_t o, const Operand& operand);
   void add_all_faces(uint32_t o, const Operand& operand);
+  void add_face(uint32_t polygon, uint32_t o, const LeafGeometry& leaf, uint32_t face,
+                uint32_t first);
   void add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector<uint32_t>& faces);
   void add_boundary(uint32_t o, const Operand& operand);
   void add_pieces(uint32_t o, const PieceOperand& operand);

@@ -44,6 +44,8 @@ struct LeafGeometry {
   bool convex = false;
   /// True when the faces at each vertex are known to be one fan.
   bool has_single_fans = false;
+  /// False when no two neighbours are known to lie in one plane.
+  bool may_have_flat_edges = true;
   /// False when the faces are known to meet in corners and edges that both have, or nowhere.
   bool may_touch = true;
 

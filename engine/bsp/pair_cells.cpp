@@ -17,7 +17,7 @@ namespace {
 constexpr int kPatience = 3;
 /// A cell of the grid, or of two operands, is not divided for so many times the limit: that costs
 /// more than its pairs.
-constexpr uint32_t kPatientLimit = 4;
+constexpr uint32_t kPatientLimit = 8;
 
 /// A polygon on the way down, with its box at hand.
 struct Entry {

@@ -107,7 +107,7 @@ class UntouchedFaces {
       if (around == kNoFan) return false;
       all_whole = all_whole && around != kMixedAround;
     }
-    return (keeps_facets_ && all_whole) || is_alone(leaf_, walk_, f);
+    return (keeps_facets_ && all_whole) || !leaf_.may_have_flat_edges || is_alone(leaf_, walk_, f);
   }
 
   /// The common fate of the faces at each vertex, or kMixed; kNoFan where they are more than one

@@ -91,9 +91,9 @@ class Density {
 
 /// Whether a box is longer than that along two axes or more.
 bool is_wider(const PolygonBox& box, int64_t length) {
-  int axes = 0;
-  for (size_t k = 0; k < 3; ++k) axes += int64_t{box.hi[k]} - box.lo[k] > length ? 1 : 0;
-  return axes >= 2;
+  const auto is_longer = [&](size_t k) { return int64_t{box.hi[k]} - box.lo[k] > length; };
+  // Most are short along all axes: two tell.
+  return is_longer(0) ? is_longer(1) || is_longer(2) : is_longer(1) && is_longer(2);
 }
 
 /// The box that both operands have in common, empty where boxes are not to be relied on.

@@ -191,8 +191,9 @@ PreparedLeaf examine(LeafGeometry&& geometry, EdgePairing&& pairing, const GridB
   }
   leaf->may_touch = !result.crossings.empty() || (!leaf->convex && may_lose_common_corners(*leaf));
   // Facets that are kept as they are have no others of their label.
-  const bool is_minimal = surface.is_convex && !surface.has_flat_edges;
-  if (leaf->convex && !is_minimal && !leaf->opposite.empty() && !leaf->keeps_facets()) {
+  leaf->may_have_flat_edges = !surface.is_convex || surface.has_flat_edges;
+  if (leaf->convex && leaf->may_have_flat_edges && !leaf->opposite.empty() &&
+      !leaf->keeps_facets()) {
     join_flat_faces(*leaf);
   }
   result.geometry = std::move(leaf);

@@ -3,6 +3,7 @@
 // every pair of near faces decided by signs. All but the coordinates must be the same.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -20,7 +21,7 @@ namespace csgrun::test {
 /// What was compared.
 struct Tally {
   size_t good = 0, tangled = 0, flat = 0, open = 0, crossings = 0, quick = 0, merged = 0,
-         convex = 0;
+         convex = 0, sharp = 0;
 };
 
 inline std::vector<IVec3> stretched(std::vector<IVec3> points, int64_t by) {
@@ -41,6 +42,20 @@ inline bool nothing_in_front(const LeafGeometry& leaf) {
     }
     for (const IVec3& v : leaf.vertices) {
       if (plane.side(v) > 0) return false;
+    }
+  }
+  return true;
+}
+
+/// Whether the plane of each face has no vertices but those of its corners.
+inline bool has_one_face_in_each_plane(const LeafGeometry& leaf) {
+  for (size_t f = 0; f < leaf.face_count(); ++f) {
+    const uint32_t begin = leaf.face_starts[f], count = leaf.face_starts[f + 1] - begin;
+    CornerPlane plane;
+    if (!corner_plane(leaf.vertices, &leaf.corners[begin], count, plane)) return false;
+    if (std::count_if(leaf.vertices.begin(), leaf.vertices.end(),
+                      [&](const IVec3& v) { return plane.side(v) == 0; }) != count) {
+      return false;
     }
   }
   return true;
@@ -88,6 +103,8 @@ inline void expect_same_both_ways(const PolygonMesh& mesh, const std::vector<IVe
   EXPECT_EQ(a.appearance.list(faces), b.appearance.list(faces));
   EXPECT_EQ(a.opposite, b.opposite);
   EXPECT_TRUE(!a.convex || nothing_in_front(a));
+  tally.sharp += !a.may_have_flat_edges;
+  EXPECT_TRUE(a.may_have_flat_edges || (a.convex && has_one_face_in_each_plane(a)));
   EXPECT_EQ(a.may_touch, b.may_touch);
 }
 

@@ -155,7 +155,8 @@ TEST(PairCells, LongPolygonsAreNotCopiedWithoutEnd) {
   test::Random random(503);
   const std::vector<Operand> operands = long_among_small(random);
   const Job job(operands);
-  const PairCells cells = find_pair_cells(job, {}, {});
+  PairCells cells = find_pair_cells(job, {}, {});
+  cells.slabs.clear();  // nothing is sifted
   EXPECT_EQ(visited(job, cells), all_pairs(job));
   EXPECT_LT(cells.visited, 5 * job.polygons().size());
   EXPECT_LT(cells.polygons.size(), 40 * job.polygons().size());

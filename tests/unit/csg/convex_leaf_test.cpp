@@ -98,7 +98,7 @@ TEST(ConvexLeaf, BallsOfAllSizesAgreeWithTheGeneralWay) {
     // noise folds them and makes them cross themselves.
     const double radius = std::exp2(static_cast<double>(random() % 90) / 10);
     const int noise = random() % 3 == 0 ? 0 : static_cast<int>(random() % 3);
-    WholeMesh whole = ball(3 + static_cast<int>(random() % 8), 3 + static_cast<int>(random() % 12),
+    WholeMesh whole = ball(2 + static_cast<int>(random() % 9), 3 + static_cast<int>(random() % 12),
                            radius, noise, random);
     whole.mesh.keep_facets = random() % 2 != 0;
     whole.mesh.convex = noise == 0 && random() % 2 != 0;
@@ -111,6 +111,7 @@ TEST(ConvexLeaf, BallsOfAllSizesAgreeWithTheGeneralWay) {
   EXPECT_GT(tally.merged, 10u);
   EXPECT_GT(tally.crossings, 1000u);
   EXPECT_GT(tally.convex, 5u);
+  EXPECT_GT(tally.sharp, 5u);
 }
 
 TEST(ConvexLeaf, PairsOfBallsAgreeWithTheGeneralWay) {
