@@ -42,6 +42,7 @@ std::vector<PolygonBox> find_live_boxes(size_t operands, const Expression& expre
 /// Whether a polygon in one box is beside another one, but for its rim at most: they have nothing
 /// in common, or part of a plane that the polygon goes across, or up to.
 bool is_beside(const PolygonBox& box, const PolygonBox& other) {
+  if (other.holds(box)) return false;  // most are
   bool beside = false;
   for (size_t k = 0; k < 3; ++k) {
     const int32_t lo = std::max(box.lo[k], other.lo[k]), hi = std::min(box.hi[k], other.hi[k]);
@@ -101,6 +102,7 @@ std::vector<uint8_t> find_covered(const Job& job, const PlainlyCovered& plainly,
   for_each_range(is_covered.size(), [&](size_t begin, size_t end) {
     std::vector<uint32_t> touched_by, crossed_by;
     for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
+      if (contacts.of(p).empty()) continue;
       touched_by.clear();
       crossed_by.clear();
       for (const uint32_t i : contacts.of(p)) {

@@ -134,12 +134,13 @@ PieceTree::NodePtr PieceTree::without(const NodePtr& node, std::span<const Piece
     if (a == node->child[0] && b == node->child[1]) return node;
     return join(std::move(a), std::move(b));
   }
-  std::vector<uint32_t> left;
-  for (const uint32_t p : node->pieces) {
-    if (!is_gone(p)) left.push_back(p);
+  const auto first = std::find_if(node->pieces.begin(), node->pieces.end(), is_gone);
+  if (first == node->pieces.end()) return node;
+  std::vector<Item> items;
+  items.reserve(node->pieces.size() - 1);
+  for (auto p = node->pieces.begin(); p != node->pieces.end(); ++p) {
+    if (p < first || (p > first && !is_gone(*p))) items.push_back({*p, box_of(*p)});
   }
-  if (left.size() == node->pieces.size()) return node;
-  std::vector<Item> items = items_of(left, box_of);
   return build(items);
 }
 

@@ -60,21 +60,27 @@ void PieceWriter::add_groups(std::span<uint32_t> polygons, bool flip) {
   };
   PieceBox box;
   for (const uint32_t p : polygons) box.add(at(p));
-  std::array<std::vector<uint32_t>, 8> octants;
+  std::vector<std::pair<uint8_t, uint32_t>> by_octant;
+  by_octant.reserve(polygons.size());
+  std::array<size_t, 8> count{};
   for (const uint32_t p : polygons) {
-    size_t octant = 0;
-    for (size_t k = 0; k < 3; ++k)
-      octant |= size_t{at(p)[k] - box.lo[k] > box.hi[k] - at(p)[k]} << k;
-    octants[octant].push_back(p);
+    uint8_t octant = 0;
+    for (size_t k = 0; k < 3; ++k) octant |= (at(p)[k] - box.lo[k] > box.hi[k] - at(p)[k]) << k;
+    by_octant.emplace_back(octant, p);
+    ++count[octant];
   }
-  for (auto& octant : octants) {
-    if (octant.size() < polygons.size()) {
-      add_groups(octant, flip);
+  std::array<size_t, 8> next{};
+  for (size_t i = 1; i < 8; ++i) next[i] = next[i - 1] + count[i - 1];
+  for (const auto& [octant, p] : by_octant) polygons[next[octant]++] = p;
+  for (size_t i = 0; i < 8; ++i) {
+    const std::span<uint32_t> own = polygons.subspan(next[i] - count[i], count[i]);
+    if (own.size() < polygons.size()) {
+      add_groups(own, flip);
       continue;
     }
     // All of them begin at one point.
-    for (size_t i = 0; i < octant.size(); i += kMostOfGroup) {
-      add_groups(std::span(octant).subspan(i, std::min(kMostOfGroup, octant.size() - i)), flip);
+    for (size_t j = 0; j < own.size(); j += kMostOfGroup) {
+      add_groups(own.subspan(j, std::min(kMostOfGroup, own.size() - j)), flip);
     }
   }
 }
