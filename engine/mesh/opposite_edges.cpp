@@ -96,10 +96,60 @@ bool pair_any(const Uses& uses, std::vector<uint32_t>& opposite, bool& all_paire
   return true;
 }
 
+/// Pairs edges as they come, where every directed edge is there once and its reverse too and no
+/// vertex is the lower end of many; else returns nothing.
+///
+/// The edges that came first of their two are chained at their lower ends. Until all are paired,
+/// such a one has the next of the chain, and whether its reverse has come; the other one has the
+/// first one.
+template <class Next>
+std::vector<uint32_t> pair_simple(const LeafGeometry& leaf, Next next) {
+  constexpr uint32_t kIsPaired = 1u << 31, kIsSecond = 1u << 30, kNumber = kIsSecond - 1;
+  constexpr int kMany = 32;
+  const std::vector<uint32_t>& corners = leaf.corners;
+  if (corners.size() >= kNumber) return {};
+  std::vector<uint32_t> known(corners.size());
+  std::vector<uint32_t> first(leaf.vertices.size(), kNumber);
+  size_t pairs = 0;
+  for (uint32_t edge = 0; edge < corners.size(); ++edge) {
+    const uint32_t from = corners[edge], to = corners[next(edge)];
+    const uint32_t low = std::min(from, to), both = from ^ to;
+    uint32_t& head = first[low];
+    uint32_t other = head;
+    for (int steps = 0; other != kNumber; other = known[other] & kNumber) {
+      if ((corners[other] ^ corners[next(other)]) == both) break;
+      if (++steps > kMany) return {};
+    }
+    if (other == kNumber) {
+      known[edge] = head;
+      head = edge;
+      continue;
+    }
+    if ((known[other] & kIsPaired) || corners[other] == from) return {};
+    known[other] |= kIsPaired;
+    known[edge] = other | kIsSecond;
+    ++pairs;
+  }
+  if (2 * pairs != corners.size()) return {};
+  for (uint32_t edge = 0; edge < corners.size(); ++edge) {
+    // The first of the two came before, and is paired.
+    if ((known[edge] & (kIsPaired | kIsSecond)) != kIsSecond) continue;
+    const uint32_t other = known[edge] & kNumber;
+    known[edge] = other;
+    known[other] = edge;
+  }
+  return known;
+}
+
 /// `next(corner)` is the corner that follows in its face.
 template <class Next>
 EdgePairing pair_edges(const LeafGeometry& leaf, Next next) {
   EdgePairing result;
+  result.opposite = pair_simple(leaf, next);
+  if (!result.opposite.empty()) {
+    result.is_balanced = true;
+    return result;
+  }
   const std::vector<uint32_t>& corners = leaf.corners;
   // Until they are paired, the edges of one lower end are a chain.
   std::vector<uint32_t>& chain = result.opposite;
