@@ -87,7 +87,7 @@ TEST(OppositeEdges, ArePairedWhereEachIsThereOnce) {
     // Around a vertex of so many faces edges are chained one by one, or sorted.
     const auto sides = static_cast<uint32_t>(random.integer(3, round % 3 == 0 ? 90 : 20));
     std::vector<Face> faces = prism(sides, round % 5 != 0);
-    switch (random.integer(0, 5)) {
+    switch (random.integer(0, 6)) {
       case 0: {  // another one, with the same vertices: each edge twice
         const std::vector<Face> again = prism(sides, true);
         faces.insert(faces.end(), again.begin(), again.end());
@@ -109,6 +109,13 @@ TEST(OppositeEdges, ArePairedWhereEachIsThereOnce) {
         Face& face =
             faces[static_cast<size_t>(random.integer(0, static_cast<int64_t>(faces.size()) - 1))];
         std::reverse(face.begin(), face.end());
+        break;
+      }
+      case 5: {  // the same number of edges lack their reverse and have two
+        Face turned = faces[0];
+        std::reverse(turned.begin(), turned.end());
+        faces.erase(faces.begin() + 1 + random.integer(0, 2 * sides - 2));
+        faces.push_back(turned);
         break;
       }
       default:
