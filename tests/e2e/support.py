@@ -28,10 +28,10 @@ IN_CI = os.environ.get("CI") == "true"
 PATIENCE_SECONDS = 600
 
 
-def run(*command, cwd=None, env=None, text=""):
+def run(*command, cwd=None, env=None, text="", errors="strict"):
     """A finished process with its output as text; `env` is added to the environment."""
     return subprocess.run([str(word) for word in command], cwd=cwd, input=text, text=True,
-                          capture_output=True, timeout=PATIENCE_SECONDS,
+                          errors=errors, capture_output=True, timeout=PATIENCE_SECONDS,
                           env={**os.environ, **(env or {})})
 
 
