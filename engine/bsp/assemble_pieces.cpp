@@ -1,9 +1,8 @@
 // The pieces of a version as one job would have left them: whole polygons, cut ones, and triangles
 // of leaves that nothing met, which are named before there is a job, so that it need not have them.
 #include <algorithm>
-#include <array>
-#include <iterator>
 #include <utility>
+#include <vector>
 
 #include "engine/base/parallel.h"
 #include "engine/bsp/result_pieces.h"

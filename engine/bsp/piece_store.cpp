@@ -112,7 +112,7 @@ uint32_t PieceStore::add_group(Piece piece, std::span<const uint32_t> faces) {
   return piece_count() - 1;
 }
 
-const PieceStore::Parts& PieceStore::group_parts(uint32_t piece) {
+PieceStore::Parts PieceStore::group_parts(uint32_t piece) {
   const uint32_t number = pieces_[piece].group;
   if (groups_[number].parts.were_made()) return groups_[number].parts;
   const auto [first_face, face_count, none] = groups_[number];

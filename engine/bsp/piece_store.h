@@ -87,7 +87,7 @@ class PieceStore {
     return {group_faces_.data() + group.first_face, group.face_count};
   }
   /// A piece for each face of a group, in their order. They are made when they are asked for first.
-  const Parts& group_parts(uint32_t piece);
+  Parts group_parts(uint32_t piece);
   /// The parts of a piece that were made; none of one that has none.
   [[nodiscard]] Parts parts(uint32_t piece) const {
     const Piece& p = pieces_[piece];

@@ -134,12 +134,11 @@ PieceTree::NodePtr PieceTree::without(const NodePtr& node, std::span<const Piece
     if (a == node->child[0] && b == node->child[1]) return node;
     return join(std::move(a), std::move(b));
   }
-  const auto first = std::find_if(node->pieces.begin(), node->pieces.end(), is_gone);
-  if (first == node->pieces.end()) return node;
+  if (std::none_of(node->pieces.begin(), node->pieces.end(), is_gone)) return node;
   std::vector<Item> items;
-  items.reserve(node->pieces.size() - 1);
-  for (auto p = node->pieces.begin(); p != node->pieces.end(); ++p) {
-    if (p < first || (p > first && !is_gone(*p))) items.push_back({*p, box_of(*p)});
+  items.reserve(node->pieces.size());
+  for (const uint32_t p : node->pieces) {
+    if (!is_gone(p)) items.push_back({p, box_of(p)});
   }
   return build(items);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/counting_order.h"
+
 namespace csgrun {
 namespace {
 
@@ -40,7 +42,7 @@ void PieceWriter::add_whole(std::span<const WholePolygon> whole) {
   }
 }
 
-void PieceWriter::add_groups(std::span<uint32_t> polygons, bool flip) {
+void PieceWriter::add_groups(std::span<const uint32_t> polygons, bool flip) {
   if (polygons.size() < kLeastOfGroup) {
     for (const uint32_t p : polygons) add_single({p, flip, false});
     return;
@@ -60,20 +62,18 @@ void PieceWriter::add_groups(std::span<uint32_t> polygons, bool flip) {
   };
   PieceBox box;
   for (const uint32_t p : polygons) box.add(at(p));
-  std::vector<std::pair<uint8_t, uint32_t>> by_octant;
-  by_octant.reserve(polygons.size());
-  std::array<size_t, 8> count{};
-  for (const uint32_t p : polygons) {
-    uint8_t octant = 0;
-    for (size_t k = 0; k < 3; ++k) octant |= (at(p)[k] - box.lo[k] > box.hi[k] - at(p)[k]) << k;
-    by_octant.emplace_back(octant, p);
-    ++count[octant];
-  }
-  std::array<size_t, 8> next{};
-  for (size_t i = 1; i < 8; ++i) next[i] = next[i - 1] + count[i - 1];
-  for (const auto& [octant, p] : by_octant) polygons[next[octant]++] = p;
+  CountingOrder octants;
+  octants.sort(polygons.size(), 8, [&](size_t i) {
+    uint32_t octant = 0;
+    const auto& p = at(polygons[i]);
+    for (size_t k = 0; k < 3; ++k) octant |= uint32_t{p[k] - box.lo[k] > box.hi[k] - p[k]} << k;
+    return octant;
+  });
+  std::vector<uint32_t> ordered;
+  for (const uint32_t i : octants.order) ordered.push_back(polygons[i]);
   for (size_t i = 0; i < 8; ++i) {
-    const std::span<uint32_t> own = polygons.subspan(next[i] - count[i], count[i]);
+    const uint32_t first = octants.starts[i];
+    const auto own = std::span(ordered).subspan(first, octants.starts[i + 1] - first);
     if (own.size() < polygons.size()) {
       add_groups(own, flip);
       continue;

@@ -42,7 +42,7 @@ class PieceWriter {
  private:
   void add_single(const WholePolygon& w);
   /// Polygons of one operand that are kept on one side, which end up in groups of what is together.
-  void add_groups(std::span<uint32_t> polygons, bool flip);
+  void add_groups(std::span<const uint32_t> polygons, bool flip);
 
   /// Where a polygon of the job comes from.
   PieceStore::Piece origin_of(uint32_t polygon) const;

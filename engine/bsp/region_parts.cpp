@@ -2,7 +2,7 @@
 
 namespace csgrun {
 
-const PieceStore::Parts& RegionParts::of(uint32_t region) {
+PieceStore::Parts RegionParts::of(uint32_t region) {
   if (!store_.region(region).parts.were_made()) make(region);
   return store_.region(region).parts;
 }

@@ -21,7 +21,7 @@ class RegionParts {
 
   /// The convex pieces of a region, which the store keeps. They stand in its place: of the same
   /// face, and together as large.
-  const PieceStore::Parts& of(uint32_t region);
+  PieceStore::Parts of(uint32_t region);
 
  private:
   uint32_t point_of(uint32_t stored);
