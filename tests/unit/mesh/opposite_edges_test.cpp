@@ -85,7 +85,7 @@ TEST(OppositeEdges, ArePairedWhereEachIsThereOnce) {
   Tally tally;
   for (int round = 0; round < 400; ++round) {
     // Around a vertex of so many faces edges are chained one by one, or sorted.
-    const auto sides = static_cast<uint32_t>(random.integer(3, round % 3 == 0 ? 90 : 20));
+    const auto sides = static_cast<uint32_t>(random.integer(3, round % 3 == 0 ? 300 : 20));
     std::vector<Face> faces = prism(sides, round % 5 != 0);
     switch (random.integer(0, 6)) {
       case 0: {  // another one, with the same vertices: each edge twice
@@ -126,7 +126,7 @@ TEST(OppositeEdges, ArePairedWhereEachIsThereOnce) {
       std::swap(faces[i - 1],
                 faces[static_cast<size_t>(random.integer(0, static_cast<int64_t>(i) - 1))]);
     }
-    std::vector<uint32_t> number(4 * 90 + 8);
+    std::vector<uint32_t> number(4 * 300 + 8);
     for (uint32_t v = 0; v < number.size(); ++v) number[v] = v;
     for (size_t i = number.size(); i > 1; --i) {
       std::swap(number[i - 1],
