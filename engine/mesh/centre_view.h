@@ -7,7 +7,6 @@
 
 #include "engine/bsp/operand.h"
 #include "engine/mesh/face_normal.h"
-#include "engine/mesh/leaf_shape.h"
 
 namespace csgrun {
 
