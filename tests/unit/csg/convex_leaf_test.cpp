@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/csg/convex_hull.h"
 #include "engine/csg/leaf_faces.h"
 #include "engine/csg/quantise.h"
 #include "engine/mesh/convex_surface.h"
@@ -306,6 +307,46 @@ TEST(ConvexLeaf, WhatIsConvexNearItselfMayStillWindAroundItself) {
   EXPECT_FALSE(two.geometry->convex);
   EXPECT_FALSE(two.connected);
   EXPECT_EQ(prepared(both(one, one, {100, 0, 0})).status, Status::kTangled);
+}
+
+TEST(ConvexLeaf, TheMiddleOfTheBoxNeedNotBeWithin) {
+  // The hull of a tetrahedron with rounded corners, which is the corner of its box.
+  constexpr int64_t kSize = 1000000, kRadius = 150000;
+  std::mt19937 random(3);
+  std::vector<IVec3> points;
+  for (int n = 0; n < 2000; ++n) {
+    IVec3 p;
+    double square = 0;
+    for (int64_t& c : p) {
+      c = static_cast<int64_t>(random() % (2 * kRadius)) - kRadius;
+      square += static_cast<double>(c) * static_cast<double>(c);
+    }
+    if (square > static_cast<double>(kRadius * kRadius)) continue;
+    if (n % 4 > 0) p[n % 4 - 1] += kSize;
+    points.push_back(p);
+  }
+  const LeafGeometry hull = convex_hull(points);
+  WholeMesh whole;
+  whole.points = hull.vertices;
+  whole.mesh.points.resize(whole.points.size());
+  for (size_t f = 0; f < hull.face_count(); ++f) {
+    whole.mesh.add_face(
+        std::span(hull.corners)
+            .subspan(hull.face_starts[f], hull.face_starts[f + 1] - hull.face_starts[f]));
+  }
+  const auto convex = [&] {
+    const PreparedLeaf leaf = prepare_leaf(whole.mesh, whole.points, false,
+                                           std::vector<uint32_t>(whole.mesh.face_count(), 0));
+    EXPECT_EQ(leaf.status, Status::kGood);
+    int64_t reach = 0;
+    for (size_t k = 0; k < 3; ++k) reach += leaf.box.lo[k] + leaf.box.hi[k];
+    EXPECT_GT(reach, 2 * kSize + 4 * kRadius);  // the middle is above x + y + z = 1 + sqrt(3) r
+    EXPECT_EQ(find_convex_surface(*leaf.geometry, leaf.box).is_convex, leaf.geometry->convex);
+    return leaf.geometry->convex;
+  };
+  EXPECT_TRUE(convex());
+  for (int64_t& c : whole.points[0]) c = c * 9 / 10 + kSize / 50;  // towards what is within
+  EXPECT_FALSE(convex());
 }
 
 TEST(ConvexLeaf, SpreadVerticesHideNoCrossing) {
