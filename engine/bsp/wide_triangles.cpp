@@ -154,7 +154,11 @@ WideTriangles::WideTriangles(const Job& job) {
     }
   }
   for (size_t o = 0; o < 2; ++o) {
-    if (wide[1 - o].empty()) continue;
+    // Each has all of the others in its box at most.
+    if (wide[1 - o].size() < kWorthIt) {
+      wide[1 - o].clear();
+      continue;
+    }
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
       if (common.meets(job.boxes()[p])) near[o].push_back(p);
     }
@@ -162,6 +166,10 @@ WideTriangles::WideTriangles(const Job& job) {
   for (size_t o = 0; o < 2; ++o) {
     if (wide[o].empty()) continue;
     const std::vector<uint32_t>& others = near[1 - o];
+    if (others.size() < kManyOthers) {
+      wide[o].clear();
+      continue;
+    }
     Density density(common);
     for (const uint32_t p : others) density.add(job.boxes()[p]);
     density.add_up();

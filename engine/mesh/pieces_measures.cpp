@@ -160,24 +160,31 @@ class Summer {
   }
 
   /// A fan from the first corner of a loop, the normals of which add up before they meet that
-  /// corner.
+  /// corner: to the sum of x_i (y_i+1 - y_i-1) along each axis. The bound of the area need not be
+  /// close: it takes the two products of a cross product for as large as they may be.
   static void add_fan(std::span<const Fixed> corners, PieceSums& out) {
     const Fixed& a = corners[0];
     std::array<Int<4>, 3> normal;
+    std::array<double, 3> last{};
     double edges = 0, area = 0;
-    for (size_t i = 1; i + 1 < corners.size(); ++i) {
-      Fixed b, c;
+    for (size_t i = 1; i < corners.size(); ++i) {
+      const Fixed &before = corners[i - 1], &after = i + 1 < corners.size() ? corners[i + 1] : a;
+      Fixed own, step;
+      std::array<double, 3> length{};
       for (size_t k = 0; k < 3; ++k) {
-        b[k] = corners[i][k] - a[k];
-        c[k] = corners[i + 1][k] - a[k];
-        edges += std::fabs(to_double(b[k])) + std::fabs(to_double(c[k]));
+        own[k] = corners[i][k] - a[k];
+        step[k] = after[k] - before[k];
+        length[k] = std::fabs(to_double(own[k]));
       }
+      double sum = 0;
       for (size_t k = 0; k < 3; ++k) {
         const size_t x = (k + 1) % 3, y = (k + 2) % 3;
-        const Int<4> n = full_product(b[x], c[y]) - full_product(b[y], c[x]);
-        normal[k] += n;
-        area += std::fabs(to_double(n));
+        normal[k] += full_product(own[x], step[y]);
+        area += last[x] * length[y] + last[y] * length[x];
+        sum += length[k];
       }
+      edges += 2 * sum;  // the first and the last are in one triangle only
+      last = length;
     }
     for (size_t k = 0; k < 3; ++k) out.six_volumes += full_product(normal[k], a[k]);
     out.edges += std::ldexp(edges, -kFraction);
