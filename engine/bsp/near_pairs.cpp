@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 
 #include "engine/base/parallel.h"
@@ -55,10 +56,9 @@ std::optional<NearPairs> find_near_pairs(const PairCells& cells, std::span<const
       for (uint32_t j = firsts; j < count_near; ++j) {
         for (uint32_t i = 0; i < firsts; i += CellBoxes::kAtOnce) {
           const uint32_t lanes = std::min(CellBoxes::kAtOnce, firsts - i);
-          std::array<uint32_t, CellBoxes::kAtOnce> meets;
-          own.compare(i, lanes, j, meets);
-          for (uint32_t lane = 0; lane < lanes; ++lane) {
-            if (meets[lane] != 0) found.push_back({faces[i + lane], faces[j]});
+          for (uint32_t meets = own.compare(i, lanes, j); meets != 0; meets &= meets - 1) {
+            const auto lane = static_cast<uint32_t>(std::countr_zero(meets));
+            found.push_back({faces[i + lane], faces[j]});
           }
         }
       }

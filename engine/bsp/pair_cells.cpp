@@ -272,20 +272,17 @@ void CellPairs::load(const Job& job, const PairCells& all, const PairCells::Cell
   }
 }
 
-void CellPairs::sift(const PairCells& all, uint32_t first, uint32_t count, uint32_t j,
-                     Meets& meets) const {
+uint32_t CellPairs::sift(const PairCells& all, uint32_t first, uint32_t j, uint32_t meets) const {
   const uint32_t slabs = all.slabs_at[polygons_[j]];
-  if (slabs == PairCells::kNoSlabs) return;
-  for (uint32_t begin = 0; begin < count; begin += 8) {
+  if (slabs == PairCells::kNoSlabs) return meets;
+  for (uint32_t begin = 0; begin < CellBoxes::kAtOnce; begin += 8) {
+    if ((meets >> begin & 0xff) == 0) continue;
     const JobTriangles& triangles = triangles_[(first + begin) / 8];
-    const uint32_t lanes = std::min(8u, count - begin);
-    uint32_t which = 0;
-    for (uint32_t i = 0; i < lanes; ++i) which |= meets[begin + i] << i;
-    which &= triangles.which;
+    const uint32_t which = meets >> begin & triangles.which;
     if (which == 0) continue;
-    const uint32_t apart = all.slabs[slabs].apart_in_space(triangles.corners, which);
-    for (uint32_t i = 0; i < lanes; ++i) meets[begin + i] &= ~(apart >> i);
+    meets &= ~(all.slabs[slabs].apart_in_space(triangles.corners, which) << begin);
   }
+  return meets;
 }
 
 PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -66,28 +67,26 @@ class CellPairs {
       if (operands_[j] != operands_[j - 1]) own_start = j;
       for (uint32_t first = 0; first < own_start; first += CellBoxes::kAtOnce) {
         const uint32_t count = std::min(CellBoxes::kAtOnce, own_start - first);
-        Meets meets;
-        boxes_.compare(first, count, j, meets);
-        if (!triangles_.empty()) sift(all, first, count, j, meets);
-        for (uint32_t i = 0; i < count; ++i) {
-          if (meets[i] != 0 && !are_covered(polygons_[first + i], polygons_[j])) {
-            visit(polygons_[first + i], polygons_[j]);
-          }
+        uint32_t meets = boxes_.compare(first, count, j);
+        if (!triangles_.empty()) meets = sift(all, first, j, meets);
+        for (; meets != 0; meets &= meets - 1) {
+          const uint32_t i = first + static_cast<uint32_t>(std::countr_zero(meets));
+          if (!are_covered(polygons_[i], polygons_[j])) visit(polygons_[i], polygons_[j]);
         }
       }
     }
   }
 
  private:
-  using Meets = std::array<uint32_t, CellBoxes::kAtOnce>;
-
   [[nodiscard]] bool are_covered(uint32_t p, uint32_t q) const {
     return !covered_.empty() && covered_[p] && covered_[q];
   }
 
   void load(const Job& job, const PairCells& all, const PairCells::Cell& cell);
-  /// Takes away triangles that are plainly apart from polygon j.
-  void sift(const PairCells& all, uint32_t first, uint32_t count, uint32_t j, Meets& meets) const;
+  /// Of polygons from `first` on, a bit each, those that are not triangles plainly apart from
+  /// polygon j.
+  [[nodiscard]] uint32_t sift(const PairCells& all, uint32_t first, uint32_t j,
+                              uint32_t meets) const;
 
   std::span<const uint8_t> covered_;
   const uint32_t* polygons_ = nullptr;
