@@ -28,11 +28,15 @@ int FaceLocator::locate(std::span<const std::vector<DirectedEdge>> loops, uint32
       if (e.from == p || e.to == p) return 0;
       const int from_v = points_.compare_along(e.from, p, v_);
       const int to_v = points_.compare_along(e.to, p, v_);
+      const bool is_along = from_v == 0 && to_v == 0;
+      if (!is_along && (from_v > 0) == (to_v > 0)) continue;
       const int from_u = points_.compare_along(e.from, p, u_);
       const int to_u = points_.compare_along(e.to, p, u_);
       // The ray does not meet an edge along it, but p may lie on one.
-      if (from_v == 0 && to_v == 0 && from_u * to_u < 0) return 0;
-      if ((from_v > 0) == (to_v > 0)) continue;
+      if (is_along) {
+        if (from_u * to_u < 0) return 0;
+        continue;
+      }
       // Both ends on one side of p along u: no arithmetic needed.
       if (from_u < 0 && to_u < 0) {
         inside = !inside;
