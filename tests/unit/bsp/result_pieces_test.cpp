@@ -136,6 +136,43 @@ class Chains {
     return mesh.may_touch && mesh.touches.empty();
   }
 
+  /// The sums from which a volume came say how large the triangles are that they had to cut.
+  static void check_bounds(const ResultPieces& pieces) {
+    const PieceTree::NodePtr& root = pieces.tree.root();
+    if (!root) return;
+    const PieceStore& store = *pieces.store;
+    double twice_area = 0, edges = 0;
+    pieces.tree.each(
+        [](const PieceBox&) { return true; },
+        [&](uint32_t p) {
+          if (store.is_group(p)) return;  // of grid points
+          const auto corners = store.corners(p);
+          if (std::all_of(corners.begin(), corners.end(), [&](uint32_t c) {
+                return store.point_planes(c)[0] == PieceStore::kNoNumber;
+              })) {
+            return;
+          }
+          store.each_loop(p, [&](uint32_t begin, uint32_t end) {
+            const auto& a = store.rounded(corners[begin]);
+            for (uint32_t i = begin + 1; i + 1 < end; ++i) {
+              const auto &b = store.rounded(corners[i]), &c = store.rounded(corners[i + 1]);
+              double of_b = 0, of_c = 0;
+              for (size_t k = 0; k < 3; ++k) {
+                const size_t x = (k + 1) % 3, y = (k + 2) % 3;
+                twice_area +=
+                    std::fabs((b[x] - a[x]) * (c[y] - a[y]) - (b[y] - a[y]) * (c[x] - a[x]));
+                of_b = std::max(of_b, std::fabs(b[k] - a[k]));
+                of_c = std::max(of_c, std::fabs(c[k] - a[k]));
+              }
+              edges += of_b + of_c;
+            }
+          });
+        });
+    ASSERT_TRUE(root->has_sums);
+    EXPECT_GE(root->sums.twice_area, twice_area * (1 - 1e-9));
+    EXPECT_GE(root->sums.edges, edges * (1 - 1e-9));
+  }
+
   void check(const Version& v, const GridBox& region) {
     const auto once = evaluate_boolean(v.operands, v.expression, region, {}, stats_);
     ASSERT_TRUE(once) << once.error().message;
@@ -150,6 +187,7 @@ class Chains {
     const auto volume = pieces_volume(*v.pieces, step), truth = boundary_volume(**once, step);
     ASSERT_TRUE(volume && truth);
     ASSERT_EQ(*volume, *truth);
+    check_bounds(*v.pieces);
     const auto box = pieces_box(*v.pieces, step);
     ASSERT_EQ(box.has_value(), !(*once)->faces.empty());
     for (int k = 0; box && k < 3; ++k) {
