@@ -49,7 +49,7 @@ class CellBoxes {
       return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from.data() + at));
     };
     const __m128i own_starts = all(starts_[j]), all_axes = all(kAllAxes);
-    std::array<__m128i, 3> own_lo, own_hi;
+    __m128i own_lo[3], own_hi[3];
     for (size_t k = 0; k < 3; ++k) {
       own_lo[k] = _mm_set1_epi32(lo_[k][j]);
       own_hi[k] = _mm_set1_epi32(hi_[k][j]);
