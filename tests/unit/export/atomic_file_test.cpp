@@ -109,7 +109,9 @@ TEST_F(AtomicFileTest, KeepsModeAndFollowsLinks) {
 }
 
 TEST_F(AtomicFileTest, LongNamesArePossible) {
-  EXPECT_TRUE(write_model(path(std::string(251, 'x') + ".stl"), parts_));
+  std::string name(251, 'x');
+  name += ".stl";
+  EXPECT_TRUE(write_model(path(name), parts_));
 }
 
 TEST_F(AtomicFileTest, MissingFolder) {
