@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cstddef>
 
 #include "engine/base/parallel.h"
 #include "engine/bsp/cell_boxes.h"
+#include "engine/bsp/packed_boxes.h"
 
 namespace csgrun {
 namespace {
@@ -56,10 +56,9 @@ std::optional<NearPairs> find_near_pairs(const PairCells& cells, std::span<const
       for (uint32_t j = firsts; j < count_near; ++j) {
         for (uint32_t i = 0; i < firsts; i += CellBoxes::kAtOnce) {
           const uint32_t lanes = std::min(CellBoxes::kAtOnce, firsts - i);
-          for (uint32_t meets = own.compare(i, lanes, j); meets != 0; meets &= meets - 1) {
-            const auto lane = static_cast<uint32_t>(std::countr_zero(meets));
+          PackedBoxes::for_each_bit(own.compare(i, lanes, j), [&](uint32_t lane) {
             found.push_back({faces[i + lane], faces[j]});
-          }
+          });
         }
       }
       result.starts[c + 1] = static_cast<uint32_t>(found.size() - before);

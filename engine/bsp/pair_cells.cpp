@@ -276,7 +276,7 @@ uint32_t CellPairs::sift(const PairCells& all, uint32_t first, uint32_t j, uint3
   const uint32_t slabs = all.slabs_at[polygons_[j]];
   if (slabs == PairCells::kNoSlabs) return meets;
   for (uint32_t begin = 0; begin < CellBoxes::kAtOnce; begin += 8) {
-    if ((meets >> begin & 0xff) == 0) continue;
+    if ((meets >> begin & 0xff) == 0) continue;  // there may be no polygons at all
     const JobTriangles& triangles = triangles_[(first + begin) / 8];
     const uint32_t which = meets >> begin & triangles.which;
     if (which == 0) continue;

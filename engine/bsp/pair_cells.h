@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "engine/bsp/job.h"
 #include "engine/bsp/job_triangles.h"
 #include "engine/bsp/operand.h"
+#include "engine/bsp/packed_boxes.h"
 #include "engine/bsp/slabs.h"
 
 namespace csgrun {
@@ -69,10 +69,10 @@ class CellPairs {
         const uint32_t count = std::min(CellBoxes::kAtOnce, own_start - first);
         uint32_t meets = boxes_.compare(first, count, j);
         if (!triangles_.empty()) meets = sift(all, first, j, meets);
-        for (; meets != 0; meets &= meets - 1) {
-          const uint32_t i = first + static_cast<uint32_t>(std::countr_zero(meets));
+        PackedBoxes::for_each_bit(meets, [&](uint32_t lane) {
+          const uint32_t i = first + lane;
           if (!are_covered(polygons_[i], polygons_[j])) visit(polygons_[i], polygons_[j]);
-        }
+        });
       }
     }
   }
