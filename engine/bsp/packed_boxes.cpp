@@ -21,6 +21,27 @@ void include(FloatBox& box, const FloatBox& other) {
   }
 }
 
+/// The least and the greatest of eight, by halves, four at a time first.
+float least(const std::array<float, kGroup>& x) {
+  std::array<float, kGroup / 2> y;
+  for (size_t i = 0; i < y.size(); ++i) y[i] = std::min(x[i], x[i + y.size()]);
+  return std::min(std::min(y[0], y[2]), std::min(y[1], y[3]));
+}
+float most(const std::array<float, kGroup>& x) {
+  std::array<float, kGroup / 2> y;
+  for (size_t i = 0; i < y.size(); ++i) y[i] = std::max(x[i], x[i + y.size()]);
+  return std::max(std::max(y[0], y[2]), std::max(y[1], y[3]));
+}
+/// Around all of them.
+FloatBox box_of(const EightBoxes& group) {
+  FloatBox box;
+  for (size_t k = 0; k < 3; ++k) {
+    box.lo[k] = least(group.lo[k]);
+    box.hi[k] = most(group.hi[k]);
+  }
+  return box;
+}
+
 /// Puts two zero bits before each of the lowest 10 bits.
 uint32_t spread(uint32_t x) {
   x = (x | x << 16) & 0x030000ff;
@@ -110,42 +131,39 @@ std::vector<uint32_t> curve_order(std::span<const FloatBox> boxes) {
 
 }  // namespace
 
-PackedBoxes::PackedBoxes(std::span<const FloatBox> boxes) : order_(curve_order(boxes)) {
-  if (boxes.empty()) return;
+PackedBoxes::PackedBoxes(std::span<const FloatBox> boxes,
+                         std::span<const std::vector<FloatBox>> more)
+    : order_(curve_order(boxes)), levels_(levels_over(boxes)) {
+  for (const std::vector<FloatBox>& others : more) more_.push_back(levels_over(others));
+}
+
+PackedBoxes::Levels PackedBoxes::levels_over(std::span<const FloatBox> boxes) const {
+  Levels levels;
+  if (boxes.empty()) return levels;
+  Group none;
+  for (size_t k = 0; k < 3; ++k) {
+    none.lo[k].fill(kInfinity);
+    none.hi[k].fill(-kInfinity);
+  }
   const auto put = [](Group& group, size_t i, const FloatBox& box) {
     for (size_t k = 0; k < 3; ++k) {
       group.lo[k][i] = box.lo[k];
       group.hi[k][i] = box.hi[k];
     }
   };
-  const auto box_of = [](Group group) {
-    for (size_t half = kGroup / 2; half > 0; half /= 2) {
-      for (size_t k = 0; k < 3; ++k) {
-        for (size_t i = 0; i < half; ++i) {
-          group.lo[k][i] = std::min(group.lo[k][i], group.lo[k][i + half]);
-          group.hi[k][i] = std::max(group.hi[k][i], group.hi[k][i + half]);
-        }
-      }
-    }
-    return FloatBox{{group.lo[0][0], group.lo[1][0], group.lo[2][0]},
-                    {group.hi[0][0], group.hi[1][0], group.hi[2][0]}};
-  };
-  levels_.emplace_back((boxes.size() + kGroup - 1) / kGroup);
-  std::vector<Group>* below = &levels_[0];
-  for (size_t place = 0; place < below->size() * kGroup; ++place) {
-    put((*below)[place / kGroup], place % kGroup,
-        place < boxes.size() ? boxes[order_[place]] : kNothing);
+  levels.emplace_back((boxes.size() + kGroup - 1) / kGroup, none);
+  for (size_t place = 0; place < boxes.size(); ++place) {
+    put(levels[0][place / kGroup], place % kGroup, boxes[order_[place]]);
   }
-  while (levels_.back().size() > 1) {
-    const size_t count = levels_.back().size();
-    levels_.emplace_back((count + kGroup - 1) / kGroup);
-    below = &levels_[levels_.size() - 2];
-    std::vector<Group>& level = levels_.back();
-    for (size_t place = 0; place < level.size() * kGroup; ++place) {
-      put(level[place / kGroup], place % kGroup,
-          place < count ? box_of((*below)[place]) : kNothing);
+  while (levels.back().size() > 1) {
+    const size_t count = levels.back().size();
+    levels.emplace_back((count + kGroup - 1) / kGroup, none);
+    const std::vector<Group>& below = levels[levels.size() - 2];
+    for (size_t place = 0; place < count; ++place) {
+      put(levels.back()[place / kGroup], place % kGroup, box_of(below[place]));
     }
   }
+  return levels;
 }
 
 std::vector<PackedBoxes::Task> PackedBoxes::pair_tasks(size_t wanted) const {

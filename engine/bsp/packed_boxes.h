@@ -28,8 +28,10 @@ struct alignas(16) EightBoxes {
 
 class PackedBoxes {
  public:
-  /// O(n). Boxes are ordered by their middles along a space-filling curve.
-  explicit PackedBoxes(std::span<const FloatBox> boxes);
+  /// O(n). Boxes are ordered by their middles along a space-filling curve. `more`: the same things
+  /// along other axes, which pairs must overlap along too; other visits do not look at them.
+  explicit PackedBoxes(std::span<const FloatBox> boxes,
+                       std::span<const std::vector<FloatBox>> more = {});
 
   /// The number of the box at each place in the order.
   [[nodiscard]] const std::vector<uint32_t>& order() const { return order_; }
@@ -108,6 +110,9 @@ class PackedBoxes {
     uint32_t level, group;
   };
   using Group = EightBoxes;
+  using Levels = std::vector<std::vector<Group>>;
+
+  [[nodiscard]] Levels levels_over(std::span<const FloatBox> boxes) const;
 
   /// A bit for each of the eight that overlaps the box.
   static uint32_t overlapping(const Group& group, const FloatBox& box) {
@@ -138,34 +143,45 @@ class PackedBoxes {
 #endif
   }
 
-  [[nodiscard]] FloatBox box_at(size_t level, size_t place) const {
-    const Group& group = levels_[level][place / 8];
+  static FloatBox box_at(const std::vector<Group>& level, size_t place) {
+    const Group& group = level[place / 8];
     const size_t i = place % 8;
     return {{group.lo[0][i], group.lo[1][i], group.lo[2][i]},
             {group.hi[0][i], group.hi[1][i], group.hi[2][i]}};
+  }
+
+  /// Those of `which`, of a group of a level, that overlap a box of a level along all axes.
+  [[nodiscard]] uint32_t overlapping_boxes(size_t group_level, size_t group, size_t box_level,
+                                           size_t place, uint32_t which) const {
+    which &= overlapping(levels_[group_level][group], box_at(levels_[box_level], place));
+    for (const Levels& levels : more_) {
+      if (which == 0) break;
+      which &= overlapping(levels[group_level][group], box_at(levels[box_level], place));
+    }
+    return which;
   }
 
   /// What each box of a group of a level overlaps in another one; above the lowest level of a group
   /// also itself.
   template <class Visit>
   void for_each_row(const Task& task, Visit visit) const {
-    const auto& groups = levels_[task.level];
-    const Group& second = groups[task.second];
     uint32_t rows = 0xff;
     // Few of either group reach the other one.
     if (task.first != task.second) {
-      rows = overlapping(groups[task.first], box_at(task.level + 1, task.second));
+      rows = overlapping_boxes(task.level, task.first, task.level + 1, task.second, rows);
     }
     for_each_bit(rows, [&](uint32_t row) {
       const uint32_t place = 8 * task.first + row;
-      uint32_t hits = overlapping(second, box_at(task.level, place));
-      if (task.first == task.second) hits &= 0xffu << (task.level == 0 ? row + 1 : row);
+      uint32_t hits = 0xff;
+      if (task.first == task.second) hits <<= task.level == 0 ? row + 1 : row;
+      hits = overlapping_boxes(task.level, task.second, task.level, place, hits & 0xff);
       visit(place, task.second, hits);
     });
   }
 
   std::vector<uint32_t> order_;
-  std::vector<std::vector<Group>> levels_;  ///< the boxes first; the last has one group
+  Levels levels_;             ///< the boxes first; the last has one group
+  std::vector<Levels> more_;  ///< along other axes
 };
 
 }  // namespace csgrun

@@ -14,6 +14,10 @@ using Vec = Vec3d;
 constexpr double kClasses = 32;
 /// A frame must save so much to be worth the time that coordinates along it take.
 constexpr double kWorthwhile = 0.6;
+/// A triangle is long if its longest side is so many times its height over that; and one in
+/// kLongShare of so many must be.
+constexpr double kLong = 8;
+constexpr size_t kLongSample = 128, kLongShare = 8;
 
 Vec unit(const Vec& a) {
   const double length = std::sqrt(dot(a, a));
@@ -238,6 +242,41 @@ std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, std::span<const uint3
                                  const std::optional<BoxFrame>& frame) {
   return boxes_of(
       leaf, faces.size(), [&](size_t i) { return faces[i]; }, frame);
+}
+
+bool has_long_triangles(const LeafGeometry& leaf) {
+  size_t seen = 0, found = 0;
+  for (size_t f = 0, step = leaf.face_count() / kLongSample + 1; f < leaf.face_count(); f += step) {
+    if (leaf.face_starts[f + 1] - leaf.face_starts[f] != 3) continue;
+    const auto corner = [&](size_t i) {
+      const IVec3& p = leaf.vertices[leaf.corners[leaf.face_starts[f] + i]];
+      return Vec{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+    };
+    const Vec a = minus(corner(1), corner(0)), b = minus(corner(2), corner(1)),
+              c = minus(corner(0), corner(2)), normal = cross(a, b);
+    const double longest = std::max({dot(a, a), dot(b, b), dot(c, c)});
+    ++seen;
+    if (longest > kLong * std::sqrt(dot(normal, normal))) ++found;
+  }
+  return found * kLongShare > seen;
+}
+
+std::array<std::vector<FloatBox>, 2> face_diagonals(const LeafGeometry& leaf) {
+  const auto boxes = [&](int64_t sign) {
+    std::vector<Bound> bounds(leaf.vertices.size());
+    for (size_t v = 0; v < bounds.size(); ++v) {
+      const IVec3& p = leaf.vertices[v];
+      for (size_t k = 0; k < 3; ++k) {
+        bounds[v][k] = static_cast<float>(p[k] + sign * p[(k + 1) % 3]);
+      }
+    }
+    return boxes_from(
+        leaf, leaf.face_count(), [](size_t i) { return static_cast<uint32_t>(i); },
+        [&](uint32_t v) {
+          return FloatBox{bounds[v], bounds[v]};
+        });
+  };
+  return {boxes(1), boxes(-1)};
 }
 
 }  // namespace csgrun

@@ -38,4 +38,13 @@ std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, const std::optional<B
 std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, std::span<const uint32_t> faces,
                                  const std::optional<BoxFrame>& frame);
 
+/// Whether many of the faces are long triangles: many times as long as they are high over their
+/// longest side. Looks at a sample: O(1).
+bool has_long_triangles(const LeafGeometry& leaf);
+
+/// For each face what it takes up along the diagonals x + y, y + z, z + x, and x - y, y - z, z - x:
+/// long triangles side by side, aslant to the axes, are apart along one of them mostly. O(n).
+/// REQUIRES: coordinates are below 2^52 in magnitude.
+std::array<std::vector<FloatBox>, 2> face_diagonals(const LeafGeometry& leaf);
+
 }  // namespace csgrun

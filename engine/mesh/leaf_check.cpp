@@ -31,17 +31,17 @@ using Pairs = std::vector<std::array<uint32_t, 2>>;
 
 /// Of the faces at the places of the tree, which `order` names; see TrianglePairs.
 Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree,
-                     std::span<const uint32_t> order, std::span<const uint8_t> is_spread) {
+                     std::span<const uint32_t> order, std::span<const uint8_t> is_spread,
+                     bool are_long) {
   const FacePairs faces(leaf);
   std::optional<TrianglePairs> triangles;
-  if (TrianglePairs::covers(leaf)) triangles.emplace(leaf, order, is_spread);
+  if (TrianglePairs::covers(leaf)) triangles.emplace(leaf, order, is_spread, are_long);
   const auto search = [&](const PackedBoxes::Task& task, FacePairs::Scratch& scratch,
                           Pairs& found) {
-    TrianglePairs::Near near;
     tree.visit_rows(task, [&](uint32_t place, uint32_t group, uint32_t hits) {
       if (triangles) {
         hits &= ~triangles->spread_neighbours(place, group);
-        if (hits != 0) hits &= ~triangles->plainly_apart(place, group, hits, near);
+        if (hits != 0) hits &= ~triangles->plainly_apart(place, group, hits);
       }
       PackedBoxes::for_each_bit(hits, [&](uint32_t bit) {
         const auto [f, g] = std::minmax({order[place], order[8 * group + bit]});
@@ -64,6 +64,13 @@ Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree,
   }
   std::sort(all.begin(), all.end());
   return all;
+}
+
+/// Of all faces.
+PackedBoxes tree_of_pairs(const LeafGeometry& leaf, const std::optional<BoxFrame>& frame,
+                          bool are_long) {
+  const std::vector<FloatBox> boxes = face_boxes(leaf, frame);
+  return are_long ? PackedBoxes(boxes, face_diagonals(leaf)) : PackedBoxes(boxes);
 }
 
 /// Calls `visit(f, g)` for the faces of each edge that has two.
@@ -136,8 +143,9 @@ bool have_single_fans(const LeafGeometry& leaf,
 }  // namespace
 
 Pairs find_self_intersections(const LeafGeometry& leaf) {
-  const PackedBoxes tree(face_boxes(leaf, find_box_frame(leaf)));
-  return find_crossings(leaf, tree, tree.order(), {});
+  const bool are_long = has_long_triangles(leaf);
+  const PackedBoxes tree = tree_of_pairs(leaf, find_box_frame(leaf), are_long);
+  return find_crossings(leaf, tree, tree.order(), {}, are_long);
 }
 
 SurfaceCheck check_surface(const LeafGeometry& leaf) {
@@ -156,11 +164,12 @@ SurfaceCheck check_surface(const LeafGeometry& leaf) {
     const PackedBoxes some(face_boxes(leaf, *faces, find_box_frame(leaf)));
     std::vector<uint32_t> order = some.order();
     for (uint32_t& face : order) face = (*faces)[face];
-    result.crossings = find_crossings(leaf, some, order, is_spread);
+    result.crossings = find_crossings(leaf, some, order, is_spread, false);
   } else {
     const auto frame = find_box_frame(leaf);
-    tree.emplace(face_boxes(leaf, frame));
-    result.crossings = find_crossings(leaf, *tree, tree->order(), is_spread);
+    const bool are_long = has_long_triangles(leaf);
+    tree.emplace(tree_of_pairs(leaf, frame, are_long));
+    result.crossings = find_crossings(leaf, *tree, tree->order(), is_spread, are_long);
     if (frame) tree.reset();
   }
   if (!result.crossings.empty()) return result;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/parallel.h"
 #include "engine/base/vec3d.h"
 #include "engine/mesh/leaf_shape.h"
 
@@ -19,15 +20,10 @@ bool TrianglePairs::covers(const LeafGeometry& leaf) {
 }
 
 TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order,
-                             std::span<const uint8_t> is_spread)
+                             std::span<const uint8_t> is_spread, bool are_long)
     : leaf_(leaf),
       corners_((order.size() + 7) / 8),
       spread_(8 * corners_.size(), {kOther, kOther, kOther}) {
-  const GridBox box = box_of_points(leaf.vertices);
-  for (size_t k = 0; k < 3; ++k) {
-    middle_[k] = (box.lo[k] + box.hi[k]) / 2;
-    reach_ = std::max(reach_, static_cast<double>(box.hi[k] - box.lo[k]) / 2 + 1);
-  }
   if (!corners_.empty()) {
     for (auto& lanes : corners_.back().corners) lanes.fill(kNone);
   }
@@ -40,47 +36,35 @@ TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t>
       if (!is_spread.empty() && is_spread[corner] != 0) spread_[place][i] = corner;
     }
   }
+  if (are_long) make_slabs();
 }
 
-std::array<double, 3> TrianglePairs::from_middle(uint32_t vertex) const {
-  std::array<double, 3> p{};
+void TrianglePairs::make_slabs() {
+  const GridBox box = box_of_points(leaf_.vertices);
+  IVec3 middle{};
+  double reach = 0;
   for (size_t k = 0; k < 3; ++k) {
-    p[k] = static_cast<double>(leaf_.vertices[vertex][k] - middle_[k]);
+    middle[k] = (box.lo[k] + box.hi[k]) / 2;
+    reach = std::max(reach, static_cast<double>(box.hi[k] - box.lo[k]) / 2 + 1);
   }
-  return p;
-}
-
-void TrianglePairs::load(uint32_t group, Near& near) const {
-  near.group_ = group;
-  near.triangles_ = 0;
-  for (uint32_t lane = 0; lane < 8; ++lane) {
-    for (size_t i = 0; i < 3; ++i) {
-      const uint32_t vertex = corners_[group].corners[i][lane];
-      if (vertex == kNone) {
-        for (auto& lanes : near.corners_.at[i]) lanes[lane] = 0;
-        continue;
+  slabs_.resize(corners_.size());
+  for_each_part(corners_.size(), kFewForThreads / 8, [&](size_t, size_t begin, size_t end) {
+    for (size_t group = begin; group < end; ++group) {
+      EightSlabs::Corners corners{};
+      uint32_t lanes = 0;
+      for (uint32_t lane = 0; lane < 8; ++lane) {
+        if (corners_[group].corners[0][lane] == kNone) continue;
+        lanes |= 1u << lane;
+        for (size_t i = 0; i < 3; ++i) {
+          const IVec3& p = leaf_.vertices[corners_[group].corners[i][lane]];
+          for (size_t k = 0; k < 3; ++k) {
+            corners[i][k][lane] = static_cast<int32_t>(p[k] - middle[k]);
+          }
+        }
       }
-      near.triangles_ |= 1u << lane;
-      const std::array<double, 3> p = from_middle(vertex);
-      for (size_t k = 0; k < 3; ++k) near.corners_.at[i][k][lane] = static_cast<float>(p[k]);
+      slabs_[group] = EightSlabs(corners, lanes, reach);
     }
-  }
-}
-
-uint32_t TrianglePairs::beyond_slabs(uint32_t place, uint32_t group, uint32_t hits,
-                                     Near& near) const {
-  if (near.group_ != group) load(group, near);
-  hits &= near.triangles_;
-  const Group& own = corners_[place / 8];
-  if (hits == 0 || own.corners[0][place % 8] == kNone) return 0;
-  Slabs& slabs = near.slabs_[place % 8];
-  if (near.slabs_of_[place % 8] != place) {
-    near.slabs_of_[place % 8] = place;
-    slabs = Slabs({from_middle(own.corners[0][place % 8]), from_middle(own.corners[1][place % 8]),
-                   from_middle(own.corners[2][place % 8])},
-                  reach_);
-  }
-  return slabs.apart(near.corners_, hits);
+  });
 }
 
 namespace {

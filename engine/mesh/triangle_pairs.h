@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/bsp/operand.h"
-#include "engine/bsp/slabs.h"
+#include "engine/mesh/eight_slabs.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -24,9 +24,10 @@ class TrianglePairs {
 
   /// REQUIRES: covers(leaf), and no face is degenerate; the leaf outlives this. `order` lists
   /// the faces, all or all but those of single_sheets.h; `is_spread` is of its vertices as
-  /// find_spread_vertices tells, or empty: then none is taken for spread. O(n).
+  /// find_spread_vertices tells, or empty: then none is taken for spread. `are_long`: most pairs
+  /// will be told apart by slabs, which are made for this. O(n).
   TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order,
-                std::span<const uint8_t> is_spread);
+                std::span<const uint8_t> is_spread, bool are_long);
 
   /// A bit for each triangle at places 8 group .. 8 group + 7 in the order that has a spread vertex
   /// in common with the one at `place`.
@@ -61,26 +62,10 @@ class TrianglePairs {
 #endif
   }
 
-  /// What is at hand while rows of groups are held against other groups; for one thread.
-  class Near {
-   public:
-    Near() { slabs_of_.fill(UINT32_MAX); }
-
-   private:
-    friend class TrianglePairs;
-    uint32_t group_ = UINT32_MAX;  ///< whose corners these are
-    uint32_t triangles_ = 0;       ///< which of the eight are triangles
-    EightTriangles corners_;
-    std::array<uint32_t, 8> slabs_of_;  ///< places
-    std::array<Slabs, 8> slabs_;
-  };
   /// Of the triangles at places 8 group .. 8 group + 7, as bits, those of `hits` that certainly
-  /// have no point in common with the one at `place`.
-  [[nodiscard]] uint32_t plainly_apart(uint32_t place, uint32_t group, uint32_t hits,
-                                       Near& near) const {
-    // To get them at hand costs about as much as to test two pairs one by one.
-    if (near.group_ != group && has_two_at_most(hits)) return 0;
-    return beyond_slabs(place, group, hits, near);
+  /// have no point in common with the one at `place`; none if they are not long.
+  [[nodiscard]] uint32_t plainly_apart(uint32_t place, uint32_t group, uint32_t hits) const {
+    return slabs_.empty() ? 0 : slabs_[group].apart(slabs_[place / 8], place % 8, hits);
   }
 
   /// True only when two faces are triangles that meet nowhere but in corners and edges that both
@@ -97,21 +82,12 @@ class TrianglePairs {
     return leaf_.face_starts[f + 1] - leaf_.face_starts[f] == 3;
   }
 
-  static bool has_two_at_most(uint32_t bits) {
-    const uint32_t but_one = bits & (bits - 1);
-    return (but_one & (but_one - 1)) == 0;
-  }
-
-  [[nodiscard]] uint32_t beyond_slabs(uint32_t place, uint32_t group, uint32_t hits,
-                                      Near& near) const;
-  void load(uint32_t group, Near& near) const;
-  [[nodiscard]] std::array<double, 3> from_middle(uint32_t vertex) const;
+  void make_slabs();
 
   const LeafGeometry& leaf_;
-  IVec3 middle_{};                               ///< of the box of all vertices
-  double reach_ = 0;                             ///< no vertex is further from it along an axis
   std::vector<Group> corners_;                   ///< by place; lanes without a triangle hold kNone
   std::vector<std::array<uint32_t, 3>> spread_;  ///< by place: corners that are spread, else kOther
+  std::vector<EightSlabs> slabs_;                ///< by group; none if they are not long
 };
 
 }  // namespace csgrun

@@ -2,6 +2,7 @@
 #include "engine/bsp/packed_boxes.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <random>
 #include <utility>
@@ -79,6 +80,34 @@ TEST(PackedBoxes, FindsEachPairOnceHoweverItIsDivided) {
         ASSERT_EQ(found, expected) << count << (crowded ? " crowded" : "");
       }
     }
+  }
+}
+
+TEST(PackedBoxes, PairsOverlapAlongMoreAxesToo) {
+  std::mt19937 random(9);
+  for (const size_t count : {3, 20, 33, 200, 1500}) {
+    const std::vector<FloatBox> boxes = rounded(random_boxes(count, true, random));
+    const std::array more{rounded(random_boxes(count, false, random)),
+                          rounded(random_boxes(count, true, random))};
+    Pairs expected, found;
+    for (uint32_t i = 0; i < count; ++i) {
+      for (uint32_t j = i + 1; j < count; ++j) {
+        if (overlap(boxes[i], boxes[j]) && overlap(more[0][i], more[0][j]) &&
+            overlap(more[1][i], more[1][j])) {
+          expected.emplace_back(i, j);
+        }
+      }
+    }
+    const PackedBoxes tree(boxes, more);
+    for (const auto& task : tree.pair_tasks(5)) {
+      tree.visit_rows(task, [&](uint32_t place, uint32_t group, uint32_t hits) {
+        PackedBoxes::for_each_bit(hits, [&](uint32_t bit) {
+          found.push_back(std::minmax({tree.order()[place], tree.order()[8 * group + bit]}));
+        });
+      });
+    }
+    std::sort(found.begin(), found.end());
+    ASSERT_EQ(found, expected) << count;
   }
 }
 

@@ -8,58 +8,12 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/base/vec3d.h"
-#include "tests/support/seeded.h"
+#include "tests/support/whole_triangles.h"
 
 namespace csgrun {
 namespace {
 
-using Vec = Vec3d;  // whole numbers
-using Triangle = std::array<Vec, 3>;
-
-Vec edge(const Triangle& t, size_t i) { return minus(t[(i + 1) % 3], t[i]); }
-Vec normal(const Triangle& t) { return cross(edge(t, 0), edge(t, 1)); }
-
-/// The room between two triangles along a direction, times its length; negative where they overlap.
-double gap(const Triangle& s, const Triangle& t, const Vec& way) {
-  const auto range = [&](const Triangle& x) {
-    return std::minmax({dot(x[0], way), dot(x[1], way), dot(x[2], way)});
-  };
-  const auto [s_lo, s_hi] = range(s);
-  const auto [t_lo, t_hi] = range(t);
-  return std::max(t_lo - s_hi, s_lo - t_hi);
-}
-
-/// Exactly, for small coordinates: convex sets are apart when one of these directions parts them.
-bool are_apart(const Triangle& s, const Triangle& t) {
-  std::vector<Vec> ways{normal(s), normal(t)};
-  for (size_t i = 0; i < 3; ++i) {
-    ways.push_back(cross(edge(s, i), normal(s)));
-    ways.push_back(cross(edge(t, i), normal(t)));
-    for (size_t k = 0; k < 3; ++k) ways.push_back(cross(edge(s, i), edge(t, k)));
-  }
-  return std::any_of(ways.begin(), ways.end(), [&](const Vec& way) { return gap(s, t, way) > 0; });
-}
-
-/// The most room that the slabs of s leave to t.
-double most_room(const Triangle& s, const Triangle& t) {
-  double most = -std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < 4; ++i) {
-    const Vec way = i == 3 ? normal(s) : cross(edge(s, i), normal(s));
-    most = std::max(most, gap(s, t, way) / std::sqrt(dot(way, way)));
-  }
-  return most;
-}
-
-Triangle random_triangle(test::Random& random, int64_t reach) {
-  Triangle t;
-  do {
-    for (Vec& p : t) {
-      for (double& c : p) c = static_cast<double>(random.integer(-reach, reach));
-    }
-  } while (normal(t) == Vec{});
-  return t;
-}
+using namespace test;  // NOLINT: a test
 
 EightTriangles packed(const std::array<Triangle, 8>& triangles) {
   EightTriangles eight{};
@@ -73,13 +27,6 @@ EightTriangles packed(const std::array<Triangle, 8>& triangles) {
   return eight;
 }
 
-Triangle scaled(Triangle t, double factor, const Vec& move) {
-  for (Vec& p : t) {
-    for (size_t k = 0; k < 3; ++k) p[k] = p[k] * factor + move[k];
-  }
-  return t;
-}
-
 TEST(Slabs, SeeWhatIsClearlyBeyondOneOfThemAndNothingElse) {
   size_t found = 0, touching = 0, coplanar = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -87,25 +34,7 @@ TEST(Slabs, SeeWhatIsClearlyBeyondOneOfThemAndNothingElse) {
     const int64_t size = random.integer(2, 9);
     const Triangle own = random_triangle(random, size);
     std::array<Triangle, 8> others;
-    for (Triangle& t : others) {
-      t = random_triangle(random, size);
-      // Some are slivers nearly along a side, some of the same plane.
-      if (random.integer(0, 2) == 0) t[0] = own[1], t[1] = own[2];
-      if (random.integer(0, 3) == 0) {
-        const auto a = static_cast<double>(random.integer(-1, 2));
-        for (size_t k = 0; k < 3; ++k) t[2][k] = own[0][k] + a * edge(own, 1)[k];
-      }
-      if (random.integer(0, 3) > 0) continue;
-      do {
-        for (Vec& p : t) {
-          const auto a = static_cast<double>(random.integer(-3, 3)),
-                     b = static_cast<double>(random.integer(-3, 3));
-          for (size_t k = 0; k < 3; ++k) {
-            p[k] = own[0][k] + a * edge(own, 0)[k] + b * edge(own, 1)[k];
-          }
-        }
-      } while (normal(t) == Vec{});
-    }
+    for (Triangle& t : others) t = random_neighbour(own, random, size);
     const auto reach = static_cast<double>(20 * size);
     const auto which = static_cast<uint32_t>(random.integer(0, 255));
     const uint32_t apart = Slabs(own, reach).apart(packed(others), which),

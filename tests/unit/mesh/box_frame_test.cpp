@@ -117,6 +117,49 @@ TEST(BoxFrame, BoxesOfFacesWithACornerInCommonOverlap) {
   }
 }
 
+TEST(BoxFrame, LongTrianglesAreToldFromOthers) {
+  EXPECT_TRUE(has_long_triangles(plate(200, kAslant)));
+  EXPECT_FALSE(has_long_triangles(LeafGeometry{}));
+  // One in eight of so many is not enough, one in seven is; squares do not count.
+  for (const uint32_t others : {6u, 7u}) {
+    LeafGeometry leaf;
+    leaf.vertices = {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {1000, 1, 0}};
+    leaf.corners = {0, 1, 4};
+    leaf.face_starts = {0, 3};
+    for (uint32_t i = 0; i < others; ++i) {
+      leaf.corners.insert(leaf.corners.end(), {0, 1, 2, 0, 1, 2, 3});
+      leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()) - 4);
+      leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()));
+    }
+    EXPECT_EQ(has_long_triangles(leaf), others == 6);
+  }
+}
+
+TEST(BoxFrame, DiagonalsOfFacesWithACornerInCommonOverlapAndFewOthersDo) {
+  std::mt19937_64 random(6);
+  for (int round = 0; round < 20; ++round) {
+    IVec3 move;
+    for (int64_t& m : move) m = static_cast<int64_t>(random() % (1u << 31)) - (1 << 30);
+    const LeafGeometry leaf = plate(100, kAslant, move);
+    const auto diagonals = face_diagonals(leaf);
+    const std::vector<FloatBox> boxes = face_boxes(leaf, std::nullopt);
+    size_t along_axes = 0, left = 0;
+    for (size_t f = 0; f < leaf.face_count(); ++f) {
+      for (size_t g = 0; g < f; ++g) {
+        const bool are_near =
+            overlap(diagonals[0][f], diagonals[0][g]) && overlap(diagonals[1][f], diagonals[1][g]);
+        along_axes += overlap(boxes[f], boxes[g]);
+        left += overlap(boxes[f], boxes[g]) && are_near;
+        for (size_t i = 0; i < 9; ++i) {
+          if (leaf.corners[3 * f + i / 3] != leaf.corners[3 * g + i % 3]) continue;
+          ASSERT_TRUE(are_near) << round << ": " << f << ", " << g;
+        }
+      }
+    }
+    EXPECT_LT(2 * left, along_axes);
+  }
+}
+
 /// The faces of both.
 LeafGeometry together(LeafGeometry a, const LeafGeometry& b) {
   const auto before = static_cast<uint32_t>(a.vertices.size());

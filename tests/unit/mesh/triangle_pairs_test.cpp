@@ -75,7 +75,8 @@ TEST(TrianglePairs, VerticesOfAClosedSurfaceAreSpread) {
   const LeafGeometry leaf = octahedron();
   ASSERT_TRUE(TrianglePairs::covers(leaf));
   const std::vector<uint32_t> order = any_order(leaf);
-  const TrianglePairs known(leaf, order, find_spread_vertices(leaf)), unknown(leaf, order, {});
+  const TrianglePairs known(leaf, order, find_spread_vertices(leaf), true),
+      unknown(leaf, order, {}, true);
   for (uint32_t place = 0; place < order.size(); ++place) {
     const uint32_t neighbours = known.spread_neighbours(place, 0);
     EXPECT_EQ(unknown.spread_neighbours(place, 0), 0u);
@@ -91,7 +92,7 @@ TEST(TrianglePairs, InnerVerticesOfAHeightFieldAreSpread) {
   const uint32_t size = 9;
   const LeafGeometry leaf = terrain(size, 90);
   const std::vector<uint32_t> order = any_order(leaf);
-  const TrianglePairs pairs(leaf, order, find_spread_vertices(leaf, order));
+  const TrianglePairs pairs(leaf, order, find_spread_vertices(leaf, order), false);
   const auto is_inner = [&](uint32_t v) {
     const uint32_t x = v % (size + 1), y = v / (size + 1);
     return x > 0 && y > 0 && x < size && y < size;
@@ -115,7 +116,7 @@ TEST(TrianglePairs, InnerVerticesOfAHeightFieldAreSpread) {
 
 TEST(TrianglePairs, TrianglesOfAPlaneAreApartBySides) {
   const LeafGeometry leaf = terrain(5, 0);
-  const TrianglePairs pairs(leaf, any_order(leaf), {});
+  const TrianglePairs pairs(leaf, any_order(leaf), {}, false);
   size_t neighbours = 0;
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
     EXPECT_FALSE(pairs.apart(f, f));
@@ -138,7 +139,7 @@ TEST(TrianglePairs, TrianglesThatRestOnAPlaneBesideATriangle) {
     leaf.vertices = {base[0], base[1], base[2], t[0], t[1], t[2]};
     add_triangle(leaf, 0, 1, 2);
     add_triangle(leaf, 3, 4, 5);
-    const TrianglePairs pairs(leaf, std::vector<uint32_t>{0, 1}, {});
+    const TrianglePairs pairs(leaf, std::vector<uint32_t>{0, 1}, {}, false);
     EXPECT_EQ(pairs.apart(0, 1), pairs.apart(1, 0));
     return pairs.apart(0, 1);
   };
@@ -176,30 +177,16 @@ TEST(TrianglePairs, ManyOfAGroupAreTestedAtOnce) {
   }
   std::vector<uint32_t> order(leaf.face_count());
   std::iota(order.begin(), order.end(), 0u);
-  const TrianglePairs pairs(leaf, order, {});
+  const TrianglePairs pairs(leaf, order, {}, true), plain(leaf, order, {}, false);
   constexpr uint32_t kTriangles = 0b01110111;
   for (uint32_t place = 0; place < 24; ++place) {
-    TrianglePairs::Near near;
-    const auto apart = [&](uint32_t group, uint32_t hits) {
-      return pairs.plainly_apart(place, group, hits, near);
-    };
     const uint32_t expected = place % 4 == 3 ? 0 : kTriangles;
-    const uint32_t own = expected & ~(1u << place % 8);
-    // Few of a group that is not at hand are left to others.
-    EXPECT_EQ(apart(0, 0b11), 0u);
-    EXPECT_EQ(apart(0, 0xff), place / 8 == 0 ? own : expected);
-    EXPECT_EQ(apart(0, 0b10010) & ~0b10010u, 0u);
-    EXPECT_EQ(apart(1, 0b1), 0u);
-    EXPECT_EQ(apart(1, 0xff), place / 8 == 1 ? own : expected);
-    EXPECT_EQ(apart(2, 0b01100101), (place / 8 == 2 ? own : expected) & 0b01100101);
-    EXPECT_EQ(apart(2, 0b1), (place / 8 == 2 ? own : expected) & 0b1);
-  }
-  // The slabs at hand are those of the place.
-  TrianglePairs::Near near;
-  for (const uint32_t place : {0u, 8u, 16u, 8u, 0u}) {
-    TrianglePairs::Near fresh;
-    EXPECT_EQ(pairs.plainly_apart(place, 1, 0xff, near),
-              pairs.plainly_apart(place, 1, 0xff, fresh));
+    for (const uint32_t group : {0u, 1u, 2u}) {
+      const uint32_t others = place / 8 == group ? expected & ~(1u << place % 8) : expected;
+      EXPECT_EQ(pairs.plainly_apart(place, group, 0xff), others);
+      EXPECT_EQ(pairs.plainly_apart(place, group, 0b01100101), others & 0b01100101);
+      EXPECT_EQ(plain.plainly_apart(place, group, 0xff), 0u);
+    }
   }
 }
 
@@ -215,7 +202,7 @@ TEST(TrianglePairs, PolygonsAreLeftToOthersAndFarLeavesToo) {
   pyramid.face_starts = {0, 4};
   for (uint32_t i = 0; i < 4; ++i) add_triangle(pyramid, i, (i + 1) % 4, 4);
   const TrianglePairs pairs(pyramid, std::vector<uint32_t>{0, 1, 2, 3, 4},
-                            find_spread_vertices(pyramid));
+                            find_spread_vertices(pyramid), true);
   EXPECT_EQ(pairs.spread_neighbours(0, 0), 0u);
   for (uint32_t place = 1; place < 5; ++place) {
     EXPECT_EQ(pairs.spread_neighbours(place, 0), 0b11110u);
