@@ -39,6 +39,52 @@ void sort_canonically(std::vector<Triangle>& triangles) {
   });
 }
 
+bool are_distinct(std::span<const uint32_t> corners) {
+  for (size_t i = 1; i < corners.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      if (corners[i] == corners[j]) return false;
+    }
+  }
+  return true;
+}
+
+/// Two sides of a triangle, from one corner.
+struct Sides {
+  double px, py, pz, qx, qy, qz;
+
+  using Place = std::array<double, 3>;
+  Sides(const Place& o, const Place& p, const Place& q)
+      : px(p[0] - o[0]),
+        py(p[1] - o[1]),
+        pz(p[2] - o[2]),
+        qx(q[0] - o[0]),
+        qy(q[1] - o[1]),
+        qz(q[2] - o[2]) {}
+  [[nodiscard]] double dot() const { return px * qx + py * qy + pz * qz; }
+  [[nodiscard]] double cross() const {
+    const double x = py * qz - pz * qy, y = pz * qx - px * qz, z = px * qy - py * qx;
+    return std::sqrt(x * x + y * y + z * z);
+  }
+};
+
+/// Whether the angles opposite to a diagonal add up to clearly more than 180 degrees: then those
+/// opposite to the other diagonal add up to less. Cotangents, multiplied by both sines.
+bool clearly_obtuse(const Sides& at_c, const Sides& at_d) {
+  const double dot_c = at_c.dot(), dot_d = at_d.dot();
+  if (dot_c >= 0 && dot_d >= 0) return false;  // both are acute, or right
+  const double cross_c = at_c.cross(), cross_d = at_d.cross();
+  const double left = dot_c * cross_d, right = dot_d * cross_c;
+  return left + right < -kMargin * (std::fabs(left) + std::fabs(right) + cross_c * cross_d);
+}
+
+/// Whether the diagonal a b of the quadrilateral a d b c is to be replaced by d c.
+bool is_worse(uint32_t a, uint32_t b, uint32_t c, uint32_t d, const PlanarOracle& oracle,
+              const RoundedPosition& position) {
+  const std::array<double, 3>&at_a = position(a), &at_b = position(b);
+  return clearly_obtuse(Sides(position(c), at_a, at_b), Sides(position(d), at_a, at_b)) &&
+         oracle.orient(a, d, c) > 0 && oracle.orient(d, b, c) > 0;
+}
+
 /// Kept from one face to the next: most are small.
 struct Memory {
   using Edge = std::pair<uint32_t, uint32_t>;
@@ -98,15 +144,6 @@ class Flipper {
     }
   }
 
-  static bool are_distinct(std::span<const uint32_t> corners) {
-    for (size_t i = 1; i < corners.size(); ++i) {
-      for (size_t j = 0; j < i; ++j) {
-        if (corners[i] == corners[j]) return false;
-      }
-    }
-    return true;
-  }
-
   /// Finds the twins of half-edges and queues all diagonals in the order of their points.
   void pair_diagonals() {
     const auto count = static_cast<uint32_t>(3 * triangles_.size());
@@ -161,41 +198,12 @@ class Flipper {
     queue_.push_back(h);
   }
 
-  /// Two sides of a triangle, from one corner.
-  struct Sides {
-    double px, py, pz, qx, qy, qz;
-
-    [[nodiscard]] double dot() const { return px * qx + py * qy + pz * qz; }
-    [[nodiscard]] double cross() const {
-      const double x = py * qz - pz * qy, y = pz * qx - px * qz, z = px * qy - py * qx;
-      return std::sqrt(x * x + y * y + z * z);
-    }
-  };
-
-  [[nodiscard]] Sides sides(uint32_t apex, uint32_t a, uint32_t b) const {
-    const std::array<double, 3>&o = position_(apex), &p = position_(a), &q = position_(b);
-    return {p[0] - o[0], p[1] - o[1], p[2] - o[2], q[0] - o[0], q[1] - o[1], q[2] - o[2]};
-  }
-
-  /// Whether the angles opposite to a diagonal a b, at c and d, add up to clearly more than 180
-  /// degrees: then those opposite to the other diagonal add up to less. Cotangents, multiplied by
-  /// both sines.
-  [[nodiscard]] bool clearly_obtuse(uint32_t c, uint32_t d, uint32_t a, uint32_t b) const {
-    const Sides at_c = sides(c, a, b), at_d = sides(d, a, b);
-    const double dot_c = at_c.dot(), dot_d = at_d.dot();
-    if (dot_c >= 0 && dot_d >= 0) return false;  // both are acute, or right
-    const double cross_c = at_c.cross(), cross_d = at_d.cross();
-    const double left = dot_c * cross_d, right = dot_d * cross_c;
-    return left + right < -kMargin * (std::fabs(left) + std::fabs(right) + cross_c * cross_d);
-  }
-
   /// Replaces diagonal a b of the quadrilateral a d b c by d c.
   bool flip_if_better(uint32_t h) {
     const uint32_t h1 = next(h), h2 = next(h1);
     const uint32_t g = twin_[h], g1 = next(g), g2 = next(g1);
     const uint32_t a = origin(h), b = origin(h1), c = origin(h2), d = origin(g2);
-    if (!clearly_obtuse(c, d, a, b)) return false;
-    if (oracle_.orient(a, d, c) <= 0 || oracle_.orient(d, b, c) <= 0) return false;
+    if (!is_worse(a, b, c, d, oracle_, position_)) return false;
     origin(h1) = d;  // the first triangle is a d c now
     origin(g1) = c;  // and the second one b c d
     link(h, twin_[g1]);
@@ -215,6 +223,23 @@ class Flipper {
   std::vector<uint32_t>& queue_ = memory_.queue;
 };
 
+/// What Flipper does with two triangles of one loop, which are most: they have one edge in common.
+void improve_two(const PlanarOracle& oracle, const RoundedPosition& position,
+                 std::vector<Triangle>& triangles) {
+  Triangle &s = triangles[0], &t = triangles[1];
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t a = s[i], b = s[(i + 1) % 3], c = s[(i + 2) % 3], d = t[(k + 2) % 3];
+      if (t[k] != b || t[(k + 1) % 3] != a) continue;
+      if (is_worse(a, b, c, d, oracle, position)) {
+        s = {a, d, c};
+        t = {b, c, d};
+      }
+      return sort_canonically(triangles);
+    }
+  }
+}
+
 }  // namespace
 
 void improve_triangles(std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle,
@@ -222,6 +247,9 @@ void improve_triangles(std::span<const std::vector<uint32_t>> loops, const Plana
                        std::vector<std::array<uint32_t, 3>>& triangles) {
   sort_canonically(triangles);
   if (triangles.size() < 2) return;
+  if (triangles.size() == 2 && loops.size() == 1 && are_distinct(loops[0])) {
+    return improve_two(oracle, position, triangles);
+  }
   thread_local Memory memory;
   if (Flipper(loops, oracle, position, triangles, memory).run()) sort_canonically(triangles);
 }

@@ -20,6 +20,7 @@ class MonotoneLoop {
 
   bool run() {
     const size_t before = triangles_.size();
+    triangles_.reserve(before + count_ - 2);
     if (rank_corners() && split_halves() && sweep()) return true;
     triangles_.resize(before);
     return false;

@@ -104,6 +104,48 @@ TEST(ImproveTriangles, RandomPatchesBecomeDelaunay) {
   EXPECT_GT(before, 1000u);
 }
 
+// Of two triangles the diagonal is flipped if it is clearly the worse one and the other one is
+// inside, and never else.
+TEST(ImproveTriangles, QuadrilateralsHaveTheBetterDiagonal) {
+  std::mt19937 random(31);
+  size_t flipped = 0, reflex = 0;
+  for (int round = 0; round < 4000; ++round) {
+    std::vector<Point> points(4);
+    for (Point& p : points)
+      p = {static_cast<int64_t>(random() % 40), static_cast<int64_t>(random() % 40)};
+    Loop loop = circular(4);
+    std::shuffle(loop.begin(), loop.end(), random);
+    const auto turn = [&](size_t i, size_t j, size_t k) {
+      return cross(points[loop[i]], points[loop[j]], points[loop[k]]);
+    };
+    // The diagonal from the first corner is inside.
+    if (turn(0, 1, 2) <= 0 || turn(0, 2, 3) <= 0) continue;
+    Triangles given{{loop[0], loop[1], loop[2]}, {loop[0], loop[2], loop[3]}};
+    if (random() % 2) std::swap(given[0], given[1]);
+    for (auto& t : given) std::rotate(t.begin(), t.begin() + random() % 3, t.end());
+    const bool is_convex = turn(3, 0, 1) > 0 && turn(1, 2, 3) > 0;
+    const bool is_worse = not_delaunay({loop}, points, given) == 1 && is_convex;
+    Triangles improved = given;
+    improve({loop}, points, improved);
+    EXPECT_EQ(fault({loop}, points, improved), nullptr) << round;
+    EXPECT_TRUE(std::is_sorted(improved.begin(), improved.end())) << round;
+    for (const auto& t : improved) EXPECT_EQ(t[0], std::min({t[0], t[1], t[2]})) << round;
+    const auto has_corner = [&](const auto& t, uint32_t corner) {
+      return std::find(t.begin(), t.end(), corner) != t.end();
+    };
+    const bool has_flipped = !has_corner(improved[0], loop[0]) ||
+                             !has_corner(improved[1], loop[0]) ||
+                             !has_corner(improved[0], loop[2]) || !has_corner(improved[1], loop[2]);
+    EXPECT_TRUE(has_flipped || !is_worse) << round;
+    EXPECT_TRUE(!has_flipped || not_delaunay({loop}, points, improved) == 0) << round;
+    EXPECT_TRUE(is_convex || !has_flipped) << round;
+    flipped += has_flipped;
+    reflex += !is_convex;
+  }
+  EXPECT_GT(flipped, 100u);
+  EXPECT_GT(reflex, 100u);
+}
+
 TEST(ImproveTriangles, DoesNotDependOnTheOrderOfTriangles) {
   std::mt19937 random(29);
   for (int round = 0; round < 300; ++round) {
