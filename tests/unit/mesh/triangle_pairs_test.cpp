@@ -163,7 +163,7 @@ TEST(TrianglePairs, TrianglesThatRestOnAPlaneBesideATriangle) {
 // A stack of triangles, of which one in four is a quadrilateral, far from the origin.
 TEST(TrianglePairs, ManyOfAGroupAreTestedAtOnce) {
   LeafGeometry leaf;
-  constexpr int64_t kFar = int64_t{1} << 35;
+  constexpr int64_t kFar = (int64_t{1} << 35) + (int64_t{1} << 30);
   for (int64_t i = 0; i < 24; ++i) {
     const int64_t z = kFar + 100 * i;
     const auto first = static_cast<uint32_t>(leaf.vertices.size());
