@@ -44,7 +44,7 @@ bool has_long_triangles(const LeafGeometry& leaf);
 
 /// For each face what it takes up along the diagonals x + y, y + z, z + x, and x - y, y - z, z - x:
 /// long triangles side by side, aslant to the axes, are apart along one of them mostly. O(n).
-/// REQUIRES: coordinates are below 2^52 in magnitude.
+/// REQUIRES: coordinates are below 2^62 in magnitude.
 std::array<std::vector<FloatBox>, 2> face_diagonals(const LeafGeometry& leaf);
 
 }  // namespace csgrun

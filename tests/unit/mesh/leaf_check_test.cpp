@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include "engine/mesh/box_frame.h"
+
 namespace csgrun::test {
 namespace {
 
@@ -296,6 +298,52 @@ TEST(LeafCheck, FindsAllPairsOnAnyThreads) {
       }
     }
   }
+}
+
+// Fans of long triangles, aslant and close to one another: nearly all their boxes overlap.
+TEST(LeafCheck, LongTrianglesAgreeWithRationals) {
+  size_t conflicts = 0, apart = 0;
+  for (unsigned round = 0; round < 12; ++round) {
+    std::mt19937 random(400 + round);
+    const std::array<IVec3, 3> map{random_vector(3000, random), random_vector(3000, random),
+                                   random_vector(3000, random)};
+    const IVec3 move = random_vector(1 << 28, random);
+    std::vector<Polygon> faces;
+    for (int fan = 0; fan < 6; ++fan) {
+      const int64_t length = 200 + static_cast<int64_t>(random() % 400), height = random() % 4;
+      const IVec3 hub = random_vector(6, random);
+      IVec3 last = hub;
+      last[0] += length;
+      for (int i = 0; i < 12; ++i) {
+        // Sometimes the fan is bent, or a triangle is left out.
+        IVec3 next = last;
+        next[1] += 1 + static_cast<int64_t>(random() % 4);
+        next[2] += height == 0 ? static_cast<int64_t>(random() % 3) - 1 : 0;
+        if (random() % 8 != 0) faces.push_back({hub, last, next});
+        last = next;
+      }
+    }
+    for (Polygon& face : faces) {
+      for (IVec3& p : face) p = map_point(map, move, p);
+    }
+    std::vector<std::array<uint32_t, 2>> expected;
+    for (uint32_t i = 0; i < faces.size(); ++i) {
+      for (uint32_t j = i + 1; j < faces.size(); ++j) {
+        if (is_zero(normal_of(faces[i])) || is_zero(normal_of(faces[j]))) continue;
+        if (true_conflict(faces[i], faces[j])) {
+          expected.push_back({i, j});
+        } else {
+          ++apart;
+        }
+      }
+    }
+    const LeafGeometry leaf = leaf_of(faces);
+    ASSERT_TRUE(has_long_triangles(leaf));
+    EXPECT_EQ(find_self_intersections(leaf), expected) << round;
+    conflicts += expected.size();
+  }
+  EXPECT_GT(conflicts, 300u);
+  EXPECT_GT(apart, 10000u);
 }
 
 std::vector<Polygon> box(const IVec3& lo, const IVec3& hi) {
