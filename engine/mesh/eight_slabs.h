@@ -16,7 +16,7 @@ class EightSlabs {
   /// [corner][axis][lane]
   using Corners = std::array<std::array<std::array<int32_t, 8>, 3>, 3>;
 
-  EightSlabs() = default;
+  EightSlabs() = default;  ///< of nothing that is set
   /// `lanes`: a bit for each that is a triangle. `reach` is not below any coordinate, of these and
   /// of others, in magnitude.
   EightSlabs(const Corners& corners, uint32_t lanes, double reach);
@@ -36,9 +36,9 @@ class EightSlabs {
     Eight lo, hi;
   };
 
-  std::array<std::array<Eight, 3>, 3> corners_{};  ///< [corner][axis]
-  std::array<Slab, 4> slabs_{};                    ///< across the sides, then along the normal
-  uint32_t lanes_ = 0;
+  std::array<std::array<Eight, 3>, 3> corners_;  ///< [corner][axis]
+  std::array<Slab, 4> slabs_;                    ///< across the sides, then along the normal
+  uint32_t lanes_;
 };
 
 }  // namespace csgrun

@@ -21,19 +21,15 @@ bool TrianglePairs::covers(const LeafGeometry& leaf) {
 
 TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t> order,
                              std::span<const uint8_t> is_spread, bool are_long)
-    : leaf_(leaf),
-      corners_((order.size() + 7) / 8),
-      spread_(8 * corners_.size(), {kOther, kOther, kOther}) {
-  if (!corners_.empty()) {
-    for (auto& lanes : corners_.back().corners) lanes.fill(kNone);
-  }
-  for (size_t place = 0; place < order.size(); ++place) {
+    : leaf_(leaf), corners_((order.size() + 7) / 8), spread_(8 * corners_.size()) {
+  for (size_t place = 0; place < spread_.size(); ++place) {
+    const bool is_triangle = place < order.size() && this->is_triangle(order[place]);
     for (size_t i = 0; i < 3; ++i) {
-      uint32_t& corner = corners_[place / 8].corners[i][place % 8];
-      corner = kNone;
-      if (!is_triangle(order[place])) continue;
-      corner = leaf.corners[leaf.face_starts[order[place]] + i];
-      if (!is_spread.empty() && is_spread[corner] != 0) spread_[place][i] = corner;
+      const uint32_t corner =
+          is_triangle ? leaf.corners[leaf.face_starts[order[place]] + i] : kNone;
+      corners_[place / 8].corners[i][place % 8] = corner;
+      const bool has_spread = is_triangle && !is_spread.empty() && is_spread[corner] != 0;
+      spread_[place][i] = has_spread ? corner : kOther;
     }
   }
   if (are_long) make_slabs();

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/operand.h"
 #include "engine/mesh/eight_slabs.h"
 
@@ -85,9 +86,9 @@ class TrianglePairs {
   void make_slabs();
 
   const LeafGeometry& leaf_;
-  std::vector<Group> corners_;                   ///< by place; lanes without a triangle hold kNone
-  std::vector<std::array<uint32_t, 3>> spread_;  ///< by place: corners that are spread, else kOther
-  std::vector<EightSlabs> slabs_;                ///< by group; none if they are not long
+  RawVector<Group> corners_;                   ///< by place; lanes without a triangle hold kNone
+  RawVector<std::array<uint32_t, 3>> spread_;  ///< by place: corners that are spread, else kOther
+  RawVector<EightSlabs> slabs_;                ///< by group; none if they are not long
 };
 
 }  // namespace csgrun
