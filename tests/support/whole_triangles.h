@@ -86,4 +86,18 @@ inline Triangle scaled(Triangle t, double factor, const Vec& move) {
   return t;
 }
 
+/// Three times as large and moved, with a corner of another one that was treated so, or one inside
+/// of it.
+inline Triangle random_touching(const Triangle& own, Random& random, int64_t size,
+                                const Vec& move) {
+  Triangle t = random_triangle(random, size);
+  const auto corner = static_cast<size_t>(random.integer(0, 2));
+  t[corner] = own[static_cast<size_t>(random.integer(0, 2))];
+  t = scaled(t, 3, move);
+  if (random.integer(0, 1)) {
+    for (size_t k = 0; k < 3; ++k) t[corner][k] = own[0][k] + own[1][k] + own[2][k] + move[k];
+  }
+  return t;
+}
+
 }  // namespace csgrun::test

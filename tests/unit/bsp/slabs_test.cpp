@@ -73,16 +73,7 @@ TEST(Slabs, RoundedCornersNeverPartWhatTouches) {
     Vec move{};
     for (double& m : move)
       m = static_cast<double>(random.integer(-(int64_t{1} << 28), int64_t{1} << 28));
-    for (Triangle& t : others) {
-      // With a corner of `own`, or one inside of it.
-      t = random_triangle(random, 400);
-      const auto corner = static_cast<size_t>(random.integer(0, 2));
-      t[corner] = own[static_cast<size_t>(random.integer(0, 2))];
-      t = scaled(t, 3, move);
-      if (random.integer(0, 1)) {
-        for (size_t k = 0; k < 3; ++k) t[corner][k] = own[0][k] + own[1][k] + own[2][k] + move[k];
-      }
-    }
+    for (Triangle& t : others) t = random_touching(own, random, 400, move);
     EXPECT_EQ(Slabs(scaled(own, 3, move), kReach).apart(packed(others), 0xff), 0u) << i;
   }
 }

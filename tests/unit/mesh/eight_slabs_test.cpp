@@ -79,16 +79,7 @@ TEST(EightSlabs, RoundedCornersNeverPartWhatTouches) {
       m = static_cast<double>(random.integer(-(int64_t{1} << 28), int64_t{1} << 28));
     }
     std::array<Triangle, 8> others;
-    for (Triangle& t : others) {
-      // With a corner of `own`, or one inside of it.
-      t = random_triangle(random, size);
-      const auto corner = static_cast<size_t>(random.integer(0, 2));
-      t[corner] = own[static_cast<size_t>(random.integer(0, 2))];
-      t = scaled(t, 3, move);
-      if (random.integer(0, 1)) {
-        for (size_t k = 0; k < 3; ++k) t[corner][k] = own[0][k] + own[1][k] + own[2][k] + move[k];
-      }
-    }
+    for (Triangle& t : others) t = random_touching(own, random, size, move);
     const EightSlabs own_slabs = single(scaled(own, 3, move), 3, random, kReach);
     EXPECT_EQ(packed(others, 0xff, kReach).apart(own_slabs, 3, 0xff), 0u) << i;
   }
