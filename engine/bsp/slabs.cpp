@@ -122,11 +122,6 @@ uint32_t Slabs::beyond_sides(const EightTriangles& others, uint32_t which) const
   return which & ~left;
 }
 
-uint32_t Slabs::apart(const EightTriangles& others, uint32_t which) const {
-  const uint32_t beyond = which & places(slabs_[0], others, which).beyond;
-  return beyond | beyond_sides(others, which & ~beyond);
-}
-
 uint32_t Slabs::apart_in_space(const EightTriangles& others, uint32_t which) const {
   const Places along_normal = places(slabs_[0], others, which);
   const uint32_t beyond = which & along_normal.beyond;

@@ -24,9 +24,8 @@ class Slabs {
   Slabs(const std::array<std::array<double, 3>, 3>& corners, double reach);
   Slabs() = default;
 
-  /// A bit for each of the eight that is apart, of those in `which`.
-  [[nodiscard]] uint32_t apart(const EightTriangles& others, uint32_t which) const;
-  /// The same but for those that may be in the plane of this one.
+  /// A bit for each of the eight that is apart, of those in `which`, but for those that may be in
+  /// the plane of this one.
   [[nodiscard]] uint32_t apart_in_space(const EightTriangles& others, uint32_t which) const;
   /// A bit for each of eight boxes that is apart, of those in `which`; their bounds are rounded to
   /// floats too.

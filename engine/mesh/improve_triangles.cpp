@@ -231,10 +231,9 @@ void improve_two(const PlanarOracle& oracle, const RoundedPosition& position,
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t a = s[i], b = s[(i + 1) % 3], c = s[(i + 2) % 3], d = t[(k + 2) % 3];
       if (t[k] != b || t[(k + 1) % 3] != a) continue;
-      if (is_worse(a, b, c, d, oracle, position)) {
-        s = {a, d, c};
-        t = {b, c, d};
-      }
+      if (!is_worse(a, b, c, d, oracle, position)) return;
+      s = {a, d, c};
+      t = {b, c, d};
       return sort_canonically(triangles);
     }
   }

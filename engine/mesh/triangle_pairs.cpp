@@ -23,12 +23,12 @@ TrianglePairs::TrianglePairs(const LeafGeometry& leaf, std::span<const uint32_t>
                              std::span<const uint8_t> is_spread, bool are_long)
     : leaf_(leaf), corners_((order.size() + 7) / 8), spread_(8 * corners_.size()) {
   for (size_t place = 0; place < spread_.size(); ++place) {
-    const bool is_triangle = place < order.size() && this->is_triangle(order[place]);
+    const bool has_corners = place < order.size() && is_triangle(order[place]);
     for (size_t i = 0; i < 3; ++i) {
       const uint32_t corner =
-          is_triangle ? leaf.corners[leaf.face_starts[order[place]] + i] : kNone;
+          has_corners ? leaf.corners[leaf.face_starts[order[place]] + i] : kNone;
       corners_[place / 8].corners[i][place % 8] = corner;
-      const bool has_spread = is_triangle && !is_spread.empty() && is_spread[corner] != 0;
+      const bool has_spread = has_corners && !is_spread.empty() && is_spread[corner] != 0;
       spread_[place][i] = has_spread ? corner : kOther;
     }
   }
