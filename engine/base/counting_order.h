@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -38,35 +39,48 @@ struct CountingOrder {
  private:
   static constexpr size_t kMany = 4 * kFewForThreads;
 
-  /// The same on several threads: each range of keys is counted and filled by itself.
+  /// The same on several threads: what is of each range of keys is brought together first, so that
+  /// each range is counted and filled by itself, within a part of the memory.
   template <class Key>
   void sort_in_ranges(size_t count, size_t keys, Key key) {
-    constexpr size_t kRanges = 4;
-    assert(keys > 0);  // each of the ranges has some
-    RawVector<uint32_t> key_of(count);
-    for_each_range(count, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) key_of[i] = static_cast<uint32_t>(key(i));
+    constexpr size_t kRanges = 16;
+    assert(keys > 0);
+    unsigned shift = 0;
+    while ((keys - 1) >> shift >= kRanges) ++shift;
+    using Counts = std::array<uint32_t, kRanges>;
+    std::vector<Counts> next(part_count(count, kFewForThreads));
+    for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+      Counts own{};
+      for (size_t i = begin; i < end; ++i) ++own[key(i) >> shift];
+      next[part] = own;
+    });
+    // Where each part puts what it has of each range.
+    std::array<uint32_t, kRanges + 1> first{};
+    for (size_t range = 0; range < kRanges; ++range) {
+      uint32_t at = first[range];
+      for (Counts& of_part : next) at += std::exchange(of_part[range], at);
+      first[range + 1] = at;
+    }
+    struct Entry {
+      uint32_t key, number;
+    };
+    RawVector<Entry> entries(count);
+    for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+      Counts own = next[part];
+      for (size_t i = begin; i < end; ++i) {
+        const auto k = static_cast<uint32_t>(key(i));
+        entries[own[k >> shift]++] = {k, static_cast<uint32_t>(i)};
+      }
     });
     starts.assign(keys + 2, 0);
     order.resize(count);
-    const size_t each = part_count(keys, kRanges);
-    std::array<uint32_t, kRanges + 1> before{};
-    // What is in a range of keys: `place` of each of them is called with the number.
-    const auto each_in = [&](size_t begin, size_t end, auto&& place) {
-      for (uint32_t i = 0; i < count; ++i) {
-        if (key_of[i] - begin < end - begin) place(i);
-      }
-    };
-    for_each_part(keys, each, [&](size_t range, size_t begin, size_t end) {
-      uint32_t own = 0;
-      each_in(begin, end, [&](uint32_t i) { ++starts[key_of[i] + 1], ++own; });
-      before[range + 1] = own;
-    });
-    for (size_t range = 0; range < kRanges; ++range) before[range + 1] += before[range];
-    for_each_part(keys, each, [&](size_t range, size_t begin, size_t end) {
-      uint32_t next = before[range];
-      for (size_t k = begin; k < end; ++k) next += std::exchange(starts[k + 1], next);
-      each_in(begin, end, [&](uint32_t i) { order[starts[key_of[i] + 1]++] = i; });
+    for_each_part(keys, size_t{1} << shift, [&](size_t range, size_t begin, size_t end) {
+      const std::span<const Entry> own(entries.data() + first[range],
+                                       entries.data() + first[range + 1]);
+      for (const Entry& e : own) ++starts[e.key + 1];
+      uint32_t at = first[range];
+      for (size_t k = begin; k < end; ++k) at += std::exchange(starts[k + 1], at);
+      for (const Entry& e : own) order[starts[e.key + 1]++] = e.number;
     });
     starts.pop_back();
   }

@@ -78,14 +78,17 @@ PlainlyCovered find_plainly_covered(const Job& job, const Expression& expression
     if (!may_be_held && live[o].holds(job.operand_box(o))) return;
     const bool may_be_open = dead.may_be_open(o, job.polygon_start(o + 1) - job.polygon_start(o));
     const bool is_live = !live[o].is_empty();
+    bool some = false, some_hidden = false;
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
       const auto corners = job.corners(job.polygons()[p]);
       const auto at = [&](uint32_t i) -> const auto& { return job.rounded(corners[i]); };
       const bool is_held = may_be_held && dead.holds(job.boxes()[p], job.polygons()[p].count, at);
       is_covered[p] = is_held || !is_live || is_beside(job.boxes()[p], live[o]);
-      if (is_held && may_be_open) is_hidden[p] = any_hidden[o] = 1;
-      any[o] |= is_covered[p];
+      if (is_held && may_be_open) is_hidden[p] = some_hidden = true;
+      some |= is_covered[p] != 0;
     }
+    any[o] = some;
+    any_hidden[o] = some_hidden;
   });
   const auto has_some = [](const std::vector<uint8_t>& list) {
     return std::find(list.begin(), list.end(), 1) != list.end();

@@ -4,19 +4,22 @@
 #include <span>
 
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 
 namespace csgrun {
 
 void CrossingPoints::make_points() {
   const size_t before = points_.size(), count = crossings_.size() - before;
-  std::vector<PolygonEdge> edges;
-  std::vector<uint32_t> met;
-  edges.reserve(count);
-  met.reserve(2 * count);
-  for (size_t i = before; i < crossings_.size(); ++i) {
-    edges.push_back(crossings_[i].edge);
-    met.insert(met.end(), {crossings_[i].edge.polygon, crossings_[i].name.through});
-  }
+  RawVector<PolygonEdge> edges(count);
+  RawVector<uint32_t> met(2 * count);
+  for_each_range(count, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const Crossing& c = crossings_[before + i];
+      edges[i] = c.edge;
+      met[2 * i] = c.edge.polygon;
+      met[2 * i + 1] = c.name.through;
+    }
+  });
   job_.ensure_supports(met);
   job_.ensure_edges(edges);
   const auto& polygons = job_.polygons();
@@ -37,7 +40,9 @@ void CrossingPoints::make_points() {
     for (size_t i = begin; i < end; ++i) make(i);
   });
   index_.make_unique(std::span(points_).subspan(before));
-  for (size_t i = before; i < points_.size(); ++i) points_[i] = index_.known(points_[i]);
+  for_each_range(count, [&](size_t begin, size_t end) {
+    for (size_t i = before + begin; i < before + end; ++i) points_[i] = index_.known(points_[i]);
+  });
 }
 
 }  // namespace csgrun

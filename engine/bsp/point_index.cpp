@@ -2,16 +2,21 @@
 
 #include "engine/base/counting_order.h"
 #include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/point_view.h"
 
 namespace csgrun {
+namespace {
+
+constexpr size_t kAhead = 12;  // so soon the memory of points is asked for
+
+}  // namespace
 
 void PointIndex::make_unique(std::span<const uint32_t> points) {
   if (points.size() > kFewForThreads && tbb::this_task_arena::max_concurrency() > 1) {
     make_unique_in_shards(points);
     return;
   }
-  constexpr size_t kAhead = 12;
   for (size_t i = 0; i < points.size(); ++i) {
     if (i + kAhead < points.size()) {
       __builtin_prefetch(&slots_[hash(points[i + kAhead]) & (slots_.size() - 1)]);
@@ -26,8 +31,12 @@ void PointIndex::make_unique_in_shards(std::span<const uint32_t> points) {
   known_.resize(std::max(known_.size(), geometry_.point_count()), kNone);
   make_room(count_ + points.size());
   const size_t last = slots_.size() - 1, each = slots_.size() / kShards;
+  RawVector<uint32_t> keys(points.size());
+  for_each_range(points.size(), [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) keys[i] = hash(points[i]);
+  });
   CountingOrder by_shard;
-  by_shard.sort(points.size(), kShards, [&](size_t i) { return (hash(points[i]) & last) / each; });
+  by_shard.sort(points.size(), kShards, [&](size_t i) { return (keys[i] & last) / each; });
   struct Shard {
     size_t count = 0;
     std::vector<uint32_t> beyond;  ///< points whose slots begin in the range and end outside
@@ -38,10 +47,17 @@ void PointIndex::make_unique_in_shards(std::span<const uint32_t> points) {
     Shard own;
     PointView view(geometry_);
     const size_t end = (s + 1) * each;
-    for (uint32_t i = by_shard.starts[s]; i < by_shard.starts[s + 1]; ++i) {
-      const uint32_t p = points[by_shard.order[i]];
+    const std::span<const uint32_t> asked(by_shard.order.data() + by_shard.starts[s],
+                                          by_shard.order.data() + by_shard.starts[s + 1]);
+    for (size_t i = 0; i < asked.size(); ++i) {
+      if (i + kAhead < asked.size()) {
+        const uint32_t soon = points[asked[i + kAhead]];
+        __builtin_prefetch(&known_[soon]);
+        __builtin_prefetch(&geometry_.point(soon));
+      }
+      const uint32_t p = points[asked[i]];
       if (known_[p] != kNone) continue;
-      const uint32_t key = hash(p);
+      const uint32_t key = keys[asked[i]];
       size_t at = key & last;
       while (at < end && slots_[at].point != kNone &&
              !(slots_[at].hash == key && equal(view, slots_[at].point, p))) {

@@ -35,6 +35,10 @@ class PointIndex {
 
   /// What unique() said of a point. Several threads may ask.
   [[nodiscard]] uint32_t known(uint32_t p) const { return known_[p]; }
+  /// The same, or kNone if it was not asked for the point.
+  [[nodiscard]] uint32_t known_or_none(uint32_t p) const {
+    return p < known_.size() ? known_[p] : kNone;
+  }
 
  private:
   static constexpr size_t kFewSlots = 64;  // a power of two

@@ -21,33 +21,44 @@ void TouchFinder::examine(uint32_t point) {
   has_examined_ = true;
 }
 
-bool TouchFinder::may_pass_examined(std::span<const uint32_t> points) const {
-  return std::any_of(points.begin(), points.end(), [&](uint32_t p) {
-    const uint32_t vertex = geometry_.point(p).vertex;
-    return vertex == kNone ? p < is_examined_.size() && is_examined_[p] : touched_[vertex] != 0;
-  });
-}
-
-void TouchFinder::add_outline(uint32_t polygon, std::span<const uint32_t> points,
-                              std::span<const uint32_t> planes, bool flip) {
-  is_examined_.resize(geometry_.point_count(), 0);
+/// Those corners of an outline that may be at points to be examined: by points as they are, if not
+/// all of them have numbers yet.
+void TouchFinder::list_corners(const Outline& outline, std::vector<Corner>& corners) const {
+  const std::span<const uint32_t> points = outline.points, planes = outline.planes;
   const size_t count = points.size();
   for (size_t i = 0; i < count; ++i) {
     // Points that are made of three planes by chance have other numbers elsewhere, but nothing
     // that is examined is there.
-    const uint32_t vertex = geometry_.point(points[i]).vertex;
-    const uint32_t at = vertex == kNone ? points[i] : number(points[i]);
-    if (!is_examined_[at]) continue;
+    const bool is_made = geometry_.point(points[i]).vertex == kNone;
+    const uint32_t at = is_made ? points[i] : number_or_none(points[i]);
+    if (at != kNone && !is_examined_[at]) continue;
     const size_t last = i > 0 ? i - 1 : count - 1, next = i + 1 < count ? i + 1 : 0,
-                 edge = flip ? last : i;
-    Corner corner{number(points[last]),
+                 edge = outline.flip ? last : i;
+    Corner corner{number_or_none(points[last]),
                   at,
-                  number(points[next]),
-                  polygon,
+                  number_or_none(points[next]),
+                  outline.polygon,
                   planes.empty() ? CutLoops::kOwnEdge | static_cast<uint32_t>(edge) : planes[edge],
                   planes.empty()};
-    if (flip) std::swap(corner.before, corner.after);
-    corners_.push_back(corner);
+    if (corner.before == kNone || at == kNone || corner.after == kNone) {
+      corner.before = points[last], corner.at = points[i], corner.after = points[next];
+      corner.is_numbered = false;
+    }
+    if (outline.flip) std::swap(corner.before, corner.after);
+    corners.push_back(corner);
+  }
+}
+
+void TouchFinder::add_corners(std::span<const Corner> corners) {
+  corners_.reserve(corners_.size() + corners.size());
+  for (Corner c : corners) {
+    if (!c.is_numbered) {
+      if (geometry_.point(c.at).vertex != kNone) c.at = number(c.at);
+      if (!is_examined_[c.at]) continue;
+      c.before = number(c.before);
+      c.after = number(c.after);
+    }
+    corners_.push_back(c);
   }
 }
 

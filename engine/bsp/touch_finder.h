@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/point_index.h"
 
@@ -47,14 +48,23 @@ class TouchFinder {
   }
   /// Whether there is any point to be examined.
   [[nodiscard]] bool has_examined() const { return has_examined_; }
-  /// Whether an outline may pass a point to be examined. All of these must be known. Several
-  /// threads may ask at the same time.
-  [[nodiscard]] bool may_pass_examined(std::span<const uint32_t> points) const;
-  /// Adds an outline of what is kept of a polygon, `flip`: run backwards. `planes`: through the
-  /// edge that starts at each point, as CutLoops::corner_plane has it; none, if the points are the
-  /// polygon's corners. All points to be examined must be known.
-  void add_outline(uint32_t polygon, std::span<const uint32_t> points,
-                   std::span<const uint32_t> planes, bool flip);
+  /// An outline of what is kept of a polygon. `planes`: through the edge that starts at each point,
+  /// as CutLoops::corner_plane has it; none, if the points are the polygon's corners.
+  struct Outline {
+    uint32_t polygon;
+    std::span<const uint32_t> points, planes;
+    bool flip;  ///< it is run backwards
+  };
+  /// Adds outlines, once all points to be examined are known: list(begin, end, add) calls
+  /// add(outline) for those of [begin, end), parts of [0, count), maybe on several threads.
+  template <class List>
+  void add_outlines(size_t count, size_t each, List&& list) {
+    is_examined_.resize(geometry_.point_count(), 0);
+    add_corners(list_in_parts<Corner>(
+        count, each, [&](size_t begin, size_t end, std::vector<Corner>& corners) {
+          list(begin, end, [&](const Outline& outline) { list_corners(outline, corners); });
+        }));
+  }
   /// Adds the straight corner of a whole polygon at a point between the ends of one of its edges,
   /// and has the point examined. False if it is on none.
   bool add_on_edge(uint32_t polygon, uint32_t point, bool flip);
@@ -86,7 +96,14 @@ class TouchFinder {
     uint32_t before, at, after;
     uint32_t polygon, plane;  ///< that hold the edge to the next corner
     bool is_whole;            ///< of a polygon that was not cut
+    bool is_numbered = true;  ///< the points are numbers
   };
+  /// The number of a point, or kNone if it has none yet.
+  [[nodiscard]] uint32_t number_or_none(uint32_t point) const {
+    return may_be_met(point) ? index_.known_or_none(point) : point;
+  }
+  void list_corners(const Outline& outline, std::vector<Corner>& corners) const;
+  void add_corners(std::span<const Corner> corners);
   [[nodiscard]] uint32_t operand_beside_cuts(std::span<const Corner> corners) const;
   template <class LeadsTo>
   static bool is_one_round(std::span<const Corner> corners, LeadsTo&& leads_to);

@@ -183,13 +183,15 @@ class FaceEvaluator {
     std::vector<std::vector<WholePolygon>> kept(part_count(count, kFewForThreads));
     std::vector<std::vector<uint32_t>> left(kept.size());
     for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
+      std::vector<WholePolygon> own;
       for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
         const PatchFate fate = fates_->of_polygon(p);
         if (fate == PatchFate::kUnknown) left[part].push_back(p);
         if (fate != PatchFate::kKeep && fate != PatchFate::kFlip) continue;
         is_kept_[p] = 1;
-        kept[part].push_back({p, fate == PatchFate::kFlip, !contacts_.of(p).empty()});
+        own.push_back({p, fate == PatchFate::kFlip, !contacts_.of(p).empty()});
       }
+      kept[part] = std::move(own);
     });
     size_t total = 0;
     for (const auto& part : kept) total += part.size();
@@ -205,12 +207,14 @@ class FaceEvaluator {
     std::vector<uint8_t> is_unknown(job_.operand_count(), 0);
     for_each_alone(job_.operand_count(), true, [&](size_t o) {
       FarFaces far;
+      bool any_unknown = false;
       for_each_far_face(*job_.leaf(o), job_.near_faces()->faces[o], [&](uint32_t f) {
         const PatchFate fate = fates_->of_far_face(o, f);
         if (fate == PatchFate::kKeep) far.kept.push_back(f);
         if (fate == PatchFate::kFlip) far.flipped.push_back(f);
-        is_unknown[o] |= fate == PatchFate::kUnknown ? 1 : 0;
+        any_unknown |= fate == PatchFate::kUnknown;
       });
+      is_unknown[o] = any_unknown;
       result_.far[o] = std::move(far);
     });
     for (const uint8_t unknown : is_unknown) result_.any_general |= unknown != 0;
@@ -339,35 +343,36 @@ class FaceEvaluator {
 
   /// Adds what is kept to the finder, once it knows all points to be examined.
   void add_outlines(TouchFinder& finder) {
-    struct Outline {
-      uint32_t polygon, loop;
-    };
-    const auto list = [&](size_t begin, size_t end, std::vector<Outline>& out) {
+    const auto list_cut = [&](size_t begin, size_t end, auto&& add) {
       for (size_t f = begin; f < end; ++f) {
         const CutFaces::Face& cut = cut_.faces[f];
         for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-          if (fates_->of_loop(l) != PatchFate::kDrop &&
-              finder.may_pass_examined(points_of(cut_.loops.loops[l]))) {
-            out.push_back({cut.polygon, l});
-          }
+          const PatchFate fate = fates_->of_loop(l);
+          if (fate == PatchFate::kDrop) continue;
+          const CutLoops::Loop& loop = cut_.loops.loops[l];
+          add({cut.polygon, points_of(loop), planes_of(loop), fate == PatchFate::kFlip});
         }
       }
     };
-    for (const Outline& o : list_in_parts<Outline>(cut_.faces.size(), kFacesPerPart, list)) {
-      const CutLoops::Loop& loop = cut_.loops.loops[o.loop];
-      finder.add_outline(o.polygon, points_of(loop), planes_of(loop),
-                         fates_->of_loop(o.loop) == PatchFate::kFlip);
-    }
+    finder.add_outlines(cut_.faces.size(), kFacesPerPart, list_cut);
     const std::vector<WholePolygon>& whole = result_.whole;
     const auto is_met = [&](uint32_t i) {
       return whole[i].is_met && has_touched_corner(whole[i].polygon);
     };
     const std::vector<uint32_t> met = numbers_where(whole.size(), is_met);
     name_corners(met);
-    for (const uint32_t i : met) {
-      list_corners(whole[i].polygon);
-      finder.add_outline(whole[i].polygon, corners_, {}, whole[i].flip);
-    }
+    const auto list_whole = [&](size_t begin, size_t end, auto&& add) {
+      std::vector<uint32_t> corners;
+      for (size_t i = begin; i < end; ++i) {
+        const WholePolygon& w = whole[met[i]];
+        corners.clear();
+        for (const uint32_t v : job_.corners(job_.polygons()[w.polygon])) {
+          corners.push_back(geometry_.made_vertex_point(v));
+        }
+        add({w.polygon, corners, {}, w.flip});
+      }
+    };
+    finder.add_outlines(met.size(), kFewForThreads, list_whole);
   }
 
   /// Makes points of the corners of polygons that are kept whole.
@@ -425,13 +430,6 @@ class FaceEvaluator {
     for (size_t k = 0; k < 3; ++k) {
       box.lo[k] = std::max(a.lo[k], b.lo[k]);
       box.hi[k] = std::min(a.hi[k], b.hi[k]);
-    }
-  }
-
-  void list_corners(uint32_t polygon) {
-    corners_.clear();
-    for (const uint32_t v : job_.corners(job_.polygons()[polygon])) {
-      corners_.push_back(geometry_.vertex_point(v));
     }
   }
 

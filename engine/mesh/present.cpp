@@ -343,9 +343,9 @@ class Presenter {
     std::vector<uint32_t> own_before(parts + 1, 0);
     const auto count_own = [&] {
       for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
-        for (size_t n = begin; n < end; ++n) {
-          own_before[part + 1] += static_cast<uint32_t>(whole_->faces()[n] < own_count);
-        }
+        own_before[part + 1] = static_cast<uint32_t>(
+            std::count_if(whole_->faces().begin() + begin, whole_->faces().begin() + end,
+                          [&](uint32_t f) { return f < own_count; }));
       });
     };
     run_both(count > kFewForThreads, place_own, count_own);

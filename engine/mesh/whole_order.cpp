@@ -48,7 +48,9 @@ void WholeOrder::collect_triangles() {
   std::vector<Met> met(parts.size());
   const bool much = triangles_.size() > kFewForThreads;
   for_each_alone(parts.size(), much, [&](size_t k) {
-    collect_triangles(static_cast<uint32_t>(k), first[k], met[k].places, met[k].candidates);
+    Met own;  // not beside that of another thread while it grows
+    collect_triangles(static_cast<uint32_t>(k), first[k], own.places, own.candidates);
+    met[k] = std::move(own);
   });
   std::vector<RimEdge> candidates;
   first_point_.resize(parts.size());
