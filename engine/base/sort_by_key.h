@@ -17,16 +17,14 @@ namespace csgrun {
 template <class T>
 class SortByKey {
  public:
-  /// The outcome of std::sort by (key(item), less). REQUIRES: key(item) < keys, no two equal items
-  /// that differ in what `less` does not look at. O(n + keys) but for items of one key; O(n log n)
-  /// if there are few items, or keys are many more than these.
+  /// The outcome of std::sort by less. REQUIRES: key(item) < keys, `less` orders by keys first, no
+  /// two equal items that differ in what it does not look at. O(n + keys) but for items of one key;
+  /// O(n log n) if there are few items, or keys are many more than these.
   template <class Key, class Less>
   void sort(std::vector<T>& items, size_t keys, Key&& key, Less&& less) {
     constexpr size_t kFew = 256;
     if (items.size() <= kFew || keys / 4 > items.size()) {
-      std::sort(items.begin(), items.end(), [&](const T& a, const T& b) {
-        return key(a) != key(b) ? key(a) < key(b) : less(a, b);
-      });
+      std::sort(items.begin(), items.end(), less);
       return;
     }
     // starts_[k + 1] is where the next item of key k goes while they are distributed.

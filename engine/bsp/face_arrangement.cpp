@@ -1,10 +1,8 @@
 #include "engine/bsp/face_arrangement.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace csgrun {
-
 uint32_t FaceArrangement::vertex(uint32_t v) {
   const uint32_t p = geometry_.vertex_point(v);
   return touched_[v] ? index_.unique(p) : p;
@@ -108,8 +106,9 @@ void FaceArrangement::add_coplanar(std::span<const uint32_t> coplanar) {
     }
   }
   std::sort(sheet_edges_.begin(), sheet_edges_.end(), [](const SheetEdge& a, const SheetEdge& b) {
-    return std::tie(a.operand, a.low, a.high, a.sheet) <
-           std::tie(b.operand, b.low, b.high, b.sheet);
+    if (a.operand != b.operand) return a.operand < b.operand;
+    const uint64_t of_a = together(a.low, a.high), of_b = together(b.low, b.high);
+    return of_a != of_b ? of_a < of_b : a.sheet < b.sheet;
   });
   const auto same = [](const SheetEdge& a, const SheetEdge& b) {
     return a.low == b.low && a.high == b.high;
@@ -145,7 +144,10 @@ void FaceArrangement::find_same_lines() {
   }
   sort_line_ends_.sort(
       line_ends_, geometry_.point_count(), [](const auto& ends) { return ends[0]; },
-      [](const auto& a, const auto& b) { return a < b; });
+      [](const auto& a, const auto& b) {
+        const uint64_t of_a = together(a[0], a[1]), of_b = together(b[0], b[1]);
+        return of_a != of_b ? of_a < of_b : together(a[2], a[3]) < together(b[2], b[3]);
+      });
   for (size_t begin = 0, end = 1; begin < line_ends_.size(); begin = end++) {
     while (end < line_ends_.size() && have_same_ends(end - 1, end)) ++end;
     if (end - begin != 2) continue;
@@ -267,8 +269,7 @@ void FaceArrangement::break_lines() {
   ++build_;
   beyond_.resize(geometry_.point_count(), 0);
   sort_pairs_.sort(
-      stops_, lines_.size(), [](const auto& stop) { return stop.first; },
-      [](const auto& a, const auto& b) { return a.second < b.second; });
+      stops_, lines_.size(), [](const auto& stop) { return stop.first; }, pair_less);
   stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
   for (size_t begin = 0; begin < stops_.size();) {
     const uint32_t l = stops_[begin].first;
@@ -317,7 +318,8 @@ void FaceArrangement::join_parts() {
   sort_parts_.sort(
       parts_, geometry_.point_count(), [](const Part& part) { return part.low; },
       [](const Part& a, const Part& b) {
-        return std::tie(a.high, a.line) < std::tie(b.high, b.line);
+        const uint64_t of_a = together(a.low, a.high), of_b = together(b.low, b.high);
+        return of_a != of_b ? of_a < of_b : a.line < b.line;
       });
   for (uint32_t i = 0; i < parts_.size(); ++i) {
     if (!arcs_.empty() && arcs_.back().low == parts_[i].low &&
@@ -341,8 +343,7 @@ void FaceArrangement::sort_around_points() {
   around_.clear();
   for (uint32_t h = 0; h < 2 * arcs_.size(); ++h) around_.emplace_back(from(h), h);
   sort_pairs_.sort(
-      around_, geometry_.point_count(), [](const auto& half) { return half.first; },
-      [](const auto& a, const auto& b) { return a.second < b.second; });
+      around_, geometry_.point_count(), [](const auto& half) { return half.first; }, pair_less);
   for (size_t begin = 0; begin < around_.size();) {
     size_t end = begin + 1;
     while (end < around_.size() && around_[end].first == around_[begin].first) ++end;

@@ -1,5 +1,6 @@
 #include "engine/bsp/pair_test.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "engine/exact/forced_tier.h"
@@ -100,16 +101,16 @@ int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
     }
     signs_.filtered = filtered;  // they are counted below
   }
+  if (known.is_level && signs_.error(own.operand) == 0) return level_sides(own, known, sides);
   const Base base = known;  // what is written to `sides` might be it
-  const bool is_exact = signs_.error(own.operand) == 0;
-  int all = 0;
+  bool any[3] = {};         // behind, on and in front of the plane
   for (uint32_t i = 0; i < own.count; ++i) {
     const uint32_t v = job_.corners(own)[i];
     int s = kUnsure;
     if (base.is_level) {
-      // Whole numbers are not rounded, and what is rounded keeps the order, but for ties.
+      // What is rounded keeps the order, but for ties.
       const double above = job_.rounded(v)[base.axis] - base.level;
-      if (above != 0 || is_exact) s = above == 0 ? 0 : (above > 0) == base.grows ? 1 : -1;
+      if (above != 0) s = (above > 0) == base.grows ? 1 : -1;
       ++signs_.filtered;
     } else if (!planes_only_) {
       s = signs_.filter(base.signs, job_.rounded(v), error);
@@ -124,25 +125,45 @@ int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
       if (other.support.flipped()) s = -s;
     }
     sides[i] = static_cast<int8_t>(s);
-    all = i == 0 ? s : all == s ? all : 0;
+    any[s + 1] = true;
   }
-  return all;
+  return any[1] || any[0] == any[2] ? 0 : any[2] ? 1 : -1;
+}
+
+/// The same of corners on the grid and a plane across an axis: whole numbers are not rounded.
+int PairTest::level_sides(const JobPolygon& own, const Base& base, std::vector<int8_t>& sides) {
+  const uint32_t* const corners = job_.corners(own).data();
+  const std::array<double, 3>* const at = &job_.rounded(0);
+  int8_t* const out = sides.data();
+  const size_t axis = base.axis;
+  const double level = base.level;
+  const int way = base.grows ? 1 : -1;
+  int least = 1, most = -1;
+  for (uint32_t i = 0; i < own.count; ++i) {
+    const double above = at[corners[i]][axis] - level;
+    const int s = above > 0 ? way : above < 0 ? -way : 0;
+    out[i] = static_cast<int8_t>(s);
+    least = std::min(least, s), most = std::max(most, s);
+  }
+  signs_.filtered += own.count;
+  return least == most ? least : 0;
 }
 
 /// False when all corners lie in the plane. A corner in the plane counts as the far side of those
 /// that do not.
 bool PairTest::find_passage(const std::vector<int8_t>& sides, Passage& passage) {
-  for (const int8_t s : sides) {
-    passage.front |= s > 0;
-    passage.back |= s < 0;
-    passage.zero |= s == 0;
-  }
+  int8_t front = 0, back = 0, zero = 0;
+  for (const int8_t s : sides) front |= s > 0, back |= s < 0, zero |= s == 0;
+  passage.front = front != 0, passage.back = back != 0, passage.zero = zero != 0;
   if (!passage.front && !passage.back) return false;
-  const auto front = [&](size_t i) { return passage.front ? sides[i] > 0 : sides[i] >= 0; };
-  for (size_t i = 0; i < sides.size(); ++i) {
-    const size_t next = i + 1 < sides.size() ? i + 1 : 0;
-    if (front(i) && !front(next)) passage.falls = static_cast<uint32_t>(i);
-    if (!front(i) && front(next)) passage.rises = static_cast<uint32_t>(i);
+  const int8_t lowest = passage.front ? 1 : 0;  // of those in front
+  const auto count = static_cast<uint32_t>(sides.size());
+  bool is_front = sides[0] >= lowest;
+  for (uint32_t i = 0; i < count; ++i) {
+    const bool is_next = sides[i + 1 < count ? i + 1 : 0] >= lowest;
+    passage.falls = is_front && !is_next ? i : passage.falls;
+    passage.rises = !is_front && is_next ? i : passage.rises;
+    is_front = is_next;
   }
   return true;
 }

@@ -81,6 +81,7 @@ class PairTest {
   const Base& base_of(uint32_t polygon);
   void find_level(Base& base) const;
   int corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides);
+  int level_sides(const JobPolygon& own, const Base& base, std::vector<int8_t>& sides);
   static bool find_passage(const std::vector<int8_t>& sides, Passage& passage);
   /// Whether the point in which edge i of p passes through q's plane lies on the inner side of edge
   /// j of q: +1, 0, -1, or kUnsure. `falls`: towards the back of q.

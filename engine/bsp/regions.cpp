@@ -5,8 +5,14 @@
 #include <cmath>
 #include <tuple>
 
+#include "engine/base/sort_few.h"
+
 namespace csgrun {
 namespace {
+
+uint64_t both_ends(const DirectedEdge& e) {
+  return e.from < e.to ? together(e.from, e.to) : together(e.to, e.from);
+}
 
 /// The direction of an edge as a multiple of n x t, n the outward normal of the support and t the
 /// normal of the edge's plane: its sign.
@@ -72,19 +78,17 @@ bool RegionBuilder::build(PlaneId support, const std::vector<DirectedEdge>& edge
   // Most cuts meet their counterpart end to end: cancel these first.
   open_ = edges;
   std::sort(open_.begin(), open_.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
-    const auto [a0, a1] = std::minmax(a.from, a.to);
-    const auto [b0, b1] = std::minmax(b.from, b.to);
-    return std::tie(a0, a1, a.from, a.plane) < std::tie(b0, b1, b.from, b.plane);
+    const uint64_t of_a = both_ends(a), of_b = both_ends(b);
+    return of_a != of_b ? of_a < of_b : together(a.from, a.plane) < together(b.from, b.plane);
   });
   size_t kept = 0;
   for (size_t i = 0; i < open_.size();) {
     size_t j = i;
-    const uint32_t lo = std::min(open_[i].from, open_[i].to);
-    const uint32_t hi = std::max(open_[i].from, open_[i].to);
+    const uint64_t ends = both_ends(open_[i]);
     size_t forward = 0;
-    while (j < open_.size() && std::min(open_[j].from, open_[j].to) == lo &&
-           std::max(open_[j].from, open_[j].to) == hi) {
-      forward += open_[j++].from == lo;
+    while (j < open_.size() && both_ends(open_[j]) == ends) {
+      forward += open_[j].from < open_[j].to;
+      ++j;
     }
     const size_t backward = j - i - forward;
     for (size_t k = 0; k < (forward > backward ? forward - backward : 0); ++k) {
@@ -181,7 +185,7 @@ bool RegionBuilder::sweep_line(uint32_t support) {
             [&](uint32_t p, uint32_t q) { return geometry_.compare_along(p, q, axis.axis) < 0; });
   place_.clear();
   for (uint32_t i = 0; i < points.size(); ++i) place_.emplace_back(points[i], i);
-  std::sort(place_.begin(), place_.end());
+  std::sort(place_.begin(), place_.end(), pair_less);
   const auto place = [&](uint32_t p) {
     return std::lower_bound(place_.begin(), place_.end(), std::pair(p, 0u))->second;
   };
@@ -212,7 +216,7 @@ bool RegionBuilder::trace(PlaneId support, RegionLoops& loops) {
     ends.emplace_back(boundary_[i].from, 2 * i);
     ends.emplace_back(boundary_[i].to, 2 * i + 1);
   }
-  std::sort(ends.begin(), ends.end());
+  std::sort(ends.begin(), ends.end(), pair_less);
   next_.assign(boundary_.size(), kNone);
   std::vector<uint8_t>& corner = corner_;
   corner.assign(boundary_.size(), 1);

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace csgrun {
@@ -28,11 +27,11 @@ class SegmentSweep {
     if (boxes_.size() <= kFewSegments) return for_each_of_few(visit);
     lay_strips();
     order_.clear();
-    for (uint32_t s = 0; s < boxes_.size(); ++s) order_.push_back(s);
-    std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
-      return std::tie(boxes_[a][axis_][0], a) < std::tie(boxes_[b][axis_][0], b);
+    for (uint32_t s = 0; s < boxes_.size(); ++s) order_.push_back({boxes_[s][axis_][0], s});
+    std::sort(order_.begin(), order_.end(), [](const Start& a, const Start& b) {
+      return a.at != b.at ? a.at < b.at : a.number < b.number;
     });
-    for (const uint32_t t : order_) {
+    for (const auto& [at, t] : order_) {
       const Box& box = boxes_[t];
       const uint32_t first = strip(box[across_][0]), last = strip(box[across_][1]);
       for (uint32_t i = first; i <= last; ++i) {
@@ -52,6 +51,10 @@ class SegmentSweep {
 
  private:
   using Box = std::array<std::array<double, 2>, 3>;
+  struct Start {
+    double at;
+    uint32_t number;
+  };
   /// A segment in a strip, until the sweep has passed its end.
   struct Active {
     double end;
@@ -116,7 +119,7 @@ class SegmentSweep {
   }
 
   std::vector<Box> boxes_;
-  std::vector<uint32_t> order_;
+  std::vector<Start> order_;
   int axis_ = 0, across_ = 0;
   double lo_ = 0, per_step_ = 0;
   uint32_t strips_ = 1;

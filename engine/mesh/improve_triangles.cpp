@@ -23,9 +23,6 @@ constexpr size_t kFewCorners = 12;
 
 using Triangle = std::array<uint32_t, 3>;
 
-/// Two numbers that compare as one.
-uint64_t together(uint32_t high, uint32_t low) { return uint64_t{high} << 32 | low; }
-
 /// Each from its lowest point on, and by their points.
 void sort_canonically(std::vector<Triangle>& triangles) {
   for (Triangle& t : triangles) {
@@ -87,13 +84,19 @@ bool is_worse(uint32_t a, uint32_t b, uint32_t c, uint32_t d, const PlanarOracle
 
 /// Kept from one face to the next: most are small.
 struct Memory {
-  using Edge = std::pair<uint32_t, uint32_t>;
-  std::vector<Edge> slits;       ///< sorted, lower point first
-  std::vector<uint32_t> twin;    ///< per half-edge; kNoTwin on the boundary
-  std::vector<uint8_t> queued;   ///< per half-edge
-  std::vector<uint32_t> queue;   ///< half-edges to look at, those before the current one are done
-  std::vector<Edge> loop_edges;  ///< while slits are looked for
-  std::vector<std::pair<Edge, uint32_t>> edges;  ///< while twins are
+  struct HalfEdge {
+    uint64_t edge;
+    uint32_t number;
+    bool operator<(const HalfEdge& other) const {
+      return edge != other.edge ? edge < other.edge : number < other.number;
+    }
+  };
+  std::vector<uint64_t> slits;  ///< edges, sorted
+  std::vector<uint32_t> twin;   ///< per half-edge; kNoTwin on the boundary
+  std::vector<uint8_t> queued;  ///< per half-edge
+  std::vector<uint32_t> queue;  ///< half-edges to look at, those before the current one are done
+  std::vector<uint64_t> loop_edges;  ///< while slits are looked for
+  std::vector<HalfEdge> edges;       ///< while twins are
 };
 
 /// Half-edge h = 3 t + k runs from corner k of triangle t to the next one.
@@ -121,8 +124,8 @@ class Flipper {
   }
 
  private:
-  using Edge = Memory::Edge;
-
+  /// The edge between two points, in either direction.
+  static uint64_t edge(uint32_t a, uint32_t b) { return a < b ? together(a, b) : together(b, a); }
   static uint32_t next(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
   uint32_t& origin(uint32_t h) { return triangles_[h / 3][h % 3]; }
 
@@ -131,11 +134,11 @@ class Flipper {
   void find_slits(std::span<const std::vector<uint32_t>> loops) {
     slits_.clear();
     if (loops.size() == 1 && loops[0].size() <= kFewCorners && are_distinct(loops[0])) return;
-    std::vector<Edge>& edges = memory_.loop_edges;
+    std::vector<uint64_t>& edges = memory_.loop_edges;
     edges.clear();
     for (const auto& loop : loops) {
       for (size_t i = 0; i < loop.size(); ++i) {
-        edges.push_back(std::minmax({loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]}));
+        edges.push_back(edge(loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]));
       }
     }
     std::sort(edges.begin(), edges.end());
@@ -147,21 +150,21 @@ class Flipper {
   /// Finds the twins of half-edges and queues all diagonals in the order of their points.
   void pair_diagonals() {
     const auto count = static_cast<uint32_t>(3 * triangles_.size());
-    std::vector<std::pair<Edge, uint32_t>>& edges = memory_.edges;
+    std::vector<Memory::HalfEdge>& edges = memory_.edges;
     edges.clear();
     queue_.clear();
     if (triangles_.size() <= kFewCorners && slits_.empty()) return pair_few();
     for (uint32_t h = 0; h < count; ++h) {
-      edges.push_back({std::minmax({origin(h), origin(next(h))}), h});
+      edges.push_back({edge(origin(h), origin(next(h))), h});
     }
     std::sort(edges.begin(), edges.end());
     twin_.assign(count, kNoTwin);
     queued_.assign(count, false);
     for (size_t i = 1; i < edges.size(); ++i) {
-      const auto& [edge, h] = edges[i - 1];
-      if (edges[i].first != edge) continue;
+      const auto [edge, h] = edges[i - 1];
+      if (edges[i].edge != edge) continue;
       if (std::binary_search(slits_.begin(), slits_.end(), edge)) continue;
-      link(h, edges[i].second);
+      link(h, edges[i].number);
       enqueue(h);
     }
   }
@@ -171,7 +174,7 @@ class Flipper {
     const auto count = static_cast<uint32_t>(3 * triangles_.size());
     twin_.assign(count, kNoTwin);
     queued_.assign(count, false);
-    std::vector<std::pair<Edge, uint32_t>>& diagonals = memory_.edges;
+    std::vector<Memory::HalfEdge>& diagonals = memory_.edges;
     std::array<uint64_t, 3 * kFewCorners> reverse;  // the ends of half-edges, the second one first
     for (uint32_t h = 0; h < count; ++h) reverse[h] = together(origin(next(h)), origin(h));
     for (uint32_t h = 0; h < count; ++h) {
@@ -180,11 +183,11 @@ class Flipper {
       for (uint32_t g = h / 3 * 3 + 3; g < count; ++g) {
         if (reverse[g] != own) continue;
         link(h, g);
-        diagonals.push_back({std::minmax({from, to}), h});
+        diagonals.push_back({edge(from, to), h});
       }
     }
     sort_few(diagonals.begin(), diagonals.end(), std::less<>());
-    for (const auto& diagonal : diagonals) enqueue(diagonal.second);
+    for (const Memory::HalfEdge& diagonal : diagonals) enqueue(diagonal.number);
   }
 
   void link(uint32_t h, uint32_t twin) {
@@ -217,7 +220,7 @@ class Flipper {
   const RoundedPosition& position_;
   std::vector<Triangle>& triangles_;
   Memory& memory_;
-  std::vector<Edge>& slits_ = memory_.slits;
+  std::vector<uint64_t>& slits_ = memory_.slits;
   std::vector<uint32_t>& twin_ = memory_.twin;
   std::vector<uint8_t>& queued_ = memory_.queued;
   std::vector<uint32_t>& queue_ = memory_.queue;

@@ -1,6 +1,7 @@
 #include "engine/mesh/present.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/sort_few.h"
 #include "engine/mesh/canonical_hash.h"
 #include "engine/mesh/conform.h"
 #include "engine/mesh/cut_contacts.h"
@@ -70,34 +72,45 @@ class EdgeCorners {
   void clear() { all_.clear(); }
   /// Corners are added in ascending order.
   void add(uint32_t from, uint32_t to, uint32_t corner) {
-    all_.push_back({ends(from, to), corner});
+    all_.push_back({together(from, to), corner});
   }
   /// To be called after the last add().
   void prepare() {
-    if (all_.size() > kFew) std::stable_sort(all_.begin(), all_.end(), is_less);
+    if (all_.size() <= kFew) return;
+    slots_.assign(std::bit_ceil(2 * all_.size()), kNone);
+    shift_ = 64 - std::countr_zero(slots_.size());
+    for (uint32_t i = 0; i < all_.size(); ++i) {
+      uint32_t& slot = slots_[slot_of(all_[i].ends)];
+      if (slot == kNone) slot = i;
+    }
   }
   /// The lowest one. REQUIRES: there is one.
   [[nodiscard]] uint32_t find(uint32_t from, uint32_t to) const {
-    const Edge edge{ends(from, to), 0};
-    if (all_.size() > kFew) {
-      return std::lower_bound(all_.begin(), all_.end(), edge, is_less)->corner;
-    }
-    return std::find_if(all_.begin(), all_.end(),
-                        [&](const Edge& e) { return e.ends == edge.ends; })
+    const uint64_t ends = together(from, to);
+    if (all_.size() > kFew) return all_[slots_[slot_of(ends)]].corner;
+    return std::find_if(all_.begin(), all_.end(), [&](const Edge& e) { return e.ends == ends; })
         ->corner;
   }
 
  private:
-  /// Of so many, all are looked at sooner than sorted.
+  /// Of so many, all are looked at sooner than hashed.
   static constexpr size_t kFew = 36;
   struct Edge {
     uint64_t ends;
     uint32_t corner;
   };
-  static uint64_t ends(uint32_t from, uint32_t to) { return uint64_t{from} << 32 | to; }
-  static bool is_less(const Edge& a, const Edge& b) { return a.ends < b.ends; }
+  /// The slot of these ends, or an empty one: half of them are.
+  [[nodiscard]] size_t slot_of(uint64_t ends) const {
+    size_t at = ends * 0x9fb21c651e98df25ull >> shift_;
+    while (slots_[at] != kNone && all_[slots_[at]].ends != ends) {
+      at = (at + 1) & (slots_.size() - 1);
+    }
+    return at;
+  }
 
   std::vector<Edge> all_;
+  std::vector<uint32_t> slots_;  ///< numbers in all_: the lowest of equal ends
+  int shift_ = 0;
 };
 
 class Presenter {

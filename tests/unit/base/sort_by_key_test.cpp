@@ -36,7 +36,9 @@ TEST(SortByKey, SortsByKeyAndOrder) {
       });
       sorter.sort(
           things, keys, [](const Thing& t) { return t.key; },
-          [](const Thing& a, const Thing& b) { return a.order < b.order; });
+          [](const Thing& a, const Thing& b) {
+            return together(a.key, a.order) < together(b.key, b.order);
+          });
       EXPECT_EQ(things, expected) << count << " things, " << keys << " keys";
     }
   }
