@@ -13,10 +13,10 @@ constexpr uint64_t together(uint32_t first, uint32_t second) {
   return uint64_t{first} << 32 | second;
 }
 
-/// a < b.
-constexpr bool pair_less(std::pair<uint32_t, uint32_t> a, std::pair<uint32_t, uint32_t> b) {
+/// a < b. An object: a function passed on would be called, not inlined.
+constexpr auto pair_less = [](std::pair<uint32_t, uint32_t> a, std::pair<uint32_t, uint32_t> b) {
   return together(a.first, a.second) < together(b.first, b.second);
-}
+};
 
 /// Sorts stably. O(n log n), and quick where there is hardly anything to sort.
 template <class Iterator, class Less>

@@ -167,6 +167,9 @@ class FaceEvaluator {
 
   void emit_loops() {
     numbers_.assign(geometry_.point_count(), kNone);
+    result_.cut.pieces.reserve(cut_.loops.loops.size());
+    result_.cut.corner_point.reserve(cut_.loops.corner_point.size());
+    result_.cut.corner_plane.reserve(cut_.loops.corner_point.size());
     for (const CutFaces::Face& cut : cut_.faces) {
       for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
         const PatchFate fate = fates_->of_loop(l);
