@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "engine/base/sort_few.h"
+
 namespace csgrun {
+
 uint32_t FaceArrangement::vertex(uint32_t v) {
   const uint32_t p = geometry_.vertex_point(v);
   return touched_[v] ? index_.unique(p) : p;
