@@ -13,6 +13,11 @@ constexpr uint64_t together(uint32_t first, uint32_t second) {
   return uint64_t{first} << 32 | second;
 }
 
+/// The same of two numbers in either order: the ends of an edge, whichever way it runs.
+constexpr uint64_t ends_together(uint32_t a, uint32_t b) {
+  return a < b ? together(a, b) : together(b, a);
+}
+
 /// a < b. An object: a function passed on would be called, not inlined.
 constexpr auto pair_less = [](std::pair<uint32_t, uint32_t> a, std::pair<uint32_t, uint32_t> b) {
   return together(a.first, a.second) < together(b.first, b.second);

@@ -10,9 +10,7 @@
 namespace csgrun {
 namespace {
 
-uint64_t both_ends(const DirectedEdge& e) {
-  return e.from < e.to ? together(e.from, e.to) : together(e.to, e.from);
-}
+uint64_t both_ends(const DirectedEdge& e) { return ends_together(e.from, e.to); }
 
 /// The direction of an edge as a multiple of n x t, n the outward normal of the support and t the
 /// normal of the edge's plane: its sign.

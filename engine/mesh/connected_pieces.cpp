@@ -4,6 +4,7 @@
 #include <bit>
 #include <tuple>
 
+#include "engine/base/sort_few.h"
 #include "engine/bsp/line_key.h"
 
 namespace csgrun {
@@ -11,10 +12,7 @@ namespace {
 
 /// Most neighbours meet end to end: joins them, and leaves the edges whose reverse is not there.
 void join_reversed(std::vector<PieceEdge>& edges, UnionFind& pieces) {
-  const auto ends = [&](uint32_t i) {
-    const auto [low, high] = std::minmax(edges[i].edge.from, edges[i].edge.to);
-    return static_cast<uint64_t>(low) << 32 | high;
-  };
+  const auto ends = [&](uint32_t i) { return ends_together(edges[i].edge.from, edges[i].edge.to); };
   // Edges by their ends, open addressing; it is only asked, never walked through.
   std::vector<uint32_t> table(std::bit_ceil(2 * edges.size() + 1), kNone);
   const int shift = 64 - std::countr_zero(table.size());

@@ -124,8 +124,6 @@ class Flipper {
   }
 
  private:
-  /// The edge between two points, in either direction.
-  static uint64_t edge(uint32_t a, uint32_t b) { return a < b ? together(a, b) : together(b, a); }
   static uint32_t next(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
   uint32_t& origin(uint32_t h) { return triangles_[h / 3][h % 3]; }
 
@@ -138,7 +136,7 @@ class Flipper {
     edges.clear();
     for (const auto& loop : loops) {
       for (size_t i = 0; i < loop.size(); ++i) {
-        edges.push_back(edge(loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]));
+        edges.push_back(ends_together(loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]));
       }
     }
     std::sort(edges.begin(), edges.end());
@@ -155,7 +153,7 @@ class Flipper {
     queue_.clear();
     if (triangles_.size() <= kFewCorners && slits_.empty()) return pair_few();
     for (uint32_t h = 0; h < count; ++h) {
-      edges.push_back({edge(origin(h), origin(next(h))), h});
+      edges.push_back({ends_together(origin(h), origin(next(h))), h});
     }
     std::sort(edges.begin(), edges.end());
     twin_.assign(count, kNoTwin);
@@ -183,7 +181,7 @@ class Flipper {
       for (uint32_t g = h / 3 * 3 + 3; g < count; ++g) {
         if (reverse[g] != own) continue;
         link(h, g);
-        diagonals.push_back({edge(from, to), h});
+        diagonals.push_back({ends_together(from, to), h});
       }
     }
     sort_few(diagonals.begin(), diagonals.end(), std::less<>());
