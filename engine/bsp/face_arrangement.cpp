@@ -26,12 +26,16 @@ int FaceArrangement::inner_sign(const JobPolygon& polygon, uint32_t edge) {
 bool FaceArrangement::build(uint32_t polygon, std::span<const SheetSegment> segments,
                             std::span<const uint32_t> coplanar, CutLoops& out) {
   polygon_ = &job_.polygons()[polygon];
+  ++build_;
   lines_.clear();
   add_boundary();
   add_segments(segments);
   add_coplanar(coplanar);
-  find_stops();
-  break_lines();
+  find_same_lines();
+  if (!break_lines_at_rim()) {
+    find_stops();
+    break_lines();
+  }
   join_parts();
   sort_around_points();
   const auto first_loop = static_cast<uint32_t>(out.loops.size());
@@ -47,16 +51,25 @@ bool FaceArrangement::build(uint32_t polygon, std::span<const SheetSegment> segm
 void FaceArrangement::add_boundary() {
   const auto corners = job_.corners(*polygon_);
   const auto planes = job_.edge_planes(*polygon_);
+  const uint32_t count = polygon_->count;
   box_ = {};
-  for (uint32_t e = 0; e < polygon_->count; ++e) {
+  has_straight_angle_ = false;
+  for (uint32_t e = 0; e < count; ++e) {
     box_.include(job_.rounded(corners[e]));
-    lines_.push_back({vertex(corners[e]), vertex(corners[e + 1 < polygon_->count ? e + 1 : 0]),
-                      planes[e], inner_sign(*polygon_, e), Kind::kBoundary, kNone, kNone});
+    int inner = geometry_.side_of_vertex(planes[e], corners[(e + 2) % count]);
+    if (inner == 0) {
+      has_straight_angle_ = true;
+      inner = inner_sign(*polygon_, e);
+    }
+    lines_.push_back({vertex(corners[e]), 0, planes[e], inner, Kind::kBoundary, kNone, kNone});
   }
+  for (uint32_t e = 0; e < count; ++e) lines_[e].to = lines_[e + 1 < count ? e + 1 : 0].from;
 }
 
 void FaceArrangement::add_segments(std::span<const SheetSegment> segments) {
+  has_through_ = false;
   for (const SheetSegment& s : segments) {
+    has_through_ |= s.front && s.back;
     const JobPolygon& other = job_.polygons()[s.other];
     const Kind kind = s.front && s.back ? Kind::kThrough : s.front ? Kind::kFront : Kind::kBack;
     lines_.push_back({s.from, s.to, other.support.index(), other.support.flipped() ? 1 : -1, kind,
@@ -151,6 +164,7 @@ void FaceArrangement::find_same_lines() {
         const uint64_t of_a = together(a[0], a[1]), of_b = together(b[0], b[1]);
         return of_a != of_b ? of_a < of_b : together(a[2], a[3]) < together(b[2], b[3]);
       });
+  bool any_gone = false;
   for (size_t begin = 0, end = 1; begin < line_ends_.size(); begin = end++) {
     while (end < line_ends_.size() && have_same_ends(end - 1, end)) ++end;
     if (end - begin != 2) continue;
@@ -160,8 +174,9 @@ void FaceArrangement::find_same_lines() {
     if (!are_opposite || first.from != second.from) continue;
     first.kind = Kind::kThrough;
     second.kind = Kind::kGone;
+    any_gone = true;
   }
-  drop_gone_lines();
+  if (any_gone) drop_gone_lines();
   next_same_.assign(lines_.size(), kNone);
   is_swept_.assign(lines_.size(), 1);
   for (size_t i = 1; i < line_ends_.size(); ++i) {
@@ -205,7 +220,6 @@ void FaceArrangement::drop_gone_lines() {
 void FaceArrangement::find_stops() {
   stops_.clear();
   sweep_.clear();
-  find_same_lines();
   for (const uint32_t l : swept_) {
     sweep_.add(geometry_.point(lines_[l].from).rounded, geometry_.point(lines_[l].to).rounded);
     stops_.emplace_back(l, lines_[l].from);
@@ -269,7 +283,6 @@ void FaceArrangement::add_collinear(const Line& on, uint32_t line, uint32_t poin
 
 void FaceArrangement::break_lines() {
   parts_.clear();
-  ++build_;
   beyond_.resize(geometry_.point_count(), 0);
   sort_pairs_.sort(
       stops_, lines_.size(), [](const auto& stop) { return stop.first; }, pair_less);

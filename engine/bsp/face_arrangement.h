@@ -88,6 +88,15 @@ class FaceArrangement {
       return all;
     }
   };
+  struct EdgeSides {     ///< of a point, a bit per edge of the polygon
+    uint32_t build = 0;  ///< of the polygon they are about
+    uint32_t beyond = 0, on = 0;
+  };
+  enum class RimPlace : uint8_t { kOff, kBefore, kBetween, kAfter };  ///< at an end is not between
+  struct OnRim {  ///< an edge that a line is along or beyond, and where the line's ends are on it
+    uint32_t edge = 0;
+    RimPlace from = RimPlace::kOff, to = RimPlace::kOff;
+  };
   struct SheetEdge {  ///< of a coplanar sheet
     uint32_t operand, low, high;
     uint32_t sheet, edge;
@@ -100,6 +109,13 @@ class FaceArrangement {
   void add_segments(std::span<const SheetSegment> segments);
   void add_coplanar(std::span<const uint32_t> coplanar);
   [[nodiscard]] bool is_far(uint32_t vertex, uint32_t other) const;
+  /// Breaks lines that only meet the polygon in its edges into parts; false if others do.
+  bool break_lines_at_rim();
+  bool find_rim_edges();
+  EdgeSides edge_sides(uint32_t point);
+  RimPlace place_on_edge(uint32_t edge, uint32_t point);
+  void list_rim();
+  [[nodiscard]] uint32_t rim_index(uint32_t edge, RimPlace place, uint32_t point) const;
   void find_stops();
   void find_same_lines();
   [[nodiscard]] bool have_same_ends(size_t i, size_t j) const;
@@ -156,8 +172,14 @@ class FaceArrangement {
   std::vector<uint32_t> sheets_;  ///< coplanar ones that are not clearly apart
   std::vector<SheetEdge> sheet_edges_;
   size_t first_coplanar_line_ = 0;
-  SheetBox box_;                  ///< of the polygon
-  uint32_t build_ = 0;            ///< the number of the polygon at hand
+  bool has_through_ = false;  ///< a segment of a sheet that goes to the front and to the back
+  bool has_straight_angle_ = false;    ///< two edges of the polygon are on one line
+  std::vector<EdgeSides> edge_sides_;  ///< per point
+  std::vector<OnRim> on_rim_;          ///< per line
+  std::vector<std::pair<uint32_t, uint32_t>> rim_points_;  ///< (edge, point between its ends)
+  std::vector<uint32_t> rim_, rim_start_;  ///< points of the edges; where each begins
+  SheetBox box_;                           ///< of the polygon
+  uint32_t build_ = 0;                     ///< the number of the polygon at hand
   std::vector<uint32_t> beyond_;  ///< per point, of is_beyond: 2 x build_ when asked, + the answer
   std::vector<SheetBox> loop_boxes_;
   std::vector<LoopFact> covered_;  ///< not told by arcs

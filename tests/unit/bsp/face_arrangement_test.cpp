@@ -39,6 +39,7 @@ Query area_vector(const std::vector<Query>& points) {
 
 struct Count {
   size_t cut = 0, by_names = 0, left = 0, facts = 0, coplanar = 0;
+  std::vector<Query> corners;  ///< of all loops
 };
 
 class Cuts {
@@ -128,6 +129,7 @@ class Cuts {
         points.push_back(geometry_.point(loops.corner_point[c]).rounded);
       }
       filled += dot(area_vector(points), normal);
+      count.corners.insert(count.corners.end(), points.begin(), points.end());
       if (loop.vertex != kNone) {
         ASSERT_NE(std::find(points.begin(), points.end(), job_.rounded(loop.vertex)), points.end());
       }
@@ -305,6 +307,31 @@ TEST(FaceArrangement, OfASimpleOperandThatTouchesItselfInCorners) {
   Cuts({box({-40, -40, -10}, {40, 40, 0}), winged}).check(count);
   EXPECT_EQ(count.left, 0u);
   EXPECT_GT(count.coplanar, 3u);
+}
+
+// What stands beside a body touches the top of it along one of two edges in a line.
+TEST(FaceArrangement, OfAStraightAngle) {
+  std::vector<test::Loop> loops(2);
+  const std::vector<std::array<int64_t, 2>> base{{0, 0}, {4, 0}, {8, 0}, {8, 8}, {0, 8}};
+  for (size_t i = 0; i < base.size(); ++i) {
+    const auto [x, y] = base[i];
+    const auto [u, v] = base[(i + 1) % base.size()];
+    loops[0].push_back({x, y, 4});
+    loops[1].insert(loops[1].begin(), {x, y, 0});
+    loops.push_back({{x, y, 0}, {u, v, 0}, {u, v, 4}, {x, y, 4}});
+  }
+  const Operand block = known(loops, true);
+  ASSERT_EQ(block.leaf->face_count(), 7u);
+  for (const auto& [from, to] : {std::pair<int64_t, int64_t>{5, 7}, {1, 3}}) {
+    Count count;
+    Cuts({block, box({from, -4, 0}, {to, 0, 4})}).check(count);
+    for (const int64_t x : {from, to}) {
+      const Query corner{static_cast<double>(x), 0, 4};
+      // The block has it in its top and twice in a side, of which the box covers a part; three
+      // faces of the box have it.
+      EXPECT_EQ(std::count(count.corners.begin(), count.corners.end(), corner), 6);
+    }
+  }
 }
 
 // A void that touches a face from within says nothing of what that face covers.
