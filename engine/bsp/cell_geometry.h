@@ -7,7 +7,7 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -112,6 +112,17 @@ class CellGeometry {
   Fragment load(uint32_t polygon);
   Fragment make_fragment(PlaneId support, const std::vector<uint32_t>& points,
                          const std::vector<uint32_t>& edges);
+  /// The same of edges that follow each other: each has the point it comes `from`, and a `plane`.
+  template <class Edge>
+  Fragment make_fragment(PlaneId support, const std::vector<Edge>& edges) {
+    const Fragment f{support, kNone, static_cast<uint32_t>(corners_.size()),
+                     static_cast<uint32_t>(edges.size())};
+    for (const Edge& e : edges) {
+      corners_.push_back(e.from);
+      edges_.push_back(e.plane);
+    }
+    return f;
+  }
   [[nodiscard]] const uint32_t* corners(const Fragment& f) const {
     return corners_.data() + f.first;
   }
@@ -145,7 +156,7 @@ class CellGeometry {
   const PlaneTable* planes_;
   const Job* job_;
   RawVector<StoredPoint> points_;
-  std::deque<Point> exact_;  ///< large: growing moves none, and references stay
+  std::vector<std::unique_ptr<Point>> exact_;  ///< large, and references stay
   std::vector<uint32_t> corners_, edges_;
   std::vector<uint32_t> vertex_stamp_;
   RawVector<uint32_t> vertex_point_;  ///< where the stamp is this one

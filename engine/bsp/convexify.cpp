@@ -113,12 +113,7 @@ class Convexifier {
 
   /// The face as it is.
   void take(const std::vector<BoundaryEdge>& edges) {
-    std::vector<uint32_t> points, planes;
-    for (const BoundaryEdge& e : edges) {
-      points.push_back(e.from);
-      planes.push_back(e.plane);
-    }
-    pieces_.push_back(geometry_.make_fragment(support_, points, planes));
+    pieces_.push_back(geometry_.make_fragment(support_, edges));
   }
 
   /// The part of the plane between far walls: contains the whole face.
@@ -326,8 +321,7 @@ void convexify(CellGeometry& geometry, const PlaneTable& planes, PlaneId support
                std::vector<BoundaryEdge> edges, const std::function<uint32_t(int, int64_t)>& wall,
                std::vector<Fragment>& pieces) {
   if (is_triangle(edges)) {
-    pieces.push_back(geometry.make_fragment(support, {edges[0].from, edges[1].from, edges[2].from},
-                                            {edges[0].plane, edges[1].plane, edges[2].plane}));
+    pieces.push_back(geometry.make_fragment(support, edges));
     return;
   }
   Convexifier(geometry, planes, support, wall, pieces).run(std::move(edges));

@@ -20,6 +20,7 @@ constexpr size_t kWorkPerPart = 2048;
 void list(const Job& job, std::span<const uint32_t> polygons, const ContactTable& contacts,
           CutPart& part) {
   std::vector<uint32_t> flat;  // convex operands with a face in the polygon's plane
+  part.polygons.reserve(polygons.size());
   for (const uint32_t p : polygons) {
     CutPart::Polygon& polygon = part.polygons.emplace_back();
     polygon = {p, static_cast<uint32_t>(part.contacts.size()),

@@ -336,6 +336,8 @@ void Job::take_parts(PieceStore& store, MayMeet&& may_meet) {
   RegionParts parts(store, [this](int axis, int64_t m) { return wall(axis, m); });
   std::vector<uint32_t> met;
   met.swap(version_pieces_);
+  pieces_.reserve(met.size());
+  version_pieces_.reserve(met.size());
   for (const uint32_t piece : met) {
     if (!store.is_region(piece) && !store.is_group(piece)) {
       pieces_.push_back(piece);
@@ -354,6 +356,7 @@ void Job::take_parts(PieceStore& store, MayMeet&& may_meet) {
 void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
   PieceStore& store = *operand.store;
   std::vector<OperandReach> others;
+  others.reserve(o);
   for (uint32_t other = 0; other < o; ++other) {
     others.emplace_back(std::span(rounded_).subspan(vertex_start(other),
                                                     vertex_start(other + 1) - vertex_start(other)));
@@ -367,6 +370,12 @@ void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
   });
   take_parts(store, may_meet);
   std::vector<uint32_t>& vertex_of = store.scratch();
+  polygons_.reserve(polygons_.size() + pieces_.size());
+  boxes_.reserve(boxes_.size() + pieces_.size());
+  constexpr size_t kMostlyCorners = 4;
+  const size_t corners = corners_.size() + kMostlyCorners * pieces_.size();
+  corners_.reserve(corners);
+  edge_planes_.reserve(corners);
   for (uint32_t i = 0; i < pieces_.size(); ++i) {
     const auto first = static_cast<uint32_t>(corners_.size());
     for (const uint32_t point : store.corners(pieces_[i])) {

@@ -94,7 +94,10 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   PieceWriter writer(job, operands, store);
   if (!writer.add_operands()) return PiecesPtr();
   const uint32_t first = job.polygon_start(own);
-  std::vector<uint32_t> kept;
+  std::vector<uint32_t> kept, lost, gone;
+  for (std::vector<uint32_t>* each : {&kept, &lost, &gone}) {
+    each->reserve(job.polygons().size() - first);
+  }
   std::erase_if(faces->whole, [&](const WholePolygon& w) {
     if (w.polygon < first || w.flip) return false;
     kept.push_back(job.piece(w.polygon));
@@ -125,7 +128,6 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   const auto is_in = [](const std::vector<uint32_t>& sorted, uint32_t p) {
     return std::binary_search(sorted.begin(), sorted.end(), p);
   };
-  std::vector<uint32_t> lost, gone;
   for (uint32_t p = first; p < job.polygons().size(); ++p) {
     if (is_in(kept, job.piece(p))) continue;
     lost.push_back(job.piece(p));

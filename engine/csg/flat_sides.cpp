@@ -115,6 +115,9 @@ class FaceJoiner {
     }
     std::vector<uint8_t> is_one(leaf_.face_count(), 0);
     std::vector<uint32_t> loop;
+    faces_.reserve(leaf_.face_count());
+    starts_.reserve(leaf_.face_starts.size());
+    corners_.reserve(leaf_.corners.size());
     for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
       const uint32_t first = joined_.find(f);
       if (first == f && rim[f] > 0) is_one[f] = trace(f, start[f], loop) && loop.size() == rim[f];
@@ -150,7 +153,13 @@ class FaceJoiner {
     std::vector<uint32_t> faces_at(leaf_.vertices.size(), 0), number(leaf_.vertices.size(), kNew);
     for (const uint32_t v : corners_) ++faces_at[v];
     LeafGeometry made;
+    made.vertices.reserve(leaf_.vertices.size());
+    made.corners.reserve(corners_.size());
+    made.face_starts.reserve(starts_.size());
     std::vector<uint32_t> facet, surface, appearance;
+    for (std::vector<uint32_t>* each : {&facet, &surface, &appearance}) {
+      each->reserve(faces_.size());
+    }
     for (size_t i = 0; i < faces_.size(); ++i) {
       for (uint32_t c = starts_[i]; c < starts_[i + 1]; ++c) {
         const uint32_t v = corners_[c];
