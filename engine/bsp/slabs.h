@@ -16,7 +16,9 @@ struct alignas(16) EightTriangles {
 
 /// What a triangle takes up along its normal and, in its plane, across each of its sides; a little
 /// more than that: if all corners of another triangle, rounded to floats, are beyond a bound along
-/// one direction, the triangles have no point in common.
+/// one direction, the triangles have no point in common. Nor have they if that is so of the part of
+/// the other one between the two bounds along the normal, across one of the sides: of two triangles
+/// that pass through each other's plane and are apart there always is such a side.
 class Slabs {
  public:
   /// `reach` is not below any coordinate of this triangle or of others, in magnitude. A triangle
@@ -45,7 +47,11 @@ class Slabs {
   /// Those that are beyond one of the slabs across the sides.
   [[nodiscard]] uint32_t beyond_sides(const EightTriangles& others, uint32_t which) const;
 
+  /// Those whose part in the slab along the normal is beyond one of the others.
+  [[nodiscard]] uint32_t beyond_where_clipped(const EightTriangles& others, uint32_t which) const;
+
   std::array<Slab, 4> slabs_;  ///< the first along the normal
+  float slack_ = 0;            ///< more than what clipping adds to what rounding does
 };
 
 }  // namespace csgrun

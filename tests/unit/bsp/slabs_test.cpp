@@ -76,6 +76,87 @@ TEST(Slabs, RoundedCornersNeverPartWhatTouches) {
   }
 }
 
+// A side of one passes through the middle of another one.
+TEST(Slabs, RoundedCornersNeverPartWhatPassesThrough) {
+  constexpr double kReach = 0x1p29;
+  for (int i = 0; i < 3000; ++i) {
+    test::Random random(7700 + i);
+    Vec move{}, middle{};
+    for (double& m : move)
+      m = static_cast<double>(random.integer(-(int64_t{1} << 28), int64_t{1} << 28));
+    const Triangle small = random_triangle(random, 400);
+    const Triangle own = scaled(small, 3, move);
+    for (size_t k = 0; k < 3; ++k) middle[k] = small[0][k] + small[1][k] + small[2][k] + move[k];
+    std::array<Triangle, 8> others;
+    for (Triangle& t : others) {
+      t = scaled(random_triangle(random, 400), 3, move);
+      const auto at = static_cast<size_t>(random.integer(0, 2));
+      for (size_t k = 0; k < 3; ++k) t[(at + 1) % 3][k] = 2 * middle[k] - t[at][k];
+    }
+    EXPECT_EQ(Slabs(own, kReach).apart_in_space(packed(others), 0xff), 0u) << i;
+    std::array<Triangle, 8> same;
+    same.fill(own);
+    for (const Triangle& t : others) {
+      EXPECT_EQ(Slabs(t, kReach).apart_in_space(packed(same), 0xff), 0u) << i;
+    }
+  }
+}
+
+/// The room between s and what t has in the plane of s, across a side of s, less what the slabs may
+/// take for it: t is so much longer in them, the more level it is.
+double most_room_in_plane(const Triangle& s, const Triangle& t, double slack) {
+  const Vec up = normal(s);
+  const auto height = [&](const Vec& p) {
+    return dot(minus(p, s[0]), up) / std::sqrt(dot(up, up));
+  };
+  double most = -std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < 3; ++i) {
+    const Vec way = cross(edge(s, i), up);
+    const double length = std::sqrt(dot(way, way));
+    const auto place = [&](const Vec& p) { return dot(p, way) / length; };
+    const auto [s_lo, s_hi] = std::minmax({place(s[0]), place(s[1]), place(s[2])});
+    double lo = std::numeric_limits<double>::infinity(), hi = -lo, steps = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec &a = t[k], &b = t[(k + 1) % 3];
+      const double from = height(a), to = height(b);
+      if (from * to > 0 || from == to) continue;
+      const double at = place(a) + (place(b) - place(a)) * from / (from - to);
+      lo = std::min(lo, at), hi = std::max(hi, at);
+      steps = std::max(steps, std::fabs((place(b) - place(a)) / (to - from)));
+    }
+    most = std::max(most, std::max(lo - s_hi, s_lo - hi) - slack * (2 + steps));
+  }
+  return most;
+}
+
+// Of triangles that are apart, and pass through each other's plane.
+TEST(Slabs, SeeWhatIsClearlyBesideInThePlane) {
+  size_t clear = 0, left = 0, only_here = 0;
+  for (int i = 0; i < 4000; ++i) {
+    test::Random random(5200 + i);
+    const int64_t size = random.integer(2, 9);
+    const Triangle own = random_triangle(random, size);
+    std::array<Triangle, 8> others;
+    for (Triangle& t : others) t = random_neighbour(own, random, size);
+    const auto reach = static_cast<double>(20 * size);
+    const uint32_t apart = Slabs(own, reach).apart_in_space(packed(others), 0xff);
+    for (uint32_t lane = 0; lane < 8; ++lane) {
+      const Triangle& t = others[lane];
+      if (gap(own, t, normal(own)) >= 0 || gap(own, t, normal(t)) >= 0) continue;
+      const bool is_clear = most_room_in_plane(own, t, 0x1p-18 * reach) > 0;
+      const bool is_apart = (apart >> lane & 1) != 0;
+      EXPECT_TRUE(is_apart || !is_clear) << i << ' ' << lane;
+      EXPECT_TRUE(!is_apart || are_apart(own, t)) << i << ' ' << lane;
+      clear += is_clear;
+      only_here += is_clear && most_room(own, t) <= 0;
+      left += are_apart(own, t) && !is_clear;
+    }
+  }
+  EXPECT_GT(clear, 1500u);
+  EXPECT_GT(only_here, 1000u);
+  EXPECT_LT(20 * left, clear);
+}
+
 EightBoxes boxes_of(const std::array<Triangle, 8>& triangles) {
   EightBoxes boxes{};
   for (size_t lane = 0; lane < 8; ++lane) {
