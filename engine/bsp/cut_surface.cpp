@@ -7,8 +7,10 @@
 
 #include "engine/bsp/offset_sets.h"
 #include "engine/bsp/point_index.h"
+#include "engine/bsp/sign_stats.h"
 #include "engine/bsp/surface_cells.h"
 #include "engine/bsp/surface_octree.h"
+#include "engine/bsp/winding.h"
 
 namespace csgrun {
 namespace {
@@ -81,6 +83,18 @@ class SurfaceCutter {
     if (!agrees) return std::optional<CutSurface>();
     leave_what_hangs_together(windings);
     leave_what_lies_upon();
+    if (const auto faces = faces_for_rays(windings)) {
+      for (const uint32_t f : *faces) {
+        if (is_cancelled()) {
+          return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
+        }
+        if (!windings.join(infinity_, f, winding_in_front(leaf_, nullptr, f))) {
+          return std::optional<CutSurface>();
+        }
+      }
+      add_signs(stats, geometry_.counters);
+      return labelled(windings, {});
+    }
     auto runs = solve_cells(windings, stats);
     if (!runs) return runs.error();
     for (const SurfaceCells& run : *runs) {
@@ -370,6 +384,27 @@ class SurfaceCutter {
         open.push_back(k);
       }
     }
+  }
+
+  /// If nothing is left, a polygon that crosses nothing for each set, which a ray can ask; none if
+  /// these are many, or the surface may be open: a ray would not see that.
+  std::optional<std::vector<uint32_t>> faces_for_rays(OffsetSets& windings) {
+    constexpr size_t kFewRays = 8;  // each looks at all faces
+    const auto has = [](const auto& list, auto value) {
+      return std::find(list.begin(), list.end(), value) != list.end();
+    };
+    if (has(is_left_, 1) || has(opposite_, kNone)) return std::nullopt;
+    std::vector<uint8_t> is_asked(infinity_ + 1, 0);  // per root
+    std::vector<uint32_t> faces;
+    for (uint32_t p = 0; p < crosses_.size(); ++p) {
+      if (crosses_[p]) continue;
+      uint8_t& known = is_asked[windings.find(p).root];
+      if (known != 0) continue;
+      known = 1;
+      faces.push_back(p);
+      if (faces.size() > kFewRays) return std::nullopt;
+    }
+    return faces;
   }
 
   /// The cells of all that is left, and one for all that hangs together.

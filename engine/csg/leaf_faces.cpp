@@ -172,10 +172,33 @@ Loop from_lowest(Loop loop) {
   return loop;
 }
 
+/// The faces whose corners another face may have, too: those with equal sums of hashes. Ascending.
+std::vector<uint32_t> find_equal_corners(const std::vector<LoopFace>& faces) {
+  std::vector<std::pair<uint64_t, uint32_t>> keys;
+  keys.reserve(faces.size());
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    uint64_t key = 0;
+    for (const uint64_t v : faces[f].loops[0]) {
+      const uint64_t h = (v + 1) * 0x9e3779b97f4a7c15ull;
+      key += (h ^ h >> 32) * 0xff51afd7ed558ccdull;
+    }
+    keys.emplace_back(key, f);
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<uint32_t> found;
+  for (size_t i = 0; i < keys.size(); ++i) {
+    const bool is_equal = (i > 0 && keys[i].first == keys[i - 1].first) ||
+                          (i + 1 < keys.size() && keys[i].first == keys[i + 1].first);
+    if (is_equal) found.push_back(keys[i].second);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 /// Pairs of faces that are each other's reverse enclose nothing.
 void cancel_opposite_faces(std::vector<LoopFace>& faces) {
   std::map<Loop, std::vector<size_t>> open;
-  for (size_t f = 0; f < faces.size(); ++f) {
+  for (const uint32_t f : find_equal_corners(faces)) {
     Loop reverse = faces[f].loops[0];
     std::reverse(reverse.begin(), reverse.end());
     const auto found = open.find(from_lowest(std::move(reverse)));

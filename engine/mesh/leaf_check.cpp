@@ -18,7 +18,7 @@
 #include "engine/mesh/spread_vertices.h"
 #include "engine/mesh/star_surface.h"
 #include "engine/mesh/triangle_pairs.h"
-#include "engine/mesh/winding.h"
+#include "engine/bsp/winding.h"
 
 namespace csgrun {
 namespace {

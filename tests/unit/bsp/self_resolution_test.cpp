@@ -256,8 +256,8 @@ Operand paired(const std::vector<Loop>& loops) {
   return operand_of(leaf);
 }
 
-// Where nothing crosses, the cell of a surface that is cut whole is where it is told.
-TEST(SelfResolution, StopsWhenCancelledInItsOnlyCell) {
+// Nothing crosses: one ray tells.
+TEST(SelfResolution, StopsWhenCancelledBeforeARay) {
   std::atomic<bool> cancel = true;
   KernelOptions options;
   options.cancel = &cancel;
@@ -273,7 +273,7 @@ const std::vector<Loop>& pierced_box() {
   return loops;
 }
 
-// One cell tells all, where faces may be cut whole.
+// A ray tells all that hangs together, where faces may be cut whole; one cell if that is much.
 TEST(SelfResolution, CutsFacesWholeWhereItMay) {
   const auto cells = [](const Operand& operand, InsideRule rule, bool whole_faces) {
     KernelOptions options;
@@ -285,6 +285,12 @@ TEST(SelfResolution, CutsFacesWholeWhereItMay) {
     return stats.solved_cells;
   };
   const Operand plain = paired(pierced_box()), unpaired = operand_of(make_leaf(pierced_box()));
+  std::vector<Loop> with_others = pierced_box();
+  for (int64_t x = 100; x < 180; x += 10) {
+    const auto other = box_loops({x, 0, 0}, {x + 5, 5, 5});
+    with_others.insert(with_others.end(), other.begin(), other.end());
+  }
+  const Operand many = paired(with_others);
   Operand turned = plain;
   turned.frame.is_identity = false;
   for (size_t k = 0; k < 3; ++k) {
@@ -292,9 +298,11 @@ TEST(SelfResolution, CutsFacesWholeWhereItMay) {
   }
   for (const InsideRule rule :
        {InsideRule::kNonZero, InsideRule::kPositive, InsideRule::kEvenOdd}) {
-    EXPECT_EQ(cells(plain, rule, true), 2u);  // one for each box
+    EXPECT_EQ(cells(plain, rule, true), 0u);
     EXPECT_GT(cells(plain, rule, false), 4u);
-    EXPECT_EQ(cells(unpaired, rule, true), 2u);
+    EXPECT_EQ(cells(unpaired, rule, true), 0u);
+    EXPECT_GE(cells(many, rule, true), 10u);  // one for each box, of a few polygons
+    EXPECT_LE(cells(many, rule, true), 20u);
     EXPECT_EQ(cells(turned, rule, true), cells(turned, rule, false));
   }
   EXPECT_EQ(cells(plain, InsideRule::kOuterHull, true),
@@ -327,6 +335,7 @@ TEST(SelfResolution, CountsItsWork) {
   const auto crossings = find_self_intersections(*operand.leaf);
   KernelOptions options;
   options.cell_limit = 1;
+  options.whole_faces = false;
   const auto numbers = [&](EvaluateStats& s) {
     EXPECT_TRUE(resolve_surface(operand, crossings, InsideRule::kNonZero, options, s));
     std::vector<uint64_t> n{s.cells, s.surface_cells, s.solved_cells, s.sign_filter,
@@ -343,6 +352,13 @@ TEST(SelfResolution, CountsItsWork) {
   for (size_t k = 0; k < 5; ++k) EXPECT_GT(once[k], 0u) << k;
   EXPECT_EQ(stats.cells / 2 % 2, 1u);  // each division makes two of one
   EXPECT_LT(stats.solved_cells, stats.cells);
+
+  options.whole_faces = true;
+  stats = {};
+  const auto whole = numbers(stats), again = numbers(stats);
+  EXPECT_EQ(stats.cells, 0u);
+  EXPECT_GT(stats.sign_filter, 0u);
+  for (size_t k = 0; k < whole.size(); ++k) EXPECT_EQ(again[k], 2 * whole[k]) << k;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "engine/mesh/winding.h"
+#include "engine/bsp/winding.h"
 
 #include <cmath>
 #include <limits>
