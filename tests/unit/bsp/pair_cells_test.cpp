@@ -491,22 +491,25 @@ bool is_clearly_beyond(const Corners& s, const Corners& t) {
 // In a crowd, triangles that are plainly apart are no pairs; all others are, once.
 TEST(PairCells, CrowdsAreSifted) {
   size_t left_out = 0, apart = 0, coplanar = 0;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 40; ++i) {
     test::Random random(8800 + i);
+    const bool are_two = i % 2 == 0;
+    const uint32_t crowd = are_two ? kCrowdOfTwo : kCrowd;
     // One fewer than a crowd, a crowd, and more.
-    const auto count = static_cast<size_t>(i < 4   ? kCrowd - 1
-                                           : i < 8 ? kCrowd
-                                                   : kCrowd + random.integer(0, 90));
-    const auto first = static_cast<size_t>(random.integer(20, 100));
-    std::vector<Operand> operands{test::operand_of(random_faces(random, first)),
-                                  test::operand_of(random_faces(random, count - first))};
+    const auto count = static_cast<size_t>(i < 8    ? crowd - 1
+                                           : i < 16 ? crowd
+                                                    : crowd + random.integer(0, 90));
+    const auto first = static_cast<size_t>(random.integer(10, 50));
+    std::vector<Operand> operands{test::operand_of(random_faces(random, first))};
+    if (!are_two) operands.push_back(test::operand_of(random_faces(random, first)));
+    operands.push_back(test::operand_of(random_faces(random, count - operands.size() * first)));
     const Job job(operands);
     PairCells cells;
     for (uint32_t p = 0; p < count; ++p) cells.polygons.push_back(p);
     cells.cells.push_back({{-200, -200, -200}, {200, 200, 200}, 0, static_cast<uint32_t>(count)});
     EXPECT_EQ(visited(job, cells), all_pairs(job));  // without slabs all are
     add_slabs(job, cells);
-    EXPECT_EQ(cells.slabs.empty(), count < kCrowd);
+    EXPECT_EQ(cells.slabs.empty(), count < crowd);
     const Pairs found = visited(job, cells), all = all_pairs(job);
     for (const auto& [pair, times] : found) EXPECT_TRUE(all.contains(pair) && times == 1);
     for (const auto& [pair, times] : all) {
@@ -520,9 +523,9 @@ TEST(PairCells, CrowdsAreSifted) {
         return result;
       };
       const Corners s = corners(pair.first), t = corners(pair.second);
-      const bool may_be_out = count >= kCrowd && s.size() == 3 && t.size() == 3 &&
+      const bool may_be_out = count >= crowd && s.size() == 3 && t.size() == 3 &&
                               !are_coplanar(s, t) && are_apart(s, t);
-      coplanar += count >= kCrowd && are_coplanar(s, t);
+      coplanar += count >= crowd && are_coplanar(s, t);
       EXPECT_TRUE(found.contains(pair) || may_be_out) << i;
       EXPECT_FALSE(found.contains(pair) && may_be_out && is_clearly_beyond(s, t)) << i;
       left_out += !found.contains(pair);
