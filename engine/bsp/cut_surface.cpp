@@ -389,7 +389,6 @@ class SurfaceCutter {
   /// If nothing is left, a polygon that crosses nothing for each set, which a ray can ask; none if
   /// these are many, or the surface may be open: a ray would not see that.
   std::optional<std::vector<uint32_t>> faces_for_rays(OffsetSets& windings) {
-    constexpr size_t kFewRays = 8;  // each looks at all faces
     const auto has = [](const auto& list, auto value) {
       return std::find(list.begin(), list.end(), value) != list.end();
     };

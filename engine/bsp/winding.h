@@ -1,6 +1,7 @@
-// Winding numbers of a surface that does not cross itself.
+// Winding numbers in front of faces of a closed surface.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -8,6 +9,9 @@
 #include "engine/bsp/packed_boxes.h"
 
 namespace csgrun {
+
+/// For so many rays, each of which looks at all faces, a tree does not pay.
+constexpr size_t kFewRays = 8;
 
 /// How often the surface of a leaf wraps around a point just in front of `face`, near the middle of
 /// the face. Exact: a ray to infinity, moved off every edge by infinitesimals. `tree` holds the

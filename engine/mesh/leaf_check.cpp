@@ -10,6 +10,7 @@
 #include "engine/bsp/corner_walk.h"
 #include "engine/bsp/packed_boxes.h"
 #include "engine/bsp/union_find.h"
+#include "engine/bsp/winding.h"
 #include "engine/mesh/box_frame.h"
 #include "engine/mesh/edge_table.h"
 #include "engine/mesh/face_pair.h"
@@ -18,14 +19,12 @@
 #include "engine/mesh/spread_vertices.h"
 #include "engine/mesh/star_surface.h"
 #include "engine/mesh/triangle_pairs.h"
-#include "engine/bsp/winding.h"
 
 namespace csgrun {
 namespace {
 
 constexpr size_t kTasks = 256;
 constexpr size_t kFewFaces = 2000;  ///< for which threads do not pay
-constexpr size_t kFewRays = 8;      ///< for which a tree does not pay
 
 using Pairs = std::vector<std::array<uint32_t, 2>>;
 
