@@ -88,9 +88,10 @@ class FaceArrangement {
       return all;
     }
   };
-  struct EdgeSides {     ///< of a point, a bit per edge of the polygon
-    uint32_t build = 0;  ///< of the polygon they are about
-    uint32_t beyond = 0, on = 0;
+  struct EdgeSides {              ///< of a point
+    uint32_t build = 0;           ///< of the polygon they are about
+    uint32_t beyond = 0, on = 0;  ///< a bit per edge
+    uint32_t at = 0;              ///< its place in rim_, if it is between the ends of an edge
   };
   enum class RimPlace : uint8_t { kOff, kBefore, kBetween, kAfter };  ///< at an end is not between
   struct OnRim {  ///< an edge that a line is along or beyond, and where the line's ends are on it

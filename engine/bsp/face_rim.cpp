@@ -18,7 +18,7 @@ constexpr uint32_t kMaxEdges = 32;  ///< bits of EdgeSides
 FaceArrangement::EdgeSides FaceArrangement::edge_sides(uint32_t point) {
   EdgeSides& known = edge_sides_[point];
   if (known.build == build_) return known;
-  known = {build_, 0, 0};
+  known = {build_, 0, 0, 0};
   for (uint32_t e = 0; e < polygon_->count; ++e) {
     const int side = geometry_.side(lines_[e].plane, point) * lines_[e].left;
     known.beyond |= static_cast<uint32_t>(side < 0) << e;
@@ -44,7 +44,7 @@ bool FaceArrangement::find_rim_edges() {
   if (has_through_ || has_straight_angle_ || count > kMaxEdges) return false;
   edge_sides_.resize(std::max(edge_sides_.size(), geometry_.point_count()));
   for (uint32_t e = 0; e < count; ++e) {
-    edge_sides_[lines_[e].from] = {build_, 0, 1u << e | 1u << (e > 0 ? e - 1 : count - 1)};
+    edge_sides_[lines_[e].from] = {build_, 0, 1u << e | 1u << (e > 0 ? e - 1 : count - 1), 0};
   }
   on_rim_.assign(lines_.size(), {});
   rim_points_.clear();
@@ -83,6 +83,7 @@ void FaceArrangement::list_rim() {
     rim_start_.push_back(static_cast<uint32_t>(rim_.size()));
     rim_.push_back(lines_[e].from);
     for (; next < rim_points_.size() && rim_points_[next].first == e; ++next) {
+      edge_sides_[rim_points_[next].second].at = static_cast<uint32_t>(rim_.size());
       rim_.push_back(rim_points_[next].second);
     }
     rim_.push_back(lines_[e].to);
@@ -92,11 +93,8 @@ void FaceArrangement::list_rim() {
 
 /// Where one of the places is in rim_.
 uint32_t FaceArrangement::rim_index(uint32_t edge, RimPlace place, uint32_t point) const {
-  uint32_t i = place == RimPlace::kAfter ? rim_start_[edge + 1] - 1 : rim_start_[edge];
-  if (place == RimPlace::kBetween) {
-    while (rim_[i] != point) ++i;
-  }
-  return i;
+  if (place == RimPlace::kBetween) return edge_sides_[point].at;
+  return place == RimPlace::kAfter ? rim_start_[edge + 1] - 1 : rim_start_[edge];
 }
 
 bool FaceArrangement::break_lines_at_rim() {
