@@ -240,6 +240,14 @@ void FaceArrangement::find_stops() {
   }
 }
 
+/// The sign of a line's plane at a point. Looking at the rim may have told it.
+int FaceArrangement::side(uint32_t line, uint32_t point) {
+  const Line& l = lines_[line];
+  const bool is_known =
+      l.kind == Kind::kBoundary && point < edge_sides_.size() && edge_sides_[point].build == build_;
+  return is_known ? edge_side(point, line) * l.left : geometry_.side(l.plane, point);
+}
+
 void FaceArrangement::meet(uint32_t s, uint32_t t) {
   const Line a = lines_[s], b = lines_[t];
   // Lines that share an end meet nowhere else, unless they are one.
@@ -247,11 +255,11 @@ void FaceArrangement::meet(uint32_t s, uint32_t t) {
   if (shares) {
     const uint32_t far = a.from == b.from || a.from == b.to ? a.to : a.from;
     const bool all = (a.from == b.from && a.to == b.to) || (a.from == b.to && a.to == b.from);
-    if (all || geometry_.side(b.plane, far) != 0) return;
+    if (all || side(t, far) != 0) return;
   } else {
-    const int a_from = geometry_.side(b.plane, a.from), a_to = geometry_.side(b.plane, a.to);
+    const int a_from = side(t, a.from), a_to = side(t, a.to);
     if (a_from * a_to > 0) return;
-    const int b_from = geometry_.side(a.plane, b.from), b_to = geometry_.side(a.plane, b.to);
+    const int b_from = side(s, b.from), b_to = side(s, b.to);
     if (b_from * b_to > 0) return;
     if (a_from != 0 || a_to != 0) {
       const uint32_t x =
@@ -323,7 +331,7 @@ bool FaceArrangement::is_beyond(uint32_t point) {
   const auto& at = geometry_.point(point).rounded;
   bool is_beyond = !box_.holds({at, at});
   for (uint32_t e = 0; e < polygon_->count && !is_beyond; ++e) {
-    is_beyond = geometry_.side(lines_[e].plane, point) * lines_[e].left < 0;
+    is_beyond = side(e, point) * lines_[e].left < 0;
   }
   beyond_[point] = 2 * build_ + (is_beyond ? 1 : 0);
   return is_beyond;

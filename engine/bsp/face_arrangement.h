@@ -88,10 +88,10 @@ class FaceArrangement {
       return all;
     }
   };
-  struct EdgeSides {              ///< of a point
-    uint32_t build = 0;           ///< of the polygon they are about
-    uint32_t beyond = 0, on = 0;  ///< a bit per edge
-    uint32_t at = 0;              ///< its place in rim_, if it is between the ends of an edge
+  struct EdgeSides {                         ///< of a point
+    uint32_t build = 0;                      ///< of the polygon they are about
+    uint32_t known = 0, beyond = 0, on = 0;  ///< a bit per edge
+    uint32_t at = 0;  ///< its place in rim_, if it is between the ends of an edge
   };
   enum class RimPlace : uint8_t { kOff, kBefore, kBetween, kAfter };  ///< at an end is not between
   struct OnRim {  ///< an edge that a line is along or beyond, and where the line's ends are on it
@@ -113,7 +113,8 @@ class FaceArrangement {
   /// Breaks lines that only meet the polygon in its edges into parts; false if others do.
   bool break_lines_at_rim();
   bool find_rim_edges();
-  EdgeSides edge_sides(uint32_t point);
+  /// Positive when a point is on the inner side of an edge. REQUIRES: find_rim_edges began.
+  int edge_side(uint32_t point, uint32_t edge);
   RimPlace place_on_edge(uint32_t edge, uint32_t point);
   void list_rim();
   [[nodiscard]] uint32_t rim_index(uint32_t edge, RimPlace place, uint32_t point) const;
@@ -122,6 +123,7 @@ class FaceArrangement {
   [[nodiscard]] bool have_same_ends(size_t i, size_t j) const;
   void drop_gone_lines();
   void meet(uint32_t s, uint32_t t);
+  int side(uint32_t line, uint32_t point);
   void add_collinear(const Line& on, uint32_t line, uint32_t point);
   void break_lines();
   void join_parts();

@@ -2,7 +2,6 @@
 // flush faces of bodies beside each other do. Each line is then outside one of the edges, or along
 // it, and need only be held against that one.
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "engine/base/sort_few.h"
@@ -11,20 +10,22 @@
 namespace csgrun {
 namespace {
 
-constexpr uint32_t kMaxEdges = 32;  ///< bits of EdgeSides
+/// Of polygons with more edges it takes long to see that a line enters, which most do.
+constexpr uint32_t kMaxEdges = 6;
 
 }  // namespace
 
-FaceArrangement::EdgeSides FaceArrangement::edge_sides(uint32_t point) {
-  EdgeSides& known = edge_sides_[point];
-  if (known.build == build_) return known;
-  known = {build_, 0, 0, 0};
-  for (uint32_t e = 0; e < polygon_->count; ++e) {
-    const int side = geometry_.side(lines_[e].plane, point) * lines_[e].left;
-    known.beyond |= static_cast<uint32_t>(side < 0) << e;
-    known.on |= static_cast<uint32_t>(side == 0) << e;
+int FaceArrangement::edge_side(uint32_t point, uint32_t edge) {
+  EdgeSides& sides = edge_sides_[point];
+  if (sides.build != build_) sides = {build_, 0, 0, 0, 0};
+  const uint32_t bit = 1u << edge;
+  if ((sides.known & bit) == 0) {
+    const int side = geometry_.side(lines_[edge].plane, point) * lines_[edge].left;
+    sides.known |= bit;
+    sides.beyond |= side < 0 ? bit : 0;
+    sides.on |= side == 0 ? bit : 0;
   }
-  return known;
+  return (sides.beyond & bit) != 0 ? -1 : (sides.on & bit) != 0 ? 0 : 1;
 }
 
 /// Where a point on the line of an edge is along that edge; what is between its ends is listed.
@@ -44,21 +45,20 @@ bool FaceArrangement::find_rim_edges() {
   if (has_through_ || has_straight_angle_ || count > kMaxEdges) return false;
   edge_sides_.resize(std::max(edge_sides_.size(), geometry_.point_count()));
   for (uint32_t e = 0; e < count; ++e) {
-    edge_sides_[lines_[e].from] = {build_, 0, 1u << e | 1u << (e > 0 ? e - 1 : count - 1), 0};
+    edge_sides_[lines_[e].from] = {build_, ~0u, 0, 1u << e | 1u << (e > 0 ? e - 1 : count - 1), 0};
   }
   on_rim_.assign(lines_.size(), {});
   rim_points_.clear();
   for (const uint32_t l : swept_) {
     const Line& line = lines_[l];
     if (line.kind == Kind::kBoundary) continue;
-    const EdgeSides from = edge_sides(line.from), to = edge_sides(line.to);
-    const uint32_t outside = (from.beyond | from.on) & (to.beyond | to.on);
-    if (outside == 0) return false;
-    const auto edge = static_cast<uint32_t>(std::countr_zero(outside));
+    uint32_t edge = 0;
+    while (edge < count && (edge_side(line.from, edge) > 0 || edge_side(line.to, edge) > 0)) ++edge;
+    if (edge == count) return false;
     OnRim& on = on_rim_[l];
     on.edge = edge;
-    if (from.on >> edge & 1) on.from = place_on_edge(edge, line.from);
-    if (to.on >> edge & 1) on.to = place_on_edge(edge, line.to);
+    if (edge_side(line.from, edge) == 0) on.from = place_on_edge(edge, line.from);
+    if (edge_side(line.to, edge) == 0) on.to = place_on_edge(edge, line.to);
     for (uint32_t same = next_same_[l]; same != kNone; same = next_same_[same]) {
       on_rim_[same] = on;
       if (lines_[same].from != line.from) std::swap(on_rim_[same].from, on_rim_[same].to);
