@@ -3,10 +3,10 @@
 //
 // A face is cut along the planes of all faces that it crosses or touches, or along their edges if
 // they lie in its own, so that no other face meets the inside of a piece without holding all of it.
-// From one piece of a face to the next the winding number changes by the faces that stand between
-// them, and over an edge of two faces that no other one touches it stays. One ray, or one solved
-// cell, for all that hangs together in this way says what it is. Faces of which that cannot be told, or that too
-// many cross, are left to the cells that they are in.
+// From one piece of a face to the next the winding number changes by the faces that stand
+// between them, and over an edge of two faces that no other one touches it stays. One ray, or
+// one solved cell, for all that hangs together in this way says what it is. Faces of which that
+// cannot be told, or that too many cross, are left to the cells that they are in.
 #pragma once
 
 #include <array>
