@@ -236,10 +236,10 @@ PairCells join(std::vector<PairCells> parts) {
 
 /// Of the polygons those that are held against others: not of the first operand.
 void add_slabs(const Job& job, PairCells& all) {
-  all.crowd = job.operand_count() == 2 ? kCrowdOfTwo : kCrowd;
+  const uint32_t crowd = crowd_of(job);
   std::vector<uint32_t> triangles;
   for (const PairCells::Cell& cell : all.cells) {
-    if (cell.count < all.crowd) continue;
+    if (cell.count < crowd) continue;
     if (all.slabs_at.empty()) all.slabs_at.assign(job.polygons().size(), PairCells::kNoSlabs);
     for (uint32_t i = 0; i < cell.count; ++i) {
       const uint32_t p = all.polygons[cell.first + i];
@@ -267,7 +267,7 @@ void CellPairs::load(const Job& job, const PairCells& all, const PairCells::Cell
     operands_[i] = job.polygons()[polygons_[i]].operand;
   }
   triangles_.clear();
-  if (all.slabs.empty() || cell.count < all.crowd) return;
+  if (all.slabs.empty() || cell.count < crowd_of(job)) return;
   for (uint32_t i = 0; i < cell.count; i += 8) {
     triangles_.emplace_back(job, std::span(polygons_ + i, std::min(8u, cell.count - i)));
   }

@@ -34,7 +34,6 @@ struct PairCells {
   /// The slabs of triangles in crowds, each made once, and per polygon its place there, or
   /// kNoSlabs; both empty if there is no crowd.
   static constexpr uint32_t kNoSlabs = ~0u;
-  uint32_t crowd = 0;  ///< how many polygons of a cell are one
   std::vector<Slabs> slabs;
   std::vector<uint32_t> slabs_at;
 };
@@ -42,6 +41,7 @@ struct PairCells {
 /// So many polygons of a cell are a crowd: worth the time to pack their corners. Among many
 /// operands more of the pairs meet, as those of balls that overlap do.
 constexpr uint32_t kCrowd = 128, kCrowdOfTwo = 64;
+inline uint32_t crowd_of(const Job& job) { return job.operand_count() == 2 ? kCrowdOfTwo : kCrowd; }
 
 /// Cells with polygons of at least two operands, not all of which are in `covered` (per polygon;
 /// empty: none is), and none in `left_out`; with slabs. O(n log n) for n polygons of bounded size.

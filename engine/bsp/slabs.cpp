@@ -1,6 +1,7 @@
 #include "engine/bsp/slabs.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -18,6 +19,32 @@ namespace {
 using Four = float __attribute__((vector_size(16)));
 using Lanes = int32_t __attribute__((vector_size(16)));
 constexpr Four kZeros{0, 0, 0, 0}, kOnes{1, 1, 1, 1};
+
+/// A bit for each lane that compared as true.
+uint32_t bits_of(Lanes lanes) {
+#if defined(__SSE2__)
+  return static_cast<uint32_t>(_mm_movemask_ps(std::bit_cast<__m128>(lanes)));
+#else
+  uint32_t bits = 0;
+  for (uint32_t lane = 0; lane < 4; ++lane)
+    bits |= (static_cast<uint32_t>(lanes[lane]) & 1) << lane;
+  return bits;
+#endif
+}
+
+/// Where the corners of four of the triangles, from number `half` on, are along a direction.
+std::array<Four, 3> along(const std::array<float, 3>& direction, const EightTriangles& others,
+                          uint32_t half) {
+  std::array<Four, 3> places{};
+  for (size_t corner = 0; corner < 3; ++corner) {
+    for (size_t k = 0; k < 3; ++k) {
+      Four at;
+      std::memcpy(&at, &others.at[corner][k][half], sizeof at);
+      places[corner] += at * direction[k];
+    }
+  }
+  return places;
+}
 
 }  // namespace
 
@@ -49,38 +76,16 @@ Slabs::Slabs(const std::array<Vec3d, 3>& corners, double reach) {
 // Where a direction is not a number, no comparison holds.
 Slabs::Places Slabs::places(const Slab& slab, const EightTriangles& others, uint32_t which) {
   Places result;
-#if defined(__SSE2__)
-  const __m128 x = _mm_set1_ps(slab.along[0]), y = _mm_set1_ps(slab.along[1]),
-               z = _mm_set1_ps(slab.along[2]), lo = _mm_set1_ps(slab.lo), hi = _mm_set1_ps(slab.hi);
-  for (size_t half = 0; half < 8; half += 4) {
+  for (uint32_t half = 0; half < 8; half += 4) {
     if ((which >> half & 0xf) == 0) continue;
-    const auto place = [&](size_t corner) {
-      const auto& at = others.at[corner];
-      return _mm_add_ps(_mm_add_ps(_mm_mul_ps(_mm_load_ps(&at[0][half]), x),
-                                   _mm_mul_ps(_mm_load_ps(&at[1][half]), y)),
-                        _mm_mul_ps(_mm_load_ps(&at[2][half]), z));
-    };
-    const __m128 a = place(0), b = place(1), c = place(2);
-    const __m128 least = _mm_min_ps(_mm_min_ps(a, b), c), most = _mm_max_ps(_mm_max_ps(a, b), c);
-    const __m128 beyond = _mm_or_ps(_mm_cmpgt_ps(least, hi), _mm_cmplt_ps(most, lo)),
-                 inside = _mm_and_ps(_mm_cmpge_ps(least, lo), _mm_cmple_ps(most, hi));
-    result.beyond |= static_cast<uint32_t>(_mm_movemask_ps(beyond)) << half;
-    result.inside |= static_cast<uint32_t>(_mm_movemask_ps(inside)) << half;
+    const auto [a, b, c] = along(slab.along, others, half);
+    const Lanes above = (a > slab.hi) & (b > slab.hi) & (c > slab.hi),
+                below = (a < slab.lo) & (b < slab.lo) & (c < slab.lo),
+                inside = (a >= slab.lo) & (b >= slab.lo) & (c >= slab.lo) & (a <= slab.hi) &
+                         (b <= slab.hi) & (c <= slab.hi);
+    result.beyond |= bits_of(above | below) << half;
+    result.inside |= bits_of(inside) << half;
   }
-#else
-  for (uint32_t lane = 0; lane < 8; ++lane) {
-    bool above = true, below = true, inside = true;
-    for (const auto& at : others.at) {
-      const float place =
-          at[0][lane] * slab.along[0] + at[1][lane] * slab.along[1] + at[2][lane] * slab.along[2];
-      above = above & (place > slab.hi);
-      below = below & (place < slab.lo);
-      inside = inside & (place >= slab.lo) & (place <= slab.hi);
-    }
-    result.beyond |= static_cast<uint32_t>(above | below) << lane;
-    result.inside |= static_cast<uint32_t>(inside) << lane;
-  }
-#endif
   return result;
 }
 
@@ -138,18 +143,7 @@ uint32_t Slabs::beyond_where_clipped(const EightTriangles& others, uint32_t whic
   uint32_t bits = 0;
   for (uint32_t half = 0; half < 8; half += 4) {
     if ((which >> half & 0xf) == 0) continue;
-    const auto places = [&](const Slab& slab) {
-      std::array<Four, 3> result{};
-      for (size_t corner = 0; corner < 3; ++corner) {
-        for (size_t k = 0; k < 3; ++k) {
-          Four at;
-          std::memcpy(&at, &others.at[corner][k][half], sizeof at);
-          result[corner] += at * slab.along[k];
-        }
-      }
-      return result;
-    };
-    const std::array<Four, 3> heights = places(slabs_[0]);
+    const std::array<Four, 3> heights = along(slabs_[0].along, others, half);
     const float lo = slabs_[0].lo, hi = slabs_[0].hi;
     // Of each side, from its first corner: where its part in the slab begins and ends, in either
     // order; all of it if it is level.
@@ -166,7 +160,7 @@ uint32_t Slabs::beyond_where_clipped(const EightTriangles& others, uint32_t whic
     }
     Lanes beyond{};
     for (size_t side = 1; side < slabs_.size(); ++side) {
-      const std::array<Four, 3> at = places(slabs_[side]);
+      const std::array<Four, 3> at = along(slabs_[side].along, others, half);
       const float most = slabs_[side].hi + slack_, least = slabs_[side].lo - slack_;
       Lanes above = ~Lanes{}, below = ~Lanes{};
       for (size_t i = 0; i < 3; ++i) {
@@ -177,9 +171,7 @@ uint32_t Slabs::beyond_where_clipped(const EightTriangles& others, uint32_t whic
       }
       beyond |= above | below;
     }
-    for (uint32_t lane = 0; lane < 4; ++lane) {
-      bits |= (static_cast<uint32_t>(beyond[lane]) & 1) << (half + lane);
-    }
+    bits |= bits_of(beyond) << half;
   }
   return bits & which;
 }

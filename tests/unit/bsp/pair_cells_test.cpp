@@ -504,6 +504,7 @@ TEST(PairCells, CrowdsAreSifted) {
     if (!are_two) operands.push_back(test::operand_of(random_faces(random, first)));
     operands.push_back(test::operand_of(random_faces(random, count - operands.size() * first)));
     const Job job(operands);
+    ASSERT_EQ(crowd_of(job), crowd);
     PairCells cells;
     for (uint32_t p = 0; p < count; ++p) cells.polygons.push_back(p);
     cells.cells.push_back({{-200, -200, -200}, {200, 200, 200}, 0, static_cast<uint32_t>(count)});
