@@ -83,6 +83,7 @@ class SurfaceCutter {
     if (!agrees) return std::optional<CutSurface>();
     leave_what_hangs_together(windings);
     leave_what_lies_upon();
+    add_signs(stats, geometry_.counters);
     if (const auto faces = faces_for_rays(windings)) {
       for (const uint32_t f : *faces) {
         if (is_cancelled()) {
@@ -92,7 +93,6 @@ class SurfaceCutter {
           return std::optional<CutSurface>();
         }
       }
-      add_signs(stats, geometry_.counters);
       return labelled(windings, {});
     }
     auto runs = solve_cells(windings, stats);
