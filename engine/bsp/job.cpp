@@ -7,6 +7,7 @@
 #include "engine/base/parallel.h"
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/convexify.h"
+#include "engine/bsp/near_pieces.h"
 #include "engine/bsp/operand_reach.h"
 #include "engine/bsp/piece_store.h"
 #include "engine/bsp/region_parts.h"
@@ -110,28 +111,35 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_box
   edge_planes_.reserve(corners);
   if (with_boxes_) operand_boxes_.assign(operands.size(), PolygonBox::none());
   leaf_corner_starts_.resize(operands.size());
-  for (uint32_t o = 0; o < operands.size(); ++o) {
+  for (uint32_t o = 0; o < operands.size() && !operands[o].pieces; ++o) {
     sources_[o].first_vertex = static_cast<uint32_t>(rounded_.size());
     if (operands[o].leaf) {
-      leaf_corner_starts_[o] = static_cast<uint32_t>(corners_.size());
-      make_room(o);
+      rounded_.resize(rounded_.size() + operands[o].leaf->vertices.size());
     } else if (operands[o].boundary) {
       add_boundary(o, operands[o]);
       for (size_t p = polygon_starts_.back(); p < boxes_.size(); ++p) {
         operand_boxes_[o].include(boxes_[p]);
       }
     }
-    if (operands[o].pieces) break;  // the last one
-    polygon_starts_.push_back(static_cast<uint32_t>(polygons_.size()));
     vertex_operand_starts_.push_back(static_cast<uint32_t>(rounded_.size()));
+    if (operands[o].leaf) {
+      if (may_choose_faces()) choose_faces();
+      leaf_corner_starts_[o] = static_cast<uint32_t>(corners_.size());
+      make_room(o);
+    }
+    polygon_starts_.push_back(static_cast<uint32_t>(polygons_.size()));
   }
   for_each_alone(operands.size(), polygons_.size() > kFewForThreads, [&](size_t o) {
-    if (operands[o].leaf) add_leaf(static_cast<uint32_t>(o), operands[o]);
+    if (!operands[o].leaf) return;
+    const auto number = static_cast<uint32_t>(o);
+    if (!own_near_) add_vertices(number, operands[o]);
+    add_faces(number, operands[o]);
   });
-  if (polygon_starts_.size() > operands.size()) return;
-  const PieceOperand& pieces = *operands.back().pieces;
-  add_pieces(static_cast<uint32_t>(operands.size() - 1), pieces);
-  operand_boxes_.back() = rounded_outwards(pieces.pieces.box());  // of all
+  if (operands.empty() || !operands.back().pieces) return;
+  sources_.back().first_vertex = static_cast<uint32_t>(rounded_.size());
+  if (!own_near_) list_pieces(*operands.back().pieces);
+  add_pieces(static_cast<uint32_t>(operands.size() - 1), *operands.back().pieces->store);
+  operand_boxes_.back() = rounded_outwards(operands.back().pieces->pieces.box());  // of all
   polygon_starts_.push_back(static_cast<uint32_t>(polygons_.size()));
   vertex_operand_starts_.push_back(static_cast<uint32_t>(rounded_.size()));
 }
@@ -183,17 +191,15 @@ size_t Job::corner_count(size_t o) const {
   return count;
 }
 
-/// For what add_leaf sets.
+/// For what add_faces sets.
 void Job::make_room(size_t o) {
-  const LeafGeometry& leaf = *(*operands_)[o].leaf;
-  rounded_.resize(rounded_.size() + leaf.vertices.size());
   polygons_.resize(polygons_.size() + face_count(o));
   if (with_boxes_) boxes_.resize(boxes_.size() + face_count(o));
   corners_.resize(corners_.size() + corner_count(o));
   edge_planes_.resize(corners_.size());
 }
 
-void Job::add_leaf(uint32_t o, const Operand& operand) {
+void Job::add_vertices(uint32_t o, const Operand& operand) {
   const LeafGeometry& leaf = *operand.leaf;
   const uint32_t first_vertex = sources_[o].first_vertex;
   const bool on_grid = operand.frame.is_identity;
@@ -208,8 +214,11 @@ void Job::add_leaf(uint32_t o, const Operand& operand) {
       for (size_t k = 0; k < 3; ++k) at[k] = static_cast<double>(q[k] + operand.translation[k]);
     }
   });
+}
+
+void Job::add_faces(uint32_t o, const Operand& operand) {
   if (const std::vector<uint32_t>* const some = some_faces(o)) {
-    add_some_faces(o, leaf, *some);
+    add_some_faces(o, *operand.leaf, *some);
   } else {
     add_all_faces(o, operand);
   }
@@ -353,11 +362,12 @@ void Job::take_parts(PieceStore& store, MayMeet&& may_meet) {
   }
 }
 
-void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
+/// Lists the pieces of the version that others may meet.
+void Job::list_pieces(const PieceOperand& operand) {
   PieceStore& store = *operand.store;
   std::vector<OperandReach> others;
-  others.reserve(o);
-  for (uint32_t other = 0; other < o; ++other) {
+  others.reserve(operands_->size() - 1);
+  for (uint32_t other = 0; other + 1 < operands_->size(); ++other) {
     others.emplace_back(std::span(rounded_).subspan(vertex_start(other),
                                                     vertex_start(other + 1) - vertex_start(other)));
   }
@@ -369,6 +379,34 @@ void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
     if (may_meet(store.box(piece))) version_pieces_.push_back(piece);
   });
   take_parts(store, may_meet);
+}
+
+/// Whether those of the first operand are chosen by the pieces of the second.
+bool Job::may_choose_faces() const {
+  constexpr size_t kWorthChoosing = 64;
+  return operands_->size() == 2 && is_leaf(0) && pieces(1) && operand(0).frame.is_identity &&
+         leaf(0)->face_count() >= kWorthChoosing;
+}
+
+/// Chooses those of the first operand that come near the pieces of the second, which are listed.
+void Job::choose_faces() {
+  const auto box = box_of_leaf(*leaf(0), operand(0).translation);
+  if (!box) return;
+  add_vertices(0, operand(0));
+  list_pieces(*pieces(1));
+  std::vector<PolygonBox> boxes;
+  boxes.reserve(pieces_.size());
+  for (const uint32_t piece : pieces_) {
+    boxes.push_back(rounded_outwards(pieces(1)->store->box(piece)));
+  }
+  own_near_.emplace();
+  own_near_->faces = {faces_near(*leaf(0), operand(0).translation, *box, boxes), {}};
+  own_near_->boxes = {*box, PolygonBox::none()};
+  near_ = &*own_near_;
+}
+
+/// Makes polygons of the pieces that are listed.
+void Job::add_pieces(uint32_t o, PieceStore& store) {
   std::vector<uint32_t>& vertex_of = store.scratch();
   polygons_.reserve(polygons_.size() + pieces_.size());
   boxes_.reserve(boxes_.size() + pieces_.size());
@@ -391,7 +429,7 @@ void Job::add_pieces(uint32_t o, const PieceOperand& operand) {
     edge_planes_.insert(edge_planes_.end(), edges.begin(), edges.end());
     const PieceStore::Piece& piece = store.piece(pieces_[i]);
     polygons_.push_back({o, i, first, piece.count, piece.support});
-    boxes_.push_back(box_of(polygons_.back()));
+    boxes_.push_back(rounded_outwards(store.box(pieces_[i])));
   }
   for (const uint32_t point : piece_points_) vertex_of[point] = kNone;
 }

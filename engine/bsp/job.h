@@ -53,6 +53,7 @@ constexpr uint32_t edge_place(uint32_t i, uint32_t count, bool flip) {
 class Job {
  public:
   /// Planes go into `planes`, if a table is given: that of the operand in pieces, if there is one.
+  /// Of a single leaf beside one in pieces the job has only the faces that may be near it.
   explicit Job(const std::vector<Operand>& operands, PlaneTable* planes = nullptr);
   /// Only these faces of the operands, which are leaves, are polygons of the job; it has all their
   /// vertices, and operand_box() is of all faces. `near` must outlive it.
@@ -82,9 +83,22 @@ class Job {
   [[nodiscard]] const NearFaces* near_faces() const { return near_; }
   [[nodiscard]] const LiveFaces* live_faces() const { return live_; }
   [[nodiscard]] bool has_all_faces() const { return !near_ && !some_; }
+  /// The number of faces of operands that are far.
+  [[nodiscard]] size_t far_face_count() const {
+    size_t count = 0;
+    for (size_t o = 0; near_ && o < operand_count(); ++o) {
+      if (leaf(o)) count += leaf(o)->face_count() - near_->faces[o].size();
+    }
+    return count;
+  }
+  /// Calls visit(face) for those of one operand, in ascending order.
+  template <class Visit>
+  void for_each_far_face(size_t o, Visit&& visit) const {
+    if (near_ && leaf(o)) csgrun::for_each_far_face(*leaf(o), near_->faces[o], visit);
+  }
   /// Those of one operand, ascending; null: all.
   [[nodiscard]] const std::vector<uint32_t>* some_faces(size_t o) const {
-    if (near_) return &near_->faces[o];
+    if (near_) return leaf(o) ? &near_->faces[o] : nullptr;
     return some_ && some_->is_partial[o] ? &some_->faces[o] : nullptr;
   }
   [[nodiscard]] size_t operand_count() const { return operands_->size(); }
@@ -173,13 +187,17 @@ class Job {
   [[nodiscard]] size_t face_count(size_t o) const;
   [[nodiscard]] size_t corner_count(size_t o) const;
   void make_room(size_t o);
-  void add_leaf(uint32_t o, const Operand& operand);
+  void add_vertices(uint32_t o, const Operand& operand);
+  void add_faces(uint32_t o, const Operand& operand);
   void add_all_faces(uint32_t o, const Operand& operand);
   void add_face(uint32_t polygon, uint32_t o, const LeafGeometry& leaf, uint32_t face,
                 uint32_t first);
   void add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector<uint32_t>& faces);
   void add_boundary(uint32_t o, const Operand& operand);
-  void add_pieces(uint32_t o, const PieceOperand& operand);
+  void list_pieces(const PieceOperand& operand);
+  [[nodiscard]] bool may_choose_faces() const;
+  void choose_faces();
+  void add_pieces(uint32_t o, PieceStore& store);
   template <class MayMeet>
   void take_parts(PieceStore& store, MayMeet&& may_meet);
   [[nodiscard]] PolygonBox box_of(const JobPolygon& polygon) const;
@@ -193,7 +211,8 @@ class Job {
   [[nodiscard]] ReducedPlane reduced_edge(uint32_t polygon, uint32_t edge) const;
 
   const std::vector<Operand>* operands_;
-  const NearFaces* const near_;
+  const NearFaces* near_;
+  std::optional<NearFaces> own_near_;  ///< chosen by the pieces of another operand
   const LiveFaces* const live_;
   const SomeFaces* const some_;  ///< the live ones, or others
   const bool with_boxes_;

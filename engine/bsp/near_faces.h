@@ -19,7 +19,7 @@ struct NearFaces {
   std::vector<std::vector<uint32_t>> faces;  ///< per operand those that are near, ascending
   std::vector<PolygonBox> boxes;             ///< per operand, around all faces
   /// One of these, of the faces as they are numbered in this order: pairs whose boxes overlap, or
-  /// what find_coarse_cells would find.
+  /// what find_coarse_cells would find. Neither where the pieces of a result told what is near.
   std::shared_ptr<const NearPairs> pairs;
   std::shared_ptr<const PairCells> cells;
 };

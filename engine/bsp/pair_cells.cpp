@@ -291,10 +291,11 @@ PairCells find_pair_cells(const Job& job, std::span<const uint8_t> covered,
   constexpr size_t kEach = 64;
   const uint32_t limit = std::max<uint32_t>(1, options.cell_limit);
   const NearFaces* const near = job.near_faces();
-  assert(!near || near->cells);
+  assert(!near || !near->pairs);
+  const bool was_found = near && near->cells;
   PairCells found;
-  if (!near) found = find_coarse_cells(job, covered, limit, left_out);
-  const PairCells& coarse = near ? *near->cells : found;
+  if (!was_found) found = find_coarse_cells(job, covered, limit, left_out);
+  const PairCells& coarse = was_found ? *near->cells : found;
   std::vector<PairCells> parts(part_count(coarse.cells.size(), kEach));
   for_each_part(coarse.cells.size(), kEach, [&](size_t part, size_t begin, size_t end) {
     parts[part] = CellFinder(job, covered, left_out, limit, options.cancel).run(coarse, begin, end);

@@ -68,20 +68,21 @@ void PatchFates::join_patches() {
     }
     for (uint32_t i = cut.starts[o]; i < cut.starts[o + 1]; ++i)
       join_loops(cut_.faces[cut.order[i]]);
-    if (job_.near_faces()) join_far_faces(o);
+    join_far_faces(o);
     patches_.flatten(job_.vertex_start(o), job_.vertex_start(o + 1));
   });
 }
 
 /// Nothing touches their vertices.
 void PatchFates::join_far_faces(size_t operand) {
-  const LeafGeometry& leaf = *job_.leaf(operand);
   const uint32_t first_vertex = job_.vertex_start(operand);
-  for_each_far_face(leaf, job_.near_faces()->faces[operand], [&](uint32_t f) {
-    const uint32_t* const corners = leaf.corners.data() + 3 * size_t{f};
-    uint32_t patch = patches_.find(first_vertex + corners[0]);
-    patch = patches_.join_with(patch, first_vertex + corners[1]);
-    patches_.join_with(patch, first_vertex + corners[2]);
+  job_.for_each_far_face(operand, [&](uint32_t f) {
+    const LeafGeometry& leaf = *job_.leaf(operand);
+    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    uint32_t patch = patches_.find(first_vertex + leaf.corners[begin]);
+    for (uint32_t c = begin + 1; c < end; ++c) {
+      patch = patches_.join_with(patch, first_vertex + leaf.corners[c]);
+    }
   });
 }
 
@@ -192,9 +193,9 @@ void PatchFates::ask_about_whole() {
 
 void PatchFates::ask_about_far_faces() {
   std::vector<std::vector<uint32_t>> unasked(job_.operand_count());
-  for_each_alone(unasked.size(), true, [&](size_t o) {
+  for_each_alone(unasked.size(), job_.vertex_count() > kFewForThreads, [&](size_t o) {
     std::vector<uint32_t> own;
-    for_each_far_face(*job_.leaf(o), job_.near_faces()->faces[o], [&](uint32_t f) {
+    job_.for_each_far_face(o, [&](uint32_t f) {
       const uint32_t patch = patches_.root(vertex_of_far_face(o, f));
       if (patch_fates_[patch] == kUnasked && (own.empty() || own.back() != patch)) {
         own.push_back(patch);

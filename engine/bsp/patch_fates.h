@@ -69,7 +69,8 @@ class PatchFates {
   void ask_about_whole();
   void ask_about_far_faces();
   [[nodiscard]] uint32_t vertex_of_far_face(size_t operand, uint32_t face) const {
-    return job_.vertex_start(operand) + job_.leaf(operand)->corners[3 * face];
+    const LeafGeometry& leaf = *job_.leaf(operand);
+    return job_.vertex_start(operand) + leaf.corners[leaf.face_starts[face]];
   }
   void ask(uint32_t patch, uint32_t own);
   void answer();

@@ -112,6 +112,15 @@ uint32_t PieceStore::add_group(Piece piece, std::span<const uint32_t> faces) {
   return piece_count() - 1;
 }
 
+uint32_t PieceStore::add_face(Piece piece, uint32_t face) {
+  piece.face = face;
+  piece.first = static_cast<uint32_t>(corners_.size());
+  append_corners(piece, face, corners_);
+  piece.count = static_cast<uint32_t>(corners_.size()) - piece.first;
+  edges_.resize(corners_.size(), kNoNumber);
+  return add_piece(piece);
+}
+
 PieceStore::Parts PieceStore::group_parts(uint32_t piece) {
   const uint32_t number = pieces_[piece].group;
   if (groups_[number].parts.were_made()) return groups_[number].parts;
@@ -119,14 +128,7 @@ PieceStore::Parts PieceStore::group_parts(uint32_t piece) {
   groups_[number].parts = {piece_count(), face_count};
   Piece part = pieces_[piece];
   part.group = kNoNumber;
-  for (uint32_t i = first_face; i < first_face + face_count; ++i) {
-    part.face = group_faces_[i];
-    part.first = static_cast<uint32_t>(corners_.size());
-    append_corners(part, part.face, corners_);
-    part.count = static_cast<uint32_t>(corners_.size()) - part.first;
-    edges_.resize(corners_.size(), kNoNumber);
-    add_piece(part);
-  }
+  for (uint32_t i = first_face; i < first_face + face_count; ++i) add_face(part, group_faces_[i]);
   return groups_[number].parts;
 }
 

@@ -64,8 +64,9 @@ class PieceStore {
   /// A region, the loops of which end at `ends`, counted from its first corner. The corners and
   /// edges of the convex polygon around it, so many, were appended after its own.
   uint32_t add_region(Piece piece, std::span<const uint32_t> ends, uint32_t cell_count);
-  /// Faces of a leaf on the grid, all of them whole, that nothing met, and which are turned over if
-  /// `piece` is.
+  /// A whole face of a leaf on the grid that nothing met, turned over if `piece` is.
+  uint32_t add_face(Piece piece, uint32_t face);
+  /// Several of them as one.
   uint32_t add_group(Piece piece, std::span<const uint32_t> faces);
   std::vector<uint32_t>& corners() { return corners_; }
   std::vector<uint32_t>& edges() { return edges_; }

@@ -24,63 +24,65 @@ bool PieceWriter::add_operands() {
   return true;
 }
 
-void PieceWriter::add_whole(std::span<const WholePolygon> whole) {
-  std::array<std::vector<uint32_t>, 2> grouped;  // of one operand: kept as they are, or flipped
-  for (size_t i = 0; i < whole.size(); ++i) {
-    const WholePolygon& w = whole[i];
-    const uint32_t o = job_.polygons()[w.polygon].operand;
+void PieceWriter::add_whole(std::span<const WholePolygon> whole, std::span<const FarFaces> far) {
+  std::vector<FarFaces> grouped(operands_.size());
+  std::copy(far.begin(), far.end(), grouped.begin());
+  for (const WholePolygon& w : whole) {
+    const auto& [o, face, first, count, support] = job_.polygons()[w.polygon];
     if (w.is_met || !operands_[o].leaf || !operands_[o].frame.is_identity) {
       add_single(w);
     } else {
-      grouped[w.flip].push_back(w.polygon);
+      (w.flip ? grouped[o].flipped : grouped[o].kept).push_back(face);
     }
-    if (i + 1 < whole.size() && job_.polygons()[whole[i + 1].polygon].operand == o) continue;
-    for (const bool flip : {false, true}) {
-      add_groups(grouped[flip], flip);
-      grouped[flip].clear();
-    }
+  }
+  for (uint32_t o = 0; o < grouped.size(); ++o) {
+    add_groups(o, grouped[o].kept, false);
+    add_groups(o, grouped[o].flipped, true);
   }
 }
 
-void PieceWriter::add_groups(std::span<const uint32_t> polygons, bool flip) {
-  if (polygons.size() < kLeastOfGroup) {
-    for (const uint32_t p : polygons) add_single({p, flip, false});
+void PieceWriter::add_groups(uint32_t operand, std::span<const uint32_t> faces, bool flip) {
+  PieceStore::Piece piece{number_[operand], 0, 0, 0, PlaneId(), true, flip};
+  if (faces.size() < kLeastOfGroup) {
+    for (const uint32_t f : faces) added.push_back(store_.add_face(piece, f));
     return;
   }
-  if (polygons.size() <= kMostOfGroup) {
-    PieceStore::Piece piece = origin_of(polygons[0]);
-    piece.is_whole = true;
-    piece.is_flipped = flip;
-    faces_.clear();
-    for (const uint32_t p : polygons) faces_.push_back(job_.polygons()[p].face);
-    added.push_back(store_.add_group(piece, faces_));
+  if (faces.size() <= kMostOfGroup) {
+    added.push_back(store_.add_group(piece, faces));
     return;
   }
   // By the octants around the middle of where they are.
-  const auto at = [&](uint32_t p) -> const std::array<double, 3>& {
-    return job_.rounded(job_.corners(job_.polygons()[p])[0]);
+  const LeafGeometry& leaf = *operands_[operand].leaf;
+  const auto at = [&](uint32_t f) -> const IVec3& {
+    return leaf.vertices[leaf.corners[leaf.face_starts[f]]];
   };
-  PieceBox box;
-  for (const uint32_t p : polygons) box.add(at(p));
+  GridBox box{at(faces[0]), at(faces[0])};
+  for (const uint32_t f : faces) {
+    for (size_t k = 0; k < 3; ++k) {
+      box.lo[k] = std::min(box.lo[k], at(f)[k]);
+      box.hi[k] = std::max(box.hi[k], at(f)[k]);
+    }
+  }
   CountingOrder octants;
-  octants.sort(polygons.size(), 8, [&](size_t i) {
+  octants.sort(faces.size(), 8, [&](size_t i) {
     uint32_t octant = 0;
-    const auto& p = at(polygons[i]);
+    const IVec3& p = at(faces[i]);
     for (size_t k = 0; k < 3; ++k) octant |= uint32_t{p[k] - box.lo[k] > box.hi[k] - p[k]} << k;
     return octant;
   });
   std::vector<uint32_t> ordered;
-  for (const uint32_t i : octants.order) ordered.push_back(polygons[i]);
+  ordered.reserve(faces.size());
+  for (const uint32_t i : octants.order) ordered.push_back(faces[i]);
   for (size_t i = 0; i < 8; ++i) {
     const uint32_t first = octants.starts[i];
     const auto own = std::span(ordered).subspan(first, octants.starts[i + 1] - first);
-    if (own.size() < polygons.size()) {
-      add_groups(own, flip);
+    if (own.size() < faces.size()) {
+      add_groups(operand, own, flip);
       continue;
     }
     // All of them begin at one point.
     for (size_t j = 0; j < own.size(); j += kMostOfGroup) {
-      add_groups(own.subspan(j, std::min(kMostOfGroup, own.size() - j)), flip);
+      add_groups(operand, own.subspan(j, std::min(kMostOfGroup, own.size() - j)), flip);
     }
   }
 }

@@ -9,6 +9,7 @@
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/convexify.h"
 #include "engine/bsp/fragment_set.h"
+#include "engine/bsp/near_faces.h"
 #include "engine/bsp/piece_store.h"
 #include "engine/bsp/point_index.h"
 #include "engine/bsp/regions.h"
@@ -32,7 +33,8 @@ class PieceWriter {
 
   /// Polygons that are kept, those of an operand together. Ones in pieces must be turned over;
   /// others are there already. Of a leaf on the grid those that nothing met become groups.
-  void add_whole(std::span<const WholePolygon> whole);
+  /// `far`, per operand or empty: faces that the job does not have, which are kept, too.
+  void add_whole(std::span<const WholePolygon> whole, std::span<const FarFaces> far);
 
   /// Pieces of polygons that were cut; false if they do not close up.
   bool add_cut(const std::vector<FragmentSet>& sets);
@@ -41,8 +43,9 @@ class PieceWriter {
 
  private:
   void add_single(const WholePolygon& w);
-  /// Polygons of one operand that are kept on one side, which end up in groups of what is together.
-  void add_groups(std::span<const uint32_t> polygons, bool flip);
+  /// Whole faces of a leaf on the grid that nothing met, on one side: they end up in groups of what
+  /// is together.
+  void add_groups(uint32_t operand, std::span<const uint32_t> faces, bool flip);
 
   /// Where a polygon of the job comes from.
   PieceStore::Piece origin_of(uint32_t polygon) const;
@@ -83,7 +86,6 @@ class PieceWriter {
   RegionLoops loops_, rest_loops_;
   RegionRest rest_;
   std::vector<uint32_t> cell_points_, cell_edges_;
-  std::vector<uint32_t> faces_;
 };
 
 }  // namespace csgrun

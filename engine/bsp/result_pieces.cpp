@@ -53,7 +53,7 @@ Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& operands,
   if (!evaluated) return evaluated.error();
   PieceWriter writer(job, operands, store);
   if (!writer.add_operands()) return PiecesPtr();
-  writer.add_whole(evaluated->whole);
+  writer.add_whole(evaluated->whole, evaluated->far);
   if (!writer.add_cut(evaluated->sets)) return not_closed();
   result->touches_anywhere = evaluated->touching.anywhere;
   result->touches = TouchList().with(std::move(evaluated->touching.boxes));
@@ -104,7 +104,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
     if (w.is_met) store.set_met(kept.back());
     return true;
   });
-  writer.add_whole(faces->whole);
+  writer.add_whole(faces->whole, faces->far);
   std::vector<FragmentSet> cut;
   cut.push_back(std::move(faces->cut));
   if (!writer.add_cut(cut)) return not_closed();

@@ -76,7 +76,7 @@ class FaceEvaluator {
   [[nodiscard]] bool is_dense() const {
     const auto plain = std::count_if(contacts_.all().begin(), contacts_.all().end(),
                                      [](const Contact& c) { return c.is_plain; });
-    return static_cast<size_t>(plain) > kDense * job_.polygons().size();
+    return static_cast<size_t>(plain) > kDense * (job_.polygons().size() + job_.far_face_count());
   }
 
   /// Leaves a polygon to the general way.
@@ -208,10 +208,10 @@ class FaceEvaluator {
   void emit_far() {
     result_.far.resize(job_.operand_count());
     std::vector<uint8_t> is_unknown(job_.operand_count(), 0);
-    for_each_alone(job_.operand_count(), true, [&](size_t o) {
+    for_each_alone(job_.operand_count(), job_.vertex_count() > kFewForThreads, [&](size_t o) {
       FarFaces far;
       bool any_unknown = false;
-      for_each_far_face(*job_.leaf(o), job_.near_faces()->faces[o], [&](uint32_t f) {
+      job_.for_each_far_face(o, [&](uint32_t f) {
         const PatchFate fate = fates_->of_far_face(o, f);
         if (fate == PatchFate::kKeep) far.kept.push_back(f);
         if (fate == PatchFate::kFlip) far.flipped.push_back(f);
