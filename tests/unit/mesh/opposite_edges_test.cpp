@@ -84,7 +84,7 @@ TEST(OppositeEdges, ArePairedWhereEachIsThereOnce) {
   test::Random random(711);
   Tally tally;
   for (int round = 0; round < 400; ++round) {
-    // Around a vertex of so many faces edges are chained one by one, or sorted.
+    // At a vertex of so many faces edges look for their reverse, or leave it to the other end.
     const auto sides = static_cast<uint32_t>(random.integer(3, round % 3 == 0 ? 300 : 20));
     std::vector<Face> faces = prism(sides, round % 5 != 0);
     switch (random.integer(0, 6)) {
