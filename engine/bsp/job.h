@@ -83,12 +83,13 @@ class Job {
   [[nodiscard]] const NearFaces* near_faces() const { return near_; }
   [[nodiscard]] const LiveFaces* live_faces() const { return live_; }
   [[nodiscard]] bool has_all_faces() const { return !near_ && !some_; }
-  /// The number of faces of operands that are far.
+  /// The number of faces of an operand that are far, and that of all.
+  [[nodiscard]] size_t far_face_count(size_t o) const {
+    return near_ && leaf(o) ? leaf(o)->face_count() - near_->faces[o].size() : 0;
+  }
   [[nodiscard]] size_t far_face_count() const {
     size_t count = 0;
-    for (size_t o = 0; near_ && o < operand_count(); ++o) {
-      if (leaf(o)) count += leaf(o)->face_count() - near_->faces[o].size();
-    }
+    for (size_t o = 0; o < operand_count(); ++o) count += far_face_count(o);
     return count;
   }
   /// Calls visit(face) for those of one operand, in ascending order.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/operand.h"
 #include "engine/bsp/polygon_box.h"
 
@@ -26,7 +27,7 @@ struct NearFaces {
 
 /// Of one operand the faces that are not near and are left, ascending: as they are, or turned over.
 struct FarFaces {
-  std::vector<uint32_t> kept, flipped;
+  RawVector<uint32_t> kept, flipped;
 };
 
 /// The faces whose boxes overlap some of another operand, or, where too many do, that share a cell

@@ -34,7 +34,7 @@ class PieceWriter {
   /// Polygons that are kept, those of an operand together. Ones in pieces must be turned over;
   /// others are there already. Of a leaf on the grid those that nothing met become groups.
   /// `far`, per operand or empty: faces that the job does not have, which are kept, too.
-  void add_whole(std::span<const WholePolygon> whole, std::span<const FarFaces> far);
+  void add_whole(std::span<const WholePolygon> whole, std::span<const FarFaces> far = {});
 
   /// Pieces of polygons that were cut; false if they do not close up.
   bool add_cut(const std::vector<FragmentSet>& sets);

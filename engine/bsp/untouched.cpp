@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -61,7 +62,7 @@ class UntouchedFaces {
 
   /// Those of one fate, marked in `taken` by their places, and `far`, which are faces that the job
   /// does not have; with their corners as vertices of the leaf.
-  void collect(FaceFate fate, const std::vector<uint32_t>& far, UntouchedPart& part,
+  void collect(FaceFate fate, std::span<const uint32_t> far, UntouchedPart& part,
                uint8_t* taken) const {
     std::vector<uint8_t> met(leaf_.vertices.size(), 0);  // 1: by such a face, 2: by others
     std::vector<uint32_t> found;
@@ -77,7 +78,7 @@ class UntouchedFaces {
     for (const uint32_t f : far) {
       for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
         uint8_t& by = met[leaf_.corners[c]];
-        if (by == 2) by = 3;
+        by |= by >> 1;  // 2, by others only, becomes 3
       }
     }
     for (uint32_t v = 0; v < met.size(); ++v) {

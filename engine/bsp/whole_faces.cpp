@@ -6,6 +6,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include "engine/base/chance_list.h"
 #include "engine/base/parallel.h"
 #include "engine/bsp/contact_table.h"
 #include "engine/bsp/covered_polygons.h"
@@ -209,16 +210,17 @@ class FaceEvaluator {
     result_.far.resize(job_.operand_count());
     std::vector<uint8_t> is_unknown(job_.operand_count(), 0);
     for_each_alone(job_.operand_count(), job_.vertex_count() > kFewForThreads, [&](size_t o) {
-      FarFaces far;
+      const size_t room = job_.far_face_count(o);
+      ChanceList<uint32_t> kept(room), flipped(room);
       bool any_unknown = false;
       job_.for_each_far_face(o, [&](uint32_t f) {
         const PatchFate fate = fates_->of_far_face(o, f);
-        if (fate == PatchFate::kKeep) far.kept.push_back(f);
-        if (fate == PatchFate::kFlip) far.flipped.push_back(f);
+        kept.add_if(fate == PatchFate::kKeep, f);
+        flipped.add_if(fate == PatchFate::kFlip, f);
         any_unknown |= fate == PatchFate::kUnknown;
       });
       is_unknown[o] = any_unknown;
-      result_.far[o] = std::move(far);
+      result_.far[o] = {kept.take(), flipped.take()};
     });
     for (const uint8_t unknown : is_unknown) result_.any_general |= unknown != 0;
   }

@@ -53,16 +53,18 @@ std::vector<uint32_t> find_equal(const std::vector<IVec3>& points) {
 class Numbering {
  public:
   explicit Numbering(const std::vector<IVec3>& points)
-      : points_(points), equal_(find_equal(points)), number_(points.size(), kNone) {
-    vertices_.reserve(points.size());
-  }
+      : points_(points),
+        equal_(find_equal(points)),
+        number_(points.size(), kNone),
+        vertices_(points.size() + 1) {}  // room for one that is not added, too
 
   uint32_t operator()(uint32_t point) {
     uint32_t& number = number_[equal_.empty() ? point : equal_[point]];
-    if (number == kNone) {
-      number = static_cast<uint32_t>(vertices_.size());
-      vertices_.push_back(points_[point]);
-    }
+    // Whether it was asked for before is chance: no branch on that.
+    const bool is_new = number == kNone;
+    vertices_[count_] = points_[point];
+    number = is_new ? count_ : number;
+    count_ += is_new ? 1 : 0;
     return number;
   }
   /// Whether different points of a list are equal.
@@ -74,14 +76,19 @@ class Numbering {
       return other != kNone && other != point;
     });
   }
+  /// Those that have numbers, and maybe more.
   [[nodiscard]] const std::vector<IVec3>& vertices() const { return vertices_; }
-  std::vector<IVec3> take_vertices() { return std::move(vertices_); }
+  std::vector<IVec3> take_vertices() {
+    vertices_.resize(count_);
+    return std::move(vertices_);
+  }
 
  private:
   const std::vector<IVec3>& points_;
   std::vector<uint32_t> equal_;   ///< see find_equal; empty if no two are
   std::vector<uint32_t> number_;  ///< by the first of those that are equal
-  std::vector<IVec3> vertices_;
+  std::vector<IVec3> vertices_;   ///< of each number, and one more
+  uint32_t count_ = 0;
 };
 
 bool has_area(const IVec3& a, const IVec3& b, const IVec3& c) {

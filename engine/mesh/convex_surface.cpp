@@ -7,6 +7,7 @@
 #include "engine/mesh/face_normal.h"
 #include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/spread_vertices.h"
+#include "engine/mesh/surface_parts.h"
 
 namespace csgrun {
 namespace {
@@ -49,25 +50,6 @@ Look look_at(const LeafGeometry& leaf, const GridBox& box) {
   return look;
 }
 
-bool is_connected(const LeafGeometry& leaf) {
-  std::vector<uint8_t> reached(leaf.face_count(), 0);
-  std::vector<uint32_t> open{0};
-  reached[0] = 1;
-  size_t count = 0;
-  while (!open.empty()) {
-    const uint32_t face = open.back();
-    open.pop_back();
-    ++count;
-    for (uint32_t edge = 3 * face; edge < 3 * face + 3; ++edge) {
-      const uint32_t neighbour = leaf.opposite[edge] / 3;
-      if (reached[neighbour] != 0) continue;
-      reached[neighbour] = 1;
-      open.push_back(neighbour);
-    }
-  }
-  return count == leaf.face_count();
-}
-
 }  // namespace
 
 ConvexSurface find_convex_surface(const LeafGeometry& leaf, const GridBox& box) {
@@ -79,7 +61,7 @@ ConvexSurface find_convex_surface(const LeafGeometry& leaf, const GridBox& box) 
   const std::vector<uint8_t> is_spread = find_spread_vertices(leaf);
   const bool all_spread =
       std::all_of(is_spread.begin(), is_spread.end(), [](uint8_t s) { return s != 0; });
-  return {all_spread && is_connected(leaf), look.has_flat_edges};
+  return {all_spread && one_face_of_each_part(leaf).size() == 1, look.has_flat_edges};
 }
 
 }  // namespace csgrun

@@ -9,15 +9,14 @@
 
 #include "engine/bsp/corner_walk.h"
 #include "engine/bsp/packed_boxes.h"
-#include "engine/bsp/union_find.h"
 #include "engine/bsp/winding.h"
 #include "engine/mesh/box_frame.h"
-#include "engine/mesh/edge_table.h"
 #include "engine/mesh/face_pair.h"
 #include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/single_sheets.h"
 #include "engine/mesh/spread_vertices.h"
 #include "engine/mesh/star_surface.h"
+#include "engine/mesh/surface_parts.h"
 #include "engine/mesh/triangle_pairs.h"
 
 namespace csgrun {
@@ -70,49 +69,6 @@ PackedBoxes tree_of_pairs(const LeafGeometry& leaf, const std::optional<BoxFrame
                           bool are_long) {
   const std::vector<FloatBox> boxes = face_boxes(leaf, frame);
   return are_long ? PackedBoxes(boxes, face_diagonals(leaf)) : PackedBoxes(boxes);
-}
-
-/// Calls `visit(f, g)` for the faces of each edge that has two.
-template <class Visit>
-void for_each_neighbours(const LeafGeometry& leaf, Visit visit) {
-  if (!leaf.opposite.empty()) {
-    with_face_of(leaf, [&](auto face_of) {
-      for (uint32_t edge = 0; edge < leaf.opposite.size(); ++edge) {
-        if (edge < leaf.opposite[edge]) visit(face_of(edge), face_of(leaf.opposite[edge]));
-      }
-    });
-    return;
-  }
-  const EdgeTable edges(leaf);
-  for (uint32_t v = 0; v < edges.vertex_count(); ++v) {
-    for (const EdgeTable::Edge& edge : edges.leaving(v)) {
-      if (edge.to < v || edges.between(v, edge.to).size() != 1) continue;
-      const auto reverse = edges.between(edge.to, v);
-      if (reverse.size() == 1) visit(edge.face, reverse[0].face);
-    }
-  }
-}
-
-/// One face of each part of the surface that is connected by edges of two faces: within a part the
-/// winding numbers in front of faces, and those behind, are the same.
-std::vector<uint32_t> one_face_of_each_part(const LeafGeometry& leaf) {
-  constexpr uint32_t kNone = UINT32_MAX;
-  // Most faces take the label of a neighbour; few labels are joined.
-  std::vector<uint32_t> label(leaf.face_count(), kNone);
-  UnionFind labels(leaf.face_count());
-  for_each_neighbours(leaf, [&](uint32_t f, uint32_t g) {
-    if (label[f] == kNone) label[f] = f;
-    if (label[g] == kNone) {
-      label[g] = label[f];
-    } else if (label[g] != label[f]) {
-      labels.join(label[g], label[f]);
-    }
-  });
-  std::vector<uint32_t> faces;
-  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    if (label[f] == kNone || (label[f] == f && labels.find(f) == f)) faces.push_back(f);
-  }
-  return faces;
 }
 
 /// Whether the faces at each vertex are one fan, of a surface with opposite edges. A vertex that is

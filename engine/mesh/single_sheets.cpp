@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
+#include "engine/base/chance_list.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/base/subsets.h"
@@ -63,6 +65,10 @@ inline Place lines_before(Place place, int at) {
 struct Reach {
   uint32_t first;
   std::array<uint8_t, 4> more;  ///< how many after the first one along each axis; 0
+
+  [[nodiscard]] uint32_t packed() const { return std::bit_cast<uint32_t>(more); }
+  /// A bit for each axis along which there are two, if nowhere are more.
+  static uint32_t axes(uint32_t packed) { return (packed | packed >> 7 | packed >> 14) & 7; }
 };
 
 GridBox box_of_face(const LeafGeometry& leaf, uint32_t begin, uint32_t end) {
@@ -114,34 +120,36 @@ class SheetFinder {
     std::atomic<bool> are_few = true;
     for_each_part(leaf_.face_count(), kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
       size_t left = kMostReached * (end - begin) + kMostReachedByOne;
+      ChanceList<uint32_t> reached;
       for (size_t f = begin; f < end; ++f) {
-        const size_t count = enter(static_cast<uint32_t>(f), left, reached_[part]);
+        const size_t count = enter(static_cast<uint32_t>(f), left, reached);
         if (count == 0) {
           are_few = false;
           return;
         }
         left -= count;
       }
+      reached_[part] = std::move(reached);
     });
     return are_few;
   }
 
   void find_sheets() {
     for_each_part(reached_.size(), 1, [&](size_t part, size_t, size_t) {
-      for (const uint32_t cube : reached_[part]) {
+      for (const uint32_t cube : reached_[part].view()) {
         for (size_t axis = 0; axis < 3 && (load(cube) & kSingle) == 0; ++axis) look(cube, axis);
       }
     });
   }
 
   [[nodiscard]] std::vector<uint32_t> faces_elsewhere() const {
-    std::vector<std::vector<uint32_t>> found(reached_.size());
+    std::vector<RawVector<uint32_t>> found(reached_.size());
     for_each_part(leaf_.face_count(), kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
+      ChanceList<uint32_t> own(end - begin);
       for (size_t f = begin; f < end; ++f) {
-        Cube all = kSingle;
-        for_each_cube(reach_[f], [&](uint32_t cube) { all &= load(cube); });
-        if (all == 0) found[part].push_back(static_cast<uint32_t>(f));
+        own.add_if(!is_all_single(reach_[f]), static_cast<uint32_t>(f));
       }
+      found[part] = own.take();
     });
     std::vector<uint32_t> faces;
     for (const auto& some : found) faces.insert(faces.end(), some.begin(), some.end());
@@ -178,21 +186,34 @@ class SheetFinder {
   /// What was known before.
   Cube set(size_t cube, Cube bits) {
     const Cube known = load(cube);
-    if ((known & bits) == bits) return known;
     if (is_alone_) {
       cubes_[cube].store(known | bits, std::memory_order_relaxed);
       return known;
     }
+    if ((known & bits) == bits) return known;
     return cubes_[cube].fetch_or(bits, std::memory_order_relaxed);
+  }
+
+  /// Whether all cubes that a face reaches are in columns of a single sheet.
+  [[nodiscard]] bool is_all_single(const Reach& reach) const {
+    Cube all = kSingle;
+    if (const uint32_t more = reach.packed(); (more & ~0x010101u) == 0) {
+      // How many there are is chance: all are looked at, some of them several times.
+      for (size_t some = 0; some < second_.size(); ++some) {
+        all &= load(reach.first + second_[some & Reach::axes(more)]);
+      }
+    } else {
+      for_each_cube(reach, [&](uint32_t cube) { all &= load(cube); });
+    }
+    return all != 0;
   }
 
   template <class Visit>
   void for_each_cube(const Reach& reach, Visit visit) const {
-    const auto more = std::bit_cast<uint32_t>(reach.more);
-    if ((more & ~0x010101u) == 0) {
-      // Two along some axes: a bit for each of these. Nearly all are of this kind.
-      const uint32_t axes = (more | more >> 7 | more >> 14) & 7;
-      for_each_subset(axes, [&](uint32_t some) { visit(reach.first + second_[some]); });
+    if (const uint32_t more = reach.packed(); (more & ~0x010101u) == 0) {
+      // Two along some axes. Nearly all are of this kind.
+      for_each_subset(Reach::axes(more),
+                      [&](uint32_t some) { visit(reach.first + second_[some]); });
       return;
     }
     for (size_t z = 0; z <= reach.more[2]; ++z) {
@@ -204,7 +225,7 @@ class SheetFinder {
   }
 
   /// The number of cubes that the face reaches, or 0 and nothing done if it is more than `most`.
-  size_t enter(uint32_t face, size_t most, std::vector<uint32_t>& reached) {
+  size_t enter(uint32_t face, size_t most, ChanceList<uint32_t>& reached) {
     const uint32_t begin = leaf_.face_starts[face], end = leaf_.face_starts[face + 1];
     Place lo = places_[leaf_.corners[begin]], hi = lo;
     for (uint32_t c = begin + 1; c < end; ++c) {
@@ -231,18 +252,21 @@ class SheetFinder {
       bits |= static_cast<Cube>(not_up(k) * static_cast<Cube>(normal[k] <= 0) |
                                 not_down(k) * static_cast<Cube>(normal[k] >= 0));
     }
-    for_each_cube(reach, [&](uint32_t cube) {
-      if (set(cube, bits) == 0) reached.push_back(cube);
-    });
+    reached.make_room(count);
+    for_each_cube(reach, [&](uint32_t cube) { reached.add_if(set(cube, bits) == 0, cube); });
     const Lines next{lines_before(lo, kNext), lines_before(hi, kNext)},
         after_next{lines_before(lo, kAfterNext), lines_before(hi, kAfterNext)};
+    // Per axis, whether lines pass through the face's box, and the face does not stand along them.
     const Place any = next.begin < next.end, any_after = after_next.begin < after_next.end;
-    const auto may_cross = [&](size_t axis) {
-      return (any[(axis + 1) % 3] & any_after[(axis + 2) % 3]) != 0 && normal[axis] != 0;
-    };
-    if (may_cross(0)) cross_lines<0>(face, normal, cubes, next, after_next);
-    if (may_cross(1)) cross_lines<1>(face, normal, cubes, next, after_next);
-    if (may_cross(2)) cross_lines<2>(face, normal, cubes, next, after_next);
+    const Place across{static_cast<int16_t>(normal[0] != 0 ? -1 : 0),
+                       static_cast<int16_t>(normal[1] != 0 ? -1 : 0),
+                       static_cast<int16_t>(normal[2] != 0 ? -1 : 0), 0};
+    const Place may_cross = __builtin_shuffle(any, Place{1, 2, 0, 3}) &
+                            __builtin_shuffle(any_after, Place{2, 0, 1, 3}) & across;
+    if (std::bit_cast<uint64_t>(may_cross) == 0) return count;
+    if (may_cross[0] != 0) cross_lines<0>(face, normal, cubes, next, after_next);
+    if (may_cross[1] != 0) cross_lines<1>(face, normal, cubes, next, after_next);
+    if (may_cross[2] != 0) cross_lines<2>(face, normal, cubes, next, after_next);
     return count;
   }
 
@@ -325,9 +349,9 @@ class SheetFinder {
   std::array<size_t, 3> stride_{};    ///< from a cube to the next one along each axis
   std::array<uint32_t, 8> second_{};  ///< the same along several, by a bit for each axis
   std::unique_ptr<std::atomic<Cube>[]> cubes_;
-  RawVector<Place> places_;                     ///< by vertex
-  RawVector<Reach> reach_;                      ///< by face
-  std::vector<std::vector<uint32_t>> reached_;  ///< cubes, by the part of the face that came first
+  RawVector<Place> places_;                    ///< by vertex
+  RawVector<Reach> reach_;                     ///< by face
+  std::vector<ChanceList<uint32_t>> reached_;  ///< cubes, by the part of the face that came first
 };
 
 }  // namespace

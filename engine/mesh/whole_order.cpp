@@ -42,7 +42,7 @@ void WholeOrder::collect_triangles() {
   triangles_.resize(first.back());
   directions_.resize(first.back());
   struct Met {
-    std::vector<Place> places;
+    RawVector<Place> places;
     std::vector<RimEdge> candidates;
   };
   std::vector<Met> met(parts.size());
@@ -63,19 +63,22 @@ void WholeOrder::collect_triangles() {
 }
 
 /// Those of one part. Its own points are numbered from the number of explicit points on.
-void WholeOrder::collect_triangles(uint32_t k, size_t first, std::vector<Place>& places,
+void WholeOrder::collect_triangles(uint32_t k, size_t first, RawVector<Place>& places,
                                    std::vector<RimEdge>& candidates) {
   const UntouchedPart& part = boundary_.parts[k];
-  places.reserve(part.faces.size() / 2 + 16);
-  std::vector<uint32_t> number(part.leaf->vertices.size(), kNone);
+  const size_t vertices = part.leaf->vertices.size();
+  places.resize(std::min(vertices, 3 * part.faces.size()) + 1);
+  uint32_t place_count = 0;
+  std::vector<uint32_t> number(vertices, kNone);
   for (const UntouchedPart::Shared& s : part.shared) number[s.vertex] = s.point;
   for (const uint32_t f : part.faces) {
     UntouchedTriangle t{part.triangle(f), k, f};
     for (uint32_t& v : t.points) {
-      if (number[v] == kNone) {
-        number[v] = explicit_count_ + static_cast<uint32_t>(places.size());
-        places.push_back({kNone, k, v});
-      }
+      // Whether a vertex was met before is chance: no branch on that.
+      const bool is_new = number[v] == kNone;
+      places[place_count] = {kNone, k, v};
+      number[v] = is_new ? explicit_count_ + place_count : number[v];
+      place_count += is_new ? 1 : 0;
       v = number[v];
     }
     for (size_t i = 0; i < 3; ++i) {
@@ -87,6 +90,7 @@ void WholeOrder::collect_triangles(uint32_t k, size_t first, std::vector<Place>&
     triangles_[first] = t;
     directions_[first++] = outward_direction(part, f);
   }
+  places.resize(place_count);
 }
 
 /// Edges between shared points are the rim where they do not run both ways.
@@ -152,9 +156,12 @@ void WholeOrder::number_triangles() {
       UntouchedTriangle& t = triangles_[i];
       const uint32_t first_point = first_point_[t.part];
       for (uint32_t& p : t.points) p = number_[p < explicit_count_ ? p : p + first_point];
+      // Which one is the lowest is chance.
       const auto [a, b, c] = t.points;
-      if (b < a && b < c) t.points = {b, c, a};
-      if (c < a && c < b) t.points = {c, a, b};
+      const std::array<uint32_t, 5> twice{a, b, c, a, b};
+      const size_t second_is_less = b < a ? 1 : 0;
+      const size_t lowest = c < std::min(a, b) ? 2 : second_is_less;
+      t.points = {twice[lowest], twice[lowest + 1], twice[lowest + 2]};
     }
   });
 }

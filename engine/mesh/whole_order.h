@@ -83,7 +83,7 @@ class WholeOrder {
 
  private:
   void collect_triangles();
-  void collect_triangles(uint32_t k, size_t first, std::vector<Place>& places,
+  void collect_triangles(uint32_t k, size_t first, RawVector<Place>& places,
                          std::vector<RimEdge>& candidates);
   void sort_points(const CellGeometry& geometry);
   void number_triangles();
