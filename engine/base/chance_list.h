@@ -24,7 +24,7 @@ class ChanceList {
   /// REQUIRES: there is room for one more, also if it is not added.
   void add_if(bool is_added, const T& thing) {
     list_[count_] = thing;
-    count_ += is_added ? 1 : 0;
+    count_ += static_cast<size_t>(is_added);
   }
   [[nodiscard]] size_t size() const { return count_; }
   const T& operator[](size_t i) const { return list_[i]; }

@@ -61,10 +61,10 @@ class Numbering {
   uint32_t operator()(uint32_t point) {
     uint32_t& number = number_[equal_.empty() ? point : equal_[point]];
     // Whether it was asked for before is chance: no branch on that.
-    const bool is_new = number == kNone;
+    const uint32_t known = number;
     vertices_[count_] = points_[point];
-    number = is_new ? count_ : number;
-    count_ += is_new ? 1 : 0;
+    number = known == kNone ? count_ : known;
+    count_ += static_cast<uint32_t>(known == kNone);
     return number;
   }
   /// Whether different points of a list are equal.

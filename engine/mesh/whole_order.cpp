@@ -75,10 +75,10 @@ void WholeOrder::collect_triangles(uint32_t k, size_t first, RawVector<Place>& p
     UntouchedTriangle t{part.triangle(f), k, f};
     for (uint32_t& v : t.points) {
       // Whether a vertex was met before is chance: no branch on that.
-      const bool is_new = number[v] == kNone;
+      const uint32_t known = number[v];
       places[place_count] = {kNone, k, v};
-      number[v] = is_new ? explicit_count_ + place_count : number[v];
-      place_count += is_new ? 1 : 0;
+      number[v] = known == kNone ? explicit_count_ + place_count : known;
+      place_count += static_cast<uint32_t>(known == kNone);
       v = number[v];
     }
     for (size_t i = 0; i < 3; ++i) {
@@ -159,8 +159,8 @@ void WholeOrder::number_triangles() {
       // Which one is the lowest is chance.
       const auto [a, b, c] = t.points;
       const std::array<uint32_t, 5> twice{a, b, c, a, b};
-      const size_t second_is_less = b < a ? 1 : 0;
-      const size_t lowest = c < std::min(a, b) ? 2 : second_is_less;
+      const uint32_t is_second = b < a, is_third = c < std::min(a, b);
+      const uint32_t lowest = 2 * is_third + (is_second & ~is_third);
       t.points = {twice[lowest], twice[lowest + 1], twice[lowest + 2]};
     }
   });
