@@ -10,43 +10,125 @@ namespace {
 
 using Coordinate = Int<kPointLimbs>;
 
-/// Cramer's rule with R limbs for the results and C for the 2x2 minors of the normals.
-template <int NormalLimbs, int C, int R>
-Point cramer(const Plane& p, const Plane& q, const Plane& r) {
-  using Normal = Int<NormalLimbs>;
+/// Cramer's rule for planes of any width.
+Point cramer_wide(const Plane& p, const Plane& q, const Plane& r) {
+  constexpr int kMinor = 4;
+  using Normal = Int<2>;
   const auto normal = [](Int128 v) { return Normal::from_int128(v); };
   const auto minor = [](const Normal& a, const Normal& b, const Normal& c, const Normal& d) {
-    return multiply<C>(a, d) - multiply<C>(b, c);
+    return multiply<kMinor>(a, d) - multiply<kMinor>(b, c);
   };
   const Normal pa = normal(p.a), pb = normal(p.b), pc = normal(p.c);
   const Normal qa = normal(q.a), qb = normal(q.b), qc = normal(q.c);
   const Normal ra = normal(r.a), rb = normal(r.b), rc = normal(r.c);
   // qr = q.n x r.n, and cyclic.
-  const Int<C> qr_x = minor(qb, qc, rb, rc), qr_y = minor(qc, qa, rc, ra),
-               qr_z = minor(qa, qb, ra, rb);
-  const Int<C> rp_x = minor(rb, rc, pb, pc), rp_y = minor(rc, ra, pc, pa),
-               rp_z = minor(ra, rb, pa, pb);
-  const Int<C> pq_x = minor(pb, pc, qb, qc), pq_y = minor(pc, pa, qc, qa),
-               pq_z = minor(pa, pb, qa, qb);
+  using Minor = Int<kMinor>;
+  const Minor qr_x = minor(qb, qc, rb, rc), qr_y = minor(qc, qa, rc, ra),
+              qr_z = minor(qa, qb, ra, rb);
+  const Minor rp_x = minor(rb, rc, pb, pc), rp_y = minor(rc, ra, pc, pa),
+              rp_z = minor(ra, rb, pa, pb);
+  const Minor pq_x = minor(pb, pc, qb, qc), pq_y = minor(pc, pa, qc, qa),
+              pq_z = minor(pa, pb, qa, qb);
   const Int<2> pd = Int<2>::from_int128(p.d), qd = Int<2>::from_int128(q.d),
                rd = Int<2>::from_int128(r.d);
-  const auto combine = [&](const Int<C>& qr, const Int<C>& rp, const Int<C>& pq) {
-    return -(multiply<R>(qr, pd) + multiply<R>(rp, qd) + multiply<R>(pq, rd));
+  const auto times = [](const Minor& a, const Int<2>& b) { return multiply<kPointLimbs>(a, b); };
+  const auto combine = [&](const Minor& qr, const Minor& rp, const Minor& pq) {
+    return -(times(qr, pd) + times(rp, qd) + times(pq, rd));
   };
   Point result;
-  const Int<R> w = multiply<R>(qr_x, pa) + multiply<R>(qr_y, pb) + multiply<R>(qr_z, pc);
-  assert(!w.is_zero());
-  const bool turn = w.negative();
-  const auto store = [turn](const Int<R>& v) { return Coordinate::from(turn ? -v : v); };
-  result.x = store(combine(qr_x, rp_x, pq_x));
-  result.y = store(combine(qr_y, rp_y, pq_y));
-  result.z = store(combine(qr_z, rp_z, pq_z));
-  result.w = store(w);
+  result.w = times(qr_x, pa) + times(qr_y, pb) + times(qr_z, pc);
+  assert(!result.w.is_zero());
+  result.x = combine(qr_x, rp_x, pq_x);
+  result.y = combine(qr_y, rp_y, pq_y);
+  result.z = combine(qr_z, rp_z, pq_z);
+  normalise(result);
   return result;
 }
 
-/// The same where machine integers of 64 bits hold the normals and 128 bits the results, modulo
-/// which sums are taken.
+/// A whole number modulo 2^192 or 2^256, by the size of `High`, in two's complement. Signs are as
+/// good as random: nothing here branches on them.
+template <class High>
+struct Wide {
+  UInt128 low = 0;
+  High high = 0;
+
+  void add_product(Int128 a, Int128 b) {
+    const auto ua = static_cast<UInt128>(a), ub = static_cast<UInt128>(b);
+    const auto a0 = static_cast<uint64_t>(ua), a1 = static_cast<uint64_t>(ua >> 64),
+               b0 = static_cast<uint64_t>(ub), b1 = static_cast<uint64_t>(ub >> 64);
+    const UInt128 p00 = UInt128{a0} * b0, p01 = UInt128{a0} * b1, p10 = UInt128{a1} * b0;
+    const UInt128 middle = (p00 >> 64) + static_cast<uint64_t>(p01) + static_cast<uint64_t>(p10);
+    const UInt128 product = (middle << 64) | static_cast<uint64_t>(p00);
+    // As unsigned numbers negative ones read 2^128 too large.
+    const High excess = (static_cast<High>(ub) & static_cast<High>(a >> 127)) +
+                        (static_cast<High>(ua) & static_cast<High>(b >> 127));
+    low += product;
+    high += static_cast<High>(a1) * b1 + static_cast<High>(p01 >> 64) +
+            static_cast<High>(p10 >> 64) + static_cast<High>(middle >> 64) - excess +
+            static_cast<High>(low < product);
+  }
+  /// 0, or all bits, of a negative one.
+  [[nodiscard]] High sign() const { return -(high >> (8 * sizeof(High) - 1)); }
+  /// Turned over where `mask` is all bits, not where it is 0.
+  [[nodiscard]] Wide turned(High mask) const {
+    const UInt128 one = mask & 1, all = -one, turned_low = (low ^ all) + one;
+    return {turned_low, (high ^ mask) + (static_cast<High>(one) & (turned_low == 0))};
+  }
+  [[nodiscard]] Coordinate coordinate() const {
+    Coordinate c(-static_cast<int64_t>(sign() & 1));
+    c.limb[0] = static_cast<uint64_t>(low);
+    c.limb[1] = static_cast<uint64_t>(low >> 64);
+    c.limb[2] = static_cast<uint64_t>(high);
+    if constexpr (sizeof(High) > sizeof(uint64_t)) c.limb[3] = static_cast<uint64_t>(high >> 64);
+    return c;
+  }
+  /// Of one that is not negative.
+  [[nodiscard]] int width() const {
+    return high != 0 ? 128 + width_of_magnitude(high) : width_of_magnitude(low);
+  }
+};
+
+/// The same where machine integers of 64 bits hold the normals, of 62 bits at most, so that minors
+/// of 126 bits fit 128, and where `High` and 128 bits hold the results.
+template <class High>
+Point cramer(const Plane& p, const Plane& q, const Plane& r) {
+  struct Cross {
+    Int128 x, y, z;
+  };
+  const auto minor = [](Int128 a, Int128 b, Int128 c, Int128 d) {
+    const auto narrow = [](Int128 v) { return static_cast<Int128>(static_cast<int64_t>(v)); };
+    return narrow(a) * narrow(d) - narrow(b) * narrow(c);
+  };
+  const auto cross = [&](const Plane& u, const Plane& v) {
+    return Cross{minor(u.b, u.c, v.b, v.c), minor(u.c, u.a, v.c, v.a), minor(u.a, u.b, v.a, v.b)};
+  };
+  const Cross qr = cross(q, r), rp = cross(r, p), pq = cross(p, q);
+  const auto sum = [](Int128 a, Int128 u, Int128 b, Int128 v, Int128 c, Int128 t) {
+    Wide<High> all;
+    all.add_product(a, u);
+    all.add_product(b, v);
+    all.add_product(c, t);
+    return all;
+  };
+  const Wide<High> w = sum(qr.x, p.a, qr.y, p.b, qr.z, p.c);
+  assert(w.low != 0 || w.high != 0);
+  const High turn = w.sign();
+  const auto combine = [&](Int128 a, Int128 b, Int128 c) {
+    return sum(a, p.d, b, q.d, c, r.d).turned(~turn);
+  };
+  const Wide<High> x = combine(qr.x, rp.x, pq.x), y = combine(qr.y, rp.y, pq.y),
+                   z = combine(qr.z, rp.z, pq.z), whole = w.turned(turn);
+  Wide<High> any;
+  for (const Wide<High>& c : {x, y, z}) {
+    const Wide<High> size = c.turned(c.sign());
+    any.low |= size.low;
+    any.high |= size.high;
+  }
+  return {x.coordinate(),     y.coordinate(), z.coordinate(),
+          whole.coordinate(), any.width(),    whole.width()};
+}
+
+/// The same where machine integers of 128 bits hold the results, modulo which sums are taken.
 Point cramer_narrow(const Plane& p, const Plane& q, const Plane& r) {
   struct Normal {
     int64_t a, b, c;
@@ -113,19 +195,10 @@ Point intersect(const Plane& p, const Plane& q, const Plane& r) {
       widths::point_xyz(0, 0);
   const int needed = std::max(xyz, n0 + n1 + n2 + widths::point_w(0));
   if (std::max({n0, n1, n2}) <= 62 && needed < 128) return cramer_narrow(p, q, r);
-  Point result;
-  // 62 bits of normal: minors of 126 bits fit two limbs, and all fits four.
+  static_assert(widths::kMaxPointXyz < 64 * kPointLimbs);
+  if (std::max({n0, n1, n2}) > 62) return cramer_wide(p, q, r);
   static_assert(widths::point_xyz(62, widths::kMaxOffset) < 256 && widths::point_w(62) < 256);
-  if (std::max({n0, n1, n2}) > 62) {
-    static_assert(widths::kMaxPointXyz < 64 * kPointLimbs);
-    result = cramer<2, 4, kPointLimbs>(p, q, r);
-  } else if (needed < 192) {
-    result = cramer<1, 2, 3>(p, q, r);
-  } else {
-    result = cramer<1, 2, 4>(p, q, r);
-  }
-  measure(result);
-  return result;
+  return needed < 192 ? cramer<uint64_t>(p, q, r) : cramer<UInt128>(p, q, r);
 }
 
 std::array<double, 3> rounded(const Point& p) {

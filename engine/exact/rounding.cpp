@@ -14,14 +14,14 @@ struct Leading {
   int exponent;   ///< value is in [bits, bits + 1) * 2^exponent
 };
 
+/// REQUIRES: v > 0.
 template <int N>
 Leading leading(const Int<N>& v) {
-  const int width = v.bit_width();
-  if (width <= 64) return {v.limb[0] << (64 - width), width - 64};
-  const int low = width - 64, whole = low / 64, part = low % 64;
-  uint64_t bits = v.limb[whole] >> part;
-  if (part) bits |= v.limb[whole + 1] << (64 - part);
-  return {bits, low};
+  int top = N - 1;
+  while (v.limb[top] == 0) --top;
+  const int shift = std::countl_zero(v.limb[top]);
+  const uint64_t below = top > 0 ? v.limb[top - 1] : 0;
+  return {v.limb[top] << shift | (below >> 1) >> (63 - shift), 64 * top - shift};
 }
 
 /// A mantissa of at most `precision` bits and its exponent, rounded to nearest even.
