@@ -2,40 +2,24 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace csgrun {
 namespace {
 
-/// Three small numbers, of which minima, maxima and comparisons are few steps: below 2^7, in a byte
-/// each, the highest bit of which is free to tell which is greater.
-struct Place {
-  uint32_t packed = 0;
-
-  static constexpr uint32_t kFree = 0x808080;
-
-  /// The free bits, where one is no less than the other.
-  [[nodiscard]] uint32_t no_less_than(Place other) const {
-    return ((packed | kFree) - other.packed) & kFree;
-  }
-  /// All bits of the bytes of which the free one is set.
-  static uint32_t whole_bytes(uint32_t free) { return free | (free - (free >> 7)); }
-  [[nodiscard]] Place min(Place other) const {
-    const uint32_t others = whole_bytes(no_less_than(other));
-    return {(packed & ~others) | (other.packed & others)};
-  }
-  [[nodiscard]] Place max(Place other) const {
-    const uint32_t own = whole_bytes(no_less_than(other));
-    return {(packed & own) | (other.packed & ~own)};
-  }
-  [[nodiscard]] uint32_t operator[](size_t axis) const { return packed >> (8 * axis) & 0xff; }
-};
+/// A cell along each axis: a vector, of which the processor compares all numbers at once; the
+/// fourth is not used.
+using Place = int16_t __attribute__((vector_size(8)));
 
 struct Range {
   Place lo, hi;
 
-  void add(Place p) { lo = lo.min(p), hi = hi.max(p); }
+  void add(Place p) {
+    lo = p < lo ? p : lo;
+    hi = p > hi ? p : hi;
+  }
   [[nodiscard]] bool meets(const Range& o) const {
-    return (hi.no_less_than(o.lo) & o.hi.no_less_than(lo)) == Place::kFree;
+    return std::bit_cast<uint64_t>((hi < o.lo) | (o.hi < lo)) == 0;
   }
 };
 
@@ -51,9 +35,9 @@ class CellBits {
 
   /// REQUIRES: the point is in the box.
   [[nodiscard]] Place place_of(const IVec3& point) const {
-    Place place;
+    Place place{};
     for (size_t k = 0; k < 3; ++k) {
-      place.packed |= static_cast<uint32_t>((point[k] - around_.lo[k]) >> shift_[k]) << (8 * k);
+      place[k] = static_cast<int16_t>((point[k] - around_.lo[k]) >> shift_[k]);
     }
     return place;
   }
@@ -76,17 +60,15 @@ class CellBits {
   }
 
  private:
-  static constexpr unsigned kCells = 32;
+  static constexpr int kCells = 32;
 
   /// Calls f(row, bits) for the rows of a range until it says true; whether it did.
   template <class F>
   bool each_row(const Range& range, F&& f) {
     const uint32_t bits = (~0u >> (kCells - 1 - range.hi[0])) & (~0u << range.lo[0]);
-    const uint32_t last = range.hi[1] - range.lo[1];
-    for (uint32_t z = range.lo[2]; z <= range.hi[2]; ++z) {
-      uint32_t* const row = &rows_[z * kCells + range.lo[1]];
-      for (uint32_t y = 0; y <= last; ++y) {
-        if (f(row[y], bits)) return true;
+    for (int z = range.lo[2]; z <= range.hi[2]; ++z) {
+      for (int y = range.lo[1]; y <= range.hi[1]; ++y) {
+        if (f(rows_[static_cast<size_t>(z * kCells + y)], bits)) return true;
       }
     }
     return false;
@@ -94,9 +76,9 @@ class CellBits {
 
   const PolygonBox around_;
   std::array<int, 3> shift_{0, 0, 0};
-  std::array<uint32_t, size_t{kCells} * kCells> rows_{};
+  std::array<uint32_t, size_t{kCells * kCells}> rows_{};
   bool is_empty_ = true;
-  Range marked_;
+  Range marked_{};
 };
 
 }  // namespace
