@@ -15,8 +15,9 @@
 namespace csgrun {
 namespace {
 
-/// A hull of so many points about on a ball.
-std::shared_ptr<const LeafGeometry> ball(test::Random& random, double radius, int points) {
+/// A hull of so many points about on a ball, all coordinates times a power of two.
+std::shared_ptr<const LeafGeometry> ball(test::Random& random, double radius, int points,
+                                         int64_t power) {
   std::vector<IVec3> on_it;
   for (int i = 0; i < points; ++i) {
     std::array<double, 3> at{};
@@ -25,7 +26,11 @@ std::shared_ptr<const LeafGeometry> ball(test::Random& random, double radius, in
     on_it.push_back(
         {std::llround(scale * at[0]), std::llround(scale * at[1]), std::llround(scale * at[2])});
   }
-  return test::make_leaf(test::hull_loops(on_it));
+  auto leaf = std::make_shared<LeafGeometry>(*test::make_leaf(test::hull_loops(on_it)));
+  for (IVec3& v : leaf->vertices) {
+    for (int64_t& c : v) c *= power;
+  }
+  return leaf;
 }
 
 /// By how much boxes are apart along some axis at least.
@@ -44,8 +49,10 @@ TEST(NearPieces, AreMetByAllFacesThatMayMeetThem) {
   std::shared_ptr<const LeafGeometry> leaf;
   for (int i = 0; i < 400; ++i) {
     if (i % 20 == 0) {
-      radius = std::ldexp(1 + random.unit(), static_cast<int>(random.integer(3, 25)));
-      leaf = ball(random, radius, static_cast<int>(random.integer(10, 70)));
+      radius = std::ldexp(1 + random.unit(), static_cast<int>(random.integer(3, 12)));
+      const int64_t power = int64_t{1} << random.integer(0, 13);
+      leaf = ball(random, radius, static_cast<int>(random.integer(10, 70)), power);
+      radius *= static_cast<double>(power);
     }
     IVec3 moved{};
     for (int64_t& m : moved) m = random.integer(-(1 << 28), 1 << 28);
