@@ -145,6 +145,34 @@ TEST(OppositeEdges, ArePairedWhereEachIsThereOnce) {
   EXPECT_GT(tally.open, 100);
 }
 
+// A face that is there twice, at whose corners so many edges meet that they are looked at in turns:
+// nothing else shows that its edges are.
+TEST(OppositeEdges, AreNotPairedWhereOneIsHidden) {
+  test::Random random(712);
+  Tally tally;
+  for (int round = 0; round < 200; ++round) {
+    // A tetrahedron, faces of which are parted around new points, but for the one that is kept.
+    const Face kept{0, 1, 2};
+    std::vector<Face> faces{{0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+    for (uint32_t v = 4; v < 40; ++v) {
+      const auto parted = random.integer(0, static_cast<int64_t>(faces.size()) - 1);
+      const Face f = faces[static_cast<size_t>(parted)];
+      faces[static_cast<size_t>(parted)] = {f[0], f[1], v};
+      faces.push_back({f[1], f[2], v});
+      faces.push_back({f[2], f[0], v});
+    }
+    faces.push_back(kept);
+    if (round % 4 != 0) faces.push_back(kept);
+    for (size_t i = faces.size(); i > 1; --i) {
+      std::swap(faces[i - 1],
+                faces[static_cast<size_t>(random.integer(0, static_cast<int64_t>(i) - 1))]);
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_pairs(faces, tally)) << "round " << round;
+  }
+  EXPECT_EQ(tally.paired, 50);
+  EXPECT_EQ(tally.open, 150);
+}
+
 TEST(OppositeEdges, OfNothing) {
   const EdgePairing pairing = pair_edges(leaf_of({}));
   EXPECT_TRUE(pairing.is_balanced);
