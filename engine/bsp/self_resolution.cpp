@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/bsp/assemble.h"
+#include "engine/bsp/common_boxes.h"
 #include "engine/bsp/cut_surface.h"
 #include "engine/bsp/evaluate_job.h"
 #include "engine/bsp/non_manifold.h"
@@ -110,13 +111,10 @@ class Resolution {
     const LeafGeometry& leaf = *surface[0].leaf;
     touching_.anywhere = leaf.opposite.empty() && is_hull();
     if (touching_.anywhere) return;
+    constexpr size_t kFewCrossings = 64, kSlices = 16;
+    const uint32_t slices = crossings_.size() <= kFewCrossings ? kSlices : 1;
     for (const auto& [f, g] : crossings_) {
-      const PolygonBox &a = job_.boxes()[f], &b = job_.boxes()[g];
-      GridBox& box = touching_.boxes.emplace_back();
-      for (size_t k = 0; k < 3; ++k) {
-        box.lo[k] = std::max(a.lo[k], b.lo[k]);
-        box.hi[k] = std::min(a.hi[k], b.hi[k]);
-      }
+      add_common_boxes(job_, f, g, slices, touching_.boxes);
     }
     NonManifold non_manifold = find_non_manifold(leaf);
     non_manifold.each([&](uint32_t v, uint32_t w) { add_touching(v, w); });
