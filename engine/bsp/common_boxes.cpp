@@ -42,8 +42,8 @@ class Heights {
     return sum;
   }
   /// What all points of the plane are below that are no further away than the corners of a polygon.
-  /// A height is off by less than 2^-45 of the size of the normal times the furthest way; this is so
-  /// much more that the place where an edge passes it may be off as well.
+  /// A height is off by less than 2^-45 of the size of the normal times the furthest way; this is
+  /// so much more that the place where an edge passes it may be off as well.
   [[nodiscard]] double near(const Job& job, std::span<const uint32_t> corners) const {
     double reach = 0;
     for (const uint32_t c : corners) {
