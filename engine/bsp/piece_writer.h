@@ -31,9 +31,9 @@ class PieceWriter {
   /// Tells the store of operands that are not in pieces; false if one cannot be.
   bool add_operands();
 
-  /// Polygons that are kept, those of an operand together. Ones in pieces must be turned over;
-  /// others are there already. Of a leaf on the grid those that nothing met become groups.
-  /// `far`, per operand or empty: faces that the job does not have, which are kept, too.
+  /// Polygons that are kept. Ones in pieces must be turned over; others are there already. Of a
+  /// leaf on the grid those that nothing met become groups. `far`, per operand or empty: faces that
+  /// the job does not have, which are kept, too.
   void add_whole(std::span<const WholePolygon> whole, std::span<const FarFaces> far = {});
 
   /// Pieces of polygons that were cut; false if they do not close up.

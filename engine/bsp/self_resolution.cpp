@@ -111,7 +111,9 @@ class Resolution {
     const LeafGeometry& leaf = *surface[0].leaf;
     touching_.anywhere = leaf.opposite.empty() && is_hull();
     if (touching_.anywhere) return;
-    constexpr size_t kFewCrossings = 64, kSlices = 16;
+    // Of many crossings one box each: lists of places are kept short (touch_list.h).
+    constexpr size_t kFewCrossings = 64;
+    constexpr uint32_t kSlices = 16;
     const uint32_t slices = crossings_.size() <= kFewCrossings ? kSlices : 1;
     for (const auto& [f, g] : crossings_) {
       add_common_boxes(job_, f, g, slices, touching_.boxes);

@@ -110,6 +110,7 @@ uint32_t equal_bits(const uint32_t* numbers, uint32_t x) {
 #endif
 }
 
+/// std::has_single_bit counts bits, by a function where the processor need not know how.
 bool is_single_bit(uint32_t bits) { return bits != 0 && (bits & (bits - 1)) == 0; }
 
 /// The place of a number in a list, which has it once; else the end. What follows the list is
