@@ -26,7 +26,7 @@ class PieceAssembler {
     std::vector<std::vector<UntouchedPart>> parts(operands_.size());
     if (name_untouched) {
       for_each_alone(operands_.size(), face_count_ > kFewForThreads, [&](size_t o) {
-        if (operands_[o].leaf) {
+        if (operands_[o].leaf && !operands_[o].leaf->may_touch) {
           parts[o] =
               untouched_parts(operands_[o], nullptr, fate_[o].data(), {}, is_named_[o].data());
         }

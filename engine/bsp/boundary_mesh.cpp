@@ -13,7 +13,13 @@ FaceLabel label_of(const Operand& operand, uint32_t face) {
     const LeafGeometry& leaf = *operand.leaf;
     label = {operand.first_source, leaf.facet[face], leaf.surface[face], leaf.appearance[face]};
   } else {
-    label = operand.boundary->faces[face].label;
+    const BoundaryMesh& mesh = *operand.boundary;
+    if (face < mesh.faces.size()) {
+      label = mesh.faces[face].label;
+    } else {
+      const BoundaryMesh::NamedFace named = mesh.named_face(face);
+      label = named.part->label(named.face);
+    }
     label.source += operand.first_source;
   }
   if (operand.appearance) label.appearance = *operand.appearance;

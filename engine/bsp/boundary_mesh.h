@@ -102,13 +102,25 @@ struct BoundaryMesh {
   /// More faces. All points, faces and corners above are those of the others only.
   std::vector<UntouchedPart> parts;
 
+  struct NamedFace {
+    const UntouchedPart* part;
+    uint32_t face;  ///< of its leaf
+  };
+  /// The faces of the parts have the numbers after `faces`, in their order. O(parts).
+  [[nodiscard]] NamedFace named_face(uint32_t number) const {
+    size_t place = number - faces.size();
+    const UntouchedPart* part = parts.data();
+    for (; place >= part->faces.size(); ++part) place -= part->faces.size();
+    return {part, part->faces[place]};
+  }
+
   [[nodiscard]] Point exact_point(uint32_t p) const {
     const auto& t = point_planes[p];
     return intersect(planes[t[0]], planes[t[1]], planes[t[2]]);
   }
 };
 
-/// The label of a face of an operand, a leaf or a boundary.
+/// The label of a face of an operand, a leaf or a boundary; of the latter's also named ones.
 FaceLabel label_of(const Operand& operand, uint32_t face);
 
 /// The plane moved by `t` grid steps: as canonical as it was.

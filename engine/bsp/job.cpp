@@ -6,7 +6,6 @@
 
 #include "engine/base/parallel.h"
 #include "engine/bsp/cell_geometry.h"
-#include "engine/bsp/convexify.h"
 #include "engine/bsp/near_pieces.h"
 #include "engine/bsp/operand_reach.h"
 #include "engine/bsp/piece_store.h"
@@ -77,6 +76,7 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_box
   boundary_vertices_.resize(operands.size());
   for (size_t o = 0; o < operands.size(); ++o) sources_[o].map = FrameMap(operands[o].frame);
   boundary_planes_.resize(operands.size());
+  named_parts_.resize(operands.size());
   for (size_t o = 0; o < operands.size(); ++o) {
     if (!operands[o].boundary) continue;
     const RawVector<Plane>& of_operand = operands[o].boundary->planes;
@@ -280,65 +280,6 @@ void Job::add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector
   if (with_boxes_) operand_boxes_[o] = near_ ? near_->boxes[o] : live_->dead->operand_box(o);
 }
 
-void Job::add_boundary(uint32_t o, const Operand& operand) {
-  const BoundaryMesh& mesh = *operand.boundary;
-  const std::vector<PlaneId>& plane_of = boundary_planes_[o];
-  CellGeometry geometry(planes_, nullptr);
-  const bool moved = !operand.frame.is_identity || operand.translation != IVec3{0, 0, 0};
-  for (size_t p = 0; p < mesh.point_planes.size(); ++p) {
-    const auto& t = mesh.point_planes[p];
-    const std::array<uint32_t, 3> planes{plane_of[t[0]].index(), plane_of[t[1]].index(),
-                                         plane_of[t[2]].index()};
-    if (moved) {
-      geometry.add_point(planes);
-    } else {
-      geometry.add_point(planes, mesh.point_rounded[p]);
-    }
-  }
-  const std::function<uint32_t(int, int64_t)> wall_of = [this](int axis, int64_t m) {
-    return wall(axis, m);
-  };
-  const bool mirrored = sources_[o].map.is_mirrored();
-  std::vector<Fragment> pieces;
-  std::vector<BoundaryEdge> edges;
-  const auto first_vertex = static_cast<uint32_t>(rounded_.size());
-  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    const BoundaryMesh::Face& face = mesh.faces[f];
-    edges.clear();
-    for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
-      const uint32_t begin = mesh.loop_starts[l], end = mesh.loop_starts[l + 1];
-      for (uint32_t c = begin; c < end; ++c) {
-        const BoundaryMesh::Corner& next = mesh.corners[c + 1 < end ? c + 1 : begin];
-        BoundaryEdge e{mesh.corners[c].point, next.point,
-                       plane_of[mesh.corners[c].edge_plane].index()};
-        if (mirrored) std::swap(e.from, e.to);
-        edges.push_back(e);
-      }
-    }
-    if (mirrored) std::reverse(edges.begin(), edges.end());
-    const PlaneId mapped = plane_of[face.plane.index()];
-    const PlaneId support = face.plane.flipped() ? mapped.flip() : mapped;
-    pieces.clear();
-    convexify(geometry, planes_, support, edges, wall_of, pieces);
-    for (const Fragment& piece : pieces) {
-      const auto first = static_cast<uint32_t>(corners_.size());
-      for (uint32_t i = 0; i < piece.count; ++i) {
-        corners_.push_back(first_vertex + geometry.corners(piece)[i]);
-      }
-      edge_planes_.resize(corners_.size(), kNone);
-      std::copy_n(geometry.edges(piece), piece.count, edge_planes_.begin() + first);
-      polygons_.push_back({o, f, first, piece.count, support});
-    }
-  }
-  for (uint32_t p = 0; p < geometry.point_count(); ++p) {
-    rounded_.push_back(geometry.point(p).rounded);
-    boundary_vertices_[o].push_back(geometry.point(p).planes);
-  }
-  for (uint32_t p = polygon_starts_.back(); with_boxes_ && p < polygons_.size(); ++p) {
-    boxes_.push_back(box_of(polygons_[p]));
-  }
-}
-
 /// Lists the pieces of the version, of regions and groups their parts, that others may meet.
 template <class MayMeet>
 void Job::take_parts(PieceStore& store, MayMeet&& may_meet) {
@@ -500,7 +441,13 @@ Point Job::exact_of(uint32_t o, uint32_t local) const {
   const Source& source = sources_[o];
   if (operand.pieces) return operand.pieces->store->exact(piece_points_[local]);
   if (!operand.leaf) {
-    const auto& t = boundary_vertices_[o][local];
+    const auto& own = boundary_vertices_[o];
+    if (local >= own.size()) {  // of a named face
+      const std::array<double, 3>& at = rounded_[source.first_vertex + local];
+      return grid_point(static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]),
+                        static_cast<int64_t>(at[2]));
+    }
+    const auto& t = own[local];
     return intersect(planes_.plane(t[0]), planes_.plane(t[1]), planes_.plane(t[2]));
   }
   const IVec3& q = operand.leaf->vertices[local];
@@ -519,7 +466,10 @@ Job::VertexName Job::vertex_name(uint32_t vertex) const {
     const PieceStore& store = *operand.pieces->store;
     return {store.point_planes(piece_point(vertex)), store.is_on_grid(piece_point(vertex))};
   }
-  return {boundary_vertices_[o][vertex - sources_[o].first_vertex], false};
+  const auto& own = boundary_vertices_[o];
+  const uint32_t local = vertex - sources_[o].first_vertex;
+  if (local >= own.size()) return {{kNoVertexPlanes, kNoVertexPlanes, kNoVertexPlanes}, true};
+  return {own[local], false};
 }
 
 FaceLabel Job::label(const JobPolygon& p) const {
@@ -529,13 +479,13 @@ FaceLabel Job::label(const JobPolygon& p) const {
 bool Job::is_of_complete_facet(const JobPolygon& p) const {
   const Operand& operand = (*operands_)[p.operand];
   if (operand.leaf) return operand.leaf->facet[p.face] != 0;
-  return operand.boundary->faces[p.face].complete;
+  return is_face_of_leaf(p) || operand.boundary->faces[p.face].complete;
 }
 
 bool Job::is_of_whole_facet(const JobPolygon& p) const {
   const Operand& operand = (*operands_)[p.operand];
   if (operand.leaf) return operand.leaf->facet[p.face] != 0;
-  return operand.boundary->faces[p.face].whole;
+  return is_face_of_leaf(p) || operand.boundary->faces[p.face].whole;
 }
 
 uint32_t Job::wall(int axis, int64_t m) {

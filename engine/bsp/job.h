@@ -36,7 +36,7 @@ PolygonBox rounded_outwards(const PieceBox& box);
 /// no intersection and never need them.
 struct JobPolygon {
   uint32_t operand;
-  uint32_t face;          ///< face of the leaf or of the boundary
+  uint32_t face;          ///< of the leaf or of the boundary (also BoundaryMesh::named_face)
   uint32_t first, count;  ///< corners in Job::corners; also edge planes in Job::edge_planes
   PlaneId support;        ///< oriented outwards; invalid until planes were made
 };
@@ -54,6 +54,7 @@ class Job {
  public:
   /// Planes go into `planes`, if a table is given: that of the operand in pieces, if there is one.
   /// Of a single leaf beside one in pieces the job has only the faces that may be near it.
+  /// REQUIRES: can_stand_named() of each operand (untouched.h).
   explicit Job(const std::vector<Operand>& operands, PlaneTable* planes = nullptr);
   /// Only these faces of the operands, which are leaves, are polygons of the job; it has all their
   /// vertices, and operand_box() is of all faces. `near` must outlive it.
@@ -137,6 +138,15 @@ class Job {
   }
   /// Vertices of operand o are [vertex_start(o), vertex_start(o + 1)).
   [[nodiscard]] uint32_t vertex_start(size_t o) const { return vertex_operand_starts_[o]; }
+  /// A part of a boundary operand.
+  struct NamedPart {
+    uint32_t first_polygon;         ///< that of its first face; the others follow
+    RawVector<uint32_t> vertex_of;  ///< of the leaf's vertices, but for those of no face of it
+  };
+  /// Those of an operand, one for each part.
+  [[nodiscard]] const std::vector<NamedPart>& named_parts(size_t o) const {
+    return named_parts_[o];
+  }
   [[nodiscard]] Point exact(uint32_t vertex) const;
   /// Whether one vertex comes before another in the exact lexicographic order of their points.
   [[nodiscard]] bool is_below(uint32_t vertex, uint32_t other) const;
@@ -195,6 +205,12 @@ class Job {
                 uint32_t first);
   void add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector<uint32_t>& faces);
   void add_boundary(uint32_t o, const Operand& operand);
+  void add_parts(uint32_t o, const Operand& operand);
+  void add_part_vertices(const UntouchedPart& part, const IVec3& translation,
+                         RawVector<uint32_t>& vertex_of);
+  /// Whether a polygon is a face of a leaf, be it one that a boundary names: its planes are made
+  /// when somebody asks.
+  [[nodiscard]] bool is_face_of_leaf(const JobPolygon& p) const;
   void list_pieces(const PieceOperand& operand);
   [[nodiscard]] bool may_choose_faces() const;
   void choose_faces();
@@ -233,6 +249,7 @@ class Job {
   std::vector<std::vector<std::array<uint32_t, 3>>> boundary_vertices_;
   /// Planes of boundary operands, by their number in the boundary.
   std::vector<std::vector<PlaneId>> boundary_planes_;
+  std::vector<std::vector<NamedPart>> named_parts_;               ///< per operand
   std::vector<uint32_t> pieces_, version_pieces_, piece_points_;  ///< of the operand in pieces
   bool are_pieces_on_grid_ = true;                                ///< all of these points
   int64_t prime_ = 3;

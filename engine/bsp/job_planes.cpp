@@ -9,7 +9,7 @@
 
 namespace csgrun {
 
-/// A corner of a polygon of a leaf, as the leaf counts, at the operand's place in its frame.
+/// A corner of a face of a leaf, as the leaf counts, at the operand's place in its frame.
 IVec3 Job::leaf_corner(const JobPolygon& p, uint32_t i) const {
   const uint32_t at = i < p.count ? i : i - p.count;
   const Operand& operand = (*operands_)[p.operand];
@@ -65,7 +65,7 @@ void Job::ensure_supports(std::span<const uint32_t> polygons) {
   std::vector<uint32_t> lacking;
   for (const uint32_t p : polygons) {
     if (polygons_[p].support.valid()) continue;
-    if (is_leaf(polygons_[p].operand)) {
+    if (is_face_of_leaf(polygons_[p])) {
       lacking.push_back(p);
     } else {
       ensure_support(p);
@@ -86,7 +86,7 @@ void Job::ensure_edges(std::span<const PolygonEdge> edges) {
   for (const PolygonEdge& e : edges) {
     const JobPolygon& p = polygons_[e.polygon];
     if (edge_planes_[p.first + e.edge] != kNone) continue;
-    if (is_leaf(p.operand)) {
+    if (is_face_of_leaf(p)) {
       edge_planes_[p.first + e.edge] = kAsked;
       lacking.push_back(e);
     } else {

@@ -27,6 +27,9 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
       return std::shared_ptr<const BoundaryMesh>(std::move(**boxes));
     }
   }
+  if (!std::all_of(operands.begin(), operands.end(), can_stand_named)) {
+    return evaluate_boolean(with_standing_parts(operands), expression, region, options, stats);
+  }
   using Outcome = Result<std::shared_ptr<const BoundaryMesh>>;
   size_t faces = 0;
   for (const Operand& operand : operands) faces += operand.leaf ? operand.leaf->face_count() : 0;

@@ -6,6 +6,7 @@
 #include "engine/bsp/evaluate_job.h"
 #include "engine/bsp/piece_writer.h"
 #include "engine/bsp/pruned_expression.h"
+#include "engine/bsp/untouched.h"
 #include "engine/bsp/whole_faces.h"
 
 namespace csgrun {
@@ -42,9 +43,10 @@ Outside fate_outside(const Expression& expression, uint32_t operand) {
 
 }  // namespace
 
-Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& operands,
-                                  const Expression& expression, const GridBox& region,
-                                  const KernelOptions& options, EvaluateStats& stats) {
+Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& given, const Expression& expression,
+                                  const GridBox& region, const KernelOptions& options,
+                                  EvaluateStats& stats) {
+  const std::vector<Operand> operands = without_parts(given);
   auto result = std::make_shared<ResultPieces>();
   result->store = std::make_shared<PieceStore>();
   PieceStore& store = *result->store;
@@ -72,7 +74,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
       renumbered(expression, [&](uint32_t o) { return o == 0 ? own : o - 1; });
   const Outside outside = fate_outside(own_last, own);
   if (outside == Outside::kTurned) return PiecesPtr();
-  std::vector<Operand> operands = others;
+  std::vector<Operand> operands = without_parts(others);
   operands.emplace_back();
   operands.back().pieces =
       std::make_shared<PieceOperand>(PieceOperand{version.store, version.tree});

@@ -17,6 +17,7 @@
 #include "engine/bsp/surface_patches.h"
 #include "engine/bsp/surface_volumes.h"
 #include "engine/bsp/touch_list.h"
+#include "engine/bsp/untouched.h"
 
 namespace csgrun {
 namespace {
@@ -28,7 +29,8 @@ class Resolution {
   Resolution(const std::vector<Operand>& surface,
              std::span<const std::array<uint32_t, 2>> crossings, InsideRule rule,
              const KernelOptions& options, EvaluateStats& stats)
-      : surface_(surface[0]),
+      : operands_(surface),
+        surface_(surface[0]),
         crossings_(crossings),
         job_(surface),
         crosses_(job_.polygons().size(), 0),
@@ -54,7 +56,11 @@ class Resolution {
   Result<BoundaryPtr> run() {
     const Status status = keep_all();
     if (!status) return status.error();
-    return assemble(job_, sets_, whole_, std::move(touching_));
+    std::vector<UntouchedPart> parts;
+    if (options_.name_untouched && !is_hull()) {
+      parts = take_untouched(job_, operands_, {}, whole_, true);
+    }
+    return assemble(job_, sets_, whole_, std::move(touching_), std::move(parts));
   }
 
  private:
@@ -238,6 +244,7 @@ class Resolution {
     sets_.push_back(std::move(set));
   }
 
+  const std::vector<Operand>& operands_;  ///< the surface alone
   const Operand& surface_;
   std::span<const std::array<uint32_t, 2>> crossings_;
   Job job_;
@@ -258,7 +265,8 @@ Result<BoundaryPtr> resolve_surface(const Operand& surface,
                                     std::span<const std::array<uint32_t, 2>> crossings,
                                     InsideRule rule, const KernelOptions& options,
                                     EvaluateStats& stats) {
-  const std::vector<Operand> operands{surface};
+  std::vector<Operand> operands{surface};
+  if (surface.boundary) operands[0].boundary = expanded(surface.boundary);
   Resolution resolution(operands, crossings, rule, options, stats);
   auto result = resolution.run();
   if (!result || !resolution.may_be_nested()) return result;

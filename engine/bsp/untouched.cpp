@@ -56,8 +56,23 @@ class UntouchedFaces {
         count_(near ? near->size() : leaf.face_count()),
         fate_(fate),
         walk_(leaf),
-        keeps_facets_(leaf.keeps_facets()) {
+        keeps_facets_(leaf.keeps_facets()),
+        all_around_(leaf.may_touch) {
     look_at_vertices();
+  }
+  /// Among the faces of a part, which were untouched so far. What becomes of the other faces of the
+  /// boundary that share vertices with them is not known.
+  UntouchedFaces(const UntouchedPart& part, const FaceFate* fate)
+      : leaf_(*part.leaf),
+        near_(&part.faces),
+        shared_(part.shared),
+        count_(part.faces.size()),
+        fate_(fate),
+        walk_(leaf_),
+        keeps_facets_(leaf_.keeps_facets()),
+        all_around_(false) {
+    find_common_fates();
+    for (const UntouchedPart::Shared& s : shared_) of_vertex_[s.vertex] = kMixedAround;
   }
 
   /// Those of one fate, marked in `taken` by their places, and `far`, which are faces that the job
@@ -75,6 +90,7 @@ class UntouchedFaces {
         met[leaf_.corners[c]] |= is_untouched ? 1 : 2;
       }
     }
+    for (const UntouchedPart::Shared& s : shared_) met[s.vertex] |= 2;
     for (const uint32_t f : far) {
       for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
         uint8_t& by = met[leaf_.corners[c]];
@@ -108,12 +124,12 @@ class UntouchedFaces {
       if (around == kNoFan) return false;
       all_whole = all_whole && around != kMixedAround;
     }
+    if (all_around_ && !all_whole) return false;
     return (keeps_facets_ && all_whole) || !leaf_.may_have_flat_edges || is_alone(leaf_, walk_, f);
   }
 
-  /// The common fate of the faces at each vertex, or kMixed; kNoFan where they are more than one
-  /// fan, and where a facet may have no corner: one in several pieces, or with a straight corner.
-  void look_at_vertices() {
+  /// The common fate of the faces at each vertex, or kMixed.
+  void find_common_fates() {
     of_vertex_.assign(leaf_.vertices.size(), 0);
     for (size_t i = 0; i < count_; ++i) {
       const uint32_t f = face(i);
@@ -126,6 +142,12 @@ class UntouchedFaces {
       const bool all_same = std::has_single_bit(fates);
       fates = all_same ? static_cast<uint8_t>(std::countr_zero(fates)) : kMixedAround;
     }
+  }
+
+  /// The same of all faces of a leaf; kNoFan where they are more than one fan, and where a facet
+  /// may have no corner: one in several pieces, or with a straight corner.
+  void look_at_vertices() {
+    find_common_fates();
     if (!leaf_.has_single_fans) {
       for (const uint32_t v : find_vertices_of_fans(leaf_)) of_vertex_[v] = kNoFan;
     }
@@ -139,10 +161,12 @@ class UntouchedFaces {
 
   const LeafGeometry& leaf_;
   const std::vector<uint32_t>* const near_;
+  const std::span<const UntouchedPart::Shared> shared_;
   const size_t count_;
   const FaceFate* fate_;
   const CornerWalk walk_;
   const bool keeps_facets_;
+  const bool all_around_;  ///< faces are untouched only if all at their corners are whole
   std::vector<uint8_t> of_vertex_;
 };
 
@@ -224,7 +248,7 @@ std::vector<UntouchedPart> untouched_parts(const Operand& operand,
   if (map.is_mirrored()) return parts;
   const LeafGeometry& leaf = *operand.leaf;
   // Faces that are parts of one facet must stand together.
-  if (leaf.may_touch || leaf.opposite.empty() || !leaf.facet.ascend()) return parts;
+  if (leaf.opposite.empty() || !leaf.facet.ascend()) return parts;
   // Without facets of its own a face must be alone in its plane; that is easily told of convex
   // leaves.
   if (!leaf.keeps_facets() && !leaf.convex) return parts;
@@ -252,6 +276,39 @@ std::vector<UntouchedPart> untouched_parts(const Operand& operand,
   return parts;
 }
 
+namespace {
+
+IVec3 moved(const IVec3& p, const IVec3& t) { return {p[0] + t[0], p[1] + t[1], p[2] + t[2]}; }
+
+/// Adds what is still untouched of a part of operand `o`, a boundary.
+void add_untouched(const Job& job, size_t o, size_t number, const FaceFate* fate, uint8_t* taken,
+                   std::vector<UntouchedPart>& parts) {
+  const Operand& operand = job.operand(o);
+  const UntouchedPart& before = operand.boundary->parts[number];
+  const Job::NamedPart& in_job = job.named_parts(o)[number];
+  const FaceFate* const begin = fate + in_job.first_polygon;
+  const FaceFate* const end = begin + before.faces.size();
+  const UntouchedFaces untouched(before, begin);
+  for (const FaceFate side : {FaceFate::kKept, FaceFate::kFlipped}) {
+    if (std::find(begin, end, side) == end) continue;
+    UntouchedPart part{before.leaf,
+                       moved(before.translation, operand.translation),
+                       before.map,
+                       before.source + operand.first_source,
+                       operand.appearance ? operand.appearance : before.appearance,
+                       before.flipped != (side == FaceFate::kFlipped),
+                       {},
+                       {},
+                       {}};
+    untouched.collect(side, {}, part, taken + in_job.first_polygon);
+    if (part.faces.empty()) continue;
+    for (UntouchedPart::Shared& s : part.shared) s.point = in_job.vertex_of[s.vertex];
+    parts.push_back(std::move(part));
+  }
+}
+
+}  // namespace
+
 void place_in_job(UntouchedPart& part, const Job& job, size_t o) {
   // The vertices of an operand stand together, in the order of the leaf.
   const uint32_t first_vertex = job.vertex_start(o);
@@ -263,7 +320,8 @@ void place_in_job(UntouchedPart& part, const Job& job, size_t o) {
 
 std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Operand>& operands,
                                           const std::vector<FarFaces>& far,
-                                          std::vector<WholePolygon>& whole) {
+                                          std::vector<WholePolygon>& whole,
+                                          bool if_all_around_are) {
   std::vector<UntouchedPart> parts;
   std::vector<FaceFate> fate(job.polygons().size(), FaceFate::kMixed);
   std::vector<uint8_t> taken(job.polygons().size(), 0);
@@ -272,6 +330,13 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
   }
   std::vector<std::vector<UntouchedPart>> of_operand(operands.size());
   for_each_alone(operands.size(), job.polygons().size() > kFewForThreads, [&](size_t o) {
+    if (operands[o].boundary) {
+      for (size_t k = 0; k < operands[o].boundary->parts.size(); ++k) {
+        add_untouched(job, o, k, fate.data(), taken.data(), of_operand[o]);
+      }
+      return;
+    }
+    if (!operands[o].leaf || (operands[o].leaf->may_touch && !if_all_around_are)) return;
     const FarFaces none;
     const uint32_t start = job.polygon_start(o);
     of_operand[o] = untouched_parts(operands[o], job.some_faces(o), fate.data() + start,
@@ -288,6 +353,30 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
 std::shared_ptr<const BoundaryMesh> expanded(std::shared_ptr<const BoundaryMesh> mesh) {
   if (mesh->parts.empty()) return mesh;
   return std::make_shared<BoundaryMesh>(Expander(*mesh).run());
+}
+
+bool can_stand_named(const Operand& operand) {
+  constexpr size_t kFewParts = 8;  // labels of faces look through them
+  if (!operand.boundary || operand.boundary->parts.empty()) return true;
+  const auto& parts = operand.boundary->parts;
+  return operand.frame.is_identity && parts.size() <= kFewParts &&
+         std::all_of(parts.begin(), parts.end(), [](const UntouchedPart& part) {
+           return part.map.is_identity() && part.leaf->has_triangles_as_facets();
+         });
+}
+
+std::vector<Operand> with_standing_parts(std::vector<Operand> operands) {
+  for (Operand& operand : operands) {
+    if (!can_stand_named(operand)) operand.boundary = expanded(operand.boundary);
+  }
+  return operands;
+}
+
+std::vector<Operand> without_parts(std::vector<Operand> operands) {
+  for (Operand& operand : operands) {
+    if (operand.boundary) operand.boundary = expanded(operand.boundary);
+  }
+  return operands;
 }
 
 }  // namespace csgrun

@@ -34,18 +34,29 @@ std::vector<UntouchedPart> untouched_parts(const Operand& operand,
                                            const std::vector<uint32_t>* faces, const FaceFate* fate,
                                            const FarFaces& far, uint8_t* taken);
 
-/// Tells a part of operand `o` what the job knows of its vertices.
+/// Tells a part of operand `o`, a leaf, what the job knows of its vertices.
 void place_in_job(UntouchedPart& part, const Job& job, size_t o);
 
 /// Takes the untouched triangles of the operands out of `whole`, and all of `far` (see WholeFaces);
 /// their corners that other faces have too are named by the job's vertices in
 /// UntouchedPart::shared. A leaf counts if its frame does not mirror, it touches itself nowhere,
-/// and its edges are paired; a face if it is a triangle. O(faces of such leaves).
+/// and its edges are paired; a face if it is a triangle. Of a leaf that may touch itself faces
+/// count only `if_all_around_are`, if it is known that no face in `whole` meets others but in
+/// corners and edges that both have: faces that are cut may cross one another in a corner of
+/// theirs, so that others there are several fans. O(faces of such leaves).
 std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Operand>& operands,
                                           const std::vector<FarFaces>& far,
-                                          std::vector<WholePolygon>& whole);
+                                          std::vector<WholePolygon>& whole,
+                                          bool if_all_around_are = false);
 
 /// The same boundary with all faces spelled out; the mesh itself if they are.
 std::shared_ptr<const BoundaryMesh> expanded(std::shared_ptr<const BoundaryMesh> mesh);
+
+/// Whether a job takes an operand as it is: a boundary has few parts, or none, of triangles on the
+/// grid that are facets of their own.
+bool can_stand_named(const Operand& operand);
+/// The operands, with the boundaries spelled out that cannot, or all of them.
+std::vector<Operand> with_standing_parts(std::vector<Operand> operands);
+std::vector<Operand> without_parts(std::vector<Operand> operands);
 
 }  // namespace csgrun

@@ -160,7 +160,9 @@ Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& par
   const Resolver resolve = [this](const Operand& surface,
                                   std::span<const std::array<uint32_t, 2>> crossings,
                                   InsideRule rule) {
-    return resolve_surface(surface, crossings, rule, kernel_options(options, threads), stats);
+    KernelOptions how = kernel_options(options, threads);
+    how.name_untouched = true;
+    return resolve_surface(surface, crossings, rule, how, stats);
   };
   SceneContext context{form, store, appearances, warnings, [this] { return cancelled(); }, resolve};
   return build_scene(context, roots, options.grid, least);

@@ -155,7 +155,6 @@ inline Pair evaluate_both(const Tree& tree, const std::vector<Operand>& operands
   KernelOptions options;
   for (Boundary* result : {&pair.spelled, &pair.naming}) {
     options.name_untouched = result == &pair.naming;
-    // The operands of other jobs must be spelled out.
     const auto made = evaluate(tree, operands, options);
     if (!made) ADD_FAILURE() << text(made.error());
     *result = made ? *made : std::make_shared<BoundaryMesh>();

@@ -24,7 +24,7 @@ struct Campaign {
 
 struct CampaignResult {
   uint64_t cases = 0, zeros = 0, empty = 0, framed = 0, crossing = 0, hulls = 0, nested = 0,
-           in_pieces = 0, literal = 0, leaves = 0, most_leaves = 0;
+           named = 0, in_pieces = 0, literal = 0, leaves = 0, most_leaves = 0;
   std::vector<std::string> failures;  ///< what differed, and the shrunk case as text
 
   [[nodiscard]] std::string summary() const {
@@ -37,8 +37,9 @@ struct CampaignResult {
            " differences; zero signs in " + share(zeros) + ", frames in " + share(framed) +
            ", leaves that cross themselves in " + share(crossing) + ", hulls in " + share(hulls) +
            ", subtrees materialised in " + share(nested) + ", in pieces " + share(in_pieces) +
-           ", the paper's cells in " + share(literal) + ", empty results " + share(empty) + "; " +
-           std::to_string(leaves) + " leaves, at most " + std::to_string(most_leaves) + " a tree";
+           ", with named faces " + share(named) + ", the paper's cells in " + share(literal) +
+           ", empty results " + share(empty) + "; " + std::to_string(leaves) + " leaves, at most " +
+           std::to_string(most_leaves) + " a tree";
   }
 };
 
@@ -71,6 +72,7 @@ inline CampaignResult run(const Campaign& campaign) {
     r.crossing += std::any_of(c.leaves.begin(), c.leaves.end(),
                               [](const FuzzLeaf& l) { return l.may_cross; });
     r.hulls += has_hull(c.tree);
+    r.named += outcome.named > 0;
     r.nested += c.nest != 0;
     r.in_pieces += (c.nest & kInPieces) != 0;
     r.literal += c.options.literal_cells;

@@ -43,13 +43,15 @@ struct FuzzNode {
 
 /// Of FuzzCase::nest: operands are taken one after another, each result being in pieces.
 constexpr uint64_t kInPieces = uint64_t{1} << 63;
+/// The same: what nothing touched of leaves of triangles is named in results, not spelled out.
+constexpr uint64_t kNamed = uint64_t{1} << 62;
 
 struct FuzzCase {
   std::vector<Frame> frames{Frame()};  ///< the first is the world
   std::vector<FuzzLeaf> leaves;        ///< each is mentioned once, in order
   FuzzNode tree;
   KernelOptions options;
-  uint64_t nest = 0;  ///< bit i: the i-th inner node is materialised on its own; or kInPieces
+  uint64_t nest = 0;  ///< bit i: the i-th inner node is materialised on its own; more: see above
 };
 
 inline LeafGeometry geometry_of(const FuzzLeaf& leaf) {

@@ -4,7 +4,9 @@
 #include <string>
 
 #include "engine/bsp/result_pieces.h"
+#include "engine/bsp/untouched.h"
 #include "engine/mesh/leaf_check.h"
+#include "engine/mesh/opposite_edges.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/fuzz/truth.h"
 #include "tests/support/kernel_checks.h"
@@ -14,19 +16,33 @@ namespace csgrun::test {
 /// Evaluates the tree of a case by the kernel.
 class FuzzEvaluator {
  public:
-  explicit FuzzEvaluator(const FuzzCase& c) : case_(c) {}
+  explicit FuzzEvaluator(const FuzzCase& c) : case_(c), options_(c.options) {
+    options_.name_untouched = (case_.nest & kNamed) != 0;
+  }
 
   BoundaryResult run() {
     source_ = 0;
     inner_ = 0;
-    if (!(case_.nest & kInPieces)) return evaluate(case_.tree);
+    if (!(case_.nest & kInPieces)) {
+      auto result = evaluate(case_.tree);
+      if (result) *result = expanded(*result);
+      return result;
+    }
     auto pieces = pieces_of(case_.tree);
     if (!pieces) return pieces.error();
     return assemble_pieces(**pieces, false);
   }
   [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
+  /// How many faces were named in results.
+  [[nodiscard]] size_t named() const { return named_; }
 
  private:
+  static size_t named_count(const BoundaryMesh& mesh) {
+    size_t count = 0;
+    for (const UntouchedPart& part : mesh.parts) count += part.faces.size();
+    return count;
+  }
+
   struct Parts {
     std::vector<Operand> operands;
     Expression expression;
@@ -36,7 +52,10 @@ class FuzzEvaluator {
   BoundaryResult evaluate(const FuzzNode& n) {
     Parts parts;
     if (auto root = put(n, parts, true); !root) return root.error();
-    return evaluate_boolean(parts.operands, parts.expression, parts.region, case_.options, stats_);
+    auto result =
+        evaluate_boolean(parts.operands, parts.expression, parts.region, options_, stats_);
+    if (result) named_ += named_count(**result);
+    return result;
   }
 
   /// One operand after another: each result is in pieces, and goes on from the one before.
@@ -61,14 +80,12 @@ class FuzzEvaluator {
       binary.nodes = {{true, n.op, 0, 0, 0}, {true, n.op, 1, 0, 0}, {false, n.op, 0, 0, 2}};
       binary.children = {0, 1};
       hold(parts.region, (*result)->tree.box());
-      auto next =
-          change_pieces(**result, parts.operands, binary, parts.region, case_.options, stats_);
+      auto next = change_pieces(**result, parts.operands, binary, parts.region, options_, stats_);
       if (next && !*next) {
         auto before = assemble_pieces(**result, false);
         if (!before) return before.error();
         parts.operands.insert(parts.operands.begin(), boundary_operand(*before));
-        auto boundary =
-            evaluate_boolean(parts.operands, binary, parts.region, case_.options, stats_);
+        auto boundary = evaluate_boolean(parts.operands, binary, parts.region, options_, stats_);
         if (!boundary) return boundary.error();
         Parts made;
         add_operand(made, boundary_operand(*boundary));
@@ -81,14 +98,13 @@ class FuzzEvaluator {
 
   /// A single operand in pieces; a leaf that cannot be, by its boundary.
   Result<PiecesPtr> in_pieces(const Parts& parts) {
-    auto pieces =
-        evaluate_pieces(parts.operands, parts.expression, parts.region, case_.options, stats_);
+    auto pieces = evaluate_pieces(parts.operands, parts.expression, parts.region, options_, stats_);
     if (!pieces || *pieces) return pieces;
     auto boundary =
-        evaluate_boolean(parts.operands, parts.expression, parts.region, case_.options, stats_);
+        evaluate_boolean(parts.operands, parts.expression, parts.region, options_, stats_);
     if (!boundary) return boundary.error();
-    return evaluate_pieces({boundary_operand(*boundary)}, parts.expression, parts.region,
-                           case_.options, stats_);
+    return evaluate_pieces({boundary_operand(*boundary)}, parts.expression, parts.region, options_,
+                           stats_);
   }
 
   static Operand boundary_operand(Boundary boundary) {
@@ -113,6 +129,11 @@ class FuzzEvaluator {
   static uint32_t add_operand(Parts& parts, Operand operand) {
     if (operand.boundary) {
       for (const auto& p : operand.boundary->point_rounded) hold(parts.region, p);
+      for (const UntouchedPart& part : operand.boundary->parts) {
+        for (const uint32_t f : part.faces) {
+          for (const uint32_t v : part.triangle(f)) hold(parts.region, part.rounded_point(v));
+        }
+      }
     } else {
       const ExactMap map(operand.frame);
       for (IVec3 q : operand.leaf->vertices) {
@@ -149,15 +170,25 @@ class FuzzEvaluator {
 
   Result<uint32_t> leaf(uint32_t index, const std::optional<OuterHull>& hull, Parts& parts) {
     const FuzzLeaf& l = case_.leaves[index];
-    Operand o = operand_of(std::make_shared<LeafGeometry>(geometry_of(l)));
+    const auto geometry = std::make_shared<LeafGeometry>(geometry_of(l));
+    std::vector<std::array<uint32_t, 2>> crossings;
+    if (l.may_cross || hull || options_.name_untouched) {
+      crossings = find_self_intersections(*geometry);
+    }
+    if (options_.name_untouched) {
+      geometry->opposite = pair_edges(*geometry).opposite;
+      const bool has_triangles = geometry->corners.size() == 3 * geometry->face_count();
+      geometry->may_touch = !crossings.empty() || !l.keep_facets || !has_triangles;
+    }
+    Operand o = operand_of(geometry);
     o.translation = l.move;
     o.frame = case_.frames[l.frame];
     o.first_source = source_++;
     if (l.may_cross || hull) {
       const InsideRule rule = hull ? inside_rule(*hull) : inside_rule(l.fill);
-      auto resolved =
-          resolve_surface(o, find_self_intersections(*o.leaf), rule, case_.options, stats_);
+      auto resolved = resolve_surface(o, crossings, rule, options_, stats_);
       if (!resolved) return resolved.error();
+      named_ += named_count(**resolved);
       o = Operand();  // frame, translation and labels are the boundary's own
       o.boundary = *resolved;
     }
@@ -172,7 +203,7 @@ class FuzzEvaluator {
     Operand o;
     o.boundary = *inner;
     if (!n.hull->keep_voids) {
-      auto filled = resolve_surface(o, {}, inside_rule(*n.hull), case_.options, stats_);
+      auto filled = resolve_surface(o, {}, inside_rule(*n.hull), options_, stats_);
       if (!filled) return filled.error();
       o.boundary = *filled;
     }
@@ -202,7 +233,9 @@ class FuzzEvaluator {
   }
 
   const FuzzCase& case_;
+  KernelOptions options_;
   uint32_t source_ = 0;
+  size_t named_ = 0;
   int inner_ = 0;
   EvaluateStats stats_;
 };
@@ -211,6 +244,7 @@ struct FuzzOutcome {
   std::string failure;      ///< empty: kernel and reference agree
   bool meets_zero = false;  ///< a sign was zero that no plane's name tells
   bool empty = false;       ///< the result has no points
+  size_t named = 0;         ///< faces that results named
 };
 
 /// The kernel's boundary against the reference; and when `forms`, whether the boundary is in its
@@ -225,6 +259,7 @@ inline FuzzOutcome check_case(const FuzzCase& c, bool forms = true) {
     outcome.failure = "error: " + result.error().message;
     return outcome;
   }
+  outcome.named = evaluator.named();
   outcome.empty = (*result)->faces.empty();
   const Truth truth = truth_of(c);
   outcome.failure = truth.fault;

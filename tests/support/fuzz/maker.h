@@ -40,6 +40,7 @@ class FuzzMaker {
     c.options.literal_cells = one_in(6);
     c.nest = one_in(2) ? random_.bits() & 0xffff : 0;
     if (one_in(4)) c.nest |= kInPieces;
+    if (one_in(2)) c.nest |= kNamed;
     return c;
   }
 
