@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/csg/collinear_triangles.h"
 #include "engine/csg/leaf_faces.h"
 #include "engine/mesh/leaf_shape.h"
 
@@ -98,11 +99,11 @@ bool has_area(const IVec3& a, const IVec3& b, const IVec3& c) {
 
 /// The numbers of the first `count` faces but for some, given in ascending order.
 std::vector<uint32_t> numbers_without(const FaceNumbers& numbers, size_t count,
-                                      std::span<const uint32_t> dropped) {
+                                      std::span<const LeftOut> left_out) {
   std::vector<uint32_t> kept;
-  kept.reserve(count - dropped.size());
+  kept.reserve(count - left_out.size());
   for (size_t f = 0, next = 0; f < count; ++f) {
-    if (next < dropped.size() && dropped[next] == f) {
+    if (next < left_out.size() && left_out[next].face == f) {
       ++next;
     } else {
       kept.push_back(numbers[f]);
@@ -139,7 +140,8 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
   const size_t faces = mesh.face_count();
   leaf.corners.resize(mesh.corners.size());
   leaf.face_starts.reserve(faces + 1);
-  std::vector<uint32_t> dropped;
+  std::vector<LeftOut> left_out;
+  bool any_collinear = false;
   Numbering number(points);
   uint32_t next = 0;
   for (uint32_t f = 0; f < faces; ++f) {
@@ -150,12 +152,12 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
       loop[i] = number(mesh.corners[turn ? end - 1 - i : begin + i]);
     }
     if (count == 3) {
-      if (loop[0] == loop[1] || loop[1] == loop[2] || loop[2] == loop[0]) {
-        dropped.push_back(f);
+      const auto& v = number.vertices();
+      if (!has_area(v[loop[0]], v[loop[1]], v[loop[2]])) {
+        left_out.push_back({f, {loop[0], loop[1], loop[2]}});
+        any_collinear |= loop[0] != loop[1] && loop[1] != loop[2] && loop[2] != loop[0];
         continue;
       }
-      const auto& v = number.vertices();
-      if (!has_area(v[loop[0]], v[loop[1]], v[loop[2]])) return std::nullopt;
     } else if (!is_convex_polygon(number.vertices(), {loop, count})) {
       return std::nullopt;
     }
@@ -166,14 +168,15 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
   if (mesh.keep_facets) leaf.facet = FaceNumbers::ascending(1);
   if (!mesh.surface.empty()) leaf.surface = mesh.surface;
   leaf.appearance = appearance;
-  if (!dropped.empty()) {
+  if (!left_out.empty()) {
     for (FaceNumbers* numbers : {&leaf.facet, &leaf.surface, &leaf.appearance}) {
-      if (!numbers->common()) *numbers = numbers_without(*numbers, faces, dropped);
+      if (!numbers->common()) *numbers = numbers_without(*numbers, faces, left_out);
     }
   }
   leaf.vertices = number.take_vertices();
-  if (!dropped.empty()) renumber(leaf);
-  result->merged = !dropped.empty() || number.merges(mesh.corners);
+  if (any_collinear && !split_at_collinear(leaf, left_out)) return std::nullopt;
+  if (!left_out.empty()) renumber(leaf);
+  result->merged = !left_out.empty() || number.merges(mesh.corners);
   result->box = leaf.vertices.size() == points.size() ? box : box_of_points(leaf.vertices);
   return result;
 }

@@ -16,14 +16,13 @@ struct ConvexFaces {
   /// The vertices that the faces use, in the order of their first use; no opposite edges yet.
   LeafGeometry leaf;
   GridBox box;  ///< of the vertices
-  /// Points became one, so that faces may lie on each other's back; triangles with equal corners
-  /// are left out.
+  /// Points became one or faces were left out, so that faces may lie on each other's back.
   bool merged = false;
 };
 
 /// What merging equal points and make_convex_faces would give, as long as these find nothing to do
-/// but to leave out triangles with equal corners: none when a face has holes, is not planar and
-/// convex, or has its corners on a line, or when points are 2^30 steps or more apart. O(n).
+/// but to leave out triangles that lie on a line: none when a face has holes, is not planar and
+/// convex, or becomes so by that, or when points are 2^30 steps or more apart. O(n).
 std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
                                              const std::vector<IVec3>& points, bool turn,
                                              const FaceNumbers& appearance);

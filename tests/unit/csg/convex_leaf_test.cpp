@@ -172,6 +172,73 @@ TEST(ConvexLeaf, ReversedCopiesGoAwayBothWays) {
   EXPECT_EQ(tally.tangled, 1u);
 }
 
+/// Divides the edge of a triangle's neighbour by its middle, and closes what is between the two by
+/// a triangle on a line. Nothing if they are in the same sense, or the middle is no whole point.
+void put_on_edge(WholeMesh& whole, uint32_t face, uint32_t side) {
+  std::vector<uint32_t>& corners = whole.mesh.corners;
+  const uint32_t a = corners[3 * face + side], b = corners[3 * face + (side + 1) % 3];
+  IVec3 middle = whole.points[a];
+  for (size_t k = 0; k < 3; ++k) {
+    middle[k] += whole.points[b][k];
+    if (middle[k] % 2 != 0) return;
+    middle[k] /= 2;
+  }
+  for (uint32_t f = 0; f < whole.mesh.face_count(); ++f) {
+    for (uint32_t i = 0; i < 3; ++i) {
+      const uint32_t c = 3 * f + i, next = 3 * f + (i + 1) % 3, last = 3 * f + (i + 2) % 3;
+      if (f == face || corners[c] != b || corners[next] != a) continue;
+      const auto m = static_cast<uint32_t>(whole.points.size());
+      whole.points.push_back(middle);
+      whole.mesh.points.resize(whole.points.size());
+      const uint32_t d = corners[last];
+      corners[next] = m;  // b m d
+      whole.mesh.add_face(std::array<uint32_t, 3>{m, a, d});
+      whole.mesh.add_face(std::array<uint32_t, 3>{b, a, m});
+      return;
+    }
+  }
+}
+
+TEST(ConvexLeaf, TrianglesOnALineAgreeWithTheGeneralWay) {
+  // Some, in rows and fans, among others; and as many points and faces beside them as come to be.
+  std::mt19937 random(12);
+  Tally tally;
+  size_t longer = 0;
+  for (int round = 0; round < 300; ++round) {
+    WholeMesh whole = ball(2 + static_cast<int>(random() % 9), 3 + static_cast<int>(random() % 12),
+                           std::exp2(static_cast<double>(random() % 60 + 20) / 10),
+                           static_cast<int>(random() % 2), random);
+    whole.points = stretched(whole.points, 64);
+    for (uint32_t n = random() % 8; n > 0; --n) {
+      // On a face that was made before, often: then they lie beside each other.
+      const auto faces = static_cast<uint32_t>(whole.mesh.face_count());
+      const uint32_t face = random() % 2 != 0 ? random() % faces : faces - 1 - random() % 2;
+      put_on_edge(whole, face, random() % 3);
+    }
+    std::vector<uint32_t> order(whole.mesh.face_count());
+    for (uint32_t f = 0; f < order.size(); ++f) order[f] = f;
+    std::shuffle(order.begin(), order.end(), random);
+    WholeMesh shuffled;
+    shuffled.points = whole.points;
+    shuffled.mesh.points = whole.mesh.points;
+    for (const uint32_t f : order) {
+      const uint32_t* const c = &whole.mesh.corners[3 * f];
+      shuffled.mesh.add_face(std::array<uint32_t, 3>{c[0], c[1], c[2]});
+    }
+    shuffled.mesh.keep_facets = random() % 2 != 0;
+    expect_same_both_ways(shuffled.mesh, shuffled.points, random() % 4 == 0, tally,
+                          int64_t{1} << 22);
+    if (HasFailure()) FAIL() << "round " << round;
+    const auto taken =
+        take_convex_faces(shuffled.mesh, shuffled.points, false, FaceNumbers::all(0));
+    longer += taken && taken->leaf.corners.size() > 3 * taken->leaf.face_count();
+  }
+  EXPECT_GT(tally.good, 100u);
+  EXPECT_GT(tally.tangled, 50u);
+  EXPECT_GT(tally.quick, 280u);
+  EXPECT_GT(longer, 150u);
+}
+
 TEST(ConvexLeaf, PolygonsAgreeWithTheGeneralWay) {
   // Prisms over regular polygons on coarse grids: caps that stay planar, sides that bend.
   std::mt19937 random(11);
