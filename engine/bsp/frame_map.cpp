@@ -1,5 +1,9 @@
 #include "engine/bsp/frame_map.h"
 
+#include <algorithm>
+
+#include "engine/exact/widths.h"
+
 namespace csgrun {
 namespace {
 
@@ -24,20 +28,37 @@ FrameMap::FrameMap(const Frame& frame) : frame_(frame) {
   for (int j = 0; j < 3; ++j) {
     determinant_ += multiply<4>(Int<2>(frame.matrix[0][j]), adjugate_[j][0]);
   }
+  weight_ = Int<kPointLimbs>::from(determinant_.magnitude());
+  weight_bits_ = weight_.bit_width();
 }
 
 Point FrameMap::point(const IVec3& q) const {
   if (frame_.is_identity) return grid_point(q[0], q[1], q[2]);
-  Point p;
+  // An entry of the adjugate has up to 113 bits: products of its limbs fit 128.
+  constexpr int kCoordinate = 2 * widths::kFrame + 1 + widths::kFarGrid + 2 + Frame::kShift;
+  static_assert(kCoordinate < 255 && widths::kFarGrid + 64 + 2 < 127);
+  const bool flip = is_mirrored();
   const auto coordinate = [&](int i) {
-    Int<kPointLimbs> sum;
-    for (int j = 0; j < 3; ++j) sum += multiply<kPointLimbs>(adjugate_[i][j], Int<1>(q[j]));
+    Int128 low = 0, high = 0;  // of high 2^64 + low
+    for (int j = 0; j < 3; ++j) {
+      const Int128 factor = flip ? -q[j] : q[j];
+      low += factor * adjugate_[i][j].limb[0];
+      high += factor * static_cast<int64_t>(adjugate_[i][j].limb[1]);
+    }
+    high += low >> 64;
+    Int<4> sum;
+    sum.limb = {static_cast<uint64_t>(low), static_cast<uint64_t>(high),
+                static_cast<uint64_t>(high >> 64), static_cast<uint64_t>(high >> 127)};
     return sum.shifted_left(Frame::kShift);
   };
-  p.x = coordinate(0), p.y = coordinate(1), p.z = coordinate(2);
-  p.w = Int<kPointLimbs>::from(determinant_);
-  normalise(p);
-  return p;
+  const Int<4> x = coordinate(0), y = coordinate(1), z = coordinate(2);
+  using Coordinate = Int<kPointLimbs>;
+  return {Coordinate::from(x),
+          Coordinate::from(y),
+          Coordinate::from(z),
+          weight_,
+          std::max({x.bit_width(), y.bit_width(), z.bit_width()}),
+          weight_bits_};
 }
 
 /// C^T n and 2^k d.

@@ -28,6 +28,8 @@ class FrameMap {
   Frame frame_;
   std::array<std::array<Int<2>, 3>, 3> adjugate_{};
   Int<4> determinant_{1};
+  Int<kPointLimbs> weight_{1};  ///< its magnitude
+  int weight_bits_ = 1;
 };
 
 }  // namespace csgrun

@@ -10,41 +10,6 @@ namespace {
 
 using Coordinate = Int<kPointLimbs>;
 
-/// Cramer's rule for planes of any width.
-Point cramer_wide(const Plane& p, const Plane& q, const Plane& r) {
-  constexpr int kMinor = 4;
-  using Normal = Int<2>;
-  const auto normal = [](Int128 v) { return Normal::from_int128(v); };
-  const auto minor = [](const Normal& a, const Normal& b, const Normal& c, const Normal& d) {
-    return multiply<kMinor>(a, d) - multiply<kMinor>(b, c);
-  };
-  const Normal pa = normal(p.a), pb = normal(p.b), pc = normal(p.c);
-  const Normal qa = normal(q.a), qb = normal(q.b), qc = normal(q.c);
-  const Normal ra = normal(r.a), rb = normal(r.b), rc = normal(r.c);
-  // qr = q.n x r.n, and cyclic.
-  using Minor = Int<kMinor>;
-  const Minor qr_x = minor(qb, qc, rb, rc), qr_y = minor(qc, qa, rc, ra),
-              qr_z = minor(qa, qb, ra, rb);
-  const Minor rp_x = minor(rb, rc, pb, pc), rp_y = minor(rc, ra, pc, pa),
-              rp_z = minor(ra, rb, pa, pb);
-  const Minor pq_x = minor(pb, pc, qb, qc), pq_y = minor(pc, pa, qc, qa),
-              pq_z = minor(pa, pb, qa, qb);
-  const Int<2> pd = Int<2>::from_int128(p.d), qd = Int<2>::from_int128(q.d),
-               rd = Int<2>::from_int128(r.d);
-  const auto times = [](const Minor& a, const Int<2>& b) { return multiply<kPointLimbs>(a, b); };
-  const auto combine = [&](const Minor& qr, const Minor& rp, const Minor& pq) {
-    return -(times(qr, pd) + times(rp, qd) + times(pq, rd));
-  };
-  Point result;
-  result.w = times(qr_x, pa) + times(qr_y, pb) + times(qr_z, pc);
-  assert(!result.w.is_zero());
-  result.x = combine(qr_x, rp_x, pq_x);
-  result.y = combine(qr_y, rp_y, pq_y);
-  result.z = combine(qr_z, rp_z, pq_z);
-  normalise(result);
-  return result;
-}
-
 /// A whole number modulo 2^192 or 2^256, by the size of `High`, in two's complement. Signs are as
 /// good as random: nothing here branches on them.
 template <class High>
@@ -126,6 +91,75 @@ Point cramer(const Plane& p, const Plane& q, const Plane& r) {
   }
   return {x.coordinate(),     y.coordinate(), z.coordinate(),
           whole.coordinate(), any.width(),    whole.width()};
+}
+
+/// A whole number modulo 2^384, in two's complement.
+struct Wide384 {
+  std::array<UInt128, 3> part{};  ///< least significant first
+
+  /// Adds a product of a 256-bit number, in halves, and a 128-bit one, that fits 384 bits.
+  void add_product(const Wide<UInt128>& a, Int128 b) {
+    Wide<UInt128> low, high;
+    low.add_product(static_cast<Int128>(a.low), b);
+    // A lower half that reads negative reads 2^128 too small.
+    low.high += static_cast<UInt128>(b) & -(a.low >> 127);
+    high.add_product(static_cast<Int128>(a.high), b);
+    const UInt128 sign = low.sign();
+    part[0] += low.low;
+    UInt128 carry = part[0] < low.low;
+    const UInt128 second = low.high + carry;  // no overflow: |low| < 2^255
+    part[1] += second;
+    carry = part[1] < second;
+    part[1] += high.low;
+    carry += part[1] < high.low;
+    // A negative lower product goes on to the left; if the carry into `second` made it 0 from
+    // all bits set, it has gone on there, too.
+    const UInt128 lost = second < low.high;
+    part[2] += high.high + sign + carry + lost;
+  }
+  [[nodiscard]] Coordinate coordinate() const {
+    Coordinate c;
+    for (size_t k = 0; k < 3; ++k) {
+      c.limb[2 * k] = static_cast<uint64_t>(part[k]);
+      c.limb[2 * k + 1] = static_cast<uint64_t>(part[k] >> 64);
+    }
+    return c;
+  }
+};
+
+/// Cramer's rule for planes of any width.
+Point cramer_wide(const Plane& p, const Plane& q, const Plane& r) {
+  static_assert(2 * widths::kMaxNormal + 1 < 255 && widths::kMaxOffset < 127);
+  using Minor = Wide<UInt128>;
+  struct Cross {
+    Minor x, y, z;
+  };
+  const auto minor = [](Int128 a, Int128 b, Int128 c, Int128 d) {
+    Minor m;
+    m.add_product(a, d);
+    m.add_product(-b, c);
+    return m;
+  };
+  const auto cross = [&](const Plane& u, const Plane& v) {
+    return Cross{minor(u.b, u.c, v.b, v.c), minor(u.c, u.a, v.c, v.a), minor(u.a, u.b, v.a, v.b)};
+  };
+  const Cross qr = cross(q, r), rp = cross(r, p), pq = cross(p, q);
+  const auto sum = [](const Minor& a, Int128 u, const Minor& b, Int128 v, const Minor& c,
+                      Int128 t) {
+    Wide384 all;
+    all.add_product(a, u);
+    all.add_product(b, v);
+    all.add_product(c, t);
+    return all.coordinate();
+  };
+  Point result;
+  result.w = sum(qr.x, p.a, qr.y, p.b, qr.z, p.c);
+  assert(!result.w.is_zero());
+  result.x = sum(qr.x, -p.d, rp.x, -q.d, pq.x, -r.d);
+  result.y = sum(qr.y, -p.d, rp.y, -q.d, pq.y, -r.d);
+  result.z = sum(qr.z, -p.d, rp.z, -q.d, pq.z, -r.d);
+  normalise(result);
+  return result;
 }
 
 /// The same where machine integers of 128 bits hold the results, modulo which sums are taken.
