@@ -215,6 +215,7 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
 Result<StoredBoundary> SceneJobs::run_kept_job(Parts parts, const Subtree& subtree) {
   if (options_.whole_faces && !options_.literal_cells && parts.operands.size() > 1) {
     Result<PiecesPtr> pieces = PiecesPtr();
+    if (parts.first || parts.extends_result) spell_out(parts);
     if (parts.first) {
       const std::vector<Operand> others(parts.operands.begin() + 1, parts.operands.end());
       pieces =
@@ -229,6 +230,21 @@ Result<StoredBoundary> SceneJobs::run_kept_job(Parts parts, const Subtree& subtr
   auto boundary = run_job(std::move(parts), subtree.box);
   if (!boundary) return boundary.error();
   return StoredBoundary{*boundary, nullptr, subtree.id};
+}
+
+/// Leaves that were resolved, as jobs in pieces have them: for a chain of operations once.
+void SceneJobs::spell_out(Parts& parts) {
+  for (size_t i = 0; i < parts.operands.size(); ++i) {
+    BoundaryPtr& boundary = parts.operands[i].boundary;
+    if (!boundary || boundary->parts.empty()) continue;
+    const Key key = KeyBuilder("spelled").numbers(parts.keys[i]).key();
+    if (const StoredBoundary* const known = cache_.find(key)) {
+      boundary = known->boundary;
+      continue;
+    }
+    boundary = expanded(boundary);
+    cache_.put(key, {boundary, nullptr, {}}, memory_bytes(*boundary));
+  }
 }
 
 KernelOptions SceneJobs::job_options() {
@@ -305,6 +321,7 @@ uint32_t SceneJobs::put(Parts& parts, Operand operand, const Subtree& subtree) c
   Expression::Node node;
   node.operand = static_cast<uint32_t>(parts.operands.size());
   parts.operands.push_back(std::move(operand));
+  parts.keys.push_back(subtree.id.key);
   parts.expression.nodes.push_back(node);
   return static_cast<uint32_t>(parts.expression.nodes.size() - 1);
 }

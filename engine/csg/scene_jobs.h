@@ -44,6 +44,7 @@ class SceneJobs {
   };
   struct Parts {  // of one job
     std::vector<Operand> operands;
+    std::vector<Key> keys;        // of what each of them is
     PiecesPtr first;              // the first operand, which is empty then
     bool extends_result = false;  // the first operand is a result, where it was evaluated
     Expression expression;
@@ -73,6 +74,7 @@ class SceneJobs {
   Result<OpenOperator> open(uint32_t node, size_t count, bool is_target, uint32_t job_frame,
                             Parts& parts);
   uint32_t put(Parts& parts, Operand operand, const Subtree& subtree) const;
+  void spell_out(Parts& parts);
   Result<Operand> place(const Subtree& subtree, uint32_t job_frame);
   [[nodiscard]] Operand place_leaf(const SceneNode& node, uint32_t job_frame) const;
   /// Whether the stored axes are the world's and nothing is painted over.
