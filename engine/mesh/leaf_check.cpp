@@ -116,7 +116,8 @@ SurfaceCheck check_surface(const LeafGeometry& leaf) {
     is_spread = faces ? find_spread_vertices(leaf, *faces) : find_spread_vertices(leaf);
   }
   if (faces) {
-    const PackedBoxes some(face_boxes(leaf, *faces, find_box_frame(leaf)));
+    // Of a mesh of small faces: other axes than the coordinates' would make boxes hardly smaller.
+    const PackedBoxes some(face_boxes(leaf, *faces, std::nullopt));
     std::vector<uint32_t> order = some.order();
     for (uint32_t& face : order) face = (*faces)[face];
     result.crossings = find_crossings(leaf, some, order, is_spread, false);
