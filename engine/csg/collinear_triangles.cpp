@@ -13,11 +13,11 @@ bool has_equal_corners(const LeftOut& face) {
   return a == b || b == c || c == a;
 }
 
+/// In place of a face of the leaf.
 constexpr uint32_t kCollinear = UINT32_MAX;
 
 /// The faces of the leaf with two corners that collinear ones have, and these, in the mesh's order.
 /// LoopFace::facet names a face of the leaf, or is kCollinear.
-
 std::vector<LoopFace> faces_beside(const LeafGeometry& leaf, std::span<const LeftOut> left_out) {
   std::vector<uint8_t> is_on_line(leaf.vertices.size(), 0);
   for (const LeftOut& face : left_out) {
