@@ -237,77 +237,84 @@ class Expander {
   DraftBoundary draft_;
 };
 
-}  // namespace
+/// Which sides have faces, of those with fates and of far ones.
+struct Sides {
+  Sides(std::span<const FaceFate> fates, const FarFaces& far)
+      : kept(!far.kept.empty() || has(fates, FaceFate::kKept)),
+        flipped(!far.flipped.empty() || has(fates, FaceFate::kFlipped)) {}
+  static bool has(std::span<const FaceFate> fates, FaceFate fate) {
+    return std::find(fates.begin(), fates.end(), fate) != fates.end();
+  }
 
-std::vector<UntouchedPart> untouched_parts(const Operand& operand,
-                                           const std::vector<uint32_t>* faces, const FaceFate* fate,
-                                           const FarFaces& far, uint8_t* taken) {
+  bool kept, flipped;
+};
+
+/// The parts of these sides. `like`: one without faces, of the side that is not turned over now.
+std::vector<UntouchedPart> parts_of(const Sides& sides, const UntouchedFaces& untouched,
+                                    const UntouchedPart& like, const FarFaces& far,
+                                    uint8_t* taken) {
   std::vector<UntouchedPart> parts;
-  if (!operand.leaf) return parts;
-  const FrameMap map(operand.frame);
-  if (map.is_mirrored()) return parts;
-  const LeafGeometry& leaf = *operand.leaf;
-  // Faces that are parts of one facet must stand together.
-  if (leaf.opposite.empty() || !leaf.facet.ascend()) return parts;
-  // Without facets of its own a face must be alone in its plane; that is easily told of convex
-  // leaves.
-  if (!leaf.keeps_facets() && !leaf.convex) return parts;
-  const FaceFate* const end = fate + (faces ? faces->size() : leaf.face_count());
-  const auto any = [&](FaceFate f) { return std::find(fate, end, f) != end; };
-  const bool any_kept = !far.kept.empty() || any(FaceFate::kKept),
-             any_flipped = !far.flipped.empty() || any(FaceFate::kFlipped);
-  if (!any_kept && !any_flipped) return parts;
-  const UntouchedFaces untouched(leaf, faces, fate);
   for (const FaceFate side : {FaceFate::kKept, FaceFate::kFlipped}) {
     const bool is_flipped = side == FaceFate::kFlipped;
-    if (!(is_flipped ? any_flipped : any_kept)) continue;
-    UntouchedPart part{operand.leaf,
-                       operand.translation,
-                       map,
-                       operand.first_source,
-                       operand.appearance,
-                       is_flipped,
-                       {},
-                       {},
-                       {}};
+    if (!(is_flipped ? sides.flipped : sides.kept)) continue;
+    UntouchedPart part = like;
+    part.flipped = like.flipped != is_flipped;
     untouched.collect(side, is_flipped ? far.flipped : far.kept, part, taken);
     if (!part.faces.empty()) parts.push_back(std::move(part));
   }
   return parts;
 }
 
-namespace {
-
 IVec3 moved(const IVec3& p, const IVec3& t) { return {p[0] + t[0], p[1] + t[1], p[2] + t[2]}; }
 
-/// Adds what is still untouched of a part of operand `o`, a boundary.
-void add_untouched(const Job& job, size_t o, size_t number, const FaceFate* fate, uint8_t* taken,
-                   std::vector<UntouchedPart>& parts) {
+/// What is still untouched of a part of operand `o`, a boundary.
+std::vector<UntouchedPart> parts_of_part(const Job& job, size_t o, size_t number,
+                                         const FaceFate* fate, uint8_t* taken) {
   const Operand& operand = job.operand(o);
   const UntouchedPart& before = operand.boundary->parts[number];
   const Job::NamedPart& in_job = job.named_parts(o)[number];
-  const FaceFate* const begin = fate + in_job.first_polygon;
-  const FaceFate* const end = begin + before.faces.size();
-  const UntouchedFaces untouched(before, begin);
-  for (const FaceFate side : {FaceFate::kKept, FaceFate::kFlipped}) {
-    if (std::find(begin, end, side) == end) continue;
-    UntouchedPart part{before.leaf,
-                       moved(before.translation, operand.translation),
-                       before.map,
-                       before.source + operand.first_source,
-                       operand.appearance ? operand.appearance : before.appearance,
-                       before.flipped != (side == FaceFate::kFlipped),
-                       {},
-                       {},
-                       {}};
-    untouched.collect(side, {}, part, taken + in_job.first_polygon);
-    if (part.faces.empty()) continue;
+  const FarFaces none;
+  const std::span fates(fate + in_job.first_polygon, before.faces.size());
+  const Sides sides(fates, none);
+  if (!sides.kept && !sides.flipped) return {};
+  UntouchedPart like;
+  like.leaf = before.leaf;
+  like.translation = moved(before.translation, operand.translation);
+  like.source = before.source + operand.first_source;
+  like.appearance = operand.appearance ? operand.appearance : before.appearance;
+  like.flipped = before.flipped;
+  auto parts = parts_of(sides, UntouchedFaces(before, fates.data()), like, none,
+                        taken + in_job.first_polygon);
+  for (UntouchedPart& part : parts) {
     for (UntouchedPart::Shared& s : part.shared) s.point = in_job.vertex_of[s.vertex];
-    parts.push_back(std::move(part));
   }
+  return parts;
 }
 
 }  // namespace
+
+std::vector<UntouchedPart> untouched_parts(const Operand& operand,
+                                           const std::vector<uint32_t>* faces, const FaceFate* fate,
+                                           const FarFaces& far, uint8_t* taken) {
+  if (!operand.leaf) return {};
+  const FrameMap map(operand.frame);
+  if (map.is_mirrored()) return {};
+  const LeafGeometry& leaf = *operand.leaf;
+  // Faces that are parts of one facet must stand together.
+  if (leaf.opposite.empty() || !leaf.facet.ascend()) return {};
+  // Without facets of its own a face must be alone in its plane; that is easily told of convex
+  // leaves.
+  if (!leaf.keeps_facets() && !leaf.convex) return {};
+  const Sides sides({fate, faces ? faces->size() : leaf.face_count()}, far);
+  if (!sides.kept && !sides.flipped) return {};
+  UntouchedPart like;
+  like.leaf = operand.leaf;
+  like.translation = operand.translation;
+  like.map = map;
+  like.source = operand.first_source;
+  like.appearance = operand.appearance;
+  return parts_of(sides, UntouchedFaces(leaf, faces, fate), like, far, taken);
+}
 
 void place_in_job(UntouchedPart& part, const Job& job, size_t o) {
   // The vertices of an operand stand together, in the order of the leaf.
@@ -332,7 +339,8 @@ std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Oper
   for_each_alone(operands.size(), job.polygons().size() > kFewForThreads, [&](size_t o) {
     if (operands[o].boundary) {
       for (size_t k = 0; k < operands[o].boundary->parts.size(); ++k) {
-        add_untouched(job, o, k, fate.data(), taken.data(), of_operand[o]);
+        auto some = parts_of_part(job, o, k, fate.data(), taken.data());
+        std::move(some.begin(), some.end(), std::back_inserter(of_operand[o]));
       }
       return;
     }

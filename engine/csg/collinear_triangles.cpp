@@ -28,8 +28,9 @@ std::vector<LoopFace> faces_beside(const LeafGeometry& leaf, std::span<const Lef
     faces.push_back({{std::vector<uint32_t>(corners.begin(), corners.end())}, name, 0, 0});
   };
   size_t next = 0;
-  const auto add_left_out_up_to = [&](uint32_t number) {
-    for (; next < left_out.size() && left_out[next].face <= number; ++next, ++number) {
+  // As many were left out before a face of the leaf as its number in the mesh is greater.
+  const auto add_left_out_before = [&](size_t f) {
+    for (; next < left_out.size() && left_out[next].face <= f + next; ++next) {
       if (!has_equal_corners(left_out[next])) add(left_out[next].corners, kCollinear);
     }
   };
@@ -39,19 +40,17 @@ std::vector<LoopFace> faces_beside(const LeafGeometry& leaf, std::span<const Lef
     uint32_t on_line = 0;
     for (const uint32_t v : corners) on_line += is_on_line[v];
     if (on_line < 2) continue;
-    // As many were left out before it as its number in the mesh is greater.
-    add_left_out_up_to(f + static_cast<uint32_t>(next));
+    add_left_out_before(f);
     add(corners, f);
   }
-  for (; next < left_out.size(); ++next) {
-    if (!has_equal_corners(left_out[next])) add(left_out[next].corners, kCollinear);
-  }
+  add_left_out_before(leaf.face_count());
   return faces;
 }
 
 }  // namespace
 
 bool split_at_collinear(LeafGeometry& leaf, std::span<const LeftOut> left_out) {
+  if (std::all_of(left_out.begin(), left_out.end(), has_equal_corners)) return true;
   std::vector<LoopFace> faces = faces_beside(leaf, left_out);
   const auto is_collinear = [&](const std::vector<uint32_t>& loop) {
     CornerPlane plane;

@@ -18,9 +18,9 @@ struct LeftOut {
 };
 
 /// Makes of a leaf without these faces, which ascend, what drop_collinear_loops (mesh/loop_faces)
-/// makes of all faces: edges between corners of collinear ones are split where these say. False,
-/// and the leaf is not changed, if a face would not be convex then, or have no area. (Nothing
-/// happens to other faces.) REQUIRES: faces of the leaf are convex polygons. O(n).
+/// makes of all faces: edges between corners of collinear ones are split where these say, and
+/// nothing happens to others. False, and the leaf is not changed, if a face would not be convex
+/// then. REQUIRES: faces of the leaf are convex polygons. O(n).
 bool split_at_collinear(LeafGeometry& leaf, std::span<const LeftOut> left_out);
 
 }  // namespace csgrun

@@ -141,7 +141,6 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
   leaf.corners.resize(mesh.corners.size());
   leaf.face_starts.reserve(faces + 1);
   std::vector<LeftOut> left_out;
-  bool any_collinear = false;
   Numbering number(points);
   uint32_t next = 0;
   for (uint32_t f = 0; f < faces; ++f) {
@@ -155,7 +154,6 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
       const auto& v = number.vertices();
       if (!has_area(v[loop[0]], v[loop[1]], v[loop[2]])) {
         left_out.push_back({f, {loop[0], loop[1], loop[2]}});
-        any_collinear |= loop[0] != loop[1] && loop[1] != loop[2] && loop[2] != loop[0];
         continue;
       }
     } else if (!is_convex_polygon(number.vertices(), {loop, count})) {
@@ -174,7 +172,7 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
     }
   }
   leaf.vertices = number.take_vertices();
-  if (any_collinear && !split_at_collinear(leaf, left_out)) return std::nullopt;
+  if (!split_at_collinear(leaf, left_out)) return std::nullopt;
   if (!left_out.empty()) renumber(leaf);
   result->merged = !left_out.empty() || number.merges(mesh.corners);
   result->box = leaf.vertices.size() == points.size() ? box : box_of_points(leaf.vertices);
