@@ -143,6 +143,7 @@ PieceStore::Piece PieceWriter::origin_of(uint32_t polygon) const {
 }
 
 uint32_t PieceWriter::store_vertex(uint32_t vertex) {
+  if (!same_.empty() && same_[vertex] != kNone) vertex = same_[vertex];
   const uint32_t o = job_.operand_of_vertex(vertex);
   if (number_[o] == kNone) return job_.piece_point(vertex);
   return store_.first_point(number_[o]) + vertex - job_.vertex_start(o);

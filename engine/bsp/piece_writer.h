@@ -31,6 +31,12 @@ class PieceWriter {
   /// Tells the store of operands that are not in pieces; false if one cannot be.
   bool add_operands();
 
+  /// Has a vertex of the job be the same point of the store as another one.
+  void set_same(uint32_t vertex, uint32_t other) {
+    same_.resize(job_.vertex_count(), kNone);
+    same_[vertex] = other;
+  }
+
   /// Polygons that are kept. Ones in pieces must be turned over; others are there already. Of a
   /// leaf on the grid those that nothing met become groups. `far`, per operand or empty: faces that
   /// the job does not have, which are kept, too.
@@ -78,6 +84,7 @@ class PieceWriter {
   RegionBuilder regions_;
   const std::function<uint32_t(int, int64_t)> wall_of_;
   std::vector<uint32_t> number_;               ///< per operand: that in the store, or kNone
+  std::vector<uint32_t> same_;                 ///< see set_same; empty, or kNone of most vertices
   std::vector<std::vector<uint32_t>> points_;  ///< per set: the geometry's
   std::vector<uint32_t> point_number_;         ///< per constructed point: the store's
   std::vector<DirectedEdge> edges_;

@@ -43,6 +43,14 @@ Outside fate_outside(const Expression& expression, uint32_t operand) {
 
 }  // namespace
 
+void start_version(ResultPieces& version, std::vector<uint32_t> pieces) {
+  const PieceStore& store = *version.store;
+  version.bytes = bytes_of(store.piece_count(), store.point_count());
+  version.tree = PieceTree().changed(
+      {}, [](uint32_t) { return false; }, std::move(pieces),
+      [&](uint32_t p) -> const PieceBox& { return store.box(p); });
+}
+
 Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& given, const Expression& expression,
                                   const GridBox& region, const KernelOptions& options,
                                   EvaluateStats& stats) {
@@ -59,10 +67,7 @@ Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& given, const Expre
   if (!writer.add_cut(evaluated->sets)) return not_closed();
   result->touches_anywhere = evaluated->touching.anywhere;
   result->touches = TouchList().with(std::move(evaluated->touching.boxes));
-  result->bytes = bytes_of(store.piece_count(), store.point_count());
-  result->tree = PieceTree().changed(
-      {}, [](uint32_t) { return false; }, std::move(writer.added),
-      [&](uint32_t p) -> const PieceBox& { return store.box(p); });
+  start_version(*result, std::move(writer.added));
   return PiecesPtr(std::move(result));
 }
 

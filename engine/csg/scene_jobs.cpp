@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/bsp/boundary_pieces.h"
 #include "engine/bsp/untouched.h"
 
 namespace csgrun {
@@ -213,17 +214,11 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
 /// A result that goes on from another one, which somebody looked at, is kept in pieces: it is
 /// likely to be gone on from, too.
 Result<StoredBoundary> SceneJobs::run_kept_job(Parts parts, const Subtree& subtree) {
-  if (options_.whole_faces && !options_.literal_cells && parts.operands.size() > 1) {
-    Result<PiecesPtr> pieces = PiecesPtr();
-    if (parts.first || parts.extends_result) spell_out(parts);
-    if (parts.first) {
-      const std::vector<Operand> others(parts.operands.begin() + 1, parts.operands.end());
-      pieces =
-          change_pieces(*parts.first, others, parts.expression, subtree.box, job_options(), stats_);
-    } else if (parts.extends_result) {
-      pieces =
-          evaluate_pieces(parts.operands, parts.expression, subtree.box, job_options(), stats_);
-    }
+  if (parts.first && parts.operands.size() > 1) {
+    spell_out(parts);
+    const std::vector<Operand> others(parts.operands.begin() + 1, parts.operands.end());
+    auto pieces =
+        change_pieces(*parts.first, others, parts.expression, subtree.box, job_options(), stats_);
     if (!pieces) return pieces.error();
     if (*pieces) return StoredBoundary{nullptr, *pieces, subtree.id};
   }
@@ -232,18 +227,20 @@ Result<StoredBoundary> SceneJobs::run_kept_job(Parts parts, const Subtree& subtr
   return StoredBoundary{*boundary, nullptr, subtree.id};
 }
 
-/// Leaves that were resolved, as jobs in pieces have them: for a chain of operations once.
+/// The boundary of a key with all faces spelled out, which is kept beside it.
+BoundaryPtr SceneJobs::spelled(const Key& of, const BoundaryPtr& boundary) {
+  const Key key = KeyBuilder("spelled").numbers(of).key();
+  if (const StoredBoundary* const known = cache_.find(key)) return known->boundary;
+  const BoundaryPtr made = expanded(boundary);
+  cache_.put(key, {made, nullptr, {}}, memory_bytes(*made));
+  return made;
+}
+
+/// Operands of a job in pieces, as it has them: for a chain of operations once.
 void SceneJobs::spell_out(Parts& parts) {
   for (size_t i = 0; i < parts.operands.size(); ++i) {
     BoundaryPtr& boundary = parts.operands[i].boundary;
-    if (!boundary || boundary->parts.empty()) continue;
-    const Key key = KeyBuilder("spelled").numbers(parts.keys[i]).key();
-    if (const StoredBoundary* const known = cache_.find(key)) {
-      boundary = known->boundary;
-      continue;
-    }
-    boundary = expanded(boundary);
-    cache_.put(key, {boundary, nullptr, {}}, memory_bytes(*boundary));
+    if (boundary && !boundary->parts.empty()) boundary = spelled(parts.keys[i], boundary);
   }
 }
 
@@ -349,7 +346,7 @@ Operand SceneJobs::place_leaf(const SceneNode& node, uint32_t job_frame) const {
 /// y = P2 r + o2. So Q y = x + t with Q = P1 P2^-1 and t = Q o2 - o1.
 Result<Operand> SceneJobs::place(const Subtree& subtree, uint32_t job_frame) {
   const StoredBoundary& stored = use(subtree.id.key);
-  auto boundary = expanded_boundary(subtree.id.key);
+  auto boundary = boundary_of(subtree.id.key);
   if (!boundary) return boundary.error();
   const SignedPermutation turn =
       SignedPermutation::compose(stored.id.permutation, subtree.id.permutation.inverse());
@@ -360,6 +357,7 @@ Result<Operand> SceneJobs::place(const Subtree& subtree, uint32_t job_frame) {
   const Frame base = subtree.id.frame == job_frame ? Frame{} : scene_.frames[subtree.id.frame];
   operand.frame = turn.apply_to_frame(base);
   if (subtree.id.paint != stored.id.paint) operand.appearance = subtree.id.paint;
+  if (!can_stand_named(operand)) operand.boundary = spelled(subtree.id.key, operand.boundary);
   return operand;
 }
 
@@ -374,6 +372,18 @@ const StoredBoundary& SceneJobs::use(const Key& key) {
   return found->second.stored;
 }
 
+bool SceneJobs::may_be_in_pieces() const { return options_.whole_faces && !options_.literal_cells; }
+
+/// The same in pieces.
+PiecesPtr SceneJobs::pieces_of_result(const Key& key) {
+  StoredBoundary& kept = results_.at(key).stored;
+  if (!kept.pieces) {
+    kept.pieces = pieces_of(kept.boundary);
+    cache_.put(key, kept, memory_bytes(*kept.boundary) + kept.pieces->bytes);
+  }
+  return kept.pieces;
+}
+
 /// The boundary of a result that is in use.
 Result<BoundaryPtr> SceneJobs::boundary_of(const Key& key) {
   StoredBoundary& kept = results_.at(key).stored;
@@ -383,16 +393,6 @@ Result<BoundaryPtr> SceneJobs::boundary_of(const Key& key) {
     kept.boundary = *boundary;
     cache_.put(key, kept, memory_bytes(*kept.boundary) + kept.pieces->bytes);
   }
-  return kept.boundary;
-}
-
-/// The same with all faces spelled out, as operands of jobs have them.
-Result<BoundaryPtr> SceneJobs::expanded_boundary(const Key& key) {
-  auto boundary = boundary_of(key);
-  if (!boundary || (*boundary)->parts.empty()) return boundary;
-  StoredBoundary& kept = results_.at(key).stored;
-  kept.boundary = expanded(kept.boundary);
-  cache_.put(key, kept, memory_bytes(*kept.boundary) + (kept.pieces ? kept.pieces->bytes : 0));
   return kept.boundary;
 }
 
@@ -406,11 +406,10 @@ Result<SceneJobs::OpenOperator> SceneJobs::open(uint32_t node, size_t count, boo
     const StoredBoundary& stored = use(value.id.key);
     const bool is_in_place =
         parts.operands.empty() && value.id.frame == job_frame && stands_as_stored(value, stored);
-    if (is_in_place && stored.pieces) {
-      parts.first = stored.pieces;
+    if (is_in_place && may_be_in_pieces()) {
+      parts.first = pieces_of_result(value.id.key);
       result.children.push_back(put(parts, Operand(), value));
     } else {
-      parts.extends_result = is_in_place;
       results_.at(value.id.key).is_fresh = true;  // place() is the same use
       auto operand = place(value, job_frame);
       if (!operand) return operand.error();

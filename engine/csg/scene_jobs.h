@@ -44,9 +44,8 @@ class SceneJobs {
   };
   struct Parts {  // of one job
     std::vector<Operand> operands;
-    std::vector<Key> keys;        // of what each of them is
-    PiecesPtr first;              // the first operand, which is empty then
-    bool extends_result = false;  // the first operand is a result, where it was evaluated
+    std::vector<Key> keys;  // of what each of them is
+    PiecesPtr first;        // the first operand, which is empty then
     Expression expression;
     uint64_t operators = 0, sources = 0;
   };
@@ -74,14 +73,16 @@ class SceneJobs {
   Result<OpenOperator> open(uint32_t node, size_t count, bool is_target, uint32_t job_frame,
                             Parts& parts);
   uint32_t put(Parts& parts, Operand operand, const Subtree& subtree) const;
+  BoundaryPtr spelled(const Key& of, const BoundaryPtr& boundary);
   void spell_out(Parts& parts);
   Result<Operand> place(const Subtree& subtree, uint32_t job_frame);
   [[nodiscard]] Operand place_leaf(const SceneNode& node, uint32_t job_frame) const;
   /// Whether the stored axes are the world's and nothing is painted over.
   static bool stands_as_stored(const Subtree& subtree, const StoredBoundary& stored);
+  [[nodiscard]] bool may_be_in_pieces() const;
   const StoredBoundary& use(const Key& key);
+  PiecesPtr pieces_of_result(const Key& key);
   Result<BoundaryPtr> boundary_of(const Key& key);
-  Result<BoundaryPtr> expanded_boundary(const Key& key);
 
   const Scene& scene_;
   ResultCache<StoredBoundary>& cache_;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/boundary_pieces.h"
 #include "engine/bsp/untouched.h"
 #include "engine/bsp/vertex_signs.h"
 #include "engine/mesh/boundary_volume.h"
@@ -13,6 +15,7 @@
 #include "tests/support/boundary_compare.h"
 #include "tests/support/convex_operand.h"
 #include "tests/support/kernel_case.h"
+#include "tests/support/named_results.h"
 #include "tests/support/random_frames.h"
 #include "tests/support/random_trees.h"
 
@@ -56,8 +59,8 @@ class Chains {
  public:
   explicit Chains(uint64_t seed) : random_(seed), maker_(random_) {}
 
-  /// Starts from two operands and goes on for some steps; each version is looked at. `turning`:
-  /// steps may take the version away from something.
+  /// Starts from two operands, in pieces or as a boundary, by turns, and goes on for some steps;
+  /// each version is looked at. `turning`: steps may take the version away from something.
   void run(const test::TreeShape& shape, int steps, bool turning = false) {
     const test::RandomTree leaves = maker_.make(shape);
     run_with(leaves.operands, leaves.region, steps, turning);
@@ -69,12 +72,25 @@ class Chains {
     for (const Operand& o : leaves) unused_.push_back(o);
     Version start;
     take(start.operands, 2);
-    const auto op = static_cast<BooleanOp>(random_.integer(0, 3));
+    const auto op = static_cast<BooleanOp>(starts_ / 2 % 4);
     start.expression = test::flat_expression(op, 2);
-    auto made = evaluate_pieces(start.operands, start.expression, region, {}, stats_);
-    ASSERT_TRUE(made) << made.error().message;
-    if (!*made) return;
-    start.pieces = *made;
+    if (starts_++ % 2 == 0) {
+      auto made = evaluate_pieces(start.operands, start.expression, region, {}, stats_);
+      ASSERT_TRUE(made) << made.error().message;
+      if (!*made) return;
+      start.pieces = *made;
+    } else {
+      KernelOptions options;
+      options.name_untouched = true;
+      const auto boundary =
+          evaluate_boolean(start.operands, start.expression, region, options, stats_);
+      ASSERT_TRUE(boundary) << boundary.error().message;
+      for (const UntouchedPart& part : (*boundary)->parts) {
+        (part.flipped ? flipped_ : named_) += part.faces.size();
+      }
+      start.pieces = pieces_of(*boundary);
+      check_points(*start.pieces, (*boundary)->point_planes.size());
+    }
     ASSERT_NO_FATAL_FAILURE(check(start, region));
     versions.push_back(start);
     for (int i = 0; i < steps && !unused_.empty(); ++i) {
@@ -114,6 +130,9 @@ class Chains {
   /// Groups in all versions that were looked at, and those that an operation looked into.
   [[nodiscard]] size_t groups() const { return groups_; }
   [[nodiscard]] size_t expanded_groups() const { return expanded_groups_; }
+  /// Faces that boundaries named from which chains started, and those that they had turned over.
+  [[nodiscard]] size_t named() const { return named_; }
+  [[nodiscard]] size_t flipped() const { return flipped_; }
 
  private:
   void take(std::vector<Operand>& to, size_t count) {
@@ -131,6 +150,27 @@ class Chains {
               more_pieces * (sizeof(PieceStore::Piece) + sizeof(PieceBox) + 6 * sizeof(uint32_t)) +
                   more_points * (6 * sizeof(double)));
     EXPECT_LE(pieces.bytes, 500 * (1 + more_pieces + more_points));
+  }
+  /// No point of a boundary, the first operand, is a corner of faces that it names: there these
+  /// have a number before.
+  static void check_points(const ResultPieces& pieces, size_t boundary_points) {
+    const PieceStore& store = *pieces.store;
+    std::set<std::array<double, 3>> of_named;
+    for (const bool whole : {true, false}) {
+      pieces.tree.each([](const PieceBox&) { return true; },
+                       [&](uint32_t p) {
+                         if (store.piece(p).is_whole != whole) return;
+                         store.each_face(p, [&](std::span<const uint32_t> corners) {
+                           for (const uint32_t c : corners) {
+                             if (whole) {
+                               of_named.insert(store.rounded(c));
+                             } else if (c < boundary_points) {
+                               EXPECT_FALSE(of_named.contains(store.rounded(c)));
+                             }
+                           }
+                         });
+                       });
+    }
   }
   static bool may_touch_anywhere(const BoundaryMesh& mesh) {
     return mesh.may_touch && mesh.touches.empty();
@@ -211,8 +251,8 @@ class Chains {
   test::TreeMaker maker_;
   std::vector<Operand> unused_;
   EvaluateStats stats_;
-  int steps_ = 0;
-  size_t groups_ = 0, expanded_groups_ = 0;
+  int starts_ = 0, steps_ = 0;
+  size_t groups_ = 0, expanded_groups_ = 0, named_ = 0, flipped_ = 0;
 };
 
 TEST(ResultPieces, OfTouchingLeaves) {
@@ -308,6 +348,32 @@ TEST(ResultPieces, OfLeavesOfManyFaces) {
   EXPECT_GT(chains.steps(), 60);
   EXPECT_GT(chains.groups(), 300u);
   EXPECT_GT(chains.expanded_groups(), 100u);
+}
+
+// Meshes whose facets are their triangles, many of them in one plane: also what is turned over, and
+// both sides of one leaf, of a symmetric difference.
+TEST(ResultPieces, OfMeshesOfFacets) {
+  constexpr int64_t kSize = 1 << 12;
+  test::Random random(531);
+  Chains chains(532);
+  for (int i = 0; i < 16; ++i) {
+    std::vector<Operand> meshes;
+    for (uint32_t o = 0; o < 5; ++o) {
+      const auto leaf = test::leaf_of_triangles(
+          random.integer(0, 1) ? test::bumpy_torus(random, {0, 0, 0}, kSize)
+                               : test::tiled_box(random, {-kSize, -kSize, -kSize}, 6, kSize / 3));
+      meshes.push_back(test::operand_of(leaf));
+      for (int64_t& t : meshes.back().translation) t = random.integer(-kSize, kSize);
+      meshes.back().first_source = o;
+      if (random.integer(0, 2) == 0) meshes.back().appearance = 3;
+      if (i % 4 == 3 && o % 2 == 0) meshes.back().frame = test::random_frame(random);
+    }
+    ASSERT_NO_FATAL_FAILURE(chains.run_with(meshes, test::region_of(meshes), 3, i % 2 == 1))
+        << "chain " << i;
+  }
+  EXPECT_GT(chains.steps(), 30);
+  EXPECT_GT(chains.named(), 1000u);
+  EXPECT_GT(chains.flipped(), 300u);
 }
 
 using test::octahedron;
