@@ -214,7 +214,9 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
 /// A result that goes on from another one, which somebody looked at, is kept in pieces: it is
 /// likely to be gone on from, too.
 Result<StoredBoundary> SceneJobs::run_kept_job(Parts parts, const Subtree& subtree) {
-  if (parts.first && parts.operands.size() > 1) {
+  if (parts.first) {
+    // Alone if all others were there before (OpenOperator::repeats).
+    if (parts.operands.size() == 1) return StoredBoundary{nullptr, parts.first, subtree.id};
     spell_out(parts);
     const std::vector<Operand> others(parts.operands.begin() + 1, parts.operands.end());
     auto pieces =
