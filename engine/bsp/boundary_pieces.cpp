@@ -1,6 +1,5 @@
 #include "engine/bsp/boundary_pieces.h"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -32,6 +31,7 @@ Operand leaf_of(const UntouchedPart& part) {
   Operand operand;
   operand.leaf = part.leaf;
   operand.translation = part.translation;
+  operand.frame = part.map.frame();
   operand.first_source = part.source;
   operand.appearance = part.appearance;
   return operand;
@@ -51,6 +51,7 @@ class BoundaryPieces {
     }
   }
 
+  /// Null if a leaf cannot be in pieces.
   PiecesPtr run() {
     auto result = std::make_shared<ResultPieces>();
     result->store = std::make_shared<PieceStore>();
@@ -62,7 +63,7 @@ class BoundaryPieces {
     none.faces.resize(operands_.size());
     Job job(operands_, store.planes, none);
     PieceWriter writer(job, operands_, store);
-    writer.add_operands();
+    if (!writer.add_operands()) return nullptr;
     std::vector<FarFaces> named(operands_.size());
     for (size_t k = 0; k < mesh_.parts.size(); ++k) {
       const UntouchedPart& part = mesh_.parts[k];
@@ -90,10 +91,8 @@ class BoundaryPieces {
 }  // namespace
 
 PiecesPtr pieces_of(const std::shared_ptr<const BoundaryMesh>& boundary) {
-  const bool are_on_grid =
-      std::all_of(boundary->parts.begin(), boundary->parts.end(),
-                  [](const UntouchedPart& part) { return part.map.is_identity(); });
-  return BoundaryPieces(are_on_grid ? *boundary : *expanded(boundary)).run();
+  if (PiecesPtr pieces = BoundaryPieces(*boundary).run()) return pieces;
+  return BoundaryPieces(*expanded(boundary)).run();
 }
 
 }  // namespace csgrun

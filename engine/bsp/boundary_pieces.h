@@ -8,9 +8,8 @@
 
 namespace csgrun {
 
-/// The pieces of a boundary where it stands. What it names of leaves on the grid becomes groups of
-/// faces, which an operation looks into where it comes near; what it spells out is made convex.
-/// O(n).
+/// The pieces of a boundary where it stands. What it names of leaves becomes groups of faces, which
+/// an operation looks into where it comes near; what it spells out is made convex. O(n).
 PiecesPtr pieces_of(const std::shared_ptr<const BoundaryMesh>& boundary);
 
 }  // namespace csgrun

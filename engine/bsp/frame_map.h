@@ -16,6 +16,7 @@ class FrameMap {
   FrameMap() = default;
   explicit FrameMap(const Frame& frame);
 
+  [[nodiscard]] const Frame& frame() const { return frame_; }
   [[nodiscard]] bool is_identity() const { return frame_.is_identity; }
   /// The frame's determinant is negative: what runs counter-clockwise there, runs clockwise here.
   [[nodiscard]] bool is_mirrored() const { return determinant_.negative(); }

@@ -8,15 +8,40 @@
 namespace csgrun {
 namespace {
 
-/// Whether a face of a leaf turns at its corner `i`.
-bool turns_at(const LeafGeometry& leaf, uint32_t face, uint32_t i) {
-  const uint32_t begin = leaf.face_starts[face], count = leaf.face_starts[face + 1] - begin;
-  const auto at = [&](uint32_t k) -> const IVec3& {
-    return leaf.vertices[leaf.corners[begin + k % count]];
-  };
-  const Plane plane = plane_through(at(i + count - 1), at(i), at(i + 1));
-  return plane.a != 0 || plane.b != 0 || plane.c != 0;
-}
+/// Planes of a face of a leaf that is in a frame, as its corners stand in the leaf.
+class FramedFace {
+ public:
+  FramedFace(const Operand& operand, const FrameMap& map, uint32_t face)
+      : leaf_(*operand.leaf),
+        translation_(operand.translation),
+        map_(map),
+        begin_(leaf_.face_starts[face]),
+        count_(leaf_.face_starts[face + 1] - begin_),
+        own_(support_of_loop(count_, [this](uint32_t i) { return at(i); })) {}
+
+  [[nodiscard]] uint32_t count() const { return count_; }
+  [[nodiscard]] Plane support() const { return map_.plane(own_); }
+  /// That of the edge from corner i to the next.
+  [[nodiscard]] Plane edge(uint32_t i) const {
+    return map_.plane(edge_plane(at(i), at(i + 1), dominant_axis(own_)));
+  }
+  [[nodiscard]] bool turns_at(uint32_t i) const {
+    const auto n = normal_through(at(i + count_ - 1), at(i), at(i + 1));
+    return n[0] != 0 || n[1] != 0 || n[2] != 0;
+  }
+
+ private:
+  [[nodiscard]] IVec3 at(uint32_t i) const {
+    const IVec3& v = leaf_.vertices[leaf_.corners[begin_ + i % count_]];
+    return {v[0] + translation_[0], v[1] + translation_[1], v[2] + translation_[2]};
+  }
+
+  const LeafGeometry& leaf_;
+  const IVec3& translation_;
+  const FrameMap& map_;
+  const uint32_t begin_, count_;
+  const Plane own_;
+};
 
 }  // namespace
 
@@ -24,8 +49,13 @@ uint32_t PieceStore::add_operand(Job& job, const std::vector<Operand>& operands,
   const Operand& operand = operands[o];
   const auto first = static_cast<uint32_t>(rounded_.size());
   const auto number = static_cast<uint32_t>(operands_.size());
+  operands_.push_back(operand);
+  maps_.emplace_back(operand.frame);
+  first_point_.push_back(first);
+  corner_at_.emplace_back();
+  if (!find_corners()) return kNoNumber;
   const uint32_t begin = job.vertex_start(o), end = job.vertex_start(o + 1);
-  if (operands_.empty() && begin < end) {
+  if (number == 0 && begin < end) {
     for (size_t k = 0; k < 3; ++k) origin_[k] = static_cast<int64_t>(job.rounded(begin)[k]);
   }
   for (uint32_t v = begin; v < end; ++v) {
@@ -35,33 +65,39 @@ uint32_t PieceStore::add_operand(Job& job, const std::vector<Operand>& operands,
                                        : meet_on_grid_at(point_planes_.back(), rounded_.back()));
   }
   point_operand_.resize(rounded_.size(), number);
-  const uint32_t first_polygon = job.polygon_start(o), end_polygon = job.polygon_start(o + 1);
-  if (operand.leaf && !operand.frame.is_identity) {
-    for (uint32_t p = first_polygon; p < end_polygon; ++p) {
-      job.ensure_planes(p);
-      const JobPolygon& polygon = job.polygons()[p];
-      const auto corners = job.corners(polygon);
-      const auto edges = job.edge_planes(polygon);
-      for (uint32_t i = 0; i < polygon.count; ++i) {
-        auto& meeting = point_planes_[first + corners[i] - begin];
-        if (meeting[0] != kNoNumber) continue;
-        const uint32_t before = i > 0 ? i - 1 : polygon.count - 1;
-        // A mirrored loop runs backwards: its corner i is the leaf's corner n - 1 - i.
-        const uint32_t in_leaf =
-            corners[0] - begin == operand.leaf->corners[operand.leaf->face_starts[polygon.face]]
-                ? i
-                : polygon.count - 1 - i;
-        if (!turns_at(*operand.leaf, polygon.face, in_leaf)) continue;
-        meeting = {polygon.support.index(), edges[before], edges[i]};
-      }
-    }
-    const bool all_known = std::all_of(point_planes_.begin() + first, point_planes_.end(),
-                                       [](const auto& p) { return p[0] != kNoNumber; });
-    if (!all_known) return kNoNumber;
-  }
-  operands_.push_back(operand);
-  first_point_.push_back(first);
   return number;
+}
+
+/// Fills corner_at_ of the last operand; false if a vertex has no such corner.
+bool PieceStore::find_corners() {
+  const Operand& operand = operands_.back();
+  if (!operand.leaf || operand.frame.is_identity) return true;
+  const LeafGeometry& leaf = *operand.leaf;
+  std::vector<uint32_t>& corner_at = corner_at_.back();
+  corner_at.assign(leaf.vertices.size(), kNoNumber);
+  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+    const FramedFace face(operand, maps_.back(), f);
+    for (uint32_t i = 0; i < face.count(); ++i) {
+      const uint32_t corner = leaf.face_starts[f] + i;
+      if (face.count() == 3 || face.turns_at(i)) corner_at[leaf.corners[corner]] = corner;
+    }
+  }
+  return std::all_of(leaf.corners.begin(), leaf.corners.end(),
+                     [&](uint32_t v) { return corner_at[v] != kNoNumber; });
+}
+
+void PieceStore::name(uint32_t point) {
+  const uint32_t o = point_operand_[point];
+  if (is_on_grid(point) || point_planes_[point][0] != kNoNumber) return;
+  const LeafGeometry& leaf = *operands_[o].leaf;
+  const uint32_t corner = corner_at_[o][point - first_point_[o]];
+  const auto next = std::upper_bound(leaf.face_starts.begin(), leaf.face_starts.end(), corner);
+  const auto face = static_cast<uint32_t>(next - leaf.face_starts.begin()) - 1;
+  const FramedFace own(operands_[o], maps_[o], face);
+  const uint32_t i = corner - leaf.face_starts[face], before = i > 0 ? i - 1 : own.count() - 1;
+  point_planes_[point] = {planes.intern(own.support()).index(),
+                          planes.intern(own.edge(before)).index(),
+                          planes.intern(own.edge(i)).index()};
 }
 
 uint32_t PieceStore::add_point(const std::array<uint32_t, 3>& meeting,
@@ -82,7 +118,10 @@ bool PieceStore::meet_on_grid_at(const std::array<uint32_t, 3>& meeting,
 uint32_t PieceStore::add_piece(const Piece& piece) {
   pieces_.push_back(piece);
   PieceBox box;
-  for (const uint32_t p : corners(piece_count() - 1)) box.add(rounded_[p]);
+  for (const uint32_t p : corners(piece_count() - 1)) {
+    box.add(rounded_[p]);
+    name(p);
+  }
   boxes_.push_back(box);
   return piece_count() - 1;
 }
@@ -95,6 +134,7 @@ uint32_t PieceStore::add_region(Piece piece, std::span<const uint32_t> ends, uin
                       cell_count,
                       {}});
   loop_ends_.insert(loop_ends_.end(), ends.begin(), ends.end());
+  for (uint32_t i = 0; i < cell_count; ++i) name(corners_[piece.first + piece.count + i]);
   return add_piece(piece);
 }
 
@@ -118,6 +158,15 @@ uint32_t PieceStore::add_face(Piece piece, uint32_t face) {
   append_corners(piece, face, corners_);
   piece.count = static_cast<uint32_t>(corners_.size()) - piece.first;
   edges_.resize(corners_.size(), kNoNumber);
+  if (const FrameMap& map = maps_[piece.operand]; !map.is_identity()) {
+    const FramedFace own(operands_[piece.operand], map, face);
+    const PlaneId outwards = planes.intern(own.support());
+    piece.support = piece.is_flipped ? outwards.flip() : outwards;
+    for (uint32_t i = 0; i < piece.count; ++i) {
+      const uint32_t in_leaf = edge_place(i, piece.count, runs_back(piece));
+      edges_[piece.first + i] = planes.intern(own.edge(in_leaf)).index();
+    }
+  }
   return add_piece(piece);
 }
 
@@ -167,6 +216,11 @@ Point PieceStore::exact(uint32_t point) const {
   if (is_on_grid(point)) {
     const IVec3 at = on_grid(point);
     return grid_point(at[0], at[1], at[2]);
+  }
+  if (const uint32_t o = point_operand_[point]; o != kNoNumber && operands_[o].leaf) {
+    const IVec3 &v = operands_[o].leaf->vertices[point - first_point_[o]],
+                &t = operands_[o].translation;
+    return maps_[o].point({v[0] + t[0], v[1] + t[1], v[2] + t[2]});
   }
   const auto& t = point_planes_[point];
   return intersect(planes.plane(t[0]), planes.plane(t[1]), planes.plane(t[2]));

@@ -54,7 +54,7 @@ class PieceStore {
   static constexpr uint32_t kNoNumber = ~0u;
 
   /// Operand `o` of a job over this store's planes: its vertices become points. Returns its number
-  /// here; kNoNumber for a leaf in a frame some vertex of which is a true corner of no face.
+  /// here; kNoNumber for a leaf in a frame some corner of which is a true corner of no face.
   uint32_t add_operand(Job& job, const std::vector<Operand>& operands, uint32_t o);
   /// The point in which three planes meet, with its coordinates, correctly rounded.
   uint32_t add_point(const std::array<uint32_t, 3>& meeting, const std::array<double, 3>& at);
@@ -64,7 +64,7 @@ class PieceStore {
   /// A region, the loops of which end at `ends`, counted from its first corner. The corners and
   /// edges of the convex polygon around it, so many, were appended after its own.
   uint32_t add_region(Piece piece, std::span<const uint32_t> ends, uint32_t cell_count);
-  /// A whole face of a leaf on the grid that nothing met, turned over if `piece` is.
+  /// A whole face of a leaf that nothing met, turned over if `piece` is.
   uint32_t add_face(Piece piece, uint32_t face);
   /// Several of them as one.
   uint32_t add_group(Piece piece, std::span<const uint32_t> faces);
@@ -128,7 +128,8 @@ class PieceStore {
   [[nodiscard]] const std::array<double, 3>& rounded(uint32_t point) const {
     return rounded_[point];
   }
-  /// Three planes that meet in the point, or kNone thrice for a grid point.
+  /// Three planes that meet in the point, or kNone thrice for a grid point, and for a vertex of a
+  /// leaf in a frame that is a corner of groups only.
   [[nodiscard]] const std::array<uint32_t, 3>& point_planes(uint32_t point) const {
     return point_planes_[point];
   }
@@ -137,6 +138,8 @@ class PieceStore {
   [[nodiscard]] Point exact(uint32_t point) const;
 
   [[nodiscard]] const std::vector<Operand>& operands() const { return operands_; }
+  /// To the world from the frame of an operand.
+  [[nodiscard]] const FrameMap& map(uint32_t operand) const { return maps_[operand]; }
   /// The points of an operand's vertices stand together, from this one on.
   [[nodiscard]] uint32_t first_point(uint32_t operand) const { return first_point_[operand]; }
   /// The operand whose vertex a point is, or kNone.
@@ -185,6 +188,9 @@ class PieceStore {
   [[nodiscard]] bool meet_on_grid_at(const std::array<uint32_t, 3>& meeting,
                                      const std::array<double, 3>& at) const;
   [[nodiscard]] IVec3 on_grid(uint32_t point) const;
+  [[nodiscard]] bool find_corners();
+  /// Has a vertex of a leaf in a frame be where three planes meet.
+  void name(uint32_t point);
   [[nodiscard]] Plane plane_of_corners(uint32_t piece) const;
   /// Appends the corners of a face of a leaf as a piece of it has them.
   void append_corners(const Piece& piece, uint32_t face, std::vector<uint32_t>& out) const {
@@ -192,8 +198,12 @@ class PieceStore {
     const uint32_t begin = leaf.face_starts[face], count = leaf.face_starts[face + 1] - begin;
     for (uint32_t i = 0; i < count; ++i) {
       out.push_back(first_point_[piece.operand] +
-                    leaf.corners[begin + corner_place(i, count, piece.is_flipped)]);
+                    leaf.corners[begin + corner_place(i, count, runs_back(piece))]);
     }
+  }
+  /// Whether the corners of a face of a leaf run the other way round in a piece of it.
+  [[nodiscard]] bool runs_back(const Piece& piece) const {
+    return piece.is_flipped != maps_[piece.operand].is_mirrored();
   }
 
   struct Group {
@@ -202,7 +212,10 @@ class PieceStore {
   };
 
   std::vector<Operand> operands_;
+  std::vector<FrameMap> maps_;
   std::vector<uint32_t> first_point_;
+  /// Per operand, of a leaf in a frame: for each vertex a corner of the leaf that turns there.
+  std::vector<std::vector<uint32_t>> corner_at_;
   std::vector<std::array<double, 3>> rounded_;
   std::vector<std::array<uint32_t, 3>> point_planes_;
   std::vector<uint32_t> point_operand_;

@@ -67,6 +67,7 @@ class PieceTree {
     /// results are shared between grids on which they have the same whole numbers.
     mutable std::array<std::array<double, 3>, 2> extent{};
     mutable GridStep extent_step;
+    mutable uint8_t known_ends = 0;  ///< which of the six were asked for: bit 3 end + axis
   };
   using NodePtr = std::shared_ptr<const Node>;
 

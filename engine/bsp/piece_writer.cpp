@@ -29,7 +29,7 @@ void PieceWriter::add_whole(std::span<const WholePolygon> whole, std::span<const
   std::copy(far.begin(), far.end(), grouped.begin());
   for (const WholePolygon& w : whole) {
     const auto& [o, face, first, count, support] = job_.polygons()[w.polygon];
-    if (w.is_met || !operands_[o].leaf || !operands_[o].frame.is_identity) {
+    if (w.is_met || !operands_[o].leaf) {
       add_single(w);
     } else {
       (w.flip ? grouped[o].flipped : grouped[o].kept).push_back(face);
@@ -89,6 +89,10 @@ void PieceWriter::add_groups(uint32_t operand, std::span<const uint32_t> faces, 
 
 void PieceWriter::add_single(const WholePolygon& w) {
   const JobPolygon& p = job_.polygons()[w.polygon];
+  // Of grid points planes can be made later.
+  if (operands_[p.operand].leaf && !operands_[p.operand].frame.is_identity) {
+    job_.ensure_planes(w.polygon);
+  }
   const auto corners = job_.corners(p);
   const auto edges = job_.edge_planes(p);
   PieceStore::Piece piece = origin_of(w.polygon);

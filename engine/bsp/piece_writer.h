@@ -37,8 +37,8 @@ class PieceWriter {
     same_[vertex] = other;
   }
 
-  /// Polygons that are kept. Ones in pieces must be turned over; others are there already. Of a
-  /// leaf on the grid those that nothing met become groups. `far`, per operand or empty: faces that
+  /// Polygons that are kept. Ones in pieces must be turned over; others are there already. Of
+  /// leaves those that nothing met become groups. `far`, per operand or empty: faces that
   /// the job does not have, which are kept, too.
   void add_whole(std::span<const WholePolygon> whole, std::span<const FarFaces> far = {});
 
@@ -49,7 +49,7 @@ class PieceWriter {
 
  private:
   void add_single(const WholePolygon& w);
-  /// Whole faces of a leaf on the grid that nothing met, on one side: they end up in groups of what
+  /// Whole faces of a leaf that nothing met, on one side: they end up in groups of what
   /// is together.
   void add_groups(uint32_t operand, std::span<const uint32_t> faces, bool flip);
 

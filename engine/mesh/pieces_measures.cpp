@@ -13,6 +13,7 @@
 
 #include "engine/mesh/boundary_volume.h"
 #include "engine/mesh/fixed_sums.h"
+#include "engine/mesh/framed_volume.h"
 #include "engine/mesh/measure.h"
 #include "engine/mesh/to_millimetres.h"
 
@@ -67,7 +68,7 @@ class Summer {
     if (store_.is_group(piece)) return near_determinant_of_group(piece);
     near_.clear();
     for (const uint32_t point : store_.corners(piece)) {
-      if (store_.point_planes(point)[0] != PieceStore::kNoNumber) return std::nullopt;
+      if (!store_.is_on_grid(point)) return std::nullopt;
       Near& near = near_.emplace_back();
       for (size_t k = 0; k < 3; ++k) {
         near[k] = static_cast<int64_t>(store_.rounded(point)[k]) - store_.origin()[k];
@@ -83,6 +84,7 @@ class Summer {
   /// Straight from the leaf.
   [[nodiscard]] std::optional<Int128> near_determinant_of_group(uint32_t piece) const {
     const PieceStore::Piece& group = store_.piece(piece);
+    if (!store_.map(group.operand).is_identity()) return std::nullopt;
     const PieceBox& box = store_.box(piece);  // exact: of grid points
     for (size_t k = 0; k < 3; ++k) {
       const auto origin = static_cast<double>(store_.origin()[k]);
@@ -90,26 +92,57 @@ class Summer {
         return std::nullopt;
       }
     }
-    const Operand& operand = store_.operands()[group.operand];
+    Int128 sum = 0;
+    each_triangle(piece, store_.origin(), [&](const Near& a, const Near& b, const Near& c) {
+      sum += determinant(a, b, c);
+    });
+    return group.is_flipped ? -sum : sum;
+  }
+
+  /// Calls f(a, b, c) for the triangles of a group, relative to a point of the leaf's frame.
+  template <class F>
+  void each_triangle(uint32_t piece, IVec3 origin, F&& f) const {
+    const Operand& operand = store_.operands()[store_.piece(piece).operand];
     const LeafGeometry& leaf = *operand.leaf;
-    IVec3 origin = store_.origin();
     for (size_t k = 0; k < 3; ++k) origin[k] -= operand.translation[k];
     const auto at = [&](uint32_t corner) {
       const IVec3& v = leaf.vertices[leaf.corners[corner]];
       return Near{v[0] - origin[0], v[1] - origin[1], v[2] - origin[2]};
     };
-    Int128 sum = 0;
-    for (const uint32_t f : store_.group_faces(piece)) {
-      const uint32_t first = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+    for (const uint32_t face : store_.group_faces(piece)) {
+      const uint32_t first = leaf.face_starts[face], end = leaf.face_starts[face + 1];
       const Near a = at(first);
       Near b = at(first + 1);
       for (uint32_t i = first + 2; i < end; ++i) {
         const Near c = at(i);
-        sum += determinant(a, b, c);
+        f(a, b, c);
         b = c;
       }
     }
-    return group.is_flipped ? -sum : sum;
+  }
+
+  /// Of a group of a leaf in a frame, from its whole numbers there; false if they are too large.
+  bool add_framed(uint32_t piece, PieceSums& out) const {
+    const PieceStore::Piece& group = store_.piece(piece);
+    FramedSums sums;
+    bool are_near = true;
+    each_triangle(piece, {0, 0, 0}, [&](const Near& a, const Near& b, const Near& c) {
+      for (const Near& p : {a, b, c}) {
+        for (const int64_t x : p) are_near = are_near && std::abs(x) < kNearLimit;
+      }
+      if (!are_near) return;
+      const auto n = normal_of(a, b, c);
+      for (size_t k = 0; k < 3; ++k) {
+        sums.determinants += static_cast<Int128>(n[k]) * a[k];
+        sums.normals[k] += n[k];
+      }
+    });
+    if (!are_near) return false;
+    bool cut = false;
+    const Int<6> world = framed_determinants(sums, store_.map(group.operand), store_.origin(), cut);
+    out.six_volumes += group.is_flipped ? -world : world;
+    out.triangles += cut;  // one unit less, where a triangle is allowed many
+    return true;
   }
 
   static Int128 determinant(const Near& a, const Near& b, const Near& c) {
@@ -139,6 +172,10 @@ class Summer {
   }
 
   bool find_cut(uint32_t piece, PieceSums& out) {
+    if (store_.is_group(piece) && !store_.map(store_.piece(piece).operand).is_identity() &&
+        add_framed(piece, out)) {
+      return true;
+    }
     bool is_in_range = true;
     store_.each_face(piece, [&](std::span<const uint32_t> corners) {
       bool cut = false;
@@ -218,42 +255,75 @@ class Summer {
   std::vector<Fixed> fixed_;
 };
 
-/// Finds the extent of a node for a step.
-void find_extent(const PieceTree::Node& node, const PieceStore& store, const GridStep& step,
-                 const ToMillimetres& to_millimetres) {
-  if (node.extent_step == step) return;
-  node.extent_step = step;
-  node.extent[0].fill(HUGE_VAL);
-  node.extent[1].fill(-HUGE_VAL);
-  const auto add = [&](size_t axis, double lo, double hi) {
-    node.extent[0][axis] = std::min(node.extent[0][axis], lo);
-    node.extent[1][axis] = std::max(node.extent[1][axis], hi);
-  };
-  for (const PieceTree::NodePtr& child : node.child) {
-    if (!child) continue;
-    find_extent(*child, store, step, to_millimetres);
-    for (size_t k = 0; k < 3; ++k) add(k, child->extent[0][k], child->extent[1][k]);
+/// The ends of boxes of pieces in mm, for a step.
+class Ends {
+ public:
+  Ends(const PieceStore& store, const GridStep& step)
+      : store_(store), step_(step), to_millimetres_(step) {}
+
+  /// How far the pieces below a node reach along an axis; `end`: 0 down, 1 up. Only what reaches as
+  /// far as the node is looked at, and the node keeps what was found.
+  double of(const PieceTree::Node& node, size_t end, size_t axis) {
+    if (node.extent_step != step_) node.extent_step = step_, node.known_ends = 0;
+    double& found = node.extent[end][axis];
+    const auto bit = static_cast<uint8_t>(1u << (3 * end + axis));
+    if (node.known_ends & bit) return found;
+    node.known_ends |= bit;
+    found = end == 0 ? HUGE_VAL : -HUGE_VAL;
+    bool any_there = false;  // and all others would add the same
+    // Rounding is monotone: what is furthest has the furthest rounded coordinate.
+    const double furthest = at(node.box, end, axis);
+    const auto add = [&](double mm) {
+      found = end == 0 ? std::min(found, mm) : std::max(found, mm);
+    };
+    for (const PieceTree::NodePtr& child : node.child) {
+      if (child && at(child->box, end, axis) == furthest) add(of(*child, end, axis));
+    }
+    for (const uint32_t piece : node.pieces) {
+      if (at(store_.box(piece), end, axis) != furthest) continue;
+      store_.each_face(piece, [&](std::span<const uint32_t> corners) {
+        for (const uint32_t p : corners) {
+          if (store_.rounded(p)[axis] != furthest) continue;
+          const bool is_there = is_at(p, axis, furthest);
+          if (!is_there || !any_there) add(millimetres(p, axis));
+          any_there = any_there || is_there;
+        }
+      });
+    }
+    return found;
   }
-  for (const uint32_t piece : node.pieces) {
-    store.each_face(piece, [&](std::span<const uint32_t> corners) {
-      for (const uint32_t p : corners) {
-        // Rounding is monotone: what is furthest has the furthest rounded coordinate.
-        const auto& at = store.rounded(p);
-        std::array<bool, 3> is_end{};
-        for (size_t k = 0; k < 3; ++k) {
-          is_end[k] = at[k] == node.box.lo[k] || at[k] == node.box.hi[k];
-        }
-        if (!is_end[0] && !is_end[1] && !is_end[2]) continue;
-        glm::dvec3 mm;
-        std::array<float, 3> single{};
-        to_millimetres.position(store.exact(p), mm, single);
-        for (size_t k = 0; k < 3; ++k) {
-          if (is_end[k]) add(k, mm[static_cast<int>(k)], mm[static_cast<int>(k)]);
-        }
-      }
+
+ private:
+  static double at(const PieceBox& box, size_t end, size_t axis) {
+    return end == 0 ? box.lo[axis] : box.hi[axis];
+  }
+  /// Whether a point is seen to have its rounded coordinate, a whole number, exactly: the points of
+  /// a level face, of which there may be many, do.
+  [[nodiscard]] bool is_at(uint32_t point, size_t axis, double coordinate) const {
+    if (store_.is_on_grid(point)) return true;
+    const auto& meeting = store_.point_planes(point);
+    if (meeting[0] == PieceStore::kNoNumber || std::fabs(coordinate) >= 0x1p53) return false;
+    const auto whole = static_cast<int64_t>(coordinate);
+    if (static_cast<double>(whole) != coordinate) return false;
+    return std::any_of(meeting.begin(), meeting.end(), [&](uint32_t p) {
+      const Plane& plane = store_.planes.plane(p);
+      const std::array<Int128, 3> normal{plane.a, plane.b, plane.c};
+      // Reduced planes along an axis through a whole number are x = whole.
+      return normal[(axis + 1) % 3] == 0 && normal[(axis + 2) % 3] == 0 &&
+             (normal[axis] == 1 ? plane.d == -whole : normal[axis] == -1 && plane.d == whole);
     });
   }
-}
+  [[nodiscard]] double millimetres(uint32_t point, size_t axis) const {
+    glm::dvec3 mm;
+    std::array<float, 3> single{};
+    to_millimetres_.position(store_.exact(point), mm, single);
+    return mm[static_cast<int>(axis)];
+  }
+
+  const PieceStore& store_;
+  const GridStep step_;
+  const ToMillimetres to_millimetres_;
+};
 
 /// x * 2^shift as a whole number that is no less.
 Natural whole_above(double x, int shift) {
@@ -296,9 +366,14 @@ std::optional<std::array<glm::dvec3, 2>> pieces_box(const ResultPieces& pieces,
                                                     const GridStep& step) {
   const PieceTree::NodePtr& root = pieces.tree.root();
   if (!root) return std::nullopt;
-  find_extent(*root, *pieces.store, step, ToMillimetres(step));
-  const auto point = [](const std::array<double, 3>& p) { return glm::dvec3(p[0], p[1], p[2]); };
-  return std::array{point(root->extent[0]), point(root->extent[1])};
+  Ends ends(*pieces.store, step);
+  std::array<glm::dvec3, 2> box;
+  for (size_t end = 0; end < 2; ++end) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      box[end][static_cast<int>(axis)] = ends.of(*root, end, axis);
+    }
+  }
+  return box;
 }
 
 }  // namespace csgrun

@@ -36,6 +36,21 @@ std::vector<Loop> box_with_split_top(test::Random& random) {
   return loops;
 }
 
+/// A whole face as a piece has the corners and planes that a job gives it, and each of its corners
+/// is on the grid or where three planes meet.
+void check_face(PieceStore& store, uint32_t piece, Job& job, uint32_t polygon, bool flip) {
+  job.ensure_planes(polygon);
+  const JobPolygon& p = job.polygons()[polygon];
+  ASSERT_EQ(store.piece(piece).count, p.count);
+  EXPECT_EQ(store.ensure_support(piece), flip ? p.support.flip() : p.support);
+  for (uint32_t i = 0; i < p.count; ++i) {
+    const uint32_t point = store.corners(piece)[i];
+    EXPECT_EQ(point, job.corners(p)[corner_place(i, p.count, flip)]);
+    EXPECT_EQ(store.ensure_edge(piece, i), job.edge_planes(p)[edge_place(i, p.count, flip)]);
+    EXPECT_TRUE(store.is_on_grid(point) || store.point_planes(point)[0] != PieceStore::kNoNumber);
+  }
+}
+
 TEST(PieceStore, PointsAreThoseOfTheJob) {
   test::Random random(991);
   size_t constructed = 0, on_grid = 0;
@@ -65,8 +80,21 @@ TEST(PieceStore, PointsAreThoseOfTheJob) {
         ASSERT_EQ(store.operand_of(p), o);
         ASSERT_EQ(store.exact(p).w.sign(), 1);  // its planes meet in one point
         ASSERT_EQ(compare(store.exact(p), job.exact(v)), 0) << "round " << round;
-        ++(store.point_planes(p)[0] == PieceStore::kNoNumber ? on_grid : constructed);
       }
+      const bool flip = random.integer(0, 1);
+      for (uint32_t f = 0; operands[o].leaf && f < operands[o].leaf->face_count(); ++f) {
+        const uint32_t piece = store.add_face({o, f, 0, 0, PlaneId(), true, flip}, f);
+        ASSERT_NO_FATAL_FAILURE(check_face(store, piece, job, job.polygon_start(o) + f, flip));
+      }
+    }
+    for (uint32_t p = 0; p < store.point_count(); ++p) {
+      const auto& planes = store.point_planes(p);
+      ++(planes[0] == PieceStore::kNoNumber ? on_grid : constructed);
+      if (planes[0] == PieceStore::kNoNumber) continue;
+      ASSERT_EQ(compare(intersect(store.planes.plane(planes[0]), store.planes.plane(planes[1]),
+                                  store.planes.plane(planes[2])),
+                        job.exact(p)),
+                0);
     }
     ASSERT_EQ(store.point_count(), job.vertex_count());
   }
