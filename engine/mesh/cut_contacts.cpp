@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
+#include "engine/mesh/box_tree.h"
 #include "engine/mesh/face_location.h"
 #include "engine/mesh/nest_loops.h"
 #include "engine/mesh/self_contact.h"
@@ -17,6 +21,38 @@ struct FaceEdge {
   uint32_t face;
   uint32_t plane;
   bool forward;  ///< runs from lo to hi
+};
+
+/// Edges, to be found by where they are. Rounding keeps the order along an axis: what lies on an
+/// edge, or meets it, is in its box or meets that.
+class EdgesInSpace {
+ public:
+  EdgesInSpace(const std::vector<DirectedEdge>& edges, const CellGeometry& geometry)
+      : geometry_(geometry) {
+    boxes_.reserve(edges.size());
+    for (const DirectedEdge& e : edges) boxes_.push_back(box(e.from, e.to));
+    if (!boxes_.empty()) tree_.emplace(boxes_);
+  }
+
+  /// That around two points, and that of an edge.
+  [[nodiscard]] Box box(uint32_t p, uint32_t q) const {
+    const auto &a = geometry_.point(p).rounded, &b = geometry_.point(q).rounded;
+    Box box{};
+    for (size_t k = 0; k < 3; ++k) std::tie(box.lo[k], box.hi[k]) = std::minmax(a[k], b[k]);
+    return box;
+  }
+  [[nodiscard]] const Box& box(uint32_t edge) const { return boxes_[edge]; }
+
+  /// Calls visit(edge) for those whose boxes meet another one.
+  template <class Visit>
+  void each_near(const Box& near, Visit&& visit) const {
+    if (tree_) tree_->visit_all(near, visit);
+  }
+
+ private:
+  const CellGeometry& geometry_;
+  std::vector<Box> boxes_;
+  std::optional<BoxTree> tree_;
 };
 
 class ContactCutter {
@@ -104,6 +140,7 @@ class ContactCutter {
         marked_.push_back(e.from);
       }
     }
+    const EdgesInSpace rim(rim_edges_, geometry_);
     std::set<uint32_t> reached = rim_;
     while (!frontier.empty()) {
       const uint32_t p = frontier.back();
@@ -114,11 +151,11 @@ class ContactCutter {
         if (e.face == f || geometry_.side(support.index(), q) != 0) continue;
         if (known.count({e.lo, e.hi}) || !behind(support, e)) continue;
         const DirectedEdge line{p, q, e.plane == support.index() ? other_plane(e) : e.plane};
-        if (!starts_inside(f, line) || leaves(line)) continue;
+        if (!starts_inside(f, line) || leaves(line, rim)) continue;
         known.insert({e.lo, e.hi});
         contacts_.push_back(line);
         if (!reached.insert(q).second) continue;
-        if (on_rim(q)) {
+        if (on_rim(q, rim)) {
           rim_.insert(q);
         } else {
           frontier.push_back(q);
@@ -136,18 +173,21 @@ class ContactCutter {
   }
 
   /// Whether a point lies on a rim edge, between its ends.
-  [[nodiscard]] bool on_rim(uint32_t p) {
-    return std::any_of(rim_edges_.begin(), rim_edges_.end(),
-                       [&](const DirectedEdge& e) { return lies_inside(geometry_, e, p); });
+  [[nodiscard]] bool on_rim(uint32_t p, const EdgesInSpace& rim) {
+    bool found = false;
+    rim.each_near(rim.box(p, p),
+                  [&](uint32_t e) { found = found || lies_inside(geometry_, rim_edges_[e], p); });
+    return found;
   }
 
   /// Lines that cross where neither has a point (edges of different solids can) part nothing.
   void drop_crossings() {
     std::vector<uint8_t> crossed(contacts_.size(), 0);
-    for (size_t i = 0; i < contacts_.size(); ++i) {
-      for (size_t j = i + 1; j < contacts_.size(); ++j) {
-        if (cross(contacts_[i], contacts_[j])) crossed[i] = crossed[j] = 1;
-      }
+    const EdgesInSpace contacts(contacts_, geometry_);
+    for (uint32_t i = 0; i < contacts_.size(); ++i) {
+      contacts.each_near(contacts.box(i), [&](uint32_t j) {
+        if (j > i && cross(contacts_[i], contacts_[j])) crossed[i] = crossed[j] = 1;
+      });
     }
     size_t kept = 0;
     for (size_t i = 0; i < contacts_.size(); ++i) {
@@ -157,14 +197,21 @@ class ContactCutter {
   }
 
   void break_at(const std::set<uint32_t>& points, std::vector<DirectedEdge>& edges) {
+    std::vector<std::pair<uint32_t, uint32_t>> on_edge;
+    const EdgesInSpace in_space(edges, geometry_);
+    for (const uint32_t p : points) {
+      in_space.each_near(in_space.box(p, p), [&](uint32_t e) {
+        if (lies_inside(geometry_, edges[e], p)) on_edge.emplace_back(e, p);
+      });
+    }
+    std::sort(on_edge.begin(), on_edge.end());
     std::vector<DirectedEdge> broken;
     std::vector<uint32_t> inside;
-    for (const DirectedEdge& e : edges) {
+    auto next = on_edge.begin();
+    for (uint32_t e = 0; e < edges.size(); ++e) {
       inside.clear();
-      for (const uint32_t p : points) {
-        if (lies_inside(geometry_, e, p)) inside.push_back(p);
-      }
-      append_broken(geometry_, e, inside, broken);
+      for (; next != on_edge.end() && next->first == e; ++next) inside.push_back(next->second);
+      append_broken(geometry_, edges[e], inside, broken);
     }
     edges = std::move(broken);
   }
@@ -205,9 +252,11 @@ class ContactCutter {
 
   /// Whether the line crosses the rim between its ends. What starts inside and does not cross the
   /// rim ends inside or on it.
-  [[nodiscard]] bool leaves(const DirectedEdge& line) {
-    return std::any_of(rim_edges_.begin(), rim_edges_.end(),
-                       [&](const DirectedEdge& e) { return cross(e, line); });
+  [[nodiscard]] bool leaves(const DirectedEdge& line, const EdgesInSpace& rim) {
+    bool found = false;
+    rim.each_near(rim.box(line.from, line.to),
+                  [&](uint32_t e) { found = found || cross(rim_edges_[e], line); });
+    return found;
   }
 
   void drop_dead_ends() {
