@@ -106,6 +106,7 @@ struct Evaluator::Impl {
   AppearanceTable appearances;
   NormalForm form;
   LeafStore store;
+  SceneRoom room;
   ResultCache<StoredBoundary> boundaries;
   ResultCache<SolidPtr> solids;
   ResultCache<BoundaryPtr> worlds;  // of roots that points were compared with
@@ -164,7 +165,8 @@ Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& par
     how.name_untouched = true;
     return resolve_surface(surface, crossings, rule, how, stats);
   };
-  SceneContext context{form, store, appearances, warnings, [this] { return cancelled(); }, resolve};
+  const auto is_cancelled = [this] { return cancelled(); };
+  SceneContext context{form, store, appearances, warnings, room, is_cancelled, resolve};
   return build_scene(context, roots, options.grid, least);
 }
 

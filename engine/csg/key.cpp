@@ -17,8 +17,8 @@ void KeyBuilder::hash(const void* data, size_t size) {
     stream_ = std::make_unique<Stream>();
     XXH3_128bits_reset(&stream_->state);
   }
-  XXH3_128bits_update(&stream_->state, bytes_.data(), bytes_.size());
-  bytes_.clear();
+  XXH3_128bits_update(&stream_->state, first_.data(), size_);
+  size_ = 0;
   if (size > 0) XXH3_128bits_update(&stream_->state, data, size);
 }
 
@@ -28,7 +28,7 @@ Key KeyBuilder::key() {
     hash(nullptr, 0);
     result = XXH3_128bits_digest(&stream_->state);
   } else {
-    result = XXH3_128bits(bytes_.data(), bytes_.size());
+    result = XXH3_128bits(first_.data(), size_);
   }
   return {result.low64, result.high64};
 }

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <memory>
 #include <span>
-#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -60,20 +59,18 @@ class KeyBuilder {
   [[nodiscard]] Key key();
 
  private:
-  static constexpr size_t kLong = 4096;
   struct Stream;
 
   void append(const void* data, size_t size) {
-    if (size >= kLong || bytes_.size() >= kLong) {
-      hash(data, size);
-    } else if (size > 0) {
-      bytes_.append(static_cast<const char*>(data), size);
-    }
+    if (size > first_.size() - size_) return hash(data, size);
+    if (size > 0) std::memcpy(first_.data() + size_, data, size);
+    size_ += size;
   }
   void hash(const void* data, size_t size);
 
-  std::string bytes_;               ///< not hashed yet
-  std::unique_ptr<Stream> stream_;  ///< of what is hashed; most keys need none
+  std::array<char, 512> first_;     ///< bytes that are not hashed yet: all of most keys
+  size_t size_ = 0;                 ///< of these
+  std::unique_ptr<Stream> stream_;  ///< of what is hashed
 };
 
 }  // namespace csgrun

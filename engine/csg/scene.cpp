@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "engine/bsp/kernel.h"
 #include "engine/csg/leaf_rule.h"
-#include "engine/csg/scene_step.h"
 
 namespace csgrun {
 namespace {
@@ -82,7 +82,12 @@ double distance_of(const MmBox& box) {
 class Builder {
  public:
   Builder(SceneContext& context, std::span<const uint32_t> roots)
-      : context_(context), roots_(roots), order_(context.form.reachable(roots)) {}
+      : context_(context),
+        roots_(roots),
+        order_(context.form.reachable(roots)),
+        rounding_(context.room.rounding),
+        frame_of_(context.room.frame_of),
+        step_leaves_(context.room.step_leaves) {}
 
   Result<Scene> build(const GridStep& step, const GridStep& least);
 
@@ -92,7 +97,7 @@ class Builder {
   [[nodiscard]] uint32_t farthest_leaf() const;
   [[nodiscard]] bool warns_of_far_parts(const SceneReach& reach) const;
   void warn_of_thin_leaves(const SceneReach& reach) const;
-  Result<SceneNode> make_leaf(uint32_t index);
+  Result<SceneNode> make_leaf(uint32_t index, const Quantiser& quantiser);
   Status resolve_leaf(uint32_t index, const QuantisedLeaf& leaf, SceneNode& result);
   Status make_nodes();
   SceneNode make_hull(const NormalNode& node) const;
@@ -109,10 +114,11 @@ class Builder {
   std::vector<uint32_t> order_;  // of normal nodes, children first
   Scene scene_;
   std::map<std::array<std::array<int64_t, 3>, 3>, uint32_t> frame_ids_;
-  std::vector<uint32_t> scene_index_;   // by normal index
-  std::vector<LeafRounding> rounding_;  // by normal index
-  std::vector<uint32_t> frame_of_;      // by normal index
-  std::vector<StepLeaf> step_leaves_;   // by normal index
+  std::vector<uint32_t> scene_index_;  // by normal index
+  // By normal index; those of nodes that are in order_ are set.
+  std::vector<LeafRounding>& rounding_;
+  std::vector<uint32_t>& frame_of_;
+  std::vector<StepLeaf>& step_leaves_;
   /// Set when a leaf that must be resolved reaches too far: it is needed as a whole.
   bool is_step_too_small_ = false;
 };
@@ -128,7 +134,7 @@ uint32_t Builder::intern(const Frame& frame) {
 Status Builder::place_leaves() {
   const size_t count = context_.form.nodes().size();
   rounding_.resize(count);
-  frame_of_.assign(count, 0);
+  frame_of_.resize(count);
   step_leaves_.resize(count);
   RowTable table;
   std::vector<std::array<uint32_t, 3>> handles(count);
@@ -149,25 +155,32 @@ Status Builder::place_leaves() {
     if (!split.framed) continue;
     for (int i = 0; i < 3; ++i) handles[index][i] = table.add(split.rows[i]);
   }
+  // Most leaves have the rows of the one before.
+  std::optional<CanonicalFrame> known_frame;
+  std::array<Row, 3> rows_of_known{};
+  uint32_t number_of_known = 0;
   for (uint32_t index : order_) {
     const NormalNode& node = normal(index);
     if (node.kind != NormalNode::Kind::kLeaf) continue;
     const LeafState& state = context_.store.state(index, node);
     const MeshFacts& facts = context_.store.facts(node.leaf->mesh());
-    LeafRounding& rounding = rounding_[index];
-    StepLeaf& leaf = step_leaves_[index];
+    LeafRounding& rounding = rounding_[index] = {};
+    StepLeaf& leaf = step_leaves_[index] = {};
+    frame_of_[index] = 0;
     leaf.world = {state.world_lo, state.world_hi};
     bool framed = state.split.framed;
     if (framed) {
-      std::array<std::array<int64_t, 3>, 3> rows;
-      for (int i = 0; i < 3; ++i) {
-        leaf.rows[i] = table.representative(handles[index][i]);
-        rows[i] = integer_row(leaf.rows[i]);
+      for (int i = 0; i < 3; ++i) leaf.rows[i] = table.representative(handles[index][i]);
+      if (!known_frame || leaf.rows != rows_of_known) {
+        rows_of_known = leaf.rows;
+        known_frame = canonical_frame(
+            {integer_row(leaf.rows[0]), integer_row(leaf.rows[1]), integer_row(leaf.rows[2])});
+        number_of_known = known_frame->framed ? intern(known_frame->placement.frame) : 0;
       }
-      const CanonicalFrame canonical = canonical_frame(rows);
+      const CanonicalFrame& canonical = *known_frame;
       framed = canonical.framed;
       if (framed) {
-        frame_of_[index] = intern(canonical.placement.frame);
+        frame_of_[index] = number_of_known;
         leaf.framed = frame_of_[index] != 0;
         rounding.permutation = canonical.placement.permutation;
         rounding.scale = state.split.scale;
@@ -325,7 +338,7 @@ Status Builder::resolve_leaf(uint32_t index, const QuantisedLeaf& leaf, SceneNod
   return std::monostate{};
 }
 
-Result<SceneNode> Builder::make_leaf(uint32_t index) {
+Result<SceneNode> Builder::make_leaf(uint32_t index, const Quantiser& quantiser) {
   const NormalNode& node = normal(index);
   const PolygonMesh& mesh = *node.leaf->mesh();
   const auto fault = [&](ErrorCode code, const std::string& text) {
@@ -334,7 +347,6 @@ Result<SceneNode> Builder::make_leaf(uint32_t index) {
   SceneNode result;
   if (mesh.face_count() == 0 && !mesh.hull_of_points) return result;
   const LeafRounding& rounding = rounding_[index];
-  const Quantiser quantiser(scene_.step);
   const auto leaf = context_.store.quantise(index, node, rounding, quantiser);
   if (!leaf) return fault(ErrorCode::kOutOfRange, "reaches too far from the origin for the grid");
   const SignedPermutation& permutation = rounding.permutation;
@@ -503,7 +515,9 @@ Result<Scene> Builder::build(const GridStep& step, const GridStep& least) {
 Status Builder::make_nodes() {
   scene_.nodes.clear();
   scene_index_.assign(context_.form.nodes().size(), 0);
+  scene_.nodes.reserve(order_.size() + 1);
   scene_.nodes.push_back(SceneNode{});
+  const Quantiser quantiser(scene_.step);
   size_t polled = 0;
   for (uint32_t index : order_) {
     const NormalNode& node = normal(index);
@@ -513,7 +527,7 @@ Status Builder::make_nodes() {
     }
     SceneNode made;
     if (node.kind == NormalNode::Kind::kLeaf) {
-      auto leaf = make_leaf(index);
+      auto leaf = make_leaf(index, quantiser);
       if (!leaf) return leaf.error();
       made = std::move(*leaf);
     } else if (node.kind == NormalNode::Kind::kHull) {

@@ -12,6 +12,7 @@
 #include "engine/csg/key.h"
 #include "engine/csg/leaf_store.h"
 #include "engine/csg/normal_form.h"
+#include "engine/csg/scene_step.h"
 #include "engine/csg/warnings.h"
 
 namespace csgrun {
@@ -88,11 +89,19 @@ struct Scene {
 /// Whether all coordinates are below 2^27 steps.
 bool fits_grid(const GridBox& box);
 
+/// Where scenes note what is known of each node of the normal form: room that they all take.
+struct SceneRoom {
+  std::vector<LeafRounding> rounding;
+  std::vector<uint32_t> frame_of;
+  std::vector<StepLeaf> step_leaves;
+};
+
 struct SceneContext {
   NormalForm& form;
   LeafStore& store;
   AppearanceTable& appearances;
   Warnings& warnings;
+  SceneRoom& room;
   std::function<bool()> cancelled;
   Resolver resolve;
 };

@@ -59,8 +59,10 @@ void SceneJobs::find_operators(const std::vector<uint32_t>& roots) {
   while (!stack.empty()) {
     const uint32_t node = stack.back();
     stack.pop_back();
-    if (!is_operator(node) || !operators_.insert(scene_.nodes[node].subtree.id.key).second)
+    if (!is_operator(node) ||
+        !operators_.try_emplace(scene_.nodes[node].subtree.id.key, node).second) {
       continue;
+    }
     if (is_known(scene_.nodes[node].subtree.id.key)) continue;
     for (uint32_t operand : scene_.operands(node).operands) {
       if (is_operator(operand)) stack.push_back(operand);
@@ -82,11 +84,6 @@ size_t SceneJobs::shared_prefix(const OperandList& list) const {
 /// Counts how often each operator is used in the jobs, if each becomes a result of its own. Returns
 /// one node of each, in an order in which they can be evaluated.
 std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) {
-  // Nodes of a key are interchangeable; a prefix has a node of its own only by its key.
-  std::unordered_map<Key, uint32_t, KeyHash> node_of;
-  for (uint32_t i = 0; i < scene_.nodes.size(); ++i) {
-    if (is_operator(i)) node_of.try_emplace(scene_.nodes[i].subtree.id.key, i);
-  }
   std::vector<uint32_t> order;
   struct Visit {
     uint32_t node;
@@ -97,7 +94,7 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
   // What waits on the stack may be wanted again above it, and then comes first.
   const auto want = [&](const Key& key) {
     ++uses_[key];
-    if (!opened.contains(key) && !is_known(key)) stack.push_back({node_of.at(key), false});
+    if (!opened.contains(key) && !is_known(key)) stack.push_back({operators_.at(key), false});
   };
   for (uint32_t root : roots) {
     if (!is_operator(root)) continue;
@@ -121,7 +118,7 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
       }
       if (prefix > 0) {
         const Key& key = list.values[prefix - 1]->id.key;
-        if (node_of.contains(key)) want(key);
+        if (operators_.contains(key)) want(key);
       }
     }
   }

@@ -89,7 +89,8 @@ class SceneJobs {
   const EvaluateOptions& options_;
   unsigned threads_;
   EvaluateStats& stats_;
-  std::unordered_set<Key, KeyHash> operators_;  // keys of operators that stand in some operand list
+  /// Operators that stand in some operand list, by key: nodes of one key are interchangeable.
+  std::unordered_map<Key, uint32_t, KeyHash> operators_;
   std::unordered_map<Key, uint32_t, KeyHash> uses_;
   std::unordered_map<Key, Kept, KeyHash> results_;  // of this run: they outlive the cache's bound
   uint64_t jobs_done_ = 0, jobs_total_ = 0;

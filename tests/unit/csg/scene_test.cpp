@@ -15,7 +15,8 @@ class SceneTest : public ::testing::Test {
   Scene scene(const std::vector<NodePtr>& parts, GridStep step = {}) {
     std::vector<uint32_t> roots;
     for (const auto& root_node : parts) roots.push_back(*form.add(root_node));
-    SceneContext context{form, store, appearances, warnings, [] { return false; }, {}};
+    SceneRoom room;
+    SceneContext context{form, store, appearances, warnings, room, [] { return false; }, {}};
     auto result = build_scene(context, roots, step);
     EXPECT_TRUE(result.has_value()) << result.error().message;
     return std::move(*result);
