@@ -17,6 +17,7 @@
 #include "engine/csg/result_cache.h"
 #include "engine/csg/scene.h"
 #include "engine/csg/scene_jobs.h"
+#include "engine/csg/scene_start.h"
 #include "engine/mesh/pieces_measures.h"
 #include "engine/mesh/present.h"
 
@@ -70,6 +71,7 @@ struct Evaluator::Impl {
         store(appearances),
         boundaries(options.cache_bytes),
         // Solids are a fraction of what led to them.
+        starts([this](const Key& key) { return boundaries.contains(key); }),
         solids(options.cache_bytes / 4),
         worlds(options.cache_bytes / 4),
         constructions(
@@ -85,8 +87,10 @@ struct Evaluator::Impl {
     return options.cancel && options.cancel->load(std::memory_order_relaxed);
   }
   bool forget_if_full();
-  Result<Scene> scene_of(const std::vector<NodePtr>& parts);
-  Result<Scene> scene_of_expanded(const std::vector<NodePtr>& parts, const GridStep& least);
+  /// `may_be_partial`: it goes on from one before where it can.
+  Result<Scene> scene_of(const std::vector<NodePtr>& parts, bool may_be_partial = false);
+  Result<Scene> scene_of_expanded(const std::vector<NodePtr>& parts, const GridStep& least,
+                                  bool may_be_partial = false);
   Result<EvaluatedParts> evaluate_parts(const std::vector<NodePtr>& parts, bool ask_convex,
                                         const GridStep& least);
   Result<bool> is_convex(const Scene& scene, uint32_t root);
@@ -100,6 +104,7 @@ struct Evaluator::Impl {
   Result<SolidPtr> solid_of(const Scene& scene, SceneJobs& jobs, uint32_t root, const Key& key,
                             bool measured);
   Result<Extent> extent(const NodePtr& root);
+  Result<std::optional<Extent>> find_extent(const NodePtr& part, bool may_be_partial);
 
   EvaluateOptions options;
   unsigned threads;
@@ -108,6 +113,7 @@ struct Evaluator::Impl {
   LeafStore store;
   SceneRoom room;
   ResultCache<StoredBoundary> boundaries;
+  SceneStarts starts;
   ResultCache<SolidPtr> solids;
   ResultCache<BoundaryPtr> worlds;  // of roots that points were compared with
   Warnings warnings;
@@ -121,12 +127,13 @@ bool Evaluator::Impl::forget_if_full() {
   if (form.nodes().size() <= kMostNodes && store.bytes() <= options.cache_bytes) return false;
   form.clear();
   store.clear();
+  starts.clear();
   return true;
 }
 
 /// What constructions made must be on the scene's grid: when that turns out to be coarser than the
 /// grids on which they were made, they are made again. So the step grows until it is coarse enough.
-Result<Scene> Evaluator::Impl::scene_of(const std::vector<NodePtr>& parts) {
+Result<Scene> Evaluator::Impl::scene_of(const std::vector<NodePtr>& parts, bool may_be_partial) {
   if (forget_if_full()) constructions.clear();
   GridStep least;
   while (true) {
@@ -138,7 +145,7 @@ Result<Scene> Evaluator::Impl::scene_of(const std::vector<NodePtr>& parts) {
       expanded.push_back(made->node);
       finest_mm = std::min(finest_mm, made->finest_mm);
     }
-    auto scene = scene_of_expanded(expanded, least);
+    auto scene = scene_of_expanded(expanded, least, may_be_partial);
     if (!scene) return scene.error();
     if (scene->step.millimetres() <= finest_mm) {
       for (const NodePtr& part : parts) constructions.tell(part, least);
@@ -149,7 +156,7 @@ Result<Scene> Evaluator::Impl::scene_of(const std::vector<NodePtr>& parts) {
 }
 
 Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& parts,
-                                                 const GridStep& least) {
+                                                 const GridStep& least, bool may_be_partial) {
   const Stopwatch watch(stats.leaf_seconds);
   forget_if_full();
   std::vector<uint32_t> roots;
@@ -167,7 +174,7 @@ Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& par
   };
   const auto is_cancelled = [this] { return cancelled(); };
   SceneContext context{form, store, appearances, warnings, room, is_cancelled, resolve};
-  return build_scene(context, roots, options.grid, least);
+  return build_scene(context, roots, options.grid, least, may_be_partial ? &starts : nullptr);
 }
 
 /// What the arrays of a root depend on: what it is, where it is in the world, and the step.
@@ -306,13 +313,22 @@ Result<SolidPtr> Evaluator::Impl::solid_of(const Scene& scene, SceneJobs& jobs, 
 }
 
 Result<Extent> Evaluator::Impl::extent(const NodePtr& part) {
-  auto scene = scene_of({part});
+  auto extent = find_extent(part, true);
+  if (extent && !*extent) extent = find_extent(part, false);
+  if (!extent) return extent.error();
+  return **extent;
+}
+
+/// Nothing if the scene was partial, and something wants its leaves.
+Result<std::optional<Extent>> Evaluator::Impl::find_extent(const NodePtr& part,
+                                                           bool may_be_partial) {
+  auto scene = scene_of({part}, may_be_partial);
   if (!scene) return scene.error();
   stats.grid_mm = scene->step.millimetres();
   const Stopwatch watch(stats.boolean_seconds);
   const uint32_t root = scene->roots[0];
   const SceneNode& node = scene->nodes[root];
-  if (node.kind == SceneNode::Kind::kEmpty) return Extent{};
+  if (node.kind == SceneNode::Kind::kEmpty) return std::optional(Extent{});
   const Key key = solid_key(*scene, node.subtree, true);
   SolidPtr solid;
   if (const SolidPtr* known = solids.find(key)) {
@@ -323,17 +339,18 @@ Result<Extent> Evaluator::Impl::extent(const NodePtr& part) {
     if (Status status = jobs.run({root}); !status) return status.error();
     if (const PiecesPtr pieces = jobs.pieces(root)) {
       const auto box = pieces_box(*pieces, scene->step);
-      if (!box) return Extent{};
+      if (!box) return std::optional(Extent{});
       auto volume = pieces_volume(*pieces, scene->step);
       if (!volume) return volume.error();
-      return Extent{false, *volume, *box};
+      return std::optional(Extent{false, *volume, *box});
     }
+    if (scene->is_partial) return std::optional<Extent>();
     auto made = solid_of(*scene, jobs, root, key, true);
     if (!made) return made.error();
     solid = *made;
   }
-  if (solid->empty()) return Extent{};
-  return Extent{false, solid->measures.volume, solid->measures.bbox};
+  if (solid->empty()) return std::optional(Extent{});
+  return std::optional(Extent{false, solid->measures.volume, solid->measures.bbox});
 }
 
 Result<int> Evaluator::Impl::contains(const NodePtr& root, const glm::dvec3& point) {

@@ -125,6 +125,7 @@ uint32_t RowTable::insert(const Row& row) {
         if (found == cells_.end() || root(found->second.front()) == root(handle)) continue;
         for (uint32_t other : found->second) {
           if (!rows_are_close(rows_[other], row)) continue;
+          has_bridged_ = has_bridged_ || root(handle) != handle;
           join(other, handle);
           break;
         }

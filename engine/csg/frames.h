@@ -41,6 +41,8 @@ class RowTable {
   uint32_t add(const Row& row);
   /// The representative of a row's cluster, given all rows that were added so far.
   [[nodiscard]] Row representative(uint32_t handle);
+  /// Whether a row joined two clusters, so that one of them has another representative since.
+  [[nodiscard]] bool has_bridged() const { return has_bridged_; }
 
  private:
   struct RowHash {
@@ -52,6 +54,7 @@ class RowTable {
 
   std::vector<Row> rows_;         // row 2i + 1 is row 2i negated
   std::vector<uint32_t> parent_;  // union-find; a root is the lowest handle of its cluster
+  bool has_bridged_ = false;
   std::unordered_map<std::array<int64_t, 3>, std::vector<uint32_t>, RowHash> cells_;
 };
 

@@ -307,14 +307,15 @@ std::vector<uint32_t> NormalForm::operands(uint32_t index) const {
   return result;
 }
 
-std::vector<uint32_t> NormalForm::reachable(std::span<const uint32_t> roots) const {
+std::vector<uint32_t> NormalForm::reachable(std::span<const uint32_t> roots,
+                                            uint32_t closed) const {
   std::vector<uint32_t> order;
   std::vector<uint8_t> state(nodes_.size(), 0);  // 1: operands are on the stack, 2: listed
   std::vector<uint32_t> stack(roots.rbegin(), roots.rend());
   while (!stack.empty()) {
     const uint32_t index = stack.back();
     const NormalNode& node = nodes_[index];
-    if (state[index] == 0 &&
+    if (state[index] == 0 && index != closed &&
         (node.kind == NormalNode::Kind::kOperator || node.kind == NormalNode::Kind::kHull)) {
       state[index] = 1;
       for (size_t i = node.rest.size(); i-- > 0;) {

@@ -54,8 +54,9 @@ class NormalForm {
   /// The operands of an operator, with those of its prefix.
   [[nodiscard]] std::vector<uint32_t> operands(uint32_t index) const;
   /// Every node that `roots` reach, each once, in tree order (parents after children, operands left
-  /// to right).
-  [[nodiscard]] std::vector<uint32_t> reachable(std::span<const uint32_t> roots) const;
+  /// to right). What one of them, `closed`, stands over is not listed for its sake.
+  [[nodiscard]] std::vector<uint32_t> reachable(std::span<const uint32_t> roots,
+                                                uint32_t closed = UINT32_MAX) const;
   /// Forgets everything.
   void clear();
 

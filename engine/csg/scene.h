@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "engine/csg/frames.h"
@@ -51,8 +52,12 @@ struct Subtree {
   bool is_far = false;  ///< a leaf has coordinates beyond 2^27 steps
 };
 
+/// Operands of one operator by what they are, with their places.
+using OperandSet = std::unordered_map<Identity, uint32_t, IdentityHash>;
+
 struct SceneNode {
-  enum class Kind : uint8_t { kEmpty, kLeaf, kOperator, kHull };
+  /// kKnown: an operator whose value is at hand; its operands are not in the scene.
+  enum class Kind : uint8_t { kEmpty, kLeaf, kOperator, kHull, kKnown };
   Kind kind = Kind::kEmpty;
   Subtree subtree;
 
@@ -80,9 +85,14 @@ struct Scene {
   std::vector<Frame> frames;     ///< the first is the world
   std::vector<SceneNode> nodes;  ///< children before parents
   std::vector<uint32_t> roots;
+  bool is_partial = false;  ///< the root's first operand is a known one
+  /// If that is of the root's operator: its operands are those in the first so many places.
+  std::shared_ptr<const OperandSet> met_before;
+  size_t met_count = 0;
 
   [[nodiscard]] OperandList operands(uint32_t index) const;
-  /// The leaves below a node, with repetition, in tree order: source i is leaf i.
+  /// The leaves below a node, with repetition, in tree order: source i is leaf i. REQUIRES: the
+  /// scene is not partial.
   [[nodiscard]] std::vector<uint32_t> leaves(uint32_t index) const;
 };
 
@@ -95,6 +105,8 @@ struct SceneRoom {
   std::vector<uint32_t> frame_of;
   std::vector<StepLeaf> step_leaves;
 };
+
+class SceneStarts;
 
 struct SceneContext {
   NormalForm& form;
@@ -109,8 +121,10 @@ struct SceneContext {
 /// Chooses the step (unless `step` is given), not below `least` if there is one, and puts the
 /// subtrees of the normal form on the grid. Leaves that cross themselves are resolved, with a
 /// warning. Errors: kInvalidMesh (with the leaf's line), kOutOfRange when the scene does not fit
-/// the grid, kLimit, kCancelled, those of `resolve`.
+/// the grid, kLimit, kCancelled, those of `resolve`. With `starts` (scene_start.h) the scene of one
+/// root goes on from that of its first operand where it can, and is partial then: O(what is new).
 Result<Scene> build_scene(SceneContext& context, std::span<const uint32_t> roots,
-                          const GridStep& step, const GridStep& least = {});
+                          const GridStep& step, const GridStep& least = {},
+                          SceneStarts* starts = nullptr);
 
 }  // namespace csgrun

@@ -34,6 +34,7 @@ struct SceneJobs::OpenOperator {
   OperandList list;
   size_t next = 0, count = 0;
   std::vector<uint32_t> children;  // expression nodes
+  const Scene* scene = nullptr;    // if its known operands were met before
   std::unordered_set<Identity, IdentityHash> met;
 
   /// Whether a solid was an operand before. A second time it changes nothing, except in a symmetric
@@ -41,6 +42,10 @@ struct SceneJobs::OpenOperator {
   bool repeats(const Subtree& operand, size_t index) {
     if (op == BooleanOp::kSymmetricDifference) return false;
     if (op == BooleanOp::kDifference && index == 0) return false;
+    if (scene) {
+      const auto found = scene->met_before->find(operand.id);
+      if (found != scene->met_before->end() && found->second < scene->met_count) return true;
+    }
     return !met.insert(operand.id).second;
   }
 };
@@ -126,6 +131,11 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
 }
 
 Status SceneJobs::run(const std::vector<uint32_t>& roots) {
+  for (const SceneNode& node : scene_.nodes) {
+    if (scene_.is_partial && node.kind == SceneNode::Kind::kKnown) {
+      hold(node.subtree.id.key);
+    }
+  }
   find_operators(roots);
   const std::vector<uint32_t> order = count_uses(roots);
   std::unordered_set<Key, KeyHash> own_keys;
@@ -361,14 +371,17 @@ Result<Operand> SceneJobs::place(const Subtree& subtree, uint32_t job_frame) {
 }
 
 const StoredBoundary& SceneJobs::use(const Key& key) {
+  Kept& kept = hold(key);
+  if (!kept.is_fresh) ++stats_.nodes_from_memory;
+  kept.is_fresh = false;
+  return kept.stored;
+}
+
+/// Holds what is known until the end of the run, whatever the cache drops meanwhile.
+SceneJobs::Kept& SceneJobs::hold(const Key& key) {
   auto found = results_.find(key);
-  if (found == results_.end()) {
-    // Held until the end of the run, whatever the cache drops meanwhile.
-    found = results_.emplace(key, Kept{*cache_.find(key), false}).first;
-  }
-  if (!found->second.is_fresh) ++stats_.nodes_from_memory;
-  found->second.is_fresh = false;
-  return found->second.stored;
+  if (found == results_.end()) found = results_.emplace(key, Kept{*cache_.find(key), false}).first;
+  return found->second;
 }
 
 bool SceneJobs::may_be_in_pieces() const { return options_.whole_faces && !options_.literal_cells; }
@@ -395,25 +408,33 @@ Result<BoundaryPtr> SceneJobs::boundary_of(const Key& key) {
   return kept.boundary;
 }
 
+/// Puts the value of a known subtree into a job: in pieces, where it comes first and stands as it
+/// was evaluated. Returns the number of its node.
+Result<uint32_t> SceneJobs::put_known(Parts& parts, const Subtree& value, uint32_t job_frame) {
+  const StoredBoundary& stored = use(value.id.key);
+  const bool is_in_place =
+      parts.operands.empty() && value.id.frame == job_frame && stands_as_stored(value, stored);
+  if (is_in_place && may_be_in_pieces()) {
+    parts.first = pieces_of_result(value.id.key);
+    return put(parts, Operand(), value);
+  }
+  results_.at(value.id.key).is_fresh = true;  // place() is the same use
+  auto operand = place(value, job_frame);
+  if (!operand) return operand.error();
+  return put(parts, *std::move(operand), value);
+}
+
 /// Starts on the first `count` operands of a node, from the longest prefix that is known.
 Result<SceneJobs::OpenOperator> SceneJobs::open(uint32_t node, size_t count, bool is_target,
                                                 uint32_t job_frame, Parts& parts) {
-  OpenOperator result{scene_.nodes[node].op, scene_.operands(node), 0, count, {}, {}};
+  OpenOperator result{scene_.nodes[node].op, scene_.operands(node), 0, count, {}, nullptr, {}};
+  if (scene_.met_before && node == scene_.roots[0]) result.scene = &scene_;
   for (size_t prefix = is_target ? count - 1 : count; prefix >= 2; --prefix) {
     const Subtree& value = *result.list.values[prefix - 1];
     if (!may_keep(value) || !is_known(value.id.key)) continue;
-    const StoredBoundary& stored = use(value.id.key);
-    const bool is_in_place =
-        parts.operands.empty() && value.id.frame == job_frame && stands_as_stored(value, stored);
-    if (is_in_place && may_be_in_pieces()) {
-      parts.first = pieces_of_result(value.id.key);
-      result.children.push_back(put(parts, Operand(), value));
-    } else {
-      results_.at(value.id.key).is_fresh = true;  // place() is the same use
-      auto operand = place(value, job_frame);
-      if (!operand) return operand.error();
-      result.children.push_back(put(parts, *std::move(operand), value));
-    }
+    auto known = put_known(parts, value, job_frame);
+    if (!known) return known.error();
+    result.children.push_back(*known);
     result.next = prefix;
     for (size_t i = 0; i < prefix; ++i) {
       result.repeats(scene_.nodes[result.list.operands[i]].subtree, i);
@@ -445,6 +466,10 @@ Result<SceneJobs::Parts> SceneJobs::build(uint32_t node, size_t count, uint32_t 
       }
       if (child.kind == SceneNode::Kind::kLeaf) {
         top.children.push_back(put(parts, place_leaf(child, job_frame), child.subtree));
+      } else if (child.kind == SceneNode::Kind::kKnown) {
+        auto known = put_known(parts, child.subtree, job_frame);
+        if (!known) return known.error();
+        top.children.push_back(*known);
       } else if (is_hull(operand)) {
         auto hull = place(child.subtree, job_frame);
         if (!hull) return hull.error();

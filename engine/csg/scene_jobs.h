@@ -70,6 +70,7 @@ class SceneJobs {
   KernelOptions job_options();
   Result<BoundaryPtr> run_job(Parts parts, const GridBox& region);
   Result<Parts> build(uint32_t node, size_t count, uint32_t job_frame);
+  Result<uint32_t> put_known(Parts& parts, const Subtree& value, uint32_t job_frame);
   Result<OpenOperator> open(uint32_t node, size_t count, bool is_target, uint32_t job_frame,
                             Parts& parts);
   uint32_t put(Parts& parts, Operand operand, const Subtree& subtree) const;
@@ -81,6 +82,7 @@ class SceneJobs {
   static bool stands_as_stored(const Subtree& subtree, const StoredBoundary& stored);
   [[nodiscard]] bool may_be_in_pieces() const;
   const StoredBoundary& use(const Key& key);
+  Kept& hold(const Key& key);
   PiecesPtr pieces_of_result(const Key& key);
   Result<BoundaryPtr> boundary_of(const Key& key);
 

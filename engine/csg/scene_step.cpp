@@ -62,11 +62,16 @@ MmBox to_local(const MmBox& world, const std::array<Row, 3>& rows) {
 }  // namespace
 
 SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
-                       std::span<const uint32_t> roots, std::span<const StepLeaf> leaves) {
+                       std::span<const uint32_t> roots, std::span<const StepLeaf> leaves,
+                       const KnownReach* known) {
   const auto& nodes = form.nodes();
   std::vector<MmBox> box(nodes.size(), kEmptyBox), reach(nodes.size(), kEmptyBox);
   for (uint32_t index : order) {
     const NormalNode& node = nodes[index];
+    if (known && index == known->index) {
+      box[index] = known->box;
+      continue;
+    }
     if (node.kind == NormalNode::Kind::kLeaf) box[index] = leaves[index].world;
     if (node.kind == NormalNode::Kind::kHull) box[index] = box[node.first];
     if (node.kind != NormalNode::Kind::kOperator) continue;
@@ -88,7 +93,11 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
   for (size_t i = order.size(); i-- > 0;) {
     const uint32_t index = order[i];
     const NormalNode& node = nodes[index];
-    if (node.kind == NormalNode::Kind::kLeaf) {
+    if (known && index == known->index) {
+      result.sees_known = whole[index] == 0 && reach[index] == known->box;
+      result.reach = std::max(result.reach, known->reach);
+      result.far = std::max(result.far, known->far);
+    } else if (node.kind == NormalNode::Kind::kLeaf) {
       const StepLeaf& leaf = leaves[index];
       result.far = std::max(result.far, largest(leaf.local));
       const MmBox visible =

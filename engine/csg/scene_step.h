@@ -14,6 +14,7 @@ namespace csgrun {
 /// An axis-aligned box in mm, closed; empty when lo > hi.
 struct MmBox {
   std::array<double, 3> lo{}, hi{};
+  bool operator==(const MmBox&) const = default;
 };
 
 /// A leaf: its box in the world, its box in its local axes, and the rows that lead there.
@@ -30,13 +31,23 @@ struct StepLeaf {
 struct SceneReach {
   double reach = 0, far = 0;
   std::vector<MmBox> of_roots;  ///< around the result of each root
+  bool sees_known = true;       ///< all of what is known is seen from the root
+};
+
+/// What a scene of its own said of a node, so that its leaves need not be looked at again.
+struct KnownReach {
+  uint32_t index = 0;  ///< in the normal form
+  MmBox box;
+  double reach = 0, far = 0;
 };
 
 /// Interval bounds over the normal form: the box of a union is the hull of the boxes, of a
 /// difference the first, of an intersection the common box; a leaf counts where a result can be
 /// above it. A leaf that is resolved by itself, and all below a hull, count as a whole. `order` has
-/// children before parents; `leaves` is indexed like the normal form.
+/// children before parents; `leaves` is indexed like the normal form. Of what stands over a `known`
+/// node alone nothing is in `order`: then the result holds if it sees all of that.
 SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
-                       std::span<const uint32_t> roots, std::span<const StepLeaf> leaves);
+                       std::span<const uint32_t> roots, std::span<const StepLeaf> leaves,
+                       const KnownReach* known = nullptr);
 
 }  // namespace csgrun

@@ -1,8 +1,11 @@
 // Keys and placements: what is the same subtree, and where it stands.
 #include "engine/csg/scene.h"
 
+#include <random>
+
 #include <gtest/gtest.h>
 
+#include "engine/csg/scene_start.h"
 #include "test_meshes.h"
 
 namespace csgrun {
@@ -145,6 +148,95 @@ TEST_F(SceneTest, SourcesAreLeavesInTreeOrder) {
   const Scene s = scene({unite({x, moved(10, 0, 0, x), cube(2)})});
   EXPECT_EQ(s.leaves(s.roots[0]).size(), 5u);
   EXPECT_EQ(root(s, 0).slots, 5u);
+}
+
+/// A tool that may be far away, large, in a frame of its own, in one that differs from others by
+/// noise, wound the other way, or made of two.
+NodePtr any_tool(std::mt19937& random) {
+  const auto at = [&] { return static_cast<double>(random() % 31) / 3; };
+  NodePtr body = random() % 4 == 0 ? unite({cube(1), moved(0.5, 0.5, 0.5, cube(2))}) : cube(2);
+  if (random() % 8 == 0) body = leaf(inverted(box_mesh({0, 0, 0}, {1, 2, 3})), FillRule::kNonZero);
+  switch (random() % 6) {
+    case 0:
+      body = turned(static_cast<double>(random() % 4), {3, 2, 1}, body);
+      break;
+    case 1:  // within the tolerance of its neighbours, not all within that of one another
+      body = turned(31 + 4e-13 * static_cast<double>(random() % 6), {3, 2, 1}, body);
+      break;
+    case 2:
+      body = Node::transformed(scaling(-1, 1, 1), body);
+      break;
+    default:
+      break;
+  }
+  const double far = random() % 40 == 0 ? 3000 : 1;
+  const double x = at(), y = at(), z = at();
+  return moved(far * x, y, z, body);
+}
+
+// What a scene knows that goes on from one before is what one says that has all leaves.
+TEST_F(SceneTest, GoesOnFromOneBefore) {
+  std::mt19937 random(92);
+  SceneRoom room;
+  EvaluateStats stats;
+  const Resolver resolve =
+      [&](const Operand& surface, std::span<const std::array<uint32_t, 2>> crossings,
+          InsideRule rule) { return resolve_surface(surface, crossings, rule, {}, stats); };
+  size_t partial = 0, whole = 0, met = 0;
+  for (int round = 0; round < 60; ++round) {
+    SceneStarts starts([](const Key&) { return true; });
+    NodePtr body = moved(0, 0, 0, cube(10));
+    std::vector<NodePtr> before{body}, tools;
+    const auto start_op = random() % 2;
+    for (int step = 0; step < 12; ++step) {
+      const NodePtr from = random() % 6 != 0 ? before.back() : before[random() % before.size()];
+      tools.push_back(tools.empty() || random() % 5 != 0 ? any_tool(random)
+                                                         : tools[random() % tools.size()]);
+      const uint32_t kind = random() % 12;
+      NodePtr grown = kind == 0   ? intersect({from, moved(-9, -9, -9, cube(40))})
+                      : kind == 1 ? symmetric({from, tools.back()})
+                      : kind == 2 ? Node::transformed(scaling(1, 1, -1), from)
+                      : (kind == 3) != (start_op == 0)
+                          ? unite({from, tools.back(), any_tool(random)})
+                          : subtract({from, tools.back()});
+      before.push_back(grown);
+      const std::vector<uint32_t> roots{*form.add(grown)};
+      SceneContext context{form, store, appearances, warnings, room, [] { return false; }, resolve};
+      const auto all = build_scene(context, roots, {});
+      const auto some = build_scene(context, roots, {}, {}, &starts);
+      ASSERT_EQ(all.has_value(), some.has_value());
+      if (!all) continue;
+      ++(some->is_partial ? partial : whole);
+      ASSERT_EQ(some->step, all->step);
+      const Subtree &a = root(*all, 0), &b = root(*some, 0);
+      ASSERT_EQ(a.id.key, b.id.key) << "round " << round << ", step " << step;
+      ASSERT_EQ(a.id.permutation, b.id.permutation);
+      ASSERT_EQ(a.id.origin, b.id.origin);
+      ASSERT_EQ(a.id.paint, b.id.paint);
+      ASSERT_EQ(all->frames[a.id.frame], some->frames[b.id.frame]);
+      for (const auto& [one, other] : {std::pair(a.box, b.box), std::pair(a.world, b.world)}) {
+        ASSERT_EQ(one.lo, other.lo);
+        ASSERT_EQ(one.hi, other.hi);
+      }
+      ASSERT_EQ(a.slots, b.slots);
+      ASSERT_EQ(a.is_far, b.is_far);
+      if (!some->met_before) continue;
+      // The same operands were met before, where frames have the numbers that they have there.
+      const OperandList list = all->operands(all->roots[0]), own = some->operands(some->roots[0]);
+      const size_t added = own.operands.size() - 1, known = list.operands.size() - added;
+      ASSERT_EQ(some->met_count, known);
+      for (size_t i = 0; i < known; ++i) {
+        const bool is_body = all->nodes[all->roots[0]].op == BooleanOp::kDifference && i == 0;
+        const auto found = some->met_before->find(all->nodes[list.operands[i]].subtree.id);
+        const bool is_met = found != some->met_before->end() && found->second < known;
+        ASSERT_TRUE(is_met || is_body);
+        met += is_met;
+      }
+    }
+  }
+  EXPECT_GT(partial, 300u);
+  EXPECT_GT(whole, 100u);
+  EXPECT_GT(met, 500u);
 }
 
 }  // namespace
