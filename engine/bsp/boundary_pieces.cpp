@@ -1,5 +1,6 @@
 #include "engine/bsp/boundary_pieces.h"
 
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -22,11 +23,6 @@ std::shared_ptr<const BoundaryMesh> spelled_part(const BoundaryMesh& mesh) {
   return own;
 }
 
-/// Whether two parts are the sides of one leaf of the tree that are kept and turned over.
-bool are_of_one_leaf(const UntouchedPart& a, const UntouchedPart& b) {
-  return a.leaf == b.leaf && a.source == b.source;
-}
-
 Operand leaf_of(const UntouchedPart& part) {
   Operand operand;
   operand.leaf = part.leaf;
@@ -42,12 +38,13 @@ class BoundaryPieces {
  public:
   explicit BoundaryPieces(const BoundaryMesh& mesh) : mesh_(mesh) {
     operands_.emplace_back().boundary = spelled_part(mesh);
-    for (size_t k = 0; k < mesh.parts.size(); ++k) {
-      size_t same = 0;
-      while (!are_of_one_leaf(mesh.parts[same], mesh.parts[k])) ++same;
-      if (same == k) operands_.push_back(leaf_of(mesh.parts[k]));
-      operand_of_.push_back(same == k ? static_cast<uint32_t>(operands_.size() - 1)
-                                      : operand_of_[same]);
+    // Of one leaf of the tree there may be two, what is kept and what is turned over.
+    std::unordered_map<uint32_t, uint32_t> operand_of_source;
+    for (const UntouchedPart& part : mesh.parts) {
+      const auto [known, is_new] =
+          operand_of_source.try_emplace(part.source, static_cast<uint32_t>(operands_.size()));
+      if (is_new) operands_.push_back(leaf_of(part));
+      operand_of_.push_back(known->second);
     }
   }
 
