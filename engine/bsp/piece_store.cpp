@@ -1,6 +1,8 @@
 #include "engine/bsp/piece_store.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "engine/bsp/grid_planes.h"
 #include "engine/exact/grid_meeting.h"
@@ -43,17 +45,40 @@ class FramedFace {
   const Plane own_;
 };
 
+/// For each vertex of a leaf in a frame a corner of the leaf that turns there; of other operands
+/// none are needed. Nothing if a vertex of some face has no such corner.
+std::optional<std::vector<uint32_t>> turning_corners(const Operand& operand, const FrameMap& map) {
+  std::vector<uint32_t> corner_at;
+  if (!operand.leaf || operand.frame.is_identity) return corner_at;
+  const LeafGeometry& leaf = *operand.leaf;
+  corner_at.assign(leaf.vertices.size(), PieceStore::kNoNumber);
+  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
+    const FramedFace face(operand, map, f);
+    for (uint32_t i = 0; i < face.count(); ++i) {
+      const uint32_t corner = leaf.face_starts[f] + i;
+      if (face.count() == 3 || face.turns_at(i)) corner_at[leaf.corners[corner]] = corner;
+    }
+  }
+  const bool are_all_known = std::all_of(leaf.corners.begin(), leaf.corners.end(), [&](uint32_t v) {
+    return corner_at[v] != PieceStore::kNoNumber;
+  });
+  if (!are_all_known) return std::nullopt;
+  return corner_at;
+}
+
 }  // namespace
 
 uint32_t PieceStore::add_operand(Job& job, const std::vector<Operand>& operands, uint32_t o) {
   const Operand& operand = operands[o];
   const auto first = static_cast<uint32_t>(rounded_.size());
   const auto number = static_cast<uint32_t>(operands_.size());
+  const FrameMap map(operand.frame);
+  auto corners = turning_corners(operand, map);
+  if (!corners) return kNoNumber;
   operands_.push_back(operand);
-  maps_.emplace_back(operand.frame);
+  maps_.push_back(map);
   first_point_.push_back(first);
-  corner_at_.emplace_back();
-  if (!find_corners()) return kNoNumber;
+  corner_at_.push_back(*std::move(corners));
   const uint32_t begin = job.vertex_start(o), end = job.vertex_start(o + 1);
   if (number == 0 && begin < end) {
     for (size_t k = 0; k < 3; ++k) origin_[k] = static_cast<int64_t>(job.rounded(begin)[k]);
@@ -66,24 +91,6 @@ uint32_t PieceStore::add_operand(Job& job, const std::vector<Operand>& operands,
   }
   point_operand_.resize(rounded_.size(), number);
   return number;
-}
-
-/// Fills corner_at_ of the last operand; false if a vertex has no such corner.
-bool PieceStore::find_corners() {
-  const Operand& operand = operands_.back();
-  if (!operand.leaf || operand.frame.is_identity) return true;
-  const LeafGeometry& leaf = *operand.leaf;
-  std::vector<uint32_t>& corner_at = corner_at_.back();
-  corner_at.assign(leaf.vertices.size(), kNoNumber);
-  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    const FramedFace face(operand, maps_.back(), f);
-    for (uint32_t i = 0; i < face.count(); ++i) {
-      const uint32_t corner = leaf.face_starts[f] + i;
-      if (face.count() == 3 || face.turns_at(i)) corner_at[leaf.corners[corner]] = corner;
-    }
-  }
-  return std::all_of(leaf.corners.begin(), leaf.corners.end(),
-                     [&](uint32_t v) { return corner_at[v] != kNoNumber; });
 }
 
 void PieceStore::name(uint32_t point) {

@@ -188,7 +188,6 @@ class PieceStore {
   [[nodiscard]] bool meet_on_grid_at(const std::array<uint32_t, 3>& meeting,
                                      const std::array<double, 3>& at) const;
   [[nodiscard]] IVec3 on_grid(uint32_t point) const;
-  [[nodiscard]] bool find_corners();
   /// Has a vertex of a leaf in a frame be where three planes meet.
   void name(uint32_t point);
   [[nodiscard]] Plane plane_of_corners(uint32_t piece) const;

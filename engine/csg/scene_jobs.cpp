@@ -132,9 +132,7 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
 
 Status SceneJobs::run(const std::vector<uint32_t>& roots) {
   for (const SceneNode& node : scene_.nodes) {
-    if (scene_.is_partial && node.kind == SceneNode::Kind::kKnown) {
-      hold(node.subtree.id.key);
-    }
+    if (node.kind == SceneNode::Kind::kKnown) hold(node.subtree.id.key);
   }
   find_operators(roots);
   const std::vector<uint32_t> order = count_uses(roots);

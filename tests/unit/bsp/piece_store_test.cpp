@@ -111,7 +111,10 @@ TEST(PieceStore, RefusesVerticesAtWhichNoFaceTurns) {
     const std::vector<Operand> operands{o};
     PieceStore store;
     Job job(operands, &store.planes);
-    return store.add_operand(job, operands, 0);
+    const uint32_t number = store.add_operand(job, operands, 0);
+    EXPECT_EQ(store.operands().size(), number == PieceStore::kNoNumber ? 0u : 1u);
+    EXPECT_EQ(store.point_count(), number == PieceStore::kNoNumber ? 0u : job.vertex_count());
+    return number;
   };
   const auto pieces_of = [](const Operand& o) {
     const std::vector<Operand> operands{o, test::operand_of(test::box_leaf({1, 1, 1}, {5, 5, 5}))};
