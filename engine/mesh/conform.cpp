@@ -6,12 +6,40 @@
 
 #include "engine/bsp/point_index.h"
 #include "engine/mesh/box_tree.h"
-#include "engine/mesh/face_location.h"
+#include "engine/mesh/face_search.h"
 #include "engine/mesh/met_edges.h"
 #include "engine/mesh/self_contact.h"
 
 namespace csgrun {
 namespace {
+
+/// Points to be found by boxes.
+class PointTree {
+ public:
+  PointTree(std::span<const uint32_t> points, const CellGeometry& geometry)
+      : points_(points), boxes_(boxes_of(points, geometry)), tree_(boxes_) {}
+
+  /// Calls f(point) for those in a box of rounded coordinates.
+  template <class F>
+  void find(const Box& box, F&& f) const {
+    tree_.visit_all(box, [&](uint32_t i) { f(points_[i]); });
+  }
+
+ private:
+  static std::vector<Box> boxes_of(std::span<const uint32_t> points, const CellGeometry& geometry) {
+    std::vector<Box> boxes;
+    boxes.reserve(points.size());
+    for (const uint32_t p : points) {
+      const auto& at = geometry.point(p).rounded;
+      boxes.push_back({at, at});
+    }
+    return boxes;
+  }
+
+  std::span<const uint32_t> points_;
+  const std::vector<Box> boxes_;
+  const BoxTree tree_;
+};
 
 class Conformer {
  public:
@@ -22,11 +50,13 @@ class Conformer {
         geometry_(geometry),
         view_(geometry),
         planes_(planes),
+        search_(faces, geometry, view_, planes),
         edges_(edges_of(faces, near)),
         boxes_(boxes_of(edges_, geometry)),
         tree_(boxes_),
         face_boxes_(faces.size()),
         corner_of_(geometry.point_count(), kNone),
+        located_in_(geometry.point_count(), kNone),
         next_(geometry.point_count(), kNone),
         previous_(geometry.point_count(), kNone),
         sides_(faces.size()),
@@ -57,9 +87,8 @@ class Conformer {
     std::sort(contacts_.begin(), contacts_.end());
     contacts_.erase(std::unique(contacts_.begin(), contacts_.end()), contacts_.end());
     break_edges();
-    for (const uint32_t p : contacts_) by_x_.emplace_back(geometry_.point(p).rounded[0], p);
-    std::sort(by_x_.begin(), by_x_.end());
-    for (const uint32_t f : lying_faces_) find_slits(f);
+    const PointTree contacts(contacts_, geometry_);
+    for (const uint32_t f : lying_faces_) find_slits(f, contacts);
     find_points();
   }
 
@@ -88,14 +117,6 @@ class Conformer {
       }
     }
     return edges;
-  }
-
-  /// Rounding is monotone: what is in a box is in the box of the rounded corners.
-  static Box box_of(const DirectedEdge& e, const CellGeometry& geometry) {
-    const auto &p = geometry.point(e.from).rounded, &q = geometry.point(e.to).rounded;
-    Box box{p, p};
-    box.include({q, q});
-    return box;
   }
 
   static std::vector<Box> boxes_of(const std::vector<FaceEdge>& edges,
@@ -139,7 +160,10 @@ class Conformer {
     const bool from_shared = corner_of_[e.from] == f, to_shared = corner_of_[e.to] == f;
     const int from = from_shared ? 0 : geometry_.side(support, e.from);
     const int to = to_shared ? 0 : geometry_.side(support, e.to);
-    if (from == 0 && !from_shared && in_box(f, e.from)) touch(f, e.from);
+    if (from == 0 && !from_shared && located_in_[e.from] != f && in_box(f, e.from)) {
+      located_in_[e.from] = f;
+      touch(f, e.from);
+    }
     note_sides(f, g, met.sides, from, to);
     if (from != 0 || to != 0 || faces_[g].plane.index() == support) return;
     // An edge of f itself is none that may run through it.
@@ -162,27 +186,8 @@ class Conformer {
     return face_boxes_[f].overlaps({at, at});
   }
 
-  /// FaceLocator::locate, with those of the face's edges alone that a ray from the point may meet.
-  int locate(uint32_t f, uint32_t p) {
-    constexpr size_t kFew = 16;
-    FaceLocator locator(faces_[f].plane, view_, planes_);
-    const auto& loops = faces_[f].loops;
-    if (loops.size() == 1 && loops[0].size() <= kFew) return locator.locate(loops, p);
-    const auto& at = geometry_.point(p).rounded;
-    const auto [u, v] = locator.axes();
-    Box band{at, at};
-    band.lo[u] = face_boxes_[f].lo[u];
-    band.lo[3 - u - v] = face_boxes_[f].lo[3 - u - v];
-    band.hi[3 - u - v] = face_boxes_[f].hi[3 - u - v];
-    band_[0].clear();
-    tree_.visit_all(band, [&](uint32_t e) {
-      if (edges_[e].face == f) band_[0].push_back(edges_[e].edge);
-    });
-    return locator.locate(band_, p);
-  }
-
   void touch(uint32_t f, uint32_t p) {
-    const int where = locate(f, p);
+    const int where = search_.locate(f, p);
     if (where >= 0) contacts_.push_back(p);
     if (where > 0) inner_.push_back({f, p});
   }
@@ -190,15 +195,6 @@ class Conformer {
   void add_lying(uint32_t f, const Lying& lying) {
     if (lying_[f].empty()) lying_faces_.push_back(f);
     lying_[f].push_back(lying);
-  }
-
-  [[nodiscard]] bool is_rim(uint32_t f, const DirectedEdge& e) const {
-    for (const auto& loop : faces_[f].loops) {
-      for (const DirectedEdge& r : loop) {
-        if ((r.from == e.from && r.to == e.to) || (r.from == e.to && r.to == e.from)) return true;
-      }
-    }
-    return false;
   }
 
   /// Where edges of the two faces, each of which passes through the plane of the other face, meet.
@@ -315,11 +311,10 @@ class Conformer {
     std::sort(on_line_.begin(), on_line_.end(),
               [&](uint32_t p, uint32_t q) { return geometry_.compare_along(p, q, line.axis) < 0; });
     on_line_.erase(std::unique(on_line_.begin(), on_line_.end()), on_line_.end());
-    FaceLocator in_f(faces_[f].plane, view_, planes_), in_g(faces_[g].plane, view_, planes_);
     for (size_t i = 1; i < on_line_.size(); ++i) {
       const uint32_t p = on_line_[i - 1], q = on_line_[i];
-      if (in_f.locate(faces_[f].loops, p) < 0 || in_f.locate(faces_[f].loops, q) < 0) continue;
-      if (in_g.locate(faces_[g].loops, p) < 0 || in_g.locate(faces_[g].loops, q) < 0) continue;
+      if (search_.locate(f, p) < 0 || search_.locate(f, q) < 0) continue;
+      if (search_.locate(g, p) < 0 || search_.locate(g, q) < 0) continue;
       contacts_.push_back(p);
       contacts_.push_back(q);
       add_lying(f, {{p, q, faces_[g].plane.index()}, g});
@@ -359,14 +354,12 @@ class Conformer {
     for (const Lying& line : lines) boxes.push_back(box_of(line.edge, geometry_));
     const BoxTree tree(boxes);
     // In the order of edges: which points are made first must not depend on the trees.
+    std::vector<DirectedEdge> rim;
     std::vector<uint32_t> met;
     for (uint32_t i = 0; i < lines.size(); ++i) {
-      met.clear();
-      tree_.visit_all(boxes[i], [&](uint32_t e) {
-        if (edges_[e].face == f) met.push_back(e);
-      });
-      std::sort(met.begin(), met.end());
-      for (const uint32_t e : met) cross(lines[i].edge, edges_[e].edge);
+      rim.clear();
+      search_.find(f, boxes[i], rim);
+      for (const DirectedEdge& e : rim) cross(lines[i].edge, e);
       met.clear();
       tree.visit_later(i, [&](uint32_t j) { met.push_back(j); });
       std::sort(met.begin(), met.end());
@@ -421,7 +414,9 @@ class Conformer {
         number += count;
       }
     }
-    if (!inside.empty()) break_partners(inside);
+    if (inside.empty()) return;
+    search_.forget();
+    break_partners(inside);
   }
 
   /// Breaks the edges of faces that are not near where the faces that share them were broken.
@@ -462,51 +457,38 @@ class Conformer {
   }
 
   /// The parts of lying edges that are inside their face.
-  void find_slits(uint32_t f) {
+  void find_slits(uint32_t f, const PointTree& contacts) {
     MergedFace& face = faces_[f];
     std::vector<uint32_t> points;
-    const Box& box = face_boxes_[f];
-    for (auto at = std::lower_bound(by_x_.begin(), by_x_.end(), std::pair(box.lo[0], 0u));
-         at != by_x_.end() && at->first <= box.hi[0]; ++at) {
-      const uint32_t p = at->second;
-      if (in_box(f, p) && geometry_.side(face.plane.index(), p) == 0) points.push_back(p);
-    }
+    contacts.find(face_boxes_[f], [&](uint32_t p) {
+      if (geometry_.side(face.plane.index(), p) == 0) points.push_back(p);
+    });
     for (const auto& loop : face.loops) {
       for (const DirectedEdge& e : loop) points.push_back(e.from);
     }
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
+    const PointTree near(points, geometry_);
     std::vector<DirectedEdge> parts;
     std::vector<uint32_t> inside;
     for (const Lying& lying : lying_[f]) {
       inside.clear();
-      for (const uint32_t p : points) {
+      near.find(box_of(lying.edge, geometry_), [&](uint32_t p) {
         if (lies_inside(geometry_, lying.edge, p)) inside.push_back(p);
-      }
+      });
       parts.clear();
       append_broken(geometry_, lying.edge, inside, parts);
       for (const DirectedEdge& e : parts) {
-        if (!runs_inside(f, e)) continue;
+        if (!search_.runs_inside(f, e)) continue;
         if (lying.other != kNone) {
           const DirectedEdge there{e.from, e.to, face.plane.index()};
-          if (!runs_inside(lying.other, there)) continue;
+          if (!search_.runs_inside(lying.other, there)) continue;
         }
         face.slits.push_back(std::minmax({e.from, e.to}));
       }
     }
     std::sort(face.slits.begin(), face.slits.end());
     face.slits.erase(std::unique(face.slits.begin(), face.slits.end()), face.slits.end());
-  }
-
-  /// Whether an edge in the plane of a face, broken at the face's corners, runs through it.
-  bool runs_inside(uint32_t f, const DirectedEdge& e) {
-    if (is_rim(f, e)) return false;
-    const int from = locate(f, e.from);
-    if (from != 0) return from > 0;
-    const int to = locate(f, e.to);
-    if (to != 0) return to > 0;
-    FaceLocator locator(faces_[f].plane, view_, planes_);
-    return locator.starts_inside(faces_[f].loops, e);
   }
 
   /// The corners within faces at which no slit ends.
@@ -527,24 +509,24 @@ class Conformer {
   CellGeometry& geometry_;
   PointView view_;
   const PlaneTable& planes_;
+  FaceSearch search_;
   const std::vector<FaceEdge> edges_;  ///< as they were given
   const std::vector<Box> boxes_;       ///< of the edges
   const BoxTree tree_;
   std::vector<Box> face_boxes_;            ///< of the faces near contacts
   std::vector<uint32_t> corner_of_;        ///< per point: the face that was marked last
+  std::vector<uint32_t> located_in_;       ///< per point: the face in which it was looked for last
   std::vector<uint32_t> next_, previous_;  ///< per corner of that face: along its loop
   std::vector<Ends> rim_;     ///< of that face, sorted; empty if it passes no corner twice
   std::vector<Sides> sides_;  ///< per face, of the plane of the one that was marked last
   /// Faces of which one has edges, near the other, on both sides of the other's plane.
   std::vector<std::pair<uint32_t, uint32_t>> straddling_;
-  std::vector<std::pair<double, uint32_t>> by_x_;     ///< contacts, by their first coordinates
   std::vector<uint32_t> contacts_;                    ///< points at which edges are to be broken
   std::vector<std::pair<uint32_t, uint32_t>> inner_;  ///< faces, and corners of others within them
   std::vector<std::vector<Lying>> lying_;
   std::vector<uint32_t> lying_faces_;  ///< those that have any
   std::optional<PointIndex> index_;
   std::vector<uint32_t> on_line_;
-  std::vector<std::vector<DirectedEdge>> band_{1};  ///< of locate
 };
 
 }  // namespace
