@@ -39,6 +39,10 @@ struct PieceBox {
     return lo[0] <= b.hi[0] && b.lo[0] <= hi[0] && lo[1] <= b.hi[1] && b.lo[1] <= hi[1] &&
            lo[2] <= b.hi[2] && b.lo[2] <= hi[2];
   }
+  [[nodiscard]] bool holds(const PieceBox& b) const {
+    return lo[0] <= b.lo[0] && b.hi[0] <= hi[0] && lo[1] <= b.lo[1] && b.hi[1] <= hi[1] &&
+           lo[2] <= b.lo[2] && b.hi[2] <= hi[2];
+  }
   [[nodiscard]] bool meets_any(std::span<const PieceBox> boxes) const {
     return std::any_of(boxes.begin(), boxes.end(), [&](const PieceBox& b) { return meets(b); });
   }
@@ -82,12 +86,25 @@ class PieceTree {
     if (root_) each_below(*root_, may_meet, f);
   }
 
-  /// The pieces without those for which `is_gone(piece)`, which are looked for in these boxes, and
-  /// with `added`. `box_of(piece)` is the box of a piece. O(k log n) for k nodes in the boxes,
-  /// amortised: a part that has become too deep is put together anew from its leaves.
-  template <class IsGone, class BoxOf>
-  [[nodiscard]] PieceTree changed(std::span<const PieceBox> where, IsGone&& is_gone,
-                                  std::vector<uint32_t> added, BoxOf&& box_of) const;
+  /// The pieces without those that are `gone`, of this tree or not, ascending, and with `added`.
+  /// `box_of(piece)` is the box of a piece. O(k log n) for k nodes around the boxes of the pieces
+  /// that are gone, amortised: a part that has become too deep is put together anew from its
+  /// leaves.
+  template <class BoxOf>
+  [[nodiscard]] PieceTree changed(std::span<const uint32_t> gone,
+                                  const std::vector<uint32_t>& added, BoxOf&& box_of) const {
+    PieceTree result;
+    std::vector<Item> items = items_of(gone, box_of);
+    std::vector<const Item*> looked_for;
+    for (const Item& item : items) looked_for.push_back(&item);
+    result.root_ = without(root_, looked_for, 0, box_of);
+    if (!added.empty()) {
+      items = items_of(added, box_of);
+      const NodePtr more = build(items);
+      result.root_ = result.root_ ? insert(result.root_, more) : more;
+    }
+    return result;
+  }
 
  private:
   static constexpr size_t kLeafSize = 16;
@@ -111,11 +128,12 @@ class PieceTree {
   static void collect_leaves(const NodePtr& node, std::vector<NodePtr>& leaves);
   static NodePtr over_leaves(std::span<NodePtr> leaves);
 
-  template <class IsGone, class BoxOf>
-  static NodePtr without(const NodePtr& node, std::span<const PieceBox> where, IsGone& is_gone,
+  /// The node without the pieces from `first` on in a list, which is as it was afterwards.
+  template <class BoxOf>
+  static NodePtr without(const NodePtr& node, std::vector<const Item*>& gone, size_t first,
                          BoxOf& box_of);
   template <class BoxOf>
-  static std::vector<Item> items_of(const std::vector<uint32_t>& pieces, BoxOf& box_of) {
+  static std::vector<Item> items_of(std::span<const uint32_t> pieces, BoxOf& box_of) {
     std::vector<Item> items;
     items.reserve(pieces.size());
     for (const uint32_t p : pieces) items.push_back({p, box_of(p)});
@@ -125,35 +143,34 @@ class PieceTree {
   NodePtr root_;
 };
 
-template <class IsGone, class BoxOf>
-PieceTree::NodePtr PieceTree::without(const NodePtr& node, std::span<const PieceBox> where,
-                                      IsGone& is_gone, BoxOf& box_of) {
-  if (!node || !node->box.meets_any(where)) return node;
+template <class BoxOf>
+PieceTree::NodePtr PieceTree::without(const NodePtr& node, std::vector<const Item*>& gone,
+                                      size_t first, BoxOf& box_of) {
+  if (!node) return node;
+  const size_t end = gone.size();
+  for (size_t i = first; i < end; ++i) {
+    if (node->box.holds(gone[i]->box)) gone.push_back(gone[i]);
+  }
+  NodePtr result = node;
+  if (gone.size() == end) return result;
   if (node->height > 0) {
-    NodePtr a = without(node->child[0], where, is_gone, box_of);
-    NodePtr b = without(node->child[1], where, is_gone, box_of);
-    if (a == node->child[0] && b == node->child[1]) return node;
-    return join(std::move(a), std::move(b));
+    NodePtr a = without(node->child[0], gone, end, box_of);
+    NodePtr b = without(node->child[1], gone, end, box_of);
+    if (a != node->child[0] || b != node->child[1]) result = join(std::move(a), std::move(b));
+  } else {
+    std::vector<uint32_t> kept;
+    kept.reserve(node->pieces.size());
+    for (const uint32_t p : node->pieces) {
+      const bool is_gone = std::any_of(gone.begin() + static_cast<long>(end), gone.end(),
+                                       [&](const Item* item) { return item->piece == p; });
+      if (!is_gone) kept.push_back(p);
+    }
+    if (kept.size() < node->pieces.size()) {
+      std::vector<Item> items = items_of(kept, box_of);
+      result = build(items);
+    }
   }
-  if (std::none_of(node->pieces.begin(), node->pieces.end(), is_gone)) return node;
-  std::vector<Item> items;
-  items.reserve(node->pieces.size());
-  for (const uint32_t p : node->pieces) {
-    if (!is_gone(p)) items.push_back({p, box_of(p)});
-  }
-  return build(items);
-}
-
-template <class IsGone, class BoxOf>
-PieceTree PieceTree::changed(std::span<const PieceBox> where, IsGone&& is_gone,
-                             std::vector<uint32_t> added, BoxOf&& box_of) const {
-  PieceTree result;
-  result.root_ = without(root_, where, is_gone, box_of);
-  if (!added.empty()) {
-    std::vector<Item> items = items_of(added, box_of);
-    const NodePtr more = build(items);
-    result.root_ = result.root_ ? insert(result.root_, more) : more;
-  }
+  gone.resize(end);
   return result;
 }
 

@@ -46,9 +46,8 @@ Outside fate_outside(const Expression& expression, uint32_t operand) {
 void start_version(ResultPieces& version, std::vector<uint32_t> pieces) {
   const PieceStore& store = *version.store;
   version.bytes = bytes_of(store.piece_count(), store.point_count());
-  version.tree = PieceTree().changed(
-      {}, [](uint32_t) { return false; }, std::move(pieces),
-      [&](uint32_t p) -> const PieceBox& { return store.box(p); });
+  version.tree =
+      PieceTree().changed({}, pieces, [&](uint32_t p) -> const PieceBox& { return store.box(p); });
 }
 
 Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& given, const Expression& expression,
@@ -126,8 +125,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   const auto box_of = [&](uint32_t p) -> const PieceBox& { return store.box(p); };
   if (outside == Outside::kDropped) {
     kept.insert(kept.end(), writer.added.begin(), writer.added.end());
-    result->tree = PieceTree().changed(
-        {}, [](uint32_t) { return false; }, std::move(kept), box_of);
+    result->tree = PieceTree().changed({}, kept, box_of);
     return PiecesPtr(std::move(result));
   }
   // Gone are the pieces of the job that were not kept, and regions and groups with such parts.
@@ -143,18 +141,13 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   std::sort(lost.begin(), lost.end());
   std::sort(gone.begin(), gone.end());
   gone.erase(std::unique(gone.begin(), gone.end()), gone.end());
-  PieceBox gone_box;
   for (const uint32_t p : gone) {
-    gone_box.add(store.box(p));
     const auto [first_part, part_count] = store.parts(p);
     for (uint32_t part = first_part; part < first_part + part_count; ++part) {
       if (!is_in(lost, part)) writer.added.push_back(part);
     }
   }
-  const auto is_gone = [&](uint32_t p) { return is_in(gone, p); };
-  result->tree = version.tree.changed(
-      gone.empty() ? std::span<const PieceBox>() : std::span<const PieceBox>(&gone_box, 1), is_gone,
-      std::move(writer.added), box_of);
+  result->tree = version.tree.changed(gone, writer.added, box_of);
   return PiecesPtr(std::move(result));
 }
 

@@ -74,8 +74,15 @@ TEST_F(PieceTrees, ChangesLeaveOtherVersionsAlone) {
     for (int64_t n = random_.integer(0, 60); n > 0; --n) added.push_back(new_piece());
     for (const uint32_t p : gone) next.pieces.erase(p);
     next.pieces.insert(added.begin(), added.end());
-    next.tree = from.tree.changed(
-        where, [&](uint32_t p) { return gone.contains(p); }, added, box_of);
+    std::vector<uint32_t> named(gone.begin(), gone.end());
+    // What is not there does not go.
+    for (uint32_t p = 0; p < boxes_.size(); p += 97) {
+      if (!from.pieces.contains(p) && !std::count(added.begin(), added.end(), p)) {
+        named.push_back(p);
+      }
+    }
+    std::sort(named.begin(), named.end());
+    next.tree = from.tree.changed(named, added, box_of);
     versions.push_back(next);
     for (const Version& v : {from, next}) {
       ASSERT_EQ(v.tree.size(), v.pieces.size());
@@ -97,9 +104,8 @@ TEST_F(PieceTrees, StayShallowAlongALine) {
     box.add(std::array{1.0 * i, 0.0, 0.0});
     box.add(std::array{1.0 * i + 1, 1.0, 1.0});
     boxes_.push_back(box);
-    tree = tree.changed(
-        {}, [](uint32_t) { return false; }, {static_cast<uint32_t>(i)},
-        [&](uint32_t p) -> const PieceBox& { return boxes_[p]; });
+    tree = tree.changed({}, {static_cast<uint32_t>(i)},
+                        [&](uint32_t p) -> const PieceBox& { return boxes_[p]; });
   }
   ASSERT_EQ(tree.size(), 3000u);
   EXPECT_LE(tree.root()->height, 6u + 2 * 12u);
@@ -110,18 +116,18 @@ TEST_F(PieceTrees, UnchangedNodesAreShared) {
   std::vector<uint32_t> pieces;
   for (int i = 0; i < 500; ++i) pieces.push_back(new_piece());
   const auto box_of = [&](uint32_t p) -> const PieceBox& { return boxes_[p]; };
-  const auto none = [](uint32_t) { return false; };
-  const PieceTree tree = PieceTree().changed({}, none, pieces, box_of);
-  const PieceBox all = tree.box();
-  EXPECT_EQ(tree.changed(std::span(&all, 1), none, {}, box_of).root(), tree.root());
-  const PieceTree empty = tree.changed(
-      std::span(&all, 1), [](uint32_t) { return true; }, {}, box_of);
+  const PieceTree tree = PieceTree().changed({}, pieces, box_of);
+  EXPECT_EQ(tree.changed({}, {}, box_of).root(), tree.root());
+  const std::vector<uint32_t> other{new_piece()};
+  EXPECT_EQ(tree.changed(other, {}, box_of).root(), tree.root());
+  const PieceTree less = tree.changed(std::vector<uint32_t>{3}, {}, box_of);
+  EXPECT_EQ(less.size(), 499u);
+  const PieceTree empty = tree.changed(pieces, {}, box_of);
   EXPECT_EQ(empty.size(), 0u);
   EXPECT_EQ(empty.root(), nullptr);
   EXPECT_EQ(tree.size(), 500u);
   // Of nothing nothing can go; what is added is all there is.
-  const PieceTree one = empty.changed(
-      std::span(&all, 1), [](uint32_t) { return true; }, {7}, box_of);
+  const PieceTree one = empty.changed(pieces, {7}, box_of);
   EXPECT_EQ(one.size(), 1u);
   EXPECT_EQ(one.box().lo, boxes_[7].lo);
 }
