@@ -19,9 +19,9 @@ bool is_far_out(const PolygonBox& box) {
 }
 
 /// Several squares a ball.
-uint32_t squares_per_side(size_t balls) {
-  constexpr double kMost = 256;
-  return static_cast<uint32_t>(std::clamp(2 * std::sqrt(static_cast<double>(balls)), 1.0, kMost));
+uint32_t most_squares(size_t balls) {
+  constexpr size_t kEach = 4, kMost = 256 * 256;
+  return static_cast<uint32_t>(std::clamp<size_t>(kEach * balls, 1, kMost));
 }
 
 }  // namespace
@@ -70,12 +70,12 @@ OperandBalls::OperandBalls(const std::vector<Operand>& operands,
     balls_.push_back(all[o]);
     SquareBins::Box& box = boxes.emplace_back();
     const double radius = std::sqrt(all[o].inner);
-    for (size_t k = 0; k < 2; ++k) {
+    for (size_t k = 0; k < 3; ++k) {
       box.lo[k] = all[o].middle[k] - radius;
       box.hi[k] = all[o].middle[k] + radius;
     }
   }
-  bins_ = SquareBins(boxes, squares_per_side(boxes.size()));
+  bins_ = SquareBins(boxes, most_squares(boxes.size()));
 }
 
 OperandBalls::Side OperandBalls::side(uint32_t operand, const std::array<double, 3>& point) const {

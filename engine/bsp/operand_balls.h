@@ -36,7 +36,7 @@ class OperandBalls {
   [[nodiscard]] bool hold(uint32_t count, At&& at) const {
     if (balls_.empty()) return false;
     const std::array<double, 3>& first = at(0);
-    const auto near = bins_.at(first[0], first[1]);
+    const auto near = bins_.at(first);
     return std::any_of(near.begin(), near.end(), [&](uint32_t i) {
       const Ball& ball = balls_[i];
       for (uint32_t c = 0; c < count; ++c) {

@@ -15,7 +15,7 @@ std::vector<SquareBins::Box> boxes_of_operands(const Job& job) {
     const PolygonBox& box = job.operand_box(o);
     // A step more: a point is not known to the last bit.
     SquareBins::Box& wide = boxes.emplace_back();
-    for (size_t k = 0; k < 2; ++k) {
+    for (size_t k = 0; k < 3; ++k) {
       wide.lo[k] = static_cast<double>(box.lo[k]) - 1;
       wide.hi[k] = static_cast<double>(box.hi[k]) + 1;
     }
@@ -24,10 +24,9 @@ std::vector<SquareBins::Box> boxes_of_operands(const Job& job) {
 }
 
 /// A square an operand, about.
-uint32_t squares_per_side(size_t operands) {
-  constexpr double kMost = 64;
-  return static_cast<uint32_t>(
-      std::clamp(std::ceil(std::sqrt(static_cast<double>(operands))), 1.0, kMost));
+uint32_t most_squares(size_t operands) {
+  constexpr size_t kMost = 64 * 64;
+  return static_cast<uint32_t>(std::clamp<size_t>(operands, 1, kMost));
 }
 
 }  // namespace
@@ -38,7 +37,7 @@ PatchLabels::PatchLabels(const Job& job, const Expression& expression,
       plainly_(plainly),
       boundary_(expression),
       signs_(job, true),  // rays meet pieces that the job does not have
-      bins_(boxes_of_operands(job), squares_per_side(job.operand_count())) {}
+      bins_(boxes_of_operands(job), most_squares(job.operand_count())) {}
 
 /// Whether they tell that nothing there is boundary, whatever else there is: part of the patch is
 /// inside of a remover, or hidden surface passes through it.
@@ -68,7 +67,7 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
     if (f.front) inside_.push_back(2 * uint64_t{f.operand});
     if (f.back) inside_.push_back(2 * uint64_t{f.operand} + 1);
   }
-  for (const uint32_t o : bins_.at(point[0], point[1])) {
+  for (const uint32_t o : bins_.at(point)) {
     const PolygonBox& box = job_.operand_box(o);
     bool may_hold = o != own;
     for (int k = 0; k < 3; ++k) {
