@@ -126,7 +126,18 @@ class PieceAssembler {
   [[nodiscard]] SomeFaces faces_of_pieces() const {
     SomeFaces some;
     some.faces.resize(operands_.size());
+    for (const uint32_t p : pieces_) {
+      const uint32_t o = number_[store_.piece(p).operand];
+      if (operands_[o].boundary) some.faces[o].push_back(store_.piece(p).face);
+    }
     for (size_t o = 0; o < operands_.size(); ++o) {
+      if (operands_[o].boundary) {
+        some.is_partial.push_back(1);
+        std::sort(some.faces[o].begin(), some.faces[o].end());
+        const auto end = std::unique(some.faces[o].begin(), some.faces[o].end());
+        some.faces[o].erase(end, some.faces[o].end());
+        continue;
+      }
       some.is_partial.push_back(can_be_partial(operands_[o]) ? 1 : 0);
       if (!some.is_partial[o]) continue;
       for (uint32_t f = 0; f < is_there_[o].size(); ++f) {

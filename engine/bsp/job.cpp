@@ -78,23 +78,7 @@ Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_box
   boundary_planes_.resize(operands.size());
   named_parts_.resize(operands.size());
   for (size_t o = 0; o < operands.size(); ++o) {
-    if (!operands[o].boundary) continue;
-    const RawVector<Plane>& of_operand = operands[o].boundary->planes;
-    const IVec3& moved = operands[o].translation;
-    const FrameMap& map = sources_[o].map;
-    std::vector<PlaneId>& ids = boundary_planes_[o];
-    ids.reserve(of_operand.size());
-    if (planes_.size() == 0 && map.is_identity() && moved == IVec3{0, 0, 0}) {
-      planes_.adopt(of_operand);
-      for (uint32_t p = 0; p < of_operand.size(); ++p) ids.emplace_back(p, false);
-      continue;
-    }
-    // A plane that is moved by whole steps has the common divisors that it had.
-    for (const Plane& plane : of_operand) {
-      const Plane there = translate_plane(plane, moved);
-      ids.push_back(map.is_identity() ? planes_.intern_stored(there)
-                                      : planes_.intern(map.plane(there)));
-    }
+    if (operands[o].boundary) add_boundary_planes(o, operands[o]);
   }
   while (!is_good_prime(prime_)) prime_ += 2;
   size_t vertices = 0, polygons = 0, corners = 0;
@@ -153,6 +137,7 @@ bool Job::is_good_prime(int64_t p) const {
   // themselves.
   for (const auto& planes : boundary_planes_) {
     for (const PlaneId id : planes) {
+      if (!id.valid()) continue;
       const Plane& s = planes_.plane(id.index());
       if (((s.a != 0) + (s.b != 0) + (s.c != 0)) == 1 && s.a + s.b + s.c == p) return false;
     }

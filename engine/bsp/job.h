@@ -204,6 +204,7 @@ class Job {
   void add_face(uint32_t polygon, uint32_t o, const LeafGeometry& leaf, uint32_t face,
                 uint32_t first);
   void add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector<uint32_t>& faces);
+  void add_boundary_planes(size_t o, const Operand& operand);
   void add_boundary(uint32_t o, const Operand& operand);
   void add_parts(uint32_t o, const Operand& operand);
   void add_part_vertices(const UntouchedPart& part, const IVec3& translation,
@@ -247,7 +248,7 @@ class Job {
   std::vector<uint32_t> vertex_operand_starts_{0};
   /// Vertices of boundary operands: three planes of this job, by vertex - first vertex.
   std::vector<std::vector<std::array<uint32_t, 3>>> boundary_vertices_;
-  /// Planes of boundary operands, by their number in the boundary.
+  /// Planes of boundary operands, by their number in the boundary; invalid where not needed.
   std::vector<std::vector<PlaneId>> boundary_planes_;
   std::vector<std::vector<NamedPart>> named_parts_;               ///< per operand
   std::vector<uint32_t> pieces_, version_pieces_, piece_points_;  ///< of the operand in pieces

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cassert>
 #include <functional>
+#include <numeric>
 
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/convexify.h"
@@ -10,12 +11,89 @@
 
 namespace csgrun {
 
+namespace {
+
+/// Calls f(face) for the faces of a boundary that a job has.
+template <class F>
+void each_face(const BoundaryMesh& mesh, const std::vector<uint32_t>* some, F&& f) {
+  if (some) {
+    for (const uint32_t face : *some) f(face);
+  } else {
+    for (uint32_t face = 0; face < mesh.faces.size(); ++face) f(face);
+  }
+}
+
+template <class F>
+void each_corner(const BoundaryMesh& mesh, const BoundaryMesh::Face& face, F&& f) {
+  const uint32_t end = mesh.loop_starts[face.first_loop + face.loop_count];
+  for (uint32_t c = mesh.loop_starts[face.first_loop]; c < end; ++c) f(mesh.corners[c]);
+}
+
+/// The points of some faces; of all, if there is no list.
+std::vector<uint32_t> points_of(const BoundaryMesh& mesh, const std::vector<uint32_t>* some) {
+  std::vector<uint32_t> points;
+  if (!some) {
+    points.resize(mesh.point_planes.size());
+    std::iota(points.begin(), points.end(), 0);
+    return points;
+  }
+  each_face(mesh, some, [&](uint32_t f) {
+    each_corner(mesh, mesh.faces[f],
+                [&](const BoundaryMesh::Corner& c) { points.push_back(c.point); });
+  });
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+}  // namespace
+
+/// Enters the planes of a boundary; of some faces only those that these need.
+void Job::add_boundary_planes(size_t o, const Operand& operand) {
+  const BoundaryMesh& mesh = *operand.boundary;
+  const IVec3& moved = operand.translation;
+  const FrameMap& map = sources_[o].map;
+  std::vector<PlaneId>& ids = boundary_planes_[o];
+  const std::vector<uint32_t>* const some = some_faces(o);
+  if (!some && planes_.size() == 0 && map.is_identity() && moved == IVec3{0, 0, 0}) {
+    planes_.adopt(mesh.planes);
+    ids.reserve(mesh.planes.size());
+    for (uint32_t p = 0; p < mesh.planes.size(); ++p) ids.emplace_back(p, false);
+    return;
+  }
+  ids.assign(mesh.planes.size(), PlaneId());
+  const auto enter = [&](uint32_t p) {
+    if (ids[p].valid()) return;
+    // A plane that is moved by whole steps has the common divisors that it had.
+    const Plane there = translate_plane(mesh.planes[p], moved);
+    ids[p] = map.is_identity() ? planes_.intern_stored(there) : planes_.intern(map.plane(there));
+  };
+  if (!some) {
+    for (uint32_t p = 0; p < mesh.planes.size(); ++p) enter(p);
+    return;
+  }
+  each_face(mesh, some, [&](uint32_t f) {
+    enter(mesh.faces[f].plane.index());
+    each_corner(mesh, mesh.faces[f], [&](const BoundaryMesh::Corner& c) {
+      enter(c.edge_plane);
+      for (const uint32_t p : mesh.point_planes[c.point]) enter(p);
+    });
+  });
+}
+
 void Job::add_boundary(uint32_t o, const Operand& operand) {
   const BoundaryMesh& mesh = *operand.boundary;
   const std::vector<PlaneId>& plane_of = boundary_planes_[o];
   CellGeometry geometry(planes_, nullptr);
   const bool moved = !operand.frame.is_identity || operand.translation != IVec3{0, 0, 0};
-  for (size_t p = 0; p < mesh.point_planes.size(); ++p) {
+  const std::vector<uint32_t>* const some = some_faces(o);
+  const std::vector<uint32_t> points = points_of(mesh, some);
+  const auto number_of = [&](uint32_t point) {
+    if (!some) return point;
+    const auto found = std::lower_bound(points.begin(), points.end(), point);
+    return static_cast<uint32_t>(found - points.begin());
+  };
+  for (const uint32_t p : points) {
     const auto& t = mesh.point_planes[p];
     const std::array<uint32_t, 3> planes{plane_of[t[0]].index(), plane_of[t[1]].index(),
                                          plane_of[t[2]].index()};
@@ -32,14 +110,14 @@ void Job::add_boundary(uint32_t o, const Operand& operand) {
   std::vector<Fragment> pieces;
   std::vector<BoundaryEdge> edges;
   const auto first_vertex = static_cast<uint32_t>(rounded_.size());
-  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
+  each_face(mesh, some, [&](uint32_t f) {
     const BoundaryMesh::Face& face = mesh.faces[f];
     edges.clear();
     for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
       const uint32_t begin = mesh.loop_starts[l], end = mesh.loop_starts[l + 1];
       for (uint32_t c = begin; c < end; ++c) {
         const BoundaryMesh::Corner& next = mesh.corners[c + 1 < end ? c + 1 : begin];
-        BoundaryEdge e{mesh.corners[c].point, next.point,
+        BoundaryEdge e{number_of(mesh.corners[c].point), number_of(next.point),
                        plane_of[mesh.corners[c].edge_plane].index()};
         if (mirrored) std::swap(e.from, e.to);
         edges.push_back(e);
@@ -59,7 +137,7 @@ void Job::add_boundary(uint32_t o, const Operand& operand) {
       std::copy_n(geometry.edges(piece), piece.count, edge_planes_.begin() + first);
       polygons_.push_back({o, f, first, piece.count, support});
     }
-  }
+  });
   for (uint32_t p = 0; p < geometry.point_count(); ++p) {
     rounded_.push_back(geometry.point(p).rounded);
     boundary_vertices_[o].push_back(geometry.point(p).planes);

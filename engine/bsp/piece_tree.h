@@ -67,11 +67,9 @@ class PieceTree {
     std::vector<uint32_t> pieces;  ///< of a leaf
     mutable bool has_sums = false;
     mutable PieceSums sums;  ///< of the pieces below, when somebody asked
-    /// The least and the greatest coordinates in mm, when somebody asked, and the step for which:
-    /// results are shared between grids on which they have the same whole numbers.
-    mutable std::array<std::array<double, 3>, 2> extent{};
-    mutable GridStep extent_step;
-    mutable uint8_t known_ends = 0;  ///< which of the six were asked for: bit 3 end + axis
+    /// A point of the store for each end and axis that reaches as far as any below, when somebody
+    /// asked; else ~0.
+    mutable std::array<std::array<uint32_t, 3>, 2> ends{{{~0u, ~0u, ~0u}, {~0u, ~0u, ~0u}}};
   };
   using NodePtr = std::shared_ptr<const Node>;
 

@@ -14,7 +14,8 @@ struct SomeFaces {
   std::vector<std::vector<uint32_t>> faces;
 };
 
-/// Whether a job may have some faces of an operand only: of leaves on the grid. Where facets of
+/// Whether a job may have some faces of an operand only: of leaves on the grid. (Who puts a result
+/// together may ask for some of a boundary without named faces, too.) Where facets of
 /// several faces are kept, who asks for one looks for all of these.
 inline bool can_be_partial(const Operand& operand) {
   const LeafGeometry* const leaf = operand.leaf.get();

@@ -337,8 +337,8 @@ Result<std::optional<Extent>> Evaluator::Impl::find_extent(const NodePtr& part,
   } else {
     SceneJobs jobs(*scene, boundaries, options, threads, stats);
     if (Status status = jobs.run({root}); !status) return status.error();
-    if (const PiecesPtr pieces = jobs.pieces(root)) {
-      const auto box = pieces_box(*pieces, scene->step);
+    if (const auto [pieces, moved] = jobs.pieces(root); pieces) {
+      const auto box = pieces_box(*pieces, scene->step, moved);
       if (!box) return std::optional(Extent{});
       auto volume = pieces_volume(*pieces, scene->step);
       if (!volume) return volume.error();

@@ -50,6 +50,10 @@ struct Subtree {
   GridBox world;        ///< in the world
   uint64_t slots = 0;   ///< leaves, counted with repetition
   bool is_far = false;  ///< a leaf has coordinates beyond 2^27 steps
+  /// All leaves are in its frame: moved by whole steps in there it is the same, elsewhere.
+  bool is_of_one_frame = true;
+  /// All leaves are boxes along the axes of the world (bsp/evaluate_boxes).
+  bool is_of_boxes = false;
 };
 
 /// Operands of one operator by what they are, with their places.

@@ -26,6 +26,16 @@ BoundaryPtr moved_and_painted(const Operand& operand) {
   return moved;
 }
 
+IVec3 difference(const IVec3& a, const IVec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+/// A subtree that stands so many steps away in its frame, as far as jobs see it.
+Subtree moved(const Subtree& subtree, const IVec3& by) {
+  Subtree result = subtree;
+  result.box = subtree.box.moved(by);
+  for (size_t k = 0; k < 3; ++k) result.id.origin[k] += by[k];
+  return result;
+}
+
 }  // namespace
 
 /// An operator whose operands are being put into a job.
@@ -96,6 +106,7 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
   };
   std::vector<Visit> stack;
   std::unordered_set<Key, KeyHash> opened;
+  std::unordered_map<Identity, uint32_t, IdentityHash> first_user;
   // What waits on the stack may be wanted again above it, and then comes first.
   const auto want = [&](const Key& key) {
     ++uses_[key];
@@ -116,10 +127,16 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
         continue;
       }
       top.is_done = true;
-      const OperandList list = scene_.operands(top.node);
+      const uint32_t node = top.node;
+      const OperandList list = scene_.operands(node);
       const size_t prefix = shared_prefix(list);
       for (size_t i = list.operands.size(); i-- > prefix;) {
-        if (is_operator(list.operands[i])) want(scene_.nodes[list.operands[i]].subtree.id.key);
+        const Identity& operand = scene_.nodes[list.operands[i]].subtree.id;
+        const auto [user, is_first] = first_user.try_emplace(operand, node);
+        if (!is_first && user->second != node) {
+          note_overlap(user->second, node, is_operator(list.operands[i]));
+        }
+        if (is_operator(list.operands[i])) want(operand.key);
       }
       if (prefix > 0) {
         const Key& key = list.values[prefix - 1]->id.key;
@@ -128,6 +145,13 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
     }
   }
   return order;
+}
+
+/// Notes that two operators have an operand in common, in one place. Boxes do not mind that.
+void SceneJobs::note_overlap(uint32_t a, uint32_t b, bool in_operator) {
+  for (const uint32_t node : {a, b}) {
+    if (in_operator || !scene_.nodes[node].subtree.is_of_boxes) overlapping_.insert(node);
+  }
 }
 
 Status SceneJobs::run(const std::vector<uint32_t>& roots) {
@@ -151,7 +175,8 @@ Status SceneJobs::run(const std::vector<uint32_t>& roots) {
       if (!options_.flatten) kept.push_back(node);
       continue;
     }
-    if (!options_.flatten || uses_[subtree.id.key] > 1 || own_keys.contains(subtree.id.key)) {
+    if (!options_.flatten || uses_[subtree.id.key] > 1 || own_keys.contains(subtree.id.key) ||
+        overlapping_.contains(node)) {
       kept.push_back(node);
     }
   }
@@ -170,10 +195,12 @@ Status SceneJobs::evaluate(uint32_t node) {
   for (size_t count = options_.flatten ? all : 2; count <= all; ++count) {
     const Subtree& subtree = *list.values[count - 1];
     if (!may_keep(subtree) || is_known(subtree.id.key)) continue;
-    auto parts = build(node, count, subtree.id.frame);
+    auto parts = build(node, count, subtree.id.frame, subtree.is_of_one_frame);
+    if (parts && parts->is_too_far) parts = build(node, count, subtree.id.frame);
     if (!parts) return parts.error();
     stats_.nodes_evaluated += parts->operators;
-    auto stored = run_kept_job(*std::move(parts), subtree);
+    const Subtree here = moved(subtree, parts->moved);
+    auto stored = run_kept_job(*std::move(parts), here);
     if (!stored) return stored.error();
     keep(subtree, *std::move(stored));
   }
@@ -273,17 +300,22 @@ Result<BoundaryPtr> SceneJobs::run_job(Parts parts, const GridBox& region) {
   return evaluate_boolean(parts.operands, parts.expression, region, job_options(), stats_);
 }
 
-bool SceneJobs::stands_as_stored(const Subtree& subtree, const StoredBoundary& stored) {
+bool SceneJobs::is_only_moved(const Subtree& subtree, const StoredBoundary& stored) {
   const Identity& id = subtree.id;
-  return stored.id.permutation == id.permutation && stored.id.origin == id.origin &&
-         stored.id.frame == id.frame && stored.id.paint == id.paint;
+  return stored.id.permutation == id.permutation && stored.id.frame == id.frame &&
+         stored.id.paint == id.paint;
 }
 
-PiecesPtr SceneJobs::pieces(uint32_t root) {
-  const SceneNode& node = scene_.nodes[root];
-  if (!is_operator(root) || !may_keep(node.subtree) || node.subtree.id.frame != 0) return nullptr;
-  const StoredBoundary& stored = use(node.subtree.id.key);
-  return stands_as_stored(node.subtree, stored) ? stored.pieces : nullptr;
+bool SceneJobs::stands_as_stored(const Subtree& subtree, const StoredBoundary& stored) {
+  return is_only_moved(subtree, stored) && stored.id.origin == subtree.id.origin;
+}
+
+SceneJobs::MovedPieces SceneJobs::pieces(uint32_t root) {
+  const Subtree& subtree = scene_.nodes[root].subtree;
+  if (!is_operator(root) || !may_keep(subtree) || subtree.id.frame != 0) return {};
+  const StoredBoundary& stored = use(subtree.id.key);
+  if (!stored.pieces || !is_only_moved(subtree, stored)) return {};
+  return {stored.pieces, difference(subtree.id.origin, stored.id.origin)};
 }
 
 Result<BoundaryPtr> SceneJobs::world_boundary(uint32_t root) {
@@ -330,10 +362,22 @@ uint32_t SceneJobs::put(Parts& parts, Operand operand, const Subtree& subtree) c
   return static_cast<uint32_t>(parts.expression.nodes.size() - 1);
 }
 
+uint32_t SceneJobs::put_leaf(Parts& parts, const SceneNode& node, uint32_t job_frame) const {
+  parts.is_too_far |= !fits_grid(node.subtree.box.moved(parts.moved));
+  return put(parts, place_leaf(node, job_frame, parts.moved), node.subtree);
+}
+
+Result<uint32_t> SceneJobs::put_placed(Parts& parts, const Subtree& subtree, uint32_t job_frame) {
+  parts.is_too_far |= !fits_grid(subtree.box.moved(parts.moved));
+  auto operand = place(moved(subtree, parts.moved), job_frame);
+  if (!operand) return operand.error();
+  return put(parts, *std::move(operand), subtree);
+}
+
 /// The local axes x of what was resolved and the frame's axes y: y = P x + o, so P^-1 y = x + P^-1
 /// o.
-Operand SceneJobs::place_leaf(const SceneNode& node, uint32_t job_frame) const {
-  const Identity& id = node.subtree.id;
+Operand SceneJobs::place_leaf(const SceneNode& node, uint32_t job_frame, const IVec3& moved) const {
+  const Identity id = csgrun::moved(node.subtree, moved).id;
   Operand operand;
   if (id.frame != job_frame) operand.frame = scene_.frames[id.frame];
   if (node.boundary) {
@@ -410,16 +454,15 @@ Result<BoundaryPtr> SceneJobs::boundary_of(const Key& key) {
 /// was evaluated. Returns the number of its node.
 Result<uint32_t> SceneJobs::put_known(Parts& parts, const Subtree& value, uint32_t job_frame) {
   const StoredBoundary& stored = use(value.id.key);
-  const bool is_in_place =
-      parts.operands.empty() && value.id.frame == job_frame && stands_as_stored(value, stored);
-  if (is_in_place && may_be_in_pieces()) {
+  const IVec3 moved = difference(stored.id.origin, value.id.origin);
+  if (parts.operands.empty() && value.id.frame == job_frame && may_be_in_pieces() &&
+      is_only_moved(value, stored) && (parts.may_be_moved || moved == IVec3{0, 0, 0})) {
+    parts.moved = moved;
     parts.first = pieces_of_result(value.id.key);
     return put(parts, Operand(), value);
   }
   results_.at(value.id.key).is_fresh = true;  // place() is the same use
-  auto operand = place(value, job_frame);
-  if (!operand) return operand.error();
-  return put(parts, *std::move(operand), value);
+  return put_placed(parts, value, job_frame);
 }
 
 /// Starts on the first `count` operands of a node, from the longest prefix that is known.
@@ -442,8 +485,10 @@ Result<SceneJobs::OpenOperator> SceneJobs::open(uint32_t node, size_t count, boo
   return result;
 }
 
-Result<SceneJobs::Parts> SceneJobs::build(uint32_t node, size_t count, uint32_t job_frame) {
+Result<SceneJobs::Parts> SceneJobs::build(uint32_t node, size_t count, uint32_t job_frame,
+                                          bool may_be_moved) {
   Parts parts;
+  parts.may_be_moved = may_be_moved;
   std::vector<OpenOperator> stack;
   const auto start = [&](uint32_t at, size_t operands, bool is_target) -> Status {
     auto opened = open(at, operands, is_target, job_frame, parts);
@@ -463,15 +508,15 @@ Result<SceneJobs::Parts> SceneJobs::build(uint32_t node, size_t count, uint32_t 
         continue;
       }
       if (child.kind == SceneNode::Kind::kLeaf) {
-        top.children.push_back(put(parts, place_leaf(child, job_frame), child.subtree));
+        top.children.push_back(put_leaf(parts, child, job_frame));
       } else if (child.kind == SceneNode::Kind::kKnown) {
         auto known = put_known(parts, child.subtree, job_frame);
         if (!known) return known.error();
         top.children.push_back(*known);
       } else if (is_hull(operand)) {
-        auto hull = place(child.subtree, job_frame);
+        auto hull = put_placed(parts, child.subtree, job_frame);
         if (!hull) return hull.error();
-        top.children.push_back(put(parts, *std::move(hull), child.subtree));
+        top.children.push_back(*hull);
       } else {
         const size_t all = scene_.operands(operand).operands.size();
         if (Status status = start(operand, all, false); !status) return status.error();

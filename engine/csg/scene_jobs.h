@@ -21,8 +21,9 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads);
 
 /// One call's evaluation. A subtree that occurs more than once (by key) is evaluated once, in the
 /// axes of its frame, and stands in other jobs as one operand; so do a hull and the solid that it
-/// is the hull of, and what the cache knows, also when it is only a prefix of an operator's
-/// operands. All else becomes part of its parent's job.
+/// is the hull of, operators that have one solid in one place for an operand (in a job of both its
+/// surfaces would coincide), and what the cache knows, also when it is only a prefix of an
+/// operator's operands. All else becomes part of its parent's job.
 class SceneJobs {
  public:
   SceneJobs(const Scene& scene, ResultCache<StoredBoundary>& cache, const EvaluateOptions& options,
@@ -31,9 +32,13 @@ class SceneJobs {
 
   /// Evaluates what the roots (scene nodes, not empty) need. Errors: those of evaluate_boolean.
   Status run(const std::vector<uint32_t>& roots);
-  /// The pieces of a root, if it has become one in pieces and stands in the world as it was
+  struct MovedPieces {
+    PiecesPtr pieces;
+    IVec3 moved;  ///< by how many steps the root is elsewhere
+  };
+  /// The pieces of a root, if it has become one in pieces and is not turned from where it was
   /// evaluated; else null. REQUIRES: run() was called with it.
-  PiecesPtr pieces(uint32_t root);
+  MovedPieces pieces(uint32_t root);
   /// The boundary of a root in the world. REQUIRES: run() was called with it.
   Result<BoundaryPtr> world_boundary(uint32_t root);
 
@@ -46,6 +51,11 @@ class SceneJobs {
     std::vector<Operand> operands;
     std::vector<Key> keys;  // of what each of them is
     PiecesPtr first;        // the first operand, which is empty then
+    /// By how many steps all stands away from its place in the scene: where the first operand was
+    /// evaluated.
+    IVec3 moved{0, 0, 0};
+    bool may_be_moved = false;
+    bool is_too_far = false;  // an operand does not fit the grid there
     Expression expression;
     uint64_t operators = 0, sources = 0;
   };
@@ -62,6 +72,7 @@ class SceneJobs {
   [[nodiscard]] bool is_known(const Key& key) const;
   void find_operators(const std::vector<uint32_t>& roots);
   std::vector<uint32_t> count_uses(const std::vector<uint32_t>& roots);
+  void note_overlap(uint32_t a, uint32_t b, bool in_operator);
   [[nodiscard]] size_t shared_prefix(const OperandList& list) const;
   Status evaluate(uint32_t node);
   Status evaluate_hull(uint32_t node);
@@ -69,16 +80,21 @@ class SceneJobs {
   Result<StoredBoundary> run_kept_job(Parts parts, const Subtree& subtree);
   KernelOptions job_options();
   Result<BoundaryPtr> run_job(Parts parts, const GridBox& region);
-  Result<Parts> build(uint32_t node, size_t count, uint32_t job_frame);
+  Result<Parts> build(uint32_t node, size_t count, uint32_t job_frame, bool may_be_moved = false);
   Result<uint32_t> put_known(Parts& parts, const Subtree& value, uint32_t job_frame);
   Result<OpenOperator> open(uint32_t node, size_t count, bool is_target, uint32_t job_frame,
                             Parts& parts);
   uint32_t put(Parts& parts, Operand operand, const Subtree& subtree) const;
+  uint32_t put_leaf(Parts& parts, const SceneNode& node, uint32_t job_frame) const;
+  Result<uint32_t> put_placed(Parts& parts, const Subtree& subtree, uint32_t job_frame);
   BoundaryPtr spelled(const Key& of, const BoundaryPtr& boundary);
   void spell_out(Parts& parts);
   Result<Operand> place(const Subtree& subtree, uint32_t job_frame);
-  [[nodiscard]] Operand place_leaf(const SceneNode& node, uint32_t job_frame) const;
-  /// Whether the stored axes are the world's and nothing is painted over.
+  [[nodiscard]] Operand place_leaf(const SceneNode& node, uint32_t job_frame,
+                                   const IVec3& moved = {0, 0, 0}) const;
+  /// Whether nothing is turned or painted over.
+  static bool is_only_moved(const Subtree& subtree, const StoredBoundary& stored);
+  /// Whether it is not even moved.
   static bool stands_as_stored(const Subtree& subtree, const StoredBoundary& stored);
   [[nodiscard]] bool may_be_in_pieces() const;
   const StoredBoundary& use(const Key& key);
@@ -94,6 +110,7 @@ class SceneJobs {
   /// Operators that stand in some operand list, by key: nodes of one key are interchangeable.
   std::unordered_map<Key, uint32_t, KeyHash> operators_;
   std::unordered_map<Key, uint32_t, KeyHash> uses_;
+  std::unordered_set<uint32_t> overlapping_;        // operators that have an operand in common
   std::unordered_map<Key, Kept, KeyHash> results_;  // of this run: they outlive the cache's bound
   uint64_t jobs_done_ = 0, jobs_total_ = 0;
 };

@@ -30,6 +30,18 @@ bool is_solid(const GridBox& box) {
   return box.lo[0] < box.hi[0] && box.lo[1] < box.hi[1] && box.lo[2] < box.hi[2];
 }
 
+/// Whether a leaf is a box along the axes.
+bool is_box(const LeafGeometry& leaf) {
+  constexpr size_t kSides = 6, kCorners = 8;
+  if (!leaf.convex || leaf.face_count() != kSides || leaf.vertices.size() != kCorners) return false;
+  const GridBox box = box_of_points(leaf.vertices);
+  return std::all_of(leaf.vertices.begin(), leaf.vertices.end(), [&](const IVec3& v) {
+    bool is_corner = true;
+    for (size_t k = 0; k < 3; ++k) is_corner &= v[k] == box.lo[k] || v[k] == box.hi[k];
+    return is_corner;
+  });
+}
+
 GridBox combine(BooleanOp op, const GridBox& a, const GridBox& b) {
   if (op == BooleanOp::kDifference) return a;
   GridBox r;
@@ -135,6 +147,7 @@ Result<SceneNode> SceneBuilder::make_leaf(uint32_t index, const Quantiser& quant
   subtree.is_far = !fits_grid(subtree.box);
   if (subtree.id.frame == 0) {
     subtree.world = subtree.box;
+    subtree.is_of_boxes = result.geometry && is_box(*result.geometry);
   } else {
     int64_t largest = 0;
     for (int i = 0; i < 3; ++i) {
@@ -185,6 +198,7 @@ Subtree SceneBuilder::fold(BooleanOp op, const Subtree& prefix, const Subtree& o
     put_paints(builder, a, b, result.id);
     result.id.key = builder.key();
     result.box = combine(op, prefix.box, operand.box);
+    result.is_of_one_frame = prefix.is_of_one_frame && operand.is_of_one_frame;
   } else {
     KeyBuilder builder("mixed");
     builder.number(op);
@@ -193,8 +207,10 @@ Subtree SceneBuilder::fold(BooleanOp op, const Subtree& prefix, const Subtree& o
     put_paints(builder, a, b, result.id);
     result.id.key = builder.key();
     result.box = combine(op, prefix.world, operand.world);
+    result.is_of_one_frame = false;
   }
   result.world = combine(op, prefix.world, operand.world);
+  result.is_of_boxes = prefix.is_of_boxes && operand.is_of_boxes;
   result.slots = prefix.slots + operand.slots;
   result.is_far = prefix.is_far || operand.is_far;
   return result;

@@ -255,26 +255,29 @@ class Summer {
   std::vector<Fixed> fixed_;
 };
 
-/// The ends of boxes of pieces in mm, for a step.
+/// The points of pieces at the ends of their box.
 class Ends {
  public:
-  Ends(const PieceStore& store, const GridStep& step)
-      : store_(store), step_(step), to_millimetres_(step) {}
+  explicit Ends(const PieceStore& store) : store_(store) {}
 
-  /// How far the pieces below a node reach along an axis; `end`: 0 down, 1 up. Only what reaches as
-  /// far as the node is looked at, and the node keeps what was found.
-  double of(const PieceTree::Node& node, size_t end, size_t axis) {
-    if (node.extent_step != step_) node.extent_step = step_, node.known_ends = 0;
-    double& found = node.extent[end][axis];
-    const auto bit = static_cast<uint8_t>(1u << (3 * end + axis));
-    if (node.known_ends & bit) return found;
-    node.known_ends |= bit;
-    found = end == 0 ? HUGE_VAL : -HUGE_VAL;
-    bool any_there = false;  // and all others would add the same
+  /// A point that reaches as far along an axis as any of the pieces below a node; `end`: 0 down, 1
+  /// up. Only what reaches as far as the node is looked at, and the node keeps what was found.
+  uint32_t of(const PieceTree::Node& node, size_t end, size_t axis) {
+    uint32_t& found = node.ends[end][axis];
+    if (found != kNone) return found;
+    bool is_found_there = false;  // and another one there reaches no farther
     // Rounding is monotone: what is furthest has the furthest rounded coordinate.
     const double furthest = at(node.box, end, axis);
-    const auto add = [&](double mm) {
-      found = end == 0 ? std::min(found, mm) : std::max(found, mm);
+    const auto add = [&](uint32_t point) {
+      const bool is_there = is_at(point, axis, furthest);
+      if (is_there && is_found_there) return;
+      if (found != kNone) {
+        const int after =
+            compare_along(store_.exact(point), store_.exact(found), static_cast<int>(axis));
+        if (end == 0 ? after >= 0 : after <= 0) return;
+      }
+      found = point;
+      is_found_there = is_there;
     };
     for (const PieceTree::NodePtr& child : node.child) {
       if (child && at(child->box, end, axis) == furthest) add(of(*child, end, axis));
@@ -283,10 +286,7 @@ class Ends {
       if (at(store_.box(piece), end, axis) != furthest) continue;
       store_.each_face(piece, [&](std::span<const uint32_t> corners) {
         for (const uint32_t p : corners) {
-          if (store_.rounded(p)[axis] != furthest) continue;
-          const bool is_there = is_at(p, axis, furthest);
-          if (!is_there || !any_there) add(millimetres(p, axis));
-          any_there = any_there || is_there;
+          if (p != found && store_.rounded(p)[axis] == furthest) add(p);
         }
       });
     }
@@ -313,17 +313,24 @@ class Ends {
              (normal[axis] == 1 ? plane.d == -whole : normal[axis] == -1 && plane.d == whole);
     });
   }
-  [[nodiscard]] double millimetres(uint32_t point, size_t axis) const {
-    glm::dvec3 mm;
-    std::array<float, 3> single{};
-    to_millimetres_.position(store_.exact(point), mm, single);
-    return mm[static_cast<int>(axis)];
-  }
 
   const PieceStore& store_;
-  const GridStep step_;
-  const ToMillimetres to_millimetres_;
 };
+
+/// A coordinate of a point of a store that is moved by whole steps, in mm.
+double millimetres(const PieceStore& store, const ToMillimetres& to_millimetres, uint32_t point,
+                   size_t axis, int64_t moved) {
+  Point p = store.exact(point);
+  if (moved != 0) {
+    auto& coordinate = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+    coordinate += multiply<kPointLimbs>(p.w, Int<1>(moved));
+    normalise(p);
+  }
+  glm::dvec3 mm;
+  std::array<float, 3> single{};
+  to_millimetres.position(p, mm, single);
+  return mm[static_cast<int>(axis)];
+}
 
 /// x * 2^shift as a whole number that is no less.
 Natural whole_above(double x, int shift) {
@@ -363,14 +370,16 @@ Result<double> pieces_volume(const ResultPieces& pieces, const GridStep& step) {
 }
 
 std::optional<std::array<glm::dvec3, 2>> pieces_box(const ResultPieces& pieces,
-                                                    const GridStep& step) {
+                                                    const GridStep& step, const IVec3& moved) {
   const PieceTree::NodePtr& root = pieces.tree.root();
   if (!root) return std::nullopt;
-  Ends ends(*pieces.store, step);
+  Ends ends(*pieces.store);
+  const ToMillimetres to_millimetres(step);
   std::array<glm::dvec3, 2> box;
   for (size_t end = 0; end < 2; ++end) {
     for (size_t axis = 0; axis < 3; ++axis) {
-      box[end][static_cast<int>(axis)] = ends.of(*root, end, axis);
+      box[end][static_cast<int>(axis)] =
+          millimetres(*pieces.store, to_millimetres, ends.of(*root, end, axis), axis, moved[axis]);
     }
   }
   return box;

@@ -18,9 +18,11 @@ namespace csgrun {
 /// only when the sums leave more than one double. Errors: kInternal.
 Result<double> pieces_volume(const ResultPieces& pieces, const GridStep& step);
 
-/// The least and the greatest coordinates in mm, as the corners of the presented solid have them;
-/// nothing of an empty one. Nodes of the tree keep theirs for the step last asked for.
+/// The least and the greatest coordinates in mm, as the corners of the presented solid have them
+/// when it is moved by whole steps; nothing of an empty one. Nodes of the tree keep the points
+/// there.
 std::optional<std::array<glm::dvec3, 2>> pieces_box(const ResultPieces& pieces,
-                                                    const GridStep& step);
+                                                    const GridStep& step,
+                                                    const IVec3& moved = {0, 0, 0});
 
 }  // namespace csgrun

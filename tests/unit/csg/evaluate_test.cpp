@@ -130,6 +130,43 @@ TEST(Evaluate, MovedPaintedAndMirroredCopiesAreReused) {
   EXPECT_EQ((*result)[3]->measures.bbox[0].x, -4);
 }
 
+// Parts of one solid where it stands: in one job its surface would be there once for each.
+TEST(Evaluate, PartsOfOneSolidAreEvaluatedOneByOne) {
+  for (const bool is_leaf : {false, true}) {
+    for (const BooleanOp op : {BooleanOp::kIntersection, BooleanOp::kDifference}) {
+      std::vector<NodePtr> rods;
+      for (int i = 0; i < 6; ++i) rods.push_back(moved(4 * i, 0, 0, prism(24, 1.5, 3)));
+      const NodePtr solid = is_leaf ? box({-2, -2, 0}, {22, 2, 3}) : unite(rods);
+      std::vector<NodePtr> parts;
+      for (int i = 0; i < 6; ++i) {
+        const NodePtr near = box({4.0 * i - 1, -3, -1}, {4.0 * i + 1, 3, 4});
+        parts.push_back(moved(0, 0, 1, Node::boolean(op, {solid, near})));
+      }
+      EvaluateOptions options;
+      options.threads = 1;
+      Evaluator evaluator(options);
+      const auto whole = evaluator.evaluate(unite(parts));
+      ASSERT_TRUE(whole) << whole.error().message;
+      const EvaluateStats& stats = evaluator.stats();
+      uint64_t signs = stats.sign_filter + stats.sign_symbolic;
+      for (const uint64_t n : stats.sign_exact) signs += n;
+      if (is_leaf) {
+        EXPECT_EQ(signs, 0u) << "boxes are decided by the order of coordinates";
+      } else if (op == BooleanOp::kIntersection) {
+        EXPECT_LT(signs, 10000u) << "126,000 in one job";
+      }
+      options.flatten = false;
+      Evaluator other(options);
+      const auto one_by_one = other.evaluate(unite(parts));
+      ASSERT_TRUE(one_by_one) << one_by_one.error().message;
+      EXPECT_EQ((*whole)->canonical_hash, (*one_by_one)->canonical_hash);
+      EXPECT_EQ((*whole)->positions, (*one_by_one)->positions);
+      EXPECT_EQ((*whole)->triangles, (*one_by_one)->triangles);
+      EXPECT_GT((*whole)->measures.volume, 30);
+    }
+  }
+}
+
 TEST(Evaluate, AGrowingChainReusesItsPrefix) {
   EvaluateOptions options;
   options.threads = 1;

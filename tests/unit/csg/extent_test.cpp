@@ -1,4 +1,5 @@
 // Volume and box of results that go on from one another, against evaluations that start anew.
+#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -33,6 +34,12 @@ NodePtr tool(std::mt19937& random) {
   Affine turn;  // 3-4-5
   turn.m = {{{0.6, -0.8, 0, x}, {0.8, 0.6, 0, y}, {0, 0, 1, z}}};
   return Node::transformed(turn, body);
+}
+
+uint64_t signs_of(const Evaluator& evaluator) {
+  uint64_t total = evaluator.stats().sign_filter + evaluator.stats().sign_symbolic;
+  for (const uint64_t n : evaluator.stats().sign_exact) total += n;
+  return total;
 }
 
 TEST(Extent, OfChainsIsThatOfAFreshEvaluation) {
@@ -84,11 +91,7 @@ TEST(Extent, WorkDependsOnTheTool) {
   Evaluator evaluator(options);
   NodePtr part = moved(-1, -1, 0, cube(100));
   std::vector<uint64_t> signs;
-  const auto count = [&] {
-    uint64_t total = evaluator.stats().sign_filter + evaluator.stats().sign_symbolic;
-    for (const uint64_t n : evaluator.stats().sign_exact) total += n;
-    return total;
-  };
+  const auto count = [&] { return signs_of(evaluator); };
   for (int i = 0; i < 81; ++i) {
     part = subtract({part, moved(i % 9 * 10 + 1, i / 9 * 10 + 1, 99, cube(3))});
     const uint64_t was = count();
@@ -108,6 +111,83 @@ TEST(Extent, WorkDependsOnTheTool) {
   ASSERT_TRUE(extent);
   EXPECT_EQ(count(), was);
   expect_extent_of(*extent, part);
+}
+
+// What a step moves as a whole stays where it was evaluated; tools come there.
+TEST(Extent, OfMovedChains) {
+  std::mt19937 random(92);
+  for (int round = 0; round < 12; ++round) {
+    EvaluateOptions options;
+    options.threads = 1;
+    Evaluator evaluator(options);
+    NodePtr part = moved(0, 0, 0, cube(10));
+    // A result of its own, which stands somewhere else each time.
+    const NodePtr stamp = subtract({cube(3), moved(1, 1, 1, cube(4))});
+    ASSERT_TRUE(evaluator.extent(stamp));
+    for (int step = 0; step < 12; ++step) {
+      const NodePtr other =
+          random() % 3 == 0 ? moved(random() % 8, random() % 8, random() % 8, stamp) : tool(random);
+      part = random() % 4 == 0 ? unite({part, other}) : subtract({part, other});
+      const auto by = [&] { return static_cast<double>(random() % 9) / 4 - 1; };
+      const double x = by(), y = by(), z = random() % 3 == 0 ? by() / 3 : by();
+      if (random() % 3 != 0) part = moved(x, y, z, part);
+      if (random() % 6 == 0) part = Node::transformed(scaling(-1, 1, 1), part);
+      if (random() % 6 == 0) {
+        Appearance colour;
+        colour.red = static_cast<double>(random() % 2);
+        colour.is_default = false;
+        part = Node::painted(colour, part);
+      }
+      const auto extent = evaluator.extent(part);
+      ASSERT_TRUE(extent) << extent.error().message;
+      expect_extent_of(*extent, part);
+      if (HasFailure()) FAIL() << "round " << round << ", step " << step;
+    }
+    const auto solid = evaluator.evaluate(part);
+    ASSERT_TRUE(solid) << solid.error().message;
+    const SolidPtr fresh = solid_of(part);
+    EXPECT_EQ((*solid)->positions, fresh->positions);
+    EXPECT_EQ((*solid)->triangles, fresh->triangles);
+  }
+}
+
+TEST(Extent, OfAMovedPartCostsWhatTheToolTouches) {
+  // A rack under a cutter that stands still.
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options);
+  NodePtr part = box({-1, 0, 0}, {101, 4, 4});
+  std::vector<uint64_t> signs;
+  for (int i = 0; i < 80; ++i) {
+    const uint64_t was = signs_of(evaluator);
+    part = moved(-1, 0, 0, subtract({part, box({0.25, -1, 3}, {0.75, 5, 5})}));
+    const auto extent = evaluator.extent(part);
+    ASSERT_TRUE(extent);
+    EXPECT_EQ(extent->volume, 102 * 16 - 2.0 * (i + 1));
+    EXPECT_EQ(extent->bbox[0].x, -2 - i);
+    EXPECT_EQ(extent->bbox[1].x, 100 - i);
+    signs.push_back(signs_of(evaluator) - was);
+  }
+  const auto sum = [&](size_t first) {
+    return std::accumulate(signs.begin() + static_cast<long>(first),
+                           signs.begin() + static_cast<long>(first) + 10, uint64_t{0});
+  };
+  EXPECT_GT(sum(5), 0u);
+  EXPECT_LE(sum(70), 2 * sum(5));
+}
+
+// A part that would be off the grid where the one before stands.
+TEST(Extent, OfAPartThatMovedFar) {
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options);
+  // Always about as far from the origin, so that the grid stays.
+  NodePtr part = subtract({box({800, 0, 0}, {900, 50, 50}), box({810, 10, 10}, {890, 40, 60})});
+  expect_extent_of(*evaluator.extent(part), part);
+  part = unite({moved(-1700, 0, 0, part), box({850, 0, 0}, {900, 10, 10})});
+  expect_extent_of(*evaluator.extent(part), part);
+  part = subtract({part, box({-900, 0, 40}, {900, 5, 60})});
+  expect_extent_of(*evaluator.extent(part), part);
 }
 
 TEST(Extent, DependsOnTheStep) {
