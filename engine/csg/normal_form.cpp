@@ -310,23 +310,26 @@ std::vector<uint32_t> NormalForm::operands(uint32_t index) const {
 std::vector<uint32_t> NormalForm::reachable(std::span<const uint32_t> roots,
                                             uint32_t closed) const {
   std::vector<uint32_t> order;
-  std::vector<uint8_t> state(nodes_.size(), 0);  // 1: operands are on the stack, 2: listed
+  // The form may be far larger than what is reached.
+  visits_.resize(nodes_.size(), 0);
+  const uint64_t opened = 2 * ++calls_, listed = opened + 1;
+  const auto is_new = [&](uint32_t index) { return visits_[index] < opened; };
   std::vector<uint32_t> stack(roots.rbegin(), roots.rend());
   while (!stack.empty()) {
     const uint32_t index = stack.back();
     const NormalNode& node = nodes_[index];
-    if (state[index] == 0 && index != closed &&
+    if (is_new(index) && index != closed &&
         (node.kind == NormalNode::Kind::kOperator || node.kind == NormalNode::Kind::kHull)) {
-      state[index] = 1;
+      visits_[index] = opened;
       for (size_t i = node.rest.size(); i-- > 0;) {
-        if (state[node.rest[i]] == 0) stack.push_back(node.rest[i]);
+        if (is_new(node.rest[i])) stack.push_back(node.rest[i]);
       }
-      if (state[node.first] == 0) stack.push_back(node.first);
+      if (is_new(node.first)) stack.push_back(node.first);
       continue;
     }
     stack.pop_back();
-    if (state[index] == 2) continue;
-    state[index] = 2;
+    if (visits_[index] == listed) continue;
+    visits_[index] = listed;
     order.push_back(index);
   }
   return order;

@@ -84,6 +84,9 @@ class NormalForm {
   std::vector<NormalNode> nodes_;  // the first is the empty one
   std::unordered_map<Memo, uint32_t, MemoHash> memo_;
   std::vector<NodePtr> alive_;  // keys of memo_ stay valid
+  /// Of reachable(), by index: twice the number of the call that was there last, or one more.
+  mutable std::vector<uint64_t> visits_;
+  mutable uint64_t calls_ = 0;
 };
 
 }  // namespace csgrun

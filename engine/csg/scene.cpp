@@ -48,7 +48,8 @@ Status SceneBuilder::place_leaves() {
   rounding_.resize(count);
   frame_of_.resize(count);
   step_leaves_.resize(count);
-  std::vector<std::array<uint32_t, 3>> handles(count);
+  std::vector<std::array<uint32_t, 3>>& handles = context_.room.row_handles;
+  handles.resize(count);
   size_t polled = 0;
   for (uint32_t index : order_) {
     const NormalNode& node = normal(index);
@@ -197,7 +198,7 @@ bool SceneBuilder::has_thin_leaves(const SceneReach& reach, bool tell) const {
 }
 
 Status SceneBuilder::choose(const GridStep& step, const GridStep& least) {
-  reach_ = scene_reach(context_.form, order_, roots_, step_leaves_);
+  reach_ = scene_reach(context_.form, order_, roots_, step_leaves_, context_.room.reach);
   const SceneReach& reach = reach_;
   if (step.automatic()) {
     scene_.step = choose_step(reach.reach, reach.far);
@@ -238,7 +239,8 @@ std::optional<Scene> SceneBuilder::go_on(const GridStep& step) {
   rows_ = std::move(start_->rows);
   // A row that is near two others would make frames that are known other ones.
   if (!place_leaves() || rows_.has_bridged()) return std::nullopt;
-  reach_ = scene_reach(context_.form, order_, roots_, step_leaves_, &start_->reach);
+  reach_ =
+      scene_reach(context_.form, order_, roots_, step_leaves_, context_.room.reach, &start_->reach);
   // What an intersection shows of its first operand is less than that shows by itself.
   if (!reach_.sees_known) return std::nullopt;
   scene_.step = step.automatic() ? choose_step(reach_.reach, reach_.far) : step;

@@ -108,6 +108,9 @@ struct SceneRoom {
   std::vector<LeafRounding> rounding;
   std::vector<uint32_t> frame_of;
   std::vector<StepLeaf> step_leaves;
+  std::vector<std::array<uint32_t, 3>> row_handles;
+  std::vector<uint32_t> scene_index;
+  ReachRoom reach;
 };
 
 class SceneStarts;

@@ -22,6 +22,7 @@ class SceneBuilder {
         roots_(roots),
         start_(start),
         order_(context.form.reachable(roots, start ? start->reach.index : UINT32_MAX)),
+        scene_index_(context.room.scene_index),
         rounding_(context.room.rounding),
         frame_of_(context.room.frame_of),
         step_leaves_(context.room.step_leaves) {}
@@ -59,9 +60,9 @@ class SceneBuilder {
   FrameNumbers frame_ids_;
   RowTable rows_;
   SceneReach reach_;
-  bool is_quiet_ = true;               ///< nothing was to be said of how fine the grid is
-  std::vector<uint32_t> scene_index_;  // by normal index
+  bool is_quiet_ = true;  ///< nothing was to be said of how fine the grid is
   // By normal index; those of nodes that are in order_ are set.
+  std::vector<uint32_t>& scene_index_;
   std::vector<LeafRounding>& rounding_;
   std::vector<uint32_t>& frame_of_;
   std::vector<StepLeaf>& step_leaves_;

@@ -267,7 +267,8 @@ SceneNode SceneBuilder::make_hull(const NormalNode& node) const {
 
 Status SceneBuilder::make_nodes() {
   scene_.nodes.clear();
-  scene_index_.assign(context_.form.nodes().size(), 0);
+  scene_index_.resize(context_.form.nodes().size());
+  for (const uint32_t index : order_) scene_index_[index] = 0;
   scene_.nodes.reserve(order_.size() + 1);
   scene_.nodes.push_back(SceneNode{});
   const Quantiser quantiser(scene_.step);

@@ -63,9 +63,16 @@ MmBox to_local(const MmBox& world, const std::array<Row, 3>& rows) {
 
 SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
                        std::span<const uint32_t> roots, std::span<const StepLeaf> leaves,
-                       const KnownReach* known) {
+                       ReachRoom& room, const KnownReach* known) {
   const auto& nodes = form.nodes();
-  std::vector<MmBox> box(nodes.size(), kEmptyBox), reach(nodes.size(), kEmptyBox);
+  auto& [box, reach, whole] = room;
+  box.resize(nodes.size());
+  reach.resize(nodes.size());
+  whole.resize(nodes.size());
+  for (const uint32_t index : order) {
+    box[index] = reach[index] = kEmptyBox;
+    whole[index] = 0;
+  }
   for (uint32_t index : order) {
     const NormalNode& node = nodes[index];
     if (known && index == known->index) {
@@ -85,7 +92,6 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
     box[index] = value;
   }
   SceneReach result;
-  std::vector<uint8_t> whole(nodes.size(), 0);
   for (uint32_t root : roots) {
     reach[root] = box[root];
     result.of_roots.push_back(box[root]);

@@ -41,13 +41,19 @@ struct KnownReach {
   double reach = 0, far = 0;
 };
 
+/// What is noted of each node of the normal form on the way: room that all calls take.
+struct ReachRoom {
+  std::vector<MmBox> box, reach;
+  std::vector<uint8_t> whole;
+};
+
 /// Interval bounds over the normal form: the box of a union is the hull of the boxes, of a
 /// difference the first, of an intersection the common box; a leaf counts where a result can be
 /// above it. A leaf that is resolved by itself, and all below a hull, count as a whole. `order` has
 /// children before parents; `leaves` is indexed like the normal form. Of what stands over a `known`
-/// node alone nothing is in `order`: then the result holds if it sees all of that.
+/// node alone nothing is in `order`: then the result holds if it sees all of that. O(order).
 SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
                        std::span<const uint32_t> roots, std::span<const StepLeaf> leaves,
-                       const KnownReach* known = nullptr);
+                       ReachRoom& room, const KnownReach* known = nullptr);
 
 }  // namespace csgrun
