@@ -1,6 +1,7 @@
 #include "engine/bsp/cut_faces.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "engine/base/in_order.h"
 #include "engine/base/raw_vector.h"
@@ -98,6 +99,7 @@ class Worker {
   }
 
   [[nodiscard]] const SignCounters& counters() const { return geometry_.counters; }
+  [[nodiscard]] uint64_t crowding() const { return arrangement_.crowding(); }
 
  private:
   static std::span<const uint32_t> coplanar(const CutPart::Polygon& polygon, const CutPart& part) {
@@ -218,10 +220,23 @@ class FaceCutter {
       cut_all(&CutPart::again);
     }
     for (const CutPart& part : parts_) add_signs(stats, part.counters);
+    if (is_crowded()) {
+      CutFaces none;
+      none.is_crowded = true;
+      return none;
+    }
     return join_parts(job_, contacts_, parts_, geometry_, index_);
   }
 
  private:
+  /// Whether so many coplanar polygons overlap that operands should rather be evaluated in groups.
+  /// What was counted only grows, so that it makes no difference when somebody asks.
+  [[nodiscard]] bool is_crowded() const {
+    constexpr uint64_t kMost = 20000, kMostEach = 32;
+    return options_.stop_when_crowded &&
+           crowding_.load(std::memory_order_relaxed) > kMost + kMostEach * job_.polygons().size();
+  }
+
   /// Whether nothing cuts a polygon, and one of its corners tells what becomes of it.
   [[nodiscard]] bool stays_whole(const CutPart::Polygon& polygon, const CutPart& part) const {
     for (uint32_t i = polygon.first_contact; i < polygon.end_contact; ++i) {
@@ -259,7 +274,10 @@ class FaceCutter {
           const SignCounters before = worker.counters();
           for (const CutPart::Polygon& polygon : parts_[run].*list) {
             if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) break;
+            if (is_crowded()) break;
+            const uint64_t crowding = worker.crowding();
             worker.cut(polygon, parts_[run]);
+            crowding_.fetch_add(worker.crowding() - crowding, std::memory_order_relaxed);
           }
           SignCounters own = worker.counters();
           own.subtract(before);
@@ -275,6 +293,7 @@ class FaceCutter {
   PointIndex& index_;
   KernelOptions options_;
   std::vector<CutPart> parts_;
+  std::atomic<uint64_t> crowding_ = 0;
 };
 
 }  // namespace

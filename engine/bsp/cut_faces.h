@@ -21,6 +21,8 @@ struct CutFaces {
   std::vector<Face> faces;
   std::vector<uint32_t> left;      ///< polygons that could not be cut this way
   std::vector<uint32_t> by_value;  ///< where names did not do; of the others, or of those left
+  /// Given up (KernelOptions::stop_when_crowded): nothing of the above is complete.
+  bool is_crowded = false;
 };
 
 /// Cuts polygons along the segments at which they have contacts: by name (cut_polygon.h) where all

@@ -118,6 +118,11 @@ Result<EvaluatedJob> evaluate_job(Job& job, const std::vector<Operand>& operands
     if (!evaluated) return evaluated.error();
     faces = std::move(*evaluated);
   }
+  if (faces.is_crowded) {
+    EvaluatedJob none;
+    none.is_crowded = true;
+    return none;
+  }
   if (!job.has_all_faces() && faces.any_general) {
     EvaluatedJob none;
     none.needs_all_faces = true;

@@ -20,6 +20,8 @@ struct EvaluatedJob {
   Touching touching;
   /// Nothing was evaluated, as the job does not have all faces, and must.
   bool needs_all_faces = false;
+  /// The same, as too much overlaps for one job (KernelOptions::stop_when_crowded).
+  bool is_crowded = false;
 };
 
 /// Evaluates `expression` over a job of `operands`, none of them in pieces, as evaluate_boolean

@@ -42,6 +42,10 @@ class FaceArrangement {
   bool build(uint32_t polygon, std::span<const SheetSegment> segments,
              std::span<const uint32_t> coplanar, CutLoops& out);
 
+  /// Of all polygons so far, the regions times the coplanar sheets among which they were found:
+  /// where many sheets overlap, that is most of the work.
+  [[nodiscard]] uint64_t crowding() const { return crowding_; }
+
  private:
   enum class Kind : uint8_t {
     kBoundary,  ///< an edge of the polygon itself
@@ -135,7 +139,8 @@ class FaceArrangement {
   bool find_covered(const CutLoops& out, uint32_t first_loop);
   bool find_covered_loop(const CutLoops::Loop& loop, uint32_t number,
                          std::span<const uint32_t> sheets, const CutLoops& out);
-  [[nodiscard]] bool is_on_sheet_edge(uint32_t operand, uint32_t point) const;
+  [[nodiscard]] bool is_on_sheet_edge(uint32_t operand, uint32_t point);
+  void mark_sheet_edges(uint32_t operand);
   bool write_facts(CutLoops& out, uint32_t first_loop);
   /// The first of the sheets that holds a point, or kNone.
   uint32_t sheet_at(std::span<const uint32_t> sheets, uint32_t point);
@@ -175,6 +180,10 @@ class FaceArrangement {
   std::vector<uint32_t> sheets_;  ///< coplanar ones that are not clearly apart
   std::vector<SheetEdge> sheet_edges_;
   size_t first_coplanar_line_ = 0;
+  uint64_t crowding_ = 0;
+  bool is_sheet_marked_ = false;         ///< for the operand whose sheets are looked at
+  uint64_t sheet_mark_ = 0;              ///< of the last one that was
+  std::vector<uint64_t> on_sheet_edge_;  ///< per point: the mark of the last one that has it
   bool has_through_ = false;  ///< a segment of a sheet that goes to the front and to the back
   bool has_straight_angle_ = false;    ///< two edges of the polygon are on one line
   std::vector<EdgeSides> edge_sides_;  ///< per point

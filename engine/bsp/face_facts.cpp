@@ -23,6 +23,7 @@ bool FaceArrangement::find_covered(const CutLoops& out, uint32_t first_loop) {
   std::sort(sheets_.begin(), sheets_.end());
   for (size_t begin = 0; begin < sheets_.size();) {
     const uint32_t operand = job_.polygons()[sheets_[begin]].operand;
+    is_sheet_marked_ = false;
     size_t end = begin;
     SheetBox box;
     for (; end < sheets_.size() && job_.polygons()[sheets_[end]].operand == operand; ++end) {
@@ -71,7 +72,15 @@ bool FaceArrangement::find_covered_loop(const CutLoops::Loop& loop, uint32_t num
 
 /// Whether a point is on an edge of the operand's coplanar sheets; lines have all points at which
 /// they meet others as stops.
-bool FaceArrangement::is_on_sheet_edge(uint32_t operand, uint32_t point) const {
+bool FaceArrangement::is_on_sheet_edge(uint32_t operand, uint32_t point) {
+  if (!is_sheet_marked_) mark_sheet_edges(operand);
+  return on_sheet_edge_[point] == sheet_mark_;
+}
+
+void FaceArrangement::mark_sheet_edges(uint32_t operand) {
+  is_sheet_marked_ = true;
+  ++sheet_mark_;
+  on_sheet_edge_.resize(geometry_.point_count(), 0);
   // Lines of coplanar sheets come last, by ascending operands; stops are in the order of lines.
   const auto first =
       std::lower_bound(lines_.begin() + static_cast<long>(first_coplanar_line_), lines_.end(),
@@ -80,9 +89,8 @@ bool FaceArrangement::is_on_sheet_edge(uint32_t operand, uint32_t point) const {
       stops_.begin(), stops_.end(), static_cast<uint32_t>(first - lines_.begin()),
       [](const std::pair<uint32_t, uint32_t>& s, uint32_t line) { return s.first < line; });
   for (; stop != stops_.end() && lines_[stop->first].operand == operand; ++stop) {
-    if (stop->second == point) return true;
+    on_sheet_edge_[stop->second] = sheet_mark_;
   }
-  return false;
 }
 
 uint32_t FaceArrangement::sheet_at(std::span<const uint32_t> sheets, uint32_t point) {

@@ -10,10 +10,52 @@
 #include "engine/bsp/evaluate_job.h"
 #include "engine/bsp/live_faces.h"
 #include "engine/bsp/near_faces.h"
+#include "engine/bsp/operand_groups.h"
 #include "engine/bsp/touch_list.h"
 #include "engine/bsp/untouched.h"
 
 namespace csgrun {
+namespace {
+
+using Outcome = Result<std::shared_ptr<const BoundaryMesh>>;
+
+/// The boxes of a job's operands; nothing if one is off the grid, where no result may be.
+std::optional<std::vector<GridBox>> boxes_on_grid(const Job& job) {
+  constexpr int64_t kLimit = int64_t{1} << 27;
+  std::vector<GridBox> boxes;
+  for (size_t o = 0; o < job.operand_count(); ++o) {
+    const PolygonBox& box = job.operand_box(o);
+    GridBox& wide = boxes.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      if (box.lo[k] <= -kLimit || box.hi[k] >= kLimit) return std::nullopt;
+      wide.lo[k] = box.lo[k] - 1;
+      wide.hi[k] = box.hi[k] + 1;
+    }
+  }
+  return boxes;
+}
+
+/// A job that is crowded, in groups; whole, where there can be none.
+Outcome evaluate_crowded(const Job& job, const Expression& expression, const GridBox& region,
+                         const KernelOptions& options, EvaluateStats& stats) {
+  const auto boxes = boxes_on_grid(job);
+  if (!boxes) {
+    KernelOptions at_once = options;
+    at_once.may_group = false;
+    return evaluate_boolean(job.operands(), expression, region, at_once, stats);
+  }
+  KernelOptions quiet = options;
+  quiet.progress = nullptr;
+  const auto grouped = evaluate_groups(
+      job.operands(), expression, *boxes,
+      [&](const std::vector<Operand>& operands, const Expression& part, const GridBox& around) {
+        return evaluate_boolean(operands, part, around, quiet, stats);
+      });
+  if (!grouped) return grouped.error();
+  return evaluate_boolean(grouped->operands, grouped->expression, region, options, stats);
+}
+
+}  // namespace
 
 Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<Operand>& operands,
                                                              const Expression& expression,
@@ -30,7 +72,8 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   if (!std::all_of(operands.begin(), operands.end(), can_stand_named)) {
     return evaluate_boolean(with_standing_parts(operands), expression, region, options, stats);
   }
-  using Outcome = Result<std::shared_ptr<const BoundaryMesh>>;
+  KernelOptions job_options = options;
+  job_options.stop_when_crowded = options.may_group && can_be_grouped(expression);
   size_t faces = 0;
   for (const Operand& operand : operands) faces += operand.leaf ? operand.leaf->face_count() : 0;
   const auto assembled = [&](Job& job, EvaluatedJob&& evaluated) {
@@ -46,7 +89,10 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     if (!some) return std::nullopt;
     Job job(operands, *some);
     EvaluateStats own = stats;
-    auto evaluated = evaluate_job(job, operands, expression, region, options, own);
+    auto evaluated = evaluate_job(job, operands, expression, region, job_options, own);
+    if (evaluated && evaluated->is_crowded) {
+      return evaluate_crowded(job, expression, region, options, stats);
+    }
     if (evaluated && evaluated->needs_all_faces) return std::nullopt;
     stats = own;
     if (!evaluated) return evaluated.error();
@@ -63,8 +109,11 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
       }
     }
     Job job(operands);
-    auto evaluated = evaluate_job(job, operands, expression, region, options, stats);
+    auto evaluated = evaluate_job(job, operands, expression, region, job_options, stats);
     if (!evaluated) return evaluated.error();
+    if (evaluated->is_crowded) {
+      return evaluate_crowded(job, expression, region, options, stats);
+    }
     return assembled(job, std::move(*evaluated));
   };
   return faces > kFewForThreads ? with_threads(std::max(1u, options.threads), evaluate)

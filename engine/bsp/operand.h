@@ -104,6 +104,10 @@ struct KernelOptions {
   std::array<uint32_t, 3> octree_shift{0, 0, 0};
   bool literal_cells = false;
   bool whole_faces = true;  ///< cut faces whole (whole_faces.h); false: cells for all
+  /// Operands stand in groups where so many of their faces overlap in planes that these are less
+  /// work (bsp/operand_groups.h).
+  bool may_group = true;
+  bool stop_when_crowded = false;  ///< of one job: give up where that is so
   /// Faces of leaves that nothing touched are named instead of spelled out (BoundaryMesh::parts).
   bool name_untouched = false;
   /// Operands of so many faces leave those out of the job that are near no other operand

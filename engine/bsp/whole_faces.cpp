@@ -55,6 +55,10 @@ class FaceEvaluator {
     for (size_t p = 0; p < plainly_.polygons.size(); ++p) is_covered_[p] |= plainly_.polygons[p];
     find_suspects();
     if (!cut_polygons()) return cancelled();
+    if (cut_.is_crowded) {
+      result_.is_crowded = true;
+      return std::move(result_);
+    }
     fates_.emplace(job_, expression_, plainly_, options_, contacts_, cut_, geometry_, is_cut_);
     if (!fates_->find()) {
       return Error{ErrorCode::kInternal, "the labels of a patch contradict one another", {}};

@@ -26,6 +26,7 @@ struct WholeFaces {
   std::vector<FarFaces> far;        ///< per operand; empty if the job has all faces
   std::vector<uint8_t> general;     ///< per polygon: left to the general way
   bool any_general = false;         ///< or a face that the job does not have
+  bool is_crowded = false;          ///< given up: see KernelOptions::stop_when_crowded
   /// Where what is kept, here or in the general way, may touch itself; see BoundaryMesh::touches.
   std::vector<GridBox> touching;
 };

@@ -1,0 +1,144 @@
+#include "engine/bsp/operand_groups.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace csgrun {
+namespace {
+
+constexpr uint32_t kNoOperand = ~0u;
+
+/// The children of a node that may stand in groups: those that are taken away are a union.
+std::span<const uint32_t> groupable(const Expression& expression, const Expression::Node& node) {
+  if (node.is_operand || node.op == BooleanOp::kSymmetricDifference) return {};
+  const auto children = std::span(expression.children).subspan(node.first_child, node.child_count);
+  return node.op == BooleanOp::kDifference ? children.subspan(1) : children;
+}
+
+/// The node with most of them.
+const Expression::Node& widest(const Expression& expression) {
+  return *std::max_element(expression.nodes.begin(), expression.nodes.end(),
+                           [&](const Expression::Node& a, const Expression::Node& b) {
+                             return groupable(expression, a).size() <
+                                    groupable(expression, b).size();
+                           });
+}
+
+/// Puts parts of one job into another one.
+class JobPart {
+ public:
+  JobPart(const std::vector<Operand>& operands, const Expression& expression)
+      : operands_(operands), expression_(expression), number_(operands.size(), kNoOperand) {}
+
+  uint32_t add_operand(Operand operand) {
+    job.operands.push_back(std::move(operand));
+    Expression::Node node;
+    node.operand = static_cast<uint32_t>(job.operands.size() - 1);
+    return add(node);
+  }
+
+  uint32_t add_operator(BooleanOp op, std::span<const uint32_t> children) {
+    Expression::Node node;
+    node.is_operand = false;
+    node.op = op;
+    node.first_child = static_cast<uint32_t>(job.expression.children.size());
+    node.child_count = static_cast<uint32_t>(children.size());
+    job.expression.children.insert(job.expression.children.end(), children.begin(), children.end());
+    return add(node);
+  }
+
+  /// A node and all below it. `replace(node)` may put something in the place of one.
+  template <class Replace>
+  uint32_t copy(uint32_t index, Replace&& replace) {
+    const Expression::Node& node = expression_.nodes[index];
+    if (const std::optional<uint32_t> other = replace(node)) return *other;
+    if (!node.is_operand) {
+      std::vector<uint32_t> children;
+      for (uint32_t c = 0; c < node.child_count; ++c) {
+        children.push_back(copy(expression_.children[node.first_child + c], replace));
+      }
+      return add_operator(node.op, children);
+    }
+    if (number_[node.operand] == kNoOperand) {
+      number_[node.operand] = static_cast<uint32_t>(job.operands.size());
+      used.push_back(node.operand);
+      job.operands.push_back(operands_[node.operand]);
+    }
+    Expression::Node copied;
+    copied.operand = number_[node.operand];
+    return add(copied);
+  }
+  uint32_t copy(uint32_t index) {
+    return copy(index, [](const Expression::Node&) { return std::optional<uint32_t>(); });
+  }
+
+  GroupedJob job;
+  std::vector<uint32_t> used;  ///< operands that were copied
+
+ private:
+  uint32_t add(const Expression::Node& node) {
+    job.expression.nodes.push_back(node);
+    return static_cast<uint32_t>(job.expression.nodes.size() - 1);
+  }
+
+  const std::vector<Operand>& operands_;
+  const Expression& expression_;
+  std::vector<uint32_t> number_;
+};
+
+}  // namespace
+
+bool can_be_grouped(const Expression& expression) {
+  constexpr size_t kLeast = 3;
+  return !expression.nodes.empty() && groupable(expression, widest(expression)).size() >= kLeast;
+}
+
+Result<GroupedJob> evaluate_groups(const std::vector<Operand>& operands,
+                                   const Expression& expression, std::span<const GridBox> boxes,
+                                   const EvaluateGroup& evaluate) {
+  const Expression::Node& wide = widest(expression);
+  const auto children = groupable(expression, wide);
+  const BooleanOp op = wide.op == BooleanOp::kDifference ? BooleanOp::kUnion : wide.op;
+  // Few groups of few: either is crowded, if it is, with less.
+  constexpr size_t kMany = 16, kEach = 8;
+  const size_t size = children.size() > kMany ? kEach : (children.size() + 1) / 2;
+  std::vector<Operand> results;
+  std::vector<size_t> starts;
+  for (size_t first = 0; first < children.size(); first += size) {
+    starts.push_back(first);
+    const auto group = children.subspan(first, std::min(size, children.size() - first));
+    results.emplace_back();
+    if (group.size() == 1) continue;
+    JobPart part(operands, expression);
+    std::vector<uint32_t> copies;
+    for (const uint32_t child : group) copies.push_back(part.copy(child));
+    part.add_operator(op, copies);
+    GridBox region = boxes[part.used[0]];
+    for (const uint32_t o : part.used) {
+      for (size_t k = 0; k < 3; ++k) {
+        region.lo[k] = std::min(region.lo[k], boxes[o].lo[k]);
+        region.hi[k] = std::max(region.hi[k], boxes[o].hi[k]);
+      }
+    }
+    auto result = evaluate(part.job.operands, part.job.expression, region);
+    if (!result) return result.error();
+    results.back().boundary = *result;
+  }
+  JobPart rest(operands, expression);
+  const auto group_for = [&](const Expression::Node& node) -> std::optional<uint32_t> {
+    if (&node != &wide) return std::nullopt;
+    std::vector<uint32_t> grouped;
+    if (wide.op == BooleanOp::kDifference) {
+      grouped.push_back(rest.copy(expression.children[wide.first_child]));
+    }
+    for (size_t g = 0; g < results.size(); ++g) {
+      grouped.push_back(results[g].boundary ? rest.add_operand(results[g])
+                                            : rest.copy(children[starts[g]]));
+    }
+    return rest.add_operator(wide.op, grouped);
+  };
+  rest.copy(static_cast<uint32_t>(expression.nodes.size() - 1), group_for);
+  return std::move(rest.job);
+}
+
+}  // namespace csgrun

@@ -1,0 +1,37 @@
+// Operands of one operator evaluated in groups: where many of them overlap in planes, as the spokes
+// of a wheel do, each of their faces would be cut by all of them, and what a group leaves has one
+// face there.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <csgrun/engine/error.h>
+
+#include "engine/bsp/operand.h"
+
+namespace csgrun {
+
+/// What is left of a job when groups are evaluated: their results are operands.
+struct GroupedJob {
+  std::vector<Operand> operands;
+  Expression expression;
+};
+
+using EvaluateGroup = std::function<Result<std::shared_ptr<const BoundaryMesh>>(
+    const std::vector<Operand>&, const Expression&, const GridBox& region)>;
+
+/// Whether an operator has so many operands that they can be grouped.
+bool can_be_grouped(const Expression& expression);
+
+/// Evaluates groups of operands of the operator that has most, which stand in their order in it, so
+/// that where several have surface the same one gives it as in one job. `boxes`: around each
+/// operand. REQUIRES: can_be_grouped. Errors: those of `evaluate`.
+Result<GroupedJob> evaluate_groups(const std::vector<Operand>& operands,
+                                   const Expression& expression, std::span<const GridBox> boxes,
+                                   const EvaluateGroup& evaluate);
+
+}  // namespace csgrun
