@@ -40,9 +40,7 @@ bool FaceArrangement::build(uint32_t polygon, std::span<const SheetSegment> segm
   sort_around_points();
   const auto first_loop = static_cast<uint32_t>(out.loops.size());
   const size_t corners = out.corner_point.size(), facts = out.facts.size();
-  const bool is_traced = trace(out);
-  crowding_ += (out.loops.size() - first_loop) * sheets_.size();
-  if (is_traced && find_covered(out, first_loop) && write_facts(out, first_loop)) return true;
+  if (trace(out) && find_covered(out, first_loop) && write_facts(out, first_loop)) return true;
   out.loops.resize(first_loop);
   out.corner_point.resize(corners);
   out.corner_plane.resize(corners);

@@ -42,8 +42,8 @@ class FaceArrangement {
   bool build(uint32_t polygon, std::span<const SheetSegment> segments,
              std::span<const uint32_t> coplanar, CutLoops& out);
 
-  /// Of all polygons so far, the regions times the coplanar sheets among which they were found:
-  /// where many sheets overlap, that is most of the work.
+  /// Of all polygons so far, the regions times the operands with coplanar sheets among which they
+  /// were found: where many overlap, that is most of the work.
   [[nodiscard]] uint64_t crowding() const { return crowding_; }
 
  private:

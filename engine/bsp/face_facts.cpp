@@ -24,6 +24,7 @@ bool FaceArrangement::find_covered(const CutLoops& out, uint32_t first_loop) {
   for (size_t begin = 0; begin < sheets_.size();) {
     const uint32_t operand = job_.polygons()[sheets_[begin]].operand;
     is_sheet_marked_ = false;
+    crowding_ += loop_boxes_.size();
     size_t end = begin;
     SheetBox box;
     for (; end < sheets_.size() && job_.polygons()[sheets_[end]].operand == operand; ++end) {
