@@ -25,6 +25,20 @@ void expect_extent_of(const Extent& extent, const NodePtr& node) {
   }
 }
 
+void expect_fresh_extent(Evaluator& evaluator, const NodePtr& part) {
+  const auto extent = evaluator.extent(part);
+  ASSERT_TRUE(extent) << extent.error().message;
+  expect_extent_of(*extent, part);
+}
+
+void expect_fresh_solid(Evaluator& evaluator, const NodePtr& part) {
+  const auto solid = evaluator.evaluate(part);
+  ASSERT_TRUE(solid) << solid.error().message;
+  const SolidPtr fresh = solid_of(part);
+  EXPECT_EQ((*solid)->positions, fresh->positions);
+  EXPECT_EQ((*solid)->triangles, fresh->triangles);
+}
+
 /// A tool of its own at a place of thirds, so that coordinates are rounded.
 NodePtr tool(std::mt19937& random) {
   const auto at = [&] { return static_cast<double>(random() % 31) / 3; };
@@ -71,16 +85,10 @@ TEST(Extent, OfChainsIsThatOfAFreshEvaluation) {
           part = subtract(operands);
           break;
       }
-      const auto extent = evaluator.extent(part);
-      ASSERT_TRUE(extent) << extent.error().message;
-      expect_extent_of(*extent, part);
+      expect_fresh_extent(evaluator, part);
       if (HasFailure()) FAIL() << "round " << round << ", step " << step;
     }
-    const auto solid = evaluator.evaluate(part);
-    ASSERT_TRUE(solid) << solid.error().message;
-    const SolidPtr fresh = solid_of(part);
-    EXPECT_EQ((*solid)->positions, fresh->positions);
-    EXPECT_EQ((*solid)->triangles, fresh->triangles);
+    expect_fresh_solid(evaluator, part);
   }
 }
 
@@ -138,16 +146,10 @@ TEST(Extent, OfMovedChains) {
         colour.is_default = false;
         part = Node::painted(colour, part);
       }
-      const auto extent = evaluator.extent(part);
-      ASSERT_TRUE(extent) << extent.error().message;
-      expect_extent_of(*extent, part);
+      expect_fresh_extent(evaluator, part);
       if (HasFailure()) FAIL() << "round " << round << ", step " << step;
     }
-    const auto solid = evaluator.evaluate(part);
-    ASSERT_TRUE(solid) << solid.error().message;
-    const SolidPtr fresh = solid_of(part);
-    EXPECT_EQ((*solid)->positions, fresh->positions);
-    EXPECT_EQ((*solid)->triangles, fresh->triangles);
+    expect_fresh_solid(evaluator, part);
   }
 }
 
