@@ -71,13 +71,14 @@ class PieceAssembler {
     for (uint32_t o = 0; o < is_used.size(); ++o) {
       if (is_used[o]) order.push_back(o);
     }
-    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-      return all[a].first_source < all[b].first_source;
-    });
+    const auto source = [&](uint32_t o) { return all[o].first_source + version_.first_source; };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return source(a) < source(b); });
     number_.assign(all.size(), kNone);
     for (const uint32_t o : order) {
       number_[o] = static_cast<uint32_t>(operands_.size());
       operands_.push_back(all[o]);
+      operands_.back().first_source = source(o);
     }
   }
 

@@ -79,6 +79,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   const Outside outside = fate_outside(own_last, own);
   if (outside == Outside::kTurned) return PiecesPtr();
   std::vector<Operand> operands = without_parts(others);
+  for (Operand& o : operands) o.first_source -= version.first_source;
   operands.emplace_back();
   operands.back().pieces =
       std::make_shared<PieceOperand>(PieceOperand{version.store, version.tree});
@@ -117,6 +118,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
 
   auto result = std::make_shared<ResultPieces>();
   result->store = version.store;
+  result->first_source = version.first_source;
   result->bytes =
       bytes_of(store.piece_count() - pieces_before, store.point_count() - points_before);
   Touching more = touching_before(others);

@@ -26,6 +26,9 @@ struct ResultPieces {
   bool touches_anywhere = false;  ///< it may touch itself anywhere, not only in `touches`
   TouchList touches;
   size_t bytes = 0;  ///< about what this version has that the one before had not
+  /// Added to the sources of the store's operands, modulo 2^32: what goes on from a version may
+  /// stand before it.
+  uint32_t first_source = 0;
 };
 using PiecesPtr = std::shared_ptr<const ResultPieces>;
 
@@ -38,9 +41,9 @@ Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& operands,
                                   const KernelOptions& options, EvaluateStats& stats);
 
 /// The same with a version as operand 0 of the expression, where it is and under the sources that
-/// it has, and `others` from 1 on. The time depends on the pieces in the boxes of the others, if
-/// the expression drops or keeps what is outside of these; null if it turns that over, or as above.
-/// Not thread-safe with others that share the store.
+/// it has, and `others`, which may have lower ones, from 1 on. The time depends on the pieces in
+/// the boxes of the others, if the expression drops or keeps what is outside of these; null if it
+/// turns that over, or as above. Not thread-safe with others that share the store.
 Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<Operand>& others,
                                 const Expression& expression, const GridBox& region,
                                 const KernelOptions& options, EvaluateStats& stats);

@@ -114,6 +114,7 @@ struct Evaluator::Impl {
   SceneRoom room;
   ResultCache<StoredBoundary> boundaries;
   SceneStarts starts;
+  KnownTails tails;
   ResultCache<SolidPtr> solids;
   ResultCache<BoundaryPtr> worlds;  // of roots that points were compared with
   Warnings warnings;
@@ -128,6 +129,7 @@ bool Evaluator::Impl::forget_if_full() {
   form.clear();
   store.clear();
   starts.clear();
+  tails.clear();
   return true;
 }
 
@@ -246,7 +248,7 @@ Result<bool> Evaluator::Impl::is_convex(const Scene& scene, uint32_t root) {
 Result<BoundaryPtr> Evaluator::Impl::world_of(const Scene& scene, uint32_t root) {
   const Key key = solid_key(scene, scene.nodes[root].subtree, options.measure);
   if (const BoundaryPtr* known = worlds.find(key)) return BoundaryPtr(*known);
-  SceneJobs jobs(scene, boundaries, options, threads, stats);
+  SceneJobs jobs(scene, boundaries, tails, options, threads, stats);
   if (Status status = jobs.run({root}); !status) return status.error();
   auto boundary = jobs.world_boundary(root);
   if (!boundary) return boundary.error();
@@ -282,7 +284,7 @@ Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const Scene& scene_on_gr
       ++stats.nodes_from_memory;
     }
   }
-  SceneJobs jobs(*scene, boundaries, options, threads, stats);
+  SceneJobs jobs(*scene, boundaries, tails, options, threads, stats);
   if (Status status = jobs.run(wanted); !status) return status.error();
   for (size_t i = 0; i < parts.size(); ++i) {
     if (result[i]) continue;
@@ -335,8 +337,9 @@ Result<std::optional<Extent>> Evaluator::Impl::find_extent(const NodePtr& part,
     solid = *known;
     ++stats.nodes_from_memory;
   } else {
-    SceneJobs jobs(*scene, boundaries, options, threads, stats);
+    SceneJobs jobs(*scene, boundaries, tails, options, threads, stats);
     if (Status status = jobs.run({root}); !status) return status.error();
+    if (!scene->is_partial) tails.note(*scene, root);
     if (const auto [pieces, moved] = jobs.pieces(root); pieces) {
       const auto box = pieces_box(*pieces, scene->step, moved);
       if (!box) return std::optional(Extent{});

@@ -43,6 +43,7 @@ struct SceneJobs::OpenOperator {
   BooleanOp op;
   OperandList list;
   size_t next = 0, count = 0;
+  KnownTails::Tail tail;           // the operands from its first on are one, unless that is 0
   std::vector<uint32_t> children;  // expression nodes
   const Scene* scene = nullptr;    // if its known operands were met before
   std::unordered_set<Identity, IdentityHash> met;
@@ -96,6 +97,15 @@ size_t SceneJobs::shared_prefix(const OperandList& list) const {
   return 0;
 }
 
+/// What a list ends with, if that is known and stands as it was evaluated, and nothing that it
+/// begins with is.
+KnownTails::Tail SceneJobs::known_tail(uint32_t node, const OperandList& list) const {
+  if (!may_be_in_pieces() || shared_prefix(list) > 0) return {};
+  const KnownTails::Tail tail = tails_.find(scene_, node, list);
+  if (tail.first == 0 || !may_keep(tail.value) || !is_known(tail.value.id.key)) return {};
+  return tail;
+}
+
 /// Counts how often each operator is used in the jobs, if each becomes a result of its own. Returns
 /// one node of each, in an order in which they can be evaluated.
 std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) {
@@ -130,7 +140,8 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
       const uint32_t node = top.node;
       const OperandList list = scene_.operands(node);
       const size_t prefix = shared_prefix(list);
-      for (size_t i = list.operands.size(); i-- > prefix;) {
+      const size_t tail = known_tail(node, list).first;
+      for (size_t i = tail > 0 ? tail : list.operands.size(); i-- > prefix;) {
         const Identity& operand = scene_.nodes[list.operands[i]].subtree.id;
         const auto [user, is_first] = first_user.try_emplace(operand, node);
         if (!is_first && user->second != node) {
@@ -246,13 +257,22 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
 /// A result that goes on from another one, which somebody looked at, is kept in pieces: it is
 /// likely to be gone on from, too.
 Result<StoredBoundary> SceneJobs::run_kept_job(Parts parts, const Subtree& subtree) {
-  if (parts.first) {
+  if (parts.in_pieces) {
     // Alone if all others were there before (OpenOperator::repeats).
-    if (parts.operands.size() == 1) return StoredBoundary{nullptr, parts.first, subtree.id};
+    if (parts.operands.size() == 1) return StoredBoundary{nullptr, parts.in_pieces, subtree.id};
     spell_out(parts);
-    const std::vector<Operand> others(parts.operands.begin() + 1, parts.operands.end());
-    auto pieces =
-        change_pieces(*parts.first, others, parts.expression, subtree.box, job_options(), stats_);
+    const uint32_t at = parts.pieces_at;
+    ResultPieces version = *parts.in_pieces;
+    version.first_source += parts.operands[at].first_source;
+    std::vector<Operand> others = parts.operands;
+    others.erase(others.begin() + at);
+    Expression expression = parts.expression;
+    for (Expression::Node& node : expression.nodes) {
+      if (node.is_operand && node.operand <= at) {
+        node.operand = node.operand == at ? 0 : node.operand + 1;
+      }
+    }
+    auto pieces = change_pieces(version, others, expression, subtree.box, job_options(), stats_);
     if (!pieces) return pieces.error();
     if (*pieces) return StoredBoundary{nullptr, *pieces, subtree.id};
   }
@@ -292,10 +312,10 @@ KernelOptions SceneJobs::job_options() {
 }
 
 Result<BoundaryPtr> SceneJobs::run_job(Parts parts, const GridBox& region) {
-  if (parts.first) {
-    auto first = assemble_pieces(*parts.first, false);
-    if (!first) return first.error();
-    parts.operands[0].boundary = *first;
+  if (parts.in_pieces) {
+    auto boundary = assemble_pieces(*parts.in_pieces, false);
+    if (!boundary) return boundary.error();
+    parts.operands[parts.pieces_at].boundary = *boundary;
   }
   return evaluate_boolean(parts.operands, parts.expression, region, job_options(), stats_);
 }
@@ -450,15 +470,20 @@ Result<BoundaryPtr> SceneJobs::boundary_of(const Key& key) {
   return kept.boundary;
 }
 
-/// Puts the value of a known subtree into a job: in pieces, where it comes first and stands as it
-/// was evaluated. Returns the number of its node.
-Result<uint32_t> SceneJobs::put_known(Parts& parts, const Subtree& value, uint32_t job_frame) {
+/// Puts the value of a known subtree into a job: in pieces, where it comes first, or is a known
+/// tail, and stands as it was evaluated. Returns the number of its node.
+Result<uint32_t> SceneJobs::put_known(Parts& parts, const Subtree& value, uint32_t job_frame,
+                                      bool is_tail) {
   const StoredBoundary& stored = use(value.id.key);
   const IVec3 moved = difference(stored.id.origin, value.id.origin);
-  if (parts.operands.empty() && value.id.frame == job_frame && may_be_in_pieces() &&
-      is_only_moved(value, stored) && (parts.may_be_moved || moved == IVec3{0, 0, 0})) {
+  const bool may_be_first = parts.operands.empty() && may_be_in_pieces() &&
+                            (parts.may_be_moved || moved == IVec3{0, 0, 0});
+  const bool may_be_last = is_tail && !parts.in_pieces && moved == parts.moved;
+  if (value.id.frame == job_frame && is_only_moved(value, stored) &&
+      (may_be_first || may_be_last)) {
     parts.moved = moved;
-    parts.first = pieces_of_result(value.id.key);
+    parts.in_pieces = pieces_of_result(value.id.key);
+    parts.pieces_at = static_cast<uint32_t>(parts.operands.size());
     return put(parts, Operand(), value);
   }
   results_.at(value.id.key).is_fresh = true;  // place() is the same use
@@ -468,7 +493,10 @@ Result<uint32_t> SceneJobs::put_known(Parts& parts, const Subtree& value, uint32
 /// Starts on the first `count` operands of a node, from the longest prefix that is known.
 Result<SceneJobs::OpenOperator> SceneJobs::open(uint32_t node, size_t count, bool is_target,
                                                 uint32_t job_frame, Parts& parts) {
-  OpenOperator result{scene_.nodes[node].op, scene_.operands(node), 0, count, {}, nullptr, {}};
+  OpenOperator result{scene_.nodes[node].op, scene_.operands(node), 0, count, {}, {}, nullptr, {}};
+  if (is_target && count == result.list.operands.size()) {
+    result.tail = known_tail(node, result.list);
+  }
   if (scene_.met_before && node == scene_.roots[0]) result.scene = &scene_;
   for (size_t prefix = is_target ? count - 1 : count; prefix >= 2; --prefix) {
     const Subtree& value = *result.list.values[prefix - 1];
@@ -500,6 +528,13 @@ Result<SceneJobs::Parts> SceneJobs::build(uint32_t node, size_t count, uint32_t 
   while (true) {
     OpenOperator& top = stack.back();
     if (top.next < top.count) {
+      if (top.tail.first > 0 && top.next == top.tail.first) {
+        auto known = put_known(parts, top.tail.value, job_frame, true);
+        if (!known) return known.error();
+        top.children.push_back(*known);
+        top.next = top.count;
+        continue;
+      }
       const size_t index = top.next++;
       const uint32_t operand = top.list.operands[index];
       const SceneNode& child = scene_.nodes[operand];

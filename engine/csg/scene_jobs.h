@@ -11,6 +11,7 @@
 #include <csgrun/engine/evaluate.h>
 
 #include "engine/bsp/kernel.h"
+#include "engine/csg/known_tails.h"
 #include "engine/csg/result_cache.h"
 #include "engine/csg/scene.h"
 
@@ -26,9 +27,14 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads);
 /// operator's operands. All else becomes part of its parent's job.
 class SceneJobs {
  public:
-  SceneJobs(const Scene& scene, ResultCache<StoredBoundary>& cache, const EvaluateOptions& options,
-            unsigned threads, EvaluateStats& stats)
-      : scene_(scene), cache_(cache), options_(options), threads_(threads), stats_(stats) {}
+  SceneJobs(const Scene& scene, ResultCache<StoredBoundary>& cache, const KnownTails& tails,
+            const EvaluateOptions& options, unsigned threads, EvaluateStats& stats)
+      : scene_(scene),
+        cache_(cache),
+        tails_(tails),
+        options_(options),
+        threads_(threads),
+        stats_(stats) {}
 
   /// Evaluates what the roots (scene nodes, not empty) need. Errors: those of evaluate_boolean.
   Status run(const std::vector<uint32_t>& roots);
@@ -50,7 +56,8 @@ class SceneJobs {
   struct Parts {  // of one job
     std::vector<Operand> operands;
     std::vector<Key> keys;  // of what each of them is
-    PiecesPtr first;        // the first operand, which is empty then
+    PiecesPtr in_pieces;    // an operand, which is empty then
+    uint32_t pieces_at = 0;
     /// By how many steps all stands away from its place in the scene: where the first operand was
     /// evaluated.
     IVec3 moved{0, 0, 0};
@@ -74,6 +81,7 @@ class SceneJobs {
   std::vector<uint32_t> count_uses(const std::vector<uint32_t>& roots);
   void note_overlap(uint32_t a, uint32_t b, bool in_operator);
   [[nodiscard]] size_t shared_prefix(const OperandList& list) const;
+  [[nodiscard]] KnownTails::Tail known_tail(uint32_t node, const OperandList& list) const;
   Status evaluate(uint32_t node);
   Status evaluate_hull(uint32_t node);
   void keep(const Subtree& subtree, StoredBoundary stored);
@@ -81,7 +89,8 @@ class SceneJobs {
   KernelOptions job_options();
   Result<BoundaryPtr> run_job(Parts parts, const GridBox& region);
   Result<Parts> build(uint32_t node, size_t count, uint32_t job_frame, bool may_be_moved = false);
-  Result<uint32_t> put_known(Parts& parts, const Subtree& value, uint32_t job_frame);
+  Result<uint32_t> put_known(Parts& parts, const Subtree& value, uint32_t job_frame,
+                             bool is_tail = false);
   Result<OpenOperator> open(uint32_t node, size_t count, bool is_target, uint32_t job_frame,
                             Parts& parts);
   uint32_t put(Parts& parts, Operand operand, const Subtree& subtree) const;
@@ -104,6 +113,7 @@ class SceneJobs {
 
   const Scene& scene_;
   ResultCache<StoredBoundary>& cache_;
+  const KnownTails& tails_;
   const EvaluateOptions& options_;
   unsigned threads_;
   EvaluateStats& stats_;

@@ -37,6 +37,10 @@ void expect_fresh_solid(Evaluator& evaluator, const NodePtr& part) {
   const SolidPtr fresh = solid_of(part);
   EXPECT_EQ((*solid)->positions, fresh->positions);
   EXPECT_EQ((*solid)->triangles, fresh->triangles);
+  ASSERT_EQ((*solid)->faces.size(), fresh->faces.size());
+  for (size_t f = 0; f < fresh->faces.size(); ++f) {
+    EXPECT_EQ((*solid)->faces[f].source, fresh->faces[f].source) << f;
+  }
 }
 
 /// A tool of its own at a place of thirds, so that coordinates are rounded.
@@ -176,6 +180,79 @@ TEST(Extent, OfAMovedPartCostsWhatTheToolTouches) {
   };
   EXPECT_GT(sum(5), 0u);
   EXPECT_LE(sum(70), 2 * sum(5));
+}
+
+// What stands before a part that was looked at does not make it another one.
+TEST(Extent, OfPartsThatOthersStandBefore) {
+  std::mt19937 random(93);
+  for (int round = 0; round < 12; ++round) {
+    EvaluateOptions options;
+    options.threads = 1;
+    Evaluator evaluator(options);
+    NodePtr part = unite({cube(4), moved(3, 1, 0.5, cube(5))});
+    for (int step = 0; step < 12; ++step) {
+      const NodePtr other = tool(random);
+      switch (random() % 6) {
+        case 0:
+          part = unite({other, tool(random), part});
+          break;
+        case 1:
+          part = intersect({moved(-1, -1, 0.5, cube(12)), part});
+          break;
+        case 2:
+          part = subtract({part, other});
+          break;
+        case 3:
+          part = unite({subtract({other, moved(0.5, 0.5, 0.5, other)}), part});
+          break;
+        default:
+          part = unite({other, part});
+          break;
+      }
+      expect_fresh_extent(evaluator, part);
+      if (HasFailure()) FAIL() << "round " << round << ", step " << step;
+    }
+    expect_fresh_solid(evaluator, part);
+    if (HasFailure()) FAIL() << "round " << round;
+  }
+}
+
+// Lists that end alike, but elsewhere or by another operator.
+TEST(Extent, OfListsThatEndAlike) {
+  Evaluator evaluator{EvaluateOptions()};
+  const NodePtr a = cube(4), b = moved(3, 1, 0.5, cube(5)), c = moved(1, 2, 2, cube(6));
+  expect_fresh_extent(evaluator, unite({a, b}));
+  expect_fresh_extent(evaluator, unite({c, moved(0.5, 0, 0, a), b}));
+  expect_fresh_extent(evaluator, unite({c, a, moved(0, 0.5, 0, b)}));
+  expect_fresh_extent(evaluator, unite({moved(0, 0, 1, unite({a, b})), c}));
+  expect_fresh_extent(evaluator, unite({c, moved(0, 0, 1, unite({a, b}))}));
+  expect_fresh_extent(evaluator, intersect({c, a, b}));
+  expect_fresh_extent(evaluator, intersect({a, b}));
+  expect_fresh_extent(evaluator, intersect({c, a, b}));
+  expect_fresh_extent(evaluator, unite({c, a, b}));
+  expect_fresh_extent(evaluator, subtract({c, a, b}));
+}
+
+TEST(Extent, OfWhatStandsBeforeAPartCostsWhatThatTouches) {
+  EvaluateOptions options;
+  options.threads = 1;
+  Evaluator evaluator(options);
+  NodePtr part = prism(16, 1, 2);
+  std::vector<uint64_t> signs;
+  for (int i = 1; i <= 60; ++i) {
+    const uint64_t was = signs_of(evaluator);
+    // No row of them is like another one.
+    part = unite({moved(1.3 * i + i * i % 29 * 0.01, i * i % 31 * 0.05, 0, prism(16, 1, 2)), part});
+    ASSERT_TRUE(evaluator.extent(part));
+    signs.push_back(signs_of(evaluator) - was);
+  }
+  const auto sum = [&](size_t first) {
+    return std::accumulate(signs.begin() + static_cast<long>(first),
+                           signs.begin() + static_cast<long>(first) + 10, uint64_t{0});
+  };
+  EXPECT_GT(sum(5), 0u);
+  EXPECT_LE(sum(50), 2 * sum(5));
+  expect_fresh_solid(evaluator, part);
 }
 
 // A part that would be off the grid where the one before stands.
