@@ -43,9 +43,6 @@ struct PieceBox {
     return lo[0] <= b.lo[0] && b.hi[0] <= hi[0] && lo[1] <= b.lo[1] && b.hi[1] <= hi[1] &&
            lo[2] <= b.lo[2] && b.hi[2] <= hi[2];
   }
-  [[nodiscard]] bool meets_any(std::span<const PieceBox> boxes) const {
-    return std::any_of(boxes.begin(), boxes.end(), [&](const PieceBox& b) { return meets(b); });
-  }
 };
 
 /// What adds up over pieces, without rounding: parts of a volume (mesh/pieces_measures). Points are
