@@ -13,6 +13,7 @@
 #include "engine/bsp/operand_groups.h"
 #include "engine/bsp/touch_list.h"
 #include "engine/bsp/untouched.h"
+#include "engine/exact/widths.h"
 
 namespace csgrun {
 namespace {
@@ -21,7 +22,7 @@ using Outcome = Result<std::shared_ptr<const BoundaryMesh>>;
 
 /// The boxes of a job's operands; nothing if one is off the grid, where no result may be.
 std::optional<std::vector<GridBox>> boxes_on_grid(const Job& job) {
-  constexpr int64_t kLimit = int64_t{1} << 27;
+  constexpr int64_t kLimit = int64_t{1} << widths::kGrid;
   std::vector<GridBox> boxes;
   for (size_t o = 0; o < job.operand_count(); ++o) {
     const PolygonBox& box = job.operand_box(o);
