@@ -19,7 +19,9 @@ class ContactTable {
  public:
   ContactTable() = default;
   ContactTable(Contacts found, size_t polygon_count)
-      : contacts_(std::move(found.contacts)), touched_(std::move(found.touched)) {
+      : contacts_(std::move(found.contacts)),
+        touched_(std::move(found.touched)),
+        in_flat_corner_(std::move(found.in_flat_corner)) {
     by_polygon_.sort(2 * contacts_.size(), polygon_count, [&](size_t side) {
       const Contact& c = contacts_[side / 2];
       return side % 2 == 0 ? c.p : c.q;
@@ -37,9 +39,18 @@ class ContactTable {
   /// Per vertex of the job, whether it may be on another operand's surface.
   [[nodiscard]] const std::vector<uint8_t>& touched() const { return touched_; }
 
+  /// Whether a polygon has no more than a corner in common with a coplanar one, which is no
+  /// contact.
+  [[nodiscard]] bool is_in_flat_corner(uint32_t polygon) const {
+    return in_flat_corner_[polygon] != 0;
+  }
+  [[nodiscard]] bool is_met(uint32_t polygon) const {
+    return is_in_flat_corner(polygon) || !of(polygon).empty();
+  }
+
  private:
   RawVector<Contact> contacts_;
-  std::vector<uint8_t> touched_;
+  std::vector<uint8_t> touched_, in_flat_corner_;
   CountingOrder by_polygon_;  ///< of the contacts' sides, two each
 };
 

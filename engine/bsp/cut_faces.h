@@ -21,6 +21,9 @@ struct CutFaces {
   std::vector<Face> faces;
   std::vector<uint32_t> left;      ///< polygons that could not be cut this way
   std::vector<uint32_t> by_value;  ///< where names did not do; of the others, or of those left
+  /// The points [first_crossing, end_crossing) are those in which sheets of two operands cross
+  /// within a polygon of a third one, once for each polygon that was cut by name.
+  uint32_t first_crossing = 0, end_crossing = 0;
   /// Given up (KernelOptions::stop_when_crowded): nothing of the above is complete.
   bool is_crowded = false;
 };

@@ -31,6 +31,7 @@ class PartJoiner {
     all.loops.corner_point.resize(end.corner);
     all.loops.corner_plane.resize(end.corner);
     all.loops.facts.resize(end.fact);
+    all.first_crossing = first_new_, all.end_crossing = end_new_;
     all.faces.resize(end.face);
     for_each_part(parts.size(), kAtOnce, [&](size_t, size_t first, size_t last) {
       for (size_t p = first; p < last; ++p) copy(parts[p], points_[p], places[p], all);
@@ -70,7 +71,8 @@ class PartJoiner {
       starts.push_back(count);
       count += part.points.size();
     }
-    const uint32_t first = geometry_.add_points(count);
+    const uint32_t first = first_new_ = geometry_.add_points(count);
+    end_new_ = first + static_cast<uint32_t>(count);
     points_.resize(parts.size());
     for_each_part(parts.size(), kAtOnce, [&](size_t, size_t begin, size_t end) {
       for (size_t p = begin; p < end; ++p) {
@@ -157,6 +159,7 @@ class PartJoiner {
   CellGeometry& geometry_;
   PointIndex& index_;
   std::vector<std::vector<uint32_t>> points_;  ///< per part: of its new points, in the geometry
+  uint32_t first_new_ = 0, end_new_ = 0;       ///< all of these
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "engine/bsp/parallel_runs.h"
 #include "engine/bsp/sign_stats.h"
 #include "engine/bsp/touch_list.h"
+#include "engine/bsp/unate.h"
 #include "engine/bsp/whole_faces.h"
 
 namespace csgrun {
@@ -141,6 +142,7 @@ Result<EvaluatedJob> evaluate_job(Job& job, const std::vector<Operand>& operands
   std::vector<SignCounters> counters(sets.size());
   std::vector<uint64_t> contacts(sets.size(), 0);
   std::vector<std::vector<GridBox>> touches(sets.size());
+  const bool may_cross_anywhere = !is_unate(expression);  // where three operands do
   const auto solve_run = [&](CellSolver& solver, size_t run) {
     const SignCounters before = solver.counters();
     const uint64_t contacts_before = solver.cells_with_contact();
@@ -152,7 +154,9 @@ Result<EvaluatedJob> evaluate_job(Job& job, const std::vector<Operand>& operands
           solve_literal_cell(solver.geometry(), tree, tree.critical[c], walls, sets[run]);
         } else {
           solver.solve(tree, tree.critical[c], walls, sets[run]);
-          if (solver.may_touch()) touches[run].push_back(tree.critical[c].box.rounded_outwards());
+          if (solver.may_touch() || (may_cross_anywhere && tree.critical[c].presence_count > 2)) {
+            touches[run].push_back(tree.critical[c].box.rounded_outwards());
+          }
         }
       }
     } else {

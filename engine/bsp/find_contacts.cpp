@@ -1,7 +1,9 @@
 #include "engine/bsp/find_contacts.h"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "engine/bsp/near_faces.h"
@@ -79,7 +81,22 @@ class Candidates {
   PairCells cells_;
 };
 
-void look_at(const Candidates& candidates, size_t lot, Looker& looker, Found& out) {
+/// Takes note of a pair that meets.
+template <class List>
+void take(Meeting meeting, const Contact& contact, const PairTest& test, List& contacts,
+          std::vector<uint32_t>& touching, std::span<uint8_t> in_flat_corner) {
+  if (!contact.is_plain) test.add_touching_vertices(contact, touching);
+  if (meeting == Meeting::kContact) {
+    contacts.push_back(contact);
+    return;
+  }
+  for (const uint32_t polygon : {contact.p, contact.q}) {
+    std::atomic_ref(in_flat_corner[polygon]).store(1, std::memory_order_relaxed);
+  }
+}
+
+void look_at(const Candidates& candidates, size_t lot, Looker& looker, Found& out,
+             std::span<uint8_t> in_flat_corner) {
   bool critical = false;
   Contact contact;
   PairTest& test = looker.test;
@@ -91,8 +108,7 @@ void look_at(const Candidates& candidates, size_t lot, Looker& looker, Found& ou
       out.unsure.emplace_back(p, q);
       return;
     }
-    out.contacts.push_back(contact);
-    if (!contact.is_plain) test.add_touching_vertices(contact, out.touching);
+    take(meeting, contact, test, out.contacts, out.touching, in_flat_corner);
   });
   out.critical += critical;
 }
@@ -115,9 +131,9 @@ void decide_unsure(Job& job, const std::vector<Found>& found, Contacts& result,
   std::vector<uint32_t> touching;
   for (const Found& f : found) {
     for (const auto& [p, q] : f.unsure) {
-      if (test.run(p, q, &planes, contact) != Meeting::kContact) continue;
-      result.contacts.push_back(contact);
-      if (!contact.is_plain) test.add_touching_vertices(contact, touching);
+      const Meeting meeting = test.run(p, q, &planes, contact);
+      if (meeting == Meeting::kApart) continue;
+      take(meeting, contact, test, result.contacts, touching, result.in_flat_corner);
     }
   }
   for (const uint32_t v : touching) result.touched[v] = 1;
@@ -131,6 +147,8 @@ Contacts find_contacts(Job& job, const PlainlyCovered& plainly, const KernelOpti
   const Candidates candidates(job, plainly, options);
   const size_t lots = candidates.lots();
   std::vector<Found> found(run_count(lots));
+  Contacts result;
+  result.in_flat_corner.assign(job.polygons().size(), 0);
   for_each_run(
       found.size(), options,
       [&] {
@@ -142,13 +160,12 @@ Contacts find_contacts(Job& job, const PlainlyCovered& plainly, const KernelOpti
         const uint64_t filtered = test.signs().filtered, exact = test.signs().exact;
         const size_t end = std::min(lots, (run + 1) * kCellsPerRun);
         for (size_t lot = run * kCellsPerRun; lot < end; ++lot) {
-          look_at(candidates, lot, looker, out);
+          look_at(candidates, lot, looker, out, result.in_flat_corner);
         }
         out.filtered = test.signs().filtered - filtered;
         out.exact = test.signs().exact - exact;
       });
   candidates.count(stats);
-  Contacts result;
   result.touched.assign(job.vertex_count(), 0);
   std::vector<size_t> starts(found.size());  // of the contacts of each run
   size_t total = 0;

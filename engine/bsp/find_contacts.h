@@ -16,6 +16,9 @@ struct Contacts {
   RawVector<Contact> contacts;  ///< in no order that means anything, the same on every run
   /// Per vertex of the job: it may be on another operand's surface.
   std::vector<uint8_t> touched;
+  /// Per polygon: it has a corner in common with a coplanar one, and nothing else. That is no
+  /// contact.
+  std::vector<uint8_t> in_flat_corner;
 };
 
 /// Divides space into cells of pairs and looks at each pair; planes are made where doubles and

@@ -204,7 +204,7 @@ Meeting PairTest::run(uint32_t p, uint32_t q, CellGeometry* planes, Contact& con
   Passage of_p, of_q;
   contact.is_coplanar = !find_passage(sides_p_, of_p) || !find_passage(sides_q_, of_q);
   contact.is_plain = false;
-  if (contact.is_coplanar) return Meeting::kContact;
+  if (contact.is_coplanar) return flat_meeting(contact);
   // p from rises to falls, q from falls to rises.
   const int upper_reaches = inside(p, of_p.falls, true, q, of_q.falls);
   if (upper_reaches == kUnsure) return Meeting::kUndecided;
@@ -224,6 +224,27 @@ Meeting PairTest::run(uint32_t p, uint32_t q, CellGeometry* planes, Contact& con
   return Meeting::kContact;
 }
 
+Meeting PairTest::flat_meeting(const Contact& contact) {
+  // Of others there are not so many in one plane that it would pay.
+  const auto is_grid_triangle = [&](uint32_t polygon) {
+    const JobPolygon& p = job_.polygons()[polygon];
+    return p.count == 3 && signs_.error(p.operand) == 0;
+  };
+  flat_ = {};
+  if (!planes_only_ && is_grid_triangle(contact.p) && is_grid_triangle(contact.q)) {
+    flat_ = flat_pair(job_, contact.p, contact.q);
+  }
+  switch (flat_.meeting) {
+    case FlatMeeting::kApart:
+      return Meeting::kApart;
+    case FlatMeeting::kCorner:
+      return Meeting::kFlatCorner;
+    case FlatMeeting::kOther:
+      break;
+  }
+  return Meeting::kContact;
+}
+
 Contact::End PairTest::end_of(uint32_t polygon, uint32_t edge, bool on_p) const {
   const std::vector<int8_t>& sides = on_p ? sides_p_ : sides_q_;
   const auto corners = job_.corners(job_.polygons()[polygon]);
@@ -236,6 +257,10 @@ Contact::End PairTest::end_of(uint32_t polygon, uint32_t edge, bool on_p) const 
 
 void PairTest::add_touching_vertices(const Contact& contact,
                                      std::vector<uint32_t>& vertices) const {
+  if (contact.is_coplanar && flat_.meeting == FlatMeeting::kCorner) {
+    vertices.insert(vertices.end(), {flat_.p_corner, flat_.q_corner});
+    return;
+  }
   const auto add = [&](uint32_t polygon, const std::vector<int8_t>& sides) {
     const auto corners = job_.corners(job_.polygons()[polygon]);
     for (size_t i = 0; i < corners.size(); ++i) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/flat_pair.h"
 #include "engine/bsp/vertex_signs.h"
 
 namespace csgrun {
@@ -41,7 +42,8 @@ struct Contact {
 enum class Meeting : uint8_t {
   kApart,
   kContact,
-  kUndecided,  ///< without planes this cannot be told
+  kFlatCorner,  ///< they are coplanar and have a corner of both in common, and nothing else
+  kUndecided,   ///< without planes this cannot be told
 };
 
 class PairTest {
@@ -49,10 +51,12 @@ class PairTest {
   explicit PairTest(const Job& job);
 
   /// How p and q, of different operands, meet; fills in `contact` unless they are apart. (Coplanar
-  /// ones are said to be in contact when their boxes are.) Where doubles and 128-bit integers do
-  /// not do, and `planes` is given, planes decide; they must have been made.
+  /// ones are said to be in contact when their boxes are, but for triangles on the grid that have
+  /// nothing in common, or a corner of both.) Where doubles and 128-bit integers do not do, and
+  /// `planes` is given, planes decide; they must have been made.
   Meeting run(uint32_t p, uint32_t q, CellGeometry* planes, Contact& contact);
-  /// After a contact that is not plain: the corners of either polygon in the other's plane.
+  /// After a contact that is not plain: the corners of either polygon in the other's plane. After
+  /// kFlatCorner: the two in common.
   void add_touching_vertices(const Contact& contact, std::vector<uint32_t>& vertices) const;
 
   [[nodiscard]] const VertexSigns& signs() const { return signs_; }
@@ -86,6 +90,7 @@ class PairTest {
   /// Whether the point in which edge i of p passes through q's plane lies on the inner side of edge
   /// j of q: +1, 0, -1, or kUnsure. `falls`: towards the back of q.
   int inside(uint32_t p, uint32_t i, bool falls, uint32_t q, uint32_t j);
+  Meeting flat_meeting(const Contact& contact);
   [[nodiscard]] Contact::End end_of(uint32_t polygon, uint32_t edge, bool on_p) const;
 
   const Job& job_;
@@ -94,6 +99,7 @@ class PairTest {
   const bool planes_only_;       ///< tests want to see that
   CellGeometry* planes_ = nullptr;
   std::vector<int8_t> sides_p_, sides_q_;
+  FlatPair flat_;  ///< what the last pair has in common if it is coplanar and was told
 };
 
 }  // namespace csgrun

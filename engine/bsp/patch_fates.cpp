@@ -131,7 +131,7 @@ void PatchFates::add_rim_facts(const Contact& c, PatchFacts& facts) const {
 
 void PatchFates::add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind,
                               PatchFacts& facts) const {
-  if (is_cut_[polygon]) return;
+  if (is_cut_[polygon] || contacts_.is_in_flat_corner(polygon)) return;
   const uint32_t operand = job_.polygons()[other].operand;
   for (const uint32_t i : contacts_.of(polygon)) {
     const Contact& c = contacts_[i];

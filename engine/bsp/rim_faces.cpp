@@ -22,6 +22,7 @@ class RimFaces {
   bool is_rim(uint32_t polygon) {
     const JobPolygon& p = job_.polygons()[polygon];
     if (p.count != 3 || !job_.is_convex(p.operand)) return false;
+    if (contacts_.is_in_flat_corner(polygon)) return false;
     const LeafGeometry& leaf = *job_.leaf(p.operand);
     // Facets that are kept may be merged with neighbours in their plane once they are touched.
     if (leaf.keeps_facets() || leaf.opposite.empty()) return false;

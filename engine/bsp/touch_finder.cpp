@@ -28,9 +28,10 @@ void TouchFinder::list_corners(const Outline& outline, std::vector<Corner>& corn
   const size_t count = points.size();
   for (size_t i = 0; i < count; ++i) {
     // Points that are made of three planes by chance have other numbers elsewhere, but nothing
-    // that is examined is there.
+    // that is examined is there, unless it is in the index.
     const bool is_made = geometry_.point(points[i]).vertex == kNone;
-    const uint32_t at = is_made ? points[i] : number_or_none(points[i]);
+    uint32_t at = number_or_none(points[i]);
+    if (is_made && at == kNone) at = points[i];
     if (at != kNone && !is_examined_[at]) continue;
     const size_t last = i > 0 ? i - 1 : count - 1, next = i + 1 < count ? i + 1 : 0,
                  edge = outline.flip ? last : i;

@@ -16,6 +16,7 @@
 #include "engine/bsp/rim_faces.h"
 #include "engine/bsp/sign_stats.h"
 #include "engine/bsp/touch_finder.h"
+#include "engine/bsp/unate.h"
 
 namespace csgrun {
 namespace {
@@ -197,7 +198,7 @@ class FaceEvaluator {
         if (fate == PatchFate::kUnknown) left[part].push_back(p);
         if (fate != PatchFate::kKeep && fate != PatchFate::kFlip) continue;
         is_kept_[p] = 1;
-        own.push_back({p, fate == PatchFate::kFlip, !contacts_.of(p).empty()});
+        own.push_back({p, fate == PatchFate::kFlip, contacts_.is_met(p)});
       }
       kept[part] = std::move(own);
     });
@@ -299,6 +300,7 @@ class FaceEvaluator {
     for (const uint32_t i : asked) ends_->ask(i);
     ends_->make();
     examine_cut(finder, is_open);
+    if (!is_unate(expression_)) examine_crossings(finder);
     const std::vector<uint32_t> suspects = numbers_where(result_.whole.size(), [&](uint32_t i) {
       return is_suspect_[result_.whole[i].polygon] != 0;
     });
@@ -348,6 +350,22 @@ class FaceEvaluator {
         }
       });
     });
+  }
+
+  /// Has the points examined in which three operands cross, of polygons that nothing touches.
+  void examine_crossings(TouchFinder& finder) {
+    std::vector<uint32_t> crossings;
+    for (const CutFaces::Face& cut : cut_.faces) {
+      if (is_suspect_[cut.polygon] || !is_kept_[cut.polygon]) continue;  // known, or gone
+      for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+        if (fates_->of_loop(l) == PatchFate::kDrop) continue;
+        for (const uint32_t p : points_of(cut_.loops.loops[l])) {
+          if (p >= cut_.first_crossing && p < cut_.end_crossing) crossings.push_back(p);
+        }
+      }
+    }
+    index_.make_unique(crossings);
+    for (const uint32_t p : crossings) finder.examine(p);
   }
 
   /// Adds what is kept to the finder, once it knows all points to be examined.

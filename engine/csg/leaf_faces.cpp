@@ -38,14 +38,24 @@ int dominant_axis(const Vec128& n) {
 /// Points of a face as seen along an axis, from the side where its front is.
 class ProjectedOracle final : public PlanarOracle {
  public:
-  ProjectedOracle(const std::vector<IVec3>& vertices, int axis, bool front_is_positive)
+  enum class Sweep : uint8_t { kByFront, kByAxis };
+  /// kByAxis: the sweep is the same for either front. Flat faces that lie on one another, as those
+  /// of stacked extrusions, are divided in the same way by it, lest every sliver of one meets every
+  /// sliver of the other. (How a bent face is divided is what becomes of it.)
+  ProjectedOracle(const std::vector<IVec3>& vertices, int axis, bool front_is_positive,
+                  Sweep sweep = Sweep::kByFront)
       : vertices_(vertices), u_((axis + 1) % 3), v_((axis + 2) % 3) {
-    if (!front_is_positive) std::swap(u_, v_);
+    if (front_is_positive) return;
+    if (sweep == Sweep::kByAxis) {
+      front_ = -1;
+    } else {
+      std::swap(u_, v_);
+    }
   }
   int orient(uint32_t a, uint32_t b, uint32_t c) const override {
     const IVec3 &p = vertices_[a], &q = vertices_[b], &r = vertices_[c];
-    return sign(static_cast<Int128>(q[u_] - p[u_]) * (r[v_] - p[v_]) -
-                static_cast<Int128>(q[v_] - p[v_]) * (r[u_] - p[u_]));
+    return front_ * sign(static_cast<Int128>(q[u_] - p[u_]) * (r[v_] - p[v_]) -
+                         static_cast<Int128>(q[v_] - p[v_]) * (r[u_] - p[u_]));
   }
   int compare(uint32_t a, uint32_t b) const override {
     const IVec3 &p = vertices_[a], &q = vertices_[b];
@@ -71,6 +81,7 @@ class ProjectedOracle final : public PlanarOracle {
  private:
   const std::vector<IVec3>& vertices_;
   int u_, v_;
+  int front_ = 1;  ///< +1 when (u, v) is right-handed seen from the front
 };
 
 bool lies_in(const CornerPlane& plane, const std::vector<IVec3>& vertices, Corners loop) {
@@ -132,8 +143,9 @@ std::vector<Triangle> bulging_triangles(const std::vector<IVec3>& vertices, cons
   return {{quad[1], quad[2], quad[3]}, {quad[1], quad[3], quad[0]}};
 }
 
+/// `is_flat`: its corners are in one plane. Others may be divided so that they are convex.
 std::vector<Triangle> triangles_of(const std::vector<IVec3>& vertices, const LoopFace& face,
-                                   bool prefer_convex) {
+                                   bool is_flat, bool prefer_convex) {
   Vec128 normal{};
   for (const Loop& loop : face.loops) {
     const Vec128 n = loop_normal(vertices, loop);
@@ -144,8 +156,10 @@ std::vector<Triangle> triangles_of(const std::vector<IVec3>& vertices, const Loo
   for (int turn = 0; turn < 3; ++turn) {
     const int axis = (best + turn) % 3;
     if (normal[axis] == 0) continue;
-    const ProjectedOracle oracle(vertices, axis, normal[axis] > 0);
-    if (prefer_convex && face.loops.size() == 1 && face.loops[0].size() == 4 &&
+    const ProjectedOracle oracle(
+        vertices, axis, normal[axis] > 0,
+        is_flat ? ProjectedOracle::Sweep::kByAxis : ProjectedOracle::Sweep::kByFront);
+    if (prefer_convex && !is_flat && face.loops.size() == 1 && face.loops[0].size() == 4 &&
         oracle.is_convex(face.loops[0])) {
       auto triangles = bulging_triangles(vertices, face.loops[0]);
       if (!triangles.empty()) return triangles;
@@ -239,7 +253,7 @@ bool is_convex_polygon(const std::vector<IVec3>& vertices, Corners loop) {
 }
 
 std::vector<Triangle> triangulate(const std::vector<IVec3>& vertices, const LoopFace& face) {
-  return triangles_of(vertices, face, false);
+  return triangles_of(vertices, face, is_planar(vertices, face), false);
 }
 
 bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, bool merged,
@@ -269,7 +283,7 @@ bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, b
       continue;
     }
     bent |= !planar;
-    auto triangles = triangles_of(vertices, face, prefer_convex && !planar);
+    auto triangles = triangles_of(vertices, face, planar, prefer_convex);
     if (triangles.empty()) {
       simple = false;
       triangles = fans_of(face);

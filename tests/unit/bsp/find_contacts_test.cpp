@@ -30,17 +30,21 @@ using Pairs = std::vector<std::pair<uint32_t, uint32_t>>;
 /// What looking at all pairs of a job, one after another, gives.
 struct OneByOne {
   Pairs contacts;
-  std::vector<uint8_t> touched;
+  std::vector<uint8_t> touched, in_flat_corner;
   EvaluateStats stats;
 
   explicit OneByOne(const std::vector<Operand>& operands) {
     Job job(operands);
     touched.assign(job.vertex_count(), 0);
+    in_flat_corner.assign(job.polygons().size(), 0);
     PairTest test(job), with_planes(job);
     Pairs unsure;
     Contact contact{};
-    const auto take = [&](const PairTest& by) {
-      contacts.emplace_back(contact.p, contact.q);
+    const auto take = [&](Meeting meeting, const PairTest& by) {
+      if (meeting == Meeting::kContact) contacts.emplace_back(contact.p, contact.q);
+      if (meeting == Meeting::kFlatCorner) {
+        in_flat_corner[contact.p] = in_flat_corner[contact.q] = 1;
+      }
       std::vector<uint32_t> vertices;
       if (!contact.is_plain) by.add_touching_vertices(contact, vertices);
       for (const uint32_t v : vertices) touched[v] = 1;
@@ -50,14 +54,18 @@ struct OneByOne {
         if (job.polygons()[p].operand == job.polygons()[q].operand) continue;
         if (!overlap(job.boxes()[p], job.boxes()[q])) continue;
         const Meeting meeting = test.run(p, q, nullptr, contact);
-        if (meeting == Meeting::kContact) take(test);
-        if (meeting == Meeting::kUndecided) unsure.emplace_back(p, q);
+        if (meeting == Meeting::kUndecided) {
+          unsure.emplace_back(p, q);
+        } else if (meeting != Meeting::kApart) {
+          take(meeting, test);
+        }
       }
     }
     for (uint32_t p = 0; p < job.polygons().size(); ++p) job.ensure_planes(p);
     CellGeometry planes(job.planes(), &job);
     for (const auto& [p, q] : unsure) {
-      if (with_planes.run(p, q, &planes, contact) == Meeting::kContact) take(with_planes);
+      const Meeting meeting = with_planes.run(p, q, &planes, contact);
+      if (meeting != Meeting::kApart) take(meeting, with_planes);
     }
     add_signs(stats, planes.counters);
     stats.sign_filter += test.signs().filtered;
@@ -111,6 +119,7 @@ TEST(FindContacts, GivesAndCountsWhatPairsDo) {
     std::sort(pairs.begin(), pairs.end());
     ASSERT_EQ(pairs, expected.contacts) << i;
     ASSERT_EQ(found.touched, expected.touched) << i;
+    ASSERT_EQ(found.in_flat_corner, expected.in_flat_corner) << i;
     const PairCells cells = find_pair_cells(job, {}, options);
     const bool is_sifted = std::any_of(cells.cells.begin(), cells.cells.end(),
                                        [](const auto& c) { return c.count >= kCrowd; });
@@ -288,6 +297,29 @@ TEST(FindContacts, WideTrianglesNeedOneOtherOperandAndBoxesThatEnd) {
         EXPECT_TRUE(WideTriangles(Job(operands)).list().empty());
       }
     }
+  }
+}
+
+// Fans around one corner that lie on one another: each sliver meets the one on it and the two
+// beside that one, and of the others it has but the corner.
+TEST(FindContacts, OfFansOnOneAnother) {
+  constexpr uint32_t kSlivers = 40;
+  for (const int64_t lean : {0, 1, -3}) {
+    std::vector<test::Loop> below, above;
+    const auto rim = [&](int64_t i) { return IVec3{i, 60, lean * i}; };
+    for (int64_t i = 0; i < kSlivers; ++i) {
+      below.push_back({{0, 0, 0}, rim(i), rim(i + 1)});
+      above.push_back({{0, 0, 0}, rim(i + 1), rim(i)});
+    }
+    const std::vector<Operand> operands{test::operand_of(test::make_leaf(below)),
+                                        test::operand_of(test::make_leaf(above))};
+    const Job job(operands);
+    Job other(operands);
+    EvaluateStats stats;
+    const Contacts found = find_contacts(other, {}, {}, stats);
+    EXPECT_EQ(found.contacts.size(), 3 * kSlivers - 2);
+    EXPECT_EQ(found.in_flat_corner, std::vector<uint8_t>(2 * kSlivers, 1));
+    EXPECT_EQ(found.touched, std::vector<uint8_t>(job.vertex_count(), 1));
   }
 }
 

@@ -78,6 +78,28 @@ Sides sides_of(const Corners& c, const Corners& plane) {
   return sides;
 }
 
+/// The part of a polygon that is in another one of its plane, with its rim: no corners if there is
+/// none, equal ones if it is a point.
+Corners common_part(Corners c, const Corners& other) {
+  const Rational3 n = normal_of(other);
+  for (size_t e = 0; e < other.size(); ++e) {
+    const Rational3 &from = other[e],
+                    inwards = cross(n, minus(other[(e + 1) % other.size()], from));
+    Corners left;
+    for (size_t i = 0; i < c.size(); ++i) {
+      const Rational3 &a = c[i], &b = c[(i + 1) % c.size()];
+      const mpq_class s = dot(inwards, minus(a, from)), t = dot(inwards, minus(b, from));
+      if (s >= 0) left.push_back(a);
+      if (sgn(s) * sgn(t) >= 0) continue;
+      Rational3 x;
+      for (int k = 0; k < 3; ++k) x[k] = (s * b[k] - t * a[k]) / (s - t);
+      left.push_back(x);
+    }
+    c = std::move(left);
+  }
+  return c;
+}
+
 Corners corners_of(const Job& job, uint32_t polygon) {
   Corners c;
   for (const uint32_t v : job.corners(job.polygons()[polygon])) {
@@ -104,7 +126,39 @@ mpq_class place_of(Job& job, const Contact& c, const Contact::End& end, const Ra
 
 struct Seen {
   int apart = 0, plain = 0, touching = 0, coplanar = 0, unsure = 0;
+  int flat_apart = 0, flat_corner = 0;  ///< pairs in one plane
 };
+
+/// A pair in one plane.
+void check_flat_pair(const Job& job, const PairTest& test, Meeting met, const Contact& contact,
+                     bool is_exact, Seen& seen) {
+  const Corners a = corners_of(job, contact.p), b = corners_of(job, contact.q);
+  const Corners common = common_part(a, b);
+  if (met == Meeting::kApart || (is_exact && common.empty())) {
+    ASSERT_TRUE(common.empty());
+    ASSERT_EQ(met, Meeting::kApart);
+    ++seen.flat_apart;
+    return;
+  }
+  ASSERT_TRUE(contact.is_coplanar);
+  if (met == Meeting::kContact) {
+    ++seen.coplanar;
+    return;
+  }
+  ASSERT_EQ(met, Meeting::kFlatCorner);
+  ASSERT_FALSE(common.empty());
+  for (const Rational3& point : common) ASSERT_EQ(point, common[0]);
+  std::vector<uint32_t> expected, found;
+  for (const uint32_t polygon : {contact.p, contact.q}) {
+    const Corners own = polygon == contact.p ? a : b;
+    const auto at = std::find(own.begin(), own.end(), common[0]);
+    ASSERT_NE(at, own.end());
+    expected.push_back(job.corners(job.polygons()[polygon])[at - own.begin()]);
+  }
+  test.add_touching_vertices(contact, found);
+  ASSERT_EQ(found, expected);
+  ++seen.flat_corner;
+}
 
 void check_pairs(const std::vector<Operand>& operands, bool with_planes, Seen& seen) {
   Job job(operands);
@@ -123,10 +177,12 @@ void check_pairs(const std::vector<Operand>& operands, bool with_planes, Seen& s
       }
       const Corners a = corners_of(job, p), b = corners_of(job, q);
       const Rational3 d = cross(normal_of(a), normal_of(b));
-      if (met == Meeting::kContact && contact.is_coplanar) {
-        ASSERT_EQ(dot(d, d), 0);
-        ASSERT_EQ(dot(normal_of(a), minus(b[0], a[0])), 0);
-        ++seen.coplanar;
+      if (dot(d, d) == 0 && dot(normal_of(a), minus(b[0], a[0])) == 0) {
+        const bool is_exact = forced_tier < 0 && job.has_grid_vertices(0) &&
+                              job.has_grid_vertices(1) && a.size() == 3 && b.size() == 3;
+        contact.p = p, contact.q = q;
+        check_flat_pair(job, test, met, contact, is_exact, seen);
+        if (::testing::Test::HasFatalFailure()) return;
         continue;
       }
       if (dot(d, d) == 0) {
@@ -173,6 +229,54 @@ TEST(PairTest, AgainstIntervalsInRationals) {
   EXPECT_GT(seen.plain, 100);
   EXPECT_GT(seen.touching, 100);
   EXPECT_GT(seen.coplanar, 10);
+}
+
+/// Triangles of one plane, some of which have corners in common.
+Loop flat_triangle(Random& random, const IVec3& u, const IVec3& v) {
+  Loop loop;
+  do {
+    loop.clear();
+    for (int i = 0; i < 3; ++i) {
+      const int64_t s = random.integer(-4, 4), t = random.integer(-4, 4);
+      loop.push_back({s * u[0] + t * v[0], s * u[1] + t * v[1], s * u[2] + t * v[2]});
+    }
+  } while (cross_of(sub(loop[1], loop[0]), sub(loop[2], loop[0])) == IVec3{0, 0, 0});
+  return loop;
+}
+
+// Polygons in one plane: those apart are seen to be so, and those with one corner in common.
+TEST(PairTest, InOnePlane) {
+  Random random(421);
+  Seen seen;
+  for (int i = 0; i < 200; ++i) {
+    // Planes along one axis and two, and others; far out, too, where doubles have few bits left.
+    const int64_t size = i % 5 == 4 ? int64_t{1} << 24 : 1;
+    const IVec3 u{size, i % 3 == 1 ? 3 : 0, i % 3 == 2 ? -2 : 0}, v{0, size, i % 3 == 2 ? 5 : 0};
+    std::vector<Operand> operands;
+    for (int o = 0; o < 2; ++o) {
+      std::vector<Loop> loops;
+      for (int t = 0; t < 6; ++t) loops.push_back(flat_triangle(random, u, v));
+      // Quadrilaterals with a straight corner.
+      Loop& last = loops.back();
+      IVec3 middle{};
+      for (size_t k = 0; k < 3; ++k) {
+        for (IVec3& corner : last) corner[k] *= 2;
+        middle[k] = (last[0][k] + last[1][k]) / 2;
+      }
+      last.insert(last.begin() + 1, middle);
+      for (Loop& loop : loops) {
+        for (IVec3& corner : loop)
+          std::rotate(corner.begin(), corner.begin() + i % 4 % 3, corner.end());
+      }
+      operands.push_back(operand_of(make_leaf(loops)));
+    }
+    check_pairs(operands, i % 2 == 0, seen);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_EQ(seen.plain + seen.touching, 0);
+  EXPECT_GT(seen.flat_apart, 1000);
+  EXPECT_GT(seen.flat_corner, 50);
+  EXPECT_GT(seen.coplanar, 1000);
 }
 
 // Rounded corners leave much open, which planes tell.

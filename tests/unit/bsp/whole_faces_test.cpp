@@ -13,6 +13,7 @@
 #include "engine/bsp/find_contacts.h"
 #include "engine/bsp/grid_planes.h"
 #include "engine/bsp/kernel.h"
+#include "engine/bsp/unate.h"
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/boundary_compare.h"
 #include "tests/support/half_space.h"
@@ -332,7 +333,7 @@ TEST(WholeFaces, LeaveLittleToCells) {
 TEST(WholeFaces, ThatTouchNothingAreCutByNames) {
   test::Random random(411);
   test::TreeMaker maker(random);
-  size_t plain = 0, crossing = 0;
+  size_t plain = 0, crossing = 0, told = 0;
   for (int i = 0; i < 400; ++i) {
     const auto tree = maker.make(
         {.size = 1000, .operands = 4, .depth = 2, .frames = i % 3 == 0, .known = i % 2 == 0});
@@ -343,7 +344,9 @@ TEST(WholeFaces, ThatTouchNothingAreCutByNames) {
     if (!std::all_of(contacts.begin(), contacts.end(), is_plain)) continue;
     const auto faces = evaluate_whole_faces(job, tree.expression, {}, stats);
     ASSERT_TRUE(faces) << faces.error().message;
-    ASSERT_TRUE(faces->touching.empty()) << "tree " << i;
+    // Three operands may meet in a point on which two parts of a symmetric difference have corners.
+    ASSERT_TRUE(faces->touching.empty() || !is_unate(tree.expression)) << "tree " << i;
+    told += faces->touching.empty();
     ASSERT_FALSE(faces->any_general) << "tree " << i;
     ASSERT_EQ(std::count(faces->general.begin(), faces->general.end(), 1), 0) << "tree " << i;
     ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
@@ -352,6 +355,7 @@ TEST(WholeFaces, ThatTouchNothingAreCutByNames) {
     crossing += faces->cut.pieces.size();
   }
   EXPECT_GT(plain, 30u);
+  EXPECT_GT(told, 30u);
   EXPECT_GT(crossing, 300u);
 }
 

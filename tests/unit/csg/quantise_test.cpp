@@ -1,8 +1,12 @@
 // Leaves on the grid: closed, planar, convex faces, whatever rounding did to them.
 #include "engine/csg/quantise.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <random>
+#include <set>
 
 #include <glm/vec2.hpp>
 #include <gtest/gtest.h>
@@ -457,6 +461,54 @@ TEST(RoundPoints, FramesAgreeOnTies) {
 TEST(RoundPoints, TooFarIsSaid) {
   const auto mesh = box_mesh({0, 0, 0}, {2e12, 1, 1});
   EXPECT_FALSE(round_points(mesh, LeafRounding{}, Quantiser(*GridStep::parse("1"))).has_value());
+}
+
+// Caps of stacked extrusions are divided in the same way, seen from above or from below: slivers of
+// one that cross those of the other would be as many pairs as there are.
+TEST(PrepareLeaf, CapsOfPrismsAreDividedAlike) {
+  std::mt19937 random(7);  // NOLINT: the same on every run
+  for (int round = 0; round < 40; ++round) {
+    constexpr uint32_t kCorners = 24;
+    PolygonMesh mesh;
+    const size_t up = round % 3;  // the axis of the prism
+    for (const double z : {-50.0, 70.0}) {
+      std::mt19937 same(static_cast<uint32_t>(round));  // NOLINT: the same at both ends
+      for (uint32_t i = 0; i < kCorners; ++i) {
+        const double angle = 2 * M_PI * i / kCorners;
+        const double radius = i % 2 ? 1000 + same() % 500 : 300 + same() % 500;
+        std::array<double, 3> p{};
+        p[up] = z;
+        p[(up + 1) % 3] = std::round(radius * std::cos(angle));
+        p[(up + 2) % 3] = std::round(radius * std::sin(angle));
+        mesh.points.push_back({p[0], p[1], p[2]});
+      }
+    }
+    std::vector<uint32_t> bottom, top;
+    for (uint32_t i = 0; i < kCorners; ++i) {
+      bottom.push_back(kCorners - 1 - i);
+      top.push_back(kCorners + i);
+      const uint32_t j = (i + 1) % kCorners;
+      mesh.add_face(std::vector<uint32_t>{i, j, kCorners + j, kCorners + i});
+    }
+    std::rotate(top.begin(), top.begin() + static_cast<long>(random() % kCorners), top.end());
+    mesh.add_face(bottom);
+    mesh.add_face(top);
+    const PreparedLeaf leaf = prepare(mesh);
+    ASSERT_EQ(leaf.status, Status::kGood);
+    std::set<std::set<std::array<int64_t, 2>>> low, high;
+    for (uint32_t f = 0; f < leaf.geometry->face_count(); ++f) {
+      std::set<std::array<int64_t, 2>> corners;
+      std::set<int64_t> levels;
+      for (uint32_t c = leaf.geometry->face_starts[f]; c < leaf.geometry->face_starts[f + 1]; ++c) {
+        const IVec3& p = leaf.geometry->vertices[leaf.geometry->corners[c]];
+        corners.insert({p[(up + 1) % 3], p[(up + 2) % 3]});
+        levels.insert(p[up]);
+      }
+      if (levels.size() == 1) (*levels.begin() < 0 ? low : high).insert(corners);
+    }
+    EXPECT_EQ(low.size(), kCorners - 2);
+    EXPECT_EQ(low, high);
+  }
 }
 
 }  // namespace
