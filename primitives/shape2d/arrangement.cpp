@@ -156,6 +156,22 @@ std::vector<Segment2D> apply_cuts(const std::vector<Segment2D>& segments, std::v
   return result;
 }
 
+// Two or three rounds are usual. Bundles of needles a few steps wide can go on for long; then
+// segments are also pulled to the vertices that they pass within half a step, which ends it
+// (Hobby 1999, Practical segment intersection with finite precision output).
+constexpr int kRoundsBeforeSnapping = 8, kMostRounds = 40;
+
+std::optional<std::vector<Segment2D>> arrange_in(int rounds, std::vector<Segment2D> segments) {
+  for (int round = 0; round < rounds; ++round) {
+    merge_equal(segments);
+    std::vector<Cut> cuts = find_all_cuts(segments);
+    if (cuts.empty()) return segments;
+    if (round >= kRoundsBeforeSnapping) cuts = find_snapping_cuts(segments, cuts);
+    segments = apply_cuts(segments, std::move(cuts));
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void add_segment(const Point2D& from, const Point2D& to, bool is_first,
@@ -170,18 +186,11 @@ void add_outline(const GridLoop& loop, bool is_first, std::vector<Segment2D>& se
 }
 
 std::optional<std::vector<Segment2D>> arrange(std::vector<Segment2D> segments) {
-  // Two or three rounds are usual. Bundles of needles a few steps wide can go on for long; then
-  // segments are also pulled to the vertices that they pass within half a step, which ends it
-  // (Hobby 1999, Practical segment intersection with finite precision output).
-  constexpr int kRoundsBeforeSnapping = 8, kMostRounds = 40;
-  for (int round = 0; round < kMostRounds; ++round) {
-    merge_equal(segments);
-    std::vector<Cut> cuts = find_all_cuts(segments);
-    if (cuts.empty()) return segments;
-    if (round >= kRoundsBeforeSnapping) cuts = find_snapping_cuts(segments, cuts);
-    segments = apply_cuts(segments, std::move(cuts));
-  }
-  return std::nullopt;
+  return arrange_in(kMostRounds, std::move(segments));
+}
+
+std::optional<std::vector<Segment2D>> arrange_without_snapping(std::vector<Segment2D> segments) {
+  return arrange_in(kRoundsBeforeSnapping, std::move(segments));
 }
 
 }  // namespace csgrun

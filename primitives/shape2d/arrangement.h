@@ -31,5 +31,7 @@ void add_outline(const GridLoop& loop, bool is_first, std::vector<Segment2D>& se
 /// result is sorted by (a, b). Nothing if it does not settle (no such input is known).
 /// O(n log n) when few segments share a vertical line.
 std::optional<std::vector<Segment2D>> arrange(std::vector<Segment2D> segments);
+/// The same, or nothing when segments that cross nothing would be pulled to vertices near them.
+std::optional<std::vector<Segment2D>> arrange_without_snapping(std::vector<Segment2D> segments);
 
 }  // namespace csgrun

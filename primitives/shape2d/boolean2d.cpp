@@ -8,6 +8,7 @@
 
 #include <csgrun/primitives/shape2d.h>
 
+#include "primitives/shape2d/near_loops.h"
 #include "primitives/shape2d/shape_factory.h"
 
 namespace csgrun {
@@ -65,6 +66,23 @@ Result<Grid2D> grid_of(const std::vector<const Loops*>& operands) {
   return grid_for(extent);
 }
 
+/// Where a point is inside. Each operand winds around a point once or not at all, so sums tell how
+/// many of them hold it. (Snapping may turn a sliver over, hence "greater than" and never "not 0".)
+std::function<bool(int32_t, int32_t)> inside_of(BooleanOp op, size_t operands) {
+  const auto all = static_cast<int32_t>(operands);
+  switch (op) {
+    case BooleanOp::kUnion:
+      break;
+    case BooleanOp::kIntersection:
+      return [all](int32_t first, int32_t rest) { return first + rest >= all; };
+    case BooleanOp::kDifference:
+      return [](int32_t first, int32_t rest) { return first > 0 && rest <= 0; };
+    case BooleanOp::kSymmetricDifference:
+      return [](int32_t first, int32_t rest) { return (first + rest) % 2 != 0; };
+  }
+  return [](int32_t first, int32_t rest) { return first + rest > 0; };
+}
+
 /// The operation on the grid. Each operand is clean, and winds counter-clockwise.
 Result<Shape2D> on_grid(BooleanOp op, const Grid2D& grid,
                         const std::vector<const Loops*>& operands) {
@@ -74,32 +92,19 @@ Result<Shape2D> on_grid(BooleanOp op, const Grid2D& grid,
       add_outline(snap_loop(grid, loop), i == 0, segments);
     }
   }
-  // Each operand winds around a point once or not at all, so sums tell how many of them hold it.
-  // (Snapping may turn a sliver over, hence "greater than" and never "not 0".)
-  const auto all = static_cast<int32_t>(operands.size());
-  std::function<bool(int32_t, int32_t)> inside;
-  switch (op) {
-    case BooleanOp::kUnion:
-      inside = [](int32_t first, int32_t rest) { return first + rest > 0; };
-      break;
-    case BooleanOp::kIntersection:
-      inside = [all](int32_t first, int32_t rest) { return first + rest >= all; };
-      break;
-    case BooleanOp::kDifference:
-      inside = [](int32_t first, int32_t rest) { return first > 0 && rest <= 0; };
-      break;
-    case BooleanOp::kSymmetricDifference:
-      inside = [](int32_t first, int32_t rest) { return (first + rest) % 2 != 0; };
-      break;
-  }
-  return Shape2DFactory::arranged(grid, std::move(segments), inside);
+  return Shape2DFactory::arranged(grid, std::move(segments), inside_of(op, operands.size()));
 }
 
 Result<Shape2D> in_world(BooleanOp op, const std::vector<Shape2D>& shapes) {
   std::vector<const Loops*> operands;
   for (const Shape2D& shape : shapes) operands.push_back(&shape.loops());
   const Result<Grid2D> grid = grid_of(operands);
-  return grid ? on_grid(op, *grid, operands) : grid.error();
+  if (!grid) return grid.error();
+  const auto inside = inside_of(op, shapes.size());
+  auto near = boolean_of_near_loops(
+      {*grid, shapes, op == BooleanOp::kIntersection, op == BooleanOp::kDifference, inside});
+  if (near) return *std::move(near);
+  return on_grid(op, *grid, operands);
 }
 
 /// The result with the corners of its operands where they were before they were rounded, but for

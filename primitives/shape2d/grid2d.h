@@ -51,6 +51,7 @@ class Grid2D {
   [[nodiscard]] Point2D snap(const glm::dvec2& p) const;
   /// The double nearest to the decimal that the grid point stands for.
   [[nodiscard]] glm::dvec2 unsnap(const Point2D& p) const;
+  [[nodiscard]] double steps_per_mm() const { return steps_per_mm_; }
 
  private:
   explicit Grid2D(double steps_per_mm) : steps_per_mm_(steps_per_mm) {}

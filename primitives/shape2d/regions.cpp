@@ -9,6 +9,7 @@
 #include "primitives/shape2d/regions.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -58,8 +59,13 @@ class Walker {
   explicit Walker(std::vector<Directed> boundary)
       : boundary_(std::move(boundary)), used_(boundary_.size(), false) {}
 
-  std::vector<GridLoop> all_loops() {
-    std::vector<GridLoop> loops;
+  struct Loop {
+    GridLoop points;
+    std::vector<size_t> touches;  ///< for each point that boundaries share, a number
+  };
+
+  std::vector<Loop> all_loops() {
+    std::vector<Loop> loops;
     for (size_t i = 0; i < boundary_.size(); ++i) {
       if (!used_[i]) walk(i, loops);
     }
@@ -79,7 +85,7 @@ class Walker {
             static_cast<size_t>(end - boundary_.begin())};
   }
 
-  void walk(size_t first, std::vector<GridLoop>& loops) {
+  void walk(size_t first, std::vector<Loop>& loops) {
     std::vector<size_t> path;  // edges walked and not yet given to a loop
     for (size_t edge = first; !used_[edge];) {
       used_[edge] = true;
@@ -99,7 +105,7 @@ class Walker {
 
   /// If the path visited `at` before, what came since is a loop.
   void split_off_loop(const Point2D& at, bool touching, std::vector<size_t>& path,
-                      std::vector<GridLoop>& loops) const {
+                      std::vector<Loop>& loops) const {
     size_t begin = 0;
     if (touching) {
       begin = path.size();
@@ -107,21 +113,42 @@ class Walker {
       if (begin == 0) return;
       --begin;
     }
-    GridLoop loop;
+    Loop& loop = loops.emplace_back();
     for (size_t i = begin; i < path.size(); ++i) {
       const Point2D p = boundary_[path[i]].from;
       const Point2D before = boundary_[path[i == begin ? path.size() - 1 : i - 1]].from;
       const auto [first, last] = leaving(p);
       // A straight corner is kept only where another loop touches it.
-      if (last - first > 1 || orient(before, p, boundary_[path[i]].to) != 0) loop.push_back(p);
+      if (last - first > 1 || orient(before, p, boundary_[path[i]].to) != 0) {
+        loop.points.push_back(p);
+      }
+      if (last - first > 1) loop.touches.push_back(first);
     }
     path.resize(begin);
-    loops.push_back(std::move(loop));
   }
 
   std::vector<Directed> boundary_;
   std::vector<bool> used_;
 };
+
+/// GridRegions::group_of: disjoint sets, each with its lowest loop for a name.
+std::vector<uint32_t> find_groups(const std::vector<Walker::Loop>& loops) {
+  std::vector<uint32_t> group(loops.size());
+  std::iota(group.begin(), group.end(), 0u);
+  const auto find = [&](uint32_t l) {
+    while (group[l] != l) l = group[l] = group[group[l]];
+    return l;
+  };
+  std::map<size_t, uint32_t> loop_at;  // a point that is shared
+  for (uint32_t l = 0; l < loops.size(); ++l) {
+    for (const size_t point : loops[l].touches) {
+      const uint32_t a = find(l), b = find(loop_at.try_emplace(point, l).first->second);
+      group[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  for (uint32_t l = 0; l < loops.size(); ++l) group[l] = find(l);
+  return group;
+}
 
 bool is_outer(const GridLoop& loop) {
   // The loop starts at its smallest point, which is a convex corner.
@@ -132,6 +159,8 @@ struct LoopSegment {
   Point2D a, b;
   uint32_t loop;
 };
+
+}  // namespace
 
 std::vector<uint32_t> find_outer_loops(const std::vector<GridLoop>& loops) {
   std::vector<LoopSegment> segments;
@@ -150,16 +179,18 @@ std::vector<uint32_t> find_outer_loops(const std::vector<GridLoop>& loops) {
   return outer;
 }
 
-}  // namespace
-
 GridRegions extract_regions(const std::vector<Segment2D>& arrangement,
                             const std::function<bool(int32_t, int32_t)>& inside) {
   GridRegions regions;
-  regions.loops = Walker(find_boundary(arrangement, inside)).all_loops();
-  for (GridLoop& loop : regions.loops) {
-    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  std::vector<Walker::Loop> loops = Walker(find_boundary(arrangement, inside)).all_loops();
+  for (Walker::Loop& loop : loops) {
+    std::rotate(loop.points.begin(), std::min_element(loop.points.begin(), loop.points.end()),
+                loop.points.end());
   }
-  std::sort(regions.loops.begin(), regions.loops.end());
+  std::sort(loops.begin(), loops.end(),
+            [](const Walker::Loop& a, const Walker::Loop& b) { return a.points < b.points; });
+  regions.group_of = find_groups(loops);
+  for (Walker::Loop& loop : loops) regions.loops.push_back(std::move(loop.points));
   regions.outer_of = find_outer_loops(regions.loops);
   return regions;
 }

@@ -54,6 +54,17 @@ GridLoop snap_loop(const Grid2D& grid, const Shape2D::Loop& loop) {
   return snapped;
 }
 
+std::vector<Shape2D::Loop> unsnap_loops(const Grid2D& grid, const std::vector<GridLoop>& loops) {
+  std::vector<Shape2D::Loop> result;
+  result.reserve(loops.size());
+  for (const GridLoop& grid_loop : loops) {
+    Shape2D::Loop& loop = result.emplace_back();
+    loop.reserve(grid_loop.size());
+    for (const Point2D& p : grid_loop) loop.push_back(grid.unsnap(p));
+  }
+  return result;
+}
+
 const Shape2D::Turn* Shape2DFactory::turn_of(const Shape2D& shape) {
   return shape.data_ ? shape.data_->turn.get() : nullptr;
 }
@@ -62,6 +73,12 @@ Shape2D Shape2DFactory::base_of(const Turn& turn) {
   Shape2D base;
   base.data_ = turn.base;
   return base;
+}
+
+std::span<const uint32_t> Shape2DFactory::group_of(const Shape2D& shape, const Grid2D& grid) {
+  const bool is_known =
+      shape.data_ && !shape.data_->turn && shape.data_->arranged_steps == grid.steps_per_mm();
+  return is_known ? std::span<const uint32_t>(shape.data_->group_of) : std::span<const uint32_t>();
 }
 
 std::vector<uint32_t> Shape2DFactory::outer_of(const Shape2D& shape) {
@@ -74,28 +91,49 @@ std::vector<uint32_t> Shape2DFactory::outer_of(const Shape2D& shape) {
 }
 
 Shape2D Shape2DFactory::from_grid(const Grid2D& grid, const GridRegions& regions) {
-  std::vector<Loop> loops;
-  for (const GridLoop& grid_loop : regions.loops) {
-    Loop& loop = loops.emplace_back();
-    for (const Point2D& p : grid_loop) loop.push_back(grid.unsnap(p));
-  }
-  return canonical(std::move(loops), regions.outer_of);
+  return canonical(unsnap_loops(grid, regions.loops), regions.outer_of);
 }
 
 Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of,
                                   std::shared_ptr<const Turn> turn) {
-  if (loops.empty()) return {};
+  Shape2D shape;
+  if (loops.empty()) return shape;
+  std::vector<uint32_t> rank;
+  auto data = in_order(std::move(loops), outer_of, rank);
+  data->turn = std::move(turn);
+  shape.data_ = std::move(data);
+  return shape;
+}
+
+Shape2D Shape2DFactory::of_arrangement(const Grid2D& grid, std::vector<Loop> loops,
+                                       const std::vector<uint32_t>& outer_of,
+                                       const std::vector<uint32_t>& group_of) {
+  Shape2D shape;
+  if (loops.empty()) return shape;
+  std::vector<uint32_t> rank;
+  auto data = in_order(std::move(loops), outer_of, rank);
+  data->arranged_steps = grid.steps_per_mm();
+  data->group_of.resize(rank.size());
+  for (uint32_t l = 0; l < rank.size(); ++l) data->group_of[rank[l]] = rank[group_of[l]];
+  shape.data_ = std::move(data);
+  return shape;
+}
+
+/// Sets `rank` to the new places of the loops.
+std::shared_ptr<Shape2D::Data> Shape2DFactory::in_order(std::vector<Loop> loops,
+                                                        const std::vector<uint32_t>& outer_of,
+                                                        std::vector<uint32_t>& rank) {
   for (Loop& loop : loops) {
     for (glm::dvec2& p : loop) p += 0.0;  // no negative zeros
     std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), lexicographic_less),
                 loop.end());
   }
-  std::vector<uint32_t> order(loops.size()), rank(loops.size());
+  std::vector<uint32_t> order(loops.size());
+  rank.resize(loops.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(),
             [&](uint32_t i, uint32_t j) { return is_before(loops[i], loops[j]); });
   auto data = std::make_shared<Shape2D::Data>();
-  data->turn = std::move(turn);
   for (uint32_t k = 0; k < order.size(); ++k) {
     rank[order[k]] = k;
     data->loops.push_back(std::move(loops[order[k]]));
@@ -108,9 +146,7 @@ Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uin
   for (uint32_t k = 0; k < order.size(); ++k) {
     if (outer_of[order[k]] == order[k]) data->regions.push_back({k, std::move(holes[k])});
   }
-  Shape2D shape;
-  shape.data_ = std::move(data);
-  return shape;
+  return data;
 }
 
 Result<Shape2D> Shape2DFactory::arranged(const Grid2D& grid, std::vector<Segment2D> segments,
@@ -119,6 +155,9 @@ Result<Shape2D> Shape2DFactory::arranged(const Grid2D& grid, std::vector<Segment
   if (!arrangement) {
     return Error{ErrorCode::kInternal, "2D Boolean: crossings do not settle on the grid", {}};
   }
-  return from_grid(grid, extract_regions(*arrangement, inside));
+  const GridRegions regions = extract_regions(*arrangement, inside);
+  return of_arrangement(grid, unsnap_loops(grid, regions.loops), regions.outer_of,
+                        regions.group_of);
 }
+
 }  // namespace csgrun

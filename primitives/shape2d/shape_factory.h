@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <csgrun/primitives/shape2d.h>
@@ -23,6 +24,7 @@ bool all_finite(const std::vector<Shape2D::Loop>& loops);
 /// The grid for coordinates up to `extent` mm. Errors: kOutOfRange.
 Result<Grid2D> grid_for(double extent);
 GridLoop snap_loop(const Grid2D& grid, const Shape2D::Loop& loop);
+std::vector<Shape2D::Loop> unsnap_loops(const Grid2D& grid, const std::vector<GridLoop>& loops);
 
 /// A shape under a map that turns: its loops are those of `base`, mapped.
 struct Shape2D::Turn {
@@ -50,18 +52,30 @@ class Shape2DFactory {
   };
   static std::optional<BeforeTurn> before_turn(const Shape2D& shape);
 
+  /// GridRegions::group_of; nothing unless the shape is in the world's frame, and an arrangement on
+  /// the grid gave its loops.
+  static std::span<const uint32_t> group_of(const Shape2D& shape, const Grid2D& grid);
   /// For each loop the outer loop of its region, as in GridRegions.
   static std::vector<uint32_t> outer_of(const Shape2D& shape);
   static Shape2D from_grid(const Grid2D& grid, const GridRegions& regions);
   /// Loops with the right directions, in any order and from any start; outer_of as in GridRegions.
   static Shape2D canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of,
                            std::shared_ptr<const Turn> turn = nullptr);
+  /// The same of loops that an arrangement on the grid gave; group_of as in GridRegions.
+  static Shape2D of_arrangement(const Grid2D& grid, std::vector<Loop> loops,
+                                const std::vector<uint32_t>& outer_of,
+                                const std::vector<uint32_t>& group_of);
   /// `base`, which has no turn, under a map that turns, and that map's split. Errors:
   /// kInvalidArgument when the result is not finite.
   static Result<Shape2D> turned(const Shape2D& base, const Affine& map, const Split2D& split);
   /// Where inside(first, rest) holds, as in extract_regions. Errors: kInternal.
   static Result<Shape2D> arranged(const Grid2D& grid, std::vector<Segment2D> segments,
                                   const std::function<bool(int32_t, int32_t)>& inside);
+
+ private:
+  static std::shared_ptr<Shape2D::Data> in_order(std::vector<Loop> loops,
+                                                 const std::vector<uint32_t>& outer_of,
+                                                 std::vector<uint32_t>& rank);
 };
 
 }  // namespace csgrun

@@ -76,6 +76,10 @@ class Shape2D {
     std::vector<Loop> loops;
     std::vector<Region> regions;
     std::shared_ptr<const Turn> turn;  ///< null: the frame is the world's
+    /// Of the grid on which an arrangement gave the loops, the steps per mm; else 0. Then, for each
+    /// loop, one of those that it is connected with by points in common.
+    double arranged_steps = 0;
+    std::vector<uint32_t> group_of;
   };
   friend class Shape2DFactory;
   std::shared_ptr<const Data> data_;

@@ -1,0 +1,157 @@
+#include "primitives/shape2d/near_loops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace csgrun {
+namespace {
+
+using Loops = std::vector<Shape2D::Loop>;
+
+/// With fewer loops it is not worth the while.
+constexpr size_t kFewLoops = 8;
+
+/// Each of the rounds of an arrangement moves what it cuts by less than a step; there are fewer.
+constexpr int64_t kMostMoved = 16;
+
+/// A closed box, in mm.
+struct Box2D {
+  glm::dvec2 low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+
+  void include(const Shape2D::Loop& loop) {
+    for (const glm::dvec2& p : loop) low = min(low, p), high = max(high, p);
+  }
+  [[nodiscard]] bool meets(const Box2D& b) const {
+    return low.x <= b.high.x && low.y <= b.high.y && b.low.x <= high.x && b.low.y <= high.y;
+  }
+
+ private:
+  static glm::dvec2 min(const glm::dvec2& a, const glm::dvec2& b) {
+    return {std::min(a.x, b.x), std::min(a.y, b.y)};
+  }
+  static glm::dvec2 max(const glm::dvec2& a, const glm::dvec2& b) {
+    return {std::max(a.x, b.x), std::max(a.y, b.y)};
+  }
+};
+
+bool is_aslant(const Segment2D& s) { return s.a.x != s.b.x && s.a.y != s.b.y; }
+
+/// Whether two points are both so far on one side of a line that it would not reach them.
+bool are_beyond(const Segment2D& line, const Point2D& p, const Point2D& q) {
+  const Point2D way = line.b - line.a;
+  const int128 to_p = cross(way, p - line.a), to_q = cross(way, q - line.a);
+  const int128 reach =
+      kMostMoved * (static_cast<int128>(std::abs(way.x)) + static_cast<int128>(std::abs(way.y)));
+  return (to_p > reach && to_q > reach) || (to_p < -reach && to_q < -reach);
+}
+
+/// Whether a segment that was cut, and so moved a little, may have come to meet a loop.
+bool may_reach(const Segment2D& cut, const GridLoop& loop) {
+  const auto [low, high] = std::minmax(cut.a.y, cut.b.y);
+  for (size_t i = 0; i < loop.size(); ++i) {
+    const Point2D &p = loop[i], &q = loop[i + 1 < loop.size() ? i + 1 : 0];
+    if (std::max(p.x, q.x) < cut.a.x - kMostMoved || std::min(p.x, q.x) > cut.b.x + kMostMoved ||
+        std::max(p.y, q.y) < low - kMostMoved || std::min(p.y, q.y) > high + kMostMoved) {
+      continue;
+    }
+    if (!are_beyond(cut, p, q) && !are_beyond({p, q}, cut.a, cut.b)) return true;
+  }
+  return false;
+}
+
+/// Whether an arrangement has a segment as it was.
+bool is_in(const std::vector<Segment2D>& arrangement, const Segment2D& s) {
+  const auto before = [](const Segment2D& x, const Segment2D& y) {
+    return std::tie(x.a, x.b) < std::tie(y.a, y.b);
+  };
+  return std::binary_search(arrangement.begin(), arrangement.end(), s, before);
+}
+
+size_t base_of(const GridBoolean& boolean) {
+  if (boolean.has_order) return 0;
+  const auto most = std::max_element(
+      boolean.shapes.begin(), boolean.shapes.end(),
+      [](const Shape2D& a, const Shape2D& b) { return a.loops().size() < b.loops().size(); });
+  return static_cast<size_t>(most - boolean.shapes.begin());
+}
+
+}  // namespace
+
+// A group of loops that touch one another is near or far as a whole: it may be put together in
+// another way when one of them is cut. No far loop, away from the box of the other shapes, holds a
+// near one: it would hold its whole group, and its box would meet that box, too. So near loops
+// alone give the winding numbers in that box and beside themselves, and what is beside far loops is
+// as it was. But an edge that is cut moves, all along, by the rounding of the point where it is
+// cut.
+std::optional<Shape2D> boolean_of_near_loops(const GridBoolean& boolean) {
+  const size_t base = base_of(boolean);
+  const Shape2D& shape = boolean.shapes[base];
+  const Grid2D& grid = boolean.grid;
+  const Loops& loops = shape.loops();
+  const std::span<const uint32_t> group_of = Shape2DFactory::group_of(shape, grid);
+  if (loops.size() < kFewLoops || group_of.empty()) return std::nullopt;
+  Box2D box;
+  std::vector<Segment2D> segments;
+  for (size_t s = 0; s < boolean.shapes.size(); ++s) {
+    if (s == base) continue;
+    for (const Shape2D::Loop& loop : boolean.shapes[s].loops()) {
+      box.include(loop);
+      add_outline(snap_loop(grid, loop), false, segments);
+    }
+  }
+  const glm::dvec2 moved(kMostMoved / grid.steps_per_mm());
+  box.low -= moved, box.high += moved;
+  std::vector<uint8_t> is_near(loops.size(), 0);  // of groups
+  for (uint32_t l = 0; l < loops.size(); ++l) {
+    Box2D own;
+    own.include(loops[l]);
+    is_near[group_of[l]] |= box.meets(own) ? 1 : 0;
+  }
+  const auto is_far = [&](uint32_t l) { return is_near[group_of[l]] == 0; };
+  std::vector<uint32_t> far;
+  for (uint32_t l = 0; l < loops.size(); ++l) {
+    is_far(l) ? far.push_back(l) : add_outline(snap_loop(grid, loops[l]), true, segments);
+  }
+  if (far.empty()) return std::nullopt;
+
+  const auto arrangement = arrange_without_snapping(segments);
+  if (!arrangement) return std::nullopt;
+  for (const Segment2D& s : segments) {
+    if (s.first == 0 || !is_aslant(s) || is_in(*arrangement, s)) continue;
+    const auto reaches = [&](uint32_t l) { return may_reach(s, snap_loop(grid, loops[l])); };
+    if (std::any_of(far.begin(), far.end(), reaches)) return std::nullopt;
+  }
+  GridRegions regions = extract_regions(*arrangement, boolean.inside);
+  if (boolean.is_intersection) far.clear();
+
+  // All loops, the new ones first, and their outer loops: of a far hole a far one, or the only one
+  // there is, or it has to be found.
+  Loops all = unsnap_loops(grid, regions.loops);
+  const std::vector<uint32_t> before = Shape2DFactory::outer_of(shape);
+  std::vector<uint32_t> number(loops.size());
+  const auto first_far = static_cast<uint32_t>(all.size());
+  for (uint32_t i = 0; i < far.size(); ++i) number[far[i]] = first_far + i;
+  uint32_t outer = 0, outers = 0;
+  for (uint32_t l = 0; l < first_far; ++l) {
+    if (regions.outer_of[l] == l) outer = l, ++outers;
+  }
+  bool is_found = true;
+  for (const uint32_t l : far) {
+    all.push_back(loops[l]);
+    regions.group_of.push_back(number[group_of[l]]);
+    regions.outer_of.push_back(is_far(before[l]) ? number[before[l]] : outer);
+    is_found = is_found && (is_far(before[l]) || outers == 1);
+  }
+  if (!is_found) {
+    for (const uint32_t l : far) regions.loops.push_back(snap_loop(grid, loops[l]));
+    regions.outer_of = find_outer_loops(regions.loops);
+  }
+  return Shape2DFactory::of_arrangement(grid, std::move(all), regions.outer_of, regions.group_of);
+}
+
+}  // namespace csgrun
