@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "engine/bsp/offset_sets.h"
+#include "engine/bsp/piece_rays.h"
 #include "engine/bsp/point_index.h"
 #include "engine/bsp/sign_stats.h"
 #include "engine/bsp/surface_cells.h"
@@ -81,21 +82,22 @@ class SurfaceCutter {
       agrees = is_left_[i] || join_over_edges(i, windings);
     }
     if (!agrees) return std::optional<CutSurface>();
-    leave_what_hangs_together(windings);
+    if (is_closed()) {
+      agrees = ask_rays(windings);
+      if (is_cancelled()) {
+        return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
+      }
+      if (!agrees) return std::optional<CutSurface>();
+    } else {
+      leave_what_hangs_together(windings);
+    }
     leave_what_lies_upon();
     add_signs(stats, geometry_.counters);
-    if (const auto faces = faces_for_rays(windings)) {
-      for (const uint32_t f : *faces) {
-        if (is_cancelled()) {
-          return Error{ErrorCode::kCancelled, "the evaluation was cancelled", {}};
-        }
-        if (!windings.join(infinity_, f, winding_in_front(leaf_, nullptr, f))) {
-          return std::optional<CutSurface>();
-        }
-      }
+    const std::vector<uint32_t> witnesses = choose_witnesses(windings);
+    if (witnesses.empty() && std::find(is_left_.begin(), is_left_.end(), 1) == is_left_.end()) {
       return labelled(windings, {});
     }
-    auto runs = solve_cells(windings, stats);
+    auto runs = solve_cells(witnesses, stats);
     if (!runs) return runs.error();
     for (const SurfaceCells& run : *runs) {
       for (const SurfaceCells::PatchSides& s : run.patches) {
@@ -386,29 +388,71 @@ class SurfaceCutter {
     }
   }
 
-  /// If nothing is left, a polygon that crosses nothing for each set, which a ray can ask; none if
-  /// these are many, or the surface may be open: a ray would not see that.
-  std::optional<std::vector<uint32_t>> faces_for_rays(OffsetSets& windings) {
-    const auto has = [](const auto& list, auto value) {
-      return std::find(list.begin(), list.end(), value) != list.end();
-    };
-    if (has(is_left_, 1) || has(opposite_, kNone)) return std::nullopt;
-    std::vector<uint8_t> is_asked(infinity_ + 1, 0);  // per root
-    std::vector<uint32_t> faces;
-    for (uint32_t p = 0; p < crosses_.size(); ++p) {
-      if (crosses_[p]) continue;
-      uint8_t& known = is_asked[windings.find(p).root];
-      if (known != 0) continue;
-      known = 1;
-      faces.push_back(p);
-      if (faces.size() > kFewRays) return std::nullopt;
+  /// Whether each edge is run through as often one way as the other: an open surface has no winding
+  /// numbers, which rays would not see.
+  [[nodiscard]] bool is_closed() const {
+    std::vector<std::array<uint32_t, 3>> open;  // the ends of an edge, the lower first; its way
+    for (uint32_t f = 0; f < leaf_.face_count(); ++f) {
+      const uint32_t first = leaf_.face_starts[f], end = leaf_.face_starts[f + 1];
+      for (uint32_t c = first; c < end; ++c) {
+        if (opposite_[c] != kNone) continue;
+        const uint32_t from = leaf_.corners[c], to = leaf_.corners[c + 1 < end ? c + 1 : first];
+        open.push_back({std::min(from, to), std::max(from, to), from < to ? 1u : 0u});
+      }
     }
-    return faces;
+    std::sort(open.begin(), open.end());
+    for (size_t i = 0; i < open.size();) {
+      int sum = 0;
+      const size_t begin = i;
+      for (; i < open.size() && open[i][0] == open[begin][0] && open[i][1] == open[begin][1]; ++i) {
+        sum += open[i][2] != 0 ? 1 : -1;
+      }
+      if (sum != 0) return false;
+    }
+    return true;
+  }
+
+  /// A ray for each set that is not known yet: from a polygon that crosses nothing if it has one,
+  /// else from a piece. Of polygons that were cut, those are left of which a ray found no start.
+  /// False if what is known contradicts a ray, or it was cancelled.
+  bool ask_rays(OffsetSets& windings) {
+    std::optional<PieceRays> rays;
+    const auto ask = [&](const Fragment& piece) {
+      if (!rays) rays.emplace(job_, geometry_);
+      return rays->winding_in_front(piece);
+    };
+    size_t asked = 0;
+    for (uint32_t p = 0; p < crosses_.size(); ++p) {
+      if (crosses_[p] || is_known(p, windings)) continue;
+      if (is_cancelled()) return false;
+      std::optional<int32_t> winding;
+      if (++asked > kFewRays) {
+        job_.ensure_planes(p);
+        winding = ask(geometry_.load(p));
+      }
+      if (!winding) winding = winding_in_front(leaf_, nullptr, p);
+      if (!windings.join(infinity_, p, *winding)) return false;
+    }
+    for (uint32_t i = 0; i < cuts_.size(); ++i) {
+      if (cuts_[i].first_piece == cuts_[i].end_piece) continue;  // too many would cut it
+      if (is_cancelled()) return false;
+      is_left_[i] = 0;
+      for (uint32_t k = cuts_[i].first_piece; k < cuts_[i].end_piece; ++k) {
+        if (is_known(number(k), windings)) continue;
+        const auto winding = ask(pieces_[k]);
+        if (!winding) {
+          is_left_[i] = 1;
+        } else if (!windings.join(infinity_, number(k), *winding)) {
+          return false;
+        }
+      }
+    }
+    return true;
   }
 
   /// The cells of all that is left, and one for all that hangs together.
-  Result<std::vector<SurfaceCells>> solve_cells(OffsetSets& windings, EvaluateStats& stats) {
-    const std::vector<uint32_t> witnesses = choose_witnesses(windings);
+  Result<std::vector<SurfaceCells>> solve_cells(const std::vector<uint32_t>& witnesses,
+                                                EvaluateStats& stats) {
     std::vector<uint32_t> all(crosses_.size());
     std::iota(all.begin(), all.end(), 0u);
     std::vector<uint8_t> is_solved(crosses_.size(), 0);
@@ -426,13 +470,13 @@ class SurfaceCutter {
     return windings.find(k).root == windings.find(infinity_).root;
   }
 
-  /// For each set a vertex of few polygons, of one that crosses nothing.
+  /// For each set that is not known a vertex of few polygons, of one that crosses nothing.
   std::vector<uint32_t> choose_witnesses(OffsetSets& windings) {
     std::vector<uint32_t> uses(leaf_.vertices.size(), 0);
     for (const uint32_t v : leaf_.corners) ++uses[v];
     std::vector<uint32_t> best(crosses_.size(), kNone);  // per root
     for (uint32_t p = 0; p < crosses_.size(); ++p) {
-      if (crosses_[p]) continue;
+      if (crosses_[p] || is_known(p, windings)) continue;
       uint32_t& chosen = best[windings.find(p).root];
       for (const uint32_t v : job_.corners(job_.polygons()[p])) {
         if (chosen == kNone || uses[v] < uses[chosen]) chosen = v;

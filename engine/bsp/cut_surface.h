@@ -4,9 +4,9 @@
 // A face is cut along the planes of all faces that it crosses or touches, or along their edges if
 // they lie in its own, so that no other face meets the inside of a piece without holding all of it.
 // From one piece of a face to the next the winding number changes by the faces that stand
-// between them, and over an edge of two faces that no other one touches it stays. One ray, or
-// one solved cell, for all that hangs together in this way says what it is. Faces of which that
-// cannot be told, or that too many cross, are left to the cells that they are in.
+// between them, and over an edge of two faces that no other one touches it stays. One ray for all
+// that hangs together in this way says what it is. Faces that too many cross, and those of which a
+// piece is too thin for a ray to start in it, are left to the cells that they are in.
 #pragma once
 
 #include <array>
@@ -41,8 +41,10 @@ struct CutSurface {
 /// edges, or NonManifold's. `crossings` as resolve_surface has them; `crosses` says for each
 /// polygon whether it is in one of them.
 ///
-/// To cells go polygons that more than kMostCuts planes would cut, or that something crosses which
-/// ends at no corner of a piece; and what hangs together with no polygon that crosses nothing.
+/// To cells go polygons that more than kMostCuts planes would cut, and those with pieces in which
+/// PieceRays finds no start. Of a surface that is not closed all is asked of cells, which see that:
+/// also polygons that something crosses which ends at no corner of a piece, and what hangs together
+/// with no polygon that crosses nothing.
 ///
 /// std::nullopt where the parts contradict each other, or the evaluation was cancelled. O(n log n)
 /// and, for a polygon that k planes cut, O(k^3). `stats` is added to. Errors: those of
