@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/mesh/present.h"
 #include "tests/support/convex_operand.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
+#include "tests/support/touches_told.h"
 
 namespace csgrun {
 namespace {
@@ -177,20 +177,6 @@ std::vector<Operand> pyramids() {
           hull({{-90, -41, 0}, {93, -41, 0}, {93, 44, 0}, {-90, 44, 0}, {6, 2, -99}})};
 }
 
-/// Where a result touches itself, whoever presents it is told.
-void expect_touches_known(const BoundaryMesh& mesh, const std::string& what) {
-  BoundaryMesh anywhere = mesh;
-  anywhere.touches.clear();
-  anywhere.may_touch = true;
-  for (const bool join : {false, true}) {
-    PresentContext context = test_context();
-    context.join_contacts = join;
-    const auto told = present(mesh, context), found = present(anywhere, context);
-    ASSERT_TRUE(told && found) << what;
-    EXPECT_EQ(difference_between(**told, **found), "") << what;
-  }
-}
-
 // Two wedges, say, may meet in an edge of both that ends in the middle of one of them.
 TEST(Unate, CrossingsOfThreeBodies) {
   const std::vector<Operand> bodies = pyramids();
@@ -206,7 +192,7 @@ TEST(Unate, CrossingsOfThreeBodies) {
         EvaluateStats stats;
         const auto mesh = evaluate_boolean(bodies, e, region, options, stats);
         ASSERT_TRUE(mesh) << table;
-        expect_touches_known(**mesh, std::to_string(table));
+        expect_touches_told(**mesh, std::to_string(table));
         if (!first) first = *mesh;
         EXPECT_EQ(difference_between(*first, **mesh, false), "") << table;
         touching += whole_faces && (*mesh)->may_touch;

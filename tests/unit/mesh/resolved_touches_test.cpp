@@ -7,6 +7,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
+#include "tests/support/touches_told.h"
 
 namespace csgrun {
 namespace {
@@ -29,18 +30,7 @@ BoundaryMesh resolved(const Operand& surface, InsideRule rule) {
 
 /// Whether the mesh says where.
 bool expect_same_as_anywhere(const BoundaryMesh& mesh, const std::string& what) {
-  BoundaryMesh anywhere = mesh;
-  anywhere.touches.clear();
-  anywhere.may_touch = true;
-  for (const bool join : {false, true}) {
-    PresentContext context = test_context();
-    context.join_contacts = join;
-    const auto x = present(mesh, context), y = present(anywhere, context);
-    EXPECT_TRUE(x && y) << what;
-    if (x && y) {
-      EXPECT_EQ(difference_between(**x, **y), "") << what;
-    }
-  }
+  expect_touches_told(mesh, what);
   return !mesh.may_touch || !mesh.touches.empty();
 }
 
