@@ -1,6 +1,7 @@
 #include "engine/bsp/flat_pair.h"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 
@@ -23,6 +24,7 @@ class Flat {
       y_ = x_ < 2 ? x_ + 1 : 0;
       if (see(triangle).way != 0) break;
     }
+    assert(x_ < 3);  // it has an area
   }
 
   /// A triangle of the plane.

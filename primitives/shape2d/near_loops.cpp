@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "primitives/shape2d/sweep2d.h"
+
 namespace csgrun {
 namespace {
 
@@ -80,14 +82,63 @@ size_t base_of(const GridBoolean& boolean) {
   return static_cast<size_t>(most - boolean.shapes.begin());
 }
 
+/// A loop each, whether it is far from the box. A group of loops that touch one another is near or
+/// far as a whole: it may be put together in another way when one of them is cut.
+std::vector<uint8_t> find_far(const Loops& loops, std::span<const uint32_t> group_of,
+                              const Box2D& box) {
+  std::vector<uint8_t> is_near(loops.size(), 0);  // of groups
+  for (size_t l = 0; l < loops.size(); ++l) {
+    Box2D own;
+    own.include(loops[l]);
+    is_near[group_of[l]] |= box.meets(own) ? 1 : 0;
+  }
+  std::vector<uint8_t> is_far(loops.size());
+  for (size_t l = 0; l < loops.size(); ++l) is_far[l] = is_near[group_of[l]] == 0 ? 1 : 0;
+  return is_far;
+}
+
+/// Whether an edge of the base that the arrangement has cut may have come to meet a far loop.
+bool may_meet_far(const Grid2D& grid, const std::vector<Segment2D>& segments,
+                  const std::vector<Segment2D>& arrangement, const Loops& far) {
+  return std::any_of(segments.begin(), segments.end(), [&](const Segment2D& s) {
+    if (s.first == 0 || !is_aslant(s) || is_in(arrangement, s)) return false;
+    return std::any_of(far.begin(), far.end(), [&](const Shape2D::Loop& loop) {
+      return may_reach(s, snap_loop(grid, loop));
+    });
+  });
+}
+
+/// Has regions speak of the far loops of a shape, too, after their own. The outer loop of a far
+/// hole is a far one, or the only other one there is, or it has to be found.
+void add_far(const Grid2D& grid, const Shape2D& shape, std::span<const uint32_t> group_of,
+             const std::vector<uint32_t>& far, GridRegions& regions) {
+  const std::vector<uint32_t> before = Shape2DFactory::outer_of(shape);
+  const auto first_far = static_cast<uint32_t>(regions.loops.size());
+  std::vector<uint32_t> number(before.size(), kNoSegment);  // of the far ones
+  for (uint32_t i = 0; i < far.size(); ++i) number[far[i]] = first_far + i;
+  uint32_t outer = 0, outers = 0;
+  for (uint32_t l = 0; l < first_far; ++l) {
+    if (regions.outer_of[l] == l) outer = l, ++outers;
+  }
+  bool is_found = true;
+  for (const uint32_t l : far) {
+    const uint32_t far_outer = number[before[l]];
+    regions.group_of.push_back(number[group_of[l]]);
+    regions.outer_of.push_back(far_outer != kNoSegment ? far_outer : outer);
+    is_found = is_found && (far_outer != kNoSegment || outers == 1);
+  }
+  if (is_found) return;
+  std::vector<GridLoop> all = regions.loops;
+  for (const uint32_t l : far) all.push_back(snap_loop(grid, shape.loops()[l]));
+  regions.outer_of = find_outer_loops(all);
+}
+
 }  // namespace
 
-// A group of loops that touch one another is near or far as a whole: it may be put together in
-// another way when one of them is cut. No far loop, away from the box of the other shapes, holds a
-// near one: it would hold its whole group, and its box would meet that box, too. So near loops
-// alone give the winding numbers in that box and beside themselves, and what is beside far loops is
-// as it was. But an edge that is cut moves, all along, by the rounding of the point where it is
-// cut.
+// No far loop, away from the box of the other shapes, holds a near one: it would hold its whole
+// group, and its box would meet that box, too. So near loops alone give the winding numbers in that
+// box and beside themselves, and what is beside far loops is as it was. But an edge that is cut
+// moves, all along, by the rounding of the point where it is cut.
 std::optional<Shape2D> boolean_of_near_loops(const GridBoolean& boolean) {
   const size_t base = base_of(boolean);
   const Shape2D& shape = boolean.shapes[base];
@@ -106,52 +157,24 @@ std::optional<Shape2D> boolean_of_near_loops(const GridBoolean& boolean) {
   }
   const glm::dvec2 moved(kMostMoved / grid.steps_per_mm());
   box.low -= moved, box.high += moved;
-  std::vector<uint8_t> is_near(loops.size(), 0);  // of groups
-  for (uint32_t l = 0; l < loops.size(); ++l) {
-    Box2D own;
-    own.include(loops[l]);
-    is_near[group_of[l]] |= box.meets(own) ? 1 : 0;
-  }
-  const auto is_far = [&](uint32_t l) { return is_near[group_of[l]] == 0; };
+  const std::vector<uint8_t> is_far = find_far(loops, group_of, box);
   std::vector<uint32_t> far;
+  Loops far_loops;
   for (uint32_t l = 0; l < loops.size(); ++l) {
-    is_far(l) ? far.push_back(l) : add_outline(snap_loop(grid, loops[l]), true, segments);
+    if (is_far[l] == 0) {
+      add_outline(snap_loop(grid, loops[l]), true, segments);
+      continue;
+    }
+    far.push_back(l);
+    far_loops.push_back(loops[l]);
   }
   if (far.empty()) return std::nullopt;
-
   const auto arrangement = arrange_without_snapping(segments);
-  if (!arrangement) return std::nullopt;
-  for (const Segment2D& s : segments) {
-    if (s.first == 0 || !is_aslant(s) || is_in(*arrangement, s)) continue;
-    const auto reaches = [&](uint32_t l) { return may_reach(s, snap_loop(grid, loops[l])); };
-    if (std::any_of(far.begin(), far.end(), reaches)) return std::nullopt;
-  }
+  if (!arrangement || may_meet_far(grid, segments, *arrangement, far_loops)) return std::nullopt;
   GridRegions regions = extract_regions(*arrangement, boolean.inside);
-  if (boolean.is_intersection) far.clear();
-
-  // All loops, the new ones first, and their outer loops: of a far hole a far one, or the only one
-  // there is, or it has to be found.
-  Loops all = unsnap_loops(grid, regions.loops);
-  const std::vector<uint32_t> before = Shape2DFactory::outer_of(shape);
-  std::vector<uint32_t> number(loops.size());
-  const auto first_far = static_cast<uint32_t>(all.size());
-  for (uint32_t i = 0; i < far.size(); ++i) number[far[i]] = first_far + i;
-  uint32_t outer = 0, outers = 0;
-  for (uint32_t l = 0; l < first_far; ++l) {
-    if (regions.outer_of[l] == l) outer = l, ++outers;
-  }
-  bool is_found = true;
-  for (const uint32_t l : far) {
-    all.push_back(loops[l]);
-    regions.group_of.push_back(number[group_of[l]]);
-    regions.outer_of.push_back(is_far(before[l]) ? number[before[l]] : outer);
-    is_found = is_found && (is_far(before[l]) || outers == 1);
-  }
-  if (!is_found) {
-    for (const uint32_t l : far) regions.loops.push_back(snap_loop(grid, loops[l]));
-    regions.outer_of = find_outer_loops(regions.loops);
-  }
-  return Shape2DFactory::of_arrangement(grid, std::move(all), regions.outer_of, regions.group_of);
+  if (boolean.is_intersection) return Shape2DFactory::from_grid(grid, regions);
+  add_far(grid, shape, group_of, far, regions);
+  return Shape2DFactory::from_grid(grid, regions, std::move(far_loops));
 }
 
 }  // namespace csgrun

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -54,17 +55,6 @@ GridLoop snap_loop(const Grid2D& grid, const Shape2D::Loop& loop) {
   return snapped;
 }
 
-std::vector<Shape2D::Loop> unsnap_loops(const Grid2D& grid, const std::vector<GridLoop>& loops) {
-  std::vector<Shape2D::Loop> result;
-  result.reserve(loops.size());
-  for (const GridLoop& grid_loop : loops) {
-    Shape2D::Loop& loop = result.emplace_back();
-    loop.reserve(grid_loop.size());
-    for (const Point2D& p : grid_loop) loop.push_back(grid.unsnap(p));
-  }
-  return result;
-}
-
 const Shape2D::Turn* Shape2DFactory::turn_of(const Shape2D& shape) {
   return shape.data_ ? shape.data_->turn.get() : nullptr;
 }
@@ -90,8 +80,27 @@ std::vector<uint32_t> Shape2DFactory::outer_of(const Shape2D& shape) {
   return outer_of;
 }
 
-Shape2D Shape2DFactory::from_grid(const Grid2D& grid, const GridRegions& regions) {
-  return canonical(unsnap_loops(grid, regions.loops), regions.outer_of);
+Shape2D Shape2DFactory::from_grid(const Grid2D& grid, const GridRegions& regions,
+                                  std::vector<Loop> more) {
+  Shape2D shape;
+  if (regions.outer_of.empty()) return shape;
+  std::vector<Loop> loops;
+  loops.reserve(regions.outer_of.size());
+  for (const GridLoop& grid_loop : regions.loops) {
+    Loop& loop = loops.emplace_back();
+    loop.reserve(grid_loop.size());
+    for (const Point2D& p : grid_loop) loop.push_back(grid.unsnap(p));
+  }
+  std::move(more.begin(), more.end(), std::back_inserter(loops));
+  std::vector<uint32_t> rank;
+  auto data = in_order(std::move(loops), regions.outer_of, rank);
+  if (!regions.group_of.empty()) {
+    data->arranged_steps = grid.steps_per_mm();
+    data->group_of.resize(rank.size());
+    for (uint32_t l = 0; l < rank.size(); ++l) data->group_of[rank[l]] = rank[regions.group_of[l]];
+  }
+  shape.data_ = std::move(data);
+  return shape;
 }
 
 Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of,
@@ -101,20 +110,6 @@ Shape2D Shape2DFactory::canonical(std::vector<Loop> loops, const std::vector<uin
   std::vector<uint32_t> rank;
   auto data = in_order(std::move(loops), outer_of, rank);
   data->turn = std::move(turn);
-  shape.data_ = std::move(data);
-  return shape;
-}
-
-Shape2D Shape2DFactory::of_arrangement(const Grid2D& grid, std::vector<Loop> loops,
-                                       const std::vector<uint32_t>& outer_of,
-                                       const std::vector<uint32_t>& group_of) {
-  Shape2D shape;
-  if (loops.empty()) return shape;
-  std::vector<uint32_t> rank;
-  auto data = in_order(std::move(loops), outer_of, rank);
-  data->arranged_steps = grid.steps_per_mm();
-  data->group_of.resize(rank.size());
-  for (uint32_t l = 0; l < rank.size(); ++l) data->group_of[rank[l]] = rank[group_of[l]];
   shape.data_ = std::move(data);
   return shape;
 }
@@ -155,9 +150,7 @@ Result<Shape2D> Shape2DFactory::arranged(const Grid2D& grid, std::vector<Segment
   if (!arrangement) {
     return Error{ErrorCode::kInternal, "2D Boolean: crossings do not settle on the grid", {}};
   }
-  const GridRegions regions = extract_regions(*arrangement, inside);
-  return of_arrangement(grid, unsnap_loops(grid, regions.loops), regions.outer_of,
-                        regions.group_of);
+  return from_grid(grid, extract_regions(*arrangement, inside));
 }
 
 }  // namespace csgrun

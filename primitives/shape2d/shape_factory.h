@@ -24,7 +24,6 @@ bool all_finite(const std::vector<Shape2D::Loop>& loops);
 /// The grid for coordinates up to `extent` mm. Errors: kOutOfRange.
 Result<Grid2D> grid_for(double extent);
 GridLoop snap_loop(const Grid2D& grid, const Shape2D::Loop& loop);
-std::vector<Shape2D::Loop> unsnap_loops(const Grid2D& grid, const std::vector<GridLoop>& loops);
 
 /// A shape under a map that turns: its loops are those of `base`, mapped.
 struct Shape2D::Turn {
@@ -57,14 +56,13 @@ class Shape2DFactory {
   static std::span<const uint32_t> group_of(const Shape2D& shape, const Grid2D& grid);
   /// For each loop the outer loop of its region, as in GridRegions.
   static std::vector<uint32_t> outer_of(const Shape2D& shape);
-  static Shape2D from_grid(const Grid2D& grid, const GridRegions& regions);
+  /// `regions` without groups: it is not known that an arrangement on the grid gave them. `more`:
+  /// loops on the grid after those of the regions, which say of all how they lie.
+  static Shape2D from_grid(const Grid2D& grid, const GridRegions& regions,
+                           std::vector<Loop> more = {});
   /// Loops with the right directions, in any order and from any start; outer_of as in GridRegions.
   static Shape2D canonical(std::vector<Loop> loops, const std::vector<uint32_t>& outer_of,
                            std::shared_ptr<const Turn> turn = nullptr);
-  /// The same of loops that an arrangement on the grid gave; group_of as in GridRegions.
-  static Shape2D of_arrangement(const Grid2D& grid, std::vector<Loop> loops,
-                                const std::vector<uint32_t>& outer_of,
-                                const std::vector<uint32_t>& group_of);
   /// `base`, which has no turn, under a map that turns, and that map's split. Errors:
   /// kInvalidArgument when the result is not finite.
   static Result<Shape2D> turned(const Shape2D& base, const Affine& map, const Split2D& split);

@@ -13,6 +13,15 @@ Shape2D forgotten(const Shape2D& shape) {
   return Shape2DFactory::canonical(shape.loops(), Shape2DFactory::outer_of(shape));
 }
 
+Shape2D of_grid(const Grid2D& grid, const std::vector<GridLoop>& loops) {
+  std::vector<Shape2D::Loop> outlines;
+  for (const GridLoop& loop : loops) {
+    auto& outline = outlines.emplace_back();
+    for (const Point2D& p : loop) outline.push_back(grid.unsnap(p));
+  }
+  return *Shape2D::from_outlines(outlines);
+}
+
 void expect_equal(const Shape2D& a, const Shape2D& b, int step) {
   ASSERT_EQ(a.loops(), b.loops()) << step;
   ASSERT_EQ(a.regions().size(), b.regions().size()) << step;
@@ -148,14 +157,14 @@ TEST(NearLoops, TipsBesideAnEdgeThatIsCut) {
       const auto y = static_cast<int64_t>(rise / b.x - (rise % b.x == 0 ? 1 : 0));
       outlines.push_back({{x, y}, {x - 40000000, y - 90000000}, {x + 40000000, y - 90000000}});
     }
-    const Shape2D shape = *Shape2D::from_outlines(unsnap_loops(grid, outlines));
+    const Shape2D shape = of_grid(grid, outlines);
     ASSERT_EQ(shape.loops().size(), 21u);
     const Point2D at{100000000 + whole(0, 90000000), 1000000};
     const GridLoop square{at,
                           {at.x + 9000000 + whole(0, 99), at.y},
                           {at.x + 9000000, at.y + 200000000},
                           {at.x, at.y + 200000000 + whole(0, 99)}};
-    const Shape2D tool = *Shape2D::from_outlines(unsnap_loops(grid, {square}));
+    const Shape2D tool = of_grid(grid, {square});
     for (const BooleanOp op : {BooleanOp::kDifference, BooleanOp::kUnion}) {
       const auto quick = Shape2D::boolean(op, {shape, tool}),
                  slow = Shape2D::boolean(op, {forgotten(shape), tool});
