@@ -15,12 +15,13 @@ enum class FlatMeeting : uint8_t {
   kOther,   ///< more, or another point, or it was not told
 };
 
-/// What p and q have in common; the corners that are one point, if it is one. Exact, and symmetric.
-/// REQUIRES: they are triangles of one plane, and their operands' vertices lie on the grid.
 struct FlatPair {
   FlatMeeting meeting = FlatMeeting::kOther;
-  uint32_t p_corner = kNone, q_corner = kNone;  ///< vertices
+  uint32_t p_corner = kNone, q_corner = kNone;  ///< vertices, if it is a corner
 };
+
+/// What two polygons have in common. Exact. REQUIRES: they are triangles of one plane, and their
+/// operands' vertices lie on the grid.
 FlatPair flat_pair(const Job& job, uint32_t p, uint32_t q);
 
 }  // namespace csgrun

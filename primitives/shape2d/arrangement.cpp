@@ -159,7 +159,7 @@ std::vector<Segment2D> apply_cuts(const std::vector<Segment2D>& segments, std::v
 // Two or three rounds are usual. Bundles of needles a few steps wide can go on for long; then
 // segments are also pulled to the vertices that they pass within half a step, which ends it
 // (Hobby 1999, Practical segment intersection with finite precision output).
-constexpr int kRoundsBeforeSnapping = 8, kMostRounds = 40;
+constexpr int kMostRounds = 40;
 
 std::optional<std::vector<Segment2D>> arrange_in(int rounds, std::vector<Segment2D> segments) {
   for (int round = 0; round < rounds; ++round) {

@@ -27,6 +27,10 @@ void add_segment(const Point2D& from, const Point2D& to, bool is_first,
 /// Appends the segments of a closed outline.
 void add_outline(const GridLoop& loop, bool is_first, std::vector<Segment2D>& segments);
 
+/// After so many rounds, each of which moves what it cuts by less than a step, segments are also
+/// pulled to vertices near them.
+constexpr int kRoundsBeforeSnapping = 8;
+
 /// Cuts segments as described above and merges equal ones; those that cancel are dropped. The
 /// result is sorted by (a, b). Nothing if it does not settle (no such input is known).
 /// O(n log n) when few segments share a vertical line.

@@ -101,10 +101,8 @@ Result<Shape2D> in_world(BooleanOp op, const std::vector<Shape2D>& shapes) {
   const Result<Grid2D> grid = grid_of(operands);
   if (!grid) return grid.error();
   const auto inside = inside_of(op, shapes.size());
-  auto near = boolean_of_near_loops(
-      {*grid, shapes, op == BooleanOp::kIntersection, op == BooleanOp::kDifference, inside});
-  if (near) return *std::move(near);
-  return on_grid(op, *grid, operands);
+  auto near = boolean_of_near_loops({*grid, shapes, op, inside});
+  return near ? *std::move(near) : on_grid(op, *grid, operands);
 }
 
 /// The result with the corners of its operands where they were before they were rounded, but for

@@ -18,8 +18,8 @@ using Loops = std::vector<Shape2D::Loop>;
 /// With fewer loops it is not worth the while.
 constexpr size_t kFewLoops = 8;
 
-/// Each of the rounds of an arrangement moves what it cuts by less than a step; there are fewer.
-constexpr int64_t kMostMoved = 16;
+/// An arrangement moves what it cuts by fewer steps; snapping does by one more at most.
+constexpr int64_t kMostMoved = 2 * kRoundsBeforeSnapping;
 
 /// A closed box, in mm.
 struct Box2D {
@@ -75,7 +75,7 @@ bool is_in(const std::vector<Segment2D>& arrangement, const Segment2D& s) {
 }
 
 size_t base_of(const GridBoolean& boolean) {
-  if (boolean.has_order) return 0;
+  if (boolean.op == BooleanOp::kDifference) return 0;
   const auto most = std::max_element(
       boolean.shapes.begin(), boolean.shapes.end(),
       [](const Shape2D& a, const Shape2D& b) { return a.loops().size() < b.loops().size(); });
@@ -172,7 +172,7 @@ std::optional<Shape2D> boolean_of_near_loops(const GridBoolean& boolean) {
   const auto arrangement = arrange_without_snapping(segments);
   if (!arrangement || may_meet_far(grid, segments, *arrangement, far_loops)) return std::nullopt;
   GridRegions regions = extract_regions(*arrangement, boolean.inside);
-  if (boolean.is_intersection) return Shape2DFactory::from_grid(grid, regions);
+  if (boolean.op == BooleanOp::kIntersection) return Shape2DFactory::from_grid(grid, regions);
   add_far(grid, shape, group_of, far, regions);
   return Shape2DFactory::from_grid(grid, regions, std::move(far_loops));
 }

@@ -15,14 +15,12 @@ namespace csgrun {
 struct GridBoolean {
   const Grid2D& grid;
   const std::vector<Shape2D>& shapes;
-  bool is_intersection;
-  bool has_order;  ///< the first operand is another one than the others
-  /// As in extract_regions.
-  const std::function<bool(int32_t, int32_t)>& inside;
+  BooleanOp op;
+  const std::function<bool(int32_t, int32_t)>& inside;  ///< the op's, as in extract_regions
 };
 
 /// What arranging all loops would give, if it is enough to arrange few; else nothing. The shape
-/// with the most loops (with an order: the first) must have come from an arrangement on the grid.
+/// with the most loops (of a difference the first) must have come from an arrangement on the grid.
 /// O(n), and O(m log m) mostly for m corners of loops that are in the box of the other shapes, and
 /// of those that touch these.
 std::optional<Shape2D> boolean_of_near_loops(const GridBoolean& boolean);

@@ -103,7 +103,7 @@ TEST(NearLoops, GiveWhatAllLoopsGive) {
       const std::function<bool(int32_t, int32_t)> inside = [](int32_t first, int32_t rest) {
         return first + rest > 0;
       };
-      ++(boolean_of_near_loops({grid, operands, false, false, inside}) ? near : all);
+      ++(boolean_of_near_loops({grid, operands, BooleanOp::kUnion, inside}) ? near : all);
       expect_same(BooleanOp::kIntersection);
       if (HasFatalFailure()) return;
       expect_same(op);
