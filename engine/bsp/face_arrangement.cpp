@@ -216,6 +216,13 @@ void FaceArrangement::drop_gone_lines() {
   line_ends_.resize(kept);
 }
 
+/// Whether a line may pass a corner of its sheet: along edges between which there is a straight
+/// angle, all of which are one line.
+bool FaceArrangement::may_pass_corner(const Line& line) const {
+  return (line.kind == Kind::kFront || line.kind == Kind::kBack) &&
+         job_.polygons()[line.sheet].count > 3;
+}
+
 /// The points in which lines meet.
 void FaceArrangement::find_stops() {
   stops_.clear();
@@ -227,9 +234,10 @@ void FaceArrangement::find_stops() {
   }
   sweep_.for_each_pair([&](uint32_t i, uint32_t j) {
     const uint32_t s = swept_[i], t = swept_[j];
-    // Sheets of a leaf meet in edges and corners that both have.
+    // Sheets of a leaf meet in edges and corners that both have: lines in ends that both have.
     const uint32_t operand = lines_[t].operand;
-    if (operand == kNone || lines_[s].operand != operand || !job_.has_simple_edges(operand)) {
+    if (operand == kNone || lines_[s].operand != operand || !job_.has_simple_edges(operand) ||
+        may_pass_corner(lines_[s]) || may_pass_corner(lines_[t])) {
       meet(s, t);
     }
   });

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "engine/bsp/operand.h"
+#include "engine/mesh/leaf_check.h"
+#include "tests/support/prepared_leaf.h"
 #include "tests/support/seeded.h"
 
 namespace csgrun::test {
@@ -396,11 +398,57 @@ inline std::vector<Loop> random_loops(Random& random, int64_t size = 5) {
   return mapped(std::move(loops), map);
 }
 
+/// A tent over a polygon that has corners in the middle of its edges: the walls have one of two
+/// tips, and those beside such a corner may not lie in one plane. Empty where they cross.
+inline std::vector<Loop> tent_loops(Random& random, int64_t size) {
+  const int64_t x = random.integer(1, size), y = random.integer(1, size);
+  const std::vector<IVec3> corners =
+      random.integer(0, 1) == 0 ? std::vector<IVec3>{{0, 0, 0}, {x, 0, 0}, {0, y, 0}}
+                                : std::vector<IVec3>{{0, 0, 0}, {x, 0, 0}, {x, y, 0}, {0, y, 0}};
+  Loop base;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const IVec3 &from = corners[i], to = corners[(i + 1) % corners.size()];
+    base.push_back(from);
+    const int64_t steps = std::gcd(to[0] - from[0], to[1] - from[1]);
+    for (int64_t k = 1; k < steps; ++k) {
+      if (random.integer(0, 1) == 0) continue;
+      base.push_back(
+          {from[0] + k * (to[0] - from[0]) / steps, from[1] + k * (to[1] - from[1]) / steps, 0});
+    }
+  }
+  const auto count = static_cast<int64_t>(base.size());
+  std::rotate(base.begin(), base.begin() + random.integer(0, count - 1), base.end());
+  const auto tip = [&] {
+    return IVec3{random.integer(0, size), random.integer(0, size), random.integer(1, size)};
+  };
+  const IVec3 first = tip(), second = tip();
+  const int64_t with_first = random.integer(1, count - 1);
+  std::vector<Loop> loops{{base.rbegin(), base.rend()}};
+  for (int64_t i = 0; i < count; ++i) {
+    loops.push_back({base[i], base[(i + 1) % count], i < with_first ? first : second});
+  }
+  if (first != second) {
+    loops.push_back({base[with_first], second, first});
+    loops.push_back({base[0], first, second});
+  }
+  const Leaf leaf = make_leaf(loops);
+  for (const Loop& l : loops) {
+    const IVec3 normal = cross_of(sub(l[1], l[0]), sub(l[2], l[0]));
+    if (l.size() == 3 && normal == IVec3{0, 0, 0}) return {};
+  }
+  return find_self_intersections(*leaf).empty() ? loops : std::vector<Loop>();
+}
+
+/// Some are as the engine prepares them.
 inline Leaf random_leaf(Random& random) {
-  auto loops = random_loops(random);
+  std::vector<Loop> loops;
+  if (random.integer(0, 7) == 0) loops = tent_loops(random, 5);
+  if (loops.empty()) loops = random_loops(random);
   const bool keep_facets = random.integer(0, 3) == 0;
   const auto surface = static_cast<uint32_t>(random.integer(0, 4) == 0);
-  return make_leaf(loops, keep_facets, surface, static_cast<uint32_t>(random.integer(0, 1)));
+  const Leaf leaf =
+      make_leaf(loops, keep_facets, surface, static_cast<uint32_t>(random.integer(0, 1)));
+  return random.integer(0, 1) == 0 ? leaf : as_prepared(leaf);
 }
 
 /// An integer map whose entries have up to `bits` bits, not singular.

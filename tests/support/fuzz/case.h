@@ -45,6 +45,8 @@ struct FuzzNode {
 constexpr uint64_t kInPieces = uint64_t{1} << 63;
 /// The same: what nothing touched of leaves of triangles is named in results, not spelled out.
 constexpr uint64_t kNamed = uint64_t{1} << 62;
+/// The same: leaves are as the engine prepares them, and know much of their surfaces.
+constexpr uint64_t kPrepared = uint64_t{1} << 61;
 
 struct FuzzCase {
   std::vector<Frame> frames{Frame()};  ///< the first is the world

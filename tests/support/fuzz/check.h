@@ -10,6 +10,7 @@
 #include "tests/support/exact_measures.h"
 #include "tests/support/fuzz/truth.h"
 #include "tests/support/kernel_checks.h"
+#include "tests/support/prepared_leaf.h"
 
 namespace csgrun::test {
 
@@ -181,6 +182,7 @@ class FuzzEvaluator {
       geometry->may_touch = !crossings.empty() || !l.keep_facets || !has_triangles;
     }
     Operand o = operand_of(geometry);
+    if ((case_.nest & kPrepared) != 0 && !l.may_cross && !hull) o.leaf = as_prepared(geometry);
     o.translation = l.move;
     o.frame = case_.frames[l.frame];
     o.first_source = source_++;

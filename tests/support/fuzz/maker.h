@@ -42,6 +42,7 @@ class FuzzMaker {
     c.nest = one_in(2) ? random_.bits() & 0xffff : 0;
     if (one_in(4)) c.nest |= kInPieces;
     if (one_in(2)) c.nest |= kNamed;
+    if (one_in(2)) c.nest |= kPrepared;
     return c;
   }
 
@@ -123,6 +124,10 @@ class FuzzMaker {
           return box_loops(lo, hi);
         }
       }
+    }
+    if (one_in(8)) {
+      auto loops = tent_loops(random_, size_);
+      if (!loops.empty()) return loops;
     }
     for (;;) {
       auto loops = random_loops(random_, size_);

@@ -269,7 +269,7 @@ TEST(FaceArrangement, OfAnyBodies) {
     ASSERT_NO_FATAL_FAILURE(Cuts(operands).check(count)) << "case " << i;
     ASSERT_NO_FATAL_FAILURE(Cuts(mirrored(operands)).check(mirror_count)) << "case " << i;
   }
-  expect_same(count, {900, 84, 44, 11613, 215, {}});
+  expect_same(count, {1097, 70, 83, 14808, 301, {}});
   expect_same(mirror_count, count);
 }
 

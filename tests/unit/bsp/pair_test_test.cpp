@@ -414,7 +414,7 @@ TEST(PairTest, ByPlanesOnly) {
 TEST(PairTest, OfResults) {
   Random random(420);
   Seen seen;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 80; ++i) {
     const auto box = [&] {
       IVec3 lo{}, hi{};
       for (size_t k = 0; k < 3; ++k) {

@@ -100,6 +100,27 @@ TEST(WholeFaces, CutsThatMeetInOnePointAreLikeThoseOfCells) {
   }
 }
 
+// A sheet along several edges of its polygon, between which there are straight angles, passes
+// corners of others of its operand.
+TEST(WholeFaces, SheetsAlongSeveralEdgesAreLikeThoseOfCells) {
+  test::Random random(419);
+  for (int i = 0; i < 400; ++i) {
+    test::RandomTree tree;
+    for (uint32_t o = 0; o < 2; ++o) {
+      std::vector<test::Loop> loops;
+      while (loops.empty()) loops = test::tent_loops(random, 5);
+      if (o == 0 && i % 2 == 0) loops = test::box_loops({0, 0, 0}, {5, 5, 5});
+      Operand& operand = tree.operands.emplace_back();
+      operand.leaf = test::as_prepared(test::make_leaf(loops));
+      operand.first_source = o;
+    }
+    tree.expression = test::flat_expression(static_cast<BooleanOp>(i / 2 % 4), 2);
+    tree.region = test::TreeMaker::region_of(tree.operands);
+    ASSERT_EQ(test::first_difference(*evaluate(tree, true), *evaluate(tree, false)), "")
+        << "case " << i;
+  }
+}
+
 // The same with edges through the point: cuts end where others pass.
 TEST(WholeFaces, CutsThatEndOnOthersAreLikeThoseOfCells) {
   test::Random random(414);
