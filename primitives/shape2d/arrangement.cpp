@@ -101,12 +101,13 @@ std::vector<Cut> find_all_cuts(const std::vector<Segment2D>& segments) {
   return cuts;
 }
 
-/// Whether a segment meets the square of one step around a grid point.
-bool meets_pixel(const Segment2D& s, const Point2D& p) {
+/// Whether a segment meets the square of so many steps around a grid point.
+bool meets_square(const Segment2D& s, const Point2D& p, int64_t steps) {
+  const int64_t r = steps;  // in halves of a step
   const Point2D a{2 * (s.a.x - p.x), 2 * (s.a.y - p.y)}, b{2 * (s.b.x - p.x), 2 * (s.b.y - p.y)};
-  if (b.x < -1 || a.x > 1 || std::max(a.y, b.y) < -1 || std::min(a.y, b.y) > 1) return false;
+  if (b.x < -r || a.x > r || std::max(a.y, b.y) < -r || std::min(a.y, b.y) > r) return false;
   int low = 1, high = -1;
-  for (const Point2D& corner : {Point2D{-1, -1}, Point2D{-1, 1}, Point2D{1, -1}, Point2D{1, 1}}) {
+  for (const Point2D& corner : {Point2D{-r, -r}, Point2D{-r, r}, Point2D{r, -r}, Point2D{r, r}}) {
     const int side = orient(a, b, corner);
     low = std::min(low, side);
     high = std::max(high, side);
@@ -114,24 +115,39 @@ bool meets_pixel(const Segment2D& s, const Point2D& p) {
   return low <= 0 && high >= 0;
 }
 
-/// Snap rounding: a segment is cut at every vertex, and every crossing, whose pixel it meets.
-std::vector<Cut> find_snapping_cuts(const std::vector<Segment2D>& segments,
-                                    const std::vector<Cut>& crossings) {
-  std::vector<Point2D> hot;
-  for (const Cut& cut : crossings) hot.push_back(cut.at);
-  for (const Segment2D& s : segments) hot.insert(hot.end(), {s.a, s.b});
-  std::sort(hot.begin(), hot.end());
-  hot.erase(std::unique(hot.begin(), hot.end()), hot.end());
+/// The ends of segments, and where they are cut.
+std::vector<Point2D> list_vertices(const std::vector<Segment2D>& segments,
+                                   const std::vector<Cut>& crossings) {
+  std::vector<Point2D> vertices;
+  for (const Cut& cut : crossings) vertices.push_back(cut.at);
+  for (const Segment2D& s : segments) vertices.insert(vertices.end(), {s.a, s.b});
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+/// Cuts where at(segment, vertex) holds, which is asked of vertices other than the segment's ends
+/// and in its range of x, with a step to spare.
+template <class At>
+std::vector<Cut> cuts_at(const std::vector<Point2D>& vertices,
+                         const std::vector<Segment2D>& segments, At&& at) {
   std::vector<Cut> cuts;
   for (uint32_t i = 0; i < segments.size(); ++i) {
     const Segment2D& s = segments[i];
-    auto p = std::lower_bound(hot.begin(), hot.end(), s.a.x - 1,
+    auto p = std::lower_bound(vertices.begin(), vertices.end(), s.a.x - 1,
                               [](const Point2D& q, int64_t x) { return q.x < x; });
-    for (; p != hot.end() && p->x <= s.b.x + 1; ++p) {
-      if (*p != s.a && *p != s.b && meets_pixel(s, *p)) cuts.push_back({i, *p});
+    for (; p != vertices.end() && p->x <= s.b.x + 1; ++p) {
+      if (*p != s.a && *p != s.b && at(s, *p)) cuts.push_back({i, *p});
     }
   }
   return cuts;
+}
+
+/// Snap rounding: a segment is cut at every vertex, and every crossing, whose pixel it meets.
+std::vector<Cut> find_snapping_cuts(const std::vector<Segment2D>& segments,
+                                    const std::vector<Cut>& crossings) {
+  return cuts_at(list_vertices(segments, crossings), segments,
+                 [](const Segment2D& s, const Point2D& p) { return meets_square(s, p, 1); });
 }
 
 std::vector<Segment2D> apply_cuts(const std::vector<Segment2D>& segments, std::vector<Cut> cuts) {
@@ -183,6 +199,15 @@ void add_outline(const GridLoop& loop, bool is_first, std::vector<Segment2D>& se
   for (size_t i = 0; i < loop.size(); ++i) {
     add_segment(loop[i], loop[(i + 1) % loop.size()], is_first, segments);
   }
+}
+
+void cut_at_near_vertices(std::vector<Segment2D>& segments) {
+  merge_equal(segments);
+  segments = apply_cuts(
+      segments,
+      cuts_at(list_vertices(segments, {}), segments, [](const Segment2D& s, const Point2D& p) {
+        return meets_square(s, p, 2) && dot(p - s.a, s.b - s.a) > 0 && dot(p - s.b, s.a - s.b) > 0;
+      }));
 }
 
 std::optional<std::vector<Segment2D>> arrange(std::vector<Segment2D> segments) {

@@ -27,6 +27,12 @@ void add_segment(const Point2D& from, const Point2D& to, bool is_first,
 /// Appends the segments of a closed outline.
 void add_outline(const GridLoop& loop, bool is_first, std::vector<Segment2D>& segments);
 
+/// Cuts segments at the vertices of others that lie on them as far as can be told after rounding:
+/// either was moved by half a step along each axis, so they are a step apart at most. Without it
+/// what ends on an edge somewhere leaves a crack beside it. O(n log n) when few vertices share a
+/// vertical line with a segment.
+void cut_at_near_vertices(std::vector<Segment2D>& segments);
+
 /// After so many rounds, each of which moves what it cuts by less than a step, segments are also
 /// pulled to vertices near them.
 constexpr int kRoundsBeforeSnapping = 8;

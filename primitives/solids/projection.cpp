@@ -38,6 +38,9 @@ Result<Shape2D> project_solid(const Solid& solid) {
   // many of them are over it.
   std::vector<Segment2D> segments;
   for (const auto& loop : outlines) add_outline(snap_loop(*grid, loop), false, segments);
+  // Faces that meet when they are seen from above have edges of one wall, or of walls in one plane,
+  // but mostly no corners in common.
+  cut_at_near_vertices(segments);
   return Shape2DFactory::arranged(*grid, std::move(segments),
                                   [](int32_t, int32_t rest) { return rest > 0; });
 }
