@@ -1,6 +1,7 @@
 #include "primitives/shape2d/arrangement.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <tuple>
 #include <utility>
 
@@ -13,13 +14,14 @@ struct Cut {
   Point2D at;
 };
 
-void push_segment(const Point2D& from, const Point2D& to, int32_t first, int32_t rest,
+/// What `of` says of its windings and operand, from one point to another.
+void push_segment(const Point2D& from, const Point2D& to, const Segment2D& of,
                   std::vector<Segment2D>& segments) {
   if (from == to) return;
   if (from < to) {
-    segments.push_back({from, to, first, rest});
+    segments.push_back({from, to, of.first, of.rest, of.operands});
   } else {
-    segments.push_back({to, from, -first, -rest});
+    segments.push_back({to, from, -of.first, -of.rest, of.operands});
   }
 }
 
@@ -33,6 +35,7 @@ void merge_equal(std::vector<Segment2D>& segments) {
     for (; i < segments.size() && segments[i].a == merged.a && segments[i].b == merged.b; ++i) {
       merged.first += segments[i].first;
       merged.rest += segments[i].rest;
+      merged.operands.add(segments[i].operands);
     }
     // A segment that changes no winding number is no boundary of anything.
     if (merged.first != 0 || merged.rest != 0) segments[count++] = merged;
@@ -80,34 +83,71 @@ void find_cuts(const Segment2D& s, uint32_t si, const Segment2D& t, uint32_t ti,
   if (tb == 0 && strictly_between(s.b, t)) cuts.push_back({ti, s.b});
 }
 
-/// All cuts that the segments, sorted by a, make in one another.
-std::vector<Cut> find_all_cuts(const std::vector<Segment2D>& segments) {
-  std::vector<Cut> cuts;
+/// Along each axis a crossing is rounded by half a step at most, and so are corners and the ends of
+/// edges when they are moved, turned or made up to twice as large.
+constexpr int64_t kMostRounded = 2;
+
+/// Whether a point is between the ends of a segment, and on it as far as can be told when both were
+/// rounded.
+bool may_lie_on(const Segment2D& s, const Point2D& p) {
+  const Point2D way = s.b - s.a;
+  const int128 off = cross(way, p - s.a);
+  const int128 reach = kMostRounded * (static_cast<int128>(std::abs(way.x)) + std::abs(way.y));
+  return off <= reach && -off <= reach && dot(way, p - s.a) > 0 && dot(way, s.b - p) > 0;
+}
+
+/// Cuts each of two segments at ends of the other that may lie on it.
+void find_cuts_at_near_ends(const Segment2D& s, uint32_t si, const Segment2D& t, uint32_t ti,
+                            std::vector<Cut>& cuts) {
+  for (const Point2D& p : {t.a, t.b}) {
+    if (may_lie_on(s, p)) cuts.push_back({si, p});
+  }
+  for (const Point2D& p : {s.a, s.b}) {
+    if (may_lie_on(t, p)) cuts.push_back({ti, p});
+  }
+}
+
+/// Calls visit(s, t) for all pairs of segments, which are sorted by a, whose boxes come near.
+template <class Visit>
+void for_each_near_pair(const std::vector<Segment2D>& segments, int64_t steps, Visit&& visit) {
   std::vector<uint32_t> active;
   for (uint32_t i = 0; i < segments.size(); ++i) {
     const Segment2D& s = segments[i];
-    const auto [low, high] = std::minmax(s.a.y, s.b.y);
+    const int64_t low = std::min(s.a.y, s.b.y) - steps, high = std::max(s.a.y, s.b.y) + steps;
     size_t kept = 0;
     for (const uint32_t j : active) {
       const Segment2D& t = segments[j];
-      if (t.b.x < s.a.x) continue;
+      if (t.b.x + steps < s.a.x) continue;
       active[kept++] = j;
       if (std::max(t.a.y, t.b.y) < low || std::min(t.a.y, t.b.y) > high) continue;
-      find_cuts(s, i, t, j, cuts);
+      visit(i, j);
     }
     active.resize(kept);
     active.push_back(i);
   }
+}
+
+/// All cuts that the segments make in one another; in `at_near_ends`, if it is given, those where
+/// operands may have met before they were rounded.
+std::vector<Cut> find_all_cuts(const std::vector<Segment2D>& segments,
+                               std::vector<Cut>* at_near_ends = nullptr) {
+  std::vector<Cut> cuts;
+  for_each_near_pair(segments, at_near_ends ? kMostRounded : 0, [&](uint32_t i, uint32_t j) {
+    const Segment2D &s = segments[i], &t = segments[j];
+    if (at_near_ends && !s.operands.meets(t.operands)) {
+      find_cuts_at_near_ends(s, i, t, j, *at_near_ends);
+    }
+    find_cuts(s, i, t, j, cuts);
+  });
   return cuts;
 }
 
-/// Whether a segment meets the square of so many steps around a grid point.
-bool meets_square(const Segment2D& s, const Point2D& p, int64_t steps) {
-  const int64_t r = steps;  // in halves of a step
+/// Whether a segment meets the square of one step around a grid point.
+bool meets_pixel(const Segment2D& s, const Point2D& p) {
   const Point2D a{2 * (s.a.x - p.x), 2 * (s.a.y - p.y)}, b{2 * (s.b.x - p.x), 2 * (s.b.y - p.y)};
-  if (b.x < -r || a.x > r || std::max(a.y, b.y) < -r || std::min(a.y, b.y) > r) return false;
+  if (b.x < -1 || a.x > 1 || std::max(a.y, b.y) < -1 || std::min(a.y, b.y) > 1) return false;
   int low = 1, high = -1;
-  for (const Point2D& corner : {Point2D{-r, -r}, Point2D{-r, r}, Point2D{r, -r}, Point2D{r, r}}) {
+  for (const Point2D& corner : {Point2D{-1, -1}, Point2D{-1, 1}, Point2D{1, -1}, Point2D{1, 1}}) {
     const int side = orient(a, b, corner);
     low = std::min(low, side);
     high = std::max(high, side);
@@ -115,39 +155,24 @@ bool meets_square(const Segment2D& s, const Point2D& p, int64_t steps) {
   return low <= 0 && high >= 0;
 }
 
-/// The ends of segments, and where they are cut.
-std::vector<Point2D> list_vertices(const std::vector<Segment2D>& segments,
-                                   const std::vector<Cut>& crossings) {
-  std::vector<Point2D> vertices;
-  for (const Cut& cut : crossings) vertices.push_back(cut.at);
-  for (const Segment2D& s : segments) vertices.insert(vertices.end(), {s.a, s.b});
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
-}
-
-/// Cuts where at(segment, vertex) holds, which is asked of vertices other than the segment's ends
-/// and in its range of x, with a step to spare.
-template <class At>
-std::vector<Cut> cuts_at(const std::vector<Point2D>& vertices,
-                         const std::vector<Segment2D>& segments, At&& at) {
-  std::vector<Cut> cuts;
-  for (uint32_t i = 0; i < segments.size(); ++i) {
-    const Segment2D& s = segments[i];
-    auto p = std::lower_bound(vertices.begin(), vertices.end(), s.a.x - 1,
-                              [](const Point2D& q, int64_t x) { return q.x < x; });
-    for (; p != vertices.end() && p->x <= s.b.x + 1; ++p) {
-      if (*p != s.a && *p != s.b && at(s, *p)) cuts.push_back({i, *p});
-    }
-  }
-  return cuts;
-}
-
 /// Snap rounding: a segment is cut at every vertex, and every crossing, whose pixel it meets.
 std::vector<Cut> find_snapping_cuts(const std::vector<Segment2D>& segments,
                                     const std::vector<Cut>& crossings) {
-  return cuts_at(list_vertices(segments, crossings), segments,
-                 [](const Segment2D& s, const Point2D& p) { return meets_square(s, p, 1); });
+  std::vector<Point2D> hot;
+  for (const Cut& cut : crossings) hot.push_back(cut.at);
+  for (const Segment2D& s : segments) hot.insert(hot.end(), {s.a, s.b});
+  std::sort(hot.begin(), hot.end());
+  hot.erase(std::unique(hot.begin(), hot.end()), hot.end());
+  std::vector<Cut> cuts;
+  for (uint32_t i = 0; i < segments.size(); ++i) {
+    const Segment2D& s = segments[i];
+    auto p = std::lower_bound(hot.begin(), hot.end(), s.a.x - 1,
+                              [](const Point2D& q, int64_t x) { return q.x < x; });
+    for (; p != hot.end() && p->x <= s.b.x + 1; ++p) {
+      if (*p != s.a && *p != s.b && meets_pixel(s, *p)) cuts.push_back({i, *p});
+    }
+  }
+  return cuts;
 }
 
 std::vector<Segment2D> apply_cuts(const std::vector<Segment2D>& segments, std::vector<Cut> cuts) {
@@ -164,10 +189,10 @@ std::vector<Segment2D> apply_cuts(const std::vector<Segment2D>& segments, std::v
     const Segment2D& s = segments[i];
     Point2D from = s.a;
     for (; next < cuts.size() && cuts[next].segment == i; ++next) {
-      push_segment(from, cuts[next].at, s.first, s.rest, result);
+      push_segment(from, cuts[next].at, s, result);
       from = cuts[next].at;
     }
-    push_segment(from, s.b, s.first, s.rest, result);
+    push_segment(from, s.b, s, result);
   }
   return result;
 }
@@ -178,36 +203,37 @@ std::vector<Segment2D> apply_cuts(const std::vector<Segment2D>& segments, std::v
 constexpr int kMostRounds = 40;
 
 std::optional<std::vector<Segment2D>> arrange_in(int rounds, std::vector<Segment2D> segments) {
-  for (int round = 0; round < rounds; ++round) {
+  merge_equal(segments);
+  std::vector<Cut> at_near_ends, cuts = find_all_cuts(segments, &at_near_ends);
+  if (!at_near_ends.empty()) {
+    // First these alone: what is the same edge then is cut at the same points.
+    segments = apply_cuts(segments, std::move(at_near_ends));
     merge_equal(segments);
-    std::vector<Cut> cuts = find_all_cuts(segments);
-    if (cuts.empty()) return segments;
+    cuts = find_all_cuts(segments);
+  }
+  for (int round = 0; !cuts.empty(); ++round) {
+    if (round == rounds) return std::nullopt;
     if (round >= kRoundsBeforeSnapping) cuts = find_snapping_cuts(segments, cuts);
     segments = apply_cuts(segments, std::move(cuts));
+    merge_equal(segments);
+    cuts = find_all_cuts(segments);
   }
-  return std::nullopt;
+  return segments;
 }
 
 }  // namespace
 
-void add_segment(const Point2D& from, const Point2D& to, bool is_first,
+void add_segment(const Point2D& from, const Point2D& to, uint32_t operand,
                  std::vector<Segment2D>& segments) {
-  push_segment(from, to, is_first ? 1 : 0, is_first ? 0 : 1, segments);
+  const bool is_first = operand == kFirstOperand;
+  push_segment(from, to, {{}, {}, is_first ? 1 : 0, is_first ? 0 : 1, OperandSet(operand)},
+               segments);
 }
 
-void add_outline(const GridLoop& loop, bool is_first, std::vector<Segment2D>& segments) {
+void add_outline(const GridLoop& loop, uint32_t operand, std::vector<Segment2D>& segments) {
   for (size_t i = 0; i < loop.size(); ++i) {
-    add_segment(loop[i], loop[(i + 1) % loop.size()], is_first, segments);
+    add_segment(loop[i], loop[(i + 1) % loop.size()], operand, segments);
   }
-}
-
-void cut_at_near_vertices(std::vector<Segment2D>& segments) {
-  merge_equal(segments);
-  segments = apply_cuts(
-      segments,
-      cuts_at(list_vertices(segments, {}), segments, [](const Segment2D& s, const Point2D& p) {
-        return meets_square(s, p, 2) && dot(p - s.a, s.b - s.a) > 0 && dot(p - s.b, s.a - s.b) > 0;
-      }));
 }
 
 std::optional<std::vector<Segment2D>> arrange(std::vector<Segment2D> segments) {

@@ -3,6 +3,10 @@
 // Segments that cross are both cut at the grid point nearest to their crossing; a segment is cut at
 // every end point that lies on it. Moving a crossing to the grid can make new crossings, so this is
 // repeated until nothing crosses: the result is exact on the grid, with no epsilon.
+//
+// Segments are cut, too, at end points of other operands that may have been on them before either
+// was rounded: where an outline ended on the edge of another one, there must be no crack. What one
+// operand has is apart as that operand says.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +17,44 @@
 
 namespace csgrun {
 
+/// The operands that have a segment, by their numbers.
+class OperandSet {
+ public:
+  OperandSet() : OperandSet(0) {}
+  explicit OperandSet(uint32_t operand) : only_(operand), bits_(uint64_t{1} << operand % 64) {}
+  void add(const OperandSet& others) {
+    if (only_ != others.only_) only_ = kSeveral;
+    bits_ |= others.bits_;
+  }
+  /// Whether some operand is in both. May be true where none is, if a set has several.
+  [[nodiscard]] bool meets(const OperandSet& o) const {
+    if (only_ != kSeveral && o.only_ != kSeveral) return only_ == o.only_;
+    return (bits_ & o.bits_) != 0;
+  }
+
+ private:
+  static constexpr uint32_t kSeveral = UINT32_MAX;
+  uint32_t only_;
+  uint64_t bits_;  ///< of the numbers modulo 64
+};
+
 /// A segment with a < b (by x, then y). Crossing it from its right to its left side, seen from a to
 /// b, adds `first` to the winding number of the first operand and `rest` to the sum of all others.
 struct Segment2D {
   Point2D a, b;
   int32_t first = 0, rest = 0;
+  OperandSet operands{};
 };
 
-/// Appends the segment from one point to another, as part of a closed outline of the first operand
-/// or of the others; nothing where they are equal.
-void add_segment(const Point2D& from, const Point2D& to, bool is_first,
+/// The first operand, and the next: that of outlines whose windings are all of one sum.
+constexpr uint32_t kFirstOperand = 0, kRestOfOperands = 1;
+
+/// Appends the segment from one point to another, as part of a closed outline of an operand;
+/// nothing where they are equal.
+void add_segment(const Point2D& from, const Point2D& to, uint32_t operand,
                  std::vector<Segment2D>& segments);
 /// Appends the segments of a closed outline.
-void add_outline(const GridLoop& loop, bool is_first, std::vector<Segment2D>& segments);
-
-/// Cuts segments at the vertices of others that lie on them as far as can be told after rounding:
-/// either was moved by half a step along each axis, so they are a step apart at most. Without it
-/// what ends on an edge somewhere leaves a crack beside it. O(n log n) when few vertices share a
-/// vertical line with a segment.
-void cut_at_near_vertices(std::vector<Segment2D>& segments);
+void add_outline(const GridLoop& loop, uint32_t operand, std::vector<Segment2D>& segments);
 
 /// After so many rounds, each of which moves what it cuts by less than a step, segments are also
 /// pulled to vertices near them.

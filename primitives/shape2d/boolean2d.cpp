@@ -87,10 +87,8 @@ std::function<bool(int32_t, int32_t)> inside_of(BooleanOp op, size_t operands) {
 Result<Shape2D> on_grid(BooleanOp op, const Grid2D& grid,
                         const std::vector<const Loops*>& operands) {
   std::vector<Segment2D> segments;
-  for (size_t i = 0; i < operands.size(); ++i) {
-    for (const Shape2D::Loop& loop : *operands[i]) {
-      add_outline(snap_loop(grid, loop), i == 0, segments);
-    }
+  for (uint32_t i = 0; i < operands.size(); ++i) {
+    for (const Shape2D::Loop& loop : *operands[i]) add_outline(snap_loop(grid, loop), i, segments);
   }
   return Shape2DFactory::arranged(grid, std::move(segments), inside_of(op, operands.size()));
 }

@@ -38,7 +38,7 @@ void add_edges_at_vertices(const GridLoop& edges, const GridLoop& vertices, bool
       if (turns == 0) continue;
       Point2D from{p.x + at.x, p.y + at.y}, to{q.x + at.x, q.y + at.y};
       if (turns < 0) std::swap(from, to);
-      add_segment(from, to, false, segments);
+      add_segment(from, to, kRestOfOperands, segments);
     }
   }
 }

@@ -98,7 +98,7 @@ class ConvexTool {
         curve.push_back(sum(at, corners_[farthest[i]]));
       }
     }
-    add_outline(curve, false, segments);
+    add_outline(curve, kRestOfOperands, segments);
   }
 
  private:
@@ -128,7 +128,8 @@ double edge_count(const std::vector<GridLoop>& loops) {
 /// A shape as it is on a grid that may be coarser than its own.
 Result<Shape2D> cleaned_on(const Grid2D& grid, const Shape2D& shape) {
   std::vector<Segment2D> segments;
-  for (const GridLoop& loop : snapped_loops(grid, shape)) add_outline(loop, false, segments);
+  for (const GridLoop& loop : snapped_loops(grid, shape))
+    add_outline(loop, kRestOfOperands, segments);
   return Shape2DFactory::arranged(grid, std::move(segments),
                                   [](int32_t, int32_t winding) { return winding > 0; });
 }

@@ -18,7 +18,8 @@ using Loops = std::vector<Shape2D::Loop>;
 /// With fewer loops it is not worth the while.
 constexpr size_t kFewLoops = 8;
 
-/// An arrangement moves what it cuts by fewer steps; snapping does by one more at most.
+/// An arrangement moves what it cuts by fewer steps: by less than one in each round, after two
+/// where it was cut at a near end.
 constexpr int64_t kMostMoved = 2 * kRoundsBeforeSnapping;
 
 /// A closed box, in mm.
@@ -40,8 +41,6 @@ struct Box2D {
     return {std::max(a.x, b.x), std::max(a.y, b.y)};
   }
 };
-
-bool is_aslant(const Segment2D& s) { return s.a.x != s.b.x && s.a.y != s.b.y; }
 
 /// Whether two points are both so far on one side of a line that it would not reach them.
 bool are_beyond(const Segment2D& line, const Point2D& p, const Point2D& q) {
@@ -101,7 +100,7 @@ std::vector<uint8_t> find_far(const Loops& loops, std::span<const uint32_t> grou
 bool may_meet_far(const Grid2D& grid, const std::vector<Segment2D>& segments,
                   const std::vector<Segment2D>& arrangement, const Loops& far) {
   return std::any_of(segments.begin(), segments.end(), [&](const Segment2D& s) {
-    if (s.first == 0 || !is_aslant(s) || is_in(arrangement, s)) return false;
+    if (s.first == 0 || is_in(arrangement, s)) return false;
     return std::any_of(far.begin(), far.end(), [&](const Shape2D::Loop& loop) {
       return may_reach(s, snap_loop(grid, loop));
     });
@@ -148,11 +147,13 @@ std::optional<Shape2D> boolean_of_near_loops(const GridBoolean& boolean) {
   if (loops.size() < kFewLoops || group_of.empty()) return std::nullopt;
   Box2D box;
   std::vector<Segment2D> segments;
+  uint32_t operand = kFirstOperand;  // which the base is
   for (size_t s = 0; s < boolean.shapes.size(); ++s) {
     if (s == base) continue;
+    ++operand;
     for (const Shape2D::Loop& loop : boolean.shapes[s].loops()) {
       box.include(loop);
-      add_outline(snap_loop(grid, loop), false, segments);
+      add_outline(snap_loop(grid, loop), operand, segments);
     }
   }
   const glm::dvec2 moved(kMostMoved / grid.steps_per_mm());
@@ -162,7 +163,7 @@ std::optional<Shape2D> boolean_of_near_loops(const GridBoolean& boolean) {
   Loops far_loops;
   for (uint32_t l = 0; l < loops.size(); ++l) {
     if (is_far[l] == 0) {
-      add_outline(snap_loop(grid, loops[l]), true, segments);
+      add_outline(snap_loop(grid, loops[l]), kFirstOperand, segments);
       continue;
     }
     far.push_back(l);

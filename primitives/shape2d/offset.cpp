@@ -152,7 +152,8 @@ Result<Shape2D> united(const std::vector<Shape2D::Loop>& curves, const char* fun
   const Result<Grid2D> grid = grid_for(extent_of(curves));
   if (!grid) return grid.error();
   std::vector<Segment2D> segments;
-  for (const Shape2D::Loop& curve : curves) add_outline(snap_loop(*grid, curve), false, segments);
+  for (const Shape2D::Loop& curve : curves)
+    add_outline(snap_loop(*grid, curve), kRestOfOperands, segments);
   return Shape2DFactory::arranged(*grid, std::move(segments), [inwards](int32_t, int32_t sum) {
     return inwards ? sum < 0 : sum > 0;
   });

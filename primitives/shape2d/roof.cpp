@@ -51,7 +51,7 @@ Result<RoofOutline> make_roof_outline(const Shape2D& shape, int bits) {
       snapped.push_back(snap(p));
       given.emplace_back(snapped.back(), p);
     }
-    add_outline(snapped, false, segments);
+    add_outline(snapped, kRestOfOperands, segments);
   }
   auto arranged = arrange(std::move(segments));
   if (!arranged) return Error{ErrorCode::kInternal, "roof: the outlines do not settle", {}};

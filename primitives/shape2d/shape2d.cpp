@@ -27,7 +27,7 @@ Result<Shape2D> Shape2D::from_outlines(const std::vector<Loop>& outlines, FillRu
   const Result<Grid2D> grid = grid_for(extent_of(outlines));
   if (!grid) return grid.error();
   std::vector<Segment2D> segments;
-  for (const Loop& loop : outlines) add_outline(snap_loop(*grid, loop), false, segments);
+  for (const Loop& loop : outlines) add_outline(snap_loop(*grid, loop), kRestOfOperands, segments);
   return Shape2DFactory::arranged(*grid, std::move(segments), [fill](int32_t, int32_t rest) {
     return fill == FillRule::kEvenOdd   ? rest % 2 != 0
            : fill == FillRule::kNonZero ? rest != 0

@@ -22,7 +22,7 @@ Result<Shape2D> fill_shape(const Shape2D& shape) {
   if (!grid) return grid.error();
   std::vector<Segment2D> segments;
   for (const Shape2D::Region& region : shape.regions()) {
-    add_outline(snap_loop(*grid, shape.loops()[region.outer]), false, segments);
+    add_outline(snap_loop(*grid, shape.loops()[region.outer]), kRestOfOperands, segments);
   }
   return Shape2DFactory::arranged(*grid, std::move(segments),
                                   [](int32_t, int32_t sum) { return sum > 0; });

@@ -24,11 +24,13 @@ Shape2D::Loop outline(const Solid& solid, uint32_t loop) {
 
 Result<Shape2D> project_solid(const Solid& solid) {
   std::vector<Shape2D::Loop> outlines;
-  for (size_t f = 0; f < solid.faces.size(); ++f) {
+  std::vector<uint32_t> face_of;
+  for (uint32_t f = 0; f < solid.faces.size(); ++f) {
     if (!(solid.face_normals[f].z > 0)) continue;
     const Solid::Face& face = solid.faces[f];
     for (uint32_t l = 0; l < face.loop_count; ++l) {
       outlines.push_back(outline(solid, face.first_loop + l));
+      face_of.push_back(f);
     }
   }
   if (outlines.empty()) return Shape2D();
@@ -37,10 +39,11 @@ Result<Shape2D> project_solid(const Solid& solid) {
   // Seen from above all these faces run counter-clockwise: the winding number of a point is how
   // many of them are over it.
   std::vector<Segment2D> segments;
-  for (const auto& loop : outlines) add_outline(snap_loop(*grid, loop), false, segments);
-  // Faces that meet when they are seen from above have edges of one wall, or of walls in one plane,
-  // but mostly no corners in common.
-  cut_at_near_vertices(segments);
+  // Each is an operand: faces that meet when they are seen from above have edges of one wall, or of
+  // walls in one plane, but mostly no corners in common.
+  for (size_t l = 0; l < outlines.size(); ++l) {
+    add_outline(snap_loop(*grid, outlines[l]), kRestOfOperands + face_of[l], segments);
+  }
   return Shape2DFactory::arranged(*grid, std::move(segments),
                                   [](int32_t, int32_t rest) { return rest > 0; });
 }
