@@ -435,10 +435,14 @@ Point Job::exact_of(uint32_t o, uint32_t local) const {
     const auto& t = own[local];
     return intersect(planes_.plane(t[0]), planes_.plane(t[1]), planes_.plane(t[2]));
   }
-  const IVec3& q = operand.leaf->vertices[local];
-  const IVec3 moved{q[0] + operand.translation[0], q[1] + operand.translation[1],
-                    q[2] + operand.translation[2]};
-  return source.map.point(moved);
+  return source.map.point(frame_point(o, source.first_vertex + local));
+}
+
+IVec3 Job::frame_point(size_t o, uint32_t vertex) const {
+  const Operand& operand = (*operands_)[o];
+  const IVec3 &q = operand.leaf->vertices[vertex - sources_[o].first_vertex],
+              &t = operand.translation;
+  return {q[0] + t[0], q[1] + t[1], q[2] + t[2]};
 }
 
 Job::VertexName Job::vertex_name(uint32_t vertex) const {

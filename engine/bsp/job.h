@@ -148,6 +148,14 @@ class Job {
     return named_parts_[o];
   }
   [[nodiscard]] Point exact(uint32_t vertex) const;
+  /// Whether both operands are leaves in one frame, and not the world's.
+  [[nodiscard]] bool are_in_one_frame(size_t o, size_t other) const {
+    return is_leaf(o) && is_leaf(other) && !(*operands_)[o].frame.is_identity &&
+           (*operands_)[o].frame == (*operands_)[other].frame;
+  }
+  /// Whether an operand's frame mirrors, and a vertex of it in that frame. REQUIRES: a leaf.
+  [[nodiscard]] bool is_mirrored(size_t o) const { return sources_[o].map.is_mirrored(); }
+  [[nodiscard]] IVec3 frame_point(size_t o, uint32_t vertex) const;
   /// Whether one vertex comes before another in the exact lexicographic order of their points.
   [[nodiscard]] bool is_below(uint32_t vertex, uint32_t other) const;
   struct VertexName {

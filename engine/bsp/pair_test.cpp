@@ -80,6 +80,28 @@ void PairTest::find_level(Base& base) const {
   }
 }
 
+/// The same where coordinates are whole numbers: of results all but what was cut is on the grid,
+/// and leaves of one frame are in that.
+int PairTest::orient_whole(const std::array<uint32_t, 4>& vertices, uint32_t operand,
+                           uint32_t other) {
+  std::array<VertexSigns::Position, 4> at;
+  if (job_.are_in_one_frame(operand, other)) {
+    for (size_t i = 0; i < 4; ++i) {
+      const bool is_own = vertices[i] - job_.vertex_start(operand) <
+                          job_.vertex_start(operand + 1) - job_.vertex_start(operand);
+      const IVec3 p = job_.frame_point(is_own ? operand : other, vertices[i]);
+      for (size_t k = 0; k < 3; ++k) at[i][k] = static_cast<double>(p[k]);
+    }
+    const int sign = signs_.orient(at[0], at[1], at[2], at[3], 0);
+    return sign != kUnsure && job_.is_mirrored(operand) ? -sign : sign;
+  }
+  for (size_t i = 0; i < 4; ++i) {
+    if (!job_.vertex_name(vertices[i]).is_on_grid) return kUnsure;
+    at[i] = job_.rounded(vertices[i]);
+  }
+  return signs_.orient(at[0], at[1], at[2], at[3], 0);
+}
+
 /// The sides of p's corners on q's plane. +1 or -1 when all are strictly on that side, 0 when not,
 /// or kUnsure.
 int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
@@ -114,10 +136,9 @@ int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
       ++signs_.filtered;
     } else if (!planes_only_) {
       s = signs_.filter(base.signs, job_.rounded(v), error);
-      if (s == 0) {
-        s = signs_.orient(job_.rounded(base.corners[0]), job_.rounded(base.corners[1]),
-                          job_.rounded(base.corners[2]), job_.rounded(v), error);
-      }
+      if (s == 0)
+        s = orient({base.corners[0], base.corners[1], base.corners[2], v}, own.operand,
+                   other.operand, error);
     }
     if (s == kUnsure) {
       if (!planes_) return kUnsure;
@@ -173,8 +194,8 @@ int PairTest::inside(uint32_t p, uint32_t i, bool falls, uint32_t q, uint32_t j)
   const auto of_p = job_.corners(own), of_q = job_.corners(other);
   const uint32_t i_next = i + 1 < own.count ? i + 1 : 0, j_next = j + 1 < other.count ? j + 1 : 0;
   const double error = std::max(signs_.error(own.operand), signs_.error(other.operand));
-  const int s = orient(job_.rounded(of_q[j]), job_.rounded(of_q[j_next]), job_.rounded(of_p[i]),
-                       job_.rounded(of_p[i_next]), error);
+  const int s =
+      orient({of_q[j], of_q[j_next], of_p[i], of_p[i_next]}, own.operand, other.operand, error);
   if (s != kUnsure) return falls ? -s : s;
   if (!planes_) return kUnsure;
   const uint32_t edge = job_.edge_planes(other)[j];

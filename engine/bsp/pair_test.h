@@ -68,10 +68,14 @@ class PairTest {
     bool front = false, back = false, zero = false;  ///< corners of each kind
   };
 
-  int orient(const std::array<double, 3>& a, const std::array<double, 3>& b,
-             const std::array<double, 3>& c, const std::array<double, 3>& d, double error) {
-    return planes_only_ ? kUnsure : signs_.orient(a, b, c, d, error);
+  /// Of four vertices of two operands, whose coordinates are off by `error` at most.
+  int orient(const std::array<uint32_t, 4>& v, uint32_t operand, uint32_t other, double error) {
+    if (planes_only_) return kUnsure;
+    const int sign = signs_.orient(job_.rounded(v[0]), job_.rounded(v[1]), job_.rounded(v[2]),
+                                   job_.rounded(v[3]), error);
+    return sign == kUnsure && error > 0 ? orient_whole(v, operand, other) : sign;
   }
+  int orient_whole(const std::array<uint32_t, 4>& vertices, uint32_t operand, uint32_t other);
   struct Base {
     uint32_t polygon = kNone;
     std::array<uint32_t, 3> corners{};
