@@ -12,18 +12,8 @@ namespace csgrun {
 namespace {
 
 using testing::good;
+using testing::length_of;
 using testing::outlines;
-
-double length_of(const Shape2D& shape) {
-  double length = 0;
-  for (const Shape2D::Loop& loop : shape.loops()) {
-    for (size_t i = 0; i < loop.size(); ++i) {
-      const glm::dvec2 way = loop[(i + 1) % loop.size()] - loop[i];
-      length += std::hypot(way.x, way.y);
-    }
-  }
-  return length;
-}
 
 class Inlays : public ::testing::Test {
  protected:

@@ -16,17 +16,7 @@ namespace csgrun {
 namespace {
 
 using testing::good;
-
-double length_of(const Shape2D& shape) {
-  double length = 0;
-  for (const Shape2D::Loop& loop : shape.loops()) {
-    for (size_t i = 0; i < loop.size(); ++i) {
-      const glm::dvec2 way = loop[(i + 1) % loop.size()] - loop[i];
-      length += std::hypot(way.x, way.y);
-    }
-  }
-  return length;
-}
+using testing::length_of;
 
 /// The prism over a shape, from one height to another.
 NodePtr prism(const Shape2D& shape, double low, double high) {
