@@ -1,9 +1,11 @@
 #include "engine/bsp/evaluate_job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "engine/bsp/cell_solver.h"
+#include "engine/bsp/frame_map.h"
 #include "engine/bsp/literal_cell.h"
 #include "engine/bsp/non_manifold.h"
 #include "engine/bsp/octree.h"
@@ -83,6 +85,23 @@ std::vector<GridBox> touches_of(const LeafGeometry& leaf) {
   return boxes;
 }
 
+/// A box around what a box in a frame is in the world.
+GridBox mapped(const FrameMap& map, const GridBox& box) {
+  if (map.is_identity()) return box;
+  std::vector<IVec3> around;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    IVec3 at;
+    for (size_t k = 0; k < 3; ++k) at[k] = (corner >> k & 1) != 0 ? box.hi[k] : box.lo[k];
+    // A step more than rounding asks for.
+    for (const double step : {-1.0, 1.0}) {
+      const std::array<double, 3> p = rounded(map.point(at));
+      IVec3& whole = around.emplace_back();
+      for (size_t k = 0; k < 3; ++k) whole[k] = static_cast<int64_t>(std::round(p[k] + step));
+    }
+  }
+  return box_of_points(around);
+}
+
 /// Adds boxes, and keeps few.
 void add_touching(Touching& touching, const std::vector<GridBox>& more) {
   touching.boxes.insert(touching.boxes.end(), more.begin(), more.end());
@@ -94,7 +113,17 @@ void add_touching(Touching& touching, const std::vector<GridBox>& more) {
 Touching touching_before(const std::vector<Operand>& operands) {
   Touching result{false, {}};
   for (const Operand& o : operands) {
-    if (o.pieces || (o.leaf ? !o.leaf->may_touch : !o.boundary->may_touch)) continue;
+    if (o.leaf && !o.leaf->may_touch) {
+      // Faces meet in corners that both have; but where something touches them near by, those of
+      // one plane become one face, which may lose a corner that others have.
+      if (o.leaf->has_single_fans) continue;
+      const FrameMap map(o.frame);
+      for (const GridBox& box : touches_of(*o.leaf)) {
+        result.boxes.push_back(mapped(map, box.moved(o.translation)));
+      }
+      continue;
+    }
+    if (o.pieces || (o.boundary && !o.boundary->may_touch)) continue;
     const std::vector<GridBox> boxes = o.leaf ? touches_of(*o.leaf) : o.boundary->touches;
     if (boxes.empty() || !o.frame.is_identity) {
       result.anywhere = true;
