@@ -31,7 +31,8 @@ Result<EvaluatedJob> evaluate_job(Job& job, const std::vector<Operand>& operands
                                   const Expression& expression, const GridBox& region,
                                   const KernelOptions& options, EvaluateStats& stats);
 
-/// Where single operands may touch themselves; those in pieces are left out.
+/// Where single operands touch themselves, or the result may do so since facets of theirs become
+/// one face; those in pieces are left out. O(n) for leaves that are not known to have single fans.
 Touching touching_before(const std::vector<Operand>& operands);
 
 }  // namespace csgrun
