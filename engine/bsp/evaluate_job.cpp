@@ -113,23 +113,17 @@ void add_touching(Touching& touching, const std::vector<GridBox>& more) {
 Touching touching_before(const std::vector<Operand>& operands) {
   Touching result{false, {}};
   for (const Operand& o : operands) {
-    if (o.leaf && !o.leaf->may_touch) {
-      // Faces meet in corners that both have; but where something touches them near by, those of
-      // one plane become one face, which may lose a corner that others have.
-      if (o.leaf->has_single_fans) continue;
-      const FrameMap map(o.frame);
-      for (const GridBox& box : touches_of(*o.leaf)) {
-        result.boxes.push_back(mapped(map, box.moved(o.translation)));
-      }
-      continue;
-    }
-    if (o.pieces || (o.boundary && !o.boundary->may_touch)) continue;
+    if (o.pieces) continue;
+    const bool may_touch = o.leaf ? o.leaf->may_touch : o.boundary->may_touch;
+    // Where faces of a leaf meet in corners that both have, too: near what touches them, those of
+    // one plane become one face, which may lose a corner that others keep.
+    if (!may_touch && (!o.leaf || o.leaf->has_single_fans)) continue;
     const std::vector<GridBox> boxes = o.leaf ? touches_of(*o.leaf) : o.boundary->touches;
-    if (boxes.empty() || !o.frame.is_identity) {
-      result.anywhere = true;
-      continue;
+    result.anywhere |= may_touch && boxes.empty();
+    const FrameMap map(o.frame);
+    for (const GridBox& box : boxes) {
+      result.boxes.push_back(mapped(map, box.moved(o.translation)));
     }
-    for (const GridBox& box : boxes) result.boxes.push_back(box.moved(o.translation));
   }
   keep_few(result.boxes);
   return result;

@@ -122,7 +122,7 @@ class FaceArrangement {
   RimPlace place_on_edge(uint32_t edge, uint32_t point);
   void list_rim();
   [[nodiscard]] uint32_t rim_index(uint32_t edge, RimPlace place, uint32_t point) const;
-  bool may_pass_corner(const Line& line) const;
+  [[nodiscard]] bool may_pass_corner(const Line& line) const;
   void find_stops();
   void find_same_lines();
   [[nodiscard]] bool have_same_ends(size_t i, size_t j) const;

@@ -46,7 +46,8 @@ struct Segment2D {
   OperandSet operands{};
 };
 
-/// The first operand, and the next: that of outlines whose windings are all of one sum.
+/// Windings of the first operand count for `first`, those of all others for `rest`. Where all
+/// outlines are of one shape, its number is that of the rest.
 constexpr uint32_t kFirstOperand = 0, kRestOfOperands = 1;
 
 /// Appends the segment from one point to another, as part of a closed outline of an operand;

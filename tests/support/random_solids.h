@@ -431,12 +431,11 @@ inline std::vector<Loop> tent_loops(Random& random, int64_t size) {
     loops.push_back({base[with_first], second, first});
     loops.push_back({base[0], first, second});
   }
-  const Leaf leaf = make_leaf(loops);
   for (const Loop& l : loops) {
     const IVec3 normal = cross_of(sub(l[1], l[0]), sub(l[2], l[0]));
     if (l.size() == 3 && normal == IVec3{0, 0, 0}) return {};
   }
-  return find_self_intersections(*leaf).empty() ? loops : std::vector<Loop>();
+  return find_self_intersections(*make_leaf(loops)).empty() ? loops : std::vector<Loop>();
 }
 
 /// Some are as the engine prepares them.

@@ -50,8 +50,17 @@ TEST(EvaluateJob, OperandsThatTouchThemselvesSayWhere) {
   EXPECT_TRUE(told({of_leaf(apart), of_leaf(leaf)}).anywhere);
   EXPECT_TRUE(told({of_leaf(leaf), of_leaf(apart)}).anywhere);
   EXPECT_TRUE(told({of(anywhere)}).anywhere);
-  EXPECT_TRUE(told({turned, of(result)}).anywhere);
-  EXPECT_TRUE(told({turned}).boxes.empty());
+  // The box from (1, 2, 3) to (4, 5, 6), turned back by 30 degrees: c + 2 s to 4 c + 5 s along x.
+  const Touching of_turned = told({turned, of(result)});
+  EXPECT_FALSE(of_turned.anywhere);
+  ASSERT_EQ(of_turned.boxes.size(), 1u);
+  const double low[3] = {1.866, -0.268, 3}, high[3] = {5.964, 3.830, 6};
+  for (size_t k = 0; k < 3; ++k) {
+    EXPECT_LE(static_cast<double>(of_turned.boxes[0].lo[k]), low[k]) << k;
+    EXPECT_GE(static_cast<double>(of_turned.boxes[0].lo[k]), low[k] - 2) << k;
+    EXPECT_GE(static_cast<double>(of_turned.boxes[0].hi[k]), high[k]) << k;
+    EXPECT_LE(static_cast<double>(of_turned.boxes[0].hi[k]), high[k] + 2) << k;
+  }
   const Touching places = told({of_leaf(apart), of(touching), in_pieces, moved});
   EXPECT_FALSE(places.anywhere);
   ASSERT_EQ(places.boxes.size(), 2u);

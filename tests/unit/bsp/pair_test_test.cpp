@@ -279,7 +279,7 @@ TEST(PairTest, InOnePlane) {
   EXPECT_GT(seen.coplanar, 1000);
 }
 
-// Rounded corners leave much open, which corners in the frame tell, where both have one.
+// Rounded corners leave much open, which corners in the frame tell, where both are in one.
 TEST(PairTest, InFrames) {
   Random random(415);
   Seen seen;

@@ -60,8 +60,8 @@ TEST(Projection, OfPrismsIsTheUnionOfTheirShapes) {
     const Shape2D shadow = good(project_solid(**solid));
     const Shape2D expected = good(Shape2D::boolean(BooleanOp::kUnion, shapes));
     EXPECT_EQ(shadow.loops().size(), expected.loops().size()) << "case " << i;
-    EXPECT_NEAR(shadow.area(), expected.area(), 1e-3) << "case " << i;
-    EXPECT_NEAR(length_of(shadow), length_of(expected), 1e-3) << "case " << i;
+    EXPECT_NEAR(shadow.area(), expected.area(), 1e-5) << "case " << i;
+    EXPECT_NEAR(length_of(shadow), length_of(expected), 1e-5) << "case " << i;
   }
 }
 
