@@ -9,6 +9,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "engine/exact/carry.h"
+
 namespace csgrun {
 
 using Int128 = __int128;
@@ -52,21 +54,13 @@ struct Int {
   Int operator+(const Int& o) const {
     Int r;
     unsigned char carry = 0;
-    for (int i = 0; i < N; ++i) {
-      const UInt128 s = static_cast<UInt128>(limb[i]) + o.limb[i] + carry;
-      r.limb[i] = static_cast<uint64_t>(s);
-      carry = static_cast<unsigned char>(s >> 64);
-    }
+    for (int i = 0; i < N; ++i) r.limb[i] = add_carry(limb[i], o.limb[i], carry);
     return r;
   }
   Int operator-(const Int& o) const {
     Int r;
     unsigned char borrow = 0;
-    for (int i = 0; i < N; ++i) {
-      const UInt128 s = static_cast<UInt128>(limb[i]) - o.limb[i] - borrow;
-      r.limb[i] = static_cast<uint64_t>(s);
-      borrow = static_cast<unsigned char>((s >> 64) & 1);
-    }
+    for (int i = 0; i < N; ++i) r.limb[i] = subtract_borrow(limb[i], o.limb[i], borrow);
     return r;
   }
   Int operator-() const { return Int() - *this; }
@@ -88,11 +82,9 @@ struct Int {
     // Signs are as good as random: no branch on them.
     const uint64_t sign = -static_cast<uint64_t>(negative());
     Int r;
-    uint64_t carry = sign & 1;
-    for (int i = 0; i < N; ++i) {
-      r.limb[i] = (limb[i] ^ sign) + carry;
-      carry &= static_cast<uint64_t>(r.limb[i] == 0);
-    }
+    for (int i = 0; i < N; ++i) r.limb[i] = limb[i] ^ sign;
+    unsigned char borrow = 0;
+    for (int i = 0; i < N; ++i) r.limb[i] = subtract_borrow(r.limb[i], sign, borrow);
     return r;
   }
   /// Number of bits of the magnitude: 0 for zero.
@@ -121,23 +113,18 @@ inline Int<R> multiply(const Int<A>& a, const Int<B>& b) {
   // As unsigned limbs a negative number reads 2^(64 A) too large: take the excess off again.
   if constexpr (A < R) {
     if (a.negative()) {
-      uint64_t borrow = 0;
+      unsigned char borrow = 0;
       for (int i = A; i < R; ++i) {
         const uint64_t sub = i - A < B ? b.limb[i - A] : (b.negative() ? ~0ull : 0);
-        const UInt128 t = static_cast<UInt128>(r.limb[i]) - sub - borrow;
-        r.limb[i] = static_cast<uint64_t>(t);
-        borrow = static_cast<uint64_t>(t >> 64) & 1;
+        r.limb[i] = subtract_borrow(r.limb[i], sub, borrow);
       }
     }
   }
   if constexpr (B < R) {
     if (b.negative()) {
-      uint64_t borrow = 0;
+      unsigned char borrow = 0;
       for (int i = B; i < R; ++i) {
-        const uint64_t sub = i - B < A ? a.limb[i - B] : 0;
-        const UInt128 t = static_cast<UInt128>(r.limb[i]) - sub - borrow;
-        r.limb[i] = static_cast<uint64_t>(t);
-        borrow = static_cast<uint64_t>(t >> 64) & 1;
+        r.limb[i] = subtract_borrow(r.limb[i], i - B < A ? a.limb[i - B] : 0, borrow);
       }
     }
   }

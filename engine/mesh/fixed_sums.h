@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/exact/plane.h"
 #include "engine/exact/point.h"
 #include "engine/mesh/leading_bits.h"
 #include "engine/mesh/measure.h"
@@ -64,27 +65,36 @@ inline Int<2> narrow_quotient(UInt128 m, UInt128 w, bool& whole) {
   return result;
 }
 
+/// Whether 128 bits hold a number, and then these.
+inline bool is_narrow(const Int<kPointLimbs>& v, Int128& low) {
+  const uint64_t fill = -(v.limb[1] >> 63);
+  uint64_t beyond = 0;
+  for (size_t i = 2; i < kPointLimbs; ++i) beyond |= v.limb[i] ^ fill;
+  low = static_cast<Int128>(static_cast<UInt128>(v.limb[1]) << 64 | v.limb[0]);
+  return beyond == 0;
+}
+
 /// Whether x is w * 2^(64 K) times less than 2^kCoordinateBits, and then floor(x * 2^(64 K) / w);
-/// `cut` is set when the quotient was not whole.
+/// `cut` is set when the quotient was not whole. REQUIRES: w > 0.
 template <int K>
 bool fixed_point(const Int<kPointLimbs>& x, const Int<kPointLimbs>& w, Int<K + 1>& result,
                  bool& cut) {
-  const int w_bits = w.bit_width();
-  const Int<kPointLimbs> m = x.magnitude();
-  const int m_bits = m.bit_width();
-  if (m_bits - w_bits >= kCoordinateBits - 1) return false;
   if constexpr (K == 1) {
-    if (std::max(m_bits, w_bits) < 127) {
-      const auto low = [](const Int<kPointLimbs>& v) {
-        return static_cast<UInt128>(v.limb[1]) << 64 | v.limb[0];
-      };
+    Int128 narrow = 0, narrow_w = 0;
+    if (is_narrow(x, narrow) && is_narrow(w, narrow_w)) {
+      const UInt128 m = magnitude(narrow);
+      if (width_of_magnitude(m) - bit_width(narrow_w) >= kCoordinateBits - 1) return false;
       bool whole = true;
-      result = narrow_quotient(low(m), low(w), whole);
-      if (x.negative()) result = whole ? -result : -result - Int<2>(1);
+      result = narrow_quotient(m, static_cast<UInt128>(narrow_w), whole);
+      if (narrow < 0) result = whole ? -result : -result - Int<2>(1);
       cut = cut || !whole;
       return true;
     }
   }
+  const int w_bits = w.bit_width();
+  const Int<kPointLimbs> m = x.magnitude();
+  const int m_bits = m.bit_width();
+  if (m_bits - w_bits >= kCoordinateBits - 1) return false;
   const int lift = (64 - w_bits % 64) % 64;
   const auto n = static_cast<size_t>((w_bits + 63) / 64);
   const Int<kPointLimbs + 1> divisor = Int<kPointLimbs + 1>::from(w).shifted_left(lift);
@@ -118,12 +128,10 @@ Int<A + B> full_product(const Int<A>& a, const Int<B>& b) {
   }
   // As unsigned limbs a negative number reads 2^(64 size) too large: the excess is taken off again.
   const auto take_off = [&r](const auto& factor, int from, bool negative) {
-    const uint64_t mask = negative ? ~0ull : 0;
-    uint64_t borrow = 0;
+    const uint64_t mask = -static_cast<uint64_t>(negative);
+    unsigned char borrow = 0;
     for (int i = from; i < A + B; ++i) {
-      const UInt128 t = static_cast<UInt128>(r.limb[i]) - (factor.limb[i - from] & mask) - borrow;
-      r.limb[i] = static_cast<uint64_t>(t);
-      borrow = static_cast<uint64_t>(t >> 64) & 1;
+      r.limb[i] = subtract_borrow(r.limb[i], factor.limb[i - from] & mask, borrow);
     }
   };
   take_off(b, A, a.negative());

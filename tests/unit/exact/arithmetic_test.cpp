@@ -345,6 +345,48 @@ TEST(FixedInt, MultipliesAddsAndShiftsAsGmpDoes) {
   }
 }
 
+/// The limbs as they are, without a sign.
+template <int N>
+mpz_class unsigned_value(const Int<N>& v) {
+  mpz_class r;
+  mpz_import(r.get_mpz_t(), N, -1, 8, 0, 0, v.limb.data());
+  return r;
+}
+
+// Of limbs that are full, empty or anything, so that what is carried runs through several.
+template <int N>
+void check_carries(Random& random) {
+  const mpz_class modulus = mpz_class(1) << 64 * N;
+  const auto wrap = [&](const mpz_class& v) -> mpz_class { return (v + modulus) % modulus; };
+  int negative = 0;
+  for (int i = 0; i < 5000; ++i) {
+    Int<N> a, b;
+    for (Int<N>* v : {&a, &b}) {
+      for (uint64_t& l : v->limb) {
+        const uint64_t kind = random.bits() % 4;
+        l = kind == 0 ? 0 : kind == 1 ? ~uint64_t{0} : kind == 2 ? 1 : random.bits();
+      }
+    }
+    const mpz_class x = unsigned_value(a), y = unsigned_value(b);
+    ASSERT_EQ(unsigned_value(a + b), wrap(x + y));
+    ASSERT_EQ(unsigned_value(a - b), wrap(x - y));
+    ASSERT_EQ(unsigned_value(-a), wrap(-x));
+    ASSERT_EQ(unsigned_value(a.magnitude()), x >= modulus / 2 ? mpz_class(modulus - x) : x);
+    negative += a.negative();
+  }
+  EXPECT_GT(negative, 1000);
+}
+
+TEST(FixedInt, CarriesThroughAllLimbs) {
+  Random random(29);
+  check_carries<1>(random);
+  check_carries<2>(random);
+  check_carries<3>(random);
+  check_carries<4>(random);
+  check_carries<6>(random);
+  check_carries<8>(random);
+}
+
 TEST(FixedInt, SingleBitsAndTheirSums) {
   for (int bit = 0; bit < 4 * 64 - 1; ++bit) {
     const Int<4> one = Int<4>(1).shifted_left(bit);
