@@ -41,9 +41,7 @@ class Summer {
         return nullptr;
       }
     }
-    if (near_sum != 0) {
-      own.six_volumes += Int<6>::from(Int<2>::from_int128(near_sum)).shifted_left(3 * kFraction);
-    }
+    if (near_sum != 0) own.six_volumes += of_whole(near_sum);
     for (const PieceTree::NodePtr& child : node.child) {
       if (!child) continue;
       const PieceSums* below = sums(*child);
@@ -63,9 +61,15 @@ class Summer {
     sums.triangles += more.triangles;
   }
 
-  /// Of a piece all of whose corners are whole and near the origin; nothing for others.
+  /// A sum of determinants of whole numbers in the unit of PieceSums.
+  static Int<6> of_whole(Int128 sum) {
+    return Int<6>::from(Int<2>::from_int128(sum)).shifted_left(3 * kFraction);
+  }
+
+  /// Of a piece all of whose corners are whole and near the origin; nothing for others, and for
+  /// groups, which are worth keeping.
   std::optional<Int128> near_determinant(uint32_t piece) {
-    if (store_.is_group(piece)) return near_determinant_of_group(piece);
+    if (store_.is_group(piece)) return std::nullopt;
     near_.clear();
     for (const uint32_t point : store_.corners(piece)) {
       if (!store_.is_on_grid(point)) return std::nullopt;
@@ -81,22 +85,21 @@ class Summer {
     return sum;
   }
 
-  /// Straight from the leaf.
-  [[nodiscard]] std::optional<Int128> near_determinant_of_group(uint32_t piece) const {
+  /// Of a group, straight from the leaf; false if that is in a frame, or too far from the origin.
+  bool add_near(uint32_t piece, PieceSums& out) const {
     const PieceStore::Piece& group = store_.piece(piece);
-    if (!store_.map(group.operand).is_identity()) return std::nullopt;
+    if (!store_.map(group.operand).is_identity()) return false;
     const PieceBox& box = store_.box(piece);  // exact: of grid points
     for (size_t k = 0; k < 3; ++k) {
       const auto origin = static_cast<double>(store_.origin()[k]);
-      if (box.lo[k] - origin <= -kNearLimit || box.hi[k] - origin >= kNearLimit) {
-        return std::nullopt;
-      }
+      if (box.lo[k] - origin <= -kNearLimit || box.hi[k] - origin >= kNearLimit) return false;
     }
     Int128 sum = 0;
     each_triangle(piece, store_.origin(), [&](const Near& a, const Near& b, const Near& c) {
       sum += determinant(a, b, c);
     });
-    return group.is_flipped ? -sum : sum;
+    out.six_volumes += of_whole(group.is_flipped ? -sum : sum);
+    return true;
   }
 
   /// Calls f(a, b, c) for the triangles of a group, relative to a point of the leaf's frame.
@@ -121,9 +124,11 @@ class Summer {
     }
   }
 
-  /// Of a group of a leaf in a frame, from its whole numbers there; false if they are too large.
+  /// Of a group of a leaf in a frame, from its whole numbers there; false if it is in none, or they
+  /// are too large.
   bool add_framed(uint32_t piece, PieceSums& out) const {
     const PieceStore::Piece& group = store_.piece(piece);
+    if (store_.map(group.operand).is_identity()) return false;
     FramedSums sums;
     bool are_near = true;
     each_triangle(piece, {0, 0, 0}, [&](const Near& a, const Near& b, const Near& c) {
@@ -172,10 +177,7 @@ class Summer {
   }
 
   bool find_cut(uint32_t piece, PieceSums& out) {
-    if (store_.is_group(piece) && !store_.map(store_.piece(piece).operand).is_identity() &&
-        add_framed(piece, out)) {
-      return true;
-    }
+    if (store_.is_group(piece) && (add_near(piece, out) || add_framed(piece, out))) return true;
     bool is_in_range = true;
     store_.each_face(piece, [&](std::span<const uint32_t> corners) {
       bool cut = false;
@@ -197,8 +199,9 @@ class Summer {
   }
 
   /// A fan from the first corner of a loop, the normals of which add up before they meet that
-  /// corner: to the sum of x_i (y_i+1 - y_i-1) along each axis. The bound of the area need not be
-  /// close: it takes the two products of a cross product for as large as they may be.
+  /// corner: to the sum of x_i (y_i+1 - y_i-1) along each axis. The bounds need not be close:
+  /// lengths are rounded up to whole steps, and the two products of a cross product taken for as
+  /// large as they may be.
   static void add_fan(std::span<const Fixed> corners, PieceSums& out) {
     const Fixed& a = corners[0];
     std::array<Int<4>, 3> normal;
@@ -211,7 +214,7 @@ class Summer {
       for (size_t k = 0; k < 3; ++k) {
         own[k] = corners[i][k] - a[k];
         step[k] = after[k] - before[k];
-        length[k] = std::fabs(to_double(own[k]));
+        length[k] = std::fabs(static_cast<double>(static_cast<int64_t>(own[k].limb[1]))) + 1;
       }
       double sum = 0;
       for (size_t k = 0; k < 3; ++k) {
@@ -224,8 +227,8 @@ class Summer {
       last = length;
     }
     for (size_t k = 0; k < 3; ++k) out.six_volumes += full_product(normal[k], a[k]);
-    out.edges += std::ldexp(edges, -kFraction);
-    out.twice_area += std::ldexp(area, -2 * kFraction);
+    out.edges += edges;
+    out.twice_area += area;
   }
 
   /// Where a point is, cut to the fraction; the store keeps it.
