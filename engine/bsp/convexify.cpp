@@ -40,9 +40,10 @@ class Convexifier {
   }
 
   void run_within(Fragment cell, const std::vector<BoundaryEdge>& edges) {
-    if (!begin_within(cell, edges)) return;
-    const Extent busy = extent_of(inner_);
+    Extent busy;
+    if (!begin_within(cell, edges, busy)) return;
     if (!is_far_beside(cell, busy) && divide_loops(edges)) return;
+    part_edges(cell, edges);
     while (cut_off(cell, busy)) {
     }
     cut(cell, std::move(inner_));
@@ -50,33 +51,53 @@ class Convexifier {
 
   bool cut_off_within(const Fragment& cell, const std::vector<BoundaryEdge>& edges,
                       RegionRest& rest) {
-    if (!begin_within(cell, edges)) return false;
-    rest = {cell, edges, false};
-    const Extent busy = extent_of(inner_);
+    Extent busy;
+    if (!begin_within(cell, edges, busy)) return false;
+    rest.cell = cell;
+    rest.edges.clear();
+    rest.is_cut_off = false;
     if (!is_far_beside(cell, busy)) return true;
+    part_edges(cell, edges);
     while (cut_off(rest.cell, busy)) rest.is_cut_off = true;
+    if (!rest.is_cut_off) return true;
     rest.edges = inner_;
     rest.edges.insert(rest.edges.end(), rim_.begin(), rim_.end());
     return true;
   }
 
  private:
-  /// Makes a piece of what is convex; else lists the edges of the region on the rim of the cell and
-  /// the others, and returns true.
-  bool begin_within(const Fragment& cell, const std::vector<BoundaryEdge>& edges) {
+  /// An extent along the two axes.
+  struct Extent {
+    double lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL};
+  };
+
+  /// Makes a piece of what is convex; else finds the extent of the edges of the region that are not
+  /// on the rim of the cell, and returns true.
+  bool begin_within(const Fragment& cell, const std::vector<BoundaryEdge>& edges, Extent& busy) {
     if (edges.empty()) return false;
     if (is_convex_loop(edges)) {
       take(edges);
       return false;
     }
-    const uint32_t* planes = geometry_.edges(cell);
+    bool any_inner = false;
     for (const BoundaryEdge& e : edges) {
-      const bool is_rim = std::find(planes, planes + cell.count, e.plane) != planes + cell.count;
-      (is_rim ? rim_ : inner_).push_back(e);
+      if (is_on_rim(cell, e)) continue;
+      any_inner = true;
+      add(busy, e.from);
+      add(busy, e.to);
     }
-    if (!inner_.empty()) return true;
-    pieces_.push_back(cell);
-    return false;
+    if (!any_inner) pieces_.push_back(cell);
+    return any_inner;
+  }
+
+  bool is_on_rim(const Fragment& cell, const BoundaryEdge& e) const {
+    const uint32_t* planes = geometry_.edges(cell);
+    return std::find(planes, planes + cell.count, e.plane) != planes + cell.count;
+  }
+
+  /// Lists the edges on the rim of the cell and the others.
+  void part_edges(const Fragment& cell, const std::vector<BoundaryEdge>& edges) {
+    for (const BoundaryEdge& e : edges) (is_on_rim(cell, e) ? rim_ : inner_).push_back(e);
   }
 
   /// Whether the edges are one loop, in its order, that turns left at every corner. It does not
@@ -159,10 +180,6 @@ class Convexifier {
     return halves;
   }
 
-  /// An extent along the two axes.
-  struct Extent {
-    double lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL};
-  };
   void add(Extent& extent, uint32_t point) const {
     for (int k = 0; k < 2; ++k) {
       const double c = geometry_.point(point).rounded[axes_[k]];

@@ -30,10 +30,11 @@ void convexify_within(CellGeometry& geometry, const PlaneTable& planes, const Fr
                       const std::function<uint32_t(int, int64_t)>& wall,
                       std::vector<Fragment>& pieces);
 
-/// What of a region within a cell is not convex: its edges, in no order if `is_cut_off`.
+/// What of a region within a cell is not convex: all of it, or, if something `is_cut_off`, what has
+/// these edges, in no order.
 struct RegionRest {
   Fragment cell;
-  std::vector<BoundaryEdge> edges;
+  std::vector<BoundaryEdge> edges;  ///< if it is
   bool is_cut_off = false;
 };
 

@@ -13,6 +13,8 @@ namespace {
 /// many polygons in the places that it reaches.
 constexpr int64_t kFewestPlaces = 2;
 constexpr uint32_t kManyOthers = 64;
+/// So few pairs are looked at in less time than it takes to count what is where.
+constexpr uint64_t kFewPairs = 4096;
 /// There is a tree of the others when all wide triangles have so many times as many in their boxes.
 constexpr uint64_t kWorthIt = 4;
 /// Boxes of polygons are clamped beyond.
@@ -166,7 +168,7 @@ WideTriangles::WideTriangles(const Job& job) {
   for (size_t o = 0; o < 2; ++o) {
     if (wide[o].empty()) continue;
     const std::vector<uint32_t>& others = near[1 - o];
-    if (others.size() < kManyOthers) {
+    if (others.size() < kManyOthers || wide[o].size() * others.size() < kFewPairs) {
       wide[o].clear();
       continue;
     }

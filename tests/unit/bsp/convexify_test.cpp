@@ -74,7 +74,7 @@ class Region {
     }
     std::vector<DirectedEdge> edges;
     Rational3 area{0, 0, 0};
-    for (const BoundaryEdge& e : rest.edges) {
+    for (const BoundaryEdge& e : rest.is_cut_off ? rest.edges : edges_) {
       edges.push_back({e.from, e.to, e.plane});
       area = test::sum(area, test::cross(at(e.from), at(e.to)), 1);
     }
