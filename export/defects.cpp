@@ -45,7 +45,8 @@ Defects find_bad_triangles(const RoundedMesh& mesh, std::span<const glm::dvec3> 
   return defects;
 }
 
-Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> directions) {
+Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> directions,
+                     const CleanTriangles& clean) {
   // Surfaces that were split where they touch do not cross there: equal coordinates are one corner.
   const std::vector<uint32_t> place = number_places(mesh.positions);
   const std::vector<glm::dvec3> points = positions_of_places(mesh.positions, place);
@@ -55,7 +56,8 @@ Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> direct
   const TriangleView view{points, triangles};
 
   Defects defects = find_bad_triangles(mesh, directions);
-  defects.crossings = find_crossings(view, kMostCrossings);
+  defects.crossings = clean.none() ? find_crossings(view, kMostCrossings)
+                                   : find_crossings(view, kMostCrossings, clean.others(mesh));
   if (defects.crossings.empty()) defects.inverted = inverted_sheets(view);
   return defects;
 }

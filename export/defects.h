@@ -13,6 +13,7 @@
 #include <csgrun/engine/exact_triangles.h>
 #include <csgrun/export/write.h>
 
+#include "export/clean_triangles.h"
 #include "export/rounding.h"
 
 namespace csgrun {
@@ -48,8 +49,10 @@ std::vector<glm::dvec3> face_directions(const Solid& solid, const Affine& placem
 /// Of all those only the degenerate and flipped triangles. O(n).
 Defects find_bad_triangles(const RoundedMesh& mesh, std::span<const glm::dvec3> directions);
 
-/// The defects of a mesh rounded from a solid with these face directions. O(n log n).
-Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> directions);
+/// The defects of a mesh rounded from a solid with these face directions. O(n log n); of `clean`
+/// triangles no two are held against each other.
+Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> directions,
+                     const CleanTriangles& clean = {});
 
 /// Where the first few defects of each kind are, and what made the triangles.
 std::vector<DefectPlace> places_of(const Defects& defects, const RoundedMesh& mesh,

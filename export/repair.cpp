@@ -75,6 +75,7 @@ class Repair {
   }
 
   Status run() {
+    note_clean();
     const State first = state();
     State best = first, best_of_pass = first;
     int worse = 0;  // rounds since then
@@ -129,6 +130,12 @@ class Repair {
     left_ = before.left;
     check_.moved = before.moved;
     moves_ = before.moves;
+    note_clean();
+  }
+
+  void note_clean() {
+    const bool are_all_known = left_.crossings.size() < kMostCrossings;
+    clean_ = are_all_known ? CleanTriangles(mesh_, left_.crossings) : CleanTriangles();
   }
 
   /// Takes the next origin where all lattices were tried from one; true when all were from all.
@@ -179,7 +186,10 @@ class Repair {
     return original;
   }
 
-  void examine() { left_ = find_defects(mesh_, faces_.directions); }
+  void examine() {
+    left_ = find_defects(mesh_, faces_.directions, clean_);
+    note_clean();
+  }
 
   void turn_edges() {
     // Each turn takes one bad triangle away and makes no other.
@@ -265,9 +275,10 @@ class Repair {
   Defects& left_;
   MeshCheck& check_;
   Moves moves_;
-  std::string breach_;  ///< why the last round was undone, if the mesh became another
-  int lattice_ = 0;     ///< the number of the lattice; 0: nothing is snapped yet
-  size_t origin_ = 0;   ///< into kOrigins
+  CleanTriangles clean_;  ///< of the mesh that was looked at last
+  std::string breach_;    ///< why the last round was undone, if the mesh became another
+  int lattice_ = 0;       ///< the number of the lattice; 0: nothing is snapped yet
+  size_t origin_ = 0;     ///< into kOrigins
   Pass pass_ = Pass::kPlain;
   bool may_get_better_ = false;  ///< some round was undone only because it left more wrong
 };

@@ -62,6 +62,16 @@ std::vector<Sample> samples_of(std::span<const std::array<Vec, 3>> triangles) {
   return samples;
 }
 
+/// The first three corners of a face.
+std::array<Vec, 3> corners_of(const LeafGeometry& leaf, size_t face) {
+  std::array<Vec, 3> triangle;
+  for (size_t i = 0; i < 3; ++i) {
+    const IVec3& p = leaf.vertices[leaf.corners[leaf.face_starts[face] + i]];
+    for (size_t k = 0; k < 3; ++k) triangle[i][k] = static_cast<double>(p[k]);
+  }
+  return triangle;
+}
+
 struct Line {
   Vec direction;
   double weight;
@@ -209,11 +219,7 @@ std::optional<BoxFrame> find_box_frame(const LeafGeometry& leaf) {
   const size_t count = leaf.face_count(), step = count / kFrameSample + 1;
   sample.reserve(count / step + 1);
   for (size_t f = 0; f < count; f += step) {
-    std::array<Vec, 3>& triangle = sample.emplace_back();
-    for (size_t i = 0; i < 3; ++i) {
-      const IVec3& p = leaf.vertices[leaf.corners[leaf.face_starts[f] + i]];
-      for (size_t k = 0; k < 3; ++k) triangle[i][k] = static_cast<double>(p[k]);
-    }
+    sample.push_back(corners_of(leaf, f));
   }
   return find_box_frame(sample);
 }
@@ -244,21 +250,24 @@ std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, std::span<const uint3
       leaf, faces.size(), [&](size_t i) { return faces[i]; }, frame);
 }
 
-bool has_long_triangles(const LeafGeometry& leaf) {
-  size_t seen = 0, found = 0;
-  for (size_t f = 0, step = leaf.face_count() / kLongSample + 1; f < leaf.face_count(); f += step) {
-    if (leaf.face_starts[f + 1] - leaf.face_starts[f] != 3) continue;
-    const auto corner = [&](size_t i) {
-      const IVec3& p = leaf.vertices[leaf.corners[leaf.face_starts[f] + i]];
-      return Vec{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-    };
-    const Vec a = minus(corner(1), corner(0)), b = minus(corner(2), corner(1)),
-              c = minus(corner(0), corner(2)), normal = cross(a, b);
+bool has_long_triangles(std::span<const std::array<Vec3d, 3>> sample) {
+  size_t found = 0;
+  for (const auto& t : sample) {
+    const Vec a = minus(t[1], t[0]), b = minus(t[2], t[1]), c = minus(t[0], t[2]),
+              normal = cross(a, b);
     const double longest = std::max({dot(a, a), dot(b, b), dot(c, c)});
-    ++seen;
     if (longest > kLong * std::sqrt(dot(normal, normal))) ++found;
   }
-  return found * kLongShare > seen;
+  return found * kLongShare > sample.size();
+}
+
+bool has_long_triangles(const LeafGeometry& leaf) {
+  std::vector<std::array<Vec, 3>> sample;
+  sample.reserve(kLongSample);
+  for (size_t f = 0, step = leaf.face_count() / kLongSample + 1; f < leaf.face_count(); f += step) {
+    if (leaf.face_starts[f + 1] - leaf.face_starts[f] == 3) sample.push_back(corners_of(leaf, f));
+  }
+  return has_long_triangles(sample);
 }
 
 std::array<std::vector<FloatBox>, 2> face_diagonals(const LeafGeometry& leaf) {

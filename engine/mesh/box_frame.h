@@ -39,7 +39,8 @@ std::vector<FloatBox> face_boxes(const LeafGeometry& leaf, std::span<const uint3
                                  const std::optional<BoxFrame>& frame);
 
 /// Whether many of the faces are long triangles: many times as long as they are high over their
-/// longest side. Looks at a sample: O(1).
+/// longest side. Looks at a sample of the triangles, or of the leaf: O(1).
+bool has_long_triangles(std::span<const std::array<Vec3d, 3>> sample);
 bool has_long_triangles(const LeafGeometry& leaf);
 
 /// For each face what it takes up along the diagonals x + y, y + z, z + x, and x - y, y - z, z - x:

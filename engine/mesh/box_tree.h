@@ -37,12 +37,33 @@ class BoxTree {
     });
   }
 
+  /// The number of the box at each place: they are looked at in this order, eight by eight.
+  [[nodiscard]] const std::vector<uint32_t>& order() const { return packed_.order(); }
+
   /// The same for every j > i whose box overlaps the box of i.
   template <class Visit>
   void visit_later(uint32_t i, Visit visit) const {
-    packed_.visit_all(rounded(boxes_[i]), [&](uint32_t place) {
-      const uint32_t j = packed_.order()[place];
-      if (j > i && boxes_[j].overlaps(boxes_[i])) visit(j);
+    visit_all(boxes_[i], [&](uint32_t j) {
+      if (j > i) visit(j);
+    });
+  }
+
+  /// Tasks for visit_pairs, about so many.
+  [[nodiscard]] std::vector<PackedBoxes::Task> pair_tasks(size_t wanted) const {
+    return packed_.pair_tasks(wanted);
+  }
+  /// Calls `visit(i, j)` for pairs whose boxes overlap, over all tasks once for each pair, and of
+  /// these for those that are of interest: `sift(place, group, hits)` says with which of those at
+  /// the places 8 group + bit, a bit of `hits` for each, that at `place` is. Thread-safe.
+  template <class Sift, class Visit>
+  void visit_pairs(const PackedBoxes::Task& task, Sift sift, Visit visit) const {
+    packed_.visit_rows(task, [&](uint32_t place, uint32_t group, uint32_t hits) {
+      if (hits == 0) return;
+      const uint32_t i = packed_.order()[place];
+      PackedBoxes::for_each_bit(sift(place, group, hits), [&](uint32_t bit) {
+        const uint32_t j = packed_.order()[8 * group + bit];
+        if (boxes_[j].overlaps(boxes_[i])) visit(i, j);
+      });
     });
   }
 

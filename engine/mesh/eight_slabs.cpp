@@ -11,7 +11,6 @@ namespace csgrun {
 namespace {
 
 using Four = float __attribute__((vector_size(16)));
-using FourWhole = int32_t __attribute__((vector_size(16)));
 
 Four all(float x) { return Four{x, x, x, x}; }
 Four lesser(Four a, Four b) { return a < b ? a : b; }
@@ -43,9 +42,8 @@ EightSlabs::EightSlabs(const Corners& corners, uint32_t lanes, double reach) : l
     std::array<std::array<Four, 3>, 3> at;  // [corner][axis]
     for (size_t i = 0; i < 3; ++i) {
       for (size_t k = 0; k < 3; ++k) {
-        FourWhole whole;
-        std::memcpy(&whole, &corners[i][k][4 * half], sizeof(whole));
-        corners_[i][k][half] = at[i][k] = __builtin_convertvector(whole, Four);
+        std::memcpy(&at[i][k], &corners[i][k][4 * half], sizeof(Four));
+        corners_[i][k][half] = at[i][k];
       }
     }
     const auto side = [&](size_t i) {

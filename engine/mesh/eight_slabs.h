@@ -8,13 +8,13 @@
 
 namespace csgrun {
 
-/// Triangles of whole coordinates, below 2^29 in magnitude. Each has four slabs: along its normal
+/// Triangles of coordinates below 2^29 in magnitude, rounded. Each has four slabs: along its normal
 /// and, in its plane, across each of its sides. Two that are apart in one plane, or beside an edge
 /// of one of them, are apart along a slab of one or of the other.
 class EightSlabs {
  public:
   /// [corner][axis][lane]
-  using Corners = std::array<std::array<std::array<int32_t, 8>, 3>, 3>;
+  using Corners = std::array<std::array<std::array<float, 8>, 3>, 3>;
 
   EightSlabs() = default;  ///< of nothing that is set
   /// `lanes`: a bit for each that is a triangle. `reach` is not below any coordinate, of these and

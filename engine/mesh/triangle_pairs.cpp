@@ -54,7 +54,7 @@ void TrianglePairs::make_slabs() {
         for (size_t i = 0; i < 3; ++i) {
           const IVec3& p = leaf_.vertices[corners_[group].corners[i][lane]];
           for (size_t k = 0; k < 3; ++k) {
-            corners[i][k][lane] = static_cast<int32_t>(p[k] - middle[k]);
+            corners[i][k][lane] = static_cast<float>(p[k] - middle[k]);
           }
         }
       }

@@ -16,7 +16,7 @@ EightSlabs packed(const std::array<Triangle, 8>& triangles, uint32_t lanes, doub
   for (size_t lane = 0; lane < 8; ++lane) {
     for (size_t i = 0; i < 3; ++i) {
       for (size_t k = 0; k < 3; ++k) {
-        corners[i][k][lane] = static_cast<int32_t>(triangles[lane][i][k]);
+        corners[i][k][lane] = static_cast<float>(triangles[lane][i][k]);
       }
     }
   }

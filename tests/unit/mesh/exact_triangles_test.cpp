@@ -1,5 +1,6 @@
 // Exact questions about triangles over doubles, against rationals: sums, signs, and crossings by
 // clipping one triangle with the other.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -8,6 +9,7 @@
 #include <csgrun/engine/exact_triangles.h>
 
 #include "engine/base/parallel.h"
+#include "engine/mesh/crossing_test.h"
 #include "engine/mesh/exact_sum.h"
 #include "tests/support/rationals.h"
 
@@ -228,6 +230,27 @@ TEST(Crossings, OfRandomSoupsAgreeWithRationalClipping) {
 
 /// Many triangles, searched in parts: the pairs are those of any two by themselves, in order, on
 /// any number of threads, and what is left out beyond a limit comes last.
+using Pairs = std::vector<std::array<uint32_t, 2>>;
+
+Pairs pairs_of(std::span<const TriangleCrossing> crossings) {
+  Pairs result;
+  for (const TriangleCrossing& c : crossings) result.push_back(c.triangles);
+  return result;
+}
+
+/// By looking at all pairs.
+Pairs crossing_pairs(const TriangleView& mesh) {
+  const CrossingTest test(mesh);
+  Pairs result;
+  for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (uint32_t j = i + 1; j < mesh.triangles.size(); ++j) {
+      if (!test.has_area(i) || !test.has_area(j)) continue;
+      if (test.crossing(i, j)) result.push_back({i, j});
+    }
+  }
+  return result;
+}
+
 TEST(Crossings, OfManyAreThoseOfTwoByTwo) {
   std::mt19937_64 random(9);
   constexpr uint32_t kCount = 900;
@@ -243,28 +266,18 @@ TEST(Crossings, OfManyAreThoseOfTwoByTwo) {
     const uint32_t first = t > 0 && random() % 3 == 0 ? 3 * t - 1 : 3 * t;
     triangles.push_back({first, 3 * t + 1, 3 * t + 2});
   }
-  std::vector<std::array<uint32_t, 2>> expected;
-  for (uint32_t i = 0; i < kCount; ++i) {
-    for (uint32_t j = i + 1; j < kCount; ++j) {
-      const std::array<Triangle, 2> both{triangles[i], triangles[j]};
-      if (!find_crossings({points, both}, 1).empty()) expected.push_back({i, j});
-    }
-  }
+  const Pairs expected = crossing_pairs({points, triangles});
   EXPECT_GT(expected.size(), 500u);
   const auto pairs = [&](uint64_t most, unsigned threads) {
-    const auto found = with_threads(threads, [&] {
+    return pairs_of(with_threads(threads, [&] {
       return find_crossings({points, triangles}, most);
-    });
-    std::vector<std::array<uint32_t, 2>> result;
-    for (const TriangleCrossing& c : found) result.push_back(c.triangles);
-    return result;
+    }));
   };
   for (const unsigned threads : {1u, 2u, 5u}) {
     EXPECT_EQ(pairs(1000000, threads), expected);
     for (const size_t most : {size_t{0}, size_t{1}, size_t{17}, expected.size() / 2,
                               expected.size() - 1, expected.size()}) {
-      const std::vector<std::array<uint32_t, 2>> wanted(expected.begin(),
-                                                        expected.begin() + static_cast<long>(most));
+      const Pairs wanted(expected.begin(), expected.begin() + static_cast<long>(most));
       EXPECT_EQ(pairs(most, threads), wanted);
     }
   }
@@ -287,14 +300,84 @@ TEST(Crossings, OfLongTrianglesAreTheSameAslant) {
     triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   }
   const auto pairs = [&](std::span<const glm::dvec3> points) {
-    std::vector<std::array<uint32_t, 2>> result;
-    for (const TriangleCrossing& c : find_crossings({points, triangles}, 1000000)) {
-      result.push_back(c.triangles);
-    }
-    return result;
+    return pairs_of(find_crossings({points, triangles}, 1000000));
   };
   EXPECT_GT(pairs(upright).size(), 100u);
   EXPECT_EQ(pairs(aslant), pairs(upright));
+}
+
+/// Needles in fans and by themselves, in three directions, far from the origin or not, of any size.
+TEST(Crossings, OfLongTrianglesAreThoseOfAllPairs) {
+  size_t found = 0, near = 0;
+  for (unsigned round = 0; round < 24; ++round) {
+    std::mt19937_64 random(70 + round);
+    const auto number = [&](double size) {
+      return size * (static_cast<double>(random() % 2001) / 1000 - 1);
+    };
+    const double scale = std::ldexp(1.0, static_cast<int>(random() % 5) * 150 - 300);
+    const glm::dvec3 move =
+        round % 2 == 0 ? glm::dvec3(0) : glm::dvec3(number(1e5), number(1e5), number(1e5));
+    const std::array<glm::dvec3, 3> directions{{{1, 2, 3}, {-3, 1, 0.5}, {0, -1, 2}}};
+    std::vector<glm::dvec3> points;
+    std::vector<Triangle> triangles;
+    for (int fan = 0; fan < 60; ++fan) {
+      const glm::dvec3 way = directions[static_cast<size_t>(fan % 3)];
+      const glm::dvec3 hub(number(20), number(20), number(20));
+      const auto first = static_cast<uint32_t>(points.size());
+      points.push_back(hub * scale + move * scale);
+      for (int i = 0; i < 7; ++i) {
+        const glm::dvec3 p = hub + way * 90.0 + glm::dvec3(number(1), number(1), number(1));
+        points.push_back(p * scale + move * scale);
+        if (i > 0)
+          triangles.push_back(
+              {first, first + static_cast<uint32_t>(i), first + static_cast<uint32_t>(i) + 1});
+      }
+    }
+    const TriangleView mesh{points, triangles};
+    const Pairs expected = crossing_pairs(mesh);
+    EXPECT_EQ(pairs_of(find_crossings(mesh, 1000000)), expected) << round;
+    found += expected.size();
+    near += triangles.size() * (triangles.size() - 1) / 2;
+  }
+  EXPECT_GT(found, 2000u);
+  EXPECT_GT(near, 50 * found);
+}
+
+TEST(Crossings, OfSomeAreAllThatThereAreIfTheyAreInAll) {
+  std::mt19937_64 random(31);
+  size_t asked = 0, all = 0;
+  for (int round = 0; round < 20; ++round) {
+    std::vector<glm::dvec3> points;
+    std::vector<Triangle> triangles;
+    const auto coordinate = [&](int range) { return 0.25 * static_cast<double>(random() % range); };
+    for (uint32_t t = 0; t < 400; ++t) {
+      const glm::dvec3 at(coordinate(60), coordinate(60), coordinate(60));
+      for (int k = 0; k < 3; ++k) {
+        points.push_back(at + glm::dvec3(coordinate(7), coordinate(7), coordinate(7)));
+      }
+      triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    const TriangleView mesh{points, triangles};
+    const std::vector<TriangleCrossing> expected = find_crossings(mesh, 1000000);
+    // Of each pair one, or both, and a few that are in none.
+    std::vector<uint32_t> some;
+    for (const TriangleCrossing& c : expected) some.push_back(c.triangles[random() % 2]);
+    for (int i = 0; i < 20; ++i) some.push_back(static_cast<uint32_t>(random() % 400));
+    std::sort(some.begin(), some.end());
+    some.erase(std::unique(some.begin(), some.end()), some.end());
+    const auto same = [](const TriangleCrossing& a, const TriangleCrossing& b) {
+      return a.triangles == b.triangles && a.place == b.place;
+    };
+    for (const size_t most :
+         {expected.size() + 1, expected.size(), expected.size() / 2, size_t{0}}) {
+      const std::vector<TriangleCrossing> got = find_crossings(mesh, most, some);
+      ASSERT_EQ(got.size(), std::min(most, expected.size()));
+      EXPECT_TRUE(std::equal(got.begin(), got.end(), expected.begin(), same)) << round;
+    }
+    asked += some.size();
+    all += triangles.size();
+  }
+  EXPECT_LT(asked, all / 2);
 }
 
 TEST(Facing, AgreesWithRationals) {

@@ -30,6 +30,11 @@ struct TriangleCrossing {
 /// mesh.
 std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most);
 
+/// The same for a mesh in which triangles cross only where `some`, which ascend, do: O(n), and
+/// O(log n) and the pairs whose boxes overlap for each of these.
+std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most,
+                                             std::span<const uint32_t> some);
+
 /// Whether the triangle's corners lie on one line, or coincide. Exact.
 bool is_degenerate(const TriangleView& mesh, uint32_t triangle);
 
