@@ -172,7 +172,7 @@ int PairTest::level_sides(const JobPolygon& own, const Base& base, std::vector<i
 
 /// False when all corners lie in the plane. A corner in the plane counts as the far side of those
 /// that do not.
-bool PairTest::find_passage(const std::vector<int8_t>& sides, Passage& passage) {
+constexpr bool PairTest::walk(std::span<const int8_t> sides, Passage& passage) {
   int8_t front = 0, back = 0, zero = 0;
   for (const int8_t s : sides) front |= s > 0, back |= s < 0, zero |= s == 0;
   passage.front = front != 0, passage.back = back != 0, passage.zero = zero != 0;
@@ -187,6 +187,23 @@ bool PairTest::find_passage(const std::vector<int8_t>& sides, Passage& passage) 
     is_front = is_next;
   }
   return true;
+}
+
+bool PairTest::find_passage(const std::vector<int8_t>& sides, Passage& passage) {
+  if (sides.size() != 3) return walk(sides, passage);
+  // Nearly all are triangles, of which there are so few kinds.
+  static constexpr auto kOfTriangles = [] {
+    std::array<Passage, 27> all{};
+    for (int kind = 0; kind < 27; ++kind) {
+      const std::array<int8_t, 3> of_kind{static_cast<int8_t>(kind / 9 - 1),
+                                          static_cast<int8_t>(kind / 3 % 3 - 1),
+                                          static_cast<int8_t>(kind % 3 - 1)};
+      walk(of_kind, all[static_cast<size_t>(kind)]);
+    }
+    return all;
+  }();
+  passage = kOfTriangles[static_cast<size_t>(9 * sides[0] + 3 * sides[1] + sides[2] + 13)];
+  return passage.front || passage.back;
 }
 
 int PairTest::inside(uint32_t p, uint32_t i, bool falls, uint32_t q, uint32_t j) {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/bsp/cell_geometry.h"
@@ -90,6 +91,7 @@ class PairTest {
   void find_level(Base& base) const;
   int corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides);
   int level_sides(const JobPolygon& own, const Base& base, std::vector<int8_t>& sides);
+  static constexpr bool walk(std::span<const int8_t> sides, Passage& passage);
   static bool find_passage(const std::vector<int8_t>& sides, Passage& passage);
   /// Whether the point in which edge i of p passes through q's plane lies on the inner side of edge
   /// j of q: +1, 0, -1, or kUnsure. `falls`: towards the back of q.
