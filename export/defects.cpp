@@ -46,7 +46,7 @@ Defects find_bad_triangles(const RoundedMesh& mesh, std::span<const glm::dvec3> 
 }
 
 Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> directions,
-                     const CleanTriangles& clean) {
+                     const CleanTriangles& clean, unsigned threads) {
   // Surfaces that were split where they touch do not cross there: equal coordinates are one corner.
   const std::vector<uint32_t> place = number_places(mesh.positions);
   const std::vector<glm::dvec3> points = positions_of_places(mesh.positions, place);
@@ -56,8 +56,9 @@ Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> direct
   const TriangleView view{points, triangles};
 
   Defects defects = find_bad_triangles(mesh, directions);
-  defects.crossings = clean.none() ? find_crossings(view, kMostCrossings)
-                                   : find_crossings(view, kMostCrossings, clean.others(mesh));
+  defects.crossings = clean.none()
+                          ? find_crossings(view, kMostCrossings, threads)
+                          : find_crossings(view, kMostCrossings, clean.others(mesh), threads);
   if (defects.crossings.empty()) defects.inverted = inverted_sheets(view);
   return defects;
 }

@@ -50,9 +50,9 @@ std::vector<glm::dvec3> face_directions(const Solid& solid, const Affine& placem
 Defects find_bad_triangles(const RoundedMesh& mesh, std::span<const glm::dvec3> directions);
 
 /// The defects of a mesh rounded from a solid with these face directions. O(n log n); of `clean`
-/// triangles no two are held against each other.
+/// triangles no two are held against each other. `threads`: as WriteOptions has them.
 Defects find_defects(const RoundedMesh& mesh, std::span<const glm::dvec3> directions,
-                     const CleanTriangles& clean = {});
+                     const CleanTriangles& clean = {}, unsigned threads = 0);
 
 /// Where the first few defects of each kind are, and what made the triangles.
 std::vector<DefectPlace> places_of(const Defects& defects, const RoundedMesh& mesh,

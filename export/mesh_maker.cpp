@@ -81,7 +81,7 @@ Result<RoundedMesh> MeshMaker::make(const Part& part, const Affine& placement, P
   if (!mesh) return mesh.error();
   if (options_.check) {
     const std::vector<glm::dvec3> directions = face_directions(*part.solid, placement);
-    Defects defects = find_defects(*mesh, directions);
+    Defects defects = find_defects(*mesh, directions, {}, options_.threads);
     const Result<Fidelity> fidelity = Fidelity::of(*part.solid, placement, precision);
     if (!fidelity) return fidelity.error();
     MeshCheck check;

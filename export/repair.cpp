@@ -187,7 +187,7 @@ class Repair {
   }
 
   void examine() {
-    left_ = find_defects(mesh_, faces_.directions, clean_);
+    left_ = find_defects(mesh_, faces_.directions, clean_, options_.threads);
     note_clean();
   }
 

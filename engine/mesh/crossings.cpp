@@ -164,20 +164,28 @@ class Search {
   std::optional<LongTriangles> slabs_;  ///< if they are long
 };
 
+/// What look(search) finds, or the first `most` of all where there are more: what comes first is
+/// not what is found first.
+template <class Look>
+Crossings found_by(const TriangleView& mesh, uint64_t most, unsigned threads, Look look) {
+  const auto find = [&] {
+    const Search search(mesh);
+    auto found = look(search);
+    return found ? *std::move(found) : search.first(most);
+  };
+  return threads == 0 ? find() : with_threads(threads, find);
+}
+
 }  // namespace
 
-std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most) {
-  const Search search(mesh);
-  // Where there are more, what comes first is not what is found first.
-  if (auto all = search.all(most)) return *std::move(all);
-  return search.first(most);
+std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most,
+                                             unsigned threads) {
+  return found_by(mesh, most, threads, [&](const Search& search) { return search.all(most); });
 }
 
 std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most,
-                                             std::span<const uint32_t> some) {
-  const Search search(mesh);
-  if (auto all = search.of(some, most)) return *std::move(all);
-  return search.first(most);
+                                             std::span<const uint32_t> some, unsigned threads) {
+  return found_by(mesh, most, threads, [&](const Search& search) { return search.of(some, most); });
 }
 
 }  // namespace csgrun

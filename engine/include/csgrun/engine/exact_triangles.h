@@ -27,13 +27,14 @@ struct TriangleCrossing {
 /// coordinates first where surfaces may touch. Touching counts: a corner in the middle of another's
 /// edge or face, overlapping edges, overlapping triangles of one plane. Triangles without area are
 /// left out. Exact. O(n log n) and the pairs whose boxes overlap: about 1 us a triangle on a clean
-/// mesh.
-std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most);
+/// mesh. On so many threads; 0: as many as the process may use.
+std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most,
+                                             unsigned threads = 0);
 
 /// The same for a mesh in which triangles cross only where `some`, which ascend, do: O(n), and
 /// O(log n) and the pairs whose boxes overlap for each of these.
 std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most,
-                                             std::span<const uint32_t> some);
+                                             std::span<const uint32_t> some, unsigned threads = 0);
 
 /// Whether the triangle's corners lie on one line, or coincide. Exact.
 bool is_degenerate(const TriangleView& mesh, uint32_t triangle);

@@ -76,7 +76,7 @@ struct WriteOptions {
   /// Proves every mesh free of defects, as it is written; what is not is repaired if it can be.
   /// Polygons that rounding bent are written as triangles.
   bool check = false;
-  unsigned threads = 0;                       ///< for repairs; 0: as many as the process may use
+  unsigned threads = 0;  ///< for checks and repairs; 0: as many as the process may use
   const std::atomic<bool>* cancel = nullptr;  ///< as in EvaluateOptions
 };
 
