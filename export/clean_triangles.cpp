@@ -21,10 +21,21 @@ CleanTriangles::CleanTriangles(const RoundedMesh& mesh,
 }
 
 std::vector<uint32_t> CleanTriangles::others(const RoundedMesh& mesh) const {
+  struct Keyed {
+    Key key;
+    uint32_t triangle;
+  };
+  std::vector<Keyed> own;
+  own.reserve(mesh.triangles.size());
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) own.push_back({key(mesh, t), t});
+  std::sort(own.begin(), own.end(), [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
   std::vector<uint32_t> result;
-  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!std::binary_search(keys_.begin(), keys_.end(), key(mesh, t))) result.push_back(t);
+  for (size_t i = 0, end = 0; i < own.size(); i = end) {
+    while (end < own.size() && own[end].key == own[i].key) ++end;
+    if (end - i == 1 && std::binary_search(keys_.begin(), keys_.end(), own[i].key)) continue;
+    for (size_t k = i; k < end; ++k) result.push_back(own[k].triangle);
   }
+  std::sort(result.begin(), result.end());
   return result;
 }
 

@@ -19,7 +19,8 @@ class CleanTriangles {
   CleanTriangles(const RoundedMesh& mesh, std::span<const TriangleCrossing> crossings);
 
   [[nodiscard]] bool none() const { return keys_.empty(); }
-  /// The triangles of a mesh that are not among them, ascending. O(n log n).
+  /// The triangles of a mesh that are not among them, ascending; also those that are there twice,
+  /// one upon the other. O(n log n).
   [[nodiscard]] std::vector<uint32_t> others(const RoundedMesh& mesh) const;
 
  private:

@@ -45,6 +45,11 @@ TEST(CleanTriangles, TellTheCrossingsOfTheNextMesh) {
     for (glm::dvec3& p : mesh.positions) {
       if (random.integer(0, 30) == 0) p += random_point(random, -8, 8);
     }
+    for (int i = 0; i < 5; ++i) {  // one upon another
+      const auto from = 3 * static_cast<size_t>(random.integer(0, kCount - 1)),
+                 to = 3 * static_cast<size_t>(random.integer(0, kCount - 1));
+      for (size_t k = 0; k < 3; ++k) mesh.positions[to + k] = mesh.positions[from + k];
+    }
     for (auto& t : mesh.triangles)
       std::rotate(t.begin(), t.begin() + random.integer(0, 2), t.end());
     for (size_t i = mesh.triangles.size(); i > 1; --i) {
@@ -82,6 +87,10 @@ TEST(CleanTriangles, AreThoseWithoutACrossing) {
   mesh.triangles[2] = {8, 6, 7};
   EXPECT_EQ(clean.others(mesh), (std::vector<uint32_t>{0, 1}));
   EXPECT_TRUE(CleanTriangles().none());
+  // One that is laid upon a clean one.
+  mesh.triangles = {{6, 7, 8}, {0, 1, 2}, {8, 6, 7}};
+  EXPECT_EQ(clean.others(mesh), (std::vector<uint32_t>{0, 1, 2}));
+  EXPECT_EQ(find_defects(mesh, std::vector<glm::dvec3>{{0, 0, 1}}, clean).crossings.size(), 1u);
 }
 
 }  // namespace
