@@ -75,7 +75,6 @@ class Repair {
   }
 
   Status run() {
-    note_clean();
     const State first = state();
     State best = first, best_of_pass = first;
     int worse = 0;  // rounds since then
@@ -130,9 +129,9 @@ class Repair {
     left_ = before.left;
     check_.moved = before.moved;
     moves_ = before.moves;
-    note_clean();
   }
 
+  /// Before the mesh is changed.
   void note_clean() {
     const bool are_all_known = left_.crossings.size() < kMostCrossings;
     clean_ = are_all_known ? CleanTriangles(mesh_, left_.crossings) : CleanTriangles();
@@ -154,6 +153,7 @@ class Repair {
   }
 
   Status run_round() {
+    note_clean();
     turn_edges();
     if (left_.none()) return std::monostate{};
     if (lattice_ > 0) {

@@ -30,11 +30,11 @@ void convexify_within(CellGeometry& geometry, const PlaneTable& planes, const Fr
                       const std::function<uint32_t(int, int64_t)>& wall,
                       std::vector<Fragment>& pieces);
 
-/// What of a region within a cell is not convex: all of it, or, if something `is_cut_off`, what has
-/// these edges, in no order.
+/// What of a region within a cell is not convex: the region as it was given, or what is left of it
+/// when something `is_cut_off`.
 struct RegionRest {
   Fragment cell;
-  std::vector<BoundaryEdge> edges;  ///< if it is
+  std::vector<BoundaryEdge> edges;  ///< of what is left, in no order; none of all of it
   bool is_cut_off = false;
 };
 
