@@ -31,6 +31,22 @@ const char* missing_name_reason(const std::string& name) {
   return nullptr;
 }
 
+/// Appends the names of the local variables that the Lua function which called us has there, and of
+/// those around it that it uses.
+void add_visible_locals(lua_State* L, std::vector<std::string>& names) {
+  lua_Debug caller;
+  if (lua_getstack(L, 1, &caller) == 0) return;
+  const auto add = [&](const char* name) {
+    lua_pop(L, 1);
+    if (*name != '(' && *name != '\0') names.emplace_back(name);  // others have none in the script
+  };
+  for (int i = 1; const char* name = lua_getlocal(L, &caller, i); ++i) add(name);
+  lua_getinfo(L, "f", &caller);
+  const int function = lua_gettop(L);
+  for (int i = 1; const char* name = lua_getupvalue(L, function, i); ++i) add(name);
+  lua_pop(L, 1);
+}
+
 int undefined_global(lua_State* L) {
   if (lua_type(L, 2) != LUA_TSTRING) throw ScriptError("undefined global variable");
   const std::string name = lua_tostring(L, 2);
@@ -40,6 +56,7 @@ int undefined_global(lua_State* L) {
   if (const char* hint = name_hint(name))
     throw ScriptError("undefined variable '" + name + "' (in Lua " + hint + ")");
   std::vector<std::string> names;
+  add_visible_locals(L, names);
   lua_pushnil(L);
   while (lua_next(L, 1) != 0) {
     lua_pop(L, 1);

@@ -281,6 +281,17 @@ TEST(Hints, ProposedCallsMakeParts) {
   }
 }
 
+TEST(Hints, NamesOfLocalVariables) {
+  EXPECT_EQ(message_of("local width = 3\nreturn cube(widht)"),
+            "model.lua:2: undefined variable 'widht' (did you mean 'width'?)");
+  EXPECT_EQ(message_of("local bolt_radius = 3\nlocal function part() return cube(bolt_radios) end\n"
+                       "local used = bolt_radius\nreturn part()"),
+            "model.lua:2: undefined variable 'bolt_radios'");
+  EXPECT_EQ(message_of("local length = 3\nlocal function part(n)\n  return cube(length * n), "
+                       "sphere(lenght)\nend\nreturn part(2)"),
+            "model.lua:3: undefined variable 'lenght' (did you mean 'length'?)");
+}
+
 TEST(Hints, NamesOfOtherPrograms) {
   EXPECT_EQ(message_of("return cube(1):bevel(1)"),
             "model.lua:1: a solid has no method 'bevel' (did you mean 'chamfer'?)");
