@@ -65,7 +65,8 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
                        std::span<const uint32_t> roots, std::span<const StepLeaf> leaves,
                        ReachRoom& room, const KnownReach* known) {
   const auto& nodes = form.nodes();
-  auto& [box, reach, whole] = room;
+  std::vector<MmBox>&box = room.box, &reach = room.reach;
+  std::vector<uint8_t>& whole = room.whole;
   box.resize(nodes.size());
   reach.resize(nodes.size());
   whole.resize(nodes.size());
