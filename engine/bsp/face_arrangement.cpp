@@ -31,16 +31,20 @@ bool FaceArrangement::build(uint32_t polygon, std::span<const SheetSegment> segm
   add_boundary();
   add_segments(segments);
   add_coplanar(coplanar);
-  find_same_lines();
-  if (!break_lines_at_rim()) {
+  is_at_rim_ = is_met_at_rim();
+  if (!is_at_rim_) {
+    find_same_lines();
     find_stops();
     break_lines();
+    join_parts();
+    sort_around_points();
   }
-  join_parts();
-  sort_around_points();
   const auto first_loop = static_cast<uint32_t>(out.loops.size());
   const size_t corners = out.corner_point.size(), facts = out.facts.size();
-  if (trace(out) && find_covered(out, first_loop) && write_facts(out, first_loop)) return true;
+  if ((is_at_rim_ ? trace_rim(out) : trace(out)) && find_covered(out, first_loop) &&
+      write_facts(out, first_loop)) {
+    return true;
+  }
   out.loops.resize(first_loop);
   out.corner_point.resize(corners);
   out.corner_plane.resize(corners);

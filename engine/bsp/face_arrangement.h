@@ -98,9 +98,9 @@ class FaceArrangement {
     uint32_t at = 0;  ///< its place in rim_, if it is between the ends of an edge
   };
   enum class RimPlace : uint8_t { kOff, kBefore, kBetween, kAfter };  ///< at an end is not between
-  struct OnRim {  ///< an edge that a line is along or beyond, and where the line's ends are on it
-    uint32_t edge = 0;
-    RimPlace from = RimPlace::kOff, to = RimPlace::kOff;
+  struct AlongRim {  ///< a line that is on the line of an edge, and where its ends are there
+    uint32_t line, edge;
+    RimPlace from, to;
   };
   struct SheetEdge {  ///< of a coplanar sheet
     uint32_t operand, low, high;
@@ -114,14 +114,15 @@ class FaceArrangement {
   void add_segments(std::span<const SheetSegment> segments);
   void add_coplanar(std::span<const uint32_t> coplanar);
   [[nodiscard]] bool is_far(uint32_t vertex, uint32_t other) const;
-  /// Breaks lines that only meet the polygon in its edges into parts; false if others do.
-  bool break_lines_at_rim();
-  bool find_rim_edges();
+  /// False unless lines only meet the polygon in its edges. See face_rim.cpp.
+  bool is_met_at_rim();
   /// Positive when a point is on the inner side of an edge. REQUIRES: find_rim_edges began.
   int edge_side(uint32_t point, uint32_t edge);
   RimPlace place_on_edge(uint32_t edge, uint32_t point);
   void list_rim();
   [[nodiscard]] uint32_t rim_index(uint32_t edge, RimPlace place, uint32_t point) const;
+  void list_along_rim();
+  bool trace_rim(CutLoops& out);
   [[nodiscard]] bool may_pass_corner(const Line& line) const;
   void find_stops();
   void find_same_lines();
@@ -188,11 +189,14 @@ class FaceArrangement {
   bool has_through_ = false;  ///< a segment of a sheet that goes to the front and to the back
   bool has_straight_angle_ = false;    ///< two edges of the polygon are on one line
   std::vector<EdgeSides> edge_sides_;  ///< per point
-  std::vector<OnRim> on_rim_;          ///< per line
+  bool is_at_rim_ = false;             ///< what is_met_at_rim found
+  std::vector<AlongRim> along_rim_;    ///< by ascending lines
   std::vector<std::pair<uint32_t, uint32_t>> rim_points_;  ///< (edge, point between its ends)
   std::vector<uint32_t> rim_, rim_start_;  ///< points of the edges; where each begins
-  SheetBox box_;                           ///< of the polygon
-  uint32_t build_ = 0;                     ///< the number of the polygon at hand
+  /// (place in rim_ after which there is a part of it, of along_rim_)
+  std::vector<std::pair<uint32_t, uint32_t>> rim_parts_;
+  SheetBox box_;                  ///< of the polygon
+  uint32_t build_ = 0;            ///< the number of the polygon at hand
   std::vector<uint32_t> beyond_;  ///< per point, of is_beyond: 2 x build_ when asked, + the answer
   std::vector<SheetBox> loop_boxes_;
   std::vector<LoopFact> covered_;  ///< not told by arcs

@@ -86,6 +86,17 @@ void FaceArrangement::mark_sheet_edges(uint32_t operand) {
   const auto first =
       std::lower_bound(lines_.begin() + static_cast<long>(first_coplanar_line_), lines_.end(),
                        operand, [](const Line& line, uint32_t o) { return line.operand < o; });
+  if (is_at_rim_) {
+    for (auto line = first; line != lines_.end() && line->operand == operand; ++line) {
+      on_sheet_edge_[line->from] = on_sheet_edge_[line->to] = sheet_mark_;
+    }
+    for (const auto& [at, part] : rim_parts_) {
+      const uint32_t line = along_rim_[part / 2].line;
+      if (line < first_coplanar_line_ || lines_[line].operand != operand) continue;
+      on_sheet_edge_[rim_[at]] = on_sheet_edge_[rim_[at + 1]] = sheet_mark_;
+    }
+    return;
+  }
   auto stop = std::lower_bound(
       stops_.begin(), stops_.end(), static_cast<uint32_t>(first - lines_.begin()),
       [](const std::pair<uint32_t, uint32_t>& s, uint32_t line) { return s.first < line; });
@@ -206,8 +217,9 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop, bool is_first_edge
     // What is on the left is behind the first sheet alone, if the second one is coplanar: whichever
     // way that one runs, it makes no difference here.
     const bool behind = !reversed(*p), behind_other = !reversed(*second);
-    const bool inside =
-        is_convex_edge(line.sheet, other.sheet) ? behind && behind_other : behind || behind_other;
+    const bool inside = behind == behind_other || !is_convex_edge(line.sheet, other.sheet)
+                            ? behind || behind_other
+                            : behind && behind_other;
     facts_.push_back({loop, {o, inside, inside, !is_first_edge}, b < 0});
   }
   return true;

@@ -1,6 +1,6 @@
 // The arrangement of a polygon that nothing enters: whatever meets it does so in its edges, as
 // flush faces of bodies beside each other do. Each line is then outside one of the edges, or along
-// it, and need only be held against that one.
+// it, and need only be held against that one; the polygon's rim is the one loop there is.
 #include <algorithm>
 #include <utility>
 
@@ -31,6 +31,8 @@ int FaceArrangement::edge_side(uint32_t point, uint32_t edge) {
 /// Where a point on the line of an edge is along that edge; what is between its ends is listed.
 FaceArrangement::RimPlace FaceArrangement::place_on_edge(uint32_t edge, uint32_t point) {
   const Line& line = lines_[edge];
+  if (point == line.from) return RimPlace::kBefore;
+  if (point == line.to) return RimPlace::kAfter;
   const LineAxis way = geometry_.axis_between(line.from, line.to);
   if (geometry_.compare_along(point, line.from, way.axis) * way.sign <= 0) return RimPlace::kBefore;
   if (geometry_.compare_along(line.to, point, way.axis) * way.sign <= 0) return RimPlace::kAfter;
@@ -38,31 +40,27 @@ FaceArrangement::RimPlace FaceArrangement::place_on_edge(uint32_t edge, uint32_t
   return RimPlace::kBetween;
 }
 
-/// Finds the edge that each line is along or beyond; false if some line is so of none, or could be
-/// along two.
-bool FaceArrangement::find_rim_edges() {
+/// Finds an edge that each line is along or beyond, and lists those along; false if some line is so
+/// of none, or could be along two.
+bool FaceArrangement::is_met_at_rim() {
   const uint32_t count = polygon_->count;
   if (has_through_ || has_straight_angle_ || count > kMaxEdges) return false;
   edge_sides_.resize(std::max(edge_sides_.size(), geometry_.point_count()));
   for (uint32_t e = 0; e < count; ++e) {
     edge_sides_[lines_[e].from] = {build_, ~0u, 0, 1u << e | 1u << (e > 0 ? e - 1 : count - 1), 0};
   }
-  on_rim_.assign(lines_.size(), {});
+  along_rim_.clear();
   rim_points_.clear();
-  for (const uint32_t l : swept_) {
+  for (uint32_t l = count; l < lines_.size(); ++l) {
     const Line& line = lines_[l];
-    if (line.kind == Kind::kBoundary) continue;
     uint32_t edge = 0;
     while (edge < count && (edge_side(line.from, edge) > 0 || edge_side(line.to, edge) > 0)) ++edge;
     if (edge == count) return false;
-    OnRim& on = on_rim_[l];
-    on.edge = edge;
-    if (edge_side(line.from, edge) == 0) on.from = place_on_edge(edge, line.from);
-    if (edge_side(line.to, edge) == 0) on.to = place_on_edge(edge, line.to);
-    for (uint32_t same = next_same_[l]; same != kNone; same = next_same_[same]) {
-      on_rim_[same] = on;
-      if (lines_[same].from != line.from) std::swap(on_rim_[same].from, on_rim_[same].to);
-    }
+    RimPlace from = RimPlace::kOff, to = RimPlace::kOff;
+    if (edge_side(line.from, edge) == 0) from = place_on_edge(edge, line.from);
+    if (edge_side(line.to, edge) == 0) to = place_on_edge(edge, line.to);
+    if (from == RimPlace::kOff || to == RimPlace::kOff) continue;
+    along_rim_.push_back({l, edge, from, to});
   }
   return true;
 }
@@ -97,31 +95,52 @@ uint32_t FaceArrangement::rim_index(uint32_t edge, RimPlace place, uint32_t poin
   return place == RimPlace::kAfter ? rim_start_[edge + 1] - 1 : rim_start_[edge];
 }
 
-bool FaceArrangement::break_lines_at_rim() {
-  if (!find_rim_edges()) return false;
-  list_rim();
-  parts_.clear();
-  stops_.clear();
-  for (uint32_t l = 0; l < lines_.size(); ++l) {
-    const Line& line = lines_[l];
-    OnRim on = on_rim_[l];
-    if (line.kind == Kind::kBoundary) on = {l, RimPlace::kBefore, RimPlace::kAfter};
-    if (is_coplanar(line.kind)) {
-      stops_.emplace_back(l, line.from);
-      stops_.emplace_back(l, line.to);
-    }
-    if (on.from == RimPlace::kOff || on.to == RimPlace::kOff) continue;
-    const uint32_t from = rim_index(on.edge, on.from, line.from);
-    const uint32_t to = rim_index(on.edge, on.to, line.to);
-    const bool is_along = from < to;
-    for (uint32_t i = std::min(from, to); i < std::max(from, to); ++i) {
-      const uint32_t low = std::min(rim_[i], rim_[i + 1]), high = std::max(rim_[i], rim_[i + 1]);
-      parts_.push_back({low, high, l, is_along != (rim_[i] == low)});
-      if (!is_coplanar(line.kind)) continue;
-      stops_.emplace_back(l, low);
-      stops_.emplace_back(l, high);
+/// Lists what is along each part of the rim, by ascending lines.
+void FaceArrangement::list_along_rim() {
+  rim_parts_.clear();
+  for (uint32_t i = 0; i < along_rim_.size(); ++i) {
+    const AlongRim& along = along_rim_[i];
+    const Line& line = lines_[along.line];
+    const uint32_t from = rim_index(along.edge, along.from, line.from),
+                   to = rim_index(along.edge, along.to, line.to);
+    for (uint32_t at = std::min(from, to); at < std::max(from, to); ++at) {
+      rim_parts_.emplace_back(at, 2 * i + (from < to ? 0 : 1));
     }
   }
+  sort_pairs_.sort(
+      rim_parts_, rim_.size(), [](const auto& part) { return part.first; }, pair_less);
+}
+
+/// Appends the one loop there is, the polygon's rim.
+bool FaceArrangement::trace_rim(CutLoops& out) {
+  list_rim();
+  list_along_rim();
+  facts_.clear();
+  parts_.clear();
+  arcs_.clear();
+  CutLoops::Loop loop{static_cast<uint32_t>(out.corner_point.size()), 0, 0, 0, kNone, true};
+  auto next = rim_parts_.begin();
+  for (uint32_t e = 0; e < polygon_->count; ++e) {
+    for (uint32_t i = rim_start_[e]; i + 1 < rim_start_[e + 1]; ++i) {
+      const auto [low, high] = std::minmax(rim_[i], rim_[i + 1]);
+      const bool falls = rim_[i] == high;
+      const auto arc = static_cast<uint32_t>(arcs_.size()),
+                 first_part = static_cast<uint32_t>(parts_.size());
+      parts_.push_back({low, high, e, falls});
+      for (; next != rim_parts_.end() && next->first == i; ++next) {
+        const bool runs_back = next->second % 2 == 1;
+        parts_.push_back({low, high, along_rim_[next->second / 2].line, falls != runs_back});
+      }
+      arcs_.push_back({low, high, first_part, static_cast<uint32_t>(parts_.size()) - first_part});
+      out.corner_point.push_back(rim_[i]);
+      out.corner_plane.push_back(lines_[e].plane);
+      const uint32_t v = geometry_.point(rim_[i]).vertex;
+      if (v != kNone && !touched_[v]) loop.vertex = v;
+      if (!add_facts(2 * arc + (falls ? 1 : 0), 0, arc == 0)) return false;
+    }
+  }
+  loop.corner_count = static_cast<uint32_t>(out.corner_point.size()) - loop.first_corner;
+  out.loops.push_back(loop);
   return true;
 }
 
