@@ -7,6 +7,7 @@
 #include "engine/base/raw_vector.h"
 #include "engine/bsp/cut_parts.h"
 #include "engine/bsp/face_arrangement.h"
+#include "engine/bsp/own_points.h"
 #include "engine/bsp/parallel_runs.h"
 #include "engine/bsp/sign_stats.h"
 
@@ -53,23 +54,20 @@ void list(const Job& job, std::span<const uint32_t> polygons, const ContactTable
 class Worker {
  public:
   Worker(const Job& job, const ContactTable& contacts, const ContactEnds& ends,
-         std::span<const uint8_t> is_open, const CellGeometry& shared)
+         std::span<const uint8_t> is_open, const CellGeometry& shared, const PointIndex& index)
       : job_(job),
         contacts_(contacts),
         ends_(ends),
-        shared_(shared),
         geometry_(job.planes(), &job),
-        index_(geometry_),
+        points_(shared, index, geometry_),
         cutter_(job, geometry_, is_open),
-        arrangement_(job, geometry_, index_, contacts.touched(), is_open),
-        stamp_of_(shared.point_count(), 0),
-        local_(shared.point_count()) {}
+        arrangement_(job, geometry_, points_, contacts.touched(), is_open) {}
 
   /// Cuts by name, or by value, for which the planes must have been made.
   void cut(const CutPart::Polygon& polygon, CutPart& part) {
     geometry_.clear();
+    points_.clear();
     codes_.clear();
-    ++stamp_;
     const auto first_loop = static_cast<uint32_t>(part.loops.loops.size());
     const size_t first_corner = part.loops.corner_point.size();
     bool is_done = false;
@@ -82,7 +80,6 @@ class Worker {
         return;
       }
     } else {
-      index_.clear();
       list_sheets(polygon, part);
       is_done = arrangement_.build(polygon.number, sheets_, coplanar(polygon, part), part.loops);
       part.by_value.push_back(polygon.number);
@@ -115,7 +112,7 @@ class Worker {
       const auto& [lower, upper] = ends_.of(part.contacts[i]);
       if (lower == upper) continue;
       const bool is_p = c.p == polygon.number;
-      add(c, is_p, own_point(is_p ? lower : upper), own_point(is_p ? upper : lower));
+      add(c, is_p, points_.of(is_p ? lower : upper), points_.of(is_p ? upper : lower));
     }
   }
   void list_segments(const CutPart::Polygon& polygon, const CutPart& part) {
@@ -129,30 +126,17 @@ class Worker {
   void list_sheets(const CutPart::Polygon& polygon, const CutPart& part) {
     sheets_.clear();
     for_each_segment(polygon, part, [&](const Contact& c, bool is_p, uint32_t from, uint32_t to) {
-      sheets_.push_back({index_.unique(from), index_.unique(to), is_p ? c.q : c.p,
-                         is_p ? c.q_front : c.p_front, is_p ? c.q_back : c.p_back});
+      sheets_.push_back(
+          {from, to, is_p ? c.q : c.p, is_p ? c.q_front : c.p_front, is_p ? c.q_back : c.p_back});
     });
   }
 
-  /// The number here of a point of the shared geometry.
-  uint32_t own_point(uint32_t shared) {
-    if (stamp_of_[shared] == stamp_) return local_[shared];
-    stamp_of_[shared] = stamp_;
-    const CellGeometry::StoredPoint& s = shared_.point(shared);
-    const uint32_t own = s.vertex != kNone ? geometry_.vertex_point(s.vertex)
-                                           : geometry_.add_point(s.planes, s.rounded);
-    code_of(own) = shared;
-    return local_[shared] = own;
-  }
-
-  uint32_t& code_of(uint32_t own) {
-    if (own >= codes_.size()) codes_.resize(geometry_.point_count(), kNone);
-    return codes_[own];
-  }
   /// What stands for a point in the loops of a part.
   uint32_t code(uint32_t own, bool is_loose, CutPart& part) {
-    uint32_t& code = code_of(own);
+    if (own >= codes_.size()) codes_.resize(geometry_.point_count(), kNone);
+    uint32_t& code = codes_[own];
     if (code != kNone) return code;
+    if (const uint32_t shared = points_.shared_of(own); shared != kNone) return code = shared;
     const CellGeometry::StoredPoint& s = geometry_.point(own);
     if (s.vertex != kNone) return code = CutPart::kVertex | s.vertex;
     part.points.push_back({s.rounded, s.planes, is_loose});
@@ -162,17 +146,12 @@ class Worker {
   const Job& job_;
   const ContactTable& contacts_;
   const ContactEnds& ends_;
-  const CellGeometry& shared_;
   CellGeometry geometry_;
-  PointIndex index_;
+  OwnPoints points_;
   PolygonCutter cutter_;
   FaceArrangement arrangement_;
   std::vector<CutSegment> segments_;
   std::vector<SheetSegment> sheets_;
-  /// Per point of the shared geometry: the polygon for which it has a number here, and that one.
-  std::vector<uint32_t> stamp_of_;
-  RawVector<uint32_t> local_;
-  uint32_t stamp_ = 0;
   std::vector<uint32_t> codes_;  ///< per own point, or kNone
 };
 
@@ -269,7 +248,7 @@ class FaceCutter {
     make_planes(list);
     for_each_run(
         parts_.size(), options_,
-        [&] { return Worker(job_, contacts_, ends_, is_open_, geometry_); },
+        [&] { return Worker(job_, contacts_, ends_, is_open_, geometry_, index_); },
         [&](Worker& worker, size_t run) {
           const SignCounters before = worker.counters();
           for (const CutPart::Polygon& polygon : parts_[run].*list) {

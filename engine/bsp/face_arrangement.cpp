@@ -1,14 +1,14 @@
 #include "engine/bsp/face_arrangement.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "engine/base/sort_few.h"
 
 namespace csgrun {
 
 uint32_t FaceArrangement::vertex(uint32_t v) {
-  const uint32_t p = geometry_.vertex_point(v);
-  return touched_[v] ? index_.unique(p) : p;
+  return touched_[v] ? points_.of_vertex(v) : geometry_.vertex_point(v);
 }
 
 /// The sign of the plane that holds an edge of a polygon at its other corners.
@@ -29,6 +29,7 @@ bool FaceArrangement::build(uint32_t polygon, std::span<const SheetSegment> segm
   ++build_;
   lines_.clear();
   add_boundary();
+  if (take_equal(segments, coplanar, out)) return true;
   add_segments(segments);
   add_coplanar(coplanar);
   is_at_rim_ = is_met_at_rim();
@@ -116,9 +117,9 @@ void FaceArrangement::add_coplanar(std::span<const uint32_t> coplanar) {
   sheets_.clear();
   sheet_edges_.clear();
   for (const uint32_t q : coplanar) {
-    if (is_apart(q)) continue;
-    sheets_.push_back(q);
     const JobPolygon& other = job_.polygons()[q];
+    if (!has_own_corner(other) && is_apart(q)) continue;
+    sheets_.push_back(q);
     const auto corners = job_.corners(other);
     for (uint32_t e = 0; e < other.count; ++e) {
       const uint32_t a = corners[e], b = corners[e + 1 < other.count ? e + 1 : 0];
@@ -227,8 +228,20 @@ bool FaceArrangement::may_pass_corner(const Line& line) const {
          job_.polygons()[line.sheet].count > 3;
 }
 
+/// Lines may meet in ends of others.
+void FaceArrangement::index_ends() {
+  index_.clear();
+  for (const uint32_t l : swept_) {
+    for (const uint32_t point : {lines_[l].from, lines_[l].to}) {
+      [[maybe_unused]] const uint32_t unique = index_.unique(point);
+      assert(unique == point);
+    }
+  }
+}
+
 /// The points in which lines meet.
 void FaceArrangement::find_stops() {
+  index_ends();
   stops_.clear();
   sweep_.clear();
   for (const uint32_t l : swept_) {

@@ -15,6 +15,7 @@
 
 #include "engine/base/sort_by_key.h"
 #include "engine/bsp/cut_polygon.h"
+#include "engine/bsp/own_points.h"
 #include "engine/bsp/point_index.h"
 
 namespace csgrun {
@@ -28,11 +29,17 @@ struct SheetSegment {
 
 class FaceArrangement {
  public:
-  /// `touched`: per vertex of the job, whether it may be on another operand's surface. `is_open`:
-  /// see PlainlyCovered.
-  FaceArrangement(const Job& job, CellGeometry& geometry, PointIndex& index,
+  /// `points`: of `geometry`, which is cleared for each polygon; they must be able to tell those of
+  /// all vertices that are touched. `touched`: per vertex of the job, whether it may be on another
+  /// operand's surface. `is_open`: see PlainlyCovered.
+  FaceArrangement(const Job& job, CellGeometry& geometry, OwnPoints& points,
                   const std::vector<uint8_t>& touched, std::span<const uint8_t> is_open)
-      : job_(job), geometry_(geometry), index_(index), touched_(touched), is_open_(is_open) {}
+      : job_(job),
+        geometry_(geometry),
+        points_(points),
+        index_(geometry),
+        touched_(touched),
+        is_open_(is_open) {}
 
   /// Appends the loops of a polygon that meets `segments` and polygons of its own plane; a convex
   /// operand that has one of these needs no segments. False,
@@ -47,6 +54,9 @@ class FaceArrangement {
   [[nodiscard]] uint64_t crowding() const { return crowding_; }
 
  private:
+  /// Of polygons with more edges it takes long to see that a line enters, which most do.
+  static constexpr uint32_t kMaxEdges = 6;
+
   enum class Kind : uint8_t {
     kBoundary,  ///< an edge of the polygon itself
     kThrough,   ///< of a sheet that goes to the front and to the back
@@ -114,6 +124,11 @@ class FaceArrangement {
   void add_segments(std::span<const SheetSegment> segments);
   void add_coplanar(std::span<const uint32_t> coplanar);
   [[nodiscard]] bool is_far(uint32_t vertex, uint32_t other) const;
+  bool take_equal(std::span<const SheetSegment> segments, std::span<const uint32_t> coplanar,
+                  CutLoops& out);
+  [[nodiscard]] bool has_own_corners(const JobPolygon& other);
+  [[nodiscard]] bool has_own_corner(const JobPolygon& other);
+  [[nodiscard]] bool is_own_corner(uint32_t vertex);
   /// False unless lines only meet the polygon in its edges. See face_rim.cpp.
   bool is_met_at_rim();
   /// Positive when a point is on the inner side of an edge. REQUIRES: find_rim_edges began.
@@ -124,6 +139,7 @@ class FaceArrangement {
   void list_along_rim();
   bool trace_rim(CutLoops& out);
   [[nodiscard]] bool may_pass_corner(const Line& line) const;
+  void index_ends();
   void find_stops();
   void find_same_lines();
   [[nodiscard]] bool have_same_ends(size_t i, size_t j) const;
@@ -157,7 +173,8 @@ class FaceArrangement {
 
   const Job& job_;
   CellGeometry& geometry_;
-  PointIndex& index_;
+  OwnPoints& points_;
+  PointIndex index_;  ///< of the ends of lines and the points in which these meet
   const std::vector<uint8_t>& touched_;
   const std::span<const uint8_t> is_open_;
   const JobPolygon* polygon_ = nullptr;

@@ -50,8 +50,8 @@ bool FaceArrangement::find_covered(const CutLoops& out, uint32_t first_loop) {
 bool FaceArrangement::find_covered_loop(const CutLoops::Loop& loop, uint32_t number,
                                         std::span<const uint32_t> sheets, const CutLoops& out) {
   const uint32_t operand = job_.polygons()[sheets[0]].operand;
-  const auto begin = std::lower_bound(facts_.begin(), facts_.end(),
-                                      LoopFact{number, {operand, false, false}, false});
+  const LoopFact least{number, {operand, false, false, false}, false};
+  const auto begin = std::lower_bound(facts_.begin(), facts_.end(), least);
   for (auto f = begin; f != facts_.end() && f->loop == number && f->fact.operand == operand; ++f) {
     // A sheet that ends there tells; so does any other, unless the operand may touch itself: then
     // what touches a covering sheet from behind says as little as what is behind it.

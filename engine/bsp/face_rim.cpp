@@ -1,6 +1,7 @@
 // The arrangement of a polygon that nothing enters: whatever meets it does so in its edges, as
 // flush faces of bodies beside each other do. Each line is then outside one of the edges, or along
-// it, and need only be held against that one; the polygon's rim is the one loop there is.
+// it, and need only be held against that one; the polygon's rim is the one loop there is. Bodies
+// side by side often have equal faces: then one tells all of the other.
 #include <algorithm>
 #include <utility>
 
@@ -8,12 +9,58 @@
 #include "engine/bsp/face_arrangement.h"
 
 namespace csgrun {
-namespace {
 
-/// Of polygons with more edges it takes long to see that a line enters, which most do.
-constexpr uint32_t kMaxEdges = 6;
+/// Whether a vertex of another operand is a corner of the polygon.
+bool FaceArrangement::is_own_corner(uint32_t vertex) {
+  if (!touched_[vertex]) return false;
+  const uint32_t point = points_.of_vertex(vertex);
+  for (uint32_t e = 0; e < polygon_->count; ++e) {
+    if (lines_[e].from == point) return true;
+  }
+  return false;
+}
 
-}  // namespace
+bool FaceArrangement::has_own_corner(const JobPolygon& other) {
+  const auto corners = job_.corners(other);
+  return std::any_of(corners.begin(), corners.end(), [&](uint32_t v) { return is_own_corner(v); });
+}
+
+bool FaceArrangement::has_own_corners(const JobPolygon& other) {
+  const auto corners = job_.corners(other);
+  return other.count == polygon_->count &&
+         std::all_of(corners.begin(), corners.end(), [&](uint32_t v) { return is_own_corner(v); });
+}
+
+/// Appends the polygon as it is when all that meets it is one operand with an equal polygon, which
+/// tells alone what is in front and behind: as long as all coplanar ones face the same way, no
+/// other covers any of it.
+bool FaceArrangement::take_equal(std::span<const SheetSegment> segments,
+                                 std::span<const uint32_t> coplanar, CutLoops& out) {
+  if (coplanar.empty() || polygon_->count > kMaxEdges) return false;
+  const JobPolygon& first = job_.polygons()[coplanar[0]];
+  bool any_equal = false;
+  for (const uint32_t q : coplanar) {
+    const JobPolygon& other = job_.polygons()[q];
+    if (other.operand != first.operand || other.support != first.support) return false;
+    any_equal = any_equal || has_own_corners(other);
+  }
+  if (!any_equal) return false;
+  for (const SheetSegment& s : segments) {
+    if (job_.polygons()[s.other].operand != first.operand) return false;
+  }
+  CutLoops::Loop loop{
+      static_cast<uint32_t>(out.corner_point.size()), polygon_->count, 0, 0, kNone, true};
+  for (uint32_t e = 0; e < polygon_->count; ++e) {
+    out.corner_point.push_back(lines_[e].from);
+    out.corner_plane.push_back(lines_[e].plane);
+  }
+  const bool same = first.support == polygon_->support;
+  loop.first_fact = static_cast<uint32_t>(out.facts.size());
+  loop.fact_count = 1;
+  out.facts.push_back({first.operand, !same, same, false});
+  out.loops.push_back(loop);
+  return true;
+}
 
 int FaceArrangement::edge_side(uint32_t point, uint32_t edge) {
   EdgeSides& sides = edge_sides_[point];

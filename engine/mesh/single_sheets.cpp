@@ -261,8 +261,8 @@ class SheetFinder {
     const Place across{static_cast<int16_t>(normal[0] != 0 ? -1 : 0),
                        static_cast<int16_t>(normal[1] != 0 ? -1 : 0),
                        static_cast<int16_t>(normal[2] != 0 ? -1 : 0), 0};
-    const Place may_cross = __builtin_shuffle(any, Place{1, 2, 0, 3}) &
-                            __builtin_shuffle(any_after, Place{2, 0, 1, 3}) & across;
+    const Place may_cross = __builtin_shufflevector(any, any, 1, 2, 0, 3) &
+                            __builtin_shufflevector(any_after, any_after, 2, 0, 1, 3) & across;
     if (std::bit_cast<uint64_t>(may_cross) == 0) return count;
     if (may_cross[0] != 0) cross_lines<0>(face, normal, cubes, next, after_next);
     if (may_cross[1] != 0) cross_lines<1>(face, normal, cubes, next, after_next);
