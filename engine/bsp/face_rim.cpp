@@ -57,6 +57,7 @@ bool FaceArrangement::take_equal(std::span<const SheetSegment> segments,
   const bool same = first.support == polygon_->support;
   loop.first_fact = static_cast<uint32_t>(out.facts.size());
   loop.fact_count = 1;
+  loop.is_rim = true;
   out.facts.push_back({first.operand, !same, same, false});
   out.loops.push_back(loop);
   return true;
@@ -187,6 +188,7 @@ bool FaceArrangement::trace_rim(CutLoops& out) {
     }
   }
   loop.corner_count = static_cast<uint32_t>(out.corner_point.size()) - loop.first_corner;
+  loop.is_rim = true;
   out.loops.push_back(loop);
   return true;
 }

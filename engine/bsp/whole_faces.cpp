@@ -67,6 +67,7 @@ class FaceEvaluator {
     emit();
     if (job_.near_faces()) emit_far();
     find_touching();
+    keep_rims();
     add_signs(stats_, geometry_.counters);
     return std::move(result_);
   }
@@ -179,9 +180,9 @@ class FaceEvaluator {
     for (const CutFaces::Face& cut : cut_.faces) {
       for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
         const PatchFate fate = fates_->of_loop(l);
-        if (fate != PatchFate::kDrop) {
-          emit_loop(cut_.loops.loops[l], cut.polygon, fate == PatchFate::kFlip);
-        }
+        const CutLoops::Loop& loop = cut_.loops.loops[l];
+        if (fate == PatchFate::kDrop || loop.is_rim) continue;
+        emit_loop(loop, cut.polygon, fate == PatchFate::kFlip);
       }
     }
   }
@@ -208,6 +209,16 @@ class FaceEvaluator {
     for (size_t part = 0; part < kept.size(); ++part) {
       result_.whole.insert(result_.whole.end(), kept[part].begin(), kept[part].end());
       for (const uint32_t p : left[part]) leave(p);
+    }
+  }
+
+  /// What nothing enters is whole, though its loop told what becomes of it and where it is touched.
+  void keep_rims() {
+    for (const CutFaces::Face& cut : cut_.faces) {
+      if (cut.first_loop == cut.end_loop || !cut_.loops.loops[cut.first_loop].is_rim) continue;
+      const PatchFate fate = fates_->of_loop(cut.first_loop);
+      if (fate == PatchFate::kDrop) continue;
+      result_.whole.push_back({cut.polygon, fate == PatchFate::kFlip, true});
     }
   }
 

@@ -303,8 +303,8 @@ TEST(Work, OfChainsThatTouch) {
     pieces += (*version)->store->piece_count();
     points += (*version)->store->point_count();
   }
-  EXPECT_LE(pieces, 1532u);
-  EXPECT_LE(points, 2467u);
+  EXPECT_LE(pieces, 1409u);
+  EXPECT_LE(points, 2468u);
 }
 
 }  // namespace
