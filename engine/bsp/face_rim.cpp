@@ -20,7 +20,9 @@ bool FaceArrangement::is_own_corner(uint32_t vertex) {
   return false;
 }
 
+/// Whether a few questions find a corner of another one that is one of the polygon.
 bool FaceArrangement::has_own_corner(const JobPolygon& other) {
+  if (polygon_->count > kMaxEdges || other.count > kMaxEdges) return false;
   const auto corners = job_.corners(other);
   return std::any_of(corners.begin(), corners.end(), [&](uint32_t v) { return is_own_corner(v); });
 }
