@@ -90,8 +90,9 @@ class PieceTree {
                                   const std::vector<uint32_t>& added, BoxOf&& box_of) const {
     PieceTree result;
     std::vector<Item> items = items_of(gone, box_of);
-    std::vector<const Item*> looked_for;
-    for (const Item& item : items) looked_for.push_back(&item);
+    std::vector<Item*> looked_for;
+    looked_for.reserve(4 * items.size());
+    for (Item& item : items) looked_for.push_back(&item);
     result.root_ = without(root_, looked_for, 0, box_of);
     if (!added.empty()) {
       items = items_of(added, box_of);
@@ -116,6 +117,7 @@ class PieceTree {
   struct Item {
     uint32_t piece;
     PieceBox box;
+    bool is_found = false;  ///< by without(): it is nowhere else
   };
   static NodePtr build(std::span<Item> items);
   static NodePtr join(NodePtr a, NodePtr b);
@@ -125,7 +127,7 @@ class PieceTree {
 
   /// The node without the pieces from `first` on in a list, which is as it was afterwards.
   template <class BoxOf>
-  static NodePtr without(const NodePtr& node, std::vector<const Item*>& gone, size_t first,
+  static NodePtr without(const NodePtr& node, std::vector<Item*>& gone, size_t first,
                          BoxOf& box_of);
   template <class BoxOf>
   static std::vector<Item> items_of(std::span<const uint32_t> pieces, BoxOf& box_of) {
@@ -139,12 +141,12 @@ class PieceTree {
 };
 
 template <class BoxOf>
-PieceTree::NodePtr PieceTree::without(const NodePtr& node, std::vector<const Item*>& gone,
-                                      size_t first, BoxOf& box_of) {
+PieceTree::NodePtr PieceTree::without(const NodePtr& node, std::vector<Item*>& gone, size_t first,
+                                      BoxOf& box_of) {
   if (!node) return node;
   const size_t end = gone.size();
   for (size_t i = first; i < end; ++i) {
-    if (node->box.holds(gone[i]->box)) gone.push_back(gone[i]);
+    if (!gone[i]->is_found && node->box.holds(gone[i]->box)) gone.push_back(gone[i]);
   }
   NodePtr result = node;
   if (gone.size() == end) return result;
@@ -156,9 +158,13 @@ PieceTree::NodePtr PieceTree::without(const NodePtr& node, std::vector<const Ite
     std::vector<uint32_t> kept;
     kept.reserve(node->pieces.size());
     for (const uint32_t p : node->pieces) {
-      const bool is_gone = std::any_of(gone.begin() + static_cast<long>(end), gone.end(),
-                                       [&](const Item* item) { return item->piece == p; });
-      if (!is_gone) kept.push_back(p);
+      const auto item = std::find_if(gone.begin() + static_cast<long>(end), gone.end(),
+                                     [&](const Item* i) { return i->piece == p; });
+      if (item != gone.end()) {
+        (*item)->is_found = true;
+      } else {
+        kept.push_back(p);
+      }
     }
     if (kept.size() < node->pieces.size()) {
       std::vector<Item> items = items_of(kept, box_of);
