@@ -64,6 +64,7 @@ BoundaryEdge LoopPieces::edge(std::span<const Corner> loop, size_t i) const {
 
 bool LoopPieces::passes_twice(std::span<const BoundaryEdge> loop) {
   points_.clear();
+  points_.reserve(loop.size());
   for (const BoundaryEdge& e : loop) points_.push_back(e.from);
   std::sort(points_.begin(), points_.end());
   return std::adjacent_find(points_.begin(), points_.end()) != points_.end();
@@ -72,6 +73,7 @@ bool LoopPieces::passes_twice(std::span<const BoundaryEdge> loop) {
 /// Lists the corners; false when one turns back.
 bool LoopPieces::find_turns(std::span<const BoundaryEdge> loop) {
   corners_.clear();
+  corners_.reserve(2 * loop.size());
   for (size_t i = 0; i < loop.size(); ++i) {
     const BoundaryEdge& arriving = loop[i > 0 ? i - 1 : loop.size() - 1];
     const int t = turn(arriving, loop[i]);
@@ -138,7 +140,9 @@ void LoopPieces::divide(size_t start, size_t reflex, const Hit& hit) {
   const uint32_t plane = loop[before].plane;
   const auto next = [n](size_t i) { return i + 1 < n ? i + 1 : 0; };
   // From the corner along the loop to the hit, and back: the corner is one to the left now.
-  part_.assign(1, {loop[own].point, loop[own].plane, 1});
+  part_.clear();
+  part_.reserve(n + 3);
+  part_.push_back({loop[own].point, loop[own].plane, 1});
   for (size_t i = own; i != hit.corner; i = next(i)) part_.push_back(loop[next(i)]);
   if (hit.on_edge) part_.push_back({hit.point, plane, 1});
   part_.back().plane = plane;
@@ -162,6 +166,7 @@ void LoopPieces::divide(size_t start, size_t reflex, const Hit& hit) {
 void LoopPieces::take(size_t start, std::vector<Fragment>& pieces) {
   points_.clear();
   edges_.clear();
+  edges_.reserve(corners_.size() - start);
   for (size_t i = start; i < corners_.size(); ++i) {
     const Corner& c = corners_[i];
     const Corner& before = i > start ? corners_[i - 1] : corners_.back();

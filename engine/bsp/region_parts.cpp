@@ -22,6 +22,7 @@ void RegionParts::make(uint32_t region) {
   stored_.clear();
   const auto corners = store_.corners(region), edges = store_.edges(region);
   std::vector<BoundaryEdge> boundary;
+  boundary.reserve(corners.size());
   store_.each_loop(region, [&](uint32_t begin, uint32_t end) {
     for (uint32_t i = begin; i < end; ++i) {
       boundary.push_back(
@@ -32,6 +33,8 @@ void RegionParts::make(uint32_t region) {
   part.region = kNone;
   const PieceStore::Region known = store_.region(region);
   std::vector<uint32_t> cell_points, cell_edges;
+  cell_points.reserve(known.cell_count);
+  cell_edges.reserve(known.cell_count);
   for (uint32_t i = known.first_cell; i < known.first_cell + known.cell_count; ++i) {
     cell_points.push_back(point_of(store_.corners()[i]));
     cell_edges.push_back(store_.edges()[i]);
