@@ -11,7 +11,20 @@ uint32_t FaceArrangement::vertex(uint32_t v) {
   return touched_[v] ? points_.of_vertex(v) : geometry_.vertex_point(v);
 }
 
-/// The sign of the plane that holds an edge of a polygon at its other corners.
+/// The signs of the planes that hold the edges of a polygon at its other corners. Where many
+/// polygons are in one plane they are asked for again and again.
+std::span<const int8_t> FaceArrangement::inner_signs(const JobPolygon& polygon) {
+  const size_t end = size_t{polygon.first} + polygon.count;
+  if (end > inner_signs_.size()) inner_signs_.resize(end, kUnknownSign);
+  int8_t* const signs = inner_signs_.data() + polygon.first;
+  if (signs[0] == kUnknownSign) {
+    for (uint32_t e = 0; e < polygon.count; ++e) {
+      signs[e] = static_cast<int8_t>(inner_sign(polygon, e));
+    }
+  }
+  return {signs, polygon.count};
+}
+
 int FaceArrangement::inner_sign(const JobPolygon& polygon, uint32_t edge) {
   const auto corners = job_.corners(polygon);
   const uint32_t plane = job_.edge_planes(polygon)[edge];
@@ -147,7 +160,7 @@ void FaceArrangement::add_coplanar(std::span<const uint32_t> coplanar) {
     const uint32_t plane = job_.edge_planes(other)[s.edge];
     // Seen from outside the polygon, a sheet that faces the other way runs clockwise.
     const bool is_left = other.support == polygon_->support;
-    const int inner = inner_sign(other, s.edge);
+    const int inner = inner_signs(other)[s.edge];
     lines_.push_back(
         {vertex(corners[s.edge]), vertex(corners[s.edge + 1 < other.count ? s.edge + 1 : 0]), plane,
          is_left ? inner : -inner, is_left ? Kind::kLeft : Kind::kRight, s.sheet, other.operand});

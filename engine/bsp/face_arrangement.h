@@ -118,6 +118,7 @@ class FaceArrangement {
   };
 
   uint32_t vertex(uint32_t v);
+  std::span<const int8_t> inner_signs(const JobPolygon& polygon);
   int inner_sign(const JobPolygon& polygon, uint32_t edge);
   [[nodiscard]] bool is_apart(uint32_t sheet);
   void add_boundary();
@@ -178,6 +179,8 @@ class FaceArrangement {
   const std::vector<uint8_t>& touched_;
   const std::span<const uint8_t> is_open_;
   const JobPolygon* polygon_ = nullptr;
+  static constexpr int8_t kUnknownSign = 2;
+  std::vector<int8_t> inner_signs_;  ///< per edge of the job's polygons
   std::vector<Line> lines_;
   SegmentSweep sweep_;
   std::vector<std::array<uint32_t, 4>> line_ends_;  ///< lower, higher, operand, line

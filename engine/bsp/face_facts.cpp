@@ -109,9 +109,10 @@ uint32_t FaceArrangement::sheet_at(std::span<const uint32_t> sheets, uint32_t po
   for (const uint32_t q : sheets) {
     const JobPolygon& sheet = job_.polygons()[q];
     const auto planes = job_.edge_planes(sheet);
+    const auto inner = inner_signs(sheet);
     bool holds = true;
     for (uint32_t e = 0; e < sheet.count && holds; ++e) {
-      holds = geometry_.side(planes[e], point) * inner_sign(sheet, e) >= 0;
+      holds = geometry_.side(planes[e], point) * inner[e] >= 0;
     }
     if (holds) {
       return q;
