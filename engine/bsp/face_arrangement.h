@@ -132,7 +132,7 @@ class FaceArrangement {
   [[nodiscard]] bool is_own_corner(uint32_t vertex);
   /// False unless lines only meet the polygon in its edges. See face_rim.cpp.
   bool is_met_at_rim();
-  /// Positive when a point is on the inner side of an edge. REQUIRES: find_rim_edges began.
+  /// Positive when a point is on the inner side of an edge. REQUIRES: is_met_at_rim began.
   int edge_side(uint32_t point, uint32_t edge);
   RimPlace place_on_edge(uint32_t edge, uint32_t point);
   void list_rim();

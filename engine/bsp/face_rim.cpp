@@ -38,7 +38,8 @@ bool FaceArrangement::has_own_corners(const JobPolygon& other) {
 /// other covers any of it.
 bool FaceArrangement::take_equal(std::span<const SheetSegment> segments,
                                  std::span<const uint32_t> coplanar, CutLoops& out) {
-  if (coplanar.empty() || polygon_->count > kMaxEdges) return false;
+  constexpr uint32_t kMostCorners = 128;  // each of one may be held against each of the other
+  if (coplanar.empty() || polygon_->count > kMostCorners) return false;
   const JobPolygon& first = job_.polygons()[coplanar[0]];
   bool any_equal = false;
   for (const uint32_t q : coplanar) {
