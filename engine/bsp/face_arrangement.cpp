@@ -12,15 +12,18 @@ uint32_t FaceArrangement::vertex(uint32_t v) {
 }
 
 /// The signs of the planes that hold the edges of a polygon at its other corners. Where many
-/// polygons are in one plane they are asked for again and again.
+/// polygons are in one plane they are asked for again and again. Each thread finds them for itself,
+/// so they are not counted.
 std::span<const int8_t> FaceArrangement::inner_signs(const JobPolygon& polygon) {
   const size_t end = size_t{polygon.first} + polygon.count;
   if (end > inner_signs_.size()) inner_signs_.resize(end, kUnknownSign);
   int8_t* const signs = inner_signs_.data() + polygon.first;
   if (signs[0] == kUnknownSign) {
+    const SignCounters before = geometry_.counters;
     for (uint32_t e = 0; e < polygon.count; ++e) {
       signs[e] = static_cast<int8_t>(inner_sign(polygon, e));
     }
+    geometry_.counters = before;
   }
   return {signs, polygon.count};
 }
