@@ -152,10 +152,10 @@ uint32_t Slabs::beyond_where_clipped(const EightTriangles& others, uint32_t whic
     for (size_t i = 0; i < 3; ++i) {
       const Four a = heights[i], b = heights[(i + 1) % 3];
       begin[i] = (lo - a) / (b - a), end[i] = (hi - a) / (b - a);
-      begin[i] = begin[i] > 0 ? begin[i] : kZeros;  // 0 / 0 is no number
-      begin[i] = begin[i] < 1 ? begin[i] : kOnes;
-      end[i] = end[i] < 1 ? end[i] : kOnes;
-      end[i] = end[i] > 0 ? end[i] : kZeros;
+      begin[i] = begin[i] > kZeros ? begin[i] : kZeros;  // 0 / 0 is no number
+      begin[i] = begin[i] < kOnes ? begin[i] : kOnes;
+      end[i] = end[i] < kOnes ? end[i] : kOnes;
+      end[i] = end[i] > kZeros ? end[i] : kZeros;
       has_none[i] = ((a > hi) & (b > hi)) | ((a < lo) & (b < lo));
     }
     Lanes beyond{};

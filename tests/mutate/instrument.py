@@ -246,7 +246,8 @@ class Instrumenter:
             self.condition(i + 1)
         elif token.text == "switch":
             self.switch(i + 1)
-        elif token.text in ("min", "max") and tokens[i - 1].text == "::" and following.text == "(":
+        elif (token.text in ("min", "max") and following.text == "(" and
+              tokens[i - 1].text == "::" and tokens[i - 2].text == "std"):  # not of numeric_limits
             other = "max" if token.text == "min" else "min"
             n = self.add_mutant(token.start, 3, other)
             smallest = "true" if token.text == "min" else "false"

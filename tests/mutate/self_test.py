@@ -16,6 +16,7 @@ SAMPLE = r"""
 #include <cassert>
 #include <cstdio>
 #include <iterator>
+#include <limits>
 #include <tuple>
 #include <vector>
 
@@ -48,7 +49,7 @@ bool known(int v) {
 int main() {
   constexpr int kFixed = 1 + 2;  // compile time: no mutant here
   assert(kFixed > 0);
-  int sum = 0;
+  int sum = std::numeric_limits<unsigned>::min();
   std::vector<int> list{5, 3, 4};
   std::sort(list.begin(), list.end(), [](int a, int b) { return std::tie(a, b) < std::tie(b, a); });
   for (size_t i = 0; i < list.size(); ++i) sum += list[i] * static_cast<int>(i + 1);
