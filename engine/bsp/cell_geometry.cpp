@@ -146,7 +146,10 @@ int CellGeometry::side_of_vertex(uint32_t plane, uint32_t vertex) {
     ++counters.filter;
     return sign;
   }
-  return side(plane, vertex_point(vertex));
+  if (has_vertex_point(vertex)) return side(plane, vertex_point_[vertex]);
+  const Job::VertexName name = job_->vertex_name(vertex);
+  const StoredPoint point{job_->rounded(vertex), name.planes, vertex, kNone, name.is_on_grid};
+  return side_of(*planes_, plane, point, counters, [&] { return job_->exact(vertex); });
 }
 
 Side CellGeometry::classify(const Fragment& f, uint32_t plane) {

@@ -130,7 +130,7 @@ class CellGeometry {
 
   /// Sign of the stored plane `plane` at a point: symbolic, by filter, else exact.
   int side(uint32_t plane, uint32_t p);
-  /// The same at a vertex of the job, which becomes a point only if the filter does not tell.
+  /// The same at a vertex of the job, which does not become a point.
   int side_of_vertex(uint32_t plane, uint32_t vertex);
 
   /// Where a fragment lies relative to a plane; kSplit: `front` and `back` are the two pieces,
