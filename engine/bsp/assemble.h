@@ -11,8 +11,8 @@
 
 namespace csgrun {
 
-/// A polygon that belongs to the result as a whole, as it is or turned over. Nothing of another
-/// operand that is in the result touches it.
+/// A polygon that belongs to the result as a whole, as it is or turned over. What of another
+/// operand is in the result touches it in its rim, if it is met, or not at all.
 struct WholePolygon {  // small: there may be one for each polygon of the operands
   uint32_t polygon : 30;
   bool flip : 1;

@@ -134,6 +134,7 @@ class PieceAssembler {
     for (size_t o = 0; o < operands_.size(); ++o) {
       if (operands_[o].boundary) {
         some.is_partial.push_back(1);
+        add_other_sides(*operands_[o].boundary, some.faces[o]);
         std::sort(some.faces[o].begin(), some.faces[o].end());
         const auto end = std::unique(some.faces[o].begin(), some.faces[o].end());
         some.faces[o].erase(end, some.faces[o].end());
@@ -146,6 +147,24 @@ class PieceAssembler {
       }
     }
     return some;
+  }
+
+  /// Adds the faces of a boundary that are of the same facets as some, on the other sides of their
+  /// planes: whether a facet is complete is seen from both.
+  static void add_other_sides(const BoundaryMesh& boundary, std::vector<uint32_t>& faces) {
+    using Key = std::pair<FaceLabel, uint32_t>;
+    const auto key = [&](uint32_t f) {
+      return Key(boundary.faces[f].label, boundary.faces[f].plane.index());
+    };
+    const auto count = static_cast<uint32_t>(boundary.faces.size());
+    std::vector<Key> known;
+    for (const uint32_t f : faces) {
+      if (f < count) known.push_back(key(f));
+    }
+    std::sort(known.begin(), known.end());
+    for (uint32_t f = 0; f < count; ++f) {
+      if (std::binary_search(known.begin(), known.end(), key(f))) faces.push_back(f);
+    }
   }
 
   /// The first polygon of a job that is of a face of an operand.

@@ -1,10 +1,10 @@
 // A convex polygon and all that meets it, in any position: the arrangement of the segments in which
 // polygons of other operands meet it, with what lies on either side of each.
 //
-// Points are compared by value. Segments are broken where they meet, equal parts become one arc
-// with several sheets, and the arcs around a point are sorted by exact signs. What is inside an
-// operand beside an arc follows from its sheets there: one that passes through, or the two that
-// share an edge.
+// Equal points have one number; those in which lines cross are compared by value. Segments are
+// broken where they meet, equal parts become one arc with several sheets, and the arcs around a
+// point are sorted by exact signs. What is inside an operand beside an arc follows from its sheets
+// there: one that passes through, or the two that share an edge.
 #pragma once
 
 #include <algorithm>

@@ -95,7 +95,7 @@ class TouchFinder {
   struct Corner {
     uint32_t before, at, after;
     uint32_t polygon, plane;  ///< that hold the edge to the next corner
-    bool is_whole;            ///< of a polygon that was not cut
+    bool is_whole;            ///< of a polygon that was not cut, nor has a loop that is its rim
     bool is_numbered = true;  ///< the points are numbers
   };
   /// The number of a point, or kNone if it has none yet.

@@ -212,7 +212,8 @@ class FaceEvaluator {
     }
   }
 
-  /// What nothing enters is whole, though its loop told what becomes of it and where it is touched.
+  /// What nothing enters is whole, though its loop told what becomes of it and where it is touched:
+  /// until then it counts as cut, so this comes after find_touching().
   void keep_rims() {
     for (const CutFaces::Face& cut : cut_.faces) {
       if (cut.first_loop == cut.end_loop || !cut_.loops.loops[cut.first_loop].is_rim) continue;

@@ -41,6 +41,24 @@ class Bytes(Case):
     def test_a_script_that_tries(self):
         self.check(self.write("model.lua", MODEL.replace("os == nil", "rawget(_G, 'os') == nil")))
 
+    def test_questions_change_nothing(self):
+        """Two cubes as one mesh of ten facets: one is on both sides of its plane, until what fills the gap comes."""
+        self.write("bar.off", "OFF\n12 10 0\n" +
+                   "".join(f"{x} {y} {z}\n" for x in (0, 2, 4) for y, z in ((0, 0), (2, 0), (2, 2), (0, 2))) +
+                   "4 0 3 2 1\n4 8 9 10 11\n" +
+                   "".join(f"4 {a + i} {a + (i + 1) % 4} {a + 4 + (i + 1) % 4} {a + 4 + i}\n"
+                           for a in (0, 4) for i in range(4)))
+        script = """
+            local part = import("bar.off") ~ cube{1, 2, 1}:translate(0, 1, 1)
+            ASK(part)
+            part = part + cube{4, 2, 2}
+            ASK(part)
+            return part
+        """
+        asked, plain = (self.digest(self.write("model.lua", f"local function ASK(part) {body} end\n{script}"))
+                        for body in ("return part:volume(), part:bbox()", ""))
+        self.assertEqual(asked, plain)
+
     def most_threads(self, model, threads):
         """How many threads were seen in a run."""
         process = subprocess.Popen([CSGRUN, model, "-o", self.path("a.glb"), "-q", "--threads", threads])
