@@ -309,7 +309,8 @@ TEST(FaceArrangement, OfEqualFaces) {
   EXPECT_EQ(inside.left, 0u);
   Count both_sides;
   Cuts({upper, boxes({{{0, 0, -5}, {4, 4, 0}}, {{0, 0, 0}, {4, 4, 1}}})}).check(both_sides);
-  EXPECT_GT(both_sides.cut, 0u);
+  EXPECT_EQ(both_sides.cut, 11u);
+  EXPECT_EQ(both_sides.left, 5u);  // at edges of four faces
   Count of_three;
   Cuts({upper, boxes({{{0, 0, -5}, {4, 4, 0}}}), boxes({{{1, 1, -1}, {3, 3, 1}}})}).check(of_three);
   EXPECT_EQ(of_three.left, 0u);
