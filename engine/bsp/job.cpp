@@ -188,6 +188,13 @@ void Job::add_vertices(uint32_t o, const Operand& operand) {
   const LeafGeometry& leaf = *operand.leaf;
   const uint32_t first_vertex = sources_[o].first_vertex;
   const bool on_grid = operand.frame.is_identity;
+  if (near_ && !near_->rounded.empty() && !on_grid) {
+    const RoundedPoints& points = near_->rounded[o];
+    for_each_range(points.size(), [&](size_t begin, size_t end) {
+      std::copy(points.data() + begin, points.data() + end, rounded_.data() + first_vertex + begin);
+    });
+    return;
+  }
   for_each_range(leaf.vertices.size(), [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
       std::array<double, 3>& at = rounded_[first_vertex + v];

@@ -9,17 +9,37 @@
 #include "engine/base/raw_vector.h"
 #include "engine/bsp/coarse_cells.h"
 #include "engine/bsp/coarse_grid.h"
+#include "engine/bsp/frame_map.h"
 #include "engine/bsp/near_pairs.h"
+#include "engine/bsp/piece_tree.h"
 
 namespace csgrun {
 namespace {
 
+constexpr int64_t kFarthest = int64_t{1} << 30;  // boxes of polygons are clamped beyond
+
 /// Whether all faces that nothing meets can be named, wherever they are.
 bool can_be_named(const Operand& operand) {
-  if (!operand.leaf || !operand.frame.is_identity) return false;
+  if (!operand.leaf || FrameMap(operand.frame).is_mirrored()) return false;
   const LeafGeometry& leaf = *operand.leaf;
   return leaf.face_count() > 0 && leaf.has_single_fans && !leaf.may_touch &&
          !leaf.opposite.empty() && leaf.has_triangles_as_facets();
+}
+
+IVec3 moved(const IVec3& p, const IVec3& by) { return {p[0] + by[0], p[1] + by[1], p[2] + by[2]}; }
+
+/// The vertices of a leaf in a frame; none if they are on the grid.
+RoundedPoints round_vertices(const Operand& operand) {
+  if (operand.frame.is_identity) return {};
+  const FrameMap map(operand.frame);
+  const std::vector<IVec3>& vertices = operand.leaf->vertices;
+  RoundedPoints points(vertices.size());
+  for_each_range(points.size(), [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      points[v] = csgrun::rounded(map.point(moved(vertices[v], operand.translation)));
+    }
+  });
+  return points;
 }
 
 /// One leaf and its place.
@@ -28,25 +48,45 @@ class Leaf {
   explicit Leaf(const Operand& operand)
       : leaf_(*operand.leaf),
         translation_(operand.translation),
+        rounded_(round_vertices(operand)),
+        is_on_grid_(operand.frame.is_identity),
         cells_(leaf_.face_count()),
         is_shared_(leaf_.face_count()) {}
 
   [[nodiscard]] size_t face_count() const { return leaf_.face_count(); }
 
   /// None if it is too far out.
-  [[nodiscard]] std::optional<PolygonBox> box() const { return box_of_leaf(leaf_, translation_); }
+  [[nodiscard]] std::optional<PolygonBox> box() const {
+    if (is_on_grid_) return box_of_leaf(leaf_, translation_);
+    PieceBox all;
+    for (const auto& point : rounded_) all.add(point);
+    constexpr auto kMost = static_cast<double>(kFarthest - 1);
+    for (size_t k = 0; k < 3; ++k) {
+      if (all.lo[k] < -kMost || all.hi[k] > kMost) return std::nullopt;
+    }
+    return rounded_outwards(all);
+  }
+  RoundedPoints take_rounded() { return std::move(rounded_); }
 
   /// Marks the cells that faces reach; `own` names the operand. False if they are more than `most`.
   /// After the cells of all others have been marked it also tells which faces share one.
   bool mark(CoarseGrid& grid, uint32_t own, size_t most, bool is_last) {
-    RawVector<CoarseGrid::Place> places(leaf_.vertices.size());
-    for_each_range(places.size(), [&](size_t begin, size_t end) {
+    // The box of a face is from the lowest of its corners to the highest, both rounded outwards.
+    RawVector<CoarseGrid::Place> low(leaf_.vertices.size()), high(rounded_.size());
+    for_each_range(low.size(), [&](size_t begin, size_t end) {
       for (size_t v = begin; v < end; ++v) {
-        const IVec3& p = leaf_.vertices[v];
-        places[v] = grid.place_of(
-            IVec3{p[0] + translation_[0], p[1] + translation_[1], p[2] + translation_[2]});
+        if (is_on_grid_) {
+          low[v] = grid.place_of(moved(leaf_.vertices[v], translation_));
+        } else {
+          PieceBox box;
+          box.add(rounded_[v]);
+          const PolygonBox around = rounded_outwards(box);
+          low[v] = grid.place_of(around.lo), high[v] = grid.place_of(around.hi);
+        }
       }
     });
+    const CoarseGrid::Place* const lows = low.data();
+    const CoarseGrid::Place* const highs = is_on_grid_ ? lows : high.data();
     std::atomic<size_t> all = 0;
     std::atomic<bool> failed = false;
     for_each_range(face_count(), [&](size_t begin, size_t end) {
@@ -54,10 +94,9 @@ class Leaf {
       for (size_t f = begin; f < end; ++f) {
         CoarseGrid::Cells& cells = cells_[f];
         const auto [a, b, c] = corners(f);
-        const CoarseGrid::Place p = places[a], q = places[b], r = places[c];
-        const CoarseGrid::Place pq_lo = p < q ? p : q, pq_hi = p < q ? q : p;
         if (sum + all.load(std::memory_order_relaxed) > most ||
-            !grid.find_cells(pq_lo < r ? pq_lo : r, pq_hi > r ? pq_hi : r, cells)) {
+            !grid.find_cells(least(lows[a], lows[b], lows[c]),
+                             greatest(highs[a], highs[b], highs[c]), cells)) {
           failed = true;
           return;
         }
@@ -116,11 +155,29 @@ class Leaf {
 
   void copy_boxes(const std::vector<uint32_t>& faces, PolygonBox* to) const {
     for_each_range(faces.size(), [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) to[i] = box_of_face(leaf_, faces[i], translation_);
+      for (size_t i = begin; i < end; ++i) to[i] = box_of(faces[i]);
     });
   }
 
  private:
+  using Place = CoarseGrid::Place;
+
+  static Place least(Place p, Place q, Place r) {
+    const Place pq = p < q ? p : q;
+    return pq < r ? pq : r;
+  }
+  static Place greatest(Place p, Place q, Place r) {
+    const Place pq = p > q ? p : q;
+    return pq > r ? pq : r;
+  }
+
+  [[nodiscard]] PolygonBox box_of(uint32_t face) const {
+    if (is_on_grid_) return box_of_face(leaf_, face, translation_);
+    PieceBox box;
+    for (const uint32_t v : corners(face)) box.add(rounded_[v]);
+    return rounded_outwards(box);
+  }
+
   [[nodiscard]] std::array<uint32_t, 3> corners(size_t face) const {
     const uint32_t* const c = leaf_.corners.data() + 3 * face;
     return {c[0], c[1], c[2]};
@@ -128,6 +185,8 @@ class Leaf {
 
   const LeafGeometry& leaf_;
   const IVec3 translation_;
+  RoundedPoints rounded_;  ///< of all vertices, if they are not on the grid
+  const bool is_on_grid_;
   RawVector<CoarseGrid::Cells> cells_;  ///< per face
   RawVector<uint8_t> is_shared_;        ///< per face: it reaches a cell of several operands
 };
@@ -203,7 +262,6 @@ void add_faces(const std::array<Leaf, 2>& leaves, SharedFaces&& shared, NearFace
 }  // namespace
 
 std::optional<PolygonBox> box_of_leaf(const LeafGeometry& leaf, const IVec3& translation) {
-  constexpr int64_t kFarthest = int64_t{1} << 30;  // boxes of polygons are clamped beyond
   const GridBox all = box_of_points(leaf.vertices).moved(translation);
   PolygonBox box{};
   for (size_t k = 0; k < 3; ++k) {
@@ -241,9 +299,13 @@ std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, u
   if (!box || !other) return std::nullopt;
   PolygonBox common = *box;
   common.clip(*other);
-  NearFaces near{{{}, {}}, {*box, *other}, {}, {}};
+  NearFaces near{{{}, {}}, {*box, *other}, {}, {}, {}};
+  const auto take_rounded = [&] {
+    for (Leaf& leaf : leaves) near.rounded.push_back(leaf.take_rounded());
+  };
   if (common.is_empty()) {
     near.cells = std::make_shared<PairCells>(no_shared_cells(count, limit));
+    take_rounded();
     return near;
   }
   CoarseGrid grid(common, CoarseGrid::most_cells(count, limit));
@@ -253,6 +315,7 @@ std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, u
   }
   leaves[0].find_shared(grid);
   add_faces(leaves, list_shared(leaves, grid, limit), near);
+  take_rounded();
   return near;
 }
 

@@ -2,6 +2,7 @@
 // asked for its fate, and named in the result (bsp/untouched).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,9 +17,14 @@ namespace csgrun {
 struct NearPairs;
 struct PairCells;
 
+/// Points of the world, correctly rounded.
+using RoundedPoints = RawVector<std::array<double, 3>>;
+
 struct NearFaces {
   std::vector<std::vector<uint32_t>> faces;  ///< per operand those that are near, ascending
   std::vector<PolygonBox> boxes;             ///< per operand, around all faces
+  /// Per operand all vertices, if they had to be rounded: those of a leaf in a frame.
+  std::vector<RoundedPoints> rounded;
   /// One of these, of the faces as they are numbered in this order: pairs whose boxes overlap, or
   /// what find_coarse_cells would find. Neither where the pieces of a result told what is near.
   std::shared_ptr<const NearPairs> pairs;
@@ -33,8 +39,9 @@ struct FarFaces {
 /// The faces whose boxes overlap some of another operand, or, where too many do, that share a cell
 /// of a coarse grid with it; and all that share a vertex with these: no other face is met, and what
 /// is around a vertex of one was not met either. Nothing when it is not worth the while, or when
-/// faces that are not met may have to be spelled out: only for two leaves on the grid of triangles
-/// that each are a facet of its own, with one fan around each vertex. O(n), parallel.
+/// faces that are not met may have to be spelled out: only for two leaves, whose frames do not
+/// mirror, of triangles that each are a facet of its own, with one fan around each vertex. O(n),
+/// parallel.
 std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, uint32_t limit);
 
 /// The box of a leaf on the grid, moved by whole steps; none if it is too far out. O(vertices).

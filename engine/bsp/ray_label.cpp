@@ -180,12 +180,17 @@ Inside ray_label(const Job& job, VertexSigns& signs, uint32_t operand, const Pos
     } else if (job.some_faces(operand)) {
       // The job does not have all of them.
       const LeafGeometry& leaf = *job.leaf(operand);
+      const bool is_on_grid = job.has_grid_vertices(operand);
       for (size_t f = 0; f < leaf.face_count() && !unsure; ++f) {
-        if (!ray.may_meet(box_of_face(leaf, f, job.operand(operand).translation))) continue;
-        corners.clear();
-        for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) {
-          corners.push_back(job.rounded(job.vertex_start(operand) + leaf.corners[c]));
+        if (is_on_grid && !ray.may_meet(box_of_face(leaf, f, job.operand(operand).translation))) {
+          continue;
         }
+        corners.clear();
+        PieceBox box;
+        for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) {
+          box.add(corners.emplace_back(job.rounded(job.vertex_start(operand) + leaf.corners[c])));
+        }
+        if (!is_on_grid && !ray.may_meet(rounded_outwards(box))) continue;
         look_at(ray.meets(corners, operand_error));
       }
     } else {

@@ -320,9 +320,9 @@ void place_in_job(UntouchedPart& part, const Job& job, size_t o) {
   // The vertices of an operand stand together, in the order of the leaf.
   const uint32_t first_vertex = job.vertex_start(o);
   for (UntouchedPart::Shared& s : part.shared) s.point = first_vertex + s.vertex;
-  for (uint32_t v = 0; !part.map.is_identity() && v < part.leaf->vertices.size(); ++v) {
-    part.world.push_back(job.rounded(first_vertex + v));
-  }
+  if (part.map.is_identity() || part.leaf->vertices.empty()) return;
+  const std::array<double, 3>* const world = &job.rounded(first_vertex);
+  part.world.assign(world, world + part.leaf->vertices.size());
 }
 
 std::vector<UntouchedPart> take_untouched(const Job& job, const std::vector<Operand>& operands,

@@ -2,20 +2,38 @@
 #include "engine/bsp/near_faces.h"
 
 #include <algorithm>
+#include <array>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/exact_solid.h"
 #include "tests/support/named_results.h"
+#include "tests/support/random_frames.h"
 
 namespace csgrun {
 namespace {
 
 using namespace test;  // NOLINT: a test
 
+Frame unmirrored_frame(Random& random) {
+  Frame frame = random_frame(random);
+  while (mirrors(frame)) frame = random_frame(random);
+  return frame;
+}
+
+/// One for each of two operands: that of the world, one that both have, or others.
+std::array<Frame, 2> random_frames(Random& random, int kind) {
+  const Frame first = kind == 0 ? Frame() : unmirrored_frame(random);
+  if (kind <= 1) return {first, first};
+  return {kind == 2 ? Frame() : unmirrored_frame(random), first};
+}
+
 TEST(NearFaces, GiveWhatAllGive) {
   Random random(1208);
-  size_t far = 0, dropped = 0, by_pairs = 0, by_cells = 0, touching = 0;
-  for (int round = 0; round < 160; ++round) {
+  size_t far = 0, dropped = 0, by_pairs = 0, by_cells = 0, touching = 0, touching_in_frames = 0;
+  for (int round = 0; round < 240; ++round) {
+    const int kind = round / 4 % 4;  // of frames
+    const std::array<Frame, 2> frames = random_frames(random, kind);
     const int64_t size = round % 4 < 2 ? 1 << 20 : 24;
     const auto torus = [&](double part) {
       return bumpy_torus(random, {0, 0, 0}, part * static_cast<double>(1 << 20));
@@ -39,6 +57,7 @@ TEST(NearFaces, GiveWhatAllGive) {
     for (const auto& leaf : leaves) {
       const auto move = [&] { return random.integer(-reach, reach) / (size > 24 ? 1 : 2); };
       operands.push_back(placed(leaf, {move(), move(), move()}));
+      operands.back().frame = frames[operands.size() - 1];
       operands.back().first_source = static_cast<uint32_t>(operands.size());
     }
     const Tree tree = random_tree(random, 0, 2);
@@ -58,6 +77,7 @@ TEST(NearFaces, GiveWhatAllGive) {
       ASSERT_EQ(a.source, b.source) << round << tree.text();
     }
     touching += (*all)->may_touch;
+    touching_in_frames += kind > 0 && (*all)->may_touch;
     ASSERT_NO_FATAL_FAILURE(
         expect_one_value({evaluate_both(tree, operands).spelled, *some}, tree.text()));
     const auto near = find_near_faces(operands, options.cell_limit);
@@ -77,6 +97,7 @@ TEST(NearFaces, GiveWhatAllGive) {
   EXPECT_GT(dropped, 2000u);
   EXPECT_LT(dropped, far);
   EXPECT_GT(touching, 10u);
+  EXPECT_GT(touching_in_frames, 5u);
   EXPECT_GT(by_pairs, 20u);
   EXPECT_GT(by_cells, 20u);
 }
@@ -162,7 +183,14 @@ TEST(NearFaces, AreFoundOfLeavesThatCanBeNamed) {
       [](LeafGeometry& l, Operand&) { l.facet = std::vector<uint32_t>(l.face_count(), 1); }));
   EXPECT_TRUE(refused([](LeafGeometry&, Operand& o) { o.translation[2] = -(int64_t{1} << 30); }));
   EXPECT_TRUE(refused([](LeafGeometry&, Operand& o) { o.translation[1] = int64_t{1} << 30; }));
-  EXPECT_TRUE(refused([](LeafGeometry&, Operand& o) { o.frame.is_identity = false; }));
+  EXPECT_FALSE(refused([](LeafGeometry&, Operand& o) { o.frame = frame_of(turn_about(1, 30)); }));
+  EXPECT_TRUE(refused([](LeafGeometry&, Operand& o) {
+    o.frame = frame_of(turn_about(1, 30));
+    o.translation[2] = int64_t{3} << 29;
+  }));
+  EXPECT_TRUE(refused([](LeafGeometry&, Operand& o) {
+    o.frame = frame_of({{{1, 0, 0}, {0, -1, 0}, {0, 0, 1}}});
+  }));
   std::vector<Operand> three = good;
   three.push_back(good[0]);
   EXPECT_FALSE(find_near_faces(three, 17));
