@@ -97,17 +97,22 @@ bool has_area(const IVec3& a, const IVec3& b, const IVec3& c) {
   return u[1] * v[2] != u[2] * v[1] || u[2] * v[0] != u[0] * v[2] || u[0] * v[1] != u[1] * v[0];
 }
 
-/// The numbers of the first `count` faces but for some, given in ascending order.
-std::vector<uint32_t> numbers_without(const FaceNumbers& numbers, size_t count,
-                                      std::span<const LeftOut> left_out) {
+/// The numbers of the first `count` faces but for those that are left out; twice those of faces
+/// that were split. Both ascend.
+std::vector<uint32_t> numbers_of_parts(const FaceNumbers& numbers, size_t count,
+                                       std::span<const LeftOut> left_out,
+                                       std::span<const uint32_t> split) {
   std::vector<uint32_t> kept;
-  kept.reserve(count - left_out.size());
-  for (size_t f = 0, next = 0; f < count; ++f) {
+  kept.reserve(count - left_out.size() + split.size());
+  for (size_t f = 0, next = 0, next_split = 0; f < count; ++f) {
     if (next < left_out.size() && left_out[next].face == f) {
       ++next;
-    } else {
-      kept.push_back(numbers[f]);
+      continue;
     }
+    kept.push_back(numbers[f]);
+    if (next_split == split.size() || split[next_split] != f) continue;
+    kept.push_back(numbers[f]);
+    ++next_split;
   }
   return kept;
 }
@@ -141,34 +146,53 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
   leaf.corners.resize(mesh.corners.size());
   leaf.face_starts.reserve(faces + 1);
   std::vector<LeftOut> left_out;
+  std::vector<uint32_t> split, corners;  // faces of four corners that became two; those of one face
   Numbering number(points);
   uint32_t next = 0;
+  const auto add = [&](std::span<const uint32_t> loop) {
+    for (const uint32_t point : loop) leaf.corners[next++] = number(point);
+    leaf.face_starts.push_back(next);
+  };
   for (uint32_t f = 0; f < faces; ++f) {
     if (mesh.face_starts[f] != f) return std::nullopt;  // not one loop
     const uint32_t begin = mesh.loop_starts[f], end = mesh.loop_starts[f + 1], count = end - begin;
-    uint32_t* const loop = leaf.corners.data() + next;
-    for (uint32_t i = 0; i < count; ++i) {
-      loop[i] = number(mesh.corners[turn ? end - 1 - i : begin + i]);
-    }
     if (count == 3) {
+      uint32_t* const loop = leaf.corners.data() + next;
+      for (uint32_t i = 0; i < 3; ++i)
+        loop[i] = number(mesh.corners[turn ? end - 1 - i : begin + i]);
       const auto& v = number.vertices();
       if (!has_area(v[loop[0]], v[loop[1]], v[loop[2]])) {
         left_out.push_back({f, {loop[0], loop[1], loop[2]}});
         continue;
       }
-    } else if (!is_convex_polygon(number.vertices(), {loop, count})) {
-      return std::nullopt;
+      next += 3;
+      leaf.face_starts.push_back(next);
+      continue;
     }
-    next += count;
-    leaf.face_starts.push_back(next);
+    corners.assign(mesh.corners.begin() + begin, mesh.corners.begin() + end);
+    if (turn) std::reverse(corners.begin(), corners.end());
+    if (is_convex_polygon(points, corners)) {
+      add(corners);
+      continue;
+    }
+    if (!mesh.convex || count != 4) return std::nullopt;
+    const auto triangles = split_bent_quad(points, corners);
+    if (!triangles) return std::nullopt;
+    leaf.corners.resize(leaf.corners.size() + 2);
+    for (const auto& triangle : *triangles) add(triangle);
+    split.push_back(f);
   }
+  // A triangle on a line may have a corner on an edge of a bent face, which then has five.
+  if (!left_out.empty() && !split.empty()) return std::nullopt;
   leaf.corners.resize(next);
   if (mesh.keep_facets) leaf.facet = FaceNumbers::ascending(1);
   if (!mesh.surface.empty()) leaf.surface = mesh.surface;
   leaf.appearance = appearance;
-  if (!left_out.empty()) {
+  if (!left_out.empty() || !split.empty()) {
     for (FaceNumbers* numbers : {&leaf.facet, &leaf.surface, &leaf.appearance}) {
-      if (!numbers->common()) *numbers = numbers_without(*numbers, faces, left_out);
+      const auto common = numbers->common();
+      *numbers =
+          common ? FaceNumbers::all(*common) : numbers_of_parts(*numbers, faces, left_out, split);
     }
   }
   leaf.vertices = number.take_vertices();

@@ -1,5 +1,5 @@
-// The usual leaf: its faces are planar and convex as they come, so that nothing is left to do but
-// to give equal points one number.
+// The usual leaf: its faces are planar and convex as they come, or quadrilaterals of a convex body
+// that rounding bent, so that little is left to do but to give equal points one number.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,9 @@ struct ConvexFaces {
 };
 
 /// What merging equal points and make_convex_faces would give, as long as these find nothing to do
-/// but to leave out triangles that lie on a line: none when a face has holes, is not planar and
-/// convex, or becomes so by that, or when points are 2^30 steps or more apart. O(n).
+/// but to leave out triangles that lie on a line and to split bent quadrilaterals of a mesh that
+/// promises to be convex: none when another face has holes, is not planar and convex, or becomes so
+/// by that, or when points are 2^30 steps or more apart. O(n).
 std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
                                              const std::vector<IVec3>& points, bool turn,
                                              const FaceNumbers& appearance);

@@ -133,14 +133,15 @@ bool covers(const std::vector<Triangle>& triangles, const std::vector<Loop>& loo
 }
 
 /// A quadrilateral that is bent over one diagonal: split at the other one, which lies outside.
-std::vector<Triangle> bulging_triangles(const std::vector<IVec3>& vertices, const Loop& quad) {
+/// Nothing if its first three corners are on a line.
+std::optional<BulgingTriangles> bulging_triangles(const std::vector<IVec3>& vertices,
+                                                  Corners quad) {
   CornerPlane plane;
-  const std::array<uint32_t, 3> corners{quad[0], quad[1], quad[2]};
-  if (!corner_plane(vertices, corners.data(), 3, plane)) return {};
+  if (!corner_plane(vertices, quad.data(), 3, plane)) return std::nullopt;
   if (plane.side(vertices[quad[3]]) < 0) {
-    return {{quad[0], quad[1], quad[2]}, {quad[0], quad[2], quad[3]}};
+    return BulgingTriangles{{{quad[0], quad[1], quad[2]}, {quad[0], quad[2], quad[3]}}};
   }
-  return {{quad[1], quad[2], quad[3]}, {quad[1], quad[3], quad[0]}};
+  return BulgingTriangles{{{quad[1], quad[2], quad[3]}, {quad[1], quad[3], quad[0]}}};
 }
 
 /// `is_flat`: its corners are in one plane. Others may be divided so that they are convex.
@@ -161,8 +162,8 @@ std::vector<Triangle> triangles_of(const std::vector<IVec3>& vertices, const Loo
         is_flat ? ProjectedOracle::Sweep::kByAxis : ProjectedOracle::Sweep::kByFront);
     if (prefer_convex && !is_flat && face.loops.size() == 1 && face.loops[0].size() == 4 &&
         oracle.is_convex(face.loops[0])) {
-      auto triangles = bulging_triangles(vertices, face.loops[0]);
-      if (!triangles.empty()) return triangles;
+      const auto triangles = bulging_triangles(vertices, face.loops[0]);
+      if (triangles) return {triangles->begin(), triangles->end()};
     }
     auto result = triangulate_face(face.loops, oracle);
     if (result && covers(*result, face.loops)) return std::move(*result);
@@ -250,6 +251,14 @@ bool is_convex_polygon(const std::vector<IVec3>& vertices, Corners loop) {
   CornerPlane plane;
   return corner_plane(vertices, loop.data(), loop.size(), plane) &&
          lies_in(plane, vertices, loop) && is_planar_convex(vertices, loop);
+}
+
+std::optional<BulgingTriangles> split_bent_quad(const std::vector<IVec3>& vertices, Corners quad) {
+  const Vec128 normal = loop_normal(vertices, quad);
+  const int axis = dominant_axis(normal);
+  if (normal[axis] == 0) return std::nullopt;
+  if (!ProjectedOracle(vertices, axis, normal[axis] > 0).is_convex(quad)) return std::nullopt;
+  return bulging_triangles(vertices, quad);
 }
 
 std::vector<Triangle> triangulate(const std::vector<IVec3>& vertices, const LoopFace& face) {

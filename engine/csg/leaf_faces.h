@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,12 @@ bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, b
 /// cross in every projection along an axis.
 std::vector<std::array<uint32_t, 3>> triangulate(const std::vector<IVec3>& vertices,
                                                  const LoopFace& face);
+
+using BulgingTriangles = std::array<std::array<uint32_t, 3>, 2>;
+/// What make_convex_faces makes of a quadrilateral that is not planar and should bulge outwards, if
+/// that is told by one look along the axis which it faces most.
+std::optional<BulgingTriangles> split_bent_quad(const std::vector<IVec3>& vertices,
+                                                std::span<const uint32_t> quad);
 
 /// Whether a loop lies in a plane, turns left or goes straight everywhere as seen from its front,
 /// and goes around once.

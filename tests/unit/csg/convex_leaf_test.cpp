@@ -2,11 +2,13 @@
 // collapse, fold, touch and cross themselves.
 #include "engine/csg/convex_leaf.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -25,17 +27,24 @@ using namespace testing;
 using namespace test;
 using Status = PreparedLeaf::Status;
 
-/// A mesh of triangles, not looked at, with points that are whole.
+/// A mesh, not looked at, with points that are whole.
 struct WholeMesh {
   PolygonMesh mesh;
   std::vector<IVec3> points;
 };
 
-/// A ball of so many rings and sides whose points are moved by up to `noise`.
-WholeMesh ball(int rings, int sides, double radius, int noise, std::mt19937& random) {
+/// A ball of so many rings and sides whose points are moved by up to `noise`; of triangles, or of
+/// quadrilaterals where it can be, with its axis aslant.
+WholeMesh ball(int rings, int sides, double radius, int noise, std::mt19937& random,
+               bool quads = false) {
   WholeMesh result;
   PolygonMesh& mesh = result.mesh;
+  const double aslant = quads ? static_cast<double>(random() % 7) / 5 : 0;
   const auto add = [&](double x, double y, double z) {
+    y = std::exchange(x, x * std::cos(aslant) - y * std::sin(aslant)) * std::sin(aslant) +
+        y * std::cos(aslant);
+    z = std::exchange(y, y * std::cos(aslant) - z * std::sin(aslant)) * std::sin(aslant) +
+        z * std::cos(aslant);
     IVec3 p{std::lround(x), std::lround(y), std::lround(z)};
     for (int64_t& c : p) {
       if (noise > 0) c += static_cast<int64_t>(random() % (2 * noise + 1)) - noise;
@@ -60,6 +69,11 @@ WholeMesh ball(int rings, int sides, double radius, int noise, std::mt19937& ran
     mesh.add_face(std::array<uint32_t, 3>{0, at(1, s), at(1, s + 1)});
     mesh.add_face(std::array<uint32_t, 3>{last, at(rings - 1, s + 1), at(rings - 1, s)});
     for (int r = 1; r + 1 < rings; ++r) {
+      if (quads) {
+        mesh.add_face(
+            std::array<uint32_t, 4>{at(r, s), at(r + 1, s), at(r + 1, s + 1), at(r, s + 1)});
+        continue;
+      }
       mesh.add_face(std::array<uint32_t, 3>{at(r, s), at(r + 1, s), at(r + 1, s + 1)});
       mesh.add_face(std::array<uint32_t, 3>{at(r, s), at(r + 1, s + 1), at(r, s + 1)});
     }
@@ -113,6 +127,41 @@ TEST(ConvexLeaf, BallsOfAllSizesAgreeWithTheGeneralWay) {
   EXPECT_GT(tally.crossings, 1000u);
   EXPECT_GT(tally.convex, 5u);
   EXPECT_GT(tally.sharp, 5u);
+}
+
+TEST(ConvexLeaf, BentQuadrilateralsAgreeWithTheGeneralWay) {
+  std::mt19937 random(11);
+  Tally tally;
+  size_t split = 0, all_split = 0, refused = 0;
+  for (int round = 0; round < 400; ++round) {
+    const int log_radius = static_cast<int>(random() % 17);
+    const double radius = std::exp2(log_radius + static_cast<double>(random() % 8) / 8);
+    const int noise = random() % 4 == 0 ? static_cast<int>(random() % 3) : 0;
+    WholeMesh whole = ball(2 + static_cast<int>(random() % 9), 3 + static_cast<int>(random() % 12),
+                           radius, noise, random, true);
+    PolygonMesh& mesh = whole.mesh;
+    mesh.keep_facets = random() % 2 != 0;
+    if (random() % 2 != 0) {
+      for (uint32_t f = 0; f < mesh.face_count(); ++f) mesh.surface.push_back(f / 5);
+    }
+    mesh.convex = random() % 5 != 0;
+    const bool turn = random() % 4 == 0;
+    expect_same_both_ways(mesh, whole.points, turn, tally,
+                          int64_t{1} << (37 - std::max(7, log_radius)));
+    if (HasFailure()) FAIL() << "round " << round;
+    const auto taken = take_convex_faces(mesh, whole.points, turn, FaceNumbers());
+    refused += taken ? 0 : 1;
+    if (!taken) continue;
+    const size_t faces = taken->leaf.face_count();
+    split += faces > mesh.face_count() && mesh.convex;
+    all_split += faces > mesh.face_count() && 3 * faces == taken->leaf.corners.size();
+    EXPECT_TRUE(faces <= mesh.face_count() || mesh.convex);
+  }
+  EXPECT_GT(tally.good, 250u);
+  EXPECT_GT(tally.quick, 200u);
+  EXPECT_GT(split, 200u);
+  EXPECT_GT(all_split, 30u);
+  EXPECT_GT(refused, 60u);
 }
 
 TEST(ConvexLeaf, PairsOfBallsAgreeWithTheGeneralWay) {
