@@ -317,15 +317,17 @@ void Job::list_pieces(const PieceOperand& operand) {
 /// Whether those of the first operand are chosen by the pieces of the second.
 bool Job::may_choose_faces() const {
   constexpr size_t kWorthChoosing = 64;
-  return operands_->size() == 2 && is_leaf(0) && pieces(1) && operand(0).frame.is_identity &&
+  return operands_->size() == 2 && is_leaf(0) && pieces(1) &&
          leaf(0)->face_count() >= kWorthChoosing;
 }
 
 /// Chooses those of the first operand that come near the pieces of the second, which are listed.
 void Job::choose_faces() {
-  const auto box = box_of_leaf(*leaf(0), operand(0).translation);
-  if (!box) return;
   add_vertices(0, operand(0));
+  const bool are_whole = has_grid_vertices(0);
+  const auto box =
+      are_whole ? box_of_leaf(*leaf(0), operand(0).translation) : box_of_rounded(rounded_);
+  if (!box) return;
   list_pieces(*pieces(1));
   std::vector<PolygonBox> boxes;
   boxes.reserve(pieces_.size());
@@ -333,7 +335,7 @@ void Job::choose_faces() {
     boxes.push_back(rounded_outwards(pieces(1)->store->box(piece)));
   }
   own_near_.emplace();
-  own_near_->faces = {faces_near(*leaf(0), operand(0).translation, *box, boxes), {}};
+  own_near_->faces = {faces_near(*leaf(0), rounded_, are_whole, *box, boxes), {}};
   own_near_->boxes = {*box, PolygonBox::none()};
   near_ = &*own_near_;
 }

@@ -57,14 +57,7 @@ class Leaf {
 
   /// None if it is too far out.
   [[nodiscard]] std::optional<PolygonBox> box() const {
-    if (is_on_grid_) return box_of_leaf(leaf_, translation_);
-    PieceBox all;
-    for (const auto& point : rounded_) all.add(point);
-    constexpr auto kMost = static_cast<double>(kFarthest - 1);
-    for (size_t k = 0; k < 3; ++k) {
-      if (all.lo[k] < -kMost || all.hi[k] > kMost) return std::nullopt;
-    }
-    return rounded_outwards(all);
+    return is_on_grid_ ? box_of_leaf(leaf_, translation_) : box_of_rounded(rounded_);
   }
   RoundedPoints take_rounded() { return std::move(rounded_); }
 
@@ -270,6 +263,16 @@ std::optional<PolygonBox> box_of_leaf(const LeafGeometry& leaf, const IVec3& tra
     box.hi[k] = static_cast<int32_t>(all.hi[k]);
   }
   return box;
+}
+
+std::optional<PolygonBox> box_of_rounded(std::span<const std::array<double, 3>> points) {
+  PieceBox all;
+  for (const auto& point : points) all.add(point);
+  constexpr auto kMost = static_cast<double>(kFarthest - 1);
+  for (size_t k = 0; k < 3; ++k) {
+    if (all.lo[k] < -kMost || all.hi[k] > kMost) return std::nullopt;
+  }
+  return rounded_outwards(all);
 }
 
 PolygonBox box_of_face(const LeafGeometry& leaf, size_t face, const IVec3& translation) {

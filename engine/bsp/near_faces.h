@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/base/raw_vector.h"
@@ -46,6 +47,9 @@ std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, u
 
 /// The box of a leaf on the grid, moved by whole steps; none if it is too far out. O(vertices).
 std::optional<PolygonBox> box_of_leaf(const LeafGeometry& leaf, const IVec3& translation);
+
+/// The box of points that were rounded, as rounded_outwards() has it; none if it is too far out.
+std::optional<PolygonBox> box_of_rounded(std::span<const std::array<double, 3>> points);
 
 /// The box of a face of a leaf on the grid, moved by whole steps.
 PolygonBox box_of_face(const LeafGeometry& leaf, size_t face, const IVec3& translation);

@@ -4,6 +4,9 @@
 #include <array>
 #include <bit>
 
+#include "engine/bsp/job.h"
+#include "engine/bsp/piece_tree.h"
+
 namespace csgrun {
 namespace {
 
@@ -14,9 +17,9 @@ using Place = int16_t __attribute__((vector_size(8)));
 struct Range {
   Place lo, hi;
 
-  void add(Place p) {
-    lo = p < lo ? p : lo;
-    hi = p > hi ? p : hi;
+  void add(const Range& o) {
+    lo = o.lo < lo ? o.lo : lo;
+    hi = o.hi > hi ? o.hi : hi;
   }
   [[nodiscard]] bool meets(const Range& o) const {
     return std::bit_cast<uint64_t>((hi < o.lo) | (o.hi < lo)) == 0;
@@ -34,10 +37,12 @@ class CellBits {
   }
 
   /// REQUIRES: the point is in the box.
-  [[nodiscard]] Place place_of(const IVec3& point) const {
+  template <class Coordinate>
+  [[nodiscard]] Place place_of(const std::array<Coordinate, 3>& point) const {
     Place place{};
     for (size_t k = 0; k < 3; ++k) {
-      place[k] = static_cast<int16_t>((point[k] - around_.lo[k]) >> shift_[k]);
+      place[k] =
+          static_cast<int16_t>((static_cast<int64_t>(point[k]) - around_.lo[k]) >> shift_[k]);
     }
     return place;
   }
@@ -45,13 +50,11 @@ class CellBits {
   void mark(PolygonBox box) {
     box.clip(around_);
     if (box.is_empty()) return;
-    const Place lo = place_of({box.lo[0], box.lo[1], box.lo[2]}),
-                hi = place_of({box.hi[0], box.hi[1], box.hi[2]});
+    const Place lo = place_of(box.lo), hi = place_of(box.hi);
     each_row({lo, hi}, [](uint32_t& row, uint32_t bits) { return row |= bits, false; });
-    if (is_empty_) marked_ = {lo, lo};
+    if (is_empty_) marked_ = {lo, hi};
     is_empty_ = false;
-    marked_.add(lo);
-    marked_.add(hi);
+    marked_.add({lo, hi});
   }
 
   [[nodiscard]] bool is_marked(const Range& range) {
@@ -83,21 +86,28 @@ class CellBits {
 
 }  // namespace
 
-std::vector<uint32_t> faces_near(const LeafGeometry& leaf, const IVec3& translation,
+std::vector<uint32_t> faces_near(const LeafGeometry& leaf,
+                                 std::span<const std::array<double, 3>> vertices, bool are_whole,
                                  const PolygonBox& around, std::span<const PolygonBox> boxes) {
   CellBits cells(around);
   for (const PolygonBox& box : boxes) cells.mark(box);
-  std::vector<Place> places;
-  places.reserve(leaf.vertices.size());
-  for (const IVec3& v : leaf.vertices) {
-    places.push_back(
-        cells.place_of({v[0] + translation[0], v[1] + translation[1], v[2] + translation[2]}));
+  std::vector<Range> places;
+  places.reserve(vertices.size());
+  for (const std::array<double, 3>& v : vertices) {
+    if (are_whole) {
+      const Place place = cells.place_of(v);
+      places.push_back({place, place});
+    } else {
+      PieceBox box;
+      box.add(v);
+      const PolygonBox wide = rounded_outwards(box);
+      places.push_back({cells.place_of(wide.lo), cells.place_of(wide.hi)});
+    }
   }
   std::vector<uint32_t> faces;
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
     const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
-    const Place first = places[leaf.corners[begin]];
-    Range range{first, first};
+    Range range = places[leaf.corners[begin]];
     for (uint32_t c = begin + 1; c < end; ++c) range.add(places[leaf.corners[c]]);
     if (cells.is_marked(range)) faces.push_back(f);
   }

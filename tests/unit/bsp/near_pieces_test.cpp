@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/job.h"
 #include "engine/bsp/near_faces.h"
+#include "engine/bsp/piece_tree.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"
@@ -56,7 +58,17 @@ TEST(NearPieces, AreMetByAllFacesThatMayMeetThem) {
     }
     IVec3 moved{};
     for (int64_t& m : moved) m = random.integer(-(1 << 28), 1 << 28);
-    const auto around = box_of_leaf(*leaf, moved);
+    // Of points that are no whole numbers boxes are rounded outwards.
+    const bool are_whole = random.integer(0, 2) != 0;
+    std::vector<std::array<double, 3>> vertices;
+    for (const IVec3& v : leaf->vertices) {
+      for (size_t k = 0; k < 3; ++k) {
+        const double beside = are_whole ? 0 : static_cast<double>(random.integer(-3, 3)) / 4;
+        (k == 0 ? vertices.emplace_back() : vertices.back())[k] =
+            static_cast<double>(v[k] + moved[k]) + beside;
+      }
+    }
+    const auto around = are_whole ? box_of_leaf(*leaf, moved) : box_of_rounded(vertices);
     ASSERT_TRUE(around.has_value());
     std::vector<PolygonBox> boxes(static_cast<size_t>(random.integer(0, 6)));
     for (PolygonBox& box : boxes) {
@@ -72,7 +84,7 @@ TEST(NearPieces, AreMetByAllFacesThatMayMeetThem) {
       }
     }
     if (random.integer(0, 9) == 0) boxes.push_back(*around);
-    const std::vector<uint32_t> faces = faces_near(*leaf, moved, *around, boxes);
+    const std::vector<uint32_t> faces = faces_near(*leaf, vertices, are_whole, *around, boxes);
     ASSERT_TRUE(std::is_sorted(faces.begin(), faces.end()));
     ASSERT_EQ(std::adjacent_find(faces.begin(), faces.end()), faces.end());
     // Cells are powers of two, at least 17 to the longest side of the box: or of one step.
@@ -81,7 +93,11 @@ TEST(NearPieces, AreMetByAllFacesThatMayMeetThem) {
       cell = std::max(cell, (int64_t{around->hi[k]} - around->lo[k]) / 16 + 1);
     }
     for (uint32_t f = 0; f < leaf->face_count(); ++f) {
-      const PolygonBox own = box_of_face(*leaf, f, moved);
+      PieceBox exact;
+      for (uint32_t c = leaf->face_starts[f]; c < leaf->face_starts[f + 1]; ++c) {
+        exact.add(vertices[leaf->corners[c]]);
+      }
+      const PolygonBox own = are_whole ? box_of_face(*leaf, f, moved) : rounded_outwards(exact);
       const bool is_named = std::binary_search(faces.begin(), faces.end(), f);
       int64_t least = INT64_MAX;
       for (PolygonBox box : boxes) {
