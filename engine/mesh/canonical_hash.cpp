@@ -54,9 +54,13 @@ class PointHasher {
 
   [[nodiscard]] bool is_new(uint32_t point) const { return number_[point] == kNone; }
   void add(uint32_t point, const Point& p, const std::array<double, 3>& rounded) {
-    const uint64_t scale = field_.inverse(field_.residue(p.w));
+    // All points of a leaf in a frame have one weight.
+    if (p.w != weight_) {
+      weight_ = p.w;
+      scale_ = field_.inverse(field_.residue(p.w));
+    }
     for (const auto* c : {&p.x, &p.y, &p.z}) {
-      hasher_.add(field_.multiply(field_.residue(*c), scale));
+      hasher_.add(field_.multiply(field_.residue(*c), scale_));
     }
     for (const double c : rounded) hasher_.add(c + 0.0);
     number_[point] = next_++;
@@ -73,6 +77,8 @@ class PointHasher {
   PrimeField field_;
   std::vector<uint32_t> number_;
   uint32_t next_ = 0;
+  Int<kPointLimbs> weight_{1};
+  uint64_t scale_ = 1;  ///< its inverse
 };
 
 }  // namespace
