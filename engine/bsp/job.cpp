@@ -10,17 +10,12 @@
 #include "engine/bsp/operand_reach.h"
 #include "engine/bsp/piece_store.h"
 #include "engine/bsp/region_parts.h"
+#include "engine/bsp/rounded_box.h"
 
 namespace csgrun {
 namespace {
 
-constexpr int32_t kBoxLimit = 1 << 30;
 constexpr uint32_t kNoVertexPlanes = ~0u;
-
-double clamp_to_box(double v) {
-  constexpr double kLimit = kBoxLimit;
-  return std::clamp(v, -kLimit, kLimit);
-}
 
 /// Remainder of a signed wide integer by a small number, in [0, p).
 template <int N>
@@ -39,18 +34,6 @@ bool is_prime(int64_t p) {
 }
 
 }  // namespace
-
-PolygonBox rounded_outwards(const PieceBox& box) {
-  // A whole coordinate may stand for one that is a little less, or more: it goes a step further.
-  PolygonBox result{};
-  for (size_t k = 0; k < 3; ++k) {
-    const double lo = clamp_to_box(box.lo[k]), hi = clamp_to_box(box.hi[k]);
-    const auto whole_lo = static_cast<int32_t>(lo), whole_hi = static_cast<int32_t>(hi);
-    result.lo[k] = std::max(whole_lo - (lo > whole_lo ? 0 : 1), -kBoxLimit);
-    result.hi[k] = std::min(whole_hi + (hi < whole_hi ? 0 : 1), kBoxLimit);
-  }
-  return result;
-}
 
 Job::Job(const std::vector<Operand>& operands, PlaneTable* planes)
     : Job(operands, planes, true, nullptr, nullptr, nullptr) {}

@@ -26,11 +26,7 @@ struct PolygonEdge {
   uint32_t polygon, edge;
 };
 
-struct PieceBox;
 class PieceStore;
-/// The box around one of correctly rounded coordinates, which may stand on either side of the true
-/// ones.
-PolygonBox rounded_outwards(const PieceBox& box);
 
 /// One convex polygon of an operand. Its planes are made when somebody asks: most polygons are near
 /// no intersection and never need them.

@@ -16,8 +16,6 @@
 namespace csgrun {
 namespace {
 
-constexpr int64_t kFarthest = int64_t{1} << 30;  // boxes of polygons are clamped beyond
-
 /// Whether all faces that nothing meets can be named, wherever they are.
 bool can_be_named(const Operand& operand) {
   if (!operand.leaf || FrameMap(operand.frame).is_mirrored()) return false;
@@ -258,21 +256,11 @@ std::optional<PolygonBox> box_of_leaf(const LeafGeometry& leaf, const IVec3& tra
   const GridBox all = box_of_points(leaf.vertices).moved(translation);
   PolygonBox box{};
   for (size_t k = 0; k < 3; ++k) {
-    if (all.lo[k] < -kFarthest || all.hi[k] > kFarthest) return std::nullopt;
+    if (all.lo[k] < -PolygonBox::kLimit || all.hi[k] > PolygonBox::kLimit) return std::nullopt;
     box.lo[k] = static_cast<int32_t>(all.lo[k]);
     box.hi[k] = static_cast<int32_t>(all.hi[k]);
   }
   return box;
-}
-
-std::optional<PolygonBox> box_of_rounded(std::span<const std::array<double, 3>> points) {
-  PieceBox all;
-  for (const auto& point : points) all.add(point);
-  constexpr auto kMost = static_cast<double>(kFarthest - 1);
-  for (size_t k = 0; k < 3; ++k) {
-    if (all.lo[k] < -kMost || all.hi[k] > kMost) return std::nullopt;
-  }
-  return rounded_outwards(all);
 }
 
 PolygonBox box_of_face(const LeafGeometry& leaf, size_t face, const IVec3& translation) {

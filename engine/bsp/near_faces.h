@@ -2,24 +2,20 @@
 // asked for its fate, and named in the result (bsp/untouched).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "engine/base/raw_vector.h"
 #include "engine/bsp/operand.h"
 #include "engine/bsp/polygon_box.h"
+#include "engine/bsp/rounded_box.h"
 
 namespace csgrun {
 
 struct NearPairs;
 struct PairCells;
-
-/// Points of the world, correctly rounded.
-using RoundedPoints = RawVector<std::array<double, 3>>;
 
 struct NearFaces {
   std::vector<std::vector<uint32_t>> faces;  ///< per operand those that are near, ascending
@@ -47,9 +43,6 @@ std::optional<NearFaces> find_near_faces(const std::vector<Operand>& operands, u
 
 /// The box of a leaf on the grid, moved by whole steps; none if it is too far out. O(vertices).
 std::optional<PolygonBox> box_of_leaf(const LeafGeometry& leaf, const IVec3& translation);
-
-/// The box of points that were rounded, as rounded_outwards() has it; none if it is too far out.
-std::optional<PolygonBox> box_of_rounded(std::span<const std::array<double, 3>> points);
 
 /// The box of a face of a leaf on the grid, moved by whole steps.
 PolygonBox box_of_face(const LeafGeometry& leaf, size_t face, const IVec3& translation);

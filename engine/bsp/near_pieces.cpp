@@ -4,8 +4,8 @@
 #include <array>
 #include <bit>
 
-#include "engine/bsp/job.h"
 #include "engine/bsp/piece_tree.h"
+#include "engine/bsp/rounded_box.h"
 
 namespace csgrun {
 namespace {

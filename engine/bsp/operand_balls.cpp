@@ -9,12 +9,11 @@
 namespace csgrun {
 namespace {
 
-/// Boxes of operands are clamped beyond.
-constexpr int32_t kFarthest = int32_t{1} << 30;
-
 bool is_far_out(const PolygonBox& box) {
   bool far = false;
-  for (size_t k = 0; k < 3; ++k) far |= box.lo[k] <= -kFarthest || box.hi[k] >= kFarthest;
+  for (size_t k = 0; k < 3; ++k) {
+    far |= box.lo[k] <= -PolygonBox::kLimit || box.hi[k] >= PolygonBox::kLimit;
+  }
   return far;
 }
 

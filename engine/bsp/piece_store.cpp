@@ -165,15 +165,6 @@ uint32_t PieceStore::add_face(Piece piece, uint32_t face) {
   append_corners(piece, face, corners_);
   piece.count = static_cast<uint32_t>(corners_.size()) - piece.first;
   edges_.resize(corners_.size(), kNoNumber);
-  if (const FrameMap& map = maps_[piece.operand]; !map.is_identity()) {
-    const FramedFace own(operands_[piece.operand], map, face);
-    const PlaneId outwards = planes.intern(own.support());
-    piece.support = piece.is_flipped ? outwards.flip() : outwards;
-    for (uint32_t i = 0; i < piece.count; ++i) {
-      const uint32_t in_leaf = edge_place(i, piece.count, runs_back(piece));
-      edges_[piece.first + i] = planes.intern(own.edge(in_leaf)).index();
-    }
-  }
   return add_piece(piece);
 }
 
@@ -199,24 +190,30 @@ IVec3 PieceStore::on_grid(uint32_t point) const {
   return {static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]), static_cast<int64_t>(at[2])};
 }
 
+// What has no planes yet is a face of an operand as it is: of grid points, or of a leaf in a frame.
+
 PlaneId PieceStore::ensure_support(uint32_t piece) {
   Piece& p = pieces_[piece];
-  if (!p.support.valid()) p.support = planes.intern(plane_of_corners(piece));
-  return p.support;
+  if (p.support.valid()) return p.support;
+  if (const FrameMap& map = maps_[p.operand]; !map.is_identity()) {
+    const PlaneId outwards = planes.intern(FramedFace(operands_[p.operand], map, p.face).support());
+    return p.support = p.is_flipped ? outwards.flip() : outwards;
+  }
+  return p.support = planes.intern(plane_of_corners(piece));
 }
 
 uint32_t PieceStore::ensure_edge(uint32_t piece, uint32_t edge) {
   const Piece& p = pieces_[piece];
   uint32_t& plane = edges_[p.first + edge];
-  if (plane == kNoNumber) {
-    const uint32_t next = edge + 1 < p.count ? edge + 1 : 0;
-    plane =
-        planes
-            .intern(edge_plane(on_grid(corners_[p.first + edge]), on_grid(corners_[p.first + next]),
-                               dominant_axis(plane_of_corners(piece))))
-            .index();
+  if (plane != kNoNumber) return plane;
+  if (const FrameMap& map = maps_[p.operand]; !map.is_identity()) {
+    const FramedFace own(operands_[p.operand], map, p.face);
+    return plane = planes.intern(own.edge(edge_place(edge, p.count, runs_back(p)))).index();
   }
-  return plane;
+  const uint32_t next = edge + 1 < p.count ? edge + 1 : 0;
+  const Plane own = edge_plane(on_grid(corners_[p.first + edge]), on_grid(corners_[p.first + next]),
+                               dominant_axis(plane_of_corners(piece)));
+  return plane = planes.intern(own).index();
 }
 
 Point PieceStore::exact(uint32_t point) const {

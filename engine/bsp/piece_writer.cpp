@@ -89,10 +89,6 @@ void PieceWriter::add_groups(uint32_t operand, std::span<const uint32_t> faces, 
 
 void PieceWriter::add_single(const WholePolygon& w) {
   const JobPolygon& p = job_.polygons()[w.polygon];
-  // Of grid points planes can be made later.
-  if (operands_[p.operand].leaf && !operands_[p.operand].frame.is_identity) {
-    job_.ensure_planes(w.polygon);
-  }
   const auto corners = job_.corners(p);
   const auto edges = job_.edge_planes(p);
   PieceStore::Piece piece = origin_of(w.polygon);

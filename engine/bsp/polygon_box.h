@@ -9,8 +9,10 @@
 
 namespace csgrun {
 
-/// Small box for culling: outward rounded grid coordinates, clamped to +-2^30.
+/// Small box for culling: outward rounded grid coordinates, clamped to +-kLimit.
 struct PolygonBox {
+  static constexpr int32_t kLimit = int32_t{1} << 30;
+
   std::array<int32_t, 3> lo, hi;
 
   /// One that holds nothing.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/bsp/piece_store.h"
+#include "engine/bsp/rounded_box.h"
 
 namespace csgrun {
 namespace {
@@ -18,7 +19,7 @@ struct Direction {
 constexpr Direction kDirections[] = {
     {0.0142578125, 0.0081787109375}, {0.0313720703125, 0.0117}, {0.0057373046875, 0.0427}};
 
-constexpr double kBoxLimit = 0x1p30;  // boxes are clamped there
+constexpr double kBoxLimit = PolygonBox::kLimit;  // boxes are clamped there
 
 class Ray {
  public:

@@ -7,6 +7,7 @@
 #include "engine/base/parallel.h"
 #include "engine/bsp/cut_polygon.h"
 #include "engine/bsp/piece_tree.h"
+#include "engine/bsp/rounded_box.h"
 
 namespace csgrun {
 

@@ -17,8 +17,6 @@ constexpr uint32_t kManyOthers = 64;
 constexpr uint64_t kFewPairs = 4096;
 /// There is a tree of the others when all wide triangles have so many times as many in their boxes.
 constexpr uint64_t kWorthIt = 4;
-/// Boxes of polygons are clamped beyond.
-constexpr int32_t kFarthest = int32_t{1} << 30;
 
 /// How many polygons of an operand are where, about: counts of the middles of their boxes.
 class Density {
@@ -105,7 +103,9 @@ PolygonBox common_box(const Job& job) {
     const PolygonBox& box = job.operand_box(o);
     common.clip(box);
     for (size_t k = 0; k < 3; ++k) {
-      if (box.lo[k] <= -kFarthest || box.hi[k] >= kFarthest) return PolygonBox::none();
+      if (box.lo[k] <= -PolygonBox::kLimit || box.hi[k] >= PolygonBox::kLimit) {
+        return PolygonBox::none();
+      }
     }
   }
   return common;

@@ -158,8 +158,9 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
     const uint32_t begin = mesh.loop_starts[f], end = mesh.loop_starts[f + 1], count = end - begin;
     if (count == 3) {
       uint32_t* const loop = leaf.corners.data() + next;
-      for (uint32_t i = 0; i < 3; ++i)
+      for (uint32_t i = 0; i < 3; ++i) {
         loop[i] = number(mesh.corners[turn ? end - 1 - i : begin + i]);
+      }
       const auto& v = number.vertices();
       if (!has_area(v[loop[0]], v[loop[1]], v[loop[2]])) {
         left_out.push_back({f, {loop[0], loop[1], loop[2]}});

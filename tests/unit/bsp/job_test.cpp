@@ -8,6 +8,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/bsp/piece_store.h"
+#include "engine/bsp/rounded_box.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/bsp/job.h"
 #include "engine/bsp/near_faces.h"
 #include "engine/bsp/piece_tree.h"
+#include "engine/bsp/rounded_box.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"
