@@ -30,7 +30,7 @@ std::array<uint32_t, 3> base_corners(const Job& job, const JobPolygon& polygon) 
 }  // namespace
 
 PairTest::PairTest(const Job& job)
-    : job_(job), signs_(job, false), planes_only_(forced_tier >= 0) {}
+    : job_(job), signs_(job, false), blocks_(job), planes_only_(forced_tier >= 0) {}
 
 /// Pairs come by the second polygon, and the first one's neighbours follow each other.
 const PairTest::Base& PairTest::base_of(uint32_t polygon) {
@@ -126,29 +126,48 @@ int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
   if (known.is_level && signs_.error(own.operand) == 0) return level_sides(own, known, sides);
   const Base base = known;  // what is written to `sides` might be it
   bool any[3] = {};         // behind, on and in front of the plane
+  std::span<const VertexSigns::Box> blocks;
+  if (own.count >= CornerBlocks::kWorthIt && !base.is_level && !planes_only_)
+    blocks = blocks_.of(p);
+  const auto corners = job_.corners(own);
   for (uint32_t i = 0; i < own.count; ++i) {
-    const uint32_t v = job_.corners(own)[i];
-    int s = kUnsure;
-    if (base.is_level) {
-      // What is rounded keeps the order, but for ties.
-      const double above = job_.rounded(v)[base.axis] - base.level;
-      if (above != 0) s = (above > 0) == base.grows ? 1 : -1;
-      ++signs_.filtered;
-    } else if (!planes_only_) {
-      s = signs_.filter(base.signs, job_.rounded(v), error);
-      if (s == 0)
-        s = orient({base.corners[0], base.corners[1], base.corners[2], v}, own.operand,
-                   other.operand, error);
+    if (!blocks.empty() && i % CornerBlocks::kEach == 0) {
+      const int all = signs_.filter(base.signs, blocks[i / CornerBlocks::kEach], error);
+      if (all != 0) {
+        const uint32_t count = std::min(CornerBlocks::kEach, own.count - i);
+        std::fill_n(sides.data() + i, count, static_cast<int8_t>(all));
+        any[all + 1] = true;
+        i += count - 1;
+        continue;
+      }
     }
-    if (s == kUnsure) {
-      if (!planes_) return kUnsure;
-      s = planes_->side_of_vertex(other.support.index(), v);
-      if (other.support.flipped()) s = -s;
-    }
+    const int s = corner_side(own, other, base, corners[i], error);
+    if (s == kUnsure) return kUnsure;
     sides[i] = static_cast<int8_t>(s);
     any[s + 1] = true;
   }
   return any[1] || any[0] == any[2] ? 0 : any[2] ? 1 : -1;
+}
+
+/// That of one corner. kUnsure only without planes.
+int PairTest::corner_side(const JobPolygon& own, const JobPolygon& other, const Base& base,
+                          uint32_t vertex, double error) {
+  int s = kUnsure;
+  if (base.is_level) {
+    // What is rounded keeps the order, but for ties.
+    const double above = job_.rounded(vertex)[base.axis] - base.level;
+    if (above != 0) s = (above > 0) == base.grows ? 1 : -1;
+    ++signs_.filtered;
+  } else if (!planes_only_) {
+    s = signs_.filter(base.signs, job_.rounded(vertex), error);
+    if (s == 0) {
+      s = orient({base.corners[0], base.corners[1], base.corners[2], vertex}, own.operand,
+                 other.operand, error);
+    }
+  }
+  if (s != kUnsure || !planes_) return s;
+  s = planes_->side_of_vertex(other.support.index(), vertex);
+  return other.support.flipped() ? -s : s;
 }
 
 /// The same of corners on the grid and a plane across an axis: whole numbers are not rounded.
@@ -180,7 +199,12 @@ constexpr bool PairTest::walk(std::span<const int8_t> sides, Passage& passage) {
   const int8_t lowest = passage.front ? 1 : 0;  // of those in front
   const auto count = static_cast<uint32_t>(sides.size());
   bool is_front = sides[0] >= lowest;
+  constexpr uint32_t kAtOnce = 8;
   for (uint32_t i = 0; i < count; ++i) {
+    // Where many are equal, nothing falls or rises.
+    while (i + kAtOnce < count && __builtin_memcmp(&sides[i], &sides[i + 1], kAtOnce) == 0) {
+      i += kAtOnce;
+    }
     const bool is_next = sides[i + 1 < count ? i + 1 : 0] >= lowest;
     passage.falls = is_front && !is_next ? i : passage.falls;
     passage.rises = !is_front && is_next ? i : passage.rises;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/corner_blocks.h"
 #include "engine/bsp/flat_pair.h"
 #include "engine/bsp/vertex_signs.h"
 
@@ -91,6 +92,8 @@ class PairTest {
   void find_level(Base& base) const;
   int corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides);
   int level_sides(const JobPolygon& own, const Base& base, std::vector<int8_t>& sides);
+  int corner_side(const JobPolygon& own, const JobPolygon& other, const Base& base, uint32_t vertex,
+                  double error);
   static constexpr bool walk(std::span<const int8_t> sides, Passage& passage);
   static bool find_passage(const std::vector<int8_t>& sides, Passage& passage);
   /// Whether the point in which edge i of p passes through q's plane lies on the inner side of edge
@@ -102,7 +105,8 @@ class PairTest {
   const Job& job_;
   VertexSigns signs_;
   std::array<Base, 128> bases_;  ///< of the polygons that were asked for last
-  const bool planes_only_;       ///< tests want to see that
+  CornerBlocks blocks_;
+  const bool planes_only_;  ///< tests want to see that
   CellGeometry* planes_ = nullptr;
   std::vector<int8_t> sides_p_, sides_q_;
   FlatPair flat_;  ///< what the last pair has in common if it is coplanar and was told
