@@ -10,6 +10,7 @@
 #include "engine/bsp/near_pairs.h"
 #include "engine/bsp/pair_cells.h"
 #include "engine/bsp/parallel_runs.h"
+#include "engine/bsp/point_index.h"
 #include "engine/bsp/sign_stats.h"
 #include "engine/bsp/wide_triangles.h"
 
@@ -113,6 +114,23 @@ void look_at(const Candidates& candidates, size_t lot, Looker& looker, Found& ou
   out.critical += critical;
 }
 
+/// Numbers of the corners of these polygons; equal ones have one.
+std::vector<uint32_t> number_corners(const Job& job, const std::vector<Found>& found,
+                                     CellGeometry& geometry) {
+  std::vector<uint32_t> numbers(job.vertex_count(), kNone);
+  PointIndex index(geometry);
+  for (const Found& f : found) {
+    for (const auto& [p, q] : f.unsure) {
+      for (const uint32_t polygon : {p, q}) {
+        for (const uint32_t v : job.corners(job.polygons()[polygon])) {
+          if (numbers[v] == kNone) numbers[v] = index.unique(geometry.vertex_point(v));
+        }
+      }
+    }
+  }
+  return numbers;
+}
+
 /// Pairs that need planes, which are made one after another.
 void decide_unsure(Job& job, const std::vector<Found>& found, Contacts& result,
                    EvaluateStats& stats) {
@@ -127,6 +145,7 @@ void decide_unsure(Job& job, const std::vector<Found>& found, Contacts& result,
   if (!any) return;
   CellGeometry planes(job.planes(), &job);
   PairTest test(job);
+  test.know_equal_vertices(number_corners(job, found, planes));
   Contact contact;
   std::vector<uint32_t> touching;
   for (const Found& f : found) {

@@ -149,9 +149,18 @@ int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
   return any[1] || any[0] == any[2] ? 0 : any[2] ? 1 : -1;
 }
 
+/// Whether a vertex of another operand is known to equal a corner.
+bool PairTest::is_corner_of(uint32_t vertex, const JobPolygon& polygon) const {
+  if (number_of_.empty()) return false;
+  const auto corners = job_.corners(polygon);
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](uint32_t corner) { return are_equal(vertex, corner); });
+}
+
 /// That of one corner. kUnsure only without planes.
 int PairTest::corner_side(const JobPolygon& own, const JobPolygon& other, const Base& base,
                           uint32_t vertex, double error) {
+  if (is_corner_of(vertex, other)) return 0;
   int s = kUnsure;
   if (base.is_level) {
     // What is rounded keeps the order, but for ties.
@@ -235,6 +244,12 @@ int PairTest::inside(uint32_t p, uint32_t i, bool falls, uint32_t q, uint32_t j)
   const auto of_p = job_.corners(own), of_q = job_.corners(other);
   const uint32_t i_next = i + 1 < own.count ? i + 1 : 0, j_next = j + 1 < other.count ? j + 1 : 0;
   const double error = std::max(signs_.error(own.operand), signs_.error(other.operand));
+  if (!number_of_.empty()) {
+    // Edges that have an end in common are in one plane.
+    for (const uint32_t end : {of_q[j], of_q[j_next]}) {
+      if (are_equal(end, of_p[i]) || are_equal(end, of_p[i_next])) return 0;
+    }
+  }
   const int s =
       orient({of_q[j], of_q[j_next], of_p[i], of_p[i_next]}, own.operand, other.operand, error);
   if (s != kUnsure) return falls ? -s : s;

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/bsp/cell_geometry.h"
@@ -57,6 +58,9 @@ class PairTest {
   /// nothing in common, or a corner of both.) Where doubles and 128-bit integers do not do, and
   /// `planes` is given, planes decide; they must have been made.
   Meeting run(uint32_t p, uint32_t q, CellGeometry* planes, Contact& contact);
+  /// Equal vertices have one number, unequal ones have not; kNone: that is not known of one. Where
+  /// polygons have corners in common, signs are zero that doubles do not tell in frames.
+  void know_equal_vertices(std::vector<uint32_t> numbers) { number_of_ = std::move(numbers); }
   /// After a contact that is not plain: the corners of either polygon in the other's plane. After
   /// kFlatCorner: the two in common.
   void add_touching_vertices(const Contact& contact, std::vector<uint32_t>& vertices) const;
@@ -99,6 +103,10 @@ class PairTest {
   /// Whether the point in which edge i of p passes through q's plane lies on the inner side of edge
   /// j of q: +1, 0, -1, or kUnsure. `falls`: towards the back of q.
   int inside(uint32_t p, uint32_t i, bool falls, uint32_t q, uint32_t j);
+  [[nodiscard]] bool are_equal(uint32_t vertex, uint32_t other) const {
+    return number_of_[vertex] != kNone && number_of_[vertex] == number_of_[other];
+  }
+  [[nodiscard]] bool is_corner_of(uint32_t vertex, const JobPolygon& polygon) const;
   Meeting flat_meeting(const Contact& contact);
   [[nodiscard]] Contact::End end_of(uint32_t polygon, uint32_t edge, bool on_p) const;
 
@@ -108,6 +116,7 @@ class PairTest {
   CornerBlocks blocks_;
   const bool planes_only_;  ///< tests want to see that
   CellGeometry* planes_ = nullptr;
+  std::vector<uint32_t> number_of_;  ///< see know_equal_vertices; empty: nothing is known
   std::vector<int8_t> sides_p_, sides_q_;
   FlatPair flat_;  ///< what the last pair has in common if it is coplanar and was told
 };

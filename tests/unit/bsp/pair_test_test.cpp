@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/point_index.h"
 #include "engine/exact/forced_tier.h"
 #include "tests/support/exact_measures.h"
 #include "tests/support/kernel_case.h"
@@ -162,13 +163,26 @@ void check_flat_pair(const Job& job, const PairTest& test, Meeting met, const Co
   ++seen.flat_corner;
 }
 
+/// Of all vertices.
+std::vector<uint32_t> numbers_of_vertices(const Job& job, CellGeometry& geometry) {
+  PointIndex index(geometry);
+  std::vector<uint32_t> numbers;
+  for (uint32_t v = 0; v < job.vertex_count(); ++v) {
+    numbers.push_back(index.unique(geometry.vertex_point(v)));
+  }
+  return numbers;
+}
+
+/// With planes every other pair is told where vertices are equal.
 void check_pairs(const std::vector<Operand>& operands, bool with_planes, Seen& seen) {
   Job job(operands);
   for (uint32_t p = 0; p < job.polygons().size(); ++p) job.ensure_planes(p);
   CellGeometry geometry(job.planes(), &job);
-  PairTest test(job);
+  PairTest without_numbers(job), with_numbers(job);
+  with_numbers.know_equal_vertices(numbers_of_vertices(job, geometry));
   for (uint32_t p = 0; p < job.polygon_start(1); ++p) {
     for (uint32_t q = job.polygon_start(1); q < job.polygons().size(); ++q) {
+      PairTest& test = with_planes && (p + q) % 2 == 1 ? with_numbers : without_numbers;
       Contact contact;
       const Meeting met = test.run(p, q, with_planes ? &geometry : nullptr, contact);
       const bool is_sure = with_planes || (job.has_grid_vertices(0) && job.has_grid_vertices(1));
@@ -635,6 +649,40 @@ TEST(PairTest, OfFacesOfManyCorners) {
   EXPECT_GT(seen.plain, 100);
   EXPECT_GT(seen.touching, 100);
   EXPECT_GT(seen.coplanar, 20);
+}
+
+// Cones that are turned around a point which is the apex of all.
+TEST(PairTest, OfFacesWithCommonCornersInFrames) {
+  std::vector<Loop> sides;
+  const std::array<IVec3, 6> ring{{{900, 300, 0},
+                                   {900, 150, 260},
+                                   {900, -150, 260},
+                                   {900, -300, 0},
+                                   {900, -150, -260},
+                                   {900, 150, -260}}};
+  for (size_t i = 0; i < ring.size(); ++i) {
+    sides.push_back({{0, 0, 0}, ring[i], ring[(i + 1) % ring.size()]});
+  }
+  std::vector<Operand> cones{operand_of(make_leaf(sides)), operand_of(make_leaf(sides))};
+  cones[0].frame = frame_of(turn_about(2, 24));
+  cones[1].frame = frame_of(turn_about(2, 72));
+  Seen seen;
+  check_pairs(cones, true, seen);
+  EXPECT_EQ(seen.touching, 36);
+  // The common corner tells all that doubles do not: no plane is asked.
+  Job job(cones);
+  for (uint32_t p = 0; p < job.polygons().size(); ++p) job.ensure_planes(p);
+  for (const bool with_numbers : {false, true}) {
+    CellGeometry geometry(job.planes(), &job), asked(job.planes(), &job);
+    PairTest test(job);
+    if (with_numbers) test.know_equal_vertices(numbers_of_vertices(job, geometry));
+    Contact contact;
+    for (uint32_t p = 0; p < 6; ++p) {
+      for (uint32_t q = 6; q < 12; ++q)
+        EXPECT_EQ(test.run(p, q, &asked, contact), Meeting::kContact);
+    }
+    EXPECT_EQ(asked.point_count() == 0, with_numbers);
+  }
 }
 
 // A square clearly in front of another one: four signs say so.
