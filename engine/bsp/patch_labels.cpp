@@ -37,6 +37,7 @@ PatchLabels::PatchLabels(const Job& job, const Expression& expression,
       plainly_(plainly),
       boundary_(expression),
       signs_(job, true),  // rays meet pieces that the job does not have
+      boxes_(job),
       bins_(boxes_of_operands(job), most_squares(job.operand_count())) {}
 
 /// Whether they tell that nothing there is boundary, whatever else there is: part of the patch is
@@ -87,7 +88,7 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
   for (const uint32_t o : asked_) {
     Inside label = Inside::kUnknown;
     if (plainly_.dead->balls().has(o)) label = convex_sides_.side(job_.operands(), o, point);
-    if (label == Inside::kUnknown) label = ray_label(job_, signs_, o, point, error);
+    if (label == Inside::kUnknown) label = ray_label(job_, signs_, boxes_, o, point, error);
     is_unsure |= label == Inside::kUnknown;
     if (label != Inside::kYes) continue;
     if (plainly_.dead->is_remover(o)) return PatchFate::kDrop;

@@ -16,6 +16,7 @@
 #include "engine/bsp/convex_sides.h"
 #include "engine/bsp/covered_polygons.h"
 #include "engine/bsp/cut_polygon.h"
+#include "engine/bsp/ray_boxes.h"
 #include "engine/bsp/sparse_boundary.h"
 #include "engine/bsp/square_bins.h"
 #include "engine/bsp/vertex_signs.h"
@@ -49,6 +50,7 @@ class PatchLabels {
   const PlainlyCovered& plainly_;
   SparseBoundary boundary_;
   VertexSigns signs_;
+  RayBoxes boxes_;
   const SquareBins bins_;  ///< of the operands
   Sides inside_;           ///< of the patch at hand
   /// Operands that balls do not tell of: rays are sent only if none of these decides.

@@ -19,12 +19,25 @@ struct Direction {
 constexpr Direction kDirections[] = {
     {0.0142578125, 0.0081787109375}, {0.0313720703125, 0.0117}, {0.0057373046875, 0.0427}};
 
+/// Kept from one polygon to the next: most are small, and most rays meet few.
+struct Memory {
+  std::vector<Position> corners;
+  std::vector<uint32_t> ends;  ///< of its loops
+  std::vector<double> y, z;    ///< corners as the ray sees them
+};
+
 constexpr double kBoxLimit = PolygonBox::kLimit;  // boxes are clamped there
 
 class Ray {
  public:
-  Ray(VertexSigns& signs, const Position& from, double error, const Direction& direction)
-      : signs_(signs), from_(from), error_(error), direction_(direction) {}
+  Ray(VertexSigns& signs, const Position& from, double error, const Direction& direction,
+      Memory& memory)
+      : signs_(signs),
+        from_(from),
+        error_(error),
+        direction_(direction),
+        y_(memory.y),
+        z_(memory.z) {}
 
   [[nodiscard]] bool may_meet(const PolygonBox& box) const {
     for (int k = 0; k < 3; ++k) {
@@ -140,21 +153,37 @@ class Ray {
   const Position from_;
   const double error_;
   const Direction direction_;
-  std::vector<double> y_, z_;
+  std::vector<double>& y_;
+  std::vector<double>& z_;
 };
+
+/// Those of a face that a ray may meet (RayBoxes).
+void add_corners(const Job& job, uint32_t operand, uint32_t face, std::vector<Position>& corners) {
+  if (!job.some_faces(operand)) {
+    const JobPolygon& polygon = job.polygons()[job.polygon_start(operand) + face];
+    for (const uint32_t v : job.corners(polygon)) corners.push_back(job.rounded(v));
+    return;
+  }
+  // The job does not have all of them.
+  const LeafGeometry& leaf = *job.leaf(operand);
+  for (uint32_t c = leaf.face_starts[face]; c < leaf.face_starts[face + 1]; ++c) {
+    corners.push_back(job.rounded(job.vertex_start(operand) + leaf.corners[c]));
+  }
+}
 
 }  // namespace
 
-Inside ray_label(const Job& job, VertexSigns& signs, uint32_t operand, const Position& point,
-                 double error) {
+Inside ray_label(const Job& job, VertexSigns& signs, RayBoxes& boxes, uint32_t operand,
+                 const Position& point, double error) {
   for (const double c : point) {
     if (std::fabs(c) >= kBoxLimit) return Inside::kUnknown;
   }
   const double operand_error = signs.error(operand);
-  std::vector<Position> corners;
-  std::vector<uint32_t> ends;
+  thread_local Memory memory;
+  std::vector<Position>& corners = memory.corners;
+  std::vector<uint32_t>& ends = memory.ends;
   for (const Direction& direction : kDirections) {
-    Ray ray(signs, point, error, direction);
+    Ray ray(signs, point, error, direction, memory);
     bool inside = false, unsure = false;
     const auto look_at = [&](Inside met) {
       unsure |= met == Inside::kUnknown;
@@ -178,28 +207,19 @@ Inside ray_label(const Job& job, VertexSigns& signs, uint32_t operand, const Pos
               look_at(ray.meets_loops(corners, ends, operand_error));
             });
           });
-    } else if (job.some_faces(operand)) {
-      // The job does not have all of them.
-      const LeafGeometry& leaf = *job.leaf(operand);
-      const bool is_on_grid = job.has_grid_vertices(operand);
-      for (size_t f = 0; f < leaf.face_count() && !unsure; ++f) {
-        if (is_on_grid && !ray.may_meet(box_of_face(leaf, f, job.operand(operand).translation))) {
+    } else {
+      const uint32_t count = boxes.face_count(operand);
+      const std::span<const PolygonBox> runs = boxes.of(operand);
+      const PolygonBox* const own =
+          job.some_faces(operand) ? nullptr : job.boxes().data() + job.polygon_start(operand);
+      for (uint32_t f = 0; f < count && !unsure; ++f) {
+        if (!runs.empty() && f % RayBoxes::kEach == 0 && !ray.may_meet(runs[f / RayBoxes::kEach])) {
+          f += RayBoxes::kEach - 1;
           continue;
         }
+        if (own ? !ray.may_meet(own[f]) : !ray.may_meet(boxes.box(operand, f))) continue;
         corners.clear();
-        PieceBox box;
-        for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) {
-          box.add(corners.emplace_back(job.rounded(job.vertex_start(operand) + leaf.corners[c])));
-        }
-        if (!is_on_grid && !ray.may_meet(rounded_outwards(box))) continue;
-        look_at(ray.meets(corners, operand_error));
-      }
-    } else {
-      for (uint32_t p = job.polygon_start(operand); p < job.polygon_start(operand + 1) && !unsure;
-           ++p) {
-        if (!ray.may_meet(job.boxes()[p])) continue;
-        corners.clear();
-        for (const uint32_t v : job.corners(job.polygons()[p])) corners.push_back(job.rounded(v));
+        add_corners(job, operand, f, corners);
         look_at(ray.meets(corners, operand_error));
       }
     }

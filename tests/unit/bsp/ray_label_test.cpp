@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -24,19 +25,24 @@ constexpr double kDirections[3][2] = {
 
 struct Operands {
   explicit Operands(const Operand& operand)
-      : list{operand}, job(list), signs(job, true), oracle(test::exact_solid(operand)) {}
+      : list{operand},
+        job(list),
+        signs(job, true),
+        boxes(job),
+        oracle(test::exact_solid(operand)) {}
   explicit Operands(const std::vector<test::Loop>& loops)
       : Operands(test::operand_of(test::make_leaf(loops))) {}
 
   /// 1 inside, 0 outside, -1 not told.
   int label(const Query& at, double error = 0) {
-    const Inside label = ray_label(job, signs, 0, at, error);
+    const Inside label = ray_label(job, signs, boxes, 0, at, error);
     return label == Inside::kUnknown ? -1 : label == Inside::kYes ? 1 : 0;
   }
 
   const std::vector<Operand> list;
   const Job job;
   VertexSigns signs;
+  RayBoxes boxes;
   const test::Oracle oracle;
 };
 
@@ -277,6 +283,7 @@ TEST(RayLabel, OfRegions) {
     list[1].pieces = std::make_shared<PieceOperand>(PieceOperand{(*made)->store, (*made)->tree});
     const Job job(list, &store.planes);
     VertexSigns signs(job, true);
+    RayBoxes boxes(job);
     std::vector<test::Oracle> oracles;
     for (const Operand& o : operands) oracles.emplace_back(test::exact_solid(o));
     for (int k = 0; k < 60; ++k) {
@@ -286,7 +293,7 @@ TEST(RayLabel, OfRegions) {
       for (size_t o = 0; o < 3; ++o) windings[o] = oracles[o].winding(at);
       if (!windings[0] || !windings[1] || !windings[2]) continue;
       const bool truth = *windings[0] == 1 && *windings[1] == 0 && *windings[2] == 0;
-      const Inside label = ray_label(job, signs, 1, at, 0);
+      const Inside label = ray_label(job, signs, boxes, 1, at, 0);
       if (label == Inside::kUnknown) continue;
       ASSERT_EQ(label == Inside::kYes, truth) << i << ": " << at[0] << ' ' << at[1] << ' ' << at[2];
       ++(truth ? inside : outside);
@@ -296,6 +303,44 @@ TEST(RayLabel, OfRegions) {
   EXPECT_GT(outside, 3000);
   EXPECT_GT(regions, 300u);
   EXPECT_GT(loops, regions + 10);
+}
+
+// From the second point on boxes around sixteen polygons each leave out most.
+TEST(RayLabel, IsTheWindingNumberOfMuch) {
+  test::Random random(509);
+  int inside = 0, outside = 0;
+  size_t runs = 0, polygons = 0;
+  for (int i = 0; i < 40; ++i) {
+    std::vector<test::Loop> loops;
+    for (int64_t k = 0; k < 8; ++k) {
+      for (test::Loop& loop : test::random_loops(random)) {
+        for (IVec3& p : loop) p[0] += 6 * k;
+        loops.push_back(std::move(loop));
+      }
+    }
+    Operands solid(loops);
+    for (int k = 0; k < 100; ++k) {
+      Query at;
+      for (double& c : at) c = static_cast<double>(random.integer(-2, 24)) / 4 + 1. / 64;
+      at[0] += static_cast<double>(6 * random.integer(0, 7));
+      const auto truth = solid.oracle.winding(at);
+      if (!truth) continue;
+      // Beside a ray there is nothing where it is told.
+      const uint64_t before = solid.signs.filtered;
+      ASSERT_EQ(solid.label(at), *truth) << at[0] << ' ' << at[1] << ' ' << at[2];
+      RayBoxes none(solid.job);
+      const uint64_t asked = solid.signs.filtered - before;
+      ASSERT_EQ(ray_label(solid.job, solid.signs, none, 0, at, 0),
+                *truth != 0 ? Inside::kYes : Inside::kNo);
+      ASSERT_EQ(solid.signs.filtered - before, 2 * asked);
+      ++(*truth ? inside : outside);
+    }
+    runs += solid.boxes.of(0).size();
+    polygons += solid.job.polygons().size();
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_GT(outside, 300);
+  EXPECT_GE(runs * RayBoxes::kEach, polygons);
 }
 
 /// Whether a ray from the origin meets a polygon ahead, its edges included.
@@ -349,7 +394,8 @@ TEST(RayLabel, CountsNothingThatRaysMissBarely) {
     const std::vector<Operand> operands{operand};
     const Job job(operands);
     VertexSigns signs(job, true);
-    ASSERT_EQ(ray_label(job, signs, 0, {0, 0, 0}, 0), Inside::kNo) << i;
+    RayBoxes boxes(job);
+    ASSERT_EQ(ray_label(job, signs, boxes, 0, {0, 0, 0}, 0), Inside::kNo) << i;
   }
   for (const int n : missed) EXPECT_GT(n, 1000);
 }
