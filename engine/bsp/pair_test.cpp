@@ -149,9 +149,8 @@ int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
   return any[1] || any[0] == any[2] ? 0 : any[2] ? 1 : -1;
 }
 
-/// Whether a vertex of another operand is known to equal a corner.
+/// Whether a vertex of another operand equals a corner. REQUIRES: numbers.
 bool PairTest::is_corner_of(uint32_t vertex, const JobPolygon& polygon) const {
-  if (number_of_.empty()) return false;
   const auto corners = job_.corners(polygon);
   return std::any_of(corners.begin(), corners.end(),
                      [&](uint32_t corner) { return are_equal(vertex, corner); });
@@ -160,7 +159,7 @@ bool PairTest::is_corner_of(uint32_t vertex, const JobPolygon& polygon) const {
 /// That of one corner. kUnsure only without planes.
 int PairTest::corner_side(const JobPolygon& own, const JobPolygon& other, const Base& base,
                           uint32_t vertex, double error) {
-  if (is_corner_of(vertex, other)) return 0;
+  if (!number_of_.empty() && is_corner_of(vertex, other)) return 0;
   int s = kUnsure;
   if (base.is_level) {
     // What is rounded keeps the order, but for ties.

@@ -17,7 +17,7 @@ class RayBoxes {
  public:
   static constexpr uint32_t kEach = 16;  ///< faces; fewer in the last run
 
-  explicit RayBoxes(const Job& job) : job_(job), known_(job.operand_count()) {}
+  explicit RayBoxes(const Job& job) : job_(job) {}
 
   /// How many faces a ray may meet: the job's polygons of an operand, or all faces of a leaf of
   /// which it has some. REQUIRES: not an operand in pieces.
@@ -42,6 +42,7 @@ class RayBoxes {
   /// Those around runs of them, in their order. None when an operand is asked about for the first
   /// time, as they cost what they save a ray, or if it has few faces.
   [[nodiscard]] std::span<const PolygonBox> of(uint32_t operand) {
+    if (known_.empty()) known_.resize(job_.operand_count());
     Known& known = known_[operand];
     if (!known.was_asked) {
       known.was_asked = true;
