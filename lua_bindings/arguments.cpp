@@ -279,7 +279,10 @@ std::string Arguments::unknown_option(std::string_view name) const {
     if (option.alias != nullptr) names.emplace_back(option.alias);
   }
   if (spec_.facets) {
-    for (const Option& option : kFacetOptions) names.emplace_back(option.name);
+    for (const Option& option : kFacetOptions) {
+      names.emplace_back(option.name);
+      if (option.alias != nullptr) names.emplace_back(option.alias);
+    }
   }
   std::string_view word = name;
   if (!word.empty() && word[0] == '$') word.remove_prefix(1);  // OpenSCAD's $fn

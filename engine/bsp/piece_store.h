@@ -23,7 +23,7 @@ namespace csgrun {
 class PieceStore {
  public:
   /// A piece of a face of an operand, oriented to the outside of the result. Planes of it may not
-  /// have been made yet if all its corners are grid points.
+  /// have been made yet if all its corners are grid points, or it is whole and of a leaf.
   struct Piece {
     uint32_t operand;       ///< number in the store
     uint32_t face;          ///< of the operand, a leaf or a boundary

@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "engine/bsp/result_pieces.h"
+#include "engine/exact/predicates.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
@@ -147,6 +149,52 @@ TEST(PieceStore, TakesThePlanesOfFacesAlongAxes) {
       EXPECT_EQ(compare(store.exact(v), job.exact(v)), 0) << axis;
     }
   }
+}
+
+// Of whole faces of a leaf, as they are or turned over, in frames that mirror, too.
+TEST(PieceStore, MakesThePlanesOfFacesInFramesWhenTheyAreAskedFor) {
+  test::Random random(995);
+  size_t faces = 0, mirrored = 0;
+  for (int i = 0; i < 60; ++i) {
+    Operand operand = test::operand_of(test::make_leaf(test::random_loops(random)));
+    operand.frame = test::random_frame(random);
+    const std::vector<Operand> operands{operand};
+    PieceStore store;
+    Job job(operands, &store.planes);
+    if (store.add_operand(job, operands, 0) != 0) continue;
+    mirrored += store.map(0).is_mirrored();
+    for (uint32_t face = 0; face < operand.leaf->face_count(); ++face, ++faces) {
+      for (const bool flip : {false, true}) {
+        const uint32_t p = store.add_face({0, 0, 0, 0, PlaneId(), true, flip}, face);
+        EXPECT_FALSE(store.piece(p).support.valid());
+        const PlaneId support = store.ensure_support(p);
+        EXPECT_EQ(store.piece(p).support, support);
+        const Plane front = store.planes.oriented(support);
+        const std::vector<uint32_t> corners(store.corners(p).begin(), store.corners(p).end());
+        // Newell's sum of the corners, seen from the front.
+        double along = 0;
+        for (size_t c = 0; c < corners.size(); ++c) {
+          ASSERT_EQ(exact_side(front, store.exact(corners[c])), 0);
+          const auto &a = store.rounded(corners[c]),
+                     &b = store.rounded(corners[(c + 1) % corners.size()]);
+          along += static_cast<double>(front.a) * (a[1] * b[2] - a[2] * b[1]) +
+                   static_cast<double>(front.b) * (a[2] * b[0] - a[0] * b[2]) +
+                   static_cast<double>(front.c) * (a[0] * b[1] - a[1] * b[0]);
+        }
+        EXPECT_GT(along, 0);
+        for (uint32_t c = 0; c < corners.size(); ++c) {
+          const uint32_t edge = store.ensure_edge(p, c);
+          EXPECT_NE(edge, support.index());
+          EXPECT_EQ(store.edges(p)[c], edge);
+          for (const uint32_t end : {corners[c], corners[(c + 1) % corners.size()]}) {
+            EXPECT_EQ(exact_side(store.planes.plane(edge), store.exact(end)), 0);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(faces, 300u);
+  EXPECT_GT(mirrored, 10u);
 }
 
 // A point made of planes is the grid point that its coordinates name, or it is none.

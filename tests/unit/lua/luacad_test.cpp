@@ -76,7 +76,7 @@ TEST(Shapes, Mistakes) {
       {"torus{R = 2, r = 3}",
        "torus: 'r', the radius of the tube, must not be larger than 'R', that of the ring"},
       {"torus{R = 2, q = 3}",
-       "torus: unknown option 'q' (there are R, major, r, minor, segments_minor, fn, fa, "
+       "torus: unknown option 'q' (there are R, major, r, minor, segments_minor, fn, segments, fa, "
        "fs)"},
       {"torus{R = 'x'}", "torus: option 'R' must be a number, got string"},
       {"torus(0, 1)", "torus: option 'R' must be positive, got 0"},
