@@ -127,8 +127,9 @@ int PairTest::corner_sides(uint32_t p, uint32_t q, std::vector<int8_t>& sides) {
   const Base base = known;  // what is written to `sides` might be it
   bool any[3] = {};         // behind, on and in front of the plane
   std::span<const VertexSigns::Box> blocks;
-  if (own.count >= CornerBlocks::kWorthIt && !base.is_level && !planes_only_)
+  if (own.count >= CornerBlocks::kWorthIt && !base.is_level && !planes_only_) {
     blocks = blocks_.of(p);
+  }
   const auto corners = job_.corners(own);
   for (uint32_t i = 0; i < own.count; ++i) {
     if (!blocks.empty() && i % CornerBlocks::kEach == 0) {

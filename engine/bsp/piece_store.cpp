@@ -190,7 +190,8 @@ IVec3 PieceStore::on_grid(uint32_t point) const {
   return {static_cast<int64_t>(at[0]), static_cast<int64_t>(at[1]), static_cast<int64_t>(at[2])};
 }
 
-// What has no planes yet is a face of an operand as it is: of grid points, or of a leaf in a frame.
+// What has no planes yet is a face as it is: of grid points, or of a leaf in a frame. (Of a
+// boundary in a frame a job has all planes.)
 
 PlaneId PieceStore::ensure_support(uint32_t piece) {
   Piece& p = pieces_[piece];
