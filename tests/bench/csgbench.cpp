@@ -162,6 +162,7 @@ BooleanOp operation(const std::string& word) {
 constexpr const char* kUsage =
     "usage: csgbench WORKLOAD ARGS [--threads N] [--repeat R] [--cell-limit M] [--write OUT.off]\n"
     "                [--check] [--write-inputs PREFIX] [--write-steps PREFIX] [--write-cells OUT]\n"
+    "                [--pages small|large]\n"
     "  rot FILE ANGLE       union with a copy turned about z (vertices turned)\n"
     "  rotframe FILE ANGLE  the same turn as a transform\n"
     "  chain N              block minus N spheres, one after another\n"
@@ -243,8 +244,8 @@ void run_once(const std::vector<std::string>& words, const Settings& settings) {
 }  // namespace csgrun::bench
 
 int main(int argc, char** argv) {
-  csgrun::keep_freed_memory();
   csgrun::bench::Settings settings;
+  csgrun::HeapPages pages = csgrun::HeapPages::kMeasured;
   std::vector<std::string> words;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
@@ -265,6 +266,10 @@ int main(int argc, char** argv) {
       settings.write_cells = argv[++i];
     } else if (word == "--cell-limit" && has_value) {
       settings.cell_limit = static_cast<uint32_t>(std::atoi(argv[++i]));
+    } else if (word == "--pages" && has_value) {
+      const std::string size = argv[++i];
+      if (size != "small" && size != "large") csgrun::bench::fail("--pages are small or large");
+      pages = size == "small" ? csgrun::HeapPages::kSmall : csgrun::HeapPages::kLarge;
     } else {
       words.push_back(word);
     }
@@ -273,6 +278,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s", csgrun::bench::kUsage);
     return 2;
   }
+  csgrun::prepare_heap(pages);
   for (int r = 0; r < settings.repeat; ++r) {
     csgrun::with_threads(settings.threads, [&] { csgrun::bench::run_once(words, settings); });
   }

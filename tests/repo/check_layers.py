@@ -14,7 +14,7 @@ import tempfile
 ENGINE_PUBLIC = ["csgrun/engine/"]
 ARROWS = {
     "engine/include": ([], ENGINE_PUBLIC),
-    "engine/base": (["engine/base/"], []),
+    "engine/base": (["engine/base/"], ["csgrun/engine/heap.h"]),
     "engine/exact": (["engine/exact/", "engine/base/"], []),
     "engine/bsp": (["engine/bsp/", "engine/exact/", "engine/base/"], ENGINE_PUBLIC),
     "engine/mesh": (["engine/mesh/", "engine/bsp/", "engine/exact/", "engine/base/"],

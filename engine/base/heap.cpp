@@ -1,0 +1,86 @@
+#include <cstdlib>  // says which C library it is
+
+#include <csgrun/engine/heap.h>
+
+#if defined(__GLIBC__)
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+
+#include <malloc.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace csgrun {
+namespace {
+
+/// What the heap grows by at a time. In the usual steps of 128 kB a second thread changed its map
+/// of memory five thousand times for one model, while the first had to wait, and gave back what it
+/// needed again.
+constexpr int kStep = 64 << 20;
+
+/// The shortest time in which the system gives a page to who writes to it, of a few.
+std::chrono::nanoseconds time_of_page() {
+  using Clock = std::chrono::steady_clock;
+  constexpr size_t kFew = 6;
+  const auto page = static_cast<size_t>(sysconf(_SC_PAGESIZE));
+  void* const pages =
+      mmap(nullptr, kFew * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (pages == MAP_FAILED) return {};
+  auto shortest = Clock::duration::max();
+  for (size_t i = 0; i < kFew; ++i) {
+    const auto before = Clock::now();
+    static_cast<volatile char*>(pages)[i * page] = 1;
+    shortest = std::min(shortest, Clock::now() - before);
+  }
+  munmap(pages, kFew * page);
+  return shortest;
+}
+
+/// Lets the heap grow far, and has that be in large pages but for its beginning: a small model
+/// needs no more.
+void take_large_pages() {
+  constexpr size_t kMost = size_t{1} << 30, kSmallPart = size_t{2} << 20;
+  constexpr size_t kLargePage = size_t{2} << 20;
+  constexpr size_t kGrows = size_t{1} << 20;  // more than the heap has at first, and not mapped
+  const auto memory =
+      static_cast<size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<size_t>(sysconf(_SC_PAGESIZE));
+  mallopt(M_TOP_PAD, static_cast<int>(std::min(memory / 4, kMost)));
+  char* const begin = static_cast<char*>(std::malloc(kGrows));
+  char* const end = static_cast<char*>(sbrk(0));
+  mallopt(M_TOP_PAD, kStep);
+  if (begin && begin < end) {
+    // Other heaps, of other threads, would be in small pages.
+    mallopt(M_ARENA_MAX, 1);
+    const auto room = static_cast<size_t>(end - begin);
+    const size_t before_large =
+        kSmallPart + kLargePage - reinterpret_cast<uintptr_t>(begin) % kLargePage;
+    if (room > before_large) madvise(begin + before_large, room - before_large, MADV_HUGEPAGE);
+  }
+  std::free(begin);
+}
+
+}  // namespace
+
+void prepare_heap(HeapPages pages) {
+  // Left to itself, glibc moves both limits with the order in which arrays are freed: the peak of
+  // one model differed by 20 MB from that of another of its size.
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
+  mallopt(M_TRIM_THRESHOLD, 0x7fffffff);
+  mallopt(M_TOP_PAD, kStep);
+  // A page takes 1 to 2 microseconds on most machines, and 11 on a virtual one whose host keeps the
+  // tables of pages itself.
+  constexpr std::chrono::microseconds kLong(4);
+  const bool are_large =
+      pages == HeapPages::kMeasured ? time_of_page() > kLong : pages == HeapPages::kLarge;
+  if (are_large) take_large_pages();
+}
+
+}  // namespace csgrun
+
+#else
+
+void csgrun::prepare_heap(HeapPages) {}
+
+#endif
