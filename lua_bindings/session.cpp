@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "lua_bindings/call_site.h"
 #include "lua_bindings/guard.h"
@@ -59,6 +60,7 @@ void Session::set_joins_contacts(bool join) {
 }
 
 Evaluator& Session::evaluator() {
+  if (const auto prepare = std::exchange(options_.before_evaluation, nullptr)) prepare();
   if (!evaluator_) evaluator_ = std::make_unique<Evaluator>(options_.evaluate);
   return *evaluator_;
 }

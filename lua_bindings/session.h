@@ -2,6 +2,7 @@
 // and the evaluator that measures.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -47,6 +48,7 @@ struct SessionOptions {
   EvaluateOptions evaluate;
   BudgetLimits limits;
   FontOptions fonts;
+  std::function<void()> before_evaluation;  ///< called once, before the first; may be empty
 };
 
 class Session {

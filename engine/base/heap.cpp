@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <climits>
 #include <cstddef>
 
 #include <malloc.h>
@@ -14,11 +15,6 @@
 
 namespace csgrun {
 namespace {
-
-/// What the heap grows by at a time. In the usual steps of 128 kB a second thread changed its map
-/// of memory five thousand times for one model, while the first had to wait, and gave back what it
-/// needed again.
-constexpr int kStep = 64 << 20;
 
 /// The shortest time in which the system gives a page to who writes to it, of a few.
 std::chrono::nanoseconds time_of_page() {
@@ -40,47 +36,60 @@ std::chrono::nanoseconds time_of_page() {
 
 /// Lets the heap grow far, and has that be in large pages but for its beginning: a small model
 /// needs no more.
-void take_large_pages() {
-  constexpr size_t kMost = size_t{1} << 30, kSmallPart = size_t{2} << 20;
-  constexpr size_t kLargePage = size_t{2} << 20;
-  constexpr size_t kGrows = size_t{1} << 20;  // more than the heap has at first, and not mapped
+void take_large_pages(size_t most) {
+  constexpr size_t kMost = size_t{1} << 30, kShare = 4;
+  constexpr size_t kSmallPart = size_t{2} << 20, kLargePage = size_t{2} << 20;
+  // More than what is left of the last step. (Where more was freed, it is used again first.)
+  constexpr size_t kGrows = size_t{4} << 20;
   const auto memory =
       static_cast<size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<size_t>(sysconf(_SC_PAGESIZE));
-  mallopt(M_TOP_PAD, static_cast<int>(std::min(memory / 4, kMost)));
-  char* const begin = static_cast<char*>(std::malloc(kGrows));
+  const size_t room = std::min({kMost, memory / kShare, most / kShare});
+  mallopt(M_TOP_PAD, static_cast<int>(room));
+  char* const begin = static_cast<char*>(sbrk(0));
+  void* volatile grown = std::malloc(kGrows);  // volatile: or the compiler leaves it out
   char* const end = static_cast<char*>(sbrk(0));
-  mallopt(M_TOP_PAD, kStep);
-  if (begin && begin < end) {
-    // Other heaps, of other threads, would be in small pages.
-    mallopt(M_ARENA_MAX, 1);
-    const auto room = static_cast<size_t>(end - begin);
-    const size_t before_large =
-        kSmallPart + kLargePage - reinterpret_cast<uintptr_t>(begin) % kLargePage;
-    if (room > before_large) madvise(begin + before_large, room - before_large, MADV_HUGEPAGE);
+  // Heaps of other threads would be in small pages.
+  mallopt(M_ARENA_MAX, 1);
+  const size_t before_large =
+      kSmallPart + kLargePage - reinterpret_cast<uintptr_t>(begin) % kLargePage;
+  if (begin + before_large < end) {
+    madvise(begin + before_large, static_cast<size_t>(end - begin) - before_large, MADV_HUGEPAGE);
   }
-  std::free(begin);
+  std::free(grown);
 }
 
 }  // namespace
 
-void prepare_heap(HeapPages pages) {
+void keep_freed_memory() {
   // Left to itself, glibc moves both limits with the order in which arrays are freed: the peak of
   // one model differed by 20 MB from that of another of its size.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
-  mallopt(M_TRIM_THRESHOLD, 0x7fffffff);
-  mallopt(M_TOP_PAD, kStep);
+  mallopt(M_TRIM_THRESHOLD, INT_MAX);
+  mallopt(M_TOP_PAD, 1 << 20);
+}
+
+void make_room_for_meshes(HeapPages pages, size_t most) {
   // A page takes 1 to 2 microseconds on most machines, and 11 on a virtual one whose host keeps the
   // tables of pages itself.
   constexpr std::chrono::microseconds kLong(4);
   const bool are_large =
       pages == HeapPages::kMeasured ? time_of_page() > kLong : pages == HeapPages::kLarge;
-  if (are_large) take_large_pages();
+  if (are_large) take_large_pages(most);
+  // In steps of 128 kB, which are usual, a second thread changed its map of memory five thousand
+  // times for one model, while the first had to wait.
+  constexpr size_t kLeast = size_t{128} << 10, kUsual = size_t{64} << 20, kShare = 16;
+  mallopt(M_TOP_PAD, static_cast<int>(std::clamp(most / kShare, kLeast, kUsual)));
 }
 
 }  // namespace csgrun
 
 #else
 
-void csgrun::prepare_heap(HeapPages) {}
+namespace csgrun {
+
+void keep_freed_memory() {}
+void make_room_for_meshes(HeapPages, size_t) {}
+
+}  // namespace csgrun
 
 #endif

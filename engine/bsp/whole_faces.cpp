@@ -342,9 +342,12 @@ class FaceEvaluator {
   /// Has the corners examined of cut polygons that something touches, and marks the contacts of
   /// these that end elsewhere. Such polygons were cut by value: their corners are in the index.
   void examine_cut(TouchFinder& finder, std::vector<uint8_t>& is_open) {
-    tbb::enumerable_thread_specific<std::vector<uint32_t>> corner_of;
+    // A small job stays without the threads' library, which takes a millisecond to begin.
+    std::optional<tbb::enumerable_thread_specific<std::vector<uint32_t>>> corners_of;
+    if (part_count(cut_.faces.size(), kFacesPerPart) > 1) corners_of.emplace();
     finder.examine_known([&](auto&& mark) {
       for_each_part(cut_.faces.size(), kFacesPerPart, [&](size_t, size_t begin, size_t end) {
+        std::vector<uint32_t>& corner_of = corners_of ? corners_of->local() : corner_of_;
         std::vector<uint32_t> corners;
         for (size_t f = begin; f < end; ++f) {
           const CutFaces::Face& cut = cut_.faces[f];
@@ -358,7 +361,7 @@ class FaceEvaluator {
               if (!is_dropped) mark(p);
             }
           }
-          find_open(cut.polygon, corners, finder, corner_of.local(), is_open, nullptr);
+          find_open(cut.polygon, corners, finder, corner_of, is_open, nullptr);
         }
       });
     });

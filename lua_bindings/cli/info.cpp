@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <csgrun/engine/heap.h>
 #include <csgrun/export/write.h>
 #include <csgrun/primitives/flat_file.h>
 #include <csgrun/primitives/mesh_file.h>
@@ -124,6 +125,7 @@ Failure measure_file(const std::string& path, bool json, std::string& output,
   if (!flat_file_format_of(path).empty()) return measure_drawing(path, text.bytes, json, output);
   auto meshes = read_meshes(path, text.bytes, notes);
   if (!meshes) return refused(path, meshes.error().message);
+  make_room_for_meshes();
   std::vector<PartMeasures> parts;
   std::vector<std::string> warnings;
   CountedCrossings crossings;

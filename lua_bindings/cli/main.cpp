@@ -52,7 +52,7 @@ int info(const csgrun::CommandLine& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  csgrun::prepare_heap();
+  csgrun::keep_freed_memory();
   // A file that grows over a limit is an error of that file, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
   const csgrun::CommandLine line = csgrun::parse_command_line(argc, argv);

@@ -11,6 +11,7 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <csgrun/engine/heap.h>
 #include <csgrun/export/write_flat.h>
 #include <csgrun/primitives/csg_file.h>
 #include <csgrun/primitives/flat_file.h>
@@ -50,8 +51,9 @@ std::string read_standard_input() {
 
 class Run {
  public:
-  Run(const CommandLine& line, RunReport& report)
-      : line_(line), report_(report), session_(session_options(line)) {}
+  /// `memory`: the bytes that the process may have.
+  Run(const CommandLine& line, RunReport& report, size_t memory)
+      : line_(line), report_(report), session_(session_options(line, memory)) {}
 
   Failure execute() {
     const auto start = Clock::now();
@@ -80,7 +82,7 @@ class Run {
   }
 
  private:
-  static SessionOptions session_options(const CommandLine& line) {
+  static SessionOptions session_options(const CommandLine& line, size_t memory) {
     SessionOptions options;
     options.model = line.model == "-" ? "stdin" : line.model;
     options.model_folder = folder_of(line.model);
@@ -95,6 +97,7 @@ class Run {
         [](const std::string& output) { return model_format_of(output) == "exact.json"; });
     options.fonts.system_fonts = line.system_fonts;
     options.fonts.strict = line.strict;
+    options.before_evaluation = [memory] { make_room_for_meshes(HeapPages::kMeasured, memory); };
     options.limits.total_seconds = line.timeout_seconds;
     if (line.memory_bytes)
       options.limits.heap_bytes = std::min(options.limits.heap_bytes, *line.memory_bytes);
@@ -515,7 +518,7 @@ Failure run_model(const CommandLine& line, RunReport& report) {
   const size_t memory = line.memory_bytes.value_or(default_process_memory());
   limit_process_memory(memory);
   try {
-    return Run(line, report).execute();
+    return Run(line, report, memory).execute();
   } catch (const std::bad_alloc&) {
     return {kExitGeometry, fmt::format("{}: not enough memory in evaluation (limit {} MB)",
                                        line.model, memory >> 20)};

@@ -244,6 +244,7 @@ void run_once(const std::vector<std::string>& words, const Settings& settings) {
 }  // namespace csgrun::bench
 
 int main(int argc, char** argv) {
+  csgrun::keep_freed_memory();
   csgrun::bench::Settings settings;
   csgrun::HeapPages pages = csgrun::HeapPages::kMeasured;
   std::vector<std::string> words;
@@ -278,7 +279,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s", csgrun::bench::kUsage);
     return 2;
   }
-  csgrun::prepare_heap(pages);
+  csgrun::make_room_for_meshes(pages);
   for (int r = 0; r < settings.repeat; ++r) {
     csgrun::with_threads(settings.threads, [&] { csgrun::bench::run_once(words, settings); });
   }

@@ -71,6 +71,15 @@ class Memory(Case):
             self.expect(outcome, 1, "model.lua:2: not enough memory")
             self.assertLess(outcome.peak_mb, 1000 if SANITIZED else 180)
 
+    def test_little_memory_is_enough_for_a_small_model(self):
+        if SANITIZED:
+            self.skipTest("the shadow memory of sanitizers does not fit under a limit")
+        for megabytes in (16, 24, 40, 70, 100):
+            with self.subTest(megabytes=megabytes):
+                outcome = self.run_script("return cube(10) - cylinder{h = 30, r = 3, center = true}", "-o", "a.stl",
+                                          "--max-memory", str(megabytes))
+                self.assertEqual(outcome.code, 0, outcome.err)
+
     def test_nodes_without_end(self):
         if SANITIZED:
             self.skipTest("the shadow memory of sanitizers does not fit under a limit")

@@ -55,7 +55,8 @@ constexpr int kYes = 10, kNo = 11;
 
 /// Whether an array of so many megabytes is in large pages to its end.
 int is_large(HeapPages pages, size_t megabytes) {
-  prepare_heap(pages);
+  keep_freed_memory();
+  make_room_for_meshes(pages);
   std::vector<char> all(megabytes * kMegabyte, 1);
   return may_be_large(&all.back()) ? kYes : kNo;
 }
@@ -67,7 +68,8 @@ TEST(Heap, LargePagesAreForWhatIsLarge) {
   EXPECT_EQ(in_child([] { return is_large(HeapPages::kSmall, 8); }), kNo);
   // What a small model needs is before them.
   EXPECT_EQ(in_child([] {
-              prepare_heap(HeapPages::kLarge);
+              keep_freed_memory();
+              make_room_for_meshes(HeapPages::kLarge);
               const std::vector<char> few(kMegabyte / 4, 1);
               return may_be_large(&few.back()) ? kYes : kNo;
             }),
@@ -77,7 +79,8 @@ TEST(Heap, LargePagesAreForWhatIsLarge) {
 TEST(Heap, ArraysComeFromTheHeapWhereThereAreFewAddresses) {
   if (kHasOwnHeap) GTEST_SKIP() << "sanitizers have a heap of their own";
   const auto allocate = [] {
-    prepare_heap(HeapPages::kLarge);
+    keep_freed_memory();
+    make_room_for_meshes(HeapPages::kLarge);
     std::vector<std::vector<char>> many;
     for (int i = 0; i < 20; ++i) many.emplace_back(kMegabyte, static_cast<char>(i));
     for (int i = 0; i < 20; ++i) {

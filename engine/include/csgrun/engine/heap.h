@@ -1,23 +1,30 @@
-// How a process that makes meshes uses the heap.
+// How a process that makes meshes uses the heap. Nothing here does anything with another C library
+// than glibc; what it does lasts as long as the process.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace csgrun {
 
-/// In which pages the system gives a process its heap.
+/// For the start of a program: what is freed stays with the process, and arrays below 32 MB come
+/// from the heap, where they take the place of others.
+void keep_freed_memory();
+
+/// In which pages the system gives a process what its heap grows by.
 enum class HeapPages : uint8_t {
   kMeasured,  ///< large ones where small ones take long
   kSmall,
   kLarge,
 };
 
-/// For the start of a program, before it has threads. What is freed stays with the process, and
-/// arrays below 32 MB come from the heap, where they take the place of others. With large pages all
-/// threads have one heap, of which a gigabyte or a quarter of the machine's memory, the first two
-/// megabytes excepted, is in pages of two megabytes, where the system has such; addresses alone
-/// cost nothing. Takes less than a tenth of a millisecond. Does nothing with another C library than
-/// glibc.
-void prepare_heap(HeapPages pages = HeapPages::kMeasured);
+/// For before meshes are made, after keep_freed_memory(): has the heap grow in large steps. With
+/// large pages all threads have one heap, and what it grows by next, but for two megabytes, is in
+/// pages of two megabytes where the system has such: up to a gigabyte, or a quarter of the
+/// machine's memory or of `most` (docs/decisions/0111). `most`: the bytes that the process may have
+/// (RLIMIT_DATA), which counts addresses. Takes a tenth of a millisecond.
+void make_room_for_meshes(HeapPages pages = HeapPages::kMeasured,
+                          size_t most = std::numeric_limits<size_t>::max());
 
 }  // namespace csgrun
