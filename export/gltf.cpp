@@ -9,7 +9,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <sstream>
+#include <ostream>
+#include <streambuf>
 
 #include <glm/geometric.hpp>
 #include <tiny_gltf.h>
@@ -61,6 +62,28 @@ bool is_node_transform(const Affine& map) {
   return true;
 }
 
+/// Where a stream writes to: a string with room for what is known to come, which std::ostringstream
+/// would copy time and again as it grows.
+class StringSink : public std::streambuf {
+ public:
+  explicit StringSink(size_t room) { text_.reserve(room + kMore); }
+  std::string take() { return std::move(text_); }
+
+ protected:
+  std::streamsize xsputn(const char* text, std::streamsize count) override {
+    text_.append(text, static_cast<size_t>(count));
+    return count;
+  }
+  int_type overflow(int_type c) override {
+    if (c != traits_type::eof()) text_ += traits_type::to_char_type(c);
+    return traits_type::not_eof(c);
+  }
+
+ private:
+  static constexpr size_t kMore = 4096;  // for the structure around the buffer
+  std::string text_;
+};
+
 class GltfWriter {
  public:
   explicit GltfWriter(MeshMaker& maker) : maker_(maker) {}
@@ -86,12 +109,14 @@ class GltfWriter {
       model_.buffers.emplace_back();
       model_.buffers[0].data = std::move(buffer_);
     }
-    std::ostringstream stream(std::ios::binary);
     const bool binary = container == GltfContainer::kBinary;
+    const size_t bytes = model_.buffers.empty() ? 0 : model_.buffers[0].data.size();
+    StringSink sink(binary ? bytes : bytes / 3 * 4);
+    std::ostream stream(&sink);
     if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, stream, !binary, binary) || !stream) {
       return Error{ErrorCode::kInternal, "tinygltf could not write the model", {}};
     }
-    return std::move(stream).str();
+    return sink.take();
   }
 
  private:
@@ -154,10 +179,12 @@ class GltfWriter {
     if (!rounded) return rounded.error();
     if (rounded->triangles.empty()) return -1;
     const ShadedMesh shaded = shade(solid, *rounded);
-    if (buffer_.size() + 24 * shaded.vertex_of.size() + 36 * shaded.triangles.size() >
-        kLargestBuffer) {
+    const size_t most =
+        buffer_.size() + 24 * shaded.vertex_of.size() + 36 * shaded.triangles.size();
+    if (most > kLargestBuffer) {
       return Error{ErrorCode::kOutOfRange, "the model is too large for a glTF file (2 GiB)", {}};
     }
+    if (most > buffer_.capacity()) buffer_.reserve(std::max(most, 2 * buffer_.capacity()));
 
     tinygltf::Mesh mesh;
     mesh.name = valid_utf8(part.name);
@@ -176,6 +203,7 @@ class GltfWriter {
     std::stable_sort(order.begin(), order.end(),
                      [&](uint32_t a, uint32_t b) { return material_at(a) < material_at(b); });
     std::vector<uint32_t> indices;
+    indices.reserve(3 * order.size());
     for (const uint32_t t : order) {
       indices.insert(indices.end(), shaded.triangles[t].begin(), shaded.triangles[t].end());
     }

@@ -66,7 +66,9 @@ Result<std::vector<ModelFile>> encode(const std::string& path, const std::string
     return encode_exact(parts);
   }();
   if (!bytes) return bytes.error();
-  return std::vector<ModelFile>{{path, *std::move(bytes)}};
+  std::vector<ModelFile> file;  // one, which a list of initial values would copy
+  file.push_back({path, *std::move(bytes)});
+  return file;
 }
 
 }  // namespace

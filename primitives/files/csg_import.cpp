@@ -31,7 +31,9 @@ Result<std::vector<ModelPart>> mesh_as_parts(const std::string& path, const std:
                                              std::vector<std::string>& notes) {
   Result<PolygonMesh> mesh = parse_mesh(path, bytes, nullptr, nullptr, &notes);
   if (!mesh) return mesh.error();
-  return std::vector<ModelPart>{{"", *std::move(mesh)}};
+  std::vector<ModelPart> part;  // one, which a list of initial values would copy
+  part.push_back({"", *std::move(mesh)});
+  return part;
 }
 
 }  // namespace

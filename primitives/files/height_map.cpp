@@ -35,13 +35,14 @@ Result<HeightMap> parse_table(const std::string& name, std::string_view bytes) {
         return malformed(name, scanner.place(), "expected a number, got " + quoted(word));
       }
       row.push_back(*value);
+      if (count + row.size() > kMostHeights) return too_many(name);
       least = std::min(least, *value);
     }
     if (row.empty()) continue;
     columns = std::max(columns, row.size());
     count += row.size();
     rows.push_back(std::move(row));
-    if (count > kMostHeights || rows.size() > kMostHeights / columns) return too_many(name);
+    if (rows.size() > kMostHeights / columns) return too_many(name);
   } while (scanner.next_line());
   HeightMap map{columns, rows.size(), {}, least - 1};
   map.heights.reserve(columns * rows.size());
