@@ -37,7 +37,7 @@ std::chrono::nanoseconds time_of_page() {
 /// Lets the heap grow far, and has that be in large pages but for its beginning: a small model
 /// needs no more.
 void take_large_pages(size_t most) {
-  constexpr size_t kMost = size_t{1} << 30, kShare = 4;
+  constexpr size_t kMost = size_t{2000} << 20, kShare = 4;  // below INT_MAX, where trimming begins
   constexpr size_t kSmallPart = size_t{2} << 20, kLargePage = size_t{2} << 20;
   // More than what is left of the last step. (Where more was freed, it is used again first.)
   constexpr size_t kGrows = size_t{4} << 20;
