@@ -1,4 +1,4 @@
-// The heap of a process of its own: what prepare_heap() changes lasts as long as the process.
+// The heap of a process of its own: what is set for it lasts as long as the process.
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
@@ -39,8 +39,9 @@ bool may_be_large(const void* address) {
   bool is_there = false;
   for (std::string line; std::getline(maps, line);) {
     uintptr_t begin = 0, end = 0;
-    if (std::sscanf(line.c_str(), "%lx-%lx ", &begin, &end) == 2)
+    if (std::sscanf(line.c_str(), "%lx-%lx ", &begin, &end) == 2) {
       is_there = begin <= at && at < end;
+    }
     if (is_there && line.rfind("VmFlags:", 0) == 0) {
       return (line + " ").find(" hg ") != std::string::npos;
     }
@@ -91,7 +92,7 @@ TEST(Heap, ArraysComeFromTheHeapWhereThereAreFewAddresses) {
   EXPECT_EQ(in_child([&] {
               rlimit limit{};
               getrlimit(RLIMIT_AS, &limit);
-              limit.rlim_cur = 512 * kMegabyte;  // not the gigabyte that is asked for first
+              limit.rlim_cur = 512 * kMegabyte;  // less than is asked for first
               setrlimit(RLIMIT_AS, &limit);
               return allocate();
             }),
