@@ -48,11 +48,10 @@ void take_large_pages(size_t most) {
   char* const begin = static_cast<char*>(sbrk(0));
   void* volatile grown = std::malloc(kGrows);  // volatile: or the compiler leaves it out
   char* const end = static_cast<char*>(sbrk(0));
-  // Heaps of other threads would be in small pages.
-  mallopt(M_ARENA_MAX, 1);
   const size_t before_large =
       kSmallPart + kLargePage - reinterpret_cast<uintptr_t>(begin) % kLargePage;
   if (begin + before_large < end) {
+    mallopt(M_ARENA_MAX, 1);  // heaps of other threads would be in small pages
     madvise(begin + before_large, static_cast<size_t>(end - begin) - before_large, MADV_HUGEPAGE);
   }
   std::free(grown);

@@ -117,7 +117,8 @@ Failure measure_drawing(const std::string& path, const std::string& bytes, bool 
   return {};
 }
 
-Failure measure_file(const std::string& path, bool json, std::string& output,
+/// `memory`: the bytes that the process may have.
+Failure measure_file(const std::string& path, bool json, size_t memory, std::string& output,
                      std::vector<std::string>& notes) {
   const FileText text = read_whole_file(path);
   if (!text.error.empty())
@@ -125,7 +126,7 @@ Failure measure_file(const std::string& path, bool json, std::string& output,
   if (!flat_file_format_of(path).empty()) return measure_drawing(path, text.bytes, json, output);
   auto meshes = read_meshes(path, text.bytes, notes);
   if (!meshes) return refused(path, meshes.error().message);
-  make_room_for_meshes();
+  make_room_for_meshes(HeapPages::kMeasured, memory);
   std::vector<PartMeasures> parts;
   std::vector<std::string> warnings;
   CountedCrossings crossings;
@@ -156,9 +157,10 @@ bool is_info_path(const std::string& path) {
 
 Failure run_info(const std::string& path, bool json, std::string& output,
                  std::vector<std::string>& notes) {
-  limit_process_memory(default_process_memory());
+  const size_t memory = default_process_memory();
+  limit_process_memory(memory);
   try {
-    return measure_file(path, json, output, notes);
+    return measure_file(path, json, memory, output, notes);
   } catch (const std::bad_alloc&) {
     return {kExitGeometry, path + ": not enough memory"};
   }

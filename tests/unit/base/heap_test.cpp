@@ -77,7 +77,7 @@ TEST(Heap, LargePagesAreForWhatIsLarge) {
             kNo);
 }
 
-TEST(Heap, ArraysComeFromTheHeapWhereThereAreFewAddresses) {
+TEST(Heap, ThereIsMemoryWhereThereAreFewAddresses) {
   if (kHasOwnHeap) GTEST_SKIP() << "sanitizers have a heap of their own";
   const auto allocate = [] {
     keep_freed_memory();
