@@ -261,7 +261,9 @@ size_t default_process_memory() {
   std::ifstream info("/proc/meminfo");
   std::string key, unit;
   for (unsigned long long kilobytes = 0; info >> key >> kilobytes; std::getline(info, unit)) {
-    if (key == "MemAvailable:") available = static_cast<size_t>(kilobytes) * 1024;
+    if (key != "MemAvailable:") continue;
+    available = static_cast<size_t>(kilobytes) * 1024;
+    break;
   }
   for (const char* path :
        {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {

@@ -298,6 +298,7 @@ Result<CsgImport> csg_import(const CsgCall& call) {
 }
 
 Result<CsgText> csg_text(const CsgCall& call, std::vector<std::string>& warnings) {
+  if (auto failure = text_failure()) return *std::move(failure);
   CsgArguments arguments(call);
   CsgText text;
   TextOptions& o = text.options;

@@ -4,19 +4,18 @@
 #include <memory>
 #include <string>
 
-#include <hb-ot.h>
-#include <hb.h>
-
 #include <csgrun/primitives/text.h>
+
+#include "primitives/text/harfbuzz.h"
 
 namespace csgrun {
 
 struct HarfbuzzDeleter {
-  void operator()(hb_blob_t* p) const { hb_blob_destroy(p); }
-  void operator()(hb_face_t* p) const { hb_face_destroy(p); }
-  void operator()(hb_font_t* p) const { hb_font_destroy(p); }
-  void operator()(hb_buffer_t* p) const { hb_buffer_destroy(p); }
-  void operator()(hb_draw_funcs_t* p) const { hb_draw_funcs_destroy(p); }
+  void operator()(hb_blob_t* p) const { hb().blob_destroy(p); }
+  void operator()(hb_face_t* p) const { hb().face_destroy(p); }
+  void operator()(hb_font_t* p) const { hb().font_destroy(p); }
+  void operator()(hb_buffer_t* p) const { hb().buffer_destroy(p); }
+  void operator()(hb_draw_funcs_t* p) const { hb().draw_funcs_destroy(p); }
 };
 template <class T>
 using HarfbuzzPtr = std::unique_ptr<T, HarfbuzzDeleter>;

@@ -101,6 +101,7 @@ bool is_font_path(const std::string& description) {
 
 Result<FontChoice> FontBook::find(const std::string& description) {
   if (const auto known = found_.find(description); known != found_.end()) return known->second;
+  if (auto failure = text_failure()) return *std::move(failure);
   const Description wanted = parse_description(description);
   FontChoice choice{Font::shipped(wanted.bold(), wanted.italic()), ""};
   std::optional<Font> found;

@@ -1,17 +1,16 @@
 // Features of OpenType in a font's description: "Liberation
 // Sans:style=Bold:fontfeatures=-kern;+liga".
-#include <hb.h>
-
 #include <csgrun/primitives/text.h>
 
 #include "primitives/files/formats.h"
+#include "primitives/text/harfbuzz.h"
 
 namespace csgrun {
 namespace {
 
 bool is_feature(const std::string& text) {
   hb_feature_t feature;
-  return hb_feature_from_string(text.data(), static_cast<int>(text.size()), &feature) != 0;
+  return hb().feature_from_string(text.data(), static_cast<int>(text.size()), &feature) != 0;
 }
 
 }  // namespace

@@ -55,9 +55,9 @@ class GlyphPen {
   void draw(hb_font_t* font, hb_codepoint_t glyph) {
     static hb_draw_funcs_t* const functions = make_functions();
 #if HB_VERSION_ATLEAST(7, 0, 0)
-    hb_font_draw_glyph(font, glyph, functions, this);
+    hb().font_draw_glyph(font, glyph, functions, this);
 #else
-    hb_font_get_glyph_shape(font, glyph, functions, this);
+    hb().font_get_glyph_shape(font, glyph, functions, this);
 #endif
     end_contour();
   }
@@ -71,34 +71,34 @@ class GlyphPen {
   };
 
   static hb_draw_funcs_t* make_functions() {
-    hb_draw_funcs_t* f = hb_draw_funcs_create();
-    hb_draw_funcs_set_move_to_func(
+    hb_draw_funcs_t* f = hb().draw_funcs_create();
+    hb().draw_funcs_set_move_to_func(
         f,
         [](hb_draw_funcs_t*, void* pen, hb_draw_state_t*, float x, float y, void*) {
           static_cast<GlyphPen*>(pen)->move_to({x, y});
         },
         nullptr, nullptr);
-    hb_draw_funcs_set_line_to_func(
+    hb().draw_funcs_set_line_to_func(
         f,
         [](hb_draw_funcs_t*, void* pen, hb_draw_state_t*, float x, float y, void*) {
           static_cast<GlyphPen*>(pen)->strokes_.push_back({0, {}, {x, y}});
         },
         nullptr, nullptr);
-    hb_draw_funcs_set_quadratic_to_func(
+    hb().draw_funcs_set_quadratic_to_func(
         f,
         [](hb_draw_funcs_t*, void* pen, hb_draw_state_t*, float cx, float cy, float x, float y,
            void*) {
           static_cast<GlyphPen*>(pen)->strokes_.push_back({1, {{cx, cy}, {}}, {x, y}});
         },
         nullptr, nullptr);
-    hb_draw_funcs_set_cubic_to_func(
+    hb().draw_funcs_set_cubic_to_func(
         f,
         [](hb_draw_funcs_t*, void* pen, hb_draw_state_t*, float ax, float ay, float bx, float by,
            float x, float y, void*) {
           static_cast<GlyphPen*>(pen)->strokes_.push_back({2, {{ax, ay}, {bx, by}}, {x, y}});
         },
         nullptr, nullptr);
-    hb_draw_funcs_make_immutable(f);
+    hb().draw_funcs_make_immutable(f);
     return f;
   }
 
@@ -200,8 +200,9 @@ std::optional<Error> check(const TextOptions& o) {
 
 /// "en" where nothing, or nothing that is a language, is given: never the locale's.
 hb_language_t language_of(const std::string& name) {
-  const hb_language_t given = hb_language_from_string(name.c_str(), static_cast<int>(name.size()));
-  return given != HB_LANGUAGE_INVALID ? given : hb_language_from_string("en", -1);
+  const hb_language_t given =
+      hb().language_from_string(name.c_str(), static_cast<int>(name.size()));
+  return given != HB_LANGUAGE_INVALID ? given : hb().language_from_string("en", -1);
 }
 
 /// The code of a script: that of ISO 15924, or its name in English; nothing for what is neither.
@@ -230,7 +231,7 @@ std::optional<hb_script_t> script_of(const std::string& name) {
   const bool is_code = lower.size() == 4 &&
                        lower.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos;
   if (!is_code) return std::nullopt;
-  return hb_script_from_string(lower.data(), static_cast<int>(lower.size()));
+  return hb().script_from_string(lower.data(), static_cast<int>(lower.size()));
 }
 
 /// With units as the places of glyphs have.
@@ -242,18 +243,18 @@ hb_font_t* shaping_font(const TextOptions& o, const Font& font) {
 Result<HarfbuzzPtr<hb_buffer_t>> shape(const TextOptions& o, std::string_view line,
                                        const Font& font) {
   constexpr hb_codepoint_t kBroken = ~hb_codepoint_t(0);  // where there is no character
-  HarfbuzzPtr<hb_buffer_t> buffer(hb_buffer_create());
-  hb_buffer_set_replacement_codepoint(buffer.get(), kBroken);
-  hb_buffer_add_utf8(buffer.get(), line.data(), static_cast<int>(line.size()), 0,
-                     static_cast<int>(line.size()));
-  const hb_glyph_info_t* characters = hb_buffer_get_glyph_infos(buffer.get(), nullptr);
-  for (unsigned i = 0; i < hb_buffer_get_length(buffer.get()); ++i) {
+  HarfbuzzPtr<hb_buffer_t> buffer(hb().buffer_create());
+  hb().buffer_set_replacement_codepoint(buffer.get(), kBroken);
+  hb().buffer_add_utf8(buffer.get(), line.data(), static_cast<int>(line.size()), 0,
+                       static_cast<int>(line.size()));
+  const hb_glyph_info_t* characters = hb().buffer_get_glyph_infos(buffer.get(), nullptr);
+  for (unsigned i = 0; i < hb().buffer_get_length(buffer.get()); ++i) {
     if (characters[i].codepoint != kBroken) continue;
     return invalid_argument("text: it is not in UTF-8: byte " +
                             std::to_string(characters[i].cluster + 1) + " of " + quoted(line));
   }
   if (!o.direction.empty()) {
-    hb_buffer_set_direction(buffer.get(), hb_direction_from_string(o.direction.c_str(), -1));
+    hb().buffer_set_direction(buffer.get(), hb().direction_from_string(o.direction.c_str(), -1));
   }
   if (!o.script.empty()) {
     const auto script = script_of(o.script);
@@ -263,18 +264,18 @@ Result<HarfbuzzPtr<hb_buffer_t>> shape(const TextOptions& o, std::string_view li
           "got " +
           quoted(o.script));
     }
-    hb_buffer_set_script(buffer.get(), *script);
+    hb().buffer_set_script(buffer.get(), *script);
   }
-  hb_buffer_set_language(buffer.get(), language_of(o.language));
-  hb_buffer_guess_segment_properties(buffer.get());
+  hb().buffer_set_language(buffer.get(), language_of(o.language));
+  hb().buffer_guess_segment_properties(buffer.get());
   std::vector<hb_feature_t> features;
   for (const std::string& text : o.features) {
     hb_feature_t feature;
     const int length = static_cast<int>(text.size());
-    if (hb_feature_from_string(text.data(), length, &feature) != 0) features.push_back(feature);
+    if (hb().feature_from_string(text.data(), length, &feature) != 0) features.push_back(feature);
   }
-  hb_shape(shaping_font(o, font), buffer.get(), features.data(),
-           static_cast<unsigned>(features.size()));
+  hb().shape(shaping_font(o, font), buffer.get(), features.data(),
+             static_cast<unsigned>(features.size()));
   return buffer;
 }
 
@@ -312,7 +313,7 @@ double offset_across(const TextOptions& o, bool horizontal, const Block& block) 
 /// From one line to the next, in units: what the font says of its lines.
 double line_distance(hb_font_t* font) {
   hb_font_extents_t extents{};
-  hb_font_get_h_extents(font, &extents);
+  hb().font_get_h_extents(font, &extents);
   return double(extents.ascender) - extents.descender + extents.line_gap;
 }
 
@@ -335,10 +336,10 @@ std::optional<Error> add_line(const TextOptions& o, std::string_view text, const
   const auto shaped = shape(o, text, font);
   if (!shaped) return shaped.error();
   hb_buffer_t* const buffer = shaped->get();
-  const unsigned count = hb_buffer_get_length(buffer);
-  const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer, nullptr);
-  const hb_glyph_position_t* places = hb_buffer_get_glyph_positions(buffer, nullptr);
-  horizontal = HB_DIRECTION_IS_HORIZONTAL(hb_buffer_get_direction(buffer));
+  const unsigned count = hb().buffer_get_length(buffer);
+  const hb_glyph_info_t* infos = hb().buffer_get_glyph_infos(buffer, nullptr);
+  const hb_glyph_position_t* places = hb().buffer_get_glyph_positions(buffer, nullptr);
+  horizontal = HB_DIRECTION_IS_HORIZONTAL(hb().buffer_get_direction(buffer));
   std::optional<TypeUnits> type_units;
   if (o.as_openscad_rounds) type_units.emplace(font.data().outline_em, font.data().units_per_em);
   glm::dvec2 advance(0);
@@ -451,16 +452,16 @@ Result<FontMetrics> measure_font(double size, const Font& font) {
   if (!(size > 0)) return not_positive("font_metrics", "size", size);
   const double scale = size * kEmPerSize / font.data().units_per_em;
   hb_font_extents_t extents{};
-  hb_font_get_h_extents(font.data().font.get(), &extents);
+  hb().font_get_h_extents(font.data().font.get(), &extents);
   FontMetrics metrics;
   metrics.ascent = extents.ascender * scale;
   metrics.descent = extents.descender * scale;
   metrics.interline = line_distance(font.data().font.get()) * scale;
   // The box of all glyphs: yMin and yMax of the table "head", signed words of 16 bits.
   const HarfbuzzPtr<hb_blob_t> head(
-      hb_face_reference_table(font.data().face.get(), HB_TAG('h', 'e', 'a', 'd')));
+      hb().face_reference_table(font.data().face.get(), HB_TAG('h', 'e', 'a', 'd')));
   unsigned length = 0;
-  const char* bytes = hb_blob_get_data(head.get(), &length);
+  const char* bytes = hb().blob_get_data(head.get(), &length);
   const auto word = [&](unsigned at) {
     if (at + 2 > length) return 0.0;
     const auto byte = [&](unsigned i) { return static_cast<unsigned char>(bytes[i]); };

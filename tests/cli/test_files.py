@@ -247,5 +247,21 @@ class Trees(Case):
         self.expect(self.run_csgrun("m.csg", "--stats", "-D", "a=1"), 2, "csgrun: -D a: only a script has parameters")
 
 
+class Libraries(Case):
+    def test_text_without_harfbuzz(self):
+        """A library in its place that is none: what needs it says so, all else works."""
+        self.write("libraries/libharfbuzz.so.0", "This is no library.\n")
+        environment = {"LD_LIBRARY_PATH": self.path("libraries")}
+        self.write("text.lua", "local b = cube{10, 10, 1}\nreturn b - text('a')")
+        self.write("features.lua", "return text{'a', font = 'Liberation Sans:fontfeatures=-kern'}")
+        self.write("text.csg", "group() {\n\ttext(text = \"a\", size = 10);\n}\n")
+        self.write("plain.lua", "return cube{1, 2, 3}")
+        for model, line in (("text.lua", 2), ("features.lua", 1), ("text.csg", 2)):
+            outcome = self.run_csgrun(model, "--stats=json", env=environment)
+            self.expect(outcome, 1, f"{model}:{line}: ")
+            self.assertIn("text needs the library HarfBuzz, which cannot be loaded: ", outcome.first)
+        self.expect(self.run_csgrun("plain.lua", "--stats=json", env=environment), 0)
+
+
 if __name__ == "__main__":
     main()

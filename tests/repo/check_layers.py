@@ -31,9 +31,9 @@ ARROWS = {
 # Where a library may be included at all: a pattern of the header, and prefixes of files.
 LIBRARIES = [
     (r"OpenMesh/", ["engine/mesh/openmesh_bridge"]),
-    (r"tiny_gltf", ["export/gltf.cpp"]),
+    (r"tiny_gltf", ["export/gltf.cpp", "export/tinygltf.cpp"]),
     (r"(lua|lualib|lauxlib|luaconf)\.h(pp)?$", ["lua_bindings/", "tests/"]),
-    (r"hb(-ot)?\.h$", ["primitives/text/"]),
+    (r"hb(-ot)?\.h$", ["primitives/text/harfbuzz.h"]),
     (r"pugixml\.hpp$", ["primitives/files/"]),
     (r"CLI/", ["lua_bindings/", "tests/"]),
     (r"minizip/", ["export/zip_file.cpp"]),

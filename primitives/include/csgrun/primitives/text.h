@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,10 @@ struct FontChoice {
   Font font;
   std::string note;  ///< "there is no font 'Arial'; the shipped Liberation Sans is used instead"
 };
+
+/// Why there can be no text: nothing, but where the library HarfBuzz, which is loaded when somebody
+/// asks first, cannot be (kCannotRead). What returns no Result here throws std::runtime_error then.
+std::optional<Error> text_failure();
 
 /// A font's description without its features, as in "Amiri:style=Bold:fontfeatures=+smcp;-liga",
 /// and they; what is none is left out with a note.
