@@ -22,7 +22,7 @@ struct CountingOrder {
   /// O(count + keys).
   template <class Key>
   void sort(size_t count, size_t keys, Key key) {
-    if (count >= kMany && tbb::this_task_arena::max_concurrency() > 1) {
+    if (count >= kMany && threads_here() > 1) {
       return sort_in_ranges(count, keys, key);
     }
     // starts[k + 1] is where the next number of key k goes while they are distributed.

@@ -14,16 +14,14 @@
 namespace csgrun {
 
 /// How many parts may be made or wait to be taken at a time.
-inline size_t parts_ahead() {
-  return 4 * static_cast<size_t>(tbb::this_task_arena::max_concurrency());
-}
+inline size_t parts_ahead() { return 4 * threads_here(); }
 
 /// Calls make(part) for the parts below `count`, in any order and at the same time, and take(part)
 /// for one after another, in this order, while later ones are made: neither may look at what the
 /// other changes. Parts that are parts_ahead() apart are not there at the same time.
 template <class Make, class Take>
 void make_parts_in_order(size_t count, Make&& make, Take&& take) {
-  if (count <= 1 || tbb::this_task_arena::max_concurrency() == 1) {
+  if (count <= 1 || threads_here() == 1) {
     for (size_t part = 0; part < count; ++part) make(part), take(part);
     return;
   }
@@ -37,10 +35,10 @@ void make_parts_in_order(size_t count, Make&& make, Take&& take) {
     return part;
   };
   using tbb::filter_mode;
-  tbb::parallel_pipeline(parts_ahead(),
-                         tbb::make_filter<void, size_t>(filter_mode::serial_in_order, hand_out) &
-                             tbb::make_filter<size_t, size_t>(filter_mode::parallel, make_one) &
-                             tbb::make_filter<size_t, void>(filter_mode::serial_in_order, take));
+  const auto stages = tbb::make_filter<void, size_t>(filter_mode::serial_in_order, hand_out) &
+                      tbb::make_filter<size_t, size_t>(filter_mode::parallel, make_one) &
+                      tbb::make_filter<size_t, void>(filter_mode::serial_in_order, take);
+  on_threads([&] { tbb::parallel_pipeline(parts_ahead(), stages); });
 }
 
 /// Calls take(i, make(i)) for i below count: takes one after another, in this order, what is made

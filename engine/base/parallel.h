@@ -1,10 +1,14 @@
 // Loops on several threads. What they do is divided by sizes alone, never by the number of threads,
 // so that results put together in the order of the parts are the same for any number.
+//
+// The threads' library is not begun before a loop has work for it: that takes longer (half a
+// millisecond where pages are slow) than most small models.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,14 +22,69 @@ namespace csgrun {
 /// Below so many things of a few nanoseconds each threads do not pay.
 constexpr size_t kFewForThreads = 8192;
 
+/// A stretch of this thread's work for which so many threads are wanted. It enters their arena for
+/// the loops alone.
+class ThreadsFrame {
+ public:
+  explicit ThreadsFrame(unsigned threads)
+      : threads_(threads), outer_(std::exchange(current_, this)) {}
+  ~ThreadsFrame() { current_ = outer_; }
+  ThreadsFrame(const ThreadsFrame&) = delete;
+  ThreadsFrame& operator=(const ThreadsFrame&) = delete;
+
+  /// That of this thread; null in an arena, and where nobody asked for a number of threads.
+  static ThreadsFrame* current() { return current_; }
+  [[nodiscard]] unsigned threads() const { return threads_; }
+
+  template <class Work>
+  void execute(Work&& work) {
+    if (!arena_) {
+      // Without the control, more threads than cores would be cut down, with a message.
+      allow_.emplace(tbb::global_control::max_allowed_parallelism, threads_);
+      arena_.emplace(static_cast<int>(threads_));
+    }
+    const InArena in_arena;
+    arena_->execute(std::forward<Work>(work));
+  }
+
+ private:
+  struct InArena {
+    ThreadsFrame* frame = std::exchange(current_, nullptr);
+    ~InArena() { current_ = frame; }
+  };
+
+  static inline constinit thread_local ThreadsFrame* current_ = nullptr;
+  unsigned threads_;
+  ThreadsFrame* outer_;
+  std::optional<tbb::global_control> allow_;
+  std::optional<tbb::task_arena> arena_;
+};
+
+/// How many threads the loops below use here.
+inline unsigned threads_here() {
+  const ThreadsFrame* frame = ThreadsFrame::current();
+  return frame ? frame->threads() : static_cast<unsigned>(tbb::this_task_arena::max_concurrency());
+}
+
 /// Returns work(), in which the loops below use so many threads.
 template <class Work>
 auto with_threads(unsigned threads, Work&& work) {
-  if (tbb::this_task_arena::max_concurrency() == static_cast<int>(threads)) return work();
-  // Without the control, more threads than cores would be cut down, with a message.
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena arena(static_cast<int>(threads));
-  return arena.execute(std::forward<Work>(work));
+  const bool is_begun =
+      ThreadsFrame::current() != nullptr ||
+      tbb::this_task_arena::current_thread_index() != tbb::task_arena::not_initialized;
+  if (is_begun && threads_here() == threads) return work();
+  const ThreadsFrame frame(threads);
+  return work();
+}
+
+/// Calls work(), a loop of the threads' library, where it uses threads_here().
+template <class Work>
+void on_threads(Work&& work) {
+  if (ThreadsFrame* frame = ThreadsFrame::current()) {
+    frame->execute(std::forward<Work>(work));
+  } else {
+    work();
+  }
 }
 
 /// The number of parts of so many things in each that all are divided into.
@@ -38,10 +97,10 @@ void for_each_part(size_t count, size_t each, Work&& work) {
     work(part, part * each, std::min(count, (part + 1) * each));
   };
   const size_t parts = part_count(count, each);
-  if (parts <= 1 || tbb::this_task_arena::max_concurrency() == 1) {
+  if (parts <= 1 || threads_here() == 1) {
     for (size_t part = 0; part < parts; ++part) one(part);
   } else {
-    tbb::parallel_for(size_t{0}, parts, one);
+    on_threads([&] { tbb::parallel_for(size_t{0}, parts, one); });
   }
 }
 
@@ -110,11 +169,11 @@ std::vector<uint32_t> numbers_where(size_t count, Wanted&& is_wanted) {
 /// Calls both, at the same time if they are `much`: neither may look at what the other changes.
 template <class First, class Second>
 void run_both(bool much, First&& first, Second&& second) {
-  if (!much || tbb::this_task_arena::max_concurrency() == 1) {
+  if (!much || threads_here() == 1) {
     first();
     second();
   } else {
-    tbb::parallel_invoke(std::forward<First>(first), std::forward<Second>(second));
+    on_threads([&] { tbb::parallel_invoke(first, second); });
   }
 }
 

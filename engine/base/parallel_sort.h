@@ -16,8 +16,8 @@ namespace csgrun {
 template <class Iterator>
 void sort_all(Iterator begin, Iterator end) {
   const auto count = static_cast<size_t>(std::distance(begin, end));
-  if (count > kFewForThreads && tbb::this_task_arena::max_concurrency() > 1) {
-    tbb::parallel_sort(begin, end);
+  if (count > kFewForThreads && threads_here() > 1) {
+    on_threads([&] { tbb::parallel_sort(begin, end); });
   } else {
     std::sort(begin, end);
   }

@@ -36,7 +36,7 @@ void for_each_run(size_t runs, const KernelOptions& options, Make&& make, Work&&
   with_threads(options.threads, [&] {
     using Solver = decltype(make());
     tbb::enumerable_thread_specific<Solver> solvers([&] { return make(); });
-    tbb::parallel_for(size_t{0}, runs, [&](size_t run) {
+    for_each_alone(runs, true, [&](size_t run) {
       if (!cancelled()) work(solvers.local(), run);
     });
   });

@@ -5,8 +5,8 @@
 #include <span>
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/corner_walk.h"
 #include "engine/bsp/packed_boxes.h"
 #include "engine/bsp/winding.h"
@@ -56,8 +56,8 @@ Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree,
     const std::vector<PackedBoxes::Task> tasks = tree.pair_tasks(kTasks);
     std::vector<Pairs> found(tasks.size());
     tbb::enumerable_thread_specific<FacePairs::Scratch> scratches;
-    tbb::parallel_for(size_t{0}, tasks.size(),
-                      [&](size_t t) { search(tasks[t], scratches.local(), found[t]); });
+    for_each_alone(tasks.size(), true,
+                   [&](size_t t) { search(tasks[t], scratches.local(), found[t]); });
     for (const Pairs& some : found) all.insert(all.end(), some.begin(), some.end());
   }
   std::sort(all.begin(), all.end());

@@ -343,7 +343,7 @@ class SheetFinder {
   }
 
   const LeafGeometry& leaf_;
-  const bool is_alone_ = tbb::this_task_arena::max_concurrency() == 1;
+  const bool is_alone_ = threads_here() == 1;
   IVec3 origin_;
   int shift_ = 0;                     ///< the cubes are 2^shift steps wide
   std::array<size_t, 3> stride_{};    ///< from a cube to the next one along each axis

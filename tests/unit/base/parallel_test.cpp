@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -129,11 +130,65 @@ TEST(Parallel, PartsWaitWhileTooManyAreAhead) {
 }
 
 TEST(Parallel, ThreadsAreAsManyAsAskedFor) {
-  for (const int threads : {1, 2, 5}) {
-    EXPECT_EQ(with_threads(static_cast<unsigned>(threads),
-                           [] { return tbb::this_task_arena::max_concurrency(); }),
-              threads);
+  for (const unsigned threads : {1u, 2u, 5u}) {
+    EXPECT_EQ(with_threads(threads, [] { return threads_here(); }), threads);
+    std::vector<unsigned> in_loop(8, threads), within(8, 3);
+    with_threads(threads, [&] {
+      for_each_alone(in_loop.size(), true, [&](size_t i) {
+        in_loop[i] = threads_here();
+        within[i] = with_threads(3, [] { return threads_here(); });
+      });
+      EXPECT_EQ(threads_here(), threads);
+    });
+    EXPECT_EQ(in_loop, std::vector<unsigned>(in_loop.size(), threads));
+    EXPECT_EQ(within, std::vector<unsigned>(within.size(), 3));
   }
+}
+
+// Loops within parts of loops, for another number of threads.
+TEST(Parallel, LoopsNest) {
+  for (const unsigned outer : {1u, 2u, 4u}) {
+    for (const unsigned inner : {1u, 2u, 5u}) {
+      std::array<std::atomic<int>, 20> seen{};
+      with_threads(outer, [&] {
+        for_each_part(seen.size(), 4, [&](size_t, size_t begin, size_t end) {
+          with_threads(inner, [&] {
+            for_each_alone(end - begin, true, [&](size_t i) { ++seen[begin + i]; });
+          });
+        });
+      });
+      for (const auto& times : seen) EXPECT_EQ(times, 1);
+    }
+  }
+}
+
+TEST(Parallel, FailuresComeThrough) {
+  struct Failure {};
+  with_threads(2, [&] {
+    EXPECT_THROW(for_each_alone(8, true, [](size_t i) { i == 5 ? throw Failure() : void(); }),
+                 Failure);
+    EXPECT_EQ(threads_here(), 2u);
+  });
+}
+
+// A thread that has no large loop does not begin the threads' library.
+TEST(Parallel, SmallWorkIsDoneAlone) {
+  const auto is_begun = [] {
+    return tbb::this_task_arena::current_thread_index() != tbb::task_arena::not_initialized;
+  };
+  std::thread([&] {
+    with_threads(2, [&] {
+      size_t done = 0;
+      for_each_part(5, 8, [&](size_t, size_t begin, size_t end) { done += end - begin; });
+      run_both(
+          false, [&] { ++done; }, [&] { ++done; });
+      EXPECT_EQ(done, 7u);
+      EXPECT_EQ(threads_here(), 2u);
+      EXPECT_FALSE(is_begun());
+      for_each_alone(2, true, [](size_t) {});
+      EXPECT_TRUE(is_begun());
+    });
+  }).join();
 }
 
 TEST(RawVector, KeepsWhatIsPutIn) {
