@@ -7,7 +7,6 @@
 #include "engine/base/parallel.h"
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/near_pieces.h"
-#include "engine/bsp/operand_reach.h"
 #include "engine/bsp/piece_store.h"
 #include "engine/bsp/region_parts.h"
 #include "engine/bsp/rounded_box.h"
@@ -281,20 +280,21 @@ void Job::take_parts(PieceStore& store, MayMeet&& may_meet) {
 /// Lists the pieces of the version that others may meet.
 void Job::list_pieces(const PieceOperand& operand) {
   PieceStore& store = *operand.store;
-  std::vector<OperandReach> others;
-  others.reserve(operands_->size() - 1);
+  reaches_.reserve(operands_->size() - 1);
   for (uint32_t other = 0; other + 1 < operands_->size(); ++other) {
-    others.emplace_back(std::span(rounded_).subspan(vertex_start(other),
-                                                    vertex_start(other + 1) - vertex_start(other)));
+    const uint32_t first = vertex_start(other);
+    reaches_.emplace_back(std::span(rounded_).subspan(first, vertex_start(other + 1) - first));
   }
-  const auto may_meet = [&](const PieceBox& box) {
-    return std::any_of(others.begin(), others.end(),
-                       [&](const OperandReach& other) { return other.may_meet(box); });
-  };
+  const auto may_meet = [this](const PieceBox& box) { return others_may_meet(box); };
   operand.pieces.each(may_meet, [&](uint32_t piece) {
     if (may_meet(store.box(piece))) version_pieces_.push_back(piece);
   });
   take_parts(store, may_meet);
+}
+
+bool Job::others_may_meet(const PieceBox& box) const {
+  return std::any_of(reaches_.begin(), reaches_.end(),
+                     [&](const OperandReach& other) { return other.may_meet(box); });
 }
 
 /// Whether those of the first operand are chosen by the pieces of the second.

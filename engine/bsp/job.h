@@ -15,6 +15,7 @@
 #include "engine/bsp/live_faces.h"
 #include "engine/bsp/near_faces.h"
 #include "engine/bsp/operand.h"
+#include "engine/bsp/operand_reach.h"
 #include "engine/bsp/polygon_box.h"
 #include "engine/exact/plane.h"
 #include "engine/exact/point.h"
@@ -75,6 +76,9 @@ class Job {
   /// The piece of the version that it comes from: that one, or the region that it is a part of.
   [[nodiscard]] uint32_t version_piece(uint32_t polygon) const;
   [[nodiscard]] uint32_t piece_point(uint32_t vertex) const;
+  /// Whether the operands beside such a one may have points in a box: all pieces that the job has
+  /// of it, and the nodes above them, are in such boxes.
+  [[nodiscard]] bool others_may_meet(const PieceBox& box) const;
   /// The faces that the job has of its operands, if it does not have all: the others are far, or
   /// in dead space.
   [[nodiscard]] const NearFaces* near_faces() const { return near_; }
@@ -256,6 +260,7 @@ class Job {
   std::vector<std::vector<PlaneId>> boundary_planes_;
   std::vector<std::vector<NamedPart>> named_parts_;               ///< per operand
   std::vector<uint32_t> pieces_, version_pieces_, piece_points_;  ///< of the operand in pieces
+  std::vector<OperandReach> reaches_;                             ///< of the operands beside it
   bool are_pieces_on_grid_ = true;                                ///< all of these points
   int64_t prime_ = 3;
 };

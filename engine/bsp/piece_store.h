@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/chunked_vector.h"
 #include "engine/bsp/job.h"
 #include "engine/bsp/operand.h"
 #include "engine/bsp/piece_tree.h"
@@ -176,11 +177,11 @@ class PieceStore {
   /// The entry of thing `i` of so many, of which few have one.
   template <class T>
   static T& entry(uint32_t i, size_t count, std::vector<uint32_t>& number,
-                  std::vector<T>& entries) {
+                  ChunkedVector<T>& entries) {
     number.resize(count, kNoNumber);
     if (number[i] == kNoNumber) {
       number[i] = static_cast<uint32_t>(entries.size());
-      entries.emplace_back();
+      entries.push_back({});
     }
     return entries[number[i]];
   }
@@ -215,21 +216,21 @@ class PieceStore {
   std::vector<uint32_t> first_point_;
   /// Per operand, of a leaf in a frame: for each vertex a corner of the leaf that turns there.
   std::vector<std::vector<uint32_t>> corner_at_;
-  std::vector<std::array<double, 3>> rounded_;
-  std::vector<std::array<uint32_t, 3>> point_planes_;
+  ChunkedVector<std::array<double, 3>> rounded_;
+  ChunkedVector<std::array<uint32_t, 3>> point_planes_;
   std::vector<uint32_t> point_operand_;
   std::vector<uint8_t> is_on_grid_;
-  std::vector<Piece> pieces_;
+  ChunkedVector<Piece> pieces_;
   std::vector<Region> regions_;
   std::vector<uint32_t> loop_ends_;
   std::vector<Group> groups_;
   std::vector<uint32_t> group_faces_;
-  std::vector<PieceBox> boxes_;
+  ChunkedVector<PieceBox> boxes_;
   std::vector<uint32_t> corners_, edges_;
   std::vector<uint32_t> scratch_;
   std::vector<uint32_t> cut_point_number_, piece_sum_number_;
-  std::vector<CutPoint> cut_points_;
-  std::vector<PieceSum> piece_sums_;
+  ChunkedVector<CutPoint> cut_points_;
+  ChunkedVector<PieceSum> piece_sums_;
   IVec3 origin_{0, 0, 0};
 };
 

@@ -98,6 +98,7 @@ PieceTree::NodePtr PieceTree::join(NodePtr a, NodePtr b) {
   }
   node->count = a->count + b->count;
   node->height = std::max(a->height, b->height) + 1;
+  node->child_box = {a->box, b->box};
   node->child = {std::move(a), std::move(b)};
   return node;
 }
@@ -105,12 +106,13 @@ PieceTree::NodePtr PieceTree::join(NodePtr a, NodePtr b) {
 /// Beside a node that is not larger, else on the side whose box grows least, or which has fewer.
 PieceTree::NodePtr PieceTree::insert(const NodePtr& node, const NodePtr& added) {
   if (node->height == 0 || node->count <= added->count) return join(node, added);
-  const auto cost = [&](const NodePtr& child) {
-    return std::pair(half_surface(hull(child->box, added->box)) - half_surface(child->box),
-                     child->count);
+  const auto cost = [&](size_t c) {
+    const PieceBox& box = node->child_box[c];
+    return std::pair(half_surface(hull(box, added->box)) - half_surface(box),
+                     node->child[c]->count);
   };
   const auto& [a, b] = node->child;
-  NodePtr result = cost(a) <= cost(b) ? join(insert(a, added), b) : join(a, insert(b, added));
+  NodePtr result = cost(0) <= cost(1) ? join(insert(a, added), b) : join(a, insert(b, added));
   if (!is_too_deep(*result)) return result;
   std::vector<NodePtr> leaves;
   collect_leaves(result, leaves);

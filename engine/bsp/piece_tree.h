@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <vector>
@@ -61,7 +62,8 @@ class PieceTree {
     uint32_t count = 0;   ///< of pieces below
     uint32_t height = 0;  ///< 0: a leaf
     std::array<std::shared_ptr<const Node>, 2> child;
-    std::vector<uint32_t> pieces;  ///< of a leaf
+    std::array<PieceBox, 2> child_box;  ///< here, too: most children are looked at no closer
+    std::vector<uint32_t> pieces;       ///< of a leaf
     mutable bool has_sums = false;
     mutable PieceSums sums;  ///< of the pieces below, when somebody asked
     /// A point of the store for each end and axis that reaches as far as any below, when somebody
@@ -78,28 +80,33 @@ class PieceTree {
   /// Calls f(piece) for the pieces in leaves all of whose nodes `may_meet(box)`.
   template <class MayMeet, class F>
   void each(MayMeet&& may_meet, F&& f) const {
-    if (root_) each_below(*root_, may_meet, f);
+    if (root_ && may_meet(root_->box)) each_below(*root_, may_meet, f);
   }
 
   /// The pieces without those that are `gone`, of this tree or not, ascending, and with `added`.
-  /// `box_of(piece)` is the box of a piece. O(k log n) for k nodes around the boxes of the pieces
-  /// that are gone, amortised: a part that has become too deep is put together anew from its
-  /// leaves.
-  template <class BoxOf>
+  /// `box_of(piece)` is the box of a piece. The boxes of all nodes above those of the tree that are
+  /// gone `may_meet(box)`. O(k) for k such nodes and O(log n) for what is added, amortised: a part
+  /// that has become too deep is put together anew from its leaves.
+  template <class BoxOf, class MayMeet>
   [[nodiscard]] PieceTree changed(std::span<const uint32_t> gone,
-                                  const std::vector<uint32_t>& added, BoxOf&& box_of) const {
+                                  const std::vector<uint32_t>& added, BoxOf&& box_of,
+                                  MayMeet&& may_meet) const {
     PieceTree result;
-    std::vector<Item> items = items_of(gone, box_of);
-    std::vector<Item*> looked_for;
-    looked_for.reserve(4 * items.size());
-    for (Item& item : items) looked_for.push_back(&item);
-    result.root_ = without(root_, looked_for, 0, box_of);
+    Gone left(gone);
+    const bool may_lose = root_ && may_meet(root_->box);
+    result.root_ = may_lose ? without(root_, left, box_of, may_meet) : root_;
     if (!added.empty()) {
-      items = items_of(added, box_of);
+      std::vector<Item> items = items_of(added, box_of);
       const NodePtr more = build(items);
       result.root_ = result.root_ ? insert(result.root_, more) : more;
     }
     return result;
+  }
+  /// The same, looking everywhere.
+  template <class BoxOf>
+  [[nodiscard]] PieceTree changed(std::span<const uint32_t> gone,
+                                  const std::vector<uint32_t>& added, BoxOf&& box_of) const {
+    return changed(gone, added, box_of, [](const PieceBox&) { return true; });
   }
 
  private:
@@ -107,17 +114,35 @@ class PieceTree {
 
   template <class MayMeet, class F>
   static void each_below(const Node& node, MayMeet& may_meet, F& f) {
-    if (!may_meet(node.box)) return;
     for (const uint32_t p : node.pieces) f(p);
-    for (const NodePtr& child : node.child) {
-      if (child) each_below(*child, may_meet, f);
+    for (size_t c = 0; c < 2; ++c) {
+      if (node.child[c] && may_meet(node.child_box[c])) each_below(*node.child[c], may_meet, f);
     }
   }
 
   struct Item {
     uint32_t piece;
     PieceBox box;
-    bool is_found = false;  ///< by without(): it is nowhere else
+  };
+  /// Pieces that are looked for, until all were found.
+  class Gone {
+   public:
+    explicit Gone(std::span<const uint32_t> pieces) : pieces_(pieces), left(pieces.size()) {
+      for (const uint32_t p : pieces) bits_[p / 64 % kWords] |= bit(p);
+    }
+    [[nodiscard]] bool holds(uint32_t piece) const {
+      return (bits_[piece / 64 % kWords] & bit(piece)) != 0 &&
+             std::binary_search(pieces_.begin(), pieces_.end(), piece);
+    }
+
+   private:
+    static constexpr size_t kWords = 64;
+    static uint64_t bit(uint32_t piece) { return uint64_t{1} << piece % 64; }
+    std::span<const uint32_t> pieces_;     ///< ascending
+    std::array<uint64_t, kWords> bits_{};  ///< by the last digits: of most others no bit is set
+
+   public:
+    size_t left;
   };
   static NodePtr build(std::span<Item> items);
   static NodePtr join(NodePtr a, NodePtr b);
@@ -125,10 +150,9 @@ class PieceTree {
   static void collect_leaves(const NodePtr& node, std::vector<NodePtr>& leaves);
   static NodePtr over_leaves(std::span<NodePtr> leaves);
 
-  /// The node without the pieces from `first` on in a list, which is as it was afterwards.
-  template <class BoxOf>
-  static NodePtr without(const NodePtr& node, std::vector<Item*>& gone, size_t first,
-                         BoxOf& box_of);
+  /// A node that may have some of the pieces that are gone, without them.
+  template <class BoxOf, class MayMeet>
+  static NodePtr without(const NodePtr& node, Gone& gone, BoxOf& box_of, MayMeet& may_meet);
   template <class BoxOf>
   static std::vector<Item> items_of(std::span<const uint32_t> pieces, BoxOf& box_of) {
     std::vector<Item> items;
@@ -140,39 +164,26 @@ class PieceTree {
   NodePtr root_;
 };
 
-template <class BoxOf>
-PieceTree::NodePtr PieceTree::without(const NodePtr& node, std::vector<Item*>& gone, size_t first,
-                                      BoxOf& box_of) {
-  if (!node) return node;
-  const size_t end = gone.size();
-  for (size_t i = first; i < end; ++i) {
-    if (!gone[i]->is_found && node->box.holds(gone[i]->box)) gone.push_back(gone[i]);
-  }
-  NodePtr result = node;
-  if (gone.size() == end) return result;
+template <class BoxOf, class MayMeet>
+PieceTree::NodePtr PieceTree::without(const NodePtr& node, Gone& gone, BoxOf& box_of,
+                                      MayMeet& may_meet) {
   if (node->height > 0) {
-    NodePtr a = without(node->child[0], gone, end, box_of);
-    NodePtr b = without(node->child[1], gone, end, box_of);
-    if (a != node->child[0] || b != node->child[1]) result = join(std::move(a), std::move(b));
-  } else {
-    std::vector<uint32_t> kept;
-    kept.reserve(node->pieces.size());
-    for (const uint32_t p : node->pieces) {
-      const auto item = std::find_if(gone.begin() + static_cast<long>(end), gone.end(),
-                                     [&](const Item* i) { return i->piece == p; });
-      if (item != gone.end()) {
-        (*item)->is_found = true;
-      } else {
-        kept.push_back(p);
-      }
+    std::array<NodePtr, 2> child = node->child;
+    for (size_t c = 0; c < 2 && gone.left > 0; ++c) {
+      if (may_meet(node->child_box[c])) child[c] = without(child[c], gone, box_of, may_meet);
     }
-    if (kept.size() < node->pieces.size()) {
-      std::vector<Item> items = items_of(kept, box_of);
-      result = build(items);
-    }
+    if (child == node->child) return node;
+    return join(std::move(child[0]), std::move(child[1]));
   }
-  gone.resize(end);
-  return result;
+  const auto is_gone = [&](uint32_t p) { return gone.holds(p); };
+  const auto count = std::count_if(node->pieces.begin(), node->pieces.end(), is_gone);
+  if (count == 0) return node;
+  gone.left -= static_cast<size_t>(count);
+  std::vector<uint32_t> kept;
+  kept.reserve(node->pieces.size());
+  std::remove_copy_if(node->pieces.begin(), node->pieces.end(), std::back_inserter(kept), is_gone);
+  std::vector<Item> items = items_of(kept, box_of);
+  return build(items);
 }
 
 }  // namespace csgrun

@@ -149,7 +149,8 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
       if (!is_in(lost, part)) writer.added.push_back(part);
     }
   }
-  result->tree = version.tree.changed(gone, writer.added, box_of);
+  result->tree = version.tree.changed(
+      gone, writer.added, box_of, [&](const PieceBox& box) { return job.others_may_meet(box); });
   return PiecesPtr(std::move(result));
 }
 

@@ -82,7 +82,10 @@ TEST_F(PieceTrees, ChangesLeaveOtherVersionsAlone) {
       }
     }
     std::sort(named.begin(), named.end());
-    next.tree = from.tree.changed(named, added, box_of);
+    next.tree = from.tree.changed(named, added, box_of, [&](const PieceBox& box) {
+      return std::any_of(where.begin(), where.end(),
+                         [&](const PieceBox& own) { return own.meets(box); });
+    });
     versions.push_back(next);
     for (const Version& v : {from, next}) {
       ASSERT_EQ(v.tree.size(), v.pieces.size());

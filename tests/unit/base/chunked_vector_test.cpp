@@ -1,0 +1,56 @@
+// A vector in chunks has what a vector has, and leaves it where it is.
+#include "engine/base/chunked_vector.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace csgrun {
+namespace {
+
+using Element = std::array<uint32_t, 3>;
+using Chunked = ChunkedVector<Element>;
+
+Element element(uint32_t i) { return {i, 7 * i, ~i}; }
+
+TEST(ChunkedVector, HasWhatWasPutIn) {
+  for (const size_t count : {size_t{0}, size_t{1}, Chunked::kChunk - 1, Chunked::kChunk,
+                             Chunked::kChunk + 1, 3 * Chunked::kChunk, 5 * Chunked::kChunk - 7}) {
+    Chunked chunked;
+    std::vector<Element> plain;
+    for (uint32_t i = 0; i < count; ++i) {
+      chunked.push_back(element(i));
+      plain.push_back(element(i));
+      ASSERT_EQ(chunked.back(), plain.back());
+    }
+    ASSERT_EQ(chunked.size(), count);
+    for (uint32_t i = 0; i < count; i += 3) chunked[i][1] = plain[i][1] = i + 1;
+    for (size_t i = 0; i < count; ++i) ASSERT_EQ(chunked[i], plain[i]);
+  }
+}
+
+TEST(ChunkedVector, TakesItsOwnElements) {
+  Chunked chunked;
+  chunked.push_back(element(5));
+  while (chunked.size() < 3 * Chunked::kChunk) chunked.push_back(chunked[chunked.size() / 2]);
+  for (size_t i = 0; i < chunked.size(); ++i) ASSERT_EQ(chunked[i], element(5));
+}
+
+TEST(ChunkedVector, LeavesElementsWhereTheyAre) {
+  Chunked chunked;
+  while (chunked.size() < Chunked::kChunk) chunked.push_back(element(1));
+  std::vector<const Element*> places;
+  for (uint32_t i = 0; i < 4 * Chunked::kChunk; ++i) {
+    chunked.push_back(element(i));
+    places.push_back(&chunked.back());
+  }
+  for (uint32_t i = 0; i < places.size(); ++i) {
+    ASSERT_EQ(places[i], &chunked[Chunked::kChunk + i]);
+    ASSERT_EQ(*places[i], element(i));
+  }
+}
+
+}  // namespace
+}  // namespace csgrun
