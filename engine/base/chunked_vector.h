@@ -1,6 +1,7 @@
 // A vector that grows without moving what it has.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <type_traits>
 #include <vector>
@@ -10,14 +11,15 @@
 namespace csgrun {
 
 /// Elements in chunks of one size, for tables that only grow, and far: growing takes no second copy
-/// of the memory, and references stay good once there are `kChunk` elements. (The first chunk grows
-/// as vectors do: most tables are small.) One indirection more to an element than in a vector.
-template <class T>
+/// of the memory, and references stay good. Only the first chunk, if it is one of many elements,
+/// grows as vectors do, since most tables are small: references stay good once it is full. One
+/// indirection more to an element than in a vector.
+template <class T, size_t kSize = 2048>
 class ChunkedVector {
-  static_assert(std::is_trivially_copyable_v<T>);
+  static_assert(std::is_trivially_copyable_v<T> && std::has_single_bit(kSize));
 
  public:
-  static constexpr size_t kChunk = 2048;
+  static constexpr size_t kChunk = kSize;
 
   [[nodiscard]] size_t size() const { return size_; }
   const T& operator[](size_t i) const { return chunks_[i / kChunk].data()[i % kChunk]; }
@@ -30,11 +32,16 @@ class ChunkedVector {
     chunks_.back().push_back(element);
     ++size_;
   }
+  void clear() {
+    chunks_.clear();
+    size_ = 0;
+  }
 
  private:
   void add_chunk() {
+    constexpr bool kStartsWhole = kChunk <= 16;
     chunks_.emplace_back();
-    if (size_ > 0) chunks_.back().reserve(kChunk);
+    if (size_ > 0 || kStartsWhole) chunks_.back().reserve(kChunk);
   }
 
   std::vector<RawVector<T>> chunks_;

@@ -97,7 +97,7 @@ uint32_t CellGeometry::add_point(const std::array<uint32_t, 3>& planes,
 
 Point CellGeometry::value(uint32_t p) const {
   const StoredPoint& s = points_[p];
-  if (s.exact != kNone) return *exact_[s.exact];
+  if (s.exact != kNone) return exact_[s.exact];
   if (is_found_on_grid(p)) {
     const IVec3 at = s.on_grid();
     return grid_point(at[0], at[1], at[2]);
@@ -114,10 +114,10 @@ bool CellGeometry::meets_on_grid(const StoredPoint& s) const {
 
 const Point& CellGeometry::exact(uint32_t p) {
   if (points_[p].exact == kNone) {
-    exact_.push_back(std::make_unique<Point>(value(p)));
+    exact_.push_back(value(p));
     points_[p].exact = static_cast<uint32_t>(exact_.size() - 1);
   }
-  return *exact_[points_[p].exact];
+  return exact_[points_[p].exact];
 }
 
 Fragment CellGeometry::load(uint32_t polygon) {

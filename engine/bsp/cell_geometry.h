@@ -7,10 +7,10 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "engine/base/chunked_vector.h"
 #include "engine/base/raw_vector.h"
 #include "engine/bsp/job.h"
 #include "engine/exact/predicates.h"
@@ -156,7 +156,7 @@ class CellGeometry {
   const PlaneTable* planes_;
   const Job* job_;
   RawVector<StoredPoint> points_;
-  std::vector<std::unique_ptr<Point>> exact_;  ///< large, and references stay
+  ChunkedVector<Point, 8> exact_;  ///< large, and references stay
   std::vector<uint32_t> corners_, edges_;
   std::vector<uint32_t> vertex_stamp_;
   RawVector<uint32_t> vertex_point_;  ///< where the stamp is this one

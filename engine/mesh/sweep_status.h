@@ -15,6 +15,13 @@ class SweepStatus {
   static constexpr uint32_t kNone = UINT32_MAX;
 
   [[nodiscard]] bool empty() const { return root_ == kNone; }
+  /// Back to the state in which it was made, but for the memory that it has.
+  void clear() {
+    slots_.clear();
+    free_.clear();
+    root_ = last_ = kNone;
+    made_ = 0;
+  }
   [[nodiscard]] uint32_t edge(uint32_t slot) const { return slots_[slot].edge; }
   [[nodiscard]] uint32_t next(uint32_t slot) const { return slots_[slot].next; }
   [[nodiscard]] uint32_t prev(uint32_t slot) const {

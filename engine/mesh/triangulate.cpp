@@ -37,28 +37,32 @@ struct Chain {
   uint32_t head = kNone, tail = kNone, newest = kNone;
 };
 
+using Triangles = std::vector<std::array<uint32_t, 3>>;
+
 Error broken(const char* what) {
   return {ErrorCode::kInternal, std::string("cannot triangulate a face: ") + what, {}};
 }
 
-class Sweep {
- public:
-  Sweep(std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle)
-      : loops_(loops), oracle_(oracle) {}
+}  // namespace
 
-  Result<std::vector<std::array<uint32_t, 3>>> run() {
+class Triangulator::Sweep {
+ public:
+  Status run(std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle,
+             Triangles& triangles) {
+    loops_ = loops, oracle_ = &oracle, triangles_ = &triangles;
+    ids_.clear(), edges_.clear(), links_.clear(), triangles.clear(), status_.clear();
     if (const char* what = collect_points()) return broken(what);
     if (const char* what = collect_edges()) return broken(what);
     for (uint32_t v = 0; v < ids_.size(); ++v) {
       if (const char* what = pass(v)) return broken(what);
     }
     if (!status_.empty()) return broken("its boundary is open");
-    return std::move(triangles_);
+    return std::monostate();
   }
 
  private:
   int orient(uint32_t a, uint32_t b, uint32_t c) const {
-    return oracle_.orient(ids_[a], ids_[b], ids_[c]);
+    return oracle_->orient(ids_[a], ids_[b], ids_[c]);
   }
 
   const char* collect_points() {
@@ -74,15 +78,15 @@ class Sweep {
     ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
     by_id_ = ids_;
     std::sort(ids_.begin(), ids_.end(),
-              [&](uint32_t a, uint32_t b) { return oracle_.compare(a, b) < 0; });
+              [&](uint32_t a, uint32_t b) { return oracle_->compare(a, b) < 0; });
     rank_of_.resize(ids_.size());
     for (uint32_t rank = 0; rank < ids_.size(); ++rank) {
-      if (rank > 0 && oracle_.compare(ids_[rank - 1], ids_[rank]) == 0) {
+      if (rank > 0 && oracle_->compare(ids_[rank - 1], ids_[rank]) == 0) {
         return "two of its vertices are one point";
       }
       rank_of_[position_of(ids_[rank])] = rank;
     }
-    triangles_.reserve(corners);
+    triangles_->reserve(corners);
     links_.reserve(2 * corners);
     edges_.reserve(corners);
     return nullptr;
@@ -154,7 +158,7 @@ class Sweep {
       const uint32_t first = a;
       a = b, b = c, c = first;
     }
-    triangles_.push_back({ids_[a], ids_[b], ids_[c]});
+    triangles_->push_back({ids_[a], ids_[b], ids_[c]});
     return true;
   }
 
@@ -318,7 +322,8 @@ class Sweep {
   }
 
   std::span<const std::vector<uint32_t>> loops_;
-  const PlanarOracle& oracle_;
+  const PlanarOracle* oracle_ = nullptr;
+  Triangles* triangles_ = nullptr;
   std::vector<uint32_t> ids_;              ///< by rank along the sweep
   std::vector<uint32_t> by_id_, rank_of_;  ///< sorted ids and their ranks
   std::vector<Edge> edges_;
@@ -328,23 +333,35 @@ class Sweep {
   std::vector<Link> links_;
   std::vector<uint32_t> run_;
   SweepStatus status_;
-  std::vector<std::array<uint32_t, 3>> triangles_;
 };
 
-}  // namespace
+Triangulator::Triangulator() = default;
+Triangulator::~Triangulator() = default;
 
-Result<std::vector<std::array<uint32_t, 3>>> triangulate_by_sweep(
-    std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle) {
-  return Sweep(loops, oracle).run();
+Status Triangulator::face(std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle,
+                          Triangles& triangles) {
+  triangles.clear();
+  if (loops.size() == 1 && triangulate_monotone(loops[0], oracle, triangles)) {
+    return std::monostate();
+  }
+  if (!sweep_) sweep_ = std::make_unique<Sweep>();
+  return sweep_->run(loops, oracle, triangles);
 }
 
-Result<std::vector<std::array<uint32_t, 3>>> triangulate_face(
-    std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle) {
-  if (loops.size() == 1) {
-    std::vector<std::array<uint32_t, 3>> triangles;
-    if (triangulate_monotone(loops[0], oracle, triangles)) return triangles;
-  }
-  return triangulate_by_sweep(loops, oracle);
+Result<Triangles> triangulate_by_sweep(std::span<const std::vector<uint32_t>> loops,
+                                       const PlanarOracle& oracle) {
+  Triangles triangles;
+  auto status = Triangulator::Sweep().run(loops, oracle, triangles);
+  if (!status) return status.error();
+  return triangles;
+}
+
+Result<Triangles> triangulate_face(std::span<const std::vector<uint32_t>> loops,
+                                   const PlanarOracle& oracle) {
+  Triangles triangles;
+  auto status = Triangulator().face(loops, oracle, triangles);
+  if (!status) return status.error();
+  return triangles;
 }
 
 }  // namespace csgrun

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,23 @@ class PlanarOracle {
 /// starts. O(n log n). Errors: kInternal when the loops are not such a face.
 Result<std::vector<std::array<uint32_t, 3>>> triangulate_face(
     std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle);
+
+/// The same for many faces, one after another, in memory that it keeps.
+class Triangulator {
+ public:
+  Triangulator();
+  ~Triangulator();
+  /// Sets `triangles`; their order is that of triangulate_face.
+  Status face(std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle,
+              std::vector<std::array<uint32_t, 3>>& triangles);
+
+ private:
+  class Sweep;
+  friend Result<std::vector<std::array<uint32_t, 3>>> triangulate_by_sweep(
+      std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle);
+
+  std::unique_ptr<Sweep> sweep_;  ///< made for the first face that needs it
+};
 
 /// The same by the general sweep alone, without the quick way for small loops: for tests.
 Result<std::vector<std::array<uint32_t, 3>>> triangulate_by_sweep(

@@ -38,13 +38,12 @@ class FaceTriangulator {
     }
     for (const auto& [p, q] : face.slits) loops_.push_back({p, q});
     const PlaneOracle oracle(points_, planes_, face.plane, in_order_);
-    auto triangles = triangulate_face(loops_, oracle);
-    if (!triangles) return triangles.error();
-    if (!insert_points(face.points, oracle, *triangles)) {
+    if (auto status = triangulator_.face(loops_, oracle, triangles_); !status) return status;
+    if (!insert_points(face.points, oracle, triangles_)) {
       return Error{ErrorCode::kInternal, "the boundary of a result is not closed (contacts)", {}};
     }
-    improve_triangles(loops_, oracle, position_, *triangles);
-    for (const auto& t : *triangles) add_triangle(t, f, set);
+    improve_triangles(loops_, oracle, position_, triangles_);
+    for (const auto& t : triangles_) add_triangle(t, f, set);
     return std::monostate();
   }
 
@@ -62,7 +61,10 @@ class FaceTriangulator {
   const RoundedPosition position_ = [this](uint32_t p) -> const std::array<double, 3>& {
     return points_.rounded(p);
   };
-  std::vector<std::vector<uint32_t>> loops_;  ///< of the face at hand
+  Triangulator triangulator_;
+  // Of the face at hand.
+  std::vector<std::vector<uint32_t>> loops_;
+  std::vector<std::array<uint32_t, 3>> triangles_;
 };
 
 }  // namespace

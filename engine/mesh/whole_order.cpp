@@ -41,35 +41,40 @@ void WholeOrder::collect_triangles() {
   }
   triangles_.resize(first.back());
   directions_.resize(first.back());
-  struct Met {
-    RawVector<Place> places;
-    std::vector<RimEdge> candidates;
-  };
-  std::vector<Met> met(parts.size());
-  const bool much = triangles_.size() > kFewForThreads;
-  for_each_alone(parts.size(), much, [&](size_t k) {
+  // Small parts together: each for itself would take memory many times, and threads wait for one
+  // another when they take it.
+  const std::vector<size_t> starts =
+      part_starts(parts.size(), kFewForThreads, [&](size_t k) { return parts[k].faces.size(); });
+  std::vector<Met> met(starts.size() - 1);
+  first_point_.resize(parts.size());
+  for_each_alone(met.size(), true, [&](size_t m) {
     Met own;  // not beside that of another thread while it grows
-    collect_triangles(static_cast<uint32_t>(k), first[k], own.places, own.candidates);
-    met[k] = std::move(own);
+    for (size_t k = starts[m]; k < starts[m + 1]; ++k) {
+      first_point_[k] = static_cast<uint32_t>(own.places.size());
+      collect_triangles(static_cast<uint32_t>(k), first[k], own);
+    }
+    own.number = {};
+    met[m] = std::move(own);
   });
   std::vector<RimEdge> candidates;
-  first_point_.resize(parts.size());
-  for (size_t k = 0; k < parts.size(); ++k) {
-    first_point_[k] = static_cast<uint32_t>(points_.size()) - explicit_count_;
-    points_.insert(points_.end(), met[k].places.begin(), met[k].places.end());
-    candidates.insert(candidates.end(), met[k].candidates.begin(), met[k].candidates.end());
+  for (size_t m = 0; m < met.size(); ++m) {
+    const uint32_t before = static_cast<uint32_t>(points_.size()) - explicit_count_;
+    for (size_t k = starts[m]; k < starts[m + 1]; ++k) first_point_[k] += before;
+    points_.insert(points_.end(), met[m].places.begin(), met[m].places.end());
+    candidates.insert(candidates.end(), met[m].candidates.begin(), met[m].candidates.end());
   }
   find_rim(candidates);
 }
 
 /// Those of one part. Its own points are numbered from the number of explicit points on.
-void WholeOrder::collect_triangles(uint32_t k, size_t first, RawVector<Place>& places,
-                                   std::vector<RimEdge>& candidates) {
+void WholeOrder::collect_triangles(uint32_t k, size_t first, Met& met) {
   const UntouchedPart& part = boundary_.parts[k];
-  const size_t vertices = part.leaf->vertices.size();
-  places.resize(std::min(vertices, 3 * part.faces.size()) + 1);
+  const size_t vertices = part.leaf->vertices.size(), before = met.places.size();
+  met.places.resize(before + std::min(vertices, 3 * part.faces.size()) + 1);
+  Place* const places = met.places.data() + before;
   uint32_t place_count = 0;
-  std::vector<uint32_t> number(vertices, kNone);
+  std::vector<uint32_t>& number = met.number;
+  number.assign(vertices, kNone);
   for (const UntouchedPart::Shared& s : part.shared) number[s.vertex] = s.point;
   for (const uint32_t f : part.faces) {
     UntouchedTriangle t{part.triangle(f), k, f};
@@ -84,13 +89,13 @@ void WholeOrder::collect_triangles(uint32_t k, size_t first, RawVector<Place>& p
     for (size_t i = 0; i < 3; ++i) {
       const uint32_t from = t.points[i], to = t.points[(i + 1) % 3];
       if (from < explicit_count_ && to < explicit_count_) {
-        candidates.push_back({from, to, k, f, static_cast<uint32_t>(i)});
+        met.candidates.push_back({from, to, k, f, static_cast<uint32_t>(i)});
       }
     }
     triangles_[first] = t;
     directions_[first++] = outward_direction(part, f);
   }
-  places.resize(place_count);
+  met.places.resize(before + place_count);
 }
 
 /// Edges between shared points are the rim where they do not run both ways.

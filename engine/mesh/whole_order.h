@@ -82,9 +82,15 @@ class WholeOrder {
   }
 
  private:
+  /// What parts that are done together met.
+  struct Met {
+    RawVector<Place> places;
+    std::vector<RimEdge> candidates;
+    std::vector<uint32_t> number;  ///< of the vertices of the part at hand
+  };
+
   void collect_triangles();
-  void collect_triangles(uint32_t k, size_t first, RawVector<Place>& places,
-                         std::vector<RimEdge>& candidates);
+  void collect_triangles(uint32_t k, size_t first, Met& met);
   void sort_points(const CellGeometry& geometry);
   void number_triangles();
   void find_rim(const std::vector<RimEdge>& candidates);

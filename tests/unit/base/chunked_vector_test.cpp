@@ -52,5 +52,22 @@ TEST(ChunkedVector, LeavesElementsWhereTheyAre) {
   }
 }
 
+TEST(ChunkedVector, LeavesElementsInSmallChunksFromTheStart) {
+  ChunkedVector<Element, 8> chunked;
+  for (int round = 0; round < 2; ++round) {
+    std::vector<const Element*> places;
+    for (uint32_t i = 0; i < 100; ++i) {
+      chunked.push_back(element(i));
+      places.push_back(&chunked.back());
+    }
+    for (uint32_t i = 0; i < 100; ++i) {
+      ASSERT_EQ(places[i], &chunked[i]);
+      ASSERT_EQ(*places[i], element(i));
+    }
+    chunked.clear();
+    ASSERT_EQ(chunked.size(), 0u);
+  }
+}
+
 }  // namespace
 }  // namespace csgrun
