@@ -7,6 +7,7 @@
 #include "engine/base/parallel.h"
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/near_pieces.h"
+#include "engine/bsp/operand_reach.h"
 #include "engine/bsp/piece_store.h"
 #include "engine/bsp/region_parts.h"
 #include "engine/bsp/rounded_box.h"
@@ -45,6 +46,8 @@ Job::Job(const std::vector<Operand>& operands, const LiveFaces& live)
 
 Job::Job(const std::vector<Operand>& operands, PlaneTable& planes, const SomeFaces& some)
     : Job(operands, &planes, false, nullptr, nullptr, &some) {}
+
+Job::~Job() = default;
 
 Job::Job(const std::vector<Operand>& operands, PlaneTable* planes, bool with_boxes,
          const NearFaces* near, const LiveFaces* live, const SomeFaces* some)

@@ -15,7 +15,6 @@
 #include "engine/bsp/live_faces.h"
 #include "engine/bsp/near_faces.h"
 #include "engine/bsp/operand.h"
-#include "engine/bsp/operand_reach.h"
 #include "engine/bsp/polygon_box.h"
 #include "engine/exact/plane.h"
 #include "engine/exact/point.h"
@@ -27,6 +26,8 @@ struct PolygonEdge {
   uint32_t polygon, edge;
 };
 
+class OperandReach;
+struct PieceBox;
 class PieceStore;
 
 /// One convex polygon of an operand. Its planes are made when somebody asks: most polygons are near
@@ -61,6 +62,7 @@ class Job {
   /// The same over a table of planes, for those who only put a result together: there are no
   /// boxes() and no operand_box().
   Job(const std::vector<Operand>& operands, PlaneTable& planes, const SomeFaces& some);
+  ~Job();
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 

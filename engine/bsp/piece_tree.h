@@ -125,23 +125,19 @@ class PieceTree {
     PieceBox box;
   };
   /// Pieces that are looked for, until all were found.
-  class Gone {
-   public:
-    explicit Gone(std::span<const uint32_t> pieces) : pieces_(pieces), left(pieces.size()) {
-      for (const uint32_t p : pieces) bits_[p / 64 % kWords] |= bit(p);
+  struct Gone {
+    explicit Gone(std::span<const uint32_t> all) : pieces(all), left(all.size()) {
+      for (const uint32_t p : all) bits[p / 64 % kWords] |= bit(p);
     }
     [[nodiscard]] bool holds(uint32_t piece) const {
-      return (bits_[piece / 64 % kWords] & bit(piece)) != 0 &&
-             std::binary_search(pieces_.begin(), pieces_.end(), piece);
+      return (bits[piece / 64 % kWords] & bit(piece)) != 0 &&
+             std::binary_search(pieces.begin(), pieces.end(), piece);
     }
-
-   private:
-    static constexpr size_t kWords = 64;
     static uint64_t bit(uint32_t piece) { return uint64_t{1} << piece % 64; }
-    std::span<const uint32_t> pieces_;     ///< ascending
-    std::array<uint64_t, kWords> bits_{};  ///< by the last digits: of most others no bit is set
 
-   public:
+    static constexpr size_t kWords = 64;
+    std::span<const uint32_t> pieces;     ///< ascending
+    std::array<uint64_t, kWords> bits{};  ///< of the last twelve digits: few others have theirs set
     size_t left;
   };
   static NodePtr build(std::span<Item> items);

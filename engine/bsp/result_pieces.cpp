@@ -1,6 +1,7 @@
 #include "engine/bsp/result_pieces.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "engine/bsp/evaluate_job.h"
@@ -151,6 +152,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   }
   result->tree = version.tree.changed(
       gone, writer.added, box_of, [&](const PieceBox& box) { return job.others_may_meet(box); });
+  assert(result->tree.size() == version.tree.size() - gone.size() + writer.added.size());
   return PiecesPtr(std::move(result));
 }
 
