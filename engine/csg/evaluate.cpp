@@ -2,7 +2,9 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 #include <unordered_map>
 #include <utility>
@@ -379,11 +381,26 @@ Result<int> Evaluator::Impl::contains(const NodePtr& root, const glm::dvec3& poi
   return locate(**world, p);
 }
 
+namespace {
+
+/// As with_threads. Where a thread cannot begin, for which oneTBB has a runtime_error, it is memory
+/// that is missing.
+template <class Work>
+auto evaluate_with(unsigned threads, Work&& work) {
+  try {
+    return with_threads(threads, std::forward<Work>(work));
+  } catch (const std::runtime_error&) {
+    throw std::bad_alloc();
+  }
+}
+
+}  // namespace
+
 Evaluator::Evaluator(EvaluateOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
 Evaluator::~Evaluator() = default;
 
 Result<std::vector<SolidPtr>> Evaluator::evaluate(const std::vector<NodePtr>& parts) {
-  return with_threads(impl_->threads, [&] { return impl_->evaluate(parts); });
+  return evaluate_with(impl_->threads, [&] { return impl_->evaluate(parts); });
 }
 
 Result<SolidPtr> Evaluator::evaluate(const NodePtr& root) {
@@ -393,11 +410,11 @@ Result<SolidPtr> Evaluator::evaluate(const NodePtr& root) {
 }
 
 Result<int> Evaluator::contains(const NodePtr& root, const glm::dvec3& point) {
-  return with_threads(impl_->threads, [&] { return impl_->contains(root, point); });
+  return evaluate_with(impl_->threads, [&] { return impl_->contains(root, point); });
 }
 
 Result<Extent> Evaluator::extent(const NodePtr& root) {
-  return with_threads(impl_->threads, [&] { return impl_->extent(root); });
+  return evaluate_with(impl_->threads, [&] { return impl_->extent(root); });
 }
 
 const EvaluateStats& Evaluator::stats() const { return impl_->stats; }

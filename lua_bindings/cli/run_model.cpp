@@ -82,6 +82,12 @@ class Run {
   }
 
  private:
+  /// As many as have their stacks, of a few megabytes each, in a small part of the memory.
+  static unsigned most_threads(size_t memory) {
+    constexpr size_t kOfThread = size_t{32} << 20;
+    return static_cast<unsigned>(std::clamp<size_t>(memory / kOfThread, 1, 1024));
+  }
+
   static SessionOptions session_options(const CommandLine& line, size_t memory) {
     SessionOptions options;
     options.model = line.model == "-" ? "stdin" : line.model;
@@ -89,7 +95,8 @@ class Run {
     options.library_folders = line.library_folders;
     options.definitions = line.definitions;
     options.facets = line.facets;
-    options.evaluate.threads = line.threads != 0 ? line.threads : usable_threads();
+    options.evaluate.threads =
+        std::min(line.threads != 0 ? line.threads : usable_threads(), most_threads(memory));
     options.evaluate.grid = line.grid;
     options.evaluate.progress = make_progress(line.quiet);
     options.evaluate.exact_points = std::any_of(

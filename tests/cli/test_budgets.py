@@ -80,6 +80,21 @@ class Memory(Case):
                                           "--max-memory", str(megabytes))
                 self.assertEqual(outcome.code, 0, outcome.err)
 
+    def test_threads_that_do_not_fit(self):
+        """A model that several threads would share either fits or is told that it does not."""
+        if SANITIZED:
+            self.skipTest("the shadow memory of sanitizers does not fit under a limit")
+        text = ("local s = cube{80, 30, 3}\nfor i = 1, 12 do\n"
+                "  s = s - sphere{2, fn = 60}:translate(6 * i, 15, 3)\n  assert(s:volume() > 0)\nend\nreturn s")
+        codes = []
+        for megabytes in range(16, 72, 4):
+            for threads in ("2", "8"):
+                outcome = self.run_script(text, "-o", "a.stl", "--max-memory", str(megabytes), "--threads", threads)
+                self.assertIn(outcome.code, (0, 1, 3), outcome.err)
+                self.assertIn("not enough memory" if outcome.code else "", outcome.err)
+                codes.append(outcome.code)
+        self.assertEqual(codes[-1], 0)
+
     def test_nodes_without_end(self):
         if SANITIZED:
             self.skipTest("the shadow memory of sanitizers does not fit under a limit")
