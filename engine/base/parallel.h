@@ -73,7 +73,7 @@ auto with_threads(unsigned threads, Work&& work) {
       ThreadsFrame::current() != nullptr ||
       tbb::this_task_arena::current_thread_index() != tbb::task_arena::not_initialized;
   if (is_begun && threads_here() == threads) return work();
-  const ThreadsFrame frame(threads);
+  ThreadsFrame frame(threads);  // loops within change it
   return work();
 }
 

@@ -5,6 +5,7 @@
 #include <new>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 #include <unordered_map>
 #include <utility>
@@ -383,13 +384,14 @@ Result<int> Evaluator::Impl::contains(const NodePtr& root, const glm::dvec3& poi
 
 namespace {
 
-/// As with_threads. Where a thread cannot begin, for which oneTBB has a runtime_error, it is memory
-/// that is missing.
+/// As with_threads. Where a thread cannot begin it is memory that is missing; oneTBB throws a
+/// runtime_error then, which names the call.
 template <class Work>
 auto evaluate_with(unsigned threads, Work&& work) {
   try {
     return with_threads(threads, std::forward<Work>(work));
-  } catch (const std::runtime_error&) {
+  } catch (const std::runtime_error& error) {
+    if (std::string_view(error.what()).substr(0, 8) != "pthread_") throw;
     throw std::bad_alloc();
   }
 }

@@ -132,7 +132,7 @@ TEST(Parallel, PartsWaitWhileTooManyAreAhead) {
 TEST(Parallel, ThreadsAreAsManyAsAskedFor) {
   for (const unsigned threads : {1u, 2u, 5u}) {
     EXPECT_EQ(with_threads(threads, [] { return threads_here(); }), threads);
-    std::vector<unsigned> in_loop(8, threads), within(8, 3);
+    std::vector<unsigned> in_loop(8, 0), within(8, 0);
     with_threads(threads, [&] {
       for_each_alone(in_loop.size(), true, [&](size_t i) {
         in_loop[i] = threads_here();

@@ -212,5 +212,32 @@ TEST(Triangulate, RefusesWhatIsNoFace) {
   }
 }
 
+// What one face leaves behind, also one that was refused half way, is nothing to the next.
+TEST(Triangulate, OneAfterAnotherAsEachByItself) {
+  std::mt19937 random(11);
+  const auto points = grid_points(8);
+  const GridOracle oracle(points, {5, 3}, {0, 1});
+  Triangulator triangulator;
+  std::vector<std::array<uint32_t, 3>> got;
+  size_t refused = 0, larger = 0;
+  for (int round = 0; round < 400; ++round) {
+    auto loops = random_patch(random_triangulation(8, points, 2000, random),
+                              0.3 + 0.1 * static_cast<double>(random() % 7), random);
+    if (round % 5 == 4) std::swap(loops[0][0], loops[0][loops[0].size() / 2]);
+    const auto expected = triangulate_face(loops, oracle);
+    const auto status = triangulator.face(loops, oracle, got);
+    ASSERT_EQ(status.has_value(), expected.has_value()) << "round " << round;
+    if (expected) {
+      ASSERT_EQ(got, *expected) << "round " << round;
+      larger += loops.size() > 1;
+    } else {
+      ++refused;
+      EXPECT_EQ(status.error().message, expected.error().message);
+    }
+  }
+  EXPECT_GT(refused, 20u);
+  EXPECT_GT(larger, 50u);
+}
+
 }  // namespace
 }  // namespace csgrun::test
