@@ -1,13 +1,15 @@
 #include "lua_bindings/budget.h"
 
 #include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <limits>
+#include <string_view>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -99,7 +101,7 @@ void Budget::start_script(lua_State* main_state) {
   phase_ = Phase::kScript;
   script_running_ = true;
   phase_start_ = Clock::now();
-  wake_.notify_all();
+  phase_changed();
 }
 
 void Budget::stop_script() {
@@ -108,7 +110,7 @@ void Budget::stop_script() {
   phase_ = Phase::kIdle;
   script_running_ = false;
   main_state_ = nullptr;
-  wake_.notify_all();
+  phase_changed();
 }
 
 void Budget::enter_evaluation() {
@@ -117,7 +119,7 @@ void Budget::enter_evaluation() {
   if (phase_ == Phase::kScript) script_used_ += Clock::now() - phase_start_;
   phase_ = Phase::kEvaluation;
   evaluation_start_ = Clock::now();
-  wake_.notify_all();
+  phase_changed();
 }
 
 void Budget::leave_evaluation() {
@@ -126,7 +128,14 @@ void Budget::leave_evaluation() {
   evaluation_used_ += Clock::now() - evaluation_start_;
   phase_ = script_running_ ? Phase::kScript : Phase::kIdle;
   phase_start_ = Clock::now();
-  wake_.notify_all();
+  phase_changed();
+}
+
+/// Wakes the watchdog if it has to look sooner than it would: that takes longer than many a
+/// measure of a script.
+void Budget::phase_changed() {
+  const auto until = deadline();
+  if (expired_ || (until && *until < looks_again_)) wake_.notify_all();
 }
 
 double Budget::evaluation_seconds() const {
@@ -176,12 +185,12 @@ void Budget::watch() {
   while (true) {  // until the time is over
     if (stopping_) return;
     const auto until = deadline();
-    if (!until) {
-      wake_.wait(lock);
-    } else if (Clock::now() >= *until) {
-      break;
-    } else {
+    if (until && Clock::now() >= *until) break;
+    looks_again_ = until.value_or(Clock::time_point::max());
+    if (until) {
       wake_.wait_until(lock, *until);
+    } else {
+      wake_.wait(lock);
     }
   }
   expired_ = true;
@@ -247,29 +256,49 @@ void Budget::end_process(const char* place) {
 
 namespace {
 
-/// A number from a file of one line ("max" and what is missing count as no limit).
-size_t read_number(const char* path) {
-  std::ifstream file(path);
-  unsigned long long value = 0;
-  return file >> value ? static_cast<size_t>(value) : std::numeric_limits<size_t>::max();
+constexpr size_t kNoLimit = std::numeric_limits<size_t>::max();
+
+/// The beginning of a small file, or nothing. (A stream would take longer than all the rest here.)
+class FileStart {
+ public:
+  explicit FileStart(const char* path) {
+    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0) return;
+    const ssize_t size = read(file, text_.data(), text_.size());
+    size_ = size > 0 ? static_cast<size_t>(size) : 0;
+    close(file);
+  }
+  [[nodiscard]] std::string_view text() const { return {text_.data(), size_}; }
+
+ private:
+  std::array<char, 512> text_;
+  size_t size_ = 0;
+};
+
+/// The number at the beginning of a text, perhaps after blanks ("max", or none, is no limit).
+size_t leading_number(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  size_t value = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  return end.ec == std::errc() ? value : kNoLimit;
 }
 
 }  // namespace
 
 size_t default_process_memory() {
-  size_t available = std::numeric_limits<size_t>::max();
-  std::ifstream info("/proc/meminfo");
-  std::string key, unit;
-  for (unsigned long long kilobytes = 0; info >> key >> kilobytes; std::getline(info, unit)) {
-    if (key != "MemAvailable:") continue;
-    available = static_cast<size_t>(kilobytes) * 1024;
-    break;
+  size_t available = kNoLimit;
+  constexpr std::string_view kKey = "MemAvailable:";
+  const FileStart info("/proc/meminfo");
+  const size_t key = info.text().find(kKey);
+  if (key != std::string_view::npos) {
+    const size_t kilobytes = leading_number(info.text().substr(key + kKey.size()));
+    if (kilobytes != kNoLimit) available = kilobytes * 1024;
   }
   for (const char* path :
        {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
-    available = std::min(available, read_number(path));
+    available = std::min(available, leading_number(FileStart(path).text()));
   }
-  return available == std::numeric_limits<size_t>::max() ? available : available / 4 * 3;
+  return available == kNoLimit ? available : available / 4 * 3;
 }
 
 void limit_process_memory(size_t bytes) {

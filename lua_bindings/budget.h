@@ -76,6 +76,7 @@ class Budget {
   static void hook(lua_State* L, lua_Debug* event);
   static void interrupt(int signal);
   void watch();
+  void phase_changed();
   void end_process(const char* place);
   [[nodiscard]] std::optional<Clock::time_point> deadline() const;
 
@@ -98,6 +99,7 @@ class Budget {
   Clock::time_point evaluation_start_{};
   Clock::time_point phase_start_{};
   bool script_running_ = false;
+  Clock::time_point looks_again_ = Clock::time_point::max();  // the watchdog, left to itself
   int evaluation_depth_ = 0;
   bool stopping_ = false;
   pthread_t script_thread_{};

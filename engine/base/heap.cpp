@@ -8,7 +8,10 @@
 #include <chrono>
 #include <climits>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
+#include <link.h>
 #include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -19,7 +22,7 @@ namespace {
 /// The shortest time in which the system gives a page to who writes to it, of a few.
 std::chrono::nanoseconds time_of_page() {
   using Clock = std::chrono::steady_clock;
-  constexpr size_t kFew = 6;
+  constexpr size_t kFew = 3;
   const auto page = static_cast<size_t>(sysconf(_SC_PAGESIZE));
   void* const pages =
       mmap(nullptr, kFew * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -32,6 +35,15 @@ std::chrono::nanoseconds time_of_page() {
   }
   munmap(pages, kFew * page);
   return shortest;
+}
+
+/// Measured once.
+bool are_pages_slow() {
+  // A page takes 1 to 2 microseconds on most machines, and 11 on a virtual one whose host keeps the
+  // tables of pages itself.
+  constexpr std::chrono::microseconds kLong(4);
+  static const bool are_slow = time_of_page() > kLong;
+  return are_slow;
 }
 
 /// Lets the heap grow far, and has that be in large pages but for its beginning: a small model
@@ -57,7 +69,41 @@ void take_large_pages(size_t most) {
   std::free(grown);
 }
 
+/// Finds the bytes of the program's code, not of its libraries'.
+int find_code(dl_phdr_info* info, size_t, void* found) {
+  const std::span headers(info->dlpi_phdr, info->dlpi_phnum);
+  const auto is_code = [](const auto& h) { return h.p_type == PT_LOAD && (h.p_flags & PF_X) != 0; };
+  const auto code = std::find_if(headers.begin(), headers.end(), is_code);
+  if (code != headers.end()) {
+    *static_cast<std::span<std::byte>*>(found) = {
+        reinterpret_cast<std::byte*>(info->dlpi_addr + code->p_vaddr), code->p_memsz};
+  }
+  return 1;  // the program is the first, and no other one is asked for
+}
+
+/// Has the system map all pages that hold some bytes. (If it cannot, they come one by one.)
+void populate(std::span<std::byte> bytes, int advice) {
+  const auto page = static_cast<uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto at = reinterpret_cast<uintptr_t>(bytes.data()), first = at / page * page;
+  madvise(reinterpret_cast<void*>(first), at + bytes.size() - first, advice);
+}
+
 }  // namespace
+
+void map_program(bool always) {
+#if defined(MADV_POPULATE_READ) && defined(MADV_POPULATE_WRITE)
+  if (!always && !are_pages_slow()) return;
+  std::span<std::byte> code;
+  dl_iterate_phdr(find_code, &code);
+  if (!code.empty()) populate(code, MADV_POPULATE_READ);
+  constexpr size_t kHeap = size_t{384} << 10;  // a small model takes less
+  void* volatile block = std::malloc(kHeap);   // volatile: or the compiler leaves it out
+  if (block != nullptr) populate({static_cast<std::byte*>(block), kHeap}, MADV_POPULATE_WRITE);
+  std::free(block);
+#else
+  (void)always;
+#endif
+}
 
 void keep_freed_memory() {
   // Left to itself, glibc moves both limits with the order in which arrays are freed: the peak of
@@ -68,11 +114,8 @@ void keep_freed_memory() {
 }
 
 void make_room_for_meshes(HeapPages pages, size_t most) {
-  // A page takes 1 to 2 microseconds on most machines, and 11 on a virtual one whose host keeps the
-  // tables of pages itself.
-  constexpr std::chrono::microseconds kLong(4);
   const bool are_large =
-      pages == HeapPages::kMeasured ? time_of_page() > kLong : pages == HeapPages::kLarge;
+      pages == HeapPages::kMeasured ? are_pages_slow() : pages == HeapPages::kLarge;
   if (are_large) take_large_pages(most);
   // In steps of 128 kB, which are usual, a second thread changed its map of memory five thousand
   // times for one model, while the first had to wait.
@@ -86,6 +129,7 @@ void make_room_for_meshes(HeapPages pages, size_t most) {
 
 namespace csgrun {
 
+void map_program(bool) {}
 void keep_freed_memory() {}
 void make_room_for_meshes(HeapPages, size_t) {}
 

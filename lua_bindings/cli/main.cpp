@@ -21,6 +21,7 @@ void print(std::FILE* stream, const std::string& text) {
 }
 
 int run(const csgrun::CommandLine& line) {
+  csgrun::map_program();
   csgrun::RunReport report;
   const csgrun::Failure failure = csgrun::run_model(line, report);
   // The error first: it says where. Warnings often say why, and no JSON object will have them.

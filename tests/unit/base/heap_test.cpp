@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -75,6 +76,42 @@ TEST(Heap, LargePagesAreForWhatIsLarge) {
               return may_be_large(&few.back()) ? kYes : kNo;
             }),
             kNo);
+}
+
+/// How often the system had to give a page so far.
+long page_faults() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_minflt;
+}
+
+/// Whether the system can be asked for pages before they are used (Linux 5.14).
+bool can_map_ahead() {
+#if defined(MADV_POPULATE_WRITE)
+  const auto size = static_cast<size_t>(sysconf(_SC_PAGESIZE));
+  void* const page =
+      mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  const bool can = madvise(page, size, MADV_POPULATE_WRITE) == 0;
+  munmap(page, size);
+  return can;
+#else
+  return false;
+#endif
+}
+
+TEST(Heap, PagesOfASmallModelAreThereBefore) {
+  if (kHasOwnHeap) GTEST_SKIP() << "sanitizers have a heap of their own";
+  if (!can_map_ahead()) GTEST_SKIP() << "this system gives pages as they are used";
+  const auto faults_of_heap = [](bool is_mapped) {
+    keep_freed_memory();
+    if (is_mapped) map_program(true);
+    const long before = page_faults();
+    const std::vector<char> few(kMegabyte / 4, 1);
+    return static_cast<int>(page_faults() - before) + few.back() - 1;
+  };
+  const int pages = static_cast<int>(kMegabyte / 4 / static_cast<size_t>(sysconf(_SC_PAGESIZE)));
+  EXPECT_GE(in_child([&] { return faults_of_heap(false); }), pages / 2);
+  EXPECT_LE(in_child([&] { return faults_of_heap(true); }), pages / 8);
 }
 
 TEST(Heap, ThereIsMemoryWhereThereAreFewAddresses) {

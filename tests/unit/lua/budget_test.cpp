@@ -1,5 +1,7 @@
 // Time and memory: what ends a script, and that nothing keeps it alive.
 #include <chrono>
+#include <memory>
+#include <thread>
 
 #include "lua_support.h"
 
@@ -51,6 +53,25 @@ TEST(TimeBudget, DoesNotCountEvaluation) {
   }
   EXPECT_FALSE(budget.out_of_time());
   EXPECT_GE(budget.evaluation_seconds(), 0.3);
+}
+
+// The watchdog sleeps on when an evaluation begins: it wakes while there is no deadline at all.
+TEST(TimeBudget, GoesOnAfterAnEvaluationThatIsLongerThanIt) {
+  const std::unique_ptr<lua_State, decltype(&lua_close)> state(luaL_newstate(), &lua_close);
+  Budget budget({.script_seconds = 1, .total_seconds = {}, .end_process = false}, "test");
+  budget.start_script(state.get());
+  {
+    const EvaluationScope scope(budget);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+    EXPECT_FALSE(budget.out_of_time());
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto passed = [&] { return std::chrono::steady_clock::now() - start; };
+  while (!budget.out_of_time() && passed() < std::chrono::seconds(20)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_TRUE(budget.out_of_time());
+  EXPECT_GE(passed(), std::chrono::milliseconds(500));  // most of its second was left
 }
 
 TEST(TimeBudget, TotalTimeCountsEverything) {

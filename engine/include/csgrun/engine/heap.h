@@ -12,6 +12,12 @@ namespace csgrun {
 /// from the heap, where they take the place of others.
 void keep_freed_memory();
 
+/// For the start of a program, after keep_freed_memory(): where the system takes long to give a
+/// page (`always`: anywhere), has it give all pages of the program's code at once, and those of the
+/// heap that a small model takes, not one after another as they are used. Takes half a millisecond,
+/// and saves a millisecond and a half.
+void map_program(bool always = false);
+
 /// In which pages the system gives a process what its heap grows by.
 enum class HeapPages : uint8_t {
   kMeasured,  ///< large ones where small ones take long
