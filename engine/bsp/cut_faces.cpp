@@ -95,6 +95,13 @@ class Worker {
         {polygon.number, first_loop, static_cast<uint32_t>(part.loops.loops.size())});
   }
 
+  /// See FaceArrangement.
+  uint64_t count_coplanar_pairs(const CutPart::Polygon& polygon, const CutPart& part) {
+    geometry_.clear();
+    points_.clear();
+    return arrangement_.count_coplanar_pairs(polygon.number, coplanar(polygon, part));
+  }
+
   [[nodiscard]] const SignCounters& counters() const { return geometry_.counters; }
   [[nodiscard]] uint64_t crowding() const { return arrangement_.crowding(); }
 
@@ -189,6 +196,7 @@ class FaceCutter {
             ends_.ask(all[i]);
           }
         });
+    if (options_.stop_when_crowded && will_be_crowded()) return crowded();
     ends_.make();
     for (CutPart& part : parts_) {
       std::erase_if(part.polygons, [&](const CutPart::Polygon& p) { return stays_whole(p, part); });
@@ -199,11 +207,7 @@ class FaceCutter {
       cut_all(&CutPart::again);
     }
     for (const CutPart& part : parts_) add_signs(stats, part.counters);
-    if (is_crowded()) {
-      CutFaces none;
-      none.is_crowded = true;
-      return none;
-    }
+    if (is_crowded()) return crowded();
     return join_parts(job_, contacts_, parts_, geometry_, index_);
   }
 
@@ -211,9 +215,64 @@ class FaceCutter {
   /// Whether so many coplanar polygons overlap that operands should rather be evaluated in groups.
   /// What was counted only grows, so that it makes no difference when somebody asks.
   [[nodiscard]] bool is_crowded() const {
-    constexpr uint64_t kMost = 20000, kMostEach = 32;
     return options_.stop_when_crowded &&
-           crowding_.load(std::memory_order_relaxed) > kMost + kMostEach * job_.polygons().size();
+           crowding_.load(std::memory_order_relaxed) > most_crowding();
+  }
+  /// Where groups begin to take less time than one job: those of spokes soon, those of operands
+  /// that are scattered late. Results of groups take longer than leaves.
+  [[nodiscard]] uint64_t most_crowding() const {
+    constexpr uint64_t kFew = 20000, kMostEach = 768, kMostEachOfCrowd = 32;
+    const uint64_t each = options_.is_of_crowd ? kMostEachOfCrowd : kMostEach;
+    return std::max<uint64_t>(kFew, each * job_.polygons().size());
+  }
+  static CutFaces crowded() {
+    CutFaces none;
+    none.is_crowded = true;
+    return none;
+  }
+
+  static size_t coplanar_count(const CutPart::Polygon& p) {
+    return p.end_coplanar - p.first_coplanar;
+  }
+  /// Calls visit(polygon, part) for all of them.
+  template <class Visit>
+  void for_each_polygon(Visit&& visit) const {
+    for (const CutPart& part : parts_) {
+      for (const CutPart::Polygon& p : part.polygons) visit(p, part);
+    }
+  }
+
+  /// Whether far too many overlap, told before any is cut, from the one that most are coplanar
+  /// with: what crowds a polygon grows with the cube of their number.
+  bool will_be_crowded() {
+    constexpr size_t kFew = 4;
+    constexpr double kSure = 2.5;  // the estimate is 1.5 to 4.5 times what will be counted
+    const CutPart::Polygon* most = nullptr;
+    const CutPart* its_part = nullptr;
+    for_each_polygon([&](const CutPart::Polygon& p, const CutPart& part) {
+      if (most && coplanar_count(p) <= coplanar_count(*most)) return;
+      most = &p;
+      its_part = &part;
+    });
+    if (!most || coplanar_count(*most) <= kFew) return false;
+    double alike = 0;
+    for_each_polygon([&](const CutPart::Polygon& p, const CutPart&) {
+      const double share =
+          static_cast<double>(coplanar_count(p)) / static_cast<double>(coplanar_count(*most));
+      alike += share * share * share;
+    });
+    const std::span<const uint32_t> coplanar{its_part->coplanar.data() + most->first_coplanar,
+                                             coplanar_count(*most)};
+    std::vector<uint32_t> polygons(coplanar.begin(), coplanar.end()), operands;
+    for (const uint32_t q : coplanar) operands.push_back(job_.polygons()[q].operand);
+    std::sort(operands.begin(), operands.end());
+    operands.erase(std::unique(operands.begin(), operands.end()), operands.end());
+    polygons.push_back(most->number);
+    job_.ensure_planes(polygons);
+    Worker worker(job_, contacts_, ends_, is_open_, geometry_, index_);
+    const uint64_t pairs = worker.count_coplanar_pairs(*most, *its_part);
+    return alike * static_cast<double>(pairs) * static_cast<double>(operands.size()) >
+           kSure * static_cast<double>(most_crowding());
   }
 
   /// Whether nothing cuts a polygon, and one of its corners tells what becomes of it.

@@ -69,6 +69,24 @@ bool FaceArrangement::build(uint32_t polygon, std::span<const SheetSegment> segm
   return false;
 }
 
+uint64_t FaceArrangement::count_coplanar_pairs(uint32_t polygon,
+                                               std::span<const uint32_t> coplanar) {
+  polygon_ = &job_.polygons()[polygon];
+  ++build_;
+  lines_.clear();
+  add_boundary();
+  add_coplanar(coplanar);
+  const std::span<const Line> edges = std::span<const Line>(lines_).subspan(first_coplanar_line_);
+  sweep_.clear();
+  for (const Line& e : edges) {
+    sweep_.add(geometry_.point(e.from).rounded, geometry_.point(e.to).rounded);
+  }
+  uint64_t count = 0;
+  sweep_.for_each_pair(
+      [&](uint32_t i, uint32_t j) { count += edges[i].operand != edges[j].operand ? 1 : 0; });
+  return count;
+}
+
 void FaceArrangement::add_boundary() {
   const auto corners = job_.corners(*polygon_);
   const auto planes = job_.edge_planes(*polygon_);

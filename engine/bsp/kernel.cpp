@@ -45,7 +45,9 @@ Outcome evaluate_crowded(const Job& job, const Expression& expression, const Gri
     at_once.may_group = false;
     return evaluate_boolean(job.operands(), expression, region, at_once, stats);
   }
-  KernelOptions quiet = options;
+  KernelOptions of_crowd = options;
+  of_crowd.is_of_crowd = true;
+  KernelOptions quiet = of_crowd;
   quiet.progress = nullptr;
   const auto grouped = evaluate_groups(
       job.operands(), expression, *boxes,
@@ -53,7 +55,7 @@ Outcome evaluate_crowded(const Job& job, const Expression& expression, const Gri
         return evaluate_boolean(operands, part, around, quiet, stats);
       });
   if (!grouped) return grouped.error();
-  return evaluate_boolean(grouped->operands, grouped->expression, region, options, stats);
+  return evaluate_boolean(grouped->operands, grouped->expression, region, of_crowd, stats);
 }
 
 }  // namespace

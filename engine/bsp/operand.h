@@ -108,6 +108,7 @@ struct KernelOptions {
   /// work (bsp/operand_groups.h).
   bool may_group = true;
   bool stop_when_crowded = false;  ///< of one job: give up where that is so
+  bool is_of_crowd = false;        ///< the job is a part of one that was given up
   /// Faces of leaves that nothing touched are named instead of spelled out (BoundaryMesh::parts).
   bool name_untouched = false;
   /// Operands of so many faces leave those out of the job that are near no other operand

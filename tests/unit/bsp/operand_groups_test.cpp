@@ -70,7 +70,7 @@ TEST(OperandGroups, SpokesAreEvaluatedInGroups) {
     EXPECT_EQ(test::first_difference(**grouped, **whole), "");
     EXPECT_GT((*whole)->faces.size(), 8u);
     if (op == BooleanOp::kUnion) {
-      EXPECT_LT(3 * grouped_signs, whole_signs);
+      EXPECT_LT(8 * grouped_signs, whole_signs);
     }
   }
 }
