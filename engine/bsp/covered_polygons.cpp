@@ -111,7 +111,7 @@ std::vector<uint8_t> find_covered(const Job& job, const PlainlyCovered& plainly,
       for (const uint32_t i : contacts.of(p)) {
         const Contact& c = contacts[i];
         const uint32_t o = job.polygons()[c.p == p ? c.q : c.p].operand;
-        if (!plainly.dead->is_remover(o) || plainly.is_open[o]) continue;
+        if (!plainly.dead->is_remover(o) || !job.is_convex(o) || plainly.is_open[o]) continue;
         // What meets a convex body and is not within it goes to the front of a face that it meets.
         const bool leaves = c.is_coplanar || (c.p == p ? c.p_front : c.q_front);
         (leaves ? crossed_by : touched_by).push_back(o);

@@ -35,7 +35,7 @@ struct PlainlyCovered {
 /// O(n) for operands of bounded depth. Parallel.
 PlainlyCovered find_plainly_covered(const Job& job, const Expression& expression);
 
-/// Per polygon of the job, whether it touches the surface of a remover that is not open from
+/// Per polygon of the job, whether it touches the surface of a convex remover that is not open from
 /// within. The contacts are all, or all that are not of two plainly covered polygons or a hidden
 /// one.
 std::vector<uint8_t> find_covered(const Job& job, const PlainlyCovered& plainly,

@@ -67,7 +67,7 @@ std::vector<uint8_t> find_removers(const std::vector<Operand>& operands,
   if (expression.nodes.empty()) return removes;
   const Deciders deciders(expression, operands.size());
   for (uint32_t o = 0; o < operands.size(); ++o) {
-    removes[o] = operands[o].leaf && operands[o].leaf->convex && deciders.decides(o);
+    removes[o] = operands[o].leaf && deciders.decides(o);
   }
   return removes;
 }

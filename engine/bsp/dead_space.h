@@ -22,7 +22,7 @@ class DeadSpace {
   DeadSpace(const std::vector<Operand>& operands, const Expression& expression,
             std::vector<PolygonBox> boxes);
 
-  /// Whether an operand is convex and the expression is the same everywhere inside of it, so that
+  /// Whether an operand is a leaf and the expression is the same everywhere inside of it, so that
   /// nothing is boundary there: it is a remover.
   [[nodiscard]] bool is_remover(uint32_t operand) const {
     return !removes_.empty() && removes_[operand] != 0;

@@ -27,6 +27,9 @@ uint32_t most_squares(size_t balls) {
 
 /// The largest one inside, around the middle, and the smallest one around, less a step and more by
 /// one: points may be wrong, and so is all this, by less than a step together.
+///
+/// A point that is behind the planes of all faces of a closed surface is inside of it: the surface
+/// goes round it, at least once and one way only. No face comes nearer than its plane.
 OperandBalls::Ball OperandBalls::Ball::of(const Operand& operand, const PolygonBox& box) {
   Ball ball;
   for (size_t k = 0; k < 3; ++k) {

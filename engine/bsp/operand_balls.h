@@ -1,5 +1,5 @@
-// Balls inside and around convex operands: most points and polygons are plainly in one, or beside
-// the other.
+// Balls inside and around operands: of round ones most points and polygons are plainly in one, or
+// beside the other.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,14 @@ class OperandBalls {
  public:
   /// None.
   OperandBalls() = default;
-  /// Of those of some operands (a byte for each) that are convex leaves on the grid and not far
-  /// out. `boxes`: of the operands. O(n), parallel.
+  /// Of those of some operands (a byte for each) that are leaves on the grid and not far out, and
+  /// all of whose faces are seen from behind from the middle of their box, as those of convex ones
+  /// are. `boxes`: of the operands. O(n), parallel.
   OperandBalls(const std::vector<Operand>& operands, const std::vector<PolygonBox>& boxes,
                const std::vector<uint8_t>& chosen);
 
   [[nodiscard]] bool empty() const { return balls_.empty(); }
-  /// Whether an operand has one: then it is a convex leaf on the grid, not far out.
+  /// Whether an operand has one: then it is a leaf on the grid, not far out.
   [[nodiscard]] bool has(uint32_t operand) const {
     return !ball_of_.empty() && ball_of_[operand] != kNoBall;
   }
