@@ -23,7 +23,7 @@ namespace {
 
 /// With so many plain contacts a polygon, cells that prune the expression are less work than
 /// arrangements of all that meets a polygon, much of it inside what another one removes.
-constexpr size_t kDense = 16;
+constexpr size_t kDense = 64;
 
 /// The loops of so many cut faces are looked at by one thread.
 constexpr size_t kFacesPerPart = 2048;

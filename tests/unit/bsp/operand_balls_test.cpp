@@ -1,4 +1,4 @@
-// What balls and planes in doubles say of points, against convex bodies in rational arithmetic.
+// What balls and planes in doubles say of points, against bodies in rational arithmetic.
 #include "engine/bsp/operand_balls.h"
 
 #include <gtest/gtest.h>
@@ -23,6 +23,19 @@ PolygonBox box_of(const Operand& operand) {
   return box;
 }
 
+/// A cube around the origin, whose sides are pressed in: its middle sees all faces from behind.
+Operand dented_cube(int64_t half, int64_t depth) {
+  std::vector<test::Loop> loops;
+  for (const test::Loop& side : test::box_loops({-half, -half, -half}, {half, half, half})) {
+    IVec3 middle{0, 0, 0};
+    for (size_t k = 0; k < 3; ++k) {
+      if (side[0][k] == side[2][k]) middle[k] = side[0][k] > 0 ? half - depth : depth - half;
+    }
+    for (size_t i = 0; i < 4; ++i) loops.push_back({side[i], side[(i + 1) % 4], middle});
+  }
+  return test::operand_of(test::make_leaf(loops));
+}
+
 Operand random_body(test::Random& random, int64_t reach) {
   const auto point = [&](int64_t most) {
     return IVec3{random.integer(-most, most), random.integer(-most, most),
@@ -32,6 +45,11 @@ Operand random_body(test::Random& random, int64_t reach) {
   if (random.integer(0, 2) == 0) {
     const int64_t size = random.integer(1, reach);
     loops = test::box_loops({-size, -size, -size}, {size, size, size});
+    if (size > 4 && random.integer(0, 1) == 0) {
+      Operand dented = dented_cube(size, random.integer(1, size - 1));
+      dented.translation = point(2 * reach);
+      return dented;
+    }
   }
   while (loops.empty()) {
     std::vector<IVec3> points(static_cast<size_t>(random.integer(4, 14)));
@@ -47,7 +65,7 @@ Operand random_body(test::Random& random, int64_t reach) {
 // each axis for balls, one for planes. And they do say it of most points.
 TEST(OperandBalls, TellOfPointsWhatIsSo) {
   test::Random random(971);
-  size_t by_ball[3] = {}, by_planes[3] = {};
+  size_t by_ball[3] = {}, by_planes[3] = {}, inside_of_dented = 0;
   for (int round = 0; round < 120; ++round) {
     const int64_t reach = round % 2 == 0 ? 12 : 3000;
     const std::vector<Operand> operands{random_body(random, reach), random_body(random, reach)};
@@ -78,11 +96,15 @@ TEST(OperandBalls, TellOfPointsWhatIsSo) {
         if (ball != Side::kUnknown) {
           ASSERT_EQ(ball == Side::kInside, *near_winding == 1) << round;
         }
+        ++by_ball[static_cast<size_t>(ball)];
+        if (!operands[o].leaf->convex) {
+          inside_of_dented += ball == Side::kInside ? 1 : 0;
+          continue;
+        }
         const Inside side = sides.side(operands, o, at);
         if (side != Inside::kUnknown) {
           ASSERT_EQ(side == Inside::kYes, *next_winding == 1) << round;
         }
-        ++by_ball[static_cast<size_t>(ball)];
         ++by_planes[static_cast<size_t>(side)];
       }
     }
@@ -91,27 +113,32 @@ TEST(OperandBalls, TellOfPointsWhatIsSo) {
                          by_ball[static_cast<size_t>(Side::kOutside)]}) {
     EXPECT_GT(n, 100u);
   }
+  EXPECT_GT(inside_of_dented, 10u);
   for (const Inside side : {Inside::kYes, Inside::kNo}) {
     EXPECT_GT(by_planes[static_cast<size_t>(side)], 700u);
   }
 }
 
-// Only convex leaves on the grid that were chosen have one, and not those of which too little is
-// left.
+// Only leaves on the grid that were chosen have one, and not those of which too little is left, or
+// that the middle of their box does not see from within.
 TEST(OperandBalls, AreOfChosenOnes) {
-  std::vector<Operand> operands{test::octahedron({0, 0, 0}, 50), test::octahedron({9, 0, 0}, 50),
-                                test::octahedron({0, 9, 0}, 50), test::octahedron({0, 0, 9}, 1)};
+  std::vector<Operand> operands{test::octahedron({0, 0, 0}, 50),
+                                test::octahedron({9, 0, 0}, 50),
+                                test::octahedron({0, 9, 0}, 50),
+                                test::octahedron({0, 0, 9}, 1),
+                                dented_cube(50, 49),
+                                dented_cube(50, 51)};
   operands[2].frame.is_identity = false;
   std::vector<PolygonBox> boxes;
   for (const Operand& operand : operands) boxes.push_back(box_of(operand));
-  const OperandBalls balls(operands, boxes, {1, 0, 1, 1});
+  const OperandBalls balls(operands, boxes, {1, 0, 1, 1, 1, 1, 1});
   EXPECT_FALSE(balls.empty());
-  for (uint32_t o = 0; o < 4; ++o) EXPECT_EQ(balls.has(o), o == 0) << o;
+  for (uint32_t o = 0; o < 7; ++o) EXPECT_EQ(balls.has(o), o == 0 || o == 6) << o;
   for (uint32_t o = 1; o < 4; ++o) EXPECT_EQ(balls.side(o, {0, 0, 0}), Side::kUnknown);
   EXPECT_TRUE(OperandBalls().empty());
   EXPECT_FALSE(OperandBalls().has(0));
   boxes[0].hi[0] = int32_t{1} << 30;  // as of one that reaches too far out
-  EXPECT_FALSE(OperandBalls(operands, boxes, {1, 0, 0, 0}).has(0));
+  EXPECT_FALSE(OperandBalls(operands, boxes, {1, 0, 0, 0, 0, 0, 0}).has(0));
 }
 
 }  // namespace
