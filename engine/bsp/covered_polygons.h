@@ -1,5 +1,5 @@
-// Polygons that are boundary of nothing, and need not be cut: what is inside of a convex operand
-// that is added to all else, or taken away from it, and what is where the expression has nothing.
+// Polygons that are boundary of nothing, and need not be cut: what is inside of an operand that is
+// added to all else, or taken away from it, and what is where the expression has nothing.
 #pragma once
 
 #include <cstdint>
