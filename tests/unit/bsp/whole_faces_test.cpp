@@ -576,20 +576,20 @@ TEST(WholeFaces, LeaveDenseContactsToCells) {
     const auto contacts = find_contacts(job, {}, {}, stats).contacts;
     const auto plain = std::count_if(contacts.begin(), contacts.end(),
                                      [](const Contact& c) { return c.is_plain; });
-    EXPECT_GT(contacts.size(), plates == 24 ? 16 * job.polygons().size() : 0);
+    EXPECT_GT(contacts.size(), plates > 4 ? 64 * job.polygons().size() : 0);
     const auto faces = evaluate_whole_faces(
         job, test::flat_expression(BooleanOp::kUnion, static_cast<uint32_t>(operands.size())), {},
         stats);
     EXPECT_TRUE(faces);
     const bool any = faces->any_general;
-    EXPECT_EQ(any, plain > 16 * static_cast<long>(job.polygons().size()));
+    EXPECT_EQ(any, plain > 64 * static_cast<long>(job.polygons().size()));
     EXPECT_EQ(std::count(faces->general.begin(), faces->general.end(), 1),
               any ? static_cast<long>(job.polygons().size()) : 0);
     return any;
   };
   EXPECT_FALSE(is_left(4, false));
-  EXPECT_TRUE(is_left(24, false));
-  EXPECT_FALSE(is_left(24, true));
+  EXPECT_TRUE(is_left(52, false));
+  EXPECT_FALSE(is_left(30, true));
 }
 
 }  // namespace
