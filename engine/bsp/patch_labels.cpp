@@ -87,7 +87,9 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
   bool is_unsure = false;
   for (const uint32_t o : asked_) {
     Inside label = Inside::kUnknown;
-    if (plainly_.dead->balls().has(o) && job_.is_convex(o)) label = convex_sides_.side(job_.operands(), o, point);
+    if (plainly_.dead->balls().has(o) && job_.is_convex(o)) {
+      label = convex_sides_.side(job_.operands(), o, point);
+    }
     if (label == Inside::kUnknown) label = ray_label(job_, signs_, boxes_, o, point, error);
     is_unsure |= label == Inside::kUnknown;
     if (label != Inside::kYes) continue;

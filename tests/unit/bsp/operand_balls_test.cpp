@@ -23,7 +23,8 @@ PolygonBox box_of(const Operand& operand) {
   return box;
 }
 
-/// A cube around the origin, whose sides are pressed in: its middle sees all faces from behind.
+/// A cube around the origin, whose sides are pressed in: its middle sees all faces from behind,
+/// unless they are pressed in as far as that.
 Operand dented_cube(int64_t half, int64_t depth) {
   std::vector<test::Loop> loops;
   for (const test::Loop& side : test::box_loops({-half, -half, -half}, {half, half, half})) {
@@ -127,18 +128,22 @@ TEST(OperandBalls, AreOfChosenOnes) {
                                 test::octahedron({0, 9, 0}, 50),
                                 test::octahedron({0, 0, 9}, 1),
                                 dented_cube(50, 49),
-                                dented_cube(50, 51)};
+                                dented_cube(50, 51),
+                                dented_cube(50, 30)};
   operands[2].frame.is_identity = false;
   std::vector<PolygonBox> boxes;
   for (const Operand& operand : operands) boxes.push_back(box_of(operand));
-  const OperandBalls balls(operands, boxes, {1, 0, 1, 1, 1, 1, 1});
+  std::vector<uint8_t> chosen(operands.size(), 1);
+  chosen[1] = 0;
+  const OperandBalls balls(operands, boxes, chosen);
   EXPECT_FALSE(balls.empty());
-  for (uint32_t o = 0; o < 7; ++o) EXPECT_EQ(balls.has(o), o == 0 || o == 6) << o;
+  const auto round = static_cast<uint32_t>(operands.size() - 1);
+  for (uint32_t o = 0; o <= round; ++o) EXPECT_EQ(balls.has(o), o == 0 || o == round) << o;
   for (uint32_t o = 1; o < 4; ++o) EXPECT_EQ(balls.side(o, {0, 0, 0}), Side::kUnknown);
   EXPECT_TRUE(OperandBalls().empty());
   EXPECT_FALSE(OperandBalls().has(0));
   boxes[0].hi[0] = int32_t{1} << 30;  // as of one that reaches too far out
-  EXPECT_FALSE(OperandBalls(operands, boxes, {1, 0, 0, 0, 0, 0, 0}).has(0));
+  EXPECT_FALSE(OperandBalls(operands, boxes, chosen).has(0));
 }
 
 }  // namespace
