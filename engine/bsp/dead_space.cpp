@@ -26,16 +26,21 @@ std::vector<PolygonBox> find_node_boxes(const Expression& expression,
   return of_node;
 }
 
-/// Finds the operands that decide what the root is where one is inside of them, from the root down.
+/// Finds the operands that decide what the root is where one is inside of them, and those that do
+/// so where one is outside of them, from the root down.
 class Deciders {
  public:
   explicit Deciders(const Expression& expression, size_t operands)
-      : expression_(expression), decides_(operands, 0), seen_(expression.nodes.size(), {0, 0}) {
+      : expression_(expression),
+        decides_(operands, {0, 0}),
+        seen_(expression.nodes.size(), {0, 0}) {
     const auto root = static_cast<uint32_t>(expression.nodes.size() - 1);
     visit(root, true);
     visit(root, false);
   }
-  [[nodiscard]] bool decides(uint32_t operand) const { return decides_[operand] != 0; }
+  [[nodiscard]] bool decides(uint32_t operand, bool is_inside) const {
+    return decides_[operand][is_inside] != 0;
+  }
 
  private:
   /// Those that make a node full, or empty.
@@ -43,7 +48,7 @@ class Deciders {
     if (std::exchange(seen_[n][is_full], 1) != 0) return;
     const Expression::Node& node = expression_.nodes[n];
     if (node.is_operand) {
-      decides_[node.operand] |= is_full;
+      decides_[node.operand][is_full] = 1;
       return;
     }
     for (uint32_t c = 0; c < node.child_count; ++c) {
@@ -55,30 +60,27 @@ class Deciders {
   }
 
   const Expression& expression_;
-  std::vector<uint8_t> decides_;
-  std::vector<std::array<uint8_t, 2>> seen_;  ///< per node
+  std::vector<std::array<uint8_t, 2>> decides_;  ///< per operand: outside, inside
+  std::vector<std::array<uint8_t, 2>> seen_;     ///< per node
 };
 
 }  // namespace
 
-std::vector<uint8_t> find_removers(const std::vector<Operand>& operands,
-                                   const Expression& expression) {
-  std::vector<uint8_t> removes(operands.size(), 0);
-  if (expression.nodes.empty()) return removes;
-  const Deciders deciders(expression, operands.size());
-  for (uint32_t o = 0; o < operands.size(); ++o) {
-    removes[o] = operands[o].leaf && deciders.decides(o);
-  }
-  return removes;
-}
-
 DeadSpace::DeadSpace(const std::vector<Operand>& operands, const Expression& expression,
                      std::vector<PolygonBox> boxes)
-    : removes_(find_removers(operands, expression)), boxes_(std::move(boxes)) {
+    : removes_(operands.size(), 0), confines_(removes_), boxes_(std::move(boxes)) {
   if (expression.nodes.empty()) return;
+  const Deciders deciders(expression, operands.size());
+  std::vector<uint8_t> uses(operands.size(), 0);
   node_boxes_ = find_node_boxes(expression, boxes_);
   result_ = node_boxes_.back();
-  if (operands.size() > 2) balls_ = OperandBalls(operands, boxes_, removes_);
+  for (uint32_t o = 0; o < operands.size(); ++o) {
+    removes_[o] = operands[o].leaf && deciders.decides(o, true);
+    confines_[o] = operands[o].leaf && deciders.decides(o, false);
+    if (removes_[o]) uses[o] |= OperandBalls::kWithin;
+    if (confines_[o]) uses[o] |= OperandBalls::kBeyond;
+  }
+  if (operands.size() > 2) balls_ = OperandBalls(operands, boxes_, uses);
 }
 
 }  // namespace csgrun

@@ -1,5 +1,6 @@
 // Where nothing is boundary, as is easily told: inside of balls in what is added to all else, or
-// taken away from it, alone or among others, and beside the box of the result.
+// taken away from it, alone or among others, outside of balls around what all else is cut with, or
+// taken away from, and beside the box of the result.
 #pragma once
 
 #include <array>
@@ -27,7 +28,12 @@ class DeadSpace {
   [[nodiscard]] bool is_remover(uint32_t operand) const {
     return !removes_.empty() && removes_[operand] != 0;
   }
-  /// Of removers.
+  /// Whether an operand is a leaf and the expression is empty everywhere outside of it: it is a
+  /// confiner.
+  [[nodiscard]] bool is_confiner(uint32_t operand) const {
+    return !confines_.empty() && confines_[operand] != 0;
+  }
+  /// Of removers and confiners.
   [[nodiscard]] const OperandBalls& balls() const { return balls_; }
   [[nodiscard]] const PolygonBox& operand_box(size_t operand) const { return boxes_[operand]; }
   /// Per node of the expression, a box that holds what it is.
@@ -40,11 +46,11 @@ class DeadSpace {
     }
     return beside;
   }
-  /// Whether all of a polygon is in there, in one ball or beside the result: at(i) is corner i of
-  /// `count`, correctly rounded.
+  /// Whether all of a polygon is in there, in one ball, outside of one or beside the result: at(i)
+  /// is corner i of `count`, correctly rounded.
   template <class At>
   [[nodiscard]] bool holds(const PolygonBox& box, uint32_t count, At&& at) const {
-    return !result_.meets(box) || balls_.hold(count, at);
+    return !result_.meets(box) || balls_.leave_out(box) || balls_.hold(count, at);
   }
   /// Whether an operand with this box may have polygons there.
   [[nodiscard]] bool may_hold_part(const PolygonBox& box) const {
@@ -58,14 +64,10 @@ class DeadSpace {
   }
 
  private:
-  std::vector<uint8_t> removes_;  ///< per operand
+  std::vector<uint8_t> removes_, confines_;  ///< per operand
   std::vector<PolygonBox> boxes_, node_boxes_;
   PolygonBox result_ = PolygonBox::everywhere();
   OperandBalls balls_;
 };
-
-/// See DeadSpace::is_remover: a byte for each operand.
-std::vector<uint8_t> find_removers(const std::vector<Operand>& operands,
-                                   const Expression& expression);
 
 }  // namespace csgrun

@@ -36,15 +36,15 @@ std::optional<std::vector<GridBox>> boxes_on_grid(const Job& job) {
   return boxes;
 }
 
-/// A job that is crowded, in groups; whole, where there can be none.
+bool may_stand_in_groups(const Job& job, const Expression& expression,
+                         const KernelOptions& options) {
+  return options.may_group && can_be_grouped(expression) && boxes_on_grid(job).has_value();
+}
+
+/// A job that is crowded, in groups. REQUIRES: may_stand_in_groups.
 Outcome evaluate_crowded(const Job& job, const Expression& expression, const GridBox& region,
                          const KernelOptions& options, EvaluateStats& stats) {
   const auto boxes = boxes_on_grid(job);
-  if (!boxes) {
-    KernelOptions at_once = options;
-    at_once.may_group = false;
-    return evaluate_boolean(job.operands(), expression, region, at_once, stats);
-  }
   KernelOptions of_crowd = options;
   of_crowd.is_of_crowd = true;
   KernelOptions quiet = of_crowd;
@@ -75,8 +75,11 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   if (!std::all_of(operands.begin(), operands.end(), can_stand_named)) {
     return evaluate_boolean(with_standing_parts(operands), expression, region, options, stats);
   }
-  KernelOptions job_options = options;
-  job_options.stop_when_crowded = options.may_group && can_be_grouped(expression);
+  const auto evaluate_alone = [&](Job& job, EvaluateStats& own) {
+    KernelOptions alone = options;
+    alone.stop_when_crowded = may_stand_in_groups(job, expression, options);
+    return evaluate_job(job, operands, expression, region, alone, own);
+  };
   size_t faces = 0;
   for (const Operand& operand : operands) faces += operand.leaf ? operand.leaf->face_count() : 0;
   const auto assembled = [&](Job& job, EvaluatedJob&& evaluated) {
@@ -92,7 +95,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     if (!some) return std::nullopt;
     Job job(operands, *some);
     EvaluateStats own = stats;
-    auto evaluated = evaluate_job(job, operands, expression, region, job_options, own);
+    auto evaluated = evaluate_alone(job, own);
     if (evaluated && evaluated->is_crowded) {
       return evaluate_crowded(job, expression, region, options, stats);
     }
@@ -112,7 +115,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
       }
     }
     Job job(operands);
-    auto evaluated = evaluate_job(job, operands, expression, region, job_options, stats);
+    auto evaluated = evaluate_alone(job, stats);
     if (!evaluated) return evaluated.error();
     if (evaluated->is_crowded) {
       return evaluate_crowded(job, expression, region, options, stats);

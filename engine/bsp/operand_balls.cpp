@@ -53,14 +53,14 @@ OperandBalls::Ball OperandBalls::Ball::of(const Operand& operand, const PolygonB
 
 OperandBalls::OperandBalls(const std::vector<Operand>& operands,
                            const std::vector<PolygonBox>& operand_boxes,
-                           const std::vector<uint8_t>& chosen) {
+                           const std::vector<uint8_t>& uses) {
   std::vector<Ball> all(operands.size());
   size_t faces = 0;
   for (const Operand& operand : operands) faces += operand.leaf ? operand.leaf->face_count() : 0;
   for_each_alone(operands.size(), faces > kFewForThreads, [&](size_t o) {
     const Operand& operand = operands[o];
-    if (chosen[o] && operand.leaf && operand.leaf->face_count() > 0 && operand.frame.is_identity &&
-        !is_far_out(operand_boxes[o])) {
+    if (uses[o] != 0 && operand.leaf && operand.leaf->face_count() > 0 &&
+        operand.frame.is_identity && !is_far_out(operand_boxes[o])) {
       all[o] = Ball::of(operand, operand_boxes[o]);
     }
   });
@@ -68,16 +68,22 @@ OperandBalls::OperandBalls(const std::vector<Operand>& operands,
   ball_of_.assign(operands.size(), kNoBall);
   for (size_t o = 0; o < all.size(); ++o) {
     if (all[o].inner <= 0) continue;
-    ball_of_[o] = static_cast<uint32_t>(balls_.size());
+    const auto number = static_cast<uint32_t>(balls_.size());
+    ball_of_[o] = number;
     balls_.push_back(all[o]);
+    if ((uses[o] & kBeyond) != 0 && beyond_.size() < kMostBeyond &&
+        !all[o].is_around(operand_boxes[o])) {
+      beyond_.push_back(number);
+    }
+    // Bins have a box for each ball: of those of other use an empty one.
     SquareBins::Box& box = boxes.emplace_back();
-    const double radius = std::sqrt(all[o].inner);
+    const double radius = (uses[o] & kWithin) != 0 ? std::sqrt(all[o].inner) : -1;
     for (size_t k = 0; k < 3; ++k) {
       box.lo[k] = all[o].middle[k] - radius;
       box.hi[k] = all[o].middle[k] + radius;
     }
   }
-  bins_ = SquareBins(boxes, most_squares(boxes.size()));
+  within_ = SquareBins(boxes, most_squares(boxes.size()));
 }
 
 OperandBalls::Side OperandBalls::side(uint32_t operand, const std::array<double, 3>& point) const {

@@ -17,11 +17,13 @@ class OperandBalls {
  public:
   /// None.
   OperandBalls() = default;
-  /// Of those of some operands (a byte for each) that are leaves on the grid and not far out, and
-  /// all of whose faces are seen from behind from the middle of their box, as those of convex ones
-  /// are. `boxes`: of the operands. O(n), parallel.
+  /// What polygons are asked about: a bit for each.
+  enum Use : uint8_t { kWithin = 1, kBeyond = 2 };
+  /// Of those of some operands (their uses; 0: none) that are leaves on the grid and not far out,
+  /// and all of whose faces are seen from behind from the middle of their box, as those of convex
+  /// ones are. `boxes`: of the operands. O(n), parallel.
   OperandBalls(const std::vector<Operand>& operands, const std::vector<PolygonBox>& boxes,
-               const std::vector<uint8_t>& chosen);
+               const std::vector<uint8_t>& uses);
 
   [[nodiscard]] bool empty() const { return balls_.empty(); }
   /// Whether an operand has one: then it is a leaf on the grid, not far out.
@@ -31,13 +33,13 @@ class OperandBalls {
 
   /// What may be wrong by less than this many steps along each axis is less than a step away.
   static constexpr double kMostWrong = 0.5;
-  /// Whether all of a polygon is strictly inside of one of the operands, as an inner ball tells:
-  /// at(i) is corner i of `count`, wrong by less than kMostWrong.
+  /// Whether all of a polygon is strictly inside of one of the operands of use kWithin, as an inner
+  /// ball tells: at(i) is corner i of `count`, wrong by less than kMostWrong.
   template <class At>
   [[nodiscard]] bool hold(uint32_t count, At&& at) const {
     if (balls_.empty()) return false;
     const std::array<double, 3>& first = at(0);
-    const auto near = bins_.at(first);
+    const auto near = within_.at(first);
     return std::any_of(near.begin(), near.end(), [&](uint32_t i) {
       const Ball& ball = balls_[i];
       for (uint32_t c = 0; c < count; ++c) {
@@ -46,6 +48,14 @@ class OperandBalls {
       return true;
     });
   }
+
+  /// Whether all that is in a box is strictly outside of one of the operands of use kBeyond, as an
+  /// outer ball tells. The first kMostBeyond of those are asked that tell more than their box does.
+  [[nodiscard]] bool leave_out(const PolygonBox& box) const {
+    return std::any_of(beyond_.begin(), beyond_.end(),
+                       [&](uint32_t i) { return balls_[i].is_beside(box); });
+  }
+  static constexpr size_t kMostBeyond = 64;
 
   enum class Side : uint8_t { kInside, kOutside, kUnknown };
   /// Where a point is that is wrong by less than kMostWrong.
@@ -61,12 +71,31 @@ class OperandBalls {
       const double x = p[0] - middle[0], y = p[1] - middle[1], z = p[2] - middle[2];
       return x * x + y * y + z * z;
     }
+    /// Whether the outer ball holds all of a box.
+    [[nodiscard]] bool is_around(const PolygonBox& box) const {
+      double square = 0;
+      for (size_t k = 0; k < 3; ++k) {
+        const double away = std::max(box.hi[k] - middle[k], middle[k] - box.lo[k]);
+        square += away * away;
+      }
+      return square <= outer;
+    }
+    /// Whether no point of a box is in the outer ball.
+    [[nodiscard]] bool is_beside(const PolygonBox& box) const {
+      double square = 0;
+      for (size_t k = 0; k < 3; ++k) {
+        const double away = std::max({box.lo[k] - middle[k], middle[k] - box.hi[k], 0.0});
+        square += away * away;
+      }
+      return square > outer;
+    }
   };
   static constexpr uint32_t kNoBall = ~0u;
 
   std::vector<Ball> balls_;
   std::vector<uint32_t> ball_of_;  ///< per operand, or kNoBall
-  SquareBins bins_;                ///< of the inner balls
+  SquareBins within_;              ///< of the inner balls of use kWithin
+  std::vector<uint32_t> beyond_;   ///< the balls of use kBeyond
 };
 
 }  // namespace csgrun

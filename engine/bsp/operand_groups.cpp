@@ -93,15 +93,20 @@ bool can_be_grouped(const Expression& expression) {
   return !expression.nodes.empty() && groupable(expression, widest(expression)).size() >= kLeast;
 }
 
+Groupable most_groupable(const Expression& expression) {
+  const Expression::Node& wide = widest(expression);
+  const auto children = groupable(expression, wide);
+  // Few groups of few: either is crowded, if it is, with less.
+  constexpr size_t kMany = 16, kEach = 8;
+  return {wide.op == BooleanOp::kDifference ? BooleanOp::kUnion : wide.op, children,
+          children.size() > kMany ? kEach : (children.size() + 1) / 2};
+}
+
 Result<GroupedJob> evaluate_groups(const std::vector<Operand>& operands,
                                    const Expression& expression, std::span<const GridBox> boxes,
                                    const EvaluateGroup& evaluate) {
   const Expression::Node& wide = widest(expression);
-  const auto children = groupable(expression, wide);
-  const BooleanOp op = wide.op == BooleanOp::kDifference ? BooleanOp::kUnion : wide.op;
-  // Few groups of few: either is crowded, if it is, with less.
-  constexpr size_t kMany = 16, kEach = 8;
-  const size_t size = children.size() > kMany ? kEach : (children.size() + 1) / 2;
+  const auto [op, children, size] = most_groupable(expression);
   std::vector<Operand> results;
   std::vector<size_t> starts;
   for (size_t first = 0; first < children.size(); first += size) {

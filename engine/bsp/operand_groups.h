@@ -1,6 +1,6 @@
 // Operands of one operator evaluated in groups: where many of them overlap in planes, as the spokes
-// of a wheel do, each of their faces would be cut by all of them, and what a group leaves has one
-// face there.
+// of a wheel do, or go through one another, as balls about one centre do, each of their faces would
+// be cut by all of them. What a group leaves has one face there, or few.
 #pragma once
 
 #include <functional>
@@ -26,6 +26,15 @@ using EvaluateGroup = std::function<Result<std::shared_ptr<const BoundaryMesh>>(
 
 /// Whether an operator has so many operands that they can be grouped.
 bool can_be_grouped(const Expression& expression);
+
+/// The operands of one operator that may stand in groups.
+struct Groupable {
+  BooleanOp op;                        ///< of a group
+  std::span<const uint32_t> children;  ///< nodes of the expression
+  size_t size;                         ///< of each group; the last one may be smaller
+};
+/// Those of the operator that has most. REQUIRES: can_be_grouped.
+Groupable most_groupable(const Expression& expression);
 
 /// Evaluates groups of operands of the operator that has most, which stand in their order in it, so
 /// that where several have surface the same one gives it as in one job. `boxes`: around each

@@ -41,10 +41,13 @@ PatchLabels::PatchLabels(const Job& job, const Expression& expression,
       bins_(boxes_of_operands(job), most_squares(job.operand_count())) {}
 
 /// Whether they tell that nothing there is boundary, whatever else there is: part of the patch is
-/// inside of a remover, or hidden surface passes through it.
+/// inside of a remover or outside of a confiner, or hidden surface passes through it.
 bool PatchLabels::are_decisive(std::span<const CutLoops::Fact> facts) const {
+  const DeadSpace& dead = *plainly_.dead;
   for (size_t f = 0; f < facts.size(); ++f) {
-    if (facts[f].front && facts[f].back && plainly_.dead->is_remover(facts[f].operand)) return true;
+    const CutLoops::Fact& fact = facts[f];
+    if (fact.front && fact.back && dead.is_remover(fact.operand)) return true;
+    if (!fact.front && !fact.back && dead.is_confiner(fact.operand)) return true;
     if (f > 0 && facts[f - 1].operand == facts[f].operand) return true;
   }
   return false;
@@ -81,8 +84,10 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
     const OperandBalls::Side side = error < OperandBalls::kMostWrong
                                         ? plainly_.dead->balls().side(o, point)
                                         : OperandBalls::Side::kUnknown;
-    if (side == OperandBalls::Side::kInside) return PatchFate::kDrop;
     if (side == OperandBalls::Side::kUnknown) asked_.push_back(o);
+    if (side != OperandBalls::Side::kUnknown && note(o, side == OperandBalls::Side::kInside)) {
+      return PatchFate::kDrop;
+    }
   }
   bool is_unsure = false;
   for (const uint32_t o : asked_) {
@@ -92,15 +97,22 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
     }
     if (label == Inside::kUnknown) label = ray_label(job_, signs_, boxes_, o, point, error);
     is_unsure |= label == Inside::kUnknown;
-    if (label != Inside::kYes) continue;
-    if (plainly_.dead->is_remover(o)) return PatchFate::kDrop;
-    inside_.insert(inside_.end(), {2 * uint64_t{o}, 2 * uint64_t{o} + 1});
+    if (label != Inside::kUnknown && note(o, label == Inside::kYes)) return PatchFate::kDrop;
   }
   if (is_unsure) return PatchFate::kUnknown;
   std::sort(inside_.begin(), inside_.end());
   const auto [known, is_new] = known_.try_emplace({own, inside_}, PatchFate::kDrop);
   if (is_new) known->second = evaluate(own, known->first.second);
   return known->second;
+}
+
+/// Notes whether a point is inside of an operand, unless that tells already that nothing there is
+/// boundary: then it is true.
+bool PatchLabels::note(uint32_t operand, bool is_inside) {
+  const DeadSpace& dead = *plainly_.dead;
+  if (is_inside ? dead.is_remover(operand) : dead.is_confiner(operand)) return true;
+  if (is_inside) inside_.insert(inside_.end(), {2 * uint64_t{operand}, 2 * uint64_t{operand} + 1});
+  return false;
 }
 
 PatchFate PatchLabels::evaluate(uint32_t own, const Sides& inside) {

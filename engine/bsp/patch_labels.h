@@ -45,6 +45,7 @@ class PatchLabels {
   using Sides = std::vector<uint64_t>;
   PatchFate evaluate(uint32_t own, const Sides& inside);
   [[nodiscard]] bool are_decisive(std::span<const CutLoops::Fact> facts) const;
+  bool note(uint32_t operand, bool is_inside);
 
   const Job& job_;
   const PlainlyCovered& plainly_;

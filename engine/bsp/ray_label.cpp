@@ -12,12 +12,8 @@ namespace {
 
 using Position = std::array<double, 3>;
 
-/// Rays run along (1, y, z): aslant, as coordinates along axes are often equal.
-struct Direction {
-  double y, z;
-};
-constexpr Direction kDirections[] = {
-    {0.0142578125, 0.0081787109375}, {0.0313720703125, 0.0117}, {0.0057373046875, 0.0427}};
+constexpr RayDirection kDirections[] = {
+    RayBoxes::kFirst, {0.0313720703125, 0.0117}, {0.0057373046875, 0.0427}};
 
 /// Kept from one polygon to the next: most are small, and most rays meet few.
 struct Memory {
@@ -30,7 +26,7 @@ constexpr double kBoxLimit = PolygonBox::kLimit;  // boxes are clamped there
 
 class Ray {
  public:
-  Ray(VertexSigns& signs, const Position& from, double error, const Direction& direction,
+  Ray(VertexSigns& signs, const Position& from, double error, const RayDirection& direction,
       Memory& memory)
       : signs_(signs),
         from_(from),
@@ -152,7 +148,7 @@ class Ray {
   VertexSigns& signs_;
   const Position from_;
   const double error_;
-  const Direction direction_;
+  const RayDirection direction_;
   std::vector<double>& y_;
   std::vector<double>& z_;
 };
@@ -179,10 +175,13 @@ Inside ray_label(const Job& job, VertexSigns& signs, RayBoxes& boxes, uint32_t o
     if (std::fabs(c) >= kBoxLimit) return Inside::kUnknown;
   }
   const double operand_error = signs.error(operand);
+  // What bins leave out, meets() would say no to: it is more beside the ray than any corner is
+  // wrong by, as the ray sees it.
+  const bool may_use_bins = 4 * std::max(error, operand_error) + 1 <= RayBoxes::kMargin;
   thread_local Memory memory;
   std::vector<Position>& corners = memory.corners;
   std::vector<uint32_t>& ends = memory.ends;
-  for (const Direction& direction : kDirections) {
+  for (const RayDirection& direction : kDirections) {
     Ray ray(signs, point, error, direction, memory);
     bool inside = false, unsure = false;
     const auto look_at = [&](Inside met) {
@@ -209,18 +208,28 @@ Inside ray_label(const Job& job, VertexSigns& signs, RayBoxes& boxes, uint32_t o
           });
     } else {
       const uint32_t count = boxes.face_count(operand);
-      const std::span<const PolygonBox> runs = boxes.of(operand);
       const PolygonBox* const own =
           job.some_faces(operand) ? nullptr : job.boxes().data() + job.polygon_start(operand);
+      const auto look_at_face = [&](uint32_t f) {
+        if (own ? !ray.may_meet(own[f]) : !ray.may_meet(boxes.box(operand, f))) return;
+        corners.clear();
+        add_corners(job, operand, f, corners);
+        look_at(ray.meets(corners, operand_error));
+      };
+      if (may_use_bins && &direction == &kDirections[0]) {
+        if (const auto near = boxes.along_first(operand, point)) {
+          for (size_t i = 0; i < near->size() && !unsure; ++i) look_at_face((*near)[i]);
+          if (!unsure) return inside ? Inside::kYes : Inside::kNo;
+          continue;
+        }
+      }
+      const std::span<const PolygonBox> runs = boxes.of(operand);
       for (uint32_t f = 0; f < count && !unsure; ++f) {
         if (!runs.empty() && f % RayBoxes::kEach == 0 && !ray.may_meet(runs[f / RayBoxes::kEach])) {
           f += RayBoxes::kEach - 1;
           continue;
         }
-        if (own ? !ray.may_meet(own[f]) : !ray.may_meet(boxes.box(operand, f))) continue;
-        corners.clear();
-        add_corners(job, operand, f, corners);
-        look_at(ray.meets(corners, operand_error));
+        look_at_face(f);
       }
     }
     if (!unsure) return inside ? Inside::kYes : Inside::kNo;

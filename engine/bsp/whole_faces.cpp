@@ -11,6 +11,7 @@
 #include "engine/bsp/contact_table.h"
 #include "engine/bsp/covered_polygons.h"
 #include "engine/bsp/cut_faces.h"
+#include "engine/bsp/group_cover.h"
 #include "engine/bsp/patch_fates.h"
 #include "engine/bsp/point_index.h"
 #include "engine/bsp/rim_faces.h"
@@ -24,6 +25,10 @@ namespace {
 /// With so many plain contacts a polygon, cells that prune the expression are less work than
 /// arrangements of all that meets a polygon, much of it inside what another one removes.
 constexpr size_t kDense = 64;
+
+/// With so many, groups of operands are less work, if within them so much is dropped.
+constexpr size_t kDenseForGroups = 16;
+constexpr double kDroppedInGroups = 0.5;
 
 /// The loops of so many cut faces are looked at by one thread.
 constexpr size_t kFacesPerPart = 2048;
@@ -46,7 +51,12 @@ class FaceEvaluator {
     contacts_ =
         ContactTable(find_contacts(job_, plainly_, options_, stats_), job_.polygons().size());
     if (is_cancelled()) return cancelled();
-    if (is_dense()) {
+    if (options_.stop_when_crowded && has_plain_contacts(kDenseForGroups) &&
+        cover_in_groups(job_, expression_) >= kDroppedInGroups) {
+      result_.is_crowded = true;
+      return std::move(result_);
+    }
+    if (has_plain_contacts(kDense)) {
       result_.general.assign(job_.polygons().size(), 1);
       result_.any_general = true;
       return std::move(result_);
@@ -78,12 +88,12 @@ class FaceEvaluator {
   }
   static Error cancelled() { return {ErrorCode::kCancelled, "the evaluation was cancelled", {}}; }
 
-  /// Faces that touch count for less: those of parts that fit one another have many contacts in few
-  /// places.
-  [[nodiscard]] bool is_dense() const {
+  /// Whether there are more than so many for each polygon. Faces that touch count for less: those
+  /// of parts that fit one another have many contacts in few places.
+  [[nodiscard]] bool has_plain_contacts(size_t each) const {
     const auto plain = std::count_if(contacts_.all().begin(), contacts_.all().end(),
                                      [](const Contact& c) { return c.is_plain; });
-    return static_cast<size_t>(plain) > kDense * (job_.polygons().size() + job_.far_face_count());
+    return static_cast<size_t>(plain) > each * (job_.polygons().size() + job_.far_face_count());
   }
 
   /// Leaves a polygon to the general way.

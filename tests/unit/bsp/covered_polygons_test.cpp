@@ -39,9 +39,28 @@ bool is_beside(const Job& job, uint32_t p, const PolygonBox& box) {
   return beside;
 }
 
+/// Whether a triangle is outside of an octahedron, as points all over it are.
+bool is_outside(const IVec3& middle, int64_t radius, const Job& job, const JobPolygon& triangle) {
+  const auto corners = job.corners(triangle);
+  constexpr int kParts = 16;
+  bool outside = true;
+  for (int i = 0; i <= kParts; ++i) {
+    for (int j = 0; i + j <= kParts; ++j) {
+      std::array<double, 3> p{};
+      for (size_t k = 0; k < 3; ++k) {
+        p[k] = (i * job.rounded(corners[0])[k] + j * job.rounded(corners[1])[k] +
+                (kParts - i - j) * job.rounded(corners[2])[k]) /
+               kParts;
+      }
+      outside &= !is_inside(middle, radius, p);
+    }
+  }
+  return outside;
+}
+
 TEST(CoveredPolygons, AreInsideOfAnotherOrBesideTheFirst) {
   test::Random random(951);
-  size_t covered = 0, left = 0;
+  size_t covered = 0, left = 0, by_outside = 0;
   for (int round = 0; round < 60; ++round) {
     const BooleanOp op = round % 2 == 0 ? BooleanOp::kUnion : BooleanOp::kDifference;
     std::vector<Operand> operands;
@@ -69,11 +88,15 @@ TEST(CoveredPolygons, AreInsideOfAnotherOrBesideTheFirst) {
               return is_inside(made[o].first, made[o].second, job.rounded(v));
             });
       }
-      const bool is_outside = op == BooleanOp::kDifference && polygon.operand > 0 &&
-                              is_beside(job, p, job.operand_box(0));
-      ASSERT_TRUE(is_in_one || is_outside) << "round " << round;
+      const bool is_beside_first = op == BooleanOp::kDifference && polygon.operand > 0 &&
+                                   is_beside(job, p, job.operand_box(0));
+      const bool is_outside_first = op == BooleanOp::kDifference && polygon.operand > 0 &&
+                                    is_outside(made[0].first, made[0].second, job, polygon);
+      ASSERT_TRUE(is_in_one || is_beside_first || is_outside_first) << "round " << round;
+      by_outside += !is_in_one && !is_beside_first ? 1 : 0;
     }
   }
+  EXPECT_GT(by_outside, 30u);
   EXPECT_GT(covered, 300u);
   EXPECT_GT(left, 300u);
 }
@@ -224,6 +247,27 @@ std::vector<uint32_t> removers(const std::vector<Operand>& operands, const Expre
   return found;
 }
 
+/// Convex operands outside of which the root is empty.
+std::vector<uint32_t> confiners(const std::vector<Operand>& operands,
+                                const Expression& expression) {
+  std::vector<std::set<uint32_t>> of_node;
+  for (const Expression::Node& node : expression.nodes) {
+    std::set<uint32_t>& empty = of_node.emplace_back();
+    if (node.is_operand) empty = {node.operand};
+    for (uint32_t c = 0; c < node.child_count; ++c) {
+      const auto child = of_node[expression.children[node.first_child + c]];
+      if (node.op == BooleanOp::kIntersection || (node.op == BooleanOp::kDifference && c == 0)) {
+        empty.insert(child.begin(), child.end());
+      }
+    }
+  }
+  std::vector<uint32_t> found;
+  for (const uint32_t o : of_node.back()) {
+    if (operands[o].leaf->convex) found.push_back(o);
+  }
+  return found;
+}
+
 Plane plane_of(const test::Loop& loop) {
   return support_of_loop(static_cast<uint32_t>(loop.size()),
                          [&](uint32_t i) { return loop[i % loop.size()]; });
@@ -237,14 +281,16 @@ std::vector<PolygonBox> boxes_of(const Job& job) {
   return boxes;
 }
 
-/// How far the corner of a polygon that is farthest from the middle of an operand's box is from
-/// there, less the radius of the ball around it in all planes; a step is left.
-double beyond_ball(const Job& job, uint32_t o, const Operand& operand, const JobPolygon& polygon) {
+std::array<double, 3> middle_of(const PolygonBox& box) {
   std::array<double, 3> middle{};
-  for (size_t k = 0; k < 3; ++k) {
-    middle[k] = (job.operand_box(o).lo[k] + job.operand_box(o).hi[k]) / 2.0;
-  }
-  double radius = HUGE_VAL, farthest = 0;
+  for (size_t k = 0; k < 3; ++k) middle[k] = (box.lo[k] + box.hi[k]) / 2.0;
+  return middle;
+}
+
+/// The radius of the ball around the middle of an operand's box in all planes; a step is left.
+double inner_radius(const Job& job, uint32_t o, const Operand& operand) {
+  const auto middle = middle_of(job.operand_box(o));
+  double radius = HUGE_VAL;
   for (const test::Loop& loop : test::loops_of(*operand.leaf)) {
     const Plane p = plane_of(loop);
     const std::array<double, 3> n{static_cast<double>(p.a), static_cast<double>(p.b),
@@ -255,22 +301,57 @@ double beyond_ball(const Job& job, uint32_t o, const Operand& operand, const Job
     }
     radius = std::min(radius, -above / length(n));
   }
+  return std::max(radius - 1, 0.0);
+}
+
+/// How far a polygon's box is beyond the ball that has all corners of an operand in it, a step
+/// away, from its middle; nothing if that ball has all of its box in it, or there is none inside.
+double beside_ball(const Job& job, uint32_t o, const Operand& operand, const PolygonBox& box) {
+  const PolygonBox& own = job.operand_box(o);
+  const auto middle = middle_of(own);
+  double radius = 0;
+  for (const IVec3& v : operand.leaf->vertices) {
+    std::array<double, 3> away{};
+    for (size_t k = 0; k < 3; ++k) {
+      away[k] = static_cast<double>(v[k] + operand.translation[k]) - middle[k];
+    }
+    radius = std::max(radius, length(away));
+  }
+  const double to_corner =
+      length({own.hi[0] - middle[0], own.hi[1] - middle[1], own.hi[2] - middle[2]});
+  if (to_corner <= radius + 1 || inner_radius(job, o, operand) <= 0) return -1;
+  std::array<double, 3> away{};
+  for (size_t k = 0; k < 3; ++k) {
+    const double nearest = std::clamp(middle[k], double(box.lo[k]), double(box.hi[k]));
+    away[k] = nearest - middle[k];
+  }
+  return length(away) - radius - 1;
+}
+
+/// How far the corner of a polygon that is farthest from the middle of an operand's box is from
+/// there, less the radius of the ball in it.
+double beyond_ball(const Job& job, uint32_t o, const Operand& operand, const JobPolygon& polygon) {
+  const auto middle = middle_of(job.operand_box(o));
+  double farthest = 0;
   for (const uint32_t v : job.corners(polygon)) {
     const auto& p = job.rounded(v);
     farthest = std::max(farthest, length({p[0] - middle[0], p[1] - middle[1], p[2] - middle[2]}));
   }
-  return farthest - std::max(radius - 1, 0.0);
+  return farthest - inner_radius(job, o, operand);
 }
 
 TEST(CoveredPolygons, AreThoseInBallsAndBesideBoxes) {
   test::Random random(952);
-  size_t in_balls = 0, beside = 0, left = 0, seen_only = 0;
-  for (int round = 0; round < 300; ++round) {
+  size_t in_balls = 0, outside = 0, beside = 0, left = 0, seen_only = 0;
+  for (int round = 0; round < 900; ++round) {
     std::vector<Operand> operands;
     const auto count = static_cast<uint32_t>(random.integer(2, 9));
     for (uint32_t o = 0; o < count; ++o) {
       operands.push_back(random_convex(random, o % 2 == 0 ? 90 : 6));
       operands.back().translation = random_point(random, round % 3 * 6);
+      if (random.integer(0, 3) == 0) {
+        operands.back() = octahedron(random_point(random, 20), random.integer(5, 60));
+      }
       if (random.integer(0, 5) == 0) operands.back() = test::operand_of(test::random_leaf(random));
       if (random.integer(0, 9) == 0) {  // a turn that changes no number, which nobody knows
         operands.back().frame.is_identity = false;
@@ -306,6 +387,13 @@ TEST(CoveredPolygons, AreThoseInBallsAndBesideBoxes) {
           in_balls += !expected && beyond < 0;
           is_held |= beyond < 0;
         }
+        for (const uint32_t r : confiners(operands, expression)) {
+          if (count < 3 || !job.has_grid_vertices(r)) continue;
+          const double beyond = beside_ball(job, r, operands[r], job.boxes()[p]);
+          is_close |= std::fabs(beyond) < 1e-6;
+          outside += !expected && !is_held && beyond > 0;
+          is_held |= beyond > 0;
+        }
         expected |= is_held;
         const bool is_hidden = is_held && may_hide;
         seen_only += is_held && !may_hide;
@@ -330,6 +418,7 @@ TEST(CoveredPolygons, AreThoseInBallsAndBesideBoxes) {
     }
   }
   EXPECT_GT(in_balls, 200u);
+  EXPECT_GT(outside, 20u);
   EXPECT_GT(beside, 1000u);
   EXPECT_GT(seen_only, 10u);
   EXPECT_GT(left, 1000u);

@@ -1,5 +1,6 @@
-// Polygons inside of what is added or taken away are held against nothing, so that the outlines of
-// what meets their neighbours have ends. The result is that of cells, which know nothing of it.
+// Polygons inside of what is added or taken away, or outside of what all is cut with, are held
+// against nothing, so that the outlines of what meets their neighbours have ends. The result is
+// that of cells, which know nothing of it.
 #include <gtest/gtest.h>
 
 #include "engine/bsp/covered_polygons.h"
@@ -21,10 +22,11 @@ using test::octahedron;
 /// What the operands of a cluster look like.
 struct Cluster {
   uint64_t seed;
-  int64_t reach;   ///< of the middles
-  int64_t radius;  ///< of the largest
-  bool is_round;   ///< hulls of points all around, instead of bodies with few directions
-  bool others;     ///< some operands are not convex, or turned
+  int64_t reach;           ///< of the middles
+  int64_t radius;          ///< of the largest
+  bool is_round;           ///< hulls of points all around, instead of bodies with few directions
+  bool others;             ///< some operands are not convex, or turned
+  bool is_common = false;  ///< what all have in common, instead of unions and differences
 };
 
 IVec3 random_point(test::Random& random, int64_t reach) {
@@ -92,7 +94,7 @@ test::RandomTree make(test::Random& random, const Cluster& cluster) {
   const auto op = static_cast<BooleanOp>(random.integer(0, 5) == 0 ? 3
                                          : random.integer(0, 1)    ? 0
                                                                    : 2);
-  tree.expression = test::flat_expression(op, count);
+  tree.expression = test::flat_expression(cluster.is_common ? BooleanOp::kIntersection : op, count);
   if (random.integer(0, 3) == 0) {  // one of the bodies is met with another one before
     Expression& e = tree.expression;
     const auto last = static_cast<uint32_t>(e.nodes.size() - 1);
@@ -176,7 +178,10 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Cluster{961, 8, 14, false, false}, Cluster{962, 12, 12, false, true},
                       Cluster{963, 40, 60, true, false}, Cluster{964, 3000, 5000, true, false},
                       Cluster{965, 3000, 4000, true, true}, Cluster{966, 5, 9, true, true},
-                      Cluster{967, 20, 60, false, false}),
+                      Cluster{967, 20, 60, false, false}, Cluster{968, 20, 60, true, false, true},
+                      Cluster{969, 1000, 4000, true, false, true},
+                      Cluster{970, 1000, 4000, true, true, true},
+                      Cluster{971, 30, 60, false, true, true}),
     [](const auto& test) { return "Seed" + std::to_string(test.param.seed); });
 
 }  // namespace

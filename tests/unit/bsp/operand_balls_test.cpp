@@ -71,7 +71,7 @@ TEST(OperandBalls, TellOfPointsWhatIsSo) {
     const int64_t reach = round % 2 == 0 ? 12 : 3000;
     const std::vector<Operand> operands{random_body(random, reach), random_body(random, reach)};
     const std::vector<PolygonBox> boxes{box_of(operands[0]), box_of(operands[1])};
-    const OperandBalls balls(operands, boxes, {1, 1});
+    const OperandBalls balls(operands, boxes, {OperandBalls::kWithin, OperandBalls::kBeyond});
     ConvexSides sides;
     for (uint32_t o = 0; o < 2; ++o) {
       const test::Oracle oracle(test::exact_solid(operands[o]));
@@ -120,6 +120,51 @@ TEST(OperandBalls, TellOfPointsWhatIsSo) {
   }
 }
 
+// Boxes that are said to be outside of a body are, with all points that are half a step beside
+// them; some are in the body's box, too. Nothing is said by those of other use.
+TEST(OperandBalls, LeaveOutBoxesThatAreBesideThem) {
+  test::Random random(972);
+  size_t left_out = 0, in_box = 0;
+  for (int round = 0; round < 400; ++round) {
+    const int64_t reach = round % 2 == 0 ? 12 : 3000;
+    const Operand operand =
+        round % 3 == 0 ? test::octahedron({7, reach, -9}, reach) : random_body(random, reach);
+    const PolygonBox around = box_of(operand);
+    const OperandBalls beyond({operand}, {around}, {OperandBalls::kBeyond});
+    const OperandBalls within({operand}, {around}, {OperandBalls::kWithin});
+    const test::Oracle oracle(test::exact_solid(operand));
+    for (int i = 0; i < 40; ++i) {
+      PolygonBox box{};
+      for (size_t k = 0; k < 3; ++k) {
+        const int32_t size = (around.hi[k] - around.lo[k]) / 8;
+        // Near a corner of the body's box, where balls tell more than that.
+        const int32_t end = random.integer(0, 1) == 0 ? around.lo[k] : around.hi[k] - size;
+        box.lo[k] = end + static_cast<int32_t>(random.integer(-size / 2 - 1, size / 2 + 1));
+        box.hi[k] = box.lo[k] + static_cast<int32_t>(random.integer(0, size));
+      }
+      ASSERT_FALSE(within.leave_out(box));
+      const std::array<double, 3> corner{double(box.lo[0]), double(box.lo[1]), double(box.lo[2])};
+      ASSERT_FALSE(beyond.hold(
+          1, [&](uint32_t) -> const auto& { return corner; }));
+      if (!beyond.leave_out(box)) continue;
+      ++left_out;
+      in_box += around.holds(box) ? 1 : 0;
+      for (int n = 0; n < 8; ++n) {
+        Query at{};
+        for (size_t k = 0; k < 3; ++k) {
+          at[k] = n < 4 ? static_cast<double>(random.integer(0, 1) == 0 ? box.lo[k] : box.hi[k])
+                        : static_cast<double>(random.integer(box.lo[k], box.hi[k]));
+          at[k] += static_cast<double>(random.integer(-63, 63)) / 128;
+        }
+        const auto winding = oracle.winding(at);
+        ASSERT_TRUE(winding && *winding == 0) << round << ' ' << i;
+      }
+    }
+  }
+  EXPECT_GT(left_out, 1000u);
+  EXPECT_GT(in_box, 100u);
+}
+
 // Only leaves on the grid that were chosen have one, and not those of which too little is left, or
 // that the middle of their box does not see from within.
 TEST(OperandBalls, AreOfChosenOnes) {
@@ -133,7 +178,7 @@ TEST(OperandBalls, AreOfChosenOnes) {
   operands[2].frame.is_identity = false;
   std::vector<PolygonBox> boxes;
   for (const Operand& operand : operands) boxes.push_back(box_of(operand));
-  std::vector<uint8_t> chosen(operands.size(), 1);
+  std::vector<uint8_t> chosen(operands.size(), OperandBalls::kWithin);
   chosen[1] = 0;
   const OperandBalls balls(operands, boxes, chosen);
   EXPECT_FALSE(balls.empty());

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/group_cover.h"
 #include "engine/bsp/kernel.h"
 #include "tests/support/boundary_compare.h"
 #include "tests/support/convex_operand.h"
@@ -73,6 +74,78 @@ TEST(OperandGroups, SpokesAreEvaluatedInGroups) {
       EXPECT_LT(8 * grouped_signs, whole_signs);
     }
   }
+}
+
+/// The hull of points that are spread evenly over a ball around the origin, turned at random.
+Operand ball(test::Random& random, double radius, int corners) {
+  const double first = 7 * random.unit(), second = 7 * random.unit();
+  std::vector<IVec3> points;
+  for (int i = 0; i < corners; ++i) {
+    const double z = (2 * i + 1.) / corners - 1, around = std::sqrt(1 - z * z);
+    const double x = around * std::cos(2.39996 * i + first);
+    const double y = around * std::sin(2.39996 * i + first);
+    const double c = std::cos(second), s = std::sin(second);
+    points.push_back({std::llround(radius * x), std::llround(radius * (c * y - s * z)),
+                      std::llround(radius * (s * y + c * z))});
+  }
+  return convex_operand(test::hull_loops(points));
+}
+
+// Thin shells that all go through one another.
+TEST(OperandGroups, BallsAboutOneCentreAreEvaluatedInGroups) {
+  test::Random random(981);
+  std::vector<Operand> operands;
+  for (uint32_t o = 0; o < 13; ++o) {
+    operands.push_back(ball(random, 20'000, 80));
+    operands.back().first_source = o;
+  }
+  for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kDifference, BooleanOp::kIntersection}) {
+    operands[0] = op == BooleanOp::kDifference ? spoke(0.3, 30'000, 30'000, -30'000, 19'000)
+                                               : ball(random, 20'000, 80);
+    const Expression expression = test::flat_expression(op, static_cast<uint32_t>(operands.size()));
+    EXPECT_GT(cover_in_groups(Job(operands), expression), 0.5);
+    uint64_t grouped_signs = 0, whole_signs = 0;
+    const auto grouped = evaluate(operands, expression, true, grouped_signs);
+    const auto whole = evaluate(operands, expression, false, whole_signs);
+    ASSERT_TRUE(grouped && whole);
+    EXPECT_EQ(test::first_difference(**grouped, **whole), "");
+    EXPECT_GT((*whole)->faces.size(), 100u);
+    EXPECT_NE(grouped_signs, whole_signs) << "it was done in one job";
+  }
+}
+
+// Of boxes within boxes all but the largest of each group are inside of it, all but the smallest
+// have outside of themselves what all have in common.
+TEST(OperandGroups, CoverIsWhatIsDroppedWithinAGroup) {
+  std::vector<Operand> nested, beside;
+  for (int64_t o = 0; o < 16; ++o) {
+    const int64_t half = 100 + (o * 5) % 16;  // in no order
+    nested.push_back(convex_operand(test::box_loops({-half, -half, -half}, {half, half, half})));
+    beside.push_back(convex_operand(test::box_loops({9 * o, 0, 0}, {9 * o + 7, 7, 7})));
+  }
+  const auto of = [](BooleanOp op) { return test::flat_expression(op, 16); };
+  const Job in(nested), out(beside);
+  EXPECT_EQ(cover_in_groups(in, of(BooleanOp::kUnion)), 14. / 16);  // in halves
+  EXPECT_EQ(cover_in_groups(in, of(BooleanOp::kIntersection)), 14. / 16);
+  EXPECT_EQ(cover_in_groups(out, of(BooleanOp::kUnion)), 0);
+  EXPECT_EQ(cover_in_groups(out, of(BooleanOp::kIntersection)), 1);
+  EXPECT_EQ(cover_in_groups(in, of(BooleanOp::kSymmetricDifference)), 0);
+  EXPECT_EQ(cover_in_groups(in, Expression()), 0);
+  // Of 15 that are taken away two groups of eight and seven.
+  EXPECT_GT(cover_in_groups(in, of(BooleanOp::kDifference)), 0.8);
+  // An operator among the operands.
+  Expression with_operator = of(BooleanOp::kUnion);
+  Expression::Node pair;
+  pair.is_operand = false;
+  pair.op = BooleanOp::kIntersection;
+  pair.first_child = static_cast<uint32_t>(with_operator.children.size());
+  pair.child_count = 2;
+  with_operator.children.insert(with_operator.children.end(), {0, 1});
+  const Expression::Node root = with_operator.nodes.back();
+  with_operator.nodes.back() = pair;
+  with_operator.nodes.push_back(root);
+  with_operator.children[root.first_child] = static_cast<uint32_t>(with_operator.nodes.size() - 2);
+  EXPECT_EQ(cover_in_groups(in, with_operator), 0);
 }
 
 TEST(OperandGroups, FewOperandsAreNot) {

@@ -197,9 +197,11 @@ TEST(PatchLabels, OfOpenOperandsOnlyWhatDecidesIsReliedOn) {
   EXPECT_EQ(labels.fate(1, within, 0.75, {}, false), PatchFate::kDrop);
   // Its hidden surface passes through the patch.
   EXPECT_EQ(fate(beside, {{2, false, false}, {2, true, true}}), PatchFate::kDrop);
-  // The block is open: outside of it nothing is left, and outside is not relied on.
+  // The block is open: outside of it nothing is left, wherever that is.
   plainly.is_open[0] = 1;
-  EXPECT_EQ(fate(beside, {{0, false, false}}), PatchFate::kFlip);
+  for (uint32_t o = 0; o < 4; ++o) ASSERT_EQ(plainly.dead->is_confiner(o), o == 0);
+  EXPECT_EQ(fate(beside, {{0, false, false}}), PatchFate::kDrop);
+  EXPECT_EQ(fate(beside, {{0, true, true}}), PatchFate::kFlip);
   EXPECT_EQ(fate(beside, {{0, false, false, false}}, true), PatchFate::kDrop);
   EXPECT_EQ(fate(beside, {{0, false, false}, {0, true, true}}), PatchFate::kDrop);
 }

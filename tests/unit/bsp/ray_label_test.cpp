@@ -64,6 +64,49 @@ TEST(RayLabel, IsTheWindingNumber) {
   EXPECT_GT(outside, 500);
 }
 
+// Of an operand that many rays are sent through, bins are asked, and say the same.
+TEST(RayLabel, OfManyRaysIsTheSame) {
+  test::Random random(507);
+  int told[2] = {}, binned = 0;
+  for (int i = 0; i < 12; ++i) {
+    // Bodies beside one another, on a small grid and a large one, some of them long.
+    const int64_t step = i % 2 == 0 ? 12 : 3000, along = i % 3 == 0 ? 40 : 1;
+    std::vector<test::Loop> loops;
+    for (int64_t n = 0; n < 27; ++n) {
+      std::vector<IVec3> points(8);
+      for (IVec3& p : points) {
+        p = {step * (n % 3), step * (n / 3 % 3), step * (n / 9)};
+        for (int64_t& c : p) c += random.integer(0, step - 1);
+        p[0] *= along;
+      }
+      for (test::Loop& loop : test::hull_loops(points)) loops.push_back(std::move(loop));
+    }
+    Operands many(loops);
+    ASSERT_GT(many.boxes.face_count(0), 2 * RayBoxes::kEach);
+    for (int k = 0; k < 600; ++k) {
+      Query at;
+      for (double& c : at) {
+        c = static_cast<double>(random.integer(-step, 16 * step)) / 4 + 1. / 64;
+      }
+      at[0] *= static_cast<double>(along);
+      const double error = k % 3 == 0 ? 0.875 : 0;
+      RayBoxes few(many.job);
+      const Inside expected = ray_label(many.job, many.signs, few, 0, at, error);
+      ASSERT_EQ(ray_label(many.job, many.signs, many.boxes, 0, at, error), expected) << i << k;
+      const auto near = many.boxes.along_first(0, at);
+      ASSERT_EQ(near.has_value(), k >= 127) << "two rays each are counted here";
+      binned += near && near->size() < many.boxes.face_count(0) / 2 ? 1 : 0;
+      const auto truth = many.oracle.winding(at);
+      if (!truth || error > 0 || expected == Inside::kUnknown) continue;
+      ASSERT_EQ(expected == Inside::kYes, *truth == 1) << i << ' ' << k;
+      ++told[*truth];
+    }
+  }
+  EXPECT_GT(told[0], 500);
+  EXPECT_GT(told[1], 100);
+  EXPECT_GT(binned, 3000);
+}
+
 // A ray that passes through a corner says nothing; the next one does.
 TEST(RayLabel, OfPointsWhoseRayPassesThroughACorner) {
   test::Random random(502);
