@@ -137,12 +137,13 @@ class Ray {
   static double turn_bound(double e, double most) { return 5 * e * most + 2 * e * e; }
 
   int side_of_start(std::span<const Position> c, double error) {
-    // Corners may stand in line: any three that turn will do.
-    for (size_t i = 1; i + 1 < c.size(); ++i) {
+    // Corners may stand in line, or so nearly that doubles do not tell: any three that turn will do.
+    int side = 0;
+    for (size_t i = 1; i + 1 < c.size() && (side == 0 || side == kUnsure); ++i) {
       const int s = signs_.orient(c[0], c[i], c[i + 1], from_, error);
-      if (s != 0) return s;
+      if (s != 0) side = s;
     }
-    return 0;
+    return side;
   }
 
   VertexSigns& signs_;

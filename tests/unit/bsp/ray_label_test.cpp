@@ -64,6 +64,33 @@ TEST(RayLabel, IsTheWindingNumber) {
   EXPECT_GT(outside, 500);
 }
 
+// Three corners that hardly turn do not hide what others tell.
+TEST(RayLabel, OfFacesWithShortEdges) {
+  constexpr int64_t kFar = 100'000;
+  std::vector<IVec3> points;
+  for (const int64_t x : {int64_t{0}, kFar}) {
+    // The lowest corner, where loops begin, has a short edge on either side.
+    for (const auto& [y, z] : {std::pair<int64_t, int64_t>{0, 0},
+                               {1, 0},
+                               {kFar, 10},
+                               {kFar, kFar},
+                               {10, kFar},
+                               {0, 1}}) {
+      points.push_back({x, y, z});
+    }
+  }
+  Operands prism(test::hull_loops(points));
+  test::Random random(511);
+  for (int i = 0; i < 200; ++i) {
+    Query at;
+    for (double& c : at) c = static_cast<double>(random.integer(kFar / 4, kFar / 2)) + 1. / 64;
+    for (const bool is_inside : {true, false}) {
+      at[0] = is_inside ? at[0] : -at[0];
+      ASSERT_EQ(prism.label(at, 0.001), is_inside ? 1 : 0) << i;
+    }
+  }
+}
+
 // Of an operand that many rays are sent through, bins are asked, and say the same.
 TEST(RayLabel, OfManyRaysIsTheSame) {
   test::Random random(507);
