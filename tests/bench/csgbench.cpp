@@ -171,6 +171,10 @@ constexpr const char* kUsage =
     "  grid N               union of N x N cylinders\n"
     "  cubegrid N           N^3 touching unit cubes, one after another\n"
     "  dome N               a sphere minus N small ones on it, one after another\n"
+    "  shells N             union of N spheres about one centre, each turned\n"
+    "  common N             what these have in common\n"
+    "  rods N               union of N long rods that go through one another\n"
+    "  plates N             union of N plates that overlap in one plane\n"
     "  boxes                two boxes, repeated\n"
     "  ulp FILE             less a copy shifted by one float32 unit in the last place\n"
     "  roundtrip FILE       through planes and BSPs, and back to the same vertices\n"
@@ -217,6 +221,14 @@ void run_once(const std::vector<std::string>& words, const Settings& settings) {
     run_chain(name, settings, cube_grid(number(1)), BooleanOp::kUnion);
   } else if (workload == "dome" && words.size() == 2) {
     run_chain(name, settings, joined(dome(), dome_spheres(number(1))), BooleanOp::kDifference);
+  } else if (workload == "shells" && words.size() == 2) {
+    run_nary(name, settings, shells(number(1)), BooleanOp::kUnion, false);
+  } else if (workload == "common" && words.size() == 2) {
+    run_nary(name, settings, shells(number(1)), BooleanOp::kIntersection, false);
+  } else if (workload == "rods" && words.size() == 2) {
+    run_nary(name, settings, rods(number(1)), BooleanOp::kUnion, false);
+  } else if (workload == "plates" && words.size() == 2) {
+    run_nary(name, settings, plates(number(1)), BooleanOp::kUnion, false);
   } else if (workload == "boxes" && words.size() == 1) {
     run_boxes(name, settings);
   } else if (workload == "ulp" && words.size() == 2) {

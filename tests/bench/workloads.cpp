@@ -69,6 +69,33 @@ void add_bars(std::vector<RawMesh>& bars, int axis, double side, double a, doubl
   }
 }
 
+/// Rows of a rotation matrix, drawn uniformly from all: a unit quaternion of uniform direction
+/// (Shoemake, Graphics Gems III, 1992).
+std::array<glm::dvec3, 3> draw_rotation(Generator& random) {
+  const double u = random.next(), v = 2 * M_PI * random.next(), w = 2 * M_PI * random.next();
+  const double a = std::sqrt(1 - u), b = std::sqrt(u);
+  const double x = a * std::sin(v), y = a * std::cos(v), z = b * std::sin(w), s = b * std::cos(w);
+  return {{{1 - 2 * (y * y + z * z), 2 * (x * y - s * z), 2 * (x * z + s * y)},
+           {2 * (x * y + s * z), 1 - 2 * (x * x + z * z), 2 * (y * z - s * x)},
+           {2 * (x * z - s * y), 2 * (y * z + s * x), 1 - 2 * (x * x + y * y)}}};
+}
+
+glm::dvec3 turned(const std::array<glm::dvec3, 3>& rows, const glm::dvec3& p) {
+  glm::dvec3 q;
+  for (int k = 0; k < 3; ++k) q[k] = rows[k].x * p.x + rows[k].y * p.y + rows[k].z * p.z;
+  return q;
+}
+
+RawMesh turned_at_random(const RawMesh& mesh, Generator& random) {
+  const auto rows = draw_rotation(random);
+  RawMesh r = mesh;
+  for (size_t i = 0; i < r.points.size(); i += 3) {
+    const glm::dvec3 q = turned(rows, {mesh.points[i], mesh.points[i + 1], mesh.points[i + 2]});
+    for (int k = 0; k < 3; ++k) r.points[i + k] = q[k];
+  }
+  return r;
+}
+
 }  // namespace
 
 PolygonMesh polygon_mesh(const RawMesh& raw, bool keep_facets) {
@@ -239,6 +266,38 @@ std::vector<RawMesh> cube_grid(int n) {
   return all;
 }
 
+std::vector<RawMesh> shells(int n) {
+  const RawMesh sphere = octahedron_sphere(10, 40);
+  Generator random(12345);
+  std::vector<RawMesh> all;
+  for (int i = 0; i < n; ++i) all.push_back(turned_at_random(sphere, random));
+  return all;
+}
+
+std::vector<RawMesh> rods(int n) {
+  const RawMesh rod = box(-100, -1, -1, 100, 1, 1);
+  Generator random(12345);
+  std::vector<RawMesh> all;
+  for (int i = 0; i < n; ++i) {
+    const RawMesh turned = turned_at_random(rod, random);
+    const double x = 50 * random.next(), y = 50 * random.next(), z = 50 * random.next();
+    all.push_back(moved(turned, x, y, z));
+  }
+  return all;
+}
+
+std::vector<RawMesh> plates(int n) {
+  const RawMesh plate = box(0, 0, 0, 14, 13, 5);
+  Generator random(12345);
+  std::vector<RawMesh> all;
+  for (int i = 0; i < n; ++i) {
+    const RawMesh turned = rotated_z(plate, 360 * random.next());
+    const double x = 300 * random.next(), y = 300 * random.next();
+    all.push_back(moved(turned, x, y, 0));
+  }
+  return all;
+}
+
 void scale_to_box(PolygonMesh& mesh) {
   glm::dvec3 lo(HUGE_VAL), hi(-HUGE_VAL);
   for (const glm::dvec3& p : mesh.points) {
@@ -254,17 +313,8 @@ void scale_to_box(PolygonMesh& mesh) {
 
 void rotate_at_random(PolygonMesh& mesh, uint64_t seed) {
   Generator random(seed);
-  // A unit quaternion of uniform direction (Shoemake, Graphics Gems III, 1992).
-  const double u = random.next(), v = 2 * M_PI * random.next(), w = 2 * M_PI * random.next();
-  const double a = std::sqrt(1 - u), b = std::sqrt(u);
-  const double x = a * std::sin(v), y = a * std::cos(v), z = b * std::sin(w), s = b * std::cos(w);
-  const glm::dvec3 rows[3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - s * z), 2 * (x * z + s * y)},
-                              {2 * (x * y + s * z), 1 - 2 * (x * x + z * z), 2 * (y * z - s * x)},
-                              {2 * (x * z - s * y), 2 * (y * z + s * x), 1 - 2 * (x * x + y * y)}};
-  for (glm::dvec3& p : mesh.points) {
-    const glm::dvec3 q = p;
-    for (int k = 0; k < 3; ++k) p[k] = rows[k].x * q.x + rows[k].y * q.y + rows[k].z * q.z;
-  }
+  const auto rows = draw_rotation(random);
+  for (glm::dvec3& p : mesh.points) p = turned(rows, p);
 }
 
 }  // namespace csgrun::bench

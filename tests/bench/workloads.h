@@ -48,6 +48,14 @@ RawMesh menger_cube(int k);
 std::vector<RawMesh> cylinder_grid(int n);
 /// n^3 touching unit cubes in raster order, x running fastest.
 std::vector<RawMesh> cube_grid(int n);
+/// Operands that go through one another, each turned by a rotation drawn uniformly from all: n
+/// spheres of radius 10 (800 triangles) about one centre.
+std::vector<RawMesh> shells(int n);
+/// n rods of 200 x 2 x 2 whose middles lie in a cube of side 50.
+std::vector<RawMesh> rods(int n);
+/// n plates of 14 x 13 x 5 that stand on z = 0, at random places of a square of side 300, each
+/// turned about z.
+std::vector<RawMesh> plates(int n);
 
 /// Moves the middle of the bounding box to the origin, and scales its longest side to 100.
 void scale_to_box(PolygonMesh& mesh);

@@ -49,6 +49,10 @@ WORKLOADS = {
     "grid 40": Workload(("grid", "40"), "union", "once"),
     "cubegrid 10": Workload(("cubegrid", "10"), "union", "each"),
     "dome 300": Workload(("dome", "300"), "difference", "each"),
+    "shells 12": Workload(("shells", "12"), "union", "once"),
+    "common 12": Workload(("common", "12"), "intersection", "once"),
+    "rods 200": Workload(("rods", "200"), "union", "once"),
+    "plates 800": Workload(("plates", "800"), "union", "once"),
     "process": None,  # a block less 100 spheres: from a script to an STL file
 }
 LARGE = ("rot 800K",)  # only when asked for
@@ -259,7 +263,7 @@ def find_peers(also):
     if cgal.exists():
         # Nef polyhedra have no volume to ask for; corefinement takes one operation after the other anyway.
         peers += [Peer("CGAL Nef", [cgal, "nef"], 1e-9,
-                       ("chain", "batch", "menger", "grid", "cubegrid", "dome")),
+                       ("chain", "batch", "menger", "grid", "cubegrid", "dome", "shells", "common", "rods", "plates")),
                   Peer("CGAL corefinement", [cgal, "corefine"], 1e-9)]
         print("CGAL", first_line("dpkg-query", "-W", "-f=${Version}", "libcgal-dev"), file=sys.stderr)
     else:

@@ -66,6 +66,22 @@ class Benchmarks(support.Case):
         self.assert_relative(part["volume"], result["volume"], 1e-9)
         self.assert_relative(part["area"], result["area"], 1e-9)
 
+    def test_what_two_spheres_have_in_common_is_counted_once_in_their_union(self):
+        one, both, common = (self.bench(*words) for words in (("shells", 1), ("shells", 2), ("common", 2)))
+        for measure in ("volume", "area"):  # a sphere that is turned is another one on the grid
+            self.assert_relative(both[measure] + common[measure], 2 * one[measure], 1e-6)
+        self.assertLess(common["volume"], one["volume"])
+
+    def test_operands_that_overlap_are_the_same_one_after_another(self):
+        for name, count in (("rods", 16), ("plates", 150)):
+            with self.subTest(name):
+                result = self.bench(name, count, "--write-inputs", self.folder / name)
+                part, = self.script(f"local s = import('{name}0.off') for i = 1, {count - 1} do "
+                                    f"s = s + import('{name}' .. i .. '.off') s:volume() end return s",
+                                    "-o", self.folder / "x.stl")["parts"]
+                self.assert_relative(part["volume"], result["volume"], 1e-9)
+                self.assert_relative(part["area"], result["area"], 1e-9)
+
     @support.needs_shared("bench")
     def test_a_statue_and_its_turned_copy(self):
         source, program = self.folder / "statue.cpp", self.folder / "statue"

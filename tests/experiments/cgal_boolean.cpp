@@ -1,10 +1,10 @@
-// cgal_boolean nef|corefine union|difference once|each OUT.off IN.off...: the same by CGAL, with
-// its Nef polyhedra, which the paper compares itself with, or by corefinement of surface meshes
-// with exact points; one mesh after the other. `each` asks for the box and the volume of every
-// result, which only corefinement can. One JSON line with the CPU seconds from arrays of doubles to
-// CGAL's meshes, of the operation, and from its result to arrays of doubles by CGAL's own
-// conversion, as csgbench counts them; and the peak of memory. Files are not counted. Built only
-// where CGAL is installed; nothing else needs it.
+// cgal_boolean nef|corefine union|intersection|difference once|each OUT.off IN.off...: the same by
+// CGAL, with its Nef polyhedra, which the paper compares itself with, or by corefinement of surface
+// meshes with exact points; one mesh after the other. `each` asks for the box and the volume of
+// every result, which only corefinement can. One JSON line with the CPU seconds from arrays of
+// doubles to CGAL's meshes, of the operation, and from its result to arrays of doubles by CGAL's
+// own conversion, as csgbench counts them; and the peak of memory. Files are not counted. Built
+// only where CGAL is installed; nothing else needs it.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -122,11 +122,11 @@ Arrays arrays_of(const Mesh& mesh) {
   return arrays;
 }
 
-Mesh by_nef(const std::vector<Mesh>& meshes, bool unite) {
+Mesh by_nef(const std::vector<Mesh>& meshes, const std::string& op) {
   Nef sum(meshes[0]);
   for (size_t i = 1; i < meshes.size(); ++i) {
     const Nef tool(meshes[i]);
-    sum = unite ? sum + tool : sum - tool;
+    sum = op == "union" ? sum + tool : op == "intersection" ? sum * tool : sum - tool;
   }
   Mesh result;
   CGAL::convert_nef_polyhedron_to_polygon_mesh(sum, result, true);
@@ -134,12 +134,13 @@ Mesh by_nef(const std::vector<Mesh>& meshes, bool unite) {
 }
 
 /// Changes the meshes. Ends the program where a result is no manifold, which this cannot express.
-Mesh by_corefinement(std::vector<Mesh>& meshes, bool unite, bool ask_each) {
+Mesh by_corefinement(std::vector<Mesh>& meshes, const std::string& op, bool ask_each) {
   Mesh& sum = meshes[0];
   for (size_t i = 1; i < meshes.size(); ++i) {
     Mesh& tool = meshes[i];
-    if (!(unite ? pmp::corefine_and_compute_union(sum, tool, sum)
-                : pmp::corefine_and_compute_difference(sum, tool, sum))) {
+    if (!(op == "union"          ? pmp::corefine_and_compute_union(sum, tool, sum)
+          : op == "intersection" ? pmp::corefine_and_compute_intersection(sum, tool, sum)
+                                 : pmp::corefine_and_compute_difference(sum, tool, sum))) {
       std::fprintf(stderr, "cgal_boolean: a result is no manifold, which CGAL refuses\n");
       std::exit(1);
     }
@@ -156,10 +157,12 @@ Mesh by_corefinement(std::vector<Mesh>& meshes, bool unite, bool ask_each) {
 int main(int argc, char** argv) {
   const std::string way = argc > 5 ? argv[1] : "", op = argc > 5 ? argv[2] : "";
   const std::string asking = argc > 5 ? argv[3] : "";
-  if ((way != "nef" && way != "corefine") || (op != "union" && op != "difference") ||
+  if ((way != "nef" && way != "corefine") ||
+      (op != "union" && op != "intersection" && op != "difference") ||
       (asking != "once" && (asking != "each" || way == "nef"))) {
     std::fprintf(stderr,
-                 "usage: cgal_boolean nef|corefine union|difference once|each OUT.off IN.off...\n");
+                 "usage: cgal_boolean nef|corefine union|intersection|difference once|each OUT.off "
+                 "IN.off...\n");
     return 2;
   }
   std::vector<Arrays> inputs;
@@ -168,8 +171,8 @@ int main(int argc, char** argv) {
   std::vector<Mesh> meshes;
   for (const Arrays& input : inputs) meshes.push_back(mesh_of(input));
   const double imported = cpu_seconds();
-  const Mesh result = way == "nef" ? by_nef(meshes, op == "union")
-                                   : by_corefinement(meshes, op == "union", asking == "each");
+  const Mesh result =
+      way == "nef" ? by_nef(meshes, op) : by_corefinement(meshes, op, asking == "each");
   const double done = cpu_seconds();
   const Arrays arrays = arrays_of(result);
   const double end = cpu_seconds(), mb = peak_mb() - before_mb;

@@ -1,4 +1,4 @@
-// node manifold_boolean.mjs union|difference once|each OUT.off IN.off...: as cgal_boolean, by manifold-3d.
+// node manifold_boolean.mjs union|intersection|difference once|each OUT.off IN.off...: as cgal_boolean, by manifold-3d.
 //
 // `each` makes one operation after the other, and asks for the box and the volume of every result.
 // Prints one JSON line: the CPU seconds from arrays to arrays, reading and writing of files left out.
@@ -36,7 +36,7 @@ function write(path, mesh) {
 }
 
 function combine(solids, op, asking) {
-  const many = op === 'union' ? Manifold.union : Manifold.difference;
+  const many = Manifold[op];
   if (asking === 'once') return many(solids);
   return solids.reduce((sum, tool) => {
     const result = many([sum, tool]);
@@ -46,8 +46,8 @@ function combine(solids, op, asking) {
 }
 
 const [op, asking, out, ...inputs] = process.argv.slice(2);
-if (!/^(union|difference)$/.test(op) || !/^(once|each)$/.test(asking) || inputs.length === 0) {
-  console.error('usage: manifold_boolean.mjs union|difference once|each OUT.off IN.off...');
+if (!/^(union|intersection|difference)$/.test(op) || !/^(once|each)$/.test(asking) || inputs.length === 0) {
+  console.error('usage: manifold_boolean.mjs union|intersection|difference once|each OUT.off IN.off...');
   process.exit(2);
 }
 const meshes = inputs.map(read);
