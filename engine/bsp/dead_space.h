@@ -11,6 +11,7 @@
 #include "engine/bsp/operand.h"
 #include "engine/bsp/operand_balls.h"
 #include "engine/bsp/polygon_box.h"
+#include "engine/bsp/rounded_box.h"
 
 namespace csgrun {
 
@@ -40,11 +41,7 @@ class DeadSpace {
   [[nodiscard]] std::span<const PolygonBox> node_boxes() const { return node_boxes_; }
   /// Whether a point is beside the result, each coordinate being as wrong as `error` at most.
   [[nodiscard]] bool is_beside_result(const std::array<double, 3>& point, double error) const {
-    bool beside = false;
-    for (size_t k = 0; k < 3; ++k) {
-      beside |= point[k] + error < result_.lo[k] || point[k] - error > result_.hi[k];
-    }
-    return beside;
+    return !may_hold(result_, point, error);
   }
   /// Whether all of a polygon is in there, in one ball, outside of one or beside the result: at(i)
   /// is corner i of `count`, correctly rounded.

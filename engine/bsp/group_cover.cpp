@@ -7,6 +7,7 @@
 #include "engine/bsp/operand_groups.h"
 #include "engine/bsp/ray_boxes.h"
 #include "engine/bsp/ray_label.h"
+#include "engine/bsp/rounded_box.h"
 #include "engine/bsp/vertex_signs.h"
 
 namespace csgrun {
@@ -42,19 +43,16 @@ struct Spread {
 class CoverSample {
  public:
   CoverSample(const Job& job, BooleanOp op)
-      : job_(job), decisive_(op == BooleanOp::kUnion), signs_(job, true), boxes_(job) {}
+      : job_(job),
+        decisive_(op == BooleanOp::kUnion ? Inside::kYes : Inside::kNo),
+        signs_(job, true),
+        boxes_(job) {}
 
   /// Whether a point of an operand is told to be boundary of nothing by another one.
   bool is_covered(const Position& point, uint32_t own, uint32_t other) {
     const double error = signs_.error(own) + kRounding;
-    const PolygonBox& box = job_.operand_box(other);
-    bool may_hold = true;
-    for (size_t k = 0; k < 3; ++k) {
-      may_hold &= point[k] + error >= box.lo[k] && point[k] - error <= box.hi[k];
-    }
-    if (!may_hold) return !decisive_;
-    return ray_label(job_, signs_, boxes_, other, point, error) ==
-           (decisive_ ? Inside::kYes : Inside::kNo);
+    if (!may_hold(job_.operand_box(other), point, error)) return decisive_ == Inside::kNo;
+    return ray_label(job_, signs_, boxes_, other, point, error) == decisive_;
   }
 
  private:
@@ -62,7 +60,7 @@ class CoverSample {
   static constexpr double kRounding = 0x1p-16;
 
   const Job& job_;
-  const bool decisive_;  ///< inside or outside is what counts
+  const Inside decisive_;  ///< that a point is inside of another one, or that it is not
   VertexSigns signs_;
   RayBoxes boxes_;
 };

@@ -104,8 +104,8 @@ struct KernelOptions {
   std::array<uint32_t, 3> octree_shift{0, 0, 0};
   bool literal_cells = false;
   bool whole_faces = true;  ///< cut faces whole (whole_faces.h); false: cells for all
-  /// Operands stand in groups where so many of their faces overlap in planes that these are less
-  /// work (bsp/operand_groups.h).
+  /// Operands stand in groups where so many of their faces overlap in planes, or cross one another,
+  /// that these are less work (bsp/operand_groups.h).
   bool may_group = true;
   bool stop_when_crowded = false;  ///< of one job: give up where that is so
   bool is_of_crowd = false;        ///< the job is a part of one that was given up

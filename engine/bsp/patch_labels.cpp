@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/bsp/ray_label.h"
+#include "engine/bsp/rounded_box.h"
 
 namespace csgrun {
 
@@ -72,20 +73,17 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
     if (f.back) inside_.push_back(2 * uint64_t{f.operand} + 1);
   }
   for (const uint32_t o : bins_.at(point)) {
-    const PolygonBox& box = job_.operand_box(o);
-    bool may_hold = o != own;
-    for (int k = 0; k < 3; ++k) {
-      may_hold &= point[k] + error >= box.lo[k] && point[k] - error <= box.hi[k];
-    }
-    if (!may_hold || std::any_of(facts.begin(), facts.end(),
-                                 [&](const auto& f) { return f.operand == o && is_known(f); })) {
+    if (o == own || !may_hold(job_.operand_box(o), point, error) ||
+        std::any_of(facts.begin(), facts.end(),
+                    [&](const auto& f) { return f.operand == o && is_known(f); })) {
       continue;
     }
     const OperandBalls::Side side = error < OperandBalls::kMostWrong
                                         ? plainly_.dead->balls().side(o, point)
                                         : OperandBalls::Side::kUnknown;
-    if (side == OperandBalls::Side::kUnknown) asked_.push_back(o);
-    if (side != OperandBalls::Side::kUnknown && note(o, side == OperandBalls::Side::kInside)) {
+    if (side == OperandBalls::Side::kUnknown) {
+      asked_.push_back(o);
+    } else if (note(o, side == OperandBalls::Side::kInside)) {
       return PatchFate::kDrop;
     }
   }

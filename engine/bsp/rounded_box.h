@@ -22,6 +22,15 @@ inline double clamp_to_box(double v) {
   return std::clamp(v, -kLimit, kLimit);
 }
 
+/// Whether a point is in a box, or may be: each coordinate is wrong by `error` at most.
+inline bool may_hold(const PolygonBox& box, const std::array<double, 3>& point, double error) {
+  bool all = true;
+  for (size_t k = 0; k < 3; ++k) {
+    all &= point[k] + error >= box.lo[k] && point[k] - error <= box.hi[k];
+  }
+  return all;
+}
+
 /// The box around one of correctly rounded coordinates, which may stand on either side of the true
 /// ones.
 PolygonBox rounded_outwards(const PieceBox& box);

@@ -4,9 +4,11 @@
 // triangles in memory (without measuring them); cpu_s is the CPU time of all threads for the three.
 // Volume and area are the exact ones of the result, computed outside the clock.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
@@ -159,6 +161,28 @@ BooleanOp operation(const std::string& word) {
   fail(fmt::format("'{}' is no operation: union, intersection or difference", word));
 }
 
+std::vector<RawMesh> joined(RawMesh first, std::vector<RawMesh> rest) {
+  rest.insert(rest.begin(), std::move(first));
+  return rest;
+}
+
+/// What is one operation over operands that a number makes.
+struct OneOperation {
+  const char* workload;
+  std::vector<RawMesh> (*make)(int);
+  BooleanOp op;
+};
+constexpr OneOperation kOneOperation[] = {
+    {"batch", [](int n) { return joined(block(), drill_spheres(n)); }, BooleanOp::kDifference},
+    {"menger", [](int k) { return joined(menger_cube(k), menger_bars(k)); },
+     BooleanOp::kDifference},
+    {"grid", cylinder_grid, BooleanOp::kUnion},
+    {"shells", shells, BooleanOp::kUnion},
+    {"common", shells, BooleanOp::kIntersection},
+    {"rods", rods, BooleanOp::kUnion},
+    {"plates", plates, BooleanOp::kUnion},
+};
+
 constexpr const char* kUsage =
     "usage: csgbench WORKLOAD ARGS [--threads N] [--repeat R] [--cell-limit M] [--write OUT.off]\n"
     "                [--check] [--write-inputs PREFIX] [--write-steps PREFIX] [--write-cells OUT]\n"
@@ -197,11 +221,11 @@ void run_once(const std::vector<std::string>& words, const Settings& settings) {
   const std::string& workload = words[0];
   const std::string name = name_of(words);
   const auto number = [&](size_t i) { return std::atoi(words[i].c_str()); };
-  const auto joined = [](RawMesh first, std::vector<RawMesh> rest) {
-    rest.insert(rest.begin(), std::move(first));
-    return rest;
-  };
-  if (workload == "rot" && words.size() == 3) {
+  const auto* const one = std::find_if(std::begin(kOneOperation), std::end(kOneOperation),
+                                       [&](const auto& o) { return workload == o.workload; });
+  if (one != std::end(kOneOperation) && words.size() == 2) {
+    run_nary(name, settings, one->make(number(1)), one->op, false);
+  } else if (workload == "rot" && words.size() == 3) {
     const RawMesh raw = read_raw(words[1]);
     run_nary(name, settings, {raw, rotated_z(raw, std::atof(words[2].c_str()))}, BooleanOp::kUnion,
              true);
@@ -209,26 +233,10 @@ void run_once(const std::vector<std::string>& words, const Settings& settings) {
     run_rotframe(name, settings, read_raw(words[1]), std::atof(words[2].c_str()));
   } else if (workload == "chain" && words.size() == 2) {
     run_chain(name, settings, joined(block(), drill_spheres(number(1))), BooleanOp::kDifference);
-  } else if (workload == "batch" && words.size() == 2) {
-    run_nary(name, settings, joined(block(), drill_spheres(number(1))), BooleanOp::kDifference,
-             false);
-  } else if (workload == "menger" && words.size() == 2) {
-    run_nary(name, settings, joined(menger_cube(number(1)), menger_bars(number(1))),
-             BooleanOp::kDifference, false);
-  } else if (workload == "grid" && words.size() == 2) {
-    run_nary(name, settings, cylinder_grid(number(1)), BooleanOp::kUnion, false);
   } else if (workload == "cubegrid" && words.size() == 2) {
     run_chain(name, settings, cube_grid(number(1)), BooleanOp::kUnion);
   } else if (workload == "dome" && words.size() == 2) {
     run_chain(name, settings, joined(dome(), dome_spheres(number(1))), BooleanOp::kDifference);
-  } else if (workload == "shells" && words.size() == 2) {
-    run_nary(name, settings, shells(number(1)), BooleanOp::kUnion, false);
-  } else if (workload == "common" && words.size() == 2) {
-    run_nary(name, settings, shells(number(1)), BooleanOp::kIntersection, false);
-  } else if (workload == "rods" && words.size() == 2) {
-    run_nary(name, settings, rods(number(1)), BooleanOp::kUnion, false);
-  } else if (workload == "plates" && words.size() == 2) {
-    run_nary(name, settings, plates(number(1)), BooleanOp::kUnion, false);
   } else if (workload == "boxes" && words.size() == 1) {
     run_boxes(name, settings);
   } else if (workload == "ulp" && words.size() == 2) {

@@ -1,6 +1,7 @@
 // Operands that are evaluated in groups against one job over all of them.
 #include "engine/bsp/operand_groups.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -57,6 +58,20 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate(const std::vector<Operand>&
   return result;
 }
 
+/// How many signs were asked for in groups and in one job, which must give the same, of `faces` at
+/// least.
+std::array<uint64_t, 2> signs_of_both(const std::vector<Operand>& operands,
+                                      const Expression& expression, size_t faces) {
+  std::array<uint64_t, 2> signs{};
+  const auto grouped = evaluate(operands, expression, true, signs[0]);
+  const auto whole = evaluate(operands, expression, false, signs[1]);
+  EXPECT_TRUE(grouped && whole);
+  if (!grouped || !whole) return signs;
+  EXPECT_EQ(test::first_difference(**grouped, **whole), "");
+  EXPECT_GE((*whole)->faces.size(), faces);
+  return signs;
+}
+
 TEST(OperandGroups, SpokesAreEvaluatedInGroups) {
   for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kDifference, BooleanOp::kIntersection}) {
     std::vector<Operand> operands = wheel(24);
@@ -64,14 +79,9 @@ TEST(OperandGroups, SpokesAreEvaluatedInGroups) {
     const bool is_plate_first = op != BooleanOp::kUnion;
     if (is_plate_first) operands[0] = spoke(0.3, 3000, 3000, -200, 300);
     const Expression expression = test::flat_expression(op, static_cast<uint32_t>(operands.size()));
-    uint64_t grouped_signs = 0, whole_signs = 0;
-    const auto grouped = evaluate(operands, expression, true, grouped_signs);
-    const auto whole = evaluate(operands, expression, false, whole_signs);
-    ASSERT_TRUE(grouped && whole);
-    EXPECT_EQ(test::first_difference(**grouped, **whole), "");
-    EXPECT_GT((*whole)->faces.size(), 8u);
+    const auto [grouped, whole] = signs_of_both(operands, expression, 9);
     if (op == BooleanOp::kUnion) {
-      EXPECT_LT(8 * grouped_signs, whole_signs);
+      EXPECT_LT(8 * grouped, whole);
     }
   }
 }
@@ -104,13 +114,8 @@ TEST(OperandGroups, BallsAboutOneCentreAreEvaluatedInGroups) {
                                                : ball(random, 20'000, 80);
     const Expression expression = test::flat_expression(op, static_cast<uint32_t>(operands.size()));
     EXPECT_GT(cover_in_groups(Job(operands), expression), 0.5);
-    uint64_t grouped_signs = 0, whole_signs = 0;
-    const auto grouped = evaluate(operands, expression, true, grouped_signs);
-    const auto whole = evaluate(operands, expression, false, whole_signs);
-    ASSERT_TRUE(grouped && whole);
-    EXPECT_EQ(test::first_difference(**grouped, **whole), "");
-    EXPECT_GT((*whole)->faces.size(), 100u);
-    EXPECT_NE(grouped_signs, whole_signs) << "it was done in one job";
+    const auto [grouped, whole] = signs_of_both(operands, expression, 101);
+    EXPECT_NE(grouped, whole) << "it was done in one job";
   }
 }
 
