@@ -46,27 +46,37 @@ bool are_pages_slow() {
   return are_slow;
 }
 
-/// Lets the heap grow far, and has that be in large pages but for its beginning: a small model
-/// needs no more.
+/// A small model takes less of the heap.
+constexpr size_t kSmallModel = size_t{384} << 10;
+
+/// Lets the heap grow far, and has that be in large pages but for its beginning, where there is
+/// room for a small model.
 void take_large_pages(size_t most) {
   constexpr size_t kMost = size_t{2000} << 20, kShare = 4;  // below INT_MAX, where trimming begins
-  constexpr size_t kSmallPart = size_t{2} << 20, kLargePage = size_t{2} << 20;
+  constexpr size_t kLargePage = size_t{2} << 20;
   // More than what is left of the last step. (Where more was freed, it is used again first.)
   constexpr size_t kGrows = size_t{4} << 20;
   const auto memory =
       static_cast<size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<size_t>(sysconf(_SC_PAGESIZE));
   const size_t room = std::min({kMost, memory / kShare, most / kShare});
   mallopt(M_TOP_PAD, static_cast<int>(room));
-  char* const begin = static_cast<char*>(sbrk(0));
   void* volatile grown = std::malloc(kGrows);  // volatile: or the compiler leaves it out
-  char* const end = static_cast<char*>(sbrk(0));
-  const size_t before_large =
-      kSmallPart + kLargePage - reinterpret_cast<uintptr_t>(begin) % kLargePage;
-  if (begin + before_large < end) {
-    mallopt(M_ARENA_MAX, 1);  // heaps of other threads would be in small pages
-    madvise(begin + before_large, static_cast<size_t>(end - begin) - before_large, MADV_HUGEPAGE);
-  }
   std::free(grown);
+  char* const end = static_cast<char*>(sbrk(0));
+  const auto small_end = reinterpret_cast<uintptr_t>(end) - mallinfo2().keepcost + kSmallModel;
+  const size_t to_large = kLargePage - small_end % kLargePage;
+  char* const first_large = reinterpret_cast<char*>(small_end + to_large);
+  if (first_large >= end) return;  // no heap that grows in one piece
+  // The rest of the large page that the small part ends in is for nobody, which costs addresses
+  // alone: otherwise it came next, in up to 512 small pages. What glibc writes before the first
+  // free byte is not in a large page, either.
+  constexpr size_t kHead = sizeof(size_t), kHeads = 4 * kHead;
+  void* volatile small = std::malloc(kSmallModel - kHead);
+  [[maybe_unused]] static void* volatile nobodys = nullptr;
+  if (to_large > kHeads) nobodys = std::malloc(to_large - kHeads - kHead);
+  std::free(small);
+  mallopt(M_ARENA_MAX, 1);  // heaps of other threads would be in small pages
+  madvise(first_large, static_cast<size_t>(end - first_large), MADV_HUGEPAGE);
 }
 
 /// Finds the bytes of the program's code, not of its libraries'.
@@ -96,9 +106,10 @@ void map_program(bool always) {
   std::span<std::byte> code;
   dl_iterate_phdr(find_code, &code);
   if (!code.empty()) populate(code, MADV_POPULATE_READ);
-  constexpr size_t kHeap = size_t{384} << 10;  // a small model takes less
-  void* volatile block = std::malloc(kHeap);   // volatile: or the compiler leaves it out
-  if (block != nullptr) populate({static_cast<std::byte*>(block), kHeap}, MADV_POPULATE_WRITE);
+  void* volatile block = std::malloc(kSmallModel);  // volatile: or the compiler leaves it out
+  if (block != nullptr) {
+    populate({static_cast<std::byte*>(block), kSmallModel}, MADV_POPULATE_WRITE);
+  }
   std::free(block);
 #else
   (void)always;

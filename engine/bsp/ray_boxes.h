@@ -78,7 +78,7 @@ class RayBoxes {
   }
 
  private:
-  /// Bins cost about what so many rays do that are held against all runs.
+  /// Bins from the first ray on take as long for 12 shells, those from 4096 on 1.4 times as long.
   static constexpr uint32_t kMany = 256;
 
   struct Known {

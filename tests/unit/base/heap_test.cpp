@@ -67,6 +67,7 @@ TEST(Heap, LargePagesAreForWhatIsLarge) {
   if (kHasOwnHeap) GTEST_SKIP() << "sanitizers have a heap of their own";
   if (!has_large_pages()) GTEST_SKIP() << "this system has no large pages";
   EXPECT_EQ(in_child([] { return is_large(HeapPages::kLarge, 8); }), kYes);
+  EXPECT_EQ(in_child([] { return is_large(HeapPages::kLarge, 1); }), kYes);
   EXPECT_EQ(in_child([] { return is_large(HeapPages::kSmall, 8); }), kNo);
   // What a small model needs is before them.
   EXPECT_EQ(in_child([] {

@@ -26,10 +26,10 @@ enum class HeapPages : uint8_t {
 };
 
 /// For before meshes are made, after keep_freed_memory(): has the heap grow in large steps. With
-/// large pages all threads have one heap, and what it grows by next, but for two megabytes, is in
-/// pages of two megabytes where the system has such: up to two gigabytes, or a quarter of the
-/// machine's memory or of `most` (docs/decisions/0111). `most`: the bytes that the process may have
-/// (RLIMIT_DATA), which counts addresses. Takes a tenth of a millisecond.
+/// large pages all threads have one heap, and what it grows by next, but for what a small model
+/// takes, is in pages of two megabytes where the system has such: up to two gigabytes, or a quarter
+/// of the machine's memory or of `most` (docs/decisions/0111). `most`: the bytes that the process
+/// may have (RLIMIT_DATA), which counts addresses. Takes a tenth of a millisecond.
 void make_room_for_meshes(HeapPages pages = HeapPages::kMeasured,
                           size_t most = std::numeric_limits<size_t>::max());
 
