@@ -83,8 +83,8 @@ Status unite_with_itself(RoundedMesh& mesh, MeshFaces& faces, Precision precisio
   evaluate.cancel = options.cancel;
   evaluate.grid = lattice_of(mesh.positions);
   Evaluator evaluator(std::move(evaluate));
-  auto solid =
-      evaluator.evaluate(Node::leaf(std::make_shared<const PolygonMesh>(leaf_of(mesh, faces))));
+  auto solid = evaluator.evaluate(
+      Node::leaf(std::make_shared<const PolygonMesh>(leaf_of(mesh, faces))), Measuring::kNothing);
   if (!solid) return solid.error();
   Result<RoundedMesh> rounded = round_part(**solid, {}, precision, false);
   if (!rounded) return rounded.error();

@@ -175,7 +175,10 @@ int equal(lua_State* L) {
     same = a->node == b->node;
     if (!same) {
       Session& session = session_of(L);
-      same = session.evaluated(*a).canonical_hash == session.evaluated(*b).canonical_hash;
+      const auto hash = [&](SolidValue& value) {
+        return session.evaluated(value, Measuring::kButTheCentre).canonical_hash;
+      };
+      same = hash(*a) == hash(*b);
     }
   } else if (const ShapeValue* s = to_shape(L, 1), *t = to_shape(L, 2);
              s != nullptr && t != nullptr) {

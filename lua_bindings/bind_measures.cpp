@@ -10,18 +10,20 @@
 namespace csgrun {
 namespace {
 
-/// The evaluated solid of the value at index 1.
-const Solid& evaluated(lua_State* L, const FunctionSpec& spec) {
+/// The value at index 1, of a method without arguments.
+SolidValue& bare_solid(lua_State* L, const FunctionSpec& spec) {
   SolidValue& value = solid_argument(L, spec);
   if (lua_gettop(L) > 1) fail_in(spec, "takes no arguments");
-  return session_of(L).evaluated(value);
+  return value;
+}
+
+const Measures& measures_of(lua_State* L, const FunctionSpec& spec, Measuring measuring) {
+  return session_of(L).evaluated(bare_solid(L, spec), measuring).measures;
 }
 
 /// What the value at index 1 measures, without its triangles.
 Extent extent_of(lua_State* L, const FunctionSpec& spec) {
-  const SolidValue& value = solid_argument(L, spec);
-  if (lua_gettop(L) > 1) fail_in(spec, "takes no arguments");
-  return session_of(L).extent(value);
+  return session_of(L).extent(bare_solid(L, spec));
 }
 
 const Shape2D& bare_shape(lua_State* L, const FunctionSpec& spec) {
@@ -132,7 +134,7 @@ int solid_volume(lua_State* L) {
 }
 
 int solid_area(lua_State* L) {
-  lua_pushnumber(L, evaluated(L, kArea).measures.area);
+  lua_pushnumber(L, measures_of(L, kArea, Measuring::kButTheCentre).area);
   return 1;
 }
 
@@ -142,7 +144,7 @@ int shape_area(lua_State* L) {
 }
 
 int solid_centroid(lua_State* L) {
-  const Solid& solid = evaluated(L, kCentroid);
+  const Solid& solid = session_of(L).evaluated(bare_solid(L, kCentroid), Measuring::kAll);
   fail_if_empty(solid.empty(), kCentroid);
   push_point(L, solid.measures.centroid);
   return 1;
@@ -168,7 +170,7 @@ int shape_centroid(lua_State* L) {
 }
 
 int solid_components(lua_State* L) {
-  lua_pushinteger(L, evaluated(L, kComponents).measures.components);
+  lua_pushinteger(L, measures_of(L, kComponents, Measuring::kTopology).components);
   return 1;
 }
 
@@ -178,13 +180,13 @@ int shape_components(lua_State* L) {
 }
 
 int solid_genus(lua_State* L) {
-  lua_pushinteger(L, evaluated(L, kGenus).measures.genus);
+  lua_pushinteger(L, measures_of(L, kGenus, Measuring::kTopology).genus);
   return 1;
 }
 
 /// Clockwise seen from outside and counted from 0: what polyhedron takes. In the canonical order.
 int solid_mesh(lua_State* L) {
-  const Solid& solid = evaluated(L, kMesh);
+  const Solid& solid = session_of(L).evaluated(bare_solid(L, kMesh));
   lua_createtable(L, 0, 2);
   lua_createtable(L, static_cast<int>(solid.positions.size()), 0);
   for (size_t i = 0; i < solid.positions.size(); ++i) {

@@ -65,23 +65,24 @@ Evaluator& Session::evaluator() {
   return *evaluator_;
 }
 
-SolidPtr Session::evaluate(const NodePtr& node) {
+SolidPtr Session::evaluate(const NodePtr& node, Measuring measuring) {
   const EvaluationScope scope(budget_);
-  auto solid = evaluator().evaluate(node);
+  auto solid = evaluator().evaluate(node, measuring);
   if (!solid) fail_evaluation(solid.error());
   return *solid;
 }
 
-const Solid& Session::evaluated(SolidValue& value) {
-  if (!value.evaluated || value.evaluated_with != settings_) {
-    value.evaluated = evaluate(value.node);
+const Solid& Session::evaluated(SolidValue& value, Measuring measuring) {
+  if (!value.is_evaluated_with(settings_) || value.measuring < measuring) {
+    value.evaluated = evaluate(value.node, measuring);
     value.evaluated_with = settings_;
+    value.measuring = measuring;
   }
   return *value.evaluated;
 }
 
 Extent Session::extent(const SolidValue& value) {
-  if (value.evaluated && value.evaluated_with == settings_) {
+  if (value.is_evaluated_with(settings_) && value.measuring >= Measuring::kButTheCentre) {
     const Solid& solid = *value.evaluated;
     return {solid.empty(), solid.measures.volume, solid.measures.bbox};
   }

@@ -72,10 +72,10 @@ class Session {
   /// Lives as long as the grid and csg.contacts stay the same.
   Evaluator& evaluator();
   /// The solid of a tree, on the script's clock. Throws ScriptError, with the place of the node.
-  SolidPtr evaluate(const NodePtr& node);
+  SolidPtr evaluate(const NodePtr& node, Measuring measuring = Measuring::kNothing);
   /// The same, kept with the value for as long as the grid and csg.contacts stay the same: who
   /// calls Lua meanwhile holds `value.evaluated`.
-  const Solid& evaluated(SolidValue& value);
+  const Solid& evaluated(SolidValue& value, Measuring measuring = Measuring::kNothing);
   /// Volume and box of a solid, without its triangles if these were not made yet. Fails as
   /// evaluated does.
   Extent extent(const SolidValue& value);

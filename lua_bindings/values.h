@@ -31,8 +31,12 @@ struct SolidValue : Value {
   static constexpr const char* kName = "solid";
   explicit SolidValue(NodePtr n) : node(std::move(n)) {}
   NodePtr node;
-  SolidPtr evaluated;           ///< after the first measurement: see Session::evaluated
+  SolidPtr evaluated;           ///< once it was asked for: see Session::evaluated
   uint64_t evaluated_with = 0;  ///< the number of the settings that it was evaluated with
+  Measuring measuring{};        ///< what `evaluated` has of measures
+  [[nodiscard]] bool is_evaluated_with(uint64_t settings) const {
+    return evaluated && evaluated_with == settings;
+  }
 };
 
 struct ShapeValue : Value {

@@ -98,14 +98,16 @@ struct Evaluator::Impl {
                                         const GridStep& least);
   Result<bool> is_convex(const Scene& scene, uint32_t root);
   Result<BoundaryPtr> world_of(const Scene& scene, uint32_t root);
-  Result<std::vector<SolidPtr>> evaluate(const Scene& scene);
-  Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts);
+  Result<std::vector<SolidPtr>> evaluate(const Scene& scene, Measuring measuring);
+  Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts, Measuring measuring);
+  const SolidPtr* find_solid(const Scene& scene, const Subtree& subtree, Measuring measuring);
   Result<int> contains(const NodePtr& root, const glm::dvec3& point);
-  [[nodiscard]] Key solid_key(const Scene& scene, const Subtree& subtree, bool measured) const;
+  [[nodiscard]] Key solid_key(const Scene& scene, const Subtree& subtree,
+                              Measuring measuring) const;
   Result<SolidPtr> present_root(const Scene& scene, uint32_t root, const BoundaryMesh& boundary,
-                                bool measured);
-  Result<SolidPtr> solid_of(const Scene& scene, SceneJobs& jobs, uint32_t root, const Key& key,
-                            bool measured);
+                                Measuring measuring);
+  Result<SolidPtr> solid_of(const Scene& scene, SceneJobs& jobs, uint32_t root,
+                            Measuring measuring);
   Result<Extent> extent(const NodePtr& root);
   Result<std::optional<Extent>> find_extent(const NodePtr& part, bool may_be_partial);
 
@@ -183,26 +185,27 @@ Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& par
 }
 
 /// What the arrays of a root depend on: what it is, where it is in the world, and the step.
-Key Evaluator::Impl::solid_key(const Scene& scene, const Subtree& subtree, bool measured) const {
+Key Evaluator::Impl::solid_key(const Scene& scene, const Subtree& subtree,
+                               Measuring measuring) const {
   const Identity& id = subtree.id;
   const SignedPermutation back = id.permutation.inverse();
   KeyBuilder builder("solid");
   builder.numbers(id.key).numbers(back.apply(id.origin));
   for (const auto& row : back.apply_to_frame(scene.frames[id.frame]).matrix) builder.numbers(row);
   if (id.paint != kUnpainted) builder.numbers(appearances.key(id.paint));
-  builder.number(options.join_contacts).number(measured);
+  builder.number(options.join_contacts).number(static_cast<uint8_t>(measuring));
   builder.number(scene.step.numerator).number(scene.step.denominator).number(scene.step.exponent);
   return builder.key();
 }
 
 Result<SolidPtr> Evaluator::Impl::present_root(const Scene& scene, uint32_t root,
-                                               const BoundaryMesh& boundary, bool measured) {
+                                               const BoundaryMesh& boundary, Measuring measuring) {
   PresentContext context;
   context.step = scene.step;
   context.join_contacts = options.join_contacts;
   context.appearances = appearances.values();
   context.exact_points = options.exact_points;
-  context.measure = measured;
+  context.measuring = measuring;
   for (uint32_t leaf : scene.leaves(root)) {
     const Node& node = *scene.nodes[leaf].leaf;
     context.sources.push_back({node.mesh()->kind, node.where().text()});
@@ -214,10 +217,11 @@ Result<SolidPtr> Evaluator::Impl::present_root(const Scene& scene, uint32_t root
   return SolidPtr(std::move(solid));
 }
 
-Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const std::vector<NodePtr>& parts) {
+Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const std::vector<NodePtr>& parts,
+                                                        Measuring measuring) {
   auto scene = scene_of(parts);
   if (!scene) return scene.error();
-  return evaluate(*scene);
+  return evaluate(*scene, measuring);
 }
 
 /// Solids for a construction: their trees have none left.
@@ -225,7 +229,7 @@ Result<EvaluatedParts> Evaluator::Impl::evaluate_parts(const std::vector<NodePtr
                                                        bool ask_convex, const GridStep& least) {
   auto scene = scene_of_expanded(parts, least);
   if (!scene) return scene.error();
-  auto solids_of_parts = evaluate(*scene);
+  auto solids_of_parts = evaluate(*scene, Measuring::kNothing);
   if (!solids_of_parts) return solids_of_parts.error();
   EvaluatedParts result{scene->step, *std::move(solids_of_parts), {}};
   result.is_convex.assign(parts.size(), 0);
@@ -249,7 +253,7 @@ Result<bool> Evaluator::Impl::is_convex(const Scene& scene, uint32_t root) {
 
 /// The boundary of a root in the world, all faces spelled out.
 Result<BoundaryPtr> Evaluator::Impl::world_of(const Scene& scene, uint32_t root) {
-  const Key key = solid_key(scene, scene.nodes[root].subtree, options.measure);
+  const Key key = solid_key(scene, scene.nodes[root].subtree, Measuring::kNothing);
   if (const BoundaryPtr* known = worlds.find(key)) return BoundaryPtr(*known);
   SceneJobs jobs(scene, boundaries, tails, options, threads, stats);
   if (Status status = jobs.run({root}); !status) return status.error();
@@ -260,7 +264,19 @@ Result<BoundaryPtr> Evaluator::Impl::world_of(const Scene& scene, uint32_t root)
   return world;
 }
 
-Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const Scene& scene_on_grid) {
+/// One that was made before, with what is wanted or more.
+const SolidPtr* Evaluator::Impl::find_solid(const Scene& scene, const Subtree& subtree,
+                                            Measuring measuring) {
+  for (const Measuring more :
+       {Measuring::kAll, Measuring::kButTheCentre, Measuring::kTopology, Measuring::kNothing}) {
+    if (more < measuring) break;
+    if (const SolidPtr* known = solids.find(solid_key(scene, subtree, more))) return known;
+  }
+  return nullptr;
+}
+
+Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const Scene& scene_on_grid,
+                                                        Measuring measuring) {
   const Scene* scene = &scene_on_grid;
   stats.grid_mm = scene->step.millimetres();
   const Stopwatch watch(stats.boolean_seconds);
@@ -276,9 +292,9 @@ Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const Scene& scene_on_gr
       result[i] = std::make_shared<Solid>();
       continue;
     }
-    keys[i] = solid_key(*scene, node.subtree, options.measure);
+    keys[i] = solid_key(*scene, node.subtree, measuring);
     const auto [entry, is_new] = made.try_emplace(keys[i]);
-    if (const SolidPtr* known = is_new ? solids.find(keys[i]) : nullptr) {
+    if (const SolidPtr* known = is_new ? find_solid(*scene, node.subtree, measuring) : nullptr) {
       entry->second = *known;
       ++stats.nodes_from_memory;
     } else if (is_new) {
@@ -293,7 +309,7 @@ Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const Scene& scene_on_gr
     if (result[i]) continue;
     SolidPtr& solid = made[keys[i]];
     if (!solid) {
-      auto made_now = solid_of(*scene, jobs, scene->roots[i], keys[i], options.measure);
+      auto made_now = solid_of(*scene, jobs, scene->roots[i], measuring);
       if (!made_now) return made_now.error();
       solid = *made_now;
     }
@@ -304,16 +320,16 @@ Result<std::vector<SolidPtr>> Evaluator::Impl::evaluate(const Scene& scene_on_gr
 
 /// The solid of a root whose jobs have run.
 Result<SolidPtr> Evaluator::Impl::solid_of(const Scene& scene, SceneJobs& jobs, uint32_t root,
-                                           const Key& key, bool measured) {
+                                           Measuring measuring) {
   auto boundary = jobs.world_boundary(root);
   if (!boundary) return boundary.error();
   SolidPtr solid = std::make_shared<Solid>();
   if (!is_empty(**boundary)) {
-    auto presented = present_root(scene, root, **boundary, measured);
+    auto presented = present_root(scene, root, **boundary, measuring);
     if (!presented) return presented.error();
     solid = *presented;
   }
-  solids.put(key, solid, bytes_of(*solid));
+  solids.put(solid_key(scene, scene.nodes[root].subtree, measuring), solid, bytes_of(*solid));
   return solid;
 }
 
@@ -334,9 +350,8 @@ Result<std::optional<Extent>> Evaluator::Impl::find_extent(const NodePtr& part,
   const uint32_t root = scene->roots[0];
   const SceneNode& node = scene->nodes[root];
   if (node.kind == SceneNode::Kind::kEmpty) return std::optional(Extent{});
-  const Key key = solid_key(*scene, node.subtree, true);
   SolidPtr solid;
-  if (const SolidPtr* known = solids.find(key)) {
+  if (const SolidPtr* known = find_solid(*scene, node.subtree, Measuring::kButTheCentre)) {
     solid = *known;
     ++stats.nodes_from_memory;
   } else {
@@ -351,7 +366,7 @@ Result<std::optional<Extent>> Evaluator::Impl::find_extent(const NodePtr& part,
       return std::optional(Extent{false, *volume, *box});
     }
     if (scene->is_partial) return std::optional<Extent>();
-    auto made = solid_of(*scene, jobs, root, key, true);
+    auto made = solid_of(*scene, jobs, root, Measuring::kButTheCentre);
     if (!made) return made.error();
     solid = *made;
   }
@@ -401,12 +416,13 @@ auto evaluate_with(unsigned threads, Work&& work) {
 Evaluator::Evaluator(EvaluateOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
 Evaluator::~Evaluator() = default;
 
-Result<std::vector<SolidPtr>> Evaluator::evaluate(const std::vector<NodePtr>& parts) {
-  return evaluate_with(impl_->threads, [&] { return impl_->evaluate(parts); });
+Result<std::vector<SolidPtr>> Evaluator::evaluate(const std::vector<NodePtr>& parts,
+                                                  Measuring measuring) {
+  return evaluate_with(impl_->threads, [&] { return impl_->evaluate(parts, measuring); });
 }
 
-Result<SolidPtr> Evaluator::evaluate(const NodePtr& root) {
-  auto solids = evaluate(std::vector<NodePtr>{root});
+Result<SolidPtr> Evaluator::evaluate(const NodePtr& root, Measuring measuring) {
+  auto solids = evaluate(std::vector<NodePtr>{root}, measuring);
   if (!solids) return solids.error();
   return solids->front();
 }

@@ -150,9 +150,6 @@ struct Sums {
   double twice_area_error = 0;  ///< steps^2
 };
 
-/// What sums are formed: all, or the volume and a bound of the area.
-enum class Wanted : uint8_t { kAll, kVolume };
-
 /// Coordinates that are whole and less than 2^29 from the origin, or kFar.
 using Near = std::array<int64_t, 3>;
 constexpr int64_t kNearLimit = int64_t{1} << 29;
@@ -171,7 +168,8 @@ inline std::array<int64_t, 3> normal_of(const Near& a, const Near& b, const Near
 /// The sums over triangles of near points: with fewer digits, and no less exact.
 class WholeSums {
  public:
-  /// Adds det(a, b, c) and its moments; returns twice the area.
+  /// Adds det(a, b, c) and, if these are wanted, its moments; returns twice the area.
+  template <bool kMoments>
   DoubleDouble add(const Near& a, const Near& b, const Near& c) {
     Int128 determinant = 0;
     DoubleDouble squares;
@@ -184,6 +182,7 @@ class WholeSums {
       squares = squares + component * component;
     }
     six_volumes_ += determinant;
+    if (!kMoments) return sqrt(squares);
     const auto high = static_cast<int64_t>(determinant >> kSplit);
     const auto low = static_cast<int64_t>(determinant & ((int64_t{1} << kSplit) - 1));
     for (int k = 0; k < 3; ++k) {
@@ -227,7 +226,10 @@ class FixedRound {
 
   [[nodiscard]] bool in_range() const { return in_range_; }
 
-  [[nodiscard]] Sums sums() const { return wanted_ == Wanted::kVolume ? volume() : all(); }
+  [[nodiscard]] Sums sums() const {
+    if (wanted_ == Wanted::kVolume) return volume();
+    return wanted_ == Wanted::kAll ? all<true>() : all<false>();
+  }
 
  private:
   using Fixed = Int<K + 1>;
@@ -238,6 +240,7 @@ class FixedRound {
   static_assert(3 * (kCoordinateBits + 64 * K) + 3 + kTriangleBits < 64 * (3 * K + 3));
   static_assert(4 * (kCoordinateBits + 64 * K) + 5 + kTriangleBits < 64 * (4 * K + 4));
 
+  template <bool kMoments>
   [[nodiscard]] Sums all() const {
     Sums result;
     result.fraction_bits = 64 * K;
@@ -248,7 +251,7 @@ class FixedRound {
     for (const auto& t : triangles_) {
       const Near &p = near_[t[0]], &q = near_[t[1]], &r = near_[t[2]];
       if (p[0] != kFar && q[0] != kFar && r[0] != kFar) {
-        result.twice_area = result.twice_area + whole.add(p, q, r);
+        result.twice_area = result.twice_area + whole.template add<kMoments>(p, q, r);
         continue;
       }
       const Coordinates &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
@@ -265,13 +268,13 @@ class FixedRound {
         squares = squares + component * component;
       }
       six_volumes += determinant;
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; kMoments && k < 3; ++k) {
         moments[k] += full_product(determinant, a[k] + b[k] + c[k]);
       }
       result.twice_area = result.twice_area + sqrt(squares);
     }
     six_volumes += whole.six_volumes<Volume>().shifted_left(3 * result.fraction_bits);
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; kMoments && k < 3; ++k) {
       moments[k] += whole.moment<Moment>(k).shifted_left(4 * result.fraction_bits);
     }
     result.six_volumes.value = signed_value(six_volumes);

@@ -121,13 +121,15 @@ class Rounder {
   bool take(const Sums& sums) {
     take_volume(sums);
     if (mesh_.wanted == Wanted::kVolume) return volume_.has_value();
-    for (int k = 0; k < 3; ++k) take_centroid(sums, k);
     take_area(sums);
+    if (mesh_.wanted == Wanted::kVolumeAndArea) return volume_ && area_;
+    for (int k = 0; k < 3; ++k) take_centroid(sums, k);
     return volume_ && area_ && centroid_[0] && centroid_[1] && centroid_[2];
   }
 
   [[nodiscard]] MassProperties result() const {
     if (mesh_.wanted == Wanted::kVolume) return {*volume_, 0, {}};
+    if (mesh_.wanted == Wanted::kVolumeAndArea) return {*volume_, *area_, {}};
     return {*volume_, *area_, {*centroid_[0], *centroid_[1], *centroid_[2]}};
   }
 
@@ -261,8 +263,8 @@ Result<MassProperties> measure(size_t point_count, const PointAccess& point, Tri
 }  // namespace
 
 Result<MassProperties> measure_mesh(size_t point_count, const PointAccess& point,
-                                    TriangleSpan triangles, const GridStep& step) {
-  return measure(point_count, point, triangles, step, Wanted::kAll);
+                                    TriangleSpan triangles, const GridStep& step, Wanted wanted) {
+  return measure(point_count, point, triangles, step, wanted);
 }
 
 std::optional<double> round_volume(const Sum& six_volumes, int fraction_bits,

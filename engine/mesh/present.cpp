@@ -149,14 +149,15 @@ class Presenter {
     }
     whole_->order_faces(lowest);
     auto solid = std::make_shared<Solid>();
-    if (context_.measure) {
+    if (context_.measuring >= Measuring::kButTheCentre) {
       solid->canonical_hash = canonical_hash(faces_, whole, boundary_, geometry_, context_);
     }
     if (!near.empty()) conform_contacts(faces_, near, geometry_, planes_);
     if (auto status = triangulate_all(); !status) return status.error();
     if (auto status = make_vertices(); !status) return status.error();
     fill(*solid);
-    if (context_.measure) {
+    if (context_.measuring >= Measuring::kTopology) count_topology(*solid);
+    if (context_.measuring >= Measuring::kButTheCentre) {
       if (auto status = measure(*solid); !status) return status.error();
     }
     return SolidPtr(std::move(solid));
@@ -469,7 +470,6 @@ class Presenter {
   }
 
   Status measure(Solid& solid) {
-    count_topology(solid);
     if (solid.empty()) return std::monostate();
     // By vertex: several may be one point.
     const auto point = [&](uint32_t vertex) {
@@ -479,7 +479,9 @@ class Presenter {
       if (place.explicit_point != kNone) return geometry_.exact(place.explicit_point);
       return whole_->part(place).point(place.vertex);
     };
-    auto mass = measure_mesh(solid.positions.size(), point, solid.triangles, context_.step);
+    const Wanted wanted =
+        context_.measuring == Measuring::kAll ? Wanted::kAll : Wanted::kVolumeAndArea;
+    auto mass = measure_mesh(solid.positions.size(), point, solid.triangles, context_.step, wanted);
     if (!mass) return mass.error();
     Measures& m = solid.measures;
     m.volume = mass->volume;

@@ -14,12 +14,12 @@ namespace csgrun {
 
 /// What the labels of a boundary mean, and the length of a step.
 struct PresentContext {
-  GridStep step;                        ///< never automatic here
-  std::vector<Appearance> appearances;  ///< by appearance id of the labels
-  std::vector<Solid::Source> sources;   ///< by source index of the labels
-  bool measure = true;                  ///< whether to fill in the measures and the hash
-  bool join_contacts = false;           ///< EvaluateOptions::join_contacts
-  bool exact_points = false;            ///< whether to fill in the exact points
+  GridStep step;                          ///< never automatic here
+  std::vector<Appearance> appearances;    ///< by appearance id of the labels
+  std::vector<Solid::Source> sources;     ///< by source index of the labels
+  Measuring measuring = Measuring::kAll;  ///< what to fill in of the measures, and the hash
+  bool join_contacts = false;             ///< EvaluateOptions::join_contacts
+  bool exact_points = false;              ///< whether to fill in the exact points
 };
 
 /// The arrays of a boundary: coplanar faces of equal appearance and surface merged wherever they

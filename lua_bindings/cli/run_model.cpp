@@ -352,7 +352,10 @@ class Run {
     const size_t part_count = nodes.size();
     nodes.insert(nodes.end(), instances.bases.begin(), instances.bases.end());
     const EvaluationScope scope(session_.budget());
-    auto solids = session_.evaluator().evaluate(nodes);
+    // Written files tell nothing of measures.
+    const Measuring measuring =
+        line_.stats == StatsForm::kNone ? Measuring::kNothing : Measuring::kButTheCentre;
+    auto solids = session_.evaluator().evaluate(nodes, measuring);
     clear_progress();
     if (!solids) return evaluation_failure(solids.error());
     std::vector<std::string> empty;
@@ -401,7 +404,8 @@ class Run {
       std::vector<NodePtr> nodes;
       for (const ScriptPart& part : session_.parts()) nodes.push_back(part.solid);
       const EvaluationScope scope(session_.budget());
-      auto solid = session_.evaluator().evaluate(Node::boolean(BooleanOp::kUnion, nodes));
+      auto solid = session_.evaluator().evaluate(Node::boolean(BooleanOp::kUnion, nodes),
+                                                 Measuring::kNothing);
       clear_progress();
       if (!solid) return evaluation_failure(solid.error());
       joined_.push_back({"model", *solid, {}});

@@ -434,7 +434,7 @@ class CsgBuilder {
 
   /// Of a solid and of the sheet beside it.
   Result<Shape2D> shadow(const Item& item) {
-    const auto solid = evaluator().evaluate(item.solid);
+    const auto solid = evaluator().evaluate(item.solid, Measuring::kNothing);
     if (!solid) return solid.error();
     Result<Shape2D> shape = project_solid(**solid);
     if (!shape || item.sheet.empty()) return shape;
@@ -510,7 +510,7 @@ class CsgBuilder {
       if (!corners) return failed(corners.error());
       return Item::of(*std::move(corners));
     }
-    const auto solid = evaluator().evaluate(child.solid);
+    const auto solid = evaluator().evaluate(child.solid, Measuring::kNothing);
     if (!solid) return failed(solid.error());
     CsgSheet sheet = mapped(std::move(child.sheet), map);
     sheet.append(sheet_of(**solid, map));

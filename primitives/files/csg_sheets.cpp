@@ -144,7 +144,7 @@ Result<NodePtr> flattened_corners(const NodePtr& tree, const Affine& map, Evalua
       const Affine below = moves ? Affine::compose(place, node->transform()) : place;
       for (const NodePtr& child : node->children()) open.emplace_back(child, below);
     } else {
-      const auto solid = evaluator.evaluate(node);
+      const auto solid = evaluator.evaluate(node, Measuring::kNothing);
       if (!solid) return solid.error();
       for (const glm::dvec3& p : (*solid)->positions) points.push_back(place.apply(p));
     }

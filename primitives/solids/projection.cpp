@@ -62,7 +62,8 @@ Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z
              high = extent->bbox[1] + glm::dvec3(margin);
   low.z = 0;
   const auto above = evaluator.evaluate(
-      Node::boolean(BooleanOp::kIntersection, {moved, box_leaf(low, high, where)}, where));
+      Node::boolean(BooleanOp::kIntersection, {moved, box_leaf(low, high, where)}, where),
+      Measuring::kNothing);
   if (!above) return above.error();
   std::vector<Shape2D::Loop> outlines;
   const Solid& part = **above;

@@ -113,7 +113,7 @@ Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const N
 
 Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr& solid,
                                              const SourceRef& where) {
-  const auto evaluated = evaluator.evaluate(solid);
+  const auto evaluated = evaluator.evaluate(solid, Measuring::kNothing);
   if (!evaluated) return evaluated.error();
   const Solid& whole = **evaluated;
   std::vector<Surface> outer, holes;

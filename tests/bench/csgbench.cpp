@@ -125,18 +125,16 @@ void run_rotframe(const std::string& name, const Settings& settings, const RawMe
   EvaluateOptions options;
   options.threads = settings.threads;
   options.cell_limit = settings.cell_limit;
-  options.measure = false;  // as the clock of the others
   Evaluator evaluator(options);
   const double wall = wall_seconds(), cpu = cpu_seconds();
   const NodePtr leaf = Node::leaf(mesh);
   const NodePtr both = Node::boolean(BooleanOp::kUnion, {leaf, Node::transformed(turn, leaf)});
-  const SolidPtr solid = take(evaluator.evaluate(both));
+  const SolidPtr solid = take(evaluator.evaluate(both, Measuring::kNothing));  // as the others
   run.clock.cpu = cpu_seconds() - cpu;
   run.clock.import = evaluator.stats().leaf_seconds;
   run.clock.op = evaluator.stats().boolean_seconds;
   run.clock.exporting = wall_seconds() - wall - run.clock.import - run.clock.op;
   const double rss = peak_mb() - before;
-  options.measure = true;
   const SolidPtr measured = take(Evaluator(options).evaluate(both));
   if (measured->triangles != solid->triangles) fail("measuring changes the result");
   run.print(*measured, rss, evaluator.stats(), "");

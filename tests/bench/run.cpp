@@ -205,21 +205,22 @@ void Run::write_cells(const std::vector<Operand>& operands, const Expression& ex
   if (std::fclose(file) != 0) fail("cannot write " + settings_.write_cells);
 }
 
-PresentContext Run::context(bool measure) const {
+PresentContext Run::context(Measuring measuring) const {
   PresentContext context;
   context.step = step_;
   context.appearances.resize(1);
   context.sources.resize(sources_);
-  context.measure = measure;
+  context.measuring = measuring;
   return context;
 }
 
 SolidPtr Run::arrays(const BoundaryMesh& boundary) {
-  return clock.timed(clock.exporting, [&] { return take(present(boundary, context(false))); });
+  return clock.timed(clock.exporting,
+                     [&] { return take(present(boundary, context(Measuring::kNothing))); });
 }
 
 SolidPtr Run::measured(const BoundaryMesh& boundary) const {
-  return take(present(boundary, context(true)));
+  return take(present(boundary, context(Measuring::kAll)));
 }
 
 void Run::finish(const BoundaryMesh& boundary, const std::string& extra) {

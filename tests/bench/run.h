@@ -113,7 +113,7 @@ class Run {
   KernelOptions options;
 
  private:
-  [[nodiscard]] PresentContext context(bool measure) const;
+  [[nodiscard]] PresentContext context(Measuring measuring) const;
   void note_input(const PolygonMesh& mesh, const std::vector<IVec3>& points);
   Operand operand_of(const PreparedLeaf& leaf);
   void write_cells(const std::vector<Operand>& operands, const Expression& expression) const;

@@ -31,6 +31,7 @@ class Bytes(Case):
         first = self.digest(model)
         for threads in ("1", "2", "7"):
             self.assertEqual(self.digest(model, "--threads", threads), first, threads)
+        self.assertEqual(self.digest(model, "--stats"), first)
         for _ in range(10):
             self.assertEqual(self.digest(model), first)
         os.makedirs(self.path("else/where"), exist_ok=True)
@@ -55,9 +56,11 @@ class Bytes(Case):
             ASK(part)
             return part
         """
-        asked, plain = (self.digest(self.write("model.lua", f"local function ASK(part) {body} end\n{script}"))
-                        for body in ("return part:volume(), part:bbox()", ""))
-        self.assertEqual(asked, plain)
+        digests = {self.digest(self.write("model.lua", f"local function ASK(part) {body} end\n{script}"), *arguments)
+                   for body in ("return part:volume(), part:bbox()", "return part:mesh()",
+                                "return part:area(), part:genus()", "part:mesh() part:area()", "")
+                   for arguments in ((), ("--stats",))}
+        self.assertEqual(len(digests), 1)
 
     def most_threads(self, model, threads):
         """How many threads were seen in a run."""

@@ -301,19 +301,30 @@ TEST(Extent, OfNothing) {
   EXPECT_EQ(evaluator.extent(unite({second, cube(1)}))->volume, 1);
 }
 
-// Solids that were not measured are the same but for that, and do not stand in for measured ones.
+// Solids that are not measured are the same but for that.
 TEST(Extent, IsKnownOfSolidsThatWereNotMeasured) {
-  EvaluateOptions options;
-  Evaluator measuring(options);
-  options.measure = false;
-  Evaluator evaluator(options);
+  Evaluator first{EvaluateOptions()}, second{EvaluateOptions()};
   const NodePtr part = subtract({cube(4), moved(1, 1, 2, cube(4))});
-  const auto solid = evaluator.evaluate(part), measured = measuring.evaluate(part);
-  ASSERT_TRUE(solid && measured);
-  EXPECT_EQ((*solid)->triangles, (*measured)->triangles);
-  EXPECT_EQ((*solid)->measures.volume, 0);
+  const auto bare = first.evaluate(part, Measuring::kNothing), measured = second.evaluate(part);
+  ASSERT_TRUE(bare && measured);
+  EXPECT_EQ((*bare)->triangles, (*measured)->triangles);
+  EXPECT_EQ((*bare)->positions, (*measured)->positions);
+  EXPECT_EQ((*bare)->measures.volume, 0);
   EXPECT_EQ((*measured)->measures.volume, 46);
-  EXPECT_EQ(evaluator.extent(part)->volume, 46);
+  EXPECT_EQ(first.extent(part)->volume, 46);
+  const auto topology = Evaluator(EvaluateOptions()).evaluate(part, Measuring::kTopology);
+  ASSERT_TRUE(topology);
+  EXPECT_EQ((*topology)->measures.components, 1);
+  EXPECT_EQ((*topology)->measures.area, 0);
+  // They do not stand in for measured ones, but measured ones do for them.
+  const auto later = first.evaluate(part);
+  ASSERT_TRUE(later);
+  EXPECT_EQ((*later)->measures.area, (*measured)->measures.area);
+  EXPECT_EQ((*later)->measures.centroid, (*measured)->measures.centroid);
+  EXPECT_EQ((*later)->canonical_hash, (*measured)->canonical_hash);
+  const auto again = second.evaluate(part, Measuring::kNothing);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(*again, *measured);
 }
 
 }  // namespace

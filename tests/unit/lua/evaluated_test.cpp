@@ -46,5 +46,23 @@ TEST(Evaluated, TrianglesAreThoseOfAPolyhedron) {
       << message_of("cube(1):mesh(3)");
 }
 
+// Triangles alone are made without measures.
+TEST(Evaluated, IsMeasuredAfterItsTrianglesWereMade) {
+  expect_good(R"(
+    local function made() return cube(10) - cube(10):translate(5, 5, 5) end
+    local s = made()
+    assert(#s:mesh().faces == 24)
+    assert(s:area() == 600 and s:volume() == 875 and s:bbox().max.x == 10)
+    assert(s:components() == 1 and s:genus() == 0)
+    local x = (1000 * 5 - 125 * 7.5) / 875
+    assert(math.abs(s:centroid().x - x) < 1e-12)
+    local t = made()
+    assert(#t:mesh().faces == 24 and t:volume() == 875)
+    local u, v = made(), cube(10)
+    assert(#u:mesh().faces == 24 and #v:mesh().faces == 12)
+    assert(u == made() and u ~= v and v ~= cube(11))
+    assert(#u:mesh().faces == 24))");
+}
+
 }  // namespace
 }  // namespace csgrun::testing

@@ -12,7 +12,7 @@ double volume_of(const std::string& expression) {
   EXPECT_EQ(run.outcome.status, ScriptStatus::kGood) << expression << run.outcome.message;
   if (run.session.parts().size() != 1) return -1;
   SolidValue value(run.session.parts()[0].solid);
-  return run.session.evaluated(value).measures.volume;
+  return run.session.evaluated(value, Measuring::kAll).measures.volume;
 }
 
 std::string names_of(const std::string& script) {

@@ -112,6 +112,12 @@ void check(const std::vector<Point>& points, const Triangles& triangles, const G
       points.size(), [&](uint32_t v) { return points[v]; }, triangles, step);
   ASSERT_TRUE(volume) << volume.error().message;
   EXPECT_EQ(*volume, got->volume);
+  const auto both = measure_mesh(
+      points.size(), [&](uint32_t v) { return points[v]; }, triangles, step,
+      Wanted::kVolumeAndArea);
+  ASSERT_TRUE(both) << both.error().message;
+  EXPECT_EQ(both->volume, got->volume);
+  EXPECT_EQ(both->area, got->area);
 }
 
 /// An octahedron-like closed surface over six points: +x, -x, +y, -y, +z, -z.

@@ -40,7 +40,6 @@ struct EvaluateOptions {
   /// way the result is a manifold by index (Campen & Kobbelt 2010, chapter 7).
   bool join_contacts = false;
   bool exact_points = false;  ///< whether to fill Solid::exact_points
-  bool measure = true;        ///< whether Evaluator::evaluate fills Solid::measures and its hash
   bool flatten = true;        ///< false: every Boolean node is materialised on its own
   /// Polled now and then from any thread; non-zero stops the evaluation with kCancelled.
   const std::atomic<bool>* cancel = nullptr;
@@ -74,9 +73,11 @@ class Evaluator {
   ~Evaluator();
 
   /// The solids of several parts, on one common grid. Parts of equal geometry share one Solid.
-  [[nodiscard]] Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts);
+  [[nodiscard]] Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts,
+                                                       Measuring measuring = Measuring::kAll);
   /// The solid of one tree, on the grid that its own extent asks for.
-  [[nodiscard]] Result<SolidPtr> evaluate(const NodePtr& root);
+  [[nodiscard]] Result<SolidPtr> evaluate(const NodePtr& root,
+                                          Measuring measuring = Measuring::kAll);
   /// Volume and bounding box of one tree's solid. A result that goes on from one that was asked for
   /// before is not presented: the time then depends on what the difference touches.
   [[nodiscard]] Result<Extent> extent(const NodePtr& root);

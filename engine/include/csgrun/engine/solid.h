@@ -25,6 +25,15 @@ struct Measures {
   bool closed = true;
 };
 
+/// What is measured of solids. Measures are exact: of large results they take up to as long as
+/// everything else. What is not asked for may be there or not.
+enum class Measuring : uint8_t {
+  kNothing,       ///< nothing of Solid::measures, and no Solid::canonical_hash
+  kTopology,      ///< Measures::components and genus, which take little
+  kButTheCentre,  ///< all but Measures::centroid
+  kAll,
+};
+
 /// One solid. A closed, oriented 2-manifold by index: every directed edge of `triangles` occurs
 /// once and so does its reverse; the triangles around a vertex form one fan. Where surfaces touch
 /// in an edge or a vertex, vertices are duplicated; copies have the same `point_of`.
