@@ -43,7 +43,9 @@ Result<double> boundary_volume(const BoundaryMesh& b, const GridStep& step) {
     const Vertex& v = more[p - explicit_points];
     return v.part->point(v.number);
   };
-  return measure_volume(explicit_points + more.size(), point, fans, step);
+  auto mass = measure_mesh(explicit_points + more.size(), point, fans, step, Wanted::kVolume);
+  if (!mass) return mass.error();
+  return mass->volume;
 }
 
 }  // namespace csgrun

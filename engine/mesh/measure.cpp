@@ -237,8 +237,10 @@ Result<MassProperties> measure_from(const Mesh& mesh, Rounder& rounder) {
   }
 }
 
-Result<MassProperties> measure(size_t point_count, const PointAccess& point, TriangleSpan triangles,
-                               const GridStep& step, Wanted wanted) {
+}  // namespace
+
+Result<MassProperties> measure_mesh(size_t point_count, const PointAccess& point,
+                                    TriangleSpan triangles, const GridStep& step, Wanted wanted) {
   if (triangles.empty()) return MassProperties{};
   Mesh mesh{point, triangles, std::vector<bool>(point_count), {}, wanted};
   for (const auto& t : triangles) {
@@ -260,25 +262,11 @@ Result<MassProperties> measure(size_t point_count, const PointAccess& point, Tri
   return measure_from<1>(mesh, rounder);
 }
 
-}  // namespace
-
-Result<MassProperties> measure_mesh(size_t point_count, const PointAccess& point,
-                                    TriangleSpan triangles, const GridStep& step, Wanted wanted) {
-  return measure(point_count, point, triangles, step, wanted);
-}
-
 std::optional<double> round_volume(const Sum& six_volumes, int fraction_bits,
                                    const GridStep& step) {
   const auto [low, high] = volume_bounds(six_volumes, fraction_bits, step);
   if (low != high) return std::nullopt;
   return low;
-}
-
-Result<double> measure_volume(size_t point_count, const PointAccess& point, TriangleSpan triangles,
-                              const GridStep& step) {
-  auto mass = measure(point_count, point, triangles, step, Wanted::kVolume);
-  if (!mass) return mass.error();
-  return mass->volume;
 }
 
 }  // namespace csgrun

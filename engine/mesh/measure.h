@@ -39,8 +39,8 @@ enum class Wanted : uint8_t { kVolume, kVolumeAndArea, kAll };
 /// Coordinates are cut to fixed point and summed without any further rounding; the error of the
 /// cuts is bounded. When that leaves more than one double, the next round takes twice the digits;
 /// when a result seems to stand exactly between two doubles, or on zero, residues modulo two 61-bit
-/// primes tell. O(n): about 0.5 us a triangle and 0.3 us a point; without the
-/// centroid about half, and a third of that for the volume alone. Errors: kInternal when a point is
+/// primes tell. O(n): about 0.5 us a triangle and 0.3 us a point; a half or
+/// less without the centroid, about a third for the volume alone. Errors: kInternal when a point is
 /// out of range or no number of digits suffices.
 Result<MassProperties> measure_mesh(size_t point_count, const std::function<Point(uint32_t)>& point,
                                     std::span<const std::array<uint32_t, 3>> triangles,
@@ -49,10 +49,5 @@ Result<MassProperties> measure_mesh(size_t point_count, const std::function<Poin
 /// The volume in mm^3, rounded once, from the sum of all triangles' determinants * 2^-3F, F being
 /// `fraction_bits`. Nothing when the sum's error leaves more than one double.
 std::optional<double> round_volume(const Sum& six_volumes, int fraction_bits, const GridStep& step);
-
-/// Only the volume: about a third of the time.
-Result<double> measure_volume(size_t point_count, const std::function<Point(uint32_t)>& point,
-                              std::span<const std::array<uint32_t, 3>> triangles,
-                              const GridStep& step);
 
 }  // namespace csgrun
