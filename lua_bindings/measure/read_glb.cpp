@@ -466,7 +466,41 @@ class Reader {
   std::vector<Appearance> materials_;
 };
 
+/// A document of glTF is some ten deep, and what an exporter adds to it hardly deeper. The parser
+/// would make a million objects in each other, 200 MB of them, before it says what is wrong with
+/// the last.
+constexpr size_t kDeepest = 512;
+
+/// Counts the brackets outside of strings. The parser's own callback is told the depth, too, but
+/// takes a time that grows with the square of a list's length.
+void refuse_deep_nesting(std::string_view text) {
+  size_t depth = 0;
+  bool in_string = false;
+  for (size_t at = 0; at < text.size(); ++at) {
+    switch (text[at]) {
+      case '"':
+        in_string = !in_string;
+        break;
+      case '\\':
+        ++at;  // the character that it escapes
+        break;
+      case '[':
+      case '{':
+        if (!in_string && ++depth > kDeepest)
+          throw Malformed{"its JSON is nested more than " + std::to_string(kDeepest) + " deep"};
+        break;
+      case ']':
+      case '}':
+        if (!in_string && depth > 0) --depth;
+        break;
+      default:
+        break;
+    }
+  }
+}
+
 Json parse_json(std::string_view text) {
+  refuse_deep_nesting(text);
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {

@@ -203,7 +203,7 @@ class Hostile(Case):
         nested["nodes"] = [{"children": [n + 1] * 10} for n in range(30)] + [{"mesh": 0}]
         self.refuse("a.glb", glb(nested, b"\0" * 36), "a.glb: ")
         self.refuse("a.gltf", "[" * 3_000_000, "a.gltf: ")
-        self.refuse("a.gltf", '{"a":' * 1_000_000, "a.gltf: ")
+        self.refuse("a.gltf", '{"a":' * 1_000_000, "a.gltf: its JSON is nested more than 512 deep")
         self.refuse("a.glb", struct.pack("<4sII", b"glTF", 2, 0xffffffff) + struct.pack("<I4s", 0xfffffff0, b"JSON"), "a.glb: ")
         sparse = gltf(None, 36, 50_000_000)
         del sparse["accessors"][0]["bufferView"]

@@ -202,6 +202,22 @@ TEST(Glb, TakesWholeNumbersOnly) {
   }
 }
 
+TEST(Glb, NestingIsCountedOutsideOfStrings) {
+  const auto nested = [](const std::string& text, size_t depth) {
+    std::string all;
+    for (size_t level = 1; level < depth; ++level) all += "[" + text + ",";
+    all += "0";
+    return R"({"extras":)" + all + std::string(depth - 1, ']') + "}";
+  };
+  for (const char* text : {"1", R"("[[[[{{{{")", R"("\\")", R"("\"[{")", R"({"]}":[]},[])"}) {
+    const auto fits = parse_glb("x.gltf", nested(text, 500));
+    EXPECT_TRUE(fits) << text << ": " << fits.error().message;
+    const auto deep = parse_glb("x.gltf", nested(text, 513));
+    ASSERT_FALSE(deep);
+    EXPECT_EQ(deep.error().message, "x.gltf: its JSON is nested more than 512 deep") << text;
+  }
+}
+
 TEST(Glb, SaysWhatIsWrongAndWhere) {
   const std::pair<const char*, const char*> kDocuments[] = {
       {R"({"buffers":[{"uri":5}]})", "buffers[0].uri must be a string, it is the number 5"},
