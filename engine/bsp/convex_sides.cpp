@@ -22,18 +22,16 @@ UnitPlane unit_plane(const Operand& operand, size_t face) {
 
 Inside ConvexSides::side(const std::vector<Operand>& operands, uint32_t operand,
                          const std::array<double, 3>& point) {
-  const auto [known, is_new] = planes_.try_emplace(operand);
+  const auto [place, is_new] = place_.find_or_add(operand, static_cast<uint32_t>(planes_.size()));
   if (is_new) {
     const Operand& leaf = operands[operand];
-    for (size_t f = 0; f < leaf.leaf->face_count(); ++f) {
-      known->second.push_back(unit_plane(leaf, f));
-    }
+    std::vector<UnitPlane>& planes = planes_.emplace_back();
+    planes.reserve(leaf.leaf->face_count());
+    for (size_t f = 0; f < leaf.leaf->face_count(); ++f) planes.push_back(unit_plane(leaf, f));
   }
   constexpr double kMargin = 2;  // a step along each axis is less than that together
   double farthest = -HUGE_VAL;
-  for (const UnitPlane& p : known->second) {
-    farthest = std::max(farthest, above(p, point));
-  }
+  for (const UnitPlane& p : planes_[place]) farthest = std::max(farthest, above(p, point));
   return farthest > kMargin ? Inside::kNo : farthest < -kMargin ? Inside::kYes : Inside::kUnknown;
 }
 

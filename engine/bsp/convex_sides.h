@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
+#include "engine/base/number_map.h"
 #include "engine/bsp/operand.h"
 #include "engine/bsp/ray_label.h"
 
@@ -31,7 +31,8 @@ class ConvexSides {
               const std::array<double, 3>& point);
 
  private:
-  std::unordered_map<uint32_t, std::vector<UnitPlane>> planes_;  ///< of operands asked about
+  NumberMap place_;  ///< of operands asked about in:
+  std::vector<std::vector<UnitPlane>> planes_;
 };
 
 }  // namespace csgrun

@@ -63,17 +63,28 @@ class Worker {
         cutter_(job, geometry_, is_open),
         arrangement_(job, geometry_, points_, contacts.touched(), is_open) {}
 
+  /// Cuts polygons of a part: calls work(), which calls cut() for each. What is made of them is put
+  /// together in memory of this thread's, which grows once, and the part has a copy without room to
+  /// grow: that takes half of what parts that grow do, and threads wait for one another where they
+  /// ask for memory.
+  template <class Work>
+  void cut_in(CutPart& part, Work&& work) {
+    made_ = part.made;
+    work();
+    part.made = made_;
+  }
   /// Cuts by name, or by value, for which the planes must have been made.
   void cut(const CutPart::Polygon& polygon, CutPart& part) {
     geometry_.clear();
     points_.clear();
     codes_.clear();
-    const auto first_loop = static_cast<uint32_t>(part.loops.loops.size());
-    const size_t first_corner = part.loops.corner_point.size();
+    CutLoops& loops = made_.loops;
+    const auto first_loop = static_cast<uint32_t>(loops.loops.size());
+    const size_t first_corner = loops.corner_point.size();
     bool is_done = false;
     if (polygon.is_plain) {
       list_segments(polygon, part);
-      is_done = cutter_.cut(polygon.number, segments_, part.loops);
+      is_done = cutter_.cut(polygon.number, segments_, loops);
       if (!is_done) {
         part.again.push_back(polygon);
         part.again.back().is_plain = false;
@@ -81,18 +92,17 @@ class Worker {
       }
     } else {
       list_sheets(polygon, part);
-      is_done = arrangement_.build(polygon.number, sheets_, coplanar(polygon, part), part.loops);
+      is_done = arrangement_.build(polygon.number, sheets_, coplanar(polygon, part), loops);
       part.by_value.push_back(polygon.number);
     }
     if (!is_done) {
       part.left.push_back(polygon.number);
       return;
     }
-    for (size_t c = first_corner; c < part.loops.corner_point.size(); ++c) {
-      part.loops.corner_point[c] = code(part.loops.corner_point[c], !polygon.is_plain, part);
+    for (size_t c = first_corner; c < loops.corner_point.size(); ++c) {
+      loops.corner_point[c] = code(loops.corner_point[c], !polygon.is_plain);
     }
-    part.faces.push_back(
-        {polygon.number, first_loop, static_cast<uint32_t>(part.loops.loops.size())});
+    made_.faces.push_back({polygon.number, first_loop, static_cast<uint32_t>(loops.loops.size())});
   }
 
   /// See FaceArrangement.
@@ -139,15 +149,15 @@ class Worker {
   }
 
   /// What stands for a point in the loops of a part.
-  uint32_t code(uint32_t own, bool is_loose, CutPart& part) {
+  uint32_t code(uint32_t own, bool is_loose) {
     if (own >= codes_.size()) codes_.resize(geometry_.point_count(), kNone);
     uint32_t& code = codes_[own];
     if (code != kNone) return code;
     if (const uint32_t shared = points_.shared_of(own); shared != kNone) return code = shared;
     const CellGeometry::StoredPoint& s = geometry_.point(own);
     if (s.vertex != kNone) return code = CutPart::kVertex | s.vertex;
-    part.points.push_back({s.rounded, s.planes, is_loose});
-    return code = CutPart::kNew | static_cast<uint32_t>(part.points.size() - 1);
+    made_.points.push_back({s.rounded, s.planes, is_loose});
+    return code = CutPart::kNew | static_cast<uint32_t>(made_.points.size() - 1);
   }
 
   const Job& job_;
@@ -157,6 +167,7 @@ class Worker {
   OwnPoints points_;
   PolygonCutter cutter_;
   FaceArrangement arrangement_;
+  CutPart::Made made_;  ///< of the part at hand
   std::vector<CutSegment> segments_;
   std::vector<SheetSegment> sheets_;
   std::vector<uint32_t> codes_;  ///< per own point, or kNone
@@ -310,17 +321,21 @@ class FaceCutter {
         [&] { return Worker(job_, contacts_, ends_, is_open_, geometry_, index_); },
         [&](Worker& worker, size_t run) {
           const SignCounters before = worker.counters();
-          for (const CutPart::Polygon& polygon : parts_[run].*list) {
-            if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) break;
-            if (is_crowded()) break;
-            const uint64_t crowding = worker.crowding();
-            worker.cut(polygon, parts_[run]);
-            crowding_.fetch_add(worker.crowding() - crowding, std::memory_order_relaxed);
-          }
+          worker.cut_in(parts_[run], [&] { cut_part(parts_[run], list, worker); });
           SignCounters own = worker.counters();
           own.subtract(before);
           parts_[run].counters.add(own);
         });
+  }
+
+  void cut_part(CutPart& part, List list, Worker& worker) {
+    for (const CutPart::Polygon& polygon : part.*list) {
+      if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) break;
+      if (is_crowded()) break;
+      const uint64_t crowding = worker.crowding();
+      worker.cut(polygon, part);
+      crowding_.fetch_add(worker.crowding() - crowding, std::memory_order_relaxed);
+    }
   }
 
   Job& job_;

@@ -20,10 +20,10 @@ class PartJoiner {
     Place end;
     for (const CutPart& part : parts) {
       places.push_back(end);
-      end.loop += part.loops.loops.size();
-      end.corner += part.loops.corner_point.size();
-      end.fact += part.loops.facts.size();
-      end.face += part.faces.size();
+      end.loop += part.made.loops.loops.size();
+      end.corner += part.made.loops.corner_point.size();
+      end.fact += part.made.loops.facts.size();
+      end.face += part.made.faces.size();
     }
     make_points(parts);
     CutFaces all;
@@ -60,7 +60,7 @@ class PartJoiner {
   void make_points(const std::vector<CutPart>& parts) {
     std::vector<uint8_t> needs(job_.vertex_count(), 0);
     for_each_part(parts.size(), kAtOnce, [&](size_t, size_t first, size_t last) {
-      for (size_t p = first; p < last; ++p) note_needs(parts[p].loops, needs);
+      for (size_t p = first; p < last; ++p) note_needs(parts[p].made.loops, needs);
     });
     const std::vector<uint32_t> vertices = numbers_where(
         needs.size(), [&](uint32_t v) { return needs[v] != 0 && !geometry_.has_vertex_point(v); });
@@ -69,7 +69,7 @@ class PartJoiner {
     std::vector<size_t> starts;  // of the points of each part
     for (const CutPart& part : parts) {
       starts.push_back(count);
-      count += part.points.size();
+      count += part.made.points.size();
     }
     const uint32_t first = first_new_ = geometry_.add_points(count);
     end_new_ = first + static_cast<uint32_t>(count);
@@ -77,7 +77,7 @@ class PartJoiner {
     for_each_part(parts.size(), kAtOnce, [&](size_t, size_t begin, size_t end) {
       for (size_t p = begin; p < end; ++p) {
         auto number = first + static_cast<uint32_t>(starts[p]);
-        for (const CutPart::Point& point : parts[p].points) {
+        for (const CutPart::Point& point : parts[p].made.points) {
           geometry_.set_point(number, point.planes, point.rounded);
           points_[p].push_back(number++);
         }
@@ -94,7 +94,7 @@ class PartJoiner {
     const auto each_loose_point = [&](auto&& visit) {
       for (size_t p = 0; p < parts.size(); ++p) {
         for (size_t i = 0; i < points_[p].size(); ++i) {
-          if (parts[p].points[i].is_loose) visit(points_[p][i]);
+          if (parts[p].made.points[i].is_loose) visit(points_[p][i]);
         }
       }
     };
@@ -126,21 +126,22 @@ class PartJoiner {
     const auto moved = [](uint32_t number, size_t by) {
       return number + static_cast<uint32_t>(by);
     };
-    for (size_t l = 0; l < part.loops.loops.size(); ++l) {
-      CutLoops::Loop loop = part.loops.loops[l];
+    for (size_t l = 0; l < part.made.loops.loops.size(); ++l) {
+      CutLoops::Loop loop = part.made.loops.loops[l];
       for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
         all.loops.corner_point[place.corner + c] =
-            number(part.loops.corner_point[c], loop.is_loose, points);
+            number(part.made.loops.corner_point[c], loop.is_loose, points);
       }
       loop.first_corner = moved(loop.first_corner, place.corner);
       loop.first_fact = moved(loop.first_fact, place.fact);
       all.loops.loops[place.loop + l] = loop;
     }
-    std::copy(part.loops.corner_plane.begin(), part.loops.corner_plane.end(),
+    std::copy(part.made.loops.corner_plane.begin(), part.made.loops.corner_plane.end(),
               at(all.loops.corner_plane, place.corner));
-    std::copy(part.loops.facts.begin(), part.loops.facts.end(), at(all.loops.facts, place.fact));
-    for (size_t f = 0; f < part.faces.size(); ++f) {
-      const CutFaces::Face& face = part.faces[f];
+    std::copy(part.made.loops.facts.begin(), part.made.loops.facts.end(),
+              at(all.loops.facts, place.fact));
+    for (size_t f = 0; f < part.made.faces.size(); ++f) {
+      const CutFaces::Face& face = part.made.faces[f];
       all.faces[place.face + f] = {face.polygon, moved(face.first_loop, place.loop),
                                    moved(face.end_loop, place.loop)};
     }

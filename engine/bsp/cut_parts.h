@@ -26,6 +26,11 @@ struct CutPart {
     std::array<uint32_t, 3> planes;
     bool is_loose;  ///< of loops that are
   };
+  struct Made {
+    CutLoops loops;
+    std::vector<Point> points;
+    std::vector<CutFaces::Face> faces;
+  };
 
   std::vector<Polygon> polygons;
   /// Of the polygons, but for those with convex operands that have a face in the polygon's plane:
@@ -33,9 +38,7 @@ struct CutPart {
   std::vector<uint32_t> contacts;
   std::vector<uint32_t> coplanar;  ///< polygons
   std::vector<Polygon> again;      ///< not cut by name after all
-  CutLoops loops;
-  std::vector<Point> points;
-  std::vector<CutFaces::Face> faces;
+  Made made;
   std::vector<uint32_t> left, by_value;
   SignCounters counters;
 };

@@ -65,12 +65,14 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
   const auto is_known = [&](const CutLoops::Fact& f) {
     return !plainly_.is_open[f.operand] || f.front != f.back || (is_at_first && !f.is_elsewhere);
   };
-  inside_.clear();
+  patch_.first = own;
+  Sides& inside = patch_.second;
+  inside.clear();
   asked_.clear();
   for (const CutLoops::Fact& f : facts) {
     if (!is_known(f)) continue;
-    if (f.front) inside_.push_back(2 * uint64_t{f.operand});
-    if (f.back) inside_.push_back(2 * uint64_t{f.operand} + 1);
+    if (f.front) inside.push_back(2 * uint64_t{f.operand});
+    if (f.back) inside.push_back(2 * uint64_t{f.operand} + 1);
   }
   for (const uint32_t o : bins_.at(point)) {
     if (o == own || !may_hold(job_.operand_box(o), point, error) ||
@@ -98,9 +100,9 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
     if (label != Inside::kUnknown && note(o, label == Inside::kYes)) return PatchFate::kDrop;
   }
   if (is_unsure) return PatchFate::kUnknown;
-  std::sort(inside_.begin(), inside_.end());
-  const auto [known, is_new] = known_.try_emplace({own, inside_}, PatchFate::kDrop);
-  if (is_new) known->second = evaluate(own, known->first.second);
+  std::sort(inside.begin(), inside.end());
+  const auto [known, is_new] = known_.try_emplace(patch_, PatchFate::kDrop);
+  if (is_new) known->second = evaluate(own, inside);
   return known->second;
 }
 
@@ -109,7 +111,8 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
 bool PatchLabels::note(uint32_t operand, bool is_inside) {
   const DeadSpace& dead = *plainly_.dead;
   if (is_inside ? dead.is_remover(operand) : dead.is_confiner(operand)) return true;
-  if (is_inside) inside_.insert(inside_.end(), {2 * uint64_t{operand}, 2 * uint64_t{operand} + 1});
+  Sides& inside = patch_.second;
+  if (is_inside) inside.insert(inside.end(), {2 * uint64_t{operand}, 2 * uint64_t{operand} + 1});
   return false;
 }
 

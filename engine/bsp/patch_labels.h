@@ -53,12 +53,13 @@ class PatchLabels {
   VertexSigns signs_;
   RayBoxes boxes_;
   const SquareBins bins_;  ///< of the operands
-  Sides inside_;           ///< of the patch at hand
   /// Operands that balls do not tell of: rays are sent only if none of these decides.
   std::vector<uint32_t> asked_;
   ConvexSides convex_sides_;
   /// By the operand and those that it is inside of: few differ.
-  std::map<std::pair<uint32_t, Sides>, PatchFate> known_;
+  using Patch = std::pair<uint32_t, Sides>;
+  std::map<Patch, PatchFate> known_;
+  Patch patch_;  ///< at hand: as a member it keeps its memory
   std::vector<SparseBoundary::Sides> sides_;
 };
 

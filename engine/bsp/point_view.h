@@ -4,8 +4,9 @@
 
 #include <array>
 #include <cstdint>
-#include <unordered_map>
 
+#include "engine/base/chunked_vector.h"
+#include "engine/base/number_map.h"
 #include "engine/bsp/cell_geometry.h"
 
 namespace csgrun {
@@ -20,9 +21,9 @@ class PointView {
   }
   /// Valid as long as the view.
   const Point& exact(uint32_t p) {
-    const auto found = exact_.find(p);
-    return found != exact_.end() ? found->second
-                                 : exact_.emplace(p, geometry_->value(p)).first->second;
+    const auto [place, is_new] = place_.find_or_add(p, static_cast<uint32_t>(exact_.size()));
+    if (is_new) exact_.push_back(geometry_->value(p));
+    return exact_[place];
   }
   /// Sign of the stored plane `plane` at a point, as CellGeometry::side.
   int side(uint32_t plane, uint32_t p) {
@@ -41,7 +42,8 @@ class PointView {
 
  private:
   const CellGeometry* geometry_;
-  std::unordered_map<uint32_t, Point> exact_;
+  NumberMap place_;  ///< of points in:
+  ChunkedVector<Point, 16> exact_;
 };
 
 }  // namespace csgrun

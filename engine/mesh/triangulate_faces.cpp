@@ -67,6 +67,13 @@ class FaceTriangulator {
   std::vector<std::array<uint32_t, 3>> triangles_;
 };
 
+/// How many triangles a face has: a slit counts as a hole of two corners.
+size_t triangle_count(const MergedFace& face) {
+  size_t corners = 2 * face.slits.size();
+  for (const auto& loop : face.loops) corners += loop.size();
+  return corners - 2 + 2 * (face.loops.size() - 1 + face.slits.size() + face.points.size());
+}
+
 }  // namespace
 
 Result<TriangleSet> triangulate_faces(const std::vector<MergedFace>& faces,
@@ -81,6 +88,10 @@ Result<TriangleSet> triangulate_faces(const std::vector<MergedFace>& faces,
   std::vector<TriangleSet> sets(parts);
   std::vector<std::optional<Error>> errors(parts);
   for_each_alone(parts, true, [&](size_t part) {
+    size_t count = 0;
+    for (size_t f = starts[part]; f < starts[part + 1]; ++f) count += triangle_count(faces[f]);
+    sets[part].triangles.reserve(count);
+    sets[part].face.reserve(count);
     FaceTriangulator triangulator(faces, geometry, planes, in_order);
     for (size_t f = starts[part]; f < starts[part + 1] && !errors[part]; ++f) {
       if (auto status = triangulator.add(static_cast<uint32_t>(f), sets[part]); !status) {
