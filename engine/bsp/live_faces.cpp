@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/scratch.h"
 #include "engine/bsp/near_faces.h"
 
 namespace csgrun {
@@ -14,20 +15,23 @@ namespace {
 /// The faces of a leaf on the grid that are not in dead space.
 std::vector<uint32_t> live_faces_of(const Operand& operand, const DeadSpace& dead) {
   const LeafGeometry& leaf = *operand.leaf;
-  std::vector<std::array<double, 3>> points;
-  points.reserve(leaf.vertices.size());
-  for (const IVec3& v : leaf.vertices) {
-    auto& p = points.emplace_back();
-    for (size_t k = 0; k < 3; ++k) p[k] = static_cast<double>(v[k] + operand.translation[k]);
+  Scratch scratch;
+  const auto points = scratch.array<std::array<double, 3>>(leaf.vertices.size());
+  for (size_t v = 0; v < points.size(); ++v) {
+    for (size_t k = 0; k < 3; ++k) {
+      points[v][k] = static_cast<double>(leaf.vertices[v][k] + operand.translation[k]);
+    }
   }
-  std::vector<uint32_t> live;
+  const auto live = scratch.array<uint32_t>(leaf.face_count());
+  size_t live_count = 0;
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
     const uint32_t first = leaf.face_starts[f], count = leaf.face_starts[f + 1] - first;
     const auto at = [&](uint32_t i) -> const auto& { return points[leaf.corners[first + i]]; };
     const PolygonBox box = box_of_face(leaf, f, operand.translation);
-    if (!dead.holds(box, count, at)) live.push_back(f);
+    live[live_count] = f;
+    live_count += static_cast<size_t>(!dead.holds(box, count, at));
   }
-  return live;
+  return {live.begin(), live.begin() + live_count};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/scratch.h"
 #include "engine/bsp/canonical_order.h"
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/corner_walk.h"
@@ -79,12 +80,16 @@ class UntouchedFaces {
   /// does not have; with their corners as vertices of the leaf.
   void collect(FaceFate fate, std::span<const uint32_t> far, UntouchedPart& part,
                uint8_t* taken) const {
-    std::vector<uint8_t> met(leaf_.vertices.size(), 0);  // 1: by such a face, 2: by others
-    std::vector<uint32_t> found;
+    Scratch scratch;
+    // By such a face: 1, by others: 2.
+    const auto met = scratch.array<uint8_t>(leaf_.vertices.size(), 0);
+    const auto room = scratch.array<uint32_t>(count_);
+    size_t count = 0;
     for (size_t i = 0; i < count_; ++i) {
       const uint32_t f = face(i);
       const bool is_untouched = fate_[i] == fate && stays_apart(f);
-      if (is_untouched) found.push_back(f);
+      room[count] = f;
+      count += static_cast<size_t>(is_untouched);
       taken[i] |= static_cast<uint8_t>(is_untouched);
       for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
         met[leaf_.corners[c]] |= is_untouched ? 1 : 2;
@@ -100,8 +105,9 @@ class UntouchedFaces {
     for (uint32_t v = 0; v < met.size(); ++v) {
       if (met[v] == 3) part.shared.push_back({v, v});
     }
+    const std::span<const uint32_t> found = room.first(count);
     if (far.empty()) {
-      part.faces = std::move(found);
+      part.faces.assign(found.begin(), found.end());
       return;
     }
     part.faces.resize(found.size() + far.size());

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/base/scratch.h"
 #include "engine/csg/collinear_triangles.h"
 #include "engine/csg/leaf_faces.h"
 #include "engine/mesh/leaf_shape.h"
@@ -27,8 +28,9 @@ uint64_t hash(const IVec3& p) {
 /// than what is near the processor: its lines are asked for before they are needed.
 std::vector<uint32_t> find_equal(const std::vector<IVec3>& points) {
   constexpr size_t kAhead = 16;
-  std::vector<uint32_t> table(std::bit_ceil(2 * points.size() + 1), kNone);  // open, of points
-  std::vector<uint32_t> first(points.size());
+  Scratch scratch;
+  const auto table = scratch.array<uint32_t>(std::bit_ceil(2 * points.size() + 1), kNone);  // open
+  const auto first = scratch.array<uint32_t>(points.size());
   const size_t mask = table.size() - 1;
   std::array<size_t, kAhead> places{};
   bool any = false;
@@ -46,17 +48,17 @@ std::vector<uint32_t> find_equal(const std::vector<IVec3>& points) {
     first[p] = table[at];
     any |= table[at] != p;
   }
-  if (!any) first.clear();
-  return first;
+  if (!any) return {};
+  return {first.begin(), first.end()};
 }
 
 /// Gives points numbers in the order in which they are asked for, equal points the same one.
 class Numbering {
  public:
-  explicit Numbering(const std::vector<IVec3>& points)
+  Numbering(const std::vector<IVec3>& points, Scratch& scratch)
       : points_(points),
         equal_(find_equal(points)),
-        number_(points.size(), kNone),
+        number_(scratch.array<uint32_t>(points.size(), kNone)),
         vertices_(points.size() + 1) {}  // room for one that is not added, too
 
   uint32_t operator()(uint32_t point) {
@@ -86,9 +88,9 @@ class Numbering {
 
  private:
   const std::vector<IVec3>& points_;
-  std::vector<uint32_t> equal_;   ///< see find_equal; empty if no two are
-  std::vector<uint32_t> number_;  ///< by the first of those that are equal
-  std::vector<IVec3> vertices_;   ///< of each number, and one more
+  std::vector<uint32_t> equal_;       ///< see find_equal; empty if no two are
+  const std::span<uint32_t> number_;  ///< by the first of those that are equal
+  std::vector<IVec3> vertices_;       ///< of each number, and one more
   uint32_t count_ = 0;
 };
 
@@ -147,7 +149,8 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
   leaf.face_starts.reserve(faces + 1);
   std::vector<LeftOut> left_out;
   std::vector<uint32_t> split, corners;  // faces of four corners that became two; those of one face
-  Numbering number(points);
+  Scratch scratch;
+  Numbering number(points, scratch);
   uint32_t next = 0;
   const auto add = [&](std::span<const uint32_t> loop) {
     for (const uint32_t point : loop) leaf.corners[next++] = number(point);

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/base/raw_vector.h"
+#include "engine/base/scratch.h"
 #include "engine/mesh/leaf_shape.h"
 
 #if defined(__SSE2__)
@@ -137,15 +137,18 @@ template <class Edges>
 std::vector<uint32_t> pair_simple(const LeafGeometry& leaf, const Edges& edges) {
   constexpr uint32_t kMany = 64;  // edges at a vertex, where none looks for its reverse
   const size_t count = leaf.corners.size();
+  Scratch scratch;
   // Where those that come to a vertex end, once they are there.
-  std::vector<uint32_t> ends(leaf.vertices.size() + 1, 0);
+  const auto ends = scratch.array<uint32_t>(leaf.vertices.size() + 1, 0);
   uint32_t* const end_at = ends.data() + 1;
   edges.each([&](uint32_t, uint32_t, uint32_t to) { ++end_at[to]; });
   uint32_t sum = 0;
-  for (uint32_t& end : std::span(ends).subspan(1)) sum += std::exchange(end, sum);
-  RawVector<uint32_t> from_where(count + kLanes), which(count + kLanes);
-  for (auto* const list : {&from_where, &which})
-    std::fill(list->end() - kLanes, list->end(), kNone);
+  for (uint32_t& end : ends.subspan(1)) sum += std::exchange(end, sum);
+  const auto from_where = scratch.array<uint32_t>(count + kLanes),
+             which = scratch.array<uint32_t>(count + kLanes);
+  for (const auto list : {from_where, which}) {
+    std::fill(list.end() - kLanes, list.end(), kNone);
+  }
   edges.each([&](uint32_t edge, uint32_t from, uint32_t to) {
     const uint32_t place = end_at[to]++;
     from_where[place] = from;

@@ -31,6 +31,11 @@ WholeOrder::WholeOrder(const BoundaryMesh& boundary, const CellGeometry& geometr
   number_triangles();
 }
 
+/// For points of a part that are met, and one more.
+size_t WholeOrder::most_places(const UntouchedPart& part) {
+  return std::min(part.leaf->vertices.size(), 3 * part.faces.size()) + 1;
+}
+
 /// Triangles over points as they are met, explicit points before all others.
 void WholeOrder::collect_triangles() {
   const std::vector<UntouchedPart>& parts = boundary_.parts;
@@ -49,6 +54,9 @@ void WholeOrder::collect_triangles() {
   first_point_.resize(parts.size());
   for_each_alone(met.size(), true, [&](size_t m) {
     Met own;  // not beside that of another thread while it grows
+    size_t most = 0;
+    for (size_t k = starts[m]; k < starts[m + 1]; ++k) most += most_places(parts[k]);
+    own.places.reserve(most);
     for (size_t k = starts[m]; k < starts[m + 1]; ++k) {
       first_point_[k] = static_cast<uint32_t>(own.places.size());
       collect_triangles(static_cast<uint32_t>(k), first[k], own);
@@ -70,7 +78,7 @@ void WholeOrder::collect_triangles() {
 void WholeOrder::collect_triangles(uint32_t k, size_t first, Met& met) {
   const UntouchedPart& part = boundary_.parts[k];
   const size_t vertices = part.leaf->vertices.size(), before = met.places.size();
-  met.places.resize(before + std::min(vertices, 3 * part.faces.size()) + 1);
+  met.places.resize(before + most_places(part));
   Place* const places = met.places.data() + before;
   uint32_t place_count = 0;
   std::vector<uint32_t>& number = met.number;

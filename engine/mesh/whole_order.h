@@ -90,6 +90,7 @@ class WholeOrder {
   };
 
   void collect_triangles();
+  static size_t most_places(const UntouchedPart& part);
   void collect_triangles(uint32_t k, size_t first, Met& met);
   void sort_points(const CellGeometry& geometry);
   void number_triangles();
