@@ -28,12 +28,13 @@ class ChunkedVector {
   T& back() { return (*this)[size_ - 1]; }
 
   void push_back(const T& element) {
-    if (size_ % kChunk == 0) add_chunk();
-    chunks_.back().push_back(element);
+    if (size_ == kChunk * chunks_.size()) add_chunk();
+    chunks_[size_ / kChunk].push_back(element);
     ++size_;
   }
+  /// Keeps the memory. O(size).
   void clear() {
-    chunks_.clear();
+    for (size_t i = 0; i * kChunk < size_; ++i) chunks_[i].clear();
     size_ = 0;
   }
 

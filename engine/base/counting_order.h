@@ -22,7 +22,7 @@ struct CountingOrder {
   /// O(count + keys).
   template <class Key>
   void sort(size_t count, size_t keys, Key key) {
-    if (count >= kMany && threads_here() > 1) {
+    if (count >= kMany && has_threads()) {
       return sort_in_ranges(count, keys, key);
     }
     // starts[k + 1] is where the next number of key k goes while they are distributed.

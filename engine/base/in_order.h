@@ -21,11 +21,8 @@ inline size_t parts_ahead() { return 4 * threads_here(); }
 /// other changes. Parts that are parts_ahead() apart are not there at the same time.
 template <class Make, class Take>
 void make_parts_in_order(size_t count, Make&& make, Take&& take) {
-  if (count <= 1 || threads_here() == 1) {
-    for (size_t part = 0; part < count; ++part) make(part), take(part);
-    return;
-  }
-  size_t next = 0;
+  size_t next = do_alone(count, false, [&](size_t part) { make(part), take(part); });
+  if (next == count) return;
   const auto hand_out = [&](tbb::flow_control& flow) {
     if (next == count) flow.stop();
     return next < count ? next++ : count;

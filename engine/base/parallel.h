@@ -1,11 +1,13 @@
 // Loops on several threads. What they do is divided by sizes alone, never by the number of threads,
 // so that results put together in the order of the parts are the same for any number.
 //
-// The threads' library is not begun before a loop has work for it: that takes longer (half a
-// millisecond where pages are slow) than most small models.
+// The threads' library is not begun before there is work that is worth it: to begin takes it three
+// milliseconds on some machines, and its threads keep a core busy while they wait for more.
 #pragma once
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,27 +16,54 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 namespace csgrun {
 
 /// Below so many things of a few nanoseconds each threads do not pay.
 constexpr size_t kFewForThreads = 8192;
+/// With so many faces an operation is worth threads from its start.
+constexpr size_t kManyForThreads = 200'000;
 
 /// A stretch of this thread's work for which so many threads are wanted. It enters their arena for
-/// the loops alone.
+/// the loops alone, and only once it has gone on for a while, or much is expected of it: short ones
+/// end sooner alone.
 class ThreadsFrame {
  public:
   explicit ThreadsFrame(unsigned threads)
-      : threads_(threads), outer_(std::exchange(current_, this)) {}
+      : threads_(threads), outer_(std::exchange(current_, this)) {
+    is_outside_ = is_outside_ || !is_known_to_library();
+  }
   ~ThreadsFrame() { current_ = outer_; }
   ThreadsFrame(const ThreadsFrame&) = delete;
   ThreadsFrame& operator=(const ThreadsFrame&) = delete;
 
+  /// How long frames of this process go on alone; an eighth of that once any has begun threads, as
+  /// the first time takes longest. Zero: loops have threads from their start.
+  static void set_alone_time(std::chrono::nanoseconds time) { alone_time_ = time; }
+  static std::chrono::nanoseconds alone_time() {
+    return alone_time_.load(std::memory_order_relaxed);
+  }
+
   /// That of this thread; null in an arena, and where nobody asked for a number of threads.
   static ThreadsFrame* current() { return current_; }
+  /// Whether this thread is in a frame, or in an arena, one of somebody else's perhaps.
+  static bool is_within() {
+    return current_ != nullptr || is_in_arena_ || (!is_outside_ && is_known_to_library());
+  }
   [[nodiscard]] unsigned threads() const { return threads_; }
+
+  [[nodiscard]] bool has_begun() const { return arena_.has_value(); }
+  /// Some of the work is on so many faces.
+  void expect(size_t faces) { is_much_ = is_much_ || faces >= kManyForThreads; }
+  /// Whether it has gone on for long enough, or will.
+  [[nodiscard]] bool is_worth_threads() const {
+    constexpr int kShareLater = 8;
+    const std::chrono::nanoseconds first = alone_time();
+    return has_begun() || is_much_ ||
+           Clock::now() - start_ >=
+               (any_began_.load(std::memory_order_relaxed) ? first / kShareLater : first);
+  }
 
   template <class Work>
   void execute(Work&& work) {
@@ -42,37 +71,60 @@ class ThreadsFrame {
       // Without the control, more threads than cores would be cut down, with a message.
       allow_.emplace(tbb::global_control::max_allowed_parallelism, threads_);
       arena_.emplace(static_cast<int>(threads_));
+      any_began_.store(true, std::memory_order_relaxed);
     }
     const InArena in_arena;
     arena_->execute(std::forward<Work>(work));
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
   struct InArena {
-    ThreadsFrame* frame = std::exchange(current_, nullptr);
-    ~InArena() { current_ = frame; }
+    ThreadsFrame* const frame = std::exchange(current_, nullptr);
+    const bool was_in_arena = std::exchange(is_in_arena_, true);
+    ~InArena() { current_ = frame, is_in_arena_ = was_in_arena; }
   };
+  static bool is_known_to_library() {
+    return tbb::this_task_arena::current_thread_index() != tbb::task_arena::not_initialized;
+  }
 
+  static inline std::atomic<std::chrono::nanoseconds> alone_time_{std::chrono::milliseconds(25)};
+  static inline std::atomic<bool> any_began_{false};
   static inline constinit thread_local ThreadsFrame* current_ = nullptr;
+  static inline constinit thread_local bool is_in_arena_ = false;
+  /// A thread that had a frame before the library knew it. (The library knows it ever after, in an
+  /// arena of all cores.)
+  static inline constinit thread_local bool is_outside_ = false;
   unsigned threads_;
   ThreadsFrame* outer_;
+  const Clock::time_point start_ = Clock::now();
+  bool is_much_ = false;
   std::optional<tbb::global_control> allow_;
   std::optional<tbb::task_arena> arena_;
 };
 
-/// How many threads the loops below use here.
+/// How many threads the loops below may use here.
 inline unsigned threads_here() {
   const ThreadsFrame* frame = ThreadsFrame::current();
   return frame ? frame->threads() : static_cast<unsigned>(tbb::this_task_arena::max_concurrency());
 }
 
+/// Whether a loop that begins now has several from the start. One that has not may have them later:
+/// what it does must not depend on it.
+inline bool has_threads() {
+  const ThreadsFrame* frame = ThreadsFrame::current();
+  return threads_here() > 1 && (!frame || frame->is_worth_threads());
+}
+
+/// What this thread does now is on so many faces.
+inline void expect_faces(size_t faces) {
+  if (ThreadsFrame* frame = ThreadsFrame::current()) frame->expect(faces);
+}
+
 /// Returns work(), in which the loops below use so many threads.
 template <class Work>
 auto with_threads(unsigned threads, Work&& work) {
-  const bool is_begun =
-      ThreadsFrame::current() != nullptr ||
-      tbb::this_task_arena::current_thread_index() != tbb::task_arena::not_initialized;
-  if (is_begun && threads_here() == threads) return work();
+  if (ThreadsFrame::is_within() && threads_here() == threads) return work();
   ThreadsFrame frame(threads);  // loops within change it
   return work();
 }
@@ -87,6 +139,25 @@ void on_threads(Work&& work) {
   }
 }
 
+/// Calls one(i) for i from 0 on until several threads should do the rest, or `count` are done;
+/// returns how many were. Of what is `tried` first so much must be left for them, by what it took
+/// so far, that it takes half a millisecond: they do not come at once, and those that wait for more
+/// may share a core with this one.
+template <class One>
+size_t do_alone(size_t count, bool is_tried, One&& one) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::microseconds kWorthIt(500);
+  is_tried = is_tried && ThreadsFrame::alone_time().count() > 0;
+  const Clock::time_point start = is_tried ? Clock::now() : Clock::time_point();
+  size_t done = 0;
+  const auto is_much_left = [&] {
+    const size_t left = count - done;
+    return left > 1 && (!is_tried || (done > 0 && (Clock::now() - start) / done * left > kWorthIt));
+  };
+  while (done < count && !(is_much_left() && has_threads())) one(done++);
+  return done;
+}
+
 /// The number of parts of so many things in each that all are divided into.
 constexpr size_t part_count(size_t count, size_t each) { return (count + each - 1) / each; }
 
@@ -96,12 +167,8 @@ void for_each_part(size_t count, size_t each, Work&& work) {
   const auto one = [&](size_t part) {
     work(part, part * each, std::min(count, (part + 1) * each));
   };
-  const size_t parts = part_count(count, each);
-  if (parts <= 1 || threads_here() == 1) {
-    for (size_t part = 0; part < parts; ++part) one(part);
-  } else {
-    on_threads([&] { tbb::parallel_for(size_t{0}, parts, one); });
-  }
+  const size_t parts = part_count(count, each), done = do_alone(parts, each >= kFewForThreads, one);
+  if (done < parts) on_threads([&] { tbb::parallel_for(done, parts, one); });
 }
 
 /// Calls work(begin, end) for ranges that make up [0, count), in any order and at the same time.
@@ -169,12 +236,8 @@ std::vector<uint32_t> numbers_where(size_t count, Wanted&& is_wanted) {
 /// Calls both, at the same time if they are `much`: neither may look at what the other changes.
 template <class First, class Second>
 void run_both(bool much, First&& first, Second&& second) {
-  if (!much || threads_here() == 1) {
-    first();
-    second();
-  } else {
-    on_threads([&] { tbb::parallel_invoke(first, second); });
-  }
+  const auto one = [&](size_t i) { i == 0 ? first() : second(); };
+  for_each_alone(2, much, one);
 }
 
 }  // namespace csgrun

@@ -16,7 +16,7 @@ namespace csgrun {
 template <class Iterator>
 void sort_all(Iterator begin, Iterator end) {
   const auto count = static_cast<size_t>(std::distance(begin, end));
-  if (count > kFewForThreads && threads_here() > 1) {
+  if (count > kFewForThreads && has_threads()) {
     on_threads([&] { tbb::parallel_sort(begin, end); });
   } else {
     std::sort(begin, end);

@@ -123,7 +123,7 @@ PairCells list_shared_cells(CoarseGrid& grid, std::span<const CoarseGrid::Cells>
   const auto shared = static_cast<uint32_t>(result.cells.size());
   // Each slice of the cells is filled by one thread.
   constexpr size_t kSlices = 8;
-  const size_t slices = threads_here() > 1 ? kSlices : 1;
+  const size_t slices = has_threads() ? kSlices : 1;
   unsigned shift = 0;
   while (shared >> shift >= slices) ++shift;
   struct Part {

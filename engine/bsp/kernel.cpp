@@ -105,6 +105,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     return assembled(job, std::move(*evaluated));
   };
   const auto evaluate = [&]() -> Outcome {
+    expect_faces(faces);
     if (options.whole_faces && !options.literal_cells && faces >= options.faces_for_near) {
       if (options.name_untouched) {
         const auto near = find_near_faces(operands, options.cell_limit);

@@ -5,9 +5,8 @@
 #include <atomic>
 #include <cstddef>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "engine/base/parallel.h"
+#include "engine/base/per_thread.h"
 #include "engine/bsp/operand.h"
 
 namespace csgrun {
@@ -34,8 +33,7 @@ void for_each_run(size_t runs, const KernelOptions& options, Make&& make, Work&&
     return;
   }
   with_threads(options.threads, [&] {
-    using Solver = decltype(make());
-    tbb::enumerable_thread_specific<Solver> solvers([&] { return make(); });
+    PerThread solvers([&] { return make(); });
     for_each_alone(runs, true, [&](size_t run) {
       if (!cancelled()) work(solvers.local(), run);
     });

@@ -13,7 +13,7 @@ constexpr size_t kAhead = 12;  // so soon the memory of points is asked for
 }  // namespace
 
 void PointIndex::make_unique(std::span<const uint32_t> points) {
-  if (points.size() > kFewForThreads && threads_here() > 1) {
+  if (points.size() > kFewForThreads && has_threads()) {
     make_unique_in_shards(points);
     return;
   }

@@ -4,10 +4,9 @@
 #include <atomic>
 #include <optional>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "engine/base/chance_list.h"
 #include "engine/base/parallel.h"
+#include "engine/base/per_thread.h"
 #include "engine/bsp/contact_table.h"
 #include "engine/bsp/covered_polygons.h"
 #include "engine/bsp/cut_faces.h"
@@ -352,12 +351,10 @@ class FaceEvaluator {
   /// Has the corners examined of cut polygons that something touches, and marks the contacts of
   /// these that end elsewhere. Such polygons were cut by value: their corners are in the index.
   void examine_cut(TouchFinder& finder, std::vector<uint8_t>& is_open) {
-    // A small job stays without the threads' library, which takes a millisecond to begin.
-    std::optional<tbb::enumerable_thread_specific<std::vector<uint32_t>>> corners_of;
-    if (part_count(cut_.faces.size(), kFacesPerPart) > 1) corners_of.emplace();
+    PerThread corners_of([] { return std::vector<uint32_t>(); });
     finder.examine_known([&](auto&& mark) {
       for_each_part(cut_.faces.size(), kFacesPerPart, [&](size_t, size_t begin, size_t end) {
-        std::vector<uint32_t>& corner_of = corners_of ? corners_of->local() : corner_of_;
+        std::vector<uint32_t>& corner_of = corners_of.local();
         std::vector<uint32_t> corners;
         for (size_t f = begin; f < end; ++f) {
           const CutFaces::Face& cut = cut_.faces[f];

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/corner_walk.h"
 #include "engine/csg/convex_hull.h"
 #include "engine/csg/convex_leaf.h"
@@ -247,6 +248,7 @@ std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh,
 
 PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
                           const FaceNumbers& appearance) {
+  expect_faces(mesh.face_count());
   if (mesh.hull_of_points) return hull_leaf(points);
   if (auto taken = take_convex_faces(mesh, points, turn, appearance)) {
     if (taken->leaf.face_count() == 0) return {};

@@ -169,6 +169,7 @@ class Search {
 template <class Look>
 Crossings found_by(const TriangleView& mesh, uint64_t most, unsigned threads, Look look) {
   const auto find = [&] {
+    expect_faces(mesh.triangles.size());
     const Search search(mesh);
     auto found = look(search);
     return found ? *std::move(found) : search.first(most);

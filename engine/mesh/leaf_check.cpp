@@ -4,9 +4,8 @@
 #include <optional>
 #include <span>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "engine/base/parallel.h"
+#include "engine/base/per_thread.h"
 #include "engine/bsp/corner_walk.h"
 #include "engine/bsp/packed_boxes.h"
 #include "engine/bsp/winding.h"
@@ -55,7 +54,7 @@ Pairs find_crossings(const LeafGeometry& leaf, const PackedBoxes& tree,
   } else {
     const std::vector<PackedBoxes::Task> tasks = tree.pair_tasks(kTasks);
     std::vector<Pairs> found(tasks.size());
-    tbb::enumerable_thread_specific<FacePairs::Scratch> scratches;
+    PerThread scratches([] { return FacePairs::Scratch(); });
     for_each_alone(tasks.size(), true,
                    [&](size_t t) { search(tasks[t], scratches.local(), found[t]); });
     for (const Pairs& some : found) all.insert(all.end(), some.begin(), some.end());

@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "engine/base/in_order.h"
+#include "engine/base/per_thread.h"
 #include "engine/bsp/regions.h"
 #include "engine/mesh/box_tree.h"
 
@@ -66,7 +65,7 @@ class MetEdges {
     constexpr size_t kEach = 64;
     const size_t parts = part_count(face_count(), kEach);
     std::vector<Part> ring(std::min(parts, parts_ahead()));
-    tbb::enumerable_thread_specific<Seen> seen;
+    PerThread seen([] { return Seen(); });
     make_parts_in_order(
         parts,
         [&](size_t number) {

@@ -400,8 +400,7 @@ void walk_fans(const TriangleSet& set, const CountingOrder& by_point,
   fans.vertex_of_corner.assign(twin.size(), kNone);
   const size_t points = by_point.starts.size() - 1;
   // Fans do not leave a point. Numbers are made anew if there is more than one part.
-  const bool is_alone = threads_here() == 1;
-  const size_t each = is_alone ? std::max<size_t>(1, points) : kFewForThreads;
+  const size_t each = has_threads() ? kFewForThreads : std::max<size_t>(1, points);
   std::vector<std::vector<uint32_t>> parts(part_count(points, each));
   for_each_part(points, each, [&](size_t part, size_t begin, size_t end) {
     std::vector<uint32_t> own;

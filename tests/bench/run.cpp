@@ -128,6 +128,7 @@ std::vector<Operand> Run::import(const std::vector<RawMesh>& meshes, bool keep_f
     return operands;
   }
   for (const RawMesh& m : meshes) input_triangles_ += m.triangle_count();
+  expect_faces(input_triangles_);
   return clock.timed(clock.import, [&] {
     std::vector<PreparedLeaf> leaves(meshes.size());
     for_each_part(meshes.size(), 1, [&](size_t, size_t i, size_t) {

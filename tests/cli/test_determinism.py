@@ -42,6 +42,17 @@ class Bytes(Case):
     def test_a_script_that_tries(self):
         self.check(self.write("model.lua", MODEL.replace("os == nil", "rawget(_G, 'os') == nil")))
 
+    def test_threads_that_come_in_the_middle(self):
+        """Of a model that takes long enough for several threads to begin, wherever they do."""
+        model = self.write("model.lua", """
+            local part = cube{100, 60, 20} - cylinder{h = 50, d = 30, fn = 48, center = true}:translate(50, 30, 0)
+            for i = 1, 80 do part = part - sphere{r = 3, fn = 32}:translate(i * 7.3 % 100, i * 3.7 % 60, 20) end
+            return part
+        """)
+        first = self.digest(model, "--threads", "1", "--no-cache")
+        for threads in ("2", "3", "7") * 2:
+            self.assertEqual(self.digest(model, "--threads", threads, "--no-cache"), first, threads)
+
     def test_questions_change_nothing(self):
         """Two cubes as one mesh of ten facets: one is on both sides of its plane, until what fills the gap comes."""
         self.write("bar.off", "OFF\n12 10 0\n" +

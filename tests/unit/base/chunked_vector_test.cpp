@@ -69,5 +69,23 @@ TEST(ChunkedVector, LeavesElementsInSmallChunksFromTheStart) {
   }
 }
 
+// Filled again it has what was put in then, where it was before.
+TEST(ChunkedVector, KeepsItsMemoryWhenCleared) {
+  ChunkedVector<uint32_t, 8> chunked;
+  std::vector<const uint32_t*> places;
+  for (const uint32_t count : {40u, 3u, 0u, 8u, 9u, 40u, 70u}) {
+    chunked.clear();
+    EXPECT_EQ(chunked.size(), 0u);
+    for (uint32_t i = 0; i < count; ++i) {
+      chunked.push_back(count + i);
+      EXPECT_EQ(chunked.back(), count + i);
+      if (i == places.size()) places.push_back(&chunked.back());
+      EXPECT_EQ(&chunked.back(), places[i]);
+    }
+    EXPECT_EQ(chunked.size(), count);
+    for (uint32_t i = 0; i < count; ++i) EXPECT_EQ(chunked[i], count + i);
+  }
+}
+
 }  // namespace
 }  // namespace csgrun

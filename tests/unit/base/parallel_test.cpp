@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <memory>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "engine/base/in_order.h"
+#include "engine/base/parallel_sort.h"
+#include "engine/base/per_thread.h"
 #include "engine/base/raw_vector.h"
 
 namespace csgrun {
@@ -171,24 +175,115 @@ TEST(Parallel, FailuresComeThrough) {
   });
 }
 
+bool is_library_begun() {
+  return tbb::this_task_arena::current_thread_index() != tbb::task_arena::not_initialized;
+}
+
+/// Calls work() on a new thread while frames go on alone for so long.
+template <class Work>
+void with_alone_time(std::chrono::nanoseconds time, Work&& work) {
+  ThreadsFrame::set_alone_time(time);
+  std::thread(work).join();
+  ThreadsFrame::set_alone_time({});
+}
+
 // A thread that has no large loop does not begin the threads' library.
 TEST(Parallel, SmallWorkIsDoneAlone) {
-  const auto is_begun = [] {
-    return tbb::this_task_arena::current_thread_index() != tbb::task_arena::not_initialized;
-  };
-  std::thread([&] {
-    with_threads(2, [&] {
+  with_alone_time({}, [] {
+    with_threads(2, [] {
       size_t done = 0;
       for_each_part(5, 8, [&](size_t, size_t begin, size_t end) { done += end - begin; });
       run_both(
           false, [&] { ++done; }, [&] { ++done; });
       EXPECT_EQ(done, 7u);
       EXPECT_EQ(threads_here(), 2u);
-      EXPECT_FALSE(is_begun());
+      EXPECT_FALSE(is_library_begun());
       for_each_alone(2, true, [](size_t) {});
-      EXPECT_TRUE(is_begun());
+      EXPECT_TRUE(is_library_begun());
     });
-  }).join();
+  });
+}
+
+// Nor one whose work is short: then all loops are done by the thread itself, in order.
+TEST(Parallel, ShortWorkIsDoneAlone) {
+  with_alone_time(std::chrono::hours(1), [] {
+    with_threads(4, [] {
+      EXPECT_EQ(threads_here(), 4u);
+      EXPECT_FALSE(has_threads());
+      std::vector<size_t> done, taken;
+      for_each_part(50, 7, [&](size_t part, size_t, size_t) { done.push_back(part); });
+      run_both(
+          true, [&] { done.push_back(8); }, [&] { done.push_back(9); });
+      make_parts_in_order(
+          10, [&](size_t part) { EXPECT_EQ(part, taken.size()); },
+          [&](size_t part) { taken.push_back(part); });
+      for (const auto& all : {done, taken}) {
+        ASSERT_EQ(all.size(), 10u);
+        for (size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], i);
+      }
+      std::vector<uint32_t> numbers(4 * kFewForThreads);
+      for (uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = 7919 * i;
+      sort_all(numbers.begin(), numbers.end());
+      EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
+      PerThread own([] { return std::make_unique<int>(0); });
+      const int* const first = own.local().get();
+      for_each_alone(20, true, [&](size_t) { EXPECT_EQ(own.local().get(), first); });
+      EXPECT_FALSE(is_library_begun());
+    });
+  });
+}
+
+// But work on many faces has threads at once.
+TEST(Parallel, LargeWorkIsNotDoneAlone) {
+  with_alone_time(std::chrono::hours(1), [] {
+    with_threads(2, [] {
+      expect_faces(kManyForThreads - 1);
+      EXPECT_FALSE(has_threads());
+      expect_faces(kManyForThreads);
+      EXPECT_TRUE(has_threads());
+      expect_faces(0);
+      EXPECT_TRUE(has_threads());
+      for_each_alone(2, true, [](size_t) {});
+      EXPECT_TRUE(is_library_begun());
+    });
+    with_threads(2, [] { EXPECT_FALSE(has_threads()); });  // that is of a frame
+  });
+}
+
+// Threads begin in the middle of a loop once it takes long: all is done once, and taken in order.
+TEST(Parallel, ThreadsComeWhenTheyAreWorthIt) {
+  using std::chrono::milliseconds;
+  for (const bool in_order : {false, true}) {
+    with_alone_time(milliseconds(20), [&] {
+      const std::thread::id self = std::this_thread::get_id();
+      with_threads(3, [&] {
+        std::array<std::atomic<int>, 60> seen{};
+        std::atomic<size_t> alone = 0, first_not_alone = seen.size();
+        PerThread own([] { return std::atomic<int>(0); });
+        const auto make = [&](size_t i) {
+          if (own.local().fetch_add(1) == 0 && std::this_thread::get_id() != self) {
+            first_not_alone = std::min<size_t>(first_not_alone, i);
+          }
+          ++seen[i];
+          if (!has_threads()) ++alone;
+          std::this_thread::sleep_for(milliseconds(2));
+        };
+        std::vector<size_t> taken;
+        if (in_order) {
+          make_parts_in_order(seen.size(), make, [&](size_t part) { taken.push_back(part); });
+        } else {
+          for_each_alone(seen.size(), true, make);
+        }
+        EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](const auto& n) { return n == 1; }));
+        EXPECT_TRUE(has_threads());
+        EXPECT_TRUE(is_library_begun());
+        EXPECT_GE(alone, 1u);
+        EXPECT_GE(first_not_alone, 1u);
+        for (size_t i = 0; i < taken.size(); ++i) EXPECT_EQ(taken[i], i);
+        EXPECT_EQ(taken.size(), in_order ? seen.size() : 0);
+      });
+    });
+  }
 }
 
 TEST(RawVector, KeepsWhatIsPutIn) {
