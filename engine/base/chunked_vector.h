@@ -32,9 +32,11 @@ class ChunkedVector {
     chunks_[size_ / kChunk].push_back(element);
     ++size_;
   }
-  /// Keeps the memory. O(size).
+  /// Keeps the memory of the first few chunks. O(size).
   void clear() {
-    for (size_t i = 0; i * kChunk < size_; ++i) chunks_[i].clear();
+    constexpr size_t kKept = 16;
+    if (chunks_.size() > kKept) chunks_.resize(kKept);
+    for (auto& chunk : chunks_) chunk.clear();
     size_ = 0;
   }
 

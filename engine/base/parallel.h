@@ -88,7 +88,7 @@ class ThreadsFrame {
     return tbb::this_task_arena::current_thread_index() != tbb::task_arena::not_initialized;
   }
 
-  static inline std::atomic<std::chrono::nanoseconds> alone_time_{std::chrono::milliseconds(25)};
+  static inline std::atomic<std::chrono::nanoseconds> alone_time_{std::chrono::milliseconds(50)};
   static inline std::atomic<bool> any_began_{false};
   static inline constinit thread_local ThreadsFrame* current_ = nullptr;
   static inline constinit thread_local bool is_in_arena_ = false;

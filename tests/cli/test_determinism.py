@@ -46,7 +46,7 @@ class Bytes(Case):
         """Of a model that takes long enough for several threads to begin, wherever they do."""
         model = self.write("model.lua", """
             local part = cube{100, 60, 20} - cylinder{h = 50, d = 30, fn = 48, center = true}:translate(50, 30, 0)
-            for i = 1, 80 do part = part - sphere{r = 3, fn = 32}:translate(i * 7.3 % 100, i * 3.7 % 60, 20) end
+            for i = 1, 200 do part = part - sphere{r = 3, fn = 32}:translate(i * 7.3 % 100, i * 3.7 % 60, 20) end
             return part
         """)
         first = self.digest(model, "--threads", "1", "--no-cache")
@@ -88,10 +88,13 @@ class Bytes(Case):
     def test_one_thread_is_one(self):
         if SANITIZED or not os.path.isdir("/proc/self/task"):
             self.skipTest("threads cannot be counted")
-        # Leaves, sums and arrays large enough that threads would pay. One more thread looks at the clock.
-        model = self.write("model.lua", "emit(minkowski(cube(9) - cube(4), sphere(1)))\nemit(sphere{r = 5, fn = 300})")
+        # Leaves, sums and arrays large enough that threads pay. One more thread looks at the clock.
+        model = self.write("model.lua", "emit(minkowski(cube(9) - cube(4), sphere(1)))\nemit(sphere{r = 5, fn = 700})")
         self.assertLessEqual(self.most_threads(model, "1"), 2)
         self.assertGreater(self.most_threads(model, "4"), 2)
+        # What takes a few milliseconds is done before others would come.
+        model = self.write("model.lua", "return cube(9) - sphere{r = 3, fn = 32}")
+        self.assertLessEqual(self.most_threads(model, "4"), 2)
 
     def test_examples(self):
         for name in ("bracket", "flush_assembly"):

@@ -73,7 +73,7 @@ TEST(ChunkedVector, LeavesElementsInSmallChunksFromTheStart) {
 TEST(ChunkedVector, KeepsItsMemoryWhenCleared) {
   ChunkedVector<uint32_t, 8> chunked;
   std::vector<const uint32_t*> places;
-  for (const uint32_t count : {40u, 3u, 0u, 8u, 9u, 40u, 70u}) {
+  for (const uint32_t count : {40u, 3u, 0u, 8u, 9u, 40u, 128u, 70u}) {
     chunked.clear();
     EXPECT_EQ(chunked.size(), 0u);
     for (uint32_t i = 0; i < count; ++i) {
