@@ -65,8 +65,7 @@ class Worker {
 
   /// Cuts polygons of a part: calls work(), which calls cut() for each. What is made of them is put
   /// together in memory of this thread's, which grows once, and the part has a copy without room to
-  /// grow: that takes half of what parts that grow do, and threads wait for one another where they
-  /// ask for memory.
+  /// grow: threads wait for one another where they ask for memory.
   template <class Work>
   void cut_in(CutPart& part, Work&& work) {
     made_ = part.made;

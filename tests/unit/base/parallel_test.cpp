@@ -254,7 +254,7 @@ TEST(Parallel, LargeWorkIsNotDoneAlone) {
 TEST(Parallel, ThreadsComeWhenTheyAreWorthIt) {
   using std::chrono::milliseconds;
   for (const bool in_order : {false, true}) {
-    with_alone_time(milliseconds(20), [&] {
+    with_alone_time(milliseconds(160), [&] {  // the second time 20
       const std::thread::id self = std::this_thread::get_id();
       with_threads(3, [&] {
         std::array<std::atomic<int>, 60> seen{};
@@ -266,7 +266,7 @@ TEST(Parallel, ThreadsComeWhenTheyAreWorthIt) {
           }
           ++seen[i];
           if (!has_threads()) ++alone;
-          std::this_thread::sleep_for(milliseconds(2));
+          std::this_thread::sleep_for(milliseconds(5));
         };
         std::vector<size_t> taken;
         if (in_order) {
