@@ -58,7 +58,14 @@ Budget::Budget(BudgetLimits limits, std::string model)
   watchdog_ = std::thread([this] { watch(); });
 }
 
-Budget::~Budget() { stop(); }
+Budget::~Budget() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    wake_.notify_all();
+  }
+  watchdog_.join();
+}
 
 void* Budget::allocate(void* user_data, void* block, size_t old_size, size_t new_size) {
   Budget& self = *static_cast<Budget*>(user_data);
@@ -143,13 +150,10 @@ double Budget::evaluation_seconds() const {
   return std::chrono::duration<double>(evaluation_used_).count();
 }
 
+// The watchdog sees it when it wakes: to wait for its end takes as long as a small model's mesh.
 void Budget::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-    wake_.notify_all();
-  }
-  if (watchdog_.joinable()) watchdog_.join();
+  const std::lock_guard lock(mutex_);
+  stopping_ = true;
 }
 
 std::string Budget::time_message() const {

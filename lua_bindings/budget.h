@@ -54,7 +54,8 @@ class Budget {
   void leave_evaluation();
   /// Time spent between enter_evaluation and leave_evaluation so far.
   [[nodiscard]] double evaluation_seconds() const;
-  /// Ends the watching (writing files is covered until then when there is a total time).
+  /// From now on no time ends the process. (Writing files is covered until then when there is a
+  /// total time.)
   void stop();
 
   [[nodiscard]] bool out_of_time() const { return expired_.load(std::memory_order_relaxed); }

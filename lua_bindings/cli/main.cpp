@@ -1,6 +1,9 @@
 // csgrun: from a model to a mesh.
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+
+#include <unistd.h>
 
 #include <csgrun/engine/heap.h>
 
@@ -20,9 +23,7 @@ void print(std::FILE* stream, const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stream);
 }
 
-int run(const csgrun::CommandLine& line) {
-  csgrun::map_program();
-  csgrun::RunReport report;
+int run(const csgrun::CommandLine& line, csgrun::RunReport& report) {
   const csgrun::Failure failure = csgrun::run_model(line, report);
   // The error first: it says where. Warnings often say why, and no JSON object will have them.
   if (failure.failed()) print(stderr, failure.message + "\n");
@@ -50,16 +51,29 @@ int info(const csgrun::CommandLine& line) {
   return csgrun::kExitGood;
 }
 
+/// Ends the process as it stands: the system takes back all that it has at once.
+[[noreturn]] void leave(int code) {
+  std::fflush(nullptr);
+#if defined(__SANITIZE_ADDRESS__)
+  std::exit(code);  // which looks for leaks
+#else
+  _exit(code);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   csgrun::keep_freed_memory();
   // A file that grows over a limit is an error of that file, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
+  csgrun::map_program();
   const csgrun::CommandLine line = csgrun::parse_command_line(argc, argv);
   switch (line.command) {
-    case csgrun::Command::kRun:
-      return run(line);
+    case csgrun::Command::kRun: {
+      csgrun::RunReport report;
+      leave(run(line, report));
+    }
     case csgrun::Command::kInfo:
       return info(line);
     case csgrun::Command::kHelpApi:

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <new>
 #include <thread>
 
@@ -529,8 +530,11 @@ Failure run_model(const CommandLine& line, RunReport& report) {
   const size_t memory = line.memory_bytes.value_or(default_process_memory());
   limit_process_memory(memory);
   try {
-    return Run(line, report, memory).execute();
+    const auto run = std::make_shared<Run>(line, report, memory);
+    report.run = run;
+    return run->execute();
   } catch (const std::bad_alloc&) {
+    report.run.reset();  // then there is memory for the message
     return {kExitGeometry, fmt::format("{}: not enough memory in evaluation (limit {} MB)",
                                        line.model, memory >> 20)};
   }

@@ -1,6 +1,7 @@
 // One run: MODEL to parts, parts to solids, solids to files.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct RunReport {
   bool check_failed = false;      ///< why the run failed: a mesh that could not be repaired
   unsigned threads = 0;
   double script_seconds = 0, export_seconds = 0, total_seconds = 0;
+  std::shared_ptr<void> run;  ///< all that it made: a process that ends need not free it
 };
 
 /// Runs everything. Files are written whole or not at all.
