@@ -280,11 +280,11 @@ class ContactCutter {
     if (!builder.build_single(faces_[f].plane, edges, loops)) return false;
     auto parts = nest_loops(faces_[f].plane, loops, view_, planes_);
     for (size_t i = 1; i < parts.size(); ++i) {
-      MergedFace part = faces_[f];
-      part.loops = std::move(parts[i]);
-      faces_.push_back(std::move(part));
+      const MergedFace& whole = faces_[f];
+      faces_.push_back({whole.plane, whole.appearance, whole.surface, whole.source, whole.untouched,
+                        FaceLoops(parts[i]), whole.points, whole.slits});
     }
-    faces_[f].loops = std::move(parts[0]);
+    faces_[f].loops = FaceLoops(parts[0]);
     return true;
   }
 

@@ -20,34 +20,21 @@ bool FaceLocator::before(uint32_t p, uint32_t q) const {
   return by_v ? by_v < 0 : points_.compare_along(p, q, u_) < 0;
 }
 
-/// Parity of the edges that a ray towards -u meets.
-int FaceLocator::locate(std::span<const std::vector<DirectedEdge>> loops, uint32_t p) {
-  bool inside = false;
-  for (const auto& loop : loops) {
-    for (const DirectedEdge& e : loop) {
-      if (e.from == p || e.to == p) return 0;
-      const int from_v = points_.compare_along(e.from, p, v_);
-      const int to_v = points_.compare_along(e.to, p, v_);
-      const bool is_along = from_v == 0 && to_v == 0;
-      if (!is_along && (from_v > 0) == (to_v > 0)) continue;
-      const int from_u = points_.compare_along(e.from, p, u_);
-      const int to_u = points_.compare_along(e.to, p, u_);
-      // The ray does not meet an edge along it, but p may lie on one.
-      if (is_along) {
-        if (from_u * to_u < 0) return 0;
-        continue;
-      }
-      // Both ends on one side of p along u: no arithmetic needed.
-      if (from_u < 0 && to_u < 0) {
-        inside = !inside;
-      } else if (from_u <= 0 || to_u <= 0) {
-        const int side = side_towards_u(e, p);
-        if (side == 0) return 0;
-        if (side > 0) inside = !inside;
-      }
-    }
-  }
-  return inside ? 1 : -1;
+FaceLocator::Met FaceLocator::meet(const DirectedEdge& e, uint32_t p) {
+  if (e.from == p || e.to == p) return Met::kOn;
+  const int from_v = points_.compare_along(e.from, p, v_);
+  const int to_v = points_.compare_along(e.to, p, v_);
+  const bool is_along = from_v == 0 && to_v == 0;
+  if (!is_along && (from_v > 0) == (to_v > 0)) return Met::kMissed;
+  const int from_u = points_.compare_along(e.from, p, u_);
+  const int to_u = points_.compare_along(e.to, p, u_);
+  // The ray does not meet an edge along it, but p may lie on one.
+  if (is_along) return from_u * to_u < 0 ? Met::kOn : Met::kMissed;
+  // Both ends on one side of p along u: no arithmetic needed.
+  if (from_u < 0 && to_u < 0) return Met::kCrossed;
+  if (from_u > 0 && to_u > 0) return Met::kMissed;
+  const int side = side_towards_u(e, p);
+  return side == 0 ? Met::kOn : side > 0 ? Met::kCrossed : Met::kMissed;
 }
 
 /// +1 when p lies on the +u side of the edge (a ray from p towards -u meets it), 0 on it. In (u, v)
@@ -76,19 +63,6 @@ bool FaceLocator::is_in_wedge(const DirectedEdge& arriving, const DirectedEdge& 
   const int corner = turn_between(points_, planes_, support_, arriving, leaving);
   // Left of both at a convex corner, left of one of them at a reflex one.
   return corner > 0 ? from_leaving > 0 && to_arriving > 0 : from_leaving > 0 || to_arriving > 0;
-}
-
-bool FaceLocator::starts_inside(std::span<const std::vector<DirectedEdge>> loops,
-                                const DirectedEdge& line) {
-  for (const auto& loop : loops) {
-    for (size_t i = 0; i < loop.size(); ++i) {
-      if (loop[i].from != line.from) continue;
-      const DirectedEdge& leaving = loop[i];
-      const DirectedEdge& arriving = loop[(i + loop.size() - 1) % loop.size()];
-      if (is_in_wedge(arriving, leaving, line)) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace csgrun

@@ -100,17 +100,17 @@ class FaceMerger {
         if (b.corners[c].point == b.corners[d].point) return false;
       }
     }
-    MergedFace& made = faces_.emplace_back(MergedFace{
-        group.plane, group.appearance, face.label.surface, face.label.source, group.keep != 0, {}});
     edges_.clear();
     append_edges(face, edges_);
-    made.loops.push_back(edges_);
+    add_face(group, face.label, FaceLoops(edges_));
     return true;
   }
 
   /// A face by itself is what it was, but that its parts are faces of their own.
   void add_alone(const Group& group) {
-    for (auto& nested : parts_of(group)) add_face(group, boundary_.faces[group.face].label, nested);
+    for (const auto& nested : parts_of(group)) {
+      add_face(group, boundary_.faces[group.face].label, FaceLoops(nested));
+    }
   }
 
   bool add_as_one(std::span<const Group> group) {
@@ -147,7 +147,7 @@ class FaceMerger {
       if (begin == end) continue;
       FaceLabel lowest = pieces[root].label;
       if (end - begin == 1) {
-        add_face(group[0], lowest, pieces[root].loops);
+        add_face(group[0], lowest, FaceLoops(pieces[root].loops));
         continue;
       }
       for (uint32_t i = begin; i < end; ++i) {
@@ -165,13 +165,12 @@ class FaceMerger {
 
   /// The region that `loops_` bound, of several pieces.
   void add_region(const Group& group, const FaceLabel& label) {
-    for (auto& nested : nest_loops(group.plane, loops_, points_, planes_)) {
-      add_face(group, label, nested);
+    for (const auto& nested : nest_loops(group.plane, loops_, points_, planes_)) {
+      add_face(group, label, FaceLoops(nested));
     }
   }
 
-  void add_face(const Group& group, const FaceLabel& label,
-                std::vector<std::vector<DirectedEdge>>& loops) {
+  void add_face(const Group& group, const FaceLabel& label, FaceLoops loops) {
     faces_.push_back({group.plane, group.appearance, label.surface, label.source, group.keep != 0,
                       std::move(loops)});
   }
@@ -233,6 +232,24 @@ RawVector<Group> group_faces(const BoundaryMesh& b, const PlaneTable& planes) {
   return groups;
 }
 
+/// Puts elements in the order of their numbers, which are forgotten. In place: a second list of
+/// faces would be as large as all else of them.
+template <class T>
+void put_in_order(std::vector<uint32_t>& order, std::vector<T>& elements) {
+  for (uint32_t start = 0; start < order.size(); ++start) {
+    if (order[start] == start) continue;
+    T first = std::move(elements[start]);
+    uint32_t at = start;
+    for (uint32_t from = order[at]; from != start; from = order[at]) {
+      elements[at] = std::move(elements[from]);
+      order[at] = at;
+      at = from;
+    }
+    elements[at] = std::move(first);
+    order[at] = at;
+  }
+}
+
 }  // namespace
 
 bool merge_faces(const BoundaryMesh& b, const CellGeometry& geometry, const PlaneTable& planes,
@@ -265,7 +282,7 @@ bool merge_faces(const BoundaryMesh& b, const CellGeometry& geometry, const Plan
       },
       [&](size_t part) {
         std::move(made[part].begin(), made[part].end(), std::back_inserter(faces));
-        made[part] = {};
+        made[part] = std::vector<MergedFace>();
       });
   if (std::find(is_open.begin(), is_open.end(), 1) != is_open.end()) return false;
   sort_faces(faces, planes);
@@ -308,10 +325,7 @@ void sort_faces(std::vector<MergedFace>& faces, const PlaneTable& planes) {
                by_point.order.begin() + by_point.starts[p + 1], before);
     }
   });
-  std::vector<MergedFace> sorted;
-  sorted.reserve(faces.size());
-  for (const uint32_t f : by_point.order) sorted.push_back(std::move(faces[f]));
-  faces = std::move(sorted);
+  put_in_order(by_point.order, faces);
 }
 
 }  // namespace csgrun

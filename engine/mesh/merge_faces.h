@@ -7,6 +7,7 @@
 
 #include "engine/bsp/boundary_mesh.h"
 #include "engine/bsp/regions.h"
+#include "engine/mesh/face_loops.h"
 
 namespace csgrun {
 
@@ -15,7 +16,7 @@ struct MergedFace {
   PlaneId plane;
   uint32_t appearance, surface, source;
   bool untouched;  ///< a facet that nothing touched: it shares no line with anything but its leaf
-  std::vector<std::vector<DirectedEdge>> loops;
+  FaceLoops loops;
   /// Where other faces touch this one from within (see conform.h): corners, and edges by their
   /// ends, the lower first.
   std::vector<uint32_t> points{};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "engine/mesh/face_location.h"
 
@@ -37,7 +38,7 @@ class Nester {
   /// Whether `hole` lies inside `outer`. Loops of one region do not cross.
   bool contains(const Loop& outer, const Loop& hole) {
     for (const DirectedEdge& e : hole) {
-      const int where = locator_.locate({&outer, 1}, e.from);
+      const int where = locator_.locate(std::span(&outer, 1), e.from);
       if (where != 0) return where > 0;
     }
     return false;

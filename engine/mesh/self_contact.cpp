@@ -44,7 +44,7 @@ class Breaker {
     return axis;
   }
 
-  void break_loop(std::vector<DirectedEdge>& loop) {
+  void break_loop(FaceLoop& loop) {
     broken_.clear();
     for (const DirectedEdge& e : loop) {
       inside_.clear();

@@ -27,13 +27,7 @@ class Patch {
       geometry_.add_point({planes_.intern(Plane{1, 0, 0, -p[0]}).index(),
                            planes_.intern(Plane{0, 1, 0, -p[1]}).index(), support.index()});
     }
-    faces_.push_back({support, 0, 0, 0, false, {}});
-    for (const Loop& loop : loops_) {
-      auto& edges = faces_[0].loops.emplace_back();
-      for (size_t i = 0; i < loop.size(); ++i) {
-        edges.push_back(edge(loop[i], loop[(i + 1) % loop.size()]));
-      }
-    }
+    faces_.push_back({support, 0, 0, 0, false, face_loops()});
   }
 
   /// Checks every point of the grid and every edge of the triangles, both ways.
@@ -62,8 +56,8 @@ class Patch {
     }
     check_boxes(search);
     // A face that is another one from now on.
-    faces_[0].loops.resize(1);
     loops_.resize(1);
+    faces_[0].loops = face_loops();
     search.forget();
     for (uint32_t p = 0; p < points_.size(); ++p) {
       ASSERT_EQ(search.locate(0, p), place({2 * points_[p][0], 2 * points_[p][1]})) << p;
@@ -77,6 +71,16 @@ class Patch {
   }
 
  private:
+  FaceLoops face_loops() {
+    std::vector<std::vector<DirectedEdge>> loops;
+    for (const Loop& loop : loops_) {
+      auto& edges = loops.emplace_back();
+      for (size_t i = 0; i < loop.size(); ++i) {
+        edges.push_back(edge(loop[i], loop[(i + 1) % loop.size()]));
+      }
+    }
+    return FaceLoops(loops);
+  }
   DirectedEdge edge(uint32_t a, uint32_t b) {
     const GridPoint &p = points_[a], &q = points_[b];
     const int64_t x = q[1] - p[1], y = p[0] - q[0];

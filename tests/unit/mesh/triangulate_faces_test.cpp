@@ -42,19 +42,20 @@ struct Squares {
         {x, y}, {x + kSide, y}, {x + kSide, y + kSide}, {x, y + kSide}};
     if (kind > 1) outer.insert(outer.begin() + 1, {x + 1, y});
     if (kind > 2) outer.insert(outer.begin() + 2, {x + 2, y});
-    MergedFace& face = faces.emplace_back(MergedFace{support, 0, 0, 0, false, {}});
-    add_loop(face, outer);
+    std::vector<std::vector<DirectedEdge>> loops{loop_of(outer)};
     if (kind == 4) {
-      add_loop(face, {{x + 1, y + 1}, {x + 1, y + 2}, {x + 2, y + 2}, {x + 2, y + 1}});
+      loops.push_back(loop_of({{x + 1, y + 1}, {x + 1, y + 2}, {x + 2, y + 2}, {x + 2, y + 1}}));
     }
+    faces.push_back({support, 0, 0, 0, false, FaceLoops(loops)});
     twice_area += 2 * (kSide * kSide - (kind == 4 ? 1 : 0));
   }
-  static void add_loop(MergedFace& face, const std::vector<std::array<int, 2>>& corners) {
-    auto& loop = face.loops.emplace_back();
+  static std::vector<DirectedEdge> loop_of(const std::vector<std::array<int, 2>>& corners) {
+    std::vector<DirectedEdge> loop;
     for (size_t i = 0; i < corners.size(); ++i) {
       const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
       loop.push_back({point(a[0], a[1]), point(b[0], b[1]), 0});
     }
+    return loop;
   }
 
   PlaneTable planes;
