@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/point_index.h"
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/face_search.h"
@@ -54,18 +55,21 @@ class Conformer {
         edges_(edges_of(faces, near)),
         boxes_(boxes_of(edges_, geometry)),
         tree_(boxes_),
-        face_boxes_(faces.size()),
+        place_of_(faces.size()),
+        face_boxes_(near.size()),
         corner_of_(geometry.point_count(), kNone),
         located_in_(geometry.point_count(), kNone),
         next_(geometry.point_count(), kNone),
         previous_(geometry.point_count(), kNone),
-        sides_(faces.size()),
-        lying_(faces.size()) {}
+        sides_(near.size()),
+        lying_(near.size()) {
+    for (size_t i = 0; i < near.size(); ++i) place_of_[near[i]] = static_cast<uint32_t>(i);
+  }
 
   void run() {
     const MetEdges near(edges_, boxes_, tree_, geometry_);
     for (size_t place = 0; place < near.face_count(); ++place) {
-      face_boxes_[near.face(place)] = near.box(place);
+      face_boxes_[place_of_[near.face(place)]] = near.box(place);
     }
     near.each([&](uint32_t f) { return planes_.approximate(faces_[f].plane.index()); },
               [&](size_t place, std::span<const MetEdges::Met> met) {
@@ -174,7 +178,7 @@ class Conformer {
   /// Notes the pair when edges of g near f lie on both sides of f's plane; `known` are those of
   /// edges that do not touch it.
   void note_sides(uint32_t f, uint32_t g, SidesOfPlane known, int from, int to) {
-    Sides& seen = sides_[g];
+    Sides& seen = sides_[place_of_[g]];
     if (seen.of != f) seen = {f, known};
     if (seen.sides.both()) return;
     seen.sides.note(from, to);
@@ -183,7 +187,7 @@ class Conformer {
 
   [[nodiscard]] bool in_box(uint32_t f, uint32_t p) const {
     const auto& at = geometry_.point(p).rounded;
-    return face_boxes_[f].overlaps({at, at});
+    return face_boxes_[place_of_[f]].overlaps({at, at});
   }
 
   void touch(uint32_t f, uint32_t p) {
@@ -193,8 +197,9 @@ class Conformer {
   }
 
   void add_lying(uint32_t f, const Lying& lying) {
-    if (lying_[f].empty()) lying_faces_.push_back(f);
-    lying_[f].push_back(lying);
+    std::vector<Lying>& own = lying_[place_of_[f]];
+    if (own.empty()) lying_faces_.push_back(f);
+    own.push_back(lying);
   }
 
   /// Where edges of the two faces, each of which passes through the plane of the other face, meet.
@@ -349,7 +354,7 @@ class Conformer {
       if (!boxes_meet(a, b) || !apart(b.plane, a) || !apart(a.plane, b)) return;
       contacts_.push_back(unique(geometry_.add_point({support, a.plane, b.plane})));
     };
-    const std::vector<Lying>& lines = lying_[f];
+    const std::vector<Lying>& lines = lying_[place_of_[f]];
     std::vector<Box> boxes;
     for (const Lying& line : lines) boxes.push_back(box_of(line.edge, geometry_));
     const BoxTree tree(boxes);
@@ -460,7 +465,7 @@ class Conformer {
   void find_slits(uint32_t f, const PointTree& contacts) {
     MergedFace& face = faces_[f];
     std::vector<uint32_t> points;
-    contacts.find(face_boxes_[f], [&](uint32_t p) {
+    contacts.find(face_boxes_[place_of_[f]], [&](uint32_t p) {
       if (geometry_.side(face.plane.index(), p) == 0) points.push_back(p);
     });
     for (const auto& loop : face.loops) {
@@ -471,7 +476,7 @@ class Conformer {
     const PointTree near(points, geometry_);
     std::vector<DirectedEdge> parts;
     std::vector<uint32_t> inside;
-    for (const Lying& lying : lying_[f]) {
+    for (const Lying& lying : lying_[place_of_[f]]) {
       inside.clear();
       near.find(box_of(lying.edge, geometry_), [&](uint32_t p) {
         if (lies_inside(geometry_, lying.edge, p)) inside.push_back(p);
@@ -513,18 +518,19 @@ class Conformer {
   const std::vector<FaceEdge> edges_;  ///< as they were given
   const std::vector<Box> boxes_;       ///< of the edges
   const BoxTree tree_;
+  RawVector<uint32_t> place_of_;           ///< per face near contacts: in the lists of these
   std::vector<Box> face_boxes_;            ///< of the faces near contacts
   std::vector<uint32_t> corner_of_;        ///< per point: the face that was marked last
   std::vector<uint32_t> located_in_;       ///< per point: the face in which it was looked for last
   std::vector<uint32_t> next_, previous_;  ///< per corner of that face: along its loop
   std::vector<Ends> rim_;     ///< of that face, sorted; empty if it passes no corner twice
-  std::vector<Sides> sides_;  ///< per face, of the plane of the one that was marked last
+  std::vector<Sides> sides_;  ///< per near face, of the plane of the one that was marked last
   /// Faces of which one has edges, near the other, on both sides of the other's plane.
   std::vector<std::pair<uint32_t, uint32_t>> straddling_;
   std::vector<uint32_t> contacts_;                    ///< points at which edges are to be broken
   std::vector<std::pair<uint32_t, uint32_t>> inner_;  ///< faces, and corners of others within them
-  std::vector<std::vector<Lying>> lying_;
-  std::vector<uint32_t> lying_faces_;  ///< those that have any
+  std::vector<std::vector<Lying>> lying_;             ///< per near face
+  std::vector<uint32_t> lying_faces_;                 ///< those that have any
   std::optional<PointIndex> index_;
   std::vector<uint32_t> on_line_;
 };
