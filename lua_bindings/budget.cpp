@@ -150,7 +150,7 @@ double Budget::evaluation_seconds() const {
   return std::chrono::duration<double>(evaluation_used_).count();
 }
 
-// The watchdog sees it when it wakes: to wait for its end takes as long as a small model's mesh.
+// The watchdog sees it when it wakes. To wait for its end may take a third of a millisecond.
 void Budget::stop() {
   const std::lock_guard lock(mutex_);
   stopping_ = true;
