@@ -1,7 +1,10 @@
 // csgrun: from a model to a mesh.
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <string>
 
 #include <unistd.h>
 
@@ -51,29 +54,10 @@ int info(const csgrun::CommandLine& line) {
   return csgrun::kExitGood;
 }
 
-/// Ends the process as it stands: the system takes back all that it has at once.
-[[noreturn]] void leave(int code) {
-  std::fflush(nullptr);
-#if defined(__SANITIZE_ADDRESS__)
-  std::exit(code);  // which looks for leaks
-#else
-  _exit(code);
-#endif
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  csgrun::keep_freed_memory();
-  // A file that grows over a limit is an error of that file, not the end of the program.
-  std::signal(SIGXFSZ, SIG_IGN);
-  csgrun::map_program();
-  const csgrun::CommandLine line = csgrun::parse_command_line(argc, argv);
+int execute(const csgrun::CommandLine& line, csgrun::RunReport& report) {
   switch (line.command) {
-    case csgrun::Command::kRun: {
-      csgrun::RunReport report;
-      leave(run(line, report));
-    }
+    case csgrun::Command::kRun:
+      return run(line, report);
     case csgrun::Command::kInfo:
       return info(line);
     case csgrun::Command::kHelpApi:
@@ -91,4 +75,34 @@ int main(int argc, char** argv) {
       return line.exit_code;
   }
   return csgrun::kExitGood;
+}
+
+/// Writes out what was printed. A disk that is full is told of here, if not before.
+int flush(int code) {
+  const bool was_lost = std::ferror(stdout) != 0;
+  if (std::fflush(stdout) == 0 && !was_lost) return code;
+  const std::string reason = was_lost ? "" : std::string(": ") + std::strerror(errno);
+  print(stderr, "csgrun: cannot write standard output" + reason + "\n");
+  return code == csgrun::kExitGood ? csgrun::kExitFiles : code;
+}
+
+/// Ends the process as it stands: the system takes back all that it has at once.
+[[noreturn]] void leave(int code) {
+#if defined(__SANITIZE_ADDRESS__)
+  std::exit(code);  // which looks for leaks
+#else
+  _exit(code);
+#endif
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  csgrun::keep_freed_memory();
+  // A file that grows over a limit is an error of that file, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  csgrun::map_program();
+  const csgrun::CommandLine line = csgrun::parse_command_line(argc, argv);
+  csgrun::RunReport report;
+  leave(flush(execute(line, report)));
 }

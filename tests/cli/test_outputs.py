@@ -3,7 +3,7 @@ import json
 import os
 import subprocess
 
-from support import Case, main
+from support import CSGRUN, Case, main
 
 
 class Outputs(Case):
@@ -112,6 +112,18 @@ class Unwritable(Case):
             self.assertEqual(os.listdir(self.path("small")), [])
         finally:
             subprocess.run(["umount", self.path("small")], check=True)
+
+    def test_standard_output_that_is_full(self):
+        if not os.path.exists("/dev/full"):
+            self.skipTest("there is no /dev/full here")
+        self.write("model.lua", "return cube(1)")
+        self.expect(self.run_csgrun("model.lua", "-o", "a.off"), 0)
+        for arguments in (["model.lua", "--stats=json"], ["model.lua", "--list-params"], ["info", "a.off"], ["--help-api"],
+                          ["--help"]):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([CSGRUN, *arguments], cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, 4, arguments)
+            self.assertRegex(done.stderr, "^csgrun: cannot write standard output(: No space left on device)?\n$")
 
     def test_what_was_there_stays(self):
         self.write("a.stl", "precious")
