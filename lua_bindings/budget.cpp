@@ -59,11 +59,8 @@ Budget::Budget(BudgetLimits limits, std::string model)
 }
 
 Budget::~Budget() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-    wake_.notify_all();
-  }
+  stop();
+  wake_.notify_all();
   watchdog_.join();
 }
 

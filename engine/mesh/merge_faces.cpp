@@ -232,8 +232,8 @@ RawVector<Group> group_faces(const BoundaryMesh& b, const PlaneTable& planes) {
   return groups;
 }
 
-/// Puts elements in the order of their numbers, which are forgotten. In place: a second list of
-/// faces would be as large as all else of them.
+/// Puts elements in the order of their numbers, which are forgotten. In place: a second list would
+/// take as much memory again.
 template <class T>
 void put_in_order(std::vector<uint32_t>& order, std::vector<T>& elements) {
   for (uint32_t start = 0; start < order.size(); ++start) {

@@ -77,7 +77,7 @@ int execute(const csgrun::CommandLine& line, csgrun::RunReport& report) {
   return csgrun::kExitGood;
 }
 
-/// Writes out what was printed. A disk that is full is told of here, if not before.
+/// Writes out what was printed. What could not be, as on a full disk, is an error.
 int flush(int code) {
   const bool was_lost = std::ferror(stdout) != 0;
   if (std::fflush(stdout) == 0 && !was_lost) return code;
@@ -88,8 +88,8 @@ int flush(int code) {
 
 /// Ends the process as it stands: the system takes back all that it has at once.
 [[noreturn]] void leave(int code) {
-#if defined(__SANITIZE_ADDRESS__)
-  std::exit(code);  // which looks for leaks
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  std::exit(code);  // which looks for leaks, and tells of what was found
 #else
   _exit(code);
 #endif
