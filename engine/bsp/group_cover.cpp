@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "engine/bsp/operand_groups.h"
 #include "engine/bsp/ray_boxes.h"
@@ -14,6 +17,8 @@ namespace csgrun {
 namespace {
 
 using Position = std::array<double, 3>;
+
+constexpr size_t kPoints = 64;  ///< of a sample
 
 /// Places that are spread evenly.
 struct Spread {
@@ -40,27 +45,93 @@ struct Spread {
   }
 };
 
+/// About where an edge of a polygon passes through the plane of another one.
+Position end_of(const Job& job, const Contact& c, const Contact::End& end) {
+  const auto corners = job.corners(job.polygons()[end.on_p ? c.p : c.q]);
+  const auto others = job.corners(job.polygons()[end.on_p ? c.q : c.p]);
+  const Position& from = job.rounded(corners[end.edge]);
+  const Position& to = job.rounded(corners[end.edge + 1 < corners.size() ? end.edge + 1 : 0]);
+  const VertexSigns::Base plane =
+      VertexSigns::base(job.rounded(others[0]), job.rounded(others[1]), job.rounded(others[2]));
+  double above = 0, below = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    above += plane.normal[k] * (from[k] - plane.origin[k]);
+    below += plane.normal[k] * (to[k] - plane.origin[k]);
+  }
+  const double way = above == below ? 0.5 : std::clamp(above / (above - below), 0.0, 1.0);
+  Position point{};
+  for (size_t k = 0; k < 3; ++k) point[k] = from[k] + way * (to[k] - from[k]);
+  return point;
+}
+
+/// About the middle of what two polygons have in common.
+Position middle_of(const Job& job, const Contact& c) {
+  const Position lower = end_of(job, c, c.lower), upper = end_of(job, c, c.upper);
+  Position middle{};
+  for (size_t k = 0; k < 3; ++k) middle[k] = (lower[k] + upper[k]) / 2;
+  return middle;
+}
+
+/// Operands that would stand in groups.
+struct GroupedOperands {
+  BooleanOp op;
+  std::vector<uint32_t> operands;  ///< in their order in the operator
+  size_t size;                     ///< of each group
+};
+
+/// Nothing if there can be no groups, or if operators would stand in them.
+std::optional<GroupedOperands> grouped_operands(const Expression& expression) {
+  if (!can_be_grouped(expression)) return std::nullopt;
+  const Groupable wide = most_groupable(expression);
+  GroupedOperands result{wide.op, {}, wide.size};
+  for (const uint32_t n : wide.children) {
+    if (!expression.nodes[n].is_operand) return std::nullopt;
+    result.operands.push_back(expression.nodes[n].operand);
+  }
+  return result;
+}
+
 class CoverSample {
  public:
-  CoverSample(const Job& job, BooleanOp op)
+  CoverSample(const Job& job, const GroupedOperands& grouped)
       : job_(job),
-        decisive_(op == BooleanOp::kUnion ? Inside::kYes : Inside::kNo),
+        grouped_(grouped),
+        decisive_(grouped.op == BooleanOp::kUnion ? Inside::kYes : Inside::kNo),
+        place_(job.operand_count(), kNowhere),
         signs_(job, true),
-        boxes_(job) {}
+        boxes_(job) {
+    for (uint32_t i = 0; i < grouped.operands.size(); ++i) place_[grouped.operands[i]] = i;
+  }
 
-  /// Whether a point of an operand is told to be boundary of nothing by another one.
+  /// Whether a point of an operand, and maybe of another one, is told to be boundary of nothing by
+  /// a third one of its group.
   bool is_covered(const Position& point, uint32_t own, uint32_t other) {
-    const double error = signs_.error(own) + kRounding;
-    if (!may_hold(job_.operand_box(other), point, error)) return decisive_ == Inside::kNo;
-    return ray_label(job_, signs_, boxes_, other, point, error) == decisive_;
+    const uint32_t place = place_[own];
+    if (place == kNowhere) return false;
+    const double error = std::max(signs_.error(own), signs_.error(other)) + kRounding;
+    const size_t begin = place / grouped_.size * grouped_.size;
+    const size_t end = std::min(begin + grouped_.size, grouped_.operands.size());
+    return std::any_of(grouped_.operands.begin() + static_cast<std::ptrdiff_t>(begin),
+                       grouped_.operands.begin() + static_cast<std::ptrdiff_t>(end),
+                       [&](uint32_t third) {
+                         return third != own && third != other && decides(point, third, error);
+                       });
   }
 
  private:
   /// Of doubles below 2^31, with room to spare.
   static constexpr double kRounding = 0x1p-16;
+  static constexpr uint32_t kNowhere = UINT32_MAX;
+
+  bool decides(const Position& point, uint32_t operand, double error) {
+    if (!may_hold(job_.operand_box(operand), point, error)) return decisive_ == Inside::kNo;
+    return ray_label(job_, signs_, boxes_, operand, point, error) == decisive_;
+  }
 
   const Job& job_;
-  const Inside decisive_;  ///< that a point is inside of another one, or that it is not
+  const GroupedOperands& grouped_;
+  const Inside decisive_;        ///< that a point is inside of another one, or that it is not
+  std::vector<uint32_t> place_;  ///< by operand, among those that are grouped
   VertexSigns signs_;
   RayBoxes boxes_;
 };
@@ -68,37 +139,67 @@ class CoverSample {
 }  // namespace
 
 double cover_in_groups(const Job& job, const Expression& expression) {
-  if (!can_be_grouped(expression)) return 0;
-  const Groupable wide = most_groupable(expression);
-  const auto operand = [&](size_t child) { return expression.nodes[wide.children[child]].operand; };
-  if (!std::all_of(wide.children.begin(), wide.children.end(),
-                   [&](uint32_t n) { return expression.nodes[n].is_operand; })) {
-    return 0;
-  }
-  CoverSample sample(job, wide.op);
+  const std::optional<GroupedOperands> wide = grouped_operands(expression);
+  if (!wide) return 0;
+  CoverSample sample(job, *wide);
   // All over the operands and over the polygons of each: steps that have nothing in common with
   // how these are ordered.
-  constexpr size_t kPoints = 64, kStep = 7919;
+  constexpr size_t kStep = 7919;
   size_t points = 0, covered = 0;
   Spread spread;
   for (size_t i = 0; i < kPoints; ++i) {
-    const size_t child = i * wide.children.size() / kPoints;
-    const uint32_t own = operand(child);
+    const size_t child = i * wide->operands.size() / kPoints;
+    const uint32_t own = wide->operands[child];
     const uint32_t first = job.polygon_start(own), count = job.polygon_start(own + 1) - first;
     if (count == 0) continue;
     const auto polygon = first + static_cast<uint32_t>(i * kStep % count);
-    const size_t begin = child / wide.size * wide.size;
-    const size_t end = std::min(begin + wide.size, wide.children.size());
     spread.step();
-    const Position point = spread.in(job, polygon);
-    bool is_covered = false;
-    for (size_t c = begin; c < end && !is_covered; ++c) {
-      is_covered = c != child && sample.is_covered(point, own, operand(c));
-    }
     ++points;
-    covered += is_covered ? 1 : 0;
+    covered += sample.is_covered(spread.in(job, polygon), own, own) ? 1 : 0;
   }
   return points == 0 ? 0 : static_cast<double>(covered) / static_cast<double>(points);
+}
+
+double contact_cover_in_groups(const Job& job, const Expression& expression,
+                               std::span<const Contact> contacts) {
+  const std::optional<GroupedOperands> wide = grouped_operands(expression);
+  if (!wide) return 0;
+  CoverSample sample(job, *wide);
+  size_t points = 0, covered = 0;
+  for (size_t i = 0; i < kPoints; ++i) {
+    const size_t begin = i * contacts.size() / kPoints, end = (i + 1) * contacts.size() / kPoints;
+    const auto some = contacts.subspan(begin, end - begin);
+    const auto plain =
+        std::find_if(some.begin(), some.end(), [](const Contact& c) { return c.is_plain; });
+    if (plain == some.end()) continue;
+    const uint32_t a = job.polygons()[plain->p].operand, b = job.polygons()[plain->q].operand;
+    const Position middle = middle_of(job, *plain);
+    ++points;
+    covered += sample.is_covered(middle, a, b) || sample.is_covered(middle, b, a) ? 1 : 0;
+  }
+  return points == 0 ? 0 : static_cast<double>(covered) / static_cast<double>(points);
+}
+
+double meeting_boxes(const Job& job) {
+  const auto all = job.boxes();
+  if (all.empty()) return 0;
+  constexpr size_t kStep = 7919;
+  double meeting = 0;
+  for (size_t i = 0; i < kPoints; ++i) {
+    const size_t polygon = (i * all.size() / kPoints + i * kStep) % all.size();
+    const uint32_t own = job.polygons()[polygon].operand;
+    for (uint32_t o = 0; o < job.operand_count(); ++o) {
+      const size_t first = job.polygon_start(o), count = job.polygon_start(o + 1) - first;
+      if (o == own || count == 0 || !job.operand_box(o).meets(all[polygon])) continue;
+      const size_t asked = std::min(count, kPoints);
+      size_t met = 0;
+      for (size_t k = 0; k < asked; ++k) {
+        met += all[first + k * count / asked].meets(all[polygon]) ? 1 : 0;
+      }
+      meeting += static_cast<double>(met) * static_cast<double>(count) / static_cast<double>(asked);
+    }
+  }
+  return meeting / static_cast<double>(kPoints);
 }
 
 }  // namespace csgrun

@@ -20,37 +20,44 @@ namespace {
 
 using Outcome = Result<std::shared_ptr<const BoundaryMesh>>;
 
-/// The boxes of a job's operands; nothing if one is off the grid, where no result may be.
-std::optional<std::vector<GridBox>> boxes_on_grid(const Job& job) {
-  constexpr int64_t kLimit = int64_t{1} << widths::kGrid;
+/// Around each of a job's operands.
+std::vector<GridBox> boxes_of_operands(const Job& job) {
   std::vector<GridBox> boxes;
   for (size_t o = 0; o < job.operand_count(); ++o) {
     const PolygonBox& box = job.operand_box(o);
     GridBox& wide = boxes.emplace_back();
     for (size_t k = 0; k < 3; ++k) {
-      if (box.lo[k] <= -kLimit || box.hi[k] >= kLimit) return std::nullopt;
-      wide.lo[k] = box.lo[k] - 1;
-      wide.hi[k] = box.hi[k] + 1;
+      wide.lo[k] = int64_t{box.lo[k]} - 1;
+      wide.hi[k] = int64_t{box.hi[k]} + 1;
     }
   }
   return boxes;
 }
 
+bool is_on_grid(const GridBox& box) {
+  constexpr int64_t kLimit = int64_t{1} << widths::kGrid;
+  const auto is_far = [](int64_t x) { return x <= -kLimit || x >= kLimit; };
+  return box.empty() || !(std::any_of(box.lo.begin(), box.lo.end(), is_far) ||
+                          std::any_of(box.hi.begin(), box.hi.end(), is_far));
+}
+
+/// Where what a group leaves is off the grid, it could not be an operand.
 bool may_stand_in_groups(const Job& job, const Expression& expression,
                          const KernelOptions& options) {
-  return options.may_group && can_be_grouped(expression) && boxes_on_grid(job).has_value();
+  if (!options.may_group || !can_be_grouped(expression)) return false;
+  const auto groups = boxes_of_groups(expression, boxes_of_operands(job));
+  return std::all_of(groups.begin(), groups.end(), is_on_grid);
 }
 
 /// A job that is crowded, in groups. REQUIRES: may_stand_in_groups.
 Outcome evaluate_crowded(const Job& job, const Expression& expression, const GridBox& region,
                          const KernelOptions& options, EvaluateStats& stats) {
-  const auto boxes = boxes_on_grid(job);
   KernelOptions of_crowd = options;
   of_crowd.is_of_crowd = true;
   KernelOptions quiet = of_crowd;
   quiet.progress = nullptr;
   const auto grouped = evaluate_groups(
-      job.operands(), expression, *boxes,
+      job.operands(), expression, boxes_of_operands(job),
       [&](const std::vector<Operand>& operands, const Expression& part, const GridBox& around) {
         return evaluate_boolean(operands, part, around, quiet, stats);
       });

@@ -8,6 +8,23 @@ namespace {
 
 constexpr uint32_t kNoOperand = ~0u;
 
+GridBox clipped(GridBox box, const GridBox& other) {
+  for (size_t k = 0; k < 3; ++k) {
+    box.lo[k] = std::max(box.lo[k], other.lo[k]);
+    box.hi[k] = std::min(box.hi[k], other.hi[k]);
+  }
+  return box;
+}
+
+GridBox joined(GridBox box, const GridBox& other) {
+  if (box.empty() || other.empty()) return box.empty() ? other : box;
+  for (size_t k = 0; k < 3; ++k) {
+    box.lo[k] = std::min(box.lo[k], other.lo[k]);
+    box.hi[k] = std::max(box.hi[k], other.hi[k]);
+  }
+  return box;
+}
+
 /// The children of a node that may stand in groups: those that are taken away are a union.
 std::span<const uint32_t> groupable(const Expression& expression, const Expression::Node& node) {
   if (node.is_operand || node.op == BooleanOp::kSymmetricDifference) return {};
@@ -22,6 +39,40 @@ const Expression::Node& widest(const Expression& expression) {
                              return groupable(expression, a).size() <
                                     groupable(expression, b).size();
                            });
+}
+
+/// A box around what an operator leaves of its children.
+GridBox box_of(BooleanOp op, std::span<const uint32_t> children,
+               const std::vector<GridBox>& of_nodes) {
+  GridBox box = of_nodes[children[0]];
+  for (const uint32_t child : children.subspan(1)) {
+    const GridBox& other = of_nodes[child];
+    switch (op) {
+      case BooleanOp::kIntersection:
+        box = clipped(box, other);
+        break;
+      case BooleanOp::kDifference:
+        break;
+      default:
+        box = joined(box, other);
+        break;
+    }
+  }
+  return box;
+}
+
+/// The same of all nodes. They stand after their children.
+std::vector<GridBox> boxes_of_nodes(const Expression& expression, std::span<const GridBox> boxes) {
+  std::vector<GridBox> of_nodes;
+  of_nodes.reserve(expression.nodes.size());
+  const std::span all(expression.children);
+  for (const Expression::Node& node : expression.nodes) {
+    of_nodes.push_back(
+        node.is_operand
+            ? boxes[node.operand]
+            : box_of(node.op, all.subspan(node.first_child, node.child_count), of_nodes));
+  }
+  return of_nodes;
 }
 
 /// Puts parts of one job into another one.
@@ -61,7 +112,6 @@ class JobPart {
     }
     if (number_[node.operand] == kNoOperand) {
       number_[node.operand] = static_cast<uint32_t>(job.operands.size());
-      used.push_back(node.operand);
       job.operands.push_back(operands_[node.operand]);
     }
     Expression::Node copied;
@@ -73,7 +123,6 @@ class JobPart {
   }
 
   GroupedJob job;
-  std::vector<uint32_t> used;  ///< operands that were copied
 
  private:
   uint32_t add(const Expression::Node& node) {
@@ -102,11 +151,23 @@ Groupable most_groupable(const Expression& expression) {
           children.size() > kMany ? kEach : (children.size() + 1) / 2};
 }
 
+std::vector<GridBox> boxes_of_groups(const Expression& expression, std::span<const GridBox> boxes) {
+  const auto [op, children, size] = most_groupable(expression);
+  const std::vector<GridBox> of_nodes = boxes_of_nodes(expression, boxes);
+  std::vector<GridBox> groups;
+  for (size_t first = 0; first < children.size(); first += size) {
+    const size_t count = std::min(size, children.size() - first);
+    groups.push_back(box_of(op, children.subspan(first, count), of_nodes));
+  }
+  return groups;
+}
+
 Result<GroupedJob> evaluate_groups(const std::vector<Operand>& operands,
                                    const Expression& expression, std::span<const GridBox> boxes,
                                    const EvaluateGroup& evaluate) {
   const Expression::Node& wide = widest(expression);
   const auto [op, children, size] = most_groupable(expression);
+  const std::vector<GridBox> regions = boxes_of_groups(expression, boxes);
   std::vector<Operand> results;
   std::vector<size_t> starts;
   for (size_t first = 0; first < children.size(); first += size) {
@@ -118,14 +179,7 @@ Result<GroupedJob> evaluate_groups(const std::vector<Operand>& operands,
     std::vector<uint32_t> copies;
     for (const uint32_t child : group) copies.push_back(part.copy(child));
     part.add_operator(op, copies);
-    GridBox region = boxes[part.used[0]];
-    for (const uint32_t o : part.used) {
-      for (size_t k = 0; k < 3; ++k) {
-        region.lo[k] = std::min(region.lo[k], boxes[o].lo[k]);
-        region.hi[k] = std::max(region.hi[k], boxes[o].hi[k]);
-      }
-    }
-    auto result = evaluate(part.job.operands, part.job.expression, region);
+    auto result = evaluate(part.job.operands, part.job.expression, regions[first / size]);
     if (!result) return result.error();
     results.back().boundary = *result;
   }

@@ -21,9 +21,6 @@ struct GroupedJob {
   Expression expression;
 };
 
-using EvaluateGroup = std::function<Result<std::shared_ptr<const BoundaryMesh>>(
-    const std::vector<Operand>&, const Expression&, const GridBox& region)>;
-
 /// Whether an operator has so many operands that they can be grouped.
 bool can_be_grouped(const Expression& expression);
 
@@ -35,6 +32,13 @@ struct Groupable {
 };
 /// Those of the operator that has most. REQUIRES: can_be_grouped.
 Groupable most_groupable(const Expression& expression);
+
+/// A box around the result of each group. `boxes`: around each operand. REQUIRES: can_be_grouped.
+std::vector<GridBox> boxes_of_groups(const Expression& expression, std::span<const GridBox> boxes);
+
+/// Evaluates one; `region` holds its result.
+using EvaluateGroup = std::function<Result<std::shared_ptr<const BoundaryMesh>>(
+    const std::vector<Operand>&, const Expression&, const GridBox& region)>;
 
 /// Evaluates groups of operands of the operator that has most, which stand in their order in it, so
 /// that where several have surface the same one gives it as in one job. `boxes`: around each

@@ -25,9 +25,12 @@ namespace {
 /// arrangements of all that meets a polygon, much of it inside what another one removes.
 constexpr size_t kDense = 64;
 
-/// With so many, groups of operands are less work, if within them so much is dropped.
-constexpr size_t kDenseForGroups = 16;
+/// With so many, groups of operands are less work, if within them so much is dropped. What groups
+/// leave has many faces, and asks long rays of one another.
+constexpr size_t kDenseForGroups = 16, kDenseForGroupsOfCrowd = 2;
 constexpr double kDroppedInGroups = 0.5;
+/// Where so many boxes of polygons meet for each plain contact that makes a crowd, these are there.
+constexpr size_t kBoxesEach = 16;
 
 /// The loops of so many cut faces are looked at by one thread.
 constexpr size_t kFacesPerPart = 2048;
@@ -46,15 +49,12 @@ class FaceEvaluator {
   }
 
   Result<WholeFaces> run() {
+    if (is_told_crowded()) return crowded();
     plainly_ = find_plainly_covered(job_, expression_);
     contacts_ =
         ContactTable(find_contacts(job_, plainly_, options_, stats_), job_.polygons().size());
     if (is_cancelled()) return cancelled();
-    if (options_.stop_when_crowded && has_plain_contacts(kDenseForGroups) &&
-        cover_in_groups(job_, expression_) >= kDroppedInGroups) {
-      result_.is_crowded = true;
-      return std::move(result_);
-    }
+    if (is_found_crowded()) return crowded();
     if (has_plain_contacts(kDense)) {
       result_.general.assign(job_.polygons().size(), 1);
       result_.any_general = true;
@@ -65,10 +65,7 @@ class FaceEvaluator {
     for (size_t p = 0; p < plainly_.polygons.size(); ++p) is_covered_[p] |= plainly_.polygons[p];
     find_suspects();
     if (!cut_polygons()) return cancelled();
-    if (cut_.is_crowded) {
-      result_.is_crowded = true;
-      return std::move(result_);
-    }
+    if (cut_.is_crowded) return crowded();
     fates_.emplace(job_, expression_, plainly_, options_, contacts_, cut_, geometry_, is_cut_);
     if (!fates_->find()) {
       return Error{ErrorCode::kInternal, "the labels of a patch contradict one another", {}};
@@ -93,6 +90,26 @@ class FaceEvaluator {
     const auto plain = std::count_if(contacts_.all().begin(), contacts_.all().end(),
                                      [](const Contact& c) { return c.is_plain; });
     return static_cast<size_t>(plain) > each * (job_.polygons().size() + job_.far_face_count());
+  }
+
+  WholeFaces crowded() {
+    result_.is_crowded = true;
+    return std::move(result_);
+  }
+  /// From so many plain contacts a polygon on, groups may be less work.
+  [[nodiscard]] size_t dense_for_groups() const {
+    return options_.is_of_crowd ? kDenseForGroupsOfCrowd : kDenseForGroups;
+  }
+  /// Whether that is clear before any contact is found.
+  [[nodiscard]] bool is_told_crowded() const {
+    return options_.stop_when_crowded &&
+           meeting_boxes(job_) > static_cast<double>(kBoxesEach * dense_for_groups()) &&
+           cover_in_groups(job_, expression_) >= kDroppedInGroups;
+  }
+  [[nodiscard]] bool is_found_crowded() const {
+    return options_.stop_when_crowded && has_plain_contacts(dense_for_groups()) &&
+           (cover_in_groups(job_, expression_) >= kDroppedInGroups ||
+            contact_cover_in_groups(job_, expression_, contacts_.all()) >= kDroppedInGroups);
   }
 
   /// Leaves a polygon to the general way.

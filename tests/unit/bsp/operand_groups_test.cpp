@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -117,6 +118,136 @@ TEST(OperandGroups, BallsAboutOneCentreAreEvaluatedInGroups) {
     const auto [grouped, whole] = signs_of_both(operands, expression, 101);
     EXPECT_NE(grouped, whole) << "it was done in one job";
   }
+}
+
+/// A cuboid about the origin, turned at random, so many times as large.
+Operand turned_cuboid(test::Random& random, const std::array<double, 3>& half, int64_t scale) {
+  std::array<double, 3> cosine{}, sine{};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double angle = 7 * random.unit();
+    cosine[axis] = std::cos(angle), sine[axis] = std::sin(angle);
+  }
+  std::vector<test::Loop> loops = [&] {
+    std::vector<IVec3> points;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      std::array<double, 3> p{};
+      for (size_t k = 0; k < 3; ++k) p[k] = (corner >> k & 1) != 0 ? half[k] : -half[k];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        double &u = p[(axis + 1) % 3], &v = p[(axis + 2) % 3];
+        const double turned = cosine[axis] * u - sine[axis] * v;
+        v = sine[axis] * u + cosine[axis] * v;
+        u = turned;
+      }
+      points.push_back({std::llround(p[0]), std::llround(p[1]), std::llround(p[2])});
+    }
+    return test::hull_loops(points);
+  }();
+  for (test::Loop& loop : loops) {
+    for (IVec3& p : loop) {
+      for (int64_t& x : p) x *= scale;
+    }
+  }
+  return convex_operand(loops);
+}
+
+std::vector<Operand> turned_cuboids(uint32_t count, const std::array<double, 3>& half,
+                                    uint64_t seed, int64_t scale = 1) {
+  test::Random random(seed);
+  std::vector<Operand> operands;
+  for (uint32_t o = 0; o < count; ++o) {
+    operands.push_back(turned_cuboid(random, half, scale));
+    operands.back().first_source = o;
+  }
+  return operands;
+}
+
+// All that they have in common is on the grid, though they reach beyond it.
+TEST(OperandGroups, WhatIsCommonToOperandsOffTheGrid) {
+  constexpr double kGridLimit = 0x1p27;
+  const std::vector<Operand> operands = turned_cuboids(24, {22e3, 22e3, 22e3}, 4071, 4096);
+  const Job job(operands);
+  size_t off_grid = 0;
+  for (size_t o = 0; o < operands.size(); ++o) {
+    off_grid += job.operand_box(o).hi[0] > kGridLimit ? 1 : 0;
+  }
+  EXPECT_GT(off_grid, 3u);
+  const Expression expression = test::flat_expression(BooleanOp::kIntersection, 24);
+  constexpr auto kReach = static_cast<int64_t>(kGridLimit) - 2;
+  const GridBox region{{-kReach, -kReach, -kReach}, {kReach, kReach, kReach}};
+  std::array<std::shared_ptr<const BoundaryMesh>, 2> results;
+  std::array<uint64_t, 2> signs{};
+  for (const bool may_group : {false, true}) {
+    KernelOptions options;
+    options.may_group = may_group;
+    EvaluateStats stats;
+    auto result = evaluate_boolean(operands, expression, region, options, stats);
+    ASSERT_TRUE(result) << result.error().message;
+    results[may_group] = *result;
+    signs[may_group] = signs_of(stats);
+  }
+  EXPECT_EQ(test::first_difference(*results[1], *results[0]), "");
+  EXPECT_GT(results[0]->faces.size(), 50u);
+  EXPECT_NE(signs[0], signs[1]) << "it was done in one job";
+}
+
+// Nearly all of their surface is outside of the others, and nearly all that cuts it inside.
+TEST(OperandGroups, RodsThroughOnePlaceAreEvaluatedInGroups) {
+  const std::vector<Operand> rods = turned_cuboids(40, {30'000, 200, 200}, 5512);
+  const Job job(rods);
+  std::vector<Contact> contacts;
+  PairTest test(job);
+  for (uint32_t p = 0; p < job.polygons().size(); ++p) {
+    for (uint32_t q = p + 1; q < job.polygons().size(); ++q) {
+      Contact contact{};
+      if (job.polygons()[p].operand != job.polygons()[q].operand &&
+          test.run(p, q, nullptr, contact) == Meeting::kContact) {
+        contacts.push_back(contact);
+      }
+    }
+  }
+  for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kDifference}) {
+    const Expression expression = test::flat_expression(op, 40);
+    EXPECT_LT(cover_in_groups(job, expression), 0.25);
+    EXPECT_GT(contact_cover_in_groups(job, expression, contacts), 0.5);
+    EXPECT_EQ(contact_cover_in_groups(job, expression, {}), 0);
+    const auto [grouped, whole] =
+        signs_of_both(rods, expression, op == BooleanOp::kUnion ? 240 : 7);
+    if (op == BooleanOp::kUnion) {
+      EXPECT_LT(grouped, whole);
+    }
+  }
+}
+
+// A face of a box meets five of one that is the same.
+TEST(OperandGroups, BoxesThatMeet) {
+  std::vector<Operand> same, beside;
+  for (int64_t o = 0; o < 7; ++o) {
+    same.push_back(convex_operand(test::box_loops({0, 0, 0}, {9, 9, 9})));
+    beside.push_back(convex_operand(test::box_loops({10 * o, 0, 0}, {10 * o + 9, 9, 9})));
+  }
+  EXPECT_EQ(meeting_boxes(Job(same)), 6 * 5);
+  EXPECT_EQ(meeting_boxes(Job(beside)), 0);
+  EXPECT_EQ(meeting_boxes(Job(std::vector<Operand>())), 0);
+}
+
+TEST(OperandGroups, BoxesOfGroupsHoldWhatTheyLeave) {
+  const auto box = [](int64_t lo, int64_t hi) { return GridBox{{lo, lo, lo}, {hi, hi, hi}}; };
+  const std::vector<GridBox> boxes{box(0, 10), box(5, 20), box(8, 30), box(40, 50)};
+  const auto of = [&](BooleanOp op) {
+    std::vector<std::array<int64_t, 2>> ends;
+    for (const GridBox& group : boxes_of_groups(test::flat_expression(op, 4), boxes)) {
+      ends.push_back({group.lo[2], group.hi[2]});
+    }
+    return ends;
+  };
+  using Ends = std::vector<std::array<int64_t, 2>>;
+  EXPECT_EQ(of(BooleanOp::kUnion), (Ends{{0, 20}, {8, 50}}));
+  EXPECT_EQ(of(BooleanOp::kDifference), (Ends{{5, 30}, {40, 50}}));  // of what is taken away
+  const auto common = boxes_of_groups(test::flat_expression(BooleanOp::kIntersection, 4), boxes);
+  ASSERT_EQ(common.size(), 2u);
+  EXPECT_EQ(common[0].lo[0], 5);
+  EXPECT_EQ(common[0].hi[0], 10);
+  EXPECT_TRUE(common[1].empty());
 }
 
 // Of boxes within boxes all but the largest of each group are inside of it, all but the smallest
