@@ -86,7 +86,8 @@ int surface(lua_State* L) {
   HeightMap map;
   if (heights != 0) {
     if (arguments.has("invert")) fail_in(kSurface, "option 'invert' is for a PNG");
-    map = read_heights(L, heights, heights == named ? "heights" : "file");
+    const bool is_file = heights != named && arguments.positional_count() == 0;
+    map = read_heights(L, heights, is_file ? "file" : "heights");
   } else {
     Files::Opened file;
     try {

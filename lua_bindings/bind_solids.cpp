@@ -81,6 +81,12 @@ int cylinder(lua_State* L) {
   }
   const Arguments arguments(L, kCylinder, 1);
   const double both = radius(arguments, kCylinder, "r", "d", 1);
+  const auto has = [&](const char* r, const char* d) {
+    return arguments.has(r) || arguments.has(d);
+  };
+  if (has("r", "d") && has("r1", "d1") && has("r2", "d2")) {
+    fail_in(kCylinder, "give either one radius or those of both ends");
+  }
   double r1 = radius(arguments, kCylinder, "r1", "d1", both);
   double r2 = radius(arguments, kCylinder, "r2", "d2", both);
   // cylinder(h, r): the second value alone is the radius of both ends.

@@ -59,6 +59,14 @@ std::string syntax_hint(std::string_view line, std::string_view message) {
   if (has(message, "'?'")) return "; a choice between two values is: condition and a or b";
   if (is_assignment_by(line) && (has(message, "syntax error near") || has(message, "unexpected")))
     return "; it is written out: a = a + 1";
+  if (has(message, "'&'") && has(line, "&&")) return "; both together are: a and b";
+  if (has(message, "'|'") && has(line, "||")) return "; one or the other is: a or b";
+  if (line.starts_with("while ") && has(message, "'do' expected"))
+    return "; a loop is: while a do ... end";
+  for (const char* form : {"let ", "const ", "var "}) {
+    if (line.starts_with(form) && has(message, "syntax error near"))
+      return "; a name for a value is: local a = 1";
+  }
   if (line.starts_with("module "))
     return "; a module is a function that returns a solid: local function name(...) ... end";
   if (line.starts_with("include <") || line.starts_with("use <"))
@@ -78,6 +86,8 @@ std::string syntax_hint(std::string_view line, std::string_view message) {
         return std::string("; what is changed stands before: cube(10):") + mover + "(...)";
     }
   }
+  // After a value it divides by what it was to say.
+  if (has(line, "//")) return "; a comment begins with --";
   return {};
 }
 
@@ -89,6 +99,8 @@ const char* name_hint(std::string_view name) {
   static constexpr Hint kHints[] = {
       {"echo", "print(...) writes to the log"},
       {"undef", "it is nil"},
+      {"null", "it is nil"},
+      {"undefined", "it is nil"},
       {"len", "it is #list"},
       {"str", "it is a .. b, or tostring(x)"},
       {"concat", "it is table.move, or a loop"},

@@ -26,8 +26,8 @@ void check_part_name(const std::string& name) {
     if (bad) {
       throw ScriptError(
           "'" + name +
-          "' cannot be a part's name: it must not be empty, nor have '..', backslashes "
-          "or control characters in it");
+          "' cannot be a part's name: it must not be empty, '.' or '..', nor have such a step "
+          "between slashes, nor backslashes or control characters in it");
     }
     if (end == name.size()) return;
     start = end + 1;

@@ -436,6 +436,9 @@ Result<Extent> Evaluator::extent(const NodePtr& root) {
 }
 
 const EvaluateStats& Evaluator::stats() const { return impl_->stats; }
-const std::vector<std::string>& Evaluator::warnings() const { return impl_->warnings.lines(); }
+std::vector<std::string> Evaluator::warnings(const PlaceText& place) const {
+  return impl_->warnings.lines(
+      [&](const SourceRef& where) { return place ? place(where) : where.text(); });
+}
 
 }  // namespace csgrun

@@ -12,14 +12,25 @@ namespace csgrun {
 class Warnings {
  public:
   void add(const SourceRef& where, const std::string& text) {
-    const std::string place = where.text();
-    std::string line = place.empty() ? text : place + ": " + text;
-    if (known_.insert(line).second) lines_.push_back(std::move(line));
+    if (known_.insert(where.text() + ": " + text).second) all_.push_back({where, text});
   }
-  [[nodiscard]] const std::vector<std::string>& lines() const { return lines_; }
+  /// `place(where)` says where one came up; it may be empty.
+  template <class Place>
+  [[nodiscard]] std::vector<std::string> lines(Place&& place) const {
+    std::vector<std::string> lines;
+    for (const auto& [where, text] : all_) {
+      const std::string at = place(where);
+      lines.push_back(at.empty() ? text : at + ": " + text);
+    }
+    return lines;
+  }
 
  private:
-  std::vector<std::string> lines_;
+  struct Warning {
+    SourceRef where;
+    std::string text;
+  };
+  std::vector<Warning> all_;
   std::unordered_set<std::string> known_;
 };
 

@@ -74,7 +74,8 @@ class Run {
     session_.budget().stop();
     report_.stats = session_.evaluator().stats();
     const auto& own = session_.warnings();
-    const auto& evaluation = session_.evaluator().warnings();
+    const auto evaluation = session_.evaluator().warnings(
+        [&](const SourceRef& where) { return session_.place_text(where); });
     report_.warnings.insert(report_.warnings.begin(), evaluation.begin(), evaluation.end());
     report_.warnings.insert(report_.warnings.begin(), own.begin(), own.end());
     report_.threads = session_.options().evaluate.threads;

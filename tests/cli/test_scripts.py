@@ -117,6 +117,11 @@ class Geometry(Case):
             self.expect(outcome, 3, "model.lua:2: the result is empty\nwarning: model.lua:2: 'cube' encloses no volume")
             self.assertEqual(outcome.out, "")
 
+    def test_warnings_name_files_as_errors_do(self):
+        """An editor finds the file from the folder that the program was started in."""
+        self.write("parts/model.lua", "\nreturn cube(1) + cube(1e-10)")
+        self.expect(self.run_csgrun("parts/model.lua", "--stats"), 0, "warning: parts/model.lua:2: 'cube' encloses no volume")
+
     def test_colours_that_a_shape_cannot_keep_are_a_warning(self):
         """A 2D shape has one colour; solids of several keep them all."""
         for text, function in (("red + blue", "'+'"), ("red:union(plain, blue)", "union"), ("plain & red", "'&'"),

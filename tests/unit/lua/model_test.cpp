@@ -59,6 +59,9 @@ TEST(Parts, Mistakes) {
             std::string::npos);
   EXPECT_NE(message_of("return {['a\\1b'] = cube(1)}").find("cannot be a part's name"),
             std::string::npos);
+  EXPECT_EQ(message_of("return {['a//b'] = cube(1)}"),
+            "model.lua:1: 'a//b' cannot be a part's name: it must not be empty, '.' or '..', nor "
+            "have such a step between slashes, nor backslashes or control characters in it");
   EXPECT_NE(message_of("local t = {} t[1] = t return t").find("nested too deep"),
             std::string::npos);
   EXPECT_NE(message_of("return {cube(1), nil, cube(2)}").find("hole"), std::string::npos);

@@ -86,8 +86,10 @@ class Evaluator {
   [[nodiscard]] Result<int> contains(const NodePtr& root, const glm::dvec3& point);
 
   [[nodiscard]] const EvaluateStats& stats() const;
-  /// Notes for the user, in a deterministic order, each at most once.
-  [[nodiscard]] const std::vector<std::string>& warnings() const;
+  /// Notes for the user, in a deterministic order, each at most once. `place` says where the tree
+  /// was made, as users know it; nothing: as SourceRef::text does.
+  using PlaceText = std::function<std::string(const SourceRef&)>;
+  [[nodiscard]] std::vector<std::string> warnings(const PlaceText& place = {}) const;
 
  private:
   struct Impl;
