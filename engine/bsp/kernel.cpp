@@ -41,15 +41,22 @@ bool is_on_grid(const GridBox& box) {
                           std::any_of(box.hi.begin(), box.hi.end(), is_far));
 }
 
-/// Where what a group leaves is off the grid, it could not be an operand.
-bool may_stand_in_groups(const Job& job, const Expression& expression,
-                         const KernelOptions& options) {
-  if (!options.may_group || !can_be_grouped(expression)) return false;
-  const auto groups = boxes_of_groups(expression, boxes_of_operands(job));
-  return std::all_of(groups.begin(), groups.end(), is_on_grid);
+/// How a job may stand in groups, if it may: where what a group leaves is off the grid, it could
+/// not be an operand.
+std::optional<GroupWay> way_of_groups(const Job& job, const Expression& expression,
+                                      const KernelOptions& options) {
+  if (!options.may_group || !can_be_grouped(expression)) return std::nullopt;
+  const std::vector<GridBox> boxes = boxes_of_operands(job);
+  const auto are_on_grid = [&](GroupWay way) {
+    const auto groups = boxes_of_groups(expression, way, boxes);
+    return std::all_of(groups.begin(), groups.end(), is_on_grid);
+  };
+  if (are_on_grid(GroupWay::kAlone)) return GroupWay::kAlone;
+  if (are_taken_away(expression) && are_on_grid(GroupWay::kWithFirst)) return GroupWay::kWithFirst;
+  return std::nullopt;
 }
 
-/// A job that is crowded, in groups. REQUIRES: may_stand_in_groups.
+/// A job that is crowded, in groups. REQUIRES: there is a way.
 Outcome evaluate_crowded(const Job& job, const Expression& expression, const GridBox& region,
                          const KernelOptions& options, EvaluateStats& stats) {
   KernelOptions of_crowd = options;
@@ -57,7 +64,7 @@ Outcome evaluate_crowded(const Job& job, const Expression& expression, const Gri
   KernelOptions quiet = of_crowd;
   quiet.progress = nullptr;
   const auto grouped = evaluate_groups(
-      job.operands(), expression, boxes_of_operands(job),
+      job.operands(), expression, *way_of_groups(job, expression, options), boxes_of_operands(job),
       [&](const std::vector<Operand>& operands, const Expression& part, const GridBox& around) {
         return evaluate_boolean(operands, part, around, quiet, stats);
       });
@@ -84,7 +91,7 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
   }
   const auto evaluate_alone = [&](Job& job, EvaluateStats& own) {
     KernelOptions alone = options;
-    alone.stop_when_crowded = may_stand_in_groups(job, expression, options);
+    alone.stop_when_crowded = way_of_groups(job, expression, options).has_value();
     return evaluate_job(job, operands, expression, region, alone, own);
   };
   size_t faces = 0;

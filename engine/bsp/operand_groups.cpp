@@ -75,6 +75,11 @@ std::vector<GridBox> boxes_of_nodes(const Expression& expression, std::span<cons
   return of_nodes;
 }
 
+/// What a difference takes from. REQUIRES: are_taken_away.
+uint32_t first_child(const Expression& expression) {
+  return expression.children[widest(expression).first_child];
+}
+
 /// Puts parts of one job into another one.
 class JobPart {
  public:
@@ -151,34 +156,43 @@ Groupable most_groupable(const Expression& expression) {
           children.size() > kMany ? kEach : (children.size() + 1) / 2};
 }
 
-std::vector<GridBox> boxes_of_groups(const Expression& expression, std::span<const GridBox> boxes) {
+bool are_taken_away(const Expression& expression) {
+  return widest(expression).op == BooleanOp::kDifference;
+}
+
+std::vector<GridBox> boxes_of_groups(const Expression& expression, GroupWay way,
+                                     std::span<const GridBox> boxes) {
   const auto [op, children, size] = most_groupable(expression);
   const std::vector<GridBox> of_nodes = boxes_of_nodes(expression, boxes);
   std::vector<GridBox> groups;
   for (size_t first = 0; first < children.size(); first += size) {
     const size_t count = std::min(size, children.size() - first);
-    groups.push_back(box_of(op, children.subspan(first, count), of_nodes));
+    groups.push_back(way == GroupWay::kWithFirst
+                         ? of_nodes[first_child(expression)]
+                         : box_of(op, children.subspan(first, count), of_nodes));
   }
   return groups;
 }
 
 Result<GroupedJob> evaluate_groups(const std::vector<Operand>& operands,
-                                   const Expression& expression, std::span<const GridBox> boxes,
-                                   const EvaluateGroup& evaluate) {
+                                   const Expression& expression, GroupWay way,
+                                   std::span<const GridBox> boxes, const EvaluateGroup& evaluate) {
   const Expression::Node& wide = widest(expression);
   const auto [op, children, size] = most_groupable(expression);
-  const std::vector<GridBox> regions = boxes_of_groups(expression, boxes);
+  const bool with_first = way == GroupWay::kWithFirst;
+  const std::vector<GridBox> regions = boxes_of_groups(expression, way, boxes);
   std::vector<Operand> results;
   std::vector<size_t> starts;
   for (size_t first = 0; first < children.size(); first += size) {
     starts.push_back(first);
     const auto group = children.subspan(first, std::min(size, children.size() - first));
     results.emplace_back();
-    if (group.size() == 1) continue;
+    if (group.size() == 1 && !with_first) continue;
     JobPart part(operands, expression);
     std::vector<uint32_t> copies;
+    if (with_first) copies.push_back(part.copy(first_child(expression)));
     for (const uint32_t child : group) copies.push_back(part.copy(child));
-    part.add_operator(op, copies);
+    part.add_operator(with_first ? BooleanOp::kDifference : op, copies);
     auto result = evaluate(part.job.operands, part.job.expression, regions[first / size]);
     if (!result) return result.error();
     results.back().boundary = *result;
@@ -187,14 +201,16 @@ Result<GroupedJob> evaluate_groups(const std::vector<Operand>& operands,
   const auto group_for = [&](const Expression::Node& node) -> std::optional<uint32_t> {
     if (&node != &wide) return std::nullopt;
     std::vector<uint32_t> grouped;
-    if (wide.op == BooleanOp::kDifference) {
-      grouped.push_back(rest.copy(expression.children[wide.first_child]));
+    if (wide.op == BooleanOp::kDifference && !with_first) {
+      grouped.push_back(rest.copy(first_child(expression)));
     }
     for (size_t g = 0; g < results.size(); ++g) {
       grouped.push_back(results[g].boundary ? rest.add_operand(results[g])
                                             : rest.copy(children[starts[g]]));
     }
-    return rest.add_operator(wide.op, grouped);
+    // Where they have boundary of the first child in common, or of what is taken away, the lowest
+    // group that has it is of the operand that the difference would name.
+    return rest.add_operator(with_first ? BooleanOp::kIntersection : wide.op, grouped);
   };
   rest.copy(static_cast<uint32_t>(expression.nodes.size() - 1), group_for);
   return std::move(rest.job);

@@ -3,6 +3,7 @@
 // be cut by all of them. What a group leaves has one face there, or few.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -33,18 +34,28 @@ struct Groupable {
 /// Those of the operator that has most. REQUIRES: can_be_grouped.
 Groupable most_groupable(const Expression& expression);
 
-/// A box around the result of each group. `boxes`: around each operand. REQUIRES: can_be_grouped.
-std::vector<GridBox> boxes_of_groups(const Expression& expression, std::span<const GridBox> boxes);
+/// What a group leaves.
+enum class GroupWay : uint8_t {
+  kAlone,      ///< what the operator makes of its operands; of what is taken away the union
+  kWithFirst,  ///< of a difference, its first child less them: what all of these have in common
+};
 
-/// Evaluates one; `region` holds its result.
+/// A box around the result of each group. `boxes`: around each operand. REQUIRES: can_be_grouped,
+/// and a difference for kWithFirst.
+std::vector<GridBox> boxes_of_groups(const Expression& expression, GroupWay way,
+                                     std::span<const GridBox> boxes);
+/// Whether the groups are of what a difference takes away.
+bool are_taken_away(const Expression& expression);
+
+/// Evaluates a group; `region` holds its result.
 using EvaluateGroup = std::function<Result<std::shared_ptr<const BoundaryMesh>>(
     const std::vector<Operand>&, const Expression&, const GridBox& region)>;
 
 /// Evaluates groups of operands of the operator that has most, which stand in their order in it, so
 /// that where several have surface the same one gives it as in one job. `boxes`: around each
-/// operand. REQUIRES: can_be_grouped. Errors: those of `evaluate`.
+/// operand. REQUIRES: as boxes_of_groups. Errors: those of `evaluate`.
 Result<GroupedJob> evaluate_groups(const std::vector<Operand>& operands,
-                                   const Expression& expression, std::span<const GridBox> boxes,
-                                   const EvaluateGroup& evaluate);
+                                   const Expression& expression, GroupWay way,
+                                   std::span<const GridBox> boxes, const EvaluateGroup& evaluate);
 
 }  // namespace csgrun

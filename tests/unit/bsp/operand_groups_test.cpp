@@ -120,8 +120,10 @@ TEST(OperandGroups, BallsAboutOneCentreAreEvaluatedInGroups) {
   }
 }
 
-/// A cuboid about the origin, turned at random, so many times as large.
-Operand turned_cuboid(test::Random& random, const std::array<double, 3>& half, int64_t scale) {
+/// A cuboid whose middle is so far along X, turned at random about the origin, and all that so many
+/// times as large.
+Operand turned_cuboid(test::Random& random, const std::array<double, 3>& half, int64_t scale,
+                      double distance = 0) {
   std::array<double, 3> cosine{}, sine{};
   for (size_t axis = 0; axis < 3; ++axis) {
     const double angle = 7 * random.unit();
@@ -132,6 +134,7 @@ Operand turned_cuboid(test::Random& random, const std::array<double, 3>& half, i
     for (unsigned corner = 0; corner < 8; ++corner) {
       std::array<double, 3> p{};
       for (size_t k = 0; k < 3; ++k) p[k] = (corner >> k & 1) != 0 ? half[k] : -half[k];
+      p[0] += distance;
       for (size_t axis = 0; axis < 3; ++axis) {
         double &u = p[(axis + 1) % 3], &v = p[(axis + 2) % 3];
         const double turned = cosine[axis] * u - sine[axis] * v;
@@ -161,18 +164,18 @@ std::vector<Operand> turned_cuboids(uint32_t count, const std::array<double, 3>&
   return operands;
 }
 
-// All that they have in common is on the grid, though they reach beyond it.
-TEST(OperandGroups, WhatIsCommonToOperandsOffTheGrid) {
-  constexpr double kGridLimit = 0x1p27;
-  const std::vector<Operand> operands = turned_cuboids(24, {22e3, 22e3, 22e3}, 4071, 4096);
+/// How many signs are asked for in one job and in groups, of operands that reach beyond the grid,
+/// where the result does not. Both must give the same, of `faces` at least.
+std::array<uint64_t, 2> signs_beyond_grid(const std::vector<Operand>& operands, BooleanOp op,
+                                          size_t faces) {
+  constexpr int64_t kGridLimit = int64_t{1} << 27, kReach = kGridLimit - 2;
   const Job job(operands);
-  size_t off_grid = 0;
+  int off_grid = 0;
   for (size_t o = 0; o < operands.size(); ++o) {
     off_grid += job.operand_box(o).hi[0] > kGridLimit ? 1 : 0;
   }
-  EXPECT_GT(off_grid, 3u);
-  const Expression expression = test::flat_expression(BooleanOp::kIntersection, 24);
-  constexpr auto kReach = static_cast<int64_t>(kGridLimit) - 2;
+  EXPECT_GT(off_grid, 3);
+  const Expression expression = test::flat_expression(op, static_cast<uint32_t>(operands.size()));
   const GridBox region{{-kReach, -kReach, -kReach}, {kReach, kReach, kReach}};
   std::array<std::shared_ptr<const BoundaryMesh>, 2> results;
   std::array<uint64_t, 2> signs{};
@@ -181,13 +184,32 @@ TEST(OperandGroups, WhatIsCommonToOperandsOffTheGrid) {
     options.may_group = may_group;
     EvaluateStats stats;
     auto result = evaluate_boolean(operands, expression, region, options, stats);
-    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_TRUE(result) << result.error().message;
+    if (!result) return signs;
     results[may_group] = *result;
     signs[may_group] = signs_of(stats);
   }
   EXPECT_EQ(test::first_difference(*results[1], *results[0]), "");
-  EXPECT_GT(results[0]->faces.size(), 50u);
-  EXPECT_NE(signs[0], signs[1]) << "it was done in one job";
+  EXPECT_GE(results[0]->faces.size(), faces);
+  return signs;
+}
+
+TEST(OperandGroups, WhatIsCommonToOperandsOffTheGrid) {
+  const std::vector<Operand> operands = turned_cuboids(24, {22e3, 22e3, 22e3}, 4071, 4096);
+  const auto [whole, grouped] = signs_beyond_grid(operands, BooleanOp::kIntersection, 50);
+  EXPECT_NE(whole, grouped) << "it was done in one job";
+}
+
+// Their union is off the grid.
+TEST(OperandGroups, WhatToolsOffTheGridLeave) {
+  test::Random random(7734);
+  std::vector<Operand> operands{turned_cuboid(random, {15e3, 14e3, 13e3}, 4096)};
+  for (uint32_t o = 1; o <= 150; ++o) {
+    operands.push_back(turned_cuboid(random, {22e3, 22e3, 22e3}, 4096, 30e3));
+    operands.back().first_source = o;
+  }
+  const auto [whole, grouped] = signs_beyond_grid(operands, BooleanOp::kDifference, 20);
+  EXPECT_NE(whole, grouped) << "it was done in one job";
 }
 
 // Nearly all of their surface is outside of the others, and nearly all that cuts it inside.
@@ -235,7 +257,8 @@ TEST(OperandGroups, BoxesOfGroupsHoldWhatTheyLeave) {
   const std::vector<GridBox> boxes{box(0, 10), box(5, 20), box(8, 30), box(40, 50)};
   const auto of = [&](BooleanOp op) {
     std::vector<std::array<int64_t, 2>> ends;
-    for (const GridBox& group : boxes_of_groups(test::flat_expression(op, 4), boxes)) {
+    for (const GridBox& group :
+         boxes_of_groups(test::flat_expression(op, 4), GroupWay::kAlone, boxes)) {
       ends.push_back({group.lo[2], group.hi[2]});
     }
     return ends;
@@ -243,7 +266,8 @@ TEST(OperandGroups, BoxesOfGroupsHoldWhatTheyLeave) {
   using Ends = std::vector<std::array<int64_t, 2>>;
   EXPECT_EQ(of(BooleanOp::kUnion), (Ends{{0, 20}, {8, 50}}));
   EXPECT_EQ(of(BooleanOp::kDifference), (Ends{{5, 30}, {40, 50}}));  // of what is taken away
-  const auto common = boxes_of_groups(test::flat_expression(BooleanOp::kIntersection, 4), boxes);
+  const auto common =
+      boxes_of_groups(test::flat_expression(BooleanOp::kIntersection, 4), GroupWay::kAlone, boxes);
   ASSERT_EQ(common.size(), 2u);
   EXPECT_EQ(common[0].lo[0], 5);
   EXPECT_EQ(common[0].hi[0], 10);
@@ -297,7 +321,7 @@ TEST(OperandGroups, FewOperandsAreNot) {
 TEST(OperandGroups, OfRandomTreesAreEvaluatedAsOneJob) {
   test::Random random(77120);
   test::TreeMaker maker(random);
-  int grouped = 0;
+  int grouped = 0, firsts = 0;
   for (int round = 0; round < 60; ++round) {
     test::TreeShape shape;
     shape.operands = 7;
@@ -310,8 +334,10 @@ TEST(OperandGroups, OfRandomTreesAreEvaluatedAsOneJob) {
     GroupedJob job{tree.operands, tree.expression};
     for (; can_be_grouped(job.expression); ++grouped) {
       const std::vector<GridBox> boxes(job.operands.size(), tree.region);
+      const bool with_first = round % 5 > 1 && are_taken_away(job.expression);
+      firsts += with_first ? 1 : 0;
       auto next = evaluate_groups(
-          job.operands, job.expression, boxes,
+          job.operands, job.expression, with_first ? GroupWay::kWithFirst : GroupWay::kAlone, boxes,
           [&](const std::vector<Operand>& operands, const Expression& part, const GridBox& around) {
             EXPECT_LT(part.nodes.size(), job.expression.nodes.size());
             EvaluateStats stats;
@@ -327,6 +353,7 @@ TEST(OperandGroups, OfRandomTreesAreEvaluatedAsOneJob) {
     ASSERT_EQ(test::first_difference(**last, **whole), "") << "round " << round;
   }
   EXPECT_GT(grouped, 20);
+  EXPECT_GT(firsts, 2);
 }
 
 }  // namespace
