@@ -228,16 +228,21 @@ std::string package_path(lua_State* L) {
 
 namespace {
 
-/// The line of the text that a message "path:12: ..." is about.
+/// The line of the text that a message "path:12: ..." is about, without the end of the line; of a
+/// blank one, as after the last, the one before it that is not.
 std::string_view line_of(std::string_view message, const std::string& path, std::string_view text) {
   size_t line = 0;
   if (message.size() > path.size() + 1) {
     const char* digits = message.data() + path.size() + 1;
     std::from_chars(digits, message.data() + message.size(), line);
   }
-  for (; line > 1 && !text.empty(); --line)
-    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
-  return text.substr(0, text.find('\n'));
+  size_t end = std::min(text.find('\n'), text.size());
+  for (; line > 1 && end < text.size(); --line)
+    end = std::min(text.find('\n', end + 1), text.size());
+  const size_t last = text.substr(0, end).find_last_not_of(" \t\r\n");
+  if (last == std::string_view::npos) return {};
+  const size_t begin = text.substr(0, last).find_last_of('\n') + 1;  // 0 if there is none
+  return text.substr(begin, last + 1 - begin);
 }
 
 }  // namespace

@@ -343,7 +343,7 @@ TEST(Hints, OpenScadInALineThatIsNoLua) {
       {"local a = 5 // width of it", "a comment begins with --"},
       {"local a = b && c", "both together are: a and b"},
       {"local a = b || c", "one or the other is: a or b"},
-      {"while (true) { cube(1) }", "a loop is: while a do ... end"},
+      {"while (true) { cube(1) }\n\n", "a loop is: while a do ... end"},
       {"const x = 5", "a name for a value is: local a = 1"},
       {"var x = 5", "a name for a value is: local a = 1"},
       {"function f(x) = x*2;", "a function is: function f(x) return x * 2 end"},
