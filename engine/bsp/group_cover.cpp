@@ -91,6 +91,8 @@ std::optional<GroupedOperands> grouped_operands(const Expression& expression) {
   return result;
 }
 
+double dot(const Position& a, const Position& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
 class CoverSample {
  public:
   CoverSample(const Job& job, const GroupedOperands& grouped)
@@ -106,22 +108,79 @@ class CoverSample {
   /// Whether a point of an operand, and maybe of another one, is told to be boundary of nothing by
   /// a third one of its group.
   bool is_covered(const Position& point, uint32_t own, uint32_t other) {
-    const uint32_t place = place_[own];
-    if (place == kNowhere) return false;
     const double error = std::max(signs_.error(own), signs_.error(other)) + kRounding;
-    const size_t begin = place / grouped_.size * grouped_.size;
-    const size_t end = std::min(begin + grouped_.size, grouped_.operands.size());
-    return std::any_of(grouped_.operands.begin() + static_cast<std::ptrdiff_t>(begin),
-                       grouped_.operands.begin() + static_cast<std::ptrdiff_t>(end),
-                       [&](uint32_t third) {
-                         return third != own && third != other && decides(point, third, error);
-                       });
+    return any_in_group(
+        own, [&](uint32_t third) { return third != other && decides(point, third, error); });
+  }
+
+  /// Whether a point of a polygon is also in a coplanar one of another operand of its group that
+  /// leaves nothing of it: one that comes before it, or that faces it.
+  bool is_covered_in_plane(const Position& point, uint32_t polygon) {
+    const uint32_t own = job_.polygons()[polygon].operand;
+    return any_in_group(own, [&](uint32_t third) {
+      const double error = std::max(signs_.error(own), signs_.error(third)) + kRounding;
+      if (!may_hold(job_.operand_box(third), point, error)) return false;
+      for (uint32_t p = job_.polygon_start(third); p < job_.polygon_start(third + 1); ++p) {
+        if (!may_hold(job_.boxes()[p], point, error) || !is_in_plane(polygon, p)) continue;
+        const Position normal = base_of(polygon).normal;
+        if (!is_around(p, point, normal)) continue;
+        return place_[third] < place_[own] || dot(normal, base_of(p).normal) < 0;
+      }
+      return false;
+    });
   }
 
  private:
   /// Of doubles below 2^31, with room to spare.
   static constexpr double kRounding = 0x1p-16;
   static constexpr uint32_t kNowhere = UINT32_MAX;
+
+  /// Whether `is_wanted` holds for another operand of the group in which one stands.
+  template <class Wanted>
+  bool any_in_group(uint32_t own, Wanted&& is_wanted) {
+    const uint32_t place = place_[own];
+    if (place == kNowhere) return false;
+    const size_t begin = place / grouped_.size * grouped_.size;
+    const size_t end = std::min(begin + grouped_.size, grouped_.operands.size());
+    return std::any_of(grouped_.operands.begin() + static_cast<std::ptrdiff_t>(begin),
+                       grouped_.operands.begin() + static_cast<std::ptrdiff_t>(end),
+                       [&](uint32_t other) { return other != own && is_wanted(other); });
+  }
+
+  [[nodiscard]] VertexSigns::Base base_of(uint32_t polygon) const {
+    const auto corners = job_.corners(job_.polygons()[polygon]);
+    return VertexSigns::base(job_.rounded(corners[0]), job_.rounded(corners[1]),
+                             job_.rounded(corners[2]));
+  }
+
+  /// Whether the corners of a polygon are in the plane of another one, or so near that doubles do
+  /// not tell.
+  bool is_in_plane(uint32_t plane, uint32_t polygon) {
+    const auto of_plane = job_.corners(job_.polygons()[plane]);
+    const auto corners = job_.corners(job_.polygons()[polygon]);
+    const double error = std::max(signs_.error(job_.polygons()[plane].operand),
+                                  signs_.error(job_.polygons()[polygon].operand));
+    return std::all_of(corners.begin(), corners.end(), [&](uint32_t v) {
+      const int side = signs_.orient(job_.rounded(of_plane[0]), job_.rounded(of_plane[1]),
+                                     job_.rounded(of_plane[2]), job_.rounded(v), error);
+      return side == 0 || side == kUnsure;
+    });
+  }
+
+  /// Whether a polygon in a plane with that normal goes round a point of it, about.
+  [[nodiscard]] bool is_around(uint32_t polygon, const Position& point,
+                               const Position& normal) const {
+    const auto corners = job_.corners(job_.polygons()[polygon]);
+    bool left = false, right = false;
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const Position& to = job_.rounded(corners[i + 1 < corners.size() ? i + 1 : 0]);
+      const double turn =
+          dot(normal, VertexSigns::base(job_.rounded(corners[i]), to, point).normal);
+      left |= turn > 0;
+      right |= turn < 0;
+    }
+    return left != right;
+  }
 
   bool decides(const Position& point, uint32_t operand, double error) {
     if (!may_hold(job_.operand_box(operand), point, error)) return decisive_ == Inside::kNo;
@@ -154,8 +213,11 @@ double cover_in_groups(const Job& job, const Expression& expression) {
     if (count == 0) continue;
     const auto polygon = first + static_cast<uint32_t>(i * kStep % count);
     spread.step();
+    const Position point = spread.in(job, polygon);
     ++points;
-    covered += sample.is_covered(spread.in(job, polygon), own, own) ? 1 : 0;
+    const bool is_covered =
+        sample.is_covered(point, own, own) || sample.is_covered_in_plane(point, polygon);
+    covered += is_covered ? 1 : 0;
   }
   return points == 0 ? 0 : static_cast<double>(covered) / static_cast<double>(points);
 }

@@ -308,6 +308,57 @@ TEST(OperandGroups, CoverIsWhatIsDroppedWithinAGroup) {
   EXPECT_EQ(cover_in_groups(in, with_operator), 0);
 }
 
+// Of what is the same the first of each group leaves all; where boxes touch neither leaves
+// anything.
+TEST(OperandGroups, CoverCountsWhatIsInOnePlane) {
+  std::vector<Operand> same, touching;
+  for (int64_t o = 0; o < 16; ++o) {
+    same.push_back(convex_operand(test::box_loops({0, 0, 0}, {90, 90, 90})));
+    touching.push_back(convex_operand(test::box_loops({90 * o, 0, 0}, {90 * o + 90, 90, 90})));
+  }
+  const auto of = [](BooleanOp op) { return test::flat_expression(op, 16); };
+  EXPECT_EQ(cover_in_groups(Job(same), of(BooleanOp::kUnion)), 14. / 16);
+  EXPECT_EQ(cover_in_groups(Job(same), of(BooleanOp::kIntersection)), 14. / 16);
+  const double walls = cover_in_groups(Job(touching), of(BooleanOp::kUnion));
+  EXPECT_GT(walls, 0.2);  // 14 of 48 in a group
+  EXPECT_LT(walls, 0.4);
+}
+
+/// A cylinder about the Z axis; its caps are fans about their middles.
+Operand fan_cylinder(double radius, double angle, int sides) {
+  std::vector<IVec3> rim;
+  for (int i = 0; i < sides; ++i) {
+    const double at = angle + 2 * 3.14159265 * i / sides;
+    rim.push_back({std::llround(radius * std::cos(at)), std::llround(radius * std::sin(at)), 0});
+  }
+  const auto raised = [](IVec3 p) { return IVec3{p[0], p[1], 1000}; };
+  const IVec3 middle{0, 0, 0};
+  std::vector<test::Loop> loops;
+  for (size_t i = 0; i < rim.size(); ++i) {
+    const IVec3 a = rim[i], b = rim[(i + 1) % rim.size()];
+    loops.push_back({middle, b, a});
+    loops.push_back({raised(middle), raised(a), raised(b)});
+    loops.push_back({a, b, raised(b)});
+    loops.push_back({a, raised(b), raised(a)});
+  }
+  return convex_operand(loops);
+}
+
+// Each of their facets meets those of all others at the axis at least.
+TEST(OperandGroups, FansInOnePlaneAreEvaluatedInGroups) {
+  std::vector<Operand> operands;
+  for (uint32_t o = 0; o < 20; ++o) {
+    operands.push_back(fan_cylinder(10'000 + 7. * o, 0.7 * o, 24));
+    operands.back().first_source = 100 * o;
+  }
+  for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kIntersection}) {
+    const Expression expression = test::flat_expression(op, static_cast<uint32_t>(operands.size()));
+    EXPECT_GT(cover_in_groups(Job(operands), expression), 0.5);
+    const auto [grouped, whole] = signs_of_both(operands, expression, 26);
+    EXPECT_NE(grouped, whole) << "it was done in one job";
+  }
+}
+
 TEST(OperandGroups, FewOperandsAreNot) {
   EXPECT_FALSE(can_be_grouped(Expression()));
   EXPECT_FALSE(can_be_grouped(test::flat_expression(BooleanOp::kUnion, 2)));
