@@ -88,7 +88,7 @@ void add_operands(lua_State* L, int index, const FunctionSpec& spec, int depth,
   if (length < 0 && missing_entry(L, index) != 0)
     fail_in(spec, "an operand must be a solid or a shape, got " + describe_value(L, index));
   if (length < 0) fail_in(spec, "takes lists of solids or shapes without holes and names in them");
-  if (depth == kDeepestList) fail_in(spec, "its lists are nested too deep");
+  if (depth == kDeepestList) fail_in(spec, "its lists are nested too deep (does one contain itself?)");
   luaL_checkstack(L, 4, "lists are nested too deep");
   for (lua_Integer i = 1; i <= length; ++i) {
     lua_rawgeti(L, index, i);

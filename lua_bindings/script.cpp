@@ -68,14 +68,43 @@ int run_program(lua_State* L) {
   return 0;
 }
 
+/// The first line that gives a variable of that name a value of its own, from 1; 0: none does.
+size_t line_that_sets(const std::string& name, std::string_view text) {
+  for (size_t line = 1; !text.empty(); ++line) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    std::string_view rest = text.substr(0, end);
+    const auto skip = [&](std::string_view what) {
+      if (!rest.starts_with(what)) return false;
+      rest.remove_prefix(what.size());
+      return true;
+    };
+    const auto skip_blanks = [&] {
+      rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    };
+    skip_blanks();
+    if (skip("local ") || skip("local\t")) skip_blanks();
+    if (skip(name)) {
+      skip_blanks();
+      if (rest.starts_with('=') && !rest.starts_with("==")) return line;
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return 0;
+}
+
 /// Definitions that no param() asked for.
-std::string unknown_definition(const Session& session) {
+std::string unknown_definition(const Session& session, std::string_view text) {
   for (const Definition& definition : session.definitions) {
     if (definition.used) continue;
     std::vector<std::string> names;
     for (const Parameter& parameter : session.parameters) names.push_back(parameter.name);
-    return definition.origin + " " + definition.name + ": the model has no such parameter" +
-           did_you_mean(definition.name, names);
+    std::string message =
+        definition.origin + " " + definition.name + ": the model has no such parameter";
+    if (const size_t line = line_that_sets(definition.name, text); line != 0) {
+      return message + " (line " + std::to_string(line) + " sets a variable of that name; " +
+             definition.name + " = param(\"" + definition.name + "\", DEFAULT) makes it one)";
+    }
+    return message + did_you_mean(definition.name, names);
   }
   return {};
 }
@@ -111,7 +140,7 @@ ScriptOutcome run_in_state(Session& session, const std::string& name, const std:
     const bool geometry = session.is_geometry_failure(first_line(message));
     return {geometry ? ScriptStatus::kGeometry : ScriptStatus::kFailed, message};
   }
-  if (std::string problem = unknown_definition(session); !problem.empty()) {
+  if (std::string problem = unknown_definition(session, text); !problem.empty()) {
     return {ScriptStatus::kUsage, std::move(problem)};
   }
   return {};

@@ -33,6 +33,21 @@ double distance_of(const MmBox& box) {
   return far;
 }
 
+/// Which decimal step would hold a thickness that this one rounds; nothing if none does.
+std::string decimal_advice(double thickness, double step, const SceneReach& reach) {
+  constexpr int kDecimals = 6;
+  for (int tens = kDecimals; tens >= 0; --tens) {
+    const auto decimal = GridStep::parse("1e-" + std::to_string(tens));
+    if (!decimal || !step_fits(*decimal, reach.reach, reach.far)) continue;
+    const auto is_multiple = [&](double mm) {
+      return std::fabs(thickness - mm * std::round(thickness / mm)) < 1e-9 * thickness;
+    };
+    if (is_multiple(step) || !is_multiple(decimal->millimetres())) return {};
+    return "; a grid of " + text(decimal->millimetres()) + " mm would hold it";
+  }
+  return {};
+}
+
 }  // namespace
 
 uint32_t SceneBuilder::intern(const Frame& frame) {
@@ -175,9 +190,9 @@ bool SceneBuilder::has_far_parts(const SceneReach& reach, bool tell) const {
 }
 
 /// A leaf that is thin for the grid of a very large scene loses of its thickness. Told of the first
-/// whose step is more than 1e-2 of its shortest side.
+/// whose step is more than 1e-3 of its shortest side.
 bool SceneBuilder::has_thin_leaves(const SceneReach& reach, bool tell) const {
-  constexpr double kCoarse = 1e-2;
+  constexpr double kCoarse = 1e-3;
   const double step = scene_.step.millimetres();
   for (const uint32_t index : order_) {
     if (normal(index).kind != NormalNode::Kind::kLeaf) continue;
@@ -191,7 +206,8 @@ bool SceneBuilder::has_thin_leaves(const SceneReach& reach, bool tell) const {
     context_.warnings.add(leaf->where(),
                           "'" + leaf->mesh()->kind + "' is " + text(thickness) +
                               " mm thin: in a scene that reaches " + text(reach.reach) +
-                              " mm from the origin points are rounded to " + text(step) + " mm");
+                              " mm from the origin points are rounded to " + text(step) + " mm" +
+                              decimal_advice(thickness, step, reach));
     return true;
   }
   return false;

@@ -98,9 +98,18 @@ class FarAway(Case):
         said = " mm thin: in a scene that reaches 1e+07 mm from the origin points are rounded to 0.2621 mm"
         self.write("m.csg", "cube(size = [1e7, 1e7, 0.26]);")
         self.assertIn("m.csg:1: 'cube' is 0.26" + said, self.run_csgrun("m.csg", "--stats").err)
-        outcome = self.run_script("return cube(1e7, 100, 100) +\n\ncube(10):rotate(0, 0, 30)", "--stats")
+        outcome = self.run_script("return cube(1e7, 1000, 1000) +\n\ncube(10):rotate(0, 0, 30)", "--stats")
         self.assertIn("model.lua:3: 'cube' is 10" + said, outcome.err)
-        self.assertNotIn("mm thin", self.run_script("return cube(1e7, 100, 100)", "--stats").err)
+        self.assertNotIn("mm thin", self.run_script("return cube(1e7, 1000, 1000)", "--stats").err)
+
+    def test_a_grid_that_would_hold_the_thickness(self):
+        said = "points are rounded to 0.004096 mm"
+        outcome = self.run_script("return cube(1e5, 1, 1)", "--stats")
+        self.assertIn(said + "; a grid of 0.001 mm would hold it\n", outcome.err)
+        outcome = self.run_script("return cube(1e5, 1, 1)", "--stats=json", "--grid", "0.001")
+        self.assertEqual((outcome.err, outcome.json()["parts"][0]["volume"]), ("", 1e5))
+        outcome = self.run_script("return cube(1e5, 1, 0.7071)", "--stats")
+        self.assertIn(said + "\n", outcome.err)
 
 
 class Good(Case):

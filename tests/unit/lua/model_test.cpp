@@ -137,6 +137,19 @@ TEST(Parameters, ThatNobodyAskedFor) {
   EXPECT_EQ(run.outcome.status, ScriptStatus::kUsage);
   EXPECT_EQ(run.outcome.message,
             "-D hole_radis: the model has no such parameter (did you mean 'hole_radius'?)");
+  const std::string hint =
+      " sets a variable of that name; width = param(\"width\", DEFAULT) makes it one)";
+  const auto message = [](const std::string& text) {
+    return run_with(text + "\nparam('with', 4)", {{"width", "5"}}).outcome.message;
+  };
+  const std::string problem = "-D width: the model has no such parameter (";
+  EXPECT_EQ(message("local w = 1\n  local\twidth = 3"), problem + "line 2" + hint);
+  EXPECT_EQ(message("local w = 1\n  local  width\t= 3"), problem + "line 2" + hint);
+  EXPECT_EQ(message("width = 3"), problem + "line 1" + hint);
+  for (const char* const other :
+       {"local function f(width) return\nwidth == 3 end", "widths = 3", "-- width = 3"}) {
+    EXPECT_EQ(message(other), problem + "did you mean 'with'?)") << other;
+  }
 }
 
 TEST(Parameters, ABadDefaultIsTheScriptsFault) {
@@ -372,7 +385,7 @@ TEST(Booleans, BuildTheTreeThatIsMeant) {
   EXPECT_EQ(root("union{}")->kind(), NodeKind::kEmpty);
   EXPECT_EQ(root("union{cube(1), {cube(2), {cube(3), {}}}}")->children().size(), 3u);
   EXPECT_EQ(message_of("local t = {} t[1] = t return union(t)"),
-            "model.lua:1: union: its lists are nested too deep");
+            "model.lua:1: union: its lists are nested too deep (does one contain itself?)");
   const ScriptRun run("local a = cube(1)\nlocal b = a +\n  cube(2)\nreturn b");
   EXPECT_EQ(run.session.parts().at(0).solid->where().text(), "model.lua:2");
 }
