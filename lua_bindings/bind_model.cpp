@@ -32,7 +32,8 @@ constexpr Option kImportOptions[] = {
      true},
     {"parts", T::kBoolean, "false",
      "gives a list of its parts, which have the names that the file has for them, instead of their "
-     "union;\n          of a drawing: the outermost elements of an SVG, the layers of a DXF",
+     "union;\n          of a drawing: the outermost elements of an SVG, the layers of a DXF\n"
+     "          (without parts they are one drawing: where two overlap is a hole)",
      false},
     {"fill", T::kString, "\"nonzero\"", kFillDoc, false},
     {"repair", T::kValue, "false",
@@ -48,7 +49,8 @@ constexpr Option kImportOptions[] = {
     {"dpi", T::kNumber, "72",
      "of an SVG with a viewBox: user units an inch, where its size has no unit", false,
      Range::kPositive},
-    {"origin", T::kVector2, "{0, 0}", "of a DXF: this point becomes the origin", false},
+    {"origin", T::kVector2, "{0, 0}",
+     "of a DXF, whose points go to the nearest 1/1024: this one becomes the origin", false},
     {"scale", T::kNumber, "1", "of a DXF: a factor", false, Range::kPositive},
     {"center", T::kBoolean, "false", "the middle of its box becomes the origin", false},
     {"as_openscad", T::kBoolean, "false",

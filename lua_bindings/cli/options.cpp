@@ -273,8 +273,9 @@ CommandLine parse_command_line(int argc, char** argv) {
       "repairs them if they do");
   app.add_flag("--stats{text}", raw.stats,
                "measures: as text on standard error, or --stats=json on standard output");
-  app.add_flag("--no-cache", raw.no_cache, "uses no cache on disk");
-  app.add_option("--cache-dir", raw.cache_folder, "folder of the cache on disk")->type_name("DIR");
+  app.add_flag("--no-cache", raw.no_cache, "uses no cache on disk (there is none yet)");
+  app.add_option("--cache-dir", raw.cache_folder, "folder of a cache on disk (not used yet)")
+      ->type_name("DIR");
   app.add_option("--timeout", raw.timeout, "seconds for everything (60 for the script alone)")
       ->type_name("S");
   app.add_option("--max-memory", raw.megabytes,

@@ -3419,13 +3419,13 @@ csg.load_csg = load_csg
 ---@class (exact) csgrun.import
 ---@field [integer] any
 ---@field file? string STL, OFF, OBJ, PLY, GLB, glTF, 3MF, AMF, SVG or DXF, relative to the file that calls, or else to the folders of -L and CSGRUN_PATH
----@field parts? boolean gives a list of its parts, which have the names that the file has for them, instead of their union; of a drawing: the outermost elements of an SVG, the layers of a DXF
+---@field parts? boolean gives a list of its parts, which have the names that the file has for them, instead of their union; of a drawing: the outermost elements of an SVG, the layers of a DXF (without parts they are one drawing: where two overlap is a hole)
 ---@field fill? string what is inside where the surface crosses itself, by how often it wraps around a point, one way less the other: "nonzero" (wherever that is not 0: overlaps are united, but an inverted part cancels what it overlaps), "positive" (inverted parts are cut away), "evenodd" (an odd number: overlaps cancel)
 ---@field repair? any makes a broken mesh a closed one and warns of all it does: true, or a table of weld = MM (0: how far apart points of open edges may be that become one), fill_holes (false: closes what is open), orient (true: turns faces to agree, surfaces outwards), drop_degenerate (true: drops faces whose points lie on one line), drop_duplicates (true: of faces on the same points those that are too many)
 ---@field layer? string of a drawing: only this layer (in an SVG one of Inkscape)
 ---@field id? string of an SVG: only the element of this id, with what is in it
 ---@field dpi? number of an SVG with a viewBox: user units an inch, where its size has no unit
----@field origin? number[] of a DXF: this point becomes the origin
+---@field origin? number[] of a DXF, whose points go to the nearest 1/1024: this one becomes the origin
 ---@field scale? number of a DXF: a factor
 ---@field center? boolean the middle of its box becomes the origin
 ---@field as_openscad? boolean of a drawing: by OpenSCAD's rules of what is area and how many pieces curves have; a layer or an id that is not there is empty
