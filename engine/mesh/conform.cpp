@@ -82,8 +82,9 @@ class Conformer {
     straddling_.erase(std::unique(straddling_.begin(), straddling_.end()), straddling_.end());
     for (const auto& [f, g] : straddling_) {
       if (!may_meet_on_line(f, g)) continue;
-      cross_edges(f, g);
-      cross_faces(f, g);
+      const Box box = common_box(f, g);
+      cross_edges(f, g, box);
+      cross_faces(f, g, box);
     }
     const size_t touched = lying_faces_.size();
     for (size_t i = 0; i < touched; ++i) cross_lying_edges(lying_faces_[i]);
@@ -202,16 +203,26 @@ class Conformer {
     own.push_back(lying);
   }
 
+  /// A box that holds what two faces have in common.
+  [[nodiscard]] Box common_box(uint32_t f, uint32_t g) const {
+    Box box = face_boxes_[place_of_[f]];
+    const Box& other = face_boxes_[place_of_[g]];
+    for (size_t k = 0; k < 3; ++k) {
+      box.lo[k] = std::max(box.lo[k], other.lo[k]);
+      box.hi[k] = std::min(box.hi[k], other.hi[k]);
+    }
+    return box;
+  }
+
   /// Where edges of the two faces, each of which passes through the plane of the other face, meet.
-  void cross_edges(uint32_t f, uint32_t g) {
+  /// `box` is common to them.
+  void cross_edges(uint32_t f, uint32_t g, const Box& box) {
     const uint32_t f_plane = faces_[f].plane.index(), g_plane = faces_[g].plane.index();
     const auto passing = [&](uint32_t face, uint32_t plane, std::vector<DirectedEdge>& edges) {
-      edges.clear();
-      for (const auto& loop : faces_[face].loops) {
-        for (const DirectedEdge& e : loop) {
-          if (geometry_.side(plane, e.from) * geometry_.side(plane, e.to) < 0) edges.push_back(e);
-        }
-      }
+      search_.find(face, box, edges);
+      std::erase_if(edges, [&](const DirectedEdge& e) {
+        return geometry_.side(plane, e.from) * geometry_.side(plane, e.to) >= 0;
+      });
     };
     std::vector<DirectedEdge> of_f, of_g;
     passing(f, g_plane, of_f);
@@ -285,8 +296,12 @@ class Conformer {
   }
 
   /// Whether two faces, each of which passes through the plane of the other, may have more of the
-  /// line of the planes in common than a corner of both: hardly ever.
+  /// line of the planes in common than a corner of both: hardly ever. Of a face of very many edges
+  /// all may, as these are not looked at.
   bool may_meet_on_line(uint32_t f, uint32_t g) {
+    if (search_.has_many_edges(f) || search_.has_many_edges(g)) {
+      return face_boxes_[place_of_[f]].overlaps(face_boxes_[place_of_[g]]);
+    }
     const uint32_t f_plane = faces_[f].plane.index(), g_plane = faces_[g].plane.index();
     const auto &m = planes_.approximate(f_plane), &n = planes_.approximate(g_plane);
     int axis = 0;
@@ -305,11 +320,11 @@ class Conformer {
   }
 
   /// Faces may pass through each other along a line where wedges of material touch crosswise: of
-  /// both, only what is left and right of the line bounds anything.
-  void cross_faces(uint32_t f, uint32_t g) {
+  /// both, only what is left and right of the line bounds anything. `box` is common to both faces.
+  void cross_faces(uint32_t f, uint32_t g, const Box& box) {
     on_line_.clear();
-    meet_plane(f, faces_[g].plane.index());
-    meet_plane(g, faces_[f].plane.index());
+    meet_plane(f, faces_[g].plane.index(), box);
+    meet_plane(g, faces_[f].plane.index(), box);
     const LineAxis line =
         line_axis(planes_.plane(faces_[f].plane.index()), planes_.plane(faces_[g].plane.index()));
     for (uint32_t& p : on_line_) p = unique(p);
@@ -327,15 +342,15 @@ class Conformer {
     }
   }
 
-  /// Adds the points in which the rim of a face meets a plane.
-  void meet_plane(uint32_t f, uint32_t plane) {
-    for (const auto& loop : faces_[f].loops) {
-      for (const DirectedEdge& e : loop) {
-        const int here = geometry_.side(plane, e.from), there = geometry_.side(plane, e.to);
-        if (here == 0) on_line_.push_back(e.from);
-        if (here * there < 0) {
-          on_line_.push_back(geometry_.add_point({faces_[f].plane.index(), e.plane, plane}));
-        }
+  /// Adds the points in which the rim of a face meets a plane, those in a box at least.
+  void meet_plane(uint32_t f, uint32_t plane, const Box& box) {
+    found_.clear();
+    search_.find(f, box, found_);
+    for (const DirectedEdge& e : found_) {
+      const int here = geometry_.side(plane, e.from), there = geometry_.side(plane, e.to);
+      if (here == 0) on_line_.push_back(e.from);
+      if (here * there < 0) {
+        on_line_.push_back(geometry_.add_point({faces_[f].plane.index(), e.plane, plane}));
       }
     }
   }
@@ -533,6 +548,7 @@ class Conformer {
   std::vector<uint32_t> lying_faces_;                 ///< those that have any
   std::optional<PointIndex> index_;
   std::vector<uint32_t> on_line_;
+  std::vector<DirectedEdge> found_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/mesh/merge_faces.h"
@@ -48,6 +49,8 @@ class FaceLocator {
   [[nodiscard]] bool before(uint32_t p, uint32_t q) const;
   /// The axes onto which the plane is projected.
   [[nodiscard]] std::array<int, 2> axes() const { return {u_, v_}; }
+  /// Has rays run along the other one of these.
+  void swap_axes() { std::swap(u_, v_); }
 
  private:
   /// What a ray from a point towards -u does with an edge, or that the point is on it.

@@ -80,8 +80,12 @@ int FaceSearch::locate(uint32_t face, uint32_t p) {
   FaceLocator locator(faces_[face].plane, points_, planes_);
   const Large* const many = large(face);
   if (!many) return locator.locate(faces_[face].loops, p);
-  // A ray from the point meets no other edges.
+  // A ray along the shorter side of the face has few edges beside it, and meets no others.
   const auto& at = geometry_.point(p).rounded;
+  const auto width = [&](int axis) { return many->around.hi[axis] - many->around.lo[axis]; };
+  if (const auto [first, second] = locator.axes(); width(second) < width(first)) {
+    locator.swap_axes();
+  }
   const auto [u, v] = locator.axes();
   const int w = 3 - u - v;
   Box band{at, at};

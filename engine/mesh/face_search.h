@@ -34,6 +34,8 @@ class FaceSearch {
   bool runs_inside(uint32_t face, const DirectedEdge& e);
   /// Appends the edges of a face whose boxes overlap a box, in the order of the loops.
   void find(uint32_t face, const Box& box, std::vector<DirectedEdge>& found);
+  /// Whether a face has so many edges that it pays to find those that are asked for.
+  bool has_many_edges(uint32_t face) { return large(face) != nullptr; }
   /// The faces have other edges from now on.
   void forget();
 

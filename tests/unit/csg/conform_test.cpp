@@ -225,8 +225,8 @@ TEST(Conform, SurfacesThatTouchThemselvesAgainstTurnedCopies) {
 // Squares that become one face lose corners that others, which touch there, keep.
 TEST(Conform, SurfacesThatTouchThemselves) {
   std::mt19937 random(6);
-  for (int round = 0; round < 60; ++round) {
-    const int size = 2 + round % 3;
+  for (int round = 0; round < 66; ++round) {
+    const int size = round < 60 ? 2 + round % 3 : 9;  // of which faces have more than sixteen edges
     const auto cells = random_cells(random, size);
     if (cells.empty()) continue;
     PolygonMesh mesh = surface_of(cells);
@@ -264,6 +264,28 @@ TEST(Conform, AnApexOnAnEdgeOfTheSameLeaf) {
   for (const bool keep_facets : {false, true}) {
     mesh.keep_facets = keep_facets;
     expect_complex(leaf(mesh, FillRule::kNonZero), 8 + 1.0 / 6, 2, "apex on an edge");
+  }
+}
+
+// Grooves from above and, across them, from below: each wall of one has a notch at all the others,
+// and passes through the planes of all their walls.
+TEST(Conform, WallsOfManyNotches) {
+  for (const int grooves : {3, 12}) {
+    const double size = 2 * grooves + 1;
+    std::vector<NodePtr> parts{box({0, 0, 0}, {size, size, 3})};
+    for (int i = 0; i < grooves; ++i) {
+      const double from = 2 * i + 1, to = from + 1;
+      parts.push_back(box({-1, from, 1}, {size + 1, to, 4}));
+      parts.push_back(box({from, -1, -1}, {to, size + 1, 2}));
+    }
+    // A column of one by one has 3, 1 where one groove is, and nothing where they cross.
+    const double ridges = grooves + 1;
+    const double volume = 3 * ridges * ridges + 2 * grooves * ridges;
+    const NodePtr root = subtract(parts);
+    expect_complex(root, volume, 1, "grooves");
+    const SolidPtr solid = solid_of(root, false);
+    // Each crossing is a hole through the plate.
+    EXPECT_EQ(solid->measures.genus, int64_t{grooves} * grooves);
   }
 }
 
