@@ -12,12 +12,18 @@ using Int128 = __int128;
 using Column = std::array<DoubleDouble, 3>;
 
 constexpr double kUnitNormTolerance = 0x1p-45;
-constexpr double kRowTolerance = 0x1p-46;
+constexpr double kRowTolerance = 0x1p-46, kLengthTolerance = 0x1p-40;
 constexpr double kLeastDeterminant = 0x1p-16;
 constexpr double kLargestRowEntry = 0x1p16;  // so that entries of C stay within 2^56
+/// Of Rn: half a step along a column moves a point by so many of them (scene_nodes.cpp, enclose).
+constexpr double kLongestColumn = 32;
 
 Column cross(const Column& a, const Column& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double snapped_to_one(double scale) {
+  return std::fabs(scale - 1) <= kUnitNormTolerance ? 1 : scale;
 }
 
 // Unlike |r|, negative zero must not make two rows of one.
@@ -33,6 +39,31 @@ bool rows_are_close(const Row& a, const Row& b) {
     if (std::fabs(a[i] - b[i]) > kRowTolerance) return false;
   }
   return true;
+}
+
+/// What a row of Rn^-1 becomes where it is longer than 1, as a shear makes it. One along an axis of
+/// the world becomes a unit row, and D measures along that axis: planes across it, which the shear
+/// does not move, are on the grid of the world as those of all others are. Of others it is noted.
+void shorten(int j, Column& row, LinearSplit& split) {
+  const DoubleDouble length = sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+  if (length.value() <= 1 + kUnitNormTolerance || length.value() > kLongestColumn) return;
+  split.longest_column = std::max(split.longest_column, length.value());
+  const DoubleDouble before(split.scale[j]);
+  const double scale = snapped_to_one((before / length).value());
+  const DoubleDouble factor = DoubleDouble(scale) / before;
+  int across = 0;  // entries that are noise
+  for (int k = 0; k < 3; ++k) {
+    const double entry = (row[k] * factor).value();
+    split.directions[j][k] = without_negative_zero(entry);
+    across += std::fabs(entry) <= kRowTolerance ? 1 : 0;
+  }
+  if (across == 2) {
+    for (DoubleDouble& entry : row) entry = entry * factor;
+    split.scale[j] = scale;
+  } else {
+    split.lengths[j] = length.value();
+    split.direction_scale[j] = scale;
+  }
 }
 
 }  // namespace
@@ -52,9 +83,8 @@ LinearSplit split_linear(const Affine& map) {
                                  DoubleDouble::product(c[1], c[1]) +
                                  DoubleDouble::product(c[2], c[2]);
     const double norm = sqrt(squares).value();
-    split.scale[j] = std::ldexp(norm, exponent);
-    const bool unit = std::fabs(split.scale[j] - 1) <= kUnitNormTolerance;
-    if (unit) split.scale[j] = 1;
+    split.scale[j] = snapped_to_one(std::ldexp(norm, exponent));
+    const bool unit = split.scale[j] == 1;
     for (int i = 0; i < 3; ++i) {
       columns[j][i] = unit ? DoubleDouble(map.m[i][j]) : DoubleDouble(c[i]) / DoubleDouble(norm);
     }
@@ -64,11 +94,13 @@ LinearSplit split_linear(const Affine& map) {
       columns[0][0] * first[0] + columns[0][1] * first[1] + columns[0][2] * first[2];
   split.determinant = det.value();
   if (!(std::fabs(split.determinant) >= kLeastDeterminant)) return split;
-  const std::array<Column, 3> adjugate{first, cross(columns[2], columns[0]),
-                                       cross(columns[0], columns[1])};
+  std::array<Column, 3> inverse{first, cross(columns[2], columns[0]),
+                                cross(columns[0], columns[1])};
   for (int i = 0; i < 3; ++i) {
+    for (DoubleDouble& entry : inverse[i]) entry = entry / det;
+    shorten(i, inverse[i], split);
     for (int j = 0; j < 3; ++j) {
-      split.rows[i][j] = without_negative_zero((adjugate[i][j] / det).value());
+      split.rows[i][j] = without_negative_zero(inverse[i][j].value());
       if (!(std::fabs(split.rows[i][j]) <= kLargestRowEntry)) return split;
     }
   }
@@ -94,13 +126,44 @@ size_t RowTable::RowHash::operator()(const std::array<int64_t, 3>& cell) const {
   return static_cast<size_t>(h);
 }
 
-uint32_t RowTable::add(const Row& row) {
+void RowTable::Cluster::include(const Cluster& other) {
+  first_row = std::min(first_row, other.first_row);
+  has_other_length |= other.has_other_length;
+  if (other.length == 0) return;
+  if (length == 0) length = other.length;
+  has_other_length |= std::fabs(length - other.length) > kLengthTolerance * length;
+}
+
+uint32_t RowTable::add(const Row& row) { return add(row, Cluster{0, 0, false}); }
+
+RowTable::Handle RowTable::add(const LinearSplit& split, int row) {
+  Handle handle;
+  handle.row = add(split.rows[row]);
+  if (split.lengths[row] == 1) return handle;
+  handle.direction = add(split.directions[row], Cluster{kNone, split.lengths[row], false});
+  return handle;
+}
+
+/// `known.first_row` stands for the row's own handle, unless it is none.
+uint32_t RowTable::add(const Row& row, const Cluster& known) {
   const uint32_t handle = insert(row);
   if (handle + 1 == rows_.size()) {
     insert({without_negative_zero(-row[0]), without_negative_zero(-row[1]),
             without_negative_zero(-row[2])});
   }
+  for (const uint32_t either : {handle, handle ^ 1}) {
+    Cluster own = known;
+    if (own.first_row != kNone) own.first_row = either;
+    note(either, own);
+  }
   return handle;
+}
+
+void RowTable::note(uint32_t handle, const Cluster& known) {
+  Cluster& cluster = clusters_[root(handle)];
+  const bool had_long = cluster.length != 0, took_direction = cluster.takes_direction();
+  cluster.include(known);
+  has_bridged_ |= had_long && !took_direction && cluster.takes_direction();
 }
 
 uint32_t RowTable::insert(const Row& row) {
@@ -113,6 +176,7 @@ uint32_t RowTable::insert(const Row& row) {
   const auto handle = static_cast<uint32_t>(rows_.size());
   rows_.push_back(row);
   parent_.push_back(handle);
+  clusters_.emplace_back();
   // Rows of one cell are within the tolerance by themselves, so one close row in a neighbouring
   // cell joins that whole cell.
   if (!here.empty()) join(here.front(), handle);
@@ -148,10 +212,23 @@ void RowTable::join(uint32_t a, uint32_t b) {
   b = root(b);
   // The lowest handle leads: it is the first in tree order, and rows of opposite clusters get
   // opposite representatives, as they are inserted in pairs.
-  if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  if (a == b) return;
+  parent_[std::max(a, b)] = std::min(a, b);
+  clusters_[std::min(a, b)].include(clusters_[std::max(a, b)]);
 }
 
-Row RowTable::representative(uint32_t handle) { return rows_[root(handle)]; }
+Row RowTable::representative(uint32_t handle) { return rows_[clusters_[root(handle)].first_row]; }
+
+RowTable::Represented RowTable::representative(const Handle& handle) {
+  if (handle.direction != kNone) {
+    const uint32_t lowest = root(handle.direction);
+    const Cluster& cluster = clusters_[lowest];
+    if (cluster.takes_direction()) {
+      return {rows_[cluster.first_row != kNone ? cluster.first_row : lowest], true};
+    }
+  }
+  return {representative(handle.row), false};
+}
 
 std::array<int64_t, 3> integer_row(const Row& row) {
   std::array<int64_t, 3> r;
@@ -159,7 +236,7 @@ std::array<int64_t, 3> integer_row(const Row& row) {
   return r;
 }
 
-CanonicalFrame canonical_frame(const std::array<std::array<int64_t, 3>, 3>& rows) {
+CanonicalFrame canonical_frame(const std::array<std::array<int64_t, 3>, 3>& rows, double least) {
   CanonicalFrame result;
   // Signs first: the first of the largest entries is positive. A row and its negative agree.
   std::array<std::array<int64_t, 3>, 3> positive = rows;
@@ -206,8 +283,7 @@ CanonicalFrame canonical_frame(const std::array<std::array<int64_t, 3>, 3>& rows
   }
   const Column n = cross(b, c);
   const double det = (a[0] * n[0] + a[1] * n[1] + a[2] * n[2]).value();
-  // Rows of Rn^-1 span at least the unit volume, as the columns of Rn are unit vectors.
-  result.framed = std::fabs(det) >= 0.5;
+  result.framed = std::fabs(det) >= least / 2;
   return result;
 }
 

@@ -63,7 +63,7 @@ Status SceneBuilder::place_leaves() {
   rounding_.resize(count);
   frame_of_.resize(count);
   step_leaves_.resize(count);
-  std::vector<std::array<uint32_t, 3>>& handles = context_.room.row_handles;
+  std::vector<std::array<RowTable::Handle, 3>>& handles = context_.room.row_handles;
   handles.resize(count);
   size_t polled = 0;
   for (uint32_t index : order_) {
@@ -80,7 +80,7 @@ Status SceneBuilder::place_leaves() {
     }
     const LinearSplit& split = context_.store.state(index, node).split;
     if (!split.framed) continue;
-    for (int i = 0; i < 3; ++i) handles[index][i] = rows_.add(split.rows[i]);
+    for (int i = 0; i < 3; ++i) handles[index][i] = rows_.add(split, i);
   }
   // Most leaves have the rows of the one before.
   std::optional<CanonicalFrame> known_frame;
@@ -97,11 +97,20 @@ Status SceneBuilder::place_leaves() {
     leaf.world = {state.world_lo, state.world_hi};
     bool framed = state.split.framed;
     if (framed) {
-      for (int i = 0; i < 3; ++i) leaf.rows[i] = rows_.representative(handles[index][i]);
+      std::array<double, 3> scale = state.split.scale;
+      double least = 1;  // rows of Rn^-1 span that, as the columns of Rn are unit vectors at most
+      for (int i = 0; i < 3; ++i) {
+        const RowTable::Represented represented = rows_.representative(handles[index][i]);
+        leaf.rows[i] = represented.row;
+        if (!represented.is_direction) continue;
+        scale[i] = state.split.direction_scale[i];
+        least /= state.split.lengths[i];
+      }
       if (!known_frame || leaf.rows != rows_of_known) {
         rows_of_known = leaf.rows;
         known_frame = canonical_frame(
-            {integer_row(leaf.rows[0]), integer_row(leaf.rows[1]), integer_row(leaf.rows[2])});
+            {integer_row(leaf.rows[0]), integer_row(leaf.rows[1]), integer_row(leaf.rows[2])},
+            least);
         number_of_known = known_frame->framed ? intern(known_frame->placement.frame) : 0;
       }
       const CanonicalFrame& canonical = *known_frame;
@@ -110,7 +119,7 @@ Status SceneBuilder::place_leaves() {
         frame_of_[index] = number_of_known;
         leaf.framed = frame_of_[index] != 0;
         rounding.permutation = canonical.placement.permutation;
-        rounding.scale = state.split.scale;
+        rounding.scale = scale;
         for (int i = 0; i < 3; ++i) {
           rounding.offset[i] = carry_translation(leaf.rows[i], node.map);
           leaf.local.lo[i] = rounding.scale[i] * facts.lo[i] + rounding.offset[i];

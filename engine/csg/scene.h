@@ -108,7 +108,7 @@ struct SceneRoom {
   std::vector<LeafRounding> rounding;
   std::vector<uint32_t> frame_of;
   std::vector<StepLeaf> step_leaves;
-  std::vector<std::array<uint32_t, 3>> row_handles;
+  std::vector<std::array<RowTable::Handle, 3>> row_handles;
   std::vector<uint32_t> scene_index;
   ReachRoom reach;
 };

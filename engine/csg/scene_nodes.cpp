@@ -14,10 +14,11 @@ namespace {
 /// A box from doubles in mm, widened so that it holds the quantised leaf in the world: rounding
 /// moves a point by 1.51 steps at most along an axis (half a step along each of three unit
 /// vectors), and the rounding of the frame's matrix by 9 2^-41 of the coordinate
-/// (docs/numerics.md).
+/// (docs/numerics.md); longer vectors do so by their length, and by its square.
 GridBox enclose(const LeafState& state, double step_mm, int64_t largest) {
   GridBox box;
-  const double slack = 4 + 0x1p-37 * static_cast<double>(largest);
+  const double longest = state.split.longest_column;
+  const double slack = 4 * longest + 0x1p-37 * longest * longest * static_cast<double>(largest);
   for (int i = 0; i < 3; ++i) {
     box.lo[i] = static_cast<int64_t>(std::floor(state.world_lo[i] / step_mm - slack));
     box.hi[i] = static_cast<int64_t>(std::ceil(state.world_hi[i] / step_mm + slack));

@@ -244,7 +244,7 @@ TEST(Evaluate, ErrorsAndWarningsNameTheirLine) {
   {
     Evaluator evaluator(options);
     Affine skew;
-    skew.m[0][2] = 1e5;
+    skew.m[0][2] = 66'000;
     const auto result = evaluator.evaluate(Node::transformed(skew, cube(1), {file, 9}));
     ASSERT_TRUE(result.has_value()) << result.error().message;
     EXPECT_NEAR((*result)->measures.volume, 1, 0.01);

@@ -44,18 +44,23 @@ std::vector<SignedPermutation> all_signed_permutations() {
 /// The frames of a scene of transforms, as the evaluator makes them.
 std::vector<CanonicalFrame> frames_of(const std::vector<Affine>& maps) {
   RowTable table;
-  std::vector<std::array<uint32_t, 3>> handles;
+  std::vector<LinearSplit> splits;
+  std::vector<std::array<RowTable::Handle, 3>> handles;
   for (const Affine& map : maps) {
-    const LinearSplit split = split_linear(map);
+    const LinearSplit& split = splits.emplace_back(split_linear(map));
     EXPECT_TRUE(split.framed);
-    handles.push_back(
-        {table.add(split.rows[0]), table.add(split.rows[1]), table.add(split.rows[2])});
+    handles.push_back({table.add(split, 0), table.add(split, 1), table.add(split, 2)});
   }
   std::vector<CanonicalFrame> frames;
-  for (const auto& h : handles) {
+  for (size_t leaf = 0; leaf < maps.size(); ++leaf) {
     std::array<std::array<int64_t, 3>, 3> rows;
-    for (int i = 0; i < 3; ++i) rows[i] = integer_row(table.representative(h[i]));
-    frames.push_back(canonical_frame(rows));
+    double least = 1;
+    for (int i = 0; i < 3; ++i) {
+      const auto represented = table.representative(handles[leaf][i]);
+      rows[i] = integer_row(represented.row);
+      if (represented.is_direction) least /= splits[leaf].lengths[i];
+    }
+    frames.push_back(canonical_frame(rows, least));
   }
   return frames;
 }
@@ -201,6 +206,86 @@ TEST(Frames, MirrorsHaveFramesAndNearlySingularMapsHaveNone) {
   shear.m[0][1] = 100;
   EXPECT_TRUE(split_linear(shear).framed);
   EXPECT_FALSE(split_linear(scaling(1, 1, 0)).framed);
+}
+
+Affine sheared(int of, int along, double by) {
+  Affine shear;
+  shear.m[of][along] = by;
+  return shear;
+}
+
+// x = x + s z leaves planes across Y and Z where they are.
+TEST(Frames, WhatAShearLeavesParallelIsMeasuredInTheWorld) {
+  for (int of = 0; of < 3; ++of) {
+    for (int along = 0; along < 3; ++along) {
+      if (of == along) continue;
+      for (const double by : {1e-6, 0.3, -1.0, 7.3}) {
+        const LinearSplit split =
+            split_linear(Affine::compose(sheared(of, along, by), scaling(1.1, 0.3, 7)));
+        ASSERT_TRUE(split.framed);
+        EXPECT_EQ(split.scale, (std::array<double, 3>{1.1, 0.3, 7})) << by;
+        for (int i = 0; i < 3; ++i) {
+          if (i == of) continue;
+          Row unit{};
+          unit[i] = 1;
+          EXPECT_EQ(split.rows[i], unit);
+        }
+        EXPECT_NEAR(split.rows[of][along], -by, 1e-15);
+      }
+    }
+  }
+  // Half a step along a column of Rn moves a point by as many steps.
+  EXPECT_GE(split_linear(sheared(0, 2, 7.3)).longest_column, std::hypot(1, 7.3) - 1e-9);
+  const LinearSplit steep = split_linear(sheared(0, 2, 100));
+  EXPECT_EQ(steep.scale[2], std::hypot(1, 100));
+  EXPECT_EQ(steep.longest_column, 1);
+}
+
+TEST(Frames, AShearedPartSharesTheRowsOfPartsThatAreTurnedAlike) {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> angle(-180, 180), unit(-1, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Affine turn = rotation(angle(random), {unit(random), unit(random), unit(random)});
+    const int of = trial % 3, along = (of + 1 + trial / 3 % 2) % 3;
+    const Affine slanted = Affine::compose(turn, sheared(of, along, 2 * unit(random)));
+    const Affine more = Affine::compose(turn, sheared(of, along, 2 * unit(random)));
+    for (const auto& scene : std::vector<std::vector<Affine>>{
+             {turn, slanted}, {slanted, turn}, {slanted, more}, {slanted, more, turn}}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        std::set<std::array<int64_t, 3>> normals;
+        for (const auto& frame : frames_of(scene)) {
+          ASSERT_TRUE(frame.framed);
+          normals.insert(normal_of_axis(frame, axis));
+        }
+        if (axis != of) {
+          EXPECT_EQ(normals.size(), 1u) << trial;
+        } else {
+          EXPECT_GE(normals.size(), 2u) << trial;
+        }
+      }
+    }
+  }
+}
+
+TEST(Frames, ALongRowIsItsDirectionOnceAnotherOneIs) {
+  const Affine turn = rotation(25, {1, 2, 3});
+  const LinearSplit plain = split_linear(turn),
+                    slanted = split_linear(Affine::compose(turn, sheared(0, 2, 0.5)));
+  EXPECT_NEAR(slanted.lengths[2], std::hypot(1, 0.5), 1e-15);
+  EXPECT_EQ(slanted.direction_scale[2], 1);
+  RowTable table;
+  const auto handle = table.add(slanted, 2);
+  EXPECT_EQ(table.representative(handle).row, slanted.rows[2]);
+  EXPECT_FALSE(table.representative(handle).is_direction);
+  table.add(slanted, 0);
+  table.add(slanted, 2);
+  EXPECT_FALSE(table.has_bridged());
+  const auto other = table.add(plain, 2);
+  EXPECT_TRUE(table.has_bridged());
+  EXPECT_TRUE(table.representative(handle).is_direction);
+  EXPECT_FALSE(table.representative(other).is_direction);
+  EXPECT_EQ(table.representative(handle).row, plain.rows[2]);
+  EXPECT_EQ(table.representative(other).row, plain.rows[2]);
 }
 
 TEST(Frames, RowsAreTheInverse) {
