@@ -276,6 +276,7 @@ int load_csg(lua_State* L) {
   CsgEnvironment environment;
   environment.evaluator = &session.evaluator();
   environment.fonts = &session.fonts();
+  environment.file = where.file;
   environment.read = [&](const std::string& path) -> Result<std::string> {
     try {
       return session.files().open(file.display, path).bytes;

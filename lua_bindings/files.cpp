@@ -108,7 +108,7 @@ bool Files::leads_outside(const std::string& missing) const {
   return !is_allowed(join_path(real_parent, "x"));
 }
 
-Files::Opened Files::open(const std::string& caller, const std::string& path) const {
+Files::Opened Files::open(const std::string& caller, const std::string& path) {
   if (path.find('\0') != std::string::npos)
     throw ScriptError("a path must not contain a zero byte");
   std::vector<std::string> folders{folder_of(caller)};
@@ -145,6 +145,7 @@ Files::Opened Files::open(const std::string& caller, const std::string& path) co
     FileText text = read_whole_file(opened.real);
     if (!text.error.empty()) throw ScriptError("cannot read '" + path + "': " + text.error);
     opened.bytes = std::move(text.bytes);
+    note(opened.real);
     return opened;
   }
   throw ScriptError(problem);
@@ -171,7 +172,7 @@ std::vector<std::string> fill_templates(const std::string& templates, const std:
 
 }  // namespace
 
-Files::Opened Files::open_module(const std::string& name, const std::string& search_path) const {
+Files::Opened Files::open_module(const std::string& name, const std::string& search_path) {
   const auto is_name_character = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.' || c == '/';
@@ -225,6 +226,7 @@ Files::Opened Files::open_module(const std::string& name, const std::string& sea
       tried += "\n\tno file '" + path + "'";
     } else {
       FileText text = read_whole_file(real);
+      note(real);
       if (text.error.empty()) return {path, real, std::move(text.bytes)};
       tried += "\n\tcannot read '" + path + "': " + text.error;
     }

@@ -1,6 +1,7 @@
 // The files that a script may read: below the model's folder and the library folders, nothing else.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,15 @@ class Files {
   /// Reads what `path` means to the file `caller` (a path as in messages): seen from its folder, or
   /// else from the library folders, in their order. Throws ScriptError: not below an allowed folder
   /// after symlinks, missing, or not a regular file.
-  Opened open(const std::string& caller, const std::string& path) const;
+  Opened open(const std::string& caller, const std::string& path);
   /// Reads the module `name` ("parts.wheel"). The names of the shipped modules are theirs; others
   /// are looked for by the templates "./lib/?.lua;..." of `search_path`, seen from the model's
   /// folder, then in the folders that are searched in any case. Throws ScriptError that lists the
   /// tried paths.
-  Opened open_module(const std::string& name, const std::string& search_path) const;
+  Opened open_module(const std::string& name, const std::string& search_path);
+  /// The paths of all files that were read here, or noted.
+  [[nodiscard]] const std::set<std::string>& sources() const { return sources_; }
+  void note(const std::string& path) { sources_.insert(path); }
   /// The part of a path behind the longest of the searched folders that it starts with.
   [[nodiscard]] std::string name_from_folder(const std::string& display) const;
 
@@ -47,6 +51,7 @@ class Files {
   std::vector<std::string> library_folders_;  // as shown in messages
   std::vector<std::string> search_folders_;   // for modules, in order, as shown in messages
   std::vector<std::string> roots_;            // real paths below which files may be read
+  std::set<std::string> sources_;
 };
 
 }  // namespace csgrun

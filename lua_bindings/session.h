@@ -58,6 +58,7 @@ class Session {
   [[nodiscard]] const SessionOptions& options() const { return options_; }
   [[nodiscard]] Budget& budget() { return budget_; }
   [[nodiscard]] Files& files() { return files_; }
+  [[nodiscard]] const Files& files() const { return files_; }
   [[nodiscard]] FontBook& fonts() { return fonts_; }
 
   /// csg.fn, csg.fa, csg.fs; csg.grid.

@@ -59,7 +59,14 @@ void check_output(const std::string& path, const CommandLine& line) {
         ".svg, .dxf",
         path)};
   }
-  if (std::count(line.outputs.begin(), line.outputs.end(), path) > 1) {
+  if (path[0] == '=') {  // that of a short option is part of the value
+    throw UsageError{fmt::format("-o{}: write -o {}", path, path.substr(1))};
+  }
+  const auto plain = [](const std::string& output) {
+    return std::filesystem::path(output).lexically_normal();
+  };
+  if (std::count_if(line.outputs.begin(), line.outputs.end(),
+                    [&](const std::string& other) { return plain(other) == plain(path); }) > 1) {
     throw UsageError{fmt::format("'{}' is given twice with -o", path)};
   }
   if (is_same_file(path, line.model)) {
@@ -176,8 +183,9 @@ CommandLine finished(int code) {
   return line;
 }
 
-/// For the first option that there is not: the nearest of those that there are.
-std::string nearest_option(const CLI::App& app) {
+/// For the first option that there is not, the nearest of those that there are; for the command
+/// that stands behind an option, where it belongs.
+std::string what_was_meant(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -185,6 +193,9 @@ std::string nearest_option(const CLI::App& app) {
   for (const std::string& word : app.remaining()) {
     if (word.starts_with("--")) return did_you_mean(word.substr(0, word.find('=')), names);
   }
+  const CLI::Option* model = app.get_option_no_throw("MODEL");
+  if (model != nullptr && model->count() > 0 && model->as<std::string>() == "info")
+    return "; info is the first word: csgrun info FILE";
   return {};
 }
 
@@ -195,7 +206,7 @@ CommandLine finish_parse(const CLI::App& app, const CLI::ParseError& error) {
     return finished(kExitGood);
   }
   std::fputs(fmt::format("{}: {}{} (--help tells more)\n", app.get_name(), error.what(),
-                         nearest_option(app))
+                         what_was_meant(app))
                  .c_str(),
              stderr);
   return finished(kExitUsage);

@@ -151,6 +151,8 @@ class Run {
     CsgEnvironment environment;
     environment.evaluator = &session_.evaluator();
     environment.fonts = &session_.fonts();
+    environment.file = where.file;
+    environment.facets = line_.facets;
     environment.read = [this](const std::string& path) -> Result<std::string> {
       try {
         return session_.files().open(line_.model, path).bytes;
@@ -198,10 +200,15 @@ class Run {
 
   Failure load_mesh(const std::string& bytes) {
     if (Failure failure = refuse_definitions(); failure.failed()) return failure;
+    const Facets usual;
+    if (line_.facets.fn != usual.fn || line_.facets.fa != usual.fa || line_.facets.fs != usual.fs)
+      return {kExitUsage, "csgrun: --fn, --fa and --fs: the facets of a mesh are what they are"};
     ModelPartOptions options;
     std::vector<std::string> notes;
     options.open = [&](const std::string& name) -> Result<std::string> {
-      FileText text = read_whole_file(join_path(folder_of(line_.model), name));
+      const std::string path = join_path(folder_of(line_.model), name);
+      FileText text = read_whole_file(path);
+      session_.files().note(path);
       if (text.error.empty()) return std::move(text.bytes);
       return Error{
           ErrorCode::kCannotRead, fmt::format("cannot read '{}': {}", name, text.error), {}};
@@ -416,10 +423,25 @@ class Run {
     return {};
   }
 
+  /// What the model was made of is not replaced by what is made of it.
+  [[nodiscard]] Failure check_source(const std::string& path) const {
+    const auto& sources = session_.files().sources();
+    const bool is_source = std::any_of(sources.begin(), sources.end(), [&](const auto& source) {
+      std::error_code ignored;  // set when there is no such file yet
+      return std::filesystem::equivalent(path, source, ignored);
+    });
+    if (!is_source) return {};
+    return {kExitUsage,
+            fmt::format("csgrun: '{}' is read by the model and would be overwritten", path)};
+  }
+
   Failure write_all() {
     const auto start = Clock::now();
     const EvaluationScope scope(session_.budget());
     Failure failure;
+    for (const std::string& output : line_.outputs) {
+      if (failure = check_source(output); failure.failed()) return failure;
+    }
     for (const std::string& output : line_.outputs) {
       failure = is_flat()                                ? write_flat(output)
                 : output.find("%s") != std::string::npos ? write_each(output)
@@ -512,6 +534,9 @@ class Run {
 
   Failure put(const std::vector<ModelFile>& files) {
     if (Failure failure = check_time(); failure.failed()) return failure;
+    for (const ModelFile& file : files) {
+      if (Failure failure = check_source(file.path); failure.failed()) return failure;
+    }
     if (const Status written = write_files(files); !written)
       return {kExitFiles, "csgrun: " + written.error().message};
     return {};

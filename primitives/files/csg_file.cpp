@@ -19,7 +19,6 @@
 #include "primitives/files/csg_shapes.h"
 #include "primitives/files/csg_sheets.h"
 #include "primitives/files/csg_signatures.h"
-#include "primitives/files/face_colours.h"
 #include "primitives/files/formats.h"
 #include "primitives/files/read_file.h"
 
@@ -29,7 +28,7 @@ namespace {
 class CsgBuilder {
  public:
   CsgBuilder(const std::string& name, std::string_view text, const CsgEnvironment& environment)
-      : file_(std::make_shared<const std::string>(name)),
+      : file_(environment.file ? environment.file : std::make_shared<const std::string>(name)),
         parser_(file_, text),
         environment_(environment) {}
 
@@ -56,6 +55,7 @@ class CsgBuilder {
         std::vector<std::string> notes;
         name_arguments(frame.call, notes);
         for (const std::string& note : notes) warn(frame, note);
+        add_facets(frame.call, environment_.facets);
       }
       frame.asks = asked_of_children(frame.call, asked);
       if (*event == CsgParser::Event::kOpen) continue;
@@ -104,6 +104,9 @@ class CsgBuilder {
 
   Result<Item> build(CsgFrame& frame) {
     const std::string& name = frame.call.name;
+    if (!frame.children.empty() && !takes_children(name)) {
+      warn(frame, name + ": takes no children, they were left out");
+    }
     if (name == "union" || name == "group" || name == "render") {
       return combine(BooleanOp::kUnion, frame);
     }
@@ -524,24 +527,11 @@ class CsgBuilder {
   }
 
   Result<Item> paint(CsgFrame& frame) {
-    const CsgValue* value = frame.call.find("c");
-    if (value == nullptr || value->kind != CsgValue::Kind::kList || value->list.size() != 4) {
-      return Error{ErrorCode::kMalformedFile, "color: expected a list of 4 numbers", {}};
-    }
-    std::array<double, 4> rgba{};
-    for (int i = 0; i < 4; ++i) {
-      if (value->list[i].kind != CsgValue::Kind::kNumber) {
-        return Error{ErrorCode::kMalformedFile, "color: expected a list of 4 numbers", {}};
-      }
-      rgba[i] = value->list[i].number;
-    }
+    const auto color = csg_color(frame.call);
+    if (!color) return color.error();
     Result<Item> child = combine(BooleanOp::kUnion, frame);
-    const bool unset = rgba[0] < 0;  // -1 in all four: color() without a colour
-    if (!child || child->kind == Item::Kind::kEmpty || unset) return child;
-    auto component = [](double v) { return static_cast<float>(v > 0 ? std::min(v, 1.0) : 0.0); };
-    const Appearance appearance =
-        appearance_of({component(rgba[0]), component(rgba[1]), component(rgba[2]),
-                       rgba[3] < 0 ? 1.0f : component(rgba[3])});
+    if (!child || child->kind == Item::Kind::kEmpty || !*color) return child;
+    const Appearance& appearance = **color;
     if (child->kind == Item::Kind::kFlat) {
       child->appearance = appearance;
       return child;

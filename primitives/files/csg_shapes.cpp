@@ -9,6 +9,7 @@
 #include <csgrun/engine/repair.h>
 
 #include "primitives/base/text.h"
+#include "primitives/files/face_colours.h"
 #include "primitives/files/formats.h"
 
 namespace csgrun {
@@ -386,7 +387,7 @@ MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape) {
   }
   LinearExtrudeOptions options;
   options.height = arguments.number("height", 100);
-  options.height_given = true;
+  options.height_given = arguments.has("height") || !arguments.has("v");
   if (arguments.has("v")) {
     const std::vector<double> v = arguments.numbers("v", 3, {0, 0, 1});
     options.direction = glm::dvec3(v[0], v[1], v[2]);
@@ -416,6 +417,20 @@ MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape) {
   options.facets = arguments.facets();
   if (arguments.error()) return *arguments.error();
   return linear_extrude(shape, options);
+}
+
+Result<std::optional<Appearance>> csg_color(const CsgCall& call) {
+  const CsgValue* value = call.find("c");
+  if (value == nullptr || !is_number_list(*value, 4)) {
+    return Error{ErrorCode::kMalformedFile, "color: expected a list of 4 numbers", {}};
+  }
+  const std::vector<double> rgba = number_list(*value);
+  if (rgba[0] < 0) return std::optional<Appearance>();  // color() without a colour: -1 in all four
+  const auto component = [](double v) {
+    return static_cast<float>(v > 0 ? std::min(v, 1.0) : 0.0);
+  };
+  return std::optional(appearance_of({component(rgba[0]), component(rgba[1]), component(rgba[2]),
+                                      rgba[3] < 0 ? 1.0f : component(rgba[3])}));
 }
 
 }  // namespace csgrun

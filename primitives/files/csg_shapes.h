@@ -95,6 +95,9 @@ struct CsgResize {
 };
 Result<CsgResize> csg_resize(const CsgCall& call);
 
+/// The argument of color; nothing if it names no colour.
+Result<std::optional<Appearance>> csg_color(const CsgCall& call);
+
 /// The arguments of roof. OpenSCAD takes methods that it does not know for "voronoi": `warnings`
 /// says so.
 Result<RoofOptions> csg_roof(const CsgCall& call, std::vector<std::string>& warnings);

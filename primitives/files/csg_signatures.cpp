@@ -1,7 +1,7 @@
 #include "primitives/files/csg_signatures.h"
 
 #include <algorithm>
-#include <string_view>
+#include <iterator>
 #include <utility>
 
 #include "primitives/files/formats.h"
@@ -108,6 +108,26 @@ void name_arguments(CsgCall& call, std::vector<std::string>& warnings) {
                        " too many and left out");
   }
   call.arguments = std::move(named);
+}
+
+void add_facets(CsgCall& call, const Facets& facets) {
+  const auto add = [&](const char* name, double number, double usual) {
+    if (number == usual || call.find(name) != nullptr) return;
+    CsgValue value;
+    value.kind = CsgValue::Kind::kNumber;
+    value.number = number;
+    call.arguments.emplace_back(name, value);
+  };
+  const Facets usual;
+  add("$fn", facets.fn, usual.fn);
+  add("$fa", facets.fa, usual.fa);
+  add("$fs", facets.fs, usual.fs);
+}
+
+bool takes_children(std::string_view node) {
+  constexpr std::string_view kLeaves[] = {"cube",   "sphere",  "cylinder", "polyhedron", "square",
+                                          "circle", "polygon", "text",     "import",     "surface"};
+  return std::find(std::begin(kLeaves), std::end(kLeaves), node) == std::end(kLeaves);
 }
 
 }  // namespace csgrun

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include <csgrun/primitives/solids.h>
 
 #include "primitives/files/csg_parser.h"
 
@@ -15,5 +18,11 @@ namespace csgrun {
 /// OpenSCAD writes and nothing needs here (convexity, timestamp). Nodes that are not known stay as
 /// they are.
 void name_arguments(CsgCall& call, std::vector<std::string>& warnings);
+
+/// Gives a call the $fn, $fa and $fs that differ from OpenSCAD's own, where it has none.
+void add_facets(CsgCall& call, const Facets& facets);
+
+/// Whether a node is made of its children, if it is known at all.
+bool takes_children(std::string_view node);
 
 }  // namespace csgrun

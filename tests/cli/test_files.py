@@ -234,6 +234,20 @@ class Trees(Case):
         self.expect(outcome, 0)
         self.assertEqual(outcome.json()["parts"][0]["volume"], 875)
 
+    def test_places_are_in_the_folder_of_the_tree(self):
+        self.write("sub/m.csg", "cube(1e-12);\ncube(-1);\ncube(1);\n")
+        outcome = self.run_csgrun("sub/m.csg", "--stats")
+        self.assertIn("warning: sub/m.csg:1: 'cube' encloses no volume", outcome.err)
+        self.assertIn("warning: sub/m.csg:2: cube: size.x must be positive", outcome.err)
+
+    def test_facets_of_trees_that_have_none(self):
+        self.write("m.csg", "sphere(r = 10);\nmultmatrix([[1, 0, 0, 30]]) { sphere(r = 10, $fn = 8); }\n")
+        self.write("n.csg", "sphere(r = 10, $fn = 50);\nmultmatrix([[1, 0, 0, 30]]) { sphere(r = 10, $fn = 8); }\n")
+        def volume(*arguments):
+            return self.run_csgrun(*arguments, "--stats=json").json()["parts"][0]["volume"]
+        self.assertEqual(volume("m.csg", "--fn", "50"), volume("n.csg"))
+        self.assertNotEqual(volume("m.csg"), volume("n.csg"))
+
     def test_a_node_that_does_not_exist(self):
         self.write("m.csg", "group() {\n\tgable(method = \"voronoi\") {\n\t\tsquare(size = [1, 1], center = false);\n\t}\n}\n")
         self.expect(self.run_csgrun("m.csg", "--stats=json"), 1, "m.csg:2: ")

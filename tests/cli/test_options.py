@@ -25,11 +25,37 @@ class Usage(Case):
 
     def test_outputs(self):
         self.check("csgrun: 'a.stl' is given twice with -o", "model.lua", "-o", "a.stl", "-o", "a.stl")
+        self.check("csgrun: './a.stl' is given twice with -o", "model.lua", "-o", "./a.stl", "-o", "b/../a.stl")
+        self.check("csgrun: -o=a.stl: write -o a.stl", "model.lua", "-o=a.stl")
         self.check("csgrun: '%s%s.stl': %s", "model.lua", "-o", "%s%s.stl")
         self.write("mesh.stl", "solid x\nendsolid x\n")
         self.check("csgrun: 'mesh.stl' is the model itself and would be overwritten", "mesh.stl", "-o", "mesh.stl")
 
+    def test_sources_are_not_replaced(self):
+        """What was read, in whatever way, stays as it is; nothing else is written either."""
+        self.write("in.lua", "return import('in.off')")
+        self.write("in.csg", "import(file = \"in.off\");\n")
+        self.write("two.obj", "mtllib a.mtl\nv 0 0 0\nv 6 0 0\nv 0 6 0\nv 0 0 6\nusemtl x\n"
+                   "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        off, colours = "OFF\n4 4 0\n0 0 0\n6 0 0\n0 6 0\n0 0 6\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n", "newmtl x\nKd 1 0 0\n"
+        self.write("in.off", off)
+        self.write("a.mtl", colours)
+        os.symlink("in.off", self.path("link.off"))
+        for model, source, output in (("in.lua", "in.off", "in.off"), ("in.lua", "link.off", "link.off"),
+                                      ("in.csg", "in.off", "in.off"), ("two.obj", "a.mtl", "a.obj")):
+            arguments = [model] + (["-o", "other.stl"] if output == source else []) + ["-o", output]
+            self.check(f"csgrun: '{source}' is read by the model and would be overwritten", *arguments)
+            self.assertFalse(os.path.exists(self.path("other.stl")) or os.path.exists(self.path("a.obj")))
+        for name, text in (("in.off", off), ("a.mtl", colours)):
+            with open(self.path(name)) as file:
+                self.assertEqual(file.read(), text)
+        self.expect(self.run_csgrun("two.obj", "-o", "b.obj", "-o", "b.off"), 0)
+
     def test_options(self):
+        self.write("mesh.off", "OFF\n4 4 0\n0 0 0\n6 0 0\n0 6 0\n0 0 6\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+        self.check("csgrun: --fn, --fa and --fs: the facets of a mesh are what they are", "mesh.off", "--stats", "--fn", "9")
+        self.check("csgrun: The following argument was not expected: mesh.off; info is the first word: csgrun info FILE",
+                   "--threads", "1", "info", "mesh.off")
         self.check("csgrun: --check proves what is written: give an output with -o", "model.lua", "--stats", "--check")
         self.check("csgrun: The following argument was not expected: --bogus", "model.lua", "--stats", "--bogus")
         self.check("csgrun: The following argument was not expected: --treads=3 (did you mean '--threads'?)",

@@ -259,6 +259,27 @@ TEST(CsgFile, ArgumentsThatAreNotThereAreSaidSo) {
   EXPECT_EQ(warnings("cube(size = [1, 1, 1], $fn = 3, $preview = true);"), Lines{});
 }
 
+TEST(CsgFile, LeavesTakeNoChildren) {
+  for (const char* const leaf : {"cube(2)", "square(2)"}) {
+    const CsgModel model = parse(std::string(leaf) + " { sphere(r = 50); }");
+    ASSERT_EQ(model.warnings.size(), 1u);
+    EXPECT_NE(model.warnings[0].find(": takes no children, they were left out"), std::string::npos);
+  }
+  EXPECT_TRUE(parse("cube(2) { }").warnings.empty());
+}
+
+// Without a height, a direction has it.
+TEST(CsgFile, HeightsOfDirections) {
+  const auto volume = [](const std::string& arguments) {
+    return testing::volume(
+        *parse("linear_extrude(" + arguments + ") { square(2); }").solid->mesh());
+  };
+  EXPECT_NEAR(volume("v = [0, 0, 5]"), 20, 1e-9);
+  EXPECT_NEAR(volume("v = [3, 0, 4]"), 16, 1e-9);
+  EXPECT_NEAR(volume("height = 10, v = [3, 0, 4]"), 32, 1e-9);
+  EXPECT_NEAR(volume("convexity = 2"), 400, 1e-9);
+}
+
 TEST(CsgFile, ErrorsHaveTheirLine) {
   EXPECT_EQ(error("group() {\n" + kCube + "\troof(method = 1) {\n" + kSquare + "}\n}"),
             "m.csg:3: roof: method must be a string");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,6 +35,9 @@ struct CsgEnvironment {
   /// Evaluates what is projected; null: one with default options.
   Evaluator* evaluator = nullptr;
   bool* evaluation_failed = nullptr;  ///< set when an error is one of that, and not of the file
+  /// What places of nodes share as the file's name; null: what is made of the name that is given.
+  std::shared_ptr<const std::string> file = {};
+  Facets facets = {};  ///< where a node has none of its own
 };
 
 /// Reads cube, sphere, cylinder, polyhedron, square, circle, polygon, text, import, surface,
