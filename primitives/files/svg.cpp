@@ -469,6 +469,12 @@ class SvgReader {
   }
 
   Status add(const std::vector<Chain>& chains, const SvgMap& map, const Style& style) {
+    // Icons have a square of this kind behind them, which says how large they are. What is asked
+    // for by its id is meant, as what is hidden is then.
+    if (style.fill == "none" && style.stroke == "none" && !options_.id) {
+      if (!chains.empty()) leave_out("an element without fill and stroke");
+      return std::monostate();
+    }
     std::vector<Shape2D::Loop> loops;
     for (const Chain& chain : chains) {
       Shape2D::Loop loop;

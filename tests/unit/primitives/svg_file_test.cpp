@@ -330,11 +330,29 @@ TEST(Svg, StrokesOfOpenLines) {
   EXPECT_NEAR(svg(corner + "stroke-linejoin='bevel'/>").area(), 39.5, 1e-9);
   EXPECT_NEAR(svg(corner + "stroke-linejoin='round'/>").area(), 39 + ngon(32, 1) / 4, 1e-6);
   EXPECT_TRUE(svg("<path d='M10 10h10v10' fill='none'/>").empty());
-  // Closed outlines are areas, painted or not: as OpenSCAD has it.
+  // Closed outlines are areas, filled or not, as OpenSCAD has it, but not if nothing paints them.
   EXPECT_NEAR(svg("<path d='M10 10h10v10z'" + none + "/>").area(), 50, 1e-9);
   EXPECT_NEAR(
       svg("<g style='fill:none; stroke : red ;stroke-width:4'><path d='M0 50H10'/></g>").area(), 40,
       1e-9);
+}
+
+TEST(Svg, WhatIsNotPaintedIsNoArea) {
+  const std::string icon =
+      "<path d='M0 0h24v24H0z' fill='none'/><path id='plus' d='M19 "
+      "13h-6v6h-2v-6H5v-2h6V5h2v6h6v2z'/>";
+  const FlatFile file = read("i.svg", page(icon), with_fn(32));
+  EXPECT_NEAR(file.shape.area(), 2 * 28 - 4, 1e-9);
+  EXPECT_EQ(file.notes,
+            std::vector<std::string>{"i.svg: an element without fill and stroke left out (1)"});
+  const std::string clear = "<rect id='r' class='a' width='3' height='3'/>";
+  EXPECT_TRUE(svg("<style>.a{fill:none}</style>" + clear).empty());
+  EXPECT_TRUE(svg("<g fill='none'>" + clear + "</g>").empty());
+  EXPECT_NEAR(svg("<g fill='none' stroke='red'>" + clear + "</g>").area(), 9, 1e-9);
+  EXPECT_NEAR(svg("<g fill='none'><g fill='red'>" + clear + "</g></g>").area(), 9, 1e-9);
+  FlatFileOptions wanted = with_fn(32);
+  wanted.id = "r";
+  EXPECT_NEAR(svg("<g fill='none'>" + clear + "</g>", wanted).area(), 9, 1e-9);
 }
 
 TEST(Svg, LayersAndIds) {
