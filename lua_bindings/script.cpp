@@ -6,6 +6,7 @@
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/call_site.h"
+#include "lua_bindings/dropped_values.h"
 #include "lua_bindings/guard.h"
 #include "lua_bindings/nearest.h"
 #include "lua_bindings/parts.h"
@@ -143,6 +144,8 @@ ScriptOutcome run_in_state(Session& session, const std::string& name, const std:
   if (std::string problem = unknown_definition(session, text); !problem.empty()) {
     return {ScriptStatus::kUsage, std::move(problem)};
   }
+  for (const DroppedValue& value : find_dropped_values(text))
+    session.warn_at(name + ":" + std::to_string(value.line), value.message);
   return {};
 }
 

@@ -108,8 +108,9 @@ bool Session::is_geometry_failure(const std::string& message) const {
       [&](const std::string& failure) { return message.find(failure) != std::string::npos; });
 }
 
-void Session::warn(lua_State* L, const std::string& text) {
-  const std::string place = place_of_call(L);
+void Session::warn(lua_State* L, const std::string& text) { warn_at(place_of_call(L), text); }
+
+void Session::warn_at(const std::string& place, const std::string& text) {
   const std::string line = place.empty() ? text : place + ": " + text;
   if (warned_.insert(line).second) warnings_.push_back(line);
 }

@@ -87,6 +87,8 @@ class Session {
 
   /// Adds "FILE:line: text" once.
   void warn(lua_State* L, const std::string& text);
+  /// The same of a place that is given ("model.lua:3"), or of none.
+  void warn_at(const std::string& place, const std::string& text);
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// The place of the running Lua code, sharing one copy of each file name. The name is seen from
