@@ -48,6 +48,7 @@ class Cutter {
     }
     for (size_t i = 0; i < count; ++i) cut_edge(i);
     for (const EdgeCorner& corner : ends_.corners()) cut_corner(corner);
+    for (const EdgeTip& tip : ends_.tips()) cut_tip(tip);
     return std::move(cuts_);
   }
 
@@ -290,6 +291,49 @@ class Cutter {
     return balls_[static_cast<size_t>(&corner - ends_.corners().data())];
   }
 
+  /// The points in which the lines beside the edges of a corner meet on its sides.
+  [[nodiscard]] std::vector<glm::dvec3> meeting_points(uint32_t vertex,
+                                                       std::span<const uint32_t> frames) const {
+    std::vector<glm::dvec3> points;
+    for (const uint32_t k : frames) {
+      const EdgeFrame& f = frames_.frames()[k];
+      const int end = ends_.end_at(f, vertex);
+      for (int side = 0; side < 2; ++side) {
+        points.push_back(f.start + f.setback * f.in[side] +
+                         frames_.at_next_cut(f, end, side) * f.along);
+      }
+    }
+    return points;
+  }
+
+  /// The cuts along four edges and more leave a needle between them: between the corner and the
+  /// points in which they meet on the sides. It goes by the plane across the corner's axis through
+  /// the lowest of these.
+  void cut_tip(const EdgeTip& tip) {
+    const EdgeFrame& first = frames_.frames()[tip.frames[0]];
+    const glm::dvec3 corner = solid_.positions[tip.vertex];
+    std::vector<glm::dvec3> along;  // the edges, away from the corner
+    glm::dvec3 axis(0);
+    double reach = first.outwards();
+    for (const uint32_t k : tip.frames) {
+      const EdgeFrame& f = frames_.frames()[k];
+      along.push_back(ends_.end_at(f, tip.vertex) == 0 ? f.along : -f.along);
+      axis += along.back();
+      reach = std::min(reach, f.outwards());
+    }
+    axis = glm::normalize(axis);
+    double depth = 0;
+    for (const glm::dvec3& p : meeting_points(tip.vertex, tip.frames))
+      depth = std::max(depth, glm::dot(p - corner, axis));
+    std::vector<glm::dvec3> points{corner - 4 * reach * axis};
+    for (const glm::dvec3& a : along) {
+      // A little larger, in the same plane.
+      const glm::dvec3 across = a / glm::dot(a, axis) - axis;
+      points.push_back(corner + depth * axis + (depth + 4 * reach / glm::length(across)) * across);
+    }
+    cuts_.push_back(hull(std::move(points), first));
+  }
+
   void cut_corner(const EdgeCorner& corner) {
     const auto n = ends_.normals_at(corner);
     const EdgeFrame& first = frames_.frames()[corner.frames[0]];
@@ -297,16 +341,7 @@ class Cutter {
     for (const uint32_t k : corner.frames) reach = std::min(reach, frames_.frames()[k].outwards());
     const glm::dvec3 outside = ends_.in_front(corner, reach);
     if (!is_fillet()) {
-      // The points in which the lines meet on the three sides.
-      std::vector<glm::dvec3> points;
-      for (const uint32_t k : corner.frames) {
-        const EdgeFrame& f = frames_.frames()[k];
-        const int end = edge(f).vertex[0] == corner.vertex ? 0 : 1;
-        for (int side = 0; side < 2; ++side) {
-          points.push_back(f.start + f.setback * f.in[side] +
-                           frames_.at_next_cut(f, end, side) * f.along);
-        }
-      }
+      std::vector<glm::dvec3> points = meeting_points(corner.vertex, corner.frames);
       // Each is there twice, from both edges of its side. A little larger, in the same plane.
       glm::dvec3 sum(0);
       for (const glm::dvec3& p : points) sum += p;
@@ -326,7 +361,7 @@ class Cutter {
       const glm::dvec3 outwards = line.normals[0] + line.normals[1];
       around.push_back(f.start + at * f.along +
                        reach / glm::dot(outwards, line.normals[0]) * outwards);
-      const int end = edge(f).vertex[0] == corner.vertex ? 0 : 1;
+      const int end = ends_.end_at(f, corner.vertex);
       prisms.push_back(bodies_[k].prism[end]);
       // Where nothing is between two balls, a half reaches a little into the other one.
       const EdgeCorner* far = ends_.corner_at(f, 1 - end);

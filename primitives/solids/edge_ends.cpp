@@ -37,24 +37,31 @@ void EdgeEnds::find_corners(double radius) {
     for (const uint32_t v : edge(frames_.frames()[i]).vertex) ends.emplace_back(v, i);
   }
   std::sort(ends.begin(), ends.end());
-  for (size_t i = 0; i + 2 < ends.size(); ++i) {
-    const uint32_t v = ends[i].first;
-    if (ends[i + 2].first != v || frames_.graph().degree(v) != 3) continue;
-    EdgeCorner corner{v, {ends[i].second, ends[i + 1].second, ends[i + 2].second}};
-    // Three convex edges may still turn inwards in one of the sides.
-    bool is_convex = true;
-    for (const uint32_t k : corner.frames) {
-      const EdgeFrame& f = frames_.frames()[k];
-      const int end = edge(f).vertex[0] == v ? 0 : 1;
-      for (int side = 0; side < 2; ++side) {
-        is_convex &= frames_.kind(f, end, side) == EdgeEnd::kMitre;
-      }
+  for (size_t first = 0, last; first < ends.size(); first = last) {
+    const uint32_t v = ends[first].first;
+    std::vector<uint32_t> at_vertex;
+    for (last = first; last < ends.size() && ends[last].first == v; ++last)
+      at_vertex.push_back(ends[last].second);
+    const size_t count = at_vertex.size();
+    if (count < 3 || frames_.graph().degree(v) != count || !is_convex(v, at_vertex)) continue;
+    if (count > 3) {
+      tips_.push_back({v, std::move(at_vertex)});
+      continue;
     }
-    if (!is_convex) continue;
+    EdgeCorner corner{v, {at_vertex[0], at_vertex[1], at_vertex[2]}};
     corner.centre = in_front(corner, -radius);
     corner_of_[v] = static_cast<uint32_t>(corners_.size());
     corners_.push_back(corner);
   }
+}
+
+/// Convex edges may still turn inwards in one of the sides.
+bool EdgeEnds::is_convex(uint32_t vertex, std::span<const uint32_t> frames) const {
+  return std::all_of(frames.begin(), frames.end(), [&](uint32_t k) {
+    const EdgeFrame& f = frames_.frames()[k];
+    const int end = end_at(f, vertex);
+    return frames_.kind(f, end, 0) == EdgeEnd::kMitre && frames_.kind(f, end, 1) == EdgeEnd::kMitre;
+  });
 }
 
 const EdgeCorner* EdgeEnds::corner_at(const EdgeFrame& f, int end) const {

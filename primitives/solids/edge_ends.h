@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <csgrun/engine/error.h>
@@ -25,12 +26,23 @@ struct EdgeCorner {
   glm::dvec3 centre{0};  ///< of the ball, for fillets
 };
 
+/// A vertex of more than three edges, all of which are chosen.
+struct EdgeTip {
+  uint32_t vertex;
+  std::vector<uint32_t> frames;
+};
+
 class EdgeEnds {
  public:
   /// `radius` of fillets, else 0.
   EdgeEnds(const Solid& solid, const EdgeFrames& frames, double radius);
 
   [[nodiscard]] const std::vector<EdgeCorner>& corners() const { return corners_; }
+  [[nodiscard]] const std::vector<EdgeTip>& tips() const { return tips_; }
+  /// The end of an edge at a vertex.
+  [[nodiscard]] int end_at(const EdgeFrame& f, uint32_t vertex) const {
+    return edge(f).vertex[0] == vertex ? 0 : 1;
+  }
   /// That at an end of an edge, or null.
   [[nodiscard]] const EdgeCorner* corner_at(const EdgeFrame& f, int end) const;
   /// The two sides of the first edge of a corner, and the one that both others have.
@@ -56,6 +68,7 @@ class EdgeEnds {
 
  private:
   void find_corners(double radius);
+  [[nodiscard]] bool is_convex(uint32_t vertex, std::span<const uint32_t> frames) const;
   [[nodiscard]] const EdgeGraph::Edge& edge(const EdgeFrame& f) const {
     return frames_.graph().edges()[f.edge];
   }
@@ -64,6 +77,7 @@ class EdgeEnds {
   const EdgeFrames& frames_;
   const bool is_fillet_;
   std::vector<EdgeCorner> corners_;
+  std::vector<EdgeTip> tips_;
   std::vector<uint32_t> corner_of_;  ///< by vertex of the solid: its place in corners_
 };
 

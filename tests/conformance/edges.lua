@@ -87,6 +87,30 @@ assert(ball:components() == 1 and ball:genus() == 0)
 local smaller = tent:offset(-0.5, {fn = 60})
 near(ball:volume(), minkowski(smaller, sphere{r = 0.5, fn = 60}):volume(), 5e-3)
 
+-- A corner of more edges: the tip goes by the plane through the points where the lines on the sides meet, and what is
+-- left is convex. On a side of an octahedron these are 2 from its corner, at 60 degrees.
+local function top(solid) return solid:bbox().max.z end
+local octahedral = octahedron(10):chamfer(1)
+near(top(octahedral), 10 - 4 / sqrt(6), 1e-6)
+near(octahedral:volume(), hull(octahedral):volume(), 1e-6)
+assert(#octahedral:faces{normal = {0, 0, 1}} == 1)
+near(octahedron(10):rotate(10, 20, 30):chamfer(1):volume(), octahedral:volume(), 1e-5)
+for _, n in ipairs{4, 5, 6} do
+  -- Sides that meet in a tip: the lines beside two edges of one meet as far from it as the angle between these tells.
+  local spike = cylinder{h = 8, r1 = 7, r2 = 0, fn = n}
+  local flank, step = sqrt(7 ^ 2 + 8 ^ 2), 7 * 2 * sin(180 / n)
+  local half = asin(step / 2 / flank) -- between an edge and the middle of a side
+  local along = 1 / sin(half) -- from the tip, in the middle of the side
+  local drop = along * 8 / sqrt(8 ^ 2 + (7 * cos(180 / n)) ^ 2)
+  for _, how in ipairs{"chamfer", "fillet"} do
+    local cut = spike[how](spike, 1)
+    assert(cut:components() == 1 and cut:genus() == 0)
+    if how == "chamfer" then near(top(cut), 8 - drop, 1e-6) else assert(top(cut) > 6 and top(cut) < 7.7) end
+  end
+  local cut = spike:chamfer(1)
+  near(cut:volume(), hull(cut):volume(), 1e-6)
+end
+
 -- Blocks at random: walls, corners that point inwards, vertices of many faces. What goes is near to the cross-section of
 -- the cut along all edges, and nothing comes apart, opens or stays behind at their ends.
 for seed = 1, 6 do
