@@ -141,7 +141,9 @@ end
 --- A ring gear: the teeth point inwards. Options: those of the teeth, and width, rim [3 modules:
 --- between the roots of the teeth and the outside], helix, herringbone. A gear meshes with it that
 --- has the same helix angle and hand, and fewer teeth by some ten or more: with nearly as many, tips
---- of teeth meet beside the place where they mesh.
+--- of teeth meet beside the place where they mesh. With fewer than 17 teeth at 20 degrees its roots
+--- meet the ring's tips by some thousandths of the module: `(ring * gear):volume()` tells, or backlash
+--- makes room.
 ---@param given table
 ---@return Solid
 function gears.ring(given)
