@@ -1,12 +1,15 @@
 #include "lua_bindings/model_parts.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include <csgrun/engine/validate.h>
 #include <csgrun/primitives/file_ending.h>
+#include <csgrun/primitives/file_path.h>
 #include <csgrun/primitives/mesh_file.h>
 
 #include "lua_bindings/measure/read_glb.h"
@@ -77,6 +80,50 @@ std::vector<ModelPart> objects_of(PolygonMesh mesh, std::vector<MeshObject> obje
   return parts;
 }
 
+/// The files of one mtllib statement with their bytes: it may name several, and one may have blanks
+/// in its name. What cannot be read is noted.
+std::vector<std::pair<std::string, std::string>> open_materials(const std::string& name,
+                                                                const std::string& statement,
+                                                                const ModelPartOptions& options,
+                                                                std::vector<std::string>* notes) {
+  auto whole = options.open(statement);
+  if (whole) return {{statement, *std::move(whole)}};
+  std::istringstream words(statement);
+  std::vector<std::string> files{std::istream_iterator<std::string>(words), {}};
+  const bool has_several = files.size() > 1 && std::all_of(files.begin(), files.end(), [](auto& f) {
+                             return f.ends_with(".mtl") && !leads_out_of_folder(f);
+                           });
+  if (!has_several) files = {statement};
+  std::vector<std::pair<std::string, std::string>> found;
+  for (const std::string& file : files) {
+    auto text = has_several ? options.open(file) : whole;
+    if (text) {
+      found.emplace_back(file, *std::move(text));
+    } else {
+      notes->push_back(name + ": no colours: " + text.error().message);
+    }
+  }
+  return found;
+}
+
+/// Notes the materials that faces have and no file describes.
+void note_unknown_materials(const std::string& name, const PolygonMesh& mesh,
+                            const std::set<std::string, std::less<>>& known,
+                            std::vector<std::string>* notes) {
+  size_t count = 0;
+  std::string first;
+  for (const Appearance& look : mesh.appearances) {
+    if (look.name.empty() || known.contains(look.name)) continue;
+    if (count++ == 0) first = look.name;
+  }
+  if (count == 0) return;
+  notes->push_back(name + ": no colours: " +
+                   (count == 1
+                        ? "the material '" + first + "' is"
+                        : std::to_string(count) + " materials, the first '" + first + "', are") +
+                   " in none of its material files");
+}
+
 Result<std::vector<ModelPart>> read_mesh(const std::string& name, std::string_view bytes,
                                          const ModelPartOptions& options,
                                          std::vector<std::string>* notes) {
@@ -84,14 +131,17 @@ Result<std::vector<ModelPart>> read_mesh(const std::string& name, std::string_vi
   std::vector<MeshObject> objects;
   auto mesh = parse_mesh(name, bytes, &objects, options.open ? &material_files : nullptr, notes);
   if (!mesh) return mesh.error();
-  for (const std::string& file : material_files) {
-    const auto text = options.open(file);
-    if (!text) {
-      notes->push_back(name + ": no colours: " + text.error().message);
-      continue;
+  std::set<std::string, std::less<>> known{"default"};
+  bool all_are_read = !material_files.empty();
+  for (const std::string& statement : material_files) {
+    const auto files = open_materials(name, statement, options, notes);
+    all_are_read &= !files.empty();
+    for (const auto& [file, text] : files) {
+      if (Status applied = apply_materials(*mesh, file, text, &known); !applied)
+        return applied.error();
     }
-    if (Status applied = apply_materials(*mesh, file, *text); !applied) return applied.error();
   }
+  if (all_are_read) note_unknown_materials(name, *mesh, known, notes);
   const bool has_colours = std::any_of(mesh->appearances.begin(), mesh->appearances.end(),
                                        [](const Appearance& look) { return !look.is_default; });
   if (!has_colours) {

@@ -21,7 +21,8 @@ bool read_fractions(TextScanner& scanner, std::initializer_list<float*> places) 
 
 }  // namespace
 
-Status apply_materials(PolygonMesh& mesh, const std::string& name, std::string_view mtl) {
+Status apply_materials(PolygonMesh& mesh, const std::string& name, std::string_view mtl,
+                       std::set<std::string, std::less<>>* known) {
   TextScanner scanner(mtl, '#');
   Appearance* look = nullptr;  // of the material that is described; null: nobody uses it
   Appearance unused;
@@ -30,6 +31,7 @@ Status apply_materials(PolygonMesh& mesh, const std::string& name, std::string_v
     bool good = true;
     if (word == "newmtl") {
       const std::string_view material = scanner.rest_of_line();
+      if (known != nullptr) known->emplace(material);
       const auto used = std::find_if(mesh.appearances.begin(), mesh.appearances.end(),
                                      [&](const Appearance& a) { return a.name == material; });
       look = used == mesh.appearances.end() ? &unused : &*used;

@@ -304,6 +304,29 @@ class Foreign(Case):
         self.good("a.obj", "mtllib C:\\Users\\me\\a.mtl\n" + self.OBJ,
                   'line 1: no colours: mtllib "C:\\Users\\me\\a.mtl" leads out of the file\'s folder')
         self.good("a.obj", "mtllib a..b.mtl\n" + self.OBJ, "no colours: cannot read 'a..b.mtl': No such file or directory")
+
+    def test_several_material_files(self):
+        self.write("red.mtl", "newmtl x\nKd 1 0 0\n")
+        self.write("blue.mtl", "newmtl y\nKd 0 0 1\n")
+        self.write("with blanks.mtl", "newmtl x\nKd 1 0 0\nnewmtl y\nKd 0 0 1\n")
+        body = "v 0 0 0\nv 6 0 0\nv 0 6 0\nv 0 0 6\nusemtl x\nf 1 3 2\nf 1 2 4\nusemtl y\nf 1 4 3\nf 2 3 4\n"
+        outputs = []
+        for lines in ("mtllib red.mtl\nmtllib blue.mtl\n", "mtllib red.mtl blue.mtl\n", "mtllib with blanks.mtl\n"):
+            self.write("a.obj", lines + body)
+            outcome = self.run_csgrun("a.obj", "-o", "a.glb")
+            self.expect(outcome, 0)
+            self.assertEqual(outcome.err, "")
+            with open(self.path("a.glb"), "rb") as file:
+                outputs.append(file.read())
+        self.assertEqual(outputs[1:], outputs[:1] * 2)
+        for lines, said in (("mtllib red.mtl none.mtl\n", "a.obj: no colours: cannot read 'none.mtl': No such file or directory"),
+                            ("mtllib red.mtl\n", "a.obj: no colours: the material 'y' is in none of its material files"),
+                            ("mtllib ../red.mtl blue.mtl\n", None)):
+            self.write("a.obj", lines + body)
+            outcome = self.run_csgrun("a.obj", "-o", "a.glb")
+            self.expect(outcome, 0 if said else 1)
+            if said:
+                self.assertIn("warning: " + said + "\n", outcome.err)
         self.refuse("a.obj", "L\1\2\0.text", 'a.obj:1: not an OBJ statement: "L???.text"')
 
     def test_objects_of_obj(self):

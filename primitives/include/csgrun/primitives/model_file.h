@@ -1,6 +1,8 @@
 // Model files of several parts: 3MF, AMF; and the materials of OBJ.
 #pragma once
 
+#include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,7 +48,9 @@ Result<std::vector<ModelPart>> parse_amf(const std::string& name, std::string_vi
 bool is_amf_path(const std::string& path);
 
 /// Gives the appearances of an OBJ's mesh, which have the names of its materials, what a material
-/// file says of these: Kd, d or Tr, Pm, Pr. Others stay. Errors: kMalformedFile with the line.
-Status apply_materials(PolygonMesh& mesh, const std::string& name, std::string_view mtl);
+/// file says of these: Kd, d or Tr, Pm, Pr. Others stay. `known` gets the names of all that the
+/// file describes. Errors: kMalformedFile with the line.
+Status apply_materials(PolygonMesh& mesh, const std::string& name, std::string_view mtl,
+                       std::set<std::string, std::less<>>* known = nullptr);
 
 }  // namespace csgrun
