@@ -77,6 +77,7 @@ std::string syntax_hint(std::string_view line, std::string_view message) {
     return "; the facets are fn, fa and fs: sphere(5, {fn = 64}), or csg.fn = 64 for all";
   if (has(message, "'['") && has_list_in_brackets(line))
     return "; a list stands in braces: {10, 20, 30}";
+  if (has(message, "'}' expected")) return "; what stands in braces is separated by commas";
   if (has(message, "'!'")) return "; \"not equal\" is ~=, and \"not\" is not";
   if (has(message, "near '='") && has(message, "')' expected"))
     return "; options by name stand in braces: cube{size = 10, center = true}";

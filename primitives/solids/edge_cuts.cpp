@@ -446,9 +446,12 @@ std::optional<Error> check(EdgeFrames& frames, double size, bool is_radius) {
   frames.set_size(size, is_radius);
   const auto narrow = frames.first_without_room();
   if (!narrow) return std::nullopt;
-  const SolidEdge& line = frames.graph().edges()[frames.frames()[*narrow].edge].line;
-  return invalid_argument(fmt::format("{} is too much for {}: {:.4g} fits", number_text(size),
-                                      edge_text(line),
+  const EdgeFrame& f = frames.frames()[*narrow];
+  // What a notch leaves of a facet is short, and shorter the finer the circle is.
+  const std::string how_short =
+      f.length < size ? fmt::format(", which is {:.4g} long", f.length) : std::string();
+  return invalid_argument(fmt::format("{} is too much for {}{}: {:.4g} fits", number_text(size),
+                                      edge_text(frames.graph().edges()[f.edge].line), how_short,
                                       frames.size_that_fits(*narrow, size, is_radius)));
 }
 

@@ -239,9 +239,10 @@ TEST(Edges, Mistakes) {
   EXPECT_EQ(message_of("return cube(10):chamfer(6)"),
             "model.lua:1: chamfer: 6 is too much for the edge from {0, 0, 0} to {0, 0, 10}: 5 "
             "fits");
-  EXPECT_EQ(message_of("return cube(10):chamfer(1e17)"),
-            "model.lua:1: chamfer: 1e+17 is too much for the edge from {0, 0, 0} to {0, 0, 10}: 5 "
-            "fits");
+  EXPECT_EQ(
+      message_of("return cube(10):chamfer(1e17)"),
+      "model.lua:1: chamfer: 1e+17 is too much for the edge from {0, 0, 0} to {0, 0, 10}, which "
+      "is 10 long: 5 fits");
   EXPECT_EQ(message_of("return cube(20, 20, 3):fillet(4, 'top')"),
             "model.lua:1: fillet: 4 is too much for the edge from {0, 0, 3} to {0, 20, 3}: 3 "
             "fits");
