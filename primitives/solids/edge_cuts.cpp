@@ -183,6 +183,8 @@ class Cutter {
         points.push_back(f.start + offsets[k] + from.at[k] * f.along);
         points.push_back(f.start + offsets[k] + to.at[k] * f.along);
       }
+      for (const PrismEnd* end : {&from, &to})
+        points.insert(points.end(), end->bends.begin(), end->bends.end());
       return hull_along(std::move(points), f);
     };
     const std::array<const EdgeCorner*, 2> corners{ends_.corner_at(f, 0), ends_.corner_at(f, 1)};

@@ -126,7 +126,12 @@ Result<EdgeEnds::PrismEnd> EdgeEnds::end_of(const EdgeFrame& f, int end) const {
     at = here;
     if (kinds[side] == EdgeEnd::kGoesOn) continue;
     if (kinds[side] == EdgeEnd::kMitre) {
-      at = frames_.at_next_cut(f, end, side) + more;
+      at = frames_.strip_end(f, end, side) + more;
+      for (const EdgeFrames::Bend& bend : frames_.bends(f, end, side)) {
+        const glm::dvec3 along = more * f.along;
+        result.bends.push_back(bend.below + along);
+        result.bends.push_back(bend.top + along - f.outwards() * f.in[1 - side]);
+      }
     } else {
       at = frames_.at_plane(f, end, side, offsets[side]);
       if (kinds[side] == EdgeEnd::kCap) {

@@ -56,7 +56,9 @@ class EdgeEnds {
   [[nodiscard]] static Lines lines(const EdgeFrame& f);
   struct PrismEnd {
     std::array<double, 3> at{};  ///< where these lines end
-    std::optional<Mitre> wall;   ///< the prism goes beyond it
+    /// What else the prism goes round, where the mitre has bends.
+    std::vector<glm::dvec3> bends;
+    std::optional<Mitre> wall;  ///< the prism goes beyond it
   };
   /// Fails where edges that are not chosen come between those that are.
   [[nodiscard]] Result<PrismEnd> end_of(const EdgeFrame& f, int end) const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "primitives/solids/edge_graph.h"
 
@@ -59,6 +60,15 @@ class EdgeFrames {
   /// Along the edge: 0, or its length.
   static double at_end(const EdgeFrame& f, int end) { return end == 0 ? 0 : f.length; }
 
+  /// Where the strip of a side ends at the setback, or, where the edge vanishes before, at most.
+  [[nodiscard]] double strip_end(const EdgeFrame& f, int end, int side) const;
+  /// Where the end of a strip has a bend, as where the next edge vanishes: a place on the side, and
+  /// the one under it in the plane of a chamfer.
+  struct Bend {
+    glm::dvec3 top, below;
+  };
+  [[nodiscard]] std::vector<Bend> bends(const EdgeFrame& f, int end, int side) const;
+
   /// The first chosen edge whose cut leaves one of its sides or meets another cut on it.
   [[nodiscard]] std::optional<uint32_t> first_without_room() const;
   /// For such an edge, a size below `size` that fits, rounded down to something short. Sets sizes.
@@ -72,21 +82,41 @@ class EdgeFrames {
     double x, y;
   };
   [[nodiscard]] Next next(const EdgeFrame& f, int end, int side) const;
-  /// The part of a side that goes: four corners, as {along the edge, into the side}.
-  using Strip = std::array<std::array<double, 2>, 4>;
-  [[nodiscard]] Strip strip(const EdgeFrame& f, int side) const;
+  /// A chosen edge farther along a side, behind corners that point outwards.
+  struct Around {
+    const EdgeFrame* frame;
+    int far_end, side;  ///< of that edge
+    double turn;        ///< at the corner before it, degrees
+  };
+  [[nodiscard]] std::optional<Around> around(const EdgeFrame& f, int end, int side) const;
+  /// Calls visit(around) for one after another, while it says so and they stand alike.
+  template <class Visit>
+  void walk(const EdgeFrame& f, int end, int side, Visit&& visit) const;
+  /// The part of a side that goes: convex, from the edge itself counter-clockwise, as {along the
+  /// edge, into the side}. A short edge may vanish before the setback, between neighbours that
+  /// stand like it: what is nearer to their lines is theirs.
+  using Place = std::array<double, 2>;
+  [[nodiscard]] std::vector<Place> strip(const EdgeFrame& f, int side) const;
+  void clip_strips();
+  [[nodiscard]] std::vector<Place> clipped_strip(const EdgeFrame& f, int side) const;
+  /// The same between its mitres alone: four corners.
+  [[nodiscard]] std::array<Place, 4> plain_strip(const EdgeFrame& f, int side) const;
+  [[nodiscard]] bool reaches_setback(const EdgeFrame& f, int side) const;
 
   /// The corners of a strip in space.
-  [[nodiscard]] std::array<glm::dvec3, 4> strip_in_space(const EdgeFrame& f, int side) const;
+  [[nodiscard]] std::vector<glm::dvec3> strip_in_space(const EdgeFrame& f, int side) const;
   [[nodiscard]] bool has_room(const EdgeFrame& f) const;
   /// Whether a strip is too short for its mitres.
   [[nodiscard]] bool is_turned_over(const EdgeFrame& f, int side) const;
+  [[nodiscard]] bool has_room_at_ends(const EdgeFrame& f, int side) const;
   /// Whether the strip of a side leaves another edge of that side alone, and the strip of that.
   [[nodiscard]] bool has_room_beside(const EdgeFrame& f, int side, uint32_t other) const;
 
   const EdgeGraph& graph_;
   std::vector<EdgeFrame> frames_;
   std::vector<uint32_t> number_;
+  /// Per frame, of those that are turned over and of what may close over these; else nothing.
+  std::vector<std::array<std::vector<Place>, 2>> clipped_;
 };
 
 }  // namespace csgrun

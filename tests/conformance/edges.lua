@@ -111,6 +111,34 @@ for _, n in ipairs{4, 5, 6} do
   near(cut:volume(), hull(cut):volume(), 1e-6)
 end
 
+-- What a notch leaves of a facet is shorter than the cut: its neighbours close over it, as in an offset of the outline.
+local function rim(outline, d)
+  local part, flat = outline:linear_extrude(8), outline:area()
+  local cut, rounded = part:chamfer(d, {edges = "top"}), part:fillet(d, {edges = "top", fn = 24})
+  for _, k in ipairs{0.3, 0.95} do
+    local in_by = d * k
+    near(cut:slice(8 - d + in_by):area(), outline:offset{delta = -in_by}:area(), 1e-6)
+    -- An arc of chords, so no more than the true one has, and more than the chamfer.
+    local area = rounded:slice(8 - d + in_by):area()
+    assert(area > cut:slice(8 - d + in_by):area())
+    assert(area < outline:offset{delta = sqrt(d ^ 2 - in_by ^ 2) - d}:area() + 1e-4)
+  end
+  assert(cut:components() == 1 and cut:genus() == 0 and rounded:components() == 1 and rounded:genus() == 0)
+  assert(#cut:faces{normal = {0, 0, 1}} == 1)
+  return cut
+end
+for _, fn in ipairs{24, 64, 200} do rim(circle(10, {fn = fn}) - square(3, 20):translate(-1.5, 7), 0.5) end
+rim(circle(3, {fn = 48}) - square(6, 6):translate(-3, 2), 0.4) -- a shaft with a flat
+for seed = 1, 3 do
+  local numbers = rands(0, 1, 9, seed)
+  local outline = circle(10, {fn = floor(8 + 30 * numbers[1])}):rotate(360 * numbers[2])
+  for i = 3, 6 do outline = outline * square(40):translate(-20, -36 + 4 * numbers[i]):rotate(360 * numbers[i + 3]) end
+  rim(outline, 0.2 + numbers[2])
+end
+assert(not pcall(rim, circle(10, {fn = 64}), 10.1)) -- all of it would go
+assert(not pcall(rim, square(10), 5.1))
+assert(not pcall(rim, polygon{{0, 0}, {10, 0}, {0, 10}}, 2.95)) -- its inscribed circle has 2.93
+
 -- Blocks at random: walls, corners that point inwards, vertices of many faces. What goes is near to the cross-section of
 -- the cut along all edges, and nothing comes apart, opens or stays behind at their ends.
 for seed = 1, 6 do
