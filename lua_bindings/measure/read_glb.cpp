@@ -54,7 +54,10 @@ struct AppearanceLess {
 using LookNumbers = std::map<Appearance, uint32_t, AppearanceLess>;
 
 uint32_t read_word(std::string_view bytes, size_t at) {
-  if (at + 4 > bytes.size()) throw Malformed{"the file is truncated"};
+  if (at + 4 > bytes.size()) {
+    throw Malformed{"the file ends after " + std::to_string(bytes.size()) +
+                    " bytes, in a number at " + std::to_string(at)};
+  }
   uint32_t word = 0;
   std::memcpy(&word, bytes.data() + at, sizeof word);
   return word;
@@ -532,7 +535,10 @@ std::vector<TriangleMesh> read(std::string_view bytes, const GltfOptions& option
         "it is neither a GLB, which begins with \"glTF\", nor glTF as JSON, which is an "
         "object and begins with \"{\""};
   if (read_word(bytes, 4) != 2) throw Malformed{"only version 2 of GLB is read"};
-  if (read_word(bytes, 8) != bytes.size()) throw Malformed{"the file is not as long as it says"};
+  if (const uint64_t said = read_word(bytes, 8); said != bytes.size()) {
+    throw Malformed{"the file says that it has " + std::to_string(said) + " bytes, but has " +
+                    std::to_string(bytes.size())};
+  }
   const size_t json_size = read_word(bytes, 12);
   if (read_word(bytes, 16) != kJsonChunk || json_size > bytes.size() - 20)
     throw Malformed{"the first chunk must be JSON"};

@@ -187,6 +187,7 @@ MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>
   for (const std::vector<double>& row : arguments.rows("points", 3)) {
     points.emplace_back(row[0], row[1], row[2]);
   }
+  if (arguments.error()) return *arguments.error();  // rather than of the indices of no points
   const size_t before = warnings.size();
   std::vector<std::vector<uint32_t>> faces =
       arguments.index_lists("faces", points.size(), warnings);
