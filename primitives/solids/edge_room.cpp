@@ -239,10 +239,8 @@ bool EdgeFrames::is_turned_over(const EdgeFrame& f, int side) const {
 }
 
 bool EdgeFrames::has_room_at_ends(const EdgeFrame& f, int side) const {
-  if (reaches_setback(f, side)) {
-    // Unless it is turned over, and nothing else clipped it.
-    return !is_turned_over(f, side) || strip_end(f, 0, side) <= strip_end(f, 1, side);
-  }
+  // One that is turned over reaches so far only where no neighbour clipped it.
+  if (reaches_setback(f, side)) return !is_turned_over(f, side);
   for (int end = 0; end < 2; ++end) {
     bool is_closed = false;
     walk(f, end, side, [&](const Around& other) {

@@ -232,8 +232,8 @@ TEST(Glb, SaysWhatIsWrongAndWhere) {
       {"[]",
        "it is neither a GLB, which begins with \"glTF\", nor glTF as JSON, which is an "
        "object and begins with \"{\""},
-      {"gl", "the file ends after 2 bytes, in a number at 0"},
-      {"", "the file ends after 0 bytes, in a number at 0"}};
+      {"gl", "the file ends after 2 bytes, in a number at 4"},
+      {"", "the file ends after 0 bytes, in a number at 4"}};
   for (const auto& [text, said] : kDocuments) {
     const auto meshes = parse_glb("x.gltf", text);
     ASSERT_FALSE(meshes) << text;
