@@ -35,7 +35,7 @@ void EdgeFrames::set_size(double size, bool is_radius) {
   for (EdgeFrame& f : frames_) {
     f.setback = is_radius ? size * tan_deg(graph_.edges()[f.edge].line.turn / 2) : size;
   }
-  clip_strips();
+  find_turned_over();
 }
 
 EdgeFrames::Next EdgeFrames::next(const EdgeFrame& f, int end, int side) const {

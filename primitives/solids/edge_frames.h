@@ -33,6 +33,8 @@ enum class EdgeEnd : uint8_t {
 class EdgeFrames {
  public:
   EdgeFrames(const EdgeGraph& graph, std::span<const uint32_t> chosen);
+  EdgeFrames(const EdgeFrames&) = delete;
+  EdgeFrames& operator=(const EdgeFrames&) = delete;
 
   /// Distance from the edge on both sides; for a fillet the radius, of which it follows.
   void set_size(double size, bool is_radius);
@@ -82,14 +84,15 @@ class EdgeFrames {
     double x, y;
   };
   [[nodiscard]] Next next(const EdgeFrame& f, int end, int side) const;
-  /// A chosen edge farther along a side, behind corners that point outwards.
+  /// The chosen edge that is next on a side, behind a corner that points outwards, if it stands
+  /// like the one before it and no other cut ends there.
   struct Around {
-    const EdgeFrame* frame;
-    int far_end, side;  ///< of that edge
-    double turn;        ///< at the corner before it, degrees
+    const EdgeFrame* frame = nullptr;  ///< null if there is none
+    int far_end = 0, side = 0;         ///< of that edge
+    double turn = 0;                   ///< at the corner, degrees
   };
-  [[nodiscard]] std::optional<Around> around(const EdgeFrame& f, int end, int side) const;
-  /// Calls visit(around) for one after another, while it says so and they stand alike.
+  [[nodiscard]] Around around(const EdgeFrame& f, int end, int side) const;
+  /// Calls visit(around) for one after another, while it says so.
   template <class Visit>
   void walk(const EdgeFrame& f, int end, int side, Visit&& visit) const;
   /// The part of a side that goes: convex, from the edge itself counter-clockwise, as {along the
@@ -97,7 +100,7 @@ class EdgeFrames {
   /// stand like it: what is nearer to their lines is theirs.
   using Place = std::array<double, 2>;
   [[nodiscard]] std::vector<Place> strip(const EdgeFrame& f, int side) const;
-  void clip_strips();
+  void find_turned_over();
   [[nodiscard]] std::vector<Place> clipped_strip(const EdgeFrame& f, int side) const;
   /// The same between its mitres alone: four corners.
   [[nodiscard]] std::array<Place, 4> plain_strip(const EdgeFrame& f, int side) const;
@@ -107,7 +110,9 @@ class EdgeFrames {
   [[nodiscard]] std::vector<glm::dvec3> strip_in_space(const EdgeFrame& f, int side) const;
   [[nodiscard]] bool has_room(const EdgeFrame& f) const;
   /// Whether a strip is too short for its mitres.
-  [[nodiscard]] bool is_turned_over(const EdgeFrame& f, int side) const;
+  [[nodiscard]] bool is_turned_over(const EdgeFrame& f, int side) const {
+    return is_turned_over_[number_[f.edge]][static_cast<size_t>(side)];
+  }
   [[nodiscard]] bool has_room_at_ends(const EdgeFrame& f, int side) const;
   /// Whether the strip of a side leaves another edge of that side alone, and the strip of that.
   [[nodiscard]] bool has_room_beside(const EdgeFrame& f, int side, uint32_t other) const;
@@ -115,8 +120,13 @@ class EdgeFrames {
   const EdgeGraph& graph_;
   std::vector<EdgeFrame> frames_;
   std::vector<uint32_t> number_;
-  /// Per frame, of those that are turned over and of what may close over these; else nothing.
-  std::vector<std::array<std::vector<Place>, 2>> clipped_;
+  /// By frame, end and side.
+  std::vector<std::array<std::array<Around, 2>, 2>> around_;
+  /// Per frame and side, for the size that was set last: whether the strip is turned over, and, if
+  /// any is, the strips that were asked for.
+  std::vector<std::array<bool, 2>> is_turned_over_;
+  bool any_turned_over_ = false;
+  mutable std::vector<std::array<std::vector<Place>, 2>> strips_;
 };
 
 }  // namespace csgrun

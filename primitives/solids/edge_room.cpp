@@ -73,56 +73,71 @@ class Clipped {
 
 }  // namespace
 
-std::optional<EdgeFrames::Around> EdgeFrames::around(const EdgeFrame& f, int end, int side) const {
-  if (kind(f, end, side) != EdgeEnd::kMitre) return std::nullopt;
+EdgeFrames::Around EdgeFrames::around(const EdgeFrame& f, int end, int side) const {
+  // Bodies at corners of more cuts are made for edges that reach them.
+  const EdgeEnd below = kind(f, end, 1 - side);
+  if (kind(f, end, side) != EdgeEnd::kMitre || below == EdgeEnd::kMitre ||
+      below == EdgeEnd::kInside) {
+    return {};
+  }
   const Next n = next(f, end, side);
   const EdgeGraph::Edge &own = graph_.edges()[f.edge], &other = graph_.edges()[n.edge];
-  return Around{frame_of(n.edge), other.vertex[0] == own.vertex[end] ? 1 : 0,
-                other.side[0] == own.side[side] ? 0 : 1, atan2_deg(n.y, -n.x)};
+  // Cuts are as deep as far in only if they stand alike on the side.
+  if (std::fabs(other.line.turn - own.line.turn) > kAlike) return {};
+  return {frame_of(n.edge), other.vertex[0] == own.vertex[end] ? 1 : 0,
+          other.side[0] == own.side[side] ? 0 : 1, atan2_deg(n.y, -n.x)};
 }
 
 template <class Visit>
 void EdgeFrames::walk(const EdgeFrame& f, int end, int side, Visit&& visit) const {
-  const double upright = graph_.edges()[f.edge].line.turn;
   double turn = 0;
-  const EdgeFrame* at = &f;
+  uint32_t at = number_[f.edge];
   for (int i = 0; i < kMostVanishing; ++i) {
-    // Bodies at corners of more cuts are made for edges that reach them.
-    const EdgeEnd below = kind(*at, end, 1 - side);
-    const auto next = around(*at, end, side);
-    if (!next || below == EdgeEnd::kMitre || below == EdgeEnd::kInside) return;
-    turn += next->turn;
-    // Cuts are as deep as far in only if they stand alike on the side.
-    const double its_upright = graph_.edges()[next->frame->edge].line.turn;
-    if (turn > kMostTurn || std::fabs(its_upright - upright) > kAlike) return;
-    if (next->frame->edge == f.edge || !visit(*next)) return;
-    at = next->frame, end = next->far_end, side = next->side;
+    const Around& next = around_[at][static_cast<size_t>(end)][static_cast<size_t>(side)];
+    if (next.frame == nullptr || next.frame->edge == f.edge) return;
+    turn += next.turn;
+    if (turn > kMostTurn || !visit(next)) return;
+    at = number_[next.frame->edge], end = next.far_end, side = next.side;
   }
 }
 
-void EdgeFrames::clip_strips() {
-  clipped_.assign(frames_.size(), {});
-  const auto clip = [&](const EdgeFrame& f, int side) {
-    auto& own = clipped_[number_[f.edge]][static_cast<size_t>(side)];
-    if (own.empty()) own = clipped_strip(f, side);
-    return true;
-  };
-  for (const EdgeFrame& f : frames_) {
-    for (int side = 0; side < 2; ++side) {
-      if (!is_turned_over(f, side)) continue;
-      clip(f, side);
-      for (int end = 0; end < 2; ++end) {
-        walk(f, end, side, [&](const Around& other) { return clip(*other.frame, other.side); });
+void EdgeFrames::find_turned_over() {
+  if (around_.empty()) {
+    for (const EdgeFrame& f : frames_) {
+      auto& own = around_.emplace_back();
+      for (size_t end = 0; end < 2; ++end) {
+        for (size_t side = 0; side < 2; ++side)
+          own[end][side] = around(f, static_cast<int>(end), static_cast<int>(side));
       }
     }
   }
+  is_turned_over_.assign(frames_.size(), {});
+  any_turned_over_ = false;
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    for (int side = 0; side < 2; ++side) {
+      const std::array<Place, 4> own = plain_strip(frames_[i], side);
+      const bool is_over = own[3][0] > own[2][0] + kTouch * frames_[i].setback;
+      is_turned_over_[i][static_cast<size_t>(side)] = is_over;
+      any_turned_over_ |= is_over;
+    }
+  }
+  strips_.assign(any_turned_over_ ? frames_.size() : 0, {});
 }
 
 std::vector<EdgeFrames::Place> EdgeFrames::strip(const EdgeFrame& f, int side) const {
-  const auto& clipped = clipped_[number_[f.edge]][static_cast<size_t>(side)];
-  if (!clipped.empty()) return clipped;
   const std::array<Place, 4> plain = plain_strip(f, side);
-  return {plain.begin(), plain.end()};
+  if (!any_turned_over_) return {plain.begin(), plain.end()};
+  auto& known = strips_[number_[f.edge]][static_cast<size_t>(side)];
+  if (!known.empty()) return known;
+  bool is_clipped = is_turned_over(f, side);
+  for (int end = 0; end < 2 && !is_clipped; ++end) {
+    walk(f, end, side, [&](const Around& other) {
+      is_clipped = is_turned_over(*other.frame, other.side);
+      return !is_clipped;
+    });
+  }
+  known = is_clipped ? clipped_strip(f, side) : std::vector<Place>(plain.begin(), plain.end());
+  return known;
 }
 
 std::vector<EdgeFrames::Place> EdgeFrames::clipped_strip(const EdgeFrame& f, int side) const {
@@ -231,11 +246,6 @@ bool EdgeFrames::has_room_beside(const EdgeFrame& f, int side, uint32_t other_id
   Clipped common(corners);
   clip(common);
   return common.area() <= margin * f.setback;
-}
-
-bool EdgeFrames::is_turned_over(const EdgeFrame& f, int side) const {
-  const std::array<Place, 4> own = plain_strip(f, side);
-  return own[3][0] > own[2][0] + kTouch * f.setback;
 }
 
 bool EdgeFrames::has_room_at_ends(const EdgeFrame& f, int side) const {
