@@ -147,8 +147,7 @@ std::vector<EdgeFrames::Place> EdgeFrames::clipped_strip(const EdgeFrame& f, int
   const glm::dvec3& across = f.in[static_cast<size_t>(side)];
   for (int end = 0; end < 2; ++end) {
     walk(f, end, side, [&](const Around& other) {
-      // What is no farther from our line, as far in as y, than from the other's: u x + v y >=
-      // least.
+      // What is no farther from our line, which is y, than from the other's: u x + v y >= least.
       const glm::dvec3& inwards = other.frame->in[static_cast<size_t>(other.side)];
       const double u = glm::dot(inwards, f.along), v = glm::dot(inwards, across) - 1;
       const double least = glm::dot(other.frame->start - f.start, inwards), size = u * u + v * v;
