@@ -29,7 +29,7 @@ class Mistakes(Case):
     def test_what_openscad_users_write(self):
         for text, message in (
                 ("cube([1, 2, 3]);", "unexpected symbol near '['; a list stands in braces: {10, 20, 30}"),
-                ("return union{cube(1) sphere(2)}", "near 'sphere'; what stands in braces is separated by commas"),
+                ("return union{cube(1) sphere(2)}", "'}' expected near 'sphere'; what stands in braces is separated by commas"),
                 ("return cube({1, 2, 3}, center=true)", "')' expected near '='; options by name stand in braces: cube{"),
                 ("return translate{1, 2, 3} cube(10)", "<eof> expected near 'cube'; what is changed stands before: cube(10):translate("),
                 ("return cylinder(5, 10, $fn=32)", "unexpected symbol near '$'; the facets are fn, fa and fs: sphere(5, {fn = 64})"),
