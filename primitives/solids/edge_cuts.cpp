@@ -219,6 +219,12 @@ class Cutter {
       } else {
         const auto [low, high] = std::minmax_element(ends[end].at.begin(), ends[end].at.end());
         at[end] = end == 0 ? *low - f.setback : *high + f.setback;
+        // Beyond the points in which cuts meet at a tip it would be left beside that.
+        if (ends_.is_tip(f, end)) {
+          const double left = frames_.at_next_cut(f, end, 0),
+                       right = frames_.at_next_cut(f, end, 1);
+          at[end] = end == 0 ? std::max(left, right) : std::min(left, right);
+        }
         middle = axis + at[end] * f.along;
       }
       points.push_back(middle);
@@ -293,46 +299,27 @@ class Cutter {
     return balls_[static_cast<size_t>(&corner - ends_.corners().data())];
   }
 
-  /// The points in which the lines beside the edges of a corner meet on its sides.
-  [[nodiscard]] std::vector<glm::dvec3> meeting_points(uint32_t vertex,
-                                                       std::span<const uint32_t> frames) const {
-    std::vector<glm::dvec3> points;
-    for (const uint32_t k : frames) {
-      const EdgeFrame& f = frames_.frames()[k];
-      const int end = ends_.end_at(f, vertex);
-      for (int side = 0; side < 2; ++side) {
-        points.push_back(f.start + f.setback * f.in[side] +
-                         frames_.at_next_cut(f, end, side) * f.along);
-      }
-    }
-    return points;
-  }
-
-  /// The cuts along four edges and more leave a needle between them: between the corner and the
-  /// points in which they meet on the sides. It goes by the plane across the corner's axis through
-  /// the lowest of these.
+  /// The cuts along four edges and more leave a needle between them: the hull of the corner and the
+  /// points in which they meet on the sides. It goes, and a little of what the cuts take.
   void cut_tip(const EdgeTip& tip) {
     const EdgeFrame& first = frames_.frames()[tip.frames[0]];
     const glm::dvec3 corner = solid_.positions[tip.vertex];
-    std::vector<glm::dvec3> along;  // the edges, away from the corner
-    glm::dvec3 axis(0);
-    double reach = first.outwards();
+    glm::dvec3 axis(0);  // inwards: all of a convex corner is behind all its sides
+    std::vector<glm::dvec3> points;
+    double reach = 0;
     for (const uint32_t k : tip.frames) {
       const EdgeFrame& f = frames_.frames()[k];
-      along.push_back(ends_.end_at(f, tip.vertex) == 0 ? f.along : -f.along);
-      axis += along.back();
-      reach = std::min(reach, f.outwards());
+      for (const glm::dvec3& n : edge(f).line.normals) axis -= n;
+      reach = std::max(reach, f.outwards());
+      const auto [left, right] = ends_.meeting_points(f, ends_.end_at(f, tip.vertex));
+      glm::dvec3 outwards = glm::normalize(glm::cross(left - corner, right - corner));
+      if (glm::dot(outwards, f.in[0] + f.in[1]) > 0) outwards = -outwards;
+      const glm::dvec3 overlap = 2 * f.outwards() * outwards;
+      for (const glm::dvec3& p : {left, right, corner}) points.push_back(p + overlap);
+      points.push_back(left);
+      points.push_back(right);
     }
-    axis = glm::normalize(axis);
-    double depth = 0;
-    for (const glm::dvec3& p : meeting_points(tip.vertex, tip.frames))
-      depth = std::max(depth, glm::dot(p - corner, axis));
-    std::vector<glm::dvec3> points{corner - 4 * reach * axis};
-    for (const glm::dvec3& a : along) {
-      // A little larger, in the same plane.
-      const glm::dvec3 across = a / glm::dot(a, axis) - axis;
-      points.push_back(corner + depth * axis + (depth + 4 * reach / glm::length(across)) * across);
-    }
+    points.push_back(corner - 4 * reach * glm::normalize(axis));
     cuts_.push_back(hull(std::move(points), first));
   }
 
@@ -343,7 +330,12 @@ class Cutter {
     for (const uint32_t k : corner.frames) reach = std::min(reach, frames_.frames()[k].outwards());
     const glm::dvec3 outside = ends_.in_front(corner, reach);
     if (!is_fillet()) {
-      std::vector<glm::dvec3> points = meeting_points(corner.vertex, corner.frames);
+      std::vector<glm::dvec3> points;
+      for (const uint32_t k : corner.frames) {
+        const EdgeFrame& f = frames_.frames()[k];
+        for (const glm::dvec3& p : ends_.meeting_points(f, ends_.end_at(f, corner.vertex)))
+          points.push_back(p);
+      }
       // Each is there twice, from both edges of its side. A little larger, in the same plane.
       glm::dvec3 sum(0);
       for (const glm::dvec3& p : points) sum += p;

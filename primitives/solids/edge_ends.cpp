@@ -89,6 +89,15 @@ EdgeEnds::Lines EdgeEnds::lines(const EdgeFrame& f) {
           -out * (f.in[0] + f.in[1])};
 }
 
+std::array<glm::dvec3, 2> EdgeEnds::meeting_points(const EdgeFrame& f, int end) const {
+  std::array<glm::dvec3, 2> points;
+  for (int side = 0; side < 2; ++side) {
+    points[static_cast<size_t>(side)] =
+        f.start + f.setback * f.in[side] + frames_.at_next_cut(f, end, side) * f.along;
+  }
+  return points;
+}
+
 Result<EdgeEnds::PrismEnd> EdgeEnds::end_of(const EdgeFrame& f, int end) const {
   const Lines offsets = lines(f);
   PrismEnd result;
@@ -106,6 +115,15 @@ Result<EdgeEnds::PrismEnd> EdgeEnds::end_of(const EdgeFrame& f, int end) const {
     return result;
   }
   const double here = EdgeFrames::at_end(f, end);
+  if (is_tip(f, end)) {
+    // In the plane between the edge and what is left for the tip, wherever the lines are.
+    const glm::dvec3& corner = solid_.positions[edge(f).vertex[end]];
+    const auto [left, right] = meeting_points(f, end);
+    const glm::dvec3 normal = glm::cross(left - corner, right - corner);
+    for (size_t k = 0; k < 3; ++k)
+      result.at[k] = here - glm::dot(normal, offsets[k]) / glm::dot(normal, f.along) + more;
+    return result;
+  }
   std::array<EdgeEnd, 2> kinds;
   for (int side = 0; side < 2; ++side) kinds[side] = frames_.kind(f, end, side);
   if (kinds[0] == EdgeEnd::kInside || kinds[1] == EdgeEnd::kInside) {

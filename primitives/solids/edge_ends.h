@@ -1,6 +1,7 @@
 // Where the bodies along chosen edges end: at other sides of the solid, and at one another.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,6 +40,12 @@ class EdgeEnds {
 
   [[nodiscard]] const std::vector<EdgeCorner>& corners() const { return corners_; }
   [[nodiscard]] const std::vector<EdgeTip>& tips() const { return tips_; }
+  [[nodiscard]] bool is_tip(const EdgeFrame& f, int end) const {
+    const auto at = [](const EdgeTip& tip, uint32_t vertex) { return tip.vertex < vertex; };
+    const uint32_t vertex = edge(f).vertex[end];
+    const auto found = std::lower_bound(tips_.begin(), tips_.end(), vertex, at);
+    return found != tips_.end() && found->vertex == vertex;
+  }
   /// The end of an edge at a vertex.
   [[nodiscard]] int end_at(const EdgeFrame& f, uint32_t vertex) const {
     return edge(f).vertex[0] == vertex ? 0 : 1;
@@ -54,6 +61,8 @@ class EdgeEnds {
   /// the sides and the one outside of the edge.
   using Lines = std::array<glm::dvec3, 3>;
   [[nodiscard]] static Lines lines(const EdgeFrame& f);
+  /// Where the lines on the sides meet those of the next edges, at one end.
+  [[nodiscard]] std::array<glm::dvec3, 2> meeting_points(const EdgeFrame& f, int end) const;
   struct PrismEnd {
     std::array<double, 3> at{};  ///< where these lines end
     /// What else the prism goes round, where the mitre has bends.
@@ -79,7 +88,7 @@ class EdgeEnds {
   const EdgeFrames& frames_;
   const bool is_fillet_;
   std::vector<EdgeCorner> corners_;
-  std::vector<EdgeTip> tips_;
+  std::vector<EdgeTip> tips_;        ///< ascending
   std::vector<uint32_t> corner_of_;  ///< by vertex of the solid: its place in corners_
 };
 

@@ -29,6 +29,13 @@ EdgeFrames::EdgeFrames(const EdgeGraph& graph, std::span<const uint32_t> chosen)
     f.in = {glm::normalize(glm::cross(line.normals[0], f.along)),
             glm::normalize(glm::cross(f.along, line.normals[1]))};
   }
+  for (const EdgeFrame& f : frames_) {
+    auto& own = around_.emplace_back();
+    for (size_t end = 0; end < 2; ++end) {
+      for (size_t side = 0; side < 2; ++side)
+        own[end][side] = around(f, static_cast<int>(end), static_cast<int>(side));
+    }
+  }
 }
 
 void EdgeFrames::set_size(double size, bool is_radius) {

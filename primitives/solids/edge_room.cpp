@@ -71,6 +71,13 @@ class Clipped {
   std::vector<Point> corners_, rest_;
 };
 
+/// How far into the side a strip goes.
+double height_of(std::span<const Point> strip) {
+  double height = 0;
+  for (const Point& p : strip) height = std::max(height, p[1]);
+  return height;
+}
+
 }  // namespace
 
 EdgeFrames::Around EdgeFrames::around(const EdgeFrame& f, int end, int side) const {
@@ -102,15 +109,6 @@ void EdgeFrames::walk(const EdgeFrame& f, int end, int side, Visit&& visit) cons
 }
 
 void EdgeFrames::find_turned_over() {
-  if (around_.empty()) {
-    for (const EdgeFrame& f : frames_) {
-      auto& own = around_.emplace_back();
-      for (size_t end = 0; end < 2; ++end) {
-        for (size_t side = 0; side < 2; ++side)
-          own[end][side] = around(f, static_cast<int>(end), static_cast<int>(side));
-      }
-    }
-  }
   is_turned_over_.assign(frames_.size(), {});
   any_turned_over_ = false;
   for (size_t i = 0; i < frames_.size(); ++i) {
@@ -161,8 +159,7 @@ std::vector<EdgeFrames::Place> EdgeFrames::clipped_strip(const EdgeFrame& f, int
 
 double EdgeFrames::strip_end(const EdgeFrame& f, int end, int side) const {
   const std::vector<Place> own = strip(f, side);
-  double top = 0;
-  for (const Place& p : own) top = std::max(top, p[1]);
+  const double top = height_of(own);
   double at = end == 0 ? HUGE_VAL : -HUGE_VAL;
   for (const Place& p : own) {
     if (p[1] < top - kTouch * f.setback) continue;
@@ -174,9 +171,7 @@ double EdgeFrames::strip_end(const EdgeFrame& f, int end, int side) const {
 std::vector<EdgeFrames::Bend> EdgeFrames::bends(const EdgeFrame& f, int end, int side) const {
   const std::vector<Place> own = strip(f, side);
   std::vector<Bend> result;
-  if (own.size() <= 4 && reaches_setback(f, side)) return result;
-  double top = 0;
-  for (const Place& p : own) top = std::max(top, p[1]);
+  const double top = height_of(own);
   const double margin = kTouch * f.setback, middle = strip_end(f, end, side);
   for (const Place& p : own) {
     if (p[1] <= margin || p[1] >= top - margin) continue;
@@ -189,9 +184,7 @@ std::vector<EdgeFrames::Bend> EdgeFrames::bends(const EdgeFrame& f, int end, int
 }
 
 bool EdgeFrames::reaches_setback(const EdgeFrame& f, int side) const {
-  const std::vector<Place> own = strip(f, side);
-  return std::any_of(own.begin(), own.end(),
-                     [&](const Place& p) { return p[1] >= f.setback * (1 - kTouch); });
+  return height_of(strip(f, side)) >= f.setback * (1 - kTouch);
 }
 
 std::array<EdgeFrames::Place, 4> EdgeFrames::plain_strip(const EdgeFrame& f, int side) const {

@@ -111,6 +111,36 @@ for _, n in ipairs{4, 5, 6} do
   near(cut:volume(), hull(cut):volume(), 1e-6)
 end
 
+-- Where the tip is aslant: what goes is as near to an edge as its setback, or in the hull of the tip and these points.
+local skew = polyhedron{points = {{10, 0, 0}, {0, 10, 0}, {-10, 1, 0}, {1, -10, 0}, {6, 5, 7}},
+  faces = {{0, 1, 2, 3}, {1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}}}
+local tip, flanks = vec(6, 5, 7), {}
+for _, e in ipairs(skew:edges()) do if e.to.z + e.from.z > 1 then flanks[#flanks + 1] = e end end
+assert(#flanks == 4)
+for _, how in ipairs{"chamfer", "fillet"} do
+  local cut, spent, ways = skew[how](skew, 0.5, {edges = flanks}), {}, {}
+  for i, e in ipairs(flanks) do
+    local foot = vec(e.from.x, e.from.y, e.from.z)
+    if foot.z > 1 then foot = vec(e.to.x, e.to.y, e.to.z) end
+    local setback = how == "chamfer" and 0.5 or 0.5 * tan(e.turn / 2)
+    ways[i] = {u = (foot - tip) / norm(foot - tip), setback = setback, around = atan2(foot.y, foot.x)}
+    local function ball(p) return sphere{r = 1.06 * setback, fn = 24}:translate(p.x, p.y, p.z) end
+    spent[i] = hull(ball(foot), ball(tip))
+  end
+  table.sort(ways, function(a, b) return a.around < b.around end)
+  local corners = {cube(1e-4):translate(tip.x, tip.y, tip.z)}
+  for i, a in ipairs(ways) do
+    local b = ways[i % 4 + 1]
+    local m = tip + (b.setback * a.u + a.setback * b.u) / norm(cross(a.u, b.u)) * 1.01
+    corners[#corners + 1] = cube(1e-4):translate(m.x, m.y, m.z)
+  end
+  spent[#spent + 1] = hull(corners)
+  assert((skew - cut - union(spent)):volume() < 1e-4)
+  -- And nothing stays at the tip.
+  assert((cut * sphere{r = 0.2, fn = 12}:translate(tip.x, tip.y, tip.z)):volume() == 0)
+  assert(cut:components() == 1 and cut:genus() == 0 and (cut - skew):volume() == 0)
+end
+
 -- What a notch leaves of a facet is shorter than the cut: its neighbours close over it, as in an offset of the outline.
 local function rim(outline, d)
   local part, flat = outline:linear_extrude(8), outline:area()
