@@ -6,6 +6,8 @@
 #include <initializer_list>
 #include <set>
 
+#include "lua_bindings/openscad_hints.h"
+
 namespace csgrun {
 namespace {
 
@@ -28,14 +30,9 @@ bool is_keyword(std::string_view word) {
                           "repeat",   "return", "then", "true", "until",  "while"});
 }
 
-bool is_transform(std::string_view function) {
-  return is_one_of(function, {"translate", "rotate", "scale", "mirror", "color", "linear_extrude",
-                              "rotate_extrude", "offset", "resize", "multmatrix", "projection"});
-}
-
 /// What these give is all that they do.
 bool only_gives(std::string_view function) {
-  return is_transform(function) ||
+  return is_written_before(function) ||
          is_one_of(function, {"union", "difference", "intersection", "hull", "minkowski", "cube",
                               "sphere", "cylinder", "polyhedron", "square", "circle", "polygon"});
 }
@@ -154,7 +151,7 @@ class Finder {
       return dropped + "a solid does not change, write " + object + " = " + object + ":" + name +
              "(...)";
     }
-    if (!is_transform(name)) return dropped + "return it, or give it a name";
+    if (!is_written_before(name)) return dropped + "return it, or give it a name";
     return dropped + "it stands behind what it is made of, as in cube(10):translate(0, 0, 5)";
   }
 

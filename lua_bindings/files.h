@@ -15,6 +15,9 @@ struct FileText {
 };
 FileText read_whole_file(const std::string& path);
 
+/// Whether two paths lead to one file that is there.
+bool is_same_file(const std::string& a, const std::string& b);
+
 /// The folder of a path: "a/b.lua" -> "a", "b.lua" -> "" (the working folder).
 std::string folder_of(const std::string& path);
 /// `name` seen from `folder`.

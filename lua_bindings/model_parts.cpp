@@ -132,16 +132,16 @@ Result<std::vector<ModelPart>> read_mesh(const std::string& name, std::string_vi
   auto mesh = parse_mesh(name, bytes, &objects, options.open ? &material_files : nullptr, notes);
   if (!mesh) return mesh.error();
   std::set<std::string, std::less<>> known{"default"};
-  bool all_are_read = !material_files.empty();
+  const size_t notes_before = notes->size();
   for (const std::string& statement : material_files) {
-    const auto files = open_materials(name, statement, options, notes);
-    all_are_read &= !files.empty();
-    for (const auto& [file, text] : files) {
+    for (const auto& [file, text] : open_materials(name, statement, options, notes)) {
       if (Status applied = apply_materials(*mesh, file, text, &known); !applied)
         return applied.error();
     }
   }
-  if (all_are_read) note_unknown_materials(name, *mesh, known, notes);
+  // What cannot be read may have described them.
+  if (!material_files.empty() && notes->size() == notes_before)
+    note_unknown_materials(name, *mesh, known, notes);
   const bool has_colours = std::any_of(mesh->appearances.begin(), mesh->appearances.end(),
                                        [](const Appearance& look) { return !look.is_default; });
   if (!has_colours) {

@@ -1,6 +1,7 @@
 #include "lua_bindings/openscad_hints.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace csgrun {
 namespace {
@@ -32,6 +33,10 @@ bool is_assignment_by(std::string_view line) {
 }
 
 }  // namespace
+
+bool is_written_before(std::string_view function) {
+  return std::find(std::begin(kMovers), std::end(kMovers), function) != std::end(kMovers);
+}
 
 std::string run_time_hint(std::string_view message) {
   if (has(message, "attempt to call a table value") && has(message, "for iterator"))

@@ -13,6 +13,9 @@ std::string syntax_hint(std::string_view line, std::string_view message);
 /// What a message of Lua's own about a mistake of many means, for the end of it; empty for others.
 std::string run_time_hint(std::string_view message);
 
+/// Whether a function is one that OpenSCAD writes before what it changes.
+bool is_written_before(std::string_view function);
+
 /// What stands for one of OpenSCAD's functions that there is under another name; null for others.
 const char* name_hint(std::string_view name);
 

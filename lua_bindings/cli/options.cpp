@@ -19,6 +19,7 @@
 #include "lua_bindings/cli/exit_codes.h"
 #include "lua_bindings/cli/info.h"
 #include "lua_bindings/cli/parameter_file.h"
+#include "lua_bindings/files.h"
 #include "lua_bindings/model_parts.h"
 #include "lua_bindings/nearest.h"
 
@@ -40,11 +41,6 @@ std::string ending_of(const std::string& path) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
   return ending;
-}
-
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  return std::filesystem::equivalent(a, b, error) && !error;
 }
 
 void check_output(const std::string& path, const CommandLine& line) {

@@ -200,8 +200,7 @@ class Run {
 
   Failure load_mesh(const std::string& bytes) {
     if (Failure failure = refuse_definitions(); failure.failed()) return failure;
-    const Facets usual;
-    if (line_.facets.fn != usual.fn || line_.facets.fa != usual.fa || line_.facets.fs != usual.fs)
+    if (line_.facets != Facets())
       return {kExitUsage, "csgrun: --fn, --fa and --fs: the facets of a mesh are what they are"};
     ModelPartOptions options;
     std::vector<std::string> notes;
@@ -426,10 +425,9 @@ class Run {
   /// What the model was made of is not replaced by what is made of it.
   [[nodiscard]] Failure check_source(const std::string& path) const {
     const auto& sources = session_.files().sources();
-    const bool is_source = std::any_of(sources.begin(), sources.end(), [&](const auto& source) {
-      std::error_code ignored;  // set when there is no such file yet
-      return std::filesystem::equivalent(path, source, ignored);
-    });
+    const bool is_source =
+        std::any_of(sources.begin(), sources.end(),
+                    [&](const std::string& source) { return is_same_file(path, source); });
     if (!is_source) return {};
     return {kExitUsage,
             fmt::format("csgrun: '{}' is read by the model and would be overwritten", path)};

@@ -36,7 +36,7 @@ class Decimals {
   std::mt19937 random_;
 };
 
-/// In which the axes of the shear are X and Z, and one of four ways in which all of it stands.
+/// The axes of a shear, and how all of it is turned: every other round not at all.
 struct Standing {
   int of, along;
   Affine map;

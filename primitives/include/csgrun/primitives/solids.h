@@ -16,6 +16,7 @@ namespace csgrun {
 struct Facets {
   double fn = 0, fa = 12, fs = 2;
   double fe = 0;  ///< mm between a circle and its sides; fa and fs do not count then. 0: not asked
+  friend bool operator==(const Facets&, const Facets&) = default;
   /// Whether fe says how many fragments there are; it is finite then.
   [[nodiscard]] bool by_error() const;
   /// Number of fragments of a full (or partial) turn of radius r.
