@@ -32,6 +32,7 @@ bool is_keyword(std::string_view word) {
 
 /// What these give is all that they do.
 bool only_gives(std::string_view function) {
+  if (function == "render") return false;  // makes a part of what it is given
   return is_written_before(function) ||
          is_one_of(function, {"union", "difference", "intersection", "hull", "minkowski", "cube",
                               "sphere", "cylinder", "polyhedron", "square", "circle", "polygon"});

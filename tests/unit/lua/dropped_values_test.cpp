@@ -41,10 +41,11 @@ TEST(DroppedValues, AreWholeStatements) {
   EXPECT_EQ(lines("x = 0x1p-3 cube(1)\nx = 1e+5 cube(1)"), (Lines{1, 2}));
   for (const char* const used :
        {"return cube(1)", "local a = cube(1)", "local a =\n  translate(1, 2, 3, b)\nlocal c = 1",
-        "emit(cube(1))", "a = {cube(1), cube(2)}", "a = {\n  cube(1)\n}", "a = b + cube(1)",
-        "a = not cube(1)", "a = b and cube(1) or c", "a = b .. cube(1)", "cube(1):emit()",
-        "a[cube(1)] = 1", "cube.x = 1", "x = f or cube(1)", "while cube(1) do end",
-        "for _, x in cube(1) do end", "f(a, cube(1))", "a:union(b):emit()"}) {
+        "emit(cube(1))", "render(cube(1))", "a = {cube(1), cube(2)}", "a = {\n  cube(1)\n}",
+        "a = b + cube(1)", "a = not cube(1)", "a = b and cube(1) or c", "a = b .. cube(1)",
+        "cube(1):emit()", "a[cube(1)] = 1", "cube.x = 1", "x = f or cube(1)",
+        "while cube(1) do end", "for _, x in cube(1) do end", "f(a, cube(1))",
+        "a:union(b):emit()"}) {
     EXPECT_EQ(lines(used), Lines{}) << used;
   }
 }
