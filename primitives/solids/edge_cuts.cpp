@@ -24,13 +24,14 @@ namespace {
 class Cutter {
  public:
   Cutter(const char* name, const Solid& solid, const EdgeFrames& frames, const EdgeEnds& ends,
-         double radius, const Facets& facets, SourceRef where)
+         double radius, const Facets& facets, double grid_step_mm, SourceRef where)
       : name_(name),
         solid_(solid),
         frames_(frames),
         ends_(ends),
         radius_(radius),
         facets_(facets),
+        grid_step_mm_(grid_step_mm),
         where_(std::move(where)) {}
 
   Result<std::vector<NodePtr>> cuts() {
@@ -143,8 +144,12 @@ class Cutter {
     result.push_back(b);
     return result;
   }
+  /// Angles are measured between sides on the grid: what is a whole number of facets but for that
+  /// must give it at every corner.
   [[nodiscard]] int parts_of(double turn) const {
-    return std::max(1, static_cast<int>(std::ceil(facets_.fragments(radius_) * turn / 360 - 1e-9)));
+    constexpr double kWhole = 1e-3;
+    const double parts = facets_.fragments(radius_) * turn / 360;
+    return std::max(1, static_cast<int>(std::ceil(parts - kWhole)));
   }
   [[nodiscard]] std::vector<glm::dvec3> arc_of(const EdgeFrame& f) const {
     const SolidEdge& line = edge(f).line;
@@ -202,6 +207,14 @@ class Cutter {
     return std::nullopt;
   }
 
+  /// How far above a side that is aslant its facet is where it would touch it: enough that it meets
+  /// the side before the prism ends there, wherever both are rounded to. Else they leave a step,
+  /// with an edge that is shorter than those of the grid.
+  [[nodiscard]] double lift() const {
+    constexpr double kSteps = 8;
+    return kSteps * grid_step_mm_;
+  }
+
   /// The part of the cylinder that stays: between its axis and its surface, as long as the prisms
   /// and longer; at a ball up to it. Null where nothing is between two balls.
   NodePtr round_body(const EdgeFrame& f, const std::array<PrismEnd, 2>& ends,
@@ -209,6 +222,7 @@ class Cutter {
     const SolidEdge& line = edge(f).line;
     const glm::dvec3 axis = f.start + f.setback * f.in[0] - radius_ * line.normals[0];
     const std::vector<glm::dvec3> directions = arc_of(f);
+    const bool has_ball = corners[0] != nullptr || corners[1] != nullptr;
     std::array<double, 2> at{};
     std::vector<glm::dvec3> points;
     for (int end = 0; end < 2; ++end) {
@@ -228,16 +242,21 @@ class Cutter {
         middle = axis + at[end] * f.along;
       }
       points.push_back(middle);
+      const size_t first = points.size(), last = directions.size() - 1;
       for (const glm::dvec3& d : directions) points.push_back(middle + radius_ * d);
       // A side that is aslant has no corners of the grid in its plane: there the last facet goes
-      // on beyond it.
-      const size_t last = directions.size() - 1;
-      if (!is_along_axis(line.normals[0])) {
-        points.push_back(middle + radius_ * (2.0 * directions[0] - directions[1]));
-      }
-      if (!is_along_axis(line.normals[1])) {
-        points.push_back(middle + radius_ * (2.0 * directions[last] - directions[last - 1]));
-      }
+      // on beyond it, in place of the corner on it. Balls share that, and have no lift.
+      const auto go_beyond = [&](size_t i, size_t before, const glm::dvec3& normal) {
+        if (is_along_axis(normal)) return;
+        const glm::dvec3 beyond = middle + radius_ * (2.0 * directions[i] - directions[before]);
+        if (has_ball) {
+          points.push_back(beyond);
+        } else {
+          points[first + i] = beyond + 2 * lift() * normal;
+        }
+      };
+      go_beyond(0, 1, line.normals[0]);
+      go_beyond(last, last - 1, line.normals[1]);
     }
     if (at[1] - at[0] <= 1e-9 * (f.length + f.setback)) return nullptr;
     return hull_along(std::move(points), f);
@@ -422,6 +441,7 @@ class Cutter {
   const EdgeEnds& ends_;
   const double radius_;
   const Facets& facets_;
+  const double grid_step_mm_;
   const SourceRef where_;
   std::vector<uint32_t> turned_with_;
   std::vector<Bodies> bodies_;
@@ -458,7 +478,8 @@ Result<NodePtr> cut_edges(const char* name, const EdgeCut& cut, double size, dou
   if (auto error = choose_reaches(cut.evaluated, frames, ends, cut.grid_step_mm)) {
     return *std::move(error);
   }
-  auto cuts = Cutter(name, cut.evaluated, frames, ends, radius, facets, cut.where).cuts();
+  auto cuts =
+      Cutter(name, cut.evaluated, frames, ends, radius, facets, cut.grid_step_mm, cut.where).cuts();
   if (!cuts) return cuts.error();
   cuts->insert(cuts->begin(), cut.solid);
   return Node::boolean(BooleanOp::kDifference, *std::move(cuts), cut.where);

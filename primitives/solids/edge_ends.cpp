@@ -138,7 +138,7 @@ Result<EdgeEnds::PrismEnd> EdgeEnds::end_of(const EdgeFrame& f, int end) const {
     return result;
   }
   std::optional<double> cap, barrier;
-  double aslant = 0;
+  std::array<double, 2> aslant{};
   for (int side = 0; side < 2; ++side) {
     double& at = result.at[side];
     at = here;
@@ -164,10 +164,17 @@ Result<EdgeEnds::PrismEnd> EdgeEnds::end_of(const EdgeFrame& f, int end) const {
       cap = cap ? farther(*cap, outer) : outer;
     }
     // The plane of a mitre is farther out there by as much as it is farther in on the side.
-    aslant += f.outwards() / f.setback * std::fabs(at - here);
+    aslant[side] = f.outwards() / f.setback * std::fabs(at - here);
+  }
+  for (int side = 0; side < 2; ++side) {
+    // So it is beyond the other side.
+    if (kinds[side] == EdgeEnd::kCap && kinds[1 - side] == EdgeEnd::kMitre) {
+      result.at[side] += outwards * aslant[1 - side];
+    }
   }
   result.at[2] =
-      barrier ? *barrier : farther(cap.value_or(here), here) + beyond + outwards * aslant;
+      barrier ? *barrier
+              : farther(cap.value_or(here), here) + beyond + outwards * (aslant[0] + aslant[1]);
   return result;
 }
 

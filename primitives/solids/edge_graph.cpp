@@ -17,8 +17,15 @@ namespace {
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 /// Sides whose normals are so near are in one plane: what is known of these is good to 1e-15.
 constexpr double kSamePlane = 1e-14;
+/// Edges are short that have this part of the largest coordinate: some steps of the grid, which has
+/// 2^24 to 2^27 to that.
+constexpr double kShort = 0x1p-22;
 
 auto as_tuple(const glm::dvec3& p) { return std::tie(p.x, p.y, p.z); }
+
+bool is_short(const SolidEdge& line, double least) {
+  return glm::length(line.to - line.from) < least;
+}
 
 }  // namespace
 
@@ -110,8 +117,70 @@ void EdgeGraph::find_lines() {
     if (as_tuple(b) < as_tuple(a) || (a == b && twin_[line.back()] < h)) continue;
     add_line(h, line);
   }
-  std::vector<uint32_t> order(edges_.size()), place(edges_.size());
-  std::iota(order.begin(), order.end(), 0u);
+  for (Edge& e : edges_) {
+    for (auto& end : e.next) {
+      for (uint32_t& next : end) next = edge_of_[next];
+    }
+  }
+  contract_short_edges();
+  sort_edges();
+  degree_.assign(solid_.positions.size(), 0);
+  for (uint32_t i = 0; i < edges_.size(); ++i) {
+    for (const uint32_t side : edges_[i].side) edges_of_[side].push_back(i);
+    for (const uint32_t v : edges_[i].vertex) ++degree_[v];
+  }
+}
+
+uint32_t EdgeGraph::united(uint32_t v) const {
+  while (united_with_[v] != v) v = united_with_[v];
+  return v;
+}
+
+void EdgeGraph::unite(uint32_t v, uint32_t w) {
+  v = united(v), w = united(w);
+  united_with_[std::max(v, w)] = std::min(v, w);
+}
+
+/// Where sides meet in a point by the user's numbers, their planes on the grid miss one another by
+/// a step or so, and leave edges that have no direction to go by.
+void EdgeGraph::contract_short_edges() {
+  united_with_.resize(solid_.positions.size());
+  std::iota(united_with_.begin(), united_with_.end(), 0u);
+  const double least = kShort * scale_;
+  for (uint32_t i = 0; i < edges_.size(); ++i) {
+    const Edge& e = edges_[i];
+    if (!is_short(e.line, least)) continue;
+    for (int side = 0; side < 2; ++side) close_gap(i, side);
+    unite(e.vertex[0], e.vertex[1]);
+  }
+}
+
+/// Has what comes before and after an edge on one of its sides follow each other.
+void EdgeGraph::close_gap(uint32_t edge, int side) {
+  const Edge& e = edges_[edge];
+  const uint32_t before = e.next[0][side], after = e.next[1][side];
+  if (before == edge) return;  // the last one of a side that vanishes
+  relink(before, edge, e.side[side], after);
+  relink(after, edge, e.side[side], before);  // nothing is left of them if both are one
+}
+
+/// Where an edge has another one for the next on a side, at one end or both, it gets a third.
+void EdgeGraph::relink(uint32_t of, uint32_t edge, uint32_t side, uint32_t to) {
+  for (size_t own_end = 0; own_end < 2; ++own_end) {
+    for (size_t own_side = 0; own_side < 2; ++own_side) {
+      uint32_t& link = edges_[of].next[own_end][own_side];
+      if (link == edge && edges_[of].side[own_side] == side) link = to;
+    }
+  }
+}
+
+/// By their ends, without those that are short.
+void EdgeGraph::sort_edges() {
+  const double least = kShort * scale_;
+  std::vector<uint32_t> order, place(edges_.size(), kNone);
+  for (uint32_t i = 0; i < edges_.size(); ++i) {
+    if (!is_short(edges_[i].line, least)) order.push_back(i);
+  }
   std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t k) {
     const Edge &a = edges_[i], &b = edges_[k];
     return std::tuple(as_tuple(a.line.from), as_tuple(a.line.to), a.vertex) <
@@ -122,16 +191,13 @@ void EdgeGraph::find_lines() {
     place[order[i]] = i;
     sorted.push_back(edges_[order[i]]);
   }
-  edges_ = std::move(sorted);
-  degree_.assign(solid_.positions.size(), 0);
-  for (uint32_t i = 0; i < edges_.size(); ++i) {
-    Edge& e = edges_[i];
+  for (Edge& e : sorted) {
+    for (uint32_t& v : e.vertex) v = united(v);
     for (auto& end : e.next) {
-      for (uint32_t& next : end) next = place[edge_of_[next]];
+      for (uint32_t& next : end) next = place[next];
     }
-    for (const uint32_t side : e.side) edges_of_[side].push_back(i);
-    for (const uint32_t v : e.vertex) ++degree_[v];
   }
+  edges_ = std::move(sorted);
 }
 
 void EdgeGraph::add_line(uint32_t first, std::span<const uint32_t> halves) {

@@ -9,8 +9,10 @@ class EdgeGraph {
  public:
   struct Edge {
     SolidEdge line;
-    std::array<uint32_t, 2> vertex;  ///< of the solid, at `from` and at `to`
-    std::array<uint32_t, 2> side;    ///< left and right of it
+    /// Of the solid, at `from` and at `to`; of those between which there are only edges of a few
+    /// grid steps, which are none of these, the first.
+    std::array<uint32_t, 2> vertex;
+    std::array<uint32_t, 2> side;  ///< left and right of it
     /// next[end][k]: the edge that side k has beyond that end.
     std::array<std::array<uint32_t, 2>, 2> next;
   };
@@ -44,11 +46,19 @@ class EdgeGraph {
   }
   [[nodiscard]] bool goes_straight_on(uint32_t half, uint32_t next) const;
   void add_line(uint32_t first, std::span<const uint32_t> halves);
+  void contract_short_edges();
+  void unite(uint32_t v, uint32_t w);
+  /// The one that stands for a vertex.
+  [[nodiscard]] uint32_t united(uint32_t v) const;
+  void close_gap(uint32_t edge, int side);
+  void relink(uint32_t of, uint32_t edge, uint32_t side, uint32_t to);
+  void sort_edges();
 
   const Solid& solid_;
   double scale_ = 0;  ///< the largest coordinate
   std::vector<uint32_t> twin_, side_;
-  std::vector<uint32_t> edge_of_;  ///< by half-edge
+  std::vector<uint32_t> edge_of_;      ///< by half-edge
+  std::vector<uint32_t> united_with_;  ///< by vertex: one before it, or itself
   std::vector<Edge> edges_;
   std::vector<std::vector<uint32_t>> edges_of_;
   std::vector<uint32_t> degree_, face_of_;

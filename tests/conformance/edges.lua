@@ -187,6 +187,34 @@ for seed = 1, 6 do
   end
 end
 
+-- Turned parts have their corners wherever the grid is: cuts that follow one another leave no edges shorter than that,
+-- and all corners have as many facets.
+for _, angle in ipairs{1, 17, 30, 36.87, 45, 60} do
+  local bar = square(20, 10):rotate(angle):linear_extrude(10)
+  local round, flat = bar:fillet(1, {edges = "z", fn = 24}), bar:chamfer(0.5, {edges = "top"})
+  assert(#round:faces() == 6 + 4 * 6 and #round:edges("top") == 4 + 4 * 6)
+  local both = round:chamfer(0.5, {edges = "top"})
+  assert(#both:faces() == 6 + 4 + 2 * 4 * 6 and both:components() == 1 and both:genus() == 0)
+  near(both:volume(), cube(20, 10, 10):fillet(1, {edges = "z", fn = 24}):chamfer(0.5, "top"):volume(), 1e-7)
+  assert(#flat:edges() == 4 + 3 * 4 + 4 and #flat:fillet(1, {edges = "z", fn = 24}):faces() == 10 + 4 * 6 + 4)
+end
+-- So do corners of any angle; sharp ones leave nothing of their edges behind.
+for seed = 1, 4 do
+  local numbers, points = rands(0, 1, 12, seed), {}
+  for i = 1, 4 + seed % 2 do
+    local a, r = 360 * (i + 0.4 * numbers[i]) / (4 + seed % 2), 15 + 10 * numbers[i + 6]
+    points[i] = {r * cos(a), r * sin(a)}
+  end
+  local part, n = polygon(points):linear_extrude(8), #points
+  local flat = part:chamfer(0.5, {edges = "top"})
+  near(flat:slice(7.75):area(), polygon(points):offset{delta = -0.25}:area(), 1e-7)
+  assert(#flat:edges() == 5 * n and #flat:faces() == 2 * n + 2)
+  for _, k in ipairs{part:fillet(1, {edges = "z", fn = 24}):chamfer(0.5, {edges = "top"}),
+      flat:fillet(0.5, {edges = "z", fn = 24})} do
+    assert(k:components() == 1 and k:genus() == 0 and (k - part):volume() == 0)
+  end
+end
+
 -- A cut has the colour of a face beside it.
 assert(c:color("red"):chamfer(1) == c:chamfer(1):color("red"))
 assert(c:color("red"):fillet(1) == c:fillet(1):color("red"))

@@ -27,7 +27,7 @@ struct SolidEdge {
   bool is_smooth = false;  ///< between facets of one curved surface, or of fillets
 };
 
-/// All edges, ordered by their ends.
+/// All edges, ordered by their ends, but for those of a few grid steps.
 std::vector<SolidEdge> edges_of_solid(const Solid& solid);
 
 /// Which edges of which solid are to be cut.
