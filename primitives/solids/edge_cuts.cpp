@@ -16,6 +16,7 @@
 #include "primitives/base/text.h"
 #include "primitives/solids/edge_ends.h"
 #include "primitives/solids/edge_reach.h"
+#include "primitives/solids/edge_rims.h"
 #include "primitives/solids/mesh_builder.h"
 
 namespace csgrun {
@@ -41,13 +42,23 @@ class Cutter {
     choose_turns();
     const size_t count = frames_.frames().size();
     bodies_.resize(count);
+    std::vector<bool> is_of_rim(count, false);
+    if (is_fillet()) {
+      for (const std::vector<uint32_t>& rim : hole_rims(frames_)) {
+        cut_rim(rim);
+        for (const uint32_t i : rim) is_of_rim[i] = true;
+      }
+    }
     for (size_t i = 0; i < count; ++i) {
+      if (is_of_rim[i]) continue;
       if (auto error = make_bodies(i)) return *std::move(error);
     }
     if (is_fillet()) {
       for (const EdgeCorner& corner : ends_.corners()) balls_.push_back(ball_of(corner));
     }
-    for (size_t i = 0; i < count; ++i) cut_edge(i);
+    for (size_t i = 0; i < count; ++i) {
+      if (!is_of_rim[i]) cut_edge(i);
+    }
     for (const EdgeCorner& corner : ends_.corners()) cut_corner(corner);
     for (const EdgeTip& tip : ends_.tips()) cut_tip(tip);
     return std::move(cuts_);
@@ -169,10 +180,22 @@ class Cutter {
     return hull(std::move(points), f);
   }
 
+  [[nodiscard]] NodePtr prism_between(const EdgeFrame& f, const PrismEnd& from,
+                                      const PrismEnd& to) const {
+    const EdgeEnds::Lines offsets = EdgeEnds::lines(f);
+    std::vector<glm::dvec3> points;
+    for (size_t k = 0; k < 3; ++k) {
+      points.push_back(f.start + offsets[k] + from.at[k] * f.along);
+      points.push_back(f.start + offsets[k] + to.at[k] * f.along);
+    }
+    for (const PrismEnd* end : {&from, &to})
+      points.insert(points.end(), end->bends.begin(), end->bends.end());
+    return hull_along(std::move(points), f);
+  }
+
   std::optional<Error> make_bodies(size_t i) {
     const EdgeFrame& f = frames_.frames()[i];
     Bodies& made = bodies_[i];
-    const EdgeEnds::Lines offsets = EdgeEnds::lines(f);
     std::array<PrismEnd, 2> ends;
     for (int end = 0; end < 2; ++end) {
       auto found = ends_.end_of(f, end);
@@ -182,26 +205,16 @@ class Cutter {
         made.walls[end].push_back(slab(f, *wall, -wall->gap, wall->reach));
       }
     }
-    const auto prism = [&](const PrismEnd& from, const PrismEnd& to) {
-      std::vector<glm::dvec3> points;
-      for (size_t k = 0; k < 3; ++k) {
-        points.push_back(f.start + offsets[k] + from.at[k] * f.along);
-        points.push_back(f.start + offsets[k] + to.at[k] * f.along);
-      }
-      for (const PrismEnd* end : {&from, &to})
-        points.insert(points.end(), end->bends.begin(), end->bends.end());
-      return hull_along(std::move(points), f);
-    };
     const std::array<const EdgeCorner*, 2> corners{ends_.corner_at(f, 0), ends_.corner_at(f, 1)};
     if (!is_fillet() || (corners[0] == nullptr && corners[1] == nullptr)) {
-      made.prism[0] = made.prism[1] = prism(ends[0], ends[1]);
+      made.prism[0] = made.prism[1] = prism_between(f, ends[0], ends[1]);
     } else {
       // Each end has what is to stay of its own, so each has its own half.
       PrismEnd low, high;
       const double middle = (ends[0].at[0] + ends[1].at[0]) / 2;
       low.at.fill(middle - f.reach);
       high.at.fill(middle + f.reach);
-      made.prism = {prism(ends[0], high), prism(low, ends[1])};
+      made.prism = {prism_between(f, ends[0], high), prism_between(f, low, ends[1])};
     }
     if (is_fillet()) made.round = round_body(f, ends, corners);
     return std::nullopt;
@@ -215,13 +228,43 @@ class Cutter {
     return kSteps * grid_step_mm_;
   }
 
+  enum class ArcEnds : uint8_t { kOnSides, kOfBall, kOfRim };
+
+  /// Adds the corners of the arc that touches both sides of an edge. A side that is aslant has no
+  /// corners of the grid in its plane: there the last facet goes on beyond it, in place of the
+  /// corner on it. Balls share that, and have no lift. What stays of a rim goes on at all sides, by
+  /// `least` or more.
+  void add_arc(const EdgeFrame& f, const glm::dvec3& middle, ArcEnds kind, double least,
+               std::vector<glm::dvec3>& points) const {
+    const std::vector<glm::dvec3> directions = arc_of(f);
+    const size_t first = points.size(), last = directions.size() - 1;
+    for (const glm::dvec3& d : directions) points.push_back(middle + radius_ * d);
+    const auto go_on = [&](size_t i, size_t before, const glm::dvec3& normal) {
+      const glm::dvec3 corner = points[first + i];
+      glm::dvec3 along = radius_ * (directions[i] - directions[before]);
+      const double times = std::max(1.0, least / glm::length(along));
+      along *= times;
+      if (!is_along_axis(normal)) {
+        if (kind == ArcEnds::kOfBall) {
+          points.push_back(corner + along);
+        } else {
+          points[first + i] = corner + along + (1 + times) * lift() * normal;
+        }
+      } else if (kind == ArcEnds::kOfRim) {
+        // Less steep than the facet: the corner stays one.
+        points.push_back(corner + along - glm::dot(along, normal) / 2 * normal);
+      }
+    };
+    go_on(0, 1, edge(f).line.normals[0]);
+    go_on(last, last - 1, edge(f).line.normals[1]);
+  }
+
   /// The part of the cylinder that stays: between its axis and its surface, as long as the prisms
   /// and longer; at a ball up to it. Null where nothing is between two balls.
   NodePtr round_body(const EdgeFrame& f, const std::array<PrismEnd, 2>& ends,
                      const std::array<const EdgeCorner*, 2>& corners) const {
     const SolidEdge& line = edge(f).line;
     const glm::dvec3 axis = f.start + f.setback * f.in[0] - radius_ * line.normals[0];
-    const std::vector<glm::dvec3> directions = arc_of(f);
     const bool has_ball = corners[0] != nullptr || corners[1] != nullptr;
     std::array<double, 2> at{};
     std::vector<glm::dvec3> points;
@@ -242,24 +285,40 @@ class Cutter {
         middle = axis + at[end] * f.along;
       }
       points.push_back(middle);
-      const size_t first = points.size(), last = directions.size() - 1;
-      for (const glm::dvec3& d : directions) points.push_back(middle + radius_ * d);
-      // A side that is aslant has no corners of the grid in its plane: there the last facet goes
-      // on beyond it, in place of the corner on it. Balls share that, and have no lift.
-      const auto go_beyond = [&](size_t i, size_t before, const glm::dvec3& normal) {
-        if (is_along_axis(normal)) return;
-        const glm::dvec3 beyond = middle + radius_ * (2.0 * directions[i] - directions[before]);
-        if (has_ball) {
-          points.push_back(beyond);
-        } else {
-          points[first + i] = beyond + 2 * lift() * normal;
-        }
-      };
-      go_beyond(0, 1, line.normals[0]);
-      go_beyond(last, last - 1, line.normals[1]);
+      add_arc(f, middle, has_ball ? ArcEnds::kOfBall : ArcEnds::kOnSides, 0, points);
     }
     if (at[1] - at[0] <= 1e-9 * (f.length + f.setback)) return nullptr;
     return hull_along(std::move(points), f);
+  }
+
+  /// Around a hole all prisms go at once, less all that stays: what stays along an edge is farther
+  /// in, seen from the hole, than what goes, so that it may reach beyond its mitres, and what it
+  /// leaves there of its neighbours' prisms stays beside them, too.
+  void cut_rim(const std::vector<uint32_t>& rim) {
+    double more = 0;
+    for (const uint32_t i : rim) {
+      more = std::max(more, 2 * EdgeEnds::kBeyondMitres * frames_.frames()[i].reach);
+    }
+    std::vector<NodePtr> prisms, kept;
+    for (const uint32_t i : rim) {
+      const EdgeFrame& f = frames_.frames()[i];
+      const std::array<PrismEnd, 2> ends{ends_.end_beyond_mitre(f, 0),
+                                         ends_.end_beyond_mitre(f, 1)};
+      prisms.push_back(prism_between(f, ends[0], ends[1]));
+      const auto& [from, to] = ends;
+      const std::array<double, 2> at{*std::min_element(from.at.begin(), from.at.end()) - more,
+                                     *std::max_element(to.at.begin(), to.at.end()) + more};
+      const glm::dvec3 axis = f.start + f.setback * f.in[0] - radius_ * edge(f).line.normals[0];
+      std::vector<glm::dvec3> points;
+      for (const double end : at) {
+        const glm::dvec3 middle = axis + end * f.along;
+        points.push_back(middle + more * (f.in[0] + f.in[1]));
+        add_arc(f, middle, ArcEnds::kOfRim, 2 * more, points);
+      }
+      kept.push_back(hull_along(std::move(points), f));
+    }
+    cuts_.push_back(
+        less(Node::boolean(BooleanOp::kUnion, std::move(prisms), where_), std::move(kept), where_));
   }
 
   static NodePtr less(NodePtr from, std::vector<NodePtr> what, const SourceRef& where) {

@@ -119,10 +119,7 @@ Result<EdgeEnds::PrismEnd> EdgeEnds::end_of(const EdgeFrame& f, int end) const {
     // In the plane between the edge and what is left for the tip, wherever the lines are.
     const glm::dvec3& corner = solid_.positions[edge(f).vertex[end]];
     const auto [left, right] = meeting_points(f, end);
-    const glm::dvec3 normal = glm::cross(left - corner, right - corner);
-    for (size_t k = 0; k < 3; ++k)
-      result.at[k] = here - glm::dot(normal, offsets[k]) / glm::dot(normal, f.along) + more;
-    return result;
+    return end_in_plane(f, end, glm::cross(left - corner, right - corner), more);
   }
   std::array<EdgeEnd, 2> kinds;
   for (int side = 0; side < 2; ++side) kinds[side] = frames_.kind(f, end, side);
@@ -134,7 +131,7 @@ Result<EdgeEnds::PrismEnd> EdgeEnds::end_of(const EdgeFrame& f, int end) const {
     }
     const int side = kinds[0] == EdgeEnd::kInside ? 0 : 1;
     result.wall = mitre_at(f, end, side);
-    result.at.fill(frames_.at_next_cut(f, end, side) + 8 * more);
+    result.at.fill(frames_.at_next_cut(f, end, side) + kBeyondMitres * more);
     return result;
   }
   std::optional<double> cap, barrier;
@@ -176,6 +173,23 @@ Result<EdgeEnds::PrismEnd> EdgeEnds::end_of(const EdgeFrame& f, int end) const {
       barrier ? *barrier
               : farther(cap.value_or(here), here) + beyond + outwards * (aslant[0] + aslant[1]);
   return result;
+}
+
+EdgeEnds::PrismEnd EdgeEnds::end_in_plane(const EdgeFrame& f, int end, const glm::dvec3& normal,
+                                          double more) const {
+  const Lines offsets = lines(f);
+  PrismEnd result;
+  for (size_t k = 0; k < 3; ++k) {
+    result.at[k] = EdgeFrames::at_end(f, end) -
+                   glm::dot(normal, offsets[k]) / glm::dot(normal, f.along) + more;
+  }
+  return result;
+}
+
+EdgeEnds::PrismEnd EdgeEnds::end_beyond_mitre(const EdgeFrame& f, int end) const {
+  const int side = frames_.kind(f, end, 0) == EdgeEnd::kInside ? 0 : 1;
+  return end_in_plane(f, end, mitre_at(f, end, side).normal,
+                      (end == 0 ? -kBeyondMitres : kBeyondMitres) * f.reach);
 }
 
 Mitre EdgeEnds::mitre_at(const EdgeFrame& f, int end, int side) const {

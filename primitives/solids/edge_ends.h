@@ -72,6 +72,10 @@ class EdgeEnds {
   /// Fails where edges that are not chosen come between those that are.
   [[nodiscard]] Result<PrismEnd> end_of(const EdgeFrame& f, int end) const;
   [[nodiscard]] Mitre mitre_at(const EdgeFrame& f, int end, int side) const;
+  /// At a corner of a rim that points inwards (edge_rims.h): beyond the mitre, and along it.
+  [[nodiscard]] PrismEnd end_beyond_mitre(const EdgeFrame& f, int end) const;
+  /// So many times the reach prisms go beyond mitres of corners that point inwards.
+  static constexpr double kBeyondMitres = 8;
 
   /// Whether bodies along an edge can end in the very planes of the solid: where these are upright
   /// on the axes, all that is on the grid is in them.
@@ -79,6 +83,9 @@ class EdgeEnds {
 
  private:
   void find_corners(double radius);
+  /// Where a plane through the end of an edge meets the lines, and so much farther along it.
+  [[nodiscard]] PrismEnd end_in_plane(const EdgeFrame& f, int end, const glm::dvec3& normal,
+                                      double more) const;
   [[nodiscard]] bool is_convex(uint32_t vertex, std::span<const uint32_t> frames) const;
   [[nodiscard]] const EdgeGraph::Edge& edge(const EdgeFrame& f) const {
     return frames_.graph().edges()[f.edge];

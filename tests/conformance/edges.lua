@@ -215,6 +215,33 @@ for seed = 1, 4 do
   end
 end
 
+-- Rims of holes: at each height the outline, moved outwards by what the arc has gone in there; and as many faces as
+-- the arcs have facets.
+local function mouth(outline, r, facets)
+  local plate, quarter = linear_extrude(square(60, true), 8) - linear_extrude(outline, 8), facets / 4
+  local cut = plate:fillet(r, {fn = facets, edges = function(e)
+    return math.max(math.abs(e.from[1]), math.abs(e.from[2])) < 29 and e.from[3] == 8 and e.to[3] == 8
+  end})
+  for i = 1, quarter do
+    local low, high = 90 * (i - 1) / quarter, 90 * i / quarter -- in the middle of each facet
+    local down, wide = r * (1 - (cos(low) + cos(high)) / 2), r * (1 - (sin(low) + sin(high)) / 2)
+    near(cut:slice(8 - down):area(), 3600 - outline:offset{delta = wide}:area(), 2e-7)
+  end
+  assert(#cut:faces() == #plate:faces() + quarter * #outline:points())
+  assert(cut:components() == 1 and cut:genus() == 1 and (cut - plate):volume() == 0)
+end
+for _, n in ipairs{3, 4, 6, 48, 200} do mouth(circle(5, {fn = n}), 1, 24) end
+mouth(square(10, true):rotate(17), 1.3, 16)
+mouth(polygon{{-10, 0}, {10, -1}, {10, 1}}, 0.4, 24)
+mouth(circle(0.2, {fn = 32}), 3, 8) -- a wide mouth of a narrow hole
+mouth(hull(circle(3, {fn = 32}), circle(2, {fn = 24}):translate(9, 0)):rotate(33), 1, 32)
+-- What stands in the hole stays.
+local well = cube(20, 20, 5) - cylinder{h = 5, r = 6, fn = 24}:translate(10, 10, 0)
+local post = cylinder{h = 5, r = 4, fn = 24}:translate(10, 10, 0)
+local around = function(e) return math.abs(norm{e.from[1] - 10, e.from[2] - 10} - 6) < 1 end
+near((well + post):fillet(0.5, {fn = 16, edges = around}):volume(),
+  well:fillet(0.5, {fn = 16, edges = around}):volume() + post:volume(), 1e-9)
+
 -- A cut has the colour of a face beside it.
 assert(c:color("red"):chamfer(1) == c:chamfer(1):color("red"))
 assert(c:color("red"):fillet(1) == c:fillet(1):color("red"))
