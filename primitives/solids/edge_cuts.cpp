@@ -349,10 +349,8 @@ class Cutter {
         const auto k = static_cast<size_t>(&other - frames_.frames().data());
         if (k < i) continue;
         const int its_end = edge(other).vertex[0] == edge(f).vertex[end] ? 0 : 1;
-        const Mitre mitre = ends_.mitre_at(f, end, side);
-        const NodePtr middle = slab(f, mitre, -2 * mitre.gap, 2 * mitre.gap);
         cuts_.push_back(Node::boolean(BooleanOp::kIntersection,
-                                      {rounded(i, end), rounded(k, its_end), middle}, where_));
+                                      {rounded(i, end), rounded(k, its_end)}, where_));
       }
     }
   }

@@ -172,6 +172,7 @@ local block = cube(4):rx(90):ry(180):rz(-90):tx(1):ty(2):tz(3):forward(1):front(
 assert(block:centered() == cube(4, true) and block:scale(0.5):volume() == 8)
 near(cube(2):offset{delta = 1}:volume(), 4 ^ 3, 1e-12)
 near(cube(4):chamfer(1, "z"):volume(), 4 ^ 3 - 8, 1e-12)
+assert((cube(20) - cylinder{h = 20, r = 5, fn = 48}:translate(10, 10, 0)):chamfer(0.8):genus() == 1)
 assert(#cube(4):edges("top") == 4 and cube(4):fillet(1, {fn = 8}) == cube(4, {r = 1, fn = 8}))
 
 -- Booleans as methods, and modifiers: what is skipped is not there.
