@@ -125,18 +125,17 @@ bool is_locally_convex(const LeafGeometry& leaf) {
       CornerPlane plane, back;
       if (!find_plane(f, plane)) return false;
       for (uint32_t edge = leaf.face_starts[f]; edge < leaf.face_starts[f + 1]; ++edge) {
-        // The neighbour's corners but for those of the edge, which are in the plane.
+        // The neighbour is flat and convex: all its corners that are not in line with the edge are
+        // on one side, so that one of them tells.
         const uint32_t start = leaf.opposite[edge], other = face_of(start);
         const uint32_t first = leaf.face_starts[other], last = leaf.face_starts[other + 1] - 1;
         const uint32_t stop = start < last ? start + 1 : first;
-        int least = 0;
-        for (uint32_t c = first; c <= last; ++c) {
-          if (c == start || c == stop) continue;
-          const int side = plane.side(leaf.vertices[leaf.corners[c]]);
-          if (side > 0) return false;
-          least = std::min(least, side);
+        int side = 0;
+        for (uint32_t c = first; c <= last && side == 0; ++c) {
+          if (c != start && c != stop) side = plane.side(leaf.vertices[leaf.corners[c]]);
         }
-        if (least != 0) continue;
+        if (side > 0) return false;
+        if (side < 0) continue;
         if (!find_plane(other, back) || are_back_to_back(plane, back)) return false;
       }
     }

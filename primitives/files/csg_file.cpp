@@ -135,7 +135,9 @@ class CsgBuilder {
     if (name == "resize") return resize(frame);
     if (name == "projection") return projection(frame);
     if (name == "roof") return roof(frame);
-    return Error{ErrorCode::kMalformedFile, "unknown node " + name + "()", {}};
+    return Error{ErrorCode::kMalformedFile,
+                 "unknown node " + name + "()" + std::string(source_hint(name)),
+                 {}};
   }
 
   /// A leaf of the mesh; impossible arguments make it empty.

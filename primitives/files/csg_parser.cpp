@@ -1,9 +1,12 @@
 #include "primitives/files/csg_parser.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <limits>
+
+#include <fmt/format.h>
 
 #include "primitives/files/formats.h"
 
@@ -21,15 +24,28 @@ std::optional<double> number_of(std::string_view word) {
   const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (rest != word.data() + word.size() || word.empty()) return std::nullopt;
   if (error == std::errc()) return value;  // also "inf", "-inf", "nan" and "-nan"
-  const bool tiny = word.find("e-") != std::string_view::npos;
+  const bool tiny = word.find("e-") != std::string_view::npos ||  // out of range
+                    word.find("E-") != std::string_view::npos;
   return tiny ? 0.0 : std::numeric_limits<double>::infinity();
 }
+
+/// Where the string of text() ends, which OpenSCAD does not escape: with the next argument.
+constexpr std::string_view kEndOfRawText = "\", size = ";
 
 /// For what only a source can have: variables, modules, expressions.
 constexpr const char* kSourceHint =
     "; a tree has calls and values only: openscad in.scad -o out.csg makes one of a source";
 
 }  // namespace
+
+std::string_view source_hint(std::string_view node) {
+  constexpr std::array<std::string_view, 12> kOfSources{
+      "translate", "rotate", "scale",  "mirror", "for",      "intersection_for",
+      "if",        "let",    "assert", "echo",   "children", "assign"};
+  const bool is_of_source =
+      std::find(kOfSources.begin(), kOfSources.end(), node) != kOfSources.end();
+  return is_of_source ? kSourceHint : "";
+}
 
 const CsgValue* CsgCall::find(std::string_view key) const {
   for (const auto& [name_of_value, value] : arguments) {
@@ -44,7 +60,16 @@ Error CsgParser::error(const std::string& what) const {
 
 Error CsgParser::unexpected(const std::string& wanted) const {
   if (at_ >= text_.size()) return error("the file ends where " + wanted + " should be");
-  return error("expected " + wanted + ", got " + quoted(text_.substr(at_, 1)));
+  if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff")) {
+    return error("the file is in UTF-16; save it in UTF-8");
+  }
+  const auto byte = static_cast<unsigned char>(text_[at_]);
+  if (byte < ' ' || byte > '~') {
+    return error(fmt::format("expected {}, got the byte 0x{:02x}", wanted, byte));
+  }
+  const bool may_be_source = text_[at_] != '"' && text_[at_] != '{' && text_[at_] != '}';
+  return error("expected " + wanted + ", got " + quoted(text_.substr(at_, 1)) +
+               (may_be_source ? kSourceHint : ""));
 }
 
 void CsgParser::skip_blanks() {
@@ -91,7 +116,8 @@ std::string_view CsgParser::word() {
 }
 
 Result<CsgParser::Event> CsgParser::next() {
-  skip_blanks();
+  while (accept(';')) {
+  }
   if (at_ >= text_.size()) return Event::kEnd;
   if (accept('}')) return Event::kClose;
   call_ = CsgCall();
@@ -107,15 +133,30 @@ Result<CsgParser::Event> CsgParser::next() {
   call_.name = std::string(word());
   call_.line = line_;
   if (call_.name.empty()) return unexpected("a node");
-  if (!accept('(')) {
-    Error fault = unexpected("\"(\" after " + quoted(call_.name));
-    if (at_ < text_.size()) fault.message += kSourceHint;
-    return fault;
-  }
+  if (!accept('(')) return unexpected("\"(\" after " + quoted(call_.name));
   if (auto status = read_arguments(); !status) return status.error();
   if (accept(';')) return Event::kLeaf;
   if (accept('{')) return Event::kOpen;
   return unexpected("\";\" or \"{\"");
+}
+
+/// Whether there is a comma, and more than the closing bracket behind it.
+bool CsgParser::accept_comma(char closing) {
+  if (!accept(',')) return false;
+  skip_blanks();
+  return peek() != closing;
+}
+
+/// Whether the string of a text() that starts here is one that somebody wrote by hand: it ends at
+/// the next quote, as others do, and the call before what ends it as OpenSCAD writes it.
+bool CsgParser::has_plain_string() const {
+  size_t end = at_ + 1;
+  while (end < text_.size() && text_[end] != '"') end += text_[end] == '\\' ? 2 : 1;
+  const size_t next = text_.find_first_not_of(" \t\r\n", std::min(end, text_.size() - 1) + 1);
+  if (next == std::string_view::npos || (text_[next] != ',' && text_[next] != ')')) return false;
+  const size_t written = text_.find(kEndOfRawText, at_ + 1);
+  return written == std::string_view::npos ||
+         (written > end && text_.substr(end, written - end).find(';') != std::string_view::npos);
 }
 
 Status CsgParser::read_arguments() {
@@ -131,12 +172,11 @@ Status CsgParser::read_arguments() {
       at_ = begin;  // a value without a name
     }
     skip_blanks();
-    // OpenSCAD does not escape the string of text(): it ends where the next argument begins.
-    const bool raw = call_.name == "text" && key == "text" && peek() == '"';
+    const bool raw = call_.name == "text" && key == "text" && peek() == '"' && !has_plain_string();
     Result<CsgValue> value = raw ? read_string(true) : read_value(0);
     if (!value) return value.error();
     call_.arguments.emplace_back(std::move(key), *std::move(value));
-  } while (accept(','));
+  } while (accept_comma(')'));
   if (!accept(')')) return unexpected("\",\" or \")\"");
   return std::monostate();
 }
@@ -154,7 +194,7 @@ Result<CsgValue> CsgParser::read_value(int depth) {
       Result<CsgValue> entry = read_value(depth + 1);
       if (!entry) return entry;
       value.list.push_back(*std::move(entry));
-    } while (accept(','));
+    } while (accept_comma(']'));
     if (!accept(']')) return unexpected("\",\" or \"]\"");
     return value;
   }
@@ -178,7 +218,7 @@ Result<CsgValue> CsgParser::read_string(bool raw) {
   value.kind = CsgValue::Kind::kString;
   ++at_;  // the opening quote
   if (raw) {
-    const size_t end = text_.find("\", size = ", at_);
+    const size_t end = text_.find(kEndOfRawText, at_);
     if (end == std::string_view::npos) return error("a text without end");
     for (; at_ < end; ++at_) {
       if (text_[at_] == '\n') ++line_;

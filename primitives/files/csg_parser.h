@@ -31,6 +31,9 @@ struct CsgCall {
   [[nodiscard]] const CsgValue* find(std::string_view key) const;
 };
 
+/// What to say of a node that sources have and trees have not; empty for others.
+std::string_view source_hint(std::string_view node);
+
 /// Reads a file piece by piece. Blocks are not matched here: the caller keeps the stack, so nesting
 /// costs no stack of the machine.
 class CsgParser {
@@ -58,6 +61,8 @@ class CsgParser {
   bool accept(char c);
   Error unexpected(const std::string& wanted) const;
   std::string_view word();
+  bool accept_comma(char closing);
+  [[nodiscard]] bool has_plain_string() const;
   Status read_arguments();
   Result<CsgValue> read_value(int depth);
   Result<CsgValue> read_string(bool raw);

@@ -185,7 +185,8 @@ class Bounds(Case):
         self.expect(self.run_csgrun("model/a.csg", "--stats"), 0)
         hint = "; a tree has calls and values only: openscad in.scad -o out.csg makes one of a source"
         for text, message in (("x = 5;", '1: expected "(" after "x", got "="'), ("module m() { }", '1: expected "(" after "module", got "m"'),
-                              ("cube(x);", '1: expected a value, got "x"')):
+                              ("cube(x);", '1: expected a value, got "x"'), ("translate([1,2,3]) cube(1);", '1: expected ";" or "{", got "c"'),
+                              ("rotate(1) { }", "1: unknown node rotate()")):
             self.write("model/b.csg", text)
             self.expect(self.run_csgrun("model/b.csg", "--stats"), 1, "model/b.csg:" + message + hint)
 

@@ -299,15 +299,28 @@ TEST(CsgFile, ErrorsHaveTheirLine) {
   EXPECT_EQ(error("group() {\n" + kCube), "m.csg:3: the file ends within group() of line 1");
   EXPECT_EQ(error(kCube + "}"), "m.csg:2: \"}\" without \"{\"");
   EXPECT_EQ(error("cube(size = [1, 2"), "m.csg:1: the file ends where \",\" or \"]\" should be");
-  EXPECT_EQ(error("cube(size = wide);"),
-            "m.csg:1: expected a value, got \"wide\"; a tree has calls and values only: openscad "
-            "in.scad -o out.csg makes one of a source");
-  EXPECT_EQ(error("cube() + 1"), "m.csg:1: expected \";\" or \"{\", got \"+\"");
-  EXPECT_EQ(error("?cube();"), "m.csg:1: expected a node, got \"?\"");
+  const std::string hint =
+      "; a tree has calls and values only: openscad in.scad -o out.csg makes one of a source";
+  EXPECT_EQ(error("cube(size = wide);"), "m.csg:1: expected a value, got \"wide\"" + hint);
+  EXPECT_EQ(error("cube() + 1"), "m.csg:1: expected \";\" or \"{\", got \"+\"" + hint);
+  EXPECT_EQ(error("?cube();"), "m.csg:1: expected a node, got \"?\"" + hint);
+  EXPECT_EQ(error("cube(size = [2*3, 1, 1]);"),
+            "m.csg:1: expected \",\" or \"]\", got \"*\"" + hint);
+  EXPECT_EQ(error("translate([1, 2, 3]) { " + kCube + " }"),
+            "m.csg:1: unknown node translate()" + hint);
+  EXPECT_EQ(error("c\xe9();"), "m.csg:1: expected \"(\" after \"c\", got the byte 0xe9");
+  EXPECT_EQ(error(std::string("\xff\xfe\x63\x00", 4)),
+            "m.csg:1: the file is in UTF-16; save it in UTF-8");
   EXPECT_EQ(error("cube(size = " + std::string(10000, '[')),
             "m.csg:1: lists are nested too deeply");
   EXPECT_EQ(error("difference"),
             "m.csg:1: the file ends where \"(\" after \"difference\" should be");
+}
+
+TEST(CsgFile, WhatIsWrittenByHand) {
+  const std::string plain = sketch(parse("group() { " + kCube + " }").solid);
+  EXPECT_EQ(sketch(parse(";group() { cube(size = [1, 1, 1,], center = false,);; };").solid), plain);
+  EXPECT_EQ(sketch(parse("sphere(r = 1E-400);").solid), sketch(parse("sphere(r = 1e-400);").solid));
 }
 
 TEST(CsgFile, DepthCostsNoStack) {

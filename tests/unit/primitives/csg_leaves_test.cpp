@@ -102,6 +102,12 @@ TEST(CsgLeaves, TextIsNotEscaped) {
   };
   EXPECT_GT(width("\""), 0);
   EXPECT_GT(width("a\"b\\n\", size"), width("a\"b"));
+  // By hand, and more than one in a line.
+  const auto box = [](const std::string& text) { return parse(text).shape.bounds(); };
+  EXPECT_EQ(box("text(text=\"Hi\",size=5);"), box("text(text = \"Hi\", size = 5);"));
+  EXPECT_EQ(box("text(text = \"Hi\");"), box("text(text = \"Hi\", size = 10);"));
+  EXPECT_EQ(box("text(text=\"Hi\",size=5); text(text = \"I\", size = 5);"),
+            box("text(text = \"Hi\", size = 5);"));
   const CsgModel other = parse("text(text = \"I\", size = 10, font = \"Arial\");");
   EXPECT_GT(other.shape.area(), 10);
   EXPECT_EQ(other.warnings,

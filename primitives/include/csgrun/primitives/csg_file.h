@@ -41,14 +41,15 @@ struct CsgEnvironment {
 };
 
 /// Reads cube, sphere, cylinder, polyhedron, square, circle, polygon, text, import, surface,
-/// linear_extrude, rotate_extrude, roof, projection, multmatrix, resize, color, union, difference,
-/// intersection, hull, minkowski, offset, fill, group and render, with the modifiers % (left out,
-/// not even an operand) and # (nothing). As in OpenSCAD, an empty node is an operand, primitives of
-/// impossible size are empty, and where 2D and 3D mix the first child that is not empty decides;
-/// each is said in a warning. Meshes that are open or flat have points for a hull and faces for a
-/// projection without a cut. A shape has one colour, that of the first of the shapes it is made of,
-/// and an extrusion has that of its shape. Arguments are matched by name, or by OpenSCAD's order;
-/// unknown ones are left out with a warning.
+/// linear_extrude, rotate_extrude, roof, projection, multmatrix, resize, color, union,
+/// difference, intersection, hull, minkowski, offset, fill, group and render, with the modifiers
+/// % (left out, not even an operand) and # (nothing). As in OpenSCAD, an empty node is an
+/// operand, and primitives of impossible size are empty; each is said in a warning. Where 2D and
+/// 3D mix the first child that is not empty decides (in OpenSCAD an empty primitive that is the
+/// first child does, too). Meshes that are open or flat have points for a hull and faces for a
+/// projection without a cut. A shape has one colour, that of the first of the shapes it is made
+/// of, and an extrusion has that of its shape. Arguments are matched by name, or by OpenSCAD's
+/// order; unknown ones are left out with a warning.
 ///
 /// Errors have `where` set to the line and a message without it: kMalformedFile for what is not a
 /// .csg file, kInvalidMesh for polyhedra that are not closed, and those of the evaluation of what
