@@ -252,10 +252,40 @@ Result<Scene> SceneBuilder::build(const GridStep& step, const GridStep& least) {
     is_step_too_small_ = false;
     if (Status status = choose(step, least); !status) return status.error();
     if (Status status = make_nodes(); !status) return status.error();
+    if (step.automatic() && !is_step_too_small_) count_repeated_far_leaves();
     // Each time some more leaves count as a whole.
   } while (is_step_too_small_);
   for (uint32_t root : roots_) scene_.roots.push_back(scene_index_[root]);
   return std::move(scene_);
+}
+
+/// Subtrees with far leaves stay in their parent's job, as often as they occur there. Where that
+/// makes jobs of many times what the scene has, its far leaves count as a whole, if a step that is
+/// somewhat coarser holds them.
+void SceneBuilder::count_repeated_far_leaves() {
+  constexpr size_t kMostTimes = 2, kFew = 16;
+  constexpr double kMostCoarser = 64;
+  const auto is_far = [](const Subtree& s) { return s.is_far || !fits_grid(s.box); };
+  std::vector<double> size(scene_.nodes.size(), 1);  // of the job of a node, in leaves
+  double largest = 0;
+  for (size_t i = 0; i < size.size(); ++i) {
+    const SceneNode& node = scene_.nodes[i];
+    if (node.kind != SceneNode::Kind::kOperator) continue;
+    const auto in_job = [&](uint32_t child) {
+      return is_far(scene_.nodes[child].subtree) ? size[child] : 1;
+    };
+    size[i] = in_job(node.first);
+    for (const uint32_t child : node.rest) size[i] += in_job(child);
+    largest = std::max(largest, size[i]);
+  }
+  if (largest <= static_cast<double>(kMostTimes * size.size() + kFew)) return;
+  const double step = choose_step(reach_.far, reach_.far).millimetres();
+  if (step > kMostCoarser * scene_.step.millimetres()) return;
+  for (const uint32_t index : order_) {
+    if (normal(index).kind != NormalNode::Kind::kLeaf || step_leaves_[index].whole) continue;
+    step_leaves_[index].whole = true;
+    is_step_too_small_ = has_repeats_ = true;
+  }
 }
 
 std::optional<Scene> SceneBuilder::go_on(const GridStep& step) {
@@ -285,7 +315,7 @@ std::optional<Scene> SceneBuilder::go_on(const GridStep& step) {
 
 std::optional<SceneStart> SceneBuilder::start_of(const Scene& scene) {
   const SceneNode& root = scene.nodes[scene.roots[0]];
-  if (roots_.size() != 1 || root.kind != SceneNode::Kind::kOperator || !is_quiet_ ||
+  if (roots_.size() != 1 || root.kind != SceneNode::Kind::kOperator || !is_quiet_ || has_repeats_ ||
       rows_.has_bridged()) {
     return std::nullopt;
   }

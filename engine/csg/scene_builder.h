@@ -36,6 +36,7 @@ class SceneBuilder {
  private:
   Status place_leaves();
   Status choose(const GridStep& step, const GridStep& least);
+  void count_repeated_far_leaves();
   [[nodiscard]] uint32_t farthest_leaf() const;
   /// These warn if they are to `tell`; true if there is something to warn of.
   [[nodiscard]] bool has_far_parts(const SceneReach& reach, bool tell) const;
@@ -68,6 +69,7 @@ class SceneBuilder {
   std::vector<StepLeaf>& step_leaves_;
   /// Set when a leaf that must be resolved reaches too far: it is needed as a whole.
   bool is_step_too_small_ = false;
+  bool has_repeats_ = false;  ///< see count_repeated_far_leaves
 };
 
 }  // namespace csgrun

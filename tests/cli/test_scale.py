@@ -22,6 +22,17 @@ class Chains(Case):
         self.expect(outcome, 0)
         self.assertAlmostEqual(outcome.json()["parts"][0]["bbox"][0][0], 100, places=6)
 
+    def test_copies_beyond_the_grid(self):
+        # Each step doubles what the one before has, most of it far outside of the plate.
+        text = ("local plate, t = cube(100, 100, 5, true), cylinder{h = 5, r = 6, fn = 12, center = true}:translate(20, 10, 0)\n"
+                "for i = 1, 12 do t = plate * (t + t:translate(40 * (-1) ^ i, -23, 0)) %s end return t")
+        coarse = self.run_script(text % "", "--stats=json", "--grid", "0.000008").json()["parts"][0]
+        for look in ("", "t:volume()"):
+            outcome = self.run_script(text % look, "--stats=json")
+            self.expect(outcome, 0)
+            self.assertLess(outcome.json()["nodes"]["evaluated"], 1000)  # 2^12 copies of a cylinder
+            self.assertEqual(outcome.json()["parts"][0]["volume"], coarse["volume"])
+
     def test_nested_tables(self):
         outcome = self.run_script("local t = {} for i = 1, 100000 do t = {t} end return t")
         self.expect(outcome, 1, "model.lua:1: groups of parts are nested too deep")
