@@ -107,6 +107,18 @@ const char* other_owner(const std::string& kind, const std::string& name) {
   return nullptr;
 }
 
+/// Whether there is a function of that name that makes a solid or a shape.
+bool makes_parts(const std::string& name) {
+  for (const BindingGroup& group : binding_groups()) {
+    const std::string gives = group.result;
+    if (gives != "Solid" && gives != "Shape") continue;
+    for (const Binding& binding : group.bindings) {
+      if (binding.function != nullptr && name == binding.spec->name) return true;
+    }
+  }
+  return false;
+}
+
 /// Upvalue 1: the table of methods; upvalue 2: "solid" or "shape".
 int find_method(lua_State* L) {
   lua_pushvalue(L, 2);
@@ -123,6 +135,10 @@ int find_method(lua_State* L) {
   const std::string name = lua_tostring(L, 2);
   if (const char* owner = other_owner(kind, name))
     throw ScriptError("a " + kind + " has no method '" + name + "', which is one of " + owner);
+  if (makes_parts(name)) {
+    throw ScriptError("a " + kind + " has no method '" + name + "', which is a function: " + name +
+                      "(...)");
+  }
   throw ScriptError("a " + kind + " has no method '" + name + "'" + did_you_mean(name, names));
 }
 

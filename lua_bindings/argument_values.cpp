@@ -152,6 +152,11 @@ std::string describe_value(lua_State* L, int index) {
   }
 }
 
+std::string describe_given(lua_State* L, int index) {
+  const std::string value = describe_value(L, index);
+  return lua_type(L, index) == LUA_TNUMBER ? "the number " + value : value;
+}
+
 void fail_as(const std::string& function, const std::string& message) {
   const std::string prefix = function + ": ";
   throw ScriptError(message.rfind(prefix, 0) == 0 ? message : prefix + message);
@@ -223,9 +228,7 @@ void Arguments::wrong_type(const Option& option, int index) const {
     }
   }
   fail(fmt::format("option '{}' must be {}, got {}{}", option.name, describe_type(option.type),
-                   lua_type(L_, index) == LUA_TNUMBER ? "the number " + describe_value(L_, index)
-                                                      : describe_value(L_, index),
-                   hint));
+                   describe_given(L_, index), hint));
 }
 
 VectorArgument Arguments::convert_vector(const Option& option, int index) const {

@@ -151,6 +151,9 @@ std::string describe_type(ArgumentType type);
 /// "table", "a list of 2 numbers", "nan", "string" ...: what the user gave, for messages.
 std::string describe_value(lua_State* L, int index);
 
+/// The same, but a number is named as one: "the number 5".
+std::string describe_given(lua_State* L, int index);
+
 /// Number of entries of a list; -1 when the table has other keys or holes.
 lua_Integer list_length(lua_State* L, int index);
 

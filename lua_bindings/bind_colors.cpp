@@ -91,9 +91,23 @@ void push_changed(lua_State* L, const std::function<Appearance(const Appearance&
   keep_marks(L, 1);
 }
 
+/// color{r = 1, g = 0, b = 0}: says how that is written.
+void refuse_named_channels(lua_State* L, const FunctionSpec& spec) {
+  const int last = lua_gettop(L);
+  if (!lua_istable(L, last)) return;
+  std::string list;
+  for (const char* channel : {"r", "g", "b"}) {
+    lua_pushstring(L, channel);
+    if (lua_rawget(L, last) != LUA_TNUMBER) return lua_settop(L, last);
+    list += (list.empty() ? "" : ", ") + describe_value(L, -1);
+  }
+  fail_in(spec, fmt::format("red, green and blue are a list: {}{{{}}}", spec.name, list));
+}
+
 template <const FunctionSpec& Spec>
 int color(lua_State* L) {
   part_argument(L, Spec);
+  refuse_named_channels(L, Spec);
   // color(part, r, g, b): three numbers stand for the list.
   if (lua_gettop(L) >= 4 && lua_type(L, 2) == LUA_TNUMBER && lua_type(L, 3) == LUA_TNUMBER &&
       lua_type(L, 4) == LUA_TNUMBER) {

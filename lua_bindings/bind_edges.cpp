@@ -96,6 +96,18 @@ std::optional<glm::dvec3> named(std::span<const Named> names, std::string text) 
   return std::nullopt;
 }
 
+/// What a name of CadQuery's for a face is here (">Z": the top), for the end of a message; empty
+/// for others.
+std::string face_hint(const std::string& text) {
+  if (text.size() != 2 || (text[0] != '>' && text[0] != '<')) return {};
+  const auto axis = named(kAxes, text.substr(1));
+  if (!axis) return {};
+  const glm::dvec3 direction = text[0] == '>' ? *axis : -*axis;
+  const auto* face = std::find_if(std::begin(kFaceNames), std::end(kFaceNames),
+                                  [&](const Named& n) { return n.direction == direction; });
+  return fmt::format("; it is \"{}\" here", face->name);
+}
+
 bool is_parallel(const glm::dvec3& a, const glm::dvec3& unit) {
   return glm::dot(glm::normalize(a), unit) >= cos_deg(kDirectionDegrees);
 }
@@ -127,7 +139,7 @@ class EdgeChoice {
         fail_in(spec_,
                 "option 'edges' must be \"all\", \"x\", \"y\", \"z\", \"top\", \"bottom\", "
                 "\"left\", \"right\", \"front\" or \"back\", got \"" +
-                    text + "\"");
+                    text + "\"" + face_hint(text));
       }
     }
     choose(filter, false);
@@ -223,10 +235,13 @@ class EdgeChoice {
       found = unit(*v, option);
     }
     if (!found) {
-      fail_in(spec_, fmt::format("option '{}' must be {}, got {}", option, wanted,
-                                 lua_type(L_, index) == LUA_TSTRING
-                                     ? fmt::format("\"{}\"", lua_tostring(L_, index))
-                                     : describe_value(L_, index)));
+      std::string given = describe_value(L_, index);
+      if (lua_type(L_, index) == LUA_TSTRING) {
+        const std::string text = lua_tostring(L_, index);
+        const bool is_of_faces = names.data() == kFaceNames;
+        given = fmt::format("\"{}\"{}", text, is_of_faces ? face_hint(text) : "");
+      }
+      fail_in(spec_, fmt::format("option '{}' must be {}, got {}", option, wanted, given));
     }
     return found;
   }

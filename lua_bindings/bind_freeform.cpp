@@ -227,12 +227,16 @@ int warp(lua_State* L) {
       for (int i = 1; i <= 3; ++i) lua_rawgeti(L, top + 1, i);
       first = top + 2;
     }
+    if (lua_gettop(L) - first != 2) {
+      fail_in(kWarp, fmt::format("the function must give three numbers, got {}",
+                                 count == 1 ? "one value, " + describe_given(L, top + 1)
+                                            : fmt::format("{} values", count)));
+    }
     glm::dvec3 moved(0);
     for (int i = 0; i < 3; ++i) {
-      if (lua_gettop(L) - first != 2 || lua_type(L, first + i) != LUA_TNUMBER) {
-        fail_in(kWarp, fmt::format("the function must give three numbers, got {}",
-                                   count == 1 ? describe_value(L, top + 1)
-                                              : fmt::format("{} values", count)));
+      if (lua_type(L, first + i) != LUA_TNUMBER) {
+        fail_in(kWarp, fmt::format("the function must give three numbers, but number {} is {}",
+                                   i + 1, describe_value(L, first + i)));
       }
       moved[i] = lua_tonumber(L, first + i);
     }

@@ -87,6 +87,8 @@ std::optional<glm::dvec2> point_of_list(lua_State* L, int index) {
 }
 
 int loft(lua_State* L) {
+  if (to_shape(L, 1) != nullptr)
+    fail_in(kLoft, "its outlines are one list, and their heights follow: loft({a, b}, 10)");
   name_list_part(L, "outlines");
   const Arguments arguments(L, kLoft, 1);
   const int outlines = arguments.stack_index("outlines"), given = arguments.stack_index("heights");

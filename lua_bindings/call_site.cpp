@@ -20,6 +20,10 @@ constexpr int kBottomFrames = 10;
 /// How far from the top of the stack the function is looked for that a message names.
 constexpr int kMessageFrames = 50;
 
+/// How far from the top of the stack running functions are looked for: asking for level n takes n
+/// steps.
+constexpr int kRunningFrames = 1000;
+
 std::string with_whole_path_of_stack(lua_State* L, const std::string& message) {
   lua_Debug frame{};
   for (int level = 0; level < kMessageFrames && lua_getstack(L, level, &frame) != 0; ++level) {
@@ -171,6 +175,17 @@ std::string with_place(lua_State* L, std::string message) {
 }
 
 }  // namespace
+
+std::vector<StackLine> stack_lines(lua_State* L, const std::string& path) {
+  std::vector<StackLine> lines;
+  lua_Debug frame{};
+  for (int level = 0; level < kRunningFrames && lua_getstack(L, level, &frame) != 0; ++level) {
+    lua_getinfo(L, "Sl", &frame);
+    if (frame.currentline > 0 && frame.source[0] == '@' && path == frame.source + 1)
+      lines.push_back({frame.currentline, frame.linedefined});
+  }
+  return lines;
+}
 
 int add_traceback(lua_State* L) {
   std::string message;

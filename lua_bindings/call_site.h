@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <lua.hpp>
 
@@ -26,6 +27,16 @@ std::string with_whole_path(const std::string& message, const std::string& path)
 /// A message handler for lua_pcall: message, "stack traceback:", one line a frame. Without
 /// addresses, and with whole paths.
 int add_traceback(lua_State* L);
+
+/// Where a function of Lua stands: the line that it is at, and the one where it begins (0: a
+/// chunk).
+struct StackLine {
+  int line, function_line;
+};
+
+/// Where the functions of a chunk stand that are running, innermost first; of a deep stack the
+/// innermost ones. For a message handler, before the stack is unwound.
+std::vector<StackLine> stack_lines(lua_State* L, const std::string& path);
 
 /// The file whose code is running, as messages name it: chunks made by load() do not count.
 std::string calling_file(lua_State* L);

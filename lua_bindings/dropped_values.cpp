@@ -124,6 +124,35 @@ class Lexer {
   size_t at_ = 0, line_ = 1;
 };
 
+/// What is open at a token of a text that Lua accepts: functions, blocks and brackets.
+class Nesting {
+ public:
+  [[nodiscard]] bool is_in_brackets() const { return !open_.empty() && open_.back().is_bracket; }
+  /// Where the innermost function begins; 0 if there is none.
+  [[nodiscard]] size_t function_line() const {
+    return open_.empty() ? 0 : open_.back().function_line;
+  }
+
+  void pass(const Token& token) {
+    if (token.is("function")) {
+      open_.push_back({false, token.line});
+    } else if (is_one_of(token.text, {"do", "if", "repeat"})) {
+      open_.push_back({false, function_line()});
+    } else if (is_one_of(token.text, {"(", "{", "["})) {
+      open_.push_back({true, function_line()});
+    } else if (is_one_of(token.text, {"end", "until", ")", "}", "]"}) && !open_.empty()) {
+      open_.pop_back();
+    }
+  }
+
+ private:
+  struct Open {
+    bool is_bracket;
+    size_t function_line;
+  };
+  std::vector<Open> open_;
+};
+
 class Finder {
  public:
   explicit Finder(std::string_view text) {
@@ -136,16 +165,25 @@ class Finder {
   std::vector<DroppedValue> find() {
     find_own_functions();
     std::vector<DroppedValue> found;
-    for (size_t i = 0; i + 1 < tokens_.size(); ++i) {
-      if (tokens_[i].kind != Token::Kind::kName || !begins_statement(i)) continue;
-      const std::string_view name = last_of_calls(i);
-      if (name.empty() || !only_gives(name) || own_.contains(name)) continue;
-      found.push_back({tokens_[i].line, message(tokens_[i], std::string(name))});
+    Nesting nesting;
+    for (size_t i = 0; i + 1 < tokens_.size(); nesting.pass(tokens_[i++])) {
+      const bool may_begin = tokens_[i].kind == Token::Kind::kName && !nesting.is_in_brackets();
+      if (!may_begin || !begins_statement(i)) continue;
+      const Calls calls = calls_at(i);
+      if (!only_gives(calls.last) || own_.contains(calls.last)) continue;
+      found.push_back({tokens_[i].line, message(tokens_[i], std::string(calls.last)),
+                       tokens_[calls.end - 1].line, nesting.function_line()});
     }
     return found;
   }
 
  private:
+  /// A statement that is calls of methods one after another, or of one function and its methods.
+  struct Calls {
+    std::string_view last;  ///< the name of the last function; empty if it is something else
+    size_t end = 0;         ///< the token behind the statement
+  };
+
   static std::string message(const Token& first, const std::string& name) {
     const std::string object(first.text), dropped = "what " + name + "(...) gives is dropped: ";
     if (!only_gives(object)) {
@@ -184,9 +222,7 @@ class Finder {
     }
   }
 
-  /// The name of the last function of a statement that is calls of methods one after another, or
-  /// of one function and its methods; empty if it is something else.
-  [[nodiscard]] std::string_view last_of_calls(size_t i) const {
+  [[nodiscard]] Calls calls_at(size_t i) const {
     size_t function = i, at = i + 1;
     while (true) {
       if (tokens_[at].is(":") && tokens_[at + 1].kind == Token::Kind::kName) {
@@ -203,7 +239,7 @@ class Finder {
         next.kind == Token::Kind::kKeyword
             ? !is_one_of(next.text, {"and", "or"})
             : next.kind == Token::Kind::kEnd || next.kind == Token::Kind::kName || next.is(";");
-    return ends ? tokens_[function].text : std::string_view();
+    return ends ? Calls{tokens_[function].text, at} : Calls{};
   }
 
   /// Behind the arguments of a call that begin at a token; that token if none do.

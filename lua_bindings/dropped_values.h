@@ -9,8 +9,10 @@
 namespace csgrun {
 
 struct DroppedValue {
-  size_t line;          ///< from 1
-  std::string message;  ///< what was dropped, and what to write
+  size_t line;           ///< from 1
+  std::string message;   ///< what was dropped, and what to write
+  size_t last_line;      ///< of the statement, which begins at `line`
+  size_t function_line;  ///< where the function begins that it stands in; 0: in none
 };
 
 /// Those of a text that Lua accepts, in its order: calls of functions that only give a value

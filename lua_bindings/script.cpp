@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <vector>
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/call_site.h"
@@ -23,6 +24,8 @@ struct Program {
   Session* session;
   const std::string* name;
   const std::string* text;
+  bool is_loaded = false;
+  std::vector<StackLine> stopped_at;  ///< where its functions stood when it failed
 };
 
 /// The last line that has code, for complaints about what the whole script returned.
@@ -44,10 +47,11 @@ int last_line(lua_State* L, int function) {
 
 /// Everything that needs protection: opening the libraries, loading, running, taking the result.
 int run_program(lua_State* L) {
-  const Program& program = *static_cast<Program*>(lua_touserdata(L, 1));
+  Program& program = *static_cast<Program*>(lua_touserdata(L, 1));
   open_sandbox(L, *program.session);
   open_api(L);
   load_chunk(L, *program.name, *program.text);
+  program.is_loaded = true;
   const int function = lua_gettop(L);
   lua_pushvalue(L, function);
   lua_call(L, 0, LUA_MULTRET);
@@ -67,6 +71,27 @@ int run_program(lua_State* L) {
                             error.what());
   }
   return 0;
+}
+
+/// The message handler. Upvalue 1: the program.
+int note_failure(lua_State* L) {
+  Program& program = *static_cast<Program*>(lua_touserdata(L, lua_upvalueindex(1)));
+  program.stopped_at = stack_lines(L, *program.name);
+  return add_traceback(L);
+}
+
+/// What a statement gave is dropped; one in which the program stopped gave nothing.
+void warn_of_dropped_values(const Program& program) {
+  for (const DroppedValue& value : find_dropped_values(*program.text)) {
+    const bool is_unfinished = std::any_of(
+        program.stopped_at.begin(), program.stopped_at.end(), [&](const StackLine& stopped) {
+          const auto line = static_cast<size_t>(stopped.line);
+          return line >= value.line && line <= value.last_line &&
+                 static_cast<size_t>(stopped.function_line) == value.function_line;
+        });
+    if (is_unfinished) continue;
+    program.session->warn_at(*program.name + ":" + std::to_string(value.line), value.message);
+  }
 }
 
 /// The first line that gives a variable of that name a value of its own, from 1; 0: none does.
@@ -119,9 +144,10 @@ ScriptOutcome run_in_state(Session& session, const std::string& name, const std:
   if (!state) throw std::bad_alloc();
   lua_State* L = state.get();
   attach_session(L, session);
-  Program program{&session, &name, &text};
+  Program program{&session, &name, &text, false, {}};
 
-  lua_pushcfunction(L, guarded<add_traceback>);
+  lua_pushlightuserdata(L, &program);
+  lua_pushcclosure(L, guarded<note_failure>, 1);
   lua_pushcfunction(L, guarded<run_program>);
   lua_pushlightuserdata(L, &program);
   budget.start_script(L);
@@ -138,14 +164,14 @@ ScriptOutcome run_in_state(Session& session, const std::string& name, const std:
   }
   if (session.definition_error) return {ScriptStatus::kUsage, *session.definition_error};
   if (status != LUA_OK) {
+    if (program.is_loaded) warn_of_dropped_values(program);
     const bool geometry = session.is_geometry_failure(first_line(message));
     return {geometry ? ScriptStatus::kGeometry : ScriptStatus::kFailed, message};
   }
   if (std::string problem = unknown_definition(session, text); !problem.empty()) {
     return {ScriptStatus::kUsage, std::move(problem)};
   }
-  for (const DroppedValue& value : find_dropped_values(text))
-    session.warn_at(name + ":" + std::to_string(value.line), value.message);
+  warn_of_dropped_values(program);
   return {};
 }
 

@@ -62,7 +62,11 @@ class Run {
     if (!failure.failed()) failure = load();
     report_.script_seconds = seconds_since(start) - session_.budget().evaluation_seconds();
     if (line_.list_params) {
-      if (!failure.failed()) report_.parameters = session_.parameters;
+      if (!failure.failed()) {
+        report_.parameters = session_.parameters;
+      } else {
+        report_.warnings = session_.warnings();
+      }
       session_.budget().stop();
       return failure;
     }

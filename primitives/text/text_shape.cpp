@@ -194,8 +194,12 @@ std::optional<Error> check(const TextOptions& o) {
   if (!o.direction.empty()) {
     if (auto error = one_of("direction", o.direction, {"ltr", "rtl", "ttb", "btt"})) return error;
   }
-  if (auto error = one_of("halign", o.halign, {"default", "left", "center", "right"})) return error;
-  return one_of("valign", o.valign, {"default", "baseline", "bottom", "center", "top"});
+  // "default" is what stands there where nothing was given.
+  if (o.halign != "default") {
+    if (auto error = one_of("halign", o.halign, {"left", "center", "right"})) return error;
+  }
+  if (o.valign == "default") return std::nullopt;
+  return one_of("valign", o.valign, {"baseline", "bottom", "center", "top"});
 }
 
 /// "en" where nothing, or nothing that is a language, is given: never the locale's.

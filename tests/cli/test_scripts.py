@@ -46,6 +46,9 @@ class Mistakes(Case):
                 ("return cube(5):minGap(cube(1))", "a solid has no method 'minGap' (did you mean 'gap'?)"),
                 ("return Manifold.cube(5)", "undefined variable 'Manifold' (in Lua its functions are globals: cube, sphere, union)"),
                 ("return cube(5):boundingBox()", "a solid has no method 'boundingBox' (did you mean 'bbox'?)"),
+                ("return circle(1):loft(circle(2), 5)", "a shape has no method 'loft', which is a function: loft(...)"),
+                ("return loft(circle(3), circle(2), 10)", "loft: its outlines are one list, and their heights follow: loft({a, b}, 10)"),
+                ("return cube(1):color{r = 1, g = 0, b = 0}", "color: red, green and blue are a list: color{1, 0, 0}"),
                 ("return square(5):revolve()", "a shape has no method 'revolve' (did you mean 'rotate_extrude'?)"),
                 ("return cylinder{h = 5, radius = 2}", "cylinder: unknown option 'radius' (did you mean 'r'?)"),
                 ("return circle{diameter = 2}", "circle: unknown option 'diameter' (did you mean 'd'?)"),
@@ -87,6 +90,40 @@ class Mistakes(Case):
     def test_no_result(self):
         self.check("local a = cube(1)", "model.lua:1: the script makes no part")
         self.check("return 5", "model.lua:1: a part must be a solid, a shape or a table of them, got 5")
+
+    def lines_of_dropped_values(self, text, *arguments):
+        """Of a script that fails: the warnings are behind the message and the traceback."""
+        outcome = self.run_script(text, *arguments)
+        self.assertIn(outcome.code, (1, 3), outcome.err)
+        self.assertTrue(outcome.err.startswith("model.lua:"), outcome.err)
+        self.assertEqual(outcome.out, "")
+        warnings = [line for line in outcome.err.split("\n") if line.startswith("warning: ")]
+        for warning in warnings:
+            self.assertRegex(warning, r"^warning: model\.lua:\d+: what \w+\(\.\.\.\) gives is dropped: ")
+        return [int(warning.split(":")[2]) for warning in warnings]
+
+    def test_a_forgotten_return_is_told_beside_the_error(self):
+        part = "local function part()\n  cube(10)\nend\n"
+        for rest in ("return cube(1) + part()", "return part()", "return part():up(3)", "local a = part() return a.x"):
+            for arguments in (("--stats=json",), ("--stats",), ("-o", "a.stl"), ("--list-params",)):
+                self.assertEqual(self.lines_of_dropped_values(part + rest, *arguments), [2], rest)
+            self.assertEqual(self.lines_of_dropped_values(part.replace("\n", " ") + rest), [1], rest)
+        self.assertEqual(self.lines_of_dropped_values("cube(10)"), [1])
+        self.assertEqual(self.lines_of_dropped_values("\ncube(10)\n  :up(1)\n  :translate(1, 2, 3)"), [2])
+        self.assertEqual(self.lines_of_dropped_values("cube(1)\nlocal a = nil + 1\nsphere(1)"), [1, 3])
+        self.assertNotIn("warning", self.run_script("cube(10)", "-q", "-o", "a.stl").err)
+
+    def test_what_a_statement_did_not_give_is_not_dropped(self):
+        for text in ("cube('x')", "cube(10):translate('x')", "cube(10)\n:translate(\n'x')",
+                     "local function size() error('no size') end\ncube(\nsize())",
+                     "local function part()\ncube('x')\nend\nreturn part()",
+                     "local function part() return cube(1):warp(function() error('x') end) end\npart():rotate(1)",
+                     "local a = cube(1)\nlocal b = a + nil", "local a = cube(1) + cube('x')", "return cube(1, 'x')",
+                     "local a = cube(1) local t = {cube(2); a; sphere(1);}\nerror('x')", "cube(1)\nreturn return"):
+            with self.subTest(text):
+                self.assertEqual(self.lines_of_dropped_values(text), [])
+        outcome = self.run_script("return union{cube(1); sphere(1); cube(3)}")
+        self.assertEqual(outcome.json()["warnings"], [])
 
     def test_2d_result(self):
         outcome = self.run_script("\nreturn square(10)", "-o", "a.stl")
@@ -153,6 +190,65 @@ class Geometry(Case):
                               ("csg.threads').bolt{size = 'M8', length = 30, threaded = 50}",
                                "threads.bolt: option 'threaded' must not be greater than the length, 30, got 50")):
             self.expect(self.run_script("return require('" + call), 1, "model.lua:1: " + message)
+
+    def test_libraries_lose_nothing_behind_a_nil(self):
+        for call, message in (("row{cube(1), nil, cube(2)}", "row: part 2 must be a solid, got nil"),
+                              ("stack({nil, cube(2)}, {gap = 1})", "stack: part 1 must be a solid, got nil"),
+                              ("grid({cube(1), nil, cube(2)})", "grid: part 2 must be a solid, got nil"),
+                              ("at(cube(1), {{0, 0}, nil, {5, 5}})", "at: point 2 must be {x, y, z}, got nil"),
+                              ("at(cube(1), {{0, 0}, {nil, 5}})", "at: point 2 must be {x, y, z}, but entry 1 is nil"),
+                              ("line(cube(1), 3, {to = {9, nil, 5}})", "line: option 'to' must be {x, y, z}, but entry 2 is nil"),
+                              ("row{cube(1), cube(2), gap = 3}", "row: what it places must be a list without names, got the key 'gap'")):
+            self.expect(self.run_script(f"return require('csg.layout').{call}"), 1, f"model.lua:1: layout.{message}\n")
+        choices = "require('csg.options')('f', {a = 'c'}, {a = {'a', choices = {'a', nil, 'b'}}})"
+        self.expect(self.run_script(choices), 1, "model.lua:1: f: option 'a' must be one of \"a\", \"b\", got \"c\"")
+
+    def test_libraries_take_whole_numbers_that_are_floats(self):
+        def parts(expression):
+            outcome = self.run_script("local layout, gears = require('csg.layout'), require('csg.gears')\n"
+                                      "local gear = gears.spur{teeth = 10, module = 1, width = 1}\nreturn " + expression)
+            self.expect(outcome, 0)
+            return [(part["bbox"], part["volume"]) for part in outcome.json()["parts"]]
+        for count, whole in (("12 / 2", "6"), ("2 ^ 2", "4")):
+            for call in ("layout.ring(cube(1), {}, {{radius = 9}})", "layout.ring(cube(1), {}, {{radius = 9, turn = false}})",
+                         "layout.line(cube(1), {}, {{to = {{9, 0, 0}}}})", "layout.grid({{cube(1), cube(2)}}, {{columns = {}}})",
+                         "gears.meshed(gear, 20, 10 * {}, {{module = 1}})", "cube(gears.distance(40, {}, {{module = 1}}))",
+                         "gears.spur{{teeth = 9 * {}, module = 1, width = 1}}"):
+                self.assertEqual(parts(call.format(count)), parts(call.format(whole)), call)
+        for call, message in (("layout').ring(cube(1), 12 / 5)", "layout.ring: wants how many, a whole number from 1, got 2.4"),
+                              ("layout').line(cube(1), '3', {})", "layout.line: wants how many, a whole number from 1, got 3"),
+                              ("gears').distance(40 / 3, 30.0, {module = 1})",
+                               f"gears.distance: wants two numbers of teeth, whole ones, got {40 / 3:.14g} and 30.0")):
+            self.expect(self.run_script("return require('csg." + call), 1, "model.lua:1: " + message + "\n")
+
+    def test_what_functions_of_points_give(self):
+        for body, got in (("return x", "got one value, the number 0"), ("return {x, y}", "got one value, a list of 2 values"),
+                          ("return x, y", "got 2 values"), ("", "got 0 values"), ("return x, y, nil", "but number 3 is nil"),
+                          ("return {x, true, z}", "but number 2 is boolean")):
+            self.expect(self.run_script(f"return cube(10):warp(function(x, y, z) {body} end)"), 1,
+                        f"model.lua:1: warp: the function must give three numbers, {got}\n")
+
+    def test_names_of_faces_in_other_programs(self):
+        for theirs, ours in ((">X", "right"), ("<X", "left"), (">Y", "back"), ("<y", "front"), (">z", "top"), ("<Z", "bottom")):
+            for edges in (f"'{theirs}'", f"{{on = '{theirs}'}}", f"{{'x', '{theirs}'}}"):
+                self.assertTrue(self.run_script(f"return cube(9):fillet(1, {{edges = {edges}}})").first.endswith(
+                    f'got "{theirs}"; it is "{ours}" here'), edges)
+        for edges in (">W", "top >Z", "^Z"):
+            self.assertTrue(self.run_script(f"return cube(9):fillet(1, {{edges = '{edges}'}})").first.endswith(f'got "{edges}"'))
+        own, theirs = (self.run_script(f"return cube(9):fillet(1, {{edges = '{edges}'}})").json()["parts"] for edges in ("z", "|Z"))
+        self.assertEqual(own, theirs)
+
+    def test_colours_are_lists_also_as_vectors(self):
+        looks = [self.run_script(f"return cube(1):color{given}", "-o", "a.glb") and self.read_glb("a.glb")["materials"]
+                 for given in ("{1, 0, 0}", "(vec(1, 0, 0))", "('red')")]
+        self.assertEqual(looks[0], looks[1])
+        self.assertEqual(looks[0], looks[2])
+
+    def test_text_offers_what_the_docs_list(self):
+        self.expect(self.run_script("return text('a', {halign = 'middle'})"), 1,
+                    'model.lua:1: text: halign must be one of "left", "center", "right", got "middle"\n')
+        self.expect(self.run_script("return text('a', {valign = 'middle'})"), 1,
+                    'model.lua:1: text: valign must be one of "baseline", "bottom", "center", "top", got "middle"\n')
 
     def test_an_empty_part_is_a_warning(self):
         outcome = self.run_script("return {a = cube(1), b = cube(1) - cube(2)}")

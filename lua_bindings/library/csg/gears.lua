@@ -188,8 +188,10 @@ function gears.rack(given)
 end
 
 local function distance_of(name, first, second, o)
-  if math.type(first) ~= "integer" or math.type(second) ~= "integer" then
-    error(name .. ": wants two numbers of teeth", 3)
+  local function is_whole(teeth) return type(teeth) == "number" and math.tointeger(teeth) end
+  if not is_whole(first) or not is_whole(second) then
+    error(name .. ": wants two numbers of teeth, whole ones, got " .. tostring(first) .. " and "
+          .. tostring(second), 3)
   end
   return o.module * (o.internal and first - second or first + second) / 2
 end

@@ -18,11 +18,26 @@ local function solid_of(name, part)
   if type(part) ~= "userdata" then error(name .. ": wants a solid, got " .. tostring(part), 3) end
 end
 
+-- How far a list goes: to its last entry, also behind a hole, where ipairs ends. `what` the list is
+-- stands in the message about names in it.
+local function length_of(name, what, list)
+  local length = 0
+  for key in pairs(list) do
+    if math.type(key) ~= "integer" or key < 1 then
+      error(name .. ": " .. what .. " must be a list without names, got the key '" .. tostring(key)
+            .. "'", 4)
+    end
+    length = math.max(length, key)
+  end
+  return length
+end
+
 local function list_of(name, parts)
   if type(parts) ~= "table" then
     error(name .. ": wants a list of solids, got " .. tostring(parts), 3)
   end
-  for i, part in ipairs(parts) do
+  for i = 1, length_of(name, "what it places", parts) do
+    local part = parts[i]
     if type(part) ~= "userdata" then
       error(name .. ": part " .. i .. " must be a solid, got " .. tostring(part), 3)
     end
@@ -32,10 +47,11 @@ local function list_of(name, parts)
 end
 
 local function count_of(name, count)
-  if math.type(count) ~= "integer" or count < 1 then
+  local whole = type(count) == "number" and math.tointeger(count)
+  if not whole or whole < 1 then
     error(name .. ": wants how many, a whole number from 1, got " .. tostring(count), 3)
   end
-  return count
+  return whole
 end
 
 -- The functions of the same names that are built in.
@@ -140,7 +156,7 @@ end
 ---@return Solid[]
 function layout.line(part, count, given)
   solid_of("layout.line", part)
-  count_of("layout.line", count)
+  count = count_of("layout.line", count)
   local o = options("layout.line", given, {
     step = {type = "table", optional = true}, to = {type = "table", optional = true},
   })
@@ -148,7 +164,13 @@ function layout.line(part, count, given)
     error("layout.line: wants either step = {x, y, z} or to = {x, y, z}", 2)
   end
   local step = o.step or {}
-  for i, length in ipairs(o.to or {}) do step[i] = length / math.max(count - 1, 1) end
+  local to = o.to or {}
+  for i = 1, length_of("layout.line", "option 'to'", to) do
+    if type(to[i]) ~= "number" then
+      error("layout.line: option 'to' must be {x, y, z}, but entry " .. i .. " is " .. tostring(to[i]), 2)
+    end
+    step[i] = to[i] / math.max(count - 1, 1)
+  end
   return part:linear_array{count, step, list = true}
 end
 
@@ -161,7 +183,7 @@ end
 ---@return Solid[]
 function layout.ring(part, count, given)
   solid_of("layout.ring", part)
-  count_of("layout.ring", count)
+  count = count_of("layout.ring", count)
   local o = options("layout.ring", given or {}, {
     radius = {0}, angle = {360, min = -360, max = 360}, start = {0}, turn = {true},
   })
@@ -187,9 +209,15 @@ function layout.at(part, points)
     error("layout.at: wants a list of points {x, y, z}, got " .. tostring(points), 2)
   end
   local copies = {}
-  for i, point in ipairs(points) do
+  for i = 1, length_of("layout.at", "the points", points) do
+    local point = points[i]
     if type(point) ~= "table" then
       error("layout.at: point " .. i .. " must be {x, y, z}, got " .. tostring(point), 2)
+    end
+    for k = 1, length_of("layout.at", "point " .. i, point) do
+      if point[k] == nil then
+        error("layout.at: point " .. i .. " must be {x, y, z}, but entry " .. k .. " is nil", 2)
+      end
     end
     copies[i] = part:translate(point[1] or 0, point[2] or 0, point[3] or 0)
   end

@@ -71,7 +71,7 @@ local function fault(value, rule)
   end
   if rule.choices then
     local names = {}
-    for _, choice in ipairs(rule.choices) do
+    for _, choice in pairs(rule.choices) do   -- pairs: also those behind a nil
       if choice == value then return nil end
       names[#names + 1] = shown(choice)
     end
@@ -118,7 +118,7 @@ return function(name, given, rules, level)
     else
       local problem = fault(value, rule)
       if problem then error(name .. ": option '" .. key .. "' " .. problem, level) end
-      result[key] = value
+      result[key] = rule.whole and math.tointeger(value) or value   -- 40 / 2 is 20, not 20.0
     end
   end
   return result

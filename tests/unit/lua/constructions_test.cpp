@@ -229,6 +229,16 @@ TEST(Edges, Mistakes) {
   EXPECT_EQ(message_of("return cube(1):edges{on = {1, 2}}"),
             "model.lua:1: edges: option 'on' must be \"top\", \"bottom\", \"left\", \"right\", "
             "\"front\", \"back\" or a list of three numbers, got a list of 2 values");
+  const std::string sides[][2] = {{">X", "right"}, {"<X", "left"}, {">Y", "back"},
+                                  {"<Y", "front"}, {">Z", "top"},  {"<Z", "bottom"}};
+  for (const auto& [theirs, ours] : sides) {
+    const std::string hint = ", got \"" + theirs + "\"; it is \"" + ours + "\" here";
+    for (const std::string& call :
+         {"chamfer(0.1, '" + theirs + "')", "edges{on = '" + theirs + "'}"}) {
+      const std::string message = message_of("return cube(1):" + call);
+      EXPECT_TRUE(message.ends_with(hint)) << message;
+    }
+  }
   EXPECT_EQ(message_of("return cube(1):edges{normal = {0, 0, 0}}"),
             "model.lua:1: edges: option 'normal' must not be 0");
   EXPECT_EQ(message_of("return cube(1):edges{turn = -1}"),
@@ -284,6 +294,10 @@ TEST(Freeform, Mistakes) {
   EXPECT_EQ(message_of("return cube(1):warp()"), "model.lua:1: warp: needs a function");
   EXPECT_EQ(message_of("return cube(1):warp(function() return 1, 2 end)"),
             "model.lua:1: warp: the function must give three numbers, got 2 values");
+  EXPECT_EQ(message_of("return cube(1):warp(function(x, y) return x end)"),
+            "model.lua:1: warp: the function must give three numbers, got one value, the number 0");
+  EXPECT_EQ(message_of("return cube(1):warp(function(x, y) return {x, y, 'z'} end)"),
+            "model.lua:1: warp: the function must give three numbers, but number 3 is string");
   EXPECT_EQ(message_of("return cube(1):warp(function(x, y) return x, y, 0 end)"),
             "model.lua:1: warp: the moved points enclose no volume");
   EXPECT_EQ(message_of("return cube(1):warp(function(x, y, z) return x, y, x + y / 3 end)"),

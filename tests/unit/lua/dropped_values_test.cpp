@@ -50,6 +50,24 @@ TEST(DroppedValues, AreWholeStatements) {
   }
 }
 
+TEST(DroppedValues, AreNoEntriesOfLists) {
+  EXPECT_EQ(lines("a = union{cube(1); sphere(1); cube(2)}\nf(cube(1), {b; cube(1);})"), Lines{});
+  EXPECT_EQ(lines("a = {b; function() x = 1; cube(1) end;\nsphere(2);}\nsphere(3)"), (Lines{1, 3}));
+}
+
+TEST(DroppedValues, KnowTheirStatementAndFunction) {
+  const auto found = find_dropped_values(
+      "cube(1)\nfunction f()\n  if a then for i = 1, 2 do\n    cube(1)\n  :translate(1)\n"
+      "  end end\n  repeat cube(1) until a\nend\nlocal g = function() return 1 end cube{\n1}");
+  ASSERT_EQ(found.size(), 4u);
+  const size_t expected[][3] = {{1, 1, 0}, {4, 5, 2}, {7, 7, 2}, {9, 10, 0}};
+  for (size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].line, expected[i][0]);
+    EXPECT_EQ(found[i].last_line, expected[i][1]);
+    EXPECT_EQ(found[i].function_line, expected[i][2]);
+  }
+}
+
 TEST(DroppedValues, StandInNoStringOrComment) {
   for (const char* const text :
        {"-- cube(1)", "--[[\ncube(1)\n]]", "--[==[ ]] cube(1)\n]==]", "a = [[\ncube(1) ]]",
@@ -70,6 +88,47 @@ TEST(DroppedValues, AreWarnedOf) {
   const testing::ScriptRun run("translate({0, 0, 5}) sphere(1)\nreturn cube(1)");
   ASSERT_EQ(run.session.warnings().size(), 2u);
   EXPECT_EQ(run.session.warnings()[0].substr(0, 40), "model.lua:1: what translate(...) gives i");
+}
+
+/// The lines that a script which fails is warned of.
+std::vector<std::string> warned_lines(const std::string& text) {
+  const testing::ScriptRun run(text);
+  EXPECT_NE(run.outcome.status, ScriptStatus::kGood) << text;
+  std::vector<std::string> found;
+  for (const std::string& warning : run.session.warnings()) {
+    EXPECT_NE(warning.find("gives is dropped: "), std::string::npos) << warning;
+    found.push_back(warning.substr(0, warning.find(": ")));
+  }
+  return found;
+}
+using Places = std::vector<std::string>;
+
+TEST(DroppedValues, AreWarnedOfWhenTheScriptFails) {
+  const std::string part = "local function part() cube(10) end ";
+  for (const std::string text : {"return cube(1) + part()", "return part()", "return part():up(3)",
+                                 "local a = part() return a.x", "error('x')"}) {
+    EXPECT_EQ(warned_lines(part + text), Places{"model.lua:1"}) << text;
+  }
+  EXPECT_EQ(warned_lines("cube(10)"), Places{"model.lua:1"});
+  EXPECT_EQ(warned_lines("\ncube(10)\n  :up(1)\n  :translate(1, 2, 3)"), Places{"model.lua:2"});
+  EXPECT_EQ(warned_lines("cube(1)\nlocal a = nil + 1\nsphere(1)"),
+            (Places{"model.lua:1", "model.lua:3"}));
+}
+
+TEST(DroppedValues, OfStatementsInWhichTheScriptStoppedAreNot) {
+  for (const char* const text :
+       {"cube('x')", "cube(10):translate('x')", "cube(10)\n:translate(\n'x')",
+        "local function size() error('no size') end\ncube(\nsize())",
+        "local function part()\ncube('x')\nend\nreturn part()",
+        "local function part() return cube(1):warp(function() error('x') end) "
+        "end\npart():rotate(1)",
+        // Held by locals, or made in passing.
+        "local a = cube(1)\nlocal b = a + nil", "local a = cube(1) + cube('x')",
+        "local a = cube(1) local t = {cube(2); a; sphere(1);}\nerror('x')", "return cube(1, 'x')",
+        // No text that Lua takes.
+        "cube(1)\nreturn return"}) {
+    EXPECT_EQ(warned_lines(text), Places{}) << text;
+  }
 }
 
 }  // namespace

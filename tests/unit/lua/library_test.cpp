@@ -131,7 +131,7 @@ TEST(Library, MistakesAreNamedInTheModel) {
       "model.lua:5: wheel: unknown option");
   // What Lua says inside of the library, and what built-in functions say there.
   expect_place(kLayout + "\n\nreturn layout.at(cube(1), {{'x'}})", "model.lua:3: translate: ");
-  expect_place(kLayout + "\n\nreturn layout.line(cube(1), 2, {to = {cube(1)}})",
+  expect_place(kLayout + "\n\nreturn layout.place(cube(1), 'top', {true})",
                "model.lua:3: attempt to perform arithmetic");
 }
 
@@ -235,7 +235,54 @@ TEST(Gears, Mistakes) {
   EXPECT_EQ(message("gears.rack{teeth = 40, module = 2, width = 8, pressure = 44}"),
             "model.lua:1: gears.rack: the teeth come to a point below their tips");
   EXPECT_EQ(message("gears.meshed(cube(1), 2.5, 3, {module = 2})"),
-            "model.lua:1: gears.meshed: wants two numbers of teeth");
+            "model.lua:1: gears.meshed: wants two numbers of teeth, whole ones, got 2.5 and 3");
+}
+
+// 40 / 2 is 20.0 in Lua.
+TEST(Library, WholeNumbersMayBeFloats) {
+  expect_good(kGears + kLayout +
+              "assert(gears.distance(40 / 2, 30, {module = 1}) == 25) "
+              "local g = gears.spur{teeth = 10, module = 1, width = 1} "
+              "assert(g == gears.spur{teeth = 20 / 2, module = 1, width = 1}) "
+              "assert(gears.meshed(g, 40 / 2, 20 / 2, {module = 1}) == "
+              "gears.meshed(g, 20, 10, {module = 1})) "
+              "assert(#layout.ring(cube(1), 12 / 2) == 6) "
+              "assert(layout.line(cube(1), 6 / 2, {to = {8, 0, 0}})[2]:bbox().min.x == 4) "
+              "local options = require 'csg.options' "
+              "local o = options('f', {n = 8 / 2}, {n = {1, whole = true}, x = {4 / 2}}) "
+              "assert(math.type(o.n) == 'integer' and o.n == 4 and math.type(o.x) == 'float')");
+  EXPECT_EQ(message_of(kLayout + "return layout.ring(cube(1), 6.5)"),
+            "model.lua:1: layout.ring: wants how many, a whole number from 1, got 6.5");
+  EXPECT_EQ(message_of(kLayout + "return layout.ring(cube(1), '6')"),
+            "model.lua:1: layout.ring: wants how many, a whole number from 1, got 6");
+}
+
+// What stands behind a nil is not lost.
+TEST(Library, ListsHaveNoHoles) {
+  const auto message = [](const std::string& call) { return message_of(kLayout + call); };
+  for (const std::string function : {"row", "stack", "grid"}) {
+    const std::string place = "model.lua:1: layout." + function + ": ";
+    EXPECT_EQ(message("layout." + function + "{cube(1), nil, cube(2)}"),
+              place + "part 2 must be a solid, got nil");
+    EXPECT_EQ(message("layout." + function + "{nil, cube(2)}"),
+              place + "part 1 must be a solid, got nil");
+    EXPECT_EQ(message("layout." + function + "{cube(1), cube(2), gap = 3}"),
+              place + "what it places must be a list without names, got the key 'gap'");
+  }
+  EXPECT_EQ(message("layout.at(cube(1), {{0, 0}, nil, {5, 5}})"),
+            "model.lua:1: layout.at: point 2 must be {x, y, z}, got nil");
+  EXPECT_EQ(message("layout.at(cube(1), {{0, 0}, {nil, 5}})"),
+            "model.lua:1: layout.at: point 2 must be {x, y, z}, but entry 1 is nil");
+  EXPECT_EQ(message("layout.at(cube(1), {{x = 1, y = 2}})").substr(0, 63),
+            "model.lua:1: layout.at: point 1 must be a list without names, g");
+  EXPECT_EQ(message("layout.line(cube(1), 3, {to = {9, nil, 5}})"),
+            "model.lua:1: layout.line: option 'to' must be {x, y, z}, but entry 2 is nil");
+  EXPECT_EQ(
+      message_of("require('csg.options')('f', {a = 'c'}, {a = {'a', choices = {'a', nil, 'b'}}})"),
+      "model.lua:1: f: option 'a' must be one of \"a\", \"b\", got \"c\"");
+  expect_good(kLayout +
+              "local parts = {cube(1), cube(2), nil} assert(#layout.row(parts) == 2) "
+              "assert(#layout.at(cube(1), {vec(1, 2), vec{1, 2, 3}}) == 2)");
 }
 
 TEST(Threads, BoltAndNutFit) {

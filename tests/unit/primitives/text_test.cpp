@@ -293,8 +293,7 @@ TEST(Text, BadOptionsAreErrors) {
   options.size = 10;
   options.halign = "middle";
   EXPECT_EQ(error(options),
-            "text: halign must be one of \"default\", \"left\", \"center\", \"right\", got "
-            "\"middle\"");
+            "text: halign must be one of \"left\", \"center\", \"right\", got \"middle\"");
   options.halign = "left";
   options.direction = "up";
   EXPECT_EQ(error(options),
