@@ -123,10 +123,11 @@ std::optional<Error> find_disagreement(const RepairMesh& mesh) {
   return error;
 }
 
-void drop_bad_faces(RepairMesh& mesh, const RepairOptions& options, StepNote& degenerate,
-                    StepNote& repeated) {
+Undecided drop_bad_faces(RepairMesh& mesh, const RepairOptions& options, RepeatedFaces when,
+                         StepNote& degenerate, StepNote& repeated) {
   clean_faces(mesh, degenerate);
-  if (options.drop_duplicates) drop_repeated_faces(mesh, true, repeated);
+  if (options.drop_duplicates) return drop_repeated_faces(mesh, when, repeated);
+  return Undecided(mesh.faces.size(), false);
 }
 
 /// Everything between welding by value and the result.
@@ -136,16 +137,19 @@ Status run_steps(RepairMesh& mesh, const RepairOptions& options, bool outwards,
       near(RepairAction::kWeldNear), split(RepairAction::kSplitEdges),
       turned(RepairAction::kTurnFaces), filled(RepairAction::kFillHoles),
       inverted(RepairAction::kTurnSurfaces);
-  drop_bad_faces(mesh, options, degenerate, repeated);
+  const auto drop_bad = [&](RepeatedFaces when) {
+    return drop_bad_faces(mesh, options, when, degenerate, repeated);
+  };
+  Undecided undecided = drop_bad(RepeatedFaces::kBeforeSplitting);
   if (options.weld > 0) {
-    weld_open_points(mesh, options.weld, near);
-    drop_bad_faces(mesh, options, degenerate, repeated);
+    weld_open_points(mesh, undecided, options.weld, near);
+    undecided = drop_bad(RepeatedFaces::kBeforeSplitting);
   }
-  split_open_edges(mesh, options.weld, split);
-  drop_bad_faces(mesh, options, degenerate, repeated);
+  split_open_edges(mesh, undecided, options.weld, split);
+  drop_bad(RepeatedFaces::kBeforeFilling);
   if (options.drop_degenerate) {
     drop_flat_faces(mesh, degenerate);
-    drop_bad_faces(mesh, options, degenerate, repeated);
+    drop_bad(RepeatedFaces::kBeforeFilling);
   }
   near.file(report);
   split.file(report);
@@ -166,7 +170,9 @@ Status run_steps(RepairMesh& mesh, const RepairOptions& options, bool outwards,
   }
   fill_holes(mesh, holes, filled);
   filled.file(report);
-  if (options.drop_duplicates && !holes.empty()) drop_repeated_faces(mesh, false, repeated);
+  if (options.drop_duplicates && !holes.empty()) {
+    drop_repeated_faces(mesh, RepeatedFaces::kAfterFilling, repeated);
+  }
   repeated.file(report);
   if (mesh.faces.empty()) return refuse("nothing is left: no face bounds a solid");
   if (encloses_nothing(mesh))

@@ -33,10 +33,11 @@ Outline outline_of(const LoopFace& face, uint32_t number) {
 
 /// The faces of one outline.
 struct Group {
-  size_t begin, end;  // of outlines
-  bool majority;      // the direction of most
-  size_t rest;        // how many more there are that way than the other
-  size_t stay = 0;    // how many stay
+  size_t begin, end;   // of outlines
+  bool majority;       // the direction of most
+  size_t rest;         // how many more there are that way than the other
+  size_t stay = 0;     // how many stay
+  bool waits = false;  // how many is not decided: all stay so far
 
   [[nodiscard]] size_t size() const { return end - begin; }
 };
@@ -82,13 +83,46 @@ Singles single_faces(const RepairMesh& mesh, const std::vector<Outline>& outline
   return singles;
 }
 
-/// For each face, on how many of its edges an odd number of others ends, less the rest.
-std::vector<int64_t> need_of_faces(const std::vector<LoopFace>& faces, const EdgeUses& edges) {
-  std::vector<int64_t> need(faces.size(), 0);
+/// How many edges of a face say what.
+struct Votes {
+  int64_t odd = 0;    // an odd number of others ends there: one more is needed
+  int64_t even = 0;   // an even number, and not none
+  int64_t alone = 0;  // no other one ends there
+
+  [[nodiscard]] bool is_needed() const { return odd >= even + alone; }
+  /// Whether it hangs out without need.
+  [[nodiscard]] bool is_flap() const { return alone > 0 && !is_needed(); }
+  /// Whether it might be needed, if neighbours were found where it is alone.
+  [[nodiscard]] bool may_be_needed() const { return alone > 0 && odd >= even; }
+};
+
+/// Of all faces but those that are left out, which count for none.
+std::vector<Votes> votes_of_faces(const EdgeUses& edges, const std::vector<bool>& left_out) {
+  std::vector<Votes> votes(left_out.size());
   edges.for_each_edge([&](std::span<const EdgeUse> uses) {
-    for (const EdgeUse& use : uses) need[use.face] += uses.size() % 2 == 0 ? 1 : -1;
+    const auto count = std::count_if(uses.begin(), uses.end(),
+                                     [&](const EdgeUse& use) { return !left_out[use.face]; });
+    for (const EdgeUse& use : uses) {
+      Votes& own = votes[use.face];
+      ++(count == 1 ? own.alone : count % 2 == 0 ? own.odd : own.even);
+    }
   });
-  return need;
+  return votes;
+}
+
+/// Flaps do not count for the faces beside them.
+std::vector<Votes> votes_of_singles(const Singles& singles, const EdgeUses& edges) {
+  std::vector<bool> left_out(singles.faces.size(), false);
+  std::vector<Votes> votes = votes_of_faces(edges, left_out);
+  for (uint32_t f = 0; f < left_out.size(); ++f) {
+    left_out[f] = singles.group_of[f] != kNone && votes[f].is_flap();
+  }
+  if (std::find(left_out.begin(), left_out.end(), true) == left_out.end()) return votes;
+  const std::vector<Votes> others = votes_of_faces(edges, left_out);
+  for (uint32_t f = 0; f < left_out.size(); ++f) {
+    if (!left_out[f]) votes[f] = others[f];
+  }
+  return votes;
 }
 
 /// For each face, whether all its edges are balanced.
@@ -104,7 +138,7 @@ std::vector<bool> balanced_faces(const RepairMesh& mesh) {
 /// A surface that is there twice, back to back, all of it: one of each group stays where it is
 /// needed.
 void keep_two_sided_surfaces(const Singles& singles, const EdgeUses& edges,
-                             const std::vector<int64_t>& need, std::vector<Group>& groups) {
+                             const std::vector<Votes>& votes, std::vector<Group>& groups) {
   UnionFind connected(singles.faces.size());
   edges.for_each_edge([&](std::span<const EdgeUse> uses) {
     for (const EdgeUse& use : uses) connected.join(use.face, uses[0].face);
@@ -119,7 +153,7 @@ void keep_two_sided_surfaces(const Singles& singles, const EdgeUses& edges,
   }
   for (uint32_t f = 0; f < connected.size(); ++f) {
     if (singles.faces[f].loops.empty() || group_of(f) == nullptr) continue;
-    if (!something_stays[connected.find(f)] && need[f] >= 0) group_of(f)->stay = 1;
+    if (!something_stays[connected.find(f)] && votes[f].is_needed()) group_of(f)->stay = 1;
   }
 }
 
@@ -159,34 +193,46 @@ void drop_flat_faces(RepairMesh& mesh, StepNote& note) {
                        [&](const Loop& loop) { return is_flat(mesh.points, loop); });
 }
 
-void drop_repeated_faces(RepairMesh& mesh, bool keep_two_sided, StepNote& note) {
+Undecided drop_repeated_faces(RepairMesh& mesh, RepeatedFaces when, StepNote& note) {
   std::vector<Outline> outlines;
   std::vector<Group> groups = find_groups(mesh, outlines);
-  if (groups.empty()) return;
+  if (groups.empty()) return Undecided(mesh.faces.size(), false);
   const Singles singles = single_faces(mesh, outlines, groups);
   const EdgeUses edges(singles.faces, mesh.points.size());
-  const std::vector<int64_t> need = need_of_faces(singles.faces, edges);
+  const std::vector<Votes> votes = votes_of_singles(singles, edges);
   const std::vector<bool> balanced = balanced_faces(mesh);
   for (Group& group : groups) {
     const uint32_t face = outlines[group.begin].face;
-    group.stay = balanced[face] || need[face] < 0 ? group.rest : 1;
+    group.stay = balanced[face] || !votes[face].is_needed() ? group.rest : 1;
   }
-  if (keep_two_sided) keep_two_sided_surfaces(singles, edges, need, groups);
-  std::vector<bool> dropped(mesh.faces.size(), false);
+  if (when != RepeatedFaces::kAfterFilling) keep_two_sided_surfaces(singles, edges, votes, groups);
+  if (when == RepeatedFaces::kBeforeSplitting) {
+    for (Group& group : groups) {
+      group.waits = group.stay != 1 && votes[outlines[group.begin].face].may_be_needed();
+    }
+  }
+  std::vector<bool> dropped(mesh.faces.size(), false), waits(mesh.faces.size(), false);
   for (const Group& group : groups) {
     size_t stay = group.stay;
     for (size_t i = group.begin; i < group.end; ++i) {
+      waits[outlines[i].face] = group.waits;
+      if (group.waits) continue;
       const bool stays = stay > 0 && outlines[i].turned == group.majority;
       stay -= stays;
       dropped[outlines[i].face] = !stays;
     }
   }
+  Undecided undecided;
   for (size_t f = 0; f < mesh.faces.size(); ++f) {
-    if (!dropped[f]) continue;
+    if (!dropped[f]) {
+      undecided.push_back(waits[f]);
+      continue;
+    }
     note.add_at(mesh.points[mesh.faces[f].loops[0][0]]);
     mesh.faces[f].loops.clear();
   }
   drop_empty_loops(mesh.faces);
+  return undecided;
 }
 
 }  // namespace csgrun

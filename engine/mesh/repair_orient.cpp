@@ -1,8 +1,12 @@
 // Repair of orientation: faces agree with their neighbours, surfaces face outwards.
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
 #include <span>
 
 #include "engine/bsp/union_find.h"
+#include "engine/bsp/winding.h"
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/mesh_text.h"
 #include "engine/mesh/repair_patches.h"
@@ -57,10 +61,51 @@ int side_seen_along_z(const std::vector<glm::dvec3>& points, uint32_t a, uint32_
   return q.x <= r.x ? 1 : -1;
 }
 
+using Corners = std::array<uint32_t, 3>;
+
+Box box_of(const glm::dvec3& p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
+
+/// The triangles of a surface, to be found by what is below them.
+class TrianglesAbove {
+ public:
+  TrianglesAbove(const std::vector<glm::dvec3>& points, std::vector<Corners> triangles)
+      : triangles_(std::move(triangles)), boxes_(boxes_of(points, triangles_)), tree_(boxes_) {}
+  TrianglesAbove(const TrianglesAbove&) = delete;
+  TrianglesAbove& operator=(const TrianglesAbove&) = delete;
+
+  /// Calls `visit` for each triangle whose box a ray upwards from a point meets.
+  template <class Visit>
+  void for_each(const glm::dvec3& p, Visit visit) const {
+    constexpr double kFar = std::numeric_limits<double>::max();
+    tree_.visit_all({{p.x, p.y, p.z}, {p.x, p.y, kFar}}, [&](uint32_t t) { visit(triangles_[t]); });
+  }
+
+ private:
+  static std::vector<Box> boxes_of(const std::vector<glm::dvec3>& points,
+                                   const std::vector<Corners>& triangles) {
+    std::vector<Box> boxes;
+    boxes.reserve(triangles.size());
+    for (const Corners& corners : triangles) {
+      boxes.push_back(box_of(points[corners[0]]));
+      for (const uint32_t v : corners) boxes.back().include(box_of(points[v]));
+    }
+    return boxes;
+  }
+
+  std::vector<Corners> triangles_;
+  std::vector<Box> boxes_;
+  BoxTree tree_;  ///< of them
+};
+
 class Nesting {
  public:
   Nesting(const RepairMesh& mesh, const Surfaces& surfaces)
-      : mesh_(mesh), faces_(surfaces.count), boxes_(surfaces.count), volume_(surfaces.count, 0) {
+      : mesh_(mesh),
+        faces_(surfaces.count),
+        boxes_(surfaces.count),
+        volume_(surfaces.count, 0),
+        rays_(surfaces.count, 0),
+        above_(surfaces.count) {
     for (uint32_t f = 0; f < mesh.faces.size(); ++f) faces_[surfaces.of_face[f]].push_back(f);
     for (uint32_t s = 0; s < surfaces.count; ++s) measure(s);
   }
@@ -70,7 +115,7 @@ class Nesting {
 
   /// Whether surface `outer` winds around most of some points of surface `inner`. Surfaces may
   /// touch in corners and edges, so these are the middles of faces.
-  [[nodiscard]] bool encloses(uint32_t outer, uint32_t inner) const {
+  [[nodiscard]] bool encloses(uint32_t outer, uint32_t inner) {
     if (outer == inner) return false;
     for (int i = 0; i < 3; ++i) {
       if (boxes_[inner].lo[i] < boxes_[outer].lo[i] || boxes_[outer].hi[i] < boxes_[inner].hi[i])
@@ -95,48 +140,64 @@ class Nesting {
   void for_each_triangle(uint32_t s, Visit visit) const {
     for (const uint32_t f : faces_[s]) {
       for (const auto& loop : mesh_.faces[f].loops) {
-        for (size_t i = 1; i + 1 < loop.size(); ++i) visit(loop[0], loop[i], loop[i + 1]);
+        for (size_t i = 1; i + 1 < loop.size(); ++i) visit(Corners{loop[0], loop[i], loop[i + 1]});
       }
     }
   }
 
   void measure(uint32_t s) {
     const glm::dvec3 origin = mesh_.points[mesh_.faces[faces_[s][0]].loops[0][0]];
-    boxes_[s] = {{origin.x, origin.y, origin.z}, {origin.x, origin.y, origin.z}};
-    for_each_triangle(s, [&](uint32_t i, uint32_t j, uint32_t k) {
-      for (const uint32_t v : {i, j, k}) {
-        const glm::dvec3& p = mesh_.points[v];
-        boxes_[s].include({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
-      }
-      const glm::dvec3 a = mesh_.points[i] - origin, b = mesh_.points[j] - origin,
-                       c = mesh_.points[k] - origin;
+    boxes_[s] = box_of(origin);
+    for_each_triangle(s, [&](const Corners& t) {
+      for (const uint32_t v : t) boxes_[s].include(box_of(mesh_.points[v]));
+      const glm::dvec3 a = mesh_.points[t[0]] - origin, b = mesh_.points[t[1]] - origin,
+                       c = mesh_.points[t[2]] - origin;
       volume_[s] += a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
                     a.z * (b.x * c.y - b.y * c.x);
     });
   }
 
   /// How often the surface is met above a point, upwards less downwards: its winding number. Points
-  /// on it and within rounding of it may count either way.
-  [[nodiscard]] int64_t winding(uint32_t s, const glm::dvec3& p) const {
+  /// on it and within rounding of it may count either way. O(log n) and what is met, but for the
+  /// first rays of a surface, which look at all of it.
+  [[nodiscard]] int64_t winding(uint32_t s, const glm::dvec3& p) {
     int64_t sum = 0;
-    for_each_triangle(s, [&](uint32_t i, uint32_t j, uint32_t k) {
-      const int side = side_seen_along_z(mesh_.points, i, j, p);
-      if (side_seen_along_z(mesh_.points, j, k, p) != side ||
-          side_seen_along_z(mesh_.points, k, i, p) != side) {
+    const auto count = [&](const Corners& t) {
+      const int side = side_seen_along_z(mesh_.points, t[0], t[1], p);
+      if (side_seen_along_z(mesh_.points, t[1], t[2], p) != side ||
+          side_seen_along_z(mesh_.points, t[2], t[0], p) != side) {
         return;
       }
-      const glm::dvec3 a = mesh_.points[i] - p, b = mesh_.points[j] - p, c = mesh_.points[k] - p;
+      const glm::dvec3 a = mesh_.points[t[0]] - p, b = mesh_.points[t[1]] - p,
+                       c = mesh_.points[t[2]] - p;
       const double above = a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
                            a.z * (b.x * c.y - b.y * c.x);
       if (above * side > 0) sum += side;
-    });
+    };
+    if (rays_[s] < kFewRays) {
+      ++rays_[s];
+      for_each_triangle(s, count);
+    } else {
+      triangles_above(s).for_each(p, count);
+    }
     return sum;
+  }
+
+  const TrianglesAbove& triangles_above(uint32_t s) {
+    if (!above_[s]) {
+      std::vector<Corners> triangles;
+      for_each_triangle(s, [&](const Corners& t) { triangles.push_back(t); });
+      above_[s] = std::make_unique<TrianglesAbove>(mesh_.points, std::move(triangles));
+    }
+    return *above_[s];
   }
 
   const RepairMesh& mesh_;
   std::vector<std::vector<uint32_t>> faces_;
   std::vector<Box> boxes_;
   std::vector<double> volume_;
+  std::vector<size_t> rays_;                            ///< so many that looked at all faces
+  std::vector<std::unique_ptr<TrianglesAbove>> above_;  ///< of surfaces with more rays
 };
 
 }  // namespace
@@ -171,7 +232,7 @@ Status orient_faces(RepairMesh& mesh, StepNote& note) {
 
 void orient_outwards(RepairMesh& mesh, StepNote& note) {
   const Surfaces surfaces = find_surfaces(mesh);
-  const Nesting nesting(mesh, surfaces);
+  Nesting nesting(mesh, surfaces);
   std::vector<uint32_t> inverted;
   for (uint32_t s = 0; s < surfaces.count; ++s) {
     if (nesting.volume(s) < 0) inverted.push_back(s);

@@ -13,12 +13,18 @@ namespace {
 
 constexpr uint32_t kNone = UINT32_MAX;
 
-/// The edges that an odd number of faces uses, which no orientation balances; or also those that
-/// are not balanced as faces run now.
-std::vector<EdgeUse> open_edges(const RepairMesh& mesh, bool or_unbalanced) {
-  std::vector<EdgeUse> open;
+/// The open edges, which no orientation balances; or also those that are not balanced as faces run
+/// now.
+std::vector<EdgeUse> open_edges(const RepairMesh& mesh, const Undecided& undecided,
+                                bool or_unbalanced) {
+  std::vector<EdgeUse> open, decided;
   EdgeUses(mesh.faces, mesh.points.size()).for_each_edge([&](std::span<const EdgeUse> uses) {
-    const bool is_open = uses.size() % 2 == 1 || (or_unbalanced && excess(uses) != 0);
+    decided.clear();
+    for (const EdgeUse& use : uses) {
+      if (!undecided[use.face]) decided.push_back(use);
+    }
+    const bool is_open =
+        decided.empty() || decided.size() % 2 == 1 || (or_unbalanced && excess(decided) != 0);
     if (is_open) open.push_back(uses[0]);
   });
   return open;
@@ -62,8 +68,9 @@ double place_on(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p, d
 
 }  // namespace
 
-void weld_open_points(RepairMesh& mesh, double tolerance, StepNote& note) {
-  const std::vector<uint32_t> ends = ends_of(open_edges(mesh, false));
+void weld_open_points(RepairMesh& mesh, const Undecided& undecided, double tolerance,
+                      StepNote& note) {
+  const std::vector<uint32_t> ends = ends_of(open_edges(mesh, undecided, false));
   std::vector<Box> boxes;
   boxes.reserve(ends.size());
   for (const uint32_t v : ends) {
@@ -97,12 +104,13 @@ void weld_open_points(RepairMesh& mesh, double tolerance, StepNote& note) {
   }
 }
 
-void split_open_edges(RepairMesh& mesh, double tolerance, StepNote& note) {
+void split_open_edges(RepairMesh& mesh, const Undecided& undecided, double tolerance,
+                      StepNote& note) {
   // What lies on a line in exact numbers is off it by some units in the last place of its doubles.
   constexpr double kRounding = 0x1p-50;
   // Where four faces meet, and two of them have a point in their edge, each half has an even
   // number.
-  const std::vector<EdgeUse> edges = open_edges(mesh, true);
+  const std::vector<EdgeUse> edges = open_edges(mesh, undecided, true);
   const std::vector<uint32_t> ends = ends_of(edges);
   std::vector<Box> boxes;
   boxes.reserve(ends.size());

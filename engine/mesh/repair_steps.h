@@ -41,13 +41,19 @@ class StepNote {
   RepairStep step_;
 };
 
-/// Makes points of edges that an odd number of faces uses one with the nearest earlier such point
-/// within `tolerance` that was not itself moved. So no point moves further than the tolerance.
-void weld_open_points(RepairMesh& mesh, double tolerance, StepNote& note);
+/// For each face, whether it is one of several over the same points of which nobody can tell yet
+/// how many will stay. An edge is open if an odd number of other faces uses it, or only such ones.
+using Undecided = std::vector<bool>;
 
-/// Splits edges that an odd number of faces uses, or that are not balanced, at the points of such
-/// edges that lie on them: within `tolerance`, or as near as doubles can be.
-void split_open_edges(RepairMesh& mesh, double tolerance, StepNote& note);
+/// Makes points of open edges one with the nearest earlier such point within `tolerance` that was
+/// not itself moved. So no point moves further than the tolerance.
+void weld_open_points(RepairMesh& mesh, const Undecided& undecided, double tolerance,
+                      StepNote& note);
+
+/// Splits edges that are open, or that are not balanced, at the points of such edges that lie on
+/// them: within `tolerance`, or as near as doubles can be.
+void split_open_edges(RepairMesh& mesh, const Undecided& undecided, double tolerance,
+                      StepNote& note);
 
 /// Drops repeated corners and spikes, and faces of which nothing is left.
 void clean_faces(RepairMesh& mesh, StepNote& note);
@@ -56,11 +62,20 @@ void clean_faces(RepairMesh& mesh, StepNote& note);
 /// nothing opens.
 void drop_flat_faces(RepairMesh& mesh, StepNote& note);
 
+/// When faces over the same points are looked at.
+enum class RepeatedFaces {
+  kBeforeSplitting,  ///< neighbours may still be found by welding and splitting
+  kBeforeFilling,
+  kAfterFilling,
+};
+
 /// Of faces over the same points one stays where its neighbours need one: where on most of its
 /// edges an odd number of others ends. Elsewhere, and where all edges are balanced, pairs back to
-/// back are taken away, which changes no winding number. If `keep_two_sided`, a surface of which
-/// nothing would be left stays once.
-void drop_repeated_faces(RepairMesh& mesh, bool keep_two_sided, StepNote& note);
+/// back are taken away, which changes no winding number. Before holes are filled, a surface of
+/// which nothing would be left stays once. Before edges are split, faces that would go wait where
+/// no other uses some of their edges, unless their other edges do without them: returned are those
+/// of the faces left.
+Undecided drop_repeated_faces(RepairMesh& mesh, RepeatedFaces when, StepNote& note);
 
 /// Turns faces so that every edge which an even number of faces uses is balanced, and as few faces
 /// as may be where there is a choice. Errors: kInvalidMesh, when there is no such orientation.
@@ -71,8 +86,8 @@ Status orient_faces(RepairMesh& mesh, StepNote& note);
 bool encloses_nothing(const RepairMesh& mesh);
 
 /// Turns over closed surfaces that are inside out, each with what it encloses. Each is compared
-/// with the surfaces whose boxes hold its box, face by face: O(n log n) for those that lie side by
-/// side, O(s n) for s small ones within a large one of n faces.
+/// with the surfaces whose boxes hold its box, by a few rays: O(n log n) where that are few, and
+/// faces above one another are.
 void orient_outwards(RepairMesh& mesh, StepNote& note);
 
 /// A loop of edges that are missing, in the direction of the face that would close it.

@@ -56,10 +56,22 @@ std::optional<Error> check_count(const std::string& name, const std::string& pla
   return error;
 }
 
+namespace {
+
+/// The character, or "\x1a" for what is none to see.
+std::string printable(char c) {
+  if (c >= ' ' && c <= '~') return {c};
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  const auto byte = static_cast<unsigned char>(c);
+  return {'\\', 'x', kDigits[byte / 16], kDigits[byte % 16]};
+}
+
+}  // namespace
+
 std::string quoted(std::string_view word) {
   constexpr size_t kMost = 24;
   std::string text = "\"";
-  for (const char c : word.substr(0, kMost)) text += c >= ' ' && c <= '~' ? c : '?';
+  for (const char c : word.substr(0, kMost)) text += printable(c);
   text += word.size() > kMost ? "...\"" : "\"";
   return text;
 }
@@ -85,7 +97,11 @@ Result<PolygonMesh> parse_mesh(const std::string& name, std::string_view bytes,
                                  ? parse_obj(name, bytes, objects, material_files, &own_notes)
                                  : parse_ply(name, bytes, &own_notes);
   if (!mesh) return mesh;
-  if (mesh->face_count() == 0) return malformed(name, "", "has no faces");
+  if (mesh->face_count() == 0) {
+    std::string what = "has no faces";
+    for (const std::string& note : own_notes) what += "; " + note;
+    return malformed(name, "", what);
+  }
   mesh->kind = name;
   mesh->keep_facets = true;
   if (notes != nullptr) {

@@ -14,7 +14,10 @@
 namespace csgrun {
 namespace {
 
-/// Everything that may start a line, but v and f. Sorted.
+/// What is read of all that may start a line.
+constexpr std::array<std::string_view, 6> kRead{"v", "f", "fo", "o", "mtllib", "usemtl"};
+
+/// Everything else. Sorted.
 constexpr std::array<std::string_view, 34> kPassedOver{
     "bevel", "bmat",      "c_interp", "call",   "con",  "csh",        "cstype", "ctech", "curv",
     "curv2", "d_interp",  "deg",      "end",    "g",    "hole",       "l",      "lod",   "maplib",
@@ -23,6 +26,10 @@ constexpr std::array<std::string_view, 34> kPassedOver{
 
 bool is_passed_over(std::string_view word) {
   return std::binary_search(kPassedOver.begin(), kPassedOver.end(), word);
+}
+
+bool is_known(std::string_view word) {
+  return std::find(kRead.begin(), kRead.end(), word) != kRead.end() || is_passed_over(word);
 }
 
 bool is_name(std::string_view word) {
@@ -40,6 +47,12 @@ bool is_on_a_drive(std::string_view path) {
   return rest[0] == '/' && !leads_out_of_folder(std::string_view(rest).substr(1));
 }
 
+std::string in_lower_case(std::string_view word) {
+  std::string lower(word);
+  std::transform(lower.begin(), lower.end(), lower.begin(), lower_case);
+  return lower;
+}
+
 class ObjReader {
  public:
   ObjReader(const std::string& name, std::string_view text, std::vector<std::string>* notes)
@@ -47,7 +60,10 @@ class ObjReader {
 
   Result<PolygonMesh> read() {
     do {
-      const std::string_view word = scanner_.word();
+      const std::string_view written = next();
+      // Some programs write capitals, which are no statements of their own.
+      const std::string lower = is_known(written) ? std::string() : in_lower_case(written);
+      const std::string_view word = is_known(lower) ? lower : written;
       std::optional<Error> error;
       if (word == "v") {
         error = read_point();
@@ -64,7 +80,7 @@ class ObjReader {
         unknown_.add(scanner_.place() + ": " + quoted(word));
       }
       if (error) return *error;
-    } while (scanner_.next_line());
+    } while (next_statement());
     for (const Forward& f : forward_) {
       if (f.index >= mesh_.points.size()) return out_of_range(f.line, f.index + 1);
     }
@@ -86,7 +102,8 @@ class ObjReader {
 
   std::string rest_of_statement() {
     std::string text;
-    for (std::string_view word = next(); !word.empty(); word = next()) {
+    const auto next_word = [&] { return next(&TextScanner::word_of_name); };
+    for (std::string_view word = next_word(); !word.empty(); word = next_word()) {
       text += (text.empty() ? "" : " ") + std::string(word);
     }
     return text;
@@ -146,10 +163,22 @@ class ObjReader {
   }
 
   /// The next word of a statement, which goes on after a backslash at the end of a line.
-  std::string_view next() {
-    std::string_view word = scanner_.word();
-    while (word == "\\" && scanner_.next_line()) word = scanner_.word();
-    return word;
+  std::string_view next(std::string_view (TextScanner::*read)() = &TextScanner::word) {
+    for (;;) {
+      if (goes_on_ && !scanner_.next_line()) return {};
+      std::string_view word = (scanner_.*read)();
+      goes_on_ = word.ends_with('\\') && scanner_.is_line_end();
+      if (!goes_on_) return word;
+      word.remove_suffix(1);
+      if (!word.empty()) return word;
+    }
+  }
+
+  /// Goes to the line behind the statement; false at the end of the text.
+  bool next_statement() {
+    while (!next().empty()) continue;
+    goes_on_ = false;
+    return scanner_.next_line();
   }
 
   std::optional<Error> read_point() {
@@ -197,6 +226,7 @@ class ObjReader {
   std::string material_;
   std::vector<std::string>* notes_;
   PassedOver unknown_, small_faces_;
+  bool goes_on_ = false;  ///< the statement, on the next line
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 // OFF in ASCII: [ST][C][N]OFF, three counts, points, faces, each with a colour or without on the
-// rest of its line. Normals and texture coordinates are passed over.
+// rest of its line; or all of them on one line, without colours. Normals and texture coordinates
+// are passed over.
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -12,7 +14,7 @@ namespace {
 
 /// What a first word says, one of OFF's names for three-dimensional meshes, of the lines of points.
 struct Magic {
-  bool has_colours = false, has_normals = false;
+  bool has_texture = false, has_colours = false, has_normals = false;
   /// What follows without a blank: data sets have "OFF12 20 0", the number of points.
   std::string_view rest;
 };
@@ -23,13 +25,19 @@ std::optional<Magic> parse_magic(std::string_view word) {
     return true;
   };
   Magic magic;
-  take("ST");
+  magic.has_texture = take("ST");
   magic.has_colours = take("C");
   magic.has_normals = take("N");
-  if (!take("OFF")) return std::nullopt;
+  if (!take("OFF") && !take("off")) return std::nullopt;
   magic.rest = word;
-  if (!word.empty() && !(word[0] >= '0' && word[0] <= '9')) return std::nullopt;
+  if (!word.empty() && !parse_integer<uint64_t>(word)) return std::nullopt;
   return magic;
+}
+
+/// Whether a first word is one of OFF's names for points of other dimensions.
+bool has_other_dimension(std::string_view word) {
+  return word.ends_with("OFF") && word.find_first_of("4n") != std::string_view::npos &&
+         word.find_first_not_of("STCN4n") == word.size() - 3;
 }
 
 class OffReader {
@@ -40,14 +48,14 @@ class OffReader {
   Result<PolygonMesh> read() {
     const std::string_view magic = scanner_.word_anywhere();
     const std::optional<Magic> parsed = parse_magic(magic);
-    if (!parsed) return here("not an OFF file: it starts with " + quoted(magic));
+    if (has_other_dimension(magic)) {
+      return here("OFF with points of other than three coordinates is not supported: " +
+                  quoted(magic));
+    }
+    if (!parsed) return no_off(magic);
     magic_ = *parsed;
     uint64_t points = 0, faces = 0;
-    const std::string_view first = magic_.rest.empty() ? scanner_.word_anywhere() : magic_.rest;
-    if (auto error = read_count("the number of points", first, points)) return *error;
-    if (auto error = read_count("the number of faces", scanner_.word_anywhere(), faces))
-      return *error;
-    scanner_.next_line();  // the number of edges is not used, and not always there
+    if (auto error = read_counts(magic, points, faces)) return *error;
     // A point takes "0 0 0\n" at least, a face "0\n", without the line end of the last: faces
     // of fewer than three corners are passed over, but may be there.
     if (auto error =
@@ -76,17 +84,53 @@ class OffReader {
 
  private:
   Error here(const std::string& what) { return malformed(name_, scanner_.place(), what); }
+  Error no_off(std::string_view magic) {
+    return here("not an OFF file: it starts with " + quoted(magic));
+  }
 
-  /// The colour that the rest of the line holds.
-  std::optional<Rgba> read_colour() {
+  /// The colour that the rest of the line holds, before so many other words.
+  std::optional<Rgba> read_colour(size_t others = 0) {
     std::vector<std::string_view>& words = words_;
     words.clear();
-    while (words.size() < 5) {
+    while (words.size() < 5 + others) {
       const std::string_view word = scanner_.word();
       if (word.empty()) break;
       words.push_back(word);
     }
+    words.resize(words.size() - std::min(words.size(), others));
     return colour_of_words(words);
+  }
+
+  /// The counts, up to where points begin.
+  std::optional<Error> read_counts(std::string_view magic, uint64_t& points, uint64_t& faces) {
+    const bool is_joined = !magic_.rest.empty();
+    const std::string_view first = is_joined ? magic_.rest : scanner_.word_anywhere();
+    if (auto error = read_count("the number of points", first, points)) return error;
+    const std::string_view second = is_joined ? scanner_.word() : scanner_.word_anywhere();
+    if (is_joined && second.empty()) return no_off(magic);  // "OFF3", and the counts below
+    if (auto error = read_count("the number of faces", second, faces)) return error;
+    const std::string_view edges = scanner_.word();  // not used, and not always there
+    if (is_joined && !scanner_.is_line_end()) return no_off(magic);
+    is_one_line_ = ends_with_next_line(scanner_);
+    if (!is_one_line_) {
+      scanner_.next_line();
+      return std::nullopt;
+    }
+    uint64_t edge_count = 0;
+    if (!edges.empty()) {
+      if (auto error = read_count("the number of edges", edges, edge_count)) return error;
+    }
+    if (magic_.has_colours) {  // which may be three numbers or four
+      return here("one line follows the counts, but points with colours need one each");
+    }
+    return std::nullopt;
+  }
+
+  /// Whether a scanner has words left, all of them on one line.
+  static bool ends_with_next_line(TextScanner ahead) {
+    if (ahead.word_anywhere().empty()) return false;
+    ahead.next_line();
+    return ahead.word_anywhere().empty();
   }
 
   std::optional<Error> read_count(const std::string& what, std::string_view word, uint64_t& count) {
@@ -113,13 +157,18 @@ class OffReader {
       if (axis < 2) word = scanner_.word();
     }
     mesh_.points.push_back(p);
+    for (int n = 0; magic_.has_normals && n < 3; ++n) scanner_.word();
+    const size_t after = magic_.has_texture ? 2 : 0;
     if (magic_.has_colours) {
-      for (int n = 0; magic_.has_normals && n < 3; ++n) scanner_.word();
-      if (const auto colour = read_colour()) {
+      if (const auto colour = read_colour(after)) {
         colours_.set_vertex(mesh_.points.size() - 1, *colour);
       }
     }
-    scanner_.next_line();
+    if (is_one_line_) {
+      for (size_t n = 0; n < after; ++n) scanner_.word();
+    } else {
+      scanner_.next_line();
+    }
     return std::nullopt;
   }
 
@@ -156,9 +205,10 @@ class OffReader {
       small_faces_.add(which);
     } else {
       mesh_.add_face(loop_);
+      if (is_one_line_) return std::nullopt;  // a colour cannot be told from the next face
       if (const auto colour = read_colour()) colours_.set_face(mesh_.face_count() - 1, *colour);
     }
-    scanner_.next_line();
+    if (!is_one_line_) scanner_.next_line();
     return std::nullopt;
   }
 
@@ -166,6 +216,7 @@ class OffReader {
   TextScanner scanner_;
   std::vector<std::string>* notes_;
   Magic magic_;
+  bool is_one_line_ = false;  ///< all that follows the counts
   PolygonMesh mesh_;
   FaceColours colours_;
   PassedOver small_faces_;

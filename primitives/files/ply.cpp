@@ -204,6 +204,12 @@ class AsciiSource {
   [[nodiscard]] std::string place() const {
     return "line " + std::to_string(lines_ + scanner_.line());
   }
+  /// What is left over, for a note; empty if nothing is.
+  std::string rest() {
+    const std::string_view word = scanner_.word_anywhere();
+    return word.empty() ? ""
+                        : "data after the last element (" + place() + ": " + quoted(word) + ")";
+  }
 
  private:
   TextScanner scanner_;
@@ -233,6 +239,11 @@ class BinarySource {
   [[nodiscard]] static uint64_t least_size(Type type) { return size_of(type); }
   [[nodiscard]] uint64_t remaining() const { return bytes_.size() - at_; }
   [[nodiscard]] std::string place() const { return "byte " + std::to_string(at_); }
+  [[nodiscard]] std::string rest() const {
+    if (remaining() == 0) return {};
+    return std::to_string(remaining()) + (remaining() == 1 ? " byte" : " bytes") +
+           " after the last element";
+  }
 
  private:
   [[nodiscard]] double read(Type type) const {
@@ -289,6 +300,8 @@ class BodyReader {
                        "vertex index " + std::to_string(index) + " is out of range, there are " +
                            std::to_string(mesh_.points.size()) + " points");
     }
+    const std::string rest = source_.rest();
+    if (!rest.empty() && notes != nullptr) notes->push_back(rest + " passed over");
     note_small_faces(small_faces_, notes);
     colours_.apply(mesh_, notes);
     return std::move(mesh_);

@@ -1,6 +1,7 @@
 // STL. Binary when the size is that of its count field (some binary files start with "solid"), else
 // ASCII, else binary if there is more than its count says. Triangles are welded by equal
 // coordinates; normals are ignored, the order of corners counts.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -17,12 +18,14 @@ namespace {
 constexpr size_t kHeaderBytes = 84, kTriangleBytes = 50;
 
 bool equals_ignoring_case(std::string_view word, std::string_view lower) {
-  if (word.size() != lower.size()) return false;
-  for (size_t i = 0; i < word.size(); ++i) {
-    const char c = word[i] >= 'A' && word[i] <= 'Z' ? static_cast<char>(word[i] + 32) : word[i];
-    if (c != lower[i]) return false;
-  }
-  return true;
+  return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
+                    [](char c, char d) { return lower_case(c) == d; });
+}
+
+/// Text without what some programs write behind it: NUL bytes, and the ^Z of old disks.
+std::string_view without_padding(std::string_view text) {
+  while (!text.empty() && (text.back() == '\0' || text.back() == '\x1a')) text.remove_suffix(1);
+  return text;
 }
 
 void add_triangle(PolygonMesh& mesh) {
@@ -64,8 +67,14 @@ class AsciiReader {
       scanner_.next_line();  // the rest of the line is a name
       if (auto error = read_solid()) return *error;
     }
+    weld_points(mesh_);
+    // A file that was cut off between two facets looks the same, but is open there.
+    if (end_is_missing_ && check_mesh(mesh_).open_edges > 0) return *end_is_missing_;
     return std::move(mesh_);
   }
+
+  /// Whether the last "endsolid" was not there.
+  [[nodiscard]] bool end_is_missing() const { return end_is_missing_.has_value(); }
 
  private:
   Error unexpected(const std::string& wanted, std::string_view got) {
@@ -83,14 +92,19 @@ class AsciiReader {
 
   /// Facets up to and with "endsolid".
   std::optional<Error> read_solid() {
+    const size_t first = mesh_.face_count();
     for (;;) {
       const std::string_view word = scanner_.word_anywhere();
       if (equals_ignoring_case(word, "endsolid")) {
         scanner_.next_line();
         return std::nullopt;
       }
-      if (!equals_ignoring_case(word, "facet"))
-        return unexpected("\"facet\" or \"endsolid\"", word);
+      if (!equals_ignoring_case(word, "facet")) {
+        Error error = unexpected("\"facet\" or \"endsolid\"", word);
+        if (!word.empty() || mesh_.face_count() == first) return error;
+        end_is_missing_ = std::move(error);
+        return std::nullopt;
+      }
       if (auto error = read_facet()) return error;
     }
   }
@@ -122,6 +136,7 @@ class AsciiReader {
   const std::string& name_;
   TextScanner scanner_;
   PolygonMesh mesh_;
+  std::optional<Error> end_is_missing_;  ///< what it is unless the mesh is closed
 };
 
 }  // namespace
@@ -155,9 +170,16 @@ Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes,
     if (bytes.size() < binary_size) error.code = ErrorCode::kLimit;
     return error;
   }
-  Result<PolygonMesh> mesh =
-      binary ? parse_binary(name, bytes, count) : AsciiReader(name, text).read();
-  if (mesh) weld_points(*mesh);
+  if (binary) {
+    Result<PolygonMesh> mesh = parse_binary(name, bytes, count);
+    if (mesh) weld_points(*mesh);
+    return mesh;
+  }
+  AsciiReader reader(name, without_padding(text));
+  Result<PolygonMesh> mesh = reader.read();
+  if (mesh && reader.end_is_missing() && notes != nullptr) {
+    notes->push_back("ends without \"endsolid\"");
+  }
   return mesh;
 }
 

@@ -11,7 +11,7 @@
 
 namespace csgrun {
 
-/// Reads words separated by blanks. A comment character hides the rest of its line.
+/// Reads words separated by blanks. A comment character ends a word and hides the rest of its line.
 class TextScanner {
  public:
   /// Lines end in a line feed, or, in text that has none, in a carriage return, as of old Macs.
@@ -26,14 +26,12 @@ class TextScanner {
 
   /// The next word of this line; empty at the end of the line.
   std::string_view word() {
-    while (at_ != end_ && is_blank(*at_)) ++at_;
-    const char* begin = at_;
-    if (at_ != end_ && *at_ == comment_ && comment_ != '\0') {
-      while (at_ != end_ && *at_ != line_end_) ++at_;
-      return {};
-    }
-    while (at_ != end_ && !is_blank(*at_) && *at_ != line_end_) ++at_;
-    return {begin, static_cast<size_t>(at_ - begin)};
+    return word_until([this](char c) { return c == comment_ && comment_ != '\0'; });
+  }
+
+  /// The same, of a name: within it nothing is a comment, as in "part#3".
+  std::string_view word_of_name() {
+    return word_until([](char) { return false; });
   }
 
   /// What is left of this line without blanks around it. Nothing in it is a comment: "#ff0000" is a
@@ -64,6 +62,13 @@ class TextScanner {
     }
   }
 
+  /// Whether nothing but blanks is left of this line.
+  [[nodiscard]] bool is_line_end() const {
+    const char* p = at_;
+    while (p != end_ && is_blank(*p)) ++p;
+    return p == end_ || *p == line_end_;
+  }
+
   /// 1-based.
   [[nodiscard]] size_t line() const { return line_; }
   [[nodiscard]] std::string place() const { return "line " + std::to_string(line_); }
@@ -71,6 +76,18 @@ class TextScanner {
   [[nodiscard]] size_t remaining() const { return static_cast<size_t>(end_ - at_); }
 
  private:
+  template <class Ends>
+  std::string_view word_until(Ends ends) {
+    while (at_ != end_ && is_blank(*at_)) ++at_;
+    const char* begin = at_;
+    if (at_ != end_ && *at_ == comment_ && comment_ != '\0') {
+      while (at_ != end_ && *at_ != line_end_) ++at_;
+      return {};
+    }
+    while (at_ != end_ && !is_blank(*at_) && *at_ != line_end_ && !ends(*at_)) ++at_;
+    return {begin, static_cast<size_t>(at_ - begin)};
+  }
+
   [[nodiscard]] bool is_blank(char c) const {
     return c == ' ' || c == '\t' || (c == '\r' && c != line_end_) || c == '\f' || c == '\v';
   }
@@ -80,6 +97,9 @@ class TextScanner {
   size_t line_ = 1;
   char comment_, line_end_;
 };
+
+/// A small letter for a capital one of ASCII.
+inline char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 
 /// A whole word as a finite number; numbers too small for a double are 0.
 inline std::optional<double> parse_finite(std::string_view word) {

@@ -1,6 +1,7 @@
 """Files as other programs write them: variants of the formats that csgrun itself never writes."""
 import base64
 import json
+import re
 import struct
 import zlib
 
@@ -304,6 +305,27 @@ class Foreign(Case):
         self.good("a.obj", "mtllib C:\\Users\\me\\a.mtl\n" + self.OBJ,
                   'line 1: no colours: mtllib "C:\\Users\\me\\a.mtl" leads out of the file\'s folder')
         self.good("a.obj", "mtllib a..b.mtl\n" + self.OBJ, "no colours: cannot read 'a..b.mtl': No such file or directory")
+        self.good("a.obj", self.OBJ.upper())
+        self.refuse("a.obj", self.OBJ.replace("f", "face"), "a.obj: has no faces; 4 lines with statements that OBJ does "
+                    'not know passed over (first: line 5: "face")')
+
+    def test_lines_of_obj_that_go_on(self):
+        for end in ("\\\n", " \\\n", "\\ \r\n ", "\\\n\\\n"):
+            self.good("a.obj", self.OBJ.replace(" ", end))
+            # Also where nobody looks: nothing of it is a statement.
+            passed_over = "vt 0" + end + "0.5\nl 1 2" + end + "v 3\nv 9 9 9 1" + end + "0.5 0.5\n"
+            self.good("a.obj", self.OBJ + passed_over)
+        self.good("a.obj", self.OBJ[:-1] + "\\")
+        self.good("a.obj", self.OBJ.replace("\nf", " # not here \\\nf"))
+        self.refuse("a.obj", self.OBJ + "f 1\\ 2 3\n", r'a.obj:9: expected a face index, got "1\"')
+        self.refuse("a.obj", self.OBJ + "f 1 x\\\n3\n", 'a.obj:9: expected a face index, got "x"')
+
+    def test_comments_without_a_blank(self):
+        self.good("a.obj", self.OBJ.replace("\n", "#x\n"))
+        self.good("a.off", self.OFF.replace("\n", "#x\n"))
+        parts = self.parts_of("a.obj", "o one#1 # first\n" + self.OBJ + "o two#2\n" + self.OBJ.replace("v ", "v 1").replace(
+            "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4", "f -4 -2 -3\nf -4 -3 -1\nf -4 -1 -2\nf -3 -2 -1"))
+        self.assertEqual([name for name, *_ in parts], ["one#1", "two#2"])
 
     def test_several_material_files(self):
         self.write("red.mtl", "newmtl x\nKd 1 0 0\n")
@@ -327,7 +349,7 @@ class Foreign(Case):
             self.expect(outcome, 0 if said else 1)
             if said:
                 self.assertIn("warning: " + said + "\n", outcome.err)
-        self.refuse("a.obj", "L\1\2\0.text", 'a.obj:1: not an OBJ statement: "L???.text"')
+        self.refuse("a.obj", "L\1\2\0.text", r'a.obj:1: not an OBJ statement: "L\x01\x02\x00.text"')
 
     def test_objects_of_obj(self):
         def obj(name, place, side, first, turned=False):
@@ -358,6 +380,40 @@ class Foreign(Case):
         self.good("a.off", self.OFF.replace("4 4 0", "4 44 0") + "0\n" * 40,
                   "40 faces of fewer than three corners left out (first: face 4)")
         self.refuse("a.off", "OFFSET 4 4 0", 'a.off:1: not an OFF file: it starts with "OFFSET"')
+        self.good("a.off", self.OFF.replace("OFF", "off"))
+        for name in ("4OFF", "nOFF", "ST4nOFF"):
+            self.refuse("a.off", self.OFF.replace("OFF", name),
+                        f'a.off:1: OFF with points of other than three coordinates is not supported: "{name}"')
+        for text in ("OFF3\n4 4 0", "OFF3 4 4 0"):
+            self.refuse("a.off", self.OFF.replace("OFF\n4 4 0", text), 'a.off:1: not an OFF file: it starts with "OFF3"')
+        for name in ("noff", "coff", "OFFn"):
+            self.refuse("a.off", self.OFF.replace("OFF", name), f'a.off:1: not an OFF file: it starts with "{name}"')
+
+    def test_what_points_of_off_have(self):
+        head, points, faces = "OFF\n4 4 0\n", self.OFF.split("\n")[2:6], self.OFF.split("\n")[6:]
+        for name, more in (("N", " 0 0 1"), ("ST", " 0.5 1"), ("STN", " 0 0 1 0.5 1"), ("C", " 255 0 0"),
+                           ("C", " 255 0 0 255"), ("CN", " 0 0 1 255 0 0"), ("STC", " 255 0 0 0.5 1"),
+                           ("STC", " 255 0 0 255 0.5 1"), ("STCN", " 0 0 1 1.0 0 0 1 0 0")):
+            self.good("a.off", name + head + "\n".join([p + more for p in points] + faces))
+            self.expect(self.run_csgrun("a.off", "-o", "a.glb"), 0)
+            colours = [m["pbrMetallicRoughness"]["baseColorFactor"][:3] for m in self.read_glb("a.glb")["materials"]]
+            self.assertEqual(colours == [[1, 0, 0]], "C" in name, name + more)
+
+    def test_off_on_one_line(self):
+        points, faces = self.OFF.split("\n")[2:6], self.OFF.split("\n")[6:]
+        for name, more in (("OFF", ""), ("off", ""), ("NOFF", " 0 0 1"), ("STNOFF", " 0 0 1 0.5 1")):
+            numbers = " ".join([p + more for p in points] + faces)
+            for counts in ("4 4 0 ", "4 4 0\n", "4 4\n\n"):
+                text = f"{name} {counts}{numbers}".strip()
+                self.good("a.off", text)
+                self.good("a.off", text + "\n \n# and no more\n")
+                for end in range(5, len(text), 31):
+                    self.write("a.off", text[:end])
+                    self.expect(self.run_csgrun("info", "a.off"), 1)
+                self.refuse("a.off", text + " 3 0 1 2", f'a.off:{1 + text.count(chr(10))}: more data after the last face')
+        self.refuse("a.off", "COFF 4 4 0 " + " ".join([p + " 1 0 0" for p in points] + faces),
+                    "a.off:1: one line follows the counts, but points with colours need one each")
+        self.refuse("a.off", "OFF 400 4 0 " + " ".join(points + faces), f"a.off:1: 400 points promised, but only {len(' '.join(points + faces)) + 1} bytes follow")
 
     def test_stl(self):
         binary = b"solid by nobody".ljust(80) + struct.pack("<I", 4) + b"".join(
@@ -366,7 +422,24 @@ class Foreign(Case):
         self.good("a.stl", b"\xef\xbb\xbf".ljust(80) + binary[80:])
         self.good("a.stl", b"\0" * 80 + binary[80:] + b"more", "4 bytes after the last triangle passed over")
         self.refuse("a.stl", b"\0" * 80 + binary[80:-1], "byte 80: not an STL file, or truncated")
-        self.refuse("a.stl", self.STL.replace("endsolid x\n", ""), "a.stl:30: the file ends where")
+        for end in (b"\x1a", b"\0", b"\x1a\0\0\0"):
+            self.good("a.stl", self.STL.encode() + end)
+        self.refuse("a.stl", self.STL.replace("endsolid", "\x1a\x7f"),
+                    r'a.stl:30: expected "facet" or "endsolid", got "\x1a\x7f"')
+
+    def test_stl_without_its_end(self):
+        facets = self.STL.replace("endsolid x\n", "")
+        self.good("a.stl", facets, 'ends without "endsolid"')
+        self.good("a.stl", facets + "\x1a", 'ends without "endsolid"')
+        # A file that is cut off looks the same, or ends elsewhere.
+        between = [m.end() for m in re.finditer("endfacet\n", facets)][:-1]
+        for end in (*range(10, len(facets) - 10, 31), *between):
+            self.write("a.stl", facets[:end])
+            outcome = self.run_csgrun("info", "a.stl")
+            self.expect(outcome, 1)
+            if end in between:
+                self.assertIn('the file ends where "facet" or "endsolid" should be', outcome.err)
+        self.refuse("a.stl", self.STL + "solid y\n", "a.stl:32: the file ends where")
 
     def test_ply(self):
         strips = self.PLY[:self.PLY.index("3 0 2 1")].replace("face 4", "tristrips 1").replace("uchar int", "int int")
@@ -375,6 +448,14 @@ class Foreign(Case):
         self.good("a.ply", strips + "10 0 2 1 3 -1 1 3 0 2 2\n")
         self.good("a.ply", self.PLY.replace("face 4", "face 6") + "2 0 1\n0\n",
                   "2 faces of fewer than three corners left out (first: face 4)")
+        self.good("a.ply", self.PLY + "\n \n")
+        self.good("a.ply", self.PLY + "3 0 1 2\n", 'data after the last element (line 18: "3") passed over')
+        binary = self.PLY[:self.PLY.index("0 0 0")].replace("ascii", "binary_big_endian").encode() + b"".join(
+            struct.pack(">3f", *p) for p in POINTS) + b"".join(struct.pack(">B3i", 3, *f) for f in FACES)
+        self.good("a.ply", binary)
+        self.good("a.ply", binary + b"\n", "1 byte after the last element passed over")
+        self.good("a.ply", binary + b"more", "4 bytes after the last element passed over")
+        self.refuse("a.ply", binary[:-1], "byte ")
         cloud = self.PLY[:self.PLY.index("element face")] + "end_header\n0 0 0\n" * 1 + "0 0 1\n" * 3
         self.refuse("a.ply", cloud, "has no faces: there are points only")
 

@@ -1,6 +1,7 @@
 """Broken meshes: refused with what is wrong and what would help, repaired on request with a report."""
 import os
 import random
+import re
 import struct
 import unittest
 from collections import Counter
@@ -64,6 +65,78 @@ class Repaired(Case):
 
         self.refuse(", {repair = {drop_duplicates = false}}", "not closed: ",
                     '; a script repairs it by import("m.off", {repair = true})')
+
+    def volumes(self, meshes, options):
+        """The volume of each mesh (points, faces), repaired, and how many faces were dropped as repeated."""
+        for number, mesh in enumerate(meshes):
+            self.write(f"m{number}.off", off(*mesh))
+        outcome = self.run_script(f"for i = 0, {len(meshes) - 1} do\n"
+                                  f"  print(import('m' .. i .. '.off', {{repair = {options}}}):volume())\nend\nreturn cube(1)")
+        self.expect(outcome, 0)
+        return [float(line) for line in outcome.err.split("\n") if re.fullmatch(r"[0-9.]+", line)]
+
+    def test_faces_that_are_there_twice_where_it_is_cracked(self):
+        triangles = [t for a, b, c, d in FACES for t in ((a, b, c), (a, c, d))]
+        copies = [[t if forward else t[::-1] for forward in kinds] for t in triangles
+                  for kinds in ((False,), (True,), (True, False))]
+        # Each triangle has its own corners, a little off.
+        rng = random.Random(4)
+        apart = [tuple(x + rng.uniform(-1e-4, 1e-4) for x in POINTS[v]) for t in triangles for v in t]
+        numbers = {t: tuple(range(3 * k, 3 * k + 3)) for k, t in enumerate(triangles)}
+        meshes = []
+        for t, more in zip([t for t in triangles for _ in range(3)], copies):
+            again = [numbers[t] if copy == t else numbers[t][::-1] for copy in more]
+            meshes.append((apart, list(numbers.values()) + again))
+        once, = self.volumes([(apart, list(numbers.values()))], "{weld = 0.001}")
+        self.assertAlmostEqual(once, 1, delta=1e-3)
+        for volume in self.volumes(meshes, "{weld = 0.001}"):
+            self.assertAlmostEqual(volume, once, delta=1e-3)
+        # Neighbours have points in the edges of the one that is there more than once.
+        meshes = []
+        for t, more in zip([t for t in triangles for _ in range(3)], copies):
+            for split in ((0,), (0, 1), (0, 1, 2)):
+                points, faces = list(POINTS), [f for f in triangles if f != t]
+                for a, b in ((t[i], t[i - 2]) for i in split):
+                    beside = next(f for f in faces if (b, a) in zip(f, f[1:] + f[:1]))
+                    c, = set(beside) - {a, b}
+                    points.append(tuple((x + y) / 2 for x, y in zip(points[a], points[b])))
+                    faces.remove(beside)
+                    faces += [(b, len(points) - 1, c), (len(points) - 1, a, c)]
+                meshes.append((points, [t] + faces + more))
+                meshes.append((points, more + faces + [t]))
+        self.assertEqual(self.volumes(meshes, "true"), [1] * len(meshes))
+
+    def test_flaps_beside_cracks_go(self):
+        triangles = [t for a, b, c, d in FACES for t in ((a, b, c), (a, c, d))]
+        points, flap = POINTS + [(0.5, 0, 0), (0.5, 0.4, 3)], (0, 1, 9)
+        faces = [t for t in triangles if t != (0, 1, 5)] + [(0, 8, 5), (8, 1, 5)]  # against the edge from 0 to 1
+        hole = [t for t in triangles if t != (0, 1, 5)]
+        meshes = [(points, mesh + [flap, flap[::-1]]) for mesh in (faces, triangles)]
+        meshes += [(points, mesh + [(9, 7, 6), (6, 7, 9)]) for mesh in (faces, triangles)]
+        self.assertEqual(self.volumes(meshes, "true"), [1] * len(meshes))
+        self.assertEqual(self.volumes([(points, hole + [flap, flap[::-1]])], "{fill_holes = true}"), [1])
+
+    def test_many_voids(self):
+        """Voids with bodies in them, all in one body and inside out: their planes and edges are in line."""
+        def box(low, side, turned):
+            first = len(points)
+            points.extend(tuple(c + side * x for c, x in zip(low, p)) for p in POINTS)
+            faces.extend(tuple(first + v for v in (f[::-1] if turned else f)) for f in FACES)
+
+        count = 8
+        for inside_out in (False, True):
+            points, faces = [], []
+            box((0, 0, 0), 4 * count, inside_out)
+            box((-9, 0, 0), 3, True)  # that is inverted in any case
+            expected = (4 * count) ** 3 + 27
+            for n in range(count ** 3):
+                low = [4 * (n // count ** i % count) + 1 for i in range(3)]
+                box(low, 2, not inside_out)
+                expected -= 8
+                if n % 3 == 0:
+                    box([c + 0.5 for c in low], 1, inside_out)
+                    expected += 1
+            self.assertEqual(self.volumes([(points, faces)], "true"), [expected])
 
     def test_sheet(self):
         self.write("m.off", off([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)]))

@@ -133,7 +133,7 @@ TEST(MeshFile, OffVariants) {
                      "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
   EXPECT_EQ(message("a.off", "OFF BINARY\n"), "a.off:1: binary OFF is not supported");
   EXPECT_EQ(message("a.off", "nOFF\n3\n"),
-            "a.off:1: not an OFF file: it starts with \"nOFF\"");
+            "a.off:1: OFF with points of other than three coordinates is not supported: \"nOFF\"");
 }
 
 TEST(MeshFile, ObjVariants) {
@@ -163,8 +163,10 @@ TEST(MeshFile, WhatIsWrongIsSaidWithItsPlace) {
             "a.obj:2: face index -2 is out of range, there are 1 points");
   EXPECT_EQ(message("a.obj", "v 0 0 0\nf 1 0 1\n"),
             "a.obj:2: expected a face index, got \"0\"");
-  EXPECT_EQ(message("a.obj", "v 0 0 0\nf 1 1\n"), "a.obj: has no faces");
-  EXPECT_EQ(message("a.obj", "PNG\x01\x02"), "a.obj:1: not an OBJ statement: \"PNG??\"");
+  EXPECT_EQ(message("a.obj", "v 0 0 0\nf 1 1\n"),
+            "a.obj: has no faces; 1 face of fewer than three corners left out (first: line 2)");
+  EXPECT_EQ(message("a.obj", "PNG\x01\x02"),
+            "a.obj:1: not an OBJ statement: \"PNG\\x01\\x02\"");
   EXPECT_EQ(message("a.obj", "v 0 0 0\n"), "a.obj: has no faces");
   EXPECT_EQ(message("a.obj", ""), "a.obj: the file is empty");
   EXPECT_EQ(message("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
