@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "primitives/files/formats.h"
 
 namespace csgrun {
@@ -63,11 +61,8 @@ Error CsgParser::unexpected(const std::string& wanted) const {
   if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff")) {
     return error("the file is in UTF-16; save it in UTF-8");
   }
-  const auto byte = static_cast<unsigned char>(text_[at_]);
-  if (byte < ' ' || byte > '~') {
-    return error(fmt::format("expected {}, got the byte 0x{:02x}", wanted, byte));
-  }
-  const bool may_be_source = text_[at_] != '"' && text_[at_] != '{' && text_[at_] != '}';
+  const char c = text_[at_];
+  const bool may_be_source = c > ' ' && c <= '~' && c != '"' && c != '{' && c != '}';
   return error("expected " + wanted + ", got " + quoted(text_.substr(at_, 1)) +
                (may_be_source ? kSourceHint : ""));
 }

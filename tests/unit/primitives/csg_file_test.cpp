@@ -308,7 +308,7 @@ TEST(CsgFile, ErrorsHaveTheirLine) {
             "m.csg:1: expected \",\" or \"]\", got \"*\"" + hint);
   EXPECT_EQ(error("translate([1, 2, 3]) { " + kCube + " }"),
             "m.csg:1: unknown node translate()" + hint);
-  EXPECT_EQ(error("c\xe9();"), "m.csg:1: expected \"(\" after \"c\", got the byte 0xe9");
+  EXPECT_EQ(error("c\xe9();"), "m.csg:1: expected \"(\" after \"c\", got \"\\xe9\"");
   EXPECT_EQ(error(std::string("\xff\xfe\x63\x00", 4)),
             "m.csg:1: the file is in UTF-16; save it in UTF-8");
   EXPECT_EQ(error("cube(size = " + std::string(10000, '[')),
