@@ -18,6 +18,7 @@
 #include "engine/mesh/measure.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/near_contacts.h"
+#include "engine/mesh/part_faces.h"
 #include "engine/mesh/self_contact.h"
 #include "engine/mesh/stitch.h"
 #include "engine/mesh/to_millimetres.h"
@@ -198,6 +199,7 @@ class Presenter {
   void fill(Solid& solid) {
     fill_vertices(solid);
     fill_faces(solid);
+    if (fans_.were_parted) part_faces(solid);
     solid.appearances = context_.appearances;
     solid.sources = context_.sources;
   }

@@ -488,7 +488,11 @@ bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
     doubled->erase(std::unique(doubled->begin(), doubled->end()), doubled->end());
     return true;
   }
-  while (part_double_edges(crowded, fans, twin)) walk_fans(set, by_point, twin, whole, fans);
+  fans.were_parted = false;
+  while (part_double_edges(crowded, fans, twin)) {
+    walk_fans(set, by_point, twin, whole, fans);
+    fans.were_parted = true;
+  }
   return true;
 }
 

@@ -28,6 +28,7 @@ struct TriangleSet {
 struct VertexFans {
   std::vector<uint32_t> vertex_of_corner;
   std::vector<uint32_t> point_of_vertex;
+  bool were_parted = false;  ///< edges exchanged neighbours: see split_fans and part_faces.h
 };
 
 /// What becomes of an edge where more than two faces meet, found by their exact radial order.

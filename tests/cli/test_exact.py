@@ -67,6 +67,17 @@ class Exact(Case):
         self.assertGreater(max(denominators), 10**20)
         self.assertEqual(file["parts"][1]["appearances"][0]["default"], False)
 
+    def test_faces_part_with_their_vertices(self):
+        # Two wedges touch behind a face along a line through it, and are connected around both ends of that.
+        self.write("model.lua", '''local S = {{1, 0.5, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}
+            return octahedron(2):translate(2, 2, 2):multmatrix(S) - cube(2, 1, 1):translate(2, 0, 2) -
+              linear_extrude(polygon{{2, 0}, {1, 1}, {0, 1}}, 2):rotate(0, 90, 0):translate(0, 0, 2):multmatrix(S)''')
+        outcome = self.run_csgrun("model.lua", "-o", "a.exact.json", "--stats=json")
+        self.expect(outcome, 0)
+        part = read(self.path("a.exact.json"))["parts"][0]
+        self.assertEqual(float(self.measure(part)), outcome.json()["parts"][0]["volume"])
+        self.assertEqual(len(part["faces"]), 15)
+
     def test_decimals_are_decimals(self):
         text = "return cube(0.1, 0.2, 0.3) + cube(1):translate(0.7, 0, 0)"
         self.expect(self.run_script(text, "-o", "a.exact.json"), 0)
