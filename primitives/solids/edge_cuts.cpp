@@ -222,10 +222,12 @@ class Cutter {
 
   /// How far above a side that is aslant its facet is where it would touch it: enough that it meets
   /// the side before the prism ends there, wherever both are rounded to. Else they leave a step,
-  /// with an edge that is shorter than those of the grid.
-  [[nodiscard]] double lift() const {
+  /// with an edge that is shorter than those of the grid. Less where facets are of few grid steps:
+  /// the next corner must stay one. `cosine`: of the angle that a facet spans.
+  [[nodiscard]] double lift(double cosine) const {
     constexpr double kSteps = 8;
-    return kSteps * grid_step_mm_;
+    const double drop = radius_ * (1 - cosine);  // of the facet's other end, below the side
+    return std::min(kSteps * grid_step_mm_, drop / 4);
   }
 
   enum class ArcEnds : uint8_t { kOnSides, kOfBall, kOfRim };
@@ -238,6 +240,7 @@ class Cutter {
                std::vector<glm::dvec3>& points) const {
     const std::vector<glm::dvec3> directions = arc_of(f);
     const size_t first = points.size(), last = directions.size() - 1;
+    const double cosine = glm::dot(directions[0], directions[1]);
     for (const glm::dvec3& d : directions) points.push_back(middle + radius_ * d);
     const auto go_on = [&](size_t i, size_t before, const glm::dvec3& normal) {
       const glm::dvec3 corner = points[first + i];
@@ -248,7 +251,7 @@ class Cutter {
         if (kind == ArcEnds::kOfBall) {
           points.push_back(corner + along);
         } else {
-          points[first + i] = corner + along + (1 + times) * lift() * normal;
+          points[first + i] = corner + along + (1 + times) * lift(cosine) * normal;
         }
       } else if (kind == ArcEnds::kOfRim) {
         // Less steep than the facet: the corner stays one.

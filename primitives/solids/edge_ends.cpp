@@ -129,10 +129,7 @@ Result<EdgeEnds::PrismEnd> EdgeEnds::end_of(const EdgeFrame& f, int end) const {
           "the cuts of the edges that meet at {} cannot be joined: other edges end there, too",
           point_text(solid_.positions[edge(f).vertex[end]])));
     }
-    const int side = kinds[0] == EdgeEnd::kInside ? 0 : 1;
-    result.wall = mitre_at(f, end, side);
-    result.at.fill(frames_.at_next_cut(f, end, side) + kBeyondMitres * more);
-    return result;
+    return end_beyond_mitre(f, end);
   }
   std::optional<double> cap, barrier;
   std::array<double, 2> aslant{};
@@ -188,8 +185,11 @@ EdgeEnds::PrismEnd EdgeEnds::end_in_plane(const EdgeFrame& f, int end, const glm
 
 EdgeEnds::PrismEnd EdgeEnds::end_beyond_mitre(const EdgeFrame& f, int end) const {
   const int side = frames_.kind(f, end, 0) == EdgeEnd::kInside ? 0 : 1;
-  return end_in_plane(f, end, mitre_at(f, end, side).normal,
-                      (end == 0 ? -kBeyondMitres : kBeyondMitres) * f.reach);
+  const Mitre mitre = mitre_at(f, end, side);
+  const double more = (end == 0 ? -kBeyondMitres : kBeyondMitres) * f.reach;
+  PrismEnd result = end_in_plane(f, end, mitre.normal, more);
+  result.wall = mitre;
+  return result;
 }
 
 Mitre EdgeEnds::mitre_at(const EdgeFrame& f, int end, int side) const {

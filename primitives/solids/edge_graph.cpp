@@ -18,7 +18,7 @@ constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 /// Sides whose normals are so near are in one plane: what is known of these is good to 1e-15.
 constexpr double kSamePlane = 1e-14;
 /// Edges are short that have this part of the largest coordinate: some steps of the grid, which has
-/// 2^24 to 2^27 to that.
+/// 2^24 to 2^27 to that unless it was asked for.
 constexpr double kShort = 0x1p-22;
 
 auto as_tuple(const glm::dvec3& p) { return std::tie(p.x, p.y, p.z); }

@@ -1,9 +1,14 @@
 #include "primitives/solids/edge_rims.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace csgrun {
 namespace {
+
+/// Differences between the angles of edges of one rim, degrees: what stays along one of them goes
+/// deep enough for its neighbours' cuts.
+constexpr double kAlike = 0.1;
 
 class RimFinder {
  public:
@@ -46,7 +51,8 @@ class RimFinder {
     uint32_t at = first;
     int end = 1;
     do {
-      if (is_seen_[at] || !is_of_rim(at, side)) return {};
+      const double turn = edge(at).line.turn - edge(first).line.turn;
+      if (is_seen_[at] || !is_of_rim(at, side) || std::fabs(turn) > kAlike) return {};
       rim.push_back(at);
       const EdgeGraph::Edge& own = edge(at);
       const uint32_t vertex = own.vertex[end], plane = own.side[side];

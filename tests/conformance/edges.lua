@@ -234,7 +234,40 @@ for _, n in ipairs{3, 4, 6, 48, 200} do mouth(circle(5, {fn = n}), 1, 24) end
 mouth(square(10, true):rotate(17), 1.3, 16)
 mouth(polygon{{-10, 0}, {10, -1}, {10, 1}}, 0.4, 24)
 mouth(circle(0.2, {fn = 32}), 3, 8) -- a wide mouth of a narrow hole
-mouth(hull(circle(3, {fn = 32}), circle(2, {fn = 24}):translate(9, 0)):rotate(33), 1, 32)
+-- Chamfers of such, too, and corners of pockets that are rounded by less than what is cut.
+for _, n in ipairs{6, 8, 12} do
+  local bored, deep = cube(40, 40, 8) - cylinder{h = 8, r = 0.2, fn = n}:translate(20, 20, 0), 2
+  local function is_mouth(e) return math.abs(e.from[1] - 20) < 1 and e.from[3] == 8 and e.to[3] == 8 end
+  local sunk = bored:chamfer(deep, {edges = is_mouth})
+  near(bored:volume() - sunk:volume(), n * tan(180 / n) * (0.2 * cos(180 / n) * deep ^ 2 + deep ^ 3 / 3), 1e-6)
+  assert(#sunk:faces() == #bored:faces() + n)
+end
+local cross = square(11.4, 7.4, true):offset{r = 0.3, fn = 24} + square(3.4, 13.4, true):offset{r = 0.3, fn = 24}
+local pocketed = (square(60, true) - cross):linear_extrude(8)
+for how, size in pairs{chamfer = 1.5, fillet = 1} do
+  local cut = pocketed[how](pocketed, size, {fn = how == "fillet" and 24 or nil, edges = function(e)
+    return math.max(math.abs(e.from[1]), math.abs(e.from[2])) < 29 and e.from[3] == 8 and e.to[3] == 8
+  end})
+  local down = how == "fillet" and size * (1 - (cos(30) + cos(45)) / 2) or 0.5
+  local wide = how == "fillet" and size * (1 - (sin(30) + sin(45)) / 2) or size - down
+  local missed = cross:offset{delta = wide} ~ (square(60, true) - cut:slice(8 - down))
+  assert(missed:area() < 1e-4, missed:area())
+end
+-- An upright hole in a slanted face: its walls are not equally steep there. What stays is what one of the four blocks
+-- around it has, with one edge rounded each.
+local roof = polygon{{-20, 0}, {20, 0}, {20, 44}, {-20, 16}}:linear_extrude(40, {center = true}):rotate(90, 0, 0)
+local steep, blocks = roof - cube(8, 8, 90):translate(-4, -4, -20), {}
+local function is_at_hole(p) return p[3] > 3 and math.abs(p[1]) < 5 and math.abs(p[2]) < 5 end
+local blunt = steep:fillet(1, {fn = 16, edges = function(e) return is_at_hole(e.from) and is_at_hole(e.to) end})
+for _, x in ipairs{{-20, -20, -4, 20}, {4, -20, 20, 20}, {-20, -20, 20, -4}, {-20, 4, 20, 20}} do
+  local block = roof * cube(x[3] - x[1], x[4] - x[2], 100):translate(x[1], x[2], -20)
+  local axis, at = x[3] - x[1] < 40 and 1 or 2, math.min(math.abs(x[1]), math.abs(x[2]), math.abs(x[3]), math.abs(x[4]))
+  blocks[#blocks + 1] = block:fillet(1, {fn = 16, edges = function(e)
+    return e.from[3] > 3 and e.to[3] > 3 and math.abs(e.from[axis]) == at and e.from[axis] == e.to[axis]
+  end})
+end
+assert((blunt - union(blocks)):volume() < 1e-5 and (union(blocks) - blunt):volume() < 0.2)
+assert(blunt:components() == 1 and blunt:genus() == 1)
 -- What stands in the hole stays.
 local well = cube(20, 20, 5) - cylinder{h = 5, r = 6, fn = 24}:translate(10, 10, 0)
 local post = cylinder{h = 5, r = 4, fn = 24}:translate(10, 10, 0)
