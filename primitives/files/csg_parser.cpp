@@ -142,16 +142,31 @@ bool CsgParser::accept_comma(char closing) {
   return peek() != closing;
 }
 
+/// Where the string of a text() ends that starts here, as OpenSCAD writes it; npos if nowhere.
+size_t CsgParser::end_of_raw_text() {
+  if (raw_end_ <= at_) raw_end_ = text_.find(kEndOfRawText, at_ + 1);
+  return raw_end_;
+}
+
 /// Whether the string of a text() that starts here is one that somebody wrote by hand: it ends at
-/// the next quote, as others do, and the call before what ends it as OpenSCAD writes it.
-bool CsgParser::has_plain_string() const {
+/// the next quote, as others do, and the call before what ends it as OpenSCAD writes it, which has
+/// the spacing behind the size, and each call on a line of its own.
+bool CsgParser::has_plain_string() {
   size_t end = at_ + 1;
   while (end < text_.size() && text_[end] != '"') end += text_[end] == '\\' ? 2 : 1;
   const size_t next = text_.find_first_not_of(" \t\r\n", std::min(end, text_.size() - 1) + 1);
   if (next == std::string_view::npos || (text_[next] != ',' && text_[next] != ')')) return false;
-  const size_t written = text_.find(kEndOfRawText, at_ + 1);
-  return written == std::string_view::npos ||
-         (written > end && text_.substr(end, written - end).find(';') != std::string_view::npos);
+  const size_t written = end_of_raw_text();
+  if (written == std::string_view::npos) return true;
+  if (written <= end) return false;
+  const std::string_view between = text_.substr(end, written - end);
+  for (const std::string_view line_end : {";\n", ";\r\n"}) {
+    if (between.find(line_end) != std::string_view::npos) return true;
+  }
+  const size_t size = written + kEndOfRawText.size();
+  const size_t behind = std::min(text_.find(',', size), text_.size());
+  const bool is_of_openscad = text_.substr(behind).starts_with(", spacing = ");
+  return !is_of_openscad && between.find(';') != std::string_view::npos;
 }
 
 Status CsgParser::read_arguments() {
@@ -211,9 +226,9 @@ Result<CsgValue> CsgParser::read_value(int depth) {
 Result<CsgValue> CsgParser::read_string(bool raw) {
   CsgValue value;
   value.kind = CsgValue::Kind::kString;
+  const size_t end = raw ? end_of_raw_text() : 0;
   ++at_;  // the opening quote
   if (raw) {
-    const size_t end = text_.find(kEndOfRawText, at_);
     if (end == std::string_view::npos) return error("a text without end");
     for (; at_ < end; ++at_) {
       if (text_[at_] == '\n') ++line_;

@@ -62,7 +62,8 @@ class CsgParser {
   Error unexpected(const std::string& wanted) const;
   std::string_view word();
   bool accept_comma(char closing);
-  [[nodiscard]] bool has_plain_string() const;
+  size_t end_of_raw_text();
+  bool has_plain_string();
   Status read_arguments();
   Result<CsgValue> read_value(int depth);
   Result<CsgValue> read_string(bool raw);
@@ -71,6 +72,7 @@ class CsgParser {
   std::string_view text_;
   size_t at_ = 0;
   int line_ = 1;
+  size_t raw_end_ = 0;  ///< what end_of_raw_text found last: it may be far
   CsgCall call_;
 };
 

@@ -32,6 +32,13 @@ bool is_known(std::string_view word) {
   return std::find(kRead.begin(), kRead.end(), word) != kRead.end() || is_passed_over(word);
 }
 
+/// Of names, the last character may be a backslash.
+bool has_names(std::string_view word) {
+  constexpr std::array<std::string_view, 10> kWithNames{
+      "o", "g", "mtllib", "usemtl", "usemap", "maplib", "shadow_obj", "trace_obj", "call", "csh"};
+  return std::find(kWithNames.begin(), kWithNames.end(), word) != kWithNames.end();
+}
+
 bool is_name(std::string_view word) {
   return std::all_of(word.begin(), word.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -64,6 +71,7 @@ class ObjReader {
       // Some programs write capitals, which are no statements of their own.
       const std::string lower = is_known(written) ? std::string() : in_lower_case(written);
       const std::string_view word = is_known(lower) ? lower : written;
+      has_no_names_ = is_known(word) && !has_names(word);
       std::optional<Error> error;
       if (word == "v") {
         error = read_point();
@@ -162,12 +170,14 @@ class ObjReader {
                          std::to_string(mesh_.points.size()) + " points");
   }
 
-  /// The next word of a statement, which goes on after a backslash at the end of a line.
-  std::string_view next(std::string_view (TextScanner::*read)() = &TextScanner::word) {
+  /// The next word of a statement, which goes on after a backslash at the end of a line; where it
+  /// may be the last character of a name, after one that stands by itself.
+  std::string_view next(std::string_view (TextScanner::*word_of)() = &TextScanner::word) {
     for (;;) {
       if (goes_on_ && !scanner_.next_line()) return {};
-      std::string_view word = (scanner_.*read)();
-      goes_on_ = word.ends_with('\\') && scanner_.is_line_end();
+      std::string_view word = (scanner_.*word_of)();
+      goes_on_ =
+          word.ends_with('\\') && (has_no_names_ || word.size() == 1) && scanner_.is_line_end();
       if (!goes_on_) return word;
       word.remove_suffix(1);
       if (!word.empty()) return word;
@@ -178,6 +188,7 @@ class ObjReader {
   bool next_statement() {
     while (!next().empty()) continue;
     goes_on_ = false;
+    has_no_names_ = true;
     return scanner_.next_line();
   }
 
@@ -226,7 +237,8 @@ class ObjReader {
   std::string material_;
   std::vector<std::string>* notes_;
   PassedOver unknown_, small_faces_;
-  bool goes_on_ = false;  ///< the statement, on the next line
+  bool goes_on_ = false;      ///< the statement, on the next line
+  bool has_no_names_ = true;  ///< what is read of it next
 };
 
 }  // namespace

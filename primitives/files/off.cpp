@@ -202,6 +202,8 @@ class OffReader {
       loop_.push_back(static_cast<uint32_t>(*index));
     }
     if (loop_.size() < 3) {
+      // Without lines to go by, a wrong number of points is seen by this.
+      if (is_one_line_) return here(which + " has fewer than three corners");
       small_faces_.add(which);
     } else {
       mesh_.add_face(loop_);

@@ -178,7 +178,7 @@ Result<PolygonMesh> parse_stl(const std::string& name, std::string_view bytes,
   AsciiReader reader(name, without_padding(text));
   Result<PolygonMesh> mesh = reader.read();
   if (mesh && reader.end_is_missing() && notes != nullptr) {
-    notes->push_back("ends without \"endsolid\"");
+    notes->push_back("ends without \"endsolid\"; solids behind it may be missing");
   }
   return mesh;
 }

@@ -62,11 +62,11 @@ class TextScanner {
     }
   }
 
-  /// Whether nothing but blanks is left of this line.
+  /// Whether nothing but blanks and a comment is left of this line.
   [[nodiscard]] bool is_line_end() const {
     const char* p = at_;
     while (p != end_ && is_blank(*p)) ++p;
-    return p == end_ || *p == line_end_;
+    return p == end_ || *p == line_end_ || (*p == comment_ && comment_ != '\0');
   }
 
   /// 1-based.

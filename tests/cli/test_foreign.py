@@ -285,6 +285,18 @@ class Foreign(Case):
         self.assertEqual(self.parts_of(name, data, len(warnings)), [("part1", self.SIXTH, self.UNIT)])
         self.assertEqual(self.warnings, [f"{name}: {w}" for w in warnings])
 
+    def test_names_that_end_in_a_backslash(self):
+        # Of a folder: what follows is a statement of its own.
+        lines = self.OBJ.splitlines()
+        for name in ("g C:\\dir\\", "o C:\\dir\\", "usemtl a\\", "unheard_of C:\\"):
+            for place in (0, len(lines) - 4, len(lines) - 1):
+                text = "\n".join(lines[:place] + [name] + lines[place:]) + "\n"
+                with self.subTest(f"{name} {place}"):
+                    self.write("a.obj", text)
+                    outcome = self.run_csgrun("a.obj", "--stats=json")
+                    self.expect(outcome, 0)
+                    self.assertEqual(round(outcome.json()["parts"][0]["volume"], 9), self.SIXTH)
+
     def test_line_ends_and_byte_order_marks(self):
         for name, text in (("a.obj", self.OBJ), ("a.off", self.OFF), ("a.stl", self.STL), ("a.ply", self.PLY)):
             for end in ("\n", "\r\n", "\r"):
@@ -427,10 +439,12 @@ class Foreign(Case):
         self.refuse("a.stl", self.STL.replace("endsolid", "\x1a\x7f"),
                     r'a.stl:30: expected "facet" or "endsolid", got "\x1a\x7f"')
 
+    NO_END = 'ends without "endsolid"; solids behind it may be missing'
+
     def test_stl_without_its_end(self):
         facets = self.STL.replace("endsolid x\n", "")
-        self.good("a.stl", facets, 'ends without "endsolid"')
-        self.good("a.stl", facets + "\x1a", 'ends without "endsolid"')
+        self.good("a.stl", facets, self.NO_END)
+        self.good("a.stl", facets + "\x1a", self.NO_END)
         # A file that is cut off looks the same, or ends elsewhere.
         between = [m.end() for m in re.finditer("endfacet\n", facets)][:-1]
         for end in (*range(10, len(facets) - 10, 31), *between):

@@ -15,7 +15,7 @@ TEST(TextInLua, Mistakes) {
   EXPECT_EQ(message_of("return text('a', {size = 1, em = 2})"),
             "model.lua:1: text: give either 'size' or 'em', not both");
   EXPECT_EQ(message_of("return text('a', {halign = 'middle'})"),
-            "model.lua:1: text: halign must be one of \"default\", \"left\", \"center\", "
+            "model.lua:1: text: halign must be one of \"left\", \"center\", "
             "\"right\", got \"middle\"");
   EXPECT_NE(message_of("return text('a', {font = 'nowhere.ttf'})").find("text: cannot read"),
             std::string::npos);

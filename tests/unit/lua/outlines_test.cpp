@@ -50,8 +50,9 @@ TEST(Sweeps, Mistakes) {
             "model.lua:1: sweep: scale must be positive, or 0 both ways, got 0");
   EXPECT_EQ(message_of("return square(1):sweep{{0, 0, 0}, {0, 0, 0}}"),
             "model.lua:1: sweep: the path needs at least 2 different points, got 1");
-  EXPECT_EQ(message_of("return loft(square(1), 2)"),
-            "model.lua:1: loft: option 'outlines' must be a list of two or more shapes, got shape");
+  EXPECT_EQ(
+      message_of("return loft(square(1), 2)"),
+      "model.lua:1: loft: its outlines are one list, and their heights follow: loft({a, b}, 10)");
   EXPECT_EQ(message_of("return loft({square(1), cube(1)}, 2)"),
             "model.lua:1: loft: outline 2 must be a 2D shape or a point {x, y}, got solid");
   EXPECT_EQ(message_of("return loft({square(1), square(1)})"),

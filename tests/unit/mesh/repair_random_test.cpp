@@ -108,7 +108,7 @@ TEST(Repair, RandomCracks) {
 TEST(Repair, RandomGarbage) {
   Random random(11);
   int good = 0;
-  for (int round = 0; round < 2000; ++round) {
+  for (int round = 0; round < 2400; ++round) {
     Soup soup;
     const int64_t points = random.integer(1, 9), faces = random.integer(1, 14);
     for (int64_t i = 0; i < points; ++i) {

@@ -97,7 +97,10 @@ TEST(CsgFile, CommentsAndModifiersOfSources) {
   EXPECT_EQ(sketch(parse("!" + kCube + "!" + kSphere).solid), "cube");
   EXPECT_EQ(sketch(parse("%!" + kSphere + kCube).solid), "cube");
   EXPECT_EQ(error("/* 1\n2\n*/ // 3\n\nnone();"), "m.csg:5: unknown node none()");
-  EXPECT_EQ(error("cube(size = 1)/;"), "m.csg:1: expected \";\" or \"{\", got \"/\"");
+  EXPECT_EQ(
+      error("cube(size = 1)/;"),
+      "m.csg:1: expected \";\" or \"{\", got \"/\"; a tree has calls and values only: openscad "
+      "in.scad -o out.csg makes one of a source");
 }
 
 TEST(CsgFile, FirstChildThatIsNotEmptyDecidesTheDimension) {

@@ -102,6 +102,9 @@ TEST(CsgLeaves, TextIsNotEscaped) {
   };
   EXPECT_GT(width("\""), 0);
   EXPECT_GT(width("a\"b\\n\", size"), width("a\"b"));
+  for (const std::string inches : {"5\", 6\"; 7", "Pipe (1\"); cold", "a\"); text(\"b"}) {
+    EXPECT_GT(width(inches), width("Pipe")) << inches;
+  }
   // By hand, and more than one in a line.
   const auto box = [](const std::string& text) { return parse(text).shape.bounds(); };
   EXPECT_EQ(box("text(text=\"Hi\",size=5);"), box("text(text = \"Hi\", size = 5);"));

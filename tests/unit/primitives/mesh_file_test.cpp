@@ -336,7 +336,7 @@ TEST(MeshFile, HugeCountsAreRefusedAtOnce) {
     EXPECT_EQ(mesh.error().code, ErrorCode::kLimit) << mesh.error().message;
   }
   EXPECT_EQ(message("a.off", "OFF\n4000000000 1 0\n0 0 0\n"),
-            "a.off:3: 4000000000 points promised, but only 6 bytes follow");
+            "a.off:2: 4000000000 points promised, but only 7 bytes follow");
 }
 
 TEST(MeshFile, OnlyRegularFilesAreRead) {

@@ -118,8 +118,8 @@ TEST(Text, ColumnsGoToTheLeft) {
 }
 
 TEST(Text, WhatIsNoTextOrNoScriptIsAnError) {
-  EXPECT_EQ(error(line("a\xff")), "text: it is not in UTF-8: byte 2 of \"a?\"");
-  EXPECT_EQ(error(line("\xc3")), "text: it is not in UTF-8: byte 1 of \"?\"");
+  EXPECT_EQ(error(line("a\xff")), "text: it is not in UTF-8: byte 2 of \"a\\xff\"");
+  EXPECT_EQ(error(line("\xc3")), "text: it is not in UTF-8: byte 1 of \"\\xc3\"");
   TextOptions options = line("I");
   for (const char* good : {"Latn", "latin", "Arabic", "Zyyy"}) {
     options.script = good;
