@@ -260,7 +260,7 @@ Result<Scene> SceneBuilder::build(const GridStep& step, const GridStep& least) {
 }
 
 /// Subtrees with far leaves stay in their parent's job, as often as they occur there. Where that
-/// makes jobs of many times what the scene has, its far leaves count as a whole, if a step that is
+/// makes jobs of many times what the scene has, all its leaves count as a whole, if a step that is
 /// somewhat coarser holds them.
 void SceneBuilder::count_repeated_far_leaves() {
   constexpr size_t kMostTimes = 2, kFew = 16;

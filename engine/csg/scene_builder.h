@@ -67,7 +67,8 @@ class SceneBuilder {
   std::vector<LeafRounding>& rounding_;
   std::vector<uint32_t>& frame_of_;
   std::vector<StepLeaf>& step_leaves_;
-  /// Set when a leaf that must be resolved reaches too far: it is needed as a whole.
+  /// Set when leaves are found to be needed as a whole: one that must be resolved reaches too far,
+  /// or those that are far repeat.
   bool is_step_too_small_ = false;
   bool has_repeats_ = false;  ///< see count_repeated_far_leaves
 };

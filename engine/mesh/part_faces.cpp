@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -118,8 +120,7 @@ class FaceArrays {
     faces.back().loop_count = 0;
     normals.push_back(normal);
   }
-  template <class Vertices>
-  void add_loop(const Vertices& vertices) {
+  void add_loop(std::span<const uint32_t> vertices) {
     loop_vertices.insert(loop_vertices.end(), vertices.begin(), vertices.end());
     loop_starts.push_back(static_cast<uint32_t>(loop_vertices.size()));
     ++faces.back().loop_count;
@@ -163,8 +164,8 @@ void part_faces(Solid& solid) {
       made.add(face, solid.face_normals[f]);
       for (uint32_t l = face.first_loop; l < last_loop; ++l) {
         made.add_loop(
-            std::vector<uint32_t>(solid.loop_vertices.begin() + solid.loop_starts[l],
-                                  solid.loop_vertices.begin() + solid.loop_starts[l + 1]));
+            std::span(solid.loop_vertices)
+                .subspan(solid.loop_starts[l], solid.loop_starts[l + 1] - solid.loop_starts[l]));
       }
       std::fill(solid.triangle_face.begin() + static_cast<std::ptrdiff_t>(begin),
                 solid.triangle_face.begin() + static_cast<std::ptrdiff_t>(end), first);

@@ -167,15 +167,15 @@ class Cutter {
     return arc(line.normals[0], line.normals[1], parts_of(line.turn));
   }
 
-  /// A body between two planes along that of a mitre.
-  NodePtr slab(const EdgeFrame& f, const Mitre& mitre, double low, double high) const {
+  /// What a prism that goes beyond a mitre is to be less: all from a little before it on.
+  NodePtr wall_at(const EdgeFrame& f, const Mitre& mitre) const {
     const glm::dvec3 u = glm::normalize(glm::cross(mitre.normal, f.in[0]));
     const glm::dvec3 v = glm::cross(mitre.normal, u);
     std::vector<glm::dvec3> points;
     for (int i = 0; i < 8; ++i) {
       points.push_back(mitre.corner + (i & 1 ? mitre.reach : -mitre.reach) * u +
                        (i & 2 ? mitre.reach : -mitre.reach) * v +
-                       (i & 4 ? high : low) * mitre.normal);
+                       (i & 4 ? mitre.reach : -mitre.gap) * mitre.normal);
     }
     return hull(std::move(points), f);
   }
@@ -202,7 +202,7 @@ class Cutter {
       if (!found) return found.error();
       ends[end] = *std::move(found);
       if (const auto& wall = ends[end].wall) {
-        made.walls[end].push_back(slab(f, *wall, -wall->gap, wall->reach));
+        made.walls[end].push_back(wall_at(f, *wall));
       }
     }
     const std::array<const EdgeCorner*, 2> corners{ends_.corner_at(f, 0), ends_.corner_at(f, 1)};
@@ -218,6 +218,11 @@ class Cutter {
     }
     if (is_fillet()) made.round = round_body(f, ends, corners);
     return std::nullopt;
+  }
+
+  /// Where the axis of the cylinder along an edge begins.
+  [[nodiscard]] glm::dvec3 axis_of(const EdgeFrame& f) const {
+    return f.start + f.setback * f.in[0] - radius_ * edge(f).line.normals[0];
   }
 
   /// How far above a side that is aslant its facet is where it would touch it: enough that it meets
@@ -266,8 +271,7 @@ class Cutter {
   /// and longer; at a ball up to it. Null where nothing is between two balls.
   NodePtr round_body(const EdgeFrame& f, const std::array<PrismEnd, 2>& ends,
                      const std::array<const EdgeCorner*, 2>& corners) const {
-    const SolidEdge& line = edge(f).line;
-    const glm::dvec3 axis = f.start + f.setback * f.in[0] - radius_ * line.normals[0];
+    const glm::dvec3 axis = axis_of(f);
     const bool has_ball = corners[0] != nullptr || corners[1] != nullptr;
     std::array<double, 2> at{};
     std::vector<glm::dvec3> points;
@@ -311,7 +315,7 @@ class Cutter {
       const auto& [from, to] = ends;
       const std::array<double, 2> at{*std::min_element(from.at.begin(), from.at.end()) - more,
                                      *std::max_element(to.at.begin(), to.at.end()) + more};
-      const glm::dvec3 axis = f.start + f.setback * f.in[0] - radius_ * edge(f).line.normals[0];
+      const glm::dvec3 axis = axis_of(f);
       std::vector<glm::dvec3> points;
       for (const double end : at) {
         const glm::dvec3 middle = axis + end * f.along;
