@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -13,9 +12,12 @@
 #include <csgrun/engine/evaluate.h>
 
 #include "engine/base/parallel.h"
+#include "engine/base/timer.h"
 #include "engine/bsp/untouched.h"
+#include "engine/csg/boundary_cache.h"
 #include "engine/csg/constructions.h"
 #include "engine/csg/convexity.h"
+#include "engine/csg/disk_boundaries.h"
 #include "engine/csg/locate.h"
 #include "engine/csg/result_cache.h"
 #include "engine/csg/scene.h"
@@ -31,15 +33,13 @@ namespace {
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() {
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  ~Stopwatch() { seconds_ += timer_.seconds(); }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
  private:
   double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Timer timer_;
 };
 
 /// Renumbers appearances in the order in which faces use them: which others the run has seen is not
@@ -72,7 +72,8 @@ struct Evaluator::Impl {
       : options(std::move(given)),
         form(appearances),
         store(appearances),
-        boundaries(options.cache_bytes),
+        disk(options.disk_cache, appearances),
+        boundaries(options.cache_bytes, disk),
         // Solids are a fraction of what led to them.
         starts([this](const Key& key) { return boundaries.contains(key); }),
         solids(options.cache_bytes / 4),
@@ -84,6 +85,11 @@ struct Evaluator::Impl {
             warnings) {
     threads = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
     if (threads == 0) threads = 1;
+    if (!options.disk_cache.warn_if_unusable) return;
+    if (const std::string fault = disk.find_fault(); !fault.empty()) {
+      warnings.add({},
+                   "the cache folder '" + options.disk_cache.folder + "' cannot be used: " + fault);
+    }
   }
 
   [[nodiscard]] bool cancelled() const {
@@ -117,7 +123,8 @@ struct Evaluator::Impl {
   NormalForm form;
   LeafStore store;
   SceneRoom room;
-  ResultCache<StoredBoundary> boundaries;
+  DiskBoundaries disk;
+  BoundaryCache boundaries;
   SceneStarts starts;
   KnownTails tails;
   ResultCache<SolidPtr> solids;
@@ -172,12 +179,19 @@ Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& par
     if (!root) return root.error();
     roots.push_back(*root);
   }
-  const Resolver resolve = [this](const Operand& surface,
+  const Resolver resolve = [this](const Key& key, const Operand& surface,
                                   std::span<const std::array<uint32_t, 2>> crossings,
-                                  InsideRule rule) {
+                                  InsideRule rule) -> Result<BoundaryPtr> {
+    if (const auto known = disk.read(key)) {
+      ++stats.nodes_from_disk;
+      return known->boundary;
+    }
+    const Timer timer;
     KernelOptions how = kernel_options(options, threads);
     how.name_untouched = true;
-    return resolve_surface(surface, crossings, rule, how, stats);
+    auto boundary = resolve_surface(surface, crossings, rule, how, stats);
+    if (boundary) disk.write(key, {*boundary, nullptr, {}}, timer.seconds());
+    return boundary;
   };
   const auto is_cancelled = [this] { return cancelled(); };
   SceneContext context{form, store, appearances, warnings, room, is_cancelled, resolve};

@@ -20,7 +20,8 @@ struct KeyHash {
 
 /// Gathers bytes and hashes them; long lists are hashed where they are. Everything is put with its
 /// length where it varies, so that different sequences give different bytes. Numbers are hashed as
-/// this machine holds them: keys do not leave the process.
+/// this machine holds them. They are values only, nothing of a process: other runs have the same
+/// keys (disk_boundaries.h).
 class KeyBuilder {
  public:
   explicit KeyBuilder(std::string_view domain);

@@ -227,11 +227,12 @@ Key resolved_key(const QuantisedLeaf& leaf, InsideRule rule) {
 
 Result<BoundaryPtr> LeafStore::resolved(const QuantisedLeaf& leaf, InsideRule rule,
                                         const Resolver& resolve) {
-  BoundaryPtr& made = resolved_[resolved_key(leaf, rule)];
+  const Key key = resolved_key(leaf, rule);
+  BoundaryPtr& made = resolved_[key];
   if (!made) {
     Operand surface;
     surface.leaf = leaf.prepared->geometry;
-    auto boundary = resolve(surface, leaf.prepared->crossings, rule);
+    auto boundary = resolve(key, surface, leaf.prepared->crossings, rule);
     if (!boundary) return boundary.error();
     made = *boundary;
     bytes_ += memory_bytes(*made);

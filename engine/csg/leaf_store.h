@@ -43,9 +43,10 @@ struct QuantisedLeaf {
 
 using BoundaryPtr = std::shared_ptr<const BoundaryMesh>;
 
-/// Makes the boundary of what a leaf's surface encloses, in its local axes (see resolve_surface).
+/// Makes the boundary of what a leaf's surface encloses, in its local axes (see resolve_surface),
+/// or knows it by its key.
 using Resolver = std::function<Result<BoundaryPtr>(
-    const Operand&, std::span<const std::array<uint32_t, 2>>, InsideRule)>;
+    const Key&, const Operand&, std::span<const std::array<uint32_t, 2>>, InsideRule)>;
 
 /// What is remembered of one leaf of the normal form.
 struct LeafState {

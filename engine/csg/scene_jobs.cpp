@@ -1,8 +1,10 @@
 #include "engine/csg/scene_jobs.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
+#include "engine/base/timer.h"
 #include "engine/bsp/boundary_pieces.h"
 #include "engine/bsp/untouched.h"
 
@@ -66,8 +68,12 @@ bool SceneJobs::may_keep(const Subtree& subtree) {
   return !subtree.is_far && fits_grid(subtree.box);
 }
 
-bool SceneJobs::is_known(const Key& key) const {
-  return results_.contains(key) || cache_.contains(key);
+/// What is known stays so until the end of the run, whatever the cache drops meanwhile.
+bool SceneJobs::is_known(const Key& key) {
+  if (results_.contains(key)) return true;
+  const StoredBoundary* const known = cache_.find(key);
+  if (known != nullptr) results_.emplace(key, Kept{*known, false});
+  return known != nullptr;
 }
 
 void SceneJobs::find_operators(const std::vector<uint32_t>& roots) {
@@ -88,7 +94,7 @@ void SceneJobs::find_operators(const std::vector<uint32_t>& roots) {
 
 /// How many operands of a list, less than all, are a subtree that is known or stands elsewhere; 0
 /// when none are.
-size_t SceneJobs::shared_prefix(const OperandList& list) const {
+size_t SceneJobs::shared_prefix(const OperandList& list) {
   for (size_t count = list.operands.size() - 1; count >= 2; --count) {
     const Subtree& value = *list.values[count - 1];
     if (!may_keep(value)) continue;
@@ -99,7 +105,7 @@ size_t SceneJobs::shared_prefix(const OperandList& list) const {
 
 /// What a list ends with, if that is known and stands as it was evaluated, and nothing that it
 /// begins with is.
-KnownTails::Tail SceneJobs::known_tail(uint32_t node, const OperandList& list) const {
+KnownTails::Tail SceneJobs::known_tail(uint32_t node, const OperandList& list) {
   if (!may_be_in_pieces() || shared_prefix(list) > 0) return {};
   const KnownTails::Tail tail = tails_.find(scene_, node, list);
   if (tail.first == 0 || !may_keep(tail.value) || !is_known(tail.value.id.key)) return {};
@@ -206,6 +212,7 @@ Status SceneJobs::evaluate(uint32_t node) {
   for (size_t count = options_.flatten ? all : 2; count <= all; ++count) {
     const Subtree& subtree = *list.values[count - 1];
     if (!may_keep(subtree) || is_known(subtree.id.key)) continue;
+    const Timer timer;
     auto parts = build(node, count, subtree.id.frame, subtree.is_of_one_frame);
     if (parts && parts->is_too_far) parts = build(node, count, subtree.id.frame);
     if (!parts) return parts.error();
@@ -213,7 +220,7 @@ Status SceneJobs::evaluate(uint32_t node) {
     const Subtree here = moved(subtree, parts->moved);
     auto stored = run_kept_job(*std::move(parts), here);
     if (!stored) return stored.error();
-    keep(subtree, *std::move(stored));
+    keep(subtree, *std::move(stored), timer.seconds());
   }
   ++jobs_done_;
   return std::monostate{};
@@ -223,6 +230,7 @@ Status SceneJobs::evaluate(uint32_t node) {
 Status SceneJobs::evaluate_hull(uint32_t node) {
   const Subtree& subtree = scene_.nodes[node].subtree;
   if (is_known(subtree.id.key)) return std::monostate{};
+  const Timer timer;
   const SceneNode& solid = scene_.nodes[scene_.nodes[node].first];
   auto surface = solid.kind == SceneNode::Kind::kLeaf
                      ? Result<Operand>(place_leaf(solid, subtree.id.frame))
@@ -232,15 +240,16 @@ Status SceneJobs::evaluate_hull(uint32_t node) {
                                   kernel_options(options_, threads_), stats_);
   if (!boundary) return boundary.error();
   ++stats_.nodes_evaluated;
-  keep(subtree, {*boundary, nullptr, subtree.id});
+  keep(subtree, {*boundary, nullptr, subtree.id}, timer.seconds());
   ++jobs_done_;
   return std::monostate{};
 }
 
-void SceneJobs::keep(const Subtree& subtree, StoredBoundary stored) {
+void SceneJobs::keep(const Subtree& subtree, StoredBoundary stored, double seconds) {
   const size_t bytes = stored.boundary ? memory_bytes(*stored.boundary) : stored.pieces->bytes;
   cache_.put(subtree.id.key, stored, bytes);
-  results_[subtree.id.key] = {std::move(stored), true};
+  cache_.write(subtree.id.key, stored, seconds);
+  results_[subtree.id.key] = {std::move(stored), true, seconds};
 }
 
 KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
@@ -434,16 +443,19 @@ Result<Operand> SceneJobs::place(const Subtree& subtree, uint32_t job_frame) {
 
 const StoredBoundary& SceneJobs::use(const Key& key) {
   Kept& kept = hold(key);
-  if (!kept.is_fresh) ++stats_.nodes_from_memory;
+  if (!kept.is_fresh) {
+    ++(cache_.take_was_read(key) ? stats_.nodes_from_disk : stats_.nodes_from_memory);
+  }
   kept.is_fresh = false;
   return kept.stored;
 }
 
-/// Holds what is known until the end of the run, whatever the cache drops meanwhile.
+/// REQUIRES: it is known.
 SceneJobs::Kept& SceneJobs::hold(const Key& key) {
-  auto found = results_.find(key);
-  if (found == results_.end()) found = results_.emplace(key, Kept{*cache_.find(key), false}).first;
-  return found->second;
+  const bool known = is_known(key);
+  assert(known);
+  (void)known;
+  return results_.at(key);
 }
 
 bool SceneJobs::may_be_in_pieces() const { return options_.whole_faces && !options_.literal_cells; }
@@ -460,12 +472,15 @@ PiecesPtr SceneJobs::pieces_of_result(const Key& key) {
 
 /// The boundary of a result that is in use.
 Result<BoundaryPtr> SceneJobs::boundary_of(const Key& key) {
-  StoredBoundary& kept = results_.at(key).stored;
+  Kept& result = results_.at(key);
+  StoredBoundary& kept = result.stored;
   if (!kept.boundary) {
+    const Timer timer;
     auto boundary = assemble_pieces(*kept.pieces, true);
     if (!boundary) return boundary.error();
     kept.boundary = *boundary;
     cache_.put(key, kept, memory_bytes(*kept.boundary) + kept.pieces->bytes);
+    cache_.write(key, kept, result.seconds + timer.seconds());
   }
   return kept.boundary;
 }

@@ -11,8 +11,8 @@
 #include <csgrun/engine/evaluate.h>
 
 #include "engine/bsp/kernel.h"
+#include "engine/csg/boundary_cache.h"
 #include "engine/csg/known_tails.h"
-#include "engine/csg/result_cache.h"
 #include "engine/csg/scene.h"
 
 namespace csgrun {
@@ -27,7 +27,7 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads);
 /// operator's operands. All else becomes part of its parent's job.
 class SceneJobs {
  public:
-  SceneJobs(const Scene& scene, ResultCache<StoredBoundary>& cache, const KnownTails& tails,
+  SceneJobs(const Scene& scene, BoundaryCache& cache, const KnownTails& tails,
             const EvaluateOptions& options, unsigned threads, EvaluateStats& stats)
       : scene_(scene),
         cache_(cache),
@@ -52,6 +52,7 @@ class SceneJobs {
   struct Kept {
     StoredBoundary stored;
     bool is_fresh = false;  // evaluated for a use that has not come yet
+    double seconds = 0;     // in which it was evaluated, if it was
   };
   struct Parts {  // of one job
     std::vector<Operand> operands;
@@ -76,15 +77,15 @@ class SceneJobs {
     return scene_.nodes[node].kind == SceneNode::Kind::kHull;
   }
   [[nodiscard]] static bool may_keep(const Subtree& subtree);
-  [[nodiscard]] bool is_known(const Key& key) const;
+  [[nodiscard]] bool is_known(const Key& key);
   void find_operators(const std::vector<uint32_t>& roots);
   std::vector<uint32_t> count_uses(const std::vector<uint32_t>& roots);
   void note_overlap(uint32_t a, uint32_t b, bool in_operator);
-  [[nodiscard]] size_t shared_prefix(const OperandList& list) const;
-  [[nodiscard]] KnownTails::Tail known_tail(uint32_t node, const OperandList& list) const;
+  [[nodiscard]] size_t shared_prefix(const OperandList& list);
+  [[nodiscard]] KnownTails::Tail known_tail(uint32_t node, const OperandList& list);
   Status evaluate(uint32_t node);
   Status evaluate_hull(uint32_t node);
-  void keep(const Subtree& subtree, StoredBoundary stored);
+  void keep(const Subtree& subtree, StoredBoundary stored, double seconds);
   Result<StoredBoundary> run_kept_job(Parts parts, const Subtree& subtree);
   KernelOptions job_options();
   Result<BoundaryPtr> run_job(Parts parts, const GridBox& region);
@@ -112,7 +113,7 @@ class SceneJobs {
   Result<BoundaryPtr> boundary_of(const Key& key);
 
   const Scene& scene_;
-  ResultCache<StoredBoundary>& cache_;
+  BoundaryCache& cache_;
   const KnownTails& tails_;
   const EvaluateOptions& options_;
   unsigned threads_;

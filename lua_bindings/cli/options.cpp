@@ -113,6 +113,26 @@ struct RawOptions {
   std::string help_api;
 };
 
+/// Where intermediate meshes are kept: in the folder that was asked for, or where the system has
+/// such things for this user.
+DiskCacheOptions disk_cache(const std::string& folder) {
+  DiskCacheOptions options;
+  if (!folder.empty()) {
+    options.folder = folder;
+    options.least_seconds = 0;
+    options.warn_if_unusable = true;
+    return options;
+  }
+  // As the XDG base directory specification has it: a path that is not absolute does not count.
+  const auto is_absolute = [](const char* path) { return path != nullptr && path[0] == '/'; };
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); is_absolute(cache)) {
+    options.folder = std::string(cache) + "/csgrun";
+  } else if (const char* home = std::getenv("HOME"); is_absolute(home)) {
+    options.folder = std::string(home) + "/.cache/csgrun";
+  }
+  return options;
+}
+
 void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
   check_model(line.model);
   for (const std::string& path : line.outputs) check_output(path, line);
@@ -163,6 +183,9 @@ void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
     }
     line.memory_bytes = static_cast<size_t>(raw.megabytes * 1048576.0);
   }
+  if (app.count("--cache-dir") > 0 && raw.cache_folder.empty())
+    throw UsageError{"--cache-dir needs the name of a folder"};
+  if (!raw.no_cache) line.disk_cache = disk_cache(raw.cache_folder);
   if (line.list_params && (!line.outputs.empty() || line.stats != StatsForm::kNone))
     throw UsageError{"--list-params writes no model: leave -o and --stats out"};
   if (line.outputs.empty() && line.stats == StatsForm::kNone && !line.list_params) {
@@ -280,8 +303,10 @@ CommandLine parse_command_line(int argc, char** argv) {
       "repairs them if they do");
   app.add_flag("--stats{text}", raw.stats,
                "measures: as text on standard error, or --stats=json on standard output");
-  app.add_flag("--no-cache", raw.no_cache, "uses no cache on disk (there is none yet)");
-  app.add_option("--cache-dir", raw.cache_folder, "folder of a cache on disk (not used yet)")
+  app.add_flag("--no-cache", raw.no_cache, "neither reads nor keeps intermediate meshes on disk");
+  app.add_option("--cache-dir", raw.cache_folder,
+                 "keeps all intermediate meshes in this folder (those that take a quarter of a "
+                 "second or more, in ~/.cache/csgrun)")
       ->type_name("DIR");
   app.add_option("--timeout", raw.timeout, "seconds for everything (60 for the script alone)")
       ->type_name("S");

@@ -36,6 +36,7 @@ struct CommandLine {
   bool system_fonts = false;  ///< text may use the fonts of the machine
   bool strict = false;        ///< what would be replaced with a warning is an error
   bool quiet = false;
+  DiskCacheOptions disk_cache;
   bool info_json = false;
 };
 

@@ -104,6 +104,7 @@ class Run {
     options.evaluate.threads =
         std::min(line.threads != 0 ? line.threads : usable_threads(), most_threads(memory));
     options.evaluate.grid = line.grid;
+    options.evaluate.disk_cache = line.disk_cache;
     options.evaluate.progress = make_progress(line.quiet);
     options.evaluate.exact_points = std::any_of(
         line.outputs.begin(), line.outputs.end(),

@@ -53,7 +53,8 @@ class Case(unittest.TestCase):
         start = time.monotonic()
         out, err = tempfile.TemporaryFile(), tempfile.TemporaryFile()
         process = subprocess.Popen([CSGRUN, *arguments], cwd=cwd or self.folder, stdin=subprocess.PIPE, stdout=out,
-                                   stderr=err, env={**os.environ, **(env or {})}, preexec_fn=prepare)
+                                   stderr=err, env={**os.environ, "XDG_CACHE_HOME": self.path("user_cache"), **(env or {})},
+                                   preexec_fn=prepare)
         try:
             process.stdin.write(stdin)
             process.stdin.close()

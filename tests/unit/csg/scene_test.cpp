@@ -180,7 +180,7 @@ TEST_F(SceneTest, GoesOnFromOneBefore) {
   SceneRoom room;
   EvaluateStats stats;
   const Resolver resolve =
-      [&](const Operand& surface, std::span<const std::array<uint32_t, 2>> crossings,
+      [&](const Key&, const Operand& surface, std::span<const std::array<uint32_t, 2>> crossings,
           InsideRule rule) { return resolve_surface(surface, crossings, rule, {}, stats); };
   size_t partial = 0, whole = 0, met = 0;
   for (int round = 0; round < 60; ++round) {

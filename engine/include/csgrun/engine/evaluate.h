@@ -27,10 +27,20 @@ struct GridStep {
   static Result<GridStep> parse(const std::string& text);
 };
 
+/// The cache of intermediate meshes on disk, which other runs have, too. A folder that cannot be
+/// used is as if there were none, but for a warning.
+struct DiskCacheOptions {
+  std::string folder;             ///< made if it is not there; empty: no cache on disk
+  double least_seconds = 0.25;    ///< what was evaluated in less is not kept
+  uint64_t bytes = 1ull << 30;    ///< bound of what is kept; the least recently used goes first
+  bool warn_if_unusable = false;  ///< for a folder that somebody asked for
+};
+
 struct EvaluateOptions {
   unsigned threads = 0;  ///< 0: as many as the process may use
   GridStep grid;
   uint64_t cache_bytes = 512ull << 20;  ///< bound of the in-memory cache of intermediate meshes
+  DiskCacheOptions disk_cache;
   /// The kernel's tuning; no value changes any result (tests vary them).
   uint32_t cell_limit = 17;  ///< m of Campen & Kobbelt 2010, section 4.1
   std::array<uint32_t, 3> octree_shift{0, 0, 0};
