@@ -14,6 +14,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
 #include "engine/bsp/untouched.h"
+#include "engine/csg/body_union.h"
 #include "engine/csg/boundary_cache.h"
 #include "engine/csg/constructions.h"
 #include "engine/csg/convexity.h"
@@ -189,7 +190,7 @@ Result<Scene> Evaluator::Impl::scene_of_expanded(const std::vector<NodePtr>& par
     const Timer timer;
     KernelOptions how = kernel_options(options, threads);
     how.name_untouched = true;
-    auto boundary = resolve_surface(surface, crossings, rule, how, stats);
+    auto boundary = resolve_leaf(surface, crossings, rule, how, stats);
     if (boundary) disk.write(key, {*boundary, nullptr, {}}, timer.seconds());
     return boundary;
   };

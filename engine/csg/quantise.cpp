@@ -273,6 +273,12 @@ PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& poi
   return prepared;
 }
 
+PreparedLeaf prepare_faces(LeafGeometry&& leaf) {
+  EdgePairing pairing = pair_edges(leaf);
+  const GridBox box = box_of_points(leaf.vertices);
+  return examine(std::move(leaf), std::move(pairing), box, false);
+}
+
 LeafGeometry permuted(const LeafGeometry& leaf, const SignedPermutation& permutation) {
   LeafGeometry result = leaf;
   for (IVec3& v : result.vertices) v = permutation.apply(v);

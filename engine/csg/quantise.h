@@ -58,6 +58,9 @@ struct PreparedLeaf {
 PreparedLeaf prepare_leaf(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
                           const FaceNumbers& appearance);
 
+/// The same of faces that are planar and convex already, over distinct vertices.
+PreparedLeaf prepare_faces(LeafGeometry&& leaf);
+
 /// The geometry in other axes. A mirroring permutation reverses every loop.
 LeafGeometry permuted(const LeafGeometry& leaf, const SignedPermutation& permutation);
 

@@ -1,4 +1,5 @@
 """Files that come in: meshes that are wrong, things that are no files, places that are out of bounds."""
+import math
 import os
 import struct
 
@@ -80,6 +81,60 @@ class Meshes(Case):
         self.assertEqual(outcome.code, 0)
         self.assertRegex(outcome.err, r"'crossing.off' crosses itself: \d+ pairs of faces, the first near \(")
         self.assertIn("the fill rule nonzero", outcome.err)
+
+    def united(self, name, bodies):
+        """Writes bodies into one mesh, and each into its own; both give the same file. Returns what is said of it."""
+        points, faces = [], []
+        for i, (own, triangles) in enumerate(bodies):
+            self.write(f"{name}{i}.off", off(own, triangles))
+            faces += [tuple(len(points) + v for v in f) for f in triangles]
+            points += own
+        self.write(f"{name}.off", off(points, faces))
+        self.write(f"{name}.lua", "return union{%s}" % ", ".join(
+            f"import('{name}{i}.off')" for i in range(len(bodies))))
+        found, written = [], []
+        for model in (f"{name}.off", f"{name}.lua"):
+            outcome = self.run_csgrun(model, "-o", "out.off", "--stats=json")
+            self.assertEqual(outcome.code, 0, outcome.err)
+            (part,) = outcome.json()["parts"]
+            part.pop("name")
+            found.append(part)
+            with open(self.path("out.off"), "rb") as file:
+                written.append(file.read())
+        self.assertEqual(found[0], found[1])
+        self.assertEqual(written[0], written[1])
+        return found[0]
+
+    def test_many_bodies_in_one_place(self):
+        box = [(x, y, z) for x in (-50, 50) for y in (-0.2, 0.2) for z in (-0.2, 0.2)]
+        quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        sides = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+
+        def turned(points, about_z, about_x=0.0):
+            c, s, d, t = math.cos(about_z), math.sin(about_z), math.cos(about_x), math.sin(about_x)
+            return [(c * x - s * (d * y - t * z), s * x + c * (d * y - t * z), t * y + d * z) for x, y, z in points]
+
+        rods = [(turned([(y, x, z) for x, y, z in box], 1.1 * i, 2.3 * i), [t[::-1] for t in sides]) for i in range(40)]
+        self.assertEqual(self.united("rods", rods)["components"], 1)
+        # Rings of eight corners, and two poles.
+        ring = [(math.cos(a * math.pi / 4), math.sin(a * math.pi / 4)) for a in range(8)]
+        ball = [(r * x, r * y, z) for r, z in ((3, 4), (5, 0), (3, -4)) for x, y in ring] + [(0, 0, 5), (0, 0, -5)]
+        facets = []
+        for a in range(8):
+            b = (a + 1) % 8
+            facets += [(a, b, 24), (16 + b, 16 + a, 25)]
+            for low in (8, 16):
+                facets += [(low + a, low + b, low - 8 + b), (low + a, low - 8 + b, low - 8 + a)]
+        one = self.united("ball", [(ball, facets)])
+        many = self.united("balls", [(ball, facets)] * 30)
+        self.assertEqual((many["volume"], many["area"], many["triangles"]),
+                         (one["volume"], one["area"], one["triangles"]))
+        self.united("turned", [(turned(ball, 0.01 * i), facets) for i in range(20)])
+        # Each with a cavity.
+        hollow = [tuple(0.5 * x for x in p) for p in ball]
+        shells = [(turned(ball + hollow, 0.01 * i), facets + [tuple(26 + v for v in f[::-1]) for f in facets])
+                  for i in range(20)]
+        self.assertEqual(self.united("hollow", shells)["components"], 2)
 
     def test_truncated(self):
         self.write("cut.stl", stl(TETRAHEDRON)[:-20])
