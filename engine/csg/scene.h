@@ -54,6 +54,14 @@ struct Subtree {
   bool is_of_one_frame = true;
   /// All leaves are boxes along the axes of the world (bsp/evaluate_boxes).
   bool is_of_boxes = false;
+
+  /// The same, so many steps away in its frame, as far as jobs see it.
+  [[nodiscard]] Subtree moved(const IVec3& by) const {
+    Subtree result = *this;
+    result.box = box.moved(by);
+    for (size_t k = 0; k < 3; ++k) result.id.origin[k] += by[k];
+    return result;
+  }
 };
 
 /// Operands of one operator by what they are, with their places.
