@@ -220,9 +220,7 @@ class Conformer {
     const uint32_t f_plane = faces_[f].plane.index(), g_plane = faces_[g].plane.index();
     const auto passing = [&](uint32_t face, uint32_t plane, std::vector<DirectedEdge>& edges) {
       search_.find(face, box, edges);
-      std::erase_if(edges, [&](const DirectedEdge& e) {
-        return geometry_.side(plane, e.from) * geometry_.side(plane, e.to) >= 0;
-      });
+      std::erase_if(edges, [&](const DirectedEdge& e) { return !passes(e, plane); });
     };
     std::vector<DirectedEdge> of_f, of_g;
     passing(f, g_plane, of_f);
@@ -359,29 +357,65 @@ class Conformer {
     return box_of(e, geometry_).overlaps(box_of(r, geometry_));
   }
 
-  /// Where the edges that lie in the plane of a face cross its rim, and each other within it.
+  [[nodiscard]] bool passes(const DirectedEdge& e, uint32_t plane) {
+    return geometry_.side(plane, e.from) * geometry_.side(plane, e.to) < 0;
+  }
+
+  static bool have_common_end(const DirectedEdge& a, const DirectedEdge& b) {
+    return a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to;
+  }
+
+  /// Whether an edge in the plane of a face leaves it at one of its corners and meets it nowhere
+  /// else, as all edges around a corner do that many faces have in common. `rim`: the face's edges
+  /// whose boxes meet that of the edge. When it is not certain, it does not.
+  bool only_leaves_corner(uint32_t f, DirectedEdge e, std::span<const DirectedEdge> rim) {
+    const auto is_corner = [&](uint32_t p) {
+      return std::any_of(rim.begin(), rim.end(), [p](const auto& r) { return r.from == p; });
+    };
+    if (is_corner(e.from) == is_corner(e.to)) return false;
+    if (is_corner(e.to)) std::swap(e.from, e.to);
+    const auto is_clear = [&](const DirectedEdge& r) {
+      const int from = geometry_.side(e.plane, r.from), to = geometry_.side(e.plane, r.to);
+      if (r.from == e.from || r.to == e.from) return from != 0 || to != 0;
+      return from * to > 0 || geometry_.side(r.plane, e.from) * geometry_.side(r.plane, e.to) > 0;
+    };
+    return std::all_of(rim.begin(), rim.end(), is_clear) && !search_.starts_inside(f, e);
+  }
+
+  /// Where the edges that lie in the plane of a face cross its rim, and each other within it. Those
+  /// that only leave a corner of the face are dropped.
   void cross_lying_edges(uint32_t f) {
     const uint32_t support = faces_[f].plane.index();
-    const auto apart = [&](uint32_t plane, const DirectedEdge& e) {
-      return geometry_.side(plane, e.from) * geometry_.side(plane, e.to) < 0;
-    };
     const auto cross = [&](const DirectedEdge& a, const DirectedEdge& b) {
-      if (!boxes_meet(a, b) || !apart(b.plane, a) || !apart(a.plane, b)) return;
+      if (!passes(a, b.plane) || !passes(b, a.plane)) return;
       contacts_.push_back(unique(geometry_.add_point({support, a.plane, b.plane})));
     };
-    const std::vector<Lying>& lines = lying_[place_of_[f]];
+    std::vector<Lying>& lines = lying_[place_of_[f]];
     std::vector<Box> boxes;
-    for (const Lying& line : lines) boxes.push_back(box_of(line.edge, geometry_));
+    std::vector<DirectedEdge> rim;  // near each line, one after another
+    std::vector<size_t> rim_ends;
+    std::erase_if(lines, [&](const Lying& line) {
+      const size_t first = rim.size();
+      boxes.push_back(box_of(line.edge, geometry_));
+      search_.find(f, boxes.back(), rim);
+      if (line.other == kNone && only_leaves_corner(f, line.edge, std::span(rim).subspan(first))) {
+        rim.resize(first);
+        boxes.pop_back();
+        return true;
+      }
+      rim_ends.push_back(rim.size());
+      return false;
+    });
     const BoxTree tree(boxes);
     // In the order of edges: which points are made first must not depend on the trees.
-    std::vector<DirectedEdge> rim;
     std::vector<uint32_t> met;
+    size_t next = 0;
     for (uint32_t i = 0; i < lines.size(); ++i) {
-      rim.clear();
-      search_.find(f, boxes[i], rim);
-      for (const DirectedEdge& e : rim) cross(lines[i].edge, e);
+      for (; next < rim_ends[i]; ++next) cross(lines[i].edge, rim[next]);
       met.clear();
-      tree.visit_later(i, [&](uint32_t j) { met.push_back(j); });
+      tree.visit_later(i, [&](uint32_t j) {
+        if (!have_common_end(lines[i].edge, lines[j].edge)) met.push_back(j);
+      });
       std::sort(met.begin(), met.end());
       for (const uint32_t j : met) cross(lines[i].edge, lines[j].edge);
     }
@@ -478,6 +512,7 @@ class Conformer {
 
   /// The parts of lying edges that are inside their face.
   void find_slits(uint32_t f, const PointTree& contacts) {
+    if (lying_[place_of_[f]].empty()) return;
     MergedFace& face = faces_[f];
     std::vector<uint32_t> points;
     contacts.find(face_boxes_[place_of_[f]], [&](uint32_t p) {

@@ -16,7 +16,9 @@ namespace csgrun {
 /// coordinates are rounded. No surface is moved.
 ///
 /// REQUIRES: faces that do not cross, T-junctions resolved. Exact; doubles decide nearly always.
-/// Cost: O(n log n) and the pairs of faces whose boxes meet, as often as a contact is looked at.
+/// Cost: O(n log n) and the pairs of faces whose boxes meet, as often as a contact is looked at; of
+/// edges that run in a face's plane, the pairs that meet there. Edges that only leave a corner of
+/// the face are none of these: n faces around a corner are n^2 pairs, and not n^3.
 ///
 /// Only the faces `near` (ascending) are looked at: no others touch anything.
 void conform_contacts(std::vector<MergedFace>& faces, std::span<const uint32_t> near,

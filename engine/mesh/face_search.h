@@ -32,6 +32,8 @@ class FaceSearch {
   int locate(uint32_t face, uint32_t p);
   /// Whether an edge in the plane of a face, broken at the face's corners, runs through the face.
   bool runs_inside(uint32_t face, const DirectedEdge& e);
+  /// Whether an edge in the plane of a face, which leaves one of its corners, goes on inside it.
+  bool starts_inside(uint32_t face, const DirectedEdge& e);
   /// Appends the edges of a face whose boxes overlap a box, in the order of the loops.
   void find(uint32_t face, const Box& box, std::vector<DirectedEdge>& found);
   /// Whether a face has so many edges that it pays to find those that are asked for.
@@ -57,7 +59,6 @@ class FaceSearch {
   /// Null for a face of few edges.
   const Large* large(uint32_t face);
   bool is_rim(uint32_t face, const DirectedEdge& e);
-  bool starts_inside(uint32_t face, const DirectedEdge& e);
 
   const std::vector<MergedFace>& faces_;
   const CellGeometry& geometry_;
