@@ -199,7 +199,8 @@ class FaceArrangement {
   std::vector<Arc> arcs_;
   std::vector<std::pair<uint32_t, uint32_t>> around_;  ///< (point, half-edge that leaves it)
   std::vector<uint32_t> place_;                        ///< of a half-edge in around_
-  std::vector<uint32_t> loop_of_;  ///< per half-edge: number within the polygon, or kNone
+  std::vector<uint32_t> loop_of_;    ///< per half-edge: number within the polygon, or kNone
+  std::vector<const Part*> at_arc_;  ///< of the arc at hand, by operands
   std::vector<LoopFact> facts_;
   SortByKey<LoopFact> sort_facts_;
   std::vector<uint32_t> sheets_;  ///< coplanar ones that are not clearly apart

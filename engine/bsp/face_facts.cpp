@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "engine/base/sort_few.h"
 #include "engine/bsp/face_arrangement.h"
 
 namespace csgrun {
@@ -163,24 +164,21 @@ bool FaceArrangement::is_convex_edge(uint32_t p, uint32_t q) {
 /// What is on the left of a half-edge, for each operand that has sheets there.
 bool FaceArrangement::add_facts(uint32_t half, uint32_t loop, bool is_first_edge) {
   const Arc& arc = arcs_[half / 2];
-  const Part* begin = parts_.data() + arc.first_part;
-  const Part* end = begin + arc.part_count;
-  const auto operand = [&](const Part& p) { return lines_[p.line].operand; };
+  const auto operand = [&](const Part* p) { return lines_[p->line].operand; };
   const auto reversed = [&](const Part& p) { return p.backwards != (half % 2 == 1); };
-  // Parts ascend by lines, but coplanar sheets come after the others: few, so look for each.
-  for (const Part* p = begin; p < end; ++p) {
-    const uint32_t o = operand(*p);
-    if (o == kNone) continue;
-    const Part* second = nullptr;
-    uint32_t count = 0;
-    bool is_first = true;
-    for (const Part* q = begin; q < end; ++q) {
-      if (operand(*q) != o) continue;
-      if (q < p) is_first = false;
-      if (q > p && !second) second = q;
-      ++count;
-    }
-    if (!is_first) continue;
+  // Parts ascend by lines, those of an operand that are not coplanar before those that are. Around
+  // an edge that many bodies share there are many.
+  at_arc_.clear();
+  for (uint32_t p = arc.first_part; p < arc.first_part + arc.part_count; ++p) {
+    if (operand(&parts_[p]) != kNone) at_arc_.push_back(&parts_[p]);
+  }
+  sort_few(at_arc_.begin(), at_arc_.end(),
+           [&](const Part* p, const Part* q) { return operand(p) < operand(q); });
+  for (size_t first = 0, end = 0; first < at_arc_.size(); first = end) {
+    const Part* const p = at_arc_[first];
+    const uint32_t o = operand(p);
+    while (end < at_arc_.size() && operand(at_arc_[end]) == o) ++end;
+    const size_t count = end - first;
     const Line& line = lines_[p->line];
     if (line.kind == Kind::kThrough) {
       if (count != 1) return false;
@@ -207,6 +205,7 @@ bool FaceArrangement::add_facts(uint32_t half, uint32_t loop, bool is_first_edge
     if (count != 2) return false;
     // A closed surface has no sheet that ends beside one that goes through, and two coplanar ones
     // are on either side and face the same way. Of two others the first one is not coplanar.
+    const Part* const second = at_arc_[first + 1];
     const Line& other = lines_[second->line];
     const int b = coplanar_side(*second);
     assert(other.kind != Kind::kThrough && (a == 0 || a == -b));
