@@ -10,6 +10,7 @@
 #include "engine/bsp/contact_table.h"
 #include "engine/bsp/covered_polygons.h"
 #include "engine/bsp/cut_faces.h"
+#include "engine/bsp/flat_cover.h"
 #include "engine/bsp/group_cover.h"
 #include "engine/bsp/patch_fates.h"
 #include "engine/bsp/point_index.h"
@@ -63,6 +64,7 @@ class FaceEvaluator {
     ends_.emplace(contacts_, job_, geometry_, index_);
     is_covered_ = find_covered(job_, plainly_, contacts_);
     for (size_t p = 0; p < plainly_.polygons.size(); ++p) is_covered_[p] |= plainly_.polygons[p];
+    mark_flat_covered(job_, expression_, contacts_, is_covered_);
     find_suspects();
     if (!cut_polygons()) return cancelled();
     if (cut_.is_crowded) return crowded();
@@ -517,7 +519,7 @@ class FaceEvaluator {
   ContactTable contacts_;
   std::optional<ContactEnds> ends_;
   PlainlyCovered plainly_;
-  std::vector<uint8_t> is_covered_;  ///< per polygon, see find_covered
+  std::vector<uint8_t> is_covered_;  ///< per polygon, see find_covered and mark_flat_covered
   std::vector<uint8_t> is_suspect_;  ///< per polygon: something touches it, maybe by chance
   std::vector<uint8_t> is_kept_;     ///< per polygon: it leaves something, whole or in loops
   std::vector<uint8_t> is_cut_;      ///< per polygon: has loops, or is left
