@@ -39,10 +39,11 @@ void list(const Job& job, std::span<const uint32_t> polygons, const ContactTable
       part.coplanar.push_back(c.p == p ? c.q : c.p);
       if (job.is_convex(operand(c))) flat.push_back(operand(c));
     }
+    std::sort(flat.begin(), flat.end());
     for (const uint32_t i : contacts.of(p)) {
       const Contact& c = contacts[i];
       if (c.is_coplanar) continue;
-      if (!flat.empty() && std::find(flat.begin(), flat.end(), operand(c)) != flat.end()) continue;
+      if (!flat.empty() && std::binary_search(flat.begin(), flat.end(), operand(c))) continue;
       part.contacts.push_back(i);
     }
     polygon.end_contact = static_cast<uint32_t>(part.contacts.size());

@@ -115,30 +115,37 @@ bool PatchFates::gather_facts() {
       facts.add(patch, cut_.loops.facts[f]);
     }
   });
-  gather(contacts_.all().size(),
-         [&](size_t c, PatchFacts& facts) { add_rim_facts(contacts_.all()[c], facts); });
+  gather(job_.polygons().size(),
+         [&](size_t p, PatchFacts& facts) { add_rim_facts(static_cast<uint32_t>(p), facts); });
   return facts_.finish(plainly_.is_open);
 }
 
 /// A polygon that touches another operand's surface from one side, and in one polygon only, is
 /// inside the operand if it is behind that polygon: then its patch needs no ray. (On an edge of
 /// that polygon it would touch the next one, too.)
-void PatchFates::add_rim_facts(const Contact& c, PatchFacts& facts) const {
-  if (c.is_plain || c.is_coplanar) return;
-  if (c.p_front != c.p_back) add_rim_fact(c.p, c.q, c.p_back, facts);
-  if (c.q_front != c.q_back) add_rim_fact(c.q, c.p, c.q_back, facts);
-}
-
-void PatchFates::add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind,
-                              PatchFacts& facts) const {
+void PatchFates::add_rim_facts(uint32_t polygon, PatchFacts& facts) const {
   if (is_cut_[polygon] || contacts_.is_in_flat_corner(polygon)) return;
-  const uint32_t operand = job_.polygons()[other].operand;
-  for (const uint32_t i : contacts_.of(polygon)) {
-    const Contact& c = contacts_[i];
-    const uint32_t third = c.p == polygon ? c.q : c.p;
-    if (third != other && job_.polygons()[third].operand == operand) return;
+  const auto operand = [&](const Contact& c) {
+    return job_.polygons()[c.p == polygon ? c.q : c.p].operand;
+  };
+  const auto tells = [&](const Contact& c) {
+    const bool is_one_sided = c.p == polygon ? c.p_front != c.p_back : c.q_front != c.q_back;
+    return is_one_sided && !c.is_plain && !c.is_coplanar;
+  };
+  const auto all = contacts_.of(polygon);
+  if (std::none_of(all.begin(), all.end(), [&](uint32_t i) { return tells(contacts_[i]); })) return;
+  std::vector<std::pair<uint32_t, uint32_t>> by_operand;  // operand, contact
+  by_operand.reserve(all.size());
+  for (const uint32_t i : all) by_operand.emplace_back(operand(contacts_[i]), i);
+  std::sort(by_operand.begin(), by_operand.end());
+  for (size_t first = 0, end = 0; first < by_operand.size(); first = end) {
+    const auto [own, contact] = by_operand[first];
+    while (end < by_operand.size() && by_operand[end].first == own) ++end;
+    const Contact& c = contacts_[contact];
+    if (end - first > 1 || !tells(c)) continue;
+    const bool is_behind = c.p == polygon ? c.p_back : c.q_back;
+    facts.add(patches_.root(vertex_of_polygon_[polygon]), {own, is_behind, is_behind});
   }
-  facts.add(patches_.root(vertex_of_polygon_[polygon]), {operand, is_behind, is_behind});
 }
 
 /// Patches that hold a corner of a polygon that is seen to be boundary of nothing, as they are.

@@ -62,8 +62,7 @@ class PatchFates {
   void join_far_faces(size_t operand);
   void join_loops(const CutFaces::Face& face);
   bool gather_facts();
-  void add_rim_facts(const Contact& c, PatchFacts& facts) const;
-  void add_rim_fact(uint32_t polygon, uint32_t other, bool is_behind, PatchFacts& facts) const;
+  void add_rim_facts(uint32_t polygon, PatchFacts& facts) const;
   void drop_covered();
   void ask_about_loops();
   void ask_about_whole();
