@@ -116,6 +116,7 @@ std::vector<uint8_t> find_covered(const Job& job, const PlainlyCovered& plainly,
         const bool leaves = c.is_coplanar || (c.p == p ? c.p_front : c.q_front);
         (leaves ? crossed_by : touched_by).push_back(o);
       }
+      if (touched_by.empty()) continue;
       std::sort(crossed_by.begin(), crossed_by.end());
       is_covered[p] = std::any_of(touched_by.begin(), touched_by.end(), [&](uint32_t o) {
         return !std::binary_search(crossed_by.begin(), crossed_by.end(), o);

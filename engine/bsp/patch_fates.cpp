@@ -7,6 +7,7 @@
 
 #include "engine/base/counting_order.h"
 #include "engine/base/parallel.h"
+#include "engine/base/sort_few.h"
 #include "engine/bsp/parallel_runs.h"
 
 namespace csgrun {
@@ -102,12 +103,13 @@ bool PatchFates::gather_facts() {
     std::vector<PatchFacts> parts(part_count(count, kFewForThreads));
     for_each_part(count, kFewForThreads, [&](size_t part, size_t begin, size_t end) {
       PatchFacts own;
-      for (size_t i = begin; i < end; ++i) add(i, own);
+      ByOperand memory;
+      for (size_t i = begin; i < end; ++i) add(i, own, memory);
       parts[part] = std::move(own);
     });
     for (const PatchFacts& part : parts) facts_.add(part);
   };
-  gather(cut_.loops.loops.size(), [&](size_t l, PatchFacts& facts) {
+  gather(cut_.loops.loops.size(), [&](size_t l, PatchFacts& facts, ByOperand&) {
     const CutLoops::Loop& loop = cut_.loops.loops[l];
     if (loop.vertex == kNone) return;
     const uint32_t patch = patches_.root(loop.vertex);
@@ -115,15 +117,16 @@ bool PatchFates::gather_facts() {
       facts.add(patch, cut_.loops.facts[f]);
     }
   });
-  gather(job_.polygons().size(),
-         [&](size_t p, PatchFacts& facts) { add_rim_facts(static_cast<uint32_t>(p), facts); });
+  gather(job_.polygons().size(), [&](size_t p, PatchFacts& facts, ByOperand& memory) {
+    add_rim_facts(static_cast<uint32_t>(p), memory, facts);
+  });
   return facts_.finish(plainly_.is_open);
 }
 
 /// A polygon that touches another operand's surface from one side, and in one polygon only, is
 /// inside the operand if it is behind that polygon: then its patch needs no ray. (On an edge of
 /// that polygon it would touch the next one, too.)
-void PatchFates::add_rim_facts(uint32_t polygon, PatchFacts& facts) const {
+void PatchFates::add_rim_facts(uint32_t polygon, ByOperand& by_operand, PatchFacts& facts) const {
   if (is_cut_[polygon] || contacts_.is_in_flat_corner(polygon)) return;
   const auto operand = [&](const Contact& c) {
     return job_.polygons()[c.p == polygon ? c.q : c.p].operand;
@@ -134,10 +137,9 @@ void PatchFates::add_rim_facts(uint32_t polygon, PatchFacts& facts) const {
   };
   const auto all = contacts_.of(polygon);
   if (std::none_of(all.begin(), all.end(), [&](uint32_t i) { return tells(contacts_[i]); })) return;
-  std::vector<std::pair<uint32_t, uint32_t>> by_operand;  // operand, contact
-  by_operand.reserve(all.size());
+  by_operand.clear();
   for (const uint32_t i : all) by_operand.emplace_back(operand(contacts_[i]), i);
-  std::sort(by_operand.begin(), by_operand.end());
+  sort_few(by_operand.begin(), by_operand.end(), pair_less);
   for (size_t first = 0, end = 0; first < by_operand.size(); first = end) {
     const auto [own, contact] = by_operand[first];
     while (end < by_operand.size() && by_operand[end].first == own) ++end;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <csgrun/engine/evaluate.h>
@@ -62,7 +63,9 @@ class PatchFates {
   void join_far_faces(size_t operand);
   void join_loops(const CutFaces::Face& face);
   bool gather_facts();
-  void add_rim_facts(uint32_t polygon, PatchFacts& facts) const;
+  using ByOperand = std::vector<std::pair<uint32_t, uint32_t>>;  ///< operands and contacts
+  /// `by_operand`: working memory.
+  void add_rim_facts(uint32_t polygon, ByOperand& by_operand, PatchFacts& facts) const;
   void drop_covered();
   void ask_about_loops();
   void ask_about_whole();
