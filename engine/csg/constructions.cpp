@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include <glm/common.hpp>
 
+#include "engine/csg/flat_summands.h"
 #include "engine/csg/frames.h"
 #include "engine/csg/grid_solid.h"
 #include "engine/csg/hash_affine.h"
@@ -206,6 +208,7 @@ Result<Constructions::Outcome> Constructions::make_sum(const Task& task,
   for (const PlacedNode& member : all) trees.push_back(member.tree());
   made.node = Node::empty(node.where());
   if (trees.empty()) return Outcome{};
+  const size_t notes = warnings_.count();
   auto parts = evaluate_(trees, true, task.inner);
   if (!parts) return parts.error();
   const double step_mm = parts->step.millimetres();
@@ -218,7 +221,19 @@ Result<Constructions::Outcome> Constructions::make_sum(const Task& task,
   for (size_t i = 0, at = 0; i < unions.size(); ++i) {
     std::vector<Summand> list;
     for (size_t k = 0; k < unions[i].size(); ++k, ++at) {
-      if (parts->solids[at]->empty()) continue;
+      if (parts->solids[at]->empty()) {
+        if (all[at].node->kind() != NodeKind::kLeaf) continue;
+        auto flat = flat_summands(all[at], parts->step);
+        if (!flat) return flat.error();
+        if (flat->empty()) continue;
+        if (appearance == nullptr) appearance = first_appearance(all[at]);
+        list.insert(list.end(), std::make_move_iterator(flat->begin()),
+                    std::make_move_iterator(flat->end()));
+        // It is not left out after all.
+        const Node& leaf = *all[at].node;
+        warnings_.take_back(notes, leaf.where(), "'" + leaf.mesh()->kind + "' ");
+        continue;
+      }
       if (appearance == nullptr) appearance = first_appearance(all[at]);
       auto solid = grid_solid(*parts->solids[at], parts->step);
       if (!solid) return solid.error();

@@ -66,6 +66,9 @@ class Sums {
   /// False if there are too many cells.
   bool add(const Summand& a, const Summand& b) {
     if (a.is_simple && b.is_simple) return add_cells(a, b);
+    // What a face of a solid adds along itself is within what the others add. Of two flat ones it
+    // may be all.
+    keeps_flat_ = is_flat(a) && is_flat(b);
     if (a.is_convex && b.is_convex) {
       add_hull(sums(a.points, b.points));
     } else if (b.is_convex) {
@@ -87,6 +90,7 @@ class Sums {
 
   std::vector<SumPart> parts;
   std::vector<Summand> summands;
+  std::vector<SumPart> flat_parts;  ///< without a volume, beside those that have one
 
  private:
   bool add_cells(const Summand& a, const Summand& b) {
@@ -115,11 +119,14 @@ class Sums {
 
   void add_hull(const std::vector<IVec3>& points) {
     std::vector<IVec3> extreme = convex_hull(points).vertices;
-    if (extreme.empty()) return;
-    if (is_last_) {
+    if (!extreme.empty() && is_last_) {
       parts.emplace_back(std::move(extreme));
-    } else {
+    } else if (!extreme.empty()) {
       summands.push_back(convex_summand(std::move(extreme)));
+    } else if (keeps_flat_ && is_last_) {
+      flat_parts.emplace_back(points);
+    } else if (keeps_flat_) {
+      summands.push_back(convex_summand(points));
     }
   }
 
@@ -148,8 +155,11 @@ class Sums {
     moved.node = std::move(node);
   }
 
+  static bool is_flat(const Summand& s) { return s.is_convex && s.boundary.face_count() == 0; }
+
   const GridStep& step_;
   const bool is_last_;
+  bool keeps_flat_ = false;
 };
 
 /// Whether no more is looked at, or summed, for a pair than is allowed.
@@ -217,7 +227,8 @@ Result<std::vector<SumPart>> minkowski_sum(std::vector<std::vector<Summand>> ope
         if (!are_few_enough(a, b) || !sums.add(a, b)) return too_many;
       }
     }
-    if (i + 1 == operands.size()) return std::move(sums.parts);
+    if (i + 1 == operands.size())
+      return std::move(sums.parts.empty() ? sums.flat_parts : sums.parts);
     operands[0] = std::move(sums.summands);
   }
 }

@@ -47,6 +47,9 @@ using SumPart = std::variant<std::vector<IVec3>, SumSurface, NodePtr>;
 ///
 /// REQUIRES: two operands or more, none without summands. Errors: kLimit when there are too many
 /// cells or hulls, kOutOfRange when sums of points are beyond 2^40 steps.
+///
+/// Flat summands count like any other. What is flat of a sum is left out beside what is not; where
+/// all is flat it is the sum.
 Result<std::vector<SumPart>> minkowski_sum(std::vector<std::vector<Summand>> operands,
                                            const GridStep& step);
 

@@ -132,6 +132,67 @@ TEST(MinkowskiNode, OfWhatIsNotConvex) {
 }
 
 /// Unions of unit cubes against cells: a cell is in the sum if it is in the sum of two of them.
+NodePtr hull_of(std::vector<glm::dvec3> points) {
+  auto mesh = std::make_shared<PolygonMesh>();
+  mesh->points = std::move(points);
+  mesh->hull_of_points = true;
+  mesh->kind = "hull";
+  return Node::leaf(mesh);
+}
+
+TEST(MinkowskiNode, WithWhatIsFlat) {
+  const NodePtr square = hull_of({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}});
+  const NodePtr edge = hull_of({{0, 0, 0}, {0, 0, 4}}), point = hull_of({{5, 6, 7}, {5, 6, 7}});
+  expect_same(Node::minkowski_sum({kBox, square}), box({0, 0, 0}, {3, 4, 3}), "a square");
+  expect_same(Node::minkowski_sum({edge, kBox}), box({0, 0, 0}, {1, 2, 7}), "a segment");
+  expect_same(Node::minkowski_sum({kBox, point}), moved(kBox, 5, 6, 7), "a point");
+  expect_same(Node::minkowski_sum({square, edge}), box({0, 0, 0}, {2, 2, 4}), "two of them");
+  expect_same(Node::minkowski_sum({square, square, point, edge}),
+              moved(box({0, 0, 0}, {4, 4, 4}), 5, 6, 7), "four");
+  expect_same(Node::minkowski_sum({Node::minkowski_sum({square, square}), edge}),
+              box({0, 0, 0}, {4, 4, 4}), "nested");
+  expect_same(Node::minkowski_sum({turned(kBox), turned(square)}),
+              turned(box({0, 0, 0}, {3, 4, 3})), "turned");
+  // Beside a solid in one operand, and with one that is not convex.
+  expect_same(Node::minkowski_sum({kBox, unite({square, box({0, 0, 0}, {1, 1, 5})})}),
+              unite({box({0, 0, 0}, {3, 4, 3}), box({0, 0, 0}, {2, 3, 8})}), "and a solid");
+  const NodePtr frame = subtract({box({0, 0, 0}, {9, 9, 2}), box({3, 3, -1}, {6, 6, 3})});
+  expect_same(Node::minkowski_sum({frame, square}),
+              subtract({box({0, 0, 0}, {11, 11, 2}), box({5, 5, -1}, {6, 6, 3})}), "a frame");
+  expect_same(Node::minkowski_sum({frame, edge}),
+              subtract({box({0, 0, 0}, {9, 9, 6}), box({3, 3, -1}, {6, 6, 7})}), "a deep frame");
+  for (const NodePtr& flat : {square, edge, point}) {
+    const Evaluated sum = evaluated(Node::minkowski_sum({kBox, flat}));
+    EXPECT_TRUE(sum.warnings.empty());
+  }
+  // Flat by itself, or left out elsewhere: that is said.
+  EXPECT_EQ(evaluated(Node::minkowski_sum({square, square})).warnings.size(), 1u);
+  EXPECT_EQ(evaluated(unite({Node::minkowski_sum({kBox, square}), square})).warnings.size(), 1u);
+}
+
+TEST(MinkowskiNode, WithSheetsOfManyFaces) {
+  // A mesh that is thinner than the grid is its faces, on both sides the same: an L, and a bar that
+  // became a segment.
+  PolygonMesh mesh;
+  mesh.kind = "sheet";
+  mesh.points = {{0, 0, 0},    {4, 0, 0},    {4, 1, 0},    {1, 1, 0},
+                 {1, 4, 0},    {0, 4, 0},    {0, 0, 1e-9}, {4, 0, 1e-9},
+                 {4, 1, 1e-9}, {1, 1, 1e-9}, {1, 4, 1e-9}, {0, 4, 1e-9}};
+  mesh.add_face(std::vector<uint32_t>{5, 4, 3, 2, 1, 0});
+  mesh.add_face(std::vector<uint32_t>{6, 7, 8, 9, 10, 11});
+  for (uint32_t i = 0; i < 6; ++i) {
+    const uint32_t j = (i + 1) % 6;
+    mesh.add_face(std::vector<uint32_t>{i, j, j + 6, i + 6});
+  }
+  const NodePtr sheet = Node::leaf(std::make_shared<PolygonMesh>(mesh));
+  const NodePtr sum = unite({box({0, 0, 0}, {5, 3, 3}), box({0, 0, 0}, {2, 6, 3})});
+  expect_same(Node::minkowski_sum({kBox, sheet}), sum, "an L");
+  EXPECT_TRUE(evaluated(Node::minkowski_sum({kBox, sheet})).warnings.empty());
+  for (glm::dvec3& p : mesh.points) p.y *= 1e-9;
+  expect_same(Node::minkowski_sum({Node::leaf(std::make_shared<PolygonMesh>(mesh)), kBox}),
+              box({0, 0, 0}, {5, 2, 3}), "a segment");
+}
+
 TEST(MinkowskiNode, OfRandomCells) {
   std::mt19937 random(3);
   for (int round = 0; round < 12; ++round) {

@@ -268,13 +268,17 @@ TEST(MinkowskiSum, OfWhatHasNoCells) {
   // More operands: cells of sums, too, are summed one by one.
   EXPECT_EQ(sum({{hollow}, {hollow}, {crossed}}), sum({walls, walls, bodies}));
   EXPECT_EQ(sum({{hollow}, {hollow}, {hollow}}), sum({walls, walls, walls}));
-  // In one plane; of a solid that is not convex it makes one that has a volume, of itself none.
+  // In one plane: with a solid it makes one that has a volume, with itself what is as flat.
   const Summand plate = convex_summand({{0, 0, 0}, {5, 0, 0}, {0, 5, 0}, {5, 5, 0}});
   EXPECT_FALSE(plate.is_simple);
   EXPECT_EQ(sum({{hollow}, {plate}}), sum({walls, {plate}}));
   EXPECT_EQ(sum({{plate}, {cube}}),
             sum({{part({-1, -1, -1}, {7, 6, 1})}, {convex_summand({{0, 0, 0}})}}));
-  EXPECT_TRUE(minkowski_sum({{plate}, {plate}}, step)->empty());
+  const auto flat = minkowski_sum({{plate}, {plate}}, step);
+  ASSERT_EQ(flat->size(), 1u);
+  EXPECT_TRUE(convex_hull(std::get<std::vector<IVec3>>(flat->front())).vertices.empty());
+  EXPECT_EQ(sum({{plate}, {plate}, {cube}}),
+            sum({{part({-1, -1, -1}, {12, 11, 1})}, {convex_summand({{0, 0, 0}})}}));
 }
 
 }  // namespace
