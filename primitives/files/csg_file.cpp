@@ -69,7 +69,7 @@ class CsgBuilder {
     Result<Item> all = combine(BooleanOp::kUnion, stack_.back());
     if (!all) return all.error();
     CsgModel model;
-    model.is_2d = all->kind == Item::Kind::kFlat;
+    model.is_2d = all->kind == Item::Kind::kFlat && !all->is_empty();
     model.shape = all->shape;
     model.appearance = all->appearance;
     model.solid = all->kind == Item::Kind::kSolid ? all->solid : Node::empty(SourceRef{file_, 1});
@@ -119,7 +119,7 @@ class CsgBuilder {
       std::vector<std::string> notes;
       PolygonMesh open;
       MeshResult mesh =
-          make_csg_solid(frame.call, notes, frame.asked == OfSheets::kNothing ? nullptr : &open);
+          make_csg_solid(frame.call, notes, takes_open_ones(frame.asked) ? &open : nullptr);
       if (mesh || open.corners.empty()) return leaf(frame, std::move(mesh), notes);
       for (const std::string& note : notes) warn(frame, note);
       return open_item(frame, open);
@@ -147,20 +147,20 @@ class CsgBuilder {
       return Item::of(
           Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where(frame)));
     }
-    return empty_if_impossible(frame, mesh.error());
+    return empty_if_impossible(frame, mesh.error(), Item::Kind::kSolid);
   }
 
-  /// Impossible numbers make nothing, as in OpenSCAD; any other error is one.
-  Result<Item> empty_if_impossible(const CsgFrame& frame, const Error& error) {
+  /// Impossible numbers make something empty, as in OpenSCAD; any other error is one.
+  Result<Item> empty_if_impossible(const CsgFrame& frame, const Error& error, Item::Kind kind) {
     if (error.code != ErrorCode::kInvalidArgument) return error;
     warn(frame, error.message);
-    return Item();
+    return Item::empty(kind);
   }
 
   /// A mesh that is not closed, where that does not matter.
   [[nodiscard]] Item open_item(const CsgFrame& frame, const PolygonMesh& mesh) const {
     if (frame.asked == OfSheets::kCorners) return Item::of(leaf_of_corners(mesh, where(frame)));
-    return Item::with_sheet(Item(), sheet_of(mesh), {});
+    return Item::with_sheet(Node::empty(), sheet_of(mesh), {});
   }
 
   Result<Item> flat_primitive(const CsgFrame& frame) {
@@ -175,7 +175,7 @@ class CsgBuilder {
                          const std::optional<Appearance>& appearance = {}) {
     for (const std::string& note : notes) warn(frame, note);
     if (shape) return Item::of(*std::move(shape), appearance);
-    return empty_if_impossible(frame, shape.error());
+    return empty_if_impossible(frame, shape.error(), Item::Kind::kFlat);
   }
 
   Result<Item> surface(const CsgFrame& frame) {
@@ -198,7 +198,7 @@ class CsgBuilder {
   /// What a call without a name, or with one that is no string, is written as.
   Result<Item> without_file(const CsgFrame& frame) {
     warn(frame, frame.call.name + ": names no file, it is empty");
-    return Item();
+    return Item::empty(Item::Kind::kSolid);
   }
 
   /// A mesh, or a drawing. A file that is not there is an error: nothing is dropped silently.
@@ -235,7 +235,7 @@ class CsgBuilder {
       std::string note;
       part.mesh.kind = path;
       Result<PolygonMesh> mesh = make_solid_mesh(part.mesh, &note);
-      if (!mesh && frame.asked != OfSheets::kNothing && is_sheet(part.mesh)) {
+      if (!mesh && takes_open_ones(frame.asked) && is_sheet(part.mesh)) {
         Item item = open_item(frame, part.mesh);
         sheet.append(std::move(item.sheet));
         solids.push_back(std::move(item.solid));
@@ -251,7 +251,7 @@ class CsgBuilder {
     NodePtr all = solids.size() == 1
                       ? solids[0]
                       : Node::boolean(BooleanOp::kUnion, std::move(solids), where(frame));
-    return Item::with_sheet(Item::of(std::move(all)), std::move(sheet), {});
+    return Item::with_sheet(std::move(all), std::move(sheet), {});
   }
 
   Result<Item> text(const CsgFrame& frame) {
@@ -269,49 +269,28 @@ class CsgBuilder {
     return flat_leaf(frame, std::move(shape), notes);
   }
 
-  /// The first child that is not empty decides between 2D and 3D; children of the other kind
-  /// become empty. kEmpty when all are.
-  Item::Kind settle_kind(CsgFrame& frame) {
-    const auto first = std::find_if(frame.children.begin(), frame.children.end(),
-                                    [](const Item& i) { return i.kind != Item::Kind::kEmpty; });
-    if (first == frame.children.end()) return Item::Kind::kEmpty;
-    const Item::Kind kind = first->kind;
-    for (Item& child : frame.children) {
-      if (child.kind == kind || child.kind == Item::Kind::kEmpty) continue;
-      warn(frame, kind == Item::Kind::kSolid ? "a 2D child among 3D ones was left out"
-                                             : "a 3D child among 2D ones was left out");
-      child = Item();
-    }
+  /// What settle_kind says, with its notes as warnings.
+  Item::Kind settle(CsgFrame& frame) {
+    std::vector<std::string> notes;
+    const Item::Kind kind = settle_kind(frame.children, notes);
+    for (const std::string& note : notes) warn(frame, note);
     return kind;
   }
 
-  static std::vector<Shape2D> take_shapes(CsgFrame& frame) {
-    std::vector<Shape2D> shapes;
-    for (Item& child : frame.children) shapes.push_back(std::move(child.shape));
-    return shapes;
+  std::optional<Appearance> colour_of_shapes(const CsgFrame& frame) {
+    std::vector<std::string> notes;
+    const auto colour = colour_of_first(frame.call.name, frame.children, notes);
+    for (const std::string& note : notes) warn(frame, note);
+    return colour;
   }
 
-  /// The colour of the first shape among the children; that others are lost is said where they
-  /// would be seen.
-  std::optional<Appearance> colour_of_first(const CsgFrame& frame) {
-    const Item* first = nullptr;
-    for (const Item& child : frame.children) {
-      if (child.kind != Item::Kind::kFlat) continue;
-      if (first == nullptr) first = &child;
-      if (child.appearance == first->appearance || frame.call.name == "difference") continue;
-      warn(frame, frame.call.name + ": of 2D shapes of several colours the first's is kept");
-      break;
-    }
-    return first != nullptr ? first->appearance : std::nullopt;
-  }
-
-  /// Those that are not empty.
-  static std::vector<NodePtr> take_solids(CsgFrame& frame) {
-    std::vector<NodePtr> solids;
+  /// Makes nothing of the children of one kind.
+  void leave_out(CsgFrame& frame, Item::Kind kind, const std::string& what) {
     for (Item& child : frame.children) {
-      if (child.kind == Item::Kind::kSolid) solids.push_back(std::move(child.solid));
+      if (child.kind != kind) continue;
+      if (!child.is_empty()) warn(frame, frame.call.name + ": " + what + " was left out");
+      child = Item();
     }
-    return solids;
   }
 
   static Result<Item> item_of(Result<Shape2D> shape,
@@ -322,29 +301,22 @@ class CsgBuilder {
 
   /// The children under a Boolean.
   Result<Item> combine(BooleanOp op, CsgFrame& frame) {
-    const Item::Kind kind = settle_kind(frame);
-    if (kind == Item::Kind::kEmpty) return Item();
+    const Item::Kind kind = settle(frame);
+    if (kind == Item::Kind::kNothing) return Item();
     if (kind == Item::Kind::kFlat) {
-      const auto colour = colour_of_first(frame);
-      return item_of(Shape2D::boolean(op, take_shapes(frame)), colour);
+      if (is_one_empty(frame.children)) return Item();
+      const auto colour = colour_of_shapes(frame);
+      return item_of(Shape2D::boolean(op, take_shapes(frame.children)), colour);
     }
-    CsgSheet sheet;
     std::optional<Appearance> colour;
-    for (Item& child : frame.children) {
-      if (child.sheet.empty()) continue;
-      if (sheet.empty()) colour = child.appearance;
-      sheet.append(std::move(child.sheet));
-    }
-    return Item::with_sheet(Item::of(combine_solids(op, frame)), std::move(sheet), colour);
+    CsgSheet sheet = take_sheets(frame.children, colour);
+    return Item::with_sheet(combine_solids(op, frame.children, where(frame)), std::move(sheet),
+                            colour);
   }
 
   /// The union of the 2D children; solids are left out, with a warning.
   Result<Item> combine_flat(CsgFrame& frame) {
-    for (Item& child : frame.children) {
-      if (child.kind != Item::Kind::kSolid) continue;
-      warn(frame, frame.call.name + ": a 3D child was left out");
-      child = Item();
-    }
+    leave_out(frame, Item::Kind::kSolid, "a 3D child");
     return combine(BooleanOp::kUnion, frame);
   }
 
@@ -352,47 +324,44 @@ class CsgBuilder {
     const Result<OffsetOptions> options = csg_offset(frame.call);
     if (!options) return options.error();
     Result<Item> child = combine_flat(frame);
-    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    if (!child || child->is_empty()) return child;
     return flat_leaf(frame, offset_shape(child->shape, *options), {}, child->appearance);
   }
 
   Result<Item> hull(CsgFrame& frame) {
-    const Item::Kind kind = settle_kind(frame);
-    if (kind == Item::Kind::kEmpty) return Item();
+    const Item::Kind kind = settle(frame);
+    if (kind == Item::Kind::kNothing) return Item();
     if (kind == Item::Kind::kFlat) {
-      const auto colour = colour_of_first(frame);
-      return item_of(hull_of_shapes(take_shapes(frame)), colour);
+      const auto colour = colour_of_shapes(frame);
+      return item_of(hull_of_shapes(take_shapes(frame.children)), colour);
     }
-    return Item::of(Node::convex_hull(take_solids(frame), where(frame)));
-  }
-
-  /// OpenSCAD's rule for 2D children that are empty: later ones are left out, but for the sum of
-  /// one shape and nothing else. (Of solids all empty ones are left out.)
-  static bool sum_of_shapes_is_empty(const std::vector<Item>& children) {
-    const auto is_shape = [](const Item& i) { return i.kind == Item::Kind::kFlat; };
-    const auto shapes = std::count_if(children.begin(), children.end(), is_shape);
-    return children.size() > 1 && (!is_shape(children.front()) || shapes == 1);
+    std::vector<NodePtr> solids = take_solids(frame.children);
+    if (solids.empty()) return Item();
+    return Item::of(Node::convex_hull(std::move(solids), where(frame)));
   }
 
   Result<Item> minkowski(CsgFrame& frame) {
-    const Item::Kind kind = settle_kind(frame);
-    if (kind == Item::Kind::kEmpty) return Item();
+    const Item::Kind kind = settle(frame);
+    if (kind == Item::Kind::kNothing) return Item();
     if (kind == Item::Kind::kFlat) {
-      const auto colour = colour_of_first(frame);
+      if (is_one_empty(frame.children)) return Item();
+      const auto colour = colour_of_shapes(frame);
       if (sum_of_shapes_is_empty(frame.children)) {
         warn(frame, "minkowski: the sum of a shape and an empty one is empty");
-        return Item();
+        return Item::empty(kind);
       }
-      return item_of(minkowski_of_shapes(take_shapes(frame)), colour);
+      return item_of(minkowski_of_shapes(take_shapes(frame.children)), colour);
     }
-    std::vector<NodePtr> solids = take_solids(frame);
+    if (is_one_empty(frame.children)) return std::move(frame.children[0]);
+    std::vector<NodePtr> solids = take_solids(frame.children);
+    if (solids.empty()) return Item();
     if (solids.size() == 1) return Item::of(std::move(solids[0]));
     return Item::of(Node::minkowski_sum(std::move(solids), where(frame)));
   }
 
   Result<Item> fill(CsgFrame& frame) {
     Result<Item> child = combine(BooleanOp::kUnion, frame);
-    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    if (!child || child->is_empty()) return child;
     if (child->kind == Item::Kind::kFlat)
       return item_of(fill_shape(child->shape), child->appearance);
     warn(frame, "fill: has no meaning for 3D children, they were united");
@@ -401,9 +370,9 @@ class CsgBuilder {
 
   Result<Item> resize(CsgFrame& frame) {
     const Result<CsgResize> wanted = csg_resize(frame.call);
-    if (!wanted) return empty_if_impossible(frame, wanted.error());
     Result<Item> child = combine(BooleanOp::kUnion, frame);
-    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    if (!wanted && child) return empty_if_impossible(frame, wanted.error(), child->kind);
+    if (!child || child->is_empty()) return child;
     if (child->kind == Item::Kind::kSolid) {
       const Resize resize{wanted->newsize, wanted->automatic};
       return Item::of(Node::resized(resize, std::move(child->solid), where(frame)));
@@ -422,16 +391,14 @@ class CsgBuilder {
     CsgArguments arguments(frame.call);
     const bool cut = arguments.boolean("cut", false);
     if (arguments.error()) return *arguments.error();
-    for (Item& child : frame.children) {
-      if (child.kind != Item::Kind::kFlat) continue;
-      warn(frame, "projection: a 2D child was left out");
-      child = Item();
-    }
+    leave_out(frame, Item::Kind::kFlat, "a 2D child");
     Result<Item> child = combine(BooleanOp::kUnion, frame);
-    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    if (!child) return child;
+    if (child->is_empty()) return Item();
     const SourceRef place = where(frame);
     Result<Shape2D> shape = cut ? slice_solid(evaluator(), child->solid, 0, place) : shadow(*child);
     if (!shape) return failed(shape.error());
+    if (shape->empty()) return Item();
     const bool is_sheet_only = child->solid->kind() == NodeKind::kEmpty;
     return Item::of(*std::move(shape),
                     is_sheet_only ? child->appearance : one_appearance_of(child->solid));
@@ -460,32 +427,16 @@ class CsgBuilder {
     return *own_evaluator_;
   }
 
-  NodePtr combine_solids(BooleanOp op, CsgFrame& frame) {
-    std::vector<NodePtr> operands;
-    bool first = true;
-    for (Item& child : frame.children) {
-      const bool empty =
-          child.kind == Item::Kind::kEmpty || child.solid->kind() == NodeKind::kEmpty;
-      if (empty && (op == BooleanOp::kIntersection || (op == BooleanOp::kDifference && first))) {
-        return Node::empty(where(frame));
-      }
-      if (!empty) operands.push_back(std::move(child.solid));
-      first = false;
-    }
-    if (operands.size() == 1) return operands[0];
-    return Node::boolean(op, std::move(operands), where(frame));
-  }
-
   Result<Item> transform(CsgFrame& frame) {
     CsgArguments arguments(frame.call);
     const std::optional<Affine> map = arguments.matrix();
     if (arguments.error()) return *arguments.error();
     Result<Item> child = combine(BooleanOp::kUnion, frame);
-    if (!child || child->kind == Item::Kind::kEmpty) return child;
+    if (!child || child->is_empty()) return child;
     for (const auto& row : map->m) {
       if (std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); })) continue;
       warn(frame, "multmatrix: the matrix is not finite, its children were left out");
-      return Item();
+      return Item::empty(child->kind);
     }
     if (child->kind == Item::Kind::kFlat) {
       Result<Shape2D> shape = child->shape.transformed(*map);
@@ -500,20 +451,23 @@ class CsgBuilder {
     NodePtr moved = child->solid->kind() == NodeKind::kEmpty
                         ? child->solid
                         : Node::transformed(*map, child->solid, where(frame));
-    return Item::with_sheet(Item::of(std::move(moved)), mapped(std::move(child->sheet), *map),
+    return Item::with_sheet(std::move(moved), mapped(std::move(child->sheet), *map),
                             child->appearance);
   }
 
-  /// What a matrix makes flat is empty, but in a hull or a shadow.
+  /// What a matrix makes flat is empty, but in a hull, a sum, or a shadow.
   Result<Item> flattened(const CsgFrame& frame, const Affine& map, Item child) {
     if (frame.asked == OfSheets::kNothing) {
       warn_flattened(frame);
-      return Item();
+      return Item::empty(Item::Kind::kSolid);
     }
-    if (frame.asked == OfSheets::kCorners) {
-      Result<NodePtr> corners = flattened_corners(child.solid, map, evaluator(), where(frame));
-      if (!corners) return failed(corners.error());
-      return Item::of(*std::move(corners));
+    if (frame.asked != OfSheets::kFaces) {
+      const bool is_for_hull = frame.asked == OfSheets::kCorners;
+      Result<NodePtr> flat = is_for_hull
+                                 ? flattened_corners(child.solid, map, evaluator(), where(frame))
+                                 : flattened_parts(child.solid, map, evaluator(), where(frame));
+      if (!flat) return failed(flat.error());
+      return Item::of(*std::move(flat));
     }
     const auto solid = evaluator().evaluate(child.solid, Measuring::kNothing);
     if (!solid) return failed(solid.error());
@@ -521,7 +475,7 @@ class CsgBuilder {
     sheet.append(sheet_of(**solid, map));
     const auto colour =
         child.solid->kind() == NodeKind::kEmpty ? child.appearance : one_appearance_of(child.solid);
-    return Item::with_sheet(Item(), std::move(sheet), colour);
+    return Item::with_sheet(Node::empty(), std::move(sheet), colour);
   }
 
   void warn_flattened(const CsgFrame& frame) {
@@ -532,7 +486,7 @@ class CsgBuilder {
     const auto color = csg_color(frame.call);
     if (!color) return color.error();
     Result<Item> child = combine(BooleanOp::kUnion, frame);
-    if (!child || child->kind == Item::Kind::kEmpty || !*color) return child;
+    if (!child || child->is_empty() || !*color) return child;
     const Appearance& appearance = **color;
     if (child->kind == Item::Kind::kFlat) {
       child->appearance = appearance;
@@ -541,13 +495,17 @@ class CsgBuilder {
     NodePtr painted = child->solid->kind() == NodeKind::kEmpty
                           ? child->solid
                           : Node::painted(appearance, child->solid, where(frame));
-    return Item::with_sheet(Item::of(std::move(painted)), std::move(child->sheet), appearance);
+    return Item::with_sheet(std::move(painted), std::move(child->sheet), appearance);
   }
 
   Result<Item> extrude(CsgFrame& frame) {
     Result<Item> profile = combine_flat(frame);
-    if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
-    return painted(frame, leaf(frame, extrude_csg(frame.call, profile->shape), {}), *profile);
+    if (!profile || profile->kind == Item::Kind::kNothing) return profile;
+    if (profile->is_empty()) return Item::empty(Item::Kind::kSolid);
+    Result<Item> solid = leaf(frame, extrude_csg(frame.call, profile->shape), {});
+    // One that cannot be turned has no dimension in OpenSCAD, one of no height has.
+    if (solid && solid->is_empty() && frame.call.name == "rotate_extrude") return Item();
+    return painted(frame, std::move(solid), *profile);
   }
 
   Result<Item> roof(CsgFrame& frame) {
@@ -555,13 +513,14 @@ class CsgBuilder {
     const Result<RoofOptions> options = csg_roof(frame.call, notes);
     if (!options) return options.error();
     Result<Item> profile = combine_flat(frame);
-    if (!profile || profile->kind == Item::Kind::kEmpty) return profile;
+    if (!profile || profile->kind == Item::Kind::kNothing) return profile;
+    if (profile->is_empty()) return Item::empty(Item::Kind::kSolid);
     return painted(frame, leaf(frame, make_roof(profile->shape, *options), notes), *profile);
   }
 
   /// A solid that was made of a shape has its colour.
   Result<Item> painted(const CsgFrame& frame, Result<Item> solid, const Item& shape) {
-    if (solid && solid->kind == Item::Kind::kSolid && shape.appearance)
+    if (solid && !solid->is_empty() && shape.appearance)
       solid->solid = Node::painted(*shape.appearance, std::move(solid->solid), where(frame));
     return solid;
   }

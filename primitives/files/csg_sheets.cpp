@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include <csgrun/primitives/projection.h>
@@ -39,20 +41,43 @@ NodePtr hull_leaf(std::vector<glm::dvec3> points, const std::optional<Appearance
   return Node::leaf(std::move(mesh), where);
 }
 
-/// Whether the corners of a node are those of its children.
-bool has_the_corners_of_its_children(const Node& node) {
-  switch (node.kind()) {
-    case NodeKind::kTransform:
-    case NodeKind::kAppearance:
-      return true;
-    case NodeKind::kBoolean:
-      return node.op() == BooleanOp::kUnion;
-    case NodeKind::kConstruction:
-      return node.construction() == Construction::kConvexHull;
-    default:
-      return false;
+/// What a tree is a union of, under a map: `leaf` gets the meshes, `other` what is to be evaluated.
+/// For corners alone hulls are unions, and any mesh is its points; else only convex ones are.
+template <class Leaf, class Other>
+Status for_each_member(const NodePtr& tree, const Affine& map, bool corners_alone, Leaf&& leaf,
+                       Other&& other) {
+  std::vector<std::pair<NodePtr, Affine>> open{{tree, map}};
+  while (!open.empty()) {
+    const auto [node, place] = std::move(open.back());
+    open.pop_back();
+    const NodeKind kind = node->kind();
+    const bool moves = kind == NodeKind::kTransform;
+    const bool is_union = (kind == NodeKind::kBoolean && node->op() == BooleanOp::kUnion) ||
+                          (corners_alone && kind == NodeKind::kConstruction &&
+                           node->construction() == Construction::kConvexHull);
+    if (kind == NodeKind::kEmpty) continue;
+    if (kind == NodeKind::kLeaf &&
+        (corners_alone || node->mesh()->convex || node->mesh()->hull_of_points)) {
+      leaf(*node->mesh(), place);
+    } else if (moves || kind == NodeKind::kAppearance || is_union) {
+      const Affine below = moves ? Affine::compose(place, node->transform()) : place;
+      for (const NodePtr& child : node->children()) open.emplace_back(child, below);
+    } else if (Status status = other(node, place); !status) {
+      return status;
+    }
   }
+  return std::monostate();
 }
+
+bool is_before(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+struct PointsLess {
+  bool operator()(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) const {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), is_before);
+  }
+};
 
 }  // namespace
 
@@ -132,25 +157,52 @@ NodePtr leaf_of_corners(const PolygonMesh& mesh, const SourceRef& where) {
 Result<NodePtr> flattened_corners(const NodePtr& tree, const Affine& map, Evaluator& evaluator,
                                   const SourceRef& where) {
   std::vector<glm::dvec3> points;
-  std::vector<std::pair<NodePtr, Affine>> open{{tree, map}};
-  while (!open.empty()) {
-    const auto [node, place] = std::move(open.back());
-    open.pop_back();
-    if (node->kind() == NodeKind::kEmpty) continue;
-    if (node->kind() == NodeKind::kLeaf) {
-      append_corners(*node->mesh(), place, points);
-    } else if (has_the_corners_of_its_children(*node)) {
-      const bool moves = node->kind() == NodeKind::kTransform;
-      const Affine below = moves ? Affine::compose(place, node->transform()) : place;
-      for (const NodePtr& child : node->children()) open.emplace_back(child, below);
-    } else {
-      const auto solid = evaluator.evaluate(node, Measuring::kNothing);
-      if (!solid) return solid.error();
-      for (const glm::dvec3& p : (*solid)->positions) points.push_back(place.apply(p));
-    }
-  }
+  const Status done = for_each_member(
+      tree, map, true,
+      [&](const PolygonMesh& mesh, const Affine& place) { append_corners(mesh, place, points); },
+      [&](const NodePtr& node, const Affine& place) -> Status {
+        const auto solid = evaluator.evaluate(node, Measuring::kNothing);
+        if (!solid) return solid.error();
+        for (const glm::dvec3& p : (*solid)->positions) points.push_back(place.apply(p));
+        return std::monostate();
+      });
+  if (!done) return done.error();
   if (points.empty()) return Node::empty(where);
   return hull_leaf(std::move(points), one_appearance_of(tree), "multmatrix", where);
+}
+
+Result<NodePtr> flattened_parts(const NodePtr& tree, const Affine& map, Evaluator& evaluator,
+                                const SourceRef& where) {
+  std::set<std::vector<glm::dvec3>, PointsLess> parts;
+  const auto add = [&](std::vector<glm::dvec3> points) {
+    std::sort(points.begin(), points.end(), is_before);
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (!points.empty()) parts.insert(std::move(points));
+  };
+  const auto evaluated = [&](const NodePtr& node, const Affine& place) -> Status {
+    const auto solid = evaluator.evaluate(node, Measuring::kNothing);
+    if (!solid) return solid.error();
+    const std::vector<glm::dvec3>& at = (*solid)->positions;
+    for (const auto& t : (*solid)->triangles)
+      add({place.apply(at[t[0]]), place.apply(at[t[1]]), place.apply(at[t[2]])});
+    return std::monostate();
+  };
+  const Status done = for_each_member(
+      tree, map, false,
+      [&](const PolygonMesh& mesh, const Affine& place) {
+        std::vector<glm::dvec3> points;
+        append_corners(mesh, place, points);
+        add(std::move(points));
+      },
+      evaluated);
+  if (!done) return done.error();
+  const auto appearance = one_appearance_of(tree);
+  std::vector<NodePtr> leaves;
+  for (const auto& points : parts)
+    leaves.push_back(hull_leaf(points, appearance, "multmatrix", where));
+  if (leaves.empty()) return Node::empty(where);
+  if (leaves.size() == 1) return leaves[0];
+  return Node::boolean(BooleanOp::kUnion, std::move(leaves), where);
 }
 
 }  // namespace csgrun

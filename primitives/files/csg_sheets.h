@@ -45,4 +45,10 @@ NodePtr leaf_of_corners(const PolygonMesh& mesh, const SourceRef& where);
 Result<NodePtr> flattened_corners(const NodePtr& tree, const Affine& map, Evaluator& evaluator,
                                   const SourceRef& where);
 
+/// What it leaves of a tree for a Minkowski sum: the union of convex parts, hulls of points of one
+/// plane. Leaves that are convex are one part, of all else there is one for each triangle of its
+/// surface (whose image is that of the whole). The colour and the errors as above.
+Result<NodePtr> flattened_parts(const NodePtr& tree, const Affine& map, Evaluator& evaluator,
+                                const SourceRef& where);
+
 }  // namespace csgrun

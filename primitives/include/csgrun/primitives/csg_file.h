@@ -45,9 +45,9 @@ struct CsgEnvironment {
 /// difference, intersection, hull, minkowski, offset, fill, group and render, with the modifiers
 /// % (left out, not even an operand) and # (nothing). As in OpenSCAD, an empty node is an
 /// operand, and primitives of impossible size are empty; each is said in a warning. Where 2D and
-/// 3D mix the first child that is not empty decides (in OpenSCAD an empty primitive that is the
-/// first child does, too). Meshes that are open or flat have points for a hull and faces for a
-/// projection without a cut. A shape has one colour, that of the first of the shapes it is made
+/// 3D mix the first child that has a dimension decides, be it empty. Meshes that are open or flat
+/// have points for a hull and faces for a projection without a cut; flat ones are operands of a
+/// Minkowski sum like any other. A shape has one colour, that of the first of the shapes it is made
 /// of, and an extrusion has that of its shape. Arguments are matched by name, or by OpenSCAD's
 /// order; unknown ones are left out with a warning.
 ///
