@@ -23,6 +23,11 @@ namespace {
 
 /// A mitre reaches at most so many distances from its corner, as in OpenSCAD.
 constexpr double kMitreLimit = 1e6;
+/// The cosine of 1.5 degrees. An arc at a corner makes two corners of half the turn, or more, so
+/// outlines that are offset again and again would have twice as many points each time. A corner of
+/// less than that, and of no more than a step of the arc, is mitred instead: that is farther out
+/// than the arc by less than the sides of the arc are farther in.
+constexpr double kArcIsMitre = 0.99965732497555726;
 
 class OffsetCurve {
  public:
@@ -45,7 +50,7 @@ class OffsetCurve {
     const size_t n = there_and_back.size();
     const std::vector<glm::dvec2> normals = normals_of(there_and_back);
     Shape2D::Loop curve;
-    for (size_t i = 0; i < n; ++i) {
+    for (size_t i = 0; i < n && static_cast<double>(curve.size()) <= kMostPoints; ++i) {
       const glm::dvec2 &p = there_and_back[i], &a = normals[(i + n - 1) % n], &b = normals[i];
       if (i != 0 && i + 1 != line.size()) {
         add_corner(p, a, b, curve);
@@ -65,13 +70,50 @@ class OffsetCurve {
     const size_t n = loop.size();
     const std::vector<glm::dvec2> normals = normals_of(loop);
     Shape2D::Loop curve;
-    for (size_t i = 0; i < n && static_cast<double>(curve.size()) <= kMostPoints; ++i) {
-      add_corner(loop[i], normals[(i + n - 1) % n], normals[i], curve);
+    for (size_t i = 0; i < n; ++i) {
+      const glm::dvec2 &a = normals[(i + n - 1) % n], &b = normals[i];
+      if (join_ == OffsetJoin::kRound && is_within_a_step(a, b)) {
+        add_mitre(loop[i], a, b, curve);
+      } else {
+        add_corner(loop[i], a, b, curve);
+      }
     }
     return curve;
   }
 
+  /// No fewer points than around() gives.
+  [[nodiscard]] double count_around(const Shape2D::Loop& loop) const {
+    const size_t n = loop.size();
+    const std::vector<glm::dvec2> normals = normals_of(loop);
+    double count = kMostBesideArcs * static_cast<double>(n);
+    for (size_t i = 0; i < n && join_ == OffsetJoin::kRound; ++i) {
+      const glm::dvec2 &a = normals[(i + n - 1) % n], &b = normals[i];
+      const double sine = a.x * b.y - a.y * b.x;
+      if (sine > 0) count += atan2_deg(sine, glm::dot(a, b)) * fragments_ / 360;
+    }
+    return count;
+  }
+
+  /// That no outline of so many corners has more.
+  [[nodiscard]] double most_around(double corners) const {
+    return corners * (kMostBesideArcs + fragments_ / 2.0);
+  }
+
+  [[nodiscard]] int fragments() const { return fragments_; }
+
  private:
+  /// Whether the outline turns outwards, by so little that a mitre will do for an arc.
+  [[nodiscard]] bool is_within_a_step(const glm::dvec2& a, const glm::dvec2& b) const {
+    const double sine = a.x * b.y - a.y * b.x, cosine = glm::dot(a, b);
+    return sine > 0 && cosine > kArcIsMitre &&
+           atan2_deg(sine, cosine) * fragments_ / 360 <= 1 + kNoise;
+  }
+
+  void add_mitre(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b,
+                 Shape2D::Loop& curve) const {
+    curve.push_back(p + distance_ * ((a + b) / (1 + glm::dot(a, b))));
+  }
+
   /// Outward unit normals of the edges, for loops with the shape on their left.
   static std::vector<glm::dvec2> normals_of(const Shape2D::Loop& loop) {
     const size_t n = loop.size();
@@ -104,7 +146,7 @@ class OffsetCurve {
                             ? cosine > limit
                             : join_ == OffsetJoin::kChamfer && cosine > kAlmostStraight;
     if (mitred) {
-      add((a + b) / (1 + cosine));
+      add_mitre(p, a, b, curve);
       return;
     }
     if (join_ == OffsetJoin::kRound) {
@@ -123,8 +165,6 @@ class OffsetCurve {
 
   /// From direction `a` on, `turn` degrees counter-clockwise; the last point is the caller's.
   void add_arc(const glm::dvec2& p, const glm::dvec2& a, double turn, Shape2D::Loop& curve) const {
-    // A turn of whole steps must not get one more for the noise of the angle.
-    constexpr double kNoise = 1e-9;
     // What is more than anybody can have is not made; the caller counts and says so.
     const double wanted = std::min(std::ceil(turn * fragments_ / 360 - kNoise), kMostPoints + 1);
     const int steps = std::max(static_cast<int>(wanted), 1);
@@ -133,6 +173,11 @@ class OffsetCurve {
       curve.push_back(p + distance_ * glm::dvec2(c * a.x - s * a.y, s * a.x + c * a.y));
     }
   }
+
+  /// In steps: a turn of whole ones must not get one more for the noise of its angle, which is
+  /// between edges with ends on a grid, or of six digits.
+  static constexpr double kNoise = 0.01;
+  static constexpr double kMostBesideArcs = 3;  ///< points at a corner, besides steps of an arc
 
   OffsetJoin join_;
   bool bevels_long_mitres_ = false;
@@ -170,12 +215,19 @@ Result<Shape2D> offset_shape(const Shape2D& shape, const OffsetOptions& options)
   }
   const bool inwards = options.distance < 0;
   const OffsetCurve maker(std::fabs(options.distance), options.join, kMitreLimit, options.facets);
-  std::vector<Shape2D::Loop> curves;
-  for (Shape2D::Loop loop : shape.loops()) {
+  std::vector<Shape2D::Loop> loops = shape.loops();
+  double corners = 0;
+  for (Shape2D::Loop& loop : loops) {
     if (inwards) std::reverse(loop.begin(), loop.end());
-    curves.push_back(maker.around(loop));
-    if (static_cast<double>(curves.back().size()) > kMostPoints) break;  // united() says so
+    corners += static_cast<double>(loop.size());
   }
+  if (maker.most_around(corners) > kMostPoints) {
+    double points = 0;
+    for (const Shape2D::Loop& loop : loops) points += maker.count_around(loop);
+    if (points > kMostPoints) return too_many_points("offset", maker.fragments(), points);
+  }
+  std::vector<Shape2D::Loop> curves;
+  for (const Shape2D::Loop& loop : loops) curves.push_back(maker.around(loop));
   return united(curves, "offset", inwards);
 }
 

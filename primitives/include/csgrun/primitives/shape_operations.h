@@ -17,7 +17,8 @@
 namespace csgrun {
 
 enum class OffsetJoin : uint8_t {
-  kRound,    ///< OpenSCAD's `r`: an arc about the corner, in steps of 360 / fragments(|distance|)
+  kRound,    ///< OpenSCAD's `r`: an arc about the corner, in steps of 360 / fragments(|distance|);
+             ///< a mitre where that is within a step, and within 1.5 degrees
   kMitre,    ///< OpenSCAD's `delta`: edges run on until they meet
   kChamfer,  ///< with `chamfer`: cut square, at the distance from the corner
   kBevel,    ///< cut straight between the moved edges (strokes of SVG)
