@@ -25,7 +25,6 @@ constexpr Option kFacetOptions[] = {
 };
 
 /// Facets beyond this are a mistake (a sphere of them has 5 * 10^9 points), not a model.
-constexpr double kMostFacets = 100000;
 constexpr double kSmallestFacet = 0.01;
 
 bool has_string_keys(lua_State* L, int table) {

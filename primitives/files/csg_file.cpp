@@ -54,6 +54,7 @@ class CsgBuilder {
       if (!background) {
         std::vector<std::string> notes;
         name_arguments(frame.call, notes);
+        clamp_facets(frame.call, notes);
         for (const std::string& note : notes) warn(frame, note);
         add_facets(frame.call, environment_.facets);
       }

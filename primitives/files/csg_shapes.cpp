@@ -126,6 +126,13 @@ std::vector<std::vector<uint32_t>> CsgArguments::index_lists(std::string_view na
 Facets CsgArguments::facets() {
   Facets facets{number("$fn", 0), number("$fa", 12), number("$fs", 2), number("$fe", 0)};
   if (!std::isfinite(facets.fn)) facets.fn = 3;  // as OpenSCAD has it
+  if (facets.fn > kMostFacets && !error_) {
+    error_ =
+        Error{ErrorCode::kLimit,
+              call_.name + ": $fn must be at most " +
+                  std::to_string(static_cast<int>(kMostFacets)) + ", got " + number_text(facets.fn),
+              {}};
+  }
   return facets;
 }
 

@@ -38,6 +38,7 @@ class CsgArguments {
   /// Lists of indices; those that are not below `limit` are left out, with a warning.
   std::vector<std::vector<uint32_t>> index_lists(std::string_view name, size_t limit,
                                                  std::vector<std::string>& warnings);
+  /// $fn, $fa, $fs and $fe. A $fn above kMostFacets is an error (kLimit).
   Facets facets();
   /// The argument m as a 4x4 matrix.
   std::optional<Affine> matrix();

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "primitives/base/text.h"
 #include "primitives/files/formats.h"
 
 namespace csgrun {
@@ -122,6 +123,17 @@ void add_facets(CsgCall& call, const Facets& facets) {
   add("$fn", facets.fn, usual.fn);
   add("$fa", facets.fa, usual.fa);
   add("$fs", facets.fs, usual.fs);
+}
+
+void clamp_facets(CsgCall& call, std::vector<std::string>& warnings) {
+  constexpr double kLeast = 0.01;
+  for (auto& [name, value] : call.arguments) {
+    if ((name != "$fa" && name != "$fs") || value.kind != CsgValue::Kind::kNumber) continue;
+    if (!(value.number < kLeast)) continue;
+    warnings.push_back(call.name + ": " + name + " must be at least " + number_text(kLeast) +
+                       ", which was taken for " + number_text(value.number));
+    value.number = kLeast;
+  }
 }
 
 bool takes_children(std::string_view node) {

@@ -22,6 +22,10 @@ void name_arguments(CsgCall& call, std::vector<std::string>& warnings);
 /// Gives a call the $fn, $fa and $fs that differ from OpenSCAD's own, where it has none.
 void add_facets(CsgCall& call, const Facets& facets);
 
+/// Gives $fa and $fs of a call the least value that OpenSCAD takes for what is below it, which is
+/// 0.01, and `warnings` says so.
+void clamp_facets(CsgCall& call, std::vector<std::string>& warnings);
+
 /// Whether a node is made of its children, if it is known at all.
 bool takes_children(std::string_view node);
 

@@ -12,6 +12,10 @@
 
 namespace csgrun {
 
+/// More facets of a full turn than anybody can mean: scripts and trees that ask for them are
+/// refused where they do, before anything is made.
+inline constexpr double kMostFacets = 100000;
+
 /// How round things become polygons: OpenSCAD's $fn, $fa, $fs, and its experimental $fe.
 struct Facets {
   double fn = 0, fa = 12, fs = 2;
