@@ -22,7 +22,7 @@ class DiskBoundaries {
   /// Writes what took so long to evaluate, if that is long enough. Results in pieces alone, which
   /// the next operation changes, are not written.
   void write(const Key& key, const StoredBoundary& stored, double seconds);
-  /// Why the folder that was asked for cannot be used; nothing if it can, or none was.
+  /// Why the folder that was asked for cannot be written to; nothing if it can, or none was.
   [[nodiscard]] std::string find_fault();
 
  private:

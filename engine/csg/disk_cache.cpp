@@ -165,8 +165,8 @@ bool DiskCache::contains(const Key& key) {
 std::optional<std::string> DiskCache::read(const Key& key) {
   if (!contains(key)) return std::nullopt;
   const std::string path = path_of(key);
-  const OpenFile file(path, O_RDONLY);
-  if (!file.is_open()) {  // removed by another process
+  const OpenFile file(path, O_RDONLY | O_NONBLOCK);  // a pipe of that name has nobody to write
+  if (!file.is_open()) {                             // removed by another process
     entries_.erase(key);
     return std::nullopt;
   }
@@ -219,35 +219,37 @@ void DiskCache::write(const Key& key, std::string_view bytes) {
   entries_.insert(key);
   // The first time others' files are counted, and then what is written here.
   if (bytes_) *bytes_ += sizeof header + bytes.size();
-  if (!bytes_ || *bytes_ > limit_) make_room();
+  if (!bytes_ || *bytes_ > limit_ || entries_.size() > kMostEntries) make_room();
 }
 
-/// Counts what is there. Of more than the limit it removes what was not used for the longest time,
-/// until nine tenths of the limit are left.
+/// Counts what is there. Of more than the limits it removes what was not used for the longest time,
+/// until nine tenths of each are left.
 void DiskCache::make_room() {
   std::vector<Found> files = files_in(folder_);
   const time_t now = ::time(nullptr);
-  uint64_t bytes = 0;
+  uint64_t bytes = 0, entries = 0;
   for (const Found& file : files) {
     if (file.key) {
       bytes += file.size;
+      ++entries;
     } else if (now - file.used.tv_sec > kAbandoned) {
       ::unlink(file.path.c_str());
     }
   }
-  if (bytes > limit_) {
+  if (bytes > limit_ || entries > kMostEntries) {
     std::sort(files.begin(), files.end(), [](const Found& a, const Found& b) {
       if (a.used.tv_sec != b.used.tv_sec) return a.used.tv_sec < b.used.tv_sec;
       if (a.used.tv_nsec != b.used.tv_nsec) return a.used.tv_nsec < b.used.tv_nsec;
       return a.path < b.path;
     });
-    const uint64_t enough = limit_ - limit_ / 10;
+    const auto most = [](uint64_t limit) { return limit - limit / 10; };
     for (const Found& file : files) {
-      if (bytes <= enough) break;
+      if (bytes <= most(limit_) && entries <= most(kMostEntries)) break;
       if (!file.key) continue;
       ::unlink(file.path.c_str());
       entries_.erase(*file.key);
       bytes -= file.size;
+      --entries;
     }
   }
   bytes_ = bytes;

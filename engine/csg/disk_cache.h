@@ -17,8 +17,11 @@ namespace csgrun {
 /// there, and after the first error of writing nothing is written any more.
 class DiskCache {
  public:
-  /// Makes the folder when it first writes. What it holds beyond `limit` bytes is removed when
-  /// something is written, the least recently used first.
+  /// More entries take long to list and to count, in each run.
+  static constexpr uint64_t kMostEntries = 10000;
+
+  /// Makes the folder when it first writes. What it holds beyond `limit` bytes, or so many entries,
+  /// is removed when something is written, the least recently used first.
   DiskCache(std::string folder, uint64_t limit);
 
   /// Whether there were entries when this was first asked, or one was written here since. O(1), but
@@ -30,7 +33,7 @@ class DiskCache {
   /// Larger entries are not written.
   [[nodiscard]] uint64_t most_bytes() const { return limit_ / 8; }
   void write(const Key& key, std::string_view bytes);
-  /// Makes the folder, if need be. Returns why it cannot be used, or nothing.
+  /// Makes the folder, if need be. Returns why it cannot be written to, or nothing.
   [[nodiscard]] std::string find_fault();
 
  private:

@@ -88,8 +88,8 @@ struct Evaluator::Impl {
     if (threads == 0) threads = 1;
     if (!options.disk_cache.warn_if_unusable) return;
     if (const std::string fault = disk.find_fault(); !fault.empty()) {
-      warnings.add({},
-                   "the cache folder '" + options.disk_cache.folder + "' cannot be used: " + fault);
+      warnings.add({}, "the cache folder '" + options.disk_cache.folder +
+                           "' cannot be written to: " + fault);
     }
   }
 

@@ -303,10 +303,10 @@ CommandLine parse_command_line(int argc, char** argv) {
       "repairs them if they do");
   app.add_flag("--stats{text}", raw.stats,
                "measures: as text on standard error, or --stats=json on standard output");
-  app.add_flag("--no-cache", raw.no_cache, "neither reads nor keeps intermediate meshes on disk");
+  app.add_flag("--no-cache", raw.no_cache, "reads and keeps no intermediate meshes on disk");
   app.add_option("--cache-dir", raw.cache_folder,
-                 "keeps all intermediate meshes in this folder (those that take a quarter of a "
-                 "second or more, in ~/.cache/csgrun)")
+                 "folder for all intermediate meshes (~/.cache/csgrun, for those that take a "
+                 "quarter of a second)")
       ->type_name("DIR");
   app.add_option("--timeout", raw.timeout, "seconds for everything (60 for the script alone)")
       ->type_name("S");

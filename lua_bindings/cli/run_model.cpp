@@ -307,6 +307,9 @@ class Run {
                               "it with linear_extrude or rotate_extrude, or write .svg or .dxf",
                               place_of(part), part.name, output)};
         }
+        // An OpenSCAD tree that comes to nothing has no dimension.
+        if (!flat && drawing && is_csg_path(line_.model) && part.solid->kind() == NodeKind::kEmpty)
+          return {kExitGeometry, place_of(part) + ": the result is empty"};
         if (!flat && drawing) {
           return {kExitScript,
                   fmt::format("{}: part '{}' is a solid, and '{}' holds 2D shapes; make a shape of "

@@ -131,7 +131,7 @@ class DiskCache(Case):
         self.write("file", "x")
         _, nodes, outcome = self.run_model("--cache-dir", "file/in/it")
         self.assertGreater(nodes["evaluated"], 0)
-        self.assertEqual(outcome.json()["warnings"], ["the cache folder 'file/in/it' cannot be used: Not a directory"])
+        self.assertEqual(outcome.json()["warnings"], ["the cache folder 'file/in/it' cannot be written to: Not a directory"])
         outcome = self.run_csgrun(self.model, "-o", "x.stl", "--cache-dir", "")
         self.expect(outcome, 2, "csgrun: --cache-dir needs the name of a folder")
 

@@ -149,6 +149,13 @@ class Geometry(Case):
         self.expect(outcome, 3, "model.lua:1: the result is empty")
         self.assertFalse(__import__("os").path.exists(self.path("a.stl")))
 
+    def test_an_empty_tree_has_no_dimension(self):
+        """What OpenSCAD makes nothing of may have been a shape: no advice to project it."""
+        for text in ("offset(r=-3,$fn=8){square(size=[1,1],center=false);}\n", "group();\n"):
+            self.write("model.csg", text)
+            for output in ("out.svg", "out.dxf", "out.stl"):
+                self.expect(self.run_csgrun("model.csg", "-o", output), 3, "model.csg:1: the result is empty")
+
     def test_why_it_is_empty(self):
         for stats in ("--stats", "--stats=json"):
             outcome = self.run_script("\nreturn cube(1) + cube(1):translate(1e10, 0, 0)", stats)

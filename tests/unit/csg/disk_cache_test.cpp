@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "engine/csg/boundary_bytes.h"
@@ -140,6 +141,25 @@ TEST_F(DiskCacheTest, TheLeastRecentlyUsedGoFirst) {
   EXPECT_TRUE(fs::exists(folder() + "/notes.txt")) << "it is not the cache's";
   cache.write({7, 11}, std::string(kLimit, 'x'));
   EXPECT_FALSE(cache.contains({7, 11})) << "larger than it may be";
+}
+
+TEST_F(DiskCacheTest, ThereAreNotTooManyEntries) {
+  constexpr uint64_t kMost = DiskCache::kMostEntries;
+  {
+    DiskCache cache(folder(), kMuch * kMuch);
+    for (uint64_t i = 0; i < kMost; ++i) cache.write({i, 1}, "x");
+    EXPECT_EQ(files().size(), kMost);
+    cache.write({kMost, 1}, "x");
+  }
+  EXPECT_EQ(files().size(), kMost - kMost / 10);
+}
+
+TEST_F(DiskCacheTest, APipeIsNoEntry) {
+  DiskCache(folder(), kMuch).write({1, 2}, "x");
+  const fs::path path = files()[0];
+  fs::remove(path);
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  EXPECT_EQ(DiskCache(folder(), kMuch).read({1, 2}), std::nullopt);
 }
 
 TEST_F(DiskCacheTest, AFolderThatIsNone) {
@@ -477,7 +497,7 @@ TEST_F(DiskCacheTest, AFolderThatWasAskedForIsWarnedOf) {
   EXPECT_EQ((*solid)->measures.volume, 15);
   ASSERT_EQ(evaluator.warnings().size(), 1u);
   EXPECT_EQ(evaluator.warnings()[0],
-            "the cache folder '" + folder() + "/file' cannot be used: Not a directory");
+            "the cache folder '" + folder() + "/file' cannot be written to: Not a directory");
 }
 
 }  // namespace
