@@ -227,16 +227,17 @@ void DiskCache::write(const Key& key, std::string_view bytes) {
 void DiskCache::make_room() {
   std::vector<Found> files = files_in(folder_);
   const time_t now = ::time(nullptr);
-  uint64_t bytes = 0, entries = 0;
+  uint64_t bytes = 0;
+  entries_.clear();
   for (const Found& file : files) {
     if (file.key) {
       bytes += file.size;
-      ++entries;
+      entries_.insert(*file.key);
     } else if (now - file.used.tv_sec > kAbandoned) {
       ::unlink(file.path.c_str());
     }
   }
-  if (bytes > limit_ || entries > kMostEntries) {
+  if (bytes > limit_ || entries_.size() > kMostEntries) {
     std::sort(files.begin(), files.end(), [](const Found& a, const Found& b) {
       if (a.used.tv_sec != b.used.tv_sec) return a.used.tv_sec < b.used.tv_sec;
       if (a.used.tv_nsec != b.used.tv_nsec) return a.used.tv_nsec < b.used.tv_nsec;
@@ -244,12 +245,11 @@ void DiskCache::make_room() {
     });
     const auto most = [](uint64_t limit) { return limit - limit / 10; };
     for (const Found& file : files) {
-      if (bytes <= most(limit_) && entries <= most(kMostEntries)) break;
+      if (bytes <= most(limit_) && entries_.size() <= most(kMostEntries)) break;
       if (!file.key) continue;
       ::unlink(file.path.c_str());
       entries_.erase(*file.key);
       bytes -= file.size;
-      --entries;
     }
   }
   bytes_ = bytes;

@@ -24,8 +24,8 @@ class DiskCache {
   /// is removed when something is written, the least recently used first.
   DiskCache(std::string folder, uint64_t limit);
 
-  /// Whether there were entries when this was first asked, or one was written here since. O(1), but
-  /// for the first time, which lists the folder.
+  /// Whether there are entries, as far as is known: the folder is listed when this is asked first,
+  /// and when much is written. O(1) else.
   [[nodiscard]] bool has_entries();
   [[nodiscard]] bool contains(const Key& key);
   /// The entry, which is the most recently used one then.
