@@ -3,60 +3,24 @@
 #include <algorithm>
 
 #include "engine/base/parallel.h"
+#include "engine/bsp/flat_view.h"
 #include "engine/bsp/label_order.h"
-#include "engine/exact/fixed_int.h"
 
 namespace csgrun {
-namespace {
-
-/// Corners as seen along an axis. Coordinates are below 2^41, so that products fit 128 bits.
-class SeenAlong {
- public:
-  SeenAlong(const Job& job, size_t axis) : job_(job), i_((axis + 1) % 3), j_((axis + 2) % 3) {}
-
-  /// The sign of the turn from a to b to c.
-  [[nodiscard]] int turn(uint32_t a, uint32_t b, uint32_t c) const {
-    const Int128 turn = from(a, b, i_) * from(a, c, j_) - from(a, b, j_) * from(a, c, i_);
-    return (turn > 0) - (turn < 0);
-  }
-
- private:
-  [[nodiscard]] Int128 from(uint32_t a, uint32_t b, size_t k) const {
-    return static_cast<int64_t>(job_.rounded(b)[k]) - static_cast<int64_t>(job_.rounded(a)[k]);
-  }
-
-  const Job& job_;
-  const size_t i_, j_;
-};
-
-/// Which way a convex polygon turns, seen along an axis; 0: it is seen from the side.
-int way_round(std::span<const uint32_t> corners, const SeenAlong& seen) {
-  for (size_t c = 2; c < corners.size(); ++c) {
-    if (const int turn = seen.turn(corners[0], corners[c - 1], corners[c])) return turn;
-  }
-  return 0;
-}
-
-}  // namespace
-
 bool covers(const Job& job, uint32_t q, uint32_t p) {
   const JobPolygon &outer = job.polygons()[q], &inner = job.polygons()[p];
   if (!job.has_grid_vertices(outer.operand) || !job.has_grid_vertices(inner.operand)) return false;
   if (!job.boxes()[q].holds(job.boxes()[p])) return false;
   const auto around = job.corners(outer), corners = job.corners(inner);
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const SeenAlong seen(job, axis);
-    const int way = way_round(around, seen);
-    if (way == 0) continue;
-    for (const uint32_t corner : corners) {
-      for (size_t e = 0; e < around.size(); ++e) {
-        const uint32_t next = around[e + 1 < around.size() ? e + 1 : 0];
-        if (seen.turn(around[e], next, corner) == -way) return false;
-      }
+  const FlatView flat(job, q);
+  const int way = flat.way_round(q);
+  for (const uint32_t corner : corners) {
+    for (size_t e = 0; e < around.size(); ++e) {
+      const uint32_t next = around[e + 1 < around.size() ? e + 1 : 0];
+      if (flat.turn(around[e], next, corner) == -way) return false;
     }
-    return true;
   }
-  return false;
+  return true;
 }
 
 void mark_flat_covered(const Job& job, const Expression& expression, const ContactTable& contacts,

@@ -10,12 +10,13 @@ namespace csgrun {
 
 DiskBoundaries::DiskBoundaries(const DiskCacheOptions& options, AppearanceTable& appearances)
     : options_(options), appearances_(appearances) {
-  if (!options.folder.empty() && !build_id().empty()) disk_.emplace(options.folder, options.bytes);
+  if (!options.folder.empty()) build_ = build_id();
+  if (!options.folder.empty() && !build_.empty()) disk_.emplace(options.folder, options.bytes);
 }
 
-Key DiskBoundaries::name_of(const Key& key) {
+Key DiskBoundaries::name_of(const Key& key) const {
   KeyBuilder builder("result");
-  builder.number(kKernelVersion).bare_list(build_id()).numbers(key);
+  builder.number(kKernelVersion).bare_list(build_).numbers(key);
   return builder.key();
 }
 

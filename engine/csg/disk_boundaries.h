@@ -1,7 +1,9 @@
 // Results of other runs, on disk.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <csgrun/engine/evaluate.h>
@@ -26,10 +28,11 @@ class DiskBoundaries {
   [[nodiscard]] std::string find_fault();
 
  private:
-  [[nodiscard]] static Key name_of(const Key& key);
+  [[nodiscard]] Key name_of(const Key& key) const;
 
   DiskCacheOptions options_;
   AppearanceTable& appearances_;
+  std::span<const std::byte> build_;  ///< its id
   std::optional<DiskCache> disk_;
 };
 

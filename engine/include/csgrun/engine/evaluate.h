@@ -28,12 +28,12 @@ struct GridStep {
 };
 
 /// The cache of intermediate meshes on disk, which other runs have, too. A folder that cannot be
-/// used is as if there were none, but for a warning.
+/// used is as if there were none.
 struct DiskCacheOptions {
   std::string folder;             ///< made if it is not there; empty: no cache on disk
   double least_seconds = 0.25;    ///< what was evaluated in less is not kept
   uint64_t bytes = 1ull << 30;    ///< bound of what is kept; the least recently used goes first
-  bool warn_if_unusable = false;  ///< for a folder that somebody asked for
+  bool warn_if_unusable = false;  ///< say so of a folder that cannot be written to
 };
 
 struct EvaluateOptions {
