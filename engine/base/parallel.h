@@ -2,7 +2,8 @@
 // so that results put together in the order of the parts are the same for any number.
 //
 // The threads' library is not begun before there is work that is worth it: to begin takes it three
-// milliseconds on some machines, and its threads keep a core busy while they wait for more.
+// milliseconds on some machines, and its threads keep a core busy while they wait for more. Its
+// headers take longer to read than most files of the engine: parallel.cpp alone has them.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +11,11 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <utility>
 #include <vector>
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include "engine/base/function_ref.h"
 
 namespace csgrun {
 
@@ -30,11 +29,8 @@ constexpr size_t kManyForThreads = 200'000;
 /// end sooner alone.
 class ThreadsFrame {
  public:
-  explicit ThreadsFrame(unsigned threads)
-      : threads_(threads), outer_(std::exchange(current_, this)) {
-    is_outside_ = is_outside_ || !is_known_to_library();
-  }
-  ~ThreadsFrame() { current_ = outer_; }
+  explicit ThreadsFrame(unsigned threads);
+  ~ThreadsFrame();
   ThreadsFrame(const ThreadsFrame&) = delete;
   ThreadsFrame& operator=(const ThreadsFrame&) = delete;
 
@@ -53,7 +49,7 @@ class ThreadsFrame {
   }
   [[nodiscard]] unsigned threads() const { return threads_; }
 
-  [[nodiscard]] bool has_begun() const { return arena_.has_value(); }
+  [[nodiscard]] bool has_begun() const { return arena_ != nullptr; }
   /// Some of the work is on so many faces.
   void expect(size_t faces) { is_much_ = is_much_ || faces >= kManyForThreads; }
   /// Whether it has gone on for long enough, or will.
@@ -65,28 +61,14 @@ class ThreadsFrame {
                (any_began_.load(std::memory_order_relaxed) ? first / kShareLater : first);
   }
 
-  template <class Work>
-  void execute(Work&& work) {
-    if (!arena_) {
-      // Without the control, more threads than cores would be cut down, with a message.
-      allow_.emplace(tbb::global_control::max_allowed_parallelism, threads_);
-      arena_.emplace(static_cast<int>(threads_));
-      any_began_.store(true, std::memory_order_relaxed);
-    }
-    const InArena in_arena;
-    arena_->execute(std::forward<Work>(work));
-  }
+  /// Calls work() in the frame's arena.
+  void execute(FunctionRef<void()> work);
 
  private:
   using Clock = std::chrono::steady_clock;
-  struct InArena {
-    ThreadsFrame* const frame = std::exchange(current_, nullptr);
-    const bool was_in_arena = std::exchange(is_in_arena_, true);
-    ~InArena() { current_ = frame, is_in_arena_ = was_in_arena; }
-  };
-  static bool is_known_to_library() {
-    return tbb::this_task_arena::current_thread_index() != tbb::task_arena::not_initialized;
-  }
+  struct Arena;
+  struct InArena;
+  static bool is_known_to_library();
 
   static inline std::atomic<std::chrono::nanoseconds> alone_time_{std::chrono::milliseconds(50)};
   static inline std::atomic<bool> any_began_{false};
@@ -99,15 +81,11 @@ class ThreadsFrame {
   ThreadsFrame* outer_;
   const Clock::time_point start_ = Clock::now();
   bool is_much_ = false;
-  std::optional<tbb::global_control> allow_;
-  std::optional<tbb::task_arena> arena_;
+  std::unique_ptr<Arena> arena_;
 };
 
 /// How many threads the loops below may use here.
-inline unsigned threads_here() {
-  const ThreadsFrame* frame = ThreadsFrame::current();
-  return frame ? frame->threads() : static_cast<unsigned>(tbb::this_task_arena::max_concurrency());
-}
+unsigned threads_here();
 
 /// Whether a loop that begins now has several from the start. One that has not may have them later:
 /// what it does must not depend on it.
@@ -130,14 +108,10 @@ auto with_threads(unsigned threads, Work&& work) {
 }
 
 /// Calls work(), a loop of the threads' library, where it uses threads_here().
-template <class Work>
-void on_threads(Work&& work) {
-  if (ThreadsFrame* frame = ThreadsFrame::current()) {
-    frame->execute(std::forward<Work>(work));
-  } else {
-    work();
-  }
-}
+void on_threads(FunctionRef<void()> work);
+
+/// Calls one(i) for i from `begin` to `end`, in any order and at the same time.
+void loop_on_threads(size_t begin, size_t end, FunctionRef<void(size_t)> one);
 
 /// Calls one(i) for i from 0 on until several threads should do the rest, or `count` are done;
 /// returns how many were. Of what is `tried` first so much must be left for them, by what it took
@@ -168,7 +142,7 @@ void for_each_part(size_t count, size_t each, Work&& work) {
     work(part, part * each, std::min(count, (part + 1) * each));
   };
   const size_t parts = part_count(count, each), done = do_alone(parts, each >= kFewForThreads, one);
-  if (done < parts) on_threads([&] { tbb::parallel_for(done, parts, one); });
+  if (done < parts) loop_on_threads(done, parts, one);
 }
 
 /// Calls work(begin, end) for ranges that make up [0, count), in any order and at the same time.
