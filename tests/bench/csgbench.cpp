@@ -98,8 +98,11 @@ void run_chain(const std::string& name, const Settings& settings,
   make_steps(tenth + 1, last_begin);
   const Tenth last = make_tenth(last_begin, steps + 1);
   if (steps > 0 && !(asked > 0)) fail("a result of the chain has no volume");
-  const auto boundary =
-      run.clock.timed(run.clock.exporting, [&] { return take(assemble_pieces(*result, true)); });
+  const auto boundary = run.clock.timed(run.clock.exporting, [&] {
+    auto assembled = take(assemble_pieces(*result, true));
+    result.reset();  // nothing goes on from it: what is presented takes its memory
+    return assembled;
+  });
   run.finish(*boundary, fmt::format(R"(,"first_tenth_s":{:.6f},"last_tenth_s":{:.6f})"
                                     R"(,"first_tenth_faces":{},"last_tenth_faces":{})",
                                     first.seconds, last.seconds, first.faces, last.faces));
