@@ -3,7 +3,7 @@
 //
 // The threads' library is not begun before there is work that is worth it: to begin takes it three
 // milliseconds on some machines, and its threads keep a core busy while they wait for more. Its
-// headers take longer to read than most files of the engine: parallel.cpp alone has them.
+// headers take longer to read than most files of the engine: those of loops are in parallel.cpp.
 #pragma once
 
 #include <algorithm>
