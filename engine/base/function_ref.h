@@ -14,9 +14,10 @@ class FunctionRef;
 template <class Return, class... Args>
 class FunctionRef<Return(Args...)> {
  public:
+  /// Implicit: a parameter takes any function.
   template <class F>
-  requires(!std::is_same_v<std::remove_cvref_t<F>, FunctionRef>) FunctionRef(
-      F&& function)  // NOLINT(google-explicit-constructor): a parameter takes any function
+  // NOLINTNEXTLINE(bugprone-forwarding-reference-overload): the constraint leaves copies alone
+  requires(!std::is_same_v<std::remove_cvref_t<F>, FunctionRef>) FunctionRef(F&& function)
       : object_(const_cast<void*>(static_cast<const void*>(std::addressof(function)))),
         call_([](void* object, Args... args) -> Return {
           return (*static_cast<std::remove_reference_t<F>*>(object))(std::forward<Args>(args)...);
