@@ -42,6 +42,7 @@ class SceneBuilder {
   [[nodiscard]] bool has_far_parts(const SceneReach& reach, bool tell) const;
   [[nodiscard]] bool has_thin_leaves(const SceneReach& reach, bool tell) const;
   Result<SceneNode> make_leaf(uint32_t index, const Quantiser& quantiser);
+  [[nodiscard]] GridBox placed_box(uint32_t index, const QuantisedLeaf& leaf) const;
   Status resolve_leaf(uint32_t index, const QuantisedLeaf& leaf, SceneNode& result);
   Status make_nodes();
   SceneNode make_hull(const NormalNode& node) const;

@@ -67,13 +67,18 @@ GridBox permuted_box(const SignedPermutation& permutation, const GridBox& box,
 
 }  // namespace
 
+/// Around a leaf where it stands in its frame.
+GridBox SceneBuilder::placed_box(uint32_t index, const QuantisedLeaf& leaf) const {
+  const SignedPermutation& permutation = rounding_[index].permutation;
+  return permuted_box(permutation, leaf.prepared->box, permutation.apply(leaf.origin));
+}
+
 /// Makes the node of a leaf whose surface is not that of the solid it means.
 Status SceneBuilder::resolve_leaf(uint32_t index, const QuantisedLeaf& leaf, SceneNode& result) {
   const NormalNode& node = normal(index);
   const PolygonMesh& mesh = *node.leaf->mesh();
   const InsideRule rule = rule_of(node);
-  const SignedPermutation& permutation = rounding_[index].permutation;
-  if (!fits_grid(permuted_box(permutation, leaf.prepared->box, permutation.apply(leaf.origin)))) {
+  if (!fits_grid(placed_box(index, leaf))) {
     step_leaves_[index].whole = true;
     is_step_too_small_ = true;
     return std::monostate{};
@@ -115,7 +120,14 @@ Result<SceneNode> SceneBuilder::make_leaf(uint32_t index, const Quantiser& quant
   if (!leaf) return fault(ErrorCode::kOutOfRange, "reaches too far from the origin for the grid");
   const SignedPermutation& permutation = rounding.permutation;
   Subtree& subtree = result.subtree;
-  switch (leaf->prepared->status) {
+  const PreparedLeaf::Status status = leaf->prepared->status;
+  const bool is_placed =
+      status == PreparedLeaf::Status::kTangled || status == PreparedLeaf::Status::kGood;
+  // A leaf in a frame that any result can see counts as a whole when the step is chosen
+  // (scene_reach). One that is beyond the grid is seen by none, and its planes have no room for the
+  // frame (engine/exact/widths.h).
+  if (is_placed && frame_of_[index] != 0 && !fits_grid(placed_box(index, *leaf))) return result;
+  switch (status) {
     case PreparedLeaf::Status::kOpen:
       return fault(ErrorCode::kInvalidMesh, "is not closed: an edge lacks its neighbour");
     case PreparedLeaf::Status::kFlat:
@@ -123,12 +135,12 @@ Result<SceneNode> SceneBuilder::make_leaf(uint32_t index, const Quantiser& quant
                             "'" + mesh.kind + "' encloses no volume on the grid and is left out");
       return result;
     case PreparedLeaf::Status::kTangled:
-      if (Status status = resolve_leaf(index, *leaf, result); !status) return status.error();
+      if (Status made = resolve_leaf(index, *leaf, result); !made) return made.error();
       break;
     case PreparedLeaf::Status::kGood:
       // The hull of one shell is that shell.
       if (node.hull && !node.hull->keep_voids && !leaf->prepared->connected) {
-        if (Status status = resolve_leaf(index, *leaf, result); !status) return status.error();
+        if (Status made = resolve_leaf(index, *leaf, result); !made) return made.error();
         break;
       }
       result.kind = SceneNode::Kind::kLeaf;

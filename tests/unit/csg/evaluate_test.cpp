@@ -1,4 +1,6 @@
 // Whole evaluations: results against known volumes, and what is reused.
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -369,6 +371,49 @@ TEST(Evaluate, RandomTreesKeepTheirCombinatoricsWhenTurned) {
           << tree << " " << turn;
     }
   }
+}
+
+/// Bodies that are apart, unions of two or three of them, some turned: what unions have in common
+/// is nothing, wherever the step comes from.
+TEST(Evaluate, LeavesInFramesThatNothingSees) {
+  std::mt19937 random(20261129);
+  const auto place = [&] { return static_cast<double>(random() % 81) / 2 - 20; };
+  const auto body = [&] {
+    NodePtr made = random() % 2 == 0 ? cube(2) : prism(5, 1, 2);
+    if (random() % 2 == 0) made = turned(45, {0, 0, 1}, made);
+    if (random() % 4 == 0) made = turned(20, {1, 2, 3}, made);
+    return made;
+  };
+  // No body is farther than 3.5 from where it is put.
+  constexpr double kApart = 7;
+  const NodePtr small = moved(0, 0, 60, cube(0.01));
+  int boxes_meet = 0;
+  for (int scene = 0; scene < 400; ++scene) {
+    std::vector<std::array<double, 3>> places;
+    std::array<std::vector<NodePtr>, 2> sides;
+    while (places.size() < 5) {
+      const std::array<double, 3> at{place(), place(), place()};
+      const bool is_apart = std::all_of(places.begin(), places.end(), [&](const auto& p) {
+        return std::hypot(p[0] - at[0], p[1] - at[1], p[2] - at[2]) > kApart;
+      });
+      if (!is_apart) continue;
+      sides[places.size() % 2].push_back(moved(at[0], at[1], at[2], body()));
+      places.push_back(at);
+    }
+    const NodePtr common = intersect({unite(sides[0]), unite(sides[1])});
+    EXPECT_TRUE(solid_of(common)->empty()) << scene;
+    const SolidPtr beside = solid_of(unite({small, common}));
+    EXPECT_NEAR(beside->measures.volume, 1e-6, 1e-9) << scene;
+    EXPECT_EQ(beside->measures.components, 1) << scene;
+    EXPECT_NEAR(solid_of(symmetric({small, common}))->measures.volume, 1e-6, 1e-9) << scene;
+    // The boxes of both sides have something in common in most scenes.
+    const auto a = solid_of(unite(sides[0]))->measures.bbox,
+               b = solid_of(unite(sides[1]))->measures.bbox;
+    bool meet = true;
+    for (int k = 0; k < 3; ++k) meet &= a[0][k] < b[1][k] && b[0][k] < a[1][k];
+    boxes_meet += meet ? 1 : 0;
+  }
+  EXPECT_GT(boxes_meet, 200);
 }
 
 TEST(Evaluate, EmptyTrees) {

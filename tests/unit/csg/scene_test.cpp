@@ -134,6 +134,24 @@ TEST_F(SceneTest, WhatCannotReachTheResultDoesNotSetTheStep) {
             8e-06);
 }
 
+TEST_F(SceneTest, LeavesInFramesBeyondTheGridAreLeftOut) {
+  // What both have in common is not near any of their leaves.
+  const auto turned_at = [](double x, double y, double z) {
+    return moved(x, y, z, turned(45, {0, 0, 1}, cube(1)));
+  };
+  const NodePtr a = unite({turned_at(40, 0, 0), moved(0, 40, 0, cube(1))}),
+                b = unite({moved(50, 20, 0, cube(1)), turned_at(20, 50, 0)});
+  const Scene s = scene({unite({cube(0.1), intersect({a, b})})});
+  EXPECT_EQ(s.step.millimetres(), 1.953125e-09);  // of the small cube
+  for (const SceneNode& node : s.nodes) {
+    if (node.kind == SceneNode::Kind::kLeaf && node.subtree.id.frame != 0) {
+      EXPECT_TRUE(fits_grid(node.subtree.box));
+    }
+  }
+  // The boxes of the other two have nothing in common.
+  EXPECT_EQ(s.leaves(s.roots[0]).size(), 1u);
+}
+
 TEST_F(SceneTest, DisjointIntersectionsAreEmpty) {
   const Scene s = scene({intersect({cube(1), moved(1, 0, 0, cube(1))}),
                          unite({cube(1), intersect({cube(1), moved(5, 0, 0, cube(1))})}),
