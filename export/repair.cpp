@@ -12,6 +12,7 @@
 #include "export/edge_flips.h"
 #include "export/edge_splits.h"
 #include "export/self_union.h"
+#include "export/thin_triangles.h"
 
 namespace csgrun {
 namespace {
@@ -36,6 +37,11 @@ struct Lattice {
 /// after another.
 constexpr std::array<std::array<double, 3>, 4> kOrigins{
     {{0, 0, 0}, {0.5, 0.5, 0.5}, {0.5, 0, 0}, {0, 0.5, 0.5}}};
+
+/// Widths of what is thin, in units in the last place of the file's numbers: each is twice the one
+/// before. With a lattice they go on to 2^kBeyondLattice of its steps, or the coarsest one's step.
+constexpr double kFirstWidth = 2, kLastWidth = 16;
+constexpr int kBeyondLattice = 4;
 
 /// Crossings that union and rounding make anew may need a few rounds more to go away.
 constexpr int kPatience = 4;
@@ -154,7 +160,7 @@ class Repair {
 
   Status run_round() {
     note_clean();
-    turn_edges();
+    if (Status status = mend(); !status) return status;
     if (left_.none()) return std::monostate{};
     if (lattice_ > 0) {
       if (pass_ != Pass::kPlain) {
@@ -162,7 +168,7 @@ class Repair {
       }
       if (Status status = snap(); !status) return status;
       examine();
-      turn_edges();
+      if (Status status = mend(); !status) return status;
       if (left_.none()) return std::monostate{};
     }
     ++check_.unions;
@@ -175,8 +181,7 @@ class Repair {
       check_.problem = status.error().message;
     }
     examine();
-    turn_edges();
-    return std::monostate{};
+    return mend();
   }
 
   /// Of the solid, per triangle.
@@ -202,6 +207,34 @@ class Repair {
     if (!any) return;
     for (auto& outline : mesh_.outlines) outline.clear();
     examine();
+  }
+
+  /// What can be done near what is wrong alone, without a union, as long as that leaves less wrong.
+  Status mend() {
+    turn_edges();
+    const double unit = unit_of(precision_, mesh_.positions), last = widest();
+    for (double width = kFirstWidth * unit; width <= last && !left_.none();) {
+      const State before = state();
+      const auto thinned = take_out_thin(mesh_, offenders(), width, faces_.directions);
+      if (!thinned) return thinned.error();
+      const bool any = thinned->turned + thinned->merged > 0;
+      if (any) {
+        moves_.add(mesh_.positions, mesh_.triangles, thinned->farthest);
+        check_.moved += thinned->merged;
+        examine();
+        turn_edges();
+      }
+      if (left_.fewer_than(before.left)) continue;
+      if (any) restore(before);
+      width *= 2;
+    }
+    return std::monostate{};
+  }
+
+  /// What is thin now, mm.
+  [[nodiscard]] double widest() const {
+    if (lattice_ == 0) return kLastWidth * unit_of(precision_, mesh_.positions);
+    return std::ldexp(1.0, std::min(lattice_exponent() + kBeyondLattice, coarsest_exponent()));
   }
 
   /// Steps of two floats (where the mesh is farthest from the origin), then eight, 32 and so on:

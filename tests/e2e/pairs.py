@@ -68,5 +68,26 @@ class Shifts(support.Case):
                 self.assertEqual(json.loads(done.stdout)["counters"]["hausdorff_mm"], 0)
 
 
+class Needles(support.Case):
+    """A model of which nearly every triangle is a cap or a needle: beside its coordinates they are next to nothing
+    wide, and most of what goes wrong when they are rounded is mended without a union."""
+
+    @support.needs_shared("meshes")
+    def test_a_mesh_of_needles_and_a_turned_copy(self):
+        for side, operation in (("left", "a - a:rotate(0, 0, 30)"), ("right", "a + a:rotate(17, 29, 41)")):
+            name = f"mf_Generic_Twin_7081.1.t0_{side}.obj"
+            with self.subTest(name):
+                (self.folder / name).write_bytes((support.SHARED / "meshes" / name).read_bytes())
+                out = self.folder / "out.stl"
+                stats = self.script(f"local a = import({name!r}, {{repair = true}})\nreturn {operation}",
+                                    "-q", "--check", "-o", out)
+                check = stats["check"][0]["parts"][0]
+                self.assertEqual(check["verdict"], "repaired")
+                self.assertGreater(check["found"]["self_intersections"], 10)
+                self.assertLess(check["rounds"], 20)
+                self.assert_relative(support.read_stl(out).volume(), stats["parts"][0]["volume"], 1e-3)
+                self.assertEqual(self.info(out)["self_intersections"], 0)
+
+
 if __name__ == "__main__":
     support.main()
