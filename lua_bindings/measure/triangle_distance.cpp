@@ -71,6 +71,10 @@ struct Box {
       high = glm::max(high, p);
     }
   }
+  void add(const Box& other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
   [[nodiscard]] double distance(const Box& other) const {
     return glm::length(glm::max(glm::max(low - other.high, other.low - high), glm::dvec3(0)));
   }
@@ -80,47 +84,34 @@ class Tree {
  public:
   explicit Tree(const TriangleView& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
+    boxes_.resize(order_.size());
+    for (const uint32_t t : order_) boxes_[t].add(corners_of(t));
+    nodes_.reserve(order_.size());
     build(0, order_.size());
   }
 
-  void nearest(const Corners& corners, Distance& best) const {
-    Box box;
-    box.add(corners);
-    std::vector<size_t> pending{0};
-    while (!pending.empty()) {
-      const Node& node = nodes_[pending.back()];
-      pending.pop_back();
-      if (node.box.distance(box) >= best.length) continue;
-      if (node.second == 0) {
-        for (size_t i = node.begin; i < node.end; ++i)
-          keep_nearer(best, triangle_distance(corners, corners_of(mesh_, order_[i])));
-        continue;
-      }
-      const size_t first = static_cast<size_t>(&node - nodes_.data()) + 1;
-      const bool first_is_nearer =
-          nodes_[first].box.distance(box) <= nodes_[node.second].box.distance(box);
-      pending.push_back(first_is_nearer ? node.second : first);
-      pending.push_back(first_is_nearer ? first : node.second);
-    }
-  }
-
-  static Corners corners_of(const TriangleView& mesh, size_t t) {
-    const auto& corners = mesh.triangles[t];
-    return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
-  }
-
- private:
   struct Node {
     Box box;
-    size_t begin = 0, end = 0;
-    size_t second = 0;  ///< the first child follows its parent; 0: a leaf
+    size_t begin = 0, end = 0;  ///< of the order of triangles
+    size_t second = 0;          ///< the first child follows its parent; 0: a leaf
+    [[nodiscard]] bool is_leaf() const { return second == 0; }
+    [[nodiscard]] size_t size() const { return end - begin; }
   };
+
+  [[nodiscard]] const Node& node(size_t place) const { return nodes_[place]; }
+  [[nodiscard]] Corners triangle(size_t i) const { return corners_of(order_[i]); }
+
+ private:
+  [[nodiscard]] Corners corners_of(size_t t) const {
+    const auto& corners = mesh_.triangles[t];
+    return {mesh_.points[corners[0]], mesh_.points[corners[1]], mesh_.points[corners[2]]};
+  }
 
   size_t build(size_t begin, size_t end) {
     const size_t place = nodes_.size();
     nodes_.emplace_back();
     Box box;
-    for (size_t i = begin; i < end; ++i) box.add(corners_of(mesh_, order_[i]));
+    for (size_t i = begin; i < end; ++i) box.add(boxes_[order_[i]]);
     nodes_[place].box = box;
     nodes_[place].begin = begin;
     nodes_[place].end = end;
@@ -128,8 +119,7 @@ class Tree {
     const glm::dvec3 size = box.high - box.low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const auto key = [&](uint32_t t) {
-      const Corners c = corners_of(mesh_, t);
-      return std::pair(c[0][axis] + c[1][axis] + c[2][axis], t);
+      return std::pair(boxes_[t].low[axis] + boxes_[t].high[axis], t);
     };
     const size_t middle = begin + (end - begin) / 2;
     const auto at = [&](size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
@@ -143,17 +133,90 @@ class Tree {
 
   const TriangleView& mesh_;
   std::vector<uint32_t> order_;
+  std::vector<Box> boxes_;  ///< of triangles
   std::vector<Node> nodes_;
+};
+
+/// The nearest points of what lies below two nodes, where they are nearer than the best so far.
+class Nearest {
+ public:
+  Nearest(const Tree& a, const Tree& b) : a_(a), b_(b) {
+    best_.length = std::numeric_limits<double>::infinity();
+    pending_.push_back(pair(0, 0));
+  }
+
+  Distance run() {
+    while (!pending_.empty()) {
+      const Pair top = pending_.back();
+      pending_.pop_back();
+      if (top.distance >= best_.length) continue;
+      if (gap_along(a_.node(top.a).box, b_.node(top.b).box) >= best_.length) continue;
+      const Tree::Node &a = a_.node(top.a), &b = b_.node(top.b);
+      if (a.is_leaf() && b.is_leaf()) {
+        compare(a, b);
+      } else if (b.is_leaf() || (!a.is_leaf() && a.size() >= b.size())) {
+        push_nearer_last(pair(top.a + 1, top.b), pair(a.second, top.b));
+      } else {
+        push_nearer_last(pair(top.a, top.b + 1), pair(top.a, b.second));
+      }
+    }
+    return best_;
+  }
+
+ private:
+  struct Pair {
+    size_t a, b;
+    double distance;  ///< of their boxes
+  };
+
+  [[nodiscard]] Pair pair(size_t a, size_t b) const {
+    return {a, b, a_.node(a).box.distance(b_.node(b).box)};
+  }
+  void push_nearer_last(const Pair& p, const Pair& q) {
+    const bool p_is_nearer = p.distance <= q.distance;
+    pending_.push_back(p_is_nearer ? q : p);
+    pending_.push_back(p_is_nearer ? p : q);
+  }
+  void compare(const Tree::Node& a, const Tree::Node& b) {
+    for (size_t i = a.begin; i < a.end; ++i) {
+      const Corners corners = a_.triangle(i);
+      for (size_t j = b.begin; j < b.end; ++j) {
+        const Corners others = b_.triangle(j);
+        if (gap_along(corners, others) >= best_.length) continue;
+        const Distance found = triangle_distance(corners, others);
+        if (!(found.length < best_.length)) continue;
+        best_ = found;
+        if (found.length > 0) direction_ = (found.to - found.from) / found.length;
+      }
+    }
+  }
+
+  /// How far one thing is behind another one along the way between the nearest points so far: it is
+  /// no nearer than that. Of rounded bodies that face each other hardly any triangles are left.
+  [[nodiscard]] double gap_along(const Corners& a, const Corners& b) const {
+    double end = glm::dot(direction_, a[0]), begin = glm::dot(direction_, b[0]);
+    for (int i = 1; i < 3; ++i) {
+      end = std::max(end, glm::dot(direction_, a[i]));
+      begin = std::min(begin, glm::dot(direction_, b[i]));
+    }
+    return begin - end;
+  }
+  [[nodiscard]] double gap_along(const Box& a, const Box& b) const {
+    const glm::dvec3 between = (b.low - a.high) + (b.high - a.low);
+    const glm::dvec3 extent = (a.high - a.low) + (b.high - b.low);
+    return (glm::dot(direction_, between) - glm::dot(glm::abs(direction_), extent)) / 2;
+  }
+
+  const Tree &a_, &b_;
+  std::vector<Pair> pending_;
+  Distance best_;
+  glm::dvec3 direction_{};  ///< from the nearest point of the first to that of the second
 };
 
 }  // namespace
 
 Distance surface_distance(const TriangleView& a, const TriangleView& b) {
-  const Tree tree(b);
-  Distance best;
-  best.length = std::numeric_limits<double>::infinity();
-  for (size_t t = 0; t < a.triangles.size(); ++t) tree.nearest(Tree::corners_of(a, t), best);
-  return best;
+  return Nearest(Tree(a), Tree(b)).run();
 }
 
 }  // namespace csgrun

@@ -16,8 +16,9 @@ struct Distance {
   glm::dvec3 from{}, to{};  ///< the nearest points, on the first and on the second mesh
 };
 
-/// The least distance of two surfaces that do not cross. A tree of boxes over the second mesh:
-/// about O(n log m). REQUIRES: both have triangles.
+/// The least distance of two surfaces that do not cross. Trees of boxes over both, which take
+/// O(n log n), and the pairs of boxes that are nearer than the surfaces. REQUIRES: both have
+/// triangles.
 Distance surface_distance(const TriangleView& a, const TriangleView& b);
 
 }  // namespace csgrun

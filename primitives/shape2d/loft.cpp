@@ -58,7 +58,7 @@ struct Outline {
 
 /// Calls step(on_first, i, j) for each triangle between two outlines that start in corners i0, j0:
 /// corner i of the first and j of the second have been reached, and the step is on the one or the
-/// other.
+/// other. It ends when `step` says so, by false.
 template <class Step>
 void walk_strip(const Outline& a, size_t i0, const Outline& b, size_t j0, Step step) {
   const size_t n = a.points.size(), m = b.points.size();
@@ -66,7 +66,7 @@ void walk_strip(const Outline& a, size_t i0, const Outline& b, size_t j0, Step s
   while (i < n || j < m) {
     const bool on_first =
         j == m || (i < n && a.way(i0, i + 1) + a.way(i0, i) <= b.way(j0, j + 1) + b.way(j0, j));
-    step(on_first, i, j);
+    if (!step(on_first, i, j)) return;
     (on_first ? i : j) += 1;
   }
 }
@@ -86,13 +86,15 @@ std::pair<size_t, size_t> best_start(const Outline& a, const Outline& b) {
   for (size_t i0 = 0; i0 < n; i0 += stride) {
     for (size_t j0 = 0; j0 < m; j0 += stride) {
       double sum = 0;
+      // A hair's difference is rounding, and must not decide.
+      const double limit = best * (1 - 1e-9);
       walk_strip(a, i0, b, j0, [&](bool on_first, size_t i, size_t j) {
         const glm::dvec2 p = a.points[(i0 + i + (on_first ? 1 : 0)) % n];
         const glm::dvec2 q = b.points[(j0 + j + (on_first ? 0 : 1)) % m];
         sum += squared(q - p - shift);
+        return sum < limit;
       });
-      // A hair's difference is rounding, and must not decide.
-      if (sum < best * (1 - 1e-9)) {
+      if (sum < limit) {
         best = sum;
         start = {i0, j0};
       }
@@ -218,6 +220,7 @@ class Lofter {
       const uint32_t r =
           on_first ? corner(level, lower, first + i + 1) : corner(level + 1, upper, second + j + 1);
       mesh_.add_face(std::array<uint32_t, 3>{p, r, q}, 0);
+      return true;
     });
   }
 
