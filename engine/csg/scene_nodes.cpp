@@ -54,6 +54,19 @@ GridBox combine(BooleanOp op, const GridBox& a, const GridBox& b) {
   return r;
 }
 
+/// Whether a node is a box along the axes of the world that nothing of a subtree is beyond. What
+/// they have in common is the subtree then, also where they are flush: the first of several
+/// operands that have surface somewhere gives it its label.
+bool holds(const SceneNode& box, const Subtree& subtree) {
+  if (box.kind != SceneNode::Kind::kLeaf || !box.subtree.is_of_boxes) return false;
+  bool all = true;
+  for (int i = 0; i < 3; ++i) {
+    all &= box.subtree.box.lo[i] <= subtree.world.lo[i];
+    all &= box.subtree.box.hi[i] >= subtree.world.hi[i];
+  }
+  return all;
+}
+
 GridBox permuted_box(const SignedPermutation& permutation, const GridBox& box,
                      const IVec3& origin) {
   const IVec3 a = permutation.apply(box.lo), b = permutation.apply(box.hi);
@@ -253,6 +266,7 @@ SceneNode SceneBuilder::make_operator(const NormalNode& node) {
       value = scene_.nodes[operand].subtree;
       continue;
     }
+    if (node.op == BooleanOp::kIntersection && holds(scene_.nodes[operand], value)) continue;
     value = fold(node.op, value, scene_.nodes[operand].subtree);
     // Boxes that do not overlap enclose nothing in common.
     if (!is_solid(value.box) || !is_solid(value.world)) return SceneNode{};

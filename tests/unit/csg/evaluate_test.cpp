@@ -416,6 +416,25 @@ TEST(Evaluate, LeavesInFramesThatNothingSees) {
   EXPECT_GT(boxes_meet, 200);
 }
 
+TEST(Evaluate, FlushFacesOfBoxesThatHoldAllAreTheFirstOperands) {
+  Appearance red, blue;
+  red.is_default = blue.is_default = false;
+  red.green = red.blue = blue.red = blue.green = 0;
+  const NodePtr part = Node::painted(red, subtract({cube(4), moved(1, 1, 1, cube(9))})),
+                bounds = Node::painted(blue, cube(4));
+  // With a tool beyond the box that leaves no trace, it is an operand.
+  const NodePtr near = unite({part, moved(4, 4, 4, Node::painted(red, cube(1)))});
+  for (const NodePtr& before : {part, near}) {
+    const SolidPtr solid = solid_of(intersect({before, bounds}));
+    for (const auto& face : solid->faces) EXPECT_EQ(solid->appearances[face.appearance], red);
+    EXPECT_EQ(solid->canonical_hash, solid_of(part)->canonical_hash);
+    const SolidPtr other = solid_of(intersect({bounds, before}));
+    size_t flush = 0;
+    for (const auto& face : other->faces) flush += other->appearances[face.appearance] == blue;
+    EXPECT_EQ(flush, 6u);
+  }
+}
+
 TEST(Evaluate, EmptyTrees) {
   EXPECT_TRUE(solid_of(Node::empty())->empty());
   EXPECT_TRUE(solid_of(subtract({Node::empty(), cube(1)}))->empty());

@@ -152,6 +152,25 @@ TEST_F(SceneTest, LeavesInFramesBeyondTheGridAreLeftOut) {
   EXPECT_EQ(s.leaves(s.roots[0]).size(), 1u);
 }
 
+TEST_F(SceneTest, BoxesThatHoldAllBeforeThemAreNoOperands) {
+  const NodePtr bounds = box({0, 0, 0}, {4, 4, 4});
+  const auto kind = [&](const NodePtr& node) {
+    const Scene s = scene({node});
+    return s.nodes[s.roots[0]].kind;
+  };
+  EXPECT_EQ(kind(intersect({moved(1, 0, 0, cube(3)), bounds})), SceneNode::Kind::kLeaf);
+  EXPECT_EQ(kind(intersect({turned(45, {0, 0, 1}, moved(2, -1, 1, cube(1))), bounds})),
+            SceneNode::Kind::kLeaf);
+  EXPECT_EQ(kind(intersect({moved(1.001, 0, 0, cube(3)), bounds})), SceneNode::Kind::kOperator);
+  EXPECT_EQ(kind(intersect({bounds, cube(3)})), SceneNode::Kind::kOperator);
+  EXPECT_EQ(kind(intersect({cube(1), prism(5, 9, 9)})), SceneNode::Kind::kOperator);
+  EXPECT_EQ(kind(intersect({cube(1), turned(45, {0, 0, 1}, moved(-9, -9, -9, cube(20)))})),
+            SceneNode::Kind::kOperator);
+  const NodePtr two = unite({cube(1), moved(2, 2, 2, cube(1))});
+  const Scene s = scene({two, intersect({two, bounds})});
+  EXPECT_EQ(root(s, 0).id, root(s, 1).id);
+}
+
 TEST_F(SceneTest, DisjointIntersectionsAreEmpty) {
   const Scene s = scene({intersect({cube(1), moved(1, 0, 0, cube(1))}),
                          unite({cube(1), intersect({cube(1), moved(5, 0, 0, cube(1))})}),
