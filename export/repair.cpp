@@ -10,7 +10,6 @@
 #include <glm/geometric.hpp>
 
 #include "export/edge_flips.h"
-#include "export/edge_splits.h"
 #include "export/self_union.h"
 #include "export/thin_triangles.h"
 
@@ -43,12 +42,6 @@ constexpr std::array<std::array<double, 3>, 4> kOrigins{
 constexpr double kFirstWidth = 2, kLastWidth = 16;
 constexpr int kBeyondLattice = 4;
 
-/// Crossings that union and rounding make anew may need a few rounds more to go away.
-constexpr int kPatience = 4;
-
-/// More triangles with something wrong are not divided: a union leaves fewer.
-constexpr size_t kMostDivided = 20000;
-
 bool precedes(const glm::dvec3& a, const glm::dvec3& b) {
   return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
 }
@@ -59,10 +52,6 @@ std::vector<uint32_t> bad_triangles(const Defects& defects) {
              defects.flipped.end(), std::back_inserter(bad));
   return bad;
 }
-
-/// All lattices are tried three times: as they are; from the beginning again, dividing what runs
-/// beside other things before it is snapped; and with patience, on what had least wrong.
-enum class Pass { kPlain, kDivided, kPatient };
 
 class Repair {
  public:
@@ -81,38 +70,20 @@ class Repair {
   }
 
   Status run() {
-    const State first = state();
-    State best = first, best_of_pass = first;
-    int worse = 0;  // rounds since then
+    State best = state();
     while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty()) {
-      if (all_lattices_tried()) {
-        if (!may_get_better_ || pass_ == Pass::kPatient) break;
-        pass_ = pass_ == Pass::kPlain ? Pass::kDivided : Pass::kPatient;
-        restore(pass_ == Pass::kDivided ? first : best);
-        best_of_pass = state();
-        lattice_ = pass_ == Pass::kDivided ? 0 : 1;
-        origin_ = 0;
-      }
+      if (all_lattices_tried()) break;
       ++check_.rounds;
       if (Status status = run_round(); !status) return status;
       breach_ = fidelity_.breach(mesh_, original_faces(), moves_);
-      if (breach_.empty() && left_.fewer_than(best_of_pass.left)) {
-        best_of_pass = state();
-        if (left_.fewer_than(best.left)) best = best_of_pass;
-        worse = 0;
-        continue;
-      }
-      may_get_better_ |= breach_.empty();
-      if (pass_ == Pass::kPatient && breach_.empty() && ++worse < kPatience &&
-          !is_far_worse(best_of_pass.left)) {
+      if (breach_.empty() && left_.fewer_than(best.left)) {
+        best = state();
         continue;
       }
       // Rounds that make it worse are undone: what they moved would be in the way of the next.
       ++lattice_;
-      worse = 0;
-      restore(best_of_pass);
+      restore(best);
     }
-    if (best.left.fewer_than(left_)) restore(best);
     mesh_.triangle_face = original_faces();
     check_.distance = moves_.distance;
     if (!left_.none() && check_.problem.empty()) check_.problem = breach_;
@@ -152,20 +123,11 @@ class Repair {
     return origin_ == kOrigins.size();
   }
 
-  /// Whether so much is wrong that more rounds would only make it more.
-  [[nodiscard]] bool is_far_worse(const Defects& best) const {
-    constexpr size_t kTimes = 5, kFew = 5;
-    return left_.crossings.size() > kTimes * (best.crossings.size() + kFew);
-  }
-
   Status run_round() {
     note_clean();
     if (Status status = mend(); !status) return status;
     if (left_.none()) return std::monostate{};
     if (lattice_ > 0) {
-      if (pass_ != Pass::kPlain) {
-        if (Status status = divide(); !status) return status;
-      }
       if (Status status = snap(); !status) return status;
       examine();
       if (Status status = mend(); !status) return status;
@@ -263,17 +225,6 @@ class Repair {
 
   [[nodiscard]] double lattice_step() const { return std::ldexp(1.0, lattice_exponent()); }
 
-  /// Gives layers that run beside one another corners in common.
-  Status divide() {
-    const std::vector<uint32_t> wrong = offenders();
-    if (wrong.size() > kMostDivided) return std::monostate{};
-    if (divide_at_near_corners(mesh_, wrong, lattice_step()) == 0) return std::monostate{};
-    moves_.add(mesh_.positions, mesh_.triangles, kGenerations * lattice_step());
-    if (Status status = move_vertices(mesh_, std::vector(mesh_.positions)); !status) return status;
-    examine();
-    return std::monostate{};
-  }
-
   Status snap() {
     Lattice lattice{lattice_step(), kOrigins[origin_]};
     for (double& o : lattice.origin) o *= lattice.step;
@@ -312,8 +263,6 @@ class Repair {
   std::string breach_;    ///< why the last round was undone, if the mesh became another
   int lattice_ = 0;       ///< the number of the lattice; 0: nothing is snapped yet
   size_t origin_ = 0;     ///< into kOrigins
-  Pass pass_ = Pass::kPlain;
-  bool may_get_better_ = false;  ///< some round was undone only because it left more wrong
 };
 
 }  // namespace

@@ -10,9 +10,7 @@
 // their cells of a lattice, are snapped to it, so that what rounding brought too near becomes one
 // (Valque & Lazard 2025). The lattice is coarser with each such round, up to a bound: what is
 // coarser would be another model, not the same rounded. Then all are tried again from other
-// origins. If that does not do, all of it begins anew, and what is wrong gets corners in common
-// with what runs beside it before it is snapped (edge_splits.h); and at last, on what had least
-// wrong, with patience: up to four rounds may leave more wrong than before until one leaves less. A
+// origins. A
 // round is undone, too, after which the mesh differs from the solid by more than all moves of its
 // vertices explain (fidelity.h).
 #pragma once
