@@ -176,6 +176,9 @@ class Repair {
     turn_edges();
     const double unit = unit_of(precision_, mesh_.positions), last = widest();
     for (double width = kFirstWidth * unit; width <= last && !left_.none();) {
+      if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) {
+        return Error{ErrorCode::kCancelled, "cancelled", {}};
+      }
       const State before = state();
       const auto thinned = take_out_thin(mesh_, offenders(), width, faces_.directions);
       if (!thinned) return thinned.error();

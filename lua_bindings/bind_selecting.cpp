@@ -161,7 +161,7 @@ int ray(lua_State* L) {
     if (again) continue;
     last = &hit;
     lua_createtable(L, 0, 4);
-    lua_pushnumber(L, hit.distance);
+    lua_pushnumber(L, hit.distance + 0.0);  // never -0
     lua_setfield(L, -2, "distance");
     push_point(L, from->v + hit.distance * along);
     lua_setfield(L, -2, "point");
