@@ -74,6 +74,7 @@ class Repair {
     while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty()) {
       if (all_lattices_tried()) break;
       ++check_.rounds;
+      if (options_.repairing) options_.repairing(check_.rounds, left_.count());
       if (Status status = run_round(); !status) return status;
       breach_ = fidelity_.breach(mesh_, original_faces(), moves_);
       if (breach_.empty() && left_.fewer_than(best.left)) {

@@ -517,8 +517,10 @@ class Run {
     options.check = line_.check;
     options.threads = session_.options().evaluate.threads;
     options.cancel = &session_.budget().cancel();
+    options.repairing = make_repair_progress(line_.quiet);
     WriteReport report;
     auto files = encode_files(path, parts, options, report);
+    clear_progress();
     if (!files) {
       if (files.error().code == ErrorCode::kCancelled) return evaluation_failure(files.error());
       return {kExitFiles, "csgrun: " + files.error().message};

@@ -16,11 +16,21 @@ WriteReport written(const SolidPtr& solid, const std::string& format = "stl") {
   WriteOptions options;
   options.check = true;
   options.threads = 1;
+  unsigned rounds = 0;
+  size_t first_left = 0;
+  options.repairing = [&](unsigned round, size_t left) {
+    EXPECT_EQ(round, ++rounds);
+    EXPECT_GT(left, 0u);
+    if (round == 1) first_left = left;
+  };
   WriteReport report;
   const auto files = encode_files("a." + format, {{"p", solid, {}}}, options, report);
   EXPECT_TRUE(files) << files.error().message;
   EXPECT_EQ(report.checks.size(), 1u);
   report.checks.resize(1);
+  EXPECT_EQ(rounds, report.checks[0].rounds);
+  const MeshDefects& found = report.checks[0].found;
+  EXPECT_EQ(first_left, found.crossings + found.degenerate + found.flipped + found.inverted);
   return report;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,9 @@ struct WriteOptions {
   bool check = false;
   unsigned threads = 0;  ///< for checks and repairs; 0: as many as the process may use
   const std::atomic<bool>* cancel = nullptr;  ///< as in EvaluateOptions
+  /// Called before each round of a mesh's repair: its number, from 1 on, and how many places are
+  /// wrong.
+  std::function<void(unsigned, size_t)> repairing;
 };
 
 struct WriteReport {
