@@ -39,14 +39,18 @@ std::vector<PolygonBox> find_live_boxes(size_t operands, const Expression& expre
   return of_operand;
 }
 
+/// Boxes around rounded corners are up to so many steps larger than the polygon, along any axis.
+constexpr int32_t kWidened = 4;
+
 /// Whether a polygon in one box is beside another one, but for its rim at most: they have nothing
-/// in common, or part of a plane that the polygon goes across, or up to.
-bool is_beside(const PolygonBox& box, const PolygonBox& other) {
+/// in common, or part of a plane that the polygon goes across, or up to. `widened`: how much wider
+/// the box may be than the polygon, which may be in that plane otherwise.
+bool is_beside(const PolygonBox& box, const PolygonBox& other, int32_t widened) {
   if (other.holds(box)) return false;  // most are
   bool beside = false;
   for (size_t k = 0; k < 3; ++k) {
     const int32_t lo = std::max(box.lo[k], other.lo[k]), hi = std::min(box.hi[k], other.hi[k]);
-    beside |= lo > hi || (lo == hi && box.lo[k] < box.hi[k]);
+    beside |= lo > hi || (lo == hi && int64_t{box.hi[k]} - box.lo[k] > widened);
   }
   return beside;
 }
@@ -78,12 +82,13 @@ PlainlyCovered find_plainly_covered(const Job& job, const Expression& expression
     if (!may_be_held && live[o].holds(job.operand_box(o))) return;
     const bool may_be_open = dead.may_be_open(o, job.polygon_start(o + 1) - job.polygon_start(o));
     const bool is_live = !live[o].is_empty();
+    const int32_t widened = job.has_grid_vertices(o) ? 0 : kWidened;
     bool some = false, some_hidden = false;
     for (uint32_t p = job.polygon_start(o); p < job.polygon_start(o + 1); ++p) {
       const auto corners = job.corners(job.polygons()[p]);
       const auto at = [&](uint32_t i) -> const auto& { return job.rounded(corners[i]); };
       const bool is_held = may_be_held && dead.holds(job.boxes()[p], job.polygons()[p].count, at);
-      is_covered[p] = is_held || !is_live || is_beside(job.boxes()[p], live[o]);
+      is_covered[p] = is_held || !is_live || is_beside(job.boxes()[p], live[o], widened);
       if (is_held && may_be_open) is_hidden[p] = some_hidden = true;
       some |= is_covered[p] != 0;
     }

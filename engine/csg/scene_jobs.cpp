@@ -7,6 +7,7 @@
 #include "engine/base/timer.h"
 #include "engine/bsp/boundary_pieces.h"
 #include "engine/bsp/untouched.h"
+#include "engine/csg/grid.h"
 #include "engine/mesh/face_normal.h"
 
 namespace csgrun {
@@ -27,6 +28,16 @@ BoundaryPtr moved_and_painted(const Operand& operand) {
     for (UntouchedPart& part : moved->parts) part.appearance = operand.appearance;
   }
   return moved;
+}
+
+/// Where a result can be. A box around it may reach to where no leaf can be seen from it, and there
+/// is nothing there: all that can be seen fits the grid (scene_reach), with a bit to spare.
+GridBox on_grid(GridBox box) {
+  for (size_t k = 0; k < 3; ++k) {
+    box.lo[k] = std::clamp(box.lo[k], -2 * kGridLimit, 2 * kGridLimit);
+    box.hi[k] = std::clamp(box.hi[k], -2 * kGridLimit, 2 * kGridLimit);
+  }
+  return box;
 }
 
 }  // namespace
@@ -343,7 +354,7 @@ Result<BoundaryPtr> SceneJobs::world_boundary(uint32_t root) {
     if (!operand) return operand.error();
     put(parts, *std::move(operand), subtree);
   }
-  auto boundary = run_job(std::move(parts), subtree.world);
+  auto boundary = run_job(std::move(parts), on_grid(subtree.world));
   ++jobs_done_;
   return boundary;
 }

@@ -26,11 +26,14 @@ bool is_inside(const IVec3& middle, int64_t radius, const std::array<double, 3>&
 }
 
 /// Whether no point of a polygon but those of its rim is in a box: all corners are beyond a side,
-/// or in it, but not all of them. (Or the box is flat, and the corners on either side.)
+/// or in it, but not all of them. (Or the box is flat, and the corners on either side.) Boxes of
+/// turned polygons are a step larger on every side, and one of no more may be in the side.
 bool is_beside(const Job& job, uint32_t p, const PolygonBox& box) {
   const PolygonBox& own = job.boxes()[p];
+  const int32_t flat = job.has_grid_vertices(job.polygons()[p].operand) ? 0 : 4;
   bool beside = !box.meets(own);
   for (size_t k = 0; k < 3; ++k) {
+    if (own.hi[k] - own.lo[k] <= flat) continue;
     const bool is_above = own.lo[k] >= box.hi[k] && own.hi[k] > box.hi[k];
     const bool is_below = own.hi[k] <= box.lo[k] && own.lo[k] < box.lo[k];
     const bool is_around = box.lo[k] == box.hi[k] && own.lo[k] < own.hi[k];
