@@ -60,7 +60,7 @@ struct MeshCheck {
   MeshDefects left;                 ///< after the last round of repair
   std::vector<DefectPlace> places;  ///< of the first of those found of each kind
   unsigned rounds = 0;              ///< of repair
-  uint64_t moved = 0;               ///< vertices that repair snapped to a coarser lattice
+  uint64_t moved = 0;               ///< vertices that repair snapped to a lattice, or merged
   unsigned unions = 0;              ///< self-unions that it took
   /// mm: no point of the surface is farther from the solid's, rounding and repair together.
   double distance = 0;
