@@ -35,6 +35,7 @@ class EdgeTurner {
     tried_.resize(mesh_.triangles.size());
     path_.assign(1, triangle);
     tried_[triangle] = true;
+    double moved = 0;
     while (!path_.empty()) {
       const uint32_t t = path_.back(), beyond = mesh_.twins[longest_edge(t)] / 3;
       if (!tried_[beyond] && cap_height(beyond, width)) {
@@ -47,7 +48,9 @@ class EdgeTurner {
       const std::optional<double> height = cap_height(t, width);
       if (!height || !turn_longest_edge(t)) continue;
       ++turned.count;
-      turned.farthest = std::max(turned.farthest, *height);
+      // The surface near a fan's first corners moves with each cap that is turned.
+      moved += *height;
+      turned.farthest = std::max(turned.farthest, moved);
     }
   }
   [[nodiscard]] bool is_tried(uint32_t triangle) const {

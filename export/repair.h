@@ -10,9 +10,8 @@
 // their cells of a lattice, are snapped to it, so that what rounding brought too near becomes one
 // (Valque & Lazard 2025). The lattice is coarser with each such round, up to a bound: what is
 // coarser would be another model, not the same rounded. Then all are tried again from other
-// origins. A
-// round is undone, too, after which the mesh differs from the solid by more than all moves of its
-// vertices explain (fidelity.h).
+// origins. A round is undone, too, after which the mesh differs from the solid by more than all
+// moves of its vertices explain (fidelity.h).
 #pragma once
 
 #include <csgrun/engine/error.h>

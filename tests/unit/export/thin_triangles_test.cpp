@@ -104,7 +104,7 @@ TEST(ThinTriangles, FansOfCapsAreTurnedFromTheirLastOn) {
       ASSERT_TRUE(thinned);
       EXPECT_EQ(thinned->turned, count);
       EXPECT_EQ(thinned->merged, 0u);
-      EXPECT_LE(thinned->farthest, 4 * kOff);
+      EXPECT_LE(thinned->farthest, 2 * kOff * count);
       EXPECT_GT(thinned->farthest, 0);
       EXPECT_EQ(made.mesh.triangles.size(), triangles);
       expect_manifold(made.mesh);
