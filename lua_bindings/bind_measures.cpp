@@ -134,7 +134,7 @@ int solid_volume(lua_State* L) {
 }
 
 int solid_area(lua_State* L) {
-  lua_pushnumber(L, measures_of(L, kArea, Measuring::kButTheCentre).area);
+  lua_pushnumber(L, session_of(L).area(bare_solid(L, kArea)));
   return 1;
 }
 
@@ -144,9 +144,9 @@ int shape_area(lua_State* L) {
 }
 
 int solid_centroid(lua_State* L) {
-  const Solid& solid = session_of(L).evaluated(bare_solid(L, kCentroid), Measuring::kAll);
-  fail_if_empty(solid.empty(), kCentroid);
-  push_point(L, solid.measures.centroid);
+  const auto centroid = session_of(L).centroid(bare_solid(L, kCentroid));
+  fail_if_empty(!centroid, kCentroid);
+  push_point(L, *centroid);
   return 1;
 }
 

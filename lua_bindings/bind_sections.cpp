@@ -53,10 +53,9 @@ constexpr FunctionSpec kProject{"project",
                                 "solid",
                                 kSolidDoc};
 
-/// The solid with a plane laid onto z = 0: its normal onto Z, the point of it that is nearest to
-/// the origin onto the origin, and upwards (of a plane that lies flat: Y) onto Y.
-NodePtr laid_flat(const NodePtr& solid, const CutPlane& plane, const SourceRef& where) {
-  const glm::dvec3 z = plane.normal;
+/// The solid turned about the origin: a normal z onto Z, and upwards (of a plane that lies flat: Y)
+/// onto Y.
+NodePtr laid_flat(const NodePtr& solid, const glm::dvec3& z, const SourceRef& where) {
   const bool is_flat = z.x == 0 && z.y == 0;
   const glm::dvec3 up = is_flat ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
   const glm::dvec3 across = up - z * glm::dot(up, z);
@@ -68,7 +67,6 @@ NodePtr laid_flat(const NodePtr& solid, const CutPlane& plane, const SourceRef& 
     map.m[1][i] = y[i];
     map.m[2][i] = z[i];
   }
-  map.m[2][3] = -plane.offset;
   return Node::transformed(map, solid, where);
 }
 
@@ -79,13 +77,11 @@ void push_shadow(lua_State* L, const FunctionSpec& spec, SolidValue& solid) {
 
 void push_section(lua_State* L, const NodePtr& solid, const CutPlane& plane) {
   Session& session = session_of(L);
-  const SourceRef where = session.source_ref(L);
   const EvaluationScope scope(session.budget());
+  // The same tree for all planes along one another.
   const bool is_level = plane.normal == glm::dvec3(0, 0, 1);
-  push_shape(L,
-             made_or_fail(session, slice_solid(session.evaluator(),
-                                               is_level ? solid : laid_flat(solid, plane, where),
-                                               is_level ? plane.offset : 0, where)),
+  const NodePtr laid = is_level ? solid : laid_flat(solid, plane.normal, session.source_ref(L));
+  push_shape(L, made_or_fail(session, slice_solid(session.evaluator(), laid, plane.offset)),
              one_appearance_of(solid));
 }
 
@@ -114,7 +110,7 @@ int project(lua_State* L) {
     return 1;
   }
   Session& session = session_of(L);
-  const NodePtr laid = laid_flat(solid.node, plane, session.source_ref(L));
+  const NodePtr laid = laid_flat(solid.node, plane.normal, session.source_ref(L));
   push_shape(L, value_or_fail(kProject, project_solid(*session.evaluate(laid))),
              one_appearance_of(solid.node));
   return 1;

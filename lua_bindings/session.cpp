@@ -92,6 +92,23 @@ Extent Session::extent(const SolidValue& value) {
   return *extent;
 }
 
+double Session::area(const SolidValue& value) {
+  if (value.is_evaluated_with(settings_) && value.measuring >= Measuring::kButTheCentre) {
+    return value.evaluated->measures.area;
+  }
+  const EvaluationScope scope(budget_);
+  auto area = evaluator().area(value.node);
+  if (!area) fail_evaluation(area.error());
+  return *area;
+}
+
+std::optional<glm::dvec3> Session::centroid(const SolidValue& value) {
+  const EvaluationScope scope(budget_);
+  auto centroid = evaluator().centroid(value.node);
+  if (!centroid) fail_evaluation(centroid.error());
+  return *centroid;
+}
+
 void Session::fail_evaluation(const Error& error) {
   if (error.code == ErrorCode::kCancelled && budget_.out_of_time())
     throw ScriptError(budget_.time_message() + " in evaluation");

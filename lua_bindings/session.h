@@ -80,6 +80,9 @@ class Session {
   /// Volume and box of a solid, without its triangles if these were not made yet. Fails as
   /// evaluated does.
   Extent extent(const SolidValue& value);
+  /// The same of the area, and the centroid; nothing of what is empty.
+  double area(const SolidValue& value);
+  std::optional<glm::dvec3> centroid(const SolidValue& value);
   /// Whether the message is that of an evaluation that failed in a script: exit 3 rather than 1.
   [[nodiscard]] bool is_geometry_failure(const std::string& message) const;
   /// Throws ScriptError for an engine error.

@@ -15,6 +15,7 @@
 
 #include <csgrun/engine/evaluate.h>
 
+#include "engine/base/double_double.h"
 #include "engine/exact/fixed_int.h"
 
 namespace csgrun {
@@ -55,6 +56,13 @@ struct PieceSums {
   uint64_t triangles = 0;  ///< their number
 };
 
+/// What adds up to an area (mesh/pieces_area).
+struct PieceArea {
+  DoubleDouble twice_area;  ///< steps^2
+  uint64_t corners = 0;
+  bool is_cut = false;  ///< some corner's coordinates were cut
+};
+
 class PieceTree {
  public:
   struct Node {
@@ -65,7 +73,8 @@ class PieceTree {
     std::array<PieceBox, 2> child_box;  ///< here, too: most children are looked at no closer
     std::vector<uint32_t> pieces;       ///< of a leaf
     mutable bool has_sums = false;
-    mutable PieceSums sums;  ///< of the pieces below, when somebody asked
+    mutable PieceSums sums;                         ///< of the pieces below, when somebody asked
+    mutable std::unique_ptr<const PieceArea> area;  ///< the same, else null
     /// A point of the store for each end and axis that reaches as far as any below, when somebody
     /// asked; else ~0.
     mutable std::array<std::array<uint32_t, 3>, 2> ends{{{~0u, ~0u, ~0u}, {~0u, ~0u, ~0u}}};

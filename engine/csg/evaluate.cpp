@@ -11,6 +11,7 @@
 
 #include <csgrun/engine/evaluate.h>
 
+#include "engine/base/function_ref.h"
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
 #include "engine/bsp/untouched.h"
@@ -24,6 +25,9 @@
 #include "engine/csg/scene.h"
 #include "engine/csg/scene_jobs.h"
 #include "engine/csg/scene_start.h"
+#include "engine/mesh/boundary_volume.h"
+#include "engine/mesh/level_section.h"
+#include "engine/mesh/pieces_area.h"
 #include "engine/mesh/pieces_measures.h"
 #include "engine/mesh/present.h"
 
@@ -108,6 +112,7 @@ struct Evaluator::Impl {
   Result<std::vector<SolidPtr>> evaluate(const Scene& scene, Measuring measuring);
   Result<std::vector<SolidPtr>> evaluate(const std::vector<NodePtr>& parts, Measuring measuring);
   const SolidPtr* find_solid(const Scene& scene, const Subtree& subtree, Measuring measuring);
+  Result<std::vector<SectionSegment>> section(const NodePtr& root, double z);
   Result<int> contains(const NodePtr& root, const glm::dvec3& point);
   [[nodiscard]] Key solid_key(const Scene& scene, const Subtree& subtree,
                               Measuring measuring) const;
@@ -115,8 +120,19 @@ struct Evaluator::Impl {
                                 Measuring measuring);
   Result<SolidPtr> solid_of(const Scene& scene, SceneJobs& jobs, uint32_t root,
                             Measuring measuring);
+  template <class T>
+  using OfPieces =
+      FunctionRef<Result<std::optional<T>>(const ResultPieces&, const GridStep&, const IVec3&)>;
+  template <class T>
+  using OfSolid = FunctionRef<T(const Solid&)>;
+  template <class T>
+  Result<T> look(const NodePtr& part, const OfPieces<T>& of_pieces, const OfSolid<T>& of_solid);
+  template <class T>
+  Result<std::optional<T>> find_measure(const NodePtr& part, bool may_be_partial,
+                                        const OfPieces<T>& of_pieces, const OfSolid<T>& of_solid);
   Result<Extent> extent(const NodePtr& root);
-  Result<std::optional<Extent>> find_extent(const NodePtr& part, bool may_be_partial);
+  Result<double> area(const NodePtr& root);
+  Result<std::optional<glm::dvec3>> centroid(const NodePtr& root);
 
   EvaluateOptions options;
   unsigned threads;
@@ -348,45 +364,105 @@ Result<SolidPtr> Evaluator::Impl::solid_of(const Scene& scene, SceneJobs& jobs, 
   return solid;
 }
 
-Result<Extent> Evaluator::Impl::extent(const NodePtr& part) {
-  auto extent = find_extent(part, true);
-  if (extent && !*extent) extent = find_extent(part, false);
-  if (!extent) return extent.error();
-  return **extent;
+/// A measure of one tree's solid, from the pieces of a result that goes on from one that was asked
+/// for before, else from the solid. `of_pieces` may give nothing: then the solid is asked, too.
+template <class T>
+Result<T> Evaluator::Impl::look(const NodePtr& part, const OfPieces<T>& of_pieces,
+                                const OfSolid<T>& of_solid) {
+  auto found = find_measure(part, true, of_pieces, of_solid);
+  if (found && !*found) found = find_measure(part, false, of_pieces, of_solid);
+  if (!found) return found.error();
+  return **found;
 }
 
 /// Nothing if the scene was partial, and something wants its leaves.
-Result<std::optional<Extent>> Evaluator::Impl::find_extent(const NodePtr& part,
-                                                           bool may_be_partial) {
+template <class T>
+Result<std::optional<T>> Evaluator::Impl::find_measure(const NodePtr& part, bool may_be_partial,
+                                                       const OfPieces<T>& of_pieces,
+                                                       const OfSolid<T>& of_solid) {
   auto scene = scene_of({part}, may_be_partial);
   if (!scene) return scene.error();
   stats.grid_mm = scene->step.millimetres();
   const Stopwatch watch(stats.boolean_seconds);
   const uint32_t root = scene->roots[0];
   const SceneNode& node = scene->nodes[root];
-  if (node.kind == SceneNode::Kind::kEmpty) return std::optional(Extent{});
-  SolidPtr solid;
+  if (node.kind == SceneNode::Kind::kEmpty) return std::optional(T{});
   if (const SolidPtr* known = find_solid(*scene, node.subtree, Measuring::kButTheCentre)) {
-    solid = *known;
     ++stats.nodes_from_memory;
-  } else {
-    SceneJobs jobs(*scene, boundaries, tails, options, threads, stats);
-    if (Status status = jobs.run({root}); !status) return status.error();
-    if (!scene->is_partial) tails.note(*scene, root);
-    if (const auto [pieces, moved] = jobs.pieces(root); pieces) {
-      const auto box = pieces_box(*pieces, scene->step, moved);
-      if (!box) return std::optional(Extent{});
-      auto volume = pieces_volume(*pieces, scene->step);
-      if (!volume) return volume.error();
-      return std::optional(Extent{false, *volume, *box});
-    }
-    if (scene->is_partial) return std::optional<Extent>();
-    auto made = solid_of(*scene, jobs, root, Measuring::kButTheCentre);
-    if (!made) return made.error();
-    solid = *made;
+    return std::optional(of_solid(**known));
   }
-  if (solid->empty()) return std::optional(Extent{});
-  return std::optional(Extent{false, solid->measures.volume, solid->measures.bbox});
+  SceneJobs jobs(*scene, boundaries, tails, options, threads, stats);
+  if (Status status = jobs.run({root}); !status) return status.error();
+  if (!scene->is_partial) tails.note(*scene, root);
+  if (const auto [pieces, moved] = jobs.pieces(root); pieces) {
+    auto measure = of_pieces(*pieces, scene->step, moved);
+    if (!measure || *measure) return measure;
+  }
+  if (scene->is_partial) return std::optional<T>();
+  auto made = solid_of(*scene, jobs, root, Measuring::kButTheCentre);
+  if (!made) return made.error();
+  return std::optional(of_solid(**made));
+}
+
+Result<Extent> Evaluator::Impl::extent(const NodePtr& part) {
+  const auto of_pieces = [](const ResultPieces& pieces, const GridStep& step,
+                            const IVec3& moved) -> Result<std::optional<Extent>> {
+    const auto box = pieces_box(pieces, step, moved);
+    if (!box) return std::optional(Extent{});
+    auto volume = pieces_volume(pieces, step);
+    if (!volume) return volume.error();
+    return std::optional(Extent{false, *volume, *box});
+  };
+  const auto of_solid = [](const Solid& solid) {
+    if (solid.empty()) return Extent{};
+    return Extent{false, solid.measures.volume, solid.measures.bbox};
+  };
+  return look<Extent>(part, of_pieces, of_solid);
+}
+
+Result<double> Evaluator::Impl::area(const NodePtr& part) {
+  const auto of_pieces = [](const ResultPieces& pieces, const GridStep& step,
+                            const IVec3&) -> Result<std::optional<double>> {
+    return pieces_area(pieces, step);
+  };
+  return look<double>(part, of_pieces, [](const Solid& solid) { return solid.measures.area; });
+}
+
+Result<std::optional<glm::dvec3>> Evaluator::Impl::centroid(const NodePtr& part) {
+  auto scene = scene_of({part});
+  if (!scene) return scene.error();
+  stats.grid_mm = scene->step.millimetres();
+  const Stopwatch watch(stats.boolean_seconds);
+  const uint32_t root = scene->roots[0];
+  const SceneNode& node = scene->nodes[root];
+  std::optional<glm::dvec3> none;
+  if (node.kind == SceneNode::Kind::kEmpty) return none;
+  if (const SolidPtr* known = find_solid(*scene, node.subtree, Measuring::kAll)) {
+    ++stats.nodes_from_memory;
+    return (*known)->empty() ? none : (*known)->measures.centroid;
+  }
+  SceneJobs jobs(*scene, boundaries, tails, options, threads, stats);
+  if (Status status = jobs.run({root}); !status) return status.error();
+  auto boundary = jobs.world_boundary(root);
+  if (!boundary) return boundary.error();
+  if (is_empty(**boundary)) return none;
+  auto centroid = boundary_centroid(**boundary, scene->step);
+  if (!centroid) return centroid.error();
+  return std::optional(*centroid);
+}
+
+Result<std::vector<SectionSegment>> Evaluator::Impl::section(const NodePtr& root, double z) {
+  if (!std::isfinite(z)) return Error{ErrorCode::kInvalidArgument, "the height is not finite", {}};
+  auto scene = scene_of({root});
+  if (!scene) return scene.error();
+  std::vector<SectionSegment> none;
+  if (scene->nodes[scene->roots[0]].kind == SceneNode::Kind::kEmpty) return none;
+  const auto level = Quantiser(scene->step)(z);
+  if (!level) return none;  // far beyond anything on the grid
+  const Stopwatch watch(stats.boolean_seconds);
+  auto world = world_of(*scene, scene->roots[0]);
+  if (!world) return world.error();
+  return level_section(**world, *level, scene->step);
 }
 
 Result<int> Evaluator::Impl::contains(const NodePtr& root, const glm::dvec3& point) {
@@ -440,6 +516,18 @@ Result<SolidPtr> Evaluator::evaluate(const NodePtr& root, Measuring measuring) {
   auto solids = evaluate(std::vector<NodePtr>{root}, measuring);
   if (!solids) return solids.error();
   return solids->front();
+}
+
+Result<double> Evaluator::area(const NodePtr& root) {
+  return evaluate_with(impl_->threads, [&] { return impl_->area(root); });
+}
+
+Result<std::optional<glm::dvec3>> Evaluator::centroid(const NodePtr& root) {
+  return evaluate_with(impl_->threads, [&] { return impl_->centroid(root); });
+}
+
+Result<std::vector<SectionSegment>> Evaluator::section(const NodePtr& root, double z) {
+  return evaluate_with(impl_->threads, [&] { return impl_->section(root, z); });
 }
 
 Result<int> Evaluator::contains(const NodePtr& root, const glm::dvec3& point) {

@@ -7,8 +7,10 @@
 #include "engine/mesh/measure.h"
 
 namespace csgrun {
+namespace {
 
-Result<double> boundary_volume(const BoundaryMesh& b, const GridStep& step) {
+/// The area is that of the signed triangles, and no measure.
+Result<MassProperties> measure(const BoundaryMesh& b, const GridStep& step, Wanted wanted) {
   std::vector<std::array<uint32_t, 3>> fans;
   fans.reserve(b.corners.size());
   for (size_t l = 0; l + 1 < b.loop_starts.size(); ++l) {
@@ -43,9 +45,21 @@ Result<double> boundary_volume(const BoundaryMesh& b, const GridStep& step) {
     const Vertex& v = more[p - explicit_points];
     return v.part->point(v.number);
   };
-  auto mass = measure_mesh(explicit_points + more.size(), point, fans, step, Wanted::kVolume);
+  return measure_mesh(explicit_points + more.size(), point, fans, step, wanted);
+}
+
+}  // namespace
+
+Result<double> boundary_volume(const BoundaryMesh& boundary, const GridStep& step) {
+  auto mass = measure(boundary, step, Wanted::kVolume);
   if (!mass) return mass.error();
   return mass->volume;
+}
+
+Result<glm::dvec3> boundary_centroid(const BoundaryMesh& boundary, const GridStep& step) {
+  auto mass = measure(boundary, step, Wanted::kAll);
+  if (!mass) return mass.error();
+  return mass->centroid;
 }
 
 }  // namespace csgrun

@@ -176,9 +176,7 @@ class Rounder {
 
   void take_area(const Sums& sums) {
     if (area_ || sums.twice_area_error > 0x1p-60 * sums.twice_area.hi) return;
-    const DoubleDouble step =
-        double_double(Int<1>(step_.numerator)) / double_double(Int<1>(step_.denominator));
-    area_ = (sums.twice_area * step * step).scaled(2 * step_.exponent - 1).hi;
+    area_ = round_area(sums.twice_area, step_);
   }
 
   /// The rounded value when both bounds round to one double, or when the exact value is found to be
@@ -267,6 +265,12 @@ std::optional<double> round_volume(const Sum& six_volumes, int fraction_bits,
   const auto [low, high] = volume_bounds(six_volumes, fraction_bits, step);
   if (low != high) return std::nullopt;
   return low;
+}
+
+double round_area(const DoubleDouble& twice_area, const GridStep& step) {
+  const DoubleDouble mm =
+      double_double(Int<1>(step.numerator)) / double_double(Int<1>(step.denominator));
+  return (twice_area * mm * mm).scaled(2 * step.exponent - 1).hi;
 }
 
 }  // namespace csgrun

@@ -12,6 +12,7 @@
 #include <csgrun/engine/error.h>
 #include <csgrun/engine/evaluate.h>
 
+#include "engine/base/double_double.h"
 #include "engine/exact/point.h"
 #include "engine/mesh/natural.h"
 
@@ -49,5 +50,8 @@ Result<MassProperties> measure_mesh(size_t point_count, const std::function<Poin
 /// The volume in mm^3, rounded once, from the sum of all triangles' determinants * 2^-3F, F being
 /// `fraction_bits`. Nothing when the sum's error leaves more than one double.
 std::optional<double> round_volume(const Sum& six_volumes, int fraction_bits, const GridStep& step);
+
+/// The area in mm^2 from twice the area in steps^2.
+double round_area(const DoubleDouble& twice_area, const GridStep& step);
 
 }  // namespace csgrun

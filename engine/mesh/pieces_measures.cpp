@@ -12,6 +12,7 @@
 #include <span>
 
 #include "engine/mesh/boundary_volume.h"
+#include "engine/mesh/cut_points.h"
 #include "engine/mesh/fixed_sums.h"
 #include "engine/mesh/framed_volume.h"
 #include "engine/mesh/measure.h"
@@ -182,10 +183,14 @@ class Summer {
     store_.each_face(piece, [&](std::span<const uint32_t> corners) {
       bool cut = false;
       fixed_.resize(corners.size());
-      for (size_t i = 0; i < corners.size() && is_in_range; ++i) {
-        is_in_range = take(corners[i], fixed_[i], cut);
+      for (size_t i = 0; i < corners.size(); ++i) {
+        const PieceStore::CutPoint* known =
+            is_in_range ? find_cut_point(store_, corners[i]) : nullptr;
+        is_in_range = known != nullptr;
+        if (!known) return;
+        fixed_[i] = known->at;
+        cut = cut || known->is_cut;
       }
-      if (!is_in_range) return;
       if (store_.is_group(piece)) {
         add_fan(fixed_, out);
       } else {
@@ -229,28 +234,6 @@ class Summer {
     for (size_t k = 0; k < 3; ++k) out.six_volumes += full_product(normal[k], a[k]);
     out.edges += edges;
     out.twice_area += area;
-  }
-
-  /// Where a point is, cut to the fraction; the store keeps it.
-  bool take(uint32_t point, Fixed& fixed, bool& cut) {
-    PieceStore::CutPoint& known = store_.cut_point(point);
-    if (!known.is_known) {
-      if (!find(point, known)) return false;
-      known.is_known = true;
-    }
-    fixed = known.at;
-    cut = cut || known.is_cut;
-    return true;
-  }
-
-  bool find(uint32_t point, PieceStore::CutPoint& found) const {
-    const Point p = store_.exact(point);
-    for (int k = 0; k < 3; ++k) {
-      const auto axis = static_cast<size_t>(k);
-      if (!fixed_point<1>(coordinate(p, k), p.w, found.at[axis], found.is_cut)) return false;
-      found.at[axis] -= Int<2>(store_.origin()[axis]).shifted_left(kFraction);
-    }
-    return true;
   }
 
   PieceStore& store_;

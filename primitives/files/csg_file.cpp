@@ -396,8 +396,7 @@ class CsgBuilder {
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child) return child;
     if (child->is_empty()) return Item();
-    const SourceRef place = where(frame);
-    Result<Shape2D> shape = cut ? slice_solid(evaluator(), child->solid, 0, place) : shadow(*child);
+    Result<Shape2D> shape = cut ? slice_solid(evaluator(), child->solid, 0) : shadow(*child);
     if (!shape) return failed(shape.error());
     if (shape->empty()) return Item();
     const bool is_sheet_only = child->solid->kind() == NodeKind::kEmpty;

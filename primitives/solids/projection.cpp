@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 #include <vector>
@@ -6,7 +7,6 @@
 #include <csgrun/primitives/projection.h>
 
 #include "primitives/shape2d/shape_factory.h"
-#include "primitives/solids/box_leaf.h"
 
 namespace csgrun {
 namespace {
@@ -48,35 +48,22 @@ Result<Shape2D> project_solid(const Solid& solid) {
                                   [](int32_t, int32_t rest) { return rest > 0; });
 }
 
-Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z,
-                            const SourceRef& where) {
-  Affine down;
-  down.m[2][3] = -z;
-  const NodePtr moved = Node::transformed(down, solid, where);
-  const auto extent = evaluator.extent(moved);
-  if (!extent) return extent.error();
-  if (extent->empty || extent->bbox[0].z > 0 || extent->bbox[1].z <= 0) return Shape2D();
-  const glm::dvec3 size = extent->bbox[1] - extent->bbox[0];
-  const double margin = std::max({size.x, size.y, size.z});
-  glm::dvec3 low = extent->bbox[0] - glm::dvec3(margin),
-             high = extent->bbox[1] + glm::dvec3(margin);
-  low.z = 0;
-  const auto above = evaluator.evaluate(
-      Node::boolean(BooleanOp::kIntersection, {moved, box_leaf(low, high, where)}, where),
-      Measuring::kNothing);
-  if (!above) return above.error();
-  std::vector<Shape2D::Loop> outlines;
-  const Solid& part = **above;
-  for (size_t f = 0; f < part.faces.size(); ++f) {
-    const glm::dvec3& normal = part.face_normals[f];
-    if (!(normal.z < 0) || normal.x != 0 || normal.y != 0) continue;
-    const Solid::Face& face = part.faces[f];
-    if (part.positions[part.loop_vertices[part.loop_starts[face.first_loop]]].z != 0) continue;
-    for (uint32_t l = 0; l < face.loop_count; ++l) {
-      outlines.push_back(outline(part, face.first_loop + l));
-    }
+Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z) {
+  const auto section = evaluator.section(solid, z);
+  if (!section) return section.error();
+  if (section->empty()) return Shape2D();
+  double extent = 0;
+  for (const SectionSegment& s : *section) {
+    for (const glm::dvec2& p : s) extent = std::max({extent, std::fabs(p.x), std::fabs(p.y)});
   }
-  return Shape2D::from_outlines(outlines);
+  const Result<Grid2D> grid = grid_for(extent);
+  if (!grid) return grid.error();
+  std::vector<Segment2D> segments;
+  for (const SectionSegment& s : *section) {
+    add_segment(grid->snap(s[0]), grid->snap(s[1]), kRestOfOperands, segments);
+  }
+  return Shape2DFactory::arranged(*grid, std::move(segments),
+                                  [](int32_t, int32_t rest) { return rest > 0; });
 }
 
 std::optional<Appearance> one_appearance_of(const NodePtr& root) {

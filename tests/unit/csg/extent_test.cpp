@@ -1,4 +1,5 @@
-// Volume and box of results that go on from one another, against evaluations that start anew.
+// Volume, box, area and centroid of results that go on from one another, against evaluations that
+// start anew.
 #include <numeric>
 #include <random>
 
@@ -29,6 +30,15 @@ void expect_fresh_extent(Evaluator& evaluator, const NodePtr& part) {
   const auto extent = evaluator.extent(part);
   ASSERT_TRUE(extent) << extent.error().message;
   expect_extent_of(*extent, part);
+  const auto area = evaluator.area(part);
+  const auto centroid = evaluator.centroid(part);
+  ASSERT_TRUE(area && centroid);
+  const SolidPtr solid = solid_of(part);
+  EXPECT_EQ(*area, solid->measures.area);
+  EXPECT_EQ(centroid->has_value(), !solid->empty());
+  if (!solid->empty()) {
+    EXPECT_EQ(**centroid, solid->measures.centroid);
+  }
 }
 
 void expect_fresh_solid(Evaluator& evaluator, const NodePtr& part) {
@@ -294,6 +304,8 @@ TEST(Extent, OfNothing) {
   Evaluator evaluator{EvaluateOptions()};
   const NodePtr a = cube(2);
   EXPECT_TRUE(evaluator.extent(subtract({a, a}))->empty);
+  EXPECT_EQ(*evaluator.area(subtract({a, a})), 0);
+  EXPECT_FALSE(evaluator.centroid(subtract({a, a}))->has_value());
   const NodePtr first = subtract({cube(4), moved(0, 0, 2, cube(4))});
   EXPECT_EQ(evaluator.extent(first)->volume, 32);
   const NodePtr second = subtract({first, moved(0, 0, -1, cube(4))});

@@ -1,12 +1,16 @@
 // Evaluation of CSG trees: bottom-up over the normal form, exact, cached, deterministic.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <glm/vec2.hpp>
 
 #include <csgrun/engine/csg_tree.h>
 #include <csgrun/engine/error.h>
@@ -76,6 +80,10 @@ struct Extent {
   std::array<glm::dvec3, 2> bbox{};  ///< mm; of an empty solid all zero
 };
 
+/// A piece of an outline in mm, from one point to another; seen from above the solid is on its
+/// left.
+using SectionSegment = std::array<glm::dvec2, 2>;
+
 /// Evaluates trees. One object serves one run: its cache spans all calls. Not thread-safe.
 class Evaluator {
  public:
@@ -91,6 +99,16 @@ class Evaluator {
   /// Volume and bounding box of one tree's solid. A result that goes on from one that was asked for
   /// before is not presented: the time then depends on what the difference touches.
   [[nodiscard]] Result<Extent> extent(const NodePtr& root);
+  /// Measures::area of one tree's solid, to the last bit, as extent() gives the volume.
+  [[nodiscard]] Result<double> area(const NodePtr& root);
+  /// Measures::centroid of one tree's solid, from its faces: nothing is triangulated. Nothing of an
+  /// empty one.
+  [[nodiscard]] Result<std::optional<glm::dvec3>> centroid(const NodePtr& root);
+  /// What the plane at height `z` (mm) cuts of one tree's solid, just above it: faces in the plane
+  /// count that have the solid above them. The plane is rounded to the grid as the vertices of
+  /// leaves are. Segments in no certain order, of which closed outlines are made; one at most of
+  /// each plane of the solid and each connected piece. Of further heights O(n), no evaluation.
+  [[nodiscard]] Result<std::vector<SectionSegment>> section(const NodePtr& root, double z);
   /// Whether `point` (mm) is inside (1), on the boundary (0) or outside (-1), exactly; the point is
   /// rounded to the grid as the vertices of leaves are, so that equal decimals meet.
   [[nodiscard]] Result<int> contains(const NodePtr& root, const glm::dvec3& point);

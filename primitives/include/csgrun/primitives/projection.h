@@ -16,9 +16,8 @@ Result<Shape2D> project_solid(const Solid& solid);
 
 /// The section of a solid just above height z: what the plane cuts, with faces in the plane that
 /// have the solid above them. Cut exactly; corners are then rounded to the 2D grid. `z` must be
-/// finite. Errors: those of the evaluation, of what is made for it at `where`.
-Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z,
-                            const SourceRef& where);
+/// finite. Errors: those of Evaluator::section.
+Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z);
 
 /// The appearance that all of a tree has, as far as it tells without being evaluated: what its
 /// shadows and sections are painted with. Nothing where it is that of no colour, or where there are
