@@ -21,7 +21,7 @@ struct Crossing {
 class Section {
  public:
   Section(const BoundaryMesh& boundary, int64_t level, const GridStep& step)
-      : boundary_(boundary), level_(level), to_mm_(step) {
+      : boundary_(boundary), level_(level), to_mm_(step), step_mm_(step.millimetres()) {
     level_plane_.c = 1;
     level_plane_.d = -static_cast<Int128>(level);
   }
@@ -96,6 +96,9 @@ class Section {
       const int o = order(p, q);
       return is_forward ? o < 0 : o > 0;
     });
+    // A plane through three vertices is off by less than a step where they are.
+    const double noise = step_mm_ * (1 + std::fabs(to_double(plane.c)) /
+                                             std::hypot(to_double(plane.a), to_double(plane.b)));
     int faces = 0;
     glm::dvec2 from(0);
     for (size_t i = 0; i < all.size();) {
@@ -103,7 +106,7 @@ class Section {
       size_t same = i;
       while (same < all.size() && order(all[i], all[same]) == 0) faces += all[same++].turn;
       if (before == 0 && faces != 0) from = all[i].at;
-      if (before != 0 && faces == 0) segments_.push_back({from, all[i].at});
+      if (before != 0 && faces == 0) segments_.push_back({from, all[i].at, noise});
       i = same;
     }
   }
@@ -111,6 +114,7 @@ class Section {
   const BoundaryMesh& boundary_;
   const int64_t level_;
   const ToMillimetres to_mm_;
+  const double step_mm_;
   Plane level_plane_;
   std::vector<uint8_t> is_above_;  ///< per point
   std::vector<Crossing> crossings_;

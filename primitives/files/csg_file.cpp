@@ -502,7 +502,9 @@ class CsgBuilder {
     Result<Item> profile = combine_flat(frame);
     if (!profile || profile->kind == Item::Kind::kNothing) return profile;
     if (profile->is_empty()) return Item::empty(Item::Kind::kSolid);
-    Result<Item> solid = leaf(frame, extrude_csg(frame.call, profile->shape), {});
+    const Result<NodePtr> node = extrude_csg(frame.call, profile->shape, where(frame));
+    Result<Item> solid = node ? Result<Item>(Item::of(*node))
+                              : empty_if_impossible(frame, node.error(), Item::Kind::kSolid);
     // One that cannot be turned has no dimension in OpenSCAD, one of no height has.
     if (solid && solid->is_empty() && frame.call.name == "rotate_extrude") return Item();
     return painted(frame, std::move(solid), *profile);

@@ -381,18 +381,9 @@ Result<RoofOptions> csg_roof(const CsgCall& call, std::vector<std::string>& warn
   return options;
 }
 
-MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape) {
-  CsgArguments arguments(call);
-  if (call.name == "rotate_extrude") {
-    RotateExtrudeOptions options;
-    options.angle = arguments.number("angle", 360);
-    const bool full = options.angle <= -360 || options.angle >= 360;
-    // Files of OpenSCAD 2021 have no start: a full turn begins on the negative side.
-    options.start = arguments.number("start", full ? 180 : 0);
-    options.facets = arguments.facets();
-    if (arguments.error()) return *arguments.error();
-    return rotate_extrude(shape, options);
-  }
+namespace {
+
+MeshResult linear_extrude_csg(CsgArguments& arguments, const CsgCall& call, const Shape2D& shape) {
   LinearExtrudeOptions options;
   options.height = arguments.number("height", 100);
   options.height_given = arguments.has("height") || !arguments.has("v");
@@ -425,6 +416,25 @@ MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape) {
   options.facets = arguments.facets();
   if (arguments.error()) return *arguments.error();
   return linear_extrude(shape, options);
+}
+
+}  // namespace
+
+Result<NodePtr> extrude_csg(const CsgCall& call, const Shape2D& shape, const SourceRef& where) {
+  CsgArguments arguments(call);
+  if (call.name == "rotate_extrude") {
+    RotateExtrudeOptions options;
+    options.angle = arguments.number("angle", 360);
+    const bool full = options.angle <= -360 || options.angle >= 360;
+    // Files of OpenSCAD 2021 have no start: a full turn begins on the negative side.
+    options.start = arguments.number("start", full ? 180 : 0);
+    options.facets = arguments.facets();
+    if (arguments.error()) return *arguments.error();
+    return rotate_extrude_solid(shape, options, where);
+  }
+  auto mesh = linear_extrude_csg(arguments, call, shape);
+  if (!mesh) return mesh.error();
+  return Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where);
 }
 
 Result<std::optional<Appearance>> csg_color(const CsgCall& call) {

@@ -103,7 +103,7 @@ Result<std::optional<Appearance>> csg_color(const CsgCall& call);
 /// says so.
 Result<RoofOptions> csg_roof(const CsgCall& call, std::vector<std::string>& warnings);
 
-/// linear_extrude and rotate_extrude.
-MeshResult extrude_csg(const CsgCall& call, const Shape2D& shape);
+/// linear_extrude and rotate_extrude, made at `where`.
+Result<NodePtr> extrude_csg(const CsgCall& call, const Shape2D& shape, const SourceRef& where);
 
 }  // namespace csgrun

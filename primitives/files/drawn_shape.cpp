@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "primitives/shape2d/shape_factory.h"
+#include "primitives/shape2d/straight_corners.h"
 
 namespace csgrun {
 namespace {
@@ -21,27 +22,6 @@ bool is_narrow(const Shape2D::Loop& loop, double width) {
   return std::fabs(twice_area) <= width * length;
 }
 
-/// Whether b is on the way from a to c, nowhere off by more than `noise`.
-bool is_on_way(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, double noise) {
-  const glm::dvec2 way = c - a, to = b - a;
-  return glm::dot(to, c - b) > 0 &&
-         std::fabs(way.x * to.y - way.y * to.x) <= noise * glm::length(way);
-}
-
-/// Without points on straight ways. The grid would put each of them beside the line.
-Shape2D::Loop without_points_on_lines(const Shape2D::Loop& loop, double noise) {
-  constexpr int kMostInARow = 64;  // or a curve of very many points would be cut short
-  Shape2D::Loop kept;
-  int dropped = 0;
-  for (size_t i = 0; i < loop.size(); ++i) {
-    const bool drop = !kept.empty() && dropped < kMostInARow &&
-                      is_on_way(kept.back(), loop[i], loop[(i + 1) % loop.size()], noise);
-    dropped = drop ? dropped + 1 : 0;
-    if (!drop) kept.push_back(loop[i]);
-  }
-  return kept;
-}
-
 }  // namespace
 
 Result<Shape2D> drawn_shape(const std::vector<Shape2D::Loop>& outlines, FillRule fill) {
@@ -50,7 +30,10 @@ Result<Shape2D> drawn_shape(const std::vector<Shape2D::Loop>& outlines, FillRule
   if (!grid) return grid.error();
   const double step = grid->unsnap({1, 0}).x, width = 2 * step, noise = step / 16;
   std::vector<Shape2D::Loop> lean;
-  for (const Shape2D::Loop& loop : outlines) lean.push_back(without_points_on_lines(loop, noise));
+  // The grid would put each corner on a straight way beside it.
+  for (const Shape2D::Loop& loop : outlines) {
+    lean.push_back(without_straight_corners(loop, [&](const glm::dvec2&) { return noise; }));
+  }
   Result<Shape2D> shape = Shape2D::from_outlines(lean, fill);
   if (!shape || shape->empty()) return shape;
   std::vector<Shape2D::Loop> kept;

@@ -3,7 +3,10 @@
 // Points on the axis are one vertex each, so bands end there in triangles and a profile edge along
 // the axis makes no face: nothing degenerate is ever made.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include <csgrun/primitives/shape2d.h>
@@ -20,14 +23,18 @@ constexpr const char* kName = "rotate_extrude";
 
 class RotateExtruder {
  public:
-  RotateExtruder(const Shape2D& shape, double angle, double start, int steps, bool left_of_axis)
+  /// `beyond`: by how much of a step the first and the last facets go on, straight, beyond the
+  /// start and the end.
+  RotateExtruder(const Shape2D& shape, double angle, double start, int steps,
+                 const std::array<double, 2>& beyond)
       : loops_(shape.loops()),
         profile_(make_profile(shape, loops_)),
         angle_(angle),
         start_(start),
         steps_(steps),
         full_(angle == 360),
-        inverted_((angle < 0) != left_of_axis) {}
+        inverted_((angle < 0) != (shape.bounds()[0].x < 0)),
+        beyond_(beyond) {}
 
   PolygonMesh build() {
     mesh_.kind = kName;
@@ -44,9 +51,21 @@ class RotateExtruder {
   }
 
  private:
-  void add_ring(int j) {
+  [[nodiscard]] glm::dvec2 direction(int j) const {
     const double at = j == steps_ ? start_ + angle_ : start_ + angle_ * j / steps_;
-    const double c = cos_deg(at), s = sin_deg(at);
+    return {cos_deg(at), sin_deg(at)};
+  }
+
+  /// Where the ring is, for a radius of 1.
+  [[nodiscard]] glm::dvec2 place(int j) const {
+    const bool first = j == 0 && beyond_[0] > 0, last = j == steps_ && beyond_[1] > 0;
+    const glm::dvec2 there = direction(j);
+    if (!first && !last) return there;
+    return there + beyond_[last ? 1 : 0] * (there - direction(last ? j - 1 : 1));
+  }
+
+  void add_ring(int j) {
+    const glm::dvec2 at = place(j);
     std::vector<uint32_t>& ring = rings_.emplace_back();
     for (size_t i = 0; i < profile_.points.size(); ++i) {
       const glm::dvec2 p = profile_.points[i];
@@ -57,7 +76,7 @@ class RotateExtruder {
       }
       on_axis_[i] = static_cast<uint32_t>(mesh_.points.size());
       ring.push_back(on_axis_[i]);
-      mesh_.points.emplace_back(p.x * c + 0.0, p.x * s + 0.0, p.y);
+      mesh_.points.emplace_back(p.x * at.x + 0.0, p.x * at.y + 0.0, p.y);
     }
   }
 
@@ -110,14 +129,18 @@ class RotateExtruder {
   int steps_;
   bool full_;
   bool inverted_;  // faces run the other way: a negative angle, or a profile on the negative side
+  std::array<double, 2> beyond_;
   std::vector<uint32_t> on_axis_;
   std::vector<std::vector<uint32_t>> rings_;
   PolygonMesh mesh_;
 };
 
-}  // namespace
+struct Turn {
+  double angle;  ///< degrees; 360 is a full turn
+  int steps;
+};
 
-MeshResult rotate_extrude(const Shape2D& shape, const RotateExtrudeOptions& options) {
+Result<Turn> turn_of(const Shape2D& shape, const RotateExtrudeOptions& options) {
   if (shape.empty()) return invalid_argument("rotate_extrude: the shape is empty");
   if (!std::isfinite(options.angle)) return not_finite(kName, "angle", options.angle);
   if (!std::isfinite(options.start)) return not_finite(kName, "start", options.start);
@@ -138,7 +161,87 @@ MeshResult rotate_extrude(const Shape2D& shape, const RotateExtrudeOptions& opti
   const double points = static_cast<double>(steps) *
                         static_cast<double>(make_profile(shape, shape.loops()).points.size());
   if (points > kMostPoints) return too_many_points(kName, steps, points);
-  return RotateExtruder(shape, angle, options.start, steps, low.x < 0).build();
+  return Turn{angle, steps};
+}
+
+/// How far the ends of a turn go on, and which wedge about the axis holds what is beyond.
+struct Beyond {
+  double part;   ///< of a step
+  double reach;  ///< the farthest corner there, by that of the profile
+  double wedge;  ///< degrees
+};
+
+/// Nothing where the ends are too near to one another.
+std::optional<Beyond> beyond(const Turn& turn) {
+  constexpr double kLeastGap = 0.1, kMost = 10, kMostWedge = 30;  // degrees
+  const double gap = 360 - std::fabs(turn.angle), step = std::fabs(turn.angle) / turn.steps;
+  if (gap < kLeastGap) return std::nullopt;
+  for (double part = 1;; part /= 2) {
+    const double x = 1 + part * (1 - cos_deg(step)), y = part * sin_deg(step);
+    if (y > 0 && atan2_deg(y, x) <= std::min(gap / 8, kMost)) {
+      return Beyond{part, std::hypot(x, y), std::min(gap / 4, kMostWedge)};
+    }
+  }
+}
+
+/// From the axis on, between the angles 0 and `wedge`.
+PolygonMesh wedge_mesh(double radius, double low, double high, double wedge) {
+  PolygonMesh mesh;
+  mesh.kind = kName;
+  for (const double z : {low, high}) {
+    mesh.points.emplace_back(0, 0, z);
+    mesh.points.emplace_back(radius, 0, z);
+    mesh.points.emplace_back(radius * cos_deg(wedge), radius * sin_deg(wedge), z);
+  }
+  mesh.hull_of_points = true;
+  return mesh;
+}
+
+}  // namespace
+
+MeshResult rotate_extrude(const Shape2D& shape, const RotateExtrudeOptions& options) {
+  const Result<Turn> turn = turn_of(shape, options);
+  if (!turn) return turn.error();
+  return RotateExtruder(shape, turn->angle, options.start, turn->steps, {}).build();
+}
+
+// Corners of a cap that is not across an axis would be rounded one by one, and caps of different
+// profiles at one angle be apart by less than a step. So the last facets go on straight, and a
+// wedge about the axis takes off what is beyond: its side is turned by the angle as a plane.
+Result<NodePtr> rotate_extrude_solid(const Shape2D& shape, const RotateExtrudeOptions& options,
+                                     const SourceRef& where, const MakeLeaf& make_leaf) {
+  const auto leaf = [&](PolygonMesh mesh) {
+    return make_leaf ? make_leaf(std::move(mesh))
+                     : Node::leaf(std::make_shared<const PolygonMesh>(std::move(mesh)), where);
+  };
+  const Result<Turn> turn = turn_of(shape, options);
+  if (!turn) return turn.error();
+  const auto is_upright = [](double angle) { return std::fmod(angle, 90) == 0; };
+  const double end = options.start + turn->angle;
+  const std::optional<Beyond> room = beyond(*turn);
+  std::array<double, 2> parts{};  // of a step
+  if (room && turn->angle != 360) {
+    parts = {is_upright(options.start) ? 0 : room->part, is_upright(end) ? 0 : room->part};
+  }
+  RotateExtruder extruder(shape, turn->angle, options.start, turn->steps, parts);
+  std::vector<NodePtr> operands{leaf(extruder.build())};
+  const auto [low, high] = shape.bounds();
+  const bool is_left = low.x < 0;
+  const double radius = std::max(-low.x, high.x), margin = (radius + high.y - low.y) / 64;
+  for (const int side : {0, 1}) {
+    if (parts[side] == 0) continue;
+    const bool is_forward = (side == 1) == (turn->angle > 0);
+    const double at = (side == 1 ? end : options.start) + (is_left ? 180 : 0);
+    const NodePtr wedge =
+        leaf(wedge_mesh((radius * room->reach + margin) / cos_deg(room->wedge / 2), low.y - margin,
+                        high.y + margin, is_forward ? room->wedge : -room->wedge));
+    Affine map;
+    map.m[0] = {cos_deg(at), -sin_deg(at), 0, 0};
+    map.m[1] = {sin_deg(at), cos_deg(at), 0, 0};
+    operands.push_back(Node::transformed(map, wedge, where));
+  }
+  if (operands.size() == 1) return operands[0];
+  return Node::boolean(BooleanOp::kDifference, std::move(operands), where);
 }
 
 }  // namespace csgrun

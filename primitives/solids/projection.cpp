@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <csgrun/primitives/projection.h>
 
 #include "primitives/shape2d/shape_factory.h"
+#include "primitives/shape2d/straight_corners.h"
 
 namespace csgrun {
 namespace {
@@ -54,16 +56,34 @@ Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z
   if (section->empty()) return Shape2D();
   double extent = 0;
   for (const SectionSegment& s : *section) {
-    for (const glm::dvec2& p : s) extent = std::max({extent, std::fabs(p.x), std::fabs(p.y)});
+    for (const glm::dvec2& p : {s.from, s.to}) {
+      extent = std::max({extent, std::fabs(p.x), std::fabs(p.y)});
+    }
   }
   const Result<Grid2D> grid = grid_for(extent);
   if (!grid) return grid.error();
   std::vector<Segment2D> segments;
+  std::map<Point2D, double> noise;  // of the corners: that of both segments
   for (const SectionSegment& s : *section) {
-    add_segment(grid->snap(s[0]), grid->snap(s[1]), kRestOfOperands, segments);
+    const Point2D from = grid->snap(s.from), to = grid->snap(s.to);
+    add_segment(from, to, kRestOfOperands, segments);
+    noise[from] += s.noise;
+    noise[to] += s.noise;
   }
-  return Shape2DFactory::arranged(*grid, std::move(segments),
-                                  [](int32_t, int32_t rest) { return rest > 0; });
+  Result<Shape2D> shape = Shape2DFactory::arranged(*grid, std::move(segments),
+                                                   [](int32_t, int32_t rest) { return rest > 0; });
+  if (!shape) return shape;
+  // Faces that the grid made bent have a corner where they are.
+  std::vector<Shape2D::Loop> lean;
+  bool is_lean = true;
+  for (const Shape2D::Loop& loop : shape->loops()) {
+    lean.push_back(without_straight_corners(loop, [&](const glm::dvec2& corner) {
+      const auto found = noise.find(grid->snap(corner));
+      return found == noise.end() ? 0 : found->second;
+    }));
+    is_lean = is_lean && lean.back().size() == loop.size();
+  }
+  return is_lean ? shape : Shape2D::from_outlines(lean);
 }
 
 std::optional<Appearance> one_appearance_of(const NodePtr& root) {

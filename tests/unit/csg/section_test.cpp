@@ -20,7 +20,8 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y 
 double area_of(const std::vector<SectionSegment>& section) {
   double area = 0;
   std::map<std::pair<double, double>, int> ends;
-  for (const auto& [from, to] : section) {
+  for (const auto& [from, to, noise] : section) {
+    EXPECT_GT(noise, 0);
     EXPECT_NE(from, to);
     area += cross(from, to) / 2;
     ++ends[{from.x, from.y}];
@@ -143,8 +144,8 @@ TEST(Section, OfChainsIsThatOfAFreshEvaluation) {
     const auto again = fresh.section(part, height);
     ASSERT_TRUE(section && again);
     const auto sorted = [](const std::vector<SectionSegment>& all) {
-      std::vector<std::array<double, 4>> result;
-      for (const auto& [a, b] : all) result.push_back({a.x, a.y, b.x, b.y});
+      std::vector<std::array<double, 5>> result;
+      for (const auto& [a, b, noise] : all) result.push_back({a.x, a.y, b.x, b.y, noise});
       std::sort(result.begin(), result.end());
       return result;
     };

@@ -409,7 +409,6 @@ TEST(CsgFile, CorpusVolumesOfSeparateLeaves) {
                            "polyhedron-nonplanar-tests.csg",
                            "polyhedron-soup.csg",
                            "root-modifier.csg",
-                           "rotate_extrude-angle.csg",
                            "rotate_extrude-touch-edge.csg",
                            "rotate_extrude-touch-vertex.csg",
                            "scale-mirror2D-3D-tests.csg",

@@ -65,5 +65,49 @@ TEST(Projection, OfPrismsIsTheUnionOfTheirShapes) {
   }
 }
 
+size_t corners_of(const Shape2D& shape) {
+  size_t count = 0;
+  for (const Shape2D::Loop& loop : shape.loops()) count += loop.size();
+  return count;
+}
+
+NodePtr leaf_of(const MeshResult& mesh) {
+  EXPECT_TRUE(mesh);
+  return Node::leaf(std::make_shared<PolygonMesh>(*mesh));
+}
+
+// The grid makes triangles of the sides of cones: the section has no corners where these meet.
+TEST(Slice, HasTheCornersOfTheSolid) {
+  Evaluator evaluator{EvaluateOptions{}};
+  for (const double fn : {5.0, 8.0, 20.0, 24.0, 50.0, 127.0}) {
+    const NodePtr cone = leaf_of(make_cylinder(5, 3.5, 4, false, Facets{fn, 12, 2}));
+    const NodePtr flat = leaf_of(make_cylinder(0.5, 30, 2, false, Facets{fn, 12, 2}));
+    const NodePtr ball = leaf_of(make_sphere(10, Facets{fn, 12, 2}));
+    EXPECT_EQ(corners_of(good(slice_solid(evaluator, cone, 2.5))), fn);
+    EXPECT_EQ(corners_of(good(slice_solid(evaluator, flat, 0.3))), fn);
+    EXPECT_EQ(corners_of(good(slice_solid(evaluator, ball, 3))), fn);
+  }
+  // Nothing that is seen is lost: a side of a circle of a thousand is 3e-5 mm off.
+  const NodePtr fine = leaf_of(make_cylinder(5, 10, 10, false, Facets{1000, 12, 2}));
+  EXPECT_EQ(corners_of(good(slice_solid(evaluator, fine, 1))), 1000u);
+}
+
+// A cone's section is its base, made smaller.
+TEST(Slice, OfAConeIsItsBaseMadeSmaller) {
+  Evaluator evaluator{EvaluateOptions{}};
+  const NodePtr cone = leaf_of(make_cylinder(5, 4, 6, false, Facets{8, 12, 2}));
+  LinearExtrudeOptions bent;
+  bent.height = 7;
+  bent.twist = 30;
+  bent.slices = 6;
+  bent.facets = {20, 12, 2};
+  const Shape2D section = good(slice_solid(evaluator, cone, 3.5));
+  const Shape2D octagon = good(make_circle(5.4, Facets{8, 12, 2}));
+  const auto of_section = linear_extrude(section, bent), of_octagon = linear_extrude(octagon, bent);
+  ASSERT_TRUE(of_section && of_octagon);
+  EXPECT_EQ(of_section->points.size(), of_octagon->points.size());
+  EXPECT_NEAR(section.area(), octagon.area(), 1e-5);
+}
+
 }  // namespace
 }  // namespace csgrun

@@ -80,9 +80,11 @@ struct Extent {
   std::array<glm::dvec3, 2> bbox{};  ///< mm; of an empty solid all zero
 };
 
-/// A piece of an outline in mm, from one point to another; seen from above the solid is on its
-/// left.
-using SectionSegment = std::array<glm::dvec2, 2>;
+/// A piece of an outline in mm; seen from above the solid is on its left.
+struct SectionSegment {
+  glm::dvec2 from, to;
+  double noise;  ///< mm: how far off the grid may have put it, the farther the flatter the solid is
+};
 
 /// Evaluates trees. One object serves one run: its cache spans all calls. Not thread-safe.
 class Evaluator {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -131,5 +132,12 @@ struct RotateExtrudeOptions {
 /// horizontal ones are flat. Errors: kInvalidArgument when the shape crosses the axis or the angle
 /// is 0, kLimit.
 MeshResult rotate_extrude(const Shape2D& shape, const RotateExtrudeOptions& options);
+/// The same as a tree, made at `where`. The ends of a part of a turn lie exactly in planes through
+/// the axis, so that those of different profiles at one angle are flush, and so is what is turned
+/// by that angle. (Not where the ends are less than a tenth of a degree apart.) `make_leaf` makes
+/// the leaves, of which there are one to three; null: Node::leaf.
+using MakeLeaf = std::function<NodePtr(PolygonMesh)>;
+Result<NodePtr> rotate_extrude_solid(const Shape2D& shape, const RotateExtrudeOptions& options,
+                                     const SourceRef& where, const MakeLeaf& make_leaf = nullptr);
 
 }  // namespace csgrun
