@@ -69,6 +69,7 @@ class CsgBuilder {
     if (root_) stack_.back().children.assign(1, *std::move(root_));
     Result<Item> all = combine(BooleanOp::kUnion, stack_.back());
     if (!all) return all.error();
+    settle_cuts(*all);
     CsgModel model;
     model.is_2d = all->kind == Item::Kind::kFlat && !all->is_empty();
     model.shape = all->shape;
@@ -118,10 +119,14 @@ class CsgBuilder {
     if (name == "linear_extrude" || name == "rotate_extrude") return extrude(frame);
     if (is_solid_primitive(name)) {
       std::vector<std::string> notes;
-      PolygonMesh open;
+      PolygonMesh uncut, open;
       MeshResult mesh =
-          make_csg_solid(frame.call, notes, takes_open_ones(frame.asked) ? &open : nullptr);
-      if (mesh || open.corners.empty()) return leaf(frame, std::move(mesh), notes);
+          make_csg_solid(frame.call, notes, uncut, takes_open_ones(frame.asked) ? &open : nullptr);
+      if (mesh || open.corners.empty()) {
+        Result<Item> item = leaf(frame, std::move(mesh), notes);
+        if (item) item->uncut = uncut_of(std::move(uncut));
+        return item;
+      }
       for (const std::string& note : notes) warn(frame, note);
       return open_item(frame, open);
     }
@@ -232,27 +237,30 @@ class CsgBuilder {
     if (!parts) return Error{parts.error().code, "import: " + parts.error().message, {}};
     std::vector<NodePtr> solids;
     CsgSheet sheet;
+    PolygonMesh uncut;
     for (ModelPart& part : *parts) {
       std::string note;
       part.mesh.kind = path;
-      Result<PolygonMesh> mesh = make_solid_mesh(part.mesh, &note);
+      Result<PolygonMesh> mesh = make_solid_mesh(part.mesh, &note, &uncut);
       if (!mesh && takes_open_ones(frame.asked) && is_sheet(part.mesh)) {
         Item item = open_item(frame, part.mesh);
         sheet.append(std::move(item.sheet));
         solids.push_back(std::move(item.solid));
         continue;
       }
-      if (!mesh) mesh = repaired_or(std::move(mesh), std::move(part.mesh), notes);
+      if (!mesh) mesh = repaired_or(std::move(mesh), std::move(part.mesh), notes, &uncut);
       if (!mesh) return Error{mesh.error().code, "import: " + mesh.error().message, {}};
       if (!note.empty()) notes.push_back(note);
       solids.push_back(
           Node::leaf(std::make_shared<const PolygonMesh>(*std::move(mesh)), where(frame)));
     }
     for (const std::string& note : notes) warn(frame, "import: " + note);
+    // Formats of several parts have triangles only.
+    UncutPtr whole = solids.size() == 1 ? uncut_of(std::move(uncut)) : nullptr;
     NodePtr all = solids.size() == 1
                       ? solids[0]
                       : Node::boolean(BooleanOp::kUnion, std::move(solids), where(frame));
-    return Item::with_sheet(std::move(all), std::move(sheet), {});
+    return Item::with_sheet(std::move(all), std::move(sheet), {}, std::move(whole));
   }
 
   Result<Item> text(const CsgFrame& frame) {
@@ -310,9 +318,10 @@ class CsgBuilder {
       return item_of(Shape2D::boolean(op, take_shapes(frame.children)), colour);
     }
     std::optional<Appearance> colour;
+    UncutPtr uncut = hand_on_or_settle(op, frame.children);
     CsgSheet sheet = take_sheets(frame.children, colour);
     return Item::with_sheet(combine_solids(op, frame.children, where(frame)), std::move(sheet),
-                            colour);
+                            colour, std::move(uncut));
   }
 
   /// The union of the 2D children; solids are left out, with a warning.
@@ -354,9 +363,10 @@ class CsgBuilder {
       return item_of(minkowski_of_shapes(take_shapes(frame.children)), colour);
     }
     if (is_one_empty(frame.children)) return std::move(frame.children[0]);
+    UncutPtr uncut = hand_on_or_settle(BooleanOp::kUnion, frame.children);
     std::vector<NodePtr> solids = take_solids(frame.children);
     if (solids.empty()) return Item();
-    if (solids.size() == 1) return Item::of(std::move(solids[0]));
+    if (solids.size() == 1) return Item::with_sheet(std::move(solids[0]), {}, {}, std::move(uncut));
     return Item::of(Node::minkowski_sum(std::move(solids), where(frame)));
   }
 
@@ -376,7 +386,9 @@ class CsgBuilder {
     if (!child || child->is_empty()) return child;
     if (child->kind == Item::Kind::kSolid) {
       const Resize resize{wanted->newsize, wanted->automatic};
-      return Item::of(Node::resized(resize, std::move(child->solid), where(frame)));
+      UncutPtr uncut = resized(child->uncut, resize);
+      return Item::with_sheet(Node::resized(resize, std::move(child->solid), where(frame)), {}, {},
+                              std::move(uncut));
     }
     const auto [low, high] = child->shape.bounds();
     const auto factors =
@@ -396,6 +408,7 @@ class CsgBuilder {
     Result<Item> child = combine(BooleanOp::kUnion, frame);
     if (!child) return child;
     if (child->is_empty()) return Item();
+    settle_cuts(*child);
     Result<Shape2D> shape = cut ? slice_solid(evaluator(), child->solid, 0) : shadow(*child);
     if (!shape) return failed(shape.error());
     if (shape->empty()) return Item();
@@ -448,11 +461,11 @@ class CsgBuilder {
                                m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
     if (determinant == 0) return flattened(frame, *map, *std::move(child));
-    NodePtr moved = child->solid->kind() == NodeKind::kEmpty
+    NodePtr solid = child->solid->kind() == NodeKind::kEmpty
                         ? child->solid
                         : Node::transformed(*map, child->solid, where(frame));
-    return Item::with_sheet(std::move(moved), mapped(std::move(child->sheet), *map),
-                            child->appearance);
+    return Item::with_sheet(std::move(solid), mapped(std::move(child->sheet), *map),
+                            child->appearance, moved(child->uncut, *map, determinant < 0));
   }
 
   /// What a matrix makes flat is empty, but in a hull, a sum, or a shadow.
@@ -461,6 +474,7 @@ class CsgBuilder {
       warn_flattened(frame);
       return Item::empty(Item::Kind::kSolid);
     }
+    settle_cuts(child);
     if (frame.asked != OfSheets::kFaces) {
       const bool is_for_hull = frame.asked == OfSheets::kCorners;
       Result<NodePtr> flat = is_for_hull
@@ -495,7 +509,8 @@ class CsgBuilder {
     NodePtr painted = child->solid->kind() == NodeKind::kEmpty
                           ? child->solid
                           : Node::painted(appearance, child->solid, where(frame));
-    return Item::with_sheet(std::move(painted), std::move(child->sheet), appearance);
+    return Item::with_sheet(std::move(painted), std::move(child->sheet), appearance,
+                            std::move(child->uncut));
   }
 
   Result<Item> extrude(CsgFrame& frame) {

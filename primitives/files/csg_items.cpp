@@ -1,6 +1,7 @@
 #include "primitives/files/csg_items.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace csgrun {
 
@@ -61,6 +62,21 @@ CsgSheet take_sheets(std::vector<Item>& children, std::optional<Appearance>& col
     sheet.append(std::move(child.sheet));
   }
   return sheet;
+}
+
+void settle_cuts(Item& item) {
+  if (item.uncut) item.solid = cut_as_it_lies(item.solid, *std::exchange(item.uncut, nullptr));
+}
+
+UncutPtr hand_on_or_settle(BooleanOp op, std::vector<Item>& children) {
+  const auto counts = [](const Item& child) { return !child.is_empty(); };
+  const auto only = std::find_if(children.begin(), children.end(), counts);
+  if (only == children.end()) return nullptr;
+  const bool is_only_one = op == BooleanOp::kUnion ? std::none_of(only + 1, children.end(), counts)
+                                                   : children.size() == 1;
+  if (is_only_one) return std::move(only->uncut);
+  for (Item& child : children) settle_cuts(child);
+  return nullptr;
 }
 
 NodePtr combine_solids(BooleanOp op, std::vector<Item>& children, const SourceRef& where) {

@@ -11,6 +11,7 @@
 
 #include "primitives/files/csg_parser.h"
 #include "primitives/files/csg_sheets.h"
+#include "primitives/files/uncut_mesh.h"
 
 namespace csgrun {
 
@@ -25,6 +26,7 @@ struct Item {
   std::optional<Appearance> appearance;  ///< of the shape or sheet; faces of solids have their own
   NodePtr solid;                         ///< of a solid one, then not null
   CsgSheet sheet;                        ///< beside the solid, which is then perhaps empty
+  UncutPtr uncut;                        ///< of a solid that is one mesh with bent faces, else null
 
   [[nodiscard]] bool is_empty() const {
     if (kind == Kind::kSolid) return solid->kind() == NodeKind::kEmpty && sheet.empty();
@@ -50,10 +52,11 @@ struct Item {
     return kind == Kind::kSolid ? of(Node::empty()) : Item();
   }
   /// A solid, perhaps an empty one or null, with a sheet of that colour beside it.
-  static Item with_sheet(NodePtr solid, CsgSheet sheet,
-                         const std::optional<Appearance>& appearance) {
+  static Item with_sheet(NodePtr solid, CsgSheet sheet, const std::optional<Appearance>& appearance,
+                         UncutPtr uncut = nullptr) {
     if (!solid && sheet.empty()) return {};
     Item item = of(solid ? std::move(solid) : Node::empty());
+    item.uncut = std::move(uncut);
     if (sheet.empty()) return item;
     item.sheet = std::move(sheet);
     item.appearance = appearance;
@@ -79,6 +82,12 @@ std::vector<Shape2D> take_shapes(std::vector<Item>& children);
 std::vector<NodePtr> take_solids(std::vector<Item>& children);
 /// Their sheets together, and the colour of the first.
 CsgSheet take_sheets(std::vector<Item>& children, std::optional<Appearance>& colour);
+
+/// Cuts the bent faces of what is no longer handed on as it is.
+void settle_cuts(Item& item);
+/// What a Boolean hands on uncut, as OpenSCAD does: the mesh of its only child, or of the only one
+/// under a union that is not empty. All others are settled.
+UncutPtr hand_on_or_settle(BooleanOp op, std::vector<Item>& children);
 
 /// Solids under a Boolean: null where they come to nothing of no dimension, an empty node where to
 /// something empty. A first operand that is empty leaves nothing of a difference, and any nothing

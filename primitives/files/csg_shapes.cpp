@@ -161,11 +161,11 @@ std::optional<Affine> CsgArguments::matrix() {
 }
 
 Result<PolygonMesh> repaired_or(Result<PolygonMesh> refused, PolygonMesh given,
-                                std::vector<std::string>& notes) {
+                                std::vector<std::string>& notes, PolygonMesh* uncut) {
   const Result<RepairOptions> options = suggest_repair(given);
   if (!options || options->fill_holes) return refused;
   std::vector<std::string> steps;
-  Result<PolygonMesh> mesh = repair_solid_mesh(std::move(given), *options, &steps);
+  Result<PolygonMesh> mesh = repair_solid_mesh(std::move(given), *options, &steps, uncut);
   if (!mesh) return refused;
   notes.insert(notes.end(), steps.begin(), steps.end());
   return mesh;
@@ -189,7 +189,7 @@ size_t different_points(const std::vector<glm::dvec3>& points, const std::vector
 }
 
 MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>& warnings,
-                               PolygonMesh* open) {
+                               PolygonMesh& uncut, PolygonMesh* open) {
   std::vector<glm::dvec3> points;
   for (const std::vector<double>& row : arguments.rows("points", 3)) {
     points.emplace_back(row[0], row[1], row[2]);
@@ -212,7 +212,7 @@ MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>
   if (open != nullptr) {
     // Of a face that is nothing the points count all the same.
     std::erase_if(faces, [](const std::vector<uint32_t>& face) { return face.size() < 3; });
-    MeshResult mesh = make_polyhedron(points, faces, &note);
+    MeshResult mesh = make_polyhedron(points, faces, &note, FillRule::kNonZero, &uncut);
     if (!mesh && mesh.error().code == ErrorCode::kInvalidMesh) *open = as_given();
     return mesh;
   }
@@ -223,10 +223,10 @@ MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>
     warnings.push_back("polyhedron: a face of fewer than three different points was left out");
     return true;
   });
-  MeshResult mesh = make_polyhedron(points, faces, &note);
+  MeshResult mesh = make_polyhedron(points, faces, &note, FillRule::kNonZero, &uncut);
   if (!note.empty()) warnings.push_back(note);
   if (!mesh && mesh.error().code == ErrorCode::kInvalidMesh)
-    mesh = repaired_or(std::move(mesh), as_given(), warnings);
+    mesh = repaired_or(std::move(mesh), as_given(), warnings, &uncut);
   // Without the index the rest is hardly a solid: what is to be said is the index.
   if (!mesh && !bad_index.empty()) {
     return Error{mesh.error().code, bad_index + ", and then " + mesh.error().message, {}};
@@ -237,9 +237,9 @@ MeshResult make_csg_polyhedron(CsgArguments& arguments, std::vector<std::string>
 }  // namespace
 
 MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings,
-                          PolygonMesh* open) {
+                          PolygonMesh& uncut, PolygonMesh* open) {
   CsgArguments arguments(call);
-  if (call.name == "polyhedron") return make_csg_polyhedron(arguments, warnings, open);
+  if (call.name == "polyhedron") return make_csg_polyhedron(arguments, warnings, uncut, open);
   const bool center = arguments.boolean("center", false);
   if (call.name == "cube") {
     const std::vector<double> size = arguments.size("size", 3);

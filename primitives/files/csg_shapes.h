@@ -58,17 +58,18 @@ class CsgArguments {
 
 /// What the least repair that fills no hole makes of a mesh that was refused, with what it did
 /// among the notes: nobody can ask for one in a .csg file. Where none helps, the refusal.
+/// `uncut` as of repair_solid_mesh.
 Result<PolygonMesh> repaired_or(Result<PolygonMesh> refused, PolygonMesh given,
-                                std::vector<std::string>& notes);
+                                std::vector<std::string>& notes, PolygonMesh* uncut);
 
 bool is_solid_primitive(std::string_view name);
 bool is_flat_primitive(std::string_view name);
 
 /// `warnings` gets what was left out. An impossible size is a kInvalidArgument. With `open`, the
 /// faces of a polyhedron that is refused (kInvalidMesh) go there as they are given, where they are
-/// not repaired.
+/// not repaired. `uncut` gets the mesh before its bent faces were cut, if it has any.
 MeshResult make_csg_solid(const CsgCall& call, std::vector<std::string>& warnings,
-                          PolygonMesh* open = nullptr);
+                          PolygonMesh& uncut, PolygonMesh* open = nullptr);
 Result<Shape2D> make_csg_shape(const CsgCall& call, std::vector<std::string>& warnings);
 /// The arguments of import.
 struct CsgImport {

@@ -116,13 +116,13 @@ Result<PolygonMesh> read_mesh_file(const std::string& path) {
   return parse_mesh(path, *bytes);
 }
 
-Result<PolygonMesh> make_solid_mesh(PolygonMesh mesh, std::string* note) {
+Result<PolygonMesh> make_solid_mesh(PolygonMesh mesh, std::string* note, PolygonMesh* uncut) {
   const std::string name = mesh.kind.empty() ? "mesh" : mesh.kind;
-  return finish_solid(std::move(mesh), name, note, true);
+  return finish_solid(std::move(mesh), name, note, true, uncut);
 }
 
 Result<PolygonMesh> repair_solid_mesh(PolygonMesh mesh, const RepairOptions& options,
-                                      std::vector<std::string>* notes) {
+                                      std::vector<std::string>* notes, PolygonMesh* uncut) {
   const std::string name = mesh.kind.empty() ? "mesh" : mesh.kind;
   RepairReport report;
   Result<PolygonMesh> repaired = repair_mesh(mesh, options, &report);
@@ -131,6 +131,7 @@ Result<PolygonMesh> repair_solid_mesh(PolygonMesh mesh, const RepairOptions& opt
     return Error{
         repaired.error().code, name + ": " + reason + repair_hint(mesh, name, options, reason), {}};
   }
+  if (uncut != nullptr && has_bent_quads(*repaired)) *uncut = *repaired;
   cut_bent_quads(*repaired);
   for (const RepairStep& step : report.steps) notes->push_back(name + ": repair: " + step.text());
   return repaired;

@@ -116,29 +116,46 @@ bool is_bent(const std::array<glm::dvec3, 4>& p) {
   return std::fabs(volume) > kFlat * longest * longest * longest;
 }
 
-/// A corner at an end of the diagonal that face `f` is to be cut along, or -1.
-int cut_of(const PolygonMesh& mesh, size_t f) {
+bool is_bent_quad(const PolygonMesh& mesh, size_t f) {
   const uint32_t loop = mesh.face_starts[f];
-  if (mesh.face_starts[f + 1] != loop + 1) return -1;
+  if (mesh.face_starts[f + 1] != loop + 1) return false;
   const uint32_t begin = mesh.loop_starts[loop];
-  if (mesh.loop_starts[loop + 1] != begin + 4) return -1;
+  if (mesh.loop_starts[loop + 1] != begin + 4) return false;
   std::array<glm::dvec3, 4> p;
   for (int k = 0; k < 4; ++k) p[k] = mesh.points[mesh.corners[begin + k]];
-  if (!is_bent(p)) return -1;
+  return is_bent(p);
+}
+
+/// A corner at an end of the diagonal that face `f` is to be cut along, or -1.
+int cut_of(const PolygonMesh& mesh, size_t f, const std::vector<glm::dvec3>& seen,
+           bool is_mirrored) {
+  if (!is_bent_quad(mesh, f)) return -1;
+  const uint32_t* corners = &mesh.corners[mesh.loop_starts[mesh.face_starts[f]]];
   Quad quad;
   for (int k = 0; k < 4; ++k) {
-    for (int i = 0; i < 3; ++i) quad[k][i] = static_cast<float>(p[k][i]);
+    const glm::dvec3& p = seen[corners[is_mirrored ? 3 - k : k]];
+    for (int i = 0; i < 3; ++i) quad[k][i] = static_cast<float>(p[i]);
   }
-  return diagonal_of(quad);
+  const int end = diagonal_of(quad);
+  return is_mirrored && end >= 0 ? 3 - end : end;
 }
 
 }  // namespace
 
-void cut_bent_quads(PolygonMesh& mesh) {
+bool has_bent_quads(const PolygonMesh& mesh) {
+  for (size_t f = 0; f < mesh.face_count(); ++f) {
+    if (is_bent_quad(mesh, f)) return true;
+  }
+  return false;
+}
+
+void cut_bent_quads(PolygonMesh& mesh) { cut_bent_quads(mesh, mesh.points, false); }
+
+void cut_bent_quads(PolygonMesh& mesh, const std::vector<glm::dvec3>& seen, bool is_mirrored) {
   std::vector<int8_t> cuts(mesh.face_count());
   bool any = false;
   for (size_t f = 0; f < cuts.size(); ++f) {
-    cuts[f] = static_cast<int8_t>(cut_of(mesh, f));
+    cuts[f] = static_cast<int8_t>(cut_of(mesh, f, seen, is_mirrored));
     any |= cuts[f] >= 0;
   }
   if (!any) return;

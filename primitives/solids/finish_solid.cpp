@@ -106,8 +106,15 @@ std::string repair_hint(const PolygonMesh& mesh, const std::string& name,
   return reason == refusal ? "" : "; no repair makes it a solid: " + reason;
 }
 
+bool turn_outside(PolygonMesh& mesh) {
+  // With the rule `positive` what is inverted is meant to be nothing.
+  if (mesh.fill == FillRule::kPositive || !(signed_volume(mesh) < 0)) return false;
+  reverse_faces(mesh);
+  return true;
+}
+
 Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std::string* note,
-                                 bool is_file) {
+                                 bool is_file, PolygonMesh* uncut) {
   if (mesh.face_count() == 0) {
     return Error{ErrorCode::kInvalidMesh, name + ": has no faces", {}};
   }
@@ -132,10 +139,9 @@ Result<PolygonMesh> finish_solid(PolygonMesh mesh, const std::string& name, std:
     }
     return Error{ErrorCode::kInvalidMesh, std::move(message), {}};
   }
+  if (uncut != nullptr && has_bent_quads(mesh)) *uncut = mesh;
   cut_bent_quads(mesh);
-  // With the rule `positive` what is inverted is meant to be nothing.
-  if (mesh.fill != FillRule::kPositive && signed_volume(mesh) < 0) {
-    reverse_faces(mesh);
+  if (turn_outside(mesh)) {
     done += std::string(done.empty() ? "" : "; ") + "inside out, its faces were turned over";
   }
   if (note != nullptr && !done.empty()) *note = name + ": " + done;

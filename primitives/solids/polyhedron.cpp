@@ -29,7 +29,7 @@ size_t distinct_points(const std::vector<glm::dvec3>& points, const std::vector<
 
 MeshResult make_polyhedron(const std::vector<glm::dvec3>& points,
                            const std::vector<std::vector<uint32_t>>& faces, std::string* note,
-                           FillRule fill) {
+                           FillRule fill, PolygonMesh* uncut) {
   if (faces.empty()) return invalid_argument("polyhedron: has no faces");
   for (size_t i = 0; i < points.size(); ++i) {
     for (const double c : {points[i].x, points[i].y, points[i].z}) {
@@ -58,7 +58,7 @@ MeshResult make_polyhedron(const std::vector<glm::dvec3>& points,
     }
     mesh.add_face(std::vector<uint32_t>(face.rbegin(), face.rend()));
   }
-  return finish_solid(std::move(mesh), "polyhedron", note);
+  return finish_solid(std::move(mesh), "polyhedron", note, false, uncut);
 }
 
 }  // namespace csgrun

@@ -3,12 +3,15 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include <csgrun/engine/evaluate.h>
 #include <csgrun/primitives/csg_file.h>
 #include <csgrun/primitives/mesh_file.h>
 
+#include "tests/unit/primitives/csg_trees.h"
 #include "tests/unit/primitives/mesh_measures.h"
 
 namespace csgrun {
@@ -150,6 +153,127 @@ TEST(BentQuads, OfMeshFilesAreCutAlike) {
   auto repaired = repair_solid_mesh(*mesh, {}, &notes);
   ASSERT_TRUE(repaired);
   EXPECT_DOUBLE_EQ(testing::volume(*repaired), 1 + 1.0 / 3);
+}
+
+// A block with one corner of the top pulled down: 263.0833 where it is made, 285.5417 where the
+// other diagonal is taken.
+const std::string kPoints =
+    "[[0, 0, 0], [7, 0, 0], [7, 5.5, 0], [0, 5.5, 0], [0, 0, 8], [7, 0, 4.5], [7, 5.5, 8], [0, "
+    "5.5, "
+    "8]]";
+const std::string kBent = "polyhedron(points = " + kPoints +
+                          ", faces = [[0, 1, 2, 3], [7, 6, 5, 4], [0, 4, 5, 1], [1, 5, 6, 2], [2, "
+                          "6, 7, 3], [3, 7, 4, 0]], convexity = 1);\n";
+const std::string kInsideOut =
+    "polyhedron(points = " + kPoints +
+    ", faces = [[3, 2, 1, 0], [4, 5, 6, 7], [1, 5, 4, 0], [2, 6, 5, 1], [3, 7, 6, 2], [0, 4, 7, "
+    "3]], convexity = 1);\n";
+const std::string kMirror = "multmatrix([[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])";
+constexpr double kAsMade = 263.083333, kOther = 285.541667;
+
+double volume_of(const NodePtr& solid) {
+  Evaluator evaluator{EvaluateOptions{}};
+  const auto result = evaluator.evaluate(solid);
+  EXPECT_TRUE(result) << (result ? "" : result.error().message);
+  return result ? (*result)->measures.volume : 0;
+}
+
+double volume_of(const std::string& text) { return volume_of(testing::parse(text).solid); }
+
+struct Tree {
+  std::string text;
+  double volume;
+};
+
+// The volumes of OpenSCAD 2025.01, which are also those of 2021.01.
+TEST(BentQuads, AreCutWhereTheNodesThatHandThemOnPutThem) {
+  const std::string turned =
+      "multmatrix([[0.866025, -0.5, 0, 0], [0.5, 0.866025, 0, 0], [0, 0, 1, "
+      "0], [0, 0, 0, 1]])";
+  const std::string quarter =
+      "multmatrix([[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])";
+  const std::string quarter_of_y =
+      "multmatrix([[0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])";
+  const std::string same = "multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])";
+  const std::string red = "color([1, 0, 0, 1])", empty_cube = "cube(size = [0, 0, 0]);";
+  const std::string far =
+      "multmatrix([[1, 0, 0, 50], [0, 1, 0, 50], [0, 0, 1, 50], [0, 0, 0, 1]]) "
+      "{ cube(size = [1, 1, 1]); }";
+  const std::string around =
+      "multmatrix([[1, 0, 0, -50], [0, 1, 0, -50], [0, 0, 1, -50], [0, 0, 0, "
+      "1]]) { cube(size = [100, 100, 100]); }";
+  const auto mirrored = [&](const std::string& node, const std::string& others = "") {
+    return kMirror + " { " + node + " { " + kBent + others + " } }";
+  };
+  const std::vector<Tree> trees = {
+      {kBent, kAsMade},
+      {kMirror + " { " + kBent + " }", kOther},
+      {kMirror + " { " + kMirror + " { " + kBent + " } }", kAsMade},
+      {turned + " { " + kBent + " }", 285.541382},
+      {quarter + " { " + kBent + " }", kOther},
+      {quarter_of_y + " { " + kBent + " }", kOther},
+      {mirrored(same), kOther},
+      {kMirror + " { " + kInsideOut + " }", kAsMade},
+      // Nodes with one child that is something hand it on.
+      {mirrored("group()"), kOther},
+      {mirrored("render(convexity = 1)"), kOther},
+      {mirrored(red), kOther},
+      {mirrored("union()"), kOther},
+      {mirrored("union()", "group();"), kOther},
+      {mirrored("union()", empty_cube), kOther},
+      {mirrored("union()", "square(size = [1, 1]);"), kOther},
+      {mirrored("difference()"), kOther},
+      {mirrored("intersection()"), kOther},
+      {mirrored("minkowski(convexity = 0)"), kOther},
+      {mirrored("minkowski(convexity = 0)", "group();"), kOther},
+      {mirrored("resize(newsize = [0, 0, 0], auto = [0, 0, 0], convexity = 0)"), kOther},
+      {mirrored("resize(newsize = [0, 30, 0], auto = [0, 0, 0], convexity = 0)"), 1557.5},
+      {"resize(newsize = [0, 30, 0], auto = [0, 0, 0], convexity = 0) { " + kBent + " }", 1435},
+      {"resize(newsize = [1, 0, 0], auto = [0, 0, 0], convexity = 0) { " + kBent + " }", 40.791667},
+      // Booleans of several do not.
+      {mirrored("union()", far), kAsMade + 1},
+      {mirrored("difference()", "group();"), kAsMade},
+      {mirrored("difference()", empty_cube), kAsMade},
+      {mirrored("difference()", "square(size = [1, 1]);"), kAsMade},
+      {mirrored("difference()", far), kAsMade},
+      {mirrored("intersection()", around), kAsMade},
+  };
+  for (const Tree& tree : trees) EXPECT_NEAR(volume_of(tree.text), tree.volume, 3e-4) << tree.text;
+}
+
+TEST(BentQuads, OfTreesKeepTheirNodes) {
+  const std::string colour = "color([1, 0, 0, 1]) { " + kMirror + " { " + kBent + " } }";
+  EXPECT_EQ(testing::sketch(testing::parse(colour).solid), "C(T(polyhedron))");
+  const std::string root = kMirror + " { ! " + kMirror + " { " + kBent + " } }";
+  EXPECT_NEAR(volume_of(root), kOther, 1e-4);  // what is around it does not move it
+  const auto leaf = [](const std::string& text) {
+    NodePtr node = testing::parse(text).solid;
+    while (node->kind() != NodeKind::kLeaf) node = NodePtr(node->children()[0]);
+    return node->mesh()->points;
+  };
+  EXPECT_EQ(leaf(colour), leaf(kBent));  // in its own coordinates
+}
+
+TEST(BentQuads, OfImportsInTreesAreCutWhereTheyCome) {
+  const std::string off =
+      "OFF\n8 6 0\n0 0 0\n7 0 0\n7 5.5 0\n0 5.5 0\n0 0 8\n7 0 4.5\n7 5.5 8\n0 5.5 8\n"
+      "4 3 2 1 0\n4 4 5 6 7\n4 1 5 4 0\n4 2 6 5 1\n4 3 7 6 2\n4 0 4 7 3\n";
+  const std::string obj =
+      "v 0 0 0\nv 7 0 0\nv 7 5.5 0\nv 0 5.5 0\nv 0 0 8\nv 7 0 4.5\nv 7 5.5 8\nv 0 5.5 8\n"
+      "f 4 3 2 1\nf 5 6 7 8\nf 2 6 5 1\nf 3 7 6 2\nf 4 8 7 3\nf 1 5 8 4\n";
+  CsgEnvironment environment;
+  environment.read = [&](const std::string& path) -> Result<std::string> {
+    return path == "a.off" ? off : obj;
+  };
+  for (const std::string file : {"a.off", "a.obj"}) {
+    const std::string call = "import(file = \"" + file + "\", origin = [0, 0], scale = 1);";
+    for (const bool mirrors : {false, true}) {
+      const auto model =
+          parse_csg("m.csg", mirrors ? kMirror + " { " + call + " }" : call, environment);
+      ASSERT_TRUE(model) << model.error().message;
+      EXPECT_NEAR(volume_of(model->solid), mirrors ? kOther : kAsMade, 1e-4) << file;
+    }
+  }
 }
 
 }  // namespace

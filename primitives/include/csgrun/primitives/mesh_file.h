@@ -44,12 +44,17 @@ Result<PolygonMesh> read_mesh_file(const std::string& path);
 /// Makes a leaf of a mesh from outside: welds, checks closedness and orientation; a closed mesh
 /// that is inside out is turned over, with a note, unless its fill rule is kPositive. What is wrong
 /// is an error with counts and first places, and with the repair that would help.
-Result<PolygonMesh> make_solid_mesh(PolygonMesh mesh, std::string* note);
+/// Bent faces of four corners are cut as OpenSCAD cuts them where they lie; if there are any,
+/// `uncut` gets the mesh without that, and not turned over.
+Result<PolygonMesh> make_solid_mesh(PolygonMesh mesh, std::string* note,
+                                    PolygonMesh* uncut = nullptr);
 
 /// Makes a leaf of a mesh from outside by repair_mesh; each thing that was done is one of the
 /// notes. Notes and errors start with the mesh's kind; errors end with the options that would help.
+/// `uncut` as above.
 Result<PolygonMesh> repair_solid_mesh(PolygonMesh mesh, const RepairOptions& options,
-                                      std::vector<std::string>* notes);
+                                      std::vector<std::string>* notes,
+                                      PolygonMesh* uncut = nullptr);
 
 /// "stl", "off", "obj", "ply" or empty: the lower-case ending of a path when it is readable here.
 std::string mesh_format_of(const std::string& path);

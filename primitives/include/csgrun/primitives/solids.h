@@ -38,8 +38,10 @@ MeshResult make_cylinder(double h, double r1, double r2, bool center, const Face
 /// points are welded. A solid that is inside out is turned over and `note` says so, unless `fill`,
 /// which says what is inside where the faces cross, is kPositive: then orientation has a meaning.
 /// Errors name the first bad face, edge or index.
+/// Bent faces of four corners are cut as OpenSCAD cuts them where they lie; if there are any,
+/// `uncut` gets the mesh without that, and not turned over.
 MeshResult make_polyhedron(const std::vector<glm::dvec3>& points,
                            const std::vector<std::vector<uint32_t>>& faces, std::string* note,
-                           FillRule fill = FillRule::kNonZero);
+                           FillRule fill = FillRule::kNonZero, PolygonMesh* uncut = nullptr);
 
 }  // namespace csgrun
