@@ -11,6 +11,7 @@
 
 #include "export/edge_flips.h"
 #include "export/self_union.h"
+#include "export/small_steps.h"
 #include "export/thin_triangles.h"
 
 namespace csgrun {
@@ -70,20 +71,16 @@ class Repair {
   }
 
   Status run() {
-    State best = state();
+    best_ = state();
     while (check_.rounds < kMostRounds && !left_.none() && check_.problem.empty()) {
       if (all_lattices_tried()) break;
       ++check_.rounds;
       if (options_.repairing) options_.repairing(check_.rounds, left_.count());
       if (Status status = run_round(); !status) return status;
-      breach_ = fidelity_.breach(mesh_, original_faces(), moves_);
-      if (breach_.empty() && left_.fewer_than(best.left)) {
-        best = state();
-        continue;
-      }
+      if (note_best()) continue;
       // Rounds that make it worse are undone: what they moved would be in the way of the next.
       ++lattice_;
-      restore(best);
+      restore(best_);
     }
     mesh_.triangle_face = original_faces();
     check_.distance = moves_.distance;
@@ -109,6 +106,14 @@ class Repair {
     moves_ = before.moves;
   }
 
+  /// Whether less is wrong than ever before.
+  bool note_best() {
+    breach_ = fidelity_.breach(mesh_, original_faces(), moves_);
+    if (!breach_.empty() || !left_.fewer_than(best_.left)) return false;
+    best_ = state();
+    return true;
+  }
+
   /// Before the mesh is changed.
   void note_clean() {
     const bool are_all_known = left_.crossings.size() < kMostCrossings;
@@ -128,6 +133,7 @@ class Repair {
     note_clean();
     if (Status status = mend(); !status) return status;
     if (left_.none()) return std::monostate{};
+    note_best();
     if (lattice_ > 0) {
       if (Status status = snap(); !status) return status;
       examine();
@@ -194,6 +200,22 @@ class Repair {
       if (any) restore(before);
       width *= 2;
     }
+    if (left_.none()) return std::monostate{};
+    return take_steps(kFirstWidth * unit, last);
+  }
+
+  /// The same, with each step judged by what is near it.
+  Status take_steps(double first, double last) {
+    if (left_.crossings.size() >= kMostCrossings) return std::monostate{};
+    const State before = state();
+    const auto steps =
+        take_small_steps(mesh_, offenders(), first, last, faces_.directions, options_.cancel);
+    if (!steps) return steps.error();
+    if (steps->turned + steps->merged == 0) return std::monostate{};
+    moves_.add(mesh_.positions, mesh_.triangles, steps->farthest);
+    check_.moved += steps->merged;
+    examine();
+    if (!left_.fewer_than(before.left)) restore(before);
     return std::monostate{};
   }
 
@@ -263,6 +285,7 @@ class Repair {
   Defects& left_;
   MeshCheck& check_;
   Moves moves_;
+  State best_;            ///< what undone rounds go back to
   CleanTriangles clean_;  ///< of the mesh that was looked at last
   std::string breach_;    ///< why the last round was undone, if the mesh became another
   int lattice_ = 0;       ///< the number of the lattice; 0: nothing is snapped yet

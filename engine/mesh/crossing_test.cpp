@@ -39,6 +39,11 @@ CrossingTest::CrossingTest(const TriangleView& mesh) : p_(mesh.points), triangle
   }
 }
 
+void CrossingTest::renew(const TriangleView& mesh, uint32_t triangle) {
+  views_[triangle] = aspect_of(corners_of(mesh, triangle));
+  planes_[triangle] = QuickPlane(corners_of(mesh, triangle));
+}
+
 CrossingTest::Meeting CrossingTest::crossing(uint32_t first, uint32_t second) const {
   const Triangle &s = triangles_[first], &t = triangles_[second];
   size_t shared = 0;

@@ -22,6 +22,9 @@ class CrossingTest {
   /// O(n) for n triangles.
   explicit CrossingTest(const TriangleView& mesh);
 
+  /// The triangle has other corners now.
+  void renew(const TriangleView& mesh, uint32_t triangle);
+
   [[nodiscard]] bool has_area(uint32_t triangle) const { return views_[triangle].sign != 0; }
 
   /// A point of both triangles, which have area, beyond the corners and edges which both have.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <optional>
 
 #include <csgrun/engine/exact_triangles.h>
@@ -13,6 +12,7 @@
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/crossing_test.h"
 #include "engine/mesh/long_triangles.h"
+#include "engine/mesh/triangle_boxes.h"
 #include "engine/mesh/triangle_shape.h"
 
 namespace csgrun {
@@ -24,39 +24,6 @@ bool in_order(const TriangleCrossing& a, const TriangleCrossing& b) {
   return a.triangles < b.triangles;
 }
 
-std::array<Vec3d, 3> vectors(const TriangleCorners& corners) {
-  std::array<Vec3d, 3> result{};
-  for (size_t i = 0; i < 3; ++i) result[i] = {corners[i].x, corners[i].y, corners[i].z};
-  return result;
-}
-
-/// Enough of the triangles to tell what they are like.
-std::vector<std::array<Vec3d, 3>> sample_of(const TriangleView& mesh,
-                                            std::span<const uint32_t> triangles) {
-  std::vector<std::array<Vec3d, 3>> sample;
-  for (size_t i = 0, step = triangles.size() / kFrameSample + 1; i < triangles.size(); i += step) {
-    sample.push_back(vectors(corners_of(mesh, triangles[i])));
-  }
-  return sample;
-}
-
-/// A box for each of the triangles, so that the boxes of those that meet overlap.
-std::vector<Box> boxes_of(const TriangleView& mesh, std::span<const uint32_t> triangles,
-                          std::span<const std::array<Vec3d, 3>> sample) {
-  const std::optional<BoxFrame> frame = find_box_frame(sample);
-  double reach = 0;
-  for (const glm::dvec3& p : mesh.points) {
-    reach = std::max({reach, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-  }
-  std::vector<Box> boxes;
-  boxes.reserve(triangles.size());
-  for (const uint32_t t : triangles) {
-    const TriangleCorners corners = corners_of(mesh, t);
-    boxes.push_back(frame ? box_along(*frame, vectors(corners), reach) : box_of(corners));
-  }
-  return boxes;
-}
-
 /// The triangles with area, in a tree.
 class Search {
  public:
@@ -65,7 +32,9 @@ class Search {
       if (test_.has_area(t)) triangles_.push_back(t);
     }
     const std::vector<std::array<Vec3d, 3>> sample = sample_of(mesh, triangles_);
-    boxes_ = boxes_of(mesh, triangles_, sample);
+    const TriangleBoxes boxes(mesh, sample);
+    boxes_.reserve(triangles_.size());
+    for (const uint32_t t : triangles_) boxes_.push_back(boxes.of(mesh, t));
     tree_.emplace(boxes_);
     if (!has_long_triangles(sample)) return;
     std::vector<uint32_t> order = tree_->order();

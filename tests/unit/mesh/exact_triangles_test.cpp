@@ -380,6 +380,46 @@ TEST(Crossings, OfSomeAreAllThatThereAreIfTheyAreInAll) {
   EXPECT_LT(asked, all / 2);
 }
 
+TEST(Crossings, OfSingleTrianglesWhileSomeChange) {
+  std::mt19937_64 random(37);
+  std::vector<glm::dvec3> points;
+  std::vector<Triangle> triangles;
+  const auto coordinate = [&](int range) { return 0.25 * static_cast<double>(random() % range); };
+  for (uint32_t t = 0; t < 1000; ++t) {
+    const glm::dvec3 at(coordinate(60), coordinate(60), coordinate(60));
+    for (int k = 0; k < 3; ++k) {
+      points.push_back(at + glm::dvec3(coordinate(7), coordinate(7), coordinate(7)));
+    }
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  const std::vector<Triangle> first = triangles;
+  LocalCrossings local({points, triangles});
+  size_t found = 0;
+  for (int round = 0; round < 15; ++round) {
+    for (int i = 0; round > 0 && i < 100; ++i) {
+      const auto t = static_cast<uint32_t>(random() % triangles.size());
+      // Some come back, and some lose their area.
+      triangles[t] = i % 3 == 0 ? first[t] : first[random() % triangles.size()];
+      if (i % 10 == 1) triangles[t][1] = triangles[t][0];
+      local.changed(t);
+    }
+    const Pairs expected = crossing_pairs({points, triangles});
+    Pairs got;
+    for (uint32_t t = 0; t < triangles.size(); ++t) {
+      const std::vector<uint32_t> crossed = local.of(t);
+      EXPECT_TRUE(std::is_sorted(crossed.begin(), crossed.end()));
+      for (const uint32_t other : crossed) {
+        const std::vector<uint32_t> back = local.of(other);
+        EXPECT_TRUE(std::binary_search(back.begin(), back.end(), t));
+        if (t < other) got.push_back({t, other});
+      }
+    }
+    EXPECT_EQ(got, expected) << round;
+    found += got.size();
+  }
+  EXPECT_GT(found, 2000u);
+}
+
 TEST(Facing, AgreesWithRationals) {
   std::mt19937_64 random(4);
   int zeros = 0;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,27 @@ std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t 
 /// O(log n) and the pairs whose boxes overlap for each of these.
 std::vector<TriangleCrossing> find_crossings(const TriangleView& mesh, uint64_t most,
                                              std::span<const uint32_t> some, unsigned threads = 0);
+
+/// What single triangles cross, as find_crossings() has it, while a few of them change.
+class LocalCrossings {
+ public:
+  /// The arrays of the view outlive this; corners of triangles may change, points may not.
+  /// O(n log n).
+  explicit LocalCrossings(const TriangleView& mesh);
+  ~LocalCrossings();
+  LocalCrossings(const LocalCrossings&) = delete;
+  LocalCrossings& operator=(const LocalCrossings&) = delete;
+
+  /// The triangle has other corners now, or its old ones again.
+  void changed(uint32_t triangle);
+  /// The triangles that it crosses, ascending; none if it has no area. O(log n), and the triangles
+  /// whose boxes overlap its own.
+  [[nodiscard]] std::vector<uint32_t> of(uint32_t triangle) const;
+
+ private:
+  class Search;
+  std::unique_ptr<Search> search_;
+};
 
 /// Whether the triangle's corners lie on one line, or coincide. Exact.
 bool is_degenerate(const TriangleView& mesh, uint32_t triangle);
