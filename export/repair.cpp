@@ -43,6 +43,10 @@ constexpr std::array<std::array<double, 3>, 4> kOrigins{
 constexpr double kFirstWidth = 2, kLastWidth = 16;
 constexpr int kBeyondLattice = 4;
 
+/// Where more is wrong, passes over the whole mesh go before steps one by one: many of these take
+/// longer.
+constexpr size_t kFewWrong = 10000;
+
 bool precedes(const glm::dvec3& a, const glm::dvec3& b) {
   return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
 }
@@ -182,6 +186,10 @@ class Repair {
   Status mend() {
     turn_edges();
     const double unit = unit_of(precision_, mesh_.positions), last = widest();
+    if (left_.count() <= kFewWrong) {
+      if (Status status = take_steps(kFirstWidth * unit, last); !status) return status;
+    }
+    const size_t not_mended = left_.count();
     for (double width = kFirstWidth * unit; width <= last && !left_.none();) {
       if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) {
         return Error{ErrorCode::kCancelled, "cancelled", {}};
@@ -200,13 +208,13 @@ class Repair {
       if (any) restore(before);
       width *= 2;
     }
-    if (left_.none()) return std::monostate{};
+    if (not_mended <= kFewWrong && left_.count() == not_mended) return std::monostate{};
     return take_steps(kFirstWidth * unit, last);
   }
 
   /// The same, with each step judged by what is near it.
   Status take_steps(double first, double last) {
-    if (left_.crossings.size() >= kMostCrossings) return std::monostate{};
+    if (left_.none() || left_.crossings.size() >= kMostCrossings) return std::monostate{};
     const State before = state();
     const auto steps =
         take_small_steps(mesh_, offenders(), first, last, faces_.directions, options_.cancel);
