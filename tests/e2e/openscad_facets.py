@@ -88,6 +88,18 @@ def rotate_extrude(outline, angle, start, facets):
     return [(*turned(x, 0, start + angle * j / n), y) for j in range(steps) for x, y in outline]
 
 
+def edges_of_ends(outline, angle, start):
+    """The edges of caps that are cut, docs/decisions/0123: a facet that the grid made bent has a corner on one."""
+    ends = [a for a in (start, start + angle) if angle != 360 and a % 90 != 0]
+    return [tuple((*turned(x, 0, a), y) for x, y in edge) for a in ends for edge in zip(outline, outline[1:] + outline[:1])]
+
+
+def distance_from_edge(p, edge):
+    a, b = edge
+    along = sum((q - s) * (t - s) for q, s, t in zip(p, a, b)) / math.dist(a, b) ** 2
+    return math.dist(p, tuple(s + along * (t - s) for s, t in zip(a, b))) if 0 <= along <= 1 else math.inf
+
+
 # No edge of it lies along an axis, and no scale makes its walls flat.
 OUTLINE = [(5, 1), (-1, 4), (-3, -2)]
 PROFILE = [(4, 0), (9, 1), (6, 5)]
@@ -102,7 +114,16 @@ def polygon(points):
 
 
 def cases():
-    """Pairs of a tree and the vertices that it must have."""
+    """A tree, the vertices that it must have, and edges on each of which there may be one more."""
+    for tree, points in solids_of_formulas():
+        yield tree, points, []
+    for facets, (angle, start) in itertools.product(FACETS, ((360, 180), (360, 0), (90, 0), (-45, 10), (200, -30))):
+        tree = (f"rotate_extrude(angle = {angle}, start = {start}, convexity = 2, {text_of(facets)}) "
+                f"{{ {polygon(PROFILE)} }}")
+        yield tree, rotate_extrude(PROFILE, angle, start, facets), edges_of_ends(PROFILE, angle, start)
+
+
+def solids_of_formulas():
     for facets, r in itertools.product(FACETS, (0.5, 1, 7.25)):
         yield f"sphere({text_of(facets)}, r = {r});", sphere(r, facets)
         circle = [(x, y, z) for z in (0, 2) for x, y, _ in ring(r, fragments(r, facets), 0)]
@@ -118,10 +139,6 @@ def cases():
         tree = (f"linear_extrude(height = 6, twist = {twist}, segments = 0, scale = [2, 0.5], {text_of(facets)}) "
                 f"{{ {polygon(OUTLINE)} }}")
         yield tree, linear_extrude(OUTLINE, 6, twist, (2, 0.5), facets)
-    for facets, (angle, start) in itertools.product(FACETS, ((360, 180), (360, 0), (90, 0), (-45, 10), (200, -30))):
-        tree = (f"rotate_extrude(angle = {angle}, start = {start}, convexity = 2, {text_of(facets)}) "
-                f"{{ {polygon(PROFILE)} }}")
-        yield tree, rotate_extrude(PROFILE, angle, start, facets)
 
 
 class Facets(support.Case):
@@ -133,7 +150,7 @@ class Facets(support.Case):
 
     def test_table(self):
         tried = 0
-        for tree, expected in cases():
+        for tree, expected, edges in cases():
             with self.subTest(tree):
                 path = self.folder / "x.csg"
                 path.write_text(tree + "\n")
@@ -142,12 +159,17 @@ class Facets(support.Case):
                 script.write_text(csg_to_lua.translate(tree))
                 self.assertEqual(sorted(self.points_of(script)), points)
                 wanted = {tuple(round(c, 6) + 0.0 for c in p) for p in expected}  # an apex is one
-                self.assertEqual(len(points), len(wanted))
-                rest = sorted(wanted)
-                for p in points:
+                more = list(edges)
+                rest = list(points)
+                for p in sorted(wanted):
                     best = min(range(len(rest)), key=lambda i: math.dist(p, rest[i]))
-                    self.assertLess(math.dist(p, rest[best]), 3e-6, f"{p} is not among the places of the formula")
+                    self.assertLess(math.dist(p, rest[best]), 3e-6, f"no vertex is at {p}, where the formula has one")
                     del rest[best]
+                for p in rest:
+                    edge = min(more, key=lambda e: distance_from_edge(p, e), default=None)
+                    self.assertIsNotNone(edge, f"{p} is not among the places of the formula")
+                    self.assertLess(distance_from_edge(p, edge), 3e-6, f"{p} is not among the places of the formula")
+                    more.remove(edge)
                 tried += 1
         self.assertGreater(tried, 300)
 
