@@ -171,14 +171,16 @@ struct Beyond {
   double wedge;  ///< degrees
 };
 
-/// Nothing where the ends are too near to one another.
+/// Nothing where the ends are too near to one another, or a step is none in doubles.
 std::optional<Beyond> beyond(const Turn& turn) {
   constexpr double kLeastGap = 0.1, kMost = 10, kMostWedge = 30;  // degrees
+  // A step is 120 degrees at most.
   const double gap = 360 - std::fabs(turn.angle), step = std::fabs(turn.angle) / turn.steps;
   if (gap < kLeastGap) return std::nullopt;
   for (double part = 1;; part /= 2) {
     const double x = 1 + part * (1 - cos_deg(step)), y = part * sin_deg(step);
-    if (y > 0 && atan2_deg(y, x) <= std::min(gap / 8, kMost)) {
+    if (!(y > 0)) return std::nullopt;
+    if (atan2_deg(y, x) <= std::min(gap / 8, kMost)) {
       return Beyond{part, std::hypot(x, y), std::min(gap / 4, kMostWedge)};
     }
   }

@@ -96,6 +96,12 @@ TEST(TurnedEnds, AreFlushWithWhatIsTurned) {
   }
 }
 
+TEST(TurnedEnds, OfNextToNothing) {
+  for (const double angle : {5e-324, 1e-300, -1e-12, 359.99999999, -359.99999999}) {
+    EXPECT_TRUE(rotate_extrude_solid(box(1, 0, 2, 1), {angle, 3, Facets{3, 12, 2}}, {})) << angle;
+  }
+}
+
 TEST(TurnedEnds, BadInputIsAnErrorAsOfTheMesh) {
   const RotateExtrudeOptions none{0, 0, {}};
   const auto tree = rotate_extrude_solid(box(1, 0, 2, 1), none, {});
