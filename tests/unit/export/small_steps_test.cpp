@@ -10,35 +10,10 @@
 
 #include "export/defects.h"
 #include "export/edge_flips.h"
+#include "tests/unit/export/rounded_meshes.h"
 
 namespace csgrun::testing {
 namespace {
-
-struct Made {
-  RoundedMesh mesh;
-  std::vector<glm::dvec3> directions;
-
-  void face(const glm::dvec3& direction, const std::vector<Triangle>& triangles) {
-    for (const Triangle& t : triangles) {
-      mesh.triangles.push_back(t);
-      mesh.triangle_face.push_back(static_cast<uint32_t>(directions.size()));
-    }
-    directions.push_back(direction);
-    mesh.face_normals.push_back(direction);
-    mesh.outlines.emplace_back();
-  }
-  void pair_up() {
-    auto twins = manifold_twins(mesh.triangles, mesh.positions.size());
-    ASSERT_TRUE(twins) << twins.error().message;
-    mesh.twins = *std::move(twins);
-  }
-};
-
-void expect_manifold(const RoundedMesh& mesh) {
-  const auto twins = manifold_twins(mesh.triangles, mesh.positions.size());
-  ASSERT_TRUE(twins) << twins.error().message;
-  EXPECT_EQ(*twins, mesh.twins);
-}
 
 std::vector<uint32_t> offenders(const Defects& defects) {
   std::vector<uint32_t> wrong = defects.flipped;
@@ -98,8 +73,8 @@ constexpr double kOff = 0x1p-18;
 /// A beam 1024 long whose upper front edge has a corner 1 before its end, which rounding put behind
 /// that edge and as many as `past` of the thin triangles behind it, which run to the edge's end,
 /// and a little below them. So the triangle between this corner and the edge is turned over.
-Made beam_with_a_corner_past(uint32_t past) {
-  Made made;
+MadeMesh beam_with_a_corner_past(uint32_t past) {
+  MadeMesh made;
   const double length = 1024;
   made.mesh.positions = {
       {0, 0, 0},      {length, 0, 0}, {length, 1, 0},
@@ -122,13 +97,13 @@ Made beam_with_a_corner_past(uint32_t past) {
   left.push_back({3, side.back(), 7});
   made.face({-1, 0, 0}, left);
   made.face({0, 0, 1}, top);
-  made.pair_up();
+  pair_up(made.mesh);
   return made;
 }
 
 TEST(SmallSteps, CornersPassThinTrianglesOneAfterAnother) {
   for (const uint32_t past : {1u, 2u, 9u}) {
-    Made made = beam_with_a_corner_past(past);
+    MadeMesh made = beam_with_a_corner_past(past);
     const Defects before = find_defects(made.mesh, made.directions);
     ASSERT_EQ(before.count(), 1u);
     ASSERT_EQ(before.flipped.size(), 1u);
@@ -150,8 +125,8 @@ TEST(SmallSteps, CornersPassThinTrianglesOneAfterAnother) {
 
 /// A cube whose upper front edge ends in a spike without width, that lies along the next part of
 /// this edge: its three triangles cross what is beside it.
-Made cube_with_a_spike() {
-  Made made;
+MadeMesh cube_with_a_spike() {
+  MadeMesh made;
   made.mesh.positions = {{0, 0, 0},
                          {1, 0, 0},
                          {1, 1, 0},
@@ -172,12 +147,12 @@ Made cube_with_a_spike() {
   made.face({0, 0, 1}, {{8, 9, 10}});
   made.face({0, 0, 1}, {{9, 6, 10}});
   made.face({0, 0, 1}, {{6, 8, 10}});
-  made.pair_up();
+  pair_up(made.mesh);
   return made;
 }
 
 TEST(SmallSteps, SpikesGo) {
-  Made made = cube_with_a_spike();
+  MadeMesh made = cube_with_a_spike();
   const RoundedMesh old = made.mesh;
   const Defects before = find_defects(made.mesh, made.directions);
   ASSERT_GT(before.count(), 0u);
@@ -192,8 +167,8 @@ TEST(SmallSteps, SpikesGo) {
 }
 
 /// A square plate of n x n cells, 1 apart, and 1 thick, of which corners have been moved.
-Made plate(uint32_t n, double by, std::mt19937& random) {
-  Made made;
+MadeMesh plate(uint32_t n, double by, std::mt19937& random) {
+  MadeMesh made;
   const auto moved = [&] { return by * (static_cast<double>(random() % 201) - 100) / 100; };
   for (int z = 0; z < 2; ++z) {
     for (uint32_t y = 0; y <= n; ++y) {
@@ -233,7 +208,7 @@ Made plate(uint32_t n, double by, std::mt19937& random) {
   wall({1, 0, 0}, n, row);
   wall({0, 1, 0}, level - 1, UINT32_MAX);     // backwards
   wall({-1, 0, 0}, n * row, UINT32_MAX - n);  // by n + 1
-  made.pair_up();
+  pair_up(made.mesh);
   return made;
 }
 
@@ -242,7 +217,7 @@ TEST(SmallSteps, LeaveLessAndTellHowFarTheyMoved) {
   size_t wrong = 0, left = 0;
   uint64_t turned = 0, merged = 0;
   for (int round = 0; round < 40; ++round) {
-    Made made = plate(5, 0.01 * (1 + round % 5), random);
+    MadeMesh made = plate(5, 0.01 * (1 + round % 5), random);
     const RoundedMesh old = made.mesh;
     const Defects before = find_defects(made.mesh, made.directions);
     const auto steps = take_small_steps(made.mesh, offenders(before), 0.01, 0.16, made.directions);

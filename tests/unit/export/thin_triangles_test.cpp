@@ -9,21 +9,10 @@
 
 #include "export/defects.h"
 #include "export/edge_flips.h"
+#include "tests/unit/export/rounded_meshes.h"
 
 namespace csgrun::testing {
 namespace {
-
-void pair_up(RoundedMesh& mesh) {
-  auto twins = manifold_twins(mesh.triangles, mesh.positions.size());
-  ASSERT_TRUE(twins) << twins.error().message;
-  mesh.twins = *std::move(twins);
-}
-
-void expect_manifold(const RoundedMesh& mesh) {
-  const auto twins = manifold_twins(mesh.triangles, mesh.positions.size());
-  ASSERT_TRUE(twins) << twins.error().message;
-  EXPECT_EQ(*twins, mesh.twins);
-}
 
 std::vector<uint32_t> all_of(const RoundedMesh& mesh) {
   std::vector<uint32_t> all(mesh.triangles.size());
@@ -38,28 +27,13 @@ double height_of(const RoundedMesh& mesh, uint32_t t) {
   return glm::length(glm::cross(q - p, r - p)) / longest;
 }
 
-struct Rounded {
-  RoundedMesh mesh;
-  std::vector<glm::dvec3> directions;
-
-  void face(const glm::dvec3& direction, const std::vector<Triangle>& triangles) {
-    for (const Triangle& t : triangles) {
-      mesh.triangles.push_back(t);
-      mesh.triangle_face.push_back(static_cast<uint32_t>(directions.size()));
-    }
-    directions.push_back(direction);
-    mesh.face_normals.push_back(direction);
-    mesh.outlines.emplace_back();
-  }
-};
-
 constexpr double kOff = 0x1p-18;
 
 /// A beam `count + 1` long and 1 wide and high. Along its upper front edge lie `count` corners,
 /// each off it by up to kOff, and between them and the edge a fan of caps around the edge's first
 /// end, a face each, which look anywhere. Each corner is behind the edge, or all alternate.
-Rounded beam(uint32_t count, bool alternate) {
-  Rounded made;
+MadeMesh beam(uint32_t count, bool alternate) {
+  MadeMesh made;
   const double length = count + 1;
   made.mesh.positions = {{0, 0, 0}, {length, 0, 0}, {length, 1, 0}, {0, 1, 0},
                          {0, 0, 1}, {length, 0, 1}, {length, 1, 1}, {0, 1, 1}};
@@ -93,7 +67,7 @@ double volume_of(const RoundedMesh& mesh) { return exact_volume({mesh.positions,
 TEST(ThinTriangles, FansOfCapsAreTurnedFromTheirLastOn) {
   for (const bool alternate : {false, true}) {
     for (const uint32_t count : {1u, 2u, 7u, 300u}) {
-      Rounded made = beam(count, alternate);
+      MadeMesh made = beam(count, alternate);
       const size_t triangles = made.mesh.triangles.size();
       const double volume = volume_of(made.mesh);
       const size_t wrong = find_defects(made.mesh, made.directions).count();
@@ -116,7 +90,7 @@ TEST(ThinTriangles, FansOfCapsAreTurnedFromTheirLastOn) {
 }
 
 TEST(ThinTriangles, WhatIsWiderStays) {
-  Rounded made = beam(5, true);
+  MadeMesh made = beam(5, true);
   const std::vector<Triangle> before = made.mesh.triangles;
   const auto thinned = take_out_thin(made.mesh, all_of(made.mesh), kOff / 64, made.directions);
   ASSERT_TRUE(thinned);
@@ -125,8 +99,8 @@ TEST(ThinTriangles, WhatIsWiderStays) {
 }
 
 /// The upper end of a double pyramid is an edge of kOff, with a needle on either side of it.
-Rounded double_pyramid() {
-  Rounded made;
+MadeMesh double_pyramid() {
+  MadeMesh made;
   made.mesh.positions = {{1, 0, 0},  {0, 1, 0}, {-1, 0, 0},  {0, -1, 0},
                          {0, 0, -1}, {0, 0, 1}, {kOff, 0, 1}};
   for (const Triangle& t : {Triangle{1, 0, 4},
@@ -148,7 +122,7 @@ Rounded double_pyramid() {
 }
 
 TEST(ThinTriangles, NeedlesGoByMergingTheirEnds) {
-  Rounded made = double_pyramid();
+  MadeMesh made = double_pyramid();
   // The needles alone are named; both name the one short edge.
   const auto thinned =
       take_out_thin(made.mesh, std::vector<uint32_t>{8, 9}, 2 * kOff, made.directions);
@@ -164,7 +138,7 @@ TEST(ThinTriangles, NeedlesGoByMergingTheirEnds) {
 }
 
 TEST(ThinTriangles, NeedlesAreNoCaps) {
-  Rounded made = double_pyramid();
+  MadeMesh made = double_pyramid();
   const Turned turned = turn_caps(made.mesh, all_of(made.mesh), 2 * kOff, made.directions);
   EXPECT_EQ(turned.count, 0u);
 }
