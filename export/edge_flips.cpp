@@ -8,6 +8,7 @@
 
 #include <csgrun/engine/exact_triangles.h>
 
+#include "export/edge_turn.h"
 #include "export/half_edges.h"
 
 namespace csgrun {
@@ -82,43 +83,18 @@ class EdgeTurner {
     return facing(view, 0, directions_[face]) > 0;
   }
 
-  /// Whether some edge joins the first vertex of h to `other`.
-  [[nodiscard]] bool are_joined(uint32_t h, uint32_t other) const {
-    uint32_t k = h;
-    do {
-      if (from(next_in_triangle(k)) == other) return true;
-      k = mesh_.twins[previous_in_triangle(k)];
-    } while (k != h);
-    return false;
-  }
-
-  void glue(uint32_t g, uint32_t h) {
-    mesh_.twins[g] = h;
-    mesh_.twins[h] = g;
-  }
-
-  /// a b c and b a d become c a d and d b c.
   bool turn(uint32_t h) {
-    const uint32_t g = mesh_.twins[h], t = h / 3, u = g / 3;
-    const uint32_t bc = next_in_triangle(h), ca = previous_in_triangle(h);
-    const uint32_t ad = next_in_triangle(g), db = previous_in_triangle(g);
-    const uint32_t a = from(h), b = from(bc), c = from(ca), d = from(db);
-    const uint32_t face = mesh_.triangle_face[u];
-    const Triangle first{c, a, d}, second{d, b, c};
-    if (c == d || !is_good(first, face) || !is_good(second, face) || are_joined(ca, d))
-      return false;
-    const uint32_t outer[4] = {mesh_.twins[ca], mesh_.twins[ad], mesh_.twins[db], mesh_.twins[bc]};
-    for (const uint32_t o : outer) {
-      if (o / 3 == t || o / 3 == u) return false;
-    }
-    mesh_.triangles[t] = first;
-    mesh_.triangles[u] = second;
-    mesh_.triangle_face[t] = face;
-    glue(3 * t, outer[0]);
-    glue(3 * t + 1, outer[1]);
-    glue(3 * u, outer[2]);
-    glue(3 * u + 1, outer[3]);
-    glue(3 * t + 2, 3 * u + 2);
+    const std::optional<EdgeTurn> to = edge_turn(mesh_, h);
+    if (!to) return false;
+    const uint32_t face = mesh_.triangle_face[to->u];
+    if (!is_good(to->first, face) || !is_good(to->second, face)) return false;
+    mesh_.triangles[to->t] = to->first;
+    mesh_.triangles[to->u] = to->second;
+    mesh_.triangle_face[to->t] = face;
+    to->glue_all([&](uint32_t g, uint32_t k) {
+      mesh_.twins[g] = k;
+      mesh_.twins[k] = g;
+    });
     return true;
   }
 

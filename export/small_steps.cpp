@@ -12,6 +12,7 @@
 
 #include <csgrun/engine/exact_triangles.h>
 
+#include "export/edge_turn.h"
 #include "export/half_edges.h"
 
 namespace csgrun {
@@ -191,35 +192,13 @@ class Stepper {
     keep();
   }
 
-  [[nodiscard]] bool are_joined(uint32_t h, uint32_t other) const {
-    bool joined = false;
-    visit_around(h, [&](uint32_t k) {
-      joined = to(k) == other;
-      return !joined;
-    });
-    return joined;
-  }
-
-  /// a b c and b a d become c a d and d b c, of the face beyond the edge.
   bool turn(uint32_t h) {
-    const uint32_t g = mesh_.twins[h], t = h / 3, u = g / 3;
-    const uint32_t bc = next_in_triangle(h), ca = previous_in_triangle(h);
-    const uint32_t ad = next_in_triangle(g), db = previous_in_triangle(g);
-    const uint32_t a = from(h), b = from(bc), c = from(ca), d = from(db);
-    if (c == d || are_joined(ca, d)) return false;
-    const std::array<uint32_t, 4> outer{mesh_.twins[ca], mesh_.twins[ad], mesh_.twins[db],
-                                        mesh_.twins[bc]};
-    for (const uint32_t o : outer) {
-      if (o / 3 == t || o / 3 == u) return false;
-    }
-    set_triangle(t, {c, a, d});
-    set_triangle(u, {d, b, c});
-    set(mesh_.triangle_face[t], mesh_.triangle_face[u]);
-    glue(3 * t, outer[0]);
-    glue(3 * t + 1, outer[1]);
-    glue(3 * u, outer[2]);
-    glue(3 * u + 1, outer[3]);
-    glue(3 * t + 2, 3 * u + 2);
+    const std::optional<EdgeTurn> to = edge_turn(mesh_, h);
+    if (!to) return false;
+    set_triangle(to->t, to->first);
+    set_triangle(to->u, to->second);
+    set(mesh_.triangle_face[to->t], mesh_.triangle_face[to->u]);
+    to->glue_all([&](uint32_t g, uint32_t k) { glue(g, k); });
     return true;
   }
 

@@ -126,8 +126,8 @@ void resize_shape(lua_State* L, const ShapeValue& shape, const glm::dvec3& size,
     return;
   }
   const auto [low, high] = shape.shape.bounds();
-  const auto factors = resize_factors({high.x - low.x, high.y - low.y}, {size.x, size.y},
-                                      {automatic[0], automatic[1]});
+  const auto factors = resize_factors<2>({high.x - low.x, high.y - low.y}, {size.x, size.y},
+                                         {automatic[0], automatic[1]});
   Affine map;
   map.m[0][0] = factors[0];
   map.m[1][1] = factors[1];

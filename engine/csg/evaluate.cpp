@@ -83,6 +83,7 @@ struct Evaluator::Impl {
         starts([this](const Key& key) { return boundaries.contains(key); }),
         solids(options.cache_bytes / 4),
         worlds(options.cache_bytes / 4),
+        centroids(options.cache_bytes / 4),
         constructions(
             [this](const std::vector<NodePtr>& parts, bool ask_convex, const GridStep& least) {
               return evaluate_parts(parts, ask_convex, least);
@@ -146,6 +147,7 @@ struct Evaluator::Impl {
   KnownTails tails;
   ResultCache<SolidPtr> solids;
   ResultCache<BoundaryPtr> worlds;  // of roots that points were compared with
+  ResultCache<std::optional<glm::dvec3>> centroids;
   Warnings warnings;
   EvaluateStats stats;
   Constructions constructions;
@@ -441,14 +443,22 @@ Result<std::optional<glm::dvec3>> Evaluator::Impl::centroid(const NodePtr& part)
     ++stats.nodes_from_memory;
     return (*known)->empty() ? none : (*known)->measures.centroid;
   }
+  // A script asks for one coordinate after another.
+  const Key key = solid_key(*scene, node.subtree, Measuring::kNothing);
+  if (const auto* known = centroids.find(key)) return *known;
   SceneJobs jobs(*scene, boundaries, tails, options, threads, stats);
   if (Status status = jobs.run({root}); !status) return status.error();
   auto boundary = jobs.world_boundary(root);
   if (!boundary) return boundary.error();
-  if (is_empty(**boundary)) return none;
-  auto centroid = boundary_centroid(**boundary, scene->step);
-  if (!centroid) return centroid.error();
-  return std::optional(*centroid);
+  std::optional<glm::dvec3> centre;
+  if (!is_empty(**boundary)) {
+    auto centroid = boundary_centroid(**boundary, scene->step);
+    if (!centroid) return centroid.error();
+    centre = *centroid;
+  }
+  constexpr uint64_t kBytes = 256;  // about, with what the cache has of it
+  centroids.put(key, centre, kBytes);
+  return centre;
 }
 
 Result<std::vector<SectionSegment>> Evaluator::Impl::section(const NodePtr& root, double z) {

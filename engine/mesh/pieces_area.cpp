@@ -47,7 +47,7 @@ class AreaSummer {
     bool is_in_range = true;
     store_.each_face(piece, [&](std::span<const uint32_t> corners) {
       out.corners += corners.size();
-      if (take_near(corners)) {
+      if (take_near(store_, corners, near_)) {
         std::array<Int128, 3> normal{};
         each_loop(piece, corners.size(), [&](uint32_t begin, uint32_t end) {
           for (uint32_t i = begin + 1; i + 1 < end; ++i) {
@@ -86,20 +86,6 @@ class AreaSummer {
 
   static void add_length(const std::array<DoubleDouble, 3>& n, PieceArea& out) {
     out.twice_area = out.twice_area + sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  }
-
-  /// False unless all corners are whole and near the origin.
-  bool take_near(std::span<const uint32_t> corners) {
-    near_.clear();
-    for (const uint32_t point : corners) {
-      if (!store_.is_on_grid(point)) return false;
-      Near& near = near_.emplace_back();
-      for (size_t k = 0; k < 3; ++k) {
-        near[k] = static_cast<int64_t>(store_.rounded(point)[k]) - store_.origin()[k];
-        if (std::abs(near[k]) >= kNearLimit) return false;
-      }
-    }
-    return true;
   }
 
   bool take_fixed(std::span<const uint32_t> corners, PieceArea& out) {
@@ -146,7 +132,7 @@ std::optional<double> pieces_area(const ResultPieces& pieces, const GridStep& st
                          std::fabs(root->box.hi[k] - origin) + 1});
     }
     constexpr double kTriangles = 8;  // a corner at most, and far more than there are
-    error += std::ldexp(16 * extent * kTriangles * static_cast<double>(sums->corners), -64);
+    error += std::ldexp(16 * extent * kTriangles * static_cast<double>(sums->corners), -kFraction);
   }
   const double low = round_area(sums->twice_area - error, step);
   if (low != round_area(sums->twice_area + error, step)) return std::nullopt;

@@ -21,7 +21,6 @@
 namespace csgrun {
 namespace {
 
-constexpr int kFraction = 64;
 using Fixed = std::array<Int<2>, 3>;
 
 class Summer {
@@ -71,15 +70,7 @@ class Summer {
   /// groups, which are worth keeping.
   std::optional<Int128> near_determinant(uint32_t piece) {
     if (store_.is_group(piece)) return std::nullopt;
-    near_.clear();
-    for (const uint32_t point : store_.corners(piece)) {
-      if (!store_.is_on_grid(point)) return std::nullopt;
-      Near& near = near_.emplace_back();
-      for (size_t k = 0; k < 3; ++k) {
-        near[k] = static_cast<int64_t>(store_.rounded(point)[k]) - store_.origin()[k];
-        if (std::abs(near[k]) >= kNearLimit) return std::nullopt;
-      }
-    }
+    if (!take_near(store_, store_.corners(piece), near_)) return std::nullopt;
     Int128 sum = 0;
     store_.each_loop(piece,
                      [&](uint32_t begin, uint32_t end) { sum += near_determinant(begin, end); });

@@ -391,9 +391,9 @@ class CsgBuilder {
                               std::move(uncut));
     }
     const auto [low, high] = child->shape.bounds();
-    const auto factors =
-        resize_factors({high.x - low.x, high.y - low.y}, {wanted->newsize[0], wanted->newsize[1]},
-                       {wanted->automatic[0], wanted->automatic[1]});
+    const auto factors = resize_factors<2>({high.x - low.x, high.y - low.y},
+                                           {wanted->newsize[0], wanted->newsize[1]},
+                                           {wanted->automatic[0], wanted->automatic[1]});
     Affine map;
     map.m[0][0] = factors[0];
     map.m[1][1] = factors[1];

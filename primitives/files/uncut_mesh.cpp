@@ -1,10 +1,11 @@
 #include "primitives/files/uncut_mesh.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
 #include <glm/common.hpp>
+
+#include <csgrun/primitives/shape_operations.h>
 
 #include "primitives/solids/bent_quads.h"
 #include "primitives/solids/finish_solid.h"
@@ -34,14 +35,10 @@ UncutPtr resized(const UncutPtr& uncut, const Resize& resize) {
     low = glm::min(low, uncut->seen[corner]);
     high = glm::max(high, uncut->seen[corner]);
   }
-  const auto factor = [&](int i) {
-    return resize.size[i] > 0 ? resize.size[i] / (high[i] - low[i]) : 1;
-  };
-  const auto& size = resize.size;
-  const auto largest = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
+  const glm::dvec3 size = high - low;
+  const auto factors = resize_factors<3>({size.x, size.y, size.z}, resize.size, resize.automatic);
   Affine map;
-  for (int i = 0; i < 3; ++i)
-    map.m[i][i] = factor(resize.automatic[i] && !(size[i] > 0) ? largest : i);
+  for (size_t i = 0; i < 3; ++i) map.m[i][i] = factors[i];
   return moved(uncut, map, false);
 }
 

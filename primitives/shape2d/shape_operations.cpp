@@ -28,18 +28,6 @@ Result<Shape2D> fill_shape(const Shape2D& shape) {
                                   [](int32_t, int32_t sum) { return sum > 0; });
 }
 
-std::array<double, 2> resize_factors(const std::array<double, 2>& size,
-                                     const std::array<double, 2>& wanted,
-                                     const std::array<bool, 2>& automatic) {
-  const size_t largest = wanted[1] > wanted[0] ? 1 : 0;
-  const double other = wanted[largest] > 0 ? wanted[largest] / size[largest] : 1;
-  std::array<double, 2> factors{};
-  for (size_t i = 0; i < 2; ++i) {
-    factors[i] = wanted[i] > 0 ? wanted[i] / size[i] : automatic[i] ? other : 1;
-  }
-  return factors;
-}
-
 double perimeter_of(const Shape2D& shape) {
   double sum = 0;
   for (const Shape2D::Loop& loop : shape.loops()) {

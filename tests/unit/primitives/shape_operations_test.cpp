@@ -309,11 +309,11 @@ TEST(Fill, DropsHolesAndWhatIsInThem) {
 
 TEST(Resize, FollowsOpenScad) {
   using Pair = std::array<double, 2>;
-  EXPECT_EQ(resize_factors({10, 20}, {30, 10}, {false, false}), (Pair{3, 0.5}));
-  EXPECT_EQ(resize_factors({10, 20}, {30, 0}, {false, false}), (Pair{3, 1}));
-  EXPECT_EQ(resize_factors({10, 20}, {30, 0}, {false, true}), (Pair{3, 3}));
-  EXPECT_EQ(resize_factors({10, 20}, {0, 5}, {true, true}), (Pair{0.25, 0.25}));
-  EXPECT_EQ(resize_factors({10, 20}, {0, 0}, {true, true}), (Pair{1, 1}));
+  EXPECT_EQ(resize_factors<2>({10, 20}, {30, 10}, {false, false}), (Pair{3, 0.5}));
+  EXPECT_EQ(resize_factors<2>({10, 20}, {30, 0}, {false, false}), (Pair{3, 1}));
+  EXPECT_EQ(resize_factors<2>({10, 20}, {30, 0}, {false, true}), (Pair{3, 3}));
+  EXPECT_EQ(resize_factors<2>({10, 20}, {0, 5}, {true, true}), (Pair{0.25, 0.25}));
+  EXPECT_EQ(resize_factors<2>({10, 20}, {0, 0}, {true, true}), (Pair{1, 1}));
 }
 
 TEST(Pieces, AreTheRegions) {

@@ -65,9 +65,21 @@ Result<Shape2D> fill_shape(const Shape2D& shape);
 
 /// The factors about the origin that give the bounding box `wanted` lengths. 0 keeps an axis; with
 /// `automatic` it takes the factor of the axis whose wanted length is the largest.
-std::array<double, 2> resize_factors(const std::array<double, 2>& size,
-                                     const std::array<double, 2>& wanted,
-                                     const std::array<bool, 2>& automatic);
+template <size_t N>
+std::array<double, N> resize_factors(const std::array<double, N>& size,
+                                     const std::array<double, N>& wanted,
+                                     const std::array<bool, N>& automatic) {
+  size_t largest = 0;
+  for (size_t i = 1; i < N; ++i) {
+    if (wanted[i] > wanted[largest]) largest = i;
+  }
+  const double other = wanted[largest] > 0 ? wanted[largest] / size[largest] : 1;
+  std::array<double, N> factors{};
+  for (size_t i = 0; i < N; ++i) {
+    factors[i] = wanted[i] > 0 ? wanted[i] / size[i] : automatic[i] ? other : 1;
+  }
+  return factors;
+}
 
 /// In mm, holes included.
 double perimeter_of(const Shape2D& shape);
