@@ -236,13 +236,15 @@ Point intersect(const Plane& p, const Plane& q, const Plane& r) {
 }
 
 std::array<double, 3> rounded(const Point& p) {
-  const auto quotients = [&]<int N>() -> std::array<double, 3> {
-    const auto w = Int<N>::from(p.w);
-    return {round_to_double(Int<N>::from(p.x), w), round_to_double(Int<N>::from(p.y), w),
-            round_to_double(Int<N>::from(p.z), w)};
+  if (std::max(p.xyz_bits, p.w_bits) < 256) {
+    const NarrowQuotients over_w(Int<4>::from(p.w));
+    return {over_w.to_double(Int<4>::from(p.x)), over_w.to_double(Int<4>::from(p.y)),
+            over_w.to_double(Int<4>::from(p.z))};
+  }
+  const auto quotient = [w = Int<kQuotientLimbs>::from(p.w)](const Coordinate& c) {
+    return round_to_double(Int<kQuotientLimbs>::from(c), w);
   };
-  if (std::max(p.xyz_bits, p.w_bits) < 256) return quotients.template operator()<4>();
-  return quotients.template operator()<kQuotientLimbs>();
+  return {quotient(p.x), quotient(p.y), quotient(p.z)};
 }
 
 int compare_along(const Point& p, const Point& q, int axis) {

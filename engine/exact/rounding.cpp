@@ -9,14 +9,9 @@ namespace {
 
 using Quotient = Int<kQuotientLimbs>;
 
-struct Leading {
-  uint64_t bits;  ///< the 64 leading bits, the first of them set
-  int exponent;   ///< value is in [bits, bits + 1) * 2^exponent
-};
-
 /// REQUIRES: v > 0.
 template <int N>
-Leading leading(const Int<N>& v) {
+LeadingBits leading(const Int<N>& v) {
   int top = N - 1;
   while (v.limb[top] == 0) --top;
   const int shift = std::countl_zero(v.limb[top]);
@@ -32,7 +27,7 @@ struct Rounded {
 
 Rounded round_quotient(const Quotient& numerator, const Quotient& denominator, int exponent,
                        int precision, int lowest_exponent) {
-  const Leading n = leading(numerator), d = leading(denominator);
+  const LeadingBits n = leading(numerator), d = leading(denominator);
   // numerator / denominator = quotient * 2^scale up to 8 units of quotient: each truncation is off
   // by less than 2^-63 relatively, and quotient < 2^65.
   const UInt128 quotient = (static_cast<UInt128>(n.bits) << 64) / d.bits;
@@ -77,24 +72,29 @@ double round_to_double(const Quotient& numerator, const Quotient& denominator, i
   return numerator.negative() ? -value : value;
 }
 
-double round_to_double(const Int<4>& numerator, const Int<4>& denominator, int exponent) {
+NarrowQuotients::NarrowQuotients(const Int<4>& denominator)
+    : denominator_(denominator), leading_(leading(denominator)) {}
+
+double NarrowQuotients::to_double(const Int<4>& numerator, int exponent) const {
   if (numerator.is_zero()) return 0;
-  const Leading n = leading(numerator.magnitude()), d = leading(denominator);
-  // As above, but with 63 or 64 bits of quotient.
-  const auto quotient = static_cast<uint64_t>((static_cast<UInt128>(n.bits) << 63) / d.bits);
-  const int scale = n.exponent - d.exponent - 63 + exponent;
-  const int drop = std::bit_width(quotient) - 53;
-  const uint64_t half = uint64_t{1} << (drop - 1), low = quotient & (2 * half - 1);
-  const uint64_t distance = low > half ? low - half : half - low;
-  const int power = scale + drop;
-  constexpr int kFarFromSubnormal = 960;
-  if (distance <= 16 || std::abs(power) > kFarFromSubnormal) {
-    return round_to_double(Quotient::from(numerator), Quotient::from(denominator), exponent);
+  const LeadingBits n = leading(numerator.magnitude());
+  // 62 or 63 bits of the quotient, which fit a signed number: machines convert these at once, and
+  // round to nearest. Cut bits make it less than 1 too large, or less than 2 too small.
+  constexpr int kShift = 62;
+  const auto quotient =
+      static_cast<int64_t>((static_cast<UInt128>(n.bits) << kShift) / leading_.bits);
+  const int64_t half = (quotient >> kShift) != 0 ? 1 << 9 : 1 << 8;  // of the double's last bit
+  const int64_t beyond = (quotient & (2 * half - 1)) - half;         // the middle of two doubles
+  const int power = n.exponent - leading_.exponent - kShift + exponent;
+  constexpr int kFarFromSubnormal = 900;
+  if (std::abs(beyond) <= 1 || std::abs(power) > kFarFromSubnormal) {
+    return round_to_double(Quotient::from(numerator), Quotient::from(denominator_), exponent);
   }
-  const uint64_t mantissa = (quotient >> drop) + (low > half ? 1 : 0);
-  const double value = static_cast<double>(mantissa) *
+  const double value = static_cast<double>(quotient) *
                        std::bit_cast<double>(static_cast<uint64_t>(power + 1023) << 52);
-  return numerator.negative() ? -value : value;
+  // Signs are as good as random: no branch on them.
+  const uint64_t sign = static_cast<uint64_t>(numerator.negative()) << 63;
+  return std::bit_cast<double>(std::bit_cast<uint64_t>(value) | sign);
 }
 
 float round_to_float(const Quotient& numerator, const Quotient& denominator, int exponent) {

@@ -14,8 +14,27 @@ constexpr int kQuotientLimbs = 8;
 /// rounding boundary.
 double round_to_double(const Int<kQuotientLimbs>& numerator, const Int<kQuotientLimbs>& denominator,
                        int exponent = 0);
-/// The same for narrower numbers, a few times as fast.
-double round_to_double(const Int<4>& numerator, const Int<4>& denominator, int exponent = 0);
+/// The 64 leading bits of a number.
+struct LeadingBits {
+  uint64_t bits = 0;  ///< the first of them set
+  int exponent = 0;   ///< the number is in [bits, bits + 1) * 2^exponent
+};
+
+/// The same for narrower numbers, several times as fast: quotients of one denominator > 0.
+class NarrowQuotients {
+ public:
+  explicit NarrowQuotients(const Int<4>& denominator);
+  /// numerator / denominator * 2^exponent, rounded as by round_to_double.
+  [[nodiscard]] double to_double(const Int<4>& numerator, int exponent = 0) const;
+
+ private:
+  Int<4> denominator_;
+  LeadingBits leading_;
+};
+inline double round_to_double(const Int<4>& numerator, const Int<4>& denominator,
+                              int exponent = 0) {
+  return NarrowQuotients(denominator).to_double(numerator, exponent);
+}
 /// The same for float, subnormal results included.
 float round_to_float(const Int<kQuotientLimbs>& numerator, const Int<kQuotientLimbs>& denominator,
                      int exponent = 0);

@@ -33,9 +33,10 @@ inline const PieceStore::CutPoint* find_cut_point(PieceStore& store, uint32_t po
   PieceStore::CutPoint& known = store.cut_point(point);
   if (known.is_known) return &known;
   const Point p = store.exact(point);
+  const FixedQuotients<1> over_w(p.w);
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<size_t>(k);
-    if (!fixed_point<1>(coordinate(p, k), p.w, known.at[axis], known.is_cut)) return nullptr;
+    if (!over_w.divide(coordinate(p, k), known.at[axis], known.is_cut)) return nullptr;
     known.at[axis] -= Int<2>(store.origin()[axis]).shifted_left(kFraction);
   }
   known.is_known = true;

@@ -21,6 +21,7 @@
 
 #include "engine/exact/plane.h"
 #include "engine/exact/point.h"
+#include "engine/mesh/fixed_quotients.h"
 #include "engine/mesh/leading_bits.h"
 #include "engine/mesh/measure.h"
 #include "engine/mesh/natural.h"
@@ -30,87 +31,10 @@ namespace csgrun {
 using TriangleSpan = std::span<const std::array<uint32_t, 3>>;
 using PointAccess = std::function<Point(uint32_t)>;
 
-constexpr int kCoordinateBits = 42;  ///< of a difference of two points, before the binary point
-constexpr int kTriangleBits = 32;    ///< of the number of triangles
+constexpr int kTriangleBits = 32;  ///< of the number of triangles
 
 inline const Int<kPointLimbs>& coordinate(const Point& p, int axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
-/// floor(m * 2^64 / w) for w below 2^127, if the quotient's whole part fits 64 bits; `whole` says
-/// whether nothing is left. Knuth's algorithm D with one digit after the point.
-inline Int<2> narrow_quotient(UInt128 m, UInt128 w, bool& whole) {
-  const UInt128 whole_part = m / w;
-  UInt128 rest = m - whole_part * w;
-  const auto high = static_cast<uint64_t>(w >> 64);
-  const int lift =
-      high != 0 ? std::countl_zero(high) : 64 + std::countl_zero(static_cast<uint64_t>(w));
-  rest <<= lift;
-  const UInt128 divisor = w << lift;
-  const auto first = static_cast<uint64_t>(divisor >> 64), second = static_cast<uint64_t>(divisor);
-  // A digit by the divisor's first limb is too large by two at most; the second says by how much.
-  uint64_t digit = ~uint64_t{0};
-  UInt128 left = rest - static_cast<UInt128>(digit) * first;
-  if (static_cast<uint64_t>(rest >> 64) < first) {
-    digit = static_cast<uint64_t>(rest / first);
-    left = rest - static_cast<UInt128>(digit) * first;
-  }
-  while ((left >> 64) == 0 && static_cast<UInt128>(digit) * second > (left << 64)) {
-    --digit;
-    left += first;
-  }
-  whole = (left << 64) == static_cast<UInt128>(digit) * second;
-  Int<2> result;
-  result.limb = {digit, static_cast<uint64_t>(whole_part)};
-  return result;
-}
-
-/// Whether 128 bits hold a number, and then these.
-inline bool is_narrow(const Int<kPointLimbs>& v, Int128& low) {
-  const uint64_t fill = -(v.limb[1] >> 63);
-  uint64_t beyond = 0;
-  for (size_t i = 2; i < kPointLimbs; ++i) beyond |= v.limb[i] ^ fill;
-  low = static_cast<Int128>(static_cast<UInt128>(v.limb[1]) << 64 | v.limb[0]);
-  return beyond == 0;
-}
-
-/// Whether x is w * 2^(64 K) times less than 2^kCoordinateBits, and then floor(x * 2^(64 K) / w);
-/// `cut` is set when the quotient was not whole. REQUIRES: w > 0.
-template <int K>
-bool fixed_point(const Int<kPointLimbs>& x, const Int<kPointLimbs>& w, Int<K + 1>& result,
-                 bool& cut) {
-  if constexpr (K == 1) {
-    Int128 narrow = 0, narrow_w = 0;
-    if (is_narrow(x, narrow) && is_narrow(w, narrow_w)) {
-      const UInt128 m = magnitude(narrow);
-      if (width_of_magnitude(m) - bit_width(narrow_w) >= kCoordinateBits - 1) return false;
-      bool whole = true;
-      result = narrow_quotient(m, static_cast<UInt128>(narrow_w), whole);
-      if (narrow < 0) result = whole ? -result : -result - Int<2>(1);
-      cut = cut || !whole;
-      return true;
-    }
-  }
-  const int w_bits = w.bit_width();
-  const Int<kPointLimbs> m = x.magnitude();
-  const int m_bits = m.bit_width();
-  if (m_bits - w_bits >= kCoordinateBits - 1) return false;
-  const int lift = (64 - w_bits % 64) % 64;
-  const auto n = static_cast<size_t>((w_bits + 63) / 64);
-  const Int<kPointLimbs + 1> divisor = Int<kPointLimbs + 1>::from(w).shifted_left(lift);
-  // |x| * 2^(64 K + lift), over which the quotient has at most K + 1 limbs.
-  std::array<uint64_t, kPointLimbs + K + 2> dividend{};
-  const Int<kPointLimbs + 1> lifted = Int<kPointLimbs + 1>::from(m).shifted_left(lift);
-  std::copy(lifted.limb.begin(), lifted.limb.end(), dividend.begin() + K);
-  std::array<uint64_t, K + 1> digits{};
-  divide_normalised(std::span(dividend.data(), n + K + 1), std::span(divisor.limb.data(), n),
-                    digits);
-  for (int i = 0; i <= K; ++i) result.limb[i] = digits[i];
-  const bool whole = std::all_of(dividend.begin(), dividend.begin() + static_cast<long>(n),
-                                 [](uint64_t limb) { return limb == 0; });
-  if (x.negative()) result = whole ? -result : -result - Int<K + 1>(1);
-  cut = cut || !whole;
-  return true;
 }
 
 /// a * b, all of it. Without branches: the signs of coordinates are as good as random.
@@ -321,6 +245,7 @@ class FixedRound {
   bool take(uint32_t v, const Point& p, const std::array<int64_t, 3>& origin) {
     bool cut = false;
     const bool whole = p.w_bits == 1 && p.xyz_bits < kCoordinateBits - 1;
+    const FixedQuotients<K> over_w(p.w);
     Near near{};
     bool is_near = whole;
     for (int k = 0; k < 3; ++k) {
@@ -330,7 +255,7 @@ class FixedRound {
         near[k] = c - origin[k];
         is_near = is_near && std::abs(near[k]) < kNearLimit;
         x = Fixed(c).shifted_left(64 * K);
-      } else if (!fixed_point<K>(coordinate(p, k), p.w, x, cut)) {
+      } else if (!over_w.divide(coordinate(p, k), x, cut)) {
         return false;
       }
       x -= Fixed(origin[k]).shifted_left(64 * K);

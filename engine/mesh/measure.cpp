@@ -248,10 +248,11 @@ Result<MassProperties> measure_mesh(size_t point_count, const PointAccess& point
     }
   }
   const Point near = point(triangles[0][0]);
+  const FixedQuotients<1> over_w(near.w);
   for (int k = 0; k < 3; ++k) {
     Int<2> x;
     bool cut = false;
-    if (!fixed_point<1>(coordinate(near, k), near.w, x, cut)) {
+    if (!over_w.divide(coordinate(near, k), x, cut)) {
       return failure("a point is out of range");
     }
     mesh.origin[k] = static_cast<int64_t>(x.limb[1]);

@@ -60,23 +60,30 @@ void ToMillimetres::position(const Point& p, glm::dvec3& mm, std::array<float, 3
 void ToMillimetres::divide(const Point& p, glm::dvec3& mm, std::array<float, 3>& single) const {
   static_assert(widths::kMaxPointXyz + 63 < 64 * kQuotientLimbs);
   const Int<kPointLimbs>* coordinate[3] = {&p.x, &p.y, &p.z};
-  const auto round = [&]<int N>() {
-    using Q = Int<kQuotientLimbs>;
-    const auto denominator =
-        multiply<N>(Int<std::min(N, kPointLimbs)>::from(p.w), Int<1>(step_.denominator));
+  using Q = Int<kQuotientLimbs>;
+  const auto round = [&]<int N>(const auto& to_double) {
+    const Int<1> times(step_.numerator);
     for (int k = 0; k < 3; ++k) {
       const auto numerator =
-          multiply<N>(Int<std::min(N, kPointLimbs)>::from(*coordinate[k]), Int<1>(step_.numerator));
-      mm[k] = round_to_double(numerator, denominator, step_.exponent);
-      single[k] = tells_float(mm[k])
-                      ? static_cast<float>(mm[k])
-                      : round_to_float(Q::from(numerator), Q::from(denominator), step_.exponent);
+          multiply<N>(Int<std::min(N, kPointLimbs)>::from(*coordinate[k]), times);
+      mm[k] = to_double(numerator);
+      if (tells_float(mm[k])) {
+        single[k] = static_cast<float>(mm[k]);
+      } else {
+        const auto denominator = multiply<kQuotientLimbs>(p.w, Int<1>(step_.denominator));
+        single[k] = round_to_float(Q::from(numerator), denominator, step_.exponent);
+      }
     }
   };
   if (std::max(p.xyz_bits, p.w_bits) + 63 < 256) {
-    round.template operator()<4>();
+    const NarrowQuotients over_w(multiply<4>(Int<4>::from(p.w), Int<1>(step_.denominator)));
+    round.template operator()<4>(
+        [&](const Int<4>& numerator) { return over_w.to_double(numerator, step_.exponent); });
   } else {
-    round.template operator()<kQuotientLimbs>();
+    const auto denominator = multiply<kQuotientLimbs>(p.w, Int<1>(step_.denominator));
+    round.template operator()<kQuotientLimbs>([&](const Q& numerator) {
+      return round_to_double(numerator, denominator, step_.exponent);
+    });
   }
 }
 

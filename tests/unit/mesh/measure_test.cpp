@@ -336,7 +336,7 @@ TEST(FixedPoint, IsTheQuotientCutTo64Bits) {
   std::mt19937_64 random(7);
   int whole_ones = 0;
   for (int i = 0; i < 60000; ++i) {
-    const unsigned w_bits = 1 + random() % 150;
+    const unsigned w_bits = 1 + random() % (i % 2 == 0 ? 200 : 330);
     const mpz_class w = number_of_bits(random, w_bits);
     mpz_class x = number_of_bits(random, 1 + random() % (w_bits + kCoordinateBits - 2));
     switch (random() % 4) {
@@ -353,7 +353,8 @@ TEST(FixedPoint, IsTheQuotientCutTo64Bits) {
     if (random() % 2) x = -x;
     Int<2> result;
     bool cut = false;
-    ASSERT_TRUE(fixed_point<1>(fixed<kPointLimbs>(x), fixed<kPointLimbs>(w), result, cut));
+    const FixedQuotients<1> over_w(fixed<kPointLimbs>(w));
+    ASSERT_TRUE(over_w.divide(fixed<kPointLimbs>(x), result, cut));
     mpz_class expected, rest;
     mpz_fdiv_qr(expected.get_mpz_t(), rest.get_mpz_t(), mpz_class(x << 64).get_mpz_t(),
                 w.get_mpz_t());
@@ -362,6 +363,22 @@ TEST(FixedPoint, IsTheQuotientCutTo64Bits) {
     whole_ones += !cut;
   }
   EXPECT_GT(whole_ones, 1000);
+}
+
+TEST(FixedPoint, IsNotOfFarPoints) {
+  std::mt19937_64 random(8);
+  for (int i = 0; i < 2000; ++i) {
+    const mpz_class w = number_of_bits(random, 1 + random() % 330);
+    const mpz_class limit = w << (kCoordinateBits - 1);
+    const FixedQuotients<1> over_w(fixed<kPointLimbs>(w));
+    Int<2> result;
+    bool cut = false;
+    EXPECT_TRUE(over_w.divide(fixed<kPointLimbs>(limit - 1), result, cut));
+    for (const mpz_class& x :
+         std::initializer_list<mpz_class>{limit, -limit, limit + w, limit << 12}) {
+      EXPECT_FALSE(over_w.divide(fixed<kPointLimbs>(x), result, cut)) << x << " / " << w;
+    }
+  }
 }
 
 }  // namespace
