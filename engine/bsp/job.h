@@ -234,9 +234,14 @@ class Job {
   [[nodiscard]] Point exact_of(uint32_t o, uint32_t local) const;
   [[nodiscard]] bool is_good_prime(int64_t p) const;
   [[nodiscard]] IVec3 leaf_corner(const JobPolygon& p, uint32_t i) const;
-  /// Planes of polygons of leaves.
+  /// Planes of polygons of leaves, and of pieces.
   [[nodiscard]] ReducedPlane reduced_support(uint32_t polygon) const;
   [[nodiscard]] ReducedPlane reduced_edge(uint32_t polygon, uint32_t edge) const;
+  [[nodiscard]] PieceStore* store_of(const JobPolygon& p) const;
+  bool find_support(uint32_t polygon);
+  bool find_edge(const PolygonEdge& e);
+  void take_support(uint32_t polygon, const ReducedPlane& plane);
+  uint32_t take_edge(const PolygonEdge& e, const ReducedPlane& plane);
 
   const std::vector<Operand>* operands_;
   const NearFaces* near_;

@@ -27,6 +27,7 @@ IVec3 Job::leaf_corner(const JobPolygon& p, uint32_t i) const {
 
 ReducedPlane Job::reduced_support(uint32_t polygon) const {
   const JobPolygon& p = polygons_[polygon];
+  if (const PieceStore* store = store_of(p)) return store->reduced_support(pieces_[p.face]);
   const Plane own = support_of_loop(p.count, [&](uint32_t i) { return leaf_corner(p, i); });
   const FrameMap& map = sources_[p.operand].map;
   return reduce(map.is_identity() ? own : map.plane(own));
@@ -34,6 +35,7 @@ ReducedPlane Job::reduced_support(uint32_t polygon) const {
 
 ReducedPlane Job::reduced_edge(uint32_t polygon, uint32_t edge) const {
   const JobPolygon& p = polygons_[polygon];
+  if (const PieceStore* store = store_of(p)) return store->reduced_edge(pieces_[p.face], edge);
   const FrameMap& map = sources_[p.operand].map;
   const auto corner = [&](uint32_t i) { return leaf_corner(p, i); };
   // A mirrored loop runs backwards: its edge from corner j to j + 1 is the leaf's edge n - 2 - j.
@@ -44,39 +46,60 @@ ReducedPlane Job::reduced_edge(uint32_t polygon, uint32_t edge) const {
   return reduce(map.is_identity() ? own : map.plane(own));
 }
 
-void Job::ensure_support(uint32_t polygon) {
-  JobPolygon& p = polygons_[polygon];
-  if (p.support.valid()) return;
+/// The store that a polygon is a piece of, or null.
+PieceStore* Job::store_of(const JobPolygon& p) const {
   const auto& pieces = (*operands_)[p.operand].pieces;
-  p.support = pieces ? pieces->store->ensure_support(pieces_[p.face])
-                     : planes_.intern_computed(reduced_support(polygon));
+  return pieces ? pieces->store.get() : nullptr;
+}
+
+/// Whether the support is known; a piece may have got it since the job began.
+bool Job::find_support(uint32_t polygon) {
+  JobPolygon& p = polygons_[polygon];
+  if (p.support.valid()) return true;
+  if (const PieceStore* store = store_of(p)) p.support = store->piece(pieces_[p.face]).support;
+  return p.support.valid();
+}
+
+/// The same of the plane of an edge.
+bool Job::find_edge(const PolygonEdge& e) {
+  const JobPolygon& p = polygons_[e.polygon];
+  uint32_t& plane = edge_planes_[p.first + e.edge];
+  if (plane != kNone) return true;
+  if (const PieceStore* store = store_of(p)) plane = store->edges(pieces_[p.face])[e.edge];
+  return plane != kNone;
+}
+
+void Job::take_support(uint32_t polygon, const ReducedPlane& plane) {
+  JobPolygon& p = polygons_[polygon];
+  PieceStore* const store = store_of(p);
+  p.support = store ? store->take_support(pieces_[p.face], plane) : planes_.intern_computed(plane);
+}
+
+uint32_t Job::take_edge(const PolygonEdge& e, const ReducedPlane& plane) {
+  const JobPolygon& p = polygons_[e.polygon];
+  PieceStore* const store = store_of(p);
+  return edge_planes_[p.first + e.edge] = store ? store->take_edge(pieces_[p.face], e.edge, plane)
+                                                : planes_.intern_computed(plane).index();
+}
+
+void Job::ensure_support(uint32_t polygon) {
+  if (!find_support(polygon)) take_support(polygon, reduced_support(polygon));
 }
 
 uint32_t Job::edge_plane(uint32_t polygon, uint32_t edge) {
-  const JobPolygon& p = polygons_[polygon];
-  uint32_t& plane = edge_planes_[p.first + edge];
-  if (plane != kNone) return plane;
-  const auto& pieces = (*operands_)[p.operand].pieces;
-  return plane = pieces ? pieces->store->ensure_edge(pieces_[p.face], edge)
-                        : planes_.intern_computed(reduced_edge(polygon, edge)).index();
+  if (!find_edge({polygon, edge})) take_edge({polygon, edge}, reduced_edge(polygon, edge));
+  return edge_planes_[polygons_[polygon].first + edge];
 }
 
 void Job::ensure_supports(std::span<const uint32_t> polygons) {
   std::vector<uint32_t> lacking;
   for (const uint32_t p : polygons) {
-    if (polygons_[p].support.valid()) continue;
-    if (is_face_of_leaf(polygons_[p])) {
-      lacking.push_back(p);
-    } else {
-      ensure_support(p);
-    }
+    if (!find_support(p)) lacking.push_back(p);
   }
   planes_.make_room(lacking.size());
   make_and_take(
       lacking.size(), [&](size_t i) { return reduced_support(lacking[i]); },
-      [&](size_t i, const ReducedPlane& plane) {
-        polygons_[lacking[i]].support = planes_.intern_computed(plane);
-      },
+      [&](size_t i, const ReducedPlane& plane) { take_support(lacking[i], plane); },
       [&](const ReducedPlane& plane) { planes_.expect(plane); });
 }
 
@@ -84,22 +107,14 @@ void Job::ensure_edges(std::span<const PolygonEdge> edges) {
   constexpr uint32_t kAsked = kNone - 1;  // stands in for a plane until it is made
   std::vector<PolygonEdge> lacking;
   for (const PolygonEdge& e : edges) {
-    const JobPolygon& p = polygons_[e.polygon];
-    if (edge_planes_[p.first + e.edge] != kNone) continue;
-    if (is_face_of_leaf(p)) {
-      edge_planes_[p.first + e.edge] = kAsked;
-      lacking.push_back(e);
-    } else {
-      edge_plane(e.polygon, e.edge);
-    }
+    if (find_edge(e)) continue;
+    edge_planes_[polygons_[e.polygon].first + e.edge] = kAsked;
+    lacking.push_back(e);
   }
   planes_.make_room(lacking.size());
   make_and_take(
       lacking.size(), [&](size_t i) { return reduced_edge(lacking[i].polygon, lacking[i].edge); },
-      [&](size_t i, const ReducedPlane& plane) {
-        edge_planes_[polygons_[lacking[i].polygon].first + lacking[i].edge] =
-            planes_.intern_computed(plane).index();
-      },
+      [&](size_t i, const ReducedPlane& plane) { take_edge(lacking[i], plane); },
       [&](const ReducedPlane& plane) { planes_.expect(plane); });
 }
 

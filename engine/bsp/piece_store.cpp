@@ -194,27 +194,32 @@ IVec3 PieceStore::on_grid(uint32_t point) const {
 // boundary in a frame a job has all planes.)
 
 PlaneId PieceStore::ensure_support(uint32_t piece) {
-  Piece& p = pieces_[piece];
-  if (p.support.valid()) return p.support;
-  if (const FrameMap& map = maps_[p.operand]; !map.is_identity()) {
-    const PlaneId outwards = planes.intern(FramedFace(operands_[p.operand], map, p.face).support());
-    return p.support = p.is_flipped ? outwards.flip() : outwards;
-  }
-  return p.support = planes.intern(plane_of_corners(piece));
+  const PlaneId known = pieces_[piece].support;
+  return known.valid() ? known : take_support(piece, reduced_support(piece));
 }
 
 uint32_t PieceStore::ensure_edge(uint32_t piece, uint32_t edge) {
+  const uint32_t known = edges_[pieces_[piece].first + edge];
+  return known != kNoNumber ? known : take_edge(piece, edge, reduced_edge(piece, edge));
+}
+
+ReducedPlane PieceStore::reduced_support(uint32_t piece) const {
   const Piece& p = pieces_[piece];
-  uint32_t& plane = edges_[p.first + edge];
-  if (plane != kNoNumber) return plane;
+  const FrameMap& map = maps_[p.operand];
+  if (map.is_identity()) return reduce(plane_of_corners(piece));
+  const Plane outwards = FramedFace(operands_[p.operand], map, p.face).support();
+  return reduce(p.is_flipped ? outwards.reversed() : outwards);
+}
+
+ReducedPlane PieceStore::reduced_edge(uint32_t piece, uint32_t edge) const {
+  const Piece& p = pieces_[piece];
   if (const FrameMap& map = maps_[p.operand]; !map.is_identity()) {
     const FramedFace own(operands_[p.operand], map, p.face);
-    return plane = planes.intern(own.edge(edge_place(edge, p.count, runs_back(p)))).index();
+    return reduce(own.edge(edge_place(edge, p.count, runs_back(p))));
   }
   const uint32_t next = edge + 1 < p.count ? edge + 1 : 0;
-  const Plane own = edge_plane(on_grid(corners_[p.first + edge]), on_grid(corners_[p.first + next]),
-                               dominant_axis(plane_of_corners(piece)));
-  return plane = planes.intern(own).index();
+  return reduce(edge_plane(on_grid(corners_[p.first + edge]), on_grid(corners_[p.first + next]),
+                           dominant_axis(plane_of_corners(piece))));
 }
 
 Point PieceStore::exact(uint32_t point) const {

@@ -124,6 +124,16 @@ class PieceStore {
   /// Makes the support, or the plane of an edge, of a piece over grid points, if it was not made.
   PlaneId ensure_support(uint32_t piece);
   uint32_t ensure_edge(uint32_t piece, uint32_t edge);
+  /// The same in two steps: what is computed, which several threads may do, and is taken then.
+  /// REQUIRES: it was not made.
+  [[nodiscard]] ReducedPlane reduced_support(uint32_t piece) const;
+  [[nodiscard]] ReducedPlane reduced_edge(uint32_t piece, uint32_t edge) const;
+  PlaneId take_support(uint32_t piece, const ReducedPlane& plane) {
+    return pieces_[piece].support = planes.intern_computed(plane);
+  }
+  uint32_t take_edge(uint32_t piece, uint32_t edge, const ReducedPlane& plane) {
+    return edges_[pieces_[piece].first + edge] = planes.intern_computed(plane).index();
+  }
 
   [[nodiscard]] size_t point_count() const { return rounded_.size(); }
   [[nodiscard]] const std::array<double, 3>& rounded(uint32_t point) const {
