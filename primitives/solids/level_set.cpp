@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,9 @@ constexpr double kMostLatticePoints = 0x1p28;
 /// And of two of its layers, all that is kept at a time: 700 MB.
 constexpr double kMostLayerPoints = 0x1p23;
 constexpr uint32_t kNone = ~0u;
+/// Of an edge of the lattice: what rounding makes of a function's value there, and less than any
+/// grid tells from nothing. And what the coordinates of a point on it are wrong by, of these.
+constexpr double kNoise = 1e-10, kRounding = 0x1p-48;
 
 /// The six tetrahedra of a cell: on the way from its lowest corner to the greatest, along one axis
 /// after the other. Corners are masks: bit k is one step along axis k.
@@ -44,6 +48,11 @@ class Polygonizer {
   Polygonizer(const Field& field, const LevelSetOptions& options,
               const std::array<size_t, 3>& parts)
       : field_(field), options_(options), parts_(parts), row_(parts[0] + 3) {
+    for (int k = 0; k < 3; ++k) {
+      const double low = options.low[k], high = options.high[k];
+      const double edge = (high - low) / static_cast<double>(parts[static_cast<size_t>(k)]);
+      noise_ = std::max(noise_, kRounding * std::max(std::fabs(low), std::fabs(high)) / edge);
+    }
     for (Layer& layer : layers_) {
       layer.values.resize(row_ * (parts[1] + 3));
       layer.own_point.resize(layer.values.size());
@@ -61,6 +70,7 @@ class Polygonizer {
       }
     }
     if (error) return *std::move(error);
+    for (const auto& side : sides_) mesh_.add_face(side);
     mesh_.surface.assign(mesh_.face_count(), 1);
     return std::move(mesh_);
   }
@@ -129,24 +139,54 @@ class Polygonizer {
   uint32_t cut_edge(const Cell& cell, unsigned inside, unsigned outside) {
     const Cell a = corner(cell, inside), b = corner(cell, outside);
     const double va = value(a), vb = value(b);
-    Layer& of_a = layers_[a[2] % 2];
-    // Where the value is 0 is inside. Outside the box there is nothing to go between.
-    if (va == 0 || is_outside_box(b)) return add_point(of_a.own_point[index(a)], place(a));
+    // Outside the box there is nothing to go between.
+    if (is_outside_box(b)) return own_point(a);
     const Cell& low = inside < outside ? a : b;  // one mask contains the other
     uint32_t& number = layers_[low[2] % 2].edge_points[index(low)][inside ^ outside];
-    const double t = va / (va - vb);
+    if (number != kNone) return number;  // other cells know the edge, too
+    // Surface that passes a corner at the distance of noise passes through it, or several points
+    // would be in one place, or on a line. Where the value is 0 is inside.
+    const double t = 1 / (1 - vb / va);  // va / (va - vb), which may overflow
+    const double nothing = noise_ * scale_;
+    if (-va <= nothing || t < noise_) return number = own_point(a);
+    if (vb <= nothing || t > 1 - noise_) return number = own_point(b);
     return add_point(number, place(a) + t * (place(b) - place(a)));
+  }
+  uint32_t own_point(const Cell& c) {
+    const uint32_t point = add_point(layers_[c[2] % 2].own_point[index(c)], place(c));
+    is_corner_.resize(mesh_.points.size());
+    is_corner_[point] = true;
+    return point;
   }
 
   void add_triangle(uint32_t a, uint32_t b, uint32_t c, bool flip) {
     if (a == b || b == c || c == a) return;
     if (flip) std::swap(b, c);
-    mesh_.add_face(std::array<uint32_t, 3>{a, b, c});
+    is_corner_.resize(mesh_.points.size());
+    if (is_corner_[a] && is_corner_[b] && is_corner_[c]) {
+      add_side(a, b, c);
+    } else {
+      mesh_.add_face(std::array<uint32_t, 3>{a, b, c});
+    }
+  }
+
+  /// Of a tetrahedron: what is inside may end there from both sides, and is nothing then.
+  void add_side(uint32_t a, uint32_t b, uint32_t c) {
+    const auto from_least = [](std::array<uint32_t, 3> t) {
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+      return t;
+    };
+    if (sides_.erase(from_least({a, c, b})) == 0) sides_.insert(from_least({a, b, c}));
   }
 
   void cut_cell(const Cell& cell) {
     unsigned inside = 0;
-    for (unsigned mask = 0; mask < 8; ++mask) inside |= (value(corner(cell, mask)) <= 0) << mask;
+    scale_ = 0;
+    for (unsigned mask = 0; mask < 8; ++mask) {
+      const double v = value(corner(cell, mask));
+      inside |= (v <= 0) << mask;
+      if (!is_outside_box(corner(cell, mask))) scale_ = std::max(scale_, std::fabs(v));
+    }
     if (inside == 0 || inside == 0xff) return;
     for (const Tetrahedron& t : kTetrahedra) cut_tetrahedron(cell, t, inside);
   }
@@ -179,6 +219,10 @@ class Polygonizer {
   const LevelSetOptions& options_;
   const std::array<size_t, 3> parts_;
   const size_t row_;
+  double noise_ = kNoise;
+  double scale_ = 0;             ///< of the values at the corners of the cell at hand
+  std::vector<bool> is_corner_;  ///< per point of the mesh, whether it is one of the lattice
+  std::set<std::array<uint32_t, 3>> sides_;
   std::array<Layer, 2> layers_;
   PolygonMesh mesh_;
 };

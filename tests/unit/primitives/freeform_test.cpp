@@ -154,6 +154,45 @@ TEST(LevelSet, OfPlanesAndSamplesOnTheSurface) {
             "levelset: step must be positive, got -1");
 }
 
+/// Samples that are 0 but for rounding. Each function has all its values with either sign at as
+/// many places, so the solid is half of what it is cut from, or it has a volume that is known.
+TEST(LevelSet, OfSamplesThatAreNoise) {
+  struct Case {
+    std::function<double(const glm::dvec3&)> f;
+    LevelSetOptions options;
+    double volume, tolerance;
+  };
+  const auto sine = [](double turns) { return std::sin(2 * 3.14159265358979323846 * turns); };
+  const auto cosine = [](double turns) { return std::cos(2 * 3.14159265358979323846 * turns); };
+  const auto gyroid = [=](const glm::dvec3& p) {
+    const glm::dvec3 t = p / 10.0;
+    return sine(t.x) * cosine(t.y) + sine(t.y) * cosine(t.z) + sine(t.z) * cosine(t.x);
+  };
+  const auto sines = [=](const glm::dvec3& p) {
+    return sine(p.x / 9) + sine(p.y / 9) + sine(p.z / 9);
+  };
+  const LevelSetOptions small{{-1, -1, -1}, {1, 1, 1}, 0.1};
+  const Case cases[] = {
+      {gyroid, {{0, 0, 0}, {10, 10, 10}, 1}, 500, 1e-9},
+      {sines, {{0, 0, 0}, {9, 9, 9}, 1}, 364.5, 1e-9},
+      {[](const glm::dvec3& p) { return p.x - 0.3; }, small, 5.2, 1e-9},
+      {[](const glm::dvec3& p) { return p.x + 1e-17; }, small, 4, 1e-9},
+      {[](const glm::dvec3& p) { return p.x > 0.01 ? 1e308 : -1e308; }, small, 4.2, 1e-9},
+      {[](const glm::dvec3& p) {
+         return std::max(std::hypot(p.x, p.y) - 0.5, std::fabs(p.z) - 0.8);
+       },
+       small, 1.6 * 3.14159265 * 0.25, 0.03},
+  };
+  for (const Case& c : cases) {
+    const auto mesh =
+        make_level_set([&](const glm::dvec3& p) { return Result<double>(c.f(p)); }, c.options);
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_TRUE(check_mesh(*mesh).ok()) << check_mesh(*mesh).text();
+    EXPECT_NEAR(signed_volume(*mesh), c.volume, c.tolerance);
+    EXPECT_NEAR(evaluated(*mesh)->measures.volume, c.volume, c.tolerance + 1e-4);
+  }
+}
+
 TEST(Rounded, HaveTheirExtents) {
   const double pi = 3.14159265358979;
   const SolidPtr cube = evaluated(*make_rounded_cube({10, 20, 30}, 2, {true, false, false}, {64}));
