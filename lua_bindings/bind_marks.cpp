@@ -114,9 +114,8 @@ int only(lua_State* L) {
     // A node of its own: the same subtree elsewhere is not meant.
     solid->node = Node::transformed({}, solid->node, solid->node->where());
     session_of(L).only_nodes.push_back(solid->node);
-  } else {
-    marks_of(L, -1)->only = true;
   }
+  marks_of(L, -1)->only = true;
   return 1;
 }
 

@@ -1,6 +1,7 @@
 // What connects a script with the world: import, require, emit, render.
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -248,7 +249,25 @@ constexpr FunctionSpec kRequire{"require", "Runs a module once and gives what it
                                 kRequireOptions, false, "local wheel = require \"parts.wheel\""};
 
 const char kLoadedModules = 0;  // registry: real path -> value
-const char kLoadingMark = 0;    // value while a module runs
+
+/// A module while it runs.
+class LoadingModule {
+ public:
+  LoadingModule(Session& session, const std::string& place)
+      : all_(session.loading_modules), is_first_(all_.insert(place).second), place_(place) {}
+  ~LoadingModule() {
+    if (is_first_) all_.erase(place_);
+  }
+  LoadingModule(const LoadingModule&) = delete;
+  LoadingModule& operator=(const LoadingModule&) = delete;
+  /// Whether it does not run already.
+  [[nodiscard]] bool is_first() const { return is_first_; }
+
+ private:
+  std::set<std::string>& all_;
+  const bool is_first_;
+  const std::string place_;
+};
 
 int require_module(lua_State* L) {
   const Arguments arguments(L, kRequire, 1);
@@ -272,15 +291,16 @@ int require_module(lua_State* L) {
   }
   const int loaded = lua_gettop(L);
   lua_getfield(L, loaded, file.real.c_str());
-  if (lua_touserdata(L, -1) == &kLoadingMark)
-    fail_in(kRequire, "module '" + name + "' requires itself while it is loaded");
   if (!lua_isnil(L, -1)) return 1;
-  lua_pushlightuserdata(L, const_cast<char*>(&kLoadingMark));
-  lua_setfield(L, loaded, file.real.c_str());
+  const LoadingModule loading(session_of(L), file.real);
+  if (!loading.is_first())
+    fail_in(kRequire, "module '" + name + "' requires itself while it is loaded");
   load_chunk(L, file.display, file.bytes);
+  const bool is_shipped = file.real.starts_with(kShippedPlace);
+  if (is_shipped) give_kept_globals(L);
   lua_pushstring(L, name.c_str());
   lua_call(L, 1, 1);
-  if (file.real.starts_with(kShippedPlace)) guard_shipped_module(L, name);
+  if (is_shipped) guard_shipped_module(L, name);
   if (lua_isnil(L, -1)) {
     lua_pop(L, 1);
     lua_pushboolean(L, 1);

@@ -214,11 +214,15 @@ int cut(lua_State* L) {
   // Nobody gave the half-space a colour.
   const Appearance body = first_appearance(solid);
   if (!body.is_default) front = Node::painted(body, front, where);
-  push_solid(L, Node::boolean(BooleanOp::kIntersection, {solid, front}, where));
-  keep_marks(L, 1);
+  // One part may be what was named; two are not.
+  const auto push_part = [&](BooleanOp op) {
+    push_solid(L, Node::boolean(op, {solid, front}, where));
+    keep_marks(L, 1);
+    if (kBoth) marks_of(L, -1)->name.clear();
+  };
+  push_part(BooleanOp::kIntersection);
   if (!kBoth) return 1;
-  push_solid(L, Node::boolean(BooleanOp::kDifference, {solid, front}, where));
-  keep_marks(L, 1);
+  push_part(BooleanOp::kDifference);
   return 2;
 }
 

@@ -233,6 +233,7 @@ int linear_extrude_shape(lua_State* L) {
     push_leaf(L, value_or_fail(kLinearExtrude, linear_extrude(shape.shape, options)),
               shape.appearance);
   }
+  keep_marks(L, 1);
   return 1;
 }
 
@@ -270,6 +271,7 @@ int rotate_extrude_shape(lua_State* L) {
     if (shape.appearance) solid = Node::painted(*shape.appearance, solid, where);
     push_solid(L, std::move(solid));
   }
+  keep_marks(L, 1);
   return 1;
 }
 

@@ -73,12 +73,33 @@ constexpr FunctionSpec kCylinder{
     "cylinder(h, r, true) is centred.",
     kCylinderOptions, true, "cylinder{h = 20, r = 4, center = true, fn = 64}"};
 
-int cylinder(lua_State* L) {
-  // cylinder(h, r, center), as LuaCAD has it: the radius of the top is that of the bottom.
+/// cylinder(h, r, center), as LuaCAD has it, and cylinder{h, r, center}: the radius of the top is
+/// that of the bottom.
+void put_top_radius_before_center(lua_State* L) {
   if (lua_gettop(L) >= 3 && lua_isnumber(L, 2) && lua_isboolean(L, 3)) {
     lua_pushvalue(L, 2);
     lua_insert(L, 3);
+    return;
   }
+  if (lua_gettop(L) != 1 || !lua_istable(L, 1)) return;
+  const bool has_both = lua_rawgeti(L, 1, 2) == LUA_TNUMBER && lua_rawgeti(L, 1, 3) == LUA_TBOOLEAN;
+  lua_settop(L, 1);
+  if (!has_both) return;
+  lua_newtable(L);  // the model's own stays as it is
+  for (lua_pushnil(L); lua_next(L, 1) != 0;) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    lua_rawset(L, 2);
+  }
+  lua_rawgeti(L, 1, 3);
+  lua_rawseti(L, 2, 4);
+  lua_rawgeti(L, 1, 2);
+  lua_rawseti(L, 2, 3);
+  lua_replace(L, 1);
+}
+
+int cylinder(lua_State* L) {
+  put_top_radius_before_center(L);
   const Arguments arguments(L, kCylinder, 1);
   const double both = radius(arguments, kCylinder, "r", "d", 1);
   const auto has = [&](const char* r, const char* d) {
@@ -90,7 +111,8 @@ int cylinder(lua_State* L) {
   double r1 = radius(arguments, kCylinder, "r1", "d1", both);
   double r2 = radius(arguments, kCylinder, "r2", "d2", both);
   // cylinder(h, r): the second value alone is the radius of both ends.
-  if (arguments.positional_count() == 2 && !arguments.has("r2") && !arguments.has("d2")) {
+  if (arguments.positional_count() >= 2 && arguments.has("r1") && !arguments.has("r2") &&
+      !arguments.has("d2")) {
     if (arguments.has("r") || arguments.has("d")) fail_in(kCylinder, "the radius is given twice");
     r2 = r1;
   }

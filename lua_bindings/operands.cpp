@@ -25,6 +25,7 @@ void Operands::add(lua_State* L, int index, const std::string& function) {
       drops_colour = true;
     }
     if (!shape->marks.absent) shapes.push_back(shape->shape);
+    if (shape->marks.only) only_shapes.push_back(shape->shape);
   } else {
     throw ScriptError(fmt::format("{}: an operand must be a solid or a shape, got {}", function,
                                   describe_value(L, index)));
@@ -67,10 +68,13 @@ void Operands::push_result(lua_State* L, BooleanOp op, const std::string& functi
   } else if (shapes.empty()) {
     push_shape(L, {}, appearance);
   } else {
-    auto shape = Shape2D::boolean(op, shapes);
+    const bool is_only = !only_shapes.empty();
+    auto shape =
+        is_only ? Shape2D::boolean(BooleanOp::kUnion, only_shapes) : Shape2D::boolean(op, shapes);
     if (!shape) throw ScriptError(function + ": " + shape.error().message);
     if (op != BooleanOp::kDifference) warn_of_colours(L, function);
     push_shape(L, *std::move(shape), appearance);
+    marks_of(L, -1)->only = is_only;
   }
   marks_of(L, -1)->name = name;
 }
@@ -88,7 +92,8 @@ void add_operands(lua_State* L, int index, const FunctionSpec& spec, int depth,
   if (length < 0 && missing_entry(L, index) != 0)
     fail_in(spec, "an operand must be a solid or a shape, got " + describe_value(L, index));
   if (length < 0) fail_in(spec, "takes lists of solids or shapes without holes and names in them");
-  if (depth == kDeepestList) fail_in(spec, "its lists are nested too deep (does one contain itself?)");
+  if (depth == kDeepestList)
+    fail_in(spec, "its lists are nested too deep (does one contain itself?)");
   luaL_checkstack(L, 4, "lists are nested too deep");
   for (lua_Integer i = 1; i <= length; ++i) {
     lua_rawgeti(L, index, i);

@@ -18,6 +18,7 @@ namespace csgrun {
 struct Operands {
   std::vector<NodePtr> solids;
   std::vector<Shape2D> shapes;
+  std::vector<Shape2D> only_shapes;             ///< those of them that alone are to be the result
   std::optional<Appearance> appearance;         ///< of the first shape
   std::string name;                             ///< of the first operand
   bool has_solids = false, has_shapes = false;  ///< skipped ones count here, and are not listed

@@ -12,6 +12,7 @@
 #include "lua_bindings/nearest.h"
 #include "lua_bindings/parts.h"
 #include "lua_bindings/sandbox.h"
+#include "lua_bindings/shipped_calls.h"
 
 namespace csgrun {
 namespace {
@@ -50,6 +51,7 @@ int run_program(lua_State* L) {
   Program& program = *static_cast<Program*>(lua_touserdata(L, 1));
   open_sandbox(L, *program.session);
   open_api(L);
+  keep_globals_for_shipped(L);
   load_chunk(L, *program.name, *program.text);
   program.is_loaded = true;
   const int function = lua_gettop(L);
@@ -60,6 +62,7 @@ int run_program(lua_State* L) {
     for (int index = function + 1; index <= top; ++index) {
       if (!lua_isnil(L, index)) add_parts(L, index, "");
     }
+    program.session->name_unnamed_parts();
     program.session->keep_only_parts();
     if (program.session->parts().empty()) {
       throw ScriptError(program.session->has_absent_parts

@@ -161,15 +161,28 @@ std::string Session::place_text(const SourceRef& where) const {
 void Session::add_part(ScriptPart part, const std::string& group) {
   const std::string prefix = group.empty() ? "" : group + "/";
   if (part.name.empty()) {
-    part.name = prefix + "part" + std::to_string(++unnamed_in_group_[group]);
+    check_part_name(prefix + "part" + std::to_string(parts_.size() + 1));
+    unnamed_.push_back({parts_.size(), prefix});
   } else {
     part.name = prefix + part.name;
-  }
-  check_part_name(part.name);
-  if (!part_names_.insert(part.name).second) {
-    throw ScriptError("there are two parts named '" + part.name + "'");
+    check_part_name(part.name);
+    if (!part_names_.insert(part.name).second) {
+      throw ScriptError("there are two parts named '" + part.name + "'");
+    }
   }
   parts_.push_back(std::move(part));
+}
+
+void Session::name_unnamed_parts() {
+  std::map<std::string, size_t> numbers;  // the last one in each group
+  for (const auto& [part, prefix] : unnamed_) {
+    size_t& number = numbers[prefix];
+    std::string& name = parts_[part].name;
+    do {
+      name = prefix + "part" + std::to_string(++number);
+    } while (!part_names_.insert(name).second);
+  }
+  unnamed_.clear();
 }
 
 namespace {

@@ -103,8 +103,13 @@ class Session {
   /// "FILE:line" with FILE as messages have it; empty when the place is unknown.
   [[nodiscard]] std::string place_text(const SourceRef& where) const;
 
-  /// Takes a part; gives it a name when it has none. Throws ScriptError for a bad or taken name.
+  /// Takes a part, which may have no name. Throws ScriptError for a bad or taken name.
   void add_part(ScriptPart part, const std::string& group);
+  /// Gives those without a name "part1", "part2", ... in their group, but for names that others
+  /// have, also later ones.
+  void name_unnamed_parts();
+  /// The modules that run now, by the places of their files.
+  std::set<std::string> loading_modules;
   /// Nodes that alone are to be in the result, wherever in a part they occur.
   std::vector<NodePtr> only_nodes;
   /// Where parts have such nodes in them, or are such shapes: leaves these and nothing else.
@@ -140,7 +145,7 @@ class Session {
   std::set<std::string> warned_;
   std::vector<ScriptPart> parts_;
   std::set<std::string> part_names_;
-  std::map<std::string, int> unnamed_in_group_;
+  std::vector<std::pair<size_t, std::string>> unnamed_;  ///< parts, with what stands before a name
   /// By name in messages: the name from the model's folder. And back.
   std::map<std::string, std::shared_ptr<const std::string>, std::less<>> file_names_;
   std::map<std::shared_ptr<const std::string>, std::string> display_names_;

@@ -11,6 +11,8 @@
 namespace csgrun {
 namespace {
 
+const char kKeptGlobals = 0;  // registry: the globals of shipped modules
+
 /// The call may yield: a callback of the model may be what does.
 int finish_call(lua_State* L, int /*status*/, lua_KContext /*context*/) { return lua_gettop(L); }
 
@@ -58,6 +60,25 @@ bool is_shipped(const lua_Debug& frame) {
 }
 
 bool is_shipped_call(lua_State* L, int index) { return lua_tocfunction(L, index) == call_shipped; }
+
+void keep_globals_for_shipped(lua_State* L) {
+  lua_newtable(L);
+  lua_pushglobaltable(L);
+  const int globals = lua_gettop(L), kept = globals - 1;
+  for (lua_pushnil(L); lua_next(L, globals) != 0;) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    lua_rawset(L, kept);
+  }
+  if (lua_getmetatable(L, globals) != 0) lua_setmetatable(L, kept);
+  lua_pop(L, 1);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &kKeptGlobals);
+}
+
+void give_kept_globals(lua_State* L) {
+  lua_rawgetp(L, LUA_REGISTRYINDEX, &kKeptGlobals);
+  lua_setupvalue(L, -2, 1);  // _ENV, the only one of a chunk
+}
 
 void guard_shipped_module(lua_State* L, const std::string& name) {
   if (lua_isfunction(L, -1)) {

@@ -23,6 +23,12 @@ bool is_shipped_call(lua_State* L, int index);
 /// error, as with csg.
 void guard_shipped_module(lua_State* L, const std::string& name);
 
+/// Takes note of what the globals are now, before a model has any of its own.
+void keep_globals_for_shipped(lua_State* L);
+/// Has the chunk on the top of the stack use those: `sin = math.sin` in a model, which then counts
+/// in radians, is not for the library.
+void give_kept_globals(lua_State* L);
+
 /// error(message, level) as Lua has it, but levels that are frames of the library mean the place in
 /// the model from which it was called.
 int lua_error_at_model(lua_State* L);

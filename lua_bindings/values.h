@@ -14,11 +14,12 @@
 
 namespace csgrun {
 
-/// What a script said of a solid or a shape beside its geometry. Transforms and colours keep it.
+/// What a script said of a solid or a shape beside its geometry. Transforms, colours and extrusions
+/// keep it.
 struct Marks {
   std::string name;     ///< of the part that it becomes; empty: none
   bool absent = false;  ///< skipped: no operand and no part; its geometry is empty
-  bool only = false;    ///< of a shape: the only one to be a part. Solids: Session::only_nodes
+  bool only = false;    ///< it alone is to be a part; solids are in Session::only_nodes, too
 };
 
 /// What all values have.

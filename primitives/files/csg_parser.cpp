@@ -174,12 +174,12 @@ Status CsgParser::read_arguments() {
   do {
     std::string key;
     skip_blanks();
-    const size_t begin = at_;
+    const size_t begin = at_, line = line_;
     const std::string_view name = word();
     if (!name.empty() && accept('=')) {
       key = std::string(name);
     } else {
-      at_ = begin;  // a value without a name
+      at_ = begin, line_ = line;  // a value without a name
     }
     skip_blanks();
     const bool raw = call_.name == "text" && key == "text" && peek() == '"' && !has_plain_string();

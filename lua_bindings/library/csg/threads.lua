@@ -46,8 +46,8 @@ local kProfiles = {
   trapezoidal = {crest = 0.366, root = 0.366, depth = 0.5},
 }
 
---- The table of a metric size ("M8"): d, pitch, flats, head, nut, socket {diameter, hexagon, depth},
---- holes {close, medium, coarse}.
+--- A table of the measures of a metric size ("M8"): d, pitch, flats, head, nut; socket, a list of
+--- diameter, hexagon and depth; holes, a list of the close, the medium and the coarse diameter.
 ---@param name string
 ---@return table
 function threads.size(name)
@@ -56,7 +56,11 @@ function threads.size(name)
     error("threads.size: there is no size '" .. tostring(name) .. "'; there are "
           .. table.concat(kSizeNames, ", "), 2)
   end
-  return size
+  local copy = {}
+  for key, value in pairs(size) do
+    copy[key] = type(value) == "table" and {table.unpack(value)} or value
+  end
+  return copy
 end
 
 -- Diameter and pitch: the named size, unless they are given.

@@ -27,6 +27,12 @@ TEST(CallForms, Cylinders) {
   EXPECT_EQ(box_of("cylinder(10, 1, 3, true, {fn = 4})"), "-3 -3 -5 .. 3 3 5");
   EXPECT_EQ(box_of("cylinder{h = 1, r1 = 0.5, fn = 4}"), "-1 -1 0 .. 1 1 1");
   EXPECT_EQ(box_of("cylinder(10, 2, true, {fn = 4})"), "-2 -2 -5 .. 2 2 5");
+  EXPECT_EQ(box_of("cylinder{10, 2, true, fn = 4}"), "-2 -2 -5 .. 2 2 5");
+  EXPECT_EQ(box_of("cylinder{10, 1, 3, true, fn = 4}"), "-3 -3 -5 .. 3 3 5");
+  expect_good(
+      "assert(cylinder(10, 2, nil, true):volume() == cylinder(10, 2, true):volume()) "
+      "assert(cylinder(10, 2, nil, true):bbox().min.z == -5) "
+      "local t = {10, 2, true, fn = 4} cylinder(t) assert(#t == 3 and t[3] == true)");
   EXPECT_EQ(box_of("cylinder(10, 2, false, {fn = 4})"), "-2 -2 0 .. 2 2 10");
 }
 

@@ -27,6 +27,21 @@ TEST(Library, ModulesAreFoundByNameOnly) {
       << message;
 }
 
+/// What a model has among its globals is the model's own affair.
+TEST(Library, KeepsItsOwnGlobals) {
+  const std::string measures =
+      "return threads.nut{size = 'M4'}:volume() + threads.bolt{size = 'M4', length = 6}:volume() + "
+      "gears.spur{module = 1, teeth = 12, width = 3}:volume() ";
+  const std::string replaced =
+      "sin, cos, tan = math.sin, math.cos, math.tan cylinder, anchor, down = 1, 2, 3 ";
+  expect_good(kThreads + kGears + "local function all() " + measures + "end local before = all() " +
+              replaced + "assert(all() == before)");
+  expect_good("local before = (function() " + kThreads + kGears + measures + "end)() " + kThreads +
+              "assert(before > 0) " + replaced + "assert(sin(math.pi) < 1e-9)");
+  expect_good(replaced + kThreads + kGears + "local all = (function() " + measures +
+              "end)() assert(all > 100)");
+}
+
 TEST(Library, NamesThatAreNotThere) {
   for (const std::string name : {"threads", "thread", "csg.thread"}) {
     const std::string message = ScriptRun("require '" + name + "'").outcome.message;
@@ -325,6 +340,13 @@ TEST(Threads, Volume) {
       "local t = threads.hole{size = 'M5', depth = 8, head = 'socket'} local box = t:bbox() "
       "assert(box.max[3] == 0 and box.min[3] == -8 and box.max[1] == 4.5) assert(threads"
       ".washer{size = 'M5'}:genus() == 1)");
+}
+
+TEST(Threads, SizesAreCopies) {
+  expect_good(kThreads +
+              "local s = threads.size('M8') assert(s.d == 8 and #s.holes == 3 and #s.socket == 3) "
+              "s.d, s.holes[1] = 99, 1 "
+              "assert(threads.size('M8').d == 8 and threads.size('M8').holes[1] == 8.4)");
 }
 
 TEST(Threads, Mistakes) {

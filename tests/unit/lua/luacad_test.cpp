@@ -240,6 +240,10 @@ TEST(Modifiers, OnlyLeavesNothingElse) {
   EXPECT_EQ(looks_of("(cube(5):color('red') - cube(2):only()):color('#0000ff')"), "0000ff 0 0.6");
   EXPECT_EQ(names_of("local unused = o(cube(1)) render(cube(2):name('y'))"), "y");
   EXPECT_EQ(names_of("render(square(1)) render(o(square(2)):name('s'))"), "s");
+  // Of shapes that Booleans and extrusions make something of, too.
+  EXPECT_EQ(volume_of("(square(9) - o(square(2)):translate(1, 1)):linear_extrude(3)"), 12);
+  EXPECT_EQ(volume_of("cube(9) - (square(4) + (square(5) - o(square(2)))):linear_extrude(3)"), 12);
+  EXPECT_EQ(volume_of("cube(9) + o(square(2)):linear_extrude(3):translate(20, 0, 0)"), 12);
   // Shared 60 times over, and still found at once.
   EXPECT_EQ(
       volume_of("(function() local x = o(cube(1)) for i = 1, 60 do x = x + x end return x end)()"),

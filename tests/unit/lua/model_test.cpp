@@ -32,6 +32,16 @@ TEST(Parts, ComeInADefinedOrder) {
   EXPECT_EQ(part_names("return cube(1), cube(2)"), "part1 part2");
   EXPECT_EQ(part_names("emit{lid = cube(1), box = cube(1)}"), "box lid");
   EXPECT_EQ(part_names("emit({cube(1), cube(2)}, {name = 'g'})"), "g/part1 g/part2");
+  // Numbers that given names have are left out, also those of later parts.
+  EXPECT_EQ(part_names("emit(cube(1), 'part1') return cube(2)"), "part1 part2");
+  EXPECT_EQ(part_names("emit(cube(1)) emit(cube(2)) emit(cube(3), 'part2') emit(cube(4), 'part1')"),
+            "part3 part4 part2 part1");
+  EXPECT_EQ(part_names("local a, b = cube(2):name('a'):split({0, 0, 1}, 1) return a, b"),
+            "part1 part2");
+  EXPECT_EQ(part_names("return cube(2):name('a'):trim({0, 0, 1}, 1)"), "a");
+  EXPECT_EQ(part_names("return square(2):name('a'):linear_extrude(1), "
+                       "circle(2):right(3):name('b'):rotate_extrude()"),
+            "a b");
   EXPECT_EQ(part_names("emit(cube(1), 'x') render(cube(2), cube(3), 'g')"), "x g/part1 g/part2");
 }
 
@@ -296,6 +306,13 @@ TEST_F(FilesTest, ErrorsInModulesNameTheModule) {
   EXPECT_EQ(run("require 'code'"), "model/code.lua:1: this is Lua bytecode; only text is accepted");
   EXPECT_EQ(run("require 'loop'"),
             "model/loop.lua:1: require: module 'loop' requires itself while it is loaded");
+  // What failed runs again.
+  EXPECT_EQ(run("pcall(require, 'bad') require 'bad'"),
+            "model/bad.lua:3: unexpected symbol near '='");
+  write("model/late.lua", "assert(ready, 'not yet') return 7");
+  EXPECT_EQ(run("ready = false assert(not pcall(require, 'late')) ready = true "
+                "assert(require 'late' == 7)"),
+            "good");
 }
 
 TEST_F(FilesTest, NothingOutsideCanBeReached) {

@@ -97,6 +97,8 @@ TEST(CsgFile, CommentsAndModifiersOfSources) {
   EXPECT_EQ(sketch(parse("!" + kCube + "!" + kSphere).solid), "cube");
   EXPECT_EQ(sketch(parse("%!" + kSphere + kCube).solid), "cube");
   EXPECT_EQ(error("/* 1\n2\n*/ // 3\n\nnone();"), "m.csg:5: unknown node none()");
+  EXPECT_EQ(error("cube(2\n);\nnone();"), "m.csg:3: unknown node none()");
+  EXPECT_EQ(error("cube(true\n\n, size = 1);\nnone();"), "m.csg:4: unknown node none()");
   EXPECT_EQ(
       error("cube(size = 1)/;"),
       "m.csg:1: expected \";\" or \"{\", got \"/\"; a tree has calls and values only: openscad "
