@@ -29,9 +29,11 @@ class CentreView {
     for (size_t k = 0; k < 3; ++k) centre_[k] = odd(centre[k]);
   }
 
-  /// The way from the centre to a corner, in halves of steps: below 2^32.
+  /// The way from the centre to a corner, in halves of steps: below 2^32, and odd.
   [[nodiscard]] IVec3 way_to(uint32_t corner) const {
-    const IVec3& p = leaf_.vertices[leaf_.corners[corner]];
+    return way_to_vertex(leaf_.vertices[leaf_.corners[corner]]);
+  }
+  [[nodiscard]] IVec3 way_to_vertex(const IVec3& p) const {
     IVec3 way;
     for (size_t k = 0; k < 3; ++k) way[k] = 2 * (p[k] - origin_[k]) - centre_[k];
     return way;
