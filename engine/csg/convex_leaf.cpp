@@ -59,16 +59,26 @@ class Numbering {
       : points_(points),
         equal_(find_equal(points)),
         number_(scratch.array<uint32_t>(points.size(), kNone)),
-        vertices_(points.size() + 1) {}  // room for one that is not added, too
+        numbered_(scratch.array<uint32_t>(points.size() + 1)) {}
 
-  uint32_t operator()(uint32_t point) {
-    uint32_t& number = number_[equal_.empty() ? point : equal_[point]];
-    // Whether it was asked for before is chance: no branch on that.
-    const uint32_t known = number;
-    vertices_[count_] = points_[point];
-    number = known == kNone ? count_ : known;
-    count_ += static_cast<uint32_t>(known == kNone);
-    return number;
+  uint32_t operator()(uint32_t point) { return number_of(first_of(point), count_); }
+  /// Appends the numbers of the corners of triangles, which are turned over or not.
+  void number_triangles(std::span<const uint32_t> corners, bool turn, uint32_t* numbers) {
+    uint32_t count = count_;
+    const size_t first = turn ? 2 : 0, last = 2 - first;
+    const auto number_each = [&](auto&& first_of) {
+      for (size_t c = 0; c < corners.size(); c += 3) {
+        numbers[c] = number_of(first_of(corners[c + first]), count);
+        numbers[c + 1] = number_of(first_of(corners[c + 1]), count);
+        numbers[c + 2] = number_of(first_of(corners[c + last]), count);
+      }
+    };
+    if (equal_.empty()) {
+      number_each([](uint32_t point) { return point; });
+    } else {
+      number_each([this](uint32_t point) { return equal_[point]; });
+    }
+    count_ = count;
   }
   /// Whether different points of a list are equal.
   [[nodiscard]] bool merges(std::span<const uint32_t> points) const {
@@ -79,22 +89,34 @@ class Numbering {
       return other != kNone && other != point;
     });
   }
-  /// Those that have numbers, and maybe more.
-  [[nodiscard]] const std::vector<IVec3>& vertices() const { return vertices_; }
-  std::vector<IVec3> take_vertices() {
-    vertices_.resize(count_);
-    return std::move(vertices_);
+  /// Those that have numbers.
+  [[nodiscard]] std::vector<IVec3> vertices() const {
+    std::vector<IVec3> vertices(count_);
+    for (size_t v = 0; v < vertices.size(); ++v) vertices[v] = points_[numbered_[v]];
+    return vertices;
   }
 
  private:
+  [[nodiscard]] uint32_t first_of(uint32_t point) const {
+    return equal_.empty() ? point : equal_[point];
+  }
+  uint32_t number_of(uint32_t point, uint32_t& count) {
+    // Whether it was asked for before is chance: no branch on that. What is known is below.
+    const uint32_t number = std::min(number_[point], count);
+    number_[point] = number;
+    numbered_[count] = point;
+    count += static_cast<uint32_t>(number == count);
+    return number;
+  }
+
   const std::vector<IVec3>& points_;
-  std::vector<uint32_t> equal_;       ///< see find_equal; empty if no two are
-  const std::span<uint32_t> number_;  ///< by the first of those that are equal
-  std::vector<IVec3> vertices_;       ///< of each number, and one more
+  std::vector<uint32_t> equal_;         ///< see find_equal; empty if no two are
+  const std::span<uint32_t> number_;    ///< by the first of those that are equal
+  const std::span<uint32_t> numbered_;  ///< the point of each number, and room for one more
   uint32_t count_ = 0;
 };
 
-bool has_area(const IVec3& a, const IVec3& b, const IVec3& c) {
+bool have_area(const IVec3& a, const IVec3& b, const IVec3& c) {
   const IVec3 u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
   return u[1] * v[2] != u[2] * v[1] || u[2] * v[0] != u[0] * v[2] || u[0] * v[1] != u[1] * v[0];
 }
@@ -135,6 +157,87 @@ void renumber(LeafGeometry& leaf) {
   leaf.vertices = std::move(used);
 }
 
+bool consists_of_triangles(const PolygonMesh& mesh) {
+  if (mesh.corners.size() != 3 * mesh.face_count()) return false;
+  uint32_t differences = 0;  // in bits: the processor takes several faces at once
+  for (uint32_t f = 0; f < mesh.face_count(); ++f) {
+    differences |= (mesh.face_starts[f] ^ f) | (mesh.loop_starts[f] ^ 3 * f);
+  }
+  return differences == 0;
+}
+
+/// Puts the faces of a mesh into a leaf.
+struct FaceTaker {
+  const PolygonMesh& mesh;
+  const std::vector<IVec3>& points;
+  const bool turn;
+  Numbering& number;
+  LeafGeometry& leaf;
+  std::vector<LeftOut> left_out = {};
+  std::vector<uint32_t> split = {};  ///< faces of four corners that became two
+
+  /// REQUIRES: a mesh of triangles.
+  void take_triangles() {
+    std::vector<uint32_t>& corners = leaf.corners;
+    corners.resize(mesh.corners.size());
+    number.number_triangles(mesh.corners, turn, corners.data());
+    const auto has_area = [&](uint32_t first) {
+      const uint32_t* const c = mesh.corners.data() + first;
+      return have_area(points[c[0]], points[c[1]], points[c[2]]);
+    };
+    uint32_t next = 0;
+    while (next < corners.size() && has_area(next)) next += 3;  // mostly all have
+    for (uint32_t c = next; c < corners.size(); c += 3) {
+      const std::array<uint32_t, 3> loop{corners[c], corners[c + 1], corners[c + 2]};
+      if (!has_area(c)) {
+        left_out.push_back({c / 3, loop});
+        continue;
+      }
+      std::copy(loop.begin(), loop.end(), corners.begin() + next);
+      next += 3;
+    }
+    corners.resize(next);
+    leaf.face_starts.resize(next / 3 + 1);
+    for (uint32_t f = 0; f < leaf.face_starts.size(); ++f) leaf.face_starts[f] = 3 * f;
+  }
+
+  /// False when some face cannot be taken.
+  bool take_faces() {
+    const size_t faces = mesh.face_count();
+    leaf.corners.reserve(mesh.corners.size());
+    leaf.face_starts.reserve(faces + 1);
+    std::vector<uint32_t> loop;  // of one face
+    for (uint32_t f = 0; f < faces; ++f) {
+      if (mesh.face_starts[f] != f) return false;  // not one loop
+      loop.assign(mesh.corners.begin() + mesh.loop_starts[f],
+                  mesh.corners.begin() + mesh.loop_starts[f + 1]);
+      if (turn) std::reverse(loop.begin(), loop.end());
+      if (loop.size() == 3 && !have_area(points[loop[0]], points[loop[1]], points[loop[2]])) {
+        LeftOut face{f, {}};
+        for (size_t i = 0; i < 3; ++i) face.corners[i] = number(loop[i]);
+        left_out.push_back(face);
+        continue;
+      }
+      if (loop.size() == 3 || is_convex_polygon(points, loop)) {
+        add(loop);
+        continue;
+      }
+      if (!mesh.convex || loop.size() != 4) return false;
+      const auto triangles = split_bent_quad(points, loop);
+      if (!triangles) return false;
+      for (const auto& triangle : *triangles) add(triangle);
+      split.push_back(f);
+    }
+    return true;
+  }
+
+ private:
+  void add(std::span<const uint32_t> loop) {
+    for (const uint32_t point : loop) leaf.corners.push_back(number(point));
+    leaf.face_starts.push_back(static_cast<uint32_t>(leaf.corners.size()));
+  }
+};
+
 }  // namespace
 
 std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
@@ -144,62 +247,29 @@ std::optional<ConvexFaces> take_convex_faces(const PolygonMesh& mesh,
   if (mesh.loop_count() != mesh.face_count() || !is_compact(box)) return std::nullopt;
   std::optional<ConvexFaces> result(std::in_place);
   LeafGeometry& leaf = result->leaf;
-  const size_t faces = mesh.face_count();
-  leaf.corners.resize(mesh.corners.size());
-  leaf.face_starts.reserve(faces + 1);
-  std::vector<LeftOut> left_out;
-  std::vector<uint32_t> split, corners;  // faces of four corners that became two; those of one face
   Scratch scratch;
   Numbering number(points, scratch);
-  uint32_t next = 0;
-  const auto add = [&](std::span<const uint32_t> loop) {
-    for (const uint32_t point : loop) leaf.corners[next++] = number(point);
-    leaf.face_starts.push_back(next);
-  };
-  for (uint32_t f = 0; f < faces; ++f) {
-    if (mesh.face_starts[f] != f) return std::nullopt;  // not one loop
-    const uint32_t begin = mesh.loop_starts[f], end = mesh.loop_starts[f + 1], count = end - begin;
-    if (count == 3) {
-      uint32_t* const loop = leaf.corners.data() + next;
-      for (uint32_t i = 0; i < 3; ++i) {
-        loop[i] = number(mesh.corners[turn ? end - 1 - i : begin + i]);
-      }
-      const auto& v = number.vertices();
-      if (!has_area(v[loop[0]], v[loop[1]], v[loop[2]])) {
-        left_out.push_back({f, {loop[0], loop[1], loop[2]}});
-        continue;
-      }
-      next += 3;
-      leaf.face_starts.push_back(next);
-      continue;
-    }
-    corners.assign(mesh.corners.begin() + begin, mesh.corners.begin() + end);
-    if (turn) std::reverse(corners.begin(), corners.end());
-    if (is_convex_polygon(points, corners)) {
-      add(corners);
-      continue;
-    }
-    if (!mesh.convex || count != 4) return std::nullopt;
-    const auto triangles = split_bent_quad(points, corners);
-    if (!triangles) return std::nullopt;
-    leaf.corners.resize(leaf.corners.size() + 2);
-    for (const auto& triangle : *triangles) add(triangle);
-    split.push_back(f);
+  FaceTaker taker{mesh, points, turn, number, leaf};
+  if (consists_of_triangles(mesh)) {
+    taker.take_triangles();
+  } else if (!taker.take_faces()) {
+    return std::nullopt;
   }
+  const std::vector<LeftOut>& left_out = taker.left_out;
+  const std::vector<uint32_t>& split = taker.split;
   // A triangle on a line may have a corner on an edge of a bent face, which then has five.
   if (!left_out.empty() && !split.empty()) return std::nullopt;
-  leaf.corners.resize(next);
   if (mesh.keep_facets) leaf.facet = FaceNumbers::ascending(1);
   if (!mesh.surface.empty()) leaf.surface = mesh.surface;
   leaf.appearance = appearance;
   if (!left_out.empty() || !split.empty()) {
     for (FaceNumbers* numbers : {&leaf.facet, &leaf.surface, &leaf.appearance}) {
       const auto common = numbers->common();
-      *numbers =
-          common ? FaceNumbers::all(*common) : numbers_of_parts(*numbers, faces, left_out, split);
+      *numbers = common ? FaceNumbers::all(*common)
+                        : numbers_of_parts(*numbers, mesh.face_count(), left_out, split);
     }
   }
-  leaf.vertices = number.take_vertices();
+  leaf.vertices = number.vertices();
   if (!split_at_collinear(leaf, left_out)) return std::nullopt;
   if (!left_out.empty()) renumber(leaf);
   result->merged = !left_out.empty() || number.merges(mesh.corners);
