@@ -1,6 +1,7 @@
 #include "engine/mesh/opposite_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <span>
 #include <utility>
@@ -91,99 +92,128 @@ class EdgesOfFaces {
   std::vector<uint32_t> ends_;
 };
 
-/// Numbers that are held against one at once.
-constexpr uint32_t kLanes = 8;
+/// Edges that come to one vertex, which are looked at together.
+struct Bunch {
+  static constexpr uint32_t kSize = 8;
+  std::array<uint32_t, kSize> from;  ///< where they start, or kNone
+  std::array<uint32_t, kSize> edge;
 
-/// A bit for each of kLanes numbers that equals `x`.
-uint32_t equal_bits(const uint32_t* numbers, uint32_t x) {
+  /// A bit for each that comes from `x`.
+  [[nodiscard]] uint32_t bits_of(uint32_t x) const {
 #if defined(__SSE2__)
-  const auto compare = [&](const uint32_t* four) {
-    return _mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(four)),
-                           _mm_set1_epi32(static_cast<int>(x)));
-  };
-  const __m128i halves = _mm_packs_epi32(compare(numbers), compare(numbers + 4));
-  return static_cast<uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(halves, _mm_setzero_si128())));
+    const auto compare = [&](const uint32_t* four) {
+      return _mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(four)),
+                             _mm_set1_epi32(static_cast<int>(x)));
+    };
+    const __m128i halves = _mm_packs_epi32(compare(from.data()), compare(from.data() + 4));
+    return static_cast<uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(halves, _mm_setzero_si128())));
 #else
-  uint32_t bits = 0;
-  for (uint32_t i = 0; i < kLanes; ++i) bits |= static_cast<uint32_t>(numbers[i] == x) << i;
-  return bits;
+    uint32_t bits = 0;
+    for (uint32_t i = 0; i < kSize; ++i) bits |= static_cast<uint32_t>(from[i] == x) << i;
+    return bits;
 #endif
-}
+  }
+};
 
 /// std::has_single_bit counts bits, by a function where the processor need not know how.
 bool is_single_bit(uint32_t bits) { return bits != 0 && (bits & (bits - 1)) == 0; }
 
-/// The place of a number in a list, which has it once; else the end. What follows the list is
-/// looked at, too.
-uint32_t place_of_single(std::span<const uint32_t> list, uint32_t x) {
-  const auto count = static_cast<uint32_t>(list.size());
-  uint32_t place = count;
-  for (uint32_t first = 0; first < count; first += kLanes) {
-    uint32_t bits = equal_bits(list.data() + first, x);
-    if (count - first < kLanes) bits &= (1u << (count - first)) - 1;
-    if (bits == 0) continue;
-    if (place != count || !is_single_bit(bits)) return count;
-    place = first + static_cast<uint32_t>(std::countr_zero(bits));
+/// The edges of a surface by the vertices that they come to.
+class IncomingEdges {
+ public:
+  /// `count` edges.
+  IncomingEdges(size_t vertices, size_t count, Scratch& scratch)
+      : vertices_(static_cast<uint32_t>(vertices)),
+        bunches_(scratch.array<Bunch>(vertices + count / Bunch::kSize)),
+        before_(scratch.array<uint32_t>(count / Bunch::kSize)),
+        next_(scratch.array<uint32_t>(vertices)),
+        used_(vertices_) {
+    for (uint32_t v = 0; v < vertices_; ++v) {
+      bunches_[v].from.fill(kNone);
+      next_[v] = v * Bunch::kSize;
+    }
   }
-  return place;
-}
+
+  void add(uint32_t edge, uint32_t from, uint32_t to) {
+    const uint32_t place = next_[to], last = place / Bunch::kSize, at = place % Bunch::kSize;
+    bunches_[last].from[at] = from;
+    bunches_[last].edge[at] = edge;
+    next_[to] = at + 1 < Bunch::kSize ? place + 1 : start_bunch(last);
+  }
+
+  /// Whether all that come to a vertex are in its first bunch.
+  [[nodiscard]] bool has_one_bunch(uint32_t vertex) const {
+    return next_[vertex] / Bunch::kSize == vertex;
+  }
+  [[nodiscard]] const Bunch& first_bunch(uint32_t vertex) const { return bunches_[vertex]; }
+
+  /// The edge that comes to a vertex from another one, or kNone unless there is one. Sets
+  /// `is_crowded` instead where many come to it.
+  [[nodiscard]] uint32_t single(uint32_t from, uint32_t to, bool& is_crowded) const {
+    constexpr uint32_t kMany = 8;
+    uint32_t edge = kNone, looks = 0;
+    for (uint32_t bunch = next_[to] / Bunch::kSize;; bunch = before_[bunch - vertices_]) {
+      if (++looks > kMany) {
+        is_crowded = true;
+        return kNone;
+      }
+      const uint32_t bits = bunches_[bunch].bits_of(from);
+      if (bits != 0 && (edge != kNone || !is_single_bit(bits))) return kNone;
+      if (bits != 0) edge = bunches_[bunch].edge[static_cast<uint32_t>(std::countr_zero(bits))];
+      if (bunch == to) return edge;
+    }
+  }
+
+ private:
+  /// The first place in a new bunch, after one that is full.
+  uint32_t start_bunch(uint32_t full) {
+    before_[used_ - vertices_] = full;
+    bunches_[used_].from.fill(kNone);
+    return used_++ * Bunch::kSize;
+  }
+
+  const uint32_t vertices_;
+  const std::span<Bunch> bunches_;    ///< first one for each vertex
+  const std::span<uint32_t> before_;  ///< of each of the others: that of its vertex before it
+  const std::span<uint32_t> next_;    ///< the place for the next edge to a vertex, in its last one
+  uint32_t used_;
+};
 
 /// Pairs edges where every directed edge is there once and its reverse too; else returns nothing.
 ///
 /// The reverse of an edge that leaves a vertex is one of the edges that come to it, which are few
-/// and stand side by side, by the vertex that they leave. Where each edge finds exactly one, each
-/// is the reverse of one: two equal edges would both be found, at their end, by their reverse.
+/// and stand side by side. Where each edge finds exactly one, each is the reverse of one: two equal
+/// edges would both be found, at their end, by their reverse.
 template <class Edges>
 std::vector<uint32_t> pair_simple(const LeafGeometry& leaf, const Edges& edges) {
-  constexpr uint32_t kMany = 64;  // edges at a vertex, where none looks for its reverse
   const size_t count = leaf.corners.size();
   Scratch scratch;
-  // Where those that come to a vertex end, once they are there.
-  const auto ends = scratch.array<uint32_t>(leaf.vertices.size() + 1, 0);
-  uint32_t* const end_at = ends.data() + 1;
-  edges.each([&](uint32_t, uint32_t, uint32_t to) { ++end_at[to]; });
-  uint32_t sum = 0;
-  for (uint32_t& end : ends.subspan(1)) sum += std::exchange(end, sum);
-  const auto from_where = scratch.array<uint32_t>(count + kLanes),
-             which = scratch.array<uint32_t>(count + kLanes);
-  for (const auto list : {from_where, which}) {
-    std::fill(list.end() - kLanes, list.end(), kNone);
-  }
-  edges.each([&](uint32_t edge, uint32_t from, uint32_t to) {
-    const uint32_t place = end_at[to]++;
-    from_where[place] = from;
-    which[place] = edge;
-  });
+  IncomingEdges incoming(leaf.vertices.size(), count, scratch);
+  edges.each([&](uint32_t edge, uint32_t from, uint32_t to) { incoming.add(edge, from, to); });
   std::vector<uint32_t> opposite(count);
-  bool all_found = true, any_crowded = false;
+  // Bits are left of what was not found, or more than once.
+  constexpr uint32_t kNotFound = 1u << 31;
+  uint32_t left = 0;
+  bool any_crowded = false;
   edges.each([&](uint32_t edge, uint32_t from, uint32_t to) {
-    const uint32_t begin = ends[from], end = end_at[from];
-    if (end - begin > kMany) {
-      opposite[edge] = kNone;
-      any_crowded = true;
+    if (incoming.has_one_bunch(from)) {
+      const Bunch& bunch = incoming.first_bunch(from);
+      const uint32_t bits = bunch.bits_of(to), marked = bits | kNotFound;
+      left |= marked & (bits - 1);
+      opposite[edge] = bunch.edge[static_cast<uint32_t>(std::countr_zero(marked)) % Bunch::kSize];
       return;
     }
-    uint32_t place = begin;
-    if (end - begin <= kLanes) {
-      const uint32_t bits = equal_bits(&from_where[begin], to) & ((1u << (end - begin)) - 1);
-      all_found &= is_single_bit(bits);
-      place += static_cast<uint32_t>(std::countr_zero(bits | 1u << kLanes)) % kLanes;
-    } else {
-      const std::span<const uint32_t> among(&from_where[begin], end - begin);
-      place += place_of_single(among, to);
-      all_found &= place < end;
-    }
-    opposite[edge] = which[place];
+    bool is_crowded = false;
+    opposite[edge] = incoming.single(to, from, is_crowded);
+    if (!is_crowded && opposite[edge] == kNone) left = kNotFound;
+    any_crowded |= is_crowded;
   });
-  if (!all_found) return {};
+  if (left != 0) return {};
   if (!any_crowded) return opposite;
-  // Those that come to such a vertex found their reverse, which did not look.
-  for (size_t v = 0; v < leaf.vertices.size(); ++v) {
-    const uint32_t begin = ends[v], end = end_at[v];
-    for (uint32_t place = begin; end - begin > kMany && place < end; ++place) {
-      const uint32_t edge = which[place];
-      if (opposite[edge] != kNone) opposite[opposite[edge]] = edge;
-    }
+  // Those that come to a crowded vertex found their reverse, which did not look. As many leave it:
+  // if two found the same one, another is not found.
+  for (uint32_t edge = 0; edge < count; ++edge) {
+    if (opposite[edge] != kNone) opposite[opposite[edge]] = edge;
   }
   if (std::find(opposite.begin(), opposite.end(), kNone) != opposite.end()) return {};
   return opposite;
