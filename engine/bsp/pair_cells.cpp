@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <utility>
 #include <vector>
 
 #include "engine/base/parallel.h"
 #include "engine/bsp/coarse_cells.h"
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 namespace csgrun {
 namespace {
@@ -18,10 +23,42 @@ constexpr int kPatience = 3;
 /// A cell of the grid, or of two operands, is not divided for so many times the limit: that costs
 /// more than its pairs.
 constexpr uint32_t kPatientLimit = 8;
+/// So many times what is in a cell there is room for on the way down, for a start.
+constexpr size_t kRoomForEach = 3;
+
+/// A corner of a box: a vector, of which the processor takes all numbers at once; the fourth is 0.
+using Corner = int32_t __attribute__((vector_size(16)));
+
+bool is_any(Corner compared) {
+#if defined(__SSE2__)
+  return _mm_movemask_epi8(std::bit_cast<__m128i>(compared)) != 0;
+#else
+  return (compared[0] | compared[1] | compared[2] | compared[3]) != 0;
+#endif
+}
+
+/// A box as two vectors.
+struct WideBox {
+  Corner lo, hi;
+
+  explicit WideBox(const PolygonBox& box)
+      : lo{box.lo[0], box.lo[1], box.lo[2], 0}, hi{box.hi[0], box.hi[1], box.hi[2], 0} {}
+
+  void include(const WideBox& o) {
+    lo = o.lo < lo ? o.lo : lo;
+    hi = o.hi > hi ? o.hi : hi;
+  }
+  void clip(const WideBox& o) {
+    lo = o.lo > lo ? o.lo : lo;
+    hi = o.hi < hi ? o.hi : hi;
+  }
+  [[nodiscard]] bool meets(const WideBox& o) const { return !is_any((o.lo > hi) | (lo > o.hi)); }
+  [[nodiscard]] PolygonBox narrow() const { return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}; }
+};
 
 /// A polygon on the way down, with its box at hand.
 struct Entry {
-  PolygonBox box;
+  WideBox box;
   uint32_t polygon, operand;
   bool is_covered;
 };
@@ -31,7 +68,7 @@ struct List {
   static constexpr uint32_t kNobody = ~0u;
   uint32_t first = 0, count = 0;
   uint32_t lowest = kNobody, second = kNobody, last = kNobody;  ///< operands
-  PolygonBox of_lowest = PolygonBox::none(), of_others = PolygonBox::none();
+  WideBox of_lowest{PolygonBox::none()}, of_others{PolygonBox::none()};
   bool is_covered = true;  ///< all of them
 
   void add(const Entry& e) {
@@ -48,9 +85,9 @@ struct List {
   [[nodiscard]] bool has_one_operand() const { return second == kNobody; }
   [[nodiscard]] bool has_two_operands_at_most() const { return second == last; }
   [[nodiscard]] PolygonBox bounds() const {
-    PolygonBox all = of_lowest;
+    WideBox all = of_lowest;
     all.include(of_others);
-    return all;
+    return all.narrow();
   }
 };
 
@@ -79,8 +116,9 @@ class CellFinder {
       }
       List list;
       stack_.clear();
+      stack_.reserve(kRoomForEach * size_t{count});
       for (const uint32_t p : polygons) {
-        stack_.push_back({job_.boxes()[p], p, job_.polygons()[p].operand, is_covered(p)});
+        stack_.push_back({WideBox(job_.boxes()[p]), p, job_.polygons()[p].operand, is_covered(p)});
         list.add(stack_.back());
       }
       visit({cell.lo, cell.hi}, list, 0);
@@ -101,18 +139,29 @@ class CellFinder {
     return wanted_;
   }
 
+  /// Those of a list whose boxes are wanted, from place `first` of the stack on: that of the list
+  /// itself, or the end.
+  template <class Wanted>
+  List take(const List& list, uint32_t first, Wanted&& is_wanted) {
+    stack_.resize(std::max<size_t>(stack_.size(), size_t{first} + list.count));
+    List taken;
+    taken.first = first;
+    Entry* to = stack_.data() + first;
+    for (const Entry& e : std::span(stack_).subspan(list.first, list.count)) {
+      if (!is_wanted(e.box)) continue;
+      const Entry own = e;
+      *to++ = own;
+      taken.add(own);
+    }
+    stack_.resize(taken.first + taken.count);
+    return taken;
+  }
+
   /// Of two operands, only what is in the box of the other one matters; of one, nothing.
   List keep_near(const List& list) {
-    PolygonBox common = list.of_lowest;
+    WideBox common = list.of_lowest;
     common.clip(list.of_others);
-    List kept;
-    kept.first = list.first;
-    for (uint32_t i = list.first; i < list.first + list.count; ++i) {
-      if (!common.meets(stack_[i].box)) continue;
-      stack_[kept.first + kept.count] = stack_[i];
-      kept.add(stack_[i]);
-    }
-    return kept;
+    return take(list, list.first, [&](const WideBox& box) { return common.meets(box); });
   }
 
   /// Where to halve a cell.
@@ -126,26 +175,33 @@ class CellFinder {
   /// long polygons among many small ones would be copied into ever smaller cells, as often as there
   /// is room in their boxes. Needs a side that is longer than one.
   [[nodiscard]] Cut find_cut(const PolygonBox& cell, const List& list) const {
-    std::array<int, 3> axes{0, 1, 2};
     const auto length = [&](int k) { return static_cast<int64_t>(cell.hi[k]) - cell.lo[k]; };
-    std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return length(a) > length(b); });
     const auto middle = [&](int k) { return static_cast<int32_t>(cell.lo[k] + length(k) / 2); };
-    for (const int axis : axes) {
-      if (length(axis) >= 1 && thins_out(list, axis, middle(axis))) {
-        return {axis, middle(axis), true};
-      }
+    const std::array<bool, 3> thin = thins_out(list, Corner{middle(0), middle(1), middle(2), 0});
+    int longest = 0, best = -1;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (length(axis) > length(longest)) longest = axis;
+      if (length(axis) < 1 || !thin[axis]) continue;
+      if (best < 0 || length(axis) > length(best)) best = axis;
     }
-    return {axes[0], middle(axes[0]), false};
+    if (best >= 0) return {best, middle(best), true};
+    return {longest, middle(longest), false};
   }
 
-  [[nodiscard]] bool thins_out(const List& list, int axis, int32_t middle) const {
-    uint64_t lower = 0, upper = 0;
-    for (uint32_t i = list.first; i < list.first + list.count; ++i) {
-      lower += stack_[i].box.lo[axis] <= middle;
-      upper += stack_[i].box.hi[axis] > middle;
+  /// For each axis, whether halves on either side of a place do.
+  [[nodiscard]] std::array<bool, 3> thins_out(const List& list, Corner middle) const {
+    Corner lower{}, upper{};  // a comparison that holds is -1
+    for (const Entry& e : std::span(stack_).subspan(list.first, list.count)) {
+      lower -= e.box.lo <= middle;
+      upper -= e.box.hi > middle;
     }
     const uint64_t all = list.count;
-    return (lower * lower + upper * upper) * 10 <= all * all * 9;
+    std::array<bool, 3> result{};
+    for (size_t k = 0; k < 3; ++k) {
+      const auto low = static_cast<uint64_t>(lower[k]), high = static_cast<uint64_t>(upper[k]);
+      result[k] = (low * low + high * high) * 10 <= all * all * 9;
+    }
+    return result;
   }
 
   /// Handles the list, which is the top of the stack.
@@ -168,14 +224,8 @@ class CellFinder {
       stack_.resize(end);
       PolygonBox half = cell;
       (upper ? half.lo : half.hi)[cut.axis] = upper ? cut.middle + 1 : cut.middle;
-      List child;
-      child.first = end;
-      for (uint32_t i = list.first; i < end; ++i) {
-        if (!half.meets(stack_[i].box)) continue;
-        const Entry e = stack_[i];
-        stack_.push_back(e);
-        child.add(e);
-      }
+      const WideBox wide(half);
+      const List child = take(list, end, [&](const WideBox& box) { return wide.meets(box); });
       visit(half, child, stalled);
     }
     stack_.resize(end);
@@ -201,7 +251,7 @@ class CellFinder {
   const uint32_t limit_;
   const std::atomic<bool>* cancel_;
   PairCells result_;
-  std::vector<Entry> stack_;
+  RawVector<Entry> stack_;
   std::vector<uint32_t> wanted_;
 };
 
