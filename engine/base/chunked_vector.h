@@ -1,8 +1,10 @@
 // A vector that grows without moving what it has.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -32,6 +34,17 @@ class ChunkedVector {
     chunks_[size_ / kChunk].push_back(element);
     ++size_;
   }
+  void append(std::span<const T> elements) {
+    append_in_parts(elements.size(), [&](RawVector<T>& chunk, size_t begin, size_t count) {
+      const auto part = elements.subspan(begin, count);
+      chunk.insert(chunk.end(), part.begin(), part.end());
+    });
+  }
+  void append(size_t count, const T& element) {
+    append_in_parts(count, [&](RawVector<T>& chunk, size_t, size_t some) {
+      chunk.insert(chunk.end(), some, element);
+    });
+  }
   /// Keeps the memory of the first few chunks. O(size).
   void clear() {
     constexpr size_t kKept = 16;
@@ -41,6 +54,17 @@ class ChunkedVector {
   }
 
  private:
+  /// Calls append(chunk, begin, count) for what each chunk takes of `count` elements.
+  template <class Append>
+  void append_in_parts(size_t count, Append&& append) {
+    for (size_t begin = 0; begin < count;) {
+      if (size_ == kChunk * chunks_.size()) add_chunk();
+      const size_t some = std::min(count - begin, kChunk - size_ % kChunk);
+      append(chunks_[size_ / kChunk], begin, some);
+      size_ += some;
+      begin += some;
+    }
+  }
   void add_chunk() {
     constexpr bool kStartsWhole = kChunk <= 16;
     chunks_.emplace_back();

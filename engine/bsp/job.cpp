@@ -285,8 +285,7 @@ void Job::list_pieces(const PieceOperand& operand) {
   PieceStore& store = *operand.store;
   reaches_.reserve(operands_->size() - 1);
   for (uint32_t other = 0; other + 1 < operands_->size(); ++other) {
-    const uint32_t first = vertex_start(other);
-    reaches_.emplace_back(std::span(rounded_).subspan(first, vertex_start(other + 1) - first));
+    reaches_.emplace_back(rounded_of(other));
   }
   const auto may_meet = [this](const PieceBox& box) { return others_may_meet(box); };
   operand.pieces.each(may_meet, [&](uint32_t piece) {

@@ -128,6 +128,10 @@ class Job {
   [[nodiscard]] const std::array<double, 3>& rounded(uint32_t vertex) const {
     return rounded_[vertex];
   }
+  /// Those of an operand.
+  [[nodiscard]] std::span<const std::array<double, 3>> rounded_of(size_t o) const {
+    return std::span(rounded_).subspan(vertex_start(o), vertex_start(o + 1) - vertex_start(o));
+  }
   [[nodiscard]] size_t vertex_count() const { return rounded_.size(); }
   /// Whether the faces of an operand meet in corners and edges that both have, or nowhere, and each
   /// edge has two faces.

@@ -79,15 +79,19 @@ uint32_t PieceStore::add_operand(Job& job, const std::vector<Operand>& operands,
   maps_.push_back(map);
   first_point_.push_back(first);
   corner_at_.push_back(*std::move(corners));
-  const uint32_t begin = job.vertex_start(o), end = job.vertex_start(o + 1);
-  if (number == 0 && begin < end) {
-    for (size_t k = 0; k < 3; ++k) origin_[k] = static_cast<int64_t>(job.rounded(begin)[k]);
+  const auto vertices = job.rounded_of(o);
+  if (number == 0 && !vertices.empty()) {
+    for (size_t k = 0; k < 3; ++k) origin_[k] = static_cast<int64_t>(vertices[0][k]);
   }
-  for (uint32_t v = begin; v < end; ++v) {
-    rounded_.push_back(job.rounded(v));
-    point_planes_.push_back(job.vertex_name(v).planes);
-    is_on_grid_.push_back(operand.leaf ? operand.frame.is_identity
-                                       : meet_on_grid_at(point_planes_.back(), rounded_.back()));
+  rounded_.append(vertices);
+  if (operand.leaf) {
+    point_planes_.append(vertices.size(), {kNoNumber, kNoNumber, kNoNumber});
+    is_on_grid_.resize(rounded_.size(), operand.frame.is_identity ? 1 : 0);
+  } else {
+    for (uint32_t v = job.vertex_start(o); v < job.vertex_start(o + 1); ++v) {
+      point_planes_.push_back(job.vertex_name(v).planes);
+      is_on_grid_.push_back(meet_on_grid_at(point_planes_.back(), job.rounded(v)));
+    }
   }
   point_operand_.resize(rounded_.size(), number);
   return number;
@@ -95,7 +99,6 @@ uint32_t PieceStore::add_operand(Job& job, const std::vector<Operand>& operands,
 
 void PieceStore::name(uint32_t point) {
   const uint32_t o = point_operand_[point];
-  if (is_on_grid(point) || point_planes_[point][0] != kNoNumber) return;
   const LeafGeometry& leaf = *operands_[o].leaf;
   const uint32_t corner = corner_at_[o][point - first_point_[o]];
   const auto next = std::upper_bound(leaf.face_starts.begin(), leaf.face_starts.end(), corner);
@@ -124,12 +127,11 @@ bool PieceStore::meet_on_grid_at(const std::array<uint32_t, 3>& meeting,
 
 uint32_t PieceStore::add_piece(const Piece& piece) {
   pieces_.push_back(piece);
+  const auto corners = this->corners(piece_count() - 1);
   PieceBox box;
-  for (const uint32_t p : corners(piece_count() - 1)) {
-    box.add(rounded_[p]);
-    name(p);
-  }
+  for (const uint32_t p : corners) box.add(rounded_[p]);
   boxes_.push_back(box);
+  for (const uint32_t p : corners) ensure_name(p);
   return piece_count() - 1;
 }
 
@@ -141,7 +143,7 @@ uint32_t PieceStore::add_region(Piece piece, std::span<const uint32_t> ends, uin
                       cell_count,
                       {}});
   loop_ends_.insert(loop_ends_.end(), ends.begin(), ends.end());
-  for (uint32_t i = 0; i < cell_count; ++i) name(corners_[piece.first + piece.count + i]);
+  for (uint32_t i = 0; i < cell_count; ++i) ensure_name(corners_[piece.first + piece.count + i]);
   return add_piece(piece);
 }
 
@@ -152,9 +154,13 @@ uint32_t PieceStore::add_group(Piece piece, std::span<const uint32_t> faces) {
   group_faces_.insert(group_faces_.end(), faces.begin(), faces.end());
   pieces_.push_back(piece);
   PieceBox box;
-  each_face(piece_count() - 1, [&](std::span<const uint32_t> corners) {
-    for (const uint32_t p : corners) box.add(rounded_[p]);
-  });
+  const LeafGeometry& leaf = *operands_[piece.operand].leaf;
+  const uint32_t first_point = first_point_[piece.operand];
+  for (const uint32_t f : faces) {
+    for (uint32_t c = leaf.face_starts[f]; c < leaf.face_starts[f + 1]; ++c) {
+      box.add(rounded_[first_point + leaf.corners[c]]);
+    }
+  }
   boxes_.push_back(box);
   return piece_count() - 1;
 }

@@ -200,6 +200,9 @@ class PieceStore {
                                      const std::array<double, 3>& at) const;
   [[nodiscard]] IVec3 on_grid(uint32_t point) const;
   /// Has a vertex of a leaf in a frame be where three planes meet.
+  void ensure_name(uint32_t point) {
+    if (!is_on_grid(point) && point_planes_[point][0] == kNoNumber) name(point);
+  }
   void name(uint32_t point);
   [[nodiscard]] Plane plane_of_corners(uint32_t piece) const;
   /// Appends the corners of a face of a leaf as a piece of it has them.

@@ -31,6 +31,22 @@ TEST(ChunkedVector, HasWhatWasPutIn) {
   }
 }
 
+TEST(ChunkedVector, TakesManyAtOnce) {
+  Chunked chunked;
+  std::vector<Element> plain;
+  for (const size_t count : {size_t{5}, size_t{0}, Chunked::kChunk - 5, size_t{1},
+                             2 * Chunked::kChunk, 3 * Chunked::kChunk + 7}) {
+    std::vector<Element> more;
+    for (uint32_t i = 0; i < count; ++i) more.push_back(element(i));
+    chunked.append(more);
+    plain.insert(plain.end(), more.begin(), more.end());
+    chunked.append(count / 2, element(3));
+    plain.insert(plain.end(), count / 2, element(3));
+    ASSERT_EQ(chunked.size(), plain.size());
+  }
+  for (size_t i = 0; i < plain.size(); ++i) ASSERT_EQ(chunked[i], plain[i]);
+}
+
 TEST(ChunkedVector, TakesItsOwnElements) {
   Chunked chunked;
   chunked.push_back(element(5));
