@@ -314,13 +314,12 @@ void Job::choose_faces() {
       are_whole ? box_of_leaf(*leaf(0), operand(0).translation) : box_of_rounded(rounded_);
   if (!box) return;
   list_pieces(*pieces(1));
-  std::vector<PolygonBox> boxes;
-  boxes.reserve(pieces_.size());
+  piece_boxes_.reserve(pieces_.size());
   for (const uint32_t piece : pieces_) {
-    boxes.push_back(rounded_outwards(pieces(1)->store->box(piece)));
+    piece_boxes_.push_back(rounded_outwards(pieces(1)->store->box(piece)));
   }
   own_near_.emplace();
-  own_near_->faces = {faces_near(*leaf(0), rounded_, are_whole, *box, boxes), {}};
+  own_near_->faces = {faces_near(*leaf(0), rounded_, are_whole, *box, piece_boxes_), {}};
   own_near_->boxes = {*box, PolygonBox::none()};
   near_ = &*own_near_;
 }
@@ -349,7 +348,7 @@ void Job::add_pieces(uint32_t o, PieceStore& store) {
     edge_planes_.insert(edge_planes_.end(), edges.begin(), edges.end());
     const PieceStore::Piece& piece = store.piece(pieces_[i]);
     polygons_.push_back({o, i, first, piece.count, piece.support});
-    boxes_.push_back(rounded_outwards(store.box(pieces_[i])));
+    boxes_.push_back(own_near_ ? piece_boxes_[i] : rounded_outwards(store.box(pieces_[i])));
   }
   for (const uint32_t point : piece_points_) vertex_of[point] = kNone;
 }

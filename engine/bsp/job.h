@@ -271,6 +271,7 @@ class Job {
   std::vector<std::vector<PlaneId>> boundary_planes_;
   std::vector<std::vector<NamedPart>> named_parts_;               ///< per operand
   std::vector<uint32_t> pieces_, version_pieces_, piece_points_;  ///< of the operand in pieces
+  std::vector<PolygonBox> piece_boxes_;                           ///< if faces were chosen by them
   std::vector<OperandReach> reaches_;                             ///< of the operands beside it
   bool are_pieces_on_grid_ = true;                                ///< all of these points
   int64_t prime_ = 3;
