@@ -105,11 +105,26 @@ std::vector<uint32_t> faces_near(const LeafGeometry& leaf,
     }
   }
   std::vector<uint32_t> faces;
-  for (uint32_t f = 0; f < leaf.face_count(); ++f) {
-    const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
-    Range range = places[leaf.corners[begin]];
-    for (uint32_t c = begin + 1; c < end; ++c) range.add(places[leaf.corners[c]]);
-    if (cells.is_marked(range)) faces.push_back(f);
+  const auto look_at_each = [&](auto&& range_of) {
+    const auto count = static_cast<uint32_t>(leaf.face_count());
+    for (uint32_t f = 0; f < count; ++f) {
+      if (cells.is_marked(range_of(f))) faces.push_back(f);
+    }
+  };
+  if (leaf.corners.size() == 3 * leaf.face_count()) {
+    look_at_each([&, corners = leaf.corners.data()](uint32_t f) {
+      Range range = places[corners[3 * f]];
+      range.add(places[corners[3 * f + 1]]);
+      range.add(places[corners[3 * f + 2]]);
+      return range;
+    });
+  } else {
+    look_at_each([&](uint32_t f) {
+      const uint32_t begin = leaf.face_starts[f], end = leaf.face_starts[f + 1];
+      Range range = places[leaf.corners[begin]];
+      for (uint32_t c = begin + 1; c < end; ++c) range.add(places[leaf.corners[c]]);
+      return range;
+    });
   }
   return faces;
 }
