@@ -19,16 +19,10 @@ PieceBox hull(const PieceBox& a, const PieceBox& b) {
 
 /// Parts things by the middles of their boxes along the axis on which these differ most; equal ones
 /// by number. Returns where the second half begins.
-template <class T, class BoxOf, class NumberOf>
-size_t halve(std::span<T> items, BoxOf&& box_of, NumberOf&& number_of) {
-  const auto middle = [&](const T& item, size_t k) {
-    const PieceBox& box = box_of(item);
-    return box.lo[k] + box.hi[k];
-  };
+template <class T, class MiddleOf, class NumberOf>
+size_t halve(std::span<T> items, MiddleOf&& middle_of, NumberOf&& number_of) {
   PieceBox middles;
-  for (const T& item : items) {
-    middles.add(std::array{middle(item, 0), middle(item, 1), middle(item, 2)});
-  }
+  for (const T& item : items) middles.add(middle_of(item));
   size_t axis = 0;
   for (size_t k = 1; k < 3; ++k) {
     if (middles.hi[k] - middles.lo[k] > middles.hi[axis] - middles.lo[axis]) axis = k;
@@ -36,8 +30,8 @@ size_t halve(std::span<T> items, BoxOf&& box_of, NumberOf&& number_of) {
   const size_t half = items.size() / 2;
   std::nth_element(items.begin(), items.begin() + static_cast<long>(half), items.end(),
                    [&](const T& a, const T& b) {
-                     return std::pair(middle(a, axis), number_of(a)) <
-                            std::pair(middle(b, axis), number_of(b));
+                     const double x = middle_of(a)[axis], y = middle_of(b)[axis];
+                     return x < y || (x == y && number_of(a) < number_of(b));
                    });
   return half;
 }
@@ -58,12 +52,12 @@ PieceTree::NodePtr PieceTree::build(std::span<Item> items) {
     leaf->pieces.reserve(items.size());
     for (const Item& item : items) {
       leaf->pieces.push_back(item.piece);
-      leaf->box.add(item.box);
+      leaf->box.add(*item.box);
     }
     return leaf;
   }
   const size_t half = halve(
-      items, [](const Item& item) -> const PieceBox& { return item.box; },
+      items, [](const Item& item) -> const std::array<double, 3>& { return item.middle; },
       [](const Item& item) { return item.piece; });
   return join(build(items.first(half)), build(items.subspan(half)));
 }
@@ -80,7 +74,7 @@ void PieceTree::collect_leaves(const NodePtr& node, std::vector<NodePtr>& leaves
 PieceTree::NodePtr PieceTree::over_leaves(std::span<NodePtr> leaves) {
   if (leaves.size() == 1) return leaves.front();
   const size_t half = halve(
-      leaves, [](const NodePtr& leaf) -> const PieceBox& { return leaf->box; },
+      leaves, [](const NodePtr& leaf) { return leaf->box.twice_middle(); },
       [](const NodePtr& leaf) { return leaf->pieces.front(); });
   return join(over_leaves(leaves.first(half)), over_leaves(leaves.subspan(half)));
 }

@@ -37,6 +37,10 @@ struct PieceBox {
       hi[k] = std::max(hi[k], b.hi[k]);
     }
   }
+  /// Its middle, times two.
+  [[nodiscard]] std::array<double, 3> twice_middle() const {
+    return {lo[0] + hi[0], lo[1] + hi[1], lo[2] + hi[2]};
+  }
   [[nodiscard]] bool meets(const PieceBox& b) const {
     return lo[0] <= b.hi[0] && b.lo[0] <= hi[0] && lo[1] <= b.hi[1] && b.lo[1] <= hi[1] &&
            lo[2] <= b.hi[2] && b.lo[2] <= hi[2];
@@ -93,9 +97,9 @@ class PieceTree {
   }
 
   /// The pieces without those that are `gone`, of this tree or not, ascending, and with `added`.
-  /// `box_of(piece)` is the box of a piece. The boxes of all nodes above those of the tree that are
-  /// gone `may_meet(box)`. O(k) for k such nodes and O(log n) for what is added, amortised: a part
-  /// that has become too deep is put together anew from its leaves.
+  /// `box_of(piece)` is the box of a piece, which stays where it is. The boxes of all nodes above
+  /// those of the tree that are gone `may_meet(box)`. O(k) for k such nodes and O(log n) for what
+  /// is added, amortised: a part that has become too deep is put together anew from its leaves.
   template <class BoxOf, class MayMeet>
   [[nodiscard]] PieceTree changed(std::span<const uint32_t> gone,
                                   const std::vector<uint32_t>& added, BoxOf&& box_of,
@@ -131,7 +135,8 @@ class PieceTree {
 
   struct Item {
     uint32_t piece;
-    PieceBox box;
+    const PieceBox* box;
+    std::array<double, 3> middle;  ///< of the box, times two
   };
   /// Pieces that are looked for, until all were found.
   struct Gone {
@@ -162,7 +167,10 @@ class PieceTree {
   static std::vector<Item> items_of(std::span<const uint32_t> pieces, BoxOf& box_of) {
     std::vector<Item> items;
     items.reserve(pieces.size());
-    for (const uint32_t p : pieces) items.push_back({p, box_of(p)});
+    for (const uint32_t p : pieces) {
+      const PieceBox& box = box_of(p);
+      items.push_back({p, &box, box.twice_middle()});
+    }
     return items;
   }
 
