@@ -102,14 +102,12 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   PieceWriter writer(job, operands, store);
   if (!writer.add_operands()) return PiecesPtr();
   const uint32_t first = job.polygon_start(own);
-  std::vector<uint32_t> kept, lost, gone;
-  for (std::vector<uint32_t>* each : {&kept, &lost, &gone}) {
-    each->reserve(job.polygons().size() - first);
-  }
+  const auto polygons = static_cast<uint32_t>(job.polygons().size());
+  std::vector<uint8_t> is_kept(polygons - first, 0);
   std::erase_if(faces->whole, [&](const WholePolygon& w) {
     if (w.polygon < first || w.flip) return false;
-    kept.push_back(job.piece(w.polygon));
-    if (w.is_met) store.set_met(kept.back());
+    is_kept[w.polygon - first] = 1;
+    if (w.is_met) store.set_met(job.piece(w.polygon));
     return true;
   });
   writer.add_whole(faces->whole, faces->far);
@@ -127,17 +125,18 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   result->touches = version.touches.with(std::move(more.boxes)).with(std::move(faces->touching));
   const auto box_of = [&](uint32_t p) -> const PieceBox& { return store.box(p); };
   if (outside == Outside::kDropped) {
-    kept.insert(kept.end(), writer.added.begin(), writer.added.end());
-    result->tree = PieceTree().changed({}, kept, box_of);
+    for (uint32_t p = first; p < polygons; ++p) {
+      if (is_kept[p - first]) writer.added.push_back(job.piece(p));
+    }
+    result->tree = PieceTree().changed({}, writer.added, box_of);
     return PiecesPtr(std::move(result));
   }
   // Gone are the pieces of the job that were not kept, and regions and groups with such parts.
-  std::sort(kept.begin(), kept.end());
-  const auto is_in = [](const std::vector<uint32_t>& sorted, uint32_t p) {
-    return std::binary_search(sorted.begin(), sorted.end(), p);
-  };
-  for (uint32_t p = first; p < job.polygons().size(); ++p) {
-    if (is_in(kept, job.piece(p))) continue;
+  std::vector<uint32_t> lost, gone;
+  lost.reserve(is_kept.size());
+  gone.reserve(is_kept.size());
+  for (uint32_t p = first; p < polygons; ++p) {
+    if (is_kept[p - first]) continue;
     lost.push_back(job.piece(p));
     gone.push_back(job.version_piece(p));
   }
@@ -147,7 +146,7 @@ Result<PiecesPtr> change_pieces(const ResultPieces& version, const std::vector<O
   for (const uint32_t p : gone) {
     const auto [first_part, part_count] = store.parts(p);
     for (uint32_t part = first_part; part < first_part + part_count; ++part) {
-      if (!is_in(lost, part)) writer.added.push_back(part);
+      if (!std::binary_search(lost.begin(), lost.end(), part)) writer.added.push_back(part);
     }
   }
   result->tree = version.tree.changed(
