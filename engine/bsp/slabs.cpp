@@ -67,9 +67,11 @@ Slabs::Slabs(const std::array<Vec3d, 3>& corners, double reach) {
       // Whatever direction that is: these are where the corners stand along it.
       for (size_t k = 0; k < 3; ++k) place[c] += double{slab.along[k]} * corners[c][k];
     }
-    const auto [least, most] = std::minmax_element(place.begin(), place.end());
-    slab.lo = static_cast<float>(*least - slack);
-    slab.hi = static_cast<float>(*most + slack);
+    // Which is the least is chance: no branches on that.
+    const double least = std::min(std::min(place[0], place[1]), place[2]),
+                 most = std::max(std::max(place[0], place[1]), place[2]);
+    slab.lo = static_cast<float>(least - slack);
+    slab.hi = static_cast<float>(most + slack);
   }
 }
 
