@@ -58,18 +58,21 @@ void PieceWriter::add_groups(uint32_t operand, std::span<const uint32_t> faces, 
   };
   GridBox box{at(faces[0]), at(faces[0])};
   for (const uint32_t f : faces) {
+    const IVec3 p = at(f);
     for (size_t k = 0; k < 3; ++k) {
-      box.lo[k] = std::min(box.lo[k], at(f)[k]);
-      box.hi[k] = std::max(box.hi[k], at(f)[k]);
+      box.lo[k] = std::min(box.lo[k], p[k]);
+      box.hi[k] = std::max(box.hi[k], p[k]);
     }
   }
+  std::vector<uint8_t> octant(faces.size());
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const IVec3 p = at(faces[i]);
+    uint32_t bits = 0;
+    for (size_t k = 0; k < 3; ++k) bits |= uint32_t{2 * p[k] > box.lo[k] + box.hi[k]} << k;
+    octant[i] = static_cast<uint8_t>(bits);
+  }
   CountingOrder octants;
-  octants.sort(faces.size(), 8, [&](size_t i) {
-    uint32_t octant = 0;
-    const IVec3& p = at(faces[i]);
-    for (size_t k = 0; k < 3; ++k) octant |= uint32_t{p[k] - box.lo[k] > box.hi[k] - p[k]} << k;
-    return octant;
-  });
+  octants.sort(faces.size(), 8, [&](size_t i) { return octant[i]; });
   std::vector<uint32_t> ordered;
   ordered.reserve(faces.size());
   for (const uint32_t i : octants.order) ordered.push_back(faces[i]);

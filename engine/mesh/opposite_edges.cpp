@@ -150,7 +150,7 @@ class IncomingEdges {
   /// The edge that comes to a vertex from another one, or kNone unless there is one. Sets
   /// `is_crowded` instead where many come to it.
   [[nodiscard]] uint32_t single(uint32_t from, uint32_t to, bool& is_crowded) const {
-    constexpr uint32_t kMany = 8;
+    constexpr uint32_t kMany = 8;  // bunches
     uint32_t edge = kNone, looks = 0;
     for (uint32_t bunch = next_[to] / Bunch::kSize;; bunch = before_[bunch - vertices_]) {
       if (++looks > kMany) {
