@@ -10,8 +10,6 @@
 namespace csgrun {
 namespace {
 
-uint64_t both_ends(const DirectedEdge& e) { return ends_together(e.from, e.to); }
-
 /// The direction of an edge as a multiple of n x t, n the outward normal of the support and t the
 /// normal of the edge's plane: its sign.
 template <class Geometry>
@@ -74,30 +72,26 @@ bool RegionBuilder::build(PlaneId support, const std::vector<DirectedEdge>& edge
                           RegionLoops& loops) {
   loops.clear();
   // Most cuts meet their counterpart end to end: cancel these first.
-  open_ = edges;
-  std::sort(open_.begin(), open_.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
-    const uint64_t of_a = both_ends(a), of_b = both_ends(b);
-    return of_a != of_b ? of_a < of_b : together(a.from, a.plane) < together(b.from, b.plane);
-  });
-  size_t kept = 0;
-  for (size_t i = 0; i < open_.size();) {
-    size_t j = i;
-    const uint64_t ends = both_ends(open_[i]);
-    size_t forward = 0;
-    while (j < open_.size() && both_ends(open_[j]) == ends) {
-      forward += open_[j].from < open_[j].to;
-      ++j;
+  by_ends_.clear();
+  for (const DirectedEdge& e : edges) {
+    by_ends_.emplace_back(ends_together(e.from, e.to), together(e.from, e.plane));
+  }
+  std::sort(by_ends_.begin(), by_ends_.end());
+  open_.clear();
+  for (size_t i = 0; i < by_ends_.size();) {
+    const uint64_t ends = by_ends_[i].first;
+    const auto lower = static_cast<uint32_t>(ends >> 32), higher = static_cast<uint32_t>(ends);
+    // Those that leave the lower end come first.
+    size_t j = i, forward = 0;
+    while (j < by_ends_.size() && by_ends_[j].first == ends) {
+      forward += by_ends_[j++].second >> 32 == lower;
     }
     const size_t backward = j - i - forward;
-    for (size_t k = 0; k < (forward > backward ? forward - backward : 0); ++k) {
-      open_[kept++] = open_[i];
-    }
-    for (size_t k = 0; k < (backward > forward ? backward - forward : 0); ++k) {
-      open_[kept++] = open_[j - 1];
-    }
+    const auto plane = [&](size_t k) { return static_cast<uint32_t>(by_ends_[k].second); };
+    for (size_t k = backward; k < forward; ++k) open_.push_back({lower, higher, plane(i)});
+    for (size_t k = forward; k < backward; ++k) open_.push_back({higher, lower, plane(j - 1)});
     i = j;
   }
-  open_.resize(kept);
   boundary_.clear();
   return cancel_on_lines(support) && trace(support, loops);
 }
@@ -206,52 +200,79 @@ bool RegionBuilder::straight(const DirectedEdge& in, const DirectedEdge& out) {
   return in.plane == out.plane || geometry_.side(in.plane, out.to) == 0;
 }
 
-bool RegionBuilder::trace(PlaneId support, RegionLoops& loops) {
+/// The edge `out` follows `in` at a point that no others pass.
+void RegionBuilder::link(uint32_t in, uint32_t out) {
+  next_[in] = out;
+  corner_[out] = !straight(boundary_[in], boundary_[out]);
+}
+
+/// For a few edges that stand as they follow each other round one loop, which passes no point
+/// twice: what one piece has by itself. False for all others.
+bool RegionBuilder::link_in_order() {
+  constexpr size_t kFew = 12;
+  const auto count = static_cast<uint32_t>(boundary_.size());
+  if (count > kFew) return false;
+  for (uint32_t i = 0; i < count; ++i) {
+    const DirectedEdge& e = boundary_[i];
+    if (e.to != boundary_[i + 1 < count ? i + 1 : 0].from) return false;
+    for (uint32_t k = 0; k < i; ++k) {
+      if (boundary_[k].from == e.from) return false;
+    }
+  }
+  for (uint32_t i = 0; i < count; ++i) link(i, i + 1 < count ? i + 1 : 0);
+  return true;
+}
+
+/// The general case. False when as many edges do not arrive at a point as leave it.
+bool RegionBuilder::link_at_points(PlaneId support) {
   // Incident edges by point: edge 2 i leaves boundary edge i's start, 2 i + 1 arrives at its end.
-  std::vector<std::pair<uint32_t, uint32_t>>& ends = ends_;
+  std::vector<uint64_t>& ends = ends_;
   ends.clear();
   for (uint32_t i = 0; i < boundary_.size(); ++i) {
-    ends.emplace_back(boundary_[i].from, 2 * i);
-    ends.emplace_back(boundary_[i].to, 2 * i + 1);
+    ends.push_back(together(boundary_[i].from, 2 * i));
+    ends.push_back(together(boundary_[i].to, 2 * i + 1));
   }
-  std::sort(ends.begin(), ends.end(), pair_less);
+  std::sort(ends.begin(), ends.end());
+  const auto point = [&](size_t i) { return ends[i] >> 32; };
+  const auto edge = [&](size_t i) { return static_cast<uint32_t>(ends[i]); };
+  for (size_t i = 0, j = i; i < ends.size(); i = j) {
+    while (j < ends.size() && point(j) == point(i)) ++j;
+    if (j - i == 2) {
+      const uint32_t a = edge(i), b = edge(i + 1);
+      if ((a & 1) == (b & 1)) return false;
+      a & 1 ? link(a / 2, b / 2) : link(b / 2, a / 2);
+      continue;
+    }
+    incident_.clear();
+    size_t arriving = 0;
+    for (size_t k = i; k < j; ++k) {
+      incident_.push_back(edge(k));
+      arriving += edge(k) & 1;
+    }
+    if (2 * arriving != j - i) return false;
+    // Where wedges touch, one of them may be a straight angle: no corner of its loop.
+    pair_wedges(support, incident_);
+    for (const uint32_t end : incident_) {
+      const uint32_t in = end / 2;
+      if ((end & 1) && next_[in] != kNone) link(in, next_[in]);
+    }
+  }
+  return true;
+}
+
+bool RegionBuilder::trace(PlaneId support, RegionLoops& loops) {
   next_.assign(boundary_.size(), kNone);
-  std::vector<uint8_t>& corner = corner_;
-  corner.assign(boundary_.size(), 1);
-  std::vector<uint32_t>& incident = incident_;
-  for (size_t i = 0; i < ends.size();) {
-    size_t j = i;
-    incident.clear();
-    int balance = 0;
-    while (j < ends.size() && ends[j].first == ends[i].first) {
-      balance += ends[j].second & 1 ? 1 : -1;
-      incident.push_back(ends[j++].second);
-    }
-    if (balance != 0) return false;
-    if (incident.size() == 2) {
-      const uint32_t in = incident[0] & 1 ? incident[0] / 2 : incident[1] / 2;
-      const uint32_t out = incident[0] & 1 ? incident[1] / 2 : incident[0] / 2;
-      next_[in] = out;
-      corner[out] = !straight(boundary_[in], boundary_[out]);
-    } else {
-      // Where wedges touch, one of them may be a straight angle: no corner of its loop.
-      pair_wedges(support, incident);
-      for (const uint32_t end : incident) {
-        const uint32_t in = end / 2, out = next_[in];
-        if ((end & 1) && out != kNone) corner[out] = !straight(boundary_[in], boundary_[out]);
-      }
-    }
-    i = j;
-  }
+  corner_.assign(boundary_.size(), 1);
+  if (!link_in_order() && !link_at_points(support)) return false;
   std::vector<uint8_t>& done = done_;
   done.assign(boundary_.size(), 0);
   for (uint32_t i = 0; i < boundary_.size(); ++i) {
-    if (done[i] || !corner[i]) continue;
+    if (done[i] || !corner_[i]) continue;
     for (uint32_t e = i; !done[e];) {
       DirectedEdge edge = boundary_[e];
       done[e] = 1;
       e = next_[e];
-      while (e != kNone && !corner[e] && !done[e]) {
+      while (e != kNone && !corner_[e] && !done[e]) {
         edge.to = boundary_[e].to;
         done[e] = 1;
         e = next_[e];

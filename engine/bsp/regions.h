@@ -63,6 +63,9 @@ class RegionBuilder {
   bool sweep_line(uint32_t support);
   bool trace(PlaneId support, RegionLoops& loops);
   [[nodiscard]] bool straight(const DirectedEdge& in, const DirectedEdge& out);
+  void link(uint32_t in, uint32_t out);
+  bool link_in_order();
+  bool link_at_points(PlaneId support);
   void pair_wedges(PlaneId support, std::vector<uint32_t>& incident);
 
   PointView geometry_;
@@ -70,6 +73,8 @@ class RegionBuilder {
   LineNamer namer_;
   std::vector<LineNamer::PlanePair> lines_;
   std::vector<LineKey> keys_;
+  /// Edges by both ends, then by the one that they come from and by their planes.
+  std::vector<std::pair<uint64_t, uint64_t>> by_ends_;
   std::vector<DirectedEdge> open_;                    ///< edges whose exact reverse is not there
   std::vector<DirectedEdge> line_;                    ///< those of one line
   std::vector<uint32_t> on_line_;                     ///< their ends, in order
@@ -79,7 +84,7 @@ class RegionBuilder {
   std::vector<uint32_t> next_;          ///< per boundary edge: the one that follows
   std::vector<uint8_t> corner_;         ///< per boundary edge: whether it starts in a true corner
   std::vector<uint8_t> done_;
-  std::vector<std::pair<uint32_t, uint32_t>> ends_;  ///< of boundary edges, by point
+  std::vector<uint64_t> ends_;  ///< of boundary edges, by point
   std::vector<uint32_t> incident_;
 };
 

@@ -237,6 +237,49 @@ TEST(Regions, EdgesThatAreThereTwiceAreRefused) {
   }
 }
 
+// One piece by itself comes in the order of its edges; any other order is the general case.
+TEST(Regions, OfOnePieceAreTheSameInAnyOrder) {
+  const std::vector<std::vector<Point2>> loops{
+      {{0, 0}, {4, 0}, {4, 4}, {0, 4}},
+      {{0, 0}, {2, 0}, {4, 0}, {4, 2}, {4, 4}, {2, 4}, {1, 4}, {0, 4}},  // with straight corners
+      {{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}, {2, 2}},                  // passes a point twice
+      {{0, 0},
+       {9, 0},
+       {9, 2},
+       {8, 1},
+       {7, 2},
+       {6, 1},
+       {5, 2},
+       {4, 1},
+       {3, 2},
+       {2, 1},
+       {1, 2},
+       {0, 1},
+       {-1, 2},
+       {-1, 0}}};  // more corners than are few
+  test::Random random(83);
+  for (const bool flipped : {false, true}) {
+    for (const auto& loop : loops) {
+      Grid grid(flipped);
+      grid.add(loop);
+      if (flipped) std::reverse(grid.edges.begin(), grid.edges.end());
+      ASSERT_TRUE(grid.build_single());
+      EXPECT_TRUE(grid.is_sound());
+      const auto expected = grid.boundary();
+      const size_t count = grid.loops.loop_count();
+      for (int i = 0; i < 20; ++i) {
+        const auto first = random.integer(0, static_cast<int64_t>(grid.edges.size()) - 1);
+        std::rotate(grid.edges.begin(), grid.edges.begin() + first, grid.edges.end());
+        if (i % 2 != 0) std::swap(grid.edges.front(), grid.edges.back());
+        ASSERT_TRUE(grid.build_single());
+        EXPECT_TRUE(grid.is_sound());
+        EXPECT_EQ(grid.boundary(), expected);
+        EXPECT_EQ(grid.loops.loop_count(), count);
+      }
+    }
+  }
+}
+
 // A triangle with one edge the wrong way round, whatever comes first.
 TEST(Regions, LoopsThatDoNotCloseAreRefused) {
   const std::vector<Point2> corners{{0, 0}, {4, 1}, {1, 3}};
