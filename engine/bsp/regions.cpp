@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <tuple>
 
+#include "engine/base/counting_order.h"
+#include "engine/base/number_map.h"
 #include "engine/base/sort_few.h"
 
 namespace csgrun {
@@ -106,27 +107,41 @@ bool RegionBuilder::build_single(PlaneId support, const std::vector<DirectedEdge
 bool RegionBuilder::cancel_on_lines(PlaneId support) {
   constexpr size_t kFew = 16;
   if (open_.size() <= kFew) return cancel_few(support);
+  // Most lines are of one plane that all their edges have: these are named once.
+  NumberMap line_of_plane;
+  lines_.clear();
+  line_of_edge_.clear();
+  for (const DirectedEdge& e : open_) {
+    const auto next = static_cast<uint32_t>(lines_.size());
+    const auto [line, is_new] = line_of_plane.find_or_add(e.plane, next);
+    if (is_new) lines_.push_back({support.index(), e.plane});
+    line_of_edge_.push_back(line);
+  }
+  namer_.keys(lines_, keys_);
   struct Keyed {
     LineKey key;
-    uint32_t edge;
+    uint32_t line;
   };
-  lines_.clear();
-  for (const DirectedEdge& e : open_) lines_.push_back({support.index(), e.plane});
-  namer_.keys(lines_, keys_);
   std::vector<Keyed> keyed;
-  keyed.reserve(open_.size());
-  for (uint32_t i = 0; i < open_.size(); ++i) keyed.push_back({keys_[i], i});
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
-    return std::tie(a.key, a.edge) < std::tie(b.key, b.edge);
-  });
-  for (size_t i = 0; i < keyed.size();) {
-    size_t j = i;
+  keyed.reserve(keys_.size());
+  for (uint32_t i = 0; i < keys_.size(); ++i) keyed.push_back({keys_[i], i});
+  std::sort(keyed.begin(), keyed.end(),
+            [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
+  std::vector<uint32_t> place(keyed.size());  // per line: equal ones have one
+  uint32_t places = 0;
+  for (size_t i = 0; i < keyed.size(); ++i) {
+    if (i > 0 && keyed[i].key != keyed[i - 1].key) ++places;
+    place[keyed[i].line] = places;
+  }
+  CountingOrder by_place;
+  by_place.sort(open_.size(), places + size_t{1},
+                [&](size_t e) { return place[line_of_edge_[e]]; });
+  for (uint32_t p = 0; p <= places; ++p) {
     line_.clear();
-    while (j < keyed.size() && keyed[j].key == keyed[i].key) {
-      line_.push_back(open_[keyed[j++].edge]);
+    for (uint32_t i = by_place.starts[p]; i < by_place.starts[p + 1]; ++i) {
+      line_.push_back(open_[by_place.order[i]]);
     }
     if (!cancel_line(support.index())) return false;
-    i = j;
   }
   return true;
 }

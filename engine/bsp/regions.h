@@ -73,6 +73,7 @@ class RegionBuilder {
   LineNamer namer_;
   std::vector<LineNamer::PlanePair> lines_;
   std::vector<LineKey> keys_;
+  std::vector<uint32_t> line_of_edge_;  ///< per open edge
   /// Edges by both ends, then by the one that they come from and by their planes.
   std::vector<std::pair<uint64_t, uint64_t>> by_ends_;
   std::vector<DirectedEdge> open_;                    ///< edges whose exact reverse is not there
