@@ -120,15 +120,23 @@ std::vector<std::vector<Loop>> nest_loops(PlaneId support, const RegionLoops& lo
   };
   std::vector<Nester::Box> boxes;
   for (const auto& face : faces) boxes.push_back(nester.box(face[0]));
+  std::vector<size_t> around;  // faces whose outer loops go around a hole
   for (Loop& hole : holes) {
     const Nester::Box box = nester.box(hole);
+    around.clear();
+    for (size_t f = 0; f < faces.size(); ++f) {
+      if (boxes[f].holds(box)) around.push_back(f);
+    }
+    // Each hole is in some face: if only one has it in its box, there is nothing to ask.
+    if (around.size() > 1) {
+      std::erase_if(around, [&](size_t f) { return !nester.contains(faces[f][0], hole); });
+    }
     // Of several outer loops around a hole the innermost has the highest lowest corner.
     size_t best = faces.size();
-    for (size_t f = 0; f < faces.size(); ++f) {
-      if (!boxes[f].holds(box) || (faces.size() > 1 && !nester.contains(faces[f][0], hole)))
-        continue;
-      if (best == faces.size() || nester.before(lowest(faces[best][0]), lowest(faces[f][0])))
+    for (const size_t f : around) {
+      if (best == faces.size() || nester.before(lowest(faces[best][0]), lowest(faces[f][0]))) {
         best = f;
+      }
     }
     assert(best < faces.size());
     faces[best].push_back(std::move(hole));
