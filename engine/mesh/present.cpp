@@ -56,10 +56,9 @@ void count_topology(Solid& solid) {
   solid.measures.genus = components - euler / 2;
 }
 
-/// Whether a point is exactly one of the grid.
-bool is_whole(const Point& p) {
+/// Whether a point is exactly one of the grid. `near`: its coordinates, correctly rounded.
+bool is_whole(const Point& p, const std::array<double, 3>& near) {
   if (p.w_bits == 1) return true;
-  const std::array<double, 3> near = rounded(p);
   for (const double x : near) {
     if (std::fabs(x) >= 0x1p62 || x != std::trunc(x)) return false;
   }
@@ -117,7 +116,7 @@ class EdgeCorners {
 class Presenter {
  public:
   Presenter(const BoundaryMesh& boundary, const PresentContext& context)
-      : boundary_(boundary), context_(context), geometry_(planes_, nullptr) {}
+      : boundary_(boundary), context_(context), to_mm_(context.step), geometry_(planes_, nullptr) {}
 
   Result<SolidPtr> run() {
     const bool is_large = boundary_.faces.size() > kFewForThreads;
@@ -265,7 +264,6 @@ class Presenter {
   }
 
   void fill_vertices(Solid& solid, VertexCount count, size_t begin, size_t end) {
-    const ToMillimetres to_mm(context_.step);
     for (auto n = static_cast<uint32_t>(begin); n < end; ++n) {
       const size_t at = count.untouched + count.own;
       first_vertex_[n] = static_cast<uint32_t>(at);
@@ -281,17 +279,17 @@ class Presenter {
       const UntouchedPart& part = whole_->part(place);
       const uint32_t v = place.vertex;
       if (part.map.is_identity()) {
-        to_mm.position(part.vertex(v), solid.positions[at], solid.positions_f32[at]);
+        to_mm_.position(part.vertex(v), solid.positions[at], solid.positions_f32[at]);
       } else {
         const Point point = part.point(v);
-        to_mm.position(point, solid.positions[at], solid.positions_f32[at]);
-        solid.on_grid[at] = is_whole(point) ? 1 : 0;
+        to_mm_.position(point, solid.positions[at], solid.positions_f32[at]);
+        solid.on_grid[at] = is_whole(point, part.rounded_point(v)) ? 1 : 0;
       }
       solid.point_of[at] = n;
       ++count.untouched;
       if (context_.exact_points) {
         solid.exact_points.resize(n + size_t{1});
-        solid.exact_points[n] = to_mm.text(part.point(v));
+        solid.exact_points[n] = to_mm_.text(part.point(v));
       }
     }
   }
@@ -299,17 +297,16 @@ class Presenter {
   /// All explicit vertices of the point that comes next.
   void add_own(Solid& solid, VertexCount& count, uint32_t number) {
     const std::vector<uint32_t>& point_of_own = fans_.point_of_vertex;
-    const ToMillimetres to_mm(context_.step);
     const uint32_t p = point_of_own[count.own];
     glm::dvec3 mm;
     std::array<float, 3> single;
     bool whole = geometry_.is_found_on_grid(p);
     if (whole) {
-      to_mm.position(geometry_.point(p).on_grid(), mm, single);
+      to_mm_.position(geometry_.point(p).on_grid(), mm, single);
     } else {
       const Point exact = geometry_.value(p);
-      to_mm.position(exact, mm, single);
-      whole = is_whole(exact);
+      to_mm_.position(exact, mm, single);
+      whole = is_whole(exact, geometry_.point(p).rounded);
     }
     for (; count.own < point_of_own.size() && point_of_own[count.own] == p; ++count.own) {
       const size_t at = count.untouched + count.own;
@@ -321,7 +318,7 @@ class Presenter {
     }
     if (context_.exact_points) {
       solid.exact_points.resize(number + size_t{1});
-      solid.exact_points[number] = to_mm.text(geometry_.value(p));
+      solid.exact_points[number] = to_mm_.text(geometry_.value(p));
     }
   }
 
@@ -508,6 +505,7 @@ class Presenter {
 
   const BoundaryMesh& boundary_;
   const PresentContext& context_;
+  const ToMillimetres to_mm_;
   PlaneTable planes_;
   CellGeometry geometry_;
   std::optional<WholeOrder> whole_;
