@@ -59,7 +59,10 @@ class UntouchedFaces {
         walk_(leaf),
         keeps_facets_(leaf.keeps_facets()),
         all_around_(leaf.may_touch) {
-    look_at_vertices();
+    if (all_around_ || asks_common_fates() || !leaf.has_single_fans ||
+        (keeps_facets_ && !leaf.has_triangles_as_facets())) {
+      look_at_vertices();
+    }
   }
   /// Among the faces of a part, which were untouched so far. What becomes of the other faces of the
   /// boundary that share vertices with them is not known.
@@ -72,6 +75,7 @@ class UntouchedFaces {
         walk_(leaf_),
         keeps_facets_(leaf_.keeps_facets()),
         all_around_(false) {
+    if (!asks_common_fates()) return;
     find_common_fates();
     for (const UntouchedPart::Shared& s : shared_) of_vertex_[s.vertex] = kMixedAround;
   }
@@ -91,16 +95,13 @@ class UntouchedFaces {
       room[count] = f;
       count += static_cast<size_t>(is_untouched);
       taken[i] |= static_cast<uint8_t>(is_untouched);
-      for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
-        met[leaf_.corners[c]] |= is_untouched ? 1 : 2;
-      }
+      each_vertex(
+          f, [&, by = static_cast<uint8_t>(is_untouched ? 1 : 2)](uint32_t v) { met[v] |= by; });
     }
     for (const UntouchedPart::Shared& s : shared_) met[s.vertex] |= 2;
     for (const uint32_t f : far) {
-      for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
-        uint8_t& by = met[leaf_.corners[c]];
-        by |= by >> 1;  // 2, by others only, becomes 3
-      }
+      // 2, by others only, becomes 3.
+      each_vertex(f, [&](uint32_t v) { met[v] |= met[v] >> 1; });
     }
     for (uint32_t v = 0; v < met.size(); ++v) {
       if (met[v] == 3) part.shared.push_back({v, v});
@@ -119,18 +120,38 @@ class UntouchedFaces {
     return near_ ? (*near_)[place] : static_cast<uint32_t>(place);
   }
 
+  /// Calls visit(v) for the vertices of a face.
+  template <class Visit>
+  void each_vertex(uint32_t f, Visit&& visit) const {
+    if (has_triangles_) {
+      const uint32_t* const v = leaf_.corners.data() + size_t{3} * f;
+      visit(v[0]), visit(v[1]), visit(v[2]);
+      return;
+    }
+    for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
+      visit(leaf_.corners[c]);
+    }
+  }
+
+  /// Whether it matters if all faces at a vertex are whole, where this is not asked of all.
+  [[nodiscard]] bool asks_common_fates() const {
+    return keeps_facets_ && leaf_.may_have_flat_edges;
+  }
+
   /// Whether a face that nothing met is a triangle that no other face is merged with, and shares
   /// each corner with one fan of faces.
   [[nodiscard]] bool stays_apart(uint32_t f) const {
-    const uint32_t begin = leaf_.face_starts[f], end = leaf_.face_starts[f + 1];
-    if (end - begin != 3) return false;
-    bool all_whole = true;
-    for (uint32_t c = begin; c < end; ++c) {
-      const uint8_t around = of_vertex_[leaf_.corners[c]];
-      if (around == kNoFan) return false;
-      all_whole = all_whole && around != kMixedAround;
+    const uint32_t begin = leaf_.face_starts[f];
+    if (!has_triangles_ && leaf_.face_starts[f + 1] - begin != 3) return false;
+    bool all_whole = !of_vertex_.empty();
+    if (all_whole) {
+      for (uint32_t c = begin; c < begin + 3; ++c) {
+        const uint8_t around = of_vertex_[leaf_.corners[c]];
+        if (around == kNoFan) return false;
+        all_whole = all_whole && around != kMixedAround;
+      }
+      if (all_around_ && !all_whole) return false;
     }
-    if (all_around_ && !all_whole) return false;
     return (keeps_facets_ && all_whole) || !leaf_.may_have_flat_edges || is_alone(leaf_, walk_, f);
   }
 
@@ -140,9 +161,7 @@ class UntouchedFaces {
     for (size_t i = 0; i < count_; ++i) {
       const uint32_t f = face(i);
       const auto own = static_cast<uint8_t>(1u << static_cast<unsigned>(fate_[i]));
-      for (uint32_t c = leaf_.face_starts[f]; c < leaf_.face_starts[f + 1]; ++c) {
-        of_vertex_[leaf_.corners[c]] |= own;
-      }
+      each_vertex(f, [&](uint32_t v) { of_vertex_[v] |= own; });
     }
     for (uint8_t& fates : of_vertex_) {
       const bool all_same = std::has_single_bit(fates);
@@ -173,7 +192,8 @@ class UntouchedFaces {
   const CornerWalk walk_;
   const bool keeps_facets_;
   const bool all_around_;  ///< faces are untouched only if all at their corners are whole
-  std::vector<uint8_t> of_vertex_;
+  const bool has_triangles_ = leaf_.corners.size() == 3 * leaf_.face_count();  ///< and nothing else
+  std::vector<uint8_t> of_vertex_;  ///< empty where nobody asks for it
 };
 
 /// Points and planes of a boundary, with its untouched faces, as they would be in a job.
