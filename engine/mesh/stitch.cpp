@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cassert>
 #include <numeric>
+#include <span>
 
 #include "engine/base/counting_order.h"
 #include "engine/base/parallel.h"
@@ -13,52 +14,80 @@
 namespace csgrun {
 namespace {
 
-struct EdgeRef {
-  uint32_t lo, hi;  ///< its points, the lower first
-  bool forward;     ///< runs from lo to hi
-  uint32_t index;
+/// The points of an edge.
+struct Ends {
+  uint32_t from, to;
 };
 
-bool same_ends(const EdgeRef& a, const EdgeRef& b) { return a.lo == b.lo && a.hi == b.hi; }
+/// Edges, which have their places in a list for numbers, by both their points, the lower one first.
+class SortedEdges {
+ public:
+  class Edge {
+   public:
+    Edge() = default;
+    Edge(const Ends& ends, uint32_t number)
+        : high(std::max(ends.from, ends.to)),
+          number_and_way_(number << 1 | (ends.from < ends.to ? 1 : 0)) {}
+    [[nodiscard]] uint32_t number() const { return number_and_way_ >> 1; }
+    [[nodiscard]] bool is_forward() const { return number_and_way_ & 1; }  ///< from the lower point
 
-/// By ends, then by index. They come by index.
-void sort_refs(RawVector<EdgeRef>& refs, size_t point_count) {
-  CountingOrder by_low;
-  by_low.sort(refs.size(), point_count, [&](size_t i) { return refs[i].lo; });
-  RawVector<EdgeRef> sorted(refs.size());
-  for_each_range(point_count, [&](size_t begin, size_t end) {
-    for (size_t p = begin; p < end; ++p) {
-      const uint32_t first = by_low.starts[p], last = by_low.starts[p + 1];
-      for (uint32_t i = first; i < last; ++i) sorted[i] = refs[by_low.order[i]];
-      sort_few(sorted.begin() + first, sorted.begin() + last,
-               [](const EdgeRef& a, const EdgeRef& b) { return a.hi < b.hi; });
-    }
-  });
-  refs = std::move(sorted);
-}
+    uint32_t high;
 
-EdgeRef make_ref(uint32_t from, uint32_t to, uint32_t index) {
-  return {std::min(from, to), std::max(from, to), from < to, index};
-}
-
-/// The indices of sorted edges of which more run one way than the other.
-std::vector<uint32_t> find_unbalanced(const RawVector<EdgeRef>& refs) {
-  const auto list = [&](size_t begin, size_t end, std::vector<uint32_t>& out) {
-    size_t i = begin;
-    while (i > 0 && i < end && same_ends(refs[i - 1], refs[i])) ++i;  // those of the part before
-    while (i < end) {
-      size_t j = i;
-      int balance = 0;
-      for (; j < refs.size() && same_ends(refs[i], refs[j]); ++j) {
-        balance += refs[j].forward ? 1 : -1;
-      }
-      if (balance != 0) {
-        for (size_t k = i; k < j; ++k) out.push_back(refs[k].index);
-      }
-      i = j;
-    }
+   private:
+    uint32_t number_and_way_;
   };
-  return list_in_parts<uint32_t>(refs.size(), kFewForThreads, list);
+  /// Those between two points, by their numbers.
+  struct Bundle {
+    uint32_t low;
+    std::span<const Edge> edges;
+  };
+
+  /// REQUIRES: no more than 2^31 edges.
+  SortedEdges(const RawVector<Ends>& edges, size_t point_count) {
+    const auto lower = [&](size_t i) { return std::min(edges[i].from, edges[i].to); };
+    by_low_.sort(edges.size(), point_count, lower,
+                 [&](size_t i) { return Edge(edges[i], static_cast<uint32_t>(i)); });
+    for_each_range(point_count, [&](size_t begin, size_t end) {
+      for (size_t p = begin; p < end; ++p) {
+        sort_few(by_low_.values.begin() + by_low_.starts[p],
+                 by_low_.values.begin() + by_low_.starts[p + 1],
+                 [](const Edge& a, const Edge& b) { return a.high < b.high; });
+      }
+    });
+  }
+
+  /// Calls visit(bundle) for those with lower points [begin, end), in their order.
+  template <class Visit>
+  void each_bundle(size_t begin, size_t end, Visit&& visit) const {
+    for (size_t low = begin; low < end; ++low) {
+      const Edge* const last = by_low_.values.data() + by_low_.starts[low + 1];
+      for (const Edge *i = by_low_.values.data() + by_low_.starts[low], *j = i; i != last; i = j) {
+        while (j != last && j->high == i->high) ++j;
+        visit(Bundle{static_cast<uint32_t>(low), {i, j}});
+      }
+    }
+  }
+
+ private:
+  CountingGroups<RawVector<Edge>> by_low_;
+};
+
+/// Whether as many run one way as the other.
+bool is_balanced(const SortedEdges::Bundle& bundle) {
+  size_t forward = 0;
+  for (const SortedEdges::Edge& e : bundle.edges) forward += e.is_forward();
+  return 2 * forward == bundle.edges.size();
+}
+
+/// The numbers of edges of which more run one way than the other between two points.
+std::vector<uint32_t> find_unbalanced(const SortedEdges& edges, size_t point_count) {
+  const auto list = [&](size_t begin, size_t end, std::vector<uint32_t>& out) {
+    edges.each_bundle(begin, end, [&](const SortedEdges::Bundle& bundle) {
+      if (is_balanced(bundle)) return;
+      for (const SortedEdges::Edge& e : bundle.edges) out.push_back(e.number());
+    });
+  };
+  return list_in_parts<uint32_t>(point_count, kFewForThreads, list);
 }
 
 struct LooseEdge {
@@ -116,48 +145,49 @@ bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
     }
   }
   const uint32_t own_edges = first_edge.back();
-  RawVector<DirectedEdge*> edges(own_edges + whole.rim().size());
-  RawVector<PlaneId> support(edges.size());
+  RawVector<Ends> ends(own_edges + whole.rim().size());
   for_each_range(faces.size(), [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       uint32_t i = first_edge[f];
-      for (auto& loop : faces[f].loops) {
-        for (DirectedEdge& e : loop) support[i] = faces[f].plane, edges[i++] = &e;
+      for (const auto& loop : faces[f].loops) {
+        for (const DirectedEdge& e : loop) ends[i++] = {e.from, e.to};
       }
     }
   });
-  std::vector<DirectedEdge> rim;
-  rim.reserve(whole.rim().size());
-  for (const RimEdge& e : whole.rim()) {
-    rim.push_back({e.from, e.to, kNone});
-    edges[own_edges + rim.size() - 1] = &rim.back();
+  for (size_t i = 0; i < whole.rim().size(); ++i) {
+    ends[own_edges + i] = {whole.rim()[i].from, whole.rim()[i].to};
   }
-  RawVector<EdgeRef> refs(edges.size());
-  for_each_range(edges.size(), [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      refs[i] = make_ref(edges[i]->from, edges[i]->to, static_cast<uint32_t>(i));
-    }
-  });
-  sort_refs(refs, geometry.point_count());
-  const std::vector<uint32_t> loose_edges = find_unbalanced(refs);
+  const size_t points = geometry.point_count();
+  const std::vector<uint32_t> loose_edges = find_unbalanced(SortedEdges(ends, points), points);
   if (loose_edges.empty()) return true;
+  // An edge of a face by its number.
+  const auto edge_of = [&](MergedFace& face, uint32_t number) {
+    uint32_t left = number - first_edge[&face - faces.data()];
+    auto loop = face.loops.begin();
+    for (; left >= loop->size(); ++loop) left -= static_cast<uint32_t>(loop->size());
+    return &(*loop)[left];
+  };
   std::vector<LooseEdge> loose;
+  std::vector<DirectedEdge> rim;  // the loose ones, which stay where they are
+  rim.reserve(loose_edges.size());
   std::vector<std::vector<uint32_t>> inserted(loose_edges.size());
-  for (const uint32_t e : loose_edges) {
-    if (e < own_edges) continue;
-    const auto [face, edge] = whole.planes_of(whole.rim()[e - own_edges], planes);
-    support[e] = face;
-    edges[e]->plane = edge.index();
-  }
-  LineNamer namer(planes);
   std::vector<LineNamer::PlanePair> lines;
-  for (const uint32_t e : loose_edges) lines.push_back({support[e].index(), edges[e]->plane});
-  std::vector<LineKey> keys;
-  namer.keys(lines, keys);
   for (size_t k = 0; k < loose_edges.size(); ++k) {
     const uint32_t e = loose_edges[k];
-    loose.push_back({keys[k], support[e], edges[e], &inserted[k]});
+    if (e < own_edges) {
+      const auto after = std::upper_bound(first_edge.begin(), first_edge.end(), e);
+      MergedFace& face = faces[after - first_edge.begin() - 1];
+      loose.push_back({{}, face.plane, edge_of(face, e), &inserted[k]});
+    } else {
+      const auto [face, edge] = whole.planes_of(whole.rim()[e - own_edges], planes);
+      rim.push_back({ends[e].from, ends[e].to, edge.index()});
+      loose.push_back({{}, face, &rim.back(), &inserted[k]});
+    }
+    lines.push_back({loose.back().support.index(), loose.back().edge->plane});
   }
+  std::vector<LineKey> keys;
+  LineNamer(planes).keys(lines, keys);
+  for (size_t k = 0; k < loose.size(); ++k) loose[k].line = keys[k];
   std::stable_sort(loose.begin(), loose.end(),
                    [](const LooseEdge& a, const LooseEdge& b) { return a.line < b.line; });
   for (size_t i = 0; i < loose.size();) {
@@ -171,7 +201,7 @@ bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry,
     if (loose_edges[k] >= own_edges && !inserted[k].empty()) return false;
   }
   // Rebuild the loops; edges are numbered in the order of the walk above.
-  std::vector<uint32_t> slot(edges.size(), kNone);
+  std::vector<uint32_t> slot(ends.size(), kNone);
   for (uint32_t k = 0; k < loose_edges.size(); ++k) slot[loose_edges[k]] = k;
   uint32_t number = 0;
   std::vector<DirectedEdge> broken;
@@ -292,66 +322,65 @@ void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order, ContactRu
   }
 }
 
-/// `crowded`: the forward half-edges of each edge where more than two triangles meet. On the rim of
-/// what is untouched a half-edge has no twin.
-bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
-                CellGeometry& geometry, const PlaneTable& planes, const WholeOrder& whole,
-                ContactRule contacts, std::vector<uint32_t>& twin,
-                std::vector<std::vector<uint32_t>>& crowded) {
-  const auto half_edges = static_cast<uint32_t>(set.triangles.size() * 3);
-  RawVector<EdgeRef> refs(half_edges + whole.rim().size());
+/// The half-edges of triangles, and then the edges of the rim.
+RawVector<Ends> half_edges_and_rim(const TriangleSet& set, const WholeOrder& whole) {
+  const size_t half_edges = set.triangles.size() * 3;
+  RawVector<Ends> ends(half_edges + whole.rim().size());
   for_each_range(set.triangles.size(), [&](size_t begin, size_t end) {
-    for (auto t = static_cast<uint32_t>(begin); t < end; ++t) {
-      for (uint32_t k = 0; k < 3; ++k) {
-        refs[3 * t + k] = make_ref(set.triangles[t][k], set.triangles[t][(k + 1) % 3], 3 * t + k);
-      }
+    for (size_t t = begin; t < end; ++t) {
+      const auto [a, b, c] = set.triangles[t];
+      ends[3 * t] = {a, b};
+      ends[3 * t + 1] = {b, c};
+      ends[3 * t + 2] = {c, a};
     }
   });
-  uint32_t next = half_edges;
-  for (const RimEdge& e : whole.rim()) {
-    refs[next] = make_ref(e.from, e.to, next);
-    ++next;
+  for (size_t i = 0; i < whole.rim().size(); ++i) {
+    ends[half_edges + i] = {whole.rim()[i].from, whole.rim()[i].to};
   }
-  sort_refs(refs, geometry.point_count());
+  return ends;
+}
+
+/// `ends`: see above. `crowded`: the forward half-edges of each edge where more than two triangles
+/// meet. On the rim of what is untouched a half-edge has no twin.
+bool find_twins(const TriangleSet& set, const RawVector<Ends>& ends,
+                const std::vector<MergedFace>& faces, CellGeometry& geometry,
+                const PlaneTable& planes, ContactRule contacts, std::vector<uint32_t>& twin,
+                std::vector<std::vector<uint32_t>>& crowded) {
+  const auto half_edges = static_cast<uint32_t>(set.triangles.size() * 3);
+  const SortedEdges sorted(ends, geometry.point_count());
+  using Bundle = SortedEdges::Bundle;
   twin.assign(half_edges, kNone);
-  const auto end_of = [&](size_t i) {  // of those with the same ends
-    size_t end = i;
-    while (end < refs.size() && same_ends(refs[i], refs[end])) ++end;
-    return end;
-  };
-  // Two are paired at once; where several edges meet, the first of them is listed.
+  // Two are paired at once; where several edges meet, they are listed.
   std::atomic<bool> is_closed = true;
-  const auto pair = [&](size_t begin, size_t end, std::vector<size_t>& several) {
-    while (begin > 0 && begin < end && same_ends(refs[begin - 1], refs[begin])) ++begin;
-    for (size_t i = begin, j = i; i < end; i = j) {
-      j = end_of(i);
-      size_t forward = 0;
-      for (size_t k = i; k < j; ++k) forward += refs[k].forward;
-      const bool is_rim = refs[j - 1].index >= half_edges;
-      if (2 * forward != j - i || (is_rim && j - i != 2)) is_closed = false;
-      if (j - i != 2) {
-        several.push_back(i);
+  const auto pair = [&](size_t begin, size_t end, std::vector<Bundle>& several) {
+    sorted.each_bundle(begin, end, [&](const Bundle& bundle) {
+      const bool are_two = bundle.edges.size() == 2;
+      const bool is_rim = bundle.edges.back().number() >= half_edges;
+      if (!is_balanced(bundle) || (is_rim && !are_two)) is_closed = false;
+      if (!are_two) {
+        several.push_back(bundle);
       } else if (!is_rim) {
-        make_twins(twin, refs[i].index, refs[i + 1].index);
+        make_twins(twin, bundle.edges[0].number(), bundle.edges[1].number());
       }
-    }
+    });
   };
-  const std::vector<size_t> several = list_in_parts<size_t>(refs.size(), kFewForThreads, pair);
+  const std::vector<Bundle> several =
+      list_in_parts<Bundle>(geometry.point_count(), kFewForThreads, pair);
   if (!is_closed) return false;
   std::vector<Sheet> sheets;
-  for (const size_t i : several) {
+  for (const Bundle& bundle : several) {
     // A diagonal of one face may run along other faces' edge: both its sides lie in one plane,
     // and the order below treats it like any other pair of sheets.
     sheets.clear();
     LineAxis along;
-    for (size_t k = i; k < end_of(i); ++k) {
-      const uint32_t face = set.face[refs[k].index / 3];
+    for (const SortedEdges::Edge& e : bundle.edges) {
+      const uint32_t face = set.face[e.number() / 3];
       const Plane normal = planes.oriented(faces[face].plane);
       sheets.push_back(
-          {refs[k].index, face, refs[k].forward, refs[k].forward ? normal : normal.reversed()});
+          {e.number(), face, e.is_forward(), e.is_forward() ? normal : normal.reversed()});
     }
     for (int axis = 0; axis < 3; ++axis) {
-      if (const int s = geometry.compare_along(refs[i].hi, refs[i].lo, axis)) {
+      if (const int s = geometry.compare_along(bundle.edges[0].high, bundle.low, axis)) {
         along = {axis, s};
         break;
       }
@@ -366,37 +395,39 @@ bool find_twins(const TriangleSet& set, const std::vector<MergedFace>& faces,
 }
 
 /// The fans around points [begin, end): vertices are numbered from 0, and their points appended.
-void walk_fans(const TriangleSet& set, const CountingOrder& by_point, size_t begin, size_t end,
+void walk_fans(const CountingOrder& by_point, size_t begin, size_t end,
                const std::vector<uint32_t>& twin, const WholeOrder& whole,
                std::vector<uint32_t>& vertex_of_corner, std::vector<uint32_t>& point_of_vertex) {
-  for (uint32_t i = by_point.starts[begin]; i < by_point.starts[end]; ++i) {
-    const uint32_t start = by_point.order[i];
-    if (vertex_of_corner[start] != kNone) continue;
-    const uint32_t point = set.triangles[start / 3][start % 3];
-    if (whole.is_shared(point)) {
-      if (point_of_vertex.empty() || point_of_vertex.back() != point) {
-        point_of_vertex.push_back(point);
+  for (auto point = static_cast<uint32_t>(begin); point < end; ++point) {
+    const std::span<const uint32_t> corners(by_point.order.data() + by_point.starts[point],
+                                            by_point.order.data() + by_point.starts[point + 1]);
+    if (!corners.empty() && whole.is_shared(point)) {
+      for (const uint32_t c : corners) {
+        vertex_of_corner[c] = static_cast<uint32_t>(point_of_vertex.size());
       }
-      vertex_of_corner[start] = static_cast<uint32_t>(point_of_vertex.size() - 1);
+      point_of_vertex.push_back(point);
       continue;
     }
-    const auto vertex = static_cast<uint32_t>(point_of_vertex.size());
-    point_of_vertex.push_back(point);
-    // Walk around the vertex: the twin of the edge that leaves corner c arrives at it in the next
-    // triangle; the corner there is the one after that edge.
-    uint32_t c = start;
-    do {
-      vertex_of_corner[c] = vertex;
-      const uint32_t across = twin[c];
-      c = across % 3 == 2 ? across - 2 : across + 1;
-    } while (c != start);
+    for (const uint32_t start : corners) {
+      if (vertex_of_corner[start] != kNone) continue;
+      const auto vertex = static_cast<uint32_t>(point_of_vertex.size());
+      point_of_vertex.push_back(point);
+      // Walk around the vertex: the twin of the edge that leaves corner c arrives at it in the next
+      // triangle; the corner there is the one after that edge.
+      uint32_t c = start;
+      do {
+        vertex_of_corner[c] = vertex;
+        const uint32_t across = twin[c];
+        c = across % 3 == 2 ? across - 2 : across + 1;
+      } while (c != start);
+    }
   }
 }
 
 /// One vertex for each fan of triangles that are joined across edges, and for each point that
 /// untouched triangles share. `by_point`: corners by their points.
-void walk_fans(const TriangleSet& set, const CountingOrder& by_point,
-               const std::vector<uint32_t>& twin, const WholeOrder& whole, VertexFans& fans) {
+void walk_fans(const CountingOrder& by_point, const std::vector<uint32_t>& twin,
+               const WholeOrder& whole, VertexFans& fans) {
   fans.vertex_of_corner.assign(twin.size(), kNone);
   const size_t points = by_point.starts.size() - 1;
   // Fans do not leave a point. Numbers are made anew if there is more than one part.
@@ -404,7 +435,7 @@ void walk_fans(const TriangleSet& set, const CountingOrder& by_point,
   std::vector<std::vector<uint32_t>> parts(part_count(points, each));
   for_each_part(points, each, [&](size_t part, size_t begin, size_t end) {
     std::vector<uint32_t> own;
-    walk_fans(set, by_point, begin, end, twin, whole, fans.vertex_of_corner, own);
+    walk_fans(by_point, begin, end, twin, whole, fans.vertex_of_corner, own);
     parts[part] = std::move(own);
   });
   std::vector<uint32_t> firsts;  // vertices of the parts
@@ -467,17 +498,18 @@ bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
   std::vector<uint32_t> twin;
   std::vector<std::vector<uint32_t>> crowded;
   const size_t corners = 3 * set.triangles.size();
+  RawVector<Ends> ends = half_edges_and_rim(set, whole);
   CountingOrder by_point;
   bool is_closed = false;
   run_both(
       corners > kFewForThreads,
-      [&] { is_closed = find_twins(set, faces, geometry, planes, whole, contacts, twin, crowded); },
+      [&] { is_closed = find_twins(set, ends, faces, geometry, planes, contacts, twin, crowded); },
       [&] {
-        by_point.sort(corners, geometry.point_count(),
-                      [&](size_t corner) { return set.triangles[corner / 3][corner % 3]; });
+        by_point.sort(corners, geometry.point_count(), [&](size_t c) { return ends[c].from; });
       });
+  ends = {};
   if (!is_closed) return false;
-  walk_fans(set, by_point, twin, whole, fans);
+  walk_fans(by_point, twin, whole, fans);
   if (doubled != nullptr) {
     doubled->clear();
     for_each_double_edge(crowded, fans, [&](uint32_t h, uint32_t) {
@@ -490,7 +522,7 @@ bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
   }
   fans.were_parted = false;
   while (part_double_edges(crowded, fans, twin)) {
-    walk_fans(set, by_point, twin, whole, fans);
+    walk_fans(by_point, twin, whole, fans);
     fans.were_parted = true;
   }
   return true;
