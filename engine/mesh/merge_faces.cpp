@@ -88,18 +88,10 @@ class FaceMerger {
     std::vector<std::vector<DirectedEdge>> loops;  ///< the outer one first
   };
 
-  /// A face by itself whose loop passes no point twice is what it was. False for all others.
+  /// A face by itself of one loop is what it was. False for all others.
   bool add_plain(const Group& group) {
-    constexpr uint32_t kFew = 8;
-    const BoundaryMesh& b = boundary_;
-    const BoundaryMesh::Face& face = b.faces[group.face];
-    const uint32_t begin = b.loop_starts[face.first_loop], end = b.loop_starts[face.first_loop + 1];
-    if (face.loop_count != 1 || end - begin > kFew) return false;
-    for (uint32_t c = begin; c < end; ++c) {
-      for (uint32_t d = begin; d < c; ++d) {
-        if (b.corners[c].point == b.corners[d].point) return false;
-      }
-    }
+    const BoundaryMesh::Face& face = boundary_.faces[group.face];
+    if (face.loop_count != 1) return false;
     edges_.clear();
     append_edges(face, edges_);
     add_face(group, face.label, FaceLoops(edges_));
@@ -271,9 +263,11 @@ bool merge_faces(const BoundaryMesh& b, const CellGeometry& geometry, const Plan
   starts.push_back(groups.size());
   std::vector<std::vector<MergedFace>> made(parts);
   std::vector<uint8_t> is_open(parts, 0);
+  faces.reserve(groups.size());  // and hardly ever more
   make_parts_in_order(
       parts,
       [&](size_t part) {
+        made[part].reserve(starts[part + 1] - starts[part]);
         FaceMerger merger(b, geometry, planes, made[part]);
         for (size_t i = starts[part], j = i; i < starts[part + 1]; i = j) {
           j = end_of(i);

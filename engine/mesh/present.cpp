@@ -123,8 +123,10 @@ class Presenter {
     run_both(
         is_large, [&] { planes_.adopt(boundary_.planes); },
         [&] {
-          for (size_t p = 0; p < boundary_.point_planes.size(); ++p) {
-            geometry_.add_point(boundary_.point_planes[p], boundary_.point_rounded[p]);
+          const auto count = static_cast<uint32_t>(boundary_.point_planes.size());
+          geometry_.add_points(count);
+          for (uint32_t p = 0; p < count; ++p) {
+            geometry_.set_point(p, boundary_.point_planes[p], boundary_.point_rounded[p]);
           }
         });
     for_each_range(geometry_.point_count(), [&](size_t begin, size_t end) {
