@@ -1,6 +1,7 @@
 #include "engine/mesh/improve_triangles.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -99,7 +100,7 @@ struct Memory {
   std::vector<HalfEdge> edges;       ///< while twins are
 };
 
-/// Half-edge h = 3 t + k runs from corner k of triangle t to the next one.
+/// Half-edge h = 4 t + k runs from corner k < 3 of triangle t to the next one.
 class Flipper {
  public:
   Flipper(std::span<const std::vector<uint32_t>> loops, const PlanarOracle& oracle,
@@ -124,8 +125,8 @@ class Flipper {
   }
 
  private:
-  static uint32_t next(uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-  uint32_t& origin(uint32_t h) { return triangles_[h / 3][h % 3]; }
+  static uint32_t next(uint32_t h) { return h % 4 == 2 ? h - 2 : h + 1; }
+  uint32_t& origin(uint32_t h) { return triangles_[h / 4][h % 4]; }
 
   /// Edges of the loops that occur in both directions: both sides have triangles, which are not
   /// neighbours there.
@@ -147,17 +148,18 @@ class Flipper {
 
   /// Finds the twins of half-edges and queues all diagonals in the order of their points.
   void pair_diagonals() {
-    const auto count = static_cast<uint32_t>(3 * triangles_.size());
     std::vector<Memory::HalfEdge>& edges = memory_.edges;
     edges.clear();
     queue_.clear();
+    twin_.assign(4 * triangles_.size(), kNoTwin);
+    queued_.assign(4 * triangles_.size(), false);
     if (triangles_.size() <= kFewCorners && slits_.empty()) return pair_few();
-    for (uint32_t h = 0; h < count; ++h) {
-      edges.push_back({ends_together(origin(h), origin(next(h))), h});
+    for (uint32_t t = 0; t < triangles_.size(); ++t) {
+      for (uint32_t h = 4 * t; h < 4 * t + 3; ++h) {
+        edges.push_back({ends_together(origin(h), origin(next(h))), h});
+      }
     }
     std::sort(edges.begin(), edges.end());
-    twin_.assign(count, kNoTwin);
-    queued_.assign(count, false);
     for (size_t i = 1; i < edges.size(); ++i) {
       const auto [edge, h] = edges[i - 1];
       if (edges[i].edge != edge) continue;
@@ -167,21 +169,28 @@ class Flipper {
     }
   }
 
-  /// The same for a few: each half-edge is held against the others.
+  /// The same for a few: each half-edge is held against those of later triangles.
   void pair_few() {
-    const auto count = static_cast<uint32_t>(3 * triangles_.size());
-    twin_.assign(count, kNoTwin);
-    queued_.assign(count, false);
+    const size_t count = triangles_.size();
+    // The ends of half-edges, as they run.
+    std::array<std::array<uint64_t, 3>, kFewCorners> ends;
+    for (size_t t = 0; t < count; ++t) {
+      const auto [a, b, c] = triangles_[t];
+      ends[t] = {together(a, b), together(b, c), together(c, a)};
+    }
     std::vector<Memory::HalfEdge>& diagonals = memory_.edges;
-    std::array<uint64_t, 3 * kFewCorners> reverse;  // the ends of half-edges, the second one first
-    for (uint32_t h = 0; h < count; ++h) reverse[h] = together(origin(next(h)), origin(h));
-    for (uint32_t h = 0; h < count; ++h) {
-      const uint32_t from = origin(h), to = origin(next(h));
-      const uint64_t own = together(from, to);
-      for (uint32_t g = h / 3 * 3 + 3; g < count; ++g) {
-        if (reverse[g] != own) continue;
-        link(h, g);
-        diagonals.push_back({ends_together(from, to), h});
+    for (uint32_t t = 0; t + 1 < count; ++t) {
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t h = 4 * t + k;
+        if (twin_[h] != kNoTwin) continue;  // of a triangle before
+        const uint64_t reverse = std::rotl(ends[t][k], 32);
+        for (uint32_t u = t + 1; u < count; ++u) {
+          for (uint32_t l = 0; l < 3; ++l) {
+            if (ends[u][l] != reverse) continue;
+            link(h, 4 * u + l);
+            diagonals.push_back({std::min(ends[t][k], reverse), h});
+          }
+        }
       }
     }
     sort_few(diagonals.begin(), diagonals.end(), std::less<>());
