@@ -63,6 +63,7 @@ class ProjectedOracle final : public PlanarOracle {
     if (p[v_] != q[v_]) return p[v_] < q[v_] ? -1 : 1;
     return 0;
   }
+  double along(uint32_t a) const override { return static_cast<double>(vertices_[a][u_]); }
   /// Whether a loop turns left (or goes straight) everywhere, and around once.
   [[nodiscard]] bool is_convex(Corners loop) const {
     const size_t n = loop.size();

@@ -15,6 +15,7 @@ class PlaneOracle final : public PlanarOracle {
 
   int orient(uint32_t a, uint32_t b, uint32_t c) const override;
   int compare(uint32_t a, uint32_t b) const override;
+  double along(uint32_t a) const override { return points_.rounded(a)[u_]; }
 
  private:
   int exact_orient(uint32_t a, uint32_t b, uint32_t c) const;

@@ -33,6 +33,12 @@ struct Link {
   uint32_t vertex, prev, next;
 };
 
+/// A point, by its position in the list of ids, and how far along the sweep it is.
+struct Swept {
+  double along;
+  uint32_t position;
+};
+
 struct Chain {
   uint32_t head = kNone, tail = kNone, newest = kNone;
 };
@@ -77,14 +83,23 @@ class Triangulator::Sweep {
     std::sort(ids_.begin(), ids_.end());
     ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
     by_id_ = ids_;
-    std::sort(ids_.begin(), ids_.end(),
-              [&](uint32_t a, uint32_t b) { return oracle_->compare(a, b) < 0; });
+    by_sweep_.clear();
+    for (uint32_t i = 0; i < by_id_.size(); ++i) {
+      by_sweep_.push_back({oracle_->along(by_id_[i]), i});
+    }
+    std::sort(by_sweep_.begin(), by_sweep_.end(), [&](const Swept& a, const Swept& b) {
+      return a.along != b.along ? a.along < b.along
+                                : oracle_->compare(by_id_[a.position], by_id_[b.position]) < 0;
+    });
     rank_of_.resize(ids_.size());
-    for (uint32_t rank = 0; rank < ids_.size(); ++rank) {
-      if (rank > 0 && oracle_->compare(ids_[rank - 1], ids_[rank]) == 0) {
+    for (uint32_t rank = 0; rank < by_sweep_.size(); ++rank) {
+      const Swept& at = by_sweep_[rank];
+      ids_[rank] = by_id_[at.position];
+      if (rank > 0 && by_sweep_[rank - 1].along == at.along &&
+          oracle_->compare(ids_[rank - 1], ids_[rank]) == 0) {
         return "two of its vertices are one point";
       }
-      rank_of_[position_of(ids_[rank])] = rank;
+      rank_of_[at.position] = rank;
     }
     triangles_->reserve(corners);
     links_.reserve(2 * corners);
@@ -326,6 +341,7 @@ class Triangulator::Sweep {
   Triangles* triangles_ = nullptr;
   std::vector<uint32_t> ids_;              ///< by rank along the sweep
   std::vector<uint32_t> by_id_, rank_of_;  ///< sorted ids and their ranks
+  std::vector<Swept> by_sweep_;            ///< while points are ranked
   std::vector<Edge> edges_;
   std::vector<uint32_t> first_right_;   ///< per vertex: its first edge to the right
   std::vector<uint32_t> left_count_;    ///< per vertex: how many edges end in it

@@ -21,6 +21,9 @@ class PlanarOracle {
   /// A strict total order of distinct points along a sweep direction of the plane, ties broken
   /// along another direction: -1, 0 (same point), +1.
   virtual int compare(uint32_t a, uint32_t b) const = 0;
+  /// How far along the sweep a point is: where two points have different ones, the lower one comes
+  /// first by compare, too.
+  virtual double along(uint32_t a) const = 0;
 };
 
 /// Triangulates one face: an outer loop (counter-clockwise) and holes (clockwise). Loops are simple

@@ -29,13 +29,19 @@ class MonotoneLoop {
  private:
   /// False when two corners are one point.
   bool rank_corners() {
+    std::array<double, kMostCorners> along;
     for (uint32_t i = 0; i < count_; ++i) {
+      along[i] = oracle_.along(loop_[i]);
       uint32_t at = i;
       for (; at > 0; --at) {
-        const int order = oracle_.compare(loop_[i], loop_[corner_[at - 1]]);
-        if (order == 0) return false;
-        if (order > 0) break;
-        corner_[at] = corner_[at - 1];
+        const uint32_t before = corner_[at - 1];
+        if (along[before] < along[i]) break;
+        if (along[before] == along[i]) {
+          const int order = oracle_.compare(loop_[i], loop_[before]);
+          if (order == 0) return false;
+          if (order > 0) break;
+        }
+        corner_[at] = before;
       }
       corner_[at] = i;
     }

@@ -38,6 +38,9 @@ class GridOracle : public PlanarOracle {
     };
     return key(a) < key(b) ? -1 : key(b) < key(a) ? 1 : 0;
   }
+  double along(uint32_t a) const override {
+    return static_cast<double>(points_[a][0] * first_[0] + points_[a][1] * first_[1]);
+  }
   const std::vector<Point>& points() const { return points_; }
 
  private:
