@@ -101,6 +101,14 @@ PlainlyCovered find_plainly_covered(const Job& job, const Expression& expression
   if (has_some(any)) found.polygons = std::move(is_covered);
   if (has_some(any_hidden)) found.hidden = std::move(is_hidden);
   for (size_t o = 0; o < any_hidden.size(); ++o) found.is_open[o] |= any_hidden[o];
+  if (dead.inner_boxes().empty()) return found;
+  found.meets_within.resize(job.operand_count());
+  for (uint32_t o = 0; o < job.operand_count(); ++o) {
+    const size_t faces = job.polygon_start(o + 1) - job.polygon_start(o);
+    found.meets_within[o] =
+        dead.inner_boxes().may_hold_part(o, job.operand_box(o)) && dead.may_be_open(o, faces);
+    found.is_open[o] |= found.meets_within[o];
+  }
   return found;
 }
 

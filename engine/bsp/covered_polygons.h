@@ -24,12 +24,23 @@ struct PlainlyCovered {
   /// there is boundary of anything, on whichever side of the polygon it is: nobody looks at what
   /// anything has in common with it. Empty if there are none, as with two operands or less.
   std::vector<uint8_t> hidden;
-  /// Per operand, whether one of its polygons is hidden, or not in the job for that reason. The
-  /// outlines in which it is seen to meet others may have ends, and a part of another surface that
-  /// these do not divide may be inside of it here and outside there. What becomes of the part is
-  /// the same everywhere.
+  /// Per operand, whether it may be open, and polygons of it may meet others inside of a remover,
+  /// as inner boxes tell (see DeadSpace): nobody looks at what those of two such operands have in
+  /// common there. Empty if there are no such boxes.
+  std::vector<uint8_t> meets_within;
+  /// Per operand, whether one of its polygons is hidden, or not in the job for that reason, or may
+  /// meet others within. The outlines in which it is seen to meet others may have ends, and a part
+  /// of another surface that these do not divide may be inside of it here and outside there. What
+  /// becomes of the part is the same everywhere.
   std::vector<uint8_t> is_open;
   std::shared_ptr<const DeadSpace> dead = std::make_shared<DeadSpace>();  ///< never null
+
+  /// Whether nobody looks at what two polygons of the job have in common, for that reason.
+  [[nodiscard]] bool meet_within(const Job& job, uint32_t p, uint32_t q) const {
+    return !meets_within.empty() && meets_within[job.polygons()[p].operand] != 0 &&
+           meets_within[job.polygons()[q].operand] != 0 &&
+           dead->inner_boxes().hold_common(job.boxes()[p], job.boxes()[q]);
+  }
 };
 
 /// O(n) for operands of bounded depth. Parallel.

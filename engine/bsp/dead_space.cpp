@@ -80,7 +80,9 @@ DeadSpace::DeadSpace(const std::vector<Operand>& operands, const Expression& exp
     if (removes_[o]) uses[o] |= OperandBalls::kWithin;
     if (confines_[o]) uses[o] |= OperandBalls::kBeyond;
   }
-  if (operands.size() > 2) balls_ = OperandBalls(operands, boxes_, uses);
+  if (operands.size() <= 2) return;
+  balls_ = OperandBalls(operands, boxes_, uses);
+  inner_boxes_ = InnerBoxes(operands, boxes_, removes_, result_);
 }
 
 }  // namespace csgrun

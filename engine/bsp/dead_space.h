@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/bsp/inner_boxes.h"
 #include "engine/bsp/operand.h"
 #include "engine/bsp/operand_balls.h"
 #include "engine/bsp/polygon_box.h"
@@ -19,8 +20,8 @@ class DeadSpace {
  public:
   /// Nothing is known: all may be boundary.
   DeadSpace() = default;
-  /// `boxes`: around all of each operand. With two operands or less there are no balls: what is
-  /// inside of one meets nothing at all. O(n), parallel.
+  /// `boxes`: around all of each operand. With two operands or less there are no balls and inner
+  /// boxes: what is inside of one meets nothing at all. O(n), parallel.
   DeadSpace(const std::vector<Operand>& operands, const Expression& expression,
             std::vector<PolygonBox> boxes);
 
@@ -43,6 +44,8 @@ class DeadSpace {
   [[nodiscard]] bool is_beside_result(const std::array<double, 3>& point, double error) const {
     return !may_hold(result_, point, error);
   }
+  /// Of removers.
+  [[nodiscard]] const InnerBoxes& inner_boxes() const { return inner_boxes_; }
   /// Whether all of a polygon is in there, in one ball, outside of one or beside the result: at(i)
   /// is corner i of `count`, correctly rounded.
   template <class At>
@@ -65,6 +68,7 @@ class DeadSpace {
   std::vector<PolygonBox> boxes_, node_boxes_;
   PolygonBox result_ = PolygonBox::everywhere();
   OperandBalls balls_;
+  InnerBoxes inner_boxes_;
 };
 
 }  // namespace csgrun

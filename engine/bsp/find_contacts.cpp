@@ -40,7 +40,7 @@ struct Looker {
 class Candidates {
  public:
   Candidates(const Job& job, const PlainlyCovered& plainly, const KernelOptions& options)
-      : job_(job), covered_(plainly.polygons) {
+      : job_(job), plainly_(plainly), covered_(plainly.polygons) {
     if (job.near_faces()) near_ = job.near_faces()->pairs.get();
     if (near_) {
       near_cells_ = near_->starts.size() - 1;
@@ -53,10 +53,15 @@ class Candidates {
   }
 
   [[nodiscard]] size_t lots() const { return cells_.cells.size() + wide_count() + near_cells_; }
-  /// Calls visit(p, q), p < q, for the pairs of a lot, but for those of two covered polygons.
+  /// Calls visit(p, q), p < q, for the pairs of a lot, but for those of two covered polygons, and
+  /// those that meet within a remover, of which there are none among two operands.
   template <class Visit>
   void visit_lot(size_t lot, CellPairs& pairs, Visit&& visit) const {
-    if (lot < cells_.cells.size()) return pairs.visit(job_, cells_, cells_.cells[lot], visit);
+    if (lot < cells_.cells.size()) {
+      return pairs.visit(job_, cells_, cells_.cells[lot], [&](uint32_t p, uint32_t q) {
+        if (!plainly_.meet_within(job_, p, q)) visit(p, q);
+      });
+    }
     lot -= cells_.cells.size();
     if (lot < wide_count()) return wide_->visit_pairs(job_, covered_, wide_->list()[lot], visit);
     lot -= wide_count();
@@ -75,6 +80,7 @@ class Candidates {
   [[nodiscard]] size_t wide_count() const { return wide_ ? wide_->list().size() : 0; }
 
   const Job& job_;
+  const PlainlyCovered& plainly_;
   const std::span<const uint8_t> covered_;
   const NearPairs* near_ = nullptr;
   size_t near_cells_ = 0;

@@ -61,7 +61,10 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
   for (const double c : point) {
     if (std::fabs(c) >= 0x1p30 || error >= 1) return PatchFate::kUnknown;
   }
-  if (plainly_.dead->is_beside_result(point, error)) return PatchFate::kDrop;
+  if (plainly_.dead->is_beside_result(point, error) ||
+      plainly_.dead->inner_boxes().hold(point, error)) {
+    return PatchFate::kDrop;
+  }
   const auto is_known = [&](const CutLoops::Fact& f) {
     return !plainly_.is_open[f.operand] || f.front != f.back || (is_at_first && !f.is_elsewhere);
   };

@@ -146,11 +146,81 @@ std::shared_ptr<const BoundaryMesh> evaluate(const test::RandomTree& tree, Way w
   return result ? expanded(*result) : std::make_shared<BoundaryMesh>();
 }
 
+/// Bars that go through one another, mostly inside of a large body, which is taken away from a
+/// block as they are, or they are added to it.
+test::RandomTree make_bars(test::Random& random) {
+  test::RandomTree tree;
+  const int64_t size = random.integer(0, 1) == 0 ? 24 : 3000, wall = random.integer(1, size / 4);
+  const bool is_taken_away = random.integer(0, 2) > 0;
+  const auto add = [&](Operand operand) {
+    operand.first_source = static_cast<uint32_t>(tree.operands.size());
+    tree.operands.push_back(std::move(operand));
+  };
+  if (is_taken_away) {
+    add(convex_operand(test::box_loops({-size, -size, -size}, {size, size, size})));
+  }
+  const int64_t within = size - wall;
+  switch (random.integer(0, 2)) {
+    case 0:
+      add(convex_operand(test::box_loops({-within, -within, -within}, {within, within, size})));
+      break;
+    case 1:
+      add(octahedron({0, 0, 0}, within + size / 2));
+      break;
+    default:
+      add(round_body(random, {0, 0, 0}, within, random.integer(12, 30)));
+  }
+  const int64_t bars = random.integer(3, 9);
+  for (int64_t bar = 0; bar < bars; ++bar) {
+    IVec3 lo{}, hi{};
+    for (size_t k = 0; k < 3; ++k) {
+      lo[k] = random.integer(-size, size - 1);
+      hi[k] = lo[k] + random.integer(1, size / 4);
+    }
+    const auto along = static_cast<size_t>(random.integer(0, 2));
+    lo[along] = random.integer(0, 3) == 0 ? random.integer(-size, 0) : -size - 2;
+    hi[along] = random.integer(0, 3) == 0 ? random.integer(1, size) : size + 2;
+    Operand operand = convex_operand(test::box_loops(lo, hi));
+    if (random.integer(0, 5) == 0) operand.frame = test::random_frame(random);
+    add(std::move(operand));
+  }
+  tree.expression =
+      test::flat_expression(is_taken_away ? BooleanOp::kDifference : BooleanOp::kUnion,
+                            static_cast<uint32_t>(tree.operands.size()));
+  tree.region = test::TreeMaker::region_of(tree.operands);
+  return tree;
+}
+
+TEST(HiddenPolygons, OfBarsThatMeetInACavity) {
+  size_t within = 0;
+  for (uint64_t i = 0; i < 400; ++i) {
+    auto random = test::Random::of_case(972, i);
+    const test::RandomTree tree = make_bars(random);
+    const Job job(tree.operands);
+    const PlainlyCovered plainly = find_plainly_covered(job, tree.expression);
+    const auto polygons = static_cast<uint32_t>(job.polygons().size());
+    for (uint32_t p = 0; p < polygons; ++p) {
+      for (uint32_t q = 0; q < p; ++q) {
+        within += job.polygons()[p].operand != job.polygons()[q].operand &&
+                  job.boxes()[p].meets(job.boxes()[q]) && plainly.meet_within(job, p, q);
+      }
+    }
+    const auto expected = evaluate(tree, Way::kCells, 1);
+    for (const Way way : {Way::kAllFaces, Way::kLiveFaces}) {
+      for (const unsigned threads : {1u, 2u}) {
+        ASSERT_EQ(test::first_difference(*evaluate(tree, way, threads), *expected), "")
+            << "case " << i << ", " << threads << " threads, way " << static_cast<int>(way);
+      }
+    }
+  }
+  EXPECT_GT(within, 1000u);
+}
+
 constexpr uint64_t kCases = 50;
 
-class HiddenPolygons : public ::testing::TestWithParam<Cluster> {};
+class HiddenPolygonsOf : public ::testing::TestWithParam<Cluster> {};
 
-TEST_P(HiddenPolygons, ChangeNothing) {
+TEST_P(HiddenPolygonsOf, ChangeNothing) {
   const Cluster& cluster = GetParam();
   size_t hidden = 0, open = 0, partial = 0;
   for (uint64_t i = 0; i < kCases; ++i) {
@@ -174,7 +244,7 @@ TEST_P(HiddenPolygons, ChangeNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Clusters, HiddenPolygons,
+    Clusters, HiddenPolygonsOf,
     ::testing::Values(Cluster{961, 8, 14, false, false}, Cluster{962, 12, 12, false, true},
                       Cluster{963, 40, 60, true, false}, Cluster{964, 3000, 5000, true, false},
                       Cluster{965, 3000, 4000, true, true}, Cluster{966, 5, 9, true, true},
