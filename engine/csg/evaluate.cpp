@@ -146,7 +146,8 @@ struct Evaluator::Impl {
   SceneStarts starts;
   KnownTails tails;
   ResultCache<SolidPtr> solids;
-  ResultCache<BoundaryPtr> worlds;  // of roots that points were compared with
+  ResultCache<BoundaryPtr> worlds;      // of roots that points were compared with
+  std::optional<PointLocator> locator;  // of the last one of these
   ResultCache<std::optional<glm::dvec3>> centroids;
   Warnings warnings;
   EvaluateStats stats;
@@ -495,7 +496,10 @@ Result<int> Evaluator::Impl::contains(const NodePtr& root, const glm::dvec3& poi
   const Stopwatch watch(stats.boolean_seconds);
   auto world = world_of(*scene, scene->roots[0]);
   if (!world) return world.error();
-  return locate(**world, p);
+  // Who asks twice will ask again.
+  const bool is_again = locator && locator->boundary() == world->get();
+  if (!is_again || !locator->has_bins()) locator.emplace(*world, is_again);
+  return locator->locate(p);
 }
 
 namespace {

@@ -1,6 +1,9 @@
 #include "engine/csg/locate.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "engine/bsp/kernel.h"
 #include "engine/exact/fixed_int.h"
@@ -16,9 +19,10 @@ static_assert(widths::limbs(kValueBits) <= 3);
 static_assert(widths::limbs(kValueBits + widths::kMaxNormal + 1) <= 5);
 static_assert(widths::limbs(2 * widths::kMaxNormal + 1) <= 4);
 
-class Locator {
+/// How a point lies to the planes and edges of a boundary.
+class FaceLook {
  public:
-  Locator(const BoundaryMesh& boundary, const IVec3& p)
+  FaceLook(const BoundaryMesh& boundary, const IVec3& p)
       : boundary_(boundary), p_(p), point_(grid_point(p[0], p[1], p[2])) {}
 
   /// The plane's value at the point.
@@ -98,26 +102,66 @@ class Locator {
 
 }  // namespace
 
-int locate(const BoundaryMesh& boundary, const IVec3& point) {
-  const GridBox box = bounding_box(boundary);
-  for (int i = 0; i < 3; ++i) {
-    if (box.empty() || point[i] < box.lo[i] || point[i] > box.hi[i]) return -1;
+namespace {
+
+/// Along x, in which rays go, boxes do not tell: all are as long as any.
+SquareBins bins_of_faces(const BoundaryMesh& boundary) {
+  std::vector<SquareBins::Box> boxes;
+  boxes.reserve(boundary.faces.size());
+  for (const BoundaryMesh::Face& face : boundary.faces) {
+    SquareBins::Box& box = boxes.emplace_back();
+    box.lo = {-1, HUGE_VAL, HUGE_VAL};
+    box.hi = {1, -HUGE_VAL, -HUGE_VAL};
+    const uint32_t begin = boundary.loop_starts[face.first_loop],
+                   end = boundary.loop_starts[face.first_loop + face.loop_count];
+    for (uint32_t c = begin; c < end; ++c) {
+      const std::array<double, 3>& at = boundary.point_rounded[boundary.corners[c].point];
+      for (size_t k = 1; k < 3; ++k) {
+        box.lo[k] = std::min(box.lo[k], at[k] - 1);  // a step more than what rounding may take
+        box.hi[k] = std::max(box.hi[k], at[k] + 1);
+      }
+    }
   }
-  const Locator locator(boundary, point);
+  constexpr uint32_t kMost = 512 * 512;
+  return {boxes, kMost};
+}
+
+}  // namespace
+
+PointLocator::PointLocator(std::shared_ptr<const BoundaryMesh> boundary, bool with_bins)
+    : boundary_(std::move(boundary)), box_(bounding_box(*boundary_)) {
+  if (with_bins && !boundary_->faces.empty()) bins_ = bins_of_faces(*boundary_);
+}
+
+int PointLocator::locate(const IVec3& point) const {
+  const BoundaryMesh& boundary = *boundary_;
+  for (int i = 0; i < 3; ++i) {
+    if (box_.empty() || point[i] < box_.lo[i] || point[i] > box_.hi[i]) return -1;
+  }
+  const FaceLook look(boundary, point);
   // A ray along +x from the point, which is moved off every edge's shadow as is_within says.
   bool inside = false;
-  for (const BoundaryMesh::Face& face : boundary.faces) {
+  const auto is_on = [&](const BoundaryMesh::Face& face) {
     const Plane& stored = boundary.planes[face.plane.index()];
-    const int here = locator.value(stored).sign();
+    const int here = look.value(stored).sign();
     if (here == 0) {
       int axis = 0;
-      while (Locator::component(stored, axis) == 0) ++axis;
-      if (locator.is_on_edge(face) || locator.is_within(face, stored, axis)) return 0;
-      continue;
+      while (FaceLook::component(stored, axis) == 0) ++axis;
+      return look.is_on_edge(face) || look.is_within(face, stored, axis);
     }
     // Ahead when the plane's value goes to zero along +x.
-    if (stored.a == 0 || (here > 0) == (stored.a > 0)) continue;
-    if (locator.is_within(face, stored, 0)) inside = !inside;
+    if (stored.a == 0 || (here > 0) == (stored.a > 0)) return false;
+    if (look.is_within(face, stored, 0)) inside = !inside;
+    return false;
+  };
+  if (!bins_) {
+    if (std::any_of(boundary.faces.begin(), boundary.faces.end(), is_on)) return 0;
+  } else {
+    const auto near = bins_->at({0, static_cast<double>(point[1]), static_cast<double>(point[2])});
+    if (std::any_of(near.begin(), near.end(),
+                    [&](uint32_t f) { return is_on(boundary.faces[f]); })) {
+      return 0;
+    }
   }
   return inside ? 1 : -1;
 }
