@@ -121,8 +121,8 @@ double distance_to(const SolidEdge& e, const glm::dvec3& p) {
 /// Which edges of a solid are meant, as options of one function.
 class EdgeChoice {
  public:
-  EdgeChoice(lua_State* L, const FunctionSpec& spec, const Solid& solid)
-      : L_(L), spec_(spec), edges_(edges_of_solid(solid)), is_chosen_(edges_.size(), 0) {
+  EdgeChoice(lua_State* L, const FunctionSpec& spec, const Solid& solid, double grid_mm)
+      : L_(L), spec_(spec), edges_(edges_of_solid(solid, grid_mm)), is_chosen_(edges_.size(), 0) {
     for (const glm::dvec3& p : solid.positions) {
       scale_ = std::max({scale_, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     }
@@ -428,7 +428,8 @@ void EdgeChoice::add_told(int function) {
 int edges(lua_State* L) {
   SolidValue& value = solid_argument(L, kEdges);
   const Arguments arguments(L, kEdges, 2);
-  EdgeChoice choice(L, kEdges, session_of(L).evaluated(value));
+  const Solid& solid = session_of(L).evaluated(value);
+  EdgeChoice choice(L, kEdges, solid, value.grid_mm);
   choice.add(arguments, true);
   lua_newtable(L);
   lua_Integer count = 0;
@@ -441,8 +442,8 @@ int edges(lua_State* L) {
 }
 
 std::vector<uint32_t> chosen_edges(lua_State* L, const FunctionSpec& spec, const Solid& solid,
-                                   const Arguments& arguments) {
-  EdgeChoice choice(L, spec, solid);
+                                   double grid_mm, const Arguments& arguments) {
+  EdgeChoice choice(L, spec, solid, grid_mm);
   const int index = arguments.stack_index("edges");
   if (index == 0) {
     choice.add_named("all");
@@ -462,13 +463,12 @@ int cut(lua_State* L) {
   session.evaluated(value);
   // Held: a function that chooses edges may measure the same value with other settings.
   const SolidPtr held = value.evaluated;
+  const double grid_mm = value.grid_mm;
   const Solid& solid = *held;
   if (solid.empty()) fail_in(Spec, "there is nothing in it");
-  const std::vector<uint32_t> chosen = chosen_edges(L, Spec, solid, arguments);
+  const std::vector<uint32_t> chosen = chosen_edges(L, Spec, solid, grid_mm, arguments);
   const double mm = arguments.number(size, 0);
-  session.extent(value);  // for the grid, which a function that chooses edges may have changed
-  const EdgeCut cut{value.node, solid, chosen, session.evaluator().stats().grid_mm,
-                    session.source_ref(L)};
+  const EdgeCut cut{value.node, solid, chosen, grid_mm, session.source_ref(L)};
   push_solid(L, value_or_fail(Spec, kRound ? fillet_edges(cut, mm, arguments.facets())
                                            : chamfer_edges(cut, mm)));
   keep_marks(L, 1);

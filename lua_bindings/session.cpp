@@ -77,6 +77,7 @@ const Solid& Session::evaluated(SolidValue& value, Measuring measuring) {
     value.evaluated = evaluate(value.node, measuring);
     value.evaluated_with = settings_;
     value.measuring = measuring;
+    value.grid_mm = evaluator().stats().grid_mm;
   }
   return *value.evaluated;
 }

@@ -35,6 +35,7 @@ struct SolidValue : Value {
   SolidPtr evaluated;           ///< once it was asked for: see Session::evaluated
   uint64_t evaluated_with = 0;  ///< the number of the settings that it was evaluated with
   Measuring measuring{};        ///< what `evaluated` has of measures
+  double grid_mm = 0;           ///< the step of the grid that it was evaluated on
   [[nodiscard]] bool is_evaluated_with(uint64_t settings) const {
     return evaluated && evaluated_with == settings;
   }

@@ -535,7 +535,7 @@ std::optional<Error> check(EdgeFrames& frames, double size, bool is_radius) {
 
 Result<NodePtr> cut_edges(const char* name, const EdgeCut& cut, double size, double radius,
                           const Facets& facets) {
-  const EdgeGraph graph(cut.evaluated);
+  const EdgeGraph graph(cut.evaluated, cut.grid_step_mm);
   EdgeFrames frames(graph, cut.chosen);
   if (auto error = check(frames, size, radius > 0)) return *std::move(error);
   const EdgeEnds ends(cut.evaluated, frames, radius);

@@ -15,8 +15,6 @@ namespace csgrun {
 namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-/// Sides whose normals are so near are in one plane: what is known of these is good to 1e-15.
-constexpr double kSamePlane = 1e-14;
 /// Edges are short that have this part of the largest coordinate: some steps of the grid, which has
 /// 2^24 to 2^27 to that unless it was asked for.
 constexpr double kShort = 0x1p-22;
@@ -29,12 +27,13 @@ bool is_short(const SolidEdge& line, double least) {
 
 }  // namespace
 
-EdgeGraph::EdgeGraph(const Solid& solid) : solid_(solid) {
+EdgeGraph::EdgeGraph(const Solid& solid, double grid_step_mm) : solid_(solid) {
   for (const glm::dvec3& p : solid.positions) {
     for (int i = 0; i < 3; ++i) scale_ = std::max(scale_, std::fabs(p[i]));
   }
   find_twins();
-  find_sides();
+  sides_ = flat_sides(solid, twin_, grid_step_mm);
+  edges_of_.resize(sides_.face.size());
   find_lines();
 }
 
@@ -53,42 +52,27 @@ void EdgeGraph::find_twins() {
   }
 }
 
-void EdgeGraph::find_sides() {
-  std::vector<glm::dvec3> normals;
-  for (const glm::dvec3& n : solid_.face_normals) normals.push_back(glm::normalize(n));
-  side_.assign(solid_.triangles.size(), kNone);
-  uint32_t count = 0;
-  std::vector<uint32_t> stack;
-  for (uint32_t start = 0; start < side_.size(); ++start) {
-    if (side_[start] != kNone) continue;
-    side_[start] = count;
-    face_of_.push_back(solid_.triangle_face[start]);
-    stack.assign(1, start);
-    while (!stack.empty()) {
-      const uint32_t t = stack.back();
-      stack.pop_back();
-      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        const uint32_t other = twin_[h] / 3;
-        if (side_[other] != kNone) continue;
-        const uint32_t f = solid_.triangle_face[t], g = solid_.triangle_face[other];
-        if (f != g && glm::dot(normals[f], normals[g]) < 1 - kSamePlane) continue;
-        side_[other] = count;
-        stack.push_back(other);
-      }
-    }
-    ++count;
-  }
-  edges_of_.resize(count);
-}
-
 uint32_t EdgeGraph::following(uint32_t half) const {
   uint32_t h = around(half);
   while (!is_boundary(h)) h = around(twin_[h]);
   return h;
 }
 
+glm::dvec3 EdgeGraph::normal_at(uint32_t half) const {
+  const auto& rough = sides_.normal[side_at(half)];
+  return rough ? *rough : glm::normalize(solid_.face_normals[solid_.triangle_face[half / 3]]);
+}
+
+double EdgeGraph::roughness_of(uint32_t half) const {
+  const double rounding = 1e-14 * scale_;
+  if (!sides_.normal[side_at(half)] && !sides_.normal[side_at(twin_[half])]) return rounding;
+  // Two slabs have this in common, the more the less they are turned to one another.
+  const double sine = glm::length(glm::cross(normal_at(half), normal_at(twin_[half])));
+  return std::max(rounding, 2 * sides_.roughness / std::max(sine, 0.1));
+}
+
 bool EdgeGraph::goes_straight_on(uint32_t half, uint32_t next) const {
-  if (side_[twin_[half] / 3] != side_[twin_[next] / 3]) return false;
+  if (side_at(twin_[half]) != side_at(twin_[next])) return false;
   if (following(twin_[next]) != twin_[half]) return false;
   const glm::dvec3 &a = solid_.positions[from(half)], &b = solid_.positions[to(half)],
                    &c = solid_.positions[to(next)];
@@ -96,7 +80,7 @@ bool EdgeGraph::goes_straight_on(uint32_t half, uint32_t next) const {
   const double length = glm::length(along);
   // Between the ends of what is straight, up to the rounding of the three.
   return glm::dot(b - a, along) > 0 && glm::dot(c - b, along) > 0 &&
-         glm::length(glm::cross(b - a, along)) <= 1e-14 * scale_ * length;
+         glm::length(glm::cross(b - a, along)) <= roughness_of(half) * length;
 }
 
 void EdgeGraph::find_lines() {
@@ -206,10 +190,18 @@ void EdgeGraph::add_line(uint32_t first, std::span<const uint32_t> halves) {
   e.vertex = {from(first), to(last)};
   e.line.from = solid_.positions[e.vertex[0]];
   e.line.to = solid_.positions[e.vertex[1]];
-  e.side = {side_[first / 3], side_[twin_[first] / 3]};
+  e.side = {side_at(first), side_at(twin_[first])};
   const std::array<uint32_t, 2> face{solid_.triangle_face[first / 3],
                                      solid_.triangle_face[twin_[first] / 3]};
-  for (int k = 0; k < 2; ++k) e.line.normals[k] = glm::normalize(solid_.face_normals[face[k]]);
+  const glm::dvec3 direction = glm::normalize(e.line.to - e.line.from);
+  for (const size_t k : {0, 1}) {
+    glm::dvec3& normal = e.line.normals[k];
+    normal = normal_at(k == 0 ? first : twin_[first]);
+    // Of a plane through the edge: where two planes that turn little were to meet, rounding moves
+    // the line far along them.
+    if (sides_.normal[e.side[k]])
+      normal = glm::normalize(normal - glm::dot(normal, direction) * direction);
+  }
   const glm::dvec3 across = glm::cross(e.line.normals[0], e.line.normals[1]);
   e.line.turn = atan2_deg(glm::length(across), glm::dot(e.line.normals[0], e.line.normals[1]));
   e.line.is_convex = glm::dot(across, e.line.to - e.line.from) > 0;
@@ -232,8 +224,8 @@ void EdgeGraph::add_line(uint32_t first, std::span<const uint32_t> halves) {
   edges_.push_back(e);
 }
 
-std::vector<SolidEdge> edges_of_solid(const Solid& solid) {
-  const EdgeGraph graph(solid);
+std::vector<SolidEdge> edges_of_solid(const Solid& solid, double grid_step_mm) {
+  const EdgeGraph graph(solid, grid_step_mm);
   std::vector<SolidEdge> result;
   for (const EdgeGraph::Edge& e : graph.edges()) result.push_back(e.line);
   return result;

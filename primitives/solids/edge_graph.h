@@ -3,6 +3,8 @@
 
 #include <csgrun/primitives/solid_edges.h>
 
+#include "primitives/solids/edge_sides.h"
+
 namespace csgrun {
 
 class EdgeGraph {
@@ -17,7 +19,7 @@ class EdgeGraph {
     std::array<std::array<uint32_t, 2>, 2> next;
   };
 
-  explicit EdgeGraph(const Solid& solid);
+  EdgeGraph(const Solid& solid, double grid_step_mm);
 
   /// Ordered by their ends.
   [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
@@ -26,24 +28,33 @@ class EdgeGraph {
     return edges_of_[side];
   }
   /// The side that a triangle of the solid is in.
-  [[nodiscard]] uint32_t side_of(uint32_t triangle) const { return side_[triangle]; }
+  [[nodiscard]] uint32_t side_of(uint32_t triangle) const { return sides_.of[triangle]; }
   /// One of the solid's faces that make a side.
-  [[nodiscard]] uint32_t face(uint32_t side) const { return face_of_[side]; }
+  [[nodiscard]] uint32_t face(uint32_t side) const { return sides_.face[side]; }
+  /// How far the corners of a side may be off its plane: 0 but for what is flat by the user's
+  /// numbers only.
+  [[nodiscard]] double roughness(uint32_t side) const {
+    return sides_.normal[side] ? sides_.roughness : 0;
+  }
   /// How many edges end at a vertex.
   [[nodiscard]] uint32_t degree(uint32_t vertex) const { return degree_[vertex]; }
 
  private:
   void find_twins();
-  void find_sides();
   void find_lines();
   [[nodiscard]] uint32_t from(uint32_t half) const { return solid_.triangles[half / 3][half % 3]; }
   [[nodiscard]] uint32_t to(uint32_t half) const { return from(around(half)); }
   static uint32_t around(uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
+  [[nodiscard]] uint32_t side_at(uint32_t half) const { return sides_.of[half / 3]; }
   /// The half-edge of the same side's boundary that goes on from one of them.
   [[nodiscard]] uint32_t following(uint32_t half) const;
   [[nodiscard]] bool is_boundary(uint32_t half) const {
-    return side_[half / 3] != side_[twin_[half] / 3];
+    return side_at(half) != side_at(twin_[half]);
   }
+  /// Of the side of a half-edge.
+  [[nodiscard]] glm::dvec3 normal_at(uint32_t half) const;
+  /// How far what lies on both sides of an edge may be off its line.
+  [[nodiscard]] double roughness_of(uint32_t half) const;
   [[nodiscard]] bool goes_straight_on(uint32_t half, uint32_t next) const;
   void add_line(uint32_t first, std::span<const uint32_t> halves);
   void contract_short_edges();
@@ -56,12 +67,13 @@ class EdgeGraph {
 
   const Solid& solid_;
   double scale_ = 0;  ///< the largest coordinate
-  std::vector<uint32_t> twin_, side_;
+  std::vector<uint32_t> twin_;
+  FlatSides sides_;
   std::vector<uint32_t> edge_of_;      ///< by half-edge
   std::vector<uint32_t> united_with_;  ///< by vertex: one before it, or itself
   std::vector<Edge> edges_;
   std::vector<std::vector<uint32_t>> edges_of_;
-  std::vector<uint32_t> degree_, face_of_;
+  std::vector<uint32_t> degree_;
 };
 
 }  // namespace csgrun

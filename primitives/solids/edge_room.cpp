@@ -215,7 +215,8 @@ std::vector<glm::dvec3> EdgeFrames::strip_in_space(const EdgeFrame& f, int side)
 }
 
 bool EdgeFrames::has_room_beside(const EdgeFrame& f, int side, uint32_t other_id) const {
-  const double margin = kTouch * f.setback;
+  const uint32_t plane = graph_.edges()[f.edge].side[side];
+  const double margin = std::max(kTouch * f.setback, graph_.roughness(plane));
   const std::vector<Place> own = strip(f, side);
   const auto clip = [&](Clipped& polygon) {
     for (size_t i = 0; i < own.size(); ++i) {
@@ -232,7 +233,7 @@ bool EdgeFrames::has_room_beside(const EdgeFrame& f, int side, uint32_t other_id
   if (segment.size() > margin) return false;
   const EdgeFrame* cut = frame_of(other_id);
   if (cut == nullptr) return true;
-  const int its_side = other.side[0] == graph_.edges()[f.edge].side[side] ? 0 : 1;
+  const int its_side = other.side[0] == plane ? 0 : 1;
   std::vector<Point> corners;
   for (const glm::dvec3& p : strip_in_space(*cut, its_side)) corners.push_back(seen(p));
   Clipped common(corners);

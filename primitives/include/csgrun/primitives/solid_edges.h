@@ -16,7 +16,8 @@
 
 namespace csgrun {
 
-/// A straight line between two flat sides of a solid. Faces in one plane are one side.
+/// A straight line between two flat sides of a solid. Faces in one plane are one side, also where
+/// they are in one plane but for the rounding of their corners to the grid.
 struct SolidEdge {
   glm::dvec3 from{0}, to{0};  ///< its ends, the lower one (by x, y, z) first
   /// Of the two sides, outwards, of length 1. The first is on the left of the edge, seen from
@@ -27,14 +28,15 @@ struct SolidEdge {
   bool is_smooth = false;  ///< between facets of one curved surface, or of fillets
 };
 
-/// All edges, ordered by their ends, but for those of a few grid steps.
-std::vector<SolidEdge> edges_of_solid(const Solid& solid);
+/// All edges, ordered by their ends, but for those of a few steps of the grid that the solid was
+/// evaluated on.
+std::vector<SolidEdge> edges_of_solid(const Solid& solid, double grid_step_mm);
 
 /// Which edges of which solid are to be cut.
 struct EdgeCut {
   const NodePtr& solid;
   const Solid& evaluated;            ///< the value of `solid`
-  std::span<const uint32_t> chosen;  ///< indices of edges_of_solid(evaluated)
+  std::span<const uint32_t> chosen;  ///< indices of edges_of_solid(evaluated, grid_step_mm)
   double grid_step_mm = 0;           ///< of the grid that `solid` was evaluated on
   SourceRef where;                   ///< of what is made
 };

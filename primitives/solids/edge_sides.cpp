@@ -1,0 +1,216 @@
+#include "primitives/solids/edge_sides.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include <csgrun/primitives/trig.h>
+
+namespace csgrun {
+namespace {
+
+constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+/// The sine between the normals of one plane, of which what is known is good to 1e-15, and the
+/// cosine between those of which no circle's facets are: 1e-7 of a turn.
+constexpr double kSamePlane = 1e-14, kNearlyParallel = 1 - 1e-14;
+/// Corners of one plane are rounded to the grid, each by sqrt(3) / 2 steps at most, and what lies
+/// between them is no farther off. The plane that is laid through them may tilt by four times that
+/// at its ends (see Joiner::normal_of), and models are rounded twice where one grid follows
+/// another. Two facets of a circle of radius r lie between planes that are r / 2 times the square
+/// of their turn apart: with 1000 to the turn on the grid of a model of that size 300 steps and
+/// more.
+constexpr double kRoughSteps = 8;
+/// Faces that turn by more, in degrees, are two sides however narrow they are.
+constexpr double kMostTurn = 10;
+
+/// Joins neighbours, beginning with those that turn least, as long as all their corners together
+/// lie between two planes that are no farther apart than the roughness: so facets of a fine curve
+/// are not joined one after another.
+class Joiner {
+ public:
+  Joiner(const Solid& solid, std::span<const uint32_t> twins, FlatSides& sides)
+      : solid_(solid), twins_(twins), sides_(sides), joined_with_(sides.face.size()) {
+    std::iota(joined_with_.begin(), joined_with_.end(), 0u);
+  }
+
+  /// `is_rough`: by side, whether it has several planes already.
+  void join(std::vector<bool> is_rough) {
+    is_rough_ = std::move(is_rough);
+    find_areas();
+    find_pairs();
+    find_corners();
+    // A narrow face may fit only when its neighbours are joined.
+    for (bool is_any = true; is_any;) {
+      is_any = false;
+      std::erase_if(pairs_, [&](const Pair& pair) {
+        const uint32_t a = root(pair.a), b = root(pair.b);
+        const bool fits = a == b || try_to_join(a, b);
+        is_any |= fits && a != b;
+        return fits;
+      });
+    }
+    renumber();
+  }
+
+ private:
+  struct Pair {
+    double cosine;
+    uint32_t a, b;
+  };
+
+  [[nodiscard]] uint32_t root(uint32_t side) const {
+    while (joined_with_[side] != side) side = joined_with_[side];
+    return side;
+  }
+  [[nodiscard]] const glm::dvec3& corner(uint32_t half) const {
+    return solid_.positions[solid_.triangles[half / 3][half % 3]];
+  }
+  [[nodiscard]] glm::dvec3 area_of(uint32_t triangle) const {
+    const glm::dvec3& p = corner(3 * triangle);
+    return glm::cross(corner(3 * triangle + 1) - p, corner(3 * triangle + 2) - p);
+  }
+
+  /// The sum of the areas, as vectors, of what is joined depends on its rim alone: each corner
+  /// tilts it by its own height and the distance between its neighbours there. So a rim of corners
+  /// that are `h` off gives a plane within 4 h of them where it is convex.
+  [[nodiscard]] glm::dvec3 normal_of(uint32_t a, uint32_t b) const {
+    return glm::normalize(areas_[a] + areas_[b]);
+  }
+
+  void find_areas() {
+    areas_.assign(sides_.face.size(), glm::dvec3(0));
+    for (uint32_t t = 0; t < sides_.of.size(); ++t) areas_[sides_.of[t]] += area_of(t);
+  }
+
+  /// Neighbours that may be one: of each pair an edge and the corners across it lie in one plane.
+  void find_pairs() {
+    const double least = cos_deg(kMostTurn);
+    for (uint32_t h = 0; h < twins_.size(); ++h) {
+      const uint32_t twin = twins_[h];
+      const uint32_t a = sides_.of[h / 3], b = sides_.of[twin / 3];
+      if (h > twin || a == b) continue;
+      const double cosine = glm::dot(glm::normalize(areas_[a]), glm::normalize(areas_[b]));
+      // What has no area, in doubles, has no direction either.
+      if (!(cosine >= least)) continue;
+      const glm::dvec3 normal = normal_of(a, b);
+      double low = glm::dot(normal, corner(h)), high = low;
+      for (const uint32_t c : {around(h), around(around(h)), around(around(twin))}) {
+        low = std::min(low, glm::dot(normal, corner(c)));
+        high = std::max(high, glm::dot(normal, corner(c)));
+      }
+      if (high - low <= sides_.roughness) pairs_.push_back({cosine, a, b});
+    }
+    std::sort(pairs_.begin(), pairs_.end(), [](const Pair& p, const Pair& q) {
+      return std::tie(q.cosine, p.a, p.b) < std::tie(p.cosine, q.a, q.b);
+    });
+  }
+
+  void find_corners() {
+    corners_.resize(sides_.face.size());
+    for (const Pair& pair : pairs_)
+      corners_[pair.a].assign(1, kNone), corners_[pair.b].assign(1, kNone);
+    for (uint32_t t = 0; t < sides_.of.size(); ++t) {
+      auto& own = corners_[sides_.of[t]];
+      if (!own.empty())
+        own.insert(own.end(), solid_.triangles[t].begin(), solid_.triangles[t].end());
+    }
+    for (auto& own : corners_) {
+      std::sort(own.begin(), own.end());
+      own.erase(std::unique(own.begin(), own.end()), own.end());
+      if (!own.empty()) own.pop_back();
+    }
+  }
+
+  [[nodiscard]] bool try_to_join(uint32_t a, uint32_t b) {
+    if (corners_[a].size() < corners_[b].size()) std::swap(a, b);
+    if (!(glm::dot(glm::normalize(areas_[a]), glm::normalize(areas_[b])) >= cos_deg(kMostTurn)))
+      return false;
+    const glm::dvec3 normal = normal_of(a, b);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const uint32_t side : {b, a}) {
+      for (const uint32_t v : corners_[side]) {
+        const double height = glm::dot(normal, solid_.positions[v]);
+        low = std::min(low, height), high = std::max(high, height);
+        if (high - low > sides_.roughness) return false;
+      }
+    }
+    const uint32_t kept = std::min(a, b), gone = std::max(a, b);
+    joined_with_[gone] = kept;
+    areas_[kept] += areas_[gone];
+    corners_[a].insert(corners_[a].end(), corners_[b].begin(), corners_[b].end());
+    corners_[kept].swap(corners_[a]);
+    return true;
+  }
+
+  void renumber() {
+    std::vector<uint32_t> number(sides_.face.size(), kNone);
+    FlatSides result;
+    for (uint32_t side = 0; side < number.size(); ++side) {
+      const uint32_t first = root(side);
+      if (first == side) {
+        number[side] = static_cast<uint32_t>(result.face.size());
+        result.face.push_back(sides_.face[side]);
+        result.normal.emplace_back();
+      }
+      number[side] = number[first];
+      if (is_rough_[side] || first != side)
+        result.normal[number[first]] = glm::normalize(areas_[first]);
+    }
+    for (uint32_t& side : sides_.of) side = number[side];
+    sides_.face = std::move(result.face);
+    sides_.normal = std::move(result.normal);
+  }
+
+  static uint32_t around(uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
+
+  const Solid& solid_;
+  const std::span<const uint32_t> twins_;
+  FlatSides& sides_;
+  std::vector<uint32_t> joined_with_;           ///< by side: one before it, or itself
+  std::vector<glm::dvec3> areas_;               ///< by side, twice: of what is joined with it
+  std::vector<std::vector<uint32_t>> corners_;  ///< the same of those that are in pairs_
+  std::vector<Pair> pairs_;
+  std::vector<bool> is_rough_;
+};
+
+}  // namespace
+
+FlatSides flat_sides(const Solid& solid, std::span<const uint32_t> twins, double grid_step_mm) {
+  std::vector<glm::dvec3> normals;
+  for (const glm::dvec3& n : solid.face_normals) normals.push_back(glm::normalize(n));
+  FlatSides result;
+  result.roughness = kRoughSteps * grid_step_mm;
+  result.of.assign(solid.triangles.size(), kNone);
+  std::vector<bool> is_rough;
+  std::vector<uint32_t> stack;
+  for (uint32_t start = 0; start < result.of.size(); ++start) {
+    if (result.of[start] != kNone) continue;
+    const auto side = static_cast<uint32_t>(result.face.size());
+    result.of[start] = side;
+    result.face.push_back(solid.triangle_face[start]);
+    is_rough.push_back(false);
+    stack.assign(1, start);
+    while (!stack.empty()) {
+      const uint32_t t = stack.back();
+      stack.pop_back();
+      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const uint32_t other = twins[h] / 3;
+        if (result.of[other] != kNone) continue;
+        const glm::dvec3 &n = normals[solid.triangle_face[t]],
+                         &m = normals[solid.triangle_face[other]];
+        if (glm::dot(n, m) < kNearlyParallel) continue;
+        if (glm::length(glm::cross(n, m)) > kSamePlane) is_rough.back() = true;
+        result.of[other] = side;
+        stack.push_back(other);
+      }
+    }
+  }
+  Joiner(solid, twins, result).join(is_rough);
+  return result;
+}
+
+}  // namespace csgrun
