@@ -136,7 +136,12 @@ Result<EdgeEnds::PrismEnd> EdgeEnds::end_of(const EdgeFrame& f, int end) const {
   for (int side = 0; side < 2; ++side) {
     double& at = result.at[side];
     at = here;
-    if (kinds[side] == EdgeEnd::kGoesOn) continue;
+    if (kinds[side] == EdgeEnd::kGoesOn) {
+      // Ends that were rounded are not in one plane with those of the next cut.
+      const bool is_cut = frames_.frame_of(edge(f).next[end][side]) != nullptr;
+      if (is_cut && !frames_.goes_straight_on(f, end, side)) at += more;
+      continue;
+    }
     if (kinds[side] == EdgeEnd::kMitre) {
       at = frames_.strip_end(f, end, side) + more;
       for (const EdgeFrames::Bend& bend : frames_.bends(f, end, side)) {

@@ -12,6 +12,10 @@ namespace {
 
 /// Directions are good to this.
 constexpr double kParallel = 1e-9;
+/// Three points on a line are rounded, each by sqrt(3) / 2 grid steps at most: the middle one is up
+/// to twice that off the line through the others, and two edges have so much of a bend for their
+/// lengths together. Where they are so short that this is no small angle it is a corner.
+constexpr double kLineSteps = 2, kMostBend = 1e-3;
 
 }  // namespace
 
@@ -57,13 +61,25 @@ EdgeFrames::Next EdgeFrames::next(const EdgeFrame& f, int end, int side) const {
   return {id, glm::dot(away, f.along) * towards, glm::dot(away, f.in[side])};
 }
 
+double EdgeFrames::most_bend(const EdgeFrame& f, const Next& n) const {
+  if (n.x > 0) return kParallel;  // it runs back
+  const SolidEdge& other = graph_.edges()[n.edge].line;
+  const double steps = kLineSteps * graph_.grid_step();
+  return std::clamp(steps / f.length + steps / glm::length(other.to - other.from), kParallel,
+                    kMostBend);
+}
+
 EdgeEnd EdgeFrames::kind(const EdgeFrame& f, int end, int side) const {
   const Next n = next(f, end, side);
-  if (std::fabs(n.y) <= kParallel) return EdgeEnd::kGoesOn;
+  if (std::fabs(n.y) <= most_bend(f, n)) return EdgeEnd::kGoesOn;
   if (frame_of(n.edge) != nullptr) return n.y > 0 ? EdgeEnd::kMitre : EdgeEnd::kInside;
   const double outwards = end == 0 ? -1 : 1;
   return glm::dot(plane_normal(f, end, side), f.along) * outwards > 0 ? EdgeEnd::kCap
                                                                       : EdgeEnd::kWall;
+}
+
+bool EdgeFrames::goes_straight_on(const EdgeFrame& f, int end, int side) const {
+  return std::fabs(next(f, end, side).y) <= kParallel;
 }
 
 glm::dvec3 EdgeFrames::plane_normal(const EdgeFrame& f, int end, int side) const {

@@ -27,7 +27,7 @@ enum class EdgeEnd : uint8_t {
   kWall,    ///< at one that rises from the edge's end
   kMitre,   ///< at the cut of the next edge, at a corner that points outwards
   kInside,  ///< at the cut of the next edge, at a corner that points inwards
-  kGoesOn   ///< the next edge is on the same line
+  kGoesOn   ///< the next edge is on the same line, up to the rounding of their ends
 };
 
 class EdgeFrames {
@@ -54,6 +54,8 @@ class EdgeFrames {
   /// next, and the place along the edge at which a line beside it, off by `offset` from it, meets
   /// that plane.
   [[nodiscard]] EdgeEnd kind(const EdgeFrame& f, int end, int side) const;
+  /// Of the kind kGoesOn: whether it is exactly on that line, as far as doubles tell.
+  [[nodiscard]] bool goes_straight_on(const EdgeFrame& f, int end, int side) const;
   [[nodiscard]] glm::dvec3 plane_normal(const EdgeFrame& f, int end, int side) const;
   [[nodiscard]] double at_plane(const EdgeFrame& f, int end, int side,
                                 const glm::dvec3& offset) const;
@@ -84,6 +86,8 @@ class EdgeFrames {
     double x, y;
   };
   [[nodiscard]] Next next(const EdgeFrame& f, int end, int side) const;
+  /// The sine by which the next edge may be aslant and go straight on all the same.
+  [[nodiscard]] double most_bend(const EdgeFrame& f, const Next& next) const;
   /// The chosen edge that is next on a side, behind a corner that points outwards, if it stands
   /// like the one before it and no other cut ends there.
   struct Around {

@@ -27,7 +27,8 @@ bool is_short(const SolidEdge& line, double least) {
 
 }  // namespace
 
-EdgeGraph::EdgeGraph(const Solid& solid, double grid_step_mm) : solid_(solid) {
+EdgeGraph::EdgeGraph(const Solid& solid, double grid_step_mm)
+    : solid_(solid), grid_step_(grid_step_mm) {
   for (const glm::dvec3& p : solid.positions) {
     for (int i = 0; i < 3; ++i) scale_ = std::max(scale_, std::fabs(p[i]));
   }

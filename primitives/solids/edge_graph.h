@@ -36,6 +36,8 @@ class EdgeGraph {
   [[nodiscard]] double roughness(uint32_t side) const {
     return sides_.normal[side] ? sides_.roughness : 0;
   }
+  /// The step of the grid that the solid was evaluated on, in mm.
+  [[nodiscard]] double grid_step() const { return grid_step_; }
   /// How many edges end at a vertex.
   [[nodiscard]] uint32_t degree(uint32_t vertex) const { return degree_[vertex]; }
 
@@ -66,6 +68,7 @@ class EdgeGraph {
   void sort_edges();
 
   const Solid& solid_;
+  const double grid_step_;
   double scale_ = 0;  ///< the largest coordinate
   std::vector<uint32_t> twin_;
   FlatSides sides_;

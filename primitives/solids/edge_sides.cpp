@@ -14,16 +14,18 @@ namespace csgrun {
 namespace {
 
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-/// The sine between the normals of one plane, of which what is known is good to 1e-15, and the
-/// cosine between those of which no circle's facets are: 1e-7 of a turn.
+/// The sine between normals of one plane, of which what is known is good to 1e-15, and the cosine
+/// between those of what is one side at once: no facets turn by so little.
 constexpr double kSamePlane = 1e-14, kNearlyParallel = 1 - 1e-14;
-/// Corners of one plane are rounded to the grid, each by sqrt(3) / 2 steps at most, and what lies
-/// between them is no farther off. The plane that is laid through them may tilt by four times that
-/// at its ends (see Joiner::normal_of), and models are rounded twice where one grid follows
-/// another. Two facets of a circle of radius r lie between planes that are r / 2 times the square
-/// of their turn apart: with 1000 to the turn on the grid of a model of that size 300 steps and
-/// more.
-constexpr double kRoughSteps = 8;
+/// So many grid steps apart are two planes between which the corners of one plane lie, at most:
+/// rounding moves each by up to sqrt(3) / 2 steps to either side, and twice where what was made on
+/// one grid is used on another, which is 3.5; what lies between corners is no farther off. The
+/// plane that is laid through them is not that of the user's numbers, but about as near to them
+/// (see Joiner::normal_of): sides of random cones, lofts and extrusions need 1.2.
+///
+/// Two facets of a circle of radius r that turn by t lie between planes that are r t^2 / 2 apart:
+/// with 1000 to the turn 330 steps, where r is the largest coordinate, which has 2^24 at least.
+constexpr double kRoughSteps = 4;
 /// Faces that turn by more, in degrees, are two sides however narrow they are.
 constexpr double kMostTurn = 10;
 
@@ -109,19 +111,19 @@ class Joiner {
     });
   }
 
+  /// Of the sides that are in pairs.
   void find_corners() {
     corners_.resize(sides_.face.size());
-    for (const Pair& pair : pairs_)
-      corners_[pair.a].assign(1, kNone), corners_[pair.b].assign(1, kNone);
+    std::vector<bool> is_in_pair(corners_.size(), false);
+    for (const Pair& pair : pairs_) is_in_pair[pair.a] = is_in_pair[pair.b] = true;
     for (uint32_t t = 0; t < sides_.of.size(); ++t) {
-      auto& own = corners_[sides_.of[t]];
-      if (!own.empty())
-        own.insert(own.end(), solid_.triangles[t].begin(), solid_.triangles[t].end());
+      if (!is_in_pair[sides_.of[t]]) continue;
+      const auto& corners = solid_.triangles[t];
+      corners_[sides_.of[t]].insert(corners_[sides_.of[t]].end(), corners.begin(), corners.end());
     }
     for (auto& own : corners_) {
       std::sort(own.begin(), own.end());
       own.erase(std::unique(own.begin(), own.end()), own.end());
-      if (!own.empty()) own.pop_back();
     }
   }
 
