@@ -85,7 +85,15 @@ bool EdgeFrames::goes_straight_on(const EdgeFrame& f, int end, int side) const {
 glm::dvec3 EdgeFrames::plane_normal(const EdgeFrame& f, int end, int side) const {
   const EdgeGraph::Edge& own = graph_.edges()[f.edge];
   const EdgeGraph::Edge& other = graph_.edges()[own.next[end][side]];
-  return other.line.normals[other.side[0] == own.side[side] ? 1 : 0];
+  const size_t beyond = other.side[0] == own.side[side] ? 1 : 0;
+  const glm::dvec3& normal = other.line.normals[beyond];
+  if (graph_.roughness(own.side[side]) == 0 && graph_.roughness(other.side[beyond]) == 0)
+    return normal;
+  // Through the next edge as this side has it: where planes that turn little were to meet,
+  // rounding moves the line far along both.
+  const Next n = next(f, end, side);
+  const glm::dvec3 away = (end == 0 ? n.x : -n.x) * f.along + n.y * f.in[side];
+  return glm::normalize(normal - glm::dot(normal, away) / glm::dot(away, away) * away);
 }
 
 double EdgeFrames::at_plane(const EdgeFrame& f, int end, int side, const glm::dvec3& offset) const {

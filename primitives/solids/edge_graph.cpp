@@ -194,15 +194,7 @@ void EdgeGraph::add_line(uint32_t first, std::span<const uint32_t> halves) {
   e.side = {side_at(first), side_at(twin_[first])};
   const std::array<uint32_t, 2> face{solid_.triangle_face[first / 3],
                                      solid_.triangle_face[twin_[first] / 3]};
-  const glm::dvec3 direction = glm::normalize(e.line.to - e.line.from);
-  for (const size_t k : {0, 1}) {
-    glm::dvec3& normal = e.line.normals[k];
-    normal = normal_at(k == 0 ? first : twin_[first]);
-    // Of a plane through the edge: where two planes that turn little were to meet, rounding moves
-    // the line far along them.
-    if (sides_.normal[e.side[k]])
-      normal = glm::normalize(normal - glm::dot(normal, direction) * direction);
-  }
+  e.line.normals = {normal_at(first), normal_at(twin_[first])};
   const glm::dvec3 across = glm::cross(e.line.normals[0], e.line.normals[1]);
   e.line.turn = atan2_deg(glm::length(across), glm::dot(e.line.normals[0], e.line.normals[1]));
   e.line.is_convex = glm::dot(across, e.line.to - e.line.from) > 0;
