@@ -29,6 +29,18 @@ constexpr double kRoughSteps = 4;
 /// Faces that turn by more, in degrees, are two sides however narrow they are.
 constexpr double kMostTurn = 10;
 
+/// What lies between two planes.
+struct Slab {
+  glm::dvec3 normal{0};
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+
+  void add(const glm::dvec3& p) {
+    const double height = glm::dot(normal, p);
+    low = std::min(low, height), high = std::max(high, height);
+  }
+  [[nodiscard]] double thickness() const { return high - low; }
+};
+
 /// Joins neighbours, beginning with those that turn least, as long as all their corners together
 /// lie between two planes that are no farther apart than the roughness: so facets of a fine curve
 /// are not joined one after another.
@@ -64,8 +76,8 @@ class Joiner {
     uint32_t a, b;
   };
 
-  [[nodiscard]] uint32_t root(uint32_t side) const {
-    while (joined_with_[side] != side) side = joined_with_[side];
+  [[nodiscard]] uint32_t root(uint32_t side) {
+    while (joined_with_[side] != side) side = joined_with_[side] = joined_with_[joined_with_[side]];
     return side;
   }
   [[nodiscard]] const glm::dvec3& corner(uint32_t half) const {
@@ -98,13 +110,10 @@ class Joiner {
       const double cosine = glm::dot(glm::normalize(areas_[a]), glm::normalize(areas_[b]));
       // What has no area, in doubles, has no direction either.
       if (!(cosine >= least)) continue;
-      const glm::dvec3 normal = normal_of(a, b);
-      double low = glm::dot(normal, corner(h)), high = low;
-      for (const uint32_t c : {around(h), around(around(h)), around(around(twin))}) {
-        low = std::min(low, glm::dot(normal, corner(c)));
-        high = std::max(high, glm::dot(normal, corner(c)));
-      }
-      if (high - low <= sides_.roughness) pairs_.push_back({cosine, a, b});
+      Slab slab{normal_of(a, b)};
+      for (const uint32_t c : {h, around(h), around(around(h)), around(around(twin))})
+        slab.add(corner(c));
+      if (slab.thickness() <= sides_.roughness) pairs_.push_back({cosine, a, b});
     }
     std::sort(pairs_.begin(), pairs_.end(), [](const Pair& p, const Pair& q) {
       return std::tie(q.cosine, p.a, p.b) < std::tie(p.cosine, q.a, q.b);
@@ -121,28 +130,40 @@ class Joiner {
       const auto& corners = solid_.triangles[t];
       corners_[sides_.of[t]].insert(corners_[sides_.of[t]].end(), corners.begin(), corners.end());
     }
-    for (auto& own : corners_) {
+    slabs_.resize(corners_.size());
+    for (uint32_t side = 0; side < corners_.size(); ++side) {
+      auto& own = corners_[side];
       std::sort(own.begin(), own.end());
       own.erase(std::unique(own.begin(), own.end()), own.end());
+      slabs_[side].normal = glm::normalize(areas_[side]);
+      static_cast<void>(add_corners(side, slabs_[side]));
     }
+  }
+
+  /// Whether it is no thicker than it may be with them.
+  [[nodiscard]] bool add_corners(uint32_t side, Slab& slab) const {
+    for (const uint32_t v : corners_[side]) {
+      slab.add(solid_.positions[v]);
+      if (slab.thickness() > sides_.roughness) return false;
+    }
+    return true;
   }
 
   [[nodiscard]] bool try_to_join(uint32_t a, uint32_t b) {
     if (corners_[a].size() < corners_[b].size()) std::swap(a, b);
     if (!(glm::dot(glm::normalize(areas_[a]), glm::normalize(areas_[b])) >= cos_deg(kMostTurn)))
       return false;
-    const glm::dvec3 normal = normal_of(a, b);
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const uint32_t side : {b, a}) {
-      for (const uint32_t v : corners_[side]) {
-        const double height = glm::dot(normal, solid_.positions[v]);
-        low = std::min(low, height), high = std::max(high, height);
-        if (high - low > sides_.roughness) return false;
-      }
+    // Mostly the smaller one lies in the slab of the larger one, whose corners are many where
+    // flat sides are of many faces.
+    Slab slab = slabs_[a];
+    if (!add_corners(b, slab)) {
+      slab = {normal_of(a, b)};
+      if (!add_corners(b, slab) || !add_corners(a, slab)) return false;
     }
     const uint32_t kept = std::min(a, b), gone = std::max(a, b);
     joined_with_[gone] = kept;
     areas_[kept] += areas_[gone];
+    slabs_[kept] = slab;
     corners_[a].insert(corners_[a].end(), corners_[b].begin(), corners_[b].end());
     corners_[kept].swap(corners_[a]);
     return true;
@@ -175,6 +196,7 @@ class Joiner {
   std::vector<uint32_t> joined_with_;           ///< by side: one before it, or itself
   std::vector<glm::dvec3> areas_;               ///< by side, twice: of what is joined with it
   std::vector<std::vector<uint32_t>> corners_;  ///< the same of those that are in pairs_
+  std::vector<Slab> slabs_;                     ///< around these
   std::vector<Pair> pairs_;
   std::vector<bool> is_rough_;
 };

@@ -98,8 +98,8 @@ TEST(EdgeSides, ChamferedConesAreConvex) {
     local c = cylinder{h = 10, r1 = 6, r2 = 3, fn = 32}
     assert(#c:edges() == 64 and #c:edges{turn = 0} == 64)
     assert(#c:chamfer(.4, "top"):slice(9.9):points() == 32)
-    for _, r in ipairs{{6, 3}, {10, 9}, {3, 6}, {2, 9}} do
-      for _, n in ipairs{3, 16, 24, 30, 32, 48, 100} do
+    for _, r in ipairs{{6, 3}, {10, 9}, {3, 6}} do
+      for _, n in ipairs{3, 16, 30, 32, 60} do
         local cone, what = cylinder{h = 10, r1 = r[1], r2 = r[2], fn = n}, r[1] .. " " .. n
         local T, B = ring(n, r[2], 10), ring(n, r[1], 0)
         for _, solid in ipairs{{cone, "top"}, {placed(cone)}} do
@@ -139,7 +139,7 @@ TEST(EdgeSides, RimsOfWhatIsLoftedTurnedAndTrimmed) {
              fillet_removed(n, {a, T[1][3]}, {b, B[1][3]}, size, 16, is_hole), what .. " round")
       end
     end
-    for _, n in ipairs{9, 24, 32, 61} do
+    for _, n in ipairs{9, 24, 61} do
       check(loft({circle(6, {fn = n}), circle(4, {fn = n})}, 7), ring(n, 4, 7), ring(n, 6, 0), .1,
             "loft " .. n)
       check(circle(6, {fn = n}):linear_extrude(10, {scale = .8}), ring(n, 4.8, 10), ring(n, 6, 0),
@@ -226,6 +226,47 @@ TEST(EdgeSides, FacetsOfAFineCurveAreSides) {
     end
     local cut = cylinder{h = 5, r1 = 10, r2 = 5, fn = 1000}:chamfer(.01, "top")
     assert(#cut:slice(4.995):points() == 1000))");
+}
+
+TEST(EdgeSides, AreOfManyFaces) {
+  // A block whose top is aslant and of 800 triangles, all of them off its plane: with 12 edges. At
+  // its upright edges the chamfer takes wedges as long as these.
+  expect_good(R"(
+    local n, points, faces = 20, {}, {}
+    local function height(x, y) return 5 + .1234567 * x + .07654321 * y end
+    for i = 0, n do
+      for k = 0, n do points[#points + 1] = {i / 2, k / 2, height(i / 2, k / 2)} end
+    end
+    local below = #points
+    for i = 1, below do points[#points + 1] = {points[i][1], points[i][2], 0} end
+    local function at(i, k) return i * (n + 1) + k end
+    local function face(a, b, c)
+      faces[#faces + 1] = {a, b, c}
+      faces[#faces + 1] = {a + below, c + below, b + below}
+    end
+    for i = 0, n - 1 do
+      for k = 0, n - 1 do
+        face(at(i, k), at(i + 1, k), at(i + 1, k + 1))
+        face(at(i, k), at(i + 1, k + 1), at(i, k + 1))
+      end
+      local function wall(a, b) faces[#faces + 1] = {a, a + below, b + below, b} end
+      wall(at(i, 0), at(i + 1, 0))
+      wall(at(i + 1, n), at(i, n))
+      wall(at(0, i + 1), at(0, i))
+      wall(at(n, i), at(n, i + 1))
+    end
+    local block = polyhedron(points, faces)
+    assert(#block:edges{turn = 0} == 12)
+    local upright = block:volume() - block:chamfer(.5, "z"):volume()
+    -- Over triangles of an area of 1/8, the height at their centroids.
+    local wanted = 0
+    for _, x in ipairs{1 / 6, 10 - 1 / 6} do
+      for _, y in ipairs{1 / 6, 10 - 1 / 6} do wanted = wanted + height(x, y) / 8 end
+    end
+    assert(math.abs(upright - wanted) < 1e-5, upright .. " for " .. wanted)
+    -- Six sides, twelve chamfers and eight tips have 48 edges.
+    local cut = block:chamfer(.5)
+    assert(#cut:edges() == 48 and math.abs(hull(cut):volume() - cut:volume()) < 1e-4))");
 }
 
 TEST(EdgeSides, AreOfTheGridOfTheirSolid) {
