@@ -81,7 +81,7 @@ class Faces {
 /// inwards.
 Faces wedges(int count, bool notch) {
   Faces faces;
-  const IVec3 low{0, 0, 0}, high{0, 0, 1000};
+  const IVec3 low{0, 0, 0};
   const auto on_circle = [](double angle, double radius) {
     return IVec3{std::llround(radius * std::cos(angle)), std::llround(radius * std::sin(angle)), 0};
   };
@@ -125,7 +125,9 @@ TEST(Conform, WedgesAroundAnEdgeStayAsTheyAre) {
       // third one: that would be eight times as much for twice as many.
       const uint64_t now = faces.signs() - before;
       EXPECT_GT(now, 0u);
-      if (signs != 0) EXPECT_LT(now, 5 * signs) << count;
+      if (signs != 0) {
+        EXPECT_LT(now, 5 * signs) << count;
+      }
       signs = now;
     }
   }
