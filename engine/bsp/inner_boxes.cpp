@@ -43,7 +43,8 @@ class BoxInside {
       for (size_t k = 0; k < 3; ++k) reach += std::fabs(plane[k]) * half[k];
       scale = std::min(scale, reach > 0 ? faces_.back().room / reach : 0);
     }
-    for (size_t k = 0; k < 3; ++k) down_[k] = up_[k] = std::max(scale, 0.0) * half[k];
+    if (!(scale > 0)) return;  // the middle is not behind all faces
+    for (size_t k = 0; k < 3; ++k) down_[k] = up_[k] = scale * half[k];
     for (size_t k = 0; k < 3; ++k) {
       down_[k] = std::min(half[k], down_[k] + room_beyond(k, -1));
       up_[k] = std::min(half[k], up_[k] + room_beyond(k, 1));
@@ -73,8 +74,9 @@ class BoxInside {
       for (size_t k = 0; k < 3; ++k) {
         room -= std::max(face.normal[k] * up_[k], -face.normal[k] * down_[k]);
       }
+      room = std::max(room, 0.0);  // it may be less by rounding
       const double slope = face.normal[axis] * way;
-      if (slope > 0) least = std::min(least, std::max(room, 0.0) / slope);
+      if (slope > 0) least = std::min(least, room / slope);
     }
     return least;
   }

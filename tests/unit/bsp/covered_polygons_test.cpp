@@ -362,6 +362,29 @@ bool is_behind_faces(const Operand& operand, const PolygonBox& box) {
   return true;
 }
 
+/// An L of that height, to which the middle of its box does not belong.
+Operand angle(int64_t height) {
+  const auto at = [](int64_t x, int64_t y, int64_t z) { return IVec3{x, y, z}; };
+  std::vector<test::Loop> loops;
+  for (const int64_t z : {-height, height}) {
+    test::Loop foot{at(-90, -90, z), at(90, -90, z), at(90, -60, z), at(-60, -60, z),
+                    at(-90, -60, z)},
+        arm{at(-90, -60, z), at(-60, -60, z), at(-60, 90, z), at(-90, 90, z)};
+    for (test::Loop* loop : {&foot, &arm}) {
+      if (z < 0) std::reverse(loop->begin(), loop->end());
+      loops.push_back(*loop);
+    }
+  }
+  const std::vector<std::array<int64_t, 2>> rim{{-90, -90}, {90, -90}, {90, -60}, {-60, -60},
+                                                {-60, 90},  {-90, 90}, {-90, -60}};
+  for (size_t i = 0; i < rim.size(); ++i) {
+    const auto [x, y] = rim[i];
+    const auto [u, v] = rim[(i + 1) % rim.size()];
+    loops.push_back({at(x, y, -height), at(u, v, -height), at(u, v, height), at(x, y, height)});
+  }
+  return test::operand_of(test::make_leaf(loops));
+}
+
 /// What two polygons have in common is passed over where a remover holds all of it.
 TEST(CoveredPolygons, WhatMeetsWithinIsInARemover) {
   test::Random random(954);
@@ -372,7 +395,10 @@ TEST(CoveredPolygons, WhatMeetsWithinIsInARemover) {
     for (uint32_t o = 0; o < count; ++o) {
       operands.push_back(random_convex(random, o == 1 ? 90 : 30));
       operands.back().translation = random_point(random, 20);
-      if (o == 1 && random.integer(0, 1) == 0) operands.back() = octahedron({3, 2, 1}, 90);
+      if (o != 1) continue;
+      const int64_t kind = random.integer(0, 3);
+      if (kind == 0) operands.back() = octahedron({3, 2, 1}, 90);
+      if (kind == 1) operands.back() = angle(random.integer(20, 90));
     }
     const Expression expression =
         test::flat_expression(round % 2 ? BooleanOp::kDifference : BooleanOp::kUnion, count);
