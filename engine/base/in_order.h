@@ -56,7 +56,7 @@ void make_and_take(size_t count, Make&& make, Take&& take, Expect&& expect) {
       },
       [&](size_t part) {
         const auto& made = ring[part % ring.size()];
-        for (size_t i = 0; i < std::min(kAhead, made.size()); ++i) expect(made[i]);
+        for (size_t i = 1; i < std::min(kAhead, made.size()); ++i) expect(made[i]);
         for (size_t i = 0; i < made.size(); ++i) {
           if (i + kAhead < made.size()) expect(made[i + kAhead]);
           take(part * kEach + i, made[i]);
