@@ -183,6 +183,7 @@ class Run {
     } else {
       session_.add_part({"", model->solid, {}, where}, "");
     }
+    session_.name_unnamed_parts();
     return {};
   }
 
@@ -237,6 +238,7 @@ class Run {
         return {kExitScript, line_.model + ": " + error.what()};
       }
     }
+    session_.name_unnamed_parts();
     return {};
   }
 
@@ -253,6 +255,7 @@ class Run {
     report_.warnings.insert(report_.warnings.end(), file->notes.begin(), file->notes.end());
     const SourceRef where = session_.source_ref(line_.model, 1);
     session_.add_part({"", nullptr, std::move(file->shape), where}, "");
+    session_.name_unnamed_parts();
     return {};
   }
 
