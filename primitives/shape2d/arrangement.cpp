@@ -1,6 +1,7 @@
 #include "primitives/shape2d/arrangement.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <tuple>
 #include <utility>
@@ -107,23 +108,65 @@ void find_cuts_at_near_ends(const Segment2D& s, uint32_t si, const Segment2D& t,
   }
 }
 
-/// Calls visit(s, t) for all pairs of segments, which are sorted by a, whose boxes come near.
+/// Bands of equal height, in which segments lie: about as many as there are segments, but so few
+/// that one lies in a few, on average.
+class Bands {
+ public:
+  explicit Bands(const std::vector<Segment2D>& segments) {
+    if (segments.empty()) return;
+    int64_t low = segments[0].a.y, high = low;
+    double heights = 0;
+    for (const Segment2D& s : segments) {
+      low = std::min({low, s.a.y, s.b.y});
+      high = std::max({high, s.a.y, s.b.y});
+      heights += std::fabs(static_cast<double>(s.b.y) - static_cast<double>(s.a.y));
+    }
+    constexpr double kFew = 3;
+    const auto count = static_cast<double>(segments.size()),
+               extent = static_cast<double>(high) - static_cast<double>(low);
+    const double bands = heights > 0 ? std::min(count, kFew * count * extent / heights) : count;
+    low_ = static_cast<double>(low);
+    count_ = static_cast<uint32_t>(std::max(1.0, bands));
+    per_step_ = extent > 0 ? count_ / extent : 0;
+  }
+
+  [[nodiscard]] uint32_t count() const { return count_; }
+  /// Monotone: what is between two heights is in a band between theirs.
+  [[nodiscard]] uint32_t at(int64_t y) const {
+    const double place = (static_cast<double>(y) - low_) * per_step_;
+    return static_cast<uint32_t>(std::clamp(place, 0.0, static_cast<double>(count_ - 1)));
+  }
+
+ private:
+  double low_ = 0, per_step_ = 0;
+  uint32_t count_ = 1;
+};
+
+/// Calls visit(s, t) for all pairs of segments, which are sorted by a, whose boxes come near: a
+/// sweep along x, in bands.
 template <class Visit>
 void for_each_near_pair(const std::vector<Segment2D>& segments, int64_t steps, Visit&& visit) {
-  std::vector<uint32_t> active;
+  const Bands bands(segments);
+  std::vector<std::vector<uint32_t>> active(bands.count());
+  std::vector<uint32_t> first_band(segments.size());
   for (uint32_t i = 0; i < segments.size(); ++i) {
     const Segment2D& s = segments[i];
     const int64_t low = std::min(s.a.y, s.b.y) - steps, high = std::max(s.a.y, s.b.y) + steps;
-    size_t kept = 0;
-    for (const uint32_t j : active) {
-      const Segment2D& t = segments[j];
-      if (t.b.x + steps < s.a.x) continue;
-      active[kept++] = j;
-      if (std::max(t.a.y, t.b.y) < low || std::min(t.a.y, t.b.y) > high) continue;
-      visit(i, j);
+    first_band[i] = bands.at(low);
+    for (uint32_t band = first_band[i]; band <= bands.at(high); ++band) {
+      std::vector<uint32_t>& own = active[band];
+      size_t kept = 0;
+      for (const uint32_t j : own) {
+        const Segment2D& t = segments[j];
+        if (t.b.x + steps < s.a.x) continue;
+        own[kept++] = j;
+        if (std::max(t.a.y, t.b.y) < low || std::min(t.a.y, t.b.y) > high) continue;
+        // Once, in the first band that both are in.
+        if (std::max(first_band[i], first_band[j]) == band) visit(i, j);
+      }
+      own.resize(kept);
+      own.push_back(i);
     }
-    active.resize(kept);
-    active.push_back(i);
   }
 }
 
