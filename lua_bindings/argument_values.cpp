@@ -286,7 +286,12 @@ Arguments::Value Arguments::convert(const Option& option, int index) const {
     case T::kInteger: {
       if (type != LUA_TNUMBER) wrong_type(option, index);
       const double x = check_number(option, index);
-      if (x != std::floor(x) || std::abs(x) > 1e9) wrong_type(option, index);
+      constexpr double kMost = 1e9;
+      if (x != std::floor(x)) wrong_type(option, index);
+      if (std::abs(x) > kMost) {
+        fail(fmt::format("option '{}' must be within {:.0f} of 0, got {:.14g}", option.name, kMost,
+                         x));
+      }
       return x;
     }
     case T::kBoolean:

@@ -109,7 +109,7 @@ int anchor(lua_State* L) {
   const Anchor at = parse_anchor(kAnchor, "at", arguments.string("at", "center"));
   const glm::dvec3 p = point_of(box_of(L, 1, kAnchor), at);
   if (to_shape(L, 1) != nullptr) {
-    push_list(L, {p.x, p.y});
+    push_point(L, glm::dvec2(p));
   } else {
     push_point(L, p);
   }
@@ -165,6 +165,8 @@ constexpr FunctionSpec kAlign{"align",
 int align(lua_State* L) {
   part_argument(L, kAlign);
   const Arguments arguments(L, kAlign, 2);
+  if (!arguments.has("x") && !arguments.has("y") && !arguments.has("z"))
+    fail_in(kAlign, "needs an axis, such as z = \"min\"");
   const auto box = box_of(L, 1, kAlign);
   std::array<glm::dvec3, 2> target{};
   if (const int to = arguments.stack_index("to"); to != 0) {

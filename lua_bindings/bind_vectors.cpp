@@ -98,7 +98,11 @@ int norm(lua_State* L) {
   const Arguments arguments(L, kNorm, 1);
   const auto v = arguments.vector("v");
   if (!v) fail_in(kNorm, "needs a vector");
-  lua_pushnumber(L, std::sqrt(dot(v->v, v->v)));
+  const double square = dot(v->v, v->v);
+  // Squares may be beyond what doubles hold.
+  const bool is_normal =
+      std::isnormal(square) || !(std::fabs(v->v.x) + std::fabs(v->v.y) + std::fabs(v->v.z) > 0);
+  lua_pushnumber(L, is_normal ? std::sqrt(square) : std::hypot(v->v.x, v->v.y, v->v.z));
   return 1;
 }
 
@@ -241,7 +245,10 @@ int logarithm(lua_State* L) {
 int power(lua_State* L) {
   const Arguments arguments(L, kPow, 1);
   if (!arguments.has("x") || !arguments.has("y")) fail_in(kPow, "needs a base and an exponent");
-  lua_pushnumber(L, std::pow(arguments.number("x", 0), arguments.number("y", 0)));
+  const double x = arguments.number("x", 0), y = arguments.number("y", 0);
+  if (x < 0 && y != std::trunc(y))
+    fail_in(kPow, fmt::format("a power of {:.14g} needs a whole exponent, got {:.14g}", x, y));
+  lua_pushnumber(L, std::pow(x, y));
   return 1;
 }
 

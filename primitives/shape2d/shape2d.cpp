@@ -7,6 +7,7 @@
 #include <csgrun/primitives/shape2d.h>
 #include <csgrun/primitives/trig.h>
 
+#include "primitives/base/at_most.h"
 #include "primitives/base/text.h"
 #include "primitives/shape2d/shape_factory.h"
 #include "primitives/solids/mesh_builder.h"
@@ -94,8 +95,9 @@ Result<Shape2D> make_square(const glm::dvec2& size, std::array<bool, 2> center) 
   return Shape2DFactory::canonical({{{x[0], y[0]}, {x[1], y[0]}, {x[1], y[1]}, {x[0], y[1]}}}, {0});
 }
 
-Result<Shape2D> make_rounded_square(const glm::dvec2& size, double r, const Facets& facets,
+Result<Shape2D> make_rounded_square(const glm::dvec2& size, double radius, const Facets& facets,
                                     std::array<bool, 2> center) {
+  const double r = at_most(radius, std::min(size.x, size.y) / 2);
   const Result<Shape2D> sharp = make_square(size, center);
   if (!sharp) return sharp;
   if (!std::isfinite(r)) return not_finite("square", "r", r);

@@ -8,6 +8,7 @@
 #include <csgrun/primitives/freeform.h>
 #include <csgrun/primitives/trig.h>
 
+#include "primitives/base/at_most.h"
 #include "primitives/base/text.h"
 #include "primitives/solids/mesh_builder.h"
 
@@ -34,16 +35,16 @@ PolygonMesh hull_mesh(const char* kind) {
 
 }  // namespace
 
-MeshResult make_rounded_cube(const glm::dvec3& size, double r, std::array<bool, 3> center,
+MeshResult make_rounded_cube(const glm::dvec3& size, double radius, std::array<bool, 3> center,
                              const Facets& facets) {
   constexpr const char* kNames[3] = {"size.x", "size.y", "size.z"};
   for (int i = 0; i < 3; ++i) {
     if (!std::isfinite(size[i])) return not_finite("cube", kNames[i], size[i]);
     if (!(size[i] > 0)) return not_positive("cube", kNames[i], size[i]);
   }
-  if (!std::isfinite(r)) return not_finite("cube", "r", r);
-  if (!(r > 0)) return not_positive("cube", "r", r);
-  const double most = std::min({size.x, size.y, size.z}) / 2;
+  if (!std::isfinite(radius)) return not_finite("cube", "r", radius);
+  if (!(radius > 0)) return not_positive("cube", "r", radius);
+  const double most = std::min({size.x, size.y, size.z}) / 2, r = at_most(radius, most);
   if (r > most) {
     return invalid_argument("cube: r must be at most half of the shortest side, " +
                             number_text(most) + ", got " + number_text(r));
@@ -71,8 +72,9 @@ MeshResult make_rounded_cube(const glm::dvec3& size, double r, std::array<bool, 
   return mesh;
 }
 
-MeshResult make_rounded_cylinder(double h, double r, double round, bool center,
+MeshResult make_rounded_cylinder(double h, double r, double rounding, bool center,
                                  const Facets& facets) {
+  const double round = at_most(rounding, std::min(r, h / 2));
   for (const auto& [name, value] :
        {std::pair{"h", h}, std::pair{"r", r}, std::pair{"round", round}}) {
     if (!std::isfinite(value)) return not_finite("cylinder", name, value);

@@ -30,6 +30,17 @@ TEST(CallForms, Cylinders) {
   EXPECT_EQ(box_of("cylinder{10, 2, true, fn = 4}"), "-2 -2 -5 .. 2 2 5");
   EXPECT_EQ(box_of("cylinder{10, 1, 3, true, fn = 4}"), "-3 -3 -5 .. 3 3 5");
   expect_good(
+      "cube(0.3, {r = 0.1 + 0.05}) cylinder{h = 0.3, r = 1, round = 0.1 + 0.05} "
+      "square(0.3, {r = 0.1 + 0.05}) assert(math.abs(norm(3e200, 4e200) / 5e200 - 1) < 1e-15 and "
+      "norm(0, 0) == 0) "
+      "assert(pow(-2, 3) == -8) assert(square(4):anchor('right').x == 4)");
+  EXPECT_EQ(message_of("pow(-8, 1 / 3)"),
+            "model.lua:1: pow: a power of -8 needs a whole exponent, got 0.33333333333333");
+  EXPECT_EQ(message_of("rands(0, 1, 1e12)"),
+            "model.lua:1: rands: option 'n' must be within 1000000000 of 0, got 1000000000000");
+  EXPECT_EQ(message_of("cube(1):align{to = cube(2)}"),
+            "model.lua:1: align: needs an axis, such as z = \"min\"");
+  expect_good(
       "assert(cylinder(10, 2, nil, true):volume() == cylinder(10, 2, true):volume()) "
       "assert(cylinder(10, 2, nil, true):bbox().min.z == -5) "
       "local t = {10, 2, true, fn = 4} cylinder(t) assert(#t == 3 and t[3] == true)");
