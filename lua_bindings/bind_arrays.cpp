@@ -165,8 +165,6 @@ constexpr FunctionSpec kAlign{"align",
 int align(lua_State* L) {
   part_argument(L, kAlign);
   const Arguments arguments(L, kAlign, 2);
-  if (!arguments.has("x") && !arguments.has("y") && !arguments.has("z"))
-    fail_in(kAlign, "needs an axis, such as z = \"min\"");
   const auto box = box_of(L, 1, kAlign);
   std::array<glm::dvec3, 2> target{};
   if (const int to = arguments.stack_index("to"); to != 0) {

@@ -38,8 +38,6 @@ TEST(CallForms, Cylinders) {
             "model.lua:1: pow: a power of -8 needs a whole exponent, got 0.33333333333333");
   EXPECT_EQ(message_of("rands(0, 1, 1e12)"),
             "model.lua:1: rands: option 'n' must be within 1000000000 of 0, got 1000000000000");
-  EXPECT_EQ(message_of("cube(1):align{to = cube(2)}"),
-            "model.lua:1: align: needs an axis, such as z = \"min\"");
   expect_good(
       "assert(cylinder(10, 2, nil, true):volume() == cylinder(10, 2, true):volume()) "
       "assert(cylinder(10, 2, nil, true):bbox().min.z == -5) "
