@@ -479,8 +479,8 @@ function Shape:outlines() end
 ---@field size? number height of capitals, roughly; the em is size / 0.72
 ---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@field em? number the em itself, instead of size
----@field halign? string "left", "center" or "right", by advance width
----@field valign? string "baseline", "bottom", "center" or "top", by the ink
+---@field halign? string "left", "center" or "right", by advance width; in ttb and btt by the ink
+---@field valign? string "baseline", "bottom", "center" or "top", by the ink; in ttb and btt by advance
 ---@field spacing? number factor of the distances of characters
 ---@field line_spacing? number factor of the distance of lines, which the font has
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
@@ -510,8 +510,8 @@ csg.text = text
 ---@field size? number height of capitals, roughly; the em is size / 0.72
 ---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@field em? number the em itself, instead of size
----@field halign? string "left", "center" or "right", by advance width
----@field valign? string "baseline", "bottom", "center" or "top", by the ink
+---@field halign? string "left", "center" or "right", by advance width; in ttb and btt by the ink
+---@field valign? string "baseline", "bottom", "center" or "top", by the ink; in ttb and btt by advance
 ---@field spacing? number factor of the distances of characters
 ---@field line_spacing? number factor of the distance of lines, which the font has
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
@@ -544,8 +544,8 @@ csg.text3d = text3d
 ---@field size? number height of capitals, roughly; the em is size / 0.72
 ---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@field em? number the em itself, instead of size
----@field halign? string "left", "center" or "right", by advance width
----@field valign? string "baseline", "bottom", "center" or "top", by the ink
+---@field halign? string "left", "center" or "right", by advance width; in ttb and btt by the ink
+---@field valign? string "baseline", "bottom", "center" or "top", by the ink; in ttb and btt by advance
 ---@field spacing? number factor of the distances of characters
 ---@field line_spacing? number factor of the distance of lines, which the font has
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
@@ -575,8 +575,8 @@ csg.text_metrics = text_metrics
 ---@field size? number height of capitals, roughly; the em is size / 0.72
 ---@field font? string a font file beside the model (.ttf, .otf), or a family: "Liberation Sans:style=Bold"; behind either its features: "Liberation Sans:fontfeatures=-kern;-liga"
 ---@field em? number the em itself, instead of size
----@field halign? string "left", "center" or "right", by advance width
----@field valign? string "baseline", "bottom", "center" or "top", by the ink
+---@field halign? string "left", "center" or "right", by advance width; in ttb and btt by the ink
+---@field valign? string "baseline", "bottom", "center" or "top", by the ink; in ttb and btt by advance
 ---@field spacing? number factor of the distances of characters
 ---@field line_spacing? number factor of the distance of lines, which the font has
 ---@field direction? string "ltr", "rtl", "ttb" or "btt"
