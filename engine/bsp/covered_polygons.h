@@ -47,8 +47,8 @@ struct PlainlyCovered {
 PlainlyCovered find_plainly_covered(const Job& job, const Expression& expression);
 
 /// Per polygon of the job, whether it touches the surface of a convex remover that is not open from
-/// within. The contacts are all, or all that are not of two plainly covered polygons or a hidden
-/// one.
+/// within. The contacts are all, or all that are not of two plainly covered polygons, a hidden one,
+/// or two that meet within a remover.
 std::vector<uint8_t> find_covered(const Job& job, const PlainlyCovered& plainly,
                                   const ContactTable& contacts);
 

@@ -82,7 +82,9 @@ DeadSpace::DeadSpace(const std::vector<Operand>& operands, const Expression& exp
   }
   if (operands.size() <= 2) return;
   balls_ = OperandBalls(operands, boxes_, uses);
-  inner_boxes_ = InnerBoxes(operands, boxes_, removes_, result_);
+  std::vector<uint8_t> have_room(removes_);
+  for (uint32_t o = 0; o < operands.size(); ++o) have_room[o] &= balls_.has(o) ? 1 : 0;
+  inner_boxes_ = InnerBoxes(operands, boxes_, have_room, result_);
 }
 
 }  // namespace csgrun

@@ -1,6 +1,6 @@
-// Where nothing is boundary, as is easily told: inside of balls in what is added to all else, or
-// taken away from it, alone or among others, outside of balls around what all else is cut with, or
-// taken away from, and beside the box of the result.
+// Where nothing is boundary, as is easily told: inside of balls and boxes in what is added to all
+// else, or taken away from it, alone or among others, outside of balls around what all else is cut
+// with, or taken away from, and beside the box of the result.
 #pragma once
 
 #include <array>

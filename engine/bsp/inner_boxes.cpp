@@ -85,14 +85,6 @@ class BoxInside {
   std::vector<Face> faces_;
 };
 
-bool is_far_out(const PolygonBox& box) {
-  bool far = false;
-  for (size_t k = 0; k < 3; ++k) {
-    far |= box.lo[k] <= -PolygonBox::kLimit || box.hi[k] >= PolygonBox::kLimit;
-  }
-  return far;
-}
-
 }  // namespace
 
 InnerBoxes::InnerBoxes(const std::vector<Operand>& operands, const std::vector<PolygonBox>& boxes,
@@ -100,12 +92,8 @@ InnerBoxes::InnerBoxes(const std::vector<Operand>& operands, const std::vector<P
   const double least = kLeastShare * volume(whole);
   std::vector<std::pair<double, uint32_t>> candidates;  // by what is around them
   for (uint32_t o = 0; o < operands.size(); ++o) {
-    const Operand& operand = operands[o];
-    if (wanted[o] == 0 || !operand.leaf || operand.leaf->face_count() == 0 ||
-        !operand.frame.is_identity || is_far_out(boxes[o])) {
-      continue;
-    }
-    if (const double around = volume(boxes[o]); around > least) candidates.emplace_back(-around, o);
+    const double around = volume(boxes[o]);
+    if (wanted[o] != 0 && around > least) candidates.emplace_back(-around, o);
   }
   const size_t count = std::min(kMost, candidates.size());
   std::partial_sort(candidates.begin(), candidates.begin() + static_cast<long>(count),
