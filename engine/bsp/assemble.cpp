@@ -5,6 +5,8 @@
 #include <cassert>
 #include <map>
 #include <numeric>
+#include <type_traits>
+#include <utility>
 
 #include "engine/base/in_order.h"
 #include "engine/base/parallel.h"
@@ -24,11 +26,11 @@ class Assembler {
         index_(geometry_),
         builder_(geometry_, job.planes()) {}
 
-  Result<std::shared_ptr<const BoundaryMesh>> run(const std::vector<FragmentSet>& sets,
-                                                  const std::vector<WholePolygon>& whole,
+  Result<std::shared_ptr<const BoundaryMesh>> run(std::vector<FragmentSet> sets,
+                                                  std::vector<WholePolygon> whole,
                                                   Touching touching,
                                                   std::vector<UntouchedPart> parts) {
-    gather(sets, whole);
+    gather(std::move(sets), std::move(whole));
     std::sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
       return std::tie(a.plane, a.label, a.polygon, a.first) <
              std::tie(b.plane, b.label, b.polygon, b.first);
@@ -48,6 +50,12 @@ class Assembler {
     for (const uint32_t group : numbers_where(face_of_group_.size(), may_be_complete)) {
       find_completeness(group);
     }
+    for (UntouchedPart& part : parts) {
+      for (UntouchedPart::Shared& s : part.shared) {
+        s.point = s.point < vertex_number_.size() ? vertex(s.point) : kNone;
+      }
+    }
+    release_pieces();
     std::vector<uint32_t> number;
     auto mesh = std::make_shared<BoundaryMesh>(
         canonical(geometry_, job_.planes(), std::move(draft_), &number));
@@ -55,11 +63,10 @@ class Assembler {
     if (!touching.anywhere) mesh->touches = std::move(touching.boxes);
     for (UntouchedPart& part : parts) {
       for (UntouchedPart::Shared& s : part.shared) {
-        const uint32_t point = s.point < vertex_number_.size() ? vertex(s.point) : kNone;
-        if (point >= number.size() || number[point] == kNone) {
+        if (s.point >= number.size() || number[s.point] == kNone) {
           return Error{ErrorCode::kInternal, "an untouched face shares a corner with no other", {}};
         }
-        s.point = number[point];
+        s.point = number[s.point];
       }
     }
     mesh->parts = std::move(parts);
@@ -79,13 +86,13 @@ class Assembler {
 
   /// Lists pieces and their corners: at first vertices of the job by their numbers, other points by
   /// kNamed + number.
-  void gather(const std::vector<FragmentSet>& sets, const std::vector<WholePolygon>& whole) {
-    for (const FragmentSet& set : sets) gather_cut(set);
-    gather_whole(whole);
+  void gather(std::vector<FragmentSet> sets, std::vector<WholePolygon> whole) {
+    for (FragmentSet& set : sets) gather_cut(std::exchange(set, {}));
+    gather_whole(std::move(whole));
     number_corners();
   }
 
-  void gather_cut(const FragmentSet& set) {
+  void gather_cut(FragmentSet set) {
     const std::vector<uint32_t> number = number_points(set);
     std::vector<uint32_t> first(set.pieces.size() + 1);
     first[0] = static_cast<uint32_t>(corners_.size());
@@ -141,7 +148,7 @@ class Assembler {
     return points;
   }
 
-  void gather_whole(const std::vector<WholePolygon>& whole) {
+  void gather_whole(std::vector<WholePolygon> whole) {
     std::vector<uint32_t> polygons(whole.size()), first(whole.size() + 1);
     first[0] = static_cast<uint32_t>(corners_.size());
     for (size_t w = 0; w < whole.size(); ++w) {
@@ -233,6 +240,15 @@ class Assembler {
     }
     face_of_group_.resize(groups_.size());
     groups_.push_back(static_cast<uint32_t>(pieces_.size()));
+  }
+
+  /// What is not needed once there are faces: as much memory as these.
+  void release_pieces() {
+    const auto release = [](auto&... all) {
+      ((all = std::remove_reference_t<decltype(all)>()), ...);
+    };
+    release(pieces_, corners_, planes_, groups_, face_of_group_, by_label_, vertex_number_);
+    index_.release();
   }
 
   /// Makes a face of each group that leaves one, on several threads. Returns the first group whose
@@ -451,11 +467,12 @@ class Assembler {
 
 }  // namespace
 
-Result<std::shared_ptr<const BoundaryMesh>> assemble(Job& job, const std::vector<FragmentSet>& sets,
-                                                     const std::vector<WholePolygon>& whole,
+Result<std::shared_ptr<const BoundaryMesh>> assemble(Job& job, std::vector<FragmentSet> sets,
+                                                     std::vector<WholePolygon> whole,
                                                      Touching touching,
                                                      std::vector<UntouchedPart> parts) {
-  return Assembler(job).run(sets, whole, std::move(touching), std::move(parts));
+  return Assembler(job).run(std::move(sets), std::move(whole), std::move(touching),
+                            std::move(parts));
 }
 
 }  // namespace csgrun

@@ -30,9 +30,9 @@ struct Touching {
 /// they are made here for whole ones. `touching` is what BoundaryMesh says. O(k log k).
 /// `parts` are taken over as they are, but for the numbers of their shared points: vertices of the
 /// job, which other faces have. Error kInternal when the fragments do not close up: an invariant of
-/// ours is broken.
-Result<std::shared_ptr<const BoundaryMesh>> assemble(Job& job, const std::vector<FragmentSet>& sets,
-                                                     const std::vector<WholePolygon>& whole,
+/// ours is broken. What is given is let go of as soon as it was read, for there is much of it.
+Result<std::shared_ptr<const BoundaryMesh>> assemble(Job& job, std::vector<FragmentSet> sets,
+                                                     std::vector<WholePolygon> whole,
                                                      Touching touching = {},
                                                      std::vector<UntouchedPart> parts = {});
 

@@ -42,10 +42,10 @@ class PieceAssembler {
       }
     }
     std::vector<FragmentSet> sets(1);
-    const std::vector<WholePolygon> whole = whole_polygons(job);
+    std::vector<WholePolygon> whole = whole_polygons(job);
     take_cut(job, sets.front());
-    return assemble(job, sets, whole, {version_.touches_anywhere, version_.touches.boxes()},
-                    std::move(named));
+    return assemble(job, std::move(sets), std::move(whole),
+                    {version_.touches_anywhere, version_.touches.boxes()}, std::move(named));
   }
 
  private:

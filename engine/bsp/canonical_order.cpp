@@ -188,6 +188,7 @@ BoundaryMesh canonical(CellGeometry& geometry, const PlaneTable& planes, DraftBo
     for (size_t f = begin; f < end; ++f) sort_loops(draft.faces[f], draft);
   });
   fill_faces(draft, face_order(draft, planes, points.size()), mesh);
+  draft = DraftBoundary();  // of the size of the result
   name_by_planes(planes, points.size(), mesh);
   if (number_of_point != nullptr) *number_of_point = std::move(number);
   return mesh;

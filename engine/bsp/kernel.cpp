@@ -101,8 +101,8 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
     if (options.name_untouched) {
       parts = take_untouched(job, operands, evaluated.far, evaluated.whole);
     }
-    return assemble(job, evaluated.sets, evaluated.whole, std::move(evaluated.touching),
-                    std::move(parts));
+    return assemble(job, std::move(evaluated.sets), std::move(evaluated.whole),
+                    std::move(evaluated.touching), std::move(parts));
   };
   // With the faces that matter alone, if that does.
   const auto evaluate_some = [&](const auto& some) -> std::optional<Outcome> {

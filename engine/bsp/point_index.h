@@ -24,6 +24,13 @@ class PointIndex {
     count_ = 0;
   }
 
+  /// The same, and lets go of their memory.
+  void release() {
+    slots_ = std::vector<Slot>(kFewSlots);
+    known_ = std::vector<uint32_t>();
+    count_ = 0;
+  }
+
   /// The first point that equals `p`; `p` itself when it is new. `p` must be in the geometry.
   uint32_t unique(uint32_t p) {
     if (p < known_.size() && known_[p] != kNone) return known_[p];

@@ -60,7 +60,8 @@ class Resolution {
     if (options_.name_untouched && !is_hull()) {
       parts = take_untouched(job_, operands_, {}, whole_, true);
     }
-    return assemble(job_, sets_, whole_, std::move(touching_), std::move(parts));
+    return assemble(job_, std::move(sets_), std::move(whole_), std::move(touching_),
+                    std::move(parts));
   }
 
  private:
