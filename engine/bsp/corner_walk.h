@@ -17,7 +17,7 @@ class CornerWalk {
   /// With opposite edges other than the leaf's, which outlive it, too.
   CornerWalk(const LeafGeometry& leaf, std::span<const uint32_t> opposite)
       : leaf_(leaf), opposite_(opposite) {
-    if (leaf.corners.size() == 3 * leaf.face_count()) return;
+    if (leaf.consists_of_triangles()) return;
     face_of_.resize(leaf.corners.size());
     for (uint32_t f = 0; f < leaf.face_count(); ++f) {
       std::fill(face_of_.begin() + leaf.face_starts[f], face_of_.begin() + leaf.face_starts[f + 1],

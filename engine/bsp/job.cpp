@@ -155,7 +155,7 @@ size_t Job::corner_count(size_t o) const {
   const LeafGeometry& leaf = *(*operands_)[o].leaf;
   const std::vector<uint32_t>* const some = some_faces(o);
   if (!some) return leaf.corners.size();
-  if (leaf.corners.size() == 3 * leaf.face_count()) return 3 * some->size();
+  if (leaf.consists_of_triangles()) return 3 * some->size();
   size_t count = 0;
   for (const uint32_t f : *some) count += leaf.face_starts[f + 1] - leaf.face_starts[f];
   return count;
@@ -243,7 +243,7 @@ void Job::add_some_faces(uint32_t o, const LeafGeometry& leaf, const std::vector
   const auto add = [&](size_t i, uint32_t first) {
     add_face(first_polygon + static_cast<uint32_t>(i), o, leaf, faces[i], first);
   };
-  if (leaf.corners.size() == 3 * leaf.face_count()) {
+  if (leaf.consists_of_triangles()) {
     for_each_range(faces.size(), [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) add(i, static_cast<uint32_t>(first_corner + 3 * i));
     });

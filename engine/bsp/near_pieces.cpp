@@ -111,7 +111,7 @@ std::vector<uint32_t> faces_near(const LeafGeometry& leaf,
       if (cells.is_marked(range_of(f))) faces.push_back(f);
     }
   };
-  if (leaf.corners.size() == 3 * leaf.face_count()) {
+  if (leaf.consists_of_triangles()) {
     look_at_each([&, corners = leaf.corners.data()](uint32_t f) {
       Range range = places[corners[3 * f]];
       range.add(places[corners[3 * f + 1]]);

@@ -52,10 +52,12 @@ struct LeafGeometry {
   [[nodiscard]] size_t face_count() const { return face_starts.size() - 1; }
   /// REQUIRES: there is a face.
   [[nodiscard]] bool keeps_facets() const { return facet[0] != 0; }
+  /// No face has fewer corners than a triangle.
+  [[nodiscard]] bool consists_of_triangles() const { return corners.size() == 3 * face_count(); }
   /// Whether each face is a triangle and known to be a facet of its own that is kept. REQUIRES: as
   /// above.
   [[nodiscard]] bool has_triangles_as_facets() const {
-    return keeps_facets() && facet.count_up() && corners.size() == 3 * face_count();
+    return keeps_facets() && facet.count_up() && consists_of_triangles();
   }
 };
 

@@ -192,7 +192,7 @@ class UntouchedFaces {
   const CornerWalk walk_;
   const bool keeps_facets_;
   const bool all_around_;  ///< faces are untouched only if all at their corners are whole
-  const bool has_triangles_ = leaf_.corners.size() == 3 * leaf_.face_count();  ///< and nothing else
+  const bool has_triangles_ = leaf_.consists_of_triangles();
   std::vector<uint8_t> of_vertex_;  ///< empty where nobody asks for it
 };
 

@@ -146,7 +146,7 @@ bool is_locally_convex(const LeafGeometry& leaf) {
 /// Whether faces at a corner may become a face that has no corner there, while other faces, which
 /// the edges there do not connect with them, keep theirs.
 bool may_lose_common_corners(const LeafGeometry& leaf) {
-  return !leaf.has_single_fans && !(leaf.keeps_facets() && consists_of_triangles(leaf));
+  return !leaf.has_single_fans && !(leaf.keeps_facets() && leaf.consists_of_triangles());
 }
 
 /// Whether all points lie in a plane across an axis.

@@ -99,7 +99,7 @@ Look look_at(const LeafGeometry& leaf, const GridBox& box) {
 }  // namespace
 
 ConvexSurface find_convex_surface(const LeafGeometry& leaf, const GridBox& box) {
-  if (leaf.opposite.empty() || !consists_of_triangles(leaf) || !is_compact(box)) return {};
+  if (leaf.opposite.empty() || !leaf.consists_of_triangles() || !is_compact(box)) return {};
   const Look look = look_at(leaf, box);
   if (look.has_neighbour_in_front) return {};
   // One crossing: the surface is a sphere that does not meet itself (star_surface.h).

@@ -15,15 +15,10 @@ inline bool is_compact(const GridBox& box) {
   return all;
 }
 
-/// As no face has fewer corners.
-inline bool consists_of_triangles(const LeafGeometry& leaf) {
-  return leaf.corners.size() == 3 * leaf.face_count();
-}
-
 /// Calls `visit(face_of)` with a function from an edge, by the corner that it leaves, to its face.
 template <class Visit>
 auto with_face_of(const LeafGeometry& leaf, Visit visit) {
-  if (consists_of_triangles(leaf)) return visit([](uint32_t edge) { return edge / 3; });
+  if (leaf.consists_of_triangles()) return visit([](uint32_t edge) { return edge / 3; });
   std::vector<uint32_t> face(leaf.corners.size());
   for (uint32_t f = 0; f < leaf.face_count(); ++f) {
     std::fill(face.begin() + leaf.face_starts[f], face.begin() + leaf.face_starts[f + 1], f);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/base/scratch.h"
-#include "engine/mesh/leaf_shape.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -255,8 +254,8 @@ EdgePairing pair_edges(const LeafGeometry& leaf, const Edges& edges) {
 }  // namespace
 
 EdgePairing pair_edges(const LeafGeometry& leaf) {
-  return consists_of_triangles(leaf) ? pair_edges(leaf, EdgesOfTriangles(leaf.corners))
-                                     : pair_edges(leaf, EdgesOfFaces(leaf));
+  return leaf.consists_of_triangles() ? pair_edges(leaf, EdgesOfTriangles(leaf.corners))
+                                      : pair_edges(leaf, EdgesOfFaces(leaf));
 }
 
 }  // namespace csgrun
