@@ -24,9 +24,15 @@ bool is_transparent(const Node& node) {
   return node.kind() == NodeKind::kTransform || node.kind() == NodeKind::kBoolean;
 }
 
+/// `children`: with the tree that is evaluated in the place of the node, if there is one, last.
 NodePtr with_children(const Node& node, std::vector<NodePtr> children) {
   if (node.kind() == NodeKind::kTransform) {
     return Node::transformed(node.transform(), std::move(children[0]), node.where());
+  }
+  if (node.same_solid()) {
+    NodePtr same = std::move(children.back());
+    children.pop_back();
+    return Node::intersection_as(std::move(children), std::move(same), node.where());
   }
   return Node::boolean(node.op(), std::move(children), node.where());
 }
@@ -43,8 +49,9 @@ NodePtr repaint(const NodePtr& root, const Change& change) {
       continue;
     }
     if (is_transparent(*node)) {
-      std::vector<NodePtr> children;
-      for (const NodePtr& child : node->children()) {
+      std::vector<NodePtr> below = node->children(), children;
+      if (node->same_solid()) below.push_back(node->same_solid());
+      for (const NodePtr& child : below) {
         const auto known = done.find(child.get());
         if (known == done.end()) {
           pending.push_back(child);
@@ -52,7 +59,7 @@ NodePtr repaint(const NodePtr& root, const Change& change) {
           children.push_back(known->second);
         }
       }
-      if (children.size() < node->children().size()) continue;
+      if (children.size() < below.size()) continue;
       done[node.get()] = with_children(*node, std::move(children));
     } else if (node->kind() == NodeKind::kAppearance) {
       done[node.get()] =

@@ -348,6 +348,10 @@ Result<Constructions::Outcome> Constructions::make(const Task& task, std::vector
       made.node = Node::outer_hull(node.outer_hull(), std::move(children[0]), node.where());
       return Outcome{};
     case NodeKind::kBoolean:
+      if (node.same_solid()) {
+        made.node = std::move(children[0]);
+        return Outcome{};
+      }
       made.node = Node::boolean(node.op(), std::move(children), node.where());
       return Outcome{};
     case NodeKind::kConstruction:
@@ -376,7 +380,9 @@ Result<bool> Constructions::advance(std::vector<Task>& stack) {
   const size_t before = stack.size();
   std::vector<NodePtr> children;
   Made made{nullptr, std::numeric_limits<double>::infinity(), {}, node.where(), {}};
-  for (const NodePtr& child : node.children()) {
+  const std::span<const NodePtr> operands =
+      node.same_solid() ? std::span(&node.same_solid(), 1) : std::span(node.children());
+  for (const NodePtr& child : operands) {
     Task next(child, under->map, under->least);
     next.bent_by = task.bent_by;
     next.bent = task.bent;

@@ -121,6 +121,10 @@ Status NormalForm::unwrap(Item& item) const {
         if (item.paint == kUnpainted) item.paint = appearances_.intern(node.appearance());
         break;
       case NodeKind::kBoolean:
+        if (node.same_solid()) {
+          item.node = &node.same_solid();
+          continue;
+        }
         if (node.children().size() != 1) return std::monostate{};
         break;
       case NodeKind::kOuterHull:

@@ -64,6 +64,14 @@ NodePtr Node::boolean(BooleanOp op, std::vector<NodePtr> operands, SourceRef whe
   return node;
 }
 
+NodePtr Node::intersection_as(std::vector<NodePtr> operands, NodePtr same, SourceRef where) {
+  auto node = made(NodeKind::kBoolean, std::move(operands), std::move(where));
+  node->op_ = BooleanOp::kIntersection;
+  node->has_constructions_ = same->has_constructions();
+  node->same_solid_ = std::move(same);
+  return node;
+}
+
 NodePtr Node::outer_hull(const OuterHull& options, NodePtr child, SourceRef where) {
   auto node = made(NodeKind::kOuterHull, {std::move(child)}, std::move(where));
   node->outer_hull_ = options;
@@ -93,15 +101,17 @@ Node::~Node() {
   // Children that only this node holds are taken apart here, one after another, so that the stack
   // does not grow with the depth of the tree.
   std::vector<NodePtr> doomed = std::move(children_);
+  if (same_solid_) doomed.push_back(std::move(same_solid_));
   while (!doomed.empty()) {
     NodePtr node = std::move(doomed.back());
     doomed.pop_back();
     if (!node || node.use_count() != 1) continue;
     // use_count() is a relaxed load; the fence orders it after the other owners' last reads.
     std::atomic_thread_fence(std::memory_order_acquire);
-    auto& grandchildren = const_cast<Node&>(*node).children_;
-    for (NodePtr& child : grandchildren) doomed.push_back(std::move(child));
-    grandchildren.clear();
+    auto& last = const_cast<Node&>(*node);
+    for (NodePtr& child : last.children_) doomed.push_back(std::move(child));
+    last.children_.clear();
+    if (last.same_solid_) doomed.push_back(std::move(last.same_solid_));
   }
 }
 

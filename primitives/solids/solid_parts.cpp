@@ -10,12 +10,14 @@
 #include <glm/geometric.hpp>
 
 #include <csgrun/engine/exact_triangles.h>
+#include <csgrun/engine/tree_in_boxes.h>
 #include <csgrun/primitives/freeform.h>
 #include <csgrun/primitives/solid_parts.h>
 #include <csgrun/primitives/solids.h>
 
 #include "primitives/base/text.h"
 #include "primitives/solids/box_leaf.h"
+#include "primitives/solids/box_search.h"
 
 namespace csgrun {
 namespace {
@@ -62,28 +64,19 @@ std::vector<std::array<uint32_t, 3>> triangles_of(const Solid& solid, const Surf
   return result;
 }
 
-bool holds(const Surface& outer, const Surface& inner) {
-  for (int i = 0; i < 3; ++i) {
-    if (inner.low[i] < outer.low[i] || inner.high[i] > outer.high[i]) return false;
-  }
-  return true;
+BoxSearch search_of(const std::vector<Surface>& surfaces) {
+  std::vector<std::array<glm::dvec3, 2>> boxes;
+  for (const Surface& surface : surfaces) boxes.push_back({surface.low, surface.high});
+  return BoxSearch(std::move(boxes));
 }
 
 /// Whether a void lies in what a surface encloses: then nothing is wrapped around a point in it.
 bool is_void_of(const Solid& solid, const Surface& hole, const Surface& outer) {
-  if (!holds(outer, hole)) return false;
   auto triangles = triangles_of(solid, hole);
   const auto others = triangles_of(solid, outer);
   triangles.insert(triangles.end(), others.begin(), others.end());
   const uint32_t first = 0;
   return windings_in_front({solid.positions, triangles}, {&first, 1})[0] == 0;
-}
-
-/// Half of the widest gap between two boxes along an axis; not positive when they meet.
-double half_gap(const Surface& a, const Surface& b) {
-  double gap = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) gap = std::max({gap, b.low[i] - a.high[i], a.low[i] - b.high[i]});
-  return gap / 2;
 }
 
 }  // namespace
@@ -126,13 +119,17 @@ Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr
     return std::tie(a.low.x, a.low.y, a.low.z, a.triangles[0]) <
            std::tie(b.low.x, b.low.y, b.low.z, b.triangles[0]);
   });
+  if (outer.size() == 1) return std::vector<NodePtr>{solid};
+  const BoxSearch search = search_of(outer);
   std::vector<std::vector<uint32_t>> triangles;
   for (const Surface& surface : outer) triangles.push_back(surface.triangles);
   for (const Surface& hole : holes) {
+    // It is in one of those whose boxes hold it.
+    const std::vector<uint32_t> around = search.holding({hole.low, hole.high});
     size_t innermost = outer.size();
-    for (size_t i = 0; i < outer.size(); ++i) {
+    for (const uint32_t i : around) {
       if (innermost < outer.size() && outer[innermost].volume <= outer[i].volume) continue;
-      if (is_void_of(whole, hole, outer[i])) innermost = i;
+      if (around.size() == 1 || is_void_of(whole, hole, outer[i])) innermost = i;
     }
     if (innermost == outer.size()) {
       return Error{ErrorCode::kInternal, "a void lies in no component", where};
@@ -140,19 +137,25 @@ Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr
     triangles[innermost].insert(triangles[innermost].end(), hole.triangles.begin(),
                                 hole.triangles.end());
   }
-  if (outer.size() == 1) return std::vector<NodePtr>{solid};
+  TreeInBoxes leaves(solid);
   std::vector<NodePtr> result;
-  for (size_t i = 0; i < outer.size(); ++i) {
-    double margin = std::numeric_limits<double>::infinity();
-    for (size_t k = 0; k < outer.size(); ++k) {
-      if (k != i) margin = std::min(margin, half_gap(outer[i], outer[k]));
-    }
+  for (uint32_t i = 0; i < outer.size(); ++i) {
+    const double margin = search.least_gap(i) / 2;
     // Several steps of any grid on which the solid stands.
     const double reach = glm::length(glm::max(glm::abs(outer[i].low), glm::abs(outer[i].high)));
-    if (margin > 1e-6 * reach) {
-      const NodePtr box =
-          box_leaf(outer[i].low - glm::dvec3(margin), outer[i].high + glm::dvec3(margin), where);
-      result.push_back(Node::boolean(BooleanOp::kIntersection, {solid, box}, where));
+    const double noise = 1e-6 * reach;
+    if (margin > noise) {
+      const glm::dvec3 low = outer[i].low - glm::dvec3(margin);
+      const glm::dvec3 high = outer[i].high + glm::dvec3(margin);
+      const NodePtr box = box_leaf(low, high, where);
+      // The box holds all of some leaves, and the whole need not be looked at for each piece.
+      const glm::dvec3 slack(noise + 4 * evaluator.stats().grid_mm);
+      const NodePtr near = leaves.within(low - slack, high + slack);
+      result.push_back(near
+                           ? Node::intersection_as(
+                                 {solid, box},
+                                 Node::boolean(BooleanOp::kIntersection, {near, box}, where), where)
+                           : Node::boolean(BooleanOp::kIntersection, {solid, box}, where));
     } else {
       result.push_back(Node::leaf(
           std::make_shared<const PolygonMesh>(mesh_of_solid(whole, triangles[i], "component")),

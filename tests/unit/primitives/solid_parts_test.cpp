@@ -1,8 +1,12 @@
 // Solids cut by planes of any direction: volumes that are known, and parts that fit one another.
+// Solids taken apart: each component by itself, in order.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
 #include <memory>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -10,6 +14,9 @@
 #include <csgrun/engine/evaluate.h>
 #include <csgrun/primitives/solid_parts.h>
 #include <csgrun/primitives/solids.h>
+
+#include "primitives/solids/box_search.h"
+#include "tests/support/seeded.h"
 
 namespace csgrun {
 namespace {
@@ -107,6 +114,134 @@ TEST(HalfSpace, BesideTheSolid) {
     EXPECT_TRUE(split(cube(10), normal, {0, 0, 25})[0]->empty());
     EXPECT_EQ(split(cube(10), normal, {0, 0, -5})[0]->measures.volume, 1000);
     EXPECT_TRUE(split(cube(10), normal, {0, 0, -5})[1]->empty());
+  }
+}
+
+NodePtr moved(double x, double y, double z, const NodePtr& solid) {
+  Affine map;
+  map.m[0][3] = x;
+  map.m[1][3] = y;
+  map.m[2][3] = z;
+  return Node::transformed(map, solid);
+}
+
+NodePtr less(const NodePtr& a, const NodePtr& b) {
+  return Node::boolean(BooleanOp::kDifference, {a, b});
+}
+
+/// Components in order, hollow ones and plain ones, some within others, of sizes that tell them
+/// apart, cut by one long bar: far more than are evaluated as parts of the whole.
+TEST(Decompose, ManyComponentsAreTreesOfTheirOwn) {
+  constexpr int kCount = 60;
+  std::vector<NodePtr> bodies;
+  for (int i = 0; i < kCount; ++i) {
+    NodePtr body = cube(4 + i / 64.0);
+    if (i % 3 != 0) body = less(body, moved(1, 1, 2, cube(2)));
+    if (i % 3 == 2) body = Node::boolean(BooleanOp::kUnion, {body, moved(1.5, 1.5, 2.5, cube(1))});
+    bodies.insert(bodies.begin() + i / 2, moved(10 * i, i % 7, i % 5, body));
+  }
+  const NodePtr bar = moved(-1, -1, -1, cube(1));
+  const NodePtr whole = less(Node::boolean(BooleanOp::kUnion, bodies),
+                             Node::boolean(BooleanOp::kUnion, {bar, moved(0, 0, -3, cube(2))}));
+  Evaluator evaluator{EvaluateOptions()};
+  const auto pieces = decompose_solid(evaluator, whole, {});
+  ASSERT_TRUE(pieces);
+  size_t next = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const double side = 4 + i / 64.0;
+    ASSERT_LT(next, pieces->size());
+    const NodePtr& piece = (*pieces)[next++];
+    // The body that is within the void of another one is a component whose box meets the other's.
+    const bool has_inner = i % 3 == 2;
+    if (!has_inner) {
+      ASSERT_TRUE(piece->same_solid()) << i;
+      EXPECT_EQ(piece->children()[0], whole);
+    }
+    const auto solid = evaluator.evaluate(moved(0.1, 0.2, 0.3, piece));
+    ASSERT_TRUE(solid);
+    EXPECT_NEAR((*solid)->measures.volume, side * side * side - (i % 3 != 0 ? 8 : 0), 1e-3) << i;
+    EXPECT_NEAR((*solid)->measures.bbox[0].x, 10 * i + 0.1, 1e-5);
+    EXPECT_NEAR((*solid)->measures.bbox[1].x, 10 * i + side + 0.1, 1e-5);
+    if (!has_inner) continue;
+    ASSERT_LT(next, pieces->size());
+    const auto inner = evaluator.evaluate((*pieces)[next++]);
+    ASSERT_TRUE(inner);
+    EXPECT_NEAR((*inner)->measures.volume, 1, 1e-6);
+  }
+  EXPECT_EQ(next, pieces->size());
+}
+
+/// Bodies of one mesh, a few steps apart on a coarse grid, and on one that joins some.
+TEST(Decompose, BodiesOfOneMeshOnCoarseGrids) {
+  constexpr int kCount = 40;
+  auto mesh = std::make_shared<PolygonMesh>();
+  for (int i = 0; i < kCount; ++i) {
+    const double low = 1.03 * i;
+    const auto first = static_cast<uint32_t>(mesh->points.size());
+    for (int k = 0; k < 8; ++k) {
+      mesh->points.emplace_back(k & 1 ? low + 1 : low, k & 2 ? 1 : 0, k & 4 ? 1 : 0);
+    }
+    for (const std::array<uint32_t, 4>& face : std::initializer_list<std::array<uint32_t, 4>>{
+             {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+      mesh->add_face(std::array{face[0] + first, face[1] + first, face[2] + first,  //
+                                face[3] + first});
+    }
+  }
+  const NodePtr whole = Node::leaf(mesh);
+  for (const char* step : {"2^-20mm", "0.01mm", "0.02mm", "0.05mm"}) {
+    EvaluateOptions options;
+    options.grid = *GridStep::parse(step);
+    Evaluator evaluator{options};
+    const auto all = evaluator.evaluate(whole);
+    const auto pieces = decompose_solid(evaluator, whole, {});
+    ASSERT_TRUE(all && pieces) << step;
+    EXPECT_EQ(static_cast<int64_t>(pieces->size()), (*all)->measures.components) << step;
+    double volume = 0;
+    for (const NodePtr& piece : *pieces) {
+      const auto solid = evaluator.evaluate(piece);
+      ASSERT_TRUE(solid);
+      EXPECT_EQ((*solid)->measures.components, 1) << step;
+      volume += (*solid)->measures.volume;
+    }
+    EXPECT_NEAR(volume, (*all)->measures.volume, 1e-9) << step;
+  }
+}
+
+TEST(BoxSearch, AgreesWithALookAtAllOfThem) {
+  test::Random random(7);
+  for (const int count : {1, 2, 3, 17, 200}) {
+    for (const int64_t room : {6, 30, 200}) {
+      std::vector<BoxSearch::Box> boxes;
+      for (int i = 0; i < count; ++i) {
+        glm::dvec3 low, size;
+        for (int k = 0; k < 3; ++k) {
+          low[k] = static_cast<double>(random.integer(0, room)) / 3;
+          size[k] = static_cast<double>(random.integer(1, 9)) / 3;
+        }
+        boxes.push_back({low, low + size});
+      }
+      const BoxSearch search(boxes);
+      for (uint32_t i = 0; i < boxes.size(); ++i) {
+        double least = std::numeric_limits<double>::infinity();
+        std::vector<uint32_t> around;
+        for (uint32_t k = 0; k < boxes.size(); ++k) {
+          if (k != i) least = std::min(least, BoxSearch::gap(boxes[i], boxes[k]));
+          bool holds = true;
+          for (int axis = 0; axis < 3; ++axis) {
+            holds &=
+                boxes[k][0][axis] <= boxes[i][0][axis] && boxes[k][1][axis] >= boxes[i][1][axis];
+          }
+          if (holds) around.push_back(k);
+        }
+        const double found = search.least_gap(i);
+        if (least > 0) {
+          EXPECT_EQ(found, least);
+        } else {
+          EXPECT_LE(found, 0);
+        }
+        EXPECT_EQ(search.holding(boxes[i]), around);
+      }
+    }
   }
 }
 

@@ -67,6 +67,8 @@ class Node {
   [[nodiscard]] NodeKind kind() const { return kind_; }
   [[nodiscard]] BooleanOp op() const { return op_; }
   [[nodiscard]] const std::vector<NodePtr>& children() const { return children_; }
+  /// Of an intersection_as: the tree that is evaluated in its place; else null.
+  [[nodiscard]] const NodePtr& same_solid() const { return same_solid_; }
   [[nodiscard]] const Affine& transform() const { return *transform_; }
   [[nodiscard]] const Appearance& appearance() const { return *appearance_; }
   /// Of a kOuterHull.
@@ -75,7 +77,7 @@ class Node {
   [[nodiscard]] Construction construction() const { return construction_; }
   /// Of a Construction::kResize.
   [[nodiscard]] const Resize& resize() const { return *resize_; }
-  /// Whether it or a node below it is a construction.
+  /// Whether it or a node below it that is evaluated is a construction.
   [[nodiscard]] bool has_constructions() const { return has_constructions_; }
   [[nodiscard]] const std::shared_ptr<const PolygonMesh>& mesh() const { return mesh_; }
   [[nodiscard]] const SourceRef& where() const { return where_; }
@@ -90,6 +92,9 @@ class Node {
   /// Union, intersection or symmetric difference of any number of operands; the difference is the
   /// first less all others. No operand: empty.
   static NodePtr boolean(BooleanOp op, std::vector<NodePtr> operands, SourceRef where = {});
+  /// An intersection whose faces and labels another tree has as well, one that is smaller: that is
+  /// evaluated in its place. Who asks a tree for its colours sees the operands.
+  static NodePtr intersection_as(std::vector<NodePtr> operands, NodePtr same, SourceRef where = {});
   /// The outer hull of a surface: of the mesh itself, as it crosses itself, when the child is a
   /// leaf under transforms and appearances; else of the boundary of the child's solid.
   static NodePtr outer_hull(const OuterHull& options, NodePtr child, SourceRef where = {});
@@ -117,6 +122,7 @@ class Node {
   bool has_constructions_ = false;
   OuterHull outer_hull_;
   std::vector<NodePtr> children_;
+  NodePtr same_solid_;
   std::unique_ptr<Affine> transform_;
   std::unique_ptr<Appearance> appearance_;
   std::unique_ptr<Resize> resize_;
