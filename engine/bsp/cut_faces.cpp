@@ -106,10 +106,10 @@ class Worker {
   }
 
   /// See FaceArrangement.
-  uint64_t count_coplanar_pairs(const CutPart::Polygon& polygon, const CutPart& part) {
+  uint64_t count_coplanar_crossings(const CutPart::Polygon& polygon, const CutPart& part) {
     geometry_.clear();
     points_.clear();
-    return arrangement_.count_coplanar_pairs(polygon.number, coplanar(polygon, part));
+    return arrangement_.count_coplanar_crossings(polygon.number, coplanar(polygon, part));
   }
 
   [[nodiscard]] const SignCounters& counters() const { return geometry_.counters; }
@@ -257,7 +257,7 @@ class FaceCutter {
   /// with: what crowds a polygon grows with the cube of their number.
   bool will_be_crowded() {
     constexpr size_t kFew = 4;
-    constexpr double kSure = 2.5;  // the estimate is 1.5 to 4.5 times what will be counted
+    constexpr double kSure = 2;  // the estimate is 0.5 to 2.3 times what will be counted
     const CutPart::Polygon* most = nullptr;
     const CutPart* its_part = nullptr;
     for_each_polygon([&](const CutPart::Polygon& p, const CutPart& part) {
@@ -281,8 +281,8 @@ class FaceCutter {
     polygons.push_back(most->number);
     job_.ensure_planes(polygons);
     Worker worker(job_, contacts_, ends_, is_open_, geometry_, index_);
-    const uint64_t pairs = worker.count_coplanar_pairs(*most, *its_part);
-    return alike * static_cast<double>(pairs) * static_cast<double>(operands.size()) >
+    const uint64_t crossings = worker.count_coplanar_crossings(*most, *its_part);
+    return alike * static_cast<double>(crossings) * static_cast<double>(operands.size()) >
            kSure * static_cast<double>(most_crowding());
   }
 

@@ -52,9 +52,9 @@ class FaceArrangement {
   /// Of all polygons so far, the regions times the operands with coplanar sheets among which they
   /// were found: where many overlap, that is most of the work.
   [[nodiscard]] uint64_t crowding() const { return crowding_; }
-  /// How often boxes of edges of different operands meet, of polygons in the polygon's plane: about
-  /// as often as they make regions. Planes as for build().
-  uint64_t count_coplanar_pairs(uint32_t polygon, std::span<const uint32_t> coplanar);
+  /// How often edges of different operands meet, of polygons in the polygon's plane: about as often
+  /// as they make regions. Planes as for build().
+  uint64_t count_coplanar_crossings(uint32_t polygon, std::span<const uint32_t> coplanar);
 
  private:
   /// Of polygons with more edges it takes long to see that a line enters, which most do.

@@ -359,6 +359,26 @@ TEST(OperandGroups, FansInOnePlaneAreEvaluatedInGroups) {
   }
 }
 
+// Bars side by side, aslant, on the bottom of a plate: the boxes of each one's edges meet those of
+// many others, but no two edges meet, so that the plate has no more regions than there are bars.
+TEST(OperandGroups, BarsThatAreParallelAreNot) {
+  std::vector<Operand> operands;
+  for (uint32_t o = 0; o < 120; ++o) {
+    const int64_t x = 600 * int64_t{o};
+    const std::vector<IVec3> rim{
+        {x, -x, 0}, {x + 60, -x, 0}, {x + 20'060, -x + 20'000, 0}, {x + 20'000, -x + 20'000, 0}};
+    std::vector<IVec3> points = rim;
+    for (IVec3 p : rim) points.push_back({p[0], p[1], 300});
+    operands.push_back(convex_operand(test::hull_loops(points)));
+    operands.back().first_source = o;
+  }
+  operands.push_back(convex_operand(test::box_loops({-100, -71'500, 0}, {91'600, 20'100, 90})));
+  operands.back().first_source = 120;
+  const Expression expression = test::flat_expression(BooleanOp::kUnion, 121);
+  const auto [grouped, whole] = signs_of_both(operands, expression, 120 * 6 + 5);
+  EXPECT_EQ(grouped, whole) << "it was done in groups";
+}
+
 TEST(OperandGroups, FewOperandsAreNot) {
   EXPECT_FALSE(can_be_grouped(Expression()));
   EXPECT_FALSE(can_be_grouped(test::flat_expression(BooleanOp::kUnion, 2)));
