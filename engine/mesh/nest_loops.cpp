@@ -112,34 +112,39 @@ std::vector<std::vector<Loop>> nest_loops(PlaneId support, const RegionLoops& lo
     }
   }
   if (holes.empty()) return faces;
-  const auto lowest = [&](const Loop& loop) {
-    return std::min_element(
-               loop.begin(), loop.end(),
-               [&](const auto& a, const auto& b) { return nester.before(a.from, b.from); })
-        ->from;
+  struct Outer {
+    uint32_t lowest;  ///< corner
+    Nester::Box box;
+    size_t face;
   };
-  std::vector<Nester::Box> boxes;
-  for (const auto& face : faces) boxes.push_back(nester.box(face[0]));
-  std::vector<size_t> around;  // faces whose outer loops go around a hole
+  std::vector<Outer> outers;
+  for (size_t f = 0; f < faces.size(); ++f) {
+    const Loop& loop = faces[f][0];
+    const auto lowest = std::min_element(
+        loop.begin(), loop.end(),
+        [&](const auto& a, const auto& b) { return nester.before(a.from, b.from); });
+    outers.push_back({lowest->from, nester.box(loop), f});
+  }
+  // Of several outer loops around a hole the innermost has the highest lowest corner: it comes
+  // first.
+  std::stable_sort(outers.begin(), outers.end(), [&](const Outer& a, const Outer& b) {
+    return nester.before(b.lowest, a.lowest);
+  });
+  std::vector<size_t> around;  // faces whose outer loops may go around a hole
   for (Loop& hole : holes) {
     const Nester::Box box = nester.box(hole);
     around.clear();
-    for (size_t f = 0; f < faces.size(); ++f) {
-      if (boxes[f].holds(box)) around.push_back(f);
+    for (const Outer& outer : outers) {
+      if (outer.box.holds(box)) around.push_back(outer.face);
     }
     // Each hole is in some face: if only one has it in its box, there is nothing to ask.
-    if (around.size() > 1) {
-      std::erase_if(around, [&](size_t f) { return !nester.contains(faces[f][0], hole); });
-    }
-    // Of several outer loops around a hole the innermost has the highest lowest corner.
-    size_t best = faces.size();
-    for (const size_t f : around) {
-      if (best == faces.size() || nester.before(lowest(faces[best][0]), lowest(faces[f][0]))) {
-        best = f;
-      }
-    }
-    assert(best < faces.size());
-    faces[best].push_back(std::move(hole));
+    const auto innermost = around.size() == 1
+                               ? around.begin()
+                               : std::find_if(around.begin(), around.end(), [&](size_t f) {
+                                   return nester.contains(faces[f][0], hole);
+                                 });
+    assert(innermost != around.end());
+    faces[*innermost].push_back(std::move(hole));
   }
   return faces;
 }

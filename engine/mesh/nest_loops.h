@@ -8,7 +8,7 @@
 namespace csgrun {
 
 /// Parts the loops of a region into connected faces: an outer loop first, then its holes. Exact.
-/// O(outer loops x holes) box tests, and a ray for each that passes.
+/// O(outer loops x holes) box tests, and rays for those that pass, from the innermost on.
 std::vector<std::vector<std::vector<DirectedEdge>>> nest_loops(PlaneId support,
                                                                const RegionLoops& loops,
                                                                PointView& points,
