@@ -31,6 +31,7 @@ struct CutLoops {
     uint32_t vertex;        ///< a vertex of the polygon that it passes, or kNone
     bool is_loose = false;  ///< see FragmentSet::Piece
     bool is_rim = false;    ///< the polygon's own outline, perhaps with points on its edges
+    bool is_bare = false;   ///< nothing of another operand is known to be along any of its edges
   };
   /// Whether what is in front of the region at the loop, and behind it, is inside an operand that
   /// bounds the region there. They differ where the operand has surface on the region.

@@ -474,6 +474,7 @@ bool FaceArrangement::trace(CutLoops& out) {
   for (uint32_t start = 0; start < loop_of_.size(); ++start) {
     if (loop_of_[start] != kNone || is_outer(start)) continue;
     CutLoops::Loop loop{static_cast<uint32_t>(out.corner_point.size()), 0, 0, 0, kNone, true};
+    loop.is_bare = true;
     uint32_t h = start;
     do {
       if (loop_of_[h] != kNone || is_outer(h)) return false;
@@ -484,6 +485,7 @@ bool FaceArrangement::trace(CutLoops& out) {
       const uint32_t v = geometry_.point(point).vertex;
       if (v != kNone && !touched_[v]) loop.vertex = v;
       if (!add_facts(h, number, h == start)) return false;
+      loop.is_bare = loop.is_bare && at_arc_.empty();
       // The next half-edge is the one before this one's reverse, counter-clockwise.
       uint32_t at = place_[h ^ 1];
       if (at > 0 && around_[at - 1].first == around_[at].first) {

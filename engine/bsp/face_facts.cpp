@@ -5,6 +5,7 @@
 
 #include "engine/base/sort_few.h"
 #include "engine/bsp/face_arrangement.h"
+#include "engine/bsp/rounded_box.h"
 
 namespace csgrun {
 
@@ -107,7 +108,10 @@ void FaceArrangement::mark_sheet_edges(uint32_t operand) {
 }
 
 uint32_t FaceArrangement::sheet_at(std::span<const uint32_t> sheets, uint32_t point) {
+  std::array<double, 3> at = geometry_.point(point).rounded;
+  for (double& x : at) x = clamp_to_box(x);
   for (const uint32_t q : sheets) {
+    if (!may_hold(job_.boxes()[q], at, 0)) continue;
     const JobPolygon& sheet = job_.polygons()[q];
     const auto planes = job_.edge_planes(sheet);
     const auto inner = inner_signs(sheet);

@@ -170,6 +170,7 @@ bool FaceArrangement::trace_rim(CutLoops& out) {
   parts_.clear();
   arcs_.clear();
   CutLoops::Loop loop{static_cast<uint32_t>(out.corner_point.size()), 0, 0, 0, kNone, true};
+  loop.is_bare = true;
   auto next = rim_parts_.begin();
   for (uint32_t e = 0; e < polygon_->count; ++e) {
     for (uint32_t i = rim_start_[e]; i + 1 < rim_start_[e + 1]; ++i) {
@@ -188,6 +189,7 @@ bool FaceArrangement::trace_rim(CutLoops& out) {
       const uint32_t v = geometry_.point(rim_[i]).vertex;
       if (v != kNone && !touched_[v]) loop.vertex = v;
       if (!add_facts(2 * arc + (falls ? 1 : 0), 0, arc == 0)) return false;
+      loop.is_bare = loop.is_bare && at_arc_.empty();
     }
   }
   loop.corner_count = static_cast<uint32_t>(out.corner_point.size()) - loop.first_corner;

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <tuple>
 
 #include "engine/base/counting_order.h"
 #include "engine/base/parallel.h"
@@ -36,9 +37,11 @@ bool PatchFates::find() {
   join_patches();
   if (!gather_facts()) return false;
   drop_covered();
+  join_bare_loops();
   ask_about_loops();
   ask_about_whole();
   answer();
+  answer_for_bare_loops();
   for (uint32_t l = 0; l < cut_.loops.loops.size(); ++l) {
     const uint32_t vertex = cut_.loops.loops[l].vertex;
     if (vertex != kNone) {
@@ -166,6 +169,43 @@ void PatchFates::drop_covered() {
   });
 }
 
+/// Joins loops that pass no vertex of their own across edges along which no other operand has
+/// anything: two triangles of one face of an operand that lies on a larger face, say. All that is
+/// in front of one of them, or behind it, is so of the other.
+void PatchFates::join_bare_loops() {
+  struct Edge {
+    uint64_t ends;
+    uint32_t operand, plane, loop;
+    bool flipped;
+    [[nodiscard]] auto place() const { return std::tuple(ends, operand, plane, flipped); }
+  };
+  std::vector<Edge> edges;
+  for (const CutFaces::Face& cut : cut_.faces) {
+    const JobPolygon& polygon = job_.polygons()[cut.polygon];
+    for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+      const CutLoops::Loop& loop = cut_.loops.loops[l];
+      if (!loop.is_bare || loop.vertex != kNone) continue;
+      const std::span points(cut_.loops.corner_point.data() + loop.first_corner, loop.corner_count);
+      for (size_t c = 0; c < points.size(); ++c) {
+        edges.push_back({ends_together(points[c], points[c + 1 < points.size() ? c + 1 : 0]),
+                         polygon.operand, polygon.support.index(), l, polygon.support.flipped()});
+      }
+    }
+  }
+  if (edges.empty()) return;
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return a.place() != b.place() ? a.place() < b.place() : a.loop < b.loop;
+  });
+  const auto loops = static_cast<uint32_t>(cut_.loops.loops.size());
+  bare_loops_.reset(loops);
+  for (size_t i = 1; i < edges.size(); ++i) {
+    if (edges[i - 1].place() == edges[i].place()) {
+      bare_loops_.join(edges[i - 1].loop, edges[i].loop);
+    }
+  }
+  bare_loops_.flatten(0, loops);
+}
+
 void PatchFates::ask_about_loops() {
   fate_of_loop_.assign(cut_.loops.loops.size(), PatchFate::kDrop);
   for (const CutFaces::Face& cut : cut_.faces) {
@@ -173,7 +213,7 @@ void PatchFates::ask_about_loops() {
     for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
       const uint32_t vertex = cut_.loops.loops[l].vertex;
       if (vertex == kNone) {
-        questions_.push_back({own, kNone, l});
+        if (stands_alone(l)) questions_.push_back({own, kNone, l});
       } else {
         ask(patches_.root(vertex), own);
       }
@@ -239,6 +279,20 @@ void PatchFates::answer() {
         const size_t end = std::min(questions_.size(), (run + 1) * kEach);
         for (size_t i = run * kEach; i < end; ++i) answer(questions_[i], labels);
       });
+}
+
+/// What is told of one of them is true of all; if nothing is, each is asked for itself.
+void PatchFates::answer_for_bare_loops() {
+  questions_.clear();
+  for (const CutFaces::Face& cut : cut_.faces) {
+    for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
+      if (stands_alone(l)) continue;
+      fate_of_loop_[l] = fate_of_loop_[bare_loops_.root(l)];
+      if (fate_of_loop_[l] != PatchFate::kUnknown) continue;
+      questions_.push_back({job_.polygons()[cut.polygon].operand, kNone, l});
+    }
+  }
+  if (!questions_.empty()) answer();
 }
 
 void PatchFates::answer(const Question& q, PatchLabels& labels) {

@@ -67,6 +67,10 @@ class PatchFates {
   /// `by_operand`: working memory.
   void add_rim_facts(uint32_t polygon, ByOperand& by_operand, PatchFacts& facts) const;
   void drop_covered();
+  void join_bare_loops();
+  [[nodiscard]] bool stands_alone(uint32_t loop) const {
+    return bare_loops_.size() == 0 || bare_loops_.root(loop) == loop;
+  }
   void ask_about_loops();
   void ask_about_whole();
   void ask_about_far_faces();
@@ -76,6 +80,7 @@ class PatchFates {
   }
   void ask(uint32_t patch, uint32_t own);
   void answer();
+  void answer_for_bare_loops();
   void answer(const Question& q, PatchLabels& labels);
   PatchFate fate_of_loop(const CutLoops::Loop& loop, uint32_t own, PatchLabels& labels) const;
   PatchFate fate_at_edge(const CutLoops::Loop& loop, uint32_t edge, uint32_t own,
@@ -92,6 +97,8 @@ class PatchFates {
   const std::vector<uint8_t>& is_cut_;
   PatchLabels labels_;
   UnionFind patches_;  ///< of vertices
+  UnionFind
+      bare_loops_;  ///< loops, of which one tells what becomes of all; empty: each stands alone
   PatchFacts facts_;
   RawVector<uint32_t> vertex_of_polygon_;  ///< an untouched one; kNone: it was cut
   std::vector<uint8_t> patch_fates_;       ///< per vertex that stands for a patch: a PatchFate

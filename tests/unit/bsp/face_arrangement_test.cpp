@@ -40,6 +40,7 @@ Query area_vector(const std::vector<Query>& points) {
 struct Count {
   size_t cut = 0, by_names = 0, left = 0, facts = 0, coplanar = 0;
   std::vector<Query> corners;  ///< of all loops
+  size_t bare = 0;             ///< edges of loops that are, each with another operand
 };
 
 class Cuts {
@@ -162,6 +163,18 @@ class Cuts {
           const auto front = oracles_[o].winding(before), back = oracles_[o].winding(behind);
           ASSERT_TRUE(!front || !back || *front == *back) << "polygon " << polygon;
         }
+        if (!loop.is_bare) continue;
+        // Beyond an edge of a bare loop all is as it is within.
+        const Query beyond = along(between, minus(between, within), 1);
+        for (uint32_t o = 0; o < oracles_.size(); ++o) {
+          if (o == own) continue;
+          for (const double side : {0x1p-44, -0x1p-44}) {
+            const auto here = oracles_[o].winding(along(within, normal, side)),
+                       there = oracles_[o].winding(along(beyond, normal, side));
+            ASSERT_TRUE(!here || !there || *here == *there) << "polygon " << polygon;
+          }
+          ++count.bare;
+        }
       }
     }
     ASSERT_NEAR(filled, dot(area, normal), 1e-9 * dot(area, normal));
@@ -251,6 +264,7 @@ TEST(FaceArrangement, OfConvexBodies) {
   }
   expect_same(count, {749, 243, 0, 20261, 74, {}});
   expect_same(mirror_count, count);
+  EXPECT_GT(count.bare, 30u);
 }
 
 // Of any bodies on a small grid, which may touch themselves as far as anybody knows, or do not.
@@ -276,6 +290,7 @@ TEST(FaceArrangement, OfAnyBodies) {
   }
   expect_same(count, {1103, 70, 77, 14826, 307, {}});
   expect_same(mirror_count, count);
+  EXPECT_GT(count.bare, 30u);
 }
 
 Operand box(const IVec3& lo, const IVec3& hi) { return known(test::box_loops(lo, hi), true); }
