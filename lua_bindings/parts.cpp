@@ -27,7 +27,9 @@ void add_table(lua_State* L, int table, const std::string& group, int depth) {
   while (lua_next(L, table) != 0) {
     lua_pop(L, 1);
     if (lua_type(L, -1) == LUA_TSTRING) {
-      names.emplace_back(lua_tostring(L, -1));
+      size_t length_of_name = 0;
+      const char* const name = lua_tolstring(L, -1, &length_of_name);
+      names.emplace_back(name, length_of_name);
     } else if (lua_isinteger(L, -1) != 0 && lua_tointeger(L, -1) >= 1 &&
                lua_tointeger(L, -1) <= length) {
       ++entries;

@@ -12,6 +12,15 @@ namespace {
 
 constexpr size_t kLongestPartName = 200;
 
+bool is_control(char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }
+
+/// As Lua's literals have them: a message is one line, and ends where it says.
+std::string with_visible_controls(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += is_control(c) ? "\\" + std::to_string(c) : std::string(1, c);
+  return text;
+}
+
 /// Names become file names ('dir/%s.stl') and node names: nothing in them may leave the folder.
 void check_part_name(const std::string& name) {
   if (name.size() > kLongestPartName) throw ScriptError("a part's name is longer than 200 bytes");
@@ -19,13 +28,12 @@ void check_part_name(const std::string& name) {
   while (true) {
     const size_t end = std::min(name.find('/', start), name.size());
     const std::string piece = name.substr(start, end - start);
-    const bool bad = piece.empty() || piece == "." || piece == ".." ||
-                     std::any_of(piece.begin(), piece.end(), [](char c) {
-                       return static_cast<unsigned char>(c) < 32 || c == 127 || c == '\\';
-                     });
+    const bool bad =
+        piece.empty() || piece == "." || piece == ".." ||
+        std::any_of(piece.begin(), piece.end(), [](char c) { return is_control(c) || c == '\\'; });
     if (bad) {
       throw ScriptError(
-          "'" + name +
+          "'" + with_visible_controls(name) +
           "' cannot be a part's name: it must not be empty, '.' or '..', nor have such a step "
           "between slashes, nor backslashes or control characters in it");
     }

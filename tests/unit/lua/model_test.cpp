@@ -67,6 +67,9 @@ TEST(Parts, Mistakes) {
   }
   EXPECT_NE(message_of("return {['../x'] = cube(1)}").find("cannot be a part's name"),
             std::string::npos);
+  for (const char* script : {"return {['a\\0b\\n'] = cube(1)}", "return cube(1):name('a\\0b\\n')"})
+    EXPECT_EQ(message_of(script).find("model.lua:1: 'a\\0b\\10' cannot be a part's name"), 0)
+        << script;
   EXPECT_NE(message_of("return {['a\\1b'] = cube(1)}").find("cannot be a part's name"),
             std::string::npos);
   EXPECT_EQ(message_of("return {['a//b'] = cube(1)}"),
