@@ -332,6 +332,17 @@ SolidValue& solid_argument(lua_State* L, const FunctionSpec& spec) {
                       describe_value(L, 1), spec.name));
 }
 
+SolidValue& final_solid_argument(lua_State* L, const FunctionSpec& spec) {
+  SolidValue& solid = solid_argument(L, spec);
+  NodePtr marked = session_of(L).only_part_of(solid.node, solid.node->where());
+  if (!marked) return solid;
+  push_solid(L, std::move(marked));
+  keep_marks(L, 1);
+  marks_of(L, -1)->only = true;
+  lua_replace(L, 1);
+  return *to_solid(L, 1);
+}
+
 void part_argument(lua_State* L, const FunctionSpec& spec) {
   bring_subject_to_front(L);
   if (to_solid(L, 1) != nullptr || to_shape(L, 1) != nullptr) return;

@@ -80,6 +80,9 @@ V value_or_fail(const FunctionSpec& spec, Result<V> result) {
 /// The shape at stack index 1, or an error that says what is wanted.
 ShapeValue& shape_argument(lua_State* L, const FunctionSpec& spec);
 SolidValue& solid_argument(lua_State* L, const FunctionSpec& spec);
+/// The same for what is made of the solid as it is now. One that has parts marked by only() in it
+/// gives way to these, as it does in the result: they cannot be found in what is made of it.
+SolidValue& final_solid_argument(lua_State* L, const FunctionSpec& spec);
 /// Sees to it that a solid or a shape is at stack index 1.
 void part_argument(lua_State* L, const FunctionSpec& spec);
 /// What option "fill" says (nonzero when it was not given), or an error that lists the rules.
@@ -94,6 +97,9 @@ constexpr char kFillDoc[] =
     "          \"evenodd\" (an odd number: overlaps cancel)";
 /// Pushes a mesh as a solid, with the shape's colour if it has one.
 void push_leaf(lua_State* L, PolygonMesh mesh, const std::optional<Appearance>& appearance = {});
+/// Pushes the shape at `index` under a map, with its colour and marks. Warns of what leaves its
+/// plane.
+void push_moved_shape(lua_State* L, int index, const Affine& map, const std::string& function);
 /// Sets the operators of solids, shapes and matrices.
 void open_operators(lua_State* L);
 /// Registers what vec() gives.

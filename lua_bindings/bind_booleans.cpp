@@ -110,6 +110,7 @@ int outer_hull(lua_State* L) {
   options.orientation_sensitive = arguments.boolean("orientation_sensitive", false);
   options.keep_voids = arguments.boolean("keep_voids", false);
   push_solid(L, Node::outer_hull(options, node, session_of(L).source_ref(L)));
+  keep_marks(L, 1);
   return 1;
 }
 
@@ -146,10 +147,9 @@ int times(lua_State* L) {
   }
   if (const SolidValue* solid = to_solid(L, 2)) {
     push_solid(L, Node::transformed(map, solid->node, session_of(L).source_ref(L)));
-  } else if (const ShapeValue* shape = to_shape(L, 2)) {
-    auto moved = shape->shape.transformed(map);
-    if (!moved) throw ScriptError("'*': " + moved.error().message);
-    push_shape(L, *std::move(moved), shape->appearance);
+    keep_marks(L, 2);
+  } else if (to_shape(L, 2) != nullptr) {
+    push_moved_shape(L, 2, map, "'*'");
   } else if (const MatrixValue* matrix = to_matrix(L, 2)) {
     push_matrix(L, Affine::compose(map, matrix->map));
   } else if (lua_istable(L, 2) && (list_length(L, 2) == 3 || list_length(L, 2) == 2)) {

@@ -38,7 +38,8 @@ int combine(lua_State* L) {
   Operands operands = read_operands(L, Spec);
   operands.warn_of_colours(L, Spec.name);
   if (operands.has_shapes) {
-    push_shape(L, value_or_fail(Spec, OfShapes(operands.shapes)), operands.appearance);
+    if (!operands.push_only_shapes(L, Spec.name))
+      push_shape(L, value_or_fail(Spec, OfShapes(operands.shapes)), operands.appearance);
   } else if (operands.has_solids) {
     push_solid(L, OfSolids(std::move(operands.solids), session_of(L).source_ref(L)));
   } else {

@@ -120,7 +120,7 @@ constexpr FunctionSpec kRefine{
     kSolidDoc};
 
 int refine(lua_State* L) {
-  SolidValue& solid = solid_argument(L, kRefine);
+  SolidValue& solid = final_solid_argument(L, kRefine);
   const Arguments arguments(L, kRefine, 2);
   if (!arguments.has("length")) fail_in(kRefine, "needs the length of the longest edge");
   PolygonMesh mesh = mesh_of_solid(session_of(L).evaluated(solid), "refine");
@@ -143,7 +143,7 @@ constexpr FunctionSpec kSmooth{
     kSolidDoc};
 
 int smooth(lua_State* L) {
-  SolidValue& solid = solid_argument(L, kSmooth);
+  SolidValue& solid = final_solid_argument(L, kSmooth);
   const Arguments arguments(L, kSmooth, 2);
   PolygonMesh mesh = mesh_of_solid(session_of(L).evaluated(solid), "smooth");
   const auto rounds = static_cast<int>(arguments.number("rounds", 2));
@@ -214,7 +214,7 @@ bool is_almost_nothing(const PolygonMesh& mesh) {
 }
 
 int warp(lua_State* L) {
-  SolidValue& solid = solid_argument(L, kWarp);
+  SolidValue& solid = final_solid_argument(L, kWarp);
   const Arguments arguments(L, kWarp, 2);
   const int function = function_argument(L, arguments, kWarp, "f");
   const Solid& evaluated = session_of(L).evaluated(solid);

@@ -113,7 +113,7 @@ int only(lua_State* L) {
   if (SolidValue* solid = to_solid(L, -1)) {
     // A node of its own: the same subtree elsewhere is not meant.
     solid->node = Node::transformed({}, solid->node, solid->node->where());
-    session_of(L).only_nodes.push_back(solid->node);
+    session_of(L).only_nodes.emplace(solid->node.get(), solid->node);
   }
   marks_of(L, -1)->only = true;
   return 1;

@@ -86,18 +86,19 @@ void push_section(lua_State* L, const NodePtr& solid, const CutPlane& plane) {
 }
 
 int projection(lua_State* L) {
-  SolidValue& solid = solid_argument(L, kProjection);
+  SolidValue& solid = final_solid_argument(L, kProjection);
   const Arguments arguments(L, kProjection, 2);
   if (arguments.boolean("cut", false)) {
     push_section(L, solid.node, CutPlane{});
   } else {
     push_shadow(L, kProjection, solid);
   }
+  keep_marks(L, 1);
   return 1;
 }
 
 int project(lua_State* L) {
-  SolidValue& solid = solid_argument(L, kProject);
+  SolidValue& solid = final_solid_argument(L, kProject);
   if (lua_type(L, 2) == LUA_TNUMBER || lua_type(L, 2) == LUA_TBOOLEAN)
     fail_in(kProject,
             "wants a direction {x, y, z}, got " + describe_value(L, 2) + "; slice(z) cuts");
@@ -107,12 +108,13 @@ int project(lua_State* L) {
       value_or_fail(kProject, make_cut_plane(direction ? direction->v : glm::dvec3(0, 0, 1), 0));
   if (plane.normal == glm::dvec3(0, 0, 1)) {
     push_shadow(L, kProject, solid);
-    return 1;
+  } else {
+    Session& session = session_of(L);
+    const NodePtr laid = laid_flat(solid.node, plane.normal, session.source_ref(L));
+    push_shape(L, value_or_fail(kProject, project_solid(*session.evaluate(laid))),
+               one_appearance_of(solid.node));
   }
-  Session& session = session_of(L);
-  const NodePtr laid = laid_flat(solid.node, plane.normal, session.source_ref(L));
-  push_shape(L, value_or_fail(kProject, project_solid(*session.evaluate(laid))),
-             one_appearance_of(solid.node));
+  keep_marks(L, 1);
   return 1;
 }
 
@@ -161,10 +163,17 @@ bool is_called_with_normal(lua_State* L) {
   return lua_istable(L, 2) && lua_rawlen(L, 2) == 3 && list_length(L, 2) == 3;
 }
 
+/// What is said of a solid goes for its slices, but for its name: a solid has many of them.
+void keep_marks_of_sliced(lua_State* L) {
+  keep_marks(L, 1);
+  marks_of(L, -1)->name.clear();
+}
+
 int slice(lua_State* L) {
-  const SolidValue& solid = solid_argument(L, kSlice);
+  const SolidValue& solid = final_solid_argument(L, kSlice);
   if (is_called_with_normal(L)) {
     push_section(L, solid.node, plane_argument(Arguments(L, kSlicePlane, 2), kSlice));
+    keep_marks_of_sliced(L);
     return 1;
   }
   const Arguments arguments(L, kSlice, 2);
@@ -176,6 +185,7 @@ int slice(lua_State* L) {
                arguments.has("z")
                    ? value_or_fail(kSlice, make_cut_plane({0, 0, 1}, arguments.number("z", 0)))
                    : plane);
+  keep_marks_of_sliced(L);
   return 1;
 }
 

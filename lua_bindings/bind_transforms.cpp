@@ -169,16 +169,9 @@ int transform(lua_State* L) {
     const Arguments arguments(L, Spec, 2);
     push_solid(L, Node::transformed(Make(arguments), solid->node, session_of(L).source_ref(L)));
     keep_marks(L, 1);
-  } else if (const ShapeValue* shape = to_shape(L, 1)) {
+  } else if (to_shape(L, 1) != nullptr) {
     const Arguments arguments(L, Spec, 2);
-    const Affine map = Make(arguments);
-    if (map.m[2][0] != 0 || map.m[2][1] != 0 || map.m[2][3] != 0) {
-      session_of(L).warn(L, fmt::format("{}: a 2D shape stays in its plane, so what moves or turns "
-                                        "it out has no effect; extrude it first",
-                                        Spec.name));
-    }
-    push_shape(L, value_or_fail(Spec, shape->shape.transformed(map)), shape->appearance);
-    keep_marks(L, 1);
+    push_moved_shape(L, 1, Make(arguments), Spec.name);
   } else if (const MatrixValue* matrix = to_matrix(L, 1);
              matrix != nullptr && &Spec != &kMultmatrix) {
     const Arguments arguments(L, Spec, 2);
@@ -240,5 +233,18 @@ constexpr Binding kBindings[] = {
 }  // namespace
 
 std::span<const Binding> transform_bindings() { return kBindings; }
+
+void push_moved_shape(lua_State* L, int index, const Affine& map, const std::string& function) {
+  const ShapeValue& shape = *to_shape(L, index);
+  if (map.m[2][0] != 0 || map.m[2][1] != 0 || map.m[2][3] != 0) {
+    session_of(L).warn(L, fmt::format("{}: a 2D shape stays in its plane, so what moves or turns "
+                                      "it out has no effect; extrude it first",
+                                      function));
+  }
+  auto moved = shape.shape.transformed(map);
+  if (!moved) throw ScriptError(function + ": " + moved.error().message);
+  push_shape(L, *std::move(moved), shape.appearance);
+  keep_marks(L, index);
+}
 
 }  // namespace csgrun

@@ -13,7 +13,6 @@
 namespace csgrun {
 
 void Operands::add(lua_State* L, int index, const std::string& function) {
-  const bool is_first = !has_solids && !has_shapes;
   if (const SolidValue* solid = to_solid(L, index)) {
     has_solids = true;
     if (!solid->marks.absent) solids.push_back(solid->node);
@@ -30,7 +29,11 @@ void Operands::add(lua_State* L, int index, const std::string& function) {
     throw ScriptError(fmt::format("{}: an operand must be a solid or a shape, got {}", function,
                                   describe_value(L, index)));
   }
-  if (is_first) name = marks_of(L, index)->name;
+  const Marks& marks = *marks_of(L, index);
+  if (!has_first && !marks.absent) {
+    has_first = true;
+    name = marks.name;
+  }
   if (has_solids && has_shapes) {
     throw ScriptError(
         function +
@@ -62,19 +65,27 @@ void Operands::warn_of_colours(lua_State* L, const std::string& function) const 
   session_of(L).warn(L, function + ": the result has one colour, that of the first");
 }
 
+bool Operands::push_only_shapes(lua_State* L, const std::string& function) const {
+  if (only_shapes.empty()) return false;
+  auto shape = Shape2D::boolean(BooleanOp::kUnion, only_shapes);
+  if (!shape) throw ScriptError(function + ": " + shape.error().message);
+  push_shape(L, *std::move(shape), appearance);
+  marks_of(L, -1)->only = true;
+  return true;
+}
+
 void Operands::push_result(lua_State* L, BooleanOp op, const std::string& function) const {
   if (!has_shapes) {
     push_solid(L, Node::boolean(op, solids, session_of(L).source_ref(L)));
   } else if (shapes.empty()) {
     push_shape(L, {}, appearance);
   } else {
-    const bool is_only = !only_shapes.empty();
-    auto shape =
-        is_only ? Shape2D::boolean(BooleanOp::kUnion, only_shapes) : Shape2D::boolean(op, shapes);
-    if (!shape) throw ScriptError(function + ": " + shape.error().message);
     if (op != BooleanOp::kDifference) warn_of_colours(L, function);
-    push_shape(L, *std::move(shape), appearance);
-    marks_of(L, -1)->only = is_only;
+    if (!push_only_shapes(L, function)) {
+      auto shape = Shape2D::boolean(op, shapes);
+      if (!shape) throw ScriptError(function + ": " + shape.error().message);
+      push_shape(L, *std::move(shape), appearance);
+    }
   }
   marks_of(L, -1)->name = name;
 }

@@ -20,8 +20,9 @@ struct Operands {
   std::vector<Shape2D> shapes;
   std::vector<Shape2D> only_shapes;             ///< those of them that alone are to be the result
   std::optional<Appearance> appearance;         ///< of the first shape
-  std::string name;                             ///< of the first operand
+  std::string name;                             ///< of the first operand that is not skipped
   bool has_solids = false, has_shapes = false;  ///< skipped ones count here, and are not listed
+  bool has_first = false;                       ///< one that is not skipped
   bool drops_colour = false;                    ///< a later shape has another colour than the first
 
   /// Takes the value at `index`. Throws ScriptError that begins with `function`.
@@ -31,6 +32,8 @@ struct Operands {
   /// Warns if what comes of them has one colour, that of the first, and others have other ones: a
   /// 2D shape, a hull or a sum.
   void warn_of_colours(lua_State* L, const std::string& function) const;
+  /// Where some of the shapes alone are to be the result, pushes them, so marked; else false.
+  bool push_only_shapes(lua_State* L, const std::string& function) const;
   /// The result has the name of the first operand.
   void push_result(lua_State* L, BooleanOp op, const std::string& function) const;
 };

@@ -198,7 +198,8 @@ namespace {
 
 /// The subtrees of `root` whose roots are among `wanted`, under the transforms and colours above
 /// them. Stops at each that it finds.
-std::vector<NodePtr> find_marked(const NodePtr& root, const std::set<const Node*>& wanted) {
+std::vector<NodePtr> find_marked(const NodePtr& root,
+                                 const std::map<const Node*, NodePtr>& wanted) {
   struct Place {
     NodePtr node;
     Affine map;
@@ -235,20 +236,23 @@ std::vector<NodePtr> find_marked(const NodePtr& root, const std::set<const Node*
 
 }  // namespace
 
+NodePtr Session::only_part_of(const NodePtr& root, const SourceRef& where) const {
+  if (only_nodes.empty()) return nullptr;
+  std::vector<NodePtr> found = find_marked(root, only_nodes);
+  return found.empty() ? nullptr : Node::boolean(BooleanOp::kUnion, std::move(found), where);
+}
+
 void Session::keep_only_parts() {
-  std::set<const Node*> wanted;
-  for (const NodePtr& node : only_nodes) wanted.insert(node.get());
   std::vector<ScriptPart> kept;
   for (const ScriptPart& part : parts_) {
     if (part.solid == nullptr) {
       if (part.only) kept.push_back(part);
       continue;
     }
-    if (wanted.empty()) continue;
-    std::vector<NodePtr> found = find_marked(part.solid, wanted);
-    if (found.empty()) continue;
+    NodePtr marked = only_part_of(part.solid, part.where);
+    if (!marked) continue;
     kept.push_back(part);
-    kept.back().solid = Node::boolean(BooleanOp::kUnion, std::move(found), part.where);
+    kept.back().solid = std::move(marked);
   }
   if (!kept.empty()) parts_ = std::move(kept);
 }

@@ -111,7 +111,9 @@ class Session {
   /// The modules that run now, by the places of their files.
   std::set<std::string> loading_modules;
   /// Nodes that alone are to be in the result, wherever in a part they occur.
-  std::vector<NodePtr> only_nodes;
+  std::map<const Node*, NodePtr> only_nodes;
+  /// The union of those that are in a tree, in their places there; null if there are none.
+  [[nodiscard]] NodePtr only_part_of(const NodePtr& root, const SourceRef& where) const;
   /// Where parts have such nodes in them, or are such shapes: leaves these and nothing else.
   void keep_only_parts();
   bool has_absent_parts = false;  ///< skipped ones were given as parts

@@ -100,7 +100,7 @@ void keep_marks(lua_State* L, int index) {
   *marks_of(L, -1) = *marks;
   // A solid that was made of the only one is the only one, wherever it stands.
   const SolidValue* const solid = marks->only ? to_solid(L, -1) : nullptr;
-  if (solid != nullptr) session_of(L).only_nodes.push_back(solid->node);
+  if (solid != nullptr) session_of(L).only_nodes.emplace(solid->node.get(), solid->node);
 }
 
 SolidValue* to_solid(lua_State* L, int index) { return to_value<SolidValue>(L, index); }

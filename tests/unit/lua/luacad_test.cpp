@@ -250,6 +250,38 @@ TEST(Modifiers, OnlyLeavesNothingElse) {
       1);
 }
 
+TEST(Modifiers, OnlyHoldsWhereASolidIsEvaluated) {
+  const std::string part = "(cube(6) - cube(2):only())";
+  for (const char* made : {":refine(1)", ":warp(function(x, y, z) return x, y, z end)",
+                           ":projection():linear_extrude(2)", ":project():linear_extrude(2)",
+                           ":slice(1):linear_extrude(2)"}) {
+    EXPECT_EQ(volume_of(part + made), 8) << made;
+    EXPECT_EQ(volume_of("cube(9):translate(20, 0, 0) - " + part + made), 8) << made;
+    EXPECT_EQ(names_of("render(cube(9)) render((" + part + made + "):name('x'))"), "x") << made;
+  }
+  EXPECT_EQ(names_of("render(cube(9)) render(" + part + ":smooth(1):name('x'))"), "x");
+  for (const char* both : {"hull(o(square(2)), square(9))", "minkowski(square(9), o(square(2)))",
+                           "translate(1, 2, 0) * o(square(2))"})
+    EXPECT_EQ(volume_of("cube(9) + linear_extrude(" + std::string(both) + ", 2)"), 8) << both;
+}
+
+TEST(Names, StayWithWhatIsMadeOfOneThing) {
+  const std::string a = "cube(2):name('a')";
+  for (const std::string& made : std::vector<std::string>{
+           "translate(1, 2, 3) * " + a, "outer_hull(" + a + ")", a + ":projection()",
+           a + ":projection{cut = true}", a + ":project()", a + ":project{1, 0, 0}",
+           "translate(1, 2, 0) * square(2):name('a')", "cube(1):name('b'):skip() + " + a,
+           "hull(cube(1):name('b'):skip(), " + a + ")", a + " - cube(1):name('b')"})
+    EXPECT_EQ(names_of("render(" + made + ")"), "a") << made;
+  EXPECT_EQ(names_of("for z = 0, 1 do render(" + a + ":slice(z)) end"), "part1 part2");
+  for (const char* skipped :
+       {"translate(1, 2, 3) * s(cube(1))", "outer_hull(s(cube(1)))", "s(cube(1)):projection()",
+        "s(cube(1)):slice(0)", "translate(1, 2, 0) * s(square(1))"})
+    EXPECT_EQ(names_of("render(" + std::string(skipped) + ")"),
+              "model.lua:1: the script makes no part: all that it gave are skipped")
+        << skipped;
+}
+
 TEST(Materials, LeaveColoursAlone) {
   EXPECT_EQ(looks_of("cube(1):color('red'):material('rubber')"), "ff0000 0 0.7 rubber");
   for (const char* red : {"cube(1):color{'red'}", "color{'red', cube(1)}", "color{cube(1), 'red'}",
