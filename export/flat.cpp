@@ -31,30 +31,6 @@ Bounds bounds_of(const std::vector<FlatPart>& parts) {
   return b;
 }
 
-/// Text in an attribute or an element of XML.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : one_line(valid_utf8(text))) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 void append_point(std::string& text, const glm::dvec2& p) {
   append_number(text, p.x);
   text += ',';
@@ -93,7 +69,7 @@ std::string encode_svg(const std::vector<FlatPart>& parts) {
   text += "\">\n<title>csgrun</title>\n";
   for (const FlatPart& part : parts) {
     // An id is one word; what the name really is, stands in the title.
-    text += "<path id=\"" + escaped(one_word(part.name)) + "\" fill-rule=\"evenodd\" fill=\"" +
+    text += "<path id=\"" + xml_text(one_word(part.name)) + "\" fill-rule=\"evenodd\" fill=\"" +
             (part.color ? hex_color(*part.color) : "lightgray") + "\"";
     if (part.color && (*part.color)[3] < 1) {
       text += " fill-opacity=\"";
@@ -108,7 +84,7 @@ std::string encode_svg(const std::vector<FlatPart>& parts) {
       }
       text += " Z\n";
     }
-    text += "\"><title>" + escaped(part.name) + "</title></path>\n";
+    text += "\"><title>" + xml_text(part.name) + "</title></path>\n";
   }
   return text + "</svg>\n";
 }

@@ -54,6 +54,30 @@ std::string one_word(std::string_view name) { return with_controls_replaced(name
 
 std::string one_line(std::string_view text) { return with_controls_replaced(text, ' ', false); }
 
+std::string xml_text(std::string_view text) {
+  std::string result;
+  const std::string line = one_line(valid_utf8(text));
+  for (std::string_view rest = line; !rest.empty();) {
+    const size_t length = sequence_length(rest);
+    const std::string_view c = rest.substr(0, length);
+    rest.remove_prefix(length);
+    if (c == "&") {
+      result += "&amp;";
+    } else if (c == "<") {
+      result += "&lt;";
+    } else if (c == ">") {
+      result += "&gt;";
+    } else if (c == "\"") {
+      result += "&quot;";
+    } else if (c == "\xEF\xBF\xBE" || c == "\xEF\xBF\xBF") {  // U+FFFE, U+FFFF
+      result += "\xEF\xBF\xBD";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
 std::string distinct(const std::string& name, std::set<std::string>& taken) {
   std::string unique = name;
   for (int i = 2; !taken.insert(unique).second; ++i) unique = name + "_" + std::to_string(i);

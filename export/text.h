@@ -40,4 +40,8 @@ std::string source_text(const Solid& solid, uint32_t source);
 /// The text on one line: control characters become spaces.
 std::string one_line(std::string_view text);
 
+/// Text in an attribute or an element of XML, on one line. What is no character there (XML 1.0,
+/// section 2.2) is replaced by U+FFFD.
+std::string xml_text(std::string_view text);
+
 }  // namespace csgrun

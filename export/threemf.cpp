@@ -35,27 +35,6 @@ constexpr char kModelStart[] =
     "<metadata name=\"Application\">csgrun " CSGRUN_VERSION "</metadata>\n<resources>\n";
 constexpr uint64_t kDisplayId = 1, kMaterialsId = 2, kFirstObjectId = 3;
 
-void append_escaped(std::string& text, std::string_view raw) {
-  for (const char c : one_line(valid_utf8(raw))) {
-    switch (c) {
-      case '&':
-        text += "&amp;";
-        break;
-      case '<':
-        text += "&lt;";
-        break;
-      case '>':
-        text += "&gt;";
-        break;
-      case '"':
-        text += "&quot;";
-        break;
-      default:
-        text += c;
-    }
-  }
-}
-
 void append_colour(std::string& text, const Appearance& appearance) {
   text += '#';
   for (const float c : {appearance.red, appearance.green, appearance.blue, appearance.alpha}) {
@@ -84,7 +63,7 @@ void append_materials(std::string& text, const Palette& palette) {
     text += ">\n";
     for (size_t m = 0; m < looks.size(); ++m) {
       text += "<m:pbmetallic name=\"";
-      append_escaped(text, palette.names()[m]);
+      text += xml_text(palette.names()[m]);
       text += '"';
       append_attribute(text, "metallicness",
                        rounded_to_millionths(std::clamp(looks[m].metallic, 0.0f, 1.0f)));
@@ -100,7 +79,7 @@ void append_materials(std::string& text, const Palette& palette) {
   text += ">\n";
   for (size_t m = 0; m < looks.size(); ++m) {
     text += "<base name=\"";
-    append_escaped(text, palette.names()[m]);
+    text += xml_text(palette.names()[m]);
     text += "\" displaycolor=\"";
     append_colour(text, looks[m]);
     text += "\"/>\n";
@@ -127,7 +106,7 @@ void append_object(std::string& text, const Part& part, const RoundedMesh& mesh,
   text += "<object";
   append_attribute(text, "id", id);
   text += " type=\"model\" name=\"";
-  append_escaped(text, part.name);
+  text += xml_text(part.name);
   text += '"';
   append_attribute(text, "pid", kMaterialsId);
   append_attribute(text, "pindex", uint64_t{own});

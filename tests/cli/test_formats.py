@@ -110,6 +110,17 @@ class Formats(Case):
             self.assertEqual(looks, {"body": {0, 1}, "ball & <co>": {2}, "group/plain": {3}}[names[-1]])
         self.assertEqual(names, list(VOLUMES))
 
+    def test_names_that_xml_has_no_characters_for(self):
+        names = "local name = 'a\\u{FFFE}b\\u{FFFF}<&>\"\\u{10FFFF}\\xff'\n"
+        self.expect(self.run_script(names + "return cube(1):color('red', {name = name}):name(name)", "-o", "n.3mf"), 0)
+        self.expect(self.run_script(names + "return square(1):name(name)", "-o", "n.svg"), 0)
+        wanted = "a\ufffdb\ufffd<&>\"\U0010ffff\ufffd"
+        document = zipfile.ZipFile(self.path("n.3mf")).read("3D/3dmodel.model")
+        self.assertEqual([e.get("name") for e in xml.etree.ElementTree.fromstring(document).iter()
+                          if e.tag.rsplit("}")[-1] in ("object", "base")], [wanted, wanted])
+        drawing = xml.etree.ElementTree.parse(self.path("n.svg")).getroot()
+        self.assertEqual([e.text for e in drawing.iter() if e.tag.endswith("title")][1], wanted)
+
     def test_3mf_again_is_the_same_bytes(self):
         self.export("a.3mf")
         first = self.read("a.3mf")
