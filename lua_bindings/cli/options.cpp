@@ -173,13 +173,20 @@ void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
     line.stats = raw.stats == "json" ? StatsForm::kJson : StatsForm::kText;
   }
   if (app.count("--timeout") > 0) {
-    if (!(raw.timeout > 0) || !std::isfinite(raw.timeout))
-      throw UsageError{"--timeout must be a positive number of seconds"};
+    // More is no time that a clock has, and would be over at once.
+    constexpr double kMostSeconds = 1e9;
+    if (!(raw.timeout > 0 && raw.timeout <= kMostSeconds)) {
+      throw UsageError{
+          fmt::format("--timeout must be a positive number of seconds, at most {:g}, got {:g}",
+                      kMostSeconds, raw.timeout)};
+    }
     line.timeout_seconds = raw.timeout;
   }
   if (app.count("--max-memory") > 0) {
-    if (!(raw.megabytes >= kLeastMegabytes) || raw.megabytes > 1e9) {
-      throw UsageError{fmt::format("--max-memory must be at least {:g} (MB)", kLeastMegabytes)};
+    constexpr double kMostMegabytes = 1e9;
+    if (!(raw.megabytes >= kLeastMegabytes && raw.megabytes <= kMostMegabytes)) {
+      throw UsageError{fmt::format("--max-memory must be from {:g} to {:g} (MB), got {:g}",
+                                   kLeastMegabytes, kMostMegabytes, raw.megabytes)};
     }
     line.memory_bytes = static_cast<size_t>(raw.megabytes * 1048576.0);
   }
@@ -193,6 +200,10 @@ void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
   }
   if (line.check && line.outputs.empty())
     throw UsageError{"--check proves what is written: give an output with -o"};
+  for (const std::string& path : line.outputs) {
+    if (line.check && !flat_format_of(path).empty())
+      throw UsageError{fmt::format("--check proves meshes, and '{}' is a drawing", path)};
+  }
 }
 
 CommandLine finished(int code) {

@@ -60,8 +60,9 @@ class Time(Case):
                     self.assertIn(message, outcome.err)
 
     def test_bad_values(self):
-        for value in ("0", "-1", "nan", "inf", "x"):
+        for value in ("0", "-1", "nan", "inf", "x", "1e12", "1e300"):
             self.expect(self.run_script("return cube(1)", "--stats", "--timeout", value), 2)
+        self.expect(self.run_script("return cube(1)", "--stats", "--timeout", "1e9"), 0)
 
 
 class Memory(Case):

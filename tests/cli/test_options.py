@@ -67,7 +67,10 @@ class Usage(Case):
         self.check("csgrun: --grid x: ", "model.lua", "--stats", "--grid", "x")
         self.check("csgrun: --grid 0: ", "model.lua", "--stats", "--grid", "0")
         self.check("csgrun: --fn must be from 0 to", "model.lua", "--stats", "--fn", "-1")
-        self.check("csgrun: --max-memory must be at least", "model.lua", "--stats", "--max-memory", "1")
+        self.check("csgrun: --check proves meshes, and 'a.svg' is a drawing", "model.lua", "-o", "a.svg", "--check")
+        self.check("csgrun: --max-memory must be from 16 to 1e+09 (MB), got 1e+20", "model.lua", "--stats",
+                   "--max-memory", "1e20")
+        self.check("csgrun: --max-memory must be from 16 to 1e+09 (MB), got 1", "model.lua", "--stats", "--max-memory", "1")
         self.check("csgrun: -L none: there is no such folder", "model.lua", "--stats", "-L", "none")
 
     def test_definitions(self):
