@@ -1,9 +1,10 @@
 #include "lua_bindings/cli/run_model.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <new>
 #include <thread>
@@ -19,6 +20,7 @@
 
 #include "lua_bindings/cli/check_text.h"
 #include "lua_bindings/cli/instances.h"
+#include "lua_bindings/cli/output_paths.h"
 #include "lua_bindings/cli/progress.h"
 #include "lua_bindings/guard.h"
 #include "lua_bindings/model_parts.h"
@@ -42,11 +44,13 @@ unsigned usable_threads() {
   return std::max(1u, std::thread::hardware_concurrency());
 }
 
-std::string read_standard_input() {
-  std::string text;
+FileText read_standard_input() {
+  FileText text;
   char block[65536];
-  for (ssize_t got = 0; (got = ::read(STDIN_FILENO, block, sizeof block)) > 0;)
-    text.append(block, static_cast<size_t>(got));
+  ssize_t got = 0;
+  while ((got = ::read(STDIN_FILENO, block, sizeof block)) > 0)
+    text.bytes.append(block, static_cast<size_t>(got));
+  if (got < 0) text.error = std::strerror(errno);  // half a script would be another one
   return text;
 }
 
@@ -134,13 +138,13 @@ class Run {
 
   /// MODEL to the parts of the session.
   Failure load() {
-    FileText text;
-    if (line_.model == "-") {
-      text.bytes = read_standard_input();
-    } else {
-      text = read_whole_file(line_.model);
-      if (!text.error.empty())
-        return {kExitFiles, fmt::format("csgrun: cannot read '{}': {}", line_.model, text.error)};
+    const bool is_standard_input = line_.model == "-";
+    const FileText text = is_standard_input ? read_standard_input() : read_whole_file(line_.model);
+    if (!text.error.empty()) {
+      return {
+          kExitFiles,
+          fmt::format("csgrun: cannot read {}: {}",
+                      is_standard_input ? "standard input" : "'" + line_.model + "'", text.error)};
     }
     if (!model_file_format_of(line_.model).empty()) return load_mesh(text.bytes);
     if (!flat_file_format_of(line_.model).empty()) return load_flat(text.bytes);
@@ -353,11 +357,10 @@ class Run {
       if (const auto& a = part.appearance) flat.color = {a->red, a->green, a->blue, a->alpha};
       parts.push_back(std::move(flat));
     }
-    if (output.find("%s") == std::string::npos) return write_drawing(output, parts);
-    std::vector<std::string> paths;
-    if (Failure failure = paths_of_parts(output, parts, paths); failure.failed()) return failure;
-    for (size_t i = 0; i < parts.size(); ++i) {
-      if (Failure failure = write_drawing(paths[i], {parts[i]}); failure.failed()) return failure;
+    if (!is_pattern(output)) return write_drawing(output, parts);
+    for (const FlatPart& part : parts) {
+      Failure failure = write_drawing(path_of_part(output, part.name), {part});
+      if (failure.failed()) return failure;
     }
     return {};
   }
@@ -451,10 +454,12 @@ class Run {
     for (const std::string& output : line_.outputs) {
       if (failure = check_source(output); failure.failed()) return failure;
     }
+    if (const std::string clash = find_clash(line_.outputs, written_names()); !clash.empty())
+      return {kExitFiles, "csgrun: " + clash};
     for (const std::string& output : line_.outputs) {
-      failure = is_flat()                                ? write_flat(output)
-                : output.find("%s") != std::string::npos ? write_each(output)
-                                                         : write_one(output);
+      failure = is_flat()            ? write_flat(output)
+                : is_pattern(output) ? write_each(output)
+                                     : write_one(output);
       if (failure.failed()) break;
     }
     // With a check nothing was written yet: one bad mesh, and there is no file.
@@ -486,31 +491,20 @@ class Run {
     return write(output, parts);
   }
 
-  /// The files of a pattern with the parts' names in it.
-  template <class AnyPart>
-  static Failure paths_of_parts(const std::string& pattern, const std::vector<AnyPart>& parts,
-                                std::vector<std::string>& paths) {
-    std::map<std::string, std::string> taken;  // file -> part
-    for (const AnyPart& part : parts) {
-      std::string name = part.name;
-      std::replace(name.begin(), name.end(), '/', '-');
-      std::string path = pattern;
-      path.replace(path.find("%s"), 2, name);
-      if (const auto [other, fresh] = taken.emplace(path, part.name); !fresh) {
-        return {kExitFiles, fmt::format("csgrun: parts '{}' and '{}' would both be written to '{}'",
-                                        other->second, part.name, path)};
-      }
-      paths.push_back(path);
+  /// Of the parts that have something in them.
+  [[nodiscard]] std::vector<std::string> written_names() const {
+    std::vector<std::string> names;
+    for (const Part& part : with_content(report_.parts)) names.push_back(part.name);
+    for (const auto& part : report_.flat_parts) {
+      if (!part.shape.empty()) names.push_back(part.name);
     }
-    return {};
+    return names;
   }
 
   Failure write_each(const std::string& pattern) {
-    const std::vector<Part> parts = with_content(report_.parts);
-    std::vector<std::string> paths;
-    if (Failure failure = paths_of_parts(pattern, parts, paths); failure.failed()) return failure;
-    for (size_t i = 0; i < parts.size(); ++i) {
-      if (Failure failure = write(paths[i], {parts[i]}); failure.failed()) return failure;
+    for (const Part& part : with_content(report_.parts)) {
+      Failure failure = write(path_of_part(pattern, part.name), {part});
+      if (failure.failed()) return failure;
     }
     return {};
   }

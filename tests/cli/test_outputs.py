@@ -51,6 +51,18 @@ class Outputs(Case):
         outcome = self.run_script("return {['a-b'] = cube(1), a = {b = cube(2)}}", "-o", "out/%s.stl")
         self.expect(outcome, 4, "csgrun: parts 'a/b' and 'a-b' would both be written to 'out/a-b.stl'")
 
+    def test_patterns_and_files_do_not_meet(self):
+        os.mkdir(self.path("out"))
+        for text, ending in (("return {a = cube(1), b = cube(2)}", "stl"), ("return {a = square(1), b = square(2)}", "svg")):
+            for other in (f"out/a.{ending}", f"out/../out/a.{ending}"):
+                outcome = self.run_script(text, "-o", f"out/%s.{ending}", "-o", other)
+                self.expect(outcome, 4, f"csgrun: -o out/%s.{ending} and -o {other} would both be written to '{other}'")
+            outcome = self.run_script(text.replace("b =", "xa ="), "-o", f"out/%s.{ending}", "-o", f"out/x%s.{ending}")
+            self.expect(outcome, 4, f"csgrun: -o out/%s.{ending} and -o out/x%s.{ending} would both be written to "
+                                    f"'out/xa.{ending}'")
+            self.assertEqual(os.listdir(self.path("out")), [])
+        self.expect(self.run_script("return {a = cube(1)}", "-o", "out/%s.stl", "-o", "out/a.off"), 0)
+
     def test_the_object_of_stats(self):
         outcome = self.run_script("return cube(1)", "--stats=json", "--threads", "2")
         self.expect(outcome, 0)
