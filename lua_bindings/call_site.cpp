@@ -161,8 +161,9 @@ size_t length_of_place(std::string_view message) {
 std::string with_place(lua_State* L, std::string message) {
   const size_t first = length_of_place(message);
   if (first == 0) {
+    // What load() was given has a name of any kind.
     const std::string place = place_of_call(L);
-    return place.empty() ? message : place + ": " + message;
+    return place.empty() || message.starts_with(place + ": ") ? message : place + ": " + message;
   }
   const std::string rest = message.substr(first);
   if (message.starts_with(kShippedPlace)) {

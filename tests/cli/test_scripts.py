@@ -1,5 +1,8 @@
 """Mistakes in scripts: the message starts with FILE:line:, the exit code is 1."""
-from support import Case, main
+import os
+import subprocess
+
+from support import CSGRUN, Case, main
 
 
 class Mistakes(Case):
@@ -19,6 +22,12 @@ class Mistakes(Case):
         self.expect(outcome, 1, "parts/wheel.lua:4: no spokes\nstack traceback:\n")
         for frame in ("parts/wheel.lua:4: in ", "parts/wheel.lua:6: in ", "model.lua:3: in main chunk"):
             self.assertIn(frame, outcome.err)
+
+    def test_what_was_loaded_under_another_name_is_named_once(self):
+        for text in ("cube(-1)", "error('cube: ')", "local cube = nil; cube.a = 1"):
+            outcome = self.run_script(f"load([[{text}]], '=piece')()")
+            self.assertRegex(outcome.first, "^piece:1: .*cube")
+            self.assertEqual(outcome.first.count("piece:"), 1)
 
     def test_unknown_option(self):
         self.check("return cube{centre = true}", "model.lua:1: cube: unknown option 'centre' (did you mean 'center'?)")
@@ -86,6 +95,13 @@ class Mistakes(Case):
         self.check(b"\x1bLuaR\0".decode("latin1"), "model.lua:1: this is Lua bytecode; only text is accepted")
         self.check("assert(load('\\27Lua'))", "model.lua:1: attempt to load a binary chunk (mode is 't')")
         self.check("string.dump(print)", "model.lua:1: attempt to call a nil value (field 'dump')")
+
+    def test_standard_input_that_cannot_be_read(self):
+        folder = os.open(self.folder, os.O_RDONLY)
+        self.addCleanup(os.close, folder)
+        done = subprocess.run([CSGRUN, "-", "--stats"], stdin=folder, capture_output=True, timeout=60)
+        self.assertEqual((done.returncode, done.stdout), (4, b""))
+        self.assertEqual(done.stderr, b"csgrun: cannot read standard input: Is a directory\n")
 
     def test_no_result(self):
         self.check("local a = cube(1)", "model.lua:1: the script makes no part")
