@@ -91,8 +91,16 @@ return function(name, given, rules, level)
   if type(given) ~= "table" then
     error(name .. ": wants a table of options, got " .. shown(given), level)
   end
+  -- A rule that is none is a mistake of the function that checks, not of its caller.
+  if type(rules) ~= "table" then
+    error("csg.options: wants a table of rules, got " .. shown(rules), level - 1)
+  end
   local aliases = {}
   for key, rule in pairs(rules) do
+    if type(key) ~= "string" or type(rule) ~= "table" or (rule.type == nil and rule[1] == nil) then
+      error("csg.options: " .. name .. ": the rule of " .. shown(key) ..
+            " must be a table with a default or a type, as {5} or {type = \"number\"}", level - 1)
+    end
     if rule.alias then aliases[rule.alias] = key end
   end
   for key in pairs(given) do

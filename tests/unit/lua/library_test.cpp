@@ -144,6 +144,14 @@ TEST(Library, MistakesAreNamedInTheModel) {
       "local options = require 'csg.options'\nlocal function wheel(given)\nreturn "
       "options('wheel', given, {spokes = {5}})\nend\nlocal o = wheel{spoke = 4}",
       "model.lua:5: wheel: unknown option");
+  // A rule that is none is told where the rules are.
+  for (const std::string rules : {"5", "{spokes = 5}", "{'spokes'}", "{spokes = {min = 3}}"}) {
+    expect_place(
+        "local options = require 'csg.options'\nlocal function wheel(given)\nlocal o = "
+        "options('wheel', given, " +
+            rules + ")\nreturn o\nend\nlocal o = wheel{spokes = 4}",
+        "model.lua:3: csg.options: ");
+  }
   // What Lua says inside of the library, and what built-in functions say there.
   expect_place(kLayout + "\n\nreturn layout.at(cube(1), {{'x'}})", "model.lua:3: translate: ");
   expect_place(kLayout + "\n\nreturn layout.place(cube(1), 'top', {true})",
