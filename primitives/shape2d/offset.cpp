@@ -31,8 +31,11 @@ constexpr double kArcIsMitre = 0.99965732497555726;
 
 class OffsetCurve {
  public:
-  OffsetCurve(double distance, OffsetJoin join, double mitre_limit, const Facets& facets)
+  /// turned_over: what was the edge before a corner is the later one of the loops that come here.
+  OffsetCurve(double distance, OffsetJoin join, double mitre_limit, const Facets& facets,
+              bool turned_over)
       : join_(join),
+        turned_over_(turned_over),
         distance_(distance),
         mitre_limit_(mitre_limit),
         fragments_(facets.fragments(distance_)) {}
@@ -55,7 +58,7 @@ class OffsetCurve {
       if (i != 0 && i + 1 != line.size()) {
         add_corner(p, a, b, curve);
       } else if (cap == StrokeCap::kRound) {
-        add_arc(p, a, 180, curve);
+        add_arc(p, a, b, 180, curve);
         curve.push_back(p + distance_ * b);
       } else {
         const glm::dvec2 beyond = cap == StrokeCap::kSquare ? glm::dvec2(-a.y, a.x) : glm::dvec2(0);
@@ -150,7 +153,7 @@ class OffsetCurve {
       return;
     }
     if (join_ == OffsetJoin::kRound) {
-      add_arc(p, a, atan2_deg(sine, cosine), curve);
+      add_arc(p, a, b, atan2_deg(sine, cosine), curve);
     } else if (join_ == OffsetJoin::kBevel || bevels_long_mitres_) {
       add(a);
     } else {
@@ -163,14 +166,20 @@ class OffsetCurve {
     add(b);
   }
 
-  /// From direction `a` on, `turn` degrees counter-clockwise; the last point is the caller's.
-  void add_arc(const glm::dvec2& p, const glm::dvec2& a, double turn, Shape2D::Loop& curve) const {
+  /// From direction `a`, `turn` degrees counter-clockwise to `b`; the last point is the caller's.
+  /// Whole steps begin at the edge before the corner, as in OpenSCAD, which is the later one here
+  /// if loops are turned over.
+  void add_arc(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b, double turn,
+               Shape2D::Loop& curve) const {
     // What is more than anybody can have is not made; the caller counts and says so.
     const double wanted = std::min(std::ceil(turn * fragments_ / 360 - kNoise), kMostPoints + 1);
     const int steps = std::max(static_cast<int>(wanted), 1);
-    for (int i = 0; i < steps; ++i) {
-      const double c = cos_deg(360.0 * i / fragments_), s = sin_deg(360.0 * i / fragments_);
-      curve.push_back(p + distance_ * glm::dvec2(c * a.x - s * a.y, s * a.x + c * a.y));
+    curve.push_back(p + distance_ * a);
+    for (int i = 1; i < steps; ++i) {
+      const glm::dvec2& from = turned_over_ ? b : a;
+      const double degrees = 360.0 * (turned_over_ ? i - steps : i) / fragments_;
+      const double c = cos_deg(degrees), s = sin_deg(degrees);
+      curve.push_back(p + distance_ * glm::dvec2(c * from.x - s * from.y, s * from.x + c * from.y));
     }
   }
 
@@ -180,6 +189,7 @@ class OffsetCurve {
   static constexpr double kMostBesideArcs = 3;  ///< points at a corner, besides steps of an arc
 
   OffsetJoin join_;
+  bool turned_over_ = false;
   bool bevels_long_mitres_ = false;
   double distance_, mitre_limit_;
   int fragments_;
@@ -204,17 +214,11 @@ Result<Shape2D> united(const std::vector<Shape2D::Loop>& curves, const char* fun
   });
 }
 
-}  // namespace
-
-Result<Shape2D> offset_shape(const Shape2D& shape, const OffsetOptions& options) {
-  if (!std::isfinite(options.distance)) return not_finite("offset", "distance", options.distance);
-  if (shape.empty() || options.distance == 0) return shape;
-  if (const auto before = Shape2DFactory::before_turn(shape)) {
-    const Result<Shape2D> result = offset_shape(before->shape, options);
-    return result ? result->transformed(before->motion) : result;
-  }
+/// `mirrored`: the shape is the mirror image of what is meant.
+Result<Shape2D> offset_loops(const Shape2D& shape, const OffsetOptions& options, bool mirrored) {
   const bool inwards = options.distance < 0;
-  const OffsetCurve maker(std::fabs(options.distance), options.join, kMitreLimit, options.facets);
+  const OffsetCurve maker(std::fabs(options.distance), options.join, kMitreLimit, options.facets,
+                          inwards != mirrored);
   std::vector<Shape2D::Loop> loops = shape.loops();
   double corners = 0;
   for (Shape2D::Loop& loop : loops) {
@@ -229,6 +233,19 @@ Result<Shape2D> offset_shape(const Shape2D& shape, const OffsetOptions& options)
   std::vector<Shape2D::Loop> curves;
   for (const Shape2D::Loop& loop : loops) curves.push_back(maker.around(loop));
   return united(curves, "offset", inwards);
+}
+
+}  // namespace
+
+Result<Shape2D> offset_shape(const Shape2D& shape, const OffsetOptions& options) {
+  if (!std::isfinite(options.distance)) return not_finite("offset", "distance", options.distance);
+  if (shape.empty() || options.distance == 0) return shape;
+  const auto before = Shape2DFactory::before_turn(shape);
+  if (!before) return offset_loops(shape, options, false);
+  const auto& m = before->motion.m;
+  const bool mirrored = m[0][0] * m[1][1] - m[0][1] * m[1][0] < 0;
+  const Result<Shape2D> result = offset_loops(before->shape, options, mirrored);
+  return result ? result->transformed(before->motion) : result;
 }
 
 Result<Shape2D> stroke_shape(const Shape2D::Loop& line, const StrokeOptions& options) {

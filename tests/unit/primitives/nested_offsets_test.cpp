@@ -88,6 +88,33 @@ TEST(NestedOffsets, WholeStepsStayWhole) {
             64u);
 }
 
+TEST(NestedOffsets, ArcsBeginAtTheEdgeBeforeTheCorner) {
+  // Five steps a turn do not divide a quarter: the places are those that OpenSCAD gives.
+  const auto box = [](const std::string& text) { return testing::parse(text).shape.bounds(); };
+  const std::string round = ", $fn = 0, $fa = 12, $fs = 2) { ";
+  const Shape2D inwards =
+      testing::parse("offset(r = -1" + round +
+                     "polygon(points = [[0, 0], [10, 0], [10, 4], [4, 4], [4, 10], [0, 10]]); }")
+          .shape;
+  ASSERT_EQ(corners_of(inwards), 8u);
+  double nearest = 1;
+  for (const glm::dvec2& p : inwards.loops()[0])
+    nearest = std::min(nearest, std::hypot(p.x - 3.04894348, p.y - 3.69098301));
+  EXPECT_LT(nearest, 1e-6);
+  // The notch closes, and where the arcs of its corners meet is a corner for the way back.
+  const auto [low, high] = box("offset(r = -1" + round + "offset(r = 1" + round +
+                               "difference() { square(size = [9, 9]); multmatrix([[1, 0, 0, 4]]) "
+                               "{ square(size = [0.5, 5]); } } } }");
+  EXPECT_NEAR(low.y, -0.0832556, 1e-6);
+  // The image of a mirror has its own edges before corners.
+  const auto [left, right] = box("offset(r = 1" + round +
+                                 "multmatrix([[-0.8, 0.6, 0, 0], [0.6, 0.8, 0, 0]]) "
+                                 "{ polygon(points = [[0, 0], [10, 0], [5, 7]]); } }");
+  EXPECT_NEAR(left.x, -8.9999747, 1e-6);
+  EXPECT_NEAR(left.y, -0.8178475, 1e-6);
+  EXPECT_NEAR(right.y, 9.5532306, 1e-6);
+}
+
 TEST(NestedOffsets, OutAndInAgainGivesTheShape) {
   // As much as it had, but at corners, which facets had cut.
   Shape2D shape = *make_square({10, 10}, {false, false});
