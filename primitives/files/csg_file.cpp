@@ -275,6 +275,11 @@ class CsgBuilder {
     std::string note;
     Result<Shape2D> shape = make_text(text->options, choice->font, &note);
     if (!note.empty()) notes.push_back(note);
+    if (shape && text->upside_down) {
+      Affine half_turn;
+      half_turn.m[0][0] = half_turn.m[1][1] = -1;
+      shape = shape->transformed(half_turn);
+    }
     return flat_leaf(frame, std::move(shape), notes);
   }
 

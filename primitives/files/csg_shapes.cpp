@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -125,7 +126,11 @@ std::vector<std::vector<uint32_t>> CsgArguments::index_lists(std::string_view na
 
 Facets CsgArguments::facets() {
   Facets facets{number("$fn", 0), number("$fa", 12), number("$fs", 2), number("$fe", 0)};
-  if (!std::isfinite(facets.fn)) facets.fn = 3;  // as OpenSCAD has it
+  // As OpenSCAD has it. Sides of any length or angle are as few as there can be.
+  if (!std::isfinite(facets.fn)) facets.fn = 3;
+  if (facets.fa > 360) facets.fa = 360;
+  if (facets.fs > std::numeric_limits<double>::max())
+    facets.fs = std::numeric_limits<double>::max();
   if (facets.fn > kMostFacets && !error_) {
     error_ =
         Error{ErrorCode::kLimit,
@@ -321,6 +326,12 @@ Result<CsgText> csg_text(const CsgCall& call, std::vector<std::string>& warnings
   o.valign = arguments.string("valign", "default");
   o.facets = arguments.facets();
   o.as_openscad_rounds = true;
+  if (o.size < 0) {
+    // OpenSCAD turns such a text by half a turn, and its curves have the fewest steps.
+    text.upside_down = true;
+    o.size = -o.size;
+    o.facets = Facets{3};
+  }
   text.font = arguments.string("font", "");
   if (arguments.error()) return *arguments.error();
   const auto keep_known = [&](const char* name, std::string& value, const std::string& otherwise,

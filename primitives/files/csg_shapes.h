@@ -82,6 +82,7 @@ Result<CsgImport> csg_import(const CsgCall& call);
 struct CsgText {
   TextOptions options;
   std::string font;
+  bool upside_down = false;  ///< the size was negative: half a turn is to be made
 };
 /// Alignments and directions that there are not are those of no argument, as in OpenSCAD:
 /// `warnings` says so.

@@ -64,5 +64,14 @@ TEST(CsgFacets, SmallSidesAreAsSmallAsInOpenScad) {
             std::string::npos);
 }
 
+TEST(CsgFacets, SidesOfAnyLengthOrAngleAreFive) {
+  for (const std::string facets : {"$fa = inf, $fs = 2", "$fa = 12, $fs = inf", "$fa = 1e9"}) {
+    const CsgModel model = parse("circle($fn = 0, " + facets + ", r = 50);");
+    EXPECT_TRUE(model.warnings.empty());
+    ASSERT_FALSE(model.shape.empty()) << facets;
+    EXPECT_EQ(model.shape.loops()[0].size(), 5u) << facets;
+  }
+}
+
 }  // namespace
 }  // namespace csgrun

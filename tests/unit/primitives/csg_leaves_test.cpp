@@ -91,6 +91,15 @@ TEST(CsgLeaves, OutlinesOfShapes) {
             "m.csg:1: resize: newsize must be a list of 3 numbers");
 }
 
+TEST(CsgLeaves, TextOfNegativeSizeIsTurnedByHalfATurn) {
+  const Shape2D turned = parse("text(text = \"abc\", size = -5, $fn = 40);").shape;
+  EXPECT_NEAR(turned.area(), 16.8992812, 1e-5 * 16.9);  // as OpenSCAD has it, whatever $fn is
+  const Shape2D upright = parse("text(text = \"abc\", size = 5, $fn = 3);").shape;
+  EXPECT_NEAR(turned.area(), upright.area(), 1e-9);
+  EXPECT_EQ(turned.bounds()[0], -upright.bounds()[1]);
+  EXPECT_EQ(turned.bounds()[1], -upright.bounds()[0]);
+}
+
 TEST(CsgLeaves, TextIsNotEscaped) {
   const auto width = [](const std::string& string) {
     const CsgModel model = parse("text(text = \"" + string +
@@ -116,8 +125,8 @@ TEST(CsgLeaves, TextIsNotEscaped) {
   EXPECT_EQ(other.warnings,
             std::vector<std::string>{"m.csg:1: text: there is no font \"Arial\"; Liberation Sans "
                                      "Regular is used instead"});
-  EXPECT_EQ(parse("text(text = \"I\", size = -1);").warnings,
-            std::vector<std::string>{"m.csg:1: text: size must be positive, got -1"});
+  EXPECT_EQ(parse("text(text = \"I\", size = 0);").warnings,
+            std::vector<std::string>{"m.csg:1: text: size must be positive, got 0"});
   // Alignments that there are not, are none.
   const CsgModel odd = parse(
       "text(text = \"I\", size = 10, halign = \"middle\", valign = \"up\", "
