@@ -53,6 +53,7 @@ class CsgBuilder {
       frame.asked = asked;
       if (!background) {
         std::vector<std::string> notes;
+        frame.import = take_import(frame.call);
         name_arguments(frame.call, notes);
         clamp_facets(frame.call, notes);
         for (const std::string& note : notes) warn(frame, note);
@@ -519,6 +520,13 @@ class CsgBuilder {
   }
 
   Result<Item> extrude(CsgFrame& frame) {
+    if (frame.import) {
+      CsgFrame drawing;
+      drawing.call = *std::move(frame.import);
+      Result<Item> item = import(drawing);
+      if (!item) return item;
+      frame.children.assign(1, *std::move(item));
+    }
     Result<Item> profile = combine_flat(frame);
     if (!profile || profile->kind == Item::Kind::kNothing) return profile;
     if (profile->is_empty()) return Item::empty(Item::Kind::kSolid);

@@ -117,6 +117,7 @@ inline bool takes_open_ones(OfSheets asked) {
 /// A call that is open, and what its children came to so far.
 struct CsgFrame {
   CsgCall call;
+  std::optional<CsgCall> import;        ///< of an extrusion that names a file, instead of children
   bool background = false;              ///< it, or a node around it, is marked with %
   OfSheets asked = OfSheets::kNothing;  ///< by the node around it
   OfSheets asks = OfSheets::kNothing;   ///< of its children

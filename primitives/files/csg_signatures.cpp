@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "primitives/base/text.h"
@@ -109,6 +110,30 @@ void name_arguments(CsgCall& call, std::vector<std::string>& warnings) {
                        " too many and left out");
   }
   call.arguments = std::move(named);
+}
+
+std::optional<CsgCall> take_import(CsgCall& extrusion) {
+  const bool linear = extrusion.name == "linear_extrude";
+  if (!linear && extrusion.name != "rotate_extrude") return std::nullopt;
+  const CsgValue* file = extrusion.find("file");
+  if (file == nullptr || (file->kind == CsgValue::Kind::kString && file->string.empty()))
+    return std::nullopt;
+  CsgCall import;
+  import.name = "import";
+  import.line = extrusion.line;
+  std::vector<std::pair<std::string, CsgValue>> rest;
+  for (auto& [name, value] : extrusion.arguments) {
+    const bool moves = name == "file" || name == "layer" || name == "origin" ||
+                       name == "timestamp" || (name == "scale" && !linear);
+    if (!moves) rest.emplace_back(name, value);
+    if (name == "scale" && value.kind == CsgValue::Kind::kList && !value.list.empty()) {
+      import.arguments.emplace_back(name, value.list[0]);
+    } else if (moves || name == "scale" || name[0] == '$') {
+      import.arguments.emplace_back(name, std::move(value));
+    }
+  }
+  extrusion.arguments = std::move(rest);
+  return import;
 }
 
 void add_facets(CsgCall& call, const Facets& facets) {

@@ -1,6 +1,7 @@
 // The names of the arguments of .csg nodes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,11 @@ namespace csgrun {
 /// OpenSCAD writes and nothing needs here (convexity, timestamp). Nodes that are not known stay as
 /// they are.
 void name_arguments(CsgCall& call, std::vector<std::string>& warnings);
+
+/// The import that stands in an extrusion's arguments, of which it is taken out: OpenSCAD 2021.01
+/// writes `linear_extrude(file = "a.dxf", ...)`, which is made of the drawing and of no children.
+/// Its scale is the drawing's, and of a linear one the top's as well.
+std::optional<CsgCall> take_import(CsgCall& extrusion);
 
 /// Gives a call the $fn, $fa and $fs that differ from OpenSCAD's own, where it has none.
 void add_facets(CsgCall& call, const Facets& facets);

@@ -211,6 +211,47 @@ TEST(CsgLeaves, ImportsFilesOfTheirFolder) {
       "import: \"b.nef3\" has none of the endings .stl, .off, .obj, .ply, .3mf, .amf, .svg, .dxf");
 }
 
+TEST(CsgLeaves, ExtrusionsOfFilesAsOpenScad2021WritesThem) {
+  CsgEnvironment environment;
+  environment.read = [](const std::string& path) -> Result<std::string> {
+    if (path != "a.dxf") return Error{ErrorCode::kMalformedFile, "cannot read it", {}};
+    std::string lines = "0\nSECTION\n2\nENTITIES\n";
+    const char* corners[] = {"1", "1", "4", "1", "4", "3", "1", "3", "1", "1"};  // of 3 x 2
+    for (int i = 0; i < 8; i += 2) {
+      lines += std::string("0\nLINE\n8\n0\n10\n") + corners[i] + "\n20\n" + corners[i + 1] +
+               "\n11\n" + corners[i + 2] + "\n21\n" + corners[i + 3] + "\n";
+    }
+    return lines + "0\nENDSEC\n0\nEOF\n";
+  };
+  const auto top = [&](const std::string& text) {
+    const auto model = parse_csg("m.csg", text, environment);
+    EXPECT_TRUE(model) << (model ? "" : model.error().message);
+    if (!model || model->solid->kind() != NodeKind::kLeaf) return glm::dvec3(0);
+    EXPECT_TRUE(model->warnings.empty());
+    glm::dvec3 most(-1e9);
+    for (const glm::dvec3& p : model->solid->mesh()->points) most = glm::max(most, p);
+    return most;
+  };
+  const std::string file = "(file = \"a.dxf\", layer = \"\", ";
+  EXPECT_EQ(top("linear_extrude" + file +
+                "origin = [0, 0], timestamp = 1, height = 5, center = false, convexity = 1, "
+                "scale = [1, 1], $fn = 0, $fa = 12, $fs = 2);"),
+            glm::dvec3(4, 3, 5));
+  // The scale is that of the drawing, and that of the top.
+  EXPECT_EQ(top("linear_extrude" + file +
+                "origin = [1, 1], timestamp = 1, height = 5, center = false, convexity = 1, "
+                "scale = [2, 2], $fn = 0, $fa = 12, $fs = 2);"),
+            glm::dvec3(12, 8, 5));
+  EXPECT_EQ(top("rotate_extrude" + file +
+                "origin = [0, 0], scale = 2, timestamp = 1, angle = 360, convexity = 2, $fn = 4, "
+                "$fa = 12, $fs = 2);"),
+            glm::dvec3(8, 8, 6));
+  const auto missing = parse_csg("m.csg", "\nlinear_extrude(file = \"b.dxf\");", environment);
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().where.text() + ": " + missing.error().message,
+            "m.csg:2: import: cannot read it");
+}
+
 TEST(CsgLeaves, PolyhedraAreWeldedAndChecked) {
   const std::string tetra =
       "polyhedron(points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]], ";

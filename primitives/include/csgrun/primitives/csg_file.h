@@ -49,7 +49,8 @@ struct CsgEnvironment {
 /// have points for a hull and faces for a projection without a cut; flat ones are operands of a
 /// Minkowski sum like any other. A shape has one colour, that of the first of the shapes it is made
 /// of, and an extrusion has that of its shape. Arguments are matched by name, or by OpenSCAD's
-/// order; unknown ones are left out with a warning. A $fn above 100000 is a kLimit error of any
+/// order; unknown ones are left out with a warning. An extrusion may name a file instead of
+/// children, as OpenSCAD 2021.01 writes it. A $fn above 100000 is a kLimit error of any
 /// node that reads it.
 ///
 /// Errors have `where` set to the line and a message without it: kMalformedFile for what is not a
