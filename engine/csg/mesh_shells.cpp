@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include <glm/common.hpp>
+
+#include "engine/bsp/union_find.h"
 
 namespace csgrun {
 namespace {
@@ -83,12 +84,7 @@ PointBox box_of(const PolygonMesh& mesh) {
 
 MeshShells::MeshShells(std::shared_ptr<const PolygonMesh> mesh) : mesh_(std::move(mesh)) {
   const auto count = static_cast<uint32_t>(mesh_->face_count());
-  std::vector<uint32_t> parent(mesh_->points.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto find = [&](uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  UnionFind joined(mesh_->points.size());
   const auto corners = [&](uint32_t face) {
     const uint32_t begin = mesh_->loop_starts[mesh_->face_starts[face]];
     const uint32_t end = mesh_->loop_starts[mesh_->face_starts[face + 1]];
@@ -97,12 +93,12 @@ MeshShells::MeshShells(std::shared_ptr<const PolygonMesh> mesh) : mesh_(std::mov
   const bool may_part = is_closed(*mesh_);
   for (uint32_t f = 0; f < count; ++f) {
     // All faces of a mesh that may not be parted are joined with the first one's.
-    const uint32_t joined = (may_part ? corners(f) : corners(0))[0];
-    for (const uint32_t v : corners(f)) parent[find(v)] = find(joined);
+    const uint32_t first = (may_part ? corners(f) : corners(0))[0];
+    for (const uint32_t v : corners(f)) joined.join(first, v);
   }
-  std::vector<uint32_t> number(parent.size(), kNone);
+  std::vector<uint32_t> number(joined.size(), kNone);
   for (uint32_t f = 0; f < count; ++f) {
-    uint32_t& shell = number[find(corners(f)[0])];
+    uint32_t& shell = number[joined.find(corners(f)[0])];
     if (shell == kNone) {
       shell = static_cast<uint32_t>(faces_.size());
       faces_.emplace_back();
