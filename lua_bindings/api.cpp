@@ -229,6 +229,7 @@ void open_api(lua_State* L) {
   open_values(L);
   open_operators(L);
   open_vectors(L);
+  open_boxes(L);
   lua_pushglobaltable(L);
   lua_newtable(L);  // csg
   for (const Binding& binding : all_bindings()) {

@@ -104,5 +104,7 @@ void push_moved_shape(lua_State* L, int index, const Affine& map, const std::str
 void open_operators(lua_State* L);
 /// Registers what vec() gives.
 void open_vectors(lua_State* L);
+/// Registers what bbox() gives.
+void open_boxes(lua_State* L);
 
 }  // namespace csgrun

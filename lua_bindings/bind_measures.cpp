@@ -5,7 +5,9 @@
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/guard.h"
+#include "lua_bindings/nearest.h"
 #include "lua_bindings/session.h"
+#include "lua_bindings/text.h"
 
 namespace csgrun {
 namespace {
@@ -83,6 +85,32 @@ void fail_if_empty(bool empty, const FunctionSpec& spec) {
   if (empty) fail_in(spec, "there is nothing in it, so it has no place");
 }
 
+constexpr const char* kBoxName = "box";
+
+/// What a box has is found before; other programs' boxes have box[1], box.x or box.min_x.
+int box_index(lua_State* L) {
+  const bool is_name = lua_type(L, 2) == LUA_TSTRING;
+  const std::string name = is_name ? lua_tostring(L, 2) : "";
+  throw ScriptError(is_name ? "a bounding box has no '" + name + "'" +
+                                  did_you_mean(name, {"min", "max", "size", "center"}) +
+                                  ": it has min, max, size and center, with x, y and z each"
+                            : "a bounding box has min, max, size and center, and no [" +
+                                  describe_value(L, 2) + "]");
+}
+
+int box_text(lua_State* L) {
+  std::string text = "{";
+  for (const char* name : {"min", "max"}) {
+    lua_pushstring(L, name);
+    lua_rawget(L, 1);
+    text += fmt::format("{}{} = {}", text.size() > 1 ? ", " : "", name, display_text(L, -1));
+    lua_pop(L, 1);
+  }
+  text += "}";
+  lua_pushlstring(L, text.data(), text.size());
+  return 1;
+}
+
 /// `Point`: glm::dvec3 of solids, glm::dvec2 of shapes.
 template <class Point>
 int push_box(lua_State* L, const std::array<Point, 2>& box) {
@@ -95,6 +123,7 @@ int push_box(lua_State* L, const std::array<Point, 2>& box) {
   lua_setfield(L, -2, "size");
   push_point(L, box[0] + (box[1] - box[0]) * 0.5);
   lua_setfield(L, -2, "center");
+  luaL_setmetatable(L, kBoxName);
   return 1;
 }
 
@@ -257,5 +286,16 @@ constexpr Binding kBindings[] = {
 }  // namespace
 
 std::span<const Binding> measure_bindings() { return kBindings; }
+
+void open_boxes(lua_State* L) {
+  luaL_newmetatable(L, kBoxName);
+  lua_pushcfunction(L, guarded<box_index>);
+  lua_setfield(L, -2, "__index");
+  lua_pushcfunction(L, guarded<box_text>);
+  lua_setfield(L, -2, "__tostring");
+  lua_pushboolean(L, 0);
+  lua_setfield(L, -2, "__metatable");
+  lua_pop(L, 1);
+}
 
 }  // namespace csgrun
