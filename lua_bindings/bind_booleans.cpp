@@ -116,8 +116,10 @@ int outer_hull(lua_State* L) {
 
 /// "a solid and a number": both sides of an operator that does not fit.
 [[noreturn]] void fail_operator(lua_State* L, const char* symbol) {
-  throw ScriptError(fmt::format("'{}' needs two solids, or two shapes, got {} and {}", symbol,
-                                kind_name(L, 1), kind_name(L, 2)));
+  const bool has_list = lua_istable(L, 1) || lua_istable(L, 2);
+  throw ScriptError(fmt::format("'{}' needs two solids, or two shapes, got {} and {}{}", symbol,
+                                kind_name(L, 1), kind_name(L, 2),
+                                has_list ? "; a list of them is one by union(list)" : ""));
 }
 
 constexpr char kPlus[] = "+", kOr[] = "|", kMinus[] = "-", kTimes[] = "*", kAnd[] = "&",

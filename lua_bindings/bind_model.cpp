@@ -192,7 +192,10 @@ int import_file(lua_State* L) {
   if (model_file_format_of(path).empty()) {
     fail_in(kImport, "'" + path +
                          "' has none of the endings .stl, .off, .obj, .ply, .glb, .gltf, .3mf, "
-                         ".amf, .svg, .dxf");
+                         ".amf, .svg, .dxf" +
+                         (path.ends_with(".lua")   ? "; a script is read by require \"name\""
+                          : path.ends_with(".csg") ? "; a tree is read by load_csg(file)"
+                                                   : ""));
   }
   for (const char* name :
        {"layer", "id", "dpi", "origin", "scale", "as_openscad", "fn", "fa", "fs"}) {

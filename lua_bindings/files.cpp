@@ -236,7 +236,14 @@ Files::Opened Files::open_module(const std::string& name, const std::string& sea
       tried += "\n\tcannot read '" + path + "': " + text.error;
     }
   }
-  throw ScriptError("module '" + name + "' not found:" + tried);
+  constexpr std::string_view kEnding = ".lua";
+  if (name.size() > kEnding.size() && name.ends_with(kEnding)) {
+    const std::string without_ending(name, 0, name.size() - kEnding.size());
+    tried = " (names have no ending: require \"" + without_ending + "\"):" + tried;
+  } else {
+    tried.insert(0, ":");
+  }
+  throw ScriptError("module '" + name + "' not found" + tried);
 }
 
 }  // namespace csgrun

@@ -95,6 +95,24 @@ namespace {
 /// Deeper lists are taken for one that contains itself.
 constexpr int kDeepestList = 100;
 
+/// What the table at `index` has that lists do not have, for the end of a message: the key 0, or
+/// the first of its names.
+std::string strange_key(lua_State* L, int index) {
+  index = lua_absindex(L, index);
+  const bool has_place_0 = lua_rawgeti(L, index, 0) != LUA_TNIL;
+  lua_pop(L, 1);
+  if (has_place_0) return ", got the key 0: they begin at 1";
+  std::string first;
+  lua_pushnil(L);
+  while (lua_next(L, index) != 0) {
+    lua_pop(L, 1);
+    if (lua_type(L, -1) != LUA_TSTRING) continue;
+    const std::string name = lua_tostring(L, -1);
+    if (first.empty() || name < first) first = name;
+  }
+  return first.empty() ? first : ", got the key '" + first + "'";
+}
+
 /// The value at `index`: an operand, or a list of values such as this one.
 void add_operands(lua_State* L, int index, const FunctionSpec& spec, int depth,
                   Operands& operands) {
@@ -102,7 +120,10 @@ void add_operands(lua_State* L, int index, const FunctionSpec& spec, int depth,
   const lua_Integer length = list_length(L, index);
   if (length < 0 && missing_entry(L, index) != 0)
     fail_in(spec, "an operand must be a solid or a shape, got " + describe_value(L, index));
-  if (length < 0) fail_in(spec, "takes lists of solids or shapes without holes and names in them");
+  if (length < 0) {
+    fail_in(spec, "takes lists of solids or shapes without holes and names in them" +
+                      strange_key(L, index));
+  }
   if (depth == kDeepestList)
     fail_in(spec, "its lists are nested too deep (does one contain itself?)");
   luaL_checkstack(L, 4, "lists are nested too deep");

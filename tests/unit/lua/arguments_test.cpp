@@ -265,7 +265,14 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
       {"union{cube(1), nil, cube(2)}",
        "union: an operand must be a solid or a shape, got a list whose entry 2 is nil"},
       {"union{cube(1), name = cube(2)}",
-       "union: takes lists of solids or shapes without holes and names in them"},
+       "union: takes lists of solids or shapes without holes and names in them, got the key "
+       "'name'"},
+      {"union{[0] = cube(1), cube(2)}",
+       "union: takes lists of solids or shapes without holes and names in them, got the key 0: "
+       "they begin at 1"},
+      {"cube(1) - {cube(2)}",
+       "'-' needs two solids, or two shapes, got solid and table; a list of them is one by "
+       "union(list)"},
       {"union(cube(1), 'x')", "union: an operand must be a solid or a shape, got string"},
       {"cube(1):color('rod')", "color: there is no colour 'rod' (did you mean 'red'?)"},
       {"cube(1):color{1, 2, 0}", "color: 'c' must be from 0 to 1, got 2"},

@@ -11,7 +11,7 @@ TEST(Constructions, Mistakes) {
             "model.lua:1: hull: an operand must be a solid or a shape, got 3");
   EXPECT_EQ(message_of("return cube(1):minkowski{a = cube(1)}"),
             "model.lua:1: minkowski: takes lists of solids or shapes without holes and names in "
-            "them");
+            "them, got the key 'a'");
   EXPECT_EQ(message_of("return minkowski(cube(1), square(1))"),
             "model.lua:1: minkowski: a solid and a 2D shape cannot be combined; make a solid of "
             "the shape first, with linear_extrude or rotate_extrude");

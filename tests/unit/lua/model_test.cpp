@@ -264,6 +264,9 @@ TEST_F(FilesTest, ModulesAreFoundInOrderAndRunOnce) {
             "\tno file 'model/none/x/init.lua'\n\tno file 'model/csgrun_modules/none/x.lua'\n"
             "\tno file 'model/csgrun_modules/none/x/init.lua'\n\tno file 'library/none/x.lua'\n"
             "\tno file 'library/none/x/init.lua'");
+  const std::string named = "model/model.lua:1: require: module 'b.lua' not found (names have no ";
+  EXPECT_EQ(run("require 'b.lua'").find(named + "ending: require \"b\"):\n\tno file"), 0u);
+  EXPECT_TRUE(run("import 'b.lua'").ends_with(".dxf; a script is read by require \"name\""));
 }
 
 TEST_F(FilesTest, PackagePathAddsFoldersInsideTheLimits) {
