@@ -8,6 +8,7 @@
 #include "lua_bindings/guard.h"
 #include "lua_bindings/library_docs.h"
 #include "lua_bindings/nearest.h"
+#include "lua_bindings/openscad_hints.h"
 #include "lua_bindings/operands.h"
 #include "lua_bindings/session.h"
 #include "lua_bindings/text.h"
@@ -139,6 +140,8 @@ int find_method(lua_State* L) {
     throw ScriptError("a " + kind + " has no method '" + name + "', which is a function: " + name +
                       "(...)");
   }
+  if (const char* hint = method_hint(name))
+    throw ScriptError("a " + kind + " has no method '" + name + "' (" + hint + ")");
   throw ScriptError("a " + kind + " has no method '" + name + "'" + did_you_mean(name, names));
 }
 

@@ -1,7 +1,9 @@
 #include "lua_bindings/openscad_hints.h"
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
+#include <span>
 
 namespace csgrun {
 namespace {
@@ -22,6 +24,12 @@ bool has_list_in_brackets(std::string_view line) {
     if (before != std::string_view::npos && has("(,=[", line.substr(before, 1))) return true;
   }
   return false;
+}
+
+/// The word, a blank and a letter.
+bool begins_with_words(std::string_view line, std::string_view word) {
+  return line.size() > word.size() + 1 && line.starts_with(word) && line[word.size()] == ' ' &&
+         std::isalpha(static_cast<unsigned char>(line[word.size() + 1])) != 0;
 }
 
 /// a += 1, a++.
@@ -66,6 +74,9 @@ std::string syntax_hint(std::string_view line, std::string_view message) {
     return "; it is written out: a = a + 1";
   if (has(message, "'&'") && has(line, "&&")) return "; both together are: a and b";
   if (has(message, "'|'") && has(line, "||")) return "; one or the other is: a or b";
+  if (has(message, "near '='") &&
+      (has(message, "'then' expected") || has(message, "'do' expected")))
+    return "; \"equal\" is ==";
   if (line.starts_with("while ") && has(message, "'do' expected"))
     return "; a loop is: while a do ... end";
   for (const char* form : {"let ", "const ", "var "}) {
@@ -74,6 +85,9 @@ std::string syntax_hint(std::string_view line, std::string_view message) {
   }
   if (line.starts_with("module "))
     return "; a module is a function that returns a solid: local function name(...) ... end";
+  if (begins_with_words(line, "def")) return "; a function is: function f(x) return x * 2 end";
+  if (begins_with_words(line, "import") || begins_with_words(line, "from"))
+    return "; other files of Lua are read by require \"name\"";
   if (line.starts_with("include <") || line.starts_with("use <"))
     return "; other files of Lua are read by require \"name\"";
   if (line.starts_with("//") || line.starts_with("/*") || has(message, "'//'"))
@@ -92,68 +106,147 @@ std::string syntax_hint(std::string_view line, std::string_view message) {
         return std::string("; what is changed stands before: cube(10):") + mover + "(...)";
     }
   }
+  for (const char* operation : {"near '-'", "near '+'", "near '*'", "near '|'", "near '&'"}) {
+    if (has(message, "syntax error") && has(message, operation))
+      return "; a value that is made needs a name, or return: part = part - hole";
+  }
   // After a value it divides by what it was to say.
   if (has(line, "//")) return "; a comment begins with --";
   return {};
 }
 
-const char* name_hint(std::string_view name) {
-  struct Hint {
-    std::string_view name;
-    const char* text;
-  };
-  static constexpr Hint kHints[] = {
-      {"echo", "print(...) writes to the log"},
-      {"undef", "it is nil"},
-      {"null", "it is nil"},
-      {"undefined", "it is nil"},
-      {"len", "it is #list"},
-      {"str", "it is a .. b, or tostring(x)"},
-      {"concat", "it is table.move, or a loop"},
-      {"chr", "it is utf8.char(code)"},
-      {"ord", "it is utf8.codepoint(text)"},
-      {"log", "it is math.log(x, base), or ln(x)"},
-      {"is_undef", "it is x == nil"},
-      {"is_num", "it is type(x) == \"number\""},
-      {"is_list", "it is type(x) == \"table\""},
-      {"is_string", "it is type(x) == \"string\""},
-      {"is_bool", "it is type(x) == \"boolean\""},
-      {"is_function", "it is type(x) == \"function\""},
-      {"use", "it is require \"name\""},
-      {"include", "it is require \"name\""},
-      {"children", "a function takes what it works on as an argument"},
-      {"intersection_for", "it is intersection(list), of a list that a loop fills"},
-      {"search", "it is a loop: for i, x in ipairs(list) do ... end"},
-      {"each", "it is table.unpack(list), at the end of a list"},
-      {"let", "it is local a = 1, before what uses it"},
-      {"assign", "it is local a = 1, before what uses it"},
-      {"parent_module", "there is none: a function is told what it needs by its arguments"},
-      {"cuboid", "it is cube{20, 10, 5}"},
-      {"box", "it is cube{20, 10, 5}"},
-      {"cyl", "it is cylinder{h = 10, r = 5}"},
-      {"cone", "it is cylinder{h = 10, r1 = 5, r2 = 0}"},
-      {"frustum", "it is cylinder{h = 10, r1 = 5, r2 = 2}"},
-      {"ngon", "it is regular_polygon{n = 6, r = 5}"},
-      {"prism", "it is cylinder{h = 10, r = 5, fn = 6}"},
-      {"tube", "it is cylinder{h = 10, r = 5} - cylinder{h = 10, r = 4}"},
-      {"roundedCuboid", "it is cube{{20, 10, 5}, r = 2}"},
-      {"roundedCube", "it is cube{{20, 10, 5}, r = 2}"},
-      {"roundedcube", "it is cube{{20, 10, 5}, r = 2}"},
-      {"rounded_cube", "it is cube{{20, 10, 5}, r = 2}"},
-      {"rectangle", "it is rect{20, 10}"},
-      {"roundedRectangle", "it is rect{{20, 10}, r = 2}"},
-      {"roundedRect", "it is rect{{20, 10}, r = 2}"},
-      {"rounded_rectangle", "it is rect{{20, 10}, r = 2}"},
-      {"rounded_rect", "it is rect{{20, 10}, r = 2}"},
-      {"rounded_square", "it is rect{{20, 10}, r = 2}"},
-      {"version", "csgrun --version tells"},
-      {"hullChain", "it is union{hull(a, b), hull(b, c)}"},
-      {"Manifold", "its functions are globals: cube, sphere, union"},
-      {"CrossSection", "its functions are globals: square, circle, polygon"},
-  };
-  const auto* hint = std::find_if(std::begin(kHints), std::end(kHints),
-                                  [&](const Hint& each) { return each.name == name; });
-  return hint == std::end(kHints) ? nullptr : hint->text;
+namespace {
+
+struct Hint {
+  std::string_view name;  // in lower case and without underscores
+  const char* text;
+};
+
+constexpr char kWriting[] = "what the script returns is written: csgrun model.lua -o part.stl";
+constexpr char kShell[] = "a shell is part - part:offset(-2)";
+constexpr char kRoundedBox[] = "it is cube{{20, 10, 5}, r = 2}";
+constexpr char kRoundedRectangle[] = "it is rect{{20, 10}, r = 2}";
+constexpr char kCurve[] =
+    "a curve is a list of its points, which a loop fills, for polygon or sweep";
+constexpr char kNoPlanes[] = "there are no work planes: a part is made at the origin and moved";
+constexpr char kDegrees[] = "angles are degrees; math.rad(x) and math.deg(x) convert";
+constexpr char kColourNames[] = "color takes '#rrggbb' and names as they are";
+constexpr char kParameters[] = "a parameter is param(\"width\", 20), set by -D width=25";
+
+/// What stands for functions and variables of other programs, and of other languages.
+constexpr Hint kNames[] = {
+    // OpenSCAD
+    {"assign", "it is local a = 1, before what uses it"},
+    {"children", "a function takes what it works on as an argument"},
+    {"chr", "it is utf8.char(code)"},
+    {"concat", "it is table.move, or a loop"},
+    {"each", "it is table.unpack(list), at the end of a list"},
+    {"echo", "print(...) writes to the log"},
+    {"include", "it is require \"name\""},
+    {"intersectionfor", "it is intersection(list), of a list that a loop fills"},
+    {"isbool", "it is type(x) == \"boolean\""},
+    {"isfunction", "it is type(x) == \"function\""},
+    {"islist", "it is type(x) == \"table\""},
+    {"isnum", "it is type(x) == \"number\""},
+    {"isstring", "it is type(x) == \"string\""},
+    {"isundef", "it is x == nil"},
+    {"len", "it is #list"},
+    {"let", "it is local a = 1, before what uses it"},
+    {"log", "it is math.log(x, base), or ln(x)"},
+    {"ord", "it is utf8.codepoint(text)"},
+    {"parentmodule", "there is none: a function is told what it needs by its arguments"},
+    {"search", "it is a loop: for i, x in ipairs(list) do ... end"},
+    {"str", "it is a .. b, or tostring(x)"},
+    {"undef", "it is nil"},
+    {"use", "it is require \"name\""},
+    {"version", "csgrun --version tells"},
+    // other languages, and Lua 5.1
+    {"arg", kParameters},
+    {"null", "it is nil"},
+    {"params", kParameters},
+    {"range", "a loop is: for i = 0, 9 do ... end"},
+    {"undefined", "it is nil"},
+    {"unpack", "it is table.unpack(list)"},
+    // solids of other programs
+    {"box", "it is cube{20, 10, 5}"},
+    {"cone", "it is cylinder{h = 10, r1 = 5, r2 = 0}"},
+    {"cuboid", "it is cube{20, 10, 5}"},
+    {"cyl", "it is cylinder{h = 10, r = 5}"},
+    {"cylinderelliptic", "it is cylinder{h = 10, r = 5}:scale(1, 0.5, 1)"},
+    {"dodecahedron", "it is hull(points), of its 20 corners"},
+    {"frustum", "it is cylinder{h = 10, r1 = 5, r2 = 2}"},
+    {"geodesicsphere", "it is sphere{r = 10, fn = 64}"},
+    {"prism", "it is cylinder{h = 10, r = 5, fn = 6}"},
+    {"roundedcube", kRoundedBox},
+    {"roundedcuboid", kRoundedBox},
+    {"roundedcylinder", "it is cylinder{h = 10, r = 5, round = 1}"},
+    {"tetrahedron", "it is hull{{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}"},
+    {"tube", "it is cylinder{h = 10, r = 5} - cylinder{h = 10, r = 4}"},
+    // shapes and curves
+    {"arc", kCurve},
+    {"bezier", kCurve},
+    {"ellipse", "it is circle(10):scale(1, 0.5)"},
+    {"helix", kCurve},
+    {"line", kCurve},
+    {"ngon", "it is regular_polygon{n = 6, r = 5}"},
+    {"polyline", kCurve},
+    {"rectangle", "it is rect{20, 10}"},
+    {"roundedrect", kRoundedRectangle},
+    {"roundedrectangle", kRoundedRectangle},
+    {"roundedsquare", kRoundedRectangle},
+    {"spline", kCurve},
+    {"star", "it is polygon(points), of points that a loop fills"},
+    {"triangle", "it is polygon{{0, 0}, {20, 0}, {0, 10}}"},
+    // what is done with them
+    {"bosl", "there are csg.gears, csg.threads and csg.layout: require \"csg.gears\""},
+    {"colornametorgb", kColourNames},
+    {"cq", kNoPlanes},
+    {"crosssection", "its functions are globals: square, circle, polygon"},
+    {"degtorad", kDegrees},
+    {"hextorgb", kColourNames},
+    {"hullchain", "it is union{hull(a, b), hull(b, c)}"},
+    {"manifold", "its functions are globals: cube, sphere, union"},
+    {"measurearea", "it is part:area()"},
+    {"measureboundingbox", "it is part:bbox()"},
+    {"measurecenter", "it is part:bbox().center"},
+    {"measurecenterofmass", "it is part:centroid()"},
+    {"measuredimensions", "it is part:size()"},
+    {"measurevolume", "it is part:volume()"},
+    {"radtodeg", kDegrees},
+    {"scad", "it is load_csg(\"tree.csg\"), of a tree that OpenSCAD wrote"},
+    {"setcircularsegments", "it is csg.fn = 64"},
+    {"setmincircularangle", "it is csg.fa = 3"},
+    {"setmincircularedgelength", "it is csg.fs = 0.5"},
+    {"workplane", kNoPlanes},
+};
+
+/// What is no method of solids and shapes, nor a function.
+constexpr Hint kVerbs[] = {
+    {"display", kWriting},   {"export", kWriting},
+    {"exportstl", kWriting}, {"hollow", kShell},
+    {"save", kWriting},      {"shell", kShell},
+    {"show", kWriting},      {"showobject", kWriting},
+    {"thicken", kShell},     {"hole", "a hole is part - cylinder{h = 10, d = 5}"},
+    {"tostl", kWriting},     {"write", kWriting},
+};
+
+const char* find_hint(std::span<const Hint> hints, std::string_view name) {
+  std::string folded;
+  for (const char c : name) {
+    if (c != '_') folded += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  const auto hint = std::find_if(hints.begin(), hints.end(),
+                                 [&](const Hint& each) { return each.name == folded; });
+  return hint == hints.end() ? nullptr : hint->text;
 }
+
+}  // namespace
+
+const char* name_hint(std::string_view name) {
+  const char* hint = find_hint(kNames, name);
+  return hint != nullptr ? hint : find_hint(kVerbs, name);
+}
+
+const char* method_hint(std::string_view name) { return find_hint(kVerbs, name); }
 
 }  // namespace csgrun

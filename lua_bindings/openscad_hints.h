@@ -16,7 +16,11 @@ std::string run_time_hint(std::string_view message);
 /// Whether a function is one that OpenSCAD writes before what it changes.
 bool is_written_before(std::string_view function);
 
-/// What stands for one of OpenSCAD's functions that there is under another name; null for others.
+/// What stands for a function or a variable that OpenSCAD, another program or another language has
+/// under this name, however its words are put together; null for others.
 const char* name_hint(std::string_view name);
+
+/// The same for methods of solids and shapes.
+const char* method_hint(std::string_view name);
 
 }  // namespace csgrun

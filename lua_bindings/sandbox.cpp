@@ -53,10 +53,14 @@ int undefined_global(lua_State* L) {
   if (const char* reason = missing_name_reason(name)) {
     throw ScriptError("'" + name + "' is not available: " + reason);
   }
-  if (const char* hint = name_hint(name))
-    throw ScriptError("undefined variable '" + name + "' (in Lua " + hint + ")");
   std::vector<std::string> names;
   add_visible_locals(L, names);
+  if (const char* hint = name_hint(name)) {
+    const std::string local = nearest_name(name, names);
+    throw ScriptError("undefined variable '" + name + "' (" +
+                      (local.empty() ? "in" : "did you mean '" + local + "'? otherwise, in") +
+                      " Lua " + hint + ")");
+  }
   lua_pushnil(L);
   while (lua_next(L, 1) != 0) {
     lua_pop(L, 1);

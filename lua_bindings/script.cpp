@@ -65,9 +65,16 @@ int run_program(lua_State* L) {
     program.session->name_unnamed_parts();
     program.session->keep_only_parts();
     if (program.session->parts().empty()) {
+      // Where JSCAD's scripts end, without a word that calls it.
+      lua_pushglobaltable(L);
+      lua_pushliteral(L, "main");
+      const bool has_main = lua_rawget(L, -2) == LUA_TFUNCTION;
       throw ScriptError(program.session->has_absent_parts
                             ? "the script makes no part: all that it gave are skipped"
-                            : "the script makes no part: return a solid, or call emit(solid)");
+                        : has_main ? "the script makes no part: 'main' is a function like any "
+                                     "other, return main()"
+                                   : "the script makes no part: return a solid, or call "
+                                     "emit(solid)");
     }
   } catch (const ScriptError& error) {
     throw PlacedScriptError(*program.name + ":" + std::to_string(last_line(L, function)) + ": " +

@@ -305,8 +305,10 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
 
 // What is proposed for solids and shapes of other programs can be written so.
 TEST(Hints, ProposedCallsMakeParts) {
-  for (const std::string name : {"box", "cuboid", "cone", "frustum", "prism", "cyl", "tube",
-                                 "roundedCuboid", "ngon", "rectangle"}) {
+  for (const std::string name :
+       {"box", "cuboid", "cone", "frustum", "prism", "cyl", "tube", "roundedCuboid", "ngon",
+        "rectangle", "cylinderElliptic", "roundedCylinder", "geodesicSphere", "tetrahedron",
+        "ellipse", "triangle"}) {
     const std::string message = message_of("return " + name + "(1)"), before = "(in Lua it is ";
     const size_t at = message.find(before);
     ASSERT_NE(at, std::string::npos) << message;
@@ -366,6 +368,42 @@ TEST(Hints, NamesOfOtherPrograms) {
             "of a list)");
 }
 
+TEST(Hints, MethodsAndWordsOfOtherPrograms) {
+  const std::string written = "what the script returns is written: csgrun model.lua -o part.stl";
+  constexpr BadCall kCalls[] = {
+      {"cube(1):shell(1)", "a solid has no method 'shell' (a shell is part - part:offset(-2))"},
+      {"cube(1):hole(1)",
+       "a solid has no method 'hole' (a hole is part - cylinder{h = 10, d = 5})"},
+      {"shell(cube(1), 1)",
+       "undefined variable 'shell' (in Lua a shell is part - part:offset(-2))"},
+      {"square(1):round(1)", "a shape has no method 'round' (did you mean 'offset'?)"},
+      {"cube(1):translateX(1)", "a solid has no method 'translateX' (did you mean 'tx'?)"},
+      {"circle(1):extrude_linear(1)",
+       "a shape has no method 'extrude_linear' (did you mean 'linear_extrude'?)"},
+      {"measureVolume(cube(1))", "undefined variable 'measureVolume' (in Lua it is part:volume())"},
+      {"param('r', {initial = 5})", "param: unknown option 'initial' (did you mean 'default'?)"},
+      {"cube(1):bbox().x",
+       "a bounding box has no 'x': it has min, max, size and center, with x, y and z each"},
+      {"cube(1):bbox().Max",
+       "a bounding box has no 'Max' (did you mean 'max'?): it has min, max, size and center, with "
+       "x, y and z each"},
+      {"square(1):bbox()[2][1]", "a bounding box has min, max, size and center, and no [2]"},
+  };
+  for (const BadCall& call : kCalls)
+    EXPECT_EQ(message_of(std::string("return ") + call.text),
+              "model.lua:1: " + std::string(call.message));
+  EXPECT_EQ(message_of("cube(1):export('a.stl')"),
+            "model.lua:1: a solid has no method 'export' (" + written + ")");
+  EXPECT_EQ(message_of("show_object(cube(1))"),
+            "model.lua:1: undefined variable 'show_object' (in Lua " + written + ")");
+  EXPECT_EQ(message_of("local lines = 3\nreturn cube(line)"),
+            "model.lua:2: undefined variable 'line' (did you mean 'lines'? otherwise, in Lua a "
+            "curve is a list of its points, which a loop fills, for polygon or sweep)");
+  EXPECT_EQ(message_of("function main() return cube(1) end"),
+            "model.lua:1: the script makes no part: 'main' is a function like any other, return "
+            "main()");
+}
+
 TEST(Hints, OpenScadInALineThatIsNoLua) {
   constexpr BadCall kLines[] = {
       {"for (i=[0:3]) cube(i)", "a loop is: for i = 0, 3 do ... end"},
@@ -381,6 +419,11 @@ TEST(Hints, OpenScadInALineThatIsNoLua) {
       {"if (a) { }", "a condition is: if a then ... else ... end"},
       {"%cube(1)", "OpenSCAD's modifiers are not part of Lua"},
       {"!cube(1)", "OpenSCAD's modifiers are not part of Lua"},
+      {"local a = 1\nif a = 1 then end", "\"equal\" is =="},
+      {"local a = cube(1)\na - cube(2)",
+       "a value that is made needs a name, or return: part = part - hole"},
+      {"def f(x): return x", "a function is: function f(x) return x * 2 end"},
+      {"import math", "other files of Lua are read by require \"name\""},
       {"for i in {1,2,3} do end",
        "the entries of a list are gone through by: for _, x in ipairs(list) do"},
       {"local cube = cube(5) return cube(1)",
