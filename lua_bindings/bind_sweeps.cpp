@@ -24,10 +24,14 @@ constexpr Option kSweepOptions[] = {
      Range::kNotNegative},
     {"up", T::kVector3, "{0, 0, 1}; {0, 1, 0} where the path starts along Z",
      "where the shape's Y points to at the start", false},
+    {"upright", T::kBoolean, "false",
+     "Y points there along the whole path, as far as that is across it: for a spring or a ramp",
+     false},
 };
 constexpr FunctionSpec kSweep{
     "sweep",
-    "A solid: the shape, across the path, moved along it; it turns with the path and no more.",
+    "A solid: the shape, across the path, moved along it; it turns with the path and no more, or "
+    "stays upright.",
     kSweepOptions,
     true,
     "circle(2):sweep{{0, 0, 0}, {0, 0, 20}, {15, 0, 30}}",
@@ -52,6 +56,7 @@ int sweep(lua_State* L) {
     if (up->v == glm::dvec3(0, 0, 0)) fail_in(kSweep, "option 'up' must not be 0");
     options.up = up->v;
   }
+  options.upright = arguments.boolean("upright", false);
   options.facets = arguments.facets();
   if (shape.shape.empty()) {
     push_solid(L, Node::empty(session_of(L).source_ref(L)));

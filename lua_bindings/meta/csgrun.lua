@@ -641,12 +641,13 @@ csg.fontmetrics = fontmetrics
 ---@field twist? number turn over the whole path, counter-clockwise seen against it, degrees
 ---@field scale? number|number[] factor at the end, or factors along X and Y of the shape; 0 comes to a point
 ---@field up? number[] where the shape's Y points to at the start
+---@field upright? boolean Y points there along the whole path, as far as that is across it: for a spring or a ramp
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
 ---@field fs? number smallest length of a facet, mm, at least 0.01
 
----A solid: the shape, across the path, moved along it; it turns with the path and no more.
+---A solid: the shape, across the path, moved along it; it turns with the path and no more, or stays upright.
 ---
 ---Example: `circle(2):sweep{{0, 0, 0}, {0, 0, 20}, {15, 0, 30}}`
 ---@param shape any the 2D shape; as a method, shape:f(...), it is left out
@@ -656,7 +657,7 @@ csg.fontmetrics = fontmetrics
 function sweep(shape, path, options) end
 csg.sweep = sweep
 
----A solid: the shape, across the path, moved along it; it turns with the path and no more.
+---A solid: the shape, across the path, moved along it; it turns with the path and no more, or stays upright.
 ---
 ---Example: `circle(2):sweep{{0, 0, 0}, {0, 0, 20}, {15, 0, 30}}`
 ---@overload fun(self: Shape, options: csgrun.sweep): Solid

@@ -90,17 +90,19 @@ Frame carried(const Frame& frame, const glm::dvec3& forward) {
   return next;
 }
 
-Result<Frame> first_frame(const glm::dvec3& forward, const std::optional<glm::dvec3>& up) {
+/// Where the outline's Y points to at the start of a path that begins in this direction.
+glm::dvec3 up_at_start(const glm::dvec3& forward, const std::optional<glm::dvec3>& up) {
   const bool along_z = forward.x == 0 && forward.y == 0;
-  glm::dvec3 y = up ? *up : along_z ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
-  y -= forward * glm::dot(y, forward);
+  return up ? *up : along_z ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+}
+
+/// Y as far up as it can be across the path; nothing where up is along it.
+std::optional<Frame> upright_frame(const glm::dvec3& forward, const glm::dvec3& up) {
+  const glm::dvec3 y = up - forward * glm::dot(up, forward);
   const double length = length_of(y);
   constexpr double kLeast = 1e-9;  // of a direction that is given with sixteen digits
-  if (!(length > kLeast)) {
-    return invalid_argument("sweep: up must not point along the start of the path");
-  }
-  y /= length;
-  return Frame{glm::cross(y, forward), y, forward};
+  if (!(length > kLeast)) return std::nullopt;
+  return Frame{glm::cross(y / length, forward), y / length, forward};
 }
 
 /// The angle from frame a to b about their common direction, counter-clockwise seen against it.
@@ -110,12 +112,14 @@ double angle_between(const Frame& a, const Frame& b) {
 
 class Sweeper {
  public:
-  /// `loops` are those of the shape, perhaps with more points on edges.
+  /// `loops` are those of the shape, perhaps with more points on edges. `rolls`: what each frame
+  /// is to be turned by, in degrees, to stand upright.
   Sweeper(const Shape2D& shape, std::vector<Shape2D::Loop> loops, const SweepOptions& options,
-          std::vector<glm::dvec3> path, std::vector<Frame> frames)
+          std::vector<glm::dvec3> path, std::vector<Frame> frames, std::vector<double> rolls)
       : options_(options),
         path_(std::move(path)),
         frames_(std::move(frames)),
+        rolls_(std::move(rolls)),
         loops_(std::move(loops)),
         profile_(make_profile(shape, loops_)) {}
 
@@ -167,14 +171,20 @@ class Sweeper {
   void add_ring(size_t i) {
     const size_t n = path_.size();
     const bool ends = !options_.closed && (i == 0 || i + 1 == n);
-    const Frame& before = i > 0 ? frames_[i - 1] : ends ? frames_[0] : frames_.back();
-    const Frame& after = ends && i > 0 ? before : frames_[i % frames_.size()];
+    const size_t piece_before = i > 0 ? i - 1 : ends ? 0 : frames_.size() - 1;
+    const size_t piece_after = ends ? piece_before : i;
+    const Frame &before = frames_[piece_before], &after = frames_[piece_after];
     // The ring lies where the lines of the piece before meet the halving plane; the first of a
     // closed path is seen from the piece after it, from which the frames were carried on.
     const Frame& frame = i == 0 ? after : before;
     const glm::dvec3 half = before.forward + after.forward;
     const double part = along_[i] / along_.back();
-    const double angle = (options_.twist + correction_) * part;
+    double angle = (options_.twist + (options_.upright ? 0 : correction_)) * part;
+    if (options_.upright) {
+      // Halfway between what the two pieces ask for: the path's turn is in both frames already.
+      const double from = rolls_[piece_before] - (i == 0 ? correction_ : 0);
+      angle += from + std::remainder(rolls_[piece_after] - from, 360) / 2;
+    }
     const double c = cos_deg(angle), s = sin_deg(angle);
     const glm::dvec2 scale = glm::dvec2(1) + (options_.scale - glm::dvec2(1)) * part;
     std::vector<uint32_t>& ring = rings_.emplace_back();
@@ -225,6 +235,7 @@ class Sweeper {
   const SweepOptions& options_;
   std::vector<glm::dvec3> path_;
   std::vector<Frame> frames_;  // of each piece
+  std::vector<double> rolls_;  // likewise
   const std::vector<Shape2D::Loop> loops_;
   Profile profile_;
   std::vector<double> along_;   // how far each point of the path lies from its start
@@ -299,17 +310,25 @@ MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
   const double points = rings * static_cast<double>(outline);
   if (points > kMostPoints) return too_many_points(kName, rings, points);
   std::vector<Frame> frames;
+  std::vector<double> rolls;
+  const glm::dvec3 up = up_at_start(direction_of(path, 0), options.up);
   for (size_t i = 0; i < pieces; ++i) {
     const glm::dvec3 forward = direction_of(path, i);
-    if (i == 0) {
-      const Result<Frame> first = first_frame(forward, options.up);
-      if (!first) return first.error();
-      frames.push_back(*first);
-      continue;
+    const std::optional<Frame> upright = upright_frame(forward, up);
+    if (i == 0 && !upright)
+      return invalid_argument("sweep: up must not point along the start of the path");
+    if (options.upright && !upright) {
+      const glm::dvec3& p = path[i];
+      return invalid_argument(
+          "sweep: an upright shape cannot stand where the path goes along up, at {" +
+          number_text(p.x) + ", " + number_text(p.y) + ", " + number_text(p.z) + "}");
     }
-    frames.push_back(carried(frames.back(), forward));
+    frames.push_back(i == 0 ? *upright : carried(frames.back(), forward));
+    if (options.upright) rolls.push_back(angle_between(frames.back(), *upright));
   }
-  return Sweeper(shape, std::move(loops), options, std::move(path), std::move(frames)).build();
+  return Sweeper(shape, std::move(loops), options, std::move(path), std::move(frames),
+                 std::move(rolls))
+      .build();
 }
 
 }  // namespace csgrun

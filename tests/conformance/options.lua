@@ -166,6 +166,8 @@ shows("sweep.closed", square(1, true):sweep({{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0
 shows("sweep.twist", square{4, 1, center = true}:sweep(path, {twist = 90}) ~= square{4, 1, center = true}:sweep(path))
 shows("sweep.scale", near(square(2, true):sweep(path, {scale = 2}):size()[1], 4))
 shows("sweep.up", square{4, 1, center = true}:sweep(path, {up = {1, 0, 0}}):size()[1] == 1)
+local climb = {{20, 0, 0}, {0, 20, 9}, {-20, 0, 18}, {0, -20, 27}, {20, 0, 36}}
+shows("sweep.upright", near(square(6, 1, true):sweep(climb, {upright = true}):size().z, 36 + 1 / norm{1, 9 / norm{20, 20}}))
 local ell = square(20, 10) + square(10, 20)
 local function roofed(o) return count(ell:roof(o)) end
 shows("roof.fn", roofed{fn = 80} > roofed{fn = 16} and roofed{segments = 16} == roofed{fn = 16})

@@ -15,6 +15,9 @@ assert(frame:genus() == 1)
 assert(s:sweep({{0, 0, 0}, {20, 0, 0}, {20, 10, 0}, {0, 10, 0}}, {closed = true, twist = 360}):genus() == 1)
 local slat = square(6, 1)
 near(slat:sweep({{0, 0, 0}, {0, 0, 10}}, {up = {1, 0, 0}}):size()[2], 6)
+local ramp = {}
+for i = 0, 64 do ramp[#ramp + 1] = {20 * cos(i * 15), 20 * sin(i * 15), i / 4} end
+near(square(6, 1, true):sweep(ramp, {upright = true}):size().z, 17, 0.005)
 for _, o in ipairs{{twist = 90}, {twist = 90, fn = 80}, {twist = -200, fn = 30}} do
   local ring = square(4, true) - square(2, true):translate(0.3, 0)
   near(ring:sweep({{0, 0, 0}, {0, 0, 10}}, o):volume(), ring:linear_extrude(10, {twist = -o.twist, fn = o.fn}):volume())

@@ -49,6 +49,70 @@ std::array<glm::dvec3, 2> bounds(const PolygonMesh& mesh) {
 
 const Shape2D kSquare = box(-1, -1, 1, 1);
 
+/// A spring about Z: its ribbon's corners are as far from the axis, and as far above and below the
+/// path, at its end as at its start.
+TEST(Sweep, UprightOnAHelix) {
+  constexpr double kRadius = 10, kPitch = 5;
+  constexpr int kTurns = 4, kSteps = 64;
+  std::vector<glm::dvec3> path;
+  for (int i = 0; i <= kTurns * kSteps; ++i) {
+    const double turn = double(i) / kSteps;
+    path.push_back({kRadius * cos_deg(360 * turn), kRadius * sin_deg(360 * turn), kPitch * turn});
+  }
+  const Shape2D ribbon = box(-0.25, -1, 0.25, 1);
+  const auto reach = [&](const PolygonMesh& mesh) {
+    double least = 1e9, most = 0;
+    for (const glm::dvec3& p : mesh.points) {
+      least = std::min(least, std::hypot(p.x, p.y));
+      most = std::max(most, std::hypot(p.x, p.y));
+    }
+    return most - least;
+  };
+  const PolygonMesh upright = swept(ribbon, path, {.path = {}, .upright = true});
+  EXPECT_NEAR(reach(upright), 0.5, 0.02);
+  const auto box = bounds(upright);
+  EXPECT_NEAR(box[1].z - box[0].z, kTurns * kPitch + 2, 0.05);
+  const double length = kTurns * std::hypot(2 * kPi * kRadius, kPitch);
+  // Walls of two triangles bulge: by their height times the roll of a piece / 6, on both sides.
+  const double roll = 2 * kPi / kSteps * kPitch / std::hypot(2 * kPi * kRadius, kPitch);
+  EXPECT_NEAR(volume(upright), (0.5 + 2 * roll / 6) * 2 * length, 1e-3 * length);
+  EXPECT_GT(reach(swept(ribbon, path)), 1.5);  // it leans, and lies flat after some turns
+}
+
+TEST(Sweep, UprightIsAsItWasWhereThePathTurnsAboutUp) {
+  const std::vector<glm::dvec3> path{{0, 0, 0}, {20, 0, 0}, {20, 10, 0}, {-5, 17, 0}};
+  const Shape2D ribbon = box(-0.25, -1, 0.75, 1);
+  for (const bool closed : {false, true}) {
+    const PolygonMesh plain = swept(ribbon, path, {.path = {}, .closed = closed});
+    const PolygonMesh upright =
+        swept(ribbon, path, {.path = {}, .closed = closed, .upright = true});
+    ASSERT_EQ(plain.points.size(), upright.points.size());
+    for (size_t i = 0; i < plain.points.size(); ++i) {
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(plain.points[i][k], upright.points[i][k], 1e-12);
+    }
+  }
+}
+
+/// A ring road that rises and falls: no corner of it may lie higher on one side than on the other.
+TEST(Sweep, UprightOnAClosedPath) {
+  std::vector<glm::dvec3> path;
+  for (int i = 0; i < 120; ++i)
+    path.push_back({20 * cos_deg(3 * i), 20 * sin_deg(3 * i), 4 * sin_deg(9 * i)});
+  const PolygonMesh mesh =
+      swept(box(-2, -0.5, 2, 0.5), path, {.path = {}, .closed = true, .upright = true});
+  EXPECT_EQ(euler_number(mesh), 0);
+  ASSERT_EQ(mesh.points.size(), 4 * path.size());
+  for (size_t i = 0; i < path.size(); ++i) {
+    double low = 1e9, high = -1e9;
+    for (size_t k = 4 * i; k < 4 * i + 4; ++k) {
+      low = std::min(low, mesh.points[k].z);
+      high = std::max(high, mesh.points[k].z);
+    }
+    EXPECT_NEAR((low + high) / 2, path[i].z, 1e-9) << i;
+    EXPECT_LT(high - low, 1.8) << i;  // leaning by 45 degrees it is 3.5
+  }
+}
+
 TEST(Sweep, AlongZIsAnExtrusion) {
   const Shape2D l = outlines({{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}}});
   const PolygonMesh mesh = swept(l, {{0, 0, 0}, {0, 0, 5}});
@@ -191,6 +255,9 @@ TEST(Sweep, BadInputIsAnError) {
             "sweep: scale must be positive, or 0 both ways, got 0");
   EXPECT_EQ(message({{0, 0, 0}, {0, 0, 1}}, false, 0, {1, 1}, glm::dvec3(0, 0, 2)),
             "sweep: up must not point along the start of the path");
+  EXPECT_EQ(
+      error(sweep_shape(kSquare, {.path = {{0, 0, 0}, {5, 0, 0}, {5, 0, 7}}, .upright = true})),
+      "sweep: an upright shape cannot stand where the path goes along up, at {5, 0, 0}");
   EXPECT_EQ(error(sweep_shape(Shape2D(), SweepOptions())), "sweep: the shape is empty");
 }
 

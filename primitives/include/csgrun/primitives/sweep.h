@@ -22,6 +22,9 @@ struct SweepOptions {
   /// Where the outline's Y points to, as far as it is across the path there, at its start; Z, or Y
   /// where the path starts along Z.
   std::optional<glm::dvec3> up = std::nullopt;
+  /// It points there along the whole path, as far as that is across it: on a helix the least
+  /// rotation alone leans the outline ever more.
+  bool upright = false;
   /// With a twist, the path and long edges of the outline are divided as finely as linear_extrude
   /// divides its height and its outline.
   Facets facets = {};
@@ -32,7 +35,8 @@ struct SweepOptions {
 /// them is a prism of the outline. Where the path turns more sharply than the outline has room for,
 /// the walls cross, and the solid is what they wind around. A closed sweep makes up for the turn
 /// that such a frame has gathered when it comes home, evenly along the path; its twist is a
-/// multiple of 360. Equal points one after another count once. Errors: kInvalidArgument, kLimit.
+/// multiple of 360. Where the outline is upright, no piece of the path may go along `up`. Equal
+/// points one after another count once. Errors: kInvalidArgument, kLimit.
 MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options);
 
 /// What lies at a height of a loft: a shape, or a point of which the walls rise or to which they
