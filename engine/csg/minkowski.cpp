@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "engine/bsp/union_find.h"
@@ -11,6 +12,7 @@
 #include "engine/csg/grid_solid.h"
 #include "engine/csg/quantise.h"
 #include "engine/csg/sum_cells.h"
+#include "engine/csg/sum_sweeps.h"
 
 namespace csgrun {
 namespace {
@@ -94,22 +96,29 @@ class Sums {
 
  private:
   bool add_cells(const Summand& a, const Summand& b) {
-    const SumCells cells = sum_cells(a.boundary, b.boundary);
-    if (is_last_ || (a.is_convex && b.is_convex)) {
-      auto surface = sum_surface(a.boundary, b.boundary, cells);
-      if (!surface) return false;
-      if (a.is_convex && b.is_convex) {
-        add_hull(std::move(surface->points));
-      } else {
-        parts.emplace_back(*std::move(surface));
+    if (is_last_ && a.is_convex != b.is_convex) {
+      const Summand &solid = a.is_convex ? b : a, &convex = a.is_convex ? a : b;
+      if (const auto sweeps = sum_sweeps(solid.boundary, convex.boundary)) {
+        return add_surface(sum_surface(solid.boundary, convex.boundary, *sweeps));
       }
-      return true;
     }
+    const SumCells cells = sum_cells(a.boundary, b.boundary);
+    if (a.is_convex && b.is_convex) {
+      auto surface = sum_surface(a.boundary, b.boundary, cells);
+      if (surface) add_hull(std::move(surface->points));
+      return surface.has_value();
+    }
+    if (is_last_) return add_surface(sum_surface(a.boundary, b.boundary, cells));
     for (const uint32_t v : cells.peaks) add_moved(b, a.boundary.vertices[v]);
     for (const uint32_t w : cells.pits) add_moved(a, b.boundary.vertices[w]);
     for (const SumPrism& prism : cells.a_edges) add_prism(a.boundary, prism, b.boundary);
     for (const SumPrism& prism : cells.b_edges) add_prism(b.boundary, prism, a.boundary);
     return true;
+  }
+
+  bool add_surface(std::optional<SumSurface> surface) {
+    if (surface) parts.emplace_back(*std::move(surface));
+    return surface.has_value();
   }
 
   void add_prism(const LeafGeometry& edges, const SumPrism& prism, const LeafGeometry& faces) {

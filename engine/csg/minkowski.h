@@ -34,8 +34,9 @@ using SumPart = std::variant<std::vector<IVec3>, SumSurface, NodePtr>;
 /// The sum of operands, each a union of summands, as parts whose union it is.
 ///
 /// Two convex summands make the hull of the sums of their points. Others are cut into cells (see
-/// sum_cells). The surface of these is one part; if more is to be summed with them, each cell is a
-/// summand.
+/// sum_cells), or, if one is convex and no more is to be summed with them, into what the other's
+/// boundary sweeps (see sum_sweeps). The surface of these is one part; if more is to be summed with
+/// them, each cell is a summand.
 ///
 /// A boundary that crosses itself, as it may where its corners were rounded, has no such cells. For
 /// solids A and B that are regular closed sets, with a point b of each connected surface of B, a of

@@ -2,23 +2,15 @@
 
 #include <cmath>
 
-#include "engine/csg/wide_cross.h"
+#include "engine/csg/face_normal.h"
 #include "engine/exact/fixed_int.h"
 #include "engine/mesh/edge_table.h"
 
 namespace csgrun {
 namespace {
 
-/// Along the normal of a face. Components are at most 2^83.
-struct Normal {
-  Vec128 exact{};
-  std::array<double, 3> near{};  ///< each within 2^-52 of it; 0 only if that is
-};
-
-int sign_of(const Int128& x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
-
 /// The sign of u (a x b), for u as in the header: of the first coordinate that is not 0.
-int turn(const Normal& a, const Normal& b) {
+int turn(const FaceNormal& a, const FaceNormal& b) {
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const double p = a.near[j] * b.near[k], q = a.near[k] * b.near[j], difference = p - q;
@@ -47,7 +39,7 @@ class Side {
  public:
   explicit Side(const LeafGeometry& leaf) : leaf_(leaf) {
     normals_.resize(leaf.face_count());
-    for (uint32_t f = 0; f < leaf.face_count(); ++f) normals_[f] = normal(f);
+    for (uint32_t f = 0; f < leaf.face_count(); ++f) normals_[f] = FaceNormal::of(leaf, f);
     const EdgeTable table(leaf);
     leads_up_.assign(leaf.vertices.size(), 0);
     leads_down_.assign(leaf.vertices.size(), 0);
@@ -64,9 +56,9 @@ class Side {
     }
   }
 
-  [[nodiscard]] const std::vector<Normal>& normals() const { return normals_; }
+  [[nodiscard]] const std::vector<FaceNormal>& normals() const { return normals_; }
   [[nodiscard]] const std::vector<ConvexEdge>& edges() const { return edges_; }
-  [[nodiscard]] Vec128 upwards(const ConvexEdge& edge) const {
+  [[nodiscard]] IVec3 upwards(const ConvexEdge& edge) const {
     const IVec3 &low = leaf_.vertices[edge.low], &high = leaf_.vertices[edge.high];
     return {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
   }
@@ -74,16 +66,6 @@ class Side {
   [[nodiscard]] std::vector<uint32_t> pits() const { return those(leads_up_, leads_down_); }
 
  private:
-  [[nodiscard]] Normal normal(uint32_t f) const {
-    const uint32_t begin = leaf_.face_starts[f], end = leaf_.face_starts[f + 1];
-    const auto at = [&](uint32_t c) { return leaf_.vertices[leaf_.corners[c]]; };
-    Normal result;
-    for (uint32_t c = begin + 2; c < end && is_zero(result.exact); ++c) {
-      result.exact = cross(at(begin), at(c - 1), at(c));
-    }
-    for (int i = 0; i < 3; ++i) result.near[i] = static_cast<double>(result.exact[i]);
-    return result;
-  }
   static std::vector<uint32_t> those(const std::vector<uint8_t>& with,
                                      const std::vector<uint8_t>& without) {
     std::vector<uint32_t> result;
@@ -94,7 +76,7 @@ class Side {
   }
 
   const LeafGeometry& leaf_;
-  std::vector<Normal> normals_;
+  std::vector<FaceNormal> normals_;
   std::vector<ConvexEdge> edges_;
   std::vector<uint8_t> leads_up_, leads_down_;  // per vertex: whether an edge does
 };
@@ -110,16 +92,14 @@ class Side {
 /// one is that of n d. `sense` is +1 for edges of A, -1 for those of B.
 std::vector<SumPrism> prisms(const Side& with_edges, const Side& with_faces, int sense) {
   std::vector<SumPrism> result;
-  const std::vector<Normal>& faces = with_faces.normals();
+  const std::vector<FaceNormal>& faces = with_faces.normals();
   for (const ConvexEdge& edge : with_edges.edges()) {
-    const Normal &left = with_edges.normals()[edge.left], &right = with_edges.normals()[edge.right];
-    const Vec128 along = with_edges.upwards(edge);
+    const FaceNormal &left = with_edges.normals()[edge.left],
+                     &right = with_edges.normals()[edge.right];
+    const IVec3 along = with_edges.upwards(edge);
     for (uint32_t f = 0; f < faces.size(); ++f) {
       if (turn(left, faces[f]) <= 0 || turn(faces[f], right) <= 0) continue;
-      // At most 2^83 * 2^41 * 3, below 2^126.
-      Int128 slope = 0;
-      for (int i = 0; i < 3; ++i) slope += along[i] * faces[f].exact[i];
-      if (sign_of(slope) == -sense) result.push_back({edge.low, edge.high, f});
+      if (faces[f].side(along) == -sense) result.push_back({edge.low, edge.high, f});
     }
   }
   return result;

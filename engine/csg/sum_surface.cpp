@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "engine/csg/face_normal.h"
 #include "engine/csg/point_hash.h"
 
 namespace csgrun {
@@ -16,10 +17,11 @@ constexpr size_t kMostParts = size_t{1} << 24;
 
 /// A face of a cell, but for its sense.
 struct Part {
-  enum Kind : uint32_t { kVertexAndFace, kFaceAndVertex, kEdges };
+  enum Kind : uint32_t { kVertexAndFace, kFaceAndVertex, kEdges, kVertexAndFan };
   Kind kind;
   /// A vertex and a face, of A and B in the order of the kind; or the ends of an edge of A and
-  /// those of an edge of B, the lower number first.
+  /// those of an edge of B, the lower number first; or a vertex of A and such ends, with the middle
+  /// of B. (That may be an end, too: it counts as B's last vertex.)
   std::array<uint32_t, 4> names{};
   auto operator<=>(const Part&) const = default;
 };
@@ -56,6 +58,35 @@ class Parts {
     }
   }
 
+  /// What A itself has in common with those of faces is left out.
+  void add(const SumSweeps& sweeps, uint32_t middle) {
+    for (const SumSweeps::Face& sweep : sweeps.faces) {
+      if (sweep.count > 1) {
+        add_top(sweep.face, std::span(sweeps.farthest).subspan(sweep.first, sweep.count), middle);
+        continue;
+      }
+      const uint32_t w = sweeps.farthest[sweep.first];
+      add_face_and_vertex(sweep.face, w, 1);
+      each_edge(a_, sweep.face,
+                [&](uint32_t from, uint32_t to) { add_edges(from, to, middle, w, 1); });
+    }
+    for (const SumSweeps::Edge& sweep : sweeps.edges) {
+      add_edges(sweep.from, sweep.to, middle, sweep.b_from, -1);
+      add_edges(sweep.from, sweep.to, middle, sweep.b_to, 1);
+      add_edges(sweep.to, sweep.from, sweep.b_from, sweep.b_to, 1);
+      add_fan(sweep.from, sweep.b_from, sweep.b_to, -1);
+      add_fan(sweep.to, sweep.b_from, sweep.b_to, 1);
+    }
+    for (const SumSweeps::Vertex& sweep : sweeps.vertices) {
+      add_vertex_and_face(sweep.vertex, sweep.face, 1);
+      each_edge(b_, sweep.face,
+                [&](uint32_t from, uint32_t to) { add_fan(sweep.vertex, from, to, -1); });
+    }
+  }
+
+  /// Sums of a face of A and an edge or a face of B that are parallel: corners of each.
+  std::vector<std::vector<std::array<uint32_t, 2>>> tops;
+
   /// The parts that are left, each once, and how often it is there.
   std::vector<CountedPart> left() {
     std::sort(parts_.begin(), parts_.end(),
@@ -91,6 +122,56 @@ class Parts {
     parts_.push_back({{Part::kEdges, {a_from, a_to, b_from, b_to}}, count});
   }
 
+  void add_fan(uint32_t v, uint32_t from, uint32_t to, int32_t count) {
+    if (from > to) std::swap(from, to), count = -count;
+    parts_.push_back({{Part::kVertexAndFan, {v, from, to, 0}}, count});
+  }
+
+  /// The sum of a face and of what is parallel to it, and the sides of what it sweeps.
+  void add_top(uint32_t face, std::span<const uint32_t> farthest, uint32_t middle) {
+    const auto corners =
+        std::span(a_.corners)
+            .subspan(a_.face_starts[face], a_.face_starts[face + 1] - a_.face_starts[face]);
+    const Vec128 normal = FaceNormal::of(a_, face).exact;
+    const auto lowest = [](std::span<const uint32_t> loop, const LeafGeometry& leaf) {
+      size_t low = 0;
+      for (size_t i = 1; i < loop.size(); ++i) {
+        if (leaf.vertices[loop[i]] < leaf.vertices[loop[low]]) low = i;
+      }
+      return low;
+    };
+    // Both run from their lowest corners on, whichever edge comes first in the turn.
+    const size_t a_low = lowest(corners, a_), b_low = lowest(farthest, b_);
+    const auto a_at = [&](size_t i) { return corners[(a_low + i) % corners.size()]; };
+    const auto b_at = [&](size_t j) { return farthest[(b_low + j) % farthest.size()]; };
+    std::vector<std::array<uint32_t, 2>>& top = tops.emplace_back();
+    for (size_t i = 0, j = 0; i < corners.size() || j < farthest.size();) {
+      const uint32_t v = a_at(i), w = b_at(j);
+      top.push_back({v, w});
+      if (j == farthest.size() ||
+          (i < corners.size() && turns_left(a_.vertices[v], a_.vertices[a_at(i + 1)],
+                                            b_.vertices[w], b_.vertices[b_at(j + 1)], normal))) {
+        add_edges(v, a_at(++i), middle, w, 1);
+      } else {
+        add_fan(v, w, b_at(++j), -1);
+      }
+    }
+  }
+
+  /// Whether the way from p to q turns left, or not at all, to be that from r to s, or both lead up
+  /// and it is the first; all in planes with this normal. (Edges up come before those down.)
+  static bool turns_left(const IVec3& p, const IVec3& q, const IVec3& r, const IVec3& s,
+                         const Vec128& normal) {
+    const bool is_up = p < q, other_is_up = r < s;
+    if (is_up != other_is_up) return is_up;
+    const IVec3 end{p[0] + s[0] - r[0], p[1] + s[1] - r[1], p[2] + s[2] - r[2]};
+    const Vec128 turn = cross(p, q, end);
+    for (size_t k = 0; k < 3; ++k) {
+      if (turn[k] != 0) return (turn[k] > 0) == (normal[k] > 0);
+    }
+    return true;
+  }
+
   const LeafGeometry &a_, &b_;
   std::vector<CountedPart> parts_;
 };
@@ -112,17 +193,27 @@ class Surface {
       case Part::kEdges:
         loop_ = {point(n[0], n[2]), point(n[1], n[2]), point(n[1], n[3]), point(n[0], n[3])};
         break;
+      case Part::kVertexAndFan:
+        loop_ = {point(n[0], middle()), point(n[0], n[1]), point(n[0], n[2])};
+        break;
     }
     if (counted.count < 0) std::reverse(loop_.begin(), loop_.end());
-    for (int32_t i = 0; i < std::abs(counted.count); ++i) {
-      made.corners.insert(made.corners.end(), loop_.begin(), loop_.end());
-      made.face_starts.push_back(static_cast<uint32_t>(made.corners.size()));
-    }
+    for (int32_t i = 0; i < std::abs(counted.count); ++i) add_loop();
+  }
+  void add(const std::vector<std::array<uint32_t, 2>>& sums) {
+    loop_.clear();
+    for (const auto& [v, w] : sums) loop_.push_back(point(v, w));
+    add_loop();
   }
 
   SumSurface made;
 
  private:
+  [[nodiscard]] uint32_t middle() const { return static_cast<uint32_t>(b_.vertices.size()) - 1; }
+  void add_loop() {
+    made.corners.insert(made.corners.end(), loop_.begin(), loop_.end());
+    made.face_starts.push_back(static_cast<uint32_t>(made.corners.size()));
+  }
   uint32_t point(uint32_t v, uint32_t w) {
     IVec3 sum;
     for (int i = 0; i < 3; ++i) sum[i] = a_.vertices[v][i] + b_.vertices[w][i];
@@ -148,6 +239,15 @@ size_t count_faces(const LeafGeometry& a, const LeafGeometry& b, const SumCells&
   return count;
 }
 
+size_t count_faces(const LeafGeometry& a, const LeafGeometry& b, const SumSweeps& sweeps) {
+  size_t count = a.face_count() + a.corners.size() + sweeps.farthest.size();
+  count += 5 * sweeps.edges.size();
+  for (const SumSweeps::Vertex& sweep : sweeps.vertices) {
+    count += 1 + b.face_starts[sweep.face + 1] - b.face_starts[sweep.face];
+  }
+  return count;
+}
+
 }  // namespace
 
 std::optional<SumSurface> sum_surface(const LeafGeometry& a, const LeafGeometry& b,
@@ -157,6 +257,19 @@ std::optional<SumSurface> sum_surface(const LeafGeometry& a, const LeafGeometry&
   parts.add(cells);
   Surface surface(a, b);
   for (const CountedPart& part : parts.left()) surface.add(part);
+  return std::move(surface.made);
+}
+
+std::optional<SumSurface> sum_surface(const LeafGeometry& a, const LeafGeometry& b,
+                                      const SumSweeps& sweeps) {
+  if (count_faces(a, b, sweeps) > kMostParts) return std::nullopt;
+  LeafGeometry with_middle = b;
+  with_middle.vertices.push_back(sweeps.middle);
+  Parts parts(a, with_middle);
+  parts.add(sweeps, static_cast<uint32_t>(b.vertices.size()));
+  Surface surface(a, with_middle);
+  for (const CountedPart& part : parts.left()) surface.add(part);
+  for (const auto& top : parts.tops) surface.add(top);
   return std::move(surface.made);
 }
 

@@ -1,4 +1,4 @@
-// The surface of all cells of a Minkowski sum.
+// The surface of all cells, or of all sweeps, of a Minkowski sum.
 #pragma once
 
 #include <optional>
@@ -6,11 +6,12 @@
 
 #include "engine/bsp/operand.h"
 #include "engine/csg/sum_cells.h"
+#include "engine/csg/sum_sweeps.h"
 
 namespace csgrun {
 
 /// Closed, crossing itself where cells overlap: a point is wrapped by it as often as there are
-/// cells that hold it. Faces are planar and convex.
+/// cells, or sweeps, that hold it. Faces are planar and convex.
 struct SumSurface {
   std::vector<IVec3> points;  ///< distinct
   std::vector<uint32_t> corners;
@@ -25,5 +26,10 @@ struct SumSurface {
 /// Nothing if there were more than 2^24 before. O(n log n) for n of them.
 std::optional<SumSurface> sum_surface(const LeafGeometry& a, const LeafGeometry& b,
                                       const SumCells& cells);
+
+/// The same of A + middle and of what is swept. Where faces run along a face or an edge of B, sides
+/// of what they sweep are in one plane, each a face of its own.
+std::optional<SumSurface> sum_surface(const LeafGeometry& a, const LeafGeometry& b,
+                                      const SumSweeps& sweeps);
 
 }  // namespace csgrun
