@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <csgrun/primitives/roof.h>

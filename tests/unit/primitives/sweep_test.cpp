@@ -1,6 +1,7 @@
 // Sweeps and lofts against prisms, tubes and frusta of known volume.
 #include <cmath>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <csgrun/primitives/sweep.h>
