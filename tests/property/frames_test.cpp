@@ -1,7 +1,11 @@
 // Leaves under frames: rotations, mirrors and shears as exact affine maps, mixed with each other.
 #include <gtest/gtest.h>
 
+#include "tests/support/exact_measures.h"
+#include "tests/support/exact_solid.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/kernel_checks.h"
+#include "tests/support/oracle.h"
 #include "tests/support/random_frames.h"
 
 namespace csgrun {

@@ -1,7 +1,12 @@
 // Identities of Booleans on random solids with vertices in {0..5}^3, exactly.
 #include <gtest/gtest.h>
 
+#include "tests/support/exact_measures.h"
+#include "tests/support/exact_solid.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/kernel_checks.h"
+#include "tests/support/oracle.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

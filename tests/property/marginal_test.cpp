@@ -1,8 +1,13 @@
 // Solids that touch: faces on faces, edges on edges, corners on corners.
 #include <gtest/gtest.h>
 
+#include "tests/support/exact_measures.h"
+#include "tests/support/exact_solid.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/kernel_checks.h"
+#include "tests/support/oracle.h"
 #include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

@@ -11,6 +11,8 @@
 
 #include "engine/bsp/untouched.h"
 #include "engine/csg/quantise.h"
+#include "tests/support/exact_measures.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/kernel_checks.h"
 #include "tests/support/random_frames.h"
 

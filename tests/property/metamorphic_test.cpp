@@ -4,8 +4,13 @@
 
 #include "engine/exact/forced_tier.h"
 #include "engine/exact/predicates.h"
+#include "tests/support/exact_measures.h"
 #include "tests/support/fuzz/campaign.h"
+#include "tests/support/fuzz/case.h"
+#include "tests/support/fuzz/check.h"
 #include "tests/support/fuzz/nodes.h"
+#include "tests/support/kernel_case.h"
+#include "tests/support/kernel_checks.h"
 
 namespace csgrun {
 namespace {

@@ -1,9 +1,16 @@
 // The reference itself: against truths in closed form, which must notice each of its deliberate
 // faults; and its eye for claims that are wrong.
+#include "tests/support/reference/reference.h"
+
 #include <gtest/gtest.h>
 
+#include "tests/support/fuzz/case.h"
 #include "tests/support/fuzz/check.h"
 #include "tests/support/fuzz/maker.h"
+#include "tests/support/fuzz/truth.h"
+#include "tests/support/kernel_checks.h"
+#include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

@@ -1,7 +1,9 @@
 // Minimal cases of faults that were found once.
 #include <gtest/gtest.h>
 
+#include "tests/support/exact_measures.h"
 #include "tests/support/kernel_checks.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

@@ -11,7 +11,10 @@
 
 #include "engine/csg/quantise.h"
 #include "tests/bench/models.h"
+#include "tests/support/exact_measures.h"
+#include "tests/support/exact_solid.h"
 #include "tests/support/fuzz/truth.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/kernel_checks.h"
 #include "tests/support/reference/reference.h"
 

@@ -11,6 +11,8 @@
 #include <iterator>
 
 #include "tests/support/fuzz/campaign.h"
+#include "tests/support/fuzz/case.h"
+#include "tests/support/fuzz/check.h"
 
 namespace {
 

@@ -8,6 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/fuzz/campaign.h"
+#include "tests/support/fuzz/case.h"
+#include "tests/support/fuzz/check.h"
+#include "tests/support/fuzz/shrink.h"
+#include "tests/support/fuzz/truth.h"
+#include "tests/support/kernel_checks.h"
+#include "tests/support/reference/reference.h"
 
 namespace csgrun {
 namespace {

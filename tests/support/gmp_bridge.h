@@ -17,7 +17,7 @@ mpz_class to_gmp(const Int<N>& v) {
   return v.negative() ? mpz_class(-r) : r;
 }
 
-inline mpz_class to_gmp(Int128 v) { return to_gmp(Int<2>::from_int128(v)); }
+mpz_class to_gmp(Int128 v);
 
 template <int N>
 Int<N> from_gmp(const mpz_class& v) {
@@ -26,22 +26,14 @@ Int<N> from_gmp(const mpz_class& v) {
   return v < 0 ? -r : r;
 }
 
-inline Int128 int128_from_gmp(const mpz_class& v) {
-  const Int<2> r = from_gmp<2>(v);
-  return static_cast<Int128>(static_cast<UInt128>(r.limb[1]) << 64 | r.limb[0]);
-}
+Int128 int128_from_gmp(const mpz_class& v);
 
 struct GmpPoint {
   mpz_class x, y, z, w;
 };
 
-inline GmpPoint to_gmp(const Point& p) {
-  return {to_gmp(p.x), to_gmp(p.y), to_gmp(p.z), to_gmp(p.w)};
-}
+GmpPoint to_gmp(const Point& p);
 
-inline int gmp_side(const Plane& s, const GmpPoint& p) {
-  return sgn(
-      mpz_class(to_gmp(s.a) * p.x + to_gmp(s.b) * p.y + to_gmp(s.c) * p.z + to_gmp(s.d) * p.w));
-}
+int gmp_side(const Plane& s, const GmpPoint& p);
 
 }  // namespace csgrun::test

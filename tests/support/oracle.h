@@ -2,10 +2,13 @@
 // interval settles a comparison; everything else in GMP. Nothing is shared with the kernel.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
-#include "tests/support/exact_measures.h"
+#include "tests/support/exact_solid.h"
 
 namespace csgrun::test {
 
@@ -14,51 +17,13 @@ using Query = std::array<double, 3>;
 
 class Oracle {
  public:
-  explicit Oracle(ExactSolid solid) : solid_(std::move(solid)) {
-    for (const auto& p : solid_.points) {
-      near_.push_back({p[0].get_d(), p[1].get_d(), p[2].get_d()});
-    }
-    for (const auto& f : solid_.faces) normals_.push_back(area_vector(solid_, f));
-    for (const auto& f : solid_.faces) {
-      Box box;
-      for (const auto& loop : f.loops) {
-        for (const uint32_t p : loop) {
-          for (int k = 0; k < 3; ++k) {
-            box.lo[k] = std::min(box.lo[k], near_[p][k]);
-            box.hi[k] = std::max(box.hi[k], near_[p][k]);
-          }
-        }
-      }
-      for (int k = 0; k < 3; ++k) {
-        box.lo[k] -= margin(box.lo[k]);
-        box.hi[k] += margin(box.hi[k]);
-      }
-      boxes_.push_back(box);
-    }
-  }
+  explicit Oracle(ExactSolid solid);
 
   [[nodiscard]] const ExactSolid& solid() const { return solid_; }
 
   /// How often the surface winds around the point: 1 inside, 0 outside of a sound solid. Nothing
   /// when the point lies on the boundary, or the ray along +x passes through an edge.
-  [[nodiscard]] std::optional<int> winding(const Query& q) const {
-    int total = 0;
-    for (size_t f = 0; f < solid_.faces.size(); ++f) {
-      const Box& box = boxes_[f];
-      if (box.hi[0] < q[0] || box.lo[1] > q[1] || box.hi[1] < q[1] || box.lo[2] > q[2] ||
-          box.hi[2] < q[2]) {
-        continue;
-      }
-      const auto around = winding_in_face(f, q);
-      if (!around) return std::nullopt;
-      if (*around == 0) continue;
-      const int side = side_of_face(f, q);
-      if (side == 0) return std::nullopt;
-      // The face lies at higher x when the query is behind it along +x.
-      if (side != sgn(normals_[f][0])) total += *around;
-    }
-    return total;
-  }
+  [[nodiscard]] std::optional<int> winding(const Query& q) const;
 
  private:
   struct Box {
@@ -67,50 +32,14 @@ class Oracle {
   static double margin(double v) { return 1e-300 + 0x1p-48 * std::fabs(v); }
 
   /// Whether coordinate k of point p is at most the query's.
-  [[nodiscard]] bool at_most(uint32_t p, int k, double q) const {
-    const double d = near_[p][k];
-    if (std::fabs(d - q) > margin(d) + margin(q)) return d < q;
-    return solid_.points[p][k] <= mpq_class(q);
-  }
+  [[nodiscard]] bool at_most(uint32_t p, int k, double q) const;
 
   /// The winding number of the face's loops around the query, both projected along x.
-  [[nodiscard]] std::optional<int> winding_in_face(size_t f, const Query& q) const {
-    int total = 0;
-    for (const auto& loop : solid_.faces[f].loops) {
-      for (size_t i = 0; i < loop.size(); ++i) {
-        const uint32_t a = loop[i], b = loop[i + 1 < loop.size() ? i + 1 : 0];
-        const bool low_a = at_most(a, 1, q[1]), low_b = at_most(b, 1, q[1]);
-        if (low_a == low_b) continue;
-        const int turn = turn_of(a, b, q);
-        if (turn == 0) return std::nullopt;
-        if (low_a && turn > 0) ++total;
-        if (low_b && turn < 0) --total;
-      }
-    }
-    return total;
-  }
+  [[nodiscard]] std::optional<int> winding_in_face(size_t f, const Query& q) const;
 
-  [[nodiscard]] int turn_of(uint32_t a, uint32_t b, const Query& q) const {
-    const auto &u = near_[a], &v = near_[b];
-    const double by = v[1] - u[1], bz = v[2] - u[2], qy = q[1] - u[1], qz = q[2] - u[2];
-    const double value = by * qz - bz * qy;
-    const double e =
-        margin(u[1]) + margin(u[2]) + margin(v[1]) + margin(v[2]) + margin(q[1]) + margin(q[2]);
-    const double bound =
-        2 * e * (std::fabs(by) + std::fabs(bz) + std::fabs(qy) + std::fabs(qz) + e) +
-        0x1p-48 * (std::fabs(by * qz) + std::fabs(bz * qy));
-    if (value > bound) return 1;
-    if (value < -bound) return -1;
-    const auto &x = solid_.points[a], &y = solid_.points[b];
-    const mpq_class exact =
-        (y[1] - x[1]) * (mpq_class(q[2]) - x[2]) - (y[2] - x[2]) * (mpq_class(q[1]) - x[1]);
-    return sgn(exact);
-  }
+  [[nodiscard]] int turn_of(uint32_t a, uint32_t b, const Query& q) const;
 
-  [[nodiscard]] int side_of_face(size_t f, const Query& q) const {
-    const Rational3& p = solid_.points[solid_.faces[f].loops[0][0]];
-    return sgn(dot(normals_[f], minus({mpq_class(q[0]), mpq_class(q[1]), mpq_class(q[2])}, p)));
-  }
+  [[nodiscard]] int side_of_face(size_t f, const Query& q) const;
 
   ExactSolid solid_;
   std::vector<Query> near_;

@@ -25,17 +25,6 @@
 
 namespace csgrun::reference {
 
-/// All faces of the leaves and of the claim by plane.
-struct Planes {
-  struct Use {
-    uint32_t plane;
-    bool down;
-  };
-  std::vector<Plane> planes;
-  std::vector<std::vector<Use>> of_leaf;  ///< by leaf and face
-  std::vector<Use> of_claim;
-};
-
 /// What a trapezoid is told to: between two lines and two abscissae of a plane there is boundary.
 template <class Z>
 struct Trapezoid {

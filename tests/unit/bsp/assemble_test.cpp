@@ -6,6 +6,7 @@
 #include "engine/bsp/evaluate_job.h"
 #include "tests/support/boundary_compare.h"
 #include "tests/support/kernel_case.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

@@ -6,8 +6,10 @@
 #include "engine/bsp/untouched.h"
 #include "tests/support/convex_operand.h"
 #include "tests/support/exact_measures.h"
+#include "tests/support/exact_solid.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "engine/bsp/kernel.h"
 #include "tests/support/exact_solid.h"
+#include "tests/support/gmp_bridge.h"
 #include "tests/support/random_trees.h"
 
 namespace csgrun {

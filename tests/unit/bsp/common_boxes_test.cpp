@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/conformity.h"
+#include "tests/support/exact_solid.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"

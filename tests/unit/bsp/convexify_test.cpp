@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/bsp/regions.h"
+#include "tests/support/exact_solid.h"
+#include "tests/support/gmp_bridge.h"
 #include "tests/support/rational_polygons.h"
 #include "tests/support/seeded.h"
 

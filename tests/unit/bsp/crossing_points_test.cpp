@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bsp/point_index.h"
 #include "tests/support/exact_solid.h"
+#include "tests/support/gmp_bridge.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 

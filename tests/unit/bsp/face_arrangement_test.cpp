@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/bsp/contact_table.h"
+#include "engine/bsp/point_index.h"
 #include "engine/mesh/opposite_edges.h"
+#include "tests/support/exact_solid.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/oracle.h"
 #include "tests/support/random_solids.h"

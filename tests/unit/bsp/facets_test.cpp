@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/exact_measures.h"
+#include "tests/support/exact_solid.h"
 #include "tests/support/kernel_checks.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

@@ -14,6 +14,7 @@
 #include "engine/bsp/wide_triangles.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

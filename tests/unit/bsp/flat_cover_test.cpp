@@ -10,6 +10,8 @@
 #include "engine/bsp/kernel.h"
 #include "tests/support/boundary_compare.h"
 #include "tests/support/convex_operand.h"
+#include "tests/support/kernel_case.h"
+#include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"
 
 namespace csgrun {

@@ -10,7 +10,9 @@
 #include "engine/bsp/whole_faces.h"
 #include "tests/support/boundary_compare.h"
 #include "tests/support/convex_operand.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
 namespace csgrun {

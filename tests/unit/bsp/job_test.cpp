@@ -10,8 +10,11 @@
 #include "engine/bsp/piece_store.h"
 #include "engine/bsp/rounded_box.h"
 #include "tests/support/exact_measures.h"
+#include "tests/support/exact_solid.h"
+#include "tests/support/gmp_bridge.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

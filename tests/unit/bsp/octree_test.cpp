@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/exact_solid.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/rational_polygons.h"

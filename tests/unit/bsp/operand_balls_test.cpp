@@ -5,7 +5,10 @@
 
 #include "engine/bsp/convex_sides.h"
 #include "tests/support/convex_operand.h"
+#include "tests/support/exact_solid.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/oracle.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

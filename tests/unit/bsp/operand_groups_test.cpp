@@ -11,6 +11,7 @@
 #include "engine/bsp/kernel.h"
 #include "tests/support/boundary_compare.h"
 #include "tests/support/convex_operand.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/random_trees.h"
 
 namespace csgrun {

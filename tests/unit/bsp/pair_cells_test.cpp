@@ -10,6 +10,7 @@
 #include "engine/base/parallel.h"
 #include "engine/bsp/coarse_cells.h"
 #include "tests/support/kernel_case.h"
+#include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"
 
 namespace csgrun {

@@ -10,6 +10,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/pair_truth.h"
 #include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "engine/exact/forced_tier.h"
+#include "tests/support/exact_solid.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/pair_truth.h"
 #include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

@@ -16,6 +16,7 @@
 #include "tests/support/named_results.h"
 #include "tests/support/piece_steps.h"
 #include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
 namespace csgrun {

@@ -12,6 +12,7 @@
 #include "engine/bsp/grid_planes.h"
 #include "engine/bsp/region_parts.h"
 #include "tests/support/kernel_case.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/bsp/result_pieces.h"
+#include "tests/support/exact_solid.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/oracle.h"
 #include "tests/support/random_frames.h"

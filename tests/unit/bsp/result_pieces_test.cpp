@@ -13,6 +13,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/piece_steps.h"
 #include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
 namespace csgrun {

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/exact_solid.h"
+#include "tests/support/gmp_bridge.h"
 #include "tests/support/half_space.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"

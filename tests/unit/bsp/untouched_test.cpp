@@ -9,6 +9,7 @@
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {

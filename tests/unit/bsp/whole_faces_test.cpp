@@ -18,6 +18,7 @@
 #include "tests/support/boundary_compare.h"
 #include "tests/support/half_space.h"
 #include "tests/support/kernel_case.h"
+#include "tests/support/prepared_leaf.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 

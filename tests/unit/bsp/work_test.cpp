@@ -8,8 +8,10 @@
 #include "engine/bsp/result_pieces.h"
 #include "engine/bsp/self_resolution.h"
 #include "engine/mesh/leaf_check.h"
+#include "engine/mesh/opposite_edges.h"
 #include "tests/support/convex_operand.h"
 #include "tests/support/kernel_case.h"
+#include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
 namespace csgrun {

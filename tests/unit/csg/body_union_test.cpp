@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/csg/bodies.h"
+#include "tests/support/exact_solid.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/kernel_checks.h"
+#include "tests/support/oracle.h"
 
 namespace csgrun::test {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "engine/bsp/self_resolution.h"
 #include "engine/mesh/leaf_check.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/named_results.h"
 #include "tests/support/random_frames.h"
 

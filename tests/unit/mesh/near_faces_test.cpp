@@ -60,7 +60,7 @@ TEST(NearFaces, GiveWhatAllGive) {
       operands.back().frame = frames[operands.size() - 1];
       operands.back().first_source = static_cast<uint32_t>(operands.size());
     }
-    const Tree tree = random_tree(random, 0, 2);
+    const Tree tree = random_binary_tree(random, 0, 2);
     KernelOptions options;
     options.name_untouched = true;
     options.faces_for_near = UINT32_MAX;

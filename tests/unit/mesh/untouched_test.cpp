@@ -10,8 +10,10 @@
 #include "engine/mesh/convex_surface.h"
 #include "engine/mesh/leaf_shape.h"
 #include "engine/mesh/opposite_edges.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/named_results.h"
 #include "tests/support/random_frames.h"
+#include "tests/support/random_solids.h"
 
 namespace csgrun {
 namespace {
@@ -75,7 +77,7 @@ TEST(Untouched, RandomTreesOfBumpySurfaces) {
       operands.push_back(placed(random.integer(0, 1) ? once : twice, {move(), move(), move()}));
       if (random.integer(0, 3) == 0) operands.back().appearance = 3;
     }
-    const Tree tree = random_tree(random, 0, 4);
+    const Tree tree = random_binary_tree(random, 0, 4);
     const Pair pair = evaluate_both(tree, operands);
     total += named(*pair.naming);
     // Faces next to a cut one are named, too: but for some that were cut and are whole again.
@@ -104,7 +106,7 @@ TEST(Untouched, InFrames) {
                                 {move(), move(), move()}));
       if (i > 0) operands.back().frame = random_frame(random);
     }
-    const Tree tree = random_tree(random, 0, 3);
+    const Tree tree = random_binary_tree(random, 0, 3);
     const Pair pair = evaluate_both(tree, operands);
     total += named(*pair.naming);
     for (const UntouchedPart& part : pair.naming->parts) {
@@ -129,7 +131,7 @@ void expect_one_value_of_trees(Random& random, int rounds, size_t least_contacts
   size_t total = 0, contacts = 0;
   for (int round = 0; round < rounds; ++round) {
     const std::vector<Operand> operands = make(round);
-    const Tree tree = random_tree(random, 0, static_cast<int>(operands.size()));
+    const Tree tree = random_binary_tree(random, 0, static_cast<int>(operands.size()));
     const Pair pair = evaluate_both(tree, operands);
     total += named(*pair.naming);
     contacts += pair.naming->may_touch;

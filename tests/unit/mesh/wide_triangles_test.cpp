@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/bsp/find_contacts.h"
+#include "tests/support/kernel_case.h"
 #include "tests/support/named_results.h"
 
 namespace csgrun {
@@ -67,7 +68,7 @@ TEST(WideTriangles, GiveWhatCellsGive) {
     for (const Contact& c : find_contacts(job, {}, {}, stats).contacts) {
       ++(c.is_coplanar ? coplanar : crossing);
     }
-    const Tree tree = random_tree(random, 0, 2);
+    const Tree tree = random_binary_tree(random, 0, 2);
     const Pair both = evaluate_both(tree, operands);
     ASSERT_NO_FATAL_FAILURE(expect_one_value(both, tree.text()));
     KernelOptions options;
