@@ -77,13 +77,15 @@ DeadSpace::DeadSpace(const std::vector<Operand>& operands, const Expression& exp
   for (uint32_t o = 0; o < operands.size(); ++o) {
     removes_[o] = operands[o].leaf && deciders.decides(o, true);
     confines_[o] = operands[o].leaf && deciders.decides(o, false);
+    // On which side of an operand points are is asked of any.
+    if (operands[o].leaf) uses[o] = OperandBalls::kSide;
     if (removes_[o]) uses[o] |= OperandBalls::kWithin;
     if (confines_[o]) uses[o] |= OperandBalls::kBeyond;
   }
   if (operands.size() <= 2) return;
   balls_ = OperandBalls(operands, boxes_, uses);
   std::vector<uint8_t> have_room(removes_);
-  for (uint32_t o = 0; o < operands.size(); ++o) have_room[o] &= balls_.has(o) ? 1 : 0;
+  for (uint32_t o = 0; o < operands.size(); ++o) have_room[o] &= balls_.hides(o) ? 1 : 0;
   inner_boxes_ = InnerBoxes(operands, boxes_, have_room, result_);
 }
 

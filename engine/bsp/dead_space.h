@@ -35,7 +35,7 @@ class DeadSpace {
   [[nodiscard]] bool is_confiner(uint32_t operand) const {
     return !confines_.empty() && confines_[operand] != 0;
   }
-  /// Of removers and confiners.
+  /// Of leaves; those of removers and confiners hide polygons.
   [[nodiscard]] const OperandBalls& balls() const { return balls_; }
   [[nodiscard]] const PolygonBox& operand_box(size_t operand) const { return boxes_[operand]; }
   /// Per node of the expression, a box that holds what it is.
@@ -54,13 +54,13 @@ class DeadSpace {
   }
   /// Whether an operand with this box may have polygons there.
   [[nodiscard]] bool may_hold_part(const PolygonBox& box) const {
-    return !balls_.empty() || !result_.holds(box);
+    return balls_.hide_some() || !result_.holds(box);
   }
   /// Whether an operand of so many faces may be open (see PlainlyCovered::is_open): many points are
   /// asked whether they are inside of it then, which must not take a ray through many faces.
   [[nodiscard]] bool may_be_open(uint32_t operand, size_t faces) const {
     constexpr size_t kFew = 64;
-    return faces <= kFew || balls_.has(operand);
+    return faces <= kFew || balls_.hides(operand);
   }
 
  private:

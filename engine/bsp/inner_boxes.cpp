@@ -34,9 +34,10 @@ class BoxInside {
       middle_[k] = (static_cast<double>(around.lo[k]) + around.hi[k]) / 2;
       half[k] = (static_cast<double>(around.hi[k]) - around.lo[k]) / 2;
     }
+    const FrameMap map(operand.frame);
     double scale = 1;
     for (size_t f = 0; f < operand.leaf->face_count(); ++f) {
-      const UnitPlane plane = unit_plane(operand, f);
+      const UnitPlane plane = unit_plane(operand, map, f);
       // Less a step, which is more than all is wrong by.
       faces_.push_back({{plane[0], plane[1], plane[2]}, -above(plane, middle_) - 1});
       double reach = 0;

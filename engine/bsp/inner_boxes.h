@@ -18,7 +18,7 @@ class InnerBoxes {
   InnerBoxes() = default;
   /// A box strictly inside of each of the few largest of the operands that are `wanted`, if it
   /// takes up a good part of `whole`. `boxes`: of the operands. O(n). REQUIRES: those wanted have a
-  /// ball (OperandBalls), so are leaves on the grid with their middle behind all faces.
+  /// ball (OperandBalls), so are leaves with their middle behind all faces.
   InnerBoxes(const std::vector<Operand>& operands, const std::vector<PolygonBox>& boxes,
              const std::vector<uint8_t>& wanted, const PolygonBox& whole);
 

@@ -35,15 +35,22 @@ OperandBalls::Ball OperandBalls::Ball::of(const Operand& operand, const PolygonB
   for (size_t k = 0; k < 3; ++k) {
     ball.middle[k] = static_cast<double>(int64_t{box.lo[k]} + box.hi[k]) / 2;
   }
-  double radius = (static_cast<double>(box.hi[0]) - box.lo[0]) / 2;
-  for (size_t f = 0; f < operand.leaf->face_count(); ++f) {
-    radius = std::min(radius, -above(unit_plane(operand, f), ball.middle));
+  const FrameMap map(operand.frame);
+  double radius = (static_cast<double>(box.hi[0]) - box.lo[0]) / 2 - 1;
+  for (size_t f = 0; f < operand.leaf->face_count() && radius > 0; ++f) {
+    radius = std::min(radius, -above(unit_plane(operand, map, f), ball.middle) - 1);
   }
-  radius = std::max(radius - 1, 0.0);
+  if (!(radius > 0)) return ball;  // which is none
   ball.inner = radius * radius;
   for (const IVec3& v : operand.leaf->vertices) {
+    const IVec3& t = operand.translation;
+    const IVec3 moved{v[0] + t[0], v[1] + t[1], v[2] + t[2]};
     std::array<double, 3> at{};
-    for (size_t k = 0; k < 3; ++k) at[k] = static_cast<double>(v[k] + operand.translation[k]);
+    if (map.is_identity()) {
+      for (size_t k = 0; k < 3; ++k) at[k] = static_cast<double>(moved[k]);
+    } else {
+      at = rounded(map.point(moved));
+    }
     ball.outer = std::max(ball.outer, ball.square_from(at));
   }
   const double around = std::sqrt(ball.outer) + 1;
@@ -60,7 +67,7 @@ OperandBalls::OperandBalls(const std::vector<Operand>& operands,
   for_each_alone(operands.size(), faces > kFewForThreads, [&](size_t o) {
     const Operand& operand = operands[o];
     if (uses[o] != 0 && operand.leaf && operand.leaf->face_count() > 0 &&
-        operand.frame.is_identity && !is_far_out(operand_boxes[o])) {
+        !is_far_out(operand_boxes[o])) {
       all[o] = Ball::of(operand, operand_boxes[o]);
     }
   });
@@ -68,16 +75,21 @@ OperandBalls::OperandBalls(const std::vector<Operand>& operands,
   ball_of_.assign(operands.size(), kNoBall);
   for (size_t o = 0; o < all.size(); ++o) {
     if (all[o].inner <= 0) continue;
+    constexpr double kRound = 0.5;  // of squares: a cube has a third, an octagon's sphere more
+    const bool obeys = operands[o].frame.is_identity || all[o].inner >= kRound * all[o].outer;
+    const uint8_t use = obeys ? uses[o] : kSide;
+    all[o].hides = (use & (kWithin | kBeyond)) != 0;
+    hide_some_ |= all[o].hides;
     const auto number = static_cast<uint32_t>(balls_.size());
     ball_of_[o] = number;
     balls_.push_back(all[o]);
-    if ((uses[o] & kBeyond) != 0 && beyond_.size() < kMostBeyond &&
+    if ((use & kBeyond) != 0 && beyond_.size() < kMostBeyond &&
         !all[o].is_around(operand_boxes[o])) {
       beyond_.push_back(number);
     }
     // Bins have a box for each ball: of those of other use an empty one.
     SquareBins::Box& box = boxes.emplace_back();
-    const double radius = (uses[o] & kWithin) != 0 ? std::sqrt(all[o].inner) : -1;
+    const double radius = (use & kWithin) != 0 ? std::sqrt(all[o].inner) : -1;
     for (size_t k = 0; k < 3; ++k) {
       box.lo[k] = all[o].middle[k] - radius;
       box.hi[k] = all[o].middle[k] + radius;

@@ -24,6 +24,9 @@ std::vector<SquareBins::Box> boxes_of_operands(const Job& job) {
   return boxes;
 }
 
+/// A ray through bins meets fewer faces than all.
+constexpr size_t kFewPlanes = 512;
+
 /// A square an operand, about.
 uint32_t most_squares(size_t operands) {
   constexpr size_t kMost = 64 * 64;
@@ -95,7 +98,8 @@ PatchFate PatchLabels::fate(uint32_t own, const std::array<double, 3>& point, do
   bool is_unsure = false;
   for (const uint32_t o : asked_) {
     Inside label = Inside::kUnknown;
-    if (plainly_.dead->balls().has(o) && job_.is_convex(o)) {
+    if (plainly_.dead->balls().has(o) && job_.is_convex(o) &&
+        job_.leaf(o)->face_count() <= kFewPlanes) {
       label = convex_sides_.side(job_.operands(), o, point);
     }
     if (label == Inside::kUnknown) label = ray_label(job_, signs_, boxes_, o, point, error);
