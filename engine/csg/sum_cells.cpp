@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/csg/face_normal.h"
+#include "engine/csg/wide_normal.h"
 #include "engine/exact/fixed_int.h"
 #include "engine/mesh/edge_table.h"
 
@@ -10,7 +10,7 @@ namespace csgrun {
 namespace {
 
 /// The sign of u (a x b), for u as in the header: of the first coordinate that is not 0.
-int turn(const FaceNormal& a, const FaceNormal& b) {
+int turn(const WideNormal& a, const WideNormal& b) {
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const double p = a.near[j] * b.near[k], q = a.near[k] * b.near[j], difference = p - q;
@@ -39,7 +39,7 @@ class Side {
  public:
   explicit Side(const LeafGeometry& leaf) : leaf_(leaf) {
     normals_.resize(leaf.face_count());
-    for (uint32_t f = 0; f < leaf.face_count(); ++f) normals_[f] = FaceNormal::of(leaf, f);
+    for (uint32_t f = 0; f < leaf.face_count(); ++f) normals_[f] = WideNormal::of(leaf, f);
     const EdgeTable table(leaf);
     leads_up_.assign(leaf.vertices.size(), 0);
     leads_down_.assign(leaf.vertices.size(), 0);
@@ -56,7 +56,7 @@ class Side {
     }
   }
 
-  [[nodiscard]] const std::vector<FaceNormal>& normals() const { return normals_; }
+  [[nodiscard]] const std::vector<WideNormal>& normals() const { return normals_; }
   [[nodiscard]] const std::vector<ConvexEdge>& edges() const { return edges_; }
   [[nodiscard]] IVec3 upwards(const ConvexEdge& edge) const {
     const IVec3 &low = leaf_.vertices[edge.low], &high = leaf_.vertices[edge.high];
@@ -76,7 +76,7 @@ class Side {
   }
 
   const LeafGeometry& leaf_;
-  std::vector<FaceNormal> normals_;
+  std::vector<WideNormal> normals_;
   std::vector<ConvexEdge> edges_;
   std::vector<uint8_t> leads_up_, leads_down_;  // per vertex: whether an edge does
 };
@@ -92,9 +92,9 @@ class Side {
 /// one is that of n d. `sense` is +1 for edges of A, -1 for those of B.
 std::vector<SumPrism> prisms(const Side& with_edges, const Side& with_faces, int sense) {
   std::vector<SumPrism> result;
-  const std::vector<FaceNormal>& faces = with_faces.normals();
+  const std::vector<WideNormal>& faces = with_faces.normals();
   for (const ConvexEdge& edge : with_edges.edges()) {
-    const FaceNormal &left = with_edges.normals()[edge.left],
+    const WideNormal &left = with_edges.normals()[edge.left],
                      &right = with_edges.normals()[edge.right];
     const IVec3 along = with_edges.upwards(edge);
     for (uint32_t f = 0; f < faces.size(); ++f) {

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "engine/csg/face_normal.h"
 #include "engine/csg/point_hash.h"
+#include "engine/csg/wide_normal.h"
 
 namespace csgrun {
 namespace {
@@ -132,7 +132,7 @@ class Parts {
     const auto corners =
         std::span(a_.corners)
             .subspan(a_.face_starts[face], a_.face_starts[face + 1] - a_.face_starts[face]);
-    const Vec128 normal = FaceNormal::of(a_, face).exact;
+    const Vec128 normal = WideNormal::of(a_, face).exact;
     const auto lowest = [](std::span<const uint32_t> loop, const LeafGeometry& leaf) {
       size_t low = 0;
       for (size_t i = 1; i < loop.size(); ++i) {
@@ -149,8 +149,8 @@ class Parts {
       const uint32_t v = a_at(i), w = b_at(j);
       top.push_back({v, w});
       if (j == farthest.size() ||
-          (i < corners.size() && turns_left(a_.vertices[v], a_.vertices[a_at(i + 1)],
-                                            b_.vertices[w], b_.vertices[b_at(j + 1)], normal))) {
+          (i < corners.size() && comes_first(a_.vertices[v], a_.vertices[a_at(i + 1)],
+                                             b_.vertices[w], b_.vertices[b_at(j + 1)], normal))) {
         add_edges(v, a_at(++i), middle, w, 1);
       } else {
         add_fan(v, w, b_at(++j), -1);
@@ -158,10 +158,10 @@ class Parts {
     }
   }
 
-  /// Whether the way from p to q turns left, or not at all, to be that from r to s, or both lead up
-  /// and it is the first; all in planes with this normal. (Edges up come before those down.)
-  static bool turns_left(const IVec3& p, const IVec3& q, const IVec3& r, const IVec3& s,
-                         const Vec128& normal) {
+  /// Whether p to q comes before r to s, or beside it, in a turn to the left that begins with what
+  /// leads up; both in planes with this normal.
+  static bool comes_first(const IVec3& p, const IVec3& q, const IVec3& r, const IVec3& s,
+                          const Vec128& normal) {
     const bool is_up = p < q, other_is_up = r < s;
     if (is_up != other_is_up) return is_up;
     const IVec3 end{p[0] + s[0] - r[0], p[1] + s[1] - r[1], p[2] + s[2] - r[2]};

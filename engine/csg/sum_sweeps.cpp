@@ -4,27 +4,26 @@
 #include <cmath>
 #include <span>
 
-#include "engine/csg/face_normal.h"
+#include "engine/csg/wide_normal.h"
 #include "engine/mesh/edge_table.h"
+#include "engine/mesh/face_normal.h"
 
 namespace csgrun {
 namespace {
-
-IVec3 difference(const IVec3& a, const IVec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 std::span<const uint32_t> corners_of(const LeafGeometry& leaf, uint32_t face) {
   return std::span(leaf.corners)
       .subspan(leaf.face_starts[face], leaf.face_starts[face + 1] - leaf.face_starts[face]);
 }
 
-std::vector<FaceNormal> normals_of(const LeafGeometry& leaf) {
-  std::vector<FaceNormal> result;
-  for (uint32_t f = 0; f < leaf.face_count(); ++f) result.push_back(FaceNormal::of(leaf, f));
+std::vector<WideNormal> normals_of(const LeafGeometry& leaf) {
+  std::vector<WideNormal> result;
+  for (uint32_t f = 0; f < leaf.face_count(); ++f) result.push_back(WideNormal::of(leaf, f));
   return result;
 }
 
 /// The mean of the vertices, rounded, if that is strictly inside.
-std::optional<IVec3> middle_of(const LeafGeometry& convex, const std::vector<FaceNormal>& normals) {
+std::optional<IVec3> middle_of(const LeafGeometry& convex, const std::vector<WideNormal>& normals) {
   IVec3 middle;
   const auto count = static_cast<int64_t>(convex.vertices.size());
   for (size_t k = 0; k < 3; ++k) {
@@ -53,7 +52,9 @@ class SweepFinder {
     const auto middle = middle_of(b_, b_normals_);
     if (!middle) return std::nullopt;
     made_.middle = *middle;
-    for (uint32_t f = 0; f < a_.face_count(); ++f) add_face(f);
+    for (uint32_t f = 0; f < a_.face_count(); ++f) {
+      if (!add_face(f)) return std::nullopt;
+    }
     list_b_edges();
     has_convex_edge_.assign(a_.vertices.size(), 0);
     for (uint32_t v = 0; v < a_.vertices.size(); ++v) {
@@ -78,9 +79,10 @@ class SweepFinder {
     bool is_convex;
   };
 
-  void add_face(uint32_t f) {
-    // Products are within 2^-49 of their sizes, as in FaceNormal::side.
-    const FaceNormal& normal = a_normals_[f];
+  /// False if several vertices of B are farthest, and no edge or face of it has them.
+  bool add_face(uint32_t f) {
+    // Products are within 2^-49 of their sizes, as in WideNormal::side.
+    const WideNormal& normal = a_normals_[f];
     double size = 0, most = -HUGE_VAL;
     heights_.clear();
     for (const IVec3& p : b_.vertices) {
@@ -104,6 +106,7 @@ class SweepFinder {
     sweep.count = static_cast<uint32_t>(candidates_.size());
     made_.farthest.insert(made_.farthest.end(), candidates_.begin(), candidates_.end());
     made_.faces.push_back(sweep);
+    return sweep.count > 0;
   }
 
   /// Whether the angles at the edges of a face are all more than 180 degrees.
@@ -117,7 +120,7 @@ class SweepFinder {
     return true;
   }
 
-  void keep_farthest(const FaceNormal& normal) {
+  void keep_farthest(const WideNormal& normal) {
     uint32_t best = candidates_[0];
     for (const uint32_t w : candidates_) {
       if (normal.side(difference(b_.vertices[w], b_.vertices[best])) > 0) best = w;
@@ -127,17 +130,18 @@ class SweepFinder {
     });
   }
 
-  /// The corners of the face of B whose vertices these are, as it runs.
+  /// The corners of the face of B whose vertices these are, as it runs; none if there is no such.
   [[nodiscard]] std::vector<uint32_t> face_over(const std::vector<uint32_t>& vertices) const {
     for (const EdgeTable::Edge& run : b_table_.leaving(vertices[0])) {
       const auto corners = corners_of(b_, run.face);
-      if (std::all_of(corners.begin(), corners.end(), [&](uint32_t w) {
+      if (corners.size() == vertices.size() &&
+          std::all_of(corners.begin(), corners.end(), [&](uint32_t w) {
             return std::binary_search(vertices.begin(), vertices.end(), w);
           })) {
         return {corners.begin(), corners.end()};
       }
     }
-    return vertices;  // never: what is farthest of a convex solid is one of its faces
+    return {};
   }
 
   void list_b_edges() {
@@ -152,7 +156,7 @@ class SweepFinder {
 
   /// -1 if the angle between the faces of an edge is less than 180 degrees, +1 if it is more.
   [[nodiscard]] int bend(const EdgeTable::Edge& run, const EdgeTable::Edge& back) const {
-    const FaceNormal& normal = a_normals_[run.face];
+    const WideNormal& normal = a_normals_[run.face];
     for (const uint32_t v : corners_of(a_, back.face)) {
       const int side = normal.side(difference(a_.vertices[v], a_.vertices[run.to]));
       if (side != 0) return side;
@@ -173,7 +177,7 @@ class SweepFinder {
   void add_edge(uint32_t from, const EdgeTable::Edge& run, uint32_t right) {
     has_convex_edge_[from] = has_convex_edge_[run.to] = 1;
     if (have_one_farthest(run.face, right)) return;
-    const FaceNormal &left_normal = a_normals_[run.face], &right_normal = a_normals_[right];
+    const WideNormal &left_normal = a_normals_[run.face], &right_normal = a_normals_[right];
     const IVec3 along = difference(a_.vertices[run.to], a_.vertices[from]);
     for (const BEdge& edge : b_edges_) {
       // The great circles of normals cross where both arcs are, in the same sense: they cross, too,
@@ -204,7 +208,7 @@ class SweepFinder {
   }
 
   /// Whether all edges that leave are behind, and the highest of them, or one that may be, convex.
-  [[nodiscard]] bool is_behind(const FaceNormal& normal) const {
+  [[nodiscard]] bool is_behind(const WideNormal& normal) const {
     for (const Leaving& edge : leaving_) {
       if (normal.side(edge.along) > 0) return false;
     }
@@ -223,7 +227,7 @@ class SweepFinder {
   }
 
   const LeafGeometry &a_, &b_;
-  const std::vector<FaceNormal> a_normals_, b_normals_;
+  const std::vector<WideNormal> a_normals_, b_normals_;
   const EdgeTable a_table_, b_table_;
   std::vector<BEdge> b_edges_;
   std::vector<uint8_t> has_convex_edge_;  ///< per vertex of A

@@ -56,10 +56,11 @@ struct SumSweeps {
 /// of A, and as faces that A + B has where A is convex. (Cells of sums, as in sum_cells, are more
 /// wherever A is not convex: then most of them lie inside.)
 ///
-/// Nothing if there is no grid point strictly inside of B, close to its middle, or if an edge of A
-/// has not two faces. REQUIRES: A bounds a solid and crosses nothing; B is convex, and no two of
-/// its faces are in one plane; |coordinate| <= 2^40. Exact: what may be left out is told by exact
-/// signs, and by doubles with room for their errors. O(|A| |B|), and quick.
+/// Nothing if there is no grid point strictly inside of B, close to its middle, if an edge of A has
+/// not two faces, or if several faces of B are in one plane. REQUIRES: A bounds a solid and crosses
+/// nothing; B is convex; |coordinate| <= 2^40. Exact:
+/// what may be left out is told by exact signs, and by doubles with room for their errors. O(|A|
+/// |B|), and quick.
 std::optional<SumSweeps> sum_sweeps(const LeafGeometry& a, const LeafGeometry& b);
 
 }  // namespace csgrun

@@ -79,7 +79,7 @@ Operand random_body(test::Random& random, int64_t reach) {
 TEST(OperandBalls, TellOfPointsWhatIsSo) {
   test::Random random(971);
   size_t by_ball[3] = {}, by_planes[3] = {}, inside_of_dented = 0;
-  for (int round = 0; round < 120; ++round) {
+  for (int round = 0; round < 180; ++round) {
     const int64_t reach = round % 2 == 0 ? 12 : 3000;
     std::vector<Operand> operands{random_body(random, reach), random_body(random, reach)};
     if (round % 3 == 0) operands[1].frame = test::random_frame(random);
@@ -128,7 +128,7 @@ TEST(OperandBalls, TellOfPointsWhatIsSo) {
   }
   EXPECT_GT(inside_of_dented, 10u);
   for (const Inside side : {Inside::kYes, Inside::kNo}) {
-    EXPECT_GT(by_planes[static_cast<size_t>(side)], 500u);
+    EXPECT_GT(by_planes[static_cast<size_t>(side)], 700u);
   }
 }
 

@@ -13,15 +13,15 @@ namespace csgrun {
 inline int sign_of(const Int128& x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 /// Along the normal of a face. Components are at most 2^83.
-struct FaceNormal {
+struct WideNormal {
   Vec128 exact{};
   std::array<double, 3> near{};  ///< each within 2^-52 of it; 0 only if that is
 
   /// REQUIRES: |coordinate| <= 2^40.
-  static FaceNormal of(const LeafGeometry& leaf, uint32_t face) {
+  static WideNormal of(const LeafGeometry& leaf, uint32_t face) {
     const uint32_t begin = leaf.face_starts[face], end = leaf.face_starts[face + 1];
     const auto at = [&](uint32_t c) { return leaf.vertices[leaf.corners[c]]; };
-    FaceNormal result;
+    WideNormal result;
     for (uint32_t c = begin + 2; c < end && is_zero(result.exact); ++c) {
       result.exact = cross(at(begin), at(c - 1), at(c));
     }
