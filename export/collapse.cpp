@@ -5,10 +5,10 @@
 #include <numeric>
 #include <tuple>
 
+#include "export/none.h"
+
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 class Collapser {
  public:

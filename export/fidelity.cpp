@@ -8,6 +8,8 @@
 
 #include <csgrun/engine/exact_triangles.h>
 
+#include "export/none.h"
+
 namespace csgrun {
 namespace {
 
@@ -70,7 +72,6 @@ Result<Fidelity> Fidelity::of(const Solid& solid, const Affine& placement, Preci
 }
 
 std::vector<SolidShell> Fidelity::vanished(std::span<const uint32_t> triangle_face) const {
-  constexpr uint32_t kNone = UINT32_MAX;
   uint32_t faces = 0, shells = 0;
   for (const uint32_t face : triangle_face_) faces = std::max(faces, face + 1);
   for (const uint32_t shell : shell_) shells = std::max(shells, shell + 1);

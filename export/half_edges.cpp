@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "export/none.h"
+
 namespace csgrun {
 namespace {
 
@@ -84,7 +86,6 @@ Result<std::vector<uint32_t>> manifold_twins(std::span<const Triangle> triangles
 }
 
 std::vector<uint32_t> shells_of(std::span<const uint32_t> twins) {
-  constexpr uint32_t kNone = UINT32_MAX;
   const size_t triangle_count = twins.size() / 3;
   std::vector<uint32_t> shell(triangle_count, kNone);
   std::vector<uint32_t> stack;

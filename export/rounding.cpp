@@ -10,11 +10,10 @@
 #include <glm/geometric.hpp>
 
 #include "export/collapse.h"
+#include "export/none.h"
 
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 uint64_t mixed(uint64_t x) {  // the finaliser of MurmurHash3, by Austin Appleby (public domain)
   x ^= x >> 33;

@@ -9,11 +9,11 @@
 #include <glm/geometric.hpp>
 
 #include "export/defects.h"
+#include "export/none.h"
 
 namespace csgrun {
 namespace {
 
-constexpr uint32_t kNone = UINT32_MAX;
 /// Coordinates of the engine's leaves are less than 2^27 steps.
 constexpr int kGridBits = 27;
 

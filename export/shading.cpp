@@ -5,12 +5,12 @@
 
 #include <glm/geometric.hpp>
 
+#include "export/none.h"
+
 namespace csgrun {
 namespace {
 
 constexpr double kCreaseCosine = 0.7660444431189780;  // of 40 degrees
-constexpr uint32_t kNone = UINT32_MAX;
-
 class Shader {
  public:
   Shader(const Solid& solid, const RoundedMesh& mesh) : solid_(solid), mesh_(mesh) {}

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "export/none.h"
+
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 /// Per half-edge 3 t + i: the one other triangle at that edge, kNone where there are more.
 std::vector<uint32_t> lone_neighbours(std::span<const std::array<uint32_t, 3>> triangles) {

@@ -14,11 +14,11 @@
 
 #include "export/edge_turn.h"
 #include "export/half_edges.h"
+#include "export/none.h"
 
 namespace csgrun {
 namespace {
 
-constexpr uint32_t kNone = UINT32_MAX;
 /// A vertex with more triangles stays: each step there would take as long as all others.
 constexpr size_t kMostAround = 200;
 /// So many steps for each triangle of which something is wrong at first: a bound that nothing that

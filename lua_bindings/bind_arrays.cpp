@@ -409,7 +409,7 @@ constexpr Binding both() {
   return {&Spec, guarded<Function>, guarded<Function>, guarded<Function>};
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kArraysBindings[] = {
     both<kAnchor, anchor>(),
     both<kAttach, attach>(),
     both<kAlign, align>(),
@@ -422,6 +422,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> array_bindings() { return kBindings; }
+std::span<const Binding> array_bindings() { return kArraysBindings; }
 
 }  // namespace csgrun

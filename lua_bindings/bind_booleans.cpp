@@ -204,7 +204,7 @@ constexpr Binding boolean_method() {
   return {&Spec, nullptr, guarded<boolean_function<Spec, Op>>, guarded<boolean_function<Spec, Op>>};
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kBooleansBindings[] = {
     boolean_binding<kUnion, BooleanOp::kUnion>(),
     boolean_binding<kDifference, BooleanOp::kDifference>(),
     boolean_binding<kIntersection, BooleanOp::kIntersection>(),
@@ -218,7 +218,7 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> boolean_bindings() { return kBindings; }
+std::span<const Binding> boolean_bindings() { return kBooleansBindings; }
 
 void open_operators(lua_State* L) {
   constexpr luaL_Reg kGeometryOperators[] = {

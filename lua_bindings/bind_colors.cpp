@@ -25,7 +25,7 @@ constexpr Option kColorOptions[] = {
     {"roughness", T::kNumber, "0.6", "0 to 1", false, Range::kNotNegative},
     {"name", T::kString, "", "name of the material", false},
 };
-constexpr const char* kPartDoc = "a solid or a shape; part:color(...) leaves it out";
+constexpr const char* kColoredDoc = "a solid or a shape; part:color(...) leaves it out";
 constexpr FunctionSpec kColor{
     "color",
     "Paints every face; of several colours the outermost counts. The material stays.",
@@ -33,14 +33,14 @@ constexpr FunctionSpec kColor{
     false,
     "part:color('steelblue', 0.5)",
     "part",
-    kPartDoc};
+    kColoredDoc};
 constexpr FunctionSpec kSetcolor{"setcolor",
                                  "Paints every face: another name of color.",
                                  kColorOptions,
                                  false,
                                  "part:setcolor(\"red\")",
                                  "part",
-                                 kPartDoc};
+                                 kColoredDoc};
 
 /// A fraction from 0 to 1.
 float fraction(const FunctionSpec& spec, const char* name, double x) {
@@ -238,7 +238,7 @@ int material(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kColorsBindings[] = {
     {&kColor, guarded<color<kColor>>, guarded<color<kColor>>, guarded<color<kColor>>},
     {&kSetcolor, guarded<color<kSetcolor>>, guarded<color<kSetcolor>>, guarded<color<kSetcolor>>},
     {&kMaterial, guarded<material>, guarded<material>, guarded<material>},
@@ -246,6 +246,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> color_bindings() { return kBindings; }
+std::span<const Binding> color_bindings() { return kColorsBindings; }
 
 }  // namespace csgrun

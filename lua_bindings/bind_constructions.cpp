@@ -16,7 +16,7 @@ namespace {
 
 using T = ArgumentType;
 
-constexpr Option kOperandOptions[] = {
+constexpr Option kConstructionOptions[] = {
     {"operands", T::kValue, "", "solids or shapes, one after another or as lists", true},
 };
 constexpr Option kHullOptions[] = {
@@ -30,7 +30,7 @@ constexpr FunctionSpec kHull{"hull", "The least convex solid or shape that conta
 constexpr FunctionSpec kMinkowski{
     "minkowski",
     "All sums of a point of each: the first, swept by the others. Empty ones count for nothing.",
-    kOperandOptions, false, "minkowski{cube{20, 20, 5}, sphere(1)}"};
+    kConstructionOptions, false, "minkowski{cube{20, 20, 5}, sphere(1)}"};
 
 template <const FunctionSpec& Spec, NodePtr (*OfSolids)(std::vector<NodePtr>, SourceRef),
           Result<Shape2D> (*OfShapes)(const std::vector<Shape2D>&)>
@@ -157,7 +157,7 @@ constexpr lua_CFunction kHullFunction = guarded<hull>;
 constexpr lua_CFunction kMinkowskiFunction =
     guarded<combine<kMinkowski, Node::minkowski_sum, minkowski_of_shapes>>;
 
-constexpr Binding kBindings[] = {
+constexpr Binding kConstructionsBindings[] = {
     {&kHull, kHullFunction, kHullFunction, kHullFunction},
     {&kMinkowski, kMinkowskiFunction, kMinkowskiFunction, kMinkowskiFunction},
     {&kResize, guarded<resize>, guarded<resize>, guarded<resize>},
@@ -165,6 +165,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> construction_bindings() { return kBindings; }
+std::span<const Binding> construction_bindings() { return kConstructionsBindings; }
 
 }  // namespace csgrun

@@ -21,7 +21,7 @@ namespace {
 using T = ArgumentType;
 
 /// Deeper lists are taken for one that contains itself.
-constexpr int kDeepestList = 100;
+constexpr int kDeepestEdges = 100;
 /// Edges that turn by less are facets of what is round.
 constexpr const char* kLeastTurn = "10";
 
@@ -174,7 +174,7 @@ class EdgeChoice {
     } else if (is_edge(index)) {
       add_edge(index);
     } else if (lua_rawlen(L_, index) > 0) {
-      if (depth == kDeepestList) fail_in(spec_, "the lists in option 'edges' are nested too deep");
+      if (depth == kDeepestEdges) fail_in(spec_, "the lists in option 'edges' are nested too deep");
       const auto length = static_cast<lua_Integer>(lua_rawlen(L_, index));
       for (lua_Integer i = 1; i <= length; ++i) {
         lua_rawgeti(L_, index, i);
@@ -475,7 +475,7 @@ int cut(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kEdgesBindings[] = {
     {&kChamfer, guarded<cut<kChamfer, false>>, guarded<cut<kChamfer, false>>, nullptr},
     {&kFillet, guarded<cut<kFillet, true>>, guarded<cut<kFillet, true>>, nullptr},
     {&kEdges, nullptr, guarded<edges>, nullptr},
@@ -483,6 +483,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> edge_bindings() { return kBindings; }
+std::span<const Binding> edge_bindings() { return kEdgesBindings; }
 
 }  // namespace csgrun

@@ -308,7 +308,7 @@ int load_csg(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kFilesBindings[] = {
     {&kReadText, guarded<read_text>, nullptr, nullptr},
     {&kReadJson, guarded<read_json>, nullptr, nullptr},
     {&kReadCsv, guarded<read_csv>, nullptr, nullptr},
@@ -317,6 +317,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> file_bindings() { return kBindings; }
+std::span<const Binding> file_bindings() { return kFilesBindings; }
 
 }  // namespace csgrun

@@ -335,7 +335,7 @@ int levelset(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kFreeformBindings[] = {
     {&kSurface, guarded<surface>, nullptr, nullptr},
     {&kRefine, guarded<refine>, guarded<refine>, nullptr},
     {&kSmooth, guarded<smooth>, guarded<smooth>, nullptr},
@@ -345,6 +345,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> surface_bindings() { return kBindings; }
+std::span<const Binding> surface_bindings() { return kFreeformBindings; }
 
 }  // namespace csgrun

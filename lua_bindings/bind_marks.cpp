@@ -128,7 +128,7 @@ constexpr Binding function() {
   return {&Spec, guarded<Function>, nullptr, nullptr};
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kMarksBindings[] = {
     method<kName, set_name>(),
     method<kClone, copy<kClone>>(),
     method<kCopy, copy<kCopy>>(),
@@ -144,6 +144,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> mark_bindings() { return kBindings; }
+std::span<const Binding> mark_bindings() { return kMarksBindings; }
 
 }  // namespace csgrun

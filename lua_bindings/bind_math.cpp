@@ -54,7 +54,7 @@ int of_two(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kMathBindings[] = {
     {&kSin, guarded<of_one<kSin, sin_deg>>, nullptr, nullptr},
     {&kCos, guarded<of_one<kCos, cos_deg>>, nullptr, nullptr},
     {&kTan, guarded<of_one<kTan, tan_deg>>, nullptr, nullptr},
@@ -73,6 +73,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> math_bindings() { return kBindings; }
+std::span<const Binding> math_bindings() { return kMathBindings; }
 
 }  // namespace csgrun

@@ -269,7 +269,7 @@ int shape_contains(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kMeasuresBindings[] = {
     {&kBbox, nullptr, guarded<solid_bbox<kBbox>>, guarded<shape_bbox<kBbox>>},
     {&kBounds, nullptr, guarded<solid_bbox<kBounds>>, guarded<shape_bbox<kBounds>>},
     {&kSize, nullptr, guarded<solid_size>, guarded<shape_size>},
@@ -285,7 +285,7 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> measure_bindings() { return kBindings; }
+std::span<const Binding> measure_bindings() { return kMeasuresBindings; }
 
 void open_boxes(lua_State* L) {
   luaL_newmetatable(L, kBoxName);

@@ -316,7 +316,7 @@ int require_module(lua_State* L) {
 constexpr Option kEmitOptions[] = {
     {"name", T::kString, "part1, part2, ...", "name of the part, or of the group", true},
 };
-constexpr const char* kPartDoc =
+constexpr const char* kNamedDoc =
     "a solid, a shape, or a table of them; several may stand one after another";
 constexpr FunctionSpec kEmit{
     "emit",
@@ -325,14 +325,14 @@ constexpr FunctionSpec kEmit{
     false,
     "emit(lid, \"lid\")",
     "part",
-    kPartDoc};
+    kNamedDoc};
 constexpr FunctionSpec kRender{"render",
                                "Adds a part to the result: another name of emit.",
                                kEmitOptions,
                                false,
                                "render(lid, {name = \"lid\"})",
                                "part",
-                               kPartDoc};
+                               kNamedDoc};
 
 /// render(a, b, c): several parts one after another are a table of them.
 void pack_parts(lua_State* L) {
@@ -365,7 +365,7 @@ int emit(lua_State* L) {
   return 0;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kModelBindings[] = {
     {&kImport, guarded<import_file>, nullptr, nullptr},
     {&kRequire, guarded<require_module>, nullptr, nullptr},
     {&kEmit, guarded<emit<kEmit>>, nullptr, nullptr},
@@ -374,6 +374,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> model_bindings() { return kBindings; }
+std::span<const Binding> model_bindings() { return kModelBindings; }
 
 }  // namespace csgrun

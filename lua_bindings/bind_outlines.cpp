@@ -161,7 +161,7 @@ int outlines(lua_State* L) {
   });
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kOutlinesBindings[] = {
     {&kOffset, guarded<offset>, guarded<offset>, guarded<offset>},
     {&kFill, guarded<fill>, nullptr, guarded<fill>},
     {&kPerimeter, nullptr, nullptr, guarded<perimeter>},
@@ -172,6 +172,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> outline_bindings() { return kBindings; }
+std::span<const Binding> outline_bindings() { return kOutlinesBindings; }
 
 }  // namespace csgrun

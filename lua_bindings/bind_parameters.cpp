@@ -173,13 +173,13 @@ int var(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kParametersBindings[] = {
     {&kParam, guarded<param>, nullptr, nullptr},
     {&kVar, guarded<var>, nullptr, nullptr},
 };
 
 }  // namespace
 
-std::span<const Binding> parameter_bindings() { return kBindings; }
+std::span<const Binding> parameter_bindings() { return kParametersBindings; }
 
 }  // namespace csgrun

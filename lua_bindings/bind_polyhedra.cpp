@@ -151,7 +151,7 @@ int pyramid(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kPolyhedraBindings[] = {
     {&kTorus, guarded<torus>, nullptr, nullptr},
     {&kEllipsoid, guarded<ellipsoid>, nullptr, nullptr},
     {&kOctahedron, guarded<octahedron>, nullptr, nullptr},
@@ -161,6 +161,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> polyhedron_bindings() { return kBindings; }
+std::span<const Binding> polyhedron_bindings() { return kPolyhedraBindings; }
 
 }  // namespace csgrun

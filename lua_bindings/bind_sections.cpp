@@ -274,7 +274,7 @@ int decompose(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kSectionsBindings[] = {
     {&kProjection, guarded<projection>, guarded<projection>, nullptr},
     {&kProject, guarded<project>, guarded<project>, nullptr},
     {&kSlice, guarded<slice>, guarded<slice>, nullptr},
@@ -285,6 +285,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> section_bindings() { return kBindings; }
+std::span<const Binding> section_bindings() { return kSectionsBindings; }
 
 }  // namespace csgrun

@@ -199,7 +199,7 @@ int gap(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kSelectingBindings[] = {
     {&kFaces, nullptr, guarded<faces>, nullptr},
     {&kRay, nullptr, guarded<ray>, nullptr},
     {&kGap, nullptr, guarded<gap>, nullptr},
@@ -207,6 +207,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> selecting_bindings() { return kBindings; }
+std::span<const Binding> selecting_bindings() { return kSelectingBindings; }
 
 }  // namespace csgrun

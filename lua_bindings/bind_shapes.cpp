@@ -275,7 +275,7 @@ int rotate_extrude_shape(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kShapesBindings[] = {
     {&kSquare, guarded<square<kSquare>>, nullptr, nullptr},
     {&kRect, guarded<square<kRect>>, nullptr, nullptr},
     {&kCircle, guarded<circle>, nullptr, nullptr},
@@ -287,6 +287,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> shape_bindings() { return kBindings; }
+std::span<const Binding> shape_bindings() { return kShapesBindings; }
 
 }  // namespace csgrun

@@ -153,7 +153,7 @@ int polyhedron(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kSolidsBindings[] = {
     {&kCube, guarded<cube>, nullptr, nullptr},
     {&kSphere, guarded<sphere>, nullptr, nullptr},
     {&kCylinder, guarded<cylinder>, nullptr, nullptr},
@@ -162,6 +162,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> solid_bindings() { return kBindings; }
+std::span<const Binding> solid_bindings() { return kSolidsBindings; }
 
 }  // namespace csgrun

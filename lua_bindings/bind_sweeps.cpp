@@ -180,7 +180,7 @@ int roof(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kSweepsBindings[] = {
     {&kSweep, guarded<sweep>, nullptr, guarded<sweep>},
     {&kLoft, guarded<loft>, nullptr, nullptr},
     {&kRoof, guarded<roof>, nullptr, guarded<roof>},
@@ -188,6 +188,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> sweep_bindings() { return kBindings; }
+std::span<const Binding> sweep_bindings() { return kSweepsBindings; }
 
 }  // namespace csgrun

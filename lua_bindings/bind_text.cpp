@@ -196,7 +196,7 @@ int font_metrics(lua_State* L) {
   return 1;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kTextBindings[] = {
     {&kText, guarded<text>, nullptr, nullptr},
     {&kText3d, guarded<text3d>, nullptr, nullptr},
     {&kTextMetrics, guarded<text_metrics<kTextMetrics>>, nullptr, nullptr},
@@ -207,6 +207,6 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> text_bindings() { return kBindings; }
+std::span<const Binding> text_bindings() { return kTextBindings; }
 
 }  // namespace csgrun

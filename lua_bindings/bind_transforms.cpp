@@ -205,7 +205,7 @@ constexpr Binding transform_binding() {
           guarded<transform<Spec, Make, true>>, guarded<transform<Spec, Make, true>>};
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kTransformsBindings[] = {
     transform_binding<kTranslate, make_translation<kTranslate>>(),
     transform_binding<kRotate, make_rotation>(),
     transform_binding<kScale, make_scale>(),
@@ -232,7 +232,7 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> transform_bindings() { return kBindings; }
+std::span<const Binding> transform_bindings() { return kTransformsBindings; }
 
 void push_moved_shape(lua_State* L, int index, const Affine& map, const std::string& function) {
   const ShapeValue& shape = *to_shape(L, index);

@@ -409,7 +409,7 @@ int vector_assign(lua_State* L) {
   return 0;
 }
 
-constexpr Binding kBindings[] = {
+constexpr Binding kVectorsBindings[] = {
     {&kVec, guarded<make_vector<kVec>>, nullptr, nullptr},
     {&kVector, guarded<make_vector<kVector>>, nullptr, nullptr},
     {&kCross, guarded<cross_product>, nullptr, nullptr},
@@ -431,7 +431,7 @@ constexpr Binding kBindings[] = {
 
 }  // namespace
 
-std::span<const Binding> vector_bindings() { return kBindings; }
+std::span<const Binding> vector_bindings() { return kVectorsBindings; }
 
 void open_vectors(lua_State* L) {
   luaL_newmetatable(L, kVectorName);

@@ -79,7 +79,7 @@ std::vector<uint32_t> face_order(const DraftBoundary& draft, const PlaneTable& p
 }
 
 /// What is needed so many steps later is asked for now: in its order it stands anywhere.
-constexpr size_t kAhead = 8;
+constexpr size_t kFacesAhead = 8;
 
 /// Lines up the faces and their corners. Planes keep their numbers.
 void fill_faces(const DraftBoundary& draft, const std::vector<uint32_t>& order,
@@ -101,8 +101,8 @@ void fill_faces(const DraftBoundary& draft, const std::vector<uint32_t>& order,
   mesh.corners.resize(next.corner);
   for_each_range(order.size(), [&](size_t begin, size_t end) {
     for (size_t n = begin; n < end; ++n) {
-      if (n + kAhead < end) {
-        const DraftBoundary::Face& soon = draft.faces[order[n + kAhead]];
+      if (n + kFacesAhead < end) {
+        const DraftBoundary::Face& soon = draft.faces[order[n + kFacesAhead]];
         __builtin_prefetch(&draft.edges[draft.loop_starts[soon.first_loop]]);
       }
       const DraftBoundary::Face& face = draft.faces[order[n]];
@@ -151,7 +151,7 @@ void name_by_planes(const PlaneTable& planes, size_t point_count, BoundaryMesh& 
   mesh.planes.resize(used_planes.size());
   for_each_range(used_planes.size(), [&](size_t begin, size_t end) {
     for (size_t p = begin; p < end; ++p) {
-      if (p + kAhead < end) __builtin_prefetch(&planes.plane(used_planes[p + kAhead]));
+      if (p + kFacesAhead < end) __builtin_prefetch(&planes.plane(used_planes[p + kFacesAhead]));
       mesh.planes[p] = planes.plane(used_planes[p]);
     }
   });

@@ -11,13 +11,12 @@
 #include <vector>
 
 #include "engine/base/chunked_vector.h"
+#include "engine/base/none.h"
 #include "engine/base/raw_vector.h"
 #include "engine/bsp/job.h"
 #include "engine/exact/predicates.h"
 
 namespace csgrun {
-
-constexpr uint32_t kNone = ~0u;
 
 /// A convex polygon: corners and edge planes in the arena of a CellGeometry. Edge i runs from
 /// corner i to corner i + 1 and lies in edge plane i. Counter-clockwise seen from the side the

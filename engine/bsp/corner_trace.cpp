@@ -5,14 +5,14 @@
 namespace csgrun {
 namespace {
 
-using Wide = Int<6>;
+using WideValue = Int<6>;
 // Below: products of two plane coefficients and a corner coordinate times the prime.
 static_assert(2 * widths::kMaxNormal + 64 + 4 < 64 * 6 &&
               widths::kMaxNormal + widths::kMaxOffset + 32 + 4 < 64 * 6);
 
 std::array<Int128, 3> normal_of(const Plane& p) { return {p.a, p.b, p.c}; }
 
-Wide product(Int128 a, Int128 b) {
+WideValue wide_product(Int128 a, Int128 b) {
   return multiply<6>(Int<2>::from_int128(a), Int<2>::from_int128(b));
 }
 
@@ -20,8 +20,9 @@ Wide product(Int128 a, Int128 b) {
 
 int side_of_corner(const Plane& plane, const IVec3& corner, int64_t prime) {
   const auto n = normal_of(plane);
-  Wide value = product(plane.d, prime);
-  for (int k = 0; k < 3; ++k) value += product(n[k], static_cast<Int128>(prime) * corner[k] + 1);
+  WideValue value = wide_product(plane.d, prime);
+  for (int k = 0; k < 3; ++k)
+    value += wide_product(n[k], static_cast<Int128>(prime) * corner[k] + 1);
   if (const int s = value.sign()) return s;
   for (const Int128 c : n) {
     if (c != 0) return c > 0 ? 1 : -1;
@@ -45,10 +46,12 @@ bool line_hits(const Job& job, const JobPolygon& polygon, const IVec3& corner, i
     const Plane& edge = job.planes().plane(edges[k]);
     const auto e = normal_of(edge);
     // The edge's plane where the line meets the support, times the support's component (signed).
-    const auto coefficient = [&](int c) { return product(s[axis], e[c]) - product(e[axis], s[c]); };
-    const Wide by_i = coefficient(i), by_j = coefficient(j);
-    const Wide constant = product(s[axis], edge.d) - product(e[axis], support.d);
-    const auto times = [](const Wide& v, Int128 f) {
+    const auto coefficient = [&](int c) {
+      return wide_product(s[axis], e[c]) - wide_product(e[axis], s[c]);
+    };
+    const WideValue by_i = coefficient(i), by_j = coefficient(j);
+    const WideValue constant = wide_product(s[axis], edge.d) - wide_product(e[axis], support.d);
+    const auto times = [](const WideValue& v, Int128 f) {
       return multiply<6>(v, Int<2>::from_int128(f));
     };
     int at_line = (times(by_i, ci) + times(by_j, cj) + times(constant, p)).sign();

@@ -4,13 +4,12 @@
 #include <tuple>
 
 #include "engine/base/counting_order.h"
+#include "engine/base/none.h"
 #include "engine/base/sort_few.h"
 #include "engine/bsp/corner_walk.h"
 
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 /// A directed edge at its lower end.
 struct Use {

@@ -77,7 +77,7 @@ OperandBalls::OperandBalls(const std::vector<Operand>& operands,
     if (all[o].inner <= 0) continue;
     constexpr double kRound = 0.5;  // of squares: a cube has a third, an octagon's sphere more
     const bool obeys = operands[o].frame.is_identity || all[o].inner >= kRound * all[o].outer;
-    const uint8_t use = obeys ? uses[o] : kSide;
+    const uint8_t use = obeys ? uses[o] : uint8_t{kSide};
     all[o].hides = (use & (kWithin | kBeyond)) != 0;
     hide_some_ |= all[o].hides;
     const auto number = static_cast<uint32_t>(balls_.size());

@@ -28,7 +28,7 @@ std::vector<SquareBins::Box> boxes_of_operands(const Job& job) {
 constexpr size_t kFewPlanes = 512;
 
 /// A square an operand, about.
-uint32_t most_squares(size_t operands) {
+uint32_t squares_for(size_t operands) {
   constexpr size_t kMost = 64 * 64;
   return static_cast<uint32_t>(std::clamp<size_t>(operands, 1, kMost));
 }
@@ -42,7 +42,7 @@ PatchLabels::PatchLabels(const Job& job, const Expression& expression,
       boundary_(expression),
       signs_(job, true),  // rays meet pieces that the job does not have
       boxes_(job),
-      bins_(boxes_of_operands(job), most_squares(job.operand_count())) {}
+      bins_(boxes_of_operands(job), squares_for(job.operand_count())) {}
 
 /// Whether they tell that nothing there is boundary, whatever else there is: part of the patch is
 /// inside of a remover or outside of a confiner, or hidden surface passes through it.

@@ -8,7 +8,7 @@
 namespace csgrun {
 namespace {
 
-constexpr size_t kAhead = 12;  // so soon the memory of points is asked for
+constexpr size_t kPointsAhead = 12;  // so soon the memory of points is asked for
 
 }  // namespace
 
@@ -18,8 +18,8 @@ void PointIndex::make_unique(std::span<const uint32_t> points) {
     return;
   }
   for (size_t i = 0; i < points.size(); ++i) {
-    if (i + kAhead < points.size()) {
-      __builtin_prefetch(&slots_[hash(points[i + kAhead]) & (slots_.size() - 1)]);
+    if (i + kPointsAhead < points.size()) {
+      __builtin_prefetch(&slots_[hash(points[i + kPointsAhead]) & (slots_.size() - 1)]);
     }
     unique(points[i]);
   }
@@ -50,8 +50,8 @@ void PointIndex::make_unique_in_shards(std::span<const uint32_t> points) {
     const std::span<const uint32_t> asked(by_shard.order.data() + by_shard.starts[s],
                                           by_shard.order.data() + by_shard.starts[s + 1]);
     for (size_t i = 0; i < asked.size(); ++i) {
-      if (i + kAhead < asked.size()) {
-        const uint32_t soon = points[asked[i + kAhead]];
+      if (i + kPointsAhead < asked.size()) {
+        const uint32_t soon = points[asked[i + kPointsAhead]];
         __builtin_prefetch(&known_[soon]);
         __builtin_prefetch(&geometry_.point(soon));
       }

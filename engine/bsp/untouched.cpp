@@ -291,7 +291,7 @@ std::vector<UntouchedPart> parts_of(const Sides& sides, const UntouchedFaces& un
   return parts;
 }
 
-IVec3 moved(const IVec3& p, const IVec3& t) { return {p[0] + t[0], p[1] + t[1], p[2] + t[2]}; }
+IVec3 moved_by(const IVec3& p, const IVec3& t) { return {p[0] + t[0], p[1] + t[1], p[2] + t[2]}; }
 
 /// What is still untouched of a part of operand `o`, a boundary.
 std::vector<UntouchedPart> parts_of_part(const Job& job, size_t o, size_t number,
@@ -305,7 +305,7 @@ std::vector<UntouchedPart> parts_of_part(const Job& job, size_t o, size_t number
   if (!sides.kept && !sides.flipped) return {};
   UntouchedPart like;
   like.leaf = before.leaf;
-  like.translation = moved(before.translation, operand.translation);
+  like.translation = moved_by(before.translation, operand.translation);
   like.source = before.source + operand.first_source;
   like.appearance = operand.appearance ? operand.appearance : before.appearance;
   like.flipped = before.flipped;

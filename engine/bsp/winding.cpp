@@ -10,7 +10,7 @@ namespace {
 
 using Vector = std::array<Int128, 3>;
 
-int sign(Int128 x) { return (x > 0) - (x < 0); }
+int sign_of(Int128 x) { return (x > 0) - (x < 0); }
 
 struct SpannedPlane {
   std::array<uint32_t, 3> corners{};  ///< three vertices that are not collinear, counter-clockwise
@@ -64,8 +64,8 @@ int winding_in_front(const LeafGeometry& leaf, const PackedBoxes* tree, uint32_t
       const IVec3& b = leaf.vertices[loop[i + 1 < loop.size() ? i + 1 : 0]];
       const bool a_above = 3 * a[v] > middle[v], b_above = 3 * b[v] > middle[v];
       if (a_above == b_above) continue;
-      int left = sign(static_cast<Int128>(b[u] - a[u]) * (middle[v] - 3 * a[v]) -
-                      static_cast<Int128>(b[v] - a[v]) * (middle[u] - 3 * a[u]));
+      int left = sign_of(static_cast<Int128>(b[u] - a[u]) * (middle[v] - 3 * a[v]) -
+                         static_cast<Int128>(b[v] - a[v]) * (middle[u] - 3 * a[u]));
       if (left == 0) left = b_above ? -1 : 1;
       if (b_above && left > 0) ++turns;
       if (a_above && left < 0) --turns;

@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t kSomeFrame = UINT32_MAX;
 
 /// Numbers that count up, or are one, or are listed.
-enum class Numbering : uint8_t { kOne, kCountUp, kListed };
+enum class NumberingKind : uint8_t { kOne, kCountUp, kListed };
 
 /// Appearances as numbers in a list of those that occur.
 class AppearanceList {
@@ -52,19 +52,19 @@ Appearance read_appearance(ByteReader& in) {
 
 void write(ByteWriter& out, const FaceNumbers& numbers, size_t count) {
   if (numbers.stored() > 0) {
-    out.number(Numbering::kListed);
+    out.number(NumberingKind::kListed);
     const std::vector<uint32_t> list = numbers.list(count);
     out.list(list);
   } else {
-    out.number(numbers.count_up() ? Numbering::kCountUp : Numbering::kOne);
+    out.number(numbers.count_up() ? NumberingKind::kCountUp : NumberingKind::kOne);
     out.number(numbers[0]);
   }
 }
 
 FaceNumbers read_numbers(ByteReader& in, size_t count) {
-  const auto numbering = in.number<Numbering>();
-  if (numbering == Numbering::kOne) return FaceNumbers::all(in.number<uint32_t>());
-  if (numbering == Numbering::kCountUp) return FaceNumbers::ascending(in.number<uint32_t>());
+  const auto numbering = in.number<NumberingKind>();
+  if (numbering == NumberingKind::kOne) return FaceNumbers::all(in.number<uint32_t>());
+  if (numbering == NumberingKind::kCountUp) return FaceNumbers::ascending(in.number<uint32_t>());
   std::vector<uint32_t> list;
   in.list(list);
   list.resize(count);

@@ -16,6 +16,7 @@
 #include "engine/csg/frames.h"
 #include "engine/csg/grid_solid.h"
 #include "engine/csg/hash_affine.h"
+#include "engine/csg/is_finite.h"
 #include "engine/csg/minkowski.h"
 #include "engine/csg/operand_leaves.h"
 #include "engine/csg/whole_steps.h"
@@ -105,15 +106,6 @@ PartedMap parted(const Affine& map) {
 
 Affine turned_forth(const Affine& map, const std::optional<CommonTurn>& turn) {
   return turn ? Affine::compose(map, turn->forth) : map;
-}
-
-bool is_finite(const Affine& map) {
-  for (const auto& row : map.m) {
-    for (const double entry : row) {
-      if (!std::isfinite(entry)) return false;
-    }
-  }
-  return true;
 }
 
 bool is_sum(const Node& node) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/base/none.h"
 #include "engine/csg/grid.h"
 #include "engine/csg/wide_cross.h"
 #include "engine/exact/fixed_int.h"
@@ -12,8 +13,6 @@
 
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 /// A triangle, counter-clockwise from outside. Neighbour i lies beyond the edge from corner i.
 struct Triangle {

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/base/none.h"
 #include "engine/base/scratch.h"
 #include "engine/csg/collinear_triangles.h"
 #include "engine/csg/leaf_faces.h"
@@ -14,8 +15,6 @@
 
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 uint64_t hash(const IVec3& p) {
   uint64_t h = 0;

@@ -18,7 +18,7 @@ constexpr double kLargestRowEntry = 0x1p16;  // so that entries of C stay within
 /// Of Rn: half a step along a column moves a point by so many of them (scene_nodes.cpp, enclose).
 constexpr double kLongestColumn = 32;
 
-Column cross(const Column& a, const Column& b) {
+Column cross_product(const Column& a, const Column& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
@@ -89,13 +89,13 @@ LinearSplit split_linear(const Affine& map) {
       columns[j][i] = unit ? DoubleDouble(map.m[i][j]) : DoubleDouble(c[i]) / DoubleDouble(norm);
     }
   }
-  const Column first = cross(columns[1], columns[2]);
+  const Column first = cross_product(columns[1], columns[2]);
   const DoubleDouble det =
       columns[0][0] * first[0] + columns[0][1] * first[1] + columns[0][2] * first[2];
   split.determinant = det.value();
   if (!(std::fabs(split.determinant) >= kLeastDeterminant)) return split;
-  std::array<Column, 3> inverse{first, cross(columns[2], columns[0]),
-                                cross(columns[0], columns[1])};
+  std::array<Column, 3> inverse{first, cross_product(columns[2], columns[0]),
+                                cross_product(columns[0], columns[1])};
   for (int i = 0; i < 3; ++i) {
     for (DoubleDouble& entry : inverse[i]) entry = entry / det;
     shorten(i, inverse[i], split);
@@ -281,7 +281,7 @@ CanonicalFrame canonical_frame(const std::array<std::array<int64_t, 3>, 3>& rows
     b[j] = std::ldexp(static_cast<double>(best_matrix[1][j]), -Frame::kShift);
     c[j] = std::ldexp(static_cast<double>(best_matrix[2][j]), -Frame::kShift);
   }
-  const Column n = cross(b, c);
+  const Column n = cross_product(b, c);
   const double det = (a[0] * n[0] + a[1] * n[1] + a[2] * n[2]).value();
   result.framed = std::fabs(det) >= least / 2;
   return result;

@@ -6,14 +6,13 @@
 #include <cstdio>
 #include <unordered_map>
 
+#include "engine/base/none.h"
 #include "engine/bsp/union_find.h"
 #include "engine/csg/grid.h"
 #include "engine/mesh/to_millimetres.h"
 
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 /// Joins the triangles of a face to convex polygons, by leaving out edges between them where that
 /// makes no corner that turns right (Hertel & Mehlhorn 1983): at most four times as many as needed.

@@ -114,12 +114,12 @@ bool drop_collinear_loops(const std::vector<IVec3>& vertices, std::vector<LoopFa
                               [&](const Loop& loop) { return is_collinear(vertices, loop); });
 }
 
-using Triangle = std::array<uint32_t, 3>;
+using LoopTriangle = std::array<uint32_t, 3>;
 
 /// Whether the boundary of the triangles is the loops.
-bool covers(const std::vector<Triangle>& triangles, const std::vector<Loop>& loops) {
+bool covers(const std::vector<LoopTriangle>& triangles, const std::vector<Loop>& loops) {
   std::vector<std::pair<uint32_t, uint32_t>> plus, minus;
-  for (const Triangle& t : triangles) {
+  for (const LoopTriangle& t : triangles) {
     for (int i = 0; i < 3; ++i) plus.emplace_back(t[i], t[(i + 1) % 3]);
   }
   for (const Loop& loop : loops) {
@@ -146,8 +146,8 @@ std::optional<BulgingTriangles> bulging_triangles(const std::vector<IVec3>& vert
 }
 
 /// `is_flat`: its corners are in one plane. Others may be divided so that they are convex.
-std::vector<Triangle> triangles_of(const std::vector<IVec3>& vertices, const LoopFace& face,
-                                   bool is_flat, bool prefer_convex) {
+std::vector<LoopTriangle> triangles_of(const std::vector<IVec3>& vertices, const LoopFace& face,
+                                       bool is_flat, bool prefer_convex) {
   Vec128 normal{};
   for (const Loop& loop : face.loops) {
     const Vec128 n = loop_normal(vertices, loop);
@@ -174,8 +174,8 @@ std::vector<Triangle> triangles_of(const std::vector<IVec3>& vertices, const Loo
 
 /// They keep the surface closed, and the test for self-intersections tells whether it is still a
 /// solid.
-std::vector<Triangle> fans_of(const LoopFace& face) {
-  std::vector<Triangle> fans;
+std::vector<LoopTriangle> fans_of(const LoopFace& face) {
+  std::vector<LoopTriangle> fans;
   for (const Loop& loop : face.loops) {
     for (size_t i = 1; i + 1 < loop.size(); ++i) fans.push_back({loop[0], loop[i], loop[i + 1]});
   }
@@ -262,7 +262,7 @@ std::optional<BulgingTriangles> split_bent_quad(const std::vector<IVec3>& vertic
   return bulging_triangles(vertices, quad);
 }
 
-std::vector<Triangle> triangulate(const std::vector<IVec3>& vertices, const LoopFace& face) {
+std::vector<LoopTriangle> triangulate(const std::vector<IVec3>& vertices, const LoopFace& face) {
   return triangles_of(vertices, face, is_planar(vertices, face), false);
 }
 
@@ -298,7 +298,7 @@ bool make_convex_faces(const std::vector<IVec3>& vertices, bool prefer_convex, b
       simple = false;
       triangles = fans_of(face);
     }
-    for (const Triangle& t : triangles) {
+    for (const LoopTriangle& t : triangles) {
       LoopFace piece{{{t[0], t[1], t[2]}}, face.facet, face.surface, face.appearance};
       flat |= is_collinear(vertices, piece.loops[0]);
       result.push_back(std::move(piece));

@@ -6,14 +6,13 @@
 
 #include <glm/common.hpp>
 
+#include "engine/base/none.h"
 #include "engine/bsp/union_find.h"
 
 namespace csgrun {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr uint32_t kNone = UINT32_MAX;
-
 /// Calls f(from, to) for the edges of a face.
 template <class F>
 void each_edge(const PolygonMesh& mesh, size_t face, F&& f) {

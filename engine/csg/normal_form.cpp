@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "engine/csg/hash_affine.h"
+#include "engine/csg/is_finite.h"
 
 namespace csgrun {
 namespace {
@@ -23,15 +24,6 @@ double squareness(const Affine& a) {
                      m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                      m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
   return product > 0 ? std::fabs(det) / product : 0;
-}
-
-bool is_finite(const Affine& a) {
-  for (const auto& row : a.m) {
-    for (double entry : row) {
-      if (!std::isfinite(entry)) return false;
-    }
-  }
-  return true;
 }
 
 /// Whether a node is a leaf under nothing but transforms and appearances.

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "engine/base/none.h"
 #include "engine/base/parallel.h"
 #include "engine/bsp/corner_walk.h"
 #include "engine/csg/convex_hull.h"
@@ -33,7 +34,6 @@ struct Merged {
 Merged merge_points(const PolygonMesh& mesh, const std::vector<IVec3>& points, bool turn,
                     const FaceNumbers& appearance,
                     std::span<const std::vector<std::array<uint32_t, 3>>> triangles = {}) {
-  constexpr uint32_t kNone = UINT32_MAX;
   Merged result;
   std::unordered_map<IVec3, uint32_t, PointHash> vertex_at;
   vertex_at.reserve(points.size());
@@ -79,7 +79,6 @@ Merged merge_points(const PolygonMesh& mesh, const std::vector<IVec3>& points, b
 
 /// Faces as arrays, over the vertices that they use, in order of first use.
 LeafGeometry pack(const std::vector<IVec3>& vertices, const std::vector<LoopFace>& faces) {
-  constexpr uint32_t kNone = UINT32_MAX;
   LeafGeometry leaf;
   std::vector<uint32_t> facet, surface, appearance;
   for (auto* numbers : {&facet, &surface, &appearance}) numbers->reserve(faces.size());

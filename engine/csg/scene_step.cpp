@@ -7,8 +7,8 @@
 namespace csgrun {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr MmBox kEmptyBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+constexpr MmBox kEmptyBox{{kEndless, kEndless, kEndless}, {-kEndless, -kEndless, -kEndless}};
 
 bool is_empty(const MmBox& box) {
   return box.lo[0] > box.hi[0] || box.lo[1] > box.hi[1] || box.lo[2] > box.hi[2];

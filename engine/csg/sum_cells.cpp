@@ -35,9 +35,9 @@ struct ConvexEdge {
 };
 
 /// What counts of one operand.
-class Side {
+class Summand {
  public:
-  explicit Side(const LeafGeometry& leaf) : leaf_(leaf) {
+  explicit Summand(const LeafGeometry& leaf) : leaf_(leaf) {
     normals_.resize(leaf.face_count());
     for (uint32_t f = 0; f < leaf.face_count(); ++f) normals_[f] = WideNormal::of(leaf, f);
     const EdgeTable table(leaf);
@@ -90,7 +90,7 @@ class Side {
 /// where the last one is that of u d too, which is positive. An edge of B is met as one of x - B,
 /// with normals -l and -r; u is to be a sum of these and n: the first two signs stay and the last
 /// one is that of n d. `sense` is +1 for edges of A, -1 for those of B.
-std::vector<SumPrism> prisms(const Side& with_edges, const Side& with_faces, int sense) {
+std::vector<SumPrism> prisms(const Summand& with_edges, const Summand& with_faces, int sense) {
   std::vector<SumPrism> result;
   const std::vector<WideNormal>& faces = with_faces.normals();
   for (const ConvexEdge& edge : with_edges.edges()) {
@@ -108,7 +108,7 @@ std::vector<SumPrism> prisms(const Side& with_edges, const Side& with_faces, int
 }  // namespace
 
 SumCells sum_cells(const LeafGeometry& a, const LeafGeometry& b) {
-  const Side of_a(a), of_b(b);
+  const Summand of_a(a), of_b(b);
   return {of_a.peaks(), of_b.pits(), prisms(of_a, of_b, 1), prisms(of_b, of_a, -1)};
 }
 

@@ -4,14 +4,13 @@
 #include <cassert>
 #include <utility>
 
+#include "engine/base/none.h"
 #include "engine/bsp/union_find.h"
 #include "engine/mesh/edge_table.h"
 #include "engine/mesh/leaf_shape.h"
 
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 /// Joins the faces at each edge. The table has the edges from one vertex to another by their faces.
 void join_over_edges(const LeafGeometry& leaf, UnionFind& shells) {

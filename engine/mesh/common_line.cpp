@@ -9,7 +9,7 @@ namespace {
 
 /// What a face has of the line in which its plane meets another, along an axis, as doubles tell
 /// it: within the bounds for certain. A corner at an end is named if nothing else may be there.
-struct Interval {
+struct LineInterval {
   double lo = HUGE_VAL, hi = -HUGE_VAL;
   uint32_t lo_corner = kNone, hi_corner = kNone;
 
@@ -29,7 +29,7 @@ struct Interval {
 
 /// False when the face does not pass through the plane.
 bool interval(const MergedFace& face, uint32_t plane, int axis, CellGeometry& geometry,
-              const PlaneTable& planes, Interval& on_line) {
+              const PlaneTable& planes, LineInterval& on_line) {
   const std::array<double, 4>& n = planes.approximate(plane);
   const auto value = [&](const std::array<double, 3>& p, double& error) {
     const double x = n[0] * p[0], y = n[1] * p[1], z = n[2] * p[2];
@@ -75,7 +75,7 @@ bool may_share_line(const MergedFace& f, const MergedFace& g, CellGeometry& geom
     const double size = std::fabs(m[i] * n[j] - m[j] * n[i]);
     if (size > longest) longest = size, axis = k;
   }
-  Interval of_f, of_g;
+  LineInterval of_f, of_g;
   if (!interval(g, f_plane, axis, geometry, planes, of_g) ||
       !interval(f, g_plane, axis, geometry, planes, of_f)) {
     return false;

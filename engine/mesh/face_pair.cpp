@@ -9,12 +9,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/none.h"
 #include "engine/mesh/face_normal.h"
 
 namespace csgrun {
 namespace {
 
-constexpr uint32_t kNone = UINT32_MAX;
 constexpr size_t kManyCorners = 12;
 constexpr double kUlp = 0x1p-53;
 

@@ -10,7 +10,7 @@
 namespace csgrun {
 namespace {
 
-using Loop = std::vector<DirectedEdge>;
+using EdgeLoop = std::vector<DirectedEdge>;
 
 class Nester {
  public:
@@ -20,7 +20,7 @@ class Nester {
   /// Seen from outside: an outer loop turns left at its lowest corner, a hole right. A loop that
   /// touches itself there passes it several times: a hole turns left between two of its lobes, but
   /// not each time.
-  [[nodiscard]] bool is_outer(const Loop& loop) const {
+  [[nodiscard]] bool is_outer(const EdgeLoop& loop) const {
     if (const int turn = clear_turn(loop)) return turn > 0;
     uint32_t low = loop[0].from;
     for (const DirectedEdge& e : loop) {
@@ -36,7 +36,7 @@ class Nester {
   }
 
   /// Whether `hole` lies inside `outer`. Loops of one region do not cross.
-  bool contains(const Loop& outer, const Loop& hole) {
+  bool contains(const EdgeLoop& outer, const EdgeLoop& hole) {
     for (const DirectedEdge& e : hole) {
       const int where = locator_.locate(std::span(&outer, 1), e.from);
       if (where != 0) return where > 0;
@@ -52,7 +52,7 @@ class Nester {
       return lo[0] <= o.lo[0] && lo[1] <= o.lo[1] && hi[0] >= o.hi[0] && hi[1] >= o.hi[1];
     }
   };
-  [[nodiscard]] Box box(const Loop& loop) const {
+  [[nodiscard]] Box box(const EdgeLoop& loop) const {
     const auto axes = locator_.axes();
     Box b;
     for (const DirectedEdge& e : loop) {
@@ -66,7 +66,7 @@ class Nester {
 
  private:
   /// Whether a loop clearly goes around on the left (+1) or on the right (-1), by its area.
-  [[nodiscard]] int clear_turn(const Loop& loop) const {
+  [[nodiscard]] int clear_turn(const EdgeLoop& loop) const {
     const auto [u, v] = locator_.axes();
     const auto& origin = points_.rounded(loop[0].from);
     double area = 0, size = 0, largest = 0, extent = 0;
@@ -98,13 +98,13 @@ class Nester {
 
 }  // namespace
 
-std::vector<std::vector<Loop>> nest_loops(PlaneId support, const RegionLoops& loops,
-                                          PointView& points, const PlaneTable& planes) {
-  std::vector<std::vector<Loop>> faces;
-  std::vector<Loop> holes;
+std::vector<std::vector<EdgeLoop>> nest_loops(PlaneId support, const RegionLoops& loops,
+                                              PointView& points, const PlaneTable& planes) {
+  std::vector<std::vector<EdgeLoop>> faces;
+  std::vector<EdgeLoop> holes;
   Nester nester(support, points, planes);
   for (size_t l = 0; l < loops.loop_count(); ++l) {
-    Loop loop(loops.edges.begin() + loops.starts[l], loops.edges.begin() + loops.starts[l + 1]);
+    EdgeLoop loop(loops.edges.begin() + loops.starts[l], loops.edges.begin() + loops.starts[l + 1]);
     if (loops.loop_count() == 1 || nester.is_outer(loop)) {
       faces.push_back({std::move(loop)});
     } else {
@@ -119,7 +119,7 @@ std::vector<std::vector<Loop>> nest_loops(PlaneId support, const RegionLoops& lo
   };
   std::vector<Outer> outers;
   for (size_t f = 0; f < faces.size(); ++f) {
-    const Loop& loop = faces[f][0];
+    const EdgeLoop& loop = faces[f][0];
     const auto lowest = std::min_element(
         loop.begin(), loop.end(),
         [&](const auto& a, const auto& b) { return nester.before(a.from, b.from); });
@@ -131,7 +131,7 @@ std::vector<std::vector<Loop>> nest_loops(PlaneId support, const RegionLoops& lo
     return nester.before(b.lowest, a.lowest);
   });
   std::vector<size_t> around;  // faces whose outer loops may go around a hole
-  for (Loop& hole : holes) {
+  for (EdgeLoop& hole : holes) {
     const Nester::Box box = nester.box(hole);
     around.clear();
     for (const Outer& outer : outers) {

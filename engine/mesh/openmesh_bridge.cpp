@@ -8,6 +8,8 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
+#include "engine/base/none.h"
+
 namespace csgrun {
 namespace {
 
@@ -102,7 +104,6 @@ Result<HalfEdgeMesh> to_openmesh(Triangles triangles, size_t vertex_count) {
 
 /// Numbers the components by flooding over edges, in the order of their first triangles.
 void flood(const HalfEdgeMesh& mesh, MeshTopology& topology) {
-  constexpr uint32_t kNone = UINT32_MAX;
   topology.component_of_triangle.assign(mesh.n_faces(), kNone);
   std::vector<OpenMesh::FaceHandle> todo;
   const auto reach = [&](OpenMesh::FaceHandle face, uint32_t component) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/base/none.h"
 #include "engine/base/scratch.h"
 
 #if defined(__SSE2__)
@@ -14,8 +15,6 @@
 
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 /// A directed edge at its lower end.
 struct Use {

@@ -10,12 +10,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/base/none.h"
 #include "engine/bsp/union_find.h"
 
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 using Loop = std::vector<uint32_t>;
 

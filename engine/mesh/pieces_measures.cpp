@@ -233,9 +233,9 @@ class Summer {
 };
 
 /// The points of pieces at the ends of their box.
-class Ends {
+class PieceEnds {
  public:
-  explicit Ends(const PieceStore& store) : store_(store) {}
+  explicit PieceEnds(const PieceStore& store) : store_(store) {}
 
   /// A point that reaches as far along an axis as any of the pieces below a node; `end`: 0 down, 1
   /// up. Only what reaches as far as the node is looked at, and the node keeps what was found.
@@ -350,7 +350,7 @@ std::optional<std::array<glm::dvec3, 2>> pieces_box(const ResultPieces& pieces,
                                                     const GridStep& step, const IVec3& moved) {
   const PieceTree::NodePtr& root = pieces.tree.root();
   if (!root) return std::nullopt;
-  Ends ends(*pieces.store);
+  PieceEnds ends(*pieces.store);
   const ToMillimetres to_millimetres(step);
   std::array<glm::dvec3, 2> box;
   for (size_t end = 0; end < 2; ++end) {

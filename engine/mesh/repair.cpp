@@ -8,6 +8,7 @@
 #include <csgrun/engine/repair.h>
 #include <csgrun/engine/validate.h>
 
+#include "engine/base/none.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/mesh_text.h"
 #include "engine/mesh/repair_steps.h"
@@ -31,7 +32,6 @@ std::string places_text(const RepairStep& step) {
 
 /// Welds points of equal coordinates, and notes those that were more than one.
 void weld_equal(PolygonMesh& mesh, StepNote& note) {
-  constexpr uint32_t kNone = UINT32_MAX;
   const std::vector<uint32_t> before = mesh.corners;
   std::vector<bool> seen(mesh.points.size(), false);
   weld_points(mesh);

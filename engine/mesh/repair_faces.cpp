@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <span>
 
+#include "engine/base/none.h"
 #include "engine/bsp/union_find.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/flat_points.h"
@@ -32,7 +33,7 @@ Outline outline_of(const LoopFace& face, uint32_t number) {
 }
 
 /// The faces of one outline.
-struct Group {
+struct OutlineGroup {
   size_t begin, end;   // of outlines
   bool majority;       // the direction of most
   size_t rest;         // how many more there are that way than the other
@@ -43,13 +44,13 @@ struct Group {
 };
 
 /// Groups of faces of one loop; outlines of one group are in the order of the faces.
-std::vector<Group> find_groups(const RepairMesh& mesh, std::vector<Outline>& outlines) {
+std::vector<OutlineGroup> find_groups(const RepairMesh& mesh, std::vector<Outline>& outlines) {
   for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
     if (mesh.faces[f].loops.size() == 1) outlines.push_back(outline_of(mesh.faces[f], f));
   }
   std::stable_sort(outlines.begin(), outlines.end(),
                    [](const Outline& a, const Outline& b) { return a.loop < b.loop; });
-  std::vector<Group> groups;
+  std::vector<OutlineGroup> groups;
   for (size_t begin = 0, end = 0; begin < outlines.size(); begin = end) {
     size_t turned = 0;
     for (; end < outlines.size() && outlines[end].loop == outlines[begin].loop; ++end) {
@@ -69,10 +70,8 @@ struct Singles {
   std::vector<LoopFace> faces;
   std::vector<uint32_t> group_of;  ///< of the faces in groups; else kNone
 };
-constexpr uint32_t kNone = UINT32_MAX;
-
 Singles single_faces(const RepairMesh& mesh, const std::vector<Outline>& outlines,
-                     const std::vector<Group>& groups) {
+                     const std::vector<OutlineGroup>& groups) {
   Singles singles{mesh.faces, std::vector<uint32_t>(mesh.faces.size(), kNone)};
   for (uint32_t g = 0; g < groups.size(); ++g) {
     for (size_t i = groups[g].begin; i < groups[g].end; ++i) {
@@ -138,7 +137,7 @@ std::vector<bool> balanced_faces(const RepairMesh& mesh) {
 /// A surface that is there twice, back to back, all of it: one of each group stays where it is
 /// needed.
 void keep_two_sided_surfaces(const Singles& singles, const EdgeUses& edges,
-                             const std::vector<Votes>& votes, std::vector<Group>& groups) {
+                             const std::vector<Votes>& votes, std::vector<OutlineGroup>& groups) {
   UnionFind connected(singles.faces.size());
   edges.for_each_edge([&](std::span<const EdgeUse> uses) {
     for (const EdgeUse& use : uses) connected.join(use.face, uses[0].face);
@@ -195,24 +194,24 @@ void drop_flat_faces(RepairMesh& mesh, StepNote& note) {
 
 Undecided drop_repeated_faces(RepairMesh& mesh, RepeatedFaces when, StepNote& note) {
   std::vector<Outline> outlines;
-  std::vector<Group> groups = find_groups(mesh, outlines);
+  std::vector<OutlineGroup> groups = find_groups(mesh, outlines);
   if (groups.empty()) return Undecided(mesh.faces.size(), false);
   const Singles singles = single_faces(mesh, outlines, groups);
   const EdgeUses edges(singles.faces, mesh.points.size());
   const std::vector<Votes> votes = votes_of_singles(singles, edges);
   const std::vector<bool> balanced = balanced_faces(mesh);
-  for (Group& group : groups) {
+  for (OutlineGroup& group : groups) {
     const uint32_t face = outlines[group.begin].face;
     group.stay = balanced[face] || !votes[face].is_needed() ? group.rest : 1;
   }
   if (when != RepeatedFaces::kAfterFilling) keep_two_sided_surfaces(singles, edges, votes, groups);
   if (when == RepeatedFaces::kBeforeSplitting) {
-    for (Group& group : groups) {
+    for (OutlineGroup& group : groups) {
       group.waits = group.stay != 1 && votes[outlines[group.begin].face].may_be_needed();
     }
   }
   std::vector<bool> dropped(mesh.faces.size(), false), waits(mesh.faces.size(), false);
-  for (const Group& group : groups) {
+  for (const OutlineGroup& group : groups) {
     size_t stay = group.stay;
     for (size_t i = group.begin; i < group.end; ++i) {
       waits[outlines[i].face] = group.waits;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "engine/base/none.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/mesh_text.h"
 #include "engine/mesh/repair_steps.h"
@@ -11,7 +12,6 @@
 namespace csgrun {
 namespace {
 
-constexpr uint32_t kNone = UINT32_MAX;
 /// Longer loops are closed by one polygon: n^3 / 6 triangles are looked at.
 constexpr size_t kLongestByArea = 256;
 
@@ -123,14 +123,15 @@ class MissingEdges {
   std::vector<uint32_t> previous_;  ///< of the search; kNone: not reached
 };
 
-double squared(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
+double square_of(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 
 double triangle_cost(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   // Loops in a plane have many triangulations of least area: short edges are nicer.
   constexpr double kWeightOfEdges = 0x1p-10;
   const glm::dvec3 u = b - a, v = c - a;
   const glm::dvec3 cross(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
-  return std::sqrt(squared(cross)) + kWeightOfEdges * (squared(u) + squared(v) + squared(c - b));
+  return std::sqrt(square_of(cross)) +
+         kWeightOfEdges * (square_of(u) + square_of(v) + square_of(c - b));
 }
 
 }  // namespace

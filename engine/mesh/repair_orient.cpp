@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "engine/base/none.h"
 #include "engine/bsp/union_find.h"
 #include "engine/bsp/winding.h"
 #include "engine/mesh/box_tree.h"
@@ -14,8 +15,6 @@
 
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 void turn(LoopFace& face) {
   for (auto& loop : face.loops) std::reverse(loop.begin(), loop.end());

@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <span>
 
+#include "engine/base/none.h"
+
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 /// Faces beside each other over edges of two uses; `against` when they run through it alike.
 struct Neighbour {

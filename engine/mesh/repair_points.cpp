@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "engine/base/none.h"
 #include "engine/mesh/box_tree.h"
 #include "engine/mesh/edge_uses.h"
 #include "engine/mesh/mesh_text.h"
@@ -10,8 +11,6 @@
 
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 /// The open edges, which no orientation balances; or also those that are not balanced as faces run
 /// now.

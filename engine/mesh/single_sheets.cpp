@@ -20,8 +20,8 @@ namespace csgrun {
 namespace {
 
 /// Fewer faces are compared with each other sooner.
-constexpr size_t kFewFaces = 2000;
-constexpr size_t kSample = 1024;
+constexpr size_t kFewForSheets = 2000;
+constexpr size_t kSheetSample = 1024;
 /// A cube is at least so many times as wide as a face on average,
 constexpr double kLeastWidth = 2;
 /// and the whole surface at least so many times: in coarser ones every column has an edge or a
@@ -30,7 +30,7 @@ constexpr double kLeastExtent = 40;
 /// Cubes for each face, at most; in a row; and cubes that the box of a face reaches, on average
 /// over a part and for one.
 constexpr size_t kMostCubes = 16, kMostInRow = 4000, kMostReached = 8, kMostReachedByOne = 4096;
-constexpr size_t kFacesPerPart = 16384;
+constexpr size_t kSheetFacesPerPart = 16384;
 /// No longer column is looked at.
 constexpr size_t kLongestColumn = 16;
 
@@ -87,7 +87,8 @@ GridBox box_of_face(const LeafGeometry& leaf, uint32_t begin, uint32_t end) {
 /// The mean extent along the axes of the boxes of some faces.
 double mean_extent(const LeafGeometry& leaf) {
   double sum = 0, count = 0;
-  for (size_t f = 0, step = leaf.face_count() / kSample + 1; f < leaf.face_count(); f += step) {
+  for (size_t f = 0, step = leaf.face_count() / kSheetSample + 1; f < leaf.face_count();
+       f += step) {
     const GridBox box = box_of_face(leaf, leaf.face_starts[f], leaf.face_starts[f + 1]);
     for (size_t k = 0; k < 3; ++k) sum += static_cast<double>(box.hi[k] - box.lo[k]);
     ++count;
@@ -112,25 +113,26 @@ class SheetFinder {
       for (size_t v = begin; v < end; ++v) places_[v] = place_of(leaf.vertices[v]);
     });
     reach_.resize(leaf.face_count());
-    reached_.resize(part_count(leaf.face_count(), kFacesPerPart));
+    reached_.resize(part_count(leaf.face_count(), kSheetFacesPerPart));
   }
 
   /// False if faces reach too many cubes.
   bool enter_faces() {
     std::atomic<bool> are_few = true;
-    for_each_part(leaf_.face_count(), kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
-      size_t left = kMostReached * (end - begin) + kMostReachedByOne;
-      ChanceList<uint32_t> reached;
-      for (size_t f = begin; f < end; ++f) {
-        const size_t count = enter(static_cast<uint32_t>(f), left, reached);
-        if (count == 0) {
-          are_few = false;
-          return;
-        }
-        left -= count;
-      }
-      reached_[part] = std::move(reached);
-    });
+    for_each_part(leaf_.face_count(), kSheetFacesPerPart,
+                  [&](size_t part, size_t begin, size_t end) {
+                    size_t left = kMostReached * (end - begin) + kMostReachedByOne;
+                    ChanceList<uint32_t> reached;
+                    for (size_t f = begin; f < end; ++f) {
+                      const size_t count = enter(static_cast<uint32_t>(f), left, reached);
+                      if (count == 0) {
+                        are_few = false;
+                        return;
+                      }
+                      left -= count;
+                    }
+                    reached_[part] = std::move(reached);
+                  });
     return are_few;
   }
 
@@ -144,13 +146,14 @@ class SheetFinder {
 
   [[nodiscard]] std::vector<uint32_t> faces_elsewhere() const {
     std::vector<RawVector<uint32_t>> found(reached_.size());
-    for_each_part(leaf_.face_count(), kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
-      ChanceList<uint32_t> own(end - begin);
-      for (size_t f = begin; f < end; ++f) {
-        own.add_if(!is_all_single(reach_[f]), static_cast<uint32_t>(f));
-      }
-      found[part] = own.take();
-    });
+    for_each_part(leaf_.face_count(), kSheetFacesPerPart,
+                  [&](size_t part, size_t begin, size_t end) {
+                    ChanceList<uint32_t> own(end - begin);
+                    for (size_t f = begin; f < end; ++f) {
+                      own.add_if(!is_all_single(reach_[f]), static_cast<uint32_t>(f));
+                    }
+                    found[part] = own.take();
+                  });
     std::vector<uint32_t> faces;
     for (const auto& some : found) faces.insert(faces.end(), some.begin(), some.end());
     return faces;
@@ -357,7 +360,7 @@ class SheetFinder {
 }  // namespace
 
 std::optional<std::vector<uint32_t>> faces_off_single_sheets(const LeafGeometry& leaf) {
-  if (leaf.face_count() < kFewFaces) return std::nullopt;
+  if (leaf.face_count() < kFewForSheets) return std::nullopt;
   const GridBox box = box_of_points(leaf.vertices);
   if (!is_compact(box)) return std::nullopt;
   const double extent = mean_extent(leaf);

@@ -92,8 +92,8 @@ std::vector<uint8_t> common_directions(const LeafGeometry& leaf, size_t faces, F
 
 template <class FaceAt>
 std::vector<uint8_t> spread_among(const LeafGeometry& leaf, size_t faces, FaceAt face_at) {
-  constexpr uint8_t kNone = 255, kMany = 2;
-  const std::vector<uint8_t> direction = common_directions(leaf, faces, face_at, kNone);
+  constexpr uint8_t kUnknown = 255, kMany = 2;
+  const std::vector<uint8_t> direction = common_directions(leaf, faces, face_at, kUnknown);
   // Each corner is a sector of less than half a turn, all in the same sense. So none leads past the
   // upper half plane, and together they surround the vertex as often as one of them enters it.
   std::vector<uint8_t> turns(leaf.vertices.size(), 0);
@@ -105,7 +105,7 @@ std::vector<uint8_t> spread_among(const LeafGeometry& leaf, size_t faces, FaceAt
     if (d < kAxes) {
       const size_t up = kUps[d].axis;
       enters = (from[up] <= own[up]) & (to[up] > own[up]);
-    } else if (d != kNone) {
+    } else if (d != kUnknown) {
       const int64_t level = height(kUps[d], own);
       enters = height(kUps[d], from) <= level && height(kUps[d], to) > level;
     }

@@ -13,13 +13,13 @@ namespace csgrun {
 namespace {
 
 /// Fewer faces are compared with each other sooner.
-constexpr size_t kFewFaces = 128;
+constexpr size_t kFewForStars = 128;
 /// The centre is sought for so many faces at first, by so many reflections in all, and no more than
 /// one for so many faces.
-constexpr size_t kSample = 512, kMostReflections = 100, kFacesForEach = 16;
+constexpr size_t kStarSample = 512, kMostReflections = 100, kFacesForEach = 16;
 /// Then all are looked at, so often.
 constexpr size_t kMostLooks = 4;
-constexpr size_t kFacesPerPart = 16384;
+constexpr size_t kStarFacesPerPart = 16384;
 
 class Star {
  public:
@@ -32,7 +32,7 @@ class Star {
 
   /// Moves the centre until it is behind all faces. False if it was not found.
   bool find_centre() {
-    const size_t count = leaf_.face_count(), step = count / kSample + 1;
+    const size_t count = leaf_.face_count(), step = count / kStarSample + 1;
     for (size_t looks = 0; looks < kMostLooks; ++looks) {
       size_t behind = 0;  // so many faces of the sample, the last ones that were looked at
       for (size_t f = 0; behind * step < count; f = f + step < count ? f + step : 0) {
@@ -84,8 +84,8 @@ class Star {
   };
   [[nodiscard]] Look look_at_all() const {
     const size_t count = leaf_.face_count();
-    std::vector<Look> parts(part_count(count, kFacesPerPart));
-    for_each_part(count, kFacesPerPart, [&](size_t part, size_t begin, size_t end) {
+    std::vector<Look> parts(part_count(count, kStarFacesPerPart));
+    for_each_part(count, kStarFacesPerPart, [&](size_t part, size_t begin, size_t end) {
       Look own{count, 0};
       for (size_t f = begin; f < end; ++f) {
         const IVec3 normal = view_.normal(f);
@@ -114,7 +114,7 @@ class Star {
 }  // namespace
 
 bool is_star_surface(const LeafGeometry& leaf) {
-  if (leaf.face_count() < kFewFaces) return false;
+  if (leaf.face_count() < kFewForStars) return false;
   const GridBox box = box_of_points(leaf.vertices);
   const auto is_flat = [&](size_t k) { return box.lo[k] == box.hi[k]; };
   if (!is_compact(box) || is_flat(0) || is_flat(1) || is_flat(2)) return false;

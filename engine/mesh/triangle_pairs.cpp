@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/none.h"
 #include "engine/base/parallel.h"
 #include "engine/base/vec3d.h"
 #include "engine/mesh/leaf_shape.h"
@@ -10,8 +11,8 @@
 namespace csgrun {
 namespace {
 
-/// No vertices, and not the same one.
-constexpr uint32_t kNone = UINT32_MAX, kOther = UINT32_MAX - 1;
+/// No vertices, and not those that have none (kNone).
+constexpr uint32_t kOther = UINT32_MAX - 1;
 
 }  // namespace
 
@@ -65,23 +66,22 @@ void TrianglePairs::make_slabs() {
 
 namespace {
 
-using Point = Vec3d;
-using Triangle = std::array<Point, 3>;
+using Triangle = std::array<Vec3d, 3>;
 
-Point normal_of(const Triangle& t) { return cross(minus(t[1], t[0]), minus(t[2], t[0])); }
+Vec3d normal_of(const Triangle& t) { return cross(minus(t[1], t[0]), minus(t[2], t[0])); }
 
 /// Where the corners of a triangle are that are not common, against a plane; as bits. (Common ones
 /// are on it: their distances are below any slack.)
-struct Sides {
+struct PairSides {
   uint32_t front = 0, back = 0, on = 0;
   uint32_t open = 0;  ///< not decided in doubles
 
   [[nodiscard]] bool one() const { return front == 0 || back == 0; }
 };
 
-Sides sides_of(const Triangle& t, const Point& normal, const Triangle& other, uint32_t common,
-               double slack) {
-  Sides sides;
+PairSides sides_of(const Triangle& t, const Vec3d& normal, const Triangle& other, uint32_t common,
+                   double slack) {
+  PairSides sides;
   for (uint32_t i = 0; i < 3; ++i) {
     const double distance = dot(normal, minus(other[i], t[0]));
     sides.front |= static_cast<uint32_t>(distance > slack) << i;
@@ -92,9 +92,9 @@ Sides sides_of(const Triangle& t, const Point& normal, const Triangle& other, ui
 }
 
 /// Decides what is open by whole numbers: all coordinates are.
-void decide_open(const Triangle& t, const Triangle& other, Sides& sides) {
-  const auto whole = [&](const Point& p) {
-    const Point d = minus(p, t[0]);
+void decide_open(const Triangle& t, const Triangle& other, PairSides& sides) {
+  const auto whole = [&](const Vec3d& p) {
+    const Vec3d d = minus(p, t[0]);
     return IVec3{static_cast<int64_t>(d[0]), static_cast<int64_t>(d[1]),
                  static_cast<int64_t>(d[2])};
   };
@@ -114,7 +114,7 @@ void decide_open(const Triangle& t, const Triangle& other, Sides& sides) {
   sides.open = 0;
 }
 
-size_t longest(const Point& v) {
+size_t longest(const Vec3d& v) {
   const size_t axis = std::fabs(v[1]) > std::fabs(v[0]) ? 1 : 0;
   return std::fabs(v[2]) > std::fabs(v[axis]) ? 2 : axis;
 }
@@ -123,7 +123,7 @@ size_t longest(const Point& v) {
 /// beyond the line of one of its sides, but for the common ones, which are on that side, and for
 /// those that are off its plane, with the whole of `other` on one side of it. Then the two meet in
 /// the common corners and the edge between them only. Corners are given as bits.
-bool is_beyond_side(const Triangle& t, uint32_t t_common, const Point& normal,
+bool is_beyond_side(const Triangle& t, uint32_t t_common, const Vec3d& normal,
                     const Triangle& other, uint32_t common, uint32_t aside, double slack) {
   const size_t axis = longest(normal), u = (axis + 1) % 3, v = (axis + 2) % 3;
   if (std::fabs(normal[axis]) <= slack) return false;
@@ -131,11 +131,11 @@ bool is_beyond_side(const Triangle& t, uint32_t t_common, const Point& normal,
   for (size_t i = 0; i < 3; ++i) {
     const size_t next = (i + 1) % 3;
     if ((t_common & ~(1u << i | 1u << next)) != 0) continue;
-    const Point &a = t[i], &b = t[next];
+    const Vec3d &a = t[i], &b = t[next];
     const double du = sense * (b[u] - a[u]), dv = sense * (b[v] - a[v]);
     bool beyond = true;
     for (size_t k = 0; k < 3; ++k) {
-      const Point& p = other[k];
+      const Vec3d& p = other[k];
       beyond = beyond & (((common | aside) >> k & 1) != 0 ||
                          du * (p[v] - a[v]) - dv * (p[u] - a[u]) < -slack);
     }
@@ -175,19 +175,19 @@ bool TrianglePairs::apart(uint32_t f, uint32_t g) const {
   const double d = 2 * size, area_slack = 0x1p-50 * d * d, slack = 0x1p-48 * d * d * d;
   // What triangles have in common lies in both planes: of one that is on one side of the other's
   // plane, in the corners that it has there; if these are common, that is all.
-  const Point s_normal = normal_of(s);
-  Sides of_t = sides_of(s, s_normal, t, g_common, slack);
+  const Vec3d s_normal = normal_of(s);
+  PairSides of_t = sides_of(s, s_normal, t, g_common, slack);
   if (of_t.open == 0 && of_t.one()) return true;
-  const Point t_normal = normal_of(t);
-  Sides of_s = sides_of(t, t_normal, s, f_common, slack);
+  const Vec3d t_normal = normal_of(t);
+  PairSides of_s = sides_of(t, t_normal, s, f_common, slack);
   if (of_s.open == 0 && of_s.one()) return true;
   if (is_beyond_side(s, f_common, s_normal, t, g_common, 0, area_slack) ||
       is_beyond_side(t, g_common, t_normal, s, f_common, 0, area_slack)) {
     return true;
   }
   // One may rest on the plane of the other with a corner or an edge that is beside it.
-  const auto rests_beside = [&](const Triangle& one, uint32_t one_common, const Point& normal,
-                                const Triangle& other, uint32_t common, Sides& sides) {
+  const auto rests_beside = [&](const Triangle& one, uint32_t one_common, const Vec3d& normal,
+                                const Triangle& other, uint32_t common, PairSides& sides) {
     decide_open(one, other, sides);
     if (!sides.one()) return false;
     return sides.on == 0 || is_beyond_side(one, one_common, normal, other, common,

@@ -11,13 +11,12 @@
 
 #include <algorithm>
 
+#include "engine/base/none.h"
 #include "engine/mesh/sweep_status.h"
 #include "engine/mesh/triangulate_monotone.h"
 
 namespace csgrun {
 namespace {
-
-constexpr uint32_t kNone = UINT32_MAX;
 
 /// Vertices are named by their rank along the sweep; `left < right`.
 struct Edge {

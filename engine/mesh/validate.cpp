@@ -8,6 +8,7 @@
 
 #include <csgrun/engine/validate.h>
 
+#include "engine/base/none.h"
 #include "engine/mesh/flat_points.h"
 #include "engine/mesh/mesh_text.h"
 
@@ -209,7 +210,6 @@ MeshReport check_mesh(const PolygonMesh& mesh) {
 }
 
 void weld_points(PolygonMesh& mesh) {
-  constexpr uint32_t kNone = UINT32_MAX;
   std::vector<bool> used(mesh.points.size());
   for (uint32_t v : mesh.corners) {
     if (v < used.size()) used[v] = true;

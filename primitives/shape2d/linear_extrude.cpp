@@ -23,44 +23,44 @@
 namespace csgrun {
 namespace {
 
-constexpr const char* kName = "linear_extrude";
+constexpr const char* kLinearExtrude = "linear_extrude";
 
 Result<glm::dvec3> height_vector(const LinearExtrudeOptions& o) {
   if (!o.direction || o.height_given) {
-    if (!std::isfinite(o.height)) return not_finite(kName, "height", o.height);
-    if (!(o.height > 0)) return not_positive(kName, "height", o.height);
+    if (!std::isfinite(o.height)) return not_finite(kLinearExtrude, "height", o.height);
+    if (!(o.height > 0)) return not_positive(kLinearExtrude, "height", o.height);
   }
   if (!o.direction) return glm::dvec3(0, 0, o.height);
   const glm::dvec3 v = *o.direction;
   const double length = std::sqrt(glm::dot(v, v));
   if (!std::isfinite(length)) return invalid_argument("linear_extrude: v must be finite");
-  if (!(v.z > 0)) return not_positive(kName, "v.z", v.z);
+  if (!(v.z > 0)) return not_positive(kLinearExtrude, "v.z", v.z);
   return o.height_given ? v * (o.height / length) : v;
 }
 
 std::optional<Error> check(const LinearExtrudeOptions& o) {
   for (const auto& [name, value] :
        {std::pair{"scale.x", o.scale.x}, std::pair{"scale.y", o.scale.y}}) {
-    if (!std::isfinite(value)) return not_finite(kName, name, value);
+    if (!std::isfinite(value)) return not_finite(kLinearExtrude, name, value);
     if (value < 0) {
-      return invalid_argument(std::string(kName) + ": " + name + " must not be negative, got " +
-                              number_text(value));
+      return invalid_argument(std::string(kLinearExtrude) + ": " + name +
+                              " must not be negative, got " + number_text(value));
     }
   }
-  if (!std::isfinite(o.twist)) return not_finite(kName, "twist", o.twist);
-  if (o.slices && *o.slices < 1) return not_positive(kName, "slices", *o.slices);
+  if (!std::isfinite(o.twist)) return not_finite(kLinearExtrude, "twist", o.twist);
+  if (o.slices && *o.slices < 1) return not_positive(kLinearExtrude, "slices", *o.slices);
   if (o.segments && *o.segments < 0) {
     return invalid_argument("linear_extrude: segments must not be negative, got " +
                             std::to_string(*o.segments));
   }
   for (const double r : o.round) {
-    if (!std::isfinite(r)) return not_finite(kName, "round", r);
+    if (!std::isfinite(r)) return not_finite(kLinearExtrude, "round", r);
     if (r < 0)
       return invalid_argument("linear_extrude: round must not be negative, got " + number_text(r));
   }
   for (const auto& [name, value] :
        {std::pair{"fn", o.facets.fn}, std::pair{"fa", o.facets.fa}, std::pair{"fs", o.facets.fs}}) {
-    if (!std::isfinite(value)) return not_finite(kName, name, value);
+    if (!std::isfinite(value)) return not_finite(kLinearExtrude, name, value);
   }
   return std::nullopt;
 }
@@ -82,7 +82,7 @@ class LinearExtruder {
   }
 
   PolygonMesh build() {
-    mesh_.kind = kName;
+    mesh_.kind = kLinearExtrude;
     for (int i = 0; i < slices_; ++i) add_ring(i);
     if (top_collapses()) {
       add_collapsed_ring();
@@ -226,13 +226,13 @@ MeshResult linear_extrude(const Shape2D& shape, const LinearExtrudeOptions& opti
   const bool straight = options.twist == 0 && options.scale.x == options.scale.y;
   // Slices of planar sides would be pieces of the same faces.
   const double slices = straight ? 1 : slices_of(shape, options, height->z);
-  if (slices > kMostPoints) return too_many_points(kName, slices, slices);
+  if (slices > kMostPoints) return too_many_points(kLinearExtrude, slices, slices);
   if (options.segments && *options.segments > kMostPoints) {
-    return too_many_points(kName, *options.segments, *options.segments);
+    return too_many_points(kLinearExtrude, *options.segments, *options.segments);
   }
   LinearExtruder extruder(shape, options, *height, static_cast<int>(slices));
   if (extruder.point_count() > kMostPoints) {
-    return too_many_points(kName, slices, extruder.point_count());
+    return too_many_points(kLinearExtrude, slices, extruder.point_count());
   }
   return extruder.build();
 }

@@ -19,7 +19,7 @@
 namespace csgrun {
 namespace {
 
-constexpr const char* kName = "loft";
+constexpr const char* kLoft = "loft";
 
 glm::dvec2 middle_of(const Shape2D::Loop& loop) {
   glm::dvec2 low = loop[0], high = loop[0];
@@ -30,7 +30,7 @@ glm::dvec2 middle_of(const Shape2D::Loop& loop) {
   return (low + high) * 0.5;
 }
 
-double squared(const glm::dvec2& v) { return glm::dot(v, v); }
+double square_of(const glm::dvec2& v) { return glm::dot(v, v); }
 
 /// A loop with the way to each of its corners from the first, as parts of its length.
 struct Outline {
@@ -38,7 +38,7 @@ struct Outline {
     double total = 0;
     for (size_t i = 0; i <= loop.size(); ++i) {
       part.push_back(total);
-      total += std::sqrt(squared(loop[(i + 1) % loop.size()] - loop[i % loop.size()]));
+      total += std::sqrt(square_of(loop[(i + 1) % loop.size()] - loop[i % loop.size()]));
     }
     total = part.back();
     for (double& p : part) p /= total;
@@ -91,7 +91,7 @@ std::pair<size_t, size_t> best_start(const Outline& a, const Outline& b) {
       walk_strip(a, i0, b, j0, [&](bool on_first, size_t i, size_t j) {
         const glm::dvec2 p = a.points[(i0 + i + (on_first ? 1 : 0)) % n];
         const glm::dvec2 q = b.points[(j0 + j + (on_first ? 0 : 1)) % m];
-        sum += squared(q - p - shift);
+        sum += square_of(q - p - shift);
         return sum < limit;
       });
       if (sum < limit) {
@@ -111,8 +111,8 @@ std::vector<uint32_t> pair_by_middles(const std::vector<glm::dvec2>& from,
   for (size_t i = 0; i < from.size(); ++i) {
     double best = std::numeric_limits<double>::infinity();
     for (uint32_t j = 0; j < to.size(); ++j) {
-      if (taken[j] || !(squared(to[j] - from[i]) < best)) continue;
-      best = squared(to[j] - from[i]);
+      if (taken[j] || !(square_of(to[j] - from[i]) < best)) continue;
+      best = square_of(to[j] - from[i]);
       partner[i] = j;
     }
     taken[partner[i]] = true;
@@ -151,7 +151,7 @@ class Lofter {
       : outlines_(outlines), heights_(heights) {}
 
   MeshResult build() {
-    mesh_.kind = kName;
+    mesh_.kind = kLoft;
     for (size_t i = 0; i < outlines_.size(); ++i) add_level(i);
     for (size_t i = 0; i + 1 < outlines_.size(); ++i) {
       if (outlines_[i].point || outlines_[i + 1].point) {
@@ -266,20 +266,20 @@ MeshResult loft_shapes(const std::vector<LoftOutline>& outlines,
       if (i > 0 && outlines[i - 1].point)
         return invalid_argument("loft: needs an outline between two points");
       for (int k = 0; k < 2; ++k) {
-        if (!std::isfinite((*apex)[k])) return not_finite(kName, "a point", (*apex)[k]);
+        if (!std::isfinite((*apex)[k])) return not_finite(kLoft, "a point", (*apex)[k]);
       }
       points += 1;
     } else if (shape.empty()) {
       return invalid_argument("loft: outline " + std::to_string(i + 1) + " is empty");
     }
-    if (!std::isfinite(heights[i])) return not_finite(kName, "a height", heights[i]);
+    if (!std::isfinite(heights[i])) return not_finite(kLoft, "a height", heights[i]);
     if (i > 0 && !(heights[i] > heights[i - 1])) {
       return invalid_argument("loft: heights must increase, got " + number_text(heights[i]) +
                               " after " + number_text(heights[i - 1]));
     }
     for (const Shape2D::Loop& loop : shape.loops()) points += static_cast<double>(loop.size());
   }
-  if (points > kMostPoints) return too_many_points(kName, points, points);
+  if (points > kMostPoints) return too_many_points(kLoft, points, points);
   return Lofter(outlines, heights).build();
 }
 

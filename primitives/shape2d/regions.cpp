@@ -47,7 +47,7 @@ std::vector<Directed> find_boundary(const std::vector<Segment2D>& segments,
 }
 
 /// Whether direction c comes before d when turning clockwise from `back`.
-bool clockwise_before(const Point2D& back, const Point2D& c, const Point2D& d) {
+bool turns_before(const Point2D& back, const Point2D& c, const Point2D& d) {
   const int half_c = sign(cross(back, c)), half_d = sign(cross(back, d));
   if (half_c != half_d) return half_c < half_d;
   return cross(c, d) < 0;
@@ -95,7 +95,7 @@ class Walker {
       const Point2D back = boundary_[edge].from - at;
       size_t next = begin;
       for (size_t k = begin + 1; k < end; ++k) {
-        if (clockwise_before(back, boundary_[k].to - at, boundary_[next].to - at)) next = k;
+        if (turns_before(back, boundary_[k].to - at, boundary_[next].to - at)) next = k;
       }
       // Only where boundaries touch can the walk have been here before (but at its start).
       if (end - begin > 1 || next == first) split_off_loop(at, end - begin > 1, path, loops);

@@ -14,14 +14,14 @@
 namespace csgrun {
 namespace {
 
-using Loop = std::vector<uint32_t>;
+using FaceLoop = std::vector<uint32_t>;
 
 class Mender {
  public:
   Mender(const PolygonMesh& mesh, size_t fixed_points, size_t fixed_faces, double width)
       : mesh_(mesh), fixed_points_(fixed_points), fixed_faces_(fixed_faces), width_(width) {
     for (size_t f = 0; f < mesh.face_count(); ++f) {
-      std::vector<Loop>& loops = faces_.emplace_back();
+      std::vector<FaceLoop>& loops = faces_.emplace_back();
       for (uint32_t l = mesh.face_starts[f]; l < mesh.face_starts[f + 1]; ++l) {
         const auto begin = mesh.corners.begin();
         loops.emplace_back(begin + mesh.loop_starts[l], begin + mesh.loop_starts[l + 1]);
@@ -32,7 +32,7 @@ class Mender {
   PolygonMesh mended() {
     contract_edges();
     for (uint32_t f = 0; f < faces_.size(); ++f) {
-      for (const Loop& loop : faces_[f]) {
+      for (const FaceLoop& loop : faces_[f]) {
         for (size_t i = 0; i < loop.size(); ++i) face_of_[{loop[i], after(loop, i)}] = f;
       }
     }
@@ -48,10 +48,10 @@ class Mender {
   }
 
  private:
-  static uint32_t after(const Loop& loop, size_t i) {
+  static uint32_t after(const FaceLoop& loop, size_t i) {
     return loop[i + 1 < loop.size() ? i + 1 : 0];
   }
-  static uint32_t before(const Loop& loop, size_t i) {
+  static uint32_t before(const FaceLoop& loop, size_t i) {
     return loop[i > 0 ? i - 1 : loop.size() - 1];
   }
 
@@ -62,8 +62,8 @@ class Mender {
       while (into[p] != p) p = into[p] = into[into[p]];
       return p;
     };
-    for (const std::vector<Loop>& loops : faces_) {
-      for (const Loop& loop : loops) {
+    for (const std::vector<FaceLoop>& loops : faces_) {
+      for (const FaceLoop& loop : loops) {
         for (size_t i = 0; i < loop.size(); ++i) {
           const auto [p, q] = std::minmax({find(loop[i]), find(after(loop, i))});
           const glm::dvec3 r = mesh_.points[p] - mesh_.points[q];
@@ -71,8 +71,8 @@ class Mender {
         }
       }
     }
-    for (std::vector<Loop>& loops : faces_) {
-      for (Loop& loop : loops) {
+    for (std::vector<FaceLoop>& loops : faces_) {
+      for (FaceLoop& loop : loops) {
         for (uint32_t& p : loop) p = find(p);
         loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
         while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
@@ -94,7 +94,7 @@ class Mender {
     const auto found = face_of_.find({a, b});
     if (found == face_of_.end() || found->second < fixed_faces_) return false;
     const uint32_t face = found->second;
-    Loop& loop = faces_[face][0];
+    FaceLoop& loop = faces_[face][0];
     if (std::find(loop.begin(), loop.end(), p) != loop.end()) return false;
     for (size_t i = 0; i < loop.size(); ++i) {
       if (loop[i] != a || after(loop, i) != b) continue;
@@ -115,7 +115,7 @@ class Mender {
 
   /// A corner where a face turns back on itself is the end of a tail.
   void drop_tails(uint32_t face) {
-    Loop& loop = faces_[face][0];
+    FaceLoop& loop = faces_[face][0];
     for (size_t i = 0; loop.size() >= 3 && i < loop.size(); ++i) {
       const uint32_t a = before(loop, i), b = loop[i], c = after(loop, i);
       const glm::dvec3 in = mesh_.points[b] - mesh_.points[a],
@@ -153,10 +153,10 @@ class Mender {
     mesh.kind = mesh_.kind;
     std::vector<uint32_t> number(mesh_.points.size(), kUnused);
     for (size_t f = 0; f < faces_.size(); ++f) {
-      std::vector<Loop> loops;
-      for (const Loop& loop : faces_[f]) {
+      std::vector<FaceLoop> loops;
+      for (const FaceLoop& loop : faces_[f]) {
         if (loop.size() < 3) continue;
-        Loop& numbered = loops.emplace_back();
+        FaceLoop& numbered = loops.emplace_back();
         for (const uint32_t p : loop) {
           if (number[p] == kUnused) {
             number[p] = static_cast<uint32_t>(mesh.points.size());
@@ -173,7 +173,7 @@ class Mender {
   const PolygonMesh& mesh_;
   size_t fixed_points_, fixed_faces_;
   double width_;
-  std::vector<std::vector<Loop>> faces_;
+  std::vector<std::vector<FaceLoop>> faces_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> face_of_;  ///< by directed edge
   std::vector<uint32_t> drop_;                                 ///< faces to look at
   size_t budget_ = 0;                                          ///< tails that may still be dropped

@@ -19,7 +19,7 @@
 namespace csgrun {
 namespace {
 
-constexpr const char* kName = "rotate_extrude";
+constexpr const char* kRotateExtrude = "rotate_extrude";
 
 class RotateExtruder {
  public:
@@ -37,7 +37,7 @@ class RotateExtruder {
         beyond_(beyond) {}
 
   PolygonMesh build() {
-    mesh_.kind = kName;
+    mesh_.kind = kRotateExtrude;
     const int rings = full_ ? steps_ : steps_ + 1;
     on_axis_.resize(profile_.points.size());
     for (int j = 0; j < rings; ++j) add_ring(j);
@@ -142,12 +142,12 @@ struct Turn {
 
 Result<Turn> turn_of(const Shape2D& shape, const RotateExtrudeOptions& options) {
   if (shape.empty()) return invalid_argument("rotate_extrude: the shape is empty");
-  if (!std::isfinite(options.angle)) return not_finite(kName, "angle", options.angle);
-  if (!std::isfinite(options.start)) return not_finite(kName, "start", options.start);
+  if (!std::isfinite(options.angle)) return not_finite(kRotateExtrude, "angle", options.angle);
+  if (!std::isfinite(options.start)) return not_finite(kRotateExtrude, "start", options.start);
   for (const auto& [name, value] :
        {std::pair{"fn", options.facets.fn}, std::pair{"fa", options.facets.fa},
         std::pair{"fs", options.facets.fs}}) {
-    if (!std::isfinite(value)) return not_finite(kName, name, value);
+    if (!std::isfinite(value)) return not_finite(kRotateExtrude, name, value);
   }
   if (options.angle == 0) return invalid_argument("rotate_extrude: angle must not be 0");
   const double angle = options.angle <= -360 || options.angle > 360 ? 360 : options.angle;
@@ -160,7 +160,7 @@ Result<Turn> turn_of(const Shape2D& shape, const RotateExtrudeOptions& options) 
   const int steps = options.facets.fragments(std::max(-low.x, high.x), angle);
   const double points = static_cast<double>(steps) *
                         static_cast<double>(make_profile(shape, shape.loops()).points.size());
-  if (points > kMostPoints) return too_many_points(kName, steps, points);
+  if (points > kMostPoints) return too_many_points(kRotateExtrude, steps, points);
   return Turn{angle, steps};
 }
 
@@ -189,7 +189,7 @@ std::optional<Beyond> beyond(const Turn& turn) {
 /// From the axis on, between the angles 0 and `wedge`.
 PolygonMesh wedge_mesh(double radius, double low, double high, double wedge) {
   PolygonMesh mesh;
-  mesh.kind = kName;
+  mesh.kind = kRotateExtrude;
   for (const double z : {low, high}) {
     mesh.points.emplace_back(0, 0, z);
     mesh.points.emplace_back(radius, 0, z);

@@ -19,9 +19,9 @@ namespace {
 
 using Loop = Shape2D::Loop;
 
-constexpr const char* kName = "linear_extrude";
+constexpr const char* kRoundedExtrude = "linear_extrude";
 /// What is shorter, beside the outline's extent, has vanished: noise of sixteen digits.
-constexpr double kNoise = 1e-12;
+constexpr double kExtentNoise = 1e-12;
 
 double length_of(const glm::dvec2& v) { return std::sqrt(glm::dot(v, v)); }
 
@@ -30,7 +30,7 @@ class ShrinkingOutlines {
  public:
   explicit ShrinkingOutlines(const Shape2D& shape) : shape_(shape) {
     const auto [low, high] = shape.bounds();
-    noise_ = kNoise *
+    noise_ = kExtentNoise *
              std::max({std::fabs(low.x), std::fabs(low.y), std::fabs(high.x), std::fabs(high.y)});
     for (const Loop& loop : shape.loops()) {
       const size_t n = loop.size();
@@ -152,7 +152,7 @@ class RoundedExtruder {
       : shape_(shape), outlines_(outlines), layers_(std::move(layers)), bottom_(bottom) {}
 
   PolygonMesh build() {
-    mesh_.kind = kName;
+    mesh_.kind = kRoundedExtrude;
     std::vector<std::vector<uint32_t>> first, last;  // per loop
     uint32_t surface = 0;
     for (size_t l = 0; l < shape_.loops().size(); ++l) {
@@ -255,7 +255,8 @@ MeshResult rounded_extrude(const Shape2D& shape, const LinearExtrudeOptions& opt
   for (const Loop& loop : shape.loops()) outline += static_cast<double>(loop.size());
   const double steps =
       std::max(low, high) > 0 ? 2.0 * quarter_steps(std::max(low, high), options.facets) + 2 : 2;
-  if (steps * outline > kMostPoints) return too_many_points(kName, steps, steps * outline);
+  if (steps * outline > kMostPoints)
+    return too_many_points(kRoundedExtrude, steps, steps * outline);
   const ShrinkingOutlines outlines(shape);
   const std::vector<Layer> layers = layers_of(options, height.z);
   const double bottom = options.center ? height.z / -2 : 0;

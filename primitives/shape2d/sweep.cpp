@@ -21,7 +21,7 @@
 namespace csgrun {
 namespace {
 
-constexpr const char* kName = "sweep";
+constexpr const char* kSweep = "sweep";
 
 double length_of(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
 
@@ -124,7 +124,7 @@ class Sweeper {
         profile_(make_profile(shape, loops_)) {}
 
   PolygonMesh build() {
-    mesh_.kind = kName;
+    mesh_.kind = kSweep;
     walk();
     for (size_t i = 0; i < path_.size(); ++i) add_ring(i);
     const size_t pieces = frames_.size();
@@ -246,11 +246,11 @@ class Sweeper {
 };
 
 std::optional<Error> check(const SweepOptions& o) {
-  if (!std::isfinite(o.twist)) return not_finite(kName, "twist", o.twist);
-  if (!std::isfinite(o.facets.fn)) return not_finite(kName, "fn", o.facets.fn);
-  if (!std::isfinite(o.facets.fa)) return not_finite(kName, "fa", o.facets.fa);
+  if (!std::isfinite(o.twist)) return not_finite(kSweep, "twist", o.twist);
+  if (!std::isfinite(o.facets.fn)) return not_finite(kSweep, "fn", o.facets.fn);
+  if (!std::isfinite(o.facets.fa)) return not_finite(kSweep, "fa", o.facets.fa);
   for (int i = 0; i < 2; ++i) {
-    if (!std::isfinite(o.scale[i])) return not_finite(kName, "scale", o.scale[i]);
+    if (!std::isfinite(o.scale[i])) return not_finite(kSweep, "scale", o.scale[i]);
     if (o.scale[i] < 0 || (o.scale[i] == 0 && o.scale != glm::dvec2(0))) {
       return invalid_argument("sweep: scale must be positive, or 0 both ways, got " +
                               number_text(o.scale[i]));
@@ -303,12 +303,12 @@ MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
   if (options.twist != 0) path = divided(path, shape, options);
   const size_t pieces = options.closed ? path.size() : path.size() - 1;
   const double rings = static_cast<double>(path.size());
-  if (rings > kMostPoints) return too_many_points(kName, rings, rings);
+  if (rings > kMostPoints) return too_many_points(kSweep, rings, rings);
   std::vector<Shape2D::Loop> loops = divided_loops(shape, options, pieces);
   size_t outline = 0;
   for (const Shape2D::Loop& loop : loops) outline += loop.size();
   const double points = rings * static_cast<double>(outline);
-  if (points > kMostPoints) return too_many_points(kName, rings, points);
+  if (points > kMostPoints) return too_many_points(kSweep, rings, points);
   std::vector<Frame> frames;
   std::vector<double> rolls;
   const glm::dvec3 up = up_at_start(direction_of(path, 0), options.up);

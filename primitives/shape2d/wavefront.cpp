@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "primitives/base/none.h"
+
 namespace csgrun {
 namespace {
 
@@ -15,8 +17,6 @@ namespace {
 /// below 2^30 are known to about 2^-20.
 constexpr double kSamePlace = 0x1p-6, kSameTime = 0x1p-10;
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr uint32_t kNone = 0xffffffff;
-
 /// A line of the outline, which moves to its left.
 struct Line {
   Point2D direction;

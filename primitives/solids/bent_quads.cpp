@@ -24,13 +24,13 @@ namespace csgrun {
 namespace {
 
 /// The coordinates as they are compared there; -ffp-contract=off makes each operation a rounding.
-using Corner = std::array<float, 3>;
-using Quad = std::array<Corner, 4>;
+using QuadCorner = std::array<float, 3>;
+using Quad = std::array<QuadCorner, 4>;
 
 /// The axis that it is seen along, by OpenSCAD; -1 when all corners lie on a line.
 int view_axis(const Quad& quad) {
   constexpr int kOrder[] = {1, 2, 3, 0};  // in which corners are compared: the first of equals wins
-  std::array<const Corner*, 3> low{}, high{};
+  std::array<const QuadCorner*, 3> low{}, high{};
   low.fill(&quad[1]);
   high.fill(&quad[1]);
   for (const int k : kOrder) {
@@ -42,16 +42,17 @@ int view_axis(const Quad& quad) {
   const auto extent = [&](size_t i) { return (*high[i])[i] - (*low[i])[i]; };
   size_t widest = extent(1) > extent(0) ? 1 : 0;
   if (extent(2) > extent(widest)) widest = 2;
-  const Corner &from = *low[widest], &to = *high[widest];
-  const auto less = [&](const Corner& p) {
-    return Corner{p[0] - to[0], p[1] - to[1], p[2] - to[2]};
+  const QuadCorner &from = *low[widest], &to = *high[widest];
+  const auto less = [&](const QuadCorner& p) {
+    return QuadCorner{p[0] - to[0], p[1] - to[1], p[2] - to[2]};
   };
-  const Corner d = less(from);
-  Corner normal{};
+  const QuadCorner d = less(from);
+  QuadCorner normal{};
   float largest = 0;
   for (const int k : kOrder) {
-    const Corner r = less(quad[k]);
-    const Corner n{d[1] * r[2] - d[2] * r[1], d[2] * r[0] - d[0] * r[2], d[0] * r[1] - d[1] * r[0]};
+    const QuadCorner r = less(quad[k]);
+    const QuadCorner n{d[1] * r[2] - d[2] * r[1], d[2] * r[0] - d[0] * r[2],
+                       d[0] * r[1] - d[1] * r[0]};
     const float length = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
     if (length <= largest) continue;
     largest = length;

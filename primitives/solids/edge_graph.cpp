@@ -11,10 +11,11 @@
 
 #include <csgrun/primitives/trig.h>
 
+#include "primitives/base/none.h"
+
 namespace csgrun {
 namespace {
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 /// Edges are short that have this part of the largest coordinate: some steps of the grid, which has
 /// 2^24 to 2^27 to that unless it was asked for.
 constexpr double kShort = 0x1p-22;

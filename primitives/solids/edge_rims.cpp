@@ -8,7 +8,7 @@ namespace {
 
 /// Differences between the angles of edges of one rim, degrees: what stays along one of them goes
 /// deep enough for its neighbours' cuts.
-constexpr double kAlike = 0.1;
+constexpr double kAlikeRims = 0.1;
 
 class RimFinder {
  public:
@@ -52,7 +52,7 @@ class RimFinder {
     int end = 1;
     do {
       const double turn = edge(at).line.turn - edge(first).line.turn;
-      if (is_seen_[at] || !is_of_rim(at, side) || std::fabs(turn) > kAlike) return {};
+      if (is_seen_[at] || !is_of_rim(at, side) || std::fabs(turn) > kAlikeRims) return {};
       rim.push_back(at);
       const EdgeGraph::Edge& own = edge(at);
       const uint32_t vertex = own.vertex[end], plane = own.side[side];

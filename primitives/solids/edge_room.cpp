@@ -15,7 +15,7 @@ namespace {
 /// Parts of the setback that two cuts may have in common by rounding.
 constexpr double kTouch = 1e-7;
 /// Angles between sides that are the same but for rounding, degrees.
-constexpr double kAlike = 1e-6;
+constexpr double kAlikeTurns = 1e-6;
 /// Edges may vanish between two that turn by less: else these may not meet, or far away.
 constexpr double kMostTurn = 150;
 /// So many edges are looked at on either side.
@@ -90,7 +90,7 @@ EdgeFrames::Around EdgeFrames::around(const EdgeFrame& f, int end, int side) con
   const Next n = next(f, end, side);
   const EdgeGraph::Edge &own = graph_.edges()[f.edge], &other = graph_.edges()[n.edge];
   // Cuts are as deep as far in only if they stand alike on the side.
-  if (std::fabs(other.line.turn - own.line.turn) > kAlike) return {};
+  if (std::fabs(other.line.turn - own.line.turn) > kAlikeTurns) return {};
   return {frame_of(n.edge), other.vertex[0] == own.vertex[end] ? 1 : 0,
           other.side[0] == own.side[side] ? 0 : 1, atan2_deg(n.y, -n.x)};
 }

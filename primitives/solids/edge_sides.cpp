@@ -10,10 +10,11 @@
 
 #include <csgrun/primitives/trig.h>
 
+#include "primitives/base/none.h"
+
 namespace csgrun {
 namespace {
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 /// The sine between normals of one plane, of which what is known is good to 1e-15, and the cosine
 /// between those of what is one side at once: no facets turn by so little.
 constexpr double kSamePlane = 1e-14, kNearlyParallel = 1 - 1e-14;
@@ -27,7 +28,7 @@ constexpr double kSamePlane = 1e-14, kNearlyParallel = 1 - 1e-14;
 /// with 1000 to the turn 330 steps, where r is the largest coordinate, which has 2^24 at least.
 constexpr double kRoughSteps = 4;
 /// Faces that turn by more, in degrees, are two sides however narrow they are.
-constexpr double kMostTurn = 10;
+constexpr double kMostTurnOfSide = 10;
 
 /// What lies between two planes.
 struct Slab {
@@ -102,7 +103,7 @@ class Joiner {
 
   /// Neighbours that may be one: of each pair an edge and the corners across it lie in one plane.
   void find_pairs() {
-    const double least = cos_deg(kMostTurn);
+    const double least = cos_deg(kMostTurnOfSide);
     for (uint32_t h = 0; h < twins_.size(); ++h) {
       const uint32_t twin = twins_[h];
       const uint32_t a = sides_.of[h / 3], b = sides_.of[twin / 3];
@@ -151,7 +152,8 @@ class Joiner {
 
   [[nodiscard]] bool try_to_join(uint32_t a, uint32_t b) {
     if (corners_[a].size() < corners_[b].size()) std::swap(a, b);
-    if (!(glm::dot(glm::normalize(areas_[a]), glm::normalize(areas_[b])) >= cos_deg(kMostTurn)))
+    if (!(glm::dot(glm::normalize(areas_[a]), glm::normalize(areas_[b])) >=
+          cos_deg(kMostTurnOfSide)))
       return false;
     // Mostly the smaller one lies in the slab of the larger one, whose corners are many where
     // flat sides are of many faces.

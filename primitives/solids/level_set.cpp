@@ -9,6 +9,7 @@
 
 #include <csgrun/primitives/freeform.h>
 
+#include "primitives/base/none.h"
 #include "primitives/base/text.h"
 #include "primitives/solids/finish_solid.h"
 
@@ -21,7 +22,6 @@ using Field = std::function<Result<double>(const glm::dvec3&)>;
 constexpr double kMostLatticePoints = 0x1p28;
 /// And of two of its layers, all that is kept at a time: 700 MB.
 constexpr double kMostLayerPoints = 0x1p23;
-constexpr uint32_t kNone = ~0u;
 /// Of an edge of the lattice: what rounding makes of a function's value there, and less than any
 /// grid tells from nothing. And what the coordinates of a point on it are wrong by, of these.
 constexpr double kNoise = 1e-10, kRounding = 0x1p-48;

@@ -10,18 +10,11 @@
 
 #include "primitives/base/at_most.h"
 #include "primitives/base/text.h"
+#include "primitives/solids/check_facets.h"
 #include "primitives/solids/mesh_builder.h"
 
 namespace csgrun {
 namespace {
-
-std::optional<Error> check_facets(const char* function, const Facets& facets) {
-  for (const auto& [name, value] :
-       {std::pair{"fn", facets.fn}, std::pair{"fa", facets.fa}, std::pair{"fs", facets.fs}}) {
-    if (!std::isfinite(value)) return not_finite(function, name, value);
-  }
-  return std::nullopt;
-}
 
 /// Steps of a quarter turn: the round part then touches the flat ones.
 int quarter_steps(double r, const Facets& facets) { return (facets.fragments(r) + 3) / 4; }

@@ -7,6 +7,7 @@
 #include <csgrun/primitives/trig.h>
 
 #include "primitives/base/text.h"
+#include "primitives/solids/check_facets.h"
 #include "primitives/solids/mesh_builder.h"
 
 namespace csgrun {
@@ -16,13 +17,6 @@ namespace {
 std::optional<Error> check_size(const char* function, const char* argument, double value) {
   if (!std::isfinite(value)) return not_finite(function, argument, value);
   if (!(value > 0)) return not_positive(function, argument, value);
-  return std::nullopt;
-}
-
-std::optional<Error> check_facets(const char* function, const Facets& facets) {
-  if (!std::isfinite(facets.fn)) return not_finite(function, "fn", facets.fn);
-  if (!std::isfinite(facets.fa)) return not_finite(function, "fa", facets.fa);
-  if (!std::isfinite(facets.fs)) return not_finite(function, "fs", facets.fs);
   return std::nullopt;
 }
 

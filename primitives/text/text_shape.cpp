@@ -186,10 +186,10 @@ std::optional<Error> check(const TextOptions& o) {
     std::string list;
     for (const char* choice : choices) {
       if (value == choice) return std::nullopt;
-      list += (list.empty() ? "" : ", ") + quoted(choice);
+      list += (list.empty() ? "" : ", ") + csgrun::quoted(choice);
     }
     return invalid_argument("text: " + std::string(name) + " must be one of " + list + ", got " +
-                            quoted(value));
+                            csgrun::quoted(value));
   };
   if (!o.direction.empty()) {
     if (auto error = one_of("direction", o.direction, {"ltr", "rtl", "ttb", "btt"})) return error;
@@ -255,7 +255,8 @@ Result<HarfbuzzPtr<hb_buffer_t>> shape(const TextOptions& o, std::string_view li
   for (unsigned i = 0; i < hb().buffer_get_length(buffer.get()); ++i) {
     if (characters[i].codepoint != kBroken) continue;
     return invalid_argument("text: it is not in UTF-8: byte " +
-                            std::to_string(characters[i].cluster + 1) + " of " + quoted(line));
+                            std::to_string(characters[i].cluster + 1) + " of " +
+                            csgrun::quoted(line));
   }
   if (!o.direction.empty()) {
     hb().buffer_set_direction(buffer.get(), hb().direction_from_string(o.direction.c_str(), -1));
@@ -266,7 +267,7 @@ Result<HarfbuzzPtr<hb_buffer_t>> shape(const TextOptions& o, std::string_view li
       return invalid_argument(
           "text: script must be a code of four letters, as \"Latn\", or a name, as \"latin\", "
           "got " +
-          quoted(o.script));
+          csgrun::quoted(o.script));
     }
     hb().buffer_set_script(buffer.get(), *script);
   }

@@ -8,7 +8,7 @@
 #include "tests/support/oracle.h"
 #include "tests/support/random_frames.h"
 
-namespace csgrun {
+namespace csgrun::frames_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -192,4 +192,4 @@ TEST(Frames, LargeAndSmallTogether) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::frames_test

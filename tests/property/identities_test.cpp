@@ -8,7 +8,7 @@
 #include "tests/support/oracle.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::identities_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -241,4 +241,4 @@ TEST(Identities, LawsOfSetAlgebra) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::identities_test

@@ -10,7 +10,7 @@
 
 #include <csgrun/primitives/mesh_file.h>
 
-namespace csgrun {
+namespace csgrun::leaf_ways_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -64,4 +64,4 @@ TEST(LeafWays, AgreeOnMeshesFromTheWild) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::leaf_ways_test

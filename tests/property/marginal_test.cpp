@@ -9,7 +9,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::marginal_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -273,4 +273,4 @@ TEST(Marginal, ToolsThatReachVeryFar) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::marginal_test

@@ -16,7 +16,7 @@
 #include "tests/support/kernel_checks.h"
 #include "tests/support/random_frames.h"
 
-namespace csgrun {
+namespace csgrun::meshes_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -196,4 +196,4 @@ TEST(Meshes, IdentitiesAgainstTurnedAndShiftedCopies) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::meshes_test

@@ -12,7 +12,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/kernel_checks.h"
 
-namespace csgrun {
+namespace csgrun::metamorphic_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -262,4 +262,4 @@ TEST(Metamorphic, TheEvaluatorIsTheKernel) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::metamorphic_test

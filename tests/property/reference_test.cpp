@@ -12,7 +12,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::reference_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -357,4 +357,4 @@ TEST(Reference, WrongClaimsAreNoticed) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::reference_test

@@ -5,7 +5,7 @@
 #include "tests/support/kernel_checks.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::regress_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -116,4 +116,4 @@ TEST(Regress, ContactsThatGoOnBeyondAFace) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::regress_test

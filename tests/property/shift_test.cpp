@@ -18,7 +18,7 @@
 #include "tests/support/kernel_checks.h"
 #include "tests/support/reference/reference.h"
 
-namespace csgrun {
+namespace csgrun::shift_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -97,4 +97,4 @@ TEST(Shift, OfAModelFromTheWildByOneUnitInTheLastPlace) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::shift_test

@@ -15,7 +15,7 @@
 #include "tests/support/kernel_checks.h"
 #include "tests/support/reference/reference.h"
 
-namespace csgrun {
+namespace csgrun::trees_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -90,4 +90,4 @@ TEST(Trees, KeptCases) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::trees_test

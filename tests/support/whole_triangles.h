@@ -10,6 +10,9 @@
 
 namespace csgrun::test {
 
+using csgrun::cross;  // beside those of rational vectors
+using csgrun::dot;
+using csgrun::minus;
 using Vec = Vec3d;  // whole numbers
 using Triangle = std::array<Vec, 3>;
 

@@ -6,7 +6,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::chance_list_test {
 namespace {
 
 TEST(ChanceList, HasWhatWasAdded) {
@@ -34,4 +34,4 @@ TEST(ChanceList, HasWhatWasAdded) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::chance_list_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::chunked_vector_test {
 namespace {
 
 using Element = std::array<uint32_t, 3>;
@@ -104,4 +104,4 @@ TEST(ChunkedVector, KeepsItsMemoryWhenCleared) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::chunked_vector_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::counting_order_test {
 namespace {
 
 TEST(CountingOrder, IsAStableSort) {
@@ -38,4 +38,4 @@ TEST(CountingOrder, IsAStableSort) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::counting_order_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::few_vector_test {
 namespace {
 
 using Few = FewVector<uint32_t, 4>;
@@ -79,4 +79,4 @@ TEST(FewVector, TakesMemoryForManyAlone) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::few_vector_test

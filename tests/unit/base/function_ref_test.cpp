@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::function_ref_test {
 namespace {
 
 int twice(FunctionRef<int(int)> f, int x) { return f(f(x)); }
@@ -42,4 +42,4 @@ TEST(FunctionRef, PassesReferencesAndWhatCanOnlyBeMoved) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::function_ref_test

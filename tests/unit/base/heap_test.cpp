@@ -14,7 +14,7 @@
 
 #include <csgrun/engine/heap.h>
 
-namespace csgrun {
+namespace csgrun::heap_test {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -138,4 +138,4 @@ TEST(Heap, ThereIsMemoryWhereThereAreFewAddresses) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::heap_test

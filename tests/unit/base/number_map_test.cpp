@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::number_map_test {
 namespace {
 
 TEST(NumberMap, KeepsTheFirstValueOfANumber) {
@@ -28,4 +28,4 @@ TEST(NumberMap, KeepsTheFirstValueOfANumber) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::number_map_test

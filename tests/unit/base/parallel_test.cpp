@@ -16,7 +16,7 @@
 #include "engine/base/per_thread.h"
 #include "engine/base/raw_vector.h"
 
-namespace csgrun {
+namespace csgrun::parallel_test {
 namespace {
 
 TEST(Parallel, PartsMakeUpEverything) {
@@ -296,4 +296,4 @@ TEST(RawVector, KeepsWhatIsPutIn) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::parallel_test

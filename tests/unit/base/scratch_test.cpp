@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::scratch_test {
 namespace {
 
 /// Takes arrays, here and `depth` functions further down, and sees that each keeps what it holds.
@@ -63,4 +63,4 @@ TEST(Scratch, EachThreadHasItsOwn) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::scratch_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::sort_by_key_test {
 namespace {
 
 struct Thing {
@@ -45,4 +45,4 @@ TEST(SortByKey, SortsByKeyAndOrder) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::sort_by_key_test

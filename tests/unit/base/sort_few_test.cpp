@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::sort_few_test {
 namespace {
 
 struct Thing {
@@ -33,4 +33,4 @@ TEST(SortFew, SortsStably) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::sort_few_test

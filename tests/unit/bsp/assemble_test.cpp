@@ -8,7 +8,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::assemble_test {
 namespace {
 
 /// Two boxes that cross, cut, and one beside them.
@@ -103,4 +103,4 @@ TEST(Assemble, NamesTheCornersThatUntouchedPartsShare) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::assemble_test

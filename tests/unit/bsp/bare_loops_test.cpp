@@ -15,7 +15,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::bare_loops_test {
 namespace {
 
 /// A ring about the Z axis; all its faces above and below are triangles.
@@ -101,4 +101,4 @@ TEST(BareLoops, OfRingsOnPlatesAreWhatCellsGive) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::bare_loops_test

@@ -11,7 +11,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::boundary_mesh_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -178,4 +178,4 @@ TEST(BoundaryMesh, MemoryGrowsByWhatIsAdded) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::boundary_mesh_test

@@ -10,7 +10,7 @@
 #include "tests/support/gmp_bridge.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::canonical_order_test {
 namespace {
 
 using test::Rational3;
@@ -130,4 +130,4 @@ TEST(CanonicalOrder, OfPointsThatDoublesCannotTellApart) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::canonical_order_test

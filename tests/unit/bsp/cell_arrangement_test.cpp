@@ -12,7 +12,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/rational_polygons.h"
 
-namespace csgrun {
+namespace csgrun::cell_arrangement_test {
 namespace {
 
 using test::area_of, test::covers, test::sum, test::tiny, test::winding_around;
@@ -169,4 +169,4 @@ TEST(CellArrangement, OpenSurfacesContradictThemselves) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::cell_arrangement_test

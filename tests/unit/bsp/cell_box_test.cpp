@@ -14,7 +14,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/rational_polygons.h"
 
-namespace csgrun {
+namespace csgrun::cell_box_test {
 namespace {
 
 using test::meets;
@@ -514,4 +514,4 @@ TEST(CellBox, DividesTheLongestAxisUnlessAnotherThinsOut) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::cell_box_test

@@ -12,7 +12,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::cell_geometry_test {
 namespace {
 
 using test::Rational3;
@@ -377,4 +377,4 @@ TEST(CellGeometry, LineAxisOfPlanesWhoseCrossProductIsShort) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::cell_geometry_test

@@ -9,7 +9,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::common_boxes_test {
 namespace {
 
 /// Three points at random, or a sliver along a line that others are along, too.
@@ -113,4 +113,4 @@ TEST(CommonBoxes, HoldAllThatIsInBoth) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::common_boxes_test

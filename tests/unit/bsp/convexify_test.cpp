@@ -13,7 +13,7 @@
 #include "tests/support/rational_polygons.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::convexify_test {
 namespace {
 
 using test::Rational3;
@@ -520,4 +520,4 @@ TEST(Convexify, OfNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::convexify_test

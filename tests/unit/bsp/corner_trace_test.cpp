@@ -12,7 +12,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::corner_trace_test {
 namespace {
 
 using test::Rational3;
@@ -210,4 +210,4 @@ TEST(CornerTrace, OfTrianglesThatDoublesCannotTell) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::corner_trace_test

@@ -11,7 +11,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::corner_walk_test {
 namespace {
 
 std::shared_ptr<LeafGeometry> paired(const std::vector<test::Loop>& loops) {
@@ -102,4 +102,4 @@ TEST(CornerWalk, ResolvedSurfacesMayTouchThere) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::corner_walk_test

@@ -12,7 +12,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::covered_polygons_test {
 namespace {
 
 using test::convex_operand;
@@ -533,4 +533,4 @@ TEST(CoveredPolygons, TouchFromWithin) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::covered_polygons_test

@@ -13,7 +13,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::crossing_points_test {
 namespace {
 
 TEST(CrossingPoints, HaveOneNumberEach) {
@@ -82,4 +82,4 @@ TEST(CrossingPoints, HaveOneNumberEach) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::crossing_points_test

@@ -17,7 +17,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun::test {
+namespace csgrun::test::cut_surface_test {
 namespace {
 
 struct Box {
@@ -552,4 +552,4 @@ TEST(CutSurface, StartsFromPiecesWhereNoPolygonIsWhole) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::cut_surface_test

@@ -14,7 +14,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::evaluate_boxes_test {
 namespace {
 
 using test::RandomTree;
@@ -386,4 +386,4 @@ TEST(EvaluateBoxes, CountTheirWork) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::evaluate_boxes_test

@@ -13,7 +13,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::evaluate_job_test {
 namespace {
 
 bool holds(const GridBox& outer, const GridBox& inner) {
@@ -200,4 +200,4 @@ TEST(EvaluateJob, RegionsMayStartInsideAnOperand) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::evaluate_job_test

@@ -12,7 +12,7 @@
 #include "tests/support/oracle.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::face_arrangement_test {
 namespace {
 
 using test::Query;
@@ -415,4 +415,4 @@ TEST(FaceArrangement, OfAConvexOperandWithoutOpposites) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::face_arrangement_test

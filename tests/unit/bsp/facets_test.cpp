@@ -9,7 +9,7 @@
 #include "tests/support/kernel_checks.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::facets_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -168,4 +168,4 @@ TEST(Facets, OfManyPolygonsAreWholeToo) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::facets_test

@@ -16,7 +16,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::find_contacts_test {
 namespace {
 
 bool overlap(const PolygonBox& a, const PolygonBox& b) {
@@ -325,4 +325,4 @@ TEST(FindContacts, OfFansOnOneAnother) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::find_contacts_test

@@ -14,7 +14,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::flat_cover_test {
 namespace {
 
 using test::convex_operand;
@@ -193,4 +193,4 @@ TEST(FlatCover, OfNestedDifferencesOneFaceIsCut) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::flat_cover_test

@@ -15,7 +15,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::hidden_polygons_test {
 namespace {
 
 using test::convex_operand;
@@ -257,4 +257,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return "Seed" + std::to_string(test.param.seed); });
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::hidden_polygons_test

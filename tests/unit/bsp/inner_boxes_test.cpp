@@ -13,7 +13,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::inner_boxes_test {
 namespace {
 
 /// The hull of points up to so far from a point near the origin.
@@ -115,4 +115,4 @@ TEST(InnerBoxes, HoldWhatIsInsideOfARemover) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::inner_boxes_test

@@ -16,7 +16,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::job_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -399,4 +399,4 @@ TEST(Job, BoxesOfRoundedPointsHoldTheTrueOnes) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::job_test

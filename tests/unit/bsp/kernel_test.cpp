@@ -9,7 +9,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::kernel_test {
 namespace {
 
 using Boundary = std::shared_ptr<const BoundaryMesh>;
@@ -220,4 +220,4 @@ TEST(Kernel, BytesAreThoseOfTheArrays) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::kernel_test

@@ -7,7 +7,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::label_order_test {
 namespace {
 
 /// A random tree; an operand may stand in several places, a node below several others.
@@ -126,4 +126,4 @@ TEST(LabelOrder, OfAnOperandInTwoPlaces) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::label_order_test

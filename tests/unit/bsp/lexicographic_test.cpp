@@ -8,7 +8,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::lexicographic_test {
 namespace {
 
 TEST(LexicographicOrder, IsThatOfASort) {
@@ -50,4 +50,4 @@ TEST(LexicographicOrder, OfManyColumns) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::lexicographic_test

@@ -10,7 +10,7 @@
 #include "tests/support/gmp_bridge.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::line_key_test {
 namespace {
 
 /// Pluecker coordinates by GMP, divided by the first that is not zero.
@@ -102,4 +102,4 @@ TEST(LineKey, IsEqualForEqualLinesOnly) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::line_key_test

@@ -7,7 +7,7 @@
 #include "tests/support/boundary_compare.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::literal_cell_test {
 namespace {
 
 using Boundary = std::shared_ptr<const BoundaryMesh>;
@@ -134,4 +134,4 @@ TEST(LiteralCell, AgreesOnMaterialisedOperands) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::literal_cell_test

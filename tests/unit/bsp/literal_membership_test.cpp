@@ -8,7 +8,7 @@
 #include "engine/bsp/kernel.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::literal_membership_test {
 namespace {
 
 using Vec = std::array<double, 3>;
@@ -173,4 +173,4 @@ TEST(Membership, OfDenseLeaves) { check_membership(31, 150, false); }
 TEST(Membership, InFrames) { check_membership(32, 60, true); }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::literal_membership_test

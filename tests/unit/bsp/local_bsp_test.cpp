@@ -9,7 +9,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::local_bsp_test {
 namespace {
 
 /// What a plane costs: three for each polygon that it splits, and one for each that one side has
@@ -80,4 +80,4 @@ TEST(LocalBsp, OfNothingIsWhatTheCornerSays) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::local_bsp_test

@@ -9,7 +9,7 @@
 #include "engine/base/parallel.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::near_pairs_test {
 namespace {
 
 using Pairs = std::vector<std::array<uint32_t, 2>>;
@@ -136,4 +136,4 @@ TEST(NearPairs, AreNotLookedForInCrowds) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::near_pairs_test

@@ -14,7 +14,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::near_pieces_test {
 namespace {
 
 /// A hull of so many points about on a ball, all coordinates times a power of two.
@@ -122,4 +122,4 @@ TEST(NearPieces, AreMetByAllFacesThatMayMeetThem) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::near_pieces_test

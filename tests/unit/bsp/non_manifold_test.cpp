@@ -13,7 +13,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::non_manifold_test {
 namespace {
 
 using Edge = std::array<uint32_t, 2>;
@@ -91,4 +91,4 @@ TEST(NonManifold, IsFoundInSolidsSideBySide) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::non_manifold_test

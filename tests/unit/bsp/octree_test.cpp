@@ -11,7 +11,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/rational_polygons.h"
 
-namespace csgrun {
+namespace csgrun::octree_test {
 namespace {
 
 Octree octree_of(const std::vector<Operand>& operands, const GridBox& region,
@@ -137,4 +137,4 @@ TEST(GridBox, IsEmptyWhereAnAxisIs) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::octree_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::offset_sets_test {
 namespace {
 
 TEST(OffsetSets, TellsDifferencesAndContradictions) {
@@ -52,4 +52,4 @@ TEST(OffsetSets, ChainsAreShortened) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::offset_sets_test

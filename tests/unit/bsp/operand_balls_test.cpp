@@ -11,7 +11,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::operand_balls_test {
 namespace {
 
 using test::Query;
@@ -242,4 +242,4 @@ TEST(OperandBalls, InFramesHidePolygonsIfTheyAreRound) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::operand_balls_test

@@ -14,7 +14,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::operand_groups_test {
 namespace {
 
 using test::convex_operand;
@@ -429,4 +429,4 @@ TEST(OperandGroups, OfRandomTreesAreEvaluatedAsOneJob) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::operand_groups_test

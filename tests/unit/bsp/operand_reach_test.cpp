@@ -8,7 +8,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::operand_reach_test {
 namespace {
 
 using Position = std::array<double, 3>;
@@ -92,4 +92,4 @@ TEST(OperandReach, OfNothingMeetsNothing) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::operand_reach_test

@@ -11,7 +11,7 @@
 
 #include "engine/mesh/box_tree.h"
 
-namespace csgrun {
+namespace csgrun::packed_boxes_test {
 namespace {
 
 /// Boxes strewn at random; `crowded`: most of them within a millionth of the space.
@@ -165,4 +165,4 @@ TEST(BoxTree, TheEndsOfTheRangeOfDoubles) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::packed_boxes_test

@@ -13,7 +13,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::pair_cells_test {
 namespace {
 
 using Pairs = std::map<std::pair<uint32_t, uint32_t>, int>;
@@ -540,4 +540,4 @@ TEST(PairCells, CrowdsAreSifted) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::pair_cells_test

@@ -12,7 +12,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::pair_corners_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -148,4 +148,4 @@ TEST(PairCorners, AsksAboutEightCornersAtOnce) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::pair_corners_test

@@ -13,7 +13,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::pair_test_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -373,4 +373,4 @@ TEST(PairTest, CountsItsSigns) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::pair_test_test

@@ -12,7 +12,7 @@
 #include "engine/bsp/union_find.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::parallel_runs_test {
 namespace {
 
 struct Done {
@@ -138,4 +138,4 @@ TEST(UnionFind, JoinsSetsUnderTheirSmallestMember) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::parallel_runs_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::patch_facts_test {
 namespace {
 
 std::vector<CutLoops::Fact> listed(const PatchFacts& facts, uint32_t patch) {
@@ -47,4 +47,4 @@ TEST(PatchFacts, ContradictOneAnotherOfOneOperandOnly) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::patch_facts_test

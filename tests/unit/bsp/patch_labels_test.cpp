@@ -10,7 +10,7 @@
 #include "tests/support/oracle.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::patch_labels_test {
 namespace {
 
 using test::Query;
@@ -208,4 +208,4 @@ TEST(PatchLabels, OfOpenOperandsOnlyWhatDecidesIsReliedOn) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::patch_labels_test

@@ -19,7 +19,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::piece_chains_test {
 namespace {
 
 using test::check_names;
@@ -355,4 +355,4 @@ TEST(PieceChains, OfMeshesOfFacets) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::piece_chains_test

@@ -13,7 +13,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::piece_store_test {
 namespace {
 
 using test::Loop;
@@ -286,4 +286,4 @@ TEST(PieceStore, HasItsOriginAtTheFirstVertex) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::piece_store_test

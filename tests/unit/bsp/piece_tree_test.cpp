@@ -7,7 +7,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::piece_tree_test {
 namespace {
 
 using test::Random;
@@ -154,4 +154,4 @@ TEST(PieceBox, MeetsWhatItTouches) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::piece_tree_test

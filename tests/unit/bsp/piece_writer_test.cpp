@@ -14,7 +14,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::piece_writer_test {
 namespace {
 
 /// Two boxes that cross, and a store for what is left of them.
@@ -209,4 +209,4 @@ TEST(PieceWriter, RefusesPiecesThatDoNotCloseUp) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::piece_writer_test

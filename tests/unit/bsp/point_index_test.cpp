@@ -7,7 +7,7 @@
 #include "tests/support/exact_solid.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::point_index_test {
 namespace {
 
 constexpr Int128 kThird = Int128{1} << 61;
@@ -185,4 +185,4 @@ TEST(PointIndex, KnowsZeroByEitherSign) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::point_index_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::pruned_expression_test {
 namespace {
 
 constexpr uint32_t kOperands = 5;
@@ -225,4 +225,4 @@ TEST(PrunedExpression, OfNothingIsEmpty) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::pruned_expression_test

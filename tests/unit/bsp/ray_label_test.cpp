@@ -15,7 +15,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::ray_label_test {
 namespace {
 
 using test::Query;
@@ -472,4 +472,4 @@ TEST(RayLabel, CountsNothingThatRaysMissBarely) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::ray_label_test

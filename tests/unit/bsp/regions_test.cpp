@@ -13,7 +13,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::regions_test {
 namespace {
 
 using Point2 = std::array<int64_t, 2>;
@@ -353,4 +353,4 @@ TEST(Regions, TurnsBetweenEdgesThatAreNearlyParallel) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::regions_test

@@ -16,7 +16,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::result_pieces_test {
 namespace {
 
 using test::continued;
@@ -301,4 +301,4 @@ TEST(ResultPieces, StopWhenCancelled) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::result_pieces_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::segment_sweep_test {
 namespace {
 
 using Position = std::array<double, 3>;
@@ -60,4 +60,4 @@ TEST(SegmentSweep, VisitsEachPairThatMeetsOnce) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::segment_sweep_test

@@ -11,7 +11,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun::test {
+namespace csgrun::test::self_resolution_test {
 namespace {
 
 /// Five of a hundred random cases: quick.
@@ -388,4 +388,4 @@ TEST(SelfResolution, CountsItsWork) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::self_resolution_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/whole_triangles.h"
 
-namespace csgrun {
+namespace csgrun::slabs_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -233,4 +233,4 @@ TEST(Slabs, ATriangleWithoutAreaIsApartFromNothing) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::slabs_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::sparse_boundary_test {
 namespace {
 
 /// A random tree over operands, some of which occur several times and some not at all.
@@ -79,4 +79,4 @@ TEST(SparseBoundary, OfNothingIsNone) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::sparse_boundary_test

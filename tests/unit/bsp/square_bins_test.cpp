@@ -5,7 +5,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::square_bins_test {
 namespace {
 
 using Box = SquareBins::Box;
@@ -97,4 +97,4 @@ TEST(SquareBins, AreFewWhereBoxesAreWide) {
 TEST(SquareBins, OfNoBoxesHoldNothing) { EXPECT_TRUE(SquareBins({}, 1).at({3, -4, 5}).empty()); }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::square_bins_test

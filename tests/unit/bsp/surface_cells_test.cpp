@@ -15,7 +15,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/rational_polygons.h"
 
-namespace csgrun {
+namespace csgrun::surface_cells_test {
 namespace {
 
 using test::Rational3;
@@ -201,4 +201,4 @@ TEST(SurfaceCells, OpenSurfacesAreRefused) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::surface_cells_test

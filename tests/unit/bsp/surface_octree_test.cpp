@@ -13,7 +13,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/rational_polygons.h"
 
-namespace csgrun {
+namespace csgrun::surface_octree_test {
 namespace {
 
 using test::Rational3;
@@ -208,4 +208,4 @@ TEST(SurfaceOctree, WhatCannotComeApartIsLeftSoon) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::surface_octree_test

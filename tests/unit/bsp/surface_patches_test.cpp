@@ -15,7 +15,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/rational_polygons.h"
 
-namespace csgrun {
+namespace csgrun::surface_patches_test {
 namespace {
 
 using test::Rational3;
@@ -264,4 +264,4 @@ TEST(SurfacePatches, OfAnEdgeShorterThanRounding) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::surface_patches_test

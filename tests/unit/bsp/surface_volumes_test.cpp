@@ -6,7 +6,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::surface_volumes_test {
 namespace {
 
 /// Volumes of winding 0, 1, 2, -1 in one cell, and what is seen of patch 0 there.
@@ -328,4 +328,4 @@ TEST(SurfaceVolumes, FillingAsksForTheLowestPoints) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::surface_volumes_test

@@ -18,7 +18,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::threads_test {
 namespace {
 
 /// A sphere with bumps: an octahedron of which each face is divided into n^2 triangles.
@@ -237,4 +237,4 @@ TEST(Threads, CoarseCellsHoldWhatMeetsThem) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::threads_test

@@ -9,7 +9,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::touch_finder_test {
 namespace {
 
 using test::convex_operand;
@@ -134,4 +134,4 @@ TEST(TouchFinder, LooksAtSixtyFourCornersAtMost) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::touch_finder_test

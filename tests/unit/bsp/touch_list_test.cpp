@@ -7,7 +7,7 @@
 
 #include "tests/support/kernel_case.h"
 
-namespace csgrun {
+namespace csgrun::touch_list_test {
 namespace {
 
 GridBox box_at(int64_t i) { return {{i, 2 * i, -i}, {i + 1, 2 * i + 1, 1 - i}}; }
@@ -101,4 +101,4 @@ TEST(TouchList, StaysShortAndHoldsAll) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::touch_list_test

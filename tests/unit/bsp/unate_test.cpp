@@ -13,7 +13,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/touches_told.h"
 
-namespace csgrun {
+namespace csgrun::unate_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -206,4 +206,4 @@ TEST(Unate, CrossingsOfThreeBodies) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::unate_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::union_find_test {
 namespace {
 
 TEST(UnionFind, SetsAreKnownByTheirLeastMember) {
@@ -42,4 +42,4 @@ TEST(UnionFind, SetsAreKnownByTheirLeastMember) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::union_find_test

@@ -11,7 +11,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::untouched_test {
 namespace {
 
 using test::Loop;
@@ -434,4 +434,4 @@ TEST(UntouchedFaces, AreNoneBesideFacesThatMayHaveNoCorners) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::untouched_test

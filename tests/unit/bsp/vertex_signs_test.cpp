@@ -13,7 +13,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::vertex_signs_test {
 namespace {
 
 using test::Rational3;
@@ -246,4 +246,4 @@ TEST(GridPlanes, OfLoopsWithStraightCorners) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::vertex_signs_test

@@ -22,7 +22,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::whole_faces_test {
 namespace {
 
 std::shared_ptr<const BoundaryMesh> evaluate(const test::RandomTree& tree, bool whole_faces,
@@ -594,4 +594,4 @@ TEST(WholeFaces, LeaveDenseContactsToCells) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::whole_faces_test

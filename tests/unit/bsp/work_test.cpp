@@ -14,7 +14,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::work_test {
 namespace {
 
 struct Work {
@@ -310,4 +310,4 @@ TEST(Work, OfChainsThatTouch) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::work_test

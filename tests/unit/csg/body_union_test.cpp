@@ -11,7 +11,7 @@
 #include "tests/support/kernel_checks.h"
 #include "tests/support/oracle.h"
 
-namespace csgrun::test {
+namespace csgrun::test::body_union_test {
 namespace {
 
 /// The faces of one shell, and what they are labelled with.
@@ -321,4 +321,4 @@ TEST(BodyUnion, StopsWhenCancelled) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::body_union_test

@@ -5,7 +5,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::close_points_test {
 namespace {
 
 using namespace testing;
@@ -49,4 +49,4 @@ TEST(ClosePoints, OfAFaceAreInTheirExactOrder) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::close_points_test

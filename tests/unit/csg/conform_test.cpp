@@ -13,7 +13,7 @@
 #include "engine/mesh/box_frame.h"
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::conform_test {
 namespace {
 
 using namespace testing;
@@ -317,4 +317,4 @@ TEST(Conform, RandomBoxes) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::conform_test

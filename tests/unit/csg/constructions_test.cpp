@@ -9,7 +9,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::constructions_test {
 namespace {
 
 using namespace testing;
@@ -490,4 +490,4 @@ TEST(ConstructionNode, DeepChainsUseConstantStack) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::constructions_test

@@ -11,7 +11,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::contacts_test {
 namespace {
 
 using namespace testing;
@@ -237,4 +237,4 @@ TEST(Contacts, RandomComplexesAgreeWithTheLattice) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::contacts_test

@@ -10,7 +10,7 @@
 
 #include "engine/exact/fixed_int.h"
 
-namespace csgrun {
+namespace csgrun::convex_hull_test {
 namespace {
 
 using Vec = std::array<Int128, 3>;
@@ -143,4 +143,4 @@ TEST(ConvexHull, WhatIsFlatIsNone) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::convex_hull_test

@@ -20,7 +20,7 @@
 #include "test_meshes.h"
 #include "tests/support/leaf_ways.h"
 
-namespace csgrun {
+namespace csgrun::convex_leaf_test {
 namespace {
 
 using namespace testing;
@@ -496,4 +496,4 @@ TEST(ConvexLeaf, SpreadVerticesHideNoCrossing) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::convex_leaf_test

@@ -10,7 +10,7 @@
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::convex_surface_test {
 namespace {
 
 /// The faces of a leaf, from their first corner on, as triangles.
@@ -97,4 +97,4 @@ TEST(ConvexSurface, IsToldExactly) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::convex_surface_test

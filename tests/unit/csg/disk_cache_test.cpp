@@ -14,7 +14,7 @@
 #include "engine/csg/boundary_bytes.h"
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::disk_cache_test {
 namespace {
 
 using namespace testing;
@@ -501,4 +501,4 @@ TEST_F(DiskCacheTest, AFolderThatWasAskedForIsWarnedOf) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::disk_cache_test

@@ -9,7 +9,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::evaluate_test {
 namespace {
 
 using namespace testing;
@@ -444,4 +444,4 @@ TEST(Evaluate, EmptyTrees) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::evaluate_test

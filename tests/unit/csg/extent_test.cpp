@@ -9,7 +9,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::extent_test {
 namespace {
 
 using namespace testing;
@@ -340,4 +340,4 @@ TEST(Extent, IsKnownOfSolidsThatWereNotMeasured) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::extent_test

@@ -9,7 +9,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::face_sources_test {
 namespace {
 
 using namespace testing;
@@ -83,4 +83,4 @@ TEST(FaceSources, AFaceOfTwoPartsJoinsNothing) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::face_sources_test

@@ -9,7 +9,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/random_trees.h"
 
-namespace csgrun {
+namespace csgrun::flat_sides_test {
 namespace {
 
 using test::Loop;
@@ -150,4 +150,4 @@ TEST(FlatSides, ChangeNoResult) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::flat_sides_test

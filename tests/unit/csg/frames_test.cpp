@@ -11,7 +11,7 @@
 
 #include "tests/unit/csg/test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::frames_test {
 namespace {
 
 using testing::rotation;
@@ -310,4 +310,4 @@ TEST(Frames, RowsAreTheInverse) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::frames_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::grid_test {
 namespace {
 
 TEST(Grid, StepByReach) {
@@ -177,4 +177,4 @@ TEST(Quantise, TinyAndHugeNumbers) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::grid_test

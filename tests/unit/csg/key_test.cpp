@@ -8,7 +8,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-namespace csgrun {
+namespace csgrun::key_test {
 namespace {
 
 TEST(KeyBuilder, IsTheHashOfTheBytes) {
@@ -40,4 +40,4 @@ TEST(KeyBuilder, IsTheHashOfTheBytes) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::key_test

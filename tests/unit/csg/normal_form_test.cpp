@@ -7,7 +7,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::normal_form_test {
 namespace {
 
 using namespace testing;
@@ -192,4 +192,4 @@ TEST_F(NormalFormTest, DeepChainsOfAnyKind) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::normal_form_test

@@ -5,7 +5,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::outer_hull_test {
 namespace {
 
 using namespace testing;
@@ -159,4 +159,4 @@ TEST(OuterHull, PointsAndCaches) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::outer_hull_test

@@ -7,7 +7,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::piercing_tips_test {
 namespace {
 
 using namespace testing;
@@ -67,4 +67,4 @@ TEST(PiercingTips, AreResolvedWhereTheyAre) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::piercing_tips_test

@@ -14,7 +14,7 @@
 #include "engine/csg/leaf_faces.h"
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::quantise_test {
 namespace {
 
 using namespace testing;
@@ -512,4 +512,4 @@ TEST(PrepareLeaf, CapsOfPrismsAreDividedAlike) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::quantise_test

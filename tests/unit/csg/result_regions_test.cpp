@@ -8,7 +8,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::result_regions_test {
 namespace {
 
 using namespace testing;
@@ -67,4 +67,4 @@ TEST(ResultRegions, ReachToWhereNothingIsSeen) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::result_regions_test

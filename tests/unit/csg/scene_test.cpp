@@ -8,7 +8,7 @@
 #include "engine/csg/scene_start.h"
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::scene_test {
 namespace {
 
 using namespace testing;
@@ -277,4 +277,4 @@ TEST_F(SceneTest, GoesOnFromOneBefore) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::scene_test

@@ -9,7 +9,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::section_test {
 namespace {
 
 using namespace testing;
@@ -154,4 +154,4 @@ TEST(Section, OfChainsIsThatOfAFreshEvaluation) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::section_test

@@ -7,7 +7,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::self_crossing_test {
 namespace {
 
 using namespace testing;
@@ -268,4 +268,4 @@ TEST(SelfCrossing, ColoursStay) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::self_crossing_test

@@ -9,7 +9,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::shear_test {
 namespace {
 
 using namespace testing;
@@ -111,4 +111,4 @@ TEST(Shear, TwoThatLeanDifferentlyInOneTurn) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::shear_test

@@ -9,7 +9,7 @@
 #include "engine/csg/convex_hull.h"
 #include "sum_parts.h"
 
-namespace csgrun {
+namespace csgrun::sum_cells_test {
 namespace {
 
 using namespace testing;
@@ -198,4 +198,4 @@ TEST(MinkowskiSum, OfWhatHasNoCells) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::sum_cells_test

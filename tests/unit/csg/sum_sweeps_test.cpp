@@ -8,7 +8,7 @@
 #include "engine/csg/sum_cells.h"
 #include "sum_parts.h"
 
-namespace csgrun {
+namespace csgrun::sum_sweeps_test {
 namespace {
 
 using namespace testing;
@@ -137,4 +137,4 @@ TEST(SumSweeps, NeedAMiddle) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::sum_sweeps_test

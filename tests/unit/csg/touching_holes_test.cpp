@@ -6,7 +6,7 @@
 
 #include "test_meshes.h"
 
-namespace csgrun {
+namespace csgrun::touching_holes_test {
 namespace {
 
 using namespace testing;
@@ -45,4 +45,4 @@ TEST(TouchingHoles, StayHolesInEveryPosition) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::touching_holes_test

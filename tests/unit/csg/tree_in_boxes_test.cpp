@@ -9,7 +9,7 @@
 #include "test_meshes.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::tree_in_boxes_test {
 namespace {
 
 using namespace testing;
@@ -204,4 +204,4 @@ TEST(TreeInBoxes, AnotherTreeIsEvaluatedInTheirPlace) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::tree_in_boxes_test

@@ -11,7 +11,7 @@
 #include "tests/support/gmp_bridge.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::arithmetic_test {
 namespace {
 
 using test::gmp_side;
@@ -454,4 +454,4 @@ TEST(PointOrder, IsByExactCoordinates) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::arithmetic_test

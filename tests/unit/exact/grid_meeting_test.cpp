@@ -5,7 +5,7 @@
 
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::grid_meeting_test {
 namespace {
 
 using IVec3 = std::array<int64_t, 3>;
@@ -83,4 +83,4 @@ TEST(GridMeeting, IsNotToldOfFarPointsAndWidePlanes) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::grid_meeting_test

@@ -10,7 +10,7 @@
 #include "tests/support/gmp_bridge.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::plane_test {
 namespace {
 
 using test::to_gmp;
@@ -260,4 +260,4 @@ TEST(PlaneTable, TakesMovedPlanesOfATableAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::plane_test

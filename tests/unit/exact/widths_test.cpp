@@ -11,7 +11,7 @@
 #include "engine/exact/predicates.h"
 #include "tests/support/source_folder.h"
 
-namespace csgrun {
+namespace csgrun::widths_test {
 namespace {
 
 std::string row(const std::string& what, int plain, int far, int framed) {
@@ -71,4 +71,4 @@ TEST(Widths, AreBounds) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::widths_test

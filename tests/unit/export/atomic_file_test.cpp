@@ -16,7 +16,7 @@
 
 #include "tests/unit/export/hand_made.h"
 
-namespace csgrun {
+namespace csgrun::atomic_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -224,4 +224,4 @@ TEST_F(AtomicFileTest, UnknownEndingIsRefused) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::atomic_file_test

@@ -10,7 +10,7 @@
 #include "export/edge_flips.h"
 #include "tests/unit/export/hand_made.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::check_test {
 namespace {
 
 MeshCheck check_of(const SolidPtr& solid, const std::string& format = "stl",
@@ -200,4 +200,4 @@ TEST(Check, BentPolygonsAreWrittenAsTriangles) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::check_test

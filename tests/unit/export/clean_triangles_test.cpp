@@ -9,7 +9,7 @@
 #include "export/defects.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::clean_triangles_test {
 namespace {
 
 using test::Random;
@@ -94,4 +94,4 @@ TEST(CleanTriangles, AreThoseWithoutACrossing) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::clean_triangles_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::collapse_test {
 namespace {
 
 using Place = std::array<int64_t, 3>;
@@ -144,4 +144,4 @@ TEST(ManifoldTwins, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::collapse_test

@@ -3,7 +3,7 @@
 
 #include <csgrun/export/write_flat.h>
 
-namespace csgrun {
+namespace csgrun::flat_test {
 namespace {
 
 using Loop = std::vector<glm::dvec2>;
@@ -63,4 +63,4 @@ TEST(FlatFormat, ByEnding) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::flat_test

@@ -18,7 +18,7 @@
 #include "tests/unit/export/hand_made.h"
 #include "tests/unit/export/read_back.h"
 
-namespace csgrun {
+namespace csgrun::formats_test {
 namespace {
 
 using testing::HandMade;
@@ -301,4 +301,4 @@ TEST(Formats, AreKnownByTheirEnding) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::formats_test

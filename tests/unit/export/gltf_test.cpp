@@ -11,7 +11,7 @@
 #include "tests/unit/export/hand_made.h"
 #include "tests/unit/export/read_back.h"
 
-namespace csgrun {
+namespace csgrun::gltf_test {
 namespace {
 
 using testing::HandMade;
@@ -172,4 +172,4 @@ TEST(Gltf, NormalsOfDegenerateTrianglesAreThoseOfTheExactFace) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::gltf_test

@@ -9,7 +9,7 @@
 #include "export/fidelity.h"
 #include "tests/unit/export/hand_made.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::repair_test {
 namespace {
 
 WriteReport written(const SolidPtr& solid, const std::string& format = "stl") {
@@ -170,4 +170,4 @@ TEST(Fidelity, UnitsInTheLastPlace) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::repair_test

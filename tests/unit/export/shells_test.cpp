@@ -4,7 +4,7 @@
 #include "export/defects.h"
 #include "tests/unit/export/hand_made.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::shells_test {
 namespace {
 
 constexpr std::array<std::array<int, 4>, 6> kSides{
@@ -144,4 +144,4 @@ TEST(Shells, AreNotLookedForWhereSomethingCrosses) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::shells_test

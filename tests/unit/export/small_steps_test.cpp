@@ -12,7 +12,7 @@
 #include "export/edge_flips.h"
 #include "tests/unit/export/rounded_meshes.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::small_steps_test {
 namespace {
 
 std::vector<uint32_t> offenders(const Defects& defects) {
@@ -241,4 +241,4 @@ TEST(SmallSteps, LeaveLessAndTellHowFarTheyMoved) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::small_steps_test

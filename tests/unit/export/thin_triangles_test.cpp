@@ -11,7 +11,7 @@
 #include "export/edge_flips.h"
 #include "tests/unit/export/rounded_meshes.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::thin_triangles_test {
 namespace {
 
 std::vector<uint32_t> all_of(const RoundedMesh& mesh) {
@@ -144,4 +144,4 @@ TEST(ThinTriangles, NeedlesAreNoCaps) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::thin_triangles_test

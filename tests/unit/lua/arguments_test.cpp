@@ -2,7 +2,7 @@
 #include "lua_bindings/api.h"
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::arguments_test {
 namespace {
 
 TEST(CallForms, AllMeanTheSameCube) {
@@ -502,4 +502,4 @@ TEST(Warnings, NameTheFunctionOnce) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::arguments_test

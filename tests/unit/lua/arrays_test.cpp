@@ -6,7 +6,7 @@
 
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::arrays_test {
 namespace {
 
 /// The bounding box and the volume of an expression: "0 0 0 .. 1 1 1 = 1".
@@ -254,4 +254,4 @@ TEST_F(ReadingTest, TreesOfOpenScad) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::arrays_test

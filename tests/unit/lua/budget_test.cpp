@@ -5,7 +5,7 @@
 
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::budget_test {
 namespace {
 
 SessionOptions short_time() {
@@ -114,4 +114,4 @@ TEST(DeepStructures, AreBuiltAndFreedInAnOrdinaryStack) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::budget_test

@@ -1,7 +1,7 @@
 // What functions of whole solids say when they are called wrongly.
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::constructions_test {
 namespace {
 
 TEST(Constructions, Mistakes) {
@@ -326,4 +326,4 @@ TEST(Freeform, Mistakes) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::constructions_test

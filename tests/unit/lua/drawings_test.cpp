@@ -1,7 +1,7 @@
 // What text and import of drawings say when they are called wrongly.
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::drawings_test {
 namespace {
 
 TEST(TextInLua, Mistakes) {
@@ -52,4 +52,4 @@ TEST(ImportInLua, OptionsOfOtherFormats) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::drawings_test

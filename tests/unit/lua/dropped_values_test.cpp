@@ -5,7 +5,7 @@
 
 #include "tests/unit/lua/lua_support.h"
 
-namespace csgrun {
+namespace csgrun::dropped_values_test {
 namespace {
 
 /// The lines of what is found.
@@ -132,4 +132,4 @@ TEST(DroppedValues, OfStatementsInWhichTheScriptStoppedAreNot) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::dropped_values_test

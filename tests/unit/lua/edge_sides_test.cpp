@@ -2,7 +2,7 @@
 // is what elementary geometry says.
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::edge_sides_test {
 namespace {
 
 /// ring(n, r, z): a regular polygon's corners. removed(T, B, d): what a chamfer by d takes from the
@@ -281,4 +281,4 @@ TEST(EdgeSides, AreOfTheGridOfTheirSolid) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::edge_sides_test

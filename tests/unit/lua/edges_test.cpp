@@ -1,7 +1,7 @@
 // Edges chosen by what scripts give: each form means the edges it names, and none ends the program.
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::edges_test {
 namespace {
 
 const std::string kTouching = "local two = cube(10) + cube(10):translate(10, 10, 0)\n";
@@ -158,4 +158,4 @@ TEST(EdgeCuts, SmallOnesAreOfSeveralGridSteps) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::edges_test

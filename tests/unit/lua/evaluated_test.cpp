@@ -1,7 +1,7 @@
 // What scripts see of an evaluated solid: never that of other settings, and its triangles.
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::evaluated_test {
 namespace {
 
 TEST(Evaluated, IsMeasuredAnewWhenContactsAreSetOtherwise) {
@@ -65,4 +65,4 @@ TEST(Evaluated, IsMeasuredAfterItsTrianglesWereMade) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::evaluated_test

@@ -3,7 +3,7 @@
 #include "lua_bindings/shipped_modules.h"
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::library_test {
 namespace {
 
 const std::string kGears = "local gears = require 'csg.gears' ";
@@ -424,4 +424,4 @@ TEST(Layout, Mistakes) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::library_test

@@ -3,7 +3,7 @@
 
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::luacad_test {
 namespace {
 
 /// The volume of the only part.
@@ -345,4 +345,4 @@ TEST(Booleans, LuaCadsNames) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::luacad_test

@@ -4,7 +4,7 @@
 #include "lua_support.h"
 #include "tests/support/rationals.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::measure_test {
 namespace {
 
 using boost::multiprecision::cpp_rational;
@@ -242,4 +242,4 @@ TEST(Glb, SaysWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::measure_test

@@ -9,7 +9,7 @@
 #include "lua_bindings/nearest.h"
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::model_test {
 namespace {
 
 std::string part_names(const std::string& script) {
@@ -414,4 +414,4 @@ TEST(Booleans, BuildTheTreeThatIsMeant) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::model_test

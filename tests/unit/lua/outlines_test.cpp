@@ -1,7 +1,7 @@
 // What functions of 2D shapes say when they are called wrongly.
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::outlines_test {
 namespace {
 
 TEST(Outlines, Mistakes) {
@@ -66,4 +66,4 @@ TEST(Sweeps, Mistakes) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::outlines_test

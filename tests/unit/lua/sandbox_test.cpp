@@ -1,7 +1,7 @@
 // What the sandbox keeps out, and what it makes the same on every run.
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::sandbox_test {
 namespace {
 
 TEST(Sandbox, HasNoWayOut) {
@@ -164,4 +164,4 @@ TEST(Errors, OfAnyTypeHaveAPlace) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::sandbox_test

@@ -1,7 +1,7 @@
 // Faces by direction and plane, rays, gaps: against boxes and balls, where the answers are known.
 #include "lua_support.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::selecting_test {
 namespace {
 
 TEST(Faces, ByDirectionAndPlane) {
@@ -88,4 +88,4 @@ TEST(Gaps, OfSolids) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::selecting_test

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace csgrun::testing {
+namespace csgrun::testing::triangle_distance_test {
 namespace {
 
 struct Mesh {
@@ -80,4 +80,4 @@ TEST(TriangleDistance, OfWhatIsNearAllOver) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::triangle_distance_test

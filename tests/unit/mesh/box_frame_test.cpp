@@ -7,7 +7,7 @@
 
 #include "engine/mesh/leaf_check.h"
 
-namespace csgrun {
+namespace csgrun::box_frame_test {
 namespace {
 
 /// A round plate of `count` (even) corners, its top and bottom in long triangles side by side; then
@@ -196,4 +196,4 @@ TEST(BoxFrame, LeavesCrossingsWhatTheyAre) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::box_frame_test

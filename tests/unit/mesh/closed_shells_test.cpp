@@ -5,7 +5,7 @@
 #include "engine/mesh/opposite_edges.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun::test {
+namespace csgrun::test::closed_shells_test {
 namespace {
 
 LeafGeometry leaf_of(const std::vector<std::vector<Loop>>& shells, bool keep_facets = false) {
@@ -96,4 +96,4 @@ TEST(ClosedShells, NumbersOfSomeFaces) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::closed_shells_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::conform_test {
 namespace {
 
 /// Faces whose corners are on the grid.
@@ -191,4 +191,4 @@ TEST(Conform, AnEdgeThatLeavesACornerMayComeBack) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::conform_test

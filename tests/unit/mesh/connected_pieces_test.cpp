@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::connected_pieces_test {
 namespace {
 
 constexpr int kSide = 7;  // squares
@@ -173,4 +173,4 @@ TEST(ConnectedPieces, AreThoseOfTheirSquares) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::connected_pieces_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/whole_triangles.h"
 
-namespace csgrun {
+namespace csgrun::eight_slabs_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -106,4 +106,4 @@ TEST(EightSlabs, WhatIsNoTriangleIsApartFromNothing) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::eight_slabs_test

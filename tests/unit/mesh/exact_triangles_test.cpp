@@ -13,7 +13,7 @@
 #include "engine/mesh/exact_sum.h"
 #include "tests/support/rationals.h"
 
-namespace csgrun::testing {
+namespace csgrun::testing::exact_triangles_test {
 namespace {
 
 using boost::multiprecision::cpp_rational;
@@ -447,4 +447,4 @@ TEST(Facing, AgreesWithRationals) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::exact_triangles_test

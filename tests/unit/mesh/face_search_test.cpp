@@ -7,11 +7,11 @@
 
 #include "tests/unit/mesh/planar_faces.h"
 
-namespace csgrun {
+namespace csgrun::face_search_test {
 namespace {
 
-using test::Loop;
-using GridPoint = test::Point;
+using test::FlatLoop;
+using GridPoint = test::FlatPoint;
 
 /// A patch of a grid on the plane z = x + slope y, seen from above.
 class Patch {
@@ -39,7 +39,7 @@ class Patch {
     }
     // Loops that meet in a corner may cross there, as they are traced here: wedges overlap.
     std::vector<size_t> times(points_.size(), 0);
-    for (const Loop& loop : loops_) {
+    for (const FlatLoop& loop : loops_) {
       for (const uint32_t p : loop) ++times[p];
     }
     std::set<std::pair<uint32_t, uint32_t>> lines;
@@ -66,14 +66,14 @@ class Patch {
 
   [[nodiscard]] size_t edge_count() const {
     size_t count = 0;
-    for (const Loop& loop : loops_) count += loop.size();
+    for (const FlatLoop& loop : loops_) count += loop.size();
     return count;
   }
 
  private:
   FaceLoops face_loops() {
     std::vector<std::vector<DirectedEdge>> loops;
-    for (const Loop& loop : loops_) {
+    for (const FlatLoop& loop : loops_) {
       auto& edges = loops.emplace_back();
       for (size_t i = 0; i < loop.size(); ++i) {
         edges.push_back(edge(loop[i], loop[(i + 1) % loop.size()]));
@@ -90,7 +90,7 @@ class Patch {
   /// +1 inside of the loops, 0 on them, -1 outside; of a point in half steps.
   [[nodiscard]] int place(const GridPoint& at) const {
     bool inside = false;
-    for (const Loop& loop : loops_) {
+    for (const FlatLoop& loop : loops_) {
       for (size_t i = 0; i < loop.size(); ++i) {
         GridPoint a = points_[loop[i]], b = points_[loop[(i + 1) % loop.size()]];
         for (size_t k = 0; k < 2; ++k) a[k] *= 2, b[k] *= 2;
@@ -129,7 +129,7 @@ class Patch {
   std::mt19937 random_;
   const std::vector<GridPoint> points_;
   const std::vector<std::array<uint32_t, 3>> triangles_;
-  std::vector<Loop> loops_;
+  std::vector<FlatLoop> loops_;
   PlaneTable planes_;
   CellGeometry geometry_;
   std::vector<MergedFace> faces_;
@@ -147,4 +147,4 @@ TEST(FaceSearch, FindsPointsAndLinesInPatches) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::face_search_test

@@ -7,23 +7,23 @@
 
 #include "tests/unit/mesh/planar_faces.h"
 
-namespace csgrun::test {
+namespace csgrun::test::improve_triangles_test {
 namespace {
 
 using Triangles = std::vector<std::array<uint32_t, 3>>;
 
 /// Grid points in space, in the plane z = x / 2 + 3, stretched along x so that its metric is
 /// theirs.
-std::vector<std::array<double, 3>> in_space(const std::vector<Point>& points) {
+std::vector<std::array<double, 3>> in_space(const std::vector<FlatPoint>& points) {
   std::vector<std::array<double, 3>> out;
-  for (const Point& p : points) {
+  for (const FlatPoint& p : points) {
     const auto x = static_cast<double>(p[0]) / std::sqrt(1.25);
     out.push_back({x, static_cast<double>(p[1]), x / 2 + 3});
   }
   return out;
 }
 
-void improve(const std::vector<Loop>& loops, const std::vector<Point>& points,
+void improve(const std::vector<FlatLoop>& loops, const std::vector<FlatPoint>& points,
              Triangles& triangles) {
   const auto positions = in_space(points);
   improve_triangles(
@@ -32,17 +32,17 @@ void improve(const std::vector<Loop>& loops, const std::vector<Point>& points,
 }
 
 /// The angle at `apex` between `a` and `b`.
-double angle(const Point& apex, const Point& a, const Point& b) {
+double angle(const FlatPoint& apex, const FlatPoint& a, const FlatPoint& b) {
   const int64_t dot = (a[0] - apex[0]) * (b[0] - apex[0]) + (a[1] - apex[1]) * (b[1] - apex[1]);
   return std::atan2(static_cast<double>(cross(apex, a, b)), static_cast<double>(dot));
 }
 
 /// How many diagonals have opposite angles of clearly more than 180 degrees in all: a point of the
 /// other side is inside the circle around their triangle.
-size_t not_delaunay(const std::vector<Loop>& loops, const std::vector<Point>& points,
+size_t not_delaunay(const std::vector<FlatLoop>& loops, const std::vector<FlatPoint>& points,
                     const Triangles& triangles) {
   std::set<std::pair<uint32_t, uint32_t>> fixed;
-  for (const Loop& loop : loops) {
+  for (const FlatLoop& loop : loops) {
     for (size_t i = 0; i < loop.size(); ++i) fixed.insert({loop[i], loop[(i + 1) % loop.size()]});
   }
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> apex;
@@ -61,7 +61,7 @@ size_t not_delaunay(const std::vector<Loop>& loops, const std::vector<Point>& po
 }
 
 /// Triangulates and improves; all checks that hold for every face.
-Triangles check(const std::vector<Loop>& loops, const std::vector<Point>& points,
+Triangles check(const std::vector<FlatLoop>& loops, const std::vector<FlatPoint>& points,
                 const char* what) {
   auto given = triangulate_face(loops, GridOracle(points));
   if (!given) {
@@ -81,8 +81,8 @@ Triangles check(const std::vector<Loop>& loops, const std::vector<Point>& points
   return improved;
 }
 
-Loop circular(size_t count) {
-  Loop loop(count);
+FlatLoop circular(size_t count) {
+  FlatLoop loop(count);
   std::iota(loop.begin(), loop.end(), 0u);
   return loop;
 }
@@ -110,10 +110,10 @@ TEST(ImproveTriangles, QuadrilateralsHaveTheBetterDiagonal) {
   std::mt19937 random(31);
   size_t flipped = 0, reflex = 0;
   for (int round = 0; round < 4000; ++round) {
-    std::vector<Point> points(4);
-    for (Point& p : points)
+    std::vector<FlatPoint> points(4);
+    for (FlatPoint& p : points)
       p = {static_cast<int64_t>(random() % 40), static_cast<int64_t>(random() % 40)};
-    Loop loop = circular(4);
+    FlatLoop loop = circular(4);
     std::shuffle(loop.begin(), loop.end(), random);
     const auto turn = [&](size_t i, size_t j, size_t k) {
       return cross(points[loop[i]], points[loop[j]], points[loop[k]]);
@@ -164,7 +164,7 @@ TEST(ImproveTriangles, DoesNotDependOnTheOrderOfTriangles) {
 }
 
 TEST(ImproveTriangles, TakesTheBetterDiagonalOfAQuadrilateral) {
-  const std::vector<Point> points{{0, 0}, {5, -1}, {10, 0}, {5, 1}};
+  const std::vector<FlatPoint> points{{0, 0}, {5, -1}, {10, 0}, {5, 1}};
   const Triangles better{{0, 1, 3}, {1, 2, 3}};
   for (Triangles given : {Triangles{{0, 1, 2}, {0, 2, 3}}, better}) {
     improve({{0, 1, 2, 3}}, points, given);
@@ -173,7 +173,7 @@ TEST(ImproveTriangles, TakesTheBetterDiagonalOfAQuadrilateral) {
 }
 
 TEST(ImproveTriangles, KeepsTheDiagonalOfARectangle) {
-  const std::vector<Point> points{{0, 0}, {7, 0}, {7, 3}, {0, 3}};
+  const std::vector<FlatPoint> points{{0, 0}, {7, 0}, {7, 3}, {0, 3}};
   for (const Triangles& given :
        {Triangles{{0, 1, 2}, {0, 2, 3}}, Triangles{{0, 1, 3}, {1, 2, 3}}}) {
     Triangles improved = given;
@@ -184,8 +184,8 @@ TEST(ImproveTriangles, KeepsTheDiagonalOfARectangle) {
 
 TEST(ImproveTriangles, KeepsAQuadrilateralThatIsNotConvex) {
   // The other diagonal lies outside, or on the reflex corner's sides.
-  for (const Point& corner : {Point{5, 1}, Point{5, 0}}) {
-    const std::vector<Point> points{{0, 0}, corner, {10, 0}, {5, 9}};
+  for (const FlatPoint& corner : {FlatPoint{5, 1}, FlatPoint{5, 0}}) {
+    const std::vector<FlatPoint> points{{0, 0}, corner, {10, 0}, {5, 9}};
     Triangles triangles{{0, 1, 3}, {1, 2, 3}};
     const Triangles given = triangles;
     improve({{0, 1, 2, 3}}, points, triangles);
@@ -197,8 +197,8 @@ TEST(ImproveTriangles, NearlyStraightChainsGetNoSlivers) {
   // A big box whose sides bulge outwards by a hair: n corners on each, on a parabola.
   const int64_t size = 1'000'000;
   for (const int n : {2, 3, 10, 40}) {
-    std::vector<Point> points;
-    const auto side = [&](Point from, Point to, Point out) {
+    std::vector<FlatPoint> points;
+    const auto side = [&](FlatPoint from, FlatPoint to, FlatPoint out) {
       for (int i = 0; i < n; ++i) {
         const int64_t bulge = i * (n - i);
         points.push_back({from[0] + (to[0] - from[0]) / n * i + out[0] * bulge,
@@ -209,20 +209,20 @@ TEST(ImproveTriangles, NearlyStraightChainsGetNoSlivers) {
     side({size, 0}, {size, size}, {1, 0});
     side({size, size}, {0, size}, {0, 1});
     side({0, size}, {0, 0}, {-1, 0});
-    const std::vector<Loop> loops{circular(points.size())};
+    const std::vector<FlatLoop> loops{circular(points.size())};
     const auto height = [&](const std::array<uint32_t, 3>& t) {
       double longest = 0;
       for (int i = 0; i < 3; ++i) {
-        const Point &a = points[t[i]], &b = points[t[(i + 1) % 3]];
+        const FlatPoint &a = points[t[i]], &b = points[t[(i + 1) % 3]];
         longest = std::max(longest, std::hypot(b[0] - a[0], b[1] - a[1]));
       }
       return static_cast<double>(cross(points[t[0]], points[t[1]], points[t[2]])) / longest;
     };
     // The worst triangulation to start from: ears of three successive corners wherever possible.
     Triangles ears;
-    Loop rest = loops[0];
+    FlatLoop rest = loops[0];
     while (rest.size() > 3) {
-      Loop kept;
+      FlatLoop kept;
       for (size_t i = 0; i < rest.size(); ++i) {
         kept.push_back(rest[i]);
         if (i + 2 < rest.size() && rest.size() - i > 2) {
@@ -244,7 +244,7 @@ TEST(ImproveTriangles, NearlyStraightChainsGetNoSlivers) {
 }
 
 TEST(ImproveTriangles, NoiseOnACircleCausesNoFlips) {
-  std::vector<Point> points;
+  std::vector<FlatPoint> points;
   const size_t count = 200;
   for (size_t i = 0; i < count; ++i) {
     const double at = 2 * std::acos(-1.0) * static_cast<double>(i) / count;
@@ -259,13 +259,13 @@ TEST(ImproveTriangles, NoiseOnACircleCausesNoFlips) {
 
 TEST(ImproveTriangles, BothSidesOfASlitStay) {
   // A flat rhombus, slit along its long diagonal, which would be flipped.
-  const std::vector<Point> rhombus{{0, 0}, {5, -1}, {10, 0}, {5, 1}};
+  const std::vector<FlatPoint> rhombus{{0, 0}, {5, -1}, {10, 0}, {5, 1}};
   const Triangles halves{{0, 1, 2}, {0, 2, 3}};
   EXPECT_EQ(check({{0, 1, 2, 3}, {0, 2}}, rhombus, "slit across"), halves);
   EXPECT_EQ(check({{0, 1, 2, 0, 2, 3}}, rhombus, "slit across, one loop"), halves);
 
-  const std::vector<Point> points{{0, 0},   {5, -1},  {10, 0}, {5, 1},
-                                  {-9, -9}, {19, -9}, {19, 9}, {-9, 9}};
+  const std::vector<FlatPoint> points{{0, 0},   {5, -1},  {10, 0}, {5, 1},
+                                      {-9, -9}, {19, -9}, {19, 9}, {-9, 9}};
   check({{4, 5, 6, 7}, {0, 2}}, points, "free slit");
   check({{4, 0, 4, 5, 6, 7}}, points, "hanging slit");
   check({{4, 0, 2, 0, 4, 5, 6, 7}}, points, "slit of two edges");
@@ -282,4 +282,4 @@ TEST(ImproveTriangles, ManyHolesStayCheap) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::improve_triangles_test

@@ -12,7 +12,7 @@
 
 #include "engine/mesh/box_frame.h"
 
-namespace csgrun::test {
+namespace csgrun::test::leaf_check_test {
 namespace {
 
 // The truth, in rationals: the intersection of two convex polygons by clipping, then a look at what
@@ -463,4 +463,4 @@ TEST(LeafCheck, ManyCorners) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::leaf_check_test

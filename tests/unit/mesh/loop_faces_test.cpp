@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun::test {
+namespace csgrun::test::loop_faces_test {
 namespace {
 
 using Point = std::array<int64_t, 3>;
@@ -141,4 +141,4 @@ TEST(LoopFaces, SplitsGoWhereTheyMustAndNotFurther) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::loop_faces_test

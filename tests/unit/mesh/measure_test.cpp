@@ -11,7 +11,7 @@
 #include "engine/mesh/natural.h"
 #include "engine/mesh/residues.h"
 
-namespace csgrun::test {
+namespace csgrun::test::measure_test {
 namespace {
 
 using Triangles = std::vector<std::array<uint32_t, 3>>;
@@ -382,4 +382,4 @@ TEST(FixedPoint, IsNotOfFarPoints) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::measure_test

@@ -8,7 +8,7 @@
 #include "tests/support/named_results.h"
 #include "tests/support/random_frames.h"
 
-namespace csgrun {
+namespace csgrun::named_operands_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -185,4 +185,4 @@ TEST(NamedOperands, AtCornersWhereFacesCross) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::named_operands_test

@@ -10,7 +10,7 @@
 #include "tests/support/named_results.h"
 #include "tests/support/random_frames.h"
 
-namespace csgrun {
+namespace csgrun::near_faces_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -197,4 +197,4 @@ TEST(NearFaces, AreFoundOfLeavesThatCanBeNamed) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::near_faces_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::nest_loops_test {
 namespace {
 
 using Corner = std::array<int64_t, 2>;
@@ -92,4 +92,4 @@ TEST(NestLoops, HolesAreInTheInnermostLoopAroundThem) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::nest_loops_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun::test {
+namespace csgrun::test::openmesh_bridge_test {
 namespace {
 
 using Triangles = std::vector<std::array<uint32_t, 3>>;
@@ -119,4 +119,4 @@ TEST(Topology, RefusesWhatIsNoManifold) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::openmesh_bridge_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::opposite_edges_test {
 namespace {
 
 using Face = std::vector<uint32_t>;
@@ -180,4 +180,4 @@ TEST(OppositeEdges, OfNothing) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::opposite_edges_test

@@ -14,7 +14,7 @@ int GridOracle::orient(uint32_t a, uint32_t b, uint32_t c) const {
 
 int GridOracle::compare(uint32_t a, uint32_t b) const {
   const auto key = [&](uint32_t v) {
-    const Point& p = points_[v];
+    const FlatPoint& p = points_[v];
     return std::pair(p[0] * first_[0] + p[1] * first_[1], p[0] * second_[0] + p[1] * second_[1]);
   };
   return key(a) < key(b) ? -1 : key(b) < key(a) ? 1 : 0;
@@ -24,18 +24,18 @@ double GridOracle::along(uint32_t a) const {
   return static_cast<double>(points_[a][0] * first_[0] + points_[a][1] * first_[1]);
 }
 
-int64_t twice_area(const std::vector<Loop>& loops, const std::vector<Point>& points) {
+int64_t twice_area(const std::vector<FlatLoop>& loops, const std::vector<FlatPoint>& points) {
   int64_t sum = 0;
-  for (const Loop& loop : loops) {
+  for (const FlatLoop& loop : loops) {
     for (size_t i = 0; i < loop.size(); ++i) {
-      const Point &a = points[loop[i]], &b = points[loop[(i + 1) % loop.size()]];
+      const FlatPoint &a = points[loop[i]], &b = points[loop[(i + 1) % loop.size()]];
       sum += a[0] * b[1] - a[1] * b[0];
     }
   }
   return sum;
 }
 
-const char* fault(const std::vector<Loop>& loops, const std::vector<Point>& points,
+const char* fault(const std::vector<FlatLoop>& loops, const std::vector<FlatPoint>& points,
                   const std::vector<std::array<uint32_t, 3>>& triangles) {
   std::map<std::pair<uint32_t, uint32_t>, int> balance;
   int64_t area = 0;
@@ -48,7 +48,7 @@ const char* fault(const std::vector<Loop>& loops, const std::vector<Point>& poin
     }
   }
   if (area != twice_area(loops, points)) return "the areas differ";
-  for (const Loop& loop : loops) {
+  for (const FlatLoop& loop : loops) {
     for (size_t i = 0; i < loop.size(); ++i) {
       const auto edge = std::pair(loop[i], loop[(i + 1) % loop.size()]);
       if (balance[edge] != 1) return "an edge of a loop is missing";
@@ -67,14 +67,14 @@ const char* fault(const std::vector<Loop>& loops, const std::vector<Point>& poin
 namespace {
 
 /// Links directed edges to loops; where several leave a vertex, one of them at random.
-std::vector<Loop> trace(const std::set<std::pair<uint32_t, uint32_t>>& edges,
-                        std::mt19937& random) {
+std::vector<FlatLoop> trace(const std::set<std::pair<uint32_t, uint32_t>>& edges,
+                            std::mt19937& random) {
   std::map<uint32_t, std::vector<uint32_t>> out;
   for (const auto& [from, to] : edges) out[from].push_back(to);
-  std::vector<Loop> loops;
+  std::vector<FlatLoop> loops;
   for (auto& [start, targets] : out) {
     while (!targets.empty()) {
-      Loop loop;
+      FlatLoop loop;
       uint32_t at = start;
       do {
         loop.push_back(at);
@@ -91,7 +91,8 @@ std::vector<Loop> trace(const std::set<std::pair<uint32_t, uint32_t>>& edges,
 
 }  // namespace
 
-std::vector<std::array<uint32_t, 3>> random_triangulation(int n, const std::vector<Point>& points,
+std::vector<std::array<uint32_t, 3>> random_triangulation(int n,
+                                                          const std::vector<FlatPoint>& points,
                                                           int flips, std::mt19937& random) {
   std::vector<std::array<uint32_t, 3>> triangles;
   for (int y = 0; y < n; ++y) {
@@ -133,8 +134,8 @@ std::vector<std::array<uint32_t, 3>> random_triangulation(int n, const std::vect
   return triangles;
 }
 
-std::vector<Loop> random_patch(const std::vector<std::array<uint32_t, 3>>& triangles,
-                               double density, std::mt19937& random) {
+std::vector<FlatLoop> random_patch(const std::vector<std::array<uint32_t, 3>>& triangles,
+                                   double density, std::mt19937& random) {
   std::map<std::pair<uint32_t, uint32_t>, size_t> owner;
   std::vector<bool> chosen(triangles.size());
   for (size_t t = 0; t < triangles.size(); ++t) {
@@ -164,8 +165,8 @@ std::vector<Loop> random_patch(const std::vector<std::array<uint32_t, 3>>& trian
   return trace(boundary, random);
 }
 
-std::vector<Point> grid_points(int n) {
-  std::vector<Point> points;
+std::vector<FlatPoint> grid_points(int n) {
+  std::vector<FlatPoint> points;
   for (int y = 0; y <= n; ++y) {
     for (int x = 0; x <= n; ++x) points.push_back({x, y});
   }

@@ -10,7 +10,7 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::plane_oracle_test {
 namespace {
 
 using Exact = std::array<mpq_class, 3>;
@@ -118,4 +118,4 @@ TEST(PlaneOracle, OrderAndTurnsAreExact) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::plane_oracle_test

@@ -4,7 +4,7 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
-namespace csgrun::testing {
+namespace csgrun::testing::rational_text_test {
 namespace {
 
 Natural to_natural(const mpz_class& value) {
@@ -46,4 +46,4 @@ TEST(RationalText, Zero) {
 }
 
 }  // namespace
-}  // namespace csgrun::testing
+}  // namespace csgrun::testing::rational_text_test

@@ -7,7 +7,7 @@
 
 #include "tests/unit/mesh/soup.h"
 
-namespace csgrun::test {
+namespace csgrun::test::repair_random_test {
 namespace {
 
 /// Damages that repair undoes exactly: faces turned, doubled, doubled on their back, taken apart,
@@ -143,4 +143,4 @@ TEST(Repair, RandomGarbage) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::repair_random_test

@@ -10,7 +10,7 @@
 
 #include "tests/unit/mesh/soup.h"
 
-namespace csgrun::test {
+namespace csgrun::test::repair_test {
 namespace {
 
 TEST(Repair, SoundMeshStaysAsItIs) {
@@ -365,4 +365,4 @@ TEST(Repair, LongHolesArePlanarPolygons) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::repair_test

@@ -9,7 +9,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/touches_told.h"
 
-namespace csgrun {
+namespace csgrun::resolved_touches_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -164,4 +164,4 @@ TEST(ResolvedTouches, AreWhereACornerGoes) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::resolved_touches_test

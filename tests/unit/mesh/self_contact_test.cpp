@@ -5,7 +5,7 @@
 #include "engine/bsp/kernel.h"
 #include "engine/mesh/present.h"
 
-namespace csgrun {
+namespace csgrun::self_contact_test {
 namespace {
 
 std::shared_ptr<LeafGeometry> prism(const std::vector<std::array<int, 2>>& outline, int z0,
@@ -101,4 +101,4 @@ TEST(SelfContact, ALineThatEndsInsideAFaceLeavesItWhole) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::self_contact_test

@@ -16,7 +16,7 @@
 #include "engine/mesh/leaf_check.h"
 #include "engine/mesh/opposite_edges.h"
 
-namespace csgrun {
+namespace csgrun::single_sheets_test {
 namespace {
 
 using Map = std::function<std::array<double, 3>(const std::array<double, 3>&)>;
@@ -273,4 +273,4 @@ TEST(SingleSheets, LeavesOfLongOrFewFacesAreLeftToOthers) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::single_sheets_test

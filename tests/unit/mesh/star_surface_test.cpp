@@ -16,7 +16,7 @@
 #include "engine/mesh/leaf_check.h"
 #include "engine/mesh/opposite_edges.h"
 
-namespace csgrun {
+namespace csgrun::star_surface_test {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -180,4 +180,4 @@ TEST(StarSurface, CrossesNothing) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::star_surface_test

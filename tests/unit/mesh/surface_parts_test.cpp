@@ -11,7 +11,7 @@
 #include "tests/support/random_solids.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::surface_parts_test {
 namespace {
 
 /// The lowest face of each part: labels spread over edges that have two faces until none changes.
@@ -80,4 +80,4 @@ TEST(SurfaceParts, AreConnectedByEdgesOfTwoFaces) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::surface_parts_test

@@ -10,7 +10,7 @@
 
 #include "engine/mesh/spread_vertices.h"
 
-namespace csgrun {
+namespace csgrun::triangle_pairs_test {
 namespace {
 
 void add_triangle(LeafGeometry& leaf, uint32_t a, uint32_t b, uint32_t c) {
@@ -211,4 +211,4 @@ TEST(TrianglePairs, PolygonsAreLeftToOthersAndFarLeavesToo) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::triangle_pairs_test

@@ -5,7 +5,7 @@
 
 #include <csgrun/engine/exact_triangles.h>
 
-namespace csgrun {
+namespace csgrun::triangle_windings_test {
 namespace {
 
 struct TestBox {
@@ -82,4 +82,4 @@ TEST(Windings, InFrontOfNestedBoxesAreWhatCountingSays) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::triangle_windings_test

@@ -10,7 +10,7 @@
 
 #include "engine/base/parallel.h"
 
-namespace csgrun {
+namespace csgrun::triangulate_faces_test {
 namespace {
 
 /// Squares of side 2 in the plane z = 0, some with corners in the middle of sides, others with a
@@ -103,4 +103,4 @@ TEST(TriangulateFaces, OneThatIsNoneIsAnError) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::triangulate_faces_test

@@ -5,16 +5,16 @@
 
 #include "tests/unit/mesh/planar_faces.h"
 
-namespace csgrun::test {
+namespace csgrun::test::triangulate_monotone_test {
 namespace {
 
 using Triangles = std::vector<std::array<uint32_t, 3>>;
 
-const Point kSweeps[][2] = {{{1, 0}, {0, 1}}, {{0, 1}, {1, 0}}, {{-2, 5}, {1, 1}}};
+const FlatPoint kSweeps[][2] = {{{1, 0}, {0, 1}}, {{0, 1}, {1, 0}}, {{-2, 5}, {1, 1}}};
 
 /// Whether the quick way did it; it must agree with the sweep then.
-bool agrees(const Loop& loop, const PlanarOracle& oracle) {
-  const std::vector<Loop> loops{loop};
+bool agrees(const FlatLoop& loop, const PlanarOracle& oracle) {
+  const std::vector<FlatLoop> loops{loop};
   const auto expected = triangulate_by_sweep(loops, oracle);
   const std::array<uint32_t, 3> before{7, 8, 9};
   Triangles got{before};
@@ -53,9 +53,9 @@ TEST(TriangulateMonotone, IsWhatTheSweepDoes) {
 /// A convex polygon of many corners, some of 180 degrees, from any of them on.
 TEST(TriangulateMonotone, ConvexLoops) {
   for (int n = 3; n < 30; ++n) {
-    std::vector<Point> points;
+    std::vector<FlatPoint> points;
     for (int i = 0; i < n; ++i) points.push_back({i, i * i});
-    Loop loop(points.size());
+    FlatLoop loop(points.size());
     for (uint32_t i = 0; i < loop.size(); ++i) loop[i] = i;
     for (int start = 0; start < n; ++start) {
       for (const auto& sweep : kSweeps) {
@@ -66,12 +66,12 @@ TEST(TriangulateMonotone, ConvexLoops) {
     std::reverse(loop.begin(), loop.end());  // seen from behind: no face
     EXPECT_FALSE(agrees(loop, GridOracle(points, kSweeps[0][0], kSweeps[0][1])));
   }
-  const std::vector<Point> runs{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+  const std::vector<FlatPoint> runs{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
   EXPECT_TRUE(agrees({0, 1, 2, 3, 4, 5, 6, 7}, GridOracle(runs)));
 }
 
 TEST(TriangulateMonotone, GivesUpWhatIsNoFace) {
-  const std::vector<Point> points{{0, 0}, {2, 0}, {4, 0}, {1, 3}, {0, 0}};
+  const std::vector<FlatPoint> points{{0, 0}, {2, 0}, {4, 0}, {1, 3}, {0, 0}};
   EXPECT_FALSE(agrees({0, 1}, GridOracle(points)));
   EXPECT_FALSE(agrees({0, 1, 2}, GridOracle(points)));     // flat
   EXPECT_FALSE(agrees({0, 3, 2}, GridOracle(points)));     // turned over
@@ -80,4 +80,4 @@ TEST(TriangulateMonotone, GivesUpWhatIsNoFace) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::triangulate_monotone_test

@@ -6,13 +6,14 @@
 
 #include "tests/unit/mesh/planar_faces.h"
 
-namespace csgrun::test {
+namespace csgrun::test::triangulate_test {
 namespace {
 
-const Point kSweeps[][2] = {{{1, 0}, {0, 1}},  {{1, 0}, {0, -1}}, {{0, 1}, {1, 0}},
-                            {{-1, 0}, {0, 1}}, {{3, 1}, {0, 1}},  {{-2, 5}, {1, 1}}};
+const FlatPoint kSweeps[][2] = {{{1, 0}, {0, 1}},  {{1, 0}, {0, -1}}, {{0, 1}, {1, 0}},
+                                {{-1, 0}, {0, 1}}, {{3, 1}, {0, 1}},  {{-2, 5}, {1, 1}}};
 
-void check(const std::vector<Loop>& loops, const std::vector<Point>& points, const char* what) {
+void check(const std::vector<FlatLoop>& loops, const std::vector<FlatPoint>& points,
+           const char* what) {
   for (const auto& sweep : kSweeps) {
     const auto result = triangulate_face(loops, GridOracle(points, sweep[0], sweep[1]));
     ASSERT_TRUE(result) << what << ": " << result.error().message;
@@ -22,8 +23,8 @@ void check(const std::vector<Loop>& loops, const std::vector<Point>& points, con
 }
 
 /// A loop of distinct points, as points and face.
-void check_polygon(const std::vector<Point>& points, const char* what) {
-  Loop loop(points.size());
+void check_polygon(const std::vector<FlatPoint>& points, const char* what) {
+  FlatLoop loop(points.size());
   for (uint32_t i = 0; i < loop.size(); ++i) loop[i] = i;
   check({loop}, points, what);
 }
@@ -32,7 +33,7 @@ TEST(Triangulate, Triangle) { check_polygon({{0, 0}, {1, 0}, {0, 1}}, "triangle"
 
 TEST(Triangulate, CollinearRuns) {
   for (int n = 1; n < 12; ++n) {
-    std::vector<Point> points;
+    std::vector<FlatPoint> points;
     for (int i = 0; i < n; ++i) points.push_back({i, 0});
     points.push_back({n, 0});
     points.push_back({n + 3, 5});
@@ -63,7 +64,8 @@ TEST(Triangulate, RandomPatches) {
     with_holes += loops.size() > 1;
     std::set<uint32_t> seen;
     size_t corners = 0;
-    for (const Loop& loop : loops) seen.insert(loop.begin(), loop.end()), corners += loop.size();
+    for (const FlatLoop& loop : loops)
+      seen.insert(loop.begin(), loop.end()), corners += loop.size();
     touching += corners > seen.size();
     check(loops, points, "patch");
     if (HasFatalFailure()) FAIL() << "round " << round;
@@ -92,7 +94,7 @@ TEST(Triangulate, DoesNotDependOnHowTheLoopsAreGiven) {
     const auto expected = triangulate_face(loops, oracle);
     ASSERT_TRUE(expected);
     std::shuffle(loops.begin(), loops.end(), random);
-    for (Loop& loop : loops) {
+    for (FlatLoop& loop : loops) {
       std::rotate(loop.begin(), loop.begin() + static_cast<long>(random() % loop.size()),
                   loop.end());
     }
@@ -104,9 +106,9 @@ TEST(Triangulate, DoesNotDependOnHowTheLoopsAreGiven) {
     std::vector<uint32_t> rename(points.size());
     for (uint32_t i = 0; i < rename.size(); ++i) rename[i] = i;
     std::shuffle(rename.begin(), rename.end(), random);
-    std::vector<Point> moved(points.size());
+    std::vector<FlatPoint> moved(points.size());
     for (uint32_t i = 0; i < rename.size(); ++i) moved[rename[i]] = points[i];
-    for (Loop& loop : loops) {
+    for (FlatLoop& loop : loops) {
       for (uint32_t& v : loop) v = rename[v];
     }
     auto renamed = *expected;
@@ -122,9 +124,9 @@ TEST(Triangulate, DoesNotDependOnHowTheLoopsAreGiven) {
 TEST(Triangulate, HolesChainedByTouchingCorners) {
   // A row of diamond holes, each touching the next, the first and last touching the outer loop.
   const int holes = 9;
-  std::vector<Point> points{{0, -5},        {4 * holes, -5}, {4 * holes, 0},
-                            {4 * holes, 5}, {0, 5},          {0, 0}};
-  std::vector<Loop> loops{{0, 1, 2, 3, 4, 5}};
+  std::vector<FlatPoint> points{{0, -5},        {4 * holes, -5}, {4 * holes, 0},
+                                {4 * holes, 5}, {0, 5},          {0, 0}};
+  std::vector<FlatLoop> loops{{0, 1, 2, 3, 4, 5}};
   uint32_t left = 5;
   for (int i = 0; i < holes; ++i) {
     const auto base = static_cast<uint32_t>(points.size());
@@ -143,7 +145,7 @@ TEST(Triangulate, HolesChainedByTouchingCorners) {
 
 TEST(Triangulate, Slits) {
   // An edge that the face has on both sides: hanging from the outer loop, and free inside.
-  const std::vector<Point> points{{0, 0}, {8, 0}, {8, 8}, {0, 8}, {4, 4}, {5, 5}, {6, 5}};
+  const std::vector<FlatPoint> points{{0, 0}, {8, 0}, {8, 8}, {0, 8}, {4, 4}, {5, 5}, {6, 5}};
   check({{0, 1, 2, 3}, {4, 5}}, points, "free slit");
   check({{0, 4, 0, 1, 2, 3}}, points, "hanging slit");
   check({{0, 4, 5, 4, 0, 1, 2, 3}}, points, "slit of two edges");
@@ -151,7 +153,7 @@ TEST(Triangulate, Slits) {
 }
 
 TEST(Triangulate, CombsSpiralsStars) {
-  std::vector<Point> comb;
+  std::vector<FlatPoint> comb;
   for (int i = 0; i < 200; ++i) comb.push_back({10 * i, 0}), comb.push_back({10 * i + 5, i % 7});
   comb.push_back({2000, 0});
   comb.push_back({2000, 100});
@@ -159,22 +161,22 @@ TEST(Triangulate, CombsSpiralsStars) {
     comb.push_back({10 * i + 5, 20 + i % 11}), comb.push_back({10 * i, 100});
   check_polygon(comb, "comb");
 
-  std::vector<Point> in, out;
+  std::vector<FlatPoint> in, out;
   for (int i = 0; i < 40; ++i) {
     const int64_t r = 4 * i + 4;
-    const Point corner[4] = {{-r, -r}, {r, -r}, {r, r}, {-r - 4, r}};
-    for (const Point& p : corner) out.push_back(p);
-    const Point inner[4] = {{-r + 2, -r + 2}, {r - 2, -r + 2}, {r - 2, r - 2}, {-r - 2, r - 2}};
-    for (const Point& p : inner) in.push_back(p);
+    const FlatPoint corner[4] = {{-r, -r}, {r, -r}, {r, r}, {-r - 4, r}};
+    for (const FlatPoint& p : corner) out.push_back(p);
+    const FlatPoint inner[4] = {{-r + 2, -r + 2}, {r - 2, -r + 2}, {r - 2, r - 2}, {-r - 2, r - 2}};
+    for (const FlatPoint& p : inner) in.push_back(p);
   }
-  std::vector<Point> spiral = out;
+  std::vector<FlatPoint> spiral = out;
   spiral.insert(spiral.end(), in.rbegin(), in.rend());
-  Loop loop(spiral.size());
+  FlatLoop loop(spiral.size());
   for (uint32_t i = 0; i < loop.size(); ++i) loop[i] = i;
   ASSERT_GT(twice_area({loop}, spiral), 0);
   check({loop}, spiral, "spiral");
 
-  std::vector<Point> star;
+  std::vector<FlatPoint> star;
   for (int i = 0; i < 500; ++i) {
     const double angle = 2 * M_PI * i / 500, r = i % 2 ? 1e6 : 1e5 + 3e3 * (i % 13);
     star.push_back({std::llround(r * std::cos(angle)), std::llround(r * std::sin(angle))});
@@ -183,18 +185,19 @@ TEST(Triangulate, CombsSpiralsStars) {
 }
 
 TEST(Triangulate, Large) {
-  std::vector<Point> points;
+  std::vector<FlatPoint> points;
   for (int i = 0; i < 25000; ++i) points.push_back({2 * i, i % 2 ? 900 - i % 50 : 0});
   for (int i = 24999; i >= 0; --i) points.push_back({2 * i + 1, i % 2 ? 1000 : 901 + (i * 7) % 90});
-  Loop loop(points.size());
+  FlatLoop loop(points.size());
   for (uint32_t i = 0; i < loop.size(); ++i) loop[i] = i;
   check({loop}, points, "long comb");
 }
 
 TEST(Triangulate, RefusesWhatIsNoFace) {
-  const std::vector<Point> points{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 0}, {1, 1}, {0, 0}, {9, 1}};
+  const std::vector<FlatPoint> points{{0, 0}, {4, 0}, {4, 4}, {0, 4},
+                                      {2, 0}, {1, 1}, {0, 0}, {9, 1}};
   const GridOracle oracle(points);
-  const std::vector<std::vector<Loop>> bad{
+  const std::vector<std::vector<FlatLoop>> bad{
       {},                         // nothing
       {{0, 1}},                   // two corners
       {{0, 1, 4}},                // flat
@@ -240,4 +243,4 @@ TEST(Triangulate, OneAfterAnotherAsEachByItself) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::triangulate_test

@@ -15,7 +15,7 @@
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
-namespace csgrun {
+namespace csgrun::untouched_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -287,4 +287,4 @@ TEST(Untouched, WhatCannotBeNamed) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::untouched_test

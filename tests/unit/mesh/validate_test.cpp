@@ -6,7 +6,7 @@
 
 #include <csgrun/engine/validate.h>
 
-namespace csgrun::test {
+namespace csgrun::test::validate_test {
 namespace {
 
 PolygonMesh cube() {
@@ -198,4 +198,4 @@ TEST(Validate, HolesCount) {
 }
 
 }  // namespace
-}  // namespace csgrun::test
+}  // namespace csgrun::test::validate_test

@@ -9,7 +9,7 @@
 #include "tests/support/kernel_case.h"
 #include "tests/support/named_results.h"
 
-namespace csgrun {
+namespace csgrun::wide_triangles_test {
 namespace {
 
 using namespace test;  // NOLINT: a test
@@ -83,4 +83,4 @@ TEST(WideTriangles, GiveWhatCellsGive) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::wide_triangles_test

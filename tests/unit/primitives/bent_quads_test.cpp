@@ -14,7 +14,7 @@
 #include "tests/unit/primitives/csg_trees.h"
 #include "tests/unit/primitives/mesh_measures.h"
 
-namespace csgrun {
+namespace csgrun::bent_quads_test {
 namespace {
 
 struct Case {
@@ -277,4 +277,4 @@ TEST(BentQuads, OfImportsInTreesAreCutWhereTheyCome) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::bent_quads_test

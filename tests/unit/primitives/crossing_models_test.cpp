@@ -13,7 +13,7 @@
 
 #include "tests/support/source_folder.h"
 
-namespace csgrun {
+namespace csgrun::crossing_models_test {
 namespace {
 
 std::filesystem::path mesh_folder() { return test::shared_folder() / "meshes"; }
@@ -110,4 +110,4 @@ TEST(CrossingModels, PointsByEveryRule) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::crossing_models_test

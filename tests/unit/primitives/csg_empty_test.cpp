@@ -13,7 +13,7 @@
 
 #include "tests/unit/primitives/csg_trees.h"
 
-namespace csgrun {
+namespace csgrun::csg_empty_test {
 namespace {
 
 using testing::parse;
@@ -232,4 +232,4 @@ TEST(CsgEmpty, WhatIsLeftOutIsSaid) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::csg_empty_test

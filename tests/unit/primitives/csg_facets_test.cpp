@@ -9,7 +9,7 @@
 
 #include "tests/unit/primitives/csg_trees.h"
 
-namespace csgrun {
+namespace csgrun::csg_facets_test {
 namespace {
 
 using testing::error;
@@ -74,4 +74,4 @@ TEST(CsgFacets, SidesOfAnyLengthOrAngleAreFive) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::csg_facets_test

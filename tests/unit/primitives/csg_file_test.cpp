@@ -15,7 +15,7 @@
 #include "tests/unit/primitives/csg_trees.h"
 #include "tests/unit/primitives/mesh_measures.h"
 
-namespace csgrun {
+namespace csgrun::csg_file_test {
 namespace {
 
 using testing::error;
@@ -425,4 +425,4 @@ TEST(CsgFile, CorpusVolumesOfSeparateLeaves) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::csg_file_test

@@ -10,7 +10,7 @@
 
 #include "tests/unit/primitives/csg_trees.h"
 
-namespace csgrun {
+namespace csgrun::csg_flat_sums_test {
 namespace {
 
 using testing::parse;
@@ -146,4 +146,4 @@ TEST(CsgFlatSums, WhatIsEmptyIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::csg_flat_sums_test

@@ -11,7 +11,7 @@
 #include "tests/unit/primitives/csg_trees.h"
 #include "tests/unit/primitives/mesh_measures.h"
 
-namespace csgrun {
+namespace csgrun::csg_leaves_test {
 namespace {
 
 using testing::error;
@@ -317,4 +317,4 @@ TEST(CsgLeaves, PointsThatAreNoneMakeNothing) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::csg_leaves_test

@@ -8,7 +8,7 @@
 #include <csgrun/engine/evaluate.h>
 #include <csgrun/primitives/csg_file.h>
 
-namespace csgrun {
+namespace csgrun::csg_sheets_test {
 namespace {
 
 CsgModel parse(const std::string& text, const CsgEnvironment& environment = {}) {
@@ -149,4 +149,4 @@ TEST(CsgSheets, FilesThatAreOpen) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::csg_sheets_test

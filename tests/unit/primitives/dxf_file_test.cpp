@@ -12,7 +12,7 @@
 
 #include "tests/unit/primitives/drawing_files.h"
 
-namespace csgrun {
+namespace csgrun::dxf_file_test {
 namespace {
 
 using testing::arc_points;
@@ -330,8 +330,7 @@ TEST(Dxf, Parts) {
 }
 
 TEST(Dxf, HostileAndDamagedFiles) {
-  EXPECT_EQ(error("x.dxf", "hello\nworld\n"),
-            "x.dxf:1: expected a group code, got \"hello\"");
+  EXPECT_EQ(error("x.dxf", "hello\nworld\n"), "x.dxf:1: expected a group code, got \"hello\"");
   EXPECT_EQ(error("x.dxf", "AutoCAD Binary DXF\r\n\x1a"),
             "x.dxf: this is a binary DXF, and only the text form is read");
   EXPECT_EQ(error("x.dxf", "0\nSECTION\n2"), "x.dxf:3: the file ends within a group");
@@ -367,4 +366,4 @@ TEST(Dxf, HostileAndDamagedFiles) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::dxf_file_test

@@ -13,7 +13,7 @@
 #include "tests/unit/primitives/mesh_measures.h"
 #include "tests/unit/primitives/outlines.h"
 
-namespace csgrun {
+namespace csgrun::extrude_test {
 namespace {
 
 using Loop = Shape2D::Loop;
@@ -393,4 +393,4 @@ TEST(RotateExtrude, BadInputIsAnError) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::extrude_test

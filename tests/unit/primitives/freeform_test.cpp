@@ -8,7 +8,7 @@
 #include <csgrun/engine/validate.h>
 #include <csgrun/primitives/freeform.h>
 
-namespace csgrun {
+namespace csgrun::freeform_test {
 namespace {
 
 SolidPtr evaluated(PolygonMesh mesh) {
@@ -216,4 +216,4 @@ TEST(Rounded, HaveTheirExtents) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::freeform_test

@@ -7,7 +7,7 @@
 #include <csgrun/engine/validate.h>
 #include <csgrun/primitives/height_map.h>
 
-namespace csgrun {
+namespace csgrun::height_map_test {
 namespace {
 
 std::string message(const Result<HeightMap>& map) { return map ? "no error" : map.error().message; }
@@ -114,4 +114,4 @@ TEST(Surface, Mistakes) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::height_map_test

@@ -8,7 +8,7 @@
 
 #include "tests/unit/primitives/outlines.h"
 
-namespace csgrun {
+namespace csgrun::inlays_test {
 namespace {
 
 using testing::good;
@@ -73,4 +73,4 @@ TEST_F(Inlays, FitWhenBothWereMapped) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::inlays_test

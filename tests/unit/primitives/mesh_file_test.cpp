@@ -13,7 +13,7 @@
 #include "tests/support/source_folder.h"
 #include "tests/unit/primitives/mesh_measures.h"
 
-namespace csgrun {
+namespace csgrun::mesh_file_test {
 namespace {
 
 using testing::expect_closed;
@@ -153,20 +153,17 @@ TEST(MeshFile, ObjVariants) {
 TEST(MeshFile, WhatIsWrongIsSaidWithItsPlace) {
   EXPECT_EQ(message("a.obj", "v 0 0 0\nv 1 0 x\n"),
             "a.obj:2: expected a finite coordinate, got \"x\"");
-  EXPECT_EQ(message("a.obj", "v 0 0 inf\n"),
-            "a.obj:1: expected a finite coordinate, got \"inf\"");
+  EXPECT_EQ(message("a.obj", "v 0 0 inf\n"), "a.obj:1: expected a finite coordinate, got \"inf\"");
   EXPECT_EQ(message("a.obj", "v 0 0 1e999\n"),
             "a.obj:1: expected a finite coordinate, got \"1e999\"");
   EXPECT_EQ(message("a.obj", "v 0 0 0\nf 1 1 2\nv 1 0 0\nf 1 2 3\n"),
             "a.obj:4: face index 3 is out of range, there are 2 points");
   EXPECT_EQ(message("a.obj", "v 0 0 0\nf -1 -2 -1\n"),
             "a.obj:2: face index -2 is out of range, there are 1 points");
-  EXPECT_EQ(message("a.obj", "v 0 0 0\nf 1 0 1\n"),
-            "a.obj:2: expected a face index, got \"0\"");
+  EXPECT_EQ(message("a.obj", "v 0 0 0\nf 1 0 1\n"), "a.obj:2: expected a face index, got \"0\"");
   EXPECT_EQ(message("a.obj", "v 0 0 0\nf 1 1\n"),
             "a.obj: has no faces; 1 face of fewer than three corners left out (first: line 2)");
-  EXPECT_EQ(message("a.obj", "PNG\x01\x02"),
-            "a.obj:1: not an OBJ statement: \"PNG\\x01\\x02\"");
+  EXPECT_EQ(message("a.obj", "PNG\x01\x02"), "a.obj:1: not an OBJ statement: \"PNG\\x01\\x02\"");
   EXPECT_EQ(message("a.obj", "v 0 0 0\n"), "a.obj: has no faces");
   EXPECT_EQ(message("a.obj", ""), "a.obj: the file is empty");
   EXPECT_EQ(message("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
@@ -175,8 +172,7 @@ TEST(MeshFile, WhatIsWrongIsSaidWithItsPlace) {
             "a.off:4: the line ends in point 1");
   EXPECT_EQ(message("a.off", "OFF\n2 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n"),
             "a.off:4: expected a finite number in point 1, got \"nan\"");
-  EXPECT_EQ(message("a.off", kOff + "3 1 2 3\n"),
-            "a.off:11: more data after the last face: \"3\"");
+  EXPECT_EQ(message("a.off", kOff + "3 1 2 3\n"), "a.off:11: more data after the last face: \"3\"");
   EXPECT_EQ(message("a.stl", "hello"),
             "a.stl: byte 0: not an STL file: neither \"solid\" nor a header of 84 bytes");
   EXPECT_EQ(message("a.stl", binary_stl().substr(0, 200)),
@@ -191,8 +187,7 @@ TEST(MeshFile, WhatIsWrongIsSaidWithItsPlace) {
   infinite.replace(84 + 12, 4, std::string("\0\0\x80\x7f", 4));
   EXPECT_EQ(message("a.stl", infinite),
             "a.stl: byte 96: triangle 0 has a coordinate that is not finite");
-  EXPECT_EQ(message("a.ply", kOff),
-            "a.ply:1: not a PLY file: it does not start with \"ply\"");
+  EXPECT_EQ(message("a.ply", kOff), "a.ply:1: not a PLY file: it does not start with \"ply\"");
   EXPECT_EQ(
       message("a.ply",
               kPlyHeader + "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 4\n3 0 3 2\n3 1 2 3\n"),
@@ -416,4 +411,4 @@ TEST(MakeSolidMesh, SharedMeshes) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::mesh_file_test

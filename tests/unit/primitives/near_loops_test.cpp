@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace csgrun {
+namespace csgrun::near_loops_test {
 namespace {
 
 /// The same shape, of which it is not known that an arrangement gave it.
@@ -177,4 +177,4 @@ TEST(NearLoops, TipsBesideAnEdgeThatIsCut) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::near_loops_test

@@ -11,7 +11,7 @@
 
 #include "tests/unit/primitives/csg_trees.h"
 
-namespace csgrun {
+namespace csgrun::nested_offsets_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -159,4 +159,4 @@ TEST(NestedOffsets, TooManyPointsAreRefusedBeforeTheyAreMade) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::nested_offsets_test

@@ -12,7 +12,7 @@
 
 #include "tests/unit/primitives/outlines.h"
 
-namespace csgrun {
+namespace csgrun::projection_test {
 namespace {
 
 using testing::good;
@@ -110,4 +110,4 @@ TEST(Slice, OfAConeIsItsBaseMadeSmaller) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::projection_test

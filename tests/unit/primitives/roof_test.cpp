@@ -16,7 +16,7 @@
 #include "tests/unit/primitives/mesh_measures.h"
 #include "tests/unit/primitives/outlines.h"
 
-namespace csgrun {
+namespace csgrun::roof_test {
 namespace {
 
 using testing::area;
@@ -267,4 +267,4 @@ TEST(Roof, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::roof_test

@@ -14,7 +14,7 @@
 #include "tests/unit/primitives/mesh_measures.h"
 #include "tests/unit/primitives/outlines.h"
 
-namespace csgrun {
+namespace csgrun::rounded_extrude_test {
 namespace {
 
 using testing::box;
@@ -232,4 +232,4 @@ TEST(RoundedExtrude, WhatDoesNotFitIsAnError) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::rounded_extrude_test

@@ -11,7 +11,7 @@
 #include "primitives/shape2d/grid2d.h"
 #include "tests/unit/primitives/outlines.h"
 
-namespace csgrun {
+namespace csgrun::shape2d_test {
 namespace {
 
 using Loop = Shape2D::Loop;
@@ -307,4 +307,4 @@ TEST(Shape2D, LargeCoordinatesUseACoarserDecimalGrid) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::shape2d_test

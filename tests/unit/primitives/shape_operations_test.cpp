@@ -9,7 +9,7 @@
 
 #include "tests/unit/primitives/outlines.h"
 
-namespace csgrun {
+namespace csgrun::shape_operations_test {
 namespace {
 
 using Loop = Shape2D::Loop;
@@ -339,4 +339,4 @@ TEST(RoundedSquare, HasQuartersAtItsCorners) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::shape_operations_test

@@ -18,7 +18,7 @@
 #include "primitives/solids/box_search.h"
 #include "tests/support/seeded.h"
 
-namespace csgrun {
+namespace csgrun::solid_parts_test {
 namespace {
 
 NodePtr cube(double side) {
@@ -246,4 +246,4 @@ TEST(BoxSearch, AgreesWithALookAtAllOfThem) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::solid_parts_test

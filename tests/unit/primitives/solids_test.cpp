@@ -8,7 +8,7 @@
 
 #include "tests/unit/primitives/mesh_measures.h"
 
-namespace csgrun {
+namespace csgrun::solids_test {
 namespace {
 
 using testing::area;
@@ -237,4 +237,4 @@ TEST(Polyhedron, ErrorsSayWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::solids_test

@@ -12,7 +12,7 @@
 
 #include "tests/unit/primitives/drawing_files.h"
 
-namespace csgrun {
+namespace csgrun::svg_file_test {
 namespace {
 
 using testing::error;
@@ -440,4 +440,4 @@ TEST(Svg, HostileAndDamagedFiles) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::svg_file_test

@@ -9,7 +9,7 @@
 
 #include "tests/unit/primitives/drawing_files.h"
 
-namespace csgrun {
+namespace csgrun::svg_openscad_test {
 namespace {
 
 using testing::kPi;
@@ -166,4 +166,4 @@ TEST(SvgOfTrees, LimitsHoldHereToo) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::svg_openscad_test

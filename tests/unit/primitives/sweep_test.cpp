@@ -10,7 +10,7 @@
 #include "tests/unit/primitives/mesh_measures.h"
 #include "tests/unit/primitives/outlines.h"
 
-namespace csgrun {
+namespace csgrun::sweep_test {
 namespace {
 
 using testing::box;
@@ -332,4 +332,4 @@ TEST(Loft, BadInputIsAnError) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::sweep_test

@@ -7,7 +7,7 @@
 
 #include "primitives/text/shipped_fonts.h"
 
-namespace csgrun {
+namespace csgrun::text_test {
 namespace {
 
 /// mm per unit at size 10: an em of 13.889.
@@ -358,4 +358,4 @@ TEST(Fonts, WhatIsNoFontIsRefused) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::text_test

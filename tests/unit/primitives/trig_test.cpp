@@ -9,7 +9,7 @@
 
 #include <csgrun/primitives/trig.h>
 
-namespace csgrun {
+namespace csgrun::trig_test {
 namespace {
 
 using Big = boost::multiprecision::cpp_bin_float_100;
@@ -109,4 +109,4 @@ TEST(Trig, InversesAreWithinFourUlpsAndWholeWhereExact) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::trig_test

@@ -12,7 +12,7 @@
 
 #include "tests/unit/primitives/outlines.h"
 
-namespace csgrun {
+namespace csgrun::turned_ends_test {
 namespace {
 
 using testing::box;
@@ -113,4 +113,4 @@ TEST(TurnedEnds, BadInputIsAnErrorAsOfTheMesh) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::turned_ends_test

@@ -11,7 +11,7 @@
 #include "primitives/shape2d/shape_factory.h"
 #include "tests/unit/primitives/outlines.h"
 
-namespace csgrun {
+namespace csgrun::turned_shapes_test {
 namespace {
 
 using Loop = Shape2D::Loop;
@@ -444,4 +444,4 @@ TEST(TurnedShapes, BeforeTurnGivesTheShapeBack) {
 }
 
 }  // namespace
-}  // namespace csgrun
+}  // namespace csgrun::turned_shapes_test
