@@ -28,6 +28,19 @@ ADMESH_FINDINGS = re.compile(r"^(Facets with|Total disconnected|Degenerate|Edges
                              r"|Facets added|Facets reversed|Backwards|Normals fixed)")
 
 
+def single(x):
+    """The nearest 32-bit float."""
+    return struct.unpack("<f", struct.pack("<f", x))[0]
+
+
+def admesh_normal(a, b, c):
+    """The normal as admesh computes it: each step in 64 bits, its result in 32."""
+    u, v = ([single(y - x) for x, y in zip(a, end)] for end in (b, c))
+    normal = [single(single(u[i] * v[j]) - u[j] * v[i]) for i, j in ((1, 2), (2, 0), (0, 1))]
+    length = math.sqrt(sum(x * x for x in normal))
+    return [single(x * (1 / length)) for x in normal] if length >= 1e-12 else [0, 0, 0]
+
+
 class WrittenFiles(support.Case):
     """One run for each model writes all formats; the files are looked at by all tests."""
 
@@ -90,6 +103,16 @@ class WrittenFiles(support.Case):
                 exact = support.read_off(self.path(model, "off"))
                 tolerance = 1e-4 if model.stem in COARSE else 1e-6
                 self.assert_relative(mesh.volume(), exact.volume(), tolerance)
+
+    def test_stl_normals_are_rounded_step_by_step(self):
+        for model in MODELS:
+            with self.subTest(model.stem):
+                data = self.path(model, "stl").read_bytes()
+                count = (len(data) - 84) // 50
+                for triangle in range(0, count, count // 500 + 1):
+                    *normal, = struct.unpack_from("<3f", data, 84 + 50 * triangle)
+                    corners = struct.unpack_from("<9f", data, 84 + 50 * triangle + 12)
+                    self.assertEqual(normal, admesh_normal(corners[:3], corners[3:6], corners[6:]))
 
     def test_admesh_finds_nothing_to_repair(self):
         for model in MODELS:
