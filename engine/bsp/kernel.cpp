@@ -61,12 +61,13 @@ Outcome evaluate_crowded(const Job& job, const Expression& expression, const Gri
                          const KernelOptions& options, EvaluateStats& stats) {
   KernelOptions of_crowd = options;
   of_crowd.is_of_crowd = true;
-  KernelOptions quiet = of_crowd;
-  quiet.progress = nullptr;
+  const Groupable wide = most_groupable(expression);
+  KernelOptions of_group = wide.size < wide.children.size() ? of_crowd : options;
+  of_group.progress = nullptr;
   const auto grouped = evaluate_groups(
       job.operands(), expression, *way_of_groups(job, expression, options), boxes_of_operands(job),
       [&](const std::vector<Operand>& operands, const Expression& part, const GridBox& around) {
-        return evaluate_boolean(operands, part, around, quiet, stats);
+        return evaluate_boolean(operands, part, around, of_group, stats);
       });
   if (!grouped) return grouped.error();
   return evaluate_boolean(grouped->operands, grouped->expression, region, of_crowd, stats);

@@ -147,13 +147,20 @@ bool can_be_grouped(const Expression& expression) {
   return !expression.nodes.empty() && groupable(expression, widest(expression)).size() >= kLeast;
 }
 
+bool is_one_group(const Expression& expression) {
+  constexpr size_t kMany = 8;  // fewer hide little of one another
+  const Expression::Node& wide = widest(expression);
+  return &wide != &expression.nodes.back() && groupable(expression, wide).size() >= kMany;
+}
+
 Groupable most_groupable(const Expression& expression) {
   const Expression::Node& wide = widest(expression);
   const auto children = groupable(expression, wide);
+  const BooleanOp op = wide.op == BooleanOp::kDifference ? BooleanOp::kUnion : wide.op;
+  if (is_one_group(expression)) return {op, children, children.size()};
   // Few groups of few: either is crowded, if it is, with less.
   constexpr size_t kMany = 16, kEach = 8;
-  return {wide.op == BooleanOp::kDifference ? BooleanOp::kUnion : wide.op, children,
-          children.size() > kMany ? kEach : (children.size() + 1) / 2};
+  return {op, children, children.size() > kMany ? kEach : (children.size() + 1) / 2};
 }
 
 bool are_taken_away(const Expression& expression) {
@@ -208,6 +215,7 @@ Result<GroupedJob> evaluate_groups(const std::vector<Operand>& operands,
       grouped.push_back(results[g].boundary ? rest.add_operand(results[g])
                                             : rest.copy(children[starts[g]]));
     }
+    if (grouped.size() == 1) return grouped[0];
     // Where they have boundary of the first child in common, or of what is taken away, the lowest
     // group that has it is of the operand that the difference would name.
     return rest.add_operator(with_first ? BooleanOp::kIntersection : wide.op, grouped);

@@ -34,6 +34,11 @@ struct Groupable {
 /// Those of the operator that has most. REQUIRES: can_be_grouped.
 Groupable most_groupable(const Expression& expression);
 
+/// Whether these are many, and not the root's: then all are one group, whose operator is the root
+/// of a job, in which what they hide of one another is not looked at (dead_space.h). REQUIRES: as
+/// above.
+bool is_one_group(const Expression& expression);
+
 /// What a group leaves.
 enum class GroupWay : uint8_t {
   kAlone,      ///< what the operator makes of its operands; of what is taken away the union

@@ -12,6 +12,7 @@
 #include "engine/bsp/cut_faces.h"
 #include "engine/bsp/flat_cover.h"
 #include "engine/bsp/group_cover.h"
+#include "engine/bsp/operand_groups.h"
 #include "engine/bsp/patch_fates.h"
 #include "engine/bsp/point_index.h"
 #include "engine/bsp/rim_faces.h"
@@ -32,6 +33,9 @@ constexpr size_t kDenseForGroups = 16, kDenseForGroupsOfCrowd = 2;
 constexpr double kDroppedInGroups = 0.5;
 /// Where so many boxes of polygons meet for each plain contact that makes a crowd, these are there.
 constexpr size_t kBoxesEach = 16;
+/// One group is a job of its own, in which most of what it drops meets nothing (dead_space.h): it
+/// is less work from so many boxes for each polygon on, if so much is dropped.
+constexpr double kBoxesEachOfOne = 8, kDroppedInOne = 0.75;
 
 /// The loops of so many cut faces are looked at by one thread.
 constexpr size_t kFacesPerPart = 2048;
@@ -104,9 +108,11 @@ class FaceEvaluator {
   }
   /// Whether that is clear before any contact is found.
   [[nodiscard]] bool is_told_crowded() const {
-    return options_.stop_when_crowded &&
-           meeting_boxes(job_) > static_cast<double>(kBoxesEach * dense_for_groups()) &&
-           cover_in_groups(job_, expression_) >= kDroppedInGroups;
+    if (!options_.stop_when_crowded) return false;
+    const double meeting = meeting_boxes(job_);
+    const bool is_dense = meeting > static_cast<double>(kBoxesEach * dense_for_groups());
+    if (!is_dense && !(is_one_group(expression_) && meeting > kBoxesEachOfOne)) return false;
+    return cover_in_groups(job_, expression_) >= (is_dense ? kDroppedInGroups : kDroppedInOne);
   }
   [[nodiscard]] bool is_found_crowded() const {
     return options_.stop_when_crowded && has_plain_contacts(dense_for_groups()) &&

@@ -241,6 +241,37 @@ TEST(OperandGroups, RodsThroughOnePlaceAreEvaluatedInGroups) {
   }
 }
 
+// What balls in one crowd hide of one another is hidden though the root has more to say.
+TEST(OperandGroups, OfAnOperatorBelowTheRootAreOne) {
+  test::Random random(5511);
+  std::vector<Operand> operands;
+  for (uint32_t o = 0; o < 60; ++o) {
+    operands.push_back(ball(random, 4000, 40));
+    for (int64_t& t : operands.back().translation) t = random.integer(-6000, 6000);
+    operands.back().first_source = o;
+  }
+  const auto balls = static_cast<uint32_t>(operands.size());
+  operands.push_back(spoke(0.3, 30'000, 30'000, -30'000, -3000));
+  operands.back().first_source = balls;
+  for (const BooleanOp op : {BooleanOp::kDifference, BooleanOp::kIntersection}) {
+    // op(union of the balls, slab)
+    Expression expression = test::flat_expression(BooleanOp::kUnion, balls);
+    Expression::Node slab;
+    slab.operand = balls;
+    Expression::Node root;
+    root.is_operand = false;
+    root.op = op;
+    root.first_child = static_cast<uint32_t>(expression.children.size());
+    root.child_count = 2;
+    const auto whole_union = static_cast<uint32_t>(expression.nodes.size() - 1);
+    expression.nodes.insert(expression.nodes.end(), {slab, root});
+    expression.children.insert(expression.children.end(), {whole_union, whole_union + 1});
+    EXPECT_EQ(most_groupable(expression).size, balls);
+    const auto [grouped, whole] = signs_of_both(operands, expression, 200);
+    EXPECT_LT(3 * grouped, whole);
+  }
+}
+
 // A face of a box meets five of one that is the same.
 TEST(OperandGroups, BoxesThatMeet) {
   std::vector<Operand> same, beside;
