@@ -25,7 +25,6 @@ class OperandBalls {
   OperandBalls(const std::vector<Operand>& operands, const std::vector<PolygonBox>& boxes,
                const std::vector<uint8_t>& uses);
 
-  [[nodiscard]] bool empty() const { return balls_.empty(); }
   /// Whether an operand has one: then it is a leaf, not far out.
   [[nodiscard]] bool has(uint32_t operand) const {
     return !ball_of_.empty() && ball_of_[operand] != kNoBall;

@@ -12,8 +12,8 @@ std::string shortest_number(double x) {
 }
 
 std::string place_text(const glm::dvec3& p) {
-  return "(" + shortest_number(p.x) + ", " + shortest_number(p.y) + ", " + shortest_number(p.z) +
-         ")";
+  return std::string("(") + shortest_number(p.x) + ", " + shortest_number(p.y) + ", " +
+         shortest_number(p.z) + ")";
 }
 
 std::string rough_place_text(const glm::dvec3& p) {
@@ -24,7 +24,7 @@ std::string rough_place_text(const glm::dvec3& p) {
                          .ptr;
     return std::string(buffer.data(), end);
   };
-  return "(" + rough(p.x) + ", " + rough(p.y) + ", " + rough(p.z) + ")";
+  return std::string("(") + rough(p.x) + ", " + rough(p.y) + ", " + rough(p.z) + ")";
 }
 
 }  // namespace csgrun

@@ -12,6 +12,7 @@
 
 #include "lua_bindings/api.h"
 #include "lua_bindings/api_docs.h"
+#include "lua_bindings/cli/alike.h"
 #include "lua_bindings/cli/exit_codes.h"
 #include "lua_bindings/cli/info.h"
 #include "lua_bindings/cli/init.h"
@@ -31,7 +32,9 @@ int run(const csgrun::CommandLine& line, csgrun::RunReport& report) {
   // The error first: it says where. Warnings often say why, and no JSON object will have them.
   if (failure.failed()) print(stderr, failure.message + "\n");
   if (!line.quiet && (line.stats != csgrun::StatsForm::kJson || failure.failed())) {
-    for (const std::string& warning : report.warnings) print(stderr, "warning: " + warning + "\n");
+    for (const std::string& warning : csgrun::few_alike(report.warnings)) {
+      print(stderr, "warning: " + warning + "\n");
+    }
   }
   // A failed check is a finding: the measures and the verdict are told all the same.
   if (failure.failed() && !report.check_failed) return failure.code;
@@ -45,7 +48,9 @@ int info(const csgrun::CommandLine& line) {
   std::string output;
   std::vector<std::string> notes;
   const csgrun::Failure failure = csgrun::run_info(line.model, line.info_json, output, notes);
-  for (const std::string& note : notes) print(stderr, "warning: " + note + "\n");
+  for (const std::string& note : csgrun::few_alike(notes)) {
+    print(stderr, "warning: " + note + "\n");
+  }
   if (failure.failed()) {
     print(stderr, failure.message + "\n");
     return failure.code;

@@ -86,6 +86,31 @@ class Outputs(Case):
         self.assertEqual(outcome.out, "")
 
 
+class Warnings(Case):
+    """Of those that are alike people see three; JSON has all."""
+
+    def warnings_of(self, boxes):
+        self.write("a.csg", "".join(f"cube(size = [{size}, 1, 1], center = false);\n" for size in boxes))
+        outcome = self.run_csgrun("a.csg", "-o", "a.stl")
+        self.expect(outcome, 0)
+        return [line for line in outcome.err.splitlines() if line.startswith("warning: ")]
+
+    def test_many_alike(self):
+        negative = [f"warning: a.csg:{line}: cube: size.x must be positive, got -{line}" for line in range(1, 9)]
+        self.assertEqual(self.warnings_of([-1, -2, -3, -4, -5, -6, 1]),
+                         [*negative[:3], "warning: 3 more like the one before"])
+        outcome = self.run_csgrun("a.csg", "-o", "a.stl", "--stats=json")
+        self.assertEqual(["warning: " + text for text in json.loads(outcome.out)["warnings"]], negative[:6])
+
+    def test_no_line_is_saved(self):
+        self.assertEqual(len(self.warnings_of([-1, -2, -3, -4, 1])), 4)
+
+    def test_others_between(self):
+        lines = self.warnings_of([-1, "nan", -2, -3, -4, -5, 1])
+        self.assertEqual(len(lines), 5, lines)
+        self.assertEqual(lines[4], "warning: 2 more like the one before")
+
+
 class Unwritable(Case):
     def check(self, output, **options):
         outcome = self.run_script("return cube(10) - sphere(6, {fn = 100})", "-o", output, **options)

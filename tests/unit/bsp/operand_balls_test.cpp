@@ -193,11 +193,9 @@ TEST(OperandBalls, AreOfChosenOnes) {
   std::vector<uint8_t> chosen(operands.size(), OperandBalls::kWithin);
   chosen[1] = chosen[2] = 0;
   const OperandBalls balls(operands, boxes, chosen);
-  EXPECT_FALSE(balls.empty());
   const auto round = static_cast<uint32_t>(operands.size() - 1);
   for (uint32_t o = 0; o <= round; ++o) EXPECT_EQ(balls.has(o), o == 0 || o == round) << o;
   for (uint32_t o = 1; o < 4; ++o) EXPECT_EQ(balls.side(o, {0, 0, 0}), Side::kUnknown);
-  EXPECT_TRUE(OperandBalls().empty());
   EXPECT_FALSE(OperandBalls().has(0));
   EXPECT_TRUE(balls.hides(0) && balls.hides(round) && balls.hide_some());
   boxes[0].hi[0] = int32_t{1} << 30;  // as of one that reaches too far out
