@@ -61,8 +61,7 @@ Outcome evaluate_crowded(const Job& job, const Expression& expression, const Gri
                          const KernelOptions& options, EvaluateStats& stats) {
   KernelOptions of_crowd = options;
   of_crowd.is_of_crowd = true;
-  const Groupable wide = most_groupable(expression);
-  KernelOptions of_group = wide.size < wide.children.size() ? of_crowd : options;
+  KernelOptions of_group = is_one_group(expression) ? options : of_crowd;
   of_group.progress = nullptr;
   const auto grouped = evaluate_groups(
       job.operands(), expression, *way_of_groups(job, expression, options), boxes_of_operands(job),

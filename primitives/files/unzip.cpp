@@ -107,7 +107,7 @@ std::optional<std::string> inflated(std::string_view packed, uint64_t size) {
     stream.avail_out = static_cast<uInt>(bytes.size() - filled);
     outcome = inflate(&stream, Z_NO_FLUSH);
     packed.remove_prefix(given - stream.avail_in);
-    bytes.resize(bytes.size() - stream.avail_out);
+    bytes.erase(bytes.size() - stream.avail_out);
   }
   inflateEnd(&stream);
   if (outcome != Z_STREAM_END || bytes.size() != size) return std::nullopt;
