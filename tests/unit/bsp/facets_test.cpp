@@ -1,6 +1,7 @@
 // Which faces of a result are a whole facet of a leaf, by comparing areas in rationals: a face is a
 // part of its facet, so it is all of it when its area is.
 #include <map>
+#include <numeric>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // The solids that the kernel gives hold the points that the expression says they hold. The truth is
 // a ray through the leaves themselves: no cells, no trees, no planes of the kernel.
+#include <cmath>
 #include <optional>
 
 #include <gtest/gtest.h>

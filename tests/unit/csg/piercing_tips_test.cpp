@@ -1,4 +1,5 @@
 // Fans whose tips pierce each other: hundreds of long triangles cross in a very small place.
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
