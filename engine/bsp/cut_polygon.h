@@ -55,6 +55,13 @@ struct CutLoops {
   RawVector<uint32_t> corner_plane;  ///< of the edge to the next corner
   RawVector<Fact> facts;             ///< of a loop: sorted, each once, from the first edge if so
 
+  [[nodiscard]] std::span<const uint32_t> points(const Loop& loop) const {
+    return {corner_point.data() + loop.first_corner, loop.corner_count};
+  }
+  [[nodiscard]] std::span<const uint32_t> planes(const Loop& loop) const {
+    return {corner_plane.data() + loop.first_corner, loop.corner_count};
+  }
+
   /// Sorts the facts of a loop, which are the last ones, and drops repetitions; false when they
   /// contradict one another, but for those of open operands: see may_contradict.
   bool finish_facts(Loop& loop, std::span<const uint8_t> is_open);

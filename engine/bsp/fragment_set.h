@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/bsp/cell_geometry.h"
 
 namespace csgrun {
@@ -25,9 +26,9 @@ struct FragmentSet {
     bool is_loose = false;
   };
 
-  std::vector<NamedPoint> points;
+  RawVector<NamedPoint> points;
   std::vector<Piece> pieces;
-  std::vector<uint32_t> corner_point, corner_plane;
+  RawVector<uint32_t> corner_point, corner_plane;
 
   /// Adds a fragment; `flip`: the outside of the result is behind it. `numbers` maps the geometry's
   /// points to this set's and grows as needed; it belongs to one geometry between two clear()

@@ -185,7 +185,7 @@ void PatchFates::join_bare_loops() {
     for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
       const CutLoops::Loop& loop = cut_.loops.loops[l];
       if (!loop.is_bare || loop.vertex != kNone) continue;
-      const std::span points(cut_.loops.corner_point.data() + loop.first_corner, loop.corner_count);
+      const std::span<const uint32_t> points = cut_.loops.points(loop);
       for (size_t c = 0; c < points.size(); ++c) {
         edges.push_back({ends_together(points[c], points[c + 1 < points.size() ? c + 1 : 0]),
                          polygon.operand, polygon.support.index(), l, polygon.support.flipped()});

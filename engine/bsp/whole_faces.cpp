@@ -12,6 +12,7 @@
 #include "engine/bsp/cut_faces.h"
 #include "engine/bsp/flat_cover.h"
 #include "engine/bsp/group_cover.h"
+#include "engine/bsp/kept_loops.h"
 #include "engine/bsp/operand_groups.h"
 #include "engine/bsp/patch_fates.h"
 #include "engine/bsp/point_index.h"
@@ -201,24 +202,8 @@ class FaceEvaluator {
   void emit() {
     is_kept_.assign(job_.polygons().size(), 0);
     for (const CutFaces::Face& cut : cut_.faces) settle(cut);
-    make_edge_planes();
-    run_both(
-        job_.polygons().size() > kFewForThreads, [&] { emit_loops(); }, [&] { emit_whole(); });
-  }
-
-  void emit_loops() {
-    numbers_.assign(geometry_.point_count(), kNone);
-    result_.cut.pieces.reserve(cut_.loops.loops.size());
-    result_.cut.corner_point.reserve(cut_.loops.corner_point.size());
-    result_.cut.corner_plane.reserve(cut_.loops.corner_point.size());
-    for (const CutFaces::Face& cut : cut_.faces) {
-      for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-        const PatchFate fate = fates_->of_loop(l);
-        const CutLoops::Loop& loop = cut_.loops.loops[l];
-        if (fate == PatchFate::kDrop || loop.is_rim) continue;
-        emit_loop(loop, cut.polygon, fate == PatchFate::kFlip);
-      }
-    }
+    result_.cut = emit_loops(job_, geometry_, cut_, *fates_);
+    emit_whole();
   }
 
   /// What becomes of the polygons that were not cut.
@@ -291,46 +276,6 @@ class FaceEvaluator {
     is_kept_[cut.polygon] = is_kept;
   }
 
-  /// Of the polygons' own edges that loops run along.
-  void make_edge_planes() {
-    const auto list = [&](size_t begin, size_t end, std::vector<PolygonEdge>& edges) {
-      for (size_t f = begin; f < end; ++f) {
-        const CutFaces::Face& cut = cut_.faces[f];
-        for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
-          if (fates_->of_loop(l) == PatchFate::kDrop) continue;
-          for (const uint32_t plane : planes_of(cut_.loops.loops[l])) {
-            if (plane & CutLoops::kOwnEdge) {
-              edges.push_back({cut.polygon, plane & ~CutLoops::kOwnEdge});
-            }
-          }
-        }
-      }
-    };
-    job_.ensure_edges(list_in_parts<PolygonEdge>(cut_.faces.size(), kFacesPerPart, list));
-  }
-
-  void emit_loop(const CutLoops::Loop& loop, uint32_t polygon, bool flip) {
-    FragmentSet& out = result_.cut;
-    const PlaneId support = job_.polygons()[polygon].support;
-    const auto plane = [&](uint32_t named) {
-      return named & CutLoops::kOwnEdge ? job_.edge_plane(polygon, named & ~CutLoops::kOwnEdge)
-                                        : named;
-    };
-    const auto first = static_cast<uint32_t>(out.corner_point.size());
-    for (uint32_t c = loop.first_corner; c < loop.first_corner + loop.corner_count; ++c) {
-      const uint32_t p = cut_.loops.corner_point[c];
-      if (numbers_[p] == kNone) {
-        numbers_[p] = static_cast<uint32_t>(out.points.size());
-        const auto& s = geometry_.point(p);
-        out.points.push_back({s.rounded, s.planes, s.vertex});
-      }
-      out.corner_point.push_back(numbers_[p]);
-      out.corner_plane.push_back(plane(cut_.loops.corner_plane[c]));
-    }
-    out.pieces.push_back({support, polygon, first, loop.corner_count, loop.is_loose});
-    if (flip) out.flip(out.pieces.back());
-  }
-
   /// Where what is kept may touch itself: where no corner is at an end of a contact, and where
   /// corners are not one round.
   void find_touching() {
@@ -387,7 +332,7 @@ class FaceEvaluator {
           corners.clear();
           for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
             const bool is_dropped = fates_->of_loop(l) == PatchFate::kDrop;
-            for (const uint32_t p : points_of(cut_.loops.loops[l])) {
+            for (const uint32_t p : cut_.loops.points(cut_.loops.loops[l])) {
               if (!finder.may_be_met(p)) continue;
               corners.push_back(p);
               if (!is_dropped) mark(p);
@@ -406,7 +351,7 @@ class FaceEvaluator {
       if (is_suspect_[cut.polygon] || !is_kept_[cut.polygon]) continue;  // known, or gone
       for (uint32_t l = cut.first_loop; l < cut.end_loop; ++l) {
         if (fates_->of_loop(l) == PatchFate::kDrop) continue;
-        for (const uint32_t p : points_of(cut_.loops.loops[l])) {
+        for (const uint32_t p : cut_.loops.points(cut_.loops.loops[l])) {
           if (p >= cut_.first_crossing && p < cut_.end_crossing) crossings.push_back(p);
         }
       }
@@ -424,7 +369,8 @@ class FaceEvaluator {
           const PatchFate fate = fates_->of_loop(l);
           if (fate == PatchFate::kDrop) continue;
           const CutLoops::Loop& loop = cut_.loops.loops[l];
-          add({cut.polygon, points_of(loop), planes_of(loop), fate == PatchFate::kFlip});
+          add({cut.polygon, cut_.loops.points(loop), cut_.loops.planes(loop),
+               fate == PatchFate::kFlip});
         }
       }
     };
@@ -507,14 +453,6 @@ class FaceEvaluator {
     }
   }
 
-  [[nodiscard]] std::span<const uint32_t> points_of(const CutLoops::Loop& loop) const {
-    return {cut_.loops.corner_point.data() + loop.first_corner, loop.corner_count};
-  }
-
-  [[nodiscard]] std::span<const uint32_t> planes_of(const CutLoops::Loop& loop) const {
-    return {cut_.loops.corner_plane.data() + loop.first_corner, loop.corner_count};
-  }
-
   Job& job_;
   const Expression& expression_;
   const KernelOptions& options_;
@@ -532,7 +470,6 @@ class FaceEvaluator {
   CutFaces cut_;
   std::optional<PatchFates> fates_;
   std::vector<uint32_t> corners_, corner_of_;  ///< see find_open
-  std::vector<uint32_t> numbers_;
 };
 
 }  // namespace

@@ -20,10 +20,11 @@
 #include "engine/mesh/near_contacts.h"
 #include "engine/mesh/part_faces.h"
 #include "engine/mesh/self_contact.h"
-#include "engine/mesh/stitch.h"
+#include "engine/mesh/t_junctions.h"
 #include "engine/mesh/to_millimetres.h"
 #include "engine/mesh/triangle_normals.h"
 #include "engine/mesh/triangulate_faces.h"
+#include "engine/mesh/vertex_fans.h"
 #include "engine/mesh/whole_order.h"
 
 namespace csgrun {

@@ -7,7 +7,7 @@
 #include <csgrun/engine/error.h>
 
 #include "engine/mesh/merge_faces.h"
-#include "engine/mesh/stitch.h"
+#include "engine/mesh/vertex_fans.h"
 
 namespace csgrun {
 

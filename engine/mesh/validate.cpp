@@ -68,7 +68,7 @@ std::string face_text(const PolygonMesh& mesh, uint32_t face) {
   return text + place_text(mesh.points[mesh.corners[begin]]);
 }
 
-struct DirectedEdge {
+struct EdgeWay {
   uint32_t other;   ///< the end of greater index
   uint32_t corner;  ///< where the edge starts
   bool forward;     ///< from the end of smaller index to the other
@@ -94,7 +94,7 @@ std::vector<UnbalancedEdge> unbalanced_edges(const PolygonMesh& mesh) {
   };
   for_each_edge([&](uint32_t, uint32_t a, uint32_t b) { ++starts[std::min(a, b) + 1]; });
   for (size_t v = 0; v < mesh.points.size(); ++v) starts[v + 1] += starts[v];
-  std::vector<DirectedEdge> edges(starts.back());
+  std::vector<EdgeWay> edges(starts.back());
   std::vector<uint32_t> next = starts;
   for_each_edge([&](uint32_t corner, uint32_t a, uint32_t b) {
     edges[next[std::min(a, b)]++] = {std::max(a, b), corner, a < b};
@@ -103,7 +103,7 @@ std::vector<UnbalancedEdge> unbalanced_edges(const PolygonMesh& mesh) {
   std::vector<UnbalancedEdge> found;
   for (uint32_t v = 0; v < mesh.points.size(); ++v) {
     const auto begin = edges.begin() + starts[v], end = edges.begin() + starts[v + 1];
-    std::sort(begin, end, [](const DirectedEdge& a, const DirectedEdge& b) {
+    std::sort(begin, end, [](const EdgeWay& a, const EdgeWay& b) {
       return a.other != b.other ? a.other < b.other : a.corner < b.corner;
     });
     for (auto e = begin; e != end;) {
@@ -113,7 +113,7 @@ std::vector<UnbalancedEdge> unbalanced_edges(const PolygonMesh& mesh) {
       if (balance == 0) continue;
       const bool forward = balance > 0;
       const auto shown =
-          std::find_if(first, e, [&](const DirectedEdge& d) { return d.forward == forward; });
+          std::find_if(first, e, [&](const EdgeWay& d) { return d.forward == forward; });
       found.push_back({shown->corner, forward ? v : first->other, forward ? first->other : v,
                        static_cast<uint32_t>(std::abs(balance))});
     }

@@ -1,21 +1,15 @@
-// Connectivity of a result: T-junctions, twins, and one vertex for each fan of triangles.
+// Connectivity of a result: twins, and one vertex for each fan of triangles.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/raw_vector.h"
 #include "engine/mesh/merge_faces.h"
 #include "engine/mesh/whole_order.h"
 
 namespace csgrun {
-
-/// Inserts into the loops of faces the points at which neighbours have corners: afterwards each
-/// directed edge between consecutive points has as many reverses as copies (Campen & Kobbelt 2010,
-/// section 4.3). New edges inherit the plane. The rim of what is untouched counts as edges of
-/// faces. False when the faces do not close.
-bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry, PlaneTable& planes,
-                         const WholeOrder& whole);
 
 /// Triangles over points, each with the plane of its face.
 struct TriangleSet {
@@ -26,7 +20,7 @@ struct TriangleSet {
 /// Per corner of a triangle (3 t + k) the vertex it belongs to, and per vertex its point. Vertices
 /// are in order of points, then of triangles.
 struct VertexFans {
-  std::vector<uint32_t> vertex_of_corner;
+  RawVector<uint32_t> vertex_of_corner;
   std::vector<uint32_t> point_of_vertex;
   bool were_parted = false;  ///< edges exchanged neighbours: see split_fans and part_faces.h
 };

@@ -1,230 +1,17 @@
-#include "engine/mesh/stitch.h"
+#include "engine/mesh/vertex_fans.h"
 
 #include <algorithm>
 #include <atomic>
-#include <cassert>
-#include <numeric>
 #include <span>
 
 #include "engine/base/counting_order.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
-#include "engine/base/sort_few.h"
+#include "engine/mesh/fan_parts.h"
+#include "engine/mesh/simple_fans.h"
+#include "engine/mesh/sorted_edges.h"
 
 namespace csgrun {
-namespace {
-
-/// The points of an edge.
-struct Ends {
-  uint32_t from, to;
-};
-
-/// Edges, which have their places in a list for numbers, by both their points, the lower one first.
-class SortedEdges {
- public:
-  class Edge {
-   public:
-    Edge() = default;
-    Edge(const Ends& ends, uint32_t number)
-        : high(std::max(ends.from, ends.to)),
-          number_and_way_(number << 1 | (ends.from < ends.to ? 1 : 0)) {}
-    [[nodiscard]] uint32_t number() const { return number_and_way_ >> 1; }
-    [[nodiscard]] bool is_forward() const { return number_and_way_ & 1; }  ///< from the lower point
-
-    uint32_t high;
-
-   private:
-    uint32_t number_and_way_;
-  };
-  /// Those between two points, by their numbers.
-  struct Bundle {
-    uint32_t low;
-    std::span<const Edge> edges;
-  };
-
-  /// REQUIRES: no more than 2^31 edges.
-  SortedEdges(const RawVector<Ends>& edges, size_t point_count) {
-    const auto lower = [&](size_t i) { return std::min(edges[i].from, edges[i].to); };
-    by_low_.sort(edges.size(), point_count, lower,
-                 [&](size_t i) { return Edge(edges[i], static_cast<uint32_t>(i)); });
-    for_each_range(point_count, [&](size_t begin, size_t end) {
-      for (size_t p = begin; p < end; ++p) {
-        sort_few(by_low_.values.begin() + by_low_.starts[p],
-                 by_low_.values.begin() + by_low_.starts[p + 1],
-                 [](const Edge& a, const Edge& b) { return a.high < b.high; });
-      }
-    });
-  }
-
-  /// Calls visit(bundle) for those with lower points [begin, end), in their order.
-  template <class Visit>
-  void each_bundle(size_t begin, size_t end, Visit&& visit) const {
-    for (size_t low = begin; low < end; ++low) {
-      const Edge* const last = by_low_.values.data() + by_low_.starts[low + 1];
-      for (const Edge *i = by_low_.values.data() + by_low_.starts[low], *j = i; i != last; i = j) {
-        while (j != last && j->high == i->high) ++j;
-        visit(Bundle{static_cast<uint32_t>(low), {i, j}});
-      }
-    }
-  }
-
- private:
-  CountingGroups<RawVector<Edge>> by_low_;
-};
-
-/// Whether as many run one way as the other.
-bool is_balanced(const SortedEdges::Bundle& bundle) {
-  size_t forward = 0;
-  for (const SortedEdges::Edge& e : bundle.edges) forward += e.is_forward();
-  return 2 * forward == bundle.edges.size();
-}
-
-/// The numbers of edges of which more run one way than the other between two points.
-std::vector<uint32_t> find_unbalanced(const SortedEdges& edges, size_t point_count) {
-  const auto list = [&](size_t begin, size_t end, std::vector<uint32_t>& out) {
-    edges.each_bundle(begin, end, [&](const SortedEdges::Bundle& bundle) {
-      if (is_balanced(bundle)) return;
-      for (const SortedEdges::Edge& e : bundle.edges) out.push_back(e.number());
-    });
-  };
-  return list_in_parts<uint32_t>(point_count, kFewForThreads, list);
-}
-
-struct LooseEdge {
-  LineKey line;
-  PlaneId support;
-  DirectedEdge* edge;
-  std::vector<uint32_t>* inserted;
-};
-
-/// Breaks the loose edges of one line at all their ends; false when they do not balance.
-bool break_line(LooseEdge* begin, LooseEdge* end, CellGeometry& geometry,
-                const PlaneTable& planes) {
-  const uint32_t p = begin->support.index(), q = begin->edge->plane;
-  const LineAxis axis = line_axis(planes.plane(p), planes.plane(q));
-  std::vector<uint32_t> points;
-  for (LooseEdge* e = begin; e != end; ++e) {
-    for (const uint32_t x : {e->edge->from, e->edge->to}) {
-      // Keys are hashes: confirm that the point lies on the first edge's line.
-      if (geometry.side(p, x) != 0 || geometry.side(q, x) != 0) return false;
-      points.push_back(x);
-    }
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  const auto before = [&](uint32_t x, uint32_t y) {
-    return geometry.compare_along(x, y, axis.axis) < 0;
-  };
-  std::sort(points.begin(), points.end(), before);
-  std::vector<int> change(points.size(), 0);
-  for (LooseEdge* e = begin; e != end; ++e) {
-    auto from = std::lower_bound(points.begin(), points.end(), e->edge->from, before);
-    auto to = std::lower_bound(points.begin(), points.end(), e->edge->to, before);
-    ++change[from - points.begin()];
-    --change[to - points.begin()];
-    if (from < to) {
-      e->inserted->assign(from + 1, to);
-    } else {
-      e->inserted->assign(to + 1, from);
-      std::reverse(e->inserted->begin(), e->inserted->end());
-    }
-  }
-  return std::all_of(change.begin(), change.end(), [](int c) { return c == 0; });
-}
-
-}  // namespace
-
-bool resolve_t_junctions(std::vector<MergedFace>& faces, CellGeometry& geometry, PlaneTable& planes,
-                         const WholeOrder& whole) {
-  // Edges are numbered face by face, and then those of the rim.
-  std::vector<uint32_t> first_edge(faces.size() + 1, 0);
-  for (size_t f = 0; f < faces.size(); ++f) {
-    first_edge[f + 1] = first_edge[f];
-    for (const auto& loop : faces[f].loops) {
-      first_edge[f + 1] += static_cast<uint32_t>(loop.size());
-    }
-  }
-  const uint32_t own_edges = first_edge.back();
-  RawVector<Ends> ends(own_edges + whole.rim().size());
-  for_each_range(faces.size(), [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) {
-      uint32_t i = first_edge[f];
-      for (const auto& loop : faces[f].loops) {
-        for (const DirectedEdge& e : loop) ends[i++] = {e.from, e.to};
-      }
-    }
-  });
-  for (size_t i = 0; i < whole.rim().size(); ++i) {
-    ends[own_edges + i] = {whole.rim()[i].from, whole.rim()[i].to};
-  }
-  const size_t points = geometry.point_count();
-  const std::vector<uint32_t> loose_edges = find_unbalanced(SortedEdges(ends, points), points);
-  if (loose_edges.empty()) return true;
-  // An edge of a face by its number.
-  const auto edge_of = [&](MergedFace& face, uint32_t number) {
-    uint32_t left = number - first_edge[&face - faces.data()];
-    auto loop = face.loops.begin();
-    for (; left >= loop->size(); ++loop) left -= static_cast<uint32_t>(loop->size());
-    return &(*loop)[left];
-  };
-  std::vector<LooseEdge> loose;
-  std::vector<DirectedEdge> rim;  // the loose ones, which stay where they are
-  rim.reserve(loose_edges.size());
-  std::vector<std::vector<uint32_t>> inserted(loose_edges.size());
-  std::vector<LineNamer::PlanePair> lines;
-  for (size_t k = 0; k < loose_edges.size(); ++k) {
-    const uint32_t e = loose_edges[k];
-    if (e < own_edges) {
-      const auto after = std::upper_bound(first_edge.begin(), first_edge.end(), e);
-      MergedFace& face = faces[after - first_edge.begin() - 1];
-      loose.push_back({{}, face.plane, edge_of(face, e), &inserted[k]});
-    } else {
-      const auto [face, edge] = whole.planes_of(whole.rim()[e - own_edges], planes);
-      rim.push_back({ends[e].from, ends[e].to, edge.index()});
-      loose.push_back({{}, face, &rim.back(), &inserted[k]});
-    }
-    lines.push_back({loose.back().support.index(), loose.back().edge->plane});
-  }
-  std::vector<LineKey> keys;
-  LineNamer(planes).keys(lines, keys);
-  for (size_t k = 0; k < loose.size(); ++k) loose[k].line = keys[k];
-  std::stable_sort(loose.begin(), loose.end(),
-                   [](const LooseEdge& a, const LooseEdge& b) { return a.line < b.line; });
-  for (size_t i = 0; i < loose.size();) {
-    size_t j = i;
-    while (j < loose.size() && loose[j].line == loose[i].line) ++j;
-    if (!break_line(loose.data() + i, loose.data() + j, geometry, planes)) return false;
-    i = j;
-  }
-  for (size_t k = 0; k < loose_edges.size(); ++k) {
-    // Nothing ends inside an edge of what is untouched.
-    if (loose_edges[k] >= own_edges && !inserted[k].empty()) return false;
-  }
-  // Rebuild the loops; edges are numbered in the order of the walk above.
-  std::vector<uint32_t> slot(ends.size(), kNone);
-  for (uint32_t k = 0; k < loose_edges.size(); ++k) slot[loose_edges[k]] = k;
-  uint32_t number = 0;
-  std::vector<DirectedEdge> broken;
-  for (MergedFace& f : faces) {
-    for (auto& loop : f.loops) {
-      broken.clear();
-      for (const DirectedEdge& e : loop) {
-        const uint32_t k = slot[number++];
-        uint32_t from = e.from;
-        if (k != kNone) {
-          for (const uint32_t x : inserted[k]) {
-            broken.push_back({from, x, e.plane});
-            from = x;
-          }
-        }
-        broken.push_back({from, e.to, e.plane});
-      }
-      loop = broken;
-    }
-  }
-  return true;
-}
-
 namespace {
 
 /// The sheets around one edge, as half-planes named by their outward normals.
@@ -323,9 +110,9 @@ void pair_sheets(std::vector<Sheet>& sheets, const RadialOrder& order, ContactRu
 }
 
 /// The half-edges of triangles, and then the edges of the rim.
-RawVector<Ends> half_edges_and_rim(const TriangleSet& set, const WholeOrder& whole) {
+RawVector<EdgePoints> half_edges_and_rim(const TriangleSet& set, const WholeOrder& whole) {
   const size_t half_edges = set.triangles.size() * 3;
-  RawVector<Ends> ends(half_edges + whole.rim().size());
+  RawVector<EdgePoints> ends(half_edges + whole.rim().size());
   for_each_range(set.triangles.size(), [&](size_t begin, size_t end) {
     for (size_t t = begin; t < end; ++t) {
       const auto [a, b, c] = set.triangles[t];
@@ -342,7 +129,7 @@ RawVector<Ends> half_edges_and_rim(const TriangleSet& set, const WholeOrder& who
 
 /// `ends`: see above. `crowded`: the forward half-edges of each edge where more than two triangles
 /// meet. On the rim of what is untouched a half-edge has no twin.
-bool find_twins(const TriangleSet& set, const RawVector<Ends>& ends,
+bool find_twins(const TriangleSet& set, const RawVector<EdgePoints>& ends,
                 const std::vector<MergedFace>& faces, CellGeometry& geometry,
                 const PlaneTable& planes, ContactRule contacts, std::vector<uint32_t>& twin,
                 std::vector<std::vector<uint32_t>>& crowded) {
@@ -397,7 +184,7 @@ bool find_twins(const TriangleSet& set, const RawVector<Ends>& ends,
 /// The fans around points [begin, end): vertices are numbered from 0, and their points appended.
 void walk_fans(const CountingOrder& by_point, size_t begin, size_t end,
                const std::vector<uint32_t>& twin, const WholeOrder& whole,
-               std::vector<uint32_t>& vertex_of_corner, std::vector<uint32_t>& point_of_vertex) {
+               RawVector<uint32_t>& vertex_of_corner, std::vector<uint32_t>& point_of_vertex) {
   for (auto point = static_cast<uint32_t>(begin); point < end; ++point) {
     const std::span<const uint32_t> corners(by_point.order.data() + by_point.starts[point],
                                             by_point.order.data() + by_point.starts[point + 1]);
@@ -429,26 +216,9 @@ void walk_fans(const CountingOrder& by_point, size_t begin, size_t end,
 void walk_fans(const CountingOrder& by_point, const std::vector<uint32_t>& twin,
                const WholeOrder& whole, VertexFans& fans) {
   fans.vertex_of_corner.assign(twin.size(), kNone);
-  const size_t points = by_point.starts.size() - 1;
-  // Fans do not leave a point. Numbers are made anew if there is more than one part.
-  const size_t each = has_threads() ? kFewForThreads : std::max<size_t>(1, points);
-  std::vector<std::vector<uint32_t>> parts(part_count(points, each));
-  for_each_part(points, each, [&](size_t part, size_t begin, size_t end) {
-    std::vector<uint32_t> own;
-    walk_fans(by_point, begin, end, twin, whole, fans.vertex_of_corner, own);
-    parts[part] = std::move(own);
-  });
-  std::vector<uint32_t> firsts;  // vertices of the parts
-  fans.point_of_vertex.clear();
-  for (const auto& part : parts) {
-    firsts.push_back(static_cast<uint32_t>(fans.point_of_vertex.size()));
-    fans.point_of_vertex.insert(fans.point_of_vertex.end(), part.begin(), part.end());
-  }
-  if (parts.size() <= 1) return;
-  for_each_part(points, each, [&](size_t part, size_t begin, size_t end) {
-    for (uint32_t i = by_point.starts[begin]; i < by_point.starts[end]; ++i) {
-      fans.vertex_of_corner[by_point.order[i]] += firsts[part];
-    }
+  walk_in_parts(by_point, fans, [&](size_t begin, size_t end, std::vector<uint32_t>& points) {
+    walk_fans(by_point, begin, end, twin, whole, fans.vertex_of_corner, points);
+    return true;
   });
 }
 
@@ -495,20 +265,19 @@ bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
                 CellGeometry& geometry, const PlaneTable& planes, const WholeOrder& whole,
                 ContactRule contacts, VertexFans& fans,
                 std::vector<std::array<uint32_t, 2>>* doubled) {
+  const size_t corners = 3 * set.triangles.size();
+  CountingOrder by_point;
+  by_point.sort(corners, geometry.point_count(),
+                [&](size_t c) { return set.triangles[c / 3][c % 3]; });
+  fans.were_parted = false;
+  if (make_simple_fans(set, by_point, whole, fans)) {
+    if (doubled != nullptr) doubled->clear();
+    return true;
+  }
   std::vector<uint32_t> twin;
   std::vector<std::vector<uint32_t>> crowded;
-  const size_t corners = 3 * set.triangles.size();
-  RawVector<Ends> ends = half_edges_and_rim(set, whole);
-  CountingOrder by_point;
-  bool is_closed = false;
-  run_both(
-      corners > kFewForThreads,
-      [&] { is_closed = find_twins(set, ends, faces, geometry, planes, contacts, twin, crowded); },
-      [&] {
-        by_point.sort(corners, geometry.point_count(), [&](size_t c) { return ends[c].from; });
-      });
-  ends = {};
-  if (!is_closed) return false;
+  const RawVector<EdgePoints> ends = half_edges_and_rim(set, whole);
+  if (!find_twins(set, ends, faces, geometry, planes, contacts, twin, crowded)) return false;
   walk_fans(by_point, twin, whole, fans);
   if (doubled != nullptr) {
     doubled->clear();
@@ -520,7 +289,6 @@ bool split_fans(const TriangleSet& set, const std::vector<MergedFace>& faces,
     doubled->erase(std::unique(doubled->begin(), doubled->end()), doubled->end());
     return true;
   }
-  fans.were_parted = false;
   while (part_double_edges(crowded, fans, twin)) {
     walk_fans(by_point, twin, whole, fans);
     fans.were_parted = true;
