@@ -1,6 +1,8 @@
 // One argument from Lua to C++: what its type takes, and what is said when it does not fit.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -103,6 +105,26 @@ lua_Integer count_entries(lua_State* L, int index, bool pass_over_texts) {
   return entries == length ? length : -1;
 }
 
+/// A string for a message: short, and on one line.
+std::string in_quotes(std::string_view text) {
+  constexpr size_t kMost = 40;
+  size_t length = std::min(text.size(), kMost);
+  const auto is_within_character = [&](size_t i) {
+    return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80;
+  };
+  while (length > 0 && is_within_character(length)) --length;
+  std::string quoted = "\"";
+  for (const char c : text.substr(0, length)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < ' ' || byte == 0x7f) {
+      quoted += c == '\n' ? "\\n" : fmt::format("\\{}", byte);  // as Lua writes them
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + (length < text.size() ? "...\"" : "\"");
+}
+
 }  // namespace
 
 lua_Integer list_length(lua_State* L, int index) { return count_entries(L, index, false); }
@@ -144,6 +166,11 @@ std::string describe_value(lua_State* L, int index) {
         return missing == 0 ? "table" : fmt::format("a list whose entry {} is nil", missing);
       }
       return length == 1 ? "a list of one value" : fmt::format("a list of {} values", length);
+    }
+    case LUA_TSTRING: {
+      size_t length = 0;
+      const char* const text = lua_tolstring(L, index, &length);
+      return "the string " + in_quotes({text, length});
     }
     case LUA_TNONE:
       return "nothing";

@@ -148,7 +148,7 @@ class Arguments {
 /// "a number or a list of three numbers".
 std::string describe_type(ArgumentType type);
 
-/// "table", "a list of 2 numbers", "nan", "string" ...: what the user gave, for messages.
+/// "table", "a list of 2 values", "nan", "the string "10"" ...: what the user gave, for messages.
 std::string describe_value(lua_State* L, int index);
 
 /// The same, but a number is named as one: "the number 5".

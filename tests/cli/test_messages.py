@@ -311,7 +311,7 @@ class Messages(Case):
                            ("union(5)", "union: an operand must be a solid or a shape, got 5"),
                            ("union(cube(1), square(1))", "union: a solid and a 2D shape cannot be combined"),
                            ("hull()", "hull: needs a solid or a shape"), ("min()", "min: needs a number"),
-                           ("max('x')", "max: takes numbers or a list of numbers, got string"),
+                           ("max('x')", "max: takes numbers or a list of numbers, got the string \"x\""),
                            ("difference{cube(1), cutt = 'body'}", r"unknown option 'cutt' \(did you mean 'cut'\?\)"),
                            ("difference(cube(1), {cut = 'wood'})", "option 'cut' must be \"tool\" or \"body\", got \"wood\"")):
             self.try_call("call", call, said)

@@ -141,8 +141,8 @@ TEST(CallForms, ThePartMayStandAnywhere) {
   expect_good("assert(color('red', cube(1)) == cube(1):color('red'))");
   // Two parts, or one of the wrong kind, are not put in order.
   EXPECT_EQ(message_of("return color('red', cube(1), cube(2))"),
-            "model.lua:1: color: the first argument must be a solid or a shape, got string; as a "
-            "method it is called with a colon, part:color(...)");
+            "model.lua:1: color: the first argument must be a solid or a shape, got the string "
+            "\"red\"; as a method it is called with a colon, part:color(...)");
   EXPECT_EQ(message_of("return linear_extrude(3, cube(2))"),
             "model.lua:1: linear_extrude: the first argument must be a 2D shape, got solid; as a "
             "method it is called with a colon, shape:linear_extrude(...)");
@@ -186,8 +186,18 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
        "rotate_extrude: the shape must lie on one side of the Y axis, its x runs from -5 to 5"},
       {"polygon{{0, 0}, {1, 0}}", "polygon: needs at least 3 points, got 2"},
       {"cube{size = 'x'}",
-       "cube: option 'size' must be a number or a list of three numbers, got string"},
-      {"cube('10')", "cube: option 'size' must be a number or a list of three numbers, got string"},
+       "cube: option 'size' must be a number or a list of three numbers, got the string \"x\""},
+      {"cube('10')",
+       "cube: option 'size' must be a number or a list of three numbers, got the string \"10\""},
+      {"cube('a\\nb\\1')",
+       "cube: option 'size' must be a number or a list of three numbers, got the string "
+       "\"a\\nb\\1\""},
+      {"cube(('ä'):rep(30))",
+       "cube: option 'size' must be a number or a list of three numbers, got the string "
+       "\"ääääääääääääääääääää...\""},
+      {"cube('a' .. ('ä'):rep(30))",
+       "cube: option 'size' must be a number or a list of three numbers, got the string "
+       "\"aäääääääääääääääääää...\""},
       {"cube(10, 20)",
        "cube: option 'size' must be a number or a list of three numbers, got 2 numbers"},
       {"cube(0)", "cube: option 'size' must be positive, got 0"},
@@ -195,7 +205,8 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
       {"cube(0/0)", "cube: option 'size' must be finite, got nan"},
       {"cube(-1/0)", "cube: option 'size' must be finite, got -inf"},
       {"cube{1, 2, 'a'}",
-       "cube: option 'size' must be a number or a list of three numbers, but entry 3 is string"},
+       "cube: option 'size' must be a number or a list of three numbers, but entry 3 is the string "
+       "\"a\""},
       {"cube{centre = true}", "cube: unknown option 'centre' (did you mean 'center'?)"},
       {"sphere{['$fn'] = 5}", "sphere: unknown option '$fn' (did you mean 'fn'?)"},
       {"sphere{q = 5}", "sphere: unknown option 'q' (there are r, d, fn, segments, fa, fs)"},
@@ -224,7 +235,8 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
       {"cube(1):translate(1, nil, 3)",
        "translate: option 'v' must be a list of two or three numbers, but number 2 is nil"},
       {"cube(1):translate(1, 'a', 3)",
-       "translate: option 'v' must be a list of two or three numbers, but number 2 is string"},
+       "translate: option 'v' must be a list of two or three numbers, but number 2 is the string "
+       "\"a\""},
       {"cube(1):translate(1, 2, nil)",
        "translate: option 'v' must be a list of two or three numbers, but number 3 is nil"},
       {"cube(1):translate(1, 2, cube(3))",
@@ -273,7 +285,7 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
       {"cube(1) - {cube(2)}",
        "'-' needs two solids, or two shapes, got solid and table; a list of them is one by "
        "union(list)"},
-      {"union(cube(1), 'x')", "union: an operand must be a solid or a shape, got string"},
+      {"union(cube(1), 'x')", "union: an operand must be a solid or a shape, got the string \"x\""},
       {"cube(1):color('rod')", "color: there is no colour 'rod' (did you mean 'red'?)"},
       {"cube(1):color{1, 2, 0}", "color: 'c' must be from 0 to 1, got 2"},
       {"linear_extrude(5, 5)",
@@ -286,7 +298,7 @@ TEST(ArgumentErrors, SayFunctionOptionExpectedAndGot) {
       {"polyhedron{points = {{0, 0, 0}, {0, 0/0, 0}}, faces = {}}",
        "polyhedron: point 1: its y must be finite, got nan"},
       {"polyhedron{points = {{0, 0, 0}, {0, 1, 'a'}}, faces = {}}",
-       "polyhedron: point 1 must be a list of three numbers, but its z is string"},
+       "polyhedron: point 1 must be a list of three numbers, but its z is the string \"a\""},
       {"polyhedron{points = {{0, 0, 0}, {0, 1, 0}, 7}, faces = {}}",
        "polyhedron: point 2 must be a list of three numbers, got 7"},
       {"polyhedron{points = {{0, 0, 0}}, faces = {{0}, 5}}",

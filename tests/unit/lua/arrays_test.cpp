@@ -107,7 +107,7 @@ TEST(Copies, Mistakes) {
       {"cube(1):polar_array(3, {agnle = 1})",
        "polar_array: unknown option 'agnle' (did you mean 'angle'?)"},
       {"cube(1):mirror_copy('x')",
-       "mirror_copy: option 'v' must be a list of two or three numbers, got string"},
+       "mirror_copy: option 'v' must be a list of two or three numbers, got the string \"x\""},
   };
   for (const auto& [script, message] : cases)
     EXPECT_EQ(message_of(script), std::string("model.lua:1: ") + message);

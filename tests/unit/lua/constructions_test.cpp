@@ -36,7 +36,7 @@ TEST(Sections, Mistakes) {
   EXPECT_EQ(message_of("return cube(1):project(1)"),
             "model.lua:1: project: wants a direction {x, y, z}, got 1; slice(z) cuts");
   EXPECT_EQ(message_of("return cube(1):slice('a')"),
-            "model.lua:1: slice: option 'z' must be a number, got string");
+            "model.lua:1: slice: option 'z' must be a number, got the string \"a\"");
   EXPECT_EQ(message_of("return cube(1):slice(0/0)"),
             "model.lua:1: slice: option 'z' must be finite, got nan");
   EXPECT_EQ(message_of("return cube(1):trim({0, 0, 0})"),
@@ -212,7 +212,7 @@ TEST(Edges, Mistakes) {
   EXPECT_EQ(message_of("return cube(1):chamfer(1/0)"),
             "model.lua:1: chamfer: option 'distance' must be finite, got inf");
   EXPECT_EQ(message_of("return cube(1):fillet('a')"),
-            "model.lua:1: fillet: option 'r' must be a number, got string");
+            "model.lua:1: fillet: option 'r' must be a number, got the string \"a\"");
   EXPECT_EQ(message_of("return cube(1):fillet{r = 0.1, edge = 'z'}"),
             "model.lua:1: fillet: unknown option 'edge' (did you mean 'edges'?)");
   EXPECT_EQ(message_of("return cube(1):chamfer(0.1, 'up')"),
@@ -296,8 +296,9 @@ TEST(Freeform, Mistakes) {
             "model.lua:1: warp: the function must give three numbers, got 2 values");
   EXPECT_EQ(message_of("return cube(1):warp(function(x, y) return x end)"),
             "model.lua:1: warp: the function must give three numbers, got one value, the number 0");
-  EXPECT_EQ(message_of("return cube(1):warp(function(x, y) return {x, y, 'z'} end)"),
-            "model.lua:1: warp: the function must give three numbers, but number 3 is string");
+  EXPECT_EQ(
+      message_of("return cube(1):warp(function(x, y) return {x, y, 'z'} end)"),
+      "model.lua:1: warp: the function must give three numbers, but number 3 is the string \"z\"");
   EXPECT_EQ(message_of("return cube(1):warp(function(x, y) return x, y, 0 end)"),
             "model.lua:1: warp: the moved points enclose no volume");
   EXPECT_EQ(message_of("return cube(1):warp(function(x, y, z) return x, y, x + y / 3 end)"),

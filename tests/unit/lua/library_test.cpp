@@ -418,7 +418,7 @@ TEST(Layout, Mistakes) {
   EXPECT_EQ(
       message("layout.line(cube(1), 3, {step = {1, 2, 'z'}})"),
       "model.lua:1: linear_array: option 'v' must be a list of two or three numbers, but entry 3 "
-      "is string");
+      "is the string \"z\"");
   EXPECT_EQ(message("layout.at(cube(1), {3})"),
             "model.lua:1: layout.at: point 1 must be {x, y, z}, got 3");
 }

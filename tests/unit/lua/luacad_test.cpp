@@ -78,7 +78,7 @@ TEST(Shapes, Mistakes) {
       {"torus{R = 2, q = 3}",
        "torus: unknown option 'q' (there are R, major, r, minor, segments_minor, fn, segments, fa, "
        "fs)"},
-      {"torus{R = 'x'}", "torus: option 'R' must be a number, got string"},
+      {"torus{R = 'x'}", "torus: option 'R' must be a number, got the string \"x\""},
       {"torus(0, 1)", "torus: option 'R' must be positive, got 0"},
       {"octahedron(0)", "octahedron: option 'r' must be positive, got 0"},
       {"octahedron{radious = 1}", "octahedron: unknown option 'radious' (did you mean 'radius'?)"},
@@ -123,7 +123,7 @@ TEST(Vectors, Mistakes) {
       {"vec(1)", "vec: option 'v' must be a list of two or three numbers, got the number 1"},
       {"vec()", "vec: needs two or three numbers"},
       {"vec(1, 'x')",
-       "vec: option 'v' must be a list of two or three numbers, but number 2 is string"},
+       "vec: option 'v' must be a list of two or three numbers, but number 2 is the string \"x\""},
       {"cross({1, 0, 0})", "cross: needs two vectors"},
       {"norm(5)", "norm: option 'v' must be a list of two or three numbers, got the number 5"},
       {"return vec(1, 2) + 1", "'+': a vector is a list of two or three numbers, got 1"},
@@ -153,10 +153,10 @@ TEST(Numbers, HaveBareNames) {
   EXPECT_EQ(message_of("ln(0)"), "model.lua:1: ln: the number must be positive, got 0");
   EXPECT_EQ(message_of("floor()"), "model.lua:1: floor: needs a number");
   EXPECT_EQ(message_of("floor('x')"),
-            "model.lua:1: floor: option 'x' must be a number, got string");
+            "model.lua:1: floor: option 'x' must be a number, got the string \"x\"");
   EXPECT_EQ(message_of("max()"), "model.lua:1: max: needs a number");
   EXPECT_EQ(message_of("max(1, 'x')"),
-            "model.lua:1: max: takes numbers or a list of numbers, got string");
+            "model.lua:1: max: takes numbers or a list of numbers, got the string \"x\"");
   EXPECT_EQ(message_of("lookup(1, {5})"),
             "model.lua:1: lookup: point 0 must be a list of two numbers, got 5");
 }

@@ -190,7 +190,7 @@ TEST(Parameters, OptionsMustFitTheDefault) {
   EXPECT_EQ(message_of("param('p', 'a', {choices = {'a', 1}})"),
             "model.lua:1: param: choice 2 of 'p' must be a string, as its default is, got 1");
   EXPECT_EQ(message_of("param('p', 'a', {choices = 'a'})"),
-            "model.lua:1: param: option 'choices' must be a list of values, got string");
+            "model.lua:1: param: option 'choices' must be a list of values, got the string \"a\"");
   EXPECT_EQ(message_of("param('p', 1, {chioces = {1}})"),
             "model.lua:1: param: unknown option 'chioces' (did you mean 'choices'?)");
 }

@@ -8,7 +8,7 @@ TEST(Outlines, Mistakes) {
   EXPECT_EQ(message_of("return square(1):offset{delte = 2}"),
             "model.lua:1: offset: unknown option 'delte' (did you mean 'delta'?)");
   EXPECT_EQ(message_of("return square(1):offset('a')"),
-            "model.lua:1: offset: option 'r' must be a number, got string");
+            "model.lua:1: offset: option 'r' must be a number, got the string \"a\"");
   EXPECT_EQ(message_of("return square(1):offset(0/0)"),
             "model.lua:1: offset: option 'r' must be finite, got nan");
   EXPECT_EQ(message_of("return square(1):offset{r = 1, chamfer = true}"),
@@ -58,7 +58,7 @@ TEST(Sweeps, Mistakes) {
   EXPECT_EQ(message_of("return loft({square(1), square(1)})"),
             "model.lua:1: loft: needs a list of shapes and their heights");
   EXPECT_EQ(message_of("return loft({square(1), square(1)}, {0, 'x'})"),
-            "model.lua:1: loft: height 2 must be a number, got string");
+            "model.lua:1: loft: height 2 must be a number, got the string \"x\"");
   EXPECT_EQ(message_of("return loft({square(1), square(1)}, 0)"),
             "model.lua:1: loft: option 'heights' must be positive, got 0");
   EXPECT_EQ(message_of("return loft({square(1), square(1)}, {1, 0})"),
