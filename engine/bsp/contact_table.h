@@ -61,40 +61,58 @@ class ContactEnds {
       : contacts_(contacts),
         geometry_(geometry),
         index_(index),
-        crossings_(job, geometry, index),
+        crossings_(job, geometry, index, contacts.all().size()),  // curves have as many points
         ends_(contacts.all().size(), {kNone, kNone}) {
     name_vertices();
   }
 
-  /// Fetches what ask() will look at, soon.
-  void expect(uint32_t contact) const {
-    const Contact& c = contacts_[contact];
-    for (const Contact::End& e : {c.lower, c.upper}) {
-      if (e.vertex != kNone) continue;
-      e.on_p ? crossings_.expect(c.p, e.edge, c.q) : crossings_.expect(c.q, e.edge, c.p);
+  [[nodiscard]] bool is_asked(uint32_t contact) const { return ends_[contact][0] != kNone; }
+  /// Asks for the ends of contacts that are not coplanar, each of which was not asked for before.
+  void ask(std::span<const uint32_t> contacts) {
+    ask_vertices(contacts);
+    ask_crossings(contacts);
+  }
+  /// The first half of that: for ends that are vertices.
+  void ask_vertices(std::span<const uint32_t> contacts) {
+    const auto list = [&](size_t begin, size_t end, std::vector<uint32_t>& out) {
+      for (const uint32_t contact : contacts.subspan(begin, end - begin)) {
+        const Contact& c = contacts_[contact];
+        if (c.lower.vertex != kNone || c.upper.vertex != kNone) out.push_back(contact);
+      }
+    };
+    for (const uint32_t contact : list_in_parts<uint32_t>(contacts.size(), kFewForThreads, list)) {
+      for (size_t side = 0; side < 2; ++side) {
+        const uint32_t vertex = end_of(contact, side).vertex;
+        if (vertex == kNone) continue;
+        ends_[contact][side] = index_.unique(geometry_.vertex_point(vertex));
+      }
     }
   }
-  [[nodiscard]] bool is_asked(uint32_t contact) const { return ends_[contact][0] != kNone; }
-  /// Asks for the ends of a contact that is not coplanar.
-  void ask(uint32_t contact) {
-    if (is_asked(contact)) return;
-    const Contact& c = contacts_[contact];
-    const auto end = [&](const Contact::End& e) {
-      if (e.vertex != kNone) return index_.unique(geometry_.vertex_point(e.vertex));
-      return kIsCrossing |
-             (e.on_p ? crossings_.number(c.p, e.edge, c.q) : crossings_.number(c.q, e.edge, c.p));
-    };
-    ends_[contact] = {end(c.lower), end(c.upper)};
-    asked_.push_back(contact);
+  /// The other half. Looks at no plane.
+  void ask_crossings(std::span<const uint32_t> contacts) {
+    constexpr size_t kAhead = 8;
+    asked_.insert(asked_.end(), contacts.begin(), contacts.end());
+    for (size_t i = 0; i < contacts.size(); ++i) {
+      for (size_t side = 0; side < 2; ++side) {
+        if (i + kAhead < contacts.size()) {
+          const uint32_t next = contacts[i + kAhead];
+          if (end_of(next, side).vertex == kNone) crossings_.expect(place_of(next, side));
+        }
+        if (end_of(contacts[i], side).vertex != kNone) continue;
+        ends_[contacts[i]][side] = kIsCrossing | crossings_.number(place_of(contacts[i], side));
+      }
+    }
   }
   /// Makes all points that were asked for, on several threads.
   void make() {
     crossings_.make_points();
-    for (const uint32_t contact : asked_) {
-      for (uint32_t& end : ends_[contact]) {
-        if (end & kIsCrossing) end = crossings_.point(end & ~kIsCrossing);
+    for_each_range(asked_.size(), [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        for (uint32_t& point : ends_[asked_[i]]) {
+          if (point & kIsCrossing) point = crossings_.point(point & ~kIsCrossing);
+        }
       }
-    }
+    });
     asked_.clear();
   }
   /// The points at the ends of a contact, lower and upper, in the geometry: those of the index.
@@ -102,6 +120,18 @@ class ContactEnds {
 
  private:
   static constexpr uint32_t kIsCrossing = 1u << 31;
+
+  [[nodiscard]] const Contact::End& end_of(uint32_t contact, size_t side) const {
+    const Contact& c = contacts_[contact];
+    return side == 0 ? c.lower : c.upper;
+  }
+  /// Of an end that is no vertex.
+  [[nodiscard]] CrossingPoints::Place place_of(uint32_t contact, size_t side) const {
+    const Contact& c = contacts_[contact];
+    const Contact::End& e = end_of(contact, side);
+    return e.on_p ? CrossingPoints::Place{c.p, e.edge, c.q}
+                  : CrossingPoints::Place{c.q, e.edge, c.p};
+  }
 
   /// Most vertices that are touched are at the ends of contacts.
   void name_vertices() {

@@ -14,10 +14,10 @@ void CrossingPoints::make_points() {
   RawVector<uint32_t> met(2 * count);
   for_each_range(count, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      const Crossing& c = crossings_[before + i];
-      edges[i] = c.edge;
-      met[2 * i] = c.edge.polygon;
-      met[2 * i + 1] = c.name.through;
+      const Place& c = crossings_[before + i];
+      edges[i] = {c.polygon, c.edge};
+      met[2 * i] = c.polygon;
+      met[2 * i + 1] = c.through;
     }
   });
   job_.ensure_supports(met);
@@ -26,10 +26,10 @@ void CrossingPoints::make_points() {
   const uint32_t first_point = geometry_.add_points(count);
   points_.resize(crossings_.size());
   const auto make = [&](size_t i) {
-    const Crossing& c = crossings_[before + i];
-    const JobPolygon& own = polygons[c.edge.polygon];
-    const std::array<uint32_t, 3> planes{own.support.index(), job_.edge_planes(own)[c.edge.edge],
-                                         polygons[c.name.through].support.index()};
+    const Place& c = crossings_[before + i];
+    const JobPolygon& own = polygons[c.polygon];
+    const std::array<uint32_t, 3> planes{own.support.index(), job_.edge_planes(own)[c.edge],
+                                         polygons[c.through].support.index()};
     const auto plane = [&](int k) -> const Plane& { return job_.planes().plane(planes[k]); };
     points_[before + i] = first_point + static_cast<uint32_t>(i);
     geometry_.set_point(points_[before + i], planes,

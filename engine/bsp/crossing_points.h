@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -13,26 +14,32 @@ namespace csgrun {
 
 class CrossingPoints {
  public:
-  CrossingPoints(Job& job, CellGeometry& geometry, PointIndex& index)
-      : job_(job), geometry_(geometry), index_(index), slots_(1024) {}
+  /// An edge of a polygon, and the polygon that it passes through.
+  struct Place {
+    uint32_t polygon, edge, through;
+  };
+
+  /// `expected`: about how many there will be.
+  CrossingPoints(Job& job, CellGeometry& geometry, PointIndex& index, size_t expected)
+      : job_(job),
+        geometry_(geometry),
+        index_(index),
+        slots_(std::bit_ceil(2 * std::max<size_t>(expected, 32))) {
+    crossings_.reserve(expected);
+  }
 
   /// Fetches what number() will look at, soon.
-  void expect(uint32_t polygon, uint32_t edge, uint32_t through) const {
-    __builtin_prefetch(&slots_[hash(name_of(polygon, edge, through)) & (slots_.size() - 1)]);
+  void expect(const Place& place) const {
+    __builtin_prefetch(&slots_[hash(name_of(place)) & (slots_.size() - 1)]);
   }
   /// The number of a crossing, from 0 on.
-  uint32_t number(uint32_t polygon, uint32_t edge, uint32_t through) {
-    const Name name = name_of(polygon, edge, through);
-    const uint32_t own = hash(name);
-    size_t s = own & (slots_.size() - 1);
-    for (; slots_[s].crossing != kNone; s = (s + 1) & (slots_.size() - 1)) {
-      if (slots_[s].hash == own && crossings_[slots_[s].crossing].name == name) {
-        return slots_[s].crossing;
-      }
-    }
+  uint32_t number(const Place& place) {
+    const Name name = name_of(place);
+    Slot& slot = slots_[slot_of(name)];
+    if (slot.crossing != kNone) return slot.crossing;
     const auto number = static_cast<uint32_t>(crossings_.size());
-    slots_[s] = {own, number};
-    crossings_.push_back({name, {polygon, edge}});
+    slot = {name, number};
+    crossings_.push_back(place);
     if (crossings_.size() * 2 > slots_.size()) grow();
     return number;
   }
@@ -48,32 +55,35 @@ class CrossingPoints {
     uint32_t low = 0, high = 0, through = 0;
     bool operator==(const Name&) const = default;
   };
-  struct Slot {
-    uint32_t hash = 0, crossing = kNone;
-  };
-  struct Crossing {
+  /// With the name itself: what is looked for is seen without a look elsewhere.
+  struct alignas(16) Slot {
     Name name;
-    PolygonEdge edge;
+    uint32_t crossing = kNone;
   };
-  [[nodiscard]] Name name_of(uint32_t polygon, uint32_t edge, uint32_t through) const {
-    const JobPolygon& p = job_.polygons()[polygon];
+
+  [[nodiscard]] Name name_of(const Place& place) const {
+    const JobPolygon& p = job_.polygons()[place.polygon];
     const auto corners = job_.corners(p);
-    const uint32_t a = corners[edge], b = corners[edge + 1 < p.count ? edge + 1 : 0];
-    return {std::min(a, b), std::max(a, b), through};
+    const uint32_t a = corners[place.edge];
+    const uint32_t b = corners[place.edge + 1 < p.count ? place.edge + 1 : 0];
+    return {std::min(a, b), std::max(a, b), place.through};
   }
   static uint32_t hash(const Name& n) {
     uint64_t h = (static_cast<uint64_t>(n.low) << 32 | n.high) * 0x9fb21c651e98df25ull;
     h = (h ^ (h >> 32) ^ n.through) * 0x9fb21c651e98df25ull;
     return static_cast<uint32_t>(h ^ (h >> 32));
   }
+  /// The slot of a name, or an empty one: half of them are.
+  [[nodiscard]] size_t slot_of(const Name& name) const {
+    size_t s = hash(name) & (slots_.size() - 1);
+    while (slots_[s].crossing != kNone && slots_[s].name != name) s = (s + 1) & (slots_.size() - 1);
+    return s;
+  }
   void grow() {
     std::vector<Slot> old(slots_.size() * 2);
     std::swap(old, slots_);
     for (const Slot& slot : old) {
-      if (slot.crossing == kNone) continue;
-      size_t s = slot.hash & (slots_.size() - 1);
-      while (slots_[s].crossing != kNone) s = (s + 1) & (slots_.size() - 1);
-      slots_[s] = slot;
+      if (slot.crossing != kNone) slots_[slot_of(slot.name)] = slot;
     }
   }
 
@@ -81,7 +91,7 @@ class CrossingPoints {
   CellGeometry& geometry_;
   PointIndex& index_;
   std::vector<Slot> slots_;
-  std::vector<Crossing> crossings_;
+  std::vector<Place> crossings_;
   std::vector<uint32_t> points_;  ///< of the crossings, as far as they were made
 };
 

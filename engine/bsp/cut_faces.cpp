@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "engine/base/in_order.h"
+#include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/bsp/cut_parts.h"
 #include "engine/bsp/face_arrangement.h"
@@ -188,25 +188,13 @@ class FaceCutter {
     options_.progress = nullptr;
   }
 
-  CutFaces run(std::span<const uint32_t> polygons, EvaluateStats& stats) {
-    const std::vector<size_t> starts = part_starts(polygons.size(), kWorkPerPart, [&](size_t i) {
-      return 1 + contacts_.of(polygons[i]).size();
-    });
-    parts_.resize(starts.size() - 1);
-    make_parts_in_order(
-        parts_.size(),
-        [&](size_t part) {
-          const size_t count = starts[part + 1] - starts[part];
-          list(job_, polygons.subspan(starts[part], count), contacts_, parts_[part]);
-        },
-        [&](size_t part) {
-          constexpr size_t kAhead = 8;
-          const std::vector<uint32_t>& all = parts_[part].contacts;
-          for (size_t i = 0; i < all.size(); ++i) {
-            if (i + kAhead < all.size()) ends_.expect(all[i + kAhead]);
-            ends_.ask(all[i]);
-          }
-        });
+  CutFaces run(std::span<const uint32_t> polygons, std::span<const uint32_t> with_planes,
+               EvaluateStats& stats) {
+    const std::vector<uint32_t> contacts = list_parts(polygons);
+    ends_.ask_vertices(contacts);
+    run_both(
+        contacts.size() > kFewForThreads, [&] { job_.ensure_supports(with_planes); },
+        [&] { ends_.ask_crossings(contacts); });
     if (options_.stop_when_crowded && will_be_crowded()) return crowded();
     ends_.make();
     for (CutPart& part : parts_) {
@@ -223,6 +211,27 @@ class FaceCutter {
   }
 
  private:
+  /// Divides polygons among parts. Returns the contacts of all that are not coplanar and matter, as
+  /// polygons have them: points that are made in this order are near those of neighbours.
+  std::vector<uint32_t> list_parts(std::span<const uint32_t> polygons) {
+    const std::vector<size_t> starts = part_starts(polygons.size(), kWorkPerPart, [&](size_t i) {
+      return 1 + contacts_.of(polygons[i]).size();
+    });
+    parts_.resize(starts.size() - 1);
+    for_each_alone(parts_.size(), true, [&](size_t part) {
+      const size_t count = starts[part + 1] - starts[part];
+      list(job_, polygons.subspan(starts[part], count), contacts_, parts_[part]);
+    });
+    std::vector<uint32_t> listed;
+    std::vector<uint8_t> is_listed(contacts_.all().size(), 0);
+    for (const CutPart& part : parts_) {
+      for (const uint32_t contact : part.contacts) {
+        if (!std::exchange(is_listed[contact], 1)) listed.push_back(contact);
+      }
+    }
+    return listed;
+  }
+
   /// Whether so many coplanar polygons overlap that operands should rather be evaluated in groups.
   /// What was counted only grows, so that it makes no difference when somebody asks.
   [[nodiscard]] bool is_crowded() const {
@@ -351,10 +360,12 @@ class FaceCutter {
 
 }  // namespace
 
-CutFaces cut_faces(Job& job, std::span<const uint32_t> polygons, const ContactTable& contacts,
+CutFaces cut_faces(Job& job, std::span<const uint32_t> polygons,
+                   std::span<const uint32_t> with_planes, const ContactTable& contacts,
                    ContactEnds& ends, std::span<const uint8_t> is_open, CellGeometry& geometry,
                    PointIndex& index, const KernelOptions& options, EvaluateStats& stats) {
-  return FaceCutter(job, contacts, ends, is_open, geometry, index, options).run(polygons, stats);
+  return FaceCutter(job, contacts, ends, is_open, geometry, index, options)
+      .run(polygons, with_planes, stats);
 }
 
 }  // namespace csgrun

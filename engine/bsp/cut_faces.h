@@ -31,11 +31,12 @@ struct CutFaces {
 /// Cuts polygons along the segments at which they have contacts: by name (cut_polygon.h) where all
 /// of these are plain and no points coincide, else by value (face_arrangement.h). What nothing
 /// cuts, and has a corner that is not touched, stays whole and is not mentioned. Points of the
-/// loops are in the geometry; equal ones have one number in loops that are loose. The supports of
-/// `polygons`, and of all that have more than a corner of their own in common with these, must have
-/// been made. `is_open`: see PlainlyCovered. `stats` is added to. Parallel; incomplete when
-/// cancelled.
-CutFaces cut_faces(Job& job, std::span<const uint32_t> polygons, const ContactTable& contacts,
+/// loops are in the geometry; equal ones have one number in loops that are loose. `with_planes` are
+/// `polygons` and all that have more than a corner of their own in common with these; their
+/// supports are made. No contact of theirs may have been asked for. `is_open`: see PlainlyCovered.
+/// `stats` is added to. Parallel; incomplete when cancelled.
+CutFaces cut_faces(Job& job, std::span<const uint32_t> polygons,
+                   std::span<const uint32_t> with_planes, const ContactTable& contacts,
                    ContactEnds& ends, std::span<const uint8_t> is_open, CellGeometry& geometry,
                    PointIndex& index, const KernelOptions& options, EvaluateStats& stats);
 

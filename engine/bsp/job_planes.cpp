@@ -92,10 +92,11 @@ uint32_t Job::edge_plane(uint32_t polygon, uint32_t edge) {
 }
 
 void Job::ensure_supports(std::span<const uint32_t> polygons) {
-  std::vector<uint32_t> lacking;
-  for (const uint32_t p : polygons) {
-    if (!find_support(p)) lacking.push_back(p);
-  }
+  // Most have one already, which several threads may see.
+  std::vector<uint32_t> lacking = numbers_where(
+      polygons.size(), [&](uint32_t i) { return !polygons_[polygons[i]].support.valid(); });
+  for (uint32_t& i : lacking) i = polygons[i];
+  std::erase_if(lacking, [&](uint32_t p) { return find_support(p); });
   planes_.make_room(lacking.size());
   make_and_take(
       lacking.size(), [&](size_t i) { return reduced_support(lacking[i]); },
@@ -106,10 +107,12 @@ void Job::ensure_supports(std::span<const uint32_t> polygons) {
 void Job::ensure_edges(std::span<const PolygonEdge> edges) {
   constexpr uint32_t kAsked = kNone - 1;  // stands in for a plane until it is made
   std::vector<PolygonEdge> lacking;
-  for (const PolygonEdge& e : edges) {
-    if (find_edge(e)) continue;
-    edge_planes_[polygons_[e.polygon].first + e.edge] = kAsked;
-    lacking.push_back(e);
+  for (const uint32_t i : numbers_where(edges.size(), [&](uint32_t i) {
+         return edge_planes_[polygons_[edges[i].polygon].first + edges[i].edge] == kNone;
+       })) {
+    if (find_edge(edges[i])) continue;
+    edge_planes_[polygons_[edges[i].polygon].first + edges[i].edge] = kAsked;
+    lacking.push_back(edges[i]);
   }
   planes_.make_room(lacking.size());
   make_and_take(

@@ -140,14 +140,13 @@ class FaceEvaluator {
     is_cut_ = is_covered_;  // into nothing
     const auto polygons =
         polygons_where([&](uint32_t p) { return !is_covered_[p] && !may_stay_whole(p); });
-    const auto supports = with_what_cuts(polygons);
+    const auto with_planes = with_what_cuts(polygons);
     // Edges, which come later, have two or three times as many; room is made for twice as many as
     // one says.
     constexpr size_t kPlanesEach = 2;
-    job_.planes().make_room(kPlanesEach * supports.size());
-    job_.ensure_supports(supports);
-    cut_ = cut_faces(job_, polygons, contacts_, *ends_, plainly_.is_open, geometry_, index_,
-                     options_, stats_);
+    job_.planes().make_room(kPlanesEach * with_planes.size());
+    cut_ = cut_faces(job_, polygons, with_planes, contacts_, *ends_, plainly_.is_open, geometry_,
+                     index_, options_, stats_);
     if (is_cancelled()) return false;
     for (const CutFaces::Face& face : cut_.faces) is_cut_[face.polygon] = 1;
     for (const uint32_t p : cut_.by_value) is_suspect_[p] = 1;
@@ -288,7 +287,7 @@ class FaceEvaluator {
           (result_.general[c.p] && is_suspect_[c.p]) || (result_.general[c.q] && is_suspect_[c.q]);
       return (is_suspect_[c.p] || is_suspect_[c.q]) && is_of_kept(c) && !ends_->is_asked(i);
     });
-    for (const uint32_t i : asked) ends_->ask(i);
+    ends_->ask(asked);
     ends_->make();
     examine_cut(finder, is_open);
     if (!is_unate(expression_)) examine_crossings(finder);

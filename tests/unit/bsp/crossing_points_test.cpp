@@ -33,7 +33,7 @@ TEST(CrossingPoints, HaveOneNumberEach) {
   for (uint32_t p = 0; p < job.polygons().size(); ++p) job.ensure_support(p);
   CellGeometry geometry(job.planes(), &job);
   PointIndex index(geometry);
-  CrossingPoints points(job, geometry, index);
+  CrossingPoints points(job, geometry, index, 10);  // far fewer than there will be
   const auto is_level = [&](uint32_t p) {
     const Plane& plane = job.planes().plane(job.polygons()[p].support.index());
     return plane.a == 0 && plane.b == 0;
@@ -66,7 +66,7 @@ TEST(CrossingPoints, HaveOneNumberEach) {
         if (a[2] == b[2]) continue;  // along the plates
         for (uint32_t q = 0; q < job.polygon_start(kPlates); ++q) {
           if (!is_level(q)) continue;
-          expected.push_back({points.number(p, e, q),
+          expected.push_back({points.number({p, e, q}),
                               {a[0], a[1], job.rounded(job.corners(job.polygons()[q])[0])[2]}});
         }
       }

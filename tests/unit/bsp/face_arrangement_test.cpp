@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/contact_table.h"
 #include "engine/bsp/point_index.h"
 #include "engine/mesh/opposite_edges.h"
@@ -56,9 +57,8 @@ class Cuts {
         geometry_(job_.planes(), &job_) {
     for (const Operand& o : operands) oracles_.emplace_back(test::exact_solid(o));
     for (uint32_t p = 0; p < job_.polygons().size(); ++p) job_.ensure_planes(p);
-    for (uint32_t i = 0; i < contacts_.all().size(); ++i) {
-      if (!contacts_[i].is_coplanar) ends_.ask(i);
-    }
+    ends_.ask(numbers_where(contacts_.all().size(),
+                            [&](uint32_t i) { return !contacts_[i].is_coplanar; }));
     ends_.make();
   }
 
