@@ -61,7 +61,7 @@ class ContactEnds {
       : contacts_(contacts),
         geometry_(geometry),
         index_(index),
-        crossings_(job, geometry, index, contacts.all().size()),  // curves have as many points
+        crossings_(job, geometry, index),
         ends_(contacts.all().size(), {kNone, kNone}) {
     name_vertices();
   }
@@ -92,6 +92,7 @@ class ContactEnds {
   void ask_crossings(std::span<const uint32_t> contacts) {
     constexpr size_t kAhead = 8;
     asked_.insert(asked_.end(), contacts.begin(), contacts.end());
+    crossings_.make_room(contacts.size());  // curves have as many points as segments
     for (size_t i = 0; i < contacts.size(); ++i) {
       for (size_t side = 0; side < 2; ++side) {
         if (i + kAhead < contacts.size()) {

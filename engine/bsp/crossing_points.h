@@ -19,13 +19,14 @@ class CrossingPoints {
     uint32_t polygon, edge, through;
   };
 
-  /// `expected`: about how many there will be.
-  CrossingPoints(Job& job, CellGeometry& geometry, PointIndex& index, size_t expected)
-      : job_(job),
-        geometry_(geometry),
-        index_(index),
-        slots_(std::bit_ceil(2 * std::max<size_t>(expected, 32))) {
-    crossings_.reserve(expected);
+  CrossingPoints(Job& job, CellGeometry& geometry, PointIndex& index)
+      : job_(job), geometry_(geometry), index_(index), slots_(kFewSlots) {}
+
+  /// For about so many more than there are. O(all), which is not to be asked for each of them.
+  void make_room(size_t more) {
+    const size_t all = crossings_.size() + more;
+    crossings_.reserve(all);
+    if (2 * all > slots_.size()) grow(std::bit_ceil(2 * all));
   }
 
   /// Fetches what number() will look at, soon.
@@ -40,7 +41,7 @@ class CrossingPoints {
     const auto number = static_cast<uint32_t>(crossings_.size());
     slot = {name, number};
     crossings_.push_back(place);
-    if (crossings_.size() * 2 > slots_.size()) grow();
+    if (crossings_.size() * 2 > slots_.size()) grow(slots_.size() * 2);
     return number;
   }
 
@@ -51,6 +52,8 @@ class CrossingPoints {
   [[nodiscard]] uint32_t point(uint32_t crossing) const { return points_[crossing]; }
 
  private:
+  static constexpr size_t kFewSlots = 64;  // a power of two
+
   struct Name {
     uint32_t low = 0, high = 0, through = 0;
     bool operator==(const Name&) const = default;
@@ -79,8 +82,8 @@ class CrossingPoints {
     while (slots_[s].crossing != kNone && slots_[s].name != name) s = (s + 1) & (slots_.size() - 1);
     return s;
   }
-  void grow() {
-    std::vector<Slot> old(slots_.size() * 2);
+  void grow(size_t slot_count) {
+    std::vector<Slot> old(slot_count);
     std::swap(old, slots_);
     for (const Slot& slot : old) {
       if (slot.crossing != kNone) slots_[slot_of(slot.name)] = slot;

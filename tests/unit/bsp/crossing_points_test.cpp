@@ -33,7 +33,8 @@ TEST(CrossingPoints, HaveOneNumberEach) {
   for (uint32_t p = 0; p < job.polygons().size(); ++p) job.ensure_support(p);
   CellGeometry geometry(job.planes(), &job);
   PointIndex index(geometry);
-  CrossingPoints points(job, geometry, index, 10);  // far fewer than there will be
+  CrossingPoints points(job, geometry, index);
+  points.make_room(100);  // far fewer than there will be
   const auto is_level = [&](uint32_t p) {
     const Plane& plane = job.planes().plane(job.polygons()[p].support.index());
     return plane.a == 0 && plane.b == 0;
