@@ -96,76 +96,72 @@ class AroundPoint {
   std::vector<std::pair<uint32_t, uint32_t>> leaving_;
 };
 
-/// The edges between points that untouched triangles have, too.
+/// The edges between points that untouched triangles have, too. Points are asked about in their
+/// order.
 class SharedEdges {
  public:
-  /// An edge at its lower end.
-  struct Use {
-    uint32_t high;
-    bool is_forward;  ///< to the higher end
-  };
-
-  SharedEdges(const TriangleSet& set, const WholeOrder& whole, size_t point_count)
+  SharedEdges(const TriangleSet& set, const WholeOrder& whole, uint32_t first_point)
       : set_(set), whole_(whole) {
-    if (whole.rim().empty()) return;
-    rim_.sort(
-        whole.rim().size(), point_count,
-        [&](size_t i) { return std::min(whole.rim()[i].from, whole.rim()[i].to); },
-        [&](size_t i) {
-          const RimEdge& e = whole.rim()[i];
-          return Use{std::max(e.from, e.to), e.from < e.to};
-        });
+    const auto is_before = [](const RimEdge& e, uint32_t point) { return low_of(e) < point; };
+    rim_ = std::lower_bound(whole.rim().begin(), whole.rim().end(), first_point, is_before);
   }
 
   /// Whether those at a point that go to higher ones are each there twice, once each way. Others
-  /// are seen from their other ends. `corners`: all those at the point. `uses` is for use here.
-  bool are_paired(uint32_t point, std::span<const uint32_t> corners, std::vector<Use>& uses) const {
-    uses.clear();
+  /// are seen from their other ends. `corners`: all those at the point.
+  bool are_paired(uint32_t point, std::span<const uint32_t> corners) {
+    uses_.clear();
     const auto add = [&](uint32_t other, bool is_forward) {
-      if (other > point && whole_.is_shared(other)) uses.push_back({other, is_forward});
+      if (other > point && whole_.is_shared(other)) uses_.push_back({other, is_forward});
     };
     for (const uint32_t c : corners) {
       const auto [next, previous] = other_corners(set_, c);
       add(next, true);
       add(previous, false);
     }
-    if (!rim_.starts.empty()) {
-      uses.insert(uses.end(), rim_.values.begin() + rim_.starts[point],
-                  rim_.values.begin() + rim_.starts[point + 1]);
+    // Untouched triangles have both ends of each edge of the rim.
+    for (; rim_ != whole_.rim().end() && low_of(*rim_) == point; ++rim_) {
+      uses_.push_back({std::max(rim_->from, rim_->to), rim_->from == point});
     }
-    sort_few(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.high < b.high; });
-    if (uses.size() % 2 != 0) return false;
-    for (size_t i = 0; i < uses.size(); i += 2) {
-      const Use &a = uses[i], &b = uses[i + 1];
+    sort_few(uses_.begin(), uses_.end(),
+             [](const Use& a, const Use& b) { return a.high < b.high; });
+    if (uses_.size() % 2 != 0) return false;
+    for (size_t i = 0; i < uses_.size(); i += 2) {
+      const Use &a = uses_[i], &b = uses_[i + 1];
       if (a.high != b.high || a.is_forward == b.is_forward) return false;
-      if (i > 0 && uses[i - 1].high == a.high) return false;
+      if (i > 0 && uses_[i - 1].high == a.high) return false;
     }
     return true;
   }
 
  private:
+  /// An edge at its lower end.
+  struct Use {
+    uint32_t high;
+    bool is_forward;  ///< to the higher end
+  };
+  static uint32_t low_of(const RimEdge& e) { return std::min(e.from, e.to); }
+
   const TriangleSet& set_;
   const WholeOrder& whole_;
-  CountingGroups<std::vector<Use>> rim_;
+  std::vector<RimEdge>::const_iterator rim_;  ///< the first one of the points to come
+  std::vector<Use> uses_;
 };
 
 }  // namespace
 
 bool make_simple_fans(const TriangleSet& set, const CountingOrder& by_point,
                       const WholeOrder& whole, VertexFans& fans) {
-  // Untouched triangles have both ends of each edge of the rim.
-  const SharedEdges shared(set, whole, by_point.starts.size() - 1);
   fans.vertex_of_corner.resize(3 * set.triangles.size());
   return walk_in_parts(
       by_point, fans, [&](size_t begin, size_t end, std::vector<uint32_t>& points) {
         AroundPoint around;
-        std::vector<SharedEdges::Use> uses;
+        SharedEdges shared(set, whole, static_cast<uint32_t>(begin));
         for (auto point = static_cast<uint32_t>(begin); point < end; ++point) {
           const std::span<const uint32_t> corners(
               by_point.order.data() + by_point.starts[point],
               by_point.order.data() + by_point.starts[point + 1]);
           const bool is_shared = whole.is_shared(point);
-          if (!(is_shared ? shared.are_paired(point, corners, uses) : around.link(set, corners))) {
+          if (!(is_shared ? shared.are_paired(point, corners) : around.link(set, corners))) {
             return false;
           }
           if (is_shared) {

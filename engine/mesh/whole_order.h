@@ -73,6 +73,7 @@ class WholeOrder {
     return directions_[face - explicit_face_count_];
   }
 
+  /// By the lower of their points.
   [[nodiscard]] const std::vector<RimEdge>& rim() const { return rim_; }
   /// The planes of a rim edge's triangle and of the edge.
   [[nodiscard]] std::array<PlaneId, 2> planes_of(const RimEdge& edge, PlaneTable& planes) const;

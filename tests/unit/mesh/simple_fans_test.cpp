@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -165,6 +166,83 @@ TEST(SimpleFans, AreNotMadeWhereAnEdgeIsOpenOrCrowded) {
     twice.insert(twice.end(), closed.begin(), closed.end());
     EXPECT_FALSE(make(twice, points).is_simple);
   }
+}
+
+/// The lower half of an octahedron, the upper half of which is untouched, but for `cut_off` faces
+/// that are not there.
+struct HalfOctahedron {
+  static constexpr uint32_t kBottom = 2;
+  static constexpr std::array<uint32_t, 4> kRing{0, 1, 4, 3};  ///< counter-clockwise from above
+
+  explicit HalfOctahedron(uint32_t cut_off) {
+    // Explicit points are in their order.
+    const std::vector<IVec3> points{{-2, 0, 0}, {0, -2, 0}, {0, 0, -2}, {0, 2, 0}, {2, 0, 0}};
+    for (const IVec3& p : points) {
+      std::array<uint32_t, 3> named{};
+      for (int k = 0; k < 3; ++k) {
+        Plane plane{0, 0, 0, -p[static_cast<size_t>(k)]};
+        (k == 0 ? plane.a : k == 1 ? plane.b : plane.c) = 1;
+        named[static_cast<size_t>(k)] = planes.intern(plane).index();
+      }
+      boundary.point_planes.push_back(named);
+      boundary.point_rounded.push_back(
+          {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
+      geometry.add_point(named);
+    }
+    auto leaf = std::make_shared<LeafGeometry>();
+    leaf->vertices = points;
+    leaf->vertices.push_back({0, 0, 2});
+    UntouchedPart part;
+    for (uint32_t i = 0; i < 4; ++i) {
+      const uint32_t a = kRing[i], b = kRing[(i + 1) % 4];
+      leaf->corners.insert(leaf->corners.end(), {a, b, 5});
+      leaf->face_starts.push_back(static_cast<uint32_t>(leaf->corners.size()));
+      if (i >= cut_off) part.faces.push_back(i);
+      lower.push_back({b, a, kBottom});
+    }
+    for (const uint32_t p : {0u, 1u, 3u, 4u}) part.shared.push_back({p, p});
+    part.leaf = std::move(leaf);
+    boundary.parts.push_back(std::move(part));
+  }
+
+  Made make(const Triangles& triangles) const {
+    const TriangleSet set{triangles, std::vector<uint32_t>(triangles.size(), 0)};
+    const WholeOrder whole(boundary, geometry);
+    CountingOrder by_point;
+    by_point.sort(3 * triangles.size(), boundary.point_planes.size(),
+                  [&](size_t c) { return triangles[c / 3][c % 3]; });
+    Made made;
+    made.is_simple = make_simple_fans(set, by_point, whole, made.fans);
+    return made;
+  }
+
+  PlaneTable planes;
+  CellGeometry geometry{planes, nullptr};
+  BoundaryMesh boundary;
+  Triangles lower;
+};
+
+TEST(SimpleFans, EndAtTheRimOfWhatIsUntouched) {
+  const HalfOctahedron whole(0);
+  const Made made = whole.make(whole.lower);
+  ASSERT_TRUE(made.is_simple);
+  EXPECT_EQ(made.fans.point_of_vertex, (std::vector<uint32_t>{0, 1, 2, 3, 4}));
+  for (size_t c = 0; c < 12; ++c) {
+    EXPECT_EQ(made.fans.vertex_of_corner[c], whole.lower[c / 3][c % 3]) << c;
+  }
+  for (size_t t = 0; t < 4; ++t) {
+    Triangles open = whole.lower, doubled = whole.lower;
+    open.erase(open.begin() + static_cast<std::ptrdiff_t>(t));
+    doubled.push_back(doubled[t]);
+    EXPECT_FALSE(whole.make(open).is_simple) << t;
+    EXPECT_FALSE(whole.make(doubled).is_simple) << t;
+  }
+  // One face above is not there: nothing comes back along an edge.
+  const HalfOctahedron without(1);
+  EXPECT_FALSE(without.make(whole.lower).is_simple);
+  Triangles turned = whole.lower;
+  std::swap(turned[0][0], turned[0][1]);
+  EXPECT_FALSE(whole.make(turned).is_simple);
 }
 
 }  // namespace
