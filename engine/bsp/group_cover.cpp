@@ -243,7 +243,7 @@ double contact_cover_in_groups(const Job& job, const Expression& expression,
 }
 
 double meeting_boxes(const Job& job) {
-  const auto all = job.boxes();
+  const auto& all = job.boxes();
   if (all.empty()) return 0;
   constexpr size_t kStep = 7919;
   double meeting = 0;
