@@ -1,4 +1,4 @@
-// Random numbers for tests: fixed by default, another seed with CSGRUN_SEED, always printed.
+// Random numbers for tests: the same in every run, others with a CSGRUN_SEED other than 0.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,13 @@ namespace csgrun::test {
 
 class Random {
  public:
-  explicit Random(uint64_t default_seed) : state_(default_seed) {
-    if (const char* given = std::getenv("CSGRUN_SEED")) state_ = std::strtoull(given, nullptr, 10);
-    std::printf("seed %llu (replay with CSGRUN_SEED)\n", static_cast<unsigned long long>(state_));
+  /// Sequences that have seeds of their own stay apart whatever CSGRUN_SEED is.
+  explicit Random(uint64_t own_seed) : state_(own_seed) {
+    if (const char* given = std::getenv("CSGRUN_SEED")) {
+      const uint64_t seed = std::strtoull(given, nullptr, 10);
+      state_ ^= seed * 0xd1342543de82ef95ull;
+      std::printf("CSGRUN_SEED=%llu\n", static_cast<unsigned long long>(seed));
+    }
   }
 
   /// A sequence of its own for one of many cases: nothing is printed, CSGRUN_SEED has no say.
