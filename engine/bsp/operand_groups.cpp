@@ -205,7 +205,9 @@ Result<GroupedJob> evaluate_groups(const std::vector<Operand>& operands,
     results.back().boundary = *result;
   }
   JobPart rest(operands, expression);
-  const auto group_for = [&](const Expression::Node& node) -> std::optional<uint32_t> {
+  // Not every compiler lets a function take a name of a structured binding as it is.
+  const auto group_for =
+      [&, children = children](const Expression::Node& node) -> std::optional<uint32_t> {
     if (&node != &wide) return std::nullopt;
     std::vector<uint32_t> grouped;
     if (wide.op == BooleanOp::kDifference && !with_first) {
