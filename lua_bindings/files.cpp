@@ -7,10 +7,6 @@
 #include <cstring>
 #include <filesystem>
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include "lua_bindings/guard.h"
 #include "lua_bindings/nearest.h"
 #include "lua_bindings/shipped_modules.h"
@@ -36,32 +32,6 @@ std::string plain_path(const std::string& path) {
 }
 
 }  // namespace
-
-FileText read_whole_file(const std::string& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return {{}, system_reason()};
-  if (S_ISDIR(status.st_mode)) return {{}, "it is a directory"};
-  if (!S_ISREG(status.st_mode)) return {{}, "it is not a regular file"};
-  const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
-  if (file < 0) return {{}, system_reason()};
-  FileText text;
-  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
-    text.error = "it is not a regular file";
-  } else {
-    text.bytes.resize(static_cast<size_t>(status.st_size));
-    size_t filled = 0;
-    while (filled < text.bytes.size()) {
-      const ssize_t got = ::read(file, text.bytes.data() + filled, text.bytes.size() - filled);
-      if (got < 0 && errno == EINTR) continue;
-      if (got < 0) text.error = system_reason();
-      if (got <= 0) break;
-      filled += static_cast<size_t>(got);
-    }
-    text.bytes.resize(filled);
-  }
-  ::close(file);
-  return text;
-}
 
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code error;

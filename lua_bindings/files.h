@@ -5,15 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace csgrun {
+#include <csgrun/primitives/read_file.h>
 
-/// The text of a regular file, or why not. Pipes, devices and directories are refused before they
-/// are opened, so that nothing blocks.
-struct FileText {
-  std::string bytes;
-  std::string error;  ///< empty: it was read
-};
-FileText read_whole_file(const std::string& path);
+namespace csgrun {
 
 /// Whether two paths lead to one file that is there.
 bool is_same_file(const std::string& a, const std::string& b);

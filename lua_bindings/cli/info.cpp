@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <new>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 #include <csgrun/engine/heap.h>
 #include <csgrun/export/write.h>
+#include <csgrun/primitives/file_ending.h>
 #include <csgrun/primitives/flat_file.h>
 #include <csgrun/primitives/mesh_file.h>
 
@@ -23,12 +25,8 @@
 namespace csgrun {
 namespace {
 
-bool is_gltf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return ending == ".glb" || ending == ".gltf";
+bool is_gltf(std::string_view path) {
+  return has_ending(path, ".glb") || has_ending(path, ".gltf");
 }
 
 /// The objects of a file as parts; what stands before the first, or has no name, is called as the

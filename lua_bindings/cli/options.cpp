@@ -146,7 +146,8 @@ void check_all(CommandLine& line, const RawOptions& raw, const CLI::App& app) {
   for (const std::string& text : raw.definitions)
     line.definitions.push_back(split_definition(text));
   for (const std::string& folder : line.library_folders) {
-    if (!std::filesystem::is_directory(folder))
+    std::error_code unreadable;
+    if (!std::filesystem::is_directory(folder, unreadable))
       throw UsageError{fmt::format("-L {}: there is no such folder", folder)};
   }
   if (const char* path = std::getenv("CSGRUN_PATH")) {
@@ -246,7 +247,7 @@ CommandLine parse_info(int argc, char** argv) {
   CommandLine line;
   line.command = Command::kInfo;
   CLI::App app("Measures a mesh file exactly, on its own coordinates.", "csgrun info");
-  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY, GLB, glTF, 3MF, SVG or DXF")->required();
+  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY, GLB, glTF, 3MF, AMF, SVG or DXF")->required();
   app.add_flag("--json", line.info_json, "as one JSON object");
   try {
     app.parse(argc - 1, argv + 1);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "primitives/files/formats.h"
+#include "primitives/files/text_scanner.h"
 
 namespace csgrun {
 namespace {
@@ -22,9 +23,7 @@ std::optional<double> number_of(std::string_view word) {
   const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (rest != word.data() + word.size() || word.empty()) return std::nullopt;
   if (error == std::errc()) return value;  // also "inf", "-inf", "nan" and "-nan"
-  const bool tiny = word.find("e-") != std::string_view::npos ||  // out of range
-                    word.find("E-") != std::string_view::npos;
-  return tiny ? 0.0 : std::numeric_limits<double>::infinity();
+  return is_too_small(word) ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
 /// Where the string of text() ends, which OpenSCAD does not escape: with the next argument.

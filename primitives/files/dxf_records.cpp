@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <optional>
 
 #include "primitives/files/formats.h"
+#include "primitives/files/text_scanner.h"
 
 namespace csgrun {
 namespace {
@@ -15,15 +14,6 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r'))
     text.remove_suffix(1);
   return text;
-}
-
-std::optional<double> number_of(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || rest != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
 }
 
 class Lines {
@@ -48,7 +38,7 @@ class Lines {
 
 double DxfRecord::number(int code, double otherwise) const {
   for (const auto& [key, value] : values) {
-    if (key == code) return number_of(value).value_or(otherwise);
+    if (key == code) return parse_finite(value).value_or(otherwise);
   }
   return otherwise;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,9 +47,10 @@ void note_small_faces(const PassedOver& faces, std::vector<std::string>* notes);
 Error malformed(const std::string& name, const std::string& place, const std::string& what);
 
 /// An error if `count` records of at least `bytes_each` cannot be in the `present` bytes that are
-/// left: asked before any memory is set aside for them.
-std::optional<Error> check_count(const std::string& name, const std::string& place,
-                                 const std::string& what, uint64_t count, uint64_t bytes_each,
+/// left: asked before any memory is set aside for them. `place` tells where they are, if they
+/// cannot.
+std::optional<Error> check_count(const std::string& name, const std::function<std::string()>& place,
+                                 std::string_view what, uint64_t count, uint64_t bytes_each,
                                  uint64_t present);
 
 /// A word for a message: short, printable.

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <png.h>
@@ -53,17 +56,28 @@ Result<HeightMap> parse_table(const std::string& name, std::string_view bytes) {
   return map;
 }
 
-/// How many bytes the chunks of a PNG have that hold its pixels.
-size_t pixel_bytes(std::string_view bytes) {
+/// What of a PNG is pixels.
+struct PngPixels {
+  size_t bytes = 0;  ///< of the chunks that hold them
+  std::string file;  ///< without the chunks that say how they are to be shown
+};
+PngPixels pixels_of(std::string_view bytes) {
   constexpr size_t kSignatureSize = 8, kFrame = 12;  // length, type and checksum of a chunk
-  size_t sum = 0;
-  for (size_t at = kSignatureSize; at + kFrame <= bytes.size();) {
+  constexpr std::array<std::string_view, 5> kShown{"gAMA", "cHRM", "sRGB", "iCCP", "cICP"};
+  PngPixels pixels{0, std::string(bytes.substr(0, kSignatureSize))};
+  size_t at = kSignatureSize;
+  while (at + kFrame <= bytes.size()) {
     const size_t length = read_unsigned<4>(bytes, at, true);
     if (length > bytes.size() - at - kFrame) break;
-    if (bytes.substr(at + 4, 4) == "IDAT") sum += length;
+    const std::string_view type = bytes.substr(at + 4, 4);
+    if (type == "IDAT") pixels.bytes += length;
+    if (std::find(kShown.begin(), kShown.end(), type) == kShown.end()) {
+      pixels.file += bytes.substr(at, kFrame + length);
+    }
     at += kFrame + length;
   }
-  return sum;
+  pixels.file += bytes.substr(at);
+  return pixels;
 }
 
 /// By libpng's simplified interface: no jumps, and no more memory than the picture's 8-bit pixels.
@@ -75,7 +89,9 @@ Result<HeightMap> parse_png(const std::string& name, std::string_view bytes, boo
     png_image_free(&image);
     return malformed(name, "", "the PNG cannot be read: " + message);
   };
-  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) return fail();
+  const PngPixels pixels_only = pixels_of(bytes);
+  const std::string& file = pixels_only.file;
+  if (png_image_begin_read_from_memory(&image, file.data(), file.size()) == 0) return fail();
   if (image.width == 0 || image.height == 0 || image.width > kMostHeights / image.height) {
     png_image_free(&image);
     return too_many(name);
@@ -84,11 +100,11 @@ Result<HeightMap> parse_png(const std::string& name, std::string_view bytes, boo
   // away, a thousandfold.
   constexpr size_t kMostOfPixel = 8, kOfRow = 16, kOfFile = 1024;
   const size_t most = size_t{image.height} * (image.width * kMostOfPixel + kOfRow) + kOfFile;
-  if (pixel_bytes(bytes) > most) {
+  if (pixels_only.bytes > most) {
     png_image_free(&image);
     return malformed(name, "", "the PNG has more data than its size needs");
   }
-  // Values as they are in the file, however it says they are to be shown.
+  // Values as they are in the file.
   image.format = PNG_FORMAT_RGBA;
   image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   const size_t columns = image.width, rows = image.height;

@@ -45,12 +45,12 @@ void note_small_faces(const PassedOver& faces, std::vector<std::string>* notes) 
   notes->push_back(which + " of fewer than three corners left out (first: " + faces.first + ")");
 }
 
-std::optional<Error> check_count(const std::string& name, const std::string& place,
-                                 const std::string& what, uint64_t count, uint64_t bytes_each,
+std::optional<Error> check_count(const std::string& name, const std::function<std::string()>& place,
+                                 std::string_view what, uint64_t count, uint64_t bytes_each,
                                  uint64_t present) {
   if (count <= present / std::max<uint64_t>(bytes_each, 1)) return std::nullopt;
-  Error error = malformed(name, place,
-                          std::to_string(count) + " " + what + " promised, but only " +
+  Error error = malformed(name, place(),
+                          std::to_string(count) + " " + std::string(what) + " promised, but only " +
                               std::to_string(present) + " bytes follow");
   error.code = ErrorCode::kLimit;
   return error;

@@ -58,14 +58,8 @@ class OffReader {
     if (auto error = read_counts(magic, points, faces)) return *error;
     // A point takes "0 0 0\n" at least, a face "0\n", without the line end of the last: faces
     // of fewer than three corners are passed over, but may be there.
-    if (auto error =
-            check_count(name_, scanner_.place(), "points", points, 5, scanner_.remaining())) {
-      return *error;
-    }
-    if (auto error =
-            check_count(name_, scanner_.place(), "faces", faces, 2, scanner_.remaining() + 1)) {
-      return *error;
-    }
+    if (auto error = check("points", points, 5, scanner_.remaining())) return *error;
+    if (auto error = check("faces", faces, 2, scanner_.remaining() + 1)) return *error;
     mesh_.points.reserve(points);
     for (uint64_t i = 0; i < points; ++i) {
       if (auto error = read_point(i)) return *error;
@@ -84,6 +78,11 @@ class OffReader {
 
  private:
   Error here(const std::string& what) { return malformed(name_, scanner_.place(), what); }
+  std::optional<Error> check(std::string_view what, uint64_t count, uint64_t bytes_each,
+                             uint64_t present) {
+    return check_count(
+        name_, [&] { return scanner_.place(); }, what, count, bytes_each, present);
+  }
   Error no_off(std::string_view magic) {
     return here("not an OFF file: it starts with " + quoted(magic));
   }
@@ -173,29 +172,26 @@ class OffReader {
   }
 
   std::optional<Error> read_face(uint64_t i) {
-    const std::string which = "face " + std::to_string(i);
+    const auto which = [&] { return "face " + std::to_string(i); };
     const std::string_view word = scanner_.word_anywhere();
     const auto count = parse_integer<uint64_t>(word);
     if (!count) {
       return here(word.empty()
-                      ? "the file ends before " + which
-                      : "expected the number of corners of " + which + ", got " + quoted(word));
+                      ? "the file ends before " + which()
+                      : "expected the number of corners of " + which() + ", got " + quoted(word));
     }
-    if (auto error =
-            check_count(name_, scanner_.place(), "corners", *count, 2, scanner_.remaining())) {
-      return error;
-    }
+    if (auto error = check("corners", *count, 2, scanner_.remaining())) return error;
     loop_.clear();
     for (uint64_t k = 0; k < *count; ++k) {
       const std::string_view index_word = scanner_.word_anywhere();
       const auto index = parse_integer<int64_t>(index_word);
       if (!index) {
         return here(index_word.empty()
-                        ? "the file ends in " + which
-                        : "expected an index in " + which + ", got " + quoted(index_word));
+                        ? "the file ends in " + which()
+                        : "expected an index in " + which() + ", got " + quoted(index_word));
       }
       if (*index < 0 || static_cast<uint64_t>(*index) >= mesh_.points.size()) {
-        return here("index " + std::to_string(*index) + " of " + which +
+        return here("index " + std::to_string(*index) + " of " + which() +
                     " is out of range, there are " + std::to_string(mesh_.points.size()) +
                     " points");
       }
@@ -203,8 +199,8 @@ class OffReader {
     }
     if (loop_.size() < 3) {
       // Without lines to go by, a wrong number of points is seen by this.
-      if (is_one_line_) return here(which + " has fewer than three corners");
-      small_faces_.add(which);
+      if (is_one_line_) return here(which() + " has fewer than three corners");
+      small_faces_.add(which());
     } else {
       mesh_.add_face(loop_);
       if (is_one_line_) return std::nullopt;  // a colour cannot be told from the next face

@@ -286,8 +286,9 @@ class BodyReader {
       for (const Property& p : element.properties) {
         least += Source::least_size(p.is_list ? p.count_type : p.type);
       }
-      if (auto error = check_count(name_, source_.place(), "elements \"" + element.name + "\"",
-                                   element.count, least, source_.remaining())) {
+      const auto place = [&] { return source_.place(); };
+      if (auto error = check_count(name_, place, "elements \"" + element.name + "\"", element.count,
+                                   least, source_.remaining())) {
         return *error;
       }
       for (uint64_t i = 0; i < element.count; ++i) {
@@ -376,7 +377,8 @@ class BodyReader {
       return here("a list has the length " + number_text(*length));
     }
     const auto count = static_cast<uint64_t>(*length);
-    if (auto error = check_count(name_, source_.place(), "entries of a list", count,
+    const auto place = [&] { return source_.place(); };
+    if (auto error = check_count(name_, place, "entries of a list", count,
                                  Source::least_size(property.type), source_.remaining())) {
       return error;
     }

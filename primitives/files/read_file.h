@@ -1,4 +1,4 @@
-// The bytes of a regular file.
+// The bytes of a file that must be there.
 #pragma once
 
 #include <string>
@@ -7,8 +7,7 @@
 
 namespace csgrun {
 
-/// Reads all of a regular file; a directory, a FIFO or a device is refused, and nothing blocks.
-/// Errors: kCannotRead, kLimit beyond 4 GB. Messages start with the path.
+/// As read_whole_file; kCannotRead with a message that starts with the path.
 Result<std::string> read_regular_file(const std::string& path);
 
 }  // namespace csgrun

@@ -10,6 +10,8 @@
 
 #include <csgrun/primitives/trig.h>
 
+#include "primitives/files/text_scanner.h"
+
 namespace csgrun {
 namespace {
 
@@ -38,7 +40,10 @@ class Scanner {
         at_ < text_.size() && (peek() == '-' || peek() == '.' || (peek() >= '0' && peek() <= '9'));
     if (!starts) return std::nullopt;
     const auto [rest, error] = std::from_chars(first, text_.data() + text_.size(), value);
-    if (rest == first || error != std::errc() || !std::isfinite(value)) return std::nullopt;
+    if (rest == first || !std::isfinite(value)) return std::nullopt;
+    if (error != std::errc() && !is_too_small({first, static_cast<size_t>(rest - first)})) {
+      return std::nullopt;
+    }
     at_ = begin + static_cast<size_t>(rest - first);
     return value;
   }

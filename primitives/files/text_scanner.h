@@ -1,9 +1,11 @@
 // Words and numbers of a text file, line by line, without copies and without the locale.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -101,19 +103,29 @@ class TextScanner {
 /// A small letter for a capital one of ASCII.
 inline char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 
+/// Whether a decimal number that is beyond the range of double is too small for it, not too large:
+/// by the power of ten of its first digit other than 0.
+inline bool is_too_small(std::string_view number) {
+  const size_t e = std::min(number.find_first_of("eE"), number.size());
+  const std::string_view digits = number.substr(0, e);
+  const auto point = static_cast<int64_t>(std::min(digits.find('.'), digits.size()));
+  const auto first = static_cast<int64_t>(digits.find_first_of("123456789"));
+  std::string_view power = number.substr(std::min(e + 1, number.size()));
+  if (!power.empty() && power.front() == '+') power.remove_prefix(1);
+  int64_t exponent = 0;
+  const auto [rest, error] = std::from_chars(power.data(), power.data() + power.size(), exponent);
+  if (error == std::errc::result_out_of_range) return power.front() == '-';
+  // Against a number's own length, which is that of something in memory.
+  return exponent < (first < point ? first + 1 - point : first - point);
+}
+
 /// A whole word as a finite number; numbers too small for a double are 0.
 inline std::optional<double> parse_finite(std::string_view word) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   double value = 0;
   const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (rest != word.data() + word.size() || word.empty()) return std::nullopt;
-  if (error == std::errc::result_out_of_range) {
-    const size_t exponent = word.find_first_of("eE");
-    const bool tiny = exponent != std::string_view::npos ? word.substr(exponent + 1, 1) == "-"
-                                                         : word.find('.') != std::string_view::npos;
-    if (!tiny) return std::nullopt;
-    return 0.0;
-  }
+  if (error == std::errc::result_out_of_range && is_too_small(word)) return 0.0;
   if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
   return value;
 }

@@ -171,8 +171,8 @@ class NoFiles(Case):
         os.mkdir(self.path("folder.lua"))
         os.symlink("/dev/zero", self.path("zero.lua"))
         os.symlink("/dev/zero", self.path("zero.stl"))
-        for name, said in (("fifo.lua", "it is not a regular file"), ("folder.lua", "it is a directory"),
-                           ("zero.lua", "it is not a regular file"), ("zero.stl", "it is not a regular file"),
+        for name, said in (("fifo.lua", "it is a FIFO"), ("folder.lua", "it is a directory"),
+                           ("zero.lua", "it is a device"), ("zero.stl", "it is a device"),
                            ("none.lua", "No such file or directory")):
             outcome = self.run_csgrun(name, "-o", "out.stl", wall=20)
             self.expect(outcome, 4, f"csgrun: cannot read '{name}': {said}")
@@ -182,7 +182,7 @@ class NoFiles(Case):
         os.mkfifo(self.path("fifo.stl"))
         os.mkdir(self.path("folder.stl"))
         os.symlink("/dev/zero", self.path("zero.stl"))
-        for name, said in (("fifo.stl", "cannot read 'fifo.stl': it is not a regular file"),
+        for name, said in (("fifo.stl", "cannot read 'fifo.stl': it is a FIFO"),
                            ("folder.stl", "cannot read 'folder.stl': it is a directory"),
                            ("none.stl", "cannot read 'none.stl': No such file or directory"),
                            ("zero.stl", "'zero.stl' lies outside of the model's folder")):

@@ -72,6 +72,7 @@ class Usage(Case):
                    "--max-memory", "1e20")
         self.check("csgrun: --max-memory must be from 16 to 1e+09 (MB), got 1", "model.lua", "--stats", "--max-memory", "1")
         self.check("csgrun: -L none: there is no such folder", "model.lua", "--stats", "-L", "none")
+        self.check(f"csgrun: -L {'n' * 300}: there is no such folder", "model.lua", "--stats", "-L", "n" * 300)
 
     def test_definitions(self):
         self.check("csgrun: -D hole_radis: the model has no such parameter (did you mean 'hole_radius'?)",

@@ -339,7 +339,7 @@ TEST_F(FilesTest, NothingOutsideCanBeReached) {
   EXPECT_EQ(run("import '/etc/hostname.stl'"),
             "model/model.lua:1: import: '/etc/hostname.stl" + outside);
   EXPECT_EQ(run("import 'pipe.stl'"),
-            "model/model.lua:1: import: cannot read 'pipe.stl': it is not a regular file");
+            "model/model.lua:1: import: cannot read 'pipe.stl': it is a FIFO");
   EXPECT_EQ(run("import 'folder.stl'"),
             "model/model.lua:1: import: cannot read 'folder.stl': it is a directory");
   EXPECT_EQ(

@@ -326,7 +326,12 @@ TEST(CsgFile, ErrorsHaveTheirLine) {
 TEST(CsgFile, WhatIsWrittenByHand) {
   const std::string plain = sketch(parse("group() { " + kCube + " }").solid);
   EXPECT_EQ(sketch(parse(";group() { cube(size = [1, 1, 1,], center = false,);; };").solid), plain);
-  EXPECT_EQ(sketch(parse("sphere(r = 1E-400);").solid), sketch(parse("sphere(r = 1e-400);").solid));
+  const std::string digits = "0." + std::string(400, '0') + "1";
+  for (const std::string& small : {std::string("1E-400"), std::string("1e-400"), digits}) {
+    EXPECT_EQ(sketch(parse("sphere(r = " + small + ");").solid),
+              sketch(parse("sphere(r = 0);").solid))
+        << small;
+  }
 }
 
 TEST(CsgFile, DepthCostsNoStack) {

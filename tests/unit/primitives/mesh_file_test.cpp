@@ -215,6 +215,32 @@ std::string ply_of_two_elements(const std::string& first, const std::string& sec
          "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 }
 
+// A double holds less than other programs may write: what is too small is 0, what is too large an
+// error, and which of them it is the digits and the exponent say together.
+TEST(MeshFile, NumbersBeyondDoubles) {
+  const std::string many(400, '0');
+  const auto first = [](const std::string& number) -> std::optional<double> {
+    const auto mesh =
+        parse_mesh("a.off", "OFF\n3 1 0\n" + number + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    return mesh ? std::optional(mesh->points[0].x) : std::nullopt;
+  };
+  for (const std::string sign : {"", "-", "+"}) {
+    for (const std::string& small : std::initializer_list<std::string>{
+             "1e-400", "1E-400", "0." + many + "1", "0." + many + "1e+9",
+             "1.5e-99999999999999999999", "12345e-500", "0." + many + "17E50", "1" + many + "e-800",
+             "." + many + "1"}) {
+      EXPECT_EQ(first(sign + small), 0) << sign << small;
+    }
+    for (const std::string& large : std::initializer_list<std::string>{
+             "1e400", "1e+400", "1" + many + ".0", "1" + many + ".0e-9", "0.001e400",
+             "12.5E999999999999999999999", "1" + many, "0." + many + "1e900"}) {
+      EXPECT_FALSE(first(sign + large)) << sign << large;
+    }
+  }
+  EXPECT_EQ(first("0." + many + "1e401"), 1);
+  EXPECT_EQ(first("1" + many + "e-400"), 1);
+}
+
 TEST(MeshFile, ColoursOfPlyAreThoseOfTheirVertices) {
   // The last face has the last three points.
   const auto second = parse_mesh("a.ply", ply_of_two_elements("", "rgb",
