@@ -1,6 +1,9 @@
 // faces, ray, gap: what of a solid is where. In doubles, of the exact result.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -103,19 +106,20 @@ constexpr Option kRayOptions[] = {
 };
 constexpr FunctionSpec kRay{
     "ray",
-    "Where a ray meets its surface, from the start on: each {distance, point, normal, entering}.",
+    "Where a ray passes its surface, from the start on: each {distance, point, normal, entering}.",
     kRayOptions, false, "part:ray({-5, 5, 5}, {1, 0, 0})[1].distance"};
 
+/// Where the line of the ray meets a triangle.
 struct Hit {
   double distance;
   glm::dvec3 normal;
-  bool entering;
+  double facing;  ///< the normal along the ray: below 0 where the ray enters
 };
 
 /// A triangle is a little larger than it is, so that no ray slips through between two.
 constexpr double kMargin = 1e-12;
 
-/// Moeller and Trumbore (1997); edges belong to both triangles, and hits are made one later.
+/// Moeller and Trumbore (1997); edges belong to both triangles.
 bool hits(const glm::dvec3& from, const glm::dvec3& along, const glm::dvec3& a, const glm::dvec3& b,
           const glm::dvec3& c, double& distance) {
   const glm::dvec3 p = glm::cross(along, c - a);
@@ -130,6 +134,33 @@ bool hits(const glm::dvec3& from, const glm::dvec3& along, const glm::dvec3& a, 
   return distance >= 0;
 }
 
+std::vector<Hit> all_hits(const Solid& solid, const glm::dvec3& from, const glm::dvec3& along) {
+  std::vector<Hit> found;
+  for (size_t t = 0; t < solid.triangles.size(); ++t) {
+    const auto& corners = solid.triangles[t];
+    double distance = 0;
+    if (!hits(from, along, solid.positions[corners[0]], solid.positions[corners[1]],
+              solid.positions[corners[2]], distance)) {
+      continue;
+    }
+    const glm::dvec3 normal = glm::normalize(solid.face_normals[solid.triangle_face[t]]);
+    found.push_back({distance, normal, glm::dot(normal, along)});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
+  return found;
+}
+
+/// That of the hits, which are at one place, which faces most as the ray passes; null if none does.
+const Hit* passed(std::span<const Hit> place, bool entering) {
+  const Hit* best = nullptr;
+  for (const Hit& hit : place) {
+    const bool fits = entering ? hit.facing < 0 : hit.facing > 0;
+    if (fits && (best == nullptr || std::fabs(hit.facing) > std::fabs(best->facing))) best = &hit;
+  }
+  return best;
+}
+
 int ray(lua_State* L) {
   SolidValue& value = solid_argument(L, kRay);
   const Arguments arguments(L, kRay, 2);
@@ -137,37 +168,46 @@ int ray(lua_State* L) {
   if (!from || !direction) fail_in(kRay, "needs where it starts and where it goes");
   if (direction->v == glm::dvec3(0, 0, 0)) fail_in(kRay, "option 'direction' must not be 0");
   const glm::dvec3 along = glm::normalize(direction->v);
-  const Solid& solid = session_of(L).evaluated(value);
-  std::vector<Hit> found;
-  for (size_t t = 0; t < solid.triangles.size(); ++t) {
-    const auto& corners = solid.triangles[t];
-    double distance = 0;
-    if (!hits(from->v, along, solid.positions[corners[0]], solid.positions[corners[1]],
-              solid.positions[corners[2]], distance)) {
-      continue;
-    }
-    const glm::dvec3 normal = glm::normalize(solid.face_normals[solid.triangle_face[t]]);
-    found.push_back({distance, normal, glm::dot(normal, along) < 0});
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
+  Session& session = session_of(L);
+  const std::vector<Hit> found = all_hits(session.evaluated(value), from->v, along);
+  // What the triangles of a place say where an edge or a corner is met is anything: whether the ray
+  // enters or leaves there is told by what it is in before and after.
+  const auto is_inside = [&](double distance) {
+    const EvaluationScope scope(session.budget());
+    const auto side = session.evaluator().contains(value.node, from->v + distance * along);
+    if (!side) session.fail_evaluation(side.error());
+    return *side >= 0;
+  };
+  constexpr double kOnePlace = 1e-9;
   lua_newtable(L);
   lua_Integer count = 0;
-  const Hit* last = nullptr;
-  for (const Hit& hit : found) {
-    // Triangles that share the edge or corner which was met are one hit.
-    const bool again = last != nullptr && last->entering == hit.entering &&
-                       hit.distance - last->distance <= 1e-9 * (1 + hit.distance);
-    if (again) continue;
-    last = &hit;
+  bool was_inside = false;
+  for (size_t begin = 0, end = 0; begin < found.size(); begin = end) {
+    const double distance = found[begin].distance;
+    while (end < found.size() && found[end].distance - distance <= kOnePlace * (1 + distance)) {
+      ++end;
+    }
+    const auto place = std::span(found).subspan(begin, end - begin);
+    const bool starts_here = begin == 0 && distance <= kOnePlace;
+    // What runs in a face's plane may come in unseen.
+    if (begin == 0 && !starts_here) was_inside = is_inside(distance / 2) && is_inside(0);
+    const bool is_in =
+        end < found.size() && is_inside((found[end - 1].distance + found[end].distance) / 2);
+    // A start on the surface is passed as the ray goes on.
+    const bool is_passed =
+        starts_here ? is_in || passed(place, false) != nullptr : is_in != was_inside;
+    was_inside = is_in;
+    if (!is_passed) continue;
+    const Hit* hit = passed(place, is_in);
+    if (hit == nullptr) hit = &place.front();
     lua_createtable(L, 0, 4);
-    lua_pushnumber(L, hit.distance + 0.0);  // never -0
+    lua_pushnumber(L, hit->distance + 0.0);  // never -0
     lua_setfield(L, -2, "distance");
-    push_point(L, from->v + hit.distance * along);
+    push_point(L, from->v + hit->distance * along);
     lua_setfield(L, -2, "point");
-    push_point(L, hit.normal);
+    push_point(L, hit->normal);
     lua_setfield(L, -2, "normal");
-    lua_pushboolean(L, hit.entering ? 1 : 0);
+    lua_pushboolean(L, is_in ? 1 : 0);
     lua_setfield(L, -2, "entering");
     lua_rawseti(L, -2, ++count);
   }
@@ -192,10 +232,18 @@ int gap(lua_State* L) {
   if (a.empty() || b.empty()) fail_in(kGap, "there is nothing in one of them");
   // What is inside of the other crosses nothing; the Boolean knows.
   const NodePtr common = Node::boolean(BooleanOp::kIntersection, {value.node, other->node});
-  const bool overlap = !session.extent(SolidValue(common)).empty;
-  lua_pushnumber(
-      L, overlap ? 0
-                 : surface_distance({a.positions, a.triangles}, {b.positions, b.triangles}).length);
+  double length = 0;
+  if (session.extent(SolidValue(common)).empty) {
+    length = surface_distance({a.positions, a.triangles}, {b.positions, b.triangles}).length;
+  }
+  // Corners are rounded: what is nearer than they tell touches.
+  double reach = 0;
+  for (const Solid* solid : {&a, &b}) {
+    for (const glm::dvec3& p : solid->positions) {
+      reach = std::max({reach, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    }
+  }
+  lua_pushnumber(L, length <= 8 * std::numeric_limits<double>::epsilon() * reach ? 0 : length);
   return 1;
 }
 

@@ -2847,7 +2847,7 @@ function Solid:faces(normal, options) end
 ---@field from? number[] where it starts
 ---@field direction? number[] where it goes
 
----Where a ray meets its surface, from the start on: each {distance, point, normal, entering}.
+---Where a ray passes its surface, from the start on: each {distance, point, normal, entering}.
 ---
 ---Example: `part:ray({-5, 5, 5}, {1, 0, 0})[1].distance`
 ---@overload fun(self: Solid, options: csgrun.ray): {distance: number, point: number[], normal: number[], entering: boolean}[]

@@ -181,7 +181,7 @@ std::optional<Beyond> beyond(const Turn& turn) {
     const double x = 1 + part * (1 - cos_deg(step)), y = part * sin_deg(step);
     if (!(y > 0)) return std::nullopt;
     if (atan2_deg(y, x) <= std::min(gap / 8, kMost)) {
-      return Beyond{part, std::hypot(x, y), std::min(gap / 4, kMostWedge)};
+      return Beyond{part, std::sqrt(x * x + y * y), std::min(gap / 4, kMostWedge)};
     }
   }
 }

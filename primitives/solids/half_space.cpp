@@ -31,8 +31,9 @@ std::optional<glm::dvec3> whole_direction(const glm::dvec3& direction) {
     }
     return whole / static_cast<double>(common);
   };
-  for (int digits = 0; digits <= kMostDigits; ++digits) {
-    if (const auto whole = scaled(std::pow(10.0, digits))) return whole;
+  double power = 1;
+  for (int digits = 0; digits <= kMostDigits; ++digits, power *= 10) {
+    if (const auto whole = scaled(power)) return whole;
   }
   for (int bits = 1; bits <= kMostBits; ++bits) {
     if (const auto whole = scaled(std::ldexp(1.0, bits))) return whole;

@@ -84,10 +84,10 @@ bool is_void_of(const Solid& solid, const Surface& hole, const Surface& outer) {
 Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const NodePtr& tool,
                              double distance) {
   const SourceRef& where = tool->where();
-  if (distance > 0) return Node::minkowski_sum({solid, tool}, where);
   const auto extent = evaluator.extent(solid);
   if (!extent) return extent.error();
-  if (extent->empty) return solid;
+  if (extent->empty) return solid;  // a sum would leave the tool
+  if (distance > 0) return Node::minkowski_sum({solid, tool}, where);
   // The tool has no room in what is no larger, and a tool that is far larger would make the grid
   // coarse.
   const auto reach = evaluator.extent(tool);

@@ -72,8 +72,13 @@ function layout.place(part, where, point)
   return part:translate(point[1] - from[1], point[2] - from[2], (point[3] or 0) - (from[3] or 0))
 end
 
-local function row(parts, o)
+local function row(name, parts, o)
   local axis, placed = kAxes[o.axis], {}
+  for i, part in ipairs(parts) do
+    if (o.axis == "z" or o.align ~= "none") and #part:bbox().min < 3 then
+      error(name .. ": part " .. i .. " must be a solid, got a shape, which has no z", 3)
+    end
+  end
   local next_start = nil
   for i, part in ipairs(parts) do
     local box, move = part:bbox(), {0, 0, 0}
@@ -104,7 +109,7 @@ local kAlign = {"none", choices = {"none", "min", "center", "max"}}
 ---@return Solid[]
 function layout.row(parts, given)
   list_of("layout.row", parts)
-  return row(parts, options("layout.row", given or {}, {
+  return row("layout.row", parts, options("layout.row", given or {}, {
     gap = {5}, axis = {"x", choices = {"x", "y", "z"}}, align = kAlign,
   }))
 end
@@ -120,7 +125,7 @@ function layout.stack(parts, given)
     gap = {0}, align = {"center", choices = kAlign.choices},
   })
   o.axis = "z"
-  return row(parts, o)
+  return row("layout.stack", parts, o)
 end
 
 --- The parts in rows along X, rows along -Y, each in a cell as large as the largest part. Options:

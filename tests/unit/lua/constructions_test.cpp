@@ -199,7 +199,11 @@ TEST(Offset, InwardsByMoreThanThereIsLeavesNothing) {
       assert(cube(10, 20, 30):offset{delta = -d}:is_empty())
     end
     assert(cube(10, 20, 30):offset{delta = -4}:volume() == 2 * 12 * 22)
-    assert(cube(10, 20, 30):offset{delta = -4.999}:volume() > 0))");
+    assert(cube(10, 20, 30):offset{delta = -4.999}:volume() > 0)
+    local nothing = cube(1) - cube(2)
+    for _, d in ipairs{0.5, -0.5} do
+      assert(nothing:offset(d):is_empty() and nothing:offset{delta = d}:is_empty())
+    end)");
 }
 
 TEST(Edges, Mistakes) {

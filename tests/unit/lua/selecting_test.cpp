@@ -56,10 +56,46 @@ TEST(Rays, EnterAndLeave) {
   expect_good(
       "local s = cube(10) - cube(4, 10, 10):translate(3, 0, 0) assert(#s:ray({-1, 5, 5}, {1, 0, "
       "0}) == 4)");
+  // From the surface on, outwards and inwards.
+  expect_good(
+      "local out, inwards = cube(10):ray({10, 5, 5}, {1, 0, 0}), cube(10):ray({0, 5, 5}, {1, 0, 0})"
+      "assert(#out == 1 and not out[1].entering and out[1].distance == 0)\n"
+      "assert(#inwards == 2 and inwards[1].entering and inwards[2].distance == 10)");
   EXPECT_EQ(message_of("cube(1):ray({0, 0, 0})"),
             "model.lua:1: ray: needs where it starts and where it goes");
   EXPECT_EQ(message_of("cube(1):ray({0, 0, 0}, {0, 0, 0})"),
             "model.lua:1: ray: option 'direction' must not be 0");
+}
+
+// Rays from outside through points of edges and corners: they pass, or they only touch.
+TEST(Rays, EnterAndLeaveByTurns) {
+  expect_good(R"(
+    for _, A in ipairs{octahedron(5), cube(10), cube({1000, 0.01, 3}):rotate(11, 12, 13),
+                       sphere(10, {fn = 16}), cube(6) - cube(2, 2, 9):translate(2, 2, -1)} do
+      local m, far, passed = A:mesh(), norm(A:bbox().size) * 2, 0
+      local r = rands(0, 1, 6 * 400, 7)
+      for t = 0, 399 do
+        local function R(i, n) return math.min(n, 1 + math.floor(r[6 * t + i] * n)) end
+        local f, k = m.faces[R(1, #m.faces)], R(2, 3)
+        local p, q, s = m.points[f[k] + 1], m.points[f[k % 3 + 1] + 1], ({0, 0.5, 0.25})[R(3, 3)]
+        local d = {R(4, 19) - 10, R(5, 19) - 10, R(6, 19) - 10}
+        if norm(d) > 0 then
+          local o, inside = {}, false
+          for i = 1, 3 do o[i] = p[i] + (q[i] - p[i]) * s - d[i] / norm(d) * far end
+          for _, hit in ipairs(A:ray(o, d)) do
+            assert(hit.entering ~= inside)
+            inside = hit.entering
+            passed = passed + 1
+          end
+          assert(not inside)
+        end
+      end
+      assert(passed > 100, passed)
+    end
+    -- Beside an edge of a tetrahedron, which it touches.
+    local A = polyhedron{points = {{0, 0, 0}, {6, 0, 0}, {0, 5, 0}, {1, 2, 9}},
+                         faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}}
+    assert(#A:ray({21.8779296875, 16.048828125, 8.2197265625}, {-4, -4, -2}) == 0))");
 }
 
 TEST(Gaps, OfSolids) {
@@ -80,6 +116,15 @@ TEST(Gaps, OfSolids) {
   expect_good(
       "local a, b = sphere(5, {fn = 48}), sphere(5, {fn = 48}):translate(20, 3, 1)\n"
       "local g = a:gap(b) assert(abs(g - b:gap(a)) < 1e-12 and g > 10.2 and g < 10.4)");
+  // Turned, so that corners are rounded.
+  expect_good(R"(
+    for i = 1, 50 do
+      local function turned(s) return s:rotate(0.37 * i, 0.91 * i, 1.7 * i) end
+      local hollow = turned(cube(10, true) - cube(8, true))
+      assert(hollow:gap(turned(cube(2, true):translate(3, 0.5, 0))) == 0)
+      local g = hollow:gap(turned(cube(2, true):translate(2.875, 0.5, 0)))
+      assert(math.abs(g - 0.125) < 1e-5, g)
+    end)");
   EXPECT_EQ(message_of("cube(1):gap()"), "model.lua:1: gap: needs the other solid");
   EXPECT_EQ(message_of("cube(1):gap(5)"),
             "model.lua:1: gap: option 'other' must be a solid, got 5");
