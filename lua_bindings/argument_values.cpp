@@ -84,27 +84,6 @@ std::string describe_type(ArgumentType type) {
 
 namespace {
 
-/// How many entries the list at `index` has; -1 when one is missing or has another key. Keys that
-/// are texts are refused or passed over.
-lua_Integer count_entries(lua_State* L, int index, bool pass_over_texts) {
-  index = lua_absindex(L, index);
-  const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
-  lua_Integer entries = 0;
-  lua_pushnil(L);
-  while (lua_next(L, index) != 0) {
-    lua_pop(L, 1);
-    if (pass_over_texts && lua_type(L, -1) == LUA_TSTRING) continue;
-    const bool inside =
-        lua_isinteger(L, -1) != 0 && lua_tointeger(L, -1) >= 1 && lua_tointeger(L, -1) <= length;
-    if (!inside) {
-      lua_pop(L, 1);
-      return -1;
-    }
-    ++entries;
-  }
-  return entries == length ? length : -1;
-}
-
 /// A string for a message: short, and on one line.
 std::string in_quotes(std::string_view text) {
   constexpr size_t kMost = 40;
@@ -127,7 +106,23 @@ std::string in_quotes(std::string_view text) {
 
 }  // namespace
 
-lua_Integer list_length(lua_State* L, int index) { return count_entries(L, index, false); }
+lua_Integer list_length(lua_State* L, int index) {
+  index = lua_absindex(L, index);
+  const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
+  lua_Integer entries = 0;
+  lua_pushnil(L);
+  while (lua_next(L, index) != 0) {
+    lua_pop(L, 1);
+    const bool inside =
+        lua_isinteger(L, -1) != 0 && lua_tointeger(L, -1) >= 1 && lua_tointeger(L, -1) <= length;
+    if (!inside) {
+      lua_pop(L, 1);
+      return -1;
+    }
+    ++entries;
+  }
+  return entries == length ? length : -1;
+}
 
 lua_Integer missing_entry(lua_State* L, int index) {
   index = lua_absindex(L, index);
@@ -148,8 +143,6 @@ lua_Integer missing_entry(lua_State* L, int index) {
   }
   return 0;
 }
-
-lua_Integer list_part_length(lua_State* L, int index) { return count_entries(L, index, true); }
 
 std::string describe_value(lua_State* L, int index) {
   switch (lua_type(L, index)) {

@@ -161,10 +161,6 @@ lua_Integer list_length(lua_State* L, int index);
 /// is none, or when the table has other keys.
 lua_Integer missing_entry(lua_State* L, int index);
 
-/// Number of entries of the list in a table that may have names too; -1 when there are holes in it
-/// or other keys.
-lua_Integer list_part_length(lua_State* L, int index);
-
 /// Signature, meaning and options of a function, for --help-api.
 std::string help_text(const FunctionSpec& spec);
 

@@ -75,7 +75,7 @@ class BoundaryPieces {
     writer.add_whole(spelled, named);
     result->touches_anywhere = mesh_.may_touch && mesh_.touches.empty();
     if (mesh_.may_touch) result->touches = TouchList().with(mesh_.touches);
-    start_version(*result, std::move(writer.added));
+    start_version(*result, writer.added);
     return result;
   }
 

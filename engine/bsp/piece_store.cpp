@@ -199,16 +199,6 @@ IVec3 PieceStore::on_grid(uint32_t point) const {
 // What has no planes yet is a face as it is: of grid points, or of a leaf in a frame. (Of a
 // boundary in a frame a job has all planes.)
 
-PlaneId PieceStore::ensure_support(uint32_t piece) {
-  const PlaneId known = pieces_[piece].support;
-  return known.valid() ? known : take_support(piece, reduced_support(piece));
-}
-
-uint32_t PieceStore::ensure_edge(uint32_t piece, uint32_t edge) {
-  const uint32_t known = edges_[pieces_[piece].first + edge];
-  return known != kNoNumber ? known : take_edge(piece, edge, reduced_edge(piece, edge));
-}
-
 ReducedPlane PieceStore::reduced_support(uint32_t piece) const {
   const Piece& p = pieces_[piece];
   const FrameMap& map = maps_[p.operand];

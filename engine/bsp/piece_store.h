@@ -121,11 +121,8 @@ class PieceStore {
   }
   [[nodiscard]] const PieceBox& box(uint32_t piece) const { return boxes_[piece]; }
   void set_met(uint32_t piece) { pieces_[piece].is_met = true; }
-  /// Makes the support, or the plane of an edge, of a piece over grid points, if it was not made.
-  PlaneId ensure_support(uint32_t piece);
-  uint32_t ensure_edge(uint32_t piece, uint32_t edge);
-  /// The same in two steps: what is computed, which several threads may do, and is taken then.
-  /// REQUIRES: it was not made.
+  /// Makes the support, or the plane of an edge, of a piece over grid points in two steps: it is
+  /// computed, which several threads may do, and is taken then. REQUIRES: it was not made.
   [[nodiscard]] ReducedPlane reduced_support(uint32_t piece) const;
   [[nodiscard]] ReducedPlane reduced_edge(uint32_t piece, uint32_t edge) const;
   PlaneId take_support(uint32_t piece, const ReducedPlane& plane) {

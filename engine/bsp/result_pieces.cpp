@@ -44,7 +44,7 @@ Outside fate_outside(const Expression& expression, uint32_t operand) {
 
 }  // namespace
 
-void start_version(ResultPieces& version, std::vector<uint32_t> pieces) {
+void start_version(ResultPieces& version, const std::vector<uint32_t>& pieces) {
   const PieceStore& store = *version.store;
   version.bytes = bytes_of(store.piece_count(), store.point_count());
   version.tree =
@@ -67,7 +67,7 @@ Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& given, const Expre
   if (!writer.add_cut(evaluated->sets)) return not_closed();
   result->touches_anywhere = evaluated->touching.anywhere;
   result->touches = TouchList().with(std::move(evaluated->touching.boxes));
-  start_version(*result, std::move(writer.added));
+  start_version(*result, writer.added);
   return PiecesPtr(std::move(result));
 }
 

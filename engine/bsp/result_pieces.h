@@ -33,7 +33,7 @@ struct ResultPieces {
 using PiecesPtr = std::shared_ptr<const ResultPieces>;
 
 /// Makes these the pieces of the first version of a store.
-void start_version(ResultPieces& version, std::vector<uint32_t> pieces);
+void start_version(ResultPieces& version, const std::vector<uint32_t>& pieces);
 
 /// As evaluate_boolean; null if a leaf in a frame has a vertex in whose faces nothing turns.
 Result<PiecesPtr> evaluate_pieces(const std::vector<Operand>& operands,

@@ -5,6 +5,7 @@
 
 #include "engine/bsp/cell_arrangement.h"
 #include "engine/bsp/parallel_runs.h"
+#include "engine/bsp/sign_stats.h"
 
 namespace csgrun {
 namespace {
@@ -122,9 +123,7 @@ Result<std::vector<SurfaceCells>> solve_surface_cells(Job& job, const SurfaceOct
   }
   SignCounters total;
   for (const SignCounters& c : counters) total.add(c);
-  stats.sign_filter += total.filter;
-  stats.sign_symbolic += total.symbolic;
-  for (size_t t = 0; t < total.exact.size(); ++t) stats.sign_exact[t] += total.exact[t];
+  add_signs(stats, total);
   stats.cells += tree.visited;
   stats.surface_cells += tree.cells.size();
   stats.solved_cells += tree.cells.size();

@@ -177,8 +177,6 @@ Signed multiply(const Signed& a, const Natural& b) {
   return {negative, std::move(product)};
 }
 
-Signed shift_left(const Signed& a, int bits) { return {a.negative, shift_left(a.magnitude, bits)}; }
-
 double round_quotient(const Signed& numerator, const Natural& denominator, int exponent) {
   const double value = round_quotient(numerator.magnitude, denominator, exponent);
   return numerator.negative && value != 0 ? -value : value;

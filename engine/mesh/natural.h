@@ -52,7 +52,6 @@ Signed signed_value(const Int<N>& value) {
 }
 Signed add(const Signed& a, const Signed& b);
 Signed multiply(const Signed& a, const Natural& b);
-Signed shift_left(const Signed& a, int bits);
 double round_quotient(const Signed& numerator, const Natural& denominator, int exponent);
 
 }  // namespace csgrun

@@ -26,8 +26,6 @@ Int<N> from_gmp(const mpz_class& v) {
   return v < 0 ? -r : r;
 }
 
-Int128 int128_from_gmp(const mpz_class& v);
-
 struct GmpPoint {
   mpz_class x, y, z, w;
 };

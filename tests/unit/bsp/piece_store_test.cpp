@@ -10,6 +10,7 @@
 #include "engine/bsp/result_pieces.h"
 #include "engine/exact/predicates.h"
 #include "tests/support/kernel_case.h"
+#include "tests/support/piece_planes.h"
 #include "tests/support/random_frames.h"
 #include "tests/support/random_solids.h"
 
@@ -44,11 +45,11 @@ void check_face(PieceStore& store, uint32_t piece, Job& job, uint32_t polygon, b
   job.ensure_planes(polygon);
   const JobPolygon& p = job.polygons()[polygon];
   ASSERT_EQ(store.piece(piece).count, p.count);
-  EXPECT_EQ(store.ensure_support(piece), flip ? p.support.flip() : p.support);
+  EXPECT_EQ(test::support_of(store, piece), flip ? p.support.flip() : p.support);
   for (uint32_t i = 0; i < p.count; ++i) {
     const uint32_t point = store.corners(piece)[i];
     EXPECT_EQ(point, job.corners(p)[corner_place(i, p.count, flip)]);
-    EXPECT_EQ(store.ensure_edge(piece, i), job.edge_planes(p)[edge_place(i, p.count, flip)]);
+    EXPECT_EQ(test::edge_plane_of(store, piece, i), job.edge_planes(p)[edge_place(i, p.count, flip)]);
     EXPECT_TRUE(store.is_on_grid(point) || store.point_planes(point)[0] != PieceStore::kNoNumber);
   }
 }
@@ -167,7 +168,7 @@ TEST(PieceStore, MakesThePlanesOfFacesInFramesWhenTheyAreAskedFor) {
       for (const bool flip : {false, true}) {
         const uint32_t p = store.add_face({0, 0, 0, 0, PlaneId(), true, flip}, face);
         EXPECT_FALSE(store.piece(p).support.valid());
-        const PlaneId support = store.ensure_support(p);
+        const PlaneId support = test::support_of(store, p);
         EXPECT_EQ(store.piece(p).support, support);
         const Plane front = store.planes.oriented(support);
         const std::vector<uint32_t> corners(store.corners(p).begin(), store.corners(p).end());
@@ -183,7 +184,7 @@ TEST(PieceStore, MakesThePlanesOfFacesInFramesWhenTheyAreAskedFor) {
         }
         EXPECT_GT(along, 0);
         for (uint32_t c = 0; c < corners.size(); ++c) {
-          const uint32_t edge = store.ensure_edge(p, c);
+          const uint32_t edge = test::edge_plane_of(store, p, c);
           EXPECT_NE(edge, support.index());
           EXPECT_EQ(store.edges(p)[c], edge);
           for (const uint32_t end : {corners[c], corners[(c + 1) % corners.size()]}) {

@@ -12,6 +12,7 @@
 #include "engine/bsp/grid_planes.h"
 #include "engine/bsp/region_parts.h"
 #include "tests/support/kernel_case.h"
+#include "tests/support/piece_planes.h"
 #include "tests/support/random_solids.h"
 
 namespace csgrun::piece_writer_test {
@@ -153,7 +154,7 @@ TEST(PieceWriter, GroupsWhatNothingMet) {
           const uint32_t vertex = disc.corners[begin + (is_flipped ? n - 1 - i : i)];
           EXPECT_EQ(corners[i], store.first_point(1) + vertex);
         }
-        EXPECT_EQ(store.ensure_support(part),
+        EXPECT_EQ(test::support_of(store, part),
                   store.planes.intern(support_of_face(operands[1], own[next], is_flipped)));
         box.add(store.box(part));
         ++next;
