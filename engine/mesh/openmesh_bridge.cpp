@@ -1,6 +1,6 @@
 // OpenMesh 9 aborts on a face that repeats a vertex and reports complex vertices on standard error
 // only; so the arrays are proved to be a manifold before it sees them.
-#include "engine/mesh/openmesh_bridge.h"
+#include <csgrun/engine/topology.h>
 
 #include <algorithm>
 #include <string>

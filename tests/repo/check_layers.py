@@ -46,7 +46,7 @@ LIBRARIES = [
 ]
 SOURCES = (".h", ".hpp", ".cpp", ".cc", ".lua", ".py", ".mjs", ".sh", ".cmake")
 TEXTS = SOURCES + (".md", ".txt", ".json", ".npmrc", ".yml", ".yaml")
-LONGEST = 1000
+LONGEST = 600
 GENERATED = {"lua_bindings/meta/csgrun.lua"}  # by csgrun --help-api=luals
 SKIPPED = {".git", "build", "node_modules", ".cache"}
 

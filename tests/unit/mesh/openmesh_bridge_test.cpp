@@ -1,4 +1,4 @@
-#include "engine/mesh/openmesh_bridge.h"
+#include <csgrun/engine/topology.h>
 
 #include <algorithm>
 #include <random>

@@ -1,4 +1,4 @@
-// The bridge to OpenMesh: half-edge meshes at the engine's boundary. OpenMesh stays behind it.
+// How the triangles of a mesh hang together, by half-edges. OpenMesh, which has them, stays behind this.
 #pragma once
 
 #include <array>
