@@ -59,18 +59,45 @@ TEST(HeightMap, OfAPicture) {
             std::string::npos);
 }
 
+/// Four bytes, the first one the highest.
+std::string big_endian(uint32_t value) {
+  std::string bytes;
+  for (int k = 0; k < 4; ++k) bytes += static_cast<char>(value >> (24 - 8 * k));
+  return bytes;
+}
+
+/// The check sum of a chunk: CRC-32 of its type and data.
+std::string check_sum(std::string_view type_and_data) {
+  uint32_t crc = ~0u;
+  for (const char c : type_and_data) {
+    crc ^= static_cast<uint8_t>(c);
+    for (int k = 0; k < 8; ++k) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
+  }
+  return big_endian(~crc);
+}
+
+TEST(HeightMap, IsNoMatterOfHowAPictureIsShown) {
+  std::vector<png_byte> pixels;
+  for (int i = 0; i < 48; ++i) pixels.push_back(static_cast<png_byte>(i * 37));
+  const std::string plain = picture(4, 4, pixels);
+  const auto truth = parse_height_map("h.png", plain, false);
+  ASSERT_TRUE(truth);
+  constexpr size_t kHeaderEnd = 33;  // where chunks about colour begin
+  for (const uint32_t gamma : {45455u, 55556u, 100000u, 220000u}) {
+    const std::string chunk = "gAMA" + big_endian(gamma);
+    std::string png = plain;
+    png.insert(kHeaderEnd, big_endian(4) + chunk + check_sum(chunk));
+    const auto map = parse_height_map("h.png", png, false);
+    ASSERT_TRUE(map);
+    EXPECT_EQ(map->heights, truth->heights) << gamma;
+  }
+}
+
 /// The same picture with another size in its header: what a bomb looks like.
 TEST(HeightMap, PicturesThatPromiseTooMuch) {
   std::string png = picture(2, 2, std::vector<png_byte>(12, 7));
   for (const size_t at : {16, 20}) png.replace(at, 4, std::string("\0\1\0\0", 4));
-  // The check sum of the header: CRC-32 of its type and data.
-  uint32_t crc = ~0u;
-  for (size_t i = 12; i < 29; ++i) {
-    crc ^= static_cast<uint8_t>(png[i]);
-    for (int k = 0; k < 8; ++k) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
-  }
-  crc = ~crc;
-  for (int k = 0; k < 4; ++k) png[29 + k] = static_cast<char>(crc >> (24 - 8 * k));
+  png.replace(29, 4, check_sum(png.substr(12, 17)));
   EXPECT_EQ(message(parse_height_map("bomb.png", png, false)),
             "bomb.png: a surface has at most 2097152 points");
 }
