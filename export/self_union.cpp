@@ -14,9 +14,6 @@
 namespace csgrun {
 namespace {
 
-/// Coordinates of the engine's leaves are less than 2^27 steps.
-constexpr int kGridBits = 27;
-
 /// The mesh as a leaf. Each face of the original solid is an appearance of its own, which the
 /// engine keeps apart and hands on to what is left of it.
 PolygonMesh leaf_of(const RoundedMesh& mesh, const MeshFaces& faces) {

@@ -16,7 +16,9 @@ void push_error(lua_State* L, const char* message) {
 }
 
 void push_memory_error(lua_State* L) {
-  session_of(L).budget().note_out_of_memory();
+  Session& session = session_of(L);
+  session.budget().note_out_of_memory();
+  session.drop_evaluator();
   push_error(L, "not enough memory");
 }
 

@@ -55,15 +55,16 @@ Session::Session(SessionOptions options)
 }
 
 void Session::set_grid(const GridStep& grid) {
+  if (grid == options_.evaluate.grid) return;
   options_.evaluate.grid = grid;
-  evaluator_.reset();
+  drop_evaluator();
   ++settings_;
 }
 
 void Session::set_joins_contacts(bool join) {
   if (join == joins_contacts()) return;
   options_.evaluate.join_contacts = join;
-  evaluator_.reset();
+  drop_evaluator();
   ++settings_;
 }
 
@@ -71,6 +72,35 @@ Evaluator& Session::evaluator() {
   if (const auto prepare = std::exchange(options_.before_evaluation, nullptr)) prepare();
   if (!evaluator_) evaluator_ = std::make_unique<Evaluator>(options_.evaluate);
   return *evaluator_;
+}
+
+void Session::drop_evaluator() {
+  if (!evaluator_) return;
+  past_stats_ = evaluation_stats();
+  try {
+    past_warnings_ = evaluation_warnings();
+  } catch (const std::bad_alloc&) {
+    // Its notes are lost with it: what it has may be half made, and must not be used again.
+  }
+  evaluator_.reset();
+}
+
+std::vector<std::string> Session::evaluation_warnings() const {
+  std::vector<std::string> all = past_warnings_;
+  if (!evaluator_) return all;
+  for (std::string& line :
+       evaluator_->warnings([&](const SourceRef& where) { return place_text(where); })) {
+    if (std::find(past_warnings_.begin(), past_warnings_.end(), line) == past_warnings_.end()) {
+      all.push_back(std::move(line));
+    }
+  }
+  return all;
+}
+
+EvaluateStats Session::evaluation_stats() const {
+  EvaluateStats all = past_stats_;
+  if (evaluator_) all.add(evaluator_->stats());
+  return all;
 }
 
 SolidPtr Session::evaluate(const NodePtr& node, Measuring measuring) {

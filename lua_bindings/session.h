@@ -64,14 +64,20 @@ class Session {
   /// csg.fn, csg.fa, csg.fs; csg.grid.
   Facets facets;
   [[nodiscard]] const GridStep& grid() const { return options_.evaluate.grid; }
-  /// Another grid means another evaluator; what was cached so far is dropped.
+  /// Another grid means another evaluator (drop_evaluator).
   void set_grid(const GridStep& grid);
   /// csg.contacts: whether solids that touch along an edge are joined there. As with the grid.
   [[nodiscard]] bool joins_contacts() const { return options_.evaluate.join_contacts; }
   void set_joins_contacts(bool join);
 
-  /// Lives as long as the grid and csg.contacts stay the same.
+  /// Lives as long as the grid and csg.contacts stay the same and memory suffices.
   Evaluator& evaluator();
+  /// Drops the evaluator and all that it has cached, but not what it noted and counted. What it has
+  /// is of no use with other settings, and half made where memory ran out in the midst of its work.
+  void drop_evaluator();
+  /// Notes of all evaluations so far, each once, and their figures.
+  [[nodiscard]] std::vector<std::string> evaluation_warnings() const;
+  [[nodiscard]] EvaluateStats evaluation_stats() const;
   /// The solid of a tree, on the script's clock. Throws ScriptError, with the place of the node.
   SolidPtr evaluate(const NodePtr& node, Measuring measuring = Measuring::kNothing);
   /// The same, kept with the value for as long as the grid and csg.contacts stay the same: who
@@ -142,6 +148,8 @@ class Session {
   Files files_;
   FontBook fonts_;
   std::unique_ptr<Evaluator> evaluator_;
+  std::vector<std::string> past_warnings_;  ///< of evaluators that were dropped
+  EvaluateStats past_stats_;                ///< theirs
   uint64_t settings_ = 0;  ///< a number for the settings of the evaluator: one more for each change
   std::vector<std::string> warnings_;
   std::set<std::string> warned_;

@@ -289,6 +289,9 @@ Result<Constructions::Outcome> Constructions::measure(const Task& task, const No
   std::array<glm::dvec3, 2> box{};
   if (!points.empty()) box = {points[0], points[0]};
   for (const glm::dvec3& p : points) box = {glm::min(box[0], p), glm::max(box[1], p)};
+  // Kept from here on: what fails before the node is made leaves no entry for another node that
+  // takes its place in memory.
+  alive_.push_back(task.node);
   std::optional<Affine>& map = resizing_[task.node.get()];
   const glm::dvec3 length = box[1] - box[0];
   if (!(std::min({length.x, length.y, length.z}) > 0)) return Outcome{};

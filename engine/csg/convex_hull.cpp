@@ -275,7 +275,7 @@ LeafGeometry convex_hull(std::span<const IVec3> points) {
   std::sort(sorted.begin(), sorted.end());
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   assert(std::all_of(sorted.begin(), sorted.end(), [](const IVec3& p) {
-    return std::all_of(p.begin(), p.end(), [](int64_t x) { return std::abs(x) <= kFarLimit; });
+    return std::all_of(p.begin(), p.end(), [](int64_t x) { return std::abs(x) < kFarLimit; });
   }));
   Hull hull(std::move(sorted));
   if (!hull.build()) return {};

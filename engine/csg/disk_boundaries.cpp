@@ -16,7 +16,7 @@ DiskBoundaries::DiskBoundaries(const DiskCacheOptions& options, AppearanceTable&
 
 Key DiskBoundaries::name_of(const Key& key) const {
   KeyBuilder builder("result");
-  builder.number(kKernelVersion).bare_list(build_).numbers(key);
+  builder.bare_list(build_).numbers(key);
   return builder.key();
 }
 

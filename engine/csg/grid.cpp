@@ -154,7 +154,7 @@ bool step_fits(const GridStep& step, double reach, double far) {
 
 GridStep choose_step(double reach, double far) {
   if (!(reach > 0) && !(far > 0)) return nanometre_step(-6);
-  // The steps are a tenfold apart in the range of parts that are made, and 2^3 elsewhere.
+  // In the range of parts that are made steps double, elsewhere they grow eightfold (numerics.md).
   constexpr int kFinest = -300, kCoarsest = 900;
   int g = kFinest;
   while (g < kCoarsest && !step_fits(nanometre_step(g), reach, far)) g += g >= 3 && g < 6 ? 1 : 3;

@@ -7,13 +7,15 @@
 
 #include <csgrun/engine/evaluate.h>
 
+#include "engine/exact/widths.h"
+
 namespace csgrun {
 
+static_assert(kGridBits == widths::kGrid);
 /// Coordinates of what can reach a result, in steps, are below this.
-constexpr int kGridBits = 27;
 constexpr int64_t kGridLimit = int64_t{1} << kGridBits;
 /// Coordinates of leaves that reach far outside it are below this.
-constexpr int64_t kFarLimit = int64_t{1} << 40;
+constexpr int64_t kFarLimit = int64_t{1} << widths::kFarGrid;
 /// What the choice of a step leaves free at the limits, for bounds that are rounded outwards.
 constexpr int64_t kGridMargin = 16;
 

@@ -134,7 +134,7 @@ Result<GridSolid> grid_solid(const Solid& solid, const GridStep& step) {
     IVec3& q = result.points.emplace_back();
     for (int i = 0; i < 3; ++i) {
       const auto rounded = quantiser(p[i]);
-      if (!rounded || *rounded > kFarLimit || *rounded < -kFarLimit) {
+      if (!rounded || *rounded >= kFarLimit || *rounded <= -kFarLimit) {
         return Error{ErrorCode::kOutOfRange, "reaches too far from the origin for the grid", {}};
       }
       q[i] = *rounded;

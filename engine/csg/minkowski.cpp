@@ -105,7 +105,7 @@ class Sums {
     const SumCells cells = sum_cells(a.boundary, b.boundary);
     if (a.is_convex && b.is_convex) {
       auto surface = sum_surface(a.boundary, b.boundary, cells);
-      if (surface) add_hull(std::move(surface->points));
+      if (surface) add_hull(surface->points);
       return surface.has_value();
     }
     if (is_last_) return add_surface(sum_surface(a.boundary, b.boundary, cells));
@@ -227,7 +227,7 @@ Result<std::vector<SumPart>> minkowski_sum(std::vector<std::vector<Summand>> ope
   for (size_t i = 1;; ++i) {
     const std::vector<Summand>&first = operands[0], &second = operands[i];
     // Signs and hulls of sums are taken in widths that allow for no more (wide_cross.h).
-    if (reach(first) + reach(second) > kFarLimit) {
+    if (reach(first) + reach(second) >= kFarLimit) {
       return Error{ErrorCode::kOutOfRange, "reaches too far from the origin for the grid", {}};
     }
     Sums sums(step, i + 1 == operands.size());

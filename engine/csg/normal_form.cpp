@@ -149,10 +149,12 @@ uint32_t NormalForm::leaf(const Item& item) {
 }
 
 Result<uint32_t> NormalForm::hulled_leaf(const Item& item) {
-  const auto [found, is_new] = memo_.try_emplace(item.memo(), static_cast<uint32_t>(nodes_.size()));
-  if (!is_new) return found->second;
+  if (const auto known = memo_.find(item.memo()); known != memo_.end()) return known->second;
   Item inner = item.child(0);
   if (Status status = unwrap(inner); !status) return status.error();
+  const auto number = static_cast<uint32_t>(nodes_.size());
+  memo_.emplace(item.memo(), number);
+  alive_.push_back(*item.node);
   NormalNode node;
   node.kind = NormalNode::Kind::kLeaf;
   node.hull = (*item.node)->outer_hull();
@@ -161,8 +163,7 @@ Result<uint32_t> NormalForm::hulled_leaf(const Item& item) {
   node.paint = inner.paint;
   if (inner.bent_by) node.bent_by = *inner.bent_by;
   nodes_.push_back(std::move(node));
-  alive_.push_back(*item.node);
-  return static_cast<uint32_t>(nodes_.size() - 1);
+  return number;
 }
 
 /// Whether the operands of `item`, an operator, may stand in the place of it.

@@ -80,10 +80,9 @@ class Run {
     if (!failure.failed()) failure = check_time();
     if (!failure.failed()) failure = write_all();
     session_.budget().stop();
-    report_.stats = session_.evaluator().stats();
+    report_.stats = session_.evaluation_stats();
     const auto& own = session_.warnings();
-    const auto evaluation = session_.evaluator().warnings(
-        [&](const SourceRef& where) { return session_.place_text(where); });
+    const auto evaluation = session_.evaluation_warnings();
     report_.warnings.insert(report_.warnings.begin(), evaluation.begin(), evaluation.end());
     report_.warnings.insert(report_.warnings.begin(), own.begin(), own.end());
     report_.threads = session_.options().evaluate.threads;

@@ -64,5 +64,40 @@ TEST(Evaluated, IsMeasuredAfterItsTrianglesWereMade) {
     assert(#u:mesh().faces == 24))");
 }
 
+// Nodes of what failed are gone, and others take their places in memory.
+TEST(Evaluated, WhatFailedLeavesNothingBehind) {
+  expect_good(R"(
+    csg.grid = 0.001
+    for _ = 1, 300 do
+      assert(not pcall(function()
+        return hull((cube(0.01) - cube(0.005)):translate(1000, 0, 0)):resize(4, 4, 4):volume()
+      end))
+      local v = hull(cube(2) - cube(1)):resize(4, 4, 4):volume()
+      assert(math.abs(v - (64 - 4 / 3)) < 1e-9, v)
+    end)");
+  expect_good(R"(
+    local bad = outer_hull(cube(1):scale(1e300):scale(1e300))
+    for _ = 1, 3 do
+      assert(not pcall(bad.volume, bad))
+      assert(cube(3):volume() == 27)
+    end)");
+}
+
+TEST(Evaluated, NotesAndFiguresOutliveTheirEvaluator) {
+  const std::string measured = "local v, w = cube(1):translate(1e200, 0, 0):volume(), (cube(2) - cube(1)):volume()";
+  const ScriptRun plain(measured);
+  const auto notes = plain.session.evaluation_warnings();
+  ASSERT_FALSE(notes.empty());
+  ASSERT_GT(plain.session.evaluation_stats().nodes_evaluated, 0u);
+  for (const std::string& setting : std::initializer_list<std::string>{
+           "csg.contacts = 'join'", "csg.grid = '2^-20mm'", "csg.contacts = 'join' " + measured}) {
+    const ScriptRun run(measured + " " + setting);
+    EXPECT_EQ(run.session.evaluation_warnings(), notes) << setting;
+    EXPECT_GE(run.session.evaluation_stats().nodes_evaluated,
+              plain.session.evaluation_stats().nodes_evaluated)
+        << setting;
+  }
+}
+
 }  // namespace
 }  // namespace csgrun::testing::evaluated_test

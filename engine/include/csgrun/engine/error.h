@@ -1,4 +1,5 @@
-// Errors of the public interface: a value or an Error, never an exception across the engine's edge.
+// Errors of the public interface: a value or an Error. The only exception that crosses the engine's
+// edge is std::bad_alloc.
 #pragma once
 
 #include <memory>
@@ -25,7 +26,6 @@ enum class ErrorCode {
   kInvalidArgument = 100,  ///< a number out of range, NaN, infinite, an empty list ...
   kMalformedFile = 101,    ///< a file is truncated or not what its name says
   kInvalidMesh = 110,      ///< open, inconsistently oriented, index out of range ...
-  kEmptyResult = 201,
   kOutOfRange = 202,  ///< the scene does not fit the grid
   kLimit = 300,       ///< memory or time budget used up
   kCancelled = 301,

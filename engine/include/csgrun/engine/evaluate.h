@@ -18,6 +18,10 @@
 
 namespace csgrun {
 
+/// Coordinates of what can reach a result are less than 2^kGridBits steps, as vertices of leaves
+/// are.
+constexpr int kGridBits = 27;
+
 /// A grid step in millimetres as an exact number: numerator * 2^exponent / denominator.
 struct GridStep {
   int64_t numerator = 0;  ///< 0: chosen from the scene's extent
@@ -70,7 +74,24 @@ struct EvaluateStats {
   uint64_t solved_cells = 0;    ///< in which several operands have surface
   uint64_t critical_cells = 0;  ///< in which surfaces of different operands meet
   uint64_t sign_filter = 0, sign_symbolic = 0;
-  std::array<uint64_t, 8> sign_exact{};  ///< by tier: 64 128 192 256 384 512 more, unused
+  std::array<uint64_t, 6> sign_exact{};  ///< by tier: 64 128 192 256 384 512 bits
+
+  /// Adds what came later: sums, and the grid of the last evaluation.
+  void add(const EvaluateStats& later) {
+    leaf_seconds += later.leaf_seconds;
+    boolean_seconds += later.boolean_seconds;
+    if (later.grid_mm != 0) grid_mm = later.grid_mm;
+    nodes_evaluated += later.nodes_evaluated;
+    nodes_from_memory += later.nodes_from_memory;
+    nodes_from_disk += later.nodes_from_disk;
+    cells += later.cells;
+    surface_cells += later.surface_cells;
+    solved_cells += later.solved_cells;
+    critical_cells += later.critical_cells;
+    sign_filter += later.sign_filter;
+    sign_symbolic += later.sign_symbolic;
+    for (size_t t = 0; t < sign_exact.size(); ++t) sign_exact[t] += later.sign_exact[t];
+  }
 };
 
 /// What Measures says of a solid, as far as it needs no triangles.
@@ -86,7 +107,9 @@ struct SectionSegment {
   double noise;  ///< mm: how far off the grid may have put it, the farther the flatter the solid is
 };
 
-/// Evaluates trees. One object serves one run: its cache spans all calls. Not thread-safe.
+/// Evaluates trees. One object serves one run: its cache spans all calls. Not thread-safe. Where
+/// memory runs out a call ends by std::bad_alloc; what is cached may be half made then: nothing but
+/// stats(), warnings() and the destructor may be called after that.
 class Evaluator {
  public:
   explicit Evaluator(EvaluateOptions options);
