@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+
+#include <glm/vec2.hpp>
 
 #include "engine/bsp/kernel.h"
 
@@ -56,6 +59,41 @@ std::optional<Error> find_fault(const PolygonMesh& mesh) {
   return std::nullopt;
 }
 
+/// See MeshFacts::prismatic. `lo` and `hi`: of the points that faces use.
+std::array<bool, 3> prismatic_axes(const PolygonMesh& mesh, const std::array<double, 3>& lo,
+                                   const std::array<double, 3>& hi) {
+  const auto is_upright = [&](int axis, uint32_t face) {
+    const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    const std::span<const uint32_t> corners(
+        mesh.corners.data() + mesh.loop_starts[mesh.face_starts[face]],
+        mesh.corners.data() + mesh.loop_starts[mesh.face_starts[face + 1]]);
+    bool is_cap = true;
+    std::vector<glm::dvec2> places;  // seen along the axis; of side faces there are two
+    for (const uint32_t corner : corners) {
+      const glm::dvec3& p = mesh.points[corner];
+      is_cap &= p[axis] == mesh.points[corners[0]][axis];
+      const glm::dvec2 place(p[j], p[k]);
+      if (places.size() > 2 || std::find(places.begin(), places.end(), place) != places.end()) {
+        continue;
+      }
+      places.push_back(place);
+    }
+    return is_cap || places.size() <= 2;
+  };
+  std::array<bool, 3> result{};
+  for (int axis = 0; axis < 3; ++axis) {
+    result[axis] = !mesh.corners.empty() &&
+                   std::all_of(mesh.corners.begin(), mesh.corners.end(), [&](uint32_t corner) {
+                     const double height = mesh.points[corner][axis];
+                     return height == lo[axis] || height == hi[axis];
+                   });
+    for (uint32_t f = 0; result[axis] && f < mesh.face_count(); ++f) {
+      result[axis] = is_upright(axis, f);
+    }
+  }
+  return result;
+}
+
 size_t memory_of(const LeafGeometry& leaf) {
   return leaf.vertices.size() * sizeof(IVec3) + leaf.corners.size() * 4 +
          (leaf.face_count() + leaf.facet.stored() + leaf.surface.stored() +
@@ -66,11 +104,8 @@ size_t memory_of(const LeafGeometry& leaf) {
 
 bool same_rounding(const LeafRounding& a, const LeafRounding& b) {
   return a.in_world == b.in_world && a.scale == b.scale && a.offset == b.offset &&
-         a.permutation == b.permutation && (!a.in_world || a.map == b.map);
-}
-
-bool same_step(const GridStep& a, const GridStep& b) {
-  return a.numerator == b.numerator && a.denominator == b.denominator && a.exponent == b.exponent;
+         a.permutation == b.permutation && a.lo == b.lo && a.hi == b.hi &&
+         (!a.in_world || a.map == b.map);
 }
 
 }  // namespace
@@ -96,6 +131,7 @@ const MeshFacts& LeafStore::facts(const std::shared_ptr<const PolygonMesh>& mesh
       facts.hi[i] = std::max(facts.hi[i], mesh->points[p][i]);
     }
   }
+  facts.prismatic = prismatic_axes(*mesh, facts.lo, facts.hi);
   if (mesh->appearance_of.empty()) {
     facts.appearance = FaceNumbers::all(appearances_.intern(Appearance{}));
   } else {
@@ -150,7 +186,7 @@ std::optional<QuantisedLeaf> LeafStore::quantise(uint32_t index, const NormalNod
                                                  const LeafRounding& rounding,
                                                  const Quantiser& quantiser) {
   LeafState& known = state(index, leaf);
-  if (known.quantised && same_step(known.step, quantiser.step()) &&
+  if (known.quantised && known.step == quantiser.step() &&
       same_rounding(known.rounding, rounding)) {
     return known.quantised;
   }
@@ -179,7 +215,7 @@ std::optional<QuantisedLeaf> LeafStore::quantise(uint32_t index, const NormalNod
   }
   const bool turn = rounding.in_world && known.split.determinant < 0;
   KeyBuilder builder("leaf");
-  builder.number(kKernelVersion).numbers(mesh_facts.topology).number(turn);
+  builder.numbers(mesh_facts.topology).number(turn);
   builder.number(result.paint != kUnpainted);
   if (result.paint == kUnpainted) {
     for (size_t f = 0; f < mesh.face_count(); ++f) {

@@ -19,18 +19,18 @@
 
 namespace csgrun {
 
-/// Changes whenever equal keys could mean different geometry or results.
-constexpr uint32_t kKernelVersion = 1;
-
 /// What is asked of a mesh again and again.
 struct MeshFacts {
   std::shared_ptr<const PolygonMesh> mesh;
   std::optional<Error> error;        ///< indices out of range, points that are not finite
   Key topology{};                    ///< everything but points and appearances
   std::array<double, 3> lo{}, hi{};  ///< of the points that faces use
-  FaceNumbers appearance;            ///< id per face
-  uint32_t paint = kUnpainted;       ///< the only appearance of the mesh, if there is one
-  uint32_t told = 0;                 ///< bits by InsideRule: see LeafStore::is_news
+  /// By axis: all points are at one of two heights, and no face is oblique to it, so that moving
+  /// all at one height along the axis moves a cap and nothing else.
+  std::array<bool, 3> prismatic{};
+  FaceNumbers appearance;       ///< id per face
+  uint32_t paint = kUnpainted;  ///< the only appearance of the mesh, if there is one
+  uint32_t told = 0;            ///< bits by InsideRule: see LeafStore::is_news
 };
 
 /// A leaf instance on the grid: the geometry of `prepared` moved by `origin` in local axes.

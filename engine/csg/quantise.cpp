@@ -233,7 +233,10 @@ std::optional<std::vector<IVec3>> round_points(const PolygonMesh& mesh,
     if (rounding.in_world) {
       x = rounding.map.apply(mesh.points[p]);
     } else {
-      for (int j = 0; j < 3; ++j) x[j] = rounding.scale[j] * mesh.points[p][j] + rounding.offset[j];
+      for (int j = 0; j < 3; ++j) {
+        x[j] = std::clamp(rounding.scale[j] * mesh.points[p][j] + rounding.offset[j],
+                          rounding.lo[j], rounding.hi[j]);
+      }
     }
     for (int j = 0; j < 3; ++j) {
       const auto rounded = quantiser(sign[j] < 0 ? -x[j] : x[j]);

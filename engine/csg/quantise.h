@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -19,10 +20,13 @@ namespace csgrun {
 /// rounded as the frame's axes have it (permutation X), so that leaves that share a frame agree on
 /// ties. In the world: X = map(v).
 struct LeafRounding {
+  static constexpr double kEndless = std::numeric_limits<double>::infinity();
   bool in_world = false;
   Affine map;  ///< when in_world
   std::array<double, 3> scale{1, 1, 1};
   std::array<double, 3> offset{0, 0, 0};
+  /// Where ends are drawn to that are beyond (scene_step.h), in the local axes.
+  std::array<double, 3> lo{-kEndless, -kEndless, -kEndless}, hi{kEndless, kEndless, kEndless};
   SignedPermutation permutation;
 };
 

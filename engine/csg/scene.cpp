@@ -122,16 +122,17 @@ Status SceneBuilder::place_leaves() {
         rounding.scale = scale;
         for (int i = 0; i < 3; ++i) {
           rounding.offset[i] = carry_translation(leaf.rows[i], node.map);
-          leaf.local.lo[i] = rounding.scale[i] * facts.lo[i] + rounding.offset[i];
-          leaf.local.hi[i] = rounding.scale[i] * facts.hi[i] + rounding.offset[i];
+          leaf.own.lo[i] = rounding.scale[i] * facts.lo[i] + rounding.offset[i];
+          leaf.own.hi[i] = rounding.scale[i] * facts.hi[i] + rounding.offset[i];
         }
+        leaf.prismatic = facts.prismatic;
       }
     }
     if (!framed) {
       rounding.in_world = true;
       rounding.map = node.map;
       leaf.rows = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-      leaf.local = leaf.world;
+      leaf.own = leaf.world;
       if (state.split.determinant != 0) {
         context_.warnings.add(
             node.bent_by.line > 0 ? node.bent_by : node.leaf->where(),
@@ -189,10 +190,14 @@ bool SceneBuilder::has_far_parts(const SceneReach& reach, bool tell) const {
       return normal(index).kind == NormalNode::Kind::kLeaf &&
              inside(step_leaves_[index].world, box);
     });
+    const bool is_near = far <= 2 * extent;
     context_.warnings.add(leaf == order_.end() ? SourceRef{} : normal(*leaf).leaf->where(),
-                          "a part of " + text(extent) + " mm lies too far away for its size: " +
-                              text(far) + " mm from the origin points are rounded to " +
-                              text(step) + " mm; model it near the origin");
+                          "a part of " + text(extent) + " mm " +
+                              (is_near ? "is too small: points"
+                                       : "lies too far away for its size: " + text(far) +
+                                             " mm from the origin points") +
+                              " are rounded to " + text(step) + " mm" +
+                              (is_near ? "" : "; model it near the origin"));
     return true;
   }
   return false;

@@ -128,8 +128,11 @@ Result<SceneNode> SceneBuilder::make_leaf(uint32_t index, const Quantiser& quant
   };
   SceneNode result;
   if (mesh.face_count() == 0 && !mesh.hull_of_points) return result;
-  const LeafRounding& rounding = rounding_[index];
+  LeafRounding& rounding = rounding_[index];
+  rounding.lo = step_leaves_[index].local.lo;
+  rounding.hi = step_leaves_[index].local.hi;
   const auto leaf = context_.store.quantise(index, node, rounding, quantiser);
+  if (!leaf && !step_leaves_[index].seen) return result;
   if (!leaf) return fault(ErrorCode::kOutOfRange, "reaches too far from the origin for the grid");
   const SignedPermutation& permutation = rounding.permutation;
   Subtree& subtree = result.subtree;

@@ -59,11 +59,38 @@ MmBox to_local(const MmBox& world, const std::array<Row, 3>& rows) {
   return r;
 }
 
+/// What of a leaf is needed where results are in `reach` alone. An end that is far beyond is drawn
+/// near: nothing sees where it is. It is moved by a multiple of a power of two, so that copies of a
+/// leaf mostly keep one shape. Ends that a grid holds anyway stay as they are.
+MmBox needed_of(const StepLeaf& leaf, const MmBox& reach) {
+  // Leaves in the world's axes may reach 2^13 times as far as what is seen.
+  constexpr double kLongFramed = 8, kLongInWorld = 0x1p12;
+  const double longest = leaf.framed ? kLongFramed : kLongInWorld;
+  MmBox needed = leaf.own;
+  if (is_empty(reach)) return needed;
+  const MmBox seen = to_local(reach, leaf.rows);
+  for (int i = 0; i < 3; ++i) {
+    const double lo = leaf.own.lo[i], hi = leaf.own.hi[i], size = seen.hi[i] - seen.lo[i];
+    if (!leaf.prismatic[i] || !(size > 0) || !(hi - lo > longest * size)) continue;
+    int exponent = 0;
+    std::frexp(size, &exponent);
+    const double step = std::ldexp(1, exponent);
+    const auto drawn = [&](double beyond) {  // but for a margin of the size of what is seen
+      return beyond > size ? step * std::floor((beyond - size) / step) : 0;
+    };
+    const double nearer_lo = lo + drawn(seen.lo[i] - lo), nearer_hi = hi - drawn(hi - seen.hi[i]);
+    if (!(nearer_lo < nearer_hi)) continue;  // it is elsewhere
+    needed.lo[i] = nearer_lo;
+    needed.hi[i] = nearer_hi;
+  }
+  return needed;
+}
+
 }  // namespace
 
 SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
-                       std::span<const uint32_t> roots, std::span<const StepLeaf> leaves,
-                       ReachRoom& room, const KnownReach* known) {
+                       std::span<const uint32_t> roots, std::span<StepLeaf> leaves, ReachRoom& room,
+                       const KnownReach* known) {
   const auto& nodes = form.nodes();
   std::vector<MmBox>&box = room.box, &reach = room.reach;
   std::vector<uint8_t>& whole = room.whole;
@@ -105,11 +132,13 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
       result.reach = std::max(result.reach, known->reach);
       result.far = std::max(result.far, known->far);
     } else if (node.kind == NormalNode::Kind::kLeaf) {
-      const StepLeaf& leaf = leaves[index];
+      StepLeaf& leaf = leaves[index];
+      const bool is_whole = whole[index] || leaf.whole;
+      leaf.local = is_whole ? leaf.own : needed_of(leaf, reach[index]);
+      const MmBox visible = is_whole ? leaf.world : meet(leaf.world, reach[index]);
+      leaf.seen = !is_empty(visible);
+      if (!leaf.seen) continue;
       result.far = std::max(result.far, largest(leaf.local));
-      const MmBox visible =
-          whole[index] || leaf.whole ? leaf.world : meet(leaf.world, reach[index]);
-      if (is_empty(visible)) continue;
       if (leaf.framed) result.reach = std::max(result.reach, largest(leaf.local));
       result.reach = std::max({result.reach, largest(visible),
                                largest(meet(leaf.local, to_local(visible, leaf.rows)))});

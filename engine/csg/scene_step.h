@@ -19,15 +19,20 @@ struct MmBox {
 
 /// A leaf: its box in the world, its box in its local axes, and the rows that lead there.
 struct StepLeaf {
-  MmBox world, local;
+  MmBox world, own;
+  MmBox local;  ///< what of `own` is needed, by scene_reach: less where a prismatic leaf is far
+                ///< longer
   std::array<Row, 3> rows{};
-  bool framed = false;  ///< its frame is not the world
-  bool whole = false;   ///< it is needed as a whole, wherever results can be
+  std::array<bool, 3> prismatic{};  ///< by local axis, see MeshFacts
+  bool framed = false;              ///< its frame is not the world
+  bool whole = false;               ///< it is needed as a whole, wherever results can be
+  bool seen = false;                ///< a result can be where it is, by scene_reach
 };
 
 /// In mm: the largest coordinate, in the world or in a frame, of what can reach a result, and the
-/// largest of any leaf. Leaves in frames of their own count as a whole to the former: the planes of
-/// far leaves have no room for a frame (engine/exact/widths.h).
+/// largest of any leaf that is seen. Leaves in frames of their own count as a whole to the former:
+/// the planes of far leaves have no room for a frame (engine/exact/widths.h). But those that are
+/// prismatic along an axis are cut off along it, beyond all that can see them.
 struct SceneReach {
   double reach = 0, far = 0;
   std::vector<MmBox> of_roots;  ///< around the result of each root
@@ -50,10 +55,11 @@ struct ReachRoom {
 /// Interval bounds over the normal form: the box of a union is the hull of the boxes, of a
 /// difference the first, of an intersection the common box; a leaf counts where a result can be
 /// above it. A leaf that is resolved by itself, and all below a hull, count as a whole. `order` has
-/// children before parents; `leaves` is indexed like the normal form. Of what stands over a `known`
-/// node alone nothing is in `order`: then the result holds if it sees all of that. O(order).
+/// children before parents; `leaves` is indexed like the normal form: their `local` and `seen` are
+/// set. Of what stands over a `known` node alone nothing is in `order`: then the result holds if it
+/// sees all of that. O(order).
 SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
-                       std::span<const uint32_t> roots, std::span<const StepLeaf> leaves,
-                       ReachRoom& room, const KnownReach* known = nullptr);
+                       std::span<const uint32_t> roots, std::span<StepLeaf> leaves, ReachRoom& room,
+                       const KnownReach* known = nullptr);
 
 }  // namespace csgrun

@@ -109,12 +109,20 @@ class FarAway(Case):
         self.assertIn(self.WARNING, self.run_script("return cube(1):translate(1e12, 0, 0)", "--stats").err)
 
     def test_a_tool_that_spoils_the_part(self):
-        said = " mm from the origin: beside it points of a part of 1 mm are rounded to "
-        for tool, reach in (("cube(1):translate(1e9, 0, 0)", "1e+09"), ("cube(1e9):translate(0.5, -5e8, -5e8)", "1e+09")):
-            outcome = self.run_script(f"return cube(1) -\n\n{tool}", "--stats")
+        outcome = self.run_script("return cube(1) -\n\nsphere(1e9):translate(1e9, 0, 0)", "--stats")
+        self.expect(outcome, 0)
+        self.assertIn("model.lua:3: 'sphere' reaches 2e+09 mm from the origin: beside it points of a part of 1 mm "
+                      "are rounded to ", outcome.err)
+        self.assertNotIn(self.WARNING, outcome.err)
+
+    def test_tools_that_are_drawn_near(self):
+        for tool, volume in (("cube(1):translate(1e9, 0, 0)", 1), ("sphere(1e9):translate(3e9, 0, 0)", 1),
+                             ("cube(1e9):translate(0.5, -5e8, -5e8)", 0.5),
+                             ("cube(1e9, true):translate(5e8, 0, 0):rotate(0, 0, 45):translate(0.5, 0.5, 0)", 0.5)):
+            outcome = self.run_script(f"return cube(1) - {tool}", "--stats=json")
             self.expect(outcome, 0)
-            self.assertIn(f"model.lua:3: 'cube' reaches {reach}{said}", outcome.err)
-            self.assertNotIn(self.WARNING, outcome.err)
+            self.assertEqual(outcome.err, "")
+            self.assertAlmostEqual(outcome.json()["parts"][0]["volume"], volume, delta=1e-6)
 
     def test_parts_that_are_well(self):
         for model in ("cube(1):translate(1000, 0, 0)", "cube(1) - cube(1e6)", "cube(1e6)", "cube(1e-6)",
