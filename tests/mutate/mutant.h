@@ -19,7 +19,7 @@
 
 namespace csgrun_mutant {
 
-constexpr int kMost = 1 << 14;
+constexpr int kMost = 1 << 15;
 enum : int { kTracing = -1, kAsWritten = kMost };
 
 /// The active mutant; or, with CSGRUN_MUTANT_TRACE=FILE, which mutants would have made a

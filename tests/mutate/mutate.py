@@ -45,7 +45,7 @@ START_SECONDS = 0.03  # what a process costs besides
 SPECIAL, SPECIAL_TIMES = 900, 10
 PLACES = WORK / "places.json"
 NUMBERS = 64  # each file's mutants have numbers from a multiple of this on
-MOST = 1 << 14  # kMost of mutant.h
+MOST = 1 << 15  # kMost of mutant.h
 MEMORY_BYTES = 6 << 30
 
 
@@ -125,8 +125,10 @@ class Places:
     """Where each file's numbers begin. With room, and kept from run to run, so that a few mutants more
     or less do not change the other files."""
 
-    def __init__(self):
-        self.first_and_end = json.loads(PLACES.read_text()) if PLACES.exists() else {}
+    def __init__(self, kept=None):
+        if kept is None:
+            kept = json.loads(PLACES.read_text()) if PLACES.exists() else {}
+        self.first_and_end = kept
 
     def first(self, name, count):
         first, end = self.first_and_end.get(name, (0, 0))
@@ -134,8 +136,9 @@ class Places:
             first = max((end for _, end in self.first_and_end.values()), default=0)
             end = -(-(first + count + NUMBERS // 4) // NUMBERS) * NUMBERS
             if end > MOST:
-                PLACES.unlink()
-                sys.exit("mutate: the numbers are used up; they start anew in the next run")
+                PLACES.unlink(missing_ok=True)
+                sys.exit("mutate: the numbers are used up; they start anew in the next run (if that does "
+                         "not help: more of them, MOST here and kMost in mutant.h)")
             self.first_and_end[name] = [first, end]
         return first
 
