@@ -59,16 +59,26 @@ MmBox to_local(const MmBox& world, const std::array<Row, 3>& rows) {
   return r;
 }
 
-/// What of a leaf is needed where results are in `reach` alone. An end that is far beyond is drawn
-/// near: nothing sees where it is. It is moved by a multiple of a power of two, so that copies of a
-/// leaf mostly keep one shape. Ends that a grid holds anyway stay as they are.
-MmBox needed_of(const StepLeaf& leaf, const MmBox& reach) {
+/// Whether a leaf lies beside all of what sees it, in its local axes: boxes in the world may meet
+/// where it does not reach.
+bool is_beside(const MmBox& own, const MmBox& seen) {
+  constexpr double kClear = 1e-6;  // of the size: much more than rounding moves anything
+  for (int i = 0; i < 3; ++i) {
+    const double clear = kClear * (seen.hi[i] - seen.lo[i]);
+    if (own.lo[i] > seen.hi[i] + clear || own.hi[i] < seen.lo[i] - clear) return true;
+  }
+  return false;
+}
+
+/// What of a leaf is needed that is seen from within `seen` alone, in its local axes. An end that
+/// is far beyond is drawn near: nothing sees where it is. It is moved by a multiple of a power of
+/// two, so that copies of a leaf mostly keep one shape. Ends that a grid holds anyway stay as they
+/// are.
+MmBox needed_of(const StepLeaf& leaf, const MmBox& seen) {
   // Leaves in the world's axes may reach 2^13 times as far as what is seen.
   constexpr double kLongFramed = 8, kLongInWorld = 0x1p12;
   const double longest = leaf.framed ? kLongFramed : kLongInWorld;
   MmBox needed = leaf.own;
-  if (is_empty(reach)) return needed;
-  const MmBox seen = to_local(reach, leaf.rows);
   for (int i = 0; i < 3; ++i) {
     const double lo = leaf.own.lo[i], hi = leaf.own.hi[i], size = seen.hi[i] - seen.lo[i];
     if (!leaf.prismatic[i] || !(size > 0) || !(hi - lo > longest * size)) continue;
@@ -78,10 +88,8 @@ MmBox needed_of(const StepLeaf& leaf, const MmBox& reach) {
     const auto drawn = [&](double beyond) {  // but for a margin of the size of what is seen
       return beyond > size ? step * std::floor((beyond - size) / step) : 0;
     };
-    const double nearer_lo = lo + drawn(seen.lo[i] - lo), nearer_hi = hi - drawn(hi - seen.hi[i]);
-    if (!(nearer_lo < nearer_hi)) continue;  // it is elsewhere
-    needed.lo[i] = nearer_lo;
-    needed.hi[i] = nearer_hi;
+    needed.lo[i] = lo + drawn(seen.lo[i] - lo);
+    needed.hi[i] = hi - drawn(hi - seen.hi[i]);
   }
   return needed;
 }
@@ -134,14 +142,19 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
     } else if (node.kind == NormalNode::Kind::kLeaf) {
       StepLeaf& leaf = leaves[index];
       const bool is_whole = whole[index] || leaf.whole;
-      leaf.local = is_whole ? leaf.own : needed_of(leaf, reach[index]);
+      leaf.local = leaf.own;
       const MmBox visible = is_whole ? leaf.world : meet(leaf.world, reach[index]);
       leaf.seen = !is_empty(visible);
       if (!leaf.seen) continue;
+      const MmBox seen = to_local(visible, leaf.rows);
+      if (!is_whole) {
+        leaf.seen = !is_beside(leaf.own, seen);
+        if (!leaf.seen) continue;
+        leaf.local = needed_of(leaf, seen);
+      }
       result.far = std::max(result.far, largest(leaf.local));
       if (leaf.framed) result.reach = std::max(result.reach, largest(leaf.local));
-      result.reach = std::max({result.reach, largest(visible),
-                               largest(meet(leaf.local, to_local(visible, leaf.rows)))});
+      result.reach = std::max({result.reach, largest(visible), largest(meet(leaf.local, seen))});
     } else if (node.kind == NormalNode::Kind::kHull) {
       whole[node.first] = 1;
     } else if (node.kind == NormalNode::Kind::kOperator) {

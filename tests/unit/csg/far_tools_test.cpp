@@ -1,5 +1,6 @@
 // Tools that are far larger than what they cut, turned too: they cut as tools do that are just
 // large enough, on the grid of the part.
+#include <array>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -37,17 +38,23 @@ struct Draw {
   int below(int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); }
 };
 
+NodePtr part_to_cut() {
+  return unite({box({0, 0, 0}, {4.007, 3, 2}), moved(1, 1, 1, prism(5, 1, 4))});
+}
+
+NodePtr placed_tool(Draw& draw, double length) {
+  NodePtr tool = tool_of(draw.below(4), length);
+  const double degrees = draw.upto(90), x = draw.upto(4), y = draw.upto(3), z = draw.upto(2);
+  tool = turned(draw.below(4) == 0 ? 90 : degrees, {1.0 * draw.below(3), 1, 2}, tool);
+  return moved(x, y, z, tool);
+}
+
 /// Of tools of that length, with the same draws.
 NodePtr cut_of(unsigned seed, double length) {
   Draw draw{std::mt19937(seed)};
-  const NodePtr part = unite({box({0, 0, 0}, {4.007, 3, 2}), moved(1, 1, 1, prism(5, 1, 4))});
-  std::vector<NodePtr> tools;
-  for (int i = 0; i < 2; ++i) {
-    NodePtr tool = tool_of(draw.below(4), length);
-    const double degrees = draw.upto(90), x = draw.upto(4), y = draw.upto(3), z = draw.upto(2);
-    tool = turned(draw.below(4) == 0 ? 90 : degrees, {1.0 * draw.below(3), 1, 2}, tool);
-    tools.push_back(moved(x, y, z, tool));
-  }
+  const NodePtr part = part_to_cut();
+  const NodePtr first = placed_tool(draw, length), second = placed_tool(draw, length);
+  const std::vector<NodePtr> tools{first, second};
   switch (draw.below(5)) {
     case 0:
       return subtract({part, tools[0], tools[1]});
@@ -79,6 +86,37 @@ TEST(FarTools, CutAsNearOnesDo) {
     }
   }
   EXPECT_LT(empty, 40);
+}
+
+// Each result goes on from the one before.
+TEST(FarTools, CutAsNearOnesDoInChains) {
+  EvaluateOptions options;
+  options.grid = *GridStep::parse("2^-19mm");
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    Evaluator near(options), far(options);
+    Draw draw{std::mt19937(seed)};
+    NodePtr near_part = part_to_cut(), far_part = near_part;
+    for (int step = 0; step < 8; ++step) {
+      Draw again = draw;
+      const double length = std::array{3e3, 3e5, 1e9}[step % 3];
+      const NodePtr near_tool = placed_tool(draw, 40), far_tool = placed_tool(again, length);
+      const NodePtr more = moved(draw.upto(4), draw.upto(3), draw.upto(2), cube(1.5));
+      if (draw.below(3) == 0) {
+        near_part = unite({near_part, intersect({more, near_tool})});
+        far_part = unite({far_part, intersect({more, far_tool})});
+      } else {
+        near_part = subtract({near_part, near_tool});
+        far_part = subtract({far_part, far_tool});
+      }
+      const auto truth = near.extent(near_part), cut = far.extent(far_part);
+      ASSERT_TRUE(truth && cut) << seed << ' ' << step;
+      EXPECT_EQ(cut->volume, truth->volume) << seed << ' ' << step;
+      EXPECT_EQ(cut->bbox, truth->bbox) << seed << ' ' << step;
+    }
+    EXPECT_EQ((*far.evaluate(far_part))->canonical_hash,
+              (*near.evaluate(near_part))->canonical_hash)
+        << seed;
+  }
 }
 
 // Only what has straight sides may lose of its length.
