@@ -288,7 +288,12 @@ Result<Constructions::Outcome> Constructions::measure(const Task& task, const No
   }
   std::array<glm::dvec3, 2> box{};
   if (!points.empty()) box = {points[0], points[0]};
-  for (const glm::dvec3& p : points) box = {glm::min(box[0], p), glm::max(box[1], p)};
+  for (const glm::dvec3& p : points) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      return Error{ErrorCode::kInvalidArgument, "a transform is not finite", task.node->where()};
+    }
+    box = {glm::min(box[0], p), glm::max(box[1], p)};
+  }
   // Kept from here on: what fails before the node is made leaves no entry for another node that
   // takes its place in memory.
   alive_.push_back(task.node);

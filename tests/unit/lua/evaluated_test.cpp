@@ -83,6 +83,44 @@ TEST(Evaluated, WhatFailedLeavesNothingBehind) {
     end)");
 }
 
+// Every kind of result is the same after every kind of failure.
+TEST(Evaluated, FailuresChangeNoLaterResult) {
+  expect_good(R"(
+    local points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}
+    local open = {points = points, faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}}}
+    local function endless() return cube(1):scale(1e300):scale(1e300) end
+    local bad = {
+      function() return endless():volume() end,
+      function() return hull(endless(), cube(1)):volume() end,
+      function() return minkowski(cube(2) - cube(1), endless()):volume() end,
+      function() return outer_hull(endless()):area() end,
+      function() return endless():resize(4, 4, 4):volume() end,
+      function() return (cube(3) - endless()):centroid() end,
+      function() return (cube(3) + hull(cube(1), endless())):slice(1) end,
+      function() return (sphere(2) - polyhedron(open)):mesh() end,
+      function() return endless():offset(1):volume() end,
+      function() return (cube(1) - endless()):contains{0, 0, 0} end,
+    }
+    local good = {
+      function() return (cube(3) - sphere(1.5, {fn = 12})):volume() end,
+      function() return hull(cube(2) - cube(1)):resize(4, 4, 4):area() end,
+      function() return minkowski(cube(2) - cube(1), octahedron(0.5)):volume() end,
+      function() return outer_hull(cube(3) + cube(2):rotate(10, 20, 30)):volume() end,
+      function() return (cube(5):rotate(0, 0, 30) - cylinder{h = 9, r = 1, fn = 9}):centroid().y end,
+      function() return (cube(4) - cube(2)):offset(0.5, {fn = 8}):volume() end,
+      function() return (sphere(3, {fn = 16}) - cube(2)):slice(1):area() end,
+      function() return #(cube(1) + cube(1):translate(0.5, 0.5, 0.5)):mesh().faces end,
+    }
+    local truth = {}
+    for i, f in ipairs(good) do truth[i] = f() end
+    for round = 1, 3 do
+      for b, fail in ipairs(bad) do
+        assert(not pcall(fail), b)
+        for i, f in ipairs(good) do assert(f() == truth[i], b .. ", " .. i) end
+      end
+    end)");
+}
+
 TEST(Evaluated, NotesAndFiguresOutliveTheirEvaluator) {
   const std::string measured = "local v, w = cube(1):translate(1e200, 0, 0):volume(), (cube(2) - cube(1)):volume()";
   const ScriptRun plain(measured);
