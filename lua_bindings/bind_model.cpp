@@ -351,6 +351,8 @@ void pack_parts(lua_State* L) {
 template <const FunctionSpec& Spec>
 int emit(lua_State* L) {
   if (lua_gettop(L) == 0) fail_in(Spec, "needs a part");
+  if (lua_type(L, 1) == LUA_TSTRING && marks_of(L, 2) != nullptr)
+    fail_in(Spec, "the part stands first, then its name");
   pack_parts(L);
   // The first argument may be a table of parts, so it is not read as options: emit{lid = a, box =
   // b}.

@@ -57,6 +57,8 @@ TEST(Parts, Mistakes) {
             "it returns is a part: call it");
   EXPECT_EQ(message_of("return {[''] = cube(1)}"),
             "model.lua:1: '' cannot be a part's name: leave it out, or say one");
+  EXPECT_EQ(message_of("emit('lid', cube(1))"),
+            "model.lua:1: emit: the part stands first, then its name");
   EXPECT_EQ(message_of("emit(cube(1), {name = 'a'}) return {a = cube(2)}"),
             "model.lua:1: there are two parts named 'a'");
   for (const std::string call : {"emit", "render"}) {
