@@ -62,7 +62,7 @@ MmBox to_local(const MmBox& world, const std::array<Row, 3>& rows) {
 /// Whether a leaf lies beside all of what sees it, in its local axes: boxes in the world may meet
 /// where it does not reach.
 bool is_beside(const MmBox& own, const MmBox& seen) {
-  constexpr double kClear = 1e-6;  // of the size: much more than rounding moves anything
+  constexpr double kClear = 1e-6;  // of the size: more than the doubles of the way here are off
   for (int i = 0; i < 3; ++i) {
     const double clear = kClear * (seen.hi[i] - seen.lo[i]);
     if (own.lo[i] > seen.hi[i] + clear || own.hi[i] < seen.lo[i] - clear) return true;

@@ -74,18 +74,16 @@ end
 
 local function row(name, parts, o)
   local axis, placed = kAxes[o.axis], {}
-  for i, part in ipairs(parts) do
-    if (o.axis == "z" or o.align ~= "none") and #part:bbox().min < 3 then
-      error(name .. ": part " .. i .. " must be a solid, got a shape, which has no z", 3)
-    end
-  end
   local next_start = nil
   for i, part in ipairs(parts) do
     local box, move = part:bbox(), {0, 0, 0}
+    if not box.min[axis] then
+      error(name .. ": part " .. i .. " must be a solid, got a shape, which has no z", 3)
+    end
     if next_start then move[axis] = next_start - box.min[axis] end
     next_start = box.max[axis] + move[axis] + o.gap
     for other = 1, 3 do
-      if other ~= axis and o.align ~= "none" then
+      if other ~= axis and o.align ~= "none" and box.min[other] and parts[1]:bbox().min[other] then
         local direction = o.align == "min" and -1 or o.align == "max" and 1 or 0
         local function at(b)
           return direction == -1 and b.min[other] or direction == 1 and b.max[other]

@@ -410,6 +410,16 @@ TEST(Layout, Mistakes) {
             "model.lua:1: anchor: option 'at': 'top bottom' has opposite sides");
   EXPECT_EQ(message("layout.row(5)"), "model.lua:1: layout.row: wants a list of solids, got 5");
   EXPECT_EQ(message("layout.row{cube(1) - cube(1)}"), "model.lua:1: layout.row: part 1 is empty");
+  EXPECT_EQ(message("layout.stack{cube(1), square(1)}"),
+            "model.lua:1: layout.stack: part 2 must be a solid, got a shape, which has no z");
+  EXPECT_EQ(message("layout.row({square(1)}, {axis = 'z'})"),
+            "model.lua:1: layout.row: part 1 must be a solid, got a shape, which has no z");
+  expect_good(kLayout + R"(
+    local row = layout.row({square(4, 2), circle(3), square(1, 9)}, {align = "center", gap = 1})
+    for i, low in ipairs{0, 5, 12} do
+      local box = row[i]:bbox()
+      assert(box.min[1] == low and box.min[2] + box.max[2] == 2)
+    end)");
   EXPECT_EQ(message("layout.ring(cube(1), 0)"),
             "model.lua:1: layout.ring: wants how many, a whole number from 1, got 0");
   EXPECT_EQ(message("layout.line(cube(1), 3, {})"),
