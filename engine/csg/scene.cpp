@@ -144,13 +144,15 @@ Status SceneBuilder::place_leaves() {
   return std::monostate{};
 }
 
-/// The leaf that reaches farthest from the origin; there is one.
+/// The leaf that reaches farthest from the origin, as far as it counts; there is one.
 uint32_t SceneBuilder::farthest_leaf() const {
   uint32_t farthest = 0;
   double distance = -1;
   for (const uint32_t index : order_) {
     if (normal(index).kind != NormalNode::Kind::kLeaf) continue;
-    const double own = distance_of(step_leaves_[index].world);
+    const StepLeaf& leaf = step_leaves_[index];
+    if (!leaf.seen) continue;
+    const double own = distance_of(leaf.local == leaf.own ? leaf.world : leaf.local);
     if (own <= distance) continue;
     farthest = index;
     distance = own;

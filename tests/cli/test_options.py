@@ -114,6 +114,10 @@ class FarAway(Case):
         self.assertIn("model.lua:3: 'sphere' reaches 2e+09 mm from the origin: beside it points of a part of 1 mm "
                       "are rounded to ", outcome.err)
         self.assertNotIn(self.WARNING, outcome.err)
+        # The one that is to blame, not those that are drawn near or beside.
+        outcome = self.run_script("return cube(1) - cube(1e10, 1, 1):rotate(0, 0, 30) - cube(1):translate(1e10, 0, 0) -"
+                                  "\n\nsphere(1e9):translate(1e9, 0, 0)", "--stats")
+        self.assertIn("model.lua:3: 'sphere' reaches 2e+09 mm from the origin", outcome.err)
 
     def test_tools_that_are_drawn_near(self):
         for tool, volume in (("cube(1):translate(1e9, 0, 0)", 1), ("sphere(1e9):translate(3e9, 0, 0)", 1),
