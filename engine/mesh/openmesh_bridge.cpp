@@ -1,12 +1,12 @@
 // OpenMesh 9 aborts on a face that repeats a vertex and reports complex vertices on standard error
 // only; so the arrays are proved to be a manifold before it sees them.
-#include <csgrun/engine/topology.h>
-
 #include <algorithm>
 #include <string>
 #include <utility>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+#include <csgrun/engine/topology.h>
 
 #include "engine/base/none.h"
 

@@ -247,7 +247,8 @@ CommandLine parse_info(int argc, char** argv) {
   CommandLine line;
   line.command = Command::kInfo;
   CLI::App app("Measures a mesh file exactly, on its own coordinates.", "csgrun info");
-  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY, GLB, glTF, 3MF, AMF, SVG or DXF")->required();
+  app.add_option("FILE", line.model, "STL, OFF, OBJ, PLY, GLB, glTF, 3MF, AMF, SVG or DXF")
+      ->required();
   app.add_flag("--json", line.info_json, "as one JSON object");
   try {
     app.parse(argc - 1, argv + 1);

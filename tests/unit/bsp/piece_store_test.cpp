@@ -49,7 +49,8 @@ void check_face(PieceStore& store, uint32_t piece, Job& job, uint32_t polygon, b
   for (uint32_t i = 0; i < p.count; ++i) {
     const uint32_t point = store.corners(piece)[i];
     EXPECT_EQ(point, job.corners(p)[corner_place(i, p.count, flip)]);
-    EXPECT_EQ(test::edge_plane_of(store, piece, i), job.edge_planes(p)[edge_place(i, p.count, flip)]);
+    EXPECT_EQ(test::edge_plane_of(store, piece, i),
+              job.edge_planes(p)[edge_place(i, p.count, flip)]);
     EXPECT_TRUE(store.is_on_grid(point) || store.point_planes(point)[0] != PieceStore::kNoNumber);
   }
 }

@@ -122,7 +122,8 @@ TEST(Evaluated, FailuresChangeNoLaterResult) {
 }
 
 TEST(Evaluated, NotesAndFiguresOutliveTheirEvaluator) {
-  const std::string measured = "local v, w = cube(1):translate(1e200, 0, 0):volume(), (cube(2) - cube(1)):volume()";
+  const std::string measured =
+      "local v, w = cube(1):translate(1e200, 0, 0):volume(), (cube(2) - cube(1)):volume()";
   const ScriptRun plain(measured);
   const auto notes = plain.session.evaluation_warnings();
   ASSERT_FALSE(notes.empty());

@@ -26,8 +26,8 @@ enum class ErrorCode {
   kInvalidArgument = 100,  ///< a number out of range, NaN, infinite, an empty list ...
   kMalformedFile = 101,    ///< a file is truncated or not what its name says
   kInvalidMesh = 110,      ///< open, inconsistently oriented, index out of range ...
-  kOutOfRange = 202,  ///< the scene does not fit the grid
-  kLimit = 300,       ///< memory or time budget used up
+  kOutOfRange = 202,       ///< the scene does not fit the grid
+  kLimit = 300,            ///< memory or time budget used up
   kCancelled = 301,
   kCannotRead = 400,
   kCannotWrite = 401,

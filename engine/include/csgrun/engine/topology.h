@@ -1,4 +1,5 @@
-// How the triangles of a mesh hang together, by half-edges. OpenMesh, which has them, stays behind this.
+// How the triangles of a mesh hang together, by half-edges. OpenMesh, which has them, stays
+// behind this.
 #pragma once
 
 #include <array>
