@@ -19,6 +19,7 @@
 #include "engine/csg/is_finite.h"
 #include "engine/csg/minkowski.h"
 #include "engine/csg/operand_leaves.h"
+#include "engine/csg/tree_nodes.h"
 #include "engine/csg/whole_steps.h"
 
 namespace csgrun {
@@ -106,11 +107,6 @@ PartedMap parted(const Affine& map) {
 
 Affine turned_forth(const Affine& map, const std::optional<CommonTurn>& turn) {
   return turn ? Affine::compose(map, turn->forth) : map;
-}
-
-bool is_sum(const Node& node) {
-  return node.kind() == NodeKind::kConstruction &&
-         node.construction() == Construction::kMinkowskiSum;
 }
 
 bool is_resizing(const Node& node) {
@@ -329,7 +325,8 @@ Result<Constructions::Below> Constructions::below(const Task& task) const {
     if (known == resizing_.end()) return Below{Affine{}, task.inner};
     return Below{Affine::compose(place.map, known->second.value_or(Affine{})), place.least};
   }
-  if (node.kind() != NodeKind::kConstruction || (is_sum(node) && node.children().size() == 1)) {
+  if (node.kind() != NodeKind::kConstruction ||
+      (is_minkowski_sum(node) && node.children().size() == 1)) {
     return Below{place.map, place.least};
   }
   return Below{parted(place.map).inside, task.inner};
@@ -364,7 +361,7 @@ Result<Constructions::Outcome> Constructions::make(const Task& task, std::vector
     made.node = resizing_.at(&node) ? std::move(children[0]) : Node::empty(node.where());
     return Outcome{};
   }
-  if (!is_sum(node)) return make_hull(task, children, made);
+  if (!is_minkowski_sum(node)) return make_hull(task, children, made);
   if (children.size() > 1) return make_sum(task, children, made);
   made.node = std::move(children[0]);
   return Outcome{};
@@ -380,8 +377,7 @@ Result<bool> Constructions::advance(std::vector<Task>& stack) {
   const size_t before = stack.size();
   std::vector<NodePtr> children;
   Made made{nullptr, std::numeric_limits<double>::infinity(), {}, node.where(), {}};
-  const std::span<const NodePtr> operands =
-      node.same_solid() ? std::span(&node.same_solid(), 1) : std::span(node.children());
+  const std::span<const NodePtr> operands = evaluated_children(node);
   for (const NodePtr& child : operands) {
     Task next(child, under->map, under->least);
     next.bent_by = task.bent_by;
@@ -420,10 +416,11 @@ Result<bool> Constructions::advance(std::vector<Task>& stack) {
   return true;
 }
 
-Result<Constructions::Expanded> Constructions::expand(const NodePtr& root, const GridStep& least) {
-  if (!root || !root->has_constructions()) {
-    return Expanded{root, std::numeric_limits<double>::infinity()};
+Result<Constructions::Expanded> Constructions::expand(const NodePtr& tree, const GridStep& least) {
+  if (!tree || !tree->has_constructions()) {
+    return Expanded{tree, std::numeric_limits<double>::infinity()};
   }
+  const NodePtr root = summands_.cut(tree);
   std::vector<Task> stack{Task(root, Affine{}, least)};
   while (!stack.empty()) {
     if (!made_.contains(stack.back().place)) {
@@ -437,8 +434,8 @@ Result<Constructions::Expanded> Constructions::expand(const NodePtr& root, const
   return Expanded{made.node, made.finest_mm};
 }
 
-void Constructions::tell(const NodePtr& root, const GridStep& least) {
-  const auto found = made_.find({root.get(), Affine{}, least});
+void Constructions::tell(const NodePtr& tree, const GridStep& least) {
+  const auto found = made_.find({summands_.cut(tree).get(), Affine{}, least});
   std::vector<Made*> stack;
   if (found != made_.end()) stack.push_back(&found->second);
   while (!stack.empty()) {
@@ -453,6 +450,7 @@ void Constructions::tell(const NodePtr& root, const GridStep& least) {
 void Constructions::clear() {
   made_.clear();
   resizing_.clear();
+  summands_.clear();
   alive_.clear();
 }
 

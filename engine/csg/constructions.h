@@ -10,6 +10,7 @@
 #include <csgrun/engine/csg_tree.h>
 
 #include "engine/csg/evaluated_parts.h"
+#include "engine/csg/far_summands.h"
 #include "engine/csg/warnings.h"
 
 namespace csgrun {
@@ -36,9 +37,9 @@ class Constructions {
   /// first; their operands are evaluated, on steps that are not below `least`, if there is one.
   /// Uses constant stack. Errors: those of the evaluation, kInvalidArgument and kLimit, at the
   /// construction's line.
-  Result<Expanded> expand(const NodePtr& root, const GridStep& least);
+  Result<Expanded> expand(const NodePtr& tree, const GridStep& least);
   /// Notes for the user about a tree that is used as it was expanded last with this step.
-  void tell(const NodePtr& root, const GridStep& least);
+  void tell(const NodePtr& tree, const GridStep& least);
   void clear();
 
  private:
@@ -82,6 +83,7 @@ class Constructions {
 
   EvaluateParts evaluate_;
   Warnings& warnings_;
+  FarSummands summands_;
   std::unordered_map<Place, Made, PlaceHash> made_;
   std::unordered_map<const Node*, std::optional<Affine>> resizing_;  ///< nothing: it is empty
   std::vector<NodePtr> alive_;  ///< keys of the maps stay valid

@@ -1,10 +1,7 @@
 #include "engine/csg/mesh_shells.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
-
-#include <glm/common.hpp>
 
 #include "engine/base/none.h"
 #include "engine/bsp/union_find.h"
@@ -12,7 +9,6 @@
 namespace csgrun {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Calls f(from, to) for the edges of a face.
 template <class F>
 void each_edge(const PolygonMesh& mesh, size_t face, F&& f) {
@@ -47,39 +43,6 @@ bool is_closed(const PolygonMesh& mesh) {
 }
 
 }  // namespace
-
-PointBox PointBox::nothing() { return {glm::dvec3(kInfinity), glm::dvec3(-kInfinity)}; }
-PointBox PointBox::everything() { return {glm::dvec3(-kInfinity), glm::dvec3(kInfinity)}; }
-
-void PointBox::include(const glm::dvec3& p) {
-  lo = glm::min(lo, p);
-  hi = glm::max(hi, p);
-}
-
-void PointBox::include(const PointBox& other) {
-  lo = glm::min(lo, other.lo);
-  hi = glm::max(hi, other.hi);
-}
-
-bool PointBox::is_nothing() const { return lo.x > hi.x || lo.y > hi.y || lo.z > hi.z; }
-
-bool PointBox::meets(const PointBox& other) const {
-  bool all = !is_nothing() && !other.is_nothing();
-  for (int i = 0; i < 3; ++i) all &= lo[i] <= other.hi[i] && hi[i] >= other.lo[i];
-  return all;
-}
-
-bool PointBox::holds(const PointBox& other) const {
-  bool all = true;
-  for (int i = 0; i < 3; ++i) all &= lo[i] <= other.lo[i] && hi[i] >= other.hi[i];
-  return all;
-}
-
-PointBox box_of(const PolygonMesh& mesh) {
-  PointBox box = PointBox::nothing();
-  for (const glm::dvec3& p : mesh.points) box.include(p);
-  return box;
-}
 
 MeshShells::MeshShells(std::shared_ptr<const PolygonMesh> mesh) : mesh_(std::move(mesh)) {
   const auto count = static_cast<uint32_t>(mesh_->face_count());

@@ -6,27 +6,11 @@
 #include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include <csgrun/engine/polygon_mesh.h>
 
+#include "engine/csg/point_box.h"
+
 namespace csgrun {
-
-/// A box in millimetres, closed; one that holds nothing is inside out.
-struct PointBox {
-  glm::dvec3 lo, hi;
-
-  static PointBox nothing();
-  static PointBox everything();
-  void include(const glm::dvec3& p);
-  void include(const PointBox& other);
-  [[nodiscard]] bool is_nothing() const;
-  [[nodiscard]] bool meets(const PointBox& other) const;
-  [[nodiscard]] bool holds(const PointBox& other) const;
-};
-
-/// The box of the points of a mesh.
-PointBox box_of(const PolygonMesh& mesh);
 
 class MeshShells {
  public:

@@ -14,6 +14,8 @@
 
 #include "engine/bsp/packed_boxes.h"
 #include "engine/csg/mesh_shells.h"
+#include "engine/csg/point_box.h"
+#include "engine/csg/tree_nodes.h"
 
 namespace csgrun {
 namespace {
@@ -25,72 +27,11 @@ const NodePtr& meant(const NodePtr& node) {
   return *at;
 }
 
-std::span<const NodePtr> evaluated_children(const Node& node) {
-  if (node.same_solid()) return {&node.same_solid(), 1};
-  return node.children();
-}
-
 bool is_boolean(const NodePtr& node, BooleanOp op) {
   return node->kind() == NodeKind::kBoolean && node->op() == op;
 }
 
-/// Widened for the rounding of doubles; if it reaches to infinity, or further, everything.
-PointBox widened(PointBox box) {
-  for (int i = 0; i < 3; ++i) {
-    const double noise = 1e-9 * std::max(std::fabs(box.lo[i]), std::fabs(box.hi[i]));
-    box.lo[i] -= noise;
-    box.hi[i] += noise;
-    if (!std::isfinite(box.lo[i]) || !std::isfinite(box.hi[i])) return PointBox::everything();
-  }
-  return box;
-}
-
-PointBox image(const Affine& map, const PointBox& box) {
-  if (box.is_nothing()) return box;
-  PointBox result;
-  for (int i = 0; i < 3; ++i) {
-    double lo = map.m[i][3], hi = map.m[i][3];
-    for (int j = 0; j < 3; ++j) {
-      const double a = map.m[i][j] * box.lo[j], b = map.m[i][j] * box.hi[j];
-      lo += std::min(a, b);
-      hi += std::max(a, b);
-    }
-    result.lo[i] = lo;
-    result.hi[i] = hi;
-  }
-  return widened(result);
-}
-
-/// What a map takes into a box, or more; everything if the map is nearly singular.
-PointBox original(const Affine& map, const PointBox& box) {
-  const auto& m = map.m;
-  Affine back;
-  double product = 1;
-  for (int i = 0; i < 3; ++i) {
-    const int a = (i + 1) % 3, b = (i + 2) % 3;
-    for (int j = 0; j < 3; ++j) {
-      const int c = (j + 1) % 3, d = (j + 2) % 3;
-      back.m[j][i] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
-    }
-    product *= std::hypot(m[i][0], m[i][1], m[i][2]);
-  }
-  const double det = m[0][0] * back.m[0][0] + m[0][1] * back.m[1][0] + m[0][2] * back.m[2][0];
-  constexpr double kLeastSquare = 1e-3;  // else the noise would be more than is allowed for
-  if (!(std::fabs(det) > kLeastSquare * product)) return PointBox::everything();
-  for (auto& row : back.m) {
-    for (int j = 0; j < 3; ++j) row[j] /= det;
-    row[3] = 0;
-  }
-  PointBox moved = box;
-  for (int i = 0; i < 3; ++i) {
-    moved.lo[i] -= m[i][3];
-    moved.hi[i] -= m[i][3];
-    const double noise = 1e-12 * std::fabs(m[i][3]);
-    moved.lo[i] -= noise;
-    moved.hi[i] += noise;
-  }
-  return image(back, widened(moved));
-}
+PointBox image_around(const Affine& map, const PointBox& box) { return widened(image(map, box)); }
 
 /// Things with boxes, and which of them meet one.
 class BoxList {
@@ -214,7 +155,7 @@ TreeInBoxes::Impl::Facts TreeInBoxes::Impl::facts_of(const Node& node) const {
       break;
     }
     case NodeKind::kTransform:
-      result.box = image(node.transform(), box(0));
+      result.box = image_around(node.transform(), box(0));
       break;
     case NodeKind::kBoolean:
       if (node.op() == BooleanOp::kDifference) {
