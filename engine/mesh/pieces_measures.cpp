@@ -215,7 +215,8 @@ class Summer {
       double sum = 0;
       for (size_t k = 0; k < 3; ++k) {
         const size_t x = (k + 1) % 3, y = (k + 2) % 3;
-        normal[k] += full_product(own[x], step[y]);
+        // Of a level face, as of the large one that is cut again and again, few products are not 0.
+        if (!own[x].is_zero() && !step[y].is_zero()) normal[k] += full_product(own[x], step[y]);
         area += last[x] * length[y] + last[y] * length[x];
         sum += length[k];
       }
