@@ -158,7 +158,7 @@ NodePtr FarSummands::make(const Place& place, std::vector<NodePtr> children) con
 }
 
 NodePtr FarSummands::cut(const NodePtr& root) {
-  if (!root || !root->has_constructions()) return root;
+  if (!root || !root->has_sums()) return root;
   const SolidBounds& bounds = bounds_.find(root);
   if (!bounds.has_far_sum) return root;
   const Place at_root{root, bounds.box, false};

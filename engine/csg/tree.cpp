@@ -32,6 +32,8 @@ std::shared_ptr<Node> Node::made(NodeKind kind, std::vector<NodePtr> children, S
                              std::any_of(children.begin(), children.end(), [](const NodePtr& c) {
                                return c && c->has_constructions_;
                              });
+  node->has_sums_ = std::any_of(children.begin(), children.end(),
+                                [](const NodePtr& c) { return c && c->has_sums_; });
   node->children_ = std::move(children);
   node->where_ = std::move(where);
   return node;
@@ -68,6 +70,7 @@ NodePtr Node::intersection_as(std::vector<NodePtr> operands, NodePtr same, Sourc
   auto node = made(NodeKind::kBoolean, std::move(operands), std::move(where));
   node->op_ = BooleanOp::kIntersection;
   node->has_constructions_ = same->has_constructions();
+  node->has_sums_ = same->has_sums();
   node->same_solid_ = std::move(same);
   return node;
 }
@@ -87,6 +90,7 @@ NodePtr Node::minkowski_sum(std::vector<NodePtr> operands, SourceRef where) {
   if (operands.empty()) return empty(std::move(where));
   auto node = made(NodeKind::kConstruction, std::move(operands), std::move(where));
   node->construction_ = Construction::kMinkowskiSum;
+  node->has_sums_ = true;
   return node;
 }
 

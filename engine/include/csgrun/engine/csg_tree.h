@@ -79,6 +79,8 @@ class Node {
   [[nodiscard]] const Resize& resize() const { return *resize_; }
   /// Whether it or a node below it that is evaluated is a construction.
   [[nodiscard]] bool has_constructions() const { return has_constructions_; }
+  /// The same of Minkowski sums.
+  [[nodiscard]] bool has_sums() const { return has_sums_; }
   [[nodiscard]] const std::shared_ptr<const PolygonMesh>& mesh() const { return mesh_; }
   [[nodiscard]] const SourceRef& where() const { return where_; }
 
@@ -120,6 +122,7 @@ class Node {
   BooleanOp op_ = BooleanOp::kUnion;
   Construction construction_ = Construction::kConvexHull;
   bool has_constructions_ = false;
+  bool has_sums_ = false;
   OuterHull outer_hull_;
   std::vector<NodePtr> children_;
   NodePtr same_solid_;
