@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/bsp/untouched.h"
+#include "engine/exact/grid_meeting.h"
 
 namespace csgrun {
 
@@ -30,15 +31,28 @@ Plane translate_plane(const Plane& p, const IVec3& t) {
   return {p.a, p.b, p.c, p.d - (p.a * t[0] + p.b * t[1] + p.c * t[2])};
 }
 
+std::array<double, 3> rounded_when_moved(const BoundaryMesh& mesh, uint32_t point, const IVec3& t) {
+  std::array<double, 3> at = mesh.point_rounded[point];
+  if (t == IVec3{0, 0, 0}) return at;
+  const auto& named = mesh.point_planes[point];
+  const Plane &p = mesh.planes[named[0]], &q = mesh.planes[named[1]], &r = mesh.planes[named[2]];
+  if (meet_on_grid(p, q, r, at)) {
+    for (size_t k = 0; k < 3; ++k) at[k] += static_cast<double>(t[k]);
+    return at;
+  }
+  return rounded(intersect(translate_plane(p, t), translate_plane(q, t), translate_plane(r, t)));
+}
+
 BoundaryMesh translated(const BoundaryMesh& mesh, const IVec3& t) {
   const bool is_on_grid = std::all_of(mesh.parts.begin(), mesh.parts.end(),
                                       [](const UntouchedPart& p) { return p.map.is_identity(); });
   // Whole steps are none in a frame.
   BoundaryMesh moved = is_on_grid ? mesh : *expanded(std::make_shared<BoundaryMesh>(mesh));
-  for (Plane& plane : moved.planes) plane = translate_plane(plane, t);
+  const BoundaryMesh& from = is_on_grid ? mesh : moved;
   for (uint32_t p = 0; p < moved.point_planes.size(); ++p) {
-    moved.point_rounded[p] = rounded(moved.exact_point(p));
+    moved.point_rounded[p] = rounded_when_moved(from, p, t);
   }
+  for (Plane& plane : moved.planes) plane = translate_plane(plane, t);
   for (GridBox& box : moved.touches) box = box.moved(t);
   for (UntouchedPart& part : moved.parts) {
     for (int k = 0; k < 3; ++k) part.translation[k] += t[k];
@@ -47,6 +61,12 @@ BoundaryMesh translated(const BoundaryMesh& mesh, const IVec3& t) {
 }
 
 bool is_empty(const BoundaryMesh& b) { return b.faces.empty() && b.parts.empty(); }
+
+size_t face_count(const BoundaryMesh& b) {
+  size_t count = b.faces.size();
+  for (const UntouchedPart& part : b.parts) count += part.faces.size();
+  return count;
+}
 
 size_t memory_bytes(const BoundaryMesh& b) {
   size_t bytes =

@@ -126,10 +126,15 @@ FaceLabel label_of(const Operand& operand, uint32_t face);
 /// The plane moved by `t` grid steps: as canonical as it was.
 Plane translate_plane(const Plane& plane, const IVec3& t);
 
+/// The correctly rounded coordinates of a point, moved by `t` grid steps.
+std::array<double, 3> rounded_when_moved(const BoundaryMesh& mesh, uint32_t point, const IVec3& t);
+
 /// The boundary moved by `t` grid steps: what a job with this operand alone would make of it. O(n).
 BoundaryMesh translated(const BoundaryMesh& mesh, const IVec3& t);
 
 bool is_empty(const BoundaryMesh& mesh);
+/// Of all faces, named ones too.
+size_t face_count(const BoundaryMesh& mesh);
 /// Bytes held by a boundary, for the cache's bound.
 size_t memory_bytes(const BoundaryMesh& mesh);
 /// Bounding box in grid steps, rounded outwards; empty for an empty boundary.

@@ -5,12 +5,14 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/bsp/apart_operands.h"
 #include "engine/bsp/assemble.h"
 #include "engine/bsp/evaluate_boxes.h"
 #include "engine/bsp/evaluate_job.h"
 #include "engine/bsp/live_faces.h"
 #include "engine/bsp/near_faces.h"
 #include "engine/bsp/operand_groups.h"
+#include "engine/bsp/side_by_side.h"
 #include "engine/bsp/touch_list.h"
 #include "engine/bsp/untouched.h"
 #include "engine/exact/widths.h"
@@ -72,6 +74,30 @@ Outcome evaluate_crowded(const Job& job, const Expression& expression, const Gri
   return evaluate_boolean(grouped->operands, grouped->expression, region, of_crowd, stats);
 }
 
+/// What is left of a job, and beside it what stands apart.
+Outcome beside_the_rest(ApartOperands apart, const GridBox& region, const KernelOptions& options,
+                        EvaluateStats& stats) {
+  std::vector<Operand> operands = std::move(apart.kept);
+  for (const ApartOperands::Repeated& repeated : apart.repeated) {
+    auto one =
+        evaluate_boolean(repeated.operands, repeated.expression, repeated.box, options, stats);
+    if (!one) return one;
+    for (const ApartOperands::Repeated::Place& place : repeated.places) {
+      Operand& operand = operands.emplace_back();
+      operand.boundary = *one;
+      operand.translation = place.moved;
+      operand.first_source = place.more_sources;
+    }
+  }
+  if (!apart.others.empty()) {
+    auto rest = evaluate_boolean(apart.others, apart.expression, region, options, stats);
+    if (!rest) return rest;
+    operands.emplace_back().boundary = *std::move(rest);
+  }
+  auto result = side_by_side(operands);
+  return options.name_untouched ? result : expanded(std::move(result));
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<Operand>& operands,
@@ -84,6 +110,11 @@ Result<std::shared_ptr<const BoundaryMesh>> evaluate_boolean(const std::vector<O
       if (!*boxes) return boxes->error();
       keep_few((**boxes)->touches);
       return std::shared_ptr<const BoundaryMesh>(std::move(**boxes));
+    }
+  }
+  if (options.whole_faces && !options.literal_cells) {
+    if (auto apart = find_apart(operands, expression)) {
+      return beside_the_rest(*std::move(apart), region, options, stats);
     }
   }
   if (!std::all_of(operands.begin(), operands.end(), can_stand_named)) {

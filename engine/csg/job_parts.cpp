@@ -75,7 +75,7 @@ Operand SceneJobs::place_leaf(const SceneNode& node, uint32_t job_frame, const I
 
 /// The stored axes x and the subtree's axes y are both images of the reference: x = P1 r + o1,
 /// y = P2 r + o2. So Q y = x + t with Q = P1 P2^-1 and t = Q o2 - o1.
-Result<Operand> SceneJobs::place(const Subtree& subtree, uint32_t job_frame) {
+Result<Operand> SceneJobs::place_as_kept(const Subtree& subtree, uint32_t job_frame) {
   const StoredBoundary& stored = use(subtree.id.key);
   auto boundary = boundary_of(subtree.id.key);
   if (!boundary) return boundary.error();
@@ -88,7 +88,15 @@ Result<Operand> SceneJobs::place(const Subtree& subtree, uint32_t job_frame) {
   const Frame base = subtree.id.frame == job_frame ? Frame{} : scene_.frames[subtree.id.frame];
   operand.frame = turn.apply_to_frame(base);
   if (subtree.id.paint != stored.id.paint) operand.appearance = subtree.id.paint;
-  if (!can_stand_named(operand)) operand.boundary = spelled(subtree.id.key, operand.boundary);
+  return operand;
+}
+
+/// As a job takes it.
+Result<Operand> SceneJobs::place(const Subtree& subtree, uint32_t job_frame) {
+  auto operand = place_as_kept(subtree, job_frame);
+  if (operand && !can_stand_named(*operand)) {
+    operand->boundary = spelled(subtree.id.key, operand->boundary);
+  }
   return operand;
 }
 
@@ -122,7 +130,7 @@ Result<SceneJobs::OpenOperator> SceneJobs::open(uint32_t node, size_t count, boo
   if (scene_.met_before && node == scene_.roots[0]) result.scene = &scene_;
   for (size_t prefix = is_target ? count - 1 : count; prefix >= 2; --prefix) {
     const Subtree& value = *result.list.values[prefix - 1];
-    if (!may_keep(value) || !is_known(value.id.key)) continue;
+    if (!may_use_known(value)) continue;
     auto known = put_known(parts, value, job_frame);
     if (!known) return known.error();
     result.children.push_back(*known);

@@ -55,18 +55,29 @@ bool SceneJobs::is_known(const Key& key) {
   return known != nullptr;
 }
 
+/// Also where it would not be kept: there a leaf may be far that was near where it was evaluated.
+bool SceneJobs::may_use_known(const Subtree& subtree) {
+  return fits_grid(subtree.box) && is_known(subtree.id.key);
+}
+
 void SceneJobs::find_operators(const std::vector<uint32_t>& roots) {
   std::vector<uint32_t> stack(roots);
   while (!stack.empty()) {
     const uint32_t node = stack.back();
     stack.pop_back();
-    if (!is_operator(node) ||
-        !operators_.try_emplace(scene_.nodes[node].subtree.id.key, node).second) {
+    if (!is_operator(node)) continue;
+    const auto [found, is_new] = operators_.try_emplace(scene_.nodes[node].subtree.id.key, node);
+    if (!is_new) {
+      // Where it can be kept, it can be used elsewhere.
+      const auto is_kept = [&](uint32_t n) { return may_keep(scene_.nodes[n].subtree); };
+      if (is_kept(node) && !is_kept(found->second)) found->second = node;
       continue;
     }
     if (is_known(scene_.nodes[node].subtree.id.key)) continue;
-    for (uint32_t operand : scene_.operands(node).operands) {
-      if (is_operator(operand)) stack.push_back(operand);
+    // In their order: of several places of one solid the first is where it is evaluated.
+    const OperandList list = scene_.operands(node);
+    for (size_t i = list.operands.size(); i-- > 0;) {
+      if (is_operator(list.operands[i])) stack.push_back(list.operands[i]);
     }
   }
 }
@@ -242,12 +253,34 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
   return result;
 }
 
+/// Pieces are worth their while where all others are small beside them: a face of these is several
+/// times the work there that it is in a job of all.
+Status SceneJobs::take_as_whole_if_less_work(Parts& parts) {
+  constexpr size_t kTimes = 2;
+  size_t others = 0;
+  for (const Operand& operand : parts.operands) {
+    if (operand.leaf) others += operand.leaf->face_count();
+    if (operand.boundary) others += face_count(*operand.boundary);
+  }
+  if (kTimes * others <= parts.in_pieces->tree.size()) return std::monostate{};
+  Operand& first = parts.operands[parts.pieces_at];
+  const Key& key = parts.keys[parts.pieces_at];
+  auto boundary = boundary_of(key);
+  if (!boundary) return boundary.error();
+  first.boundary = *boundary;
+  parts.in_pieces = nullptr;
+  return std::monostate{};
+}
+
 /// A result that goes on from another one, which somebody looked at, is kept in pieces: it is
 /// likely to be gone on from, too.
 Result<StoredBoundary> SceneJobs::run_kept_job(Parts parts, const Subtree& subtree) {
   if (parts.in_pieces) {
     // Alone if all others were there before (OpenOperator::repeats).
     if (parts.operands.size() == 1) return StoredBoundary{nullptr, parts.in_pieces, subtree.id};
+    if (Status status = take_as_whole_if_less_work(parts); !status) return status.error();
+  }
+  if (parts.in_pieces) {
     spell_out(parts);
     const uint32_t at = parts.pieces_at;
     ResultPieces version = *parts.in_pieces;
@@ -337,7 +370,7 @@ Result<BoundaryPtr> SceneJobs::world_boundary(uint32_t root) {
       return boundary;
     }
     put(parts, std::move(leaf), subtree);
-  } else if (!may_keep(subtree)) {
+  } else if (!may_keep(subtree) && !may_use_known(subtree)) {
     auto built = build(root, scene_.operands(root).operands.size(), 0);
     if (!built) return built.error();
     parts = *std::move(built);
@@ -349,9 +382,14 @@ Result<BoundaryPtr> SceneJobs::world_boundary(uint32_t root) {
       ++jobs_done_;
       return boundary_of(id.key);
     }
-    results_.at(id.key).is_fresh = true;  // place() below is the same use
-    auto operand = place(subtree, 0);
+    results_.at(id.key).is_fresh = true;  // what is placed below is the same use
+    auto operand = place_as_kept(subtree, 0);
     if (!operand) return operand.error();
+    if (BoundaryPtr boundary = moved_and_painted(*operand)) {
+      ++jobs_done_;
+      return boundary;
+    }
+    if (!can_stand_named(*operand)) operand->boundary = spelled(id.key, operand->boundary);
     put(parts, *std::move(operand), subtree);
   }
   auto boundary = run_job(std::move(parts), on_grid(subtree.world));

@@ -78,6 +78,7 @@ class SceneJobs {
   }
   [[nodiscard]] static bool may_keep(const Subtree& subtree);
   [[nodiscard]] bool is_known(const Key& key);
+  [[nodiscard]] bool may_use_known(const Subtree& subtree);
   void find_operators(const std::vector<uint32_t>& roots);
   std::vector<uint32_t> count_uses(const std::vector<uint32_t>& roots);
   void note_overlap(uint32_t a, uint32_t b, bool in_operator);
@@ -86,6 +87,7 @@ class SceneJobs {
   Status evaluate(uint32_t node);
   Status evaluate_hull(uint32_t node);
   void keep(const Subtree& subtree, StoredBoundary stored, double seconds);
+  Status take_as_whole_if_less_work(Parts& parts);
   Result<StoredBoundary> run_kept_job(Parts parts, const Subtree& subtree);
   KernelOptions job_options();
   Result<BoundaryPtr> run_job(Parts parts, const GridBox& region);
@@ -99,6 +101,7 @@ class SceneJobs {
   Result<uint32_t> put_placed(Parts& parts, const Subtree& subtree, uint32_t job_frame);
   BoundaryPtr spelled(const Key& of, const BoundaryPtr& boundary);
   void spell_out(Parts& parts);
+  Result<Operand> place_as_kept(const Subtree& subtree, uint32_t job_frame);
   Result<Operand> place(const Subtree& subtree, uint32_t job_frame);
   [[nodiscard]] Operand place_leaf(const SceneNode& node, uint32_t job_frame,
                                    const IVec3& moved = {0, 0, 0}) const;
