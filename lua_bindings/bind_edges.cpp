@@ -109,7 +109,8 @@ std::string face_hint(const std::string& text) {
 }
 
 bool is_parallel(const glm::dvec3& a, const glm::dvec3& unit) {
-  return glm::dot(glm::normalize(a), unit) >= cos_deg(kDirectionDegrees);
+  static const double least = cos_deg(kDirectionDegrees);
+  return glm::dot(glm::normalize(a), unit) >= least;
 }
 
 double distance_to(const SolidEdge& e, const glm::dvec3& p) {

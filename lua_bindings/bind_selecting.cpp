@@ -111,44 +111,71 @@ constexpr FunctionSpec kRay{
 
 /// Where the line of the ray meets a triangle.
 struct Hit {
-  double distance;
-  glm::dvec3 normal;
-  double facing;  ///< the normal along the ray: below 0 where the ray enters
+  double distance = 0;
+  glm::dvec3 normal{0};
+  double facing = 0;      ///< the normal along the ray: below 0 where the ray enters
+  bool is_clear = false;  ///< doubles tell that it is within the triangle and not along it
 };
+
+/// So near to one another hits are at one place.
+bool is_one_place(double distance, double next) {
+  constexpr double kOnePlace = 1e-9;
+  return next - distance <= kOnePlace * (1 + distance);
+}
 
 /// A triangle is a little larger than it is, so that no ray slips through between two.
 constexpr double kMargin = 1e-12;
 
-/// Moeller and Trumbore (1997); edges belong to both triangles.
-bool hits(const glm::dvec3& from, const glm::dvec3& along, const glm::dvec3& a, const glm::dvec3& b,
-          const glm::dvec3& c, double& distance) {
+/// No less than that of the vector.
+double length(const glm::dvec3& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
+
+enum class Meeting : uint8_t { kNone, kNearly, kHit };
+
+/// Moeller and Trumbore (1997); edges belong to both triangles. kNearly: doubles do not tell.
+Meeting meet(const glm::dvec3& from, const glm::dvec3& along, const glm::dvec3& a,
+             const glm::dvec3& b, const glm::dvec3& c, Hit& hit) {
   const glm::dvec3 p = glm::cross(along, c - a);
   const double det = glm::dot(b - a, p);
-  if (det == 0) return false;  // beside it, or in its plane
+  if (det == 0) return Meeting::kNone;  // beside it, or in its plane
   const glm::dvec3 s = from - a;
   const double u = glm::dot(s, p) / det;
   const glm::dvec3 q = glm::cross(s, b - a);
   const double v = glm::dot(along, q) / det;
-  if (u < -kMargin || v < -kMargin || u + v > 1 + kMargin) return false;
-  distance = glm::dot(c - a, q) / det;
-  return distance >= 0;
+  const double least = std::min({u, v, 1 - u - v});
+  // Of u and v: a few roundings of products of these lengths, far below this.
+  const double error = 1e-14 * (length(a) + length(s)) * (length(b - a) + length(c - a));
+  const double clear = 1e-6 + error / std::fabs(det);
+  if (!(least >= -clear)) return Meeting::kNone;
+  hit.distance = glm::dot(c - a, q) / det;
+  hit.is_clear = least > clear;
+  if (least < -kMargin) return Meeting::kNearly;
+  if (hit.distance >= 0) return Meeting::kHit;
+  return is_one_place(0, -hit.distance) ? Meeting::kNearly : Meeting::kNone;
 }
 
-std::vector<Hit> all_hits(const Solid& solid, const glm::dvec3& from, const glm::dvec3& along) {
-  std::vector<Hit> found;
+struct Hits {
+  std::vector<Hit> found;  ///< by distance
+  bool is_any_near = false;
+};
+
+Hits all_hits(const Solid& solid, const glm::dvec3& from, const glm::dvec3& along) {
+  Hits hits;
   for (size_t t = 0; t < solid.triangles.size(); ++t) {
     const auto& corners = solid.triangles[t];
-    double distance = 0;
-    if (!hits(from, along, solid.positions[corners[0]], solid.positions[corners[1]],
-              solid.positions[corners[2]], distance)) {
-      continue;
-    }
-    const glm::dvec3 normal = glm::normalize(solid.face_normals[solid.triangle_face[t]]);
-    found.push_back({distance, normal, glm::dot(normal, along)});
+    Hit hit;
+    const Meeting how = meet(from, along, solid.positions[corners[0]], solid.positions[corners[1]],
+                             solid.positions[corners[2]], hit);
+    hits.is_any_near |= how == Meeting::kNearly;
+    if (how != Meeting::kHit) continue;
+    hit.normal = glm::normalize(solid.face_normals[solid.triangle_face[t]]);
+    hit.facing = glm::dot(hit.normal, along);
+    constexpr double kLeastFacing = 1e-6;
+    hit.is_clear = hit.is_clear && std::fabs(hit.facing) > kLeastFacing;
+    hits.found.push_back(hit);
   }
-  std::stable_sort(found.begin(), found.end(),
+  std::stable_sort(hits.found.begin(), hits.found.end(),
                    [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
-  return found;
+  return hits;
 }
 
 /// That of the hits, which are at one place, which faces most as the ray passes; null if none does.
@@ -161,6 +188,22 @@ const Hit* passed(std::span<const Hit> place, bool entering) {
   return best;
 }
 
+/// Whether the ray passes the surface in one triangle at each place, in and out by turns: then the
+/// way these face says all. The last one is passed outwards, as all solids end somewhere.
+bool are_plain(const Hits& hits) {
+  const std::vector<Hit>& found = hits.found;
+  if (hits.is_any_near) return false;
+  for (size_t i = 0; i < found.size(); ++i) {
+    const double before = i > 0 ? found[i - 1].distance : 0;
+    const bool leaves = (found.size() - i) % 2 != 0;
+    if (!found[i].is_clear || is_one_place(before, found[i].distance) ||
+        leaves != (found[i].facing > 0)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 int ray(lua_State* L) {
   SolidValue& value = solid_argument(L, kRay);
   const Arguments arguments(L, kRay, 2);
@@ -169,26 +212,30 @@ int ray(lua_State* L) {
   if (direction->v == glm::dvec3(0, 0, 0)) fail_in(kRay, "option 'direction' must not be 0");
   const glm::dvec3 along = glm::normalize(direction->v);
   Session& session = session_of(L);
-  const std::vector<Hit> found = all_hits(session.evaluated(value), from->v, along);
+  const Hits hits = all_hits(session.evaluated(value), from->v, along);
+  const std::vector<Hit>& found = hits.found;
   // What the triangles of a place say where an edge or a corner is met is anything: whether the ray
   // enters or leaves there is told by what it is in before and after.
+  const bool is_plain = are_plain(hits);
   const auto is_inside = [&](double distance) {
+    if (is_plain) {
+      const auto next = std::find_if(found.begin(), found.end(),
+                                     [&](const Hit& hit) { return hit.distance > distance; });
+      return (found.end() - next) % 2 != 0;
+    }
     const EvaluationScope scope(session.budget());
     const auto side = session.evaluator().contains(value.node, from->v + distance * along);
     if (!side) session.fail_evaluation(side.error());
     return *side >= 0;
   };
-  constexpr double kOnePlace = 1e-9;
   lua_newtable(L);
   lua_Integer count = 0;
   bool was_inside = false;
   for (size_t begin = 0, end = 0; begin < found.size(); begin = end) {
     const double distance = found[begin].distance;
-    while (end < found.size() && found[end].distance - distance <= kOnePlace * (1 + distance)) {
-      ++end;
-    }
+    while (end < found.size() && is_one_place(distance, found[end].distance)) ++end;
     const auto place = std::span(found).subspan(begin, end - begin);
-    const bool starts_here = begin == 0 && distance <= kOnePlace;
+    const bool starts_here = begin == 0 && is_one_place(0, distance);
     // What runs in a face's plane may come in unseen.
     if (begin == 0 && !starts_here) was_inside = is_inside(distance / 2) && is_inside(0);
     const bool is_in =

@@ -103,14 +103,13 @@ class Joiner {
 
   /// Neighbours that may be one: of each pair an edge and the corners across it lie in one plane.
   void find_pairs() {
-    const double least = cos_deg(kMostTurnOfSide);
     for (uint32_t h = 0; h < twins_.size(); ++h) {
       const uint32_t twin = twins_[h];
       const uint32_t a = sides_.of[h / 3], b = sides_.of[twin / 3];
       if (h > twin || a == b) continue;
       const double cosine = glm::dot(glm::normalize(areas_[a]), glm::normalize(areas_[b]));
       // What has no area, in doubles, has no direction either.
-      if (!(cosine >= least)) continue;
+      if (!(cosine >= least_)) continue;
       Slab slab{normal_of(a, b)};
       for (const uint32_t c : {h, around(h), around(around(h)), around(around(twin))})
         slab.add(corner(c));
@@ -152,9 +151,7 @@ class Joiner {
 
   [[nodiscard]] bool try_to_join(uint32_t a, uint32_t b) {
     if (corners_[a].size() < corners_[b].size()) std::swap(a, b);
-    if (!(glm::dot(glm::normalize(areas_[a]), glm::normalize(areas_[b])) >=
-          cos_deg(kMostTurnOfSide)))
-      return false;
+    if (!(glm::dot(glm::normalize(areas_[a]), glm::normalize(areas_[b])) >= least_)) return false;
     // Mostly the smaller one lies in the slab of the larger one, whose corners are many where
     // flat sides are of many faces.
     Slab slab = slabs_[a];
@@ -193,6 +190,7 @@ class Joiner {
   static uint32_t around(uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
 
   const Solid& solid_;
+  const double least_ = cos_deg(kMostTurnOfSide);
   const std::span<const uint32_t> twins_;
   FlatSides& sides_;
   std::vector<uint32_t> joined_with_;           ///< by side: one before it, or itself
