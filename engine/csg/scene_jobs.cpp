@@ -253,16 +253,19 @@ KernelOptions kernel_options(const EvaluateOptions& options, unsigned threads) {
   return result;
 }
 
-/// Pieces are worth their while where all others are small beside them: a face of these is several
-/// times the work there that it is in a job of all.
+/// Pieces are worth their while where all others are small beside them: a face of a result that is
+/// added is several times the work there that it is in a job of all. Of leaves only what is near
+/// becomes polygons, but asking where all others are takes long if there are many.
 Status SceneJobs::take_as_whole_if_less_work(Parts& parts) {
-  constexpr size_t kTimes = 2;
-  size_t others = 0;
+  size_t of_results = 0, of_leaves = 0;
   for (const Operand& operand : parts.operands) {
-    if (operand.leaf) others += operand.leaf->face_count();
-    if (operand.boundary) others += face_count(*operand.boundary);
+    if (operand.leaf) of_leaves += operand.leaf->face_count();
+    if (operand.boundary) of_results += face_count(*operand.boundary);
   }
-  if (kTimes * others <= parts.in_pieces->tree.size()) return std::monostate{};
+  constexpr size_t kTimesResults = 2, kPartOfLeaves = 4;
+  if (kTimesResults * of_results + of_leaves / kPartOfLeaves <= parts.in_pieces->tree.size()) {
+    return std::monostate{};
+  }
   Operand& first = parts.operands[parts.pieces_at];
   const Key& key = parts.keys[parts.pieces_at];
   auto boundary = boundary_of(key);

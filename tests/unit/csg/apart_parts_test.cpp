@@ -129,6 +129,31 @@ TEST(ApartParts, AreTheSameWhereOneOfThemIsKnown) {
   }
 }
 
+// A tool that reaches beyond the grid in one place alone: what is known from another is used.
+TEST(ApartParts, StandWhereTheirToolsDoNotFit) {
+  EvaluateOptions options;
+  options.grid = *GridStep::parse("2^-20mm");  // up to 128 mm
+  const NodePtr part = subtract({cube(3), box({1, 1, 1}, {60, 2, 2})});
+  const NodePtr near = moved(5, 0, 0, part), far = moved(100, 0, 0, part);
+  const SolidPtr of_near = solid_of(near, options), of_far = solid_of(far, options);
+  EXPECT_EQ(of_far->measures.volume, 27 - 2);
+  for (const auto& roots : {std::vector{near, far}, std::vector{far, near}}) {
+    Evaluator evaluator(options);
+    const auto solids = evaluator.evaluate(roots);
+    ASSERT_TRUE(solids);
+    for (size_t i = 0; i < 2; ++i) {
+      const SolidPtr& truth = roots[i] == far ? of_far : of_near;
+      EXPECT_EQ((*solids)[i]->canonical_hash, truth->canonical_hash);
+    }
+  }
+  for (const auto& both : {unite({near, far}), unite({far, near}), symmetric({far, near})}) {
+    EvaluateOptions by_cells = options;
+    by_cells.whole_faces = false;
+    EXPECT_EQ(solid_of(both, options)->canonical_hash, solid_of(both, by_cells)->canonical_hash);
+    EXPECT_EQ(solid_of(both, options)->measures.volume, 2 * (27 - 2));
+  }
+}
+
 // What is asked about one part is not asked again about its copies.
 TEST(ApartParts, CostWhatOneDoes) {
   const NodePtr part = unite({subtract({cube(3), moved(1, 1, 1, prism(64, 0.5, 9))}),
