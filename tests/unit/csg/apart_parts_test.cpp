@@ -113,7 +113,7 @@ TEST(ApartParts, AreWhatOneJobMakesOfThem) {
 // Several roots, and results that were evaluated before.
 TEST(ApartParts, AreTheSameWhereOneOfThemIsKnown) {
   EvaluateOptions options;
-  options.grid = *GridStep::parse("2^-19mm");
+  options.grid = *GridStep::parse("2^-20mm");
   for (unsigned seed = 0; seed < 60; ++seed) {
     Draw draw{std::mt19937(seed)};
     const NodePtr part = part_of(draw), row = copies_of(draw, part, 3);
