@@ -1,4 +1,6 @@
 // Outer hulls in trees: of meshes as they are, of results, in Booleans and under transforms.
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include <csgrun/engine/evaluate.h>
@@ -141,6 +143,34 @@ TEST(OuterHull, FarCuttersBelow) {
     ASSERT_TRUE(seen.has_value()) << seen.error().message;
     EXPECT_NEAR((*seen)->measures.volume, 8, 0.1);
   }
+}
+
+// Of results with voids, with something in some of these, and of those that touch themselves.
+TEST(OuterHull, OfRandomResults) {
+  int with_voids = 0, without = 0;
+  for (unsigned seed = 0; seed < 120; ++seed) {
+    std::mt19937 random(seed);
+    const auto upto = [&](double most) { return static_cast<double>(random() % 64) / 64 * most; };
+    std::vector<NodePtr> solids;
+    for (int i = 0; i < 5; ++i) {
+      const NodePtr full = random() % 2 == 0 ? cube(2) : prism(5, 1, 2);
+      // Some are hollow, and something is in the middle of some of these.
+      const NodePtr hollow = subtract({cube(3), moved(0.5, 0.5, 0.5, cube(2))});
+      NodePtr solid = random() % 8 == 0 ? hollow : full;
+      if (random() % 12 == 0) solid = unite({hollow, moved(1, 1, 1, cube(0.5))});
+      solids.push_back(moved(upto(9), upto(9), upto(3), solid));
+    }
+    const NodePtr model = seed % 3 == 0 ? symmetric(solids) : unite(solids);
+    EvaluateOptions by_cells;
+    by_cells.whole_faces = false;
+    const SolidPtr truth = testing::solid_of(hull(model), by_cells),
+                   fast = testing::solid_of(hull(model));
+    EXPECT_EQ(fast->canonical_hash, truth->canonical_hash) << seed;
+    EXPECT_EQ(fast->triangles, truth->triangles) << seed;
+    ++(testing::solid_of(model)->measures.volume < truth->measures.volume ? with_voids : without);
+  }
+  EXPECT_GT(with_voids, 20);
+  EXPECT_GT(without, 20);
 }
 
 TEST(OuterHull, PointsAndCaches) {
