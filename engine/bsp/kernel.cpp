@@ -78,9 +78,11 @@ Outcome evaluate_crowded(const Job& job, const Expression& expression, const Gri
 Outcome beside_the_rest(ApartOperands apart, const GridBox& region, const KernelOptions& options,
                         EvaluateStats& stats) {
   std::vector<Operand> operands = std::move(apart.kept);
+  KernelOptions of_repeated = options;
+  of_repeated.progress = nullptr;
   for (const ApartOperands::Repeated& repeated : apart.repeated) {
     auto one =
-        evaluate_boolean(repeated.operands, repeated.expression, repeated.box, options, stats);
+        evaluate_boolean(repeated.operands, repeated.expression, repeated.box, of_repeated, stats);
     if (!one) return one;
     for (const ApartOperands::Repeated::Place& place : repeated.places) {
       Operand& operand = operands.emplace_back();

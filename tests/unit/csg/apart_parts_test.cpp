@@ -4,18 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "draw.h"
 #include "test_meshes.h"
 
 namespace csgrun::apart_parts_test {
 namespace {
 
 using namespace testing;
-
-struct Draw {
-  std::mt19937 random;
-  double upto(double most) { return static_cast<double>(random() % 1000) / 1000 * most; }
-  int below(int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); }
-};
 
 /// Triangles that are facets of their own, as of a file.
 NodePtr imported(double size) {

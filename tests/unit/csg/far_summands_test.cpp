@@ -5,18 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "draw.h"
 #include "test_meshes.h"
 
 namespace csgrun::far_summands_test {
 namespace {
 
 using namespace testing;
-
-struct Draw {
-  std::mt19937 random;
-  double upto(double most) { return static_cast<double>(random() % 1000) / 1000 * most; }
-  int below(int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); }
-};
 
 NodePtr sum(std::vector<NodePtr> operands) { return Node::minkowski_sum(std::move(operands)); }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "draw.h"
 #include "test_meshes.h"
 
 namespace csgrun::far_tools_test {
@@ -31,12 +32,6 @@ NodePtr tool_of(int kind, double length) {
       return box({0.5, 0.25, 0}, {length, length, length});  // a corner
   }
 }
-
-struct Draw {
-  std::mt19937 random;
-  double upto(double most) { return static_cast<double>(random() % 1000) / 1000 * most; }
-  int below(int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); }
-};
 
 NodePtr part_to_cut() {
   return unite({box({0, 0, 0}, {4.007, 3, 2}), moved(1, 1, 1, prism(5, 1, 4))});
