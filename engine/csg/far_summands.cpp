@@ -23,17 +23,17 @@ bool reaches_beyond(const PointBox& box, const PointBox& seen) {
   return !around.holds(box);
 }
 
-/// A box around what is seen, farther out by at least its size, so that neither doubles nor
+/// A box around what is seen, farther out by a quarter of its size, so that neither doubles nor
 /// rounding to a grid matter; at multiples of a power of two, which grids have.
 NodePtr box_around(const PointBox& seen, const SourceRef& where) {
-  const double size = seen.size();
+  const double beyond = seen.size() / 4;
   int exponent = 0;
-  std::frexp(size, &exponent);
+  std::frexp(beyond, &exponent);
   const double unit = std::ldexp(1, exponent);
   glm::dvec3 lo, hi;
   for (int k = 0; k < 3; ++k) {
-    lo[k] = unit * std::floor((seen.lo[k] - size) / unit);
-    hi[k] = unit * std::ceil((seen.hi[k] + size) / unit);
+    lo[k] = unit * std::floor((seen.lo[k] - beyond) / unit);
+    hi[k] = unit * std::ceil((seen.hi[k] + beyond) / unit);
   }
   auto mesh = std::make_shared<PolygonMesh>();
   for (unsigned i = 0; i < 8; ++i) {
