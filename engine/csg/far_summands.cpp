@@ -54,8 +54,12 @@ PointBox opposite(const PointBox& box) {
   return box.is_nothing() ? box : PointBox{-box.hi, -box.lo};
 }
 
-bool is_flat(const PointBox& box) {
-  return box.lo.x == box.hi.x || box.lo.y == box.hi.y || box.lo.z == box.hi.z;
+/// Whether there is some room inside for certain: flat leaves, and hulls that are flat, are
+/// summands and nothing to a Boolean.
+bool is_solid(const Node& node, const SolidBounds& bounds) {
+  const PointBox& full = bounds.full;
+  return node.kind() == NodeKind::kBoolean ||
+         (full.lo.x < full.hi.x && full.lo.y < full.hi.y && full.lo.z < full.hi.z);
 }
 
 /// A node with other children.
@@ -148,9 +152,9 @@ NodePtr FarSummands::make(const Place& place, std::vector<NodePtr> children) con
   if (!std::equal(before.begin(), before.end(), children.begin(), children.end())) {
     result = remade(node, std::move(children));
   }
-  const PointBox& box = bounds_.of(place.node).box;
-  // Flat leaves are summands, and nothing to a Boolean.
-  if (!place.is_summand || has_members(node) || is_flat(box) || !reaches_beyond(box, place.seen)) {
+  const SolidBounds& bounds = bounds_.of(place.node);
+  if (!place.is_summand || has_members(node) || !is_solid(node, bounds) ||
+      !reaches_beyond(bounds.box, place.seen)) {
     return result;
   }
   return Node::boolean(BooleanOp::kIntersection,

@@ -20,8 +20,8 @@ namespace csgrun {
 /// Remembers what it made, so that the same tree is the same again.
 class FarSummands {
  public:
-  /// The same solid, as far as it can be told from its tree where it is: the tree itself if there
-  /// is nothing to cut. Uses constant stack. O(nodes that are new below it).
+  /// A tree of the same solid: the tree itself if there is nothing to cut. Uses constant stack.
+  /// O(nodes that are new below it).
   NodePtr cut(const NodePtr& root);
   void clear();
 

@@ -30,6 +30,18 @@ BoundaryPtr moved_and_painted(const Operand& operand) {
   return moved;
 }
 
+/// Whether a result in pieces has so many faces at least. O(count).
+bool has_faces(const ResultPieces& pieces, size_t count) {
+  if (pieces.tree.size() >= count) return true;
+  size_t found = 0;
+  const PieceStore& store = *pieces.store;
+  pieces.tree.each([&](const PieceBox&) { return found < count; },
+                   [&](uint32_t piece) {
+                     found += store.is_group(piece) ? store.group_faces(piece).size() : 1;
+                   });
+  return found >= count;
+}
+
 /// Where a result can be. A box around it may reach to where no leaf can be seen from it, and there
 /// is nothing there: all that can be seen fits the grid (scene_reach), with a bit to spare.
 GridBox on_grid(GridBox box) {
@@ -263,9 +275,8 @@ Status SceneJobs::take_as_whole_if_less_work(Parts& parts) {
     if (operand.boundary) of_results += face_count(*operand.boundary);
   }
   constexpr size_t kTimesResults = 2, kPartOfLeaves = 4;
-  if (kTimesResults * of_results + of_leaves / kPartOfLeaves <= parts.in_pieces->tree.size()) {
-    return std::monostate{};
-  }
+  const size_t work = kTimesResults * of_results + of_leaves / kPartOfLeaves;
+  if (has_faces(*parts.in_pieces, work)) return std::monostate{};
   Operand& first = parts.operands[parts.pieces_at];
   const Key& key = parts.keys[parts.pieces_at];
   auto boundary = boundary_of(key);

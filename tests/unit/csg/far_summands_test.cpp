@@ -101,6 +101,19 @@ TEST(FarSummands, AreWholeWhereTheyAreSeen) {
   EXPECT_EQ(solid_of(left)->measures.volume, strip + 9 * 9 * 9);
 }
 
+// Flat solids are summands, though nothing is inside of them.
+TEST(FarSummands, AreAlsoFlat) {
+  PolygonMesh sheet;  // aslant
+  sheet.points = {
+      {-1000, -1000, -1000}, {1000, -1000, 1000}, {1000, 1000, 1000}, {-1000, 1000, -1000}};
+  sheet.add_face(std::array<uint32_t, 4>{0, 1, 2, 3});
+  sheet.add_face(std::array<uint32_t, 4>{3, 2, 1, 0});
+  const NodePtr plate = sum({leaf(sheet, FillRule::kNonZero), cube(1)});
+  // The plane x = z, and what is up to 1 beyond along each axis: |x - z| < 1.
+  const SolidPtr seen = solid_of(intersect({box({0, 0, 0}, {4, 4, 4}), plate}));
+  EXPECT_NEAR(seen->measures.volume, 4 * (16 - 9), 1e-3);
+}
+
 // Operands that are empty do not count, which is not known before they are evaluated.
 TEST(FarSummands, AreAlsoSeenWhereNothingMovesThem) {
   const NodePtr nothing = intersect({cube(1), moved(0.5, 0, 0, subtract({cube(1), cube(2)}))});
