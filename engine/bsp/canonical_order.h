@@ -31,6 +31,23 @@ struct DraftBoundary {
     loop_starts.push_back(static_cast<uint32_t>(edges.size()));
     ++faces.back().loop_count;
   }
+  /// Adds a face of a boundary, the points of which have the numbers from `first_point` on here;
+  /// plane_of(index) is the plane that one of the boundary's is.
+  template <class PlaneOf>
+  void add_face(const BoundaryMesh& mesh, const BoundaryMesh::Face& face, const FaceLabel& label,
+                uint32_t first_point, PlaneOf&& plane_of) {
+    const PlaneId plane = plane_of(face.plane.index());
+    begin_face(face.plane.flipped() ? plane.flip() : plane, label, face.whole, face.complete);
+    for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
+      const uint32_t begin = mesh.loop_starts[l], end = mesh.loop_starts[l + 1];
+      for (uint32_t c = begin; c < end; ++c) {
+        edges.push_back({first_point + mesh.corners[c].point,
+                         first_point + mesh.corners[c + 1 < end ? c + 1 : begin].point,
+                         plane_of(mesh.corners[c].edge_plane).index()});
+      }
+      end_loop();
+    }
+  }
   /// Adds the faces of another one over the same points.
   void append(const DraftBoundary& more) {
     const auto first_loop = static_cast<uint32_t>(loop_starts.size() - 1),

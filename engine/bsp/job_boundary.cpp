@@ -6,6 +6,7 @@
 
 #include "engine/bsp/cell_geometry.h"
 #include "engine/bsp/convexify.h"
+#include "engine/bsp/enter_planes.h"
 #include "engine/bsp/job.h"
 #include "engine/bsp/untouched.h"
 
@@ -62,16 +63,20 @@ void Job::add_boundary_planes(size_t o, const Operand& operand) {
     return;
   }
   ids.assign(mesh.planes.size(), PlaneId());
-  const auto enter = [&](uint32_t p) {
-    if (ids[p].valid()) return;
+  const auto there = [&](size_t p) {
     // A plane that is moved by whole steps has the common divisors that it had.
-    const Plane there = translate_plane(mesh.planes[p], moved);
-    ids[p] = map.is_identity() ? planes_.intern_stored(there) : planes_.intern(map.plane(there));
+    const Plane plane = translate_plane(mesh.planes[p], moved);
+    return map.is_identity() ? as_stored(plane) : reduce(map.plane(plane));
   };
   if (!some) {
-    for (uint32_t p = 0; p < mesh.planes.size(); ++p) enter(p);
+    enter_planes(planes_, mesh.planes.size(), there, [&](size_t p, const ReducedPlane& plane) {
+      ids[p] = planes_.intern_computed(plane);
+    });
     return;
   }
+  const auto enter = [&](uint32_t p) {
+    if (!ids[p].valid()) ids[p] = planes_.intern_computed(there(p));
+  };
   each_face(mesh, some, [&](uint32_t f) {
     enter(mesh.faces[f].plane.index());
     each_corner(mesh, mesh.faces[f], [&](const BoundaryMesh::Corner& c) {

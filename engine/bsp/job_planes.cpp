@@ -1,8 +1,8 @@
 // The planes of a job's polygons, which are made when somebody asks.
 #include <vector>
 
-#include "engine/base/in_order.h"
 #include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/enter_planes.h"
 #include "engine/bsp/grid_planes.h"
 #include "engine/bsp/job.h"
 #include "engine/bsp/piece_store.h"
@@ -97,11 +97,9 @@ void Job::ensure_supports(std::span<const uint32_t> polygons) {
       polygons.size(), [&](uint32_t i) { return !polygons_[polygons[i]].support.valid(); });
   for (uint32_t& i : lacking) i = polygons[i];
   std::erase_if(lacking, [&](uint32_t p) { return find_support(p); });
-  planes_.make_room(lacking.size());
-  make_and_take(
-      lacking.size(), [&](size_t i) { return reduced_support(lacking[i]); },
-      [&](size_t i, const ReducedPlane& plane) { take_support(lacking[i], plane); },
-      [&](const ReducedPlane& plane) { planes_.expect(plane); });
+  enter_planes(
+      planes_, lacking.size(), [&](size_t i) { return reduced_support(lacking[i]); },
+      [&](size_t i, const ReducedPlane& plane) { take_support(lacking[i], plane); });
 }
 
 void Job::ensure_edges(std::span<const PolygonEdge> edges) {
@@ -114,11 +112,10 @@ void Job::ensure_edges(std::span<const PolygonEdge> edges) {
     edge_planes_[polygons_[edges[i].polygon].first + edges[i].edge] = kAsked;
     lacking.push_back(edges[i]);
   }
-  planes_.make_room(lacking.size());
-  make_and_take(
-      lacking.size(), [&](size_t i) { return reduced_edge(lacking[i].polygon, lacking[i].edge); },
-      [&](size_t i, const ReducedPlane& plane) { take_edge(lacking[i], plane); },
-      [&](const ReducedPlane& plane) { planes_.expect(plane); });
+  enter_planes(
+      planes_, lacking.size(),
+      [&](size_t i) { return reduced_edge(lacking[i].polygon, lacking[i].edge); },
+      [&](size_t i, const ReducedPlane& plane) { take_edge(lacking[i], plane); });
 }
 
 void Job::ensure_planes(std::span<const uint32_t> polygons) {

@@ -1,9 +1,12 @@
 #include "engine/bsp/side_by_side.h"
 
 #include <utility>
+#include <vector>
 
+#include "engine/base/parallel.h"
 #include "engine/bsp/canonical_order.h"
 #include "engine/bsp/cell_geometry.h"
+#include "engine/bsp/enter_planes.h"
 #include "engine/bsp/touch_list.h"
 
 namespace csgrun {
@@ -12,48 +15,11 @@ namespace {
 /// Puts boundaries into one.
 class Gatherer {
  public:
-  Gatherer() : geometry_(planes_, nullptr) {}
-
-  void add(const Operand& operand) {
-    const BoundaryMesh& mesh = *operand.boundary;
-    const IVec3& t = operand.translation;
-    std::vector<PlaneId> plane_of;
-    plane_of.reserve(mesh.planes.size());
-    for (const Plane& plane : mesh.planes) {
-      plane_of.push_back(planes_.intern_stored(translate_plane(plane, t)));
-    }
-    const auto first_point = static_cast<uint32_t>(geometry_.point_count());
-    for (uint32_t p = 0; p < mesh.point_planes.size(); ++p) {
-      const auto& named = mesh.point_planes[p];
-      geometry_.add_point(
-          {plane_of[named[0]].index(), plane_of[named[1]].index(), plane_of[named[2]].index()},
-          rounded_when_moved(mesh, p, t));
-    }
-    for (const BoundaryMesh::Face& face : mesh.faces) {
-      FaceLabel label = face.label;
-      label.source += operand.first_source;
-      if (operand.appearance) label.appearance = *operand.appearance;
-      draft_.begin_face(PlaneId(plane_of[face.plane.index()].index(), face.plane.flipped()), label,
-                        face.whole, face.complete);
-      for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
-        const uint32_t begin = mesh.loop_starts[l], end = mesh.loop_starts[l + 1];
-        for (uint32_t c = begin; c < end; ++c) {
-          draft_.edges.push_back({first_point + mesh.corners[c].point,
-                                  first_point + mesh.corners[c + 1 < end ? c + 1 : begin].point,
-                                  plane_of[mesh.corners[c].edge_plane].index()});
-        }
-        draft_.end_loop();
-      }
-    }
-    for (UntouchedPart part : mesh.parts) {
-      for (size_t k = 0; k < 3; ++k) part.translation[k] += t[k];
-      part.source += operand.first_source;
-      if (operand.appearance) part.appearance = operand.appearance;
-      for (UntouchedPart::Shared& shared : part.shared) shared.point += first_point;
-      parts_.push_back(std::move(part));
-    }
-    if (mesh.may_touch && mesh.touches.empty()) touches_anywhere_ = true;
-    for (const GridBox& box : mesh.touches) touches_.push_back(box.moved(t));
+  explicit Gatherer(const std::vector<Operand>& operands) : geometry_(planes_, nullptr) {
+    size_t planes = 0;
+    for (const Operand& operand : operands) planes += operand.boundary->planes.size();
+    planes_.make_room(planes);
+    for (const Operand& operand : operands) add(operand);
   }
 
   BoundaryMesh finish() {
@@ -72,6 +38,41 @@ class Gatherer {
   }
 
  private:
+  void add(const Operand& operand) {
+    const BoundaryMesh& mesh = *operand.boundary;
+    const IVec3& t = operand.translation;
+    std::vector<PlaneId> plane_of(mesh.planes.size());
+    enter_planes(
+        planes_, mesh.planes.size(),
+        [&](size_t p) { return as_stored(translate_plane(mesh.planes[p], t)); },
+        [&](size_t p, const ReducedPlane& plane) { plane_of[p] = planes_.intern_computed(plane); });
+    const uint32_t first_point = geometry_.add_points(mesh.point_planes.size());
+    for_each_range(mesh.point_planes.size(), [&](size_t begin, size_t end) {
+      for (auto p = static_cast<uint32_t>(begin); p < end; ++p) {
+        const auto& named = mesh.point_planes[p];
+        geometry_.set_point(
+            first_point + p,
+            {plane_of[named[0]].index(), plane_of[named[1]].index(), plane_of[named[2]].index()},
+            rounded_when_moved(mesh, p, t));
+      }
+    });
+    for (const BoundaryMesh::Face& face : mesh.faces) {
+      FaceLabel label = face.label;
+      label.source += operand.first_source;
+      if (operand.appearance) label.appearance = *operand.appearance;
+      draft_.add_face(mesh, face, label, first_point, [&](uint32_t p) { return plane_of[p]; });
+    }
+    for (UntouchedPart part : mesh.parts) {
+      for (size_t k = 0; k < 3; ++k) part.translation[k] += t[k];
+      part.source += operand.first_source;
+      if (operand.appearance) part.appearance = operand.appearance;
+      for (UntouchedPart::Shared& shared : part.shared) shared.point += first_point;
+      parts_.push_back(std::move(part));
+    }
+    if (mesh.may_touch && mesh.touches.empty()) touches_anywhere_ = true;
+    for (const GridBox& box : mesh.touches) touches_.push_back(box.moved(t));
+  }
+
   PlaneTable planes_;
   CellGeometry geometry_;
   DraftBoundary draft_;
@@ -87,9 +88,7 @@ std::shared_ptr<const BoundaryMesh> side_by_side(const std::vector<Operand>& ope
       operands[0].translation == IVec3{0, 0, 0}) {
     return operands[0].boundary;
   }
-  Gatherer gatherer;
-  for (const Operand& operand : operands) gatherer.add(operand);
-  return std::make_shared<BoundaryMesh>(gatherer.finish());
+  return std::make_shared<BoundaryMesh>(Gatherer(operands).finish());
 }
 
 }  // namespace csgrun

@@ -216,16 +216,7 @@ class Expander {
 
  private:
   void add(const BoundaryMesh::Face& face) {
-    draft_.begin_face(face.plane, face.label, face.whole, face.complete);
-    for (uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
-      const uint32_t begin = mesh_.loop_starts[l], end = mesh_.loop_starts[l + 1];
-      for (uint32_t c = begin; c < end; ++c) {
-        const BoundaryMesh::Corner &corner = mesh_.corners[c],
-                                   &next = mesh_.corners[c + 1 < end ? c + 1 : begin];
-        draft_.edges.push_back({corner.point, next.point, corner.edge_plane});
-      }
-      draft_.end_loop();
-    }
+    draft_.add_face(mesh_, face, face.label, 0, [](uint32_t p) { return PlaneId(p, false); });
   }
 
   void add(const UntouchedPart& part) {

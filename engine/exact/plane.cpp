@@ -83,6 +83,11 @@ ReducedPlane reduce(const Plane& plane) {
   return with_hash({plane.a / whole, plane.b / whole, plane.c / whole, plane.d / whole});
 }
 
+ReducedPlane as_stored(const Plane& plane) {
+  assert(reduce(plane).plane == plane);
+  return {plane, hash(plane), false};
+}
+
 void PlaneTable::enter(uint32_t hash, uint32_t index) {
   const size_t mask = slots_.size() - 1;
   size_t s = hash & mask;
@@ -142,11 +147,6 @@ void PlaneTable::make_room(size_t more) {
 }
 
 PlaneId PlaneTable::intern(const Plane& plane) { return intern_computed(reduce(plane)); }
-
-PlaneId PlaneTable::intern_stored(const Plane& plane) {
-  assert(reduce(plane).plane == plane);
-  return intern_computed({plane, hash(plane), false});
-}
 
 PlaneId PlaneTable::intern_computed(const ReducedPlane& reduced) {
   make_slots(planes_.size());  // after adopt there are none

@@ -81,6 +81,8 @@ struct ReducedPlane {
 };
 /// REQUIRES: the normal is not zero, widths as in widths.h.
 ReducedPlane reduce(const Plane& plane);
+/// The same, for a plane as a table stores it.
+ReducedPlane as_stored(const Plane& plane);
 
 /// All planes of one evaluation. Each is stored once: reduced by the greatest common divisor of its
 /// four coefficients, with the first non-zero normal component positive.
@@ -91,8 +93,6 @@ class PlaneTable {
   PlaneId intern(const Plane& plane);
   /// The same, for what was computed before.
   PlaneId intern_computed(const ReducedPlane& plane);
-  /// The same, for a plane as a table stores it.
-  PlaneId intern_stored(const Plane& plane);
   /// Makes room for so many more planes at once; without it the table grows by doubling.
   void make_room(size_t more);
   /// Fetches what it will look at, soon.

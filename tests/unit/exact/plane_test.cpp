@@ -240,7 +240,7 @@ TEST(ExactTier, IsTheLowestThatHoldsTheBound) {
 
 TEST(PlaneTable, TakesMovedPlanesOfATableAsTheyAre) {
   test::Random random(72);
-  PlaneTable first, as_stored, as_any;
+  PlaneTable first, of_stored, of_any;
   size_t shared = 0;  // planes whose coefficients had a divisor in common
   for (int i = 0; i < 2000; ++i) {
     const auto component = [&] { return Int128{random.integer(-12, 12)} * 6; };
@@ -251,10 +251,10 @@ TEST(PlaneTable, TakesMovedPlanesOfATableAsTheyAre) {
     const Int128 x = random.integer(-9, 9), y = random.integer(-9, 9), z = random.integer(-9, 9);
     Plane moved = stored;
     moved.d -= stored.a * x + stored.b * y + stored.c * z;
-    const PlaneId id = as_stored.intern_stored(moved);
-    ASSERT_EQ(id, as_any.intern(moved));
-    ASSERT_EQ(as_stored.plane(id.index()), as_any.plane(id.index()));
-    ASSERT_EQ(as_stored.intern(moved), id);
+    const PlaneId id = of_stored.intern_computed(as_stored(moved));
+    ASSERT_EQ(id, of_any.intern(moved));
+    ASSERT_EQ(of_stored.plane(id.index()), of_any.plane(id.index()));
+    ASSERT_EQ(of_stored.intern(moved), id);
   }
   EXPECT_GT(shared, 100u);
 }
