@@ -57,6 +57,13 @@ struct Group {
   }
 };
 
+/// The end of the group that begins there.
+size_t end_of_group(const std::vector<Group>& groups, size_t begin) {
+  size_t end = begin;
+  while (end < groups.size() && groups[end].goes_with(groups[begin])) ++end;
+  return end;
+}
+
 class FaceMerger {
  public:
   FaceMerger(const BoundaryMesh& boundary, const CellGeometry& geometry, const PlaneTable& planes,
@@ -67,10 +74,18 @@ class FaceMerger {
         faces_(faces),
         builder_(geometry, planes) {}
 
+  /// A face of one loop, by itself, is what it was.
+  void add_plain(const BoundaryMesh::Face& face, bool is_kept) {
+    edges_.clear();
+    append_edges(face, edges_);
+    faces_.push_back({face.plane, face.label.appearance, face.label.surface, face.label.source,
+                      is_kept, FaceLoops(edges_)});
+  }
+
   /// The faces of one group.
   bool add(std::span<const Group> group) {
     if (group.size() == 1) {
-      if (!add_plain(group[0])) add_alone(group[0]);
+      add_alone(group[0]);
       return true;
     }
     const auto label = [&](const Group& g) { return boundary_.faces[g.face].label; };
@@ -87,16 +102,6 @@ class FaceMerger {
     FaceLabel label;
     std::vector<std::vector<DirectedEdge>> loops;  ///< the outer one first
   };
-
-  /// A face by itself of one loop is what it was. False for all others.
-  bool add_plain(const Group& group) {
-    const BoundaryMesh::Face& face = boundary_.faces[group.face];
-    if (face.loop_count != 1) return false;
-    edges_.clear();
-    append_edges(face, edges_);
-    add_face(group, face.label, FaceLoops(edges_));
-    return true;
-  }
 
   /// A face by itself is what it was, but that its parts are faces of their own.
   void add_alone(const Group& group) {
@@ -199,29 +204,99 @@ class FaceMerger {
   std::vector<DirectedEdge> edges_;
 };
 
-/// The faces of a boundary by what they may be merged with.
-RawVector<Group> group_faces(const BoundaryMesh& b, const PlaneTable& planes) {
+/// The faces of a boundary by what becomes of them.
+struct Groups {
+  Groups(const BoundaryMesh& b, const PlaneTable& planes);
+
+  enum Alone : uint8_t { kNot, kAlone, kKept };
+  /// Per face: whether it is of one loop and goes with no other, and whether it is kept apart.
+  std::vector<Alone> alone;
+  /// The others; what goes together stands together.
+  std::vector<Group> others;
+};
+
+Groups::Groups(const BoundaryMesh& b, const PlaneTable& planes) : alone(b.faces.size(), kNot) {
+  constexpr size_t kPlanesPerPart = 4096;
   const std::vector<uint32_t> state = sources_at_points(b);
-  const auto plane = [&](size_t i) { return b.faces[i].plane; };
   CountingOrder by_plane;
-  by_plane.sort(b.faces.size(), planes.size(), [&](size_t i) { return plane(i).index(); });
-  RawVector<Group> groups(b.faces.size());
-  for_each_range(planes.size(), [&](size_t begin, size_t end) {
-    for (size_t p = begin; p < end; ++p) {
-      const uint32_t first = by_plane.starts[p], last = by_plane.starts[p + 1];
-      for (uint32_t k = first; k < last; ++k) {
-        const uint32_t i = by_plane.order[k];
-        const BoundaryMesh::Face& f = b.faces[i];
-        groups[k] = {plane(i), f.label.appearance, f.label.surface != 0,
-                     untouched(b, f, state) ? i + 1 : 0, i};
-      }
-      sort_few(groups.begin() + first, groups.begin() + last, [](const Group& x, const Group& y) {
-        return std::tie(x.plane, x.appearance, x.curved, x.keep, x.face) <
-               std::tie(y.plane, y.appearance, y.curved, y.keep, y.face);
+  by_plane.sort(b.faces.size(), planes.size(), [&](size_t i) { return b.faces[i].plane.index(); });
+  const auto group_of = [&](uint32_t i) {
+    const BoundaryMesh::Face& f = b.faces[i];
+    return Group{f.plane, f.label.appearance, f.label.surface != 0,
+                 untouched(b, f, state) ? i + 1 : 0, i};
+  };
+  std::vector<std::vector<Group>> made(part_count(planes.size(), kPlanesPerPart));
+  make_parts_in_order(
+      made.size(),
+      [&](size_t part) {
+        const size_t begin = part * kPlanesPerPart;
+        const size_t end = std::min(begin + kPlanesPerPart, planes.size());
+        std::vector<Group> of_plane;
+        for (size_t p = begin; p < end; ++p) {
+          of_plane.clear();
+          for (uint32_t k = by_plane.starts[p]; k < by_plane.starts[p + 1]; ++k) {
+            of_plane.push_back(group_of(by_plane.order[k]));
+          }
+          sort_few(of_plane.begin(), of_plane.end(), [](const Group& x, const Group& y) {
+            return std::tie(x.plane, x.appearance, x.curved, x.keep, x.face) <
+                   std::tie(y.plane, y.appearance, y.curved, y.keep, y.face);
+          });
+          for (size_t i = 0, j = 0; i < of_plane.size(); i = j) {
+            j = end_of_group(of_plane, i);
+            const Group& first = of_plane[i];
+            if (j - i == 1 && b.faces[first.face].loop_count == 1) {
+              alone[first.face] = first.keep != 0 ? kKept : kAlone;
+            } else {
+              made[part].insert(made[part].end(), of_plane.begin() + i, of_plane.begin() + j);
+            }
+          }
+        }
+      },
+      [&](size_t part) {
+        others.insert(others.end(), made[part].begin(), made[part].end());
+        made[part] = std::vector<Group>();
       });
-    }
-  });
-  return groups;
+}
+
+constexpr size_t kFacesPerPart = 4096;
+
+/// Makes faces of groups. False when a region does not close.
+bool merge_groups(const BoundaryMesh& b, const CellGeometry& geometry, const PlaneTable& planes,
+                  const std::vector<Group>& groups, std::vector<MergedFace>& faces) {
+  std::vector<size_t> starts;  // of parts with whole groups
+  for (size_t i = 0, next = 0; i < groups.size(); i = end_of_group(groups, i)) {
+    if (i < next) continue;
+    starts.push_back(i);
+    next = i + kFacesPerPart;
+  }
+  const size_t parts = starts.size();
+  starts.push_back(groups.size());
+  std::vector<std::vector<MergedFace>> made(parts);
+  std::vector<uint8_t> is_open(parts, 0);
+  make_parts_in_order(
+      parts,
+      [&](size_t part) {
+        FaceMerger merger(b, geometry, planes, made[part]);
+        for (size_t i = starts[part], j = i; i < starts[part + 1]; i = j) {
+          j = end_of_group(groups, i);
+          if (!merger.add({groups.data() + i, j - i})) is_open[part] = 1;
+        }
+      },
+      [&](size_t part) {
+        std::move(made[part].begin(), made[part].end(), std::back_inserter(faces));
+        made[part] = std::vector<MergedFace>();
+      });
+  return std::find(is_open.begin(), is_open.end(), 1) == is_open.end();
+}
+
+/// The canonical order of faces whose loops begin where they are lowest.
+bool comes_before(const MergedFace& x, const MergedFace& y, const PlaneTable& planes) {
+  const DirectedEdge &u = x.loops[0][0], &v = y.loops[0][0];
+  if (u.from != v.from) return u.from < v.from;
+  if (u.to != v.to) return u.to < v.to;
+  const Plane p = planes.oriented(x.plane), q = planes.oriented(y.plane);
+  return std::tie(p.a, p.b, p.c, p.d, x.appearance, x.surface) <
+         std::tie(q.a, q.b, q.c, q.d, y.appearance, y.surface);
 }
 
 /// Puts elements in the order of their numbers, which are forgotten. In place: a second list would
@@ -246,40 +321,39 @@ void put_in_order(std::vector<uint32_t>& order, std::vector<T>& elements) {
 
 bool merge_faces(const BoundaryMesh& b, const CellGeometry& geometry, const PlaneTable& planes,
                  std::vector<MergedFace>& faces) {
-  constexpr size_t kFacesPerPart = 4096;
-  const RawVector<Group> groups = group_faces(b, planes);
-  const auto end_of = [&](size_t i) {  // of the group that begins there
-    size_t end = i;
-    while (end < groups.size() && groups[end].goes_with(groups[i])) ++end;
-    return end;
-  };
-  std::vector<size_t> starts;  // of parts with whole groups
-  for (size_t i = 0, next = 0; i < groups.size(); i = end_of(i)) {
-    if (i < next) continue;
-    starts.push_back(i);
-    next = i + kFacesPerPart;
+  const Groups groups(b, planes);
+  std::vector<MergedFace> others;
+  if (!merge_groups(b, geometry, planes, groups.others, others)) return false;
+  sort_faces(others, planes);
+  if (std::all_of(groups.alone.begin(), groups.alone.end(),
+                  [](Groups::Alone alone) { return alone == Groups::kNot; })) {
+    faces = std::move(others);
+    return true;
   }
-  const size_t parts = starts.size();
-  starts.push_back(groups.size());
-  std::vector<std::vector<MergedFace>> made(parts);
-  std::vector<uint8_t> is_open(parts, 0);
-  faces.reserve(groups.size());  // and hardly ever more
+  // Those that stay alone are in order: where a boundary's are.
+  faces.reserve(b.faces.size());  // and hardly ever more
+  auto next = others.begin();
+  std::vector<std::vector<MergedFace>> made(part_count(b.faces.size(), kFacesPerPart));
   make_parts_in_order(
-      parts,
+      made.size(),
       [&](size_t part) {
-        made[part].reserve(starts[part + 1] - starts[part]);
         FaceMerger merger(b, geometry, planes, made[part]);
-        for (size_t i = starts[part], j = i; i < starts[part + 1]; i = j) {
-          j = end_of(i);
-          if (!merger.add({groups.data() + i, j - i})) is_open[part] = 1;
+        const size_t begin = part * kFacesPerPart;
+        const size_t end = std::min(begin + kFacesPerPart, b.faces.size());
+        for (size_t f = begin; f < end; ++f) {
+          if (groups.alone[f]) merger.add_plain(b.faces[f], groups.alone[f] == Groups::kKept);
         }
       },
       [&](size_t part) {
-        std::move(made[part].begin(), made[part].end(), std::back_inserter(faces));
+        for (MergedFace& face : made[part]) {
+          while (next != others.end() && comes_before(*next, face, planes)) {
+            faces.push_back(std::move(*next++));
+          }
+          faces.push_back(std::move(face));
+        }
         made[part] = std::vector<MergedFace>();
       });
-  if (std::find(is_open.begin(), is_open.end(), 1) != is_open.end()) return false;
-  sort_faces(faces, planes);
+  std::move(next, others.end(), std::back_inserter(faces));
   return true;
 }
 
@@ -306,12 +380,7 @@ void sort_faces(std::vector<MergedFace>& faces, const PlaneTable& planes) {
   by_point.sort(faces.size(), size_t{last_point} + 1,
                 [&](size_t f) { return faces[f].loops[0][0].from; });
   const auto before = [&](uint32_t f, uint32_t g) {
-    const MergedFace &x = faces[f], &y = faces[g];
-    const DirectedEdge &u = x.loops[0][0], &v = y.loops[0][0];
-    if (u.to != v.to) return u.to < v.to;
-    const Plane p = planes.oriented(x.plane), q = planes.oriented(y.plane);
-    return std::tie(p.a, p.b, p.c, p.d, x.appearance, x.surface) <
-           std::tie(q.a, q.b, q.c, q.d, y.appearance, y.surface);
+    return comes_before(faces[f], faces[g], planes);
   };
   for_each_range(size_t{last_point} + 1, [&](size_t begin, size_t end) {
     for (size_t p = begin; p < end; ++p) {
