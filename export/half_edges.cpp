@@ -7,11 +7,35 @@
 namespace csgrun {
 namespace {
 
-struct Spoke {  // a half-edge in the list of its first vertex
-  uint32_t target, half_edge;
-  bool operator<(const Spoke& other) const {
-    return target != other.target ? target < other.target : half_edge < other.half_edge;
+/// A half-edge in the list of the lower one of its vertices.
+struct Spoke {
+  uint32_t higher, half_edge;
+  bool operator<(const Spoke& other) const { return higher < other.higher; }
+};
+
+/// The half-edges between each vertex and higher ones, of one direction.
+class Spokes {
+ public:
+  explicit Spokes(size_t vertex_count) : starts_(vertex_count + 2, 0) {}
+
+  void count(uint32_t lower) { ++starts_[lower + 2]; }
+  void make_room() {
+    for (size_t v = 2; v < starts_.size(); ++v) starts_[v] += starts_[v - 1];
+    spokes_.resize(starts_.back());
   }
+  /// REQUIRES: counted, and there is room.
+  void add(uint32_t lower, uint32_t higher, uint32_t half_edge) {
+    spokes_[starts_[lower + 1]++] = {higher, half_edge};
+  }
+  /// Those of a vertex, when all were added.
+  std::span<Spoke> of(uint32_t lower) {
+    return std::span(spokes_).subspan(starts_[lower], starts_[lower + 1] - starts_[lower]);
+  }
+
+ private:
+  std::vector<uint32_t>
+      starts_;  ///< while spokes are added, the next one's place is one further on
+  std::vector<Spoke> spokes_;
 };
 
 Error not_manifold(const std::string& what) {
@@ -22,65 +46,76 @@ std::string edge_name(uint32_t from, uint32_t to) {
   return std::to_string(from) + "->" + std::to_string(to);
 }
 
+/// Glues the half-edges that run up from a vertex to those that come down to it; what is wrong, if
+/// they do not fit.
+std::string glue(uint32_t vertex, std::span<Spoke> up, std::span<Spoke> down,
+                 std::vector<uint32_t>& twins) {
+  std::sort(up.begin(), up.end());
+  std::sort(down.begin(), down.end());
+  for (size_t i = 1; i < up.size(); ++i) {
+    if (up[i].higher == up[i - 1].higher) return edge_name(vertex, up[i].higher) + " occurs twice";
+  }
+  for (size_t i = 1; i < down.size(); ++i) {
+    if (down[i].higher == down[i - 1].higher) {
+      return edge_name(down[i].higher, vertex) + " occurs twice";
+    }
+  }
+  for (size_t i = 0; i < std::max(up.size(), down.size()); ++i) {
+    if (i == down.size() || (i < up.size() && up[i].higher < down[i].higher)) {
+      return edge_name(vertex, up[i].higher) + " has no reverse";
+    }
+    if (i == up.size() || down[i].higher < up[i].higher) {
+      return edge_name(down[i].higher, vertex) + " has no reverse";
+    }
+    twins[up[i].half_edge] = down[i].half_edge;
+    twins[down[i].half_edge] = up[i].half_edge;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::vector<uint32_t>> manifold_twins(std::span<const Triangle> triangles,
                                              size_t vertex_count) {
-  const size_t count = 3 * triangles.size();
-  std::vector<uint32_t> starts(vertex_count + 1, 0);
+  Spokes up(vertex_count), down(vertex_count);
+  std::vector<uint32_t> degree(vertex_count, 0);
   for (const Triangle& t : triangles) {
     for (const uint32_t v : t) {
       if (v >= vertex_count) return not_manifold("vertex " + std::to_string(v) + " does not exist");
-      ++starts[v + 1];
+    }
+    for (uint32_t i = 0; i < 3; ++i) {
+      const uint32_t from = t[i], to = t[(i + 1) % 3];
+      if (from == to) {
+        return not_manifold("a triangle uses vertex " + std::to_string(to) + " twice");
+      }
+      ++degree[from];
+      from < to ? up.count(from) : down.count(to);
     }
   }
-  for (size_t v = 0; v < vertex_count; ++v) starts[v + 1] += starts[v];
-
-  std::vector<Spoke> spokes(count);
-  std::vector<uint32_t> fill(starts.begin(), starts.end() - 1);
+  up.make_room();
+  down.make_room();
+  std::vector<uint32_t> leaving(vertex_count, kNone);  // a half-edge per vertex
   for (uint32_t t = 0; t < triangles.size(); ++t) {
     for (uint32_t i = 0; i < 3; ++i) {
-      const uint32_t from = triangles[t][i], to = triangles[t][(i + 1) % 3];
-      if (from == to)
-        return not_manifold("a triangle uses vertex " + std::to_string(to) + " twice");
-      spokes[fill[from]++] = {to, 3 * t + i};
+      const uint32_t from = triangles[t][i], to = triangles[t][(i + 1) % 3], h = 3 * t + i;
+      from < to ? up.add(from, to, h) : down.add(to, from, h);
+      leaving[from] = h;
     }
   }
-  for (size_t v = 0; v < vertex_count; ++v) {
-    std::sort(spokes.begin() + starts[v], spokes.begin() + starts[v + 1]);
-    for (uint32_t s = starts[v] + 1; s < starts[v + 1]; ++s) {
-      if (spokes[s].target == spokes[s - 1].target) {
-        return not_manifold("edge " + edge_name(static_cast<uint32_t>(v), spokes[s].target) +
-                            " occurs twice");
-      }
-    }
-  }
-
-  std::vector<uint32_t> twins(count);
+  std::vector<uint32_t> twins(3 * triangles.size());
   for (uint32_t v = 0; v < vertex_count; ++v) {
-    for (uint32_t s = starts[v]; s < starts[v + 1]; ++s) {
-      const uint32_t to = spokes[s].target;
-      const auto begin = spokes.begin() + starts[to], end = spokes.begin() + starts[to + 1];
-      const auto found = std::lower_bound(begin, end, Spoke{v, 0});
-      if (found == end || found->target != v) {
-        return not_manifold("edge " + edge_name(v, to) + " has no reverse");
-      }
-      twins[spokes[s].half_edge] = found->half_edge;
-    }
+    const std::string wrong = glue(v, up.of(v), down.of(v), twins);
+    if (!wrong.empty()) return not_manifold("edge " + wrong);
   }
-
   for (uint32_t v = 0; v < vertex_count; ++v) {
-    if (starts[v] == starts[v + 1]) continue;
-    const uint32_t first = spokes[starts[v]].half_edge;
+    if (leaving[v] == kNone) continue;
     uint32_t fan = 0;
-    uint32_t h = first;
+    uint32_t h = leaving[v];
     do {
       h = twins[previous_in_triangle(h)];
       ++fan;
-    } while (h != first);
-    if (fan != starts[v + 1] - starts[v]) {
-      return not_manifold("vertex " + std::to_string(v) + " has several fans");
-    }
+    } while (h != leaving[v]);
+    if (fan != degree[v]) return not_manifold("vertex " + std::to_string(v) + " has several fans");
   }
   return twins;
 }

@@ -294,7 +294,8 @@ Result<RoundedMesh> round_part(const Solid& solid, const Affine& placement, Prec
   if (!solid_twins) return solid_twins.error();
   const std::vector<uint32_t> place = number_places(rounded);
   CollapsedSurface surface;
-  if (points_met(place, solid.point_of)) {
+  const bool any_met = points_met(place, solid.point_of);
+  if (any_met) {
     surface = collapse(solid.triangles, *solid_twins, place);
     remove_flat_shells(surface, rounded);
   } else {
@@ -319,7 +320,9 @@ Result<RoundedMesh> round_part(const Solid& solid, const Affine& placement, Prec
   if (placed.mirrored) reverse_orientation(mesh);
   mesh.flipped = count_flipped(mesh);
 
-  // The check that every file must pass, on the very arrays that are written.
+  // The check that every file must pass, on the very arrays that are written: where nothing met,
+  // and nothing was turned over, they are those that passed it.
+  if (!any_met && !placed.mirrored) return mesh;
   Result<std::vector<uint32_t>> twins = manifold_twins(mesh.triangles, mesh.positions.size());
   if (!twins) return twins.error();
   if (*twins != mesh.twins) {

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/export/torus.h"
+
 namespace csgrun::collapse_test {
 namespace {
 
@@ -20,20 +22,6 @@ int64_t six_volumes(const std::vector<Triangle>& triangles, const std::vector<Pl
            a[2] * (b[0] * c[1] - b[1] * c[0]);
   }
   return sum;
-}
-
-/// A torus of n x m vertices.
-std::vector<Triangle> torus(uint32_t n, uint32_t m) {
-  std::vector<Triangle> triangles;
-  for (uint32_t i = 0; i < n; ++i) {
-    for (uint32_t j = 0; j < m; ++j) {
-      const uint32_t a = i * m + j, b = (i + 1) % n * m + j, c = (i + 1) % n * m + (j + 1) % m,
-                     d = i * m + (j + 1) % m;
-      triangles.push_back({a, b, c});
-      triangles.push_back({a, c, d});
-    }
-  }
-  return triangles;
 }
 
 /// A sphere: poles and n rings of m vertices.
@@ -94,7 +82,7 @@ TEST(Collapse, RandomMergesStayClosedAndKeepTheirVolume) {
   Totals totals;
   for (int round = 0; round < 3000; ++round) {
     const uint32_t n = 3 + random() % 5, m = 3 + random() % 5;
-    const std::vector<Triangle> mesh = random() % 2 ? torus(n, m) : sphere(n, m);
+    const std::vector<Triangle> mesh = random() % 2 ? test::torus(n, m) : sphere(n, m);
     const int range = 2 + static_cast<int>(random() % 3);
     std::vector<Place> at(n * m + 2);
     for (Place& p : at) {
@@ -111,7 +99,7 @@ TEST(Collapse, RandomMergesStayClosedAndKeepTheirVolume) {
 }
 
 TEST(Collapse, NothingMetNothingChanges) {
-  const std::vector<Triangle> mesh = torus(4, 5);
+  const std::vector<Triangle> mesh = test::torus(4, 5);
   std::vector<uint32_t> place(20);
   for (uint32_t v = 0; v < 20; ++v) place[v] = 19 - v;
   const auto twins = manifold_twins(mesh, 20);
@@ -120,27 +108,6 @@ TEST(Collapse, NothingMetNothingChanges) {
   EXPECT_EQ(s.vertices, mesh);
   EXPECT_EQ(s.twins, *twins);
   EXPECT_EQ(s.dropped + s.cancelled, 0u);
-}
-
-TEST(ManifoldTwins, NamesWhatIsWrong) {
-  const std::vector<Triangle> tetrahedron = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  EXPECT_TRUE(manifold_twins(tetrahedron, 4));
-  const auto message = [](std::vector<Triangle> mesh, size_t vertices) {
-    const auto twins = manifold_twins(mesh, vertices);
-    return twins ? std::string("manifold") : twins.error().message;
-  };
-  EXPECT_NE(message({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}}, 4).find("no reverse"), std::string::npos);
-  EXPECT_NE(message({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}}, 4).find("occurs twice"),
-            std::string::npos);
-  EXPECT_NE(message(tetrahedron, 3).find("does not exist"), std::string::npos);
-  EXPECT_NE(message({{0, 0, 1}}, 2).find("twice"), std::string::npos);
-  // Two tetrahedra joined in vertex 0.
-  std::vector<Triangle> pinched = tetrahedron;
-  for (Triangle t : tetrahedron) {
-    for (uint32_t& v : t) v = v == 0 ? 0 : v + 3;
-    pinched.push_back(t);
-  }
-  EXPECT_NE(message(pinched, 7).find("several fans"), std::string::npos);
 }
 
 }  // namespace
