@@ -469,11 +469,13 @@ class Conformer {
           const DirectedEdge there{e.from, e.to, face.plane.index()};
           if (!search_.runs_inside(lying.other, there)) continue;
         }
-        face.slits.push_back(std::minmax({e.from, e.to}));
+        face.own_contacts().slits.push_back(std::minmax({e.from, e.to}));
       }
     }
-    std::sort(face.slits.begin(), face.slits.end());
-    face.slits.erase(std::unique(face.slits.begin(), face.slits.end()), face.slits.end());
+    if (!face.contacts) return;
+    auto& slits = face.contacts->slits;
+    std::sort(slits.begin(), slits.end());
+    slits.erase(std::unique(slits.begin(), slits.end()), slits.end());
   }
 
   /// The corners within faces at which no slit ends.
@@ -481,11 +483,11 @@ class Conformer {
     std::sort(inner_.begin(), inner_.end());
     inner_.erase(std::unique(inner_.begin(), inner_.end()), inner_.end());
     for (const auto& [f, p] : inner_) {
-      const auto& slits = faces_[f].slits;
+      const auto slits = faces_[f].slits();
       const bool ends_slit = std::any_of(slits.begin(), slits.end(), [p = p](const auto& s) {
         return s.first == p || s.second == p;
       });
-      if (!ends_slit) faces_[f].points.push_back(p);
+      if (!ends_slit) faces_[f].own_contacts().points.push_back(p);
     }
   }
 

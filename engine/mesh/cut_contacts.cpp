@@ -281,8 +281,10 @@ class ContactCutter {
     auto parts = nest_loops(faces_[f].plane, loops, view_, planes_);
     for (size_t i = 1; i < parts.size(); ++i) {
       const MergedFace& whole = faces_[f];
-      faces_.push_back({whole.plane, whole.appearance, whole.surface, whole.source, whole.untouched,
-                        FaceLoops(parts[i]), whole.points, whole.slits});
+      faces_.push_back(
+          {whole.plane, whole.appearance, whole.surface, whole.source, whole.untouched,
+           FaceLoops(parts[i]),
+           whole.contacts ? std::make_unique<InnerContacts>(*whole.contacts) : nullptr});
     }
     faces_[f].loops = FaceLoops(parts[0]);
     return true;

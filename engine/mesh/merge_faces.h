@@ -2,6 +2,8 @@
 // wherever an operation touched them; facets of imports that nothing touched stay as they were.
 #pragma once
 
+#include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -11,16 +13,30 @@
 
 namespace csgrun {
 
+/// Where other faces touch one from within (see conform.h).
+struct InnerContacts {
+  std::vector<uint32_t> points;                      ///< corners
+  std::vector<std::pair<uint32_t, uint32_t>> slits;  ///< edges by their ends, the lower first
+};
+
 /// One connected face: the outer loop first, then its holes.
 struct MergedFace {
   PlaneId plane;
   uint32_t appearance, surface, source;
   bool untouched;  ///< a facet that nothing touched: it shares no line with anything but its leaf
   FaceLoops loops;
-  /// Where other faces touch this one from within (see conform.h): corners, and edges by their
-  /// ends, the lower first.
-  std::vector<uint32_t> points{};
-  std::vector<std::pair<uint32_t, uint32_t>> slits{};
+  std::unique_ptr<InnerContacts> contacts{};  ///< of the few that have any
+
+  [[nodiscard]] std::span<const uint32_t> points() const {
+    return contacts ? contacts->points : std::span<const uint32_t>();
+  }
+  [[nodiscard]] std::span<const std::pair<uint32_t, uint32_t>> slits() const {
+    return contacts ? contacts->slits : std::span<const std::pair<uint32_t, uint32_t>>();
+  }
+  InnerContacts& own_contacts() {
+    if (!contacts) contacts = std::make_unique<InnerContacts>();
+    return *contacts;
+  }
 };
 
 /// Regroups the faces of a boundary. `geometry` holds the boundary's points under their own

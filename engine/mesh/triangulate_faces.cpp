@@ -26,8 +26,7 @@ class FaceTriangulator {
 
   Status add(uint32_t f, TriangleSet& set) {
     const MergedFace& face = faces_[f];
-    if (face.loops.size() == 1 && face.loops[0].size() == 3 && face.points.empty() &&
-        face.slits.empty()) {
+    if (face.loops.size() == 1 && face.loops[0].size() == 3 && !face.contacts) {
       add_triangle({face.loops[0][0].from, face.loops[0][1].from, face.loops[0][2].from}, f, set);
       return std::monostate();
     }
@@ -36,10 +35,10 @@ class FaceTriangulator {
       loops_[l].clear();
       for (const DirectedEdge& e : face.loops[l]) loops_[l].push_back(e.from);
     }
-    for (const auto& [p, q] : face.slits) loops_.push_back({p, q});
+    for (const auto& [p, q] : face.slits()) loops_.push_back({p, q});
     const PlaneOracle oracle(points_, planes_, face.plane, in_order_);
     if (auto status = triangulator_.face(loops_, oracle, triangles_); !status) return status;
-    if (!insert_points(face.points, oracle, triangles_)) {
+    if (!insert_points(face.points(), oracle, triangles_)) {
       return Error{ErrorCode::kInternal, "the boundary of a result is not closed (contacts)", {}};
     }
     improve_triangles(loops_, oracle, position_, triangles_);
@@ -69,9 +68,9 @@ class FaceTriangulator {
 
 /// How many triangles a face has: a slit counts as a hole of two corners.
 size_t triangle_count(const MergedFace& face) {
-  size_t corners = 2 * face.slits.size();
+  size_t corners = 2 * face.slits().size();
   for (const auto& loop : face.loops) corners += loop.size();
-  return corners - 2 + 2 * (face.loops.size() - 1 + face.slits.size() + face.points.size());
+  return corners - 2 + 2 * (face.loops.size() - 1 + face.slits().size() + face.points().size());
 }
 
 }  // namespace

@@ -118,8 +118,8 @@ TEST(Conform, WedgesAroundAnEdgeStayAsTheyAre) {
       for (size_t f = 0; f < faces.count(); ++f) {
         ASSERT_EQ(faces[f].loops.size(), 1u);
         EXPECT_EQ(faces[f].loops[0].size(), !notch && f % 5 < 2 ? 3u : 4u);
-        EXPECT_TRUE(faces[f].slits.empty());
-        EXPECT_TRUE(faces[f].points.empty());
+        EXPECT_TRUE(faces[f].slits().empty());
+        EXPECT_TRUE(faces[f].points().empty());
       }
       // Each is held against each other one, but no two of what they have in common against a
       // third one: that would be eight times as much for twice as many.
@@ -175,7 +175,7 @@ TEST(Conform, AnEdgeThatLeavesACornerMayComeBack) {
     faces.conform();
     const std::string name = testing::PrintToString(c.from) + testing::PrintToString(c.to);
     std::vector<std::array<double, 4>> slits;
-    for (const auto& [p, q] : faces[0].slits) {
+    for (const auto& [p, q] : faces[0].slits()) {
       const auto &a = faces.at(p), &b = faces.at(q);
       std::array<double, 4> ends{a[0], a[1], b[0], b[1]};
       if (std::pair(a[0], a[1]) > std::pair(b[0], b[1])) ends = {b[0], b[1], a[0], a[1]};
