@@ -34,6 +34,12 @@ MmBox meet(const MmBox& a, const MmBox& b) {
   return is_empty(r) ? kEmptyBox : r;
 }
 
+double longest_side(const MmBox& box) {
+  double result = 0;
+  for (int i = 0; i < 3; ++i) result = std::max(result, box.hi[i] - box.lo[i]);
+  return result;
+}
+
 double largest(const MmBox& box) {
   double result = 0;
   if (is_empty(box)) return result;
@@ -73,15 +79,17 @@ bool is_beside(const MmBox& own, const MmBox& seen) {
 /// What of a leaf is needed that is seen from within `seen` alone, in its local axes. An end that
 /// is far beyond is drawn near: nothing sees where it is. It is moved by a multiple of a power of
 /// two, so that copies of a leaf mostly keep one shape. Ends that a grid holds anyway stay as they
-/// are.
-MmBox needed_of(const StepLeaf& leaf, const MmBox& seen) {
+/// are: far is what is so beside the largest result, which is as long as `least`. (What is seen may
+/// be but a point, where a leaf touches.)
+MmBox needed_of(const StepLeaf& leaf, const MmBox& seen, double least) {
   // Leaves in the world's axes may reach 2^13 times as far as what is seen.
   constexpr double kLongFramed = 8, kLongInWorld = 0x1p12;
   const double longest = leaf.framed ? kLongFramed : kLongInWorld;
   MmBox needed = leaf.own;
   for (int i = 0; i < 3; ++i) {
-    const double lo = leaf.own.lo[i], hi = leaf.own.hi[i], size = seen.hi[i] - seen.lo[i];
-    if (!leaf.prismatic[i] || !(size > 0) || !(hi - lo > longest * size)) continue;
+    const double lo = leaf.own.lo[i], hi = leaf.own.hi[i];
+    const double size = std::max(least, seen.hi[i] - seen.lo[i]);
+    if (!leaf.prismatic[i] || !(least > 0) || !(hi - lo > longest * size)) continue;
     int exponent = 0;
     std::frexp(size, &exponent);
     const double step = std::ldexp(1, exponent);
@@ -128,8 +136,10 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
     box[index] = value;
   }
   SceneReach result;
+  double longest = 0;
   for (uint32_t root : roots) {
     reach[root] = box[root];
+    if (!is_empty(box[root])) longest = std::max(longest, longest_side(box[root]));
     result.of_roots.push_back(box[root]);
   }
   for (size_t i = order.size(); i-- > 0;) {
@@ -150,7 +160,7 @@ SceneReach scene_reach(const NormalForm& form, std::span<const uint32_t> order,
       if (!is_whole) {
         leaf.seen = !is_beside(leaf.own, seen);
         if (!leaf.seen) continue;
-        leaf.local = needed_of(leaf, seen);
+        leaf.local = needed_of(leaf, seen, longest);
       }
       result.far = std::max(result.far, largest(leaf.local));
       if (leaf.framed) result.reach = std::max(result.reach, largest(leaf.local));

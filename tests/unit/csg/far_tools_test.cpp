@@ -114,6 +114,29 @@ TEST(FarTools, CutAsNearOnesDoInChains) {
   }
 }
 
+// What touches a part is seen in a face, an edge or a corner alone, and is not drawn to that.
+TEST(FarTools, ThatTouchOnlyKeepTheirVolume) {
+  const NodePtr part = box({0, 0, 0}, {10, 10, 10});
+  const std::vector<NodePtr> tools = {
+      box({10, 0, 0}, {20, 10, 10}),         box({-3, 2, 10}, {90, 8, 11}),
+      box({10, 10, 0}, {30, 20, 10}),        box({10, 10, 10}, {11, 11, 11}),
+      moved(5, 5, 10, prism(6, 3, 5)),       box({10 - 1e-6, 0, 0}, {20, 10, 10}),
+      box({10, -1e6, -1e6}, {1e6, 1e6, 1e6})};
+  for (size_t t = 0; t < tools.size(); ++t) {
+    for (const double degrees : {0.0, 30.0}) {
+      const NodePtr a = turned(degrees, {1, 2, 3}, part), b = turned(degrees, {1, 2, 3}, tools[t]);
+      for (const NodePtr& node : {subtract({a, b}), intersect({a, b})}) {
+        Evaluator evaluator{EvaluateOptions{}};
+        const auto solid = evaluator.evaluate(node);
+        ASSERT_TRUE(solid) << t;
+        EXPECT_EQ(evaluator.warnings(), std::vector<std::string>()) << t << ' ' << degrees;
+      }
+      EXPECT_NEAR(solid_of(subtract({a, b}))->measures.volume, t == 5 ? 1000 - 1e-4 : 1000, 2e-5)
+          << t << ' ' << degrees;
+    }
+  }
+}
+
 // Only what has straight sides may lose of its length.
 TEST(FarTools, KeepTheSlopeOfTheirSides) {
   PolygonMesh wedge = box_mesh({-1e4, -1, 0}, {1e4, 1, 1});
