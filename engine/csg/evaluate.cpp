@@ -12,6 +12,7 @@
 #include <csgrun/engine/evaluate.h>
 
 #include "engine/base/function_ref.h"
+#include "engine/base/number_map.h"
 #include "engine/base/parallel.h"
 #include "engine/base/timer.h"
 #include "engine/bsp/untouched.h"
@@ -62,6 +63,27 @@ void keep_used_appearances(Solid& solid) {
     face.appearance = id;
   }
   solid.appearances = std::move(used);
+}
+
+/// Numbers the sources in the order in which faces come from them, and names the leaves that they
+/// are: a model may have many more, counted with repetition.
+void name_sources(const Scene& scene, uint32_t root, Solid& solid) {
+  NumberMap number;
+  std::vector<uint32_t> used;
+  for (Solid::Face& face : solid.faces) {
+    const auto [id, is_new] = number.find_or_add(face.source, static_cast<uint32_t>(used.size()));
+    if (is_new) used.push_back(face.source);
+    face.source = id;
+  }
+  std::vector<uint32_t> sorted = used;
+  std::sort(sorted.begin(), sorted.end());
+  const std::vector<uint32_t> leaves = scene.leaves(root, sorted);
+  solid.sources.resize(used.size());
+  for (size_t i = 0; i < sorted.size(); ++i) {
+    const Node& node = *scene.nodes[leaves[i]].leaf;
+    const uint32_t id = number.find_or_add(sorted[i], 0).first;
+    solid.sources[id] = {node.mesh()->kind, node.where().text()};
+  }
 }
 
 uint64_t bytes_of(const Solid& s) {
@@ -240,14 +262,11 @@ Result<SolidPtr> Evaluator::Impl::present_root(const Scene& scene, uint32_t root
   context.appearances = appearances.values();
   context.exact_points = options.exact_points;
   context.measuring = measuring;
-  for (uint32_t leaf : scene.leaves(root)) {
-    const Node& node = *scene.nodes[leaf].leaf;
-    context.sources.push_back({node.mesh()->kind, node.where().text()});
-  }
   auto presented = present(boundary, context);
   if (!presented) return presented.error();
   auto solid = std::const_pointer_cast<Solid>(*presented);  // nobody else has it yet
   keep_used_appearances(*solid);
+  name_sources(scene, root, *solid);
   return SolidPtr(std::move(solid));
 }
 

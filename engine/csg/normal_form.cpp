@@ -42,6 +42,7 @@ struct NormalForm::Item {
   const NodePtr* node = nullptr;  // lives in its parent, or is the caller's root
   Affine map;
   uint32_t paint = kUnpainted;
+  bool is_shared = false;  ///< it, or what stands over it alone, is used elsewhere, too
   const SourceRef* bent_by = nullptr;
   double bent = 2;  // squareness of the transform that `bent_by` names
 
@@ -93,7 +94,9 @@ void NormalForm::clear() {
 
 /// Folds transforms and appearances, and steps through operators of one operand.
 Status NormalForm::unwrap(Item& item) const {
+  item.is_shared = false;
   while (true) {
+    item.is_shared |= item.node->use_count() > 1;
     if (!*item.node) return Error{ErrorCode::kInternal, "a node of the tree is missing", {}};
     const Node& node = **item.node;
     switch (node.kind()) {
@@ -263,7 +266,7 @@ Result<uint32_t> NormalForm::add(const NodePtr& root) {
       // A shared operand that was opened before adds nothing to a union or an intersection, and
       // opening it each time would take exponential time in trees such as s = s + s.
       Cluster& cluster = clusters.back();
-      if (cluster.op == BooleanOp::kSymmetricDifference || item.node->use_count() == 1 ||
+      if (cluster.op == BooleanOp::kSymmetricDifference || !item.is_shared ||
           cluster.absorbed.insert(item.memo()).second) {
         cluster.open(item);
       }

@@ -375,16 +375,31 @@ OperandList Scene::operands(uint32_t index) const {
   return list;
 }
 
-std::vector<uint32_t> Scene::leaves(uint32_t index) const {
-  std::vector<uint32_t> result, stack{index};
-  while (!stack.empty()) {
-    const uint32_t top = stack.back();
+std::vector<uint32_t> Scene::leaves(uint32_t index, std::span<const uint32_t> numbers) const {
+  struct Below {
+    uint32_t node;
+    uint64_t begin;  ///< the number of its first leaf
+  };
+  std::vector<uint32_t> result;
+  std::vector<Below> stack{{index, 0}}, children;
+  while (!stack.empty() && result.size() < numbers.size()) {
+    const auto [top, begin] = stack.back();
     stack.pop_back();
     const SceneNode& node = nodes[top];
-    if (node.kind == SceneNode::Kind::kLeaf) result.push_back(top);
-    if (node.kind == SceneNode::Kind::kEmpty || node.kind == SceneNode::Kind::kLeaf) continue;
-    stack.insert(stack.end(), node.rest.rbegin(), node.rest.rend());
-    stack.push_back(node.first);
+    if (numbers[result.size()] >= begin + node.subtree.slots) continue;
+    if (node.kind == SceneNode::Kind::kLeaf) {
+      result.push_back(top);
+      continue;
+    }
+    children.clear();
+    uint64_t next = begin;
+    const auto add = [&](uint32_t child) {
+      children.push_back({child, next});
+      next += nodes[child].subtree.slots;
+    };
+    add(node.first);
+    for (const uint32_t child : node.rest) add(child);
+    stack.insert(stack.end(), children.rbegin(), children.rend());
   }
   return result;
 }

@@ -103,9 +103,10 @@ struct Scene {
   size_t met_count = 0;
 
   [[nodiscard]] OperandList operands(uint32_t index) const;
-  /// The leaves below a node, with repetition, in tree order: source i is leaf i. REQUIRES: the
-  /// scene is not partial.
-  [[nodiscard]] std::vector<uint32_t> leaves(uint32_t index) const;
+  /// The leaves below a node are counted with repetition, in tree order: source i is leaf i. Those
+  /// of some numbers, which ascend. O(nodes above them). REQUIRES: the scene is not partial.
+  [[nodiscard]] std::vector<uint32_t> leaves(uint32_t index,
+                                             std::span<const uint32_t> numbers) const;
 };
 
 /// Whether all coordinates are below 2^27 steps.

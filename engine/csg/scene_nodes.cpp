@@ -332,7 +332,9 @@ Status SceneBuilder::make_nodes() {
     }
     if (made.kind == SceneNode::Kind::kEmpty) continue;
     if (made.subtree.slots >= UINT32_MAX) {
-      return Error{ErrorCode::kLimit, "the model has more than 4e9 leaves", {}};
+      return Error{ErrorCode::kLimit,
+                   "the model has more than 4e9 leaves, with those of parts that are used again",
+                   {}};
     }
     scene_index_[index] = static_cast<uint32_t>(scene_.nodes.size());
     scene_.nodes.push_back(std::move(made));

@@ -203,7 +203,6 @@ class Presenter {
     fill_faces(solid);
     if (fans_.were_parted) part_faces(solid);
     solid.appearances = context_.appearances;
-    solid.sources = context_.sources;
   }
 
   /// How many vertices come before a place in the order of points: of untouched triangles, and of

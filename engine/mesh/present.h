@@ -16,7 +16,6 @@ namespace csgrun {
 struct PresentContext {
   GridStep step;                          ///< never automatic here
   std::vector<Appearance> appearances;    ///< by appearance id of the labels
-  std::vector<Solid::Source> sources;     ///< by source index of the labels
   Measuring measuring = Measuring::kAll;  ///< what to fill in of the measures, and the hash
   bool join_contacts = false;             ///< EvaluateOptions::join_contacts
   bool exact_points = false;              ///< whether to fill in the exact points

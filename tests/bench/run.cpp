@@ -210,7 +210,6 @@ PresentContext Run::context(Measuring measuring) const {
   PresentContext context;
   context.step = step_;
   context.appearances.resize(1);
-  context.sources.resize(sources_);
   context.measuring = measuring;
   return context;
 }

@@ -20,7 +20,7 @@ SolidPtr presented(const Tree& tree, const std::vector<Operand>& leaves,
   EXPECT_TRUE(r) << text(r.error());
   if (!r) return nullptr;
   EXPECT_EQ(fault_in(**r), "");
-  const auto solid = present(**r, test_context(2048));
+  const auto solid = present(**r, test_context());
   EXPECT_TRUE(solid) << text(solid.error());
   if (!solid) return nullptr;
   EXPECT_EQ(fault_in(**solid, **r), "");

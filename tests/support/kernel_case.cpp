@@ -194,7 +194,7 @@ std::string difference_between(const BoundaryMesh& a, const BoundaryMesh& b, boo
   return "";
 }
 
-PresentContext test_context(uint32_t sources) {
+PresentContext test_context() {
   PresentContext context;
   context.step.numerator = 1;
   context.appearances.resize(4);
@@ -202,7 +202,6 @@ PresentContext test_context(uint32_t sources) {
     context.appearances[i].red = 0.25f * static_cast<float>(i);
     context.appearances[i].is_default = false;
   }
-  context.sources.resize(sources);
   context.exact_points = true;
   return context;
 }

@@ -59,7 +59,7 @@ std::string difference_between(const BoundaryMesh& a, const BoundaryMesh& b,
 
 /// Steps of 1 mm; as many appearances and sources as a test may name. Points come as fractions,
 /// too.
-PresentContext test_context(uint32_t sources = 64);
+PresentContext test_context();
 
 /// Empty when two presented solids have equal arrays.
 std::string difference_between(const Solid& a, const Solid& b);

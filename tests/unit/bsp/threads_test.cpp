@@ -118,7 +118,6 @@ TEST(Threads, AreNotSeenInNamedFacesAndCounts) {
   PresentContext context;
   context.step.numerator = 1;
   context.appearances.resize(1);
-  context.sources.resize(3);
   const auto arrays = *present(*spelled, context);
   EvaluateStats one;
   for (const unsigned threads : {1u, 2u, 4u}) {

@@ -82,5 +82,21 @@ TEST(FaceSources, AFaceOfTwoPartsJoinsNothing) {
             (Names{{{-10, 0}, "block"}, {{20, 0}, "bar"}}));
 }
 
+// 2^30 leaves, counted as often as they are used, of which one has faces.
+TEST(FaceSources, OfPartsThatAreUsedAgainAndAgain) {
+  NodePtr part = named("all", {0, 0, 0}, {10, 10, 10});
+  const NodePtr more = named("more", {0, 0, 0}, {1, 1, 1});
+  for (int i = 0; i < 30; ++i) part = unite({intersect({part, moved(0.1, 0, 0, part)}), more});
+  Evaluator evaluator({});
+  const auto solid = evaluator.evaluate(part);
+  ASSERT_TRUE(solid) << solid.error().message;
+  // What is left of the first, and the small one beside it.
+  EXPECT_NEAR((*solid)->measures.volume, 7 * 100 + 3, 1e-9);
+  ASSERT_LE((*solid)->sources.size(), 8u);
+  for (const Solid::Source& source : (*solid)->sources) {
+    EXPECT_TRUE(source.kind == "all" || source.kind == "more") << source.kind;
+  }
+}
+
 }  // namespace
 }  // namespace csgrun::face_sources_test

@@ -128,6 +128,10 @@ TEST_F(NormalFormTest, SharedUnionsDoNotExplode) {
   NodePtr both = intersect({a, b});
   for (int i = 0; i < 60; ++i) both = intersect({both, both});
   EXPECT_EQ(text(both), "i(a,b)");
+  // Each union is used twice, but only by what moves it.
+  NodePtr moving = a;
+  for (int i = 0; i < 60; ++i) moving = moved(0, 1, 0, unite({moving, moving}));
+  EXPECT_EQ(text(moving), "a");
 }
 
 TEST_F(NormalFormTest, TreeOrder) {

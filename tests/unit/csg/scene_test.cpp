@@ -152,7 +152,7 @@ TEST_F(SceneTest, LeavesInFramesBeyondTheGridAreLeftOut) {
     }
   }
   // The boxes of the other two have nothing in common.
-  EXPECT_EQ(s.leaves(s.roots[0]).size(), 1u);
+  EXPECT_EQ(root(s, 0).slots, 1u);
 }
 
 TEST_F(SceneTest, BoxesThatHoldAllBeforeThemAreNoOperands) {
@@ -186,8 +186,30 @@ TEST_F(SceneTest, DisjointIntersectionsAreEmpty) {
 TEST_F(SceneTest, SourcesAreLeavesInTreeOrder) {
   const NodePtr x = subtract({cube(3), moved(1, 1, -1, cube(1))});
   const Scene s = scene({unite({x, moved(10, 0, 0, x), cube(2)})});
-  EXPECT_EQ(s.leaves(s.roots[0]).size(), 5u);
   EXPECT_EQ(root(s, 0).slots, 5u);
+  std::vector<uint32_t> in_order;  // all of them, by hand
+  std::vector<uint32_t> stack{s.roots[0]};
+  while (!stack.empty()) {
+    const uint32_t top = stack.back();
+    stack.pop_back();
+    const SceneNode& node = s.nodes[top];
+    if (node.kind == SceneNode::Kind::kLeaf) {
+      in_order.push_back(top);
+    } else {
+      stack.insert(stack.end(), node.rest.rbegin(), node.rest.rend());
+      stack.push_back(node.first);
+    }
+  }
+  ASSERT_EQ(in_order.size(), 5u);
+  for (uint32_t some = 0; some < 32; ++some) {
+    std::vector<uint32_t> numbers, leaves;
+    for (uint32_t i = 0; i < 5; ++i) {
+      if ((some >> i & 1) == 0) continue;
+      numbers.push_back(i);
+      leaves.push_back(in_order[i]);
+    }
+    EXPECT_EQ(s.leaves(s.roots[0], numbers), leaves) << some;
+  }
 }
 
 /// A tool that may be far away, large, in a frame of its own, in one that differs from others by

@@ -54,7 +54,6 @@ SolidPtr difference(const std::vector<std::shared_ptr<LeafGeometry>>& leaves) {
   PresentContext context;
   context.step = {1, 1, 0};
   context.appearances.resize(1);
-  context.sources.resize(leaves.size());
   const auto result = present(**boundary, context);
   EXPECT_TRUE(result) << result.error().message;
   return *result;
