@@ -260,14 +260,19 @@ int decompose(lua_State* L) {
   }
   const NodePtr solid = to_solid(L, 1)->node;
   Session& session = session_of(L);
-  std::vector<NodePtr> pieces;
+  Components pieces;
   {
     const EvaluationScope scope(session.budget());
     pieces =
         made_or_fail(session, decompose_solid(session.evaluator(), solid, session.source_ref(L)));
   }
   lua_newtable(L);
-  for (NodePtr& piece : pieces) {
+  if (pieces.rounded_corners > 0) {
+    session.warn(L, fmt::format("decompose: {} corners of components that no boxes part lie off "
+                                "the grid and are rounded to it",
+                                pieces.rounded_corners));
+  }
+  for (NodePtr& piece : pieces.parts) {
     push_solid(L, std::move(piece));
     lua_rawseti(L, -2, ++count);
   }

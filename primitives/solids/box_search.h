@@ -32,16 +32,28 @@ class BoxSearch {
     return widest;
   }
 
-  /// The least gap between a box and another one: infinite if there is none, and some number that
-  /// is not positive if they meet.
-  [[nodiscard]] double least_gap(uint32_t box) const {
+  /// The least gap between a box and another one, of those that are wider than `near`, a number
+  /// that is not negative: infinite if there are none.
+  [[nodiscard]] double least_gap(uint32_t box, double near) const {
     double least = std::numeric_limits<double>::infinity();
     // What is around several boxes is no farther away than these, also when rounded.
-    visit([&](const Box& around) { return least > 0 && gap(boxes_[box], around) < least; },
+    visit([&](const Box& around) { return gap(boxes_[box], around) < least; },
           [&](uint32_t i) {
-            if (i != box) least = std::min(least, gap(boxes_[box], boxes_[i]));
+            const double own = gap(boxes_[box], boxes_[i]);
+            if (i != box && own > near) least = std::min(least, own);
           });
     return least;
+  }
+
+  /// The others to which a gap is not wider than that, ascending.
+  [[nodiscard]] std::vector<uint32_t> near(uint32_t box, double distance) const {
+    std::vector<uint32_t> found;
+    visit([&](const Box& around) { return gap(boxes_[box], around) <= distance; },
+          [&](uint32_t i) {
+            if (i != box && gap(boxes_[box], boxes_[i]) <= distance) found.push_back(i);
+          });
+    std::sort(found.begin(), found.end());
+    return found;
   }
 
   /// Those that hold all of a box, ascending.

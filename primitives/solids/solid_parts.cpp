@@ -3,6 +3,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include <csgrun/primitives/solids.h>
 
 #include "primitives/base/text.h"
+#include "primitives/solids/box_gap.h"
 #include "primitives/solids/box_leaf.h"
 #include "primitives/solids/box_search.h"
 
@@ -70,6 +72,76 @@ BoxSearch search_of(const std::vector<Surface>& surfaces) {
   return BoxSearch(std::move(boxes));
 }
 
+/// The least gap between a box and triangles, see box_gap.
+double least_gap(const BoxSearch::Box& box, const Solid& solid,
+                 const std::vector<uint32_t>& triangles) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const uint32_t t : triangles) {
+    const auto& [a, b, c] = solid.triangles[t];
+    const std::array corners{solid.positions[a], solid.positions[b], solid.positions[c]};
+    least = std::min(least, box_gap(box, corners));
+  }
+  return least;
+}
+
+/// A box with what is that near to it.
+BoxSearch::Box widened(const BoxSearch::Box& box, double by) {
+  return {box[0] - glm::dvec3(by), box[1] + glm::dvec3(by)};
+}
+
+/// What parts a component from all others: it is in `around` and in none of `without`, and they
+/// are not there.
+struct Parting {
+  BoxSearch::Box around;
+  std::vector<BoxSearch::Box> without;
+};
+
+/// Components by boxes around them. Of two whose boxes meet, one may be clear of the other's box.
+class Parter {
+ public:
+  /// `triangles`: of each component, with those of its voids.
+  Parter(const Solid& solid, const std::vector<Surface>& outer, const BoxSearch& search,
+         const std::vector<std::vector<uint32_t>>& triangles)
+      : solid_(solid), triangles_(triangles), search_(search) {
+    for (const Surface& surface : outer) boxes_.push_back({surface.low, surface.high});
+  }
+
+  /// Nothing if no boxes do with gaps wider than `noise` on either side.
+  [[nodiscard]] std::optional<Parting> part(uint32_t component, double noise) const {
+    Parting result;
+    double margin = search_.least_gap(component, 2 * noise);
+    for (const uint32_t other : search_.near(component, 2 * noise)) {
+      const double beside_it = least_gap(boxes_[other], solid_, triangles_[component]);
+      if (beside_it > 2 * noise) {
+        margin = std::min(margin, beside_it);  // any would do, but for none
+        result.without.push_back(widened(boxes_[other], beside_it / 2));
+        continue;
+      }
+      margin = std::min(margin, least_gap(boxes_[component], solid_, triangles_[other]));
+      if (!(margin > 2 * noise)) return std::nullopt;
+    }
+    result.around = widened(boxes_[component], margin / 2);
+    return result;
+  }
+
+ private:
+  const Solid& solid_;
+  const std::vector<std::vector<uint32_t>>& triangles_;
+  const BoxSearch& search_;
+  std::vector<BoxSearch::Box> boxes_;
+};
+
+size_t count_off_grid(const Solid& solid, const std::vector<uint32_t>& triangles) {
+  std::vector<uint32_t> vertices;
+  for (const uint32_t t : triangles) {
+    for (const uint32_t v : solid.triangles[t]) {
+      if (solid.on_grid[v] == 0) vertices.push_back(v);
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  return static_cast<size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
+}
+
 /// Whether a void lies in what a surface encloses: then nothing is wrapped around a point in it.
 bool is_void_of(const Solid& solid, const Surface& hole, const Surface& outer) {
   auto triangles = triangles_of(solid, hole);
@@ -104,8 +176,8 @@ Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const N
   return Node::boolean(BooleanOp::kDifference, {solid, gone}, where);
 }
 
-Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr& solid,
-                                             const SourceRef& where) {
+Result<Components> decompose_solid(Evaluator& evaluator, const NodePtr& solid,
+                                   const SourceRef& where) {
   const auto evaluated = evaluator.evaluate(solid, Measuring::kNothing);
   if (!evaluated) return evaluated.error();
   const Solid& whole = **evaluated;
@@ -119,7 +191,7 @@ Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr
     return std::tie(a.low.x, a.low.y, a.low.z, a.triangles[0]) <
            std::tie(b.low.x, b.low.y, b.low.z, b.triangles[0]);
   });
-  if (outer.size() == 1) return std::vector<NodePtr>{solid};
+  if (outer.size() == 1) return Components{{solid}, 0};
   const BoxSearch search = search_of(outer);
   std::vector<std::vector<uint32_t>> triangles;
   for (const Surface& surface : outer) triangles.push_back(surface.triangles);
@@ -137,30 +209,34 @@ Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr
     triangles[innermost].insert(triangles[innermost].end(), hole.triangles.begin(),
                                 hole.triangles.end());
   }
+  const Parter parter(whole, outer, search, triangles);
   TreeInBoxes leaves(solid);
-  std::vector<NodePtr> result;
+  Components result;
   for (uint32_t i = 0; i < outer.size(); ++i) {
-    const double margin = search.least_gap(i) / 2;
     // Several steps of any grid on which the solid stands.
     const double reach = glm::length(glm::max(glm::abs(outer[i].low), glm::abs(outer[i].high)));
     const double noise = 1e-6 * reach;
-    if (margin > noise) {
-      const glm::dvec3 low = outer[i].low - glm::dvec3(margin);
-      const glm::dvec3 high = outer[i].high + glm::dvec3(margin);
-      const NodePtr box = box_leaf(low, high, where);
-      // The box holds all of some leaves, and the whole need not be looked at for each piece.
-      const glm::dvec3 slack(noise + 4 * evaluator.stats().grid_mm);
-      const NodePtr near = leaves.within(low - slack, high + slack);
-      result.push_back(near
-                           ? Node::intersection_as(
-                                 {solid, box},
-                                 Node::boolean(BooleanOp::kIntersection, {near, box}, where), where)
-                           : Node::boolean(BooleanOp::kIntersection, {solid, box}, where));
-    } else {
-      result.push_back(Node::leaf(
+    const std::optional<Parting> parting = parter.part(i, noise);
+    if (!parting) {
+      result.parts.push_back(Node::leaf(
           std::make_shared<const PolygonMesh>(mesh_of_solid(whole, triangles[i], "component")),
           where));
+      result.rounded_corners += count_off_grid(whole, triangles[i]);
+      continue;
     }
+    const auto& [low, high] = parting->around;
+    const NodePtr box = box_leaf(low, high, where);
+    // The box holds all of some leaves, and the whole need not be looked at for each piece.
+    const glm::dvec3 slack(noise + 4 * evaluator.stats().grid_mm);
+    const NodePtr near = leaves.within(low - slack, high + slack);
+    std::vector<NodePtr> operands{
+        near ? Node::intersection_as(
+                   {solid, box}, Node::boolean(BooleanOp::kIntersection, {near, box}, where), where)
+             : Node::boolean(BooleanOp::kIntersection, {solid, box}, where)};
+    for (const auto& [from, to] : parting->without) operands.push_back(box_leaf(from, to, where));
+    result.parts.push_back(operands.size() == 1
+                               ? operands[0]
+                               : Node::boolean(BooleanOp::kDifference, operands, where));
   }
   return result;
 }

@@ -15,6 +15,7 @@
 #include <csgrun/primitives/solid_parts.h>
 #include <csgrun/primitives/solids.h>
 
+#include "primitives/solids/box_gap.h"
 #include "primitives/solids/box_search.h"
 #include "tests/support/seeded.h"
 
@@ -149,26 +150,25 @@ TEST(Decompose, ManyComponentsAreTreesOfTheirOwn) {
   size_t next = 0;
   for (int i = 0; i < kCount; ++i) {
     const double side = 4 + i / 64.0;
-    ASSERT_LT(next, pieces->size());
-    const NodePtr& piece = (*pieces)[next++];
-    // The body that is within the void of another one is a component whose box meets the other's.
+    ASSERT_LT(next, pieces->parts.size());
+    const NodePtr& piece = pieces->parts[next++];
+    // One with another in its void is without a box around that one.
     const bool has_inner = i % 3 == 2;
-    if (!has_inner) {
-      ASSERT_TRUE(piece->same_solid()) << i;
-      EXPECT_EQ(piece->children()[0], whole);
-    }
+    const NodePtr& cut = has_inner ? piece->children()[0] : piece;
+    ASSERT_TRUE(cut->same_solid()) << i;
+    EXPECT_EQ(cut->children()[0], whole);
     const auto solid = evaluator.evaluate(moved(0.1, 0.2, 0.3, piece));
     ASSERT_TRUE(solid);
     EXPECT_NEAR((*solid)->measures.volume, side * side * side - (i % 3 != 0 ? 8 : 0), 1e-3) << i;
     EXPECT_NEAR((*solid)->measures.bbox[0].x, 10 * i + 0.1, 1e-5);
     EXPECT_NEAR((*solid)->measures.bbox[1].x, 10 * i + side + 0.1, 1e-5);
     if (!has_inner) continue;
-    ASSERT_LT(next, pieces->size());
-    const auto inner = evaluator.evaluate((*pieces)[next++]);
+    ASSERT_LT(next, pieces->parts.size());
+    const auto inner = evaluator.evaluate(pieces->parts[next++]);
     ASSERT_TRUE(inner);
     EXPECT_NEAR((*inner)->measures.volume, 1, 1e-6);
   }
-  EXPECT_EQ(next, pieces->size());
+  EXPECT_EQ(next, pieces->parts.size());
 }
 
 /// Bodies of one mesh, a few steps apart on a coarse grid, and on one that joins some.
@@ -195,9 +195,9 @@ TEST(Decompose, BodiesOfOneMeshOnCoarseGrids) {
     const auto all = evaluator.evaluate(whole);
     const auto pieces = decompose_solid(evaluator, whole, {});
     ASSERT_TRUE(all && pieces) << step;
-    EXPECT_EQ(static_cast<int64_t>(pieces->size()), (*all)->measures.components) << step;
+    EXPECT_EQ(static_cast<int64_t>(pieces->parts.size()), (*all)->measures.components) << step;
     double volume = 0;
-    for (const NodePtr& piece : *pieces) {
+    for (const NodePtr& piece : pieces->parts) {
       const auto solid = evaluator.evaluate(piece);
       ASSERT_TRUE(solid);
       EXPECT_EQ((*solid)->measures.components, 1) << step;
@@ -205,6 +205,108 @@ TEST(Decompose, BodiesOfOneMeshOnCoarseGrids) {
     }
     EXPECT_NEAR(volume, (*all)->measures.volume, 1e-9) << step;
   }
+}
+
+NodePtr turned(const NodePtr& solid) {  // about two axes
+  const double c = 0.8, n = 0.6;
+  Affine z, x;
+  z.m[0] = {c, -n, 0, 0};
+  z.m[1] = {n, c, 0, 0};
+  x.m[1] = {0, c, -n, 0};
+  x.m[2] = {0, n, c, 0};
+  return Node::transformed(x, Node::transformed(z, solid));
+}
+
+/// The whole is its components, with all of their corners where they were: cut off the grid.
+void expect_exact(const NodePtr& whole, size_t count) {
+  Evaluator evaluator{EvaluateOptions()};
+  const auto pieces = decompose_solid(evaluator, whole, {});
+  ASSERT_TRUE(pieces);
+  EXPECT_EQ(pieces->parts.size(), count);
+  EXPECT_EQ(pieces->rounded_corners, 0u);
+  const NodePtr all = Node::boolean(BooleanOp::kUnion, pieces->parts);
+  const auto rest =
+      evaluator.evaluate(Node::boolean(BooleanOp::kSymmetricDifference, {whole, all}));
+  ASSERT_TRUE(rest);
+  EXPECT_TRUE((*rest)->empty());
+  int64_t surfaces = 0;  // with those of voids
+  for (const NodePtr& piece : pieces->parts) {
+    const auto solid = evaluator.evaluate(piece);
+    ASSERT_TRUE(solid);
+    surfaces += (*solid)->measures.components;
+  }
+  EXPECT_EQ(surfaces, (*evaluator.evaluate(whole))->measures.components);
+}
+
+TEST(Decompose, ComponentsWithinTheBoxesOfOthersAreExact) {
+  const NodePtr corner = turned(moved(0.3, 0.2, 0.1, cube(3)));  // what makes corners off the grid
+  const NodePtr ring = less(less(cube(20), moved(3, 3, -1, cube(14))), corner);
+  const NodePtr pin = less(moved(8, 8, 0, cube(4)), turned(moved(10, 3, 0, cube(3))));
+  const NodePtr both = Node::boolean(BooleanOp::kUnion, {ring, pin});
+  expect_exact(both, 2);
+  expect_exact(turned(both), 2);
+  // One in the void of another one, which is in that of a third.
+  const NodePtr shell = less(cube(20), moved(1, 1, 1, cube(18)));
+  const NodePtr inner = moved(3, 4, 5, less(cube(9), moved(1, 1, 1, cube(7))));
+  expect_exact(less(Node::boolean(BooleanOp::kUnion, {shell, inner, moved(6, 7, 8, cube(2))}),
+                    turned(moved(1, 2, -4, cube(3)))),
+               3);
+}
+
+TEST(Decompose, ComponentsThatNoBoxesPartAreOfTheirCorners) {
+  // Two bars across one another, a little apart.
+  const auto bar = [](size_t axis) {
+    Affine along;
+    along.m[axis][axis] = 10;
+    return Node::transformed(along, cube(1));
+  };
+  const NodePtr first = turned(bar(0)), second = turned(moved(5, -5, 1.1, bar(1)));
+  const NodePtr whole =
+      less(Node::boolean(BooleanOp::kUnion, {first, second}), moved(0.2, 0.2, 0.2, cube(0.5)));
+  Evaluator evaluator{EvaluateOptions()};
+  const auto pieces = decompose_solid(evaluator, whole, {});
+  ASSERT_TRUE(pieces);
+  ASSERT_EQ(pieces->parts.size(), 2u);
+  EXPECT_GT(pieces->rounded_corners, 0u);
+  double volume = 0;
+  for (const NodePtr& piece : pieces->parts) {
+    volume += (*evaluator.evaluate(piece))->measures.volume;
+  }
+  EXPECT_NEAR(volume, (*evaluator.evaluate(whole))->measures.volume, 1e-4);
+}
+
+// Points of a triangle and of a box are never nearer than what is told; and nothing is told to be
+// apart that is not.
+TEST(BoxGap, IsNoMoreThanTheDistance) {
+  test::Random random(11);
+  const auto point = [&](int64_t room) {
+    return glm::dvec3(static_cast<double>(random.integer(-room, room)),
+                      static_cast<double>(random.integer(-room, room)),
+                      static_cast<double>(random.integer(-room, room)));
+  };
+  int apart = 0, meeting = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const glm::dvec3 low = point(6), high = low + glm::dvec3(1, 2, 3);
+    const std::array<glm::dvec3, 3> corners{point(9), point(9), point(9)};
+    const double gap = box_gap({low, high}, corners);
+    double nearest = std::numeric_limits<double>::infinity();
+    constexpr int kParts = 24;
+    for (int a = 0; a <= kParts; ++a) {
+      for (int b = 0; a + b <= kParts; ++b) {
+        const double u = 1.0 * a / kParts, v = 1.0 * b / kParts;
+        const glm::dvec3 p = corners[0] * (1 - u - v) + corners[1] * u + corners[2] * v;
+        nearest = std::min(nearest, glm::length(p - glm::clamp(p, low, high)));
+      }
+    }
+    EXPECT_LE(gap, nearest + 1e-9) << i;
+    // It is more than none where there is much.
+    if (nearest > 1.5) {
+      EXPECT_GT(gap, 0) << i;
+    }
+    ++(gap > 0 ? apart : meeting);
+  }
+  EXPECT_GT(apart, 500);
+  EXPECT_GT(meeting, 100);
 }
 
 TEST(BoxSearch, AgreesWithALookAtAllOfThem) {
@@ -222,10 +324,8 @@ TEST(BoxSearch, AgreesWithALookAtAllOfThem) {
       }
       const BoxSearch search(boxes);
       for (uint32_t i = 0; i < boxes.size(); ++i) {
-        double least = std::numeric_limits<double>::infinity();
         std::vector<uint32_t> around;
         for (uint32_t k = 0; k < boxes.size(); ++k) {
-          if (k != i) least = std::min(least, BoxSearch::gap(boxes[i], boxes[k]));
           bool holds = true;
           for (int axis = 0; axis < 3; ++axis) {
             holds &=
@@ -233,11 +333,17 @@ TEST(BoxSearch, AgreesWithALookAtAllOfThem) {
           }
           if (holds) around.push_back(k);
         }
-        const double found = search.least_gap(i);
-        if (least > 0) {
-          EXPECT_EQ(found, least);
-        } else {
-          EXPECT_LE(found, 0);
+        for (const double distance : {0.0, 0.5, 4.0}) {
+          double least = std::numeric_limits<double>::infinity();
+          std::vector<uint32_t> near;
+          for (uint32_t k = 0; k < boxes.size(); ++k) {
+            if (k == i) continue;
+            const double gap = BoxSearch::gap(boxes[i], boxes[k]);
+            if (gap <= distance) near.push_back(k);
+            if (gap > distance) least = std::min(least, gap);
+          }
+          EXPECT_EQ(search.least_gap(i, distance), least);
+          EXPECT_EQ(search.near(i, distance), near);
         }
         EXPECT_EQ(search.holding(boxes[i]), around);
       }

@@ -41,11 +41,17 @@ Result<NodePtr> half_space(Evaluator& evaluator, const NodePtr& solid, const Cut
 Result<NodePtr> offset_solid(Evaluator& evaluator, const NodePtr& solid, const NodePtr& tool,
                              double distance);
 
+struct Components {
+  std::vector<NodePtr> parts;
+  size_t rounded_corners = 0;  ///< that were not on the grid, of those made of their corners
+};
+
 /// The connected solids of which one consists, in the order of their smallest corners; voids belong
-/// to what is around them. Solids that touch in edges or corners are apart. A component whose box
-/// meets no other's is cut out exactly; others are made of its corners, which are rounded to the
-/// grid where they are not on it. Errors: those of the evaluation.
-Result<std::vector<NodePtr>> decompose_solid(Evaluator& evaluator, const NodePtr& solid,
-                                             const SourceRef& where);
+/// to what is around them. Solids that touch in edges or corners are apart. A component is cut out
+/// exactly by boxes, if its box meets no other's, or one of the two is clear of the other's box;
+/// others are made of their corners, which are rounded to the grid where they are not on it.
+/// Errors: those of the evaluation.
+Result<Components> decompose_solid(Evaluator& evaluator, const NodePtr& solid,
+                                   const SourceRef& where);
 
 }  // namespace csgrun
