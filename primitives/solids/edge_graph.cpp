@@ -199,10 +199,13 @@ void EdgeGraph::add_line(uint32_t first, std::span<const uint32_t> halves) {
   e.line.turn = atan2_deg(glm::length(across), glm::dot(e.line.normals[0], e.line.normals[1]));
   e.line.is_convex = glm::dot(across, e.line.to - e.line.from) > 0;
   const Solid::Face &f = solid_.faces[face[0]], &g = solid_.faces[face[1]];
-  const auto is_fillet = [&](const Solid::Face& x) {
-    return solid_.sources[x.source].kind == "fillet";
+  const auto is_of = [&](const char* kind) {
+    return solid_.sources[f.source].kind == kind && solid_.sources[g.source].kind == kind;
   };
-  e.line.is_smooth = (f.surface != 0 && f.surface == g.surface) || (is_fillet(f) && is_fillet(g));
+  // The facets at the poles of a round sphere are flat, but no faces of their own.
+  const bool is_of_ball = f.source == g.source && (f.surface != 0 || g.surface != 0) &&
+                          (is_of("sphere") || is_of("ellipsoid"));
+  e.line.is_smooth = (f.surface != 0 && f.surface == g.surface) || is_of_ball || is_of("fillet");
   // What the sides have before and after it, as half-edges for now. The right side runs it back.
   const auto before = [&](uint32_t half) {
     // The one that comes to the start of `half`: round that corner, against its triangles' order.

@@ -20,6 +20,19 @@ TEST(EdgeChoice, ListsThatHoldThemselvesAreRefused) {
       "assert(cube(10):chamfer(1, {edges = t}) == cube(10):chamfer(1, 'z'))");
 }
 
+TEST(EdgeChoice, PolesOfRoundBodiesHaveNoEdges) {
+  expect_good(R"(
+    for _, fn in ipairs{10, 12, 16, 24, 32, 48, 100} do
+      local ball = sphere{5, fn = fn}
+      assert(#ball:edges() == 0)
+      assert(#ellipsoid{5, 4, 3, fn = fn}:edges() == 0)
+      -- A rim of fn edges, and both ends of a hole through the poles.
+      assert(#(ball * cube(20):translate(-10, -10, 0)):edges() == fn)
+      assert(#(ball - cube{1, 1, 20, center = true}):edges() >= 12)
+    end
+    assert(#sphere{5, fn = 6}:edges() > 0))");
+}
+
 TEST(EdgeChoice, AFunctionMayMeasureTheSolidWithOtherSettings) {
   expect_good(R"(
     local c = cube(10) - sphere(3)
