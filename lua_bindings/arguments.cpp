@@ -71,6 +71,21 @@ bool is_list_from_color_name(lua_State* L, int index, const FunctionSpec& spec) 
   return is_name && list_length(L, index) > 0;
 }
 
+/// What is wrong where an option was given nil.
+std::string nil_text(const Option& option) {
+  if (option.type != T::kValue) {
+    return fmt::format("option '{}' must be {}, got nil", option.name, describe_type(option.type));
+  }
+  std::string_view doc = option.doc;
+  doc = doc.substr(0, doc.find(';'));
+  std::string text;  // on one line
+  for (const char c : doc) {
+    if (c == '\n' || (c == ' ' && text.ends_with(' '))) continue;
+    text += c;
+  }
+  return fmt::format("option '{}' must not be nil: {}", option.name, text);
+}
+
 /// Whether the value is the table csg.
 bool is_language(lua_State* L, int index) {
   if (!lua_istable(L, index)) return false;
@@ -135,7 +150,8 @@ void Arguments::check_for_gap(const Option& option, int first, int count, int la
   // A list, or a value of the argument that follows the vector.
   if (count == 0 && (lua_istable(L_, gap) || lua_isuserdata(L_, gap))) return;
   if (count == 1 && rule.number_too && lua_isboolean(L_, gap)) return;
-  bool numbers_were_meant = count > 0 && (is_nil || is_only || (count == 1 && !rule.number_too));
+  bool numbers_were_meant = count > 0 && (is_nil || is_only || (count == 1 && !rule.number_too) ||
+                                          (count > 1 && count < rule.least));
   for (int i = gap + 1; i <= std::min(last, first + rule.most - 1); ++i)
     numbers_were_meant = numbers_were_meant || lua_type(L_, i) == LUA_TNUMBER;
   if (!numbers_were_meant) return;
@@ -176,10 +192,21 @@ void Arguments::read_positional(int first, int last) {
     }
     if (lua_isnil(L_, index)) {
       if (index == last || next == 0) {
-        fail(fmt::format("option '{}' must be {}, got nil", options[next]->name,
-                         describe_type(options[next]->type)));
+        fail(nil_text(*options[next]));
       }
       continue;  // f(a, nil, c): the default of b
+    }
+    // f(4, 10, 0, 0): numbers up to the last are a vector that stands behind others, too.
+    const VectorRule rule = vector_rule(options[next]->type);
+    int count = 0;
+    while (!rule.number_too && rule.most > 1 && index + count <= last &&
+           lua_type(L_, index + count) == LUA_TNUMBER) {
+      ++count;
+    }
+    if (count >= rule.least && count > 1 && count <= rule.most && index + count > last) {
+      set_spread(*options[next], index, count);
+      ++positional_count_;
+      return;
     }
     set(*options[next], index);
     ++positional_count_;

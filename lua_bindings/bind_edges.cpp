@@ -45,7 +45,8 @@ constexpr FunctionSpec kEdges{
     kSelectorOptions, false, "#part:edges{along = \"z\"}"};
 
 constexpr const char* kEdgesDoc =
-    "which: all that are convex; \"x\", \"y\", \"z\" (their direction); \"top\", \"bottom\", ... "
+    "which edges: all that are convex; \"x\", \"y\", \"z\" (their direction); \"top\", \"bottom\", "
+    "... "
     "(the face\n          they are on); {on = ..., along = ..., near = ..., normal = ..., through "
     "= ..., turn = ...} as\n          edges() takes them; a list of these; what edges() gave, or a "
     "function of such a table that\n          tells";

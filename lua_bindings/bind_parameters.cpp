@@ -158,6 +158,11 @@ int param(lua_State* L) {
   if (arguments.has("min")) parameter.min = arguments.number("min", 0);
   if (arguments.has("max")) parameter.max = arguments.number("max", 0);
   if (arguments.has("step")) parameter.step = arguments.number("step", 1);
+  if (parameter.min && parameter.max && *parameter.min > *parameter.max) {
+    fail_in(kParam,
+            fmt::format("option 'min' of '{}' must be at most 'max', got {:.14g} and {:.14g}",
+                        parameter.name, *parameter.min, *parameter.max));
+  }
   parameter.doc = arguments.string("doc", "");
   parameter.choices = read_choices(L, arguments, parameter);
   push_parameter(L, kParam, std::move(parameter), arguments.stack_index("default"));

@@ -236,9 +236,16 @@ std::span<const Binding> transform_bindings() { return kTransformsBindings; }
 
 void push_moved_shape(lua_State* L, int index, const Affine& map, const std::string& function) {
   const ShapeValue& shape = *to_shape(L, index);
-  if (map.m[2][0] != 0 || map.m[2][1] != 0 || map.m[2][3] != 0) {
-    session_of(L).warn(L, fmt::format("{}: a 2D shape stays in its plane, so what moves or turns "
-                                      "it out has no effect; extrude it first",
+  const auto& m = map.m;
+  if (m[2][0] != 0 || m[2][1] != 0) {
+    const bool is_gone = m[0][0] * m[1][1] - m[0][1] * m[1][0] == 0;
+    session_of(L).warn(
+        L, fmt::format("{}: a 2D shape stays in its plane, so that one which is "
+                       "turned out of it {}; extrude it first",
+                       function, is_gone ? "is empty" : "becomes narrower, as seen from above"));
+  } else if (m[2][3] != 0) {
+    session_of(L).warn(L, fmt::format("{}: a 2D shape stays in its plane, so what moves it out has "
+                                      "no effect; extrude it first",
                                       function));
   }
   auto moved = shape.shape.transformed(map);

@@ -268,6 +268,8 @@ int extreme(lua_State* L) {
   for (int i = 1; i <= count; ++i) {
     if (lua_type(L, i) != LUA_TNUMBER)
       fail_in(Spec, "takes numbers or a list of numbers, got " + describe_value(L, i));
+    if (std::isnan(lua_tonumber(L, i)))
+      fail_in(Spec, fmt::format("takes numbers, but number {} is not a number (nan)", i));
     const int low = kGreatest ? best : i, high = kGreatest ? i : best;
     if (lua_compare(L, low, high, LUA_OPLT) != 0) best = i;
   }

@@ -32,6 +32,17 @@ bool begins_with_words(std::string_view line, std::string_view word) {
          std::isalpha(static_cast<unsigned char>(line[word.size() + 1])) != 0;
 }
 
+/// {r: 3}, as JavaScript has it.
+bool has_option_by_colon(std::string_view line) {
+  for (size_t i = 1; i + 1 < line.size(); ++i) {
+    const bool follows_name = std::isalnum(static_cast<unsigned char>(line[i - 1])) != 0;
+    if (line[i] == ':' && follows_name &&
+        (line[i + 1] == ' ' || std::isdigit(static_cast<unsigned char>(line[i + 1])) != 0))
+      return true;
+  }
+  return false;
+}
+
 /// a += 1, a++.
 bool is_assignment_by(std::string_view line) {
   for (const char* form : {"+=", "-=", "*=", "/=", "++"}) {
@@ -69,11 +80,15 @@ std::string syntax_hint(std::string_view line, std::string_view message) {
   }
   if (has(line, "each ") && has(message, "near"))
     return "; a list in a list, entry for entry, is: {1, 2, table.unpack(list)}";
+  if (has(message, "<name> expected near") && has_option_by_colon(line))
+    return "; options are: cylinder{r = 3, h = 5}";
   if (has(message, "'?'")) return "; a choice between two values is: condition and a or b";
   if (is_assignment_by(line) && (has(message, "syntax error near") || has(message, "unexpected")))
     return "; it is written out: a = a + 1";
-  if (has(message, "'&'") && has(line, "&&")) return "; both together are: a and b";
-  if (has(message, "'|'") && has(line, "||")) return "; one or the other is: a or b";
+  if (has(message, "'&'") && has(line, "&&"))
+    return "; both conditions are: a and b; what solids have in common is a * b";
+  if (has(message, "'|'") && has(line, "||"))
+    return "; one condition or the other is: a or b; solids together are a + b";
   if (has(message, "near '='") &&
       (has(message, "'then' expected") || has(message, "'do' expected")))
     return "; \"equal\" is ==";
@@ -110,6 +125,8 @@ std::string syntax_hint(std::string_view line, std::string_view message) {
     if (has(message, "syntax error") && has(message, operation))
       return "; a value that is made needs a name, or return: part = part - hole";
   }
+  if (has(message, "<eof> expected near"))
+    return "; return ends a script: nothing may follow it (an `end` too many does the same)";
   // After a value it divides by what it was to say.
   if (has(line, "//")) return "; a comment begins with --";
   return {};

@@ -47,6 +47,8 @@ std::optional<std::vector<double>> parse_list(lua_State* L, std::string_view tex
 }
 
 std::string check_number(const Parameter& parameter, double x) {
+  if (!std::isfinite(x))
+    return fmt::format("must be finite, got {}", std::isnan(x) ? "nan" : x > 0 ? "inf" : "-inf");
   if (parameter.min && x < *parameter.min)
     return fmt::format("must be at least {:.14g}, got {:.14g}", *parameter.min, x);
   if (parameter.max && x > *parameter.max)

@@ -14,6 +14,13 @@ namespace {
 /// Groups in groups deeper than this are a table that contains itself.
 constexpr int kDeepestGroup = 64;
 
+bool is_empty_table(lua_State* L, int table) {
+  lua_pushnil(L);
+  const bool any = lua_next(L, table) != 0;
+  if (any) lua_pop(L, 2);
+  return !any;
+}
+
 void add(lua_State* L, int index, const std::string& group, const std::string& name, int depth);
 
 void add_table(lua_State* L, int table, const std::string& group, int depth) {
@@ -72,11 +79,17 @@ void add(lua_State* L, int index, const std::string& group, const std::string& n
   } else if (lua_istable(L, index)) {
     // A list without a name of its own is no group.
     const std::string inner = name.empty() ? group : group.empty() ? name : group + "/" + name;
+    if (!name.empty() && is_empty_table(L, index)) {
+      session.warn(L, "part '" + inner + "' is an empty list: nothing is written for it");
+    }
     add_table(L, index, inner, depth + 1);
   } else {
     throw ScriptError("a part must be a solid, a shape or a table of them, got " +
                       describe_value(L, index) + (name.empty() ? "" : " for '" + name + "'") +
-                      (lua_isfunction(L, index) ? "; what it returns is a part: call it" : ""));
+                      (lua_isfunction(L, index) ? "; what it returns is a part: call it" : "") +
+                      (name == "name" ? "; a name of a part is {NAME = part}, or "
+                                        "emit(part, {name = \"NAME\"})"
+                                      : ""));
   }
 }
 

@@ -246,7 +246,7 @@ Result<Constructions::Outcome> Constructions::make_sum(const Task& task,
     return Outcome{};
   }
   made.finest_mm = step_mm;
-  if (rounded > 0) made.note = "minkowski: " + rounding_note(rounded, parts->step);
+  if (rounded > 0) made.note = "minkowski or offset: " + rounding_note(rounded, parts->step);
   auto sum = minkowski_sum(std::move(summands), parts->step);
   if (!sum) return sum.error();
   std::vector<NodePtr> pieces;

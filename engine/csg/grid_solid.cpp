@@ -155,9 +155,10 @@ PolygonMesh patch_mesh(const Solid& solid, const GridSolid& on_grid, const GridS
 std::string rounding_note(size_t corners, const GridStep& step) {
   char text[64];
   std::snprintf(text, sizeof text, "%.6g", step.millimetres());
-  return std::to_string(corners) + (corners == 1 ? " corner" : " corners") +
-         " of its operands lie off the grid and were rounded to it, by up to half a step of " +
-         text + " mm";
+  const bool is_one = corners == 1;
+  return std::to_string(corners) + (is_one ? " corner" : " corners") + " of its operands " +
+         (is_one ? "lies off the grid and was" : "lie off the grid and were") +
+         " rounded to it, by up to half a step of " + text + " mm";
 }
 
 }  // namespace csgrun

@@ -960,14 +960,14 @@ function Shape:decompose() end
 ---@class (exact) csgrun.chamfer
 ---@field [integer] any
 ---@field distance? number from the edge, on both faces, in mm
----@field edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+---@field edges? any which edges: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
 
 ---The solid with edges cut off flat. Where all three edges of a corner are cut, so is it.
 ---
 ---Example: `cube(10):chamfer(1.5, {edges = "top"})`
 ---@param solid any the solid; as a method, solid:f(...), it is left out
 ---@param distance? number from the edge, on both faces, in mm
----@param edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+---@param edges? any which edges: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
 ---@param options? csgrun.chamfer
 ---@return Solid
 function chamfer(solid, distance, edges, options) end
@@ -978,7 +978,7 @@ csg.chamfer = chamfer
 ---Example: `cube(10):chamfer(1.5, {edges = "top"})`
 ---@overload fun(self: Solid, options: csgrun.chamfer): Solid
 ---@param distance? number from the edge, on both faces, in mm
----@param edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+---@param edges? any which edges: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
 ---@param options? csgrun.chamfer
 ---@return Solid
 function Solid:chamfer(distance, edges, options) end
@@ -987,7 +987,7 @@ function Solid:chamfer(distance, edges, options) end
 ---@field [integer] any
 ---@field r? number radius, in mm
 ---@field radius? number the same as r
----@field edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+---@field edges? any which edges: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
 ---@field fa? number smallest angle of a facet, degrees, at least 0.01
@@ -998,7 +998,7 @@ function Solid:chamfer(distance, edges, options) end
 ---Example: `cube(10):fillet(2, {edges = "z", fn = 32})`
 ---@param solid any the solid; as a method, solid:f(...), it is left out
 ---@param r? number radius, in mm
----@param edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+---@param edges? any which edges: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
 ---@param options? csgrun.fillet
 ---@return Solid
 function fillet(solid, r, edges, options) end
@@ -1009,7 +1009,7 @@ csg.fillet = fillet
 ---Example: `cube(10):fillet(2, {edges = "z", fn = 32})`
 ---@overload fun(self: Solid, options: csgrun.fillet): Solid
 ---@param r? number radius, in mm
----@param edges? any which: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
+---@param edges? any which edges: all that are convex; "x", "y", "z" (their direction); "top", "bottom", ... (the face they are on); {on = ..., along = ..., near = ..., normal = ..., through = ..., turn = ...} as edges() takes them; a list of these; what edges() gave, or a function of such a table that tells
 ---@param options? csgrun.fillet
 ---@return Solid
 function Solid:fillet(r, edges, options) end

@@ -69,6 +69,13 @@ function layout.place(part, where, point)
     error("layout.place: wants a point {x, y, z}, got " .. tostring(point), 2)
   end
   local from = anchor(part, where)
+  for i = 1, #from do
+    local number = point[i]
+    if number == nil and i == 3 then number = 0 end
+    if type(number) ~= "number" then
+      error("layout.place: wants a point {x, y, z}, but entry " .. i .. " is " .. tostring(number), 2)
+    end
+  end
   return part:translate(point[1] - from[1], point[2] - from[2], (point[3] or 0) - (from[3] or 0))
 end
 

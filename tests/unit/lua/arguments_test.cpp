@@ -416,14 +416,41 @@ TEST(Hints, MethodsAndWordsOfOtherPrograms) {
             "main()");
 }
 
+TEST(Arguments, NilAndNumbersAreNamed) {
+  constexpr BadCall kCalls[] = {
+      {"cube(1):gap(nil)", "gap: option 'other' must not be nil: the other solid"},
+      {"loft(nil)",
+       "loft: option 'outlines' must not be nil: a list of shapes, from the lowest on"},
+      {"translate(nil)", "translate: option 'v' must be a list of two or three numbers, got nil"},
+      {"cube(1, 2, '3')",
+       "cube: option 'size' must be a number or a list of three numbers, but number 3 is the "
+       "string \"3\""},
+      {"cube(1):linear_array(4, 10)",
+       "linear_array: option 'v' must be a list of two or three numbers, got the number 10"},
+      {"param('x', 5, {min = 10, max = 1})",
+       "param: option 'min' of 'x' must be at most 'max', got 10 and 1"},
+      {"param('x', 0/0)", "param: the default of 'x' must be finite, got nan"},
+      {"min(0/0, 1)", "min: takes numbers, but number 1 is not a number (nan)"},
+      {"max(1, 0/0)", "max: takes numbers, but number 2 is not a number (nan)"},
+  };
+  for (const BadCall& call : kCalls)
+    EXPECT_EQ(message_of(std::string("return ") + call.text),
+              "model.lua:1: " + std::string(call.message));
+  expect_good(
+      "assert(cube(2):linear_array(4, 10, 0, 0) == cube(2):linear_array(4, {10, 0, 0})) "
+      "assert(cube(2):linear_array(4, 10, 5) == cube(2):linear_array(4, {10, 5, 0}))");
+}
+
 TEST(Hints, OpenScadInALineThatIsNoLua) {
   constexpr BadCall kLines[] = {
       {"for (i=[0:3]) cube(i)", "a loop is: for i = 0, 3 do ... end"},
       {"local a = b ? 1 : 2", "a choice between two values is: condition and a or b"},
       {"local a = 1\na += 1", "it is written out: a = a + 1"},
       {"local a = 5 // width of it", "a comment begins with --"},
-      {"local a = b && c", "both together are: a and b"},
-      {"local a = b || c", "one or the other is: a or b"},
+      {"local a = b && c", "both conditions are: a and b; what solids have in common is a * b"},
+      {"return cylinder{r: 3, h: 5}", "options are: cylinder{r = 3, h = 5}"},
+      {"return cube(1)\nprint(3)", "return ends a script: nothing may follow it"},
+      {"local a = b || c", "one condition or the other is: a or b; solids together are a + b"},
       {"while (true) { cube(1) }\n\n", "a loop is: while a do ... end"},
       {"const x = 5", "a name for a value is: local a = 1"},
       {"var x = 5", "a name for a value is: local a = 1"},

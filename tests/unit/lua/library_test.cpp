@@ -154,8 +154,14 @@ TEST(Library, MistakesAreNamedInTheModel) {
   }
   // What Lua says inside of the library, and what built-in functions say there.
   expect_place(kLayout + "\n\nreturn layout.at(cube(1), {{'x'}})", "model.lua:3: translate: ");
-  expect_place(kLayout + "\n\nreturn layout.place(cube(1), 'top', {true})",
-               "model.lua:3: attempt to perform arithmetic");
+  expect_place(kLayout +
+                   "\nlocal odd = setmetatable({}, {__index = function() return -true end})"
+                   "\nreturn layout.place(cube(1), 'top', odd)",
+               "model.lua:2: attempt to perform arithmetic");
+  for (const std::string point : {"{x = 1, y = 2}", "{1}", "{1, nil, 3}", "{'a', 2, 3}"}) {
+    expect_place(kLayout + "\n\nreturn layout.place(cube(1), 'top', " + point + ")",
+                 "model.lua:3: layout.place: wants a point {x, y, z}, but entry ");
+  }
 }
 
 TEST(Library, ErrorHasItsLevelsInModels) {
