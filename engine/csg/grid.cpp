@@ -152,12 +152,27 @@ bool step_fits(const GridStep& step, double reach, double far) {
          far < mm * static_cast<double>(kFarLimit - kGridMargin);
 }
 
+GridStep decimal_step(int tens) {
+  int64_t fives = 1;
+  for (int i = 0; i < std::abs(tens); ++i) fives *= 5;
+  return reduced(tens > 0 ? fives : 1, tens > 0 ? 1 : fives, tens);
+}
+
 GridStep choose_step(double reach, double far) {
   if (!(reach > 0) && !(far > 0)) return nanometre_step(-6);
-  // In the range of parts that are made steps double, elsewhere they grow eightfold (numerics.md).
-  constexpr int kFinest = -300, kCoarsest = 900;
-  int g = kFinest;
-  while (g < kCoarsest && !step_fits(nanometre_step(g), reach, far)) g += g >= 3 && g < 6 ? 1 : 3;
+  // Below 10^-4 mm powers of two nm hold what decimals of a part there are; in the range of parts
+  // that are made they double, elsewhere they grow eightfold (numerics.md).
+  constexpr int kFinest = -300, kCoarsest = 900, kLastOfParts = 6;
+  for (int g = kFinest; g <= kLastOfParts; g += g >= 3 ? 1 : 3) {
+    if (step_fits(nanometre_step(g), reach, far)) return nanometre_step(g);
+  }
+  // What is larger is measured in whole millimetres, or tenths of them.
+  constexpr int kFirstTens = -4, kLastTens = 22;  // 5^22 is below 2^53
+  for (int tens = kFirstTens; tens <= kLastTens; ++tens) {
+    if (step_fits(decimal_step(tens), reach, far)) return decimal_step(tens);
+  }
+  int g = 96;  // 2^96 nm are 8 10^22 mm
+  while (g < kCoarsest && !step_fits(nanometre_step(g), reach, far)) g += 3;
   return nanometre_step(g);
 }
 

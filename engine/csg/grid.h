@@ -56,8 +56,12 @@ class Quantiser {
 /// The step 2^g nm, in lowest terms.
 GridStep nanometre_step(int g);
 
-/// The smallest step 2^g nm, g in {..., -6, -3, 0, 3, 4, 5, 6, 9, 12, ...}, on whose grid
-/// coordinates of `reach` mm stay below 2^27 and those of `far` mm below 2^40 steps.
+/// The step 10^tens mm, -22 <= tens <= 22.
+GridStep decimal_step(int tens);
+
+/// The smallest step of 2^g nm, g in {..., -6, -3, 0, 3, 4, 5, 6}, 10^k mm, k in {-4, ..., 22}, and
+/// again 2^g nm, g in {96, 99, ...}, on whose grid coordinates of `reach` mm stay below 2^27 and
+/// those of `far` mm below 2^40 steps.
 GridStep choose_step(double reach, double far);
 
 /// Whether `choose_step`'s conditions hold for a given step.

@@ -33,16 +33,20 @@ double distance_of(const MmBox& box) {
   return far;
 }
 
+/// But for the noise of doubles.
+bool is_multiple_of(double x, double step) {
+  constexpr double kNoise = 1e-6;
+  return std::fabs(x / step - std::round(x / step)) < kNoise;
+}
+
 /// Which decimal step would hold a thickness that this one rounds; nothing if none does.
 std::string decimal_advice(double thickness, double step, const SceneReach& reach) {
   constexpr int kDecimals = 6;
   for (int tens = kDecimals; tens >= 0; --tens) {
     const auto decimal = GridStep::parse("1e-" + std::to_string(tens));
     if (!decimal || !step_fits(*decimal, reach.reach, reach.far)) continue;
-    const auto is_multiple = [&](double mm) {
-      return std::fabs(thickness - mm * std::round(thickness / mm)) < 1e-9 * thickness;
-    };
-    if (is_multiple(step) || !is_multiple(decimal->millimetres())) return {};
+    if (is_multiple_of(thickness, step)) return {};
+    if (!is_multiple_of(thickness, decimal->millimetres())) return {};
     return "; a grid of " + text(decimal->millimetres()) + " mm would hold it";
   }
   return {};
@@ -213,10 +217,15 @@ bool SceneBuilder::has_thin_leaves(const SceneReach& reach, bool tell) const {
   for (const uint32_t index : order_) {
     if (normal(index).kind != NormalNode::Kind::kLeaf) continue;
     const MmBox& box = step_leaves_[index].local;
-    double thickness = box.hi[0] - box.lo[0];
-    for (int i = 1; i < 3; ++i) thickness = std::min(thickness, box.hi[i] - box.lo[i]);
+    int thinnest = 0;
+    for (int i = 1; i < 3; ++i) {
+      if (box.hi[i] - box.lo[i] < box.hi[thinnest] - box.lo[thinnest]) thinnest = i;
+    }
+    const double lo = box.lo[thinnest], hi = box.hi[thinnest], thickness = hi - lo;
     // What is thinner than half a step is likely to vanish, and that is told where it does.
     if (!(2 * thickness >= step) || step <= kCoarse * thickness) continue;
+    const bool is_on_grid = is_multiple_of(lo, step) && is_multiple_of(hi, step);
+    if (!step_leaves_[index].framed && is_on_grid) continue;
     if (!tell) return true;
     const NodePtr& leaf = normal(index).leaf;
     context_.warnings.add(leaf->where(),

@@ -166,6 +166,7 @@ class Check(Case):
     def test_what_is_thinner_than_the_precision_is_said(self):
         # 0.008 mm thick where floats have steps of 0.0625: rounding turns it inside out, and nothing crosses.
         text = """
+          csg.grid = 0.032768 -- holds these points
           local p = {{1000009.105408, 1000008.941568, 999991.115776}, {999991.7056, 1000006.713344, 1000004.714496},
             {1000003.403776, 999996.162048, 1000002.125824}, {1000001.404928, 1000003.960832, 999999.340544}}
           local thin = polyhedron(p, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}})

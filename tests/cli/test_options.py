@@ -101,9 +101,9 @@ class FarAway(Case):
         outcome = self.run_script("\nreturn cube(1):translate(1e6, 0, 0)", "--stats")
         self.expect(outcome, 0)
         self.assertIn("model.lua:2: a part of 1 mm " + self.WARNING + ": 1e+06 mm from the origin points are rounded "
-                      "to 0.03277 mm", outcome.err)
+                      "to 0.01 mm", outcome.err)
         outcome = self.run_script("return {cube(1), cube(1):translate(1e6, 0, 0)}", "--stats")
-        self.assertEqual(outcome.err.count(" of a part of 1 mm are rounded to 0.03277 mm"), 1)
+        self.assertEqual(outcome.err.count(" of a part of 1 mm are rounded to 0.01 mm"), 1)
         outcome = self.run_script("return {cube(1):translate(1e6, 0, 0), cube(1):translate(2e6, 0, 0)}", "--stats")
         self.assertEqual(outcome.err.count(self.WARNING), 1)
         self.assertIn(self.WARNING, self.run_script("return cube(1):translate(1e12, 0, 0)", "--stats").err)
@@ -136,8 +136,8 @@ class FarAway(Case):
             self.assertNotIn("mm thin", outcome.err, model)
 
     def test_a_thickness_that_rounding_spoils(self):
-        # 2^27 steps reach 1e7 mm from 2^18 nm on: 0.26 mm is one of them.
-        said = " mm thin: in a scene that reaches 1e+07 mm from the origin points are rounded to 0.2621 mm"
+        # 2^27 steps of 0.1 mm reach 1.3e7 mm.
+        said = " mm thin: in a scene that reaches 1e+07 mm from the origin points are rounded to 0.1 mm"
         self.write("m.csg", "cube(size = [1e7, 1e7, 0.26]);")
         self.assertIn("m.csg:1: 'cube' is 0.26" + said, self.run_csgrun("m.csg", "--stats").err)
         outcome = self.run_script("return cube(1e7, 1000, 1000) +\n\ncube(10):rotate(0, 0, 30)", "--stats")
@@ -145,13 +145,20 @@ class FarAway(Case):
         self.assertNotIn("mm thin", self.run_script("return cube(1e7, 1000, 1000)", "--stats").err)
 
     def test_a_grid_that_would_hold_the_thickness(self):
-        said = "points are rounded to 0.004096 mm"
-        outcome = self.run_script("return cube(1e5, 1, 1)", "--stats")
-        self.assertIn(said + "; a grid of 0.001 mm would hold it\n", outcome.err)
-        outcome = self.run_script("return cube(1e5, 1, 1)", "--stats=json", "--grid", "0.001")
-        self.assertEqual((outcome.err, outcome.json()["parts"][0]["volume"]), ("", 1e5))
-        outcome = self.run_script("return cube(1e5, 1, 0.7071)", "--stats")
+        said = "points are rounded to 6.4e-05 mm"
+        outcome = self.run_script("return cube(8000, 1, 0.05)", "--stats")
+        self.assertIn(said + "; a grid of 0.0001 mm would hold it\n", outcome.err)
+        outcome = self.run_script("return cube(8000, 1, 0.05)", "--stats=json", "--grid", "0.0001")
+        self.assertEqual((outcome.err, outcome.json()["parts"][0]["volume"]), ("", 400))
+        outcome = self.run_script("return cube(8000, 1, 0.050707)", "--stats")
         self.assertIn(said + "\n", outcome.err)
+
+    def test_large_models_in_whole_millimetres(self):
+        for size in ("12000, 9000, 1", "12000, 9000, 0.003", "1e5, 1, 1", "1.3e6, 3, 0.07"):
+            outcome = self.run_script(f"return cube({size})", "--stats=json")
+            x, y, z = (float(s) for s in size.split(", "))
+            self.assertEqual(outcome.err, "", size)
+            self.assertAlmostEqual(outcome.json()["parts"][0]["volume"] / (x * y * z), 1, delta=1e-12)
 
 
 class Good(Case):

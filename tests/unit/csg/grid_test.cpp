@@ -15,14 +15,34 @@ TEST(Grid, StepByReach) {
     int g;
   };
   // The least g with reach < 2^27 2^g nm: 2^27 nm are 134.217728 mm.
-  for (const Case& c : {Case{1, -6}, Case{2.09, -6}, Case{2.1, -3}, Case{16.7, -3}, Case{16.8, 0},
-                        Case{134.2, 0}, Case{134.3, 3}, Case{1073, 3}, Case{1074, 4}, Case{2147, 4},
-                        Case{2148, 5}, Case{4294, 5}, Case{4295, 6}, Case{8589, 6}, Case{8590, 9},
-                        Case{1e5, 12}, Case{0.2, -9}, Case{0.001, -15}}) {
+  for (const Case& c :
+       {Case{1, -6}, Case{2.09, -6}, Case{2.1, -3}, Case{16.7, -3}, Case{16.8, 0}, Case{134.2, 0},
+        Case{134.3, 3}, Case{1073, 3}, Case{1074, 4}, Case{2147, 4}, Case{2148, 5}, Case{4294, 5},
+        Case{4295, 6}, Case{8589, 6}, Case{0.2, -9}, Case{0.001, -15}, Case{2e30, 96}}) {
     const GridStep step = choose_step(c.reach, c.reach);
     EXPECT_EQ(step.millimetres(), std::ldexp(1e-6, c.g)) << c.reach;
   }
   EXPECT_EQ(choose_step(1, 1).millimetres(), 1.5625e-08);
+}
+
+TEST(Grid, StepsOfLargeModelsAreDecimal) {
+  struct Case {
+    double reach, step;
+  };
+  for (const Case& c :
+       {Case{8590, 1e-4}, Case{13421, 1e-4}, Case{13422, 1e-3}, Case{1e5, 1e-3}, Case{1.4e5, 1e-2},
+        Case{1e7, 0.1}, Case{1e8, 1}, Case{1e9, 10}, Case{1e28, 1e20}, Case{1e30, 1e22}}) {
+    EXPECT_EQ(choose_step(c.reach, c.reach).millimetres(), c.step) << c.reach;
+  }
+  // Each is coarser than the one before.
+  double last = 0;
+  for (double reach = 1e-60; reach < 1e60; reach *= 1.7) {
+    const double step = choose_step(reach, reach).millimetres();
+    EXPECT_GE(step, last) << reach;
+    EXPECT_LT(reach, step * 0x1p27);
+    EXPECT_GT(reach, step * 0x1p27 / 20) << reach;
+    last = step;
+  }
 }
 
 TEST(Grid, FarLeavesDoNotCoarsenTheStepUntilFortyBits) {
