@@ -99,7 +99,9 @@ int projection(lua_State* L) {
 
 int project(lua_State* L) {
   SolidValue& solid = final_solid_argument(L, kProject);
-  if (lua_type(L, 2) == LUA_TNUMBER || lua_type(L, 2) == LUA_TBOOLEAN)
+  // One number is no direction, three of them are.
+  if ((lua_type(L, 2) == LUA_TNUMBER && lua_type(L, 3) != LUA_TNUMBER) ||
+      lua_type(L, 2) == LUA_TBOOLEAN)
     fail_in(kProject,
             "wants a direction {x, y, z}, got " + describe_value(L, 2) + "; slice(z) cuts");
   const Arguments arguments(L, kProject, 2);

@@ -319,7 +319,14 @@ int vector_normal(lua_State* L) {
 
 int vector_rot(lua_State* L) {
   const glm::dvec3 v = read_vector(L, 1, "vector:rot");
-  const double angle = luaL_checknumber(L, 2), c = cos_deg(angle), s = sin_deg(angle);
+  if (lua_type(L, 2) != LUA_TNUMBER || !std::isfinite(lua_tonumber(L, 2))) {
+    throw ScriptError("vector:rot: wants an angle in degrees, got " + describe_value(L, 2));
+  }
+  if (!lua_isnoneornil(L, 3) && lua_type(L, 3) != LUA_TSTRING) {
+    throw ScriptError("vector:rot: the axis must be \"x\", \"y\" or \"z\", got " +
+                      describe_value(L, 3));
+  }
+  const double angle = lua_tonumber(L, 2), c = cos_deg(angle), s = sin_deg(angle);
   const std::string axis = luaL_optstring(L, 3, "z");
   if (axis == "x") {
     push_vector(L, {v.x, v.y * c - v.z * s, v.y * s + v.z * c});

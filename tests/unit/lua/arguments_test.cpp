@@ -438,7 +438,8 @@ TEST(Arguments, NilAndNumbersAreNamed) {
               "model.lua:1: " + std::string(call.message));
   expect_good(
       "assert(cube(2):linear_array(4, 10, 0, 0) == cube(2):linear_array(4, {10, 0, 0})) "
-      "assert(cube(2):linear_array(4, 10, 5) == cube(2):linear_array(4, {10, 5, 0}))");
+      "assert(cube(2):linear_array(4, 10, 5) == cube(2):linear_array(4, {10, 5, 0})) "
+      "assert(cube(2):project(1, 1, 1):area() == cube(2):project({1, 1, 1}):area())");
 }
 
 TEST(Hints, OpenScadInALineThatIsNoLua) {

@@ -130,6 +130,9 @@ TEST(Vectors, Mistakes) {
       {"return vec(1, 2) / 0", "'/': a vector is divided by a number other than 0, got 0"},
       {"return vec(1, 2):leng()", "a vector has no 'leng' (did you mean 'len'?)"},
       {"vec(1, 2).w = 3", "a vector has three numbers, and nothing else can be set in it"},
+      {"vec(1, 2):rot()", "vector:rot: wants an angle in degrees, got nothing"},
+      {"vec(1, 2):rot(90, {0, 0, 1})",
+       "vector:rot: the axis must be \"x\", \"y\" or \"z\", got a list of 3 values"},
       {"vec(1, 2):rot(5, 'w')", "vector:rot: the axis must be \"x\", \"y\" or \"z\", got \"w\""},
   };
   for (const auto& [script, message] : cases)
