@@ -17,9 +17,9 @@
 #include <csgrun/primitives/solids.h>
 
 #include "primitives/base/text.h"
-#include "primitives/solids/box_gap.h"
 #include "primitives/solids/box_leaf.h"
 #include "primitives/solids/box_search.h"
+#include "primitives/solids/part_components.h"
 
 namespace csgrun {
 namespace {
@@ -71,65 +71,6 @@ BoxSearch search_of(const std::vector<Surface>& surfaces) {
   for (const Surface& surface : surfaces) boxes.push_back({surface.low, surface.high});
   return BoxSearch(std::move(boxes));
 }
-
-/// The least gap between a box and triangles, see box_gap.
-double least_gap(const BoxSearch::Box& box, const Solid& solid,
-                 const std::vector<uint32_t>& triangles) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const uint32_t t : triangles) {
-    const auto& [a, b, c] = solid.triangles[t];
-    const std::array corners{solid.positions[a], solid.positions[b], solid.positions[c]};
-    least = std::min(least, box_gap(box, corners));
-  }
-  return least;
-}
-
-/// A box with what is that near to it.
-BoxSearch::Box widened(const BoxSearch::Box& box, double by) {
-  return {box[0] - glm::dvec3(by), box[1] + glm::dvec3(by)};
-}
-
-/// What parts a component from all others: it is in `around` and in none of `without`, and they
-/// are not there.
-struct Parting {
-  BoxSearch::Box around;
-  std::vector<BoxSearch::Box> without;
-};
-
-/// Components by boxes around them. Of two whose boxes meet, one may be clear of the other's box.
-class Parter {
- public:
-  /// `triangles`: of each component, with those of its voids.
-  Parter(const Solid& solid, const std::vector<Surface>& outer, const BoxSearch& search,
-         const std::vector<std::vector<uint32_t>>& triangles)
-      : solid_(solid), triangles_(triangles), search_(search) {
-    for (const Surface& surface : outer) boxes_.push_back({surface.low, surface.high});
-  }
-
-  /// Nothing if no boxes do with gaps wider than `noise` on either side.
-  [[nodiscard]] std::optional<Parting> part(uint32_t component, double noise) const {
-    Parting result;
-    double margin = search_.least_gap(component, 2 * noise);
-    for (const uint32_t other : search_.near(component, 2 * noise)) {
-      const double beside_it = least_gap(boxes_[other], solid_, triangles_[component]);
-      if (beside_it > 2 * noise) {
-        margin = std::min(margin, beside_it);  // any would do, but for none
-        result.without.push_back(widened(boxes_[other], beside_it / 2));
-        continue;
-      }
-      margin = std::min(margin, least_gap(boxes_[component], solid_, triangles_[other]));
-      if (!(margin > 2 * noise)) return std::nullopt;
-    }
-    result.around = widened(boxes_[component], margin / 2);
-    return result;
-  }
-
- private:
-  const Solid& solid_;
-  const std::vector<std::vector<uint32_t>>& triangles_;
-  const BoxSearch& search_;
-  std::vector<BoxSearch::Box> boxes_;
-};
 
 size_t count_off_grid(const Solid& solid, const std::vector<uint32_t>& triangles) {
   std::vector<uint32_t> vertices;
@@ -209,7 +150,7 @@ Result<Components> decompose_solid(Evaluator& evaluator, const NodePtr& solid,
     triangles[innermost].insert(triangles[innermost].end(), hole.triangles.begin(),
                                 hole.triangles.end());
   }
-  const Parter parter(whole, outer, search, triangles);
+  const Parter parter(whole, triangles, search);
   TreeInBoxes leaves(solid);
   Components result;
   for (uint32_t i = 0; i < outer.size(); ++i) {
@@ -229,11 +170,14 @@ Result<Components> decompose_solid(Evaluator& evaluator, const NodePtr& solid,
     // The box holds all of some leaves, and the whole need not be looked at for each piece.
     const glm::dvec3 slack(noise + 4 * evaluator.stats().grid_mm);
     const NodePtr near = leaves.within(low - slack, high + slack);
-    std::vector<NodePtr> operands{
+    std::vector<NodePtr> inside{
         near ? Node::intersection_as(
                    {solid, box}, Node::boolean(BooleanOp::kIntersection, {near, box}, where), where)
              : Node::boolean(BooleanOp::kIntersection, {solid, box}, where)};
-    for (const auto& [from, to] : parting->without) operands.push_back(box_leaf(from, to, where));
+    for (const TurnedBox& more : parting->within) inside.push_back(more.node(where));
+    std::vector<NodePtr> operands{
+        inside.size() == 1 ? inside[0] : Node::boolean(BooleanOp::kIntersection, inside, where)};
+    for (const TurnedBox& less : parting->without) operands.push_back(less.node(where));
     result.parts.push_back(operands.size() == 1
                                ? operands[0]
                                : Node::boolean(BooleanOp::kDifference, operands, where));

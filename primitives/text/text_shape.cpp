@@ -387,7 +387,8 @@ Result<Block> lay_out(const TextOptions& o, const Font& font) {
   if (auto error = check(o)) return *error;
   constexpr size_t kLongest = 1 << 16;
   if (o.text.size() > kLongest) {
-    return invalid_argument("text: longer than " + std::to_string(kLongest) + " bytes");
+    static_assert(kLongest == 65536);
+    return invalid_argument("text: longer than 65536 bytes");
   }
   const int steps = std::max(o.facets.fragments(o.size) / 8 + 1, 2);
   constexpr int kMostSteps = 1 << 14;

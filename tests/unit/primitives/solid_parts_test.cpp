@@ -254,15 +254,16 @@ TEST(Decompose, ComponentsWithinTheBoxesOfOthersAreExact) {
 }
 
 TEST(Decompose, ComponentsThatNoBoxesPartAreOfTheirCorners) {
-  // Two bars across one another, a little apart.
-  const auto bar = [](size_t axis) {
-    Affine along;
-    along.m[axis][axis] = 10;
-    return Node::transformed(along, cube(1));
+  // Two links of a chain: squares of 10 with holes of 6, the second upright.
+  const auto block = [](double x, double y, double z) {
+    Affine sides;
+    sides.m[0][0] = x, sides.m[1][1] = y, sides.m[2][2] = z;
+    return Node::transformed(sides, cube(1));
   };
-  const NodePtr first = turned(bar(0)), second = turned(moved(5, -5, 1.1, bar(1)));
+  const NodePtr first = less(block(10, 10, 2), moved(2, 2, -1, block(6, 6, 4)));
+  const NodePtr second = moved(5, 4, -4, less(block(10, 2, 10), moved(2, -1, 2, block(6, 4, 6))));
   const NodePtr whole =
-      less(Node::boolean(BooleanOp::kUnion, {first, second}), moved(0.2, 0.2, 0.2, cube(0.5)));
+      less(turned(Node::boolean(BooleanOp::kUnion, {first, second})), moved(-1, 0, 0, cube(1.5)));
   Evaluator evaluator{EvaluateOptions()};
   const auto pieces = decompose_solid(evaluator, whole, {});
   ASSERT_TRUE(pieces);
