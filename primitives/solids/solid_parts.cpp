@@ -157,12 +157,16 @@ Result<Components> decompose_solid(Evaluator& evaluator, const NodePtr& solid,
     // Several steps of any grid on which the solid stands.
     const double reach = glm::length(glm::max(glm::abs(outer[i].low), glm::abs(outer[i].high)));
     const double noise = 1e-6 * reach;
-    const std::optional<Parting> parting = parter.part(i, noise);
+    // Beside others that are near, corners on the grid say as much, and take less.
+    const size_t off_grid = count_off_grid(whole, triangles[i]);
+    const bool is_apart = search.near(i, 2 * noise).empty();
+    const auto parting =
+        is_apart || off_grid > 0 ? parter.part(i, noise) : std::optional<Parting>();
     if (!parting) {
       result.parts.push_back(Node::leaf(
           std::make_shared<const PolygonMesh>(mesh_of_solid(whole, triangles[i], "component")),
           where));
-      result.rounded_corners += count_off_grid(whole, triangles[i]);
+      result.rounded_corners += off_grid;
       continue;
     }
     const auto& [low, high] = parting->around;
