@@ -33,8 +33,8 @@ class Spokes {
   }
 
  private:
-  std::vector<uint32_t>
-      starts_;  ///< while spokes are added, the next one's place is one further on
+  /// By vertex; while spokes are added, where the next one goes is one further on.
+  std::vector<uint32_t> starts_;
   std::vector<Spoke> spokes_;
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -78,8 +79,9 @@ void name_sources(const Scene& scene, uint32_t root, Solid& solid) {
   std::vector<uint32_t> sorted = used;
   std::sort(sorted.begin(), sorted.end());
   const std::vector<uint32_t> leaves = scene.leaves(root, sorted);
+  assert(leaves.size() == sorted.size());
   solid.sources.resize(used.size());
-  for (size_t i = 0; i < sorted.size(); ++i) {
+  for (size_t i = 0; i < leaves.size(); ++i) {
     const Node& node = *scene.nodes[leaves[i]].leaf;
     const uint32_t id = number.find_or_add(sorted[i], 0).first;
     solid.sources[id] = {node.mesh()->kind, node.where().text()};
