@@ -9,6 +9,8 @@
 
 #include <csgrun/primitives/trig.h>
 
+#include "primitives/shape2d/shape_factory.h"
+#include "primitives/shape2d/straight_corners.h"
 #include "primitives/solids/mesh_builder.h"
 
 namespace csgrun {
@@ -151,6 +153,30 @@ std::vector<int> pieces_of(const std::vector<double>& lengths, const LinearExtru
   return total >= most ? pieces_by_count(lengths, most) : pieces;
 }
 
+/// The outlines without corners that rounding to the grid of drawings left beside straight edges:
+/// the pieces of an edge would begin there anew, and bent walls be others. Points at which outlines
+/// touch stay.
+std::vector<Shape2D::Loop> without_noise(const Shape2D& shape) {
+  constexpr double kSteps = 2;
+  const Result<Grid2D> grid = grid_for(extent_of(shape.loops()));
+  if (!grid) return shape.loops();
+  const double noise = kSteps / grid->steps_per_mm();
+  const auto before = [](const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x != b.x ? a.x < b.x : a.y < b.y;
+  };
+  std::vector<glm::dvec2> all;
+  for (const Shape2D::Loop& loop : shape.loops()) all.insert(all.end(), loop.begin(), loop.end());
+  std::sort(all.begin(), all.end(), before);
+  std::vector<Shape2D::Loop> lean;
+  for (const Shape2D::Loop& loop : shape.loops()) {
+    lean.push_back(without_straight_corners(loop, [&](const glm::dvec2& corner) {
+      const auto [first, last] = std::equal_range(all.begin(), all.end(), corner, before);
+      return last - first > 1 ? -1 : noise;
+    }));
+  }
+  return lean;
+}
+
 }  // namespace
 
 Slice::Slice(const LinearExtrudeOptions& options, int i, int n) : turned_(options.twist != 0) {
@@ -194,7 +220,7 @@ std::vector<Shape2D::Loop> split_outlines(const Shape2D& shape, const LinearExtr
   const bool split = options.segments ? *options.segments > 0 : bends;
   if (!split) return shape.loops();
   std::vector<Shape2D::Loop> result;
-  for (const Shape2D::Loop& loop : shape.loops()) {
+  for (const Shape2D::Loop& loop : without_noise(shape)) {
     const size_t n = loop.size();
     const std::vector<int> pieces = pieces_of(longest_lengths(options, loop, slices), options);
     Shape2D::Loop& fine = result.emplace_back();

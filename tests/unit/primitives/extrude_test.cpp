@@ -392,5 +392,49 @@ TEST(RotateExtrude, BadInputIsAnError) {
   EXPECT_EQ(message(Shape2D(), {}), "rotate_extrude: the shape is empty");
 }
 
+// (a - b) + (a & b) has corners beside the edges of a, where these cross those of b: none of a's.
+TEST(LinearExtrude, NoiseOfBooleansBendsNoWalls) {
+  const Shape2D a = *Shape2D::from_outlines({{{1, 0}, {10, 3}, {2, 7}}});
+  LinearExtrudeOptions twisted = height(5), uneven = height(5);
+  twisted.twist = 90;
+  twisted.slices = 4;
+  uneven.scale = {2, 0.5};
+  size_t noisy = 0;
+  for (int i = 0; i < 40; ++i) {
+    Affine place;
+    const double c = std::cos(0.1 * i), n = std::sin(0.1 * i);
+    place.m[0] = {c, -n, 0, 2 + 0.13 * i};
+    place.m[1] = {n, c, 0, 1};
+    const Shape2D b = *make_square({5, 3})->transformed(place);
+    const Shape2D parts[] = {*Shape2D::boolean(BooleanOp::kDifference, {a, b}),
+                             *Shape2D::boolean(BooleanOp::kIntersection, {a, b})};
+    const Shape2D both = *Shape2D::boolean(BooleanOp::kUnion, {parts[0], parts[1]});
+    noisy += both.loops()[0].size() > 3;
+    for (const LinearExtrudeOptions& options : {twisted, uneven}) {
+      const PolygonMesh mesh = extruded(both, options), truth = extruded(a, options);
+      EXPECT_EQ(mesh.face_count(), truth.face_count()) << i;
+      EXPECT_NEAR(volume(mesh), volume(truth), 1e-5) << i;
+    }
+  }
+  EXPECT_GT(noisy, 5u);
+}
+
+// A corner in which a hole touches an edge stays, also where it is straight.
+TEST(LinearExtrude, StraightCornersInWhichOutlinesTouchStay) {
+  const Shape2D plate = *make_square({10, 10});
+  const Shape2D hole = *Shape2D::from_outlines({{{5, 0}, {7, 3}, {3, 3}}});
+  const Shape2D shape = *Shape2D::boolean(BooleanOp::kDifference, {plate, hole});
+  LinearExtrudeOptions options = height(2);
+  options.twist = 30;
+  options.slices = 3;
+  const auto mesh = linear_extrude(shape, options);
+  ASSERT_TRUE(mesh);
+  std::set<std::pair<double, double>> bottom;
+  for (const glm::dvec3& p : mesh->points) {
+    if (p.z == 0) bottom.emplace(p.x, p.y);
+  }
+  EXPECT_TRUE(bottom.count({5, 0}));
+}
+
 }  // namespace
 }  // namespace csgrun::extrude_test
