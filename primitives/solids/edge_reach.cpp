@@ -15,7 +15,8 @@ namespace {
 /// The usual reach is about this part of the setback.
 constexpr double kReach = 1e-3;
 /// And it is this many mm times a power of two, 200 nm = 25 * 2^3 nm: so it is on every grid that
-/// the model's decimals are on, also where the scene is large and steps are 2^3 nm and more.
+/// the model's decimals are on, also where the scene is large and steps are 2^3 nm and more, up to
+/// 10^-4 mm. (On coarser ones it is rounded, which moves no edge of the cut.)
 constexpr double kReachUnit = 2e-4;
 /// Grid steps by which corners of bodies may be off, with those of the solid, and more.
 constexpr double kLeastSteps = 8;

@@ -159,6 +159,11 @@ class FarAway(Case):
             x, y, z = (float(s) for s in size.split(", "))
             self.assertEqual(outcome.err, "", size)
             self.assertAlmostEqual(outcome.json()["parts"][0]["volume"] / (x * y * z), 1, delta=1e-12)
+        # All edges of the top, and what two of them have in common at each corner.
+        for size in (10000, 20000, 200000):
+            outcome = self.run_script(f"return cube({size}, {size}/2, 30):chamfer(4, {{edges = 'top'}})", "--stats=json")
+            volume = size * size / 2 * 30 - 8 * 3 * size + 4 * 4**3 / 3
+            self.assertAlmostEqual(outcome.json()["parts"][0]["volume"] / volume, 1, delta=1e-13)
 
 
 class Good(Case):

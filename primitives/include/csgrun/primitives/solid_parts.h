@@ -48,7 +48,8 @@ struct Components {
 
 /// The connected solids of which one consists, in the order of their smallest corners; voids belong
 /// to what is around them. Solids that touch in edges or corners are apart. A component is cut out
-/// exactly by boxes, if its box meets no other's, or one of the two is clear of the other's box;
+/// by boxes, exactly, if its box meets no other's, or if it has corners off the grid and one of any
+/// two whose boxes meet is clear of a box around the other, along the world's axes or along faces;
 /// others are made of their corners, which are rounded to the grid where they are not on it.
 /// Errors: those of the evaluation.
 Result<Components> decompose_solid(Evaluator& evaluator, const NodePtr& solid,
