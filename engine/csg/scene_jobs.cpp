@@ -124,7 +124,6 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
   };
   std::vector<Visit> stack;
   std::unordered_set<Key, KeyHash> opened;
-  std::unordered_map<Identity, uint32_t, IdentityHash> first_user;
   // What waits on the stack may be wanted again above it, and then comes first.
   const auto want = [&](const Key& key) {
     ++uses_[key];
@@ -150,12 +149,17 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
       const size_t prefix = shared_prefix(list);
       const size_t tail = known_tail(node, list).first;
       for (size_t i = tail > 0 ? tail : list.operands.size(); i-- > prefix;) {
-        const Identity& operand = scene_.nodes[list.operands[i]].subtree.id;
-        const auto [user, is_first] = first_user.try_emplace(operand, node);
-        if (!is_first && user->second != node) {
-          note_overlap(user->second, node, is_operator(list.operands[i]));
+        const uint32_t operand = list.operands[i];
+        note_user(operand, node);
+        if (!is_operator(operand)) continue;
+        const Identity& value = scene_.nodes[operand].subtree.id;
+        want(value.key);
+        if (is_known(value.key)) {
+          note_cut_from(operand, value, i == 0 && cuts_its_first(node) ? node : operand);
         }
-        if (is_operator(list.operands[i])) want(operand.key);
+      }
+      if (prefix > 0 && is_known(list.values[prefix - 1]->id.key)) {
+        note_cut_from(node, list.values[prefix - 1]->id, node);
       }
       if (prefix > 0) {
         const Key& key = list.values[prefix - 1]->id.key;
@@ -166,7 +170,29 @@ std::vector<uint32_t> SceneJobs::count_uses(const std::vector<uint32_t>& roots) 
   return order;
 }
 
-/// Notes that two operators have an operand in common, in one place. Boxes do not mind that.
+/// Notes that a solid is an operand of an operator.
+void SceneJobs::note_user(uint32_t operand, uint32_t user) {
+  const Identity& id = scene_.nodes[operand].subtree.id;
+  const auto [first, is_first] = first_users_.try_emplace(id, User{user, id});
+  if (!is_first && first->second.user != user) {
+    note_overlap(first->second.user, user, is_operator(operand));
+  }
+}
+
+/// Notes what a known value in an operator, or that operator, was cut from. Nobody opens what is
+/// known, but the surface of that is there, as it is in other values that were cut from it.
+void SceneJobs::note_cut_from(uint32_t node, const Identity& value, uint32_t user) {
+  while (cuts_its_first(node)) {
+    node = scene_.nodes[node].first;
+    const Identity& id = scene_.nodes[node].subtree.id;
+    if (id == value) continue;
+    const auto [first, is_first] = first_users_.try_emplace(id, User{user, value});
+    if (is_first || first->second.user == user || first->second.value == value) continue;
+    note_overlap(first->second.user, user, is_operator(node));
+  }
+}
+
+/// Notes that two operators have surface of one solid, in one place. Boxes do not mind that.
 void SceneJobs::note_overlap(uint32_t a, uint32_t b, bool in_operator) {
   for (const uint32_t node : {a, b}) {
     if (in_operator || !scene_.nodes[node].subtree.is_of_boxes) overlapping_.insert(node);

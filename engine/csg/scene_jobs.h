@@ -76,11 +76,19 @@ class SceneJobs {
   [[nodiscard]] bool is_hull(uint32_t node) const {
     return scene_.nodes[node].kind == SceneNode::Kind::kHull;
   }
+  /// Whether it is an operator whose value has surface of its first operand, and lies within it.
+  [[nodiscard]] bool cuts_its_first(uint32_t node) const {
+    const SceneNode& n = scene_.nodes[node];
+    return n.kind == SceneNode::Kind::kOperator &&
+           (n.op == BooleanOp::kIntersection || n.op == BooleanOp::kDifference);
+  }
   [[nodiscard]] static bool may_keep(const Subtree& subtree);
   [[nodiscard]] bool is_known(const Key& key);
   [[nodiscard]] bool may_use_known(const Subtree& subtree);
   void find_operators(const std::vector<uint32_t>& roots);
   std::vector<uint32_t> count_uses(const std::vector<uint32_t>& roots);
+  void note_user(uint32_t operand, uint32_t user);
+  void note_cut_from(uint32_t node, const Identity& value, uint32_t user);
   void note_overlap(uint32_t a, uint32_t b, bool in_operator);
   [[nodiscard]] size_t shared_prefix(const OperandList& list);
   [[nodiscard]] KnownTails::Tail known_tail(uint32_t node, const OperandList& list);
@@ -124,7 +132,12 @@ class SceneJobs {
   /// Operators that stand in some operand list, by key: nodes of one key are interchangeable.
   std::unordered_map<Key, uint32_t, KeyHash> operators_;
   std::unordered_map<Key, uint32_t, KeyHash> uses_;
-  std::unordered_set<uint32_t> overlapping_;        // operators that have an operand in common
+  struct User {
+    uint32_t user;   // an operator
+    Identity value;  // what of it has the solid's surface
+  };
+  std::unordered_map<Identity, User, IdentityHash> first_users_;  // of each solid
+  std::unordered_set<uint32_t> overlapping_;        // operators that have surface of one solid
   std::unordered_map<Key, Kept, KeyHash> results_;  // of this run: they outlive the cache's bound
   uint64_t jobs_done_ = 0, jobs_total_ = 0;
 };

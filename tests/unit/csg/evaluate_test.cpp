@@ -169,6 +169,46 @@ TEST(Evaluate, PartsOfOneSolidAreEvaluatedOneByOne) {
   }
 }
 
+// Slices of what somebody looked at before each cut: that is known, and a surface of its own, which
+// coincides with those of all others, as they were cut from one solid.
+TEST(Evaluate, SlicesOfKnownRestsAreEvaluatedOneByOne) {
+  for (const bool by_difference : {false, true}) {
+    NodePtr rest = subtract({prism(48, 10, 12), prism(24, 4, 12)});
+    EvaluateOptions options;
+    options.threads = 1;
+    Evaluator evaluator(options);
+    std::vector<NodePtr> slices;
+    for (int i = 1; i < 12; ++i) {
+      ASSERT_TRUE(evaluator.extent(rest));
+      const NodePtr below = box({-11, -11, -1}, {11, 11, 1.0 * i});
+      slices.push_back(Node::boolean(BooleanOp::kIntersection, {rest, below}));
+      rest = by_difference ? subtract({rest, below})
+                           : Node::boolean(BooleanOp::kIntersection,
+                                           {rest, box({-11, -11, 1.0 * i}, {11, 11, 13})});
+    }
+    slices.push_back(rest);
+    const auto signs = [&] {
+      const EvaluateStats& stats = evaluator.stats();
+      uint64_t all = stats.sign_filter + stats.sign_symbolic;
+      for (const uint64_t n : stats.sign_exact) all += n;
+      return all;
+    };
+    const uint64_t before = signs();
+    const auto whole = evaluator.evaluate(unite(slices));
+    ASSERT_TRUE(whole) << whole.error().message;
+    EXPECT_LT(signs() - before, 500000u) << "2,700,000 in one job";
+    const auto solid = solid_of(subtract({prism(48, 10, 12), prism(24, 4, 12)}));
+    EXPECT_EQ((*whole)->measures.volume, solid->measures.volume);
+    EXPECT_EQ((*whole)->measures.area, solid->measures.area);
+    EXPECT_EQ((*whole)->triangles.size(), solid->triangles.size());
+    Evaluator fresh(options);
+    const auto unknown = fresh.evaluate(unite(slices));
+    ASSERT_TRUE(unknown) << unknown.error().message;
+    EXPECT_EQ((*whole)->canonical_hash, (*unknown)->canonical_hash);
+    EXPECT_EQ((*whole)->triangles, (*unknown)->triangles);
+  }
+}
+
 TEST(Evaluate, AGrowingChainReusesItsPrefix) {
   EvaluateOptions options;
   options.threads = 1;
