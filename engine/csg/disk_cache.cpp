@@ -102,6 +102,18 @@ std::optional<Key> key_in(std::string_view name) {
   return key;
 }
 
+/// Whether an entry's file was to be of this name, by some process.
+bool is_unfinished(std::string_view name) {
+  constexpr size_t kEntry = kKeyDigits + kEnding.size();
+  if (name.size() < kEntry || !key_in(name.substr(0, kEntry))) return false;
+  name.remove_prefix(kEntry);
+  if (!name.starts_with('.') || !name.ends_with(kUnfinished)) return false;
+  name.remove_prefix(1);
+  if (name.size() <= kUnfinished.size()) return false;
+  name.remove_suffix(kUnfinished.size());
+  return name.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 struct Found {
   std::string path;
   std::optional<Key> key;
@@ -124,7 +136,7 @@ std::vector<Found> files_in(const std::string& folder) {
   std::vector<Found> files;
   each_name(folder, [&](std::string_view name) {
     const std::optional<Key> key = key_in(name);
-    if (!key && !name.ends_with(kUnfinished)) return;
+    if (!key && !is_unfinished(name)) return;
     std::string path = folder + "/" + std::string(name);
     struct stat facts {};
     if (::lstat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode)) return;

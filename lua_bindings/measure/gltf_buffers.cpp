@@ -95,6 +95,14 @@ GltfBuffers::GltfBuffers(const JsonPlace& root, std::string_view binary,
       }
       bytes_.back() = known->second;
     }
+    // A GLB's chunk is padded. Without any data it is told where somebody asks for them.
+    std::string_view& bytes = bytes_.back();
+    const size_t length = buffer.whole("byteLength", bytes.size());
+    if (!bytes.empty() && length > bytes.size()) {
+      throw Malformed{buffer.name() + " has " + std::to_string(bytes.size()) +
+                      " bytes, and byteLength says " + std::to_string(length)};
+    }
+    bytes = bytes.substr(0, length);
   }
 }
 

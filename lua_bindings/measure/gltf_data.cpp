@@ -58,18 +58,23 @@ GltfData::Elements GltfData::elements(const JsonPlace& owner, size_t count, size
   }
   const size_t buffer = view.at("buffer").whole();
   if (buffer >= buffers_.size()) throw Malformed{view.name() + " has a buffer that is not there"};
-  const std::string_view bytes = buffers_[buffer];
+  std::string_view bytes = buffers_[buffer];
   if (bytes.empty() && count > 0)
     throw Malformed{"buffers[" + std::to_string(buffer) +
                     "] has no data in the file, nor an address"};
   const size_t stride = view.whole("byteStride", size);
   const size_t offset = view.whole("byteOffset", 0), more = owner.whole("byteOffset", 0);
-  if (stride < size || offset > bytes.size() || more > bytes.size() - offset ||
-      (count > 0 && (size > bytes.size() - offset - more ||
-                     (count - 1) > (bytes.size() - offset - more - size) / stride))) {
-    throw Malformed{owner.name() + " reaches beyond the end of the data"};
+  const size_t length = view.at("byteLength").whole();
+  if (offset > bytes.size() || length > bytes.size() - offset)
+    throw Malformed{view.name() + " reaches beyond the end of the data"};
+  // What is beyond a view belongs to others.
+  bytes = bytes.substr(offset, length);
+  if (stride < size || more > bytes.size() ||
+      (count > 0 &&
+       (size > bytes.size() - more || (count - 1) > (bytes.size() - more - size) / stride))) {
+    throw Malformed{owner.name() + " reaches beyond the end of its view"};
   }
-  return {bytes.data() + offset + more, count, stride};
+  return {bytes.data() + more, count, stride};
 }
 
 size_t GltfData::size() const {

@@ -9,9 +9,10 @@
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
+
+#include <csgrun/primitives/model_file.h>
 
 #include "lua_bindings/measure/gltf_buffers.h"
 #include "lua_bindings/measure/gltf_data.h"
@@ -234,12 +235,14 @@ class Reader {
       look.red = srgb_from_linear(color[0]);
       look.green = srgb_from_linear(color[1]);
       look.blue = srgb_from_linear(color[2]);
-      look.alpha = static_cast<float>(std::clamp(color[3], 0.0, 1.0));
+      // What is opaque has an alpha that says nothing (Khronos glTF 2.0, section 3.9.4).
+      const bool is_opaque = materials.at(m).text("alphaMode", "OPAQUE") == "OPAQUE";
+      look.alpha = is_opaque ? 1.0F : static_cast<float>(std::clamp(color[3], 0.0, 1.0));
       look.metallic = static_cast<float>(std::clamp(metallic[0], 0.0, 1.0));
       look.roughness = static_cast<float>(std::clamp(roughness[0], 0.0, 1.0));
       const std::string name = materials.at(m).text("name", "");
-      if (name == "default") look = Appearance{};
-      if (name != "default" && !name.starts_with('#')) look.name = name;
+      if (!name.starts_with('#')) look.name = name;
+      if (is_named_default(look)) look = Appearance{};
       materials_.push_back(std::move(look));
     }
   }
@@ -344,11 +347,26 @@ class Reader {
     if (node.has("matrix"))
       return glm::make_mat4(node.numbers("matrix", std::vector<double>(16, 0)).data());
     const std::vector<double> t = node.numbers("translation", {0, 0, 0});
-    const std::vector<double> r = node.numbers("rotation", {0, 0, 0, 1});
     const std::vector<double> s = node.numbers("scale", {1, 1, 1});
     const glm::dmat4 moved = glm::translate(glm::dmat4(1), {t[0], t[1], t[2]});
-    return glm::scale(moved * glm::mat4_cast(glm::dquat(r[3], r[0], r[1], r[2])),
-                      {s[0], s[1], s[2]});
+    return glm::scale(moved * rotation_of(node), {s[0], s[1], s[2]});
+  }
+
+  /// Files have unit quaternions in single precision. Divided by their length nothing is scaled or
+  /// sheared, and what two nodes have flush stays so: [0, 0, q, q] is a right angle for any q.
+  static glm::dmat4 rotation_of(const JsonPlace& node) {
+    const std::vector<double> r = node.numbers("rotation", {0, 0, 0, 1});
+    const double x = r[0], y = r[1], z = r[2], w = r[3], square = x * x + y * y + z * z + w * w;
+    if (!std::isnormal(square))
+      throw Malformed{node.name() + ": its rotation is no unit quaternion"};
+    const auto part = [square](double of_square) { return of_square / square; };
+    return {glm::dvec4(part(x * x + w * w - y * y - z * z), part(2 * (x * y + w * z)),
+                       part(2 * (x * z - w * y)), 0),
+            glm::dvec4(part(2 * (x * y - w * z)), part(y * y + w * w - x * x - z * z),
+                       part(2 * (y * z + w * x)), 0),
+            glm::dvec4(part(2 * (x * z + w * y)), part(2 * (y * z - w * x)),
+                       part(z * z + w * w - x * x - y * y), 0),
+            glm::dvec4(0, 0, 0, 1)};
   }
 
   static void put(TriangleMesh& mesh, const glm::dmat4& map) {

@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include <csgrun/primitives/model_file.h>
+
 #include "primitives/files/text_scanner.h"
 
 namespace csgrun {
@@ -31,6 +33,14 @@ Appearance appearance_of(const Rgba& colour) {
   look.alpha = colour[3];
   look.is_default = false;
   return look;
+}
+
+bool is_named_default(const Appearance& look) {
+  const auto bytes = [](const Appearance& x) {
+    const auto byte = [](float c) { return std::lround(kFine * c); };
+    return std::tuple(byte(x.red), byte(x.green), byte(x.blue), byte(x.alpha));
+  };
+  return look.name == "default" && bytes(look) == bytes(Appearance());
 }
 
 bool LookOrder::operator()(const Appearance& a, const Appearance& b) const {

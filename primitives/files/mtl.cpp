@@ -55,7 +55,7 @@ Status apply_materials(PolygonMesh& mesh, const std::string& name, std::string_v
   } while (scanner.next_line());
   for (Appearance& each : mesh.appearances) {
     // Names that only say the colour, as our own files have them, say nothing.
-    if (each.name == "default") each = Appearance{};
+    if (is_named_default(each)) each = Appearance{};
     if (each.name.starts_with('#')) each.name.clear();
   }
   return std::monostate{};

@@ -28,12 +28,15 @@ class TextScanner {
 
   /// The next word of this line; empty at the end of the line.
   std::string_view word() {
-    return word_until([this](char c) { return c == comment_ && comment_ != '\0'; });
+    return word_until([this](char c) { return c == comment_ && comment_ != '\0'; }, comment_);
   }
 
-  /// The same, of a name: within it nothing is a comment, as in "part#3".
+  /// The same, of a name: nothing is a comment within it, as in "part#3", nor where a word goes on,
+  /// as in "#3".
   std::string_view word_of_name() {
-    return word_until([](char) { return false; });
+    while (at_ != end_ && is_blank(*at_)) ++at_;
+    const bool is_name = end_ - at_ > 1 && !is_blank(at_[1]) && at_[1] != line_end_;
+    return word_until([](char) { return false; }, is_name ? '\0' : comment_);
   }
 
   /// What is left of this line without blanks around it. Nothing in it is a comment: "#ff0000" is a
@@ -79,10 +82,10 @@ class TextScanner {
 
  private:
   template <class Ends>
-  std::string_view word_until(Ends ends) {
+  std::string_view word_until(Ends ends, char comment) {
     while (at_ != end_ && is_blank(*at_)) ++at_;
     const char* begin = at_;
-    if (at_ != end_ && *at_ == comment_ && comment_ != '\0') {
+    if (at_ != end_ && *at_ == comment && comment != '\0') {
       while (at_ != end_ && *at_ != line_end_) ++at_;
       return {};
     }

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include <csgrun/primitives/model_file.h>
+
 #include "primitives/files/formats.h"
 #include "primitives/files/text_scanner.h"
 #include "primitives/files/threemf_xml.h"
@@ -112,8 +114,8 @@ void ModelDocument::read_looks(const pugi::xml_node& group) {
     Appearance look = colour_of(find_attribute(node, is_base ? "displaycolor" : "color").value());
     const std::string name = is_base ? find_attribute(node, "name").value() : "";
     // A name that only repeats the colour says nothing.
-    if (name == "default") look = Appearance{};
-    if (name != "default" && !name.starts_with('#')) look.name = name;
+    if (!name.starts_with('#')) look.name = name;
+    if (is_named_default(look)) look = Appearance{};
     if (metals != nullptr && looks.size() < metals->size()) {
       look.metallic = (*metals)[looks.size()][0];
       look.roughness = (*metals)[looks.size()][1];

@@ -178,7 +178,17 @@ class Foreign(Case):
         self.expect(self.run_script("return import('a.gltf')", "--stats"), 0)
         self.expect(self.run_csgrun("info", "a.gltf"), 0)
         self.write("of it/points.bin", self.FLOATS[:-1])
-        self.refuse("a.gltf", json.dumps(document), "accessors[0] reaches beyond the end of the data")
+        self.refuse("a.gltf", json.dumps(document), "buffers[0] has 47 bytes, and byteLength says 48")
+        self.write("of it/points.bin", self.FLOATS + b"more")
+        self.assertEqual(self.parts_of("a.gltf", json.dumps(document)), self.THOUSAND)
+        # What is beyond a view, or beyond what a buffer says that it has, belongs to others.
+        for change, said in (({"bufferViews": [{"buffer": 0, "byteLength": 47}, {"buffer": 1, "byteLength": 12}]},
+                              "accessors[0] reaches beyond the end of its view"),
+                             ({"bufferViews": [{"buffer": 0, "byteLength": 49}, {"buffer": 1, "byteLength": 12}]},
+                              "bufferViews[0] reaches beyond the end of the data"),
+                             ({"buffers": [{**document["buffers"][0], "byteLength": 40}, document["buffers"][1]]},
+                              "bufferViews[0] reaches beyond the end of the data")):
+            self.refuse("a.gltf", json.dumps({**document, **change}), said)
 
     def glb(self, primitives, accessors, data, **more):
         text = json.dumps(gltf(primitives, accessors, data, **more)).encode()
@@ -217,6 +227,56 @@ class Foreign(Case):
             "a.glb: skins are passed over, their meshes are not bent (1 node)",
             "a.glb: weights of morph targets are passed over (1 node)"])
         self.assertEqual(self.parts_of("a.glb", self.simple_glb(nodes=[{"mesh": 0, "weights": [0, 0]}])), self.THOUSAND)
+
+    def test_rotations_of_gltf_are_rounded(self):
+        # Quaternions of single precision have not quite length 1, and a right angle is one for all that.
+        for q in (0.7071067690849304, 0.7071068286895752, 0.7071067811865476, 1.414):
+            nodes = [{"mesh": 0, "rotation": [0, 0, 0, 1]}, {"mesh": 0, "rotation": [0, 0, q, q], "translation": [0, 1, 0]}]
+            parts = self.parts_of("a.glb", self.simple_glb(nodes=nodes))
+            # (x, y, z) goes to (-y, x + 1, z), in millimetres and Z up to (-y, -z, x + 1).
+            self.assertEqual([p[2] for p in parts], [self.THOUSAND[0][2], [[-1000, -1000, 1000], [0, 0, 2000]]], q)
+        self.refuse("a.glb", self.simple_glb(nodes=[{"mesh": 0, "rotation": [0, 0, 0, 0]}]),
+                    "nodes[0]: its rotation is no unit quaternion")
+
+    def looks_of(self, name, data):
+        """Name and colour in bytes of the file's faces; none of what has no colour."""
+        if data is not None:
+            self.write(name, data)
+        self.expect(self.run_csgrun(name, "-o", "looks.exact.json"), 0)
+        with open(self.path("looks.exact.json")) as file:
+            (part,) = json.load(file)["parts"]
+        return [(a["name"], [round(255 * c) for c in a["color"]]) for a in part["appearances"] if not a["default"]]
+
+    def test_materials_named_default(self):
+        # So our own files name what has no colour; other programs give such a material any.
+        def glb(factor, **more):
+            look = {"name": "default", "pbrMetallicRoughness": {"baseColorFactor": factor}, **more}
+            return self.glb([{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}], self.ACCESSORS,
+                            self.FLOATS + bytes(self.CORNERS), views=[(0, 48), (48, 12)], materials=[look])
+
+        def three(colour):
+            return zip64({"_rels/.rels": RELATIONS, "3D/m.model": model(
+                TETRAHEDRON.replace('<object id="1"', '<object id="1" pid="7" pindex="0"') +
+                f'<basematerials id="7"><base name="default" displaycolor="{colour}"/></basematerials>',
+                '<item objectid="1"/>')})
+
+        def obj(colour):
+            self.write("a.mtl", f"newmtl default\nKd {colour}\n")
+            return "mtllib a.mtl\nusemtl default\n" + self.OBJ
+
+        green = [("default", [0, 255, 0, 255])]
+        self.assertEqual(self.looks_of("a.glb", glb([0, 1, 0, 1])), green)
+        self.assertEqual(self.looks_of("a.3mf", three("#00FF00FF")), green)
+        self.assertEqual(self.looks_of("a.obj", obj("0 1 0")), green)
+        self.assertEqual(self.looks_of("a.3mf", three("#F9D72CFF")), [])
+        self.assertEqual(self.looks_of("a.obj", obj("0.976 0.843 0.173")), [])
+        for kind in ("glb", "3mf", "obj"):
+            self.expect(self.run_script("return cube(1)", "-o", "own." + kind), 0)
+            self.assertEqual(self.looks_of("own." + kind, None), [], kind)
+        # What is opaque has no alpha.
+        for mode, alpha in ((None, 255), ("OPAQUE", 255), ("BLEND", 64), ("MASK", 64)):
+            more = {} if mode is None else {"alphaMode": mode}
+            self.assertEqual(self.looks_of("a.glb", glb([0, 1, 0, 0.25], **more)), [("default", [0, 255, 0, alpha])], mode)
 
     def test_names_of_parts(self):
         names = ["a", "..", "x/../y\\z", "a", "b\tc", "n" * 300]
@@ -378,6 +438,9 @@ class Foreign(Case):
         self.expect(self.run_csgrun("a.obj", "-o", "a.3mf"), 0)
         outcome = self.run_csgrun("a.3mf", "--stats=json")
         self.assertEqual([p["name"] for p in outcome.json()["parts"]], ["one", "two"])
+        # Names may begin with what else begins a comment.
+        names = [p[0] for p in self.parts_of("a.obj", obj("#1 left", (0, 0, 0), 1, 1) + obj("b # c", (5, 0, 0), 1, 5))]
+        self.assertEqual(names, ["#1 left", "b"])
         # Objects that are closed together only are surfaces of one; so is a void of the other.
         halves = self.OBJ.replace("f 1 4 3", "o rest\nf 1 4 3")
         self.good("a.obj", halves)

@@ -125,8 +125,15 @@ TEST_F(DiskCacheTest, TheLeastRecentlyUsedGoFirst) {
     fs::last_write_time(all[i], now - std::chrono::hours(20 - i));
   }
   write_bytes(folder() + "/notes.txt", std::string(2 * kLimit, 'n'));
-  write_bytes(folder() + "/0.1.unfinished", "left by a process that was ended");
-  fs::last_write_time(folder() + "/0.1.unfinished", now - std::chrono::hours(2));
+  const std::string entry = folder() + "/" + std::string(31, '0') + "a.mesh";
+  const std::string left = entry + ".123.unfinished";
+  write_bytes(left, "left by a process that was ended");
+  const std::vector<std::string> others{folder() + "/novel.unfinished", entry + ".unfinished",
+                                        entry + ".1x.unfinished", entry + ".backup.1.unfinished"};
+  for (const std::string& other : others) write_bytes(other, "somebody's");
+  for (const fs::path& each : files()) {
+    if (each.extension() == ".unfinished") fs::last_write_time(each, now - std::chrono::hours(2));
+  }
   DiskCache cache(folder(), kLimit);
   EXPECT_EQ(cache.read({7, 0}), value);
   cache.write({7, 9}, value);
@@ -137,8 +144,9 @@ TEST_F(DiskCacheTest, TheLeastRecentlyUsedGoFirst) {
   EXPECT_FALSE(is_there(2));
   EXPECT_TRUE(is_there(8));
   EXPECT_TRUE(is_there(10));
-  EXPECT_FALSE(fs::exists(folder() + "/0.1.unfinished"));
+  EXPECT_FALSE(fs::exists(left));
   EXPECT_TRUE(fs::exists(folder() + "/notes.txt")) << "it is not the cache's";
+  for (const std::string& other : others) EXPECT_TRUE(fs::exists(other)) << other;
   cache.write({7, 11}, std::string(kLimit, 'x'));
   EXPECT_FALSE(cache.contains({7, 11})) << "larger than it may be";
 }

@@ -53,4 +53,8 @@ bool is_amf_path(const std::string& path);
 Status apply_materials(PolygonMesh& mesh, const std::string& name, std::string_view mtl,
                        std::set<std::string, std::less<>>* known = nullptr);
 
+/// Whether it is what our own files call the look of faces that have none: "default", and in its
+/// colour, to the bytes that files have. Other programs' materials of that name have another.
+bool is_named_default(const Appearance& look);
+
 }  // namespace csgrun
