@@ -71,7 +71,8 @@ NodePtr laid_flat(const NodePtr& solid, const glm::dvec3& z, const SourceRef& wh
 }
 
 void push_shadow(lua_State* L, const FunctionSpec& spec, SolidValue& solid) {
-  push_shape(L, value_or_fail(spec, project_solid(session_of(L).evaluated(solid))),
+  const Solid& evaluated = session_of(L).evaluated(solid);
+  push_shape(L, value_or_fail(spec, project_solid(evaluated, solid.grid_mm)),
              one_appearance_of(solid.node));
 }
 
@@ -113,7 +114,9 @@ int project(lua_State* L) {
   } else {
     Session& session = session_of(L);
     const NodePtr laid = laid_flat(solid.node, plane.normal, session.source_ref(L));
-    push_shape(L, value_or_fail(kProject, project_solid(*session.evaluate(laid))),
+    const SolidPtr turned = session.evaluate(laid);
+    const double grid_mm = session.evaluator().stats().grid_mm;
+    push_shape(L, value_or_fail(kProject, project_solid(*turned, grid_mm)),
                one_appearance_of(solid.node));
   }
   keep_marks(L, 1);

@@ -427,7 +427,7 @@ class CsgBuilder {
   Result<Shape2D> shadow(const Item& item) {
     const auto solid = evaluator().evaluate(item.solid, Measuring::kNothing);
     if (!solid) return solid.error();
-    Result<Shape2D> shape = project_solid(**solid);
+    Result<Shape2D> shape = project_solid(**solid, evaluator().stats().grid_mm);
     if (!shape || item.sheet.empty()) return shape;
     const Result<Shape2D> more = shadow_of(item.sheet);
     if (!more) return more.error();

@@ -50,7 +50,8 @@ Result<Shape2D> drawn_shape(const std::vector<Shape2D::Loop>& outlines, FillRule
     }
   }
   if (kept.size() == shape->loops().size()) return shape;
-  return Shape2DFactory::canonical(std::move(kept), outer_of);
+  return Shape2DFactory::with_noise(Shape2DFactory::canonical(std::move(kept), outer_of),
+                                    Shape2DFactory::noise_of(*shape));
 }
 
 }  // namespace csgrun

@@ -128,7 +128,16 @@ Shape2D with_corners(const Shape2D& result, const Grid2D& grid,
       }
     }
   }
-  return Shape2DFactory::canonical(std::move(loops), Shape2DFactory::outer_of(result));
+  return Shape2DFactory::with_noise(
+      Shape2DFactory::canonical(std::move(loops), Shape2DFactory::outer_of(result)),
+      Shape2DFactory::noise_of(result));
+}
+
+/// That of the shapes: what they are made to has it as well.
+double noise_of(const std::vector<Shape2D>& shapes) {
+  double noise = 0;
+  for (const Shape2D& shape : shapes) noise = std::max(noise, Shape2DFactory::noise_of(shape));
+  return noise;
 }
 
 /// The operation on shapes that share a frame; the result has it too.
@@ -144,8 +153,9 @@ Result<Shape2D> in_frame(BooleanOp op, const FrameGroup& group) {
   for (const Loops& loops : local) operands.push_back(&loops);
   const Result<Grid2D> grid = grid_of(operands);
   if (!grid) return grid.error();
-  const Result<Shape2D> base = on_grid(op, *grid, operands);
+  Result<Shape2D> base = on_grid(op, *grid, operands);
   if (!base || base->empty()) return base;
+  base = Shape2DFactory::with_noise(*std::move(base), noise_of(group.shapes));
   return Shape2DFactory::turned(with_corners(*base, *grid, operands), group.frame.map(origin),
                                 {group.frame, {1, 1}});
 }
@@ -197,7 +207,10 @@ Result<Shape2D> Shape2D::boolean(BooleanOp op, const std::vector<Shape2D>& opera
   if (!rest) return rest.error();
   const std::vector<Shape2D> parts = without_empty(op, *rest);
   if (parts.empty()) return Shape2D();
-  return parts.size() == 1 ? parts[0] : in_world(op, parts);
+  if (parts.size() == 1) return parts[0];
+  Result<Shape2D> result = in_world(op, parts);
+  if (result) result = Shape2DFactory::with_noise(*std::move(result), noise_of(parts));
+  return result;
 }
 
 }  // namespace csgrun

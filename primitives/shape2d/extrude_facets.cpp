@@ -9,8 +9,8 @@
 
 #include <csgrun/primitives/trig.h>
 
+#include "primitives/shape2d/noise_corners.h"
 #include "primitives/shape2d/shape_factory.h"
-#include "primitives/shape2d/straight_corners.h"
 #include "primitives/solids/mesh_builder.h"
 
 namespace csgrun {
@@ -153,30 +153,6 @@ std::vector<int> pieces_of(const std::vector<double>& lengths, const LinearExtru
   return total >= most ? pieces_by_count(lengths, most) : pieces;
 }
 
-/// The outlines without corners that rounding to the grid of drawings left beside straight edges:
-/// the pieces of an edge would begin there anew, and bent walls be others. Points at which outlines
-/// touch stay.
-std::vector<Shape2D::Loop> without_noise(const Shape2D& shape) {
-  constexpr double kSteps = 2;
-  const Result<Grid2D> grid = grid_for(extent_of(shape.loops()));
-  if (!grid) return shape.loops();
-  const double noise = kSteps / grid->steps_per_mm();
-  const auto before = [](const glm::dvec2& a, const glm::dvec2& b) {
-    return a.x != b.x ? a.x < b.x : a.y < b.y;
-  };
-  std::vector<glm::dvec2> all;
-  for (const Shape2D::Loop& loop : shape.loops()) all.insert(all.end(), loop.begin(), loop.end());
-  std::sort(all.begin(), all.end(), before);
-  std::vector<Shape2D::Loop> lean;
-  for (const Shape2D::Loop& loop : shape.loops()) {
-    lean.push_back(without_straight_corners(loop, [&](const glm::dvec2& corner) {
-      const auto [first, last] = std::equal_range(all.begin(), all.end(), corner, before);
-      return last - first > 1 ? -1 : noise;
-    }));
-  }
-  return lean;
-}
-
 }  // namespace
 
 Slice::Slice(const LinearExtrudeOptions& options, int i, int n) : turned_(options.twist != 0) {
@@ -218,11 +194,16 @@ std::vector<Shape2D::Loop> split_outlines(const Shape2D& shape, const LinearExtr
                                           int slices) {
   const bool bends = options.twist != 0 || options.scale.x != options.scale.y;
   const bool split = options.segments ? *options.segments > 0 : bends;
-  if (!split) return shape.loops();
+  // An edge of 10 mm makes 5 pieces of 2 mm, also where rounding made it longer at both ends.
+  const double noise = Shape2DFactory::noise_of(shape) *
+                       std::max({1.0, std::fabs(options.scale.x), std::fabs(options.scale.y)});
+  if (!split) return bends ? loops_without_noise(shape) : shape.loops();
   std::vector<Shape2D::Loop> result;
-  for (const Shape2D::Loop& loop : without_noise(shape)) {
+  for (const Shape2D::Loop& loop : loops_without_noise(shape)) {
     const size_t n = loop.size();
-    const std::vector<int> pieces = pieces_of(longest_lengths(options, loop, slices), options);
+    std::vector<double> lengths = longest_lengths(options, loop, slices);
+    for (double& length : lengths) length = std::max(length - noise, 0.0);
+    const std::vector<int> pieces = pieces_of(lengths, options);
     Shape2D::Loop& fine = result.emplace_back();
     for (size_t i = 0; i < n; ++i) {
       const glm::dvec2 a = loop[i], b = loop[(i + 1) % n];

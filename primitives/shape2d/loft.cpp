@@ -13,6 +13,7 @@
 #include <csgrun/primitives/sweep.h>
 
 #include "primitives/base/text.h"
+#include "primitives/shape2d/noise_corners.h"
 #include "primitives/shape2d/profile.h"
 #include "primitives/solids/mesh_builder.h"
 
@@ -280,7 +281,10 @@ MeshResult loft_shapes(const std::vector<LoftOutline>& outlines,
     for (const Shape2D::Loop& loop : shape.loops()) points += static_cast<double>(loop.size());
   }
   if (points > kMostPoints) return too_many_points(kLoft, points, points);
-  return Lofter(outlines, heights).build();
+  // Strips go by the parts of the way that corners are at, and begin at corners.
+  std::vector<LoftOutline> lean = outlines;
+  for (LoftOutline& outline : lean) outline.shape = without_noise_corners(outline.shape);
+  return Lofter(lean, heights).build();
 }
 
 }  // namespace csgrun

@@ -18,6 +18,7 @@
 
 #include "primitives/base/text.h"
 #include "primitives/shape2d/convolution.h"
+#include "primitives/shape2d/noise_corners.h"
 #include "primitives/shape2d/shape_factory.h"
 #include "primitives/shape2d/slits.h"
 #include "primitives/solids/mesh_builder.h"
@@ -197,7 +198,7 @@ Result<Shape2D> minkowski_of_shapes(const std::vector<Shape2D>& shapes) {
       result = shape;
       continue;
     }
-    Result<Shape2D> next = sum_of_two(result, shape);
+    Result<Shape2D> next = sum_of_two(without_noise_corners(result), without_noise_corners(shape));
     if (!next) return next;
     result = *std::move(next);
   }

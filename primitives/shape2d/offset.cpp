@@ -15,6 +15,7 @@
 #include <csgrun/primitives/trig.h>
 
 #include "primitives/base/text.h"
+#include "primitives/shape2d/noise_corners.h"
 #include "primitives/shape2d/shape_factory.h"
 #include "primitives/solids/mesh_builder.h"
 
@@ -219,7 +220,8 @@ Result<Shape2D> offset_loops(const Shape2D& shape, const OffsetOptions& options,
   const bool inwards = options.distance < 0;
   const OffsetCurve maker(std::fabs(options.distance), options.join, kMitreLimit, options.facets,
                           inwards != mirrored);
-  std::vector<Shape2D::Loop> loops = shape.loops();
+  // Beside a corner that is noise hairs would be left inside, as long as the distance.
+  std::vector<Shape2D::Loop> loops = loops_without_noise(shape);
   double corners = 0;
   for (Shape2D::Loop& loop : loops) {
     if (inwards) std::reverse(loop.begin(), loop.end());

@@ -71,6 +71,14 @@ std::span<const uint32_t> Shape2DFactory::group_of(const Shape2D& shape, const G
   return is_known ? std::span<const uint32_t>(shape.data_->group_of) : std::span<const uint32_t>();
 }
 
+Shape2D Shape2DFactory::with_noise(Shape2D shape, double noise) {
+  if (!shape.data_ || shape.data_->noise >= noise) return shape;
+  auto data = std::make_shared<Shape2D::Data>(*shape.data_);
+  data->noise = noise;
+  shape.data_ = std::move(data);
+  return shape;
+}
+
 std::vector<uint32_t> Shape2DFactory::outer_of(const Shape2D& shape) {
   std::vector<uint32_t> outer_of(shape.loops().size());
   for (const Shape2D::Region& region : shape.regions()) {
@@ -94,6 +102,8 @@ Shape2D Shape2DFactory::from_grid(const Grid2D& grid, const GridRegions& regions
   std::move(more.begin(), more.end(), std::back_inserter(loops));
   std::vector<uint32_t> rank;
   auto data = in_order(std::move(loops), regions.outer_of, rank);
+  constexpr double kNoiseSteps = 2;
+  data->noise = kNoiseSteps / grid.steps_per_mm();
   if (!regions.group_of.empty()) {
     data->arranged_steps = grid.steps_per_mm();
     data->group_of.resize(rank.size());

@@ -51,6 +51,13 @@ class Shape2DFactory {
   };
   static std::optional<BeforeTurn> before_turn(const Shape2D& shape);
 
+  /// How far rounding may have put a corner of the shape beside a straight edge, mm: two steps of
+  /// the grid on which its points, or those of what it was made of, were rounded, as large as the
+  /// shape was scaled since then. 0 for what was never on a grid: there each corner is meant.
+  static double noise_of(const Shape2D& shape) { return shape.data_ ? shape.data_->noise : 0; }
+  /// The shape with so much noise, unless it has more.
+  static Shape2D with_noise(Shape2D shape, double noise);
+
   /// GridRegions::group_of; nothing unless the shape is in the world's frame, and an arrangement on
   /// the grid gave its loops.
   static std::span<const uint32_t> group_of(const Shape2D& shape, const Grid2D& grid);

@@ -24,8 +24,11 @@ Result<Shape2D> fill_shape(const Shape2D& shape) {
   for (const Shape2D::Region& region : shape.regions()) {
     add_outline(snap_loop(*grid, shape.loops()[region.outer]), kRestOfOperands, segments);
   }
-  return Shape2DFactory::arranged(*grid, std::move(segments),
-                                  [](int32_t, int32_t sum) { return sum > 0; });
+  Result<Shape2D> filled = Shape2DFactory::arranged(*grid, std::move(segments),
+                                                    [](int32_t, int32_t sum) { return sum > 0; });
+  if (filled)
+    filled = Shape2DFactory::with_noise(*std::move(filled), Shape2DFactory::noise_of(shape));
+  return filled;
 }
 
 double perimeter_of(const Shape2D& shape) {
@@ -53,8 +56,10 @@ std::vector<Shape2D> pieces_of_shape(const Shape2D& shape) {
   for (const Shape2D::Region& region : shape.regions()) {
     std::vector<Shape2D::Loop> loops{shape.loops()[region.outer]};
     for (const uint32_t hole : region.holes) loops.push_back(shape.loops()[hole]);
-    pieces.push_back(Shape2DFactory::canonical(std::move(loops),
-                                               std::vector<uint32_t>(region.holes.size() + 1, 0)));
+    pieces.push_back(Shape2DFactory::with_noise(
+        Shape2DFactory::canonical(std::move(loops),
+                                  std::vector<uint32_t>(region.holes.size() + 1, 0)),
+        Shape2DFactory::noise_of(shape)));
   }
   return pieces;
 }

@@ -15,6 +15,7 @@
 
 #include "primitives/base/text.h"
 #include "primitives/shape2d/extrude_facets.h"
+#include "primitives/shape2d/noise_corners.h"
 #include "primitives/shape2d/profile.h"
 #include "primitives/solids/mesh_builder.h"
 
@@ -40,7 +41,11 @@ LinearExtrudeOptions twisted_extrusion(const SweepOptions& o) {
   return extrusion;
 }
 
-/// The path with more points, so that a twist turns in steps as small as linear_extrude's.
+/// Whether walls over straight edges are bent, by more than the path.
+bool bends_walls(const SweepOptions& o) { return o.twist != 0 || o.scale.x != o.scale.y; }
+
+/// The path with more points, so that what bends walls does so in steps as small as
+/// linear_extrude's.
 std::vector<glm::dvec3> divided(const std::vector<glm::dvec3>& path, const Shape2D& shape,
                                 const SweepOptions& o) {
   const size_t n = path.size(), pieces = o.closed ? n : n - 1;
@@ -61,11 +66,11 @@ std::vector<glm::dvec3> divided(const std::vector<glm::dvec3>& path, const Shape
   return result;
 }
 
-/// The loops of the shape, for a twist with points on long edges, as linear_extrude has them: walls
-/// over straight edges bulge.
+/// The loops of the shape, where walls are bent with points on long edges, as linear_extrude has
+/// them: walls over straight edges bulge.
 std::vector<Shape2D::Loop> divided_loops(const Shape2D& shape, const SweepOptions& o,
                                          size_t pieces) {
-  if (o.twist == 0) return shape.loops();
+  if (!bends_walls(o)) return o.upright ? loops_without_noise(shape) : shape.loops();
   return split_outlines(shape, twisted_extrusion(o), static_cast<int>(pieces));
 }
 
@@ -300,7 +305,7 @@ MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
                             " different points, got " + std::to_string(path.size()));
   }
   if (auto error = check_turns(path, options.closed)) return *error;
-  if (options.twist != 0) path = divided(path, shape, options);
+  if (bends_walls(options)) path = divided(path, shape, options);
   const size_t pieces = options.closed ? path.size() : path.size() - 1;
   const double rings = static_cast<double>(path.size());
   if (rings > kMostPoints) return too_many_points(kSweep, rings, rings);

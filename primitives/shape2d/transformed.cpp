@@ -1,5 +1,6 @@
 // Transforms of 2D shapes, and what they remember of them.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -35,6 +36,17 @@ Affine without_noise(const Affine& map) {
   return clean;
 }
 
+/// How much longer a map makes what it makes longest: its larger singular value.
+double largest_stretch(const Affine& map) {
+  const auto& m = map.m;
+  double squares = 0;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) squares += m[i][j] * m[i][j];
+  }
+  const double det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  return std::sqrt((squares + std::sqrt(std::max(squares * squares - 4 * det * det, 0.0))) / 2);
+}
+
 /// The loops of a shape, mapped, which remember nothing but `turn`.
 Result<Shape2D> mapped(const Shape2D& shape, const Affine& map,
                        std::shared_ptr<const Shape2DFactory::Turn> turn = nullptr) {
@@ -47,8 +59,10 @@ Result<Shape2D> mapped(const Shape2D& shape, const Affine& map,
     if (m[0][0] * m[1][1] - m[0][1] * m[1][0] < 0) std::reverse(loop.begin(), loop.end());
   }
   if (!all_finite(result)) return invalid_argument("a coordinate of the shape would not be finite");
-  return Shape2DFactory::canonical(std::move(result), Shape2DFactory::outer_of(shape),
-                                   std::move(turn));
+  return Shape2DFactory::with_noise(
+      Shape2DFactory::canonical(std::move(result), Shape2DFactory::outer_of(shape),
+                                std::move(turn)),
+      Shape2DFactory::noise_of(shape) * largest_stretch(map));
 }
 
 /// Of edges along X or Y, but for the noise of a turn; `scale` stretches them.

@@ -24,7 +24,7 @@ Shape2D::Loop outline(const Solid& solid, uint32_t loop) {
 
 }  // namespace
 
-Result<Shape2D> project_solid(const Solid& solid) {
+Result<Shape2D> project_solid(const Solid& solid, double grid_mm) {
   std::vector<Shape2D::Loop> outlines;
   std::vector<uint32_t> face_of;
   for (uint32_t f = 0; f < solid.faces.size(); ++f) {
@@ -46,8 +46,11 @@ Result<Shape2D> project_solid(const Solid& solid) {
   for (size_t l = 0; l < outlines.size(); ++l) {
     add_outline(snap_loop(*grid, outlines[l]), kRestOfOperands + face_of[l], segments);
   }
-  return Shape2DFactory::arranged(*grid, std::move(segments),
-                                  [](int32_t, int32_t rest) { return rest > 0; });
+  Result<Shape2D> shadow = Shape2DFactory::arranged(*grid, std::move(segments),
+                                                    [](int32_t, int32_t rest) { return rest > 0; });
+  constexpr double kNoiseSteps = 2;
+  if (shadow) shadow = Shape2DFactory::with_noise(*std::move(shadow), kNoiseSteps * grid_mm);
+  return shadow;
 }
 
 Result<Shape2D> slice_solid(Evaluator& evaluator, const NodePtr& solid, double z) {

@@ -57,7 +57,7 @@ TEST(Projection, OfPrismsIsTheUnionOfTheirShapes) {
     Evaluator evaluator{EvaluateOptions{}};
     const auto solid = evaluator.evaluate(Node::boolean(BooleanOp::kUnion, prisms));
     ASSERT_TRUE(solid);
-    const Shape2D shadow = good(project_solid(**solid));
+    const Shape2D shadow = good(project_solid(**solid, 0));
     const Shape2D expected = good(Shape2D::boolean(BooleanOp::kUnion, shapes));
     EXPECT_EQ(shadow.loops().size(), expected.loops().size()) << "case " << i;
     EXPECT_NEAR(shadow.area(), expected.area(), 1e-5) << "case " << i;

@@ -11,8 +11,9 @@
 namespace csgrun {
 
 /// The shadow of a solid on the plane z = 0: the union of its faces that look up, exact on the 2D
-/// grid. Errors: kOutOfRange, kInternal.
-Result<Shape2D> project_solid(const Solid& solid);
+/// grid. `grid_mm`: the step of the grid that the solid was evaluated on (EvaluateStats::grid_mm);
+/// it tells which corners of the shadow may be there by rounding. Errors: kOutOfRange, kInternal.
+Result<Shape2D> project_solid(const Solid& solid, double grid_mm);
 
 /// The section of a solid just above height z: what the plane cuts, with faces in the plane that
 /// have the solid above them. Cut exactly; corners are then rounded to the 2D grid. `z` must be

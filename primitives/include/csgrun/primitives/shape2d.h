@@ -77,6 +77,7 @@ class Shape2D {
     std::vector<Loop> loops;
     std::vector<Region> regions;
     std::shared_ptr<const Turn> turn;  ///< null: the frame is the world's
+    double noise = 0;                  ///< Shape2DFactory::noise_of
     /// Of the grid on which an arrangement gave the loops, the steps per mm; else 0. Then, for each
     /// loop, one of those that it is connected with by points in common.
     double arranged_steps = 0;

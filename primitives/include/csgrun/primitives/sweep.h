@@ -25,8 +25,8 @@ struct SweepOptions {
   /// It points there along the whole path, as far as that is across it: on a helix the least
   /// rotation alone leans the outline ever more.
   bool upright = false;
-  /// With a twist, the path and long edges of the outline are divided as finely as linear_extrude
-  /// divides its height and its outline.
+  /// With a twist or two scales, the path and long edges of the outline are divided as finely as
+  /// linear_extrude divides its height and its outline.
   Facets facets = {};
 };
 
